@@ -1,0 +1,56 @@
+# What every target of the house is built with, and the three ways to add one.
+
+find_package(Eigen3 3.4 REQUIRED)
+find_package(fmt REQUIRED)
+
+add_library(probewright_options INTERFACE)
+target_compile_options(
+  probewright_options
+  INTERFACE -Wall
+            -Wextra
+            -Wpedantic
+            -Wconversion
+            -Wshadow
+            -Wnon-virtual-dtor
+            -Werror)
+target_include_directories(probewright_options INTERFACE ${PROJECT_SOURCE_DIR}/src)
+# Third-party headers are not ours to warn about.
+get_target_property(eigen_include Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+target_include_directories(probewright_options SYSTEM INTERFACE ${eigen_include})
+target_link_libraries(probewright_options INTERFACE fmt::fmt)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # GCC 12 reports false positives of these two inside inlined Eigen and std code.
+  target_compile_options(probewright_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds)
+endif()
+if(PROBEWRIGHT_SANITIZE)
+  target_compile_options(probewright_options INTERFACE -fsanitize=${PROBEWRIGHT_SANITIZE} -fno-omit-frame-pointer
+                                                       -fno-sanitize-recover=all)
+  target_link_options(probewright_options INTERFACE -fsanitize=${PROBEWRIGHT_SANITIZE})
+endif()
+if(PROBEWRIGHT_COVERAGE)
+  target_compile_options(probewright_options INTERFACE --coverage)
+  target_link_options(probewright_options INTERFACE --coverage)
+endif()
+
+# probewright_library(NAME [LINK targets...]): a static library of all .cpp files below the calling folder.
+function(probewright_library name)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  if(sources)
+    add_library(probewright_${name} STATIC ${sources})
+    target_link_libraries(probewright_${name} PUBLIC probewright_options ${ARG_LINK})
+  else()
+    add_library(probewright_${name} INTERFACE)
+    target_link_libraries(probewright_${name} INTERFACE probewright_options ${ARG_LINK})
+  endif()
+endfunction()
+
+# probewright_test(NAME [LINK targets...]): one test program of all *_test.cpp files in the calling folder.
+function(probewright_test name)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  add_executable(${name}_test ${sources})
+  target_include_directories(${name}_test PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(${name}_test PRIVATE ${ARG_LINK} GTest::gtest_main GTest::gmock)
+  gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+endfunction()

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "base/diagnostic.hpp"
+
+namespace probewright {
+
+/// The whole file as bytes.
+Result<std::string> readFile(const std::filesystem::path& path);
+
+/// Writes the file whole or not at all: writes a neighbour, flushes it to disk, renames it over `path`. A crash at any
+/// instant leaves the old file or the new one. Creates missing folders.
+Result<void> writeFileAtomically(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace probewright
