@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/diagnostic.hpp"
+#include "geometry/primitives.hpp"
+#include "machine/description.hpp"
+
+/// What happened in a run, as plain data: written by the control and its cycles while they work, read by logs, results
+/// and reports afterwards. Positions of programs are in the workpiece coordinate system that was active then.
+namespace probewright::control {
+
+/// One touch, or one attempt.
+struct TouchRecord {
+  Vector3 target = Vector3::Zero();      ///< expected point on the surface, workpiece coordinates
+  Vector3 direction = Vector3::Zero();   ///< probing direction, unit, workpiece coordinates
+  Vector3 ballCentre = Vector3::Zero();  ///< as the control believes it at the signal, workpiece coordinates
+  Vector3 surface = Vector3::Zero();     ///< compensated point on the surface, workpiece coordinates
+  machine::AxisPositions latched;        ///< axis positions at the signal
+  double seconds = 0;                    ///< machine clock
+  std::string outcome;                   ///< "touched", "no contact", "deflected", "collision"
+};
+
+enum class Verdict { None, Good, Rework, Scrap };
+
+/// A value that a cycle leaves in the control, under the control's own name.
+struct ResultRecord {
+  std::string name;     ///< "Q151", "_OVR[4]"
+  std::string meaning;  ///< "actual value, centre in main axis"
+  double value = 0;
+  std::string unit;  ///< "mm", "deg", ""
+  std::optional<double> nominal, deviation, lowerLimit, upperLimit;
+  std::optional<double> uncertainty;  ///< expanded, k = 2
+  Verdict verdict = Verdict::None;
+};
+
+/// A change of a table, a parameter memory or a frame.
+struct WriteRecord {
+  std::string table;  ///< "PRESET.PR", "$P_UIFR"
+  std::string entry;  ///< "row 5, column X", "[1,X,TR]"
+  std::string before, after;
+};
+
+/// A parameter of a cycle call as it was used.
+struct ParameterRecord {
+  std::string name;   ///< "Q321", "S_MVAR"
+  std::string value;  ///< as text, defaults filled in
+  std::string meaning;
+  bool isDefault = false;
+};
+
+struct CycleRecord {
+  std::string name;  ///< "411", "CYCLE977"
+  std::string title;
+  SourcePlace place;
+  std::vector<ParameterRecord> parameters;
+  std::vector<TouchRecord> touches;
+  std::vector<ResultRecord> results;
+  std::vector<WriteRecord> writes;
+  std::vector<std::string> logFiles;
+  std::string alarm;  ///< code and text if the cycle ended with one
+  Verdict verdict = Verdict::None;
+  double startSeconds = 0, endSeconds = 0;
+  double pathLength = 0;  ///< mm travelled by the tool within the cycle
+};
+
+enum class EventKind { Message, Alarm, Stop, Skipped, Tool, Warning };
+
+/// Something the operator would see.
+struct EventRecord {
+  EventKind kind = EventKind::Message;
+  SourcePlace place;
+  std::string code;
+  std::string text;
+  double seconds = 0;
+};
+
+/// The record of one run. Cycles in the order they ran; writes outside cycles (FN 17, CYCL DEF 247...) in `writes`.
+struct Journal {
+  std::vector<CycleRecord> cycles;
+  std::vector<EventRecord> events;
+  std::vector<WriteRecord> writes;
+  bool cycleOpen = false;  ///< the last of `cycles` is running
+
+  /// The cycle that runs, or null.
+  CycleRecord* open() { return cycleOpen ? &cycles.back() : nullptr; }
+
+  /// The change goes to the open cycle, or to `writes`.
+  void write(WriteRecord record) { (cycleOpen ? cycles.back().writes : writes).push_back(std::move(record)); }
+};
+
+}  // namespace probewright::control

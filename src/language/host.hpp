@@ -1,0 +1,38 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "language/block.hpp"
+#include "language/program.hpp"
+#include "language/value.hpp"
+
+namespace probewright::language {
+
+class Evaluation;
+
+/// What the interpreter needs of a control: its variables, its own functions, and everything that is not flow. One
+/// implementation per language; it throws control::Alarm where the control would raise one.
+class Host {
+public:
+  virtual ~Host() = default;
+
+  virtual Value read(const VariableRef& variable, Evaluation& evaluation) = 0;
+  virtual void write(const VariableRef& variable, const Value& value, Evaluation& evaluation) = 0;
+  virtual bool isDefined(const VariableRef& variable, Evaluation& evaluation) = 0;
+
+  /// A function that is the control's own (string functions, ISVAR, AXNAME, ...).
+  virtual Value call(std::string_view name, std::span<const Value> arguments) = 0;
+
+  /// Carries out an instruction that is not flow.
+  virtual void execute(const Instruction& instruction, Evaluation& evaluation) = 0;
+
+  /// A block begins: for records, single block, dry run. False skips the block.
+  virtual bool beginBlock(const Program& program, const Block& block) = 0;
+
+  /// A program level is entered with the arguments of `call` (evaluated in the caller) and left again.
+  virtual void enter(const Program& program, const CallProgram* call, Evaluation* caller) = 0;
+  virtual void leave(const Program& program) = 0;
+};
+
+}  // namespace probewright::language
