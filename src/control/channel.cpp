@@ -1,0 +1,215 @@
+#include "control/channel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/alarm.hpp"
+
+namespace probewright::control {
+namespace {
+
+constexpr std::array<std::string_view, 3> linearNames = {"X", "Y", "Z"};
+
+bool isRotary(const machine::MachineDescription& machine, std::size_t axis) {
+  return axis < machine.axes.size() && machine.axes[axis].kind == machine::AxisKind::Rotary;
+}
+
+}  // namespace
+
+Channel::Channel(machine::Machine& machine, Journal& journal) : machine_(machine), journal_(journal) {
+  setDescription(machine.description());
+}
+
+void Channel::setDescription(const machine::MachineDescription& believed) {
+  description_ = believed;
+  for (std::size_t i = 0; i < 3; ++i)
+    linearAxis_[i] = description_.axisIndex(linearNames[i]);
+  setFollowing(following_, reference_);
+}
+
+void Channel::setFrame(const Eigen::Affine3d& machineFromProgram) {
+  machineFromProgram_ = machineFromProgram;
+  programFromMachine_ = machineFromProgram.inverse();
+}
+
+void Channel::setFollowing(Following following, const AxisPositions& reference) {
+  following_ = following;
+  reference_ = reference;
+  for (std::size_t i = 0; i < description_.axes.size(); ++i) {
+    if (!isRotary(description_, i)) reference_[i] = 0;
+  }
+  referenceFromTable_ = machine::baseFromTable(description_, reference_);
+}
+
+Vector3 Channel::machineFromAxes(const AxisPositions& axes) const {
+  if (following_ == Following::Kinematics) {
+    const Pose tableFromSpindle =
+        machine::baseFromTable(description_, axes).inverse() * machine::baseFromSpindle(description_, axes);
+    return referenceFromTable_ * (tableFromSpindle * Vector3(-toolVector));
+  }
+  Vector3 reference = Vector3::Zero();
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (linearAxis_[i]) reference[static_cast<Eigen::Index>(i)] = axes[*linearAxis_[i]];
+  }
+  return reference - toolVector;
+}
+
+Vector3 Channel::programFromAxes(const AxisPositions& axes) const {
+  return programFromMachine_ * machineFromAxes(axes);
+}
+
+AxisPositions Channel::axesFromMachine(const Vector3& tip, const AxisPositions& rotary) const {
+  AxisPositions axes = rotary;
+  if (following_ == Following::LinearAxes) {
+    const Vector3 reference = tip + toolVector;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (linearAxis_[i]) {
+        axes[*linearAxis_[i]] = reference[static_cast<Eigen::Index>(i)];
+      } else if (std::abs(reference[static_cast<Eigen::Index>(i)]) > 1e-6) {
+        throw Alarm("", fmt::format("The machine has no axis {} to reach the position", linearNames[i]));
+      }
+    }
+    return axes;
+  }
+  // With the rotary axes given, the tip is an affine function of the linear axes.
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (linearAxis_[i]) axes[*linearAxis_[i]] = 0;
+  }
+  const Vector3 atZero = machineFromAxes(axes);
+  Matrix3 slope = Matrix3::Zero();
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!linearAxis_[i]) continue;
+    AxisPositions one = axes;
+    one[*linearAxis_[i]] = 1;
+    slope.col(static_cast<Eigen::Index>(i)) = machineFromAxes(one) - atZero;
+  }
+  const Vector3 solution = slope.colPivHouseholderQr().solve(tip - atZero);
+  if ((slope * solution - (tip - atZero)).norm() > 1e-6) {
+    throw Alarm("", "The machine's linear axes cannot reach the position");
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (linearAxis_[i]) axes[*linearAxis_[i]] = solution[static_cast<Eigen::Index>(i)];
+  }
+  return axes;
+}
+
+AxisPositions Channel::axesFromProgram(const Vector3& point, const AxisPositions& rotary) const {
+  return axesFromMachine(machineFromProgram_ * point, rotary);
+}
+
+Vector3 Channel::toolAxis() const {
+  Vector3 direction = toolVector.norm() > 1e-9 ? toolVector.normalized() : Vector3::UnitZ();
+  if (following_ == Following::Kinematics) {
+    const AxisPositions now = axes();
+    direction = referenceFromTable_.linear() * machine::baseFromTable(description_, now).linear().transpose() *
+                machine::baseFromSpindle(description_, now).linear() * direction;
+  }
+  return (programFromMachine_.linear() * direction).normalized();
+}
+
+void Channel::judge(const machine::MoveResult& result) const {
+  switch (result.end) {
+    case machine::MoveEnd::Reached:
+      return;
+    case machine::MoveEnd::ProbeSignal:
+      throw Alarm(alarms.probeSignal, result.detail, "check the clearance and the path of the probe");
+    case machine::MoveEnd::Collision:
+      throw Alarm(alarms.collision, result.detail, "check clearance heights, tool lengths and the presets");
+    case machine::MoveEnd::AxisLimit:
+      throw Alarm(alarms.limit, result.detail, "check the presets and the position of the workpiece in the machine");
+    case machine::MoveEnd::Cancelled:
+      throw Cancelled();
+  }
+}
+
+void Channel::count(const AxisPositions& from, const AxisPositions& to) {
+  const double length = (machineFromAxes(to) - machineFromAxes(from)).norm();
+  pathLength_ += length;
+  if (CycleRecord* cycle = journal_.open()) cycle->pathLength += length;
+}
+
+void Channel::moveAxes(const AxisPositions& target, Feed feed) {
+  const AxisPositions start = axes();
+  if (start == target) return;
+  const machine::MoveResult result = machine_.move(target, feed);
+  count(start, axes());
+  judge(result);
+}
+
+void Channel::moveTo(const Vector3& point, Feed feed) { moveAxes(axesFromProgram(point, axes()), feed); }
+
+void Channel::moveTo(const Target& target, Feed feed) {
+  const AxisPositions start = axes();
+  AxisPositions end = start;
+  bool turns = false;
+  for (std::size_t i = 0; i < description_.axes.size(); ++i) {
+    if (!target.rotary[i]) continue;
+    end[i] = *target.rotary[i] + rotaryOffset[i];
+    turns = turns || end[i] != start[i];
+  }
+  const bool travels = std::ranges::any_of(target.linear, [](const auto& value) { return value.has_value(); });
+  const Vector3 from = programFromAxes(start);
+  // What is not programmed keeps the tip's place on the workpiece with TCPM, the axes' place without.
+  Vector3 to = turns && !holdTip ? programFromAxes(end) : from;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (target.linear[i]) to[static_cast<Eigen::Index>(i)] = *target.linear[i];
+  }
+  if (!travels && !(turns && holdTip)) {
+    moveAxes(end, feed);
+    return;
+  }
+  end = axesFromProgram(to, end);
+  if (!turns || !holdTip || following_ == Following::LinearAxes) {
+    moveAxes(end, feed);
+    return;
+  }
+  // The tip's path is straight on the workpiece, so the axes' path is curved: as many pieces as the tolerance asks for.
+  const auto at = [&](double fraction) {
+    AxisPositions rotary = start;
+    for (std::size_t i = 0; i < description_.axes.size(); ++i) {
+      if (isRotary(description_, i)) rotary[i] = start[i] + fraction * (end[i] - start[i]);
+    }
+    return axesFromProgram(from + fraction * (to - from), rotary);
+  };
+  const AxisPositions middle = at(0.5);
+  double sag = 0;
+  for (std::size_t i = 0; i < description_.axes.size(); ++i) {
+    if (!isRotary(description_, i)) sag = std::max(sag, std::abs(middle[i] - (start[i] + end[i]) / 2));
+  }
+  double turn = 0;
+  for (std::size_t i = 0; i < description_.axes.size(); ++i) {
+    if (isRotary(description_, i)) turn = std::max(turn, std::abs(end[i] - start[i]));
+  }
+  const int pieces = std::clamp(
+      std::max(static_cast<int>(std::ceil(std::sqrt(sag / pathTolerance))), static_cast<int>(std::ceil(turn / 5))), 1,
+      10000);
+  for (int i = 1; i <= pieces; ++i)
+    moveAxes(i == pieces ? end : at(static_cast<double>(i) / pieces), feed);
+}
+
+machine::MeasureResult Channel::measureTo(const Vector3& point, Feed feed) {
+  const AxisPositions start = axes();
+  machine::MeasureResult result = machine_.measure(axesFromProgram(point, start), feed);
+  count(start, axes());
+  if (result.end == machine::MeasureEnd::Cancelled) throw Cancelled();
+  return result;
+}
+
+Touch Channel::touchFrom(const machine::MeasureResult& result) const {
+  return {programFromAxes(result.latched), result.latched};
+}
+
+void Channel::retractTo(const Vector3& point, Feed feed) {
+  const AxisPositions start = axes();
+  const machine::MoveResult result = machine_.retract(axesFromProgram(point, start), feed);
+  count(start, axes());
+  judge(result);
+}
+
+void Channel::orientSpindle(double degrees) { judge(machine_.orientSpindle(degrees)); }
+
+void Channel::changeTool(const machine::ToolOrder& order) { judge(machine_.changeTool(order)); }
+
+}  // namespace probewright::control

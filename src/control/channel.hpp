@@ -1,0 +1,134 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "control/journal.hpp"
+#include "geometry/primitives.hpp"
+#include "machine/machine.hpp"
+
+/// Where a program's coordinates meet the axes: the common part of every control.
+namespace probewright::control {
+
+using machine::AxisPositions;
+using machine::Feed;
+
+/// How program coordinates follow the axes.
+enum class Following {
+  LinearAxes,  ///< positions are those of the linear axes alone; turning a rotary axis changes nothing
+  Kinematics,  ///< positions are those of the tool tip on the workpiece, wherever the rotary axes stand
+};
+
+/// What an alarm of a move is called on the control that runs.
+struct MotionAlarms {
+  std::string limit = "Limit switch";
+  std::string collision = "Collision";
+  std::string probeSignal = "Touch probe deflected";
+};
+
+/// A target: what is absent keeps its place.
+struct Target {
+  std::array<std::optional<double>, 3> linear;                     ///< program coordinates X, Y, Z
+  std::array<std::optional<double>, machine::maximumAxes> rotary;  ///< program angles, by axis index
+};
+
+/// A touch as the channel sees it.
+struct Touch {
+  Vector3 tip = Vector3::Zero();  ///< controlled point at the signal, program coordinates
+  AxisPositions latched;
+};
+
+/// Positions and moves in program coordinates.
+///
+/// The controlled point is the tool tip: the tool reference point of the spindle minus `toolVector`. Program
+/// coordinates are reached from machine coordinates through the frame. With Following::LinearAxes the machine
+/// coordinates of the tip are the readings of X, Y, Z minus the tool vector. With Following::Kinematics they are the
+/// coordinates of the tip in the table frame as it lies when the rotary axes stand at the reference posture, so a
+/// frame measured there goes on following the workpiece when the table turns.
+/// Every move ends in straight lines of axis space; alarms and cancellation are thrown (Alarm, Cancelled).
+class Channel {
+public:
+  Channel(machine::Machine& machine, Journal& journal);
+
+  machine::Machine& machine() { return machine_; }
+  const machine::MachineDescription& description() const { return description_; }
+  Journal& journal() { return journal_; }
+
+  MotionAlarms alarms;
+  /// Largest deviation of a curved tip path from its straight pieces, mm.
+  double pathTolerance = 1e-3;
+
+  // ---- the coordinate system ----
+
+  /// Machine coordinates from program coordinates; may mirror and scale, must be invertible.
+  void setFrame(const Eigen::Affine3d& machineFromProgram);
+  const Eigen::Affine3d& frame() const { return machineFromProgram_; }
+  /// Program angle = machine angle - offset, for each rotary axis.
+  AxisPositions rotaryOffset;
+
+  void setFollowing(Following following, const AxisPositions& reference);
+  Following following() const { return following_; }
+  const AxisPositions& reference() const { return reference_; }
+  /// True: linear axes hold the tip still on the workpiece while rotary axes turn (M128, TCPM, TRAORI).
+  bool holdTip = false;
+
+  /// The believed machine: descriptions of kinematics that cycles correct. Starts as the machine's own.
+  void setDescription(const machine::MachineDescription& believed);
+
+  // ---- the tool ----
+
+  /// From the tool tip to the tool reference point at the spindle nose, in the spindle frame (mm): (0, 0, L) on mills.
+  Vector3 toolVector = Vector3::Zero();
+  double toolRadius = 0;
+
+  /// The direction from the tool tip towards the spindle in program coordinates, unit length.
+  Vector3 toolAxis() const;
+
+  // ---- where things are ----
+
+  AxisPositions axes() const { return machine_.position(); }
+  Vector3 position() const { return programFromAxes(axes()); }
+  Vector3 programFromAxes(const AxisPositions& axes) const;
+  /// Coordinates of the tip before the frame is applied.
+  Vector3 machineFromAxes(const AxisPositions& axes) const;
+  /// The axis positions that bring the tip to the program point with the rotary axes as in `rotary`.
+  AxisPositions axesFromProgram(const Vector3& point, const AxisPositions& rotary) const;
+  AxisPositions axesFromMachine(const Vector3& tip, const AxisPositions& rotary) const;
+
+  // ---- motion ----
+
+  void moveTo(const Vector3& point, Feed feed);
+  void moveTo(const Target& target, Feed feed);
+  /// Straight to axis positions of the machine coordinate system.
+  void moveAxes(const AxisPositions& target, Feed feed);
+
+  /// Towards the program point until the probe signals. The outcome is the caller's to judge.
+  machine::MeasureResult measureTo(const Vector3& point, Feed feed);
+  Touch touchFrom(const machine::MeasureResult& result) const;
+  void retractTo(const Vector3& point, Feed feed);
+
+  void orientSpindle(double degrees);
+  void changeTool(const machine::ToolOrder& order);
+  void dwell(double seconds) { machine_.dwell(seconds); }
+  double seconds() const { return machine_.seconds(); }
+
+  /// Path of the tip since the channel was made, mm in machine coordinates.
+  double pathLength() const { return pathLength_; }
+
+private:
+  void count(const AxisPositions& from, const AxisPositions& to);
+  void judge(const machine::MoveResult& result) const;
+
+  machine::Machine& machine_;
+  Journal& journal_;
+  machine::MachineDescription description_;
+  std::array<std::optional<std::size_t>, 3> linearAxis_;
+  Eigen::Affine3d machineFromProgram_ = Eigen::Affine3d::Identity();
+  Eigen::Affine3d programFromMachine_ = Eigen::Affine3d::Identity();
+  Following following_ = Following::LinearAxes;
+  AxisPositions reference_;
+  Pose referenceFromTable_ = Pose::Identity();
+  double pathLength_ = 0;
+};
+
+}  // namespace probewright::control

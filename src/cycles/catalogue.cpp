@@ -1,0 +1,188 @@
+#include "cycles/catalogue.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/number_text.hpp"
+#include "cycles/heidenhain/registry.hpp"
+#include "cycles/sinumerik/registry.hpp"
+
+namespace probewright::cycles {
+namespace {
+
+std::string choicesText(std::span<const Choice> choices) {
+  std::string text;
+  for (const Choice& choice : choices) {
+    if (!text.empty()) text += ", ";
+    text += fmt::format("{} ({})", choice.value, choice.meaning);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string_view unitOf(ValueKind kind) {
+  switch (kind) {
+    case ValueKind::Length:
+      return "mm";
+    case ValueKind::Angle:
+      return "deg";
+    case ValueKind::Feed:
+      return "mm/min";
+    default:
+      return "";
+  }
+}
+
+std::string_view nameOf(CycleFamily family) {
+  switch (family) {
+    case CycleFamily::Misalignment:
+      return "workpiece misalignment";
+    case CycleFamily::Preset:
+      return "presetting";
+    case CycleFamily::Inspection:
+      return "workpiece inspection";
+    case CycleFamily::Special:
+      return "special";
+    case CycleFamily::Calibration:
+      return "calibration";
+    case CycleFamily::Kinematics:
+      return "kinematics";
+    case CycleFamily::Tool:
+      return "tool measurement";
+  }
+  return "";
+}
+
+const Parameter* CycleDefinition::parameter(std::uint32_t address) const {
+  const auto found = std::ranges::find(parameters, address, &Parameter::address);
+  return found == parameters.end() ? nullptr : &*found;
+}
+
+std::vector<const CycleDefinition*> cyclesOf(ControlKind kind) {
+  std::vector<const CycleDefinition*> found;
+  if (control::isHeidenhain(kind)) {
+    for (const heidenhain::Entry& entry : heidenhain::entries()) {
+      if (entry.definition->controls.contains(kind)) found.push_back(entry.definition);
+    }
+  } else {
+    for (const sinumerik::Entry& entry : sinumerik::entries())
+      found.push_back(entry.definition);
+  }
+  std::ranges::sort(found, {}, &CycleDefinition::number);
+  return found;
+}
+
+const CycleDefinition* heidenhainCycle(int number) {
+  const heidenhain::Entry* entry = heidenhain::findEntry(number);
+  return entry == nullptr ? nullptr : entry->definition;
+}
+
+const CycleDefinition* sinumerikCycle(std::string_view name) {
+  const sinumerik::Entry* entry = sinumerik::findEntry(name);
+  return entry == nullptr ? nullptr : entry->definition;
+}
+
+Arguments::Arguments(const CycleDefinition& definition) : definition_(&definition) {
+  values_.resize(definition.parameters.size());
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    values_[i].number = definition.parameters[i].standard.value_or(0);
+    values_[i].isText = definition.parameters[i].kind == ValueKind::Text;
+  }
+}
+
+bool Arguments::set(std::uint32_t address, double number) {
+  const Parameter* parameter = definition_->parameter(address);
+  if (parameter == nullptr) return false;
+  Argument& value = values_[static_cast<std::size_t>(parameter - definition_->parameters.data())];
+  value.number = number;
+  value.isText = false;
+  value.given = true;
+  return true;
+}
+
+bool Arguments::set(std::uint32_t address, std::string text) {
+  const Parameter* parameter = definition_->parameter(address);
+  if (parameter == nullptr) return false;
+  Argument& value = values_[static_cast<std::size_t>(parameter - definition_->parameters.data())];
+  value.text = std::move(text);
+  value.isText = true;
+  value.given = true;
+  return true;
+}
+
+int Arguments::integer(std::uint32_t address) const { return static_cast<int>(std::lround(number(address))); }
+
+const Argument& Arguments::at(std::uint32_t address) const {
+  const Parameter* parameter = definition_->parameter(address);
+  if (parameter == nullptr) {
+    throw std::logic_error(fmt::format("cycle {} has no parameter {}", definition_->name, address));
+  }
+  return values_[static_cast<std::size_t>(parameter - definition_->parameters.data())];
+}
+
+std::string complaint(const Parameter& parameter, const Argument& argument) {
+  const auto head = [&] { return fmt::format("{} ({})", parameter.name, parameter.meaning); };
+  if (argument.isText) {
+    if (parameter.kind == ValueKind::Text || parameter.kind == ValueKind::NumberOrText) return {};
+    return fmt::format("{} takes a number, not a text", head());
+  }
+  if (parameter.kind == ValueKind::Text) {
+    return fmt::format("{} takes a text, not a number", head());
+  }
+  const double value = argument.number;
+  if (!std::isfinite(value)) return fmt::format("{} is not a finite number", head());
+  const bool whole = parameter.kind == ValueKind::Integer || parameter.kind == ValueKind::Option;
+  if (whole && value != std::floor(value)) {
+    return fmt::format("{} takes a whole number, not {}", head(), formatShortest(value));
+  }
+  if (parameter.kind == ValueKind::Option) {
+    if (std::ranges::find(parameter.choices, static_cast<int>(value), &Choice::value) != parameter.choices.end()) {
+      return {};
+    }
+    return fmt::format("{} cannot be {}; it can be {}", head(), formatShortest(value), choicesText(parameter.choices));
+  }
+  if (value < parameter.minimum || value > parameter.maximum) {
+    return fmt::format("{} cannot be {}; its range is {} to {}{}{}", head(), formatShortest(value),
+                       formatShortest(parameter.minimum), formatShortest(parameter.maximum),
+                       unitOf(parameter.kind).empty() ? "" : " ", unitOf(parameter.kind));
+  }
+  return {};
+}
+
+Diagnostics check(const Arguments& arguments, ControlKind kind) {
+  Diagnostics found;
+  const CycleDefinition& definition = arguments.definition();
+  const auto report = [&](std::string message, std::string advice = {}) {
+    found.push_back({Severity::Error, {}, std::move(message), {}, std::move(advice), {}});
+  };
+  if (!definition.controls.contains(kind)) {
+    report(fmt::format("cycle {} does not exist on the {}", definition.name, control::name(kind)));
+    return found;
+  }
+  for (std::size_t i = 0; i < definition.parameters.size(); ++i) {
+    const Parameter& parameter = definition.parameters[i];
+    const Argument& argument = arguments.values()[i];
+    if (!argument.given) {
+      if (parameter.required() && parameter.controls.contains(kind)) {
+        report(fmt::format("cycle {} lacks {} ({})", definition.name, parameter.name, parameter.meaning),
+               fmt::format("add {} with its value", parameter.name));
+      }
+      continue;
+    }
+    if (!parameter.controls.contains(kind)) {
+      report(fmt::format("{} ({}) does not exist in cycle {} of the {}", parameter.name, parameter.meaning,
+                         definition.name, control::name(kind)));
+      continue;
+    }
+    std::string text = complaint(parameter, argument);
+    if (!text.empty()) report(std::move(text));
+  }
+  return found;
+}
+
+}  // namespace probewright::cycles

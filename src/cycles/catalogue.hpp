@@ -1,0 +1,122 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostic.hpp"
+#include "control/control_kind.hpp"
+
+/// The catalogue: what each cycle is called, takes and leaves, as data. One table drives the parsers, the checks, the
+/// help and the documentation. Each cycle's entry stands in the cycle's own file, above the code that runs it.
+namespace probewright::cycles {
+
+using control::ControlKind;
+using control::ControlSet;
+
+enum class ValueKind : std::uint8_t {
+  Length,        ///< mm
+  Angle,         ///< degrees
+  Feed,          ///< mm/min
+  Number,        ///< without unit
+  Integer,       ///< a whole number: a row, a count, coded digits
+  Option,        ///< one of `choices`
+  Text,          ///< a text
+  NumberOrText,  ///< a tool by number or name, a position or "?"
+};
+
+/// "mm", "deg", "mm/min" or "".
+std::string_view unitOf(ValueKind kind);
+
+struct Choice {
+  int value = 0;
+  std::string_view meaning;
+};
+
+struct Parameter {
+  std::string_view name;      ///< "Q321", "S_MVAR"
+  std::uint32_t address = 0;  ///< HEIDENHAIN: the Q number; SINUMERIK: the position from 0
+  std::string_view meaning;   ///< one phrase
+  ValueKind kind = ValueKind::Length;
+  double minimum = -99999.9999;
+  double maximum = 99999.9999;
+  std::optional<double> standard;  ///< used when the parameter is left out; without it the parameter is required
+  std::span<const Choice> choices;
+  ControlSet controls = control::onBothTNC | control::onSinumerik;
+  bool predefinable = false;  ///< HEIDENHAIN: may be PREDEF, taken from GLOBAL DEF
+  bool required() const { return !standard && kind != ValueKind::Text; }
+};
+
+/// A value that the cycle leaves behind.
+struct ResultDefinition {
+  std::string_view name;  ///< "Q151", "_OVR[4]"
+  std::string_view meaning;
+  ValueKind kind = ValueKind::Length;
+};
+
+enum class CycleFamily : std::uint8_t { Misalignment, Preset, Inspection, Special, Calibration, Kinematics, Tool };
+std::string_view nameOf(CycleFamily family);
+
+struct CycleDefinition {
+  int number = 0;          ///< 411, 977
+  std::string_view name;   ///< "411", "CYCLE977"
+  std::string_view title;  ///< as in the English manuals: "PRESET OUTSIDE RECTAN."
+  CycleFamily family = CycleFamily::Preset;
+  std::string_view summary;  ///< one or two sentences: what it measures and corrects
+  std::span<const Parameter> parameters;
+  std::span<const ResultDefinition> results;
+  ControlSet controls = control::onBothTNC;
+
+  const Parameter* parameter(std::uint32_t address) const;
+};
+
+/// All cycles of the control, in the order of their numbers.
+std::vector<const CycleDefinition*> cyclesOf(ControlKind kind);
+
+/// The cycle with this number on a HEIDENHAIN control, or null.
+const CycleDefinition* heidenhainCycle(int number);
+
+/// The cycle with this name ("CYCLE977", case does not matter) on a SINUMERIK control, or null.
+const CycleDefinition* sinumerikCycle(std::string_view name);
+
+/// One value handed to a cycle.
+struct Argument {
+  double number = 0;
+  std::string text;
+  bool isText = false;
+  bool given = false;  ///< false: the standard value stands here
+};
+
+/// The arguments of one call, in the order of the definition's parameters.
+class Arguments {
+public:
+  explicit Arguments(const CycleDefinition& definition);
+
+  const CycleDefinition& definition() const { return *definition_; }
+  std::span<const Argument> values() const { return values_; }
+
+  /// False if the cycle has no parameter of that address.
+  bool set(std::uint32_t address, double number);
+  bool set(std::uint32_t address, std::string text);
+
+  bool given(std::uint32_t address) const { return at(address).given; }
+  double number(std::uint32_t address) const { return at(address).number; }
+  /// The number, rounded to whole.
+  int integer(std::uint32_t address) const;
+  const std::string& text(std::uint32_t address) const { return at(address).text; }
+  const Argument& at(std::uint32_t address) const;
+
+private:
+  const CycleDefinition* definition_;
+  std::vector<Argument> values_;
+};
+
+/// What is wrong with the value for this parameter on this control, as one sentence; empty if nothing is.
+std::string complaint(const Parameter& parameter, const Argument& argument);
+
+/// All that is wrong with a call: values out of range, required parameters left out. The messages have no place yet.
+Diagnostics check(const Arguments& arguments, ControlKind kind);
+
+}  // namespace probewright::cycles

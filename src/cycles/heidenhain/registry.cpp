@@ -1,0 +1,15 @@
+#include "cycles/heidenhain/registry.hpp"
+
+#include <algorithm>
+
+namespace probewright::cycles::heidenhain {
+
+std::span<const Entry> entries() { return {}; }
+
+const Entry* findEntry(int number) {
+  const auto found =
+      std::ranges::find_if(entries(), [number](const Entry& entry) { return entry.definition->number == number; });
+  return found == entries().end() ? nullptr : &*found;
+}
+
+}  // namespace probewright::cycles::heidenhain
