@@ -1,0 +1,205 @@
+#include "records/results.hpp"
+
+#include <unicode/unistr.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace probewright::records {
+
+using nlohmann::json;
+
+namespace {
+
+json text(const std::string& bytes) {
+  std::string utf8;
+  icu::UnicodeString::fromUTF8(bytes).toUTF8String(utf8);
+  return utf8;
+}
+
+json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+json point(const Vector3& p) { return {number(p.x()), number(p.y()), number(p.z())}; }
+
+json place(const SourcePlace& p) { return {{"file", text(p.file)}, {"line", p.line}, {"column", p.column}}; }
+
+std::string_view eventName(control::EventKind kind) {
+  switch (kind) {
+    case control::EventKind::Message:
+      return "message";
+    case control::EventKind::Alarm:
+      return "alarm";
+    case control::EventKind::Stop:
+      return "stop";
+    case control::EventKind::Skipped:
+      return "skipped";
+    case control::EventKind::Tool:
+      return "tool";
+    case control::EventKind::Warning:
+      return "warning";
+  }
+  return "message";
+}
+
+json axisPositions(const machine::AxisPositions& positions, const std::vector<machine::Axis>& axes) {
+  json object = json::object();
+  const std::size_t count = std::min(axes.size(), machine::maximumAxes);
+  for (std::size_t i = 0; i < count; ++i)
+    object[axes[i].name] = number(positions[i]);
+  return object;
+}
+
+json touch(const control::TouchRecord& record, const std::vector<machine::Axis>& axes) {
+  return {{"outcome", text(record.outcome)},      {"target", point(record.target)},
+          {"direction", point(record.direction)}, {"ballCentre", point(record.ballCentre)},
+          {"surface", point(record.surface)},     {"axes", axisPositions(record.latched, axes)},
+          {"time", number(record.seconds)}};
+}
+
+json result(const control::ResultRecord& record) {
+  json object = {{"name", text(record.name)},
+                 {"meaning", text(record.meaning)},
+                 {"value", number(record.value)},
+                 {"unit", text(record.unit)},
+                 {"verdict", verdictName(record.verdict)}};
+  const auto optional = [&](const char* key, const std::optional<double>& value) {
+    if (value) object[key] = number(*value);
+  };
+  optional("nominal", record.nominal);
+  optional("deviation", record.deviation);
+  optional("lowerLimit", record.lowerLimit);
+  optional("upperLimit", record.upperLimit);
+  optional("uncertainty", record.uncertainty);
+  return object;
+}
+
+template <class Records, class Convert>
+json list(const Records& records, Convert convert) {
+  json array = json::array();
+  for (const auto& record : records)
+    array.push_back(convert(record));
+  return array;
+}
+
+json write(const control::WriteRecord& record) {
+  return {{"table", text(record.table)},
+          {"entry", text(record.entry)},
+          {"before", text(record.before)},
+          {"after", text(record.after)}};
+}
+
+json parameter(const control::ParameterRecord& record) {
+  return {{"name", text(record.name)},
+          {"value", text(record.value)},
+          {"meaning", text(record.meaning)},
+          {"default", record.isDefault}};
+}
+
+json cycle(const control::CycleRecord& record, const std::vector<machine::Axis>& axes) {
+  json object = {{"name", text(record.name)},
+                 {"title", text(record.title)},
+                 {"place", place(record.place)},
+                 {"verdict", verdictName(record.verdict)},
+                 {"parameters", list(record.parameters, parameter)},
+                 {"touches", list(record.touches, [&](const auto& t) { return touch(t, axes); })},
+                 {"results", list(record.results, result)},
+                 {"writes", list(record.writes, write)},
+                 {"logFiles", list(record.logFiles, text)},
+                 {"start", number(record.startSeconds)},
+                 {"end", number(record.endSeconds)},
+                 {"pathLength", number(record.pathLength)}};
+  if (!record.alarm.empty()) object["alarm"] = text(record.alarm);
+  return object;
+}
+
+json event(const control::EventRecord& record) {
+  return {{"kind", eventName(record.kind)},
+          {"place", place(record.place)},
+          {"code", text(record.code)},
+          {"text", text(record.text)},
+          {"time", number(record.seconds)}};
+}
+
+json header(const RunInfo& run) {
+  json object = {{"programs", list(run.programs, [](const ProgramSource& source) { return text(source.path); })},
+                 {"language", text(run.language)},
+                 {"control", text(run.control)},
+                 {"machine", text(run.machine)},
+                 {"setup", text(run.setupPath)},
+                 {"part", {{"name", text(run.partName)}, {"path", text(run.partPath)}}},
+                 {"seed", run.seed ? json(*run.seed) : json(nullptr)},
+                 {"version", text(run.version)},
+                 {"exit", {{"code", static_cast<int>(run.exit)}, {"state", exitName(run.exit)}}}};
+  if (!run.startedAt.empty()) object["startedAt"] = text(run.startedAt);
+  if (!run.exitText.empty()) object["exit"]["text"] = text(run.exitText);
+  return object;
+}
+
+}  // namespace
+
+std::string_view verdictName(control::Verdict verdict) {
+  switch (verdict) {
+    case control::Verdict::None:
+      return "none";
+    case control::Verdict::Good:
+      return "good";
+    case control::Verdict::Rework:
+      return "rework";
+    case control::Verdict::Scrap:
+      return "scrap";
+  }
+  return "none";
+}
+
+std::string_view exitName(ExitState state) {
+  switch (state) {
+    case ExitState::Good:
+      return "good";
+    case ExitState::OutOfTolerance:
+      return "out of tolerance";
+    case ExitState::InputMistake:
+      return "input mistake";
+    case ExitState::Stopped:
+      return "stopped";
+    case ExitState::Internal:
+      return "internal error";
+  }
+  return "internal error";
+}
+
+control::Verdict worstVerdict(const control::Journal& journal) {
+  control::Verdict worst = control::Verdict::None;
+  for (const auto& record : journal.cycles) {
+    worst = std::max(worst, record.verdict);
+    for (const auto& value : record.results)
+      worst = std::max(worst, value.verdict);
+  }
+  return worst;
+}
+
+json resultsJson(const control::Journal& journal, const RunInfo& run) {
+  std::size_t touches = 0;
+  for (const auto& record : journal.cycles)
+    touches += record.touches.size();
+  return {{"schema", "probewright results"},
+          {"schemaVersion", resultsSchemaVersion},
+          {"units", {{"length", "mm"}, {"angle", "deg"}, {"time", "s"}}},
+          {"run", header(run)},
+          {"verdict", verdictName(worstVerdict(journal))},
+          {"totals",
+           {{"cycles", journal.cycles.size()},
+            {"touches", touches},
+            {"pathLength", number(run.totalPathLength)},
+            {"time", number(run.totalSeconds)}}},
+          {"cycles", list(journal.cycles, [&](const auto& record) { return cycle(record, run.axes); })},
+          {"writes", list(journal.writes, write)},
+          {"events", list(journal.events, event)},
+          {"files", list(run.outputFiles, text)}};
+}
+
+std::string resultsText(const control::Journal& journal, const RunInfo& run) {
+  return resultsJson(journal, run).dump(2) + "\n";
+}
+
+}  // namespace probewright::records

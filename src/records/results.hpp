@@ -1,0 +1,33 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+#include "control/journal.hpp"
+#include "records/run_info.hpp"
+
+/// The results of a run as JSON, for other programs: layout in docs/results.schema.json.
+namespace probewright::records {
+
+/// The layout's number; it grows when a reader of the older layout would misread the newer.
+inline constexpr int resultsSchemaVersion = 1;
+
+/// Everything that a run left behind. Lengths in mm, angles in degrees, times in seconds of the machine clock. A value
+/// that is no number (NaN, infinity) becomes null; bytes that are not UTF-8 become U+FFFD.
+nlohmann::json resultsJson(const control::Journal& journal, const RunInfo& run);
+
+/// The same as the text of `results.json`: indented UTF-8, numbers in the shortest form that reads back as the same
+/// double, a newline at the end.
+std::string resultsText(const control::Journal& journal, const RunInfo& run);
+
+/// The worst verdict of all cycles; None if nothing was toleranced.
+control::Verdict worstVerdict(const control::Journal& journal);
+
+/// "none", "good", "rework", "scrap": the names in results.json.
+std::string_view verdictName(control::Verdict verdict);
+
+/// "good", "out of tolerance", "input mistake", "stopped", "internal error": the names in results.json.
+std::string_view exitName(ExitState state);
+
+}  // namespace probewright::records

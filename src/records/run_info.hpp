@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "machine/description.hpp"
+
+namespace probewright::records {
+
+/// How a run ended; the number is the exit code of the program.
+enum class ExitState { Good = 0, OutOfTolerance = 1, InputMistake = 2, Stopped = 3, Internal = 4 };
+
+/// One text of the program as it was read: the main program or a subprogram it called.
+struct ProgramSource {
+  std::string path;
+  std::string text;  ///< bytes of the file, whatever their encoding
+};
+
+/// What a reader of the results needs to know about a run besides its journal.
+struct RunInfo {
+  std::vector<ProgramSource> programs;  ///< main program first, then the subprograms; may be without texts
+  std::string language;                 ///< "Klartext", "SINUMERIK"
+  std::string control;                  ///< "TNC640", "iTNC530", "840Dsl"
+  std::string machine;                  ///< the machine's name
+  std::vector<machine::Axis> axes;      ///< of the machine, in the order of AxisPositions; names the latched positions
+  std::string setupPath;
+  std::string partName;
+  std::string partPath;                  ///< the CAD file; empty for a part built from the setup
+  std::optional<std::uint64_t> seed;     ///< of the random effects; nothing if there were none
+  std::string version;                   ///< of Probewright
+  std::string startedAt;                 ///< wall clock, ISO 8601 with offset; empty: not recorded
+  double totalSeconds = 0;               ///< machine clock at the end of the run
+  double totalPathLength = 0;            ///< mm travelled by the tool in the whole run
+  std::vector<std::string> outputFiles;  ///< tables and logs left by the control, relative to the output folder
+  ExitState exit = ExitState::Good;
+  std::string exitText;  ///< why it ended so, one sentence; empty when there is nothing to say
+};
+
+}  // namespace probewright::records
