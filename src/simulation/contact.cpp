@@ -1,0 +1,54 @@
+#include "simulation/contact.hpp"
+
+namespace probewright::simulation {
+namespace {
+
+BallContact contactAt(const Way& way, const Meeting& meeting) {
+  BallContact contact;
+  const double travelled = std::max(0.0, meeting.when);
+  contact.fraction = way.length > 0 ? std::min(1.0, travelled / way.length) : 0.0;
+  contact.ballCentre = way.at(travelled);
+  contact.touchPoint = meeting.point;
+  return contact;
+}
+
+void setNormal(BallContact& contact, const Vector3& arm, const Way& way) {
+  const double length = arm.norm();
+  // A centre exactly on the surface has no such direction; against the way is where it came from.
+  contact.normal = length > 1e-12 ? Vector3(arm / length) : Vector3(-way.direction);
+}
+
+}  // namespace
+
+std::optional<BallContact> ballContact(const Way& way, const Meeting& meeting) {
+  if (!meeting.found()) return std::nullopt;
+  BallContact contact = contactAt(way, meeting);
+  setNormal(contact, contact.ballCentre - contact.touchPoint, way);
+  return contact;
+}
+
+std::optional<BallContact> capsuleContact(const Way& way, const Vector3& axis, const Meeting& meeting) {
+  if (!meeting.found()) return std::nullopt;
+  BallContact contact = contactAt(way, meeting);
+  const Vector3 nearest = closestOnSegment(contact.touchPoint, contact.ballCentre, contact.ballCentre + axis);
+  setNormal(contact, nearest - contact.touchPoint, way);
+  return contact;
+}
+
+BallContact contactWithin(const Way& way, double radius) {
+  BallContact contact;
+  contact.ballCentre = way.start;
+  contact.normal = -way.direction;
+  contact.touchPoint = way.start - radius * contact.normal;
+  return contact;
+}
+
+std::size_t capsuleParts(const Vector3& axis, double radius) {
+  Vector3 extent = axis.cwiseAbs();
+  Eigen::Index longest = 0;
+  extent.maxCoeff(&longest);
+  extent[longest] = 0;
+  return static_cast<std::size_t>(std::clamp(std::ceil(extent.maxCoeff() / (4 * radius)), 1.0, 16.0));
+}
+
+}  // namespace probewright::simulation

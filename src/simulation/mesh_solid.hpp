@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+
+#include "simulation/drawing_mesh.hpp"
+#include "simulation/search_tree.hpp"
+#include "simulation/solid.hpp"
+#include "simulation/triangle_mesh.hpp"
+
+namespace probewright::simulation {
+
+/// A solid bounded by triangles. Contacts are exact on the triangles, on faces, edges and corners.
+///
+/// A mesh that is closed knows its inside: a ball that starts within the material makes contact at fraction 0, with the
+/// normal against its way. An open mesh is a skin that can be touched from both sides.
+class MeshSolid final : public Solid {
+public:
+  explicit MeshSolid(TriangleMesh mesh);
+
+  Bounds bounds() const override { return tree_.bounds(); }
+  std::optional<BallContact> firstContact(const Vector3& from, const Vector3& to, double radius) const override;
+  std::optional<BallContact> firstCapsuleContact(const Vector3& from, const Vector3& to, const Vector3& axis,
+                                                 double radius) const override;
+
+  bool isClosed() const { return closed_; }
+  std::size_t triangleCount() const { return triangles_.size(); }
+  DrawingMesh drawing() const;
+
+private:
+  bool isInside(const Vector3& point) const;
+
+  TriangleMesh mesh_;
+  SearchTree tree_;
+  std::vector<Triangle> triangles_;  ///< in the order of the tree
+  bool closed_ = false;
+};
+
+/// An STL file as a solid.
+Result<std::unique_ptr<Solid>> readStl(const std::filesystem::path& path);
+
+}  // namespace probewright::simulation
