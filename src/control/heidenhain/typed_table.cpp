@@ -1,0 +1,136 @@
+#include "control/heidenhain/typed_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include "base/number_text.hpp"
+
+namespace probewright::control::heidenhain {
+
+namespace {
+
+constexpr double millimetresPerInch = 25.4;
+
+bool isOn(const ColumnSpec& column, ControlKind kind) {
+  return kind == ControlKind::iTNC530 ? !column.onlyTNC640 : !column.onlyITNC;
+}
+
+}  // namespace
+
+Result<TypedTable> TypedTable::parse(std::string_view bytes, std::string file, std::span<const ColumnSpec> columns,
+                                     Diagnostics& diagnostics) {
+  auto table = TextTable::parse(bytes, std::move(file), diagnostics);
+  if (!table) return tl::unexpected(table.error());
+  TypedTable typed(std::move(*table), columns);
+  const Diagnostics found = typed.check();
+  diagnostics.insert(diagnostics.end(), found.begin(), found.end());
+  return typed;
+}
+
+TypedTable TypedTable::create(std::string_view name, TableUnit unit, std::span<const ColumnSpec> columns,
+                              ControlKind kind, std::size_t rows) {
+  std::vector<TextTable::NewColumn> header;
+  for (const ColumnSpec& column : columns) {
+    if (isOn(column, kind)) header.push_back({column.name, std::max(column.width, column.name.size() + 1)});
+  }
+  TypedTable table(TextTable::create(name, unit, header), columns);
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (auto added = table.ensureRow(std::to_string(row)); !added) throw std::logic_error(added.error().message);
+  }
+  table.table_.clearChanges();
+  return table;
+}
+
+Diagnostics TypedTable::check() const {
+  Diagnostics diagnostics;
+  const ColumnSpec& key = columns_.front();
+  if (table_.keyColumn().name != key.name && table_.keyColumn().name != key.otherName) {
+    diagnostics.push_back({Severity::Error,
+                           {table_.file(), 0, 0},
+                           fmt::format("the table has no column {}; rows cannot be found", key.name),
+                           {},
+                           "check that this is the right kind of table",
+                           {}});
+    return diagnostics;
+  }
+  for (const std::string& row : table_.keys()) {
+    for (const ColumnSpec& column : columns_) {
+      if (column.kind == CellKind::Text) continue;
+      const auto entry = table_.cell(row, nameInFile(column.name));
+      if (!entry || entry->empty() || parseDecimal(*entry)) continue;
+      diagnostics.push_back({Severity::Error,
+                             table_.place(row, nameInFile(column.name)),
+                             fmt::format("column {} takes a number", nameInFile(column.name)),
+                             entry->substr(0, 60),
+                             "write a number with a decimal point, or leave the entry empty",
+                             {}});
+    }
+  }
+  return diagnostics;
+}
+
+const ColumnSpec* TypedTable::find(std::string_view column) const {
+  const auto found = std::find_if(columns_.begin(), columns_.end(), [column](const ColumnSpec& spec) {
+    return spec.name == column || (!spec.otherName.empty() && spec.otherName == column);
+  });
+  return found == columns_.end() ? nullptr : &*found;
+}
+
+std::string_view TypedTable::nameInFile(std::string_view column) const {
+  if (table_.hasColumn(column)) return column;
+  const ColumnSpec* spec = find(column);
+  if (spec == nullptr) return column;
+  return table_.hasColumn(spec->name) || spec->otherName.empty() ? spec->name : spec->otherName;
+}
+
+double TypedTable::millimetresPerUnit(const ColumnSpec* spec) const {
+  const bool length = spec != nullptr && (spec->kind == CellKind::Length || spec->kind == CellKind::Feed);
+  return length && table_.unit() == TableUnit::Inch ? millimetresPerInch : 1.0;
+}
+
+std::optional<double> TypedTable::number(std::string_view row, std::string_view column) const {
+  const auto entry = table_.cell(row, nameInFile(column));
+  if (!entry) return std::nullopt;
+  const auto value = parseDecimal(*entry);
+  if (!value) return std::nullopt;
+  return *value * millimetresPerUnit(find(column));
+}
+
+std::string TypedTable::text(std::string_view row, std::string_view column) const {
+  return table_.cell(row, nameInFile(column)).value_or(std::string());
+}
+
+Result<void> TypedTable::setNumber(std::string_view row, std::string_view column, double value) {
+  if (auto added = ensureRow(row); !added) return added;
+  const ColumnSpec* spec = find(column);
+  NumberStyle style;
+  if (spec != nullptr) {
+    const bool signedKind = spec->kind == CellKind::Length || spec->kind == CellKind::Angle;
+    style = {spec->decimals, signedKind};
+    if (spec->kind == CellKind::Length && table_.unit() == TableUnit::Inch) ++style.decimals;
+  }
+  return table_.setNumber(row, nameInFile(column), value / millimetresPerUnit(spec), style);
+}
+
+Result<void> TypedTable::setText(std::string_view row, std::string_view column, std::string_view value) {
+  if (auto added = ensureRow(row); !added) return added;
+  return table_.setCell(row, nameInFile(column), value);
+}
+
+Result<void> TypedTable::ensureRow(std::string_view row) {
+  if (table_.hasRow(row)) return {};
+  if (auto added = table_.addRow(row); !added) return added;
+  for (const ColumnSpec& column : columns_) {
+    if (column.initial.empty() || !hasColumn(column.name)) continue;
+    const auto initial = parseDecimal(column.initial);
+    auto set = initial && column.kind != CellKind::Text ? setNumber(row, column.name, *initial)
+                                                        : table_.setCell(row, nameInFile(column.name), column.initial);
+    if (!set) return set;
+  }
+  return {};
+}
+
+}  // namespace probewright::control::heidenhain

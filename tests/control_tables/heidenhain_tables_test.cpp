@@ -1,0 +1,202 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <random>
+
+#include "base/file.hpp"
+#include "control/heidenhain/datum_table.hpp"
+#include "control/heidenhain/preset_table.hpp"
+#include "control/heidenhain/probe_table.hpp"
+#include "control/heidenhain/tool_table.hpp"
+
+namespace probewright::control::heidenhain {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(ToolTable, ReadsToolsAndSteps) {
+  Diagnostics diagnostics;
+  const auto table = parseToolTable(
+      "BEGIN TOOL.T MM\n"
+      "T     NAME        L           R         DL       DR       TL LTOL    RBREAK  TT:R-OFFS CUR_TIME TP_NO CUT\n"
+      "1     PROBE_A     +120.5000   +3.0000   +0       +0          0       0                 0.00     2\n"
+      "5     MILL_D10    +90.2500    +5.0000   -0.0120  +0.0030  L  0.0500  0.1     2.5       12.25          4\n"
+      "5.1   MILL_D10    +85.0000    +5.0010\n"
+      "[END]\n",
+      "TOOL.T", diagnostics);
+  ASSERT_TRUE(table);
+  EXPECT_TRUE(diagnostics.empty());
+  const Tool mill = findTool(*table, "5").value();
+  EXPECT_EQ(mill.name, "MILL_D10");
+  EXPECT_EQ(mill.length, 90.25);
+  EXPECT_EQ(mill.deltaLength, -0.012);
+  EXPECT_NEAR(mill.totalLength(), 90.238, 1e-12);
+  EXPECT_TRUE(mill.locked);
+  EXPECT_EQ(mill.wearLength, 0.05);
+  EXPECT_EQ(mill.breakRadius, 0.1);
+  EXPECT_EQ(mill.radialOffset, 2.5);
+  EXPECT_EQ(mill.teeth, 4);
+  EXPECT_EQ(mill.probe, std::nullopt);
+  const Tool probe = findTool(*table, "1").value();
+  EXPECT_FALSE(probe.locked);
+  EXPECT_EQ(probe.probe, 2);
+  EXPECT_EQ(probe.radialOffset, std::nullopt);
+  EXPECT_EQ(findTool(*table, toolKey(5, 1)).value().radius, 5.001);
+  EXPECT_EQ(findTool(*table, toolKey(7)), std::nullopt);
+  EXPECT_EQ(findToolNamed(*table, "MILL_D10"), "5");
+  EXPECT_EQ(findToolNamed(*table, "mill_d10"), std::nullopt);
+  EXPECT_EQ(table->number("5", "CUR.TIME"), 12.25);
+}
+
+TEST(ToolTable, NamesAnEntryThatIsNoNumber) {
+  Diagnostics diagnostics;
+  const auto table =
+      parseToolTable("BEGIN TOOL.T MM\nT  L      R\n1  12,5   3\n2  1e3    3\n[END]\n", "TOOL.T", diagnostics);
+  ASSERT_TRUE(table);
+  ASSERT_EQ(diagnostics.size(), 2U);
+  EXPECT_THAT(format(diagnostics[0]), HasSubstr("TOOL.T:3:4: error: column L takes a number"));
+  EXPECT_EQ(diagnostics[0].excerpt, "12,5");
+  EXPECT_THAT(format(diagnostics[1]), HasSubstr("TOOL.T:4:4"));
+  EXPECT_EQ(findTool(*table, "1").value().length, 0.0);
+}
+
+TEST(ToolTable, InchTablesConvertAtTheBorder) {
+  Diagnostics diagnostics;
+  auto table =
+      parseToolTable("BEGIN TOOL.T INCH\nT  L          ANGLE\n1  +2.00000   +30.000\n[END]\n", "T", diagnostics);
+  ASSERT_TRUE(table);
+  EXPECT_DOUBLE_EQ(findTool(*table, "1").value().length, 50.8);
+  EXPECT_EQ(table->number("1", "ANGLE"), 30.0);
+  ASSERT_TRUE(table->setNumber("1", "L", 25.4 * 1.5));
+  EXPECT_EQ(table->text("1", "L"), "+1.50000");
+}
+
+TEST(ToolTable, NewTablesHaveTheColumnsOfTheirControl) {
+  TypedTable tnc = defaultToolTable(ControlKind::TNC640);
+  EXPECT_TRUE(tnc.hasColumn("TP_NO"));
+  EXPECT_FALSE(tnc.hasColumn("CAL-OF1"));
+  TypedTable itnc = defaultToolTable(ControlKind::iTNC530);
+  EXPECT_FALSE(itnc.hasColumn("TP_NO"));
+  EXPECT_TRUE(itnc.hasColumn("CAL-OF1"));
+  ASSERT_TRUE(tnc.setText("3", "NAME", "TS_640"));
+  ASSERT_TRUE(tnc.setNumber("3", "L", 150.12344));
+  ASSERT_TRUE(tnc.setNumber("3", "TP_NO", 1));
+  Diagnostics diagnostics;
+  const auto again = parseToolTable(tnc.table().bytes(), "TOOL.T", diagnostics);
+  ASSERT_TRUE(again);
+  EXPECT_TRUE(diagnostics.empty());
+  EXPECT_EQ(findTool(*again, "3").value().length, 150.1234);
+  EXPECT_EQ(findTool(*again, "3").value().probe, 1);
+  EXPECT_EQ(again->text("3", "L"), "+150.1234");
+  EXPECT_EQ(again->text("3", "DL"), "+0.0000");
+}
+
+TEST(ProbeTable, DefaultsAndEntries) {
+  TypedTable table = defaultProbeTable(ControlKind::TNC640);
+  const TouchProbe plain = findProbe(table, 1).value();
+  EXPECT_EQ(plain.feed, 300);
+  EXPECT_EQ(plain.rapid, 2000);
+  EXPECT_EQ(plain.maximumTravel, 10);
+  EXPECT_EQ(plain.setUpClearance, 2);
+  EXPECT_FALSE(plain.prepositionAtMachineRapid);
+  EXPECT_FALSE(plain.track);
+  ASSERT_TRUE(table.setText("1", "F_PREPOS", "FMAX_MACHINE"));
+  ASSERT_TRUE(table.setText("1", "TRACK", "ON"));
+  ASSERT_TRUE(table.setText("1", "REACTION", "EMERGSTOP"));
+  ASSERT_TRUE(table.setNumber("1", "CAL_OF1", -0.01234));
+  const TouchProbe changed = findProbe(table, 1).value();
+  EXPECT_TRUE(changed.prepositionAtMachineRapid);
+  EXPECT_TRUE(changed.track);
+  EXPECT_TRUE(changed.emergencyStop);
+  EXPECT_EQ(changed.centreOffset1, -0.0123);
+  EXPECT_EQ(findProbe(table, 5), std::nullopt);
+}
+
+TEST(PresetTable, WritesOnlyWhatDiffers) {
+  TypedTable table = defaultPresetTable(ControlKind::TNC640);
+  Preset preset;
+  preset.origin = {100.5, -20.25, 300};
+  preset.rotation = {0, 0, 1.2345};
+  preset.offsets[5] = -7.5;
+  ASSERT_TRUE(setPreset(table, 1, preset));
+  EXPECT_EQ(table.table().changes().size(), 5U);
+  EXPECT_EQ(table.text("1", "SPC"), "+1.2345");
+  EXPECT_EQ(table.text("1", "C_OFFS"), "-7.5000");
+  const Preset read = findPreset(table, 1).value();
+  EXPECT_EQ(read.origin, preset.origin);
+  EXPECT_EQ(read.rotation, preset.rotation);
+  EXPECT_EQ(read.offsets, preset.offsets);
+  EXPECT_FALSE(read.locked);
+  ASSERT_TRUE(setPreset(table, 12, preset));
+  EXPECT_EQ(findPreset(table, 12).value().origin, preset.origin);
+  EXPECT_EQ(findPreset(table, 1).value().origin, preset.origin);
+}
+
+TEST(PresetTable, RotationOfTheITNCIsTheColumnRot) {
+  TypedTable table = defaultPresetTable(ControlKind::iTNC530);
+  EXPECT_FALSE(table.hasColumn("SPC"));
+  EXPECT_FALSE(table.hasColumn("C_OFFS"));
+  Preset preset;
+  preset.rotation = {0, 0, -3.5};
+  preset.rotary[2] = 90;
+  ASSERT_TRUE(setPreset(table, 3, preset));
+  EXPECT_EQ(table.text("3", "ROT"), "-3.5000");
+  EXPECT_EQ(findPreset(table, 3).value().rotation, preset.rotation);
+  EXPECT_EQ(findPreset(table, 3).value().rotary, preset.rotary);
+}
+
+TEST(DatumTable, ReadsShiftsByNumber) {
+  Diagnostics diagnostics;
+  const auto table = parseDatumTable(
+      "BEGIN ZERO.D MM\nD     X         Y         Z      C       DOC\n"
+      "0     +0        +0        +0     +0\n7     +12.5     -3.25            +90     left vice\n[END]\n",
+      "ZERO.D", diagnostics);
+  ASSERT_TRUE(table);
+  const Datum datum = findDatum(*table, 7).value();
+  EXPECT_EQ(datum.shift, Vector3(12.5, -3.25, 0));
+  EXPECT_EQ(datum.rotary[2], 90);
+  EXPECT_EQ(datum.comment, "left vice");
+  EXPECT_EQ(findDatum(*table, 1), std::nullopt);
+  EXPECT_TRUE(findDatum(defaultDatumTable(ControlKind::TNC640), 0));
+}
+
+TEST(TypedTable, RefusesTheWrongKindOfTable) {
+  Diagnostics diagnostics;
+  const auto table = parseToolTable("BEGIN ZERO.D MM\nD     X\n0     +0\n[END]\n", "ZERO.D", diagnostics);
+  ASSERT_TRUE(table);
+  ASSERT_EQ(diagnostics.size(), 1U);
+  EXPECT_THAT(diagnostics[0].message, HasSubstr("no column T"));
+}
+
+/// Random values of a table that is written, saved and read again: equal to the last digit the columns have.
+TEST(TypedTable, ValuesSurviveTheFile) {
+  std::mt19937_64 random(7);
+  std::uniform_int_distribution<long long> ticks(-999999999, 999999999);
+  TypedTable table = defaultPresetTable(ControlKind::TNC640);
+  std::vector<Preset> presets(60);
+  for (std::size_t i = 0; i < presets.size(); ++i) {
+    for (auto& value : presets[i].origin)
+      value = static_cast<double>(ticks(random)) / 1e4;
+    for (auto& value : presets[i].offsets)
+      value = static_cast<double>(ticks(random) / 1000) / 1e4;
+    ASSERT_TRUE(setPreset(table, static_cast<int>(random() % 2 == 0 ? i : 59 - i), presets[i]));
+  }
+  for (std::size_t i = 0; i < presets.size(); ++i)
+    ASSERT_TRUE(setPreset(table, static_cast<int>(i), presets[i]));
+  const auto path = std::filesystem::temp_directory_path() / "probewright_tables_test" / "PRESET.PR";
+  ASSERT_TRUE(table.table().save(path));
+  Diagnostics diagnostics;
+  const auto again = parsePresetTable(readFile(path).value(), "PRESET.PR", diagnostics);
+  std::filesystem::remove_all(path.parent_path());
+  ASSERT_TRUE(again);
+  EXPECT_TRUE(diagnostics.empty());
+  for (std::size_t i = 0; i < presets.size(); ++i) {
+    EXPECT_EQ(findPreset(*again, static_cast<int>(i)).value().origin, presets[i].origin);
+    EXPECT_EQ(findPreset(*again, static_cast<int>(i)).value().offsets, presets[i].offsets);
+  }
+}
+
+}  // namespace
+}  // namespace probewright::control::heidenhain
