@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+"""Prints the reference values of fits_reference_test.cpp: least-squares fits solved with 50 digits.
+
+Run it with mpmath installed; it needs nothing else of the project. Newton's method on the gradient of the sum of squared
+orthogonal distances, with derivatives by mpmath's own high-precision differences.
+"""
+from mpmath import mp, mpf, sqrt, matrix, findroot, diff
+
+mp.dps = 50
+
+CIRCLE = [(1, 7), (2, 6), (5, 8), (7, 7), (9, 5), (3, 7)]
+SPHERE = [("10.012", "20.003", "35.001"), ("24.998", "20.011", "20.004"), ("9.991", "35.006", "19.997"),
+          ("-4.996", "19.994", "20.009"), ("10.004", "5.003", "19.992"), ("20.601", "30.612", "20.003"),
+          ("18.667", "28.661", "28.655")]
+CYLINDER = [("8.003", "0.1", "-10"), ("0.2", "7.994", "-9.5"), ("-7.991", "0.4", "-11"), ("-0.3", "-8.006", "-10.2"),
+            ("8.101", "0.2", "12"), ("0.3", "8.111", "11.5"), ("-7.899", "-0.1", "10"), ("0.1", "-7.902", "13"),
+            ("5.71", "5.702", "1")]
+PLANE = [("0", "0", "5.001"), ("100", "0", "6.996"), ("0", "80", "4.003"), ("100", "80", "5.998"), ("52", "37", "5.61")]
+
+
+def numbers(points):
+    return [tuple(mpf(c) for c in p) for p in points]
+
+
+def minimise(cost, start):
+    size = len(start)
+
+    def gradient(*x):
+        return [diff(cost, x, tuple(1 if i == j else 0 for j in range(size))) for i in range(size)]
+
+    return findroot(gradient, start, tol=mpf(10) ** -38, maxsteps=60)
+
+
+def show(name, values):
+    print(name, ", ".join(mp.nstr(v, 20) for v in values))
+
+
+points = numbers(CIRCLE)
+
+
+def circle_cost(x, y, r):
+    return sum((sqrt((p[0] - x) ** 2 + (p[1] - y) ** 2) - r) ** 2 for p in points)
+
+
+solution = minimise(circle_cost, (mpf("4.74"), mpf("2.98"), mpf("4.71")))
+show("circle x y r rms", list(solution) + [sqrt(circle_cost(*solution) / len(points))])
+
+points = numbers(SPHERE)
+
+
+def sphere_cost(x, y, z, r):
+    return sum((sqrt((p[0] - x) ** 2 + (p[1] - y) ** 2 + (p[2] - z) ** 2) - r) ** 2 for p in points)
+
+
+solution = minimise(sphere_cost, (mpf(10), mpf(20), mpf(20), mpf(15)))
+show("sphere x y z r rms", list(solution) + [sqrt(sphere_cost(*solution) / len(points))])
+
+points = numbers(CYLINDER)
+
+
+# The axis is (x + a z, y + b z, z).
+def cylinder_cost(x, y, a, b, r):
+    total = mpf(0)
+    for p in points:
+        d = (p[0] - x, p[1] - y, p[2])
+        c = (d[1] - d[2] * b, d[2] * a - d[0], d[0] * b - d[1] * a)
+        total += (sqrt((c[0] ** 2 + c[1] ** 2 + c[2] ** 2) / (a * a + b * b + 1)) - r) ** 2
+    return total
+
+
+solution = minimise(cylinder_cost, (mpf(0), mpf(0), mpf("0.005"), mpf("0.005"), mpf(8)))
+show("cylinder x y a b r rms", list(solution) + [sqrt(cylinder_cost(*solution) / len(points))])
+
+points = numbers(PLANE)
+
+
+# z = h + a x + b y
+def plane_cost(h, a, b):
+    return sum((p[2] - h - a * p[0] - b * p[1]) ** 2 for p in points) / (1 + a * a + b * b)
+
+
+solution = minimise(plane_cost, (mpf(5), mpf("0.02"), mpf("-0.0125")))
+show("plane h a b rms", list(solution) + [sqrt(plane_cost(*solution) / len(points))])
