@@ -11,7 +11,7 @@
 namespace probewright::metrology {
 
 /// Minimises the sum of squares of a problem that offers
-///   static constexpr int freedoms;  type State;  Eigen::Index equations() const;
+///   static constexpr int freedoms;  type State;
 ///   void evaluate(const State&, Eigen::VectorXd& residuals, Eigen::Matrix<double, Dynamic, freedoms>& jacobian) const;
 ///   State moved(const State&, const Eigen::Matrix<double, freedoms, 1>& step) const;
 /// whose lengths are of the order of 1. Steps are undamped Gauss-Newton steps until one fails to improve. The Jacobian
