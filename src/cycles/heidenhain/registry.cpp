@@ -2,9 +2,17 @@
 
 #include <algorithm>
 
+#include "cycles/heidenhain/cycles.hpp"
+
 namespace probewright::cycles::heidenhain {
 
-std::span<const Entry> entries() { return {}; }
+std::span<const Entry> entries() {
+  static constexpr Entry all[] = {
+      {&cycle412Definition, cycle412},
+      {&cycle421Definition, cycle421},
+  };
+  return all;
+}
 
 const Entry* findEntry(int number) {
   const auto found =

@@ -1,0 +1,210 @@
+#include "control/heidenhain/control.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/number_text.hpp"
+#include "control/alarm.hpp"
+
+namespace probewright::control::heidenhain {
+namespace {
+
+constexpr std::array<const char*, 3> linearNames = {"X", "Y", "Z"};
+constexpr std::array<const char*, 3> spaceAngleNames = {"SPA", "SPB", "SPC"};
+
+double scaleOf(const TextTable& table, const std::string& column) {
+  if (table.unit() == TableUnit::Millimetre) return 1;
+  static constexpr std::array<std::string_view, 14> angles = {
+      "SPA", "SPB", "SPC", "ROT", "A", "B", "C", "A_OFFS", "B_OFFS", "C_OFFS", "CAL_ANG", "TP_NO", "NO", "T"};
+  return std::ranges::find(angles, column) == angles.end() ? 25.4 : 1.0;
+}
+
+}  // namespace
+
+Control::Control(ControlKind kind, machine::Machine& machine, Tables tables_, MachineParameters parameters_)
+    : panel(journal), channel(machine, journal), tables(std::move(tables_)), parameters(parameters_), kind_(kind) {
+  channel.alarms = {"Limit switch", "Collision", "Touch probe deflected"};
+  if (presetRow(0)) activatePreset(0);
+}
+
+double Control::number(const TextTable& table, const std::string& row, const std::string& column, double otherwise) {
+  const std::optional<std::string> cell = table.cell(row, column);
+  if (!cell || cell->empty() || *cell == "-") return otherwise;
+  std::string plain = *cell;
+  std::ranges::replace(plain, ',', '.');
+  const std::optional<double> value = parseDecimal(plain);
+  if (!value) {
+    const SourcePlace place = table.place(row, column);
+    throw Alarm("Table value invalid",
+                fmt::format("{} row {} column {} (line {}) holds '{}', which is no number", table.name(), row, column,
+                            place.line, *cell),
+                "correct the table");
+  }
+  return *value * scaleOf(table, column);
+}
+
+std::string Control::text(const TextTable& table, const std::string& row, const std::string& column) {
+  return table.cell(row, column).value_or("");
+}
+
+void Control::writeCell(TextTable& table, const std::string& row, const std::string& column, const Result<void>& done,
+                        const std::string& before) {
+  if (!done) throw Alarm("Table write error", done.error().message, done.error().advice);
+  journal.write(
+      {table.name(), fmt::format("row {}, column {}", row, column), before, table.cell(row, column).value_or("")});
+}
+
+void Control::writeNumber(TextTable& table, const std::string& row, const std::string& column, double value,
+                          int decimals) {
+  const std::string before = text(table, row, column);
+  writeCell(table, row, column, table.setNumber(row, column, value / scaleOf(table, column), {decimals, true}), before);
+}
+
+void Control::writeText(TextTable& table, const std::string& row, const std::string& column, const std::string& value) {
+  const std::string before = text(table, row, column);
+  writeCell(table, row, column, table.setCell(row, column, value), before);
+}
+
+std::string Control::toolRowNamed(const std::string& name) const {
+  for (const std::string& key : tables.tools.keys()) {
+    if (text(tables.tools, key, "NAME") == name) return key;
+  }
+  throw Alarm("Tool not defined", fmt::format("TOOL.T has no tool named {}", name), "add the tool or correct its name");
+}
+
+void Control::callTool(const std::string& row, std::optional<char> axis, double deltaLength, double deltaRadius,
+                       double deltaRadius2) {
+  if (row != "0" && !tables.tools.hasRow(row)) {
+    throw Alarm("Tool not defined", fmt::format("TOOL.T has no tool {}", row), "add the tool or correct its number");
+  }
+  if (text(tables.tools, row, "TL") == "L") {
+    throw Alarm("Tool locked", fmt::format("Tool {} is locked in TOOL.T (column TL)", row),
+                "release the tool or call its replacement");
+  }
+  ActiveTool next = tool;
+  next.row = row;
+  next.called = true;
+  const std::size_t point = row.find('.');
+  next.number = static_cast<int>(parseInteger(row.substr(0, point)).value_or(0));
+  next.index = point == std::string::npos ? 0 : static_cast<int>(parseInteger(row.substr(point + 1)).value_or(0));
+  next.name = text(tables.tools, row, "NAME");
+  if (axis) next.axis = *axis;
+  next.deltaLength = deltaLength;
+  next.deltaRadius = deltaRadius;
+  next.deltaRadius2 = deltaRadius2;
+  const std::string probe = text(tables.tools, row, "TP_NO");
+  next.probeRow = probe == "0" || probe == "-" ? "" : probe;
+  if (!tool.called || next.row != tool.row) {
+    channel.changeTool({next.number, next.name});
+    panel.message(EventKind::Tool, fmt::format("Tool {}{}{}", row, next.name.empty() ? "" : " ", next.name),
+                  channel.seconds());
+  }
+  tool = std::move(next);
+  refreshTool();
+}
+
+void Control::refreshTool() {
+  tool.length = number(tables.tools, tool.row, "L") + number(tables.tools, tool.row, "DL");
+  tool.radius = number(tables.tools, tool.row, "R") + number(tables.tools, tool.row, "DR");
+  tool.radius2 = number(tables.tools, tool.row, "R2") + number(tables.tools, tool.row, "DR2");
+  coordinates.plane = WorkingPlane::ofToolAxis(tool.axis);
+  channel.toolVector = Vector3::Zero();
+  channel.toolVector[coordinates.plane.tool] = tool.length + tool.deltaLength;
+  channel.toolRadius = tool.radius + tool.deltaRadius;
+}
+
+std::optional<ActivePreset> Control::presetRow(int row) const {
+  const auto exact = exactPresets_.find(row);
+  if (exact != exactPresets_.end()) return exact->second;
+  const std::string key = std::to_string(row);
+  const TextTable& table = tables.presets;
+  if (!table.hasRow(key)) return std::nullopt;
+  ActivePreset preset;
+  preset.row = row;
+  for (std::size_t i = 0; i < 3; ++i) {
+    preset.origin[static_cast<Eigen::Index>(i)] = number(table, key, linearNames[i]);
+    if (table.hasColumn(spaceAngleNames[i])) {
+      preset.spaceAngles[static_cast<Eigen::Index>(i)] = number(table, key, spaceAngleNames[i]);
+    }
+  }
+  if (table.hasColumn("ROT")) preset.spaceAngles.z() = number(table, key, "ROT");
+  const machine::MachineDescription& description = channel.description();
+  for (std::size_t i = 0; i < description.axes.size(); ++i) {
+    const machine::Axis& axis = description.axes[i];
+    if (axis.kind != machine::AxisKind::Rotary) continue;
+    if (table.hasColumn(axis.name)) preset.rotaryOffset[i] = number(table, key, axis.name);
+    const std::string offset = axis.name + "_OFFS";
+    if (table.hasColumn(offset)) preset.rotaryOffset[i] += number(table, key, offset);
+  }
+  return preset;
+}
+
+void Control::activatePreset(int row) {
+  const std::optional<ActivePreset> preset = presetRow(row);
+  if (!preset) {
+    throw Alarm("Preset not defined", fmt::format("The preset table has no row {}", row),
+                "add the row or correct the number");
+  }
+  coordinates.preset = *preset;
+  applyCoordinates();
+}
+
+void Control::writePreset(int row, const PresetChange& change) {
+  TextTable& table = tables.presets;
+  const std::string key = std::to_string(row);
+  ActivePreset preset = presetRow(row).value_or(ActivePreset{});
+  preset.row = row;
+  if (!table.hasRow(key)) {
+    const Result<void> added = table.addRow(key);
+    if (!added) throw Alarm("Table write error", added.error().message, added.error().advice);
+  }
+  if (text(table, key, "LOCKED") == "L") {
+    throw Alarm("Preset locked", fmt::format("Row {} of the preset table is write-protected", row),
+                "unlock the row or use another");
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (change.origin[i]) {
+      preset.origin[static_cast<Eigen::Index>(i)] = *change.origin[i];
+      writeNumber(table, key, linearNames[i], *change.origin[i]);
+    }
+    if (change.spaceAngles[i]) {
+      preset.spaceAngles[static_cast<Eigen::Index>(i)] = *change.spaceAngles[i];
+      if (table.hasColumn(spaceAngleNames[i])) {
+        writeNumber(table, key, spaceAngleNames[i], *change.spaceAngles[i]);
+      } else if (i == 2 && table.hasColumn("ROT")) {
+        writeNumber(table, key, "ROT", *change.spaceAngles[i]);
+      } else {
+        throw Alarm("Table write error", fmt::format("The preset table has no column {}", spaceAngleNames[i]));
+      }
+    }
+  }
+  const machine::MachineDescription& description = channel.description();
+  for (std::size_t i = 0; i < description.axes.size(); ++i) {
+    if (!change.rotaryOffset[i]) continue;
+    preset.rotaryOffset[i] = *change.rotaryOffset[i];
+    const std::string offset = description.axes[i].name + "_OFFS";
+    const bool hasOffset = table.hasColumn(offset);
+    double written = *change.rotaryOffset[i];
+    if (hasOffset && table.hasColumn(description.axes[i].name)) {
+      written -= number(table, key, description.axes[i].name);
+    }
+    writeNumber(table, key, hasOffset ? offset : description.axes[i].name, written);
+  }
+  exactPresets_[row] = preset;
+  if (row == coordinates.preset.row) {
+    coordinates.preset = preset;
+    applyCoordinates();
+  }
+}
+
+void Control::applyCoordinates() {
+  channel.rotaryOffset = coordinates.preset.rotaryOffset;
+  const bool follows = coordinates.tilt.has_value() || channel.holdTip;
+  channel.setFollowing(follows ? Following::Kinematics : Following::LinearAxes, coordinates.preset.rotaryOffset);
+  channel.setFrame(coordinates.machineFromProgram());
+}
+
+}  // namespace probewright::control::heidenhain

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "control/channel.hpp"
+#include "control/control_kind.hpp"
+#include "control/heidenhain/coordinates.hpp"
+#include "control/heidenhain/machine_parameters.hpp"
+#include "control/heidenhain/q_parameters.hpp"
+#include "control/heidenhain/text_table.hpp"
+#include "control/journal.hpp"
+#include "control/operator_panel.hpp"
+
+/// Everything a HEIDENHAIN control knows while a program runs.
+namespace probewright::control::heidenhain {
+
+/// The tables of the control, as their files stand.
+struct Tables {
+  TextTable tools;                          ///< TOOL.T
+  TextTable probes;                         ///< TCHPROBE.TP; the iTNC 530 uses machine parameters instead
+  TextTable presets;                        ///< PRESET.PR
+  std::map<std::string, TextTable> datums;  ///< datum tables by the name a program uses
+};
+
+/// The tool in the spindle.
+struct ActiveTool {
+  int number = 0;
+  int index = 0;    ///< of a stepped tool: T 5.1
+  std::string row;  ///< key of its row in TOOL.T: "5" or "5.1"
+  std::string name;
+  char axis = 'Z';
+  double length = 0;  ///< L + DL of the table
+  double radius = 0;  ///< R + DR of the table
+  double radius2 = 0;
+  double deltaLength = 0, deltaRadius = 0, deltaRadius2 = 0;  ///< of the TOOL CALL block
+  double spindleSpeed = 0;
+  double feed = 0;       ///< mm/min, for FAUTO
+  std::string probeRow;  ///< row of the touch probe table (TP_NO); empty if the tool is no touch probe
+  bool called = false;   ///< a TOOL CALL has been carried out
+};
+
+class Control {
+public:
+  Control(ControlKind kind, machine::Machine& machine, Tables tables, MachineParameters parameters = {});
+  Control(const Control&) = delete;
+  Control& operator=(const Control&) = delete;
+
+  ControlKind kind() const { return kind_; }
+  bool isTNC640() const { return kind_ == ControlKind::TNC640; }
+
+  Journal journal;
+  OperatorPanel panel;
+  Channel channel;
+  Tables tables;
+  MachineParameters parameters;
+  QParameters q;
+  Coordinates coordinates;
+  ActiveTool tool;
+  /// Preset origins carry more digits here than their table can show.
+  std::string activeDatumTable;     ///< key of Tables::datums; empty: none selected
+  double unit = 1;                  ///< mm in one program unit: 25.4 in a program that ends in INCH
+  std::string programPath;          ///< of the main program, for logs
+  double startSeconds = 0;          ///< machine clock when the program began
+  std::int64_t wallClockStart = 0;  ///< seconds since 1970 (UTC) that logs show for startSeconds
+  /// Values of GLOBAL DEF by Q number.
+  std::map<int, double> globalDefinitions;
+  bool turningMode = false;  ///< FUNCTION MODE TURN
+
+  /// Calls a tool by the key of its row; throws Alarm if TOOL.T has no such row.
+  void callTool(const std::string& row, std::optional<char> axis, double deltaLength, double deltaRadius,
+                double deltaRadius2);
+  /// The key of the row whose NAME is `name`; throws Alarm if there is none.
+  std::string toolRowNamed(const std::string& name) const;
+  /// Puts length and radius of the active tool's row into effect again.
+  void refreshTool();
+
+  /// Activates a row of the preset table; resets nothing else. Throws Alarm if there is no such row.
+  void activatePreset(int row);
+  /// Writes values into a row of the preset table (created if absent) and, if it is the active one, into effect.
+  /// `origin` by X, Y, Z; absent values stay.
+  struct PresetChange {
+    std::array<std::optional<double>, 3> origin;       ///< machine coordinates, mm
+    std::array<std::optional<double>, 3> spaceAngles;  ///< SPA, SPB, SPC
+    std::array<std::optional<double>, machine::maximumAxes> rotaryOffset;
+  };
+  void writePreset(int row, const PresetChange& change);
+  /// Reads a row; nothing if there is none.
+  std::optional<ActivePreset> presetRow(int row) const;
+
+  /// Hands the coordinate chain to the channel. To be called after any change of `coordinates` or the tool.
+  void applyCoordinates();
+
+  /// A number from a table, mm or degrees; `otherwise` where the cell is absent or empty. Throws Alarm if it is no
+  /// number.
+  static double number(const TextTable& table, const std::string& row, const std::string& column, double otherwise = 0);
+  static std::string text(const TextTable& table, const std::string& row, const std::string& column);
+  /// Writes a number (mm, degrees) and records the change. Throws Alarm if the table refuses it.
+  void writeNumber(TextTable& table, const std::string& row, const std::string& column, double value, int decimals = 4);
+  void writeText(TextTable& table, const std::string& row, const std::string& column, const std::string& value);
+
+private:
+  void writeCell(TextTable& table, const std::string& row, const std::string& column, const Result<void>& done,
+                 const std::string& before);
+
+  ControlKind kind_;
+  std::map<int, ActivePreset> exactPresets_;  ///< rows written in this run, unrounded
+};
+
+}  // namespace probewright::control::heidenhain

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "geometry/primitives.hpp"
+#include "machine/description.hpp"
+
+/// The chain of coordinate systems of a HEIDENHAIN control: machine, preset with basic rotation, datum shift, mirror
+/// image, rotation and scaling, tilted working plane, and the same transformations once more in the tilted plane.
+namespace probewright::control::heidenhain {
+
+/// Which axes span the working plane: indices into X, Y, Z. The names follow the manuals: the main axis, the minor
+/// axis and the touch probe (tool) axis. Tool axis Z: X, Y; Y: Z, X; X: Y, Z.
+struct WorkingPlane {
+  int main = 0, minor = 1, tool = 2;
+  /// Coordinates (main, minor, tool) from (X, Y, Z), and back.
+  Vector3 planeFromXyz(const Vector3& p) const { return {p[main], p[minor], p[tool]}; }
+  Vector3 xyzFromPlane(const Vector3& p) const {
+    Vector3 xyz;
+    xyz[main] = p[0];
+    xyz[minor] = p[1];
+    xyz[tool] = p[2];
+    return xyz;
+  }
+  /// The plane of a tool along `axis` ('X', 'Y', 'Z', or 'U', 'V', 'W' for the parallel axes).
+  static WorkingPlane ofToolAxis(char axis);
+};
+
+/// The active preset: origin in machine coordinates (mm), basic rotation as space angles (degrees) and the offsets of
+/// the rotary axes (degrees, by axis index).
+struct ActivePreset {
+  int row = 0;
+  Vector3 origin = Vector3::Zero();
+  Vector3 spaceAngles = Vector3::Zero();  ///< SPA, SPB, SPC; SPC alone is the classic basic rotation
+  machine::AxisPositions rotaryOffset;
+};
+
+/// Coordinate transformations of one level, in the order in which they act.
+struct Transformations {
+  Vector3 shift = Vector3::Zero();        ///< cycle 7, TRANS DATUM
+  std::array<bool, 3> mirror{};           ///< cycle 8
+  double rotation = 0;                    ///< cycle 10, degrees in the working plane
+  Vector3 scale = Vector3::Ones();        ///< cycles 11 and 26
+  Vector3 scaleCentre = Vector3::Zero();  ///< cycle 26
+  bool active() const;
+  Eigen::Affine3d matrix(const WorkingPlane& plane) const;
+};
+
+struct Coordinates {
+  WorkingPlane plane;
+  ActivePreset preset;
+  Transformations workpiece;     ///< in the workpiece coordinate system W-CS
+  std::optional<Matrix3> tilt;   ///< PLANE, cycle 19: the tilted plane's axes in the workpiece coordinate system
+  Transformations workingPlane;  ///< in the working plane coordinate system WPL-CS, while a tilt is active
+
+  /// Where new transformations go: the tilted plane if there is one.
+  Transformations& current() { return tilt ? workingPlane : workpiece; }
+  const Transformations& current() const { return tilt ? workingPlane : workpiece; }
+
+  /// Machine from the workpiece system of the preset, basic rotation included.
+  Pose machineFromPreset() const;
+  /// Machine from the coordinates that programs use.
+  Eigen::Affine3d machineFromProgram() const;
+};
+
+/// The rotation of space angles: about the fixed axes X, then Y, then Z would be A, B, C of PLANE SPATIAL seen from
+/// the machine; equal to turning about Z, then the new Y, then the new X.
+Matrix3 rotationFromSpaceAngles(const Vector3& degrees);
+/// The space angles of a rotation, B within [-90, 90]; A = 0 where B is +-90.
+Vector3 spaceAnglesFromRotation(const Matrix3& rotation);
+
+}  // namespace probewright::control::heidenhain

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "control/journal.hpp"
+
+/// What stands between a running program and the person at the machine.
+namespace probewright::control {
+
+/// What happens when a program waits for NC start.
+enum class OnStop { Continue, Abort, Ask };
+
+/// Messages, stops and files that a program and its cycles leave for the operator.
+class OperatorPanel {
+public:
+  explicit OperatorPanel(Journal& journal) : journal_(journal) {}
+
+  OnStop onStop = OnStop::Continue;
+  /// Asked at a stop when onStop is Ask: shows the text, returns true to go on.
+  std::function<bool(const std::string& text)> ask;
+  /// Asked for a value or a position by name (semi-automatic cycles, INPUT dialogs): nothing means abort.
+  std::function<std::optional<std::string>(const std::string& question)> answer;
+
+  /// Where the program stands now; kept up to date by the interpreter's host.
+  SourcePlace place;
+
+  void message(EventKind kind, std::string text, double seconds, std::string code = {}) {
+    journal_.events.push_back({kind, place, std::move(code), std::move(text), seconds});
+  }
+
+  /// The program waits here. Throws Cancelled if it is not to go on.
+  void stop(const std::string& text, double seconds);
+
+  /// A text file that the control writes beside the program. `name` has no folder. Files are gathered here and written
+  /// by whoever runs the program.
+  void file(const std::string& name, std::string text) { files_[name] = std::move(text); }
+  void appendToFile(const std::string& name, const std::string& text) { files_[name] += text; }
+  const std::map<std::string, std::string>& files() const { return files_; }
+
+private:
+  Journal& journal_;
+  std::map<std::string, std::string> files_;
+};
+
+}  // namespace probewright::control

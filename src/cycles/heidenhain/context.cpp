@@ -1,0 +1,192 @@
+#include "cycles/heidenhain/context.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/number_text.hpp"
+#include "control/alarm.hpp"
+
+namespace probewright::cycles::heidenhain {
+
+using control::Alarm;
+using control::heidenhain::TextTable;
+using control::heidenhain::Transformations;
+
+namespace {
+
+const Parameter& parameterOf(const Arguments& arguments, int number) {
+  return *arguments.definition().parameter(static_cast<std::uint32_t>(number));
+}
+
+std::string textOf(const Argument& argument) {
+  return argument.isText ? argument.text : formatShortest(argument.number);
+}
+
+std::string_view meaningOf(const CycleDefinition& definition, std::string_view result) {
+  const auto found = std::ranges::find(definition.results, result, &ResultDefinition::name);
+  return found == definition.results.end() ? std::string_view() : found->meaning;
+}
+
+ValueKind kindOf(const CycleDefinition& definition, std::string_view result) {
+  const auto found = std::ranges::find(definition.results, result, &ResultDefinition::name);
+  return found == definition.results.end() ? ValueKind::Number : found->kind;
+}
+
+bool needsReset(const Transformations& active, const Context::Conditions& conditions) {
+  if (conditions.transformationsAllowed) return false;
+  Transformations rest = active;
+  if (conditions.shiftAndRotationAllowed) {
+    rest.shift.setZero();
+    rest.rotation = 0;
+  }
+  if (conditions.rotationAllowed) rest.rotation = 0;
+  return rest.active();
+}
+
+}  // namespace
+
+Context::Context(Control& control, const Arguments& arguments, SourcePlace place)
+    : control_(control), arguments_(arguments) {
+  const CycleDefinition& definition = arguments.definition();
+  control::CycleRecord record;
+  record.name = definition.name;
+  record.title = definition.title;
+  record.place = std::move(place);
+  for (std::size_t i = 0; i < definition.parameters.size(); ++i) {
+    const Argument& value = arguments.values()[i];
+    const Parameter& parameter = definition.parameters[i];
+    if (!parameter.controls.contains(control.kind())) continue;
+    record.parameters.push_back(
+        {std::string(parameter.name), textOf(value), std::string(parameter.meaning), !value.given});
+  }
+  record.startSeconds = control.channel.seconds();
+  record_ = control.journal.cycles.size();
+  control.journal.cycles.push_back(std::move(record));
+  control.journal.cycleOpen = true;
+}
+
+Context::~Context() {
+  record().endSeconds = control_.channel.seconds();
+  control_.journal.cycleOpen = false;
+}
+
+double Context::q(int number) const {
+  const double value = arguments_.number(static_cast<std::uint32_t>(number));
+  const ValueKind kind = parameterOf(arguments_, number).kind;
+  const bool scaled = kind == ValueKind::Length || kind == ValueKind::Feed;
+  return scaled && given(number) ? value * control_.unit : value;
+}
+
+void Context::require(const Conditions& conditions) const {
+  if (control_.turningMode && !conditions.turningModeAllowed) {
+    throw Alarm("Function not permitted", "The cycle runs in milling mode only",
+                "program FUNCTION MODE MILL before it");
+  }
+  if (!control_.tool.called) {
+    throw Alarm("Touch probe axis not defined", "No tool has been called before the cycle",
+                "program TOOL CALL with the touch probe and its axis");
+  }
+  const bool transformed = needsReset(control_.coordinates.workpiece, conditions) ||
+                           needsReset(control_.coordinates.workingPlane, conditions);
+  if (transformed && control_.isTNC640() && control_.parameters.refuseTransformations) {
+    throw Alarm("Coordinate transformation not permitted",
+                "A datum shift, mirror image, rotation or scaling is active (cycle 7, 8, 10, 11 or 26)",
+                "reset the transformation before the cycle");
+  }
+  if (control_.coordinates.tilt && !conditions.tiltAllowed) {
+    throw Alarm("Tilted working plane not permitted", "The cycle does not run in a tilted working plane",
+                "reset PLANE or cycle 19 before the cycle");
+  }
+}
+
+probing::HeidenhainProber& Context::prober() {
+  if (!prober_) prober_.emplace(control_.channel, control_.coordinates.plane, activeProbe(control_));
+  return *prober_;
+}
+
+void Context::result(int number, double value, const Compared& compared) {
+  const CycleDefinition& definition = arguments_.definition();
+  const std::string name = fmt::format("Q{}", number);
+  const ValueKind kind = kindOf(definition, name);
+  control_.q.setQ(number, kind == ValueKind::Length ? value / control_.unit : value);
+  control::ResultRecord record;
+  record.name = name;
+  record.meaning = meaningOf(definition, name);
+  record.value = value;
+  record.unit = unitOf(kind);
+  record.nominal = compared.nominal;
+  if (compared.nominal) record.deviation = value - *compared.nominal;
+  record.lowerLimit = compared.lower;
+  record.upperLimit = compared.upper;
+  record.verdict = compared.verdict;
+  this->record().results.push_back(std::move(record));
+}
+
+void Context::stop(const std::string& text) { control_.panel.stop(text, control_.channel.seconds()); }
+
+void Context::log(const std::string& name, const std::string& text) {
+  control_.panel.file(name, text);
+  record().logFiles.push_back(name);
+}
+
+void runCycle(Control& control, const Entry& entry, const Arguments& arguments, const SourcePlace& place) {
+  const Diagnostics mistakes = check(arguments, control.kind());
+  if (!mistakes.empty()) throw Alarm("Cycle parameter wrong", mistakes.front().message, mistakes.front().advice);
+  Context context(control, arguments, place);
+  try {
+    entry.run(context, arguments);
+  } catch (const Alarm& alarm) {
+    context.record().alarm = alarm.what();
+    throw;
+  }
+}
+
+probing::HeidenhainProbe activeProbe(const Control& control) {
+  probing::HeidenhainProbe probe;
+  const auto& tool = control.tool;
+  probe.ballRadius = tool.radius;
+  if (!(tool.radius > 0)) {
+    throw Alarm("Touch probe not calibrated",
+                fmt::format("Tool {} has no effective ball radius in column R of TOOL.T", tool.row),
+                "calibrate the touch probe or enter its radius");
+  }
+  const auto& parameters = control.parameters;
+  if (!control.isTNC640()) {
+    probe.setUp = parameters.mp6140;
+    probe.distance = parameters.mp6130;
+    probe.probingFeed = parameters.mp6120;
+    probe.positioningFeed = parameters.mp6150;
+    probe.prepositionAtMachineRapid = parameters.mp6151;
+    probe.track = parameters.mp6165;
+    probe.repetitions = parameters.mp6170;
+    probe.confidence = parameters.mp6171;
+    const TextTable& tools = control.tables.tools;
+    probe.tipOffset = {Control::number(tools, tool.row, "CAL-OF1"), Control::number(tools, tool.row, "CAL-OF2")};
+    probe.calibrationAngle = Control::number(tools, tool.row, "CAL-ANG");
+    return probe;
+  }
+  if (tool.probeRow.empty()) {
+    throw Alarm("Touch probe not defined",
+                fmt::format("Tool {} is no touch probe: column TP_NO of TOOL.T names no row of TCHPROBE.TP", tool.row),
+                "call the touch probe with TOOL CALL, or enter TP_NO");
+  }
+  const TextTable& table = control.tables.probes;
+  const std::string& row = tool.probeRow;
+  if (!table.hasRow(row)) {
+    throw Alarm("Touch probe not defined",
+                fmt::format("TCHPROBE.TP has no row {} that TP_NO of tool {} names", row, tool.row),
+                "add the row or correct TP_NO");
+  }
+  probe.tipOffset = {Control::number(table, row, "CAL_OF1"), Control::number(table, row, "CAL_OF2")};
+  probe.calibrationAngle = Control::number(table, row, "CAL_ANG");
+  probe.probingFeed = std::min(Control::number(table, row, "F", probe.probingFeed), parameters.maxTouchFeed);
+  probe.positioningFeed = Control::number(table, row, "FMAX", probe.positioningFeed);
+  probe.distance = Control::number(table, row, "DIST", probe.distance);
+  probe.setUp = Control::number(table, row, "SET_UP", probe.setUp);
+  probe.prepositionAtMachineRapid = Control::text(table, row, "F_PREPOS") == "FMAX_MACHINE";
+  probe.track = Control::text(table, row, "TRACK") == "ON";
+  return probe;
+}
+
+}  // namespace probewright::cycles::heidenhain

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "control/heidenhain/control.hpp"
+#include "cycles/catalogue.hpp"
+#include "cycles/heidenhain/registry.hpp"
+#include "probing/heidenhain_prober.hpp"
+
+/// What HEIDENHAIN cycles are written with.
+///
+/// Coordinates are (main axis, minor axis, touch probe axis) of the active program coordinate system, mm and degrees:
+/// values of arguments and results are converted at this border in inch programs.
+namespace probewright::cycles::heidenhain {
+
+using control::Verdict;
+using control::heidenhain::Control;
+using probing::EvaluatedTouch;
+using probing::PlannedTouch;
+using probing::Side;
+
+/// A value with the numbers a reader compares it with.
+struct Compared {
+  std::optional<double> nominal = std::nullopt;
+  std::optional<double> lower = std::nullopt;  ///< absolute limits
+  std::optional<double> upper = std::nullopt;
+  Verdict verdict = Verdict::None;
+};
+
+class Context {
+public:
+  /// Opens the cycle's record in the journal.
+  Context(Control& control, const Arguments& arguments, SourcePlace place);
+  /// Closes it.
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  Control& control() { return control_; }
+  control::Channel& channel() { return control_.channel; }
+  const Arguments& arguments() const { return arguments_; }
+  control::CycleRecord& record() { return control_.journal.cycles[record_]; }
+
+  /// The argument Qn: lengths and feeds in mm, mm/min, whatever the program's unit.
+  double q(int number) const;
+  bool given(int number) const { return arguments_.given(static_cast<std::uint32_t>(number)); }
+  int option(int number) const { return arguments_.integer(static_cast<std::uint32_t>(number)); }
+
+  /// Refuses to run without a touch probe, with transformations that the cycle does not allow, in turning mode.
+  struct Conditions {
+    bool transformationsAllowed = false;   ///< cycles 7, 8, 10, 11, 26 may be active
+    bool shiftAndRotationAllowed = false;  ///< cycles 7 and 10 may be active
+    bool rotationAllowed = false;          ///< cycle 10 may be active
+    bool tiltAllowed = true;
+    bool turningModeAllowed = false;
+  };
+  void require(const Conditions& conditions) const;
+
+  /// The prober with the active probe's data. Made on first use.
+  probing::HeidenhainProber& prober();
+  double ballRadius() { return prober().probe().ballRadius; }
+
+  /// Sets Qn (mm or degrees; converted to the program's unit) and records it as a result.
+  void result(int number, double value, const Compared& compared = {});
+  /// Sets Qn without recording: states and counters.
+  void set(int number, double value) { control_.q.setQ(number, value); }
+
+  /// The operator sees the text and the program waits for NC start.
+  void stop(const std::string& text);
+
+  /// "TCHPR421.TXT": writes it as the cycle's log.
+  void log(const std::string& name, const std::string& text);
+
+private:
+  Control& control_;
+  const Arguments& arguments_;
+  std::size_t record_ = 0;
+  std::optional<probing::HeidenhainProber> prober_;
+};
+
+/// Runs cycle `entry` with `arguments` at `place`: checks the arguments, opens the record, runs, closes. An alarm is
+/// noted in the record and thrown on.
+void runCycle(Control& control, const Entry& entry, const Arguments& arguments, const SourcePlace& place);
+
+/// The probe as tables and machine parameters of the control describe it. Throws Alarm if the active tool is none.
+probing::HeidenhainProbe activeProbe(const Control& control);
+
+}  // namespace probewright::cycles::heidenhain

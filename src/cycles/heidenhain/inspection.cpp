@@ -1,0 +1,192 @@
+#include "cycles/heidenhain/inspection.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/number_text.hpp"
+#include "control/alarm.hpp"
+
+namespace probewright::cycles::heidenhain {
+
+using control::Alarm;
+using control::EventKind;
+
+namespace {
+
+Verdict worse(Verdict a, Verdict b) { return static_cast<int>(a) > static_cast<int>(b) ? a : b; }
+
+std::string section(std::string_view title, const std::vector<std::pair<std::string, double>>& rows) {
+  std::string text;
+  std::size_t width = 39;
+  for (const auto& [label, value] : rows)
+    width = std::max(width, label.size() + 1);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    text += fmt::format("{:<21}{:<{}} {:>10}\n", i == 0 ? title : "", rows[i].first + ":", width + 1,
+                        formatFixed(rows[i].second, 4));
+  }
+  return text;
+}
+
+}  // namespace
+
+Inspected inspectedPosition(int parameter, int deviationParameter, std::string label, double nominal, double actual,
+                            double tolerance) {
+  Inspected item;
+  item.parameter = parameter;
+  item.deviationParameter = deviationParameter;
+  std::string lower = label;
+  if (!lower.empty()) lower[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(lower[0])));
+  item.maximumLabel = "Maximum limit for " + lower;
+  item.minimumLabel = "Minimum limit for " + lower;
+  item.label = std::move(label);
+  item.nominal = nominal;
+  item.actual = actual;
+  if (tolerance != 0) {
+    item.maximum = nominal + tolerance;
+    item.minimum = nominal - tolerance;
+    item.verdict = std::abs(actual - nominal) > tolerance ? Verdict::Scrap : Verdict::Good;
+  }
+  return item;
+}
+
+Inspected inspectedDimension(int parameter, int deviationParameter, std::string label, std::string limitLabel,
+                             double nominal, double actual, double maximum, double minimum, Side side) {
+  Inspected item;
+  item.parameter = parameter;
+  item.deviationParameter = deviationParameter;
+  item.label = std::move(label);
+  item.maximumLabel = "Maximum dimension for " + limitLabel;
+  item.minimumLabel = "Minimum dimension for " + limitLabel;
+  item.nominal = nominal;
+  item.actual = actual;
+  if (maximum != 0 || minimum != 0) {
+    item.maximum = maximum;
+    item.minimum = minimum;
+    const bool inside = side == Side::Inside;
+    if (actual > maximum) {
+      item.verdict = inside ? Verdict::Scrap : Verdict::Rework;
+    } else if (actual < minimum) {
+      item.verdict = inside ? Verdict::Rework : Verdict::Scrap;
+    } else {
+      item.verdict = Verdict::Good;
+    }
+  }
+  return item;
+}
+
+Verdict verdictOf(const Inspection& inspection) {
+  Verdict verdict = Verdict::Good;
+  for (const Inspected& item : inspection.items)
+    verdict = worse(verdict, item.verdict);
+  return verdict;
+}
+
+std::string logText(Context& context, const Inspection& inspection) {
+  const auto& control = context.control();
+  const std::int64_t now = control.wallClockStart +
+                           static_cast<std::int64_t>(std::llround(context.channel().seconds() - control.startSeconds));
+  const std::tm time = fmt::gmtime(static_cast<std::time_t>(now));
+  const std::string rule(61, '-');
+  const std::string stars(61, '*');
+  const double unit = control.unit;
+
+  std::vector<std::pair<std::string, double>> nominal, limits, actual, deviations, further;
+  for (const Inspected& item : inspection.items) {
+    nominal.emplace_back(item.label, item.nominal / unit);
+    actual.emplace_back(item.label, item.actual / unit);
+    deviations.emplace_back(item.label, item.deviation() / unit);
+    if (item.maximum) limits.emplace_back(item.maximumLabel, *item.maximum / unit);
+    if (item.minimum) limits.emplace_back(item.minimumLabel, *item.minimum / unit);
+  }
+  for (const auto& [label, value] : inspection.further)
+    further.emplace_back(label, value / unit);
+
+  std::string text =
+      fmt::format("****** Measuring Log for Probing Cycle {} {} *****\n\n", context.record().name, inspection.title);
+  text += fmt::format("Date:              {:02}-{:02}-{:04}\n", time.tm_mday, time.tm_mon + 1, time.tm_year + 1900);
+  text += fmt::format("Time:              {}:{:02}:{:02}\n", time.tm_hour, time.tm_min, time.tm_sec);
+  text += fmt::format("Measuring program: {}\n", control.programPath);
+  text += rule + "\n" + section("Nominal values:", nominal);
+  if (!limits.empty()) text += rule + "\n" + section("Given limit values:", limits);
+  text += stars + "\n" + section("Actual values:", actual);
+  text += rule + "\n" + section("Deviations:", deviations);
+  if (!further.empty()) text += stars + "\n" + section("Further results:", further);
+  text += "\n******************** End of measuring log ********************\n";
+  return text;
+}
+
+std::string monitoredToolRow(Context& context) {
+  const Argument& argument = context.arguments().at(330);
+  auto& control = context.control();
+  if (argument.isText) return argument.text.empty() ? "" : control.toolRowNamed(argument.text);
+  if (argument.number == 0) return "";
+  const double number = std::floor(argument.number);
+  const int index = static_cast<int>(std::lround((argument.number - number) * 10));
+  const std::string row = index == 0 ? fmt::format("{:.0f}", number) : fmt::format("{:.0f}.{}", number, index);
+  if (!control.tables.tools.hasRow(row)) {
+    throw Alarm("Tool not defined", fmt::format("Q330 names tool {}, which TOOL.T does not have", row),
+                "correct Q330 or add the tool");
+  }
+  return row;
+}
+
+namespace {
+
+/// Corrects the tool by the material left, or locks it if the deviation says that it broke.
+void monitorTool(Context& context, const ToolMonitoring& monitoring) {
+  const std::string row = monitoredToolRow(context);
+  if (row.empty()) return;
+  auto& control = context.control();
+  auto& tools = control.tables.tools;
+  const double breakage = Control::number(tools, row, monitoring.length ? "LBREAK" : "RBREAK");
+  if (breakage > 0 && std::abs(monitoring.monitored) > breakage) {
+    control.writeText(tools, row, "TL", "L");
+    throw Alarm(
+        "Tool breakage",
+        fmt::format("The deviation {:.4f} mm exceeds the breakage tolerance {:.4f} mm of tool {}; the tool is locked",
+                    monitoring.monitored, breakage, row),
+        "check the tool, then release it in TOOL.T (column TL)");
+  }
+  if (!monitoring.correct) return;
+  const std::string column = monitoring.length ? "DL" : "DR";
+  control.writeNumber(tools, row, column, Control::number(tools, row, column) - monitoring.excess);
+}
+
+}  // namespace
+
+void finishInspection(Context& context, const Inspection& inspection, const ToolMonitoring& tool) {
+  for (const Inspected& item : inspection.items) {
+    context.result(item.parameter, item.actual, {item.nominal, item.minimum, item.maximum, item.verdict});
+  }
+  for (const Inspected& item : inspection.items) {
+    if (item.deviationParameter != 0) context.result(item.deviationParameter, item.deviation());
+  }
+  const Verdict verdict = verdictOf(inspection);
+  context.record().verdict = verdict;
+  context.set(180, verdict == Verdict::Good ? 1 : 0);
+  context.set(181, verdict == Verdict::Rework ? 1 : 0);
+  context.set(182, verdict == Verdict::Scrap ? 1 : 0);
+
+  const int log = context.option(281);
+  if (log == 1) {
+    context.log(fmt::format("TCHPR{}.TXT", context.record().name), logText(context, inspection));
+  } else if (log == 2) {
+    context.stop(logText(context, inspection));
+  }
+  if (tool.supported) monitorTool(context, tool);
+
+  if (context.option(309) == 1 && verdict != Verdict::Good) {
+    std::string which;
+    for (const Inspected& item : inspection.items) {
+      if (item.verdict != Verdict::Rework && item.verdict != Verdict::Scrap) continue;
+      which +=
+          fmt::format("{}{} {:.4f} ({:+.4f})", which.empty() ? "" : ", ", item.label, item.actual, item.deviation());
+    }
+    throw Alarm("Tolerance exceeded", fmt::format("{}: {}", verdict == Verdict::Scrap ? "Scrap" : "Rework", which));
+  }
+}
+
+}  // namespace probewright::cycles::heidenhain

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cycles/heidenhain/context.hpp"
+
+/// What the inspection cycles 420 to 431 have in common: verdicts, status parameters, logs, tool monitoring.
+namespace probewright::cycles::heidenhain {
+
+/// One measured quantity of an inspection: a line of each section of the log.
+struct Inspected {
+  int parameter = 0;           ///< Qn that takes the actual value
+  int deviationParameter = 0;  ///< Qn that takes actual - nominal; 0: none
+  std::string label;           ///< "Center in reference axis"
+  std::string maximumLabel, minimumLabel;
+  double nominal = 0;
+  double actual = 0;
+  std::optional<double> maximum, minimum;  ///< nothing: not monitored
+  Verdict verdict = Verdict::None;
+
+  double deviation() const { return actual - nominal; }
+};
+
+/// A position that may deviate by `tolerance` to either side (0: not monitored); outside it the part is scrap.
+Inspected inspectedPosition(int parameter, int deviationParameter, std::string label, double nominal, double actual,
+                            double tolerance);
+
+/// A dimension between `minimum` and `maximum` (both 0: not monitored). Inside: too large is scrap, too small rework;
+/// outside the other way round.
+Inspected inspectedDimension(int parameter, int deviationParameter, std::string label, std::string limitLabel,
+                             double nominal, double actual, double maximum, double minimum, Side side);
+
+struct Inspection {
+  std::string title;  ///< "Hole Measuring"
+  std::vector<Inspected> items;
+  /// Further results of the log: label and value.
+  std::vector<std::pair<std::string, double>> further;
+};
+
+/// The worst verdict of the items; Good if nothing is monitored.
+Verdict verdictOf(const Inspection& inspection);
+
+/// Sets the result and status parameters Q180 to Q182, writes the log as Q281 says, monitors and corrects the tool as
+/// Q330 says (`excess`: material left per side; `monitored`: the deviation that breakage is judged by; `length`: the
+/// tool length is corrected instead of the radius), and stops as Q309 says. In this order, results first.
+struct ToolMonitoring {
+  bool supported = true;
+  double monitored = 0;
+  double excess = 0;
+  bool length = false;
+  bool correct = true;
+};
+void finishInspection(Context& context, const Inspection& inspection, const ToolMonitoring& tool);
+
+/// The text of a measuring log in the layout of the control.
+std::string logText(Context& context, const Inspection& inspection);
+
+/// The row of TOOL.T that Q330 means, by number (5, 5.1) or name; empty if monitoring is off. Throws Alarm if there is
+/// no such tool.
+std::string monitoredToolRow(Context& context);
+
+}  // namespace probewright::cycles::heidenhain

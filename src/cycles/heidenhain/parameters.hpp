@@ -1,0 +1,143 @@
+#pragma once
+
+#include "cycles/catalogue.hpp"
+
+/// Parameters that many HEIDENHAIN cycles share: the same number always means the same.
+namespace probewright::cycles::heidenhain::parameters {
+
+inline constexpr double largest = 99999.9999;
+
+/// An absolute coordinate.
+constexpr Parameter coordinate(std::uint32_t number, std::string_view name, std::string_view meaning) {
+  return {.name = name, .address = number, .meaning = meaning, .kind = ValueKind::Length};
+}
+
+/// A length, width or distance that cannot be negative.
+constexpr Parameter length(std::uint32_t number, std::string_view name, std::string_view meaning) {
+  return {.name = name, .address = number, .meaning = meaning, .kind = ValueKind::Length, .minimum = 0};
+}
+
+/// A limit of a dimension; 0 together with its counterpart: not monitored.
+constexpr Parameter limit(std::uint32_t number, std::string_view name, std::string_view meaning) {
+  return length(number, name, meaning);
+}
+
+constexpr Parameter angle(std::uint32_t number, std::string_view name, std::string_view meaning, double minimum = -360,
+                          double maximum = 360) {
+  return {.name = name,
+          .address = number,
+          .meaning = meaning,
+          .kind = ValueKind::Angle,
+          .minimum = minimum,
+          .maximum = maximum};
+}
+
+constexpr Parameter option(std::uint32_t number, std::string_view name, std::string_view meaning,
+                           std::span<const Choice> choices) {
+  return {.name = name, .address = number, .meaning = meaning, .kind = ValueKind::Option, .choices = choices};
+}
+
+/// The same parameter, used with `value` where it is left out.
+constexpr Parameter standard(Parameter parameter, double value) {
+  parameter.standard = value;
+  return parameter;
+}
+
+/// The same parameter for one control only.
+constexpr Parameter only(Parameter parameter, ControlSet controls) {
+  parameter.controls = controls;
+  return parameter;
+}
+
+inline constexpr Parameter measuringHeight =
+    coordinate(261, "Q261", "measuring height: coordinate of the ball centre in the touch probe axis");
+
+inline constexpr Parameter setUpClearance = {.name = "Q320",
+                                             .address = 320,
+                                             .meaning = "set-up clearance, added to SET_UP of the touch probe table",
+                                             .kind = ValueKind::Length,
+                                             .minimum = 0,
+                                             .predefinable = true};
+
+inline constexpr Parameter clearanceHeight = {
+    .name = "Q260",
+    .address = 260,
+    .meaning = "clearance height: coordinate in the touch probe axis where nothing can be hit",
+    .kind = ValueKind::Length,
+    .predefinable = true};
+
+inline constexpr Choice moveToClearanceChoices[] = {{0, "between points at measuring height"},
+                                                    {1, "between points at clearance height"}};
+inline constexpr Parameter moveToClearance = {.name = "Q301",
+                                              .address = 301,
+                                              .meaning = "move to clearance height between the points",
+                                              .kind = ValueKind::Option,
+                                              .choices = moveToClearanceChoices,
+                                              .predefinable = true};
+
+inline constexpr Choice pointCountChoices[] = {{4, "four touches"}, {3, "three touches"}};
+inline constexpr Parameter pointCount =
+    only(standard(option(423, "Q423", "number of touches on the circle", pointCountChoices), 4), control::onTNC640);
+
+inline constexpr Choice traverseChoices[] = {{0, "straight"}, {1, "on the pitch circle"}};
+inline constexpr Parameter traverse =
+    only(standard(option(365, "Q365", "path between the points at clearance height", traverseChoices), 1),
+         control::onTNC640);
+
+// ---- inspection ----
+
+inline constexpr Choice measuringLogChoices[] = {
+    {0, "no log"}, {1, "log file beside the program"}, {2, "show the log and wait for NC start"}};
+inline constexpr Parameter measuringLog = option(281, "Q281", "measuring log", measuringLogChoices);
+
+inline constexpr Choice toleranceStopChoices[] = {{0, "go on"}, {1, "stop with an error message"}};
+inline constexpr Parameter toleranceStop =
+    option(309, "Q309", "program stop if a tolerance is exceeded", toleranceStopChoices);
+
+inline constexpr Parameter monitoredTool = {.name = "Q330",
+                                            .address = 330,
+                                            .meaning = "tool to monitor and correct, by number or name; 0: none",
+                                            .kind = ValueKind::NumberOrText,
+                                            .minimum = 0,
+                                            .maximum = 999999.9};
+
+inline constexpr Choice reverseToolChoices[] = {{0, "as in the turning tool table"}, {1, "turned by 180 degrees"}};
+inline constexpr Parameter reverseTool =
+    only(standard(option(498, "Q498", "turning tool in Q330: reversed", reverseToolChoices), 0), control::onTNC640);
+inline constexpr Parameter inclination =
+    only(standard(angle(531, "Q531", "turning tool in Q330: angle of incidence", -180, 180), 0), control::onTNC640);
+
+inline constexpr Parameter centreTolerance1 =
+    length(279, "Q279", "permissible deviation of the centre in the main axis; 0: not monitored");
+inline constexpr Parameter centreTolerance2 =
+    length(280, "Q280", "permissible deviation of the centre in the minor axis; 0: not monitored");
+
+// ---- presetting ----
+
+inline constexpr Parameter tableRow = {.name = "Q305",
+                                       .address = 305,
+                                       .meaning = "row of the preset or datum table",
+                                       .kind = ValueKind::Integer,
+                                       .minimum = 0,
+                                       .maximum = 99999};
+
+inline constexpr Parameter newPreset1 = coordinate(331, "Q331", "coordinate that the feature gets in the main axis");
+inline constexpr Parameter newPreset2 = coordinate(332, "Q332", "coordinate that the feature gets in the minor axis");
+inline constexpr Parameter newPreset3 =
+    coordinate(333, "Q333", "coordinate that the surface gets in the touch probe axis");
+
+inline constexpr Choice transferChoices[] = {
+    {-1, "not defined: refused"}, {0, "into the active datum table"}, {1, "into the preset table"}};
+inline constexpr Parameter transfer = option(303, "Q303", "where the measured values go", transferChoices);
+
+inline constexpr Choice probeToolAxisChoices[] = {{0, "no"}, {1, "yes"}};
+inline constexpr Parameter probeToolAxis =
+    option(381, "Q381", "also set the preset in the touch probe axis", probeToolAxisChoices);
+inline constexpr Parameter toolAxisPoint1 =
+    coordinate(382, "Q382", "main axis coordinate of the touch in the touch probe axis");
+inline constexpr Parameter toolAxisPoint2 =
+    coordinate(383, "Q383", "minor axis coordinate of the touch in the touch probe axis");
+inline constexpr Parameter toolAxisPoint3 =
+    coordinate(384, "Q384", "touch probe axis coordinate of the touch in the touch probe axis");
+
+}  // namespace probewright::cycles::heidenhain::parameters

@@ -1,0 +1,142 @@
+#include "cycles/heidenhain/transfer.hpp"
+
+#include <fmt/format.h>
+
+#include "control/alarm.hpp"
+
+namespace probewright::cycles::heidenhain {
+
+using control::Alarm;
+using control::heidenhain::Coordinates;
+using control::heidenhain::rotationFromSpaceAngles;
+using control::heidenhain::spaceAnglesFromRotation;
+
+namespace {
+
+/// The origin in machine coordinates that gives `preset.measured` the wished coordinates, with the axes of
+/// `coordinates`.
+Control::PresetChange presetChange(Context& context, const NewPreset& preset) {
+  const Coordinates& coordinates = context.control().coordinates;
+  const auto& plane = coordinates.plane;
+  // The feature in machine coordinates does not depend on the preset that it was measured with.
+  const Vector3 feature = context.channel().frame() * plane.xyzFromPlane(preset.measured);
+  Control::PresetChange change;
+  Vector3 spaceAngles = coordinates.preset.spaceAngles;
+  if (preset.rotation) {
+    Vector3 toolAxis = Vector3::Zero();
+    toolAxis[plane.tool] = 1;
+    const Matrix3 turned = rotationFromSpaceAngles(spaceAngles) *
+                           Eigen::AngleAxisd(radiansFromDegrees(*preset.rotation), toolAxis).toRotationMatrix();
+    spaceAngles = spaceAnglesFromRotation(turned);
+    for (std::size_t i = 0; i < 3; ++i)
+      change.spaceAngles[i] = spaceAngles[static_cast<Eigen::Index>(i)];
+  }
+  const Matrix3 axes = rotationFromSpaceAngles(spaceAngles);
+  // Seen along the preset's axes: wished axes are shifted so that the feature reads the wish, the others stay.
+  Vector3 local = axes.transpose() * (feature - coordinates.preset.origin);
+  Vector3 wish = local;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int axis = i == 0 ? plane.main : i == 1 ? plane.minor : plane.tool;
+    if (preset.wish[i]) wish[axis] = *preset.wish[i];
+  }
+  const Vector3 origin = coordinates.preset.origin + axes * (local - wish);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto index = static_cast<Eigen::Index>(i);
+    if (origin[index] != coordinates.preset.origin[index] || wish[index] != local[index]) {
+      change.origin[i] = origin[index];
+    }
+  }
+  return change;
+}
+
+void writeDatumRow(Context& context, int row, const NewPreset& preset) {
+  Control& control = context.control();
+  const auto found = control.tables.datums.find(control.activeDatumTable);
+  if (found == control.tables.datums.end()) {
+    throw Alarm("Datum table not selected", "No datum table is active for the transfer with Q303 = 0",
+                "select one with SEL TABLE, or transfer to the preset table with Q303 = 1");
+  }
+  auto& table = found->second;
+  const std::string key = std::to_string(row);
+  if (!table.hasRow(key)) {
+    const Result<void> added = table.addRow(key);
+    if (!added) throw Alarm("Table write error", added.error().message, added.error().advice);
+  }
+  // Datum shifts count from the preset along its axes.
+  const auto& plane = control.coordinates.plane;
+  const Vector3 feature = control.coordinates.machineFromPreset().inverse() *
+                          (context.channel().frame() * plane.xyzFromPlane(preset.measured));
+  const std::array<const char*, 3> names = {"X", "Y", "Z"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int axis = i == 0 ? plane.main : i == 1 ? plane.minor : plane.tool;
+    if (preset.wish[i]) {
+      control.writeNumber(table, key, names[static_cast<std::size_t>(axis)], feature[axis] - *preset.wish[i]);
+    }
+  }
+}
+
+}  // namespace
+
+void transferPreset(Context& context, const NewPreset& preset) {
+  Control& control = context.control();
+  const int target = context.option(303);
+  const int row = context.option(305);
+  if (target == -1) {
+    throw Alarm("Measured value transfer not defined",
+                "Q303 = -1 comes from a program of an older control, which knew no choice of table",
+                "set Q303 to 0 (datum table) or 1 (preset table)");
+  }
+  if (target == 0) {
+    writeDatumRow(context, row, preset);
+    return;
+  }
+  Control::PresetChange change = presetChange(context, preset);
+  if (row == 0) {
+    const auto active = control.coordinates.preset;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto index = static_cast<Eigen::Index>(i);
+      if (!change.origin[i]) change.origin[i] = active.origin[index];
+      if (!change.spaceAngles[i]) change.spaceAngles[i] = active.spaceAngles[index];
+    }
+    for (std::size_t i = 0; i < context.channel().description().axes.size(); ++i) {
+      if (active.rotaryOffset[i] != 0) change.rotaryOffset[i] = active.rotaryOffset[i];
+    }
+    control.coordinates.workpiece = {};
+    control.coordinates.workingPlane = {};
+    control.writePreset(0, change);
+    control.activatePreset(0);
+    return;
+  }
+  if (!control.presetRow(row)) {
+    // A new row takes what the feature says nothing about from the active preset.
+    const auto& active = control.coordinates.preset;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto index = static_cast<Eigen::Index>(i);
+      if (!change.origin[i]) change.origin[i] = active.origin[index];
+    }
+  }
+  control.writePreset(row, change);
+}
+
+void finishPreset(Context& context, const NewPreset& preset) {
+  const Eigen::Affine3d frameBefore = context.channel().frame();
+  transferPreset(context, preset);
+  if (context.option(381) != 1) return;
+
+  const auto& plane = context.control().coordinates.plane;
+  const auto now = [&](const Vector3& before) -> Vector3 {
+    return plane.planeFromXyz(context.channel().frame().inverse() * (frameBefore * plane.xyzFromPlane(before)));
+  };
+  auto& prober = context.prober();
+  const PlannedTouch planned{now({context.q(382), context.q(383), context.q(384)}), probing::axisDirection(2, -1)};
+  const double clearance = now({context.q(382), context.q(383), context.q(260)})[2];
+  prober.approach(prober.prePosition(planned, context.q(320)), clearance);
+  const EvaluatedTouch touch = prober.touch(planned);
+  prober.moveSouthPoleTo(clearance);
+  NewPreset height;
+  height.measured = touch.surface;
+  height.wish[2] = context.q(333);
+  transferPreset(context, height);
+}
+
+}  // namespace probewright::cycles::heidenhain

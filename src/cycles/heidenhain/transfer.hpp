@@ -1,0 +1,27 @@
+#pragma once
+
+#include "cycles/heidenhain/context.hpp"
+
+/// Where the presetting cycles 408 to 419 put what they have found.
+namespace probewright::cycles::heidenhain {
+
+/// A feature in the active program coordinate system (main, minor, tool axis) and the coordinates that it is to get.
+/// Axes without a wish keep their place.
+struct NewPreset {
+  Vector3 measured = Vector3::Zero();
+  std::array<std::optional<double>, 3> wish;
+  /// Basic rotation to be set together with it, degrees added to the present one.
+  std::optional<double> rotation;
+};
+
+/// Writes the preset as Q303 and Q305 say: Q305 = 0 with Q303 = 1 copies the active preset to row 0 and activates it,
+/// clearing simple transformations; otherwise row Q305 of the preset table (effective at once if it is the active one)
+/// or of the active datum table.
+void transferPreset(Context& context, const NewPreset& preset);
+
+/// The end of the presetting cycles that can also set the touch probe axis: transfers `preset`; then, if Q381 = 1,
+/// touches the surface at (Q382, Q383, Q384), still meant in the coordinates that were active when the cycle began, and
+/// sets Q333 there.
+void finishPreset(Context& context, const NewPreset& preset);
+
+}  // namespace probewright::cycles::heidenhain

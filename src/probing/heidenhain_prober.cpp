@@ -1,0 +1,155 @@
+#include "probing/heidenhain_prober.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/alarm.hpp"
+
+namespace probewright::probing {
+
+using control::Alarm;
+using machine::Feed;
+using machine::MeasureEnd;
+
+Vector3 HeidenhainProber::tipFromBall(const Vector3& ballCentre) const {
+  return plane_.xyzFromPlane(ballCentre) - probe_.ballRadius * channel_.toolAxis();
+}
+
+Vector3 HeidenhainProber::position() const {
+  return plane_.planeFromXyz(channel_.position() + probe_.ballRadius * channel_.toolAxis());
+}
+
+Vector3 HeidenhainProber::prePosition(const PlannedTouch& touch, double extra) const {
+  return touch.surface - touch.direction * (probe_.ballRadius + probe_.setUp + extra);
+}
+
+Feed HeidenhainProber::positioning() const {
+  return probe_.prepositionAtMachineRapid ? Feed::rapidTraverse() : Feed::at(probe_.positioningFeed);
+}
+
+void HeidenhainProber::moveTo(const Vector3& ballCentre) { channel_.moveTo(tipFromBall(ballCentre), positioning()); }
+
+void HeidenhainProber::moveHeightTo(double height) {
+  Vector3 target = position();
+  target[2] = height;
+  moveTo(target);
+}
+
+void HeidenhainProber::moveSouthPoleTo(double height) { moveHeightTo(height + probe_.ballRadius); }
+
+void HeidenhainProber::moveInPlane(const Vector3& ballCentre) {
+  Vector3 target = ballCentre;
+  target[2] = position()[2];
+  moveTo(target);
+}
+
+void HeidenhainProber::approach(const Vector3& ballCentre, double clearanceHeight) {
+  const double southPole = position()[2] - probe_.ballRadius;
+  if (southPole < clearanceHeight) moveSouthPoleTo(clearanceHeight);
+  moveInPlane(ballCentre);
+  moveHeightTo(ballCentre[2]);
+}
+
+void HeidenhainProber::moveOnArc(const Vector3& centre, double angle) {
+  const Vector3 start = position();
+  const Vector2 arm = (start - centre).head<2>();
+  const double radius = arm.norm();
+  if (radius < 1e-9) return;
+  // Pieces so short that the path leaves the arc by at most 0.01 mm.
+  const double piece = 2 * std::acos(std::clamp(1 - 0.01 / radius, -1.0, 1.0));
+  const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(radiansFromDegrees(angle)) / piece)));
+  for (int i = 1; i <= pieces; ++i) {
+    const Eigen::Rotation2Dd turn(radiansFromDegrees(angle) * i / pieces);
+    const Vector2 point = centre.head<2>() + turn * arm;
+    moveTo({point.x(), point.y(), start.z()});
+  }
+}
+
+Vector3 HeidenhainProber::xyzOffset() const {
+  if (probe_.tipOffset.isZero(0)) return Vector3::Zero();
+  const double turn = channel_.machine().spindleAngle() - probe_.calibrationAngle;
+  const Vector2 turned = Eigen::Rotation2Dd(radiansFromDegrees(turn)) * probe_.tipOffset;
+  // Spindle X and Y lie along the main and minor axis of the machine's working plane.
+  const Vector3 machine = plane_.xyzFromPlane({turned.x(), turned.y(), 0});
+  return (channel_.frame().linear().inverse() * machine);
+}
+
+EvaluatedTouch HeidenhainProber::touch(const PlannedTouch& planned) {
+  return stroke(planned.direction, probe_.distance, planned.surface);
+}
+
+EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distance, std::optional<Vector3> expected) {
+  const Vector3 start = position();
+  const Vector3 startTip = channel_.position();
+  const Vector3 xyzDirection = plane_.xyzFromPlane(direction);
+  if (probe_.track && std::hypot(direction[0], direction[1]) > 1e-9) {
+    const Vector3 machineDirection = channel_.frame().linear() * xyzDirection;
+    const Vector3 inPlane = plane_.planeFromXyz(machineDirection);
+    channel_.orientSpindle(probe_.calibrationAngle + degreesFromRadians(std::atan2(inPlane.y(), inPlane.x())));
+  }
+  control::TouchRecord record;
+  record.target = plane_.xyzFromPlane(expected.value_or(start + direction * distance));
+  record.direction = xyzDirection;
+
+  std::vector<Vector3> centres;
+  EvaluatedTouch touch;
+  const auto finish = [&](std::string outcome) {
+    record.seconds = channel_.seconds();
+    record.outcome = std::move(outcome);
+    if (control::CycleRecord* cycle = channel_.journal().open()) cycle->touches.push_back(record);
+  };
+  for (int i = 0; i < std::max(1, probe_.repetitions); ++i) {
+    const machine::MeasureResult result =
+        channel_.measureTo(startTip + xyzDirection * distance, Feed::at(probe_.probingFeed));
+    switch (result.end) {
+      case MeasureEnd::Touched:
+        break;
+      case MeasureEnd::NoContact:
+        finish("no contact");
+        throw Alarm("Touch point inaccessible", fmt::format("The stylus was not deflected within {:.3f} mm", distance),
+                    "check nominal values, preset and DIST of the touch probe table");
+      case MeasureEnd::DeflectedAtStart:
+        finish("deflected");
+        throw Alarm("Stylus already in contact", "The stylus is deflected before probing begins",
+                    "increase the set-up clearance or correct the nominal position");
+      case MeasureEnd::NotReady:
+        finish("not ready");
+        throw Alarm("Touch probe not ready",
+                    result.detail.empty() ? "There is no touch probe in the spindle" : result.detail,
+                    "call the touch probe with TOOL CALL before the cycle");
+      case MeasureEnd::AxisLimit:
+        finish("limit");
+        throw Alarm(channel_.alarms.limit, result.detail);
+      case MeasureEnd::Collision:
+      case MeasureEnd::Cancelled:
+        finish("collision");
+        throw Alarm(channel_.alarms.collision, result.detail);
+    }
+    const control::Touch latched = channel_.touchFrom(result);
+    touch.latched = latched.latched;
+    centres.push_back(plane_.planeFromXyz(latched.tip + probe_.ballRadius * channel_.toolAxis() + xyzOffset()));
+    channel_.retractTo(startTip, Feed::rapidTraverse());
+  }
+  Vector3 mean = Vector3::Zero();
+  for (const Vector3& centre : centres)
+    mean += centre / static_cast<double>(centres.size());
+  for (const Vector3& centre : centres) {
+    if (centres.size() > 1 && probe_.confidence > 0 && (centre - mean).norm() > probe_.confidence) {
+      finish("scatter");
+      throw Alarm("Value beyond tolerance",
+                  fmt::format("Repeated measurements of one point differ by more than {:.4f} mm", probe_.confidence),
+                  "clean the part, check the probe and MP6171");
+    }
+  }
+  touch.ballCentre = mean;
+  touch.surface = mean + direction * probe_.ballRadius;
+  record.ballCentre = plane_.xyzFromPlane(touch.ballCentre);
+  record.surface = plane_.xyzFromPlane(touch.surface);
+  record.latched = touch.latched;
+  finish("touched");
+  return touch;
+}
+
+}  // namespace probewright::probing

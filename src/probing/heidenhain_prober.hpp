@@ -1,0 +1,83 @@
+#pragma once
+
+#include <optional>
+
+#include "control/channel.hpp"
+#include "control/heidenhain/coordinates.hpp"
+#include "probing/touch_plan.hpp"
+
+/// The measuring move and the positioning habits of the HEIDENHAIN touch probe cycles.
+namespace probewright::probing {
+
+using control::heidenhain::WorkingPlane;
+
+/// What tool table, touch probe table and machine parameters say about the active probe.
+struct HeidenhainProbe {
+  double ballRadius = 0;                   ///< effective radius: column R of the tool table
+  Vector2 tipOffset = Vector2::Zero();     ///< CAL_OF1, CAL_OF2: ball centre from spindle axis at the calibration angle
+  double calibrationAngle = 0;             ///< CAL_ANG, spindle angle that the tip offset belongs to
+  double setUp = 2;                        ///< SET_UP
+  double distance = 50;                    ///< DIST: longest stroke from the pre-position
+  double probingFeed = 500;                ///< F, already limited by maxTouchFeed
+  double positioningFeed = 3000;           ///< FMAX
+  bool prepositionAtMachineRapid = false;  ///< F_PREPOS = FMAX_MACHINE
+  bool track = false;                      ///< TRACK = ON: the spindle turns the same side of the probe to every touch
+  int repetitions = 1;                     ///< iTNC 530, MP6170: measurements of one point
+  double confidence = 0;                   ///< iTNC 530, MP6171: largest difference between them, mm
+};
+
+/// One touch, evaluated. Coordinates (main, minor, tool axis) of the active program coordinate system.
+struct EvaluatedTouch {
+  Vector3 ballCentre = Vector3::Zero();  ///< tip offset taken into account
+  Vector3 surface = Vector3::Zero();     ///< ball centre plus ball radius along the probing direction
+  machine::AxisPositions latched;
+};
+
+/// Moves the ball in coordinates (main, minor, tool axis) of the active program coordinate system. Positions are of the
+/// ball centre as the control drives it: on the spindle axis, one ball radius above the tool tip; the tip offset is
+/// taken into account only in results, as the controls do.
+class HeidenhainProber {
+public:
+  HeidenhainProber(control::Channel& channel, const WorkingPlane& plane, const HeidenhainProbe& probe)
+      : channel_(channel), plane_(plane), probe_(probe) {}
+
+  const HeidenhainProbe& probe() const { return probe_; }
+
+  Vector3 position() const;
+
+  /// Ball centre pre-position of a touch: ball radius, SET_UP and `extra` (Q320) in front of the surface.
+  Vector3 prePosition(const PlannedTouch& touch, double extra) const;
+
+  /// Straight to the ball centre position at the positioning feed (FMAX of the probe table, or machine rapid).
+  void moveTo(const Vector3& ballCentre);
+  /// Along the touch probe axis only: the south pole of the ball to `height`.
+  void moveSouthPoleTo(double height);
+  /// Along the touch probe axis only: the ball centre to `height`.
+  void moveHeightTo(double height);
+  /// Parallel to the working plane only.
+  void moveInPlane(const Vector3& ballCentre);
+
+  /// The positioning logic of the cycles: from below the clearance height first up to it, then in the plane, then down;
+  /// from above it in the plane at the present height, then straight down.
+  void approach(const Vector3& ballCentre, double clearanceHeight);
+
+  /// On an arc about `centre` in the plane at the present height to the direction of `to`, turning by `angle` degrees.
+  void moveOnArc(const Vector3& centre, double angle);
+
+  /// From the pre-position: probes towards the surface, returns to the pre-position at rapid traverse. Throws Alarm.
+  EvaluatedTouch touch(const PlannedTouch& planned);
+
+  /// From wherever the ball is towards `direction`, at most `distance`; stays at the start of the stroke afterwards.
+  EvaluatedTouch stroke(const Vector3& direction, double distance, std::optional<Vector3> expected = {});
+
+private:
+  Vector3 tipFromBall(const Vector3& ballCentre) const;
+  Vector3 xyzOffset() const;
+  machine::Feed positioning() const;
+
+  control::Channel& channel_;
+  WorkingPlane plane_;
+  HeidenhainProbe probe_;
+};
+
+}  // namespace probewright::probing

@@ -1,0 +1,122 @@
+#include "probing/heidenhain_strategies.hpp"
+
+#include <cmath>
+
+namespace probewright::probing {
+namespace {
+
+Vector3 at(const Vector2& point, double height) { return {point.x(), point.y(), height}; }
+
+/// How far pre-positions stand back from the surface.
+double standOff(const HeidenhainProber& prober, const Heights& heights) {
+  return prober.probe().ballRadius + prober.probe().setUp + heights.extraClearance;
+}
+
+/// Touches all of `plan` from one place in the middle, at the measuring height.
+std::vector<EvaluatedTouch> probeFromCentre(HeidenhainProber& prober, const Vector3& centre,
+                                            const std::vector<PlannedTouch>& plan, const Heights& heights) {
+  prober.approach(centre, heights.clearance);
+  std::vector<EvaluatedTouch> touches;
+  for (const PlannedTouch& planned : plan)
+    touches.push_back(prober.touch(planned));
+  prober.moveSouthPoleTo(heights.clearance);
+  return touches;
+}
+
+}  // namespace
+
+std::vector<EvaluatedTouch> probeCircle(HeidenhainProber& prober, const CircleTask& task, const Heights& heights) {
+  const Vector3 centre = at(task.centre, heights.measuring);
+  const auto plan = planCircle(centre, task.diameter, task.startAngle, task.stepAngle, task.count, task.side);
+  if (task.side == Side::Inside && task.diameter / 2 <= standOff(prober, heights)) {
+    return probeFromCentre(prober, centre, plan, heights);
+  }
+  std::vector<EvaluatedTouch> touches;
+  prober.approach(prober.prePosition(plan.front(), heights.extraClearance), heights.clearance);
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    if (i > 0) {
+      const Vector3 next = prober.prePosition(plan[i], heights.extraClearance);
+      if (heights.between == Between::AtClearanceHeight) {
+        prober.moveSouthPoleTo(heights.clearance);
+        if (task.traverse == Traverse::Arc) {
+          prober.moveOnArc(centre, task.stepAngle);
+        } else {
+          prober.moveInPlane(next);
+        }
+        prober.moveTo(next);
+      } else {
+        prober.moveOnArc(centre, task.stepAngle);
+      }
+    }
+    touches.push_back(prober.touch(plan[i]));
+  }
+  prober.moveSouthPoleTo(heights.clearance);
+  return touches;
+}
+
+std::vector<EvaluatedTouch> probeRectangle(HeidenhainProber& prober, const RectangleTask& task,
+                                           const Heights& heights) {
+  const Vector3 centre = at(task.centre, heights.measuring);
+  const auto plan = planRectangle(centre, task.length1, task.length2, task.side);
+  if (task.side == Side::Inside && std::min(task.length1, task.length2) / 2 <= standOff(prober, heights)) {
+    return probeFromCentre(prober, centre, plan, heights);
+  }
+  std::vector<EvaluatedTouch> touches;
+  prober.approach(prober.prePosition(plan.front(), heights.extraClearance), heights.clearance);
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    if (i > 0) {
+      const Vector3 next = prober.prePosition(plan[i], heights.extraClearance);
+      if (heights.between == Between::AtClearanceHeight) {
+        prober.moveSouthPoleTo(heights.clearance);
+        prober.moveInPlane(next);
+        prober.moveTo(next);
+      } else if (task.side == Side::Outside) {
+        // Around the corner: first along the side just probed, then along the next one.
+        const Vector3 here = prober.position();
+        Vector3 corner = here;
+        const Eigen::Index along = std::abs(plan[i - 1].direction[0]) > 0.5 ? 1 : 0;
+        corner[along] = next[along];
+        prober.moveTo(corner);
+        prober.moveTo(next);
+      } else {
+        prober.moveTo(next);
+      }
+    }
+    touches.push_back(prober.touch(plan[i]));
+  }
+  prober.moveSouthPoleTo(heights.clearance);
+  return touches;
+}
+
+std::vector<EvaluatedTouch> probeWidth(HeidenhainProber& prober, const WidthTask& task, const Heights& heights) {
+  const Vector3 centre = at(task.centre, heights.measuring);
+  const auto plan = planWidth(centre, task.width, task.axis == 0 ? 0.0 : 90.0, task.side);
+  if (task.side == Side::Inside && task.width / 2 <= standOff(prober, heights)) {
+    return probeFromCentre(prober, centre, plan, heights);
+  }
+  Heights used = heights;
+  if (task.side == Side::Outside) used.between = Between::AtClearanceHeight;
+  return probePoints(prober, plan, used);
+}
+
+std::vector<EvaluatedTouch> probePoints(HeidenhainProber& prober, const std::vector<PlannedTouch>& plan,
+                                        const Heights& heights) {
+  std::vector<EvaluatedTouch> touches;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    const Vector3 start = prober.prePosition(plan[i], heights.extraClearance);
+    if (i == 0) {
+      prober.approach(start, heights.clearance);
+    } else if (heights.between == Between::AtClearanceHeight) {
+      prober.moveSouthPoleTo(heights.clearance);
+      prober.moveInPlane(start);
+      prober.moveTo(start);
+    } else {
+      prober.moveTo(start);
+    }
+    touches.push_back(prober.touch(plan[i]));
+  }
+  prober.moveSouthPoleTo(heights.clearance);
+  return touches;
+}
+
+}  // namespace probewright::probing
