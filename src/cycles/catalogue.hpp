@@ -42,8 +42,9 @@ struct Parameter {
   ValueKind kind = ValueKind::Length;
   double minimum = -99999.9999;
   double maximum = 99999.9999;
-  std::optional<double> standard;  ///< used when the parameter is left out; without it the parameter is required
-  std::span<const Choice> choices;
+  std::optional<double> standard =
+      std::nullopt;  ///< used when the parameter is left out; without it the parameter is required
+  std::span<const Choice> choices = {};
   ControlSet controls = control::onBothTNC | control::onSinumerik;
   bool predefinable = false;  ///< HEIDENHAIN: may be PREDEF, taken from GLOBAL DEF
   bool required() const { return !standard && kind != ValueKind::Text; }
@@ -65,8 +66,8 @@ struct CycleDefinition {
   std::string_view title;  ///< as in the English manuals: "PRESET OUTSIDE RECTAN."
   CycleFamily family = CycleFamily::Preset;
   std::string_view summary;  ///< one or two sentences: what it measures and corrects
-  std::span<const Parameter> parameters;
-  std::span<const ResultDefinition> results;
+  std::span<const Parameter> parameters = {};
+  std::span<const ResultDefinition> results = {};
   ControlSet controls = control::onBothTNC;
 
   const Parameter* parameter(std::uint32_t address) const;

@@ -8,6 +8,7 @@
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
+#include "control/heidenhain/tool_table.hpp"
 
 namespace probewright::control::heidenhain {
 namespace {
@@ -15,11 +16,8 @@ namespace {
 constexpr std::array<const char*, 3> linearNames = {"X", "Y", "Z"};
 constexpr std::array<const char*, 3> spaceAngleNames = {"SPA", "SPB", "SPC"};
 
-double scaleOf(const TextTable& table, const std::string& column) {
-  if (table.unit() == TableUnit::Millimetre) return 1;
-  static constexpr std::array<std::string_view, 14> angles = {
-      "SPA", "SPB", "SPC", "ROT", "A", "B", "C", "A_OFFS", "B_OFFS", "C_OFFS", "CAL_ANG", "TP_NO", "NO", "T"};
-  return std::ranges::find(angles, column) == angles.end() ? 25.4 : 1.0;
+void check(const Result<void>& done) {
+  if (!done) throw Alarm("Table write error", done.error().message, done.error().advice);
 }
 
 }  // namespace
@@ -30,48 +28,21 @@ Control::Control(ControlKind kind, machine::Machine& machine, Tables tables_, Ma
   if (presetRow(0)) activatePreset(0);
 }
 
-double Control::number(const TextTable& table, const std::string& row, const std::string& column, double otherwise) {
-  const std::optional<std::string> cell = table.cell(row, column);
-  if (!cell || cell->empty() || *cell == "-") return otherwise;
-  std::string plain = *cell;
-  std::ranges::replace(plain, ',', '.');
-  const std::optional<double> value = parseDecimal(plain);
-  if (!value) {
-    const SourcePlace place = table.place(row, column);
-    throw Alarm("Table value invalid",
-                fmt::format("{} row {} column {} (line {}) holds '{}', which is no number", table.name(), row, column,
-                            place.line, *cell),
-                "correct the table");
-  }
-  return *value * scaleOf(table, column);
+void Control::writeNumber(TypedTable& table, const std::string& row, const std::string& column, double value) {
+  const std::string before = table.text(row, column);
+  check(table.setNumber(row, column, value));
+  journal.write({table.table().name(), fmt::format("row {}, column {}", row, column), before, table.text(row, column)});
 }
 
-std::string Control::text(const TextTable& table, const std::string& row, const std::string& column) {
-  return table.cell(row, column).value_or("");
-}
-
-void Control::writeCell(TextTable& table, const std::string& row, const std::string& column, const Result<void>& done,
-                        const std::string& before) {
-  if (!done) throw Alarm("Table write error", done.error().message, done.error().advice);
-  journal.write(
-      {table.name(), fmt::format("row {}, column {}", row, column), before, table.cell(row, column).value_or("")});
-}
-
-void Control::writeNumber(TextTable& table, const std::string& row, const std::string& column, double value,
-                          int decimals) {
-  const std::string before = text(table, row, column);
-  writeCell(table, row, column, table.setNumber(row, column, value / scaleOf(table, column), {decimals, true}), before);
-}
-
-void Control::writeText(TextTable& table, const std::string& row, const std::string& column, const std::string& value) {
-  const std::string before = text(table, row, column);
-  writeCell(table, row, column, table.setCell(row, column, value), before);
+void Control::writeText(TypedTable& table, const std::string& row, const std::string& column,
+                        const std::string& value) {
+  const std::string before = table.text(row, column);
+  check(table.setText(row, column, value));
+  journal.write({table.table().name(), fmt::format("row {}, column {}", row, column), before, value});
 }
 
 std::string Control::toolRowNamed(const std::string& name) const {
-  for (const std::string& key : tables.tools.keys()) {
-    if (text(tables.tools, key, "NAME") == name) return key;
-  }
+  if (const auto row = findToolNamed(tables.tools, name)) return *row;
   throw Alarm("Tool not defined", fmt::format("TOOL.T has no tool named {}", name), "add the tool or correct its name");
 }
 
@@ -80,7 +51,7 @@ void Control::callTool(const std::string& row, std::optional<char> axis, double 
   if (row != "0" && !tables.tools.hasRow(row)) {
     throw Alarm("Tool not defined", fmt::format("TOOL.T has no tool {}", row), "add the tool or correct its number");
   }
-  if (text(tables.tools, row, "TL") == "L") {
+  if (tables.tools.text(row, "TL") == "L") {
     throw Alarm("Tool locked", fmt::format("Tool {} is locked in TOOL.T (column TL)", row),
                 "release the tool or call its replacement");
   }
@@ -90,12 +61,12 @@ void Control::callTool(const std::string& row, std::optional<char> axis, double 
   const std::size_t point = row.find('.');
   next.number = static_cast<int>(parseInteger(row.substr(0, point)).value_or(0));
   next.index = point == std::string::npos ? 0 : static_cast<int>(parseInteger(row.substr(point + 1)).value_or(0));
-  next.name = text(tables.tools, row, "NAME");
+  next.name = tables.tools.text(row, "NAME");
   if (axis) next.axis = *axis;
   next.deltaLength = deltaLength;
   next.deltaRadius = deltaRadius;
   next.deltaRadius2 = deltaRadius2;
-  const std::string probe = text(tables.tools, row, "TP_NO");
+  const std::string probe = tables.tools.text(row, "TP_NO");
   next.probeRow = probe == "0" || probe == "-" ? "" : probe;
   if (!tool.called || next.row != tool.row) {
     channel.changeTool({next.number, next.name});
@@ -107,9 +78,9 @@ void Control::callTool(const std::string& row, std::optional<char> axis, double 
 }
 
 void Control::refreshTool() {
-  tool.length = number(tables.tools, tool.row, "L") + number(tables.tools, tool.row, "DL");
-  tool.radius = number(tables.tools, tool.row, "R") + number(tables.tools, tool.row, "DR");
-  tool.radius2 = number(tables.tools, tool.row, "R2") + number(tables.tools, tool.row, "DR2");
+  tool.length = tables.tools.numberOr(tool.row, "L", 0) + tables.tools.numberOr(tool.row, "DL", 0);
+  tool.radius = tables.tools.numberOr(tool.row, "R", 0) + tables.tools.numberOr(tool.row, "DR", 0);
+  tool.radius2 = tables.tools.numberOr(tool.row, "R2", 0) + tables.tools.numberOr(tool.row, "DR2", 0);
   coordinates.plane = WorkingPlane::ofToolAxis(tool.axis);
   channel.toolVector = Vector3::Zero();
   channel.toolVector[coordinates.plane.tool] = tool.length + tool.deltaLength;
@@ -120,24 +91,24 @@ std::optional<ActivePreset> Control::presetRow(int row) const {
   const auto exact = exactPresets_.find(row);
   if (exact != exactPresets_.end()) return exact->second;
   const std::string key = std::to_string(row);
-  const TextTable& table = tables.presets;
+  const TypedTable& table = tables.presets;
   if (!table.hasRow(key)) return std::nullopt;
   ActivePreset preset;
   preset.row = row;
   for (std::size_t i = 0; i < 3; ++i) {
-    preset.origin[static_cast<Eigen::Index>(i)] = number(table, key, linearNames[i]);
+    preset.origin[static_cast<Eigen::Index>(i)] = table.numberOr(key, linearNames[i], 0);
     if (table.hasColumn(spaceAngleNames[i])) {
-      preset.spaceAngles[static_cast<Eigen::Index>(i)] = number(table, key, spaceAngleNames[i]);
+      preset.spaceAngles[static_cast<Eigen::Index>(i)] = table.numberOr(key, spaceAngleNames[i], 0);
     }
   }
-  if (table.hasColumn("ROT")) preset.spaceAngles.z() = number(table, key, "ROT");
+  if (table.hasColumn("ROT")) preset.spaceAngles.z() = table.numberOr(key, "ROT", 0);
   const machine::MachineDescription& description = channel.description();
   for (std::size_t i = 0; i < description.axes.size(); ++i) {
     const machine::Axis& axis = description.axes[i];
     if (axis.kind != machine::AxisKind::Rotary) continue;
-    if (table.hasColumn(axis.name)) preset.rotaryOffset[i] = number(table, key, axis.name);
+    if (table.hasColumn(axis.name)) preset.rotaryOffset[i] = table.numberOr(key, axis.name, 0);
     const std::string offset = axis.name + "_OFFS";
-    if (table.hasColumn(offset)) preset.rotaryOffset[i] += number(table, key, offset);
+    if (table.hasColumn(offset)) preset.rotaryOffset[i] += table.numberOr(key, offset, 0);
   }
   return preset;
 }
@@ -153,15 +124,15 @@ void Control::activatePreset(int row) {
 }
 
 void Control::writePreset(int row, const PresetChange& change) {
-  TextTable& table = tables.presets;
+  TypedTable& table = tables.presets;
   const std::string key = std::to_string(row);
   ActivePreset preset = presetRow(row).value_or(ActivePreset{});
   preset.row = row;
   if (!table.hasRow(key)) {
-    const Result<void> added = table.addRow(key);
+    const Result<void> added = table.ensureRow(key);
     if (!added) throw Alarm("Table write error", added.error().message, added.error().advice);
   }
-  if (text(table, key, "LOCKED") == "L") {
+  if (table.text(key, "LOCKED") == "L") {
     throw Alarm("Preset locked", fmt::format("Row {} of the preset table is write-protected", row),
                 "unlock the row or use another");
   }
@@ -189,7 +160,7 @@ void Control::writePreset(int row, const PresetChange& change) {
     const bool hasOffset = table.hasColumn(offset);
     double written = *change.rotaryOffset[i];
     if (hasOffset && table.hasColumn(description.axes[i].name)) {
-      written -= number(table, key, description.axes[i].name);
+      written -= table.numberOr(key, description.axes[i].name, 0);
     }
     writeNumber(table, key, hasOffset ? offset : description.axes[i].name, written);
   }

@@ -10,7 +10,7 @@
 #include "control/heidenhain/coordinates.hpp"
 #include "control/heidenhain/machine_parameters.hpp"
 #include "control/heidenhain/q_parameters.hpp"
-#include "control/heidenhain/text_table.hpp"
+#include "control/heidenhain/typed_table.hpp"
 #include "control/journal.hpp"
 #include "control/operator_panel.hpp"
 
@@ -19,10 +19,10 @@ namespace probewright::control::heidenhain {
 
 /// The tables of the control, as their files stand.
 struct Tables {
-  TextTable tools;                          ///< TOOL.T
-  TextTable probes;                         ///< TCHPROBE.TP; the iTNC 530 uses machine parameters instead
-  TextTable presets;                        ///< PRESET.PR
-  std::map<std::string, TextTable> datums;  ///< datum tables by the name a program uses
+  TypedTable tools;                          ///< TOOL.T
+  TypedTable probes;                         ///< TCHPROBE.TP; the iTNC 530 uses machine parameters instead
+  TypedTable presets;                        ///< PRESET.PR
+  std::map<std::string, TypedTable> datums;  ///< datum tables by the name a program uses
 };
 
 /// The tool in the spindle.
@@ -93,18 +93,11 @@ public:
   /// Hands the coordinate chain to the channel. To be called after any change of `coordinates` or the tool.
   void applyCoordinates();
 
-  /// A number from a table, mm or degrees; `otherwise` where the cell is absent or empty. Throws Alarm if it is no
-  /// number.
-  static double number(const TextTable& table, const std::string& row, const std::string& column, double otherwise = 0);
-  static std::string text(const TextTable& table, const std::string& row, const std::string& column);
-  /// Writes a number (mm, degrees) and records the change. Throws Alarm if the table refuses it.
-  void writeNumber(TextTable& table, const std::string& row, const std::string& column, double value, int decimals = 4);
-  void writeText(TextTable& table, const std::string& row, const std::string& column, const std::string& value);
+  /// Write a cell (numbers in mm, degrees, mm/min) and record the change. Throw Alarm if the table refuses it.
+  void writeNumber(TypedTable& table, const std::string& row, const std::string& column, double value);
+  void writeText(TypedTable& table, const std::string& row, const std::string& column, const std::string& value);
 
 private:
-  void writeCell(TextTable& table, const std::string& row, const std::string& column, const Result<void>& done,
-                 const std::string& before);
-
   ControlKind kind_;
   std::map<int, ActivePreset> exactPresets_;  ///< rows written in this run, unrounded
 };

@@ -6,11 +6,11 @@
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
+#include "control/heidenhain/probe_table.hpp"
 
 namespace probewright::cycles::heidenhain {
 
 using control::Alarm;
-using control::heidenhain::TextTable;
 using control::heidenhain::Transformations;
 
 namespace {
@@ -161,9 +161,9 @@ probing::HeidenhainProbe activeProbe(const Control& control) {
     probe.track = parameters.mp6165;
     probe.repetitions = parameters.mp6170;
     probe.confidence = parameters.mp6171;
-    const TextTable& tools = control.tables.tools;
-    probe.tipOffset = {Control::number(tools, tool.row, "CAL-OF1"), Control::number(tools, tool.row, "CAL-OF2")};
-    probe.calibrationAngle = Control::number(tools, tool.row, "CAL-ANG");
+    const auto& tools = control.tables.tools;
+    probe.tipOffset = {tools.numberOr(tool.row, "CAL-OF1", 0), tools.numberOr(tool.row, "CAL-OF2", 0)};
+    probe.calibrationAngle = tools.numberOr(tool.row, "CAL-ANG", 0);
     return probe;
   }
   if (tool.probeRow.empty()) {
@@ -171,21 +171,21 @@ probing::HeidenhainProbe activeProbe(const Control& control) {
                 fmt::format("Tool {} is no touch probe: column TP_NO of TOOL.T names no row of TCHPROBE.TP", tool.row),
                 "call the touch probe with TOOL CALL, or enter TP_NO");
   }
-  const TextTable& table = control.tables.probes;
-  const std::string& row = tool.probeRow;
-  if (!table.hasRow(row)) {
+  const auto number = parseInteger(tool.probeRow);
+  const auto row = number ? findProbe(control.tables.probes, static_cast<int>(*number)) : std::nullopt;
+  if (!row) {
     throw Alarm("Touch probe not defined",
-                fmt::format("TCHPROBE.TP has no row {} that TP_NO of tool {} names", row, tool.row),
+                fmt::format("TCHPROBE.TP has no row {}, which TP_NO of tool {} names", tool.probeRow, tool.row),
                 "add the row or correct TP_NO");
   }
-  probe.tipOffset = {Control::number(table, row, "CAL_OF1"), Control::number(table, row, "CAL_OF2")};
-  probe.calibrationAngle = Control::number(table, row, "CAL_ANG");
-  probe.probingFeed = std::min(Control::number(table, row, "F", probe.probingFeed), parameters.maxTouchFeed);
-  probe.positioningFeed = Control::number(table, row, "FMAX", probe.positioningFeed);
-  probe.distance = Control::number(table, row, "DIST", probe.distance);
-  probe.setUp = Control::number(table, row, "SET_UP", probe.setUp);
-  probe.prepositionAtMachineRapid = Control::text(table, row, "F_PREPOS") == "FMAX_MACHINE";
-  probe.track = Control::text(table, row, "TRACK") == "ON";
+  probe.tipOffset = {row->centreOffset1, row->centreOffset2};
+  probe.calibrationAngle = row->calibrationAngle;
+  probe.probingFeed = std::min(row->feed, parameters.maxTouchFeed);
+  probe.positioningFeed = row->rapid;
+  probe.distance = row->maximumTravel;
+  probe.setUp = row->setUpClearance;
+  probe.prepositionAtMachineRapid = row->prepositionAtMachineRapid;
+  probe.track = row->track;
   return probe;
 }
 

@@ -141,7 +141,7 @@ void monitorTool(Context& context, const ToolMonitoring& monitoring) {
   if (row.empty()) return;
   auto& control = context.control();
   auto& tools = control.tables.tools;
-  const double breakage = Control::number(tools, row, monitoring.length ? "LBREAK" : "RBREAK");
+  const double breakage = tools.numberOr(row, monitoring.length ? "LBREAK" : "RBREAK", 0);
   if (breakage > 0 && std::abs(monitoring.monitored) > breakage) {
     control.writeText(tools, row, "TL", "L");
     throw Alarm(
@@ -152,7 +152,7 @@ void monitorTool(Context& context, const ToolMonitoring& monitoring) {
   }
   if (!monitoring.correct) return;
   const std::string column = monitoring.length ? "DL" : "DR";
-  control.writeNumber(tools, row, column, Control::number(tools, row, column) - monitoring.excess);
+  control.writeNumber(tools, row, column, tools.numberOr(row, column, 0) - monitoring.excess);
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ void writeDatumRow(Context& context, int row, const NewPreset& preset) {
   auto& table = found->second;
   const std::string key = std::to_string(row);
   if (!table.hasRow(key)) {
-    const Result<void> added = table.addRow(key);
+    const Result<void> added = table.ensureRow(key);
     if (!added) throw Alarm("Table write error", added.error().message, added.error().advice);
   }
   // Datum shifts count from the preset along its axes.
