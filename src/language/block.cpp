@@ -19,6 +19,7 @@ void Block::clear() {
   position = next = {};
   source = label = {};
   skippable = false;
+  skipLevel = 0;
   instructions.clear();
   nodes.clear();
   operands.clear();

@@ -46,8 +46,8 @@ enum class VariableSpace : std::uint8_t {
 /// A variable as a program writes it. Numbered spaces use `index`, named ones `name` and up to three indices.
 struct VariableRef {
   VariableSpace space = VariableSpace::Q;
-  TextRef name;
-  Operand index[3];
+  TextRef name{};
+  Operand index[3]{};
 };
 
 enum class Operation : std::uint8_t {
@@ -113,11 +113,11 @@ enum class Function : std::uint8_t {
 struct Node {
   Operation operation = Operation::Number;
   Function function = Function::Host;
-  Operand left, right;  ///< operands of unary and binary operations
-  std::uint32_t a = 0;  ///< see Operation
+  Operand left{}, right{};  ///< operands of unary and binary operations
+  std::uint32_t a = 0;      ///< see Operation
   std::uint32_t b = 0;
   double number = 0;
-  TextRef text;
+  TextRef text{};
 };
 
 /// How the value of a word is meant.
@@ -135,7 +135,7 @@ enum class WordMode : std::uint8_t {
 struct Word {
   std::uint32_t address = 0;
   WordMode mode = WordMode::Plain;
-  Operand value;
+  Operand value{};
   std::uint32_t column = 0;  ///< where it stands in its line, from 1
   std::uint32_t line = 0;    ///< lines below the block's first line
 };
@@ -160,46 +160,46 @@ struct WordRange {
 
 struct Assign {
   std::uint32_t variable = 0;  ///< index into Block::variables
-  Operand value;
+  Operand value{};
 };
 
 enum class JumpDirection : std::uint8_t { Any, Forward, Backward, ForwardThenBackward, ProgramStart };
 
 struct Jump {
-  TextRef label;
-  Operand labelValue;  ///< a computed label (QS, string expression) instead of `label`
-  Operand condition;   ///< absent: always
+  TextRef label{};
+  Operand labelValue{};  ///< a computed label (QS, string expression) instead of `label`
+  Operand condition{};   ///< absent: always
   JumpDirection direction = JumpDirection::Any;
   bool ignoreMissing = false;  ///< SINUMERIK GOTOC: no alarm when there is no such label
 };
 
 /// HEIDENHAIN LBL n. LBL 0 ends a subprogram or a repeated part.
 struct LabelMark {
-  TextRef label;
+  TextRef label{};
   bool end = false;
 };
 
 /// HEIDENHAIN CALL LBL n [REP m]: a subprogram, or a jump back that is taken m times.
 struct CallLabel {
-  TextRef label;
-  Operand labelValue;
-  Operand repeats;  ///< present: part program repeat
+  TextRef label{};
+  Operand labelValue{};
+  Operand repeats{};  ///< present: part program repeat
 };
 
 /// SINUMERIK REPEAT a b P=n: the section from label `from` to label `to` (or to this block) once more, n times.
 struct RepeatSection {
-  TextRef from;
-  TextRef to;
-  Operand times;
+  TextRef from{};
+  TextRef to{};
+  Operand times{};
   bool onlyBlock = false;  ///< REPEATB
 };
 
 /// A call of another program: HEIDENHAIN CALL PGM, SINUMERIK NAME(args), L123 P2, CALL, PCALL, EXTCALL.
 struct CallProgram {
-  TextRef name;
-  Operand nameValue;        ///< computed name instead of `name`
-  WordRange arguments;      ///< address: position from 0; absent values are omitted arguments
-  Operand times;            ///< P; absent: once
+  TextRef name{};
+  Operand nameValue{};      ///< computed name instead of `name`
+  WordRange arguments{};    ///< address: position from 0; absent values are omitted arguments
+  Operand times{};          ///< P; absent: once
   bool maybeCycle = false;  ///< if no program of that name exists, a measuring cycle of that name is meant
 };
 
@@ -210,9 +210,9 @@ struct EndProgram {};  ///< END PGM, M2, M30
 enum class Structure : std::uint8_t { If, Else, EndIf, While, EndWhile, For, EndFor, Loop, EndLoop, Repeat, Until };
 struct Structured {
   Structure kind = Structure::If;
-  Operand condition;           ///< If, While, Until
+  Operand condition{};         ///< If, While, Until
   std::uint32_t variable = 0;  ///< For: index into Block::variables
-  Operand from, to;            ///< For
+  Operand from{}, to{};        ///< For
 };
 
 // ---- carried out by the control ----
@@ -240,66 +240,66 @@ struct Move {
   RadiusCompensation compensation = RadiusCompensation::Unchanged;
   bool machineCoordinates = false;  ///< HEIDENHAIN M91, SINUMERIK SUPA/G53
   bool machineReference2 = false;   ///< HEIDENHAIN M92
-  TextRef variant;                  ///< APPR/DEP kind: "LT", "LN", "CT", "LCT"
-  WordRange words;                  ///< axes and arc words: X Y Z A.. I J K CR R PR PA LEN CCA ...
-  Operand feed;                     ///< mm/min as programmed; absent: unchanged
+  TextRef variant{};                ///< APPR/DEP kind: "LT", "LN", "CT", "LCT"
+  WordRange words{};                ///< axes and arc words: X Y Z A.. I J K CR R PR PA LEN CCA ...
+  Operand feed{};                   ///< mm/min as programmed; absent: unchanged
   bool rapid = false;               ///< HEIDENHAIN FMAX, this block only
   bool autoFeed = false;            ///< HEIDENHAIN FAUTO
 };
 
 /// A tool is called by number or name. Absent operands leave what was.
 struct ToolCall {
-  Operand number;
-  Operand name;   ///< text
-  Operand index;  ///< HEIDENHAIN step index (5.1); SINUMERIK unused
-  char axis = 0;  ///< HEIDENHAIN tool axis letter or 0
-  Operand spindleSpeed;
-  Operand feed;
-  Operand deltaLength, deltaRadius, deltaRadius2;
+  Operand number{};
+  Operand name{};   ///< text
+  Operand index{};  ///< HEIDENHAIN step index (5.1); SINUMERIK unused
+  char axis = 0;    ///< HEIDENHAIN tool axis letter or 0
+  Operand spindleSpeed{};
+  Operand feed{};
+  Operand deltaLength{}, deltaRadius{}, deltaRadius2{};
 };
 
 /// A modal G function or switch: SINUMERIK G codes, HEIDENHAIN FUNCTION TCPM and the like. `name` in upper case.
 struct Modal {
-  TextRef name;
-  WordRange words;
+  TextRef name{};
+  WordRange words{};
 };
 
 /// An auxiliary function Mn, or Mn=... with its argument.
 struct MachineFunction {
   int number = 0;
-  Operand argument;
-  WordRange words;  ///< words of functions such as M140 MB
+  Operand argument{};
+  WordRange words{};  ///< words of functions such as M140 MB
 };
 
 /// A change of the coordinate system. `name`: HEIDENHAIN "CYCL DEF 7", "TRANS DATUM AXIS", "PLANE SPATIAL"...;
 /// SINUMERIK "TRANS", "ATRANS", "ROT", "AROT", "SCALE", "MIRROR"...
 struct Transform {
-  TextRef name;
-  WordRange words;
-  TextRef option;  ///< file name, row, PLANE positioning words: see the front end's lowering
+  TextRef name{};
+  WordRange words{};
+  TextRef option{};  ///< file name, row, PLANE positioning words: see the front end's lowering
 };
 
 /// A measuring or other cycle. HEIDENHAIN: `number` and words addressed by Q number. SINUMERIK: `name` and words
 /// addressed by argument position.
 struct CycleCall {
   int number = 0;
-  TextRef name;
-  WordRange parameters;
+  TextRef name{};
+  WordRange parameters{};
 };
 
 /// Everything else the control itself does: `name` says what ("FN16", "FN17", "FN18", "MSG", "SETAL", "STOPRE",
 /// "DEF"...). The lowering and the host of the same language agree on the words.
 struct Command {
-  TextRef name;
-  TextRef text;
+  TextRef name{};
+  TextRef text{};
   std::int32_t variable = -1;  ///< result, index into Block::variables
-  WordRange words;
+  WordRange words{};
 };
 
 /// HEIDENHAIN STOP, SINUMERIK M0/M1.
 struct Stop {
   bool optional = false;
-  TextRef text;
+  TextRef text{};
 };
 
 using Instruction =
@@ -313,11 +313,12 @@ struct BlockPosition {
 };
 
 struct Block {
-  BlockPosition position;
-  BlockPosition next;      ///< where the following block begins
-  TextRef source;          ///< the block's own text without line end
-  TextRef label;           ///< SINUMERIK label "NAME:" or block number "N100" that jumps can name
-  bool skippable = false;  ///< begins with "/"
+  BlockPosition position{};
+  BlockPosition next{};        ///< where the following block begins
+  TextRef source{};            ///< the block's own text without line end
+  TextRef label{};             ///< SINUMERIK label "NAME:" or block number "N100" that jumps can name
+  bool skippable = false;      ///< begins with "/"
+  std::uint8_t skipLevel = 0;  ///< SINUMERIK "/1" to "/9"
   std::vector<Instruction> instructions;
   std::vector<Node> nodes;
   std::vector<Operand> operands;

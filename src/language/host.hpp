@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "language/block.hpp"
@@ -10,6 +11,20 @@
 namespace probewright::language {
 
 class Evaluation;
+
+/// What every control refuses, under a number of its own.
+enum class Refusal {
+  DivisionByZero,
+  Domain,        ///< root of a negative number, arc sine of 2...
+  Overflow,      ///< the result is larger than any number
+  TypeMismatch,  ///< a text where a number is needed
+  MissingValue,  ///< an operand without a value
+  TooComplex,    ///< an expression nested deeper than can be computed
+  MissingLabel,
+  MissingProgram,
+  NestingDepth,  ///< subprograms or programs call each other too deep
+  Structure,     ///< a structured statement without its counterpart
+};
 
 /// What the interpreter needs of a control: its variables, its own functions, and everything that is not flow. One
 /// implementation per language; it throws control::Alarm where the control would raise one.
@@ -29,6 +44,13 @@ public:
 
   /// A block begins: for records, single block, dry run. False skips the block.
   virtual bool beginBlock(const Program& program, const Block& block) = 0;
+
+  /// The control's own number or name of an alarm that evaluation or interpreter raise; empty: none is known.
+  virtual std::string code(Refusal) const { return {}; }
+
+  /// Comparisons take two numbers for equal that differ by no more than this fraction of the larger one. SINUMERIK:
+  /// 1e-12.
+  virtual double relativeEquality() const { return 0; }
 
   /// A program level is entered with the arguments of `call` (evaluated in the caller) and left again.
   virtual void enter(const Program& program, const CallProgram* call, Evaluation* caller) = 0;

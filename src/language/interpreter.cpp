@@ -1,0 +1,591 @@
+#include "language/interpreter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "base/number_text.hpp"
+
+namespace probewright::language {
+
+namespace {
+
+constexpr std::uint64_t noSection = std::numeric_limits<std::uint64_t>::max();
+constexpr std::size_t mostCalls = 256;
+
+bool matches(const Breakpoint& breakpoint, const std::string& file) {
+  if (breakpoint.file == file) return true;
+  const std::string ending = "/" + breakpoint.file;
+  return file.size() > ending.size() && file.compare(file.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+/// A block that cannot be read ends the run with its own messages.
+struct Broken {
+  Diagnostics mistakes;
+};
+
+}  // namespace
+
+/// Sends each instruction where it is carried out.
+struct Interpreter::Dispatch {
+  Interpreter& self;
+  const Instruction& instruction;
+  Evaluation& evaluation;
+
+  Flow operator()(const Assign& assign) const {
+    self.host_.write(evaluation.block().variables[assign.variable], evaluation.value(assign.value), evaluation);
+    return Flow::Next;
+  }
+  Flow operator()(const Jump& jump) const { return self.jump(jump, evaluation); }
+  Flow operator()(const LabelMark& mark) const { return self.mark(mark); }
+  Flow operator()(const CallLabel& call) const { return self.callLabel(call, evaluation); }
+  Flow operator()(const RepeatSection& repeat) const { return self.repeatSection(repeat, evaluation); }
+  Flow operator()(const CallProgram& call) const { return self.callProgram(call, instruction, evaluation); }
+  Flow operator()(const Structured& statement) const { return self.structured(statement, evaluation); }
+  Flow operator()(const Return&) const { return self.leaveProgram(); }
+  Flow operator()(const EndProgram&) const { return self.leaveProgram(); }
+  template <class Other>
+  Flow operator()(const Other&) const {
+    self.host_.execute(instruction, evaluation);
+    return Flow::Next;
+  }
+};
+
+Interpreter::Interpreter(ProgramLibrary& library, Host& host, InterpreterOptions options)
+    : library_(library), host_(host), options_(std::move(options)) {}
+
+void Interpreter::clear() {
+  programs_.clear();
+  calls_.clear();
+  frames_.clear();
+  repeats_.clear();
+  cache_.clear();
+  current_ = nullptr;
+  block_ = nullptr;
+  resumeAt_ = instruction_ = 0;
+  sectionLast_ = noSection;
+  sections_ = levels_ = 0;
+  blocks_ = 0;
+  stepping_ = false;
+}
+
+RunResult Interpreter::run(std::shared_ptr<Program> main) {
+  clear();
+  current_ = load(std::move(main));
+  position_ = current_->program->begin();
+  RunResult result;
+  try {
+    host_.enter(*current_->program, nullptr, nullptr);
+    frames_.push_back({.kind = FrameKind::Program});
+    levels_ = 1;
+    result = runLoop();
+  } catch (const control::Alarm& alarm) {
+    result.end = RunEnd::Alarm;
+    result.diagnostics = explain(here(Severity::Error, alarm.text(), alarm.advice(), alarm.code()));
+  } catch (const control::Cancelled&) {
+    result.end = RunEnd::Cancelled;
+    result.diagnostics = explain(here(Severity::Note, "the run was cancelled at this block"));
+  } catch (Broken& broken) {
+    result.end = RunEnd::BrokenProgram;
+    result.diagnostics = std::move(broken.mistakes);
+    const Diagnostics calls = explain({});
+    result.diagnostics.insert(result.diagnostics.end(), calls.begin() + 1, calls.end());
+  } catch (...) {
+    leaveAll();
+    throw;
+  }
+  leaveAll();
+  result.blocks = blocks_;
+  return result;
+}
+
+void Interpreter::leaveAll() {
+  for (; !frames_.empty(); frames_.pop_back()) {
+    if (frames_.back().kind != FrameKind::Program) continue;
+    try {
+      host_.leave(*current_->program);
+    } catch (const control::Alarm&) {  // why the run ends is known already
+    } catch (const control::Cancelled&) {
+    }
+    current_ = frames_.back().caller;
+  }
+}
+
+RunResult Interpreter::runLoop() {
+  const std::uint64_t limit = options_.stepLimit == 0 ? std::numeric_limits<std::uint64_t>::max() : options_.stepLimit;
+  const bool cancellable = options_.stop.stop_possible();
+  for (;;) {
+    if (cancellable && options_.stop.stop_requested()) throw control::Cancelled();
+    block_ = fetch();
+    if (block_ == nullptr) {
+      if (leaveProgram() == Flow::Finished) return {};
+      continue;
+    }
+    const Block& block = block_->block;
+    const std::uint32_t first = std::exchange(resumeAt_, 0);
+    if (first == 0) {
+      if (blocks_ == limit) {
+        return {RunEnd::StepLimit,
+                explain(here(Severity::Error, fmt::format("the run was stopped after {} blocks", limit),
+                             "look for an endless loop, or raise the step limit")),
+                blocks_};
+      }
+      if ((stepping_ || !current_->breakpointLines.empty()) && halt(block) == Flow::Finished) {
+        return {RunEnd::Halted, explain(here(Severity::Note, "the run was halted in front of this block")), blocks_};
+      }
+      ++blocks_;
+      if ((block.skippable && options_.skipLevels[std::min<std::size_t>(block.skipLevel, 9)]) ||
+          !host_.beginBlock(*current_->program, block)) {
+        advance(block.position.offset, block.next);
+        continue;
+      }
+    }
+    const Flow flow = carryOut(block, first);
+    if (flow == Flow::Finished) return {};
+    if (flow == Flow::Next) advance(block.position.offset, block.next);
+  }
+}
+
+Interpreter::Flow Interpreter::carryOut(const Block& block, std::uint32_t first) {
+  Evaluation evaluation(*current_->program, block, host_);
+  const auto count = static_cast<std::uint32_t>(block.instructions.size());
+  for (std::uint32_t i = first; i < count; ++i) {
+    instruction_ = i;
+    const Instruction& instruction = block.instructions[i];
+    const Flow flow = std::visit(Dispatch{*this, instruction, evaluation}, instruction);
+    if (flow != Flow::Next) return flow;
+  }
+  return Flow::Next;
+}
+
+Interpreter::Flow Interpreter::halt(const Block& block) {
+  const auto& lines = current_->breakpointLines;
+  const auto line = std::lower_bound(lines.begin(), lines.end(), block.position.line);
+  const bool breakpoint = line != lines.end() && *line < std::max(block.next.line, block.position.line + 1);
+  if (!stepping_ && !breakpoint) return Flow::Next;
+  const HaltAnswer answer = options_.onHalt ? options_.onHalt(*current_->program, block) : HaltAnswer::Stop;
+  stepping_ = answer == HaltAnswer::Step;
+  return answer == HaltAnswer::Stop ? Flow::Finished : Flow::Next;
+}
+
+// ---- blocks ----
+
+bool Interpreter::parse(BlockPosition position, ParsedBlock& parsed) {
+  parsed.targetOf = ParsedBlock::nothing;
+  mistakes_.clear();
+  if (!current_->program->parse(position, parsed.block, mistakes_)) return false;
+  if (!mistakes_.empty() && hasErrors(mistakes_)) throw Broken{mistakes_};
+  return true;
+}
+
+ParsedBlock* Interpreter::fetch() {
+  if (position_.offset < current_->frontier) {
+    const auto [parsed, found] = cache_.slot(current_->id, position_.offset, block_);
+    return found || parse(position_, parsed) ? &parsed : nullptr;
+  }
+  if (!parse(position_, streamed_)) return nullptr;
+  current_->frontier = streamed_.block.next.offset;
+  return &streamed_;
+}
+
+ParsedBlock& Interpreter::fetchAside(BlockPosition position) {
+  const auto [parsed, found] = cache_.slot(current_->id, position.offset, block_);
+  if (!found && !parse(position, parsed)) {
+    refuse(Refusal::Structure, fmt::format("the program has no block at line {}", position.line));
+  }
+  return parsed;
+}
+
+void Interpreter::advance(std::uint64_t offset, BlockPosition next) {
+  position_ = next;
+  if (offset == sectionLast_) nextPass();
+}
+
+void Interpreter::nextPass() {
+  Frame& section = frames_.back();
+  if (section.remaining >= 1) {
+    section.remaining -= 1;
+    position_ = section.first;
+  } else {
+    resume(pop());
+  }
+}
+
+void Interpreter::goTo(BlockPosition position) {
+  // A jump out of a section ends its repetition.
+  while (frames_.back().kind == FrameKind::Section &&
+         (position.offset < frames_.back().first.offset || position.offset > frames_.back().last)) {
+    pop();
+  }
+  position_ = position;
+}
+
+void Interpreter::resume(const Frame& frame) {
+  if (frame.more) {
+    position_ = frame.call;
+    resumeAt_ = frame.instruction + 1;
+  } else {
+    advance(frame.call.offset, frame.next);
+  }
+}
+
+void Interpreter::push(Frame frame) {
+  if (frame.kind != FrameKind::Program && sections_ >= options_.sectionDepth) {
+    refuse(Refusal::NestingDepth, fmt::format("more than {} subprograms or sections are nested", options_.sectionDepth),
+           "look for a subprogram that calls itself without an end");
+  }
+  const Block& block = block_->block;
+  frame.call = block.position;
+  frame.next = block.next;
+  frame.instruction = instruction_;
+  frame.more = instruction_ + 1 < block.instructions.size();
+  frame.repeats = repeats_.size();
+  frames_.push_back(frame);
+  ++sections_;
+  watchSection();
+}
+
+Interpreter::Frame Interpreter::pop() {
+  const Frame frame = frames_.back();
+  frames_.pop_back();
+  repeats_.resize(std::min(repeats_.size(), frame.repeats), RepeatCount{});
+  --sections_;
+  watchSection();
+  return frame;
+}
+
+void Interpreter::watchSection() {
+  const bool section = !frames_.empty() && frames_.back().kind == FrameKind::Section;
+  sectionLast_ = section ? frames_.back().last : noSection;
+}
+
+// ---- jumps, subprograms, repeats ----
+
+BlockPosition Interpreter::label(TextRef literal, const Operand& computed, JumpDirection direction,
+                                 Evaluation& evaluation) {
+  const bool same = !computed.present();
+  if (same && block_->targetOf == instruction_) return block_->target;
+  std::string text;
+  if (!same) text = evaluation.text(computed);
+  const std::string_view name = same ? evaluation.at(literal) : std::string_view(text);
+  const auto found = current_->program->findLabel(name, block_->block.position, direction);
+  if (!found) {
+    const char* where = direction == JumpDirection::Forward    ? " behind this block"
+                        : direction == JumpDirection::Backward ? " in front of this block"
+                                                               : " in this program";
+    refuse(Refusal::MissingLabel, fmt::format("there is no label {}{}", name, where), "check how the label is written");
+  }
+  if (same) {
+    block_->targetOf = instruction_;
+    block_->target = *found;
+  }
+  return *found;
+}
+
+Interpreter::Flow Interpreter::jump(const Jump& jump, Evaluation& evaluation) {
+  if (jump.condition.present() && !evaluation.truth(jump.condition)) return Flow::Next;
+  if (jump.direction == JumpDirection::ProgramStart) {
+    goTo(current_->program->begin());
+    return Flow::Moved;
+  }
+  if (jump.ignoreMissing) {
+    const std::string name =
+        jump.labelValue.present() ? evaluation.text(jump.labelValue) : std::string(evaluation.at(jump.label));
+    const auto target = current_->program->findLabel(name, block_->block.position, jump.direction);
+    if (!target) return Flow::Next;
+    goTo(*target);
+    return Flow::Moved;
+  }
+  goTo(label(jump.label, jump.labelValue, jump.direction, evaluation));
+  return Flow::Moved;
+}
+
+Interpreter::Flow Interpreter::mark(const LabelMark& mark) {
+  if (!mark.end || frames_.back().kind != FrameKind::Label) return Flow::Next;
+  resume(pop());
+  return Flow::Moved;
+}
+
+Interpreter::Flow Interpreter::callLabel(const CallLabel& call, Evaluation& evaluation) {
+  if (call.repeats.present()) return repeatPart(call, evaluation);
+  const BlockPosition target = label(call.label, call.labelValue, JumpDirection::Any, evaluation);
+  push({.kind = FrameKind::Label});
+  goTo(target);
+  return Flow::Moved;
+}
+
+Interpreter::Flow Interpreter::repeatPart(const CallLabel& call, Evaluation& evaluation) {
+  const std::uint64_t offset = block_->block.position.offset;
+  const auto ofThisCall = repeats_.begin() + static_cast<std::ptrdiff_t>(frames_.back().repeats);
+  auto count = std::find_if(ofThisCall, repeats_.end(), [&](const RepeatCount& c) { return c.offset == offset; });
+  if (count == repeats_.end()) {
+    const double repeats = evaluation.number(call.repeats);
+    if (repeats < 1) return Flow::Next;
+    count = repeats_.insert(repeats_.end(), {offset, repeats});
+  }
+  if (count->remaining < 1) {
+    repeats_.erase(count);
+    return Flow::Next;
+  }
+  count->remaining -= 1;
+  goTo(label(call.label, call.labelValue, JumpDirection::Any, evaluation));
+  return Flow::Moved;
+}
+
+Interpreter::Flow Interpreter::repeatSection(const RepeatSection& repeat, Evaluation& evaluation) {
+  const BlockPosition own = block_->block.position;
+  const Frame& top = frames_.back();
+  if (top.kind == FrameKind::Section && top.last == own.offset && top.call.offset == own.offset) {
+    // The section reaches up to this block, so a pass of it is done.
+    nextPass();
+    return Flow::Moved;
+  }
+  const double times = evaluation.numberOr(repeat.times, 1);
+  if (times < 1) return Flow::Next;
+  const BlockPosition first = sectionStart(repeat, evaluation);
+  push({.kind = FrameKind::Section,
+        .remaining = times - 1,
+        .first = first,
+        .last = sectionEnd(repeat, first, evaluation)});
+  goTo(first);
+  return Flow::Moved;
+}
+
+BlockPosition Interpreter::sectionStart(const RepeatSection& repeat, Evaluation& evaluation) {
+  const std::string_view name = evaluation.at(repeat.from);
+  Program& program = *current_->program;
+  const BlockPosition own = block_->block.position;
+  if (const auto before = program.findLabel(name, own, JumpDirection::Backward)) return *before;
+  if (const auto behind = program.findLabel(name, own, JumpDirection::Forward)) return *behind;
+  refuse(Refusal::MissingLabel, fmt::format("there is no label {} in this program", name),
+         "check how the label is written");
+}
+
+std::uint64_t Interpreter::sectionEnd(const RepeatSection& repeat, BlockPosition first, Evaluation& evaluation) {
+  Program& program = *current_->program;
+  const std::uint64_t own = block_->block.position.offset;
+  const bool behind = first.offset > own;
+  if (repeat.onlyBlock) return first.offset;
+  const std::string_view name = repeat.to.length > 0 ? evaluation.at(repeat.to) : "ENDLABEL";
+  if (name == evaluation.at(repeat.from)) return first.offset;
+  const auto end = program.findLabel(name, first, JumpDirection::Forward);
+  if (end && (behind || end->offset < own)) return end->offset;
+  if (!behind && repeat.to.length == 0) return own;
+  refuse(Refusal::MissingLabel,
+         fmt::format("the section that begins with label {} has no end label {}", evaluation.at(repeat.from), name),
+         "the end label belongs behind the first label, on the same side of REPEAT");
+}
+
+// ---- programs ----
+
+Interpreter::Loaded* Interpreter::load(std::shared_ptr<Program> program) {
+  for (const auto& loaded : programs_) {
+    if (loaded->program == program || loaded->program->file() == program->file()) return loaded.get();
+  }
+  auto loaded = std::make_unique<Loaded>();
+  loaded->id = static_cast<std::uint32_t>(programs_.size());
+  for (const Breakpoint& breakpoint : options_.breakpoints) {
+    if (matches(breakpoint, program->file())) loaded->breakpointLines.push_back(breakpoint.line);
+  }
+  std::sort(loaded->breakpointLines.begin(), loaded->breakpointLines.end());
+  loaded->program = std::move(program);
+  programs_.push_back(std::move(loaded));
+  return programs_.back().get();
+}
+
+Interpreter::Loaded* Interpreter::called(std::string_view name, bool maybeNone) {
+  const Program* caller = current_->program.get();
+  for (const Call& call : calls_) {
+    if (call.caller == caller && call.name == name && (call.called != nullptr || maybeNone)) return call.called;
+  }
+  Loaded* loaded = nullptr;
+  if (!maybeNone || library_.exists(name, caller)) {
+    auto opened = library_.open(name, caller);
+    if (!opened) {
+      const Diagnostic& reason = opened.error();
+      const std::string file = reason.place.file.empty() ? std::string() : reason.place.file + ": ";
+      refuse(Refusal::MissingProgram, file + reason.message, reason.advice);
+    }
+    loaded = load(std::move(*opened));
+  }
+  if (calls_.size() >= mostCalls) calls_.clear();
+  calls_.push_back({caller, std::string(name), loaded});
+  return loaded;
+}
+
+Interpreter::Flow Interpreter::callProgram(const CallProgram& call, const Instruction& instruction,
+                                           Evaluation& evaluation) {
+  std::string computed;
+  if (call.nameValue.present()) computed = evaluation.text(call.nameValue);
+  const std::string_view name = call.nameValue.present() ? std::string_view(computed) : evaluation.at(call.name);
+  Loaded* program = called(name, call.maybeCycle);
+  if (program == nullptr) {
+    host_.execute(instruction, evaluation);
+    return Flow::Next;
+  }
+  const double times = evaluation.numberOr(call.times, 1);
+  if (times < 1) return Flow::Next;
+  enter(*program, call, evaluation, times - 1);
+  return Flow::Moved;
+}
+
+void Interpreter::enter(Loaded& program, const CallProgram& call, Evaluation& caller, double remaining) {
+  if (levels_ >= options_.programDepth) {
+    refuse(Refusal::NestingDepth, fmt::format("more than {} programs call each other", options_.programDepth),
+           "look for a program that calls itself");
+  }
+  host_.enter(*program.program, &call, &caller);
+  push({.kind = FrameKind::Program, .caller = current_, .remaining = remaining});
+  frames_.back().sections = sections_ - 1;
+  sections_ = 0;
+  ++levels_;
+  current_ = &program;
+  block_ = nullptr;
+  position_ = program.program->begin();
+}
+
+Interpreter::Flow Interpreter::leaveProgram() {
+  while (frames_.back().kind != FrameKind::Program)
+    pop();
+  const Frame frame = pop();
+  Loaded* left = current_;
+  if (frame.caller == nullptr) {
+    host_.leave(*left->program);
+    return Flow::Finished;
+  }
+  sections_ = frame.sections;
+  --levels_;
+  current_ = frame.caller;
+  position_ = frame.call;
+  block_ = nullptr;
+  host_.leave(*left->program);
+  if (frame.remaining < 1) {
+    resume(frame);
+    return Flow::Moved;
+  }
+  // The arguments of the next pass are computed anew.
+  block_ = &fetchAside(frame.call);
+  instruction_ = frame.instruction;
+  Evaluation evaluation(*current_->program, block_->block, host_);
+  enter(*left, std::get<CallProgram>(block_->block.instructions[frame.instruction]), evaluation, frame.remaining - 1);
+  return Flow::Moved;
+}
+
+// ---- structured statements ----
+
+BlockPosition Interpreter::counterpart() {
+  if (block_->targetOf == instruction_) return block_->target;
+  const auto found = current_->program->counterpart(block_->block.position);
+  if (!found) {
+    refuse(Refusal::Structure, "this statement has no counterpart",
+           "every IF, WHILE, FOR, LOOP and REPEAT needs its end, in the same program");
+  }
+  block_->targetOf = instruction_;
+  block_->target = *found;
+  return *found;
+}
+
+BlockPosition Interpreter::behindCounterpart() {
+  if (block_->targetOf == instruction_) return block_->target;
+  const BlockPosition behind = fetchAside(counterpart()).block.next;
+  block_->target = behind;
+  return behind;
+}
+
+Interpreter::Flow Interpreter::structured(const Structured& statement, Evaluation& evaluation) {
+  switch (statement.kind) {
+    case Structure::EndIf:
+    case Structure::Loop:
+    case Structure::Repeat:
+      return Flow::Next;
+    case Structure::If:
+    case Structure::While:
+      if (evaluation.truth(statement.condition)) return Flow::Next;
+      goTo(behindCounterpart());
+      return Flow::Moved;
+    case Structure::For: {
+      const double from = evaluation.number(statement.from);
+      host_.write(evaluation.block().variables[statement.variable], from, evaluation);
+      if (from <= evaluation.number(statement.to)) return Flow::Next;
+      goTo(behindCounterpart());
+      return Flow::Moved;
+    }
+    case Structure::Until:
+      if (evaluation.truth(statement.condition)) return Flow::Next;
+      [[fallthrough]];
+    case Structure::Else:
+    case Structure::EndWhile:
+    case Structure::EndLoop:
+      goTo(counterpart());
+      return Flow::Moved;
+    case Structure::EndFor:
+      return endFor();
+  }
+  return Flow::Next;
+}
+
+Interpreter::Flow Interpreter::endFor() {
+  const Block& head = fetchAside(counterpart()).block;
+  const Structured* statement = nullptr;
+  for (const Instruction& instruction : head.instructions) {
+    const auto* found = std::get_if<Structured>(&instruction);
+    if (found != nullptr && found->kind == Structure::For) statement = found;
+  }
+  if (statement == nullptr) refuse(Refusal::Structure, "this ENDFOR has no FOR");
+  Evaluation evaluation(*current_->program, head, host_);
+  const VariableRef& variable = head.variables[statement->variable];
+  const Value value = host_.read(variable, evaluation);
+  if (isText(value)) refuse(Refusal::TypeMismatch, "the variable of FOR has become a text");
+  const double counted = std::get<double>(value) + 1;
+  host_.write(variable, counted, evaluation);
+  if (counted > evaluation.number(statement->to)) return Flow::Next;
+  goTo(head.next);
+  return Flow::Moved;
+}
+
+// ---- messages ----
+
+void Interpreter::refuse(Refusal refusal, std::string text, std::string advice) const {
+  throw control::Alarm(host_.code(refusal), std::move(text), std::move(advice));
+}
+
+Diagnostic Interpreter::here(Severity severity, std::string message, std::string advice, std::string code) const {
+  Diagnostic diagnostic{severity,           {current_->program->file(), position_.line, 0},
+                        std::move(message), {},
+                        std::move(advice),  std::move(code)};
+  if (block_ != nullptr && block_->block.position.offset == position_.offset) {
+    diagnostic.excerpt = block_->block.at(block_->block.source);
+  }
+  return diagnostic;
+}
+
+Diagnostics Interpreter::explain(Diagnostic cause) const {
+  Diagnostics diagnostics{std::move(cause)};
+  const Loaded* program = current_;
+  for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
+    if (frame->kind == FrameKind::Program) {
+      if (frame->caller == nullptr) break;
+      const std::string name = program->program->name();
+      program = frame->caller;
+      diagnostics.push_back({Severity::Note,
+                             {program->program->file(), frame->call.line, 0},
+                             fmt::format("program {} was called here", name),
+                             {},
+                             {},
+                             {}});
+    } else {
+      diagnostics.push_back(
+          {Severity::Note,
+           {program->program->file(), frame->call.line, 0},
+           frame->kind == FrameKind::Label ? "the subprogram was called here" : "the section is repeated from here",
+           {},
+           {},
+           {}});
+    }
+  }
+  return diagnostics;
+}
+
+}  // namespace probewright::language
