@@ -1,0 +1,220 @@
+#include "language/sinumerik/block_parser.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace probewright::sinumerik {
+
+using namespace language;
+
+void BlockParser::takeLine(std::string_view line) {
+  line_ = line;
+  upper_.assign(line);
+  char* text = upper_.data();
+  std::size_t length = upper_.size();
+  if (std::memchr(text, '"', length) == nullptr) {
+    if (const void* comment = std::memchr(text, ';', length); comment != nullptr)
+      length = static_cast<std::size_t>(static_cast<const char*>(comment) - text);
+    for (std::size_t i = 0; i < length; ++i) {
+      const char c = text[i];
+      text[i] = static_cast<char>(c - (static_cast<unsigned char>(c - 'a') < 26 ? 32 : 0));
+    }
+  } else {
+    bool inText = false;
+    for (std::size_t i = 0; i < length; ++i) {
+      const char c = text[i];
+      if (c == '"') inText = !inText;
+      if (!inText && c == ';') length = i;
+      if (!inText && c >= 'a' && c <= 'z') text[i] = static_cast<char>(c - 32);
+    }
+  }
+  upper_.resize(length);
+  Block& block = *block_;
+  block.source = block.add(line);
+  upperOffset_ = block.add(upper_).offset;
+  cursor_ = Cursor(upper_);
+}
+
+TextRef BlockParser::upper(std::size_t offset, std::size_t length) const {
+  return {upperOffset_ + static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(length)};
+}
+
+TextRef BlockParser::upper(std::string_view part) const {
+  return upper(static_cast<std::size_t>(part.data() - upper_.data()), part.size());
+}
+
+TextRef BlockParser::original(std::size_t offset, std::size_t length) const {
+  return {block_->source.offset + static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(length)};
+}
+
+Operand BlockParser::add(const Node& node) {
+  block_->nodes.push_back(node);
+  return {0, static_cast<std::int32_t>(block_->nodes.size() - 1)};
+}
+
+void BlockParser::fail(std::size_t offset, std::string message, std::string advice) {
+  if (!failed_) {
+    Diagnostic mistake;
+    mistake.place = *place_;
+    mistake.place.column = static_cast<std::uint32_t>(offset) + 1;
+    mistake.message = std::move(message);
+    mistake.excerpt = std::string(line_);
+    mistake.advice = std::move(advice);
+    diagnostics_->push_back(std::move(mistake));
+  }
+  failed_ = true;
+  cursor_.moveToEnd();
+}
+
+TextRef BlockParser::restOfBlock() {
+  cursor_.skipBlanks();
+  std::string_view rest = cursor_.rest();
+  while (!rest.empty() && isBlank(rest.back()))
+    rest.remove_suffix(1);
+  const TextRef ref = upper(rest);
+  cursor_.moveToEnd();
+  return ref;
+}
+
+void BlockParser::expectEnd(const char* after) {
+  cursor_.skipBlanks();
+  if (!cursor_.atEnd())
+    fail(cursor_.offset(), std::string("nothing may follow ") + after + " in its block",
+         "Write what follows into a block of its own.");
+}
+
+bool BlockParser::expect(char c, const char* what) {
+  if (cursor_.take(c)) return true;
+  fail(cursor_.offset(), std::string("'") + c + "' expected " + what);
+  return false;
+}
+
+void BlockParser::parse(std::string_view line, const SourcePlace& place, Block& block, Diagnostics& diagnostics) {
+  block_ = &block;
+  diagnostics_ = &diagnostics;
+  place_ = &place;
+  failed_ = false;
+  depth_ = 0;
+  axisWords_.clear();
+  after_.clear();
+  owner_ = Owner::Move;
+  motion_ = MoveKind::Modal;
+  motionGiven_ = polar_ = false;
+  motionName_ = compensationName_ = suppression_ = ownerName_ = {};
+  compensation_ = RadiusCompensation::Unchanged;
+  feed_ = {};
+  takeLine(line);
+
+  cursor_.skipBlanks();
+  if (cursor_.peek() == '%') return;  // the header line of an archive names the program
+  if (cursor_.peek() == '/') {
+    block.skippable = true;
+    cursor_.advance();
+    if (isDigit(cursor_.peek())) cursor_.advance();
+    cursor_.skipBlanks();
+  }
+  const std::size_t numberStart = cursor_.offset();
+  if ((cursor_.peek() == 'N' || cursor_.peek() == ':') && isDigit(cursor_.peek(1))) {
+    cursor_.advance();
+    cursor_.digits();
+    block.label = upper(cursor_.since(numberStart));
+    cursor_.skipBlanks();
+    if (cursor_.peek() == '/') {
+      block.skippable = true;
+      cursor_.advance();
+      if (isDigit(cursor_.peek())) cursor_.advance();
+    }
+    cursor_.skipBlanks();
+  }
+  if (isNameStart(cursor_.peek())) {
+    const std::size_t start = cursor_.offset();
+    const std::string_view name = cursor_.name();
+    cursor_.skipBlanks();
+    if (cursor_.peek() == ':' && name.size() > 1 && isNameStart(name[1])) {
+      cursor_.advance();
+      block.label = upper(start, name.size());
+    } else {
+      cursor_.moveTo(start);
+    }
+  }
+  parseStatements();
+  finish();
+  if (failed_) block.instructions.clear();
+}
+
+void BlockParser::parseStatements() {
+  for (;;) {
+    cursor_.skipBlanks();
+    if (cursor_.atEnd()) return;
+    const char first = cursor_.peek();
+    if (isNameStart(first) && !isNameStart(cursor_.peek(1))) {
+      parseAddress();
+    } else if (isNameStart(first)) {
+      parseNamed();
+    } else if (first == '$') {
+      parseAssignment(cursor_.offset());
+    } else {
+      const std::string found(1, first);
+      fail(cursor_.offset(), "'" + found + "' cannot begin a statement",
+           "Addresses are letters with a value (X10), everything else is written NAME=value or NAME(arguments).");
+    }
+  }
+}
+
+void BlockParser::emitMove() {
+  Block& block = *block_;
+  Move move;
+  move.kind = motion_;
+  move.polar = polar_;
+  move.compensation = compensation_;
+  move.machineCoordinates = suppression_.length != 0;
+  move.variant = suppression_;
+  move.feed = feed_;
+  move.words = {static_cast<std::uint32_t>(block.words.size()), static_cast<std::uint32_t>(axisWords_.size())};
+  block.words.insert(block.words.end(), axisWords_.begin(), axisWords_.end());
+  block.instructions.emplace_back(move);
+}
+
+void BlockParser::finish() {
+  if (failed_) return;
+  Block& block = *block_;
+  for (std::size_t i = 1; i < axisWords_.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const std::uint32_t address = axisWords_[i].address;
+      if (address == axisWords_[j].address && address != addressOf("AX[]") && address != addressOf("=AX")) {
+        fail(axisWords_[i].column - 1, "the address " + addressName(address) + " stands twice in this block",
+             "Write each address once in a block.");
+        return;
+      }
+    }
+  }
+  if (owner_ == Owner::Move && !axisWords_.empty()) {
+    emitMove();
+  } else {
+    if (motionGiven_ && owner_ != Owner::Command) block.instructions.emplace_back(Modal{motionName_, {}});
+    if (compensationName_.length != 0) block.instructions.emplace_back(Modal{compensationName_, {}});
+    if (feed_.present()) {
+      const Word word{addressOf("F"), WordMode::Plain, feed_, feedColumn_, 0};
+      if (owner_ == Owner::Command) {
+        axisWords_.push_back(word);
+      } else {
+        block.instructions.emplace_back(Modal{block.add("F"), {static_cast<std::uint32_t>(block.words.size()), 1}});
+        block.words.push_back(word);
+      }
+    }
+    if (owner_ != Owner::Move) {
+      const WordRange words{static_cast<std::uint32_t>(block.words.size()),
+                            static_cast<std::uint32_t>(axisWords_.size())};
+      block.words.insert(block.words.end(), axisWords_.begin(), axisWords_.end());
+      if (owner_ == Owner::Transform) block.instructions.emplace_back(Transform{ownerName_, words, {}});
+      if (owner_ == Owner::Modal) block.instructions.emplace_back(Modal{ownerName_, words});
+      if (owner_ == Owner::Command)
+        block.instructions.emplace_back(Command{ownerName_, motionGiven_ ? motionName_ : TextRef{}, -1, words});
+    } else if (suppression_.length != 0) {
+      block.instructions.emplace_back(Modal{suppression_, {}});
+    }
+  }
+  block.instructions.insert(block.instructions.end(), after_.begin(), after_.end());
+}
+
+}  // namespace probewright::sinumerik

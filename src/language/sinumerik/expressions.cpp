@@ -1,0 +1,358 @@
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "language/sinumerik/block_parser.hpp"
+
+namespace probewright::sinumerik {
+
+using namespace language;
+
+namespace {
+
+constexpr int deepestNesting = 60;
+
+struct Operator {
+  Operation operation = Operation::Add;
+  int priority = 0;  ///< 0: no operator; higher binds tighter
+  std::size_t length = 0;
+};
+
+// The language's own order: arithmetic, bits, logic, then concatenation, then comparison.
+constexpr int comparison = 1, concatenation = 2, logicOr = 3, logicXor = 4, logicAnd = 5, bitOr = 6, bitXor = 7,
+              bitAnd = 8, sum = 9, product = 10, chain = 11;
+
+Operator symbolAt(const Cursor& cursor) {
+  const char next = cursor.peek(1);
+  switch (cursor.peek()) {
+    case '+':
+      return {Operation::Add, sum, 1};
+    case '-':
+      return {Operation::Subtract, sum, 1};
+    case '*':
+      return {Operation::Multiply, product, 1};
+    case '/':
+      return {Operation::Divide, product, 1};
+    case ':':
+      return {Operation::Call, chain, 1};
+    case '=':
+      return next == '=' ? Operator{Operation::Equal, comparison, 2} : Operator{};
+    case '<':
+      if (next == '<') return {Operation::Concatenate, concatenation, 2};
+      if (next == '>') return {Operation::NotEqual, comparison, 2};
+      if (next == '=') return {Operation::LessEqual, comparison, 2};
+      return {Operation::Less, comparison, 1};
+    case '>':
+      if (next == '=') return {Operation::GreaterEqual, comparison, 2};
+      return {Operation::Greater, comparison, 1};
+    default:
+      return {};
+  }
+}
+
+Operator wordAt(const Cursor& cursor) {
+  struct Entry {
+    std::string_view name;
+    Operation operation;
+    int priority;
+  };
+  static constexpr Entry entries[] = {
+      {"DIV", Operation::IntegerDivide, product}, {"MOD", Operation::Modulo, product},
+      {"B_AND", Operation::BitAnd, bitAnd},       {"B_XOR", Operation::BitExclusiveOr, bitXor},
+      {"B_OR", Operation::BitOr, bitOr},          {"AND", Operation::And, logicAnd},
+      {"XOR", Operation::ExclusiveOr, logicXor},  {"OR", Operation::Or, logicOr},
+  };
+  const std::string_view name = cursor.peekName();
+  for (const Entry& entry : entries)
+    if (entry.name == name) return {entry.operation, entry.priority, name.size()};
+  return {};
+}
+
+Operator operatorAt(const Cursor& cursor) {
+  const char c = cursor.peek();
+  if (isLetter(c))
+    return c == 'D' || c == 'M' || c == 'B' || c == 'A' || c == 'X' || c == 'O' ? wordAt(cursor) : Operator{};
+  return symbolAt(cursor);
+}
+
+}  // namespace
+
+Operand BlockParser::parseExpression() { return parseBinary(comparison); }
+
+Operand BlockParser::parseBinary(int lowest) {
+  if (++depth_ > deepestNesting) {
+    fail(cursor_.offset(), "this expression is nested too deeply", "Split it into several assignments.");
+    return {};
+  }
+  Operand left = parseUnary();
+  for (;;) {
+    cursor_.skipBlanks();
+    const Operator op = operatorAt(cursor_);
+    if (op.priority < lowest || op.priority == 0 || failed_) break;
+    cursor_.advance(op.length);
+    const Operand right = parseBinary(op.priority + 1);
+    if (failed_) break;
+    Node node;
+    node.operation = op.operation;
+    node.left = left;
+    node.right = right;
+    if (op.operation == Operation::Call) {  // frames are chained with ':'
+      node.left = node.right = {};
+      node.a = static_cast<std::uint32_t>(block_->operands.size());
+      node.b = 2;
+      node.text = block_->add("CHAIN");
+      block_->operands.push_back(left);
+      block_->operands.push_back(right);
+    }
+    left = add(node);
+  }
+  --depth_;
+  return left;
+}
+
+Operand BlockParser::parseUnary() {
+  cursor_.skipBlanks();
+  const char c = cursor_.peek();
+  Operation operation = Operation::Negate;
+  if (c == '-' || c == '+') {
+    cursor_.advance();
+    if (c == '+') operation = Operation::Add;
+  } else if (c == 'N' && cursor_.peekName() == "NOT") {
+    cursor_.advance(3);
+    operation = Operation::Not;
+  } else if (c == 'B' && cursor_.peekName() == "B_NOT") {
+    cursor_.advance(5);
+    operation = Operation::BitNot;
+  } else {
+    return parsePrimary();
+  }
+  if (++depth_ > deepestNesting) {
+    fail(cursor_.offset(), "this expression is nested too deeply", "Split it into several assignments.");
+    return {};
+  }
+  const Operand operand = parseUnary();
+  --depth_;
+  if (failed_ || operation == Operation::Add) return operand;
+  if (operation == Operation::Negate && operand.isLiteral()) return Operand::of(-operand.number);
+  Node node;
+  node.operation = operation;
+  node.left = operand;
+  return add(node);
+}
+
+Operand BlockParser::parsePrimary() {
+  cursor_.skipBlanks();
+  const char c = cursor_.peek();
+  if (isDigit(c) || c == '.') {
+    double value = 0;
+    if (cursor_.number(value)) return Operand::of(value);
+  }
+  if (c == '(') {
+    cursor_.advance();
+    const Operand inner = parseExpression();
+    expect(')', "at the end of the parenthesis");
+    return inner;
+  }
+  if (c == '"') return parseString();
+  if (c == '\'') return parseQuotedConstant();
+  if (c == '$' || isNameStart(c)) return parseNamedValue();
+  std::string advice;
+  if (c == '=') advice = "'=' assigns; a comparison is written '=='.";
+  fail(cursor_.offset(), cursor_.atEnd() ? "a value is missing at the end of the block" : "a value was expected here",
+       std::move(advice));
+  return {};
+}
+
+Operand BlockParser::parseString() {
+  const std::size_t start = cursor_.offset() + 1;
+  const std::size_t end = upper_.find('"', start);
+  if (end == std::string::npos) {
+    fail(start - 1, "this text has no closing quotation mark", "Close the text with \" in the same block.");
+    return {};
+  }
+  cursor_.moveTo(end + 1);
+  Node node;
+  node.operation = Operation::Text;
+  node.text = original(start, end - start);
+  return add(node);
+}
+
+/// 'H1F' hexadecimal, 'B101' binary, 'x' the code of a character.
+Operand BlockParser::parseQuotedConstant() {
+  const std::size_t start = cursor_.offset() + 1;
+  const std::size_t end = upper_.find('\'', start);
+  if (end == std::string::npos || end == start) {
+    fail(start - 1, "this constant in apostrophes is not complete",
+         "Write 'H1F' for hexadecimal, 'B101' for binary, 'A' for the code of a character.");
+    return {};
+  }
+  cursor_.moveTo(end + 1);
+  if (end - start == 1) return Operand::of(static_cast<unsigned char>(line_[start]));
+  const int base = upper_[start] == 'H' ? 16 : upper_[start] == 'B' ? 2 : upper_[start] == 'D' ? 10 : 0;
+  std::uint64_t value = 0;
+  const char* first = upper_.data() + start + 1;
+  const char* last = upper_.data() + end;
+  if (base != 0) {
+    const auto [stop, error] = std::from_chars(first, last, value, base);
+    if (error == std::errc() && stop == last) return Operand::of(static_cast<double>(value));
+  }
+  fail(start - 1, "this constant in apostrophes is neither hexadecimal nor binary",
+       "Write 'H1F' for hexadecimal, 'B101' for binary, 'A' for the code of a character.");
+  return {};
+}
+
+Operand BlockParser::parseNamedValue() {
+  const std::size_t start = cursor_.offset();
+  Node node;
+  if (cursor_.peek() != '$') {
+    const bool letterOnly = !isNameStart(cursor_.peek(1));
+    const char letter = cursor_.peek();
+    if (letterOnly && !(letter == 'R' && (isDigit(cursor_.peek(1)) || cursor_.peek(1) == '['))) {
+      // One letter, perhaps with digits, names an axis: variables begin with two letters.
+      cursor_.advance();
+      cursor_.digits();
+      node.operation = Operation::AxisName;
+      node.text = upper(cursor_.since(start));
+      return add(node);
+    }
+    if (!letterOnly) {
+      const std::string_view name = cursor_.peekName();
+      if (name == "TRUE" || name == "FALSE") {
+        cursor_.advance(name.size());
+        return Operand::of(name == "TRUE" ? 1 : 0);
+      }
+      Cursor ahead = cursor_;
+      ahead.advance(name.size());
+      ahead.skipBlanks();
+      if (ahead.peek() == '(') {
+        cursor_.advance(name.size());
+        return parseFunction(name, start);
+      }
+      if (keywordOf(name) != Keyword::None && keywordOf(name) != Keyword::Statement) {
+        fail(start, "a value was expected here, not the reserved word " + std::string(name));
+        return {};
+      }
+    }
+  }
+  node.operation = Operation::Variable;
+  node.a = parseVariable();
+  return failed_ ? Operand{} : add(node);
+}
+
+Operand BlockParser::parseFunction(std::string_view name, std::size_t start) {
+  std::array<Operand, 32> arguments;
+  std::size_t count = 0;
+  cursor_.take('(');
+  if (!cursor_.take(')')) {
+    do {
+      if (count == arguments.size()) {
+        fail(cursor_.offset(), "this call has too many arguments");
+        return {};
+      }
+      arguments[count++] = parseExpression();
+    } while (!failed_ && cursor_.take(','));
+    if (!expect(')', "at the end of the arguments")) return {};
+  }
+  const FunctionEntry* entry = functionOf(name);
+  if (entry == nullptr) {
+    std::vector<std::string_view> names;
+    for (const FunctionEntry& known : functions())
+      names.push_back(known.name);
+    const std::string_view close = closestName(name, names);
+    fail(start, "there is no function " + std::string(name),
+         close.empty() ? "Subprograms are called in a block of their own; arrays are indexed with [ ]."
+                       : "Did you mean " + std::string(close) + "?");
+    return {};
+  }
+  if (static_cast<int>(count) < entry->fewestArguments || static_cast<int>(count) > entry->mostArguments) {
+    const std::string wanted = entry->fewestArguments == entry->mostArguments
+                                   ? std::to_string(entry->fewestArguments)
+                                   : "at least " + std::to_string(entry->fewestArguments);
+    fail(start, std::string(name) + " takes " + wanted + " argument" + (entry->fewestArguments == 1 ? "" : "s") +
+                    ", here are " + std::to_string(count));
+    return {};
+  }
+  Node node;
+  node.operation = Operation::Call;
+  node.function = entry->function;
+  node.text = upper(start, name.size());
+  node.a = static_cast<std::uint32_t>(block_->operands.size());
+  node.b = static_cast<std::uint32_t>(count);
+  block_->operands.insert(block_->operands.end(), arguments.begin(), arguments.begin() + count);
+  return add(node);
+}
+
+std::uint32_t BlockParser::parseVariable() {
+  cursor_.skipBlanks();
+  const std::size_t start = cursor_.offset();
+  VariableRef variable;
+  if (cursor_.peek() == '$') {
+    cursor_.advance();
+    if (cursor_.peek() == '$') cursor_.advance();
+    if (cursor_.name().empty()) {
+      fail(start, "the name of a system variable is missing behind $");
+      return 0;
+    }
+    variable.space = VariableSpace::System;
+    variable.name = upper(cursor_.since(start));
+  } else if (cursor_.peek() == 'R' && !isNameStart(cursor_.peek(1))) {
+    variable.space = VariableSpace::R;
+    cursor_.advance();
+    const std::string_view digits = cursor_.digits();
+    if (!digits.empty()) {
+      double number = 0;
+      for (const char c : digits)
+        number = number * 10 + (c - '0');
+      variable.index[0] = Operand::of(number);
+    }
+  } else {
+    variable.space = VariableSpace::User;
+    variable.name = upper(cursor_.name());
+    if (variable.name.length == 0) {
+      fail(start, "the name of a variable was expected");
+      return 0;
+    }
+  }
+  if (cursor_.peek() == ' ' || cursor_.peek() == '\t') {
+    Cursor ahead = cursor_;
+    ahead.skipBlanks();
+    if (ahead.peek() == '[') cursor_ = ahead;
+  }
+  if (cursor_.peek() == '[') parseIndices(variable);
+  if (!failed_ && variable.space == VariableSpace::R && !variable.index[0].present())
+    fail(start, "the number of the R parameter is missing", "Write R1 or R[expression].");
+  if (failed_) return 0;
+  block_->variables.push_back(variable);
+  return static_cast<std::uint32_t>(block_->variables.size() - 1);
+}
+
+void BlockParser::parseIndices(VariableRef& variable) {
+  const std::size_t start = cursor_.offset();
+  cursor_.advance();
+  for (std::size_t i = 0;; ++i) {
+    if (i == std::size(variable.index)) {
+      fail(start, "a variable has at most three indices");
+      return;
+    }
+    cursor_.skipBlanks();
+    // Components of frames are words of their own.
+    const std::string_view name = cursor_.peekName();
+    const bool component = variable.space == VariableSpace::System &&
+                           (name == "TR" || name == "FI" || name == "RT" || name == "SC" || name == "MI");
+    if (component) {
+      cursor_.advance(2);
+      Node node;
+      node.operation = Operation::AxisName;
+      node.text = upper(name);
+      variable.index[i] = add(node);
+    } else {
+      variable.index[i] = parseExpression();
+    }
+    if (failed_) return;
+    if (cursor_.take(',')) continue;
+    expect(']', "at the end of the indices");
+    return;
+  }
+}
+
+}  // namespace probewright::sinumerik

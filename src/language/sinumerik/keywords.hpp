@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "language/block.hpp"
+
+/// The reserved words of the language and what kind of statement each begins.
+namespace probewright::sinumerik {
+
+enum class Keyword : std::uint8_t {
+  None,  ///< not reserved: a variable, a label, a program
+  If,
+  Else,
+  EndIf,
+  Case,
+  For,
+  EndFor,
+  While,
+  EndWhile,
+  Loop,
+  EndLoop,
+  Repeat,
+  RepeatBlock,
+  Until,
+  Goto,  ///< all five forms
+  Define,
+  Declare,  ///< DEF, REDEF
+  Procedure,
+  External,
+  Call,
+  PathCall,
+  ModalCall,
+  ExternalCall,
+  Return,
+  Transform,  ///< TRANS, AROT, ...
+  Motion,     ///< CIP, CT: motions that are named, not numbered
+  Suppress,   ///< SUPA
+  Modal,      ///< a G function with a name: DIAMON, CUT2D, ...; may have arguments: TRAORI(1)
+  MoveWord,   ///< CR=, AP=, ...
+  Setting,    ///< an address that is assigned to, with an index perhaps: LIMS=, POS[X]=, SPOS=
+  Measure,    ///< MEAS, MEAW
+  Statement,  ///< NAME or NAME(arguments): MSG, SETAL, STOPRE, FGROUP, ...
+  SynchronizedAction,
+  Reserved,  ///< TO, OF, DEFAULT, AND, ...: never begins a statement
+};
+
+/// The kind of `name` (upper case).
+Keyword keywordOf(std::string_view name);
+
+/// All reserved words, sorted; for advice on misspelt ones.
+struct KeywordEntry {
+  std::string_view name;
+  Keyword keyword;
+};
+std::span<const KeywordEntry> keywords();
+
+/// A function that expressions know.
+struct FunctionEntry {
+  std::string_view name;
+  language::Function function;
+  int fewestArguments;
+  int mostArguments;
+};
+/// The function called `name` (upper case), or null.
+const FunctionEntry* functionOf(std::string_view name);
+std::span<const FunctionEntry> functions();
+
+/// The types of DEF and of parameters.
+enum class Type : std::uint8_t { Int, Real, Bool, Char, String, Axis, Frame };
+/// True and sets `type` if `name` (upper case) names a type.
+bool typeOf(std::string_view name, Type& type);
+std::string_view typeName(Type type);
+
+/// True if the control knows G`number`.
+bool isGFunction(int number);
+
+/// The name among `candidates` that differs from `name` by at most two typing mistakes; empty if there is none.
+std::string_view closestName(std::string_view name, std::span<const std::string_view> candidates);
+
+}  // namespace probewright::sinumerik

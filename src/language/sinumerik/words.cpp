@@ -1,0 +1,386 @@
+#include <fmt/format.h>
+
+#include "language/sinumerik/block_parser.hpp"
+
+namespace probewright::sinumerik {
+
+using namespace language;
+
+namespace {
+
+constexpr const char* addressAdvice = "An address is a letter with a value (X10), or written with '=' (X=R1, X1=10).";
+
+/// G functions whose words do not belong to a motion of group 1.
+bool isTransformG(int number) { return (number >= 110 && number <= 112) || number == 58 || number == 59; }
+bool isCommandG(int number) { return number == 4 || number == 74 || number == 75; }
+
+}  // namespace
+
+/// A statement that begins with one letter: an address with its value.
+void BlockParser::parseAddress() {
+  const std::size_t start = cursor_.offset();
+  const char letter = cursor_.peek();
+  if (letter == 'R') {
+    Cursor ahead = cursor_;
+    ahead.advance();
+    ahead.digits();
+    ahead.skipBlanks();
+    if (ahead.peek() == '=' || ahead.peek() == '[') return parseAssignment(start);
+    return fail(start, "an R parameter needs a value here", "Write R1=value.");
+  }
+  cursor_.advance();
+  switch (letter) {
+    case 'G':
+      return parseG(start);
+    case 'M':
+      return parseM(start);
+    case 'T':
+      return parseT(start);
+    case 'L':
+      return parseL(start);
+    case 'F':
+      feedColumn_ = static_cast<std::uint32_t>(start) + 1;
+      if (feed_.present()) return fail(start, "the feed F stands twice in this block");
+      feed_ = parseValue(nullptr);
+      return;
+    case 'S':
+    case 'D':
+    case 'H':
+      return parseModalAddress(letter, start);
+    case 'P': {
+      auto* call = block_->instructions.empty() ? nullptr : std::get_if<CallProgram>(&block_->instructions.back());
+      if (call == nullptr)
+        return fail(start, "P counts how often a subprogram is called, but no call stands before it",
+                    "Write the call first: L100 P3.");
+      call->times = parseValue(nullptr);
+      return;
+    }
+    case 'N':
+      return fail(start, "a block number stands only at the beginning of a block", "Begin a new line with N.");
+    case '_':
+      return fail(start, "a name begins with two letters or underscores");
+    default: {
+      std::uint32_t address = static_cast<unsigned char>(letter);
+      if (!parseExtension(address)) return;
+      parseAxisWord(address, start);
+    }
+  }
+}
+
+/// Reads the digits of an extended address such as X1= or S2= and adds them to `address`; nothing if the digits are
+/// the value.
+bool BlockParser::parseExtension(std::uint32_t& address) {
+  if (!isDigit(cursor_.peek())) return true;
+  Cursor ahead = cursor_;
+  const std::string_view digits = ahead.digits();
+  const Cursor afterDigits = ahead;
+  ahead.skipBlanks();
+  if (ahead.peek() != '=' || ahead.peek(1) == '=') return true;
+  if (digits.size() > 3) {
+    fail(cursor_.offset(), "the number of this address has more than three digits", addressAdvice);
+    return false;
+  }
+  for (std::size_t i = 0; i < digits.size(); ++i)
+    address |= static_cast<std::uint32_t>(static_cast<unsigned char>(digits[i])) << (8 * (i + 1));
+  cursor_ = afterDigits;
+  return true;
+}
+
+/// The value written directly behind an address letter. False if there is none.
+bool BlockParser::parseShortValue(double& value) {
+  const char sign = cursor_.peek();
+  if (sign == '-' || sign == '+') {
+    cursor_.advance();
+    cursor_.skipBlanks();
+  }
+  if (!cursor_.number(value)) return false;
+  if (sign == '-') value = -value;
+  return true;
+}
+
+/// The value of an address: digits directly behind it, or '=' and an expression. `mode` null: no AC, IC, DC.
+Operand BlockParser::parseValue(WordMode* mode) {
+  cursor_.skipBlanks();
+  if (cursor_.peek() != '=') {
+    double value = 0;
+    if (parseShortValue(value)) return Operand::of(value);
+    fail(cursor_.offset(), "the value of the address is missing", addressAdvice);
+    return {};
+  }
+  cursor_.advance();
+  cursor_.skipBlanks();
+  const char c = cursor_.peek();
+  if (mode != nullptr && (c == 'A' || c == 'I' || c == 'D')) {
+    const std::string_view name = cursor_.peekName();
+    bool known = true;
+    if (name == "AC")
+      *mode = WordMode::Absolute;
+    else if (name == "IC")
+      *mode = WordMode::Incremental;
+    else if (name == "DC")
+      *mode = WordMode::DirectShortest;
+    else if (name == "ACP")
+      *mode = WordMode::DirectPositive;
+    else if (name == "ACN")
+      *mode = WordMode::DirectNegative;
+    else
+      known = false;
+    if (known) {
+      cursor_.advance(name.size());
+      if (!expect('(', "behind AC, IC, DC, ACP or ACN")) return {};
+      const Operand value = parseExpression();
+      expect(')', "behind the value");
+      return value;
+    }
+  }
+  return parseExpression();
+}
+
+void BlockParser::addMoveWord(std::uint32_t address, std::size_t start) {
+  Word word;
+  word.address = address;
+  word.column = static_cast<std::uint32_t>(start) + 1;
+  word.value = parseValue(&word.mode);
+  axisWords_.push_back(word);
+}
+
+void BlockParser::parseAxisWord(std::uint32_t address, std::size_t start) {
+  cursor_.skipBlanks();
+  const char c = cursor_.peek();
+  if (c != '=' && c != '-' && c != '+' && c != '.' && !isDigit(c)) {
+    const std::string name = addressName(address);
+    return fail(start, "the address " + name + " has no value", addressAdvice);
+  }
+  addMoveWord(address, start);
+}
+
+void BlockParser::parseModalAddress(char letter, std::size_t start) {
+  std::uint32_t address = static_cast<unsigned char>(letter);
+  if (!parseExtension(address)) return;
+  Word word;
+  word.address = address;
+  word.column = static_cast<std::uint32_t>(start) + 1;
+  word.value = parseValue(nullptr);
+  if (failed_) return;
+  if (owner_ == Owner::Command && letter == 'S') {  // G4 S: a dwell in revolutions
+    axisWords_.push_back(word);
+    return;
+  }
+  block_->words.push_back(word);
+  block_->instructions.emplace_back(Modal{upper(start, 1), {static_cast<std::uint32_t>(block_->words.size() - 1), 1}});
+}
+
+void BlockParser::setMotion(MoveKind kind, std::size_t start) {
+  if (motionGiven_)
+    return fail(start, "two motions (G functions of group 1) stand in this block", "Leave one of them.");
+  motionGiven_ = true;
+  motion_ = kind;
+}
+
+void BlockParser::setOwner(Owner owner, TextRef name, std::size_t start) {
+  if (owner_ != Owner::Move) {
+    return fail(
+        start, std::string(block_->at(name)) + " cannot stand in one block with " + std::string(block_->at(ownerName_)),
+        "Write each into a block of its own.");
+  }
+  owner_ = owner;
+  ownerName_ = name;
+}
+
+void BlockParser::parseG(std::size_t start) {
+  cursor_.skipBlanks();
+  const std::size_t numberStart = cursor_.offset();
+  const std::string_view digits = cursor_.digits();
+  int number = 0;
+  for (const char c : digits)
+    number = number < 100000 ? number * 10 + (c - '0') : number;
+  if (digits.empty() || !isGFunction(number)) {
+    return fail(start, digits.empty() ? "the number of the G function is missing"
+                                      : "the control has no function G" + std::string(digits));
+  }
+  const bool plain = numberStart == start + 1 && (digits.size() == 1 || digits[0] != '0');
+  const TextRef name = plain ? upper(start, digits.size() + 1) : block_->add(fmt::format("G{}", number));
+  switch (number) {
+    case 0:
+      setMotion(MoveKind::Rapid, start);
+      motionName_ = name;
+      return;
+    case 1:
+      setMotion(MoveKind::Linear, start);
+      motionName_ = name;
+      return;
+    case 2:
+      setMotion(MoveKind::ArcClockwise, start);
+      motionName_ = name;
+      return;
+    case 3:
+      setMotion(MoveKind::ArcCounterclockwise, start);
+      motionName_ = name;
+      return;
+    case 33:
+    case 34:
+    case 35:
+    case 63:
+    case 331:
+    case 332:
+      setMotion(MoveKind::Modal, start);
+      motionName_ = name;
+      break;
+    case 40:
+    case 41:
+    case 42:
+      compensation_ = number == 40   ? RadiusCompensation::Off
+                      : number == 41 ? RadiusCompensation::Left
+                                     : RadiusCompensation::Right;
+      compensationName_ = name;
+      return;
+    case 53:
+    case 153:
+      suppression_ = name;
+      return;
+    default:
+      if (isTransformG(number)) return setOwner(Owner::Transform, name, start);
+      if (isCommandG(number)) return setOwner(Owner::Command, name, start);
+      if (number == 25 || number == 26) return setOwner(Owner::Modal, name, start);
+  }
+  if (!failed_) block_->instructions.emplace_back(Modal{name, {}});
+}
+
+void BlockParser::parseM(std::size_t start) {
+  std::uint32_t address = 'M';
+  if (!parseExtension(address)) return;
+  cursor_.skipBlanks();
+  MachineFunction function;
+  if (address != 'M') {
+    double spindle = 0;
+    for (std::uint32_t digits = address >> 8; digits != 0; digits >>= 8)
+      spindle = spindle * 10 + ((digits & 0xff) - '0');
+    const Operand value = parseValue(nullptr);
+    if (failed_) return;
+    if (!value.isLiteral()) return fail(start, "the number of the M function is missing", "Write M2=3.");
+    function.number = static_cast<int>(value.number);
+    function.argument = Operand::of(spindle);
+  } else if (cursor_.peek() == '=') {
+    const Operand value = parseValue(nullptr);
+    if (failed_) return;
+    if (value.isLiteral()) {
+      function.number = static_cast<int>(value.number);
+    } else {
+      function.number = -1;
+      function.argument = value;
+    }
+  } else {
+    const std::string_view digits = cursor_.digits();
+    if (digits.empty() || digits.size() > 9) return fail(start, "the number of the M function is missing");
+    for (const char c : digits)
+      function.number = function.number * 10 + (c - '0');
+  }
+  const bool plain = !function.argument.present();
+  switch (plain ? function.number : -1) {
+    case 0:
+    case 1:
+      after_.emplace_back(Stop{function.number == 1, {}});
+      return;
+    case 2:
+    case 30:
+      after_.emplace_back(EndProgram{});
+      return;
+    case 17:
+      after_.emplace_back(Return{});
+      return;
+    default:
+      block_->instructions.emplace_back(function);
+  }
+}
+
+void BlockParser::parseT(std::size_t start) {
+  std::uint32_t address = 'T';
+  if (!parseExtension(address)) return;
+  cursor_.skipBlanks();
+  ToolCall call;
+  const bool assigned = cursor_.peek() == '=';
+  Operand value = parseValue(nullptr);
+  if (failed_) return;
+  if (!value.isLiteral() && !assigned)
+    return fail(start, "the number of the tool is missing", "Write T5 or T=\"NAME\".");
+  const bool text = !value.isLiteral() && value.present() &&
+                    (block_->nodes[static_cast<std::size_t>(value.node)].operation == Operation::Text ||
+                     block_->nodes[static_cast<std::size_t>(value.node)].operation == Operation::Concatenate);
+  (text ? call.name : call.number) = value;
+  if (address != 'T') {
+    double spindle = 0;
+    for (std::uint32_t digits = address >> 8; digits != 0; digits >>= 8)
+      spindle = spindle * 10 + ((digits & 0xff) - '0');
+    call.index = Operand::of(spindle);
+  }
+  block_->instructions.emplace_back(call);
+}
+
+void BlockParser::parseL(std::size_t start) {
+  const std::string_view digits = cursor_.digits();
+  if (digits.empty()) return fail(start, "the number of the subprogram is missing", "Write L100.");
+  parseProgramCall(upper(start, digits.size() + 1), false);
+}
+
+void BlockParser::parseMoveWord(std::string_view name, std::size_t start) {
+  if (name == "AX") {
+    if (!expect('[', "behind AX")) return;
+    Word axis;
+    axis.address = addressOf("AX[]");
+    axis.column = static_cast<std::uint32_t>(start) + 1;
+    axis.value = parseExpression();
+    if (failed_ || !expect(']', "behind the axis")) return;
+    axisWords_.push_back(axis);
+    addMoveWord(addressOf("=AX"), start);
+    return;
+  }
+  if (name == "AP" || name == "RP") polar_ = true;
+  cursor_.skipBlanks();
+  if (cursor_.peek() != '=') {
+    return fail(start, std::string(name) + " needs a value", "Write " + std::string(name) + "=value.");
+  }
+  addMoveWord(addressOf(name), start);
+}
+
+void BlockParser::parseSetting(std::string_view name, std::size_t start) {
+  Word index;
+  index.address = 1;
+  if (cursor_.take('[')) {
+    index.column = static_cast<std::uint32_t>(cursor_.offset()) + 1;
+    index.value = parseExpression();
+    if (failed_ || !expect(']', "behind the index")) return;
+  } else if (isDigit(cursor_.peek())) {
+    double number = 0;
+    cursor_.number(number);
+    index.value = Operand::of(number);
+  }
+  cursor_.skipBlanks();
+  if (cursor_.peek() != '=')
+    return fail(start, std::string(name) + " needs a value", "Write " + std::string(name) + "=value.");
+  Word value;
+  value.column = static_cast<std::uint32_t>(start) + 1;
+  value.value = parseValue(&value.mode);
+  if (failed_) return;
+  Block& block = *block_;
+  const auto first = static_cast<std::uint32_t>(block.words.size());
+  block.words.push_back(value);
+  if (index.value.present()) block.words.push_back(index);
+  block.instructions.emplace_back(
+      Command{upper(name), {}, -1, {first, static_cast<std::uint32_t>(block.words.size()) - first}});
+}
+
+void BlockParser::parseMeasure(std::string_view name, std::size_t start) {
+  cursor_.skipBlanks();
+  if (cursor_.peek() != '=')
+    return fail(start, std::string(name) + " needs the number of the probe event",
+                "Write " + std::string(name) + "=1.");
+  const TextRef ref = upper(name);
+  Word event;
+  event.address = addressOf("MEAS");
+  event.column = static_cast<std::uint32_t>(start) + 1;
+  event.value = parseValue(nullptr);
+  axisWords_.insert(axisWords_.begin(), event);
+  setOwner(Owner::Command, ref, start);
+}
+
+}  // namespace probewright::sinumerik
