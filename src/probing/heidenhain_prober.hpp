@@ -3,13 +3,13 @@
 #include <optional>
 
 #include "control/channel.hpp"
-#include "control/heidenhain/coordinates.hpp"
+#include "control/working_plane.hpp"
 #include "probing/touch_plan.hpp"
 
 /// The measuring move and the positioning habits of the HEIDENHAIN touch probe cycles.
 namespace probewright::probing {
 
-using control::heidenhain::WorkingPlane;
+using control::WorkingPlane;
 
 /// What tool table, touch probe table and machine parameters say about the active probe.
 struct HeidenhainProbe {

@@ -5,19 +5,6 @@
 
 namespace probewright::control::heidenhain {
 
-WorkingPlane WorkingPlane::ofToolAxis(char axis) {
-  switch (axis) {
-    case 'X':
-    case 'U':
-      return {1, 2, 0};
-    case 'Y':
-    case 'V':
-      return {2, 0, 1};
-    default:
-      return {0, 1, 2};
-  }
-}
-
 bool Transformations::active() const {
   return !shift.isZero(0) || mirror[0] || mirror[1] || mirror[2] || rotation != 0 || !scale.isOnes(0);
 }

@@ -3,29 +3,13 @@
 #include <array>
 #include <optional>
 
+#include "control/working_plane.hpp"
 #include "geometry/primitives.hpp"
 #include "machine/description.hpp"
 
 /// The chain of coordinate systems of a HEIDENHAIN control: machine, preset with basic rotation, datum shift, mirror
 /// image, rotation and scaling, tilted working plane, and the same transformations once more in the tilted plane.
 namespace probewright::control::heidenhain {
-
-/// Which axes span the working plane: indices into X, Y, Z. The names follow the manuals: the main axis, the minor
-/// axis and the touch probe (tool) axis. Tool axis Z: X, Y; Y: Z, X; X: Y, Z.
-struct WorkingPlane {
-  int main = 0, minor = 1, tool = 2;
-  /// Coordinates (main, minor, tool) from (X, Y, Z), and back.
-  Vector3 planeFromXyz(const Vector3& p) const { return {p[main], p[minor], p[tool]}; }
-  Vector3 xyzFromPlane(const Vector3& p) const {
-    Vector3 xyz;
-    xyz[main] = p[0];
-    xyz[minor] = p[1];
-    xyz[tool] = p[2];
-    return xyz;
-  }
-  /// The plane of a tool along `axis` ('X', 'Y', 'Z', or 'U', 'V', 'W' for the parallel axes).
-  static WorkingPlane ofToolAxis(char axis);
-};
 
 /// The active preset: origin in machine coordinates (mm), basic rotation as space angles (degrees) and the offsets of
 /// the rotary axes (degrees, by axis index).

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "geometry/primitives.hpp"
+
+namespace probewright::control {
+
+/// Which axes span the working plane: indices into X, Y, Z. HEIDENHAIN calls them main, minor and tool (touch probe)
+/// axis; SINUMERIK 1st, 2nd and 3rd axis of the plane: G17 X, Y, Z; G18 Z, X, Y; G19 Y, Z, X.
+struct WorkingPlane {
+  int main = 0, minor = 1, tool = 2;
+  /// Coordinates (main, minor, tool) from (X, Y, Z), and back.
+  Vector3 planeFromXyz(const Vector3& p) const { return {p[main], p[minor], p[tool]}; }
+  Vector3 xyzFromPlane(const Vector3& p) const {
+    Vector3 xyz;
+    xyz[main] = p[0];
+    xyz[minor] = p[1];
+    xyz[tool] = p[2];
+    return xyz;
+  }
+  /// The plane square to a tool along `axis`: 'X', 'Y', 'Z', or 'U', 'V', 'W' for the parallel axes.
+  static constexpr WorkingPlane ofToolAxis(char axis) {
+    switch (axis) {
+      case 'X':
+      case 'U':
+        return {1, 2, 0};
+      case 'Y':
+      case 'V':
+        return {2, 0, 1};
+      default:
+        return {0, 1, 2};
+    }
+  }
+};
+
+}  // namespace probewright::control

@@ -1,0 +1,168 @@
+#include "probing/sinumerik_prober.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/alarm.hpp"
+
+namespace probewright::probing {
+
+using control::Alarm;
+using machine::Feed;
+using machine::MeasureEnd;
+
+namespace {
+
+/// The axis that `direction` is parallel to, if any.
+std::optional<int> parallelAxis(const Vector3& direction) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(std::abs(direction[axis]) - 1) < 1e-12) return axis;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Vector3 SinumerikProber::position() const { return plane_.planeFromXyz(channel_.position()); }
+
+void SinumerikProber::moveTo(const Vector3& tcp) {
+  const Vector3 way = tcp - position();
+  const bool infeedOnly = way.head<2>().norm() < 1e-9;
+  Feed feed = Feed::at(infeedOnly ? habits_.infeedFeed : habits_.planeFeed);
+  if (!habits_.monitorCollisions) feed = Feed::rapidTraverse();
+  channel_.moveTo(plane_.xyzFromPlane(tcp), feed);
+}
+
+void SinumerikProber::moveInPlane(const Vector3& tcp) {
+  Vector3 target = tcp;
+  target[2] = position()[2];
+  moveTo(target);
+}
+
+void SinumerikProber::moveHeightTo(double height) {
+  Vector3 target = position();
+  target[2] = height;
+  moveTo(target);
+}
+
+void SinumerikProber::moveOnArc(const Vector3& centre, double angle) {
+  const Vector3 start = position();
+  const Vector2 arm = (start - centre).head<2>();
+  const double radius = arm.norm();
+  if (radius < 1e-9) return;
+  const double piece = 2 * std::acos(std::clamp(1 - 0.01 / radius, -1.0, 1.0));
+  const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(radiansFromDegrees(angle)) / piece)));
+  for (int i = 1; i <= pieces; ++i) {
+    const Eigen::Rotation2Dd turn(radiansFromDegrees(angle) * i / pieces);
+    const Vector2 point = centre.head<2>() + turn * arm;
+    channel_.moveTo(plane_.xyzFromPlane({point.x(), point.y(), start.z()}), Feed::at(habits_.circleFeed));
+  }
+}
+
+double SinumerikProber::trigger(const Vector3& direction) const {
+  if (const auto axis = parallelAxis(direction)) {
+    const auto index = static_cast<std::size_t>(*axis);
+    return direction[*axis] > 0 ? probe_.triggerPlus[index] : -probe_.triggerMinus[index];
+  }
+  return ballRadius() + probe_.positionDeviation.dot(direction.head<2>());
+}
+
+void SinumerikProber::orientTo(const Vector3& direction) {
+  if (!probe_.monodirectional || direction.head<2>().norm() < 1e-9) return;
+  const Vector3 machine = plane_.planeFromXyz(channel_.frame().linear() * plane_.xyzFromPlane(direction));
+  channel_.orientSpindle(probe_.correctionAngle + degreesFromRadians(std::atan2(machine.y(), machine.x())));
+}
+
+MeasuredPoint SinumerikProber::measure(const Vector3& setpoint, const Vector3& direction, double path, int count) {
+  return stroke(setpoint, direction, path, count, trigger(direction), probe_.feed);
+}
+
+MeasuredPoint SinumerikProber::measureUncompensated(const Vector3& setpoint, const Vector3& direction, double path,
+                                                    int count, double assumedTrigger, double feed) {
+  return stroke(setpoint, direction, path, count, assumedTrigger, feed);
+}
+
+MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& direction, double path, int count,
+                                      double trigger, double feed) {
+  if (!(path > 0)) {
+    throw Alarm("61308", "Measuring path DFA must be greater than 0", "correct parameter S_FA");
+  }
+  const Vector3 start = setpoint - direction * (path + trigger);
+  const Vector3 end = start + direction * 2 * path;
+  orientTo(direction);
+  moveTo(start);
+
+  control::TouchRecord record;
+  record.target = plane_.xyzFromPlane(setpoint);
+  record.direction = plane_.xyzFromPlane(direction);
+  const auto finish = [&](std::string outcome) {
+    record.seconds = channel_.seconds();
+    record.outcome = std::move(outcome);
+    if (control::CycleRecord* cycle = channel_.journal().open()) cycle->touches.push_back(record);
+  };
+  const Feed retract = habits_.rapidRetract ? Feed::rapidTraverse() : Feed::at(habits_.planeFeed);
+  const auto probeOnce = [&](const Vector3& target, double atFeed) -> std::optional<control::Touch> {
+    const int attempts = habits_.oneAttempt ? 1 : 5;
+    for (int attempt = 0; attempt < attempts; ++attempt) {
+      const machine::MeasureResult result = channel_.measureTo(plane_.xyzFromPlane(target), Feed::at(atFeed));
+      switch (result.end) {
+        case MeasureEnd::Touched:
+          return channel_.touchFrom(result);
+        case MeasureEnd::NoContact:
+          channel_.retractTo(plane_.xyzFromPlane(start), retract);
+          break;
+        case MeasureEnd::DeflectedAtStart:
+          finish("deflected");
+          throw Alarm("61332", "The probe is already deflected before the measuring move",
+                      "move the probe clear or correct the start position");
+        case MeasureEnd::NotReady:
+          finish("not ready");
+          throw Alarm("61309", result.detail.empty() ? "There is no workpiece probe in the spindle" : result.detail,
+                      "load a probe of type 710, 712, 713, 714 or 580 before the cycle");
+        case MeasureEnd::AxisLimit:
+          finish("limit");
+          throw Alarm(channel_.alarms.limit, result.detail);
+        case MeasureEnd::Collision:
+        case MeasureEnd::Cancelled:
+          finish("collision");
+          throw Alarm(channel_.alarms.collision, result.detail);
+      }
+    }
+    return std::nullopt;
+  };
+
+  Vector3 sum = Vector3::Zero();
+  MeasuredPoint point;
+  for (int i = 0; i < std::max(1, count); ++i) {
+    if (habits_.fastApproach && path > 1) {
+      // A first quick touch, back off, then the one that counts.
+      const auto quick = probeOnce(end, habits_.fastFeed);
+      if (quick) {
+        const Vector3 back = plane_.planeFromXyz(quick->tip) - direction * std::min(2.0, path);
+        channel_.retractTo(plane_.xyzFromPlane(back), retract);
+      }
+    }
+    const auto touch = probeOnce(end, feed);
+    if (!touch) {
+      finish("no contact");
+      throw Alarm("61301", fmt::format("Probe does not switch within {:.3f} mm", 2 * path),
+                  "check the setpoint, the measuring path DFA and the zero offset");
+    }
+    sum += plane_.planeFromXyz(touch->tip);
+    point.latched = touch->latched;
+    channel_.retractTo(plane_.xyzFromPlane(start), retract);
+  }
+  point.tcp = sum / std::max(1, count);
+  point.surface = point.tcp + direction * trigger;
+  const auto axis = parallelAxis(direction);
+  point.difference = axis ? point.surface[*axis] - setpoint[*axis] : (point.surface - setpoint).dot(direction);
+  record.ballCentre = plane_.xyzFromPlane(point.tcp);
+  record.surface = plane_.xyzFromPlane(point.surface);
+  record.latched = point.latched;
+  finish("touched");
+  return point;
+}
+
+}  // namespace probewright::probing

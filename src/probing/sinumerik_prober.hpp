@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "control/channel.hpp"
+#include "control/working_plane.hpp"
+
+/// The measuring move and the positioning habits of the SINUMERIK measuring cycles.
+namespace probewright::probing {
+
+/// A calibration data set (SD 54600 to 54611, one index) and what the tool data say about the probe.
+///
+/// A trigger point is the way from the tool centre point at the signal to the surface along its axis: for an ideal ball
+/// +radius in plus direction, -radius in minus direction. Axes: 1st, 2nd, 3rd axis of the plane.
+struct SinumerikProbe {
+  double ballDiameter = 0;                      ///< SD 54600, effective
+  std::array<double, 3> triggerMinus{};         ///< SD 54601, 54603, 54605
+  std::array<double, 3> triggerPlus{};          ///< SD 54602, 54604, 54606
+  Vector2 positionDeviation = Vector2::Zero();  ///< SD 54607, 54608
+  double feed = 300;                            ///< SD 54611, mm/min
+  bool monodirectional = false;                 ///< tool type 712: the spindle turns the probe into each direction
+  double correctionAngle = 0;                   ///< $TC_DP10, degrees
+  bool lengthToCentre = false;                  ///< the tool length ends at the ball's centre, not at its south pole
+};
+
+/// Speeds and habits from setting data.
+struct SinumerikHabits {
+  double planeFeed = 1000;        ///< SD 55634, mm/min
+  double infeedFeed = 1000;       ///< SD 55636, mm/min
+  double circleFeed = 1000;       ///< SD 55640, mm/min
+  double fastFeed = 900;          ///< SD 55638, mm/min
+  double rapidPercent = 50;       ///< SD 55632
+  bool monitorCollisions = true;  ///< SD 55740 bit 0
+  bool oneAttempt = false;        ///< SD 55740 bit 3
+  bool fastApproach = false;      ///< SD 55740 bit 4
+  bool rapidRetract = false;      ///< SD 55740 bit 5
+};
+
+/// One measured point.
+struct MeasuredPoint {
+  Vector3 tcp = Vector3::Zero();      ///< tool centre point at the signal (mean of the measurements), plane coordinates
+  Vector3 surface = Vector3::Zero();  ///< the point on the surface, by trigger points
+  double difference = 0;              ///< surface - setpoint along the positive axis or direction
+  machine::AxisPositions latched;     ///< of the last measurement
+};
+
+/// Moves the probe in coordinates (1st, 2nd, 3rd axis of the plane) of the workpiece coordinate system. Positions are
+/// those of the tool centre point (TCP), as the tool length defines it.
+class SinumerikProber {
+public:
+  SinumerikProber(control::Channel& channel, const control::WorkingPlane& plane, const SinumerikProbe& probe,
+                  const SinumerikHabits& habits)
+      : channel_(channel), plane_(plane), probe_(probe), habits_(habits) {}
+
+  const SinumerikProbe& probe() const { return probe_; }
+  double ballRadius() const { return probe_.ballDiameter / 2; }
+
+  Vector3 position() const;
+
+  /// Positioning inside a cycle: in the plane, in the infeed axis; watched for collisions (alarm 61302).
+  void moveTo(const Vector3& tcp);
+  /// In the plane only, at the present height.
+  void moveInPlane(const Vector3& tcp);
+  /// In the infeed axis only.
+  void moveHeightTo(double height);
+  /// On an arc about `centre` in the plane, turning by `angle` degrees.
+  void moveOnArc(const Vector3& centre, double angle);
+
+  /// What the trigger points say for a direction (unit vector): the way from the TCP to the surface along it.
+  double trigger(const Vector3& direction) const;
+
+  /// Measures the surface expected at `setpoint` in `direction` (unit): moves to the start position `path` (DFA) in
+  /// front of it, probes over at most twice that way, returns to the start position; `count` times (S_NMSP), averaged.
+  /// With nothing touched, five attempts, then alarm 61301.
+  MeasuredPoint measure(const Vector3& setpoint, const Vector3& direction, double path, int count = 1);
+
+  /// The TCP at the signal without any compensation, for calibration; otherwise as measure(). `assumedTrigger` stands
+  /// in for the trigger point while it is unknown.
+  MeasuredPoint measureUncompensated(const Vector3& setpoint, const Vector3& direction, double path, int count,
+                                     double assumedTrigger, double feed);
+
+private:
+  MeasuredPoint stroke(const Vector3& setpoint, const Vector3& direction, double path, int count, double trigger,
+                       double feed);
+  void orientTo(const Vector3& direction);
+
+  control::Channel& channel_;
+  control::WorkingPlane plane_;
+  SinumerikProbe probe_;
+  SinumerikHabits habits_;
+};
+
+}  // namespace probewright::probing
