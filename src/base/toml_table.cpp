@@ -1,0 +1,244 @@
+#include "base/toml_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/number_text.hpp"
+
+namespace probewright {
+
+namespace {
+
+SourcePlace placeIn(const std::string& file, const toml::source_region& region) {
+  return {file, region.begin.line, region.begin.column};
+}
+
+std::size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replace = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({replace, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+bool within(double value, const NumberRange& range) {
+  if (!std::isfinite(value) || value > range.maximum) return false;
+  return range.exclusiveMinimum ? value > range.minimum : value >= range.minimum;
+}
+
+std::string describe(const NumberRange& range) {
+  const char* above = range.exclusiveMinimum ? "above" : "at least";
+  const bool low = std::isfinite(range.minimum), high = std::isfinite(range.maximum);
+  if (low && high)
+    return fmt::format("{} {} and at most {}", above, formatShortest(range.minimum), formatShortest(range.maximum));
+  if (low) return fmt::format("{} {}", above, formatShortest(range.minimum));
+  if (high) return fmt::format("at most {}", formatShortest(range.maximum));
+  return "a finite number";
+}
+
+}  // namespace
+
+std::optional<std::string> nearestName(std::string_view word, const std::vector<std::string>& names) {
+  std::optional<std::string> best;
+  std::size_t bestDistance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string& name : names) {
+    const std::size_t distance = editDistance(word, name);
+    if (distance < bestDistance) {
+      bestDistance = distance;
+      best = name;
+    }
+  }
+  return best;
+}
+
+std::optional<toml::table> parseToml(std::string_view text, const std::string& file, Diagnostics& diagnostics) {
+  try {
+    return toml::parse(text, std::string_view(file));
+  } catch (const toml::parse_error& error) {
+    diagnostics.push_back({Severity::Error,
+                           placeIn(file, error.source()),
+                           fmt::format("this is no valid TOML: {}", error.description()),
+                           {},
+                           "A value is written as key = value, a text in double quotes, a number with a point",
+                           {}});
+    return std::nullopt;
+  }
+}
+
+TomlReader::TomlReader(const toml::table& table, std::string name, std::string file, Diagnostics& diagnostics)
+    : table_(&table), name_(std::move(name)), file_(std::move(file)), diagnostics_(&diagnostics) {}
+
+SourcePlace TomlReader::placeOf(std::string_view key) const {
+  if (const toml::node* node = table_->get(key)) return placeIn(file_, node->source());
+  return placeIn(file_, table_->source());
+}
+
+void TomlReader::report(std::string_view key, std::string message, std::string advice) {
+  diagnostics_->push_back({Severity::Error, placeOf(key), std::move(message), {}, std::move(advice), {}});
+}
+
+void TomlReader::wrongType(std::string_view key, std::string_view expected) {
+  report(key, fmt::format("\"{}\"{} must be {}", key, name_.empty() ? "" : " in " + name_, expected));
+}
+
+const toml::node* TomlReader::find(std::string_view key) {
+  asked_.emplace(key);
+  return table_->get(key);
+}
+
+std::optional<double> TomlReader::number(std::string_view key, NumberRange range) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  const auto value = node->is_number() ? node->value<double>() : std::nullopt;
+  if (!value) {
+    wrongType(key, "a number");
+    return std::nullopt;
+  }
+  if (!within(*value, range)) {
+    wrongType(key, describe(range));
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<long long> TomlReader::integer(std::string_view key, long long minimum, long long maximum) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  const auto* value = node->as_integer();
+  if (!value || value->get() < minimum || value->get() > maximum) {
+    wrongType(key, fmt::format("a whole number from {} to {}", minimum, maximum));
+    return std::nullopt;
+  }
+  return value->get();
+}
+
+std::optional<bool> TomlReader::boolean(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  if (const auto* value = node->as_boolean()) return value->get();
+  wrongType(key, "true or false");
+  return std::nullopt;
+}
+
+std::optional<std::string> TomlReader::text(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  if (const auto* value = node->as_string()) return value->get();
+  wrongType(key, "a text in quotes");
+  return std::nullopt;
+}
+
+std::optional<std::size_t> TomlReader::choice(std::string_view key, const std::vector<std::string>& choices) {
+  const auto value = text(key);
+  if (!value) return std::nullopt;
+  const auto found = std::find(choices.begin(), choices.end(), *value);
+  if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
+  const auto near = nearestName(*value, choices);
+  report(key, fmt::format("\"{}\" is no {}; it must be one of {}", *value, key, fmt::join(choices, ", ")),
+         near ? fmt::format("Did you mean \"{}\"?", *near) : "");
+  return std::nullopt;
+}
+
+std::optional<std::vector<double>> TomlReader::numbers(std::string_view key, std::size_t size) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  const std::string expected =
+      size == 0 ? "a list of numbers"
+                : fmt::format("a list of {} numbers, such as [{}]", size, fmt::join(std::vector<int>(size, 0), ", "));
+  const toml::array* array = node->as_array();
+  if (!array || (size != 0 && array->size() != size)) {
+    wrongType(key, expected);
+    return std::nullopt;
+  }
+  std::vector<double> values;
+  for (const toml::node& element : *array) {
+    const auto value = element.is_number() ? element.value<double>() : std::nullopt;
+    if (!value || !std::isfinite(*value)) {
+      wrongType(key, expected);
+      return std::nullopt;
+    }
+    values.push_back(*value);
+  }
+  return values;
+}
+
+std::string TomlReader::nameOf(std::string_view key, std::string_view open, std::string_view close) const {
+  const std::size_t brackets = name_.find_first_not_of('[');
+  const std::string outer = name_.empty() ? "" : name_.substr(brackets, name_.find(']') - brackets) + ".";
+  return fmt::format("{}{}{}{}", open, outer, key, close);
+}
+
+std::optional<TomlReader> TomlReader::table(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  if (const toml::table* inner = node->as_table()) {
+    return TomlReader(*inner, nameOf(key, "[", "]"), file_, *diagnostics_);
+  }
+  wrongType(key, fmt::format("a table, written {}", nameOf(key, "[", "]")));
+  return std::nullopt;
+}
+
+std::vector<TomlReader> TomlReader::tables(std::string_view key) {
+  std::vector<TomlReader> readers;
+  const toml::node* node = find(key);
+  if (!node) return readers;
+  const toml::array* array = node->as_array();
+  if (!array || !std::all_of(array->begin(), array->end(), [](const toml::node& n) { return n.is_table(); })) {
+    wrongType(key, fmt::format("a list of tables, each written {}", nameOf(key, "[[", "]]")));
+    return readers;
+  }
+  for (const toml::node& element : *array) {
+    readers.emplace_back(*element.as_table(), nameOf(key, "[[", "]]"), file_, *diagnostics_);
+  }
+  return readers;
+}
+
+void TomlReader::require(std::string_view key) {
+  if (table_->contains(key)) return;
+  asked_.emplace(key);
+  report("", fmt::format("\"{}\" is missing{}", key, name_.empty() ? "" : " in " + name_));
+}
+
+std::optional<double> TomlReader::requiredNumber(std::string_view key, NumberRange range) {
+  require(key);
+  return number(key, range);
+}
+
+std::optional<std::string> TomlReader::requiredText(std::string_view key) {
+  require(key);
+  return text(key);
+}
+
+std::vector<std::string> TomlReader::keys() const {
+  std::vector<std::string> names;
+  for (const auto& [key, value] : *table_)
+    names.emplace_back(key.str());
+  return names;
+}
+
+void TomlReader::finish() {
+  for (const auto& [key, value] : *table_) {
+    if (asked_.contains(key.str())) continue;
+    const std::vector<std::string> known(asked_.begin(), asked_.end());
+    const auto near = nearestName(key.str(), known);
+    diagnostics_->push_back(
+        {Severity::Error,
+         placeIn(file_, key.source()),
+         fmt::format("unknown key \"{}\"{}", key.str(), name_.empty() ? "" : " in " + name_),
+         {},
+         near ? fmt::format("Did you mean \"{}\"?", *near) : fmt::format("Known keys here: {}", fmt::join(known, ", ")),
+         {}});
+  }
+}
+
+}  // namespace probewright

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#define TOML_HEADER_ONLY 0
+#include <toml++/toml.h>
+
+#include "base/diagnostic.hpp"
+
+/// Reading TOML files that people write: every mistake gets its place, and a key nobody asked for is a mistake.
+namespace probewright {
+
+/// What numbers a key may have. Infinite bounds are open.
+struct NumberRange {
+  double minimum = -std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
+  bool exclusiveMinimum = false;  ///< the minimum itself is not allowed
+  static NumberRange positive() { return {0, std::numeric_limits<double>::infinity(), true}; }
+  static NumberRange notNegative() { return {0, std::numeric_limits<double>::infinity(), false}; }
+};
+
+/// The table that `text` writes; nothing after a syntax error, which is then in `diagnostics`.
+std::optional<toml::table> parseToml(std::string_view text, const std::string& file, Diagnostics& diagnostics);
+
+/// A table being read. Ask for each key that may be there, then finish(): what nobody asked for is reported with the
+/// nearest name that was. All functions report mistakes to `diagnostics` and go on.
+class TomlReader {
+public:
+  /// `table` must outlive the reader. `name`: how messages call the table: "[probe]"; empty for the whole file.
+  TomlReader(const toml::table& table, std::string name, std::string file, Diagnostics& diagnostics);
+
+  bool has(std::string_view key) const { return table_->contains(key); }
+
+  std::optional<double> number(std::string_view key, NumberRange range = {});
+  std::optional<long long> integer(std::string_view key, long long minimum, long long maximum);
+  std::optional<bool> boolean(std::string_view key);
+  std::optional<std::string> text(std::string_view key);
+  /// One of `choices`; the index of the one that is written.
+  std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& choices);
+  /// An array of numbers, of exactly `size` if that is not 0.
+  std::optional<std::vector<double>> numbers(std::string_view key, std::size_t size = 0);
+  std::optional<TomlReader> table(std::string_view key);
+  /// [[key]]: each table of an array of tables.
+  std::vector<TomlReader> tables(std::string_view key);
+
+  /// The same, and missing is a mistake.
+  std::optional<double> requiredNumber(std::string_view key, NumberRange range = {});
+  std::optional<std::string> requiredText(std::string_view key);
+  void require(std::string_view key);
+
+  /// All keys as they are written, for tables whose keys are names of the user's.
+  std::vector<std::string> keys() const;
+
+  void finish();
+
+  /// A mistake in the value of `key`, or in this table if there is no such key.
+  void report(std::string_view key, std::string message, std::string advice = {});
+  SourcePlace placeOf(std::string_view key) const;
+  const std::string& name() const { return name_; }
+  Diagnostics& diagnostics() { return *diagnostics_; }
+
+private:
+  const toml::node* find(std::string_view key);
+  void wrongType(std::string_view key, std::string_view expected);
+  std::string nameOf(std::string_view key, std::string_view open, std::string_view close) const;
+
+  const toml::table* table_;
+  std::string name_;
+  std::string file_;
+  Diagnostics* diagnostics_;
+  std::set<std::string, std::less<>> asked_;
+};
+
+/// The one of `names` that is most like `word`, if any is like it at all: for "did you mean".
+std::optional<std::string> nearestName(std::string_view word, const std::vector<std::string>& names);
+
+}  // namespace probewright

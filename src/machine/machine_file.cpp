@@ -1,0 +1,165 @@
+#include "machine/machine_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "base/file.hpp"
+#include "base/toml_table.hpp"
+#include "machine/ready_made.hpp"
+
+namespace probewright::machine {
+
+namespace {
+
+Axis readAxis(TomlReader& reader, const std::vector<Axis>& before) {
+  Axis axis;
+  if (auto name = reader.requiredText("name")) {
+    axis.name = *name;
+    if (name->empty() || !std::all_of(name->begin(), name->end(), [](unsigned char c) { return std::isalnum(c); })) {
+      reader.report("name", fmt::format("\"{}\" is no name of an axis", *name), "Axes have names such as X, B or C1");
+    } else if (std::any_of(before.begin(), before.end(), [&](const Axis& other) { return other.name == *name; })) {
+      reader.report("name", fmt::format("there are two axes called {}", *name), "Give each axis a name of its own");
+    }
+  }
+  reader.require("kind");
+  if (auto kind = reader.choice("kind", {"linear", "rotary"}))
+    axis.kind = *kind == 0 ? AxisKind::Linear : AxisKind::Rotary;
+  axis.modulo = reader.boolean("modulo").value_or(false);
+  if (axis.modulo && axis.kind == AxisKind::Linear) {
+    reader.report("modulo", fmt::format("linear axis {} cannot be a modulo axis", axis.name));
+  }
+  if (!axis.modulo) {
+    reader.require("minimum");
+    reader.require("maximum");
+  }
+  axis.minimum = reader.number("minimum").value_or(axis.modulo ? 0 : axis.minimum);
+  axis.maximum = reader.number("maximum").value_or(axis.modulo ? 360 : axis.maximum);
+  if (!(axis.minimum < axis.maximum)) {
+    reader.report("minimum", fmt::format("the travel of axis {} ends before it begins", axis.name),
+                  "minimum must be less than maximum");
+  }
+  axis.rapid = reader.number("rapid", NumberRange::positive()).value_or(axis.rapid);
+  axis.acceleration = reader.number("acceleration", NumberRange::positive()).value_or(axis.acceleration);
+  reader.finish();
+  return axis;
+}
+
+std::vector<ChainElement> readChain(TomlReader& file, const char* key, const MachineDescription& machine,
+                                    std::vector<bool>& used) {
+  std::vector<ChainElement> chain;
+  for (TomlReader& reader : file.tables(key)) {
+    ChainElement element;
+    if (auto name = reader.requiredText("axis")) {
+      element.axis = machine.axisIndex(*name);
+      if (!element.axis) {
+        reader.report("axis", fmt::format("there is no axis called {}", *name), "Declare it under [[axis]] first");
+      } else if (used[*element.axis]) {
+        reader.report("axis", fmt::format("axis {} stands in the chains twice", *name));
+      } else {
+        used[*element.axis] = true;
+      }
+    }
+    reader.require("direction");
+    if (auto direction = reader.numbers("direction", 3)) {
+      const Vector3 vector((*direction)[0], (*direction)[1], (*direction)[2]);
+      if (vector.norm() < 1e-9) {
+        reader.report("direction", "a direction cannot be [0, 0, 0]");
+      } else {
+        element.direction = vector.normalized();
+      }
+    }
+    if (auto point = reader.numbers("point", 3)) {
+      element.point = {(*point)[0], (*point)[1], (*point)[2]};
+      if (element.axis && machine.axes[*element.axis].kind == AxisKind::Linear) {
+        reader.report("point",
+                      fmt::format("linear axis {} has a direction but no point", machine.axes[*element.axis].name),
+                      "Remove this key");
+      }
+    }
+    reader.finish();
+    chain.push_back(element);
+  }
+  return chain;
+}
+
+}  // namespace
+
+std::optional<MachineDescription> parseMachine(std::string_view text, const std::string& file,
+                                               Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.size();
+  const auto root = parseToml(text, file, diagnostics);
+  if (!root) return std::nullopt;
+  TomlReader reader(*root, "", file, diagnostics);
+  MachineDescription machine;
+  machine.name = reader.requiredText("name").value_or("");
+  machine.spindleOrients = reader.boolean("spindle_orients").value_or(true);
+  machine.toolChangeSeconds =
+      reader.number("tool_change_seconds", NumberRange::notNegative()).value_or(machine.toolChangeSeconds);
+  reader.require("axis");
+  for (TomlReader& axis : reader.tables("axis")) {
+    if (machine.axes.size() == maximumAxes) {
+      axis.report("", fmt::format("a machine has at most {} axes here", maximumAxes));
+      break;
+    }
+    machine.axes.push_back(readAxis(axis, machine.axes));
+  }
+  std::vector<bool> used(machine.axes.size(), false);
+  machine.tableChain = readChain(reader, "table_chain", machine, used);
+  machine.spindleChain = readChain(reader, "spindle_chain", machine, used);
+  for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    if (used[i]) continue;
+    reader.report(
+        "axis", fmt::format("axis {} moves nothing", machine.axes[i].name),
+        "Name it in [[table_chain]] if it carries the workpiece, in [[spindle_chain]] if it carries the tool");
+  }
+  if (auto change = reader.table("tool_change")) {
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+      const Axis& axis = machine.axes[i];
+      const NumberRange range = axis.modulo ? NumberRange{} : NumberRange{axis.minimum, axis.maximum};
+      machine.toolChange[i] = change->number(axis.name, range).value_or(0);
+    }
+    change->finish();
+  }
+  reader.finish();
+  if (diagnostics.size() > before) return std::nullopt;
+  return machine;
+}
+
+Result<MachineDescription> readMachine(const std::string& nameOrPath) {
+  std::string text;
+  const auto ready = std::find_if(readyMade().begin(), readyMade().end(),
+                                  [&](const ReadyMade& machine) { return machine.name == nameOrPath; });
+  if (ready != readyMade().end()) {
+    text = ready->toml;
+  } else {
+    auto bytes = readFile(nameOrPath);
+    if (!bytes) {
+      const auto near = nearestName(nameOrPath, readyMadeMachines());
+      return fail({nameOrPath},
+                  fmt::format("there is neither a ready-made machine nor a file called \"{}\"", nameOrPath),
+                  near ? fmt::format("Did you mean \"{}\"?", *near)
+                       : fmt::format("Ready-made machines: {}", fmt::join(readyMadeMachines(), ", ")));
+    }
+    text = std::move(*bytes);
+  }
+  Diagnostics diagnostics;
+  auto machine = parseMachine(text, nameOrPath, diagnostics);
+  if (machine) return *machine;
+  Diagnostic first = diagnostics.front();
+  if (diagnostics.size() > 1) {
+    first.advice += fmt::format("{}{} more mistake{} in this file", first.advice.empty() ? "" : "; ",
+                                diagnostics.size() - 1, diagnostics.size() == 2 ? "" : "s");
+  }
+  return tl::unexpected(std::move(first));
+}
+
+std::vector<std::string> readyMadeMachines() {
+  std::vector<std::string> names;
+  for (const ReadyMade& machine : readyMade())
+    names.emplace_back(machine.name);
+  return names;
+}
+
+}  // namespace probewright::machine

@@ -1,0 +1,224 @@
+#include "simulation/contact_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace probewright::simulation {
+
+using machine::AxisPositions;
+
+namespace {
+
+/// Capsules sweep with a fixed direction; where they turn on the way, pieces are cut until they turn less than this.
+constexpr double capsulePrecision = 0.005;  // mm
+
+bool sweptBoxMisses(const Bounds& bounds, const Vector3& from, const Vector3& to, const Vector3& axis, double radius) {
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const double low = std::min(from[i], to[i]) + std::min(axis[i], 0.0) - radius;
+    const double high = std::max(from[i], to[i]) + std::max(axis[i], 0.0) + radius;
+    if (low > bounds.maximum[i] || high < bounds.minimum[i]) return true;
+  }
+  return false;
+}
+
+/// A stretch of the motion that is taken as straight on the table.
+struct Piece {
+  double begin, end;
+  Pose atBegin, atEnd;
+};
+
+class Search {
+public:
+  Search(const Motion& motion, const ToolShape& shape, const Surroundings& surroundings, const SearchOptions& options)
+      : motion_(motion), shape_(shape), surroundings_(surroundings), options_(options) {}
+
+  std::optional<Touch> between(double begin, double end) const {
+    std::vector<double> cuts = backlashCuts(begin, end);
+    Pose atBegin = motion_.tableFromSpindleAt(begin);
+    double from = begin;
+    for (const double to : cuts) {
+      const AxisPositions first = motion_.slidesAt(from), last = motion_.slidesAt(to);
+      if (motion_.kinematics.isStraight(first, last)) {
+        const Pose atEnd = motion_.tableFromSpindleAt(to);
+        if (auto touch = sweep({from, to, atBegin, atEnd}, 0, 0)) return touch;
+        atBegin = atEnd;
+      } else {
+        const int pieces = motion_.kinematics.piecesFor(first, last);
+        for (int i = 1; i <= pieces; ++i) {
+          const double pieceBegin = from + (to - from) * (i - 1) / pieces;
+          const double pieceEnd = i == pieces ? to : from + (to - from) * i / pieces;
+          const Pose atEnd = motion_.tableFromSpindleAt(pieceEnd);
+          if (auto touch = bent({pieceBegin, pieceEnd, atBegin, atEnd}, 0)) return touch;
+          atBegin = atEnd;
+        }
+      }
+      from = to;
+    }
+    return std::nullopt;
+  }
+
+private:
+  /// The ends of the stretches in which each slide either rests in its backlash or follows.
+  std::vector<double> backlashCuts(double begin, double end) const {
+    std::vector<double> cuts;
+    for (std::size_t i = 0; i < motion_.kinematics.axisCount(); ++i) {
+      const double backlash = motion_.kinematics.backlash(i);
+      const double travel = motion_.to[i] - motion_.from[i];
+      if (backlash == 0 || travel == 0) continue;
+      const double gripsAt = motion_.slidesAtStart[i] - (travel < 0 ? backlash : 0);
+      const double fraction = (gripsAt - motion_.from[i]) / travel;
+      if (fraction > begin && fraction < end) cuts.push_back(fraction);
+    }
+    std::sort(cuts.begin(), cuts.end());
+    cuts.push_back(end);
+    return cuts;
+  }
+
+  /// Searches a stretch that may bend: halves it until its chord is true to the precision, but leaves it at once if
+  /// even a tool swollen by the bend would pass.
+  std::optional<Touch> bent(const Piece& piece, int depth) const {
+    const double middle = 0.5 * (piece.begin + piece.end);
+    const Pose atMiddle = motion_.tableFromSpindleAt(middle);
+    const auto bend = [&](const Vector3& p) {
+      return (atMiddle * p - 0.5 * (piece.atBegin * p + piece.atEnd * p)).norm();
+    };
+    double ballBend = shape_.ball ? bend(shape_.ball->centre) : 0;
+    double capsuleBend = 0;
+    for (const Capsule& capsule : shape_.capsules) {
+      const double turn = ((piece.atEnd.linear() - piece.atBegin.linear()) * capsule.axis).norm();
+      capsuleBend = std::max({capsuleBend, bend(capsule.start), bend(capsule.start + capsule.axis), turn});
+    }
+    constexpr int deepest = 40;
+    constexpr double safety = 2;  // the bend of a smooth path is largest near the middle, where it was taken
+    const bool fine = ballBend <= options_.precision && capsuleBend <= capsulePrecision;
+    if (fine || depth >= deepest) return sweep(piece, 0, 0);
+    if (!sweep(piece, safety * ballBend, safety * capsuleBend)) return std::nullopt;
+    if (auto touch = bent({piece.begin, middle, piece.atBegin, atMiddle}, depth + 1)) return touch;
+    return bent({middle, piece.end, atMiddle, piece.atEnd}, depth + 1);
+  }
+
+  /// The first touch of the tool, with its radii grown, along the chord of the piece.
+  std::optional<Touch> sweep(const Piece& piece, double growBall, double growCapsules) const {
+    std::optional<Touch> first;
+    double reach = 1;  // the part of the piece that is still in question
+    const auto take = [&](const BallContact& contact, std::size_t solid, std::optional<std::size_t> capsule) {
+      const double local = reach * contact.fraction;
+      if (first && local >= reach) return;
+      const Surroundings::Item& item = surroundings_.items()[solid];
+      first = Touch{piece.begin + (piece.end - piece.begin) * local,
+                    solid,
+                    capsule,
+                    item.tableFromSolid * contact.ballCentre,
+                    item.tableFromSolid * contact.touchPoint,
+                    item.tableFromSolid.linear() * contact.normal};
+      reach = local;
+    };
+    const auto& items = surroundings_.items();
+    if (shape_.ball && !options_.ignoreBall) {
+      const Vector3 from = piece.atBegin * shape_.ball->centre, to = piece.atEnd * shape_.ball->centre;
+      const double radius = shape_.ball->radius + growBall;
+      for (std::size_t i = 0; i < items.size(); ++i) {
+        const Vector3 a = items[i].solidFromTable * from, b = items[i].solidFromTable * (from + (to - from) * reach);
+        if (sweptBoxMisses(items[i].bounds, a, b, Vector3::Zero(), radius)) continue;
+        if (const auto contact = items[i].solid->firstContact(a, b, radius)) take(*contact, i, std::nullopt);
+      }
+    }
+    if (options_.ignoreCapsules) return first;
+    for (std::size_t c = 0; c < shape_.capsules.size(); ++c) {
+      const Capsule& capsule = shape_.capsules[c];
+      const Vector3 from = piece.atBegin * capsule.start, to = piece.atEnd * capsule.start;
+      const Vector3 axis = 0.5 * (piece.atBegin.linear() * capsule.axis + piece.atEnd.linear() * capsule.axis);
+      const double radius = capsule.radius + growCapsules;
+      for (std::size_t i = 0; i < items.size(); ++i) {
+        const Vector3 a = items[i].solidFromTable * from, b = items[i].solidFromTable * (from + (to - from) * reach);
+        const Vector3 turned = items[i].solidFromTable.linear() * axis;
+        if (sweptBoxMisses(items[i].bounds, a, b, turned, radius)) continue;
+        if (const auto contact = items[i].solid->firstCapsuleContact(a, b, turned, radius)) take(*contact, i, c);
+      }
+    }
+    return first;
+  }
+
+  const Motion& motion_;
+  const ToolShape& shape_;
+  const Surroundings& surroundings_;
+  const SearchOptions& options_;
+};
+
+}  // namespace
+
+AxisPositions Motion::readingAt(double fraction) const {
+  if (fraction == 1) return to;
+  AxisPositions reading = from;
+  for (std::size_t i = 0; i < kinematics.axisCount(); ++i)
+    reading[i] += (to[i] - from[i]) * fraction;
+  return reading;
+}
+
+AxisPositions Motion::slidesAt(double fraction) const {
+  AxisPositions slides = readingAt(fraction);
+  for (std::size_t i = 0; i < kinematics.axisCount(); ++i) {
+    slides[i] = kinematics.follow(i, slidesAtStart[i], slides[i]);
+  }
+  return slides;
+}
+
+Pose Motion::tableFromSpindleAt(double fraction) const {
+  return kinematics.tableFromSpindle(slidesAt(fraction), startSeconds + profile.secondsAt(fraction * profile.length()));
+}
+
+Surroundings::Surroundings(const std::vector<PlacedSolid>& solids) {
+  for (const PlacedSolid& placed : solids) {
+    items_.push_back(
+        {placed.solid.get(), placed.tableFromSolid.inverse(), placed.tableFromSolid, placed.solid->bounds()});
+  }
+}
+
+std::optional<Touch> firstTouch(const Motion& motion, double begin, double end, const ToolShape& shape,
+                                const Surroundings& surroundings, const SearchOptions& options) {
+  return Search(motion, shape, surroundings, options).between(begin, end);
+}
+
+std::optional<Touch> ballOverlap(const Pose& tableFromSpindle, const ToolShape& shape,
+                                 const Surroundings& surroundings) {
+  if (!shape.ball) return std::nullopt;
+  const Vector3 centre = tableFromSpindle * shape.ball->centre;
+  for (std::size_t i = 0; i < surroundings.items().size(); ++i) {
+    const Surroundings::Item& item = surroundings.items()[i];
+    const Vector3 p = item.solidFromTable * centre;
+    if (sweptBoxMisses(item.bounds, p, p, Vector3::Zero(), shape.ball->radius)) continue;
+    if (const auto contact = item.solid->firstContact(p, p, shape.ball->radius)) {
+      return Touch{0,
+                   i,
+                   std::nullopt,
+                   centre,
+                   item.tableFromSolid * contact->touchPoint,
+                   item.tableFromSolid.linear() * contact->normal};
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Touch> capsuleOverlap(const Pose& tableFromSpindle, const ToolShape& shape,
+                                    const Surroundings& surroundings) {
+  for (std::size_t c = 0; c < shape.capsules.size(); ++c) {
+    const Capsule& capsule = shape.capsules[c];
+    for (std::size_t i = 0; i < surroundings.items().size(); ++i) {
+      const Surroundings::Item& item = surroundings.items()[i];
+      const Vector3 p = item.solidFromTable * (tableFromSpindle * capsule.start);
+      const Vector3 axis = item.solidFromTable.linear() * (tableFromSpindle.linear() * capsule.axis);
+      if (sweptBoxMisses(item.bounds, p, p, axis, capsule.radius)) continue;
+      if (const auto contact = item.solid->firstCapsuleContact(p, p, axis, capsule.radius)) {
+        return Touch{0,
+                     i,
+                     c,
+                     Vector3::Zero(),
+                     item.tableFromSolid * contact->touchPoint,
+                     item.tableFromSolid.linear() * contact->normal};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace probewright::simulation

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "simulation/truth.hpp"
+
+/// What of a tool can touch something: the ball of a probe, and capsules for everything else. All in the spindle frame.
+namespace probewright::simulation {
+
+struct Ball {
+  Vector3 centre = Vector3::Zero();
+  double radius = 0;
+};
+
+/// All points within `radius` of the segment from start to start + axis.
+struct Capsule {
+  Vector3 start = Vector3::Zero();
+  Vector3 axis = Vector3::UnitZ();
+  double radius = 0;
+  const char* part = "";  ///< for messages: "stylus", "body", "tool"
+};
+
+struct ToolShape {
+  std::optional<Ball> ball;
+  std::vector<Capsule> capsules;
+  Vector3 tip = Vector3::Zero();  ///< what the path record follows: the ball's centre, a cutter's tip, the spindle nose
+};
+
+/// The shape of `tool` (none: the empty spindle) with the spindle turned to `spindleDegrees`.
+ToolShape shapeOf(const TrueTool* tool, double spindleDegrees);
+
+}  // namespace probewright::simulation

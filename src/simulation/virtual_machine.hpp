@@ -1,0 +1,107 @@
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "machine/machine.hpp"
+#include "simulation/contact_search.hpp"
+#include "simulation/path_record.hpp"
+#include "simulation/tool_shape.hpp"
+#include "simulation/true_kinematics.hpp"
+#include "simulation/truth.hpp"
+
+namespace probewright::simulation {
+
+/// A machine that exists only in memory, with real parts on its table and a real probe in its spindle.
+///
+/// Motion. Every move is a straight line in axis space from standstill to standstill: acceleration, speed, braking,
+/// each constant along the path and limited by the slowest axis. Path and feed count in mm over the linear axes, in
+/// degrees if only rotary axes move. A target beyond a travel end is refused before anything moves.
+///
+/// Contact. The tool is the ball, the shaft and the body of a probe, or a cutter. Where only linear axes without
+/// position-dependent errors move, the ball's path on the table is straight and contact is as accurate as the solid's
+/// own query; otherwise the path is cut until its chords are true to 1e-7 mm when measuring and 1e-4 mm when
+/// positioning.
+///
+/// Signal. The ball touches; the axes travel on by the pretravel, by speed times signal delay, and by a random amount
+/// with the probe's repeatability; there the readings are latched. The axes brake and stop, at most 0.8 ball radii
+/// beyond the contact, and never beyond the target. If the target comes before the signal, there is none. Pretravel,
+/// delay and noise act along the path.
+///
+/// Errors of the axes act between the readings and the true place of the spindle; see MachineErrors.
+///
+/// Tool change. The last linear axis of the spindle chain goes to the tool change position first, then the other linear
+/// axes together. Changing to the tool in the spindle does nothing. Not watched for collisions except at its end.
+///
+/// One thread at a time may use a machine; cancel() may come from any.
+class VirtualMachine final : public machine::Machine {
+public:
+  explicit VirtualMachine(Truth truth);
+
+  const machine::MachineDescription& description() const override { return truth_.machine; }
+  machine::AxisPositions position() const override { return reading_; }
+  machine::MoveResult move(const machine::AxisPositions& target, machine::Feed feed) override;
+  machine::MeasureResult measure(const machine::AxisPositions& target, machine::Feed feed) override;
+  machine::MoveResult retract(const machine::AxisPositions& target, machine::Feed feed) override;
+  bool probeDeflected() const override { return deflection_.has_value(); }
+  machine::MoveResult orientSpindle(double degrees) override;
+  double spindleAngle() const override { return spindleDegrees_; }
+  machine::MoveResult changeTool(const machine::ToolOrder& order) override;
+  void dwell(double seconds) override;
+  double seconds() const override { return clock_; }
+
+  const Truth& truth() const { return truth_; }
+  const PathRecord& path() const { return path_; }
+  /// The record grows with every move (about 40 bytes); switched off it is no longer added to. On at the start.
+  void recordPath(bool on) { recording_ = on; }
+
+  /// The true place of the spindle (at spindle angle 0) on the table now, and of the tip of the tool.
+  Pose tableFromSpindle() const;
+  Vector3 tipOnTable() const;
+
+  /// Ends the current wait and every later motion with Cancelled.
+  void cancel() { cancelled_ = true; }
+
+private:
+  /// The first touch of a motion and how the motion ends because of it, in fractions of its way.
+  struct Stop {
+    std::optional<Touch> touch;
+    std::optional<double> signal;  ///< where the readings are latched; may lie beyond the end of the way
+    double end = 1;
+  };
+
+  std::optional<std::string> beyondTravel(const machine::AxisPositions& target) const;
+  Motion motionTo(const machine::AxisPositions& target, machine::Feed feed) const;
+  Stop stopFor(const Motion& motion, const Touch& touch);
+  double pretravel(const Motion& motion, const Touch& touch) const;
+  void advance(const Motion& motion, const Stop& stop, PathKind kind);
+  machine::MoveResult finish(const Motion& motion, std::optional<Touch> touch, PathKind kind);
+  std::optional<double> freeFrom(const Motion& motion) const;
+  std::string describe(const Touch& touch) const;
+  const TrueTool* findTool(const machine::ToolOrder& order) const;
+  machine::MoveResult settle();
+
+  Truth truth_;
+  TrueKinematics kinematics_;
+  Surroundings surroundings_;
+  const TrueTool* tool_ = nullptr;
+  ToolShape shape_;
+  machine::AxisPositions reading_;
+  machine::AxisPositions slides_;
+  std::optional<Touch> deflection_;  ///< the touch that deflected the stylus, while it is deflected
+  double spindleDegrees_ = 0;
+  double clock_ = 0;
+  std::mt19937_64 noise_;
+  std::normal_distribution<double> gaussian_;
+  std::atomic<bool> cancelled_ = false;
+  bool recording_ = true;
+  PathRecord path_;
+};
+
+/// The seed of the random stream called `name` in a world seeded with `seed`.
+std::uint64_t streamSeed(std::uint64_t seed, std::string_view name);
+
+}  // namespace probewright::simulation

@@ -1,0 +1,262 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "support/virtual_world.hpp"
+
+namespace probewright::simulation {
+namespace {
+
+using machine::AxisPositions;
+using machine::Feed;
+using machine::MeasureEnd;
+using machine::MoveEnd;
+using testing::HasSubstr;
+using testing_support::idealProbe;
+using testing_support::perfectWorld;
+using testing_support::place;
+using testing_support::positions;
+
+/// A mill with a plane on its table whose surface is z = `height` of the table, and the ideal probe in the spindle.
+Truth worldWithFloor(double height = -400) {
+  Truth truth = perfectWorld();
+  place(truth, HalfSpace({Vector3(0, 0, height), Vector3::UnitZ()}));
+  return truth;
+}
+
+TEST(IdealMachine, LatchesWhereTheBallTouchesAPlane) {
+  VirtualMachine machine(worldWithFloor());
+  ASSERT_EQ(machine.changeTool({1, ""}).end, MoveEnd::Reached);
+  // The ball's lowest point is 100 mm below the nose: contact at Z -300.
+  ASSERT_EQ(machine.move(positions({10, 20, -290}), Feed::rapidTraverse()).end, MoveEnd::Reached);
+  const auto result = machine.measure(positions({10, 20, -310}), Feed::at(300));
+  ASSERT_EQ(result.end, MeasureEnd::Touched) << result.detail;
+  EXPECT_NEAR(result.latched[2], -300, 1e-9);
+  EXPECT_EQ(result.latched[0], 10);
+  EXPECT_TRUE(machine.probeDeflected());
+  // 5 mm/s, 2500 mm/s^2: the axes stop 0.005 mm further.
+  EXPECT_NEAR(machine.position()[2], -300.005, 1e-9);
+}
+
+TEST(IdealMachine, TouchesAnObliquePlaneFromAnyDirection) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int i = 0; i < 300; ++i) {
+    const Vector3 normal = Vector3(uniform(random), uniform(random), 3 + uniform(random)).normalized();
+    const Plane plane{Vector3(0, 0, -400), normal};
+    Truth truth = perfectWorld();
+    place(truth, HalfSpace(plane));
+    VirtualMachine machine(truth);
+    machine.changeTool({0, "PROBE"});
+    const Vector3 target(50 * uniform(random), 50 * uniform(random), -380);
+    const AxisPositions from = positions({target.x() + 20 * uniform(random), target.y() + 20 * uniform(random), -200});
+    const AxisPositions to = positions({target.x(), target.y(), target.z()});
+    ASSERT_EQ(machine.move(from, Feed::rapidTraverse()).end, MoveEnd::Reached);
+    const auto result = machine.measure(to, Feed::at(600));
+    ASSERT_EQ(result.end, MeasureEnd::Touched);
+    const Vector3 centre(result.latched[0], result.latched[1], result.latched[2] - 98);
+    EXPECT_NEAR((centre - plane.point).dot(normal), 2, 1e-9);
+  }
+}
+
+TEST(IdealMachine, RetractFreesTheStylusAndWatchesAgainAfterwards) {
+  Truth truth = worldWithFloor();
+  place(truth, HalfSpace({Vector3(0, 0, -280), -Vector3::UnitZ()}), Pose::Identity(), "ceiling");
+  truth.tools[0].probe.stylusRadius = 0;
+  truth.tools[0].probe.bodyRadius = 0;
+  truth.start = positions({0, 0, -200});
+  VirtualMachine machine(truth);
+  ASSERT_EQ(machine.changeTool({1, ""}).end, MoveEnd::ProbeSignal) << "the tool change position is inside the ceiling";
+  ASSERT_EQ(machine.retract(positions({0, 0, -250}), Feed::rapidTraverse()).end, MoveEnd::Reached);
+  ASSERT_FALSE(machine.probeDeflected());
+  ASSERT_EQ(machine.measure(positions({0, 0, -310}), Feed::at(100)).end, MeasureEnd::Touched);
+  EXPECT_EQ(machine.measure(positions({0, 0, -310}), Feed::at(100)).end, MeasureEnd::DeflectedAtStart);
+  EXPECT_EQ(machine.move(positions({0, 0, -290}), Feed::at(100)).end, MoveEnd::ProbeSignal);
+  ASSERT_EQ(machine.retract(positions({0, 0, -290}), Feed::at(100)).end, MoveEnd::Reached);
+  EXPECT_FALSE(machine.probeDeflected());
+  EXPECT_EQ(machine.measure(positions({0, 0, -310}), Feed::at(100)).end, MeasureEnd::Touched);
+  // The ball's top meets the ceiling at Z -280 + 100 - 4.
+  const auto up = machine.retract(positions({0, 0, -150}), Feed::at(100));
+  EXPECT_EQ(up.end, MoveEnd::ProbeSignal);
+  EXPECT_THAT(up.detail, HasSubstr("\"ceiling\""));
+  EXPECT_NEAR(machine.position()[2], -184, 0.01);
+}
+
+TEST(IdealMachine, RetractIntoTheMaterialIsRefused) {
+  VirtualMachine machine(worldWithFloor());
+  machine.changeTool({1, ""});
+  machine.move(positions({0, 0, -290}), Feed::rapidTraverse());
+  ASSERT_EQ(machine.measure(positions({0, 0, -310}), Feed::at(100)).end, MeasureEnd::Touched);
+  EXPECT_EQ(machine.retract(positions({0, 0, -350}), Feed::at(100)).end, MoveEnd::Collision);
+  // Sideways the stylus stays deflected.
+  EXPECT_EQ(machine.retract(positions({10, 0, machine.position()[2]}), Feed::at(100)).end, MoveEnd::Reached);
+  EXPECT_TRUE(machine.probeDeflected());
+}
+
+TEST(IdealMachine, ContactWhilePositioningStopsTheAxes) {
+  Truth truth = perfectWorld();
+  place(truth, Box({-20, -20, -500}, {20, 20, -400}), Pose::Identity(), "vice", SolidRole::Fixture);
+  VirtualMachine machine(truth);
+  machine.changeTool({1, ""});
+  ASSERT_EQ(machine.move(positions({-50, 0, -310}), Feed::rapidTraverse()).end, MoveEnd::Reached);
+  const auto result = machine.move(positions({50, 0, -310}), Feed::at(1000));
+  EXPECT_EQ(result.end, MoveEnd::ProbeSignal);
+  EXPECT_THAT(result.detail, HasSubstr("stylus tip of tool 1 \"PROBE\" touched the fixture \"vice\""));
+  EXPECT_NEAR(machine.position()[0], -22, 0.05);
+  EXPECT_TRUE(machine.probeDeflected());
+}
+
+TEST(IdealMachine, ShaftBodyAndCuttersCollide) {
+  Truth truth = perfectWorld();
+  place(truth, Box({-20, -20, -440}, {20, 20, -400}), Pose::Identity(), "vice", SolidRole::Fixture);
+  truth.tools.push_back({});
+  truth.tools.back().number = 5;
+  truth.tools.back().kind = ToolKind::Cutter;
+  truth.tools.back().radius = 10;
+  truth.tools.back().length = 80;
+  {
+    VirtualMachine machine(truth);
+    machine.changeTool({1, ""});
+    // The ball passes below the top of the vice and touches first, its radius being larger than the shaft's.
+    machine.move(positions({-60, 0, -330}), Feed::rapidTraverse());
+    EXPECT_EQ(machine.measure(positions({60, 0, -330}), Feed::at(1000)).end, MeasureEnd::Touched);
+  }
+  {
+    VirtualMachine machine(truth);
+    machine.changeTool({1, ""});
+    // The ball passes below the vice's lower face, the shaft meets its side at x = -20 - 1.
+    machine.move(positions({-60, 0, -350}), Feed::rapidTraverse());
+    const auto result = machine.measure(positions({60, 0, -350}), Feed::at(1000));
+    EXPECT_EQ(result.end, MeasureEnd::Collision);
+    EXPECT_THAT(result.detail, HasSubstr("the stylus of tool 1"));
+    EXPECT_NEAR(machine.position()[0], -21, 0.01);
+  }
+  {
+    VirtualMachine machine(truth);
+    machine.changeTool({1, ""});
+    // The body begins 62 mm above the tip and meets the side at x = -20 - 20 well above the shaft.
+    machine.move(positions({-60, 0, -390}), Feed::rapidTraverse());
+    const auto result = machine.move(positions({60, 0, -390}), Feed::at(1000));
+    EXPECT_EQ(result.end, MoveEnd::Collision);
+    EXPECT_THAT(result.detail, HasSubstr("the body of tool 1"));
+    EXPECT_NEAR(machine.position()[0], -40, 0.01);
+    // Away from there it may go.
+    EXPECT_EQ(machine.retract(positions({-80, 0, -390}), Feed::at(1000)).end, MoveEnd::Reached);
+  }
+  {
+    VirtualMachine machine(truth);
+    ASSERT_EQ(machine.changeTool({5, ""}).end, MoveEnd::Reached);
+    EXPECT_EQ(machine.measure(positions({0, 0, -350}), Feed::at(100)).end, MeasureEnd::NotReady);
+    const auto result = machine.move(positions({0, 0, -350}), Feed::at(1000));
+    EXPECT_EQ(result.end, MoveEnd::Collision);
+    EXPECT_NEAR(machine.position()[2], -320, 0.01);
+  }
+}
+
+TEST(IdealMachine, RefusesTargetsBeyondTheTravelWithoutMoving) {
+  VirtualMachine machine(perfectWorld());
+  const auto result = machine.move(positions({500.001, 0, -10}), Feed::rapidTraverse());
+  EXPECT_EQ(result.end, MoveEnd::AxisLimit);
+  EXPECT_EQ(result.detail, "axis X would go to 500.0010 mm; its travel ends at 500.0000");
+  EXPECT_EQ(machine.position(), AxisPositions{});
+  EXPECT_EQ(machine.seconds(), 0);
+  EXPECT_EQ(machine.move(positions({0, 0, std::nan("")}), Feed::rapidTraverse()).end, MoveEnd::AxisLimit);
+}
+
+TEST(IdealMachine, TakesTheTimeOfATrapezoid) {
+  VirtualMachine machine(perfectWorld());
+  // X: 30000 mm/min = 500 mm/s, 3000 mm/s^2: 300 mm take 300/500 + 500/3000 s.
+  machine.move(positions({300, 0, 0}), Feed::rapidTraverse());
+  EXPECT_NEAR(machine.seconds(), 0.6 + 500.0 / 3000, 1e-12);
+  // 10 mm never reach 500 mm/s: 2 * sqrt(10 / 3000) s.
+  double before = machine.seconds();
+  machine.move(positions({310, 0, 0}), Feed::rapidTraverse());
+  EXPECT_NEAR(machine.seconds() - before, 2 * std::sqrt(10.0 / 3000), 1e-12);
+  // X and Z at 45 degrees: Z (400 mm/s, 2500 mm/s^2) is the slower one; along the path sqrt(2) times as much.
+  before = machine.seconds();
+  machine.move(positions({10, 0, -300}), Feed::rapidTraverse());
+  const double path = 300 * std::numbers::sqrt2, speed = 400 * std::numbers::sqrt2,
+               acceleration = 2500 * std::numbers::sqrt2;
+  EXPECT_NEAR(machine.seconds() - before, path / speed + speed / acceleration, 1e-12);
+  // A feed counts along the path.
+  before = machine.seconds();
+  machine.move(positions({40, 40, -300}), Feed::at(600));
+  EXPECT_NEAR(machine.seconds() - before, 50.0 / 10 + 10.0 / (3000 / 0.8), 1e-9);
+  machine.dwell(2.5);
+  EXPECT_NEAR(machine.seconds() - before, 2.5 + 5 + 10.0 / (3000 / 0.8), 1e-9);
+}
+
+TEST(IdealMachine, RotaryMovesFindContactOnTheirArc) {
+  // A box stands on the rotary table; turning C carries it against the ball.
+  Truth truth = perfectWorld("mill5-table-table");
+  place(truth, Box({40, -5, -600}, {60, 5, -500}), Pose::Identity(), "post");
+  VirtualMachine machine(truth);
+  machine.changeTool({1, ""});
+  const double x = 50, y = 30;
+  ASSERT_EQ(machine.move(positions({x, y, -430, 0, 0}), Feed::rapidTraverse()).end, MoveEnd::Reached);
+  const auto result = machine.measure(positions({x, y, -430, 0, 90}), Feed::at(600));
+  EXPECT_EQ(result.end, MeasureEnd::NoContact) << "C+ turns the tool away from the post as seen from the table";
+  const auto back = machine.measure(positions({x, y, -430, 0, -90}), Feed::at(600));
+  ASSERT_EQ(back.end, MeasureEnd::Touched) << back.detail;
+  // On the table the ball turns about Z by C; it meets y = 5 + 2 if its x lies on the face, which it does at
+  // sin(angle) = 7 / radius: x = sqrt(3400 - 49) = 57.9.
+  const double expected = degreesFromRadians(std::asin(7 / std::hypot(x, y)) - std::atan2(y, x));
+  EXPECT_NEAR(back.latched[4], expected, 1e-7);
+}
+
+TEST(IdealMachine, HeadMovesFindContactOnTheirArc) {
+  // B swings the probe about a line 150 mm above the nose: the ball's centre runs on a circle of radius 248.
+  Truth truth = perfectWorld("mill5-head-table");
+  place(truth, HalfSpace({Vector3(-100, 0, 0), Vector3::UnitX()}));
+  VirtualMachine machine(truth);
+  machine.changeTool({1, ""});
+  ASSERT_EQ(machine.move(positions({0, 0, -100, 0, 0}), Feed::rapidTraverse()).end, MoveEnd::Reached);
+  const auto result = machine.measure(positions({0, 0, -100, 60, 0}), Feed::at(600));
+  ASSERT_EQ(result.end, MeasureEnd::Touched) << result.detail;
+  EXPECT_NEAR(result.latched[3], degreesFromRadians(std::asin(98.0 / 248)), 1e-7);
+}
+
+TEST(IdealMachine, RecordsPathAndTouchesOnTheTable) {
+  VirtualMachine machine(worldWithFloor());
+  machine.changeTool({1, ""});
+  machine.move(positions({10, 20, -290}), Feed::rapidTraverse());
+  machine.measure(positions({10, 20, -310}), Feed::at(300));
+  machine.retract(positions({10, 20, -290}), Feed::rapidTraverse());
+  const PathRecord& path = machine.path();
+  ASSERT_GE(path.points.size(), 4u);
+  EXPECT_EQ(path.points.back().kind, PathKind::Retract);
+  EXPECT_LT((path.points.back().tip - Vector3(10, 20, -388)).norm(), 1e-9);
+  ASSERT_EQ(path.touches.size(), 1u);
+  EXPECT_EQ(path.touches[0].solid, "part");
+  EXPECT_EQ(path.touches[0].part, "ball");
+  EXPECT_LT((path.touches[0].point - Vector3(10, 20, -400)).norm(), 1e-9);
+  EXPECT_LT((path.touches[0].normal - Vector3::UnitZ()).norm(), 1e-9);
+  EXPECT_NEAR(path.touches[0].latched[2], -300, 1e-9);
+  EXPECT_EQ(path.points[path.touches[0].pathPoint].kind, PathKind::Measure);
+}
+
+TEST(IdealMachine, ChangesToolsAtTheirPlace) {
+  Truth truth = perfectWorld();
+  truth.machine.toolChange = positions({100, 50, 0});
+  VirtualMachine machine(truth);
+  EXPECT_EQ(machine.measure(positions({0, 0, -10}), Feed::at(100)).end, MeasureEnd::NotReady);
+  EXPECT_EQ(machine.changeTool({1, ""}).end, MoveEnd::Reached);
+  EXPECT_EQ(machine.position(), positions({100, 50, 0}));
+  machine.move(positions({0, 0, -100}), Feed::rapidTraverse());
+  EXPECT_EQ(machine.changeTool({0, "PROBE"}).end, MoveEnd::Reached) << "it is in the spindle already";
+  EXPECT_EQ(machine.position(), positions({0, 0, -100}));
+  const auto missing = machine.changeTool({7, ""});
+  EXPECT_NE(missing.end, MoveEnd::Reached);
+  EXPECT_THAT(missing.detail, HasSubstr("holds no tool 7"));
+}
+
+TEST(IdealMachine, CancelEndsMotion) {
+  VirtualMachine machine(perfectWorld());
+  machine.cancel();
+  EXPECT_EQ(machine.move(positions({1, 0, 0}), Feed::rapidTraverse()).end, MoveEnd::Cancelled);
+}
+
+}  // namespace
+}  // namespace probewright::simulation
