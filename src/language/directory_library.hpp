@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "language/program.hpp"
+
+namespace probewright::language {
+
+/// Finds called programs in folders of this machine, as a control finds them on its own disk: capital and small letters
+/// are the same, the ending may be left out.
+///
+/// Names are taken as programs write them: "SUB", "SUB.H", "PARTS\SUB.H", "TNC:\PARTS\SUB.H", "L100",
+/// "_N_L100_SPF", "/_N_WKS_DIR/_N_RING_WPD/_N_L100_SPF". A path is looked up below the caller's folder and below
+/// each of the further folders; if it is not there, its folders are left out one after the other from the front, so
+/// that programs copied from a control need not keep its folders.
+class DirectoryLibrary : public ProgramLibrary {
+public:
+  /// Opens the program file at a path.
+  using Open = std::function<Result<std::shared_ptr<Program>>(const std::filesystem::path&)>;
+
+  /// `endings`: with their point and in the order of preference, for instance {".SPF", ".MPF"}. `folders` are
+  /// searched behind the folder of the caller.
+  DirectoryLibrary(std::vector<std::string> endings, Open open, std::vector<std::filesystem::path> folders = {});
+
+  Result<std::shared_ptr<Program>> open(std::string_view name, const Program* caller) override;
+  bool exists(std::string_view name, const Program* caller) override;
+
+  /// The file that `caller` means by `name`.
+  std::optional<std::filesystem::path> find(std::string_view name, const Program* caller) const;
+
+private:
+  std::vector<std::filesystem::path> foldersOf(const Program* caller) const;
+
+  std::vector<std::string> endings_;
+  Open open_;
+  std::vector<std::filesystem::path> folders_;
+};
+
+}  // namespace probewright::language
