@@ -1,0 +1,117 @@
+#include "language/klartext/parser.hpp"
+#include "language/klartext/program.hpp"
+
+/// Labels, calls and selections of other files.
+namespace probewright::language::klartext {
+
+bool BlockParser::labelName(TextRef& label, Operand& labelValue) {
+  if (const std::optional<std::string_view> name = lexer_.quoted()) {
+    label = ref(*name);
+    if (label.length == 0) return error("a label name may not be empty");
+    return true;
+  }
+  if (isDigit(lexer_.peek())) {
+    const std::size_t start = lexer_.offset();
+    while (isDigit(lexer_.here()))
+      lexer_.advance();
+    label = ref(canonicalLabel(lexer_.text().substr(start, lexer_.offset() - start)));
+    return true;
+  }
+  if (variableFollows()) {
+    labelValue = variableOperand(*variable());
+    return true;
+  }
+  return error("a label number, a label name in quotation marks or a QS parameter is expected");
+}
+
+bool BlockParser::label() {
+  LabelMark mark;
+  Operand computed;
+  if (!labelName(mark.label, computed)) return false;
+  if (computed.present()) return error("the label of LBL itself cannot be a parameter");
+  mark.end = block_.at(mark.label) == "0";
+  emit(mark);
+  return expectEnd();
+}
+
+bool BlockParser::callLabel() {
+  CallLabel call;
+  if (!labelName(call.label, call.labelValue)) return false;
+  if (lexer_.acceptPrefix("REP")) {
+    // Older programs show the repeats still to come as well: REP 2/2.
+    if (!lexer_.atEnd()) {
+      const std::optional<Operand> repeats = value("the number of repeats");
+      if (!repeats) return false;
+      call.repeats = *repeats;
+      if (lexer_.accept('/') && !value("the number of repeats")) return false;
+    }
+  }
+  emit(call);
+  return expectEnd();
+}
+
+bool BlockParser::callProgram() {
+  CallProgram call;
+  if (lexer_.atEnd()) {
+    call.nameValue = callHost("SELECTED PGM", {});
+    emit(call);
+    return true;
+  }
+  if (const std::optional<std::string_view> name = lexer_.quoted()) {
+    call.name = ref(*name);
+    if (!expectEnd()) return false;
+  } else if (variableFollows() && upper(lexer_.here(1)) == 'S') {
+    call.nameValue = variableOperand(*variable());
+    if (!expectEnd()) return false;
+  } else {
+    call.name = ref(lexer_.restOfLine());
+  }
+  emit(call);
+  return true;
+}
+
+/// SEL PGM, SEL TABLE, SEL PATTERN, SEL CONTOUR... with a path as it stands, in quotation marks, or a QS parameter.
+bool BlockParser::selection() {
+  lexer_.peek();
+  const std::size_t start = lexer_.offset();
+  while (isLetter(lexer_.here()) || lexer_.here() == '-')
+    lexer_.advance();
+  const std::string_view kind = lexer_.text().substr(start, lexer_.offset() - start);
+  if (kind.empty()) return error("PGM, TABLE, PATTERN, CONTOUR or CORR-TABLE is expected behind SEL");
+  std::string name = "SEL ";
+  for (const char c : kind)
+    name += upper(c);
+  Command command;
+  const std::size_t first = block_.words.size();
+  if (const std::optional<std::string_view> text = lexer_.quoted()) {
+    command.text = ref(*text);
+  } else if (variableFollows() && upper(lexer_.here(1)) == 'S') {
+    addWord(0, variableOperand(*variable()));
+  } else {
+    command.text = ref(lexer_.restOfLine());
+  }
+  command.name = constant(name);
+  command.words = wordsSince(first);
+  emit(command);
+  return true;
+}
+
+bool BlockParser::cycleCall() {
+  Command command;
+  const std::size_t first = block_.words.size();
+  if (lexer_.acceptKeyword("PAT")) {
+    command.text = constant("PAT");
+  } else if (lexer_.acceptKeyword("POS")) {
+    command.text = constant("POS");
+  }
+  Move words;
+  if (!moveWords(words)) return false;
+  if (words.feed.present()) addWord(addressOf("F"), words.feed);
+  command.words = wordsSince(first);
+  command.name = constant("CYCL CALL");
+  const Instruction instruction = command;
+  emitWithMachineFunctions(&instruction);
+  return true;
+}
+
+}  // namespace probewright::language::klartext

@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include "language/klartext/parser.hpp"
+
+/// TCH PROBE and CYCL DEF with parameters Q200=..., and the choice between this and the old form n.0, n.1.
+namespace probewright::language::klartext {
+
+namespace {
+
+constexpr int highestCycle = 9999;
+
+/// Where the parameters begin in the line of a cycle's name: at a Q, behind a blank, whose number is followed by '='.
+bool parameterBegins(const Lexer& lexer) {
+  if (upper(lexer.here()) != 'Q') return false;
+  std::size_t i = 1;
+  if (std::string_view("SLR").find(upper(lexer.here(i))) != std::string_view::npos) ++i;
+  while (isBlank(lexer.here(i)))
+    ++i;
+  if (!isDigit(lexer.here(i))) return false;
+  while (isDigit(lexer.here(i)))
+    ++i;
+  while (isBlank(lexer.here(i)))
+    ++i;
+  return lexer.here(i) == '=';
+}
+
+}  // namespace
+
+void BlockParser::skipCycleName() {
+  bool behindBlank = true;
+  for (char c = lexer_.here(); c != '\0' && c != '\n' && c != ';'; c = lexer_.here()) {
+    if (behindBlank && parameterBegins(lexer_)) return;
+    behindBlank = isBlank(c);
+    lexer_.advance();
+  }
+}
+
+bool BlockParser::touchProbe() {
+  if (!isDigit(lexer_.peek())) return error("the number of the touch probe cycle is expected behind TCH PROBE");
+  int number = 0;
+  for (; isDigit(lexer_.here()) && number <= highestCycle; lexer_.advance())
+    number = number * 10 + (lexer_.here() - '0');
+  if (lexer_.here() == '.' && isDigit(lexer_.here(1))) return oldProbeCycle(number);
+  return parameterCycle("TCH PROBE", number);
+}
+
+bool BlockParser::cycleDefinition() {
+  if (!isDigit(lexer_.peek())) return error("the number of the cycle is expected behind CYCL DEF");
+  int number = 0;
+  for (; isDigit(lexer_.here()) && number <= highestCycle; lexer_.advance())
+    number = number * 10 + (lexer_.here() - '0');
+  if (lexer_.here() == '.' && isDigit(lexer_.here(1))) return oldCycle(number);
+  return parameterCycle("CYCL DEF", number);
+}
+
+bool BlockParser::parameterCycle(std::string_view kind, int number) {
+  lexer_.setComments(Lexer::Comments::ToLineEnd);
+  if (number < 0) {  // GLOBAL DEF has its number behind it
+    const std::optional<double> written = lexer_.number();
+    if (!written || *written > highestCycle) return error("the number of the global definition is expected here");
+    number = static_cast<int>(*written);
+  }
+  const std::size_t first = block_.words.size();
+  if (kind == "GLOBAL DEF") addWord(0, Operand::of(number));
+  skipCycleName();
+  if (!cycleParameters(first)) return false;
+  const WordRange words = wordsSince(first);
+  if (kind == "GLOBAL DEF") {
+    emit(Command{constant(kind), {}, -1, words});
+  } else if (kind == "CYCL DEF" && (number == 247 || number == 7 || number == 8 || number == 10 || number == 11 ||
+                                    number == 19 || number == 26)) {
+    emit(Transform{constant(fmt::format("CYCL DEF {}", number)), words, {}});
+  } else if (kind == "CYCL DEF" && (number == 9 || number == 12 || number == 13 || number == 32)) {
+    emit(Command{constant(fmt::format("CYCL DEF {}", number)), {}, -1, words});
+  } else {
+    emit(CycleCall{number, constant(kind), words});
+  }
+  return true;
+}
+
+bool BlockParser::cycleParameters(std::size_t firstWord) {
+  while (!lexer_.atEnd()) {
+    if (!cycleParameter()) return false;
+    const std::uint32_t address = block_.words.back().address;
+    for (std::size_t i = firstWord; i + 1 < block_.words.size(); ++i) {
+      if (block_.words[i].address != address) continue;
+      return error(fmt::format("Q{} is given twice in this cycle", address), "leave one of the two out");
+    }
+  }
+  return true;
+}
+
+bool BlockParser::cycleParameter() {
+  if (!variableFollows()) {
+    return error("a parameter Qn = value of the cycle is expected here",
+                 "each parameter stands as Qn=value ;COMMENT, continued by ~");
+  }
+  const std::uint32_t column = lexer_.column();
+  const std::uint32_t line = lexer_.line();
+  const VariableRef parameter = *variable();
+  if (!expect('=', "the parameter of the cycle")) return false;
+  std::optional<Operand> assigned;
+  if (const std::optional<std::string_view> text = lexer_.quoted()) {
+    assigned = textOperand(ref(*text));
+  } else if (lexer_.acceptKeyword("PREDEF")) {
+    assigned = callHost("PREDEF", {parameter.index[0]});
+  } else if (lexer_.acceptKeyword("MAX") || lexer_.acceptKeyword("FMAX")) {
+    assigned = textOperand(constant("FMAX"));
+  } else if (lexer_.acceptKeyword("FAUTO")) {
+    assigned = textOperand(constant("FAUTO"));
+  } else if (lexer_.peek() == 'F' && (upper(lexer_.here(1)) == 'U' || upper(lexer_.here(1)) == 'Z')) {
+    lexer_.advance(2);
+    assigned = value("the feed");
+  } else if (parameter.space == VariableSpace::QS && isWordByte(lexer_.peek()) && !variableFollows()) {
+    assigned = textOperand(ref(lexer_.chunk()));  // printed programs leave the quotation marks out
+  } else {
+    assigned = formula();
+  }
+  if (!assigned) return false;
+  Word& added = addWord(static_cast<std::uint32_t>(parameter.index[0].number), *assigned);
+  added.column = column;
+  added.line = line;
+  return true;
+}
+
+}  // namespace probewright::language::klartext

@@ -1,0 +1,307 @@
+#include <fmt/format.h>
+
+#include "language/klartext/parser.hpp"
+
+/// FN 0 to FN 38. Assignments and jumps become Assign and Jump; all others a Command "FNn" for the host.
+namespace probewright::language::klartext {
+
+bool BlockParser::function() {
+  const std::optional<double> written = lexer_.number();
+  if (!written) return error("a number from 0 to 38 is expected behind FN");
+  const int number = static_cast<int>(*written);
+  lexer_.accept(':');
+  switch (number) {
+    case 0:
+    case 1:
+    case 2:
+    case 3:
+    case 4:
+    case 5:
+    case 6:
+    case 7:
+    case 8:
+    case 13:
+      return functionAssignment(number);
+    case 9:
+    case 10:
+    case 11:
+    case 12:
+      return functionJump(number);
+    case 17:
+    case 18:
+      return functionSystemData(number);
+    case 23:
+    case 24:
+      return functionCircle(number);
+    case 25:
+      return functionPreset();
+    case 27:
+    case 28:
+      return functionTable(number);
+    case 14:
+    case 15:
+    case 16:
+    case 19:
+    case 20:
+    case 21:
+    case 22:
+    case 26:
+    case 29:
+    case 37:
+    case 38:
+      return functionText(number);
+    default:
+      return error("there is no function FN with this number", "FN 0 to 29, 37 and 38 are known");
+  }
+}
+
+bool BlockParser::functionAssignment(int number) {
+  const std::optional<std::uint32_t> target = variableIndex();
+  if (!target || !expect('=', "the parameter")) return false;
+  const auto call = [&](Function function, Operand argument) {
+    Node node;
+    node.operation = Operation::Call;
+    node.function = function;
+    node.a = static_cast<std::uint32_t>(block_.operands.size());
+    node.b = 1;
+    block_.operands.push_back(argument);
+    return push(node);
+  };
+  std::optional<Operand> result;
+  if (number == 0) {
+    // A text may be assigned to a QS parameter in this form as well.
+    const std::optional<std::string_view> text = lexer_.quoted();
+    result = text ? textOperand(ref(*text)) : value("the parameter");
+  } else if (number >= 5 && number <= 7) {
+    const std::string_view name = number == 5 ? "SQRT" : number == 6 ? "SIN" : "COS";
+    if (!lexer_.acceptPrefix(name)) return error(std::string(name) + " is expected here");
+    const std::optional<Operand> argument = value(name);
+    if (!argument) return false;
+    result = call(number == 5 ? Function::Sqrt : number == 6 ? Function::Sin : Function::Cos, *argument);
+  } else {
+    const std::optional<Operand> left = value("the first value");
+    if (!left) return false;
+    std::string_view sign;
+    Operation operation = Operation::Add;
+    switch (number) {
+      case 1:
+        sign = "+";
+        break;
+      case 2:
+        sign = "-", operation = Operation::Subtract;
+        break;
+      case 3:
+        sign = "*", operation = Operation::Multiply;
+        break;
+      case 4:
+        sign = "DIV", operation = Operation::Divide;
+        break;
+      case 8:
+        sign = "LEN";
+        break;
+      default:
+        sign = "ANG";
+        break;
+    }
+    if (!lexer_.acceptPrefix(sign) && !(number == 4 && lexer_.accept('/'))) {
+      return error(std::string(sign) + " is expected between the two values");
+    }
+    const std::optional<Operand> right = value("the second value");
+    if (!right) return false;
+    if (number == 13) {
+      result = callHost("ANG", {*left, *right});
+    } else if (number == 8) {
+      Node node;
+      node.operation = Operation::Call;
+      node.function = Function::RootSumOfSquares;
+      node.a = static_cast<std::uint32_t>(block_.operands.size());
+      node.b = 2;
+      block_.operands.push_back(*left);
+      block_.operands.push_back(*right);
+      result = push(node);
+    } else {
+      result = binary(operation, *left, *right);
+    }
+  }
+  if (!result) return false;
+  emit(Assign{*target, *result});
+  return expectEnd();
+}
+
+bool BlockParser::functionJump(int number) {
+  static constexpr std::array<std::string_view, 4> comparisons = {"EQU", "NE", "GT", "LT"};
+  static constexpr std::array<Operation, 4> operations = {Operation::Equal, Operation::NotEqual, Operation::Greater,
+                                                          Operation::Less};
+  const auto kind = static_cast<std::size_t>(number - 9);
+  if (!lexer_.acceptKeyword("IF")) return error("IF is expected here");
+  const bool isVariable = variableFollows() || (lexer_.peek() == '+' && upper(lexer_.here(1)) == 'Q');
+  const std::optional<Operand> left = value("the first value");
+  if (!left) return false;
+  Jump jump;
+  if (isVariable && lexer_.acceptKeyword("IS")) {
+    const bool undefined = lexer_.acceptKeyword("UNDEFINED");
+    if (!undefined && !lexer_.acceptKeyword("DEFINED")) return error("DEFINED or UNDEFINED is expected behind IS");
+    Node node;
+    node.operation = Operation::Undefined;
+    node.a = static_cast<std::uint32_t>(block_.variables.size() - 1);
+    jump.condition = push(node);
+    if (!undefined) {
+      Node invert;
+      invert.operation = Operation::Not;
+      invert.left = jump.condition;
+      jump.condition = push(invert);
+    }
+  } else {
+    if (!lexer_.acceptPrefix(comparisons[kind])) {
+      return error(std::string(comparisons[kind]) + " is expected between the two values");
+    }
+    std::optional<Operand> right;
+    if (const std::optional<std::string_view> text = lexer_.quoted()) {
+      right = textOperand(ref(*text));
+    } else {
+      right = value("the second value");
+    }
+    if (!right) return false;
+    jump.condition = binary(operations[kind], *left, *right);
+  }
+  if (!lexer_.acceptPrefix("GOTO")) return error("GOTO LBL is expected behind the condition");
+  if (!lexer_.acceptPrefix("LBL")) return error("LBL is expected behind GOTO");
+  if (!labelName(jump.label, jump.labelValue)) return false;
+  emit(jump);
+  return expectEnd();
+}
+
+/// FN 17: SYSWRITE ID990 NR10 IDX0 = +5, FN 18: SYSREAD Q5 = ID210 NR4 IDX3. Words ID, NR, IDX and VAL.
+bool BlockParser::functionSystemData(int number) {
+  Command command;
+  const std::string_view keyword = number == 17 ? "SYSWRITE" : "SYSREAD";
+  if (!lexer_.acceptPrefix(keyword)) return error(std::string(keyword) + " is expected here");
+  if (number == 18) {
+    const std::optional<std::uint32_t> target = variableIndex();
+    if (!target || !expect('=', "the parameter")) return false;
+    command.variable = static_cast<std::int32_t>(*target);
+  }
+  const std::size_t first = block_.words.size();
+  if (!lexer_.acceptPrefix("ID")) return error("ID with the group of the system datum is expected here");
+  if (!word(addressOf("ID"), "ID")) return false;
+  while (lexer_.peek() == 'N' || lexer_.peek() == 'I') {
+    if (lexer_.acceptPrefix("NR")) {
+      if (!word(addressOf("NR"), "NR")) return false;
+    } else if (lexer_.acceptPrefix("IDX")) {
+      if (!word(addressOf("IDX"), "IDX")) return false;
+    } else {
+      return error("NR or IDX is expected here");
+    }
+  }
+  if (number == 17) {
+    if (!expect('=', "the system datum")) return false;
+    const std::optional<Operand> written = formula();
+    if (!written) return false;
+    addWord(addressOf("VAL"), *written);
+  }
+  command.words = wordsSince(first);
+  command.name = constant(number == 17 ? "FN17" : "FN18");
+  emit(command);
+  return expectEnd();
+}
+
+/// FN 23 and 24: Q20 = CDATA Q30, the circle through 3 or 4 points.
+bool BlockParser::functionCircle(int number) {
+  Command command;
+  const std::optional<std::uint32_t> target = variableIndex();
+  if (!target || !expect('=', "the parameter")) return false;
+  command.variable = static_cast<std::int32_t>(*target);
+  if (!lexer_.acceptPrefix("CDATA")) return error("CDATA is expected here");
+  const std::optional<VariableRef> source = variable();
+  if (!source) return false;
+  const std::size_t first = block_.words.size();
+  addWord(0, source->index[0]);
+  command.words = wordsSince(first);
+  command.name = constant(number == 23 ? "FN23" : "FN24");
+  emit(command);
+  return expectEnd();
+}
+
+/// FN 25: PRESET = X/+Q1/+0: axis, reference coordinate, new value.
+bool BlockParser::functionPreset() {
+  if (!lexer_.acceptPrefix("PRESET")) return error("PRESET is expected here");
+  if (!expect('=', "PRESET")) return false;
+  const char axis = lexer_.peek();
+  if (axis == '\0' || std::string_view("XYZABCUVW").find(axis) == std::string_view::npos) {
+    return error("an axis is expected behind PRESET =");
+  }
+  lexer_.advance();
+  const std::size_t first = block_.words.size();
+  if (!expect('/', "the axis") || !word(addressOf({&axis, 1}), "the coordinate")) return false;
+  if (!expect('/', "the coordinate") || !word(addressOf("VAL"), "the new value")) return false;
+  emit(Command{constant("FN25"), {}, -1, wordsSince(first)});
+  return expectEnd();
+}
+
+/// FN 27: TABWRITE 5/"RADIUS,DEPTH" = Q5, FN 28: TABREAD Q10 = 6/"X,Y,D": row and column names.
+bool BlockParser::functionTable(int number) {
+  Command command;
+  const std::string_view keyword = number == 27 ? "TABWRITE" : "TABREAD";
+  if (!lexer_.acceptPrefix(keyword)) return error(std::string(keyword) + " is expected here");
+  std::optional<std::uint32_t> variable;
+  if (number == 28) {
+    variable = variableIndex();
+    if (!variable || !expect('=', "the parameter")) return false;
+  }
+  const std::size_t first = block_.words.size();
+  if (!word(0, "the row") || !expect('/', "the row")) return false;
+  const std::optional<std::string_view> columns = lexer_.quoted();
+  if (!columns) return error("the names of the columns in quotation marks are expected here");
+  command.text = ref(*columns);
+  if (number == 27) {
+    if (!expect('=', "the columns")) return false;
+    if (variableFollows()) {
+      variable = variableIndex();
+      if (!variable) return false;
+    } else if (const std::optional<std::string_view> text = lexer_.quoted()) {
+      addWord(1, textOperand(ref(*text)));
+    } else if (!word(1, "the value")) {
+      return false;
+    }
+  }
+  if (variable) command.variable = static_cast<std::int32_t>(*variable);
+  command.words = wordsSince(first);
+  command.name = constant(number == 27 ? "FN27" : "FN28");
+  emit(command);
+  return expectEnd();
+}
+
+/// Functions whose text the host reads itself: FN 14: ERROR = 254 as a word, all others as they stand.
+bool BlockParser::functionText(int number) {
+  if (number == 14) {
+    const std::size_t first = block_.words.size();
+    if (!lexer_.acceptPrefix("ERROR") || !expect('=', "ERROR")) {
+      return error("ERROR = with the number of the message is expected here");
+    }
+    if (!word(0, "the number of the message")) return false;
+    emit(Command{constant("FN14"), {}, -1, wordsSince(first)});
+    return expectEnd();
+  }
+  struct Keyword {
+    int number;
+    std::string_view text;
+  };
+  static constexpr std::array<Keyword, 9> keywords = {{{15, "PRINT"},
+                                                       {16, "F-PRINT"},
+                                                       {19, "PLC"},
+                                                       {20, "WAIT FOR"},
+                                                       {26, "TABOPEN"},
+                                                       {29, "PLC"},
+                                                       {37, "EXPORT"},
+                                                       {38, "SEND"},
+                                                       {0, ""}}};
+  for (const Keyword& keyword : keywords) {
+    if (keyword.number == number && !lexer_.acceptPrefix(keyword.text)) {
+      return error(std::string(keyword.text) + " is expected here");
+    }
+  }
+  const std::string name = fmt::format("FN{}", number);
+  return textCommand(name);
+}
+
+}  // namespace probewright::language::klartext

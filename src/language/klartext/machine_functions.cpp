@@ -1,0 +1,138 @@
+#include "language/klartext/parser.hpp"
+
+/// M functions: alone or at the end of a block, with the words that some of them take.
+namespace probewright::language::klartext {
+
+namespace {
+
+/// True for functions that act when the block's motion has ended.
+bool actsAtEnd(int number) {
+  switch (number) {
+    case 0:
+    case 1:
+    case 2:
+    case 5:
+    case 6:
+    case 9:
+    case 30:
+    case 89:
+    case 97:
+    case 98:
+    case 99:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool takesAxes(int number) { return number == 94 || number == 116 || number == 118 || number == 138; }
+
+bool takesFeed(int number) { return number == 103 || number == 128 || number == 140; }
+
+}  // namespace
+
+bool BlockParser::machineFunction(Move* move) {
+  lexer_.advance();
+  const std::optional<double> written = lexer_.number();
+  if (!written || *written > 9999) return error("a number from 0 to 9999 is expected behind M");
+  const int number = static_cast<int>(*written);
+  if (move != nullptr && number == 91) {
+    move->machineCoordinates = true;
+    return true;
+  }
+  if (move != nullptr && number == 92) {
+    move->machineReference2 = true;
+    return true;
+  }
+  if (pendingCount_ == pending_.size()) return error("there are too many M functions in this block");
+  MachineFunction function;
+  function.number = number;
+  const std::size_t first = block_.words.size();
+  if (number == 140 || number == 120 || number == 124) {
+    const std::string_view keyword = number == 140 ? "MB" : number == 120 ? "LA" : "T";
+    if (lexer_.acceptPrefix(keyword)) {
+      if (number == 140 && lexer_.acceptKeyword("MAX")) {
+        addWord(addressOf("MB"), {});
+      } else if (!word(addressOf(keyword), keyword)) {
+        return false;
+      }
+    }
+  }
+  while (takesAxes(number)) {
+    const bool incremental = lexer_.peek() == 'I';
+    const char letter = upper(incremental ? lexer_.here(1) : lexer_.peek());
+    if (std::string_view("XYZABCUVW").find(letter) == std::string_view::npos || letter == '\0') break;
+    lexer_.advance(incremental ? 2 : 1);
+    const char next = lexer_.peek();
+    const bool valued = next == '+' || next == '-' || isDigit(next) || next == '.' || next == 'Q';
+    if (!valued) {
+      addWord(addressOf({&letter, 1}), {});
+    } else if (!word(addressOf({&letter, 1}), {&letter, 1})) {
+      return false;
+    }
+  }
+  if (takesFeed(number) && lexer_.peek() == 'F') {
+    bool rapid = false;
+    bool automatic = false;
+    if (!feedWord(function.argument, &rapid, &automatic)) return false;
+    if (rapid && move != nullptr) move->rapid = true;
+  }
+  function.words = wordsSince(first);
+  pending_[pendingCount_++] = {function, actsAtEnd(number)};
+  return true;
+}
+
+bool BlockParser::machineFunctionBlock() {
+  Move feedOnly;
+  bool hasFeed = false;
+  while (!lexer_.atEnd()) {
+    if (lexer_.peek() == 'M') {
+      if (!machineFunction(nullptr)) return false;
+    } else if (lexer_.peek() == 'F') {
+      hasFeed = true;
+      if (!feedWord(feedOnly.feed, &feedOnly.rapid, &feedOnly.autoFeed)) return false;
+    } else {
+      return expectEnd();
+    }
+  }
+  if (hasFeed) {
+    const Instruction instruction = feedOnly;
+    emitWithMachineFunctions(&instruction);
+  } else {
+    emitWithMachineFunctions(nullptr);
+  }
+  return true;
+}
+
+void BlockParser::emitWithMachineFunctions(const Instruction* instruction) {
+  const auto emitFunction = [&](const MachineFunction& function) {
+    switch (function.number) {
+      case 0:
+        emit(Stop{});
+        break;
+      case 1:
+        emit(Stop{true, {}});
+        break;
+      case 2:
+      case 30:
+        emit(EndProgram{});
+        break;
+      case 99:
+        emit(Command{constant("CYCL CALL"), {}, -1, {}});
+        break;
+      default:
+        emit(function);
+        break;
+    }
+  };
+  for (std::size_t i = 0; i < pendingCount_; ++i) {
+    if (!pending_[i].atEnd) emitFunction(pending_[i].function);
+  }
+  if (instruction != nullptr) block_.instructions.push_back(*instruction);
+  for (std::size_t i = 0; i < pendingCount_; ++i) {
+    if (pending_[i].atEnd) emitFunction(pending_[i].function);
+  }
+  pendingCount_ = 0;
+}
+
+}  // namespace probewright::language::klartext

@@ -1,0 +1,215 @@
+#include "language/klartext/parser.hpp"
+
+#include <algorithm>
+
+namespace probewright::language::klartext {
+
+TextRef BlockParser::ref(std::string_view part) const {
+  if (part.empty()) return {};
+  return {static_cast<std::uint32_t>(lexer_.offsetOf(part)), static_cast<std::uint32_t>(part.size())};
+}
+
+bool BlockParser::error(std::string message, std::string advice) {
+  Diagnostic diagnostic;
+  diagnostic.place = {file_, block_.position.line + lexer_.line(), lexer_.column()};
+  diagnostic.message = std::move(message);
+  diagnostic.advice = std::move(advice);
+  const std::string_view text = lexer_.text();
+  const std::size_t at = std::min(lexer_.offset(), text.size());
+  const std::size_t before = at == 0 ? std::string_view::npos : text.rfind('\n', at - 1);
+  const std::size_t start = before == std::string_view::npos ? 0 : before + 1;
+  std::string_view line = text.substr(start, std::min(text.find('\n', start), text.size()) - start);
+  while (!line.empty() && isBlank(line.back()))
+    line.remove_suffix(1);
+  diagnostic.excerpt = line;
+  diagnostics_.push_back(std::move(diagnostic));
+  return false;
+}
+
+bool BlockParser::expect(char wanted, std::string_view after) {
+  if (lexer_.accept(wanted)) return true;
+  return error(std::string("'") + wanted + "' is expected behind " + std::string(after));
+}
+
+bool BlockParser::expectEnd() {
+  if (lexer_.atEnd()) return true;
+  return error("the block should end here", "put a comment behind ';' or write a block of its own");
+}
+
+void BlockParser::parse() {
+  if (lexer_.peek() == '/') {
+    block_.skippable = true;
+    lexer_.advance();
+  }
+  lexer_.peek();
+  while (isDigit(lexer_.here()))
+    lexer_.advance();
+  if (lexer_.peek() == '/') {
+    block_.skippable = true;
+    lexer_.advance();
+  }
+  if (!statement()) block_.instructions.clear();
+}
+
+bool BlockParser::textCommand(std::string_view name) {
+  emit(Command{constant(name), ref(lexer_.restOfBlock()), -1, {}});
+  return true;
+}
+
+bool BlockParser::statement() {
+  const char first = lexer_.peek();
+  const char second = upper(lexer_.here(1));
+  const bool single = !isLetter(second);
+  switch (first) {
+    case '\0':
+    case '*':
+      return true;  // empty, comment, structure
+    case 'L':
+      if (lexer_.acceptPrefix("LBL")) return label();
+      lexer_.advance();
+      if (second == 'P' && !isLetter(lexer_.here(1))) {
+        lexer_.advance();
+        return move(MoveKind::Linear, true);
+      }
+      if (second == 'N' && !isLetter(lexer_.here(1))) lexer_.advance();
+      return move(MoveKind::Linear, false);
+    case 'C':
+      if (lexer_.acceptKeyword("CYCL")) {
+        if (lexer_.acceptKeyword("DEF")) return cycleDefinition();
+        if (lexer_.acceptKeyword("CALL")) return cycleCall();
+        return error("DEF or CALL is expected behind CYCL");
+      }
+      if (lexer_.acceptKeyword("CALL")) {
+        if (lexer_.acceptPrefix("LBL")) return callLabel();
+        if (lexer_.acceptKeyword("PGM") || lexer_.acceptKeyword("SELECTED PGM")) return callProgram();
+        return error("LBL or PGM is expected behind CALL");
+      }
+      if (lexer_.acceptKeyword("CC")) return move(MoveKind::SetCentre, false);
+      if (lexer_.acceptKeyword("CR")) return arc(false);
+      if (lexer_.acceptKeyword("CTP")) return move(MoveKind::ArcTangential, true);
+      if (lexer_.acceptKeyword("CT")) return move(MoveKind::ArcTangential, false);
+      if (lexer_.acceptKeyword("CP")) return arc(true);
+      if (lexer_.acceptKeyword("CHF")) return move(MoveKind::Chamfer, false);
+      if (lexer_.acceptKeyword("CONTOUR")) return textCommand("CONTOUR");
+      if (single && (second == '+' || second == '-' || isDigit(second))) return move(MoveKind::Linear, false);
+      if (single) {
+        lexer_.advance();
+        return arc(false);
+      }
+      break;
+    case 'Q':
+      if (variableFollows()) return assignment();
+      break;
+    case 'F':
+      if (second == 'N' && !isLetter(lexer_.here(2))) return lexer_.advance(2), function();
+      if (lexer_.acceptKeyword("FUNCTION")) return functionKeyword();
+      for (const std::string_view name : {"FLT", "FCT", "FPOL", "FSELECT", "FL", "FC"}) {
+        if (lexer_.acceptKeyword(name)) return textCommand(name);
+      }
+      if (!isLetter(second) || lexer_.acceptKeyword("FMAX") || lexer_.acceptKeyword("FAUTO")) {
+        return machineFunctionBlock();
+      }
+      break;
+    case 'T':
+      if (lexer_.acceptKeyword("TCH")) {
+        if (!lexer_.acceptPrefix("PROBE")) return error("PROBE is expected behind TCH");
+        return touchProbe();
+      }
+      if (lexer_.acceptKeyword("TOOL")) {
+        if (lexer_.acceptPrefix("CALL")) return toolCall();
+        if (lexer_.acceptPrefix("DEF")) return toolDefinition();
+        return error("CALL or DEF is expected behind TOOL");
+      }
+      if (lexer_.acceptKeyword("TRANS")) return transformation();
+      break;
+    case 'M':
+      if (isDigit(second) || isBlank(second)) return machineFunctionBlock();
+      if (lexer_.acceptKeyword("MONITORING")) return textCommand("MONITORING");
+      break;
+    case 'B':
+      if (lexer_.acceptKeyword("BEGIN")) return beginOrEnd();
+      if (lexer_.acceptKeyword("BLK")) return blankForm();
+      break;
+    case 'E':
+      if (lexer_.acceptKeyword("END")) {
+        if (lexer_.acceptPrefix("PGM")) {
+          emit(EndProgram{});
+          return true;
+        }
+        return error("PGM is expected behind END");
+      }
+      if (lexer_.acceptKeyword("ERROR")) {
+        lexer_.accept('=');
+        return textCommand("ERROR");
+      }
+      break;
+    case 'R':
+      if (lexer_.acceptPrefix("RND")) return move(MoveKind::Rounding, false);
+      break;
+    case 'A':
+      if (lexer_.acceptKeyword("APPR")) return approachOrDepart(MoveKind::Approach);
+      break;
+    case 'D':
+      if (lexer_.acceptKeyword("DEP")) return approachOrDepart(MoveKind::Depart);
+      if (lexer_.acceptKeyword("DECLARE")) {
+        if (lexer_.acceptKeyword("STRING")) return assignment();
+        return textCommand("DECLARE");
+      }
+      break;
+    case 'P':
+      if (lexer_.acceptKeyword("PLANE")) return plane();
+      if (lexer_.acceptKeyword("PRESET")) return presetKeyword();
+      if (lexer_.acceptKeyword("PATTERN")) return textCommand("PATTERN");
+      break;
+    case 'S':
+      if (lexer_.acceptKeyword("STOP")) return stop();
+      if (lexer_.acceptKeyword("SEL")) return selection();
+      if (lexer_.acceptKeyword("SQL")) return textCommand("SQL");
+      if (lexer_.acceptKeyword("SECTION")) return textCommand("SECTION");
+      break;
+    case 'G':
+      if (lexer_.acceptKeyword("GLOBAL")) {
+        if (!lexer_.acceptKeyword("DEF")) return error("DEF is expected behind GLOBAL");
+        return parameterCycle("GLOBAL DEF", -1);
+      }
+      break;
+    default:
+      break;
+  }
+  if (std::string_view("XYZABUVWI").find(first) != std::string_view::npos && single) {
+    return move(MoveKind::Linear, false);
+  }
+  if (first == 'I' && std::string_view("XYZABCUVW").find(second) != std::string_view::npos) {
+    return move(MoveKind::Linear, false);
+  }
+  return error("this is no block of the Klartext language",
+               "begin the block with a path function (L, CC, C...), TOOL CALL, CYCL DEF, TCH PROBE, FN, Q or M; begin "
+               "comments with ';'");
+}
+
+bool BlockParser::beginOrEnd() {
+  if (!lexer_.acceptPrefix("PGM")) return error("PGM is expected behind BEGIN");
+  const std::string_view head = lexer_.restOfLine();
+  const bool millimetre = head.size() >= 2 && head.substr(head.size() - 2) == "MM";
+  const bool inch = head.size() >= 4 && head.substr(head.size() - 4) == "INCH";
+  if (!millimetre && !inch) return error("MM or INCH is expected at the end of BEGIN PGM");
+  emit(Command{constant("BEGIN PGM"), ref(head), -1, {}});
+  return true;
+}
+
+/// BLK FORM is a picture for the control's graphics; the words of the corner points are kept, other forms as text.
+bool BlockParser::blankForm() {
+  if (!lexer_.acceptKeyword("FORM")) return error("FORM is expected behind BLK");
+  return textCommand("BLK FORM");
+}
+
+bool BlockParser::stop() {
+  emit(Stop{});
+  while (lexer_.peek() == 'M') {
+    if (!machineFunction(nullptr)) return false;
+  }
+  emitWithMachineFunctions(nullptr);
+  return expectEnd();
+}
+
+}  // namespace probewright::language::klartext

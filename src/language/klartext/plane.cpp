@@ -1,0 +1,229 @@
+#include "language/klartext/parser.hpp"
+
+/// PLANE, TRANS, FUNCTION and PRESET blocks.
+///
+/// PLANE becomes Transform "PLANE SPATIAL"... Words: the definition's own (SPA, SPB, SPC, PROP, PROM, ROT, EULP, EULN,
+/// EULR, BX..BZ, NX..NZ, P1X..P3Z, axes), and the positioning behind it: MOVE, TURN or STAY without value, DIST, MB
+/// (absent value: MAX), F, FMAX without value, SEQ or SYM (+1 or -1), TABL or COOR (TABLE ROT, COORD ROT) without
+/// value.
+namespace probewright::language::klartext {
+
+namespace {
+
+struct Variant {
+  std::string_view keyword;
+  std::string_view name;
+};
+
+constexpr std::array<Variant, 9> variants = {{{"SPATIAL", "PLANE SPATIAL"},
+                                              {"PROJECTED", "PLANE PROJECTED"},
+                                              {"EULER", "PLANE EULER"},
+                                              {"VECTOR", "PLANE VECTOR"},
+                                              {"POINTS", "PLANE POINTS"},
+                                              {"RELATIVE", "PLANE RELATIVE"},
+                                              {"RELATIV", "PLANE RELATIVE"},
+                                              {"AXIAL", "PLANE AXIAL"},
+                                              {"RESET", "PLANE RESET"}}};
+
+// Longer words before those they begin with.
+constexpr std::array<std::string_view, 24> definitionWords = {
+    "SPA", "SPB", "SPC", "PROPR", "PROMIN", "EULPR", "EULNU", "EULROT", "ROT", "BX",  "BY",  "BZ",
+    "NX",  "NY",  "NZ",  "P1X",   "P1Y",    "P1Z",   "P2X",   "P2Y",    "P2Z", "P3X", "P3Y", "P3Z"};
+
+}  // namespace
+
+bool BlockParser::plane() {
+  const Variant* variant = nullptr;
+  for (const Variant& candidate : variants) {
+    if (variant == nullptr && lexer_.acceptKeyword(candidate.keyword)) variant = &candidate;
+  }
+  if (variant == nullptr) {
+    return error("SPATIAL, PROJECTED, EULER, VECTOR, POINTS, RELATIVE, AXIAL or RESET is expected behind PLANE");
+  }
+  const std::size_t first = block_.words.size();
+  while (!lexer_.atEnd()) {
+    const char c = lexer_.peek();
+    if (c == 'M' && isDigit(lexer_.here(1))) {
+      if (!machineFunction(nullptr)) return false;
+      continue;
+    }
+    bool taken = false;
+    for (const std::string_view name : definitionWords) {
+      if (!lexer_.acceptPrefix(name)) continue;
+      if (!word(addressOf(name), name)) return false;
+      taken = true;
+      break;
+    }
+    if (taken) continue;
+    if (variant->keyword == "AXIAL" && ((c >= 'A' && c <= 'C') || c == 'I') && upper(lexer_.here(1)) != 'O') {
+      const bool incremental = c == 'I';
+      if (incremental) lexer_.advance();
+      const char axis = lexer_.peek();
+      lexer_.advance();
+      if (!word(addressOf({&axis, 1}), {&axis, 1}, incremental ? WordMode::Incremental : WordMode::Plain)) return false;
+    } else if (!planeOption()) {
+      return false;
+    }
+  }
+  const Instruction instruction = Transform{constant(variant->name), wordsSince(first), {}};
+  emitWithMachineFunctions(&instruction);
+  return true;
+}
+
+bool BlockParser::planeOption() {
+  const auto flag = [&](std::string_view name) {
+    addWord(addressOf(name), {});
+    return true;
+  };
+  if (lexer_.acceptKeyword("MOVE")) return flag("MOVE");
+  if (lexer_.acceptKeyword("TURN")) return flag("TURN");
+  if (lexer_.acceptKeyword("STAY")) return flag("STAY");
+  if (lexer_.acceptPrefix("DIST") || lexer_.acceptPrefix("ABST")) return word(addressOf("DIST"), "DIST");
+  if (lexer_.acceptPrefix("MB")) {
+    if (lexer_.acceptKeyword("MAX")) return flag("MB");
+    return word(addressOf("MB"), "MB");
+  }
+  if (lexer_.acceptPrefix("SEQ") || lexer_.acceptPrefix("SYM")) {
+    const char sign = lexer_.peek();
+    if (sign != '+' && sign != '-') return error("+ or - is expected here");
+    lexer_.advance();
+    addWord(addressOf("SEQ"), Operand::of(sign == '+' ? 1 : -1));
+    return true;
+  }
+  if (lexer_.acceptKeyword("TABLE"))
+    return (lexer_.acceptKeyword("ROT") || error("ROT is expected here")) && flag("TABL");
+  if (lexer_.acceptKeyword("COORD"))
+    return (lexer_.acceptKeyword("ROT") || error("ROT is expected here")) && flag("COOR");
+  if (lexer_.peek() == 'F') {
+    Operand feed;
+    bool rapid = false;
+    bool automatic = false;
+    if (!feedWord(feed, &rapid, &automatic)) return false;
+    if (rapid) return flag("FMAX");
+    if (feed.present()) addWord(addressOf("F"), feed);
+    return true;
+  }
+  return error("this word is not known in a PLANE block",
+               "MOVE, TURN, STAY, DIST, MB, F, SEQ+, SEQ-, COORD ROT and TABLE ROT may follow the definition");
+}
+
+/// TRANS DATUM AXIS X+10 | TABLE TABLINE 5 ["table"] | RESET, TRANS MIRROR AXIS X | RESET, TRANS ROTATION ROT+10 |
+/// RESET, TRANS SCALE SCL0.5 | RESET.
+bool BlockParser::transformation() {
+  Transform transform;
+  const std::size_t first = block_.words.size();
+  std::string_view name;
+  if (lexer_.acceptKeyword("DATUM")) {
+    if (lexer_.acceptKeyword("AXIS")) {
+      name = "TRANS DATUM AXIS";
+      if (!axisList(true)) return false;
+    } else if (lexer_.acceptKeyword("TABLE")) {
+      name = "TRANS DATUM TABLE";
+      while (!lexer_.atEnd()) {
+        if (const std::optional<std::string_view> table = lexer_.quoted()) {
+          transform.option = ref(*table);
+        } else if (lexer_.acceptPrefix("TABLINE")) {
+          if (!word(addressOf("#"), "the row of the datum table")) return false;
+        } else {
+          return error("TABLINE with a row or the name of a datum table in quotation marks is expected here");
+        }
+      }
+    } else if (lexer_.acceptKeyword("RESET")) {
+      name = "TRANS DATUM RESET";
+    } else {
+      return error("AXIS, TABLE or RESET is expected behind TRANS DATUM");
+    }
+  } else if (lexer_.acceptKeyword("MIRROR")) {
+    name = lexer_.acceptKeyword("RESET") ? "TRANS MIRROR RESET" : "TRANS MIRROR AXIS";
+    if (name == "TRANS MIRROR AXIS") {
+      if (!lexer_.acceptKeyword("AXIS")) return error("AXIS or RESET is expected behind TRANS MIRROR");
+      if (!axisList(false)) return false;
+    }
+  } else if (lexer_.acceptKeyword("ROTATION")) {
+    name = lexer_.acceptKeyword("RESET") ? "TRANS ROTATION RESET" : "TRANS ROTATION";
+    if (name == "TRANS ROTATION") {
+      const bool incremental = lexer_.accept('I');
+      if (!lexer_.acceptPrefix("ROT")) return error("ROT with an angle or RESET is expected behind TRANS ROTATION");
+      if (!word(addressOf("ROT"), "ROT", incremental ? WordMode::Incremental : WordMode::Plain)) return false;
+    }
+  } else if (lexer_.acceptKeyword("SCALE")) {
+    name = lexer_.acceptKeyword("RESET") ? "TRANS SCALE RESET" : "TRANS SCALE";
+    if (name == "TRANS SCALE") {
+      if (!lexer_.acceptPrefix("SCL")) return error("SCL with a factor or RESET is expected behind TRANS SCALE");
+      if (!word(addressOf("SCL"), "SCL")) return false;
+    }
+  } else {
+    return error("DATUM, MIRROR, ROTATION or SCALE is expected behind TRANS");
+  }
+  transform.words = wordsSince(first);
+  transform.name = constant(name);
+  emit(transform);
+  return expectEnd();
+}
+
+/// FUNCTION TCPM becomes Modal "FUNCTION TCPM" with the words F (1 = F TCP, 0 = F CONT), AXIS (1 = AXIS POS, 0 = AXIS
+/// SPAT), PATH (1 = PATHCTRL AXIS, 0 = PATHCTRL VECTOR); FUNCTION RESET TCPM becomes Modal "FUNCTION RESET TCPM"; all
+/// others are Command "FUNCTION" with their text.
+bool BlockParser::functionKeyword() {
+  const auto choice = [&](std::string_view address, std::string_view one, std::string_view zero) {
+    const bool isOne = lexer_.acceptKeyword(one);
+    if (!isOne && !lexer_.acceptKeyword(zero)) {
+      return error(std::string(one).append(" or ").append(zero).append(" is expected here"));
+    }
+    addWord(addressOf(address), Operand::of(isOne ? 1 : 0));
+    return true;
+  };
+  if (lexer_.acceptKeyword("RESET")) {
+    if (lexer_.acceptKeyword("TCPM")) {
+      emit(Modal{constant("FUNCTION RESET TCPM"), {}});
+      return expectEnd();
+    }
+    emit(Command{constant("FUNCTION RESET"), ref(lexer_.restOfBlock()), -1, {}});
+    return true;
+  }
+  if (!lexer_.acceptKeyword("TCPM")) return textCommand("FUNCTION");
+  const std::size_t first = block_.words.size();
+  while (!lexer_.atEnd()) {
+    if (lexer_.acceptKeyword("F")) {
+      if (!choice("F", "TCP", "CONT")) return false;
+    } else if (lexer_.acceptKeyword("AXIS")) {
+      if (!choice("AXIS", "POS", "SPAT")) return false;
+    } else if (lexer_.acceptKeyword("PATHCTRL")) {
+      if (!choice("PATH", "AXIS", "VECTOR")) return false;
+    } else if (lexer_.acceptKeyword("REFPNT")) {
+      lexer_.chunk();
+    } else {
+      return error("F TCP, F CONT, AXIS POS, AXIS SPAT, PATHCTRL or REFPNT is expected here");
+    }
+  }
+  const WordRange words = wordsSince(first);
+  emit(Modal{constant("FUNCTION TCPM"), words});
+  return true;
+}
+
+/// PRESET SELECT #5 | PRESET COPY #1 TO #5 | PRESET CORR X+1: words # (and TO), axes.
+bool BlockParser::presetKeyword() {
+  const std::size_t first = block_.words.size();
+  std::string_view name;
+  if (lexer_.acceptKeyword("SELECT")) {
+    name = "PRESET SELECT";
+    if (!expect('#', "PRESET SELECT") || !word(addressOf("#"), "the row of the preset table")) return false;
+    lexer_.restOfBlock();
+  } else if (lexer_.acceptKeyword("COPY")) {
+    name = "PRESET COPY";
+    if (!expect('#', "PRESET COPY") || !word(addressOf("#"), "the row of the preset table")) return false;
+    if (!lexer_.acceptKeyword("TO")) return error("TO #row is expected here");
+    if (!expect('#', "TO") || !word(addressOf("TO"), "the row of the preset table")) return false;
+    lexer_.restOfBlock();
+  } else if (lexer_.acceptKeyword("CORR")) {
+    name = "PRESET CORR";
+    if (!axisList(true)) return false;
+  } else {
+    return error("SELECT, COPY or CORR is expected behind PRESET");
+  }
+  const WordRange words = wordsSince(first);
+  emit(Command{constant(name), {}, -1, words});
+  return expectEnd();
+}
+
+}  // namespace probewright::language::klartext

@@ -1,0 +1,102 @@
+#include "language/klartext/program.hpp"
+
+#include "language/klartext/block_extent.hpp"
+#include "language/klartext/lexer.hpp"
+#include "language/klartext/parser.hpp"
+
+namespace probewright::language::klartext {
+
+std::string_view canonicalLabel(std::string_view label) {
+  bool number = !label.empty();
+  for (const char c : label)
+    number = number && isDigit(c);
+  while (number && label.size() > 1 && label.front() == '0')
+    label.remove_prefix(1);
+  return label;
+}
+
+KlartextProgram::KlartextProgram(std::string file, std::string text)
+    : KlartextProgram(SourceText::of(std::move(file), std::move(text))) {}
+
+KlartextProgram::KlartextProgram(SourceText source) : source_(std::move(source)), name_(programName(source_.file())) {
+  begin_.offset = source_.begin();
+  readHead();
+}
+
+Result<std::shared_ptr<KlartextProgram>> KlartextProgram::open(const std::filesystem::path& path) {
+  Result<SourceText> source = SourceText::open(path);
+  if (!source) return tl::unexpected(source.error());
+  return std::shared_ptr<KlartextProgram>(new KlartextProgram(std::move(*source)));
+}
+
+void KlartextProgram::readHead() {
+  constexpr int furthestHead = 50;
+  BlockPosition position = begin_;
+  for (int i = 0; i < furthestHead; ++i) {
+    BlockPosition next;
+    Lexer lexer(withoutBlockNumber(readBlock(position, next)));
+    if (next.offset == position.offset) return;
+    if (lexer.acceptKeyword("BEGIN")) {
+      const std::string_view head = lexer.restOfLine();
+      if (head.size() >= 4 && head.substr(head.size() - 4) == "INCH") unit_ = Unit::Inch;
+      return;
+    }
+    if (!lexer.atEnd() && lexer.peek() != '*') return;
+    position = next;
+  }
+}
+
+std::string_view KlartextProgram::readBlock(BlockPosition position, BlockPosition& next) const {
+  next = position;
+  const SourceLine line = source_.line(position.offset);
+  if (!line) return {};
+  const std::string_view statement = withoutBlockNumber(line.text);
+  const char first = statement.empty() ? ' ' : upper(statement.front());
+  if (first != 'T' && first != 'C' && !endsWithContinuation(line.text)) {
+    next = {line.next, position.line + 1};
+    return line.text;
+  }
+  const std::string_view text = source_.bytes(position.offset, source_.end());
+  const BlockExtent extent = blockExtent(text);
+  next.offset += extent.next;
+  next.line += extent.lines;
+  return text.substr(0, extent.length);
+}
+
+bool KlartextProgram::parse(BlockPosition position, Block& block, Diagnostics& diagnostics) {
+  block.clear();
+  block.position = position;
+  const std::string_view text = readBlock(position, block.next);
+  if (block.next.offset == position.offset) return false;
+  block.source = block.add(text);
+  BlockParser(text, file(), block, diagnostics).parse();
+  return true;
+}
+
+void KlartextProgram::indexLabels() {
+  labelsIndexed_ = true;
+  BlockPosition position = begin_;
+  for (;;) {
+    BlockPosition next;
+    const std::string_view text = readBlock(position, next);
+    if (next.offset == position.offset) return;
+    const std::string_view statement = withoutBlockNumber(text);
+    if (statement.size() > 3 && upper(statement[0]) == 'L' && upper(statement[1]) == 'B' &&
+        upper(statement[2]) == 'L') {
+      Lexer lexer(statement.substr(3));
+      const std::optional<std::string_view> quoted = lexer.quoted();
+      const std::string_view label = quoted ? *quoted : canonicalLabel(lexer.chunk());
+      if (!label.empty() && label != "0") labels_[std::string(label)].push_back(position);
+    }
+    position = next;
+  }
+}
+
+std::optional<BlockPosition> KlartextProgram::findLabel(std::string_view label, BlockPosition, JumpDirection) {
+  if (!labelsIndexed_) indexLabels();
+  const auto found = labels_.find(std::string(canonicalLabel(label)));
+  if (found == labels_.end()) return std::nullopt;
+  return found->second.front();
+}
+
+}  // namespace probewright::language::klartext

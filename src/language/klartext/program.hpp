@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "base/diagnostic.hpp"
+#include "language/program.hpp"
+#include "language/source_text.hpp"
+
+namespace probewright::language::klartext {
+
+enum class Unit { Millimetre, Inch };
+
+/// A HEIDENHAIN Klartext program (.H) of a TNC 640 or iTNC 530.
+///
+/// A block is one statement with its continuation lines. The parts of a cycle in the old form (TCH PROBE 0.0 and 0.1;
+/// CYCL DEF 7.0, 7.1, 7.2...) are one block, and so are the parameter lines Q321=... that follow a cycle's first line
+/// without continuation signs, as printed programs show them. Names and comments may be in any encoding in which ASCII
+/// stays ASCII (UTF-8, CP1252, CP1251, GBK); they are kept byte for byte.
+class KlartextProgram : public Program {
+public:
+  /// A program in memory. `file` names it in messages.
+  KlartextProgram(std::string file, std::string text);
+  /// A program on disk, read where it is needed: its size does not matter.
+  static Result<std::shared_ptr<KlartextProgram>> open(const std::filesystem::path& path);
+
+  const std::string& file() const override { return source_.file(); }
+  const std::string& name() const override { return name_; }
+  BlockPosition begin() const override { return begin_; }
+  bool parse(BlockPosition position, Block& block, Diagnostics& diagnostics) override;
+  std::optional<BlockPosition> findLabel(std::string_view label, BlockPosition from, JumpDirection direction) override;
+  /// Klartext has no structured statements.
+  std::optional<BlockPosition> counterpart(BlockPosition) override { return std::nullopt; }
+
+  /// The unit of BEGIN PGM; millimetres where there is none.
+  Unit unit() const { return unit_; }
+
+private:
+  explicit KlartextProgram(SourceText source);
+  void readHead();
+  void indexLabels();
+  /// The text of the block at `position`, with the positions it has and is followed by.
+  std::string_view readBlock(BlockPosition position, BlockPosition& next) const;
+
+  SourceText source_;
+  std::string name_;
+  BlockPosition begin_;
+  Unit unit_ = Unit::Millimetre;
+  bool labelsIndexed_ = false;
+  std::unordered_map<std::string, std::vector<BlockPosition>> labels_;
+};
+
+/// The label that a LBL block's text behind LBL names, as findLabel knows it: leading zeros of numbers removed.
+std::string_view canonicalLabel(std::string_view label);
+
+}  // namespace probewright::language::klartext

@@ -1,0 +1,100 @@
+#include <algorithm>
+
+#include "language/klartext/parser.hpp"
+
+/// TOOL CALL and TOOL DEF.
+namespace probewright::language::klartext {
+
+namespace {
+
+bool isToolAxis(char letter) { return std::string_view("XYZUVW").find(letter) != std::string_view::npos; }
+
+}  // namespace
+
+bool BlockParser::toolCall() {
+  ToolCall call;
+  if (const std::optional<std::string_view> name = lexer_.quoted()) {
+    call.name = textOperand(ref(*name));
+  } else if (isDigit(lexer_.peek())) {
+    double number = 0;
+    for (; isDigit(lexer_.here()); lexer_.advance())
+      number = std::min(number * 10 + (lexer_.here() - '0'), 1e9);
+    call.number = Operand::of(number);
+    if (lexer_.here() == '.' && isDigit(lexer_.here(1))) {
+      lexer_.advance();
+      call.index = Operand::of(lexer_.here() - '0');
+      while (isDigit(lexer_.here()))
+        lexer_.advance();
+    }
+  } else if (variableFollows()) {
+    const VariableRef tool = *variable();
+    (tool.space == VariableSpace::QS ? call.name : call.number) = variableOperand(tool);
+  } else if (lexer_.peek() == '"') {
+    return error("the quotation mark that ends the tool name is missing");
+  }
+  for (;;) {
+    const char c = lexer_.peek();
+    if (c == '\0') break;
+    if (isToolAxis(c) && call.axis == 0 && !isWordByte(lexer_.here(1))) {
+      call.axis = c;
+      lexer_.advance();
+    } else if (c == 'S') {
+      lexer_.advance();
+      if (lexer_.accept('(')) {  // S(VC = 120): a cutting speed
+        if (!lexer_.acceptPrefix("VC") || !expect('=', "VC") || !value("VC") || !expect(')', "the cutting speed")) {
+          return diagnostics_.empty() ? error("VC = with a cutting speed is expected in the parentheses behind S")
+                                      : false;
+        }
+      } else {
+        const std::optional<Operand> speed = value("the spindle speed S");
+        if (!speed) return false;
+        call.spindleSpeed = *speed;
+      }
+    } else if (c == 'F') {
+      bool rapid = false;
+      bool automatic = false;
+      if (!feedWord(call.feed, &rapid, &automatic)) return false;
+    } else if (c == 'D' && (upper(lexer_.here(1)) == 'L' || upper(lexer_.here(1)) == 'R')) {
+      Operand* delta = upper(lexer_.here(1)) == 'L' ? &call.deltaLength : &call.deltaRadius;
+      lexer_.advance(2);
+      // DR2+0.1 is the corner radius; DR2 alone would be the radius.
+      const char sign = lexer_.here(1);
+      if (delta == &call.deltaRadius && lexer_.here() == '2' && !isDigit(sign) && sign != '.') {
+        delta = &call.deltaRadius2;
+        lexer_.advance();
+      }
+      if (lexer_.here() == ':') lexer_.advance();
+      const std::optional<Operand> amount = value("the tool oversize");
+      if (!amount) return false;
+      *delta = *amount;
+    } else if (c == 'M') {
+      if (!machineFunction(nullptr)) return false;
+    } else {
+      return error("the tool axis, S, F, DL, DR, DR2 or M is expected here",
+                   "a tool name stands in quotation marks: TOOL CALL \"TASTER\" Z");
+    }
+  }
+  const Instruction instruction = call;
+  emitWithMachineFunctions(&instruction);
+  return true;
+}
+
+bool BlockParser::toolDefinition() {
+  const std::size_t first = block_.words.size();
+  if (lexer_.atEnd()) return error("a tool number or name is expected behind TOOL DEF");
+  if (const std::optional<std::string_view> name = lexer_.quoted()) {
+    addWord(addressOf("T"), textOperand(ref(*name)));
+  } else if (!word(addressOf("T"), "the tool number")) {
+    return false;
+  }
+  while (!lexer_.atEnd()) {
+    const char c = lexer_.peek();
+    if (c != 'L' && c != 'R') return error("L or R is expected here");
+    lexer_.advance();
+    if (!word(addressOf({&c, 1}), "the tool dimension")) return false;
+  }
+  emit(Command{constant("TOOL DEF"), {}, -1, wordsSince(first)});
+  return true;
+}
+
+}  // namespace probewright::language::klartext
