@@ -106,7 +106,7 @@ bool BlockParser::cycleParameter() {
     assigned = callHost("PREDEF", {parameter.index[0]});
   } else if (lexer_.acceptKeyword("MAX") || lexer_.acceptKeyword("FMAX")) {
     assigned = textOperand(constant("FMAX"));
-  } else if (lexer_.acceptKeyword("FAUTO")) {
+  } else if (lexer_.acceptKeyword("FAUTO") || lexer_.acceptKeyword("AUTO")) {
     assigned = textOperand(constant("FAUTO"));
   } else if (lexer_.peek() == 'F' && (upper(lexer_.here(1)) == 'U' || upper(lexer_.here(1)) == 'Z')) {
     lexer_.advance(2);
