@@ -1,5 +1,7 @@
 #include "klartext/ir_text.hpp"
 
+#include <fmt/format.h>
+
 #include "base/number_text.hpp"
 #include "language/klartext/program.hpp"
 
@@ -21,21 +23,21 @@ struct Writer {
     if (o.isLiteral()) return formatShortest(o.number);
     const Node& n = block.nodes.at(static_cast<std::size_t>(o.node));
     const auto two = [&](std::string_view sign) {
-      return "(" + operand(n.left) + std::string(sign) + operand(n.right) + ")";
+      return fmt::format("({}{}{})", operand(n.left), sign, operand(n.right));
     };
     switch (n.operation) {
       case Operation::Number:
         return formatShortest(n.number);
       case Operation::Text:
-        return "'" + std::string(block.at(n.text)) + "'";
+        return fmt::format("'{}'", block.at(n.text));
       case Operation::Variable:
         return variable(block.variables.at(n.a));
       case Operation::Undefined:
-        return "undefined(" + variable(block.variables.at(n.a)) + ")";
+        return fmt::format("undefined({})", variable(block.variables.at(n.a)));
       case Operation::Negate:
-        return "-" + operand(n.left);
+        return fmt::format("-{}", operand(n.left));
       case Operation::Not:
-        return "!" + operand(n.left);
+        return fmt::format("!{}", operand(n.left));
       case Operation::Add:
         return two("+");
       case Operation::Subtract:
