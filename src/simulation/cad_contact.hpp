@@ -1,0 +1,23 @@
+#pragma once
+
+#include "simulation/cad_model.hpp"
+
+/// The exact contact of a moving ball with one face or edge. Each function puts a meeting earlier than the best into
+/// `best`. Accuracy 1e-8 mm wherever the ball does not merely graze.
+namespace probewright::simulation {
+
+/// A face with a closed form, whole.
+void meetAnalyticFace(const CadFace& face, const Way& way, double radius, Meeting& best);
+
+/// A face of any shape, near one triangle of its tessellation; `coarse` is the meeting with the grown triangle.
+void meetFaceNear(const CadFace& face, const CadElement& triangle, const Meeting& coarse, const Way& way, double radius,
+                  Meeting& best);
+
+/// A straight or round edge with its ends, whole.
+void meetSimpleEdge(const CadEdge& edge, const Way& way, double radius, Meeting& best);
+
+/// Any edge near one of its chords, with the chord's ends.
+void meetEdgeNear(const CadEdge& edge, const CadElement& chord, const Meeting& coarse, const Way& way, double radius,
+                  Meeting& best);
+
+}  // namespace probewright::simulation

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Geom_Curve.hxx>
+#include <Geom_Surface.hxx>
+#include <TopoDS_Shape.hxx>
+#include <optional>
+#include <vector>
+
+#include "simulation/analytic_surface.hpp"
+#include "simulation/search_tree.hpp"
+#include "simulation/trimmed_domain.hpp"
+
+/// A boundary representation prepared for contact queries: exact faces and edges, and a tessellation to find them by.
+namespace probewright::simulation {
+
+struct CadFace {
+  std::optional<AnalyticSurface> analytic;  ///< the exact surface where it has a closed form
+  Handle(Geom_Surface) surface;             ///< the exact surface in every case
+  TrimmedDomain domain;
+  bool reversed = false;  ///< the material lies on the side the surface's own normal points to
+};
+
+struct CadEdge {
+  enum class Kind { Line, Circle, Curve };
+  Kind kind = Kind::Curve;
+  Handle(Geom_Curve) curve;
+  double first = 0;  ///< parameters of the ends
+  double last = 0;
+  Vector3 start = Vector3::Zero();
+  Vector3 end = Vector3::Zero();
+  // A circle:
+  Vector3 centre = Vector3::Zero();
+  Matrix3 axes = Matrix3::Identity();
+  double radius = 0;
+};
+
+/// A triangle of a face's tessellation, or a chord of an edge: what the search tree finds.
+struct CadElement {
+  enum class Kind : std::uint8_t { Face, Edge };
+  Triangle corners;                   ///< of a chord: its ends, the last twice
+  std::array<Vector2, 3> parameters;  ///< on the surface; of a chord: the curve parameters of its ends in x
+  double growth = 0;                  ///< the exact shape lies within this distance
+  std::uint32_t owner = 0;            ///< index of the face or edge
+  Kind kind = Kind::Face;
+};
+
+struct CadModel {
+  TopoDS_Shape shape;
+  std::vector<CadFace> faces;
+  std::vector<CadEdge> edges;
+  std::vector<CadElement> elements;  ///< in the order of the tree
+  SearchTree tree;
+  Bounds bounds;        ///< of the exact shape, to within the deflection
+  bool closed = false;  ///< bounds material, so that a point is inside or outside
+};
+
+/// Tessellates and prepares a shape. Throws Standard_Failure or std::runtime_error where that is impossible.
+CadModel cadModel(const TopoDS_Shape& shape, double deflection);
+
+}  // namespace probewright::simulation

@@ -1,0 +1,122 @@
+#include "simulation/cad_solid.hpp"
+
+#include <fmt/format.h>
+
+#include <Standard_Failure.hxx>
+#include <algorithm>
+#include <stdexcept>
+
+#include "simulation/cad_contact.hpp"
+#include "simulation/cad_model.hpp"
+#include "simulation/contact.hpp"
+
+namespace probewright::simulation {
+namespace {
+
+/// The faces and edges a query has dealt with. One that falls out of the memory is dealt with again, to no harm.
+class Memory {
+public:
+  bool knows(const CadElement& element) {
+    const std::uint64_t key = static_cast<std::uint64_t>(element.owner) << 1 |
+                              static_cast<std::uint64_t>(element.kind == CadElement::Kind::Edge);
+    const std::size_t known = std::min(count_, keys_.size());
+    if (std::find(keys_.begin(), keys_.begin() + static_cast<std::ptrdiff_t>(known), key) !=
+        keys_.begin() + static_cast<std::ptrdiff_t>(known)) {
+      return true;
+    }
+    keys_[count_++ % keys_.size()] = key;
+    return false;
+  }
+
+private:
+  std::array<std::uint64_t, 32> keys_;
+  std::size_t count_ = 0;
+};
+
+void meet(const CadModel& model, const CadElement& element, const Way& way, double radius, Memory& memory,
+          Meeting& best) {
+  Meeting coarse;
+  coarse.when = best.when;
+  const bool isFace = element.kind == CadElement::Kind::Face;
+  const double grown = radius + element.growth;
+  const bool near = isFace ? sweepTriangle(way, grown, element.corners, coarse)
+                           : sweepSegment(way, grown, element.corners[0], element.corners[1], coarse);
+  if (!near) return;
+  if (isFace) {
+    const CadFace& face = model.faces[element.owner];
+    if (!face.analytic) return meetFaceNear(face, element, coarse, way, radius, best);
+    if (!memory.knows(element)) meetAnalyticFace(face, way, radius, best);
+  } else {
+    const CadEdge& edge = model.edges[element.owner];
+    if (edge.kind == CadEdge::Kind::Curve) return meetEdgeNear(edge, element, coarse, way, radius, best);
+    if (!memory.knows(element)) meetSimpleEdge(edge, way, radius, best);
+  }
+}
+
+}  // namespace
+
+CadSolid::CadSolid(CadModel model) : model_(std::make_unique<const CadModel>(std::move(model))) {}
+CadSolid::~CadSolid() = default;
+
+Bounds CadSolid::bounds() const { return model_->bounds; }
+const TopoDS_Shape& CadSolid::shape() const { return model_->shape; }
+std::size_t CadSolid::faceCount() const { return model_->faces.size(); }
+
+std::size_t CadSolid::triangleCount() const {
+  return static_cast<std::size_t>(std::count_if(model_->elements.begin(), model_->elements.end(),
+                                                [](const CadElement& e) { return e.kind == CadElement::Kind::Face; }));
+}
+
+bool CadSolid::isInside(const Vector3& point) const {
+  return model_->closed && rayMeetsBack(model_->tree, point, [this](std::uint32_t place) {
+           const CadElement& element = model_->elements[place];
+           return element.kind == CadElement::Kind::Face ? &element.corners : nullptr;
+         });
+}
+
+std::optional<BallContact> CadSolid::firstContact(const Vector3& from, const Vector3& to, double radius) const {
+  const Mover mover{wayBetween(from, to), radius};
+  Meeting best;
+  Memory memory;
+  model_->tree.search(mover, best, [&](std::uint32_t place) {
+    meet(*model_, model_->elements[place], mover.way, radius, memory, best);
+  });
+  if (model_->closed && !(best.when < 0)) {
+    const bool onFace = best.found() && !best.normal.isZero();
+    const bool inside = onFace ? best.normal.dot(mover.way.at(best.when) - best.point) < 0 : isInside(from);
+    if (inside) return contactWithin(mover.way, radius);
+  }
+  return ballContact(mover.way, best);
+}
+
+std::optional<BallContact> CadSolid::firstCapsuleContact(const Vector3& from, const Vector3& to, const Vector3& axis,
+                                                         double radius) const {
+  const Way way = wayBetween(from, to);
+  Meeting best;
+  const std::size_t parts = capsuleParts(axis, radius);
+  const Vector3 part = axis / static_cast<double>(parts);
+  for (std::size_t i = 0; i < parts; ++i) {
+    const Mover mover{{way.start + static_cast<double>(i) * part, way.direction, way.length}, radius, part};
+    model_->tree.search(mover, best, [&](std::uint32_t place) {
+      const CadElement& element = model_->elements[place];
+      if (element.kind == CadElement::Kind::Face) sweepCapsule(mover.way, radius, part, element.corners, best);
+    });
+  }
+  if (!(best.when < 0) && isInside(from)) return contactWithin(way, radius);
+  return capsuleContact(way, axis, best);
+}
+
+Result<std::unique_ptr<Solid>> cadSolid(const TopoDS_Shape& shape, const CadOptions& options) {
+  if (shape.IsNull()) return fail("the shape is empty", "a part needs at least one body or face");
+  try {
+    return std::make_unique<CadSolid>(cadModel(shape, options.deflection));
+  } catch (const Standard_Failure& failure) {
+    return fail(fmt::format("the shape cannot be prepared for contact: {}", failure.GetMessageString()),
+                "export the part again as solid bodies, or as STL");
+  } catch (const std::runtime_error& failure) {
+    return fail(fmt::format("the shape cannot be prepared for contact: {}", failure.what()),
+                "export the part again as solid bodies, or as STL");
+  }
+}
+
+}  // namespace probewright::simulation

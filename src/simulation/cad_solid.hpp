@@ -1,0 +1,59 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "base/diagnostic.hpp"
+#include "simulation/drawing_mesh.hpp"
+#include "simulation/solid.hpp"
+
+class TopoDS_Shape;
+
+namespace probewright::simulation {
+
+struct CadModel;
+
+struct CadOptions {
+  /// How far the triangles that find the faces may be off, mm. Contacts of balls do not depend on it, contacts of
+  /// capsules do; smaller takes longer to load.
+  double deflection = 0.01;
+};
+
+/// A solid from CAD: planes, cylinders, cones, spheres and tori in closed form, free-form faces and edges by iteration.
+/// Contacts of balls are exact on the surface to 1e-6 mm, contacts of capsules on its tessellation.
+/// A shape of loose faces is a skin that can be touched from both sides; a body knows its inside, and whatever starts
+/// there makes contact at fraction 0.
+class CadSolid final : public Solid {
+public:
+  explicit CadSolid(CadModel model);
+  ~CadSolid() override;
+
+  Bounds bounds() const override;
+  std::optional<BallContact> firstContact(const Vector3& from, const Vector3& to, double radius) const override;
+  std::optional<BallContact> firstCapsuleContact(const Vector3& from, const Vector3& to, const Vector3& axis,
+                                                 double radius) const override;
+
+  const TopoDS_Shape& shape() const;
+  std::size_t faceCount() const;
+  std::size_t triangleCount() const;
+  DrawingMesh drawing() const;
+
+private:
+  bool isInside(const Vector3& point) const;
+
+  std::unique_ptr<const CadModel> model_;
+};
+
+/// Prepares a shape for contact; fails where it has no face or cannot be tessellated.
+Result<std::unique_ptr<Solid>> cadSolid(const TopoDS_Shape& shape, const CadOptions& options = {});
+
+/// All bodies (or faces, where there are no bodies) of a STEP or IGES file, in mm, in the file's own frame.
+Result<std::unique_ptr<Solid>> readStep(const std::filesystem::path& path, const CadOptions& options = {});
+Result<std::unique_ptr<Solid>> readIges(const std::filesystem::path& path, const CadOptions& options = {});
+
+/// Writes a solid that came from CAD or a recipe as STEP (AP214, mm). The header's time stamp is fixed, so the same
+/// solid gives the same file. Fails for solids of triangles.
+Result<void> writeStep(const Solid& solid, const std::filesystem::path& path);
+Result<void> writeStep(const TopoDS_Shape& shape, const std::filesystem::path& path);
+
+}  // namespace probewright::simulation

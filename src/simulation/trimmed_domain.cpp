@@ -1,0 +1,61 @@
+#include "simulation/trimmed_domain.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace probewright::simulation {
+namespace {
+
+double wrapped(double value, double low, double period) {
+  return period > 0 ? value + period * std::ceil((low - value) / period) : value;
+}
+
+}  // namespace
+
+TrimmedDomain::TrimmedDomain(std::vector<Segment> border, double periodU, double periodV)
+    : border_(std::move(border)), periodU_(periodU), periodV_(periodV) {
+  low_.setConstant(1e300);
+  high_.setConstant(-1e300);
+  for (const Segment& s : border_) {
+    low_ = low_.cwiseMin(s.from).cwiseMin(s.to);
+    high_ = high_.cwiseMax(s.from).cwiseMax(s.to);
+  }
+  if (border_.empty()) return;
+  bands_.resize(std::clamp<std::size_t>(border_.size() / 4, 1, 1024));
+  const double height = (high_.y() - low_.y()) / static_cast<double>(bands_.size());
+  const auto bandOf = [&](double v) {
+    const double band = height > 0 ? std::floor((v - low_.y()) / height) : 0;
+    return static_cast<std::size_t>(std::clamp(band, 0.0, static_cast<double>(bands_.size() - 1)));
+  };
+  for (std::uint32_t i = 0; i < border_.size(); ++i) {
+    const double from = border_[i].from.y();
+    const double to = border_[i].to.y();
+    if (from == to) continue;
+    for (std::size_t band = bandOf(std::min(from, to)); band <= bandOf(std::max(from, to)); ++band) {
+      bands_[band].push_back(i);
+    }
+  }
+}
+
+bool TrimmedDomain::containsPlain(const Vector2& p) const {
+  if (border_.empty() || (p - low_).minCoeff() < 0 || (high_ - p).minCoeff() < 0) return false;
+  const double height = (high_.y() - low_.y()) / static_cast<double>(bands_.size());
+  const double band = height > 0 ? std::floor((p.y() - low_.y()) / height) : 0;
+  bool inside = false;
+  for (const std::uint32_t i :
+       bands_[static_cast<std::size_t>(std::clamp(band, 0.0, static_cast<double>(bands_.size() - 1)))]) {
+    const Segment& s = border_[i];
+    if ((s.from.y() <= p.y()) == (s.to.y() <= p.y())) continue;
+    const double crossing = s.from.x() + (p.y() - s.from.y()) / (s.to.y() - s.from.y()) * (s.to.x() - s.from.x());
+    if (crossing > p.x()) inside = !inside;
+  }
+  return inside;
+}
+
+bool TrimmedDomain::contains(Vector2 p) const {
+  p.x() = wrapped(p.x(), low_.x(), periodU_);
+  p.y() = wrapped(p.y(), low_.y(), periodV_);
+  return containsPlain(p);
+}
+
+}  // namespace probewright::simulation

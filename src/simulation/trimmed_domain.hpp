@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/primitives.hpp"
+
+namespace probewright::simulation {
+
+/// The part of a surface's parameter plane that a face covers: the inside of closed polygons, by the even-odd rule.
+/// The polygons follow the face's borders closely, not exactly; near a border its edge decides about contacts.
+class TrimmedDomain {
+public:
+  struct Segment {
+    Vector2 from;
+    Vector2 to;
+  };
+
+  TrimmedDomain() = default;
+  /// Periods are zero for directions that do not close.
+  TrimmedDomain(std::vector<Segment> border, double periodU, double periodV);
+
+  bool contains(Vector2 parameters) const;
+
+private:
+  bool containsPlain(const Vector2& p) const;
+
+  std::vector<Segment> border_;
+  std::vector<std::vector<std::uint32_t>> bands_;  ///< the segments that cross each band of equal height in v
+  Vector2 low_ = Vector2::Zero();
+  Vector2 high_ = Vector2::Zero();
+  double periodU_ = 0;
+  double periodV_ = 0;
+};
+
+}  // namespace probewright::simulation
