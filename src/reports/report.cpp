@@ -1,0 +1,238 @@
+#include "reports/report.hpp"
+
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
+
+#include "records/results.hpp"
+#include "reports/embedded.hpp"
+#include "reports/readable_text.hpp"
+
+namespace probewright::reports {
+
+using nlohmann::json;
+
+namespace {
+
+/// A typed array as the page reads it: little-endian, base64.
+template <class T>
+std::string base64(const std::vector<T>& values) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  using namespace boost::archive::iterators;
+  using Encode = base64_from_binary<transform_width<const char*, 6, 8>>;
+  std::string bytes(values.size() * sizeof(T), '\0');
+  if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+  // The encoder reads whole groups of three bytes.
+  const std::size_t missing = (3 - bytes.size() % 3) % 3;
+  bytes.append(missing, '\0');
+  std::string text(Encode(bytes.data()), Encode(bytes.data() + bytes.size()));
+  text.replace(text.size() - missing, missing, missing, '=');
+  return text;
+}
+
+std::vector<float> coordinates(const std::vector<Vector3f>& points) {
+  std::vector<float> values;
+  values.reserve(3 * points.size());
+  for (const Vector3f& p : points)
+    values.insert(values.end(), {p.x(), p.y(), p.z()});
+  return values;
+}
+
+/// Unit vectors in four signed bytes each, as graphics hardware likes them.
+std::vector<std::int8_t> packedDirections(const std::vector<Vector3f>& directions) {
+  std::vector<std::int8_t> values;
+  values.reserve(4 * directions.size());
+  for (const Vector3f& d : directions) {
+    for (const float component : {d.x(), d.y(), d.z()})
+      values.push_back(static_cast<std::int8_t>(std::lround(127 * std::clamp(component, -1.0F, 1.0F))));
+    values.push_back(0);
+  }
+  return values;
+}
+
+/// Column by column.
+json matrix(const Pose& pose) {
+  json array = json::array();
+  const Eigen::Matrix4d m = pose.matrix();
+  for (Eigen::Index i = 0; i < 16; ++i)
+    array.push_back(m.data()[i]);
+  return array;
+}
+
+std::string_view roleName(MeshRole role) {
+  switch (role) {
+    case MeshRole::Part:
+      return "part";
+    case MeshRole::Fixture:
+      return "fixture";
+    case MeshRole::Artefact:
+      return "artefact";
+  }
+  return "part";
+}
+
+json meshData(const Mesh& mesh) {
+  return {{"name", readableText(mesh.name)},
+          {"role", roleName(mesh.role)},
+          {"pose", matrix(mesh.sceneFromMesh)},
+          {"positions", base64(coordinates(mesh.positions))},
+          {"normals", base64(packedDirections(mesh.normals))},
+          {"triangles", base64(mesh.triangles)},
+          {"edges", base64(coordinates(mesh.featureEdges))}};
+}
+
+json sceneData(const Scene& scene) {
+  json meshes = json::array();
+  for (const Mesh& mesh : scene.meshes)
+    meshes.push_back(meshData(mesh));
+  std::vector<std::uint32_t> indices;
+  std::vector<Vector3f> centres, surfaces;
+  for (const SceneTouch& touch : scene.touches) {
+    indices.insert(indices.end(), {touch.cycle, touch.touch});
+    centres.push_back(touch.ballCentre);
+    surfaces.push_back(touch.surface);
+  }
+  std::vector<std::uint8_t> kinds;
+  for (const MoveKind kind : scene.path.kinds)
+    kinds.push_back(static_cast<std::uint8_t>(kind));
+  return {{"meshes", std::move(meshes)},
+          {"path",
+           {{"points", base64(coordinates(scene.path.points))},
+            {"kinds", base64(kinds)},
+            {"seconds", base64(scene.path.seconds)},
+            {"toolAxes", base64(coordinates(scene.path.toolAxes))}}},
+          {"touches",
+           {{"indices", base64(indices)},
+            {"centres", base64(coordinates(centres))},
+            {"surfaces", base64(coordinates(surfaces))}}},
+          {"ballRadius", scene.ballRadius},
+          {"workpiece", scene.sceneFromWorkpiece ? matrix(*scene.sceneFromWorkpiece) : json(nullptr)}};
+}
+
+std::vector<std::string_view> splitLines(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    lines.push_back(line);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+/// The lines of each file that the journal speaks of, 1-based.
+std::map<std::string, std::set<std::uint64_t>> linesOfInterest(const control::Journal& journal) {
+  std::map<std::string, std::set<std::uint64_t>> lines;
+  for (const auto& cycle : journal.cycles)
+    lines[cycle.place.file].insert(cycle.place.line);
+  for (const auto& event : journal.events)
+    lines[event.place.file].insert(event.place.line);
+  return lines;
+}
+
+/// A program in pieces of consecutive lines: one piece if it is short, the surroundings of `interest` otherwise.
+json programData(const records::ProgramSource& source, const std::set<std::uint64_t>& interest, std::size_t longest) {
+  constexpr std::uint64_t before = 10, after = 30;
+  const std::string text = readableText(source.text);
+  const auto lines = splitLines(text);
+  json pieces = json::array();
+  const auto add = [&](std::uint64_t line) {
+    if (pieces.empty() || pieces.back()["first"].get<std::uint64_t>() + pieces.back()["lines"].size() != line)
+      pieces.push_back({{"first", line}, {"lines", json::array()}});
+    pieces.back()["lines"].push_back(lines[line - 1]);
+  };
+  if (lines.size() <= longest) {
+    for (std::uint64_t line = 1; line <= lines.size(); ++line)
+      add(line);
+  } else {
+    std::uint64_t next = 1;
+    for (const std::uint64_t centre : interest) {
+      next = std::max(next, centre > before ? centre - before : 1);
+      for (; next <= std::min<std::uint64_t>(centre + after, lines.size()); ++next)
+        add(next);
+    }
+  }
+  // Cycles name their file by its path as bytes, which results.json holds in the same UTF-8.
+  return {{"pieces", std::move(pieces)}, {"lineCount", lines.size()}};
+}
+
+/// A text inside <script> may hold neither an end tag nor a comment: escape the sign both start with.
+std::string scriptSafe(std::string json) {
+  std::string safe;
+  safe.reserve(json.size() + 64);
+  for (const char c : json) {
+    if (c == '<')
+      safe += "\\u003c";
+    else
+      safe += c;
+  }
+  return safe;
+}
+
+std::string htmlText(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string fileName(const std::string& path) { return path.substr(path.find_last_of("/\\") + 1); }
+
+}  // namespace
+
+std::string reportHtml(const control::Journal& journal, const records::RunInfo& run, const Scene& scene,
+                       std::size_t longestProgram) {
+  const auto interest = linesOfInterest(journal);
+  json programs = json::array();
+  for (const auto& source : run.programs) {
+    const auto lines = interest.find(source.path);
+    programs.push_back(
+        programData(source, lines == interest.end() ? std::set<std::uint64_t>{} : lines->second, longestProgram));
+  }
+  const json data = {
+      {"results", records::resultsJson(journal, run)}, {"programs", std::move(programs)}, {"scene", sceneData(scene)}};
+  const std::string title = run.programs.empty() ? "Measuring report" : fileName(readableText(run.programs[0].path));
+
+  std::string html;
+  html += "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
+  // Nothing outside this file may be asked for, whatever a program's text says.
+  html +=
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; "
+      "style-src 'unsafe-inline'; img-src data: blob:\">\n";
+  html += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
+  html += "<title>" + htmlText(title) + " - Probewright</title>\n<style>\n";
+  html += embeddedReportCss();
+  html += "</style>\n</head>\n<body>\n<noscript>This report needs JavaScript switched on.</noscript>\n";
+  html += "<div id=\"report\"></div>\n<script type=\"application/json\" id=\"report-data\">";
+  html += scriptSafe(data.dump());
+  html += "</script>\n<script>\n";
+  html += embeddedReportJs();
+  html += "</script>\n</body>\n</html>\n";
+  return html;
+}
+
+}  // namespace probewright::reports

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/primitives.hpp"
+
+/// What a report draws, as plain data. All of it is given in one frame, the scene: the one in which the part stands
+/// still (the frame of the machine's table), Z up, mm. Reports know nothing of where it comes from.
+namespace probewright::reports {
+
+using Vector3f = Eigen::Vector3f;
+
+enum class MeshRole : std::uint8_t { Part, Fixture, Artefact };
+
+/// A triangulated body in its own frame.
+struct Mesh {
+  std::string name;
+  MeshRole role = MeshRole::Part;
+  Pose sceneFromMesh = Pose::Identity();
+  std::vector<Vector3f> positions;       ///< one per vertex
+  std::vector<Vector3f> normals;         ///< unit, one per vertex; empty: flat shading
+  std::vector<std::uint32_t> triangles;  ///< three indices each, counter-clockwise from outside
+  std::vector<Vector3f> featureEdges;    ///< two points per segment
+};
+
+enum class MoveKind : std::uint8_t { Rapid = 0, Feed = 1, Measure = 2 };
+
+/// The way of the ball's centre.
+struct Path {
+  std::vector<Vector3f> points;
+  std::vector<MoveKind> kinds;     ///< kinds[i] is the move from points[i] to points[i + 1]
+  std::vector<float> seconds;      ///< machine clock at each point; empty: the run cannot be replayed
+  std::vector<Vector3f> toolAxes;  ///< unit, from the ball to the spindle at each point; empty: always +Z
+};
+
+/// Where a touch of the journal really was.
+struct SceneTouch {
+  std::uint32_t cycle = 0;  ///< index into Journal::cycles
+  std::uint32_t touch = 0;  ///< index into CycleRecord::touches
+  Vector3f ballCentre = Vector3f::Zero();
+  Vector3f surface = Vector3f::Zero();  ///< on the part; equal to ballCentre if there was no contact
+};
+
+struct Scene {
+  std::vector<Mesh> meshes;
+  Path path;
+  std::vector<SceneTouch> touches;
+  double ballRadius = 0;  ///< of the probe, mm; 0: not drawn
+  std::optional<Pose>
+      sceneFromWorkpiece;  ///< the workpiece coordinate system at the end of the run, as the control believes
+};
+
+}  // namespace probewright::reports

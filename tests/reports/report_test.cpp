@@ -1,0 +1,212 @@
+#include "reports/report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "base/file.hpp"
+#include "records/results.hpp"
+#include "reports/sample_scene.hpp"
+
+namespace probewright::reports {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// What stands between the data element's tags: all that a browser would take as the data.
+std::string dataText(const std::string& html) {
+  const std::string start = "id=\"report-data\">";
+  const auto from = html.find(start) + start.size();
+  return html.substr(from, html.find("</script", from) - from);
+}
+
+json dataOf(const std::string& html) { return json::parse(dataText(html)); }
+
+int value(char c) {
+  const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  return static_cast<int>(alphabet.find(c));
+}
+
+/// RFC 4648, written apart from the encoder.
+std::string decoded(const std::string& base64) {
+  EXPECT_EQ(base64.size() % 4, 0U);
+  std::string bytes;
+  unsigned bits = 0;
+  int count = 0;
+  for (const char c : base64) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<unsigned>(value(c));
+    count += 6;
+    if (count >= 8) bytes.push_back(static_cast<char>(bits >> (count -= 8) & 0xFF));
+  }
+  return bytes;
+}
+
+template <class T>
+std::vector<T> arrayOf(const json& text) {
+  const std::string bytes = decoded(text.get<std::string>());
+  std::vector<T> values(bytes.size() / sizeof(T));
+  EXPECT_EQ(values.size() * sizeof(T), bytes.size());
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
+std::string sampleHtml() {
+  const auto journal = sample::journal();
+  return reportHtml(journal, sample::runInfo(), sample::scene(journal));
+}
+
+TEST(Report, HoldsTheResultsAndTheProgram) {
+  const json data = dataOf(sampleHtml());
+  EXPECT_EQ(data["results"], records::resultsJson(sample::journal(), sample::runInfo()));
+  ASSERT_EQ(data["programs"].size(), 1U);
+  ASSERT_EQ(data["programs"][0]["pieces"].size(), 1U);
+  const json& lines = data["programs"][0]["pieces"][0]["lines"];
+  EXPECT_EQ(lines[0], "0 BEGIN PGM BEARING_BLOCK MM");
+  EXPECT_EQ(lines[sample::lineOf("12 TCH PROBE 421") - 1], "12 TCH PROBE 421 MEASURE HOLE ~");
+}
+
+TEST(Report, HoldsTheSceneToTheBit) {
+  const auto journal = sample::journal();
+  const Scene scene = sample::scene(journal);
+  const json data = dataOf(reportHtml(journal, sample::runInfo(), scene))["scene"];
+  const json& block = data["meshes"][0];
+  const auto positions = arrayOf<float>(block["positions"]);
+  ASSERT_EQ(positions.size(), 3 * scene.meshes[0].positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    ASSERT_EQ(positions[i], scene.meshes[0].positions[i / 3][static_cast<Eigen::Index>(i % 3)]);
+  EXPECT_EQ(arrayOf<std::uint32_t>(block["triangles"]), scene.meshes[0].triangles);
+  const auto normals = arrayOf<std::int8_t>(block["normals"]);
+  ASSERT_EQ(normals.size(), 4 * scene.meshes[0].normals.size());
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    if (i % 4 == 3) continue;
+    const double truth = scene.meshes[0].normals[i / 4][static_cast<Eigen::Index>(i % 4)];
+    ASSERT_NEAR(normals[i] / 127.0, truth, 0.5 / 127 + 1e-6);
+  }
+  const auto kinds = arrayOf<std::uint8_t>(data["path"]["kinds"]);
+  ASSERT_EQ(kinds.size() + 1, scene.path.points.size());
+  EXPECT_EQ(kinds[0], 0);
+  EXPECT_EQ(kinds[2], 2);
+  EXPECT_EQ(arrayOf<float>(data["path"]["seconds"]), scene.path.seconds);
+  EXPECT_EQ(arrayOf<std::uint32_t>(data["touches"]["indices"]).size(), 30U);
+  // Column by column: the shift stands in the last four.
+  EXPECT_DOUBLE_EQ(block["pose"][12].get<double>(), 251.437);
+  EXPECT_DOUBLE_EQ(block["pose"][1].get<double>(), std::sin(1.5 * std::numbers::pi / 180));
+}
+
+TEST(Report, EncodesArraysOfEveryLength) {
+  for (std::size_t length = 0; length < 10; ++length) {
+    Scene scene;
+    for (std::size_t i = 0; i < length; ++i)
+      scene.path.kinds.push_back(i % 2 == 0 ? MoveKind::Measure : MoveKind::Feed);
+    const auto kinds = arrayOf<std::uint8_t>(dataOf(reportHtml({}, {}, scene))["scene"]["path"]["kinds"]);
+    ASSERT_EQ(kinds.size(), length);
+    for (std::size_t i = 0; i < length; ++i)
+      EXPECT_EQ(kinds[i], i % 2 == 0 ? 2 : 1);
+  }
+}
+
+TEST(Report, StandsAloneAndAsksForNothing) {
+  const std::string html = sampleHtml();
+  EXPECT_THAT(html, Not(HasSubstr("src=\"")));
+  EXPECT_THAT(html, Not(HasSubstr("<link")));
+  EXPECT_THAT(html, Not(HasSubstr("@import")));
+  EXPECT_THAT(html, HasSubstr("default-src 'none'"));
+  EXPECT_GT(html.size(), 400000U) << "the 3D engine is inside";
+}
+
+TEST(Report, LetsNoTextBecomeMarkup) {
+  const std::string evil = "</script><script>alert(1)</script><!-- <img src=x onerror=alert(2)> & \" ' \\ \xE2\x80\xA8";
+  auto journal = sample::journal();
+  journal.cycles[0].title = evil;
+  journal.events[1].text = evil;
+  journal.cycles[1].writes[0].after = evil;
+  auto run = sample::runInfo();
+  run.programs = {{"a/</title><script>x.H", evil + "\n" + evil}};
+  run.partName = evil;
+  Scene scene = sample::scene(journal);
+  scene.meshes[0].name = evil;
+  const std::string html = reportHtml(journal, run, scene);
+  EXPECT_THAT(html, Not(HasSubstr("<script>alert")));
+  EXPECT_THAT(html, Not(HasSubstr("<!-- <img")));
+  EXPECT_THAT(html, Not(HasSubstr("</title><script>")));
+  // The page's three scripts-and-data elements and nothing more.
+  std::size_t tags = 0;
+  for (auto at = html.find("<script"); at != std::string::npos; at = html.find("<script", at + 1))
+    ++tags;
+  std::size_t inBundle = 0;
+  const std::string plain = reportHtml({}, {}, {});
+  for (auto at = plain.find("<script"); at != std::string::npos; at = plain.find("<script", at + 1))
+    ++inBundle;
+  EXPECT_EQ(tags, inBundle);
+  const json data = dataOf(html);
+  EXPECT_EQ(data["programs"][0]["pieces"][0]["lines"][1], evil);
+  EXPECT_EQ(data["results"]["events"][1]["text"], evil);
+  EXPECT_EQ(data["scene"]["meshes"][0]["name"], evil);
+}
+
+TEST(Report, EndsEveryElementOnce) {
+  // The bundle must not hold the end tag of the element it stands in.
+  const std::string html = reportHtml({}, {}, {});
+  std::size_t ends = 0;
+  for (auto at = html.find("</script"); at != std::string::npos; at = html.find("</script", at + 1))
+    ++ends;
+  EXPECT_EQ(ends, 2U);
+  std::size_t styles = 0;
+  for (auto at = html.find("</style"); at != std::string::npos; at = html.find("</style", at + 1))
+    ++styles;
+  EXPECT_EQ(styles, 1U);
+}
+
+TEST(Report, ShowsTheSurroundingsOfCyclesInALongProgram) {
+  auto run = sample::runInfo();
+  run.programs[0].text.clear();
+  for (int i = 1; i <= 1000; ++i)
+    run.programs[0].text += std::to_string(i) + " L X+" + std::to_string(i) + "\r\n";
+  control::Journal journal;
+  journal.cycles.resize(2);
+  journal.cycles[0].place = {run.programs[0].path, 100, 1};
+  journal.cycles[1].place = {run.programs[0].path, 998, 1};
+  const json program = dataOf(reportHtml(journal, run, {}, 500))["programs"][0];
+  EXPECT_EQ(program["lineCount"], 1000);
+  ASSERT_EQ(program["pieces"].size(), 2U);
+  EXPECT_EQ(program["pieces"][0]["first"], 90);
+  EXPECT_EQ(program["pieces"][0]["lines"].size(), 41U);
+  EXPECT_EQ(program["pieces"][0]["lines"][10], "100 L X+100");
+  EXPECT_EQ(program["pieces"][1]["first"], 988);
+  EXPECT_EQ(program["pieces"][1]["lines"].size(), 13U);
+  EXPECT_EQ(dataOf(reportHtml(journal, run, {}, 1000))["programs"][0]["pieces"].size(), 1U);
+}
+
+// The pages that the browser test opens.
+TEST(Report, IsWrittenForTheBrowser) {
+  const std::filesystem::path folder = PROBEWRIGHT_SAMPLE_DIR;
+  const auto write = [&](const char* name, const std::string& html) {
+    const auto written = writeFileAtomically(folder / name, html);
+    ASSERT_TRUE(written) << format(written.error());
+  };
+  write("rework.html", sampleHtml());
+  const auto alarm = sample::alarmJournal();
+  write("alarm.html", reportHtml(alarm, sample::alarmRunInfo(), sample::scene(alarm)));
+  auto good = sample::journal();
+  good.cycles.pop_back();
+  auto goodRun = sample::runInfo();
+  goodRun.exit = records::ExitState::Good;
+  goodRun.exitText.clear();
+  write("good.html", reportHtml(good, goodRun, sample::scene(good)));
+  write("empty.html", reportHtml({}, {}, {}));
+  auto hostile = sample::journal();
+  hostile.cycles[0].title =
+      "</script><script>window.broken = true</script><img src=x onerror=\"window.broken = true\">";
+  auto hostileRun = sample::runInfo();
+  hostileRun.programs[0].text =
+      "; </script><script>window.broken = true</script> \xE6\xB5\x8B\xE9\x87\x8F\n" + hostileRun.programs[0].text;
+  write("hostile.html", reportHtml(hostile, hostileRun, sample::scene(hostile)));
+}
+
+}  // namespace
+}  // namespace probewright::reports

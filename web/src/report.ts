@@ -1,0 +1,123 @@
+import "./report.css";
+
+import { readReport, type Report } from "./data";
+import { count, duration, fileName, h, icon, length } from "./dom";
+import { programSection } from "./program";
+import { correctionsSection, eventsSection, resultsSection } from "./results";
+import { Selector } from "./selection";
+import { headline, type State } from "./verdict";
+import { View } from "./view";
+
+const symbols: Record<State, "check" | "warning" | "cross" | "stop"> = {
+  good: "check",
+  none: "check",
+  rework: "warning",
+  scrap: "cross",
+  alarm: "stop",
+};
+
+function startTime(report: Report): string {
+  const text = report.results.run.startedAt;
+  if (!text) return "";
+  // As written, with the clock of the place where it ran.
+  return text.replace("T", " ").replace(/(:\d\d)(?:\.\d+)?([+-]\d\d:\d\d|Z)$/, "$1");
+}
+
+function header(report: Report, switchTheme: () => void): HTMLElement {
+  const { run, totals, cycles, writes, events } = report.results;
+  const { state, title, text } = headline(report);
+  const changes = writes.length + cycles.reduce((sum, cycle) => sum + cycle.writes.length, 0);
+  const alarms = events.filter((event) => event.kind === "alarm").length;
+  const fact = (value: string, name: string) => h("div", { class: "fact" }, h("b", {}, value), h("span", {}, name));
+  const detail = (name: string, value: string | null | undefined) =>
+    value ? h("div", {}, h("dt", {}, name), h("dd", { title: value }, value)) : null;
+  return h(
+    "header",
+    { class: "page-head" },
+    h(
+      "div",
+      { class: "head-line" },
+      h(
+        "div",
+        { class: "title" },
+        h("p", { class: "kicker" }, "Measuring report"),
+        h("h1", {}, run.programs.length > 0 ? fileName(run.programs[0]) : "No program"),
+        h(
+          "dl",
+          { class: "run" },
+          detail("Part", run.part.name || fileName(run.part.path)),
+          detail("Control", run.control),
+          detail("Machine", run.machine),
+          detail("Setup", fileName(run.setup)),
+          detail("Seed", run.seed == null ? null : String(run.seed)),
+          detail("Run at", startTime(report)),
+        ),
+      ),
+      h(
+        "div",
+        { class: `headline ${state}`, role: "status" },
+        icon(symbols[state]),
+        h("div", {}, h("strong", {}, title), h("p", {}, text)),
+      ),
+      h(
+        "div",
+        { class: "page-buttons" },
+        h("button", { type: "button", class: "plain-button", title: "Light or dark", "aria-label": "Light or dark", click: switchTheme }, icon("sun")),
+        h("button", { type: "button", class: "plain-button", title: "Print", "aria-label": "Print", click: () => window.print() }, icon("printer")),
+      ),
+    ),
+    h(
+      "div",
+      { class: "facts-line" },
+      fact(String(totals.cycles), totals.cycles === 1 ? "cycle" : "cycles"),
+      fact(String(totals.touches), totals.touches === 1 ? "touch" : "touches"),
+      fact(length(totals.pathLength), "path"),
+      fact(duration(totals.time), "time"),
+      fact(String(changes), changes === 1 ? "correction" : "corrections"),
+      fact(String(alarms), alarms === 1 ? "alarm" : "alarms"),
+    ),
+  );
+}
+
+function main() {
+  const report = readReport();
+  const selector = new Selector();
+  const view = new View(report, selector);
+  const program = programSection(report, selector);
+
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  const root = document.documentElement;
+  const setTheme = (theme: string) => {
+    root.dataset.theme = theme;
+    view.colour();
+  };
+  dark.addEventListener("change", () => setTheme(dark.matches ? "dark" : "light"));
+  // Paper is white, whatever the screen.
+  let onScreen = "";
+  addEventListener("beforeprint", () => {
+    onScreen = root.dataset.theme ?? "light";
+    setTheme("light");
+  });
+  addEventListener("afterprint", () => setTheme(onScreen));
+  addEventListener("keydown", (event) => {
+    if (event.key === "Escape") selector.select(null, "page");
+  });
+
+  const { run } = report.results;
+  document.getElementById("report")!.append(
+    header(report, () => setTheme(root.dataset.theme === "dark" ? "light" : "dark")),
+    h("main", {}, h("div", { class: "top" }, view.element, program.element)),
+  );
+  document
+    .querySelector("main")!
+    .append(
+      resultsSection(report, selector),
+      h("div", { class: "pair" }, correctionsSection(report, selector), eventsSection(report, program.showLine)),
+    );
+  document
+    .getElementById("report")!
+    .append(h("footer", {}, `Probewright ${run.version}. Lengths in mm, angles in degrees. ${count(report.results.totals.cycles, "cycle")} run as ${run.control || "unknown control"}.`));
+  setTheme(dark.matches ? "dark" : "light");
+}
+
+main();

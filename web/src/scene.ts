@@ -1,0 +1,305 @@
+// The drawing: part, fixtures, path and touches as three.js objects. Knows nothing of the page around it.
+
+import {
+  AmbientLight,
+  Box3,
+  BufferAttribute,
+  BufferGeometry,
+  CanvasTexture,
+  Color,
+  DirectionalLight,
+  DoubleSide,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Matrix4,
+  Mesh,
+  MeshStandardMaterial,
+  Object3D,
+  Points,
+  PointsMaterial,
+  Scene as ThreeScene,
+  Sphere,
+  SphereGeometry,
+  Vector3,
+} from "three";
+import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
+import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
+
+import type { Report, Scene, SceneMesh } from "./data";
+import { cycleState } from "./verdict";
+
+export interface Palette {
+  background: string;
+  part: string;
+  fixture: string;
+  artefact: string;
+  edge: string;
+  rapid: string;
+  feed: string;
+  measure: string;
+  good: string;
+  rework: string;
+  scrap: string;
+  alarm: string;
+  none: string;
+  selected: string;
+}
+
+export const moveNames = ["rapid", "feed", "measure"] as const;
+
+/** One touch as the view needs it. */
+export interface Marker {
+  cycle: number;
+  touch: number;
+  centre: Vector3;
+  surface: Vector3;
+}
+
+export function markersOf(scene: Scene): Marker[] {
+  const { indices, centres, surfaces } = scene.touches;
+  return Array.from({ length: indices.length / 2 }, (_, i) => ({
+    cycle: indices[2 * i],
+    touch: indices[2 * i + 1],
+    centre: new Vector3().fromArray(centres, 3 * i),
+    surface: new Vector3().fromArray(surfaces, 3 * i),
+  }));
+}
+
+function meshGeometry(mesh: SceneMesh): BufferGeometry {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(mesh.positions, 3));
+  geometry.setIndex(new BufferAttribute(mesh.triangles, 1));
+  if (mesh.normals.length > 0) geometry.setAttribute("normal", new BufferAttribute(mesh.normals, 4, true));
+  return geometry;
+}
+
+function dotTexture(): CanvasTexture {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 64;
+  const context = canvas.getContext("2d")!;
+  context.beginPath();
+  context.arc(32, 32, 29, 0, 2 * Math.PI);
+  context.fillStyle = "#fff";
+  context.fill();
+  context.lineWidth = 6;
+  context.strokeStyle = "rgba(0, 0, 0, 0.55)";
+  context.stroke();
+  return new CanvasTexture(canvas);
+}
+
+export class Drawing {
+  readonly scene = new ThreeScene();
+  readonly markers: Marker[];
+  readonly sphere: Sphere;
+  private readonly solids = new Group();
+  private readonly fixtures = new Group();
+  private readonly path = new Group();
+  private readonly touches = new Group();
+  private readonly probe = new Group();
+  private readonly ball: Mesh;
+  private readonly lights: Object3D[] = [];
+  private readonly colours: Float32Array;
+  private readonly solidMaterials: { material: MeshStandardMaterial; role: SceneMesh["role"] }[] = [];
+  private readonly edgeMaterials: LineBasicMaterial[] = [];
+  private readonly lineMaterials: { material: LineMaterial; kind: number; faint: boolean }[] = [];
+  private markerGeometry: BufferGeometry | null = null;
+
+  constructor(private readonly report: Report) {
+    const { scene } = report;
+    this.markers = markersOf(scene);
+    this.colours = new Float32Array(3 * this.markers.length);
+
+    const bounds = new Box3();
+    for (const mesh of scene.meshes) bounds.union(this.addMesh(mesh));
+    // Fixtures, tables and the way to the tool changer may be far larger than what is measured.
+    const focus = new Box3();
+    for (const mesh of this.solids.children) focus.expandByObject(mesh);
+    for (const marker of this.markers) focus.expandByPoint(marker.centre);
+    if (focus.isEmpty()) focus.copy(bounds);
+    if (focus.isEmpty()) for (let i = 0; i + 2 < scene.path.points.length; i += 3) focus.expandByPoint(new Vector3().fromArray(scene.path.points, i));
+    if (focus.isEmpty()) focus.set(new Vector3(-50, -50, -50), new Vector3(50, 50, 50));
+    this.sphere = focus.getBoundingSphere(new Sphere());
+    this.sphere.radius = Math.max(this.sphere.radius, 1);
+
+    this.addPath();
+    this.addMarkers();
+    const ballRadius = scene.ballRadius > 0 ? scene.ballRadius : this.sphere.radius / 60;
+    this.ball = new Mesh(
+      new SphereGeometry(ballRadius, 32, 20),
+      new MeshStandardMaterial({ color: "#b3261e", roughness: 0.35, transparent: true, opacity: 0.85 }),
+    );
+    const stem = new LineSegments(
+      new BufferGeometry().setFromPoints([new Vector3(0, 0, ballRadius), new Vector3(0, 0, 12 * ballRadius)]),
+      new LineBasicMaterial({ color: "#8a8f98" }),
+    );
+    this.probe.add(this.ball, stem);
+    this.probe.visible = false;
+    if (scene.workpiece) this.addTriad(scene.workpiece);
+
+    const key = new DirectionalLight("#ffffff", 1.9);
+    key.position.set(0.4, 0.7, 1);
+    const rim = new DirectionalLight("#dbe6ff", 0.7);
+    rim.position.set(-0.8, -0.2, 0.4);
+    this.lights.push(key, rim);
+    this.scene.add(this.solids, this.fixtures, this.path, this.touches, this.probe, new AmbientLight("#ffffff", 1.15));
+  }
+
+  /** Lights that move with the camera. */
+  get headlights(): Object3D[] {
+    return this.lights;
+  }
+
+  private addMesh(mesh: SceneMesh): Box3 {
+    const group = new Group();
+    const material = new MeshStandardMaterial({
+      metalness: 0.08,
+      roughness: 0.62,
+      flatShading: mesh.normals.length === 0,
+      side: DoubleSide,
+      polygonOffset: true,
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 1,
+    });
+    this.solidMaterials.push({ material, role: mesh.role });
+    group.add(new Mesh(meshGeometry(mesh), material));
+    if (mesh.edges.length > 0) {
+      const edges = new BufferGeometry();
+      edges.setAttribute("position", new BufferAttribute(mesh.edges, 3));
+      const edgeMaterial = new LineBasicMaterial({ transparent: true });
+      this.edgeMaterials.push(edgeMaterial);
+      group.add(new LineSegments(edges, edgeMaterial));
+    }
+    group.applyMatrix4(new Matrix4().fromArray(mesh.pose));
+    group.updateMatrixWorld(true);
+    (mesh.role === "fixture" ? this.fixtures : this.solids).add(group);
+    return new Box3().setFromObject(group);
+  }
+
+  private addPath() {
+    const { points, kinds } = this.report.scene.path;
+    const segments: number[][] = [[], [], []];
+    for (let i = 0; i < kinds.length; ++i) {
+      const list = segments[kinds[i]] ?? segments[1];
+      for (let k = 3 * i; k < 3 * i + 6; ++k) list.push(points[k]);
+    }
+    segments.forEach((positions, kind) => {
+      if (positions.length === 0) return;
+      const geometry = new LineSegmentsGeometry().setPositions(positions);
+      const dashed = kind === 0;
+      // Once where it is seen, once faintly through the part.
+      for (const faint of [false, true]) {
+        const material = new LineMaterial({
+          linewidth: kind === 2 ? 3 : 1.6,
+          dashed,
+          dashSize: this.sphere.radius / 45,
+          gapSize: this.sphere.radius / 60,
+          transparent: true,
+          opacity: faint ? 0.16 : 1,
+          depthTest: !faint,
+          depthWrite: false,
+        });
+        this.lineMaterials.push({ material, kind, faint });
+        const lines = new LineSegments2(geometry, material);
+        if (dashed) lines.computeLineDistances();
+        lines.renderOrder = faint ? 1 : 2;
+        this.path.add(lines);
+      }
+    });
+  }
+
+  private addMarkers() {
+    if (this.markers.length === 0) return;
+    const positions = new Float32Array(3 * this.markers.length);
+    // A little off the surface, so that the dot is not cut by it.
+    this.markers.forEach(({ centre, surface }, i) => surface.clone().lerp(centre, 0.35).toArray(positions, 3 * i));
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(positions, 3));
+    geometry.setAttribute("color", new BufferAttribute(this.colours, 3));
+    this.markerGeometry = geometry;
+    const map = dotTexture();
+    for (const faint of [true, false]) {
+      const material = new PointsMaterial({
+        size: (faint ? 9 : 13) * Math.min(window.devicePixelRatio, 2),
+        sizeAttenuation: false,
+        vertexColors: true,
+        map,
+        transparent: true,
+        alphaTest: 0.05,
+        opacity: faint ? 0.35 : 1,
+        depthTest: !faint,
+        depthWrite: false,
+      });
+      const points = new Points(geometry, material);
+      points.renderOrder = faint ? 3 : 4;
+      this.touches.add(points);
+    }
+  }
+
+  private addTriad(pose: number[]) {
+    const size = this.sphere.radius * 0.3;
+    const triad = new Group();
+    const axes: [string, Vector3][] = [
+      ["#d1242f", new Vector3(size, 0, 0)],
+      ["#1f9d4d", new Vector3(0, size, 0)],
+      ["#2f6feb", new Vector3(0, 0, size)],
+    ];
+    for (const [color, end] of axes) {
+      const geometry = new LineSegmentsGeometry().setPositions([0, 0, 0, end.x, end.y, end.z]);
+      const line = new LineSegments2(geometry, new LineMaterial({ color: new Color(color).getHex(), linewidth: 3, depthTest: false, transparent: true }));
+      line.renderOrder = 2;
+      triad.add(line);
+    }
+    triad.applyMatrix4(new Matrix4().fromArray(pose));
+    this.scene.add(triad);
+  }
+
+  colour(palette: Palette) {
+    this.scene.background = null;
+    for (const { material, role } of this.solidMaterials) material.color.set(palette[role]);
+    for (const material of this.edgeMaterials) material.color.set(palette.edge);
+    for (const { material, kind } of this.lineMaterials) material.color.set(palette[moveNames[kind]]);
+    const colour = new Color();
+    this.markers.forEach((marker, i) => {
+      const cycle = this.report.results.cycles[marker.cycle];
+      const touch = cycle?.touches[marker.touch];
+      const state = touch && touch.outcome !== "touched" ? "alarm" : cycle ? cycleState(cycle) : "none";
+      colour.set(palette[state]).toArray(this.colours, 3 * i);
+    });
+    if (this.markerGeometry) this.markerGeometry.attributes.color.needsUpdate = true;
+  }
+
+  showXray(on: boolean) {
+    for (const { material } of this.solidMaterials) {
+      material.transparent = on;
+      material.opacity = on ? 0.3 : 1;
+      material.depthWrite = !on;
+      material.needsUpdate = true;
+    }
+  }
+
+  showPath(on: boolean) {
+    this.path.visible = on;
+  }
+
+  showTouches(on: boolean) {
+    this.touches.visible = on;
+  }
+
+  showFixtures(on: boolean) {
+    this.fixtures.visible = on;
+  }
+
+  get hasFixtures(): boolean {
+    return this.fixtures.children.length > 0;
+  }
+
+  /** The probe with its ball's centre there, the stylus along `axis`; null hides it. */
+  placeProbe(centre: Vector3 | null, axis = new Vector3(0, 0, 1)) {
+    this.probe.visible = centre !== null;
+    if (!centre) return;
+    this.probe.position.copy(centre);
+    this.probe.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), axis.clone().normalize());
+  }
+}

@@ -1,0 +1,352 @@
+// The 3D view: camera, buttons, picking of touches, the card that tells about one, replay.
+
+import { MathUtils, OrthographicCamera, Vector3, WebGLRenderer } from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+
+import { type Report, touchDeviation, type Triple } from "./data";
+import { count, duration, fixed, h, icon } from "./dom";
+import { Drawing, type Marker, type Palette } from "./scene";
+import type { Selector } from "./selection";
+import { badge, cycleState } from "./verdict";
+
+const directions: Record<string, [Vector3, Vector3]> = {
+  Top: [new Vector3(0, 0, 1), new Vector3(0, 1, 0)],
+  Front: [new Vector3(0, -1, 0), new Vector3(0, 0, 1)],
+  Right: [new Vector3(1, 0, 0), new Vector3(0, 0, 1)],
+  Iso: [new Vector3(0.62, -0.85, 0.68), new Vector3(0, 0, 1)],
+};
+
+function palette(): Palette {
+  const style = getComputedStyle(document.documentElement);
+  const colour = (name: string) => style.getPropertyValue(`--${name}`).trim();
+  return {
+    background: colour("stage"),
+    part: colour("part"),
+    fixture: colour("fixture"),
+    artefact: colour("artefact"),
+    edge: colour("edge"),
+    rapid: colour("rapid"),
+    feed: colour("feed"),
+    measure: colour("measure"),
+    good: colour("good"),
+    rework: colour("rework"),
+    scrap: colour("scrap"),
+    alarm: colour("alarm"),
+    none: colour("accent"),
+    selected: colour("accent"),
+  };
+}
+
+export class View {
+  readonly element: HTMLElement;
+  private readonly stage = h("div", { class: "stage" });
+  private readonly labels = h("div", { class: "labels" });
+  private readonly card = h("aside", { class: "touch-card", hidden: true });
+  private readonly camera = new OrthographicCamera(-1, 1, 1, -1, 0.1, 1000);
+  private readonly drawing: Drawing;
+  private renderer: WebGLRenderer | null = null;
+  private controls: OrbitControls | null = null;
+  private scheduled = false;
+  private shown: { marker: Marker; label: HTMLElement }[] = [];
+
+  constructor(
+    private readonly report: Report,
+    private readonly selector: Selector,
+  ) {
+    this.drawing = new Drawing(report);
+    this.camera.up.set(0, 0, 1);
+    this.element = h(
+      "section",
+      { class: "card view", id: "view", "aria-label": "3D view" },
+      this.stage,
+      this.toolbar(),
+      this.legend(),
+      this.card,
+      this.replay(),
+    );
+    selector.listen((selection) => this.showSelection(selection?.cycle ?? null, selection?.touch ?? null));
+    // The page decides the size; drawing starts with the first one.
+    new ResizeObserver(() => this.resize()).observe(this.stage);
+  }
+
+  private start(): boolean {
+    try {
+      this.renderer = new WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
+    } catch {
+      this.stage.append(
+        h("p", { class: "empty" }, "This browser shows no 3D graphics (WebGL is off). Everything else is below."),
+      );
+      return false;
+    }
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    const canvas = this.renderer.domElement;
+    this.stage.append(canvas, this.labels);
+    this.camera.add(...this.drawing.headlights);
+    this.drawing.scene.add(this.camera);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.zoomToCursor = true;
+    this.controls.addEventListener("change", () => this.draw());
+    this.pick(canvas);
+    this.colour();
+    return true;
+  }
+
+  /** Takes the page's colours anew. */
+  colour() {
+    this.drawing.colour(palette());
+    this.draw();
+  }
+
+  private resize() {
+    const { clientWidth: width, clientHeight: height } = this.stage;
+    if (width === 0 || height === 0) return;
+    const first = !this.renderer;
+    if (first && (this.stage.childElementCount > 0 || !this.start())) return;
+    this.renderer!.setSize(width, height);
+    const aspect = width / height;
+    this.camera.left = -aspect;
+    this.camera.right = aspect;
+    this.camera.updateProjectionMatrix();
+    if (first) this.look("Iso");
+    // At once, not in the next frame: setting the size has emptied the canvas.
+    this.render();
+  }
+
+  private look(name: string) {
+    const [direction, up] = directions[name];
+    this.camera.up.set(0, 0, 1);
+    if (!this.controls) return;
+    const { center, radius } = this.drawing.sphere;
+    // Looking straight down, a hair off the vertical keeps the part's Y pointing up.
+    const towards = direction.clone().normalize();
+    if (up.y === 1) towards.y -= 1e-4;
+    this.controls.target.copy(center);
+    this.camera.position.copy(center).addScaledVector(towards, 20 * radius);
+    this.camera.near = radius;
+    this.camera.far = 60 * radius;
+    this.zoomToFit();
+  }
+
+  private zoomToFit() {
+    const { center, radius } = this.drawing.sphere;
+    if (!this.controls) return;
+    const offset = center.clone().sub(this.controls.target);
+    this.controls.target.add(offset);
+    this.camera.position.add(offset);
+    const aspect = this.camera.right;
+    this.camera.zoom = Math.min(1, aspect) / (1.06 * radius);
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.draw();
+  }
+
+  private draw() {
+    if (this.scheduled || !this.renderer) return;
+    this.scheduled = true;
+    requestAnimationFrame(() => {
+      this.scheduled = false;
+      this.render();
+    });
+  }
+
+  private render() {
+    this.renderer!.render(this.drawing.scene, this.camera);
+    for (const { marker, label } of this.shown) {
+      const at = this.onScreen(marker.centre);
+      label.style.transform = `translate(${at.x.toFixed(1)}px, ${at.y.toFixed(1)}px)`;
+    }
+  }
+
+  /** Pixels from the stage's upper left corner. */
+  private onScreen(point: Vector3): Vector3 {
+    const at = point.clone().project(this.camera);
+    at.x = ((at.x + 1) / 2) * this.stage.clientWidth;
+    at.y = ((1 - at.y) / 2) * this.stage.clientHeight;
+    return at;
+  }
+
+  private pick(canvas: HTMLCanvasElement) {
+    const nearest = (event: PointerEvent): Marker | null => {
+      const box = canvas.getBoundingClientRect();
+      const reach = event.pointerType === "touch" ? 24 : 12;
+      let best: Marker | null = null;
+      let bestCost = Infinity;
+      for (const marker of this.drawing.markers) {
+        const at = this.onScreen(marker.surface.clone().lerp(marker.centre, 0.35));
+        const distance = Math.hypot(at.x - event.clientX + box.left, at.y - event.clientY + box.top);
+        // Of two in reach the one in front wins.
+        const cost = distance + 10 * at.z;
+        if (distance <= reach && cost < bestCost) [best, bestCost] = [marker, cost];
+      }
+      return best;
+    };
+    let down: PointerEvent | null = null;
+    canvas.addEventListener("pointerdown", (event) => (down = event));
+    canvas.addEventListener("pointermove", (event) => {
+      if (event.buttons === 0) canvas.style.cursor = nearest(event) ? "pointer" : "";
+    });
+    canvas.addEventListener("pointerup", (event) => {
+      if (!down || Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) > 4) return;
+      const marker = nearest(event);
+      if (marker) this.selector.select({ cycle: marker.cycle, touch: marker.touch }, "view");
+    });
+  }
+
+  private showSelection(cycle: number | null, touch: number | null) {
+    this.labels.replaceChildren();
+    this.shown = [];
+    const ofCycle = cycle === null ? [] : this.drawing.markers.filter((marker) => marker.cycle === cycle);
+    // Numbers help with a handful of touches; with hundreds they only hide the part.
+    if (ofCycle.length <= 40) {
+      this.shown = ofCycle.map((marker) => {
+        const label = h("span", { class: marker.touch === touch ? "label active" : "label" }, h("b", {}, String(marker.touch + 1)));
+        this.labels.append(label);
+        return { marker, label };
+      });
+    }
+    const marker = touch === null ? undefined : ofCycle.find((candidate) => candidate.touch === touch);
+    this.drawing.placeProbe(marker ? marker.centre : null);
+    this.fillCard(cycle, touch);
+    this.draw();
+  }
+
+  private fillCard(cycleIndex: number | null, touchIndex: number | null) {
+    const cycle = cycleIndex === null ? undefined : this.report.results.cycles[cycleIndex];
+    this.card.hidden = !cycle;
+    if (!cycle || cycleIndex === null) return;
+    const touch = touchIndex === null ? undefined : cycle.touches[touchIndex];
+    const row = (name: string, value: string, kind = "") => h("div", { class: kind }, h("dt", {}, name), h("dd", {}, value));
+    const point = (triple: Triple) => triple.map((x) => fixed(x, 3)).join("   ");
+    const step = (by: number) => {
+      const n = cycle.touches.length;
+      const next = touchIndex === null ? (by > 0 ? 0 : n - 1) : (touchIndex + by + n) % n;
+      this.selector.select({ cycle: cycleIndex, touch: next }, "view");
+    };
+    const deviation = touch ? touchDeviation(touch) : null;
+    this.card.replaceChildren(
+      h(
+        "header",
+        {},
+        h("div", {}, h("b", {}, `${cycle.name} ${cycle.title}`), h("br"), cycle.place.line > 0 ? `line ${cycle.place.line}` : ""),
+        badge(cycleState(cycle), true),
+        h("button", { type: "button", class: "plain-button", "aria-label": "Close", click: () => this.selector.select(null, "view") }, icon("cross")),
+      ),
+      ...(cycle.touches.length > 0
+        ? [
+            h(
+              "nav",
+              {},
+              h("button", { type: "button", class: "plain-button", "aria-label": "Previous touch", click: () => step(-1) }, icon("previous")),
+              h("span", {}, touch ? `Touch ${touchIndex! + 1} of ${cycle.touches.length}` : count(cycle.touches.length, "touch", "touches")),
+              h("button", { type: "button", class: "plain-button", "aria-label": "Next touch", click: () => step(1) }, icon("next")),
+            ),
+          ]
+        : []),
+      ...(touch
+        ? [
+            h(
+              "dl",
+              {},
+              row("Outcome", touch.outcome, touch.outcome === "touched" ? "" : "missed"),
+              row("Target", point(touch.target)),
+              row("Ball centre", point(touch.ballCentre)),
+              row("Surface", point(touch.surface)),
+              row("Direction", point(touch.direction)),
+              row("Deviation", deviation === null ? "\u2013" : `${fixed(deviation, 4, true)} mm`, "strong"),
+              row("Axes", Object.entries(touch.axes).map(([name, value]) => `${name} ${fixed(value, 3)}`).join("   ")),
+              row("Time", duration(touch.time)),
+            ),
+          ]
+        : []),
+    );
+  }
+
+  private toolbar(): HTMLElement {
+    const button = (text: string, click: () => void) => h("button", { type: "button", click }, text);
+    const toggle = (text: string, on: boolean, change: (on: boolean) => void) => {
+      const element = h("button", { type: "button", "aria-pressed": String(on) }, text);
+      element.addEventListener("click", () => {
+        on = !on;
+        element.setAttribute("aria-pressed", String(on));
+        change(on);
+        this.draw();
+      });
+      return element;
+    };
+    return h(
+      "div",
+      { class: "toolbar" },
+      h(
+        "div",
+        { class: "group" },
+        h("button", { type: "button", title: "Show everything", click: () => this.zoomToFit() }, icon("fit"), "Fit"),
+        ...Object.keys(directions).map((name) => button(name, () => this.look(name))),
+      ),
+      h(
+        "div",
+        { class: "group" },
+        toggle("X-ray", false, (on) => this.drawing.showXray(on)),
+        toggle("Path", true, (on) => this.drawing.showPath(on)),
+        toggle("Touches", true, (on) => this.drawing.showTouches(on)),
+        ...(this.drawing.hasFixtures ? [toggle("Fixtures", true, (on) => this.drawing.showFixtures(on))] : []),
+      ),
+    );
+  }
+
+  private legend(): HTMLElement {
+    const item = (kind: string, text: string) => h("span", {}, h("i", { class: `swatch ${kind}` }), text);
+    return h("div", { class: "legend" }, item("rapid", "Rapid"), item("feed", "Feed"), item("measure", "Measuring"), item("dot", "Touch"));
+  }
+
+  /** A slider over the machine's clock. */
+  private replay(): HTMLElement | null {
+    const { points, seconds, toolAxes } = this.report.scene.path;
+    const n = seconds.length;
+    if (n < 2 || points.length < 3 * n) return null;
+    const total = seconds[n - 1];
+    const slider = h("input", { type: "range", min: 0, max: total, step: "any", value: 0, "aria-label": "Time of the run" });
+    const clock = h("output", {}, duration(0));
+    const vector = (array: Float32Array, i: number) => new Vector3().fromArray(array, 3 * i);
+    const show = () => {
+      const time = Number(slider.value);
+      let [low, high] = [0, n - 1];
+      while (high - low > 1) {
+        const middle = (low + high) >> 1;
+        if (seconds[middle] <= time) low = middle;
+        else high = middle;
+      }
+      const span = seconds[high] - seconds[low];
+      const part = span > 0 ? MathUtils.clamp((time - seconds[low]) / span, 0, 1) : 1;
+      const axis =
+        toolAxes.length >= points.length ? vector(toolAxes, low).lerp(vector(toolAxes, high), part) : new Vector3(0, 0, 1);
+      this.drawing.placeProbe(vector(points, low).lerp(vector(points, high), part), axis);
+      clock.textContent = duration(time);
+      this.draw();
+    };
+    slider.addEventListener("input", show);
+    let playing = false;
+    const button = h("button", { type: "button", class: "plain-button", "aria-label": "Replay" }, icon("play"));
+    const set = (on: boolean) => {
+      playing = on;
+      button.replaceChildren(icon(on ? "pause" : "play"));
+    };
+    button.addEventListener("click", () => {
+      set(!playing);
+      if (!playing) return;
+      if (Number(slider.value) >= total) slider.value = "0";
+      let last = performance.now();
+      // The whole run in about twenty seconds, but never slower than it was.
+      const speed = Math.max(1, total / 20);
+      const frame = (now: number) => {
+        if (!playing) return;
+        slider.value = String(Math.min(total, Number(slider.value) + (speed * (now - last)) / 1000));
+        last = now;
+        show();
+        if (Number(slider.value) >= total) set(false);
+        else requestAnimationFrame(frame);
+      };
+      requestAnimationFrame(frame);
+    });
+    return h("div", { class: "replay" }, button, slider, clock);
+  }
+}
