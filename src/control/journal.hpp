@@ -8,6 +8,7 @@
 #include "base/diagnostic.hpp"
 #include "geometry/primitives.hpp"
 #include "machine/description.hpp"
+#include "metrology/verdict.hpp"
 
 /// What happened in a run, as plain data: written by the control and its cycles while they work, read by logs, results
 /// and reports afterwards. Positions of programs are in the workpiece coordinate system that was active then.
@@ -24,7 +25,7 @@ struct TouchRecord {
   std::string outcome;                   ///< "touched", "no contact", "deflected", "collision"
 };
 
-enum class Verdict { None, Good, Rework, Scrap };
+using metrology::Verdict;
 
 /// A value that a cycle leaves in the control, under the control's own name.
 struct ResultRecord {
