@@ -9,6 +9,7 @@
 #include "language/block.hpp"
 #include "language/sinumerik/cursor.hpp"
 #include "language/sinumerik/keywords.hpp"
+#include "language/sinumerik/operators.hpp"
 
 namespace probewright::sinumerik {
 
@@ -117,7 +118,7 @@ private:
 
   // expressions.cpp
   language::Operand parseExpression();
-  language::Operand parseBinary(int lowest);
+  language::Operand parseBinary(Priority lowest);
   language::Operand parseUnary();
   language::Operand parsePrimary();
   language::Operand parseString();

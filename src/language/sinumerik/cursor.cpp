@@ -1,7 +1,7 @@
 #include "language/sinumerik/cursor.hpp"
 
 #include <charconv>
-#include <cmath>
+#include <string>
 
 namespace probewright::sinumerik {
 
@@ -37,12 +37,15 @@ bool Cursor::number(double& value) {
   const bool exponent = end_ - p >= 3 && p[0] == 'E' && p[1] == 'X' &&
                         (isDigit(p[2]) || ((p[2] == '-' || p[2] == '+') && end_ - p >= 4 && isDigit(p[3])));
   if (exponent) {
-    const bool negative = p[2] == '-';
-    at_ = p + (isDigit(p[2]) ? 2 : 3);
-    int power = 0;
-    for (const char c : digits())
-      power = power < 1000 ? power * 10 + (c - '0') : power;
-    value *= std::pow(10.0, negative ? -power : power);
+    // "1.5EX-3" is read as "1.5e-3", so that it rounds as other numbers do.
+    std::string text(first, p);
+    at_ = p + (p[2] == '+' ? 3 : 2);
+    const char* power = at_;
+    if (peek() == '-') advance();
+    digits();
+    text.append("e").append(power, at_);
+    value = 0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
   }
   return true;
 }

@@ -12,74 +12,42 @@ namespace {
 
 constexpr int deepestNesting = 60;
 
-struct Operator {
-  Operation operation = Operation::Add;
-  int priority = 0;  ///< 0: no operator; higher binds tighter
-  std::size_t length = 0;
-};
-
-// The language's own order: arithmetic, bits, logic, then concatenation, then comparison.
-constexpr int comparison = 1, concatenation = 2, logicOr = 3, logicXor = 4, logicAnd = 5, bitOr = 6, bitXor = 7,
-              bitAnd = 8, sum = 9, product = 10, chain = 11;
-
-Operator symbolAt(const Cursor& cursor) {
-  const char next = cursor.peek(1);
-  switch (cursor.peek()) {
+/// The binary operator that stands at the cursor; its priority is None if there is none.
+BinaryOperator operatorAt(const Cursor& cursor) {
+  const char c = cursor.peek();
+  if (isLetter(c)) {
+    if (c != 'D' && c != 'M' && c != 'B' && c != 'A' && c != 'X' && c != 'O') return {};
+    const std::string_view name = cursor.peekName();
+    for (const BinaryOperator& entry : binaryOperators())
+      if (entry.symbol == name) return entry;
+    return {};
+  }
+  switch (c) {
     case '+':
-      return {Operation::Add, sum, 1};
     case '-':
-      return {Operation::Subtract, sum, 1};
     case '*':
-      return {Operation::Multiply, product, 1};
     case '/':
-      return {Operation::Divide, product, 1};
-    case ':':
-      return {Operation::Call, chain, 1};
-    case '=':
-      return next == '=' ? Operator{Operation::Equal, comparison, 2} : Operator{};
     case '<':
-      if (next == '<') return {Operation::Concatenate, concatenation, 2};
-      if (next == '>') return {Operation::NotEqual, comparison, 2};
-      if (next == '=') return {Operation::LessEqual, comparison, 2};
-      return {Operation::Less, comparison, 1};
     case '>':
-      if (next == '=') return {Operation::GreaterEqual, comparison, 2};
-      return {Operation::Greater, comparison, 1};
+    case '=':
+      break;
+    case ':':
+      return {":", Operation::Call, Priority::Chain};
     default:
       return {};
   }
-}
-
-Operator wordAt(const Cursor& cursor) {
-  struct Entry {
-    std::string_view name;
-    Operation operation;
-    int priority;
-  };
-  static constexpr Entry entries[] = {
-      {"DIV", Operation::IntegerDivide, product}, {"MOD", Operation::Modulo, product},
-      {"B_AND", Operation::BitAnd, bitAnd},       {"B_XOR", Operation::BitExclusiveOr, bitXor},
-      {"B_OR", Operation::BitOr, bitOr},          {"AND", Operation::And, logicAnd},
-      {"XOR", Operation::ExclusiveOr, logicXor},  {"OR", Operation::Or, logicOr},
-  };
-  const std::string_view name = cursor.peekName();
-  for (const Entry& entry : entries)
-    if (entry.name == name) return {entry.operation, entry.priority, name.size()};
+  for (const BinaryOperator& entry : binaryOperators())
+    if (cursor.rest().starts_with(entry.symbol)) return entry;
   return {};
 }
 
-Operator operatorAt(const Cursor& cursor) {
-  const char c = cursor.peek();
-  if (isLetter(c))
-    return c == 'D' || c == 'M' || c == 'B' || c == 'A' || c == 'X' || c == 'O' ? wordAt(cursor) : Operator{};
-  return symbolAt(cursor);
-}
+constexpr Priority above(Priority priority) { return static_cast<Priority>(static_cast<int>(priority) + 1); }
 
 }  // namespace
 
-Operand BlockParser::parseExpression() { return parseBinary(comparison); }
+Operand BlockParser::parseExpression() { return parseBinary(Priority::Comparison); }
 
-Operand BlockParser::parseBinary(int lowest) {
+Operand BlockParser::parseBinary(Priority lowest) {
   if (++depth_ > deepestNesting) {
     fail(cursor_.offset(), "this expression is nested too deeply", "Split it into several assignments.");
     return {};
@@ -87,10 +55,10 @@ Operand BlockParser::parseBinary(int lowest) {
   Operand left = parseUnary();
   for (;;) {
     cursor_.skipBlanks();
-    const Operator op = operatorAt(cursor_);
-    if (op.priority < lowest || op.priority == 0 || failed_) break;
-    cursor_.advance(op.length);
-    const Operand right = parseBinary(op.priority + 1);
+    const BinaryOperator op = operatorAt(cursor_);
+    if (op.priority == Priority::None || op.priority < lowest || failed_) break;
+    cursor_.advance(op.symbol.size());
+    const Operand right = parseBinary(above(op.priority));
     if (failed_) break;
     Node node;
     node.operation = op.operation;

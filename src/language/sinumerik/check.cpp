@@ -1,0 +1,291 @@
+#include "language/sinumerik/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "cycles/catalogue.hpp"
+#include "language/sinumerik/keywords.hpp"
+#include "language/sinumerik/writer.hpp"
+
+namespace probewright::sinumerik {
+
+using namespace language;
+
+namespace {
+
+constexpr control::ControlKind controlKind = control::ControlKind::Sinumerik840Dsl;
+
+std::string upperCase(std::string_view text) {
+  std::string upper(text);
+  for (char& c : upper)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
+  return upper;
+}
+
+class Checker {
+public:
+  Checker(SinumerikProgram& program, const CheckOptions& options) : program_(program), options_(options) {}
+  Diagnostics run();
+
+private:
+  struct Use {
+    std::string name;
+    Diagnostic complaint;
+  };
+
+  std::size_t columnOf(std::string_view name) const;
+  Diagnostic complaint(std::size_t column, std::string message, std::string advice) const;
+  void report(std::size_t column, std::string message, std::string advice, Severity severity = Severity::Error);
+  void declare(const Instruction& instruction);
+  void checkNames();
+  void checkInstruction(const Instruction& instruction);
+  void checkTarget(TextRef label, JumpDirection direction);
+  void checkCall(const CallProgram& call);
+  void checkCycle(const CallProgram& call, const cycles::CycleDefinition& cycle);
+  void checkParameters(const CallProgram& call, const BlockParser::Header& header);
+  void checkLabels();
+
+  SinumerikProgram& program_;
+  const CheckOptions& options_;
+  Block block_;
+  Diagnostics found_;
+  std::set<std::string> declared_;
+  std::set<std::string> macros_;
+  std::map<std::string, Diagnostic> unknown_;  ///< first use of each name that no DEF came before
+};
+
+std::size_t Checker::columnOf(std::string_view name) const {
+  const std::size_t at = upperCase(block_.at(block_.source)).find(name);
+  return at == std::string::npos ? 0 : at + 1;
+}
+
+Diagnostic Checker::complaint(std::size_t column, std::string message, std::string advice) const {
+  Diagnostic mistake;
+  mistake.place = {program_.file(), block_.position.line, static_cast<std::uint32_t>(column)};
+  mistake.message = std::move(message);
+  mistake.excerpt = std::string(block_.at(block_.source));
+  mistake.advice = std::move(advice);
+  return mistake;
+}
+
+void Checker::report(std::size_t column, std::string message, std::string advice, Severity severity) {
+  Diagnostic mistake = complaint(column, std::move(message), std::move(advice));
+  mistake.severity = severity;
+  found_.push_back(std::move(mistake));
+}
+
+void Checker::declare(const Instruction& instruction) {
+  const Command* command = std::get_if<Command>(&instruction);
+  if (command == nullptr) return;
+  const std::string_view what = block_.at(command->name);
+  if (what == "DEF") {
+    std::string name(block_.at(block_.variables[static_cast<std::size_t>(command->variable)].name));
+    if (!declared_.insert(name).second)
+      report(columnOf(name), "the variable " + name + " is declared twice", "Remove one of the two DEF.");
+  } else if (what == "DEFINE") {
+    const std::string text = upperCase(block_.at(command->text));
+    macros_.insert(text.substr(0, text.find(' ')));
+  }
+}
+
+/// Variables that nobody declares, system variables that the control cannot have.
+void Checker::checkNames() {
+  for (const VariableRef& variable : block_.variables) {
+    if (variable.space == VariableSpace::R) continue;
+    const std::string name(block_.at(variable.name));
+    if (variable.space == VariableSpace::User) {
+      const bool known = declared_.contains(name) || isGlobalUserData(name) ||
+                         options_.globalVariables.contains(name) || macros_.contains(name);
+      if (known || unknown_.contains(name)) continue;
+      unknown_.emplace(name, complaint(columnOf(name), "nothing of the name " + name + " is declared",
+                                       "Declare it at the beginning of the program: DEF REAL " + name + "."));
+      continue;
+    }
+    static constexpr std::string_view families[] = {
+        "$P_",  "$A_",  "$AA_", "$AC_", "$AN_",  "$VA_",  "$VC_",  "$TC_",  "$MN_",  "$MC_",  "$MA_",
+        "$MD_", "$SN_", "$SC_", "$SA_", "$SNS_", "$SCS_", "$SAS_", "$MNS_", "$MCS_", "$MAS_", "$PI",
+        "$AD_", "$NT_", "$NK_", "$NP_", "$AS_",  "$PA_",  "$R",    "$SYG_", "$SYM_"};
+    const std::string_view bare = name.starts_with("$$") ? std::string_view(name).substr(1) : name;
+    const bool known = std::any_of(std::begin(families), std::end(families),
+                                   [&](std::string_view family) { return bare.starts_with(family); });
+    if (!known)
+      report(columnOf(name), "the control has no system variable " + name,
+             "System variables begin with $P_, $AA_, $AC_, $A_, $TC_, $MN_, $MC_, $MA_, $SNS_, $SCS_ and the like.");
+  }
+}
+
+void Checker::checkTarget(TextRef label, JumpDirection direction) {
+  const std::string name(block_.at(label));
+  if (program_.findLabel(name, block_.position, direction)) return;
+  const std::size_t column = columnOf(name);
+  const bool elsewhere = program_.findLabel(name, block_.position, JumpDirection::ForwardThenBackward).has_value();
+  if (elsewhere) {
+    const bool forward = direction == JumpDirection::Forward;
+    return report(column,
+                  fmt::format("the destination {} stands only {} this block", name, forward ? "before" : "behind"),
+                  fmt::format("Write {} or GOTO.", forward ? "GOTOB" : "GOTOF"));
+  }
+  std::vector<std::string_view> labels;
+  for (const ProgramStructure::Label& known : program_.structure().labels())
+    labels.push_back(known.name);
+  const std::string_view close = closestName(name, labels);
+  report(column, "the destination " + name + " is missing",
+         close.empty() ? "Write " + name + (name[0] == 'N' || name[0] == ':' ? "" : ":") + " before the block to go to."
+                       : "Did you mean " + std::string(close) + "?");
+}
+
+void Checker::checkCycle(const CallProgram& call, const cycles::CycleDefinition& cycle) {
+  const Word* words = block_.words.data() + call.arguments.first;
+  const std::size_t most = cycle.parameters.size();
+  if (call.arguments.count > most) {
+    report(words[most].column,
+           fmt::format("{} takes at most {} arguments, here are {}", cycle.name, most, call.arguments.count),
+           fmt::format("See 'probewright cycles {}'.", cycle.name));
+  }
+  for (const cycles::Parameter& parameter : cycle.parameters) {
+    const std::string place = fmt::format("argument {} of {}: ", parameter.address + 1, cycle.name);
+    const bool written = parameter.address < call.arguments.count && words[parameter.address].value.present();
+    if (!written) {
+      if (parameter.required())
+        report(columnOf(cycle.name), place + fmt::format("{} ({}) is missing", parameter.name, parameter.meaning),
+               "This argument has no standard value and must be written.");
+      continue;
+    }
+    const Word& word = words[parameter.address];
+    cycles::Argument argument;
+    argument.given = true;
+    if (word.value.isLiteral()) {
+      argument.number = word.value.number;
+    } else {
+      const Node& node = block_.nodes[static_cast<std::size_t>(word.value.node)];
+      if (node.operation != Operation::Text) continue;
+      argument.isText = true;
+      argument.text = std::string(block_.at(node.text));
+    }
+    const std::string wrong = cycles::complaint(parameter, argument);
+    if (!wrong.empty()) report(word.column, place + wrong, fmt::format("See 'probewright cycles {}'.", cycle.name));
+  }
+}
+
+void Checker::checkParameters(const CallProgram& call, const BlockParser::Header& header) {
+  const Word* words = block_.words.data() + call.arguments.first;
+  if (call.arguments.count > header.parameters.size()) {
+    report(words[header.parameters.size()].column,
+           fmt::format("{} has {} parameter{}, here are {} arguments", header.name, header.parameters.size(),
+                       header.parameters.size() == 1 ? "" : "s", call.arguments.count),
+           "Compare the call with the PROC line of the subprogram.");
+    return;
+  }
+  for (std::size_t i = 0; i < header.parameters.size(); ++i) {
+    const BlockParser::Parameter& parameter = header.parameters[i];
+    if (!parameter.byReference || i >= call.arguments.count) continue;
+    const Operand& value = words[i].value;
+    const bool isVariable =
+        value.node >= 0 && block_.nodes[static_cast<std::size_t>(value.node)].operation == Operation::Variable;
+    if (!isVariable)
+      report(
+          words[i].column,
+          fmt::format("argument {} of {}: the VAR parameter {} needs a variable", i + 1, header.name, parameter.name),
+          "Write the name of the variable that takes the result.");
+  }
+}
+
+void Checker::checkCall(const CallProgram& call) {
+  if (call.nameValue.present()) return;
+  const std::string name = upperCase(block_.at(call.name));
+  if (macros_.contains(name)) return;
+  if (options_.library != nullptr && options_.library->exists(name, &program_)) {
+    const auto called = options_.library->open(name, &program_);
+    if (!called) return;
+    if (auto* subprogram = dynamic_cast<SinumerikProgram*>(called->get());
+        subprogram != nullptr && subprogram->structure().header())
+      checkParameters(call, *subprogram->structure().header());
+    return;
+  }
+  const std::size_t column = columnOf(name);
+  if (call.maybeCycle) {
+    if (const cycles::CycleDefinition* cycle = cycles::sinumerikCycle(name)) return checkCycle(call, *cycle);
+    if (name == "CYCLE800") return;
+    if (isSkippedCycle(name))
+      return report(column, name + " is not carried out", "The run goes on behind it; no material is removed.",
+                    Severity::Warning);
+  }
+  if (options_.library == nullptr && !call.maybeCycle) return;
+  std::vector<std::string_view> names;
+  for (const cycles::CycleDefinition* cycle : cycles::cyclesOf(controlKind))
+    names.push_back(cycle->name);
+  for (const KeywordEntry& keyword : keywords())
+    names.push_back(keyword.name);
+  const std::string_view close = closestName(name, names);
+  const std::string message = "there is no program and no cycle " + name;
+  const std::string advice = close.empty() ? "Put " + name + ".SPF beside the program, or check the spelling."
+                                           : "Did you mean " + std::string(close) + "?";
+  if (options_.library == nullptr && close.empty()) return;
+  report(column, message, advice);
+}
+
+void Checker::checkInstruction(const Instruction& instruction) {
+  if (const auto* jump = std::get_if<Jump>(&instruction)) {
+    if (jump->label.length != 0 && !jump->ignoreMissing) checkTarget(jump->label, jump->direction);
+  } else if (const auto* section = std::get_if<RepeatSection>(&instruction)) {
+    checkTarget(section->from, JumpDirection::ForwardThenBackward);
+    if (section->to.length != 0) checkTarget(section->to, JumpDirection::ForwardThenBackward);
+  } else if (const auto* call = std::get_if<CallProgram>(&instruction)) {
+    checkCall(*call);
+  }
+}
+
+void Checker::checkLabels() {
+  std::map<std::string_view, std::uint64_t> first;
+  for (const ProgramStructure::Label& label : program_.structure().labels()) {
+    const auto [known, isNew] = first.emplace(label.name, label.position.line);
+    if (isNew) continue;
+    Diagnostic mistake;
+    mistake.severity = Severity::Warning;
+    mistake.place = {program_.file(), label.position.line, 1};
+    mistake.message = fmt::format("the label {} stands also in line {}", label.name, known->second);
+    mistake.excerpt = std::string(program_.text().line(label.position.offset).text);
+    mistake.advice = "Jumps take the nearest in their direction; give each label a name of its own.";
+    found_.push_back(std::move(mistake));
+  }
+}
+
+Diagnostics Checker::run() {
+  if (const auto& header = program_.structure().header())
+    for (const BlockParser::Parameter& parameter : header->parameters)
+      declared_.insert(parameter.name);
+  for (BlockPosition at = program_.begin(); program_.parse(at, block_, found_); at = block_.next) {
+    for (const Instruction& instruction : block_.instructions)
+      declare(instruction);
+    checkNames();
+    for (const Instruction& instruction : block_.instructions)
+      checkInstruction(instruction);
+  }
+  for (auto& [name, mistake] : unknown_) {
+    std::vector<std::string_view> names(declared_.begin(), declared_.end());
+    const std::string_view close = closestName(name, names);
+    if (declared_.contains(name)) {
+      mistake.message = name + " is used before its DEF";
+      mistake.advice = "Move the DEF to the beginning of the program.";
+    } else if (!close.empty()) {
+      mistake.advice = "Did you mean " + std::string(close) + "?";
+    }
+    found_.push_back(std::move(mistake));
+  }
+  const Diagnostics& structure = program_.structure().mistakes();
+  found_.insert(found_.end(), structure.begin(), structure.end());
+  checkLabels();
+  std::stable_sort(found_.begin(), found_.end(), [](const Diagnostic& a, const Diagnostic& b) {
+    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+  });
+  return std::move(found_);
+}
+
+}  // namespace
+
+Diagnostics check(SinumerikProgram& program, const CheckOptions& options) { return Checker(program, options).run(); }
+
+}  // namespace probewright::sinumerik

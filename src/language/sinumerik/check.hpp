@@ -1,0 +1,30 @@
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "base/diagnostic.hpp"
+#include "language/program.hpp"
+#include "language/sinumerik/program.hpp"
+
+namespace probewright::sinumerik {
+
+struct CheckOptions {
+  /// Where called programs are looked for; null: calls of other programs are not checked.
+  language::ProgramLibrary* library = nullptr;
+  /// Global user data of the control besides those of the measuring cycles, upper case.
+  std::set<std::string> globalVariables;
+};
+
+/// Reads the whole program without running it and names every mistake: those of single blocks, structured statements
+/// that are not closed, missing and doubled labels, names that nobody declares, programs that do not exist, and
+/// arguments of measuring cycles that the catalogue refuses.
+Diagnostics check(SinumerikProgram& program, const CheckOptions& options = {});
+
+/// True if the measuring cycles or the control declare this global variable (upper case, without indices).
+bool isGlobalUserData(std::string_view name);
+
+/// True if `name` is a machining or service cycle of the control that the house reads but does not carry out.
+bool isSkippedCycle(std::string_view name);
+
+}  // namespace probewright::sinumerik

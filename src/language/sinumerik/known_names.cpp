@@ -1,0 +1,39 @@
+#include <algorithm>
+#include <iterator>
+
+#include "language/sinumerik/check.hpp"
+#include "language/sinumerik/cursor.hpp"
+
+namespace probewright::sinumerik {
+
+namespace {
+
+constexpr std::string_view globals[] = {
+    "_OVR",      "_OVI",        "_EV",       "_MV",      "_EVMVNUM", "_WP",     "_TP",    "_TPW",     "_KB",
+    "_CM",       "_CBIT",       "_CHBIT",    "_SPEED",   "_CVAL",    "_MFS",    "_TP_CF", "_MT_COMP", "_TXT",
+    "_PROTNAME", "_HEADLINE",   "_PROTFORM", "_PROTSYM", "_PROTVAL", "_PMI",    "_SP_B",  "_JM_I",    "_JM_B",
+    "_MC_MA",    "_MC_SIMDIFF", "_KNUM",     "_MVAR",    "_PRNUM",   "_SETVAL", "_MA",    "_MD",      "_FA",
+    "_TSA",      "_VMS",        "_NMSP",     "_TNAME",   "_TZL",     "_TMV",    "_TUL",   "_TLL",     "_TDIF",
+    "_K",        "_EVNUM",      "_CALNUM",   "_SETV",    "_ID",      "_INCA",   "_STA1",  "_RA",      "_CPA",
+    "_CPO",      "_SZA",        "_SZO",      "_RF",      "_TENV",    "_DLNUM",  "_CORA",  "_TNUM",    "_TNVL",
+};
+
+}  // namespace
+
+bool isGlobalUserData(std::string_view name) {
+  return name.starts_with("E_MESS") || std::find(std::begin(globals), std::end(globals), name) != std::end(globals);
+}
+
+bool isSkippedCycle(std::string_view name) {
+  static constexpr std::string_view machining[] = {
+      "HOLES1",       "HOLES2",   "POCKET1",     "POCKET2",      "POCKET3",    "POCKET4",   "SLOT1",       "SLOT2",
+      "LONGHOLE",     "CUST_800", "CUST_MEACYC", "CUST_TECHCYC", "PROG_EVENT", "TOOLCARR",  "GROUP_BEGIN", "GROUP_END",
+      "GROUP_ADDEND", "F_HEAD",   "F_END",       "E_HEAD",       "E_END",      "CYCLE_HSC",
+  };
+  if (std::find(std::begin(machining), std::end(machining), name) != std::end(machining)) return true;
+  if (!name.starts_with("CYCLE") || name.size() < 7 || name.size() > 9) return false;
+  if (name.starts_with("CYCLE9") && name.size() == 8) return name < "CYCLE960";
+  return std::all_of(name.begin() + 5, name.end(), isDigit);
+}
+
+}  // namespace probewright::sinumerik

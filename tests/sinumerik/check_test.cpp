@@ -1,0 +1,96 @@
+#include "language/sinumerik/check.hpp"
+
+#include <gtest/gtest.h>
+
+#include "cycles/catalogue.hpp"
+
+namespace probewright::sinumerik {
+namespace {
+
+Diagnostics checkText(const std::string& text) {
+  const auto program = SinumerikProgram::fromText("test.mpf", text);
+  return check(*program);
+}
+
+TEST(SinumerikCheck, AGoodProgramHasNoMistakes) {
+  const Diagnostics found = checkText(
+      "%_N_RING_MPF\n"
+      "DEF REAL DIA_1, DIA_2[3]\n"
+      "DEF STRING[20] GOAL=\"LB_1\"\n"
+      "G54 G17 T=\"PROBE\" M6 D1\n"
+      "DIA_1=_OVR[4]+$AA_IM[X]\n"
+      "FOR R1=0 TO 2\n"
+      "  DIA_2[R1]=DIA_1*R1\n"
+      "ENDFOR\n"
+      "IF DIA_1>5 GOTOF GOAL\n"
+      "IF DIA_1>5 GOTOF LB_1\n"
+      "GOTOC LB_9\n"
+      "GOTOB N10\n"
+      "LB_1: M30\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].message, "the destination N10 is missing");
+}
+
+TEST(SinumerikCheck, NamesAllMistakesInTheOrderOfTheProgram) {
+  const Diagnostics found = checkText(
+      "DEF REAL DEPTH\n"
+      "DEPHT=5\n"
+      "G0 X10 X20\n"
+      "AB_1: R1=NOWHERE\n"
+      "IF R1==1\n"
+      "GOTOF AB_1\n"
+      "GOTOB AB_2\n"
+      "AB_1: R1=$XYZ\n"
+      "DEF INT DEPTH\n"
+      "M30\n");
+  std::vector<std::string> messages;
+  for (const Diagnostic& diagnostic : found)
+    messages.push_back(std::to_string(diagnostic.place.line) + ":" + std::to_string(diagnostic.place.column) + " " +
+                       diagnostic.message);
+  EXPECT_EQ(messages, (std::vector<std::string>{
+                          "2:1 nothing of the name DEPHT is declared",
+                          "3:8 the address X stands twice in this block",
+                          "4:10 nothing of the name NOWHERE is declared",
+                          "5:1 IF is not closed by ENDIF",
+                          "7:7 the destination AB_2 is missing",
+                          "8:1 the label AB_1 stands also in line 4",
+                          "8:10 the control has no system variable $XYZ",
+                          "9:9 the variable DEPTH is declared twice",
+                      }));
+  EXPECT_EQ(found[0].advice, "Did you mean DEPTH?");
+  EXPECT_EQ(found[4].advice, "Did you mean AB_1?");
+  EXPECT_EQ(format(found[1]),
+            "test.mpf:3:8: error: the address X stands twice in this block\n    G0 X10 X20\n"
+            "    Write each address once in a block.");
+}
+
+TEST(SinumerikCheck, AJumpInTheWrongDirectionIsAMistake) {
+  const Diagnostics found = checkText("AB_1: R1=1\nGOTOF AB_1\nM30\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].message, "the destination AB_1 stands only before this block");
+  EXPECT_EQ(found[0].advice, "Write GOTOB or GOTO.");
+}
+
+TEST(SinumerikCheck, MachiningCyclesAreNamedAsSkipped) {
+  const Diagnostics found = checkText("CYCLE81(10,0,2,-5)\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::Warning);
+}
+
+TEST(SinumerikCheck, ArgumentsOfMeasuringCyclesAreHeldAgainstTheCatalogue) {
+  if (cycles::sinumerikCycle("CYCLE977") == nullptr) GTEST_SKIP() << "the catalogue has no CYCLE977";
+  std::string call = "CYCLE977(1";
+  for (int i = 0; i < 60; ++i)
+    call += ",0";
+  bool tooMany = false;
+  for (const Diagnostic& diagnostic : checkText(call + ")\n"))
+    tooMany |= diagnostic.message.find("CYCLE977 takes at most") == 0;
+  EXPECT_TRUE(tooMany);
+  const Diagnostics text = checkText("CYCLE977(\"hole\",,,1,40,,,10,5)\n");
+  ASSERT_FALSE(text.empty());
+  EXPECT_NE(text[0].message.find("argument 1 of CYCLE977: S_MVAR"), std::string::npos) << text[0].message;
+  EXPECT_EQ(text[0].place.column, 10u);
+}
+
+}  // namespace
+}  // namespace probewright::sinumerik
