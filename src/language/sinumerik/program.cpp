@@ -34,7 +34,7 @@ bool SinumerikProgram::parse(BlockPosition position, Block& block, Diagnostics& 
   place_.line = position.line;
   parser_.parse(line.text, place_, block, diagnostics);
   for (const Instruction& instruction : block.instructions) {
-    if (std::holds_alternative<Jump>(instruction) || std::holds_alternative<RepeatSection>(instruction)) {
+    if (std::holds_alternative<Jump>(instruction)) {
       resolveTargets(block);
       break;
     }
@@ -42,7 +42,7 @@ bool SinumerikProgram::parse(BlockPosition position, Block& block, Diagnostics& 
   return true;
 }
 
-/// A destination that is no label but a STRING variable is computed; ENDLABEL ends a section without an end of its own.
+/// A destination that is no label but a STRING variable is computed.
 void SinumerikProgram::resolveTargets(Block& block) {
   for (Instruction& instruction : block.instructions) {
     if (auto* jump = std::get_if<Jump>(&instruction); jump != nullptr && jump->label.length != 0) {
@@ -58,13 +58,6 @@ void SinumerikProgram::resolveTargets(Block& block) {
       block.nodes.push_back(node);
       jump->labelValue = {0, static_cast<std::int32_t>(block.nodes.size() - 1)};
       jump->label = {};
-    } else if (auto* section = std::get_if<RepeatSection>(&instruction);
-               section != nullptr && section->to.length == 0 && !section->onlyBlock) {
-      // REPEAT LABEL ends at ENDLABEL where that stands behind LABEL, otherwise at this block.
-      const auto from =
-          structure().find(text_, block.at(section->from), block.position, JumpDirection::ForwardThenBackward);
-      if (!from) continue;
-      if (structure().find(text_, "ENDLABEL", *from, JumpDirection::Forward)) section->to = block.add("ENDLABEL");
     }
   }
 }
