@@ -372,10 +372,10 @@ std::uint64_t Interpreter::sectionEnd(const RepeatSection& repeat, BlockPosition
   if (name == evaluation.at(repeat.from)) return first.offset;
   const auto end = program.findLabel(name, first, JumpDirection::Forward);
   if (end && (behind || end->offset < own)) return end->offset;
-  if (!behind && repeat.to.length == 0) return own;
+  if (!behind && (end || name == "ENDLABEL")) return own;
   refuse(Refusal::MissingLabel,
          fmt::format("the section that begins with label {} has no end label {}", evaluation.at(repeat.from), name),
-         "the end label belongs behind the first label, on the same side of REPEAT");
+         "the end label belongs behind the first label");
 }
 
 // ---- programs ----

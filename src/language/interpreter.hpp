@@ -73,8 +73,8 @@ struct RunResult {
 ///   subprogram's counts begin anew with every call, and a count of 0 or less jumps never. A part that is left by a
 ///   jump goes on counting when its CALL LBL is reached again.
 /// - REPEAT, REPEATB (RepeatSection): the section is looked for backwards, then forwards. Without an end label it ends
-///   with the block of the label ENDLABEL, or else with the REPEAT block itself. A jump out of the section ends its
-///   repetition.
+///   with the block of the label ENDLABEL. If REPEAT stands in front of the section's end, the section ends with
+///   REPEAT. A jump out of the section ends its repetition.
 /// - END PGM, M2, M30, M17, RET and the end of the file end the program, in a called one they return to the caller.
 /// - FOR counts up in steps of one and compares with its limit, which is computed anew each time; the variable keeps
 ///   the first value above the limit.

@@ -202,6 +202,17 @@ TEST(Sections, EndAtEndlabel) {
   EXPECT_EQ(bench.host.q(2), 1);
 }
 
+TEST(Sections, EndAtTheStatementIfTheirEndLabelLiesBehindIt) {
+  Bench bench;
+  bench.run({Make().plainLabel("A").count(1), Make().repeat("A", "ENDLABEL", 2), Make().repeat("A", "E", 1),
+             Make().plainLabel("E"), Make().plainLabel("ENDLABEL").count(2)});
+  // 1 + 2 passes, then the section up to the second REPEAT, which holds the first with its 2 passes, once more.
+  EXPECT_EQ(bench.host.q(1), 6);
+  EXPECT_EQ(bench.host.q(2), 1);
+  Bench missing;
+  EXPECT_THAT(text(missing.run({Make().plainLabel("A"), Make().repeat("A", "E", 1)})), HasSubstr("no end label E"));
+}
+
 TEST(Sections, OfOneBlock) {
   Bench bench;
   bench.run({Make().plainLabel("A").count(1), Make().count(2), Make().repeat("A", "", 5, true)});
