@@ -21,6 +21,7 @@
 
 #include "language/evaluation.hpp"
 #include "language/interpreter.hpp"
+#include "language/klartext/program.hpp"
 #include "language/sinumerik/program.hpp"
 
 namespace {
@@ -31,45 +32,63 @@ namespace fs = std::filesystem;
 
 constexpr int million = 1'000'000;
 
-enum class Dialect { Rs274, Sinumerik };
+enum class Dialect { Rs274, Sinumerik, Klartext };
 enum class Kind { Empty, Moves, Formulas, Loop };
 
 /// A point of the surface that is milled; three decimals as posts write them.
 std::array<double, 3> point(int i) { return {0.05 * (i % 2000), 0.1 * (i / 2000), 5 * std::sin(0.01 * i)}; }
 
-void writeMoves(Dialect, std::ofstream& out) {
+void writeMoves(Dialect dialect, std::ofstream& out) {
   for (int i = 0; i < million; ++i) {
     const auto [x, y, z] = point(i);
-    out << fmt::format("G1 X{:.3f} Y{:.3f} Z{:.3f}{}\n", x, y, z, i % 50 == 0 ? " F1500" : "");
-  }
-}
-
-void writeFormulas(Dialect dialect, std::ofstream& out) {
-  for (int i = 0; i < million / 2; ++i) {
-    const auto [x, y, z] = point(i);
-    if (dialect == Dialect::Rs274) {
-      out << fmt::format("#1=[{:.3f}+#2*0.5]\nG1 X[#1] Y[{:.3f}+SIN[#1]] F1000\n", x, y);
+    const char* feed = i % 50 == 0 ? " F1500" : "";
+    if (dialect == Dialect::Klartext) {
+      out << fmt::format("{} L X{:+.3f} Y{:+.3f} Z{:+.3f}{}\n", i + 1, x, y, z, feed);
     } else {
-      out << fmt::format("R1={:.3f}+R2*0.5\nG1 X=R1 Y={:.3f}+SIN(R1) F1000\n", x, y);
+      out << fmt::format("N{} G1 X{:.3f} Y{:.3f} Z{:.3f}{}\n", i + 1, x, y, z, feed);
     }
   }
 }
 
+void writeFormulas(Dialect dialect, std::ofstream& out) {
+  for (int i = 0; i < million / 3; ++i) {
+    const auto [x, y, z] = point(i);
+    switch (dialect) {
+      case Dialect::Rs274:
+        out << fmt::format("#1=[{:.3f}+#2*0.5]\n#3=[{:.3f}+SIN[#1]]\nG1 X#1 Y#3 F1000\n", x, y);
+        break;
+      case Dialect::Sinumerik:
+        out << fmt::format("R1={:.3f}+R2*0.5\nR3={:.3f}+SIN(R1)\nG1 X=R1 Y=R3 F1000\n", x, y);
+        break;
+      case Dialect::Klartext:
+        out << fmt::format("Q1 = {:.3f} + Q2 * 0.5\nQ3 = {:.3f} + SIN Q1\nL X+Q1 Y+Q3 F1000\n", x, y);
+        break;
+    }
+  }
+}
+
+/// Six blocks a pass.
 void writeLoop(Dialect dialect, std::ofstream& out) {
-  // Five blocks a pass in both.
-  if (dialect == Dialect::Rs274) {
-    out << fmt::format(
-        "#1=0\no100 while [#1 LT {}]\n#1=[#1+1]\n#2=[#1*0.001]\nG1 X[#2] Y[SQRT[#2]] F1000\no100 endwhile\n",
-        million / 5);
-  } else {
-    out << fmt::format("R1=0\nWHILE R1<{}\nR1=R1+1\nR2=R1*0.001\nG1 X=R2 Y=SQRT(R2) F1000\nENDWHILE\n", million / 5);
+  const int passes = million / 6;
+  switch (dialect) {
+    case Dialect::Rs274:
+      out << "#1=0\no100 while [#1 LT " << passes
+          << "]\n#1=[#1+1]\n#2=[#1*0.001]\n#3=[SQRT[#2]]\nG1 X#2 Y#3 F1000\no100 endwhile\n";
+      break;
+    case Dialect::Sinumerik:
+      out << "R1=0\nWHILE R1<" << passes << "\nR1=R1+1\nR2=R1*0.001\nR3=SQRT(R2)\nG1 X=R2 Y=R3 F1000\nENDWHILE\n";
+      break;
+    case Dialect::Klartext:
+      out << "Q1 = 0\nLBL 1\nQ1 = Q1 + 1\nQ2 = Q1 * 0.001\nQ3 = SQRT Q2\nL X+Q2 Y+Q3 F1000\nFN 12: IF +Q1 LT +"
+          << passes << " GOTO LBL 1\n";
+      break;
   }
 }
 
 /// The program, written once and removed at the end.
 const std::string& file(Dialect dialect, Kind kind) {
   struct Files {
-    std::array<std::array<std::string, 4>, 2> names;
+    std::array<std::array<std::string, 4>, 3> names;
     ~Files() {
       for (const auto& kinds : names) {
         for (const auto& name : kinds)
@@ -80,15 +99,16 @@ const std::string& file(Dialect dialect, Kind kind) {
   static Files files;
   std::string& name = files.names[static_cast<std::size_t>(dialect)][static_cast<std::size_t>(kind)];
   if (name.empty()) {
-    name = (fs::temp_directory_path() / fmt::format("language_benchmark_{}_{}_{}{}", ::getpid(), static_cast<int>(kind),
-                                                    static_cast<int>(dialect),
-                                                    dialect == Dialect::Rs274 ? ".ngc" : ".mpf"))
-               .string();
+    constexpr const char* endings[] = {"ngc", "mpf", "h"};
+    const std::string leaf = fmt::format("language_benchmark_{}_{}.{}", ::getpid(), static_cast<int>(kind),
+                                         endings[static_cast<std::size_t>(dialect)]);
+    name = (fs::temp_directory_path() / leaf).string();
     std::ofstream out(name);
+    if (dialect == Dialect::Klartext) out << "BEGIN PGM BENCH MM\n";
     if (kind == Kind::Moves) writeMoves(dialect, out);
     if (kind == Kind::Formulas) writeFormulas(dialect, out);
     if (kind == Kind::Loop) writeLoop(dialect, out);
-    out << (dialect == Dialect::Rs274 ? "M2\n" : "M30\n");
+    out << (dialect == Dialect::Klartext ? "END PGM BENCH MM\n" : dialect == Dialect::Sinumerik ? "M30\n" : "M2\n");
   }
   return name;
 }
@@ -126,8 +146,8 @@ public:
     feed_ = evaluation.numberOr(move->feed, feed_);
     ++moves;
     if (out_ != nullptr) {
-      std::fprintf(out_, "%6d STRAIGHT_FEED(%.4f, %.4f, %.4f, %.4f)\n", static_cast<int>(moves), position_[0],
-                   position_[1], position_[2], feed_);
+      fmt::print(out_, "{:6} STRAIGHT_FEED({:.4f}, {:.4f}, {:.4f}, {:.4f})\n", moves, position_[0], position_[1],
+                 position_[2], feed_);
     }
   }
   bool beginBlock(const Program&, const Block&) override {
@@ -153,6 +173,7 @@ private:
 };
 
 std::shared_ptr<Program> open(Dialect dialect, Kind kind) {
+  if (dialect == Dialect::Klartext) return klartext::KlartextProgram::open(file(dialect, kind)).value();
   return sinumerik::SinumerikProgram::open(file(dialect, kind)).value();
 }
 
@@ -227,10 +248,15 @@ BENCHMARK_CAPTURE(rs274, Start, Kind::Empty)->Unit(benchmark::kMillisecond)->Use
 BENCHMARK_CAPTURE(rs274, Moves, Kind::Moves)->Unit(benchmark::kMillisecond)->UseManualTime();
 BENCHMARK_CAPTURE(rs274, Formulas, Kind::Formulas)->Unit(benchmark::kMillisecond)->UseManualTime();
 BENCHMARK_CAPTURE(rs274, Loop, Kind::Loop)->Unit(benchmark::kMillisecond)->UseManualTime();
-BENCHMARK_CAPTURE(parseOnly, SinumerikMoves, Dialect::Sinumerik, Kind::Moves)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(parseOnly, SinumerikFormulas, Dialect::Sinumerik, Kind::Formulas)->Unit(benchmark::kMillisecond);
 PROBEWRIGHT_INTERPRET(Sinumerik, Moves);
 PROBEWRIGHT_INTERPRET(Sinumerik, Formulas);
 PROBEWRIGHT_INTERPRET(Sinumerik, Loop);
+PROBEWRIGHT_INTERPRET(Klartext, Moves);
+PROBEWRIGHT_INTERPRET(Klartext, Formulas);
+PROBEWRIGHT_INTERPRET(Klartext, Loop);
+BENCHMARK_CAPTURE(parseOnly, SinumerikMoves, Dialect::Sinumerik, Kind::Moves)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(parseOnly, KlartextMoves, Dialect::Klartext, Kind::Moves)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(parseOnly, SinumerikFormulas, Dialect::Sinumerik, Kind::Formulas)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(parseOnly, KlartextFormulas, Dialect::Klartext, Kind::Formulas)->Unit(benchmark::kMillisecond);
 
 }  // namespace
