@@ -172,6 +172,16 @@ std::optional<std::vector<double>> TomlReader::numbers(std::string_view key, std
   return values;
 }
 
+std::optional<std::variant<double, std::string>> TomlReader::plainValue(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  if (const auto* text = node->as_string()) return text->get();
+  if (const auto* flag = node->as_boolean()) return flag->get() ? 1.0 : 0.0;
+  if (node->is_number() && std::isfinite(node->value<double>().value())) return node->value<double>().value();
+  wrongType(key, "a number, a text, true or false");
+  return std::nullopt;
+}
+
 std::string TomlReader::nameOf(std::string_view key, std::string_view open, std::string_view close) const {
   const std::size_t brackets = name_.find_first_not_of('[');
   const std::string outer = name_.empty() ? "" : name_.substr(brackets, name_.find(']') - brackets) + ".";

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #define TOML_HEADER_ONLY 0
@@ -20,8 +21,8 @@ struct NumberRange {
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
   bool exclusiveMinimum = false;  ///< the minimum itself is not allowed
-  static NumberRange positive() { return {0, std::numeric_limits<double>::infinity(), true}; }
-  static NumberRange notNegative() { return {0, std::numeric_limits<double>::infinity(), false}; }
+  static constexpr NumberRange positive() { return {0, std::numeric_limits<double>::infinity(), true}; }
+  static constexpr NumberRange notNegative() { return {0, std::numeric_limits<double>::infinity(), false}; }
 };
 
 /// The table that `text` writes; nothing after a syntax error, which is then in `diagnostics`.
@@ -44,6 +45,8 @@ public:
   std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& choices);
   /// An array of numbers, of exactly `size` if that is not 0.
   std::optional<std::vector<double>> numbers(std::string_view key, std::size_t size = 0);
+  /// A number, a text, or true and false as 1 and 0.
+  std::optional<std::variant<double, std::string>> plainValue(std::string_view key);
   std::optional<TomlReader> table(std::string_view key);
   /// [[key]]: each table of an array of tables.
   std::vector<TomlReader> tables(std::string_view key);

@@ -39,6 +39,11 @@ constexpr const char* roleName(SolidRole role) {
   return "";
 }
 
+std::string missingTool(const machine::ToolOrder& order) {
+  return order.name.empty() ? fmt::format("the magazine of this machine holds no tool {}", order.number)
+                            : fmt::format("the magazine of this machine holds no tool \"{}\"", order.name);
+}
+
 }  // namespace
 
 std::uint64_t streamSeed(std::uint64_t seed, std::string_view name) {
@@ -299,21 +304,32 @@ MoveResult VirtualMachine::orientSpindle(double degrees) {
   return settle();
 }
 
-const TrueTool* VirtualMachine::findTool(const machine::ToolOrder& order) const {
+std::optional<const TrueTool*> VirtualMachine::findTool(const machine::ToolOrder& order) const {
   const auto found = std::find_if(truth_.tools.begin(), truth_.tools.end(), [&](const TrueTool& tool) {
     return order.name.empty() ? tool.number == order.number : tool.name == order.name;
   });
-  return found == truth_.tools.end() ? nullptr : &*found;
+  if (found != truth_.tools.end()) return &*found;
+  if (order.number == 0 && order.name.empty()) return nullptr;
+  return std::nullopt;
+}
+
+MoveResult VirtualMachine::load(const TrueTool* tool) {
+  tool_ = tool;
+  shape_ = shapeOf(tool_, spindleDegrees_);
+  if (recording_) path_.points.push_back({tipOnTable(), PathKind::ToolChange, clock_});
+  return settle();
+}
+
+MoveResult VirtualMachine::insertTool(const machine::ToolOrder& order) {
+  const auto tool = findTool(order);
+  return tool ? load(*tool) : MoveResult{MoveEnd::Collision, missingTool(order)};
 }
 
 MoveResult VirtualMachine::changeTool(const machine::ToolOrder& order) {
   if (cancelled_) return {MoveEnd::Cancelled, cancelledText};
-  const TrueTool* tool = findTool(order);
-  if (!tool && (order.number != 0 || !order.name.empty())) {
-    const std::string wanted = order.name.empty() ? std::to_string(order.number) : fmt::format("\"{}\"", order.name);
-    return {MoveEnd::Collision, fmt::format("the magazine of this machine holds no tool {}", wanted)};
-  }
-  if (tool == tool_) return {};
+  const auto tool = findTool(order);
+  if (!tool) return {MoveEnd::Collision, missingTool(order)};
+  if (*tool == tool_) return {};
   if (deflection_) return {MoveEnd::ProbeSignal, "the stylus is still deflected: " + describe(*deflection_)};
 
   AxisPositions target = reading_;
@@ -331,10 +347,7 @@ MoveResult VirtualMachine::changeTool(const machine::ToolOrder& order) {
   }
   advance(motionTo(target, Feed::rapidTraverse()), Stop{}, PathKind::ToolChange);
   clock_ += truth_.machine.toolChangeSeconds;
-  tool_ = tool;
-  shape_ = shapeOf(tool_, spindleDegrees_);
-  if (recording_) path_.points.push_back({tipOnTable(), PathKind::ToolChange, clock_});
-  return settle();
+  return load(*tool);
 }
 
 void VirtualMachine::dwell(double seconds) { clock_ += std::max(seconds, 0.0); }

@@ -53,6 +53,9 @@ public:
   void dwell(double seconds) override;
   double seconds() const override { return clock_; }
 
+  /// Puts a tool into the spindle by hand: at once, where the axes stand.
+  machine::MoveResult insertTool(const machine::ToolOrder& order);
+
   const Truth& truth() const { return truth_; }
   const PathRecord& path() const { return path_; }
   /// The record grows with every move (about 40 bytes); switched off it is no longer added to. On at the start.
@@ -81,7 +84,9 @@ private:
   machine::MoveResult finish(const Motion& motion, std::optional<Touch> touch, PathKind kind);
   std::optional<double> freeFrom(const Motion& motion) const;
   std::string describe(const Touch& touch) const;
-  const TrueTool* findTool(const machine::ToolOrder& order) const;
+  /// The tool that is ordered, null for none; nothing if the magazine does not hold it.
+  std::optional<const TrueTool*> findTool(const machine::ToolOrder& order) const;
+  machine::MoveResult load(const TrueTool* tool);
   machine::MoveResult settle();
 
   Truth truth_;

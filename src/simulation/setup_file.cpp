@@ -1,0 +1,463 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "base/file.hpp"
+#include "base/toml_table.hpp"
+#include "machine/machine_file.hpp"
+#include "simulation/analytic_solids.hpp"
+#include "simulation/setup.hpp"
+
+namespace probewright::simulation {
+
+using machine::AxisKind;
+
+namespace {
+
+constexpr NumberRange anyNumber{};
+constexpr NumberRange positive = NumberRange::positive();
+constexpr NumberRange notNegative = NumberRange::notNegative();
+constexpr double effectivelyEndless = 1e6;
+
+std::optional<Vector3> vector3(TomlReader& reader, std::string_view key) {
+  const auto values = reader.numbers(key, 3);
+  return values ? std::optional(Vector3((*values)[0], (*values)[1], (*values)[2])) : std::nullopt;
+}
+
+std::optional<Vector2> vector2(TomlReader& reader, std::string_view key) {
+  const auto values = reader.numbers(key, 2);
+  return values ? std::optional(Vector2((*values)[0], (*values)[1])) : std::nullopt;
+}
+
+/// [pose]: x, y, z and the rotation a about X, then b about Y, then c about Z of the table.
+Pose readPose(TomlReader& owner) {
+  auto reader = owner.table("pose");
+  if (!reader) return Pose::Identity();
+  const auto get = [&](const char* key) { return reader->number(key, anyNumber).value_or(0); };
+  const Vector3 origin(get("x"), get("y"), get("z"));
+  const double a = get("a"), b = get("b"), c = get("c");
+  reader->finish();
+  return translation(origin) * rotation(Vector3::UnitZ(), c) * rotation(Vector3::UnitY(), b) *
+         rotation(Vector3::UnitX(), a);
+}
+
+class SetupReader {
+public:
+  SetupReader(const toml::table& root, const std::string& file, Diagnostics& diagnostics)
+      : root_(root, "", file, diagnostics), folder_(std::filesystem::path(file).parent_path()) {
+    setup_.file = file;
+  }
+
+  Setup read() {
+    readMachine();
+    readControl();
+    setup_.truth.seed = static_cast<std::uint64_t>(root_.integer("seed", 0, INT64_MAX).value_or(1));
+    readSolids();
+    readGauges();
+    readTools();
+    readFrames();
+    readErrors();
+    readParameters();
+    root_.finish();
+    return std::move(setup_);
+  }
+
+private:
+  std::filesystem::path resolve(const std::string& path) const {
+    return std::filesystem::path(path).is_absolute() ? std::filesystem::path(path) : folder_ / path;
+  }
+
+  const machine::MachineDescription& machine() const { return setup_.truth.machine; }
+
+  /// The axis that the value of `key` names; of the given kind if one is asked for.
+  std::optional<std::size_t> axisNamed(TomlReader& reader, std::string_view key, const std::string& name,
+                                       std::optional<AxisKind> kind = std::nullopt) {
+    if (machine().axes.empty()) return std::nullopt;  // the machine itself is already reported
+    const auto index = machine().axisIndex(name);
+    if (index && (!kind || machine().axes[*index].kind == *kind)) return index;
+    std::vector<std::string> names;
+    for (const machine::Axis& axis : machine().axes) {
+      if (!kind || axis.kind == *kind) names.push_back(axis.name);
+    }
+    const char* what = !kind ? "axis" : *kind == AxisKind::Linear ? "linear axis" : "rotary axis";
+    reader.report(key, fmt::format("the machine has no {} called {}", what, name),
+                  names.empty() ? fmt::format("It has no {}", what) : fmt::format("It has {}", fmt::join(names, ", ")));
+    return std::nullopt;
+  }
+
+  void readMachine() {
+    std::string name = "mill3";
+    if (auto reader = root_.table("machine")) {
+      const bool hasName = reader->has("name"), hasFile = reader->has("file");
+      const auto ready = reader->text("name");
+      const auto file = reader->text("file");
+      if (hasName && hasFile) reader->report("file", "[machine] has a name and a file", "Remove one of them");
+      if (ready) name = *ready;
+      if (file) name = resolve(*file).string();
+      loadMachine(name, *reader, hasFile ? "file" : "name");
+      if (auto start = reader->table("start")) readStart(*start);
+      reader->finish();
+      return;
+    }
+    loadMachine(name, root_, "machine");
+  }
+
+  void loadMachine(const std::string& name, TomlReader& reader, std::string_view key) {
+    auto description = machine::readMachine(name);
+    if (description) {
+      setup_.truth.machine = *description;
+      setup_.truth.start = description->toolChange;
+      setup_.truth.errors.axes.resize(description->axes.size());
+      return;
+    }
+    Diagnostic problem = description.error();
+    // A machine that cannot be found is a mistake of this file, one that cannot be read of its own.
+    if (problem.place.line == 0) problem.place = reader.placeOf(key);
+    reader.diagnostics().push_back(std::move(problem));
+  }
+
+  void readStart(TomlReader& reader) {
+    for (const std::string& key : reader.keys()) {
+      const auto axis = axisNamed(reader, key, key);
+      NumberRange range;
+      if (axis && !machine().axes[*axis].modulo) range = {machine().axes[*axis].minimum, machine().axes[*axis].maximum};
+      const auto value = reader.number(key, range);
+      if (axis && value) setup_.truth.start[*axis] = *value;
+    }
+  }
+
+  void readControl() {
+    auto reader = root_.table("control");
+    if (!reader) return;
+    std::vector<std::string> names;
+    for (const control::ControlKind kind : control::allControlKinds)
+      names.emplace_back(control::name(kind));
+    if (auto type = reader->choice("type", names)) setup_.control = control::allControlKinds[*type];
+    if (auto tables = reader->text("tables")) {
+      setup_.tables = resolve(*tables);
+      std::error_code ignored;
+      if (!std::filesystem::is_directory(setup_.tables, ignored)) {
+        reader->report("tables", fmt::format("there is no folder \"{}\"", setup_.tables.string()),
+                       "Name the folder that holds the control's table files, relative to this file");
+      }
+    }
+    reader->finish();
+  }
+
+  void readSolid(TomlReader& reader, SolidRole role, std::string defaultName) {
+    SetupSolid solid;
+    solid.role = role;
+    solid.name = reader.text("name").value_or(std::move(defaultName));
+    reader.require("file");
+    if (auto file = reader.text("file")) {
+      solid.source = {resolve(*file), reader.placeOf("file")};
+      std::string ending = solid.source.file.extension().string();
+      std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+      static const std::vector<std::string> known = {".step", ".stp", ".iges", ".igs", ".stl"};
+      if (std::find(known.begin(), known.end(), ending) == known.end()) {
+        reader.report("file", fmt::format("\"{}\" is no kind of part file that can be read", *file),
+                      "Files end in .step, .stp, .iges, .igs or .stl");
+      }
+    }
+    solid.tableFromSolid = readPose(reader);
+    reader.finish();
+    setup_.solids.push_back(std::move(solid));
+  }
+
+  void readSolids() {
+    if (auto part = root_.table("part")) readSolid(*part, SolidRole::Part, "part");
+    int count = 0;
+    for (TomlReader& fixture : root_.tables("fixture")) {
+      readSolid(fixture, SolidRole::Fixture, fmt::format("fixture {}", ++count));
+    }
+  }
+
+  template <class SolidType>
+  void placeGauge(SolidType solid, const Pose& pose, std::string name, SolidRole role) {
+    setup_.truth.solids.push_back({std::make_shared<SolidType>(std::move(solid)), pose, std::move(name), role});
+  }
+
+  void readGauges() {
+    if (auto reader = root_.table("ring")) {
+      const auto diameter = reader->requiredNumber("diameter", positive);
+      const double bore = diameter.value_or(50);
+      const double outer = reader->number("outer_diameter", positive).value_or(bore + 40);
+      const double height = reader->number("height", positive).value_or(20);
+      if (outer <= bore) reader->report("outer_diameter", "the ring is not larger than its bore");
+      placeGauge(Ring(bore / 2, outer / 2, -height), readPose(*reader), "ring", SolidRole::Ring);
+      reader->finish();
+    }
+    if (auto reader = root_.table("sphere")) {
+      const double diameter = reader->requiredNumber("diameter", positive).value_or(25);
+      const double stem = reader->number("stem_diameter", notNegative).value_or(0);
+      const double length = reader->number("stem_length", positive).value_or(60);
+      if (stem >= diameter) reader->report("stem_diameter", "the stem is not thinner than the sphere");
+      const Pose pose = readPose(*reader);
+      placeGauge(SolidSphere(Vector3::Zero(), diameter / 2), pose, "sphere", SolidRole::Sphere);
+      if (stem > 0) placeGauge(RoundBar(stem / 2, -length, 0), pose, "stem of the sphere", SolidRole::Sphere);
+      reader->finish();
+    }
+    if (auto reader = root_.table("gauge_block")) {
+      reader->require("size");
+      const Vector3 size = vector3(*reader, "size").value_or(Vector3(10, 10, 10));
+      if (size.minCoeff() <= 0) reader->report("size", "the lengths of a gauge block must be above 0");
+      placeGauge(Box({-size.x() / 2, -size.y() / 2, 0}, {size.x() / 2, size.y() / 2, size.z()}), readPose(*reader),
+                 "gauge block", SolidRole::GaugeBlock);
+      reader->finish();
+    }
+  }
+
+  void readProbe(TomlReader& reader, TrueTool& tool, BelievedTool& believed) {
+    TrueProbe& probe = tool.probe;
+    const auto get = [&](const char* key, double otherwise, NumberRange range = anyNumber) {
+      return reader.number(key, range).value_or(otherwise);
+    };
+    probe.ballRadius = reader.requiredNumber("ball_radius", positive).value_or(probe.ballRadius);
+    probe.stylusRadius = get("stylus_radius", 0.6 * probe.ballRadius, notNegative);
+    probe.stylusLength = get("stylus_length", std::min(50.0, 0.5 * tool.length), positive);
+    probe.bodyRadius = get("body_radius", 30, notNegative);
+    probe.bodyLength = get("body_length", std::max(tool.length - probe.stylusLength, 2 * probe.bodyRadius), positive);
+    probe.tipOffset = vector2(reader, "tip_offset").value_or(Vector2::Zero());
+    probe.pretravel = get("pretravel", 0, {-1, 1});
+    probe.lobing = get("lobing", 0, {-1, 1});
+    probe.lobingPhase = get("lobing_phase", 0);
+    probe.axialPretravel = get("axial_pretravel", 0, {-1, 1});
+    probe.repeatability = get("repeatability", 0, {0, 1});
+    probe.signalDelay = get("signal_delay", 0, {0, 1});
+    probe.switchedOn = reader.boolean("switched_on").value_or(true);
+    if (probe.stylusRadius >= probe.ballRadius) {
+      reader.report("stylus_radius", "the stylus is not thinner than its ball");
+    }
+    if (tool.length <= 2 * probe.ballRadius) reader.report("length", "the probe is shorter than its ball");
+
+    believed.probeNumber = static_cast<int>(reader.integer("probe_number", 0, 99).value_or(1));
+    believed.feed = get("probing_feed", believed.feed, positive);
+    believed.rapid = get("probing_rapid", believed.rapid, positive);
+    believed.maximumTravel = get("maximum_travel", believed.maximumTravel, positive);
+    believed.setUpClearance = get("set_up_clearance", believed.setUpClearance, notNegative);
+    believed.calibrationAngle = get("calibration_angle", 0, {-360, 360});
+    believed.orient = reader.boolean("orient").value_or(false);
+    const double delayed = probe.signalDelay * believed.feed / 60;
+    believed.length = get("believed_length", tool.length - probe.axialPretravel - delayed);
+    believed.radius = get("believed_radius", probe.ballRadius - probe.pretravel - delayed, notNegative);
+    believed.tipOffset = vector2(reader, "believed_tip_offset").value_or(probe.tipOffset);
+  }
+
+  void readTools() {
+    static const std::vector<std::string> kinds = {"probe", "mill", "drill", "turn"};
+    for (TomlReader& reader : root_.tables("tool")) {
+      TrueTool tool;
+      BelievedTool believed;
+      reader.require("number");
+      tool.number = believed.number = static_cast<int>(reader.integer("number", 1, 32767).value_or(1));
+      tool.name = believed.name = reader.text("name").value_or("");
+      reader.require("kind");
+      const std::size_t kind = reader.choice("kind", kinds).value_or(0);
+      tool.kind = kind == 0 ? ToolKind::Probe : ToolKind::Cutter;
+      believed.kind = kinds[kind];
+      tool.length = reader.requiredNumber("length", positive).value_or(100);
+      if (auto direction = vector3(reader, "shank_direction")) {
+        if (direction->norm() < 1e-9) {
+          reader.report("shank_direction", "a direction cannot be [0, 0, 0]");
+        } else {
+          tool.shankDirection = direction->normalized();
+        }
+      }
+      believed.inSpindle = reader.boolean("in_spindle").value_or(false);
+      if (tool.kind == ToolKind::Probe) {
+        readProbe(reader, tool, believed);
+      } else {
+        tool.radius = reader.requiredNumber("radius", notNegative).value_or(5);
+        believed.length = reader.number("believed_length", anyNumber).value_or(tool.length);
+        believed.radius = reader.number("believed_radius", notNegative).value_or(tool.radius);
+      }
+      for (const BelievedTool& other : setup_.tools) {
+        if (other.number == tool.number) {
+          reader.report("number", fmt::format("there are two tools with number {}", tool.number));
+        } else if (!tool.name.empty() && other.name == tool.name) {
+          reader.report("name", fmt::format("there are two tools called \"{}\"", tool.name));
+        }
+        if (other.inSpindle && believed.inSpindle) reader.report("in_spindle", "two tools are in the spindle");
+      }
+      reader.finish();
+      setup_.truth.tools.push_back(std::move(tool));
+      setup_.tools.push_back(std::move(believed));
+    }
+  }
+
+  /// "G54" to "G57" as 1 to 4, "G505" to "G599" as 5 to 99.
+  static std::optional<int> zeroOffsetIndex(std::string_view name) {
+    if (name.size() < 2 || (name[0] != 'G' && name[0] != 'g')) return std::nullopt;
+    int number = 0;
+    for (const char c : name.substr(1)) {
+      if (c < '0' || c > '9' || number > 999) return std::nullopt;
+      number = 10 * number + (c - '0');
+    }
+    if (number >= 54 && number <= 57) return number - 53;
+    if (number >= 505 && number <= 599) return number - 500;
+    return std::nullopt;
+  }
+
+  void readFrame(TomlReader& reader, BelievedFrame frame, std::vector<BelievedFrame>& frames, const char* idKey) {
+    frame.origin = vector3(reader, "origin").value_or(Vector3::Zero());
+    frame.rotation = vector3(reader, "rotation").value_or(Vector3::Zero());
+    if (auto rotary = reader.table("rotary")) {
+      for (const std::string& key : rotary->keys()) {
+        axisNamed(*rotary, key, key, AxisKind::Rotary);
+        frame.rotary[key] = rotary->number(key, {-360, 360}).value_or(0);
+      }
+    }
+    frame.active = reader.boolean("active").value_or(false);
+    for (const BelievedFrame& other : frames) {
+      if (other.index == frame.index) reader.report(idKey, fmt::format("this {} stands here twice", idKey));
+      if (other.active && frame.active) reader.report("active", "only one can be active");
+    }
+    reader.finish();
+    frames.push_back(std::move(frame));
+  }
+
+  void readFrames() {
+    for (TomlReader& reader : root_.tables("preset")) {
+      BelievedFrame frame;
+      reader.require("row");
+      frame.index = static_cast<int>(reader.integer("row", 0, 9999).value_or(1));
+      readFrame(reader, frame, setup_.presets, "row");
+    }
+    for (TomlReader& reader : root_.tables("zero_offset")) {
+      BelievedFrame frame;
+      if (auto name = reader.requiredText("name")) {
+        frame.name = *name;
+        const auto index = zeroOffsetIndex(*name);
+        if (!index) {
+          reader.report("name", fmt::format("\"{}\" is no settable zero offset", *name),
+                        "They are called G54 to G57 and G505 to G599");
+        }
+        frame.index = index.value_or(1);
+      }
+      readFrame(reader, frame, setup_.zeroOffsets, "name");
+    }
+  }
+
+  Vector3 travelDirection(std::size_t axis) const {
+    for (const machine::ChainElement& element : machine().spindleChain) {
+      if (element.axis == axis) return element.direction;
+    }
+    for (const machine::ChainElement& element : machine().tableChain) {
+      if (element.axis == axis) return -element.direction;
+    }
+    return Vector3::UnitX();
+  }
+
+  void readAxisErrors(TomlReader& reader, std::size_t axis) {
+    AxisErrors errors;
+    errors.scale = reader.number("scale_mm_per_m", {-10, 10}).value_or(0) / 1000;
+    errors.offset = reader.number("offset", anyNumber).value_or(0);
+    errors.backlash = reader.number("backlash", {0, 10}).value_or(0);
+    for (TomlReader& entry : reader.tables("deviation")) {
+      Deviation deviation;
+      deviation.direction = travelDirection(axis);
+      if (auto direction = vector3(entry, "direction")) {
+        if (direction->norm() < 1e-9) {
+          entry.report("direction", "a direction cannot be [0, 0, 0]");
+        } else {
+          deviation.direction = direction->normalized();
+        }
+      }
+      deviation.polynomial = entry.numbers("polynomial").value_or(std::vector<double>{});
+      deviation.amplitude = entry.number("amplitude", {-10, 10}).value_or(0);
+      deviation.wavelength = entry.number("wavelength", {0.1, effectivelyEndless}).value_or(100);
+      deviation.phase = entry.number("phase", anyNumber).value_or(0);
+      entry.finish();
+      errors.deviations.push_back(std::move(deviation));
+    }
+    reader.finish();
+    if (axis < setup_.truth.errors.axes.size()) setup_.truth.errors.axes[axis] = std::move(errors);
+  }
+
+  void readErrors() {
+    auto reader = root_.table("errors");
+    if (!reader) return;
+    MachineErrors& errors = setup_.truth.errors;
+    if (auto axes = reader->table("axis")) {
+      for (const std::string& key : axes->keys()) {
+        auto entry = axes->table(key);
+        const auto axis = axisNamed(*axes, key, key);
+        if (entry && axis) readAxisErrors(*entry, *axis);
+      }
+    }
+    for (TomlReader& entry : reader->tables("squareness")) {
+      Squareness squareness;
+      const auto axis = entry.requiredText("axis"), towards = entry.requiredText("towards");
+      squareness.degrees = entry.requiredNumber("degrees", {-10, 10}).value_or(0);
+      const auto first = axis ? axisNamed(entry, "axis", *axis, AxisKind::Linear) : std::nullopt;
+      const auto second = towards ? axisNamed(entry, "towards", *towards, AxisKind::Linear) : std::nullopt;
+      if (first && second) {
+        if (*first == *second) entry.report("towards", "an axis cannot lean towards itself");
+        squareness.axis = *first;
+        squareness.towards = *second;
+        errors.squareness.push_back(squareness);
+      }
+      entry.finish();
+    }
+    if (auto rotary = reader->table("rotary")) {
+      for (const std::string& key : rotary->keys()) {
+        auto entry = rotary->table(key);
+        const auto axis = axisNamed(*rotary, key, key, AxisKind::Rotary);
+        if (!entry) continue;
+        RotaryAxisError error;
+        error.axis = axis.value_or(0);
+        error.position = vector3(*entry, "position").value_or(Vector3::Zero());
+        error.orientation = vector3(*entry, "orientation").value_or(Vector3::Zero());
+        entry->finish();
+        if (axis) errors.rotaryAxes.push_back(error);
+      }
+    }
+    if (auto tilt = vector3(*reader, "spindle_tilt")) errors.spindleTilt = *tilt;
+    for (TomlReader& entry : reader->tables("thermal")) {
+      ThermalDrift drift;
+      entry.require("amount");
+      drift.amount = vector3(entry, "amount").value_or(Vector3::Zero());
+      drift.timeConstant = entry.number("time_constant", {1, 1e9}).value_or(3600);
+      entry.finish();
+      errors.thermal.push_back(drift);
+    }
+    reader->finish();
+  }
+
+  void readParameters() {
+    auto reader = root_.table("parameters");
+    if (!reader) return;
+    for (const std::string& key : reader->keys()) {
+      if (auto parameter = reader->plainValue(key)) {
+        setup_.parameters.emplace(key, SetupParameter{std::move(*parameter), reader->placeOf(key)});
+      }
+    }
+  }
+
+  TomlReader root_;
+  std::filesystem::path folder_;
+  Setup setup_;
+};
+
+}  // namespace
+
+std::optional<Setup> parseSetup(std::string_view text, const std::string& file, Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.size();
+  const auto root = parseToml(text, file, diagnostics);
+  if (!root) return std::nullopt;
+  Setup setup = SetupReader(*root, file, diagnostics).read();
+  if (diagnostics.size() > before) return std::nullopt;
+  return setup;
+}
+
+std::optional<Setup> readSetup(const std::filesystem::path& path, Diagnostics& diagnostics) {
+  auto text = readFile(path);
+  if (!text) {
+    diagnostics.push_back(std::move(text.error()));
+    return std::nullopt;
+  }
+  return parseSetup(*text, path.string(), diagnostics);
+}
+
+}  // namespace probewright::simulation

@@ -1,0 +1,354 @@
+#include "simulation/setup.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "simulation/virtual_machine.hpp"
+#include "support/virtual_world.hpp"
+
+namespace probewright::simulation {
+namespace {
+
+using testing::HasSubstr;
+using testing::SizeIs;
+
+Setup read(const std::string& text) {
+  Diagnostics diagnostics;
+  auto setup = parseSetup(text, "setup.toml", diagnostics);
+  for (const Diagnostic& diagnostic : diagnostics)
+    ADD_FAILURE() << format(diagnostic);
+  return setup ? std::move(*setup) : Setup{};
+}
+
+TEST(Setup, EmptyIsAPerfectThreeAxisMillWithNothingOnIt) {
+  const auto setup = read("");
+  EXPECT_EQ(setup.truth.machine.name, "3-axis mill");
+  EXPECT_FALSE(setup.control);
+  EXPECT_THAT(setup.truth.solids, SizeIs(0));
+}
+
+TEST(Setup, ReadsEverySection) {
+  const auto setup = read(R"(
+seed = 42
+[machine]
+name = "mill5-table-table"
+start = { X = 10, C = 400 }
+[control]
+type = "840Dsl"
+[ring]
+diameter = 50
+pose = { x = 100, z = -500 }
+[sphere]
+diameter = 25
+stem_diameter = 8
+[gauge_block]
+size = [10, 20, 30]
+[[tool]]
+number = 7
+name = "TS"
+kind = "probe"
+length = 150
+ball_radius = 3
+tip_offset = [0.02, -0.01]
+pretravel = 0.01
+axial_pretravel = 0.004
+signal_delay = 0.0002
+probing_feed = 600
+in_spindle = true
+[[tool]]
+number = 8
+kind = "mill"
+length = 90
+radius = 8
+believed_length = 90.5
+[[preset]]
+row = 3
+origin = [1, 2, 3]
+rotation = [0, 0, 5]
+rotary = { C = 0.5 }
+active = true
+[[zero_offset]]
+name = "G505"
+origin = [4, 5, 6]
+[errors.axis.X]
+scale_mm_per_m = 0.02
+backlash = 0.005
+[[errors.axis.X.deviation]]
+amplitude = 0.002
+wavelength = 10
+[[errors.axis.Y.deviation]]
+direction = [2, 0, 0]
+polynomial = [0, 0, 0.1]
+[[errors.squareness]]
+axis = "Y"
+towards = "X"
+degrees = 0.01
+[errors.rotary.C]
+position = [0.1, 0.2, 0]
+orientation = [0.01, 0, 0]
+[errors]
+spindle_tilt = [0.002, 0, 0]
+[[errors.thermal]]
+amount = [0, 0, 0.02]
+time_constant = 1800
+[parameters]
+MP6140 = 3
+"$MN_MM" = "text"
+flag = true
+)");
+  EXPECT_EQ(setup.truth.seed, 42u);
+  EXPECT_EQ(setup.control, control::ControlKind::Sinumerik840Dsl);
+  EXPECT_EQ(setup.truth.machine.axes.size(), 5u);
+  EXPECT_EQ(setup.truth.start[0], 10);
+  EXPECT_EQ(setup.truth.start[4], 400);
+  ASSERT_THAT(setup.truth.solids, SizeIs(4));
+  EXPECT_EQ(setup.truth.solids[0].tableFromSolid.translation(), Vector3(100, 0, -500));
+
+  ASSERT_THAT(setup.tools, SizeIs(2));
+  const BelievedTool& probe = setup.tools[0];
+  // At 600 mm/min the delay is worth 10 mm/s * 0.0002 s = 0.002 mm.
+  EXPECT_NEAR(probe.length, 150 - 0.004 - 0.002, 1e-12);
+  EXPECT_NEAR(probe.radius, 3 - 0.01 - 0.002, 1e-12);
+  EXPECT_EQ(probe.tipOffset, Vector2(0.02, -0.01));
+  EXPECT_TRUE(probe.inSpindle);
+  EXPECT_EQ(setup.tools[1].length, 90.5);
+  EXPECT_EQ(setup.truth.tools[1].length, 90);
+  EXPECT_EQ(setup.truth.tools[1].kind, ToolKind::Cutter);
+
+  ASSERT_THAT(setup.presets, SizeIs(1));
+  EXPECT_EQ(setup.presets[0].index, 3);
+  EXPECT_EQ(setup.presets[0].rotation.z(), 5);
+  EXPECT_EQ(setup.presets[0].rotary.at("C"), 0.5);
+  EXPECT_TRUE(setup.presets[0].active);
+  EXPECT_EQ(setup.zeroOffsets.at(0).index, 5);
+
+  const MachineErrors& errors = setup.truth.errors;
+  EXPECT_NEAR(errors.axes[0].scale, 2e-5, 1e-18);
+  EXPECT_EQ(errors.axes[0].deviations.at(0).direction, Vector3::UnitX());
+  EXPECT_EQ(errors.axes[1].deviations.at(0).direction, Vector3::UnitX());
+  EXPECT_EQ(errors.squareness.at(0).axis, 1u);
+  EXPECT_EQ(errors.rotaryAxes.at(0).axis, 4u);
+  EXPECT_EQ(errors.spindleTilt.x(), 0.002);
+  EXPECT_EQ(errors.thermal.at(0).timeConstant, 1800);
+  EXPECT_EQ(std::get<double>(setup.parameters.at("MP6140").value), 3);
+  EXPECT_EQ(std::get<std::string>(setup.parameters.at("$MN_MM").value), "text");
+  EXPECT_EQ(std::get<double>(setup.parameters.at("flag").value), 1);
+}
+
+TEST(Setup, PoseTurnsAboutXThenYThenZOfTheTable) {
+  const auto setup = read("[ring]\ndiameter = 50\npose = { x = 1, y = 2, z = 3, a = 90, c = 90 }\n");
+  // Z of the ring goes to -Y by the turn about X, and on to +X by the turn about Z.
+  const Pose& pose = setup.truth.solids.at(0).tableFromSolid;
+  EXPECT_LT((pose.linear() * Vector3::UnitZ() - Vector3::UnitX()).norm(), 1e-15);
+  EXPECT_EQ(pose.translation(), Vector3(1, 2, 3));
+}
+
+class SetupOnDisk : public testing::Test {
+protected:
+  void SetUp() override {
+    folder = std::filesystem::temp_directory_path() /
+             (std::string("probewright-setup-") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder);
+    // A tetrahedron whose corner lies at the origin.
+    std::ofstream stl(folder / "part.stl");
+    stl << "solid part\n";
+    const Vector3 p[] = {{0, 0, 0}, {50, 0, 0}, {0, 50, 0}, {0, 0, 50}};
+    for (const auto& face : {std::array{0, 2, 1}, std::array{0, 1, 3}, std::array{0, 3, 2}, std::array{1, 2, 3}}) {
+      stl << "facet normal 0 0 0\nouter loop\n";
+      for (const int i : face)
+        stl << "vertex " << p[i].x() << " " << p[i].y() << " " << p[i].z() << "\n";
+      stl << "endloop\nendfacet\n";
+    }
+    stl << "endsolid part\n";
+  }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+
+  std::filesystem::path write(const std::string& text) const {
+    std::ofstream(folder / "setup.toml") << text;
+    return folder / "setup.toml";
+  }
+
+  std::filesystem::path folder;
+};
+
+TEST_F(SetupOnDisk, BuildsAMachineThatFeelsThePart) {
+  Diagnostics diagnostics;
+  const auto setup = readSetup(write(R"(
+[part]
+file = "part.stl"
+pose = { x = 20, y = 10, z = -450 }
+[[tool]]
+number = 1
+kind = "probe"
+length = 100
+ball_radius = 2
+in_spindle = true
+)"),
+                               diagnostics);
+  ASSERT_TRUE(setup) << format(diagnostics.at(0));
+  auto machine = buildMachine(*setup);
+  ASSERT_TRUE(machine) << format(machine.error());
+  using testing_support::positions;
+  (*machine)->move(positions({0, 15, -345}), machine::Feed::rapidTraverse());
+  const auto result = (*machine)->measure(positions({30, 15, -345}), machine::Feed::at(300));
+  ASSERT_EQ(result.end, machine::MeasureEnd::Touched) << result.detail;
+  EXPECT_NEAR(result.latched[0], 18, 1e-9) << "the face x = 20, one ball radius before it";
+}
+
+TEST_F(SetupOnDisk, MissingPartIsReportedWhereItIsNamed) {
+  Diagnostics diagnostics;
+  const auto setup = readSetup(write("[part]\nfile = \"housing.stl\"\n"), diagnostics);
+  ASSERT_TRUE(setup);
+  const auto machine = buildMachine(*setup);
+  ASSERT_FALSE(machine);
+  EXPECT_THAT(format(machine.error()), HasSubstr("setup.toml:2:8: error: there is no file"));
+}
+
+TEST_F(SetupOnDisk, PartInTheWayAtTheStartIsRefused) {
+  Diagnostics diagnostics;
+  const auto setup = readSetup(write(R"(
+[part]
+file = "part.stl"
+pose = { x = -5, y = -5, z = -110 }
+[[tool]]
+number = 1
+kind = "probe"
+length = 100
+ball_radius = 2
+in_spindle = true
+)"),
+                               diagnostics);
+  ASSERT_TRUE(setup) << format(diagnostics.at(0));
+  const auto machine = buildMachine(*setup);
+  ASSERT_FALSE(machine);
+  EXPECT_THAT(format(machine.error()), HasSubstr("the machine cannot start like this"));
+}
+
+TEST(Setup, MissingFileIsReported) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(readSetup("/nowhere/setup.toml", diagnostics));
+  EXPECT_THAT(diagnostics, SizeIs(1));
+}
+
+TEST(Setup, ReportsAllMistakesOfAFile) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(
+      parseSetup("sed = 1\n[machine]\nname = \"mill3\"\nspeed = 1\n[[tool]]\nnumber = 1\n", "s.toml", diagnostics));
+  EXPECT_THAT(diagnostics, SizeIs(5)) << "sed, speed, kind, length, ball_radius";
+}
+
+struct Mistake {
+  const char *text, *message;
+};
+
+class SetupMistake : public testing::TestWithParam<Mistake> {};
+
+TEST_P(SetupMistake, IsReportedWithPlaceReasonAndAdvice) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(parseSetup(GetParam().text, "s.toml", diagnostics));
+  ASSERT_FALSE(diagnostics.empty());
+  EXPECT_THAT(format(diagnostics.front()), HasSubstr(GetParam().message));
+}
+
+constexpr const char* probeHead = "[[tool]]\nnumber = 1\nkind = \"probe\"\nlength = 100\nball_radius = 3\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    All, SetupMistake,
+    testing::Values(
+        Mistake{"seeed = 1", "s.toml:1:1: error: unknown key \"seeed\"\n    Did you mean \"seed\"?"},
+        Mistake{"seed = -1", "s.toml:1:8: error: \"seed\" must be a whole number from 0"},
+        Mistake{"seed = 1.5", "\"seed\" must be a whole number"}, Mistake{"a = [1, 2", "this is no valid TOML"},
+        Mistake{"[machine]\nname = \"mill33\"", "s.toml:2:8: error: there is neither a ready-made machine nor a file"},
+        Mistake{"[machine]\nname = \"mill33\"", "Did you mean \"mill3\"?"},
+        Mistake{"[machine]\nname = \"mill3\"\nfile = \"a.toml\"", "s.toml:3:8: error: [machine] has a name and a file"},
+        Mistake{"[machine]\nstart = { X = 5000 }", "\"X\" in [machine.start] must be at least -500 and at most 500"},
+        Mistake{"[machine]\nstart = { Q = 5 }", "the machine has no axis called Q\n    It has X, Y, Z"},
+        Mistake{"machine = \"mill3\"", "s.toml:1:11: error: \"machine\" must be a table, written [machine]"},
+        Mistake{"[control]\ntype = \"TNC64\"", "Did you mean \"TNC640\"?"},
+        Mistake{"[control]\ntables = \"no-such-folder\"", "s.toml:2:10: error: there is no folder"},
+        Mistake{"[part]\nname = \"a\"", "s.toml:1:1: error: \"file\" is missing in [part]"},
+        Mistake{"[part]\nfile = \"a.dwg\"", "s.toml:2:8: error: \"a.dwg\" is no kind of part file"},
+        Mistake{"[part]\nfile = \"a.stl\"\npose = { x = \"1\" }", "\"x\" in [part.pose] must be a number"},
+        Mistake{"[part]\nfile = \"a.stl\"\npose = { alpha = 1 }", "unknown key \"alpha\" in [part.pose]"},
+        Mistake{"[fixture]\nfile = \"a.stl\"", "\"fixture\" must be a list of tables, each written [[fixture]]"},
+        Mistake{"[ring]\n", "\"diameter\" is missing in [ring]"},
+        Mistake{"[ring]\ndiameter = 50\nouter_diameter = 40", "the ring is not larger than its bore"},
+        Mistake{"[sphere]\ndiameter = -25", "s.toml:2:12: error: \"diameter\" in [sphere] must be above 0"},
+        Mistake{"[sphere]\ndiameter = 25\nstem_diameter = 30", "the stem is not thinner"},
+        Mistake{"[gauge_block]\nsize = [1, 2]", "\"size\" in [gauge_block] must be a list of 3 numbers"},
+        Mistake{"[gauge_block]\nsize = [1, 2, 0]", "the lengths of a gauge block must be above 0"},
+        Mistake{"[[tool]]\nnumber = 1\nkind = \"prob\"\nlength = 1\nball_radius = 0.1", "Did you mean \"probe\"?"},
+        Mistake{"[[tool]]\nnumber = 1\nkind = \"mill\"\nlength = 50", "\"radius\" is missing in [[tool]]"},
+        Mistake{"[[tool]]\nnumber = 1\nkind = \"mill\"\nlength = 50\nradius = 5\nball_radius = 3",
+                "s.toml:6:1: error: unknown key \"ball_radius\" in [[tool]]"},
+        Mistake{"[[tool]]\nnumber = 1\nkind = \"mill\"\nlength = 50\nradius = 5\n"
+                "[[tool]]\nnumber = 1\nkind = \"mill\"\nlength = 50\nradius = 5\n",
+                "s.toml:7:10: error: there are two tools with number 1"},
+        Mistake{"[[tool]]\nnumber = 1\nkind = \"probe\"\nlength = 5\nball_radius = 3",
+                "the probe is shorter than its ball"},
+        Mistake{"[[tool]]\nnumber = 1\nkind = \"probe\"\nlength = 50\nball_radius = 3\nstylus_radius = 3",
+                "the stylus is not thinner than its ball"},
+        Mistake{"[[tool]]\nnumber = 1\nkind = \"mill\"\nlength = 50\nradius = 5\nshank_direction = [0, 0, 0]",
+                "a direction cannot be [0, 0, 0]"},
+        Mistake{"[[preset]]\norigin = [1, 2, 3]", "\"row\" is missing in [[preset]]"},
+        Mistake{"[[preset]]\nrow = 1\n[[preset]]\nrow = 1", "s.toml:4:7: error: this row stands here twice"},
+        Mistake{"[[preset]]\nrow = 1\nactive = true\n[[preset]]\nrow = 2\nactive = true", "only one can be active"},
+        Mistake{"[[preset]]\nrow = 1\nrotary = { X = 1 }", "the machine has no rotary axis called X"},
+        Mistake{"[[zero_offset]]\nname = \"G58\"", "s.toml:2:8: error: \"G58\" is no settable zero offset"},
+        Mistake{"[errors.axis.W]\nscale_mm_per_m = 1", "the machine has no axis called W"},
+        Mistake{"[errors.axis.X]\nscale = 1", "s.toml:2:1: error: unknown key \"scale\" in [errors.axis.X]"},
+        Mistake{"[errors.axis.X]\nbacklash = -1", "\"backlash\" in [errors.axis.X] must be at least 0"},
+        Mistake{"[[errors.axis.X.deviation]]\nwavelength = 0", "\"wavelength\" in [[errors.axis.X.deviation]] must be"},
+        Mistake{"[[errors.squareness]]\naxis = \"X\"\ntowards = \"X\"\ndegrees = 1",
+                "an axis cannot lean towards itself"},
+        Mistake{"[errors.rotary.C]\nposition = [0, 0, 0]",
+                "the machine has no rotary axis called C\n    It has no rotary axis"},
+        Mistake{"[[errors.thermal]]\ntime_constant = 100", "\"amount\" is missing in [[errors.thermal]]"},
+        Mistake{"[parameters]\nMP1 = [1]", "\"MP1\" in [parameters] must be a number, a text, true or false"}));
+
+TEST(Setup, KnowsEveryKeyOfAProbe) {
+  Diagnostics diagnostics;
+  const auto setup = parseSetup(std::string(probeHead) + R"(
+name = "P"
+stylus_radius = 1
+stylus_length = 40
+body_radius = 20
+body_length = 80
+lobing = 0.002
+lobing_phase = 30
+repeatability = 0.0005
+switched_on = false
+shank_direction = [2, 0, 0]
+probe_number = 2
+probing_rapid = 3000
+maximum_travel = 20
+set_up_clearance = 3
+calibration_angle = 90
+orient = true
+believed_radius = 2.9
+believed_tip_offset = [0.1, 0.2]
+)",
+                                "s.toml", diagnostics);
+  ASSERT_TRUE(setup) << format(diagnostics.at(0));
+  const TrueTool& tool = setup->truth.tools.at(0);
+  EXPECT_EQ(tool.probe.stylusLength, 40);
+  EXPECT_EQ(tool.probe.bodyLength, 80);
+  EXPECT_EQ(tool.probe.lobingPhase, 30);
+  EXPECT_FALSE(tool.probe.switchedOn);
+  EXPECT_EQ(tool.shankDirection, Vector3::UnitX());
+  const BelievedTool& believed = setup->tools.at(0);
+  EXPECT_EQ(believed.probeNumber, 2);
+  EXPECT_EQ(believed.rapid, 3000);
+  EXPECT_EQ(believed.maximumTravel, 20);
+  EXPECT_EQ(believed.setUpClearance, 3);
+  EXPECT_EQ(believed.calibrationAngle, 90);
+  EXPECT_TRUE(believed.orient);
+  EXPECT_EQ(believed.radius, 2.9);
+  EXPECT_EQ(believed.tipOffset, Vector2(0.1, 0.2));
+}
+
+}  // namespace
+}  // namespace probewright::simulation
