@@ -1,0 +1,134 @@
+#include "control/sinumerik/tool_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/number_text.hpp"
+#include "control/sinumerik/text.hpp"
+
+namespace probewright::control::sinumerik {
+
+namespace {
+
+constexpr std::string_view edgeData = "$TC_DP";
+
+int wholeNumber(double value) { return value >= -1e9 && value <= 1e9 ? static_cast<int>(value) : 0; }
+
+std::optional<int> indexOf(const DataKey& key, std::size_t position) {
+  if (position >= key.indices.size()) return std::nullopt;
+  const auto number = parseInteger(key.indices[position]);
+  if (!number || *number < 0 || *number > 1'000'000'000) return std::nullopt;
+  return static_cast<int>(*number);
+}
+
+/// $TC_DP1..$TC_DP25.
+std::string parameterName(int parameter) { return fmt::format("{}{}", edgeData, parameter); }
+
+constexpr int lastParameter = 25;
+
+}  // namespace
+
+std::array<int, 3> planeAxes(WorkingPlane plane) {
+  switch (plane) {
+    case WorkingPlane::G18:
+      return {2, 0, 1};
+    case WorkingPlane::G19:
+      return {1, 2, 0};
+    case WorkingPlane::G17:
+      break;
+  }
+  return {0, 1, 2};
+}
+
+std::array<double, 3> ToolEdge::totalLength() const {
+  std::array<double, 3> total = {};
+  for (std::size_t i = 0; i < 3; ++i)
+    total[i] = length[i] + lengthWear[i] + adapter[i] + additive[i] + setup[i];
+  return total;
+}
+
+std::string additiveOffsetName(int dl, int parameter) { return fmt::format("$TC_SCP{}", 10 * dl + parameter); }
+std::string setupOffsetName(int dl, int parameter) { return fmt::format("$TC_ECP{}", 10 * dl + parameter); }
+
+std::optional<ToolEdge> toolEdge(const DataStore& store, int tool, int edge, int dl) {
+  bool exists = false;
+  for (int parameter = 1; parameter <= lastParameter && !exists; ++parameter) {
+    exists = store.isSet({parameterName(parameter), {tool, edge}});
+  }
+  if (!exists) return std::nullopt;
+  const auto value = [&](std::string_view name) { return store.number(name, {tool, edge}); };
+  const auto dp = [&](int parameter) { return value(parameterName(parameter)); };
+  ToolEdge data;
+  data.type = wholeNumber(dp(1));
+  data.position = wholeNumber(dp(2));
+  data.radius = dp(6);
+  data.cornerRadius = dp(7);
+  data.correctionAngle = dp(10);
+  data.radiusWear = dp(15);
+  data.identifier = dp(25);
+  for (int i = 0; i < 3; ++i) {
+    const auto component = static_cast<std::size_t>(i);
+    data.length[component] = dp(3 + i);
+    data.lengthWear[component] = dp(12 + i);
+    data.adapter[component] = dp(21 + i);
+    if (dl < 1 || dl > 6) continue;
+    data.additive[component] = value(additiveOffsetName(dl, 3 + i));
+    data.setup[component] = value(setupOffsetName(dl, 3 + i));
+  }
+  if (dl >= 1 && dl <= 6) {
+    data.radiusAdditive = value(additiveOffsetName(dl, 6));
+    data.radiusSetup = value(setupOffsetName(dl, 6));
+  }
+  return data;
+}
+
+std::vector<int> toolNumbers(const DataStore& store) {
+  std::set<int> tools;
+  for (const std::string& name : {parameterName(1), parameterName(3), parameterName(6), std::string("$TC_TP2")}) {
+    for (const DataKey& key : store.keys(name)) {
+      if (const auto tool = indexOf(key, 0)) tools.insert(*tool);
+    }
+  }
+  return {tools.begin(), tools.end()};
+}
+
+std::vector<int> toolEdges(const DataStore& store, int tool) {
+  std::set<int> edges;
+  for (int parameter = 1; parameter <= lastParameter; ++parameter) {
+    for (const DataKey& key : store.keys(parameterName(parameter))) {
+      const auto edge = indexOf(key, 1);
+      if (edge && indexOf(key, 0) == tool) edges.insert(*edge);
+    }
+  }
+  return {edges.begin(), edges.end()};
+}
+
+std::optional<int> toolNamed(const DataStore& store, std::string_view name) {
+  const std::string wanted = upperCase(name);
+  for (const DataKey& key : store.keys("$TC_TP2")) {
+    const auto tool = indexOf(key, 0);
+    if (tool && upperCase(toolName(store, *tool)) == wanted) return tool;
+  }
+  return std::nullopt;
+}
+
+std::string toolName(const DataStore& store, int tool) { return store.text("$TC_TP2", {tool}); }
+
+std::array<int, 3> lengthAxes(WorkingPlane plane, const ToolEdge& edge, bool asTurning) {
+  const auto [first, second, third] = planeAxes(plane);
+  if (asTurning || edge.isTurning()) return {second, first, third};
+  return {third, second, first};
+}
+
+Vector3 toolVector(WorkingPlane plane, const ToolEdge& edge, bool asTurning) {
+  const auto axes = lengthAxes(plane, edge, asTurning);
+  const auto lengths = edge.totalLength();
+  Vector3 vector = Vector3::Zero();
+  for (std::size_t i = 0; i < 3; ++i)
+    vector[axes[i]] = lengths[i];
+  return vector;
+}
+
+}  // namespace probewright::control::sinumerik

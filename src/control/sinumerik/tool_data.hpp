@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "control/sinumerik/data_store.hpp"
+
+/// Tool data of SINUMERIK controls: cutting edges $TC_DP1..25[t,d], additive and setup offsets $TC_SCP.., $TC_ECP..,
+/// names $TC_TP2[t]. Lengths in mm, angles in degrees.
+namespace probewright::control::sinumerik {
+
+enum class WorkingPlane { G17, G18, G19 };
+
+/// The geometry axes (0, 1, 2 for X, Y, Z) of the 1st, 2nd and 3rd axis of a plane: G17: X, Y, Z; G18: Z, X, Y; G19: Y,
+/// Z, X.
+std::array<int, 3> planeAxes(WorkingPlane plane);
+
+/// One cutting edge.
+struct ToolEdge {
+  int type = 0;                           ///< DP1: 1xx mill, 2xx drill, 5xx turning, 580 and 710..714 probes
+  int position = 0;                       ///< DP2: cutting edge position of turning tools
+  std::array<double, 3> length = {};      ///< DP3..DP5
+  double radius = 0;                      ///< DP6
+  double cornerRadius = 0;                ///< DP7
+  double correctionAngle = 0;             ///< DP10, of probes
+  std::array<double, 3> lengthWear = {};  ///< DP12..DP14
+  double radiusWear = 0;                  ///< DP15
+  std::array<double, 3> adapter = {};     ///< DP21..DP23
+  double identifier = 0;                  ///< DP25: switching directions of probes in bits 16..21
+  std::array<double, 3> additive = {};    ///< SCP lengths of the DL number asked for
+  std::array<double, 3> setup = {};       ///< ECP lengths of the DL number asked for
+  double radiusAdditive = 0, radiusSetup = 0;
+
+  bool isTurning() const { return type >= 500 && type < 600; }
+  /// Length 1..3 as the control adds them up: geometry, wear, adapter, additive and setup offset.
+  std::array<double, 3> totalLength() const;
+  double totalRadius() const { return radius + radiusWear + radiusAdditive + radiusSetup; }
+};
+
+/// Edge `edge` of tool `tool` with the offsets of `dl` (0: none, 1..6), or nothing if no data of it exist.
+std::optional<ToolEdge> toolEdge(const DataStore& store, int tool, int edge, int dl = 0);
+
+/// "$TC_SCP13" for the additive offset of length 1 (parameter 3) with DL = 1; parameters 3..11, DL 1..6.
+std::string additiveOffsetName(int dl, int parameter);
+std::string setupOffsetName(int dl, int parameter);
+
+/// Tools with data, in order, and their edges.
+std::vector<int> toolNumbers(const DataStore& store);
+std::vector<int> toolEdges(const DataStore& store, int tool);
+
+/// The tool called `name` in $TC_TP2, capitals or not; nothing if there is none.
+std::optional<int> toolNamed(const DataStore& store, std::string_view name);
+std::string toolName(const DataStore& store, int tool);
+
+/// The geometry axes (0, 1, 2 for X, Y, Z) in which length 1, 2, 3 act. Mills, drills and probes: length 1 in the third
+/// axis of the plane, 2 in the second, 3 in the first. Turning tools, or all with `asTurning` ($SC_TOOL_LENGTH_TYPE =
+/// 2): length 1 in the second axis, 2 in the first, 3 in the third.
+std::array<int, 3> lengthAxes(WorkingPlane plane, const ToolEdge& edge, bool asTurning = false);
+
+/// From the tool tip to the tool reference point in X, Y, Z.
+Vector3 toolVector(WorkingPlane plane, const ToolEdge& edge, bool asTurning = false);
+
+}  // namespace probewright::control::sinumerik
