@@ -43,6 +43,17 @@ TEST(CircleReference, StaysExactFarFromTheOrigin) {
   EXPECT_LT(relative(fit->shape.radius, 4.714226037792109746), 1e-12);
 }
 
+TEST(CircleReference, TenDegreesOfArc) {
+  const std::vector<Vector2> points = {{350.002, -120.001}, {349.936, -116.512}, {349.760, -113.026},
+                                       {349.449, -109.547}, {349.029, -106.083}, {348.478, -102.635}};
+  const auto fit = fitCircle(std::span<const Vector2>(points));
+  ASSERT_TRUE(fit);
+  EXPECT_LT(relative(fit->shape.centre.x(), 250.11062534631390365), 1e-11);
+  EXPECT_LT(relative(fit->shape.centre.y(), -120.00206679763502645), 1e-11);
+  EXPECT_LT(relative(fit->shape.radius, 99.88993761925831982), 1e-11);
+  EXPECT_LT(relative(fit->rms, 0.0027183650177613548984), 1e-9);
+}
+
 TEST(SphereReference, SevenPoints) {
   const std::vector<Vector3> points = {{10.012, 20.003, 35.001}, {24.998, 20.011, 20.004}, {9.991, 35.006, 19.997},
                                        {-4.996, 19.994, 20.009}, {10.004, 5.003, 19.992},  {20.601, 30.612, 20.003},

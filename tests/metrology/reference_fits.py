@@ -15,6 +15,8 @@ SPHERE = [("10.012", "20.003", "35.001"), ("24.998", "20.011", "20.004"), ("9.99
 CYLINDER = [("8.003", "0.1", "-10"), ("0.2", "7.994", "-9.5"), ("-7.991", "0.4", "-11"), ("-0.3", "-8.006", "-10.2"),
             ("8.101", "0.2", "12"), ("0.3", "8.111", "11.5"), ("-7.899", "-0.1", "10"), ("0.1", "-7.902", "13"),
             ("5.71", "5.702", "1")]
+ARC = [("350.002", "-120.001"), ("349.936", "-116.512"), ("349.760", "-113.026"), ("349.449", "-109.547"),
+       ("349.029", "-106.083"), ("348.478", "-102.635")]
 PLANE = [("0", "0", "5.001"), ("100", "0", "6.996"), ("0", "80", "4.003"), ("100", "80", "5.998"), ("52", "37", "5.61")]
 
 
@@ -44,6 +46,11 @@ def circle_cost(x, y, r):
 
 solution = minimise(circle_cost, (mpf("4.74"), mpf("2.98"), mpf("4.71")))
 show("circle x y r rms", list(solution) + [sqrt(circle_cost(*solution) / len(points))])
+
+# Ten degrees of a circle of radius 100 about (250, -120), the points off by up to 3 micrometres.
+points = numbers(ARC)
+solution = minimise(circle_cost, (mpf(250), mpf(-120), mpf(100)))
+show("arc x y r rms", list(solution) + [sqrt(circle_cost(*solution) / len(points))])
 
 points = numbers(SPHERE)
 
