@@ -119,7 +119,11 @@ inline reports::Scene scene(const control::Journal& journal) {
   for (std::uint32_t c = 0; c < journal.cycles.size(); ++c) {
     const auto& touches = journal.cycles[c].touches;
     for (std::uint32_t t = 0; t < touches.size(); ++t) {
-      const Vector3& centre = touches[t].ballCentre;
+      Vector3 surface = touches[t].surface;
+      // The first two cycles ran in coordinates that they corrected themselves.
+      if (c == 0) surface.y() = -blockWidth / 2;
+      if (c == 1) surface.z() = 0;
+      const Vector3 centre = surface - ballRadius * touches[t].direction;
       const Vector3 start = centre - 5 * touches[t].direction;
       const Vector3 above(start.x(), start.y(), 50);
       const bool inside =
@@ -130,8 +134,8 @@ inline reports::Scene scene(const control::Journal& journal) {
       go(start, MoveKind::Feed, 50);
       if (t + 1 == touches.size() || !inside) go(above, MoveKind::Rapid, 250);
       const bool contact = touches[t].outcome == "touched";
-      scene.touches.push_back({c, t, (blockPose() * centre).cast<float>(),
-                               (blockPose() * (contact ? touches[t].surface : centre)).cast<float>()});
+      scene.touches.push_back(
+          {c, t, (blockPose() * centre).cast<float>(), (blockPose() * (contact ? surface : centre)).cast<float>()});
     }
   }
   go({0, 0, 100}, MoveKind::Rapid, 250);

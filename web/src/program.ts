@@ -56,17 +56,27 @@ export function programSection(report: Report, selector: Selector): ProgramView 
           const states = here.map((index) => cycleState(results.cycles[index]));
           const worst = states.reduce((a, b) => (severity.indexOf(b) > severity.indexOf(a) ? b : a));
           row.classList.add("has-cycle", worst);
-          row.append(h("span", { class: "line-badge" }, here.length > 1 && `${here.length} \u00d7 `, badge(worst, true)));
-          row.tabIndex = 0;
-          const choose = () => {
-            // A line that ran several times steps through its runs.
+          // A line that ran several times steps through its runs.
+          const choose = (source: string) => {
             const current = selector.value ? here.indexOf(selector.value.cycle) : -1;
-            selector.select({ cycle: here[(current + 1) % here.length], touch: null }, "program");
+            selector.select({ cycle: here[(current + 1) % here.length], touch: null }, source);
           };
-          row.addEventListener("click", choose);
-          row.addEventListener("keydown", (event) => {
-            if (event.key === "Enter") choose();
-          });
+          const toResults = h(
+            "button",
+            {
+              type: "button",
+              class: "line-badge",
+              title: "Show the results",
+              click: (event) => {
+                event.stopPropagation();
+                choose("badge");
+              },
+            },
+            here.length > 1 && `${here.length} \u00d7 `,
+            badge(worst, true),
+          );
+          row.append(toResults);
+          row.addEventListener("click", () => choose("program"));
         } else if (troubleAt.has(key)) {
           row.classList.add("alarm");
         }
@@ -121,7 +131,7 @@ export function programSection(report: Report, selector: Selector): ProgramView 
       return;
     }
     const { place } = results.cycles[selection.cycle];
-    show(place.file, place.line, source !== "program", true);
+    show(place.file, place.line, source !== "program" && source !== "badge", true);
     if (source === "line") element.scrollIntoView({ behavior: "smooth", block: "nearest" });
   });
   return {

@@ -92,13 +92,19 @@ function main() {
     view.colour();
   };
   dark.addEventListener("change", () => setTheme(dark.matches ? "dark" : "light"));
-  // Paper is white, whatever the screen.
+  // Paper is white, whatever the screen, and a reader of paper wants the results before the program.
   let onScreen = "";
   addEventListener("beforeprint", () => {
     onScreen = root.dataset.theme ?? "light";
     setTheme("light");
+    view.showOnPaper(true);
+    document.querySelector("main")!.append(program.element);
   });
-  addEventListener("afterprint", () => setTheme(onScreen));
+  addEventListener("afterprint", () => {
+    view.showOnPaper(false);
+    setTheme(onScreen);
+    view.element.after(program.element);
+  });
   addEventListener("keydown", (event) => {
     if (event.key === "Escape") selector.select(null, "page");
   });

@@ -68,7 +68,7 @@ function details(cycle: Cycle, index: number, selector: Selector): HTMLElement {
         h("td", {}, touch.outcome),
         point(touch.target),
         point(touch.ballCentre),
-        point(touch.surface),
+        touch.outcome === "touched" ? point(touch.surface) : h("td", { class: "number" }, "\u2013"),
         number(deviation == null ? "\u2013" : fixed(deviation, 4, true), deviation),
         h("td", { class: "number" }, touch.time == null ? "" : touch.time.toFixed(1)),
       ),
@@ -80,7 +80,7 @@ function details(cycle: Cycle, index: number, selector: Selector): HTMLElement {
     cycle.touches.length > 0 &&
       h(
         "section",
-        {},
+        { class: "wide" },
         h("h4", {}, "Touches"),
         h(
           "div",
@@ -205,7 +205,7 @@ function cycleBody(cycle: Cycle, index: number, selector: Selector): HTMLElement
       row.classList.toggle("selected", mine && Number(row.dataset.touch) === selection.touch);
     if (!mine) return;
     if (selection.touch != null) show(true);
-    if (source === "program") body.scrollIntoView({ behavior: "smooth", block: "nearest" });
+    if (source === "badge" || source === "card") body.scrollIntoView({ behavior: "smooth", block: "nearest" });
   });
   return body;
 }

@@ -7,6 +7,7 @@ import {
   BufferGeometry,
   CanvasTexture,
   Color,
+  CylinderGeometry,
   DirectionalLight,
   DoubleSide,
   Group,
@@ -93,12 +94,13 @@ export class Drawing {
   readonly scene = new ThreeScene();
   readonly markers: Marker[];
   readonly sphere: Sphere;
+  /** Where the names of the workpiece's axes stand. */
+  readonly axisEnds: { name: string; at: Vector3 }[] = [];
   private readonly solids = new Group();
   private readonly fixtures = new Group();
   private readonly path = new Group();
   private readonly touches = new Group();
   private readonly probe = new Group();
-  private readonly ball: Mesh;
   private readonly lights: Object3D[] = [];
   private readonly colours: Float32Array;
   private readonly solidMaterials: { material: MeshStandardMaterial; role: SceneMesh["role"] }[] = [];
@@ -126,24 +128,34 @@ export class Drawing {
     this.addPath();
     this.addMarkers();
     const ballRadius = scene.ballRadius > 0 ? scene.ballRadius : this.sphere.radius / 60;
-    this.ball = new Mesh(
+    const ball = new Mesh(
       new SphereGeometry(ballRadius, 32, 20),
       new MeshStandardMaterial({ color: "#b3261e", roughness: 0.35, transparent: true, opacity: 0.85 }),
     );
-    const stem = new LineSegments(
-      new BufferGeometry().setFromPoints([new Vector3(0, 0, ballRadius), new Vector3(0, 0, 12 * ballRadius)]),
-      new LineBasicMaterial({ color: "#8a8f98" }),
+    const length = 12 * ballRadius;
+    const stem = new Mesh(
+      new CylinderGeometry(0.4 * ballRadius, 0.4 * ballRadius, length, 20),
+      new MeshStandardMaterial({ color: "#9aa2ad", roughness: 0.4, transparent: true, opacity: 0.6 }),
     );
-    this.probe.add(this.ball, stem);
+    stem.rotateX(Math.PI / 2).position.set(0, 0, length / 2);
+    // What stands inside the part shows through it a little.
+    for (const mesh of [ball, stem]) {
+      const material = mesh.material.clone();
+      material.opacity = 0.28;
+      material.depthTest = false;
+      const ghost = new Mesh(mesh.geometry, material);
+      ghost.applyMatrix4(mesh.matrix.compose(mesh.position, mesh.quaternion, mesh.scale));
+      this.probe.add(ghost, mesh);
+    }
     this.probe.visible = false;
     if (scene.workpiece) this.addTriad(scene.workpiece);
 
-    const key = new DirectionalLight("#ffffff", 1.9);
-    key.position.set(0.4, 0.7, 1);
-    const rim = new DirectionalLight("#dbe6ff", 0.7);
+    const key = new DirectionalLight("#ffffff", 1.7);
+    key.position.set(0.5, 0.9, 0.9);
+    const rim = new DirectionalLight("#dbe6ff", 0.9);
     rim.position.set(-0.8, -0.2, 0.4);
     this.lights.push(key, rim);
-    this.scene.add(this.solids, this.fixtures, this.path, this.touches, this.probe, new AmbientLight("#ffffff", 1.15));
+    this.scene.add(this.solids, this.fixtures, this.path, this.touches, this.probe, new AmbientLight("#ffffff", 1.25));
   }
 
   /** Lights that move with the camera. */
@@ -203,7 +215,7 @@ export class Drawing {
         this.lineMaterials.push({ material, kind, faint });
         const lines = new LineSegments2(geometry, material);
         if (dashed) lines.computeLineDistances();
-        lines.renderOrder = faint ? 1 : 2;
+        lines.renderOrder = (faint ? 1 : 2) + 0.1 * kind;
         this.path.add(lines);
       }
     });
@@ -240,18 +252,20 @@ export class Drawing {
   private addTriad(pose: number[]) {
     const size = this.sphere.radius * 0.3;
     const triad = new Group();
-    const axes: [string, Vector3][] = [
-      ["#d1242f", new Vector3(size, 0, 0)],
-      ["#1f9d4d", new Vector3(0, size, 0)],
-      ["#2f6feb", new Vector3(0, 0, size)],
+    const sceneFromWorkpiece = new Matrix4().fromArray(pose);
+    const axes: [string, string, Vector3][] = [
+      ["X", "#d1242f", new Vector3(size, 0, 0)],
+      ["Y", "#1f9d4d", new Vector3(0, size, 0)],
+      ["Z", "#2f6feb", new Vector3(0, 0, size)],
     ];
-    for (const [color, end] of axes) {
+    for (const [name, color, end] of axes) {
       const geometry = new LineSegmentsGeometry().setPositions([0, 0, 0, end.x, end.y, end.z]);
       const line = new LineSegments2(geometry, new LineMaterial({ color: new Color(color).getHex(), linewidth: 3, depthTest: false, transparent: true }));
       line.renderOrder = 2;
       triad.add(line);
+      this.axisEnds.push({ name, at: end.clone().multiplyScalar(1.08).applyMatrix4(sceneFromWorkpiece) });
     }
-    triad.applyMatrix4(new Matrix4().fromArray(pose));
+    triad.applyMatrix4(sceneFromWorkpiece);
     this.scene.add(triad);
   }
 

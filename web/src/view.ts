@@ -47,7 +47,8 @@ export class View {
   private renderer: WebGLRenderer | null = null;
   private controls: OrbitControls | null = null;
   private scheduled = false;
-  private shown: { marker: Marker; label: HTMLElement }[] = [];
+  private shown: { at: Vector3; label: HTMLElement }[] = [];
+  private readonly axisNames: { at: Vector3; label: HTMLElement }[];
 
   constructor(
     private readonly report: Report,
@@ -55,6 +56,7 @@ export class View {
   ) {
     this.drawing = new Drawing(report);
     this.camera.up.set(0, 0, 1);
+    this.axisNames = this.drawing.axisEnds.map(({ name, at }) => ({ at, label: h("span", { class: "axis" }, h("b", {}, name)) }));
     this.element = h(
       "section",
       { class: "card view", id: "view", "aria-label": "3D view" },
@@ -80,6 +82,7 @@ export class View {
     }
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     const canvas = this.renderer.domElement;
+    this.labels.append(...this.axisNames.map(({ label }) => label));
     this.stage.append(canvas, this.labels);
     this.camera.add(...this.drawing.headlights);
     this.drawing.scene.add(this.camera);
@@ -94,7 +97,19 @@ export class View {
   /** Takes the page's colours anew. */
   colour() {
     this.drawing.colour(palette());
-    this.draw();
+    // At once: a page about to be printed waits for no frame.
+    if (this.renderer) this.render();
+  }
+
+  /** A still picture in place of the 3D canvas, which browsers print as it was shown last. */
+  showOnPaper(on: boolean) {
+    this.stage.querySelector(".paper")?.remove();
+    if (!on || !this.renderer) return;
+    const canvas = this.renderer.domElement;
+    const still = h("canvas", { class: "paper", width: canvas.width, height: canvas.height });
+    this.render();
+    still.getContext("2d")!.drawImage(canvas, 0, 0);
+    canvas.after(still);
   }
 
   private resize() {
@@ -151,9 +166,9 @@ export class View {
 
   private render() {
     this.renderer!.render(this.drawing.scene, this.camera);
-    for (const { marker, label } of this.shown) {
-      const at = this.onScreen(marker.centre);
-      label.style.transform = `translate(${at.x.toFixed(1)}px, ${at.y.toFixed(1)}px)`;
+    for (const { at, label } of [...this.shown, ...this.axisNames]) {
+      const { x, y } = this.onScreen(at);
+      label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
     }
   }
 
@@ -193,7 +208,7 @@ export class View {
   }
 
   private showSelection(cycle: number | null, touch: number | null) {
-    this.labels.replaceChildren();
+    this.labels.replaceChildren(...this.axisNames.map(({ label }) => label));
     this.shown = [];
     const ofCycle = cycle === null ? [] : this.drawing.markers.filter((marker) => marker.cycle === cycle);
     // Numbers help with a handful of touches; with hundreds they only hide the part.
@@ -201,7 +216,7 @@ export class View {
       this.shown = ofCycle.map((marker) => {
         const label = h("span", { class: marker.touch === touch ? "label active" : "label" }, h("b", {}, String(marker.touch + 1)));
         this.labels.append(label);
-        return { marker, label };
+        return { at: marker.centre, label };
       });
     }
     const marker = touch === null ? undefined : ofCycle.find((candidate) => candidate.touch === touch);
@@ -215,8 +230,9 @@ export class View {
     this.card.hidden = !cycle;
     if (!cycle || cycleIndex === null) return;
     const touch = touchIndex === null ? undefined : cycle.touches[touchIndex];
-    const row = (name: string, value: string, kind = "") => h("div", { class: kind }, h("dt", {}, name), h("dd", {}, value));
-    const point = (triple: Triple) => triple.map((x) => fixed(x, 3)).join("   ");
+    const row = (name: string, values: string | string[], kind = "") =>
+      h("div", { class: kind }, h("dt", {}, name), h("dd", {}, ...[values].flat().map((value) => h("span", {}, value))));
+    const point = (triple: Triple) => triple.map((x) => fixed(x, 3));
     const step = (by: number) => {
       const n = cycle.touches.length;
       const next = touchIndex === null ? (by > 0 ? 0 : n - 1) : (touchIndex + by + n) % n;
@@ -250,14 +266,19 @@ export class View {
               row("Outcome", touch.outcome, touch.outcome === "touched" ? "" : "missed"),
               row("Target", point(touch.target)),
               row("Ball centre", point(touch.ballCentre)),
-              row("Surface", point(touch.surface)),
+              row("Surface", touch.outcome === "touched" ? point(touch.surface) : "\u2013"),
               row("Direction", point(touch.direction)),
               row("Deviation", deviation === null ? "\u2013" : `${fixed(deviation, 4, true)} mm`, "strong"),
-              row("Axes", Object.entries(touch.axes).map(([name, value]) => `${name} ${fixed(value, 3)}`).join("   ")),
+              row("Axes", Object.entries(touch.axes).map(([name, value]) => `${name} ${fixed(value, 3)}`)),
               row("Time", duration(touch.time)),
             ),
           ]
         : []),
+      h(
+        "button",
+        { type: "button", class: "card-link", click: () => this.selector.select({ cycle: cycleIndex, touch: touchIndex }, "card") },
+        "Show the results",
+      ),
     );
   }
 

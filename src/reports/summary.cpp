@@ -1,0 +1,245 @@
+#include "reports/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "base/number_text.hpp"
+#include "records/results.hpp"
+#include "reports/readable_text.hpp"
+
+namespace probewright::reports {
+
+namespace {
+
+using control::Verdict;
+
+constexpr std::size_t mostPlainResults = 6;
+
+enum class Tone { Plain, Good, Warning, Bad };
+
+class Painter {
+public:
+  explicit Painter(Colour colour) : on_(colour == Colour::On) {}
+
+  std::string operator()(Tone tone, std::string_view text) const {
+    const char* code = tone == Tone::Good ? "32" : tone == Tone::Warning ? "33" : "31";
+    if (!on_ || tone == Tone::Plain || text.empty()) return std::string(text);
+    return fmt::format("\x1b[1;{}m{}\x1b[0m", code, text);
+  }
+
+private:
+  bool on_;
+};
+
+Tone tone(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::None:
+      return Tone::Plain;
+    case Verdict::Good:
+      return Tone::Good;
+    case Verdict::Rework:
+      return Tone::Warning;
+    case Verdict::Scrap:
+      return Tone::Bad;
+  }
+  return Tone::Plain;
+}
+
+std::string_view word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::None:
+      return "";
+    case Verdict::Good:
+      return "OK";
+    case Verdict::Rework:
+      return "REWORK";
+    case Verdict::Scrap:
+      return "SCRAP";
+  }
+  return "";
+}
+
+std::string quantity(double value, const std::string& unit) {
+  if (!std::isfinite(value)) return "not a number";
+  return unit.empty() ? formatShortest(value) : formatFixed(value, 4);
+}
+
+std::string fileName(const std::string& path) { return path.substr(path.find_last_of("/\\") + 1); }
+
+/// One line of text whatever the program put into it: control characters must not reach the terminal.
+std::string line(const std::string& bytes) {
+  std::string text = readableText(bytes);
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
+  return text;
+}
+
+std::string placeText(const SourcePlace& place, const std::string& mainProgram) {
+  if (place.line == 0) return "";
+  if (place.file == mainProgram || place.file.empty()) return fmt::format("line {}", place.line);
+  return fmt::format("{}:{}", line(fileName(place.file)), place.line);
+}
+
+std::string duration(double seconds) {
+  if (!(seconds >= 60)) return fmt::format("{:.1f} s", seconds);
+  const auto whole = std::llround(seconds);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+std::string distance(double mm) {
+  return mm < 1000 ? fmt::format("{:.0f} mm", mm) : fmt::format("{:.2f} m", mm / 1000);
+}
+
+std::string counted(std::size_t n, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
+std::string resultLine(const control::ResultRecord& result, const Painter& paint) {
+  std::string limits;
+  if (result.lowerLimit && result.upperLimit)
+    limits = fmt::format("  [{} .. {}]", quantity(*result.lowerLimit, result.unit),
+                         quantity(*result.upperLimit, result.unit));
+  std::string deviation;
+  if (result.deviation && std::isfinite(*result.deviation))
+    deviation = fmt::format(
+        "  deviation {}", result.unit.empty() ? formatShortest(*result.deviation) : formatSigned(*result.deviation, 4));
+  std::string text = fmt::format("      {:<9} {:<44} {:>11} {:<3}{}{}", line(result.name), line(result.meaning),
+                                 quantity(result.value, result.unit), result.unit, deviation, limits);
+  text.erase(text.find_last_not_of(' ') + 1);
+  if (result.verdict != Verdict::None) text += "  " + paint(tone(result.verdict), word(result.verdict));
+  return text + "\n";
+}
+
+std::string writeLine(const control::WriteRecord& write) {
+  const auto shown = [](const std::string& value) { return value.empty() ? std::string("(empty)") : line(value); };
+  return fmt::format("      -> {} {}: {} -> {}\n", line(write.table), line(write.entry), shown(write.before),
+                     shown(write.after));
+}
+
+std::string cycleText(const control::CycleRecord& cycle, std::size_t number, const std::string& mainProgram,
+                      const Painter& paint) {
+  std::string text = fmt::format("{:>3}  {} {}", number, line(cycle.name), line(cycle.title));
+  const std::string place = placeText(cycle.place, mainProgram);
+  if (!place.empty()) text += fmt::format("  ({})", place);
+  if (!cycle.alarm.empty())
+    text += "  " + paint(Tone::Bad, "ALARM");
+  else if (cycle.verdict != Verdict::None)
+    text += "  " + paint(tone(cycle.verdict), word(cycle.verdict));
+  text += "\n";
+  const bool toleranced = std::any_of(cycle.results.begin(), cycle.results.end(),
+                                      [](const auto& result) { return result.verdict != Verdict::None; });
+  std::size_t shown = 0;
+  for (const auto& result : cycle.results) {
+    if (toleranced ? result.verdict == Verdict::None : shown == mostPlainResults) continue;
+    text += resultLine(result, paint);
+    ++shown;
+  }
+  for (const auto& write : cycle.writes)
+    text += writeLine(write);
+  for (const auto& file : cycle.logFiles)
+    text += fmt::format("      log {}\n", line(fileName(file)));
+  if (!cycle.alarm.empty()) text += fmt::format("      {}\n", paint(Tone::Bad, line(cycle.alarm)));
+  return text;
+}
+
+std::string_view eventWord(control::EventKind kind) {
+  switch (kind) {
+    case control::EventKind::Message:
+      return "message";
+    case control::EventKind::Alarm:
+      return "ALARM";
+    case control::EventKind::Stop:
+      return "stop";
+    case control::EventKind::Skipped:
+      return "skipped";
+    case control::EventKind::Tool:
+      return "tool";
+    case control::EventKind::Warning:
+      return "warning";
+  }
+  return "";
+}
+
+std::string eventText(const control::EventRecord& event, const std::string& mainProgram, const Painter& paint) {
+  const bool grave = event.kind == control::EventKind::Alarm || event.kind == control::EventKind::Stop;
+  const bool doubtful = event.kind == control::EventKind::Warning || event.kind == control::EventKind::Skipped;
+  std::string text = "  " +
+                     paint(grave      ? Tone::Bad
+                           : doubtful ? Tone::Warning
+                                      : Tone::Plain,
+                           eventWord(event.kind)) +
+                     "  ";
+  text += line(event.code);
+  if (!event.code.empty() && !event.text.empty()) text += ": ";
+  text += line(event.text);
+  const std::string place = placeText(event.place, mainProgram);
+  if (!place.empty()) text += fmt::format("  ({})", place);
+  return text + "\n";
+}
+
+std::string outcome(const control::Journal& journal, const records::RunInfo& run, const Painter& paint) {
+  std::size_t toleranced = 0, outside = 0;
+  for (const auto& cycle : journal.cycles) {
+    for (const auto& result : cycle.results) {
+      toleranced += result.verdict != Verdict::None;
+      outside += result.verdict == Verdict::Rework || result.verdict == Verdict::Scrap;
+    }
+  }
+  const std::string why = run.exitText.empty() ? "" : ": " + line(run.exitText);
+  switch (run.exit) {
+    case records::ExitState::Stopped:
+      return paint(Tone::Bad, "STOPPED") + why;
+    case records::ExitState::InputMistake:
+      return paint(Tone::Bad, "MISTAKE IN THE INPUT") + why;
+    case records::ExitState::Internal:
+      return paint(Tone::Bad, "INTERNAL ERROR") + why;
+    case records::ExitState::Good:
+    case records::ExitState::OutOfTolerance:
+      break;
+  }
+  const Verdict worst = records::worstVerdict(journal);
+  if (run.exit == records::ExitState::OutOfTolerance || worst >= Verdict::Rework)
+    return paint(worst == Verdict::Scrap ? Tone::Bad : Tone::Warning, "OUT OF TOLERANCE") +
+           (outside > 0
+                ? fmt::format(": {} of {}", outside, counted(toleranced, "toleranced value", "toleranced values"))
+                : why);
+  if (toleranced == 0) return paint(Tone::Good, "OK") + ": the program ran to its end, nothing had a tolerance";
+  return paint(Tone::Good, "OK") + ": " +
+         (toleranced == 1 ? "the toleranced value is" : fmt::format("all {} toleranced values are", toleranced)) +
+         " within the limits";
+}
+
+}  // namespace
+
+std::string summaryText(const control::Journal& journal, const records::RunInfo& run, Colour colour) {
+  const Painter paint(colour);
+  const std::string mainProgram = run.programs.empty() ? "" : run.programs[0].path;
+  std::string text = line(fileName(mainProgram));
+  for (const std::string& part : {run.control, run.machine, run.partName})
+    if (!part.empty()) text += (text.empty() ? "" : ", ") + line(part);
+  text += "\n";
+
+  std::size_t touches = 0, alarms = 0;
+  for (std::size_t i = 0; i < journal.cycles.size(); ++i) {
+    text += cycleText(journal.cycles[i], i + 1, mainProgram, paint);
+    touches += journal.cycles[i].touches.size();
+  }
+  if (!journal.writes.empty()) text += "  by the program itself\n";
+  for (const auto& write : journal.writes)
+    text += writeLine(write);
+  for (const auto& event : journal.events) {
+    alarms += event.kind == control::EventKind::Alarm;
+    if (event.kind != control::EventKind::Tool) text += eventText(event, mainProgram, paint);
+  }
+  text += fmt::format("{}\n{}, {}, path {}, time {}, {}\n", outcome(journal, run, paint),
+                      counted(journal.cycles.size(), "cycle", "cycles"), counted(touches, "touch", "touches"),
+                      distance(run.totalPathLength), duration(run.totalSeconds),
+                      alarms == 0 ? "no alarms" : counted(alarms, "alarm", "alarms"));
+  return text;
+}
+
+}  // namespace probewright::reports

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "control/journal.hpp"
+#include "records/run_info.hpp"
+
+namespace probewright::reports {
+
+enum class Colour { Off, On };
+
+/// The run in a few lines for a terminal: each cycle with its line, its main results, what it wrote and its verdict; at
+/// the end the state of the whole, path, time and alarms. Main results are the toleranced ones; of a cycle without
+/// tolerances the first six. With Colour::On verdicts carry ANSI colours.
+std::string summaryText(const control::Journal& journal, const records::RunInfo& run, Colour colour = Colour::Off);
+
+}  // namespace probewright::reports

@@ -1,0 +1,98 @@
+#include "reports/summary.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "records/sample_run.hpp"
+
+namespace probewright::reports {
+namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+TEST(Summary, TellsEachCycleWithItsLineResultsAndChanges) {
+  const std::string text = summaryText(sample::journal(), sample::runInfo());
+  EXPECT_THAT(text, StartsWith("BEARING_BLOCK.H, TNC640, 3-axis mill, Bearing block\n"));
+  EXPECT_THAT(text, HasSubstr("  1  400 Basic rotation  (line 8)\n"));
+  EXPECT_THAT(text, ContainsRegex("Q150 +actual value of the rotation angle +1\\.5008 deg\n"));
+  EXPECT_THAT(text, HasSubstr("      -> PRESET.PR row 5, column SPC: +0.0000 -> +1.5008\n"));
+  EXPECT_THAT(text, HasSubstr("  4  421 Measure a hole  (line 43)  OK\n"));
+  EXPECT_THAT(text,
+              ContainsRegex("Q153 +actual value, diameter +30\\.0119 mm +deviation \\+0\\.0119 +\\[30\\.0000 \\.\\. "
+                            "30\\.0210\\]  OK\n"));
+  EXPECT_THAT(text,
+              ContainsRegex("Q155 .* 80\\.0541 mm +deviation \\+0\\.0541 +\\[79\\.9700 \\.\\. 80\\.0300\\]  REWORK\n"));
+  EXPECT_THAT(text, HasSubstr("      log TCHPR421.TXT\n"));
+  EXPECT_THAT(text, HasSubstr("  by the program itself\n      -> PRESET.PR active row: 0 -> 5\n"));
+  EXPECT_THAT(text, HasSubstr("  message  BORE 30.012 / WIDTH 80.054  (line 60)\n"));
+  EXPECT_THAT(text, EndsWith("OUT OF TOLERANCE: 1 of 5 toleranced values\n"
+                             "5 cycles, 15 touches, path 2.31 m, time 1 min 35 s, no alarms\n"));
+  EXPECT_THAT(text, Not(HasSubstr("\x1b")));
+}
+
+TEST(Summary, NamesTheAlarm) {
+  const std::string text = summaryText(sample::alarmJournal(), sample::alarmRunInfo());
+  EXPECT_THAT(text,
+              HasSubstr("  3  412 Preset at the centre of a hole  (line 27)  ALARM\n      Touch point inaccessible\n"));
+  EXPECT_THAT(
+      text, HasSubstr("  ALARM  Touch point inaccessible: no contact within the measuring path of 10 mm  (line 27)\n"));
+  EXPECT_THAT(text, EndsWith("STOPPED: Touch point inaccessible: no contact within the measuring path of 10 mm\n"
+                             "3 cycles, 5 touches, path 640 mm, time 33.7 s, 1 alarm\n"));
+}
+
+TEST(Summary, SaysOkOnlyWhenAllIsWithinTheLimits) {
+  auto journal = sample::journal();
+  auto run = sample::runInfo();
+  run.exit = records::ExitState::Good;
+  EXPECT_THAT(summaryText(journal, run), HasSubstr("\nOUT OF TOLERANCE"));
+  journal.cycles.pop_back();
+  EXPECT_THAT(summaryText(journal, run), HasSubstr("\nOK: all 3 toleranced values are within the limits\n"));
+  journal.cycles.pop_back();
+  EXPECT_THAT(summaryText(journal, run), HasSubstr("\nOK: the program ran to its end, nothing had a tolerance\n"));
+}
+
+TEST(Summary, ColoursVerdictsOnRequest) {
+  const std::string text = summaryText(sample::journal(), sample::runInfo(), Colour::On);
+  EXPECT_THAT(text, HasSubstr("\x1b[1;32mOK\x1b[0m"));
+  EXPECT_THAT(text, HasSubstr("\x1b[1;33mREWORK\x1b[0m"));
+}
+
+TEST(Summary, KeepsControlCharactersFromTheTerminal) {
+  auto journal = sample::journal();
+  journal.events[1].text = "beep\x07\x1b[2Jgone\nnext";
+  EXPECT_THAT(summaryText(journal, sample::runInfo()), HasSubstr("beep  [2Jgone next  (line 60)\n"));
+}
+
+TEST(Summary, NamesTheSubprogramOfACycle) {
+  auto journal = sample::journal();
+  journal.cycles[0].place = {"subs/ALIGN.H", 4, 1};
+  EXPECT_THAT(summaryText(journal, sample::runInfo()), HasSubstr("  1  400 Basic rotation  (ALIGN.H:4)\n"));
+}
+
+TEST(Summary, KeepsACycleWithoutTolerancesShort) {
+  control::Journal journal;
+  journal.cycles.emplace_back();
+  for (int i = 0; i < 20; ++i)
+    journal.cycles[0].results.push_back(sample::plain(fmt::format("R{}", i), "", i));
+  const std::string text = summaryText(journal, {});
+  EXPECT_THAT(text, HasSubstr("R5 "));
+  EXPECT_THAT(text, Not(HasSubstr("R6 ")));
+}
+
+TEST(Summary, SurvivesAnEmptyRunAndNumbersThatAreNone) {
+  EXPECT_THAT(summaryText({}, {}), HasSubstr("0 cycles, 0 touches, path 0 mm, time 0.0 s, no alarms\n"));
+  control::Journal journal;
+  journal.cycles.emplace_back();
+  journal.cycles[0].results = {sample::plain("Q1", "", std::numeric_limits<double>::quiet_NaN())};
+  EXPECT_THAT(summaryText(journal, {}), HasSubstr("not a number"));
+}
+
+}  // namespace
+}  // namespace probewright::reports
