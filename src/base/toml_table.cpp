@@ -172,6 +172,27 @@ std::optional<std::vector<double>> TomlReader::numbers(std::string_view key, std
   return values;
 }
 
+std::optional<std::vector<std::array<double, 3>>> TomlReader::points(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  std::vector<std::array<double, 3>> result;
+  const toml::array* list = node->as_array();
+  bool fine = list != nullptr;
+  for (std::size_t i = 0; fine && i < list->size(); ++i) {
+    const toml::array* point = list->get(i)->as_array();
+    fine = point && point->size() == 3;
+    for (std::size_t k = 0; fine && k < 3; ++k) {
+      if (k == 0) result.emplace_back();
+      const toml::node& element = *point->get(k);
+      fine = element.is_number() && std::isfinite(element.value<double>().value());
+      if (fine) result.back()[k] = element.value<double>().value();
+    }
+  }
+  if (fine) return result;
+  wrongType(key, "a list of points, such as [[0, 0, 0], [10, 0, 0]]");
+  return std::nullopt;
+}
+
 std::optional<std::variant<double, std::string>> TomlReader::plainValue(std::string_view key) {
   const toml::node* node = find(key);
   if (!node) return std::nullopt;

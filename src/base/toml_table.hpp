@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <set>
@@ -45,6 +46,8 @@ public:
   std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& choices);
   /// An array of numbers, of exactly `size` if that is not 0.
   std::optional<std::vector<double>> numbers(std::string_view key, std::size_t size = 0);
+  /// A list of points, each a list of three numbers.
+  std::optional<std::vector<std::array<double, 3>>> points(std::string_view key);
   /// A number, a text, or true and false as 1 and 0.
   std::optional<std::variant<double, std::string>> plainValue(std::string_view key);
   std::optional<TomlReader> table(std::string_view key);

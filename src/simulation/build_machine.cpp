@@ -12,6 +12,7 @@ namespace probewright::simulation {
 namespace {
 
 Result<std::unique_ptr<Solid>> load(const SolidSource& source) {
+  if (source.file.empty()) return buildSolid(source.recipe);
   std::string ending = source.file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
   std::error_code ignored;

@@ -11,6 +11,7 @@
 
 #include "base/diagnostic.hpp"
 #include "control/control_kind.hpp"
+#include "simulation/solid_recipe.hpp"
 #include "simulation/truth.hpp"
 
 /// A setup: the world a program runs in (the truth) and what the control thinks of it (the beliefs), as a TOML file.
@@ -19,10 +20,11 @@ namespace probewright::simulation {
 
 class VirtualMachine;
 
-/// Where the shape of a part or fixture comes from.
+/// Where the shape of a part or fixture comes from: a file, or features if there is none.
 struct SolidSource {
-  std::filesystem::path file;  ///< STEP, IGES or STL by its ending, as an absolute or working path
-  SourcePlace place;           ///< of the key that names it
+  std::filesystem::path file;  ///< STEP, IGES or STL by its ending
+  SolidRecipe recipe;
+  SourcePlace place;  ///< of the key that names the file
 };
 
 /// A solid that is still to be loaded, and where it truly lies.
@@ -74,7 +76,7 @@ struct Setup {
   std::optional<control::ControlKind> control;
   std::filesystem::path tables;  ///< folder with the control's own table files; empty if none
 
-  /// Machine, errors, true tools, gauges, start, seed. The solids of files are added by buildMachine().
+  /// Machine, errors, true tools, start, seed. The solids are added by buildMachine().
   Truth truth;
   std::vector<SetupSolid> solids;
 

@@ -6,8 +6,8 @@
 #include "base/file.hpp"
 #include "base/toml_table.hpp"
 #include "machine/machine_file.hpp"
-#include "simulation/analytic_solids.hpp"
 #include "simulation/setup.hpp"
+#include "simulation/setup_solids.hpp"
 
 namespace probewright::simulation {
 
@@ -20,26 +20,9 @@ constexpr NumberRange positive = NumberRange::positive();
 constexpr NumberRange notNegative = NumberRange::notNegative();
 constexpr double effectivelyEndless = 1e6;
 
-std::optional<Vector3> vector3(TomlReader& reader, std::string_view key) {
-  const auto values = reader.numbers(key, 3);
-  return values ? std::optional(Vector3((*values)[0], (*values)[1], (*values)[2])) : std::nullopt;
-}
-
 std::optional<Vector2> vector2(TomlReader& reader, std::string_view key) {
   const auto values = reader.numbers(key, 2);
   return values ? std::optional(Vector2((*values)[0], (*values)[1])) : std::nullopt;
-}
-
-/// [pose]: x, y, z and the rotation a about X, then b about Y, then c about Z of the table.
-Pose readPose(TomlReader& owner) {
-  auto reader = owner.table("pose");
-  if (!reader) return Pose::Identity();
-  const auto get = [&](const char* key) { return reader->number(key, anyNumber).value_or(0); };
-  const Vector3 origin(get("x"), get("y"), get("z"));
-  const double a = get("a"), b = get("b"), c = get("c");
-  reader->finish();
-  return translation(origin) * rotation(Vector3::UnitZ(), c) * rotation(Vector3::UnitY(), b) *
-         rotation(Vector3::UnitX(), a);
 }
 
 class SetupReader {
@@ -145,13 +128,18 @@ private:
     reader->finish();
   }
 
-  void readSolid(TomlReader& reader, SolidRole role, std::string defaultName) {
+  void readSolid(TomlReader& reader, SolidRole role, std::string defaultName, const char* featureTable) {
     SetupSolid solid;
     solid.role = role;
     solid.name = reader.text("name").value_or(std::move(defaultName));
-    reader.require("file");
+    solid.source.place = reader.placeOf("file");
+    if (reader.has("file") == reader.has("feature")) {
+      reader.report("file", fmt::format("{} needs a file or features, one of both", reader.name()),
+                    fmt::format("Write file = \"housing.step\" or describe the shape under {}", featureTable));
+    }
+    solid.source.recipe = readRecipe(reader);
     if (auto file = reader.text("file")) {
-      solid.source = {resolve(*file), reader.placeOf("file")};
+      solid.source.file = resolve(*file);
       std::string ending = solid.source.file.extension().string();
       std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
       static const std::vector<std::string> known = {".step", ".stp", ".iges", ".igs", ".stl"};
@@ -166,45 +154,43 @@ private:
   }
 
   void readSolids() {
-    if (auto part = root_.table("part")) readSolid(*part, SolidRole::Part, "part");
+    if (auto part = root_.table("part")) readSolid(*part, SolidRole::Part, "part", "[[part.feature]]");
     int count = 0;
     for (TomlReader& fixture : root_.tables("fixture")) {
-      readSolid(fixture, SolidRole::Fixture, fmt::format("fixture {}", ++count));
+      readSolid(fixture, SolidRole::Fixture, fmt::format("fixture {}", ++count), "[[fixture.feature]]");
     }
   }
 
-  template <class SolidType>
-  void placeGauge(SolidType solid, const Pose& pose, std::string name, SolidRole role) {
-    setup_.truth.solids.push_back({std::make_shared<SolidType>(std::move(solid)), pose, std::move(name), role});
+  void placeGauge(SolidRecipe recipe, TomlReader& reader, std::string name, SolidRole role) {
+    SetupSolid solid{std::move(name), role, {}, readPose(reader)};
+    for (SolidFeature& feature : recipe.features)
+      feature.place = reader.placeOf("");
+    solid.source.recipe = std::move(recipe);
+    setup_.solids.push_back(std::move(solid));
+    reader.finish();
   }
 
   void readGauges() {
     if (auto reader = root_.table("ring")) {
-      const auto diameter = reader->requiredNumber("diameter", positive);
-      const double bore = diameter.value_or(50);
+      const double bore = reader->requiredNumber("diameter", positive).value_or(50);
       const double outer = reader->number("outer_diameter", positive).value_or(bore + 40);
       const double height = reader->number("height", positive).value_or(20);
       if (outer <= bore) reader->report("outer_diameter", "the ring is not larger than its bore");
-      placeGauge(Ring(bore / 2, outer / 2, -height), readPose(*reader), "ring", SolidRole::Ring);
-      reader->finish();
+      placeGauge(ringGauge(bore, outer, height), *reader, "ring", SolidRole::Ring);
     }
     if (auto reader = root_.table("sphere")) {
       const double diameter = reader->requiredNumber("diameter", positive).value_or(25);
-      const double stem = reader->number("stem_diameter", notNegative).value_or(0);
-      const double length = reader->number("stem_length", positive).value_or(60);
+      const double stem = reader->number("stem_diameter", positive).value_or(diameter / 3);
+      const double length = reader->number("stem_length", positive).value_or(2 * diameter);
       if (stem >= diameter) reader->report("stem_diameter", "the stem is not thinner than the sphere");
-      const Pose pose = readPose(*reader);
-      placeGauge(SolidSphere(Vector3::Zero(), diameter / 2), pose, "sphere", SolidRole::Sphere);
-      if (stem > 0) placeGauge(RoundBar(stem / 2, -length, 0), pose, "stem of the sphere", SolidRole::Sphere);
-      reader->finish();
+      if (length <= diameter / 2) reader->report("stem_length", "the stem ends within the sphere");
+      placeGauge(referenceSphere(diameter, stem, length), *reader, "sphere", SolidRole::Sphere);
     }
     if (auto reader = root_.table("gauge_block")) {
       reader->require("size");
-      const Vector3 size = vector3(*reader, "size").value_or(Vector3(10, 10, 10));
+      const Vector3 size = readVector(*reader, "size").value_or(Vector3(10, 10, 10));
       if (size.minCoeff() <= 0) reader->report("size", "the lengths of a gauge block must be above 0");
-      placeGauge(Box({-size.x() / 2, -size.y() / 2, 0}, {size.x() / 2, size.y() / 2, size.z()}), readPose(*reader),
-                 "gauge block", SolidRole::GaugeBlock);
-      reader->finish();
+      placeGauge(gaugeBlock(size.x(), size.y(), size.z()), *reader, "gauge block", SolidRole::GaugeBlock);
     }
   }
 
@@ -257,7 +243,7 @@ private:
       tool.kind = kind == 0 ? ToolKind::Probe : ToolKind::Cutter;
       believed.kind = kinds[kind];
       tool.length = reader.requiredNumber("length", positive).value_or(100);
-      if (auto direction = vector3(reader, "shank_direction")) {
+      if (auto direction = readVector(reader, "shank_direction")) {
         if (direction->norm() < 1e-9) {
           reader.report("shank_direction", "a direction cannot be [0, 0, 0]");
         } else {
@@ -300,8 +286,8 @@ private:
   }
 
   void readFrame(TomlReader& reader, BelievedFrame frame, std::vector<BelievedFrame>& frames, const char* idKey) {
-    frame.origin = vector3(reader, "origin").value_or(Vector3::Zero());
-    frame.rotation = vector3(reader, "rotation").value_or(Vector3::Zero());
+    frame.origin = readVector(reader, "origin").value_or(Vector3::Zero());
+    frame.rotation = readVector(reader, "rotation").value_or(Vector3::Zero());
     if (auto rotary = reader.table("rotary")) {
       for (const std::string& key : rotary->keys()) {
         axisNamed(*rotary, key, key, AxisKind::Rotary);
@@ -357,7 +343,7 @@ private:
     for (TomlReader& entry : reader.tables("deviation")) {
       Deviation deviation;
       deviation.direction = travelDirection(axis);
-      if (auto direction = vector3(entry, "direction")) {
+      if (auto direction = readVector(entry, "direction")) {
         if (direction->norm() < 1e-9) {
           entry.report("direction", "a direction cannot be [0, 0, 0]");
         } else {
@@ -407,17 +393,17 @@ private:
         if (!entry) continue;
         RotaryAxisError error;
         error.axis = axis.value_or(0);
-        error.position = vector3(*entry, "position").value_or(Vector3::Zero());
-        error.orientation = vector3(*entry, "orientation").value_or(Vector3::Zero());
+        error.position = readVector(*entry, "position").value_or(Vector3::Zero());
+        error.orientation = readVector(*entry, "orientation").value_or(Vector3::Zero());
         entry->finish();
         if (axis) errors.rotaryAxes.push_back(error);
       }
     }
-    if (auto tilt = vector3(*reader, "spindle_tilt")) errors.spindleTilt = *tilt;
+    if (auto tilt = readVector(*reader, "spindle_tilt")) errors.spindleTilt = *tilt;
     for (TomlReader& entry : reader->tables("thermal")) {
       ThermalDrift drift;
       entry.require("amount");
-      drift.amount = vector3(entry, "amount").value_or(Vector3::Zero());
+      drift.amount = readVector(entry, "amount").value_or(Vector3::Zero());
       drift.timeConstant = entry.number("time_constant", {1, 1e9}).value_or(3600);
       entry.finish();
       errors.thermal.push_back(drift);

@@ -27,7 +27,7 @@ TEST(Setup, EmptyIsAPerfectThreeAxisMillWithNothingOnIt) {
   const auto setup = read("");
   EXPECT_EQ(setup.truth.machine.name, "3-axis mill");
   EXPECT_FALSE(setup.control);
-  EXPECT_THAT(setup.truth.solids, SizeIs(0));
+  EXPECT_THAT(setup.solids, SizeIs(0));
 }
 
 TEST(Setup, ReadsEverySection) {
@@ -104,8 +104,8 @@ flag = true
   EXPECT_EQ(setup.truth.machine.axes.size(), 5u);
   EXPECT_EQ(setup.truth.start[0], 10);
   EXPECT_EQ(setup.truth.start[4], 400);
-  ASSERT_THAT(setup.truth.solids, SizeIs(4));
-  EXPECT_EQ(setup.truth.solids[0].tableFromSolid.translation(), Vector3(100, 0, -500));
+  ASSERT_THAT(setup.solids, SizeIs(3));
+  EXPECT_EQ(setup.solids[0].tableFromSolid.translation(), Vector3(100, 0, -500));
 
   ASSERT_THAT(setup.tools, SizeIs(2));
   const BelievedTool& probe = setup.tools[0];
@@ -141,7 +141,7 @@ flag = true
 TEST(Setup, PoseTurnsAboutXThenYThenZOfTheTable) {
   const auto setup = read("[ring]\ndiameter = 50\npose = { x = 1, y = 2, z = 3, a = 90, c = 90 }\n");
   // Z of the ring goes to -Y by the turn about X, and on to +X by the turn about Z.
-  const Pose& pose = setup.truth.solids.at(0).tableFromSolid;
+  const Pose& pose = setup.solids.at(0).tableFromSolid;
   EXPECT_LT((pose.linear() * Vector3::UnitZ() - Vector3::UnitX()).norm(), 1e-15);
   EXPECT_EQ(pose.translation(), Vector3(1, 2, 3));
 }
@@ -196,6 +196,56 @@ in_spindle = true
   const auto result = (*machine)->measure(positions({30, 15, -345}), machine::Feed::at(300));
   ASSERT_EQ(result.end, machine::MeasureEnd::Touched) << result.detail;
   EXPECT_NEAR(result.latched[0], 18, 1e-9) << "the face x = 20, one ball radius before it";
+}
+
+TEST(Setup, BuildsPartsOfFeaturesAndGauges) {
+  const auto setup = read(R"(
+[part]
+pose = { x = 100, z = -500, c = 90 }
+[[part.feature]]
+shape = "box"
+size = [120, 80, 40]
+[[part.feature]]
+shape = "hole"
+diameter = 30
+depth = 20
+centre = [20, 0, 40]
+[ring]
+diameter = 50
+pose = { x = -100, z = -480 }
+[sphere]
+diameter = 30
+pose = { x = -100, y = 100, z = -450 }
+[gauge_block]
+size = [20, 20, 50]
+pose = { x = -100, y = -100, z = -450 }
+[[tool]]
+number = 1
+kind = "probe"
+length = 100
+ball_radius = 2
+in_spindle = true
+)");
+  auto built = buildMachine(setup);
+  ASSERT_TRUE(built) << format(built.error());
+  VirtualMachine& machine = **built;
+  using testing_support::positions;
+  const auto touch = [&](std::initializer_list<double> from, std::initializer_list<double> to, std::size_t axis) {
+    machine.move(positions({from.begin()[0], from.begin()[1], 0}), machine::Feed::rapidTraverse());
+    EXPECT_EQ(machine.move(positions(from), machine::Feed::rapidTraverse()).end, machine::MoveEnd::Reached);
+    const auto result = machine.measure(positions(to), machine::Feed::at(300));
+    EXPECT_EQ(result.end, machine::MeasureEnd::Touched) << result.detail;
+    machine.retract(positions(from), machine::Feed::rapidTraverse());
+    machine.move(positions({from.begin()[0], from.begin()[1], 0}), machine::Feed::rapidTraverse());
+    return result.latched[axis];
+  };
+  // The hole lies 20 mm along the part's X, which is the table's Y: x 100, y 20, and is 15 - 2 mm wide to the ball.
+  EXPECT_NEAR(touch({100, 20, -370}, {130, 20, -370}, 0), 113, 1e-6);
+  EXPECT_NEAR(touch({100, 20, -370}, {100, 0, -370}, 1), 7, 1e-6);
+  EXPECT_NEAR(touch({100, -40, -350}, {100, -40, -370}, 2), -360, 1e-6) << "the top, 40 mm above z = -500";
+  EXPECT_NEAR(touch({-100, 0, -385}, {-60, 0, -385}, 0), -77, 1e-6) << "the ring";
+  EXPECT_NEAR(touch({-100, 100, -330}, {-100, 100, -340}, 2), -335, 1e-6) << "the top of the sphere";
+  EXPECT_NEAR(touch({-100, -100, -340}, {-100, -100, -360}, 2), -350, 1e-6) << "the top of the gauge block";
 }
 
 TEST_F(SetupOnDisk, MissingPartIsReportedWhereItIsNamed) {
@@ -269,7 +319,18 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"machine = \"mill3\"", "s.toml:1:11: error: \"machine\" must be a table, written [machine]"},
         Mistake{"[control]\ntype = \"TNC64\"", "Did you mean \"TNC640\"?"},
         Mistake{"[control]\ntables = \"no-such-folder\"", "s.toml:2:10: error: there is no folder"},
-        Mistake{"[part]\nname = \"a\"", "s.toml:1:1: error: \"file\" is missing in [part]"},
+        Mistake{"[part]\nname = \"a\"", "s.toml:1:1: error: [part] needs a file or features, one of both"},
+        Mistake{"[[part.feature]]\nshape = \"bax\"", "s.toml:2:9: error: \"bax\" is no shape"},
+        Mistake{"[[part.feature]]\nshape = \"bax\"", "Did you mean \"box\"?"},
+        Mistake{"[[part.feature]]\nshape = \"box\"\nsize = [1, 2]", "\"size\" in [[part.feature]] must be a list of 3"},
+        Mistake{"[[part.feature]]\nshape = \"box\"\nsize = [1, 2, -3]", "s.toml:3:8: error: lengths must be above 0"},
+        Mistake{"[[part.feature]]\nshape = \"sphere\"\ndiameter = 5\ndepth = 3",
+                "s.toml:4:1: error: unknown key \"depth\" in [[part.feature]]"},
+        Mistake{"[[part.feature]]\nshape = \"fillet\"\nradius = 5\nedges = [1]",
+                "s.toml:4:9: error: \"edges\" in [[part.feature]] must be a list of points"},
+        Mistake{"[[fixture]]\n[[fixture.feature]]\nshape = \"hole\"\ndiameter = 5\n[[fixture.feature.pattern]]\n"
+                "kind = \"linear\"\ncount = 0\nspacing = [1, 0, 0]",
+                "s.toml:7:9: error: \"count\" in [[fixture.feature.pattern]] must be a whole number from 1 to 10000"},
         Mistake{"[part]\nfile = \"a.dwg\"", "s.toml:2:8: error: \"a.dwg\" is no kind of part file"},
         Mistake{"[part]\nfile = \"a.stl\"\npose = { x = \"1\" }", "\"x\" in [part.pose] must be a number"},
         Mistake{"[part]\nfile = \"a.stl\"\npose = { alpha = 1 }", "unknown key \"alpha\" in [part.pose]"},
