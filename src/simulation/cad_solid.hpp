@@ -36,7 +36,8 @@ public:
   const TopoDS_Shape& shape() const;
   std::size_t faceCount() const;
   std::size_t triangleCount() const;
-  DrawingMesh drawing() const;
+  /// `deflection`: how far triangles may leave the surface, mm.
+  DrawingMesh drawing(double deflection = 0.05) const;
 
 private:
   bool isInside(const Vector3& point) const;
