@@ -96,14 +96,15 @@ std::vector<EvaluatedTouch> probeWidth(HeidenhainProber& prober, const WidthTask
   }
   Heights used = heights;
   if (task.side == Side::Outside) used.between = Between::AtClearanceHeight;
-  return probePoints(prober, plan, used);
+  return probePoints(prober, {{plan[0]}, {plan[1]}}, used);
 }
 
-std::vector<EvaluatedTouch> probePoints(HeidenhainProber& prober, const std::vector<PlannedTouch>& plan,
+std::vector<EvaluatedTouch> probePoints(HeidenhainProber& prober, const std::vector<RoutedTouch>& plan,
                                         const Heights& heights) {
   std::vector<EvaluatedTouch> touches;
   for (std::size_t i = 0; i < plan.size(); ++i) {
-    const Vector3 start = prober.prePosition(plan[i], heights.extraClearance);
+    const auto& [touch, via] = plan[i];
+    const Vector3 start = prober.prePosition(touch, heights.extraClearance);
     if (i == 0) {
       prober.approach(start, heights.clearance);
     } else if (heights.between == Between::AtClearanceHeight) {
@@ -111,9 +112,10 @@ std::vector<EvaluatedTouch> probePoints(HeidenhainProber& prober, const std::vec
       prober.moveInPlane(start);
       prober.moveTo(start);
     } else {
+      if (via) prober.moveInPlane(at(*via, 0));
       prober.moveTo(start);
     }
-    touches.push_back(prober.touch(plan[i]));
+    touches.push_back(prober.touch(touch));
   }
   prober.moveSouthPoleTo(heights.clearance);
   return touches;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "probing/heidenhain_prober.hpp"
@@ -59,8 +60,14 @@ struct WidthTask {
 /// probe rises to the clearance height.
 std::vector<EvaluatedTouch> probeWidth(HeidenhainProber& prober, const WidthTask& task, const Heights& heights);
 
+/// A touch and a place in the plane that the way to it leads over when it leads along the measuring height.
+struct RoutedTouch {
+  PlannedTouch touch;
+  std::optional<Vector2> via = std::nullopt;
+};
+
 /// Single points in the order given, each with the positioning logic of the cycles; between them as `heights` say.
-std::vector<EvaluatedTouch> probePoints(HeidenhainProber& prober, const std::vector<PlannedTouch>& plan,
+std::vector<EvaluatedTouch> probePoints(HeidenhainProber& prober, const std::vector<RoutedTouch>& plan,
                                         const Heights& heights);
 
 }  // namespace probewright::probing

@@ -1,33 +1,24 @@
 #include "cycles/heidenhain/circle_measurement.hpp"
 #include "cycles/heidenhain/cycles.hpp"
-#include "cycles/heidenhain/parameters.hpp"
+#include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/transfer.hpp"
 
 namespace probewright::cycles::heidenhain {
 namespace {
 
-constexpr Parameter parameters412[] = {
-    parameters::coordinate(321, "Q321", "nominal centre in the main axis"),
-    parameters::coordinate(322, "Q322", "nominal centre in the minor axis"),
-    parameters::length(262, "Q262", "nominal diameter of the hole, rather too small than too large"),
-    parameters::angle(325, "Q325", "angle of the first touch from the main axis"),
-    parameters::angle(247, "Q247", "angle from touch to touch, negative: clockwise; at least 5 degrees", -120, 120),
-    parameters::measuringHeight,
-    parameters::setUpClearance,
-    parameters::clearanceHeight,
-    parameters::moveToClearance,
-    parameters::tableRow,
-    parameters::newPreset1,
-    parameters::newPreset2,
-    parameters::standard(parameters::transfer, -1),
-    parameters::standard(parameters::probeToolAxis, 0),
-    parameters::standard(parameters::toolAxisPoint1, 0),
-    parameters::standard(parameters::toolAxisPoint2, 0),
-    parameters::standard(parameters::toolAxisPoint3, 0),
-    parameters::standard(parameters::newPreset3, 0),
-    parameters::pointCount,
-    parameters::traverse,
-};
+using namespace parameters;
+
+constexpr std::array parameters412 =
+    joined(joined(
+               std::array{
+                   coordinate(321, "Q321", "nominal centre in the main axis"),
+                   coordinate(322, "Q322", "nominal centre in the minor axis"),
+                   length(262, "Q262", "nominal diameter of the hole"),
+                   angle(325, "Q325", "angle of the first touch from the main axis"),
+                   angle(247, "Q247", "angle from touch to touch, negative: clockwise; at least 5 degrees", -120, 120),
+               },
+               heightsAndTravel),
+           joined(centreTransfer, std::array{pointCount, traverse}));
 
 constexpr ResultDefinition results412[] = {
     {"Q151", "actual centre, main axis"},

@@ -5,9 +5,26 @@
 /// Every HEIDENHAIN cycle: its catalogue entry and its code, each in the file of its number.
 namespace probewright::cycles::heidenhain {
 
-extern const CycleDefinition cycle412Definition, cycle421Definition;
+extern const CycleDefinition cycle408Definition;
+extern const CycleDefinition cycle409Definition;
+extern const CycleDefinition cycle410Definition;
+extern const CycleDefinition cycle411Definition;
+extern const CycleDefinition cycle412Definition;
+extern const CycleDefinition cycle413Definition;
+extern const CycleDefinition cycle414Definition;
+extern const CycleDefinition cycle417Definition;
+extern const CycleDefinition cycle419Definition;
+extern const CycleDefinition cycle421Definition;
 
+void cycle408(Context& context, const Arguments& arguments);
+void cycle409(Context& context, const Arguments& arguments);
+void cycle410(Context& context, const Arguments& arguments);
+void cycle411(Context& context, const Arguments& arguments);
 void cycle412(Context& context, const Arguments& arguments);
+void cycle413(Context& context, const Arguments& arguments);
+void cycle414(Context& context, const Arguments& arguments);
+void cycle417(Context& context, const Arguments& arguments);
+void cycle419(Context& context, const Arguments& arguments);
 void cycle421(Context& context, const Arguments& arguments);
 
 }  // namespace probewright::cycles::heidenhain

@@ -8,7 +8,9 @@ namespace probewright::cycles::heidenhain {
 
 std::span<const Entry> entries() {
   static constexpr Entry all[] = {
-      {&cycle412Definition, cycle412},
+      {&cycle408Definition, cycle408}, {&cycle409Definition, cycle409}, {&cycle410Definition, cycle410},
+      {&cycle411Definition, cycle411}, {&cycle412Definition, cycle412}, {&cycle413Definition, cycle413},
+      {&cycle414Definition, cycle414}, {&cycle417Definition, cycle417}, {&cycle419Definition, cycle419},
       {&cycle421Definition, cycle421},
   };
   return all;

@@ -1,0 +1,125 @@
+#include "control/sinumerik/control.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "control/alarm.hpp"
+#include "control/sinumerik/text.hpp"
+#include "control/sinumerik/tool_data.hpp"
+
+namespace probewright::control::sinumerik {
+namespace {
+
+Frame chained(const Frame& outer, const Frame& inner) {
+  const Result<Frame> frame = chain(outer, inner);
+  if (!frame) throw Alarm("18314", "Frames cannot be chained: " + frame.error().message, frame.error().advice);
+  return *frame;
+}
+
+}  // namespace
+
+Control::Control(machine::Machine& machine, DataStore store)
+    : panel(journal), channel(machine, journal), data(std::move(store)) {
+  channel.alarms = {"10720", "61302", "61302"};
+  if (!channel.description().axisIndex("Y")) plane = 18;
+  applyFrames();
+}
+
+int Control::toolNumbered(const std::string& name) const {
+  const std::optional<int> number = toolNamed(data, name);
+  if (!number) {
+    throw Alarm("17190", fmt::format("There is no tool named {}", name),
+                "create the tool ($TC_TP2) or correct the name");
+  }
+  return *number;
+}
+
+void Control::loadTool(int number) {
+  if (number != 0 && !toolEdge(data, number, 1)) {
+    throw Alarm("17190", fmt::format("Illegal T number {}: the tool has no data", number),
+                "create the tool ($TC_DP1...) or correct the T number");
+  }
+  const std::string name = toolName(data, number);
+  if (number != tool.number) {
+    channel.changeTool({number, name});
+    panel.message(EventKind::Tool, fmt::format("Tool T{}{}{}", number, name.empty() ? "" : " ", name),
+                  channel.seconds());
+  }
+  tool = {};
+  tool.number = number;
+  tool.name = name;
+  selectEdge(number == 0 ? 0 : 1);
+}
+
+void Control::selectEdge(int edge) {
+  if (edge != 0 && !toolEdge(data, tool.number, edge)) {
+    throw Alarm("17180", fmt::format("Illegal D number {}: tool {} has no such cutting edge", edge, tool.number),
+                "correct the D number");
+  }
+  tool.edge = edge;
+  refreshTool();
+}
+
+void Control::refreshTool() {
+  const ToolEdge edge = toolEdge(data, tool.number, tool.edge, tool.dl).value_or(ToolEdge{});
+  tool.type = edge.type;
+  tool.position = edge.position;
+  tool.radius = edge.totalRadius();
+  tool.correctionAngle = edge.correctionAngle;
+  const bool asTurning = machineData("$SC_TOOL_LENGTH_TYPE") == 2;
+  const auto active = plane == 18   ? sinumerik::WorkingPlane::G18
+                      : plane == 19 ? sinumerik::WorkingPlane::G19
+                                    : sinumerik::WorkingPlane::G17;
+  channel.toolVector = toolVector(active, edge, asTurning);
+  channel.toolRadius = tool.radius;
+}
+
+void Control::activateSettable(int number) {
+  const int count = static_cast<int>(machineData("$MC_MM_NUM_USER_FRAMES", 100));
+  if (number < 0 || number >= count) {
+    throw Alarm("18310", fmt::format("There is no settable zero offset {}", number), "use G54 to G57 or G505 to G599");
+  }
+  frames.settable = number;
+  applyFrames();
+}
+
+Eigen::Affine3d Control::machineFromBase() const { return transform(frames.base); }
+
+Eigen::Affine3d Control::machineFromWorkpiece() const {
+  if (frames.suppressed) return Eigen::Affine3d::Identity();
+  return transform(frames.base) * transform(frames.settableFrame) * transform(frames.toolOriented) *
+         transform(frames.programmed);
+}
+
+void Control::applyFrames() {
+  frames.base = chained(chained(data.frame("$P_SETFR", {}), data.frame("$P_NCBFR", {0})), data.frame("$P_CHBFR", {0}));
+  frames.settableFrame = data.frame("$P_UIFR", {frames.settable});
+  refreshTool();
+  const machine::MachineDescription& description = channel.description();
+  for (std::size_t i = 0; i < description.axes.size(); ++i) {
+    if (description.axes[i].kind != machine::AxisKind::Rotary) continue;
+    const std::string axis = upperCase(description.axes[i].name);
+    const auto offset = [&axis](const Frame& frame) {
+      return frame.get(axis, FramePart::Translation) + frame.get(axis, FramePart::Fine);
+    };
+    channel.rotaryOffset[i] = frames.suppressed ? 0
+                                                : offset(frames.base) + offset(frames.settableFrame) +
+                                                      offset(frames.toolOriented) + offset(frames.programmed);
+  }
+  channel.holdTip = transformation;
+  channel.setFollowing(swivelled || transformation ? Following::Kinematics : Following::LinearAxes,
+                       channel.rotaryOffset);
+  channel.setFrame(machineFromWorkpiece());
+}
+
+void Control::write(const DataKey& key, double value) {
+  const std::optional<DataValue> before = data.get(key);
+  data.set(key, value);
+  const std::string text = key.text();
+  const std::size_t bracket = text.find('[');
+  journal.write({text.substr(0, bracket), bracket == std::string::npos ? "" : text.substr(bracket),
+                 before ? valueText(*before) : "", valueText(value)});
+}
+
+}  // namespace probewright::control::sinumerik

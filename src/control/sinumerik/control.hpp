@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "control/channel.hpp"
+#include "control/journal.hpp"
+#include "control/operator_panel.hpp"
+#include "control/sinumerik/data_store.hpp"
+#include "control/sinumerik/frame.hpp"
+#include "control/working_plane.hpp"
+
+/// Everything a SINUMERIK control knows while a program runs.
+namespace probewright::control::sinumerik {
+
+/// The tool in the spindle or turret.
+struct ActiveTool {
+  int number = 0;  ///< T number
+  int edge = 0;    ///< D number; 0: no offset active
+  std::string name;
+  int type = 0;                ///< $TC_DP1
+  int position = 0;            ///< $TC_DP2, cutting edge position
+  int dl = 0;                  ///< active DL number: additive and setup offset; 0: none
+  double radius = 0;           ///< with wear and offsets
+  double correctionAngle = 0;  ///< $TC_DP10
+  bool isProbe() const { return type == 580 || (type >= 710 && type <= 714); }
+  bool isTurning() const { return type >= 500 && type < 600; }
+};
+
+/// The frames in effect, from the outside in. Machine from workpiece = base : settable : swivel : programmed.
+struct ActiveFrames {
+  int settable = 0;         ///< n of $P_UIFR[n]: 1 = G54; 0 = G500
+  Frame base;               ///< chain of system, global and channel basic frames
+  Frame settableFrame;      ///< $P_IFRAME
+  Frame toolOriented;       ///< $P_WPFRAME, $P_TOOLFRAME: swivelled planes of CYCLE800
+  Frame programmed;         ///< $P_PFRAME
+  bool suppressed = false;  ///< G53, SUPA for one block
+};
+
+class Control {
+public:
+  Control(machine::Machine& machine, DataStore data);
+  Control(const Control&) = delete;
+  Control& operator=(const Control&) = delete;
+
+  Journal journal;
+  OperatorPanel panel;
+  Channel channel;
+  DataStore data;
+
+  int plane = 17;  ///< 17, 18, 19
+  ActiveTool tool;
+  ActiveFrames frames;
+  bool swivelled = false;           ///< a CYCLE800 swivel is active: coordinates follow the rotary axes
+  bool transformation = false;      ///< TRAORI: the tip holds its place
+  bool diameter = false;            ///< DIAMON: the X axis counts diameters
+  double unit = 1;                  ///< mm in one program unit: 25.4 with G70/G700 on a metric control
+  int level = 1;                    ///< program level
+  bool radiusCompensation = false;  ///< G41 or G42 is active
+  bool dryRun = false, programTest = false, blockSearch = false;
+  std::string programPath;
+  std::int64_t wallClockStart = 0;
+  std::array<double, 32> ovr{};  ///< _OVR
+  std::array<int, 20> ovi{};     ///< _OVI
+
+  WorkingPlane workingPlane() const { return WorkingPlane::ofToolAxis(plane == 18 ? 'Y' : plane == 19 ? 'X' : 'Z'); }
+
+  /// Loads tool `number`; 0 empties the spindle. Throws Alarm 17190 if it has no data. D1 becomes active.
+  void loadTool(int number);
+  /// The number of the tool called `name`; throws Alarm 17190 if there is none.
+  int toolNumbered(const std::string& name) const;
+  /// Activates an offset (0: none). Throws Alarm 17180 if the tool has no such edge.
+  void selectEdge(int edge);
+  /// Puts the data of the active tool and edge into effect again.
+  void refreshTool();
+
+  /// Activates settable frame n (0: G500). Throws Alarm 18310 if there is none.
+  void activateSettable(int number);
+  /// Reads base and settable frames from the store again and hands the chain to the channel. To be called after any
+  /// change of frames, plane or tool.
+  void applyFrames();
+  /// Machine coordinates from workpiece coordinates.
+  Eigen::Affine3d machineFromWorkpiece() const;
+  /// Machine coordinates from the coordinates inside which settable frame is entered.
+  Eigen::Affine3d machineFromBase() const;
+
+  /// Sets a datum of the store and records the change.
+  void write(const DataKey& key, double value);
+
+  double machineData(std::string_view name, double otherwise = 0) const { return data.number(name, {}, otherwise); }
+};
+
+}  // namespace probewright::control::sinumerik

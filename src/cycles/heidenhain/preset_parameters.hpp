@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+
+#include "cycles/heidenhain/parameters.hpp"
+
+/// The parameters at the end of most presetting cycles, in the order in which the control writes them. Programs of
+/// older controls end with Q332: they know no Q303, which counts as -1, and set no preset in the touch probe axis.
+namespace probewright::cycles::heidenhain::parameters {
+
+template <std::size_t First, std::size_t Last>
+constexpr std::array<Parameter, First + Last> joined(const std::array<Parameter, First>& first,
+                                                     const std::array<Parameter, Last>& last) {
+  std::array<Parameter, First + Last> all{};
+  for (std::size_t i = 0; i < First; ++i)
+    all[i] = first[i];
+  for (std::size_t i = 0; i < Last; ++i)
+    all[First + i] = last[i];
+  return all;
+}
+
+/// Q303 and the preset in the touch probe axis.
+inline constexpr std::array transferAndToolAxis = {
+    standard(transfer, -1),      standard(probeToolAxis, 0),  standard(toolAxisPoint1, 0),
+    standard(toolAxisPoint2, 0), standard(toolAxisPoint3, 0), standard(newPreset3, 0),
+};
+
+/// Where the measured centre goes: Q305, Q331, Q332, Q303, and the preset in the touch probe axis.
+inline constexpr std::array centreTransfer = joined(std::array{tableRow, newPreset1, newPreset2}, transferAndToolAxis);
+
+inline constexpr std::array heights = {measuringHeight, setUpClearance, clearanceHeight};
+inline constexpr std::array heightsAndTravel = {measuringHeight, setUpClearance, clearanceHeight, moveToClearance};
+
+}  // namespace probewright::cycles::heidenhain::parameters

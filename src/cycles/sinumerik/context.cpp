@@ -1,0 +1,236 @@
+#include "cycles/sinumerik/context.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/number_text.hpp"
+#include "control/alarm.hpp"
+
+namespace probewright::cycles::sinumerik {
+
+using control::Alarm;
+using control::EventKind;
+using control::sinumerik::FramePart;
+
+namespace {
+
+const Parameter* parameterNamed(const CycleDefinition& definition, std::string_view name) {
+  const auto found = std::ranges::find(definition.parameters, name, &Parameter::name);
+  return found == definition.parameters.end() ? nullptr : &*found;
+}
+
+const Parameter& required(const Arguments& arguments, std::string_view name) {
+  const Parameter* parameter = parameterNamed(arguments.definition(), name);
+  if (parameter == nullptr) {
+    throw std::logic_error(fmt::format("{} has no parameter {}", arguments.definition().name, name));
+  }
+  return *parameter;
+}
+
+const ResultDefinition* resultNamed(const CycleDefinition& definition, std::string_view name) {
+  const auto found = std::ranges::find(definition.results, name, &ResultDefinition::name);
+  return found == definition.results.end() ? nullptr : &*found;
+}
+
+bool scales(ValueKind kind) { return kind == ValueKind::Length || kind == ValueKind::Feed; }
+
+}  // namespace
+
+Context::Context(Control& control, const Arguments& arguments, SourcePlace place)
+    : control_(control), arguments_(arguments), planeBefore_(control.plane) {
+  const CycleDefinition& definition = arguments.definition();
+  control::CycleRecord record;
+  record.name = definition.name;
+  record.title = definition.title;
+  record.place = std::move(place);
+  for (std::size_t i = 0; i < definition.parameters.size(); ++i) {
+    const Argument& value = arguments.values()[i];
+    const Parameter& parameter = definition.parameters[i];
+    record.parameters.push_back({std::string(parameter.name), value.isText ? value.text : formatShortest(value.number),
+                                 std::string(parameter.meaning), !value.given});
+  }
+  record.startSeconds = control.channel.seconds();
+  record_ = control.journal.cycles.size();
+  control.journal.cycles.push_back(std::move(record));
+  control.journal.cycleOpen = true;
+  control.ovr.fill(0);
+  control.ovi.fill(0);
+  const int plane = has("_DMODE") ? digit("_DMODE", 1) : 0;
+  if (plane >= 1 && plane <= 3 && control.plane != 16 + plane) {
+    control.plane = 16 + plane;
+    control.applyFrames();
+  }
+  resultInteger(2, definition.number);
+}
+
+Context::~Context() {
+  record().endSeconds = control_.channel.seconds();
+  control_.journal.cycleOpen = false;
+  if (control_.plane != planeBefore_) {
+    control_.plane = planeBefore_;
+    control_.applyFrames();
+  }
+}
+
+double Context::real(std::string_view name) const {
+  const Parameter& parameter = required(arguments_, name);
+  const Argument& argument = arguments_.at(parameter.address);
+  return scales(parameter.kind) && argument.given ? argument.number * control_.unit : argument.number;
+}
+
+int Context::integer(std::string_view name) const { return arguments_.integer(required(arguments_, name).address); }
+
+const std::string& Context::text(std::string_view name) const {
+  return arguments_.text(required(arguments_, name).address);
+}
+
+bool Context::given(std::string_view name) const { return arguments_.given(required(arguments_, name).address); }
+
+bool Context::has(std::string_view name) const { return parameterNamed(arguments_.definition(), name) != nullptr; }
+
+int Context::digit(std::string_view name, int place) const {
+  long value = std::abs(static_cast<long>(integer(name)));
+  for (int i = 1; i < place; ++i)
+    value /= 10;
+  return static_cast<int>(value % 10);
+}
+
+int Context::dataSet() const {
+  const int number = std::max(1, integer("S_PRNUM"));
+  if (number > 12) throw Alarm("61313", std::string(alarmText(61313)), std::string(alarmAdvice(61313)));
+  return number - 1;
+}
+
+void Context::requireProbe(std::initializer_list<int> types) const {
+  const auto refuse = [](int number) {
+    throw Alarm(std::to_string(number), std::string(alarmText(number)), std::string(alarmAdvice(number)));
+  };
+  if (control_.level > 5) refuse(61300);
+  if (control_.tool.edge == 0) refuse(61311);
+  if (std::ranges::find(types, control_.tool.type) == types.end()) refuse(61309);
+  for (const auto* frame : {&control_.frames.base, &control_.frames.settableFrame, &control_.frames.programmed}) {
+    for (const auto& axis : frame->geometry) {
+      if (axis.scale != 1) refuse(61310);
+    }
+  }
+  if (control_.radiusCompensation) {
+    throw Alarm("61300", "Tool radius compensation is active", "program G40 before the measuring cycle");
+  }
+}
+
+probing::SinumerikProber& Context::prober() {
+  if (!prober_) {
+    prober_.emplace(control_.channel, control_.workingPlane(), probeOfDataSet(control_, dataSet()), habitsOf(control_));
+  }
+  return *prober_;
+}
+
+int Context::repetitions() const { return std::clamp(integer("S_NMSP"), 1, 9); }
+
+void Context::result(int index, double value, const Compared& compared) {
+  const std::string name = fmt::format("_OVR[{}]", index);
+  const ResultDefinition* definition = resultNamed(arguments_.definition(), name);
+  const ValueKind kind = definition == nullptr ? ValueKind::Length : definition->kind;
+  control_.ovr[static_cast<std::size_t>(index)] = scales(kind) ? value / control_.unit : value;
+  control::ResultRecord record;
+  record.name = name;
+  record.meaning = definition == nullptr ? std::string_view() : definition->meaning;
+  record.value = value;
+  record.unit = unitOf(kind);
+  record.nominal = compared.nominal;
+  if (compared.nominal) record.deviation = value - *compared.nominal;
+  record.lowerLimit = compared.lower;
+  record.upperLimit = compared.upper;
+  record.verdict = compared.verdict;
+  this->record().results.push_back(std::move(record));
+}
+
+void Context::resultInteger(int index, int value) {
+  control_.ovi[static_cast<std::size_t>(index)] = value;
+  const std::string name = fmt::format("_OVI[{}]", index);
+  const ResultDefinition* definition = resultNamed(arguments_.definition(), name);
+  control::ResultRecord record;
+  record.name = name;
+  record.meaning = definition == nullptr ? std::string_view() : definition->meaning;
+  record.value = value;
+  this->record().results.push_back(std::move(record));
+}
+
+void Context::checkSafeArea(double difference) {
+  const double limit = real("S_TSA");
+  if (std::abs(difference) > limit) {
+    alarm(61303, fmt::format("difference {:.4f} mm, safe area TSA {:.4f} mm", difference, limit));
+  }
+}
+
+void Context::alarm(int number, const std::string& detail) {
+  resultInteger(9, number);
+  throw Alarm(std::to_string(number),
+              detail.empty() ? std::string(alarmText(number)) : fmt::format("{}: {}", alarmText(number), detail),
+              std::string(alarmAdvice(number)));
+}
+
+void Context::warn(int number, const std::string& detail) {
+  resultInteger(9, number);
+  control_.panel.message(
+      EventKind::Warning,
+      detail.empty() ? std::string(alarmText(number)) : fmt::format("{}: {}", alarmText(number), detail),
+      control_.channel.seconds(), std::to_string(number));
+}
+
+void runCycle(Control& control, const Entry& entry, const Arguments& arguments, const SourcePlace& place) {
+  if (control.dryRun || control.programTest || control.blockSearch) {
+    control.panel.message(
+        EventKind::Skipped,
+        fmt::format("{} is skipped in dry run, program test and block search", entry.definition->name),
+        control.channel.seconds());
+    return;
+  }
+  const Diagnostics mistakes = check(arguments, control::ControlKind::Sinumerik840Dsl);
+  if (!mistakes.empty()) throw Alarm("12150", mistakes.front().message, mistakes.front().advice);
+  Context context(control, arguments, place);
+  try {
+    entry.run(context, arguments);
+  } catch (const Alarm& alarm) {
+    context.record().alarm = alarm.what();
+    throw;
+  }
+}
+
+probing::SinumerikProbe probeOfDataSet(const Control& control, int index) {
+  const auto datum = [&](const char* name) { return control.data.number(name, {index}); };
+  probing::SinumerikProbe probe;
+  probe.ballDiameter = datum("$SNS_MEA_WP_BALL_DIAM");
+  probe.triggerMinus = {datum("$SNS_MEA_WP_TRIG_MINUS_DIR_AX1"), datum("$SNS_MEA_WP_TRIG_MINUS_DIR_AX2"),
+                        datum("$SNS_MEA_WP_TRIG_MINUS_DIR_AX3")};
+  probe.triggerPlus = {datum("$SNS_MEA_WP_TRIG_PLUS_DIR_AX1"), datum("$SNS_MEA_WP_TRIG_PLUS_DIR_AX2"),
+                       datum("$SNS_MEA_WP_TRIG_PLUS_DIR_AX3")};
+  probe.positionDeviation = {datum("$SNS_MEA_WP_POS_DEV_AX1"), datum("$SNS_MEA_WP_POS_DEV_AX2")};
+  const double feed = datum("$SNS_MEA_WP_FEED");
+  probe.feed = feed > 0 ? feed : control.data.number("$SCS_MEA_FEED_MEASURE", {}, 300);
+  probe.monodirectional = control.tool.type == 712;
+  probe.correctionAngle = control.tool.correctionAngle;
+  const auto mask = static_cast<long>(control.machineData("$MNS_MEA_FUNCTION_MASK", 1 << 1));
+  probe.lengthToCentre = (mask >> 1 & 1) == 0 || control.tool.type == 580;
+  return probe;
+}
+
+probing::SinumerikHabits habitsOf(const Control& control) {
+  probing::SinumerikHabits habits;
+  habits.planeFeed = control.machineData("$SCS_MEA_FEED_PLANE_VALUE", habits.planeFeed);
+  habits.infeedFeed = control.machineData("$SCS_MEA_FEED_FEEDAX_VALUE", habits.infeedFeed);
+  habits.circleFeed = control.machineData("$SCS_MEA_FEED_CIRCLE", habits.planeFeed);
+  habits.fastFeed = control.machineData("$SCS_MEA_FEED_FAST_MEASURE", habits.fastFeed);
+  habits.rapidPercent = control.machineData("$SCS_MEA_FEED_RAPID_IN_PERCENT", habits.rapidPercent);
+  const auto mask = static_cast<long>(control.machineData("$SCS_MEA_FUNCTION_MASK", 1));
+  habits.monitorCollisions = (mask & 1) != 0;
+  habits.oneAttempt = (mask >> 3 & 1) != 0;
+  habits.fastApproach = (mask >> 4 & 1) != 0;
+  habits.rapidRetract = (mask >> 5 & 1) != 0;
+  return habits;
+}
+
+}  // namespace probewright::cycles::sinumerik

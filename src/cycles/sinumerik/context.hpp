@@ -1,0 +1,100 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "control/sinumerik/control.hpp"
+#include "cycles/catalogue.hpp"
+#include "cycles/sinumerik/registry.hpp"
+#include "probing/sinumerik_prober.hpp"
+#include "probing/touch_plan.hpp"
+
+/// What SINUMERIK measuring cycles are written with.
+///
+/// Coordinates are (1st, 2nd, 3rd axis of the plane) of the active workpiece coordinate system, mm and degrees: values
+/// of arguments and results are converted at this border in inch programs.
+namespace probewright::cycles::sinumerik {
+
+using control::Verdict;
+using control::sinumerik::Control;
+using probing::MeasuredPoint;
+using probing::Side;
+
+/// A value with the numbers a reader compares it with.
+struct Compared {
+  std::optional<double> nominal = std::nullopt;
+  std::optional<double> lower = std::nullopt;  ///< absolute limits
+  std::optional<double> upper = std::nullopt;
+  Verdict verdict = Verdict::None;
+};
+
+class Context {
+public:
+  /// Opens the cycle's record, clears _OVR and _OVI, and selects the plane that _DMODE asks for.
+  Context(Control& control, const Arguments& arguments, SourcePlace place);
+  /// Closes the record and restores the plane (PROC ... SAVE).
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  Control& control() { return control_; }
+  control::Channel& channel() { return control_.channel; }
+  const Arguments& arguments() const { return arguments_; }
+  control::CycleRecord& record() { return control_.journal.cycles[record_]; }
+
+  /// Call parameters by name: "S_FA". Lengths and feeds in mm, mm/min.
+  double real(std::string_view name) const;
+  int integer(std::string_view name) const;
+  const std::string& text(std::string_view name) const;
+  bool given(std::string_view name) const;
+  bool has(std::string_view name) const;
+  /// Decimal digit of a coded integer, counted from the right from 1: digit("S_MVAR", 1) is the units.
+  int digit(std::string_view name, int place) const;
+
+  /// The probe number as an index, S_PRNUM - 1; 0 or left out counts as 1. Alarm 61313 outside 1 to 12.
+  int dataSet() const;
+
+  /// Refuses to run without a probe of one of `types` (61309), without a tool offset (61311), with radius compensation
+  /// on (61303), with a scale factor (61310), or called too deep.
+  void requireProbe(std::initializer_list<int> types) const;
+
+  /// The prober with the calibration of data set S_PRNUM. Made on first use.
+  probing::SinumerikProber& prober();
+  /// Measurements at one place, S_NMSP; 0 counts as 1.
+  int repetitions() const;
+
+  /// Sets _OVR[index] (mm or degrees, converted to the program's unit) and records it.
+  void result(int index, double value, const Compared& compared = {});
+  /// Sets _OVI[index] and records it.
+  void resultInteger(int index, int value);
+
+  /// Alarm 61303 if `difference` exceeds the safe area S_TSA.
+  void checkSafeArea(double difference);
+
+  /// The alarm with its number and the control's text. Sets _OVI[9].
+  [[noreturn]] void alarm(int number, const std::string& detail = {});
+  /// A message that lets the program go on: oversize, undersize. Sets _OVI[9].
+  void warn(int number, const std::string& detail = {});
+
+private:
+  Control& control_;
+  const Arguments& arguments_;
+  std::size_t record_ = 0;
+  int planeBefore_ = 17;
+  std::optional<probing::SinumerikProber> prober_;
+};
+
+/// Runs cycle `entry` with `arguments` at `place`: skipped in dry run, program test and block search; otherwise checks
+/// the arguments, opens the record, runs, closes. An alarm is noted in the record and thrown on.
+void runCycle(Control& control, const Entry& entry, const Arguments& arguments, const SourcePlace& place);
+
+/// Calibration data set `index` (from 0) with what the active tool says.
+probing::SinumerikProbe probeOfDataSet(const Control& control, int index);
+probing::SinumerikHabits habitsOf(const Control& control);
+
+/// The control's text for an alarm of the measuring cycles: "Safe area exceeded". Empty for an unknown number.
+std::string_view alarmText(int number);
+std::string_view alarmAdvice(int number);
+
+}  // namespace probewright::cycles::sinumerik
