@@ -1,10 +1,10 @@
 #include "records/results.hpp"
 
-#include <unicode/unistr.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "records/readable_text.hpp"
 
 namespace probewright::records {
 
@@ -12,17 +12,13 @@ using nlohmann::json;
 
 namespace {
 
-json text(const std::string& bytes) {
-  std::string utf8;
-  icu::UnicodeString::fromUTF8(bytes).toUTF8String(utf8);
-  return utf8;
-}
-
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 json point(const Vector3& p) { return {number(p.x()), number(p.y()), number(p.z())}; }
 
-json place(const SourcePlace& p) { return {{"file", text(p.file)}, {"line", p.line}, {"column", p.column}}; }
+json place(const SourcePlace& p, const ReadableText& text) {
+  return {{"file", text(p.file)}, {"line", p.line}, {"column", p.column}};
+}
 
 std::string_view eventName(control::EventKind kind) {
   switch (kind) {
@@ -50,14 +46,14 @@ json axisPositions(const machine::AxisPositions& positions, const std::vector<ma
   return object;
 }
 
-json touch(const control::TouchRecord& record, const std::vector<machine::Axis>& axes) {
+json touch(const control::TouchRecord& record, const std::vector<machine::Axis>& axes, const ReadableText& text) {
   return {{"outcome", text(record.outcome)},      {"target", point(record.target)},
           {"direction", point(record.direction)}, {"ballCentre", point(record.ballCentre)},
           {"surface", point(record.surface)},     {"axes", axisPositions(record.latched, axes)},
           {"time", number(record.seconds)}};
 }
 
-json result(const control::ResultRecord& record) {
+json result(const control::ResultRecord& record, const ReadableText& text) {
   json object = {{"name", text(record.name)},
                  {"meaning", text(record.meaning)},
                  {"value", number(record.value)},
@@ -82,29 +78,29 @@ json list(const Records& records, Convert convert) {
   return array;
 }
 
-json write(const control::WriteRecord& record) {
+json write(const control::WriteRecord& record, const ReadableText& text) {
   return {{"table", text(record.table)},
           {"entry", text(record.entry)},
           {"before", text(record.before)},
           {"after", text(record.after)}};
 }
 
-json parameter(const control::ParameterRecord& record) {
+json parameter(const control::ParameterRecord& record, const ReadableText& text) {
   return {{"name", text(record.name)},
           {"value", text(record.value)},
           {"meaning", text(record.meaning)},
           {"default", record.isDefault}};
 }
 
-json cycle(const control::CycleRecord& record, const std::vector<machine::Axis>& axes) {
+json cycle(const control::CycleRecord& record, const std::vector<machine::Axis>& axes, const ReadableText& text) {
   json object = {{"name", text(record.name)},
                  {"title", text(record.title)},
-                 {"place", place(record.place)},
+                 {"place", place(record.place, text)},
                  {"verdict", verdictName(record.verdict)},
-                 {"parameters", list(record.parameters, parameter)},
-                 {"touches", list(record.touches, [&](const auto& t) { return touch(t, axes); })},
-                 {"results", list(record.results, result)},
-                 {"writes", list(record.writes, write)},
+                 {"parameters", list(record.parameters, [&](const auto& p) { return parameter(p, text); })},
+                 {"touches", list(record.touches, [&](const auto& t) { return touch(t, axes, text); })},
+                 {"results", list(record.results, [&](const auto& r) { return result(r, text); })},
+                 {"writes", list(record.writes, [&](const auto& w) { return write(w, text); })},
                  {"logFiles", list(record.logFiles, text)},
                  {"start", number(record.startSeconds)},
                  {"end", number(record.endSeconds)},
@@ -113,16 +109,16 @@ json cycle(const control::CycleRecord& record, const std::vector<machine::Axis>&
   return object;
 }
 
-json event(const control::EventRecord& record) {
+json event(const control::EventRecord& record, const ReadableText& text) {
   return {{"kind", eventName(record.kind)},
-          {"place", place(record.place)},
+          {"place", place(record.place, text)},
           {"code", text(record.code)},
           {"text", text(record.text)},
           {"time", number(record.seconds)}};
 }
 
-json header(const RunInfo& run) {
-  json object = {{"programs", list(run.programs, [](const ProgramSource& source) { return text(source.path); })},
+json header(const RunInfo& run, const ReadableText& text) {
+  json object = {{"programs", list(run.programs, [&](const ProgramSource& source) { return text(source.path); })},
                  {"language", text(run.language)},
                  {"control", text(run.control)},
                  {"machine", text(run.machine)},
@@ -179,22 +175,23 @@ control::Verdict worstVerdict(const control::Journal& journal) {
 }
 
 json resultsJson(const control::Journal& journal, const RunInfo& run) {
+  const ReadableText text(run);
   std::size_t touches = 0;
   for (const auto& record : journal.cycles)
     touches += record.touches.size();
   return {{"schema", "probewright results"},
           {"schemaVersion", resultsSchemaVersion},
           {"units", {{"length", "mm"}, {"angle", "deg"}, {"time", "s"}}},
-          {"run", header(run)},
+          {"run", header(run, text)},
           {"verdict", verdictName(worstVerdict(journal))},
           {"totals",
            {{"cycles", journal.cycles.size()},
             {"touches", touches},
             {"pathLength", number(run.totalPathLength)},
             {"time", number(run.totalSeconds)}}},
-          {"cycles", list(journal.cycles, [&](const auto& record) { return cycle(record, run.axes); })},
-          {"writes", list(journal.writes, write)},
-          {"events", list(journal.events, event)},
+          {"cycles", list(journal.cycles, [&](const auto& record) { return cycle(record, run.axes, text); })},
+          {"writes", list(journal.writes, [&](const auto& w) { return write(w, text); })},
+          {"events", list(journal.events, [&](const auto& e) { return event(e, text); })},
           {"files", list(run.outputFiles, text)}};
 }
 

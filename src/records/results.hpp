@@ -14,7 +14,7 @@ namespace probewright::records {
 inline constexpr int resultsSchemaVersion = 1;
 
 /// Everything that a run left behind. Lengths in mm, angles in degrees, times in seconds of the machine clock. A value
-/// that is no number (NaN, infinity) becomes null; bytes that are not UTF-8 become U+FFFD.
+/// that is no number (NaN, infinity) becomes null; texts become UTF-8 (see ReadableText).
 nlohmann::json resultsJson(const control::Journal& journal, const RunInfo& run);
 
 /// The same as the text of `results.json`: indented UTF-8, numbers in the shortest form that reads back as the same

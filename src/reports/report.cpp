@@ -11,9 +11,9 @@
 #include <set>
 #include <string_view>
 
+#include "records/readable_text.hpp"
 #include "records/results.hpp"
 #include "reports/embedded.hpp"
-#include "reports/readable_text.hpp"
 
 namespace probewright::reports {
 
@@ -78,8 +78,8 @@ std::string_view roleName(MeshRole role) {
   return "part";
 }
 
-json meshData(const Mesh& mesh) {
-  return {{"name", readableText(mesh.name)},
+json meshData(const Mesh& mesh, const records::ReadableText& readable) {
+  return {{"name", readable(mesh.name)},
           {"role", roleName(mesh.role)},
           {"pose", matrix(mesh.sceneFromMesh)},
           {"positions", base64(coordinates(mesh.positions))},
@@ -88,10 +88,10 @@ json meshData(const Mesh& mesh) {
           {"edges", base64(coordinates(mesh.featureEdges))}};
 }
 
-json sceneData(const Scene& scene) {
+json sceneData(const Scene& scene, const records::ReadableText& readable) {
   json meshes = json::array();
   for (const Mesh& mesh : scene.meshes)
-    meshes.push_back(meshData(mesh));
+    meshes.push_back(meshData(mesh, readable));
   std::vector<std::uint32_t> indices;
   std::vector<Vector3f> centres, surfaces;
   for (const SceneTouch& touch : scene.touches) {
@@ -141,7 +141,7 @@ std::map<std::string, std::set<std::uint64_t>> linesOfInterest(const control::Jo
 /// A program in pieces of consecutive lines: one piece if it is short, the surroundings of `interest` otherwise.
 json programData(const records::ProgramSource& source, const std::set<std::uint64_t>& interest, std::size_t longest) {
   constexpr std::uint64_t before = 10, after = 30;
-  const std::string text = readableText(source.text);
+  const std::string text = language::toUtf8(source.text, language::detectEncoding(source.text));
   const auto lines = splitLines(text);
   json pieces = json::array();
   const auto add = [&](std::uint64_t line) {
@@ -160,7 +160,6 @@ json programData(const records::ProgramSource& source, const std::set<std::uint6
         add(next);
     }
   }
-  // Cycles name their file by its path as bytes, which results.json holds in the same UTF-8.
   return {{"pieces", std::move(pieces)}, {"lineCount", lines.size()}};
 }
 
@@ -206,6 +205,7 @@ std::string fileName(const std::string& path) { return path.substr(path.find_las
 
 std::string reportHtml(const control::Journal& journal, const records::RunInfo& run, const Scene& scene,
                        std::size_t longestProgram) {
+  const records::ReadableText readable(run);
   const auto interest = linesOfInterest(journal);
   json programs = json::array();
   for (const auto& source : run.programs) {
@@ -213,9 +213,10 @@ std::string reportHtml(const control::Journal& journal, const records::RunInfo& 
     programs.push_back(
         programData(source, lines == interest.end() ? std::set<std::uint64_t>{} : lines->second, longestProgram));
   }
-  const json data = {
-      {"results", records::resultsJson(journal, run)}, {"programs", std::move(programs)}, {"scene", sceneData(scene)}};
-  const std::string title = run.programs.empty() ? "Measuring report" : fileName(readableText(run.programs[0].path));
+  const json data = {{"results", records::resultsJson(journal, run)},
+                     {"programs", std::move(programs)},
+                     {"scene", sceneData(scene, readable)}};
+  const std::string title = run.programs.empty() ? "Measuring report" : fileName(readable(run.programs[0].path));
 
   std::string html;
   html += "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";

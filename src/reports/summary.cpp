@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "base/number_text.hpp"
+#include "records/readable_text.hpp"
 #include "records/results.hpp"
-#include "reports/readable_text.hpp"
 
 namespace probewright::reports {
 
@@ -69,19 +69,26 @@ std::string quantity(double value, const std::string& unit) {
 
 std::string fileName(const std::string& path) { return path.substr(path.find_last_of("/\\") + 1); }
 
-/// One line of text whatever the program put into it: control characters must not reach the terminal.
-std::string line(const std::string& bytes) {
-  std::string text = readableText(bytes);
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
-  return text;
-}
+/// How the texts of this run are written.
+struct Style {
+  Painter paint;
+  records::ReadableText readable;
+  std::string mainProgram;
 
-std::string placeText(const SourcePlace& place, const std::string& mainProgram) {
-  if (place.line == 0) return "";
-  if (place.file == mainProgram || place.file.empty()) return fmt::format("line {}", place.line);
-  return fmt::format("{}:{}", line(fileName(place.file)), place.line);
-}
+  /// One line of text whatever the program put into it: control characters must not reach the terminal.
+  std::string line(const std::string& bytes) const {
+    std::string text = readable(bytes);
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
+    return text;
+  }
+
+  std::string place(const SourcePlace& place) const {
+    if (place.line == 0) return "";
+    if (place.file == mainProgram || place.file.empty()) return fmt::format("line {}", place.line);
+    return fmt::format("{}:{}", line(fileName(place.file)), place.line);
+  }
+};
 
 std::string duration(double seconds) {
   if (!(seconds >= 60)) return fmt::format("{:.1f} s", seconds);
@@ -98,7 +105,7 @@ std::string counted(std::size_t n, std::string_view one, std::string_view many) 
   return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
-std::string resultLine(const control::ResultRecord& result, const Painter& paint) {
+std::string resultLine(const control::ResultRecord& result, const Style& style) {
   std::string limits;
   if (result.lowerLimit && result.upperLimit)
     limits = fmt::format("  [{} .. {}]", quantity(*result.lowerLimit, result.unit),
@@ -107,42 +114,44 @@ std::string resultLine(const control::ResultRecord& result, const Painter& paint
   if (result.deviation && std::isfinite(*result.deviation))
     deviation = fmt::format(
         "  deviation {}", result.unit.empty() ? formatShortest(*result.deviation) : formatSigned(*result.deviation, 4));
-  std::string text = fmt::format("      {:<9} {:<44} {:>11} {:<3}{}{}", line(result.name), line(result.meaning),
-                                 quantity(result.value, result.unit), result.unit, deviation, limits);
+  std::string text =
+      fmt::format("      {:<9} {:<44} {:>11} {:<3}{}{}", style.line(result.name), style.line(result.meaning),
+                  quantity(result.value, result.unit), result.unit, deviation, limits);
   text.erase(text.find_last_not_of(' ') + 1);
-  if (result.verdict != Verdict::None) text += "  " + paint(tone(result.verdict), word(result.verdict));
+  if (result.verdict != Verdict::None) text += "  " + style.paint(tone(result.verdict), word(result.verdict));
   return text + "\n";
 }
 
-std::string writeLine(const control::WriteRecord& write) {
-  const auto shown = [](const std::string& value) { return value.empty() ? std::string("(empty)") : line(value); };
-  return fmt::format("      -> {} {}: {} -> {}\n", line(write.table), line(write.entry), shown(write.before),
-                     shown(write.after));
+std::string writeLine(const control::WriteRecord& write, const Style& style) {
+  const auto shown = [&](const std::string& value) {
+    return value.empty() ? std::string("(empty)") : style.line(value);
+  };
+  return fmt::format("      -> {} {}: {} -> {}\n", style.line(write.table), style.line(write.entry),
+                     shown(write.before), shown(write.after));
 }
 
-std::string cycleText(const control::CycleRecord& cycle, std::size_t number, const std::string& mainProgram,
-                      const Painter& paint) {
-  std::string text = fmt::format("{:>3}  {} {}", number, line(cycle.name), line(cycle.title));
-  const std::string place = placeText(cycle.place, mainProgram);
+std::string cycleText(const control::CycleRecord& cycle, std::size_t number, const Style& style) {
+  std::string text = fmt::format("{:>3}  {} {}", number, style.line(cycle.name), style.line(cycle.title));
+  const std::string place = style.place(cycle.place);
   if (!place.empty()) text += fmt::format("  ({})", place);
   if (!cycle.alarm.empty())
-    text += "  " + paint(Tone::Bad, "ALARM");
+    text += "  " + style.paint(Tone::Bad, "ALARM");
   else if (cycle.verdict != Verdict::None)
-    text += "  " + paint(tone(cycle.verdict), word(cycle.verdict));
+    text += "  " + style.paint(tone(cycle.verdict), word(cycle.verdict));
   text += "\n";
   const bool toleranced = std::any_of(cycle.results.begin(), cycle.results.end(),
                                       [](const auto& result) { return result.verdict != Verdict::None; });
   std::size_t shown = 0;
   for (const auto& result : cycle.results) {
     if (toleranced ? result.verdict == Verdict::None : shown == mostPlainResults) continue;
-    text += resultLine(result, paint);
+    text += resultLine(result, style);
     ++shown;
   }
   for (const auto& write : cycle.writes)
-    text += writeLine(write);
+    text += writeLine(write, style);
   for (const auto& file : cycle.logFiles)
-    text += fmt::format("      log {}\n", line(fileName(file)));
-  if (!cycle.alarm.empty()) text += fmt::format("      {}\n", paint(Tone::Bad, line(cycle.alarm)));
+    text += fmt::format("      log {}\n", style.line(fileName(file)));
+  if (!cycle.alarm.empty()) text += fmt::format("      {}\n", style.paint(Tone::Bad, style.line(cycle.alarm)));
   return text;
 }
 
@@ -164,24 +173,24 @@ std::string_view eventWord(control::EventKind kind) {
   return "";
 }
 
-std::string eventText(const control::EventRecord& event, const std::string& mainProgram, const Painter& paint) {
+std::string eventText(const control::EventRecord& event, const Style& style) {
   const bool grave = event.kind == control::EventKind::Alarm || event.kind == control::EventKind::Stop;
   const bool doubtful = event.kind == control::EventKind::Warning || event.kind == control::EventKind::Skipped;
   std::string text = "  " +
-                     paint(grave      ? Tone::Bad
-                           : doubtful ? Tone::Warning
-                                      : Tone::Plain,
-                           eventWord(event.kind)) +
+                     style.paint(grave      ? Tone::Bad
+                                 : doubtful ? Tone::Warning
+                                            : Tone::Plain,
+                                 eventWord(event.kind)) +
                      "  ";
-  text += line(event.code);
+  text += style.line(event.code);
   if (!event.code.empty() && !event.text.empty()) text += ": ";
-  text += line(event.text);
-  const std::string place = placeText(event.place, mainProgram);
+  text += style.line(event.text);
+  const std::string place = style.place(event.place);
   if (!place.empty()) text += fmt::format("  ({})", place);
   return text + "\n";
 }
 
-std::string outcome(const control::Journal& journal, const records::RunInfo& run, const Painter& paint) {
+std::string outcome(const control::Journal& journal, const records::RunInfo& run, const Style& style) {
   std::size_t toleranced = 0, outside = 0;
   for (const auto& cycle : journal.cycles) {
     for (const auto& result : cycle.results) {
@@ -189,26 +198,26 @@ std::string outcome(const control::Journal& journal, const records::RunInfo& run
       outside += result.verdict == Verdict::Rework || result.verdict == Verdict::Scrap;
     }
   }
-  const std::string why = run.exitText.empty() ? "" : ": " + line(run.exitText);
+  const std::string why = run.exitText.empty() ? "" : ": " + style.line(run.exitText);
   switch (run.exit) {
     case records::ExitState::Stopped:
-      return paint(Tone::Bad, "STOPPED") + why;
+      return style.paint(Tone::Bad, "STOPPED") + why;
     case records::ExitState::InputMistake:
-      return paint(Tone::Bad, "MISTAKE IN THE INPUT") + why;
+      return style.paint(Tone::Bad, "MISTAKE IN THE INPUT") + why;
     case records::ExitState::Internal:
-      return paint(Tone::Bad, "INTERNAL ERROR") + why;
+      return style.paint(Tone::Bad, "INTERNAL ERROR") + why;
     case records::ExitState::Good:
     case records::ExitState::OutOfTolerance:
       break;
   }
   const Verdict worst = records::worstVerdict(journal);
   if (run.exit == records::ExitState::OutOfTolerance || worst >= Verdict::Rework)
-    return paint(worst == Verdict::Scrap ? Tone::Bad : Tone::Warning, "OUT OF TOLERANCE") +
+    return style.paint(worst == Verdict::Scrap ? Tone::Bad : Tone::Warning, "OUT OF TOLERANCE") +
            (outside > 0
                 ? fmt::format(": {} of {}", outside, counted(toleranced, "toleranced value", "toleranced values"))
                 : why);
-  if (toleranced == 0) return paint(Tone::Good, "OK") + ": the program ran to its end, nothing had a tolerance";
-  return paint(Tone::Good, "OK") + ": " +
+  if (toleranced == 0) return style.paint(Tone::Good, "OK") + ": the program ran to its end, nothing had a tolerance";
+  return style.paint(Tone::Good, "OK") + ": " +
          (toleranced == 1 ? "the toleranced value is" : fmt::format("all {} toleranced values are", toleranced)) +
          " within the limits";
 }
@@ -216,26 +225,25 @@ std::string outcome(const control::Journal& journal, const records::RunInfo& run
 }  // namespace
 
 std::string summaryText(const control::Journal& journal, const records::RunInfo& run, Colour colour) {
-  const Painter paint(colour);
-  const std::string mainProgram = run.programs.empty() ? "" : run.programs[0].path;
-  std::string text = line(fileName(mainProgram));
+  const Style style{Painter(colour), records::ReadableText(run), run.programs.empty() ? "" : run.programs[0].path};
+  std::string text = style.line(fileName(style.mainProgram));
   for (const std::string& part : {run.control, run.machine, run.partName})
-    if (!part.empty()) text += (text.empty() ? "" : ", ") + line(part);
+    if (!part.empty()) text += (text.empty() ? "" : ", ") + style.line(part);
   text += "\n";
 
   std::size_t touches = 0, alarms = 0;
   for (std::size_t i = 0; i < journal.cycles.size(); ++i) {
-    text += cycleText(journal.cycles[i], i + 1, mainProgram, paint);
+    text += cycleText(journal.cycles[i], i + 1, style);
     touches += journal.cycles[i].touches.size();
   }
   if (!journal.writes.empty()) text += "  by the program itself\n";
   for (const auto& write : journal.writes)
-    text += writeLine(write);
+    text += writeLine(write, style);
   for (const auto& event : journal.events) {
     alarms += event.kind == control::EventKind::Alarm;
-    if (event.kind != control::EventKind::Tool) text += eventText(event, mainProgram, paint);
+    if (event.kind != control::EventKind::Tool) text += eventText(event, style);
   }
-  text += fmt::format("{}\n{}, {}, path {}, time {}, {}\n", outcome(journal, run, paint),
+  text += fmt::format("{}\n{}, {}, path {}, time {}, {}\n", outcome(journal, run, style),
                       counted(journal.cycles.size(), "cycle", "cycles"), counted(touches, "touch", "touches"),
                       distance(run.totalPathLength), duration(run.totalSeconds),
                       alarms == 0 ? "no alarms" : counted(alarms, "alarm", "alarms"));

@@ -182,6 +182,28 @@ TEST(Report, ShowsTheSurroundingsOfCyclesInALongProgram) {
   EXPECT_EQ(dataOf(reportHtml(journal, run, {}, 1000))["programs"][0]["pieces"].size(), 1U);
 }
 
+TEST(Report, ReadsProgramsOfOldEditors) {
+  auto run = sample::runInfo();
+  // "Bohrung prüfen" in CP1252, as a control writes it.
+  run.programs[0].text =
+      "1 ;Bohrung pr\xFC"
+      "fen\n2 ;L\xE4nge und H\xF6he\n";
+  control::Journal journal;
+  journal.events = {{control::EventKind::Message,
+                     {run.programs[0].path, 1, 1},
+                     "",
+                     "pr\xFC"
+                     "fen",
+                     0}};
+  const json data = dataOf(reportHtml(journal, run, {}));
+  EXPECT_EQ(data["programs"][0]["pieces"][0]["lines"][0],
+            "1 ;Bohrung pr\xC3\xBC"
+            "fen");
+  EXPECT_EQ(data["results"]["events"][0]["text"],
+            "pr\xC3\xBC"
+            "fen");
+}
+
 // The pages that the browser test opens.
 TEST(Report, IsWrittenForTheBrowser) {
   const std::filesystem::path folder = PROBEWRIGHT_SAMPLE_DIR;

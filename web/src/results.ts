@@ -134,7 +134,8 @@ function writeLine(write: Write): HTMLElement {
 
 function cycleBody(cycle: Cycle, index: number, selector: Selector): HTMLElement {
   const state = cycleState(cycle);
-  const extra = h("tr", { class: "extra", hidden: true }, h("td", { colspan: 10 }, details(cycle, index, selector)));
+  const room = h("td", { colspan: 10 });
+  const extra = h("tr", { class: "extra", hidden: true }, room);
   const toggle = h(
     "button",
     {
@@ -149,6 +150,8 @@ function cycleBody(cycle: Cycle, index: number, selector: Selector): HTMLElement
     `${count(cycle.touches.length, "touch", "touches")}, ${count(cycle.parameters.length, "parameter")}`,
   );
   const show = (open: boolean) => {
+    // Built when first asked for: a long run has thousands of touches.
+    if (open && room.childElementCount === 0) room.append(details(cycle, index, selector));
     extra.hidden = !open;
     toggle.setAttribute("aria-expanded", String(open));
   };
@@ -201,10 +204,11 @@ function cycleBody(cycle: Cycle, index: number, selector: Selector): HTMLElement
   selector.listen((selection, source) => {
     const mine = selection?.cycle === index;
     body.classList.toggle("selected", mine);
-    for (const row of body.querySelectorAll<HTMLElement>("tr.touch"))
-      row.classList.toggle("selected", mine && Number(row.dataset.touch) === selection.touch);
+    if (mine && selection.touch != null) show(true);
+    if (room.childElementCount > 0)
+      for (const row of room.querySelectorAll<HTMLElement>("tr.touch"))
+        row.classList.toggle("selected", mine && Number(row.dataset.touch) === selection.touch);
     if (!mine) return;
-    if (selection.touch != null) show(true);
     if (source === "badge" || source === "card") body.scrollIntoView({ behavior: "smooth", block: "nearest" });
   });
   return body;

@@ -226,6 +226,7 @@ test("an alarm", async () => {
   assert.match(await text(page, ".headline"), /Alarm\s+Touch point inaccessible: no contact[\s\S]*BEARING_BLOCK\.H, line 27/);
   assert.match(await text(page, "#cycle-2"), /Alarm[\s\S]*Touch point inaccessible/);
   assert.match(await text(page, ".event.alarm"), /33\.7 s\s+Alarm\s+Touch point inaccessible/);
+  await page.click("#cycle-2 .toggle");
   await page.$$eval("#cycle-2 tr.touch", (rows) => rows[1].click());
   await settle(page);
   assert.match(await text(page, ".touch-card"), /Outcome\s+no contact[\s\S]*Deviation\s+\u2013/);
