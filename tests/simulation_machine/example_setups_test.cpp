@@ -84,7 +84,8 @@ TEST(ExampleSetups, TheManualsExamplesAreRead) {
     } else {
       EXPECT_TRUE(parseSetup(block, "example.toml", diagnostics));
     }
-    for (const Diagnostic& diagnostic : diagnostics) ADD_FAILURE() << format(diagnostic);
+    for (const Diagnostic& diagnostic : diagnostics)
+      ADD_FAILURE() << format(diagnostic);
     ++count;
     inside = false;
     block.clear();
