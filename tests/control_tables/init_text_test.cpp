@@ -192,6 +192,7 @@ TEST(InitText, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(firstError("R1[2"), HasSubstr("bracket"));
   EXPECT_THAT(firstError("$TC_DP3[1,1] 5"), HasSubstr("'=' expected"));
   EXPECT_THAT(firstError("R1=12,5"), HasSubstr("kept but not used"));
+  EXPECT_THAT(firstError("R1='H10'R2=5"), HasSubstr("kept but not used"));
   EXPECT_THAT(firstError("R1=1.2.3"), HasSubstr("\"1.2.3\" is no number"));
   EXPECT_THAT(firstError("R1=" + std::string(400, '9')), HasSubstr("is no number"));
   EXPECT_THAT(firstError("R1=1EX999"), HasSubstr("is no number"));

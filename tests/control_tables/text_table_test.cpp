@@ -158,6 +158,9 @@ TEST(TextTable, GrowsAnEmptyTableWithoutALastLineEnd) {
   ASSERT_TRUE(table.addRow("2"));
   ASSERT_TRUE(table.addRow("1"));
   EXPECT_EQ(table.bytes(), "BEGIN A.D MM\nD   X\n1    \n2    \n");
+  TextTable carriageReturn = read("BEGIN A.D MM\r\nD   X\r");
+  ASSERT_TRUE(carriageReturn.addRow("2"));
+  EXPECT_EQ(read(carriageReturn.bytes()).keys(), std::vector<std::string>{"2"});
 }
 
 TEST(TextTable, RefusesWhatDoesNotFit) {

@@ -464,9 +464,13 @@ Result<void> TextTable::addRow(std::string_view key) {
   }
   const std::size_t model = rowLines_.empty() ? headerLine_ : rowLines_[at > 0 ? at - 1 : 0];
   std::string lineEnd = lines_[model].substr(contentSize(model));
-  if (lineEnd.empty()) lineEnd = lines_[headerLine_].substr(contentSize(headerLine_));
-  if (lineEnd.empty()) lineEnd = "\n";
-  if (contentSize(line - 1) == lines_[line - 1].size()) lines_[line - 1] += lineEnd;
+  if (!lineEnd.ends_with('\n')) lineEnd = lines_[headerLine_].ends_with("\r\n") ? "\r\n" : "\n";
+  std::string& previous = lines_[line - 1];
+  if (previous.ends_with('\r')) {
+    previous += '\n';
+  } else if (!previous.ends_with('\n')) {
+    previous += lineEnd;
+  }
   const std::size_t width = characters(std::string_view(lines_[model]).substr(0, contentSize(model)));
   lines_.insert(lines_.begin() + static_cast<std::ptrdiff_t>(line), std::string(width, ' ') + lineEnd);
   for (std::size_t& rowLine : rowLines_) {

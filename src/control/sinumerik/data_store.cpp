@@ -151,7 +151,7 @@ void DataStore::setFrame(std::string_view name, std::initializer_list<DataIndex>
 void DataStore::loadFrame(const DataKey& key, const Frame& frame) {
   std::erase_if(values_, [&key](const auto& entry) {
     const DataKey& other = entry.first;
-    return other.name == key.name && other.indices.size() >= key.indices.size() &&
+    return other.name == key.name && other.indices.size() == key.indices.size() + 2 &&
            std::equal(key.indices.begin(), key.indices.end(), other.indices.begin());
   });
   const auto loadAxis = [&](std::string_view axis) {

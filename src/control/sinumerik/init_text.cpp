@@ -255,7 +255,7 @@ private:
       return false;
     }
     // An operator behind the constant makes it an expression.
-    if (operatorFollows()) {
+    if (operatorFollows() || (!atEnd() && !isBlank(peek()))) {
       at_ = begin;
       return false;
     }
