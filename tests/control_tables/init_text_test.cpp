@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <random>
 
@@ -301,6 +302,16 @@ TEST(MeasuringData, TableIsOrderedAndDefaultsAgreeWithTheMasks) {
   EXPECT_EQ(store.number("$SCS_MEA_FEED_MEASURE", {}), 300);
   EXPECT_EQ(findMeasuringDatum(54611)->identifier, "$SNS_MEA_WP_FEED");
   EXPECT_EQ(findMeasuringDatum(54655), nullptr) << "dropped in version 4.4";
+}
+
+/// The page is the table. To renew it after a change of the table, write measuringDataPage() to docs/measuring-data.md:
+/// PROBEWRIGHT_UPDATE_DOCS=1 makes this test do so.
+TEST(MeasuringData, ThePageOfTheDocumentationIsCurrent) {
+  const std::filesystem::path page = std::filesystem::path(PROBEWRIGHT_SOURCE_DIR) / "docs" / "measuring-data.md";
+  if (std::getenv("PROBEWRIGHT_UPDATE_DOCS") != nullptr) {
+    ASSERT_TRUE(writeFileAtomically(page, measuringDataPage()));
+  }
+  EXPECT_EQ(readFile(page).value_or(""), measuringDataPage());
 }
 
 TEST(MeasuringData, OldNamesReachTheNewData) {

@@ -1,5 +1,7 @@
 #include "control/sinumerik/measuring_data.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -270,6 +272,39 @@ const MeasuringDatum* findMeasuringDatum(int number) {
   const auto* const found =
       std::find_if(data.begin(), data.end(), [&](const MeasuringDatum& datum) { return datum.number == number; });
   return found == data.end() ? nullptr : found;
+}
+
+std::string measuringDataPage() {
+  std::string page =
+      "# Data of the SINUMERIK measuring cycles\n\n"
+      "Machine data (51xxx general, 52xxx channel) and setting data (54xxx general, 55xxx channel) that Probewright "
+      "knows,\n"
+      "with their initial values. Data of a control are read from its initialization text, see [tables](tables.md).\n\n"
+      "| number | identifier | initial | unit | meaning | name in older programs |\n|---|---|---|---|---|---|\n";
+  for (const MeasuringDatum& datum : data) {
+    const std::string index = datum.elements == 0   ? ""
+                              : datum.elements == 1 ? "[0]"
+                                                    : fmt::format("[0..{}]", datum.elements - 1);
+    std::string gud;
+    if (!datum.gud.empty()) {
+      const std::string_view element = datum.elements > 1 ? "n" : "";
+      gud = datum.gudElement < 0
+                ? (element.empty() ? fmt::format("`{}`", datum.gud) : fmt::format("`{}[n]`", datum.gud))
+            : element.empty() ? fmt::format("`{}[{}]`", datum.gud, datum.gudElement)
+                              : fmt::format("`{}[n,{}]`", datum.gud, datum.gudElement);
+    }
+    page += fmt::format("| {} | `{}{}` | {} | {} | {} | {} |\n", datum.number, datum.identifier, index, datum.initial,
+                        datum.unit, datum.meaning, gud);
+  }
+  page +=
+      "\n## Bits of the function masks\n\n| mask | bit | initial | meaning if 1 | name in older programs "
+      "|\n|---|---|---|---|---|\n";
+  for (const MaskBit& bit : bits) {
+    const std::string gud = bit.gud.empty() ? "" : fmt::format("`{}[{}]`", bit.gud, bit.gudElement);
+    page +=
+        fmt::format("| `{}` | {} | {} | {} | {} |\n", bit.identifier, bit.bit, bit.initial ? 1 : 0, bit.meaning, gud);
+  }
+  return page;
 }
 
 void setMeasuringDefaults(DataStore& store) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct MeasuringDatum {
 std::span<const MeasuringDatum> measuringData();
 const MeasuringDatum* findMeasuringDatum(std::string_view identifier);
 const MeasuringDatum* findMeasuringDatum(int number);
+
+/// The table and the mask bits as a page of documentation (docs/measuring-data.md).
+std::string measuringDataPage();
 
 /// Makes the initial values the defaults of `store`; R parameters default to 0.
 void setMeasuringDefaults(DataStore& store);
