@@ -63,6 +63,19 @@ std::string_view KlartextProgram::readBlock(BlockPosition position, BlockPositio
   return text.substr(0, extent.length);
 }
 
+bool KlartextProgram::cornerFollows(BlockPosition position) const {
+  for (;;) {
+    const SourceLine line = source_.line(position.offset);
+    if (!line) return false;
+    const std::string_view statement = withoutBlockNumber(line.text);
+    if (!statement.empty() && statement.front() != ';' && statement.front() != '*') {
+      Lexer lexer(statement);
+      return lexer.acceptPrefix("RND") || lexer.acceptPrefix("CHF");
+    }
+    position.offset = line.next;
+  }
+}
+
 bool KlartextProgram::parse(BlockPosition position, Block& block, Diagnostics& diagnostics) {
   block.clear();
   block.position = position;

@@ -37,6 +37,9 @@ public:
   /// Klartext has no structured statements.
   std::optional<BlockPosition> counterpart(BlockPosition) override { return std::nullopt; }
 
+  /// True if the block at `position`, or the first behind comments there, is RND or CHF.
+  bool cornerFollows(BlockPosition position) const;
+
   /// The unit of BEGIN PGM; millimetres where there is none.
   Unit unit() const { return unit_; }
 

@@ -1,0 +1,117 @@
+#include "language/klartext/host.hpp"
+
+#include "control/alarm.hpp"
+
+namespace probewright::language::klartext {
+
+using control::Alarm;
+
+namespace {
+
+constexpr std::size_t localCount = 500;
+
+}  // namespace
+
+KlartextHost::KlartextHost(control::heidenhain::Control& control, HostOptions options)
+    : control_(control),
+      options_(std::move(options)),
+      contour_([this](const Element& element) { runElement(element); },
+               [this]() { return control_.channel.toolRadius; }) {}
+
+void KlartextHost::execute(const Instruction& instruction, Evaluation& evaluation) {
+  try {
+    if (const auto* motion = std::get_if<Move>(&instruction)) {
+      move(*motion, evaluation);
+    } else if (const auto* function = std::get_if<MachineFunction>(&instruction)) {
+      machineFunction(*function, evaluation);
+    } else if (const auto* called = std::get_if<ToolCall>(&instruction)) {
+      settle();
+      callTool(*called, evaluation);
+    } else if (const auto* change = std::get_if<Transform>(&instruction)) {
+      settle();
+      transform(*change, evaluation);
+    } else if (const auto* measuring = std::get_if<CycleCall>(&instruction)) {
+      settle();
+      cycle(*measuring, evaluation);
+    } else if (const auto* other = std::get_if<Command>(&instruction)) {
+      command(*other, evaluation);
+    } else if (const auto* modal = std::get_if<Modal>(&instruction)) {
+      contour_.flush();
+      setHoldTip(evaluation.at(modal->name) == "FUNCTION TCPM");
+    } else if (std::holds_alternative<Stop>(instruction)) {
+      contour_.flush();
+      const bool optional = std::get<Stop>(instruction).optional;
+      if (!optional) control_.panel.stop("Program stop", control_.channel.seconds());
+    }
+  } catch (...) {
+    contour_.discard();
+    throw;
+  }
+}
+
+bool KlartextHost::beginBlock(const Program& program, const Block& block) {
+  SourcePlace& place = control_.panel.place;
+  place.line = block.position.line;
+  if (levels_.empty() || levels_.back().file != place.file) place.file = program.file();
+  // The end of a program has no instruction for the host, but motion that waits must come to its end.
+  if (block.instructions.size() == 1 && std::holds_alternative<EndProgram>(block.instructions.front())) settle();
+  return true;
+}
+
+std::string KlartextHost::code(Refusal refusal) const {
+  switch (refusal) {
+    case Refusal::DivisionByZero:
+      return "Division by zero";
+    case Refusal::Domain:
+      return "Argument out of range";
+    case Refusal::Overflow:
+      return "Arithmetic overflow";
+    case Refusal::TypeMismatch:
+      return "Wrong data type";
+    case Refusal::MissingValue:
+      return "Value missing";
+    case Refusal::TooComplex:
+      return "Formula too complex";
+    case Refusal::MissingLabel:
+      return "Label not found";
+    case Refusal::MissingProgram:
+      return "Program not found";
+    case Refusal::NestingDepth:
+      return "Nesting too deep";
+    case Refusal::Structure:
+      return "Program structure wrong";
+  }
+  return {};
+}
+
+void KlartextHost::enter(const Program& program, const CallProgram*, Evaluation*) {
+  Level level;
+  level.program = dynamic_cast<const KlartextProgram*>(&program);
+  level.file = program.file();
+  level.outerUnit = control_.unit;
+  level.local.assign(localCount, 0);
+  if (levels_.empty()) {
+    control_.programPath = program.file();
+    control_.startSeconds = control_.channel.seconds();
+    control_.applyCoordinates();
+  }
+  if (level.program != nullptr) control_.unit = level.program->unit() == Unit::Inch ? 25.4 : 1;
+  levels_.push_back(std::move(level));
+  publishTool();
+}
+
+void KlartextHost::leave(const Program&) {
+  contour_.discard();
+  if (levels_.empty()) return;
+  control_.unit = levels_.back().outerUnit;
+  levels_.pop_back();
+  if (!levels_.empty()) publishTool();
+}
+
+void KlartextHost::settle() {
+  contour_.flush();
+  contour_.discard();
+  side_ = Side::Off;
+}
+
+}  // namespace probewright::language::klartext

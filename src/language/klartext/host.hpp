@@ -1,0 +1,145 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "control/heidenhain/control.hpp"
+#include "language/evaluation.hpp"
+#include "language/host.hpp"
+#include "language/klartext/contour.hpp"
+#include "language/klartext/program.hpp"
+
+namespace probewright::language::klartext {
+
+struct HostOptions {
+  /// Cycles that are not simulated are refused instead of skipped.
+  bool strict = false;
+  /// The bytes of a file that a program names: masks of FN 16, datum tables. Without it no such file is found.
+  std::function<Result<std::string>(const std::string& name)> readFile;
+};
+
+/// Carries out Klartext on a HEIDENHAIN control. Program coordinates and feeds are in the unit of the program.
+class KlartextHost : public Host {
+public:
+  explicit KlartextHost(control::heidenhain::Control& control, HostOptions options = {});
+
+  Value read(const VariableRef& variable, Evaluation& evaluation) override;
+  void write(const VariableRef& variable, const Value& value, Evaluation& evaluation) override;
+  bool isDefined(const VariableRef& variable, Evaluation& evaluation) override;
+  Value call(std::string_view name, std::span<const Value> arguments) override;
+  void execute(const Instruction& instruction, Evaluation& evaluation) override;
+  bool beginBlock(const Program& program, const Block& block) override;
+  std::string code(Refusal refusal) const override;
+  void enter(const Program& program, const CallProgram* call, Evaluation* caller) override;
+  void leave(const Program& program) override;
+
+private:
+  struct Level {
+    const KlartextProgram* program = nullptr;
+    std::string file;
+    double outerUnit = 1;
+    std::vector<double> local;  ///< QL
+  };
+
+  // host_moves.cpp
+  void move(const Move& move, Evaluation& evaluation);
+  void straight(const Move& move, Evaluation& evaluation);
+  void arc(const Move& move, Evaluation& evaluation);
+  void corner(const Move& move, Evaluation& evaluation);
+  void approachOrDepart(const Move& move, Evaluation& evaluation);
+  void setCentre(const Move& move, Evaluation& evaluation);
+  void moveInMachineCoordinates(const Move& move, Evaluation& evaluation);
+  void runElement(const Element& element);
+  void addElement(Element element, const Move& move, Evaluation& evaluation);
+  Vector3 programmedPosition() const;
+  Vector3 pointOf(const Move& move, Evaluation& evaluation, const Vector3& from) const;
+  std::size_t axisOf(char letter) const;
+  control::Feed feedOf(const Move& move, Evaluation& evaluation);
+  Side sideOf(const Move& move);
+  double length(const Operand& operand, Evaluation& evaluation) const;
+  const Word* find(WordRange range, std::string_view address, Evaluation& evaluation) const;
+  /// Ends all motion that waits; compensation ends too.
+  void settle();
+
+  // host_machine_functions.cpp
+  void machineFunction(const MachineFunction& function, Evaluation& evaluation);
+  void retract(std::optional<double> distance, control::Feed feed);
+  void setHoldTip(bool hold);
+
+  // host_tools.cpp
+  void callTool(const ToolCall& call, Evaluation& evaluation);
+  void publishTool();
+
+  // host_transforms.cpp
+  void transform(const Transform& transform, Evaluation& evaluation);
+  void shiftDatum(WordRange words, Evaluation& evaluation);
+  void shiftDatumByTable(double row);
+  void selectDatumTable(const std::string& name);
+  void activatePreset(int row);
+  void presetCommand(std::string_view name, const Command& command, Evaluation& evaluation);
+
+  // host_planes.cpp
+  void plane(std::string_view name, WordRange words, Evaluation& evaluation);
+  void tiltByCycle19(WordRange words, Evaluation& evaluation);
+  void tilt(const std::optional<Matrix3>& tilt, WordRange words, Evaluation& evaluation);
+  void positionRotaryAxes(const machine::AxisPositions& target, WordRange words, Evaluation& evaluation);
+  void publishRotaryAxes(const machine::AxisPositions& target);
+
+  // host_cycles.cpp
+  void cycle(const CycleCall& call, Evaluation& evaluation);
+  void measure(const CycleCall& call, Evaluation& evaluation);
+  void callMachiningCycle();
+  void skip(int number);
+
+  // host_commands.cpp
+  void command(const Command& command, Evaluation& evaluation);
+  void circleThroughPoints(const Command& command, Evaluation& evaluation);
+  void setPresetInAxis(const Command& command, Evaluation& evaluation);
+  void message(std::string text);
+
+  // host_system_data.cpp: FN 17 and FN 18
+  void systemRead(const Command& command, Evaluation& evaluation);
+  void systemWrite(const Command& command, Evaluation& evaluation);
+  std::optional<double> systemData(int id, int number, double index) const;
+  std::optional<double> toolData(int number, const std::string& row) const;
+  std::optional<double> probeData(int number, int index) const;
+
+  // host_protocol.cpp: FN 16
+  void protocol(const Command& command, Evaluation& evaluation);
+
+  Value systemText(int id, int number, int index) const;
+  double machineSeconds() const;
+
+  control::heidenhain::Control& control_;
+  HostOptions options_;
+  std::vector<Level> levels_;
+  Contour contour_;
+  double feed_ = 0;  ///< mm/min; 0: none programmed yet
+  bool feedIsAuto_ = false;
+  Side side_ = Side::Off;
+  Vector3 pole_ = Vector3::Zero();
+  bool poleSet_ = false;
+  int arcDirection_ = 0;
+  bool shortestPath_ = false;  ///< M126
+  bool spindleRuns_ = false;
+  bool clockwise_ = true;
+  std::string selectedProgram_;
+  std::optional<int> machiningCycle_;
+  bool cycleAtEachMove_ = false;  ///< M89
+  std::map<std::string, bool> protocolOpen_;
+};
+
+/// Formats a FN 16 mask line by line; see host_protocol.cpp. `read` gives the value of "Q5" or "QS3".
+struct ProtocolResult {
+  std::string text;
+  bool close = false;
+  bool append = false;
+};
+ProtocolResult formatProtocol(std::string_view mask, const std::function<Value(std::string_view)>& read,
+                              std::int64_t secondsSince1970, std::string_view callPath);
+
+}  // namespace probewright::language::klartext

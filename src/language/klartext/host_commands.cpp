@@ -1,0 +1,129 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "control/alarm.hpp"
+#include "language/klartext/host.hpp"
+
+/// FN functions and all blocks that are neither motion nor transformation nor cycle.
+namespace probewright::language::klartext {
+
+using control::Alarm;
+
+void KlartextHost::message(std::string text) {
+  control_.panel.message(control::EventKind::Message, std::move(text), control_.channel.seconds());
+}
+
+void KlartextHost::command(const Command& command, Evaluation& evaluation) {
+  const std::string_view name = evaluation.at(command.name);
+  const std::string_view text = evaluation.at(command.text);
+  const auto first = [&]() -> const Word* {
+    return command.words.count == 0 ? nullptr : &evaluation.words(command.words).front();
+  };
+  if (name == "FN18") {
+    contour_.flush();
+    systemRead(command, evaluation);
+  } else if (name == "FN17") {
+    contour_.flush();
+    systemWrite(command, evaluation);
+  } else if (name == "FN16") {
+    contour_.flush();
+    protocol(command, evaluation);
+  } else if (name == "FN14") {
+    contour_.flush();
+    const long number = std::lround(evaluation.number(first()->value));
+    throw Alarm(fmt::format("FN 14: ERROR = {}", number),
+                fmt::format("The program stops with its own error message {}", number),
+                "look in the program why it jumps to this FN 14");
+  } else if (name == "FN15" || name == "FN38") {
+    message(fmt::format("{} {}", name, text));
+  } else if (name == "FN23" || name == "FN24") {
+    circleThroughPoints(command, evaluation);
+  } else if (name == "FN25") {
+    settle();
+    setPresetInAxis(command, evaluation);
+  } else if (name == "FN26" || name == "FN27" || name == "FN28") {
+    throw Alarm("Table not available", "Freely definable tables (FN 26, 27, 28) are not available",
+                "leave the block out for the run");
+  } else if (name == "CYCL DEF 9") {
+    contour_.flush();
+    if (const Word* time = first()) control_.channel.dwell(std::max(0.0, evaluation.number(time->value)));
+  } else if (name == "CYCL DEF 13") {
+    contour_.flush();
+    if (const Word* angle = first()) control_.channel.orientSpindle(evaluation.number(angle->value));
+  } else if (name == "CYCL DEF 12") {
+    throw Alarm("Cycle not available", "Cycle 12 PGM CALL is not available", "call the program with CALL PGM");
+  } else if (name == "CYCL CALL") {
+    contour_.flush();
+    callMachiningCycle();
+  } else if (name == "GLOBAL DEF") {
+    const std::span<const Word> words = evaluation.words(command.words);
+    for (std::size_t i = 1; i < words.size(); ++i) {
+      const Value value = evaluation.value(words[i].value);
+      if (!isText(value)) control_.globalDefinitions[static_cast<int>(words[i].address)] = std::get<double>(value);
+    }
+  } else if (name == "SEL PGM") {
+    selectedProgram_ = command.words.count > 0 ? evaluation.text(first()->value) : std::string(text);
+  } else if (name == "SEL TABLE") {
+    selectDatumTable(command.words.count > 0 ? evaluation.text(first()->value) : std::string(text));
+  } else if (name == "FUNCTION") {
+    if (text.starts_with("MODE")) control_.turningMode = text.find("TURN") != std::string_view::npos;
+  } else if (name == "ERROR") {
+    throw Alarm("Block marked as wrong", "The control marked this block as wrong when it read it (ERROR =)",
+                "correct the block and take ERROR = away");
+  } else if (name.starts_with("PRESET")) {
+    presetCommand(name, command, evaluation);
+  } else if (name.starts_with("F") && !name.starts_with("FN")) {
+    throw Alarm("Function not available", fmt::format("Free contour programming ({}) is not available", name),
+                "write the contour with L, C, CR and CT");
+  }
+}
+
+/// Points from Qn on: main and minor axis of each; centre and radius into three parameters from the result on. Four
+/// points: the circle of least squares.
+void KlartextHost::circleThroughPoints(const Command& command, Evaluation& evaluation) {
+  const int source = static_cast<int>(evaluation.number(evaluation.words(command.words).front().value));
+  const int result =
+      static_cast<int>(evaluation.block().variables[static_cast<std::size_t>(command.variable)].index[0].number);
+  const int points = evaluation.at(command.name) == "FN23" ? 3 : 4;
+  if (source + 2 * points > control::heidenhain::QParameters::count ||
+      result + 3 > control::heidenhain::QParameters::count) {
+    throw Alarm("Parameter number wrong", "CDATA needs more Q parameters than there are behind its first one");
+  }
+  Eigen::MatrixXd equations(points, 3);
+  Eigen::VectorXd squares(points);
+  for (int i = 0; i < points; ++i) {
+    const double x = control_.q.q(source + 2 * i);
+    const double y = control_.q.q(source + 2 * i + 1);
+    equations.row(i) << 2 * x, 2 * y, 1;
+    squares[i] = x * x + y * y;
+  }
+  const auto factors = equations.colPivHouseholderQr();
+  if (factors.rank() < 3) {
+    throw Alarm("Circle not defined", "The points of CDATA lie on a line", "measure points that lie on a circle");
+  }
+  const Eigen::Vector3d solution = factors.solve(squares);
+  control_.q.setQ(result, solution.x());
+  control_.q.setQ(result + 1, solution.y());
+  control_.q.setQ(result + 2, std::sqrt(solution.z() + solution.x() * solution.x() + solution.y() * solution.y()));
+}
+
+/// FN 25: the position with the coordinate given gets the new value.
+void KlartextHost::setPresetInAxis(const Command& command, Evaluation& evaluation) {
+  const std::span<const Word> words = evaluation.words(command.words);
+  const char letter = static_cast<char>(words[0].address);
+  if (letter < 'X' || letter > 'Z') {
+    throw Alarm("Axis not permitted", fmt::format("FN 25 sets presets of X, Y and Z, not of {}", letter));
+  }
+  const double shift = length(words[0].value, evaluation) - length(words[1].value, evaluation);
+  Vector3 along = Vector3::Zero();
+  along[letter - 'X'] = shift;
+  auto preset = control_.coordinates.preset;
+  preset.origin += control_.coordinates.machineFromPreset().linear() * along;
+  control::heidenhain::Control::PresetChange change;
+  for (std::size_t i = 0; i < 3; ++i)
+    change.origin[i] = preset.origin[static_cast<Eigen::Index>(i)];
+  control_.writePreset(preset.row, change);
+}
+
+}  // namespace probewright::language::klartext

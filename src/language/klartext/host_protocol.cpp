@@ -1,0 +1,256 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ctime>
+
+#include "base/number_text.hpp"
+#include "control/alarm.hpp"
+#include "language/klartext/host.hpp"
+#include "language/klartext/lexer.hpp"
+
+/// FN 16: F-PRINT mask / target. A mask holds format lines
+///   "X = %9.3LF in %S", Q31, QS4;
+/// and keywords CALL_PATH, M_CLOSE, M_APPEND, M_TRUNCATE, L_ENGLISH..., M_EMPTY_HIDE. %F, %LF, %D and %I take numbers,
+/// %S texts (%RS raw), %% is a percent sign, \n a new line. DAY, MONTH, STR_MONTH, YEAR2, YEAR4, HOUR, MIN and SEC
+/// stand where parameters may.
+namespace probewright::language::klartext {
+
+using control::Alarm;
+
+namespace {
+
+constexpr std::array<std::string_view, 12> months = {"JAN", "FEB", "MAR", "APR", "MAY", "JUN",
+                                                     "JUL", "AUG", "SEP", "OCT", "NOV", "DEC"};
+constexpr std::size_t widestField = 200;
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && (isBlank(text.front()) || text.front() == '\n'))
+    text.remove_prefix(1);
+  while (!text.empty() && (isBlank(text.back()) || text.back() == '\n'))
+    text.remove_suffix(1);
+  return text;
+}
+
+[[noreturn]] void refuse(std::string text) {
+  throw Alarm("FN 16: mask wrong", std::move(text), "correct the mask file of FN 16");
+}
+
+/// The statements of a mask: format lines end with ';', keywords with the line.
+std::vector<std::string_view> statementsOf(std::string_view mask) {
+  std::vector<std::string_view> statements;
+  while (!mask.empty()) {
+    mask = mask.substr(std::min(mask.find_first_not_of(" \t\r\n;"), mask.size()));
+    if (mask.empty()) break;
+    const bool format = mask.front() == '"';
+    bool inText = false;
+    std::size_t end = 0;
+    for (; end < mask.size(); ++end) {
+      if (mask[end] == '"' && (end == 0 || mask[end - 1] != '\\')) inText = !inText;
+      if (!inText && (mask[end] == ';' || (!format && mask[end] == '\n'))) break;
+    }
+    statements.push_back(trimmed(mask.substr(0, end)));
+    mask = mask.substr(std::min(end, mask.size()));
+  }
+  return statements;
+}
+
+std::string padded(std::string text, std::size_t width, bool left) {
+  if (text.size() >= width) return text;
+  const std::string blanks(width - text.size(), ' ');
+  return left ? text + blanks : blanks + text;
+}
+
+class LineFormatter {
+public:
+  LineFormatter(std::string_view line, const std::function<Value(std::string_view)>& read, const std::tm& time)
+      : line_(line), read_(read), time_(time) {}
+
+  std::string format() {
+    const std::size_t close = line_.rfind('"');
+    if (close == 0) refuse(fmt::format("the text {} is not closed by a quotation mark", line_));
+    const std::string_view text = line_.substr(1, close - 1);
+    arguments_ = line_.substr(close + 1);
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      if (text[i] == '\\' && i + 1 < text.size()) {
+        ++i;
+        out += text[i] == 'n' ? '\n' : text[i] == 't' ? '\t' : text[i];
+      } else if (text[i] != '%') {
+        out += text[i];
+      } else if (i + 1 < text.size() && text[i + 1] == '%') {
+        out += '%';
+        ++i;
+      } else {
+        i = field(text, i + 1, out);
+      }
+    }
+    return out;
+  }
+
+private:
+  std::size_t field(std::string_view text, std::size_t i, std::string& out) {
+    bool left = false;
+    bool plus = false;
+    bool zeros = false;
+    for (; i < text.size() && std::string_view("-+0 ").find(text[i]) != std::string_view::npos; ++i) {
+      left = left || text[i] == '-';
+      plus = plus || text[i] == '+';
+      zeros = zeros || text[i] == '0';
+    }
+    const auto digits = [&]() {
+      std::size_t value = 0;
+      for (; i < text.size() && isDigit(text[i]); ++i)
+        value = std::min(value * 10 + static_cast<std::size_t>(text[i] - '0'), widestField);
+      return value;
+    };
+    std::size_t width = digits();
+    std::optional<std::size_t> decimals;
+    if (i < text.size() && text[i] == '.') {
+      ++i;
+      decimals = std::min<std::size_t>(digits(), 15);
+    }
+    while (i < text.size() && (upper(text[i]) == 'L' || upper(text[i]) == 'R'))
+      ++i;
+    if (i >= text.size()) refuse("a format ends behind its %");
+    const Value value = next();
+    std::string written;
+    switch (upper(text[i])) {
+      case 'F': {
+        if (isText(value)) refuse("%F needs a number, not a text");
+        written = formatFixed(std::get<double>(value), static_cast<int>(decimals.value_or(3)));
+        break;
+      }
+      case 'D':
+      case 'I':
+        if (isText(value)) refuse("%D needs a number, not a text");
+        written = formatFixed(std::round(std::get<double>(value)), 0);
+        break;
+      case 'S':
+        written = isText(value) ? std::get<std::string>(value) : formatShortest(std::get<double>(value));
+        if (decimals) written = written.substr(0, *decimals);
+        out += padded(std::move(written), width, left);
+        return i;
+      default:
+        refuse(fmt::format("%{} is no format; %F, %LF, %D, %I and %S are", text[i]));
+    }
+    if (plus && written.front() != '-') written.insert(written.begin(), '+');
+    if (zeros && !left && written.size() < width) {
+      const std::size_t sign = written.front() == '-' || written.front() == '+' ? 1 : 0;
+      written.insert(sign, width - written.size(), '0');
+    }
+    out += padded(std::move(written), width, left);
+    return i;
+  }
+
+  Value next() {
+    arguments_ = trimmed(arguments_);
+    if (arguments_.empty() || arguments_.front() != ',') refuse("a format line has more % than parameters");
+    arguments_.remove_prefix(1);
+    const std::size_t end = std::min(arguments_.find(','), arguments_.size());
+    const std::string_view name = trimmed(arguments_.substr(0, end));
+    arguments_.remove_prefix(end);
+    if (name == "DAY") return static_cast<double>(time_.tm_mday);
+    if (name == "MONTH") return static_cast<double>(time_.tm_mon + 1);
+    if (name == "STR_MONTH") return std::string(months[static_cast<std::size_t>(std::clamp(time_.tm_mon, 0, 11))]);
+    if (name == "YEAR2") return static_cast<double>(time_.tm_year % 100);
+    if (name == "YEAR4") return static_cast<double>(time_.tm_year + 1900);
+    if (name == "HOUR") return static_cast<double>(time_.tm_hour);
+    if (name == "MIN") return static_cast<double>(time_.tm_min);
+    if (name == "SEC") return static_cast<double>(time_.tm_sec);
+    return read_(name);
+  }
+
+  std::string_view line_;
+  std::string_view arguments_;
+  const std::function<Value(std::string_view)>& read_;
+  const std::tm& time_;
+};
+
+std::string fileName(std::string_view path) {
+  const std::size_t separator = path.find_last_of("/\\:");
+  return std::string(separator == std::string_view::npos ? path : path.substr(separator + 1));
+}
+
+}  // namespace
+
+ProtocolResult formatProtocol(std::string_view mask, const std::function<Value(std::string_view)>& read,
+                              std::int64_t secondsSince1970, std::string_view callPath) {
+  const auto seconds = static_cast<std::time_t>(secondsSince1970);
+  std::tm time{};
+  gmtime_r(&seconds, &time);
+  ProtocolResult result;
+  for (const std::string_view statement : statementsOf(mask)) {
+    if (statement.front() == '"') {
+      result.text += LineFormatter(statement, read, time).format();
+      result.text += '\n';
+    } else if (statement == "M_CLOSE") {
+      result.close = true;
+    } else if (statement == "M_APPEND") {
+      result.append = true;
+    } else if (statement == "CALL_PATH") {
+      result.text.append(callPath).append("\n");
+    } else if (!statement.starts_with("L_") && !statement.starts_with("M_")) {
+      refuse(fmt::format("{} is no format line and no keyword", statement));
+    }
+  }
+  return result;
+}
+
+void KlartextHost::protocol(const Command& command, Evaluation& evaluation) {
+  std::string text(evaluation.at(command.text));
+  // :'QS1': stands for the text of the parameter.
+  for (std::size_t at = text.find(":'QS"); at != std::string::npos; at = text.find(":'QS", at)) {
+    const std::size_t end = text.find("':", at + 2);
+    if (end == std::string::npos) break;
+    const auto number = parseInteger(std::string_view(text).substr(at + 4, end - at - 4));
+    if (!number || !control::heidenhain::QParameters::exists(*number)) break;
+    const std::string& inserted = control_.q.qs(static_cast<int>(*number));
+    text.replace(at, end + 2 - at, inserted);
+    at += inserted.size();
+  }
+  std::erase(text, '"');
+  const std::size_t slash = text.rfind('/');
+  if (slash == std::string::npos) {
+    throw Alarm("FN 16: file missing", "FN 16 needs a mask file and a target, separated by /",
+                "write FN 16: F-PRINT MASK.A / LOG.TXT");
+  }
+  const std::string mask(trimmed(std::string_view(text).substr(0, slash)));
+  const std::string target(trimmed(std::string_view(text).substr(slash + 1)));
+  if (!options_.readFile) throw Alarm("FN 16: file missing", fmt::format("The mask file {} does not exist", mask));
+  const Result<std::string> bytes = options_.readFile(mask);
+  if (!bytes) throw Alarm("FN 16: file missing", bytes.error().message, bytes.error().advice);
+
+  const auto read = [&](std::string_view name) -> Value {
+    VariableRef variable;
+    std::size_t letters = 1;
+    const char kind = name.size() > 1 ? upper(name[1]) : '\0';
+    if (kind == 'S') variable.space = VariableSpace::QS;
+    if (kind == 'L') variable.space = VariableSpace::QL;
+    if (kind == 'R') variable.space = VariableSpace::QR;
+    if (variable.space != VariableSpace::Q) ++letters;
+    const auto number = parseInteger(name.substr(std::min(letters, name.size())));
+    if (name.empty() || upper(name[0]) != 'Q' || !number || *number < 0) {
+      refuse(fmt::format("{} is no Q parameter", name));
+    }
+    variable.index[0] = Operand::of(static_cast<double>(*number));
+    return KlartextHost::read(variable, evaluation);
+  };
+  const ProtocolResult result =
+      formatProtocol(*bytes, read, static_cast<std::int64_t>(machineSeconds()), control_.programPath);
+  if (target.starts_with("SCREEN:")) {
+    if (!result.text.empty()) message(std::string(trimmed(result.text)));
+    return;
+  }
+  const std::string name = fileName(target);
+  bool& open = protocolOpen_[name];
+  if (open || result.append) {
+    control_.panel.appendToFile(name, result.text);
+  } else {
+    control_.panel.file(name, result.text);
+  }
+  open = !result.close;
+}
+
+}  // namespace probewright::language::klartext

@@ -1,0 +1,51 @@
+#include <cmath>
+
+#include "control/heidenhain/tool_table.hpp"
+#include "language/klartext/host.hpp"
+
+/// TOOL CALL.
+namespace probewright::language::klartext {
+
+void KlartextHost::callTool(const ToolCall& call, Evaluation& evaluation) {
+  control::heidenhain::ActiveTool& active = control_.tool;
+  const bool names = call.number.present() || call.name.present();
+  const auto delta = [&](const Operand& operand, double unchanged) {
+    if (operand.present()) return length(operand, evaluation);
+    return names ? 0.0 : unchanged;
+  };
+  std::string row = active.row.empty() ? std::string("0") : active.row;
+  if (call.name.present()) {
+    row = control_.toolRowNamed(evaluation.text(call.name));
+  } else if (call.number.present()) {
+    const double number = evaluation.number(call.number);
+    double index = evaluation.numberOr(call.index, 0);
+    // A tool that a parameter names carries its index behind the point.
+    if (!call.index.present()) index = std::round((number - std::floor(number)) * 10);
+    row = control::heidenhain::toolKey(static_cast<int>(std::floor(number)), static_cast<int>(index));
+  }
+  const double deltaLength = delta(call.deltaLength, active.deltaLength);
+  const double deltaRadius = delta(call.deltaRadius, active.deltaRadius);
+  const double deltaRadius2 = delta(call.deltaRadius2, active.deltaRadius2);
+  if (names || call.axis != 0 || call.deltaLength.present() || call.deltaRadius.present() ||
+      call.deltaRadius2.present()) {
+    control_.callTool(row, call.axis == 0 ? std::nullopt : std::optional<char>(call.axis), deltaLength, deltaRadius,
+                      deltaRadius2);
+    control_.applyCoordinates();
+  }
+  if (call.spindleSpeed.present()) control_.tool.spindleSpeed = evaluation.number(call.spindleSpeed);
+  if (call.feed.present()) control_.tool.feed = length(call.feed, evaluation);
+  publishTool();
+}
+
+/// Q108 tool radius, Q109 tool axis, Q110 spindle, Q113 unit, Q114 tool length.
+void KlartextHost::publishTool() {
+  const control::heidenhain::ActiveTool& tool = control_.tool;
+  control_.q.setQ(108, (tool.radius + tool.deltaRadius) / control_.unit);
+  const std::size_t axis = std::string_view("XYZ???UVW").find(tool.axis);
+  control_.q.setQ(109, !tool.called || axis == std::string_view::npos ? -1 : static_cast<double>(axis));
+  control_.q.setQ(110, !spindleRuns_ ? -1 : clockwise_ ? 0 : 1);
+  control_.q.setQ(113, control_.unit == 1 ? 0 : 1);
+  control_.q.setQ(114, (tool.length + tool.deltaLength) / control_.unit);
+}
+
+}  // namespace probewright::language::klartext

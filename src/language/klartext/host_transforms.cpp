@@ -1,0 +1,184 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/alarm.hpp"
+#include "control/heidenhain/datum_table.hpp"
+#include "control/heidenhain/preset_table.hpp"
+#include "language/klartext/host.hpp"
+#include "language/klartext/lexer.hpp"
+#include "language/source_text.hpp"
+
+/// Coordinate transformations: cycles 7, 8, 10, 11, 19, 26, 247, TRANS, PRESET.
+namespace probewright::language::klartext {
+
+using control::Alarm;
+using control::heidenhain::Transformations;
+
+namespace {
+
+int linearAxis(const Word& word) {
+  return word.address >= 'X' && word.address <= 'Z' ? static_cast<int>(word.address) - 'X' : -1;
+}
+
+std::string fileName(std::string_view path) {
+  const std::size_t separator = path.find_last_of("/\\:");
+  std::string name(separator == std::string_view::npos ? path : path.substr(separator + 1));
+  std::ranges::transform(name, name.begin(), [](char c) { return upper(c); });
+  return name;
+}
+
+}  // namespace
+
+void KlartextHost::transform(const Transform& transform, Evaluation& evaluation) {
+  const std::string_view name = evaluation.at(transform.name);
+  const WordRange words = transform.words;
+  Transformations& current = control_.coordinates.current();
+  if (name == "CYCL DEF 7" || name == "TRANS DATUM AXIS") {
+    shiftDatum(words, evaluation);
+  } else if (name == "TRANS DATUM TABLE") {
+    if (transform.option.length > 0) selectDatumTable(std::string(evaluation.at(transform.option)));
+    shiftDatum(words, evaluation);
+  } else if (name == "TRANS DATUM RESET") {
+    current.shift = Vector3::Zero();
+  } else if (name == "CYCL DEF 8" || name == "TRANS MIRROR AXIS" || name == "TRANS MIRROR RESET") {
+    current.mirror = {};
+    for (const Word& word : evaluation.words(words)) {
+      const int axis = linearAxis(word);
+      if (axis < 0) throw Alarm("Axis not permitted", "Only X, Y and Z can be mirrored here");
+      current.mirror[static_cast<std::size_t>(axis)] = true;
+    }
+  } else if (name == "CYCL DEF 10" || name == "TRANS ROTATION" || name == "TRANS ROTATION RESET") {
+    const Word* angle = find(words, "ROT", evaluation);
+    if (angle == nullptr) {
+      current.rotation = 0;
+    } else {
+      const double value = evaluation.number(angle->value);
+      current.rotation = angle->mode == WordMode::Incremental ? current.rotation + value : value;
+    }
+  } else if (name == "CYCL DEF 11" || name == "TRANS SCALE" || name == "TRANS SCALE RESET") {
+    const Word* factor = find(words, "SCL", evaluation);
+    const double value = factor == nullptr ? 1 : evaluation.number(factor->value);
+    if (!(value > 0)) throw Alarm("Scaling factor wrong", "A scaling factor must be greater than 0");
+    current.scale = Vector3::Constant(value);
+    current.scaleCentre = Vector3::Zero();
+  } else if (name == "CYCL DEF 26") {
+    current.scale = Vector3::Ones();
+    current.scaleCentre = Vector3::Zero();
+    for (const Word& word : evaluation.words(words)) {
+      const int axis = linearAxis(word);
+      const std::string address = addressName(word.address);
+      if (axis >= 0) {
+        const double factor = evaluation.number(word.value);
+        if (!(factor > 0)) throw Alarm("Scaling factor wrong", "A scaling factor must be greater than 0");
+        current.scale[axis] = factor;
+      } else if (address.size() == 3 && address[2] >= 'X' && address[2] <= 'Z') {
+        current.scaleCentre[address[2] - 'X'] = length(word.value, evaluation);
+      }
+    }
+  } else if (name == "CYCL DEF 19") {
+    tiltByCycle19(words, evaluation);
+    return;
+  } else if (name == "CYCL DEF 247") {
+    for (const Word& word : evaluation.words(words)) {
+      if (word.address == 339) activatePreset(static_cast<int>(std::lround(evaluation.number(word.value))));
+    }
+    return;
+  } else if (name.starts_with("PLANE")) {
+    plane(name, words, evaluation);
+    return;
+  }
+  control_.applyCoordinates();
+}
+
+void KlartextHost::shiftDatum(WordRange words, Evaluation& evaluation) {
+  Vector3& shift = control_.coordinates.current().shift;
+  for (const Word& word : evaluation.words(words)) {
+    const int axis = linearAxis(word);
+    if (word.address == '#') {
+      shiftDatumByTable(evaluation.number(word.value));
+    } else if (axis >= 0) {
+      const double value = length(word.value, evaluation);
+      shift[axis] = word.mode == WordMode::Incremental ? shift[axis] + value : value;
+    } else if (evaluation.number(word.value) != 0) {
+      throw Alarm("Axis not permitted",
+                  fmt::format("A datum shift of axis {} is not available here", addressName(word.address)),
+                  "shift X, Y and Z; set rotary axes with a preset");
+    }
+  }
+}
+
+void KlartextHost::shiftDatumByTable(double row) {
+  const auto table = control_.tables.datums.find(control_.activeDatumTable);
+  if (table == control_.tables.datums.end()) {
+    throw Alarm("Datum table missing", "No datum table is selected", "program SEL TABLE with a datum table before");
+  }
+  const auto datum = control::heidenhain::findDatum(table->second, static_cast<int>(std::lround(row)));
+  if (!datum) {
+    throw Alarm("Datum not defined", fmt::format("Datum table {} has no row {}", table->first, std::lround(row)),
+                "add the row or correct the number");
+  }
+  control_.coordinates.current().shift = datum->shift;
+}
+
+void KlartextHost::selectDatumTable(const std::string& name) {
+  for (const auto& [key, table] : control_.tables.datums) {
+    if (key == name || fileName(key) == fileName(name)) {
+      control_.activeDatumTable = key;
+      return;
+    }
+  }
+  if (options_.readFile) {
+    const Result<std::string> bytes = options_.readFile(name);
+    if (bytes) {
+      Diagnostics mistakes;
+      auto table = control::heidenhain::parseDatumTable(*bytes, name, mistakes);
+      if (table) {
+        control_.tables.datums.emplace(fileName(name), std::move(*table));
+        control_.activeDatumTable = fileName(name);
+        return;
+      }
+      throw Alarm("Datum table wrong", table.error().message, table.error().advice);
+    }
+  }
+  throw Alarm("Datum table missing", fmt::format("The datum table {} does not exist", name),
+              "add the table to the setup or correct its name");
+}
+
+/// A preset ends datum shift, mirror image, rotation and scaling; a tilted plane stays.
+void KlartextHost::activatePreset(int row) {
+  control_.coordinates.workpiece = {};
+  control_.coordinates.workingPlane = {};
+  control_.activatePreset(row);
+  control_.panel.message(control::EventKind::Message, fmt::format("Preset {} activated", row),
+                         control_.channel.seconds());
+}
+
+void KlartextHost::presetCommand(std::string_view name, const Command& command, Evaluation& evaluation) {
+  settle();
+  const auto row = [&](std::string_view address) {
+    const Word* word = find(command.words, address, evaluation);
+    return word == nullptr ? 0 : static_cast<int>(std::lround(evaluation.number(word->value)));
+  };
+  if (name == "PRESET SELECT") {
+    activatePreset(row("#"));
+    return;
+  }
+  const int source = name == "PRESET COPY" ? row("#") : control_.coordinates.preset.row;
+  const int target = name == "PRESET COPY" ? row("TO") : source;
+  auto preset = control_.presetRow(source);
+  if (!preset) throw Alarm("Preset not defined", fmt::format("The preset table has no row {}", source));
+  for (const Word& word : evaluation.words(command.words)) {
+    const int axis = linearAxis(word);
+    if (axis >= 0) preset->origin[axis] += length(word.value, evaluation);
+  }
+  control::heidenhain::Control::PresetChange change;
+  for (std::size_t i = 0; i < 3; ++i) {
+    change.origin[i] = preset->origin[static_cast<Eigen::Index>(i)];
+    if (control_.isTNC640() || i == 2) change.spaceAngles[i] = preset->spaceAngles[static_cast<Eigen::Index>(i)];
+  }
+  control_.writePreset(target, change);
+}
+
+}  // namespace probewright::language::klartext

@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/number_text.hpp"
+#include "control/alarm.hpp"
+#include "language/klartext/host.hpp"
+
+/// Q, QL, QR and QS parameters, and the functions that formulas call.
+namespace probewright::language::klartext {
+
+using control::Alarm;
+using control::heidenhain::QParameters;
+
+namespace {
+
+int numberOf(const VariableRef& variable, std::size_t count, std::string_view space) {
+  const double number = variable.index[0].number;
+  if (number >= static_cast<double>(count)) {
+    throw Alarm("Parameter number wrong",
+                fmt::format("{}{} does not exist; the highest number is {}", space, number, count - 1));
+  }
+  return static_cast<int>(number);
+}
+
+double numberArgument(std::span<const Value> arguments, std::size_t index) {
+  if (const auto* number = std::get_if<double>(&arguments[index])) return *number;
+  throw Alarm("Wrong data type", "A number is needed here, not a text", "convert the text with TONUMB");
+}
+
+const std::string& textArgument(std::span<const Value> arguments, std::size_t index) {
+  if (const auto* text = std::get_if<std::string>(&arguments[index])) return *text;
+  throw Alarm("Wrong data type", "A text is needed here, not a number", "convert the number with TOCHAR");
+}
+
+std::string trimmed(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
+    text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t'))
+    text.remove_suffix(1);
+  return std::string(text);
+}
+
+}  // namespace
+
+Value KlartextHost::read(const VariableRef& variable, Evaluation&) {
+  switch (variable.space) {
+    case VariableSpace::QL:
+      return levels_.back().local[static_cast<std::size_t>(numberOf(variable, levels_.back().local.size(), "QL"))];
+    case VariableSpace::QR:
+      return control_.q.qr(numberOf(variable, QParameters::remanentCount, "QR"));
+    case VariableSpace::QS:
+      return control_.q.qs(numberOf(variable, QParameters::count, "QS"));
+    default:
+      return control_.q.q(numberOf(variable, QParameters::count, "Q"));
+  }
+}
+
+void KlartextHost::write(const VariableRef& variable, const Value& value, Evaluation&) {
+  if (variable.space == VariableSpace::QS) {
+    const int number = numberOf(variable, QParameters::count, "QS");
+    if (!isText(value)) {
+      throw Alarm("Wrong data type", fmt::format("QS{} takes a text, not a number", number),
+                  "convert the number with TOCHAR");
+    }
+    control_.q.setQs(number, std::get<std::string>(value));
+    return;
+  }
+  if (isText(value)) {
+    throw Alarm("Wrong data type", "A Q parameter takes a number, not a text", "use a QS parameter or TONUMB");
+  }
+  const double number = std::get<double>(value);
+  switch (variable.space) {
+    case VariableSpace::QL:
+      levels_.back().local[static_cast<std::size_t>(numberOf(variable, levels_.back().local.size(), "QL"))] = number;
+      break;
+    case VariableSpace::QR:
+      control_.q.setQr(numberOf(variable, QParameters::remanentCount, "QR"), number);
+      break;
+    default:
+      control_.q.setQ(numberOf(variable, QParameters::count, "Q"), number);
+      break;
+  }
+}
+
+bool KlartextHost::isDefined(const VariableRef& variable, Evaluation&) {
+  if (variable.space == VariableSpace::QS) {
+    return !control_.q.qs(numberOf(variable, QParameters::count, "QS")).empty();
+  }
+  return variable.space != VariableSpace::Q || !control_.q.isUndefined(numberOf(variable, QParameters::count, "Q"));
+}
+
+Value KlartextHost::call(std::string_view name, std::span<const Value> arguments) {
+  if (name == "ANG") {
+    const double angle = degreesFromRadians(std::atan2(numberArgument(arguments, 0), numberArgument(arguments, 1)));
+    return angle < 0 ? angle + 360 : angle;
+  }
+  if (name == "PREDEF") {
+    const int number = static_cast<int>(numberArgument(arguments, 0));
+    const auto found = control_.globalDefinitions.find(number);
+    if (found == control_.globalDefinitions.end()) {
+      throw Alarm("GLOBAL DEF missing", fmt::format("Q{} is PREDEF, but no GLOBAL DEF gives it a value", number),
+                  "program GLOBAL DEF before the cycle, or write the value into the cycle");
+    }
+    return found->second;
+  }
+  if (name == "SELECTED PGM") {
+    if (selectedProgram_.empty()) {
+      throw Alarm("Program not selected", "CALL SELECTED PGM finds no program selected", "program SEL PGM before it");
+    }
+    return selectedProgram_;
+  }
+  if (name == "TOCHAR") {
+    const double decimals = numberArgument(arguments, 1);
+    const double value = numberArgument(arguments, 0);
+    return decimals < 0 ? formatShortest(value) : formatFixed(value, std::min(static_cast<int>(decimals), 15));
+  }
+  if (name == "TONUMB") {
+    const std::string text = trimmed(textArgument(arguments, 0));
+    if (const auto number = parseDecimal(text)) return *number;
+    throw Alarm("String is no number", fmt::format("TONUMB cannot read \"{}\" as a number", text));
+  }
+  if (name == "STRLEN") return static_cast<double>(textArgument(arguments, 0).size());
+  if (name == "SUBSTR") {
+    const std::string& text = textArgument(arguments, 0);
+    const double begin = std::max(0.0, numberArgument(arguments, 1));
+    const double count = numberArgument(arguments, 2);
+    if (begin >= static_cast<double>(text.size())) return std::string();
+    return text.substr(static_cast<std::size_t>(begin),
+                       count < 0 ? std::string::npos : static_cast<std::size_t>(count));
+  }
+  if (name == "INSTR") {
+    const std::string& text = textArgument(arguments, 0);
+    const double begin = std::max(0.0, numberArgument(arguments, 2));
+    const std::size_t found = text.find(textArgument(arguments, 1), static_cast<std::size_t>(begin));
+    return static_cast<double>(found == std::string::npos ? text.size() : found);
+  }
+  if (name == "STRCOMP") {
+    const int order = textArgument(arguments, 0).compare(textArgument(arguments, 1));
+    return order < 0 ? -1.0 : order > 0 ? 1.0 : 0.0;
+  }
+  if (name == "SYSSTR") {
+    return systemText(static_cast<int>(numberArgument(arguments, 0)), static_cast<int>(numberArgument(arguments, 1)),
+                      static_cast<int>(numberArgument(arguments, 2)));
+  }
+  throw Alarm("Function not available",
+              fmt::format("{} reads data of the control that a virtual one does not have", name),
+              "leave the function out, or set the parameter to a fixed value");
+}
+
+}  // namespace probewright::language::klartext

@@ -1,0 +1,413 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "base/number_text.hpp"
+#include "klartext/host_world.hpp"
+
+namespace probewright::language::klartext::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+::testing::AssertionResult near(const Vector3& actual, const Vector3& expected, double tolerance = 1e-9) {
+  if ((actual - expected).norm() <= tolerance) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << actual.transpose() << " instead of " << expected.transpose();
+}
+
+void expectFinished(const RunResult& result) {
+  EXPECT_EQ(result.end, RunEnd::Finished);
+  for (const Diagnostic& diagnostic : result.diagnostics)
+    ADD_FAILURE() << format(diagnostic);
+}
+
+void expectPath(const World& world, const std::vector<Vector3>& expected, double tolerance = 1e-9) {
+  const std::vector<Vector3> path = world.path();
+  ASSERT_EQ(path.size(), expected.size());
+  for (std::size_t i = 0; i < path.size(); ++i)
+    EXPECT_TRUE(near(path[i], expected[i], tolerance)) << "point " << i;
+}
+
+TEST(Host, FormulasFollowTheirArithmetic) {
+  World world;
+  expectFinished(
+      world.run("Q1 = 5 * 3 + 2 * 10\nQ2 = SQ 10 - 3^3\nQ3 = SIN 30 + COS (60) * 2\nQ4 = 400 % 360\n"
+                "Q5 = (Q1 + Q2) / -4\nQ6 = SQRT 2 * SQRT 2\nQ7 = NEG Q1 + ABS -3 + INT 2.7 + FRAC 2.25\n"
+                "FN 13: Q8 = +25 ANG +50\nFN 13: Q9 = -1 ANG -1\nFN 8: Q10 = +3 LEN +4\nQ11 = PI\n"
+                "Q12 = -2 ^ 2\nQ13 = LN EXP 2\nQ14 = SGN -5\nQL1 = 7\nQR1 = QL1 * 2\nQ15 = QR1"));
+  EXPECT_DOUBLE_EQ(world.q(1), 35);
+  EXPECT_DOUBLE_EQ(world.q(2), 73);
+  EXPECT_DOUBLE_EQ(world.q(3), 1.5);
+  EXPECT_DOUBLE_EQ(world.q(4), 40);
+  EXPECT_DOUBLE_EQ(world.q(5), -27);
+  EXPECT_DOUBLE_EQ(world.q(6), std::sqrt(2.0) * std::sqrt(2.0));
+  EXPECT_DOUBLE_EQ(world.q(7), -35 + 3 + 2 + 0.25);
+  EXPECT_NEAR(world.q(8), 26.565051177078, 1e-12);
+  EXPECT_DOUBLE_EQ(world.q(9), 225);
+  EXPECT_DOUBLE_EQ(world.q(10), 5);
+  EXPECT_DOUBLE_EQ(world.q(11), std::numbers::pi);
+  EXPECT_DOUBLE_EQ(world.q(12), -4);
+  EXPECT_DOUBLE_EQ(world.q(13), 2);
+  EXPECT_DOUBLE_EQ(world.q(14), -1);
+  EXPECT_DOUBLE_EQ(world.q(15), 14);
+}
+
+/// Random formulas, written and computed side by side.
+struct RandomFormula {
+  std::mt19937_64 random{7};
+  int pick(int count) { return std::uniform_int_distribution<int>(0, count - 1)(random); }
+  std::pair<std::string, double> number() {
+    const double value = std::round(std::uniform_real_distribution<double>(0.1, 9)(random) * 100) / 100;
+    return {formatFixed(value, 2), value};
+  }
+  std::pair<std::string, double> sum(int depth) {
+    auto [text, value] = product(depth);
+    for (int i = pick(3); i > 0; --i) {
+      const auto [t, v] = product(depth);
+      const bool plus = pick(2) == 0;
+      text += (plus ? " + " : "-") + t;
+      value = plus ? value + v : value - v;
+    }
+    return {text, value};
+  }
+  std::pair<std::string, double> product(int depth) {
+    auto [text, value] = primary(depth);
+    for (int i = pick(3); i > 0; --i) {
+      const auto [t, v] = primary(depth);
+      const bool times = pick(2) == 0 || v == 0;
+      text += (times ? "*" : " / ") + t;
+      value = times ? value * v : value / v;
+    }
+    return {text, value};
+  }
+  std::pair<std::string, double> primary(int depth) {
+    const int kind = depth <= 0 ? 0 : pick(5);
+    if (kind == 0) return number();
+    const auto [text, value] = sum(depth - 1);
+    const std::string inner = "( " + text + " )";
+    switch (kind) {
+      case 1:
+        return {inner, value};
+      case 2:
+        return {"SQ " + inner, value * value};
+      case 3:
+        return {"ABS" + inner, std::abs(value)};
+      default:
+        return {"SQRT ABS " + inner, std::sqrt(std::abs(value))};
+    }
+  }
+};
+
+TEST(Host, RandomFormulasEqualTheirCppArithmetic) {
+  World world;
+  RandomFormula formulas;
+  for (int i = 0; i < 500; ++i) {
+    const auto [text, expected] = formulas.sum(4);
+    expectFinished(world.run("Q1 = " + text));
+    EXPECT_NEAR(world.q(1), expected, 1e-12 * std::max(1.0, std::abs(expected))) << text;
+  }
+}
+
+TEST(Host, StringFunctions) {
+  World world;
+  expectFinished(
+      world.run("QS1 = \"PART-\" || \"17.5 MM\"\nQ1 = STRLEN( SRC_QS1 )\nQS2 = SUBSTR( SRC_QS1 BEG5 LEN4 )\n"
+                "Q2 = TONUMB( SRC_QS2 )\nQ3 = INSTR( SRC_QS1 SEA_QS2 BEG0 )\nQS3 = TOCHAR( DAT+Q2 DECIMALS3 )\n"
+                "Q4 = STRCOMP( SRC_QS2 SEA_QS3 )\nFN 10: IF Q2 NE +17.5 GOTO LBL 9\nQ5 = 1\nLBL 9"));
+  EXPECT_EQ(world.q(1), 12);
+  EXPECT_EQ(world.control->q.qs(2), "17.5");
+  EXPECT_EQ(world.q(2), 17.5);
+  EXPECT_EQ(world.q(3), 5);
+  EXPECT_EQ(world.control->q.qs(3), "17.500");
+  EXPECT_EQ(world.q(4), -1);
+  EXPECT_EQ(world.q(5), 1);
+}
+
+TEST(Host, JumpsSubprogramsAndRepeats) {
+  World world;
+  world.library.texts["SUB.H"] = "0 BEGIN PGM SUB MM\n1 Q3 = Q3 + 100\n2 QL1 = 5\n3 END PGM SUB MM\n";
+  expectFinished(
+      world.run("QL1 = 1\nLBL 1\nQ1 = Q1 + 1\nCALL LBL 1 REP4\nCALL LBL \"S\"\nCALL PGM SUB.H\nQ4 = QL1\n"
+                "SEL PGM \"SUB.H\"\nCALL SELECTED PGM\nSTOP\nM30\nLBL \"S\"\nQ2 = 7\nLBL 0\n"));
+  EXPECT_EQ(world.q(1), 5);
+  EXPECT_EQ(world.q(2), 7);
+  EXPECT_EQ(world.q(3), 200);
+  EXPECT_EQ(world.q(4), 1);
+}
+
+TEST(Host, StraightMovesWithToolLengthAndPreset) {
+  World world;
+  ASSERT_TRUE(world.control->tables.presets.setNumber("1", "X", 10));
+  ASSERT_TRUE(world.control->tables.presets.setNumber("1", "Z", -200));
+  expectFinished(
+      world.run("CYCL DEF 247 PRESET ~\n Q339=1\nTOOL CALL 1 Z DL+0.5\nL X+5 Y+6 Z+7 F500\nL IX-1 FMAX\n"
+                "CYCL DEF 7.0 SHIFT\nCYCL DEF 7.1 X+100\nL X+0\nL Z+0 FMAX M91"));
+  const auto& steps = world.machine->steps;
+  ASSERT_EQ(steps.size(), 4U);
+  EXPECT_NEAR(steps[0].axes[0], 15, 1e-12);
+  EXPECT_NEAR(steps[0].axes[1], 6, 1e-12);
+  EXPECT_NEAR(steps[0].axes[2], -200 + 7 + 100.5, 1e-12);
+  EXPECT_EQ(steps[0].feed.perMinute, 500);
+  EXPECT_NEAR(steps[1].axes[0], 14, 1e-12);
+  EXPECT_TRUE(steps[1].feed.rapid);
+  EXPECT_NEAR(steps[2].axes[0], 110, 1e-12);
+  EXPECT_EQ(steps[2].feed.perMinute, 500);
+  EXPECT_NEAR(steps[3].axes[2], 0, 1e-12);
+}
+
+TEST(Host, InchProgramsMoveInInches) {
+  World world;
+  expectFinished(world.run("0 BEGIN PGM A INCH\nL X+1 Y-2 F10\nQ5 = 3\nL XQ5\nFN 18: SYSREAD Q1 = ID270 NR1 IDX1\n"));
+  expectPath(world, {{25.4, -50.8, 0}, {76.2, -50.8, 0}});
+  EXPECT_DOUBLE_EQ(world.q(1), 3);
+  EXPECT_EQ(world.q(113), 1);
+  EXPECT_DOUBLE_EQ(world.machine->steps[0].feed.perMinute, 254);
+}
+
+TEST(Host, PolarCoordinatesAndArcs) {
+  World world;
+  expectFinished(world.run("L X+10 Y+0 R0 F100\nCC X+0 Y+0\nLP PR+20 PA+90\nCP PA+180 DR+\nCR X+0 Y+20 R+20 DR-"));
+  const auto path = world.path();
+  EXPECT_TRUE(near(path[1], {0, 20, -0.0}));
+  // Every point of the arcs lies on its circle about the pole; the chords' sagitta stays within the path tolerance.
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    EXPECT_NEAR(path[i].norm(), 20, 1e-9);
+    if (i > 1) {
+      EXPECT_GT(((path[i] + path[i - 1]) / 2).norm(), 20 - 1.001e-3);
+    }
+  }
+  EXPECT_TRUE(near(path.back(), {0, 20, 0}));
+}
+
+TEST(Host, TangentialArcEndsWhereAskedAndBeginsInDirection) {
+  World world;
+  expectFinished(world.run("L X+0 Y+0 F100\nL X+10\nCT X+20 Y+10"));
+  const auto path = world.path();
+  for (std::size_t i = 2; i < path.size(); ++i)
+    EXPECT_NEAR((path[i] - Vector3(10, 10, 0)).norm(), 10, 1e-9);
+  EXPECT_TRUE(near(path.back(), {20, 10, 0}));
+}
+
+TEST(Host, RoundingAndChamferBetweenLines) {
+  World world;
+  expectFinished(world.run("L X-1 Y+0 F100\nL X+10\nRND R2\nL Y+10\nCHF 3\nL X+0"));
+  const auto path = world.path();
+  EXPECT_TRUE(near(path[1], {8, 0, 0}));
+  EXPECT_TRUE(near(path[path.size() - 3], {10, 7, 0}));
+  EXPECT_TRUE(near(path[path.size() - 2], {7, 10, 0}));
+  EXPECT_TRUE(near(path.back(), {0, 10, 0}));
+  for (std::size_t i = 2; i + 3 < path.size(); ++i)
+    EXPECT_NEAR((path[i] - Vector3(8, 2, 0)).norm(), 2, 1e-9);
+  EXPECT_THAT(world.run("L X+0 Y+0 F100\nL X+1\nRND R5\nL Y+1").diagnostics.front().message, HasSubstr("larger"));
+}
+
+TEST(Host, RadiusCompensationRunsBesideASquare) {
+  World world;
+  expectFinished(
+      world.run("TOOL CALL 5 Z\nL X-20 Y-20 Z+0 R0 F100\nL X+0 Y+0 RL\nL Y+50\nL X+50\nL Y+0\nL X+0\nL X-20 Y-20 R0"));
+  const auto path = world.path();
+  // Left of the contour, clockwise around the square: 5 mm outside, with arcs about its corners.
+  EXPECT_TRUE(near(path[0], {-20, -20, 0}));
+  EXPECT_TRUE(near(path[1], {-5, 0, 0}));
+  EXPECT_TRUE(near(path[2], {-5, 50, 0}));
+  for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+    const Vector3& p = path[i];
+    const double dx = std::max({-p.x(), p.x() - 50, 0.0});
+    const double dy = std::max({-p.y(), p.y() - 50, 0.0});
+    EXPECT_NEAR(std::hypot(dx, dy), 5, 1e-9);
+  }
+  EXPECT_TRUE(near(path[path.size() - 2], {0, -5, 0}));
+  EXPECT_TRUE(near(path.back(), {-20, -20, 0}));
+}
+
+TEST(Host, RadiusCompensationMeetsInsideCorners) {
+  World world;
+  expectFinished(world.run("TOOL CALL 5 Z\nL X+25 Y+25 Z+0 R0 F100\nL X+0 Y+25 RR\nL Y+50\nL X+50\nL Y+0\nL X+25 R0"));
+  expectPath(world, {{25, 25, 0}, {5, 25, 0}, {5, 45, 0}, {45, 45, 0}, {45, 0, 0}, {25, 0, 0}});
+}
+
+TEST(Host, CompensatedArcsKeepTheirDistance) {
+  World world;
+  expectFinished(
+      world.run("TOOL CALL 5 Z\nL X+40 Y-10 Z+0 R0 F100\nL X+30 Y+0 RR\nCC X+0 Y+0\nC X+30 Y+0 DR+\nL X+40 R0"));
+  const auto path = world.path();
+  for (std::size_t i = 1; i + 1 < path.size(); ++i)
+    EXPECT_NEAR(path[i].norm(), 35, 1e-9);
+  EXPECT_EQ(world.run("TOOL CALL 5 Z\nL X+4 Y-10 Z+0 R0 F100\nL X+3 Y+0 RL\nCC X+0 Y+0\nC X+3 Y+0 DR+\nL X+4 R0").end,
+            RunEnd::Alarm);
+}
+
+TEST(Host, ApproachAndDepartureAreTangential) {
+  World world;
+  expectFinished(
+      world.run("TOOL CALL 5 Z\nL X-40 Y-40 Z+0 R0 F100\nAPPR LT X+0 Y+0 LEN15 RL F100\nL Y+30\nDEP LN LEN+10 F100"));
+  expectPath(world, {{-40, -40, 0}, {-5, -15, 0}, {-5, 0, 0}, {-5, 30, 0}, {-15, 30, 0}});
+  World arcs;
+  expectFinished(
+      arcs.run("TOOL CALL 5 Z\nL X-40 Y+0 Z+0 R0 F100\nAPPR CT X+0 Y+0 CCA90 R+10 RL F100\nL Y+30\nDEP CT CCA90 R+8"));
+  const auto path = arcs.path();
+  EXPECT_TRUE(near(path[1], {-15, -10, 0}));  // centre (-15, 0), a quarter before (-5, 0)
+  EXPECT_TRUE(near(path.back(), {-13, 38, 0}));
+  World tangent;
+  expectFinished(
+      tangent.run("TOOL CALL 5 Z\nL X-40 Y-30 Z+0 R0 F100\nAPPR LCT X+0 Y+0 R10 RL F100\nL Y+30\n"
+                  "DEP LCT X-40 Y+60 R8"));
+  const auto way = tangent.path();
+  const Vector3 centre(-15, 0, 0);
+  EXPECT_NEAR((way[1] - centre).norm(), 10, 1e-9);
+  EXPECT_NEAR((way[1] - way[0]).dot(way[1] - centre), 0, 1e-9);
+  EXPECT_TRUE(near(way.back(), {-40, 60, 0}));
+}
+
+TEST(Host, TransformationsTurnMirrorAndScale) {
+  World world;
+  expectFinished(
+      world.run("CYCL DEF 10.0 R\nCYCL DEF 10.1 ROT+90\nL X+10 Y+0 F100\nCYCL DEF 10.0 R\nCYCL DEF 10.1 ROT+0\n"
+                "CYCL DEF 8.0 M\nCYCL DEF 8.1 X\nL X+10 Y+5\nCYCL DEF 8.0 M\nCYCL DEF 8.1\n"
+                "CYCL DEF 11.0 S\nCYCL DEF 11.1 SCL 2\nL X+10 Y+5\nCYCL DEF 11.0 S\nCYCL DEF 11.1 SCL 1\n"
+                "TRANS DATUM AXIS X+1 Y+2\nL X+0 Y+0\nTRANS DATUM RESET\nL X+0 Y+0"));
+  expectPath(world, {{0, 10, 0}, {-10, 5, 0}, {20, 10, 0}, {1, 2, 0}, {0, 0, 0}});
+}
+
+TEST(Host, RetractionGoesToTheLimit) {
+  World world;
+  expectFinished(world.run("TOOL CALL 1 Z\nL X+0 Y+0 Z-200 FMAX\nM140 MB+50\nM140 MB MAX"));
+  const auto path = world.path();
+  EXPECT_TRUE(near(path[1], {0, 0, -150}));
+  const auto& description = world.machine->description();
+  EXPECT_NEAR(world.machine->position()[2], description.axes[2].maximum, 1e-5);
+}
+
+TEST(Host, SystemData) {
+  World world;
+  expectFinished(
+      world.run("TOOL CALL 5 Z S1200 DR+0.1\nL X+3 Y+4 Z-100 FMAX\nFN 18: SYSREAD Q1 = ID20 NR1\n"
+                "FN18 : SYSREAD Q2 = ID270 NR1 IDX2\nFN 18: SYSREAD Q3 = ID50 NR2 IDX1\n"
+                "FN 18: SYSREAD Q4 = ID200 NR1 IDX3\nFN 18: SYSREAD Q5 = ID20 NR4\nQS7 = \"PROBE\"\n"
+                "FN 18: SYSREAD Q6 = ID990 NR10 IDX7\nFN 17: SYSWRITE ID50 NR4 IDX5 = +0.25\n"
+                "FN 18: SYSREAD Q7 = ID50 NR4 IDX5\nFN 18: SYSREAD Q8 = ID240 NR1 IDX3\nQ9 = Q108"));
+  EXPECT_EQ(world.q(1), 5);
+  EXPECT_EQ(world.q(2), 4);
+  EXPECT_EQ(world.q(3), 2);
+  EXPECT_DOUBLE_EQ(world.q(4), 5.1);
+  EXPECT_EQ(world.q(5), 1200);
+  EXPECT_EQ(world.q(6), 1);
+  EXPECT_EQ(world.q(7), 0.25);
+  EXPECT_DOUBLE_EQ(world.q(8), -50);
+  EXPECT_DOUBLE_EQ(world.q(9), 5.1);
+  EXPECT_THAT(world.run("FN 18: SYSREAD Q1 = ID99999 NR1").diagnostics.front().message, HasSubstr("ID99999"));
+}
+
+TEST(Host, ProtocolsFollowTheirMask) {
+  World world;
+  world.control->wallClockStart = 1'700'000'000;  // 2023-11-14 22:13:20 UTC
+  world.files["M.A"] =
+      "\"RESULT OF %S\",QS1;\n\"X = %9.3LF (%+.1F) %%\",Q31, Q32;\n\"%2d.%02d.%4d %02d:%02d\", "
+      "DAY,MONTH,YEAR4,HOUR,MIN;\n"
+      "M_CLOSE\n";
+  expectFinished(world.run("QS1 = \"RING\"\nQ31 = 12.34567\nQ32 = 5\nFN 16: F-PRINT M.A / TNC:\\LOG\\R.TXT\n"));
+  EXPECT_EQ(world.control->panel.files().at("R.TXT"), "RESULT OF RING\nX =    12.346 (+5.0) %\n14.11.2023 22:13\n");
+  EXPECT_THAT(world.run("FN 16: F-PRINT NONE.A / R.TXT").diagnostics.front().message, HasSubstr("NONE.A"));
+}
+
+TEST(Host, CirclesThroughPoints) {
+  World world;
+  expectFinished(world.run("Q30=13\nQ31=4\nQ32=3\nQ33=14\nQ34=-7\nQ35=4\nFN 23: Q20 = CDATA Q30\n"));
+  EXPECT_NEAR(world.q(20), 3, 1e-12);
+  EXPECT_NEAR(world.q(21), 4, 1e-12);
+  EXPECT_NEAR(world.q(22), 10, 1e-12);
+}
+
+TEST(Host, TiltedPlanesPointTheToolAlongTheirNormal) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> angle(-50, 50);
+  for (const char* name : {"mill5-table-table", "mill5-head-table", "mill5-head-head"}) {
+    for (int i = 0; i < 20; ++i) {
+      World world(name);
+      const double a = angle(random), b = angle(random), c = angle(random);
+      const RunResult result = world.run("TOOL CALL 1 Z\nPLANE SPATIAL SPA" + formatSigned(a, 6) + " SPB" +
+                                         formatSigned(b, 6) + " SPC" + formatSigned(c, 6) + " TURN F5000\n");
+      ASSERT_EQ(result.end, RunEnd::Finished) << name << " " << a << " " << b << " " << c << "\n"
+                                              << (result.diagnostics.empty() ? "" : format(result.diagnostics[0]));
+      EXPECT_TRUE(near(world.control->channel.toolAxis(), Vector3::UnitZ(), 1e-9)) << name;
+    }
+  }
+}
+
+TEST(Host, PlaneDefinitionsAgree) {
+  const auto tiltOf = [](const std::string& block) {
+    World world("mill5-table-table");
+    const RunResult result = world.run("TOOL CALL 1 Z\n" + block + "\n");
+    EXPECT_EQ(result.end, RunEnd::Finished) << block;
+    return world.control->coordinates.tilt.value_or(Matrix3::Zero());
+  };
+  const Matrix3 a30 = tiltOf("PLANE SPATIAL SPA+30 SPB+0 SPC+0 STAY");
+  EXPECT_NEAR((a30 * Vector3::UnitZ() - Vector3(0, -0.5, std::sqrt(0.75))).norm(), 0, 1e-12);
+  EXPECT_NEAR((tiltOf("PLANE EULER EULPR0 EULNU30 EULROT0 STAY") - a30).norm(), 0, 1e-12);
+  EXPECT_NEAR((tiltOf("PLANE PROJECTED PROPR0 PROMIN30 ROT0 STAY") - a30).norm(), 0, 1e-12);
+  EXPECT_NEAR((tiltOf("PLANE VECTOR BX1 BY0 BZ0 NX0 NY-0.5 NZ0.8660254037844386 STAY") - a30).norm(), 0, 1e-12);
+  EXPECT_NEAR((tiltOf("PLANE POINTS P1X0 P1Y0 P1Z0 P2X10 P2Y0 P2Z0 P3X0 P3Y8.660254037844386 P3Z5 STAY") - a30).norm(),
+              0, 1e-12);
+  EXPECT_NEAR((tiltOf("PLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY\nPLANE RELATIV SPA20 STAY") - a30).norm(), 0, 1e-12);
+  EXPECT_NEAR((tiltOf("CYCL DEF 19.0 TILT\nCYCL DEF 19.1 A+30 B+0 C+0") - a30).norm(), 0, 1e-12);
+  EXPECT_NEAR((tiltOf("PLANE AXIAL A30 C0 STAY") - a30).norm(), 0, 1e-12);
+  EXPECT_NEAR((tiltOf("PLANE SPATIAL SPA+30 SPB+0 SPC+0 STAY\nPLANE RESET STAY") - Matrix3::Zero()).norm(), 0, 1e-12);
+}
+
+TEST(Host, SequencePicksTheSignOfTheTiltingAxis) {
+  for (const int sign : {1, -1}) {
+    World world("mill5-table-table");
+    const RunResult result = world.run(std::string("TOOL CALL 1 Z\nPLANE SPATIAL SPA+0 SPB+30 SPC+0 TURN FMAX SEQ") +
+                                       (sign > 0 ? "+" : "-") + "\n");
+    ASSERT_EQ(result.end, RunEnd::Finished);
+    EXPECT_NEAR(world.machine->position()[3], sign * 30, 1e-9);
+    EXPECT_NEAR(world.q(120), sign * 30, 1e-9);
+  }
+}
+
+TEST(Host, MoveKeepsTheTipOnTheWorkpiece) {
+  World world("mill5-table-table");
+  const RunResult result = world.run(
+      "TOOL CALL 1 Z\nL X+10 Y+20 Z-400 FMAX\n"
+      "PLANE SPATIAL SPA+20 SPB+0 SPC+0 MOVE DIST0 F2000\nPLANE RESET STAY\n");
+  ASSERT_EQ(result.end, RunEnd::Finished);
+  world.control->coordinates.tilt = Matrix3::Identity();
+  world.control->applyCoordinates();
+  EXPECT_TRUE(near(world.control->channel.position(), {10, 20, -400}, 1e-9));
+}
+
+TEST(Host, MachiningCyclesAreSkippedOrRefused) {
+  const std::string program = "CYCL DEF 200 DRILLING ~\n Q200=2 ~\n Q201=-20\nL X+1 Y+1 FMAX M99\nCYCL CALL\n";
+  World world;
+  expectFinished(world.run(program));
+  EXPECT_EQ(std::ranges::count(world.control->journal.events, control::EventKind::Skipped, &control::EventRecord::kind),
+            2);
+  world.options.strict = true;
+  EXPECT_EQ(world.run(program).end, RunEnd::Alarm);
+}
+
+TEST(Host, AlarmsNameTheReason) {
+  World world;
+  const auto message = [&](const std::string& text) {
+    const RunResult result = world.run(text);
+    EXPECT_EQ(result.end, RunEnd::Alarm) << text;
+    return result.diagnostics.empty() ? std::string() : result.diagnostics.front().message;
+  };
+  EXPECT_THAT(message("L X+1\n"), HasSubstr("feed rate"));
+  EXPECT_THAT(message("TOOL CALL 99 Z\n"), HasSubstr("no tool 99"));
+  EXPECT_THAT(message("L C+5 FMAX\n"), HasSubstr("no axis C"));
+  EXPECT_THAT(message("FN 14: ERROR = 12\n"), HasSubstr("12"));
+  EXPECT_THAT(message("ERROR = L X+\n"), HasSubstr("ERROR ="));
+  EXPECT_THAT(message("Q5000 = 1\n"), HasSubstr("Q5000"));
+  EXPECT_THAT(message("TCH PROBE 9999 X ~\n Q1=1\n"), HasSubstr("9999"));
+  EXPECT_THAT(message("L X+0 Y+0 FMAX\nCC X+10 Y+0\nC X+5 Y+5 DR+\n"), HasSubstr("beside the circle"));
+  EXPECT_THAT(message("L X+0 Y+0 FMAX\nCR X+10 Y+0 R3 DR+\n"), HasSubstr("at least 5"));
+  EXPECT_THAT(message("CYCL DEF 7.0 X\nCYCL DEF 7.1 #3\n"), HasSubstr("datum table"));
+  EXPECT_THAT(message("M128\n"), HasSubstr("rotary axes"));
+  EXPECT_THAT(message("PLANE SPATIAL SPA10 SPB0 SPC0 STAY\n"), HasSubstr("cannot reach"));
+}
+
+}  // namespace
+}  // namespace probewright::language::klartext::testing
