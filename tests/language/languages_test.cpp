@@ -178,5 +178,14 @@ TEST(SinumerikRun, MissingDestinationsHaveTheControlsNumber) {
   EXPECT_THAT(explained(result), HasSubstr("MAIN.MPF:2: error 14080: there is no label NOWHERE behind this block"));
 }
 
+TEST(BadPrograms, AreMessagesNotEndlessLoopsOrOverflows) {
+  // An open bracket up to the end of the line was once read beyond it while the labels were being collected.
+  Control control;
+  EXPECT_EQ(control.sinumerik("GOTOF AB\nDEF STRING[20 \nAB: M30\n").end, RunEnd::Finished);
+  EXPECT_EQ(control.sinumerik("M=99999999999999\n").end, RunEnd::BrokenProgram);
+  EXPECT_EQ(control.sinumerik("M2=99999999999999\n").end, RunEnd::BrokenProgram);
+  EXPECT_EQ(control.klartext("FN 777777777777777: Q1 = 2\n").end, RunEnd::BrokenProgram);
+}
+
 }  // namespace
 }  // namespace probewright::language

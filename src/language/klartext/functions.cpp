@@ -7,7 +7,7 @@ namespace probewright::language::klartext {
 
 bool BlockParser::function() {
   const std::optional<double> written = lexer_.number();
-  if (!written) return error("a number from 0 to 38 is expected behind FN");
+  if (!written || *written > 38) return error("a number from 0 to 38 is expected behind FN");
   const int number = static_cast<int>(*written);
   lexer_.accept(':');
   switch (number) {

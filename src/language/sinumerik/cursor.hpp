@@ -21,7 +21,8 @@ public:
   bool atEnd() const { return at_ == end_; }
   char peek() const { return at_ < end_ ? *at_ : '\0'; }
   char peek(std::size_t ahead) const { return static_cast<std::size_t>(end_ - at_) > ahead ? at_[ahead] : '\0'; }
-  void advance(std::size_t count = 1) { at_ += count; }
+  /// Never beyond the end.
+  void advance(std::size_t count = 1) { at_ = static_cast<std::size_t>(end_ - at_) > count ? at_ + count : end_; }
   void skipBlanks() {
     while (at_ < end_ && isBlank(*at_))
       ++at_;

@@ -247,6 +247,10 @@ void BlockParser::parseG(std::size_t start) {
 }
 
 void BlockParser::parseM(std::size_t start) {
+  constexpr double highest = 999999999;
+  const auto isNumber = [&](const Operand& value) {
+    return value.isLiteral() && value.number >= 0 && value.number <= highest;
+  };
   std::uint32_t address = 'M';
   if (!parseExtension(address)) return;
   cursor_.skipBlanks();
@@ -257,13 +261,14 @@ void BlockParser::parseM(std::size_t start) {
       spindle = spindle * 10 + ((digits & 0xff) - '0');
     const Operand value = parseValue(nullptr);
     if (failed_) return;
-    if (!value.isLiteral()) return fail(start, "the number of the M function is missing", "Write M2=3.");
+    if (!isNumber(value)) return fail(start, "the number of the M function is missing", "Write M2=3.");
     function.number = static_cast<int>(value.number);
     function.argument = Operand::of(spindle);
   } else if (cursor_.peek() == '=') {
     const Operand value = parseValue(nullptr);
     if (failed_) return;
     if (value.isLiteral()) {
+      if (!isNumber(value)) return fail(start, "an M function has a number from 0 on");
       function.number = static_cast<int>(value.number);
     } else {
       function.number = -1;
