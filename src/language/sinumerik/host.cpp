@@ -1,0 +1,196 @@
+#include "language/sinumerik/host.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "control/alarm.hpp"
+#include "language/sinumerik/functions.hpp"
+#include "language/sinumerik/program.hpp"
+
+namespace probewright::sinumerik {
+
+using namespace language;
+using control::Alarm;
+
+SinumerikHost::SinumerikHost(Control& control, HostOptions options)
+    : control_(control), options_(std::move(options)), motion_(control, state_), system_(control, state_, motion_) {
+  for (const control::sinumerik::DataKey& key : control.data.keys("R")) {
+    if (key.indices.size() == 1) rParameter(std::stod(key.indices.front())) = control.data.number(key);
+  }
+  rChanged_.assign(rChanged_.size(), false);
+  state_.gGroup[6] = control.plane - 16;
+  state_.gGroup[1] = 2;
+  state_.gGroup[8] = control.frames.settable + 1;
+  state_.gGroup[7] = state_.gGroup[14] = 1;
+  state_.gGroup[13] = state_.gGroup[15] = 2;
+}
+
+SinumerikHost::~SinumerikHost() { storeParameters(); }
+
+std::string SinumerikHost::code(Refusal refusal) const {
+  switch (refusal) {
+    case Refusal::DivisionByZero:
+    case Refusal::Domain:
+    case Refusal::Overflow:
+      return "14051";
+    case Refusal::TypeMismatch:
+      return "12150";
+    case Refusal::MissingValue:
+      return "12080";
+    case Refusal::TooComplex:
+      return "12070";
+    case Refusal::MissingLabel:
+      return "14080";
+    case Refusal::MissingProgram:
+      return "14011";
+    case Refusal::NestingDepth:
+      return "14000";
+    case Refusal::Structure:
+      return "12640";
+  }
+  return {};
+}
+
+bool SinumerikHost::beginBlock(const Program& program, const Block& block) {
+  if (&program != lastProgram_) {
+    control_.panel.place.file = program.file();
+    lastProgram_ = &program;
+  }
+  control_.panel.place.line = block.position.line;
+  block_ = &block;
+  return true;
+}
+
+void SinumerikHost::execute(const Instruction& instruction, Evaluation& evaluation) {
+  std::visit([&](const auto& each) { carryOut(each, evaluation); }, instruction);
+}
+
+void SinumerikHost::carryOut(const Assign& assign, Evaluation& evaluation) {
+  const VariableRef& variable = evaluation.block().variables[assign.variable];
+  // The common case, R parameters, goes without a detour through values of any type.
+  if (variable.space == VariableSpace::R) {
+    const double value = evaluation.number(assign.value);
+    const double number = evaluation.number(variable.index[0]);
+    rParameter(number) = value;
+    rChanged_[static_cast<std::size_t>(number)] = true;
+    return;
+  }
+  write(variable, evaluation.value(assign.value), evaluation);
+}
+
+Value SinumerikHost::call(std::string_view name, std::span<const Value> arguments) {
+  FunctionQuestions questions;
+  questions.isVariable = [this](std::string_view text) { return isVariableNamed(text); };
+  questions.isAxis = [this](std::string_view axis) {
+    return motion_.machineAxis(addressOf(axis)).has_value() || PathMotion::linearAxis(addressOf(axis)).has_value();
+  };
+  questions.isFile = [this](std::string_view path) { return options_.fileExists && options_.fileExists(path); };
+  questions.toolNumber = [this](std::string_view tool) {
+    try {
+      return control_.toolNumbered(std::string(tool));
+    } catch (const Alarm&) {
+      return -1;
+    }
+  };
+  if (auto value = callFunction(name, arguments, questions)) return *value;
+  throw Alarm("12340", fmt::format("the function {} is not available here", name));
+}
+
+void SinumerikHost::enter(const Program& program, const CallProgram* call, Evaluation* caller) {
+  Level level;
+  level.program = &program;
+  const auto* own = dynamic_cast<const SinumerikProgram*>(&program);
+  const BlockParser::Header* header = nullptr;
+  if (own != nullptr) {
+    const auto& found = const_cast<SinumerikProgram*>(own)->structure().header();
+    if (found) header = &*found;
+  }
+  UserVariables::Scope parameters;
+  const std::uint32_t given = call != nullptr ? call->arguments.count : 0;
+  if (given > (header != nullptr ? header->parameters.size() : 0))
+    throw Alarm("14020",
+                fmt::format("{} is called with {} arguments and has {} parameters", program.name(), given,
+                            header != nullptr ? header->parameters.size() : 0),
+                "compare the call with the PROC line");
+  if (header != nullptr && call != nullptr) {
+    const auto words = caller->words(call->arguments);
+    for (std::size_t i = 0; i < header->parameters.size(); ++i) {
+      const BlockParser::Parameter& parameter = header->parameters[i];
+      const bool present = i < words.size() && words[i].value.present();
+      std::array<int, 3> sizes{};
+      for (std::size_t k = 0; k < parameter.dimensions.size() && k < 3; ++k)
+        sizes[k] = std::max(parameter.dimensions[k], 1);
+      UserVariable variable(parameter.type, sizes, 200);
+      if (!present) {
+        if (parameter.byReference)
+          throw Alarm("14020",
+                      fmt::format("the VAR parameter {} of {} has no argument", parameter.name, program.name()));
+        const bool text = parameter.type == Type::String || parameter.type == Type::Axis;
+        if (parameter.type != Type::Frame)
+          variable.set(0, text ? Value(parameter.defaultText) : Value(parameter.defaultNumber));
+      } else if (!parameter.byReference) {
+        variable.set(0, caller->value(words[i].value));
+      } else {
+        const Operand& operand = words[i].value;
+        const Node* node = operand.node >= 0 ? &caller->block().nodes[static_cast<std::size_t>(operand.node)] : nullptr;
+        if (node == nullptr || node->operation != Operation::Variable)
+          throw Alarm("14020",
+                      fmt::format("the VAR parameter {} of {} needs a variable", parameter.name, program.name()));
+        ResolvedVariable source = resolve(caller->block().variables[node->a], *caller);
+        UserVariable* whole =
+            source.space == VariableSpace::User && source.indices.empty() ? variables_.find(source.name) : nullptr;
+        if (whole != nullptr && whole->isArray()) {
+          variable = *whole;
+        } else {
+          variable.set(0, read(source));
+        }
+        level.references.emplace_back(parameter.name, std::move(source));
+      }
+      parameters.emplace(parameter.name, std::move(variable));
+    }
+  } else if (header != nullptr) {
+    for (const BlockParser::Parameter& parameter : header->parameters)
+      parameters.emplace(parameter.name, UserVariable(parameter.type, {}, 200));
+  }
+  if (header != nullptr &&
+      std::find(header->attributes.begin(), header->attributes.end(), "SAVE") != header->attributes.end())
+    level.saved = SavedState{state_, control_.plane, control_.unit, control_.frames, control_.diameter};
+  variables_.enter();
+  for (auto& [name, variable] : parameters)
+    variables_.declare(name, std::move(variable));
+  levels_.push_back(std::move(level));
+  control_.level = static_cast<int>(levels_.size());
+}
+
+void SinumerikHost::leave(const Program&) {
+  if (levels_.empty()) return;
+  motion_.flush();
+  Level level = std::move(levels_.back());
+  levels_.pop_back();
+  control_.level = std::max(1, static_cast<int>(levels_.size()));
+  UserVariables::Scope left = variables_.leave();
+  for (const auto& [parameter, source] : level.references) {
+    const auto found = left.find(parameter);
+    if (found == left.end()) continue;
+    UserVariable* whole =
+        source.space == VariableSpace::User && source.indices.empty() ? variables_.find(source.name) : nullptr;
+    if (whole != nullptr && whole->isArray()) {
+      *whole = std::move(found->second);
+    } else {
+      write(source, found->second.at(0));
+    }
+  }
+  if (level.saved) {
+    state_ = level.saved->motion;
+    control_.plane = level.saved->plane;
+    control_.unit = level.saved->unit;
+    control_.frames = level.saved->frames;
+    control_.diameter = level.saved->diameter;
+    control_.applyFrames();
+  }
+  lastProgram_ = nullptr;
+  if (levels_.empty()) storeParameters();
+}
+
+}  // namespace probewright::sinumerik

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "control/sinumerik/control.hpp"
+#include "language/host.hpp"
+#include "language/sinumerik/block_parser.hpp"
+#include "language/sinumerik/motion.hpp"
+#include "language/sinumerik/system_variables.hpp"
+#include "language/sinumerik/user_variables.hpp"
+
+namespace probewright::sinumerik {
+
+struct HostOptions {
+  /// Cycles that are read but not carried out end the run with an alarm instead of being noted as skipped.
+  bool strict = false;
+  /// ISFILE: whether a program or file of that name exists.
+  std::function<bool(std::string_view path)> fileExists;
+};
+
+/// Carries out the instructions of SINUMERIK programs on a control: its variables, motions, tools, frames and cycles.
+/// Throws control::Alarm with the control's numbers.
+class SinumerikHost : public language::Host {
+public:
+  explicit SinumerikHost(Control& control, HostOptions options = {});
+  ~SinumerikHost() override;
+  SinumerikHost(const SinumerikHost&) = delete;
+  SinumerikHost& operator=(const SinumerikHost&) = delete;
+
+  Value read(const language::VariableRef& variable, Evaluation& evaluation) override;
+  void write(const language::VariableRef& variable, const Value& value, Evaluation& evaluation) override;
+  bool isDefined(const language::VariableRef& variable, Evaluation& evaluation) override;
+  Value call(std::string_view name, std::span<const Value> arguments) override;
+  void execute(const language::Instruction& instruction, Evaluation& evaluation) override;
+  bool beginBlock(const language::Program& program, const language::Block& block) override;
+  std::string code(language::Refusal refusal) const override;
+  double relativeEquality() const override { return 1e-12; }
+  void enter(const language::Program& program, const language::CallProgram* call, Evaluation* caller) override;
+  void leave(const language::Program& program) override;
+
+  /// Options of an interpreter that runs SINUMERIK programs: 16 program levels and so on are the control's.
+  static constexpr int programDepth = 16;
+
+  const MotionState& motionState() const { return state_; }
+  UserVariables& variables() { return variables_; }
+
+private:
+  // host_variables.cpp
+  struct ResolvedVariable {
+    language::VariableSpace space = language::VariableSpace::User;
+    std::string name;
+    std::vector<Value> indices;
+  };
+  ResolvedVariable resolve(const language::VariableRef& variable, Evaluation& evaluation) const;
+  Value read(const ResolvedVariable& variable);
+  void write(const ResolvedVariable& variable, const Value& value);
+  double& rParameter(double number);
+  std::optional<Value> readGlobal(std::string_view name, std::span<const Value> indices);
+  bool writeGlobal(std::string_view name, std::span<const Value> indices, const Value& value);
+  void declare(const language::Command& command, Evaluation& evaluation);
+  void fill(const language::Command& command, Evaluation& evaluation);
+  bool isVariableNamed(std::string_view text);
+  void storeParameters();
+
+  // host_instructions.cpp
+  void carryOut(const language::Assign& assign, Evaluation& evaluation);
+  void carryOut(const language::Move& move, Evaluation& evaluation) { motion_.carryOut(move, evaluation); }
+  void carryOut(const language::ToolCall& call, Evaluation& evaluation);
+  void carryOut(const language::Modal& modal, Evaluation& evaluation);
+  void carryOut(const language::MachineFunction& function, Evaluation& evaluation);
+  void carryOut(const language::Transform& transform, Evaluation& evaluation);
+  void carryOut(const language::Command& command, Evaluation& evaluation);
+  void carryOut(const language::CallProgram& call, Evaluation& evaluation);
+  void carryOut(const language::Stop& stop, Evaluation& evaluation);
+  template <class Other>
+  void carryOut(const Other&, Evaluation&) {}
+
+  void carryOutG(int number);
+  void carryOutNamedFunction(std::string_view name, const language::Modal& modal, Evaluation& evaluation);
+  void changeTool();
+  void raiseAlarm(const language::Command& command, Evaluation& evaluation);
+  void dwell(const language::Command& command, Evaluation& evaluation);
+  void writeFile(const language::Command& command, Evaluation& evaluation);
+  void skip(std::string_view what);
+  void runCycle(std::string_view name, language::WordRange arguments, Evaluation& evaluation);
+  void runSwivel(language::WordRange arguments, Evaluation& evaluation);
+
+  /// What SAVE keeps over a subprogram.
+  struct SavedState {
+    MotionState motion;
+    int plane = 17;
+    double unit = 1;
+    control::sinumerik::ActiveFrames frames;
+    bool diameter = false;
+  };
+  /// One program level.
+  struct Level {
+    const language::Program* program = nullptr;
+    std::vector<std::pair<std::string, ResolvedVariable>> references;  ///< VAR parameters and where they come from
+    std::optional<SavedState> saved;
+  };
+
+  Control& control_;
+  HostOptions options_;
+  MotionState state_;
+  PathMotion motion_;
+  SystemVariables system_;
+  UserVariables variables_;
+  std::vector<Level> levels_;
+  std::vector<double> r_;
+  std::vector<bool> rChanged_;
+  const language::Program* lastProgram_ = nullptr;
+  const language::Block* block_ = nullptr;
+  int preparedTool_ = -1;
+  std::optional<int> edgeAfterChange_;
+  std::set<std::string, std::less<>> skipped_;
+};
+
+}  // namespace probewright::sinumerik

@@ -1,0 +1,330 @@
+#include "language/sinumerik/motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "control/alarm.hpp"
+#include "control/sinumerik/text.hpp"
+
+namespace probewright::sinumerik {
+
+using namespace language;
+using control::Alarm;
+using control::Feed;
+
+namespace {
+
+/// Feed types from here on count per revolution of the spindle.
+constexpr int feedPerTurn = 95;
+
+double turnsTowards(double current, double angle) { return angle + 360 * std::round((current - angle) / 360); }
+
+}  // namespace
+
+PathMotion::PathMotion(Control& control, MotionState& state)
+    : control_(control), state_(state), compensator_([this](const PathElement& element) { run(element); }) {
+  for (const machine::Axis& axis : control.channel.description().axes)
+    axisCodes_.push_back(addressOf(control::sinumerik::upperCase(axis.name)));
+}
+
+std::optional<std::size_t> PathMotion::linearAxis(std::uint32_t address) {
+  if (address >= 'X' && address <= 'Z') return address - 'X';
+  return std::nullopt;
+}
+
+std::optional<std::size_t> PathMotion::machineAxis(std::uint32_t address) const {
+  const auto found = std::find(axisCodes_.begin(), axisCodes_.end(), address);
+  if (found == axisCodes_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - axisCodes_.begin());
+}
+
+double PathMotion::programAngle(std::size_t axis) const {
+  return control_.channel.axes()[axis] - control_.channel.rotaryOffset[axis];
+}
+
+Vector3 PathMotion::start() const { return programmed_ ? *programmed_ : control_.channel.position(); }
+
+/// The program angle to go to. A modulo axis goes to positions within a turn; the others wherever they are told.
+double PathMotion::rotaryTarget(std::size_t axis, WordMode mode, double value) const {
+  const double current = programAngle(axis);
+  const bool modulo = control_.channel.description().axes[axis].modulo;
+  switch (mode) {
+    case WordMode::Incremental:
+      return current + value;
+    case WordMode::DirectShortest:
+      return turnsTowards(current, value);
+    case WordMode::DirectPositive:
+    case WordMode::DirectNegative: {
+      const double near = turnsTowards(current, value);
+      const bool positive = mode == WordMode::DirectPositive;
+      if (std::abs(near - current) < 1e-9) return current;
+      if (positive && near < current) return near + 360;
+      if (!positive && near > current) return near - 360;
+      return near;
+    }
+    case WordMode::Plain:
+      if (state_.incremental) return current + value;
+      [[fallthrough]];
+    case WordMode::Absolute:
+      break;
+  }
+  return modulo ? 360 * std::floor(current / 360 + 1e-12) + value : value;
+}
+
+void PathMotion::readAxis(std::uint32_t address, WordMode mode, double value, Words& words) {
+  if (const auto linear = linearAxis(address)) {
+    const bool asDiameter = *linear == 0 && control_.diameter;
+    const double length = value * control_.unit / (asDiameter ? 2 : 1);
+    const bool incremental = mode == WordMode::Incremental || (mode == WordMode::Plain && state_.incremental);
+    words.target.linear[*linear] = incremental ? start()[static_cast<Eigen::Index>(*linear)] + length : length;
+    words.anyLinear = true;
+    return;
+  }
+  const auto axis = machineAxis(address);
+  if (!axis || control_.channel.description().axes[*axis].kind != machine::AxisKind::Rotary) {
+    throw Alarm("12080", fmt::format("the machine has no axis {} that a program can move", addressName(address)),
+                "the machine's description names its axes");
+  }
+  words.target.rotary[*axis] = rotaryTarget(*axis, mode, value);
+  words.anyRotary = true;
+}
+
+bool PathMotion::readArcWord(std::uint32_t address, WordMode mode, double value, Words& words) {
+  const double length = value * control_.unit;
+  switch (address) {
+    case addressOf("I"):
+      words.centre[0] = {mode, length};
+      return true;
+    case addressOf("J"):
+      words.centre[1] = {mode, length};
+      return true;
+    case addressOf("K"):
+      words.centre[2] = {mode, length};
+      return true;
+    case addressOf("I1"):
+    case addressOf("J1"):
+    case addressOf("K1"): {
+      const std::size_t axis = (address & 0xff) - 'I';
+      const bool incremental = mode == WordMode::Incremental || (mode == WordMode::Plain && state_.incremental);
+      words.middle[axis] = incremental ? start()[static_cast<Eigen::Index>(axis)] + length : length;
+      return true;
+    }
+    case addressOf("CR"):
+      words.radius = length;
+      return true;
+    case addressOf("AR"):
+      words.opening = value;
+      return true;
+    case addressOf("TURN"):
+      words.turns = static_cast<int>(std::clamp(std::floor(value + 0.5), 0.0, 999.0));
+      return true;
+    case addressOf("AP"):
+      words.polarAngle = value;
+      words.polarAngleIncremental = mode == WordMode::Incremental || (mode == WordMode::Plain && state_.incremental);
+      return true;
+    case addressOf("RP"):
+      words.polarRadius = length;
+      words.polarRadiusIncremental = mode == WordMode::Incremental;
+      return true;
+    // Corner rounding and chamfers, feeds of corners, tool orientation: the corner itself is travelled.
+    case addressOf("RND"):
+    case addressOf("RNDM"):
+    case addressOf("CHF"):
+    case addressOf("CHR"):
+    case addressOf("FRC"):
+    case addressOf("FRCM"):
+      return true;
+    default:
+      return false;
+  }
+}
+
+PathMotion::Words PathMotion::read(WordRange range, Evaluation& evaluation) {
+  Words words;
+  std::uint32_t computedAxis = 0;
+  for (const Word& word : evaluation.words(range)) {
+    if (word.address == addressOf("AX[]")) {
+      computedAxis = addressOf(control::sinumerik::upperCase(evaluation.text(word.value)));
+      continue;
+    }
+    const std::uint32_t address = word.address == addressOf("=AX") ? computedAxis : word.address;
+    const double value = evaluation.number(word.value);
+    if (!readArcWord(address, word.mode, value, words)) readAxis(address, word.mode, value, words);
+  }
+  if (words.polarAngle || words.polarRadius) resolvePolar(words);
+  return words;
+}
+
+void PathMotion::resolvePolar(Words& words) const {
+  const control::WorkingPlane plane = control_.workingPlane();
+  const Vector3 from = start() - state_.pole;
+  double angle = degreesFromRadians(std::atan2(from[plane.minor], from[plane.main]));
+  double radius = std::hypot(from[plane.main], from[plane.minor]);
+  if (words.polarAngle) angle = (words.polarAngleIncremental ? angle : 0) + *words.polarAngle;
+  if (words.polarRadius) radius = (words.polarRadiusIncremental ? radius : 0) + *words.polarRadius;
+  words.target.linear[static_cast<std::size_t>(plane.main)] =
+      state_.pole[plane.main] + radius * std::cos(radiansFromDegrees(angle));
+  words.target.linear[static_cast<std::size_t>(plane.minor)] =
+      state_.pole[plane.minor] + radius * std::sin(radiansFromDegrees(angle));
+  words.anyLinear = true;
+}
+
+void PathMotion::setPole(std::string_view function, WordRange range, Evaluation& evaluation) {
+  const Vector3 from = function == "G112" ? state_.pole : function == "G110" ? start() : Vector3(Vector3::Zero());
+  Words words;
+  Vector3 pole = from;
+  for (const Word& word : evaluation.words(range)) {
+    const double value = evaluation.number(word.value);
+    if (const auto axis = linearAxis(word.address)) {
+      pole[static_cast<Eigen::Index>(*axis)] = from[static_cast<Eigen::Index>(*axis)] + value * control_.unit;
+    } else {
+      readArcWord(word.address, word.mode, value, words);
+    }
+  }
+  if (words.polarAngle || words.polarRadius) {
+    const control::WorkingPlane plane = control_.workingPlane();
+    const double angle = radiansFromDegrees(words.polarAngle.value_or(0)), radius = words.polarRadius.value_or(0);
+    pole[plane.main] = from[plane.main] + radius * std::cos(angle);
+    pole[plane.minor] = from[plane.minor] + radius * std::sin(angle);
+  }
+  state_.pole = pole;
+}
+
+Vector3 PathMotion::endOf(const Words& words) const {
+  Vector3 end = start();
+  for (std::size_t i = 0; i < 3; ++i)
+    if (words.target.linear[i]) end[static_cast<Eigen::Index>(i)] = *words.target.linear[i];
+  return end;
+}
+
+Feed PathMotion::feed(MoveKind kind, const Vector3& from, const Vector3& to) const {
+  if (kind == MoveKind::Rapid) return Feed::rapidTraverse();
+  const double factor = state_.feedInInch ? control_.unit : 1;
+  double perMinute = state_.feed * factor;
+  if (state_.feedType >= feedPerTurn) perMinute *= state_.spindleSpeed;
+  if (state_.feedType == 93) perMinute = state_.feed * std::max((to - from).norm(), 1e-3);
+  if (!(perMinute > 0)) {
+    const bool perTurn = state_.feedType >= feedPerTurn && state_.feed > 0;
+    throw Alarm("10860", perTurn ? "the feed per revolution needs a turning spindle" : "no feed is programmed",
+                perTurn ? "program S, or G94 for a feed per minute" : "program F before the first G1, G2 or G3");
+  }
+  return Feed::at(perMinute);
+}
+
+void PathMotion::carryOut(const Move& move, Evaluation& evaluation) {
+  if (move.kind != MoveKind::Modal) state_.group1 = move.kind;
+  if (move.feed.present()) state_.feed = evaluation.number(move.feed);
+  if (move.compensation != RadiusCompensation::Unchanged) setCompensation(move.compensation);
+  if (move.machineCoordinates) {
+    flush();
+    return moveWithoutFrames(move, evaluation);
+  }
+  const Words words = read(move.words, evaluation);
+  const MoveKind kind = state_.group1;
+  if (kind == MoveKind::Rapid || kind == MoveKind::Linear || kind == MoveKind::Modal) return moveStraight(words, kind);
+  PathElement element = arc(words, kind);
+  element.feed = feed(kind, element.start, element.end);
+  direction_ = element.endDirection();
+  append(element);
+}
+
+void PathMotion::moveStraight(const Words& words, MoveKind kind) {
+  const Vector3 from = start(), to = endOf(words);
+  const Feed speed = feed(kind == MoveKind::Rapid ? MoveKind::Rapid : MoveKind::Linear, from, to);
+  if ((to - from).norm() > 1e-9) direction_ = (to - from).normalized();
+  if (words.anyRotary || !compensator_.active()) {
+    flush();
+    control_.channel.moveTo(words.target, speed);
+    return;
+  }
+  PathElement line;
+  line.start = from;
+  line.end = to;
+  line.feed = speed;
+  append(line);
+}
+
+void PathMotion::append(PathElement element) {
+  if (!compensator_.active()) return run(element);
+  programmed_ = element.end;
+  compensator_.add(element);
+  if (!compensator_.active()) programmed_.reset();
+}
+
+void PathMotion::run(const PathElement& element) {
+  if (!element.isArc) return control_.channel.moveTo(element.end, element.feed);
+  const double radius = (element.start - element.centre).norm();
+  const double tolerance = std::min(control_.channel.pathTolerance, radius / 2);
+  const double step = radius > 0 ? 2 * std::acos(1 - tolerance / radius) : std::numbers::pi;
+  const int pieces = std::clamp(static_cast<int>(std::ceil(std::abs(element.sweep) / step)), 1, 100000);
+  for (int i = 1; i <= pieces; ++i)
+    control_.channel.moveTo(i == pieces ? element.end : element.at(static_cast<double>(i) / pieces), element.feed);
+}
+
+void PathMotion::flush() {
+  compensator_.flush();
+  if (programmed_ && !compensator_.active()) programmed_.reset();
+}
+
+void PathMotion::setCompensation(RadiusCompensation compensation) {
+  const bool wanted = compensation != RadiusCompensation::Off;
+  if (compensation == state_.compensation) return;
+  const bool was = state_.compensation != RadiusCompensation::Off;
+  state_.compensation = compensation;
+  control_.radiusCompensation = wanted;
+  if (was) {
+    if (!wanted) return compensator_.end();
+    flush();
+  }
+  if (control_.tool.edge == 0)
+    throw Alarm("61311", "tool radius compensation needs an active D number", "program T and D before G41 or G42");
+  compensator_.begin(compensation == RadiusCompensation::Left ? 1 : -1, control_.tool.radius, control_.workingPlane(),
+                     state_.cornerArc);
+}
+
+/// SUPA, G153: no frame at all; G53: base frames stay.
+void PathMotion::moveWithoutFrames(const Move& move, Evaluation& evaluation) {
+  control::Channel& channel = control_.channel;
+  channel.rotaryOffset = {};
+  channel.setFollowing(control::Following::LinearAxes, {});
+  const bool baseStays = evaluation.at(move.variant) == "G53";
+  channel.setFrame(baseStays ? control_.machineFromBase() : Eigen::Affine3d::Identity());
+  try {
+    const Words words = read(move.words, evaluation);
+    const bool rapid = state_.group1 == MoveKind::Rapid;
+    channel.moveTo(words.target, feed(rapid ? MoveKind::Rapid : MoveKind::Linear, start(), endOf(words)));
+  } catch (...) {
+    control_.applyFrames();
+    throw;
+  }
+  control_.applyFrames();
+}
+
+void PathMotion::position(const std::string& axis, WordMode mode, double value) {
+  flush();
+  Words words;
+  readAxis(addressOf(axis), mode, value, words);
+  const auto own = state_.axisFeed.find(axis);
+  control_.channel.moveTo(
+      words.target, own != state_.axisFeed.end() && own->second > 0 ? Feed::at(own->second) : Feed::rapidTraverse());
+}
+
+void PathMotion::approachFixedPoint(const Command& command, Evaluation& evaluation) {
+  flush();
+  control::Channel& channel = control_.channel;
+  AxisPositions target = channel.axes();
+  for (const Word& word : evaluation.words(command.words)) {
+    if (word.address == addressOf("FP") || word.address == addressOf("F")) continue;
+    std::string name = addressName(word.address);
+    auto axis = machineAxis(addressOf(name));
+    if (!axis && name.size() > 1) axis = machineAxis(addressOf(name.substr(0, name.size() - 1)));  // X1 is X
+    if (!axis) throw Alarm("12080", fmt::format("the machine has no axis {}", name));
+    target[*axis] = channel.description().toolChange[*axis];
+  }
+  channel.moveAxes(target, Feed::rapidTraverse());
+}
+
+}  // namespace probewright::sinumerik

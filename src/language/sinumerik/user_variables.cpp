@@ -1,0 +1,124 @@
+#include "language/sinumerik/user_variables.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "control/alarm.hpp"
+
+namespace probewright::sinumerik {
+
+using control::Alarm;
+
+namespace {
+
+Value initialValue(Type type) {
+  if (type == Type::String || type == Type::Axis) return std::string();
+  if (type == Type::Frame) return std::string("CTRANS()");
+  return 0.0;
+}
+
+double wholeNumber(double value, double least, double most) {
+  const double whole = std::floor(value + 0.5);
+  if (!(whole >= least && whole <= most))
+    throw Alarm("12160", fmt::format("the value {} lies outside {} to {}", value, least, most),
+                "use a REAL variable or a smaller value");
+  return whole;
+}
+
+}  // namespace
+
+UserVariable::UserVariable(Type type, std::array<int, 3> sizes, int length)
+    : type_(type), sizes_(sizes), length_(length) {
+  std::size_t count = 1;
+  for (const int size : sizes)
+    count *= size > 0 ? static_cast<std::size_t>(size) : 1;
+  values_.assign(count, initialValue(type));
+}
+
+std::size_t UserVariable::place(std::string_view name, std::span<const double> indices) const {
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < sizes_.size(); ++i) {
+    if (sizes_[i] == 0) {
+      if (indices.size() > i)
+        throw Alarm("12261", fmt::format("{} has fewer than {} dimensions", name, indices.size()),
+                    "compare the indices with the DEF of the variable");
+      break;
+    }
+    // A name without indices means the first element.
+    const double index = i < indices.size() ? indices[i] : 0;
+    if (!(index >= 0 && index < sizes_[i]) || index != std::floor(index))
+      throw Alarm(i == 0   ? "17020"
+                  : i == 1 ? "17030"
+                           : "17040",
+                  fmt::format("illegal index {} for dimension {} of {}", index, i + 1, name),
+                  fmt::format("the index runs from 0 to {}", sizes_[i] - 1));
+    place = place * static_cast<std::size_t>(sizes_[i]) + static_cast<std::size_t>(index);
+  }
+  return place;
+}
+
+void UserVariable::set(std::size_t place, const Value& value) {
+  Value& target = values_[place];
+  const auto* number = std::get_if<double>(&value);
+  const auto* text = std::get_if<std::string>(&value);
+  const auto refuse = [this]() -> const Alarm {
+    return Alarm("12150", fmt::format("this value does not fit a variable of type {}", typeName(type_)),
+                 "convert it: NUMBER(text), ROUND(number), \"\"<<number");
+  };
+  switch (type_) {
+    case Type::Real:
+      if (number == nullptr) throw refuse();
+      target = *number;
+      return;
+    case Type::Int:
+      if (number == nullptr) throw refuse();
+      target = wholeNumber(*number, -2147483648.0, 2147483647.0);
+      return;
+    case Type::Bool:
+      if (number == nullptr) throw refuse();
+      target = *number != 0 ? 1.0 : 0.0;
+      return;
+    case Type::Char:
+      if (number != nullptr) {
+        target = wholeNumber(*number, 0, 255);
+      } else if (text->size() == 1) {
+        target = static_cast<double>(static_cast<unsigned char>(text->front()));
+      } else {
+        throw refuse();
+      }
+      return;
+    case Type::String:
+      if (text == nullptr) throw refuse();
+      target = text->substr(0, static_cast<std::size_t>(length_));
+      return;
+    case Type::Axis:
+    case Type::Frame:
+      if (text == nullptr) throw refuse();
+      target = *text;
+      return;
+  }
+}
+
+UserVariables::Scope UserVariables::leave() {
+  if (levels_.empty()) return {};
+  Scope scope = std::move(levels_.back());
+  levels_.pop_back();
+  return scope;
+}
+
+UserVariable& UserVariables::declare(std::string_view name, UserVariable variable) {
+  Scope& scope = levels_.empty() ? global_ : levels_.back();
+  return scope.insert_or_assign(std::string(name), std::move(variable)).first->second;
+}
+
+UserVariable* UserVariables::find(std::string_view name) {
+  key_.assign(name);
+  if (!levels_.empty()) {
+    if (const auto found = levels_.back().find(key_); found != levels_.back().end()) return &found->second;
+  }
+  const auto found = global_.find(key_);
+  return found == global_.end() ? nullptr : &found->second;
+}
+
+}  // namespace probewright::sinumerik

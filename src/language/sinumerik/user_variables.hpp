@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "language/sinumerik/keywords.hpp"
+#include "language/value.hpp"
+
+namespace probewright::sinumerik {
+
+using language::Value;
+
+/// One variable of DEF or one parameter of a program: a single value or an array of up to three dimensions.
+class UserVariable {
+public:
+  UserVariable() = default;
+  /// `sizes`: elements per dimension, 0 for dimensions that it has not. `length`: of a STRING.
+  UserVariable(Type type, std::array<int, 3> sizes, int length);
+
+  Type type() const { return type_; }
+  bool isArray() const { return sizes_[0] > 0; }
+  std::size_t count() const { return values_.size(); }
+
+  /// The place of an element. Throws Alarm 17020, 17030 or 17040 for an index out of range, 12261 for missing indices.
+  std::size_t place(std::string_view name, std::span<const double> indices) const;
+
+  const Value& at(std::size_t place) const { return values_[place]; }
+  /// Converts to the variable's type as the control does: REAL to INT rounds, everything but 0 is TRUE. Throws Alarm
+  /// 12150 if the type does not fit, 12160 if the value is out of range.
+  void set(std::size_t place, const Value& value);
+
+private:
+  Type type_ = Type::Real;
+  std::array<int, 3> sizes_{};
+  int length_ = 0;
+  std::vector<Value> values_;
+};
+
+/// The user variables of all program levels. A level sees its own variables and the global ones.
+class UserVariables {
+public:
+  using Scope = std::unordered_map<std::string, UserVariable>;
+
+  void enter() { levels_.emplace_back(); }
+  /// Leaves the innermost level and hands out its variables.
+  Scope leave();
+  std::size_t depth() const { return levels_.size(); }
+
+  /// Declares a variable of the innermost level. Declaring again, as a loop around DEF does, resets it.
+  UserVariable& declare(std::string_view name, UserVariable variable);
+  /// The variable that the innermost level sees, or null.
+  UserVariable* find(std::string_view name);
+
+  Scope& global() { return global_; }
+
+private:
+  Scope global_;
+  std::vector<Scope> levels_;
+  std::string key_;
+};
+
+}  // namespace probewright::sinumerik

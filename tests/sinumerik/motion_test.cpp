@@ -1,0 +1,206 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "sinumerik/world.hpp"
+
+/// Where the axes go, held against the geometry that the blocks describe.
+namespace probewright::sinumerik {
+namespace {
+
+Vector3 tipOf(World& world, std::size_t move) {
+  return world.control.channel.programFromAxes(world.machine.moves.at(move).to);
+}
+
+Vector3 lastTip(World& world) { return world.control.channel.position(); }
+
+TEST(SinumerikMotion, StraightLinesInEveryWayOfWriting) {
+  World world;
+  world.run("G0 X10 Y20 Z30\n");
+  EXPECT_TRUE(world.machine.moves[0].feed.rapid);
+  EXPECT_EQ(lastTip(world), Vector3(10, 20, 30));
+  world.run("G1 X=5*2+1 F500\n");
+  EXPECT_EQ(world.machine.moves[1].feed.perMinute, 500);
+  EXPECT_EQ(lastTip(world), Vector3(11, 20, 30));
+  world.run("G91 G1 X1 Y=AC(0)\nG90 Z=IC(-5)\n");
+  EXPECT_EQ(lastTip(world), Vector3(12, 0, 25));
+  world.run("G70 X1\nG71\n");
+  EXPECT_NEAR(lastTip(world).x(), 25.4, 1e-12);
+  world.run("G111 X10 Y10\nG0 AP=90 RP=5\n");
+  EXPECT_LT((lastTip(world) - Vector3(10, 15, 25)).norm(), 1e-12);
+  world.run("AP=IC(90)\n");
+  EXPECT_LT((lastTip(world) - Vector3(5, 10, 25)).norm(), 1e-12);
+  world.run("DEF AXIS AXV=(Y)\nAX[AXV]=3\nPOS[Z]=1\n");
+  EXPECT_LT((lastTip(world) - Vector3(5, 3, 1)).norm(), 1e-12);
+}
+
+TEST(SinumerikMotion, FeedMustBeProgrammed) {
+  World world;
+  EXPECT_EQ(world.alarm("G1 X10\n"), "10860");
+  EXPECT_EQ(world.alarm("G95 G1 X10 F0.1\n"), "10860");
+  world.run("S1000 M3 G95 F0.2\nG1 X20\n");
+  EXPECT_EQ(world.machine.moves.back().feed.perMinute, 200);
+  EXPECT_EQ(world.alarm("X1 Q5\n"), "12080") << "the machine has no axis Q";
+}
+
+TEST(SinumerikMotion, ToolLengthAndFramesMakeTheAxesPosition) {
+  World world;
+  world.control.data.load({"$P_UIFR", {1, "X", "TR"}}, 100.0);
+  world.control.data.load({"$P_UIFR", {1, "Z", "TR"}}, -200.0);
+  world.control.data.load({"$P_UIFR", {1, "Z", "FI"}}, 0.5);
+  world.run("T=\"MILL\" D1 M6\nG54 G0 X10 Y0 Z5\n");
+  const auto& axes = world.machine.moves.back().to;
+  EXPECT_NEAR(axes[0], 110, 1e-12);
+  EXPECT_NEAR(axes[2], 5 - 200 + 0.5 + 100, 1e-12);
+  ASSERT_EQ(world.machine.tools.size(), 1u);
+  EXPECT_EQ(world.machine.tools[0].number, 1);
+  world.run("TRANS X1 Y2\nAROT Z90\nG0 X10 Y0\n");
+  // Y of the rotated system points along -X of the workpiece: X10 lies 10 in +Y.
+  EXPECT_NEAR(world.machine.moves.back().to[0], 101, 1e-9);
+  EXPECT_NEAR(world.machine.moves.back().to[1], 12, 1e-9);
+  world.run("MIRROR X0\nG0 X10 Y0\n");
+  EXPECT_NEAR(world.machine.moves.back().to[0], 90, 1e-9);
+  world.run("SCALE X2\nG0 X10\nTRANS\n");
+  EXPECT_NEAR(world.machine.moves.back().to[0], 120, 1e-9);
+  world.run("SUPA G0 X1 Z500 D0\n");
+  EXPECT_EQ(world.machine.moves.back().to[0], 1);
+  EXPECT_EQ(world.machine.moves.back().to[2], 500);
+  world.run("G500 D2 G0 X0 Z0\n");
+  EXPECT_EQ(world.machine.moves.back().to[0], 0);
+  EXPECT_EQ(world.machine.moves.back().to[2], 90);
+  EXPECT_EQ(world.alarm("T7 M6\n"), "17190");
+  EXPECT_EQ(world.alarm("D9\n"), "17180");
+}
+
+TEST(SinumerikMotion, ArcsStayOnTheirCircle) {
+  struct Case {
+    const char* text;
+    Vector3 centre, end;
+    double radius, sweepDegrees;  // counterclockwise positive
+  };
+  const Case cases[] = {
+      {"G3 X0 Y10 I-10 J0", {0, 0, 0}, {0, 10, 0}, 10, 90},
+      {"G2 X0 Y10 I-10 J0", {0, 0, 0}, {0, 10, 0}, 10, -270},
+      {"G2 X10 Y0 I-10 J0", {0, 0, 0}, {10, 0, 0}, 10, -360},
+      {"G3 X0 Y10 I=AC(0) J=AC(0)", {0, 0, 0}, {0, 10, 0}, 10, 90},
+      {"G3 X0 Y10 CR=10", {0, 0, 0}, {0, 10, 0}, 10, 90},
+      {"G3 X0 Y10 CR=-10", {10, 10, 0}, {0, 10, 0}, 10, 270},
+      {"G3 AR=90 I-10 J0", {0, 0, 0}, {0, 10, 0}, 10, 90},
+      {"G3 X-10 Y0 AR=180", {0, 0, 0}, {-10, 0, 0}, 10, 180},
+      {"G3 X0 Y10 Z6 I-10 J0 TURN=1", {0, 0, 0}, {0, 10, 6}, 10, 450},
+      {"CIP X-10 Y0 I1=0 J1=10 K1=0", {0, 0, 0}, {-10, 0, 0}, 10, 180},
+  };
+  for (const Case& c : cases) {
+    World world;
+    world.run(std::string("G0 X10 Y0\nF1000\n") + c.text + "\n");
+    ASSERT_GT(world.machine.moves.size(), 3u) << c.text;
+    double angle = 0, previous = 0;
+    for (std::size_t i = 1; i < world.machine.moves.size(); ++i) {
+      const Vector3 tip = tipOf(world, i);
+      EXPECT_NEAR(std::hypot(tip.x() - c.centre.x(), tip.y() - c.centre.y()), c.radius, 1e-9) << c.text;
+      const double now = std::atan2(tip.y() - c.centre.y(), tip.x() - c.centre.x());
+      const double from = i == 1 ? std::atan2(0 - c.centre.y(), 10 - c.centre.x()) : previous;
+      angle += std::remainder(now - from, 2 * std::numbers::pi);
+      previous = now;
+    }
+    EXPECT_NEAR(angle * 180 / std::numbers::pi, c.sweepDegrees, 1e-6) << c.text;
+    EXPECT_LT((lastTip(world) - c.end).norm(), 1e-9) << c.text;
+  }
+  World world;
+  EXPECT_EQ(world.alarm("G0 X10 Y0\nF100 G2 X0 Y11 I-10 J0\n"), "14040");
+  EXPECT_EQ(world.alarm("G0 X10 Y0\nF100 G2 X-20 Y0 CR=5\n"), "14040");
+  EXPECT_EQ(world.alarm("G0 X10 Y0\nF100 G2 X-20 Y0\n"), "14040");
+}
+
+TEST(SinumerikMotion, ATangentialArcLeavesInTheLastDirection) {
+  World world;
+  world.run("F1000 G1 X0 Y0\nX10\nCT X20 Y10\n");
+  // Tangent +X at (10,0), end (20,10): centre (10,10), radius 10.
+  for (std::size_t i = 2; i < world.machine.moves.size(); ++i)
+    EXPECT_NEAR((tipOf(world, i) - Vector3(10, 10, 0)).norm(), 10, 1e-9);
+  EXPECT_LT((lastTip(world) - Vector3(20, 10, 0)).norm(), 1e-9);
+}
+
+TEST(SinumerikMotion, ToolRadiusCompensationKeepsTheDistance) {
+  // A square of 40 walked clockwise with the tool (radius 5) on the left: outside, so the path keeps 5 away.
+  World world;
+  world.run("T1 M6\nG0 X-20 Y-20\nF500\nG41 G1 X0 Y0\nY40\nX40\nY0\nX0\nG40 X-20 Y-20\n");
+  const auto distanceToSquare = [](const Vector3& p) {
+    const double dx = std::max({-p.x(), 0.0, p.x() - 40}), dy = std::max({-p.y(), 0.0, p.y() - 40});
+    return std::hypot(dx, dy);
+  };
+  ASSERT_GT(world.machine.moves.size(), 8u);
+  for (std::size_t i = 1; i + 1 < world.machine.moves.size(); ++i)
+    EXPECT_NEAR(distanceToSquare(tipOf(world, i)), 5, 1e-9) << i;
+  EXPECT_LT((lastTip(world) - Vector3(-20, -20, 0)).head<2>().norm(), 1e-9);
+  EXPECT_LT((tipOf(world, 1) - Vector3(-5, 0, 0)).head<2>().norm(), 1e-9);
+
+  // Inside the square, on the right side: corners are cut, so the path is a square of 30.
+  World inside;
+  inside.run("T1 M6\nG0 X20 Y20\nF500\nG42 G1 X0 Y10\nY40\nX40\nY0\nX0\nY10\nG40 X20 Y20\n");
+  const Vector3 corners[] = {{5, 10, 0}, {5, 35, 0}, {35, 35, 0}, {35, 5, 0}, {5, 5, 0}, {5, 10, 0}, {20, 20, 0}};
+  ASSERT_EQ(inside.machine.moves.size(), 8u);
+  for (std::size_t i = 0; i < 7; ++i)
+    EXPECT_LT((tipOf(inside, i + 1) - corners[i]).head<2>().norm(), 1e-9)
+        << i << ": " << tipOf(inside, i + 1).transpose();
+
+  // A full circle of radius 20 from outside: radius 25.
+  World round;
+  round.run("T1 M6\nG0 X40 Y0\nF500\nG42 G1 X20 Y0\nG3 X20 Y0 I-20 J0\nG40 G1 X40 Y0\n");
+  for (std::size_t i = 1; i + 1 < round.machine.moves.size(); ++i)
+    EXPECT_NEAR(tipOf(round, i).head<2>().norm(), 25, 1e-9);
+  World tight;
+  EXPECT_EQ(tight.alarm("T1 M6\nG0 X0 Y0\nF500\nG41 G1 X3 Y0\nG3 X3 Y0 I-3 J0\nG40 G1 X0 Y0\n"), "10753");
+}
+
+TEST(SinumerikMotion, MeasuringBlocksLatchThePosition) {
+  World world;
+  world.control.data.load({"$P_UIFR", {1, "X", "TR"}}, 50.0);
+  world.machine.wall = 80;
+  world.run(
+      "T2 M6\nG54 G0 X0 Y0 Z0\nMEAS=1 G1 X100 F300\nSTOPRE\n"
+      "R1=$AC_MEA[1] R2=$AA_MW[X] R3=$AA_MM[X] R4=$AA_IW[X] R5=$AA_IM[Z]\n");
+  EXPECT_EQ(world.r(1), 1);
+  EXPECT_NEAR(world.r(2), 30, 1e-12);
+  EXPECT_NEAR(world.r(3), 80, 1e-12);
+  EXPECT_NEAR(world.r(4), 30, 1e-12);
+  EXPECT_NEAR(world.r(5), 150, 1e-12);
+  ASSERT_EQ(world.control.journal.cycles.size(), 1u);
+  EXPECT_EQ(world.control.journal.cycles[0].touches.at(0).outcome, "touched");
+  world.run("G0 X0\nMEAW=1 G1 X100\nR2=$AA_MW[X] R4=$AA_IW[X]\nG0 X0\nMEAS=1 G1 X20\nR1=$AC_MEA[1]\n");
+  EXPECT_NEAR(world.r(2), 30, 1e-12);
+  EXPECT_NEAR(world.r(4), 100, 1e-12) << "MEAW travels on";
+  EXPECT_EQ(world.r(1), 0);
+  EXPECT_EQ(world.alarm("G0 X0\nMEAS=3 G1 X10 F100\n"), "14020");
+}
+
+TEST(SinumerikMotion, RotaryAxesTurnAsTold) {
+  World world("mill5-table-table");
+  const auto& axes = world.machine.description().axes;
+  const auto c = *world.machine.description().axisIndex("C");
+  ASSERT_EQ(axes[c].kind, machine::AxisKind::Rotary);
+  world.run("G0 C350\n");
+  EXPECT_EQ(world.machine.position()[c], 350);
+  world.run("C=DC(10)\n");
+  EXPECT_EQ(world.machine.position()[c], 370);
+  world.run("C=ACN(0)\n");
+  EXPECT_EQ(world.machine.position()[c], 360);
+  world.run("C=ACP(350)\n");
+  EXPECT_EQ(world.machine.position()[c], 710);
+  world.run("C=IC(-710)\n");
+  EXPECT_EQ(world.machine.position()[c], 0);
+}
+
+TEST(SinumerikMotion, DwellSpindleAndSwitches) {
+  World world;
+  world.run("G4 F2.5\nS60 M3\nG4 S3\nSPOS=90\n");
+  EXPECT_NEAR(world.machine.clock, 2.5 + 3, 1e-12);
+  EXPECT_EQ(world.machine.spindle, 90);
+  world.run("DEF INT ERR=5\nWRITE(ERR,\"/_N_WKS_DIR/LOG_MPF\",\"x=\"<<1)\nWRITE(ERR,\"LOG_MPF\",\"y\")\nR1=ERR\nM0\n");
+  EXPECT_EQ(world.control.panel.files().at("LOG_MPF"), "x=1\ny\n");
+  EXPECT_EQ(world.r(1), 0);
+}
+
+}  // namespace
+}  // namespace probewright::sinumerik

@@ -1,0 +1,81 @@
+#include "language/sinumerik/swivel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include <fmt/format.h>
+
+#include "sinumerik/world.hpp"
+
+/// CYCLE800 on machines of every build: the tool stands square to the plane, and the plane lies where it was asked for.
+namespace probewright::sinumerik {
+namespace {
+
+TEST(Swivel, AnglesTurnAboutTheAxesInTheOrderOfTheMode) {
+  // 57: X, then the new Y, then the new Z.
+  const Matrix3 expected =
+      (rotation(Vector3::UnitX(), 10) * rotation(Vector3::UnitY(), 20) * rotation(Vector3::UnitZ(), 30)).linear();
+  EXPECT_LT((*swivelRotation(57, {10, 20, 30}) - expected).norm(), 1e-12);
+  // 27: Z, then Y, then X.
+  const Matrix3 other =
+      (rotation(Vector3::UnitZ(), 10) * rotation(Vector3::UnitY(), 20) * rotation(Vector3::UnitX(), 30)).linear();
+  EXPECT_LT((*swivelRotation(27, {10, 20, 30}) - other).norm(), 1e-12);
+  EXPECT_FALSE(swivelRotation(192, {10, 20, 0}));
+}
+
+TEST(Swivel, TheToolStandsSquareToThePlane) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> angle(-25, 25);
+  for (const char* name : {"mill5-table-table", "mill5-head-table", "mill5-head-head"}) {
+    for (int i = 0; i < 20; ++i) {
+      World world(name);
+      world.control.data.load({"$P_UIFR", {1, "X", "TR"}}, 100.0);
+      world.control.data.load({"$P_UIFR", {1, "Z", "TR"}}, -300.0);
+      world.control.data.load({"$P_UIFR", {1, "Z", "RT"}}, angle(random));
+      const double a = angle(random), b = angle(random);
+      world.run(fmt::format("T2 M6\nG54\nCYCLE800(0,\"\",0,57,10,20,30,{},{},0,0,0,0,-1)\n", a, b));
+      // Square: the tool axis is the plane's own Z.
+      EXPECT_LT((world.control.channel.toolAxis() - Vector3::UnitZ()).norm(), 1e-7) << name << " A" << a << " B" << b;
+      // The frame is the settable one, then the reference point, then the rotation.
+      const Eigen::Affine3d expected = control::sinumerik::transform(world.control.data.frame("$P_UIFR", {1})) *
+                                       Eigen::Translation3d(10, 20, 30) *
+                                       Eigen::Affine3d(rotation(Vector3::UnitX(), a) * rotation(Vector3::UnitY(), b));
+      EXPECT_LT((world.control.machineFromWorkpiece().matrix() - expected.matrix()).norm(), 1e-9) << name;
+    }
+  }
+}
+
+TEST(Swivel, DirectionPicksThePosture) {
+  World smaller("mill5-table-table"), larger("mill5-table-table");
+  smaller.run("CYCLE800(0,\"\",0,57,0,0,0,20,0,0,0,0,0,-1)\n");
+  larger.run("CYCLE800(0,\"\",0,57,0,0,0,20,0,0,0,0,0,1)\n");
+  const auto& description = smaller.machine.description();
+  std::size_t tilting = 0;
+  while (description.axes[tilting].kind != machine::AxisKind::Rotary)
+    ++tilting;
+  const double a = smaller.machine.position()[tilting], b = larger.machine.position()[tilting];
+  EXPECT_NEAR(std::abs(a), 20, 1e-5);
+  EXPECT_LT(a, b);
+}
+
+TEST(Swivel, WithoutArgumentsThePlaneIsBack) {
+  World world("mill5-table-table");
+  world.run("CYCLE800(0,\"\",0,57,0,0,0,20,0,0,0,0,0,-1)\nCYCLE800()\n");
+  EXPECT_FALSE(world.control.swivelled);
+  EXPECT_TRUE(world.control.machineFromWorkpiece().isApprox(Eigen::Affine3d::Identity()));
+}
+
+TEST(Swivel, AMachineWithoutRotaryAxesRefuses) {
+  World world;
+  EXPECT_EQ(world.alarm("CYCLE800(0,\"\",0,57,0,0,0,20,0,0,0,0,0,-1)\n"), "62181");
+}
+
+TEST(Swivel, AxesAreSetDirectly) {
+  World world("mill5-table-table");
+  world.run("CYCLE800(0,\"\",0,192,0,0,0,15,40,0,0,0,0,-1)\n");
+  EXPECT_LT((world.control.channel.toolAxis() - Vector3::UnitZ()).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace probewright::sinumerik
