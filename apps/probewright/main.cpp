@@ -1,1 +1,84 @@
-int main() { return 4; }
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <map>
+
+#include "commands.hpp"
+
+namespace {
+
+using probewright::control::ControlKind;
+using probewright::control::OnStop;
+
+/// The option --control of all subcommands.
+void addControl(CLI::App& command, std::optional<ControlKind>& control) {
+  command
+      .add_option_function<std::string>(
+          "--control",
+          [&control](const std::string& text) {
+            control = probewright::control::controlKindOf(text);
+            if (!control) throw CLI::ValidationError("--control", text + " is none of TNC640, iTNC530, 840Dsl");
+          },
+          "The control the program is for, where ending and text don't tell: TNC640, iTNC530, 840Dsl")
+      ->type_name("NAME");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Probewright runs the touch-probe measuring programs of HEIDENHAIN and SINUMERIK controls."};
+  app.set_version_flag("--version", PROBEWRIGHT_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit codes: 0 fine, 1 measured and out of tolerance, 2 a mistake in the input, 3 an alarm or a stop while "
+      "running, "
+      "4 an error inside Probewright.");
+
+  probewright::app::RunArguments runArguments;
+  CLI::App* run = app.add_subcommand("run", "Run a program on the virtual machine of a setup");
+  run->add_option("PROGRAM", runArguments.program, "NC program: .H, .MPF, .SPF")->required();
+  run->add_option("--setup", runArguments.setup, "The world to run in (see docs/setup-format.md)")
+      ->required()
+      ->type_name("FILE");
+  run->add_option("--out", runArguments.out, "Folder for tables, logs, results.json and report.html")
+      ->capture_default_str()
+      ->type_name("DIR");
+  addControl(*run, runArguments.control);
+  run->add_flag("--strict", runArguments.strict, "Refuse machining cycles, which are skipped otherwise");
+  const std::map<std::string, OnStop> stops = {
+      {"continue", OnStop::Continue}, {"abort", OnStop::Abort}, {"ask", OnStop::Ask}};
+  run->add_option("--on-stop", runArguments.onStop, "What a programmed stop does: continue, abort, ask")
+      ->transform(CLI::CheckedTransformer(stops, CLI::ignore_case))
+      ->type_name("WHAT");
+  run->add_option("--answers", runArguments.answers, "Answers to what the program asks, one NAME=VALUE a line")
+      ->type_name("FILE");
+  run->add_option("--step-limit", runArguments.stepLimit, "Blocks after which an endless loop is assumed; 0: never")
+      ->capture_default_str();
+  run->add_option("--seed", runArguments.seed, "Seed of the random effects, instead of the setup's");
+  run->add_flag("--quiet", runArguments.quiet, "Print nothing but mistakes");
+
+  probewright::app::CheckArguments checkArguments;
+  CLI::App* check = app.add_subcommand("check", "Read programs without moving anything and name every mistake");
+  check->add_option("PROGRAM", checkArguments.programs, "NC programs")->required();
+  addControl(*check, checkArguments.control);
+
+  probewright::app::CyclesArguments cyclesArguments;
+  CLI::App* cycles = app.add_subcommand("cycles", "The catalogue of measuring cycles, or one of them in full");
+  cycles->add_option("NAME", cyclesArguments.name, "411, CYCLE977");
+  addControl(*cycles, cyclesArguments.control);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  try {
+    if (run->parsed()) return probewright::app::run(runArguments);
+    if (check->parsed()) return probewright::app::check(checkArguments);
+    return probewright::app::cycles(cyclesArguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "probewright: internal error: %s\nPlease report this with the program and the setup.\n",
+                 error.what());
+    return 4;
+  }
+}

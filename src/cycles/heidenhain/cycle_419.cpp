@@ -8,17 +8,14 @@ namespace {
 
 using namespace parameters;
 
-constexpr Choice axisChoices[] = {{1, "main axis"}, {2, "minor axis"}, {3, "touch probe axis"}};
-constexpr Choice directionChoices[] = {{-1, "negative"}, {1, "positive"}};
-
 constexpr Parameter parameters419[] = {
     coordinate(263, "Q263", "touch, main axis"),
     coordinate(264, "Q264", "touch, minor axis"),
     measuringHeight,
     setUpClearance,
     clearanceHeight,
-    option(272, "Q272", "measuring axis", axisChoices),
-    option(267, "Q267", "direction of probing", directionChoices),
+    measuringAxis3,
+    probingDirection,
     tableRow,
     coordinate(333, "Q333", "coordinate that the touched point gets in the measuring axis"),
     standard(transfer, -1),

@@ -1,33 +1,36 @@
 #include "cycles/heidenhain/circle_measurement.hpp"
 #include "cycles/heidenhain/cycles.hpp"
 #include "cycles/heidenhain/inspection.hpp"
-#include "cycles/heidenhain/parameters.hpp"
+#include "cycles/heidenhain/preset_parameters.hpp"
 
 namespace probewright::cycles::heidenhain {
 namespace {
 
-constexpr Parameter parameters421[] = {
-    parameters::coordinate(273, "Q273", "nominal centre in the main axis"),
-    parameters::coordinate(274, "Q274", "nominal centre in the minor axis"),
-    parameters::length(262, "Q262", "nominal diameter of the hole"),
-    parameters::angle(325, "Q325", "angle of the first touch from the main axis"),
-    parameters::angle(247, "Q247", "angle from touch to touch, negative: clockwise; at least 5 degrees", -120, 120),
-    parameters::measuringHeight,
-    parameters::setUpClearance,
-    parameters::clearanceHeight,
-    parameters::moveToClearance,
-    parameters::limit(275, "Q275", "largest permissible diameter; 0 with Q276 = 0: not monitored"),
-    parameters::limit(276, "Q276", "smallest permissible diameter"),
-    parameters::centreTolerance1,
-    parameters::centreTolerance2,
-    parameters::measuringLog,
-    parameters::toleranceStop,
-    parameters::monitoredTool,
-    parameters::pointCount,
-    parameters::traverse,
-    parameters::reverseTool,
-    parameters::inclination,
-};
+using namespace parameters;
+
+constexpr std::array parameters421 =
+    joined(joined(
+               std::array{
+                   coordinate(273, "Q273", "nominal centre in the main axis"),
+                   coordinate(274, "Q274", "nominal centre in the minor axis"),
+                   length(262, "Q262", "nominal diameter of the hole"),
+                   angle(325, "Q325", "angle of the first touch from the main axis"),
+                   angle(247, "Q247", "angle from touch to touch, negative: clockwise; at least 5 degrees", -120, 120),
+               },
+               heightsAndTravel),
+           std::array{
+               limit(275, "Q275", "largest permissible diameter; 0 together with the smallest: not monitored"),
+               limit(276, "Q276", "smallest permissible diameter"),
+               centreTolerance1,
+               centreTolerance2,
+               measuringLog,
+               toleranceStop,
+               monitoredTool,
+               pointCount,
+               traverse,
+               reverseTool,
+               inclination,
+           });
 
 constexpr ResultDefinition results421[] = {
     {"Q151", "actual centre, main axis"},
@@ -59,7 +62,9 @@ void cycle421(Context& context, const Arguments&) {
   context.require({});
   const MeasuredCircle circle = measureCircle(context, {273, 274, 262}, Side::Inside);
 
-  Inspection inspection{.title = "Hole Measuring", .items = {}, .further = {{"Measuring height", context.q(261)}}};
+  Inspection inspection{.title = "Hole Measuring",
+                        .items = {},
+                        .further = {{"Measuring height", context.q(261) / context.control().unit}}};
   inspection.items = {
       inspectedPosition(151, 161, "Center in reference axis", context.q(273), circle.centre.x(), context.q(279)),
       inspectedPosition(152, 162, "Center in minor axis", context.q(274), circle.centre.y(), context.q(280)),

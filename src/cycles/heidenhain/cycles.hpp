@@ -5,6 +5,8 @@
 /// Every HEIDENHAIN cycle: its catalogue entry and its code, each in the file of its number.
 namespace probewright::cycles::heidenhain {
 
+extern const CycleDefinition cycle400Definition;
+extern const CycleDefinition cycle403Definition;
 extern const CycleDefinition cycle408Definition;
 extern const CycleDefinition cycle409Definition;
 extern const CycleDefinition cycle410Definition;
@@ -15,7 +17,14 @@ extern const CycleDefinition cycle414Definition;
 extern const CycleDefinition cycle417Definition;
 extern const CycleDefinition cycle419Definition;
 extern const CycleDefinition cycle421Definition;
+extern const CycleDefinition cycle422Definition;
+extern const CycleDefinition cycle423Definition;
+extern const CycleDefinition cycle424Definition;
+extern const CycleDefinition cycle427Definition;
+extern const CycleDefinition cycle431Definition;
 
+void cycle400(Context& context, const Arguments& arguments);
+void cycle403(Context& context, const Arguments& arguments);
 void cycle408(Context& context, const Arguments& arguments);
 void cycle409(Context& context, const Arguments& arguments);
 void cycle410(Context& context, const Arguments& arguments);
@@ -26,5 +35,10 @@ void cycle414(Context& context, const Arguments& arguments);
 void cycle417(Context& context, const Arguments& arguments);
 void cycle419(Context& context, const Arguments& arguments);
 void cycle421(Context& context, const Arguments& arguments);
+void cycle422(Context& context, const Arguments& arguments);
+void cycle423(Context& context, const Arguments& arguments);
+void cycle424(Context& context, const Arguments& arguments);
+void cycle427(Context& context, const Arguments& arguments);
+void cycle431(Context& context, const Arguments& arguments);
 
 }  // namespace probewright::cycles::heidenhain

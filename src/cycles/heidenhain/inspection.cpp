@@ -109,10 +109,10 @@ std::string logText(Context& context, const Inspection& inspection) {
   text += fmt::format("Date:              {:02}-{:02}-{:04}\n", time.tm_mday, time.tm_mon + 1, time.tm_year + 1900);
   text += fmt::format("Time:              {}:{:02}:{:02}\n", time.tm_hour, time.tm_min, time.tm_sec);
   text += fmt::format("Measuring program: {}\n", control.programPath);
-  text += rule + "\n" + section("Nominal values:", nominal);
+  if (!nominal.empty()) text += rule + "\n" + section("Nominal values:", nominal);
   if (!limits.empty()) text += rule + "\n" + section("Given limit values:", limits);
-  text += stars + "\n" + section("Actual values:", actual);
-  text += rule + "\n" + section("Deviations:", deviations);
+  if (!actual.empty()) text += stars + "\n" + section("Actual values:", actual);
+  if (!deviations.empty()) text += rule + "\n" + section("Deviations:", deviations);
   if (!further.empty()) text += stars + "\n" + section("Further results:", further);
   text += "\n******************** End of measuring log ********************\n";
   return text;
@@ -157,6 +157,15 @@ void monitorTool(Context& context, const ToolMonitoring& monitoring) {
 
 }  // namespace
 
+void writeLog(Context& context, const Inspection& inspection) {
+  const int log = context.option(281);
+  if (log == 1) {
+    context.log(fmt::format("TCHPR{}.TXT", context.record().name), logText(context, inspection));
+  } else if (log == 2) {
+    context.stop(logText(context, inspection));
+  }
+}
+
 void finishInspection(Context& context, const Inspection& inspection, const ToolMonitoring& tool) {
   for (const Inspected& item : inspection.items) {
     context.result(item.parameter, item.actual, {item.nominal, item.minimum, item.maximum, item.verdict});
@@ -170,12 +179,7 @@ void finishInspection(Context& context, const Inspection& inspection, const Tool
   context.set(181, verdict == Verdict::Rework ? 1 : 0);
   context.set(182, verdict == Verdict::Scrap ? 1 : 0);
 
-  const int log = context.option(281);
-  if (log == 1) {
-    context.log(fmt::format("TCHPR{}.TXT", context.record().name), logText(context, inspection));
-  } else if (log == 2) {
-    context.stop(logText(context, inspection));
-  }
+  writeLog(context, inspection);
   if (tool.supported) monitorTool(context, tool);
 
   if (context.option(309) == 1 && verdict != Verdict::Good) {

@@ -35,7 +35,7 @@ Inspected inspectedDimension(int parameter, int deviationParameter, std::string 
 struct Inspection {
   std::string title;  ///< "Hole Measuring"
   std::vector<Inspected> items;
-  /// Further results of the log: label and value.
+  /// Further results of the log: label and value, in the unit of the program.
   std::vector<std::pair<std::string, double>> further;
 };
 
@@ -53,6 +53,9 @@ struct ToolMonitoring {
   bool correct = true;
 };
 void finishInspection(Context& context, const Inspection& inspection, const ToolMonitoring& tool);
+
+/// Writes or shows the log as Q281 says.
+void writeLog(Context& context, const Inspection& inspection);
 
 /// The text of a measuring log in the layout of the control.
 std::string logText(Context& context, const Inspection& inspection);

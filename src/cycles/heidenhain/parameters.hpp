@@ -84,6 +84,14 @@ inline constexpr Parameter traverse =
     only(standard(option(365, "Q365", "path between the points at clearance height", traverseChoices), 1),
          control::onTNC640);
 
+inline constexpr Choice axis2Choices[] = {{1, "main axis"}, {2, "minor axis"}};
+inline constexpr Choice axis3Choices[] = {{1, "main axis"}, {2, "minor axis"}, {3, "touch probe axis"}};
+inline constexpr Parameter measuringAxis2 = option(272, "Q272", "measuring axis", axis2Choices);
+inline constexpr Parameter measuringAxis3 = option(272, "Q272", "measuring axis", axis3Choices);
+inline constexpr Choice directionChoices[] = {{-1, "negative"}, {1, "positive"}};
+inline constexpr Parameter probingDirection =
+    option(267, "Q267", "direction in which the probe approaches the workpiece", directionChoices);
+
 // ---- inspection ----
 
 inline constexpr Choice measuringLogChoices[] = {

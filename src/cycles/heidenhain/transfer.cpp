@@ -49,19 +49,22 @@ Control::PresetChange presetChange(Context& context, const NewPreset& preset) {
   return change;
 }
 
-void writeDatumRow(Context& context, int row, const NewPreset& preset) {
+control::heidenhain::TypedTable& datumTableWithRow(Context& context, int row) {
   Control& control = context.control();
   const auto found = control.tables.datums.find(control.activeDatumTable);
   if (found == control.tables.datums.end()) {
     throw Alarm("Datum table not selected", "No datum table is active for the transfer with Q303 = 0",
                 "select one with SEL TABLE, or transfer to the preset table with Q303 = 1");
   }
-  auto& table = found->second;
+  const Result<void> added = found->second.ensureRow(std::to_string(row));
+  if (!added) throw Alarm("Table write error", added.error().message, added.error().advice);
+  return found->second;
+}
+
+void writeDatumRow(Context& context, int row, const NewPreset& preset) {
+  Control& control = context.control();
+  auto& table = datumTableWithRow(context, row);
   const std::string key = std::to_string(row);
-  if (!table.hasRow(key)) {
-    const Result<void> added = table.ensureRow(key);
-    if (!added) throw Alarm("Table write error", added.error().message, added.error().advice);
-  }
   // Datum shifts count from the preset along its axes.
   const auto& plane = control.coordinates.plane;
   const Vector3 feature = control.coordinates.machineFromPreset().inverse() *
@@ -92,19 +95,7 @@ void transferPreset(Context& context, const NewPreset& preset) {
   }
   Control::PresetChange change = presetChange(context, preset);
   if (row == 0) {
-    const auto active = control.coordinates.preset;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto index = static_cast<Eigen::Index>(i);
-      if (!change.origin[i]) change.origin[i] = active.origin[index];
-      if (!change.spaceAngles[i]) change.spaceAngles[i] = active.spaceAngles[index];
-    }
-    for (std::size_t i = 0; i < context.channel().description().axes.size(); ++i) {
-      if (active.rotaryOffset[i] != 0) change.rotaryOffset[i] = active.rotaryOffset[i];
-    }
-    control.coordinates.workpiece = {};
-    control.coordinates.workingPlane = {};
-    control.writePreset(0, change);
-    control.activatePreset(0);
+    copyActivePresetTo0(context, change);
     return;
   }
   if (!control.presetRow(row)) {
@@ -116,6 +107,49 @@ void transferPreset(Context& context, const NewPreset& preset) {
     }
   }
   control.writePreset(row, change);
+}
+
+void copyActivePresetTo0(Context& context, Control::PresetChange change) {
+  Control& control = context.control();
+  const auto active = control.coordinates.preset;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto index = static_cast<Eigen::Index>(i);
+    if (!change.origin[i]) change.origin[i] = active.origin[index];
+    if (!change.spaceAngles[i] && (i == 2 || control.isTNC640())) change.spaceAngles[i] = active.spaceAngles[index];
+  }
+  for (std::size_t i = 0; i < context.channel().description().axes.size(); ++i) {
+    if (!change.rotaryOffset[i] && active.rotaryOffset[i] != 0) change.rotaryOffset[i] = active.rotaryOffset[i];
+  }
+  control.coordinates.workpiece = {};
+  control.coordinates.workingPlane = {};
+  control.writePreset(0, change);
+  control.activatePreset(0);
+}
+
+void writeDatumAngle(Context& context, std::size_t axis, double degrees) {
+  const int row = context.option(305);
+  auto& table = datumTableWithRow(context, row);
+  context.control().writeNumber(table, std::to_string(row), context.channel().description().axes[axis].name, degrees);
+}
+
+void resetBasicRotation(Context& context) {
+  context.control().coordinates.preset.spaceAngles.setZero();
+  context.control().applyCoordinates();
+}
+
+void setBasicRotation(Context& context, double degrees, int row) {
+  Control& control = context.control();
+  Vector3 toolAxis = Vector3::Zero();
+  toolAxis[control.coordinates.plane.tool] = 1;
+  const Vector3 angles =
+      spaceAnglesFromRotation(Eigen::AngleAxisd(radiansFromDegrees(degrees), toolAxis).toRotationMatrix());
+  Control::PresetChange change;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double angle = angles[static_cast<Eigen::Index>(i)];
+    if (i == static_cast<std::size_t>(control.coordinates.plane.tool) || control.isTNC640())
+      change.spaceAngles[i] = angle;
+  }
+  control.writePreset(row == 0 ? control.coordinates.preset.row : row, change);
 }
 
 void finishPreset(Context& context, const NewPreset& preset) {

@@ -24,4 +24,16 @@ void transferPreset(Context& context, const NewPreset& preset);
 /// sets Q333 there.
 void finishPreset(Context& context, const NewPreset& preset);
 
+/// Row 0 takes the active preset with `change` and becomes active; simple transformations are cleared.
+void copyActivePresetTo0(Context& context, Control::PresetChange change);
+
+/// Writes an angle into column A, B or C of row Q305 of the active datum table.
+void writeDatumAngle(Context& context, std::size_t axis, double degrees);
+
+/// Takes the basic rotation of the active preset out of effect; the table keeps it.
+void resetBasicRotation(Context& context);
+
+/// Sets the basic rotation (degrees about the tool axis): row 0 stands for the active preset.
+void setBasicRotation(Context& context, double degrees, int row);
+
 }  // namespace probewright::cycles::heidenhain

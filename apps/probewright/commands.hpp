@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "control/control_kind.hpp"
+#include "control/operator_panel.hpp"
+
+/// The subcommands of probewright. Each prints what there is to say and returns the exit code: 0 fine, 1 measured and
+/// out of tolerance, 2 a mistake in the input, 3 an alarm or a stop while running, 4 internal.
+namespace probewright::app {
+
+struct RunArguments {
+  std::filesystem::path program;
+  std::filesystem::path setup;
+  std::filesystem::path out = "probewright-out";
+  std::optional<control::ControlKind> control;
+  bool strict = false;
+  control::OnStop onStop = control::OnStop::Continue;
+  std::filesystem::path answers;  ///< empty: no file
+  std::uint64_t stepLimit = 50'000'000;
+  std::optional<std::uint64_t> seed;  ///< instead of the setup's
+  bool quiet = false;
+};
+int run(const RunArguments& arguments);
+
+struct CheckArguments {
+  std::vector<std::filesystem::path> programs;
+  std::optional<control::ControlKind> control;
+};
+int check(const CheckArguments& arguments);
+
+struct CyclesArguments {
+  std::string name;  ///< empty: all
+  std::optional<control::ControlKind> control;
+};
+int cycles(const CyclesArguments& arguments);
+
+}  // namespace probewright::app

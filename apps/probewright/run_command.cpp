@@ -1,0 +1,159 @@
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+#include <iostream>
+#include <map>
+
+#include "base/file.hpp"
+#include "base/number_text.hpp"
+#include "commands.hpp"
+#include "records/results.hpp"
+#include "reports/report.hpp"
+#include "reports/summary.hpp"
+#include "session/run.hpp"
+#include "session/scene.hpp"
+
+namespace probewright::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::stop_source interrupted;
+
+extern "C" void onInterrupt(int) { interrupted.request_stop(); }
+
+void print(const Diagnostics& diagnostics) {
+  for (const Diagnostic& diagnostic : diagnostics)
+    std::fputs((format(diagnostic) + "\n").c_str(), stderr);
+}
+
+bool askOnTerminal(const std::string& text) {
+  std::fputs(fmt::format("\n{}\nContinue? [Y/n] ", text).c_str(), stdout);
+  std::fflush(stdout);
+  std::string line;
+  if (!std::getline(std::cin, line)) return false;
+  return line.empty() || line[0] == 'y' || line[0] == 'Y';
+}
+
+/// NAME=VALUE lines; # begins a comment.
+Result<std::map<std::string, std::string>> readAnswers(const fs::path& path) {
+  std::map<std::string, std::string> answers;
+  const Result<std::string> text = readFile(path);
+  if (!text) return tl::unexpected(text.error());
+  std::uint64_t number = 0;
+  std::size_t begin = 0;
+  while (begin <= text->size()) {
+    std::size_t end = text->find('\n', begin);
+    if (end == std::string::npos) end = text->size();
+    std::string line = text->substr(begin, end - begin);
+    begin = end + 1;
+    ++number;
+    line = line.substr(0, line.find('#'));
+    const auto trimmed = [](std::string part) {
+      const std::size_t first = part.find_first_not_of(" \t\r");
+      if (first == std::string::npos) return std::string();
+      return part.substr(first, part.find_last_not_of(" \t\r") - first + 1);
+    };
+    if (trimmed(line).empty()) continue;
+    const std::size_t equals = line.find('=');
+    if (equals == std::string::npos) {
+      return fail({path.string(), number, 1}, fmt::format("'{}' is no answer", trimmed(line)), "write NAME = VALUE");
+    }
+    answers[trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
+  }
+  return answers;
+}
+
+/// Writes every file of the run; the first that cannot be written is the reason.
+Result<void> writeOutput(const fs::path& folder, const session::RunOutcome& outcome, const records::RunInfo& info) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    return fail({folder.string(), 0, 0}, "the output folder cannot be made: " + error.message(),
+                "name another folder with --out");
+  }
+  for (const auto& [name, text] : outcome.files) {
+    if (const Result<void> done = writeFileAtomically(folder / name, text); !done) return done;
+  }
+  if (const Result<void> done =
+          writeFileAtomically(folder / "results.json", records::resultsText(outcome.journal, info));
+      !done) {
+    return done;
+  }
+  return writeFileAtomically(folder / "report.html",
+                             reports::reportHtml(outcome.journal, info, session::sceneOf(outcome)));
+}
+
+}  // namespace
+
+int run(const RunArguments& arguments) {
+  Diagnostics mistakes;
+  std::optional<simulation::Setup> setup = simulation::readSetup(arguments.setup, mistakes);
+  print(mistakes);
+  if (!setup) return 2;
+  if (arguments.seed) setup->truth.seed = *arguments.seed;
+
+  session::RunOptions options;
+  options.control = arguments.control;
+  options.strict = arguments.strict;
+  options.onStop = arguments.onStop;
+  options.ask = askOnTerminal;
+  options.stepLimit = arguments.stepLimit;
+  options.wallClock = std::time(nullptr);
+  options.stop = interrupted.get_token();
+  std::map<std::string, std::string> answers;
+  if (!arguments.answers.empty()) {
+    auto read = readAnswers(arguments.answers);
+    if (!read) {
+      print({read.error()});
+      return 2;
+    }
+    answers = std::move(*read);
+  }
+  options.answer = [&](const std::string& question) -> std::optional<std::string> {
+    if (const auto found = answers.find(question); found != answers.end()) return found->second;
+    if (isatty(STDIN_FILENO) == 0) return std::nullopt;
+    std::fputs(fmt::format("{}: ", question).c_str(), stdout);
+    std::fflush(stdout);
+    std::string line;
+    if (!std::getline(std::cin, line)) return std::nullopt;
+    return line;
+  };
+  const bool progress = !arguments.quiet && isatty(STDERR_FILENO) != 0;
+  if (progress) {
+    options.progress = [](std::uint64_t blocks, std::size_t touches) {
+      std::fputs(fmt::format("\r{} blocks, {} touches ", blocks, touches).c_str(), stderr);
+    };
+  }
+  std::signal(SIGINT, onInterrupt);
+
+  session::RunOutcome outcome = session::runProgram(arguments.program, *setup, options);
+  if (progress) std::fputs("\r\033[K", stderr);
+  print(outcome.diagnostics);
+  if (hasErrors(outcome.diagnostics)) return 2;
+  print(outcome.result.diagnostics);
+
+  records::RunInfo info = outcome.info;
+  info.version = PROBEWRIGHT_VERSION;
+  info.startedAt = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(options.wallClock)));
+  for (const auto& [name, text] : outcome.files)
+    info.outputFiles.push_back(name);
+  if (const Result<void> written = writeOutput(arguments.out, outcome, info); !written) {
+    print({written.error()});
+    return 2;
+  }
+  if (!arguments.quiet) {
+    const auto colour = isatty(STDOUT_FILENO) != 0 ? reports::Colour::On : reports::Colour::Off;
+    std::fputs(reports::summaryText(outcome.journal, info, colour).c_str(), stdout);
+    std::fputs(fmt::format("\nReport: {}\n", (fs::absolute(arguments.out) / "report.html").lexically_normal().string())
+                   .c_str(),
+               stdout);
+  }
+  return static_cast<int>(info.exit);
+}
+
+}  // namespace probewright::app

@@ -1,0 +1,48 @@
+#include <cmath>
+
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/edge_measurement.hpp"
+#include "cycles/heidenhain/preset_parameters.hpp"
+#include "cycles/heidenhain/transfer.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr Parameter parameters400[] = {
+    coordinate(263, "Q263", "first touch, main axis"),
+    coordinate(264, "Q264", "first touch, minor axis"),
+    coordinate(265, "Q265", "second touch, main axis"),
+    coordinate(266, "Q266", "second touch, minor axis"),
+    measuringAxis2,
+    probingDirection,
+    measuringHeight,
+    setUpClearance,
+    clearanceHeight,
+    moveToClearance,
+    angle(307, "Q307", "angle of the line that the misalignment is measured from"),
+    standard(tableRow, 0),
+};
+
+}  // namespace
+
+const CycleDefinition cycle400Definition = {
+    .number = 400,
+    .name = "400",
+    .title = "BASIC ROTATION",
+    .family = CycleFamily::Misalignment,
+    .summary = "Measures the misalignment of an edge by two touches and compensates it by a basic rotation.",
+    .parameters = parameters400,
+    .results = {},
+};
+
+void cycle400(Context& context, const Arguments&) {
+  context.require({.tiltAllowed = false});
+  resetBasicRotation(context);
+  const MeasuredEdge edge = measureEdge(context);
+  const double measured = undirected(degreesFromRadians(std::atan2(edge.along.y(), edge.along.x())));
+  setBasicRotation(context, undirected(measured - context.q(307)), context.option(305));
+}
+
+}  // namespace probewright::cycles::heidenhain

@@ -1,0 +1,74 @@
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/inspection.hpp"
+#include "cycles/heidenhain/preset_parameters.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr Parameter parameters427[] = {
+    coordinate(263, "Q263", "touch, main axis"),
+    coordinate(264, "Q264", "touch, minor axis"),
+    measuringHeight,
+    setUpClearance,
+    measuringAxis3,
+    probingDirection,
+    clearanceHeight,
+    measuringLog,
+    coordinate(288, "Q288", "largest permissible value; 0 with Q289 = 0: not monitored"),
+    coordinate(289, "Q289", "smallest permissible value"),
+    toleranceStop,
+    monitoredTool,
+    reverseTool,
+    inclination,
+};
+
+constexpr ResultDefinition results427[] = {
+    {"Q160", "measured coordinate"},
+    {"Q180", "1: within tolerance", ValueKind::Integer},
+    {"Q181", "1: rework", ValueKind::Integer},
+    {"Q182", "1: scrap", ValueKind::Integer},
+};
+
+}  // namespace
+
+const CycleDefinition cycle427Definition = {
+    .number = 427,
+    .name = "427",
+    .title = "MEASURE COORDINATE",
+    .family = CycleFamily::Inspection,
+    .summary =
+        "Measures one coordinate in any axis and compares it with limits; can correct the tool that made the "
+        "surface.",
+    .parameters = parameters427,
+    .results = results427,
+};
+
+void cycle427(Context& context, const Arguments&) {
+  context.require({});
+  const int axis = context.option(272) - 1;
+  const double sense = context.option(267);
+  const PlannedTouch planned{{context.q(263), context.q(264), context.q(261)}, probing::axisDirection(axis, sense)};
+  auto& prober = context.prober();
+  prober.approach(prober.prePosition(planned, context.q(320)), context.q(260));
+  const EvaluatedTouch touch = prober.touch(planned);
+  prober.moveSouthPoleTo(context.q(260));
+
+  // The control takes the surface for that of a stud; exchanged limits make it that of a recess.
+  double maximum = context.q(288);
+  double minimum = context.q(289);
+  const Side side = maximum < minimum ? Side::Inside : Side::Outside;
+  if (side == Side::Inside) std::swap(maximum, minimum);
+  const double actual = touch.surface[axis];
+  const double nominal = planned.surface[axis];
+  Inspection inspection{.title = "Coordinate Measuring",
+                        .items = {},
+                        .further = {{"Measuring height", context.q(261) / context.control().unit}}};
+  inspection.items = {
+      inspectedDimension(160, 0, "Measured coordinate", "coordinate", nominal, actual, maximum, minimum, side)};
+  const double deviation = actual - nominal;
+  finishInspection(context, inspection, {.monitored = deviation, .excess = -sense * deviation, .length = axis == 2});
+}
+
+}  // namespace probewright::cycles::heidenhain

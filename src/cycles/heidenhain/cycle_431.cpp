@@ -1,0 +1,104 @@
+#include <cmath>
+
+#include "control/alarm.hpp"
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/inspection.hpp"
+#include "cycles/heidenhain/preset_parameters.hpp"
+#include "probing/heidenhain_strategies.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr Parameter parameters431[] = {
+    coordinate(263, "Q263", "first touch, main axis"),
+    coordinate(264, "Q264", "first touch, minor axis"),
+    coordinate(294, "Q294", "first touch, touch probe axis"),
+    coordinate(265, "Q265", "second touch, main axis"),
+    coordinate(266, "Q266", "second touch, minor axis"),
+    coordinate(295, "Q295", "second touch, touch probe axis"),
+    coordinate(296, "Q296", "third touch, main axis"),
+    coordinate(297, "Q297", "third touch, minor axis"),
+    coordinate(298, "Q298", "third touch, touch probe axis"),
+    setUpClearance,
+    clearanceHeight,
+    measuringLog,
+};
+
+constexpr ResultDefinition results431[] = {
+    {"Q158", "projection angle of the A axis", ValueKind::Angle},
+    {"Q159", "projection angle of the B axis", ValueKind::Angle},
+    {"Q170", "space angle A", ValueKind::Angle},
+    {"Q171", "space angle B", ValueKind::Angle},
+    {"Q172", "space angle C", ValueKind::Angle},
+    {"Q173", "first touch in the touch probe axis"},
+    {"Q174", "second touch in the touch probe axis"},
+    {"Q175", "third touch in the touch probe axis"},
+};
+
+}  // namespace
+
+const CycleDefinition cycle431Definition = {
+    .number = 431,
+    .name = "431",
+    .title = "MEASURE PLANE",
+    .family = CycleFamily::Inspection,
+    .summary =
+        "Measures the angles of a plane by three touches in the touch probe axis, as projection angles and as space "
+        "angles for PLANE SPATIAL.",
+    .parameters = parameters431,
+    .results = results431,
+};
+
+void cycle431(Context& context, const Arguments&) {
+  context.require({});
+  const Vector3 down = probing::axisDirection(2, -1);
+  const PlannedTouch first{{context.q(263), context.q(264), context.q(294)}, down};
+  const PlannedTouch second{{context.q(265), context.q(266), context.q(295)}, down};
+  const PlannedTouch third{{context.q(296), context.q(297), context.q(298)}, down};
+  const auto touches = probing::probePoints(
+      context.prober(), {{first}, {second}, {third}},
+      {.clearance = context.q(260), .extraClearance = context.q(320), .between = probing::Between::AtClearanceHeight});
+
+  // Ball centres lie on a parallel plane: the angles are the same at any tilt.
+  const Vector3& p1 = touches[0].ballCentre;
+  const Vector3& p2 = touches[1].ballCentre;
+  const Vector3& p3 = touches[2].ballCentre;
+  const Vector3 main = p2 - p1;
+  const Vector3 cross = main.cross(p3 - p1);
+  if (cross.norm() < 1e-6 * main.norm() * (p3 - p1).norm() || main.norm() < 1e-6) {
+    throw control::Alarm("Plane wrongly defined", "The three touches lie on one straight line",
+                         "choose points that span a triangle");
+  }
+  const Vector3 u = main.normalized();
+  Vector3 n = cross.normalized();
+  if (n.z() < 0) n = -n;
+  const auto& plane = context.control().coordinates.plane;
+  // Space angles count about X, Y and Z, whatever the touch probe axis.
+  Matrix3 axes;
+  axes.col(plane.main) = plane.xyzFromPlane(u);
+  axes.col(plane.minor) = plane.xyzFromPlane(n.cross(u));
+  axes.col(plane.tool) = plane.xyzFromPlane(n);
+  const Vector3 space = control::heidenhain::spaceAnglesFromRotation(axes);
+  context.result(158, degreesFromRadians(std::atan2(-n.y(), n.z())));
+  context.result(159, degreesFromRadians(std::atan2(n.x(), n.z())));
+  context.result(170, space.x());
+  context.result(171, space.y());
+  context.result(172, space.z());
+  context.result(173, touches[0].surface.z(), {.nominal = context.q(294)});
+  context.result(174, touches[1].surface.z(), {.nominal = context.q(295)});
+  context.result(175, touches[2].surface.z(), {.nominal = context.q(298)});
+  writeLog(context, {.title = "Plane Measuring",
+                     .items = {},
+                     .further = {{"Projection angle A axis", degreesFromRadians(std::atan2(-n.y(), n.z()))},
+                                 {"Projection angle B axis", degreesFromRadians(std::atan2(n.x(), n.z()))},
+                                 {"Space angle A", space.x()},
+                                 {"Space angle B", space.y()},
+                                 {"Space angle C", space.z()},
+                                 {"1st measured value", touches[0].surface.z() / context.control().unit},
+                                 {"2nd measured value", touches[1].surface.z() / context.control().unit},
+                                 {"3rd measured value", touches[2].surface.z() / context.control().unit}}});
+}
+
+}  // namespace probewright::cycles::heidenhain

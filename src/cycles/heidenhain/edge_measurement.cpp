@@ -1,0 +1,33 @@
+#include "cycles/heidenhain/edge_measurement.hpp"
+
+#include "control/alarm.hpp"
+#include "probing/heidenhain_strategies.hpp"
+
+namespace probewright::cycles::heidenhain {
+
+MeasuredEdge measureEdge(Context& context) {
+  const double height = context.q(261);
+  const Vector3 direction = probing::axisDirection(context.option(272) - 1, context.option(267));
+  const PlannedTouch first{{context.q(263), context.q(264), height}, direction};
+  const PlannedTouch second{{context.q(265), context.q(266), height}, direction};
+  const auto touches =
+      probing::probePoints(context.prober(), {{first}, {second}},
+                           {.measuring = height,
+                            .clearance = context.q(260),
+                            .extraClearance = context.q(320),
+                            .between = context.option(301) == 1 ? probing::Between::AtClearanceHeight
+                                                                : probing::Between::AtMeasuringHeight});
+  MeasuredEdge edge{touches[0], touches[1], touches[1].ballCentre - touches[0].ballCentre};
+  if (edge.along.norm() < 1e-6) {
+    throw control::Alarm("Edge not determined", "The two touches coincide", "move the points apart");
+  }
+  return edge;
+}
+
+double undirected(double degrees) {
+  const double angle = normalizedDegrees(degrees);
+  if (angle > 90) return angle - 180;
+  return angle <= -90 ? angle + 180 : angle;
+}
+
+}  // namespace probewright::cycles::heidenhain

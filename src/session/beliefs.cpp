@@ -1,0 +1,289 @@
+#include "session/beliefs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <functional>
+
+#include "base/file.hpp"
+#include "control/heidenhain/datum_table.hpp"
+#include "control/heidenhain/preset_table.hpp"
+#include "control/heidenhain/probe_table.hpp"
+#include "control/heidenhain/tool_table.hpp"
+#include "control/sinumerik/measuring_data.hpp"
+
+namespace probewright::session {
+
+namespace hh = control::heidenhain;
+namespace sin = control::sinumerik;
+namespace fs = std::filesystem;
+using control::ControlKind;
+using simulation::BelievedFrame;
+using simulation::BelievedTool;
+using simulation::Setup;
+
+namespace {
+
+std::string upper(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+/// The files of the setup's table folder, in alphabetical order.
+std::vector<fs::path> tableFiles(const Setup& setup) {
+  std::vector<fs::path> files;
+  if (setup.tables.empty()) return files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(setup.tables, error)) {
+    if (entry.is_regular_file(error)) files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+std::optional<std::string> contents(const fs::path& path, Diagnostics& diagnostics) {
+  Result<std::string> text = readFile(path);
+  if (!text) {
+    diagnostics.push_back(text.error());
+    return std::nullopt;
+  }
+  return std::move(*text);
+}
+
+using Parse = std::function<Result<hh::TypedTable>(std::string_view, std::string, Diagnostics&)>;
+
+/// The table from the file called `name`, or `otherwise`.
+hh::TypedTable tableNamed(const std::string& name, const std::vector<fs::path>& files, const Parse& parse,
+                          hh::TypedTable otherwise, Diagnostics& diagnostics) {
+  const auto found =
+      std::ranges::find_if(files, [&](const fs::path& path) { return upper(path.filename().string()) == name; });
+  if (found == files.end()) return otherwise;
+  const auto text = contents(*found, diagnostics);
+  if (!text) return otherwise;
+  Result<hh::TypedTable> table = parse(*text, found->string(), diagnostics);
+  if (!table) {
+    diagnostics.push_back(table.error());
+    return otherwise;
+  }
+  return std::move(*table);
+}
+
+/// Enters values into a table that is being made; what the table refuses becomes a diagnostic.
+class Entry {
+public:
+  Entry(hh::TypedTable& table, std::string row, const Setup& setup, Diagnostics& diagnostics)
+      : table_(table), row_(std::move(row)), setup_(setup), diagnostics_(diagnostics) {
+    keep(table_.ensureRow(row_));
+  }
+  void number(std::string_view column, double value) {
+    if (table_.hasColumn(column)) keep(table_.setNumber(row_, column, value));
+  }
+  void text(std::string_view column, std::string_view value) {
+    if (table_.hasColumn(column)) keep(table_.setText(row_, column, value));
+  }
+
+private:
+  void keep(const Result<void>& done) {
+    if (done) return;
+    Diagnostic mistake = done.error();
+    if (mistake.place.file.empty()) mistake.place.file = setup_.file;
+    diagnostics_.push_back(std::move(mistake));
+  }
+  hh::TypedTable& table_;
+  std::string row_;
+  const Setup& setup_;
+  Diagnostics& diagnostics_;
+};
+
+void enterTool(hh::Tables& tables, const BelievedTool& tool, const Setup& setup, Diagnostics& diagnostics) {
+  const std::string row = std::to_string(tool.number);
+  if (!tables.tools.hasRow(row)) {
+    Entry entry(tables.tools, row, setup, diagnostics);
+    entry.text("NAME", tool.name);
+    entry.number("L", tool.length);
+    entry.number("R", tool.radius);
+    if (tool.kind == "probe") {
+      entry.text("TYP", "TCHP");
+      entry.number("TP_NO", tool.probeNumber);
+      entry.number("CAL-OF1", tool.tipOffset.x());
+      entry.number("CAL-OF2", tool.tipOffset.y());
+      entry.number("CAL-ANG", tool.calibrationAngle);
+    }
+  }
+  const std::string probe = std::to_string(tool.probeNumber);
+  if (tool.kind == "probe" && setup.tables.empty()) {
+    Entry entry(tables.probes, probe, setup, diagnostics);
+    entry.number("CAL_OF1", tool.tipOffset.x());
+    entry.number("CAL_OF2", tool.tipOffset.y());
+    entry.number("CAL_ANG", tool.calibrationAngle);
+    entry.number("F", tool.feed);
+    entry.number("FMAX", tool.rapid);
+    entry.number("DIST", tool.maximumTravel);
+    entry.number("SET_UP", tool.setUpClearance);
+    entry.text("TRACK", tool.orient ? "ON" : "OFF");
+  }
+}
+
+}  // namespace
+
+hh::Tables heidenhainTables(const Setup& setup, ControlKind kind, Diagnostics& diagnostics) {
+  const std::vector<fs::path> files = tableFiles(setup);
+  hh::Tables tables{tableNamed("TOOL.T", files, hh::parseToolTable, hh::defaultToolTable(kind), diagnostics),
+                    tableNamed("TCHPROBE.TP", files, hh::parseProbeTable, hh::defaultProbeTable(kind), diagnostics),
+                    tableNamed("PRESET.PR", files, hh::parsePresetTable, hh::defaultPresetTable(kind), diagnostics),
+                    {}};
+  for (const fs::path& path : files) {
+    if (upper(path.extension().string()) != ".D") continue;
+    if (const auto text = contents(path, diagnostics)) {
+      Result<hh::TypedTable> table = hh::parseDatumTable(*text, path.string(), diagnostics);
+      if (table) {
+        tables.datums.emplace(upper(path.filename().string()), std::move(*table));
+      } else {
+        diagnostics.push_back(table.error());
+      }
+    }
+  }
+  for (const BelievedTool& tool : setup.tools)
+    enterTool(tables, tool, setup, diagnostics);
+  for (const BelievedFrame& preset : setup.presets) {
+    Entry entry(tables.presets, std::to_string(preset.index), setup, diagnostics);
+    static constexpr std::array<const char*, 3> names = {"X", "Y", "Z"};
+    static constexpr std::array<const char*, 3> angles = {"SPA", "SPB", "SPC"};
+    for (std::size_t i = 0; i < 3; ++i) {
+      entry.number(names[i], preset.origin[static_cast<Eigen::Index>(i)]);
+      entry.number(angles[i], preset.rotation[static_cast<Eigen::Index>(i)]);
+    }
+    entry.number("ROT", preset.rotation.z());
+    for (const auto& [axis, angle] : preset.rotary)
+      entry.number(axis, angle);
+  }
+  return tables;
+}
+
+int activePresetRow(const Setup& setup) {
+  const auto active = std::ranges::find(setup.presets, true, &BelievedFrame::active);
+  return active == setup.presets.end() ? 0 : active->index;
+}
+
+hh::MachineParameters machineParameters(const Setup& setup, Diagnostics& diagnostics) {
+  hh::MachineParameters parameters;
+  // On the iTNC 530 the probing values stand in machine parameters, not in a table: the probe in use sets them.
+  for (const BelievedTool& tool : setup.tools) {
+    if (tool.kind != "probe") continue;
+    parameters.mp6120 = tool.feed;
+    parameters.mp6130 = tool.maximumTravel;
+    parameters.mp6140 = tool.setUpClearance;
+    parameters.mp6150 = tool.rapid;
+    parameters.mp6165 = tool.orient;
+    break;
+  }
+  for (const auto& [name, parameter] : setup.parameters) {
+    const double* number = std::get_if<double>(&parameter.value);
+    const std::string key = upper(name);
+    const auto is = [&key](std::initializer_list<std::string_view> names) {
+      return std::ranges::find(names, key) != names.end();
+    };
+    if (key.starts_with('$')) continue;
+    if (number == nullptr) {
+      diagnostics.push_back({Severity::Error, parameter.place, fmt::format("{} takes a number", name), {}, {}, {}});
+      continue;
+    }
+    if (is({"MAXTOUCHFEED", "122602"})) {
+      parameters.maxTouchFeed = *number;
+    } else if (is({"CHKTILTINGAXES", "204601"})) {
+      parameters.checkTiltingAxes = *number != 0;
+    } else if (is({"MP6120"})) {
+      parameters.mp6120 = *number;
+    } else if (is({"MP6130"})) {
+      parameters.mp6130 = *number;
+    } else if (is({"MP6140"})) {
+      parameters.mp6140 = *number;
+    } else if (is({"MP6150"})) {
+      parameters.mp6150 = *number;
+    } else if (is({"MP6151"})) {
+      parameters.mp6151 = *number != 0;
+    } else if (is({"MP6165"})) {
+      parameters.mp6165 = *number != 0;
+    } else if (is({"MP6170"})) {
+      parameters.mp6170 = static_cast<int>(std::lround(*number));
+    } else if (is({"MP6171"})) {
+      parameters.mp6171 = *number;
+    } else {
+      diagnostics.push_back({Severity::Error,
+                             parameter.place,
+                             fmt::format("there is no machine parameter {}", name),
+                             {},
+                             "machine parameters are listed in docs/setup-format.md",
+                             {}});
+    }
+  }
+  return parameters;
+}
+
+SinumerikData sinumerikData(const Setup& setup, Diagnostics& diagnostics) {
+  SinumerikData data;
+  sin::DataStore& store = data.store;
+  sin::setMeasuringDefaults(store);
+  for (const BelievedTool& tool : setup.tools) {
+    const int t = tool.number;
+    const bool probe = tool.kind == "probe";
+    const bool turning = tool.kind == "turn";
+    const auto dp = [&](int parameter, double value) {
+      store.load(sin::DataKey(fmt::format("$TC_DP{}", parameter), {t, 1}), value);
+    };
+    store.load(sin::DataKey("$TC_TP2", {t}), tool.name);
+    dp(1, probe ? 710 : turning ? 500 : tool.kind == "drill" ? 200 : 120);
+    dp(3, tool.length);
+    dp(6, tool.radius);
+    if (!probe) continue;
+    const int n = tool.probeNumber - 1;
+    const auto calibration = [&](const char* name, double value) { store.load(sin::DataKey(name, {n}), value); };
+    calibration("$SNS_MEA_WP_BALL_DIAM", 2 * tool.radius);
+    calibration("$SNS_MEA_WP_TRIG_MINUS_DIR_AX1", -tool.radius + tool.tipOffset.x());
+    calibration("$SNS_MEA_WP_TRIG_PLUS_DIR_AX1", tool.radius + tool.tipOffset.x());
+    calibration("$SNS_MEA_WP_TRIG_MINUS_DIR_AX2", -tool.radius + tool.tipOffset.y());
+    calibration("$SNS_MEA_WP_TRIG_PLUS_DIR_AX2", tool.radius + tool.tipOffset.y());
+    // The tool length ends at the lowest point of the ball: nothing is left to add in the infeed axis.
+    calibration("$SNS_MEA_WP_TRIG_MINUS_DIR_AX3", 0);
+    calibration("$SNS_MEA_WP_POS_DEV_AX1", tool.tipOffset.x());
+    calibration("$SNS_MEA_WP_POS_DEV_AX2", tool.tipOffset.y());
+    calibration("$SNS_MEA_WP_FEED", tool.feed);
+  }
+  for (const BelievedFrame& offset : setup.zeroOffsets) {
+    sin::Frame frame;
+    for (std::size_t i = 0; i < 3; ++i) {
+      frame.geometry[i].coarse = offset.origin[static_cast<Eigen::Index>(i)];
+      frame.geometry[i].rotation = offset.rotation[static_cast<Eigen::Index>(i)];
+    }
+    for (const auto& [axis, angle] : offset.rotary)
+      frame.set(axis, sin::FramePart::Translation, angle);
+    store.loadFrame(sin::DataKey("$P_UIFR", {offset.index}), frame);
+  }
+  for (const auto& [name, parameter] : setup.parameters) {
+    if (!name.starts_with('$')) continue;
+    sin::InitText::parse(fmt::format("{}={}\n", name,
+                                     std::holds_alternative<double>(parameter.value)
+                                         ? fmt::format("{}", std::get<double>(parameter.value))
+                                         : "\"" + std::get<std::string>(parameter.value) + "\""),
+                         setup.file, store, diagnostics);
+  }
+  for (const fs::path& path : tableFiles(setup)) {
+    const std::string ending = upper(path.extension().string());
+    static constexpr std::array<std::string_view, 6> endings = {".INI", ".TOA", ".UFR", ".GUD", ".SEA", ".MD"};
+    if (std::ranges::find(endings, ending) == endings.end()) continue;
+    if (const auto text = contents(path, diagnostics)) {
+      data.files.push_back({path.filename().string(), sin::InitText::parse(*text, path.string(), store, diagnostics)});
+    }
+  }
+  return data;
+}
+
+int activeZeroOffset(const Setup& setup) {
+  const auto active = std::ranges::find(setup.zeroOffsets, true, &BelievedFrame::active);
+  return active == setup.zeroOffsets.end() ? 0 : active->index;
+}
+
+}  // namespace probewright::session

@@ -1,0 +1,187 @@
+#include "session/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/file.hpp"
+#include "control/alarm.hpp"
+#include "language/klartext/host.hpp"
+#include "language/klartext/program.hpp"
+#include "language/sinumerik/program.hpp"
+#include "records/results.hpp"
+#include "session/beliefs.hpp"
+#include "session/source.hpp"
+
+namespace probewright::session {
+
+namespace fs = std::filesystem;
+namespace hh = control::heidenhain;
+using control::ControlKind;
+using language::RunEnd;
+using records::ExitState;
+
+namespace {
+
+language::InterpreterOptions interpreterOptions(const RunOptions& options, ControlKind kind) {
+  language::InterpreterOptions interpreter;
+  interpreter.stepLimit = options.stepLimit;
+  interpreter.stop = options.stop;
+  interpreter.breakpoints = options.breakpoints;
+  interpreter.programDepth = control::isHeidenhain(kind) ? 20 : 16;
+  return interpreter;
+}
+
+/// How the control greets the operator with the panel's habits.
+void setPanel(control::OperatorPanel& panel, const RunOptions& options) {
+  panel.onStop = options.onStop;
+  panel.ask = options.ask;
+  panel.answer = options.answer;
+}
+
+void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>& program, const fs::path& path,
+                   const simulation::Setup& setup, const RunOptions& options) {
+  hh::Tables tables = heidenhainTables(setup, outcome.control, outcome.diagnostics);
+  const hh::MachineParameters parameters = machineParameters(setup, outcome.diagnostics);
+  if (hasErrors(outcome.diagnostics)) return;
+  hh::Control control(outcome.control, *outcome.machine, std::move(tables), parameters);
+  setPanel(control.panel, options);
+  control.programPath = path.string();
+  control.startSeconds = control.channel.seconds();
+  control.wallClockStart = options.wallClock;
+  control.activatePreset(activePresetRow(setup));
+  for (const auto& tool : setup.tools) {
+    if (tool.inSpindle) control.callTool(std::to_string(tool.number), 'Z', 0, 0, 0);
+  }
+  control.applyCoordinates();
+
+  const fs::path folder = path.parent_path();
+  language::klartext::HostOptions hostOptions{
+      .strict = options.strict, .readFile = [folder](const std::string& name) { return readFile(folder / name); }};
+  language::klartext::KlartextHost host(control, hostOptions);
+  const auto library = programLibrary(ProgramLanguage::Klartext);
+  language::Interpreter interpreter(*library, host, interpreterOptions(options, outcome.control));
+  outcome.result = interpreter.run(program);
+
+  outcome.files = control.panel.files();
+  outcome.files["TOOL.T"] = control.tables.tools.table().bytes();
+  outcome.files["TCHPROBE.TP"] = control.tables.probes.table().bytes();
+  outcome.files["PRESET.PR"] = control.tables.presets.table().bytes();
+  for (const auto& [name, table] : control.tables.datums)
+    outcome.files[name] = table.table().bytes();
+  outcome.machineFromWorkpiece = control.coordinates.machineFromPreset();
+  outcome.ballRadius = control.tool.radius;
+  outcome.info.totalPathLength = control.channel.pathLength();
+  outcome.info.totalSeconds = control.channel.seconds();
+  outcome.journal = std::move(control.journal);
+}
+
+/// Notes how the run ended, in the words of an exit code, and puts what stopped it among the events.
+void conclude(RunOutcome& outcome) {
+  if (hasErrors(outcome.diagnostics)) {
+    outcome.info.exit = ExitState::InputMistake;
+    outcome.info.exitText = outcome.diagnostics.front().message;
+    return;
+  }
+  if (outcome.result.end != RunEnd::Finished && !outcome.result.diagnostics.empty()) {
+    const Diagnostic& why = outcome.result.diagnostics.front();
+    outcome.info.exitText = why.code.empty() ? why.message : why.code + ": " + why.message;
+    if (outcome.result.end == RunEnd::Alarm) {
+      outcome.journal.events.push_back(
+          {control::EventKind::Alarm, why.place, why.code, why.message, outcome.info.totalSeconds});
+    }
+  }
+  switch (outcome.result.end) {
+    case RunEnd::Finished: {
+      const control::Verdict worst = records::worstVerdict(outcome.journal);
+      const bool out = worst == control::Verdict::Rework || worst == control::Verdict::Scrap;
+      outcome.info.exit = out ? ExitState::OutOfTolerance : ExitState::Good;
+      break;
+    }
+    case RunEnd::BrokenProgram:
+      outcome.info.exit = ExitState::InputMistake;
+      break;
+    case RunEnd::Alarm:
+    case RunEnd::Cancelled:
+    case RunEnd::StepLimit:
+    case RunEnd::Halted:
+      outcome.info.exit = ExitState::Stopped;
+      break;
+  }
+}
+
+RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path& path, ControlKind kind,
+               const simulation::Setup& setup, const RunOptions& options) {
+  RunOutcome outcome;
+  outcome.control = kind;
+  outcome.info.language = nameOf(languageOf(kind));
+  outcome.info.control = name(kind);
+  outcome.info.setupPath = setup.file;
+  outcome.info.seed = setup.truth.seed;
+  for (const auto& solid : setup.solids) {
+    if (solid.role != simulation::SolidRole::Part) continue;
+    outcome.info.partName = solid.name;
+    outcome.info.partPath = solid.source.file.string();
+  }
+  Result<std::unique_ptr<simulation::VirtualMachine>> machine = simulation::buildMachine(setup);
+  if (!machine) {
+    outcome.diagnostics.push_back(machine.error());
+    conclude(outcome);
+    return outcome;
+  }
+  outcome.machine = std::move(*machine);
+  outcome.machine->recordPath(options.recordPath);
+  outcome.info.machine = outcome.machine->description().name;
+  outcome.info.axes = outcome.machine->description().axes;
+  try {
+    if (control::isHeidenhain(kind)) {
+      runHeidenhain(outcome, program, path, setup, options);
+    } else {
+      throw control::Alarm("", "SINUMERIK programs cannot be run by this build");
+    }
+  } catch (const control::Alarm& alarm) {
+    // Before the first block: an active preset or a tool in the spindle that the tables do not have.
+    outcome.diagnostics.push_back(
+        {Severity::Error, {setup.file, 0, 0}, alarm.text(), {}, alarm.advice(), alarm.code()});
+  }
+  conclude(outcome);
+  return outcome;
+}
+
+RunOutcome refused(Diagnostic why) {
+  RunOutcome outcome;
+  outcome.diagnostics.push_back(std::move(why));
+  conclude(outcome);
+  return outcome;
+}
+
+}  // namespace
+
+RunOutcome runProgram(const fs::path& path, const simulation::Setup& setup, const RunOptions& options) {
+  Result<std::string> text = readFile(path);
+  if (!text) return refused(text.error());
+  const Result<ControlKind> kind = controlFor(path, *text, options.control, setup.control);
+  if (!kind) return refused(kind.error());
+  Result<std::shared_ptr<language::Program>> program = openProgram(path, languageOf(*kind));
+  if (!program) return refused(program.error());
+  RunOutcome outcome = run(*program, path, *kind, setup, options);
+  outcome.info.programs.push_back({path.string(), std::move(*text)});
+  return outcome;
+}
+
+RunOutcome runText(const std::string& name, std::string text, const simulation::Setup& setup,
+                   const RunOptions& options) {
+  const Result<ControlKind> kind = controlFor(name, text, options.control, setup.control);
+  if (!kind) return refused(kind.error());
+  std::shared_ptr<language::Program> program;
+  if (control::isHeidenhain(*kind)) {
+    program = std::make_shared<language::klartext::KlartextProgram>(name, text);
+  } else {
+    program = sinumerik::SinumerikProgram::fromText(name, text);
+  }
+  RunOutcome outcome = run(program, name, *kind, setup, options);
+  outcome.info.programs.push_back({name, std::move(text)});
+  return outcome;
+}
+
+}  // namespace probewright::session

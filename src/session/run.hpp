@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "base/diagnostic.hpp"
+#include "control/control_kind.hpp"
+#include "control/journal.hpp"
+#include "control/operator_panel.hpp"
+#include "language/interpreter.hpp"
+#include "records/run_info.hpp"
+#include "simulation/setup.hpp"
+#include "simulation/virtual_machine.hpp"
+
+/// A program, a world and a control put together: what the command line does, and what tests of cycles go through.
+namespace probewright::session {
+
+/// How a run is to go on; the defaults are those of the command line.
+struct RunOptions {
+  std::optional<control::ControlKind> control;  ///< without it: the setup's, or what the program tells
+  bool strict = false;                          ///< refuse machining cycles that are not simulated
+  control::OnStop onStop = control::OnStop::Continue;
+  std::function<bool(const std::string& text)> ask;
+  std::function<std::optional<std::string>(const std::string& question)> answer;
+  std::uint64_t stepLimit = 50'000'000;
+  std::vector<language::Breakpoint> breakpoints;
+  std::stop_token stop;
+  std::int64_t wallClock = 0;  ///< seconds since 1970 (UTC) when the program starts, for logs
+  bool recordPath = true;
+  /// Called now and then with the blocks carried out and the touches made; for progress.
+  std::function<void(std::uint64_t blocks, std::size_t touches)> progress;
+};
+
+/// What a run leaves behind.
+struct RunOutcome {
+  control::ControlKind control = control::ControlKind::TNC640;
+  control::Journal journal;
+  records::RunInfo info;                                ///< without version and output files
+  language::RunResult result;                           ///< how the interpreter ended
+  Diagnostics diagnostics;                              ///< mistakes found before the program could start
+  std::map<std::string, std::string> files;             ///< what the control wrote: tables as changed, logs; by name
+  std::unique_ptr<simulation::VirtualMachine> machine;  ///< as it stands at the end; null if it could not be built
+  /// Machine coordinates (which are the table's at the start posture) from the workpiece system at the end.
+  std::optional<Pose> machineFromWorkpiece;
+  double ballRadius = 0;
+};
+
+/// Reads the program, builds the machine of the setup and the control's beliefs, runs. Everything that can go wrong is
+/// in the outcome; info.exit says what kind of end it was.
+RunOutcome runProgram(const std::filesystem::path& program, const simulation::Setup& setup, const RunOptions& options);
+
+/// The same with a program in memory; `name` names it in messages, programs that it calls are looked for in its folder.
+RunOutcome runText(const std::string& name, std::string text, const simulation::Setup& setup,
+                   const RunOptions& options);
+
+}  // namespace probewright::session

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "base/diagnostic.hpp"
+#include "control/control_kind.hpp"
+#include "language/program.hpp"
+
+/// Program files, whatever their language.
+namespace probewright::session {
+
+enum class ProgramLanguage { Klartext, Sinumerik };
+
+/// The language of a program by its ending (.H; .MPF, .SPF, .ARC), otherwise by its text; nothing if neither tells.
+std::optional<ProgramLanguage> languageOf(const std::filesystem::path& path, std::string_view text);
+
+constexpr ProgramLanguage languageOf(control::ControlKind kind) {
+  return control::isHeidenhain(kind) ? ProgramLanguage::Klartext : ProgramLanguage::Sinumerik;
+}
+
+std::string_view nameOf(ProgramLanguage language);
+
+/// The control that a program is for: `wanted`, else `setup`, as long as it speaks the program's language; else the
+/// language's own (TNC640, 840Dsl). Fails if they contradict each other or nothing tells.
+Result<control::ControlKind> controlFor(const std::filesystem::path& path, std::string_view text,
+                                        std::optional<control::ControlKind> wanted,
+                                        std::optional<control::ControlKind> setup);
+
+Result<std::shared_ptr<language::Program>> openProgram(const std::filesystem::path& path, ProgramLanguage language);
+
+/// Where programs of that language look for others: the caller's folder, then `folders`.
+std::unique_ptr<language::ProgramLibrary> programLibrary(ProgramLanguage language,
+                                                         std::vector<std::filesystem::path> folders = {});
+
+}  // namespace probewright::session
