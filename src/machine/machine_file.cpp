@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "base/file.hpp"
 #include "base/toml_table.hpp"
@@ -135,8 +134,7 @@ Result<MachineDescription> readMachine(const std::string& nameOrPath) {
   if (ready != readyMade().end()) {
     text = ready->toml;
   } else {
-    std::error_code ignored;
-    auto bytes = std::filesystem::is_regular_file(nameOrPath, ignored) ? readFile(nameOrPath) : fail("no file");
+    auto bytes = readFile(nameOrPath);
     if (!bytes) {
       const auto near = nearestName(nameOrPath, readyMadeMachines());
       return fail({nameOrPath},

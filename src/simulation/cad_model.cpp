@@ -303,21 +303,16 @@ CadModel cadModel(const TopoDS_Shape& shape, double deflection) {
   }
   if (model.faces.empty()) throw std::runtime_error("the shape has no face that can be touched");
 
-  std::vector<Bounds> boxes;
-  boxes.reserve(model.elements.size());
+  std::vector<SearchElement> search;
+  search.reserve(model.elements.size());
   for (const CadElement& element : model.elements) {
-    Bounds box;
     for (const Vector3& corner : element.corners) {
-      box.minimum = box.minimum.cwiseMin(corner);
-      box.maximum = box.maximum.cwiseMax(corner);
+      model.bounds.minimum = model.bounds.minimum.cwiseMin(corner);
+      model.bounds.maximum = model.bounds.maximum.cwiseMax(corner);
     }
-    model.bounds.minimum = model.bounds.minimum.cwiseMin(box.minimum);
-    model.bounds.maximum = model.bounds.maximum.cwiseMax(box.maximum);
-    box.minimum.array() -= element.growth;
-    box.maximum.array() += element.growth;
-    boxes.push_back(box);
+    search.push_back(searchElement(element.corners, element.growth));
   }
-  model.tree = SearchTree(boxes);
+  model.tree = SearchTree(search);
   std::vector<CadElement> ordered;
   ordered.reserve(model.elements.size());
   for (const std::uint32_t i : model.tree.order())

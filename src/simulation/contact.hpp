@@ -20,10 +20,11 @@ BallContact contactWithin(const Way& way, double radius);
 std::size_t capsuleParts(const Vector3& axis, double radius);
 
 /// True if the first triangle that a ray from `point` meets shows its back. For a closed surface: `point` lies inside.
-/// The ray's direction is one that edges of real parts do not have. `triangleAt` gives the triangle at a place of the
-/// tree, or nullptr for other elements.
-template <class TriangleAt>
-bool rayMeetsBack(const SearchTree& tree, const Vector3& point, const TriangleAt& triangleAt) {
+/// The ray's direction is one that edges of real parts do not have. `triangleOf` gives the triangle of one of
+/// the tree's elements, or nullptr for others.
+template <class Element, class TriangleOf>
+bool rayMeetsBack(const SearchTree& tree, const std::vector<Element>& elements, const Vector3& point,
+                  const TriangleOf& triangleOf) {
   const Bounds& box = tree.bounds();
   if ((point - box.minimum).minCoeff() <= 0 || (box.maximum - point).minCoeff() <= 0) return false;
   Mover ray;
@@ -32,8 +33,8 @@ bool rayMeetsBack(const SearchTree& tree, const Vector3& point, const TriangleAt
   ray.way.length = (box.maximum - box.minimum).norm();
   Meeting best;
   bool back = false;
-  tree.search(ray, best, [&](std::uint32_t place) {
-    const Triangle* t = triangleAt(place);
+  tree.search(ray, best, elements, [&](const Element& element) {
+    const Triangle* t = triangleOf(element);
     if (t == nullptr) return;
     const Vector3 e1 = (*t)[1] - (*t)[0];
     const Vector3 e2 = (*t)[2] - (*t)[0];

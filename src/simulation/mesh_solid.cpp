@@ -56,29 +56,28 @@ MeshSolid::MeshSolid(TriangleMesh mesh) : mesh_(std::move(mesh)) {
     for (auto& t : mesh_.triangles)
       std::swap(t[1], t[2]);
   }
-  std::vector<Bounds> boxes(mesh_.triangles.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (const std::uint32_t corner : mesh_.triangles[i]) {
-      boxes[i].minimum = boxes[i].minimum.cwiseMin(mesh_.corners[corner]);
-      boxes[i].maximum = boxes[i].maximum.cwiseMax(mesh_.corners[corner]);
-    }
-  }
-  tree_ = SearchTree(boxes);
-  triangles_.reserve(boxes.size());
-  for (const std::uint32_t i : tree_.order()) {
+  const auto triangle = [&](std::size_t i) {
     const auto& t = mesh_.triangles[i];
-    triangles_.push_back({mesh_.corners[t[0]], mesh_.corners[t[1]], mesh_.corners[t[2]]});
-  }
+    return Triangle{mesh_.corners[t[0]], mesh_.corners[t[1]], mesh_.corners[t[2]]};
+  };
+  std::vector<SearchElement> elements;
+  elements.reserve(mesh_.triangles.size());
+  for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
+    elements.push_back(searchElement(triangle(i)));
+  tree_ = SearchTree(elements);
+  triangles_.reserve(elements.size());
+  for (const std::uint32_t i : tree_.order())
+    triangles_.push_back(triangle(i));
 }
 
 bool MeshSolid::isInside(const Vector3& point) const {
-  return closed_ && rayMeetsBack(tree_, point, [this](std::uint32_t place) { return &triangles_[place]; });
+  return closed_ && rayMeetsBack(tree_, triangles_, point, [](const Triangle& t) { return &t; });
 }
 
 std::optional<BallContact> MeshSolid::firstContact(const Vector3& from, const Vector3& to, double radius) const {
   const Mover mover{wayBetween(from, to), radius};
   Meeting best;
-  tree_.search(mover, best, [&](std::uint32_t place) { sweepTriangle(mover.way, radius, triangles_[place], best); });
+  tree_.search(mover, best, triangles_, [&](const Triangle& t) { sweepTriangle(mover.way, radius, t, best); });
   // A ball met on a face stands before or behind it; only for other meetings a ray has to tell.
   if (closed_ && !(best.when < 0)) {
     const bool onFace = best.found() && !best.normal.isZero();
@@ -96,8 +95,7 @@ std::optional<BallContact> MeshSolid::firstCapsuleContact(const Vector3& from, c
   const Vector3 part = axis / static_cast<double>(parts);
   for (std::size_t i = 0; i < parts; ++i) {
     const Mover mover{{way.start + static_cast<double>(i) * part, way.direction, way.length}, radius, part};
-    tree_.search(mover, best,
-                 [&](std::uint32_t place) { sweepCapsule(mover.way, radius, part, triangles_[place], best); });
+    tree_.search(mover, best, triangles_, [&](const Triangle& t) { sweepCapsule(mover.way, radius, part, t, best); });
   }
   if (!(best.when < 0) && isInside(from)) return contactWithin(way, radius);
   return capsuleContact(way, axis, best);

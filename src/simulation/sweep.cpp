@@ -53,28 +53,53 @@ bool approachSegment(const Way& way, double radius, const Vector3& a, const Vect
   return keep(best, when, a + along * edge);
 }
 
+/// The triangle's plane as the ball sees it at the start of its way.
+struct PlaneView {
+  Vector3 normal = Vector3::Zero();  ///< zero for a triangle without area
+  double height = 0;
+};
+
+PlaneView viewPlane(const Way& way, const Triangle& t) {
+  const Vector3 scaled = (t[1] - t[0]).cross(t[2] - t[0]);
+  const double squared = scaled.squaredNorm();
+  if (squared <= 0) return {};
+  const Vector3 normal = scaled / std::sqrt(squared);
+  return {normal, normal.dot(way.start - t[0])};
+}
+
 /// The ball against the triangle, given that it does not overlap it at the start.
-bool approachTriangle(const Way& way, double radius, const Triangle& t, Meeting& best) {
+bool approachTriangle(const Way& way, double radius, const Triangle& t, const PlaneView& plane, Meeting& best) {
   const Vector3 e0 = t[1] - t[0];
   const Vector3 e1 = t[2] - t[1];
   const Vector3 e2 = t[0] - t[2];
-  const Vector3 scaledNormal = e0.cross(e1);
-  const double scale = scaledNormal.norm();
-  if (scale > 0) {
-    const Vector3 normal = scaledNormal / scale;
-    const double height = normal.dot(way.start - t[0]);
-    const double side = height < 0 ? -1 : 1;
-    const double gap = std::abs(height) - radius;
-    if (gap >= -kTouchTolerance) {
-      const double approach = -side * normal.dot(way.direction);
-      if (gap - approach * way.length >= -kTouchTolerance || approach <= 0) return false;
-      const double when = std::max(0.0, gap / approach);
-      if (when >= best.when) return false;
-      const Vector3 foot = way.at(when) - side * radius * normal;
-      const bool inside = normal.dot(e0.cross(foot - t[0])) >= 0 && normal.dot(e1.cross(foot - t[1])) >= 0 &&
-                          normal.dot(e2.cross(foot - t[2])) >= 0;
-      if (inside) return keep(best, when, foot, normal);
+  const double gap = std::abs(plane.height) - radius;
+  if (gap >= -kTouchTolerance && !plane.normal.isZero()) {
+    const double side = plane.height < 0 ? -1 : 1;
+    const double approach = -side * plane.normal.dot(way.direction);
+    if (gap - approach * way.length >= -kTouchTolerance || approach <= 0) return false;
+    if (gap >= best.when * approach) return false;
+    const double when = std::max(0.0, gap / approach);
+    const Vector3 foot = way.at(when) - side * radius * plane.normal;
+    // From here on the ball cuts a growing disc out of the plane. It can meet an edge first only while its middle is
+    // outside that edge, at the beginning or by the end.
+    const double rest = std::min({best.when, way.length, when + 2 * radius / approach}) - when;
+    const std::array<Vector3, 3> inward{plane.normal.cross(e0), plane.normal.cross(e1), plane.normal.cross(e2)};
+    std::array<bool, 3> outside{};
+    bool inside = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double now = inward[i].dot(foot - t[i]);
+      inside = inside && now >= 0;
+      outside[i] = now < 0 || now + rest * inward[i].dot(way.direction) < 0;
     }
+    if (inside) return keep(best, when, foot, plane.normal);
+    bool met = false;
+    if (outside[0]) met |= approachSegment(way, radius, t[0], e0, best);
+    if (outside[1]) met |= approachSegment(way, radius, t[1], e1, best);
+    if (outside[2]) met |= approachSegment(way, radius, t[2], e2, best);
+    if (outside[0] || outside[2]) met |= approachPoint(way, radius, t[0], best);
+    if (outside[0] || outside[1]) met |= approachPoint(way, radius, t[1], best);
+    if (outside[1] || outside[2]) met |= approachPoint(way, radius, t[2], best);
+    return met;
   }
   bool met = approachSegment(way, radius, t[0], e0, best);
   met |= approachSegment(way, radius, t[1], e1, best);
@@ -84,10 +109,8 @@ bool approachTriangle(const Way& way, double radius, const Triangle& t, Meeting&
   return met;
 }
 
-Vector3 unitNormal(const Triangle& t) {
-  const Vector3 n = (t[1] - t[0]).cross(t[2] - t[0]);
-  const double length = n.norm();
-  return length > 0 ? Vector3(n / length) : Vector3::Zero();
+bool approachTriangle(const Way& way, double radius, const Triangle& t, Meeting& best) {
+  return approachTriangle(way, radius, t, viewPlane(way, t), best);
 }
 
 /// The nearest points of the segments p..p+u and q..q+v.
@@ -185,30 +208,18 @@ bool sweepSegment(const Way& way, double radius, const Vector3& a, const Vector3
 }
 
 bool sweepTriangle(const Way& way, double radius, const Triangle& t, Meeting& best) {
-  // A sphere about the triangle decides most cases: no overlap at the start unless it is reached there.
-  const Vector3 middle = (t[0] + t[1] + t[2]) * (1.0 / 3);
-  const double reach = std::sqrt(
-      std::max({(t[0] - middle).squaredNorm(), (t[1] - middle).squaredNorm(), (t[2] - middle).squaredNorm()}));
-  const Vector3 m = way.start - middle;
-  const double both = radius + reach;
-  const double distanceSquared = m.squaredNorm();
-  if (distanceSquared < square(both)) {
+  const PlaneView plane = viewPlane(way, t);
+  if (std::abs(plane.height) < radius) {
     const Vector3 closest = closestOnTriangle(way.start, t);
-    const double gap = (way.start - closest).norm() - radius;
-    if (gap < -kTouchTolerance) {
-      const Vector3 normal = unitNormal(t);
-      const Vector3 arm = way.start - closest;
-      const bool onFace = std::abs(normal.dot(arm)) > (1 - 1e-12) * arm.norm();
-      return keep(best, gap, closest, onFace ? normal : Vector3::Zero());
+    const Vector3 arm = way.start - closest;
+    const double distance = arm.norm();
+    if (distance - radius < -kTouchTolerance) {
+      const bool onFace = std::abs(plane.normal.dot(arm)) > (1 - 1e-12) * distance;
+      return keep(best, distance - radius, closest, onFace ? plane.normal : Vector3::Zero());
     }
-  } else {
-    const double b = m.dot(way.direction);
-    if (b >= 0) return false;
-    const double halfChordSquared = square(both) - (m - b * way.direction).squaredNorm();
-    if (halfChordSquared <= 0) return false;
-    if (-b - std::sqrt(halfChordSquared) >= std::min(best.when, way.length)) return false;
+    if (distance - radius >= std::min(best.when, way.length)) return false;
   }
-  return approachTriangle(way, radius, t, best);
+  return approachTriangle(way, radius, t, plane, best);
 }
 
 bool sweepCapsule(const Way& way, double radius, const Vector3& axis, const Triangle& t, Meeting& best) {

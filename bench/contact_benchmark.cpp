@@ -1,0 +1,249 @@
+#include <benchmark/benchmark.h>
+#include <embree3/rtcore.h>
+#include <fcl/fcl.h>
+
+#include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
+#include <TopoDS_Shape.hxx>
+#include <map>
+#include <random>
+
+#include "simulation/cad_solid.hpp"
+#include "simulation/mesh_solid.hpp"
+
+/// Contacts of a ball of 2 mm on its way to a part, against the queries of other engines that come nearest to it.
+namespace probewright::simulation {
+namespace {
+
+constexpr double kRadius = 2;
+constexpr double kSize = 100;
+
+/// A closed bumpy body of about 200 mm diameter with about `triangles` triangles.
+TriangleMesh bumpyBody(std::size_t triangles) {
+  const auto rings = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles) / 4.0));
+  const std::uint32_t around = 2 * rings;
+  TriangleMesh mesh;
+  const auto place = [](double polar, double azimuth) {
+    const double r = kSize * (1 + 0.03 * std::sin(9 * polar) * std::cos(8 * azimuth));
+    return Vector3(r * std::sin(polar) * std::cos(azimuth), r * std::sin(polar) * std::sin(azimuth), r * std::cos(polar));
+  };
+  mesh.corners.push_back(place(0, 0));
+  for (std::uint32_t i = 1; i < rings; ++i) {
+    for (std::uint32_t j = 0; j < around; ++j) {
+      mesh.corners.push_back(place(std::numbers::pi * i / rings, 2 * std::numbers::pi * j / around));
+    }
+  }
+  mesh.corners.push_back(place(std::numbers::pi, 0));
+  const auto at = [&](std::uint32_t i, std::uint32_t j) { return 1 + (i - 1) * around + j % around; };
+  const auto last = static_cast<std::uint32_t>(mesh.corners.size() - 1);
+  for (std::uint32_t j = 0; j < around; ++j) {
+    mesh.triangles.push_back({0, at(1, j), at(1, j + 1)});
+    mesh.triangles.push_back({last, at(rings - 1, j + 1), at(rings - 1, j)});
+    for (std::uint32_t i = 1; i + 1 < rings; ++i) {
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return mesh;
+}
+
+const TriangleMesh& body(std::size_t triangles) {
+  static std::map<std::size_t, TriangleMesh> bodies;
+  auto [place, isNew] = bodies.try_emplace(triangles);
+  if (isNew) place->second = bumpyBody(triangles);
+  return place->second;
+}
+
+struct Leg {
+  Vector3 from;
+  Vector3 to;
+};
+
+/// Ways of 3 to 60 mm that end in the part, within 45 degrees of its normal: what probing moves look like.
+std::vector<Leg> legs(std::size_t count) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto direction = [&] { return Vector3(normal(random), normal(random), normal(random)).normalized(); };
+  std::vector<Leg> list;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector3 out = direction();
+    const Vector3 approach = (out + 0.7 * unit(random) * direction()).normalized();
+    const Vector3 inside = 0.95 * kSize * out;
+    list.push_back({inside + (20 + 55 * unit(random)) * approach, inside});
+  }
+  return list;
+}
+
+const std::vector<Leg>& legs() {
+  static const std::vector<Leg> list = legs(4096);
+  return list;
+}
+
+void ballContact(benchmark::State& state) {
+  const MeshSolid solid(body(static_cast<std::size_t>(state.range(0))));
+  std::size_t i = 0;
+  std::size_t contacts = 0;
+  for (auto _ : state) {
+    const Leg& leg = legs()[i++ % legs().size()];
+    contacts += solid.firstContact(leg.from, leg.to, kRadius).has_value();
+  }
+  if (contacts != i) state.SkipWithError("a way met nothing");
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(ballContact)->Arg(100'000)->Arg(1'000'000);
+
+/// Ball, stylus and probe body, as a virtual machine asks for every move.
+void probeContact(benchmark::State& state) {
+  const MeshSolid solid(body(static_cast<std::size_t>(state.range(0))));
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const Leg& leg = legs()[i++ % legs().size()];
+    const Vector3 axis = (leg.from - leg.to).normalized();
+    const Vector3 lift = 50 * axis;
+    benchmark::DoNotOptimize(solid.firstContact(leg.from, leg.to, kRadius));
+    benchmark::DoNotOptimize(solid.firstCapsuleContact(leg.from + 3 * axis, leg.to + 3 * axis, 47 * axis, 1));
+    benchmark::DoNotOptimize(solid.firstCapsuleContact(leg.from + lift, leg.to + lift, 80 * axis, 20));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(probeContact)->Arg(100'000)->Arg(1'000'000);
+
+/// The same probe standing along Z over the top of the part, moving down: the usual case of a three-axis machine.
+void uprightProbeContact(benchmark::State& state) {
+  const MeshSolid solid(body(static_cast<std::size_t>(state.range(0))));
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const double angle = 0.1 * static_cast<double>(++i);
+    const Vector3 from(40 * std::cos(angle), 40 * std::sin(1.3 * angle), 110);
+    const Vector3 to = from - Vector3(0, 0, 30);
+    benchmark::DoNotOptimize(solid.firstContact(from, to, kRadius));
+    benchmark::DoNotOptimize(
+        solid.firstCapsuleContact(from + Vector3(0, 0, 3), to + Vector3(0, 0, 3), Vector3(0, 0, 47), 1));
+    benchmark::DoNotOptimize(
+        solid.firstCapsuleContact(from + Vector3(0, 0, 50), to + Vector3(0, 0, 50), Vector3(0, 0, 80), 20));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(uprightProbeContact)->Arg(100'000)->Arg(1'000'000);
+
+/// Embree's own query for a ray, on the same triangles and ways.
+void embreeRay(benchmark::State& state) {
+  const TriangleMesh& mesh = body(static_cast<std::size_t>(state.range(0)));
+  const RTCDevice device = rtcNewDevice(nullptr);
+  const RTCScene scene = rtcNewScene(device);
+  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* corners = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                              3 * sizeof(float), mesh.corners.size()));
+  for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
+    Eigen::Map<Eigen::Vector3f>(corners + 3 * i) = mesh.corners[i].cast<float>();
+  }
+  auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.triangles.size()));
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) indices[3 * i + k] = mesh.triangles[i][k];
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene);
+  std::size_t i = 0;
+  std::size_t hits = 0;
+  for (auto _ : state) {
+    const Leg& leg = legs()[i++ % legs().size()];
+    const Vector3 way = leg.to - leg.from;
+    const double length = way.norm();
+    RTCRayHit ray{};
+    ray.ray.org_x = static_cast<float>(leg.from.x());
+    ray.ray.org_y = static_cast<float>(leg.from.y());
+    ray.ray.org_z = static_cast<float>(leg.from.z());
+    ray.ray.dir_x = static_cast<float>(way.x() / length);
+    ray.ray.dir_y = static_cast<float>(way.y() / length);
+    ray.ray.dir_z = static_cast<float>(way.z() / length);
+    ray.ray.tfar = static_cast<float>(length);
+    ray.ray.mask = ~0U;
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene, &context, &ray);
+    hits += ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+  }
+  state.counters["hits"] = static_cast<double>(hits) / static_cast<double>(i);
+  state.SetItemsProcessed(state.iterations());
+  rtcReleaseScene(scene);
+  rtcReleaseDevice(device);
+}
+BENCHMARK(embreeRay)->Arg(100'000)->Arg(1'000'000);
+
+/// FCL's continuous collision of a sphere with the same triangles.
+void fclContinuousCollision(benchmark::State& state) {
+  const TriangleMesh& mesh = body(static_cast<std::size_t>(state.range(0)));
+  auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
+  model->beginModel();
+  for (const auto& t : mesh.triangles) {
+    model->addTriangle(mesh.corners[t[0]], mesh.corners[t[1]], mesh.corners[t[2]]);
+  }
+  model->endModel();
+  const fcl::Sphered ball(kRadius);
+  fcl::ContinuousCollisionRequestd request;
+  request.ccd_motion_type = fcl::CCDM_TRANS;
+  request.ccd_solver_type = fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
+  request.toc_err = 1e-6;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const Leg& leg = legs()[i++ % legs().size()];
+    fcl::Transform3d from = fcl::Transform3d::Identity();
+    fcl::Transform3d to = fcl::Transform3d::Identity();
+    from.translation() = leg.from;
+    to.translation() = leg.to;
+    fcl::ContinuousCollisionResultd result;
+    benchmark::DoNotOptimize(fcl::continuousCollide(model.get(), fcl::Transform3d::Identity(),
+                                                    fcl::Transform3d::Identity(), &ball, from, to, request, result));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(fclContinuousCollision)->Arg(100'000)->Arg(1'000'000);
+
+const CadSolid& housing() {
+  static const auto solid = readStep(std::string(PROBEWRIGHT_SOURCE_DIR) + "/examples/parts/housing.step");
+  return dynamic_cast<const CadSolid&>(*solid.value());
+}
+
+/// Ways into the bore's wall, the top face and the spigot of the housing in turn.
+std::vector<Leg> housingLegs() {
+  std::vector<Leg> list;
+  for (int i = 0; i < 360; ++i) {
+    const Vector3 out = rotation(Vector3::UnitZ(), i) * Vector3::UnitX();
+    list.push_back({{60, 40, -12}, Vector3(60, 40, -12) + 30 * out});
+    list.push_back({{55.0 + i / 50.0, 5, 20}, {55.0 + i / 50.0, 5, -5}});
+    list.push_back({Vector3(104, 62, 7) + 25 * out, {104, 62, 7}});
+  }
+  return list;
+}
+
+void ballContactOnCad(benchmark::State& state) {
+  const auto list = housingLegs();
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const Leg& leg = list[i++ % list.size()];
+    benchmark::DoNotOptimize(housing().firstContact(leg.from, leg.to, kRadius));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(ballContactOnCad);
+
+/// OpenCASCADE's distance of a point from the same part: one of the many that a search for the contact would need.
+void openCascadeDistance(benchmark::State& state) {
+  const auto list = housingLegs();
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const Leg& leg = list[i++ % list.size()];
+    const TopoDS_Shape point = BRepBuilderAPI_MakeVertex(gp_Pnt(leg.from.x(), leg.from.y(), leg.from.z())).Shape();
+    benchmark::DoNotOptimize(BRepExtrema_DistShapeShape(point, housing().shape()).Value());
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(openCascadeDistance);
+
+}  // namespace
+}  // namespace probewright::simulation
