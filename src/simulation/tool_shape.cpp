@@ -1,8 +1,31 @@
 #include "simulation/tool_shape.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace probewright::simulation {
+
+namespace {
+
+/// A cylinder from `base` along `up` (unit) as capsules: one of its full radius, whose ends are too round, and a ring
+/// of slender ones along its surface that fill its edges.
+void addCylinder(ToolShape& shape, const Vector3& base, const Vector3& up, double length, double radius,
+                 const char* part) {
+  const auto add = [&](const Vector3& foot, double capsuleRadius) {
+    const double round = std::min(capsuleRadius, length / 2);
+    shape.capsules.push_back({foot + up * round, up * (length - 2 * round), round, part});
+  };
+  add(base, radius);
+  constexpr int ring = 12;
+  const double slender = radius / 6;
+  const Vector3 x = up.unitOrthogonal(), y = up.cross(x);
+  for (int i = 0; i < ring; ++i) {
+    const double angle = 2 * std::numbers::pi * i / ring;
+    add(base + (radius - slender) * (std::cos(angle) * x + std::sin(angle) * y), slender);
+  }
+}
+
+}  // namespace
 
 ToolShape shapeOf(const TrueTool* tool, double spindleDegrees) {
   ToolShape shape;
@@ -10,9 +33,8 @@ ToolShape shapeOf(const TrueTool* tool, double spindleDegrees) {
   const Vector3& up = tool->shankDirection;
   const Vector3 tip = -tool->length * up;
   if (tool->kind == ToolKind::Cutter) {
-    const double straight = std::max(tool->length - tool->radius, 0.0);
     shape.tip = tip;
-    shape.capsules.push_back({tip + up * std::min(tool->radius, tool->length), up * straight, tool->radius, "tool"});
+    if (tool->radius > 0) addCylinder(shape, tip, up, tool->length, tool->radius, "tool");
     return shape;
   }
   const TrueProbe& probe = tool->probe;
@@ -28,9 +50,7 @@ ToolShape shapeOf(const TrueTool* tool, double spindleDegrees) {
         {centre + turnedUp * (probe.ballRadius + probe.stylusRadius), turnedUp * shaft, probe.stylusRadius, "stylus"});
   }
   if (probe.bodyRadius > 0) {
-    const double straight = std::max(probe.bodyLength - 2 * probe.bodyRadius, 0.0);
-    shape.capsules.push_back(
-        {centre + turnedUp * (probe.stylusLength + probe.bodyRadius), turnedUp * straight, probe.bodyRadius, "body"});
+    addCylinder(shape, centre + turnedUp * probe.stylusLength, turnedUp, probe.bodyLength, probe.bodyRadius, "body");
   }
   return shape;
 }

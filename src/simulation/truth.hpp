@@ -81,7 +81,7 @@ struct TrueProbe {
   double stylusRadius = 1.5;   ///< of the shaft; 0 for none
   double stylusLength = 50;    ///< from the ball's centre to the face of the body
   double bodyRadius = 30;      ///< 0 for none
-  double bodyLength = 100;     ///< upwards from that face; the edges of the body are rounded by its radius
+  double bodyLength = 100;     ///< upwards from that face; its edges are rounded by a sixth of its radius
   Vector2 tipOffset = {0, 0};  ///< of the ball from the spindle axis, mm; turns with the spindle
 
   /// How much further the axes travel along their path from contact to signal, mm. With n the outward normal of the
@@ -107,7 +107,7 @@ struct TrueTool {
   /// From the spindle nose to the lowest point along the tool: of a probe, of its ball.
   double length = 100;
   Vector3 shankDirection = Vector3::UnitZ();  ///< from the tip to the holder, spindle frame; unit
-  double radius = 5;                          ///< of a cutter; its end is rounded by its radius
+  double radius = 5;                          ///< of a cutter; its edge is rounded by a sixth of it
   TrueProbe probe;                            ///< if kind is Probe
 };
 

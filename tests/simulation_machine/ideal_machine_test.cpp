@@ -155,6 +155,20 @@ TEST(IdealMachine, ShaftBodyAndCuttersCollide) {
   }
 }
 
+TEST(IdealMachine, EdgesOfBodyAndCutterReachAlmostToTheirCorners) {
+  // A pin of radius 1 stands 17 mm beside the axis of the probe: the face of the body (radius 20) comes down on it.
+  Truth truth = perfectWorld();
+  place(truth, RoundBar(1, -500, -400));
+  VirtualMachine machine(truth);
+  machine.changeTool({1, ""});
+  machine.move(positions({-17, 0, 0}), Feed::rapidTraverse());
+  const auto result = machine.move(positions({-17, 0, -380}), Feed::at(1000));
+  EXPECT_EQ(result.end, MoveEnd::Collision);
+  EXPECT_THAT(result.detail, HasSubstr("the body of tool 1"));
+  // The face is 62 mm above the tip: at Z -362 it stands on z = -400.
+  EXPECT_NEAR(machine.position()[2], -362, 0.2);
+}
+
 TEST(IdealMachine, RefusesTargetsBeyondTheTravelWithoutMoving) {
   VirtualMachine machine(perfectWorld());
   const auto result = machine.move(positions({500.001, 0, -10}), Feed::rapidTraverse());
