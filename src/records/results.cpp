@@ -47,10 +47,16 @@ json axisPositions(const machine::AxisPositions& positions, const std::vector<ma
 }
 
 json touch(const control::TouchRecord& record, const std::vector<machine::Axis>& axes, const ReadableText& text) {
-  return {{"outcome", text(record.outcome)},      {"target", point(record.target)},
-          {"direction", point(record.direction)}, {"ballCentre", point(record.ballCentre)},
-          {"surface", point(record.surface)},     {"axes", axisPositions(record.latched, axes)},
-          {"time", number(record.seconds)}};
+  json object = {{"outcome", text(record.outcome)},
+                 {"target", point(record.target)},
+                 {"direction", point(record.direction)},
+                 {"time", number(record.seconds)}};
+  if (record.outcome == "touched") {
+    object["ballCentre"] = point(record.ballCentre);
+    object["surface"] = point(record.surface);
+    object["axes"] = axisPositions(record.latched, axes);
+  }
+  return object;
 }
 
 json result(const control::ResultRecord& record, const ReadableText& text) {

@@ -27,7 +27,8 @@ struct Mesh {
   std::vector<Vector3f> featureEdges;    ///< two points per segment
 };
 
-enum class MoveKind : std::uint8_t { Rapid = 0, Feed = 1, Measure = 2 };
+/// A jump is not drawn: the tool was changed or set down elsewhere.
+enum class MoveKind : std::uint8_t { Rapid = 0, Feed = 1, Measure = 2, Jump = 3 };
 
 /// The way of the ball's centre.
 struct Path {

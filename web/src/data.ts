@@ -13,9 +13,10 @@ export interface Touch {
   outcome: string;
   target: Triple;
   direction: Triple;
-  ballCentre: Triple;
-  surface: Triple;
-  axes: Record<string, number | null>;
+  /* Only of a touch, not of a miss. */
+  ballCentre?: Triple;
+  surface?: Triple;
+  axes?: Record<string, number | null>;
   time: number | null;
 }
 
@@ -179,7 +180,7 @@ export function readReport(): Report {
 
 /** How a touch lies against its target, outwards positive: material stands too far out. */
 export function touchDeviation(touch: Touch): number | null {
-  if (touch.outcome !== "touched") return null;
+  if (!touch.surface) return null;
   let sum = 0;
   for (let i = 0; i < 3; ++i) {
     const [surface, target, direction] = [touch.surface[i], touch.target[i], touch.direction[i]];

@@ -43,7 +43,8 @@ function resultRow(result: ResultValue): HTMLElement {
   );
 }
 
-function point(triple: Triple): HTMLElement {
+function point(triple: Triple | undefined): HTMLElement {
+  if (!triple) return h("td", { class: "number" }, "\u2013");
   return h("td", { class: "number point", title: triple.join(", ") }, triple.map((x) => fixed(x, 3)).join("  "));
 }
 
@@ -68,7 +69,7 @@ function details(cycle: Cycle, index: number, selector: Selector): HTMLElement {
         h("td", {}, touch.outcome),
         point(touch.target),
         point(touch.ballCentre),
-        touch.outcome === "touched" ? point(touch.surface) : h("td", { class: "number" }, "\u2013"),
+        point(touch.surface),
         number(deviation == null ? "\u2013" : fixed(deviation, 4, true), deviation),
         h("td", { class: "number" }, touch.time == null ? "" : touch.time.toFixed(1)),
       ),

@@ -193,7 +193,8 @@ export class Drawing {
     const { points, kinds } = this.report.scene.path;
     const segments: number[][] = [[], [], []];
     for (let i = 0; i < kinds.length; ++i) {
-      const list = segments[kinds[i]] ?? segments[1];
+      const list = segments[kinds[i]];
+      if (!list) continue;
       for (let k = 3 * i; k < 3 * i + 6; ++k) list.push(points[k]);
     }
     segments.forEach((positions, kind) => {

@@ -232,7 +232,7 @@ export class View {
     const touch = touchIndex === null ? undefined : cycle.touches[touchIndex];
     const row = (name: string, values: string | string[], kind = "") =>
       h("div", { class: kind }, h("dt", {}, name), h("dd", {}, ...[values].flat().map((value) => h("span", {}, value))));
-    const point = (triple: Triple) => triple.map((x) => fixed(x, 3));
+    const point = (triple: Triple | undefined) => triple?.map((x) => fixed(x, 3)) ?? "\u2013";
     const step = (by: number) => {
       const n = cycle.touches.length;
       const next = touchIndex === null ? (by > 0 ? 0 : n - 1) : (touchIndex + by + n) % n;
@@ -266,10 +266,10 @@ export class View {
               row("Outcome", touch.outcome, touch.outcome === "touched" ? "" : "missed"),
               row("Target", point(touch.target)),
               row("Ball centre", point(touch.ballCentre)),
-              row("Surface", touch.outcome === "touched" ? point(touch.surface) : "\u2013"),
+              row("Surface", point(touch.surface)),
               row("Direction", point(touch.direction)),
               row("Deviation", deviation === null ? "\u2013" : `${fixed(deviation, 4, true)} mm`, "strong"),
-              row("Axes", Object.entries(touch.axes).map(([name, value]) => `${name} ${fixed(value, 3)}`)),
+              row("Axes", touch.axes ? Object.entries(touch.axes).map(([name, value]) => `${name} ${fixed(value, 3)}`) : "\u2013"),
               row("Time", duration(touch.time)),
             ),
           ]
