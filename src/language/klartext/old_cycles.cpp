@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "cycles/heidenhain/probe_words.hpp"
 #include "language/klartext/parser.hpp"
-#include "language/klartext/probe_words.hpp"
 
 /// Cycles in the old form, whose parts are blocks of their own: TCH PROBE 0.0, 0.1 and CYCL DEF 7.0, 7.1, 7.2. The
 /// parts of one cycle are parsed together; within a part words in any language may stand before the values.
@@ -95,7 +95,7 @@ bool BlockParser::oldProbeCycle(int number) {
 }
 
 bool BlockParser::oldProbePart(Part part) {
-  using namespace probe_word;
+  using namespace cycles::heidenhain::probe_word;
   const auto behindWords = [&](std::uint32_t address, std::string_view what) {
     const std::optional<Operand> found = valueBehindWords(what);
     if (found) addWord(address, *found);

@@ -13,6 +13,7 @@ bool isToolAxis(char letter) { return std::string_view("XYZUVW").find(letter) !=
 
 bool BlockParser::toolCall() {
   ToolCall call;
+  if (lexer_.peek() == '+') lexer_.advance();
   if (const std::optional<std::string_view> name = lexer_.quoted()) {
     call.name = textOperand(ref(*name));
   } else if (isDigit(lexer_.peek())) {

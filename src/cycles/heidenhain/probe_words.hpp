@@ -5,7 +5,7 @@
 /// The words of cycle blocks that have no Q number: touch probe cycles 0 to 4, 9 and 30 to 33 in their old block form
 /// (TCH PROBE n.0, n.1, ...). They stand in CycleCall::parameters under these addresses, above all Q numbers. Lengths
 /// in mm as programmed, angles in degrees.
-namespace probewright::language::klartext::probe_word {
+namespace probewright::cycles::heidenhain::probe_word {
 
 /// Number n of the Q parameter that receives the result (0.0, 3.1, 4.1, 31.1): a literal.
 inline constexpr std::uint32_t result = 10000;
@@ -40,4 +40,4 @@ inline constexpr std::uint32_t teeth = 10014;
 /// Coordinates (0.1, 1.2; incremental 4.2): coordinate + axis as under `axis`. WordMode tells IX from X.
 inline constexpr std::uint32_t coordinate = 10020;
 
-}  // namespace probewright::language::klartext::probe_word
+}  // namespace probewright::cycles::heidenhain::probe_word

@@ -1,0 +1,233 @@
+#include "language/klartext/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "cycles/catalogue.hpp"
+#include "cycles/heidenhain/probe_words.hpp"
+#include "language/klartext/block_extent.hpp"
+#include "language/klartext/lexer.hpp"
+
+namespace probewright::language::klartext {
+
+namespace {
+
+/// Parts of the old block form have words of their own in place of Q parameters.
+constexpr std::uint32_t firstProbeWord = cycles::heidenhain::probe_word::result;
+
+class Checker {
+public:
+  Checker(KlartextProgram& program, control::ControlKind kind) : program_(program), kind_(kind) {}
+
+  Diagnostics run() {
+    BlockPosition position = program_.begin();
+    while (program_.parse(position, block_, found_)) {
+      for (const Instruction& instruction : block_.instructions)
+        std::visit([this](const auto& i) { look(i); }, instruction);
+      frame();
+      position = block_.next;
+    }
+    if (!begun_ && anyBlock_) {
+      report(1, 1, "the program does not begin with BEGIN PGM", "write BEGIN PGM NAME MM as its first block", first_);
+    }
+    if (!ended_ && anyBlock_) {
+      report(lastLine_, 1, "the program does not end with END PGM", "write END PGM NAME MM as its last block", last_);
+    }
+    for (const Use& use : uses_) {
+      if (labels_.contains(use.label)) continue;
+      found_.push_back({Severity::Error,
+                        {program_.file(), use.line, use.column},
+                        fmt::format("there is no label {} in this program", use.label),
+                        use.excerpt,
+                        fmt::format("define it with LBL {} or correct the name", quoted(use.label)),
+                        {}});
+    }
+    std::ranges::stable_sort(found_, {}, [](const Diagnostic& d) { return d.place.line; });
+    return std::move(found_);
+  }
+
+private:
+  struct Use {
+    std::string label;
+    std::uint64_t line = 0;
+    std::uint32_t column = 0;
+    std::string excerpt;
+  };
+
+  static std::string quoted(const std::string& label) {
+    const bool number = std::ranges::all_of(label, isDigit);
+    return number ? label : "\"" + label + "\"";
+  }
+
+  std::string lineText(std::uint32_t below) const {
+    std::string_view text = block_.at(block_.source);
+    for (; below > 0; --below)
+      text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+    text = text.substr(0, text.find('\n'));
+    while (!text.empty() && isBlank(text.back()))
+      text.remove_suffix(1);
+    return std::string(text);
+  }
+
+  void report(std::uint64_t line, std::uint32_t column, std::string message, std::string advice, std::string excerpt,
+              Severity severity = Severity::Error) {
+    found_.push_back(
+        {severity, {program_.file(), line, column}, std::move(message), std::move(excerpt), std::move(advice), {}});
+  }
+
+  void reportHere(std::string message, std::string advice, Severity severity = Severity::Error) {
+    report(block_.position.line, columnOf(withoutBlockNumber(block_.at(block_.source))), std::move(message),
+           std::move(advice), lineText(0), severity);
+  }
+
+  void reportAt(const Word& word, std::string message, std::string advice) {
+    report(block_.position.line + word.line, word.column, std::move(message), std::move(advice), lineText(word.line));
+  }
+
+  std::uint32_t columnOf(std::string_view part) const {
+    return static_cast<std::uint32_t>(part.data() - block_.at(block_.source).data()) + 1;
+  }
+
+  /// BEGIN PGM first, END PGM last.
+  void frame() {
+    const std::string_view statement = withoutBlockNumber(block_.at(block_.source));
+    if (statement.empty() || statement.front() == ';' || statement.front() == '*') return;
+    if (!anyBlock_) first_ = lineText(0);
+    last_ = lineText(0);
+    lastLine_ = block_.position.line;
+    Lexer lexer(statement);
+    const bool begin = lexer.acceptKeyword("BEGIN");
+    if (begin && anyBlock_) {
+      reportHere("BEGIN PGM stands within the program", "a file holds one program; write the other to its own file");
+    }
+    if (begin) begun_ = true;
+    if (ended_ && !behindReported_) {
+      behindReported_ = true;
+      reportHere("this block stands behind END PGM and is never reached", "move it in front of END PGM",
+                 Severity::Warning);
+    }
+    if (lexer.acceptKeyword("END")) ended_ = true;
+    anyBlock_ = true;
+  }
+
+  void use(TextRef label) {
+    if (label.length == 0) return;
+    const std::string_view name = block_.at(label);
+    if (name == "0") {
+      reportHere("label 0 ends subprograms and cannot be called", "call the label of a subprogram");
+      return;
+    }
+    // Labels lie in the block's own text.
+    uses_.push_back({std::string(name), block_.position.line, label.offset + 1, lineText(0)});
+  }
+
+  void look(const LabelMark& mark) {
+    if (mark.end) return;
+    const std::string name(block_.at(mark.label));
+    const auto [known, added] = labels_.emplace(name, block_.position.line);
+    if (added) return;
+    reportHere(fmt::format("label {} is defined twice, first in line {}", quoted(name), known->second),
+               "give one of the two another number or name");
+  }
+  void look(const CallLabel& call) { use(call.label); }
+  void look(const Jump& jump) { use(jump.label); }
+  void look(const Command& command) {
+    if (block_.at(command.name) == "ERROR") {
+      reportHere("the control marked this block as wrong", "correct the block and take ERROR = away");
+    }
+  }
+  void look(const CycleCall& call) {
+    if (block_.at(call.name) == "TCH PROBE") measuringCycle(call);
+  }
+  template <class Other>
+  void look(const Other&) {}
+
+  const Node* nodeOf(const Word& word) const {
+    return word.value.node >= 0 ? &block_.nodes[static_cast<std::size_t>(word.value.node)] : nullptr;
+  }
+
+  std::string nameOf(const cycles::Parameter& parameter) const {
+    return fmt::format("{} ({})", parameter.name, parameter.meaning);
+  }
+
+  void measuringCycle(const CycleCall& call) {
+    const cycles::CycleDefinition* cycle = cycles::heidenhainCycle(call.number);
+    if (cycle == nullptr) {
+      reportHere(fmt::format("touch probe cycle {} is not available; its parameters are not checked", call.number),
+                 "list the available cycles with: probewright cycles", Severity::Warning);
+      return;
+    }
+    if (!cycle->controls.contains(kind_)) {
+      reportHere(fmt::format("cycle {} does not exist on the {}", cycle->name, control::name(kind_)),
+                 "use another cycle, or choose the other control");
+      return;
+    }
+    const std::span<const Word> words =
+        std::span<const Word>(block_.words).subspan(call.parameters.first, call.parameters.count);
+    for (const Word& word : words)
+      checkWord(*cycle, word);
+    for (const cycles::Parameter& parameter : cycle->parameters) {
+      const bool needed = parameter.required() && parameter.controls.contains(kind_);
+      if (!needed || std::ranges::find(words, parameter.address, &Word::address) != words.end()) continue;
+      reportHere(fmt::format("cycle {} lacks {}", cycle->name, nameOf(parameter)),
+                 fmt::format("add {} with its value", parameter.name));
+    }
+  }
+
+  void checkWord(const cycles::CycleDefinition& cycle, const Word& word) {
+    const cycles::Parameter* parameter = cycle.parameter(word.address);
+    if (parameter == nullptr) {
+      if (word.address >= firstProbeWord) return;
+      reportAt(word, fmt::format("cycle {} has no parameter Q{}", cycle.name, word.address),
+               "take it out, or check the number of the cycle");
+      return;
+    }
+    if (!parameter->controls.contains(kind_)) {
+      reportAt(
+          word,
+          fmt::format("{} does not exist in cycle {} of the {}", nameOf(*parameter), cycle.name, control::name(kind_)),
+          "take it out");
+      return;
+    }
+    cycles::Argument argument;
+    argument.given = true;
+    if (word.value.isLiteral()) {
+      argument.number = word.value.number;
+    } else {
+      const Node* node = nodeOf(word);
+      if (node == nullptr) return;
+      if (node->operation == Operation::Call && node->function == Function::Host && block_.at(node->text) == "PREDEF") {
+        if (parameter->predefinable) return;
+        reportAt(word, fmt::format("{} cannot be PREDEF", nameOf(*parameter)), "write its value");
+        return;
+      }
+      if (node->operation != Operation::Text) return;  // computed while the program runs
+      if (parameter->kind == cycles::ValueKind::Feed) return;
+      argument.isText = true;
+      argument.text = block_.at(node->text);
+    }
+    std::string text = cycles::complaint(*parameter, argument);
+    if (!text.empty()) reportAt(word, std::move(text), "correct the value");
+  }
+
+  KlartextProgram& program_;
+  control::ControlKind kind_;
+  Block block_;
+  Diagnostics found_;
+  std::map<std::string, std::uint64_t> labels_;
+  std::vector<Use> uses_;
+  std::string first_, last_;
+  std::uint64_t lastLine_ = 0;
+  bool anyBlock_ = false;
+  bool begun_ = false;
+  bool ended_ = false;
+  bool behindReported_ = false;
+};
+
+}  // namespace
+
+Diagnostics checkProgram(KlartextProgram& program, control::ControlKind kind) { return Checker(program, kind).run(); }
+
+}  // namespace probewright::language::klartext

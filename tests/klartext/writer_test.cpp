@@ -1,0 +1,50 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "klartext/ir_text.hpp"
+#include "klartext/samples.hpp"
+#include "language/klartext/formula_writer.hpp"
+#include "language/klartext/writer.hpp"
+
+namespace probewright::language::klartext::testing {
+namespace {
+
+std::string written(const std::string& text) {
+  KlartextProgram program("a.h", text);
+  return writeProgram(program);
+}
+
+TEST(Writer, WhatIsWrittenMeansWhatWasRead) {
+  for (const std::string_view sample : samples) {
+    const std::string text(sample);
+    const std::string first = irOf(text);
+    EXPECT_EQ(first.find(": "), std::string::npos) << first;  // every sample reads without mistakes
+    const std::string again = written(text);
+    EXPECT_EQ(irOf(again), first) << again;
+    EXPECT_EQ(written(again), again);  // and writing has settled
+  }
+}
+
+TEST(Writer, KeepsNamesAndComments) {
+  EXPECT_EQ(written("5 TCH PROBE 410 Центр ~\n Q321=1 ;КООРД. ~\n Q322=2\n9 L X+1 FMAX ; there\n; alone\n"),
+            "0 TCH PROBE 410 Центр ~\n    Q321=+1 ;КООРД. ~\n    Q322=+2\n1 L X+1 FMAX ; there\n2 ; alone\n");
+  EXPECT_EQ(written("5 L x + 1,5 Y - q3  r0 f max"), "0 L X+1.5 Y-Q3 R0 FMAX\n");
+}
+
+TEST(Writer, NumbersReadBackTheSame) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> mantissa(-1, 1);
+  for (int i = 0; i < 2000; ++i) {
+    const double value = std::ldexp(mantissa(random), static_cast<int>(random() % 60) - 30);
+    KlartextProgram program("a.h", "L X" + writeSigned(value));
+    Block block;
+    Diagnostics mistakes;
+    ASSERT_TRUE(program.parse(program.begin(), block, mistakes));
+    ASSERT_EQ(block.words.size(), 1U);
+    EXPECT_EQ(block.words[0].value.number, value);
+  }
+}
+
+}  // namespace
+}  // namespace probewright::language::klartext::testing
