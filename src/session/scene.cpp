@@ -5,88 +5,143 @@
 #include "simulation/drawing_mesh.hpp"
 
 namespace probewright::session {
+
 namespace {
+
+using reports::MeshRole;
+using reports::MoveKind;
+using reports::Vector3f;
+using simulation::PathKind;
+
+MeshRole roleOf(simulation::SolidRole role) {
+  switch (role) {
+    case simulation::SolidRole::Part:
+      return MeshRole::Part;
+    case simulation::SolidRole::Fixture:
+      return MeshRole::Fixture;
+    case simulation::SolidRole::Ring:
+    case simulation::SolidRole::Sphere:
+    case simulation::SolidRole::GaugeBlock:
+      return MeshRole::Artefact;
+  }
+  return MeshRole::Artefact;
+}
+
+MoveKind moveOf(PathKind kind) {
+  switch (kind) {
+    case PathKind::Rapid:
+      return MoveKind::Rapid;
+    case PathKind::Feed:
+    case PathKind::Retract:
+      return MoveKind::Feed;
+    case PathKind::Measure:
+      return MoveKind::Measure;
+    case PathKind::Start:
+    case PathKind::ToolChange:
+      return MoveKind::Jump;
+  }
+  return MoveKind::Jump;
+}
+
+std::vector<Vector3f> pointsOf(const std::vector<float>& coordinates) {
+  std::vector<Vector3f> points;
+  points.reserve(coordinates.size() / 3);
+  for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3)
+    points.emplace_back(coordinates[i], coordinates[i + 1], coordinates[i + 2]);
+  return points;
+}
 
 reports::Mesh meshOf(const simulation::PlacedSolid& placed) {
   const simulation::DrawingMesh drawing = simulation::drawingMesh(*placed.solid);
   reports::Mesh mesh;
   mesh.name = placed.name;
-  switch (placed.role) {
-    case simulation::SolidRole::Part:
-      mesh.role = reports::MeshRole::Part;
-      break;
-    case simulation::SolidRole::Fixture:
-      mesh.role = reports::MeshRole::Fixture;
-      break;
-    default:
-      mesh.role = reports::MeshRole::Artefact;
-      break;
-  }
+  mesh.role = roleOf(placed.role);
   mesh.sceneFromMesh = placed.tableFromSolid;
-  const auto points = [](const std::vector<float>& flat) {
-    std::vector<reports::Vector3f> list;
-    list.reserve(flat.size() / 3);
-    for (std::size_t i = 0; i + 2 < flat.size(); i += 3)
-      list.emplace_back(flat[i], flat[i + 1], flat[i + 2]);
-    return list;
-  };
-  mesh.positions = points(drawing.positions);
-  mesh.normals = points(drawing.normals);
+  mesh.positions = pointsOf(drawing.positions);
+  mesh.normals = pointsOf(drawing.normals);
   mesh.triangles = drawing.indices;
-  for (const std::vector<float>& line : drawing.featureEdges) {
-    const auto corners = points(line);
-    for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
-      mesh.featureEdges.push_back(corners[i]);
-      mesh.featureEdges.push_back(corners[i + 1]);
+  for (const auto& edge : drawing.featureEdges) {
+    const auto points = pointsOf(edge);
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      mesh.featureEdges.push_back(points[i - 1]);
+      mesh.featureEdges.push_back(points[i]);
     }
   }
   return mesh;
 }
 
-reports::MoveKind kindOf(simulation::PathKind kind) {
-  switch (kind) {
-    case simulation::PathKind::Measure:
-      return reports::MoveKind::Measure;
-    case simulation::PathKind::Rapid:
-    case simulation::PathKind::ToolChange:
-    case simulation::PathKind::Start:
-      return reports::MoveKind::Rapid;
-    default:
-      return reports::MoveKind::Feed;
+reports::Path pathOf(const simulation::PathRecord& record) {
+  reports::Path path;
+  for (const simulation::PathPoint& point : record.points) {
+    if (!path.points.empty()) path.kinds.push_back(moveOf(point.kind));
+    path.points.push_back(point.tip.cast<float>());
+    path.seconds.push_back(static_cast<float>(point.seconds));
   }
+  return path;
 }
+
+/// Finds the touches of a journal in a path, in the order in which they happened.
+class TouchFinder {
+public:
+  explicit TouchFinder(const simulation::PathRecord& path) : path_(path) {}
+
+  /// Fills the positions of `found`; false if the path knows nothing of the touch.
+  bool find(const control::TouchRecord& touch, reports::SceneTouch& found) {
+    if (touch.outcome != "touched") return findMiss(touch, found);
+    for (std::size_t i = next_; i < path_.touches.size(); ++i) {
+      const simulation::PathTouch& candidate = path_.touches[i];
+      if (candidate.kind != PathKind::Measure || !(candidate.latched == touch.latched)) continue;
+      found.ballCentre = candidate.ballCentre.cast<float>();
+      found.surface = candidate.point.cast<float>();
+      next_ = i + 1;
+      return true;
+    }
+    return false;
+  }
+
+private:
+  bool findMiss(const control::TouchRecord& touch, reports::SceneTouch& found) const {
+    constexpr double clockTolerance = 1e-6;
+    const auto after =
+        std::upper_bound(path_.points.begin(), path_.points.end(), touch.seconds + clockTolerance,
+                         [](double seconds, const simulation::PathPoint& point) { return seconds < point.seconds; });
+    const auto last = std::find_if(std::make_reverse_iterator(after), path_.points.rend(),
+                                   [](const simulation::PathPoint& point) { return point.kind == PathKind::Measure; });
+    if (last == path_.points.rend()) return false;
+    found.ballCentre = found.surface = last->tip.cast<float>();
+    return true;
+  }
+
+  const simulation::PathRecord& path_;
+  std::size_t next_ = 0;
+};
 
 }  // namespace
 
-reports::Scene sceneOf(const RunOutcome& outcome) {
+reports::Scene sceneOf(const control::Journal& journal, const simulation::Truth& truth,
+                       const simulation::PathRecord& path) {
   reports::Scene scene;
-  if (!outcome.machine) return scene;
-  for (const auto& placed : outcome.machine->truth().solids)
-    scene.meshes.push_back(meshOf(placed));
-
-  const simulation::PathRecord& path = outcome.machine->path();
-  for (std::size_t i = 0; i < path.points.size(); ++i) {
-    scene.path.points.push_back(path.points[i].tip.cast<float>());
-    scene.path.seconds.push_back(static_cast<float>(path.points[i].seconds));
-    if (i > 0) scene.path.kinds.push_back(kindOf(path.points[i].kind));
+  for (const auto& placed : truth.solids) {
+    reports::Mesh mesh = meshOf(placed);
+    if (!mesh.triangles.empty()) scene.meshes.push_back(std::move(mesh));
   }
-
-  // Journal and path record tell of the same touches in the same order; the latched positions tie them together.
-  std::size_t next = 0;
-  for (std::size_t c = 0; c < outcome.journal.cycles.size(); ++c) {
-    const auto& touches = outcome.journal.cycles[c].touches;
-    for (std::size_t t = 0; t < touches.size(); ++t) {
-      const auto isIt = [&](const simulation::PathTouch& touch) {
-        return touch.kind == simulation::PathKind::Measure && touch.latched == touches[t].latched;
-      };
-      const auto found =
-          std::find_if(path.touches.begin() + static_cast<std::ptrdiff_t>(next), path.touches.end(), isIt);
-      if (found == path.touches.end()) continue;
-      next = static_cast<std::size_t>(found - path.touches.begin()) + 1;
-      scene.touches.push_back({static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(t),
-                               found->ballCentre.cast<float>(), found->point.cast<float>()});
+  scene.path = pathOf(path);
+  TouchFinder finder(path);
+  for (std::uint32_t cycle = 0; cycle < journal.cycles.size(); ++cycle) {
+    const auto& touches = journal.cycles[cycle].touches;
+    for (std::uint32_t touch = 0; touch < touches.size(); ++touch) {
+      reports::SceneTouch found;
+      found.cycle = cycle;
+      found.touch = touch;
+      if (finder.find(touches[touch], found)) scene.touches.push_back(found);
     }
   }
+  return scene;
+}
+
+reports::Scene sceneOf(const RunOutcome& outcome) {
+  if (!outcome.machine) return {};
+  reports::Scene scene = sceneOf(outcome.journal, outcome.machine->truth(), outcome.machine->path());
   scene.ballRadius = outcome.ballRadius;
   scene.sceneFromWorkpiece = outcome.machineFromWorkpiece;
   return scene;

@@ -1,11 +1,11 @@
-#include "scene_of_run.hpp"
+#include "session/scene.hpp"
 
 #include <gtest/gtest.h>
 
 #include "simulation/solid_recipe.hpp"
 #include "support/virtual_world.hpp"
 
-namespace probewright::app {
+namespace probewright::session {
 namespace {
 
 using machine::Feed;
@@ -72,7 +72,7 @@ TEST_F(SceneOfRun, ShowsTouchesWhereTheyWere) {
   backTo(60, 50, 40);
   journal.cycles[1].touches.push_back(probe(70, 50, 40));  // ends before the part
 
-  const reports::Scene scene = sceneOfRun(journal, truth_, machine_.path());
+  const reports::Scene scene = sceneOf(journal, truth_, machine_.path());
   ASSERT_EQ(scene.touches.size(), 3U);
   // The block reaches from Z 30 to Z 50, turned: from X 80 to X 120.
   EXPECT_LT((scene.touches[0].surface - onTable(100, 50, 50)).norm(), 1e-4);
@@ -81,20 +81,19 @@ TEST_F(SceneOfRun, ShowsTouchesWhereTheyWere) {
   EXPECT_LT((scene.touches[1].surface - onTable(80, 50, 40)).norm(), 1e-4);
   EXPECT_EQ(scene.touches[2].touch, 1U);
   EXPECT_LT((scene.touches[2].ballCentre - onTable(70, 50, 40)).norm(), 1e-4);
-  EXPECT_EQ(scene.ballRadius, 2);
 }
 
 TEST_F(SceneOfRun, LeavesOutTouchesThatThePathDoesNotKnow) {
   control::Journal journal;
   journal.cycles.resize(1);
   journal.cycles[0].touches.emplace_back().outcome = "touched";
-  EXPECT_TRUE(sceneOfRun(journal, truth_, machine_.path()).touches.empty());
+  EXPECT_TRUE(sceneOf(journal, truth_, machine_.path()).touches.empty());
 }
 
 TEST_F(SceneOfRun, KeepsTheKindOfEachMove) {
   goTo(100, 50, 60);
   probe(100, 50, 45);
-  const reports::Scene scene = sceneOfRun({}, truth_, machine_.path());
+  const reports::Scene scene = sceneOf({}, truth_, machine_.path());
   const auto& path = scene.path;
   ASSERT_EQ(path.kinds.size() + 1, path.points.size());
   ASSERT_EQ(path.seconds.size(), path.points.size());
@@ -105,7 +104,7 @@ TEST_F(SceneOfRun, KeepsTheKindOfEachMove) {
 }
 
 TEST_F(SceneOfRun, DrawsThePartWhereItLies) {
-  const reports::Scene scene = sceneOfRun({}, truth_, machine_.path());
+  const reports::Scene scene = sceneOf({}, truth_, machine_.path());
   ASSERT_EQ(scene.meshes.size(), 1U);
   const reports::Mesh& mesh = scene.meshes[0];
   EXPECT_EQ(mesh.role, reports::MeshRole::Part);
@@ -120,4 +119,4 @@ TEST_F(SceneOfRun, DrawsThePartWhereItLies) {
 }
 
 }  // namespace
-}  // namespace probewright::app
+}  // namespace probewright::session
