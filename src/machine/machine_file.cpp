@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "base/file.hpp"
 #include "base/toml_table.hpp"
@@ -134,7 +135,8 @@ Result<MachineDescription> readMachine(const std::string& nameOrPath) {
   if (ready != readyMade().end()) {
     text = ready->toml;
   } else {
-    auto bytes = readFile(nameOrPath);
+    std::error_code ignored;
+    auto bytes = std::filesystem::is_regular_file(nameOrPath, ignored) ? readFile(nameOrPath) : fail("no file");
     if (!bytes) {
       const auto near = nearestName(nameOrPath, readyMadeMachines());
       return fail({nameOrPath},

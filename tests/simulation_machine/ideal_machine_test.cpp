@@ -232,6 +232,23 @@ TEST(IdealMachine, HeadMovesFindContactOnTheirArc) {
   EXPECT_NEAR(result.latched[3], degreesFromRadians(std::asin(98.0 / 248)), 1e-7);
 }
 
+TEST(IdealMachine, LatheProbesTheTurnedDiameterInItsRadius) {
+  // A probe that lies across the turning axis: its shank points to the turret in +X.
+  Truth truth = perfectWorld("lathe2c");
+  truth.tools[0].shankDirection = Vector3::UnitX();
+  place(truth, RoundBar(25, 0, 120));
+  VirtualMachine machine(truth);
+  ASSERT_EQ(machine.changeTool({1, ""}).end, MoveEnd::Reached);
+  ASSERT_EQ(machine.move(positions({300, 60, 0}), Feed::rapidTraverse()).end, MoveEnd::Reached);
+  for (const double c : {0.0, 77.0}) {
+    ASSERT_EQ(machine.move(positions({150, 60, c}), Feed::rapidTraverse()).end, MoveEnd::Reached);
+    const auto result = machine.measure(positions({100, 60, c}), Feed::at(300));
+    ASSERT_EQ(result.end, MeasureEnd::Touched) << result.detail;
+    EXPECT_NEAR(result.latched[0], 125, 1e-9) << "100 mm of probe on a radius of 25 mm";
+    ASSERT_EQ(machine.retract(positions({150, 60, c}), Feed::rapidTraverse()).end, MoveEnd::Reached);
+  }
+}
+
 TEST(IdealMachine, RecordsPathAndTouchesOnTheTable) {
   VirtualMachine machine(worldWithFloor());
   machine.changeTool({1, ""});

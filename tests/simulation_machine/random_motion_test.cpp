@@ -54,11 +54,11 @@ void moveAtRandom(const std::string& machineName, unsigned seed) {
   VirtualMachine machine(truth);
   ASSERT_EQ(machine.changeTool({1, ""}).end, MoveEnd::Reached);
   int touched = 0, reached = 0;
-  for (int i = 0; i < 150; ++i) {
+  for (int i = 0; i < 100; ++i) {
     const AxisPositions from = machine.position(), to = randomPosition();
     const auto result = machine.measure(to, Feed::at(6000));
     const AxisPositions end = result.end == MeasureEnd::Touched ? result.latched : to;
-    constexpr int samples = 3000;
+    constexpr int samples = 400;
     for (int k = 0; k < samples; ++k) {
       ASSERT_GT(gap(between(from, end, double(k) / samples)), -2e-7) << machineName << " move " << i << " at " << k;
     }
@@ -72,8 +72,8 @@ void moveAtRandom(const std::string& machineName, unsigned seed) {
       ++reached;
     }
   }
-  EXPECT_GT(touched, 20) << machineName;
-  EXPECT_GT(reached, 20) << machineName;
+  EXPECT_GT(touched, 10) << machineName;
+  EXPECT_GT(reached, 10) << machineName;
 }
 
 TEST(RandomMotion, NeverPassesThroughMaterial) {
