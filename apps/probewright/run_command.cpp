@@ -125,9 +125,7 @@ int run(const RunArguments& arguments) {
   };
   const bool progress = !arguments.quiet && isatty(STDERR_FILENO) != 0;
   if (progress) {
-    options.progress = [](std::uint64_t blocks, std::size_t touches) {
-      std::fputs(fmt::format("\r{} blocks, {} touches ", blocks, touches).c_str(), stderr);
-    };
+    options.progress = [](std::uint64_t blocks) { std::fputs(fmt::format("\r{} blocks ", blocks).c_str(), stderr); };
   }
   std::signal(SIGINT, onInterrupt);
 

@@ -136,6 +136,7 @@ RunResult Interpreter::runLoop() {
         return {RunEnd::Halted, explain(here(Severity::Note, "the run was halted in front of this block")), blocks_};
       }
       ++blocks_;
+      if (blocks_ % 4096 == 0 && options_.onProgress) options_.onProgress(blocks_);
       if ((block.skippable && options_.skipLevels[std::min<std::size_t>(block.skipLevel, 9)]) ||
           !host_.beginBlock(*current_->program, block)) {
         advance(block.position.offset, block.next);

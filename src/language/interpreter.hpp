@@ -43,6 +43,8 @@ struct InterpreterOptions {
   /// Asked in front of a block with a breakpoint and, after the answer Step, of every block. Without it, the run ends
   /// there.
   std::function<HaltAnswer(const Program& program, const Block& block)> onHalt;
+  /// Told every 4096 blocks how many have been carried out.
+  std::function<void(std::uint64_t blocks)> onProgress;
 };
 
 enum class RunEnd {

@@ -28,6 +28,7 @@ language::InterpreterOptions interpreterOptions(const RunOptions& options, Contr
   interpreter.stepLimit = options.stepLimit;
   interpreter.stop = options.stop;
   interpreter.breakpoints = options.breakpoints;
+  interpreter.onProgress = options.progress;
   interpreter.programDepth = control::isHeidenhain(kind) ? 20 : 16;
   return interpreter;
 }

@@ -33,8 +33,8 @@ struct RunOptions {
   std::stop_token stop;
   std::int64_t wallClock = 0;  ///< seconds since 1970 (UTC) when the program starts, for logs
   bool recordPath = true;
-  /// Called now and then with the blocks carried out and the touches made; for progress.
-  std::function<void(std::uint64_t blocks, std::size_t touches)> progress;
+  /// Told now and then how many blocks have been carried out.
+  std::function<void(std::uint64_t blocks)> progress;
 };
 
 /// What a run leaves behind.

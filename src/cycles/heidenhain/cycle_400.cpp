@@ -21,7 +21,7 @@ constexpr Parameter parameters400[] = {
     setUpClearance,
     clearanceHeight,
     moveToClearance,
-    angle(307, "Q307", "angle of the line that the misalignment is measured from"),
+    referenceAngle,
     standard(tableRow, 0),
 };
 

@@ -13,9 +13,8 @@ namespace {
 
 using namespace parameters;
 
-constexpr Choice compensationChoices[] = {
+constexpr Choice axisChoices[] = {
     {0, "the axis that fits, found by the cycle"}, {4, "A axis"}, {5, "B axis"}, {6, "C axis"}};
-constexpr Choice zeroChoices[] = {{0, "no"}, {1, "yes"}};
 
 constexpr Parameter parameters403[] = {
     coordinate(263, "Q263", "first touch, main axis"),
@@ -28,8 +27,8 @@ constexpr Parameter parameters403[] = {
     setUpClearance,
     clearanceHeight,
     moveToClearance,
-    option(312, "Q312", "axis of the compensating movement", compensationChoices),
-    standard(option(337, "Q337", "set the angle of the aligned axis to zero", zeroChoices), 0),
+    option(312, "Q312", "axis of the compensating movement", axisChoices),
+    setToZero,
     standard(tableRow, 0),
     standard(transfer, 1),
     standard(angle(380, "Q380", "angle that the edge is aligned to", 0, 360), 0),

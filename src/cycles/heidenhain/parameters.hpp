@@ -92,6 +92,17 @@ inline constexpr Choice directionChoices[] = {{-1, "negative"}, {1, "positive"}}
 inline constexpr Parameter probingDirection =
     option(267, "Q267", "direction in which the probe approaches the workpiece", directionChoices);
 
+// ---- misalignment ----
+
+inline constexpr Parameter referenceAngle =
+    angle(307, "Q307", "angle of the line that the misalignment is measured from");
+inline constexpr Choice compensationChoices[] = {{0, "basic rotation"}, {1, "turn the rotary table"}};
+inline constexpr Parameter compensation =
+    standard(option(402, "Q402", "how the misalignment is compensated", compensationChoices), 0);
+inline constexpr Choice zeroChoices[] = {{0, "no"}, {1, "yes"}};
+inline constexpr Parameter setToZero =
+    standard(option(337, "Q337", "set the angle of the aligned rotary axis to zero", zeroChoices), 0);
+
 // ---- inspection ----
 
 inline constexpr Choice measuringLogChoices[] = {

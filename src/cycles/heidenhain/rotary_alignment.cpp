@@ -40,8 +40,13 @@ void zeroRotaryAxis(Context& context, std::size_t axis, bool rowGiven) {
     writeDatumAngle(context, axis, position - control.coordinates.preset.rotaryOffset[axis]);
     return;
   }
+  zeroRotaryAxisInPreset(context, axis, rowGiven);
+}
+
+void zeroRotaryAxisInPreset(Context& context, std::size_t axis, bool rowGiven) {
+  Control& control = context.control();
   Control::PresetChange change;
-  change.rotaryOffset[axis] = position;
+  change.rotaryOffset[axis] = context.channel().axes()[axis];
   const int row = rowGiven ? context.option(305) : control.coordinates.preset.row;
   if (rowGiven && row == 0) {
     copyActivePresetTo0(context, change);

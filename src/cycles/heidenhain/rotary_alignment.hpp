@@ -14,4 +14,8 @@ std::size_t turnWorkpiece(Context& context, int about, double degrees);
 /// says; in row Q305 if `rowGiven` (row 0 takes over the active preset and becomes active), else in the active row.
 void zeroRotaryAxis(Context& context, std::size_t axis, bool rowGiven);
 
+/// The same in the preset table only: in row Q305 if `rowGiven` (row 0 takes over the active preset and becomes
+/// active), else in the active row.
+void zeroRotaryAxisInPreset(Context& context, std::size_t axis, bool rowGiven);
+
 }  // namespace probewright::cycles::heidenhain

@@ -132,6 +132,13 @@ void writeDatumAngle(Context& context, std::size_t axis, double degrees) {
   context.control().writeNumber(table, std::to_string(row), context.channel().description().axes[axis].name, degrees);
 }
 
+void addDatumAngle(Context& context, std::size_t axis, int row, double degrees) {
+  auto& table = datumTableWithRow(context, row);
+  const std::string key = std::to_string(row);
+  const std::string& column = context.channel().description().axes[axis].name;
+  context.control().writeNumber(table, key, column, table.numberOr(key, column, 0) + degrees);
+}
+
 void resetBasicRotation(Context& context) {
   context.control().coordinates.preset.spaceAngles.setZero();
   context.control().applyCoordinates();

@@ -30,6 +30,9 @@ void copyActivePresetTo0(Context& context, Control::PresetChange change);
 /// Writes an angle into column A, B or C of row Q305 of the active datum table.
 void writeDatumAngle(Context& context, std::size_t axis, double degrees);
 
+/// Adds an angle to column A, B or C of a row of the active datum table.
+void addDatumAngle(Context& context, std::size_t axis, int row, double degrees);
+
 /// Takes the basic rotation of the active preset out of effect; the table keeps it.
 void resetBasicRotation(Context& context);
 

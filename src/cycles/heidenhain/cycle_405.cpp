@@ -1,0 +1,69 @@
+#include <cmath>
+
+#include "control/alarm.hpp"
+#include "cycles/heidenhain/circle_measurement.hpp"
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/hole_measurement.hpp"
+#include "cycles/heidenhain/preset_parameters.hpp"
+#include "cycles/heidenhain/rotary_alignment.hpp"
+#include "cycles/heidenhain/transfer.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr Parameter parameters405[] = {
+    coordinate(321, "Q321", "nominal centre of the hole in the main axis"),
+    coordinate(322, "Q322", "nominal centre in the minor axis; 0: align to the positive Y axis"),
+    length(262, "Q262", "nominal diameter of the hole, rather too small than too large"),
+    angle(325, "Q325", "angle of the first touch from the main axis"),
+    angle(247, "Q247", "angle from touch to touch, negative: clockwise; at least 5 degrees", -120, 120),
+    measuringHeight,
+    setUpClearance,
+    clearanceHeight,
+    moveToClearance,
+    {.name = "Q337",
+     .address = 337,
+     .meaning = "0: set the angle of C to zero; above: row of the datum table that takes the offset",
+     .kind = ValueKind::Integer,
+     .minimum = 0,
+     .maximum = 2999},
+    only(pointCount, {}),
+    only(traverse, {}),
+};
+
+constexpr ResultDefinition results405[] = {
+    {"Q150", "measured angular offset", ValueKind::Angle},
+};
+
+}  // namespace
+
+const CycleDefinition cycle405Definition = {
+    .number = 405,
+    .name = "405",
+    .title = "ROT IN C AXIS",
+    .family = CycleFamily::Misalignment,
+    .summary =
+        "Measures a hole and turns the C axis until its centre lies in the direction of the positive Y axis or of its "
+        "nominal position.",
+    .parameters = parameters405,
+    .results = results405,
+};
+
+void cycle405(Context& context, const Arguments&) {
+  context.require({.tiltAllowed = false});
+  const MeasuredCircle circle = measureCircle(context, {321, 322, 262}, Side::Inside);
+  const double target = context.q(322) == 0 ? 90 : degreesFromRadians(std::atan2(context.q(322), context.q(321)));
+  const double offset = normalizedDegrees(angleOf(Vector3::Zero(), circle.centre) - target);
+  context.result(150, offset);
+  const std::size_t axis = turnWorkpiece(context, context.control().coordinates.plane.tool, -offset);
+  const int row = context.option(337);
+  if (row == 0) {
+    zeroRotaryAxisInPreset(context, axis, false);
+  } else {
+    addDatumAngle(context, axis, row, offset);
+  }
+}
+
+}  // namespace probewright::cycles::heidenhain

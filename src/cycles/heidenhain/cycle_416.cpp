@@ -1,0 +1,42 @@
+#include "control/alarm.hpp"
+#include "cycles/heidenhain/bolt_circle_measurement.hpp"
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/preset_parameters.hpp"
+#include "cycles/heidenhain/transfer.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr std::array parameters416 = joined(joined(boltCircleParameters, centreTransfer),
+                                            std::array{only(standard(setUpClearance, 0), control::onTNC640)});
+
+constexpr ResultDefinition results416[] = {
+    {"Q151", "actual centre, main axis"},
+    {"Q152", "actual centre, minor axis"},
+    {"Q153", "actual diameter of the bolt hole circle"},
+};
+
+}  // namespace
+
+const CycleDefinition cycle416Definition = {
+    .number = 416,
+    .name = "416",
+    .title = "PRESET CIRCLE CENTER",
+    .family = CycleFamily::Preset,
+    .summary = "Measures three holes of a bolt hole circle and sets the preset to its centre.",
+    .parameters = parameters416,
+    .results = results416,
+};
+
+void cycle416(Context& context, const Arguments&) {
+  context.require({.rotationAllowed = true});
+  const MeasuredCircle circle = measureBoltCircle(context);
+  context.result(151, circle.centre.x(), {.nominal = context.q(273)});
+  context.result(152, circle.centre.y(), {.nominal = context.q(274)});
+  context.result(153, circle.diameter, {.nominal = context.q(262)});
+  finishPreset(context, {.measured = circle.centre, .wish = {context.q(331), context.q(332)}, .rotation = {}});
+}
+
+}  // namespace probewright::cycles::heidenhain

@@ -1,0 +1,61 @@
+#include "control/alarm.hpp"
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/hole_measurement.hpp"
+#include "cycles/heidenhain/preset_parameters.hpp"
+#include "cycles/heidenhain/transfer.hpp"
+#include "metrology/elements.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr std::array parameters418 = joined(
+    std::array{
+        coordinate(268, "Q268", "centre of the first hole, main axis"),
+        coordinate(269, "Q269", "centre of the first hole, minor axis"),
+        coordinate(270, "Q270", "centre of the second hole, main axis"),
+        coordinate(271, "Q271", "centre of the second hole, minor axis"),
+        coordinate(316, "Q316", "centre of the third hole, main axis"),
+        coordinate(317, "Q317", "centre of the third hole, minor axis"),
+        coordinate(318, "Q318", "centre of the fourth hole, main axis"),
+        coordinate(319, "Q319", "centre of the fourth hole, minor axis"),
+        measuringHeight,
+        clearanceHeight,
+    },
+    centreTransfer);
+
+constexpr ResultDefinition results418[] = {
+    {"Q151", "actual intersection, main axis"},
+    {"Q152", "actual intersection, minor axis"},
+};
+
+}  // namespace
+
+const CycleDefinition cycle418Definition = {
+    .number = 418,
+    .name = "418",
+    .title = "PRESET FROM 4 HOLES",
+    .family = CycleFamily::Preset,
+    .summary = "Measures four holes and sets the preset to the point where the lines through opposite centres cross.",
+    .parameters = parameters418,
+    .results = results418,
+};
+
+void cycle418(Context& context, const Arguments&) {
+  context.require({.rotationAllowed = true});
+  std::vector<Vector2> centres;
+  for (const auto& [main, minor] : {std::pair{268, 269}, {270, 271}, {316, 317}, {318, 319}}) {
+    centres.push_back(measureHoleCentre(context, {context.q(main), context.q(minor)}, context.q(261)).head<2>());
+  }
+  const auto crossing = metrology::intersection(metrology::Line2{centres[0], centres[2] - centres[0]},
+                                                metrology::Line2{centres[1], centres[3] - centres[1]});
+  if (!crossing) throw control::Alarm("Intersection not determined", crossing.error().message, crossing.error().advice);
+  context.result(151, crossing->x());
+  context.result(152, crossing->y());
+  finishPreset(context, {.measured = {crossing->x(), crossing->y(), context.q(261)},
+                         .wish = {context.q(331), context.q(332)},
+                         .rotation = {}});
+}
+
+}  // namespace probewright::cycles::heidenhain

@@ -1,0 +1,59 @@
+#include <cmath>
+
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/edge_measurement.hpp"
+#include "cycles/heidenhain/inspection.hpp"
+#include "cycles/heidenhain/preset_parameters.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr Parameter parameters420[] = {
+    coordinate(263, "Q263", "first touch, main axis"),
+    coordinate(264, "Q264", "first touch, minor axis"),
+    coordinate(265, "Q265", "second touch, main axis"),
+    coordinate(266, "Q266", "second touch, minor axis"),
+    measuringAxis3,
+    probingDirection,
+    measuringHeight,
+    setUpClearance,
+    clearanceHeight,
+    moveToClearance,
+    measuringLog,
+};
+
+constexpr ResultDefinition results420[] = {
+    {"Q150", "measured angle", ValueKind::Angle},
+};
+
+}  // namespace
+
+const CycleDefinition cycle420Definition = {
+    .number = 420,
+    .name = "420",
+    .title = "MEASURE ANGLE",
+    .family = CycleFamily::Inspection,
+    .summary = "Measures the angle of an edge to the main axis, or of a surface along the touch probe axis.",
+    .parameters = parameters420,
+    .results = results420,
+};
+
+void cycle420(Context& context, const Arguments&) {
+  context.require({});
+  const MeasuredEdge edge = measureEdge(context);
+  double measured = 0;
+  if (context.option(272) != 3) {
+    measured = undirected(degreesFromRadians(std::atan2(edge.along.y(), edge.along.x())));
+  } else if (std::abs(edge.along.y()) > std::abs(edge.along.x())) {
+    // Along the minor axis: the angle in the direction of the A axis.
+    measured = undirected(degreesFromRadians(std::atan2(edge.along.z(), edge.along.y())));
+  } else {
+    measured = undirected(degreesFromRadians(std::atan2(-edge.along.z(), edge.along.x())));
+  }
+  context.result(150, measured);
+  writeLog(context, {.title = "Angle Measuring", .items = {}, .further = {{"Measured angle", measured}}});
+}
+
+}  // namespace probewright::cycles::heidenhain

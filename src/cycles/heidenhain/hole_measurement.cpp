@@ -1,0 +1,63 @@
+#include "cycles/heidenhain/hole_measurement.hpp"
+
+#include <cmath>
+
+#include "control/alarm.hpp"
+#include "cycles/heidenhain/rotary_alignment.hpp"
+#include "cycles/heidenhain/transfer.hpp"
+#include "metrology/fits.hpp"
+#include "probing/heidenhain_strategies.hpp"
+
+namespace probewright::cycles::heidenhain {
+
+Vector3 measureHoleCentre(Context& context, const Vector2& centre, double measuringHeight) {
+  auto& prober = context.prober();
+  const double reach = prober.probe().distance;
+  Vector3 place(centre.x(), centre.y(), measuringHeight);
+  prober.approach(place, context.q(260));
+  for (const int axis : {0, 1}) {
+    const EvaluatedTouch plus = prober.stroke(probing::axisDirection(axis, 1), reach);
+    const EvaluatedTouch minus = prober.stroke(probing::axisDirection(axis, -1), reach);
+    place[axis] = (plus.ballCentre[axis] + minus.ballCentre[axis]) / 2;
+    if (axis == 0) prober.moveTo(place);
+  }
+  prober.moveSouthPoleTo(context.q(260));
+  return place;
+}
+
+Vector3 measureStudCentre(Context& context, const Vector2& centre, double diameter, double measuringHeight) {
+  const probing::CircleTask task{.centre = centre, .diameter = diameter, .side = Side::Outside};
+  const auto touches =
+      probing::probeCircle(context.prober(), task,
+                           {.measuring = measuringHeight,
+                            .clearance = context.q(260),
+                            .extraClearance = context.q(320),
+                            .between = context.option(301) == 1 ? probing::Between::AtClearanceHeight
+                                                                : probing::Between::AtMeasuringHeight});
+  std::vector<Vector3> centres;
+  for (const EvaluatedTouch& touch : touches)
+    centres.push_back(touch.ballCentre);
+  const auto fit = metrology::fitCircleInPlane(centres, Vector3::UnitZ());
+  if (!fit) throw control::Alarm("Circle not determined", fit.error().message, fit.error().advice);
+  return fit->shape.centre;
+}
+
+double angleOf(const Vector3& first, const Vector3& second) {
+  const Vector3 along = second - first;
+  if (along.head<2>().norm() < 1e-6) {
+    throw control::Alarm("Angle not determined", "The two centres coincide", "move the points apart");
+  }
+  return degreesFromRadians(std::atan2(along.y(), along.x()));
+}
+
+void compensateByRotationOrTable(Context& context, double angle) {
+  const double misalignment = normalizedDegrees(angle - context.q(307));
+  if (context.option(402) == 0) {
+    setBasicRotation(context, misalignment, context.option(305));
+    return;
+  }
+  const std::size_t axis = turnWorkpiece(context, context.control().coordinates.plane.tool, -misalignment);
+  zeroRotaryAxisInPreset(context, axis, context.option(337) == 1);
+}
+
+}  // namespace probewright::cycles::heidenhain

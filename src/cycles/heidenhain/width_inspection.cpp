@@ -1,0 +1,18 @@
+#include "cycles/heidenhain/width_inspection.hpp"
+
+namespace probewright::cycles::heidenhain {
+
+void finishWidthInspection(Context& context, double plus, double minus, Side side, const std::string& title) {
+  const double width = plus - minus;
+  const double nominal = context.q(311);
+  Inspection inspection{
+      .title = title,
+      .items = {inspectedDimension(156, 166, "Length", "length", nominal, width, context.q(288), context.q(289), side)},
+      .further = {{"Position of centre line", (plus + minus) / 2 / context.control().unit},
+                  {"Measuring height", context.q(261) / context.control().unit}}};
+  context.result(157, (plus + minus) / 2);
+  const double deviation = width - nominal;
+  finishInspection(context, inspection, {.monitored = deviation, .excess = -probing::outwards(side) * deviation / 2});
+}
+
+}  // namespace probewright::cycles::heidenhain
