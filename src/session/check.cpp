@@ -1,8 +1,8 @@
 #include "session/check.hpp"
 
 #include "base/file.hpp"
+#include "language/klartext/check.hpp"
 #include "language/sinumerik/check.hpp"
-#include "language/sinumerik/program.hpp"
 #include "session/source.hpp"
 
 namespace probewright::session {
@@ -12,14 +12,18 @@ Diagnostics checkProgram(const std::filesystem::path& path, std::optional<contro
   if (!text) return {text.error()};
   const Result<control::ControlKind> kind = controlFor(path, *text, control, std::nullopt);
   if (!kind) return {kind.error()};
-  const ProgramLanguage language = languageOf(*kind);
-  const auto library = programLibrary(language);
-  if (language == ProgramLanguage::Sinumerik) {
-    const auto program = sinumerik::SinumerikProgram::open(path);
-    if (!program) return {program.error()};
-    return sinumerik::check(**program, {.library = library.get(), .globalVariables = {}});
+  const Result<std::shared_ptr<language::Program>> program = openProgram(path, languageOf(*kind));
+  if (!program) return {program.error()};
+  return checkProgram(**program, *kind);
+}
+
+Diagnostics checkProgram(language::Program& program, control::ControlKind kind) {
+  if (control::isHeidenhain(kind)) {
+    return language::klartext::checkProgram(static_cast<language::klartext::KlartextProgram&>(program), kind);
   }
-  return {};
+  const auto library = programLibrary(ProgramLanguage::Sinumerik);
+  return sinumerik::check(static_cast<sinumerik::SinumerikProgram&>(program),
+                          {.library = library.get(), .globalVariables = {}});
 }
 
 }  // namespace probewright::session

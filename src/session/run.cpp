@@ -11,6 +11,7 @@
 #include "language/sinumerik/program.hpp"
 #include "records/results.hpp"
 #include "session/beliefs.hpp"
+#include "session/check.hpp"
 #include "session/source.hpp"
 
 namespace probewright::session {
@@ -123,6 +124,11 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
     if (solid.role != simulation::SolidRole::Part) continue;
     outcome.info.partName = solid.name;
     outcome.info.partPath = solid.source.file.string();
+  }
+  outcome.diagnostics = checkProgram(*program, kind);
+  if (hasErrors(outcome.diagnostics)) {
+    conclude(outcome);
+    return outcome;
   }
   Result<std::unique_ptr<simulation::VirtualMachine>> machine = simulation::buildMachine(setup);
   if (!machine) {
