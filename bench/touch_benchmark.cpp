@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "machine/machine_file.hpp"
+#include "simulation/cad_solid.hpp"
 #include "simulation/mesh_solid.hpp"
 #include "simulation/virtual_machine.hpp"
 
@@ -32,11 +33,11 @@ TriangleMesh wavedPlate(int triangles) {
   return mesh;
 }
 
-void touches(benchmark::State& state) {
+/// Touches the top of `solid`, from above within `reach` of `middle`.
+void touchFromAbove(benchmark::State& state, std::shared_ptr<const Solid> solid, const Vector3& middle, double reach) {
   Truth truth;
   truth.machine = machine::readMachine("mill3").value();
-  truth.solids.push_back({std::make_shared<MeshSolid>(wavedPlate(static_cast<int>(state.range(0)))),
-                          translation({0, 0, -400}), "plate", SolidRole::Part});
+  truth.solids.push_back({std::move(solid), translation(Vector3(0, 0, -400) - middle), "part", SolidRole::Part});
   TrueTool probe;
   probe.number = 1;
   probe.probe.ballRadius = 2;
@@ -55,15 +56,26 @@ void touches(benchmark::State& state) {
   const auto rapid = machine::Feed::rapidTraverse();
   int count = 0;
   for (auto _ : state) {
-    const double angle = 0.1 * ++count, x = 80 * std::cos(angle), y = 80 * std::sin(1.3 * angle);
-    machine.move(at(x, y, -292), rapid);
-    const auto result = machine.measure(at(x, y, -310), machine::Feed::at(300));
+    const double angle = 0.1 * ++count, x = reach * std::cos(angle), y = reach * std::sin(1.3 * angle);
+    machine.move(at(x, y, -284), rapid);
+    const auto result = machine.measure(at(x, y, -340), machine::Feed::at(300));
     if (result.end != machine::MeasureEnd::Touched) state.SkipWithError("no contact");
-    machine.retract(at(x, y, -292), rapid);
+    machine.retract(at(x, y, -284), rapid);
   }
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK(touches)->Arg(1000)->Arg(100'000)->Arg(1'000'000)->Unit(benchmark::kMicrosecond);
+
+void triangles(benchmark::State& state) {
+  touchFromAbove(state, std::make_shared<MeshSolid>(wavedPlate(static_cast<int>(state.range(0)))), Vector3::Zero(), 80);
+}
+BENCHMARK(triangles)->Arg(1000)->Arg(100'000)->Arg(1'000'000)->Unit(benchmark::kMicrosecond);
+
+/// The exact surfaces of the housing of the examples, touched on a plain place of its top.
+void housing(benchmark::State& state) {
+  std::shared_ptr<const Solid> solid = readStep(PROBEWRIGHT_EXAMPLES "/parts/housing.step").value();
+  touchFromAbove(state, std::move(solid), {60, 6, 0}, 2.5);
+}
+BENCHMARK(housing)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace probewright::simulation
