@@ -47,7 +47,12 @@ TEST(ExampleSetups, PutTheHousingWhereTheySay) {
     const auto onTop = machine->measure(positions({top.x(), top.y(), z - 5}), Feed::at(300));
     ASSERT_EQ(onTop.end, MeasureEnd::Touched) << onTop.detail;
     EXPECT_NEAR(onTop.latched[2], z, 0.003 + 6 * 0.0003);
+    // Along the face the stylus stays deflected; off it, it comes free.
+    const double pressed = machine->position()[2];
+    machine->retract(positions({top.x() + 1, top.y(), pressed}), Feed::at(300));
+    EXPECT_TRUE(machine->probeDeflected());
     machine->retract(positions({top.x(), top.y(), z + 20}), Feed::rapidTraverse());
+    EXPECT_FALSE(machine->probeDeflected());
     // The face X 0 at Y 40, Z -20, approached along the part's X, with the ball's centre 3 mm above the tip.
     const Vector3 along = table.linear() * Vector3::UnitX();
     const auto nose = [&](const Vector3& centre) {

@@ -196,6 +196,11 @@ in_spindle = true
   const auto result = (*machine)->measure(positions({30, 15, -345}), machine::Feed::at(300));
   ASSERT_EQ(result.end, machine::MeasureEnd::Touched) << result.detail;
   EXPECT_NEAR(result.latched[0], 18, 1e-9) << "the face x = 20, one ball radius before it";
+  const double pressed = (*machine)->position()[0];
+  (*machine)->retract(positions({pressed, 16, -345}), machine::Feed::at(300));
+  EXPECT_TRUE((*machine)->probeDeflected()) << "it moved along the face";
+  (*machine)->retract(positions({0, 16, -345}), machine::Feed::at(300));
+  EXPECT_FALSE((*machine)->probeDeflected());
 }
 
 TEST(Setup, BuildsPartsOfFeaturesAndGauges) {
