@@ -70,15 +70,14 @@ std::vector<EvaluatedTouch> probeRectangle(HeidenhainProber& prober, const Recta
         prober.moveSouthPoleTo(heights.clearance);
         prober.moveInPlane(next);
         prober.moveTo(next);
-      } else if (task.side == Side::Outside) {
-        // Around the corner: first along the side just probed, then along the next one.
-        const Vector3 here = prober.position();
-        Vector3 corner = here;
-        const Eigen::Index along = std::abs(plan[i - 1].direction[0]) > 0.5 ? 1 : 0;
-        corner[along] = next[along];
-        prober.moveTo(corner);
-        prober.moveTo(next);
       } else {
+        // Outside around the corner: first along the side just probed, then along the next one. Inside through the
+        // middle of the pocket, which is free whatever its corners look like.
+        const Eigen::Index along = std::abs(plan[i - 1].direction[0]) > 0.5 ? 1 : 0;
+        const Eigen::Index first = task.side == Side::Outside ? along : 1 - along;
+        Vector3 corner = prober.position();
+        corner[first] = next[first];
+        prober.moveTo(corner);
         prober.moveTo(next);
       }
     }

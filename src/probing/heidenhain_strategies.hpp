@@ -44,9 +44,9 @@ struct RectangleTask {
   Side side = Side::Inside;
 };
 
-/// Touches in the order: main axis +, minor axis +, main axis -, minor axis -. Outside, the probe rounds the corners
-/// parallel to the axes; inside it travels straight. A pocket too narrow for the pre-positions is probed from its
-/// centre at the measuring height.
+/// Touches in the order: main axis +, minor axis +, main axis -, minor axis -. Between them at
+/// the measuring height it travels parallel to the axes, outside around the corners, inside through the middle. A
+/// pocket too narrow for the pre-positions is probed from its centre at the measuring height.
 std::vector<EvaluatedTouch> probeRectangle(HeidenhainProber& prober, const RectangleTask& task, const Heights& heights);
 
 struct WidthTask {

@@ -73,6 +73,7 @@ void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>
     outcome.files[name] = table.table().bytes();
   outcome.machineFromWorkpiece = control.coordinates.machineFromPreset();
   outcome.ballRadius = control.tool.radius;
+  outcome.qParameters = control.q;
   outcome.info.totalPathLength = control.channel.pathLength();
   outcome.info.totalSeconds = control.channel.seconds();
   outcome.journal = std::move(control.journal);

@@ -11,6 +11,7 @@
 
 #include "base/diagnostic.hpp"
 #include "control/control_kind.hpp"
+#include "control/heidenhain/q_parameters.hpp"
 #include "control/journal.hpp"
 #include "control/operator_panel.hpp"
 #include "language/interpreter.hpp"
@@ -49,6 +50,8 @@ struct RunOutcome {
   /// Machine coordinates (which are the table's at the start posture) from the workpiece system at the end.
   std::optional<Pose> machineFromWorkpiece;
   double ballRadius = 0;
+  /// The Q parameters of a HEIDENHAIN control at the end.
+  std::optional<control::heidenhain::QParameters> qParameters;
 };
 
 /// Reads the program, builds the machine of the setup and the control's beliefs, runs. Everything that can go wrong is

@@ -132,7 +132,7 @@ void Control::writePreset(int row, const PresetChange& change) {
     const Result<void> added = table.ensureRow(key);
     if (!added) throw Alarm("Table write error", added.error().message, added.error().advice);
   }
-  if (table.text(key, "LOCKED") == "L") {
+  if (!table.text(key, "LOCKED").empty()) {
     throw Alarm("Preset locked", fmt::format("Row {} of the preset table is write-protected", row),
                 "unlock the row or use another");
   }

@@ -48,13 +48,14 @@ void cycle414(Context& context, const Arguments&) {
   const double towards2 = context.q(297) > context.q(264) ? 1 : -1;
   const Vector3 first(context.q(263), context.q(264), height);
   const Vector3 third(context.q(296), context.q(297), height);
+  // The distances count in the positive direction of their axes, whichever corner it is.
   const Vector3 direction1 = probing::axisDirection(1, towards2);
   const Vector3 direction2 = probing::axisDirection(0, towards1);
   const CornerTouches touches = {
       PlannedTouch{first, direction1},
-      PlannedTouch{first + Vector3(towards1 * context.q(326), 0, 0), direction1},
+      PlannedTouch{first + Vector3(context.q(326), 0, 0), direction1},
       PlannedTouch{third, direction2},
-      PlannedTouch{third + Vector3(0, towards2 * context.q(327), 0), direction2},
+      PlannedTouch{third + Vector3(0, context.q(327), 0), direction2},
   };
   presetCorner(context, measureCorner(context, touches, Side::Outside));
 }

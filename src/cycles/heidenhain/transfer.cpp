@@ -7,46 +7,60 @@
 namespace probewright::cycles::heidenhain {
 
 using control::Alarm;
+using control::heidenhain::ActivePreset;
 using control::heidenhain::Coordinates;
 using control::heidenhain::rotationFromSpaceAngles;
 using control::heidenhain::spaceAnglesFromRotation;
 
 namespace {
 
-/// The origin in machine coordinates that gives `preset.measured` the wished coordinates, with the axes of
-/// `coordinates`.
-Control::PresetChange presetChange(Context& context, const NewPreset& preset) {
+/// What changes in `target` so that `preset.measured` has the wished coordinates once `target` is active. Along its
+/// axes only those with a wish move.
+Control::PresetChange presetChange(Context& context, const NewPreset& preset, const ActivePreset& target) {
   const Coordinates& coordinates = context.control().coordinates;
   const auto& plane = coordinates.plane;
   // The feature in machine coordinates does not depend on the preset that it was measured with.
   const Vector3 feature = context.channel().frame() * plane.xyzFromPlane(preset.measured);
   Control::PresetChange change;
-  Vector3 spaceAngles = coordinates.preset.spaceAngles;
+  Matrix3 axes = rotationFromSpaceAngles(target.spaceAngles);
   if (preset.rotation) {
+    // The angle counts from the axes that were active when it was measured.
     Vector3 toolAxis = Vector3::Zero();
     toolAxis[plane.tool] = 1;
-    const Matrix3 turned = rotationFromSpaceAngles(spaceAngles) *
-                           Eigen::AngleAxisd(radiansFromDegrees(*preset.rotation), toolAxis).toRotationMatrix();
-    spaceAngles = spaceAnglesFromRotation(turned);
-    for (std::size_t i = 0; i < 3; ++i)
-      change.spaceAngles[i] = spaceAngles[static_cast<Eigen::Index>(i)];
+    axes = rotationFromSpaceAngles(coordinates.preset.spaceAngles) *
+           Eigen::AngleAxisd(radiansFromDegrees(*preset.rotation), toolAxis).toRotationMatrix();
+    const Vector3 spaceAngles = spaceAnglesFromRotation(axes);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double angle = spaceAngles[static_cast<Eigen::Index>(i)];
+      if (i == static_cast<std::size_t>(plane.tool) || context.control().isTNC640()) change.spaceAngles[i] = angle;
+    }
   }
-  const Matrix3 axes = rotationFromSpaceAngles(spaceAngles);
-  // Seen along the preset's axes: wished axes are shifted so that the feature reads the wish, the others stay.
-  Vector3 local = axes.transpose() * (feature - coordinates.preset.origin);
+  const Vector3 local = axes.transpose() * (feature - target.origin);
   Vector3 wish = local;
   for (std::size_t i = 0; i < 3; ++i) {
     const int axis = i == 0 ? plane.main : i == 1 ? plane.minor : plane.tool;
     if (preset.wish[i]) wish[axis] = *preset.wish[i];
   }
-  const Vector3 origin = coordinates.preset.origin + axes * (local - wish);
+  const Vector3 shift = axes * (local - wish);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto index = static_cast<Eigen::Index>(i);
-    if (origin[index] != coordinates.preset.origin[index] || wish[index] != local[index]) {
-      change.origin[i] = origin[index];
-    }
+    if (shift[index] != 0 || wish[index] != local[index]) change.origin[i] = target.origin[index] + shift[index];
   }
   return change;
+}
+
+/// Adds what `change` leaves open from the active preset.
+void takeOverActive(Context& context, Control::PresetChange& change) {
+  const Control& control = context.control();
+  const ActivePreset& active = control.coordinates.preset;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto index = static_cast<Eigen::Index>(i);
+    if (!change.origin[i]) change.origin[i] = active.origin[index];
+    if (!change.spaceAngles[i] && (i == 2 || control.isTNC640())) change.spaceAngles[i] = active.spaceAngles[index];
+  }
+  for (std::size_t i = 0; i < context.channel().description().axes.size(); ++i) {
+    if (!change.rotaryOffset[i] && active.rotaryOffset[i] != 0) change.rotaryOffset[i] = active.rotaryOffset[i];
+  }
 }
 
 control::heidenhain::TypedTable& datumTableWithRow(Context& context, int row) {
@@ -84,6 +98,12 @@ void transferPreset(Context& context, const NewPreset& preset) {
   Control& control = context.control();
   const int target = context.option(303);
   const int row = context.option(305);
+  // Row 0 stands for the preset that is set at once; older programs and the iTNC 530 say no more than that.
+  const bool atOnce = row == 0 && (target != 0 || !control.isTNC640());
+  if (atOnce) {
+    copyActivePresetTo0(context, presetChange(context, preset, control.coordinates.preset));
+    return;
+  }
   if (target == -1) {
     throw Alarm("Measured value transfer not defined",
                 "Q303 = -1 comes from a program of an older control, which knew no choice of table",
@@ -93,33 +113,16 @@ void transferPreset(Context& context, const NewPreset& preset) {
     writeDatumRow(context, row, preset);
     return;
   }
-  Control::PresetChange change = presetChange(context, preset);
-  if (row == 0) {
-    copyActivePresetTo0(context, change);
-    return;
-  }
-  if (!control.presetRow(row)) {
-    // A new row takes what the feature says nothing about from the active preset.
-    const auto& active = control.coordinates.preset;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto index = static_cast<Eigen::Index>(i);
-      if (!change.origin[i]) change.origin[i] = active.origin[index];
-    }
-  }
+  const auto present = row == control.coordinates.preset.row ? control.coordinates.preset : control.presetRow(row);
+  Control::PresetChange change = presetChange(context, preset, present.value_or(control.coordinates.preset));
+  // A new row takes what the feature says nothing about from the active preset.
+  if (!present) takeOverActive(context, change);
   control.writePreset(row, change);
 }
 
 void copyActivePresetTo0(Context& context, Control::PresetChange change) {
   Control& control = context.control();
-  const auto active = control.coordinates.preset;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto index = static_cast<Eigen::Index>(i);
-    if (!change.origin[i]) change.origin[i] = active.origin[index];
-    if (!change.spaceAngles[i] && (i == 2 || control.isTNC640())) change.spaceAngles[i] = active.spaceAngles[index];
-  }
-  for (std::size_t i = 0; i < context.channel().description().axes.size(); ++i) {
-    if (!change.rotaryOffset[i] && active.rotaryOffset[i] != 0) change.rotaryOffset[i] = active.rotaryOffset[i];
-  }
+  takeOverActive(context, change);
   control.coordinates.workpiece = {};
   control.coordinates.workingPlane = {};
   control.writePreset(0, change);

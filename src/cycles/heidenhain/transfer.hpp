@@ -14,9 +14,10 @@ struct NewPreset {
   std::optional<double> rotation;
 };
 
-/// Writes the preset as Q303 and Q305 say: Q305 = 0 with Q303 = 1 copies the active preset to row 0 and activates it,
-/// clearing simple transformations; otherwise row Q305 of the preset table (effective at once if it is the active one)
-/// or of the active datum table.
+/// Writes the preset as Q303 and Q305 say: Q305 = 0 with Q303 = 1 or -1 (on the iTNC 530 with any Q303) copies the
+/// active preset to row 0 and activates it, clearing simple transformations; otherwise row Q305 of the preset table
+/// (effective at once if it is the active one) or of the active datum table. The feature reads the wished coordinates
+/// once that row is active, whatever basic rotation the row has; a row that is new takes over the active preset.
 void transferPreset(Context& context, const NewPreset& preset);
 
 /// The end of the presetting cycles that can also set the touch probe axis: transfers `preset`; then, if Q381 = 1,
