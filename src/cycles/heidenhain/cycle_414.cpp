@@ -48,9 +48,9 @@ void cycle414(Context& context, const Arguments&) {
   const double towards2 = context.q(297) > context.q(264) ? 1 : -1;
   const Vector3 first(context.q(263), context.q(264), height);
   const Vector3 third(context.q(296), context.q(297), height);
-  // The distances count in the positive direction of their axes, whichever corner it is.
   const Vector3 direction1 = probing::axisDirection(1, towards2);
   const Vector3 direction2 = probing::axisDirection(0, towards1);
+  // The distances count in the positive direction of their axes, whichever corner it is.
   const CornerTouches touches = {
       PlannedTouch{first, direction1},
       PlannedTouch{first + Vector3(context.q(326), 0, 0), direction1},
