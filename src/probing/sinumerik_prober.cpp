@@ -70,7 +70,11 @@ double SinumerikProber::trigger(const Vector3& direction) const {
 }
 
 void SinumerikProber::orientTo(const Vector3& direction) {
-  if (!probe_.monodirectional || direction.head<2>().norm() < 1e-9) return;
+  if (probe_.monodirectional) alignTo(direction);
+}
+
+void SinumerikProber::alignTo(const Vector3& direction) {
+  if (direction.head<2>().norm() < 1e-9) return;
   const Vector3 machine = plane_.planeFromXyz(channel_.frame().linear() * plane_.xyzFromPlane(direction));
   channel_.orientSpindle(probe_.correctionAngle + degreesFromRadians(std::atan2(machine.y(), machine.x())));
 }
@@ -115,8 +119,8 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
           break;
         case MeasureEnd::DeflectedAtStart:
           finish("deflected");
-          throw Alarm("61332", "The probe is already deflected before the measuring move",
-                      "move the probe clear or correct the start position");
+          throw Alarm("61302", "Probe collision: the probe is deflected before the measuring move begins",
+                      "move the probe clear of the workpiece or correct the start position");
         case MeasureEnd::NotReady:
           finish("not ready");
           throw Alarm("61309", result.detail.empty() ? "There is no workpiece probe in the spindle" : result.detail,

@@ -70,6 +70,9 @@ public:
   /// What the trigger points say for a direction (unit vector): the way from the TCP to the surface along it.
   double trigger(const Vector3& direction) const;
 
+  /// Turns the spindle so that the probe's +X side looks into `direction`; nothing for directions along the tool.
+  void alignTo(const Vector3& direction);
+
   /// Measures the surface expected at `setpoint` in `direction` (unit): moves to the start position `path` (DFA) in
   /// front of it, probes over at most twice that way, returns to the start position; `count` times (S_NMSP), averaged.
   /// With nothing touched, five attempts, then alarm 61301.

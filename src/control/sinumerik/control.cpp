@@ -92,8 +92,22 @@ Eigen::Affine3d Control::machineFromWorkpiece() const {
          transform(frames.programmed);
 }
 
+std::vector<DataKey> Control::baseFrameKeys() const {
+  std::vector<DataKey> frameKeys;
+  for (const char* name : {"$P_NCBFR", "$P_CHBFR"}) {
+    for (const DataKey& key : data.keys(name)) {
+      if (key.indices.empty()) continue;
+      const DataKey frame(name, {key.indices.front()});
+      if (frameKeys.empty() || !(frameKeys.back() == frame)) frameKeys.push_back(frame);
+    }
+  }
+  return frameKeys;
+}
+
 void Control::applyFrames() {
-  frames.base = chained(chained(data.frame("$P_SETFR", {}), data.frame("$P_NCBFR", {0})), data.frame("$P_CHBFR", {0}));
+  frames.base = data.frame("$P_SETFR", {});
+  for (const DataKey& key : baseFrameKeys())
+    frames.base = chained(frames.base, data.frame(key));
   frames.settableFrame = data.frame("$P_UIFR", {frames.settable});
   refreshTool();
   const machine::MachineDescription& description = channel.description();

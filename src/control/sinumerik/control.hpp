@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "control/channel.hpp"
 #include "control/journal.hpp"
@@ -64,7 +65,9 @@ public:
   std::array<double, 32> ovr{};  ///< _OVR
   std::array<int, 20> ovi{};     ///< _OVI
 
-  WorkingPlane workingPlane() const { return WorkingPlane::ofToolAxis(plane == 18 ? 'Y' : plane == 19 ? 'X' : 'Z'); }
+  control::WorkingPlane workingPlane() const {
+    return control::WorkingPlane::ofToolAxis(plane == 18 ? 'Y' : plane == 19 ? 'X' : 'Z');
+  }
 
   /// Loads tool `number`; 0 empties the spindle. Throws Alarm 17190 if it has no data. D1 becomes active.
   void loadTool(int number);
@@ -80,6 +83,9 @@ public:
   /// Reads base and settable frames from the store again and hands the chain to the channel. To be called after any
   /// change of frames, plane or tool.
   void applyFrames();
+  /// The base frames that have values: all global ones by number ($P_NCBFR), then the channel's ($P_CHBFR), as they are
+  /// chained from the outside in.
+  std::vector<DataKey> baseFrameKeys() const;
   /// Machine coordinates from workpiece coordinates.
   Eigen::Affine3d machineFromWorkpiece() const;
   /// Machine coordinates from the coordinates inside which settable frame is entered.

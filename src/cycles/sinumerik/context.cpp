@@ -8,6 +8,7 @@
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
+#include "control/sinumerik/measuring_data.hpp"
 
 namespace probewright::cycles::sinumerik {
 
@@ -99,8 +100,8 @@ int Context::digit(std::string_view name, int place) const {
 }
 
 int Context::dataSet() const {
-  const int number = std::max(1, integer("S_PRNUM"));
-  if (number > 12) throw Alarm("61313", std::string(alarmText(61313)), std::string(alarmAdvice(61313)));
+  const int number = integer("S_PRNUM") == 0 ? 1 : integer("S_PRNUM");
+  if (number < 1 || number > 12) throw Alarm("61313", std::string(alarmText(61313)), std::string(alarmAdvice(61313)));
   return number - 1;
 }
 
@@ -119,6 +120,24 @@ void Context::requireProbe(std::initializer_list<int> types) const {
   if (control_.radiusCompensation) {
     throw Alarm("61300", "Tool radius compensation is active", "program G40 before the measuring cycle");
   }
+}
+
+void Context::requireCalibration() const {
+  if (!maskBit(control_.data, "$MNS_MEA_FUNCTION_MASK", 0)) return;
+  if (control_.data.number("$SNS_MEA_WP_BALL_DIAM", {dataSet()}) > 0) return;
+  throw Alarm("61341", fmt::format("{}: data set {} is empty", alarmText(61341), dataSet() + 1),
+              std::string(alarmAdvice(61341)));
+}
+
+int Context::measuringAxis(int count) {
+  const int axis = integer("S_MA");
+  if (axis < 1 || axis > count) alarm(61325, fmt::format("S_MA = {}, 1 to {} are possible", axis, count));
+  return axis - 1;
+}
+
+void Context::noteCall() {
+  resultInteger(3, integer("S_MVAR"));
+  resultInteger(5, dataSet() + 1);
 }
 
 probing::SinumerikProber& Context::prober() {
@@ -161,7 +180,7 @@ void Context::resultInteger(int index, int value) {
 
 void Context::checkSafeArea(double difference) {
   const double limit = real("S_TSA");
-  if (std::abs(difference) > limit) {
+  if (std::abs(difference) > limit + 1e-9) {
     alarm(61303, fmt::format("difference {:.4f} mm, safe area TSA {:.4f} mm", difference, limit));
   }
 }
@@ -222,7 +241,8 @@ probing::SinumerikHabits habitsOf(const Control& control) {
   probing::SinumerikHabits habits;
   habits.planeFeed = control.machineData("$SCS_MEA_FEED_PLANE_VALUE", habits.planeFeed);
   habits.infeedFeed = control.machineData("$SCS_MEA_FEED_FEEDAX_VALUE", habits.infeedFeed);
-  habits.circleFeed = control.machineData("$SCS_MEA_FEED_CIRCLE", habits.planeFeed);
+  const double circleFeed = control.machineData("$SCS_MEA_FEED_CIRCLE");
+  habits.circleFeed = circleFeed > 0 ? circleFeed : habits.planeFeed;
   habits.fastFeed = control.machineData("$SCS_MEA_FEED_FAST_MEASURE", habits.fastFeed);
   habits.rapidPercent = control.machineData("$SCS_MEA_FEED_RAPID_IN_PERCENT", habits.rapidPercent);
   const auto mask = static_cast<long>(control.machineData("$SCS_MEA_FUNCTION_MASK", 1));

@@ -39,6 +39,7 @@ public:
   Context& operator=(const Context&) = delete;
 
   Control& control() { return control_; }
+  const Control& control() const { return control_; }
   control::Channel& channel() { return control_.channel; }
   const Arguments& arguments() const { return arguments_; }
   control::CycleRecord& record() { return control_.journal.cycles[record_]; }
@@ -59,6 +60,11 @@ public:
   /// on (61303), with a scale factor (61310), or called too deep.
   void requireProbe(std::initializer_list<int> types) const;
 
+  /// Refuses to measure with a data set that was never calibrated (61341), unless the machine data say not to watch it.
+  void requireCalibration() const;
+  /// S_MA as an index 0, 1, 2; alarm 61325 for an axis beyond the first `count`.
+  int measuringAxis(int count);
+
   /// The prober with the calibration of data set S_PRNUM. Made on first use.
   probing::SinumerikProber& prober();
   /// Measurements at one place, S_NMSP; 0 counts as 1.
@@ -66,6 +72,8 @@ public:
 
   /// Sets _OVR[index] (mm or degrees, converted to the program's unit) and records it.
   void result(int index, double value, const Compared& compared = {});
+  /// Records which variant ran with which probe: _OVI[3], _OVI[5].
+  void noteCall();
   /// Sets _OVI[index] and records it.
   void resultInteger(int index, int value);
 

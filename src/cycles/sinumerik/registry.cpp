@@ -3,9 +3,17 @@
 #include <algorithm>
 #include <cctype>
 
+#include "cycles/sinumerik/cycles.hpp"
+
 namespace probewright::cycles::sinumerik {
 
-std::span<const Entry> entries() { return {}; }
+std::span<const Entry> entries() {
+  static constexpr Entry all[] = {
+      {&cycle977Definition, cycle977},
+      {&cycle978Definition, cycle978},
+  };
+  return all;
+}
 
 const Entry* findEntry(std::string_view name) {
   const auto sameName = [name](const Entry& entry) {

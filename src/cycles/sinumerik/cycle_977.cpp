@@ -1,0 +1,222 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cycles/sinumerik/corrections.hpp"
+#include "cycles/sinumerik/cycles.hpp"
+#include "cycles/sinumerik/measuring_method.hpp"
+#include "cycles/sinumerik/parameters.hpp"
+
+namespace probewright::cycles::sinumerik {
+namespace {
+
+constexpr Parameter parameters977[] = {
+    parameters::variant("units: 1 hole, 2 circular spigot, 3 groove, 4 rib, 5 rectangular pocket, 6 rectangular "
+                        "spigot; hundreds: 0 measure only, 1 zero offset, 2 tool; thousands: 1 protection zone; 10^4: "
+                        "0 as calibrated, 1 spindle reversal, 2 probe aligned"),
+    parameters::zeroOffset(1),
+    parameters::toolToCorrect(2),
+    parameters::dataSet(3),
+    parameters::length(4, "S_SETV", "set value of the diameter or width"),
+    parameters::length(5, "S_SETV0", "set value of the rectangle's length in the 1st axis"),
+    parameters::length(6, "S_SETV1", "set value of the rectangle's length in the 2nd axis"),
+    parameters::measuringPath(7),
+    parameters::safeArea(8),
+    parameters::angle(9, "S_STA1", "angle between measuring axis and workpiece"),
+    parameters::length(10, "S_ID", "infeed to the measuring height, with sign"),
+    parameters::length(11, "S_SZA", "protection zone: diameter, width, or length in the 1st axis"),
+    parameters::length(12, "S_SZO", "protection zone of a rectangle: length in the 2nd axis"),
+    parameters::code(13, "S_MA", "measuring axis of groove and rib: 1 or 2"),
+    parameters::repetitions(14),
+    parameters::toolName(15),
+    parameters::dlNumber(16),
+    parameters::zeroOffsetRange(17),
+    parameters::dimensionalDifference(18),
+    parameters::upperTolerance(19),
+    parameters::lowerTolerance(20),
+    parameters::meanRange(21),
+    parameters::weight(22),
+    parameters::memories(23),
+    parameters::reserved(24),
+    parameters::plane(25),
+    parameters::tolerance(26),
+};
+
+constexpr auto results977 = parameters::joined(
+    std::array<ResultDefinition, 14>{{{"_OVR[0]", "set value: diameter, width, length in the 1st axis"},
+                                      {"_OVR[1]", "set value: centre, 1st axis; of a rectangle: length, 2nd axis"},
+                                      {"_OVR[2]", "set value: centre, 2nd axis; of a rectangle: centre, 1st axis"},
+                                      {"_OVR[3]", "set value of a rectangle: centre, 2nd axis"},
+                                      {"_OVR[4]", "actual value: diameter, width, length in the 1st axis"},
+                                      {"_OVR[5]", "actual value: centre, 1st axis; of a rectangle: length, 2nd axis"},
+                                      {"_OVR[6]", "actual value: centre, 2nd axis; of a rectangle: centre, 1st axis"},
+                                      {"_OVR[7]", "actual value of a rectangle: centre, 2nd axis"},
+                                      {"_OVR[9]", "upper tolerance limit of a rectangle's length in the 2nd axis"},
+                                      {"_OVR[13]", "lower tolerance limit of a rectangle's length in the 2nd axis"},
+                                      {"_OVR[16]", "difference: diameter, width, length in the 1st axis"},
+                                      {"_OVR[17]", "difference: centre, 1st axis; of a rectangle: length, 2nd axis"},
+                                      {"_OVR[18]", "difference: centre, 2nd axis; of a rectangle: centre, 1st axis"},
+                                      {"_OVR[19]", "difference of a rectangle: centre, 2nd axis"}}},
+    parameters::correctionResults);
+
+enum class Feature { Hole = 1, Spigot, Groove, Rib, Pocket, RectangularSpigot };
+
+bool isRectangle(Feature feature) { return feature == Feature::Pocket || feature == Feature::RectangularSpigot; }
+bool isRound(Feature feature) { return feature == Feature::Hole || feature == Feature::Spigot; }
+
+Side sideOf(Feature feature) {
+  const bool inside = feature == Feature::Hole || feature == Feature::Groove || feature == Feature::Pocket;
+  return inside ? Side::Inside : Side::Outside;
+}
+
+/// Two opposite walls, measured along one direction through a start point.
+struct Pair {
+  double size = 0;    ///< distance of the walls
+  double middle = 0;  ///< of the walls, from the start point
+};
+
+/// Touches opposite walls from the height where the cycle started.
+class Walls {
+public:
+  Walls(Context& context, Feature feature, Method method)
+      : context_(context),
+        side_(sideOf(feature)),
+        toucher_(context, method),
+        startHeight_(context.prober().position().z()),
+        zone_(context.digit("S_MVAR", 4) == 1) {}
+
+  /// Walls expected `size` apart about `centre`, across `along`; `zone`: width of the protection zone there.
+  Pair measure(const Vector3& centre, const Vector3& along, double size, double zone) {
+    const double path = measuringPath(size, zone);
+    const double upper = along.dot(touch(centre + along * size / 2, along * outwards(side_), path) - centre);
+    const double lower = along.dot(touch(centre - along * size / 2, -along * outwards(side_), path) - centre);
+    return {.size = upper - lower, .middle = (upper + lower) / 2};
+  }
+
+  /// To the centre, at the height of the start.
+  void finish(const Vector3& centre) {
+    toucher_.finish();
+    context_.prober().moveInPlane(centre);
+  }
+
+private:
+  bool infeeds() const { return zone_ || side_ == Side::Outside; }
+
+  /// S_FA, shortened where the way to the start position would enter the zone.
+  double measuringPath(double size, double zone) {
+    const double wanted = context_.real("S_FA");
+    if (!zone_) return wanted;
+    const double room = side_ == Side::Inside ? (size - zone) / 2 : (zone - size) / 2;
+    const double longest = room - context_.prober().probe().ballDiameter;
+    if (zone > 0 && longest <= 0) {
+      context_.alarm(61334, fmt::format("{:.3f} mm between zone and wall leave no room for the ball", room));
+    }
+    return zone > 0 ? std::min(wanted, longest) : wanted;
+  }
+
+  Vector3 touch(Vector3 setpoint, const Vector3& direction, double path) {
+    probing::SinumerikProber& prober = context_.prober();
+    setpoint.z() = startHeight_ + (infeeds() ? context_.real("S_ID") : 0);
+    if (infeeds()) {
+      prober.moveInPlane(toucher_.startOf(setpoint, direction, path));
+      prober.moveHeightTo(setpoint.z());
+    }
+    const MeasuredPoint point = toucher_.measure(setpoint, direction, path);
+    if (infeeds()) prober.moveHeightTo(startHeight_);
+    return point.surface;
+  }
+
+  Context& context_;
+  Side side_;
+  Toucher toucher_;
+  double startHeight_;
+  bool zone_;
+};
+
+}  // namespace
+
+const CycleDefinition cycle977Definition = {
+    .number = 977,
+    .name = "CYCLE977",
+    .title = "Hole, spigot, groove, rib, rectangle",
+    .family = CycleFamily::Inspection,
+    .summary =
+        "Measures size and centre of a hole, spigot, groove, rib, rectangular pocket or spigot by touches across "
+        "the axes of the plane, and corrects the zero offset so that the centre lies where the cycle started, or "
+        "the tool.",
+    .parameters = parameters977,
+    .results = results977,
+    .controls = control::onSinumerik,
+};
+
+void cycle977(Context& context, const Arguments&) {
+  const int units = context.digit("S_MVAR", 1);
+  if (units < 1 || units > 6 || context.digit("S_MVAR", 4) > 1) context.alarm(61307);
+  const auto feature = static_cast<Feature>(units);
+  if (feature == Feature::Hole) {
+    context.requireProbe({710, 712, 714, 580});
+  } else {
+    context.requireProbe({710, 712, 580});
+  }
+  context.requireCalibration();
+  const Task task = taskOf(context);
+  const Method method = methodOf(context);
+  const bool oneAxis = feature == Feature::Groove || feature == Feature::Rib;
+  const int axis = oneAxis ? context.measuringAxis(2) : 0;
+  const auto target = task == Task::ZeroOffset ? frameTarget(context, GlobalBase::Allowed) : std::nullopt;
+
+  // Where the probe stands is the set position of the centre.
+  const Vector3 start = context.prober().position();
+  const Vector3 first = probing::directionAt(context.real("S_STA1") + (axis == 1 ? 90 : 0));
+  const Vector3 second = probing::directionAt(context.real("S_STA1") + 90);
+  const double set1 = setValueOf(context, task, context.real(isRectangle(feature) ? "S_SETV0" : "S_SETV"));
+  const double set2 = isRectangle(feature) ? setValueOf(context, task, context.real("S_SETV1")) : set1;
+  if (!(set1 > 0) || !(set2 > 0)) context.alarm(61319, "the set size must be greater than 0");
+
+  Walls walls(context, feature, method);
+  const Pair pair1 = walls.measure(start, first, set1, context.real("S_SZA"));
+  Vector3 centre = start + first * pair1.middle;
+  Pair pair2;
+  if (!oneAxis) {
+    walls.finish(centre);
+    pair2 = walls.measure(centre, second, set2, context.real(isRectangle(feature) ? "S_SZO" : "S_SZA"));
+    centre += second * pair2.middle;
+  }
+  walls.finish(centre);
+
+  // A chord beside the middle is too short: the diameter is the one through the centre.
+  const double size1 = isRound(feature) ? pair2.size : pair1.size;
+  const auto report = [&context](int element, double set, double actual) {
+    context.result(element, set);
+    context.result(4 + element, actual, {.nominal = set});
+    context.result(16 + element, actual - set);
+  };
+  int element = 0;
+  report(element++, set1, size1);
+  if (isRectangle(feature)) report(element++, set2, pair2.size);
+  report(element++, start.x(), centre.x());
+  report(element, start.y(), centre.y());
+  context.noteCall();
+
+  context.checkSafeArea(size1 - set1);
+  if (isRectangle(feature)) context.checkSafeArea(pair2.size - set2);
+  if (task == Task::ZeroOffset) {
+    context.checkSafeArea(first.dot(centre - start));
+    if (!oneAxis) context.checkSafeArea(second.dot(centre - start));
+  }
+
+  if (target) {
+    const Vector3 directions[] = {first, second};
+    correctTranslation(context, *target, machinePoint(context, centre), start,
+                       std::span(directions).first(oneAxis ? 1 : 2));
+    context.result(28, context.real("S_TSA"));
+  }
+  if (task == Task::Tool) {
+    const Dimension dimensions[] = {{.set = set1, .actual = size1},
+                                    {.set = set2, .actual = pair2.size, .upperResult = 9, .lowerResult = 13}};
+    correctTool(context, std::span(dimensions).first(isRectangle(feature) ? 2 : 1),
+                influenceOnSize(sideOf(feature), axis));
+  }
+}
+
+}  // namespace probewright::cycles::sinumerik

@@ -1,0 +1,112 @@
+#include "cycles/sinumerik/corrections.hpp"
+#include "cycles/sinumerik/cycles.hpp"
+#include "cycles/sinumerik/measuring_method.hpp"
+#include "cycles/sinumerik/parameters.hpp"
+
+namespace probewright::cycles::sinumerik {
+namespace {
+
+constexpr Parameter parameters978[] = {
+    parameters::variant("units 0; hundreds: 0 measure only, 1 zero offset, 2 tool; 10^4: 0 as calibrated, 1 spindle "
+                        "reversal, 2 probe aligned"),
+    parameters::zeroOffset(1),
+    parameters::toolToCorrect(2),
+    parameters::dataSet(3),
+    parameters::length(4, "S_SETV", "set value of the surface"),
+    parameters::measuringPath(5),
+    parameters::safeArea(6),
+    parameters::code(7, "S_MA", "measuring axis: 1, 2 in the plane, 3 along the tool"),
+    parameters::code(8, "S_MD", "measuring direction: 1 plus, 2 minus"),
+    parameters::repetitions(9),
+    parameters::toolName(10),
+    parameters::dlNumber(11),
+    parameters::zeroOffsetRange(12),
+    parameters::dimensionalDifference(13),
+    parameters::upperTolerance(14),
+    parameters::lowerTolerance(15),
+    parameters::meanRange(16),
+    parameters::weight(17),
+    parameters::memories(18),
+    parameters::reserved(19),
+    parameters::plane(20),
+    parameters::tolerance(21),
+};
+
+constexpr auto results978 =
+    parameters::joined(std::array<ResultDefinition, 13>{{{"_OVR[0]", "set value, measuring axis"},
+                                                         {"_OVR[1]", "set value, 1st axis of the plane"},
+                                                         {"_OVR[2]", "set value, 2nd axis of the plane"},
+                                                         {"_OVR[3]", "set value, 3rd axis of the plane"},
+                                                         {"_OVR[4]", "actual value, measuring axis"},
+                                                         {"_OVR[5]", "actual value, 1st axis of the plane"},
+                                                         {"_OVR[6]", "actual value, 2nd axis of the plane"},
+                                                         {"_OVR[7]", "actual value, 3rd axis of the plane"},
+                                                         {"_OVR[16]", "difference, measuring axis"},
+                                                         {"_OVR[17]", "difference, 1st axis of the plane"},
+                                                         {"_OVR[18]", "difference, 2nd axis of the plane"},
+                                                         {"_OVR[19]", "difference, 3rd axis of the plane"},
+                                                         {"_OVR[21]", "mean value"}}},
+                       parameters::correctionResults);
+
+}  // namespace
+
+const CycleDefinition cycle978Definition = {
+    .number = 978,
+    .name = "CYCLE978",
+    .title = "Edge distance: set edge",
+    .family = CycleFamily::Inspection,
+    .summary = "Touches a surface parallel to an axis once and corrects the zero offset or the tool that made it.",
+    .parameters = parameters978,
+    .results = results978,
+    .controls = control::onSinumerik,
+};
+
+void cycle978(Context& context, const Arguments&) {
+  context.requireProbe({710, 712, 713, 580});
+  context.requireCalibration();
+  if (context.digit("S_MVAR", 1) != 0) context.alarm(61307);
+  const Task task = taskOf(context);
+  const Method method = methodOf(context);
+  const int axis = context.measuringAxis(3);
+  if (axis == 2 && method != Method::Standard) context.alarm(61307, "along the tool only the standard method measures");
+  const int way = context.integer("S_MD");
+  if (way != 1 && way != 2) context.alarm(61326, "S_MD is 1 (plus) or 2 (minus)");
+  const double sign = way == 1 ? 1 : -1;
+  const auto target = task == Task::ZeroOffset ? frameTarget(context, GlobalBase::Allowed) : std::nullopt;
+
+  const double set = setValueOf(context, task, context.real("S_SETV"));
+  Vector3 setpoint = context.prober().position();
+  setpoint[axis] = set;
+  Toucher toucher(context, method);
+  const MeasuredPoint point = toucher.measure(setpoint, probing::axisDirection(axis, sign), context.real("S_FA"));
+  toucher.finish();
+
+  const double empirical = task == Task::MeasureOnly ? 0 : empiricalValue(context);
+  const double actual = point.surface[axis];
+  const double difference = actual - set - empirical;
+  for (const int element : {0, 1 + axis})
+    context.result(element, set);
+  for (const int element : {4, 5 + axis})
+    context.result(element, actual, {.nominal = set});
+  for (const int element : {16, 17 + axis})
+    context.result(element, difference);
+  context.noteCall();
+  context.checkSafeArea(difference);
+
+  if (target) {
+    Vector3 feature = point.surface;
+    feature[axis] -= empirical;
+    const Vector3 directions[] = {Vector3::Unit(axis)};
+    correctTranslation(context, *target, machinePoint(context, feature), setpoint, directions);
+    context.result(28, context.real("S_TSA"));
+    context.result(30, empirical);
+    context.resultInteger(7, context.integer("S_EVNUM") % 10000);
+  }
+  if (task == Task::Tool) {
+    const Dimension dimensions[] = {{.set = set, .actual = actual}};
+    correctTool(context, dimensions, influenceOnSurface(axis, sign));
+    context.result(21, context.control().ovr[31] * context.control().unit);
+  }
+}
+
+}  // namespace probewright::cycles::sinumerik

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "cycles/sinumerik/registry.hpp"
+
+/// Every SINUMERIK measuring cycle: its catalogue entry and its code, each in the file of its number.
+namespace probewright::cycles::sinumerik {
+
+extern const CycleDefinition cycle977Definition;
+extern const CycleDefinition cycle978Definition;
+
+void cycle977(Context& context, const Arguments& arguments);
+void cycle978(Context& context, const Arguments& arguments);
+
+}  // namespace probewright::cycles::sinumerik

@@ -1,0 +1,72 @@
+#include "cycles/sinumerik/measuring_method.hpp"
+
+#include <cmath>
+
+namespace probewright::cycles::sinumerik {
+
+Method methodOf(Context& context) {
+  const int digit = context.digit("S_MVAR", 5);
+  if (digit > 2) context.alarm(61307, "10^4 of S_MVAR");
+  const auto method = static_cast<Method>(digit);
+  if (method == Method::Standard) return method;
+  if (context.control().tool.type != 710 && context.control().tool.type != 580) {
+    context.alarm(61309, "spindle reversal and alignment need a probe of type 710");
+  }
+  if (!context.channel().description().spindleOrients) context.alarm(61372);
+  return method;
+}
+
+Toucher::Toucher(Context& context, Method method)
+    : context_(context), method_(method), spindle_(context.channel().machine().spindleAngle()) {}
+
+Vector3 Toucher::startOf(const Vector3& setpoint, const Vector3& direction, double path) const {
+  probing::SinumerikProber& prober = context_.prober();
+  double trigger = prober.trigger(direction);
+  if (method_ == Method::SpindleReversal) trigger = prober.ballRadius();
+  if (method_ == Method::ProbeAligned) trigger = prober.probe().triggerPlus[0];
+  return setpoint - direction * (path + trigger);
+}
+
+MeasuredPoint Toucher::measure(const Vector3& setpoint, const Vector3& direction, double path) {
+  probing::SinumerikProber& prober = context_.prober();
+  const int count = context_.repetitions();
+  switch (method_) {
+    case Method::SpindleReversal:
+      return measureReversed(setpoint, direction, path);
+    case Method::ProbeAligned:
+      prober.alignTo(direction);
+      return prober.measureUncompensated(setpoint, direction, path, count, prober.probe().triggerPlus[0],
+                                         prober.probe().feed);
+    case Method::Standard:
+      break;
+  }
+  return prober.measure(setpoint, direction, path, count);
+}
+
+MeasuredPoint Toucher::measureReversed(const Vector3& setpoint, const Vector3& direction, double path) {
+  probing::SinumerikProber& prober = context_.prober();
+  const int count = context_.repetitions();
+  const double radius = prober.ballRadius();
+  const double feed = prober.probe().feed;
+  for (const Deviation& known : deviations_) {
+    const double along = known.direction.dot(direction);
+    if (std::abs(std::abs(along) - 1) > 1e-9) continue;
+    return prober.measureUncompensated(setpoint, direction, path, count, radius + known.along * along, feed);
+  }
+  context_.channel().orientSpindle(spindle_ + 180);
+  const MeasuredPoint reversed = prober.measureUncompensated(setpoint, direction, path, count, radius, feed);
+  context_.channel().orientSpindle(spindle_);
+  MeasuredPoint point = prober.measureUncompensated(setpoint, direction, path, count, radius, feed);
+  const double deviation = (reversed.tcp - point.tcp).dot(direction) / 2;
+  deviations_.push_back({direction, deviation});
+  point.surface = point.tcp + direction * (radius + deviation);
+  point.difference = (point.surface - setpoint)
+                         .dot(direction.cwiseAbs().maxCoeff() > 1 - 1e-12 ? Vector3(direction.cwiseAbs()) : direction);
+  return point;
+}
+
+void Toucher::finish() {
+  if (method_ != Method::Standard) context_.channel().orientSpindle(spindle_);
+}
+
+}  // namespace probewright::cycles::sinumerik

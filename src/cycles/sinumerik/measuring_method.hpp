@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "cycles/sinumerik/context.hpp"
+
+/// How a point is touched: with the calibrated probe as it stands, twice with the spindle reversed, or with the probe
+/// turned into the direction of the touch.
+namespace probewright::cycles::sinumerik {
+
+/// The 10^4 of S_MVAR.
+enum class Method { Standard, SpindleReversal, ProbeAligned };
+
+/// The method of this call. Alarms 61307 (no such digit), 61309 (spindle reversal and alignment need a probe that
+/// switches in all directions, type 710), 61372 (they need a spindle that can be positioned).
+Method methodOf(Context& context);
+
+/// Touches points with one method, S_NMSP times each.
+///
+/// Spindle reversal: the first point along an axis is touched with the spindle at 180 degrees and again at its position
+/// at the start; the mean of both is free of the ball's deviation from the spindle axis, which is known from then on
+/// and serves the opposite point. Only the effective ball diameter of the calibration is used.
+class Toucher {
+public:
+  Toucher(Context& context, Method method);
+
+  /// As SinumerikProber::measure. `direction` lies in the plane for all methods but the standard one.
+  MeasuredPoint measure(const Vector3& setpoint, const Vector3& direction, double path);
+
+  /// The start position that measure() moves to first.
+  Vector3 startOf(const Vector3& setpoint, const Vector3& direction, double path) const;
+
+  /// Turns the spindle back to where it stood.
+  void finish();
+
+private:
+  MeasuredPoint measureReversed(const Vector3& setpoint, const Vector3& direction, double path);
+
+  Context& context_;
+  Method method_;
+  double spindle_;
+  struct Deviation {
+    Vector3 direction;
+    double along = 0;
+  };
+  std::vector<Deviation> deviations_;
+};
+
+}  // namespace probewright::cycles::sinumerik

@@ -1,0 +1,261 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/number_text.hpp"
+#include "control/sinumerik/measuring_data.hpp"
+#include "control/sinumerik/tool_data.hpp"
+#include "cycles/sinumerik/correction_strategy.hpp"
+#include "cycles/sinumerik/corrections.hpp"
+
+namespace probewright::cycles::sinumerik {
+
+using control::sinumerik::DataKey;
+using control::sinumerik::ToolEdge;
+
+namespace {
+
+enum class Component { FromAxis, Length1, Length2, Length3, Radius };
+enum class Memory { Wear, Additive, SetupWithAdditive, Setup, Geometry };
+
+struct ToolTarget {
+  int tool = 0, edge = 0, dl = 0;
+  Component component = Component::FromAxis;
+  Memory memory = Memory::Wear;
+  bool inverted = false;
+};
+
+bool codedAsTurning(const Context& context) {
+  const int number = context.arguments().definition().number;
+  return number == 974 || number == 994;
+}
+
+int toolOf(Context& context) {
+  const Control& control = context.control();
+  const std::string& name = context.text("S_TNAME");
+  if (name.empty()) context.alarm(61343, "S_TNAME names no tool");
+  if (const auto tool = toolNamed(control.data, name)) return *tool;
+  const auto number = parseInteger(name);
+  if (number && *number > 0 && *number < 1000000) {
+    const auto all = toolNumbers(control.data);
+    if (std::ranges::find(all, static_cast<int>(*number)) != all.end()) return static_cast<int>(*number);
+  }
+  context.alarm(61343, fmt::format("S_TNAME = \"{}\"", name));
+}
+
+/// What S_KNUM1, S_TNAME and S_DLNUM name; nothing for S_KNUM1 = 0.
+std::optional<ToolTarget> toolTarget(Context& context) {
+  const int code = context.integer("S_KNUM1");
+  if (code == 0) return std::nullopt;
+  if (code < 0) context.alarm(61328, fmt::format("S_KNUM1 = {}", code));
+  ToolTarget target;
+  const int component = context.digit("S_KNUM1", 6);
+  if (codedAsTurning(context)) {
+    target.edge = code % 1000;
+    target.inverted = context.digit("S_KNUM1", 5) == 1;
+    if (component > 3) context.alarm(61314, fmt::format("sixth digit of S_KNUM1 = {}", code));
+  } else {
+    target.edge = code % 100000;
+    target.inverted = context.digit("S_KNUM1", 8) == 1;
+    if (component > 4) context.alarm(61314, fmt::format("sixth digit of S_KNUM1 = {}", code));
+  }
+  target.component = static_cast<Component>(component);
+  const int memory = context.digit("S_KNUM1", 7);
+  if (memory > 4) context.alarm(61314, fmt::format("seventh digit of S_KNUM1 = {}", code));
+  target.memory = static_cast<Memory>(memory);
+  target.tool = toolOf(context);
+  if (!toolEdge(context.control().data, target.tool, target.edge)) {
+    context.alarm(61328, fmt::format("tool {} has no edge D{}", target.tool, target.edge));
+  }
+  const bool needsDl = target.memory != Memory::Wear && target.memory != Memory::Geometry;
+  if (needsDl) {
+    target.dl = context.integer("S_DLNUM");
+    const int most = static_cast<int>(context.control().machineData("$MN_MM_NUM_SUMCORR", 6));
+    if (target.dl < 1 || target.dl > std::min(6, most)) {
+      context.alarm(
+          61319, fmt::format("S_DLNUM = {}: additive and setup offsets have DL 1 to {}", target.dl, std::min(6, most)));
+    }
+  }
+  return target;
+}
+
+/// 0, 1, 2: length 1, 2, 3; 3: the radius.
+int componentIndex(const Context& context, const ToolTarget& target, const ToolEdge& edge,
+                   const ToolInfluence& influence) {
+  if (target.component == Component::Radius) return 3;
+  if (target.component != Component::FromAxis) return static_cast<int>(target.component) - 1;
+  if (!edge.isTurning()) return influence.radiusFromAxis ? 3 : 0;
+  const int plane = context.control().plane;
+  const auto working = plane == 18   ? control::sinumerik::WorkingPlane::G18
+                       : plane == 19 ? control::sinumerik::WorkingPlane::G19
+                                     : control::sinumerik::WorkingPlane::G17;
+  const auto lengths = lengthAxes(working, edge);
+  const int axis = planeAxes(working)[static_cast<std::size_t>(influence.measuringAxis)];
+  return static_cast<int>(std::ranges::find(lengths, axis) - lengths.begin());
+}
+
+void addTo(Context& context, const ToolTarget& target, const std::string& name, double amount) {
+  const DataKey key(name, {target.tool, target.edge});
+  context.control().write(key, context.control().data.number(key) + amount);
+}
+
+void writeCorrection(Context& context, const ToolTarget& target, int component, double amount) {
+  const auto dp = [component](int firstLength, int radius) {
+    return fmt::format("$TC_DP{}", component == 3 ? radius : firstLength + component);
+  };
+  const int offsetParameter = 3 + component;
+  switch (target.memory) {
+    case Memory::Wear:
+      addTo(context, target, dp(12, 15), amount);
+      break;
+    case Memory::Geometry:
+      addTo(context, target, dp(3, 6), amount);
+      break;
+    case Memory::Additive:
+      addTo(context, target, control::sinumerik::additiveOffsetName(target.dl, offsetParameter), amount);
+      break;
+    case Memory::Setup:
+      addTo(context, target, control::sinumerik::setupOffsetName(target.dl, offsetParameter), amount);
+      break;
+    case Memory::SetupWithAdditive: {
+      const DataKey additive(control::sinumerik::additiveOffsetName(target.dl, offsetParameter),
+                             {target.tool, target.edge});
+      const double sum = context.control().data.number(additive);
+      addTo(context, target, control::sinumerik::setupOffsetName(target.dl, offsetParameter), sum + amount);
+      context.control().write(additive, 0);
+      break;
+    }
+  }
+  if (context.control().tool.number == target.tool) context.control().refreshTool();
+}
+
+bool usesTolerance(const Context& context) { return context.digit("_AMODE", 1) == 1; }
+
+/// The memory of the mean that S_EVNUM selects, 1 to 20; 0: none.
+int meanMemory(Context& context) {
+  const int number = context.integer("S_EVNUM") / 10000;
+  if (number < 0 || number > 20) context.alarm(61319, fmt::format("S_EVNUM = {}", context.integer("S_EVNUM")));
+  return number;
+}
+
+void stopIfAsked(Context& context, const std::string& text) {
+  if (maskBit(context.control().data, "$SNS_MEA_FUNCTION_MASK", 2)) {
+    context.control().panel.stop(text, context.channel().seconds());
+  }
+}
+
+}  // namespace
+
+Task taskOf(Context& context) {
+  const int digit = context.digit("S_MVAR", 3);
+  if (digit > 2 || (digit == 2 && !context.has("S_KNUM1"))) context.alarm(61307, "hundreds of S_MVAR");
+  const auto task = static_cast<Task>(digit);
+  if (task == Task::Tool && toolTarget(context)) {
+    if (meanMemory(context) != 0 && context.integer("S_K") <= 0) {
+      context.alarm(61318, fmt::format("S_K = {}", context.integer("S_K")));
+    }
+  }
+  return task;
+}
+
+ToolInfluence influenceOnSize(Side side, int measuringAxis) {
+  const double half = side == Side::Inside ? 0.5 : -0.5;
+  return {.radius = half, .length = -0.5, .radiusFromAxis = true, .measuringAxis = measuringAxis};
+}
+
+ToolInfluence influenceOnSurface(int measuringAxis, double direction) {
+  return {.radius = direction < 0 ? -1.0 : 1.0,
+          .length = -1,
+          .radiusFromAxis = measuringAxis != 2,
+          .measuringAxis = measuringAxis};
+}
+
+double setValueOf(const Context& context, Task task, double programmed) {
+  if (task != Task::Tool || !usesTolerance(context)) return programmed;
+  return programmed + (context.real("S_TUL") + context.real("S_TLL")) / 2;
+}
+
+double empiricalValue(Context& context) {
+  const int number = context.integer("S_EVNUM") % 10000;
+  if (number < 0 || number > 20) context.alarm(61319, fmt::format("S_EVNUM = {}", context.integer("S_EVNUM")));
+  return number == 0 ? 0 : context.control().data.number("$SCS_MEA_EMPIRIC_VALUE", {number - 1});
+}
+
+void correctTool(Context& context, std::span<const Dimension> dimensions, const ToolInfluence& influence) {
+  const std::optional<ToolTarget> target = toolTarget(context);
+  if (!target) return;
+  Control& control = context.control();
+
+  const bool tolerance = usesTolerance(context);
+  const double halfTolerance = (context.real("S_TUL") - context.real("S_TLL")) / 2;
+  if (tolerance && halfTolerance < 0) context.alarm(61319, "S_TUL is smaller than S_TLL");
+  const CorrectionBands bands = {
+      .zeroOffsetRange = context.real("S_TZL"),
+      .meanRange = context.real("S_TMV"),
+      .dimensionalDifference = context.real("S_TDIF"),
+      .tolerance = tolerance ? std::optional(halfTolerance) : std::nullopt,
+  };
+  const double empirical = empiricalValue(context);
+  const int memory = meanMemory(context);
+  std::optional<WeightedMean> mean;
+  if (memory != 0) {
+    mean = {.old = control.data.number("$SCS_MEA_AVERAGE_VALUE", {memory - 1}),
+            .weight = static_cast<double>(context.integer("S_K"))};
+  }
+
+  double sum = 0;
+  bool wornOut = false;
+  for (const Dimension& dimension : dimensions) {
+    const double difference = dimension.actual - dimension.set - empirical;
+    sum += difference;
+    const CorrectionDecision single = decideCorrection(difference, bands, std::nullopt);
+    wornOut = wornOut || single.toolWornOut;
+    if (tolerance) {
+      context.result(dimension.upperResult, halfTolerance);
+      context.result(dimension.lowerResult, -halfTolerance);
+    }
+    if (single.size == CorrectionDecision::Size::Over) {
+      context.warn(61304, fmt::format("{:.4f} mm above the middle of the tolerance", difference));
+    }
+    if (single.size == CorrectionDecision::Size::Under) {
+      context.warn(61305, fmt::format("{:.4f} mm below the middle of the tolerance", -difference));
+    }
+    if (single.size != CorrectionDecision::Size::Within) stopIfAsked(context, "The workpiece is out of tolerance");
+  }
+  CorrectionDecision decision = decideCorrection(sum / static_cast<double>(dimensions.size()), bands, mean);
+  if (wornOut) {
+    context.warn(61306, fmt::format("S_TDIF = {:.4f} mm", bands.dimensionalDifference));
+    stopIfAsked(context, "The permissible dimensional difference is exceeded");
+    decision = {};
+    if (mean) decision.mean = mean->old;
+  }
+
+  double written = 0;
+  if (decision.corrects) {
+    const ToolEdge edge = toolEdge(control.data, target->tool, target->edge).value_or(ToolEdge{});
+    const int component = componentIndex(context, *target, edge, influence);
+    written = decision.correction * (component == 3 ? influence.radius : influence.length);
+    if (target->inverted) written = -written;
+    writeCorrection(context, *target, component, written);
+  }
+  if (memory != 0 && decision.mean) {
+    const DataKey key("$SCS_MEA_AVERAGE_VALUE", {memory - 1});
+    if (control.data.number(key) != *decision.mean) control.write(key, *decision.mean);
+  }
+
+  context.result(20, written);
+  context.result(27, bands.zeroOffsetRange);
+  context.result(28, context.real("S_TSA"));
+  context.result(29, bands.dimensionalDifference);
+  context.result(30, empirical);
+  context.result(31, decision.mean.value_or(0));
+  context.resultInteger(0, target->edge);
+  context.resultInteger(4, context.integer("S_K"));
+  context.resultInteger(6, memory);
+  context.resultInteger(7, context.integer("S_EVNUM") % 10000);
+  context.resultInteger(8, target->tool);
+  context.resultInteger(13, target->dl);
+}
+
+}  // namespace probewright::cycles::sinumerik
