@@ -6,7 +6,7 @@ find_program(NODE_EXECUTABLE node)
 if(NOT NPM_EXECUTABLE OR NOT NODE_EXECUTABLE)
   message(
     FATAL_ERROR "npm and node are needed to build the report's page but were not found. "
-                "On Debian: apt-get install nodejs npm. Elsewhere: install Node.js 20 or later, then configure again.")
+                "On Debian: apt-get install nodejs npm. Elsewhere: install Node.js 18 or later, then configure again.")
 endif()
 execute_process(COMMAND ${NODE_EXECUTABLE} --version OUTPUT_VARIABLE node_version OUTPUT_STRIP_TRAILING_WHITESPACE)
 if(node_version MATCHES "^v([0-9]+)" AND CMAKE_MATCH_1 LESS 18)
