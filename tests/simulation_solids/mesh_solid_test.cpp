@@ -193,7 +193,7 @@ double distanceOfSegment(const Vector3& p, const Vector3& axis, const TriangleMe
     double low = 0;
     double high = 1;
     const auto value = [&](double s) { return distanceToTriangle(p + s * axis, triangle); };
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 40; ++i) {
       const double a = high - (high - low) / std::numbers::phi;
       const double b = low + (high - low) / std::numbers::phi;
       (value(a) < value(b) ? high : low) = value(a) < value(b) ? b : a;
@@ -208,7 +208,7 @@ TEST(MeshSolid, MeetsACapsuleWhereBruteForceMeetsIt) {
   const TriangleMesh mesh = bumpySphere(4, 20, 0.2);
   const MeshSolid solid(mesh);
   int contacts = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 120; ++i) {
     const Vector3 axis = uniform(random, 5, 60) * randomDirection(random);
     const Vector3 from = 90 * randomDirection(random);
     const Vector3 to = from + uniform(random, 20, 90) * (randomPoint(random, 25) - axis / 2 - from).normalized();
@@ -228,7 +228,7 @@ TEST(MeshSolid, MeetsACapsuleWhereBruteForceMeetsIt) {
         radius, 1e-5)
         << i;
   }
-  EXPECT_GT(contacts, 80);
+  EXPECT_GT(contacts, 25);
 }
 
 TEST(Stl, BinaryAndAsciiReadTheSame) {
