@@ -115,7 +115,7 @@ export class Drawing {
 
     const bounds = new Box3();
     for (const mesh of scene.meshes) bounds.union(this.addMesh(mesh));
-    // Fixtures, tables and the way to the tool changer may be far larger than what is measured.
+    // Fixtures, gauges and the way to the tool changer may reach far beyond what is measured.
     const focus = new Box3();
     for (const mesh of this.solids.children) focus.expandByObject(mesh);
     for (const marker of this.markers) focus.expandByPoint(marker.centre);
@@ -185,7 +185,7 @@ export class Drawing {
     }
     group.applyMatrix4(new Matrix4().fromArray(mesh.pose));
     group.updateMatrixWorld(true);
-    (mesh.role === "fixture" ? this.fixtures : this.solids).add(group);
+    (mesh.role === "part" ? this.solids : this.fixtures).add(group);
     return new Box3().setFromObject(group);
   }
 

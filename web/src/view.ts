@@ -222,6 +222,10 @@ export class View {
     const marker = touch === null ? undefined : ofCycle.find((candidate) => candidate.touch === touch);
     this.drawing.placeProbe(marker ? marker.centre : null);
     this.fillCard(cycle, touch);
+    // The card must not lie over what it tells about.
+    const points = marker ? [marker] : ofCycle;
+    const middle = points.reduce((sum, { centre }) => sum + this.onScreen(centre).x / points.length, 0);
+    this.card.classList.toggle("left", middle > 0.56 * this.stage.clientWidth);
     this.draw();
   }
 
