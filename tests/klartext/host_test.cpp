@@ -312,6 +312,22 @@ TEST(Host, ProtocolsFollowTheirMask) {
   EXPECT_THAT(world.run("FN 16: F-PRINT NONE.A / R.TXT").diagnostics.front().message, HasSubstr("NONE.A"));
 }
 
+TEST(Host, FreeTablesAreReadAndWritten) {
+  World world;
+  world.files["T.TAB"] = "BEGIN T.TAB MM\nNR   X          Y          DOC\n0    +1.500     +2.250     first\n[END]\n";
+  expectFinished(
+      world.run("FN 26: TABOPEN TNC:\\DIR\\T.TAB\nFN 28: TABREAD Q10 = 0/\"X,Y\"\n"
+                "FN 28: TABREAD QS1 = 0/\"DOC\"\nQ20 = Q10 * 2\nQ21 = -1\n"
+                "FN 27: TABWRITE 1/\"X,Y\" = Q20\n"));
+  EXPECT_EQ(world.q(10), 1.5);
+  EXPECT_EQ(world.q(11), 2.25);
+  EXPECT_EQ(world.control->q.qs(1), "first");
+  const std::string& file = world.control->panel.files().at("T.TAB");
+  EXPECT_THAT(file, HasSubstr("0    +1.500     +2.250     first"));
+  EXPECT_THAT(file, HasSubstr("1    +3.000     -1.000"));
+  EXPECT_THAT(world.run("FN 26: TABOPEN NONE.TAB\n").diagnostics.front().message, HasSubstr("NONE.TAB"));
+}
+
 TEST(Host, CirclesThroughPoints) {
   World world;
   expectFinished(world.run("Q30=13\nQ31=4\nQ32=3\nQ33=14\nQ34=-7\nQ35=4\nFN 23: Q20 = CDATA Q30\n"));

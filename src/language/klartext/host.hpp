@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "control/heidenhain/control.hpp"
+#include "control/heidenhain/text_table.hpp"
 #include "language/evaluation.hpp"
 #include "language/host.hpp"
 #include "language/klartext/contour.hpp"
@@ -111,6 +112,13 @@ private:
   // host_protocol.cpp: FN 16
   void protocol(const Command& command, Evaluation& evaluation);
 
+  // host_tables.cpp: FN 26, 27, 28, and files that programs name
+  void openTable(std::string_view path);
+  void writeTable(const Command& command, Evaluation& evaluation);
+  void readTable(const Command& command, Evaluation& evaluation);
+  /// The bytes of a file of the control: at its path, or by its name alone.
+  Result<std::string> readHostFile(std::string_view path) const;
+
   Value systemText(int id, int number, int index) const;
   double machineSeconds() const;
 
@@ -131,7 +139,11 @@ private:
   std::optional<int> machiningCycle_;
   bool cycleAtEachMove_ = false;  ///< M89
   std::map<std::string, bool> protocolOpen_;
+  std::optional<control::heidenhain::TextTable> table_;  ///< opened with FN 26
 };
+
+/// The name of a file without the folders of the control: "TNC:\\LOG\\R.TXT" -> "R.TXT".
+std::string fileNameOf(std::string_view path);
 
 /// Formats a FN 16 mask line by line; see host_protocol.cpp. `read` gives the value of "Q5" or "QS3".
 struct ProtocolResult {

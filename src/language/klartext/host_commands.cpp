@@ -42,9 +42,12 @@ void KlartextHost::command(const Command& command, Evaluation& evaluation) {
   } else if (name == "FN25") {
     settle();
     setPresetInAxis(command, evaluation);
-  } else if (name == "FN26" || name == "FN27" || name == "FN28") {
-    throw Alarm("Table not available", "Freely definable tables (FN 26, 27, 28) are not available",
-                "leave the block out for the run");
+  } else if (name == "FN26") {
+    openTable(text);
+  } else if (name == "FN27") {
+    writeTable(command, evaluation);
+  } else if (name == "FN28") {
+    readTable(command, evaluation);
   } else if (name == "CYCL DEF 9") {
     contour_.flush();
     if (const Word* time = first()) control_.channel.dwell(std::max(0.0, evaluation.number(time->value)));

@@ -168,11 +168,6 @@ private:
   const std::tm& time_;
 };
 
-std::string fileName(std::string_view path) {
-  const std::size_t separator = path.find_last_of("/\\:");
-  return std::string(separator == std::string_view::npos ? path : path.substr(separator + 1));
-}
-
 }  // namespace
 
 ProtocolResult formatProtocol(std::string_view mask, const std::function<Value(std::string_view)>& read,
@@ -218,8 +213,7 @@ void KlartextHost::protocol(const Command& command, Evaluation& evaluation) {
   }
   const std::string mask(trimmed(std::string_view(text).substr(0, slash)));
   const std::string target(trimmed(std::string_view(text).substr(slash + 1)));
-  if (!options_.readFile) throw Alarm("FN 16: file missing", fmt::format("The mask file {} does not exist", mask));
-  const Result<std::string> bytes = options_.readFile(mask);
+  const Result<std::string> bytes = readHostFile(mask);
   if (!bytes) throw Alarm("FN 16: file missing", bytes.error().message, bytes.error().advice);
 
   const auto read = [&](std::string_view name) -> Value {
@@ -243,7 +237,7 @@ void KlartextHost::protocol(const Command& command, Evaluation& evaluation) {
     if (!result.text.empty()) message(std::string(trimmed(result.text)));
     return;
   }
-  const std::string name = fileName(target);
+  const std::string name = fileNameOf(target);
   bool& open = protocolOpen_[name];
   if (open || result.append) {
     control_.panel.appendToFile(name, result.text);

@@ -8,7 +8,6 @@
 #include "control/heidenhain/preset_table.hpp"
 #include "language/klartext/host.hpp"
 #include "language/klartext/lexer.hpp"
-#include "language/source_text.hpp"
 
 /// Coordinate transformations: cycles 7, 8, 10, 11, 19, 26, 247, TRANS, PRESET.
 namespace probewright::language::klartext {
@@ -22,9 +21,8 @@ int linearAxis(const Word& word) {
   return word.address >= 'X' && word.address <= 'Z' ? static_cast<int>(word.address) - 'X' : -1;
 }
 
-std::string fileName(std::string_view path) {
-  const std::size_t separator = path.find_last_of("/\\:");
-  std::string name(separator == std::string_view::npos ? path : path.substr(separator + 1));
+std::string upperName(std::string_view path) {
+  std::string name = fileNameOf(path);
   std::ranges::transform(name, name.begin(), [](char c) { return upper(c); });
   return name;
 }
@@ -124,26 +122,21 @@ void KlartextHost::shiftDatumByTable(double row) {
 
 void KlartextHost::selectDatumTable(const std::string& name) {
   for (const auto& [key, table] : control_.tables.datums) {
-    if (key == name || fileName(key) == fileName(name)) {
+    if (key == name || upperName(key) == upperName(name)) {
       control_.activeDatumTable = key;
       return;
     }
   }
-  if (options_.readFile) {
-    const Result<std::string> bytes = options_.readFile(name);
-    if (bytes) {
-      Diagnostics mistakes;
-      auto table = control::heidenhain::parseDatumTable(*bytes, name, mistakes);
-      if (table) {
-        control_.tables.datums.emplace(fileName(name), std::move(*table));
-        control_.activeDatumTable = fileName(name);
-        return;
-      }
-      throw Alarm("Datum table wrong", table.error().message, table.error().advice);
-    }
+  const Result<std::string> bytes = readHostFile(name);
+  if (!bytes) {
+    throw Alarm("Datum table missing", fmt::format("The datum table {} does not exist", name),
+                "add the table to the setup or correct its name");
   }
-  throw Alarm("Datum table missing", fmt::format("The datum table {} does not exist", name),
-              "add the table to the setup or correct its name");
+  Diagnostics mistakes;
+  auto table = control::heidenhain::parseDatumTable(*bytes, name, mistakes);
+  if (!table) throw Alarm("Datum table wrong", table.error().message, table.error().advice);
+  control_.tables.datums.emplace(upperName(name), std::move(*table));
+  control_.activeDatumTable = upperName(name);
 }
 
 /// A preset ends datum shift, mirror image, rotation and scaling; a tilted plane stays.

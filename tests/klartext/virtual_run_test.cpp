@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include "control/heidenhain/datum_table.hpp"
+#include "control/heidenhain/preset_table.hpp"
+#include "control/heidenhain/probe_table.hpp"
+#include "control/heidenhain/tool_table.hpp"
+#include "klartext/host_world.hpp"
+#include "simulation/analytic_solids.hpp"
+#include "support/virtual_world.hpp"
+
+namespace probewright::language::klartext::testing {
+namespace {
+
+namespace hh = control::heidenhain;
+
+/// A ring of 40 mm bore that truly lies at (30.25, -12.5, -300); preset 1 believes (30, -12, -300).
+struct RingWorld {
+  RingWorld() {
+    auto truth = testing_support::perfectWorld();
+    testing_support::place(truth, simulation::Ring(20, 200, -40), translation({30.25, -12.5, -300}));
+    machine = std::make_unique<simulation::VirtualMachine>(truth);
+    const auto kind = control::ControlKind::TNC640;
+    hh::Tables tables{hh::defaultToolTable(kind), hh::defaultProbeTable(kind), hh::defaultPresetTable(kind), {}};
+    EXPECT_TRUE(tables.tools.ensureRow("1"));
+    EXPECT_TRUE(tables.tools.setText("1", "NAME", "PROBE"));
+    EXPECT_TRUE(tables.tools.setNumber("1", "L", 100));
+    EXPECT_TRUE(tables.tools.setNumber("1", "R", 2));
+    EXPECT_TRUE(tables.tools.setText("1", "TP_NO", "1"));
+    EXPECT_TRUE(tables.presets.setNumber("1", "X", 30));
+    EXPECT_TRUE(tables.presets.setNumber("1", "Y", -12));
+    EXPECT_TRUE(tables.presets.setNumber("1", "Z", -300));
+    control = std::make_unique<hh::Control>(kind, *machine, std::move(tables));
+  }
+  RunResult run(const std::string& text) {
+    KlartextHost host(*control);
+    MemoryLibrary library;
+    return Interpreter(library, host).run(std::make_shared<KlartextProgram>("ring.h", text));
+  }
+  std::unique_ptr<simulation::VirtualMachine> machine;
+  std::unique_ptr<hh::Control> control;
+};
+
+constexpr const char* ringProgram =
+    "0 BEGIN PGM RING MM\n1 TOOL CALL \"PROBE\" Z\n2 CYCL DEF 247 PRESET ~\n  Q339=+1\n3 L Z+50 R0 FMAX\n"
+    "4 L X+0 Y+0 R0 FMAX\n5 LBL 1\n6 TCH PROBE 412 PRESET INSIDE CIRCLE ~\n  Q321=+0 ~\n  Q322=+0 ~\n  Q262=+39 ~\n"
+    "  Q325=+0 ~\n  Q247=+90 ~\n  Q261=-10 ~\n  Q320=+0 ~\n  Q260=+20 ~\n  Q301=+0 ~\n  Q305=+1 ~\n  Q331=+0 ~\n"
+    "  Q332=+0 ~\n  Q303=+1\n7 CALL LBL 1 REP1\n8 L Z+50 R0 FMAX\n9 END PGM RING MM\n";
+
+TEST(VirtualRun, TheProgramFindsThePresetOfTheRing) {
+  RingWorld world;
+  const RunResult result = world.run(ringProgram);
+  for (const Diagnostic& diagnostic : result.diagnostics)
+    ADD_FAILURE() << format(diagnostic);
+  ASSERT_EQ(world.control->journal.cycles.size(), 2U);
+  EXPECT_NEAR(world.control->coordinates.preset.origin.x(), 30.25, 1e-6);
+  EXPECT_NEAR(world.control->coordinates.preset.origin.y(), -12.5, 1e-6);
+  EXPECT_NEAR(world.control->q.q(153), 40, 1e-6);
+  EXPECT_EQ(world.control->journal.cycles[0].place.line, 8U);
+}
+
+TEST(VirtualRun, ACollisionNamesItsBlock) {
+  RingWorld world;
+  const RunResult result = world.run(
+      "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z\n2 CYCL DEF 247 P ~\n  Q339=1\n"
+      "3 L X+30 Y+0 Z+50 R0 FMAX\n4 L Z-30 F1000\n5 END PGM A MM\n");
+  ASSERT_EQ(result.end, RunEnd::Alarm);
+  EXPECT_EQ(result.diagnostics.front().place.line, 6U);
+}
+
+TEST(VirtualRun, WordsOutsideOfACyclesRangeStopIt) {
+  RingWorld world;
+  const RunResult result = world.run("1 TOOL CALL 1 Z\n2 TCH PROBE 412 X ~\n Q321=+0 ~\n Q262=-5\n");
+  ASSERT_EQ(result.end, RunEnd::Alarm);
+  EXPECT_NE(result.diagnostics.front().message.find("Q"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace probewright::language::klartext::testing
