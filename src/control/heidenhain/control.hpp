@@ -42,6 +42,14 @@ struct ActiveTool {
   bool called = false;   ///< a TOOL CALL has been carried out
 };
 
+/// What cycle 441 sets for all cycles that follow; absent values leave the tables in force.
+struct ProbingOverrides {
+  std::optional<double> positioningFeed;  ///< Q396, mm/min
+  std::optional<bool> machineRapid;       ///< Q397
+  std::optional<bool> track;              ///< Q399
+  std::optional<bool> interrupt;          ///< Q400
+};
+
 class Control {
 public:
   Control(ControlKind kind, machine::Machine& machine, Tables tables, MachineParameters parameters = {});
@@ -67,7 +75,8 @@ public:
   std::int64_t wallClockStart = 0;  ///< seconds since 1970 (UTC) that logs show for startSeconds
   /// Values of GLOBAL DEF by Q number.
   std::map<int, double> globalDefinitions;
-  bool turningMode = false;  ///< FUNCTION MODE TURN
+  ProbingOverrides overrides;  ///< reset at the end of the main program
+  bool turningMode = false;    ///< FUNCTION MODE TURN
 
   /// Calls a tool by the key of its row; throws Alarm if TOOL.T has no such row.
   void callTool(const std::string& row, std::optional<char> axis, double deltaLength, double deltaRadius,

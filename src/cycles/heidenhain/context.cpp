@@ -142,11 +142,21 @@ void runCycle(Control& control, const Entry& entry, const Arguments& arguments, 
   }
 }
 
-probing::HeidenhainProbe activeProbe(const Control& control) {
+namespace {
+
+void applyOverrides(probing::HeidenhainProbe& probe, const control::heidenhain::ProbingOverrides& overrides) {
+  probe.positioningFeed = overrides.positioningFeed.value_or(probe.positioningFeed);
+  probe.prepositionAtMachineRapid = overrides.machineRapid.value_or(probe.prepositionAtMachineRapid);
+  probe.track = overrides.track.value_or(probe.track);
+}
+
+}  // namespace
+
+probing::HeidenhainProbe activeProbe(const Control& control, Calibrated calibrated) {
   probing::HeidenhainProbe probe;
   const auto& tool = control.tool;
   probe.ballRadius = tool.radius;
-  if (!(tool.radius > 0)) {
+  if (!(tool.radius > 0) && calibrated == Calibrated::Required) {
     throw Alarm("Touch probe not calibrated",
                 fmt::format("Tool {} has no effective ball radius in column R of TOOL.T", tool.row),
                 "calibrate the touch probe or enter its radius");
@@ -164,6 +174,7 @@ probing::HeidenhainProbe activeProbe(const Control& control) {
     const auto& tools = control.tables.tools;
     probe.tipOffset = {tools.numberOr(tool.row, "CAL-OF1", 0), tools.numberOr(tool.row, "CAL-OF2", 0)};
     probe.calibrationAngle = tools.numberOr(tool.row, "CAL-ANG", 0);
+    applyOverrides(probe, control.overrides);
     return probe;
   }
   if (tool.probeRow.empty()) {
@@ -186,6 +197,7 @@ probing::HeidenhainProbe activeProbe(const Control& control) {
   probe.setUp = row->setUpClearance;
   probe.prepositionAtMachineRapid = row->prepositionAtMachineRapid;
   probe.track = row->track;
+  applyOverrides(probe, control.overrides);
   return probe;
 }
 

@@ -84,7 +84,10 @@ private:
 /// noted in the record and thrown on.
 void runCycle(Control& control, const Entry& entry, const Arguments& arguments, const SourcePlace& place);
 
-/// The probe as tables and machine parameters of the control describe it. Throws Alarm if the active tool is none.
-probing::HeidenhainProbe activeProbe(const Control& control);
+enum class Calibrated { Required, NotYet };
+
+/// The probe as tables, machine parameters and cycle 441 describe it. Throws Alarm if the active tool is none, or is
+/// not calibrated although it must be.
+probing::HeidenhainProbe activeProbe(const Control& control, Calibrated calibrated = Calibrated::Required);
 
 }  // namespace probewright::cycles::heidenhain

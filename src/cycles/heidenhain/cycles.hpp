@@ -33,6 +33,11 @@ extern const CycleDefinition cycle426Definition;
 extern const CycleDefinition cycle427Definition;
 extern const CycleDefinition cycle430Definition;
 extern const CycleDefinition cycle431Definition;
+extern const CycleDefinition cycle441Definition;
+extern const CycleDefinition cycle460Definition;
+extern const CycleDefinition cycle461Definition;
+extern const CycleDefinition cycle462Definition;
+extern const CycleDefinition cycle463Definition;
 
 void cycle400(Context& context, const Arguments& arguments);
 void cycle401(Context& context, const Arguments& arguments);
@@ -62,5 +67,10 @@ void cycle426(Context& context, const Arguments& arguments);
 void cycle427(Context& context, const Arguments& arguments);
 void cycle430(Context& context, const Arguments& arguments);
 void cycle431(Context& context, const Arguments& arguments);
+void cycle441(Context& context, const Arguments& arguments);
+void cycle460(Context& context, const Arguments& arguments);
+void cycle461(Context& context, const Arguments& arguments);
+void cycle462(Context& context, const Arguments& arguments);
+void cycle463(Context& context, const Arguments& arguments);
 
 }  // namespace probewright::cycles::heidenhain

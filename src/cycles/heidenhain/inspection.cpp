@@ -159,10 +159,10 @@ void monitorTool(Context& context, const ToolMonitoring& monitoring) {
 
 void writeLog(Context& context, const Inspection& inspection) {
   const int log = context.option(281);
+  const std::optional<bool> interrupt = context.control().overrides.interrupt;
+  if (interrupt ? *interrupt : log == 2) context.stop(logText(context, inspection));
   if (log == 1) {
     context.log(fmt::format("TCHPR{}.TXT", context.record().name), logText(context, inspection));
-  } else if (log == 2) {
-    context.stop(logText(context, inspection));
   }
 }
 

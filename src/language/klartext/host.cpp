@@ -105,7 +105,11 @@ void KlartextHost::leave(const Program&) {
   if (levels_.empty()) return;
   control_.unit = levels_.back().outerUnit;
   levels_.pop_back();
-  if (!levels_.empty()) publishTool();
+  if (levels_.empty()) {
+    control_.overrides = {};
+  } else {
+    publishTool();
+  }
 }
 
 void KlartextHost::settle() {

@@ -1,0 +1,132 @@
+#include "cycles/heidenhain/calibration.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "control/alarm.hpp"
+#include "metrology/fits.hpp"
+
+namespace probewright::cycles::heidenhain {
+
+using control::Alarm;
+using probing::HeidenhainProber;
+
+namespace {
+
+constexpr const char* logName = "TCHPRAUTO.html";
+
+/// The circle of ball centres through touches at `count` angles, each from its pre-position.
+metrology::Circle2 touchCircle(HeidenhainProber& prober, const CalibrationTask& task, const Vector2& centre,
+                               int count) {
+  const double step = 360.0 / count;
+  const Vector3 middle(centre.x(), centre.y(), task.measuringHeight);
+  const auto plan = probing::planCircle(middle, 2 * task.standardRadius, task.startAngle, step, count, task.side);
+  const bool fromCentre = task.side == Side::Inside &&
+                          task.standardRadius <= prober.probe().ballRadius + prober.probe().setUp + task.extraClearance;
+  std::vector<Vector2> centres;
+  for (const PlannedTouch& planned : plan) {
+    const Vector3 start = fromCentre ? middle : prober.prePosition(planned, task.extraClearance);
+    if (task.side == Side::Outside) {
+      prober.moveHeightTo(task.travelHeight);
+      prober.moveInPlane(start);
+    }
+    prober.moveTo(start);
+    centres.push_back(prober.touch(planned).ballCentre.head<2>());
+  }
+  if (task.side == Side::Outside) prober.moveHeightTo(task.travelHeight);
+  prober.moveInPlane(middle);
+  const auto fit = metrology::fitCircle(centres);
+  if (!fit) throw Alarm("Calibration not possible", fit.error().message, fit.error().advice);
+  return fit->shape;
+}
+
+/// Adds a section to the log of all calibrations of this program run.
+void log(Context& context, const std::string& rows) {
+  auto& control = context.control();
+  const auto& files = control.panel.files();
+  const auto found = files.find(logName);
+  std::string text = found == files.end() ? "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+                                            "<title>Touch probe calibration</title></head>\n<body>\n"
+                                          : found->second.substr(0, found->second.rfind("</body>"));
+  const std::int64_t now = control.wallClockStart +
+                           static_cast<std::int64_t>(std::llround(context.channel().seconds() - control.startSeconds));
+  text += fmt::format("<h2>{} {}</h2>\n<p>{:%d-%m-%Y %H:%M:%S}, tool {} {}</p>\n<table>\n{}</table>\n</body></html>\n",
+                      context.record().name, context.record().title, fmt::gmtime(static_cast<std::time_t>(now)),
+                      control.tool.row, control.tool.name, rows);
+  context.log(logName, text);
+}
+
+std::string row(std::string_view name, double before, double after) {
+  return fmt::format("<tr><td>{}</td><td>{:.4f}</td><td>{:.4f}</td></tr>\n", name, before, after);
+}
+
+}  // namespace
+
+HeidenhainProber calibrationProber(Context& context) {
+  probing::HeidenhainProbe probe = activeProbe(context.control(), Calibrated::NotYet);
+  probe.tipOffset.setZero();
+  probe.track = false;
+  if (context.channel().description().spindleOrients) context.channel().orientSpindle(probe.calibrationAngle);
+  return {context.channel(), context.control().coordinates.plane, probe};
+}
+
+CalibratedRadius calibrateRadius(Context& context, HeidenhainProber& prober, CalibrationTask task) {
+  const metrology::Circle2 coarse = touchCircle(prober, task, task.centre, 4);
+  const metrology::Circle2 fine = touchCircle(prober, task, coarse.centre, task.count);
+  CalibratedRadius calibrated;
+  calibrated.centre = {fine.centre.x(), fine.centre.y(), task.measuringHeight};
+  calibrated.radius = probing::outwards(task.side) * (task.standardRadius - fine.radius);
+  if (!(calibrated.radius > 0)) {
+    throw Alarm("Calibration not possible",
+                fmt::format("The measured ball radius {:.4f} mm is not positive", calibrated.radius),
+                "check the radius of the standard (Q407)");
+  }
+  if (context.channel().description().spindleOrients) {
+    context.channel().orientSpindle(prober.probe().calibrationAngle + 180);
+    const metrology::Circle2 reversed = touchCircle(prober, task, fine.centre, 4);
+    context.channel().orientSpindle(prober.probe().calibrationAngle);
+    calibrated.centreOffset = (reversed.centre - fine.centre) / 2;
+    calibrated.centre.head<2>() = (reversed.centre + fine.centre) / 2;
+  }
+  return calibrated;
+}
+
+void storeRadius(Context& context, const CalibratedRadius& calibrated) {
+  auto& control = context.control();
+  auto& tools = control.tables.tools;
+  const std::string& tool = control.tool.row;
+  std::string rows = row("R", tools.numberOr(tool, "R", 0), calibrated.radius);
+  control.writeNumber(tools, tool, "R", calibrated.radius);
+  if (calibrated.centreOffset) {
+    // The offset belongs to the machine's axes, whatever basic rotation is active.
+    const auto& plane = control.coordinates.plane;
+    const Vector3 offset =
+        plane.planeFromXyz(control.channel.frame().linear() *
+                           plane.xyzFromPlane({calibrated.centreOffset->x(), calibrated.centreOffset->y(), 0}));
+    const bool inProbeTable = control.isTNC640();
+    auto& table = inProbeTable ? control.tables.probes : tools;
+    const std::string& key = inProbeTable ? control.tool.probeRow : tool;
+    const char* names[] = {inProbeTable ? "CAL_OF1" : "CAL-OF1", inProbeTable ? "CAL_OF2" : "CAL-OF2"};
+    for (int i = 0; i < 2; ++i) {
+      rows += row(names[i], table.numberOr(key, names[i], 0), offset[i]);
+      control.writeNumber(table, key, names[i], offset[i]);
+    }
+  }
+  control.refreshTool();
+  log(context, rows);
+}
+
+void storeLength(Context& context, double length) {
+  auto& control = context.control();
+  auto& tools = control.tables.tools;
+  const std::string& tool = control.tool.row;
+  const std::string rows = row("L", tools.numberOr(tool, "L", 0), length);
+  control.writeNumber(tools, tool, "L", length);
+  control.writeNumber(tools, tool, "DL", 0);
+  control.refreshTool();
+  log(context, rows);
+}
+
+}  // namespace probewright::cycles::heidenhain

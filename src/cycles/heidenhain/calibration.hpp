@@ -1,0 +1,40 @@
+#pragma once
+
+#include "cycles/heidenhain/context.hpp"
+
+/// What the calibration cycles 460 to 463 have in common.
+namespace probewright::cycles::heidenhain {
+
+/// What a radius calibration has found.
+struct CalibratedRadius {
+  Vector3 centre = Vector3::Zero();     ///< of ring, stud or sphere; as the spindle axis sees it at CAL_ANG
+  double radius = 0;                    ///< effective ball radius
+  std::optional<Vector2> centreOffset;  ///< CAL_OF1, CAL_OF2, if the spindle can reverse the probe
+};
+
+struct CalibrationTask {
+  Vector2 centre = Vector2::Zero();  ///< rough centre of the standard
+  double standardRadius = 0;
+  Side side = Side::Inside;
+  int count = 4;  ///< touches of the fine measurement
+  double startAngle = 0;
+  double measuringHeight = 0;  ///< of the ball centre
+  double travelHeight = 0;     ///< of the ball centre, between the touches
+  double extraClearance = 0;
+};
+
+/// The prober for calibrating: without tip offset, turned to CAL_ANG where the spindle can be oriented, with the
+/// radius of the tool table as a first guess.
+probing::HeidenhainProber calibrationProber(Context& context);
+
+/// Coarse measurement of the centre by four touches, fine measurement by `count` touches from there; then, if the
+/// spindle can be oriented, four more touches with the probe turned by 180 degrees, which give the centre offset.
+CalibratedRadius calibrateRadius(Context& context, probing::HeidenhainProber& prober, CalibrationTask task);
+
+/// Writes R and the centre offset, puts them into effect and notes them in TCHPRAUTO.html.
+void storeRadius(Context& context, const CalibratedRadius& calibrated);
+
+/// Writes the effective length L (DL becomes 0), puts it into effect and notes it in TCHPRAUTO.html.
+void storeLength(Context& context, double length);
+
+}  // namespace probewright::cycles::heidenhain

@@ -1,0 +1,49 @@
+#include "cycles/heidenhain/context.hpp"
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/parameters.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr Choice feedChoices[] = {{0, "at the feed rate Q396"}, {1, "at machine rapid traverse"}};
+constexpr Choice trackChoices[] = {{0, "do not orient"}, {1, "orient the spindle before each probing"}};
+constexpr Choice interruptChoices[] = {{0, "never"}, {1, "after every inspection cycle"}};
+
+constexpr Parameter parameters441[] = {
+    {.name = "Q396",
+     .address = 396,
+     .meaning = "feed rate of the positioning moves",
+     .kind = ValueKind::Feed,
+     .minimum = 0},
+    option(397, "Q397", "pre-positioning", feedChoices),
+    option(399, "Q399", "tracking of the probe", trackChoices),
+    option(400, "Q400", "interrupt and show the results", interruptChoices),
+};
+
+}  // namespace
+
+const CycleDefinition cycle441Definition = {
+    .number = 441,
+    .name = "441",
+    .title = "FAST PROBING",
+    .family = CycleFamily::Special,
+    .summary =
+        "Sets positioning feed, tracking and interruption for all touch probe cycles that follow, until the end of the "
+        "program.",
+    .parameters = parameters441,
+    .results = {},
+
+};
+
+void cycle441(Context& context, const Arguments&) {
+  auto& overrides = context.control().overrides;
+  const double feed = context.q(396);
+  if (feed > 0) overrides.positioningFeed = feed;
+  overrides.machineRapid = context.option(397) == 1;
+  overrides.track = context.option(399) == 1;
+  overrides.interrupt = context.option(400) == 1;
+}
+
+}  // namespace probewright::cycles::heidenhain

@@ -1,0 +1,99 @@
+#include "control/alarm.hpp"
+#include "cycles/heidenhain/calibration.hpp"
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/parameters.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr Choice lengthChoices[] = {{0, "no"}, {1, "yes"}};
+
+constexpr Parameter parameters460[] = {
+    {.name = "Q407",
+     .address = 407,
+     .meaning = "exact radius of the calibration sphere",
+     .kind = ValueKind::Length,
+     .minimum = 0.0001,
+     .maximum = 99.9999},
+    setUpClearance,
+    moveToClearance,
+    {.name = "Q423",
+     .address = 423,
+     .meaning = "number of touches on the equator",
+     .kind = ValueKind::Integer,
+     .minimum = 3,
+     .maximum = 8},
+    angle(380, "Q380", "angle of the first touch from the main axis", 0, 360),
+    option(433, "Q433", "also calibrate the length", lengthChoices),
+    coordinate(434, "Q434", "coordinate of the sphere's centre in the touch probe axis"),
+    only({.name = "Q455",
+          .address = 455,
+          .meaning = "touches between pole and equator for a 3-D calibration; 0: none",
+          .kind = ValueKind::Integer,
+          .minimum = 0,
+          .maximum = 30,
+          .standard = 0},
+         control::onTNC640),
+};
+
+}  // namespace
+
+const CycleDefinition cycle460Definition = {
+    .number = 460,
+    .name = "460",
+    .title = "CALIBRATION OF TS ON A SPHERE",
+    .family = CycleFamily::Calibration,
+    .summary =
+        "Calibrates the ball radius, the centre offset and on request the length of the touch probe on a calibration "
+        "sphere; the probe stands above the sphere at set-up clearance.",
+    .parameters = parameters460,
+    .results = {},
+
+};
+
+void cycle460(Context& context, const Arguments&) {
+  context.require({.turningModeAllowed = true});
+  if (context.option(455) > 0) {
+    throw control::Alarm("Option 92 not enabled", "3-D calibration data need the software option 3D-ToolComp",
+                         "set Q455 = 0");
+  }
+  auto prober = calibrationProber(context);
+  const Vector3 start = prober.position();
+  const double standardRadius = context.q(407);
+  const Vector3 down = probing::axisDirection(2, -1);
+  const double standOff = prober.probe().setUp + context.q(320);
+
+  // The pole gives the height of the equator; the equator gives the place of the pole: twice is exact.
+  CalibrationTask task{.centre = start.head<2>(),
+                       .standardRadius = standardRadius,
+                       .side = Side::Outside,
+                       .count = context.option(423),
+                       .startAngle = context.q(380),
+                       .travelHeight = start.z(),
+                       .extraClearance = context.q(320)};
+  CalibratedRadius calibrated;
+  for (int pass = 0; pass < 3; ++pass) {
+    const EvaluatedTouch pole = prober.stroke(down, standOff + 2 * standardRadius);
+    const double radius = pass == 0 ? prober.probe().ballRadius : calibrated.radius;
+    task.measuringHeight = pole.ballCentre.z() - standardRadius - radius;
+    if (pass == 2) break;
+    calibrated = calibrateRadius(context, prober, task);
+    task.centre = calibrated.centre.head<2>();
+    // Not the spindle axis but the ball is to stand over the pole.
+    Vector3 overPole = calibrated.centre;
+    if (calibrated.centreOffset) overPole.head<2>() -= *calibrated.centreOffset;
+    prober.moveInPlane(overPole);
+  }
+  storeRadius(context, calibrated);
+  if (context.option(433) == 1) {
+    const EvaluatedTouch pole = prober.stroke(down, standOff + 2 * standardRadius);
+    const double tip = pole.ballCentre.z() - prober.probe().ballRadius;
+    const auto& tool = context.control().tool;
+    storeLength(context, tool.length + tool.deltaLength + tip - (context.q(434) + standardRadius));
+  }
+  prober.moveTo(start);
+}
+
+}  // namespace probewright::cycles::heidenhain

@@ -1,0 +1,57 @@
+#include "cycles/heidenhain/calibration.hpp"
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/parameters.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr Parameter parameters462[] = {
+    {.name = "Q407",
+     .address = 407,
+     .meaning = "radius of the calibration ring",
+     .kind = ValueKind::Length,
+     .minimum = 0.0001,
+     .maximum = 99.9999},
+    setUpClearance,
+    {.name = "Q423",
+     .address = 423,
+     .meaning = "number of touches",
+     .kind = ValueKind::Integer,
+     .minimum = 3,
+     .maximum = 8},
+    angle(380, "Q380", "angle of the first touch from the main axis", 0, 360),
+};
+
+}  // namespace
+
+const CycleDefinition cycle462Definition = {
+    .number = 462,
+    .name = "462",
+    .title = "CALIBRATION OF A TS IN A RING",
+    .family = CycleFamily::Calibration,
+    .summary =
+        "Calibrates the ball radius, and with a spindle that can be oriented the centre offset, in a calibration ring; "
+        "the probe stands in the middle of the ring at measuring height.",
+    .parameters = parameters462,
+    .results = {},
+    .controls = control::onTNC640,
+};
+
+void cycle462(Context& context, const Arguments&) {
+  context.require({.turningModeAllowed = true});
+  auto prober = calibrationProber(context);
+  const Vector3 start = prober.position();
+  storeRadius(context, calibrateRadius(context, prober,
+                                       {.centre = start.head<2>(),
+                                        .standardRadius = context.q(407),
+                                        .side = Side::Inside,
+                                        .count = context.option(423),
+                                        .startAngle = context.q(380),
+                                        .measuringHeight = start.z(),
+                                        .travelHeight = start.z(),
+                                        .extraClearance = context.q(320)}));
+}
+
+}  // namespace probewright::cycles::heidenhain

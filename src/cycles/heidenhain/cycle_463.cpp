@@ -1,0 +1,60 @@
+#include "cycles/heidenhain/calibration.hpp"
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/parameters.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr Parameter parameters463[] = {
+    {.name = "Q407",
+     .address = 407,
+     .meaning = "radius of the calibration stud",
+     .kind = ValueKind::Length,
+     .minimum = 0.0001,
+     .maximum = 99.9999},
+    setUpClearance,
+    moveToClearance,
+    {.name = "Q423",
+     .address = 423,
+     .meaning = "number of touches",
+     .kind = ValueKind::Integer,
+     .minimum = 3,
+     .maximum = 8},
+    angle(380, "Q380", "angle of the first touch from the main axis", 0, 360),
+};
+
+}  // namespace
+
+const CycleDefinition cycle463Definition = {
+    .number = 463,
+    .name = "463",
+    .title = "TS CALIBRATION ON STUD",
+    .family = CycleFamily::Calibration,
+    .summary =
+        "Calibrates the ball radius, and with a spindle that can be oriented the centre offset, on a calibration stud; "
+        "the probe stands centred above it at set-up clearance.",
+    .parameters = parameters463,
+    .results = {},
+    .controls = control::onTNC640,
+};
+
+void cycle463(Context& context, const Arguments&) {
+  context.require({.turningModeAllowed = true});
+  auto prober = calibrationProber(context);
+  const Vector3 start = prober.position();
+  // As far below the top of the stud as the probe stands above it.
+  const double measuringHeight = start.z() - 2 * (prober.probe().setUp + context.q(320)) - prober.probe().ballRadius;
+  storeRadius(context, calibrateRadius(context, prober,
+                                       {.centre = start.head<2>(),
+                                        .standardRadius = context.q(407),
+                                        .side = Side::Outside,
+                                        .count = context.option(423),
+                                        .startAngle = context.q(380),
+                                        .measuringHeight = measuringHeight,
+                                        .travelHeight = start.z(),
+                                        .extraClearance = context.q(320)}));
+}
+
+}  // namespace probewright::cycles::heidenhain
