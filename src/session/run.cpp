@@ -8,6 +8,7 @@
 #include "control/alarm.hpp"
 #include "language/klartext/host.hpp"
 #include "language/klartext/program.hpp"
+#include "language/sinumerik/host.hpp"
 #include "language/sinumerik/program.hpp"
 #include "records/results.hpp"
 #include "session/beliefs.hpp"
@@ -18,6 +19,7 @@ namespace probewright::session {
 
 namespace fs = std::filesystem;
 namespace hh = control::heidenhain;
+namespace sin = control::sinumerik;
 using control::ControlKind;
 using language::RunEnd;
 using records::ExitState;
@@ -74,6 +76,65 @@ void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>
   outcome.machineFromWorkpiece = control.coordinates.machineFromPreset();
   outcome.ballRadius = control.tool.radius;
   outcome.qParameters = control.q;
+  outcome.info.totalPathLength = control.channel.pathLength();
+  outcome.info.totalSeconds = control.channel.seconds();
+  outcome.journal = std::move(control.journal);
+}
+
+/// The SINUMERIK control's data as initialization texts: the files that were read, or one for tools, frames and the
+/// rest.
+void addDataFiles(RunOutcome& outcome, const SinumerikData& data, const sin::DataStore& store) {
+  const auto keep = [&](const std::string& name, Result<std::string> text) {
+    if (text) {
+      outcome.files[name] = std::move(*text);
+    } else {
+      outcome.diagnostics.push_back(text.error());
+    }
+  };
+  if (!data.files.empty()) {
+    for (std::size_t i = 0; i < data.files.size(); ++i) {
+      // What no file mentions goes into the first one.
+      const bool first = i == 0;
+      keep(data.files[i].name, data.files[i].text.updated(store, [first](const sin::DataKey&) { return first; }));
+    }
+    return;
+  }
+  const auto written = [&](const char* name, const sin::InitText::Accepts& accepts) {
+    sin::DataStore nothing;
+    Diagnostics none;
+    keep(name, sin::InitText::parse("M17\n", name, nothing, none).updated(store, accepts));
+  };
+  const auto isTool = [](const sin::DataKey& key) { return key.name.starts_with("$TC_"); };
+  const auto isFrame = [](const sin::DataKey& key) { return sin::isFrameName(key.name); };
+  written("TOOLS.TOA", isTool);
+  written("FRAMES.UFR", isFrame);
+  written("DATA.INI", [&](const sin::DataKey& key) { return !isTool(key) && !isFrame(key); });
+}
+
+void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>& program, const fs::path& path,
+                  const simulation::Setup& setup, const RunOptions& options) {
+  SinumerikData data = sinumerikData(setup, outcome.diagnostics);
+  if (hasErrors(outcome.diagnostics)) return;
+  sin::Control control(*outcome.machine, data.store);
+  setPanel(control.panel, options);
+  control.programPath = path.string();
+  control.wallClockStart = options.wallClock;
+  control.activateSettable(activeZeroOffset(setup));
+  for (const auto& tool : setup.tools) {
+    if (tool.inSpindle) control.loadTool(tool.number);
+  }
+  control.applyFrames();
+
+  sinumerik::SinumerikHost host(control, {.strict = options.strict, .fileExists = {}});
+  const auto library = programLibrary(ProgramLanguage::Sinumerik);
+  language::Interpreter interpreter(*library, host, interpreterOptions(options, outcome.control));
+  outcome.result = interpreter.run(program);
+
+  outcome.files = control.panel.files();
+  addDataFiles(outcome, data, control.data);
+  const Eigen::Affine3d workpiece = control.machineFromBase() * sin::transform(control.frames.settableFrame);
+  outcome.machineFromWorkpiece = Pose(workpiece.matrix());
+  outcome.ballRadius = control.tool.radius;
   outcome.info.totalPathLength = control.channel.pathLength();
   outcome.info.totalSeconds = control.channel.seconds();
   outcome.journal = std::move(control.journal);
@@ -145,7 +206,7 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
     if (control::isHeidenhain(kind)) {
       runHeidenhain(outcome, program, path, setup, options);
     } else {
-      throw control::Alarm("", "SINUMERIK programs cannot be run by this build");
+      runSinumerik(outcome, program, path, setup, options);
     }
   } catch (const control::Alarm& alarm) {
     // Before the first block: an active preset or a tool in the spindle that the tables do not have.
