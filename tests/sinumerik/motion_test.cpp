@@ -172,6 +172,8 @@ TEST(SinumerikMotion, MeasuringBlocksLatchThePosition) {
   EXPECT_NEAR(world.r(2), 30, 1e-12);
   EXPECT_NEAR(world.r(4), 100, 1e-12) << "MEAW travels on";
   EXPECT_EQ(world.r(1), 0);
+  world.run("G0 X0\nMEASA[X]=(1,1) G1 X100 F300\nR2=$AA_MW1[X]\n");
+  EXPECT_NEAR(world.r(2), 30, 1e-12);
   EXPECT_EQ(world.alarm("G0 X0\nMEAS=3 G1 X10 F100\n"), "14020");
 }
 

@@ -181,6 +181,18 @@ TEST(SinumerikFlow, SubprogramsRepeatAndCallByEveryForm) {
   EXPECT_EQ(world.alarm("L100(1)\n"), "14020");
 }
 
+TEST(SinumerikFlow, MacrosStandForTheirText) {
+  World world;
+  world.run(
+      "DEFINE ZERO_ AS R1=0\nDEFINE BOTH_ AS ZERO_ R2=5\ndefine msg_1 as MSG(\"BOTH_ stays\")\n"
+      "R1=7\nboth_ R3=R1+1\nMSG_1\n");
+  EXPECT_EQ(world.r(1), 0);
+  EXPECT_EQ(world.r(2), 5);
+  EXPECT_EQ(world.r(3), 1);
+  ASSERT_EQ(world.control.journal.events.size(), 1u);
+  EXPECT_EQ(world.control.journal.events[0].text, "BOTH_ stays");
+}
+
 TEST(SinumerikFlow, UserProgramsTakePrecedenceOverCycles) {
   World world;
   world.texts.add("CYCLE977", "PROC CYCLE977(INT S_MVAR)\nR1=S_MVAR\nM17\n");

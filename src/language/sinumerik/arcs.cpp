@@ -161,7 +161,9 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
   const std::string_view motion = evaluation.at(command.text);
   if (motion == "G0") state_.group1 = MoveKind::Rapid;
   if (motion == "G1") state_.group1 = MoveKind::Linear;
-  WordRange axes{command.words.first + 1, command.words.count - 1};
+  const bool axial = evaluation.at(command.name).size() == 5;  // MEASA, MEAWA: axis and mode stand behind the event
+  const std::uint32_t skipped = axial ? 3 : 1;
+  WordRange axes{command.words.first + skipped, command.words.count - skipped};
   if (!all.empty() && all.back().address == addressOf("F")) {
     state_.feed = evaluation.number(all.back().value);
     --axes.count;
@@ -247,7 +249,7 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
                             result.detail),
                 "check the position of the probe, the tool and the workpiece");
   }
-  if (measurement_.triggered && evaluation.at(command.name) == "MEAW") channel.retractTo(to, speed);
+  if (measurement_.triggered && evaluation.at(command.name).starts_with("MEAW")) channel.retractTo(to, speed);
 }
 
 }  // namespace probewright::sinumerik

@@ -191,7 +191,8 @@ void BlockParser::finish() {
   if (owner_ == Owner::Move && !axisWords_.empty()) {
     emitMove();
   } else {
-    if (motionGiven_ && owner_ != Owner::Command) block.instructions.emplace_back(Modal{motionName_, {}});
+    if (motionGiven_ && motion_ != MoveKind::Modal && owner_ != Owner::Command)
+      block.instructions.emplace_back(Modal{motionName_, {}});
     if (compensationName_.length != 0) block.instructions.emplace_back(Modal{compensationName_, {}});
     if (feed_.present()) {
       const Word word{addressOf("F"), WordMode::Plain, feed_, feedColumn_, 0};

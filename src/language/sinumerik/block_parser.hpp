@@ -29,7 +29,8 @@ namespace probewright::sinumerik {
 ///  - NAME[..]=SET(..) and REP(..): Command{"SET" | "REP", variable, words by position}.
 ///  - PROC, EXTERN, DEFINE, synchronized actions: Command whose text is the rest of the block in upper case.
 ///  - G4: Command{"G4"}, words F or S. MEAS/MEAW: Command, words[0] address "MEAS" the event, then axis words and F;
-///    text: "G0" or "G1" if the block says so. MCALL: Command, text the program, words the arguments.
+///    text: "G0" or "G1" if the block says so; MEASA/MEAWA have "MAX" the axis and "MMO" the mode behind the event.
+///    MCALL: Command, text the program, words the arguments.
 ///  - An axis given by a variable, AX[v]=..: word "AX[]" with the axis followed by word "=AX" with the value.
 ///  - M functions with a spindle number, M2=3: number 3, argument the spindle. M=expression: number -1, argument.
 class BlockParser {
@@ -90,6 +91,7 @@ private:
 
   // statements.cpp
   void parseNamed();
+  bool isFirstStatement() const;
   void parseKeyword(Keyword keyword, std::string_view name, std::size_t start);
   void parseIf(std::size_t start);
   void parseCase();

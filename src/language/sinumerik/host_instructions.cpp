@@ -311,7 +311,7 @@ void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
   if (name == "STOPRE") return motion_.flush();
   if (name == "SETAL") return raiseAlarm(command, evaluation);
   if (name == "G4") return dwell(command, evaluation);
-  if (name == "MEAS" || name == "MEAW") return motion_.measure(command, evaluation);
+  if (name.starts_with("MEAS") || name.starts_with("MEAW")) return motion_.measure(command, evaluation);
   if (name == "SPOS" || name == "SPOSA") {
     motion_.flush();
     const bool main = words.size() < 2 || wholeNumber(evaluation.number(words[1].value)) == 1;
@@ -343,9 +343,9 @@ void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
     if (program.empty()) return;
     return skip(fmt::format("MCALL {}", program));
   }
-  static constexpr std::string_view noticed[] = {"G74",    "PRESETON", "READ",      "DELETE",    "EXECSTRING",
-                                                 "REPOSA", "REPOSL",   "MMC",       "FTOCON",    "CONTPRON",
-                                                 "NEWT",   "DELT",     "PRESETONS", "WORKPIECE", "DEFINE"};
+  static constexpr std::string_view noticed[] = {"G74",    "PRESETON", "READ",      "DELETE",   "EXECSTRING",
+                                                 "REPOSA", "REPOSL",   "MMC",       "FTOCON",   "CONTPRON",
+                                                 "NEWT",   "DELT",     "PRESETONS", "WORKPIECE"};
   if (name == "WORKPIECE") return;  // the blank of the simulation screen
   if (std::find(std::begin(noticed), std::end(noticed), name) != std::end(noticed)) return skip(name);
 }

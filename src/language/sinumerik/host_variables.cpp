@@ -225,7 +225,7 @@ void SinumerikHost::declare(const Command& command, Evaluation& evaluation) {
   std::size_t elements = 1;
   for (std::size_t i = 0; i < 3 && variable.index[i].present(); ++i) {
     const double size = evaluation.number(variable.index[i]);
-    if (!(size >= 1 && size <= 1000000) || size != std::floor(size) || static_cast<double>(elements) * size > 4e6)
+    if (!(size >= 1 && size <= 1000000) || size != std::floor(size) || static_cast<double>(elements) * size > 65536)
       throw Alarm("12200", fmt::format("an array cannot have {} elements in dimension {}", size, i + 1));
     sizes[i] = static_cast<int>(size);
     elements *= static_cast<std::size_t>(size);

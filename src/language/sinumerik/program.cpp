@@ -32,14 +32,69 @@ bool SinumerikProgram::parse(BlockPosition position, Block& block, Diagnostics& 
   block.position = position;
   block.next = {line.next, position.line + 1};
   place_.line = position.line;
-  parser_.parse(line.text, place_, block, diagnostics);
+  parser_.parse(macros_.empty() ? line.text : withoutMacros(line.text), place_, block, diagnostics);
   for (const Instruction& instruction : block.instructions) {
     if (std::holds_alternative<Jump>(instruction)) {
       resolveTargets(block);
       break;
     }
+    if (const auto* command = std::get_if<Command>(&instruction);
+        command != nullptr && block.at(command->name) == "DEFINE")
+      defineMacro(block);
   }
   return true;
+}
+
+void SinumerikProgram::defineMacro(const Block& block) {
+  const Command& command = std::get<Command>(block.instructions.front());
+  // The text keeps its own letters: it is taken from the source, which lies one block's length before.
+  const std::string_view source = block.at(block.source);
+  const std::string_view upper = block.at(command.text);
+  const std::size_t start = command.text.offset - block.source.length;
+  Cursor cursor(upper);
+  const std::string name(cursor.name());
+  cursor.skipBlanks();
+  if (name.empty() || cursor.name() != "AS") return;
+  cursor.skipBlanks();
+  macros_[name] = std::string(source.substr(start + cursor.offset(), upper.size() - cursor.offset()));
+}
+
+/// The line with the text of each macro in the place of its name. Macros may use macros, a few levels deep.
+std::string_view SinumerikProgram::withoutMacros(std::string_view line) {
+  constexpr int levels = 4;
+  constexpr std::size_t longest = 4096;
+  std::string name;
+  expanded_.assign(line);
+  for (int level = 0; level < levels; ++level) {
+    bool changed = false, inText = false;
+    for (std::size_t i = 0; i < expanded_.size() && expanded_.size() < longest;) {
+      const char c = expanded_[i];
+      if (c == '"') inText = !inText;
+      if (c == ';' && !inText) break;
+      const auto part = [](char each) { return isNamePart(each) || (each >= 'a' && each <= 'z') || each == '$'; };
+      if (inText || !part(c)) {
+        ++i;
+        continue;
+      }
+      std::size_t end = i;
+      while (end < expanded_.size() && part(expanded_[end]))
+        ++end;
+      name.assign(expanded_, i, end - i);
+      for (char& each : name)
+        if (each >= 'a' && each <= 'z') each = static_cast<char>(each - 32);
+      if (i == 0 && name == "DEFINE") return line;
+      const auto macro = macros_.find(name);
+      if (macro == macros_.end()) {
+        i = end;
+      } else {
+        expanded_.replace(i, end - i, macro->second);
+        i += macro->second.size();
+        changed = true;
+      }
+    }
+    if (!changed) break;
+  }
+  return expanded_;
 }
 
 /// A destination that is no label but a STRING variable is computed.

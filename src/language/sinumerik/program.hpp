@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,9 @@
 namespace probewright::sinumerik {
 
 /// A part program or subprogram (.MPF, .SPF) of a SINUMERIK 840D sl or 828D. One line is one block.
+///
+/// Macros (DEFINE NAME AS text) are known from the block on that defines them; a block that uses one is parsed with the
+/// macro's text in its place, which is then also the block's source.
 class SinumerikProgram : public language::Program {
 public:
   static Result<std::shared_ptr<SinumerikProgram>> open(const std::filesystem::path& path);
@@ -32,16 +36,19 @@ public:
   /// Labels, nesting and the PROC line; scanned at the first use.
   ProgramStructure& structure();
 
-  /// All mistakes of the program that can be seen without running it, without the program being run.
   const language::SourceText& text() const { return text_; }
 
 private:
   void resolveTargets(language::Block& block);
+  void defineMacro(const language::Block& block);
+  std::string_view withoutMacros(std::string_view line);
 
   language::SourceText text_;
   std::string name_;
   BlockParser parser_;
   SourcePlace place_;
+  std::map<std::string, std::string, std::less<>> macros_;  ///< DEFINE NAME AS text
+  std::string expanded_;
   std::unique_ptr<ProgramStructure> structure_;
 };
 

@@ -19,7 +19,36 @@ JumpDirection directionOf(std::string_view name) {
   }
 }
 
+bool isStructure(Keyword keyword) {
+  switch (keyword) {
+    case Keyword::Else:
+    case Keyword::EndIf:
+    case Keyword::For:
+    case Keyword::EndFor:
+    case Keyword::While:
+    case Keyword::EndWhile:
+    case Keyword::Loop:
+    case Keyword::EndLoop:
+    case Keyword::Repeat:
+    case Keyword::RepeatBlock:
+    case Keyword::Until:
+    case Keyword::Case:
+    case Keyword::Procedure:
+    case Keyword::External:
+    case Keyword::Declare:
+      return true;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
+
+/// True if nothing of the block has been read before.
+bool BlockParser::isFirstStatement() const {
+  return block_->instructions.empty() && after_.empty() && axisWords_.empty() && owner_ == Owner::Move &&
+         !motionGiven_ && !feed_.present() && compensationName_.length == 0 && suppression_.length == 0;
+}
 
 /// A statement that begins with a name of two or more letters.
 void BlockParser::parseNamed() {
@@ -27,6 +56,8 @@ void BlockParser::parseNamed() {
   const std::string_view name = cursor_.name();
   const Keyword keyword = keywordOf(name);
   if (keyword == Keyword::None) return parseUserName(name, start);
+  if (isStructure(keyword) && !isFirstStatement())
+    return fail(start, std::string(name) + " stands in a block of its own", "Begin a new line with it.");
   parseKeyword(keyword, name, start);
 }
 
@@ -128,7 +159,7 @@ void BlockParser::parseIf(std::size_t start) {
   if (failed_) return;
   cursor_.skipBlanks();
   if (cursor_.atEnd()) {
-    if (!block_->instructions.empty()) return fail(start, "IF with ELSE or ENDIF stands in a block of its own");
+    if (!isFirstStatement()) return fail(start, "IF with ELSE or ENDIF stands in a block of its own");
     return pushStructure(Structure::If, condition);
   }
   const std::size_t at = cursor_.offset();

@@ -374,17 +374,37 @@ void BlockParser::parseSetting(std::string_view name, std::size_t start) {
       Command{upper(name), {}, -1, {first, static_cast<std::uint32_t>(block.words.size()) - first}});
 }
 
+/// MEAS=1, MEAW=-1; for one axis MEASA[X]=(mode,event), MEAWA[X]=(mode,event): further events are accepted and the
+/// first one counts.
 void BlockParser::parseMeasure(std::string_view name, std::size_t start) {
-  cursor_.skipBlanks();
-  if (cursor_.peek() != '=')
-    return fail(start, std::string(name) + " needs the number of the probe event",
-                "Write " + std::string(name) + "=1.");
   const TextRef ref = upper(name);
   Word event;
   event.address = addressOf("MEAS");
   event.column = static_cast<std::uint32_t>(start) + 1;
-  event.value = parseValue(nullptr);
-  axisWords_.insert(axisWords_.begin(), event);
+  cursor_.skipBlanks();
+  if (name.size() == 5) {
+    Word axis, mode;
+    axis.address = addressOf("MAX");
+    mode.address = addressOf("MMO");
+    if (!expect('[', "behind the axial measuring function")) return;
+    axis.value = parseExpression();
+    if (failed_ || !expect(']', "behind the axis") || !expect('=', "behind the axis") ||
+        !expect('(', "before the mode"))
+      return;
+    mode.value = parseExpression();
+    if (failed_ || !expect(',', "between mode and probe event")) return;
+    event.value = parseExpression();
+    while (!failed_ && cursor_.take(','))
+      parseExpression();
+    if (failed_ || !expect(')', "behind the probe events")) return;
+    axisWords_.insert(axisWords_.begin(), {event, axis, mode});
+  } else {
+    if (cursor_.peek() != '=')
+      return fail(start, std::string(name) + " needs the number of the probe event",
+                  "Write " + std::string(name) + "=1.");
+    event.value = parseValue(nullptr);
+    axisWords_.insert(axisWords_.begin(), event);
+  }
   setOwner(Owner::Command, ref, start);
 }
 

@@ -290,9 +290,16 @@ void BlockWriter::statement(const Command& command) {
       return add(fmt::format("{}={}", text, value(given.front())));
     }
     case Keyword::Measure: {
-      add(fmt::format("{}={}", what, expression(given.front().value)));
+      const bool axial = what.size() == 5;
+      if (axial) {
+        add(fmt::format("{}[{}]=({},{})", what, expression(given[1].value), expression(given[2].value),
+                        expression(given[0].value)));
+      } else {
+        add(fmt::format("{}={}", what, expression(given.front().value)));
+      }
       if (command.text.length != 0) add(name(command.text));
-      const std::string axes = axisWords({command.words.first + 1, command.words.count - 1});
+      const std::string axes =
+          axisWords({command.words.first + (axial ? 3 : 1), command.words.count - (axial ? 3 : 1)});
       if (!axes.empty()) add(axes.substr(1));
       return;
     }

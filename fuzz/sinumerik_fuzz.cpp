@@ -1,0 +1,101 @@
+// Any bytes as a SINUMERIK program: checked, written back, and run on a control with a machine that goes anywhere. What
+// is wrong with them comes back as messages and alarms; what can be written back must read the same.
+
+#include <cstdint>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+#include "control/sinumerik/control.hpp"
+#include "control/sinumerik/measuring_data.hpp"
+#include "language/interpreter.hpp"
+#include "language/sinumerik/check.hpp"
+#include "language/sinumerik/host.hpp"
+#include "language/sinumerik/program.hpp"
+#include "language/sinumerik/writer.hpp"
+#include "machine/machine_file.hpp"
+
+namespace {
+
+using namespace probewright;
+
+class WillingMachine : public machine::Machine {
+public:
+  explicit WillingMachine(const machine::MachineDescription& description) : description_(description) {}
+  const machine::MachineDescription& description() const override { return description_; }
+  machine::AxisPositions position() const override { return at_; }
+  machine::MoveResult move(const machine::AxisPositions& target, machine::Feed) override {
+    if (++moves_ > 20000) return {machine::MoveEnd::Cancelled, {}};
+    at_ = target;
+    return {};
+  }
+  machine::MeasureResult measure(const machine::AxisPositions& target, machine::Feed feed) override {
+    move(target, feed);
+    return {moves_ % 2 == 0 ? machine::MeasureEnd::Touched : machine::MeasureEnd::NoContact, at_, {}};
+  }
+  machine::MoveResult retract(const machine::AxisPositions& target, machine::Feed feed) override {
+    return move(target, feed);
+  }
+  bool probeDeflected() const override { return false; }
+  machine::MoveResult orientSpindle(double) override { return {}; }
+  double spindleAngle() const override { return 0; }
+  machine::MoveResult changeTool(const machine::ToolOrder&) override { return {}; }
+  void dwell(double) override {}
+  double seconds() const override { return 0; }
+
+private:
+  const machine::MachineDescription& description_;
+  machine::AxisPositions at_;
+  int moves_ = 0;
+};
+
+/// Every second name is the program itself.
+class OnlyMain : public language::ProgramLibrary {
+public:
+  explicit OnlyMain(std::shared_ptr<language::Program> main) : main_(std::move(main)) {}
+  Result<std::shared_ptr<language::Program>> open(std::string_view, const language::Program*) override { return main_; }
+  bool exists(std::string_view name, const language::Program*) override { return name.size() % 2 == 0; }
+
+private:
+  std::shared_ptr<language::Program> main_;
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const machine::MachineDescription description = *machine::readMachine("mill5-table-table");
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  const auto program = sinumerik::SinumerikProgram::fromText("fuzz.mpf", text);
+  OnlyMain library(program);
+  sinumerik::check(*program, {&library, {}});
+
+  language::Block block, second;
+  Diagnostics mistakes;
+  for (language::BlockPosition at = program->begin(); program->parse(at, block, mistakes); at = block.next) {
+    const bool readable = mistakes.empty();
+    mistakes.clear();
+    if (!readable) continue;
+    const auto once = sinumerik::writeBlock(block);
+    if (!once || once->empty()) continue;
+    const auto again = sinumerik::SinumerikProgram::fromText("again.mpf", *once);
+    again->parse(again->begin(), second, mistakes);
+    const auto twice = sinumerik::writeBlock(second);
+    if (!mistakes.empty() || !twice || *once != *twice) {
+      std::cerr << "written: " << *once << "\nread and written again: " << twice.value_or("") << '\n';
+      std::abort();
+    }
+  }
+
+  WillingMachine machine(description);
+  control::sinumerik::DataStore store;
+  control::sinumerik::setMeasuringDefaults(store);
+  store.load({"$TC_DP1", {1, 1}}, 710.0);
+  store.load({"$TC_DP3", {1, 1}}, 100.0);
+  store.load({"$TC_DP6", {1, 1}}, 3.0);
+  control::sinumerik::Control control(machine, store);
+  sinumerik::SinumerikHost host(control);
+  language::InterpreterOptions options;
+  options.stepLimit = 500;
+  language::Interpreter(library, host, options).run(program);
+  return 0;
+}
