@@ -267,6 +267,10 @@ std::uint32_t BlockParser::parseVariable() {
     variable.space = VariableSpace::R;
     cursor_.advance();
     const std::string_view digits = cursor_.digits();
+    if (digits.size() > 6) {
+      fail(start, "the number of this R parameter is too large", "R parameters have the numbers 0 to 9999 at most.");
+      return 0;
+    }
     if (!digits.empty()) {
       double number = 0;
       for (const char c : digits)
