@@ -57,6 +57,22 @@ public:
   bool exists(std::string_view, const Program*) override { return false; }
 };
 
+void writeBack(klartext::KlartextProgram& program) {
+  Block block, again;
+  Diagnostics mistakes;
+  BlockPosition position = program.begin();
+  while (mistakes.clear(), program.parse(position, block, mistakes)) {
+    position = block.next;
+    if (!mistakes.empty()) continue;
+    klartext::KlartextProgram written("written.h", klartext::writeBlock(block) + "\n");
+    const bool read = written.parse(written.begin(), again, mistakes);
+    const bool same =
+        again.instructions.size() == block.instructions.size() && again.words.size() == block.words.size();
+    if (!block.instructions.empty() && (!read || !mistakes.empty() || !same)) std::abort();
+  }
+  klartext::writeProgram(program);
+}
+
 void run(const std::string& text) {
   static const machine::MachineDescription description = machine::readMachine("mill5-table-table").value();
   static const hh::TypedTable tools = [] {
@@ -70,7 +86,8 @@ void run(const std::string& text) {
   }();
   WillingMachine machine(description);
   hh::Control control(control::ControlKind::TNC640, machine,
-                      {tools, hh::defaultProbeTable(control::ControlKind::TNC640),
+                      {tools,
+                       hh::defaultProbeTable(control::ControlKind::TNC640),
                        hh::defaultPresetTable(control::ControlKind::TNC640),
                        {}});
   control.channel.pathTolerance = 1;
@@ -91,7 +108,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const Diagnostic& mistake : klartext::checkProgram(program, control::ControlKind::iTNC530)) {
     if (mistake.message.empty() || mistake.place.line == 0) std::abort();
   }
-  klartext::writeProgram(program);
+  writeBack(program);
   run(text);
   return 0;
 }

@@ -94,8 +94,11 @@ TEST(Cycles, SettingsAndMachiningCycles) {
 TEST(Cycles, Mistakes) {
   EXPECT_EQ(irOf("TCH PROBE 411 X ~\n Q321=+50 ~\n Q321=+60"), "3:10: Q321 is given twice in this cycle");
   EXPECT_EQ(irOf("TCH PROBE 0.1 X+5"), "1:14: this part of a touch probe cycle stands alone");
-  EXPECT_EQ(irOf("TCH PROBE 0.0 REF Q5 X-\nL X+1"),
-            "Linear X=1\n1:24: the parts of this touch probe cycle are missing");
+  EXPECT_EQ(irOf("TCH PROBE 0.0 REF Q5 X-\nL X+1"), "Linear X=1\n1:24: part 0.1 of this touch probe cycle is missing");
+  EXPECT_EQ(irOf("TCH PROBE 1 X ~\n Q1=2"), "1:12: touch probe cycle 1 is written in parts");
+  EXPECT_EQ(irOf("CYCL DEF 7 X ~\n Q1=2"), "1:11: cycle 7 is written in parts");
+  EXPECT_EQ(irOf("TCH PROBE 3.0 M\nTCH PROBE 3.1 Q1\nTCH PROBE 3.3 DIST 5 F100 MB1"),
+            "3:14: the parts of a touch probe cycle must follow each other from 0 on");
   EXPECT_EQ(irOf("TCH PROBE ABC"), "1:11: the number of the touch probe cycle is expected behind TCH PROBE");
   EXPECT_EQ(irOf("TCH PROBE 411 X ~\n Q321="),
             "2:7: a number, a parameter, a function or a parenthesis is expected in this formula");

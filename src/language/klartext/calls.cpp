@@ -50,6 +50,12 @@ bool BlockParser::callLabel() {
   return expectEnd();
 }
 
+/// A path without quotation marks.
+bool BlockParser::checkPath(std::string_view path) {
+  if (path.find('"') == std::string_view::npos) return true;
+  return error("the quotation marks of this name do not match", "write the name between two quotation marks");
+}
+
 bool BlockParser::callProgram() {
   CallProgram call;
   if (lexer_.atEnd()) {
@@ -65,6 +71,7 @@ bool BlockParser::callProgram() {
     if (!expectEnd()) return false;
   } else {
     call.name = ref(lexer_.restOfLine());
+    if (!checkPath(block_.at(call.name))) return false;
   }
   emit(call);
   return true;
@@ -77,10 +84,13 @@ bool BlockParser::selection() {
   while (isLetter(lexer_.here()) || lexer_.here() == '-')
     lexer_.advance();
   const std::string_view kind = lexer_.text().substr(start, lexer_.offset() - start);
-  if (kind.empty()) return error("PGM, TABLE, PATTERN, CONTOUR or CORR-TABLE is expected behind SEL");
   std::string name = "SEL ";
   for (const char c : kind)
     name += upper(c);
+  if (name != "SEL PGM" && name != "SEL TABLE" && name != "SEL PATTERN" && name != "SEL CONTOUR" &&
+      name != "SEL CORR-TABLE") {
+    return error("PGM, TABLE, PATTERN, CONTOUR or CORR-TABLE is expected behind SEL");
+  }
   Command command;
   const std::size_t first = block_.words.size();
   if (const std::optional<std::string_view> text = lexer_.quoted()) {
@@ -89,6 +99,8 @@ bool BlockParser::selection() {
     addWord(0, variableOperand(*variable()));
   } else {
     command.text = ref(lexer_.restOfLine());
+    if (command.text.length == 0) return error("the name of a file is expected here");
+    if (!checkPath(block_.at(command.text))) return false;
   }
   command.name = constant(name);
   command.words = wordsSince(first);

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "language/klartext/parser.hpp"
 
 /// TCH PROBE and CYCL DEF with parameters Q200=..., and the choice between this and the old form n.0, n.1.
@@ -41,6 +44,11 @@ bool BlockParser::touchProbe() {
   for (; isDigit(lexer_.here()) && number <= highestCycle; lexer_.advance())
     number = number * 10 + (lexer_.here() - '0');
   if (lexer_.here() == '.' && isDigit(lexer_.here(1))) return oldProbeCycle(number);
+  constexpr int firstWithParameters = 400;
+  if (number < firstWithParameters) {
+    return error(fmt::format("touch probe cycle {} is written in parts", number),
+                 fmt::format("write TCH PROBE {}.0 and its other parts below", number));
+  }
   return parameterCycle("TCH PROBE", number);
 }
 
@@ -50,6 +58,11 @@ bool BlockParser::cycleDefinition() {
   for (; isDigit(lexer_.here()) && number <= highestCycle; lexer_.advance())
     number = number * 10 + (lexer_.here() - '0');
   if (lexer_.here() == '.' && isDigit(lexer_.here(1))) return oldCycle(number);
+  constexpr std::array inParts = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 18, 19, 26, 32};
+  if (std::ranges::find(inParts, number) != inParts.end()) {
+    return error(fmt::format("cycle {} is written in parts", number),
+                 fmt::format("write CYCL DEF {}.0 and its other parts below", number));
+  }
   return parameterCycle("CYCL DEF", number);
 }
 
@@ -67,11 +80,8 @@ bool BlockParser::parameterCycle(std::string_view kind, int number) {
   const WordRange words = wordsSince(first);
   if (kind == "GLOBAL DEF") {
     emit(Command{constant(kind), {}, -1, words});
-  } else if (kind == "CYCL DEF" && (number == 247 || number == 7 || number == 8 || number == 10 || number == 11 ||
-                                    number == 19 || number == 26)) {
-    emit(Transform{constant(fmt::format("CYCL DEF {}", number)), words, {}});
-  } else if (kind == "CYCL DEF" && (number == 9 || number == 12 || number == 13 || number == 32)) {
-    emit(Command{constant(fmt::format("CYCL DEF {}", number)), {}, -1, words});
+  } else if (kind == "CYCL DEF" && number == 247) {
+    emit(Transform{constant("CYCL DEF 247"), words, {}});
   } else {
     emit(CycleCall{number, constant(kind), words});
   }
@@ -112,7 +122,10 @@ bool BlockParser::cycleParameter() {
     lexer_.advance(2);
     assigned = value("the feed");
   } else if (parameter.space == VariableSpace::QS && isWordByte(lexer_.peek()) && !variableFollows()) {
-    assigned = textOperand(ref(lexer_.chunk()));  // printed programs leave the quotation marks out
+    // Printed programs leave the quotation marks out.
+    const std::string_view bare = lexer_.chunk();
+    if (bare.find('"') != std::string_view::npos) return error("the quotation marks of this text do not match");
+    assigned = textOperand(ref(bare));
   } else {
     assigned = formula();
   }

@@ -17,6 +17,22 @@ bool isTransform(int cycle) {
   return cycle == 7 || cycle == 8 || cycle == 10 || cycle == 11 || cycle == 19 || cycle == 26 || cycle == 247;
 }
 
+/// The last part that a touch probe cycle cannot do without.
+int lastPart(int cycle) {
+  switch (cycle) {
+    case 1:
+      return 2;
+    case 3:
+    case 4:
+    case 31:
+    case 32:
+    case 33:
+      return 3;
+    default:
+      return 1;
+  }
+}
+
 bool isSetting(int cycle) { return cycle == 9 || cycle == 12 || cycle == 13 || cycle == 32; }
 
 }  // namespace
@@ -80,15 +96,14 @@ bool BlockParser::oldProbeCycle(int number) {
   lexer_.limitToLine();
   int last = -1;
   while (part.part >= 0) {
-    if (part.part <= last) return error("the parts of a cycle must follow each other in order");
+    if (part.part != last + 1) return error("the parts of a touch probe cycle must follow each other from 0 on");
     last = part.part;
     if (!oldProbePart(part)) return false;
     if (!nextPart("TCH", "PROBE", part)) return false;
   }
-  const bool hasParts = number != 0 || last >= 1;
-  if (!hasParts || (last == 0 && number <= 33)) {
-    return error("the parts of this touch probe cycle are missing",
-                 fmt::format("write TCH PROBE {}.1 below this block", number));
+  if (last < lastPart(number)) {
+    return error(fmt::format("part {}.{} of this touch probe cycle is missing", number, last + 1),
+                 fmt::format("write TCH PROBE {}.{} below this block", number, last + 1));
   }
   emit(CycleCall{number, constant("TCH PROBE"), wordsSince(first)});
   return true;

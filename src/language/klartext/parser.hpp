@@ -90,6 +90,7 @@ private:
   bool label();
   bool callLabel();
   bool callProgram();
+  bool checkPath(std::string_view path);
   bool selection();
   bool cycleCall();
   bool labelName(TextRef& label, Operand& labelValue);

@@ -22,6 +22,7 @@ public:
   explicit BlockWriter(const Block& block) : block_(block) {}
 
   std::string write() {
+    const auto isMain = [this](const Instruction& instruction) { return givesKeyword(instruction); };
     const bool hasMain = std::ranges::any_of(block_.instructions, isMain);
     for (const Instruction& instruction : block_.instructions) {
       if (isMain(instruction)) std::visit([this](const auto& i) { add(i); }, instruction);
@@ -45,15 +46,15 @@ public:
 
 private:
   /// True for what gives the block its keyword; M functions, stops, program ends and cycle calls stand behind it.
-  static bool isMain(const Instruction& instruction) {
+  bool givesKeyword(const Instruction& instruction) const {
     return !std::holds_alternative<MachineFunction>(instruction) && !std::holds_alternative<Stop>(instruction) &&
            !std::holds_alternative<EndProgram>(instruction) && !isPlainCycleCall(instruction);
   }
   /// M99 leaves a command without words and text.
-  static bool isPlainCycleCall(const Instruction& instruction) {
+  bool isPlainCycleCall(const Instruction& instruction) const {
     const auto* command = std::get_if<Command>(&instruction);
-    return command != nullptr && command->words.count == 0 && command->text.length == 0 && command->variable < 0 &&
-           command->name.length == std::string_view("CYCL CALL").size();
+    return command != nullptr && command->words.count == 0 && command->text.length == 0 &&
+           at(command->name) == "CYCL CALL";
   }
 
   void word(std::string_view text) {
