@@ -1,0 +1,232 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
+
+#include "app/program.hpp"
+
+namespace probewright::app::testing {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::IsSupersetOf;
+using ::testing::Not;
+
+const std::string program = "examples/programs/housing.h";
+const std::string setup = "examples/setups/housing-tnc640.toml";
+
+/// Everything the schema of docs/ has against a results.json.
+std::string complaints(const json& document) {
+  const json file = json::parse(std::ifstream(PROBEWRIGHT_SOURCE_DIR "/docs/results.schema.json"));
+  valijson::Schema schema;
+  valijson::SchemaParser(valijson::SchemaParser::kDraft7)
+      .populateSchema(valijson::adapters::NlohmannJsonAdapter(file), schema);
+  valijson::Validator validator;
+  valijson::ValidationResults results;
+  validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(document), &results);
+  std::string text;
+  for (const auto& error : results) {
+    for (const auto& part : error.context)
+      text += part;
+    text += ": " + error.description + "\n";
+  }
+  return text;
+}
+
+/// The number of lines that begin a message.
+std::size_t messages(const std::string& errors) {
+  std::size_t count = 0;
+  std::istringstream lines(errors);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty() && line[0] != ' ') ++count;
+  }
+  return count;
+}
+
+/// A setup with a block of 40 x 30 x 20 mm whose top face lies at Z -480, and `more` of a setup.
+std::string blockSetup(const std::string& more = "") {
+  return R"(
+[control]
+type = "TNC640"
+[part]
+pose = { z = -500 }
+[[part.feature]]
+shape = "box"
+size = [40, 30, 20]
+[[tool]]
+number = 1
+name = "PROBE"
+kind = "probe"
+length = 100
+ball_radius = 3
+[[preset]]
+row = 1
+origin = [0, 0, -480]
+active = true
+)" + more;
+}
+
+/// Measures the right side of the block, nominally at X 20, against these limits.
+std::string blockProgram(const std::string& largest, const std::string& smallest) {
+  return "0 BEGIN PGM BLOCK MM\n1 TOOL CALL 1 Z\n2 L Z+50 R0 FMAX\n"
+         "3 TCH PROBE 427 SIDE ~\nQ263=+20 ~\nQ264=+0 ~\nQ261=-5 ~\nQ320=+2 ~\nQ272=+1 ~\nQ267=-1 ~\nQ260=+30 ~\n"
+         "Q281=+0 ~\nQ288=" +
+         largest + " ~\nQ289=" + smallest + " ~\nQ309=+0 ~\nQ330=+0\n4 END PGM BLOCK MM\n";
+}
+
+/// A message, exit code 2, and nothing written.
+void expectRefused(const Answer& answer, const Folder& folder, const std::string& message) {
+  EXPECT_EQ(answer.exit, 2) << answer.errors;
+  EXPECT_THAT(answer.errors, HasSubstr(message));
+  EXPECT_EQ(messages(answer.errors), 1U) << answer.errors;
+  EXPECT_THAT(namesIn(folder / "out"), IsEmpty());
+}
+
+TEST(Run, MeasuresTheHousingOfTheExamplesAndCorrectsThePreset) {
+  const Folder folder;
+  const Answer answer = probewright({"run", program, "--setup", setup, "--out", (folder / "out").string()});
+  ASSERT_EQ(answer.exit, 0) << answer.errors << answer.output;
+  EXPECT_EQ(answer.errors, "");
+  EXPECT_THAT(answer.output, HasSubstr("OK: all 16 toleranced values are within the limits"));
+  EXPECT_THAT(answer.output, HasSubstr((folder / "out/report.html").string()));
+  EXPECT_THAT(namesIn(folder / "out"),
+              IsSupersetOf({"PRESET.PR", "TCHPR421.TXT", "TCHPR422.TXT", "TCHPR423.TXT", "TCHPR424.TXT", "TCHPR427.TXT",
+                            "TCHPR431.TXT", "TCHPROBE.TP", "TOOL.T", "report.html", "results.json"}));
+
+  const json results = json::parse(textOf(folder / "out/results.json"));
+  EXPECT_EQ(complaints(results), "");
+
+  // The setup's pose of the part, against what the last correction of each column left: the probe repeats to 0.0003 mm
+  // and its lobing is 0.0005 mm, so 0.002 mm is what the preset can be trusted to.
+  const std::map<std::string, double> truth = {{"X", -58.65}, {"Y", -40.82}, {"Z", -469.59}, {"SPC", 0.8}};
+  std::map<std::string, double> found;
+  std::istringstream table(textOf(folder / "out/PRESET.PR"));
+  std::string line;
+  std::vector<std::string> columns;
+  std::getline(table, line);
+  std::getline(table, line);
+  std::vector<std::size_t> begins;
+  for (const auto& [name, value] : truth) {
+    const std::size_t at = line.find(" " + name + " ");
+    ASSERT_NE(at, std::string::npos) << name;
+    columns.push_back(name);
+    begins.push_back(at + 1);
+  }
+  while (std::getline(table, line) && line.rfind("1 ", 0) != 0) {
+  }
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    found[columns[i]] = std::stod(line.substr(begins[i]));
+  EXPECT_NEAR(found["X"], truth.at("X"), 0.002);
+  EXPECT_NEAR(found["Y"], truth.at("Y"), 0.002);
+  EXPECT_NEAR(found["Z"], truth.at("Z"), 0.002);
+  // Two touches 100 mm apart.
+  EXPECT_NEAR(found["SPC"], truth.at("SPC"), 0.002 / 100 * 180 / std::numbers::pi);
+
+  // The report is one file: nothing in it is fetched from elsewhere.
+  const std::string report = textOf(folder / "out/report.html");
+  EXPECT_THAT(report, HasSubstr("</html>"));
+  EXPECT_THAT(report, Not(HasSubstr("<script src")));
+  EXPECT_THAT(report, Not(HasSubstr("<link rel=\"stylesheet\"")));
+}
+
+TEST(Run, GivesTheSameResultsForTheSameSeedAndOthersForAnother) {
+  const Folder folder;
+  const auto touchesWith = [&](const std::string& seed, const std::string& out) {
+    const Answer answer =
+        probewright({"run", program, "--setup", setup, "--seed", seed, "--quiet", "--out", (folder / out).string()});
+    EXPECT_EQ(answer.exit, 0);
+    EXPECT_EQ(answer.output, "");
+    return json::parse(textOf(folder / out / "results.json")).at("cycles").dump();
+  };
+  const std::string first = touchesWith("5", "a");
+  EXPECT_EQ(first, touchesWith("5", "b"));
+  EXPECT_NE(first, touchesWith("6", "c"));
+}
+
+TEST(Run, TellsByItsExitCodeThatThePartIsOutOfTolerance) {
+  const Folder folder;
+  const std::string world = folder.file("block.toml", blockSetup());
+  const std::string out = (folder / "out").string();
+  const std::string good = folder.file("good.h", blockProgram("+20.1", "+19.9"));
+  EXPECT_EQ(probewright({"run", good, "--setup", world, "--out", out}).exit, 0);
+  const std::string bad = folder.file("bad.h", blockProgram("+19.95", "+19.9"));
+  const Answer answer = probewright({"run", bad, "--setup", world, "--out", out});
+  EXPECT_EQ(answer.exit, 1) << answer.errors;
+  EXPECT_EQ(complaints(json::parse(textOf(folder / "out/results.json"))), "");
+}
+
+TEST(Run, TellsByItsExitCodeThatAnAlarmStoppedTheProgram) {
+  const Folder folder;
+  const std::string world = folder.file("block.toml", blockSetup());
+  const std::string crash = folder.file("crash.h",
+                                        "0 BEGIN PGM CRASH MM\n1 TOOL CALL 1 Z\n2 L X+0 Y+0 R0 FMAX\n"
+                                        "3 L Z-10 R0 FMAX\n4 END PGM CRASH MM\n");
+  const Answer answer = probewright({"run", crash, "--setup", world, "--out", (folder / "out").string()});
+  EXPECT_EQ(answer.exit, 3);
+  EXPECT_THAT(answer.errors, HasSubstr("crash.h:4:"));
+  const json results = json::parse(textOf(folder / "out/results.json"));
+  EXPECT_EQ(complaints(results), "");
+  EXPECT_THAT(namesIn(folder / "out"), IsSupersetOf({"report.html"}));
+}
+
+TEST(Run, StopsAnEndlessLoop) {
+  const Folder folder;
+  const std::string world = folder.file("block.toml", blockSetup());
+  const std::string loop =
+      folder.file("loop.h", "0 BEGIN PGM LOOP MM\n1 LBL 1\n2 FN 9: IF +1 EQU +1 GOTO LBL 1\n3 END PGM LOOP MM\n");
+  const Answer answer =
+      probewright({"run", loop, "--setup", world, "--step-limit", "1000", "--out", (folder / "out").string()});
+  EXPECT_EQ(answer.exit, 3) << answer.errors;
+}
+
+TEST(Run, RefusesWhatItCannotRead) {
+  const Folder folder;
+  const std::string out = (folder / "out").string();
+  const auto run = [&](const std::string& what, const std::string& world) {
+    return probewright({"run", what, "--setup", world, "--out", out});
+  };
+  expectRefused(run((folder / "none.h").string(), setup), folder, "none.h: error: cannot open");
+  expectRefused(run(program, (folder / "none.toml").string()), folder, "none.toml: error: cannot open");
+  expectRefused(run(program, folder.file("broken.toml", "[part\nfile = 3\n")), folder, "broken.toml:1:6: error:");
+  expectRefused(run(program, folder.file("unknown.toml", blockSetup("[machine]\nnaem = \"mill3\"\n"))), folder, "naem");
+  const std::string noPart = "[control]\ntype = \"TNC640\"\n[part]\nfile = \"none.step\"\n";
+  expectRefused(run(program, folder.file("nopart.toml", noPart)), folder, "none.step");
+  folder.file("torn.step", textOf(PROBEWRIGHT_SOURCE_DIR "/examples/parts/housing.step").substr(0, 4000));
+  const std::string torn = "[control]\ntype = \"TNC640\"\n[part]\nfile = \"torn.step\"\n";
+  expectRefused(run(program, folder.file("torn.toml", torn)), folder, "torn.step");
+  expectRefused(run(folder.file("empty.txt", "hello\n"), folder.file("any.toml", "seed = 1\n")), folder, "--control");
+  expectRefused(run(folder.file("wrong.mpf", "G0 X1\nM30\n"), setup), folder, "SINUMERIK program");
+}
+
+TEST(Run, RefusesAFolderItCannotWriteTo) {
+  const Folder folder;
+  const std::string file = folder.file("file", "kept");
+  const Answer answer = probewright({"run", program, "--setup", setup, "--out", file + "/out"});
+  EXPECT_EQ(answer.exit, 2);
+  EXPECT_THAT(answer.errors, HasSubstr("--out"));
+  EXPECT_EQ(messages(answer.errors), 1U) << answer.errors;
+  EXPECT_EQ(textOf(file), "kept");
+}
+
+TEST(Run, RefusesUnknownWords) {
+  const Answer control = probewright({"run", program, "--setup", setup, "--control", "TNC7"});
+  EXPECT_EQ(control.exit, 2);
+  EXPECT_THAT(control.errors, HasSubstr("TNC7 is none of TNC640, iTNC530, 840Dsl"));
+  EXPECT_EQ(probewright({"run", program}).exit, 2);
+  EXPECT_EQ(probewright({"measure"}).exit, 2);
+  EXPECT_EQ(probewright({}).exit, 2);
+  EXPECT_EQ(probewright({"run", program, "--setup", setup, "--on-stop", "dance"}).exit, 2);
+}
+
+}  // namespace
+}  // namespace probewright::app::testing
