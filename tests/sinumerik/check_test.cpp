@@ -77,6 +77,13 @@ TEST(SinumerikCheck, MachiningCyclesAreNamedAsSkipped) {
   EXPECT_EQ(found[0].severity, Severity::Warning);
 }
 
+TEST(SinumerikCheck, MeasuringCyclesThatAreMissingAreNamedSo) {
+  if (cycles::sinumerikCycle("CYCLE9960") != nullptr) GTEST_SKIP() << "the catalogue has CYCLE9960";
+  const Diagnostics found = checkText("CYCLE9960(1)\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].message, "the measuring cycle CYCLE9960 is not available");
+}
+
 TEST(SinumerikCheck, ArgumentsOfMeasuringCyclesAreHeldAgainstTheCatalogue) {
   if (cycles::sinumerikCycle("CYCLE977") == nullptr) GTEST_SKIP() << "the catalogue has no CYCLE977";
   std::string call = "CYCLE977(1";

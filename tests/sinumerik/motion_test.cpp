@@ -73,6 +73,36 @@ TEST(SinumerikMotion, ToolLengthAndFramesMakeTheAxesPosition) {
   EXPECT_EQ(world.alarm("D9\n"), "17180");
 }
 
+TEST(SinumerikMotion, ProgrammedToolOffsetsAddToTheTool) {
+  World world;
+  world.run("T1 M6\nG0 Z0\nTOFFL=2.5\nZ0\n");
+  EXPECT_NEAR(world.machine.moves.back().to[2], 102.5, 1e-12);
+  world.run("TOFFL=0\nZ0\n");
+  EXPECT_NEAR(world.machine.moves.back().to[2], 100, 1e-12);
+}
+
+TEST(SinumerikMotion, AFrameIsAlignedWithTheTool) {
+  World world("mill5-table-table");
+  const auto& axes = world.machine.description().axes;
+  std::size_t tilting = 0;
+  while (axes[tilting].kind != machine::AxisKind::Rotary)
+    ++tilting;
+  world.run("T2 M6\nTRAORI\nG0 " + axes[tilting].name + "20\nTOROT\n");
+  EXPECT_LT((world.control.channel.toolAxis() - Vector3::UnitZ()).norm(), 1e-12);
+  const Vector3 before = world.machine.position()[tilting] * Vector3::UnitX();
+  const auto start = world.machine.position();
+  world.run("G1 Z=IC(10) F100\n");
+  // Along the tool: the rotary axes stay, the spindle moves by 10 along its own axis.
+  double travelled = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    travelled += std::pow(world.machine.position()[i] - start[i], 2);
+  EXPECT_NEAR(std::sqrt(travelled), 10, 1e-9);
+  EXPECT_NEAR(world.machine.position()[2] - start[2], 10, 1e-9) << "a table tilts the part, the spindle stands";
+  EXPECT_EQ(before.x(), world.machine.position()[tilting]);
+  world.run("TOROTOF\n");
+  EXPECT_GT((world.control.channel.toolAxis() - Vector3::UnitZ()).norm(), 0.1);
+}
+
 TEST(SinumerikMotion, ArcsStayOnTheirCircle) {
   struct Case {
     const char* text;

@@ -157,11 +157,11 @@ TEST(SinumerikFlow, JumpsToComputedLabelsAndBlockNumbers) {
 TEST(SinumerikFlow, SubprogramsTakeParametersByValueAndByReference) {
   World world;
   world.texts.add("SUM_UP",
-                  "PROC SUM_UP(REAL AA,REAL BB=7,VAR REAL RESULT,VAR INT LIST[3],STRING[8] NAME=\"dflt\") SAVE\n"
+                  "PROC SUM_UP(REAL AA,REAL BB=7,VAR REAL RESULT,VAR INT LIST[],STRING[8] NAME=\"dflt\") SAVE\n"
                   "DEF REAL OWN=100\nRESULT=AA+BB+OWN\nLIST[2]=5\nAA=0\nR9=STRLEN(NAME)\nG91\nM17\n");
   world.run(
       "DEF REAL OUT\nDEF INT ARR[3]=SET(1,2,3)\nDEF REAL OWN=1\nR1=3 R9=0\nG90\nSUM_UP(R1,,OUT,ARR)\n"
-      "R2=OUT R3=ARR[2]+ARR[0] R4=OWN\nSUM_UP(1,2,R5,ARR,\"abc\")\nR6=$P_GG[14]\n");
+      "R2=OUT R3=ARR[2]+ARR[0] R4=OWN\nSUM_UP(1,2,R5,ARR[ ],\"abc\")\nR6=$P_GG[14]\n");
   EXPECT_EQ(world.r(1), 3);
   EXPECT_EQ(world.r(2), 110);
   EXPECT_EQ(world.r(3), 6);

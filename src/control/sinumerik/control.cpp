@@ -62,7 +62,9 @@ void Control::selectEdge(int edge) {
 }
 
 void Control::refreshTool() {
-  const ToolEdge edge = toolEdge(data, tool.number, tool.edge, tool.dl).value_or(ToolEdge{});
+  ToolEdge edge = toolEdge(data, tool.number, tool.edge, tool.dl).value_or(ToolEdge{});
+  edge.length[0] += tool.programmedLength;
+  edge.radius += tool.programmedRadius;
   tool.type = edge.type;
   tool.position = edge.position;
   tool.radius = edge.totalRadius();

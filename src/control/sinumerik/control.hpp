@@ -20,11 +20,12 @@ struct ActiveTool {
   int number = 0;  ///< T number
   int edge = 0;    ///< D number; 0: no offset active
   std::string name;
-  int type = 0;                ///< $TC_DP1
-  int position = 0;            ///< $TC_DP2, cutting edge position
-  int dl = 0;                  ///< active DL number: additive and setup offset; 0: none
-  double radius = 0;           ///< with wear and offsets
-  double correctionAngle = 0;  ///< $TC_DP10
+  int type = 0;                                       ///< $TC_DP1
+  int position = 0;                                   ///< $TC_DP2, cutting edge position
+  int dl = 0;                                         ///< active DL number: additive and setup offset; 0: none
+  double radius = 0;                                  ///< with wear and offsets
+  double correctionAngle = 0;                         ///< $TC_DP10
+  double programmedLength = 0, programmedRadius = 0;  ///< TOFFL and TOFFR: added to L1 and to the radius
   bool isProbe() const { return type == 580 || (type >= 710 && type <= 714); }
   bool isTurning() const { return type >= 500 && type < 600; }
 };

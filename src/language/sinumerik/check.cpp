@@ -209,6 +209,9 @@ void Checker::checkCall(const CallProgram& call) {
   if (call.maybeCycle) {
     if (const cycles::CycleDefinition* cycle = cycles::sinumerikCycle(name)) return checkCycle(call, *cycle);
     if (name == "CYCLE800") return;
+    if (isMeasuringCycle(name))
+      return report(column, fmt::format("the measuring cycle {} is not available", name),
+                    "'probewright cycles --control 840Dsl' lists the cycles that are.");
     if (isSkippedCycle(name))
       return report(column, name + " is not carried out", "The run goes on behind it; no material is removed.",
                     Severity::Warning);

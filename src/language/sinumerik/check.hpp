@@ -27,4 +27,7 @@ bool isGlobalUserData(std::string_view name);
 /// True if `name` is a machining or service cycle of the control that the house reads but does not carry out.
 bool isSkippedCycle(std::string_view name);
 
+/// True if `name` is one of the control's measuring cycles, whether the catalogue has it or not.
+bool isMeasuringCycle(std::string_view name);
+
 }  // namespace probewright::sinumerik

@@ -301,6 +301,14 @@ std::uint32_t BlockParser::parseVariable() {
 void BlockParser::parseIndices(VariableRef& variable) {
   const std::size_t start = cursor_.offset();
   cursor_.advance();
+  // NAME[] and NAME[,] hand over a whole array.
+  Cursor ahead = cursor_;
+  while (ahead.take(',')) {
+  }
+  if (ahead.take(']')) {
+    cursor_ = ahead;
+    return;
+  }
   for (std::size_t i = 0;; ++i) {
     if (i == std::size(variable.index)) {
       fail(start, "a variable has at most three indices");

@@ -83,6 +83,7 @@ private:
   void carryOutG(int number);
   void carryOutNamedFunction(std::string_view name, const language::Modal& modal, Evaluation& evaluation);
   void changeTool();
+  void alignFrameWithTool(bool withOrigin);
   void raiseAlarm(const language::Command& command, Evaluation& evaluation);
   void dwell(const language::Command& command, Evaluation& evaluation);
   void writeFile(const language::Command& command, Evaluation& evaluation);

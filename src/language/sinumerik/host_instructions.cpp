@@ -203,9 +203,38 @@ void SinumerikHost::carryOutNamedFunction(std::string_view name, const Modal& mo
     control_.applyFrames();
     return;
   }
+  const bool withOrigin = name == "TOFRAME" || name == "TOFRAMEZ";
+  if (withOrigin || name == "TOROT" || name == "TOROTZ") {
+    motion_.flush();
+    return alignFrameWithTool(withOrigin);
+  }
+  if (name == "TOROTOF") {
+    motion_.flush();
+    control_.frames.toolOriented = {};
+    return control_.applyFrames();
+  }
   if (name == "TRANSMIT" || name == "TRACYL" || name == "TRAANG" || name.starts_with("TOFRAME") ||
-      (name.starts_with("TOROT") && name != "TOROTOF"))
+      name.starts_with("TOROT") || name == "PAROT")
     skip(name);
+}
+
+/// TOROT: Z of the program lies along the tool, turned the shortest way; TOFRAME: and the tool tip is its origin.
+void SinumerikHost::alignFrameWithTool(bool withOrigin) {
+  Frame& frame = control_.frames.toolOriented;
+  const Eigen::Affine3d program = control_.machineFromWorkpiece();
+  const Vector3 along = program.linear() * control_.channel.toolAxis();
+  const Vector3 tip = program * control_.channel.position();
+  const Eigen::Affine3d outer =
+      control_.machineFromBase() * control::sinumerik::transform(control_.frames.settableFrame);
+  const Vector3 direction = (outer.linear().inverse() * along).normalized();
+  Eigen::Affine3d turned = Eigen::Affine3d::Identity();
+  turned.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), direction).toRotationMatrix();
+  if (withOrigin) turned.translation() = outer.inverse() * tip;
+  const auto aligned = control::sinumerik::frameFromTransform(turned);
+  if (!aligned) throw Alarm("18314", aligned.error().message, aligned.error().advice);
+  frame = *aligned;
+  if (withOrigin) control_.frames.programmed = {};
+  control_.applyFrames();
 }
 
 void SinumerikHost::carryOut(const MachineFunction& function, Evaluation& evaluation) {
@@ -331,6 +360,14 @@ void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
   }
   if (name == "G75") return motion_.approachFixedPoint(command, evaluation);
   if (name == "WRITE") return writeFile(command, evaluation);
+  if (name == "TOFFL" || name == "TOFFR") {
+    const bool length = name == "TOFFL";
+    if (words.size() > 1 && wholeNumber(evaluation.number(words[1].value)) != 1) return skip("TOFFL[2], TOFFL[3]");
+    motion_.flush();
+    (length ? control_.tool.programmedLength : control_.tool.programmedRadius) =
+        evaluation.number(words[0].value) * control_.unit;
+    return control_.applyFrames();
+  }
   if (name == "DL") {
     motion_.flush();
     control_.tool.dl = wholeNumber(evaluation.number(words[0].value));
@@ -404,6 +441,9 @@ void SinumerikHost::runCycle(std::string_view name, WordRange range, Evaluation&
   if (name == "CYCLE800") return runSwivel(range, evaluation);
   const cycles::sinumerik::Entry* entry = cycles::sinumerik::findEntry(name);
   if (entry == nullptr) {
+    if (isMeasuringCycle(name))
+      throw Alarm("14011", fmt::format("the measuring cycle {} is not available", name),
+                  "'probewright cycles --control 840Dsl' lists the cycles that are");
     if (isSkippedCycle(name)) return skip(name);
     throw Alarm("14011", fmt::format("there is no program and no cycle {}", name),
                 fmt::format("put {}.SPF beside the program, or check the spelling", name));

@@ -32,8 +32,16 @@ bool isSkippedCycle(std::string_view name) {
   };
   if (std::find(std::begin(machining), std::end(machining), name) != std::end(machining)) return true;
   if (!name.starts_with("CYCLE") || name.size() < 7 || name.size() > 9) return false;
-  if (name.starts_with("CYCLE9") && name.size() == 8) return name < "CYCLE960";
+  if (isMeasuringCycle(name)) return false;
   return std::all_of(name.begin() + 5, name.end(), isDigit);
+}
+
+bool isMeasuringCycle(std::string_view name) {
+  static constexpr std::string_view measuring[] = {
+      "CYCLE116", "CYCLE961", "CYCLE971", "CYCLE972", "CYCLE973", "CYCLE974", "CYCLE976", "CYCLE977",  "CYCLE978",
+      "CYCLE979", "CYCLE982", "CYCLE994", "CYCLE995", "CYCLE996", "CYCLE997", "CYCLE998", "CYCLE9960",
+  };
+  return std::find(std::begin(measuring), std::end(measuring), name) != std::end(measuring);
 }
 
 }  // namespace probewright::sinumerik
