@@ -168,7 +168,7 @@ int activePresetRow(const Setup& setup) {
   return active == setup.presets.end() ? 0 : active->index;
 }
 
-hh::MachineParameters machineParameters(const Setup& setup, Diagnostics& diagnostics) {
+hh::MachineParameters machineParameters(const Setup& setup, ControlKind kind, Diagnostics& diagnostics) {
   hh::MachineParameters parameters;
   // On the iTNC 530 the probing values stand in machine parameters, not in a table: the probe in use sets them.
   for (const BelievedTool& tool : setup.tools) {
@@ -182,42 +182,14 @@ hh::MachineParameters machineParameters(const Setup& setup, Diagnostics& diagnos
   }
   for (const auto& [name, parameter] : setup.parameters) {
     const double* number = std::get_if<double>(&parameter.value);
-    const std::string key = upper(name);
-    const auto is = [&key](std::initializer_list<std::string_view> names) {
-      return std::ranges::find(names, key) != names.end();
-    };
-    if (key.starts_with('$')) continue;
     if (number == nullptr) {
       diagnostics.push_back({Severity::Error, parameter.place, fmt::format("{} takes a number", name), {}, {}, {}});
       continue;
     }
-    if (is({"MAXTOUCHFEED", "122602"})) {
-      parameters.maxTouchFeed = *number;
-    } else if (is({"CHKTILTINGAXES", "204601"})) {
-      parameters.checkTiltingAxes = *number != 0;
-    } else if (is({"MP6120"})) {
-      parameters.mp6120 = *number;
-    } else if (is({"MP6130"})) {
-      parameters.mp6130 = *number;
-    } else if (is({"MP6140"})) {
-      parameters.mp6140 = *number;
-    } else if (is({"MP6150"})) {
-      parameters.mp6150 = *number;
-    } else if (is({"MP6151"})) {
-      parameters.mp6151 = *number != 0;
-    } else if (is({"MP6165"})) {
-      parameters.mp6165 = *number != 0;
-    } else if (is({"MP6170"})) {
-      parameters.mp6170 = static_cast<int>(std::lround(*number));
-    } else if (is({"MP6171"})) {
-      parameters.mp6171 = *number;
-    } else {
-      diagnostics.push_back({Severity::Error,
-                             parameter.place,
-                             fmt::format("there is no machine parameter {}", name),
-                             {},
-                             "machine parameters are listed in docs/setup-format.md",
-                             {}});
+    if (const Result<void> set = hh::setMachineParameter(parameters, kind, name, *number); !set) {
+      Diagnostic mistake = set.error();
+      mistake.place = parameter.place;
+      diagnostics.push_back(std::move(mistake));
     }
   }
   return parameters;
@@ -263,7 +235,15 @@ SinumerikData sinumerikData(const Setup& setup, Diagnostics& diagnostics) {
     store.loadFrame(sin::DataKey("$P_UIFR", {offset.index}), frame);
   }
   for (const auto& [name, parameter] : setup.parameters) {
-    if (!name.starts_with('$')) continue;
+    if (!name.starts_with('$')) {
+      diagnostics.push_back({Severity::Error,
+                             parameter.place,
+                             fmt::format("{} is no machine or setting datum of the 840Dsl", name),
+                             {},
+                             "their names begin with $ (docs/measuring-data.md)",
+                             {}});
+      continue;
+    }
     sin::InitText::parse(fmt::format("{}={}\n", name,
                                      std::holds_alternative<double>(parameter.value)
                                          ? fmt::format("{}", std::get<double>(parameter.value))

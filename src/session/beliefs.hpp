@@ -22,7 +22,8 @@ control::heidenhain::Tables heidenhainTables(const simulation::Setup& setup, con
 int activePresetRow(const simulation::Setup& setup);
 
 /// The machine parameters that [parameters] of the setup sets: "maxTouchFeed" or "122602", "MP6120"...
-control::heidenhain::MachineParameters machineParameters(const simulation::Setup& setup, Diagnostics& diagnostics);
+control::heidenhain::MachineParameters machineParameters(const simulation::Setup& setup, control::ControlKind kind,
+                                                         Diagnostics& diagnostics);
 
 /// A SINUMERIK control's data: initialization texts (*.INI, *.TOA, *.UFR, *.GUD, *.SEA...) of the setup's folder,
 /// tools, calibration data and zero offsets of the setup, machine and setting data of [parameters], and the texts, to

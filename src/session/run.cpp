@@ -46,7 +46,7 @@ void setPanel(control::OperatorPanel& panel, const RunOptions& options) {
 void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>& program, const fs::path& path,
                    const simulation::Setup& setup, const RunOptions& options) {
   hh::Tables tables = heidenhainTables(setup, outcome.control, outcome.diagnostics);
-  const hh::MachineParameters parameters = machineParameters(setup, outcome.diagnostics);
+  const hh::MachineParameters parameters = machineParameters(setup, outcome.control, outcome.diagnostics);
   if (hasErrors(outcome.diagnostics)) return;
   hh::Control control(outcome.control, *outcome.machine, std::move(tables), parameters);
   setPanel(control.panel, options);

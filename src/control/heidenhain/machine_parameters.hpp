@@ -1,26 +1,50 @@
 #pragma once
 
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include "base/diagnostic.hpp"
 #include "control/control_kind.hpp"
 
 /// The machine parameters that touch probe functions read.
 namespace probewright::control::heidenhain {
 
 struct MachineParameters {
-  // TNC 640, by name and number
-  double maxTouchFeed = 3000;     ///< 122602, mm/min: upper limit of the probing feed rate
-  bool checkTiltingAxes = false;  ///< 204601 chkTiltingAxes: rotary axes must match the tilt before probing
+  // TNC 640
+  double maxTouchFeed = 3000;
+  bool checkTiltingAxes = false;
   // iTNC 530
-  double mp6120 = 500;   ///< probing feed rate, mm/min
-  double mp6130 = 50;    ///< longest stroke to the touch point, mm
-  double mp6140 = 2;     ///< safety clearance to the touch point, mm
-  double mp6150 = 3000;  ///< positioning feed rate, mm/min
-  bool mp6151 = false;   ///< pre-position at machine rapid
-  bool mp6165 = false;   ///< orient the probe to the probing direction
-  int mp6170 = 1;        ///< measurements of one point, 1 to 3
-  double mp6171 = 0.1;   ///< confidence range of these, mm
-
-  /// Cycles 400 to 499 with cycle 7, 8, 10, 11 or 26 active: the manual forbids it as a danger of collision.
+  double mp6120 = 500;
+  double mp6130 = 50;
+  double mp6140 = 2;
+  double mp6150 = 3000;
+  bool mp6151 = false;
+  bool mp6165 = false;
+  int mp6170 = 1;
+  double mp6171 = 0.1;
+  // both: habits of Probewright where the manuals only warn
   bool refuseTransformations = true;
 };
+
+/// One parameter as a setup may name it. The table drives reading and documentation.
+struct MachineParameterEntry {
+  std::string_view name;    ///< "maxTouchFeed", "MP6120"
+  std::string_view number;  ///< "122602"; empty if the name says it
+  ControlSet controls;
+  double minimum = 0, maximum = 1;
+  std::string_view unit;
+  std::string_view meaning;
+  std::variant<double MachineParameters::*, bool MachineParameters::*, int MachineParameters::*> member;
+};
+
+std::span<const MachineParameterEntry> machineParameterEntries();
+
+/// Sets the parameter called `name` (its name in any case, or its number) to `value`. Fails, without a place, if there
+/// is none on this control or the value is out of range.
+Result<void> setMachineParameter(MachineParameters& parameters, ControlKind kind, std::string_view name, double value);
+
+/// docs/machine-parameters.md.
+std::string machineParametersPage();
 
 }  // namespace probewright::control::heidenhain

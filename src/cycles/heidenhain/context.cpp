@@ -44,6 +44,24 @@ bool needsReset(const Transformations& active, const Context::Conditions& condit
   return rest.active();
 }
 
+/// The probe must stand square to the working plane: the rotary axes as the tilt (or its absence) asks.
+void requireMatchingRotaryAxes(const Control& control) {
+  const control::Channel& channel = control.channel;
+  const machine::MachineDescription& description = channel.description();
+  const machine::AxisPositions now = channel.axes();
+  Vector3 toolAxis = Vector3::Zero();
+  toolAxis[control.coordinates.plane.tool] = 1;
+  const Vector3 onTable = machine::baseFromTable(description, control.coordinates.preset.rotaryOffset).linear() *
+                          machine::baseFromTable(description, now).linear().transpose() *
+                          machine::baseFromSpindle(description, now).linear() * toolAxis;
+  const Vector3 inProgram = (channel.frame().linear().inverse() * onTable).normalized();
+  if (inProgram.cross(toolAxis).norm() > radiansFromDegrees(0.01)) {
+    throw Alarm("Rotary axes and tilt do not match",
+                "The positions of the rotary axes do not agree with the tilt of the working plane (chkTiltingAxes)",
+                "move the rotary axes to the tilt, or correct PLANE");
+  }
+}
+
 }  // namespace
 
 Context::Context(Control& control, const Arguments& arguments, SourcePlace place)
@@ -94,6 +112,7 @@ void Context::require(const Conditions& conditions) const {
                 "A datum shift, mirror image, rotation or scaling is active (cycle 7, 8, 10, 11 or 26)",
                 "reset the transformation before the cycle");
   }
+  if (control_.parameters.checkTiltingAxes) requireMatchingRotaryAxes(control_);
   if (control_.coordinates.tilt && !conditions.tiltAllowed) {
     throw Alarm("Tilted working plane not permitted", "The cycle does not run in a tilted working plane",
                 "reset PLANE or cycle 19 before the cycle");

@@ -1,0 +1,96 @@
+#include "control/heidenhain/machine_parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+#include "base/number_text.hpp"
+
+namespace probewright::control::heidenhain {
+namespace {
+
+constexpr std::array entries = {
+    MachineParameterEntry{"maxTouchFeed", "122602", onTNC640, 1, 100000, "mm/min",
+                          "upper limit of the probing feed rate F", &MachineParameters::maxTouchFeed},
+    MachineParameterEntry{"chkTiltingAxes", "204601", onTNC640, 0, 1, "",
+                          "1: before probing, the rotary axes must stand as the tilted plane asks",
+                          &MachineParameters::checkTiltingAxes},
+    MachineParameterEntry{"MP6120", "", onITNC530, 1, 3000, "mm/min", "probing feed rate", &MachineParameters::mp6120},
+    MachineParameterEntry{"MP6130", "", onITNC530, 0.001, 99999.9999, "mm", "longest stroke to the touch point",
+                          &MachineParameters::mp6130},
+    MachineParameterEntry{"MP6140", "", onITNC530, 0.001, 99999.9999, "mm",
+                          "safety clearance in front of the touch point", &MachineParameters::mp6140},
+    MachineParameterEntry{"MP6150", "", onITNC530, 1, 300000, "mm/min", "positioning feed rate between touches",
+                          &MachineParameters::mp6150},
+    MachineParameterEntry{"MP6151", "", onITNC530, 0, 1, "", "1: pre-position at machine rapid traverse",
+                          &MachineParameters::mp6151},
+    MachineParameterEntry{"MP6165", "", onITNC530, 0, 1, "",
+                          "1: turn the probe to the probing direction before each touch", &MachineParameters::mp6165},
+    MachineParameterEntry{"MP6170", "", onITNC530, 1, 3, "", "measurements of one point", &MachineParameters::mp6170},
+    MachineParameterEntry{"MP6171", "", onITNC530, 0.002, 0.999, "mm", "confidence range of repeated measurements",
+                          &MachineParameters::mp6171},
+    MachineParameterEntry{
+        "refuseTransformations", "", onTNC640, 0, 1, "",
+        "1: cycles 400 to 499 refuse to run while cycle 7, 8, 10, 11 or 26 is active, which the manual "
+        "forbids as a danger of collision; 0: they run",
+        &MachineParameters::refuseTransformations},
+};
+
+bool sameName(std::string_view a, std::string_view b) {
+  return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+double defaultOf(const MachineParameterEntry& entry) {
+  const MachineParameters parameters;
+  return std::visit([&](auto member) { return static_cast<double>(parameters.*member); }, entry.member);
+}
+
+}  // namespace
+
+std::span<const MachineParameterEntry> machineParameterEntries() { return entries; }
+
+Result<void> setMachineParameter(MachineParameters& parameters, ControlKind kind, std::string_view name, double value) {
+  const auto entry = std::ranges::find_if(entries, [&](const MachineParameterEntry& candidate) {
+    return sameName(candidate.name, name) || (!candidate.number.empty() && candidate.number == name);
+  });
+  if (entry == entries.end() || !entry->controls.contains(kind)) {
+    return fail(fmt::format("the {} has no machine parameter {} here", control::name(kind), name),
+                "docs/machine-parameters.md lists those that can be set");
+  }
+  if (!(value >= entry->minimum && value <= entry->maximum)) {
+    return fail(fmt::format("{} cannot be {}; its range is {} to {}{}{}", entry->name, formatShortest(value),
+                            formatShortest(entry->minimum), formatShortest(entry->maximum),
+                            entry->unit.empty() ? "" : " ", entry->unit));
+  }
+  const bool whole = !std::holds_alternative<double MachineParameters::*>(entry->member);
+  if (whole && value != std::floor(value)) {
+    return fail(fmt::format("{} takes a whole number, not {}", entry->name, formatShortest(value)));
+  }
+  std::visit([&]<class Value>(Value MachineParameters::*member) { parameters.*member = static_cast<Value>(value); },
+             entry->member);
+  return {};
+}
+
+std::string machineParametersPage() {
+  std::string page =
+      "# Machine parameters\n\nThe parameters of HEIDENHAIN controls that touch probe functions read here. A setup "
+      "sets "
+      "them in its table\n`[parameters]`, by name or number. This page is made from the table that drives the "
+      "reading.\n\n"
+      "| parameter | number | control | unit | range | default | meaning |\n|---|---|---|---|---|---|---|\n";
+  for (const MachineParameterEntry& entry : entries) {
+    std::string controls;
+    for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
+      if (entry.controls.contains(kind)) controls += fmt::format("{}{}", controls.empty() ? "" : ", ", name(kind));
+    }
+    page += fmt::format("| `{}` | {} | {} | {} | {} to {} | {} | {} |\n", entry.name, entry.number, controls,
+                        entry.unit, formatShortest(entry.minimum), formatShortest(entry.maximum),
+                        formatShortest(defaultOf(entry)), entry.meaning);
+  }
+  return page;
+}
+
+}  // namespace probewright::control::heidenhain
