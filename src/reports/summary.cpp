@@ -139,11 +139,16 @@ std::string cycleText(const control::CycleRecord& cycle, std::size_t number, con
   else if (cycle.verdict != Verdict::None)
     text += "  " + style.paint(tone(cycle.verdict), word(cycle.verdict));
   text += "\n";
-  const bool toleranced = std::any_of(cycle.results.begin(), cycle.results.end(),
-                                      [](const auto& result) { return result.verdict != Verdict::None; });
+  const auto any = [&](auto&& property) { return std::any_of(cycle.results.begin(), cycle.results.end(), property); };
+  const bool toleranced = any([](const auto& result) { return result.verdict != Verdict::None; });
+  const bool compared = any([](const auto& result) { return result.deviation.has_value(); });
+  const bool measured = any([](const auto& result) { return !result.unit.empty(); });
   std::size_t shown = 0;
   for (const auto& result : cycle.results) {
-    if (toleranced ? result.verdict == Verdict::None : shown == mostPlainResults) continue;
+    const bool isMain = toleranced ? result.verdict != Verdict::None
+                        : compared ? result.deviation.has_value()
+                                   : !measured || !result.unit.empty();
+    if (!isMain || (!toleranced && shown == mostPlainResults)) continue;
     text += resultLine(result, style);
     ++shown;
   }
