@@ -45,14 +45,14 @@ void cycle463(Context& context, const Arguments&) {
   auto prober = calibrationProber(context);
   const Vector3 start = prober.position();
   // As far below the top of the stud as the probe stands above it.
-  const double measuringHeight = start.z() - 2 * (prober.probe().setUp + context.q(320)) - prober.probe().ballRadius;
+  const double touchHeight = start.z() - 2 * (prober.probe().setUp + context.q(320)) - prober.probe().ballRadius;
   storeRadius(context, calibrateRadius(context, prober,
                                        {.centre = start.head<2>(),
                                         .standardRadius = context.q(407),
                                         .side = Side::Outside,
                                         .count = context.option(423),
                                         .startAngle = context.q(380),
-                                        .measuringHeight = measuringHeight,
+                                        .measuringHeight = touchHeight,
                                         .travelHeight = start.z(),
                                         .extraClearance = context.q(320)}));
 }
