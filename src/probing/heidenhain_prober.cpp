@@ -80,7 +80,8 @@ EvaluatedTouch HeidenhainProber::touch(const PlannedTouch& planned) {
   return stroke(planned.direction, probe_.distance, planned.surface);
 }
 
-EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distance, std::optional<Vector3> expected) {
+EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distance,
+                                        const std::optional<Vector3>& expected) {
   const Vector3 start = position();
   const Vector3 startTip = channel_.position();
   const Vector3 xyzDirection = plane_.xyzFromPlane(direction);

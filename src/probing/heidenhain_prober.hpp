@@ -68,7 +68,7 @@ public:
   EvaluatedTouch touch(const PlannedTouch& planned);
 
   /// From wherever the ball is towards `direction`, at most `distance`; stays at the start of the stroke afterwards.
-  EvaluatedTouch stroke(const Vector3& direction, double distance, std::optional<Vector3> expected = {});
+  EvaluatedTouch stroke(const Vector3& direction, double distance, const std::optional<Vector3>& expected = {});
 
 private:
   Vector3 tipFromBall(const Vector3& ballCentre) const;
