@@ -181,7 +181,8 @@ void Context::resultInteger(int index, int value) {
 void Context::checkSafeArea(double difference) {
   const double limit = real("S_TSA");
   if (std::abs(difference) > limit + 1e-9) {
-    alarm(61303, fmt::format("difference {:.4f} mm, safe area TSA {:.4f} mm", difference, limit));
+    const std::string_view unit = unitOf(required(arguments_, "S_TSA").kind);
+    alarm(61303, fmt::format("difference {:.4f} {}, safe area TSA {:.4f} {}", difference, unit, limit, unit));
   }
 }
 

@@ -9,8 +9,8 @@ namespace probewright::cycles::sinumerik {
 
 std::span<const Entry> entries() {
   static constexpr Entry all[] = {
-      {&cycle977Definition, cycle977},
-      {&cycle978Definition, cycle978},
+      {&cycle961Definition, cycle961}, {&cycle977Definition, cycle977}, {&cycle978Definition, cycle978},
+      {&cycle979Definition, cycle979}, {&cycle998Definition, cycle998},
   };
   return all;
 }

@@ -1,0 +1,220 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cycles/sinumerik/corrections.hpp"
+#include "cycles/sinumerik/cycles.hpp"
+#include "cycles/sinumerik/measuring_method.hpp"
+#include "cycles/sinumerik/parameters.hpp"
+#include "metrology/elements.hpp"
+
+namespace probewright::cycles::sinumerik {
+namespace {
+
+constexpr Parameter parameters961[] = {
+    parameters::variant(
+        "units: 5 right-angled inside corner, 6 right-angled outside corner, 7 any inside corner, 8 any "
+        "outside corner; tens: 0 points by distances from a pole, 1 by coordinates; hundreds: 0 "
+        "measure only, 1 zero offset; thousands: 1 protection zone; 10^4: position of the corner",
+        6),
+    parameters::zeroOffset(1),
+    parameters::dataSet(2),
+    parameters::length(3, "S_SETV0", "distance of point 1 from the pole along the 1st edge, or its 1st coordinate"),
+    parameters::length(4, "S_SETV1",
+                       "distance of point 2 from the pole along the 1st edge, or 2nd coordinate of point 1"),
+    parameters::length(5, "S_SETV2",
+                       "distance of point 3 from the pole along the 2nd edge, or 1st coordinate of point 2"),
+    parameters::length(6, "S_SETV3",
+                       "distance of point 4 from the pole along the 2nd edge, or 2nd coordinate of point 2"),
+    parameters::length(7, "S_SETV4", "pole in the 1st axis, or 1st coordinate of point 3"),
+    parameters::length(8, "S_SETV5", "pole in the 2nd axis, or 2nd coordinate of point 3"),
+    parameters::length(9, "S_SETV6", "1st coordinate of point 4"),
+    parameters::length(10, "S_SETV7", "2nd coordinate of point 4"),
+    parameters::length(11, "S_SETV8", "set value of the corner in the 1st axis"),
+    parameters::length(12, "S_SETV9", "set value of the corner in the 2nd axis"),
+    parameters::angle(13, "S_STA1", "angle from the 1st axis to the 1st edge"),
+    parameters::angle(14, "S_INCA", "angle from the 1st edge to the 2nd"),
+    parameters::length(15, "S_ID", "infeed to the measuring height at each point (protection zone)"),
+    parameters::measuringPath(16),
+    parameters::angle(17, "S_TSA", "safe area: a larger deviation of the 1st edge's angle stops the program"),
+    parameters::repetitions(18),
+    parameters::reserved(19),
+    parameters::plane(20),
+    parameters::alternative(21),
+};
+
+constexpr ResultDefinition results961[] = {
+    {"_OVR[4]", "angle of the 1st edge to the 1st axis, workpiece coordinates", ValueKind::Angle},
+    {"_OVR[5]", "corner in the 1st axis, workpiece coordinates"},
+    {"_OVR[6]", "corner in the 2nd axis, workpiece coordinates"},
+    {"_OVR[20]", "angle of the 1st edge to the 1st axis, machine coordinates", ValueKind::Angle},
+    {"_OVR[21]", "corner in the 1st axis, machine coordinates"},
+    {"_OVR[22]", "corner in the 2nd axis, machine coordinates"},
+    {"_OVI[0]", "number of the zero offset", ValueKind::Integer},
+    {"_OVI[2]", "number of the cycle", ValueKind::Integer},
+    {"_OVI[3]", "measuring variant", ValueKind::Integer},
+    {"_OVI[5]", "data set of the probe", ValueKind::Integer},
+    {"_OVI[9]", "number of the alarm", ValueKind::Integer},
+    {"_OVI[11]", "1: a zero offset was corrected", ValueKind::Integer},
+};
+
+/// The least measuring path of this cycle, mm.
+constexpr double leastPath = 20;
+
+double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// The part of `v` at right angles to the unit vector `along`, unit length.
+Vector2 squareTo(const Vector2& along, const Vector2& v) { return (v - along * along.dot(v)).normalized(); }
+
+/// Where the lines p + t*d and q + t*e meet; the directions must differ.
+Vector2 intersection(const Vector2& p, const Vector2& d, const Vector2& q, const Vector2& e) {
+  return p + d * (cross(q - p, e) / cross(d, e));
+}
+
+/// Where the touches begin and where the edges run, as the call describes them.
+struct Plan {
+  Vector2 point[4];  ///< start positions; the right-angled corner has three
+  int points = 3;
+  Vector2 pole;          ///< from where both edges can be reached
+  Vector2 edge1, edge2;  ///< unit, from the corner along the edges
+  double axisAngle = 0;  ///< the direction that becomes the 1st axis
+};
+
+Plan planOf(Context& context) {
+  Plan plan;
+  const bool rightAngled = context.digit("S_MVAR", 1) <= 6;
+  plan.points = rightAngled ? 3 : 4;
+  const auto value = [&context](int i) { return context.real(fmt::format("S_SETV{}", i)); };
+  if (context.digit("S_MVAR", 2) == 1) {
+    for (int i = 0; i < plan.points; ++i)
+      plan.point[i] = {value(2 * i), value(2 * i + 1)};
+    const Vector2 along = plan.point[1] - plan.point[0];
+    if (along.norm() < 1e-6) context.alarm(61319, "points 1 and 2 coincide");
+    const Vector2 first = along.normalized();
+    Vector2 second = rightAngled ? Vector2(-first.y(), first.x()) : Vector2(plan.point[3] - plan.point[2]);
+    if (second.norm() < 1e-6 || std::abs(cross(first, second.normalized())) < 0.01) {
+      context.alarm(61319, "the points of the two edges do not enclose an angle");
+    }
+    second.normalize();
+    plan.pole = intersection(plan.point[0], first, plan.point[2], second);
+    plan.edge1 = first * ((plan.point[0] + plan.point[1]) / 2 - plan.pole).dot(first);
+    plan.edge2 = second * (plan.point[2] - plan.pole).dot(second);
+    plan.axisAngle = degreesFromRadians(std::atan2(first.y(), first.x()));
+  } else {
+    plan.pole = {value(4), value(5)};
+    plan.axisAngle = context.real("S_STA1");
+    const double opening = rightAngled ? 90 : context.real("S_INCA");
+    if (std::abs(std::sin(radiansFromDegrees(opening))) < 0.01) context.alarm(61319, "S_INCA is no angle of a corner");
+    const Vector2 first = probing::directionAt(plan.axisAngle).head<2>();
+    const Vector2 second = probing::directionAt(plan.axisAngle + opening).head<2>();
+    const int corner = context.digit("S_MVAR", 5);
+    const auto signedAs = [](double length, bool negative) { return negative ? -std::abs(length) : length; };
+    const double l2 = signedAs(value(1), corner == 2 || corner == 3);
+    const double l4 = signedAs(value(3), corner == 3 || corner == 4);
+    double l1 = signedAs(value(0), corner == 2 || corner == 3);
+    double l3 = signedAs(value(2), corner == 3 || corner == 4);
+    if (l1 == 0) l1 = l2 / 2;
+    if (l3 == 0 && rightAngled) l3 = l4 / 2;
+    if (l1 == l2 || l1 * l2 < 0) context.alarm(61319, "points 1 and 2 (S_SETV0, S_SETV1) do not lie along one edge");
+    if (l3 == 0 || (!rightAngled && (l3 == l4 || l3 * l4 < 0))) {
+      context.alarm(61319, "points 3 and 4 (S_SETV2, S_SETV3) do not lie along one edge");
+    }
+    plan.point[0] = plan.pole + first * l1;
+    plan.point[1] = plan.pole + first * l2;
+    plan.point[2] = plan.pole + second * l3;
+    if (!rightAngled) plan.point[3] = plan.pole + second * l4;
+    plan.edge1 = first * l1;
+    plan.edge2 = second * l3;
+  }
+  plan.edge1.normalize();
+  plan.edge2.normalize();
+  return plan;
+}
+
+}  // namespace
+
+const CycleDefinition cycle961Definition = {
+    .number = 961,
+    .name = "CYCLE961",
+    .title = "Right-angled corner, any corner",
+    .family = CycleFamily::Preset,
+    .summary =
+        "Measures a corner inside or outside by three points (right angle) or four, and shifts and turns the zero "
+        "offset so that the corner has its set position and the first edge runs along the first axis.",
+    .parameters = parameters961,
+    .results = results961,
+    .controls = control::onSinumerik,
+};
+
+void cycle961(Context& context, const Arguments&) {
+  context.requireProbe({710, 712, 580});
+  context.requireCalibration();
+  const int units = context.digit("S_MVAR", 1);
+  if (units < 5 || units > 8 || context.digit("S_MVAR", 2) > 1 || context.digit("S_MVAR", 4) > 1 ||
+      context.digit("S_MVAR", 5) > 4) {
+    context.alarm(61307);
+  }
+  const auto target = taskOf(context) == Task::ZeroOffset ? frameTarget(context, GlobalBase::Refused) : std::nullopt;
+  const bool inside = units == 5 || units == 7;
+  const bool zone = context.digit("S_MVAR", 4) == 1;
+  const Plan plan = planOf(context);
+  const double asked = context.real("S_FA");
+  const double path = asked > 0 ? std::max(asked, leastPath) : asked;
+
+  probing::SinumerikProber& prober = context.prober();
+  const Vector3 start = prober.position();
+  Toucher toucher(context, Method::Standard);
+  const double side = inside ? -1 : 1;
+  const Vector2 into1 = side * squareTo(plan.edge1, plan.edge2), into2 = side * squareTo(plan.edge2, plan.edge1);
+  Vector2 centre[4];
+  for (int i = 0; i < plan.points; ++i) {
+    const Vector2& place = plan.point[i];
+    // Without leave to pass over the corner, the way to the second edge leads round it.
+    if (i == 2 && !zone) prober.moveInPlane({plan.pole.x(), plan.pole.y(), 0});
+    prober.moveInPlane({place.x(), place.y(), 0});
+    if (zone) prober.moveHeightTo(start.z() + context.real("S_ID"));
+    const Vector2 into = i < 2 ? into1 : into2;
+    const Vector3 direction(into.x(), into.y(), 0);
+    const Vector3 setpoint = prober.position() - toucher.startOf(Vector3::Zero(), direction, path);
+    centre[i] = (toucher.measure(setpoint, direction, path).surface - direction * prober.ballRadius()).head<2>();
+    if (zone) prober.moveHeightTo(start.z());
+  }
+  if (plan.points == 3) {
+    if (!zone) prober.moveInPlane({plan.pole.x(), plan.pole.y(), 0});
+    prober.moveInPlane(start);
+  }
+
+  // The ball's centres run beside the edges, one radius away.
+  const double radius = prober.ballRadius();
+  Vector2 first = (centre[1] - centre[0]).normalized();
+  if (first.dot(plan.edge1) < 0) first = -first;
+  Vector2 second = plan.points == 4 ? Vector2((centre[3] - centre[2]).normalized()) : Vector2(-first.y(), first.x());
+  if (second.dot(plan.edge2) < 0) second = -second;
+  const Vector2 corner = intersection(centre[0] + side * squareTo(first, second) * radius, first,
+                                      centre[2] + side * squareTo(second, first) * radius, second);
+  const bool reversed = first.dot(probing::directionAt(plan.axisAngle).head<2>()) < 0;
+  const Vector2 axis = reversed ? Vector2(-first) : first;
+  const double angle = degreesFromRadians(std::atan2(axis.y(), axis.x()));
+
+  const Vector3 onMachine = machinePoint(context, {corner.x(), corner.y(), start.z()});
+  const Vector3 inPlane = context.control().workingPlane().planeFromXyz(onMachine);
+  const Vector3 axisOnMachine = context.control().workingPlane().planeFromXyz(
+      machinePoint(context, {corner.x() + axis.x(), corner.y() + axis.y(), start.z()}) - onMachine);
+  context.result(4, angle, {.nominal = plan.axisAngle});
+  context.result(5, corner.x());
+  context.result(6, corner.y());
+  context.result(20, degreesFromRadians(std::atan2(axisOnMachine.y(), axisOnMachine.x())));
+  context.result(21, inPlane.x());
+  context.result(22, inPlane.y());
+  context.noteCall();
+  context.checkSafeArea(normalizedDegrees(angle - plan.axisAngle));
+
+  if (target) {
+    correctRotation(context, *target, rotation(Vector3::UnitZ(), angle).linear());
+    const Vector3 directions[] = {Vector3::UnitX(), Vector3::UnitY()};
+    correctTranslation(context, *target, onMachine, {context.real("S_SETV8"), context.real("S_SETV9"), 0}, directions);
+  }
+}
+
+}  // namespace probewright::cycles::sinumerik

@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "cycles/sinumerik/corrections.hpp"
+#include "cycles/sinumerik/cycles.hpp"
+#include "cycles/sinumerik/measuring_method.hpp"
+#include "cycles/sinumerik/parameters.hpp"
+#include "metrology/fits.hpp"
+
+namespace probewright::cycles::sinumerik {
+namespace {
+
+constexpr Parameter parameters979[] = {
+    parameters::variant("units: 1 hole, 2 spigot; hundreds: 0 measure only, 1 zero offset, 2 tool; thousands: 0 three "
+                        "points, 1 four points; 10^4: 0 as calibrated, 1 spindle reversal, 2 probe aligned"),
+    parameters::zeroOffset(1),
+    parameters::toolToCorrect(2),
+    parameters::dataSet(3),
+    parameters::length(4, "S_SETV", "set value of the diameter"),
+    parameters::measuringPath(5),
+    parameters::safeArea(6),
+    parameters::length(7, "S_CPA", "set value of the centre, 1st axis"),
+    parameters::length(8, "S_CPO", "set value of the centre, 2nd axis"),
+    parameters::angle(9, "S_STA1", "angle of the first point from the 1st axis"),
+    parameters::angle(10, "S_INCA", "angle from point to point; negative: clockwise"),
+    parameters::repetitions(11),
+    parameters::toolName(12),
+    parameters::dlNumber(13),
+    parameters::zeroOffsetRange(14),
+    parameters::dimensionalDifference(15),
+    parameters::upperTolerance(16),
+    parameters::lowerTolerance(17),
+    parameters::meanRange(18),
+    parameters::weight(19),
+    parameters::memories(20),
+    parameters::reserved(21),
+    parameters::plane(22),
+    parameters::tolerance(23),
+};
+
+constexpr auto results979 =
+    parameters::joined(std::array<ResultDefinition, 9>{{{"_OVR[0]", "set value of the diameter"},
+                                                        {"_OVR[1]", "set value of the centre, 1st axis"},
+                                                        {"_OVR[2]", "set value of the centre, 2nd axis"},
+                                                        {"_OVR[4]", "actual value of the diameter"},
+                                                        {"_OVR[5]", "actual value of the centre, 1st axis"},
+                                                        {"_OVR[6]", "actual value of the centre, 2nd axis"},
+                                                        {"_OVR[16]", "difference of the diameter"},
+                                                        {"_OVR[17]", "difference of the centre, 1st axis"},
+                                                        {"_OVR[18]", "difference of the centre, 2nd axis"}}},
+                       parameters::correctionResults);
+
+}  // namespace
+
+const CycleDefinition cycle979Definition = {
+    .number = 979,
+    .name = "CYCLE979",
+    .title = "Circle segment inside, outside",
+    .family = CycleFamily::Inspection,
+    .summary =
+        "Measures diameter and centre of a segment of a hole or spigot by three or four points at given angles and "
+        "corrects the zero offset or the tool.",
+    .parameters = parameters979,
+    .results = results979,
+    .controls = control::onSinumerik,
+};
+
+void cycle979(Context& context, const Arguments&) {
+  context.requireProbe({710, 712, 580});
+  context.requireCalibration();
+  const int units = context.digit("S_MVAR", 1);
+  if (units < 1 || units > 2 || context.digit("S_MVAR", 4) > 1) context.alarm(61307);
+  const Side side = units == 1 ? Side::Inside : Side::Outside;
+  const Task task = taskOf(context);
+  const Method method = methodOf(context);
+  const int count = 3 + context.digit("S_MVAR", 4);
+  const double step = context.real("S_INCA");
+  if (step == 0 || std::abs(step) > 360.0 / count) {
+    context.alarm(61319,
+                  fmt::format("S_INCA: more than 0, at most {:.0f} degrees with {} points", 360.0 / count, count));
+  }
+  const auto target = task == Task::ZeroOffset ? frameTarget(context, GlobalBase::Allowed) : std::nullopt;
+  const double set = setValueOf(context, task, context.real("S_SETV"));
+  if (!(set > 0)) context.alarm(61319, "the set diameter must be greater than 0");
+
+  probing::SinumerikProber& prober = context.prober();
+  const Vector3 setCentre(context.real("S_CPA"), context.real("S_CPO"), prober.position().z());
+  const double path = context.real("S_FA");
+  Toucher toucher(context, method);
+  std::vector<Vector2> ballCentres;
+  for (const probing::PlannedTouch& touch :
+       probing::planCircle(setCentre, set, context.real("S_STA1"), step, count, side)) {
+    if (!ballCentres.empty()) prober.moveOnArc(setCentre, step);
+    const Vector3 surface = toucher.measure(touch.surface, touch.direction, path).surface;
+    ballCentres.push_back((surface - touch.direction * prober.ballRadius()).head<2>());
+  }
+  toucher.finish();
+
+  const auto fit = metrology::fitCircle(ballCentres);
+  if (!fit) context.alarm(61316, fit.error().message);
+  const Vector3 centre(fit->shape.centre.x(), fit->shape.centre.y(), setCentre.z());
+  const double diameter = 2 * (fit->shape.radius + outwards(side) * prober.ballRadius());
+
+  context.result(0, set);
+  context.result(1, setCentre.x());
+  context.result(2, setCentre.y());
+  context.result(4, diameter, {.nominal = set});
+  context.result(5, centre.x(), {.nominal = setCentre.x()});
+  context.result(6, centre.y(), {.nominal = setCentre.y()});
+  context.result(16, diameter - set);
+  context.result(17, centre.x() - setCentre.x());
+  context.result(18, centre.y() - setCentre.y());
+  context.noteCall();
+  context.checkSafeArea(diameter - set);
+  if (task == Task::ZeroOffset) {
+    context.checkSafeArea(centre.x() - setCentre.x());
+    context.checkSafeArea(centre.y() - setCentre.y());
+  }
+  if (target) {
+    const Vector3 directions[] = {Vector3::UnitX(), Vector3::UnitY()};
+    correctTranslation(context, *target, machinePoint(context, centre), setCentre, directions);
+    context.result(28, context.real("S_TSA"));
+  }
+  if (task == Task::Tool) {
+    const Dimension dimensions[] = {{.set = set, .actual = diameter}};
+    correctTool(context, dimensions, influenceOnSize(side));
+  }
+}
+
+}  // namespace probewright::cycles::sinumerik

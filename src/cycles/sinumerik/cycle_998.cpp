@@ -1,0 +1,284 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cycles/sinumerik/corrections.hpp"
+#include "cycles/sinumerik/cycles.hpp"
+#include "cycles/sinumerik/measuring_method.hpp"
+#include "cycles/sinumerik/parameters.hpp"
+
+namespace probewright::cycles::sinumerik {
+namespace {
+
+constexpr Parameter parameters998[] = {
+    parameters::variant(
+        "units: 5 edge, 6 plane; hundreds: 0 measure only, 1 zero offset; thousands: 1 protection zone; "
+        "10^4: 1 spindle reversal; 10^5: 0 positions along the expected angle, 1 along the axes",
+        5),
+    parameters::zeroOffset(1),
+    parameters::code(2, "S_RA", "0: correct the rotation; otherwise number of the rotary axis to correct"),
+    parameters::dataSet(3),
+    parameters::length(4, "S_SETV",
+                       "way along the measuring axis to the measuring height (protection zone); its sign is "
+                       "the measuring direction where S_MD leaves it open"),
+    parameters::angle(5, "S_STA1", "set angle of the edge, or of the plane about the 1st axis"),
+    parameters::angle(6, "S_INCA", "set angle of the plane about the 2nd axis"),
+    parameters::measuringPath(7),
+    parameters::angle(8, "S_TSA", "safe area: a larger deviation of the angle stops the program"),
+    parameters::code(9, "S_MA", "units: measuring axis, hundreds: offset axis", 201),
+    parameters::code(10, "S_MD", "measuring direction: 0 by S_SETV, 1 plus, 2 minus"),
+    parameters::length(11, "S_ID", "edge: distance of the points in the offset axis"),
+    parameters::length(12, "S_SETV0", "plane: distance from point 1 to point 2 in the 1st axis"),
+    parameters::length(13, "S_SETV1", "not used"),
+    parameters::length(14, "S_SETV2", "plane: distance from point 1 to point 3 in the 1st axis"),
+    parameters::length(15, "S_SETV3", "plane: distance from point 1 to point 3 in the 2nd axis"),
+    parameters::repetitions(16),
+    parameters::code(17, "S_EVNUM", "number of the empirical value (degrees)"),
+    parameters::plane(18),
+    parameters::alternative(19),
+};
+
+constexpr ResultDefinition results998[] = {
+    {"_OVR[0]", "set angle; of a plane: about the 1st axis", ValueKind::Angle},
+    {"_OVR[1]", "set angle of a plane about the 2nd axis", ValueKind::Angle},
+    {"_OVR[4]", "actual angle; of a plane: about the 1st axis", ValueKind::Angle},
+    {"_OVR[5]", "actual angle of a plane about the 2nd axis", ValueKind::Angle},
+    {"_OVR[16]", "difference of the angle; of a plane: about the 1st axis", ValueKind::Angle},
+    {"_OVR[17]", "difference of a plane's angle about the 2nd axis", ValueKind::Angle},
+    {"_OVR[20]", "correction angle", ValueKind::Angle},
+    {"_OVR[21]", "correction angle of a plane about the 1st axis", ValueKind::Angle},
+    {"_OVR[22]", "correction angle of a plane about the 2nd axis", ValueKind::Angle},
+    {"_OVR[23]", "correction angle of a plane about the 3rd axis", ValueKind::Angle},
+    {"_OVR[28]", "safe area", ValueKind::Angle},
+    {"_OVR[30]", "empirical value", ValueKind::Angle},
+    {"_OVI[0]", "number of the zero offset", ValueKind::Integer},
+    {"_OVI[2]", "number of the cycle", ValueKind::Integer},
+    {"_OVI[3]", "measuring variant", ValueKind::Integer},
+    {"_OVI[5]", "data set of the probe", ValueKind::Integer},
+    {"_OVI[7]", "number of the empirical value", ValueKind::Integer},
+    {"_OVI[9]", "number of the alarm", ValueKind::Integer},
+    {"_OVI[11]", "1: a zero offset was corrected", ValueKind::Integer},
+};
+
+constexpr double greatestAngle = 45;
+
+double tangent(double degrees) { return std::tan(radiansFromDegrees(degrees)); }
+
+/// Touches points in one direction from the start height of the measuring axis.
+class Steps {
+public:
+  Steps(Context& context, Toucher& toucher, const Vector3& direction)
+      : context_(context),
+        toucher_(toucher),
+        direction_(direction),
+        home_(context.prober().position()),
+        path_(context.real("S_FA")),
+        zone_(context.digit("S_MVAR", 4) == 1),
+        infeed_(zone_ ? context.real("S_SETV") : 0) {}
+
+  /// From where the cycle started.
+  Vector3 first() { return touchFrom(Vector3::Zero()); }
+
+  /// `offset` beside the first point, at the same height of the measuring axis.
+  Vector3 beside(const Vector3& offset) { return touchFrom(offset); }
+
+  /// `offset` beside `point`, where the surface is expected to be `rise` further along the positive measuring axis,
+  /// with room for a deviation of `uncertain` degrees.
+  Vector3 along(const Vector3& point, const Vector3& offset, double rise, double uncertain) {
+    const Vector3 axis = direction_.cwiseAbs();
+    Vector3 setpoint = point + offset + axis * rise;
+    const double path = path_ + offset.norm() * tangent(std::min(std::abs(uncertain), greatestAngle));
+    leave(offset);
+    return toucher_.measure(setpoint, direction_, path).surface;
+  }
+
+  /// Back to the start position of the first point.
+  void back() {
+    leave(Vector3::Zero());
+    context_.prober().moveTo(home_ + infeedVector());
+  }
+
+private:
+  Vector3 infeedVector() const { return direction_.cwiseAbs() * infeed_; }
+
+  /// With a protection zone: back to the start height and over to the next place.
+  void leave(const Vector3& offset) {
+    if (!zone_) return;
+    const Vector3 here = context_.prober().position();
+    const Vector3 axis = direction_.cwiseAbs();
+    context_.prober().moveTo(here + axis * axis.dot(home_ - here));
+    context_.prober().moveTo(home_ + offset);
+  }
+
+  Vector3 touchFrom(const Vector3& offset) {
+    if (!offset.isZero()) leave(offset);
+    const Vector3 place = home_ + infeedVector() + offset;
+    return toucher_.measure(place - toucher_.startOf(Vector3::Zero(), direction_, path_), direction_, path_).surface;
+  }
+
+  Context& context_;
+  Toucher& toucher_;
+  Vector3 direction_, home_;
+  double path_;
+  bool zone_;
+  double infeed_;
+};
+
+void correctAngle(Context& context, const FrameTarget& target, const Vector3& about, double angle) {
+  const int rotaryAxis = context.integer("S_RA");
+  if (rotaryAxis == 0) {
+    correctRotation(context, target, rotation(about, angle).linear());
+  } else {
+    correctRotaryAxis(context, target, static_cast<std::size_t>(rotaryAxis - 1), about, angle);
+  }
+}
+
+void measureEdge(Context& context, const std::optional<FrameTarget>& target, Method method) {
+  const int measuring = context.digit("S_MA", 1) - 1, offset = context.digit("S_MA", 3) - 1;
+  if (measuring < 0 || measuring > 2 || offset < 0 || offset > 2 || measuring == offset ||
+      context.digit("S_MA", 2) != 0) {
+    context.alarm(61325, fmt::format("S_MA = {}", context.integer("S_MA")));
+  }
+  const int way = context.integer("S_MD");
+  if (way < 0 || way > 2 || (way == 0 && context.real("S_SETV") == 0)) {
+    context.alarm(61326, "S_MD is 1 (plus) or 2 (minus), or S_SETV has the sign of the direction");
+  }
+  const double sign = way == 1 || (way == 0 && context.real("S_SETV") > 0) ? 1 : -1;
+  const double distance = context.real("S_ID"), set = context.real("S_STA1");
+  if (!(distance > 0)) context.alarm(61319, "S_ID, the distance of the points, must be greater than 0");
+  if (std::abs(set) > greatestAngle) context.alarm(61319, "S_STA1 is between -45 and 45 degrees");
+  if (method != Method::Standard && measuring == 2) {
+    context.alarm(61307, "spindle reversal measures only in the plane");
+  }
+
+  // The angle counts from the positive offset axis, counter-clockwise about the third axis.
+  const Vector3 along = Vector3::Unit(offset), across = Vector3::Unit(measuring),
+                about = Vector3::Unit(3 - measuring - offset);
+  const double sense = along.cross(across).dot(about);
+
+  Toucher toucher(context, method);
+  Steps steps(context, toucher, across * sign);
+  const Vector3 first = steps.first();
+  const Vector3 second =
+      context.digit("S_MVAR", 6) == 1
+          ? steps.beside(along * distance)
+          : steps.along(first, along * distance, sense * distance * tangent(set), context.real("S_TSA"));
+  toucher.finish();
+
+  const double empirical = target ? empiricalValue(context) : 0;
+  const double actual = degreesFromRadians(sense * std::atan2(across.dot(second - first), along.dot(second - first)));
+  const double difference = actual - set - empirical;
+  context.result(0, set);
+  context.result(4, actual, {.nominal = set});
+  context.result(16, difference);
+  context.result(28, context.real("S_TSA"));
+  context.result(30, empirical);
+  context.noteCall();
+  if (std::abs(actual) > greatestAngle) context.alarm(61331, fmt::format("{:.3f} degrees", actual));
+  context.checkSafeArea(difference);
+  if (target) {
+    correctAngle(context, *target, about, difference);
+    context.result(20, difference);
+    context.resultInteger(7, context.integer("S_EVNUM") % 10000);
+  }
+}
+
+/// The orientation of a plane: turned about the 2nd axis, then about the 1st.
+Matrix3 planeOrientation(double aboutFirst, double aboutSecond) {
+  return (rotation(Vector3::UnitY(), aboutSecond) * rotation(Vector3::UnitX(), aboutFirst)).linear();
+}
+
+void measurePlane(Context& context, const std::optional<FrameTarget>& target, Method method) {
+  if (method != Method::Standard)
+    context.alarm(61307, "a plane is measured along the tool by the standard method only");
+  if (context.integer("S_RA") != 0) context.alarm(61325, "a plane corrects rotations only: S_RA = 0");
+  const double setFirst = context.real("S_STA1"), setSecond = context.real("S_INCA");
+  if (std::abs(setFirst) > 60) context.alarm(61319, "S_STA1 of a plane is between -60 and 60 degrees");
+  if (std::abs(setSecond) > 30) context.alarm(61319, "S_INCA is between -30 and 30 degrees");
+  const Vector3 toSecond(context.real("S_SETV0"), 0, 0);
+  const Vector3 toThird(context.real("S_SETV2"), context.real("S_SETV3"), 0);
+  if (!(toSecond.x() > 0) || !(toThird.y() > 0)) {
+    context.alarm(61319, "the distances S_SETV0 and S_SETV3 of the points must be greater than 0");
+  }
+
+  Toucher toucher(context, method);
+  Steps steps(context, toucher, -Vector3::UnitZ());
+  const Vector3 first = steps.first();
+  Vector3 second, third;
+  if (context.digit("S_MVAR", 6) == 1) {
+    second = steps.beside(toSecond);
+    steps.back();
+    third = steps.beside(toThird);
+  } else {
+    const Vector3 normal = planeOrientation(setFirst, setSecond).col(2);
+    const auto riseOf = [&](const Vector3& way) { return -normal.dot(way) / normal.z(); };
+    second = steps.along(first, toSecond, riseOf(toSecond), context.real("S_TSA"));
+    steps.back();
+    third = steps.along(first, toThird, riseOf(toThird), context.real("S_TSA"));
+  }
+
+  const double empirical = target ? empiricalValue(context) : 0;
+  const Vector3 normal = (second - first).cross(third - first).normalized();
+  const double actualFirst = degreesFromRadians(std::asin(-normal.y()));
+  const double actualSecond = degreesFromRadians(std::atan2(normal.x(), normal.z()));
+  const double differenceFirst = actualFirst - setFirst - empirical;
+  const double differenceSecond = actualSecond - setSecond - empirical;
+  context.result(0, setFirst);
+  context.result(1, setSecond);
+  context.result(4, actualFirst, {.nominal = setFirst});
+  context.result(5, actualSecond, {.nominal = setSecond});
+  context.result(16, differenceFirst);
+  context.result(17, differenceSecond);
+  context.result(28, context.real("S_TSA"));
+  context.result(30, empirical);
+  context.noteCall();
+  if (std::abs(actualFirst) > greatestAngle || std::abs(actualSecond) > greatestAngle) {
+    context.alarm(61331, fmt::format("{:.3f} and {:.3f} degrees", actualFirst, actualSecond));
+  }
+  context.checkSafeArea(differenceFirst);
+  context.checkSafeArea(differenceSecond);
+  if (target) {
+    const Matrix3 turn = planeOrientation(setFirst + differenceFirst, setSecond + differenceSecond) *
+                         planeOrientation(setFirst, setSecond).transpose();
+    correctRotation(context, *target, turn);
+    const Vector3 angles = control::sinumerik::rpyFromRotation(turn);
+    context.result(20, degreesFromRadians(Eigen::AngleAxisd(turn).angle()));
+    for (int axis = 0; axis < 3; ++axis)
+      context.result(21 + axis, angles[axis]);
+    context.resultInteger(7, context.integer("S_EVNUM") % 10000);
+  }
+}
+
+}  // namespace
+
+const CycleDefinition cycle998Definition = {
+    .number = 998,
+    .name = "CYCLE998",
+    .title = "Align edge, align plane",
+    .family = CycleFamily::Misalignment,
+    .summary =
+        "Measures the angle of an edge by two points, or of a plane by three, and turns the zero offset, or shifts "
+        "a rotary axis, so that it has its set angle.",
+    .parameters = parameters998,
+    .results = results998,
+    .controls = control::onSinumerik,
+};
+
+void cycle998(Context& context, const Arguments&) {
+  context.requireProbe({710, 712, 580});
+  context.requireCalibration();
+  const int units = context.digit("S_MVAR", 1);
+  if ((units != 5 && units != 6) || context.digit("S_MVAR", 4) > 1 || context.digit("S_MVAR", 6) > 1) {
+    context.alarm(61307);
+  }
+  const Method method = methodOf(context);
+  if (method == Method::ProbeAligned) context.alarm(61307, "10^4 of S_MVAR");
+  const auto target = taskOf(context) == Task::ZeroOffset ? frameTarget(context, GlobalBase::Refused) : std::nullopt;
+  if (units == 5) {
+    measureEdge(context, target, method);
+  } else {
+    measurePlane(context, target, method);
+  }
+}
+
+}  // namespace probewright::cycles::sinumerik
