@@ -53,7 +53,10 @@ void cycle420(Context& context, const Arguments&) {
     measured = undirected(degreesFromRadians(std::atan2(-edge.along.z(), edge.along.x())));
   }
   context.result(150, measured);
-  writeLog(context, {.title = "Angle Measuring", .items = {}, .further = {{"Measured angle", measured}}});
+  writeLog(context, {.title = "Angle Measuring",
+                     .items = {},
+                     .measured = {{"Measured angle", measured, ValueKind::Angle}},
+                     .further = {{"Measuring height", context.q(261)}}});
 }
 
 }  // namespace probewright::cycles::heidenhain

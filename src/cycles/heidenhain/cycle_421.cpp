@@ -62,9 +62,8 @@ void cycle421(Context& context, const Arguments&) {
   context.require({});
   const MeasuredCircle circle = measureCircle(context, {273, 274, 262}, Side::Inside);
 
-  Inspection inspection{.title = "Hole Measuring",
-                        .items = {},
-                        .further = {{"Measuring height", context.q(261) / context.control().unit}}};
+  Inspection inspection{
+      .title = "Hole Measuring", .items = {}, .measured = {}, .further = {{"Measuring height", context.q(261)}}};
   inspection.items = {
       inspectedPosition(151, 161, "Center in reference axis", context.q(273), circle.centre.x(), context.q(279)),
       inspectedPosition(152, 162, "Center in minor axis", context.q(274), circle.centre.y(), context.q(280)),

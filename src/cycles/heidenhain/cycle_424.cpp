@@ -63,7 +63,8 @@ void cycle424(Context& context, const Arguments&) {
 
   Inspection inspection{.title = "Rectangular Stud Measuring",
                         .items = {},
-                        .further = {{"Measuring height", context.q(261) / context.control().unit}}};
+                        .measured = {},
+                        .further = {{"Measuring height", context.q(261)}}};
   inspection.items = {
       inspectedPosition(151, 161, "Center in reference axis", context.q(273), rectangle.centre.x(), context.q(279)),
       inspectedPosition(152, 162, "Center in minor axis", context.q(274), rectangle.centre.y(), context.q(280)),

@@ -62,9 +62,8 @@ void cycle427(Context& context, const Arguments&) {
   if (side == Side::Inside) std::swap(maximum, minimum);
   const double actual = touch.surface[axis];
   const double nominal = planned.surface[axis];
-  Inspection inspection{.title = "Coordinate Measuring",
-                        .items = {},
-                        .further = {{"Measuring height", context.q(261) / context.control().unit}}};
+  Inspection inspection{
+      .title = "Coordinate Measuring", .items = {}, .measured = {}, .further = {{"Measuring height", context.q(261)}}};
   inspection.items = {
       inspectedDimension(160, 0, "Measured coordinate", "coordinate", nominal, actual, maximum, minimum, side)};
   const double deviation = actual - nominal;

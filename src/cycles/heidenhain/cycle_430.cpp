@@ -49,7 +49,8 @@ void cycle430(Context& context, const Arguments&) {
   const MeasuredCircle circle = measureBoltCircle(context);
   Inspection inspection{.title = "Bolt Hole Circle Measuring",
                         .items = {},
-                        .further = {{"Measuring height", context.q(261) / context.control().unit}}};
+                        .measured = {},
+                        .further = {{"Measuring height", context.q(261)}}};
   inspection.items = {
       inspectedPosition(151, 161, "Center in reference axis", context.q(273), circle.centre.x(), context.q(279)),
       inspectedPosition(152, 162, "Center in minor axis", context.q(274), circle.centre.y(), context.q(280)),

@@ -89,16 +89,20 @@ void cycle431(Context& context, const Arguments&) {
   context.result(173, touches[0].surface.z(), {.nominal = context.q(294)});
   context.result(174, touches[1].surface.z(), {.nominal = context.q(295)});
   context.result(175, touches[2].surface.z(), {.nominal = context.q(298)});
+  const auto angle = [](std::string label, double degrees) {
+    return LogLine{std::move(label), degrees, ValueKind::Angle};
+  };
   writeLog(context, {.title = "Plane Measuring",
                      .items = {},
-                     .further = {{"Projection angle A axis", degreesFromRadians(std::atan2(-n.y(), n.z()))},
-                                 {"Projection angle B axis", degreesFromRadians(std::atan2(n.x(), n.z()))},
-                                 {"Space angle A", space.x()},
-                                 {"Space angle B", space.y()},
-                                 {"Space angle C", space.z()},
-                                 {"1st measured value", touches[0].surface.z() / context.control().unit},
-                                 {"2nd measured value", touches[1].surface.z() / context.control().unit},
-                                 {"3rd measured value", touches[2].surface.z() / context.control().unit}}});
+                     .measured = {angle("Projection angle A axis", degreesFromRadians(std::atan2(-n.y(), n.z()))),
+                                  angle("Projection angle B axis", degreesFromRadians(std::atan2(n.x(), n.z()))),
+                                  angle("Space angle A", space.x()),
+                                  angle("Space angle B", space.y()),
+                                  angle("Space angle C", space.z()),
+                                  {"1st measured value", touches[0].surface.z()},
+                                  {"2nd measured value", touches[1].surface.z()},
+                                  {"3rd measured value", touches[2].surface.z()}},
+                     .further = {}});
 }
 
 }  // namespace probewright::cycles::heidenhain

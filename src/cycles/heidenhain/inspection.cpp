@@ -8,6 +8,7 @@
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
+#include "metrology/tolerance.hpp"
 
 namespace probewright::cycles::heidenhain {
 
@@ -16,19 +17,12 @@ using control::EventKind;
 
 namespace {
 
-Verdict worse(Verdict a, Verdict b) { return static_cast<int>(a) > static_cast<int>(b) ? a : b; }
-
-std::string section(std::string_view title, const std::vector<std::pair<std::string, double>>& rows) {
-  std::string text;
-  std::size_t width = 39;
-  for (const auto& [label, value] : rows)
-    width = std::max(width, label.size() + 1);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    text += fmt::format("{:<21}{:<{}} {:>10}\n", i == 0 ? title : "", rows[i].first + ":", width + 1,
-                        formatFixed(rows[i].second, 4));
-  }
-  return text;
-}
+/// One section of the log: a title and what stands beside and below it.
+struct Section {
+  std::string_view rule;
+  std::string_view title;
+  std::vector<LogLine> lines;
+};
 
 }  // namespace
 
@@ -47,7 +41,7 @@ Inspected inspectedPosition(int parameter, int deviationParameter, std::string l
   if (tolerance != 0) {
     item.maximum = nominal + tolerance;
     item.minimum = nominal - tolerance;
-    item.verdict = std::abs(actual - nominal) > tolerance ? Verdict::Scrap : Verdict::Good;
+    item.verdict = metrology::positionVerdict(actual, {*item.minimum, *item.maximum});
   }
   return item;
 }
@@ -65,14 +59,9 @@ Inspected inspectedDimension(int parameter, int deviationParameter, std::string 
   if (maximum != 0 || minimum != 0) {
     item.maximum = maximum;
     item.minimum = minimum;
-    const bool inside = side == Side::Inside;
-    if (actual > maximum) {
-      item.verdict = inside ? Verdict::Scrap : Verdict::Rework;
-    } else if (actual < minimum) {
-      item.verdict = inside ? Verdict::Rework : Verdict::Scrap;
-    } else {
-      item.verdict = Verdict::Good;
-    }
+    const metrology::Limits limits{minimum, maximum};
+    item.verdict =
+        side == Side::Inside ? metrology::boreVerdict(actual, limits) : metrology::studVerdict(actual, limits);
   }
   return item;
 }
@@ -80,7 +69,7 @@ Inspected inspectedDimension(int parameter, int deviationParameter, std::string 
 Verdict verdictOf(const Inspection& inspection) {
   Verdict verdict = Verdict::Good;
   for (const Inspected& item : inspection.items)
-    verdict = worse(verdict, item.verdict);
+    verdict = metrology::worst(verdict, item.verdict);
   return verdict;
 }
 
@@ -91,30 +80,48 @@ std::string logText(Context& context, const Inspection& inspection) {
   const std::tm time = fmt::gmtime(static_cast<std::time_t>(now));
   const std::string rule(61, '-');
   const std::string stars(61, '*');
-  const double unit = control.unit;
 
-  std::vector<std::pair<std::string, double>> nominal, limits, actual, deviations, further;
+  Section nominal{rule, "Nominal values:", {}}, limits{rule, "Given limit values:", {}},
+      actual{stars, "Actual values:", inspection.measured}, deviations{rule, "Deviations:", {}},
+      further{stars, "Further measuring results:", inspection.further};
+  std::vector<LogLine> actualItems;
   for (const Inspected& item : inspection.items) {
-    nominal.emplace_back(item.label, item.nominal / unit);
-    actual.emplace_back(item.label, item.actual / unit);
-    deviations.emplace_back(item.label, item.deviation() / unit);
-    if (item.maximum) limits.emplace_back(item.maximumLabel, *item.maximum / unit);
-    if (item.minimum) limits.emplace_back(item.minimumLabel, *item.minimum / unit);
+    nominal.lines.push_back({item.label, item.nominal});
+    actualItems.push_back({item.label, item.actual});
+    deviations.lines.push_back({item.label, item.deviation()});
+    if (item.maximum) limits.lines.push_back({item.maximumLabel, *item.maximum});
+    if (item.minimum) limits.lines.push_back({item.minimumLabel, *item.minimum});
   }
-  for (const auto& [label, value] : inspection.further)
-    further.emplace_back(label, value / unit);
+  actual.lines.insert(actual.lines.begin(), actualItems.begin(), actualItems.end());
 
   std::string text =
       fmt::format("****** Measuring Log for Probing Cycle {} {} *****\n\n", context.record().name, inspection.title);
   text += fmt::format("Date:              {:02}-{:02}-{:04}\n", time.tm_mday, time.tm_mon + 1, time.tm_year + 1900);
   text += fmt::format("Time:              {}:{:02}:{:02}\n", time.tm_hour, time.tm_min, time.tm_sec);
   text += fmt::format("Measuring program: {}\n", control.programPath);
-  if (!nominal.empty()) text += rule + "\n" + section("Nominal values:", nominal);
-  if (!limits.empty()) text += rule + "\n" + section("Given limit values:", limits);
-  if (!actual.empty()) text += stars + "\n" + section("Actual values:", actual);
-  if (!deviations.empty()) text += rule + "\n" + section("Deviations:", deviations);
-  if (!further.empty()) text += stars + "\n" + section("Further results:", further);
-  text += "\n******************** End of measuring log ********************\n";
+  // Values end in one column throughout, 8 characters right of the longest label.
+  constexpr std::size_t indent = 21, shortestLabel = 43, valueWidth = 8;
+  std::size_t width = shortestLabel;
+  for (const Section* section : {&nominal, &limits, &actual, &deviations}) {
+    for (const LogLine& line : section->lines)
+      width = std::max(width, line.label.size() + 1);
+  }
+  const int decimals = control.unit == 1 ? 4 : 5;
+  for (const Section* section : {&nominal, &limits, &actual, &deviations, &further}) {
+    if (section->lines.empty()) continue;
+    text += fmt::format("{}\n", section->rule);
+    const std::size_t left = std::max(indent, section->title.size() + 1);
+    for (std::size_t i = 0; i < section->lines.size(); ++i) {
+      const LogLine& line = section->lines[i];
+      const double value = line.kind == ValueKind::Length ? line.value / control.unit : line.value;
+      const std::string label = fmt::format("{:<{}}{}:", i == 0 ? section->title : "", left, line.label);
+      const std::string number = formatFixed(value, decimals);
+      const std::size_t end = indent + width + valueWidth;
+      const std::size_t room = std::max(end - std::min(end, label.size()), number.size() + 1);
+      text += fmt::format("{}{:>{}}\n", label, number, room);
+    }
+  }
+  text += "******************** End of measuring log ********************\n";
   return text;
 }
 
@@ -141,7 +148,7 @@ void monitorTool(Context& context, const ToolMonitoring& monitoring) {
   if (row.empty()) return;
   auto& control = context.control();
   auto& tools = control.tables.tools;
-  const double breakage = tools.numberOr(row, monitoring.length ? "LBREAK" : "RBREAK", 0);
+  const double breakage = tools.numberOr(row, "RBREAK", 0);
   if (breakage > 0 && std::abs(monitoring.monitored) > breakage) {
     control.writeText(tools, row, "TL", "L");
     throw Alarm(
@@ -180,7 +187,7 @@ void finishInspection(Context& context, const Inspection& inspection, const Tool
   context.set(182, verdict == Verdict::Scrap ? 1 : 0);
 
   writeLog(context, inspection);
-  if (tool.supported) monitorTool(context, tool);
+  monitorTool(context, tool);
 
   if (context.option(309) == 1 && verdict != Verdict::Good) {
     std::string which;

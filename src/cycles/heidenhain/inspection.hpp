@@ -32,11 +32,18 @@ Inspected inspectedPosition(int parameter, int deviationParameter, std::string l
 Inspected inspectedDimension(int parameter, int deviationParameter, std::string label, std::string limitLabel,
                              double nominal, double actual, double maximum, double minimum, Side side);
 
+/// A line of the log without nominal value; mm or degrees.
+struct LogLine {
+  std::string label;
+  double value = 0;
+  ValueKind kind = ValueKind::Length;
+};
+
 struct Inspection {
   std::string title;  ///< "Hole Measuring"
   std::vector<Inspected> items;
-  /// Further results of the log: label and value, in the unit of the program.
-  std::vector<std::pair<std::string, double>> further;
+  std::vector<LogLine> measured;  ///< actual values that have no nominal value
+  std::vector<LogLine> further;   ///< further results
 };
 
 /// The worst verdict of the items; Good if nothing is monitored.
@@ -46,7 +53,6 @@ Verdict verdictOf(const Inspection& inspection);
 /// Q330 says (`excess`: material left per side; `monitored`: the deviation that breakage is judged by; `length`: the
 /// tool length is corrected instead of the radius), and stops as Q309 says. In this order, results first.
 struct ToolMonitoring {
-  bool supported = true;
   double monitored = 0;
   double excess = 0;
   bool length = false;
@@ -57,7 +63,8 @@ void finishInspection(Context& context, const Inspection& inspection, const Tool
 /// Writes or shows the log as Q281 says.
 void writeLog(Context& context, const Inspection& inspection);
 
-/// The text of a measuring log in the layout of the control.
+/// The text of a measuring log in the layout of the control: all values end in one column, with 4 decimals, in inch
+/// programs with 5.
 std::string logText(Context& context, const Inspection& inspection);
 
 /// The row of TOOL.T that Q330 means, by number (5, 5.1) or name; empty if monitoring is off. Throws Alarm if there is

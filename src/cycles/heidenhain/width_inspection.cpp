@@ -8,8 +8,8 @@ void finishWidthInspection(Context& context, double plus, double minus, Side sid
   Inspection inspection{
       .title = title,
       .items = {inspectedDimension(156, 166, "Length", "length", nominal, width, context.q(288), context.q(289), side)},
-      .further = {{"Position of centre line", (plus + minus) / 2 / context.control().unit},
-                  {"Measuring height", context.q(261) / context.control().unit}}};
+      .measured = {{"Position of center line", (plus + minus) / 2}},
+      .further = {{"Measuring height", context.q(261)}}};
   context.result(157, (plus + minus) / 2);
   const double deviation = width - nominal;
   finishInspection(context, inspection, {.monitored = deviation, .excess = -probing::outwards(side) * deviation / 2});

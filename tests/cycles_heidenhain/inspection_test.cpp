@@ -1,0 +1,557 @@
+#include <map>
+
+#include "base/number_text.hpp"
+#include "cycles_heidenhain/worlds.hpp"
+
+/// Cycles 421 to 427: measured values, deviations, verdicts, tools and logs.
+namespace probewright::testing_support {
+namespace {
+
+constexpr int worlds = 100;
+constexpr double exact = 1e-6;
+
+enum class Finding { Good, Rework, Scrap };
+
+/// What is left of a dimension that a rule of thumb knows: material left can be taken off, material missing cannot.
+Finding dimension(double actual, double maximum, double minimum, bool inside) {
+  if (maximum == 0 && minimum == 0) return Finding::Good;
+  if (actual > maximum) return inside ? Finding::Scrap : Finding::Rework;
+  if (actual < minimum) return inside ? Finding::Rework : Finding::Scrap;
+  return Finding::Good;
+}
+Finding position(double deviation, double tolerance) {
+  return tolerance != 0 && std::abs(deviation) > tolerance ? Finding::Scrap : Finding::Good;
+}
+
+void expectStatus(const Ran& ran, Finding finding) {
+  EXPECT_EQ(ran.q(180), finding == Finding::Good ? 1 : 0);
+  EXPECT_EQ(ran.q(181), finding == Finding::Rework ? 1 : 0);
+  EXPECT_EQ(ran.q(182), finding == Finding::Scrap ? 1 : 0);
+}
+
+/// Limits around a value that it keeps or misses by 0.01 to 0.2 mm; now and then none.
+struct Limits {
+  double maximum = 0, minimum = 0;
+};
+Limits limitsAround(Dice& dice, double actual) {
+  switch (dice.whole(0, 3)) {
+    case 0:
+      return {};
+    case 1:
+      return {written(actual - dice.between(0.01, 0.2), 4), written(actual - dice.between(0.3, 0.5), 4)};
+    case 2:
+      return {written(actual + dice.between(0.3, 0.5), 4), written(actual + dice.between(0.01, 0.2), 4)};
+    default:
+      return {written(actual + dice.between(0.01, 0.2), 4), written(actual - dice.between(0.01, 0.2), 4)};
+  }
+}
+double toleranceAround(Dice& dice, double deviation) {
+  switch (dice.whole(0, 2)) {
+    case 0:
+      return 0;
+    case 1:
+      return written(std::abs(deviation) + dice.between(0.01, 0.1), 4);
+    default:
+      return std::max(0.0, written(std::abs(deviation) - dice.between(0.01, 0.1), 4));
+  }
+}
+
+/// The numbers of a log by "section/label".
+std::map<std::string, double> readLog(const std::string& text) {
+  std::map<std::string, double> values;
+  std::string section;
+  std::size_t start = 0;
+  while (start < text.size()) {
+    const std::size_t end = text.find('\n', start);
+    std::string line = text.substr(start, end - start);
+    start = end + 1;
+    for (const char* title :
+         {"Nominal values:", "Given limit values:", "Actual values:", "Deviations:", "Further measuring results:"}) {
+      if (line.rfind(title, 0) != 0) continue;
+      section = title;
+      line = line.substr(section.size());
+    }
+    const std::size_t colon = line.rfind(':');
+    if (section.empty() || colon == std::string::npos) continue;
+    const std::size_t first = line.find_first_not_of(' ');
+    values[section + line.substr(first, colon - first)] = std::stod(line.substr(colon + 1));
+  }
+  return values;
+}
+
+struct CircleFeature {
+  int cycle;
+  bool inside;
+  int maximum, minimum;  ///< the parameters with the limits
+};
+
+/// Cycles 421 and 422 in any unit.
+void expectCircle(const CircleFeature& feature) {
+  Dice dice(static_cast<unsigned>(feature.cycle));
+  for (int world = 0; world < worlds; ++world) {
+    SCOPED_TRACE(fmt::format("world {}", world));
+    PlantedPart part = plant(dice, controlOf(world), 0.5, 180);
+    const double ball = part.bench.believedProbe().radius;
+    const double diameter = dice.between(2 * ball + 6, 90);
+    if (feature.inside) {
+      part.bench.part(simulation::Ring(diameter / 2, diameter / 2 + 40, -40), part.machineFromPart);
+    } else {
+      part.bench.part(simulation::RoundBar(diameter / 2, -40, 0), part.machineFromPart);
+    }
+    part.bench.knows(5, "MILL", 50, 8);
+    const double nominal = written(diameter + dice.between(-0.3, 0.3));
+    const Vector3 truth = part.truth();
+    const Limits limits = limitsAround(dice, diameter);
+    const double tolerance1 = toleranceAround(dice, truth.x() - part.nominal.x());
+    const double tolerance2 = toleranceAround(dice, truth.y() - part.nominal.y());
+    const bool correct = dice.coin();
+    // In an inch program the same numbers mean inches: everything is written divided by 25.4.
+    const bool inch = dice.whole(0, 3) == 0;
+    const double unit = inch ? 25.4 : 1;
+    const double bottom = part.nominal.z() - 8;
+    Words words = {{273, part.nominal.x() / unit},
+                   {274, part.nominal.y() / unit},
+                   {262, nominal / unit},
+                   {325, written(dice.between(-360, 360))},
+                   {247, written(dice.between(20, 120))},
+                   {261, bottom / unit},
+                   {320, 0},
+                   {260, (part.nominal.z() + 20) / unit},
+                   {301, dice.whole(0, 1)},
+                   {feature.maximum, limits.maximum / unit},
+                   {feature.minimum, limits.minimum / unit},
+                   {279, tolerance1 / unit},
+                   {280, tolerance2 / unit},
+                   {281, 1},
+                   {309, 0},
+                   {330, correct ? 5 : 0}};
+    if (part.bench.control == ControlKind::TNC640)
+      words = with(words, {{423, dice.whole(3, 4)}, {365, dice.whole(0, 1)}});
+    const Ran ran = part.bench.run(probe(feature.cycle, words), inch ? "INCH" : "MM");
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    // Numbers of the program have six decimals here.
+    const double near = inch ? 3e-5 : exact;
+    EXPECT_NEAR(ran.q(151) * unit, truth.x(), exact);
+    EXPECT_NEAR(ran.q(152) * unit, truth.y(), exact);
+    EXPECT_NEAR(ran.q(153) * unit, diameter, exact);
+    EXPECT_NEAR(ran.q(161) * unit, truth.x() - part.nominal.x(), near);
+    EXPECT_NEAR(ran.q(162) * unit, truth.y() - part.nominal.y(), near);
+    EXPECT_NEAR(ran.q(163) * unit, diameter - nominal, near);
+    const Finding finding = std::max({dimension(diameter, limits.maximum, limits.minimum, feature.inside),
+                                      position(truth.x() - part.nominal.x(), tolerance1),
+                                      position(truth.y() - part.nominal.y(), tolerance2)});
+    expectStatus(ran, finding);
+    // A hole that is too small was made by a tool that is smaller than believed, a stud by one that is larger.
+    const double left = (feature.inside ? nominal - diameter : diameter - nominal) / 2;
+    EXPECT_NEAR(ran.cell("TOOL.T", "5", "DR"), correct ? -left : 0, 6e-5);
+
+    const auto log = readLog(ran.outcome.files.at(fmt::format("TCHPR{}.TXT", feature.cycle)));
+    const double shown = inch ? 0.6e-5 * 25.4 + near : 0.6e-4;
+    const auto value = [&](const std::string& key) {
+      const auto found = log.find(key);
+      return found == log.end() ? std::nan("") : found->second * unit;
+    };
+    EXPECT_NEAR(value("Nominal values:Center in reference axis"), part.nominal.x(), shown);
+    EXPECT_NEAR(value("Nominal values:Diameter"), nominal, shown);
+    EXPECT_NEAR(value("Actual values:Center in minor axis"), truth.y(), shown);
+    EXPECT_NEAR(value("Actual values:Diameter"), diameter, shown);
+    EXPECT_NEAR(value("Deviations:Diameter"), diameter - nominal, shown);
+    EXPECT_NEAR(value("Deviations:Center in reference axis"), truth.x() - part.nominal.x(), shown);
+    EXPECT_NEAR(value("Further measuring results:Measuring height"), bottom, shown);
+    const std::string what = feature.inside ? "hole" : "stud";
+    if (limits.maximum != 0) {
+      EXPECT_NEAR(value("Given limit values:Maximum dimension for " + what), limits.maximum, shown);
+      EXPECT_NEAR(value("Given limit values:Minimum dimension for " + what), limits.minimum, shown);
+    } else {
+      EXPECT_FALSE(log.contains("Given limit values:Maximum dimension for " + what));
+    }
+    if (tolerance1 != 0) {
+      EXPECT_NEAR(value("Given limit values:Maximum limit for center in reference axis"), part.nominal.x() + tolerance1,
+                  2 * shown);
+    }
+  }
+}
+
+TEST(Cycle421, MeasuresAnyHole) { expectCircle({421, true, 275, 276}); }
+TEST(Cycle422, MeasuresAnyStud) { expectCircle({422, false, 277, 278}); }
+
+void expectRectangle(int cycle, bool inside) {
+  Dice dice(static_cast<unsigned>(cycle));
+  for (int world = 0; world < worlds; ++world) {
+    SCOPED_TRACE(fmt::format("world {}", world));
+    PlantedPart part = plant(dice, controlOf(world), 0.5, 2);
+    const double ball = part.bench.believedProbe().radius;
+    const Vector2 length(dice.between(2 * ball + 8, 80), dice.between(2 * ball + 8, 80));
+    if (inside) {
+      layPocket(part, length);
+    } else {
+      part.bench.part(simulation::Box({-length.x() / 2, -length.y() / 2, -40}, {length.x() / 2, length.y() / 2, 0}),
+                      part.machineFromPart);
+    }
+    part.bench.knows(5, "MILL", 50, 8);
+    const FoundRectangle found =
+        foundRectangle(part.truth().head<2>(), length, part.skew, ball, part.nominal.head<2>(), inside ? -1 : 1);
+    const Vector2 nominal(written(length.x() + dice.between(-0.3, 0.3)), written(length.y() + dice.between(-0.3, 0.3)));
+    const Limits limits1 = limitsAround(dice, found.length.x());
+    const Limits limits2 = limitsAround(dice, found.length.y());
+    const Vector2 off = found.centre - part.nominal.head<2>();
+    const double tolerance1 = toleranceAround(dice, off.x());
+    const double tolerance2 = toleranceAround(dice, off.y());
+    const Words words = {{273, part.nominal.x()},
+                         {274, part.nominal.y()},
+                         {282, nominal.x()},
+                         {283, nominal.y()},
+                         {261, part.nominal.z() - 8},
+                         {320, 1},
+                         {260, part.nominal.z() + 20},
+                         {301, dice.whole(0, 1)},
+                         {284, limits1.maximum},
+                         {285, limits1.minimum},
+                         {286, limits2.maximum},
+                         {287, limits2.minimum},
+                         {279, tolerance1},
+                         {280, tolerance2},
+                         {281, 1},
+                         {309, 0},
+                         {330, 5}};
+    const Ran ran = part.bench.run(probe(cycle, words));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(ran.q(151), found.centre.x(), exact);
+    EXPECT_NEAR(ran.q(152), found.centre.y(), exact);
+    EXPECT_NEAR(ran.q(154), found.length.x(), exact);
+    EXPECT_NEAR(ran.q(155), found.length.y(), exact);
+    EXPECT_NEAR(ran.q(161), off.x(), exact);
+    EXPECT_NEAR(ran.q(162), off.y(), exact);
+    EXPECT_NEAR(ran.q(164), found.length.x() - nominal.x(), exact);
+    EXPECT_NEAR(ran.q(165), found.length.y() - nominal.y(), exact);
+    expectStatus(ran, std::max({dimension(found.length.x(), limits1.maximum, limits1.minimum, inside),
+                                dimension(found.length.y(), limits2.maximum, limits2.minimum, inside),
+                                position(off.x(), tolerance1), position(off.y(), tolerance2)}));
+    // Only the first side corrects the tool.
+    const double left = (inside ? -1 : 1) * (found.length.x() - nominal.x()) / 2;
+    EXPECT_NEAR(ran.cell("TOOL.T", "5", "DR"), -left, 6e-5);
+    const auto log = readLog(ran.outcome.files.at(fmt::format("TCHPR{}.TXT", cycle)));
+    EXPECT_NEAR(log.at("Actual values:Side length in reference axis"), found.length.x(), 0.6e-4);
+    EXPECT_NEAR(log.at("Deviations:Side length in minor axis"), found.length.y() - nominal.y(), 0.6e-4);
+  }
+}
+
+TEST(Cycle423, MeasuresAnyRectangularPocket) { expectRectangle(423, true); }
+TEST(Cycle424, MeasuresAnyRectangularStud) { expectRectangle(424, false); }
+
+/// Cycles 425 and 426: a slot or a ridge across either axis.
+void expectWidth(int cycle, bool inside) {
+  Dice dice(static_cast<unsigned>(cycle));
+  for (int world = 0; world < worlds; ++world) {
+    SCOPED_TRACE(fmt::format("world {}", world));
+    PlantedPart part = plant(dice, controlOf(world), 0.5, 2);
+    const double ball = part.bench.believedProbe().radius;
+    const int axis = dice.whole(0, 1);
+    const double width = dice.between(2 * ball + 6, 80);
+    Vector2 length(200, 200);
+    length[axis] = width;
+    if (inside) {
+      layPocket(part, length);
+    } else {
+      part.bench.part(simulation::Box({-length.x() / 2, -length.y() / 2, -40}, {length.x() / 2, length.y() / 2, 0}),
+                      part.machineFromPart);
+    }
+    part.bench.knows(5, "MILL", 50, 8);
+    const double nominal = written(width + dice.between(-0.3, 0.3));
+    // The second touch stands aside by so much.
+    const double aside = dice.coin() ? 0 : written(dice.between(-30, 30));
+    // A wall at w/2 from the middle, met at v along it, is found at (w/2 +- ball)/cos - v tan, less the ball.
+    const Vector3 truth = part.truth();
+    const double c = std::cos(radians(part.skew));
+    const double t = std::tan(radians(part.skew)) * (axis == 0 ? -1 : 1);
+    const double out = inside ? -1 : 1;
+    const double v1 = part.nominal[1 - axis] - truth[1 - axis];
+    const double v2 = v1 + aside;
+    const double half = (width / 2 + out * ball) / c - out * ball;
+    const double plus = truth[axis] + half + v1 * t, minus = truth[axis] - half + v2 * t;
+    const double found = plus - minus;
+    const Limits limits = limitsAround(dice, found);
+    Words words = {{272, axis + 1},
+                   {261, part.nominal.z() - 8},
+                   {260, part.nominal.z() + 20},
+                   {311, nominal},
+                   {288, limits.maximum},
+                   {289, limits.minimum},
+                   {281, 1},
+                   {309, 0},
+                   {330, 5}};
+    if (inside) {
+      words = with(words, {{328, part.nominal.x()}, {329, part.nominal.y()}, {310, aside}});
+      if (part.bench.control == ControlKind::TNC640) words = with(words, {{320, 1}, {301, dice.whole(0, 1)}});
+    } else {
+      Vector2 first = part.nominal.head<2>(), second = first;
+      first[axis] += nominal / 2;
+      second[axis] -= nominal / 2;
+      second[1 - axis] += aside;
+      words = with(words, {{263, first.x()}, {264, first.y()}, {265, second.x()}, {266, second.y()}, {320, 1}});
+    }
+    const Ran ran = part.bench.run(probe(cycle, words));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(ran.q(156), found, exact);
+    EXPECT_NEAR(ran.q(157), (plus + minus) / 2, exact);
+    EXPECT_NEAR(ran.q(166), found - nominal, exact);
+    expectStatus(ran, dimension(found, limits.maximum, limits.minimum, inside));
+    EXPECT_NEAR(ran.cell("TOOL.T", "5", "DR"), -out * (found - nominal) / 2, 6e-5);
+    const auto log = readLog(ran.outcome.files.at(fmt::format("TCHPR{}.TXT", cycle)));
+    EXPECT_NEAR(log.at("Actual values:Length"), found, 0.6e-4);
+    EXPECT_NEAR(log.at("Actual values:Position of center line"), (plus + minus) / 2, 0.6e-4);
+  }
+}
+
+TEST(Cycle425, MeasuresAnySlot) { expectWidth(425, true); }
+TEST(Cycle426, MeasuresAnyRidge) { expectWidth(426, false); }
+
+TEST(Cycle427, MeasuresACoordinateInAnyAxis) {
+  Dice dice(427);
+  for (int world = 0; world < worlds; ++world) {
+    SCOPED_TRACE(fmt::format("world {}", world));
+    PlantedPart part = plant(dice, controlOf(world), 0.5, 0);
+    const double half = 20;
+    part.bench.part(simulation::Box({-half, -half, -40}, {half, half, 0}), part.machineFromPart);
+    part.bench.knows(5, "MILL", 50, 8);
+    const int axis = dice.whole(0, 2);
+    const double sense = axis == 2 || dice.coin() ? -1 : 1;
+    Vector3 nominal = part.nominal;
+    nominal[axis] -= axis == 2 ? 0 : sense * half;
+    if (axis != 2) nominal.z() -= 10;
+    double actual = part.truth()[axis];
+    if (axis != 2) actual -= sense * half;
+    Limits limits = limitsAround(dice, actual);
+    // Exchanged limits make it the wall of a recess.
+    const bool inside = limits.maximum != 0 && dice.coin();
+    const Finding finding = dimension(actual, limits.maximum, limits.minimum, inside);
+    if (inside) std::swap(limits.maximum, limits.minimum);
+    const Words words = {{263, nominal.x()},
+                         {264, nominal.y()},
+                         {261, nominal.z()},
+                         {320, 1},
+                         {272, axis + 1},
+                         {267, sense},
+                         {260, part.nominal.z() + 20},
+                         {281, 1},
+                         {288, limits.maximum},
+                         {289, limits.minimum},
+                         {309, 0},
+                         {330, 5}};
+    const Ran ran = part.bench.run(probe(427, words));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(ran.q(160), actual, exact);
+    expectStatus(ran, finding);
+    // A surface met earlier than expected has material left.
+    const double left = -sense * (actual - nominal[axis]);
+    EXPECT_NEAR(ran.cell("TOOL.T", "5", axis == 2 ? "DL" : "DR"), -left, 6e-5);
+    EXPECT_NEAR(ran.cell("TOOL.T", "5", axis == 2 ? "DR" : "DL"), 0, 1e-12);
+    EXPECT_NEAR(readLog(ran.outcome.files.at("TCHPR427.TXT")).at("Actual values:Measured coordinate"), actual, 0.6e-4);
+  }
+}
+
+TEST(Cycle420, MeasuresTheAngleOfAnyEdge) {
+  Dice dice(420);
+  for (int world = 0; world < worlds; ++world) {
+    SCOPED_TRACE(fmt::format("world {}", world));
+    PlantedPart part = plant(dice, controlOf(world), 0.3, 20);
+    part.bench.part(simulation::Box({-30, -30, -40}, {30, 30, 0}), part.machineFromPart);
+    // Touches along the skewed edges, 5 and 15 mm from the middle of the sides.
+    const int axis = dice.whole(0, 1);
+    const double sense = dice.coin() ? 1 : -1;
+    const auto onEdge = [&](double along) {
+      Vector3 local = Vector3::Zero();
+      local[axis] = -sense * 30;
+      local[1 - axis] = along;
+      return Vector3(pose(part.nominal, {0, 0, part.skew}) * local);
+    };
+    const Vector3 a = onEdge(-15), b = onEdge(5);
+    const bool swapped = dice.coin();
+    const Vector3 first = swapped ? b : a, second = swapped ? a : b;
+    const Words words = {{263, written(first.x())},
+                         {264, written(first.y())},
+                         {265, written(second.x())},
+                         {266, written(second.y())},
+                         {272, axis + 1},
+                         {267, sense},
+                         {261, part.nominal.z() - 8},
+                         {320, 1},
+                         {260, part.nominal.z() + 20},
+                         {301, 1},
+                         {281, 1}};
+    const Ran ran = part.bench.run(probe(420, words));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    // An edge along the main axis lies at the skew, one along the minor axis at 90 degrees to it, in (-90, 90].
+    double expected = part.skew + (axis == 0 ? 90 : 0);
+    if (expected > 90) expected -= 180;
+    EXPECT_NEAR(ran.q(150), expected, 1e-6);
+    EXPECT_NEAR(readLog(ran.outcome.files.at("TCHPR420.TXT")).at("Actual values:Measured angle"), expected, 0.6e-4);
+  }
+}
+
+/// A plane through the part's origin whose normal is turned by `a` about X and `b` about Y.
+TEST(Cycles420And431, MeasureTheTiltOfAnyPlane) {
+  Dice dice(431);
+  for (int world = 0; world < worlds; ++world) {
+    SCOPED_TRACE(fmt::format("world {}", world));
+    PlantedPart part = plant(dice, controlOf(world), 0.3, 0);
+    const double ball = part.bench.believedProbe().radius;
+    const Vector3 tilt(dice.between(-15, 15), dice.between(-15, 15), 0);
+    const Pose machineFromPlane = part.machineFromPart * pose(Vector3::Zero(), tilt);
+    part.bench.part(simulation::Box({-60, -60, -40}, {60, 60, 0}), machineFromPlane);
+    // The normal and heights in the preset's system.
+    const Matrix3 axes = part.machineFromPreset.linear().transpose() * machineFromPlane.linear();
+    const Vector3 n = axes.col(2);
+    const Vector3 origin = part.truth();
+    const auto height = [&](const Vector2& at) {
+      return origin.z() - (n.x() * (at.x() - origin.x()) + n.y() * (at.y() - origin.y())) / n.z();
+    };
+    std::array<Vector2, 3> at;
+    const Vector2 middle = part.nominal.head<2>();
+    at[0] = middle + Vector2(written(dice.between(-30, -20)), written(dice.between(-30, -20)));
+    at[1] = middle + Vector2(written(dice.between(20, 30)), written(dice.between(-30, -20)));
+    at[2] = middle + Vector2(written(dice.between(-10, 10)), written(dice.between(20, 30)));
+    // Point 3 on the other side: the normal still points out of the part.
+    if (dice.coin()) std::swap(at[0], at[1]);
+    Words words = {{263, at[0].x()},
+                   {264, at[0].y()},
+                   {294, written(height(at[0]) + dice.between(-1, 1))},
+                   {265, at[1].x()},
+                   {266, at[1].y()},
+                   {295, written(height(at[1]) + dice.between(-1, 1))},
+                   {296, at[2].x()},
+                   {297, at[2].y()},
+                   {298, written(height(at[2]) + dice.between(-1, 1))},
+                   {320, 1},
+                   {260, part.nominal.z() + 40},
+                   {281, 1}};
+    const Ran ran = part.bench.run(probe(431, words));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(ran.q(158), degrees(std::atan2(-n.y(), n.z())), 1e-6);
+    EXPECT_NEAR(ran.q(159), degrees(std::atan2(n.x(), n.z())), 1e-6);
+    // Space angles about the fixed axes X, then Y, then Z turn the axes onto the plane: Z onto its normal, X onto the
+    // line from the first to the second point.
+    const Matrix3 turned = pose(Vector3::Zero(), {ran.q(170), ran.q(171), ran.q(172)}).linear();
+    const Vector3 along =
+        Vector3(at[1].x() - at[0].x(), at[1].y() - at[0].y(), height(at[1]) - height(at[0])).normalized();
+    EXPECT_NEAR((turned.col(2) - n).norm(), 0, 1e-8);
+    EXPECT_NEAR((turned.col(0) - along).norm(), 0, 1e-8);
+    // The ball's lowest point stands above the slope below it.
+    const double above = ball / n.z() - ball;
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(ran.q(173 + i), height(at[static_cast<std::size_t>(i)]) + above, exact);
+    const auto log = readLog(ran.outcome.files.at("TCHPR431.TXT"));
+    EXPECT_NEAR(log.at("Actual values:Space angle B"), ran.q(171), 0.6e-4);
+    EXPECT_NEAR(log.at("Actual values:3rd measured value"), ran.q(175), 0.6e-4);
+
+    // Cycle 420 along the touch probe axis: the slope along one axis, as a turn about the other.
+    const int axis = dice.whole(0, 1);
+    Vector2 second = middle;
+    second[axis] += 25;
+    const Ran angle = part.bench.run(probe(420, {{263, middle.x()},
+                                                 {264, middle.y()},
+                                                 {265, second.x()},
+                                                 {266, second.y()},
+                                                 {272, 3},
+                                                 {267, -1},
+                                                 {261, part.nominal.z()},
+                                                 {320, 10},
+                                                 {260, part.nominal.z() + 40},
+                                                 {301, 1},
+                                                 {281, 0}}));
+    ASSERT_TRUE(angle.finished()) << angle.why();
+    const double rise = (height(second) - height(middle)) / (second - middle)[axis];
+    EXPECT_NEAR(angle.q(150), axis == 1 ? degrees(std::atan(rise)) : -degrees(std::atan(rise)), 1e-6);
+  }
+}
+
+TEST(Cycle430, MeasuresAnyBoltHoleCircle) {
+  Dice dice(430);
+  for (int world = 0; world < worlds; ++world) {
+    SCOPED_TRACE(fmt::format("world {}", world));
+    PlantedPart part = plant(dice, controlOf(world), 0.5, 3);
+    const double circle = dice.between(100, 160), hole = dice.between(10, 25);
+    const double first = dice.between(-180, 180);
+    const std::array<double, 3> angles = {first, first + dice.between(60, 140), first + dice.between(180, 290)};
+    const double nominal = written(circle + dice.between(-0.3, 0.3));
+    for (const double angle : angles) {
+      const Vector3 centre(circle / 2 * std::cos(radians(angle)), circle / 2 * std::sin(radians(angle)), 0);
+      part.bench.part(simulation::Ring(hole / 2, hole / 2 + 10, -40), part.machineFromPart * pose(centre));
+    }
+    const Vector3 truth = part.truth();
+    const Limits limits = limitsAround(dice, circle);
+    const double tolerance = toleranceAround(dice, truth.x() - part.nominal.x());
+    Words words = {{273, part.nominal.x()}, {274, part.nominal.y()}, {262, nominal}};
+    for (int i = 0; i < 3; ++i)
+      words.emplace_back(291 + i, written(std::remainder(angles[static_cast<std::size_t>(i)] + part.skew, 360)));
+    words = with(words, {{261, part.nominal.z() - 8},
+                         {260, part.nominal.z() + 20},
+                         {288, limits.maximum},
+                         {289, limits.minimum},
+                         {279, tolerance},
+                         {280, 0},
+                         {281, 1},
+                         {309, 0},
+                         {330, 0}});
+    const Ran ran = part.bench.run(probe(430, words));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(ran.q(151), truth.x(), exact);
+    EXPECT_NEAR(ran.q(152), truth.y(), exact);
+    EXPECT_NEAR(ran.q(153), circle, exact);
+    EXPECT_NEAR(ran.q(163), circle - nominal, exact);
+    Finding finding = std::max(dimension(circle, limits.maximum, limits.minimum, true),
+                               position(truth.x() - part.nominal.x(), tolerance));
+    if (finding == Finding::Rework) finding = Finding::Scrap;
+    expectStatus(ran, finding);
+  }
+}
+
+/// A hole whose measured values are those of the log in the manual.
+TEST(MeasuringLog, IsLaidOutAsPrinted) {
+  Bench bench;
+  bench.preset(1, {0, 0, -400});
+  bench.part(simulation::Ring(12.0259 / 2, 40, -40), pose({50.081, 64.953, -400}));
+  bench.probeOf(100, 1);
+  bench.wallClock = 1120114500;  // 30 June 2005, 6:55:00
+  const Words words = {{273, 50}, {274, 65},     {262, 12}, {325, 0},   {247, 90},  {261, -5}, {320, 0}, {260, 20},
+                       {301, 0},  {275, 12.045}, {276, 12}, {279, 0.1}, {280, 0.1}, {281, 1},  {309, 0}, {330, 0}};
+  const Ran ran = bench.run(probe(421, words));
+  ASSERT_TRUE(ran.finished()) << ran.why();
+  EXPECT_EQ(ran.q(180), 1);
+  std::string text = ran.outcome.files.at("TCHPR421.TXT");
+  // The time depends on how long the machine travelled.
+  const std::size_t time = text.find("Time:");
+  ASSERT_NE(time, std::string::npos);
+  EXPECT_EQ(text.substr(time, 23).substr(0, 21), "Time:              6:");
+  text.erase(time, text.find('\n', time) - time + 1);
+  EXPECT_EQ(text,
+            "****** Measuring Log for Probing Cycle 421 Hole Measuring *****\n"
+            "\n"
+            "Date:              30-06-2005\n"
+            "Measuring program: BENCH.H\n"
+            "-------------------------------------------------------------\n"
+            "Nominal values:      Center in reference axis:                   50.0000\n"
+            "                     Center in minor axis:                       65.0000\n"
+            "                     Diameter:                                   12.0000\n"
+            "-------------------------------------------------------------\n"
+            "Given limit values:  Maximum limit for center in reference axis: 50.1000\n"
+            "                     Minimum limit for center in reference axis: 49.9000\n"
+            "                     Maximum limit for center in minor axis:     65.1000\n"
+            "                     Minimum limit for center in minor axis:     64.9000\n"
+            "                     Maximum dimension for hole:                 12.0450\n"
+            "                     Minimum dimension for hole:                 12.0000\n"
+            "*************************************************************\n"
+            "Actual values:       Center in reference axis:                   50.0810\n"
+            "                     Center in minor axis:                       64.9530\n"
+            "                     Diameter:                                   12.0259\n"
+            "-------------------------------------------------------------\n"
+            "Deviations:          Center in reference axis:                    0.0810\n"
+            "                     Center in minor axis:                       -0.0470\n"
+            "                     Diameter:                                    0.0259\n"
+            "*************************************************************\n"
+            "Further measuring results: Measuring height:                     -5.0000\n"
+            "******************** End of measuring log ********************\n");
+}
+
+}  // namespace
+}  // namespace probewright::testing_support
