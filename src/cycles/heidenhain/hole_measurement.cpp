@@ -53,7 +53,12 @@ double angleOf(const Vector3& first, const Vector3& second) {
 void compensateByRotationOrTable(Context& context, double angle) {
   const double misalignment = normalizedDegrees(angle - context.q(307));
   if (context.option(402) == 0) {
-    setBasicRotation(context, misalignment, context.option(305));
+    // The TNC 640 makes row 0 the active preset; older controls know it as the preset set by hand.
+    if (context.option(305) == 0 && context.control().isTNC640()) {
+      copyActivePresetTo0(context, rotationChange(context, misalignment));
+    } else {
+      setBasicRotation(context, misalignment, context.option(305));
+    }
     return;
   }
   const std::size_t axis = turnWorkpiece(context, context.control().coordinates.plane.tool, -misalignment);

@@ -52,7 +52,7 @@ void zeroRotaryAxisInPreset(Context& context, std::size_t axis, bool rowGiven) {
     copyActivePresetTo0(context, change);
     return;
   }
-  control.writePreset(row, change);
+  writePresetRow(context, row, change);
 }
 
 }  // namespace probewright::cycles::heidenhain

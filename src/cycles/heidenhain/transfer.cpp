@@ -115,8 +115,12 @@ void transferPreset(Context& context, const NewPreset& preset) {
   }
   const auto present = row == control.coordinates.preset.row ? control.coordinates.preset : control.presetRow(row);
   Control::PresetChange change = presetChange(context, preset, present.value_or(control.coordinates.preset));
-  // A new row takes what the feature says nothing about from the active preset.
-  if (!present) takeOverActive(context, change);
+  writePresetRow(context, row, change);
+}
+
+void writePresetRow(Context& context, int row, Control::PresetChange change) {
+  Control& control = context.control();
+  if (!control.presetRow(row)) takeOverActive(context, change);
   control.writePreset(row, change);
 }
 
@@ -147,7 +151,7 @@ void resetBasicRotation(Context& context) {
   context.control().applyCoordinates();
 }
 
-void setBasicRotation(Context& context, double degrees, int row) {
+Control::PresetChange rotationChange(Context& context, double degrees) {
   Control& control = context.control();
   Vector3 toolAxis = Vector3::Zero();
   toolAxis[control.coordinates.plane.tool] = 1;
@@ -155,11 +159,15 @@ void setBasicRotation(Context& context, double degrees, int row) {
       spaceAnglesFromRotation(Eigen::AngleAxisd(radiansFromDegrees(degrees), toolAxis).toRotationMatrix());
   Control::PresetChange change;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double angle = angles[static_cast<Eigen::Index>(i)];
     if (i == static_cast<std::size_t>(control.coordinates.plane.tool) || control.isTNC640())
-      change.spaceAngles[i] = angle;
+      change.spaceAngles[i] = angles[static_cast<Eigen::Index>(i)];
   }
-  control.writePreset(row == 0 ? control.coordinates.preset.row : row, change);
+  return change;
+}
+
+void setBasicRotation(Context& context, double degrees, int row) {
+  const int active = context.control().coordinates.preset.row;
+  writePresetRow(context, row == 0 ? active : row, rotationChange(context, degrees));
 }
 
 void finishPreset(Context& context, const NewPreset& preset) {
@@ -174,7 +182,8 @@ void finishPreset(Context& context, const NewPreset& preset) {
   auto& prober = context.prober();
   const PlannedTouch planned{now({context.q(382), context.q(383), context.q(384)}), probing::axisDirection(2, -1)};
   const double clearance = now({context.q(382), context.q(383), context.q(260)})[2];
-  prober.approach(prober.prePosition(planned, context.q(320)), clearance);
+  const bool hasClearance = context.arguments().definition().parameter(320) != nullptr;
+  prober.approach(prober.prePosition(planned, hasClearance ? context.q(320) : 0), clearance);
   const EvaluatedTouch touch = prober.touch(planned);
   prober.moveSouthPoleTo(clearance);
   NewPreset height;

@@ -25,6 +25,9 @@ void transferPreset(Context& context, const NewPreset& preset);
 /// sets Q333 there.
 void finishPreset(Context& context, const NewPreset& preset);
 
+/// Writes into a row of the preset table; a row that is new takes over the rest from the active preset.
+void writePresetRow(Context& context, int row, Control::PresetChange change);
+
 /// Row 0 takes the active preset with `change` and becomes active; simple transformations are cleared.
 void copyActivePresetTo0(Context& context, Control::PresetChange change);
 
@@ -36,6 +39,9 @@ void addDatumAngle(Context& context, std::size_t axis, int row, double degrees);
 
 /// Takes the basic rotation of the active preset out of effect; the table keeps it.
 void resetBasicRotation(Context& context);
+
+/// The change of a preset that gives it a basic rotation by `degrees` about the tool axis and no other.
+Control::PresetChange rotationChange(Context& context, double degrees);
 
 /// Sets the basic rotation (degrees about the tool axis): row 0 stands for the active preset.
 void setBasicRotation(Context& context, double degrees, int row);
