@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "control/heidenhain/datum_table.hpp"
 #include "control/heidenhain/preset_table.hpp"
 #include "control/heidenhain/probe_table.hpp"
@@ -56,6 +58,23 @@ TEST(VirtualRun, TheProgramFindsThePresetOfTheRing) {
   EXPECT_NEAR(world.control->coordinates.preset.origin.y(), -12.5, 1e-6);
   EXPECT_NEAR(world.control->q.q(153), 40, 1e-6);
   EXPECT_EQ(world.control->journal.cycles[0].place.line, 8U);
+}
+
+TEST(VirtualRun, OldFormCyclesMeasureOnePoint) {
+  RingWorld world;
+  const RunResult result = world.run(
+      "1 TOOL CALL 1 Z\n2 CYCL DEF 247 P ~\n  Q339=1\n3 L X+0 Y+0 Z+50 R0 FMAX\n4 L Z-5 R0 FMAX\n"
+      "5 TCH PROBE 0.0 BEZUGSEBENE Q5 X-\n6 TCH PROBE 0.1 X-9 IY+0 Z-10\n7 Q6 = Q115\n8 Q7 = Q117\n"
+      "9 TCH PROBE 1.0 POLAR\n10 TCH PROBE 1.1 X WINKEL: +90\n11 TCH PROBE 1.2 X+0 Y+9 Z-10\n");
+  for (const Diagnostic& diagnostic : result.diagnostics)
+    ADD_FAILURE() << format(diagnostic);
+  // The ball's centre stops 18 mm from the axis of the ring, which lies 0.25 and -0.5 mm from the origin.
+  const double x = 0.25 - std::sqrt(18 * 18 - 0.5 * 0.5);
+  EXPECT_NEAR(world.control->q.q(5), x - 2, 1e-6);
+  EXPECT_NEAR(world.control->q.q(6), x, 1e-6);
+  EXPECT_NEAR(world.control->q.q(7), -10 + 100, 1e-6);
+  EXPECT_NEAR(world.control->q.q(116), -0.5 + std::sqrt(18 * 18 - 0.25 * 0.25), 1e-6);
+  EXPECT_TRUE((world.control->channel.position() - Vector3(0, 9, -10)).norm() < 1e-9);
 }
 
 TEST(VirtualRun, ACollisionNamesItsBlock) {

@@ -5,6 +5,8 @@
 /// Every HEIDENHAIN cycle: its catalogue entry and its code, each in the file of its number.
 namespace probewright::cycles::heidenhain {
 
+extern const CycleDefinition cycle0Definition;
+extern const CycleDefinition cycle1Definition;
 extern const CycleDefinition cycle400Definition;
 extern const CycleDefinition cycle401Definition;
 extern const CycleDefinition cycle402Definition;
@@ -39,6 +41,8 @@ extern const CycleDefinition cycle461Definition;
 extern const CycleDefinition cycle462Definition;
 extern const CycleDefinition cycle463Definition;
 
+void cycle0(Context& context, const Arguments& arguments);
+void cycle1(Context& context, const Arguments& arguments);
 void cycle400(Context& context, const Arguments& arguments);
 void cycle401(Context& context, const Arguments& arguments);
 void cycle402(Context& context, const Arguments& arguments);

@@ -5,6 +5,7 @@
 
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/context.hpp"
+#include "cycles/heidenhain/probe_words.hpp"
 #include "cycles/heidenhain/registry.hpp"
 #include "language/klartext/host.hpp"
 
@@ -42,7 +43,10 @@ void KlartextHost::measure(const CycleCall& call, Evaluation& evaluation) {
   for (const Word& word : evaluation.words(call.parameters)) {
     const cycles::Parameter* parameter = entry->definition->parameter(word.address);
     if (parameter == nullptr) {
-      throw Alarm("Cycle parameter wrong", fmt::format("Cycle {} has no parameter Q{}", call.number, word.address),
+      const bool named = word.address < cycles::heidenhain::probe_word::result;
+      throw Alarm("Cycle parameter wrong",
+                  named ? fmt::format("Cycle {} has no parameter Q{}", call.number, word.address)
+                        : fmt::format("Cycle {} does not take one of its words", call.number),
                   "take the parameter out of the cycle");
     }
     // MB MAX: as far as the parameter goes.
@@ -50,6 +54,11 @@ void KlartextHost::measure(const CycleCall& call, Evaluation& evaluation) {
     if (isText(value) && parameter->kind == cycles::ValueKind::Feed) {
       const std::string& text = std::get<std::string>(value);
       value = text == "FMAX" ? parameter->maximum : control_.tool.feed / control_.unit;
+    }
+    constexpr std::uint32_t coordinate = cycles::heidenhain::probe_word::coordinate;
+    if (word.mode == WordMode::Incremental && call.number <= 1 && word.address < coordinate + 3 && !isText(value)) {
+      const auto axis = static_cast<Eigen::Index>(word.address - coordinate);
+      value = std::get<double>(value) + control_.channel.position()[axis] / control_.unit;
     }
     if (isText(value)) {
       arguments.set(word.address, std::get<std::string>(value));

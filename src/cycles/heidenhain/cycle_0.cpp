@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/old_form_parameters.hpp"
+#include "cycles/heidenhain/single_touch.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr Parameter parameters0[] = {
+    resultParameter("0.0 Q"),
+    probingAxis("0.0 axis"),
+    option(probe_word::direction, "0.0 direction", "probing direction", directionChoices),
+    prePosition("0.1 X", 0),
+    prePosition("0.1 Y", 1),
+    prePosition("0.1 Z", 2),
+    prePosition("0.1 A", 3),
+    prePosition("0.1 B", 4),
+    prePosition("0.1 C", 5),
+};
+
+constexpr ResultDefinition results0[] = {
+    {"Q115", "position at the touch, X"},
+    {"Q116", "position at the touch, Y"},
+    {"Q117", "position at the touch, Z"},
+    {"Q118", "position at the touch, 4th axis", ValueKind::Angle},
+    {"Q119", "position at the touch, 5th axis", ValueKind::Angle},
+};
+
+}  // namespace
+
+const CycleDefinition cycle0Definition = {
+    .number = 0,
+    .name = "0",
+    .title = "REF. PLANE",
+    .family = CycleFamily::Inspection,
+    .summary = "Measures one position in an axis direction and stores its coordinate in a Q parameter.",
+    .parameters = parameters0,
+    .results = results0,
+};
+
+void cycle0(Context& context, const Arguments& arguments) {
+  context.require({.transformationsAllowed = true});
+  moveToProgrammedPosition(context);
+
+  const int axis = arguments.integer(probe_word::axis);
+  Vector3 direction = Vector3::Zero();
+  direction[axis] = arguments.number(probe_word::direction);
+  const control::WorkingPlane& plane = context.control().coordinates.plane;
+  auto& prober = context.prober();
+  const EvaluatedTouch touch = prober.stroke(plane.planeFromXyz(direction), prober.probe().distance);
+
+  const double coordinate = plane.xyzFromPlane(touch.surface)[axis];
+  const int number = arguments.integer(probe_word::result);
+  context.set(number, coordinate / context.control().unit);
+  control::ResultRecord result;
+  result.name = fmt::format("Q{}", number);
+  result.meaning = fmt::format("measured coordinate, {}", "XYZ"[axis]);
+  result.value = coordinate;
+  result.unit = "mm";
+  context.record().results.push_back(std::move(result));
+  storeTouchPosition(context, touch);
+}
+
+}  // namespace probewright::cycles::heidenhain

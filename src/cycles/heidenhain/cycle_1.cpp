@@ -1,0 +1,53 @@
+#include <cmath>
+
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/old_form_parameters.hpp"
+#include "cycles/heidenhain/single_touch.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr Parameter parameters1[] = {
+    probingAxis("1.1 axis"), probingAngle("1.1 angle"), prePosition("1.2 X", 0), prePosition("1.2 Y", 1),
+    prePosition("1.2 Z", 2), prePosition("1.2 A", 3),   prePosition("1.2 B", 4), prePosition("1.2 C", 5),
+};
+
+constexpr ResultDefinition results1[] = {
+    {"Q115", "position at the touch, X"},
+    {"Q116", "position at the touch, Y"},
+    {"Q117", "position at the touch, Z"},
+    {"Q118", "position at the touch, 4th axis", ValueKind::Angle},
+    {"Q119", "position at the touch, 5th axis", ValueKind::Angle},
+};
+
+}  // namespace
+
+const CycleDefinition cycle1Definition = {
+    .number = 1,
+    .name = "1",
+    .title = "POLAR DATUM PLANE",
+    .family = CycleFamily::Inspection,
+    .summary = "Measures one position in any direction of a plane: X in X/Y, Y in Y/Z, Z in Z/X.",
+    .parameters = parameters1,
+    .results = results1,
+};
+
+void cycle1(Context& context, const Arguments& arguments) {
+  context.require({.transformationsAllowed = true});
+  moveToProgrammedPosition(context);
+
+  // The angle turns from the probing axis to the next one in the order X, Y, Z, X.
+  const int axis = arguments.integer(probe_word::axis);
+  const double angle = radiansFromDegrees(arguments.number(probe_word::angle));
+  Vector3 direction = Vector3::Zero();
+  direction[axis] = std::cos(angle);
+  direction[(axis + 1) % 3] = std::sin(angle);
+  auto& prober = context.prober();
+  const EvaluatedTouch touch =
+      prober.stroke(context.control().coordinates.plane.planeFromXyz(direction), prober.probe().distance);
+  storeTouchPosition(context, touch);
+}
+
+}  // namespace probewright::cycles::heidenhain

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "cycles/heidenhain/context.hpp"
+
+/// What the cycles that touch one point from a programmed pre-position have in common (0, 1).
+namespace probewright::cycles::heidenhain {
+
+/// In a straight line, all axes at once and without clearance height, to the pre-position of the block (the words
+/// probe_word::coordinate), from wherever the probe stands.
+void moveToProgrammedPosition(Context& context);
+
+/// Q115 to Q119: the position at the touch in X, Y, Z and the first two rotary axes, in the active coordinate system.
+/// Stylus length and ball radius are not taken into account: it is the tool reference point's.
+void storeTouchPosition(Context& context, const EvaluatedTouch& touch);
+
+}  // namespace probewright::cycles::heidenhain
