@@ -77,6 +77,15 @@ TEST(SinumerikCheck, MachiningCyclesAreNamedAsSkipped) {
   EXPECT_EQ(found[0].severity, Severity::Warning);
 }
 
+TEST(SinumerikCheck, ComparisonsBesideLogicWantParentheses) {
+  const Diagnostics found = checkText(
+      "IF R1==1 AND R2==2 GOTOF AB_1\nIF (R1==1) AND (R2==2) GOTOF AB_1\n"
+      "R3=R1==(R1 OR R2)\nAB_1: M30\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].severity, Severity::Warning);
+  EXPECT_EQ(found[0].place.line, 1u);
+}
+
 TEST(SinumerikCheck, MeasuringCyclesThatAreMissingAreNamedSo) {
   if (cycles::sinumerikCycle("CYCLE9960") != nullptr) GTEST_SKIP() << "the catalogue has CYCLE9960";
   const Diagnostics found = checkText("CYCLE9960(1)\n");

@@ -23,6 +23,11 @@ TEST(SinumerikMotion, StraightLinesInEveryWayOfWriting) {
   world.run("G1 X=5*2+1 F500\n");
   EXPECT_EQ(world.machine.moves[1].feed.perMinute, 500);
   EXPECT_EQ(lastTip(world), Vector3(11, 20, 30));
+  world.run("R1=$P_GG[1]\nG0 X11\nR2=$P_GG[1] R3=$P_GG[7] R4=$P_GG[14]\n");
+  EXPECT_EQ(world.r(1), 2);
+  EXPECT_EQ(world.r(2), 1);
+  EXPECT_EQ(world.r(3), 1);
+  EXPECT_EQ(world.r(4), 1);
   world.run("G91 G1 X1 Y=AC(0)\nG90 Z=IC(-5)\n");
   EXPECT_EQ(lastTip(world), Vector3(12, 0, 25));
   world.run("G70 X1\nG71\n");

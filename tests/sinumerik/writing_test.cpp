@@ -176,6 +176,16 @@ TEST(SinumerikWriter, WritesAsOneWouldByHand) {
   EXPECT_EQ(rewritten("/2 lbl_a: g0 z5"), "/2 LBL_A: G0 Z5");
 }
 
+TEST(SinumerikWriter, WritesWholePrograms) {
+  const auto program =
+      SinumerikProgram::fromText("t.mpf", "%_n_a_mpf\n\n; head\nn10 g0 x1 ; go\nif r1==1\nm30\nendif\n");
+  const Result<std::string> text = writeProgram(*program);
+  ASSERT_TRUE(text);
+  EXPECT_EQ(*text, "%_n_a_mpf\n\n; head\nN10 G0 X1 ; go\nIF R1==1\nM30\nENDIF\n");
+  const auto broken = SinumerikProgram::fromText("t.mpf", "G0 X1\nG0 X\n");
+  EXPECT_EQ(writeProgram(*broken).error().place.line, 2u);
+}
+
 TEST(SinumerikWriter, NumbersKeepEveryDigit) {
   for (const double value : {1e-7, 0.1 + 0.2, 123456789.123456789, 5e-324, 1.7976931348623157e308, -2.5e-12, 1e21}) {
     const Block block = parseBlock("R1=" + writeNumber(value));

@@ -8,6 +8,7 @@
 
 #include "cycles/catalogue.hpp"
 #include "language/sinumerik/keywords.hpp"
+#include "language/sinumerik/operators.hpp"
 #include "language/sinumerik/writer.hpp"
 
 namespace probewright::sinumerik {
@@ -41,6 +42,7 @@ private:
   void report(std::size_t column, std::string message, std::string advice, Severity severity = Severity::Error);
   void declare(const Instruction& instruction);
   void checkNames();
+  void checkPriorities();
   void checkInstruction(const Instruction& instruction);
   void checkTarget(TextRef label, JumpDirection direction);
   void checkCall(const CallProgram& call);
@@ -114,6 +116,24 @@ void Checker::checkNames() {
     if (!known)
       report(columnOf(name), "the control has no system variable " + name,
              "System variables begin with $P_, $AA_, $AC_, $A_, $TC_, $MN_, $MC_, $MA_, $SNS_, $SCS_ and the like.");
+  }
+}
+
+/// "A==1 AND B==2" compares A with (1 AND B): hardly ever meant.
+void Checker::checkPriorities() {
+  const auto isLogic = [this](const Operand& operand) {
+    if (operand.node < 0) return false;
+    const Node& node = block_.nodes[static_cast<std::size_t>(operand.node)];
+    const bool logic =
+        node.operation == Operation::And || node.operation == Operation::Or || node.operation == Operation::ExclusiveOr;
+    return logic && node.b != inParentheses;
+  };
+  for (const Node& node : block_.nodes) {
+    const BinaryOperator* op = operatorOf(node.operation);
+    if (op == nullptr || op->priority != Priority::Comparison || (!isLogic(node.left) && !isLogic(node.right)))
+      continue;
+    return report(columnOf(op->symbol), "AND, OR and XOR bind tighter than the comparison beside them",
+                  "Put each comparison into parentheses: (R1==1) AND (R2==2).", Severity::Warning);
   }
 }
 
@@ -264,6 +284,7 @@ Diagnostics Checker::run() {
     for (const Instruction& instruction : block_.instructions)
       declare(instruction);
     checkNames();
+    checkPriorities();
     for (const Instruction& instruction : block_.instructions)
       checkInstruction(instruction);
   }

@@ -119,6 +119,10 @@ Operand BlockParser::parsePrimary() {
     cursor_.advance();
     const Operand inner = parseExpression();
     expect(')', "at the end of the parenthesis");
+    if (!failed_ && inner.node >= 0) {
+      Node& node = block_->nodes[static_cast<std::size_t>(inner.node)];
+      if (node.operation != Operation::Call) node.b = inParentheses;
+    }
     return inner;
   }
   if (c == '"') return parseString();

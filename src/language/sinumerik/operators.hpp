@@ -32,6 +32,9 @@ struct BinaryOperator {
   Priority priority = Priority::None;
 };
 
+/// Node::b of an operation that stands in parentheses; calls need b for themselves.
+inline constexpr std::uint32_t inParentheses = 1;
+
 /// All binary operators but ':'; longer symbols before their beginnings.
 std::span<const BinaryOperator> binaryOperators();
 

@@ -182,6 +182,21 @@ std::optional<Value> SystemVariables::readState(std::string_view name, std::span
   if (name == "$P_GG") {
     const int group = integerAt(indices, 0);
     if (group < 1 || group >= static_cast<int>(state_.gGroup.size())) throw Alarm("17020", "there is no such G group");
+    if (group == 7) return number(static_cast<int>(state_.compensation));
+    if (group == 1) {
+      switch (state_.group1) {
+        case language::MoveKind::Rapid:
+          return number(1);
+        case language::MoveKind::ArcClockwise:
+          return number(3);
+        case language::MoveKind::ArcCounterclockwise:
+          return number(4);
+        case language::MoveKind::ArcThroughPoint:
+          return number(5);
+        default:
+          return number(2);
+      }
+    }
     return number(state_.gGroup[static_cast<std::size_t>(group)]);
   }
   if (name == "$P_F") return number(state_.feed);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "language/sinumerik/keywords.hpp"
+#include "language/sinumerik/program.hpp"
 
 namespace probewright::sinumerik {
 
@@ -371,5 +372,22 @@ Result<std::string> BlockWriter::write() {
 }  // namespace
 
 Result<std::string> writeBlock(const Block& block) { return BlockWriter(block).write(); }
+
+Result<std::string> writeProgram(SinumerikProgram& program) {
+  std::string text;
+  Block block;
+  Diagnostics mistakes;
+  for (BlockPosition at = program.begin(); program.parse(at, block, mistakes); at = block.next) {
+    if (!mistakes.empty()) return tl::unexpected(std::move(mistakes.front()));
+    Result<std::string> line = writeBlock(block);
+    if (!line) {
+      line.error().place = {program.file(), block.position.line, 0};
+      line.error().excerpt = block.at(block.source);
+      return line;
+    }
+    text.append(*line).append("\n");
+  }
+  return text;
+}
 
 }  // namespace probewright::sinumerik
