@@ -69,6 +69,12 @@ double SinumerikProber::trigger(const Vector3& direction) const {
   return ballRadius() + probe_.positionDeviation.dot(direction.head<2>());
 }
 
+Vector3 SinumerikProber::lateralDeviation(const Vector3& direction) const {
+  if (probe_.monodirectional) return Vector3::Zero();
+  const Vector3 deviation(probe_.positionDeviation.x(), probe_.positionDeviation.y(), 0);
+  return deviation - direction * direction.dot(deviation);
+}
+
 void SinumerikProber::orientTo(const Vector3& direction) {
   if (probe_.monodirectional) alignTo(direction);
 }
@@ -80,20 +86,21 @@ void SinumerikProber::alignTo(const Vector3& direction) {
 }
 
 MeasuredPoint SinumerikProber::measure(const Vector3& setpoint, const Vector3& direction, double path, int count) {
-  return stroke(setpoint, direction, path, count, trigger(direction), probe_.feed);
+  return stroke(setpoint, direction, path, count, direction * trigger(direction) + lateralDeviation(direction),
+                probe_.feed);
 }
 
 MeasuredPoint SinumerikProber::measureUncompensated(const Vector3& setpoint, const Vector3& direction, double path,
                                                     int count, double assumedTrigger, double feed) {
-  return stroke(setpoint, direction, path, count, assumedTrigger, feed);
+  return stroke(setpoint, direction, path, count, direction * assumedTrigger, feed);
 }
 
 MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& direction, double path, int count,
-                                      double trigger, double feed) {
+                                      const Vector3& surfaceFromTcp, double feed) {
   if (!(path > 0)) {
     throw Alarm("61308", "Measuring path DFA must be greater than 0", "correct parameter S_FA");
   }
-  const Vector3 start = setpoint - direction * (path + trigger);
+  const Vector3 start = setpoint - direction * path - surfaceFromTcp;
   const Vector3 end = start + direction * 2 * path;
   orientTo(direction);
   moveTo(start);
@@ -159,7 +166,7 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
     channel_.retractTo(plane_.xyzFromPlane(start), retract);
   }
   point.tcp = sum / std::max(1, count);
-  point.surface = point.tcp + direction * trigger;
+  point.surface = point.tcp + surfaceFromTcp;
   const auto axis = parallelAxis(direction);
   point.difference = axis ? point.surface[*axis] - setpoint[*axis] : (point.surface - setpoint).dot(direction);
   record.ballCentre = plane_.xyzFromPlane(point.tcp);

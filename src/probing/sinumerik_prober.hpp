@@ -67,6 +67,10 @@ public:
   /// On an arc about `centre` in the plane, turning by `angle` degrees.
   void moveOnArc(const Vector3& centre, double angle);
 
+  /// Where the ball's centre lies beside the tool centre point, at right angles to `direction`, by the calibrated
+  /// position deviation. measure() leads the ball's centre, not the tool centre point, along the line through the set
+  /// point.
+  Vector3 lateralDeviation(const Vector3& direction) const;
   /// What the trigger points say for a direction (unit vector): the way from the TCP to the surface along it.
   double trigger(const Vector3& direction) const;
 
@@ -84,8 +88,8 @@ public:
                                      double assumedTrigger, double feed);
 
 private:
-  MeasuredPoint stroke(const Vector3& setpoint, const Vector3& direction, double path, int count, double trigger,
-                       double feed);
+  MeasuredPoint stroke(const Vector3& setpoint, const Vector3& direction, double path, int count,
+                       const Vector3& surfaceFromTcp, double feed);
   void orientTo(const Vector3& direction);
 
   control::Channel& channel_;

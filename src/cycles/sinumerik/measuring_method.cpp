@@ -21,10 +21,15 @@ Toucher::Toucher(Context& context, Method method)
 
 Vector3 Toucher::startOf(const Vector3& setpoint, const Vector3& direction, double path) const {
   probing::SinumerikProber& prober = context_.prober();
-  double trigger = prober.trigger(direction);
-  if (method_ == Method::SpindleReversal) trigger = prober.ballRadius();
-  if (method_ == Method::ProbeAligned) trigger = prober.probe().triggerPlus[0];
-  return setpoint - direction * (path + trigger);
+  switch (method_) {
+    case Method::SpindleReversal:
+      return setpoint - direction * (path + prober.ballRadius());
+    case Method::ProbeAligned:
+      return setpoint - direction * (path + prober.probe().triggerPlus[0]);
+    case Method::Standard:
+      break;
+  }
+  return setpoint - direction * (path + prober.trigger(direction)) - prober.lateralDeviation(direction);
 }
 
 MeasuredPoint Toucher::measure(const Vector3& setpoint, const Vector3& direction, double path) {

@@ -1,0 +1,94 @@
+#include "cycles/sinumerik/ball_measurement.hpp"
+
+#include <vector>
+
+#include "metrology/fits.hpp"
+
+namespace probewright::cycles::sinumerik {
+namespace {
+
+class Ball {
+public:
+  Ball(Context& context, const BallPlan& plan)
+      : context_(context),
+        plan_(plan),
+        prober_(context.prober()),
+        toucher_(context, plan.alignProbe ? Method::ProbeAligned : Method::Standard) {}
+
+  /// The middle of the equator in the plane, found by touches at the height of `about`.
+  Vector2 equator(const Vector3& about) {
+    // Along the axes: minus 1st axis first, then on to plus, by way of minus 2nd.
+    const double first = plan_.round ? plan_.startAngle : 180, step = plan_.round ? plan_.step : 90;
+    std::vector<Vector2> centres;
+    for (const probing::PlannedTouch& touch :
+         probing::planCircle(about, plan_.diameter, first, step, plan_.points, Side::Outside)) {
+      if (plan_.round && !centres.empty()) prober_.moveOnArc(about, step);
+      centres.push_back((this->touch(touch) - touch.direction * prober_.ballRadius()).head<2>());
+      if (!plan_.round) prober_.moveHeightTo(plan_.safeHeight);
+    }
+    prober_.moveHeightTo(plan_.safeHeight);
+    const auto fit = metrology::fitCircle(centres);
+    if (!fit) context_.alarm(61316, fit.error().message);
+    return fit->shape.centre;
+  }
+
+  /// Height of the pole.
+  double pole(const Vector2& over, double expected) {
+    prober_.moveInPlane({over.x(), over.y(), 0});
+    const double height =
+        prober_.measure({over.x(), over.y(), expected}, -Vector3::UnitZ(), plan_.path, context_.repetitions())
+            .surface.z();
+    prober_.moveHeightTo(plan_.safeHeight);
+    return height;
+  }
+
+  /// The diameter by a touch on the minus side of the 1st axis.
+  double diameter(const Vector3& centre) {
+    const Vector3 surface =
+        touch({.surface = centre - Vector3::UnitX() * plan_.diameter / 2, .direction = Vector3::UnitX()});
+    prober_.moveHeightTo(plan_.safeHeight);
+    return 2 * (centre.x() - surface.x());
+  }
+
+  void finish(const Vector3& over) {
+    toucher_.finish();
+    prober_.moveInPlane(over);
+  }
+
+private:
+  /// `planned` at the height of the ball's centre; down to it from the safe height first.
+  Vector3 touch(const probing::PlannedTouch& planned) {
+    Vector3 setpoint = planned.surface;
+    if (!prober_.probe().lengthToCentre) setpoint.z() -= prober_.ballRadius();
+    if (prober_.position().z() > setpoint.z() + 1e-6) {
+      prober_.moveInPlane(toucher_.startOf(setpoint, planned.direction, plan_.path));
+      prober_.moveHeightTo(setpoint.z());
+    }
+    return toucher_.measure(setpoint, planned.direction, plan_.path).surface;
+  }
+
+  Context& context_;
+  const BallPlan& plan_;
+  probing::SinumerikProber& prober_;
+  Toucher toucher_;
+};
+
+}  // namespace
+
+MeasuredBall measureBall(Context& context, const BallPlan& plan) {
+  Ball ball(context, plan);
+  MeasuredBall result{.centre = plan.centre, .diameter = plan.diameter};
+  for (int pass = 0; pass < (plan.repeat ? 2 : 1); ++pass) {
+    const Vector2 middle = ball.equator(result.centre);
+    const double pole = ball.pole(middle, result.centre.z() + plan.diameter / 2);
+    result.centre = {middle.x(), middle.y(), pole - plan.diameter / 2};
+  }
+  if (plan.findDiameter) {
+    result.diameter = ball.diameter(result.centre);
+    result.centre.z() += (plan.diameter - result.diameter) / 2;
+  }
+  ball.finish(result.centre);
+  return result;
+}
+
+}  // namespace probewright::cycles::sinumerik

@@ -1,0 +1,360 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "control/sinumerik/measuring_data.hpp"
+#include "control/sinumerik/tool_data.hpp"
+#include "cycles/sinumerik/cycles.hpp"
+#include "cycles/sinumerik/parameters.hpp"
+#include "cycles/sinumerik/probe_calibration.hpp"
+
+namespace probewright::cycles::sinumerik {
+namespace {
+
+constexpr Parameter parameters976[] = {
+    parameters::variant("units: 0 length on a surface, 1 radius in a ring about the start position, 2 radius in a ring "
+                        "with unknown centre, 3 on a ball, 4 radius on an edge; thousands: 1 one direction, 2 both "
+                        "directions of one axis; 10^4: 1 without position deviation; 10^5: 1 at an angle; 10^6: 1 "
+                        "with tool length",
+                        1000),
+    parameters::dataSet(1),
+    parameters::length(2, "S_SETV", "set value: surface, diameter of ring or ball, distance of two edges"),
+    parameters::length(3, "S_SETV0", "top of the ball in the 3rd axis (with tool length)"),
+    parameters::code(4, "S_MA", "measuring axis: 1, 2, 3", 1),
+    parameters::code(5, "S_MD", "measuring direction: 0 plus, 1 minus"),
+    parameters::measuringPath(6),
+    parameters::safeArea(7),
+    parameters::feed(8, "S_VMS", "measuring feed; 0: as in the setting data"),
+    parameters::angle(9, "S_STA1", "angle of the first direction from the 1st axis"),
+    parameters::repetitions(10),
+    parameters::reserved(11),
+    parameters::plane(12),
+    parameters::alternative(13),
+};
+
+constexpr auto results976 =
+    parameters::joined(std::array<ResultDefinition, 2>{{{"_OVR[6]", "centre of ring or ball, 1st axis"},
+                                                        {"_OVR[7]", "centre of ring or ball, 2nd axis"}}},
+                       calibrationResults);
+
+enum class Body { Surface = 0, RingAboutStart, Ring, Ball, Edge };
+
+constexpr double reversal = 180;
+
+/// The middle between opposite touches in two directions, and half their distances.
+struct Crosswise {
+  Vector3 middle = Vector3::Zero();
+  double half1 = 0, half2 = 0;
+};
+
+class Calibration976 {
+public:
+  explicit Calibration976(Context& context)
+      : context_(context),
+        calibration_(context),
+        prober_(context.prober()),
+        start_(prober_.position()),
+        path_(context.real("S_FA")),
+        radius_(calibration_.assumedRadius()),
+        spindle_(context.channel().machine().spindleAngle()) {
+    const double angle = atAngle() ? context.real("S_STA1") : 0;
+    first_ = probing::directionAt(angle);
+    second_ = probing::directionAt(angle + 90);
+  }
+
+  void surface();
+  void ring(bool centreKnown);
+  void ball();
+  void edge();
+  void store() {
+    context_.result(24, atAngle() ? context_.real("S_STA1") : 0);
+    calibration_.store();
+  }
+
+private:
+  bool atAngle() const { return context_.digit("S_MVAR", 6) == 1; }
+  bool wantsDeviation() const { return context_.digit("S_MVAR", 5) == 0; }
+  bool wantsLength() const { return context_.digit("S_MVAR", 7) == 1; }
+  /// A probe that is turned into each direction has no deviation across; others show theirs when turned round.
+  bool canReverse() const {
+    return !prober_.probe().monodirectional && context_.channel().description().spindleOrients;
+  }
+  void turn(double degrees) { context_.channel().orientSpindle(spindle_ + degrees); }
+
+  Vector3 touch(const Vector3& setpoint, const Vector3& direction) {
+    return calibration_.touch(setpoint, direction, path_, radius_);
+  }
+  double sign() {
+    const int way = context_.integer("S_MD");
+    if (way != 0 && way != 1) context_.alarm(61326, "S_MD is 0 (plus) or 1 (minus)");
+    return way == 0 ? 1 : -1;
+  }
+
+  Crosswise acrossRing(const Vector3& from, double radius);
+  Crosswise acrossBall(const Vector3& from, double height, double radius);
+  double topOfBall(const Vector3& over, std::optional<double> expected);
+  void takeOver(const Vector3& deviation, double effective1, double effective2);
+
+  Context& context_;
+  ProbeCalibration calibration_;
+  probing::SinumerikProber& prober_;
+  Vector3 start_, first_, second_;
+  double path_, radius_, spindle_;
+};
+
+/// Trigger points along the axes of a ball off the spindle axis by `deviation`, with its effective radii along the two
+/// directions, whatever angle they were found at.
+void Calibration976::takeOver(const Vector3& deviation, double effective1, double effective2) {
+  calibration_.setTrigger(0, 1, deviation.x() + effective1);
+  calibration_.setTrigger(0, -1, deviation.x() - effective1);
+  calibration_.setTrigger(1, 1, deviation.y() + effective2);
+  calibration_.setTrigger(1, -1, deviation.y() - effective2);
+  calibration_.setBallDiameter(effective1 + effective2);
+  calibration_.setDeviation(0, deviation.x());
+  calibration_.setDeviation(1, deviation.y());
+}
+
+void Calibration976::surface() {
+  const int axis = context_.measuringAxis(3);
+  const double way = sign(), set = context_.real("S_SETV");
+  const bool toCentre = prober_.probe().lengthToCentre || axis != 2;
+  const double reference = toCentre ? radius_ : 0;
+  if (toCentre && !(radius_ > 0)) context_.alarm(61351, "the radius of the ball must be known: calibrate it first");
+  Vector3 setpoint = start_;
+  setpoint[axis] = set;
+  const double tcp = calibration_.touch(setpoint, probing::axisDirection(axis, way), path_, reference)[axis];
+  if (wantsLength()) {
+    calibration_.correctLength(axis, tcp - (set - way * reference));
+    calibration_.setTrigger(axis, way, way * reference);
+  } else {
+    calibration_.setTrigger(axis, way, set - tcp);
+  }
+}
+
+/// Two opposite touches along each direction inside a ring, the second pair through the middle of the first.
+Crosswise Calibration976::acrossRing(const Vector3& from, double radius) {
+  const auto pair = [&](const Vector3& centre, const Vector3& along) {
+    const double upper = along.dot(touch(centre + along * radius, along) - centre);
+    const double lower = along.dot(touch(centre - along * radius, -along) - centre);
+    return std::pair((upper + lower) / 2, (upper - lower) / 2);
+  };
+  Crosswise result;
+  const auto [middle1, half1] = pair(from, first_);
+  result.middle = from + first_ * middle1;
+  prober_.moveInPlane(result.middle);
+  const auto [middle2, half2] = pair(result.middle, second_);
+  result.middle += second_ * middle2;
+  prober_.moveInPlane(result.middle);
+  // The first pair lay beside the middle: its chord is shorter than the diameter.
+  result.half1 = std::hypot(half1, middle2);
+  result.half2 = half2;
+  return result;
+}
+
+void Calibration976::ring(bool centreKnown) {
+  const double radius = context_.real("S_SETV") / 2;
+  if (!(radius > 0)) context_.alarm(61319, "S_SETV, the diameter of the ring, must be greater than 0");
+  const int directions = centreKnown ? context_.digit("S_MVAR", 4) : 0;
+  if (directions == 1) {
+    const int axis = context_.measuringAxis(2);
+    const double way = sign();
+    const Vector3 along = (axis == 0 ? first_ : second_) * way;
+    const Vector3 tcp = touch(start_ + along * radius, along);
+    calibration_.setTrigger(axis, way, way * (radius - along.dot(tcp - start_)));
+    calibration_.completeAxis(axis, wantsDeviation());
+    prober_.moveInPlane(start_);
+    return;
+  }
+  if (directions == 2) {
+    const int axis = context_.measuringAxis(2);
+    const Vector3 along = axis == 0 ? first_ : second_;
+    const double upper = along.dot(touch(start_ + along * radius, along) - start_);
+    const double lower = along.dot(touch(start_ - along * radius, -along) - start_);
+    calibration_.setTrigger(axis, 1, radius - upper);
+    calibration_.setTrigger(axis, -1, -radius - lower);
+    calibration_.completeAxis(axis, wantsDeviation());
+    prober_.moveInPlane(start_);
+    return;
+  }
+  const bool reverse = !centreKnown && wantsDeviation() && canReverse();
+  if (reverse) turn(reversal);
+  const Crosswise rough = acrossRing(start_, radius);
+  if (reverse) turn(0);
+  const Crosswise fine = acrossRing(rough.middle, radius);
+  Vector3 centre = fine.middle;
+  if (centreKnown && wantsDeviation()) centre = start_;
+  if (reverse) centre = (rough.middle + fine.middle) / 2;
+  takeOver(centre - fine.middle, radius - fine.half1, radius - fine.half2);
+  context_.result(6, centre.x());
+  context_.result(7, centre.y());
+  prober_.moveInPlane(centre);
+}
+
+/// Two opposite touches along each direction around a ball, tool centre point at `height`: over the ball, or round it.
+Crosswise Calibration976::acrossBall(const Vector3& from, double height, double radius) {
+  const auto side = [&](const Vector3& centre, const Vector3& outward) {
+    Vector3 setpoint = centre + outward * radius;
+    setpoint.z() = height;
+    const Vector3 begin = setpoint + outward * (path_ + radius_);
+    if (prober_.position().z() > height + 1e-6) {
+      prober_.moveInPlane(begin);
+      prober_.moveHeightTo(height);
+    }
+    const double found = outward.dot(touch(setpoint, -outward) - centre);
+    if (!atAngle()) prober_.moveHeightTo(start_.z());
+    return found;
+  };
+  const auto pair = [&](const Vector3& centre, const Vector3& along) {
+    const double upper = side(centre, along);
+    if (atAngle()) prober_.moveOnArc(centre, 180);
+    const double lower = -side(centre, -along);
+    return std::pair((upper + lower) / 2, (upper - lower) / 2);
+  };
+  Crosswise result;
+  const auto [middle1, half1] = pair(from, first_);
+  result.middle = from + first_ * middle1;
+  if (atAngle()) prober_.moveOnArc(from, -90);
+  const auto [middle2, half2] = pair(result.middle, second_);
+  result.middle += second_ * middle2;
+  result.half1 = std::hypot(half1, middle2);
+  result.half2 = half2;
+  prober_.moveHeightTo(start_.z());
+  prober_.moveInPlane(result.middle);
+  return result;
+}
+
+/// Height of the tool centre point on top of the ball.
+double Calibration976::topOfBall(const Vector3& over, std::optional<double> expected) {
+  const double reference = prober_.probe().lengthToCentre ? radius_ : 0;
+  Vector3 setpoint(over.x(), over.y(), expected.value_or(start_.z() - path_ - reference));
+  const double height = calibration_.touch(setpoint, -Vector3::UnitZ(), path_, reference).z();
+  prober_.moveHeightTo(start_.z());
+  return height;
+}
+
+void Calibration976::ball() {
+  const double radius = context_.real("S_SETV") / 2;
+  if (!(radius > 0)) context_.alarm(61319, "S_SETV, the diameter of the ball, must be greater than 0");
+  if (!(radius_ > 0)) context_.alarm(61351, "the radius of the probe's ball must stand in its tool data");
+  const std::optional<double> set = wantsLength() ? std::optional(context_.real("S_SETV0")) : std::nullopt;
+  const double down = radius + radius_;
+
+  const double roughTop = topOfBall(start_, set);
+  const Crosswise rough = acrossBall(start_, roughTop - down, radius);
+  // Over the middle of the first pass the probe's own centre is over the ball's: now the height counts.
+  const double top = topOfBall(rough.middle, roughTop + (prober_.probe().lengthToCentre ? -radius_ : 0));
+  const Crosswise fine = acrossBall(rough.middle, top - down, radius);
+  Vector3 centre = fine.middle;
+  if (wantsDeviation() && canReverse()) {
+    turn(reversal);
+    centre = (fine.middle + acrossBall(fine.middle, top - down, radius).middle) / 2;
+    turn(0);
+  }
+  takeOver(centre - fine.middle, fine.half1 - radius, fine.half2 - radius);
+  if (set) {
+    const double effective = (fine.half1 + fine.half2) / 2 - radius;
+    const double reference = prober_.probe().lengthToCentre ? effective : 0;
+    calibration_.correctLength(2, top - (*set + reference));
+    calibration_.setTrigger(2, -1, -reference);
+  }
+  context_.result(6, centre.x());
+  context_.result(7, centre.y());
+  prober_.moveInPlane(centre);
+}
+
+void Calibration976::edge() {
+  const int directions = context_.digit("S_MVAR", 4);
+  const int axis = context_.measuringAxis(2);
+  const double set = context_.real("S_SETV");
+  if (directions == 1) {
+    const double way = sign();
+    Vector3 setpoint = start_;
+    setpoint[axis] = set;
+    calibration_.setTrigger(axis, way, set - touch(setpoint, probing::axisDirection(axis, way))[axis]);
+  } else if (directions == 2) {
+    if (!(set > 0)) context_.alarm(61319, "S_SETV, the distance of the edges, must be greater than 0");
+    const Vector3 along = Vector3::Unit(axis);
+    const auto pair = [&] {
+      const double upper = touch(start_ + along * set / 2, along)[axis];
+      const double lower = touch(start_ - along * set / 2, -along)[axis];
+      return std::pair((upper + lower) / 2, (upper - lower) / 2);
+    };
+    double deviation = 0;
+    std::optional<double> reversed;
+    if (wantsDeviation() && canReverse()) {
+      turn(reversal);
+      reversed = pair().first;
+      turn(0);
+    }
+    const auto [middle, half] = pair();
+    if (reversed) deviation = (*reversed - middle) / 2;
+    calibration_.setTrigger(axis, 1, deviation + set / 2 - half);
+    calibration_.setTrigger(axis, -1, deviation - (set / 2 - half));
+  } else {
+    context_.alarm(61307, "thousands of S_MVAR: 1 one direction, 2 two directions");
+  }
+  calibration_.completeAxis(axis, wantsDeviation());
+}
+
+}  // namespace
+
+const CycleDefinition cycle976Definition = {
+    .number = 976,
+    .name = "CYCLE976",
+    .title = "Calibrate workpiece probe: length, ring, ball, edge",
+    .family = CycleFamily::Calibration,
+    .summary =
+        "Calibrates a workpiece probe on a known surface, in a ring, on a ball or on an edge: trigger points, "
+        "effective ball diameter, position deviation, and the tool length.",
+    .parameters = parameters976,
+    .results = results976,
+    .controls = control::onSinumerik,
+};
+
+void cycle976(Context& context, const Arguments&) {
+  const int units = context.digit("S_MVAR", 1);
+  if (units > 4 || context.digit("S_MVAR", 2) != 0 || context.digit("S_MVAR", 3) != 0 ||
+      context.digit("S_MVAR", 4) > 2 || context.digit("S_MVAR", 5) > 1 || context.digit("S_MVAR", 6) > 1 ||
+      context.digit("S_MVAR", 7) > 1) {
+    context.alarm(61307);
+  }
+  const auto body = static_cast<Body>(units);
+  switch (body) {
+    case Body::Surface:
+      context.requireProbe({710, 712, 713, 580});
+      break;
+    case Body::RingAboutStart:
+    case Body::Ring:
+      context.requireProbe({710, 712, 713, 714, 580});
+      break;
+    case Body::Ball:
+      context.requireProbe({710, 712, 714, 580});
+      break;
+    case Body::Edge:
+      context.requireProbe({710, 712, 580});
+      break;
+  }
+  Calibration976 run(context);
+  switch (body) {
+    case Body::Surface:
+      run.surface();
+      break;
+    case Body::RingAboutStart:
+      run.ring(true);
+      break;
+    case Body::Ring:
+      run.ring(false);
+      break;
+    case Body::Ball:
+      run.ball();
+      break;
+    case Body::Edge:
+      run.edge();
+      break;
+  }
+  run.store();
+}
+
+}  // namespace probewright::cycles::sinumerik

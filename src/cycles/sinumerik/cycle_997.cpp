@@ -1,0 +1,204 @@
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+
+#include "control/alarm.hpp"
+#include "cycles/sinumerik/ball_measurement.hpp"
+#include "cycles/sinumerik/corrections.hpp"
+#include "cycles/sinumerik/cycles.hpp"
+#include "cycles/sinumerik/parameters.hpp"
+
+namespace probewright::cycles::sinumerik {
+namespace {
+
+constexpr Parameter parameters997[] = {
+    parameters::variant(
+        "units 9; tens: 1 repeat; hundreds: 0 measure only, 1 zero offset; thousands: 0 along the axes, "
+        "1 round the equator, 2 round with the probe aligned; 10^4: 1 three balls; 10^5: 1 four "
+        "points; 10^6: 1 find the diameter",
+        9),
+    parameters::zeroOffset(1),
+    parameters::dataSet(2),
+    parameters::length(3, "S_SETV", "set value of the diameter of all balls"),
+    parameters::measuringPath(4),
+    parameters::safeArea(5),
+    parameters::angle(6, "S_STA1", "angle of the first point, round the equator"),
+    parameters::angle(7, "S_INCA", "angle from point to point, round the equator"),
+    parameters::length(8, "S_SETV0", "set centre of ball 1, 1st axis"),
+    parameters::length(9, "S_SETV1", "set centre of ball 1, 2nd axis"),
+    parameters::length(10, "S_SETV2", "set centre of ball 1, 3rd axis"),
+    parameters::length(11, "S_SETV3", "set centre of ball 2, 1st axis"),
+    parameters::length(12, "S_SETV4", "set centre of ball 2, 2nd axis"),
+    parameters::length(13, "S_SETV5", "set centre of ball 2, 3rd axis"),
+    parameters::length(14, "S_SETV6", "set centre of ball 3, 1st axis"),
+    parameters::length(15, "S_SETV7", "set centre of ball 3, 2nd axis"),
+    parameters::length(16, "S_SETV8", "set centre of ball 3, 3rd axis"),
+    parameters::length(17, "S_TNVL", "limit of the distortion of the triangle of three balls"),
+    parameters::repetitions(18),
+    parameters::reserved(19),
+    parameters::plane(20),
+    parameters::alternative(21),
+};
+
+constexpr ResultDefinition results997[] = {
+    {"_OVR[0]", "set value of the diameter"},
+    {"_OVR[1]", "set centre of ball 1, 1st axis"},
+    {"_OVR[2]", "set centre of ball 1, 2nd axis"},
+    {"_OVR[3]", "set centre of ball 1, 3rd axis"},
+    {"_OVR[4]", "diameter of ball 1"},
+    {"_OVR[5]", "centre of ball 1, 1st axis"},
+    {"_OVR[6]", "centre of ball 1, 2nd axis"},
+    {"_OVR[7]", "centre of ball 1, 3rd axis"},
+    {"_OVR[8]", "difference of the diameter of ball 1"},
+    {"_OVR[9]", "difference of the centre of ball 1, 1st axis"},
+    {"_OVR[10]", "difference of the centre of ball 1, 2nd axis"},
+    {"_OVR[11]", "difference of the centre of ball 1, 3rd axis"},
+    {"_OVR[12]", "diameter of ball 2"},
+    {"_OVR[13]", "centre of ball 2, 1st axis"},
+    {"_OVR[14]", "centre of ball 2, 2nd axis"},
+    {"_OVR[15]", "centre of ball 2, 3rd axis"},
+    {"_OVR[16]", "difference of the diameter of ball 2"},
+    {"_OVR[17]", "difference of the centre of ball 2, 1st axis"},
+    {"_OVR[18]", "difference of the centre of ball 2, 2nd axis"},
+    {"_OVR[19]", "difference of the centre of ball 2, 3rd axis"},
+    {"_OVR[20]", "diameter of ball 3"},
+    {"_OVR[21]", "centre of ball 3, 1st axis"},
+    {"_OVR[22]", "centre of ball 3, 2nd axis"},
+    {"_OVR[23]", "centre of ball 3, 3rd axis"},
+    {"_OVR[24]", "difference of the diameter of ball 3"},
+    {"_OVR[25]", "difference of the centre of ball 3, 1st axis"},
+    {"_OVR[26]", "difference of the centre of ball 3, 2nd axis"},
+    {"_OVR[27]", "difference of the centre of ball 3, 3rd axis"},
+    {"_OVR[28]", "safe area"},
+    {"_OVI[0]", "number of the zero offset", ValueKind::Integer},
+    {"_OVI[2]", "number of the cycle", ValueKind::Integer},
+    {"_OVI[3]", "measuring variant", ValueKind::Integer},
+    {"_OVI[5]", "data set of the probe", ValueKind::Integer},
+    {"_OVI[9]", "number of the alarm", ValueKind::Integer},
+    {"_OVI[11]", "1: a zero offset was corrected", ValueKind::Integer},
+};
+
+Vector3 setCentre(const Context& context, int ball) {
+  Vector3 centre;
+  for (int axis = 0; axis < 3; ++axis)
+    centre[axis] = context.real(fmt::format("S_SETV{}", 3 * ball + axis));
+  return centre;
+}
+
+using Triangle = std::array<Vector3, 3>;
+
+/// How much the sides of the triangles differ, added up.
+double distortion(const Triangle& a, const Triangle& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t next = (i + 1) % 3;
+    sum += std::abs((a[i] - a[next]).norm() - (b[i] - b[next]).norm());
+  }
+  return sum;
+}
+
+Matrix3 columns(const Triangle& triangle) {
+  Matrix3 matrix;
+  matrix << triangle[0], triangle[1], triangle[2];
+  return matrix;
+}
+
+/// Turns and shifts the frame so that the three centres come closest to their set positions.
+void correctByTriangle(Context& context, const FrameTarget& target, const Triangle& set, const Triangle& actual) {
+  const Vector3 setMiddle = (set[0] + set[1] + set[2]) / 3, middle = (actual[0] + actual[1] + actual[2]) / 3;
+  if ((set[1] - set[0]).cross(set[2] - set[0]).norm() < 1e-6) {
+    context.alarm(61319, "the set centres of the three balls lie on one line");
+  }
+  const double distorted = distortion(set, actual), limit = context.real("S_TNVL");
+  if (distorted > limit + 1e-9) {
+    throw control::Alarm(
+        "",
+        fmt::format("The triangle of the three balls is distorted by {:.4f} mm, {:.4f} are allowed", distorted, limit),
+        "check the set centres of the balls, or enlarge S_TNVL");
+  }
+  const Vector3 onMachine = machinePoint(context, middle);
+  const Eigen::Matrix4d moved = Eigen::umeyama(columns(set), columns(actual), false);
+  correctRotation(context, target, moved.topLeftCorner<3, 3>());
+  const Vector3 directions[] = {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
+  correctTranslation(context, target, onMachine, setMiddle, directions);
+}
+
+}  // namespace
+
+const CycleDefinition cycle997Definition = {
+    .number = 997,
+    .name = "CYCLE997",
+    .title = "Ball, three balls",
+    .family = CycleFamily::Preset,
+    .summary =
+        "Measures centre and diameter of a ball, or of three balls on one workpiece, and corrects the zero offset: "
+        "its translation by one ball, translation and rotation by three.",
+    .parameters = parameters997,
+    .results = results997,
+    .controls = control::onSinumerik,
+};
+
+void cycle997(Context& context, const Arguments&) {
+  context.requireProbe({710, 580});
+  context.requireCalibration();
+  const auto digit = [&context](int place) { return context.digit("S_MVAR", place); };
+  if (digit(1) != 9 || digit(2) > 1 || digit(4) > 2 || digit(5) > 1 || digit(6) > 1 || digit(7) > 1) {
+    context.alarm(61307);
+  }
+  const std::size_t count = digit(5) == 1 ? 3 : 1;
+  const auto target = taskOf(context) == Task::ZeroOffset
+                          ? frameTarget(context, count == 3 ? GlobalBase::Refused : GlobalBase::Allowed)
+                          : std::nullopt;
+  BallPlan plan = {
+      .diameter = context.real("S_SETV"),
+      .points = digit(6) == 1 ? 4 : 3,
+      .round = digit(4) > 0,
+      .startAngle = context.real("S_STA1"),
+      .step = context.real("S_INCA"),
+      .alignProbe = digit(4) == 2,
+      .repeat = digit(2) == 1,
+      .findDiameter = digit(7) == 1,
+      .safeHeight = context.prober().position().z(),
+      .path = context.real("S_FA"),
+  };
+  if (!(plan.diameter > 0)) context.alarm(61319, "S_SETV, the diameter, must be greater than 0");
+  if (plan.round && (plan.step == 0 || std::abs(plan.step) * plan.points > 360)) {
+    context.alarm(61319, fmt::format("S_INCA: more than 0, at most {} degrees", 360 / plan.points));
+  }
+
+  Triangle set, actual;
+  for (std::size_t ball = 0; ball < count; ++ball) {
+    set[ball] = setCentre(context, static_cast<int>(ball));
+    plan.centre = set[ball];
+    context.prober().moveInPlane(plan.centre);
+    const MeasuredBall measured = measureBall(context, plan);
+    actual[ball] = measured.centre;
+    if (ball == 0) {
+      context.result(0, plan.diameter);
+      for (int axis = 0; axis < 3; ++axis)
+        context.result(1 + axis, set[0][axis]);
+    }
+    const int first = 4 + 8 * static_cast<int>(ball);
+    context.result(first, measured.diameter, {.nominal = plan.diameter});
+    context.result(first + 4, measured.diameter - plan.diameter);
+    for (int axis = 0; axis < 3; ++axis) {
+      context.result(first + 1 + axis, measured.centre[axis], {.nominal = plan.centre[axis]});
+      context.result(first + 5 + axis, measured.centre[axis] - plan.centre[axis]);
+    }
+    context.checkSafeArea(measured.diameter - plan.diameter);
+    for (int axis = 0; axis < 3; ++axis)
+      context.checkSafeArea(measured.centre[axis] - plan.centre[axis]);
+  }
+  context.result(28, context.real("S_TSA"));
+  context.noteCall();
+
+  if (target && count == 3) correctByTriangle(context, *target, set, actual);
+  if (target && count == 1) {
+    const Vector3 directions[] = {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
+    correctTranslation(context, *target, machinePoint(context, actual[0]), set[0], directions);
+  }
+}
+
+}  // namespace probewright::cycles::sinumerik

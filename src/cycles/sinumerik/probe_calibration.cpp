@@ -1,0 +1,109 @@
+#include "cycles/sinumerik/probe_calibration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/sinumerik/measuring_data.hpp"
+#include "control/sinumerik/tool_data.hpp"
+
+namespace probewright::cycles::sinumerik {
+
+using control::sinumerik::DataKey;
+
+namespace {
+
+constexpr const char* ballDiameterName = "$SNS_MEA_WP_BALL_DIAM";
+
+std::string triggerName(int axis, double sign) {
+  return fmt::format("$SNS_MEA_WP_TRIG_{}_DIR_AX{}", sign < 0 ? "MINUS" : "PLUS", axis + 1);
+}
+
+control::sinumerik::WorkingPlane planeOf(const Control& control) {
+  return control.plane == 18   ? control::sinumerik::WorkingPlane::G18
+         : control.plane == 19 ? control::sinumerik::WorkingPlane::G19
+                               : control::sinumerik::WorkingPlane::G17;
+}
+
+}  // namespace
+
+ProbeCalibration::ProbeCalibration(Context& context) : context_(context), dataSet_(context.dataSet()) {
+  const double asked = context.real("S_VMS");
+  feed_ = asked > 0 ? asked : context.control().machineData("$SCS_MEA_FEED_MEASURE", 300);
+}
+
+double ProbeCalibration::assumedRadius() const {
+  const double calibrated = context_.prober().ballRadius();
+  return calibrated > 0 ? calibrated : context_.control().tool.radius;
+}
+
+Vector3 ProbeCalibration::touch(const Vector3& setpoint, const Vector3& direction, double path, double assumed) {
+  return context_.prober().measureUncompensated(setpoint, direction, path, context_.repetitions(), assumed, feed_).tcp;
+}
+
+void ProbeCalibration::setTrigger(int axis, double sign, double value) {
+  changes_.push_back({triggerName(axis, sign), 8 + 4 * axis + (sign < 0 ? 0 : 2), value, true});
+}
+
+void ProbeCalibration::setBallDiameter(double value) { changes_.push_back({ballDiameterName, 4, value, true}); }
+
+void ProbeCalibration::setDeviation(int axis, double value) {
+  changes_.push_back({fmt::format("$SNS_MEA_WP_POS_DEV_AX{}", axis + 1), 20 + axis, value, false});
+}
+
+double ProbeCalibration::trigger(int axis, double sign) const {
+  const std::string name = triggerName(axis, sign);
+  const auto found = std::ranges::find(changes_, name, &Change::name);
+  return found != changes_.end() ? found->value : context_.control().data.number(name, {dataSet_});
+}
+
+void ProbeCalibration::completeAxis(int axis, bool deviation) {
+  const double plus = trigger(axis, 1), minus = trigger(axis, -1);
+  if (plus != 0 && minus != 0) {
+    setBallDiameter(plus - minus);
+    if (deviation) setDeviation(axis, (plus + minus) / 2);
+  } else {
+    setBallDiameter(2 * std::abs(plus + minus));
+  }
+}
+
+void ProbeCalibration::correctLength(int axis, double amount) { lengths_.emplace_back(axis, amount); }
+
+void ProbeCalibration::store() {
+  Control& control = context_.control();
+  for (const Change& change : changes_) {
+    const double old = control.data.number(change.name, {dataSet_});
+    context_.result(change.result, change.value);
+    if (change.compared) context_.result(change.result + 1, change.value - old);
+  }
+  context_.result(28, context_.real("S_TSA"));
+  context_.noteCall();
+  for (const Change& change : changes_) {
+    // A first calibration starts from zeros: the safe area must hold a radius then, not a diameter.
+    if (change.compared && change.name != ballDiameterName)
+      context_.checkSafeArea(change.value - control.data.number(change.name, {dataSet_}));
+  }
+  for (const auto& [axis, amount] : lengths_)
+    context_.checkSafeArea(amount);
+
+  for (const Change& change : changes_) {
+    control.write(DataKey(change.name, {dataSet_}), change.value);
+    if (change.name == ballDiameterName && maskBit(control.data, "$SNS_MEA_FUNCTION_MASK", 3)) {
+      control.write(DataKey("$TC_DP6", {control.tool.number, control.tool.edge}), change.value / 2);
+    }
+  }
+  control.write(DataKey("$SNS_MEA_WP_FEED", {dataSet_}), feed_);
+  for (const auto& [axis, amount] : lengths_) {
+    const auto edge = toolEdge(control.data, control.tool.number, control.tool.edge);
+    const auto axes = lengthAxes(planeOf(control), edge.value_or(control::sinumerik::ToolEdge{}));
+    const int geometryAxis = planeAxes(planeOf(control))[static_cast<std::size_t>(axis)];
+    const int length = static_cast<int>(std::ranges::find(axes, geometryAxis) - axes.begin());
+    const DataKey key(fmt::format("$TC_DP{}", 3 + length), {control.tool.number, control.tool.edge});
+    control.write(key, control.data.number(key) + amount);
+    context_.result(22, control.data.number(key));
+  }
+  control.refreshTool();
+}
+
+}  // namespace probewright::cycles::sinumerik

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cycles/sinumerik/context.hpp"
+
+/// What the calibration of a workpiece probe finds and where it goes.
+namespace probewright::cycles::sinumerik {
+
+/// Results of every calibration of a workpiece probe.
+inline constexpr std::array<ResultDefinition, 23> calibrationResults = {{
+    {"_OVR[4]", "effective diameter of the ball"},
+    {"_OVR[5]", "difference of the diameter"},
+    {"_OVR[8]", "trigger point, minus direction, 1st axis"},
+    {"_OVR[9]", "its difference"},
+    {"_OVR[10]", "trigger point, plus direction, 1st axis"},
+    {"_OVR[11]", "its difference"},
+    {"_OVR[12]", "trigger point, minus direction, 2nd axis"},
+    {"_OVR[13]", "its difference"},
+    {"_OVR[14]", "trigger point, plus direction, 2nd axis"},
+    {"_OVR[15]", "its difference"},
+    {"_OVR[16]", "trigger point, minus direction, 3rd axis"},
+    {"_OVR[17]", "its difference"},
+    {"_OVR[18]", "trigger point, plus direction, 3rd axis"},
+    {"_OVR[19]", "its difference"},
+    {"_OVR[20]", "position deviation of the ball, 1st axis"},
+    {"_OVR[21]", "position deviation of the ball, 2nd axis"},
+    {"_OVR[22]", "length of the probe"},
+    {"_OVR[24]", "angle of the directions", ValueKind::Angle},
+    {"_OVR[27]", "zero offset range"},
+    {"_OVR[28]", "safe area"},
+    {"_OVI[2]", "number of the cycle", ValueKind::Integer},
+    {"_OVI[5]", "data set of the probe", ValueKind::Integer},
+    {"_OVI[9]", "number of the alarm", ValueKind::Integer},
+}};
+
+/// Gathers what a calibration finds and writes all of it at the end (`store`), or nothing if a value is further from
+/// its predecessor than the safe area allows.
+class ProbeCalibration {
+public:
+  explicit ProbeCalibration(Context& context);
+
+  /// The radius that start positions are reckoned with: as calibrated before, else as in the tool data.
+  double assumedRadius() const;
+  /// The tool centre point at the signal, mean of S_NMSP touches, with the feed of this calibration (S_VMS, or setting
+  /// data). `assumed`: from the tool centre point to the surface.
+  Vector3 touch(const Vector3& setpoint, const Vector3& direction, double path, double assumed);
+
+  /// Axis 0, 1, 2; `sign` +1, -1: the direction of the touch.
+  void setTrigger(int axis, double sign, double value);
+  void setBallDiameter(double value);
+  void setDeviation(int axis, double value);
+  /// Ball diameter and, if wanted, deviation from both trigger points of one axis; from one where the other is unknown.
+  void completeAxis(int axis, bool deviation);
+  /// Adds to the geometry of the tool length that acts in an axis of the plane.
+  void correctLength(int axis, double amount);
+
+  /// Alarm 61303 or all written: setting data of the data set, and the ball radius to the tool data if the machine
+  /// wants it there.
+  void store();
+
+private:
+  double trigger(int axis, double sign) const;
+
+  struct Change {
+    std::string name;
+    int result;  ///< _OVR index
+    double value;
+    bool compared;  ///< with its predecessor: the difference is the next result
+  };
+  Context& context_;
+  int dataSet_;
+  double feed_;
+  std::vector<Change> changes_;
+  std::vector<std::pair<int, double>> lengths_;
+};
+
+}  // namespace probewright::cycles::sinumerik
