@@ -40,13 +40,12 @@ bool SinumerikProgram::parse(BlockPosition position, Block& block, Diagnostics& 
     }
     if (const auto* command = std::get_if<Command>(&instruction);
         command != nullptr && block.at(command->name) == "DEFINE")
-      defineMacro(block);
+      defineMacro(block, *command);
   }
   return true;
 }
 
-void SinumerikProgram::defineMacro(const Block& block) {
-  const Command& command = std::get<Command>(block.instructions.front());
+void SinumerikProgram::defineMacro(const Block& block, const Command& command) {
   // The text keeps its own letters: it is taken from the source, which lies one block's length before.
   const std::string_view source = block.at(block.source);
   const std::string_view upper = block.at(command.text);

@@ -40,7 +40,7 @@ public:
 
 private:
   void resolveTargets(language::Block& block);
-  void defineMacro(const language::Block& block);
+  void defineMacro(const language::Block& block, const language::Command& command);
   std::string_view withoutMacros(std::string_view line);
 
   language::SourceText text_;

@@ -36,6 +36,7 @@ bool isStructure(Keyword keyword) {
     case Keyword::Procedure:
     case Keyword::External:
     case Keyword::Declare:
+    case Keyword::Define:
       return true;
     default:
       return false;
