@@ -139,6 +139,25 @@ TEST(Run, MeasuresTheHousingOfTheExamplesAndCorrectsThePreset) {
   EXPECT_THAT(report, Not(HasSubstr("<link rel=\"stylesheet\"")));
 }
 
+TEST(Run, MeasuresTheHousingOfTheExamplesAndCorrectsTheZeroOffset) {
+  const Folder folder;
+  const Answer answer = probewright({"run", "examples/programs/housing.mpf", "--setup",
+                                     "examples/setups/housing-840dsl.toml", "--out", (folder / "out").string()});
+  ASSERT_EQ(answer.exit, 0) << answer.errors << answer.output;
+  EXPECT_EQ(complaints(json::parse(textOf(folder / "out/results.json"))), "");
+
+  // The pose of the part in the setup; 0.002 mm as above.
+  const std::string frames = textOf(folder / "out/FRAMES.UFR");
+  const auto value = [&frames](const std::string& key) {
+    const std::size_t at = frames.find(key + "=");
+    return at == std::string::npos ? NAN : std::stod(frames.substr(at + key.size() + 1));
+  };
+  EXPECT_NEAR(value("$P_UIFR[1,X,TR]"), -58.65, 0.002);
+  EXPECT_NEAR(value("$P_UIFR[1,Y,TR]"), -40.82, 0.002);
+  EXPECT_NEAR(value("$P_UIFR[1,Z,TR]"), -469.59, 0.002);
+  EXPECT_NEAR(value("$P_UIFR[1,Z,RT]"), 0.8, 0.002 / 100 * 180 / std::numbers::pi);
+}
+
 // The first program of the README: the hole is good, its place is not.
 TEST(Run, FindsThePlateOfTheReadmeClampedBesideItsPlace) {
   const Folder folder;

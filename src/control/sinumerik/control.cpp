@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/number_text.hpp"
 #include "control/alarm.hpp"
 #include "control/sinumerik/text.hpp"
 #include "control/sinumerik/tool_data.hpp"
@@ -15,6 +16,12 @@ Frame chained(const Frame& outer, const Frame& inner) {
   const Result<Frame> frame = chain(outer, inner);
   if (!frame) throw Alarm("18314", "Frames cannot be chained: " + frame.error().message, frame.error().advice);
   return *frame;
+}
+
+/// A value for people: six decimals are a nanometre.
+std::string shown(const DataValue& value) {
+  const double* number = std::get_if<double>(&value);
+  return number == nullptr ? valueText(value) : formatShortest(std::round(*number * 1e6) / 1e6);
 }
 
 }  // namespace
@@ -135,7 +142,7 @@ void Control::write(const DataKey& key, double value) {
   const std::string text = key.text();
   const std::size_t bracket = text.find('[');
   journal.write({text.substr(0, bracket), bracket == std::string::npos ? "" : text.substr(bracket),
-                 before ? valueText(*before) : "", valueText(value)});
+                 before ? shown(*before) : "", shown(value)});
 }
 
 }  // namespace probewright::control::sinumerik
