@@ -421,6 +421,7 @@ TEST(Host, AlarmsNameTheReason) {
   EXPECT_THAT(message("L X+0 Y+0 FMAX\nCC X+10 Y+0\nC X+5 Y+5 DR+\n"), HasSubstr("beside the circle"));
   EXPECT_THAT(message("L X+0 Y+0 FMAX\nCR X+10 Y+0 R3 DR+\n"), HasSubstr("at least 5"));
   EXPECT_THAT(message("CYCL DEF 7.0 X\nCYCL DEF 7.1 #3\n"), HasSubstr("datum table"));
+  EXPECT_THAT(message("L X+0 Y+0 FMAX\nAPPR LCT X+0 Y+0 R+0 RL F100\nL Y+5\n"), HasSubstr("its own arc"));
   EXPECT_THAT(message("M128\n"), HasSubstr("rotary axes"));
   EXPECT_THAT(message("PLANE SPATIAL SPA10 SPB0 SPC0 STAY\n"), HasSubstr("cannot reach"));
 }

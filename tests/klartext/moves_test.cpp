@@ -74,6 +74,8 @@ TEST(Moves, MistakesHaveAPlace) {
   EXPECT_EQ(irOf("\n3 L X+10 Q5"), "2:10: an axis, R0/RL/RR, F or M is expected here");
   EXPECT_EQ(irOf("3 L X Y+5"), "1:7: a number or a Q parameter is expected for X");
   EXPECT_EQ(irOf("3 CC XX"), "1:7: a number or a Q parameter is expected for X");
+  EXPECT_EQ(irOf("APPR LCT X+1 Y+2 RL"), "1:20: R with the radius of the arc is expected in this block");
+  EXPECT_EQ(irOf("DEP LT F100"), "1:12: LEN with the length of the line is expected in this block");
   EXPECT_EQ(irOf("APPR XX"), "1:6: LT, LN, CT, LCT or one of their polar forms PLT, PLN, PCT, PLCT is expected");
 }
 

@@ -372,9 +372,9 @@ void Contour::runApproach(const Element& next) {
       const Vector2 from = position_ - centre;
       const double distance = from.norm();
       const double radius = std::abs(way.radius);
-      if (distance < radius) {
+      if (radius < lengthTolerance || distance < radius) {
         throw Alarm("Approach position wrong", "The approach begins within its own arc",
-                    "begin further away or make the radius R smaller");
+                    "begin further away, or give a smaller radius R that is not 0");
       }
       const double touch = angleOf(from) + side * std::acos(radius / distance);
       const double end = angleOf(first - centre);
@@ -420,9 +420,9 @@ void Contour::depart(const Approach& departure) {
       const double radius = std::abs(departure.radius);
       const Vector2 centre = position_ + radius * outward;
       const Vector2 to = departure.point - centre;
-      if (to.norm() < radius) {
+      if (radius < lengthTolerance || to.norm() < radius) {
         throw Alarm("Departure position wrong", "The departure ends within its own arc",
-                    "end further away or make the radius R smaller");
+                    "end further away, or give a smaller radius R that is not 0");
       }
       const double touch = angleOf(to) - side * std::acos(radius / to.norm());
       double sweep = normalized(touch - angleOf(position_ - centre));

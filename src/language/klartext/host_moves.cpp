@@ -429,6 +429,9 @@ void KlartextHost::runElement(const Element& element) {
   }
   const double radius = element.radius();
   const double sweep = std::abs(element.sweep);
+  if (!std::isfinite(radius) || !std::isfinite(sweep)) {
+    throw Alarm("Circle not defined", "The arc cannot be computed from the values of its block");
+  }
   // A chord's sagitta is r (1 - cos(a/2)).
   const double step = radius > channel.pathTolerance ? 2 * std::acos(1 - channel.pathTolerance / radius) : sweep;
   const int pieces = std::clamp(static_cast<int>(std::ceil(sweep / std::max(step, 1e-6))), 1, 100000);

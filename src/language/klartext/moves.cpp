@@ -217,6 +217,18 @@ bool BlockParser::approachOrDepart(MoveKind kind) {
     return error("LT, LN, CT, LCT or one of their polar forms PLT, PLN, PCT, PLCT is expected");
   }
   if (!moveWords(move)) return false;
+  const auto has = [&](std::string_view address) {
+    for (std::uint32_t i = 0; i < move.words.count; ++i) {
+      if (block_.words[move.words.first + i].address == addressOf(address)) return true;
+    }
+    return false;
+  };
+  const bool straight = move.variant.length == 2 && upper(block_.at(move.variant)[0]) == 'L';
+  if (straight && !has("LEN")) return error("LEN with the length of the line is expected in this block");
+  if (!straight && !has("R")) return error("R with the radius of the arc is expected in this block");
+  if (!straight && move.variant.length == 2 && !has("CCA")) {
+    return error("CCA with the angle of the arc is expected in this block");
+  }
   const Instruction instruction = move;
   emitWithMachineFunctions(&instruction);
   return true;
