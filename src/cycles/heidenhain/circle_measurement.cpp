@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "cycles/heidenhain/inspection.hpp"
+#include "cycles/heidenhain/transfer.hpp"
 #include "metrology/fits.hpp"
 #include "probing/heidenhain_strategies.hpp"
 
@@ -40,6 +42,32 @@ MeasuredCircle measureCircle(Context& context, const CircleParameters& numbers, 
   circle.centre = fit->shape.centre;
   circle.diameter = 2 * (fit->shape.radius + probing::outwards(side) * context.ballRadius());
   return circle;
+}
+
+void presetCircle(Context& context, Side side) {
+  context.require({.rotationAllowed = true});
+  const MeasuredCircle circle = measureCircle(context, {321, 322, 262}, side);
+  context.result(151, circle.centre.x(), {.nominal = context.q(321)});
+  context.result(152, circle.centre.y(), {.nominal = context.q(322)});
+  context.result(153, circle.diameter, {.nominal = context.q(262)});
+  finishPreset(context, {.measured = circle.centre, .wish = {context.q(331), context.q(332)}, .rotation = {}});
+}
+
+void inspectCircle(Context& context, Side side, const std::string& title, const std::string& feature, int maximum,
+                   int minimum) {
+  context.require({});
+  const MeasuredCircle circle = measureCircle(context, {273, 274, 262}, side);
+  Inspection inspection{
+      .title = title,
+      .items = {inspectedPosition(151, 161, "Center in reference axis", context.q(273), circle.centre.x(),
+                                  context.q(279)),
+                inspectedPosition(152, 162, "Center in minor axis", context.q(274), circle.centre.y(), context.q(280)),
+                inspectedDimension(153, 163, "Diameter", feature, context.q(262), circle.diameter, context.q(maximum),
+                                   context.q(minimum), side)},
+      .measured = {},
+      .further = {{"Measuring height", context.q(261)}}};
+  const double deviation = circle.diameter - context.q(262);
+  finishInspection(context, inspection, {.monitored = deviation, .excess = -probing::outwards(side) * deviation / 2});
 }
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,9 +1,60 @@
 #pragma once
 
 #include "cycles/heidenhain/context.hpp"
+#include "cycles/heidenhain/preset_parameters.hpp"
 
 /// What cycles 412, 413, 421 and 422 have in common: a circle measured from their parameters.
 namespace probewright::cycles::heidenhain {
+
+namespace parameters {
+
+inline constexpr std::array circlePreset =
+    joined(joined(
+               std::array{
+                   coordinate(321, "Q321", "nominal centre in the main axis"),
+                   coordinate(322, "Q322", "nominal centre in the minor axis"),
+                   length(262, "Q262", "nominal diameter"),
+                   angle(325, "Q325", "angle of the first touch from the main axis"),
+                   angle(247, "Q247", "angle from touch to touch, negative: clockwise; at least 5 degrees", -120, 120),
+               },
+               heightsAndTravel),
+           joined(centreTransfer, std::array{pointCount, traverse}));
+
+inline constexpr std::array circlePresetResults = {
+    ResultDefinition{"Q151", "actual centre, main axis"},
+    ResultDefinition{"Q152", "actual centre, minor axis"},
+    ResultDefinition{"Q153", "actual diameter"},
+};
+
+/// The limits of the diameter have numbers of their own for holes and for studs.
+constexpr auto circleInspection(const Parameter& largestDiameter, const Parameter& smallestDiameter) {
+  return joined(
+      joined(
+          std::array{
+              coordinate(273, "Q273", "nominal centre in the main axis"),
+              coordinate(274, "Q274", "nominal centre in the minor axis"),
+              length(262, "Q262", "nominal diameter"),
+              angle(325, "Q325", "angle of the first touch from the main axis"),
+              angle(247, "Q247", "angle from touch to touch, negative: clockwise; at least 5 degrees", -120, 120),
+          },
+          heightsAndTravel),
+      std::array{largestDiameter, smallestDiameter, centreTolerance1, centreTolerance2, measuringLog, toleranceStop,
+                 monitoredTool, pointCount, traverse, reverseTool, inclination});
+}
+
+inline constexpr std::array circleInspectionResults = {
+    ResultDefinition{"Q151", "actual centre, main axis"},
+    ResultDefinition{"Q152", "actual centre, minor axis"},
+    ResultDefinition{"Q153", "actual diameter"},
+    ResultDefinition{"Q161", "deviation of the centre, main axis"},
+    ResultDefinition{"Q162", "deviation of the centre, minor axis"},
+    ResultDefinition{"Q163", "deviation of the diameter"},
+    ResultDefinition{"Q180", "1: within tolerance", ValueKind::Integer},
+    ResultDefinition{"Q181", "1: rework", ValueKind::Integer},
+    ResultDefinition{"Q182", "1: scrap", ValueKind::Integer},
+};
+
+}  // namespace parameters
 
 struct MeasuredCircle {
   Vector3 centre = Vector3::Zero();  ///< in the measuring plane; the third coordinate is the measuring height
@@ -18,5 +69,13 @@ struct CircleParameters {
 /// Touches the circle as Q325, Q247, Q261, Q320, Q260, Q301, Q423 and Q365 say and fits it: three touches exactly, four
 /// by least squares. Throws Alarm for a stepping angle below 5 degrees.
 MeasuredCircle measureCircle(Context& context, const CircleParameters& numbers, Side side);
+
+/// Cycles 412 and 413: measures, leaves the results and sets the preset to the centre.
+void presetCircle(Context& context, Side side);
+
+/// Cycles 421 and 422: measures and inspects. `title` heads the log, `feature` names it there; `maximum` and `minimum`
+/// are the Q numbers of the limits.
+void inspectCircle(Context& context, Side side, const std::string& title, const std::string& feature, int maximum,
+                   int minimum);
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,31 +1,11 @@
 #include "cycles/heidenhain/cycles.hpp"
-#include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/rectangle_measurement.hpp"
-#include "cycles/heidenhain/transfer.hpp"
 
 namespace probewright::cycles::heidenhain {
 namespace {
 
-using namespace parameters;
-
-constexpr Choice axisChoices[] = {{1, "main axis"}, {2, "minor axis"}};
-
-constexpr std::array parameters408 = joined(
-    joined(
-        std::array{
-            coordinate(321, "Q321", "nominal centre in the main axis"),
-            coordinate(322, "Q322", "nominal centre in the minor axis"),
-            length(311, "Q311", "width of the slot"),
-            option(272, "Q272", "axis across the slot", axisChoices),
-        },
-        heightsAndTravel),
-    joined(std::array{tableRow, coordinate(405, "Q405", "coordinate that the centre line gets in the measured axis")},
-           transferAndToolAxis));
-
-constexpr ResultDefinition results408[] = {
-    {"Q166", "actual width"},
-    {"Q157", "actual position of the centre line"},
-};
+constexpr std::array parameters408 = parameters::joined(
+    parameters::joined(parameters::widthCentre, parameters::heightsAndTravel), parameters::widthTransfer);
 
 }  // namespace
 
@@ -36,22 +16,9 @@ const CycleDefinition cycle408Definition = {
     .family = CycleFamily::Preset,
     .summary = "Measures the width of a slot by a touch on each wall and sets the preset to its centre line.",
     .parameters = parameters408,
-    .results = results408,
+    .results = parameters::widthResults,
 };
 
-void cycle408(Context& context, const Arguments&) {
-  context.require({.rotationAllowed = true});
-  const int axis = context.option(272) - 1;
-  const Vector2 centre(context.q(321), context.q(322));
-  const MeasuredWidth measured =
-      measureWidth(context, centre, context.q(311), axis, Side::Inside, context.option(301) == 1);
-  context.result(166, measured.width, {.nominal = context.q(311)});
-  context.result(157, measured.centre, {.nominal = centre[axis]});
-  NewPreset preset;
-  preset.measured = {centre.x(), centre.y(), measured.height};
-  preset.measured[axis] = measured.centre;
-  preset.wish[static_cast<std::size_t>(axis)] = context.q(405);
-  finishPreset(context, preset);
-}
+void cycle408(Context& context, const Arguments&) { presetWidth(context, Side::Inside); }
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,31 +1,7 @@
 #include "cycles/heidenhain/cycles.hpp"
-#include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/rectangle_measurement.hpp"
-#include "cycles/heidenhain/transfer.hpp"
 
 namespace probewright::cycles::heidenhain {
-namespace {
-
-using namespace parameters;
-
-constexpr std::array parameters410 = joined(joined(
-                                                std::array{
-                                                    coordinate(321, "Q321", "nominal centre in the main axis"),
-                                                    coordinate(322, "Q322", "nominal centre in the minor axis"),
-                                                    length(323, "Q323", "length of the pocket along the main axis"),
-                                                    length(324, "Q324", "length of the pocket along the minor axis"),
-                                                },
-                                                heightsAndTravel),
-                                            centreTransfer);
-
-constexpr ResultDefinition results410[] = {
-    {"Q151", "actual centre, main axis"},
-    {"Q152", "actual centre, minor axis"},
-    {"Q154", "actual length along the main axis"},
-    {"Q155", "actual length along the minor axis"},
-};
-
-}  // namespace
 
 const CycleDefinition cycle410Definition = {
     .number = 410,
@@ -33,18 +9,10 @@ const CycleDefinition cycle410Definition = {
     .title = "PRESET INSIDE RECTAN.",
     .family = CycleFamily::Preset,
     .summary = "Measures a rectangular pocket by one touch on each side and sets the preset to its centre.",
-    .parameters = parameters410,
-    .results = results410,
+    .parameters = parameters::rectanglePreset,
+    .results = parameters::rectanglePresetResults,
 };
 
-void cycle410(Context& context, const Arguments&) {
-  context.require({.rotationAllowed = true});
-  const MeasuredRectangle rectangle = measureRectangle(context, {321, 322, 323, 324}, Side::Inside);
-  context.result(151, rectangle.centre.x(), {.nominal = context.q(321)});
-  context.result(152, rectangle.centre.y(), {.nominal = context.q(322)});
-  context.result(154, rectangle.length1, {.nominal = context.q(323)});
-  context.result(155, rectangle.length2, {.nominal = context.q(324)});
-  finishPreset(context, {.measured = rectangle.centre, .wish = {context.q(331), context.q(332)}, .rotation = {}});
-}
+void cycle410(Context& context, const Arguments&) { presetRectangle(context, Side::Inside); }
 
 }  // namespace probewright::cycles::heidenhain

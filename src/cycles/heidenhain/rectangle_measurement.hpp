@@ -1,9 +1,83 @@
 #pragma once
 
 #include "cycles/heidenhain/context.hpp"
+#include "cycles/heidenhain/preset_parameters.hpp"
 
-/// What cycles 410, 411, 423 and 424 have in common: a rectangle measured from their parameters.
+/// What cycles 408 to 411, 423 and 424 have in common: a rectangle or a width measured from their parameters.
 namespace probewright::cycles::heidenhain {
+
+namespace parameters {
+
+inline constexpr std::array rectanglePreset =
+    joined(joined(
+               std::array{
+                   coordinate(321, "Q321", "nominal centre in the main axis"),
+                   coordinate(322, "Q322", "nominal centre in the minor axis"),
+                   length(323, "Q323", "length along the main axis"),
+                   length(324, "Q324", "length along the minor axis"),
+               },
+               heightsAndTravel),
+           centreTransfer);
+
+inline constexpr std::array rectanglePresetResults = {
+    ResultDefinition{"Q151", "actual centre, main axis"},
+    ResultDefinition{"Q152", "actual centre, minor axis"},
+    ResultDefinition{"Q154", "actual length along the main axis"},
+    ResultDefinition{"Q155", "actual length along the minor axis"},
+};
+
+inline constexpr std::array rectangleInspection =
+    joined(joined(
+               std::array{
+                   coordinate(273, "Q273", "nominal centre in the main axis"),
+                   coordinate(274, "Q274", "nominal centre in the minor axis"),
+                   length(282, "Q282", "nominal length along the main axis"),
+                   length(283, "Q283", "nominal length along the minor axis"),
+               },
+               heightsAndTravel),
+           std::array{
+               limit(284, "Q284", "largest permissible length along the main axis; 0 with Q285 = 0: not monitored"),
+               limit(285, "Q285", "smallest permissible length along the main axis"),
+               limit(286, "Q286", "largest permissible length along the minor axis; 0 with Q287 = 0: not monitored"),
+               limit(287, "Q287", "smallest permissible length along the minor axis"),
+               centreTolerance1,
+               centreTolerance2,
+               measuringLog,
+               toleranceStop,
+               monitoredTool,
+           });
+
+inline constexpr std::array rectangleInspectionResults = {
+    ResultDefinition{"Q151", "actual centre, main axis"},
+    ResultDefinition{"Q152", "actual centre, minor axis"},
+    ResultDefinition{"Q154", "actual length along the main axis"},
+    ResultDefinition{"Q155", "actual length along the minor axis"},
+    ResultDefinition{"Q161", "deviation of the centre, main axis"},
+    ResultDefinition{"Q162", "deviation of the centre, minor axis"},
+    ResultDefinition{"Q164", "deviation of the length along the main axis"},
+    ResultDefinition{"Q165", "deviation of the length along the minor axis"},
+    ResultDefinition{"Q180", "1: within tolerance", ValueKind::Integer},
+    ResultDefinition{"Q181", "1: rework", ValueKind::Integer},
+    ResultDefinition{"Q182", "1: scrap", ValueKind::Integer},
+};
+
+/// Cycles 408 and 409; only inside a slot does the probe have a choice of heights between the walls.
+inline constexpr std::array widthCentre = {
+    coordinate(321, "Q321", "nominal centre in the main axis"),
+    coordinate(322, "Q322", "nominal centre in the minor axis"),
+    length(311, "Q311", "width"),
+    measuringAxis2,
+};
+inline constexpr std::array widthTransfer =
+    joined(std::array{tableRow, coordinate(405, "Q405", "coordinate that the centre line gets in the measured axis")},
+           transferAndToolAxis);
+
+inline constexpr std::array widthResults = {
+    ResultDefinition{"Q166", "actual width"},
+    ResultDefinition{"Q157", "actual position of the centre line"},
+};
+
+}  // namespace parameters
 
 struct MeasuredRectangle {
   Vector3 centre = Vector3::Zero();
@@ -28,5 +102,14 @@ struct MeasuredWidth {
 };
 MeasuredWidth measureWidth(Context& context, const Vector2& centre, double width, int axis, Side side,
                            bool betweenAtClearance);
+
+/// Cycles 410 and 411: measures, leaves the results and sets the preset to the centre.
+void presetRectangle(Context& context, Side side);
+
+/// Cycles 423 and 424: measures and inspects. `title` heads the log.
+void inspectRectangle(Context& context, Side side, const std::string& title);
+
+/// Cycles 408 and 409: measures, leaves the results and sets the preset to the centre line.
+void presetWidth(Context& context, Side side);
 
 }  // namespace probewright::cycles::heidenhain
