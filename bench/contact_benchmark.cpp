@@ -25,7 +25,8 @@ TriangleMesh bumpyBody(std::size_t triangles) {
   TriangleMesh mesh;
   const auto place = [](double polar, double azimuth) {
     const double r = kSize * (1 + 0.03 * std::sin(9 * polar) * std::cos(8 * azimuth));
-    return Vector3(r * std::sin(polar) * std::cos(azimuth), r * std::sin(polar) * std::sin(azimuth), r * std::cos(polar));
+    return Vector3(r * std::sin(polar) * std::cos(azimuth), r * std::sin(polar) * std::sin(azimuth),
+                   r * std::cos(polar));
   };
   mesh.corners.push_back(place(0, 0));
   for (std::uint32_t i = 1; i < rings; ++i) {
@@ -138,10 +139,11 @@ void embreeRay(benchmark::State& state) {
   for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
     Eigen::Map<Eigen::Vector3f>(corners + 3 * i) = mesh.corners[i].cast<float>();
   }
-  auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.triangles.size()));
+  auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                 3 * sizeof(unsigned), mesh.triangles.size()));
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) indices[3 * i + k] = mesh.triangles[i][k];
+    for (std::size_t k = 0; k < 3; ++k)
+      indices[3 * i + k] = mesh.triangles[i][k];
   }
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene, geometry);

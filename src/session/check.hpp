@@ -9,8 +9,8 @@
 
 namespace probewright::session {
 
-/// Every mistake of a program that can be seen without running it, in the order of its lines; programs that it calls are
-/// looked for beside it but not checked themselves.
+/// Every mistake of a program that can be seen without running it, in the order of its lines; programs that it calls
+/// are looked for beside it but not checked themselves.
 Diagnostics checkProgram(const std::filesystem::path& path, std::optional<control::ControlKind> control);
 
 /// The same for a program that is open; it must be one of the language of `kind`.
