@@ -179,6 +179,29 @@ TEST(Cycle978, MeasuresInTheOtherPlanes) {
   EXPECT_NEAR(bench.ovr(4), 0.1, 1e-9);
 }
 
+TEST(Cycle978, CountsInTheProgramsUnit) {
+  SinumerikBench bench(blockAt(translation({0.254, 0, -350})));
+  plantFrame(bench, "$P_UIFR", 1, {0, 0, -350});
+  bench.start({-12, 20, -10});
+  bench.run(
+      "CYCLE978",
+      {{"S_MVAR", 100}, {"S_KNUM", 1}, {"S_SETV", -0.02}, {"S_FA", 0.4}, {"S_TSA", 0.1}, {"S_MA", 1}, {"S_MD", 1}}, {},
+      "G70\n");
+  EXPECT_NEAR(bench.ovr(0), -0.02, 1e-12);
+  EXPECT_NEAR(bench.ovr(4), 0.01, 1e-9) << "inches";
+  EXPECT_NEAR(bench.data("$P_UIFR", {1, "X", "FI"}), 0.03 * 25.4, 1e-9) << "frames are in mm";
+}
+
+TEST(Cycle978, IsSkippedInDryRun) {
+  SinumerikBench bench(blockAt(translation({0.254, 0, -350})));
+  plantFrame(bench, "$P_UIFR", 1, {0, 0, -350});
+  bench.control.dryRun = true;
+  bench.start({-12, 20, -10});
+  bench.run("CYCLE978", {{"S_MVAR", 100}, {"S_KNUM", 1}, {"S_FA", 9}, {"S_TSA", 1}, {"S_MA", 1}, {"S_MD", 1}});
+  EXPECT_TRUE(bench.control.journal.cycles.empty());
+  EXPECT_EQ(bench.data("$P_UIFR", {1, "X", "FI"}), 0);
+}
+
 TEST(Cycle978, RefusesWithTheControlsAlarms) {
   SinumerikBench bench(blockAt(translation({0, 0, -350})));
   plantFrame(bench, "$P_UIFR", 1, {0, 0, -350});

@@ -47,7 +47,7 @@ public:
   /// the call.
   language::RunResult tryRun(const char* name, const NamedNumbers& numbers, const NamedTexts& texts = {},
                              const std::string& before = {}) {
-    std::string text = fmt::format("G17 G90 G71 {}\nT1 D1 M6\n", gCodeOf(settable_));
+    std::string text = fmt::format("{} G90 G71 DIAMOF {}\nT1 D1 M6\n", plane, gCodeOf(settable_));
     if (approach_) {
       const Vector3 above = *approach_ + Vector3(0, 0, clearance);
       // Up in machine coordinates first: the last run may have ended inside the workpiece.
@@ -101,6 +101,7 @@ public:
 
   simulation::VirtualMachine machine;
   control::sinumerik::Control control;
+  std::string plane = "G17";  ///< in effect when the cycle is called
 
 private:
   static constexpr double clearance = 60;
