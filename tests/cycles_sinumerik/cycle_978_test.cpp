@@ -179,6 +179,27 @@ TEST(Cycle978, MeasuresInTheOtherPlanes) {
   EXPECT_NEAR(bench.ovr(4), 0.1, 1e-9);
 }
 
+TEST(Cycle978, TheSpindleFollowsATurnedSystemIfAskedTo) {
+  // A ball 0.1 beside the spindle axis in X; the workpiece system is turned by 40 degrees.
+  const Pose part = translation({0, 0, -350}) * rotation(Vector3::UnitZ(), 40);
+  simulation::Truth truth = blockAt(part);
+  truth.tools[0].probe.tipOffset = {0.1, 0};
+  SinumerikBench bench(truth);
+  plantFrame(bench, "$P_UIFR", 1, {0, 0, -350}, {0, 0, 40});
+  bench.set("$SNS_MEA_WP_TRIG_PLUS_DIR_AX1", {0}, 2.1);
+  bench.set("$SNS_MEA_WP_TRIG_MINUS_DIR_AX1", {0}, -1.9);
+  bench.set("$SNS_MEA_WP_POS_DEV_AX1", {0}, 0.1);
+  const auto measured = [&] {
+    bench.start({-12, 20, -10});
+    bench.run("CYCLE978", {{"S_FA", 9}, {"S_TSA", 1}, {"S_MA", 1}, {"S_MD", 1}});
+    return bench.ovr(4);
+  };
+  // As the spindle stands, the ball leads by 0.1 cos 40 only.
+  EXPECT_NEAR(measured(), 0.1 - 0.1 * std::cos(radiansFromDegrees(40)), 1e-9);
+  bench.set("$SCS_MEA_FUNCTION_MASK", {}, 3);
+  EXPECT_NEAR(measured(), 0, 1e-9);
+}
+
 TEST(Cycle978, CountsInTheProgramsUnit) {
   SinumerikBench bench(blockAt(translation({0.254, 0, -350})));
   plantFrame(bench, "$P_UIFR", 1, {0, 0, -350});

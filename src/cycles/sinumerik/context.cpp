@@ -201,6 +201,21 @@ void Context::warn(int number, const std::string& detail) {
       control_.channel.seconds(), std::to_string(number));
 }
 
+namespace {
+
+/// Turns the spindle with the workpiece coordinate system about the infeed axis, where setting data ask for it, so that
+/// the probe touches as it was calibrated. A probe with one direction is turned into every touch anyway.
+void followRotation(Control& control) {
+  if (!maskBit(control.data, "$SCS_MEA_FUNCTION_MASK", 1) || !control.tool.isProbe() || control.tool.type == 712)
+    return;
+  if (!control.channel.description().spindleOrients) return;
+  const control::WorkingPlane plane = control.workingPlane();
+  const Vector3 first = plane.planeFromXyz(control.channel.frame().linear() * plane.xyzFromPlane(Vector3::UnitX()));
+  control.channel.orientSpindle(degreesFromRadians(std::atan2(first.y(), first.x())));
+}
+
+}  // namespace
+
 void runCycle(Control& control, const Entry& entry, const Arguments& arguments, const SourcePlace& place) {
   if (control.dryRun || control.programTest || control.blockSearch) {
     control.panel.message(
@@ -213,6 +228,7 @@ void runCycle(Control& control, const Entry& entry, const Arguments& arguments, 
   if (!mistakes.empty()) throw Alarm("12150", mistakes.front().message, mistakes.front().advice);
   Context context(control, arguments, place);
   try {
+    followRotation(control);
     entry.run(context, arguments);
   } catch (const Alarm& alarm) {
     context.record().alarm = alarm.what();
