@@ -83,7 +83,7 @@ int cycles(const CyclesArguments& arguments) {
       if (std::ranges::find(seen, cycle) != seen.end()) continue;
       seen.push_back(cycle);
       if (arguments.name.empty()) {
-        fmt::print("{:<11}{:<60}{:<24}{}\n", cycle->name, cycle->title, cycles::nameOf(cycle->family),
+        fmt::print("{:<11}{:<64}{:<24}{}\n", cycle->name, cycle->title, cycles::nameOf(cycle->family),
                    controlsText(cycle->controls));
         found = true;
       } else if (sameName(arguments.name, cycle->name) || sameName(arguments.name, std::to_string(cycle->number))) {
