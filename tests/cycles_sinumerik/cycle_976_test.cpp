@@ -79,6 +79,26 @@ TEST(Cycle976, WhatItCalibratesMeasuresRight) {
   EXPECT_NEAR(bench.ovr(6), 0.25, 1e-6);
 }
 
+TEST(Cycle976, TurnsAProbeWithOneDirectionIntoEveryTouch) {
+  // The ball lies 0.1 beside the spindle axis on the side that the probe switches to, turned by 30 degrees from X.
+  simulation::Truth truth = perfectWorld();
+  truth.tools[0].probe.tipOffset = {0.1 * std::cos(radiansFromDegrees(-30)), 0.1 * std::sin(radiansFromDegrees(-30))};
+  place(truth, simulation::Ring(20, 60, -40), translation({0.3, -0.2, table}));
+  place(truth, simulation::Ring(33.3, 100, -40), translation({200.5, 0.25, table}));
+  SinumerikBench bench(truth);
+  forgetCalibration(bench);
+  bench.set("$TC_DP1", {1, 1}, 712);
+  bench.set("$TC_DP10", {1, 1}, 30);
+  plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
+  bench.start({0, 0, -10});
+  bench.run("CYCLE976", {{"S_MVAR", 2}, {"S_SETV", 40}, {"S_FA", 8}, {"S_TSA", 3}});
+  expectCalibrated(bench, {0, 0}, 2.1);
+  bench.start({200, 0, -10});
+  bench.run("CYCLE977", {{"S_MVAR", 1}, {"S_SETV", 66}, {"S_FA", 8}, {"S_TSA", 3}, {"S_STA1", 20}});
+  EXPECT_NEAR(bench.ovr(4), 66.6, 1e-9);
+  EXPECT_NEAR(bench.ovr(5), 200.5, 1e-9);
+}
+
 TEST(Cycle976, CalibratesOneAxisOfARing) {
   simulation::Truth truth = perfectWorld();
   truth.tools[0].probe.tipOffset = {0, 0.05};

@@ -85,6 +85,25 @@ TEST(Cycle974, ReversalMakesTheCentreUnimportant) {
   EXPECT_NEAR(bench.ovr(4), 40, 1e-9);
 }
 
+TEST(Cycle974, MeasuresOnALathe) {
+  // The probe lies across the turning axis, its shank to the turret; the bar runs out of true by 0.2.
+  simulation::Truth truth = perfectWorld("lathe2c");
+  truth.tools[0].shankDirection = Vector3::UnitX();
+  place(truth, simulation::RoundBar(25, 0, 120), translation({0.2, 0, 0}));
+  SinumerikBench bench(truth);
+  useTurningProbe(bench);
+  bench.set("$TC_DP3", {1, 1}, 98);
+  bench.set("$TC_DP4", {1, 1}, 0);
+  plantFrame(bench, "$P_UIFR", 1, {0, 0, 120});
+  const std::string approach = "DIAMON\nG0 X200 Z-20\nG0 X70\n";
+  bench.run("CYCLE974", with(outside, {{"S_SETV", 50}}), {}, approach);
+  EXPECT_NEAR(bench.ovr(4), 50.4, 1e-9);
+  bench.run("CYCLE974", with(outside, {{"S_SETV", 50}, {"S_MVAR", 10202}, {"S_KNUM1", 100001}}),
+            {{"S_TNAME", "FINISH"}}, approach);
+  EXPECT_NEAR(bench.ovr(4), 50, 1e-9) << "the part turned by 180 degrees in C";
+  EXPECT_NEAR(bench.data("$TC_DP12", {7, 1}), 0, 1e-9);
+}
+
 TEST(Cycle994, MeasuresADiameterByTwoPoints) {
   SinumerikBench bench(barAt(20.1, 0.25, 0));
   useTurningProbe(bench);
