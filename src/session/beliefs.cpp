@@ -98,7 +98,9 @@ private:
   Diagnostics& diagnostics_;
 };
 
-void enterTool(hh::Tables& tables, const BelievedTool& tool, const Setup& setup, Diagnostics& diagnostics) {
+/// `probeRow`: the row of the touch probe table is to be made too.
+void enterTool(hh::Tables& tables, const BelievedTool& tool, bool probeRow, const Setup& setup,
+               Diagnostics& diagnostics) {
   const std::string row = std::to_string(tool.number);
   if (!tables.tools.hasRow(row)) {
     Entry entry(tables.tools, row, setup, diagnostics);
@@ -114,7 +116,7 @@ void enterTool(hh::Tables& tables, const BelievedTool& tool, const Setup& setup,
     }
   }
   const std::string probe = std::to_string(tool.probeNumber);
-  if (tool.kind == "probe" && setup.tables.empty()) {
+  if (tool.kind == "probe" && probeRow) {
     Entry entry(tables.probes, probe, setup, diagnostics);
     entry.number("CAL_OF1", tool.tipOffset.x());
     entry.number("CAL_OF2", tool.tipOffset.y());
@@ -146,8 +148,10 @@ hh::Tables heidenhainTables(const Setup& setup, ControlKind kind, Diagnostics& d
       }
     }
   }
+  const bool hasProbeTable =
+      std::ranges::any_of(files, [](const fs::path& path) { return upper(path.filename().string()) == "TCHPROBE.TP"; });
   for (const BelievedTool& tool : setup.tools)
-    enterTool(tables, tool, setup, diagnostics);
+    enterTool(tables, tool, !hasProbeTable, setup, diagnostics);
   for (const BelievedFrame& preset : setup.presets) {
     Entry entry(tables.presets, std::to_string(preset.index), setup, diagnostics);
     static constexpr std::array<const char*, 3> names = {"X", "Y", "Z"};
