@@ -105,6 +105,14 @@ TEST(InitText, UnchangedDataGiveTheSameBytes) {
   }
 }
 
+TEST(InitText, KeepsAByteOrderMarkInFrontOfNewData) {
+  DataStore store;
+  Diagnostics diagnostics;
+  const InitText text = InitText::parse("\xEF\xBB\xBFM02\n", "DATA.INI", store, diagnostics);
+  store.set("R", {1}, 2.0);
+  EXPECT_EQ(text.updated(store).value_or(""), "\xEF\xBB\xBFR1=2\nM02\n");
+}
+
 TEST(InitText, WritesChangedValuesInPlace) {
   Read result = read(sample);
   result.store.set("$TC_DP3", {1, 1}, 121.25);

@@ -32,6 +32,11 @@ TEST(Writer, KeepsNamesAndComments) {
   EXPECT_EQ(written("5 L x + 1,5 Y - q3  r0 f max"), "0 L X+1.5 Y-Q3 R0 FMAX\n");
 }
 
+TEST(Writer, KeepsFeedsPerToothOfBlocksWithoutPath) {
+  EXPECT_EQ(written("F Z 0.1\n"), "0 L FZ+0.1\n");
+  EXPECT_EQ(irOf(written("F Z 0.1\n")), irOf("0 F Z 0.1\n"));
+}
+
 TEST(Writer, NumbersReadBackTheSame) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> mantissa(-1, 1);

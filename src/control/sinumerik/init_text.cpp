@@ -509,10 +509,17 @@ Result<std::string> InitText::updated(const DataStore& store, const Accepts& acc
   std::erase_if(added, [&](const DataKey& key) { return owner.contains(key) || (accepts && !accepts(key)); });
   const bool windows = !lines.empty() && lines.front().ends_with("\r\n");
   const std::string_view lineEnd = windows ? "\r\n" : "\n";
+  // A byte order mark stays in front of everything, new data included.
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
   std::string bytes;
+  if (!lines.empty() && lines.front().starts_with(mark)) {
+    bytes = mark;
+    lines.front().erase(0, mark.size());
+  }
+  const std::size_t head = bytes.size();
   for (std::size_t line = 0; line <= lines.size(); ++line) {
     if (line == insertLine_ && !added.empty()) {
-      if (!bytes.empty() && bytes.back() != '\n') bytes += lineEnd;
+      if (bytes.size() > head && bytes.back() != '\n') bytes += lineEnd;
       if (!newSection_.empty()) bytes.append(newSection_).append(lineEnd);
       for (const DataKey& key : added)
         bytes += fmt::format("{}={}{}", key.text(), valueText(*store.get(key)), lineEnd);

@@ -90,7 +90,12 @@ bool BlockParser::machineFunctionBlock() {
       if (!machineFunction(nullptr)) return false;
     } else if (lexer_.peek() == 'F') {
       hasFeed = true;
+      const std::size_t before = block_.words.size();
       if (!feedWord(feedOnly.feed, &feedOnly.rapid, &feedOnly.autoFeed)) return false;
+      if (block_.words.size() > before) {  // FU, FZ
+        if (feedOnly.words.count > 0) return error("the feed stands twice in this block");
+        feedOnly.words = wordsSince(before);
+      }
     } else {
       return expectEnd();
     }
