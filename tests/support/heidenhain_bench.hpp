@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
 #include <sstream>
@@ -180,6 +181,7 @@ struct Bench {
     options.wallClock = wallClock;
     options.recordPath = false;
     options.onStop = onStop;
+    options.answer = answer;
     std::string text = "BEGIN PGM BENCH " + unit + "\n" + blocks + "END PGM BENCH " + unit + "\n";
     return {session::runText("BENCH.H", std::move(text), setup, options)};
   }
@@ -192,6 +194,7 @@ struct Bench {
   ControlKind control;
   std::int64_t wallClock = 0;
   control::OnStop onStop = control::OnStop::Continue;
+  std::function<std::optional<std::string>(const std::string& question)> answer;
 };
 
 /// Both controls in turn, for loops over random worlds.

@@ -32,6 +32,17 @@ constexpr std::array entries = {
     MachineParameterEntry{"MP6170", "", onITNC530, 1, 3, "", "measurements of one point", &MachineParameters::mp6170},
     MachineParameterEntry{"MP6171", "", onITNC530, 0.002, 0.999, "mm", "confidence range of repeated measurements",
                           &MachineParameters::mp6171},
+    MachineParameterEntry{"MP6180.0", "", onITNC530, -99999.9999, 99999.9999, "mm",
+                          "centre of the calibration ring or pin in X, machine coordinates",
+                          &MachineParameters::mp6180x},
+    MachineParameterEntry{"MP6180.1", "", onITNC530, -99999.9999, 99999.9999, "mm", "the same in Y",
+                          &MachineParameters::mp6180y},
+    MachineParameterEntry{"MP6180.2", "", onITNC530, -99999.9999, 99999.9999, "mm",
+                          "upper edge of the calibration ring or pin in Z, machine coordinates",
+                          &MachineParameters::mp6180z},
+    MachineParameterEntry{"MP6185.0", "", onITNC530, 0.1, 99.9999, "mm",
+                          "depth of the touches below the upper edge of the calibration ring or pin",
+                          &MachineParameters::mp6185},
     MachineParameterEntry{
         "refuseTransformations", "", onTNC640, 0, 1, "",
         "1: cycles 400 to 499 refuse to run while cycle 7, 8, 10, 11 or 26 is active, which the manual "

@@ -23,6 +23,8 @@ struct MachineParameters {
   bool mp6165 = false;
   int mp6170 = 1;
   double mp6171 = 0.1;
+  double mp6180x = 0, mp6180y = 0, mp6180z = 0;
+  double mp6185 = 5;
   // both: habits of Probewright where the manuals only warn
   bool refuseTransformations = true;
 };

@@ -1,11 +1,9 @@
 #include "cycles/heidenhain/calibration.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "control/alarm.hpp"
+#include "cycles/heidenhain/html_log.hpp"
 #include "metrology/fits.hpp"
 
 namespace probewright::cycles::heidenhain {
@@ -14,8 +12,6 @@ using control::Alarm;
 using probing::HeidenhainProber;
 
 namespace {
-
-constexpr const char* logName = "TCHPRAUTO.html";
 
 /// The circle of ball centres through touches at `count` angles, each from its pre-position.
 metrology::Circle2 touchCircle(HeidenhainProber& prober, const CalibrationTask& task, const Vector2& centre,
@@ -42,25 +38,13 @@ metrology::Circle2 touchCircle(HeidenhainProber& prober, const CalibrationTask& 
   return fit->shape;
 }
 
-/// Adds a section to the log of all calibrations of this program run.
-void log(Context& context, const std::string& rows) {
-  auto& control = context.control();
-  const auto& files = control.panel.files();
-  const auto found = files.find(logName);
-  std::string text = found == files.end() ? "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-                                            "<title>Touch probe calibration</title></head>\n<body>\n"
-                                          : found->second.substr(0, found->second.rfind("</body>"));
-  const std::int64_t now = control.wallClockStart +
-                           static_cast<std::int64_t>(std::llround(context.channel().seconds() - control.startSeconds));
-  text += fmt::format("<h2>{} {}</h2>\n<p>{:%d-%m-%Y %H:%M:%S}, tool {} {}</p>\n<table>\n{}</table>\n</body></html>\n",
-                      context.record().name, context.record().title, fmt::gmtime(static_cast<std::time_t>(now)),
-                      control.tool.row, control.tool.name, rows);
-  context.log(logName, text);
+using Rows = std::vector<std::vector<std::string>>;
+
+std::vector<std::string> row(const char* name, double before, double after) {
+  return {name, fmt::format("{:.4f}", before), fmt::format("{:.4f}", after)};
 }
 
-std::string row(std::string_view name, double before, double after) {
-  return fmt::format("<tr><td>{}</td><td>{:.4f}</td><td>{:.4f}</td></tr>\n", name, before, after);
-}
+void log(Context& context, const Rows& rows) { addToHtmlLog(context, {"", "Before", "After"}, rows); }
 
 }  // namespace
 
@@ -97,7 +81,7 @@ void storeRadius(Context& context, const CalibratedRadius& calibrated) {
   auto& control = context.control();
   auto& tools = control.tables.tools;
   const std::string& tool = control.tool.row;
-  std::string rows = row("R", tools.numberOr(tool, "R", 0), calibrated.radius);
+  Rows rows = {row("R", tools.numberOr(tool, "R", 0), calibrated.radius)};
   control.writeNumber(tools, tool, "R", calibrated.radius);
   if (calibrated.centreOffset) {
     // The offset belongs to the machine's axes, whatever basic rotation is active.
@@ -110,7 +94,7 @@ void storeRadius(Context& context, const CalibratedRadius& calibrated) {
     const std::string& key = inProbeTable ? control.tool.probeRow : tool;
     const char* names[] = {inProbeTable ? "CAL_OF1" : "CAL-OF1", inProbeTable ? "CAL_OF2" : "CAL-OF2"};
     for (int i = 0; i < 2; ++i) {
-      rows += row(names[i], table.numberOr(key, names[i], 0), offset[i]);
+      rows.push_back(row(names[i], table.numberOr(key, names[i], 0), offset[i]));
       control.writeNumber(table, key, names[i], offset[i]);
     }
   }
@@ -122,7 +106,7 @@ void storeLength(Context& context, double length) {
   auto& control = context.control();
   auto& tools = control.tables.tools;
   const std::string& tool = control.tool.row;
-  const std::string rows = row("L", tools.numberOr(tool, "L", 0), length);
+  const Rows rows = {row("L", tools.numberOr(tool, "L", 0), length)};
   control.writeNumber(tools, tool, "L", length);
   control.writeNumber(tools, tool, "DL", 0);
   control.refreshTool();

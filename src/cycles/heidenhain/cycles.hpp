@@ -7,6 +7,10 @@ namespace probewright::cycles::heidenhain {
 
 extern const CycleDefinition cycle0Definition;
 extern const CycleDefinition cycle1Definition;
+extern const CycleDefinition cycle2Definition;
+extern const CycleDefinition cycle3Definition;
+extern const CycleDefinition cycle4Definition;
+extern const CycleDefinition cycle9Definition;
 extern const CycleDefinition cycle400Definition;
 extern const CycleDefinition cycle401Definition;
 extern const CycleDefinition cycle402Definition;
@@ -36,13 +40,21 @@ extern const CycleDefinition cycle427Definition;
 extern const CycleDefinition cycle430Definition;
 extern const CycleDefinition cycle431Definition;
 extern const CycleDefinition cycle441Definition;
+extern const CycleDefinition cycle444Definition;
 extern const CycleDefinition cycle460Definition;
 extern const CycleDefinition cycle461Definition;
 extern const CycleDefinition cycle462Definition;
 extern const CycleDefinition cycle463Definition;
+extern const CycleDefinition cycle1410Definition;
+extern const CycleDefinition cycle1411Definition;
+extern const CycleDefinition cycle1420Definition;
 
 void cycle0(Context& context, const Arguments& arguments);
 void cycle1(Context& context, const Arguments& arguments);
+void cycle2(Context& context, const Arguments& arguments);
+void cycle3(Context& context, const Arguments& arguments);
+void cycle4(Context& context, const Arguments& arguments);
+void cycle9(Context& context, const Arguments& arguments);
 void cycle400(Context& context, const Arguments& arguments);
 void cycle401(Context& context, const Arguments& arguments);
 void cycle402(Context& context, const Arguments& arguments);
@@ -72,9 +84,13 @@ void cycle427(Context& context, const Arguments& arguments);
 void cycle430(Context& context, const Arguments& arguments);
 void cycle431(Context& context, const Arguments& arguments);
 void cycle441(Context& context, const Arguments& arguments);
+void cycle444(Context& context, const Arguments& arguments);
 void cycle460(Context& context, const Arguments& arguments);
 void cycle461(Context& context, const Arguments& arguments);
 void cycle462(Context& context, const Arguments& arguments);
 void cycle463(Context& context, const Arguments& arguments);
+void cycle1410(Context& context, const Arguments& arguments);
+void cycle1411(Context& context, const Arguments& arguments);
+void cycle1420(Context& context, const Arguments& arguments);
 
 }  // namespace probewright::cycles::heidenhain

@@ -5,7 +5,7 @@
 
 #include "control/alarm.hpp"
 #include "language/klartext/host.hpp"
-#include "language/klartext/rotary_solver.hpp"
+#include "machine/rotary_solver.hpp"
 
 /// PLANE and cycle 19: tilting the working plane.
 namespace probewright::language::klartext {

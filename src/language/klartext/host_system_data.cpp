@@ -9,7 +9,7 @@
 #include "control/heidenhain/datum_table.hpp"
 #include "control/heidenhain/tool_table.hpp"
 #include "language/klartext/host.hpp"
-#include "language/klartext/rotary_solver.hpp"
+#include "machine/rotary_solver.hpp"
 
 /// FN 17, FN 18 and SYSSTR: data of the control by group (ID), number (NR) and index (IDX). Lengths are in the unit of
 /// the program. docs/klartext.md lists the groups.

@@ -1,14 +1,11 @@
-#include "language/klartext/rotary_solver.hpp"
+#include "machine/rotary_solver.hpp"
 
 #include <cmath>
 #include <optional>
 
-namespace probewright::language::klartext {
+namespace probewright::machine {
 
 namespace {
-
-using machine::AxisPositions;
-using machine::MachineDescription;
 
 constexpr double tolerance = 1e-9;
 
@@ -133,4 +130,4 @@ std::vector<AxisPositions> solveRotaryAxes(const MachineDescription& machine, co
   return solutions;
 }
 
-}  // namespace probewright::language::klartext
+}  // namespace probewright::machine

@@ -1,0 +1,92 @@
+#include <cstdlib>
+
+#include "control/alarm.hpp"
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/object_probing.hpp"
+#include "cycles/heidenhain/rotation_parameters.hpp"
+#include "cycles/heidenhain/rotation_transfer.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr std::array parameters1410 =
+    joined(joined(joined(position1, position2), std::array{signedDirection}), joined(travelAndReaction, transferOf2));
+
+constexpr ResultDefinition results1410[] = {
+    {"Q950", "first measured position, main axis"},
+    {"Q951", "first measured position, minor axis"},
+    {"Q952", "first measured position, tool axis"},
+    {"Q953", "second measured position, main axis"},
+    {"Q954", "second measured position, minor axis"},
+    {"Q955", "second measured position, tool axis"},
+    {"Q964", "measured angle in the working plane", ValueKind::Angle},
+    {"Q965", "the same as an angle of the rotary table", ValueKind::Angle},
+    {"Q980", "deviation of the first position, main axis"},
+    {"Q981", "deviation of the first position, minor axis"},
+    {"Q982", "deviation of the first position, tool axis"},
+    {"Q983", "deviation of the second position, main axis"},
+    {"Q984", "deviation of the second position, minor axis"},
+    {"Q985", "deviation of the second position, tool axis"},
+    {"Q994", "deviation of the angle", ValueKind::Angle},
+    {"Q995", "the same as an angle of the rotary table", ValueKind::Angle},
+    {"Q183", "workpiece: -1 not monitored, 0 good, 1 rework, 2 scrap", ValueKind::Integer},
+};
+
+}  // namespace
+
+const CycleDefinition cycle1410Definition = {
+    .number = 1410,
+    .name = "1410",
+    .title = "PROBING ON EDGE",
+    .family = CycleFamily::Misalignment,
+    .summary =
+        "Measures the misalignment of an edge by two touches; can take it over as basic rotation or into the rotary "
+        "table, correct the preset and monitor tolerances.",
+    .parameters = parameters1410,
+    .results = results1410,
+    .controls = control::onTNC640,
+};
+
+void cycle1410(Context& context, const Arguments&) {
+  requireRotationCycle(context);
+  const int direction = context.option(372);
+  const int axis = std::abs(direction) - 1;
+  if (axis == 2 && (context.option(1121) != 0)) {
+    throw control::Alarm("Probing direction not permitted",
+                         "Touches along the tool axis say nothing about the rotation in the working plane",
+                         "probe along the main or minor axis (Q372), or set Q1121 = 0");
+  }
+  std::array<bool, 3> measured{};
+  measured[static_cast<std::size_t>(axis)] = true;
+  const std::array nominal = {nominalPosition(context, 1, measured), nominalPosition(context, 2, measured)};
+
+  std::array<MeasuredPosition, 2> found;
+  std::optional<ObjectProbing> probing;
+  for (std::size_t i = 0; i < 2; ++i) {
+    Vector3 actual = nominal[i].known()
+                         ? Vector3(*nominal[i].axes[0].actual, *nominal[i].axes[1].actual, *nominal[i].axes[2].actual)
+                         : Vector3(Vector3::Zero());
+    if (!nominal[i].known()) {
+      const bool first = !probing;
+      if (!probing) probing.emplace(context);
+      actual = probing->touch(nominal[i], probing::axisDirection(axis, direction), first).surface;
+    }
+    found[i] = measuredPosition(nominal[i], actual, measured);
+  }
+  if (probing) probing->leave(true, nominal[1].semiAutomatic());
+
+  const PlaneRotation rotation = planeRotation(context, found[0], found[1]);
+  RotationFindings findings(context);
+  findings.add(nominal[0], found[0], direction);
+  findings.add(nominal[1], found[1], direction);
+  findings.addAngle(964, "Measured angle", rotation.actual);
+  findings.addAngle(965, "Measured angle of the rotary table", rotation.tableActual);
+  findings.addAngle(994, "Deviation of the angle", rotation.deviation);
+  findings.addAngle(995, "Deviation of the angle of the rotary table", rotation.tableDeviation);
+  findings.finish();
+  transferPlaneRotation(context, rotation, found[0], found[1]);
+}
+
+}  // namespace probewright::cycles::heidenhain

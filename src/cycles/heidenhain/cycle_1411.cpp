@@ -1,0 +1,148 @@
+#include <cmath>
+
+#include "control/alarm.hpp"
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/object_probing.hpp"
+#include "cycles/heidenhain/rotation_parameters.hpp"
+#include "cycles/heidenhain/rotation_transfer.hpp"
+#include "metrology/fits.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr Choice geometryChoices[] = {
+    {0, "two holes"}, {1, "two studs"}, {2, "first a hole, then a stud"}, {3, "first a stud, then a hole"}};
+
+constexpr std::array diameter1 = {nominalText(1116, "Q1116", "diameter of the first object", 0, 9999.9999)};
+constexpr std::array diameter2 = {nominalText(1117, "Q1117", "diameter of the second object", 0, 9999.9999)};
+
+constexpr std::array circles = {
+    option(1115, "Q1115", "kind of the two objects", geometryChoices),
+    Parameter{.name = "Q423",
+              .address = 423,
+              .meaning = "number of touches on each circle",
+              .kind = ValueKind::Integer,
+              .minimum = 3,
+              .maximum = 8},
+    angle(325, "Q325", "angle of the first touch from the main axis"),
+    angle(1119, "Q1119", "angle over which the touches are spread, negative: clockwise", -359.999, 360),
+};
+
+constexpr std::array parameters1411 = joined(joined(joined(position1, diameter1), joined(position2, diameter2)),
+                                             joined(circles, joined(travelAndReaction, transferOf2)));
+
+constexpr ResultDefinition results1411[] = {
+    {"Q950", "first measured centre, main axis"},
+    {"Q951", "first measured centre, minor axis"},
+    {"Q952", "first measured centre, tool axis"},
+    {"Q953", "second measured centre, main axis"},
+    {"Q954", "second measured centre, minor axis"},
+    {"Q955", "second measured centre, tool axis"},
+    {"Q964", "measured angle in the working plane", ValueKind::Angle},
+    {"Q965", "the same as an angle of the rotary table", ValueKind::Angle},
+    {"Q966", "first measured diameter"},
+    {"Q967", "second measured diameter"},
+    {"Q980", "deviation of the first centre, main axis"},
+    {"Q981", "deviation of the first centre, minor axis"},
+    {"Q982", "deviation of the first centre, tool axis"},
+    {"Q983", "deviation of the second centre, main axis"},
+    {"Q984", "deviation of the second centre, minor axis"},
+    {"Q985", "deviation of the second centre, tool axis"},
+    {"Q994", "deviation of the angle", ValueKind::Angle},
+    {"Q995", "the same as an angle of the rotary table", ValueKind::Angle},
+    {"Q996", "deviation of the first diameter"},
+    {"Q997", "deviation of the second diameter"},
+    {"Q183", "workpiece: -1 not monitored, 0 good, 1 rework, 2 scrap", ValueKind::Integer},
+};
+
+Side sideOf(int geometry, std::size_t object) {
+  const bool stud = geometry == 1 || (geometry == 2 && object == 1) || (geometry == 3 && object == 0);
+  return stud ? Side::Outside : Side::Inside;
+}
+
+/// The touches are spread over the angle from end to end; over a full circle the last does not meet the first.
+double stepAngle(Context& context) {
+  const double whole = context.q(1119);
+  const int count = context.option(423);
+  if (std::abs(whole) < 1e-6) {
+    throw control::Alarm("Angular length wrong", "Q1119 = 0 puts all touches into one place",
+                         "enter up to 360 degrees");
+  }
+  return std::abs(whole) == 360 ? whole / count : whole / (count - 1);
+}
+
+NominalValue diameterOf(Context& context, int parameter) {
+  NominalValue diameter = nominalValue(context, parameter);
+  if (!diameter.nominal || diameter.semiAutomatic || diameter.actual || !(*diameter.nominal > 0)) {
+    throw control::Alarm("Diameter wrong", "The diameter of an object must be known and larger than 0",
+                         "enter it as a number, or as a text with a tolerance");
+  }
+  return diameter;
+}
+
+}  // namespace
+
+const CycleDefinition cycle1411Definition = {
+    .number = 1411,
+    .name = "1411",
+    .title = "PROBING TWO CIRCLES",
+    .family = CycleFamily::Misalignment,
+    .summary =
+        "Measures the centres of two holes or studs and the misalignment of the line between them; can take it over as "
+        "basic rotation or into the rotary table, correct the preset and monitor tolerances.",
+    .parameters = parameters1411,
+    .results = results1411,
+    .controls = control::onTNC640,
+};
+
+void cycle1411(Context& context, const Arguments&) {
+  requireRotationCycle(context);
+  constexpr std::array<bool, 3> measured = {true, true, false};
+  const std::array nominal = {nominalPosition(context, 1, measured), nominalPosition(context, 2, measured)};
+  const std::array diameters = {diameterOf(context, 1116), diameterOf(context, 1117)};
+  const double step = stepAngle(context);
+
+  std::array<MeasuredPosition, 2> found;
+  std::array<std::optional<double>, 2> foundDiameters;
+  std::optional<ObjectProbing> probing;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (nominal[i].known()) {
+      found[i] = measuredPosition(
+          nominal[i], {*nominal[i].axes[0].actual, *nominal[i].axes[1].actual, *nominal[i].axes[2].actual}, measured);
+      continue;
+    }
+    if (!probing) probing.emplace(context);
+    const Side side = sideOf(context.option(1115), i);
+    const auto touches =
+        probing->touchCircle(nominal[i], {*diameters[i].nominal, context.q(325)}, step, context.option(423), side);
+    probing->leave(i == 1, nominal[i].semiAutomatic());
+    std::vector<Vector3> centres;
+    for (const EvaluatedTouch& touch : touches)
+      centres.push_back(touch.ballCentre);
+    const auto fit = metrology::fitCircleInPlane(centres, Vector3::UnitZ());
+    if (!fit) throw control::Alarm("Circle not determined", fit.error().message, fit.error().advice);
+    foundDiameters[i] = 2 * (fit->shape.radius + probing::outwards(side) * probing->prober().probe().ballRadius);
+    found[i] = measuredPosition(nominal[i], fit->shape.centre, measured);
+  }
+  if (probing && nominal[1].known()) probing->leave(true, nominal[0].semiAutomatic());
+
+  const PlaneRotation rotation = planeRotation(context, found[0], found[1]);
+  RotationFindings findings(context);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const int ordinal = static_cast<int>(i) + 1;
+    findings.add(nominal[i], found[i], 0);
+    if (foundDiameters[i]) {
+      findings.addDiameter(diameters[i], *foundDiameters[i], ordinal, sideOf(context.option(1115), i));
+    }
+  }
+  findings.addAngle(964, "Measured angle", rotation.actual);
+  findings.addAngle(965, "Measured angle of the rotary table", rotation.tableActual);
+  findings.addAngle(994, "Deviation of the angle", rotation.deviation);
+  findings.addAngle(995, "Deviation of the angle of the rotary table", rotation.tableDeviation);
+  findings.finish();
+  transferPlaneRotation(context, rotation, found[0], found[1]);
+}
+
+}  // namespace probewright::cycles::heidenhain

@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "control/alarm.hpp"
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/object_probing.hpp"
+#include "cycles/heidenhain/rotation_parameters.hpp"
+#include "cycles/heidenhain/rotation_transfer.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr Choice positionChoices[] = {{0, "no correction"},
+                                      {1, "first position"},
+                                      {2, "second position"},
+                                      {3, "third position"},
+                                      {4, "mean of the three positions"}};
+constexpr Choice rotationChoices[] = {{0, "no"}, {1, "as basic rotation"}};
+
+constexpr std::array transferOf3 = {
+    option(1120, "Q1120", "position that corrects the active preset", positionChoices),
+    option(1121, "Q1121", "take over the rotation", rotationChoices),
+};
+
+constexpr std::array parameters1420 =
+    joined(joined(joined(position1, position2), joined(position3, std::array{signedDirection})),
+           joined(travelAndReaction, transferOf3));
+
+constexpr ResultDefinition results1420[] = {
+    {"Q950", "first measured position, main axis"},
+    {"Q951", "first measured position, minor axis"},
+    {"Q952", "first measured position, tool axis"},
+    {"Q953", "second measured position, main axis"},
+    {"Q954", "second measured position, minor axis"},
+    {"Q955", "second measured position, tool axis"},
+    {"Q956", "third measured position, main axis"},
+    {"Q957", "third measured position, minor axis"},
+    {"Q958", "third measured position, tool axis"},
+    {"Q961", "measured space angle SPA in the workpiece coordinate system", ValueKind::Angle},
+    {"Q962", "measured space angle SPB", ValueKind::Angle},
+    {"Q963", "measured space angle SPC", ValueKind::Angle},
+    {"Q980", "deviation of the first position, main axis"},
+    {"Q981", "deviation of the first position, minor axis"},
+    {"Q982", "deviation of the first position, tool axis"},
+    {"Q983", "deviation of the second position, main axis"},
+    {"Q984", "deviation of the second position, minor axis"},
+    {"Q985", "deviation of the second position, tool axis"},
+    {"Q986", "deviation of the third position, main axis"},
+    {"Q987", "deviation of the third position, minor axis"},
+    {"Q988", "deviation of the third position, tool axis"},
+    {"Q183", "workpiece: -1 not monitored, 0 good, 1 rework, 2 scrap", ValueKind::Integer},
+};
+
+/// The normal of the plane through three points, its third component positive (in a plane along the third axis: the
+/// normal points against the probing direction).
+Vector3 normalOf(const Vector3& p1, const Vector3& p2, const Vector3& p3, const Vector3& towards) {
+  const Vector3 a = p2 - p1;
+  const Vector3 b = p3 - p1;
+  const Vector3 cross = a.cross(b);
+  if (!(cross.norm() > 1e-6 * a.norm() * b.norm()) || a.norm() < 1e-6) {
+    throw control::Alarm("Plane wrongly defined", "The three points lie on one straight line",
+                         "choose points that span a triangle");
+  }
+  const Vector3 normal = cross.normalized();
+  return normal.dot(towards) < 0 ? Vector3(-normal) : normal;
+}
+
+/// The shortest way to describe a normal by space angles: about the first and second axis, none about the third.
+Matrix3 axesOfNormal(const Vector3& normal) {
+  const double a = std::asin(std::clamp(-normal.y(), -1.0, 1.0));
+  const double b = std::atan2(normal.x(), normal.z());
+  return (Eigen::AngleAxisd(b, Vector3::UnitY()) * Eigen::AngleAxisd(a, Vector3::UnitX())).toRotationMatrix();
+}
+
+}  // namespace
+
+const CycleDefinition cycle1420Definition = {
+    .number = 1420,
+    .name = "1420",
+    .title = "PROBING IN PLANE",
+    .family = CycleFamily::Misalignment,
+    .summary =
+        "Measures the space angles of a plane by three touches; can take them over as 3-D basic rotation, position the "
+        "rotary axes, correct the preset and monitor tolerances.",
+    .parameters = parameters1420,
+    .results = results1420,
+    .controls = control::onTNC640,
+};
+
+void cycle1420(Context& context, const Arguments&) {
+  requireRotationCycle(context);
+  const int direction = context.option(372);
+  const int axis = std::abs(direction) - 1;
+  std::array<bool, 3> measured{};
+  measured[static_cast<std::size_t>(axis)] = true;
+  constexpr std::array<bool, 3> needed = {true, true, true};
+  const std::array nominal = {nominalPosition(context, 1, needed), nominalPosition(context, 2, needed),
+                              nominalPosition(context, 3, needed)};
+  const Vector3 against = -probing::axisDirection(axis, direction);
+  const auto middles = [&](std::size_t i) { return measuredPosition(nominal[i], Vector3::Zero(), measured).nominal; };
+  const Vector3 nominalNormal = normalOf(middles(0), middles(1), middles(2), against);
+
+  std::array<MeasuredPosition, 3> found;
+  std::optional<ObjectProbing> probing;
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vector3 actual = Vector3::Zero();
+    if (nominal[i].known()) {
+      actual = {*nominal[i].axes[0].actual, *nominal[i].axes[1].actual, *nominal[i].axes[2].actual};
+    } else {
+      const bool first = !probing;
+      if (!probing) probing.emplace(context);
+      actual = probing->touch(nominal[i], probing::axisDirection(axis, direction), first).surface;
+    }
+    found[i] = measuredPosition(nominal[i], actual, measured);
+  }
+  if (probing) probing->leave(true, nominal[2].semiAutomatic());
+
+  const Vector3 normal = normalOf(found[0].actual, found[1].actual, found[2].actual, against);
+  // Space angles count in the workpiece coordinate system, about its X, Y and Z.
+  const auto& coordinates = context.control().coordinates;
+  const auto& plane = coordinates.plane;
+  const Vector3 inWorkpiece = plane.planeFromXyz(coordinates.machineFromPreset().linear().transpose() *
+                                                 context.channel().frame().linear() * plane.xyzFromPlane(normal));
+  const Matrix3 axes = axesOfNormal(inWorkpiece);
+  Matrix3 xyz;
+  for (int i = 0; i < 3; ++i) {
+    const int column = i == 0 ? plane.main : i == 1 ? plane.minor : plane.tool;
+    xyz.col(column) = plane.xyzFromPlane(axes.col(i));
+  }
+  const Vector3 space = control::heidenhain::spaceAnglesFromRotation(xyz);
+
+  RotationFindings findings(context);
+  for (std::size_t i = 0; i < 3; ++i)
+    findings.add(nominal[i], found[i], direction);
+  findings.addAngle(961, "Measured space angle SPA", space.x());
+  findings.addAngle(962, "Measured space angle SPB", space.y());
+  findings.addAngle(963, "Measured space angle SPC", space.z());
+  findings.finish();
+  transferSpaceRotation(context, axesOfNormal(normal) * axesOfNormal(nominalNormal).transpose(), found);
+}
+
+}  // namespace probewright::cycles::heidenhain

@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/number_text.hpp"
+#include "control/alarm.hpp"
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/html_log.hpp"
+#include "cycles/heidenhain/parameters.hpp"
+#include "metrology/tolerance.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr Choice reactionChoices[] = {
+    {0, "none"}, {1, "stop if a tolerance is exceeded"}, {2, "stop if the surface lies too low"}};
+
+constexpr Parameter normal(std::uint32_t number, std::string_view name, std::string_view meaning) {
+  return {
+      .name = name, .address = number, .meaning = meaning, .kind = ValueKind::Number, .minimum = -10, .maximum = 10};
+}
+
+constexpr Parameter parameters444[] = {
+    coordinate(263, "Q263", "nominal point, main axis"),
+    coordinate(264, "Q264", "nominal point, minor axis"),
+    coordinate(294, "Q294", "nominal point, touch probe axis"),
+    normal(581, "Q581", "surface normal, main axis component"),
+    normal(582, "Q582", "surface normal, minor axis component"),
+    normal(583, "Q583", "surface normal, tool axis component"),
+    setUpClearance,
+    clearanceHeight,
+    {.name = "QS400",
+     .address = 400,
+     .meaning = "tolerance along the normal, such as \"0.4-0.1\"; blank: not monitored",
+     .kind = ValueKind::Text},
+    option(309, "Q309", "reaction to a tolerance error", reactionChoices),
+};
+
+constexpr ResultDefinition results444[] = {
+    {"Q151", "measured position, main axis"},
+    {"Q152", "measured position, minor axis"},
+    {"Q153", "measured position, tool axis"},
+    {"Q161", "deviation, main axis"},
+    {"Q162", "deviation, minor axis"},
+    {"Q163", "deviation, tool axis"},
+    {"Q164", "deviation along the normal: negative undersize, positive oversize"},
+    {"Q183", "workpiece: -1 not monitored, 0 good, 1 rework, 2 scrap", ValueKind::Integer},
+};
+
+/// "0.4-0.1", "0.4", "-0.1"; nothing where the text monitors nothing. Throws Alarm for texts that are none.
+std::optional<metrology::Limits> toleranceOf(Context& context) {
+  std::string text = context.arguments().text(400);
+  std::erase(text, ' ');
+  if (text.empty()) return std::nullopt;
+  const bool isSigned = text.front() == '+' || text.front() == '-';
+  const auto dimension = metrology::parseDimension(fmt::format("0{}{}", isSigned ? "" : "+", text));
+  if (!dimension || !dimension->tolerance || dimension->actual || !dimension->actualParameter.empty()) {
+    throw control::Alarm("Tolerance wrong",
+                         fmt::format("QS400 = \"{}\" is no tolerance", context.arguments().text(400)),
+                         "write the upper and the lower deviation, such as \"0.4-0.1\"");
+  }
+  const metrology::Tolerance& tolerance = *dimension->tolerance;
+  const bool monitors = tolerance.width() > 0 && tolerance.lower <= 0 && tolerance.upper >= 0;
+  if (!monitors) return std::nullopt;
+  const double unit = context.control().unit;
+  return metrology::Limits{tolerance.lower * unit, tolerance.upper * unit};
+}
+
+Verdict verdictOf(double deviation, const metrology::Limits& limits) {
+  switch (metrology::conformance(deviation, limits)) {
+    case metrology::Conformance::Above:
+      return Verdict::Rework;
+    case metrology::Conformance::Below:
+      return Verdict::Scrap;
+    case metrology::Conformance::Within:
+      break;
+  }
+  return Verdict::Good;
+}
+
+}  // namespace
+
+const CycleDefinition cycle444Definition = {
+    .number = 444,
+    .name = "444",
+    .title = "PROBING IN 3-D",
+    .family = CycleFamily::Special,
+    .summary =
+        "Measures one point of a surface along its normal and compares its deviation with a tolerance; for free-form "
+        "surfaces.",
+    .parameters = parameters444,
+    .results = results444,
+    .controls = control::onTNC640,
+};
+
+void cycle444(Context& context, const Arguments&) {
+  context.require({.shiftAndRotationAllowed = true});
+  const Vector3 given(context.q(581), context.q(582), context.q(583));
+  if (!(given.norm() > 1e-9)) {
+    throw control::Alarm("Surface normal wrong", "The normal vector Q581, Q582, Q583 has no length",
+                         "give the direction away from the surface");
+  }
+  const Vector3 n = given.normalized();
+  const Vector3 nominal(context.q(263), context.q(264), context.q(294));
+  const auto limits = toleranceOf(context);
+
+  auto& prober = context.prober();
+  const PlannedTouch planned{nominal, -n};
+  prober.approach(prober.prePosition(planned, context.q(320)), context.q(260));
+  const EvaluatedTouch touch = prober.touch(planned);
+  prober.moveSouthPoleTo(context.q(260));
+
+  const Vector3 deviation = touch.surface - nominal;
+  const double along = deviation.dot(n);
+  const Verdict verdict = limits ? verdictOf(along, *limits) : Verdict::None;
+  for (int i = 0; i < 3; ++i)
+    context.result(151 + i, touch.surface[i], {.nominal = nominal[i]});
+  for (int i = 0; i < 3; ++i)
+    context.result(161 + i, deviation[i]);
+  Compared compared{.nominal = 0, .verdict = verdict};
+  if (limits) {
+    compared.lower = limits->lower;
+    compared.upper = limits->upper;
+  }
+  context.result(164, along, compared);
+  context.set(183, verdict == Verdict::None ? -1 : static_cast<int>(verdict) - static_cast<int>(Verdict::Good));
+  context.record().verdict = verdict;
+
+  const double unit = context.control().unit;
+  const auto number = [unit](double length) { return formatFixed(length / unit, 4); };
+  const Vector3 path = -n * prober.probe().distance;
+  static constexpr const char* names[] = {"Main axis", "Minor axis", "Tool axis"};
+  static constexpr const char* words[] = {"", "good", "rework", "scrap"};
+  const char* state = words[static_cast<std::size_t>(verdict)];
+  std::vector<std::vector<std::string>> rows;
+  for (int i = 0; i < 3; ++i) {
+    const auto limit = [&](double value) { return limits ? number(nominal[i] + value * n[i]) : std::string(); };
+    rows.push_back({names[i], number(path[i]), number(nominal[i]), limits ? limit(limits->lower) : "",
+                    limits ? limit(limits->upper) : "", number(touch.surface[i]), number(deviation[i]), ""});
+  }
+  rows.push_back({"Along the normal", number(prober.probe().distance), number(0), limits ? number(limits->lower) : "",
+                  limits ? number(limits->upper) : "", number(along), number(along), state});
+  addToHtmlLog(context,
+               {"", "Probing direction", "Nominal", "Lower limit", "Upper limit", "Actual", "Deviation", "Status"},
+               rows, "TCHPR444.html");
+
+  const int reaction = context.option(309);
+  const bool stops = verdict == Verdict::Scrap ? reaction != 0 : verdict == Verdict::Rework && reaction == 1;
+  if (stops) {
+    context.stop(
+        fmt::format("Tolerance exceeded: {}\nDeviation along the surface normal {:+.4f}", state, along / unit));
+  }
+}
+
+}  // namespace probewright::cycles::heidenhain

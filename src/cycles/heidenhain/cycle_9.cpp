@@ -1,0 +1,40 @@
+#include "cycles/heidenhain/calibration.hpp"
+#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/free_measurement_parameters.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+using namespace parameters;
+
+constexpr Parameter parameters9[] = {
+    coordinate(probe_word::datum, "DATUM", "exact height of the touched surface in the touch probe axis"),
+    referenceSystem};
+
+}  // namespace
+
+const CycleDefinition cycle9Definition = {
+    .number = 9,
+    .name = "9",
+    .title = "CALIBRATE TS LENGTH",
+    .family = CycleFamily::Calibration,
+    .summary = "Calibrates the length of the touch probe on a surface of known height below it.",
+    .parameters = parameters9,
+    .results = {},
+    .controls = control::onITNC530,
+};
+
+void cycle9(Context& context, const Arguments&) {
+  context.require({.transformationsAllowed = true});
+  auto prober = calibrationProber(context);
+  const EvaluatedTouch touch = prober.stroke(probing::axisDirection(2, -1), prober.probe().distance);
+  Vector3 tip = touch.ballCentre - Vector3(0, 0, prober.probe().ballRadius);
+  const auto& plane = context.control().coordinates.plane;
+  if (context.option(probe_word::referenceSystem) == 1) {
+    tip = plane.planeFromXyz(context.channel().frame() * plane.xyzFromPlane(tip));
+  }
+  const auto& tool = context.control().tool;
+  storeLength(context, tool.length + tool.deltaLength + tip.z() - context.q(probe_word::datum));
+}
+
+}  // namespace probewright::cycles::heidenhain

@@ -1,0 +1,122 @@
+#include "cycles/heidenhain/free_measurement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "control/alarm.hpp"
+#include "cycles/heidenhain/probe_words.hpp"
+
+namespace probewright::cycles::heidenhain {
+
+using control::Alarm;
+using machine::MeasureEnd;
+
+namespace {
+
+constexpr double touched = 1, notTouched = -1;
+
+/// The ball centre lies so far from the spindle axis, program coordinates.
+Vector3 tipOffset(Context& context, const probing::HeidenhainProbe& probe) {
+  auto& channel = context.channel();
+  const double turn = channel.machine().spindleAngle() - probe.calibrationAngle;
+  const Vector2 turned = Eigen::Rotation2Dd(radiansFromDegrees(turn)) * probe.tipOffset;
+  return channel.frame().linear().inverse() *
+         context.control().coordinates.plane.xyzFromPlane({turned.x(), turned.y(), 0});
+}
+
+}  // namespace
+
+void measureFreely(Context& context, const FreeMeasurement& measurement) {
+  Control& control = context.control();
+  auto& channel = context.channel();
+  const int first = context.option(probe_word::result);
+  if (!control::heidenhain::QParameters::exists(first + 3)) {
+    throw Alarm("Parameter number wrong", fmt::format("Q{} leaves no room for four results", first),
+                "use a number up to 1996");
+  }
+  const double scale = measurement.directionInMachine
+                           ? (channel.frame().linear().inverse() * measurement.direction.normalized()).norm()
+                           : 1.0;
+  const Vector3 inProgram = measurement.directionInMachine
+                                ? Vector3(channel.frame().linear().inverse() * measurement.direction)
+                                : measurement.direction;
+  if (!(inProgram.norm() > 0)) {
+    throw Alarm("Probing direction not defined", "The vector of the probing direction has no length",
+                "give at least one of IX, IY and IZ");
+  }
+  const Vector3 direction = inProgram.normalized() * (measurement.distance < 0 ? -1 : 1);
+  const double distance = std::abs(measurement.distance) * scale;
+  const probing::HeidenhainProbe probe = activeProbe(control, Calibrated::NotYet);
+  const Vector3 start = channel.position();
+  const auto result = channel.measureTo(start + direction * distance, machine::Feed::at(context.q(probe_word::feed)));
+
+  control::TouchRecord record;
+  const Vector3 toBall = probe.ballRadius * channel.toolAxis();
+  record.target = start + toBall + direction * distance;
+  record.direction = direction;
+  record.seconds = channel.seconds();
+  const auto note = [&](std::string outcome) {
+    record.outcome = std::move(outcome);
+    context.record().touches.push_back(record);
+  };
+  double status = notTouched;
+  Vector3 ball = channel.position() + toBall;
+  switch (result.end) {
+    case MeasureEnd::Touched: {
+      const control::Touch touch = channel.touchFrom(result);
+      ball = touch.tip + toBall;
+      if (measurement.withTipOffset) ball += tipOffset(context, probe);
+      record.ballCentre = ball;
+      record.surface = ball + direction * probe.ballRadius;
+      record.latched = touch.latched;
+      note("touched");
+      status = touched;
+      break;
+    }
+    case MeasureEnd::NoContact:
+      note("no contact");
+      break;
+    case MeasureEnd::DeflectedAtStart:
+      note("deflected");
+      if (measurement.alarmIfDeflected) {
+        throw Alarm("Stylus already in contact", "The stylus is deflected before probing begins",
+                    "move the probe away, or set the error mode to 1");
+      }
+      // The older control tells this state from a missing touch.
+      status = control.isTNC640() ? notTouched : 2;
+      break;
+    case MeasureEnd::NotReady:
+      note("not ready");
+      throw Alarm("Touch probe not ready",
+                  result.detail.empty() ? "There is no touch probe in the spindle" : result.detail,
+                  "call the touch probe with TOOL CALL before the cycle");
+    case MeasureEnd::AxisLimit:
+      note("limit");
+      throw Alarm(channel.alarms.limit, result.detail);
+    case MeasureEnd::Collision:
+    case MeasureEnd::Cancelled:
+      note("collision");
+      throw Alarm(channel.alarms.collision, result.detail);
+  }
+  if (result.end != MeasureEnd::DeflectedAtStart) {
+    const Vector3 now = channel.position();
+    const double back = std::min(context.q(probe_word::retraction), (now - start).norm());
+    channel.retractTo(now - direction * back, machine::Feed::rapidTraverse());
+  }
+  if (measurement.resultInMachine) ball = channel.frame() * ball;
+  for (int i = 0; i < 3; ++i) {
+    control.q.setQ(first + i, ball[i] / control.unit);
+    control::ResultRecord value;
+    value.name = fmt::format("Q{}", first + i);
+    value.meaning = fmt::format("ball centre, {}", "XYZ"[i]);
+    value.value = ball[i];
+    value.unit = "mm";
+    context.record().results.push_back(std::move(value));
+  }
+  control.q.setQ(first + 3, status);
+  context.record().results.push_back(
+      {fmt::format("Q{}", first + 3), "1: touched, -1: not", status, "", {}, {}, {}, {}, {}, {}});
+}
+
+}  // namespace probewright::cycles::heidenhain

@@ -1,0 +1,57 @@
+#include "cycles/heidenhain/html_log.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '<') {
+      result += "&lt;";
+    } else if (c == '&') {
+      result += "&amp;";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+std::string row(const char* cell, const std::vector<std::string>& cells) {
+  std::string text = "<tr>";
+  for (const std::string& content : cells) {
+    const char* colour = content == "good" ? "green" : content == "rework" ? "orange" : content == "scrap" ? "red" : "";
+    const std::string style = *colour == 0 ? std::string() : fmt::format(" style=\"color:{}\"", colour);
+    text += fmt::format("<{0}{1}>{2}</{0}>", cell, style, escaped(content));
+  }
+  return text + "</tr>\n";
+}
+
+}  // namespace
+
+void addToHtmlLog(Context& context, const std::vector<std::string>& heading,
+                  const std::vector<std::vector<std::string>>& rows, const std::string& file) {
+  auto& control = context.control();
+  const auto& files = control.panel.files();
+  const auto found = files.find(file);
+  std::string text = found == files.end() ? "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+                                            "<title>Touch probe log</title></head>\n<body>\n"
+                                          : found->second.substr(0, found->second.rfind("</body>"));
+  const std::int64_t now = control.wallClockStart +
+                           static_cast<std::int64_t>(std::llround(context.channel().seconds() - control.startSeconds));
+  text += fmt::format("<h2>{} {}</h2>\n<p>{:%d-%m-%Y %H:%M:%S}, tool {} {}</p>\n<table>\n", context.record().name,
+                      context.record().title, fmt::gmtime(static_cast<std::time_t>(now)), control.tool.row,
+                      escaped(control.tool.name));
+  text += row("th", heading);
+  for (const auto& cells : rows)
+    text += row("td", cells);
+  text += "</table>\n</body></html>\n";
+  context.log(file, text);
+}
+
+}  // namespace probewright::cycles::heidenhain

@@ -1,0 +1,187 @@
+#include "cycles/heidenhain/object_probing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "base/number_text.hpp"
+#include "control/alarm.hpp"
+
+namespace probewright::cycles::heidenhain {
+
+using control::Alarm;
+
+namespace {
+
+constexpr int clearanceNever = -1, clearancePerCycle = 0, clearancePerPoint = 2;
+constexpr double feedPerPoint = 2000;
+
+probing::HeidenhainProber proberFor(Context& context) {
+  probing::HeidenhainProbe probe = activeProbe(context.control());
+  probe.prepositionAtMachineRapid = false;
+  if (context.option(1125) == clearancePerPoint) probe.positioningFeed = feedPerPoint;
+  return {context.channel(), context.control().coordinates.plane, probe};
+}
+
+}  // namespace
+
+ObjectProbing::ObjectProbing(Context& context)
+    : context_(context),
+      prober_(proberFor(context)),
+      mode_(context.option(1125)),
+      clearance_(context.q(260)),
+      extra_(context.q(320)) {}
+
+void ObjectProbing::enter(const Vector3& ballCentre, bool firstOfObject) {
+  const bool viaClearance = mode_ == clearancePerPoint || (firstOfObject && mode_ > clearancePerCycle) ||
+                            (!entered_ && mode_ == clearancePerCycle);
+  if (viaClearance) {
+    prober_.approach(ballCentre, clearance_);
+  } else if (firstOfObject) {
+    // Never through the clearance height: up first only where the target lies above.
+    prober_.approach(ballCentre, ballCentre[2] - prober_.probe().ballRadius);
+  } else {
+    prober_.moveTo(ballCentre);
+  }
+  entered_ = true;
+}
+
+std::string ObjectProbing::question(int ordinal) const {
+  const auto& cycles = context_.control().journal.cycles;
+  const std::string& name = context_.record().name;
+  const auto calls = std::ranges::count(cycles, name, &control::CycleRecord::name);
+  const char* what = name == "1411" ? "object" : "point";
+  return calls <= 1 ? fmt::format("{} {} {}", name, what, ordinal)
+                    : fmt::format("{} call {} {} {}", name, calls, what, ordinal);
+}
+
+std::optional<std::string> ObjectProbing::answer(const std::string& what) {
+  auto& panel = context_.control().panel;
+  return panel.answer ? panel.answer(what) : std::nullopt;
+}
+
+/// Waypoints "main minor tool; main minor tool": where the tip of the probe stands, as the position display shows it.
+bool ObjectProbing::moveAlong(const std::string& what, const std::string& waypoints) {
+  bool moved = false;
+  std::istringstream all(waypoints);
+  std::string one;
+  while (std::getline(all, one, ';')) {
+    std::ranges::replace(one, ',', ' ');
+    std::istringstream words(one);
+    Vector3 tip = Vector3::Zero();
+    int count = 0;
+    std::string word;
+    while (words >> word) {
+      const auto number = parseDecimal(word);
+      if (!number || count == 3) {
+        count = 0;
+        break;
+      }
+      tip[count++] = *number * context_.control().unit;
+    }
+    if (count != 3) {
+      throw Alarm("Position of the probe wrong", fmt::format("'{}' is no position for {}", waypoints, what),
+                  "answer with three coordinates of the tip: main, minor and tool axis; ; between waypoints");
+    }
+    const Vector3 ball = tip + Vector3(0, 0, prober_.probe().ballRadius);
+    prober_.approach(ball, tip.z());
+    moved = true;
+  }
+  return moved;
+}
+
+void ObjectProbing::askOperator(const std::string& what, const std::string& task) {
+  context_.stop(fmt::format("{}: {}, then NC start", what, task));
+  const auto reply = answer(what);
+  if (!reply || !moveAlong(what, *reply)) {
+    throw Alarm("Semi-automatic probing without operator",
+                fmt::format("Nobody says where the probe is to stand for {}", what),
+                fmt::format("give the answer '{} = MAIN MINOR TOOL', the position of the probe's tip", what));
+  }
+}
+
+void ObjectProbing::retractByOperator(const std::string& what) {
+  if (mode_ <= clearancePerCycle) return;
+  context_.stop(
+      fmt::format("{}: no automatic retraction to the clearance height; move the probe to a safe position, "
+                  "then NC start",
+                  what));
+  const std::string away = what + " away";
+  if (const auto reply = answer(away)) moveAlong(away, *reply);
+}
+
+EvaluatedTouch ObjectProbing::touch(const NominalPosition& nominal, const Vector3& direction, bool firstOfObject) {
+  if (nominal.semiAutomatic()) {
+    const std::string what = question(nominal.ordinal);
+    askOperator(what, "move the probe in front of the point");
+    entered_ = true;
+    const EvaluatedTouch touch = prober_.stroke(direction, prober_.probe().distance);
+    retractByOperator(what);
+    return touch;
+  }
+  const PlannedTouch planned{nominal.at(Vector3::Zero()), direction};
+  enter(prober_.prePosition(planned, extra_), firstOfObject);
+  return prober_.touch(planned);
+}
+
+std::vector<EvaluatedTouch> ObjectProbing::touchCircle(const NominalPosition& nominal, const Vector2& diameterAndStart,
+                                                       double step, int count, Side side) {
+  const auto& probe = prober_.probe();
+  const double diameter = diameterAndStart[0];
+  const std::string what = question(nominal.ordinal);
+  Vector3 middle = nominal.at(Vector3::Zero());
+  const bool byHand = nominal.semiAutomatic();
+  double above = 0;
+  if (byHand) {
+    askOperator(what, side == Side::Inside ? "move the ball into the middle of the hole at the measuring height"
+                                           : "move the ball above the middle of the stud");
+    entered_ = true;
+    middle = prober_.position();
+    above = middle[2];
+    // As far below the top of the stud as the ball stands above it.
+    if (side == Side::Outside) middle[2] -= 2 * (probe.setUp + extra_) + probe.ballRadius;
+  }
+  double extra = extra_;
+  const double room = diameter / 2 - probe.ballRadius;
+  const bool narrow = side == Side::Inside && room <= probe.setUp + extra;
+  if (narrow) {
+    if (!(room > 0)) {
+      throw Alarm("Hole too small",
+                  fmt::format("The ball of radius {:.4f} mm does not fit into a hole of diameter {:.4f} mm",
+                              probe.ballRadius, diameter),
+                  "use a smaller stylus, or correct the diameter");
+    }
+    context_.stop(
+        fmt::format("{}: the hole is too small for the set-up clearance\nNominal diameter {:.4f}\nBall radius "
+                    "{:.4f}\nPossible set-up clearance {:.4f}\nNC start goes on with it",
+                    what, diameter, probe.ballRadius, room));
+    extra = room - probe.setUp;
+  }
+  const auto plan = probing::planCircle(middle, diameter, diameterAndStart[1], step, count, side);
+  std::vector<EvaluatedTouch> touches;
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    const Vector3 start = narrow ? middle : prober_.prePosition(plan[i], extra);
+    if (i == 0 && byHand) {
+      prober_.moveInPlane(start);
+      prober_.moveTo(start);
+    } else if (i == 0 || (mode_ == clearancePerPoint && !byHand)) {
+      enter(start, i == 0);
+    } else if (!narrow) {
+      prober_.moveOnArc(middle, step);
+    }
+    touches.push_back(prober_.touch(plan[i]));
+  }
+  if (byHand) {
+    if (side == Side::Outside) prober_.moveHeightTo(above);
+    retractByOperator(what);
+  }
+  return touches;
+}
+
+void ObjectProbing::leave(bool last, bool semiAutomatic) {
+  if (semiAutomatic || !entered_ || mode_ == clearanceNever) return;
+  if (last || mode_ > clearancePerCycle) prober_.moveSouthPoleTo(clearance_);
+}
+
+}  // namespace probewright::cycles::heidenhain

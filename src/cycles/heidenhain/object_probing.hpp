@@ -1,0 +1,41 @@
+#pragma once
+
+#include "cycles/heidenhain/nominal_position.hpp"
+
+/// How the probe travels in cycles 1410, 1411 and 1420: Q1125, Q260, Q320 and the semi-automatic mode.
+namespace probewright::cycles::heidenhain {
+
+class ObjectProbing {
+public:
+  /// Pre-positions at FMAX of the probe table, with Q1125 = 2 at 2000 mm/min.
+  explicit ObjectProbing(Context& context);
+
+  probing::HeidenhainProber& prober() { return prober_; }
+
+  /// Touches the point of an edge or plane whose position is not known beforehand. The first and the last point of the
+  /// object enter and leave it as Q1125 says; of a position with "?" the operator says where the touch begins.
+  EvaluatedTouch touch(const NominalPosition& nominal, const Vector3& direction, bool firstOfObject);
+  /// The ball centres on a circle at `count` angles `step` apart. With "?" the operator brings the ball to the middle
+  /// of the object at the measuring height (hole) or centred above it by the set-up clearance (stud).
+  std::vector<EvaluatedTouch> touchCircle(const NominalPosition& nominal, const Vector2& diameterAndStart, double step,
+                                          int count, Side side);
+  /// The object is done; `last`: so is the cycle.
+  void leave(bool last, bool semiAutomatic);
+
+private:
+  void enter(const Vector3& ballCentre, bool firstOfObject);
+  void askOperator(const std::string& what, const std::string& task);
+  /// Where the operator retracts to by hand, if he says so.
+  void retractByOperator(const std::string& what);
+  std::optional<std::string> answer(const std::string& what);
+  bool moveAlong(const std::string& what, const std::string& waypoints);
+  std::string question(int ordinal) const;
+
+  Context& context_;
+  probing::HeidenhainProber prober_;
+  int mode_ = 0;
+  double clearance_ = 0, extra_ = 0;
+  bool entered_ = false;
+};
+
+}  // namespace probewright::cycles::heidenhain

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "cycles/heidenhain/nominal_position.hpp"
+
+/// What cycles 1410, 1411 and 1420 do with position and rotation: Q1120, Q1121, Q1126. The active preset takes it.
+namespace probewright::cycles::heidenhain {
+
+/// Refuses what cannot be done before the probe moves: transformations that are not allowed, Q1126 without Q1121,
+/// rotary axes that do not align what is measured.
+void requireRotationCycle(Context& context);
+
+/// The rotary axis of the table that is nearest to the workpiece.
+struct TableAxis {
+  std::size_t index = 0;
+  double workpieceTurn = 1;  ///< degrees that the workpiece turns about the tool axis for one degree of the axis
+};
+/// Nothing if the machine has none or it does not turn about the active tool axis.
+std::optional<TableAxis> alignmentAxis(Context& context);
+
+/// A rotation in the working plane, degrees from nominal to actual, and the same as an angle of the table's axis.
+struct PlaneRotation {
+  double nominal = 0, actual = 0, deviation = 0;
+  double tableActual = 0, tableDeviation = 0;
+  std::optional<TableAxis> axis;
+};
+/// From the line between two positions. Throws Alarm where they coincide in the working plane.
+PlaneRotation planeRotation(Context& context, const MeasuredPosition& first, const MeasuredPosition& second);
+
+/// Writes the rotation about the tool axis (1410, 1411) as Q1121 says, the position as Q1120 says (1, 2, 3: mean) and
+/// aligns the table as Q1126 says.
+void transferPlaneRotation(Context& context, const PlaneRotation& rotation, const MeasuredPosition& first,
+                           const MeasuredPosition& second);
+
+/// Writes `rotation` of the I-CS (main, minor, tool axis) as 3-D basic rotation (1420), the position (1, 2, 3, 4: mean)
+/// and positions the rotary axes so that the tool stands square to the plane.
+void transferSpaceRotation(Context& context, const Matrix3& rotation, std::span<const MeasuredPosition, 3> points);
+
+}  // namespace probewright::cycles::heidenhain
