@@ -215,6 +215,7 @@ TEST(Cycle977, CorrectsTheToolThatMadeTheHole) {
   EXPECT_NEAR(bench.ovr(12), -0.015, 1e-9);
   EXPECT_NEAR(bench.data("$TC_DP15", {7, 2}), 0.0175, 1e-9);
   EXPECT_EQ(bench.messages(), "61304 ");
+  EXPECT_EQ(bench.control.journal.cycles.back().verdict, control::Verdict::Scrap) << "too large a hole is lost";
   EXPECT_EQ(bench.ovi(9), 61304);
   // Within the zero offset range nothing is corrected; beyond the dimensional difference neither.
   measure({{"S_KNUM1", 2}, {"S_TZL", 0.07}});

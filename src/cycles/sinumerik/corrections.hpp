@@ -85,6 +85,10 @@ struct Dimension {
 /// The set value of a dimension: the middle of its tolerance if tool correction uses one (_AMODE, S_TUL, S_TLL).
 double setValueOf(const Context& context, Task task, double programmed);
 
+/// What a size is compared with: its set value, and with a tolerance its limits and the verdict, which also counts for
+/// the whole cycle. A hole too small can be reworked, one too large cannot; a spigot the other way round.
+Compared comparedSize(Context& context, Task task, double set, double actual, Side side);
+
 /// The empirical value that S_EVNUM selects; 0 without. Alarm 61319 for a number beyond 20.
 double empiricalValue(Context& context);
 

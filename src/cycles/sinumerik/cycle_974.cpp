@@ -81,7 +81,9 @@ void cycle974(Context& context, const Arguments&) {
 
   const double actual = position * measure;
   const double difference = actual - set - (task == Task::Tool ? empiricalValue(context) : 0);
-  reportTurned(context, axis, set, actual, difference);
+  const Side side = units == 1 ? Side::Inside : Side::Outside;
+  reportTurned(context, axis, set, actual, difference,
+               face ? Compared{.nominal = set} : comparedSize(context, task, set, actual, side));
   context.checkSafeArea(difference);
   if (target) {
     Vector3 feature = setpoint;

@@ -186,16 +186,19 @@ void cycle977(Context& context, const Arguments&) {
 
   // A chord beside the middle is too short: the diameter is the one through the centre.
   const double size1 = isRound(feature) ? pair2.size : pair1.size;
-  const auto report = [&context](int element, double set, double actual) {
+  const Side side = sideOf(feature);
+  const auto report = [&context](int element, double set, double actual, const Compared& compared) {
     context.result(element, set);
-    context.result(4 + element, actual, {.nominal = set});
+    context.result(4 + element, actual, compared);
     context.result(16 + element, actual - set);
   };
   int element = 0;
-  report(element++, set1, size1);
-  if (isRectangle(feature)) report(element++, set2, pair2.size);
-  report(element++, start.x(), centre.x());
-  report(element, start.y(), centre.y());
+  report(element++, set1, size1, comparedSize(context, task, set1, size1, side));
+  if (isRectangle(feature)) {
+    report(element++, set2, pair2.size, comparedSize(context, task, set2, pair2.size, side));
+  }
+  report(element++, start.x(), centre.x(), {.nominal = start.x()});
+  report(element, start.y(), centre.y(), {.nominal = start.y()});
   context.noteCall();
 
   context.checkSafeArea(size1 - set1);
@@ -214,8 +217,7 @@ void cycle977(Context& context, const Arguments&) {
   if (task == Task::Tool) {
     const Dimension dimensions[] = {{.set = set1, .actual = size1},
                                     {.set = set2, .actual = pair2.size, .upperResult = 9, .lowerResult = 13}};
-    correctTool(context, std::span(dimensions).first(isRectangle(feature) ? 2 : 1),
-                influenceOnSize(sideOf(feature), axis));
+    correctTool(context, std::span(dimensions).first(isRectangle(feature) ? 2 : 1), influenceOnSize(side, axis));
   }
 }
 

@@ -106,7 +106,7 @@ void cycle979(Context& context, const Arguments&) {
   context.result(0, set);
   context.result(1, setCentre.x());
   context.result(2, setCentre.y());
-  context.result(4, diameter, {.nominal = set});
+  context.result(4, diameter, comparedSize(context, task, set, diameter, side));
   context.result(5, centre.x(), {.nominal = setCentre.x()});
   context.result(6, centre.y(), {.nominal = setCentre.y()});
   context.result(16, diameter - set);

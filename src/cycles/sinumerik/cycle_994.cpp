@@ -107,7 +107,8 @@ void cycle994(Context& context, const Arguments&) {
 
   const double actual = std::abs(first - second) * measure / 2;
   const double difference = actual - set - (task == Task::Tool ? empiricalValue(context) : 0);
-  reportTurned(context, axis, set, actual, difference);
+  reportTurned(context, axis, set, actual, difference,
+               comparedSize(context, task, set, actual, inside ? Side::Inside : Side::Outside));
   context.checkSafeArea(difference);
   if (task == Task::Tool) {
     const Dimension dimensions[] = {{.set = set, .actual = actual}};

@@ -8,6 +8,7 @@
 #include "control/sinumerik/tool_data.hpp"
 #include "cycles/sinumerik/correction_strategy.hpp"
 #include "cycles/sinumerik/corrections.hpp"
+#include "metrology/tolerance.hpp"
 
 namespace probewright::cycles::sinumerik {
 
@@ -174,6 +175,18 @@ ToolInfluence influenceOnSurface(int measuringAxis, double direction) {
 double setValueOf(const Context& context, Task task, double programmed) {
   if (task != Task::Tool || !usesTolerance(context)) return programmed;
   return programmed + (context.real("S_TUL") + context.real("S_TLL")) / 2;
+}
+
+Compared comparedSize(Context& context, Task task, double set, double actual, Side side) {
+  Compared compared{.nominal = set};
+  if (task != Task::Tool || !usesTolerance(context)) return compared;
+  const double half = (context.real("S_TUL") - context.real("S_TLL")) / 2;
+  const metrology::Limits limits{set - half, set + half};
+  compared.lower = limits.lower;
+  compared.upper = limits.upper;
+  compared.verdict = side == Side::Inside ? boreVerdict(actual, limits) : studVerdict(actual, limits);
+  context.record().verdict = worst(context.record().verdict, compared.verdict);
+  return compared;
 }
 
 double empiricalValue(Context& context) {

@@ -25,11 +25,11 @@ ToolInfluence influenceOnTurning(const Context& context, int measuringAxis, doub
   return {.radius = side / measure, .length = -1 / measure, .radiusFromAxis = true, .measuringAxis = correctedAxis};
 }
 
-void reportTurned(Context& context, int axis, double set, double actual, double difference) {
+void reportTurned(Context& context, int axis, double set, double actual, double difference, const Compared& compared) {
   for (const int element : {0, 1 + axis})
     context.result(element, set);
   for (const int element : {4, 5 + axis})
-    context.result(element, actual, {.nominal = set});
+    context.result(element, actual, compared);
   for (const int element : {16, 17 + axis})
     context.result(element, difference);
   context.noteCall();

@@ -17,7 +17,7 @@ void turnWorkpiece(Context& context, double degrees);
 ToolInfluence influenceOnTurning(const Context& context, int measuringAxis, double side, double measure);
 
 /// Set value, actual value and difference in the results of the measuring axis and of the axis by number.
-void reportTurned(Context& context, int axis, double set, double actual, double difference);
+void reportTurned(Context& context, int axis, double set, double actual, double difference, const Compared& compared);
 
 /// The results of CYCLE974 and CYCLE994.
 inline constexpr std::array<ResultDefinition, 12> turnedResults = {{
