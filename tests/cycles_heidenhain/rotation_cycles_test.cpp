@@ -477,6 +477,50 @@ TEST(Cycle1411, AlignsTheRotaryTable) {
   }
 }
 
+TEST(Cycle1410, TurnsTheBasicRotationInATiltedPlane) {
+  Dice dice(14102);
+  for (int world = 0; world < worlds; ++world) {
+    SCOPED_TRACE(fmt::format("world {}", world));
+    Bench bench(ControlKind::TNC640, "mill5-head-table");
+    const Vector3 origin(written(dice.between(-60, 60)), written(dice.between(-60, 60)), -500);
+    const double rotation = written(dice.between(-20, 20));
+    bench.preset(1, origin, rotation);
+    const double tilt = written(dice.between(-25, 25)), turn = written(dice.between(-25, 25));
+    const Pose preset = pose(origin, {0, 0, rotation});
+    // The table stands at 0 when the preset counts; the tilted plane goes with the workpiece.
+    const Pose input = preset * pose(Vector3::Zero(), {turn, tilt, 0});
+    const double skew = dice.between(-4, 4);
+    const Pose part = input * pose(dice.within(1), {0, 0, skew});
+    bench.believedProbe().maximumTravel = 40;
+    bench.believedProbe().setUpClearance = 8;
+    bench.part(simulation::Box({-50, -50, -30}, {50, 50, 0}), part);
+    const Words words = with(Words{{1100, -30},
+                                   {1101, -50},
+                                   {1102, -8},
+                                   {1103, 30},
+                                   {1104, -50},
+                                   {1105, -8},
+                                   {372, 2},
+                                   {320, 0},
+                                   {260, 20},
+                                   {1125, 1},
+                                   {309, 0},
+                                   {1126, 0},
+                                   {1120, 0},
+                                   {1121, 0}},
+                             {{1120, 1}, {1121, 1}, {1125, 1}, {260, 30}});
+    const std::string plane =
+        fmt::format("L Z+0 R0 FMAX M91\nPLANE SPATIAL SPA{:+.3f} SPB{:+.3f} SPC+0 TURN FMAX\n", turn, tilt);
+    const Ran ran = bench.run(plane + probe(1410, words) + probe(1410, with(words, {{1120, 0}, {1121, 0}})));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    // The second run finds the edge parallel; the axes of the tilted plane are now those of the part.
+    EXPECT_NEAR(ran.q(994), 0, exact);
+    const Matrix3 tilted = ran.preset().linear() * pose(Vector3::Zero(), {turn, tilt, 0}).linear();
+    EXPECT_TRUE(tilted.isApprox(part.linear(), 1e-9));
+    EXPECT_NEAR(ran.outcome.journal.cycles.front().results[14].value, skew, exact);
+  }
+}
+
 TEST(Cycle1410, ComputesWithActualPositionsWithoutProbing) {
   Bench bench;
   bench.preset(1, {10, 20, -400}, 0);
