@@ -12,16 +12,16 @@ Diagnostics checkProgram(const std::filesystem::path& path, std::optional<contro
   if (!text) return {text.error()};
   const Result<control::ControlKind> kind = controlFor(path, *text, control, std::nullopt);
   if (!kind) return {kind.error()};
-  const Result<std::shared_ptr<language::Program>> program = openProgram(path, languageOf(*kind));
+  const Result<std::shared_ptr<language::Program>> program = openProgram(path, languageFor(*kind, path, *text));
   if (!program) return {program.error()};
   return checkProgram(**program, *kind);
 }
 
 Diagnostics checkProgram(language::Program& program, control::ControlKind kind) {
   if (control::isHeidenhain(kind)) {
-    return language::klartext::checkProgram(static_cast<language::klartext::KlartextProgram&>(program), kind);
+    return language::klartext::checkProgram(static_cast<language::klartext::HeidenhainProgram&>(program), kind);
   }
-  const auto library = programLibrary(ProgramLanguage::Sinumerik);
+  const auto library = programLibrary(kind);
   return sinumerik::check(static_cast<sinumerik::SinumerikProgram&>(program),
                           {.library = library.get(), .globalVariables = {}});
 }

@@ -6,8 +6,8 @@
 
 #include "base/file.hpp"
 #include "control/alarm.hpp"
+#include "language/din_iso/host.hpp"
 #include "language/klartext/host.hpp"
-#include "language/klartext/program.hpp"
 #include "language/sinumerik/host.hpp"
 #include "language/sinumerik/program.hpp"
 #include "records/results.hpp"
@@ -62,8 +62,9 @@ void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>
   const fs::path folder = path.parent_path();
   language::klartext::HostOptions hostOptions{
       .strict = options.strict, .readFile = [folder](const std::string& name) { return readFile(folder / name); }};
-  language::klartext::KlartextHost host(control, hostOptions);
-  const auto library = programLibrary(ProgramLanguage::Klartext);
+  language::klartext::KlartextHost klartext(control, hostOptions);
+  language::din_iso::DinIsoHost host(klartext);
+  const auto library = programLibrary(outcome.control);
   language::Interpreter interpreter(*library, host, interpreterOptions(options, outcome.control));
   outcome.result = interpreter.run(program);
 
@@ -126,7 +127,7 @@ void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>&
   control.applyFrames();
 
   sinumerik::SinumerikHost host(control, {.strict = options.strict, .fileExists = {}});
-  const auto library = programLibrary(ProgramLanguage::Sinumerik);
+  const auto library = programLibrary(outcome.control);
   language::Interpreter interpreter(*library, host, interpreterOptions(options, outcome.control));
   outcome.result = interpreter.run(program);
 
@@ -178,7 +179,7 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
                const simulation::Setup& setup, const RunOptions& options) {
   RunOutcome outcome;
   outcome.control = kind;
-  outcome.info.language = nameOf(languageOf(kind));
+  outcome.info.language = nameOf(languageFor(kind, path, {}));
   outcome.info.control = name(kind);
   outcome.info.setupPath = setup.file;
   outcome.info.seed = setup.truth.seed;
@@ -231,7 +232,7 @@ RunOutcome runProgram(const fs::path& path, const simulation::Setup& setup, cons
   if (!text) return refused(text.error());
   const Result<ControlKind> kind = controlFor(path, *text, options.control, setup.control);
   if (!kind) return refused(kind.error());
-  Result<std::shared_ptr<language::Program>> program = openProgram(path, languageOf(*kind));
+  Result<std::shared_ptr<language::Program>> program = openProgram(path, languageFor(*kind, path, *text));
   if (!program) return refused(program.error());
   RunOutcome outcome = run(*program, path, *kind, setup, options);
   outcome.info.programs.push_back({path.string(), std::move(*text)});
@@ -242,12 +243,7 @@ RunOutcome runText(const std::string& name, std::string text, const simulation::
                    const RunOptions& options) {
   const Result<ControlKind> kind = controlFor(name, text, options.control, setup.control);
   if (!kind) return refused(kind.error());
-  std::shared_ptr<language::Program> program;
-  if (control::isHeidenhain(*kind)) {
-    program = std::make_shared<language::klartext::KlartextProgram>(name, text);
-  } else {
-    program = sinumerik::SinumerikProgram::fromText(name, text);
-  }
+  const std::shared_ptr<language::Program> program = programOf(name, text, languageFor(*kind, name, text));
   RunOutcome outcome = run(program, name, *kind, setup, options);
   outcome.info.programs.push_back({name, std::move(text)});
   return outcome;

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <regex>
 
+#include "language/din_iso/program.hpp"
 #include "language/directory_library.hpp"
 #include "language/klartext/program.hpp"
 #include "language/sinumerik/program.hpp"
@@ -18,20 +19,38 @@ std::optional<ProgramLanguage> languageOf(const std::filesystem::path& path, std
   std::string ending = path.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending == ".h") return ProgramLanguage::Klartext;
+  if (ending == ".i") return ProgramLanguage::DinIso;
   if (ending == ".mpf" || ending == ".spf" || ending == ".arc") return ProgramLanguage::Sinumerik;
   const std::string head(text.substr(0, 20000));
   static const std::regex klartext(
       R"((^|\n)\s*(\d+\s+)?(BEGIN PGM|TCH PROBE|TOOL CALL|CYCL DEF|L [XYZ][+-]|FN ?\d+ ?:))");
+  // Blocks that end with '*', and words that SINUMERIK has not.
+  static const std::regex dinIso(R"((^|\n)\s*(%\S[^\n]* G7[01]\s*\*|(N\d+\s+)?(G98 ?L|D(0\d|1\d) ?Q|G[^\n;]*\*\s*(\n|$))))",
+                                 std::regex::icase);
   static const std::regex sinumerik(
       R"((^|\n)\s*(%_N_|(N\d+\s+)?(CYCLE\d+\s*\(|G\d+\s|PROC\s|DEF\s|R\d+\s*=|M30|M17|T="|;\$PATH)))",
       std::regex::icase);
   if (std::regex_search(head, klartext)) return ProgramLanguage::Klartext;
+  if (std::regex_search(head, dinIso)) return ProgramLanguage::DinIso;
   if (std::regex_search(head, sinumerik)) return ProgramLanguage::Sinumerik;
   return std::nullopt;
 }
 
 std::string_view nameOf(ProgramLanguage language) {
-  return language == ProgramLanguage::Klartext ? "Klartext" : "SINUMERIK";
+  switch (language) {
+    case ProgramLanguage::Klartext:
+      return "Klartext";
+    case ProgramLanguage::DinIso:
+      return "DIN/ISO";
+    default:
+      return "SINUMERIK";
+  }
+}
+
+ProgramLanguage languageFor(ControlKind kind, const std::filesystem::path& path, std::string_view text) {
+  const std::optional<ProgramLanguage> told = languageOf(path, text);
+  if (told && speaks(kind, *told)) return *told;
+  return control::isHeidenhain(kind) ? ProgramLanguage::Klartext : ProgramLanguage::Sinumerik;
 }
 
 Result<ControlKind> controlFor(const std::filesystem::path& path, std::string_view text,
@@ -44,12 +63,12 @@ Result<ControlKind> controlFor(const std::filesystem::path& path, std::string_vi
                 "name it with --control TNC640, iTNC530 or 840Dsl");
   }
   if (setup) {
-    if (languageOf(*setup) == *language) return *setup;
+    if (speaks(*setup, *language)) return *setup;
     return fail({path.string(), 0, 0},
                 fmt::format("this is a {} program, but the setup describes a {}", nameOf(*language), name(*setup)),
                 "use a setup with a control of that language, or name the control with --control");
   }
-  return *language == ProgramLanguage::Klartext ? ControlKind::TNC640 : ControlKind::Sinumerik840Dsl;
+  return *language == ProgramLanguage::Sinumerik ? ControlKind::Sinumerik840Dsl : ControlKind::TNC640;
 }
 
 Result<std::shared_ptr<language::Program>> openProgram(const std::filesystem::path& path, ProgramLanguage language) {
@@ -58,19 +77,33 @@ Result<std::shared_ptr<language::Program>> openProgram(const std::filesystem::pa
     if (!program) return tl::unexpected(program.error());
     return std::shared_ptr<language::Program>(std::move(*program));
   }
+  if (language == ProgramLanguage::DinIso) {
+    auto program = language::din_iso::DinIsoProgram::open(path);
+    if (!program) return tl::unexpected(program.error());
+    return std::shared_ptr<language::Program>(std::move(*program));
+  }
   auto program = sinumerik::SinumerikProgram::open(path);
   if (!program) return tl::unexpected(program.error());
   return std::shared_ptr<language::Program>(std::move(*program));
 }
 
-std::unique_ptr<language::ProgramLibrary> programLibrary(ProgramLanguage language,
-                                                         std::vector<std::filesystem::path> folders) {
-  const bool klartext = language == ProgramLanguage::Klartext;
+std::shared_ptr<language::Program> programOf(std::string name, std::string text, ProgramLanguage language) {
+  switch (language) {
+    case ProgramLanguage::Klartext:
+      return std::make_shared<language::klartext::KlartextProgram>(std::move(name), std::move(text));
+    case ProgramLanguage::DinIso:
+      return std::make_shared<language::din_iso::DinIsoProgram>(std::move(name), std::move(text));
+    default:
+      return sinumerik::SinumerikProgram::fromText(std::move(name), std::move(text));
+  }
+}
+
+std::unique_ptr<language::ProgramLibrary> programLibrary(ControlKind kind, std::vector<std::filesystem::path> folders) {
+  const bool heidenhain = control::isHeidenhain(kind);
   std::vector<std::string> endings =
-      klartext ? std::vector<std::string>{".H"} : std::vector<std::string>{".SPF", ".MPF"};
-  return std::make_unique<language::DirectoryLibrary>(
-      std::move(endings), [language](const std::filesystem::path& path) { return openProgram(path, language); },
-      std::move(folders));
+      heidenhain ? std::vector<std::string>{".H", ".I"} : std::vector<std::string>{".SPF", ".MPF"};
+  const auto open = [kind](const std::filesystem::path& path) { return openProgram(path, languageFor(kind, path, {})); };
+  return std::make_unique<language::DirectoryLibrary>(std::move(endings), open, std::move(folders));
 }
 
 }  // namespace probewright::session

@@ -11,14 +11,18 @@
 /// Program files, whatever their language.
 namespace probewright::session {
 
-enum class ProgramLanguage { Klartext, Sinumerik };
+enum class ProgramLanguage { Klartext, DinIso, Sinumerik };
 
-/// The language of a program by its ending (.H; .MPF, .SPF, .ARC), otherwise by its text; nothing if neither tells.
+/// The language of a program by its ending (.H; .I; .MPF, .SPF, .ARC), otherwise by its text; nothing if neither tells.
 std::optional<ProgramLanguage> languageOf(const std::filesystem::path& path, std::string_view text);
 
-constexpr ProgramLanguage languageOf(control::ControlKind kind) {
-  return control::isHeidenhain(kind) ? ProgramLanguage::Klartext : ProgramLanguage::Sinumerik;
+/// True if the control runs programs of that language; a HEIDENHAIN control runs two.
+constexpr bool speaks(control::ControlKind kind, ProgramLanguage language) {
+  return control::isHeidenhain(kind) == (language != ProgramLanguage::Sinumerik);
 }
+
+/// The language to read a program in that is for `kind`: the one it tells, otherwise the control's first one.
+ProgramLanguage languageFor(control::ControlKind kind, const std::filesystem::path& path, std::string_view text);
 
 std::string_view nameOf(ProgramLanguage language);
 
@@ -30,8 +34,11 @@ Result<control::ControlKind> controlFor(const std::filesystem::path& path, std::
 
 Result<std::shared_ptr<language::Program>> openProgram(const std::filesystem::path& path, ProgramLanguage language);
 
-/// Where programs of that language look for others: the caller's folder, then `folders`.
-std::unique_ptr<language::ProgramLibrary> programLibrary(ProgramLanguage language,
+/// A program in memory; `name` names it in messages.
+std::shared_ptr<language::Program> programOf(std::string name, std::string text, ProgramLanguage language);
+
+/// Where programs of that control look for others: the caller's folder, then `folders`.
+std::unique_ptr<language::ProgramLibrary> programLibrary(control::ControlKind kind,
                                                          std::vector<std::filesystem::path> folders = {});
 
 }  // namespace probewright::session

@@ -19,7 +19,7 @@ constexpr std::uint32_t firstProbeWord = cycles::heidenhain::probe_word::result;
 
 class Checker {
 public:
-  Checker(KlartextProgram& program, control::ControlKind kind) : program_(program), kind_(kind) {}
+  Checker(HeidenhainProgram& program, control::ControlKind kind) : program_(program), kind_(kind) {}
 
   Diagnostics run() {
     BlockPosition position = program_.begin();
@@ -29,11 +29,14 @@ public:
       frame();
       position = block_.next;
     }
+    const FrameWords& words = program_.frameWords();
     if (!begun_ && anyBlock_) {
-      report(1, 1, "the program does not begin with BEGIN PGM", "write BEGIN PGM NAME MM as its first block", first_);
+      report(1, 1, fmt::format("the program does not begin with {}", words.begin),
+             fmt::format("write {} as its first block", words.beginBlock), first_);
     }
     if (!ended_ && anyBlock_) {
-      report(lastLine_, 1, "the program does not end with END PGM", "write END PGM NAME MM as its last block", last_);
+      report(lastLine_, 1, fmt::format("the program does not end with {}", words.end),
+             fmt::format("write {} as its last block", words.endBlock), last_);
     }
     for (const Use& use : uses_) {
       if (labels_.contains(use.label)) continue;
@@ -41,7 +44,7 @@ public:
                         {program_.file(), use.line, use.column},
                         fmt::format("there is no label {} in this program", use.label),
                         use.excerpt,
-                        fmt::format("define it with LBL {} or correct the name", quoted(use.label)),
+                        fmt::format("define it with {}{} or correct the name", words.label, quoted(use.label)),
                         {}});
     }
     std::ranges::stable_sort(found_, {}, [](const Diagnostic& d) { return d.place.line; });
@@ -90,25 +93,25 @@ private:
     return static_cast<std::uint32_t>(part.data() - block_.at(block_.source).data()) + 1;
   }
 
-  /// BEGIN PGM first, END PGM last.
+  /// The beginning first, the end last.
   void frame() {
-    const std::string_view statement = withoutBlockNumber(block_.at(block_.source));
-    if (statement.empty() || statement.front() == ';' || statement.front() == '*') return;
+    const FramePart part = program_.framePart(block_);
+    if (part == FramePart::Nothing) return;
     if (!anyBlock_) first_ = lineText(0);
     last_ = lineText(0);
     lastLine_ = block_.position.line;
-    Lexer lexer(statement);
-    const bool begin = lexer.acceptKeyword("BEGIN");
-    if (begin && anyBlock_) {
-      reportHere("BEGIN PGM stands within the program", "a file holds one program; write the other to its own file");
+    if (part == FramePart::Begin && anyBlock_) {
+      reportHere(fmt::format("{} stands within the program", program_.frameWords().begin),
+                 "a file holds one program; write the other to its own file");
     }
-    if (begin) begun_ = true;
+    if (part == FramePart::Begin) begun_ = true;
     if (ended_ && !behindReported_) {
       behindReported_ = true;
-      reportHere("this block stands behind END PGM and is never reached", "move it in front of END PGM",
-                 Severity::Warning);
+      const std::string_view end = program_.frameWords().end;
+      reportHere(fmt::format("this block stands behind {} and is never reached", end),
+                 fmt::format("move it in front of {}", end), Severity::Warning);
     }
-    if (lexer.acceptKeyword("END")) ended_ = true;
+    if (part == FramePart::End) ended_ = true;
     anyBlock_ = true;
   }
 
@@ -212,7 +215,7 @@ private:
     if (!text.empty()) reportAt(word, std::move(text), "correct the value");
   }
 
-  KlartextProgram& program_;
+  HeidenhainProgram& program_;
   control::ControlKind kind_;
   Block block_;
   Diagnostics found_;
@@ -228,6 +231,6 @@ private:
 
 }  // namespace
 
-Diagnostics checkProgram(KlartextProgram& program, control::ControlKind kind) { return Checker(program, kind).run(); }
+Diagnostics checkProgram(HeidenhainProgram& program, control::ControlKind kind) { return Checker(program, kind).run(); }
 
 }  // namespace probewright::language::klartext

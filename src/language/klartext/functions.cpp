@@ -10,6 +10,10 @@ bool BlockParser::function() {
   if (!written || *written > 38) return error("a number from 0 to 38 is expected behind FN");
   const int number = static_cast<int>(*written);
   lexer_.accept(':');
+  return functionBody(number);
+}
+
+bool BlockParser::functionBody(int number) {
   switch (number) {
     case 0:
     case 1:

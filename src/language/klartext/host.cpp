@@ -86,7 +86,7 @@ std::string KlartextHost::code(Refusal refusal) const {
 
 void KlartextHost::enter(const Program& program, const CallProgram*, Evaluation*) {
   Level level;
-  level.program = dynamic_cast<const KlartextProgram*>(&program);
+  level.program = dynamic_cast<const HeidenhainProgram*>(&program);
   level.file = program.file();
   level.outerUnit = control_.unit;
   level.local.assign(localCount, 0);

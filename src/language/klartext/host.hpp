@@ -12,7 +12,7 @@
 #include "language/evaluation.hpp"
 #include "language/host.hpp"
 #include "language/klartext/contour.hpp"
-#include "language/klartext/program.hpp"
+#include "language/klartext/heidenhain_program.hpp"
 
 namespace probewright::language::klartext {
 
@@ -40,7 +40,7 @@ public:
 
 private:
   struct Level {
-    const KlartextProgram* program = nullptr;
+    const HeidenhainProgram* program = nullptr;
     std::string file;
     double outerUnit = 1;
     std::vector<double> local;  ///< QL

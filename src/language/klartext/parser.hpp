@@ -23,7 +23,7 @@ public:
   /// Fills the block's instructions; none if there is a mistake, which goes to the diagnostics.
   void parse();
 
-private:
+protected:
   // parser.cpp: the kinds of blocks, and what all share
   bool statement();
   bool expectEnd();
@@ -84,6 +84,8 @@ private:
 
   // tool.cpp
   bool toolCall();
+  bool toolIdentity(ToolCall& call);
+  bool toolWord(ToolCall& call);
   bool toolDefinition();
 
   // calls.cpp
@@ -97,6 +99,7 @@ private:
 
   // functions.cpp: FN 0 to 38
   bool function();
+  bool functionBody(int number);
   bool functionAssignment(int number);
   bool functionJump(int number);
   bool functionSystemData(int number);

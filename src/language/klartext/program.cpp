@@ -76,6 +76,19 @@ bool KlartextProgram::cornerFollows(BlockPosition position) const {
   }
 }
 
+FramePart KlartextProgram::framePart(const Block& block) const {
+  const std::string_view statement = withoutBlockNumber(block.at(block.source));
+  if (statement.empty() || statement.front() == ';' || statement.front() == '*') return FramePart::Nothing;
+  Lexer lexer(statement);
+  if (lexer.acceptKeyword("BEGIN")) return FramePart::Begin;
+  return lexer.acceptKeyword("END") ? FramePart::End : FramePart::Statement;
+}
+
+const FrameWords& KlartextProgram::frameWords() const {
+  static constexpr FrameWords words{"BEGIN PGM", "BEGIN PGM NAME MM", "END PGM", "END PGM NAME MM", "LBL "};
+  return words;
+}
+
 bool KlartextProgram::parse(BlockPosition position, Block& block, Diagnostics& diagnostics) {
   block.clear();
   block.position = position;

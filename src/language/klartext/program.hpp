@@ -9,12 +9,10 @@
 #include <vector>
 
 #include "base/diagnostic.hpp"
-#include "language/program.hpp"
+#include "language/klartext/heidenhain_program.hpp"
 #include "language/source_text.hpp"
 
 namespace probewright::language::klartext {
-
-enum class Unit { Millimetre, Inch };
 
 /// A HEIDENHAIN Klartext program (.H) of a TNC 640 or iTNC 530.
 ///
@@ -22,7 +20,7 @@ enum class Unit { Millimetre, Inch };
 /// CYCL DEF 7.0, 7.1, 7.2...) are one block, and so are the parameter lines Q321=... that follow a cycle's first line
 /// without continuation signs, as printed programs show them. Names and comments may be in any encoding in which ASCII
 /// stays ASCII (UTF-8, CP1252, CP1251, GBK); they are kept byte for byte.
-class KlartextProgram : public Program {
+class KlartextProgram : public HeidenhainProgram {
 public:
   /// A program in memory. `file` names it in messages.
   KlartextProgram(std::string file, std::string text);
@@ -37,11 +35,10 @@ public:
   /// Klartext has no structured statements.
   std::optional<BlockPosition> counterpart(BlockPosition) override { return std::nullopt; }
 
-  /// True if the block at `position`, or the first behind comments there, is RND or CHF.
-  bool cornerFollows(BlockPosition position) const;
-
-  /// The unit of BEGIN PGM; millimetres where there is none.
-  Unit unit() const { return unit_; }
+  bool cornerFollows(BlockPosition position) const override;
+  Unit unit() const override { return unit_; }
+  FramePart framePart(const Block& block) const override;
+  const FrameWords& frameWords() const override;
 
 private:
   explicit KlartextProgram(SourceText source);

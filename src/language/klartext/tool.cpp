@@ -11,8 +11,8 @@ bool isToolAxis(char letter) { return std::string_view("XYZUVW").find(letter) !=
 
 }  // namespace
 
-bool BlockParser::toolCall() {
-  ToolCall call;
+/// The tool itself: its number with its index, its name, or a parameter with one of them.
+bool BlockParser::toolIdentity(ToolCall& call) {
   if (lexer_.peek() == '+') lexer_.advance();
   if (const std::optional<std::string_view> name = lexer_.quoted()) {
     call.name = textOperand(ref(*name));
@@ -33,41 +33,60 @@ bool BlockParser::toolCall() {
   } else if (lexer_.peek() == '"') {
     return error("the quotation mark that ends the tool name is missing");
   }
+  return true;
+}
+
+/// S, F, DL, DR or DR2 of a tool call.
+bool BlockParser::toolWord(ToolCall& call) {
+  const char c = lexer_.peek();
+  if (c == 'D' && upper(lexer_.here(1)) != 'L' && upper(lexer_.here(1)) != 'R') {
+    return error("the tool axis, S, F, DL, DR, DR2 or M is expected here",
+                 "oversizes of a tool are written DL+0.1, DR-0.05 and DR2+0.1");
+  }
+  if (c == 'S') {
+    lexer_.advance();
+    if (lexer_.accept('(')) {  // S(VC = 120): a cutting speed
+      if (!lexer_.acceptPrefix("VC") || !expect('=', "VC") || !value("VC") || !expect(')', "the cutting speed")) {
+        return diagnostics_.empty() ? error("VC = with a cutting speed is expected in the parentheses behind S")
+                                    : false;
+      }
+    } else {
+      const std::optional<Operand> speed = value("the spindle speed S");
+      if (!speed) return false;
+      call.spindleSpeed = *speed;
+    }
+  } else if (c == 'F') {
+    bool rapid = false;
+    bool automatic = false;
+    if (!feedWord(call.feed, &rapid, &automatic)) return false;
+  } else {
+    Operand* delta = upper(lexer_.here(1)) == 'L' ? &call.deltaLength : &call.deltaRadius;
+    lexer_.advance(2);
+    // DR2+0.1 is the corner radius; DR2 alone would be the radius.
+    const char sign = lexer_.here(1);
+    if (delta == &call.deltaRadius && lexer_.here() == '2' && !isDigit(sign) && sign != '.') {
+      delta = &call.deltaRadius2;
+      lexer_.advance();
+    }
+    if (lexer_.here() == ':') lexer_.advance();
+    const std::optional<Operand> amount = value("the tool oversize");
+    if (!amount) return false;
+    *delta = *amount;
+  }
+  return true;
+}
+
+bool BlockParser::toolCall() {
+  ToolCall call;
+  if (!toolIdentity(call)) return false;
   for (;;) {
     const char c = lexer_.peek();
     if (c == '\0') break;
     if (isToolAxis(c) && call.axis == 0 && !isWordByte(lexer_.here(1))) {
       call.axis = c;
       lexer_.advance();
-    } else if (c == 'S') {
-      lexer_.advance();
-      if (lexer_.accept('(')) {  // S(VC = 120): a cutting speed
-        if (!lexer_.acceptPrefix("VC") || !expect('=', "VC") || !value("VC") || !expect(')', "the cutting speed")) {
-          return diagnostics_.empty() ? error("VC = with a cutting speed is expected in the parentheses behind S")
-                                      : false;
-        }
-      } else {
-        const std::optional<Operand> speed = value("the spindle speed S");
-        if (!speed) return false;
-        call.spindleSpeed = *speed;
-      }
-    } else if (c == 'F') {
-      bool rapid = false;
-      bool automatic = false;
-      if (!feedWord(call.feed, &rapid, &automatic)) return false;
-    } else if (c == 'D' && (upper(lexer_.here(1)) == 'L' || upper(lexer_.here(1)) == 'R')) {
-      Operand* delta = upper(lexer_.here(1)) == 'L' ? &call.deltaLength : &call.deltaRadius;
-      lexer_.advance(2);
-      // DR2+0.1 is the corner radius; DR2 alone would be the radius.
-      const char sign = lexer_.here(1);
-      if (delta == &call.deltaRadius && lexer_.here() == '2' && !isDigit(sign) && sign != '.') {
-        delta = &call.deltaRadius2;
-        lexer_.advance();
-      }
-      if (lexer_.here() == ':') lexer_.advance();
-      const std::optional<Operand> amount = value("the tool oversize");
-      if (!amount) return false;
-      *delta = *amount;
+    } else if (c == 'S' || c == 'F' || c == 'D') {
+      if (!toolWord(call)) return false;
     } else if (c == 'M') {
       if (!machineFunction(nullptr)) return false;
     } else {

@@ -1,0 +1,242 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cycles/catalogue.hpp"
+#include "cycles/heidenhain/probe_words.hpp"
+#include "language/din_iso/parser.hpp"
+#include "language/klartext/formula_writer.hpp"
+
+/// G functions that are cycles, transformations or settings in Klartext.
+namespace probewright::language::din_iso {
+
+namespace {
+
+constexpr std::string_view axisLetters = "XYZABCUVW";
+
+bool isTouchProbeCycle(int number) {
+  return (number >= 400 && number < 500) || (number >= 1400 && number < 1500) ||
+         cycles::heidenhainCycle(number) != nullptr;
+}
+
+}  // namespace
+
+const Word* BlockParser::find(std::string_view address) const {
+  for (std::size_t i = 0; i < coordinateCount_; ++i) {
+    if (coordinates_[i].address == addressOf(address)) return &coordinates_[i];
+  }
+  return nullptr;
+}
+
+const Word* BlockParser::parameter(std::uint32_t number) const {
+  for (std::size_t i = 0; i < parameterCount_; ++i) {
+    if (parameters_[i].address == number) return &parameters_[i];
+  }
+  return nullptr;
+}
+
+/// Refuses words that the block's G function does not have. `addresses`: coordinates, and among them F, S, T, L and P
+/// for words of those addresses.
+bool BlockParser::onlyTakes(std::string_view addresses) {
+  const auto takes = [&](char address) { return addresses.find(address) != std::string_view::npos; };
+  std::string surplus;
+  for (std::size_t i = 0; i < coordinateCount_; ++i) {
+    const char address = static_cast<char>(coordinates_[i].address);
+    if (!takes(address)) surplus = addressName(coordinates_[i].address);
+  }
+  if (centreCount_ > 0) surplus = "I, J, K";
+  if ((move_.feed.present() || move_.rapid || move_.autoFeed) && !takes('F')) surplus = "F";
+  if (tool_.spindleSpeed.present() && !takes('S')) surplus = "S";
+  if (toolCalled_ && !takes('T')) surplus = "T";
+  if (length_.present() && !takes('L')) surplus = "L";
+  if (parameterCount_ > 0 && !takes('P')) surplus = "P";
+  if (surplus.empty()) return true;
+  return error(fmt::format("G{} takes no {}", function_, surplus), "write it in a block of its own");
+}
+
+bool BlockParser::emitWithFunctions(const Instruction& instruction) {
+  emitWithMachineFunctions(&instruction);
+  return true;
+}
+
+bool BlockParser::emitFunction() {
+  switch (function_) {
+    case 4:
+      return onlyTakes("F") && setting("CYCL DEF 9", "T", move_.feed, "G04 F1.5");
+    case 24:
+      return corner(MoveKind::Chamfer);
+    case 25:
+    case 26:  // the arc that joins straight approach and contour is the one that rounds their corner
+    case 27:
+      return corner(MoveKind::Rounding);
+    case 28:
+      return transform("CYCL DEF 8", axisLetters);
+    case 29: {
+      if (!onlyTakes({})) return false;
+      Move centre;
+      centre.kind = MoveKind::SetCentre;
+      return emitWithFunctions(centre);
+    }
+    case 30:
+    case 31:
+      return blankForm();
+    case 36:
+      return onlyTakes("S") && setting("CYCL DEF 13", "ANG", tool_.spindleSpeed, "G36 S90");
+    case 38:
+      return onlyTakes({}) && emitWithFunctions(Stop{});
+    case 39:
+      return onlyTakes({}) && emitWithFunctions(Command{constant("CYCL DEF 12"), ref(name_), -1, {}});
+    case 51:
+    case 99:
+      return toolDefinition();
+    case 53:
+      return datumFromTable();
+    case 54:
+      return transform("CYCL DEF 7", axisLetters);
+    case 55:
+      return referencePlane();
+    case 62:
+      return tolerance();
+    case 72:
+      return onlyTakes("F") && (move_.feed.present() || error("the scaling factor F is missing", "write G72 F0.8")) &&
+             [this]() {
+               const std::size_t first = block_.words.size();
+               addWord(addressOf("SCL"), move_.feed);
+               return emitWithFunctions(Transform{constant("CYCL DEF 11"), wordsSince(first), {}});
+             }();
+    case 73:
+      return rotation();
+    case 79:
+      return onlyTakes({}) && emitWithFunctions(Command{constant("CYCL CALL"), {}, -1, {}});
+    default:
+      return tilt();
+  }
+}
+
+bool BlockParser::corner(MoveKind kind) {
+  if (!onlyTakes("RF")) return false;
+  const Word* size = find("R");
+  if (size == nullptr) return error(fmt::format("the {} R is missing", kind == MoveKind::Chamfer ? "length" : "radius"));
+  Move move;
+  move.kind = kind;
+  move.feed = move_.feed;
+  const std::size_t first = block_.words.size();
+  addWord(addressOf("R"), size->value);
+  move.words = wordsSince(first);
+  return emitWithFunctions(move);
+}
+
+/// A setting with one value, which may not be left out.
+bool BlockParser::setting(std::string_view name, std::string_view address, Operand value, std::string_view example) {
+  if (!value.present()) {
+    return error(fmt::format("the value of G{} is missing", function_), fmt::format("write {}", example));
+  }
+  const std::size_t first = block_.words.size();
+  addWord(addressOf(address), value);
+  return emitWithFunctions(Command{constant(name), {}, -1, wordsSince(first)});
+}
+
+bool BlockParser::transform(std::string_view name, std::string_view addresses) {
+  if (!onlyTakes(addresses)) return false;
+  const std::size_t first = block_.words.size();
+  block_.words.insert(block_.words.end(), coordinates_.begin(),
+                      coordinates_.begin() + static_cast<std::ptrdiff_t>(coordinateCount_));
+  return emitWithFunctions(Transform{constant(name), wordsSince(first), {}});
+}
+
+bool BlockParser::datumFromTable() {
+  if (!onlyTakes("P")) return false;
+  const Word* row = parameter(1);
+  if (row == nullptr) return error("the row of the datum table is missing", "write G53 P01 12");
+  const std::size_t first = block_.words.size();
+  addWord(addressOf("#"), row->value);
+  return emitWithFunctions(Transform{constant("CYCL DEF 7"), wordsSince(first), {}});
+}
+
+bool BlockParser::rotation() {
+  if (!onlyTakes("H")) return false;
+  const Word* angle = find("H");
+  if (angle == nullptr) return error("the angle of rotation H is missing", "write G73 G90 H+30");
+  const std::size_t first = block_.words.size();
+  addWord(addressOf("ROT"), angle->value, angle->mode);
+  return emitWithFunctions(Transform{constant("CYCL DEF 10"), wordsSince(first), {}});
+}
+
+/// G80 A+0 B+30 C+0 F500 S10; without words tilting ends.
+bool BlockParser::tilt() {
+  if (!onlyTakes("ABCFS")) return false;
+  const std::size_t first = block_.words.size();
+  for (std::size_t i = 0; i < coordinateCount_; ++i)
+    addWord(coordinates_[i].address, coordinates_[i].value, coordinates_[i].mode);
+  if (move_.feed.present()) addWord(addressOf("F"), move_.feed);
+  if (tool_.spindleSpeed.present()) addWord(addressOf("DIST"), tool_.spindleSpeed);
+  return emitWithFunctions(Transform{constant("CYCL DEF 19"), wordsSince(first), {}});
+}
+
+/// G55 P01 5 P02 X- P03 +5 P04 +0 P05 -5: result, axis and direction, X, Y, Z; the axes may stand as they are instead
+/// of P03 to P05.
+bool BlockParser::referencePlane() {
+  namespace probe_word = cycles::heidenhain::probe_word;
+  if (!onlyTakes("XYZABCUVWP")) return false;
+  const Word* target = parameter(1);
+  if (target == nullptr || !target->value.isLiteral() || probingAxis_ == 0) {
+    return error("P01 with the parameter for the result and P02 with the probing axis are needed",
+                 "write G55 P01 5 P02 X- P03 +5 P04 +0 P05 -5");
+  }
+  const std::size_t first = block_.words.size();
+  addWord(probe_word::result, target->value);
+  addWord(probe_word::axis, Operand::of(static_cast<double>(axisLetters.find(probingAxis_))));
+  addWord(probe_word::direction, Operand::of(probingPositive_ ? 1 : -1));
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    const Word* position = parameter(3 + i);
+    if (position != nullptr) addWord(probe_word::coordinate + i, position->value);
+  }
+  for (std::size_t i = 0; i < coordinateCount_; ++i) {
+    const std::size_t index = axisLetters.find(static_cast<char>(coordinates_[i].address));
+    addWord(probe_word::coordinate + static_cast<std::uint32_t>(index), coordinates_[i].value, coordinates_[i].mode);
+  }
+  if (block_.words.size() == first + 3) return error("the position to be probed is missing", "add P03, P04 and P05");
+  return emitWithFunctions(CycleCall{0, constant("TCH PROBE"), wordsSince(first)});
+}
+
+/// G62 T0.05 P01 1 P02 5: tolerance, finishing 0 or roughing 1, tolerance of rotary axes.
+bool BlockParser::tolerance() {
+  if (!onlyTakes("LP")) return false;
+  const std::size_t first = block_.words.size();
+  if (length_.present()) addWord(addressOf("T"), length_);
+  if (const Word* mode = parameter(1); mode != nullptr && length_.present()) addWord(addressOf("HSC"), mode->value);
+  if (const Word* rotary = parameter(2); rotary != nullptr && parameter(1) != nullptr && length_.present()) {
+    addWord(addressOf("TA"), rotary->value);
+  }
+  return emitWithFunctions(Command{constant("CYCL DEF 32"), {}, -1, wordsSince(first)});
+}
+
+/// G99 T5 L+0 R+5 and G51 T5.
+bool BlockParser::toolDefinition() {
+  if (!onlyTakes(function_ == 99 ? "TLR" : "T")) return false;
+  if (!toolCalled_) return error(fmt::format("the tool T of G{} is missing", function_));
+  const std::size_t first = block_.words.size();
+  addWord(addressOf("T"), tool_.name.present() ? tool_.name : tool_.number);
+  if (length_.present()) addWord(addressOf("L"), length_);
+  if (const Word* radius = find("R")) addWord(addressOf("R"), radius->value);
+  return emitWithFunctions(Command{constant("TOOL DEF"), {}, -1, wordsSince(first)});
+}
+
+/// The picture for the control's graphics, in the words of Klartext.
+bool BlockParser::blankForm() {
+  if (!onlyTakes("XYZ")) return false;
+  std::string text = function_ == 30 ? fmt::format("0.1 {}", axis_ == 0 ? 'Z' : axis_) : std::string("0.2");
+  for (std::size_t i = 0; i < coordinateCount_; ++i) {
+    const Word& corner = coordinates_[i];
+    text += fmt::format(" {}{}{}", corner.mode == WordMode::Incremental ? "I" : "", addressName(corner.address),
+                        klartext::writeValue(block_, corner.value));
+  }
+  return emitWithFunctions(Command{constant("BLK FORM"), constant(text), -1, {}});
+}
+
+/// Gnnn NAME Q200=... up to the end of the block.
+bool BlockParser::measuringOrMachining(int number) {
+  return parameterCycle(isTouchProbeCycle(number) ? "TCH PROBE" : "CYCL DEF", number);
+}
+
+}  // namespace probewright::language::din_iso

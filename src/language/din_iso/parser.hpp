@@ -1,0 +1,97 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "language/klartext/parser.hpp"
+
+namespace probewright::language::din_iso {
+
+/// Lowers one DIN/ISO block into the instruction set, as far as its own text tells. What only the blocks in front of it
+/// tell (G90 or G91, the path function, the tool axis) is left open for ModalState::resolve:
+/// - Modal "G0" "G1" ... "G16", "G17" "G18" "G19", "G90", "G91" for each such function, in front of all else.
+/// - A path is Move with the variant "G". Its radius R and angle H are polar coordinates under a polar path function.
+/// - Words without G90 or G91 in their own block have WordMode::Plain, all others Absolute or Incremental.
+/// Everything else is what Klartext is lowered to. Values, formulas, M functions and cycle parameters are those of
+/// Klartext, so its parser lends its words.
+class BlockParser : private klartext::BlockParser {
+public:
+  /// `text`: the block without the sign that ends it. `first`: this is the first statement of the program.
+  BlockParser(std::string_view text, const std::string& file, Block& block, Diagnostics& diagnostics, bool first)
+      : klartext::BlockParser(text, file, block, diagnostics), first_(first) {}
+
+  void parse();
+
+private:
+  using klartext::BlockParser::error;
+
+  // parser.cpp
+  bool statement();
+  bool percent();
+  bool selectionByPercent();
+  bool labelCall();
+  bool labelDefinition();
+
+  // words.cpp: G functions and coordinates
+  bool words();
+  bool wordOf(char address);
+  bool preparatory();
+  bool takeFunction(int number);
+  bool coordinate(char address, std::string_view what);
+  bool parameterWord();
+  bool referencePlaneWord(int parameter);
+  bool spindleOrClearance();
+  bool toolWordOrTolerance();
+  bool emitWords();
+  bool emitPath();
+  bool emitTool();
+
+  // cycles.cpp: G functions that are cycles, transformations or settings in Klartext
+  bool emitFunction();
+  bool onlyTakes(std::string_view addresses);
+  const Word* find(std::string_view address) const;
+  const Word* parameter(std::uint32_t number) const;
+  bool emitWithFunctions(const Instruction& instruction);
+  bool corner(MoveKind kind);
+  bool setting(std::string_view name, std::string_view address, Operand value, std::string_view example);
+  bool transform(std::string_view name, std::string_view addresses);
+  bool datumFromTable();
+  bool rotation();
+  bool tilt();
+  bool referencePlane();
+  bool tolerance();
+  bool toolDefinition();
+  bool blankForm();
+  bool measuringOrMachining(int number);
+
+  // functions.cpp: D00 to D38
+  bool function();
+  bool assignmentOf(int number);
+  bool jumpOf(int number);
+  bool systemRead();
+  std::optional<Operand> parameterValue(int number);
+  bool parameterAddress(int number);
+
+  static constexpr std::size_t mostWords = 16;
+
+  bool first_;
+  WordMode mode_ = WordMode::Plain;
+  int function_ = -1;  ///< G function that decides what the block does
+  bool motion_ = false;
+  char axis_ = 0;  ///< of G17, G18, G19
+  std::array<Word, mostWords> coordinates_{};
+  std::size_t coordinateCount_ = 0;
+  std::array<Word, 3> centre_{};
+  std::size_t centreCount_ = 0;
+  std::array<Word, 8> parameters_{};  ///< P01, P02...: the number is the address
+  std::size_t parameterCount_ = 0;
+  char probingAxis_ = 0;
+  bool probingPositive_ = false;
+  std::string_view name_;  ///< the file of G39
+  Move move_;
+  ToolCall tool_;
+  bool toolCalled_ = false;
+  Operand length_{};
+};
+
+}  // namespace probewright::language::din_iso

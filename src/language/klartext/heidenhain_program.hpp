@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string_view>
+
+#include "language/program.hpp"
+
+namespace probewright::language::klartext {
+
+enum class Unit { Millimetre, Inch };
+
+/// What a block is in the frame of its program.
+enum class FramePart {
+  Nothing,    ///< empty, a comment, a structure item
+  Statement,  ///< anything between beginning and end
+  Begin,      ///< BEGIN PGM, %NAME G71
+  End,        ///< END PGM, N99999999 %NAME G71
+};
+
+/// How a language writes what messages about a whole program name.
+struct FrameWords {
+  std::string_view begin;       ///< "BEGIN PGM"
+  std::string_view beginBlock;  ///< "BEGIN PGM NAME MM"
+  std::string_view end;
+  std::string_view endBlock;
+  std::string_view label;       ///< "LBL "
+};
+
+/// A program of a HEIDENHAIN control, in Klartext or DIN/ISO: what the host and the check have to know of it.
+class HeidenhainProgram : public Program {
+public:
+  /// The unit of the program's head; millimetres where there is none.
+  virtual Unit unit() const = 0;
+  /// True if the block at `position`, or the first behind comments there, rounds or chamfers the corner in front of it.
+  virtual bool cornerFollows(BlockPosition position) const = 0;
+  /// A block of this program.
+  virtual FramePart framePart(const Block& block) const = 0;
+  virtual const FrameWords& frameWords() const = 0;
+};
+
+}  // namespace probewright::language::klartext
