@@ -38,4 +38,11 @@ struct CyclesArguments {
 };
 int cycles(const CyclesArguments& arguments);
 
+struct ConvertArguments {
+  std::filesystem::path input;
+  std::filesystem::path output;  ///< its ending names the language
+};
+/// Here 1 means that something could not be carried over; it stands as a comment in the output.
+int convert(const ConvertArguments& arguments);
+
 }  // namespace probewright::app

@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
 
   probewright::app::RunArguments runArguments;
   CLI::App* run = app.add_subcommand("run", "Run a program on the virtual machine of a setup");
-  run->add_option("PROGRAM", runArguments.program, "NC program: .H, .MPF, .SPF")->required();
+  run->add_option("PROGRAM", runArguments.program, "NC program: .H, .I, .MPF, .SPF")->required();
   run->add_option("--setup", runArguments.setup, "The world to run in (see docs/setup-format.md)")
       ->required()
       ->type_name("FILE");
@@ -67,6 +67,14 @@ int main(int argc, char** argv) {
   cycles->add_option("NAME", cyclesArguments.name, "411, CYCLE977");
   addControl(*cycles, cyclesArguments.control);
 
+  probewright::app::ConvertArguments convertArguments;
+  CLI::App* convert = app.add_subcommand("convert", "Write a Klartext program (.H) in DIN/ISO (.I) or the other way round");
+  convert->add_option("IN", convertArguments.input, "The program")->required();
+  convert->add_option("OUT", convertArguments.output, "The file to write; its ending names the language")->required();
+  convert->footer(
+      "Exit codes: 0 everything carried over, 1 something was not or is doubtful: it is named, and what the other "
+      "language cannot say stands as a comment in OUT; 2 a mistake in the input, nothing written.");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -75,6 +83,7 @@ int main(int argc, char** argv) {
   try {
     if (run->parsed()) return probewright::app::run(runArguments);
     if (check->parsed()) return probewright::app::check(checkArguments);
+    if (convert->parsed()) return probewright::app::convert(convertArguments);
     return probewright::app::cycles(cyclesArguments);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "probewright: internal error: %s\nPlease report this with the program and the setup.\n",

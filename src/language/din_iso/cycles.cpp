@@ -39,10 +39,13 @@ const Word* BlockParser::parameter(std::uint32_t number) const {
 /// for words of those addresses.
 bool BlockParser::onlyTakes(std::string_view addresses) {
   const auto takes = [&](char address) { return addresses.find(address) != std::string_view::npos; };
-  std::string surplus;
+  std::string coordinateName;
+  std::string_view surplus;
   for (std::size_t i = 0; i < coordinateCount_; ++i) {
     const char address = static_cast<char>(coordinates_[i].address);
-    if (!takes(address)) surplus = addressName(coordinates_[i].address);
+    if (takes(address)) continue;
+    coordinateName = addressName(coordinates_[i].address);
+    surplus = coordinateName;
   }
   if (centreCount_ > 0) surplus = "I, J, K";
   if ((move_.feed.present() || move_.rapid || move_.autoFeed) && !takes('F')) surplus = "F";

@@ -41,7 +41,9 @@ std::string cycleTitle(const Block& block) {
   Lexer lexer(withoutBlockNumber(sourceLine(block, 0)));
   const bool known = (lexer.acceptPrefix("TCH") && lexer.acceptPrefix("PROBE")) || lexer.acceptPrefix("CYCL DEF") ||
                      lexer.acceptPrefix("GLOBAL DEF");
-  if (!known) return {};
+  // In DIN/ISO cycles with names have three digits.
+  const bool dinIso = !known && lexer.acceptPrefix("G") && isDigit(lexer.here(1)) && isDigit(lexer.here(2));
+  if (!known && !dinIso) return {};
   lexer.peek();
   while (isDigit(lexer.here()) || lexer.here() == '.')
     lexer.advance();
@@ -57,6 +59,34 @@ std::string cycleTitle(const Block& block) {
   while (!title.empty() && isBlank(title.back()))
     title.remove_suffix(1);
   return std::string(title);
+}
+
+/// The title of an old-form cycle; its usual one if the block's text has none.
+std::string titleOfParts(const Block& block, int number) {
+  std::string title = cycleTitle(block);
+  if (!title.empty()) return title;
+  switch (number) {
+    case 7:
+      return "DATUM SHIFT";
+    case 8:
+      return "MIRROR IMAGE";
+    case 9:
+      return "DWELL TIME";
+    case 10:
+      return "ROTATION";
+    case 11:
+      return "SCALING FACTOR";
+    case 12:
+      return "PGM CALL";
+    case 13:
+      return "ORIENTATION";
+    case 19:
+      return "WORKING PLANE";
+    case 32:
+      return "TOLERANCE";
+    default:
+      return title;
+  }
 }
 
 std::string headOf(std::string_view kind, int number, const std::string& title) {
@@ -276,10 +306,9 @@ std::string writeTransform(const Block& block, const Transform& transform) {
     }
     return text;
   }
-  const std::string title = cycleTitle(block);
   if (name == "CYCL DEF 247") return parameterCycle(block, "CYCL DEF", 247, words);
   const int number = std::stoi(std::string(name.substr(name.rfind(' ') + 1)));
-  std::vector<std::string> parts = {title};
+  std::vector<std::string> parts = {titleOfParts(block, number)};
   if (number == 7) {
     for (const Word& word : words)
       parts.push_back(plainWords(block, {&word, 1}));
@@ -323,15 +352,15 @@ std::string writeCommand(const Block& block, const Command& command) {
   if (name == "GLOBAL DEF") {
     return parameterCycle(block, "GLOBAL DEF", static_cast<int>(words[0].value.number), words.subspan(1));
   }
-  if (name == "CYCL DEF 12") return inParts("CYCL DEF", 12, {cycleTitle(block), fmt::format("PGM {}", text)});
+  if (name == "CYCL DEF 12") return inParts("CYCL DEF", 12, {titleOfParts(block, 12), fmt::format("PGM {}", text)});
   if (name == "CYCL DEF 9") {
-    return inParts("CYCL DEF", 9, {cycleTitle(block), words.empty() ? "" : fmt::format("DWELL {}", value(0))});
+    return inParts("CYCL DEF", 9, {titleOfParts(block, 9), words.empty() ? "" : fmt::format("DWELL {}", value(0))});
   }
   if (name == "CYCL DEF 13") {
-    return inParts("CYCL DEF", 13, {cycleTitle(block), words.empty() ? "" : fmt::format("ANGLE {}", value(0))});
+    return inParts("CYCL DEF", 13, {titleOfParts(block, 13), words.empty() ? "" : fmt::format("ANGLE {}", value(0))});
   }
   if (name == "CYCL DEF 32") {
-    std::vector<std::string> parts = {cycleTitle(block), words.empty() ? "" : fmt::format("T{}", value(0))};
+    std::vector<std::string> parts = {titleOfParts(block, 32), words.empty() ? "" : fmt::format("T{}", value(0))};
     if (words.size() > 1) {
       parts.push_back(fmt::format("HSC-MODE:{}", writeNumber(words[1].value.number)));
       if (words.size() > 2) parts.back() += fmt::format(" TA{}", value(2));

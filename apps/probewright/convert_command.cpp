@@ -1,0 +1,65 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "base/file.hpp"
+#include "commands.hpp"
+#include "session/convert.hpp"
+
+namespace probewright::app {
+
+namespace {
+
+void print(const Diagnostics& diagnostics) {
+  for (const Diagnostic& diagnostic : diagnostics)
+    std::fputs((format(diagnostic) + "\n").c_str(), stderr);
+}
+
+}  // namespace
+
+int convert(const ConvertArguments& arguments) {
+  const auto refuse = [](const Diagnostic& why) {
+    print({why});
+    return 2;
+  };
+  const Result<std::string> text = readFile(arguments.input);
+  if (!text) return refuse(text.error());
+  const auto from = session::languageOf(arguments.input, *text);
+  if (!from) {
+    return refuse({Severity::Error,
+                   {arguments.input.string(), 0, 0},
+                   "neither the ending nor the text tells the language of this program",
+                   {},
+                   "give it an ending: .H, .I, .MPF",
+                   {}});
+  }
+  const auto to = session::languageOf(arguments.output, {});
+  if (!to) {
+    return refuse({Severity::Error,
+                   {arguments.output.string(), 0, 0},
+                   "the ending does not tell the language to convert to",
+                   {},
+                   "end the name with .H for Klartext or .I for DIN/ISO",
+                   {}});
+  }
+  if (!session::convertible(*from, *to)) {
+    return refuse({Severity::Error,
+                   {arguments.input.string(), 0, 0},
+                   fmt::format("programs cannot be converted from {} to {}", session::nameOf(*from),
+                               session::nameOf(*to)),
+                   {},
+                   "Klartext and DIN/ISO can be converted into each other",
+                   {}});
+  }
+  const auto program = session::programOf(arguments.input.string(), *text, *from);
+  const session::Conversion conversion = session::convert(*program, *from, *to);
+  print(conversion.mistakes);
+  if (hasErrors(conversion.mistakes)) return 2;
+  if (const Result<void> written = writeFileAtomically(arguments.output, conversion.text); !written) {
+    return refuse(written.error());
+  }
+  print(conversion.notCarriedOver);
+  return conversion.notCarriedOver.empty() ? 0 : 1;
+}
+
+}  // namespace probewright::app
