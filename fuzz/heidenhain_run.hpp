@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "control/heidenhain/preset_table.hpp"
+#include "control/heidenhain/probe_table.hpp"
+#include "control/heidenhain/tool_table.hpp"
+#include "language/din_iso/host.hpp"
+#include "language/interpreter.hpp"
+#include "language/klartext/host.hpp"
+#include "machine/machine.hpp"
+#include "machine/machine_file.hpp"
+
+/// A HEIDENHAIN control with a five-axis machine that reaches everything and touches at every target.
+namespace probewright::fuzzing {
+
+class WillingMachine : public machine::Machine {
+public:
+  explicit WillingMachine(const machine::MachineDescription& description) : description_(description) {}
+  const machine::MachineDescription& description() const override { return description_; }
+  machine::AxisPositions position() const override { return axes_; }
+  machine::MoveResult move(const machine::AxisPositions& target, machine::Feed) override {
+    axes_ = target;
+    return {};
+  }
+  machine::MeasureResult measure(const machine::AxisPositions& target, machine::Feed) override {
+    axes_ = target;
+    return {machine::MeasureEnd::Touched, target, {}};
+  }
+  machine::MoveResult retract(const machine::AxisPositions& target, machine::Feed feed) override {
+    return move(target, feed);
+  }
+  bool probeDeflected() const override { return false; }
+  machine::MoveResult orientSpindle(double) override { return {}; }
+  double spindleAngle() const override { return 0; }
+  machine::MoveResult changeTool(const machine::ToolOrder&) override { return {}; }
+  void dwell(double) override {}
+  double seconds() const override { return 0; }
+
+private:
+  const machine::MachineDescription& description_;
+  machine::AxisPositions axes_;
+};
+
+class NoLibrary : public language::ProgramLibrary {
+public:
+  Result<std::shared_ptr<language::Program>> open(std::string_view, const language::Program*) override {
+    return fail("there are no other programs");
+  }
+  bool exists(std::string_view, const language::Program*) override { return false; }
+};
+
+/// Runs up to 300 blocks; files that the program names have the bytes `fileText`.
+inline void run(const std::shared_ptr<language::Program>& program, const std::string& fileText) {
+  namespace hh = control::heidenhain;
+  static const machine::MachineDescription description = machine::readMachine("mill5-table-table").value();
+  static const hh::TypedTable tools = [] {
+    hh::TypedTable table = hh::defaultToolTable(control::ControlKind::TNC640);
+    for (const char* row : {"1", "5"}) {
+      if (!table.setNumber(row, "L", 100) || !table.setNumber(row, "R", 2) || !table.setText(row, "TP_NO", "1")) {
+        std::abort();
+      }
+    }
+    return table;
+  }();
+  WillingMachine machine(description);
+  hh::Control control(control::ControlKind::TNC640, machine,
+                      {tools,
+                       hh::defaultProbeTable(control::ControlKind::TNC640),
+                       hh::defaultPresetTable(control::ControlKind::TNC640),
+                       {}});
+  control.channel.pathTolerance = 1;
+  language::klartext::HostOptions hostOptions;
+  hostOptions.readFile = [&](const std::string&) -> Result<std::string> { return fileText; };
+  language::klartext::KlartextHost klartext(control, hostOptions);
+  language::din_iso::DinIsoHost host(klartext);
+  NoLibrary library;
+  language::InterpreterOptions options;
+  options.stepLimit = 300;
+  language::Interpreter(library, host, options).run(program);
+}
+
+}  // namespace probewright::fuzzing
