@@ -139,7 +139,9 @@ std::vector<std::string> lines(const std::string& text) {
   std::vector<std::string> found;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
-    found.push_back(text.substr(at, end - at));
+    // A path without axes does nothing and may be left out.
+    found.push_back(std::regex_replace(text.substr(at, end - at), std::regex("\\| Linear$"), "|"));
+    if (found.back().ends_with(" |")) found.back().resize(found.back().size() - 2);
     at = end + 1;
   }
   return found;

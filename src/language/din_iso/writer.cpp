@@ -48,6 +48,7 @@ public:
       }
       first = false;
     }
+    if (out_.empty()) word("G00");  // a path without an axis moves nothing
     if (!reason_.empty()) return fail(reason_, "write the block anew in the other language");
     return std::move(out_);
   }
@@ -183,8 +184,6 @@ private:
     if (move.autoFeed) word("FAUTO");
     if (move.machineCoordinates) word("M91");
     if (move.machineReference2) word("M92");
-    // L R0 FMAX and L FMAX without an axis move nothing.
-    if (out_.empty()) word("G00");
   }
 
   void pathWord(const Move& move, const Word& w) {
