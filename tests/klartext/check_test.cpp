@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "language/klartext/program.hpp"
+
 #include "language/klartext/check.hpp"
 
 namespace probewright::language::klartext {
