@@ -5,7 +5,6 @@
 #include "control/heidenhain/preset_table.hpp"
 #include "control/heidenhain/probe_table.hpp"
 #include "control/heidenhain/tool_table.hpp"
-#include "language/klartext/program.hpp"
 #include "machine/machine_file.hpp"
 
 namespace probewright::language::klartext::testing {

@@ -8,6 +8,7 @@
 #include "control/heidenhain/control.hpp"
 #include "language/interpreter.hpp"
 #include "language/klartext/host.hpp"
+#include "language/klartext/program.hpp"
 #include "machine/machine.hpp"
 
 namespace probewright::language::klartext::testing {
