@@ -43,13 +43,13 @@ int convert(const ConvertArguments& arguments) {
                    {}});
   }
   if (!session::convertible(*from, *to)) {
-    return refuse({Severity::Error,
-                   {arguments.input.string(), 0, 0},
-                   fmt::format("programs cannot be converted from {} to {}", session::nameOf(*from),
-                               session::nameOf(*to)),
-                   {},
-                   "Klartext and DIN/ISO can be converted into each other",
-                   {}});
+    return refuse(
+        {Severity::Error,
+         {arguments.input.string(), 0, 0},
+         fmt::format("programs cannot be converted from {} to {}", session::nameOf(*from), session::nameOf(*to)),
+         {},
+         "Klartext and DIN/ISO can be converted into each other",
+         {}});
   }
   const auto program = session::programOf(arguments.input.string(), *text, *from);
   const session::Conversion conversion = session::convert(*program, *from, *to);

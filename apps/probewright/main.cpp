@@ -68,7 +68,8 @@ int main(int argc, char** argv) {
   addControl(*cycles, cyclesArguments.control);
 
   probewright::app::ConvertArguments convertArguments;
-  CLI::App* convert = app.add_subcommand("convert", "Write a Klartext program (.H) in DIN/ISO (.I) or the other way round");
+  CLI::App* convert =
+      app.add_subcommand("convert", "Write a Klartext program (.H) in DIN/ISO (.I) or the other way round");
   convert->add_option("IN", convertArguments.input, "The program")->required();
   convert->add_option("OUT", convertArguments.output, "The file to write; its ending names the language")->required();
   convert->footer(

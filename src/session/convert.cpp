@@ -86,15 +86,15 @@ public:
              name != "G18" && name != "G19";
     });
     if (doubtfulPath_ && !setsPath && travels(block)) relied = "the path function";
-    if (doubtfulMode_ && usesIncremental_ && hasPlainWords(block)) relied = relied.empty() ? "G90 or G91" : relied + " and G90 or G91";
+    if (doubtfulMode_ && usesIncremental_ && hasPlainWords(block))
+      relied = relied.empty() ? "G90 or G91" : relied + " and G90 or G91";
     doubtfulPath_ = doubtfulPath_ && !setsPath && relied.empty();
     doubtfulMode_ = doubtfulMode_ && !setsMode && relied.empty();
     for (const Instruction& instruction : block.instructions) {
       const auto* mark = std::get_if<language::LabelMark>(&instruction);
       const auto* call = std::get_if<language::CallLabel>(&instruction);
       const bool subprogram = call != nullptr && !call->repeats.present();
-      if ((mark != nullptr && !mark->end) || subprogram ||
-          std::holds_alternative<language::CallProgram>(instruction)) {
+      if ((mark != nullptr && !mark->end) || subprogram || std::holds_alternative<language::CallProgram>(instruction)) {
         doubtfulPath_ = doubtfulMode_ = true;
       }
     }
@@ -226,7 +226,8 @@ private:
       const auto* modal = std::get_if<Modal>(&instruction);
       return modal != nullptr && language::din_iso::isModalFunction(block, *modal);
     });
-    const auto mains = std::ranges::count_if(clean.instructions, [&block](const auto& i) { return !isAddition(block, i); });
+    const auto mains =
+        std::ranges::count_if(clean.instructions, [&block](const auto& i) { return !isAddition(block, i); });
     if (mains <= 1) return {clean};
     std::vector<Block> parts;
     for (const Instruction& instruction : clean.instructions) {
@@ -258,9 +259,8 @@ private:
       return;
     }
     report(original, written.error().message, written.error().advice);
-    forEachLine(original.at(original.source), [this](std::string_view rest) {
-      line(fmt::format("; NOT CARRIED OVER: {} *", trimmed(rest)), false);
-    });
+    forEachLine(original.at(original.source),
+                [this](std::string_view rest) { line(fmt::format("; NOT CARRIED OVER: {} *", trimmed(rest)), false); });
   }
 
   /// Appends the lines of a block with their numbers. Lines behind a `~` have none.

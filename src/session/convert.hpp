@@ -14,8 +14,8 @@ struct Conversion {
   /// Blocks that cannot be read. With any of them `text` is no program.
   Diagnostics mistakes;
   /// What the other language cannot say; it stands as a comment in `text`. And blocks that mean what the translation
-  /// says only if they are reached in the order they stand in: DIN/ISO blocks behind a label or a call that rely on G90,
-  /// G91 or a path function in front of it.
+  /// says only if they are reached in the order they stand in: DIN/ISO blocks behind a label or a call that rely on
+  /// G90, G91 or a path function in front of it.
   Diagnostics notCarriedOver;
 };
 

@@ -25,8 +25,8 @@ std::optional<ProgramLanguage> languageOf(const std::filesystem::path& path, std
   static const std::regex klartext(
       R"((^|\n)\s*(\d+\s+)?(BEGIN PGM|TCH PROBE|TOOL CALL|CYCL DEF|L [XYZ][+-]|FN ?\d+ ?:))");
   // Blocks that end with '*', and words that SINUMERIK has not.
-  static const std::regex dinIso(R"((^|\n)\s*(%\S[^\n]* G7[01]\s*\*|(N\d+\s+)?(G98 ?L|D(0\d|1\d) ?Q|G[^\n;]*\*\s*(\n|$))))",
-                                 std::regex::icase);
+  static const std::regex dinIso(
+      R"((^|\n)\s*(%\S[^\n]* G7[01]\s*\*|(N\d+\s+)?(G98 ?L|D(0\d|1\d) ?Q|G[^\n;]*\*\s*(\n|$))))", std::regex::icase);
   static const std::regex sinumerik(
       R"((^|\n)\s*(%_N_|(N\d+\s+)?(CYCLE\d+\s*\(|G\d+\s|PROC\s|DEF\s|R\d+\s*=|M30|M17|T="|;\$PATH)))",
       std::regex::icase);
@@ -102,7 +102,9 @@ std::unique_ptr<language::ProgramLibrary> programLibrary(ControlKind kind, std::
   const bool heidenhain = control::isHeidenhain(kind);
   std::vector<std::string> endings =
       heidenhain ? std::vector<std::string>{".H", ".I"} : std::vector<std::string>{".SPF", ".MPF"};
-  const auto open = [kind](const std::filesystem::path& path) { return openProgram(path, languageFor(kind, path, {})); };
+  const auto open = [kind](const std::filesystem::path& path) {
+    return openProgram(path, languageFor(kind, path, {}));
+  };
   return std::make_unique<language::DirectoryLibrary>(std::move(endings), open, std::move(folders));
 }
 

@@ -63,8 +63,7 @@ TEST(DinIso, CirclesAndCorners) {
 TEST(DinIso, PolarCoordinates) {
   EXPECT_EQ(resolvedText("G11 G42 R+45 H+180 F300 *"), irOf("LP PR+45 PA+180 RR F300"));
   EXPECT_EQ(resolvedText("G10 R+45 H+0 *"), irOf("LP PR+45 PA+0 FMAX"));
-  EXPECT_EQ(resolvedText("G11 R+45 H+0 F9 *\nG91 H+60 *\nH+60 *"),
-            irOf("LP PR+45 PA+0 F9\nLP IPA+60\nLP IPA+60"));
+  EXPECT_EQ(resolvedText("G11 R+45 H+0 F9 *\nG91 H+60 *\nH+60 *"), irOf("LP PR+45 PA+0 F9\nLP IPA+60\nLP IPA+60"));
   EXPECT_EQ(resolvedText("G13 H+180 *"), irOf("CP PA+180 DR+"));
   EXPECT_EQ(resolvedText("G12 G91 H-360 Z-5 *"), irOf("CP IPA-360 IZ-5 DR-"));
   EXPECT_EQ(resolvedText("G15 H+90 *"), irOf("CP PA+90"));
@@ -88,9 +87,9 @@ TEST(DinIso, LabelsAndCalls) {
   EXPECT_EQ(resolvedText("G98 L12 *\nG98 L\"Probe\" *\nG98 L0 *"), irOf("LBL 12\nLBL \"Probe\"\nLBL 0"));
   EXPECT_EQ(resolvedText("L12 *\nL\"Probe\" *\nL12,5 *\nL\"Probe\",Q3 *\nLQS4 *"),
             irOf("CALL LBL 12\nCALL LBL \"Probe\"\nCALL LBL 12 REP5\nCALL LBL \"Probe\" REPQ3\nCALL LBL QS4"));
-  EXPECT_EQ(resolvedText("%A G71 *\n%TNC:\\SUB\\B.I *\n%:C.I *\n%\"D E.H\" *\n%<>% *"),
-            "BEGIN PGM 'A MM'\n" +
-                irOf("CALL PGM TNC:\\SUB\\B.I\nCALL PGM C.I\nCALL PGM \"D E.H\"\nCALL SELECTED PGM"));
+  EXPECT_EQ(
+      resolvedText("%A G71 *\n%TNC:\\SUB\\B.I *\n%:C.I *\n%\"D E.H\" *\n%<>% *"),
+      "BEGIN PGM 'A MM'\n" + irOf("CALL PGM TNC:\\SUB\\B.I\nCALL PGM C.I\nCALL PGM \"D E.H\"\nCALL SELECTED PGM"));
   EXPECT_EQ(resolvedText("%:TAB: \"ZERO.D\" *\n%:PGM: \"X.I\" *"), irOf("SEL TABLE \"ZERO.D\"\nSEL PGM \"X.I\""));
   DinIsoProgram program("a.i", "%A G71 *\nN10 G98 L5 *\nN20 G00 X+1 *\nN30 G98 L\"End\" *\n");
   EXPECT_EQ(program.findLabel("05", {}, JumpDirection::Any)->line, 2U);
@@ -155,8 +154,8 @@ TEST(DinIso, TransformationsAndSettings) {
 }
 
 TEST(DinIso, Cycles) {
-  const std::string expected = irOf(
-      "TCH PROBE 421 MEASURE HOLE ~\n Q273=+50 ;CENTER ~\n Q274=-Q3 ~\n Q262=15.25 ;DIAMETER");
+  const std::string expected =
+      irOf("TCH PROBE 421 MEASURE HOLE ~\n Q273=+50 ;CENTER ~\n Q274=-Q3 ~\n Q262=15.25 ;DIAMETER");
   EXPECT_EQ(expected, "Cycle 421 TCH PROBE 273=50 274=-Q3 262=15.25");
   // Continued by ~, by parameter lines up to the end sign, or in one line.
   EXPECT_EQ(resolvedText("N10 G421 MEASURE HOLE ~\n Q273=+50 ;CENTER ~\n Q274=-Q3 ~\n Q262=15.25 ;DIAMETER *\n"),
@@ -177,8 +176,7 @@ TEST(DinIso, ReferencePlane) {
 }
 
 TEST(DinIso, ACycleTakesOnlyItsOwnLines) {
-  EXPECT_EQ(resolvedText("N10 G421 MEASURE HOLE ~\n Q273=+50 *\nQ274=+5 *\n"),
-            "Cycle 421 TCH PROBE 273=50\nQ274 := 5");
+  EXPECT_EQ(resolvedText("N10 G421 MEASURE HOLE ~\n Q273=+50 *\nQ274=+5 *\n"), "Cycle 421 TCH PROBE 273=50\nQ274 := 5");
 }
 
 TEST(DinIso, MistakesNamePlaceAndReason) {

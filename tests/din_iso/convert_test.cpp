@@ -93,7 +93,8 @@ TEST(Convert, WritesDinIsoInKlartext) {
   EXPECT_TRUE(conversion.mistakes.empty());
   EXPECT_TRUE(conversion.notCarriedOver.empty());
   EXPECT_EQ(irOf(conversion.text), irOf(klartextProgram));
-  for (const char* comment : {"; front side\n", "* - presetting\n", ";above the hole\n", ";PRESET NUMBER\n", ";CENTER ~\n"})
+  for (const char* comment :
+       {"; front side\n", "* - presetting\n", ";above the hole\n", ";PRESET NUMBER\n", ";CENTER ~\n"})
     EXPECT_THAT(conversion.text, HasSubstr(comment));
   EXPECT_THAT(conversion.text, HasSubstr("TCH PROBE 421 MEASURE HOLE ~\n"));
 }
@@ -104,9 +105,9 @@ TEST(Convert, SeparatesWhatKlartextWritesInSeveralBlocks) {
 }
 
 TEST(Convert, NamesAndKeepsWhatHasNoTwin) {
-  const Conversion conversion =
-      toDinIso("0 BEGIN PGM A MM\n1 APPR LT X+1 Y+2 LEN5 RL F100\n2 L X+1 FMAX\n3 TCH PROBE 3.0 MEASURE\n"
-               "4 TCH PROBE 3.1 Q1\n5 TCH PROBE 3.2 X ANGLE: +0\n6 TCH PROBE 3.3 DIST +10 F100 MB1\n7 END PGM A MM\n");
+  const Conversion conversion = toDinIso(
+      "0 BEGIN PGM A MM\n1 APPR LT X+1 Y+2 LEN5 RL F100\n2 L X+1 FMAX\n3 TCH PROBE 3.0 MEASURE\n"
+      "4 TCH PROBE 3.1 Q1\n5 TCH PROBE 3.2 X ANGLE: +0\n6 TCH PROBE 3.3 DIST +10 F100 MB1\n7 END PGM A MM\n");
   EXPECT_TRUE(conversion.mistakes.empty());
   ASSERT_EQ(conversion.notCarriedOver.size(), 2U);
   EXPECT_EQ(conversion.notCarriedOver[0].place.line, 2U);

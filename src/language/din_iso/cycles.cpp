@@ -119,7 +119,8 @@ bool BlockParser::emitFunction() {
 bool BlockParser::corner(MoveKind kind) {
   if (!onlyTakes("RF")) return false;
   const Word* size = find("R");
-  if (size == nullptr) return error(fmt::format("the {} R is missing", kind == MoveKind::Chamfer ? "length" : "radius"));
+  if (size == nullptr)
+    return error(fmt::format("the {} R is missing", kind == MoveKind::Chamfer ? "length" : "radius"));
   Move move;
   move.kind = kind;
   move.feed = move_.feed;

@@ -8,8 +8,8 @@ namespace probewright::language::din_iso {
 /// Carries out DIN/ISO programs, and the Klartext programs they call or are called by, on the host of Klartext: blocks
 /// are completed by the modal functions in force and handed on.
 ///
-/// The main program begins with G90, G1 and without a tool axis. A called program inherits what is in force and hands it
-/// back; Klartext programs leave it alone.
+/// The main program begins with G90, G1 and without a tool axis. A called program inherits what is in force and hands
+/// it back; Klartext programs leave it alone.
 class DinIsoHost : public Host {
 public:
   /// `klartext` carries out what the blocks say; it must outlive this host.

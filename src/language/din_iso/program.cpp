@@ -49,8 +49,8 @@ void DinIsoProgram::readHead() {
     if (block.next.offset == position.offset) return;
     const std::string_view statement = withoutBlockNumber(block.statement);
     if (!statement.empty() && statement.front() != ';' && statement.front() != '*') {
-      const bool inch = statement.front() == '%' &&
-                        (statement.find("G70") != std::string_view::npos || statement.find("g70") != std::string_view::npos);
+      const bool inch = statement.front() == '%' && (statement.find("G70") != std::string_view::npos ||
+                                                     statement.find("g70") != std::string_view::npos);
       if (inch) unit_ = klartext::Unit::Inch;
       return;
     }

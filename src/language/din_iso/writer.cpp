@@ -267,7 +267,8 @@ private:
       return word(plain ? fmt::format("%{}", name) : fmt::format("%\"{}\"", name));
     }
     const Node& node = block_.nodes[static_cast<std::size_t>(call.nameValue.node)];
-    word(node.operation == Operation::Call ? std::string("%<>%") : fmt::format("%{}", writeFormula(block_, call.nameValue)));
+    word(node.operation == Operation::Call ? std::string("%<>%")
+                                           : fmt::format("%{}", writeFormula(block_, call.nameValue)));
   }
 
   /// The text of a Klartext cycle with its head in DIN/ISO.
@@ -302,7 +303,8 @@ private:
   void add(const Transform& transform) {
     const std::string_view name = at(transform.name);
     const std::span<const Word> words = wordsOf(transform.words);
-    if (name.starts_with("PLANE") || name.starts_with("TRANS")) return word(klartext::writeTransform(block_, transform));
+    if (name.starts_with("PLANE") || name.starts_with("TRANS"))
+      return word(klartext::writeTransform(block_, transform));
     if (name == "CYCL DEF 247") return parameterCycle(klartext::writeTransform(block_, transform), "CYCL DEF ");
     if (name == "CYCL DEF 7") return datumShift(words);
     if (name == "CYCL DEF 8") {
@@ -348,8 +350,8 @@ private:
       return word(fmt::format("D{}", written.substr(3)));
     }
     if (name == "TOOL DEF") {
-      const std::string tool = words[0].value.isLiteral() ? unsignedValue(words[0].value)
-                                                          : writeFormula(block_, words[0].value);
+      const std::string tool =
+          words[0].value.isLiteral() ? unsignedValue(words[0].value) : writeFormula(block_, words[0].value);
       word(fmt::format("{} T{}", words.size() > 1 ? "G99" : "G51", tool));
       for (const Word& w : words.subspan(1))
         word(fmt::format("{}{}", addressName(w.address), value(w.value)));

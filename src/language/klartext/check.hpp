@@ -6,9 +6,9 @@
 namespace probewright::language::klartext {
 
 /// All mistakes of a program, in the order of their lines, without running it: blocks that cannot be read or that the
-/// control marked with ERROR =, labels that are missing or defined twice, a missing beginning or end of the program, and in
-/// measuring cycles parameters that the cycle of this control does not have, lacks, or cannot take. Warnings for what
-/// can be run but not simulated.
+/// control marked with ERROR =, labels that are missing or defined twice, a missing beginning or end of the program,
+/// and in measuring cycles parameters that the cycle of this control does not have, lacks, or cannot take. Warnings for
+/// what can be run but not simulated.
 Diagnostics checkProgram(HeidenhainProgram& program, control::ControlKind kind);
 
 }  // namespace probewright::language::klartext

@@ -22,7 +22,7 @@ struct FrameWords {
   std::string_view beginBlock;  ///< "BEGIN PGM NAME MM"
   std::string_view end;
   std::string_view endBlock;
-  std::string_view label;       ///< "LBL "
+  std::string_view label;  ///< "LBL "
 };
 
 /// A program of a HEIDENHAIN control, in Klartext or DIN/ISO: what the host and the check have to know of it.
