@@ -118,8 +118,7 @@ struct Ran {
   double cell(const std::string& tableName, const std::string& row, const std::string& column) const {
     return table(tableName).number(row, column).value_or(std::nan(""));
   }
-  /// Worst difference between the end points and the straight path from touch to touch is no business of tests; the
-  /// number of touches is.
+  /// Touches of the last cycle.
   std::size_t touches() const { return cycle().touches.size(); }
 };
 
