@@ -28,17 +28,24 @@ Control::Control(ControlKind kind, machine::Machine& machine, Tables tables_, Ma
   if (presetRow(0)) activatePreset(0);
 }
 
+void Control::note(const TypedTable& table, const std::string& row, const std::string& column,
+                   const std::string& before) {
+  const std::string after = table.text(row, column);
+  if (after == before) return;
+  journal.write({table.table().name(), fmt::format("row {}, column {}", row, column), before, after});
+}
+
 void Control::writeNumber(TypedTable& table, const std::string& row, const std::string& column, double value) {
   const std::string before = table.text(row, column);
   check(table.setNumber(row, column, value));
-  journal.write({table.table().name(), fmt::format("row {}, column {}", row, column), before, table.text(row, column)});
+  note(table, row, column, before);
 }
 
 void Control::writeText(TypedTable& table, const std::string& row, const std::string& column,
                         const std::string& value) {
   const std::string before = table.text(row, column);
   check(table.setText(row, column, value));
-  journal.write({table.table().name(), fmt::format("row {}, column {}", row, column), before, value});
+  note(table, row, column, before);
 }
 
 std::string Control::toolRowNamed(const std::string& name) const {

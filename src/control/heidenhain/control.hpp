@@ -102,11 +102,13 @@ public:
   /// Hands the coordinate chain to the channel. To be called after any change of `coordinates` or the tool.
   void applyCoordinates();
 
-  /// Write a cell (numbers in mm, degrees, mm/min) and record the change. Throw Alarm if the table refuses it.
+  /// Write a cell (numbers in mm, degrees, mm/min) and record what changed. Throw Alarm if the table refuses it.
   void writeNumber(TypedTable& table, const std::string& row, const std::string& column, double value);
   void writeText(TypedTable& table, const std::string& row, const std::string& column, const std::string& value);
 
 private:
+  void note(const TypedTable& table, const std::string& row, const std::string& column, const std::string& before);
+
   ControlKind kind_;
   std::map<int, ActivePreset> exactPresets_;  ///< rows written in this run, unrounded
 };
