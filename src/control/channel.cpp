@@ -208,7 +208,18 @@ void Channel::retractTo(const Vector3& point, Feed feed) {
   judge(result);
 }
 
-void Channel::orientSpindle(double degrees) { judge(machine_.orientSpindle(degrees)); }
+void Channel::orientSpindle(double degrees) {
+  if (!description_.mainSpindle) return judge(machine_.orientSpindle(degrees));
+  AxisPositions target = axes();
+  double& angle = target[*description_.mainSpindle];
+  const machine::Axis& axis = description_.axes[*description_.mainSpindle];
+  angle = axis.modulo ? angle + std::remainder(degrees - angle, 360.0) : degrees;
+  moveAxes(target, Feed::rapidTraverse());
+}
+
+double Channel::spindleAngle() const {
+  return description_.mainSpindle ? axes()[*description_.mainSpindle] : machine_.spindleAngle();
+}
 
 void Channel::changeTool(const machine::ToolOrder& order) { judge(machine_.changeTool(order)); }
 

@@ -107,7 +107,9 @@ public:
   Touch touchFrom(const machine::MeasureResult& result) const;
   void retractTo(const Vector3& point, Feed feed);
 
+  /// Turns the main spindle to an angle: the tool, or on lathes the workpiece by the shorter way.
   void orientSpindle(double degrees);
+  double spindleAngle() const;
   void changeTool(const machine::ToolOrder& order);
   void dwell(double seconds) { machine_.dwell(seconds); }
   double seconds() const { return machine_.seconds(); }

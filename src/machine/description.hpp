@@ -57,7 +57,9 @@ struct MachineDescription {
   std::vector<ChainElement> tableChain;
   std::vector<ChainElement> spindleChain;
   bool spindleOrients = true;  ///< the main spindle can be positioned (M19, SPOS)
-  AxisPositions toolChange;    ///< where tools are changed
+  /// The rotary axis that is the main spindle where that turns the workpiece, as on lathes; none: it carries the tool.
+  std::optional<std::size_t> mainSpindle;
+  AxisPositions toolChange;  ///< where tools are changed
   double toolChangeSeconds = 6;
 
   /// The index of the axis called `name` (case matters), or nothing.

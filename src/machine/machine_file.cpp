@@ -107,6 +107,13 @@ std::optional<MachineDescription> parseMachine(std::string_view text, const std:
     machine.axes.push_back(readAxis(axis, machine.axes));
   }
   std::vector<bool> used(machine.axes.size(), false);
+  if (auto spindle = reader.text("main_spindle")) {
+    machine.mainSpindle = machine.axisIndex(*spindle);
+    if (!machine.mainSpindle || machine.axes[*machine.mainSpindle].kind != AxisKind::Rotary) {
+      reader.report("main_spindle", fmt::format("there is no rotary axis called {}", *spindle),
+                    "Name the axis of the spindle that turns the workpiece, or remove this key");
+    }
+  }
   machine.tableChain = readChain(reader, "table_chain", machine, used);
   machine.spindleChain = readChain(reader, "spindle_chain", machine, used);
   for (std::size_t i = 0; i < machine.axes.size(); ++i) {

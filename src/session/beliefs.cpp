@@ -14,6 +14,7 @@
 #include "control/heidenhain/probe_table.hpp"
 #include "control/heidenhain/tool_table.hpp"
 #include "control/sinumerik/measuring_data.hpp"
+#include "session/lathe_beliefs.hpp"
 
 namespace probewright::session {
 
@@ -203,8 +204,15 @@ SinumerikData sinumerikData(const Setup& setup, Diagnostics& diagnostics) {
   SinumerikData data;
   sin::DataStore& store = data.store;
   sin::setMeasuringDefaults(store);
+  const bool lathe = isLathe(setup.truth.machine);
+  if (lathe) store.load(sin::DataKey("$SC_TOOL_LENGTH_TYPE", {}), 2.0);
   for (const BelievedTool& tool : setup.tools) {
     const int t = tool.number;
+    if (lathe) {
+      store.load(sin::DataKey("$TC_TP2", {t}), tool.name);
+      enterLatheTool(store, tool);
+      continue;
+    }
     const bool probe = tool.kind == "probe";
     const bool turning = tool.kind == "turn";
     const auto dp = [&](int parameter, double value) {

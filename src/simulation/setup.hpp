@@ -43,8 +43,11 @@ struct BelievedTool {
   double length = 0;  ///< mm; of a probe its effective length: to the ball's lowest point, less the axial pretravel
   double radius = 0;  ///< mm; of a probe its effective ball radius: less the pretravel and the signal delay at `feed`
   bool inSpindle = false;
+  Vector3 mount = Vector3::Zero();            ///< mm, as TrueTool::mount
+  Vector3 shankDirection = Vector3::UnitZ();  ///< as TrueTool::shankDirection
 
   // Of a probe, as its control keeps them.
+  double axialRadius = 0;       ///< mm; effective ball radius along the stylus
   Vector2 tipOffset = {0, 0};   ///< mm, of the ball from the spindle axis at spindle angle 0
   int probeNumber = 1;          ///< row of the touch probe table, number of the calibration data set
   double feed = 300;            ///< mm/min, of measuring moves

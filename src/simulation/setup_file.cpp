@@ -227,6 +227,7 @@ private:
     const double delayed = probe.signalDelay * believed.feed / 60;
     believed.length = get("believed_length", tool.length - probe.axialPretravel - delayed);
     believed.radius = get("believed_radius", probe.ballRadius - probe.pretravel - delayed, notNegative);
+    believed.axialRadius = believed.radius + probe.pretravel - probe.axialPretravel;
     believed.tipOffset = vector2(reader, "believed_tip_offset").value_or(probe.tipOffset);
   }
 
@@ -250,6 +251,9 @@ private:
           tool.shankDirection = direction->normalized();
         }
       }
+      tool.mount = readVector(reader, "mount").value_or(Vector3::Zero());
+      believed.mount = tool.mount;
+      believed.shankDirection = tool.shankDirection;
       believed.inSpindle = reader.boolean("in_spindle").value_or(false);
       if (tool.kind == ToolKind::Probe) {
         readProbe(reader, tool, believed);

@@ -31,7 +31,7 @@ ToolShape shapeOf(const TrueTool* tool, double spindleDegrees) {
   ToolShape shape;
   if (!tool) return shape;
   const Vector3& up = tool->shankDirection;
-  const Vector3 tip = -tool->length * up;
+  const Vector3 tip = tool->mount - tool->length * up;
   if (tool->kind == ToolKind::Cutter) {
     shape.tip = tip;
     if (tool->radius > 0) addCylinder(shape, tip, up, tool->length, tool->radius, "tool");

@@ -104,8 +104,9 @@ struct TrueTool {
   int number = 0;
   std::string name;
   ToolKind kind = ToolKind::Probe;
-  /// From the spindle nose to the lowest point along the tool: of a probe, of its ball.
+  /// From the spindle nose (of lathes: from `mount`) to the lowest point along the tool: of a probe, of its ball.
   double length = 100;
+  Vector3 mount = Vector3::Zero();            ///< from the spindle nose to where `length` begins, spindle frame
   Vector3 shankDirection = Vector3::UnitZ();  ///< from the tip to the holder, spindle frame; unit
   double radius = 5;                          ///< of a cutter; its edge is rounded by a sixth of it
   TrueProbe probe;                            ///< if kind is Probe

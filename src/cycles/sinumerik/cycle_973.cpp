@@ -1,51 +1,152 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "cycles/sinumerik/cycles.hpp"
 #include "cycles/sinumerik/parameters.hpp"
 #include "cycles/sinumerik/probe_calibration.hpp"
+#include "cycles/sinumerik/turning.hpp"
 
 namespace probewright::cycles::sinumerik {
+
 namespace {
 
 constexpr Parameter parameters973[] = {
     parameters::variant("units: 0 length on a surface, 1 radius on a surface, 2 length in the groove, 3 radius in the "
-                        "groove; hundreds 1; thousands: 0 by the cutting edge position, 1 axis and direction, 2 both "
-                        "directions of an axis; 10^4: 1 without position deviation; 10^6: 1 with tool length",
-                        12103),
+                        "groove; hundreds: 1; thousands: 0 axis and direction from the cutting edge position, 1 one "
+                        "direction, 2 both directions of one axis; 10^4: 1 without positional deviation; 10^6: 1 "
+                        "corrects the tool length"),
     parameters::dataSet(1),
-    parameters::code(2, "S_CALNUM", "number of the calibration groove, 1 to 3", 1),
-    parameters::length(3, "S_SETV", "set value of the surface"),
-    parameters::code(4, "S_MA", "measuring axis: 1, 2, 3", 1),
-    parameters::code(5, "S_MD", "measuring direction: 0 plus, 1 minus", 1),
+    parameters::code(2, "S_CALNUM", "number of the reference groove, 1 to 3"),
+    parameters::length(3, "S_SETV", "position of the surface"),
+    parameters::code(4, "S_MA", "measuring axis: 1, 2 in the plane, 3 on a surface if the machine has it"),
+    parameters::code(5, "S_MD", "measuring direction: 0 plus, 1 minus"),
     parameters::measuringPath(6),
     parameters::safeArea(7),
-    parameters::feed(8, "S_VMS", "measuring feed; 0: as in the setting data"),
+    parameters::feed(8, "S_VMS", "measuring feed; 0: that of SD 55630"),
     parameters::repetitions(9),
     parameters::reserved(10),
     parameters::plane(11),
     parameters::alternative(12),
 };
 
-/// An axis of the plane and the way along it.
-struct Way {
-  int axis = 0;
-  double sign = 1;
-  Vector3 direction() const { return probing::axisDirection(axis, sign); }
+struct Variant {
+  bool length = false;    ///< length of the probe; radius of its ball otherwise
+  bool inGroove = false;  ///< machine coordinates; a surface of the workpiece otherwise
+  int directions = 0;     ///< 0 from the cutting edge position, 1, 2
+  bool deviation = true;  ///< of the ball, from both directions of an axis
+  bool adaptLength = false;
 };
 
-/// Towards the base of the groove, as the cutting edge position says: 8 looks into minus of the 2nd axis, 7 into minus
-/// of the 1st.
-Way wayToBase(Context& context) {
-  switch (context.control().tool.position) {
-    case 7:
-      return {.axis = 0, .sign = -1};
-    case 8:
-      return {.axis = 1, .sign = -1};
-    default:
-      context.alarm(61315, fmt::format("cutting edge position {}: 7 or 8 is needed", context.control().tool.position));
+Variant variantOf(Context& context) {
+  const auto digit = [&](int place) { return context.digit("S_MVAR", place); };
+  const Variant variant = {.length = digit(1) % 2 == 0,
+                           .inGroove = digit(1) >= 2,
+                           .directions = digit(4),
+                           .deviation = digit(5) == 0,
+                           .adaptLength = digit(7) == 1};
+  const int code = context.integer("S_MVAR");
+  const auto refuse = [&](const char* why) { context.alarm(61307, fmt::format("S_MVAR = {}: {}", code, why)); };
+  if (code < 0 || code >= 10000000 || digit(1) > 3 || digit(2) != 0 || digit(3) != 1 || digit(4) > 2 || digit(5) > 1 ||
+      digit(6) != 0 || digit(7) > 1) {
+    refuse("no such digit");
   }
+  if (!variant.inGroove && variant.directions != 1) refuse("a surface is touched in one given direction");
+  if (variant.inGroove && variant.length && variant.directions != 0) refuse("the length is found on the groove's base");
+  if (variant.inGroove && !variant.length && variant.directions == 0) refuse("the walls need axis and direction");
+  if (variant.adaptLength && !variant.length) refuse("a radius does not correct the length");
+  return variant;
+}
+
+/// The reference groove as the setting data have it, in machine coordinates.
+struct Groove {
+  double base = 0;    ///< along the stylus
+  double depth = 0;   ///< where the ball goes between the walls, along the stylus
+  double plus = 0;    ///< wall touched in plus direction, across the stylus
+  double minus = 0;   ///< wall touched in minus direction
+  int baseAxis = 0;   ///< of the plane
+  int wallsAxis = 0;  ///< of the plane
+};
+
+Groove grooveOf(Context& context) {
+  const int number = context.integer("S_CALNUM");
+  if (number < 1 || number > 3) context.alarm(61333, fmt::format("groove {}: 1 to 3 are possible", number));
+  const int position = context.control().tool.position;
+  if (position != 7 && position != 8) {
+    context.alarm(61315, fmt::format("$TC_DP2 = {}: 7 or 8 reach into a groove", position));
+  }
+  Groove groove;
+  groove.baseAxis = position == 7 ? 0 : 1;
+  groove.wallsAxis = 1 - groove.baseAxis;
+  const auto datum = [&](const char* what, int axis) {
+    return context.control().data.number(fmt::format("$SNS_MEA_CAL_EDGE_{}_AX{}", what, axis + 1), {number - 1});
+  };
+  groove.base = datum("BASE", groove.baseAxis);
+  groove.plus = datum("PLUS_DIR", groove.wallsAxis);
+  groove.minus = datum("MINUS_DIR", groove.wallsAxis);
+  const double upper = datum("UPPER", groove.baseAxis);
+  const double clearOfBase = groove.base + context.control().tool.radius + context.real("S_FA");
+  groove.depth = upper != 0 && upper > groove.base ? (groove.base + upper) / 2 : clearOfBase;
+  if (groove.plus <= groove.minus) {
+    context.alarm(61319, fmt::format("groove {} has no width in the setting data from SD 54615 on", number));
+  }
+  return groove;
+}
+
+/// Machine coordinates while it lives.
+class MachineCoordinates {
+public:
+  explicit MachineCoordinates(Control& control) : control_(control), before_(control.frames.suppressed) {
+    control_.frames.suppressed = true;
+    control_.applyFrames();
+  }
+  ~MachineCoordinates() {
+    control_.frames.suppressed = before_;
+    control_.applyFrames();
+  }
+  MachineCoordinates(const MachineCoordinates&) = delete;
+  MachineCoordinates& operator=(const MachineCoordinates&) = delete;
+
+private:
+  Control& control_;
+  bool before_;
+};
+
+/// Touches `surface`: the trigger point, from the TCP at the signal to the surface, with sign.
+double triggerAt(Context& context, ProbeCalibration& calibration, int axis, double sign, double surface) {
+  const Vector3 direction = probing::axisDirection(axis, sign);
+  const double known = context.prober().trigger(direction);
+  Vector3 setpoint = context.prober().position();
+  setpoint[axis] = surface;
+  const double assumed = known > 0 ? known : calibration.assumedRadius();
+  return surface - calibration.touch(setpoint, direction, context.real("S_FA"), assumed)[axis];
+}
+
+/// The trigger point of one direction, and what follows from it.
+void calibrateOneWay(Context& context, ProbeCalibration& calibration, const Variant& variant, int axis, double sign,
+                     double surface) {
+  const double found = triggerAt(context, calibration, axis, sign, surface);
+  if (variant.adaptLength) {
+    // Then the ball lies where the length says, and its trigger point is its radius.
+    const double ideal = sign * context.control().tool.radius;
+    calibration.correctLength(axis, ideal - found);
+    calibration.setTrigger(axis, sign, ideal);
+    return;
+  }
+  calibration.setTrigger(axis, sign, found);
+  if (!variant.length) calibration.completeAxis(axis, false);
+}
+
+/// Both directions of the axis across the groove. The groove's width is exact, its place only if the deviation is asked
+/// for: without, the trigger points lie about the deviation that is known.
+void calibrateBothWays(Context& context, ProbeCalibration& calibration, const Variant& variant, const Groove& groove) {
+  const int axis = groove.wallsAxis;
+  const double plus = triggerAt(context, calibration, axis, 1, groove.plus);
+  const double minus = triggerAt(context, calibration, axis, -1, groove.minus);
+  const double radius = (plus - minus) / 2;
+  const double deviation = variant.deviation ? (plus + minus) / 2 : context.prober().probe().positionDeviation[axis];
+  calibration.setTrigger(axis, 1, deviation + radius);
+  calibration.setTrigger(axis, -1, deviation - radius);
+  calibration.setBallDiameter(2 * radius);
+  if (variant.deviation) calibration.setDeviation(axis, deviation);
 }
 
 double signOf(Context& context) {
@@ -54,105 +155,20 @@ double signOf(Context& context) {
   return way == 0 ? 1 : -1;
 }
 
-/// Touches a surface with the ball's radius still unknown or not; what it finds goes into `calibration`.
-double touchSurface(Context& context, ProbeCalibration& calibration, const Way& way, double surface) {
-  Vector3 setpoint = context.prober().position();
-  setpoint[way.axis] = surface;
-  return calibration.touch(setpoint, way.direction(), context.real("S_FA"), calibration.assumedRadius())[way.axis];
-}
-
-/// The trigger point, or the tool length that makes it that of an ideal ball.
-void takeLength(Context& context, ProbeCalibration& calibration, const Way& way, double surface, double tcp) {
-  if (context.digit("S_MVAR", 7) == 0) {
-    calibration.setTrigger(way.axis, way.sign, surface - tcp);
-    return;
-  }
-  const double radius = context.control().tool.radius;
-  if (!(radius > 0)) context.alarm(61351, "the radius of the ball must stand in the tool data");
-  calibration.correctLength(way.axis, tcp - (surface - way.sign * radius));
-  calibration.setTrigger(way.axis, way.sign, way.sign * radius);
-}
-
-void calibrateOnSurface(Context& context, ProbeCalibration& calibration, bool length) {
-  Way way;
-  switch (context.digit("S_MVAR", 4)) {
-    case 0:
-      way = wayToBase(context);
-      break;
-    case 1:
-      way = {.axis = context.measuringAxis(3), .sign = signOf(context)};
-      break;
-    default:
-      context.alarm(61307, "a surface is touched in one direction");
-  }
-  const double surface = context.real("S_SETV");
-  const double tcp = touchSurface(context, calibration, way, surface);
-  if (length) {
-    takeLength(context, calibration, way, surface, tcp);
-  } else {
-    calibration.setTrigger(way.axis, way.sign, surface - tcp);
-    calibration.completeAxis(way.axis, false);
-  }
-}
-
-/// Machine coordinates while it lives: the groove is fixed to the machine.
-class WithoutFrames {
-public:
-  explicit WithoutFrames(Control& control) : control_(control), before_(control.frames.suppressed) { set(true); }
-  ~WithoutFrames() { set(before_); }
-  WithoutFrames(const WithoutFrames&) = delete;
-  WithoutFrames& operator=(const WithoutFrames&) = delete;
-
-private:
-  void set(bool suppressed) {
-    control_.frames.suppressed = suppressed;
-    control_.applyFrames();
-  }
-  Control& control_;
-  bool before_;
-};
-
-void calibrateInGroove(Context& context, ProbeCalibration& calibration, bool length) {
-  const int groove = context.integer("S_CALNUM");
-  if (groove < 1 || groove > 3) context.alarm(61333, fmt::format("S_CALNUM = {}", groove));
-  const auto datum = [&](const char* what, int axis) {
-    return context.control().data.number(fmt::format("$SNS_MEA_CAL_EDGE_{}_AX{}", what, axis + 1), {groove - 1});
-  };
-  const Way toBase = wayToBase(context);
-  const int across = 1 - toBase.axis;
-  const double plus = datum("PLUS_DIR", across), minus = datum("MINUS_DIR", across), base = datum("BASE", toBase.axis);
-  if (!(plus > minus)) context.alarm(61333, fmt::format("the walls of groove {} are not in the setting data", groove));
-
-  const WithoutFrames machineCoordinates(context.control());
+void calibrateInGroove(Context& context, ProbeCalibration& calibration, const Variant& variant, const Groove& groove) {
+  const MachineCoordinates coordinates(context.control());
   probing::SinumerikProber& prober = context.prober();
-  const double ahead = base + context.real("S_FA") + calibration.assumedRadius();
-  Vector3 place = prober.position();
-  place[across] = (plus + minus) / 2;
-  prober.moveTo(place);
-  // Where the upper edge is known, walls are touched half way down.
-  place[toBase.axis] = !length && toBase.axis == 1 ? (datum("UPPER", toBase.axis) + base) / 2 : ahead;
-  prober.moveTo(place);
-  if (length) {
-    takeLength(context, calibration, toBase, base, touchSurface(context, calibration, toBase, base));
-    return;
-  }
-  const auto touchWall = [&](double sign) {
-    const double wall = sign > 0 ? plus : minus;
-    const double tcp = touchSurface(context, calibration, {.axis = across, .sign = sign}, wall);
-    calibration.setTrigger(across, sign, wall - tcp);
+  const auto go = [&](int axis, double to) {
+    Vector3 target = prober.position();
+    target[axis] = to;
+    prober.moveTo(target);
   };
-  const int directions = context.digit("S_MVAR", 4);
-  if (directions == 0) context.alarm(61307, "thousands of S_MVAR: 1 one wall, 2 both walls");
-  if (context.measuringAxis(2) != across) {
-    context.alarm(61325, fmt::format("the walls of the groove lie across axis {}", across + 1));
-  }
-  if (directions == 1) {
-    touchWall(signOf(context));
-  } else {
-    touchWall(1);
-    touchWall(-1);
-  }
-  calibration.completeAxis(across, context.digit("S_MVAR", 5) == 0);
+  go(groove.wallsAxis, (groove.plus + groove.minus) / 2);
+  if (variant.length) return calibrateOneWay(context, calibration, variant, groove.baseAxis, -1, groove.base);
+  go(groove.baseAxis, groove.depth);
+  if (variant.directions == 2) return calibrateBothWays(context, calibration, variant, groove);
+  const double sign = signOf(context);
+  calibrateOneWay(context, calibration, variant, groove.wallsAxis, sign, sign > 0 ? groove.plus : groove.minus);
 }
 
 }  // namespace
@@ -160,29 +176,32 @@ void calibrateInGroove(Context& context, ProbeCalibration& calibration, bool len
 const CycleDefinition cycle973Definition = {
     .number = 973,
     .name = "CYCLE973",
-    .title = "Calibrate workpiece probe on a lathe: surface, groove",
+    .title = "Calibrate the workpiece probe of a lathe",
     .family = CycleFamily::Calibration,
     .summary =
-        "Calibrates a probe for turned parts on a known surface of the workpiece or in a groove fixed to the "
-        "machine: trigger points, ball diameter, position deviation, tool length.",
+        "Finds the trigger points of a probe on a lathe on a surface of known position or in a reference groove "
+        "of the machine, in a groove also diameter and deviation of its ball; can correct the probe's length.",
     .parameters = parameters973,
     .results = calibrationResults,
     .controls = control::onSinumerik,
 };
 
 void cycle973(Context& context, const Arguments&) {
-  context.requireProbe({580});
-  const int units = context.digit("S_MVAR", 1);
-  if (units > 3 || context.digit("S_MVAR", 3) != 1 || context.digit("S_MVAR", 4) > 2 ||
-      context.digit("S_MVAR", 5) > 1 || context.digit("S_MVAR", 7) > 1) {
-    context.alarm(61307);
-  }
+  requireTurningProbe(context);
+  const Variant variant = variantOf(context);
+  if (!(context.real("S_FA") > 0)) context.alarm(61308);
+  if (!(context.control().tool.radius > 0)) context.alarm(61351, "radius $TC_DP6 of the probe");
   ProbeCalibration calibration(context);
-  const bool length = units == 0 || units == 2;
-  if (units <= 1) {
-    calibrateOnSurface(context, calibration, length);
+  if (variant.inGroove) {
+    const Groove groove = grooveOf(context);
+    if (!variant.length && turningAxis(context, context.integer("S_MA")) != groove.wallsAxis) {
+      context.alarm(61325, fmt::format("the walls of the groove lie across axis {}", groove.wallsAxis + 1));
+    }
+    calibrateInGroove(context, calibration, variant, groove);
   } else {
-    calibrateInGroove(context, calibration, length);
+    const int axis = turningAxis(context, context.integer("S_MA"), false);
+    const double surface = context.real("S_SETV") / countOf(context, axis);
+    calibrateOneWay(context, calibration, variant, axis, signOf(context), surface);
   }
   calibration.store();
 }

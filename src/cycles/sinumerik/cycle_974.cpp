@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "cycles/sinumerik/cycles.hpp"
 #include "cycles/sinumerik/parameters.hpp"
 #include "cycles/sinumerik/turning.hpp"
@@ -6,16 +8,16 @@ namespace probewright::cycles::sinumerik {
 namespace {
 
 constexpr Parameter parameters974[] = {
-    parameters::variant("units: 0 face, 1 inside, 2 outside; hundreds: 0 measure only, 1 zero offset, 2 tool; 10^4: 1 "
-                        "with reversal of the workpiece"),
+    parameters::variant("units: 0 front edge, 1 inside diameter, 2 outside diameter; hundreds: 0 measure only, 1 zero "
+                        "offset, 2 tool; 10^4: 1 with reversal of the turning spindle"),
     parameters::zeroOffset(1),
     parameters::toolToCorrect(2),
     parameters::dataSet(3),
-    parameters::length(4, "S_SETV", "set value: position of the face, or diameter as programmed"),
-    parameters::code(5, "S_MA", "measuring axis: 1, 2, 3", 1),
+    parameters::length(4, "S_SETV", "set value of the face, or of the diameter"),
+    parameters::code(5, "S_MA", "measuring axis: 1, 2 in the plane, 3 if the machine has it", 1),
     parameters::measuringPath(6),
     parameters::safeArea(7),
-    parameters::angle(8, "S_STA1", "angle of the workpiece at the first measurement (reversal)"),
+    parameters::angle(8, "S_STA1", "angle of the turning spindle at the first touch with reversal"),
     parameters::repetitions(9),
     parameters::toolName(10),
     parameters::dlNumber(11),
@@ -33,68 +35,77 @@ constexpr Parameter parameters974[] = {
 
 constexpr auto results974 = parameters::joined(turnedResults, parameters::correctionResults);
 
+/// The sign of the touch. No parameter gives it: the probe stands in front of the surface when the cycle starts.
+double touchSign(Context& context, TurnedFeature feature, double start, double set) {
+  const double towards = set > start ? 1 : -1;
+  const double expected = feature == TurnedFeature::Inside ? 1 : feature == TurnedFeature::Outside ? -1 : towards;
+  if (start == set || towards != expected) {
+    context.alarm(61332, "the probe does not stand in front of the surface, above the turning centre");
+  }
+  return towards;
+}
+
 }  // namespace
 
 const CycleDefinition cycle974Definition = {
     .number = 974,
     .name = "CYCLE974",
-    .title = "Turned part: front edge, inside and outside diameter, 1 point",
+    .title = "Turned part: front edge, inside diameter, outside diameter",
     .family = CycleFamily::Inspection,
     .summary =
-        "Touches a face or a diameter of a turned part at one point, diameters also again with the workpiece turned "
-        "by 180 degrees, and corrects the zero offset or the tool.",
+        "Touches a face or a diameter of a turned part at one point, a diameter also again after half a turn of "
+        "the workpiece, and corrects the zero offset or the tool that made it.",
     .parameters = parameters974,
     .results = results974,
     .controls = control::onSinumerik,
 };
 
 void cycle974(Context& context, const Arguments&) {
-  context.requireProbe({580});
-  context.requireCalibration();
+  requireTurningProbe(context);
   const int units = context.digit("S_MVAR", 1);
-  const bool face = units == 0, reversal = context.digit("S_MVAR", 5) == 1;
-  if (units > 2 || context.digit("S_MVAR", 5) > 1 || (face && reversal)) context.alarm(61307);
+  const int reversal = context.digit("S_MVAR", 5);
+  if (units > 2 || reversal > 1) context.alarm(61307);
+  const auto feature = static_cast<TurnedFeature>(units);
   const Task task = taskOf(context);
-  if (reversal && task == Task::ZeroOffset) context.alarm(61307, "with reversal there is no zero offset correction");
+  if (reversal == 1) {
+    if (feature == TurnedFeature::Face) context.alarm(61307, "a front edge is not measured with reversal");
+    if (task == Task::ZeroOffset) context.alarm(61307, "with reversal no zero offset is corrected");
+    requireWorkpieceSpindle(context);
+  }
+  const int axis = turningAxis(context, context.integer("S_MA"));
   const auto target = task == Task::ZeroOffset ? frameTarget(context, GlobalBase::Allowed) : std::nullopt;
-  const int axis = context.measuringAxis(3);
 
-  const double measure = face ? 1 : measureOf(context);
+  const double count = feature == TurnedFeature::Face || axis != 0 ? countOf(context, axis) : countOf(context, 1);
   const double set = setValueOf(context, task, context.real("S_SETV"));
   Vector3 setpoint = context.prober().position();
-  const double way = units == 1 ? 1 : units == 2 ? -1 : setpoint[axis] < set ? 1 : -1;
-  setpoint[axis] = set / measure;
+  const double sign = touchSign(context, feature, setpoint[axis], set / count);
+  setpoint[axis] = set / count;
+  requireTrigger(context, axis, sign);
   const auto touch = [&] {
-    return context.prober()
-        .measure(setpoint, probing::axisDirection(axis, way), context.real("S_FA"), context.repetitions())
-        .surface[axis];
+    return context.prober().measure(setpoint, probing::axisDirection(axis, sign), context.real("S_FA"),
+                                    context.repetitions());
   };
-  double position = 0;
-  if (reversal) {
-    turnWorkpiece(context, context.real("S_STA1"));
-    position = touch();
-    turnWorkpiece(context, context.real("S_STA1") + 180);
-    position = (position + touch()) / 2;
-  } else {
-    position = touch();
-  }
 
-  const double actual = position * measure;
-  const double difference = actual - set - (task == Task::Tool ? empiricalValue(context) : 0);
-  const Side side = units == 1 ? Side::Inside : Side::Outside;
-  reportTurned(context, axis, set, actual, difference,
-               face ? Compared{.nominal = set} : comparedSize(context, task, set, actual, side));
-  context.checkSafeArea(difference);
-  if (target) {
-    Vector3 feature = setpoint;
-    feature[axis] = position;
-    const Vector3 directions[] = {Vector3::Unit(axis)};
-    correctTranslation(context, *target, machinePoint(context, feature), setpoint, directions);
-    context.result(28, context.real("S_TSA"));
+  double actual = 0;
+  if (reversal == 1) {
+    const double start = context.real("S_STA1");
+    turnWorkpiece(context, start);
+    actual = touch().surface[axis];
+    turnWorkpiece(context, start + 180);
+    actual = (actual + touch().surface[axis]) / 2;
+  } else {
+    actual = touch().surface[axis];
   }
-  if (task == Task::Tool) {
-    const Dimension dimensions[] = {{.set = set, .actual = actual}};
-    correctTool(context, dimensions, influenceOnTurning(context, axis, way, measure));
+  concludeTurned(context, task, feature, {.axis = axis, .count = count, .set = set, .actual = actual * count}, sign);
+
+  if (target) {
+    // What was measured along the 3rd axis is corrected in X.
+    const int corrected = axis == 2 ? 1 : axis;
+    Vector3 surface = setpoint;
+    surface[corrected] += actual - setpoint[axis];
+    const Vector3 directions[] = {Vector3::Unit(corrected)};
+    correctTranslation(context, *target, machinePoint(context, surface), setpoint, directions);
+    context.result(28, context.real("S_TSA"));
   }
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "control/sinumerik/measuring_data.hpp"
@@ -11,16 +12,16 @@ namespace probewright::cycles::sinumerik {
 namespace {
 
 constexpr Parameter parameters994[] = {
-    parameters::variant("units: 1 inside, 2 outside; hundreds: 0 measure only, 2 tool; thousands: protection zone, "
-                        "passed in the axis 1, 2, 3",
+    parameters::variant("units: 1 inside diameter, 2 outside diameter; hundreds: 0 measure only, 2 tool; thousands: "
+                        "protection zone, passed by in axis 1, 2, 3 of the plane",
                         1),
     parameters::zeroOffset(1),
     parameters::toolToCorrect(2),
     parameters::dataSet(3),
-    parameters::length(4, "S_SETV", "set value of the diameter as programmed"),
-    parameters::code(5, "S_MA", "measuring axis: 1, 2, 3; hundreds: axis in which the part is passed", 1),
-    parameters::length(6, "S_SZA", "protection zone in the measuring axis, as programmed, ball radius included"),
-    parameters::length(7, "S_SZO", "way past the part in the other axis"),
+    parameters::length(4, "S_SETV", "set value of the diameter"),
+    parameters::code(5, "S_MA", "measuring axis 1, 2, 3; hundreds: the axis in which the probe passes by", 1),
+    parameters::length(6, "S_SZA", "protection zone in the measuring axis"),
+    parameters::length(7, "S_SZO", "way in the axis in which the probe passes by"),
     parameters::measuringPath(8),
     parameters::safeArea(9),
     parameters::repetitions(10),
@@ -40,80 +41,153 @@ constexpr Parameter parameters994[] = {
 
 constexpr auto results994 = parameters::joined(turnedResults, parameters::correctionResults);
 
-/// Touches above and below the turning centre, with the trigger points or, where the machine allows it, with the ball
-/// radius of the tool data.
-MeasuredPoint touch(Context& context, const Vector3& setpoint, const Vector3& direction) {
-  probing::SinumerikProber& prober = context.prober();
-  const double path = context.real("S_FA");
-  if (prober.ballRadius() > 0) return prober.measure(setpoint, direction, path, context.repetitions());
-  return prober.measureUncompensated(setpoint, direction, path, context.repetitions(), context.control().tool.radius,
-                                     prober.probe().feed);
+/// The index of the axis in which the probe passes by the workpiece or the zone: the hundreds of S_MA, else the
+/// thousands of S_MVAR, else the 1st axis.
+int bypassAxis(Context& context, int measuringAxis) {
+  int code = context.digit("S_MA", 3);
+  if (code == 0) code = context.digit("S_MVAR", 4);
+  const int axis = turningAxis(context, code == 0 ? 1 : code);
+  if (axis == measuringAxis) context.alarm(61325, "measuring axis and axis of the way round are the same");
+  return axis;
 }
+
+/// Two opposite points through the turning centre, the zero of the measuring axis.
+class OppositePoints {
+public:
+  OppositePoints(Context& context, TurnedFeature feature, int axis, double setRadius, double count)
+      : context_(context),
+        inside_(feature == TurnedFeature::Inside),
+        axis_(axis),
+        setRadius_(setRadius),
+        zone_(context.digit("S_MVAR", 4) != 0 ? context.real("S_SZA") / count : 0),
+        zoneUsed_(context.digit("S_MVAR", 4) != 0),
+        way_(context.real("S_SZO")),
+        // Outside, a probe whose ball alone is known may do.
+        calibrated_(inside_ || !maskBit(context.control().data, "$MCS_MEA_FUNCTION_MASK", 2)) {
+    if (zone_ < 0 || way_ < 0) context.alarm(61334, "S_SZA and S_SZO must not be negative");
+    if (passesBy()) {
+      bypass_ = bypassAxis(context, axis);
+      if (way_ == 0) context.alarm(61334, "S_SZO must be greater than 0: the probe has to pass by");
+    }
+    if (calibrated_) {
+      requireTrigger(context, axis, 1);
+      requireTrigger(context, axis, -1);
+    } else if (!(context.control().tool.radius > 0)) {
+      context.alarm(61351);
+    }
+    path_ = context.real("S_FA");
+    if (inside_ && zoneUsed_) shortenPath();
+  }
+
+  /// The position of the surface along the axis on the side of `side` (+1 above the centre, -1 below).
+  double touch(double side) {
+    const Vector3 setpoint = along(side * setRadius_);
+    const Vector3 direction = probing::axisDirection(axis_, signAt(side));
+    if (calibrated_) {
+      return context_.prober().measure(setpoint, direction, path_, context_.repetitions()).surface[axis_];
+    }
+    return context_.prober()
+        .measureUncompensated(setpoint, direction, path_, context_.repetitions(), triggerAt(side),
+                              context_.prober().probe().feed)
+        .surface[axis_];
+  }
+
+  /// From above the centre to below it.
+  void cross() {
+    if (!passesBy()) return;
+    const double above = std::abs(startAt(1)), below = std::abs(startAt(-1));
+    probing::SinumerikProber& prober = context_.prober();
+    const auto go = [&](int axis, double to) {
+      Vector3 target = prober.position();
+      target[axis] = to;
+      prober.moveTo(target);
+    };
+    const double height = prober.position()[bypass_];
+    go(axis_, std::max(above, zone_));
+    go(bypass_, height + way_);
+    go(axis_, -std::max(below, zone_));
+    go(bypass_, height);
+  }
+
+private:
+  bool passesBy() const { return !inside_ || zoneUsed_; }
+  double signAt(double side) const { return inside_ ? side : -side; }
+
+  Vector3 along(double value) {
+    Vector3 point = context_.prober().position();
+    point[axis_] = value;
+    return point;
+  }
+
+  double triggerAt(double side) {
+    if (!calibrated_) return context_.control().tool.radius;
+    return context_.prober().trigger(probing::axisDirection(axis_, signAt(side)));
+  }
+
+  double startAt(double side) { return side * setRadius_ - signAt(side) * (path_ + triggerAt(side)); }
+
+  /// Between zone and wall.
+  void shortenPath() {
+    const double room = setRadius_ - zone_ - std::max(triggerAt(1), triggerAt(-1));
+    if (room <= 0) context_.alarm(61334, fmt::format("the zone leaves {:.3f} mm between ball and wall", room));
+    path_ = std::min(path_, room);
+  }
+
+  Context& context_;
+  bool inside_;
+  int axis_;
+  double setRadius_;
+  double zone_;  ///< its half, from the centre
+  bool zoneUsed_;
+  double way_;
+  bool calibrated_;
+  int bypass_ = 0;
+  double path_ = 0;
+};
 
 }  // namespace
 
 const CycleDefinition cycle994Definition = {
     .number = 994,
     .name = "CYCLE994",
-    .title = "Turned part: inside and outside diameter, 2 points",
+    .title = "Turned part: diameter by two points",
     .family = CycleFamily::Inspection,
     .summary =
-        "Measures a diameter of a turned part by two points above and below the turning centre and corrects the "
-        "tool.",
+        "Measures a diameter of a turned part by two opposite points, passing by under the turning centre with "
+        "a protection zone if asked for, and corrects the tool that made it.",
     .parameters = parameters994,
     .results = results994,
     .controls = control::onSinumerik,
 };
 
 void cycle994(Context& context, const Arguments&) {
-  context.requireProbe({580});
-  if (!maskBit(context.control().data, "$MCS_MEA_FUNCTION_MASK", 2)) context.requireCalibration();
-  const int units = context.digit("S_MVAR", 1), zone = context.digit("S_MVAR", 4);
-  if (units < 1 || units > 2 || zone > 3) context.alarm(61307);
+  requireTurningProbe(context);
+  const int units = context.digit("S_MVAR", 1);
+  if (units < 1 || units > 2 || context.digit("S_MVAR", 4) > 3) context.alarm(61307);
+  const auto feature = static_cast<TurnedFeature>(units);
   const Task task = taskOf(context);
   if (task == Task::ZeroOffset) context.alarm(61307, "two points correct no zero offset");
-  const bool inside = units == 1;
-  const int axis = context.digit("S_MA", 1) - 1;
-  const int coded = context.digit("S_MA", 3);
-  const int bypass = (coded != 0 ? coded : zone != 0 ? zone : 1) - 1;
-  if (axis < 0 || axis > 2 || bypass > 2 || bypass == axis) {
-    context.alarm(61325, fmt::format("S_MA = {}: measuring axis and the axis past the part", context.integer("S_MA")));
-  }
+  const int code = context.integer("S_MA");
+  if (code < 0 || code > 303 || context.digit("S_MA", 2) != 0) context.alarm(61325, fmt::format("S_MA = {}", code));
+  const int axis = turningAxis(context, context.digit("S_MA", 1));
 
-  const double measure = measureOf(context);
+  // Along the 1st axis a diameter counts as those across.
+  const double count = countOf(context, axis == 0 ? 1 : axis);
   const double set = setValueOf(context, task, context.real("S_SETV"));
-  probing::SinumerikProber& prober = context.prober();
-  const Vector3 start = prober.position();
-  const double way = inside ? 1 : -1;
-  Vector3 upper = start, lower = start;
-  upper[axis] = set / measure;
-  lower[axis] = -set / measure;
-  const double first = touch(context, upper, probing::axisDirection(axis, way)).surface[axis];
+  if (!(set > 0)) context.alarm(61319, "the set diameter must be greater than 0");
+  const double setRadius = set / count;
+  const bool inside = feature == TurnedFeature::Inside;
+  const double start = context.prober().position()[axis];
+  if (inside ? start >= setRadius : start <= setRadius) {
+    context.alarm(61332, "the probe does not stand in front of the surface, above the turning centre");
+  }
 
-  // To the other side: past the end of the part, or straight across a bore.
-  const Vector3 clear = Vector3::Unit(bypass) * context.real("S_SZO");
-  Vector3 here = prober.position();
-  if (zone != 0) {
-    here[axis] = context.real("S_SZA") / measure;
-    prober.moveTo(here);
-  }
-  if (!inside || zone != 0) {
-    prober.moveTo(here + clear);
-    here[axis] = -here[axis];
-    prober.moveTo(here + clear);
-    prober.moveTo(here);
-  }
-  const double second = touch(context, lower, probing::axisDirection(axis, -way)).surface[axis];
-
-  const double actual = std::abs(first - second) * measure / 2;
-  const double difference = actual - set - (task == Task::Tool ? empiricalValue(context) : 0);
-  reportTurned(context, axis, set, actual, difference,
-               comparedSize(context, task, set, actual, inside ? Side::Inside : Side::Outside));
-  context.checkSafeArea(difference);
-  if (task == Task::Tool) {
-    const Dimension dimensions[] = {{.set = set, .actual = actual}};
-    correctTool(context, dimensions, influenceOnTurning(context, axis, way, measure));
-  }
+  OppositePoints points(context, feature, axis, setRadius, count);
+  const double above = points.touch(1);
+  points.cross();
+  const double below = points.touch(-1);
+  const double actual = (above - below) / 2 * count;
+  concludeTurned(context, task, feature, {.axis = axis, .count = count, .set = set, .actual = actual}, inside ? 1 : -1);
 }
 
 }  // namespace probewright::cycles::sinumerik

@@ -17,7 +17,7 @@ Method methodOf(Context& context) {
 }
 
 Toucher::Toucher(Context& context, Method method)
-    : context_(context), method_(method), spindle_(context.channel().machine().spindleAngle()) {}
+    : context_(context), method_(method), spindle_(context.channel().spindleAngle()) {}
 
 Vector3 Toucher::startOf(const Vector3& setpoint, const Vector3& direction, double path) const {
   probing::SinumerikProber& prober = context_.prober();

@@ -1,38 +1,61 @@
 #pragma once
 
+#include <optional>
+
 #include "cycles/sinumerik/corrections.hpp"
 
-/// What the cycles for turned parts share: diameters, the spindle with the workpiece, results of one measured value.
+/// What the measuring cycles for lathes share: 973, 974, 994.
 namespace probewright::cycles::sinumerik {
 
-/// What a program writes for one mm along the measuring axis: 2 with diameter programming (DIAMON), else 1.
-double measureOf(const Context& context);
+/// Refuses what requireProbe() refuses, every probe but one of type 580 (61309), and one whose cutting edge position is
+/// not one of 5 to 8 (61315).
+void requireTurningProbe(Context& context);
 
-/// Positions the spindle that carries the workpiece: the C axis where the machine has one on that side, otherwise the
-/// spindle itself (alarm 61372 if it cannot be positioned).
+/// Axis `code` (1, 2, 3) as an index. Alarm 61325 for another number; 61336 for the 3rd axis of the plane unless the
+/// machine has it and, with `needsRelease`, MD 52740 bit 1 lets turning cycles use it.
+int turningAxis(Context& context, int code, bool needsRelease = true);
+
+/// Refuses to measure in a direction in which data set S_PRNUM has no trigger point (61341), unless the machine data
+/// say not to watch it.
+void requireTrigger(Context& context, int axis, double sign);
+
+/// What a programmed value along `axis` counts: 2 for diameters (DIAMON, X; the 3rd axis follows X), 1 for the rest.
+double countOf(const Context& context, int axis);
+
+/// Refuses a machine that cannot turn the workpiece to an angle (61372): that has neither a main spindle for it nor a
+/// rotary axis below the table.
+void requireWorkpieceSpindle(Context& context);
 void turnWorkpiece(Context& context, double degrees);
 
-/// How a measured surface or diameter reflects on the tool. `side` +1 where the surface was touched in plus direction.
-/// Lengths follow the axis in which they act, X for measurements in Y.
-ToolInfluence influenceOnTurning(const Context& context, int measuringAxis, double side, double measure);
+/// The shape that is measured, the units of S_MVAR.
+enum class TurnedFeature { Face, Inside, Outside };
 
-/// Set value, actual value and difference in the results of the measuring axis and of the axis by number.
-void reportTurned(Context& context, int axis, double set, double actual, double difference, const Compared& compared);
+/// A measured dimension, in the count of the program: a diameter with DIAMON.
+struct TurnedDimension {
+  int axis = 0;       ///< measuring axis
+  double count = 1;   ///< program value per mm of the axis
+  double set = 0;     ///< with the middle of the tolerance
+  double actual = 0;  ///< measured
+};
 
-/// The results of CYCLE974 and CYCLE994.
-inline constexpr std::array<ResultDefinition, 12> turnedResults = {{
-    {"_OVR[0]", "set value, measuring axis or diameter"},
-    {"_OVR[1]", "set value, 1st axis"},
-    {"_OVR[2]", "set value, 2nd axis"},
-    {"_OVR[3]", "set value, 3rd axis"},
-    {"_OVR[4]", "actual value, measuring axis or diameter"},
-    {"_OVR[5]", "actual value, 1st axis"},
-    {"_OVR[6]", "actual value, 2nd axis"},
-    {"_OVR[7]", "actual value, 3rd axis"},
-    {"_OVR[16]", "difference, measuring axis or diameter"},
-    {"_OVR[17]", "difference, 1st axis"},
-    {"_OVR[18]", "difference, 2nd axis"},
-    {"_OVR[19]", "difference, 3rd axis"},
-}};
+/// Writes set value, actual value and difference into _OVR, checks the safe area, and, if the task is that, corrects
+/// the tool: the length that acts in the measuring axis (in X for the 3rd axis) by the difference on the radius.
+/// `direction`: sign of the touch.
+void concludeTurned(Context& context, Task task, TurnedFeature feature, const TurnedDimension& dimension,
+                    double direction);
+
+/// The element of the 13 results of set value, actual value and difference.
+inline constexpr std::array<ResultDefinition, 12> turnedResults = {{{"_OVR[0]", "set value, measuring axis"},
+                                                                    {"_OVR[1]", "set value, 1st axis of the plane"},
+                                                                    {"_OVR[2]", "set value, 2nd axis of the plane"},
+                                                                    {"_OVR[3]", "set value, 3rd axis of the plane"},
+                                                                    {"_OVR[4]", "actual value, measuring axis"},
+                                                                    {"_OVR[5]", "actual value, 1st axis of the plane"},
+                                                                    {"_OVR[6]", "actual value, 2nd axis of the plane"},
+                                                                    {"_OVR[7]", "actual value, 3rd axis of the plane"},
+                                                                    {"_OVR[16]", "difference, measuring axis"},
+                                                                    {"_OVR[17]", "difference, 1st axis of the plane"},
+                                                                    {"_OVR[18]", "difference, 2nd axis of the plane"},
+                                                                    {"_OVR[19]", "difference, 3rd axis of the plane"}}};
 
 }  // namespace probewright::cycles::sinumerik

@@ -228,7 +228,7 @@ void Checker::checkCall(const CallProgram& call) {
   const std::size_t column = columnOf(name);
   if (call.maybeCycle) {
     if (const cycles::CycleDefinition* cycle = cycles::sinumerikCycle(name)) return checkCycle(call, *cycle);
-    if (name == "CYCLE800") return;
+    if (name == "CYCLE800" || name == "CYCLE116") return;
     if (isMeasuringCycle(name))
       return report(column, fmt::format("the measuring cycle {} is not available", name),
                     "'probewright cycles --control 840Dsl' lists the cycles that are.");

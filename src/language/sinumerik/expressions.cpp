@@ -319,6 +319,8 @@ void BlockParser::parseIndices(VariableRef& variable) {
       return;
     }
     cursor_.skipBlanks();
+    // Empty brackets hand over a whole array.
+    if (i == 0 && variable.space == VariableSpace::User && cursor_.take(']')) return;
     // Components of frames are words of their own.
     const std::string_view name = cursor_.peekName();
     const bool component = variable.space == VariableSpace::System &&

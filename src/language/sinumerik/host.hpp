@@ -88,6 +88,7 @@ private:
   void dwell(const language::Command& command, Evaluation& evaluation);
   void writeFile(const language::Command& command, Evaluation& evaluation);
   void skip(std::string_view what);
+  void runCircle(language::WordRange arguments, Evaluation& evaluation);
   void runCycle(std::string_view name, language::WordRange arguments, Evaluation& evaluation);
   void runSwivel(language::WordRange arguments, Evaluation& evaluation);
 

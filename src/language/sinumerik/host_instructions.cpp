@@ -346,7 +346,7 @@ void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
     const bool main = words.size() < 2 || wholeNumber(evaluation.number(words[1].value)) == 1;
     const double angle = evaluation.number(words[0].value);
     const bool incremental = words[0].mode == WordMode::Incremental;
-    if (main) control_.channel.orientSpindle(incremental ? control_.channel.machine().spindleAngle() + angle : angle);
+    if (main) control_.channel.orientSpindle(incremental ? control_.channel.spindleAngle() + angle : angle);
     return;
   }
   if (name == "POS" || name == "POSA") {
@@ -439,6 +439,7 @@ void SinumerikHost::carryOut(const CallProgram& call, Evaluation& evaluation) {
 
 void SinumerikHost::runCycle(std::string_view name, WordRange range, Evaluation& evaluation) {
   if (name == "CYCLE800") return runSwivel(range, evaluation);
+  if (name == "CYCLE116") return runCircle(range, evaluation);
   const cycles::sinumerik::Entry* entry = cycles::sinumerik::findEntry(name);
   if (entry == nullptr) {
     if (isMeasuringCycle(name))

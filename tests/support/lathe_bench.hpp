@@ -1,0 +1,120 @@
+#pragma once
+
+#include <string>
+
+#include "session/beliefs.hpp"
+#include "support/sinumerik_bench.hpp"
+
+/// A SINUMERIK lathe with a probe in its turret, and programs that measure on it.
+namespace probewright::testing_support {
+
+/// The probe T1 "PROBE". Cutting edge position 8: the stylus points to -X; 7: to -Z.
+struct LatheProbe {
+  int position = 8;
+  double length = 100;  ///< from the mount to the end of the ball
+  double ballRadius = 2;
+  Vector3 mount = {0, 0, -30};
+  double pretravel = 0;       ///< across the stylus
+  double axialPretravel = 0;  ///< along it
+};
+
+inline simulation::Setup latheSetup(const LatheProbe& probe, const std::string& machine = "lathe2c") {
+  simulation::Setup setup;
+  setup.truth = perfectWorld(machine);
+  simulation::TrueTool& tool = setup.truth.tools.front();
+  tool = idealProbe(probe.length, probe.ballRadius);
+  tool.shankDirection = probe.position == 8 ? Vector3::UnitX() : Vector3::UnitZ();
+  tool.mount = probe.mount;
+  tool.probe.pretravel = probe.pretravel;
+  tool.probe.axialPretravel = probe.axialPretravel;
+  simulation::BelievedTool believed;
+  believed.number = 1;
+  believed.name = tool.name;
+  believed.kind = "probe";
+  believed.length = probe.length - probe.axialPretravel;
+  believed.radius = probe.ballRadius - probe.pretravel;
+  believed.axialRadius = probe.ballRadius - probe.axialPretravel;
+  believed.mount = probe.mount;
+  believed.shankDirection = tool.shankDirection;
+  setup.tools.push_back(believed);
+  return setup;
+}
+
+class LatheBench {
+public:
+  explicit LatheBench(const simulation::Setup& setup) : machine(setup.truth), control(machine, beliefs(setup)) {
+    set("$TC_TP2", {2}, 0);
+    control.data.set("$TC_TP2", {2}, std::string("FINISH"));
+    set("$TC_DP1", {2, 1}, 500);
+    set("$TC_DP2", {2, 1}, 3);
+    set("$TC_DP3", {2, 1}, 80);
+    set("$TC_DP4", {2, 1}, 40);
+    set("$TC_DP6", {2, 1}, 0.8);
+  }
+
+  /// Runs "G18 G90 G71 G54, T1 D1, `program`".
+  language::RunResult tryRun(const std::string& program) {
+    const std::string text = "G18 G90 G71 G54\nT1 D1 M6\n" + program + "\n";
+    language::InterpreterOptions options;
+    options.programDepth = sinumerik::SinumerikHost::programDepth;
+    NoPrograms library;
+    sinumerik::SinumerikHost host(control);
+    return language::Interpreter(library, host, options).run(sinumerik::SinumerikProgram::fromText("TURN.MPF", text));
+  }
+
+  void run(const std::string& program) {
+    for (const Diagnostic& diagnostic : tryRun(program).diagnostics)
+      ADD_FAILURE() << format(diagnostic) << "\n" << program;
+  }
+
+  /// The code of the alarm that the program ends with; empty if it ends well. An alarm must say what to do.
+  std::string alarmOf(const std::string& program) {
+    const language::RunResult result = tryRun(program);
+    if (result.diagnostics.empty()) return {};
+    EXPECT_FALSE(result.diagnostics.front().advice.empty()) << format(result.diagnostics.front());
+    return result.diagnostics.front().code;
+  }
+
+  double ovr(int index) const { return control.ovr[static_cast<std::size_t>(index)]; }
+  int ovi(int index) const { return control.ovi[static_cast<std::size_t>(index)]; }
+  double data(std::string_view name, std::initializer_list<control::sinumerik::DataIndex> indices) const {
+    return control.data.number(name, indices);
+  }
+  void set(std::string_view name, std::initializer_list<control::sinumerik::DataIndex> indices, double value) {
+    control.data.set(name, indices, value);
+  }
+  std::string messages() const {
+    std::string codes;
+    for (const auto& event : control.journal.events) {
+      if (!event.code.empty()) codes += event.code + ' ';
+    }
+    return codes;
+  }
+
+  simulation::VirtualMachine machine;
+  control::sinumerik::Control control;
+
+private:
+  class NoPrograms : public language::ProgramLibrary {
+  public:
+    Result<std::shared_ptr<language::Program>> open(std::string_view name, const language::Program*) override {
+      return fail("there is no program " + std::string(name));
+    }
+    bool exists(std::string_view, const language::Program*) override { return false; }
+  };
+
+  static control::sinumerik::DataStore beliefs(const simulation::Setup& setup) {
+    Diagnostics diagnostics;
+    session::SinumerikData data = session::sinumerikData(setup, diagnostics);
+    EXPECT_TRUE(diagnostics.empty());
+    return data.store;
+  }
+};
+
+/// Writes X and Z translation into frame `name`[number] of the store.
+inline void plantFrame(LatheBench& bench, const char* name, int number, double x, double z) {
+  bench.set(name, {number, "X", "TR"}, x);
+  bench.set(name, {number, "Z", "TR"}, z);
+}
+
+}  // namespace probewright::testing_support
