@@ -55,8 +55,13 @@ ProgramLanguage languageFor(ControlKind kind, const std::filesystem::path& path,
 
 Result<ControlKind> controlFor(const std::filesystem::path& path, std::string_view text,
                                std::optional<ControlKind> wanted, std::optional<ControlKind> setup) {
-  if (wanted) return *wanted;
   const std::optional<ProgramLanguage> language = languageOf(path, text);
+  if (wanted) {
+    if (!language || speaks(*wanted, *language)) return *wanted;
+    return fail({path.string(), 0, 0},
+                fmt::format("this is a {} program, which the {} does not read", nameOf(*language), name(*wanted)),
+                "name a control of that language with --control, or leave it out");
+  }
   if (!language) {
     if (setup) return *setup;
     return fail({path.string(), 0, 0}, "neither the ending nor the text tells which control this program is for",

@@ -252,6 +252,10 @@ TEST(Run, RefusesUnknownWords) {
   const Answer control = probewright({"run", program, "--setup", setup, "--control", "TNC7"});
   EXPECT_EQ(control.exit, 2);
   EXPECT_THAT(control.errors, HasSubstr("TNC7 is none of TNC640, iTNC530, 840Dsl"));
+  const Answer other = probewright({"run", program, "--setup", setup, "--control", "840Dsl"});
+  EXPECT_EQ(other.exit, 2);
+  EXPECT_THAT(other.errors, HasSubstr("this is a Klartext program, which the 840Dsl does not read"));
+  EXPECT_EQ(messages(other.errors), 1U) << other.errors;
   EXPECT_EQ(probewright({"run", program}).exit, 2);
   EXPECT_EQ(probewright({"measure"}).exit, 2);
   EXPECT_EQ(probewright({}).exit, 2);
