@@ -576,6 +576,27 @@ TEST(RotationCycles, TakeTheSameValuesInInch) {
   EXPECT_NEAR(inch.q(951) * 25.4, metric.q(951), 1e-4);
 }
 
+/// The ways in which printed programs write the parameters.
+TEST(Cycle1411, ReadsBlocksAsTheyArePrinted) {
+  Bench bench;
+  bench.preset(1, {0, 0, -400}, 0);
+  bench.part(simulation::Ring(4.65, 15, -20), pose({30, 50.01, -400}));
+  bench.part(simulation::Ring(4.4, 15, -20), pose({75, 50, -400}));
+  const Ran ran = bench.run(
+      "TCH PROBE 1411 TWO CIRCLES\n  Q1100=+30 ;1ST POINT\n  Q1101= +50 ;1ST POINT\n  Q1102= -5 ;1ST POINT\n"
+      "  QS1116=\"+10-1-0.5\";DIAMETER 1\n  Q1103= +75 ;2ND POINT\n  Q1104=+50 ;2ND POINT\n  QS1105= -5 ;2ND POINT\n"
+      "  QS1117=\"+10-1-0,5\";DIAMETER 2\n  Q1115=0 ;GEOMETRY\n  Q423=4 ;POINTS\n  Q325=+0 ;ANGLE\n"
+      "  Q1119=+360;LENGTH\n  Q320=+0 ;CLEARANCE\n  Q260=+100 ;HEIGHT\n  Q1125=+2 ;MODE\n  Q309=+2 ;REACTION\n"
+      "  Q1126=+0 ;ALIGN\n  Q1120=+0 ;TRANSFER\n  Q1121=+0 ;ROTATION\n");
+  ASSERT_TRUE(ran.finished()) << ran.why();
+  EXPECT_NEAR(ran.q(966), 9.3, exact);
+  EXPECT_NEAR(ran.q(996), 0.05, exact);
+  EXPECT_NEAR(ran.q(967), 8.8, exact);
+  EXPECT_NEAR(ran.q(997), -0.45, exact);
+  // Too small a hole can be reworked: Q309 = 2 lets it pass.
+  EXPECT_EQ(ran.q(183), 1);
+}
+
 TEST(Cycle1411, ReducesTheClearanceInSmallHoles) {
   Bench bench;
   bench.preset(1, {0, 0, -400}, 0);
