@@ -1,9 +1,34 @@
 #pragma once
 
 #include "cycles/heidenhain/context.hpp"
+#include "cycles/heidenhain/parameters.hpp"
 
 /// What the calibration cycles 460 to 463 have in common.
 namespace probewright::cycles::heidenhain {
+
+namespace parameters {
+
+/// Q407 of ring, stud and sphere.
+constexpr Parameter standardRadius(std::string_view meaning) {
+  return {.name = "Q407",
+          .address = 407,
+          .meaning = meaning,
+          .kind = ValueKind::Length,
+          .minimum = 0.0001,
+          .maximum = 99.9999};
+}
+
+inline constexpr Parameter calibrationTouches = {.name = "Q423",
+                                                 .address = 423,
+                                                 .meaning = "number of touches around the standard",
+                                                 .kind = ValueKind::Integer,
+                                                 .minimum = 3,
+                                                 .maximum = 8};
+
+inline constexpr Parameter calibrationStartAngle =
+    angle(380, "Q380", "angle of the first touch from the main axis", 0, 360);
+
+}  // namespace parameters
 
 /// What a radius calibration has found.
 struct CalibratedRadius {

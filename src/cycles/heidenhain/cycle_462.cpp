@@ -8,20 +8,10 @@ namespace {
 using namespace parameters;
 
 constexpr Parameter parameters462[] = {
-    {.name = "Q407",
-     .address = 407,
-     .meaning = "radius of the calibration ring",
-     .kind = ValueKind::Length,
-     .minimum = 0.0001,
-     .maximum = 99.9999},
+    standardRadius("radius of the calibration ring"),
     setUpClearance,
-    {.name = "Q423",
-     .address = 423,
-     .meaning = "number of touches",
-     .kind = ValueKind::Integer,
-     .minimum = 3,
-     .maximum = 8},
-    angle(380, "Q380", "angle of the first touch from the main axis", 0, 360),
+    calibrationTouches,
+    calibrationStartAngle,
 };
 
 }  // namespace

@@ -8,21 +8,11 @@ namespace {
 using namespace parameters;
 
 constexpr Parameter parameters463[] = {
-    {.name = "Q407",
-     .address = 407,
-     .meaning = "radius of the calibration stud",
-     .kind = ValueKind::Length,
-     .minimum = 0.0001,
-     .maximum = 99.9999},
+    standardRadius("radius of the calibration stud"),
     setUpClearance,
     moveToClearance,
-    {.name = "Q423",
-     .address = 423,
-     .meaning = "number of touches",
-     .kind = ValueKind::Integer,
-     .minimum = 3,
-     .maximum = 8},
-    angle(380, "Q380", "angle of the first touch from the main axis", 0, 360),
+    calibrationTouches,
+    calibrationStartAngle,
 };
 
 }  // namespace

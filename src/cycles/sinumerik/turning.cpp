@@ -76,11 +76,10 @@ void concludeTurned(Context& context, Task task, TurnedFeature feature, const Tu
   const double difference = dimension.actual - dimension.set - empirical;
   for (const int element : {0, 1 + axis})
     context.result(element, dimension.set);
-  const Compared compared =
-      feature == TurnedFeature::Face
-          ? Compared{.nominal = dimension.set}
-          : comparedSize(context, task, dimension.set, dimension.actual,
-                         feature == TurnedFeature::Inside ? Side::Inside : Side::Outside);
+  const Compared compared = feature == TurnedFeature::Face
+                                ? Compared{.nominal = dimension.set}
+                                : comparedSize(context, task, dimension.set, dimension.actual,
+                                               feature == TurnedFeature::Inside ? Side::Inside : Side::Outside);
   for (const int element : {4, 5 + axis})
     context.result(element, dimension.actual, compared);
   for (const int element : {16, 17 + axis})
