@@ -394,6 +394,19 @@ TEST(Host, MoveKeepsTheTipOnTheWorkpiece) {
   EXPECT_TRUE(near(world.control->channel.position(), {10, 20, -400}, 1e-9));
 }
 
+TEST(Host, MoveWithADistanceKeepsThePointAboveTheTip) {
+  World world("mill5-table-table");
+  const RunResult result = world.run(
+      "TOOL CALL 1 Z\nL X+10 Y+20 Z-400 FMAX\n"
+      "PLANE SPATIAL SPA+20 SPB+0 SPC+0 MOVE DIST50 F2000\nPLANE RESET STAY\n");
+  ASSERT_EQ(result.end, RunEnd::Finished);
+  world.control->coordinates.tilt = Matrix3::Identity();
+  world.control->applyCoordinates();
+  // The tool stands square to the tilted plane; 50 mm up its axis lies the point that was 50 mm above the tip before.
+  const Vector3 axis(0, -std::sin(radiansFromDegrees(20)), std::cos(radiansFromDegrees(20)));
+  EXPECT_TRUE(near(world.control->channel.position() + 50 * axis, {10, 20, -350}, 1e-9));
+}
+
 TEST(Host, MachiningCyclesAreSkippedOrRefused) {
   const std::string program = "CYCL DEF 200 DRILLING ~\n Q200=2 ~\n Q201=-20\nL X+1 Y+1 FMAX M99\nCYCL CALL\n";
   World world;

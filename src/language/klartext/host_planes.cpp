@@ -181,7 +181,8 @@ void KlartextHost::publishRotaryAxes(const machine::AxisPositions& target) {
   }
 }
 
-/// MOVE keeps the tip on the workpiece, TURN moves the rotary axes alone, STAY (and cycle 19 without F) moves nothing.
+/// MOVE keeps the tip, or the point DIST above it, on the workpiece, TURN moves the rotary axes alone, STAY (and cycle
+/// 19 without F) moves nothing.
 void KlartextHost::positionRotaryAxes(const machine::AxisPositions& target, WordRange words, Evaluation& evaluation) {
   publishRotaryAxes(target);
   const bool isMove = find(words, "MOVE", evaluation) != nullptr;
@@ -203,15 +204,24 @@ void KlartextHost::positionRotaryAxes(const machine::AxisPositions& target, Word
     if (description.axes[i].kind == machine::AxisKind::Rotary) turned.rotary[i] = target[i] - channel.rotaryOffset[i];
   }
   const bool held = channel.holdTip;
+  const Vector3 toolVector = channel.toolVector;
   channel.holdTip = isMove;
   control_.applyCoordinates();
+  if (const Word* distance = find(words, "DIST", evaluation); isMove && distance != nullptr) {
+    // The point that stays on the workpiece lies that far above the tip.
+    channel.toolVector -= toolVector.normalized() * length(distance->value, evaluation);
+  }
+  const auto restore = [&] {
+    channel.holdTip = held;
+    channel.toolVector = toolVector;
+  };
   try {
     channel.moveTo(turned, feed);
   } catch (...) {
-    channel.holdTip = held;
+    restore();
     throw;
   }
-  channel.holdTip = held;
+  restore();
 }
 
 }  // namespace probewright::language::klartext
