@@ -23,8 +23,7 @@ TEST(Convert, WritesTheOtherLanguageOfTheControl) {
 
 TEST(Convert, SaysWhatItCouldNotCarryOver) {
   const Folder folder;
-  const std::string klartext =
-      folder.file("part.h", "0 BEGIN PGM PART MM\n1 DEP LT LEN20 FMAX\n2 END PGM PART MM\n");
+  const std::string klartext = folder.file("part.h", "0 BEGIN PGM PART MM\n1 DEP LT LEN20 FMAX\n2 END PGM PART MM\n");
   const Answer answer = probewright({"convert", klartext, (folder / "part.i").string()});
   EXPECT_EQ(answer.exit, 1);
   EXPECT_THAT(answer.errors, HasSubstr("part.h:2:1: warning: DEP has no twin in DIN/ISO"));
