@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "din_iso/resolved.hpp"
@@ -186,6 +187,8 @@ TEST(DinIso, MistakesNamePlaceAndReason) {
   EXPECT_EQ(resolvedText("\nN10 HELLO *"), "2:6: a number or a Q parameter is expected for the angle H");
   EXPECT_EQ(resolvedText("N10 *\nN20 O1234 *"), "2:5: this is no word of the DIN/ISO language");
   EXPECT_EQ(resolvedText("%A *\n"), "1:4: G71 (mm) or G70 (inch) is expected behind the name of the program");
+  EXPECT_THAT(resolvedText("%A G71 *\nN10 %\"\" *\n"),
+              ::testing::HasSubstr("the name of a program is expected behind %"));
   EXPECT_EQ(resolvedText("G421 Q273=+1 Q273=+2 *"), "1:22: Q273 is given twice in this cycle");
   EXPECT_EQ(resolvedText("D09 P01 +Q1 P02 +2 *"), "1:20: P03 with the label to jump to is expected here");
   EXPECT_EQ(resolvedText("G25 X+5 R3 *"), "1:12: G25 takes no X");

@@ -73,6 +73,7 @@ bool BlockParser::percent() {
   }
   CallProgram call;
   if (const std::optional<std::string_view> quoted = lexer_.quoted()) {
+    if (quoted->empty()) return error("the name of a program is expected behind %");
     call.name = ref(*quoted);
     emit(call);
     return expectEnd();
