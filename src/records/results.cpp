@@ -20,24 +20,6 @@ json place(const SourcePlace& p, const ReadableText& text) {
   return {{"file", text(p.file)}, {"line", p.line}, {"column", p.column}};
 }
 
-std::string_view eventName(control::EventKind kind) {
-  switch (kind) {
-    case control::EventKind::Message:
-      return "message";
-    case control::EventKind::Alarm:
-      return "alarm";
-    case control::EventKind::Stop:
-      return "stop";
-    case control::EventKind::Skipped:
-      return "skipped";
-    case control::EventKind::Tool:
-      return "tool";
-    case control::EventKind::Warning:
-      return "warning";
-  }
-  return "message";
-}
-
 json axisPositions(const machine::AxisPositions& positions, const std::vector<machine::Axis>& axes) {
   json object = json::object();
   const std::size_t count = std::min(axes.size(), machine::maximumAxes);
@@ -139,6 +121,24 @@ json header(const RunInfo& run, const ReadableText& text) {
 }
 
 }  // namespace
+
+std::string_view eventName(control::EventKind kind) {
+  switch (kind) {
+    case control::EventKind::Message:
+      return "message";
+    case control::EventKind::Alarm:
+      return "alarm";
+    case control::EventKind::Stop:
+      return "stop";
+    case control::EventKind::Skipped:
+      return "skipped";
+    case control::EventKind::Tool:
+      return "tool";
+    case control::EventKind::Warning:
+      return "warning";
+  }
+  return "message";
+}
 
 std::string_view verdictName(control::Verdict verdict) {
   switch (verdict) {

@@ -24,6 +24,9 @@ std::string resultsText(const control::Journal& journal, const RunInfo& run);
 /// The worst verdict of all cycles; None if nothing was toleranced.
 control::Verdict worstVerdict(const control::Journal& journal);
 
+/// "message", "alarm", "stop", "skipped", "tool", "warning": the names in results.json.
+std::string_view eventName(control::EventKind kind);
+
 /// "none", "good", "rework", "scrap": the names in results.json.
 std::string_view verdictName(control::Verdict verdict);
 

@@ -161,21 +161,7 @@ std::string cycleText(const control::CycleRecord& cycle, std::size_t number, con
 }
 
 std::string_view eventWord(control::EventKind kind) {
-  switch (kind) {
-    case control::EventKind::Message:
-      return "message";
-    case control::EventKind::Alarm:
-      return "ALARM";
-    case control::EventKind::Stop:
-      return "stop";
-    case control::EventKind::Skipped:
-      return "skipped";
-    case control::EventKind::Tool:
-      return "tool";
-    case control::EventKind::Warning:
-      return "warning";
-  }
-  return "";
+  return kind == control::EventKind::Alarm ? "ALARM" : records::eventName(kind);
 }
 
 std::string eventText(const control::EventRecord& event, const Style& style) {
