@@ -77,6 +77,12 @@ reports::Path pathOf(const simulation::PathRecord& record) {
     path.points.push_back(point.tip.cast<float>());
     path.seconds.push_back(static_cast<float>(point.seconds));
   }
+  // Most machines hold the probe upright all the time: nothing to say then.
+  constexpr double upright = 1 - 1e-12;
+  if (std::any_of(record.points.begin(), record.points.end(),
+                  [](const simulation::PathPoint& point) { return point.shank.z() < upright; })) {
+    for (const simulation::PathPoint& point : record.points) path.toolAxes.push_back(point.shank.cast<float>());
+  }
   return path;
 }
 

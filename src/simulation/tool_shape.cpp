@@ -32,6 +32,7 @@ ToolShape shapeOf(const TrueTool* tool, double spindleDegrees) {
   if (!tool) return shape;
   const Vector3& up = tool->shankDirection;
   const Vector3 tip = tool->mount - tool->length * up;
+  shape.shank = up;
   if (tool->kind == ToolKind::Cutter) {
     shape.tip = tip;
     if (tool->radius > 0) addCylinder(shape, tip, up, tool->length, tool->radius, "tool");
@@ -43,6 +44,7 @@ ToolShape shapeOf(const TrueTool* tool, double spindleDegrees) {
   const Vector3 turnedUp = turned * up;
   shape.ball = Ball{centre, probe.ballRadius};
   shape.tip = centre;
+  shape.shank = turnedUp;
   // The shaft starts clear of the ball, so that a touching ball does not make the shaft touch too.
   const double shaft = probe.stylusLength - probe.ballRadius - probe.stylusRadius;
   if (probe.stylusRadius > 0 && shaft > 0) {

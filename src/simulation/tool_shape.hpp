@@ -25,6 +25,7 @@ struct ToolShape {
   std::optional<Ball> ball;
   std::vector<Capsule> capsules;
   Vector3 tip = Vector3::Zero();  ///< what the path record follows: the ball's centre, a cutter's tip, the spindle nose
+  Vector3 shank = Vector3::UnitZ();  ///< unit, from the tip along the shank
 };
 
 /// The shape of `tool` (none: the empty spindle) with the spindle turned to `spindleDegrees`.

@@ -61,12 +61,16 @@ VirtualMachine::VirtualMachine(Truth truth)
       reading_(truth_.start),
       slides_(truth_.start),
       noise_(streamSeed(truth_.seed, "probe")) {
-  path_.points.push_back({tipOnTable(), PathKind::Start, 0});
+  path_.points.push_back(pathPoint(tableFromSpindle(), PathKind::Start, 0));
 }
 
 Pose VirtualMachine::tableFromSpindle() const { return kinematics_.tableFromSpindle(slides_, clock_); }
 
 Vector3 VirtualMachine::tipOnTable() const { return tableFromSpindle() * shape_.tip; }
+
+PathPoint VirtualMachine::pathPoint(const Pose& tableFromSpindle, PathKind kind, double seconds) const {
+  return {tableFromSpindle * shape_.tip, tableFromSpindle.linear() * shape_.shank, kind, seconds};
+}
 
 std::optional<std::string> VirtualMachine::beyondTravel(const AxisPositions& target) const {
   for (std::size_t i = 0; i < truth_.machine.axes.size(); ++i) {
@@ -159,10 +163,10 @@ void VirtualMachine::advance(const Motion& motion, const Stop& stop, PathKind ki
   const int pieces = std::clamp(static_cast<int>(std::ceil(turn / turnPerPoint)), 1, 360);
   for (int i = 1; i <= pieces; ++i) {
     const double fraction = stop.end * i / pieces;
-    const Vector3 tip = motion.tableFromSpindleAt(fraction) * shape_.tip;
-    path_.length += (tip - path_.points.back().tip).norm();
-    path_.points.push_back(
-        {tip, kind, motion.startSeconds + motion.profile.secondsAt(fraction * motion.profile.length())});
+    const double seconds = motion.startSeconds + motion.profile.secondsAt(fraction * motion.profile.length());
+    const PathPoint point = pathPoint(motion.tableFromSpindleAt(fraction), kind, seconds);
+    path_.length += (point.tip - path_.points.back().tip).norm();
+    path_.points.push_back(point);
   }
   path_.points.back().seconds = clock_;
   if (!stop.touch) return;
@@ -316,7 +320,7 @@ std::optional<const TrueTool*> VirtualMachine::findTool(const machine::ToolOrder
 MoveResult VirtualMachine::load(const TrueTool* tool) {
   tool_ = tool;
   shape_ = shapeOf(tool_, spindleDegrees_);
-  if (recording_) path_.points.push_back({tipOnTable(), PathKind::ToolChange, clock_});
+  if (recording_) path_.points.push_back(pathPoint(tableFromSpindle(), PathKind::ToolChange, clock_));
   return settle();
 }
 

@@ -58,7 +58,7 @@ public:
 
   const Truth& truth() const { return truth_; }
   const PathRecord& path() const { return path_; }
-  /// The record grows with every move (about 40 bytes); switched off it is no longer added to. On at the start.
+  /// The record grows with every move (about 70 bytes); switched off it is no longer added to. On at the start.
   void recordPath(bool on) { recording_ = on; }
 
   /// The true place of the spindle (at spindle angle 0) on the table now, and of the tip of the tool.
@@ -76,6 +76,8 @@ private:
     double end = 1;
   };
 
+  /// Where `tableFromSpindle` puts the tool, as a point of the path.
+  PathPoint pathPoint(const Pose& tableFromSpindle, PathKind kind, double seconds) const;
   std::optional<std::string> beyondTravel(const machine::AxisPositions& target) const;
   Motion motionTo(const machine::AxisPositions& target, machine::Feed feed) const;
   Stop stopFor(const Motion& motion, const Touch& touch);

@@ -230,6 +230,9 @@ TEST(IdealMachine, HeadMovesFindContactOnTheirArc) {
   const auto result = machine.measure(positions({0, 0, -100, 60, 0}), Feed::at(600));
   ASSERT_EQ(result.end, MeasureEnd::Touched) << result.detail;
   EXPECT_NEAR(result.latched[3], degreesFromRadians(std::asin(98.0 / 248)), 1e-7);
+  const double swung = radiansFromDegrees(machine.position()[3]);
+  EXPECT_LT((machine.path().points.back().shank - Vector3(std::sin(swung), 0, std::cos(swung))).norm(), 1e-9)
+      << "the shank points from the ball to the swivel axis";
 }
 
 TEST(IdealMachine, LatheProbesTheTurnedDiameterInItsRadius) {
