@@ -216,6 +216,7 @@ TEST(Report, IsWrittenForTheBrowser) {
   write("alarm.html", reportHtml(alarm, sample::alarmRunInfo(), sample::scene(alarm)));
   auto good = sample::journal();
   good.cycles.pop_back();
+  good.cycles.back().results.push_back(sample::plain("Q180", "1: good", 1, ""));
   auto goodRun = sample::runInfo();
   goodRun.exit = records::ExitState::Good;
   goodRun.exitText.clear();

@@ -103,6 +103,19 @@ TEST_F(SceneOfRun, KeepsTheKindOfEachMove) {
   EXPECT_LT((path.points[path.points.size() - 2] - onTable(100, 50, 60)).norm(), 1e-4);
 }
 
+TEST_F(SceneOfRun, TellsTheShankOnlyWhereItLeansOver) {
+  EXPECT_TRUE(sceneOf({}, truth_, machine_.path()).path.toolAxes.empty()) << "upright all the time";
+
+  auto truth = perfectWorld("mill5-head-table");
+  simulation::VirtualMachine swivelling(truth);
+  EXPECT_EQ(swivelling.insertTool({1, "PROBE"}).end, machine::MoveEnd::Reached);
+  EXPECT_EQ(swivelling.move(positions({0, 0, 0, 30, 0}), Feed::rapidTraverse()).end, machine::MoveEnd::Reached);
+  const reports::Path path = sceneOf({}, truth, swivelling.path()).path;
+  ASSERT_EQ(path.toolAxes.size(), path.points.size());
+  EXPECT_LT((path.toolAxes.front() - reports::Vector3f::UnitZ()).norm(), 1e-6);
+  EXPECT_LT((path.toolAxes.back() - reports::Vector3f(0.5F, 0, 0.8660254F)).norm(), 1e-6);
+}
+
 TEST_F(SceneOfRun, DrawsThePartWhereItLies) {
   const reports::Scene scene = sceneOf({}, truth_, machine_.path());
   ASSERT_EQ(scene.meshes.size(), 1U);

@@ -43,12 +43,39 @@ function resultRow(result: ResultValue): HTMLElement {
   );
 }
 
+/** What was measured stands open; values that only tell how the cycle was called or what it did stay folded. */
+function measured(cycle: Cycle): ResultValue[] {
+  const compared = cycle.results.filter((result) => result.deviation !== undefined || result.verdict !== "none");
+  return compared.length > 0 ? compared : cycle.results.filter((result) => !result.name.startsWith("_OVI"));
+}
+
+function furtherResults(further: ResultValue[]): HTMLElement {
+  return h(
+    "section",
+    {},
+    h("h4", {}, "Further results"),
+    h(
+      "dl",
+      { class: "parameters" },
+      ...further.map(({ name, value, unit, meaning }) =>
+        h(
+          "div",
+          {},
+          h("dt", {}, name),
+          h("dd", { class: "number", title: value == null ? null : String(value) }, `${quantity(value, unit)}${unit === "" ? "" : ` ${unit === "deg" ? "\u00b0" : unit}`}`),
+          h("dd", { class: "meaning" }, meaning),
+        ),
+      ),
+    ),
+  );
+}
+
 function point(triple: Triple | undefined): HTMLElement {
   if (!triple) return h("td", { class: "number" }, "\u2013");
   return h("td", { class: "number point", title: triple.join(", ") }, triple.map((x) => fixed(x, 3)).join("  "));
 }
 
-function details(cycle: Cycle, index: number, selector: Selector): HTMLElement {
+function details(cycle: Cycle, index: number, further: ResultValue[], selector: Selector): HTMLElement {
   const touches = h("tbody");
   cycle.touches.forEach((touch, number_) => {
     const deviation = touchDeviation(touch);
@@ -94,6 +121,7 @@ function details(cycle: Cycle, index: number, selector: Selector): HTMLElement {
           ),
         ),
       ),
+    further.length > 0 && furtherResults(further),
     cycle.parameters.length > 0 &&
       h(
         "section",
@@ -135,6 +163,8 @@ function writeLine(write: Write): HTMLElement {
 
 function cycleBody(cycle: Cycle, index: number, selector: Selector): HTMLElement {
   const state = cycleState(cycle);
+  const shown = measured(cycle);
+  const further = cycle.results.filter((result) => !shown.includes(result));
   const room = h("td", { colspan: 10 });
   const extra = h("tr", { class: "extra", hidden: true }, room);
   const toggle = h(
@@ -148,11 +178,15 @@ function cycleBody(cycle: Cycle, index: number, selector: Selector): HTMLElement
         show(extra.hidden === true);
       },
     },
-    `${count(cycle.touches.length, "touch", "touches")}, ${count(cycle.parameters.length, "parameter")}`,
+    [
+      count(cycle.touches.length, "touch", "touches"),
+      count(cycle.parameters.length, "parameter"),
+      ...(further.length > 0 ? [count(further.length, "further result")] : []),
+    ].join(", "),
   );
   const show = (open: boolean) => {
     // Built when first asked for: a long run has thousands of touches.
-    if (open && room.childElementCount === 0) room.append(details(cycle, index, selector));
+    if (open && room.childElementCount === 0) room.append(details(cycle, index, further, selector));
     extra.hidden = !open;
     toggle.setAttribute("aria-expanded", String(open));
   };
@@ -198,7 +232,7 @@ function cycleBody(cycle: Cycle, index: number, selector: Selector): HTMLElement
     "tbody",
     { id: `cycle-${index}`, class: `cycle-group ${state}` },
     head,
-    ...cycle.results.map(resultRow),
+    ...shown.map(resultRow),
     notes.some(Boolean) && h("tr", { class: "notes" }, h("td", { colspan: 10 }, ...notes)),
     extra,
   );

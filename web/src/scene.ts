@@ -93,7 +93,10 @@ function dotTexture(): CanvasTexture {
 export class Drawing {
   readonly scene = new ThreeScene();
   readonly markers: Marker[];
+  /** Around the part, or what is measured where there is none. */
   readonly sphere: Sphere;
+  /** Around the part, the fixtures, the gauges and every touch. */
+  readonly everything: Sphere;
   /** Where the names of the workpiece's axes stand. */
   readonly axisEnds: { name: string; at: Vector3 }[] = [];
   private readonly solids = new Group();
@@ -115,15 +118,17 @@ export class Drawing {
 
     const bounds = new Box3();
     for (const mesh of scene.meshes) bounds.union(this.addMesh(mesh));
-    // Fixtures, gauges and the way to the tool changer may reach far beyond what is measured.
+    for (const marker of this.markers) bounds.expandByPoint(marker.centre);
+    // Fixtures, gauges and the way to the tool changer may reach far beyond the part.
     const focus = new Box3();
     for (const mesh of this.solids.children) focus.expandByObject(mesh);
-    for (const marker of this.markers) focus.expandByPoint(marker.centre);
+    if (focus.isEmpty()) for (const marker of this.markers) focus.expandByPoint(marker.centre);
     if (focus.isEmpty()) focus.copy(bounds);
     if (focus.isEmpty()) for (let i = 0; i + 2 < scene.path.points.length; i += 3) focus.expandByPoint(new Vector3().fromArray(scene.path.points, i));
     if (focus.isEmpty()) focus.set(new Vector3(-50, -50, -50), new Vector3(50, 50, 50));
     this.sphere = focus.getBoundingSphere(new Sphere());
     this.sphere.radius = Math.max(this.sphere.radius, 1);
+    this.everything = bounds.union(focus).getBoundingSphere(new Sphere());
 
     this.addPath();
     this.addMarkers();

@@ -1,6 +1,6 @@
 // The 3D view: camera, buttons, picking of touches, the card that tells about one, replay.
 
-import { MathUtils, OrthographicCamera, Vector3, WebGLRenderer } from "three";
+import { MathUtils, OrthographicCamera, type Sphere, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 import { type Report, touchDeviation, type Triple } from "./data";
@@ -132,18 +132,18 @@ export class View {
     this.camera.up.set(0, 0, 1);
     if (!this.controls) return;
     const { center, radius } = this.drawing.sphere;
+    const reach = Math.max(radius, this.drawing.everything.radius + this.drawing.everything.center.distanceTo(center));
     // Looking straight down, a hair off the vertical keeps the part's Y pointing up.
     const towards = direction.clone().normalize();
     if (up.y === 1) towards.y -= 1e-4;
     this.controls.target.copy(center);
-    this.camera.position.copy(center).addScaledVector(towards, 20 * radius);
-    this.camera.near = radius;
-    this.camera.far = 60 * radius;
-    this.zoomToFit();
+    this.camera.position.copy(center).addScaledVector(towards, 20 * reach);
+    this.camera.near = reach;
+    this.camera.far = 60 * reach;
+    this.zoomTo(this.drawing.sphere);
   }
 
-  private zoomToFit() {
-    const { center, radius } = this.drawing.sphere;
+  private zoomTo({ center, radius }: Sphere) {
     if (!this.controls) return;
     const offset = center.clone().sub(this.controls.target);
     this.controls.target.add(offset);
@@ -304,7 +304,7 @@ export class View {
       h(
         "div",
         { class: "group" },
-        h("button", { type: "button", title: "Show everything", click: () => this.zoomToFit() }, icon("fit"), "Fit"),
+        h("button", { type: "button", title: "Show everything", click: () => this.zoomTo(this.drawing.everything) }, icon("fit"), "Fit"),
         ...Object.keys(directions).map((name) => button(name, () => this.look(name))),
       ),
       h(

@@ -193,13 +193,13 @@ test("view buttons, switches and replay change the picture", async () => {
     assert.ok(content.share > 0.05, `${name} shows something`);
     return `${content.share} ${content.colours}`;
   };
-  for (const name of ["Top", "Front", "Right", "Iso"]) {
+  for (const name of ["Top", "Front", "Right", "Fit", "Iso"]) {
     seen.add(await press(name));
     await picture(page, `view-${name.toLowerCase()}`);
   }
-  assert.equal(seen.size, 4);
+  assert.equal(seen.size, 5);
   for (const name of ["X-ray", "Path", "Touches", "Fixtures"]) seen.add(await press(name));
-  assert.equal(seen.size, 8);
+  assert.equal(seen.size, 9);
   await page.$eval(".replay input", (slider) => {
     slider.value = String(Number(slider.max) / 3);
     slider.dispatchEvent(new Event("input"));
@@ -240,6 +240,11 @@ test("a good part, on a small screen", async () => {
   const { page, problems } = await open("good.html", { width: 1024, height: 768 });
   assert.match(await text(page, ".headline"), /OK\s+All 3 toleranced values within the limits/);
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "nothing sticks out sideways");
+  // What has no nominal value stays folded with the parameters until asked for.
+  assert.doesNotMatch(await text(page, "#cycle-3"), /Q180/);
+  assert.match(await text(page, "#cycle-3 .toggle"), /4 touches, \d+ parameters, 1 further result$/);
+  await page.click("#cycle-3 .toggle");
+  assert.match(await text(page, "#cycle-3 .details"), /Further results\s+Q180\s+1\s+1: good/);
   await picture(page, "good-small", { fullPage: true });
   assert.deepEqual(problems, []);
   await page.close();
