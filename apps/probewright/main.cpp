@@ -48,8 +48,9 @@ int main(int argc, char** argv) {
   const std::map<std::string, OnStop> stops = {
       {"continue", OnStop::Continue}, {"abort", OnStop::Abort}, {"ask", OnStop::Ask}};
   run->add_option("--on-stop", runArguments.onStop, "What a programmed stop does: continue, abort, ask")
-      ->transform(CLI::CheckedTransformer(stops, CLI::ignore_case))
-      ->type_name("WHAT");
+      ->transform(CLI::CheckedTransformer(stops, CLI::ignore_case).description(""))
+      ->type_name("WHAT")
+      ->default_str("continue");
   run->add_option("--answers", runArguments.answers, "Answers to what the program asks, one NAME=VALUE a line")
       ->type_name("FILE");
   run->add_option("--step-limit", runArguments.stepLimit, "Blocks after which an endless loop is assumed; 0: never")

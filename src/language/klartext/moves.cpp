@@ -200,6 +200,16 @@ bool BlockParser::arc(bool polar) {
   return true;
 }
 
+bool BlockParser::arcWithRadius() {
+  const std::size_t first = block_.words.size();
+  if (!arc(false)) return false;
+  for (std::size_t i = first; i < block_.words.size(); ++i) {
+    const Word& found = block_.words[i];
+    if (found.address == addressOf("R") && found.mode != WordMode::DirectShortest) return true;
+  }
+  return error("an arc CR needs its radius R", "add R with the radius: positive for an arc up to a half circle, negative beyond");
+}
+
 bool BlockParser::approachOrDepart(MoveKind kind) {
   static constexpr std::array<std::string_view, 4> variants = {"LCT", "LT", "LN", "CT"};
   Move move;

@@ -85,7 +85,7 @@ bool BlockParser::statement() {
         return error("LBL or PGM is expected behind CALL");
       }
       if (lexer_.acceptKeyword("CC")) return move(MoveKind::SetCentre, false);
-      if (lexer_.acceptKeyword("CR")) return arc(false);
+      if (lexer_.acceptKeyword("CR")) return arcWithRadius();
       if (lexer_.acceptKeyword("CTP")) return move(MoveKind::ArcTangential, true);
       if (lexer_.acceptKeyword("CT")) return move(MoveKind::ArcTangential, false);
       if (lexer_.acceptKeyword("CP")) return arc(true);

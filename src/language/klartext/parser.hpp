@@ -71,6 +71,7 @@ protected:
   // moves.cpp
   bool move(MoveKind kind, bool polar);
   bool arc(bool polar);
+  bool arcWithRadius();
   bool approachOrDepart(MoveKind kind);
   bool moveWords(Move& move);
   bool axisWord(WordMode mode);
