@@ -207,7 +207,8 @@ bool BlockParser::arcWithRadius() {
     const Word& found = block_.words[i];
     if (found.address == addressOf("R") && found.mode != WordMode::DirectShortest) return true;
   }
-  return error("an arc CR needs its radius R", "add R with the radius: positive for an arc up to a half circle, negative beyond");
+  return error("an arc CR needs its radius R",
+               "add R with the radius: positive for an arc up to a half circle, negative beyond");
 }
 
 bool BlockParser::approachOrDepart(MoveKind kind) {
