@@ -156,6 +156,12 @@ TEST(Run, MeasuresTheHousingOfTheExamplesAndCorrectsTheZeroOffset) {
   EXPECT_NEAR(value("$P_UIFR[1,Y,TR]"), -40.82, 0.002);
   EXPECT_NEAR(value("$P_UIFR[1,Z,TR]"), -469.59, 0.002);
   EXPECT_NEAR(value("$P_UIFR[1,Z,RT]"), 0.8, 0.002 / 100 * 180 / std::numbers::pi);
+
+  // The program calibrates first: a ball of 6 mm with 0.006 mm of pretravel on each side.
+  const std::string calibration = textOf(folder / "out/DATA.INI");
+  const std::string diameter = "$SNS_MEA_WP_BALL_DIAM[0]=";
+  ASSERT_THAT(calibration, HasSubstr(diameter));
+  EXPECT_NEAR(std::stod(calibration.substr(calibration.find(diameter) + diameter.size())), 5.988, 0.002);
 }
 
 // The first program of the README: the hole is good, its place is not.
