@@ -42,6 +42,15 @@ std::string rangeText(const Parameter& parameter) {
   return text;
 }
 
+/// Which measuring variants leave a result: " (S_MVAR ...5, ...6)"; nothing if all do.
+std::string variantsText(const cycles::ResultDefinition& result) {
+  std::string text;
+  for (int units = 0; result.variants != 0 && units < 10; ++units) {
+    if (result.belongsTo(units)) text += fmt::format("{}...{}", text.empty() ? " (S_MVAR " : ", ", units);
+  }
+  return text.empty() ? text : text + ")";
+}
+
 void show(const CycleDefinition& cycle) {
   fmt::print("{}  {}\n", cycle.name, cycle.title);
   fmt::print("{} | {}\n\n{}\n\nParameters\n", cycles::nameOf(cycle.family), controlsText(cycle.controls),
@@ -63,7 +72,8 @@ void show(const CycleDefinition& cycle) {
   fmt::print("\nResults\n");
   for (const auto& result : cycle.results) {
     const std::string_view unit = cycles::unitOf(result.kind);
-    fmt::print("  {:<9}{}{}\n", result.name, result.meaning, unit.empty() ? "" : fmt::format(", {}", unit));
+    fmt::print("  {:<9}{}{}{}\n", result.name, result.meaning, unit.empty() ? "" : fmt::format(", {}", unit),
+               variantsText(result));
   }
 }
 

@@ -189,9 +189,11 @@ void Channel::moveTo(const Target& target, Feed feed) {
     moveAxes(i == pieces ? end : at(static_cast<double>(i) / pieces), feed);
 }
 
-machine::MeasureResult Channel::measureTo(const Vector3& point, Feed feed) {
+machine::MeasureResult Channel::measureTo(const Vector3& point, Feed feed, TouchWith part) {
   const AxisPositions start = axes();
-  machine::MeasureResult result = machine_.measure(axesFromProgram(point, start), feed);
+  const AxisPositions target = axesFromProgram(point, start);
+  machine::MeasureResult result =
+      part == TouchWith::Shaft ? machine_.measureWithShaft(target, feed) : machine_.measure(target, feed);
   count(start, axes());
   if (result.end == machine::MeasureEnd::Cancelled) throw Cancelled();
   return result;

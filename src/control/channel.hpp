@@ -19,6 +19,9 @@ enum class Following {
   Kinematics,  ///< positions are those of the tool tip on the workpiece, wherever the rotary axes stand
 };
 
+/// The part of the stylus that is meant to touch.
+enum class TouchWith { Ball, Shaft };
+
 /// What an alarm of a move is called on the control that runs.
 struct MotionAlarms {
   std::string limit = "Limit switch";
@@ -103,7 +106,7 @@ public:
   void moveAxes(const AxisPositions& target, Feed feed);
 
   /// Towards the program point until the probe signals. The outcome is the caller's to judge.
-  machine::MeasureResult measureTo(const Vector3& point, Feed feed);
+  machine::MeasureResult measureTo(const Vector3& point, Feed feed, TouchWith part = TouchWith::Ball);
   Touch touchFrom(const machine::MeasureResult& result) const;
   void retractTo(const Vector3& point, Feed feed);
 

@@ -55,6 +55,10 @@ struct ResultDefinition {
   std::string_view name;  ///< "Q151", "_OVR[4]"
   std::string_view meaning;
   ValueKind kind = ValueKind::Length;
+  /// SINUMERIK: bit n stands for the measuring variants with n in the units of S_MVAR, which alone leave this; 0: all.
+  /// An index that means one thing here and another there has a line for each.
+  std::uint16_t variants = 0;
+  bool belongsTo(int units) const { return variants == 0 || (units >= 0 && (variants >> units & 1) != 0); }
 };
 
 enum class CycleFamily : std::uint8_t { Misalignment, Preset, Inspection, Special, Calibration, Kinematics, Tool };

@@ -71,6 +71,10 @@ public:
   /// Moves in a straight line towards `target` until the probe signals, latches, stops. The machine does not retract.
   virtual MeasureResult measure(const AxisPositions& target, Feed feed) = 0;
 
+  /// As measure(), for the few touches that the shaft of the stylus is meant to make. A probe signals for its shaft as
+  /// for its ball; machines that know which of them touches call a shaft that touches elsewhere a collision.
+  virtual MeasureResult measureWithShaft(const AxisPositions& target, Feed feed) { return measure(target, feed); }
+
   /// Moves in a straight line away from a contact: while the stylus is deflected at the start of this move a signal is
   /// no mistake; once it is free, contact stops the move as in move().
   virtual MoveResult retract(const AxisPositions& target, Feed feed) = 0;

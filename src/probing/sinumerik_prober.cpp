@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "control/alarm.hpp"
 
@@ -31,8 +32,26 @@ void SinumerikProber::moveTo(const Vector3& tcp) {
   const Vector3 way = tcp - position();
   const bool infeedOnly = way.head<2>().norm() < 1e-9;
   Feed feed = Feed::at(infeedOnly ? habits_.infeedFeed : habits_.planeFeed);
-  if (!habits_.monitorCollisions) feed = Feed::rapidTraverse();
+  if (!habits_.monitorCollisions) feed = rapidTo(tcp);
   channel_.moveTo(plane_.xyzFromPlane(tcp), feed);
+}
+
+/// Rapid traverse on the way to `tcp`, reduced to the percentage that the setting data grant.
+Feed SinumerikProber::rapidTo(const Vector3& tcp) const {
+  if (habits_.rapidPercent <= 0 || habits_.rapidPercent >= 100) return Feed::rapidTraverse();
+  const machine::AxisPositions from = channel_.axes();
+  const machine::AxisPositions to = channel_.axesFromProgram(plane_.xyzFromPlane(tcp), from);
+  const auto& axes = channel_.description().axes;
+  double way = 0;
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (axes[i].kind == machine::AxisKind::Linear) way += (to[i] - from[i]) * (to[i] - from[i]);
+  way = std::sqrt(way);
+  double speed = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const double share = std::abs(to[i] - from[i]);
+    if (axes[i].kind == machine::AxisKind::Linear && share > 0) speed = std::min(speed, axes[i].rapid * way / share);
+  }
+  return std::isfinite(speed) ? Feed::at(speed * habits_.rapidPercent / 100) : Feed::rapidTraverse();
 }
 
 void SinumerikProber::moveInPlane(const Vector3& tcp) {
@@ -61,17 +80,30 @@ void SinumerikProber::moveOnArc(const Vector3& centre, double angle) {
   }
 }
 
+bool SinumerikProber::mirrored(int axis) const {
+  const Matrix3 linear = channel_.frame().linear();
+  const Vector3 along = plane_.xyzFromPlane(Vector3::Unit(axis));
+  return linear.determinant() < 0 && along.dot(linear * along) < 0;
+}
+
+Vector2 SinumerikProber::deviation() const {
+  Vector2 deviation = probe_.positionDeviation;
+  for (int axis = 0; axis < 2; ++axis)
+    if (mirrored(axis)) deviation[axis] = -deviation[axis];
+  return deviation;
+}
+
 double SinumerikProber::trigger(const Vector3& direction) const {
   if (const auto axis = parallelAxis(direction)) {
     const auto index = static_cast<std::size_t>(*axis);
-    return direction[*axis] > 0 ? probe_.triggerPlus[index] : -probe_.triggerMinus[index];
+    return (direction[*axis] > 0) != mirrored(*axis) ? probe_.triggerPlus[index] : -probe_.triggerMinus[index];
   }
-  return ballRadius() + probe_.positionDeviation.dot(direction.head<2>());
+  return ballRadius() + deviation().dot(direction.head<2>());
 }
 
 Vector3 SinumerikProber::lateralDeviation(const Vector3& direction) const {
   if (probe_.monodirectional) return Vector3::Zero();
-  const Vector3 deviation(probe_.positionDeviation.x(), probe_.positionDeviation.y(), 0);
+  const Vector3 deviation(this->deviation().x(), this->deviation().y(), 0);
   return deviation - direction * direction.dot(deviation);
 }
 
@@ -86,17 +118,26 @@ void SinumerikProber::alignTo(const Vector3& direction) {
 }
 
 MeasuredPoint SinumerikProber::measure(const Vector3& setpoint, const Vector3& direction, double path, int count) {
+  const auto axis = parallelAxis(direction);
+  if (probe_.calibrationWatched && axis && *axis < 2 && trigger(direction) == 0) {
+    throw Alarm("61341",
+                fmt::format("The probe is not calibrated in the active plane: no trigger point for the {} direction of "
+                            "the {} axis",
+                            direction[*axis] > 0 ? "plus" : "minus", *axis == 0 ? "1st" : "2nd"),
+                "calibrate with CYCLE976 or CYCLE973");
+  }
   return stroke(setpoint, direction, path, count, direction * trigger(direction) + lateralDeviation(direction),
                 probe_.feed);
 }
 
 MeasuredPoint SinumerikProber::measureUncompensated(const Vector3& setpoint, const Vector3& direction, double path,
-                                                    int count, double assumedTrigger, double feed) {
-  return stroke(setpoint, direction, path, count, direction * assumedTrigger, feed);
+                                                    int count, double assumedTrigger, double feed,
+                                                    control::TouchWith part) {
+  return stroke(setpoint, direction, path, count, direction * assumedTrigger, feed, part);
 }
 
 MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& direction, double path, int count,
-                                      const Vector3& surfaceFromTcp, double feed) {
+                                      const Vector3& surfaceFromTcp, double feed, control::TouchWith part) {
   if (!(path > 0)) {
     throw Alarm("61308", "Measuring path DFA must be greater than 0", "correct parameter S_FA");
   }
@@ -113,11 +154,11 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
     record.outcome = std::move(outcome);
     if (control::CycleRecord* cycle = channel_.journal().open()) cycle->touches.push_back(record);
   };
-  const Feed retract = habits_.rapidRetract ? Feed::rapidTraverse() : Feed::at(habits_.planeFeed);
+  const Feed retract = habits_.rapidRetract ? rapidTo(end) : Feed::at(habits_.planeFeed);
   const auto probeOnce = [&](const Vector3& target, double atFeed) -> std::optional<control::Touch> {
     const int attempts = habits_.oneAttempt ? 1 : 5;
     for (int attempt = 0; attempt < attempts; ++attempt) {
-      const machine::MeasureResult result = channel_.measureTo(plane_.xyzFromPlane(target), Feed::at(atFeed));
+      const machine::MeasureResult result = channel_.measureTo(plane_.xyzFromPlane(target), Feed::at(atFeed), part);
       switch (result.end) {
         case MeasureEnd::Touched:
           return channel_.touchFrom(result);
@@ -134,11 +175,13 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
                       "load a probe of type 710, 712, 713, 714 or 580 before the cycle");
         case MeasureEnd::AxisLimit:
           finish("limit");
-          throw Alarm(channel_.alarms.limit, result.detail);
+          throw Alarm(channel_.alarms.limit, result.detail,
+                      "check the zero offset and the position of the workpiece in the machine");
         case MeasureEnd::Collision:
         case MeasureEnd::Cancelled:
           finish("collision");
-          throw Alarm(channel_.alarms.collision, result.detail);
+          throw Alarm(channel_.alarms.collision, result.detail,
+                      "correct the starting position; the way of the probe must be free");
       }
     }
     return std::nullopt;

@@ -21,6 +21,7 @@ struct SinumerikProbe {
   double feed = 300;                            ///< SD 54611, mm/min
   bool monodirectional = false;                 ///< tool type 712: the spindle turns the probe into each direction
   double correctionAngle = 0;                   ///< $TC_DP10, degrees
+  bool calibrationWatched = true;               ///< MD 51740 bit 0: unknown trigger points are refused
   bool lengthToCentre = false;                  ///< the tool length ends at the ball's centre, not at its south pole
 };
 
@@ -71,6 +72,9 @@ public:
   /// position deviation. measure() leads the ball's centre, not the tool centre point, along the line through the set
   /// point.
   Vector3 lateralDeviation(const Vector3& direction) const;
+  /// True if the workpiece system is mirrored along an axis of the plane, as for a part in the counter-spindle. The other
+  /// side of the ball touches there: trigger points and deviations are those of the machine's direction.
+  bool mirrored(int axis) const;
   /// What the trigger points say for a direction (unit vector): the way from the TCP to the surface along it.
   double trigger(const Vector3& direction) const;
 
@@ -79,18 +83,22 @@ public:
 
   /// Measures the surface expected at `setpoint` in `direction` (unit): moves to the start position `path` (DFA) in
   /// front of it, probes over at most twice that way, returns to the start position; `count` times (S_NMSP), averaged.
-  /// With nothing touched, five attempts, then alarm 61301.
+  /// With nothing touched, five attempts, then alarm 61301. Alarm 61341 if the probe was never calibrated in that
+  /// direction.
   MeasuredPoint measure(const Vector3& setpoint, const Vector3& direction, double path, int count = 1);
 
   /// The TCP at the signal without any compensation, for calibration; otherwise as measure(). `assumedTrigger` stands
-  /// in for the trigger point while it is unknown.
+  /// in for the trigger point while it is unknown. `part`: what of the stylus is meant to touch.
   MeasuredPoint measureUncompensated(const Vector3& setpoint, const Vector3& direction, double path, int count,
-                                     double assumedTrigger, double feed);
+                                     double assumedTrigger, double feed,
+                                     control::TouchWith part = control::TouchWith::Ball);
 
 private:
   MeasuredPoint stroke(const Vector3& setpoint, const Vector3& direction, double path, int count,
-                       const Vector3& surfaceFromTcp, double feed);
+                       const Vector3& surfaceFromTcp, double feed, control::TouchWith part = control::TouchWith::Ball);
   void orientTo(const Vector3& direction);
+  Vector2 deviation() const;
+  machine::Feed rapidTo(const Vector3& tcp) const;
 
   control::Channel& channel_;
   control::WorkingPlane plane_;

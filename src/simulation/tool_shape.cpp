@@ -46,13 +46,22 @@ ToolShape shapeOf(const TrueTool* tool, double spindleDegrees) {
   shape.tip = centre;
   shape.shank = turnedUp;
   // The shaft starts clear of the ball, so that a touching ball does not make the shaft touch too.
-  const double shaft = probe.stylusLength - probe.ballRadius - probe.stylusRadius;
-  if (probe.stylusRadius > 0 && shaft > 0) {
+  const double clear = probe.ballRadius + probe.stylusRadius;
+  // A ball far off the spindle axis sits at the end of an arm: the stylus is an L.
+  const Vector3 onAxis = turned * (tip + up * probe.ballRadius);
+  const Vector3 arm = onAxis - centre;
+  const bool bent = arm.norm() > 2 * clear;
+  const Vector3 foot = bent ? onAxis : centre;
+  if (probe.stylusRadius > 0 && bent) {
+    const Vector3 along = arm.normalized();
+    shape.capsules.push_back({centre + along * clear, arm - along * clear, probe.stylusRadius, shaftName});
+    shape.capsules.push_back({foot, turnedUp * probe.stylusLength, probe.stylusRadius, shaftName});
+  } else if (probe.stylusRadius > 0 && probe.stylusLength > clear) {
     shape.capsules.push_back(
-        {centre + turnedUp * (probe.ballRadius + probe.stylusRadius), turnedUp * shaft, probe.stylusRadius, "stylus"});
+        {centre + turnedUp * clear, turnedUp * (probe.stylusLength - clear), probe.stylusRadius, shaftName});
   }
   if (probe.bodyRadius > 0) {
-    addCylinder(shape, centre + turnedUp * probe.stylusLength, turnedUp, probe.bodyLength, probe.bodyRadius, "body");
+    addCylinder(shape, foot + turnedUp * probe.stylusLength, turnedUp, probe.bodyLength, probe.bodyRadius, "body");
   }
   return shape;
 }

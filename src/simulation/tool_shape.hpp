@@ -21,6 +21,9 @@ struct Capsule {
   const char* part = "";  ///< for messages: "stylus", "body", "tool"
 };
 
+/// The part that a stylus is called.
+inline constexpr const char* shaftName = "stylus";
+
 struct ToolShape {
   std::optional<Ball> ball;
   std::vector<Capsule> capsules;

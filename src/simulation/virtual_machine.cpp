@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace probewright::simulation {
 
@@ -134,9 +135,14 @@ double VirtualMachine::pretravel(const Motion& motion, const Touch& touch) const
 }
 
 VirtualMachine::Stop VirtualMachine::stopFor(const Motion& motion, const Touch& touch) {
+  if (touch.capsule) return {touch, std::nullopt, touch.fraction};
+  return signalStop(motion, touch);
+}
+
+VirtualMachine::Stop VirtualMachine::signalStop(const Motion& motion, const Touch& touch) {
   Stop stop{touch, std::nullopt, touch.fraction};
   const double length = motion.profile.length();
-  if (touch.capsule || length == 0) return stop;
+  if (length == 0) return stop;
   const TrueProbe& probe = tool_->probe;
   const double contact = touch.fraction * length;
   double signal = contact + pretravel(motion, touch) + motion.profile.speedAt(contact) * probe.signalDelay;
@@ -206,7 +212,40 @@ MoveResult VirtualMachine::move(const AxisPositions& target, Feed feed) {
                 feed.rapid ? PathKind::Rapid : PathKind::Feed);
 }
 
-MeasureResult VirtualMachine::measure(const AxisPositions& target, Feed feed) {
+MeasureResult VirtualMachine::measure(const AxisPositions& target, Feed feed) { return measure(target, feed, false); }
+
+MeasureResult VirtualMachine::measureWithShaft(const AxisPositions& target, Feed feed) {
+  return measure(target, feed, true);
+}
+
+/// Where along the shaft it touches first, and when, as exactly as a ball there would: the search for capsules is
+/// made for collisions. Near the place found the way to contact is a parabola over the shaft.
+Touch VirtualMachine::preciseShaftTouch(const Motion& motion, const Touch& rough) const {
+  const Capsule& shaft = shape_.capsules[*rough.capsule];
+  const double length = shaft.axis.norm();
+  const Vector3 along = shaft.axis / length;
+  ToolShape bead;
+  const auto touchAt = [&](double place) {
+    bead.ball = Ball{shaft.start + along * place, shaft.radius};
+    return firstTouch(motion, 0, 1, bead, surroundings_, {measuringPrecision});
+  };
+  const Vector3 inSpindle = motion.tableFromSpindleAt(rough.fraction).inverse() * rough.point;
+  constexpr double apart = 0.25;  // mm
+  double place = std::clamp((inSpindle - shaft.start).dot(along), 0.0, length);
+  for (int i = 0; i < 2; ++i) {
+    const auto below = touchAt(place - apart), here = touchAt(place), above = touchAt(place + apart);
+    if (!below || !here || !above) break;
+    const double bend = below->fraction - 2 * here->fraction + above->fraction;
+    if (bend * motion.profile.length() < 1e-7) break;
+    place = std::clamp(place + apart * std::clamp(0.5 * (below->fraction - above->fraction) / bend, -1.0, 1.0), 0.0,
+                       length);
+  }
+  Touch precise = touchAt(place).value_or(rough);
+  precise.capsule = rough.capsule;
+  return precise;
+}
+
+MeasureResult VirtualMachine::measure(const AxisPositions& target, Feed feed, bool shaftSignals) {
   const auto end = [&](MeasureEnd how, std::string detail) { return MeasureResult{how, reading_, std::move(detail)}; };
   if (cancelled_) return end(MeasureEnd::Cancelled, cancelledText);
   if (!tool_ || tool_->kind != ToolKind::Probe)
@@ -216,24 +255,26 @@ MeasureResult VirtualMachine::measure(const AxisPositions& target, Feed feed) {
   if (deflection_) return end(MeasureEnd::DeflectedAtStart, describe(*deflection_));
   if (auto limit = beyondTravel(target)) return end(MeasureEnd::AxisLimit, *limit);
   const Motion motion = motionTo(target, feed);
-  const auto touch = firstTouch(motion, 0, 1, shape_, surroundings_, {measuringPrecision});
+  auto touch = firstTouch(motion, 0, 1, shape_, surroundings_, {measuringPrecision});
   if (!touch) {
     advance(motion, Stop{}, PathKind::Measure);
     return end(MeasureEnd::NoContact, "the target was reached without contact");
   }
-  if (touch->capsule) {
+  const bool byShaft = touch->capsule && std::string_view(shape_.capsules[*touch->capsule].part) == shaftName;
+  if (byShaft && shaftSignals) touch = preciseShaftTouch(motion, *touch);
+  if (touch->capsule && !(byShaft && shaftSignals)) {
     advance(motion, Stop{touch, std::nullopt, touch->fraction}, PathKind::Measure);
     return end(MeasureEnd::Collision, describe(*touch));
   }
-  const Stop stop = stopFor(motion, *touch);
+  const Stop stop = signalStop(motion, *touch);
   if (stop.signal && *stop.signal > 1) {
-    // The ball leans against the surface without a signal: the way back must free it as after a touch.
+    // The stylus leans against the surface without a signal: the way back must free it as after a touch.
     advance(motion, Stop{}, PathKind::Measure);
-    deflection_ = touch;
+    if (!byShaft) deflection_ = touch;
     return end(MeasureEnd::NoContact, "the target was reached before the stylus was deflected enough for a signal");
   }
   advance(motion, stop, PathKind::Measure);
-  deflection_ = touch;
+  if (!byShaft) deflection_ = touch;
   return {MeasureEnd::Touched, motion.readingAt(stop.signal.value_or(stop.end)), describe(*touch)};
 }
 

@@ -26,7 +26,7 @@ namespace probewright::simulation {
 /// own query; otherwise the path is cut until its chords are true to 1e-7 mm when measuring and 1e-4 mm when
 /// positioning.
 ///
-/// Signal. The ball touches; the axes travel on by the pretravel, by speed times signal delay, and by a random amount
+/// Signal. The ball touches (or the shaft, where it is meant to); the axes travel on by the pretravel, by speed times signal delay, and by a random amount
 /// with the probe's repeatability; there the readings are latched. The axes brake and stop, at most 0.8 ball radii
 /// beyond the contact, and never beyond the target. If the target comes before the signal, there is none. Pretravel,
 /// delay and noise act along the path.
@@ -45,6 +45,7 @@ public:
   machine::AxisPositions position() const override { return reading_; }
   machine::MoveResult move(const machine::AxisPositions& target, machine::Feed feed) override;
   machine::MeasureResult measure(const machine::AxisPositions& target, machine::Feed feed) override;
+  machine::MeasureResult measureWithShaft(const machine::AxisPositions& target, machine::Feed feed) override;
   machine::MoveResult retract(const machine::AxisPositions& target, machine::Feed feed) override;
   bool probeDeflected() const override { return deflection_.has_value(); }
   machine::MoveResult orientSpindle(double degrees) override;
@@ -80,7 +81,10 @@ private:
   PathPoint pathPoint(const Pose& tableFromSpindle, PathKind kind, double seconds) const;
   std::optional<std::string> beyondTravel(const machine::AxisPositions& target) const;
   Motion motionTo(const machine::AxisPositions& target, machine::Feed feed) const;
+  machine::MeasureResult measure(const machine::AxisPositions& target, machine::Feed feed, bool shaftSignals);
+  Touch preciseShaftTouch(const Motion& motion, const Touch& touch) const;
   Stop stopFor(const Motion& motion, const Touch& touch);
+  Stop signalStop(const Motion& motion, const Touch& touch);
   double pretravel(const Motion& motion, const Touch& touch) const;
   void advance(const Motion& motion, const Stop& stop, PathKind kind);
   machine::MoveResult finish(const Motion& motion, std::optional<Touch> touch, PathKind kind);

@@ -8,7 +8,7 @@
 /// A SINUMERIK lathe with a probe in its turret, and programs that measure on it.
 namespace probewright::testing_support {
 
-/// The probe T1 "PROBE". Cutting edge position 8: the stylus points to -X; 7: to -Z.
+/// The probe T1 "PROBE". Cutting edge position 8: the stylus points to -X; 7: to -Z; 6: to +X; 5: to +Z.
 struct LatheProbe {
   int position = 8;
   double length = 100;  ///< from the mount to the end of the ball
@@ -23,7 +23,8 @@ inline simulation::Setup latheSetup(const LatheProbe& probe, const std::string& 
   setup.truth = perfectWorld(machine);
   simulation::TrueTool& tool = setup.truth.tools.front();
   tool = idealProbe(probe.length, probe.ballRadius);
-  tool.shankDirection = probe.position == 8 ? Vector3::UnitX() : Vector3::UnitZ();
+  tool.shankDirection = probe.position % 2 == 0 ? Vector3::UnitX() : Vector3::UnitZ();
+  if (probe.position < 7) tool.shankDirection = -tool.shankDirection;
   tool.mount = probe.mount;
   tool.probe.pretravel = probe.pretravel;
   tool.probe.axialPretravel = probe.axialPretravel;

@@ -52,8 +52,11 @@ constexpr std::array data = {
                    "_WP", 7},
     MeasuringDatum{54608, "$SNS_MEA_WP_POS_DEV_AX2", 12, 0, "mm", "positional deviation of the probe ball, second axis",
                    "_WP", 8},
-    MeasuringDatum{54609, "$SNS_MEA_WP_STATUS_RT", 12, 0, "", "calibration status of the axes", "_WP", 9},
-    MeasuringDatum{54610, "$SNS_MEA_WP_STATUS_GEN", 12, 0, "", "calibration status, general"},
+    MeasuringDatum{54609, "$SNS_MEA_WP_STATUS_RT", 12, 0, "",
+                   "calibration status: a digit for each axis from the units on, 1 minus, 2 plus, 3 both directions",
+                   "_WP", 9},
+    MeasuringDatum{54610, "$SNS_MEA_WP_STATUS_GEN", 12, 0, "",
+                   "calibration status: units plane (1 G17), tens 1 with position deviation, hundreds 1 with length"},
     MeasuringDatum{54611, "$SNS_MEA_WP_FEED", 12, 0, "mm/min", "feed at which the workpiece probe was calibrated"},
     MeasuringDatum{54615, "$SNS_MEA_CAL_EDGE_BASE_AX1", 3, 0, "mm",
                    "calibration groove: base, first axis, machine coordinates", "_KB", 2},
@@ -296,6 +299,16 @@ std::string measuringDataPage() {
     page += fmt::format("| {} | `{}{}` | {} | {} | {} | {} |\n", datum.number, datum.identifier, index, datum.initial,
                         datum.unit, datum.meaning, gud);
   }
+  page +=
+      "\n## Data of the NC that the cycles observe\n\n"
+      "| number | identifier | if absent | effect |\n|---|---|---|---|\n"
+      "| 18080 | `$MN_MM_TOOL_MANAGEMENT_MASK` | bit 8 on | bit 8: additive and setup offsets exist |\n"
+      "| 18108 | `$MN_MM_NUM_SUMCORR` | 6 | number of additive and setup offsets, DL |\n"
+      "| 18600 | `$MN_MM_FRAME_FINE_TRANS` | 1 | 0: no fine offsets, corrections are coarse |\n"
+      "| 20360 | `$MC_TOOL_PARAMETER_DEF_MASK` | 0 | length 1 of turning tools counts as a diameter: bit 0 wear, bit 1 "
+      "geometry |\n"
+      "| 28080 | `$MC_MM_NUM_USER_FRAMES` | 100 | number of settable zero offsets |\n"
+      "| 42950 | `$SC_TOOL_LENGTH_TYPE` | 0 | 2: lengths of all tools as of turning tools |\n";
   page +=
       "\n## Bits of the function masks\n\n| mask | bit | initial | meaning if 1 | name in older programs "
       "|\n|---|---|---|---|---|\n";

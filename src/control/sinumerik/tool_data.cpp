@@ -45,7 +45,7 @@ std::array<int, 3> planeAxes(WorkingPlane plane) {
 std::array<double, 3> ToolEdge::totalLength() const {
   std::array<double, 3> total = {};
   for (std::size_t i = 0; i < 3; ++i)
-    total[i] = length[i] + lengthWear[i] + adapter[i] + additive[i] + setup[i];
+    total[i] = length[i] / lengthScale[i] + lengthWear[i] / wearScale[i] + adapter[i] + additive[i] + setup[i];
   return total;
 }
 
@@ -68,6 +68,11 @@ std::optional<ToolEdge> toolEdge(const DataStore& store, int tool, int edge, int
   data.correctionAngle = dp(10);
   data.radiusWear = dp(15);
   data.identifier = dp(25);
+  if (data.isTurning() && data.type != 580) {
+    const auto mask = static_cast<unsigned>(std::clamp(store.number("$MC_TOOL_PARAMETER_DEF_MASK", {}), 0.0, 65535.0));
+    if ((mask & 1U) != 0) data.wearScale[0] = 2;
+    if ((mask & 2U) != 0) data.lengthScale[0] = 2;
+  }
   for (int i = 0; i < 3; ++i) {
     const auto component = static_cast<std::size_t>(i);
     data.length[component] = dp(3 + i);

@@ -33,6 +33,9 @@ struct ToolEdge {
   std::array<double, 3> additive = {};    ///< SCP lengths of the DL number asked for
   std::array<double, 3> setup = {};       ///< ECP lengths of the DL number asked for
   double radiusAdditive = 0, radiusSetup = 0;
+  /// 2 where the data count length 1 of a turning tool, which acts in the transverse axis, as a diameter: MD 20360
+  /// $MC_TOOL_PARAMETER_DEF_MASK, bit 0 for wear, bit 1 for geometry.
+  std::array<double, 3> wearScale = {1, 1, 1}, lengthScale = {1, 1, 1};
 
   bool isTurning() const { return type >= 500 && type < 600; }
   /// Length 1..3 as the control adds them up: geometry, wear, adapter, additive and setup offset.

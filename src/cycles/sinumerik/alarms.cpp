@@ -44,6 +44,7 @@ constexpr std::array alarms = {
     AlarmEntry{61333, "Check the calibration body number", "S_CALNUM is 1 to 3"},
     AlarmEntry{61334, "Check the protection zone", "the protection zone must lie within the feature"},
     AlarmEntry{61336, "The geometry axes are not available", "the machine lacks an axis that the variant needs"},
+    AlarmEntry{61338, "The positioning speed is 0", "enter SD 55634 and SD 55636"},
     AlarmEntry{61341, "The probe is not calibrated in the active plane", "calibrate with CYCLE976 or CYCLE973"},
     AlarmEntry{61343, "The tool does not exist", "correct S_TNAME"},
     AlarmEntry{61351, "Tool length or radius is 0", "enter the tool data"},

@@ -31,10 +31,18 @@ const Parameter& required(const Arguments& arguments, std::string_view name) {
   return *parameter;
 }
 
-const ResultDefinition* resultNamed(const CycleDefinition& definition, std::string_view name) {
-  const auto found = std::ranges::find(definition.results, name, &ResultDefinition::name);
+const ResultDefinition* resultNamed(const CycleDefinition& definition, std::string_view name, int variant) {
+  const auto found = std::ranges::find_if(definition.results, [&](const ResultDefinition& result) {
+    return result.name == name && result.belongsTo(variant);
+  });
   return found == definition.results.end() ? nullptr : &*found;
 }
+
+/// The measurement is to be made again: bit 0 of SD 54740.
+struct RepeatMeasurement {};
+
+/// The manual gives no number.
+constexpr int mostRepetitions = 4;
 
 bool scales(ValueKind kind) { return kind == ValueKind::Length || kind == ValueKind::Feed; }
 
@@ -57,14 +65,23 @@ Context::Context(Control& control, const Arguments& arguments, SourcePlace place
   record_ = control.journal.cycles.size();
   control.journal.cycles.push_back(std::move(record));
   control.journal.cycleOpen = true;
-  control.ovr.fill(0);
-  control.ovi.fill(0);
+  start_ = control.channel.position();
+  repetitionsLeft_ = maskBit(control.data, "$SNS_MEA_FUNCTION_MASK", 0) ? mostRepetitions : 0;
+  clearResults();
   const int plane = has("_DMODE") ? digit("_DMODE", 1) : 0;
   if (plane >= 1 && plane <= 3 && control.plane != 16 + plane) {
     control.plane = 16 + plane;
     control.applyFrames();
   }
   resultInteger(2, definition.number);
+}
+
+void Context::clearResults() {
+  control_.ovr.fill(0);
+  control_.ovi.fill(0);
+  control_.data.set(control::sinumerik::DataKey("_OVS_TNAME", {}), std::string());
+  record().results.clear();
+  record().verdict = Verdict::None;
 }
 
 Context::~Context() {
@@ -120,6 +137,8 @@ void Context::requireProbe(std::initializer_list<int> types) const {
   if (control_.radiusCompensation) {
     throw Alarm("61300", "Tool radius compensation is active", "program G40 before the measuring cycle");
   }
+  const probing::SinumerikHabits habits = habitsOf(control_);
+  if (habits.monitorCollisions && (habits.planeFeed <= 0 || habits.infeedFeed <= 0)) refuse(61338);
 }
 
 void Context::requireCalibration() const {
@@ -151,7 +170,7 @@ int Context::repetitions() const { return std::clamp(integer("S_NMSP"), 1, 9); }
 
 void Context::result(int index, double value, const Compared& compared) {
   const std::string name = fmt::format("_OVR[{}]", index);
-  const ResultDefinition* definition = resultNamed(arguments_.definition(), name);
+  const ResultDefinition* definition = resultNamed(arguments_.definition(), name, digit("S_MVAR", 1));
   const ValueKind kind = definition == nullptr ? ValueKind::Length : definition->kind;
   control_.ovr[static_cast<std::size_t>(index)] = scales(kind) ? value / control_.unit : value;
   control::ResultRecord record;
@@ -170,7 +189,7 @@ void Context::result(int index, double value, const Compared& compared) {
 void Context::resultInteger(int index, int value) {
   control_.ovi[static_cast<std::size_t>(index)] = value;
   const std::string name = fmt::format("_OVI[{}]", index);
-  const ResultDefinition* definition = resultNamed(arguments_.definition(), name);
+  const ResultDefinition* definition = resultNamed(arguments_.definition(), name, digit("S_MVAR", 1));
   control::ResultRecord record;
   record.name = name;
   record.meaning = definition == nullptr ? std::string_view() : definition->meaning;
@@ -178,16 +197,40 @@ void Context::resultInteger(int index, int value) {
   this->record().results.push_back(std::move(record));
 }
 
-void Context::checkSafeArea(double difference) {
-  const double limit = real("S_TSA");
+void Context::correctedTool(const std::string& name) {
+  control_.data.set(control::sinumerik::DataKey("_OVS_TNAME", {}), name);
+}
+
+void Context::checkSafeArea(double difference, double factor) {
+  const double limit = factor * real("S_TSA");
   if (std::abs(difference) > limit + 1e-9) {
     const std::string_view unit = unitOf(required(arguments_, "S_TSA").kind);
-    alarm(61303, fmt::format("difference {:.4f} {}, safe area TSA {:.4f} {}", difference, unit, limit, unit));
+    const std::string detail =
+        fmt::format("difference {:.4f} {}, safe area TSA {:.4f} {}", difference, unit, limit, unit);
+    repeatIfAsked(61303, detail);
+    alarm(61303, detail);
   }
 }
 
+void Context::repeatIfAsked(int number, const std::string& detail) {
+  if (repetitionsLeft_ == 0) return;
+  --repetitionsLeft_;
+  const std::string text = fmt::format("{}: {}; the measurement is repeated", alarmText(number), detail);
+  const bool stops = maskBit(control_.data, "$SNS_MEA_FUNCTION_MASK", 1);
+  control_.panel.message(EventKind::Warning, text, control_.channel.seconds(), stops ? std::to_string(number) : "");
+  if (stops) control_.panel.stop(text, control_.channel.seconds());
+  if (wayBack_) wayBack_();
+  wayBack_ = nullptr;
+  throw RepeatMeasurement();
+}
+
+void Context::beginAgain() {
+  prober().moveTo(control_.workingPlane().planeFromXyz(start_));
+  clearResults();
+  resultInteger(2, arguments_.definition().number);
+}
+
 void Context::alarm(int number, const std::string& detail) {
-  resultInteger(9, number);
   throw Alarm(std::to_string(number),
               detail.empty() ? std::string(alarmText(number)) : fmt::format("{}: {}", alarmText(number), detail),
               std::string(alarmAdvice(number)));
@@ -201,6 +244,10 @@ void Context::warn(int number, const std::string& detail) {
       control_.channel.seconds(), std::to_string(number));
 }
 
+void Context::stopOutOfTolerance(const std::string& text) {
+  if (maskBit(control_.data, "$SNS_MEA_FUNCTION_MASK", 2)) control_.panel.stop(text, control_.channel.seconds());
+}
+
 namespace {
 
 /// Turns the spindle with the workpiece coordinate system about the infeed axis, where setting data ask for it, so that
@@ -212,6 +259,14 @@ void followRotation(Control& control) {
   const control::WorkingPlane plane = control.workingPlane();
   const Vector3 first = plane.planeFromXyz(control.channel.frame().linear() * plane.xyzFromPlane(Vector3::UnitX()));
   control.channel.orientSpindle(degreesFromRadians(std::atan2(first.y(), first.x())));
+}
+
+/// An alarm of a move within a cycle, by the name that the cycles give it.
+Alarm asCycleAlarm(const Alarm& alarm) {
+  const auto number = parseInteger(alarm.code());
+  const std::string_view text = number ? alarmText(static_cast<int>(*number)) : std::string_view();
+  if (text.empty() || number != 61302 || alarm.text().starts_with(text)) return alarm;
+  return {alarm.code(), fmt::format("{}: {}", text, alarm.text()), alarm.advice()};
 }
 
 }  // namespace
@@ -229,10 +284,19 @@ void runCycle(Control& control, const Entry& entry, const Arguments& arguments, 
   Context context(control, arguments, place);
   try {
     followRotation(control);
-    entry.run(context, arguments);
+    for (bool done = false; !done;) {
+      try {
+        entry.run(context, arguments);
+        done = true;
+      } catch (const RepeatMeasurement&) {
+        context.beginAgain();
+      }
+    }
   } catch (const Alarm& alarm) {
-    context.record().alarm = alarm.what();
-    throw;
+    const Alarm shown = asCycleAlarm(alarm);
+    if (const auto number = parseInteger(shown.code())) context.resultInteger(9, static_cast<int>(*number));
+    context.record().alarm = shown.what();
+    throw shown;
   }
 }
 
@@ -248,9 +312,11 @@ probing::SinumerikProbe probeOfDataSet(const Control& control, int index) {
   const double feed = datum("$SNS_MEA_WP_FEED");
   probe.feed = feed > 0 ? feed : control.data.number("$SCS_MEA_FEED_MEASURE", {}, 300);
   probe.monodirectional = control.tool.type == 712;
-  probe.correctionAngle = control.tool.correctionAngle;
-  const auto mask = static_cast<long>(control.machineData("$MNS_MEA_FUNCTION_MASK", 1 << 1));
-  probe.lengthToCentre = (mask >> 1 & 1) == 0 || control.tool.type == 580;
+  probe.calibrationWatched = maskBit(control.data, "$MNS_MEA_FUNCTION_MASK", 0);
+  probe.correctionAngle = maskBit(control.data, "$MNS_MEA_FUNCTION_MASK", 3) ? control.tool.correctionAngle : 0;
+  const int type = control.tool.type;
+  probe.lengthToCentre =
+      !maskBit(control.data, "$MNS_MEA_FUNCTION_MASK", 1) || type == 580 || type == 713 || type == 714;
   return probe;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -77,19 +78,39 @@ public:
   /// Sets _OVI[index] and records it.
   void resultInteger(int index, int value);
 
-  /// Alarm 61303 if `difference` exceeds the safe area S_TSA.
-  void checkSafeArea(double difference);
+  /// Sets _OVS_TNAME, the name of the tool that was corrected.
+  void correctedTool(const std::string& name);
 
-  /// The alarm with its number and the control's text. Sets _OVI[9].
+  /// Alarm 61303 if `difference` exceeds the safe area, `factor` times S_TSA.
+  void checkSafeArea(double difference, double factor = 1);
+
+  /// Where the machine repeats measurements (bit 0 of SD 54740), drops what was measured and begins the cycle again, at
+  /// most four times; with bit 1 only after a message with the alarm's number and NC start. Nothing may have been
+  /// corrected yet.
+  void repeatIfAsked(int number, const std::string& detail);
+  /// How the probe gets clear of the workpiece before a repetition; then it goes straight to where the cycle started.
+  /// Called by repeatIfAsked, or never.
+  void setWayBack(std::function<void()> way) { wayBack_ = std::move(way); }
+  /// Ready for the repetition.
+  void beginAgain();
+
+  /// The alarm with its number and the control's text. Every alarm that ends a cycle sets _OVI[9].
   [[noreturn]] void alarm(int number, const std::string& detail = {});
   /// A message that lets the program go on: oversize, undersize. Sets _OVI[9].
   void warn(int number, const std::string& detail = {});
+  /// Waits for NC start where the machine stops for exceeded tolerances (bit 2 of SD 54740).
+  void stopOutOfTolerance(const std::string& text);
 
 private:
+  void clearResults();
+
   Control& control_;
   const Arguments& arguments_;
   std::size_t record_ = 0;
   int planeBefore_ = 17;
+  Vector3 start_ = Vector3::Zero();
+  int repetitionsLeft_ = 0;
+  std::function<void()> wayBack_;
   std::optional<probing::SinumerikProber> prober_;
 };
 

@@ -62,6 +62,7 @@ const CycleDefinition cycle974Definition = {
 
 void cycle974(Context& context, const Arguments&) {
   requireTurningProbe(context);
+  requireUnturned(context);
   const int units = context.digit("S_MVAR", 1);
   const int reversal = context.digit("S_MVAR", 5);
   if (units > 2 || reversal > 1) context.alarm(61307);

@@ -42,22 +42,53 @@ constexpr Parameter parameters977[] = {
     parameters::tolerance(26),
 };
 
+/// The measuring variants by the units of S_MVAR.
+constexpr std::uint16_t hole = 1 << 1, spigot = 1 << 2, groove = 1 << 3, rib = 1 << 4, rectangles = 1 << 5 | 1 << 6;
+constexpr std::uint16_t centred = hole | spigot | groove | rib;
+constexpr ValueKind mm = ValueKind::Length;
+
 constexpr auto results977 = parameters::joined(
-    std::array<ResultDefinition, 14>{{{"_OVR[0]", "set value: diameter, width, length in the 1st axis"},
-                                      {"_OVR[1]", "set value: centre, 1st axis; of a rectangle: length, 2nd axis"},
-                                      {"_OVR[2]", "set value: centre, 2nd axis; of a rectangle: centre, 1st axis"},
-                                      {"_OVR[3]", "set value of a rectangle: centre, 2nd axis"},
-                                      {"_OVR[4]", "actual value: diameter, width, length in the 1st axis"},
-                                      {"_OVR[5]", "actual value: centre, 1st axis; of a rectangle: length, 2nd axis"},
-                                      {"_OVR[6]", "actual value: centre, 2nd axis; of a rectangle: centre, 1st axis"},
-                                      {"_OVR[7]", "actual value of a rectangle: centre, 2nd axis"},
-                                      {"_OVR[9]", "upper tolerance limit of a rectangle's length in the 2nd axis"},
-                                      {"_OVR[13]", "lower tolerance limit of a rectangle's length in the 2nd axis"},
-                                      {"_OVR[16]", "difference: diameter, width, length in the 1st axis"},
-                                      {"_OVR[17]", "difference: centre, 1st axis; of a rectangle: length, 2nd axis"},
-                                      {"_OVR[18]", "difference: centre, 2nd axis; of a rectangle: centre, 1st axis"},
-                                      {"_OVR[19]", "difference of a rectangle: centre, 2nd axis"}}},
-    parameters::correctionResults);
+    std::array<ResultDefinition, 38>{{
+        {"_OVR[0]", "set value: diameter of the hole", mm, hole},
+        {"_OVR[0]", "set value: diameter of the spigot", mm, spigot},
+        {"_OVR[0]", "set value: width of the groove", mm, groove},
+        {"_OVR[0]", "set value: width of the rib", mm, rib},
+        {"_OVR[0]", "set value: length of the rectangle in the 1st axis", mm, rectangles},
+        {"_OVR[1]", "set value: centre, 1st axis", mm, centred},
+        {"_OVR[1]", "set value: length of the rectangle in the 2nd axis", mm, rectangles},
+        {"_OVR[2]", "set value: centre, 2nd axis", mm, centred},
+        {"_OVR[2]", "set value: centre of the rectangle, 1st axis", mm, rectangles},
+        {"_OVR[3]", "set value: centre of the rectangle, 2nd axis", mm, rectangles},
+        {"_OVR[4]", "actual value: diameter of the hole", mm, hole},
+        {"_OVR[4]", "actual value: diameter of the spigot", mm, spigot},
+        {"_OVR[4]", "actual value: width of the groove", mm, groove},
+        {"_OVR[4]", "actual value: width of the rib", mm, rib},
+        {"_OVR[4]", "actual value: length of the rectangle in the 1st axis", mm, rectangles},
+        {"_OVR[5]", "actual value: centre, 1st axis", mm, centred},
+        {"_OVR[5]", "actual value: length of the rectangle in the 2nd axis", mm, rectangles},
+        {"_OVR[6]", "actual value: centre, 2nd axis", mm, centred},
+        {"_OVR[6]", "actual value: centre of the rectangle, 1st axis", mm, rectangles},
+        {"_OVR[7]", "actual value: centre of the rectangle, 2nd axis", mm, rectangles},
+        {"_OVR[8]", "upper tolerance limit of the diameter", mm, hole | spigot},
+        {"_OVR[8]", "upper tolerance limit of the width", mm, groove | rib},
+        {"_OVR[8]", "upper tolerance limit of the rectangle's length in the 1st axis", mm, rectangles},
+        {"_OVR[9]", "upper tolerance limit of the rectangle's length in the 2nd axis", mm, rectangles},
+        {"_OVR[12]", "lower tolerance limit of the diameter", mm, hole | spigot},
+        {"_OVR[12]", "lower tolerance limit of the width", mm, groove | rib},
+        {"_OVR[12]", "lower tolerance limit of the rectangle's length in the 1st axis", mm, rectangles},
+        {"_OVR[13]", "lower tolerance limit of the rectangle's length in the 2nd axis", mm, rectangles},
+        {"_OVR[16]", "difference: diameter of the hole", mm, hole},
+        {"_OVR[16]", "difference: diameter of the spigot", mm, spigot},
+        {"_OVR[16]", "difference: width of the groove", mm, groove},
+        {"_OVR[16]", "difference: width of the rib", mm, rib},
+        {"_OVR[16]", "difference: length of the rectangle in the 1st axis", mm, rectangles},
+        {"_OVR[17]", "difference: centre, 1st axis", mm, centred},
+        {"_OVR[17]", "difference: length of the rectangle in the 2nd axis", mm, rectangles},
+        {"_OVR[18]", "difference: centre, 2nd axis", mm, centred},
+        {"_OVR[18]", "difference: centre of the rectangle, 1st axis", mm, rectangles},
+        {"_OVR[19]", "difference: centre of the rectangle, 2nd axis", mm, rectangles},
+    }},
+    parameters::correctionResultsWithoutLimits);
 
 enum class Feature { Hole = 1, Spigot, Groove, Rib, Pocket, RectangularSpigot };
 

@@ -97,6 +97,7 @@ void cycle979(Context& context, const Arguments&) {
     ballCentres.push_back((surface - touch.direction * prober.ballRadius()).head<2>());
   }
   toucher.finish();
+  context.setWayBack([&] { prober.moveOnArc(setCentre, -step * (count - 1)); });
 
   const auto fit = metrology::fitCircle(ballCentres);
   if (!fit) context.alarm(61316, fit.error().message);

@@ -92,10 +92,10 @@ public:
         .surface[axis_];
   }
 
-  /// From above the centre to below it.
-  void cross() {
+  /// From above the centre to below it, or with `side` -1 back again.
+  void cross(double side = 1) {
     if (!passesBy()) return;
-    const double above = std::abs(startAt(1)), below = std::abs(startAt(-1));
+    const double here = std::abs(startAt(side)), there = std::abs(startAt(-side));
     probing::SinumerikProber& prober = context_.prober();
     const auto go = [&](int axis, double to) {
       Vector3 target = prober.position();
@@ -103,9 +103,9 @@ public:
       prober.moveTo(target);
     };
     const double height = prober.position()[bypass_];
-    go(axis_, std::max(above, zone_));
+    go(axis_, side * std::max(here, zone_));
     go(bypass_, height + way_);
-    go(axis_, -std::max(below, zone_));
+    go(axis_, -side * std::max(there, zone_));
     go(bypass_, height);
   }
 
@@ -162,6 +162,7 @@ const CycleDefinition cycle994Definition = {
 
 void cycle994(Context& context, const Arguments&) {
   requireTurningProbe(context);
+  requireUnturned(context);
   const int units = context.digit("S_MVAR", 1);
   if (units < 1 || units > 2 || context.digit("S_MVAR", 4) > 3) context.alarm(61307);
   const auto feature = static_cast<TurnedFeature>(units);
@@ -187,6 +188,7 @@ void cycle994(Context& context, const Arguments&) {
   points.cross();
   const double below = points.touch(-1);
   const double actual = (above - below) / 2 * count;
+  context.setWayBack([&] { points.cross(-1); });
   concludeTurned(context, task, feature, {.axis = axis, .count = count, .set = set, .actual = actual}, inside ? 1 : -1);
 }
 

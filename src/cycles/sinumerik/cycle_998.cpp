@@ -38,17 +38,23 @@ constexpr Parameter parameters998[] = {
     parameters::alternative(19),
 };
 
+/// The measuring variants by the units of S_MVAR.
+constexpr std::uint16_t edge = 1 << 5, face = 1 << 6;
+
 constexpr ResultDefinition results998[] = {
-    {"_OVR[0]", "set angle; of a plane: about the 1st axis", ValueKind::Angle},
-    {"_OVR[1]", "set angle of a plane about the 2nd axis", ValueKind::Angle},
-    {"_OVR[4]", "actual angle; of a plane: about the 1st axis", ValueKind::Angle},
-    {"_OVR[5]", "actual angle of a plane about the 2nd axis", ValueKind::Angle},
-    {"_OVR[16]", "difference of the angle; of a plane: about the 1st axis", ValueKind::Angle},
-    {"_OVR[17]", "difference of a plane's angle about the 2nd axis", ValueKind::Angle},
+    {"_OVR[0]", "set angle of the edge", ValueKind::Angle, edge},
+    {"_OVR[0]", "set angle of the plane about the 1st axis", ValueKind::Angle, face},
+    {"_OVR[1]", "set angle of the plane about the 2nd axis", ValueKind::Angle, face},
+    {"_OVR[4]", "actual angle of the edge", ValueKind::Angle, edge},
+    {"_OVR[4]", "actual angle of the plane about the 1st axis", ValueKind::Angle, face},
+    {"_OVR[5]", "actual angle of the plane about the 2nd axis", ValueKind::Angle, face},
+    {"_OVR[16]", "difference of the angle of the edge", ValueKind::Angle, edge},
+    {"_OVR[16]", "difference of the plane's angle about the 1st axis", ValueKind::Angle, face},
+    {"_OVR[17]", "difference of the plane's angle about the 2nd axis", ValueKind::Angle, face},
     {"_OVR[20]", "correction angle", ValueKind::Angle},
-    {"_OVR[21]", "correction angle of a plane about the 1st axis", ValueKind::Angle},
-    {"_OVR[22]", "correction angle of a plane about the 2nd axis", ValueKind::Angle},
-    {"_OVR[23]", "correction angle of a plane about the 3rd axis", ValueKind::Angle},
+    {"_OVR[21]", "correction angle of the plane about the 1st axis", ValueKind::Angle, face},
+    {"_OVR[22]", "correction angle of the plane about the 2nd axis", ValueKind::Angle, face},
+    {"_OVR[23]", "correction angle of the plane about the 3rd axis", ValueKind::Angle, face},
     {"_OVR[28]", "safe area", ValueKind::Angle},
     {"_OVR[30]", "empirical value", ValueKind::Angle},
     {"_OVI[0]", "number of the zero offset", ValueKind::Integer},
@@ -97,6 +103,9 @@ public:
     leave(Vector3::Zero());
     context_.prober().moveTo(home_ + infeedVector());
   }
+
+  /// With a protection zone: above where the cycle started.
+  void leave() { leave(Vector3::Zero()); }
 
 private:
   Vector3 infeedVector() const { return direction_.cwiseAbs() * infeed_; }
@@ -164,6 +173,7 @@ void measureEdge(Context& context, const std::optional<FrameTarget>& target, Met
           ? steps.beside(along * distance)
           : steps.along(first, along * distance, sense * distance * tangent(set), context.real("S_TSA"));
   toucher.finish();
+  context.setWayBack([&] { steps.leave(); });
 
   const double empirical = target ? empiricalValue(context) : 0;
   const double actual = degreesFromRadians(sense * std::atan2(across.dot(second - first), along.dot(second - first)));
@@ -216,6 +226,7 @@ void measurePlane(Context& context, const std::optional<FrameTarget>& target, Me
     steps.back();
     third = steps.along(first, toThird, riseOf(toThird), context.real("S_TSA"));
   }
+  context.setWayBack([&] { steps.leave(); });
 
   const double empirical = target ? empiricalValue(context) : 0;
   const Vector3 normal = (second - first).cross(third - first).normalized();

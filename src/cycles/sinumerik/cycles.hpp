@@ -13,6 +13,7 @@ extern const CycleDefinition cycle977Definition;
 extern const CycleDefinition cycle978Definition;
 extern const CycleDefinition cycle979Definition;
 extern const CycleDefinition cycle994Definition;
+extern const CycleDefinition cycle995Definition;
 extern const CycleDefinition cycle997Definition;
 extern const CycleDefinition cycle998Definition;
 
@@ -24,6 +25,7 @@ void cycle977(Context& context, const Arguments& arguments);
 void cycle978(Context& context, const Arguments& arguments);
 void cycle979(Context& context, const Arguments& arguments);
 void cycle994(Context& context, const Arguments& arguments);
+void cycle995(Context& context, const Arguments& arguments);
 void cycle997(Context& context, const Arguments& arguments);
 void cycle998(Context& context, const Arguments& arguments);
 

@@ -107,10 +107,20 @@ constexpr Parameter tolerance(std::uint32_t address) {
 }
 constexpr Parameter alternative(std::uint32_t address) { return code(address, "_AMODE", "reserved"); }
 
+/// The two lists one after the other.
+template <std::size_t A, std::size_t B>
+constexpr std::array<ResultDefinition, A + B> joined(const std::array<ResultDefinition, A>& first,
+                                                     const std::array<ResultDefinition, B>& second) {
+  std::array<ResultDefinition, A + B> all = {};
+  for (std::size_t i = 0; i < A; ++i)
+    all[i] = first[i];
+  for (std::size_t i = 0; i < B; ++i)
+    all[A + i] = second[i];
+  return all;
+}
+
 /// What cycles with tool or zero offset correction leave besides their own results.
-inline constexpr std::array<ResultDefinition, 19> correctionResults = {{
-    {"_OVR[8]", "upper tolerance limit, from the middle of the tolerance"},
-    {"_OVR[12]", "lower tolerance limit, from the middle of the tolerance"},
+inline constexpr std::array<ResultDefinition, 18> correctionResultsWithoutLimits = {{
     {"_OVR[20]", "correction value of the tool"},
     {"_OVR[27]", "zero offset range"},
     {"_OVR[28]", "safe area"},
@@ -128,18 +138,13 @@ inline constexpr std::array<ResultDefinition, 19> correctionResults = {{
     {"_OVI[9]", "number of the alarm or message", ValueKind::Integer},
     {"_OVI[13]", "DL number", ValueKind::Integer},
     {"_OVI[11]", "1: a zero offset was corrected", ValueKind::Integer},
+    {"_OVS_TNAME", "name of the corrected tool", ValueKind::Text},
 }};
 
-/// The two lists one after the other.
-template <std::size_t A, std::size_t B>
-constexpr std::array<ResultDefinition, A + B> joined(const std::array<ResultDefinition, A>& first,
-                                                     const std::array<ResultDefinition, B>& second) {
-  std::array<ResultDefinition, A + B> all = {};
-  for (std::size_t i = 0; i < A; ++i)
-    all[i] = first[i];
-  for (std::size_t i = 0; i < B; ++i)
-    all[A + i] = second[i];
-  return all;
-}
+/// The same with the limits of a tolerance of one dimension.
+inline constexpr auto correctionResults =
+    joined(std::array<ResultDefinition, 2>{{{"_OVR[8]", "upper tolerance limit, from the middle of the tolerance"},
+                                            {"_OVR[12]", "lower tolerance limit, from the middle of the tolerance"}}},
+           correctionResultsWithoutLimits);
 
 }  // namespace probewright::cycles::sinumerik::parameters

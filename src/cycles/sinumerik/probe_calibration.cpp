@@ -43,12 +43,18 @@ Vector3 ProbeCalibration::touch(const Vector3& setpoint, const Vector3& directio
 }
 
 void ProbeCalibration::setTrigger(int axis, double sign, double value) {
+  // Data sets count in the directions of the machine.
+  if (context_.prober().mirrored(axis)) {
+    sign = -sign;
+    value = -value;
+  }
   changes_.push_back({triggerName(axis, sign), 8 + 4 * axis + (sign < 0 ? 0 : 2), value, true});
 }
 
 void ProbeCalibration::setBallDiameter(double value) { changes_.push_back({ballDiameterName, 4, value, true}); }
 
 void ProbeCalibration::setDeviation(int axis, double value) {
+  if (context_.prober().mirrored(axis)) value = -value;
   changes_.push_back({fmt::format("$SNS_MEA_WP_POS_DEV_AX{}", axis + 1), 20 + axis, value, false});
 }
 
@@ -62,13 +68,17 @@ void ProbeCalibration::completeAxis(int axis, bool deviation) {
   const double plus = trigger(axis, 1), minus = trigger(axis, -1);
   if (plus != 0 && minus != 0) {
     setBallDiameter(plus - minus);
-    if (deviation) setDeviation(axis, (plus + minus) / 2);
+    if (deviation) {
+      changes_.push_back({fmt::format("$SNS_MEA_WP_POS_DEV_AX{}", axis + 1), 20 + axis, (plus + minus) / 2, false});
+    }
   } else {
     setBallDiameter(2 * std::abs(plus + minus));
   }
 }
 
-void ProbeCalibration::correctLength(int axis, double amount) { lengths_.emplace_back(axis, amount); }
+void ProbeCalibration::correctLength(int axis, double amount) {
+  lengths_.emplace_back(axis, context_.prober().mirrored(axis) ? -amount : amount);
+}
 
 void ProbeCalibration::store() {
   Control& control = context_.control();
@@ -94,6 +104,7 @@ void ProbeCalibration::store() {
     }
   }
   control.write(DataKey("$SNS_MEA_WP_FEED", {dataSet_}), feed_);
+  noteStatus();
   for (const auto& [axis, amount] : lengths_) {
     const auto edge = toolEdge(control.data, control.tool.number, control.tool.edge);
     const auto axes = lengthAxes(planeOf(control), edge.value_or(control::sinumerik::ToolEdge{}));
@@ -104,6 +115,18 @@ void ProbeCalibration::store() {
     context_.result(22, control.data.number(key));
   }
   control.refreshTool();
+}
+
+void ProbeCalibration::noteStatus() {
+  Control& control = context_.control();
+  int axes = 0;
+  for (int axis = 2; axis >= 0; --axis)
+    axes = 10 * axes + (trigger(axis, -1) != 0 ? 1 : 0) + (trigger(axis, 1) != 0 ? 2 : 0);
+  const bool deviation = std::ranges::any_of(
+      changes_, [](const Change& change) { return change.name.starts_with("$SNS_MEA_WP_POS_DEV"); });
+  const int general = (control.plane - 16) + (deviation ? 10 : 0) + (lengths_.empty() ? 0 : 100);
+  control.write(DataKey("$SNS_MEA_WP_STATUS_RT", {dataSet_}), axes);
+  control.write(DataKey("$SNS_MEA_WP_STATUS_GEN", {dataSet_}), general);
 }
 
 }  // namespace probewright::cycles::sinumerik

@@ -65,6 +65,9 @@ public:
 
 private:
   double trigger(int axis, double sign) const;
+  /// What is calibrated, into SD 54609 and 54610: a digit for each axis of the plane from the units on (1 minus, 2
+  /// plus, 3 both directions); units the plane (1 G17), tens 1 with position deviation, hundreds 1 with the length.
+  void noteStatus();
 
   struct Change {
     std::string name;

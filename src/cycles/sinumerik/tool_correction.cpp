@@ -72,7 +72,9 @@ std::optional<ToolTarget> toolTarget(Context& context) {
   const bool needsDl = target.memory != Memory::Wear && target.memory != Memory::Geometry;
   if (needsDl) {
     target.dl = context.integer("S_DLNUM");
-    const int most = static_cast<int>(context.control().machineData("$MN_MM_NUM_SUMCORR", 6));
+    const bool setUp = !context.control().data.isSet(DataKey("$MN_MM_TOOL_MANAGEMENT_MASK", {})) ||
+                       maskBit(context.control().data, "$MN_MM_TOOL_MANAGEMENT_MASK", 8);
+    const int most = setUp ? static_cast<int>(context.control().machineData("$MN_MM_NUM_SUMCORR", 6)) : 0;
     if (target.dl < 1 || target.dl > std::min(6, most)) {
       context.alarm(
           61319, fmt::format("S_DLNUM = {}: additive and setup offsets have DL 1 to {}", target.dl, std::min(6, most)));
@@ -101,7 +103,10 @@ void addTo(Context& context, const ToolTarget& target, const std::string& name, 
   context.control().write(key, context.control().data.number(key) + amount);
 }
 
-void writeCorrection(Context& context, const ToolTarget& target, int component, double amount) {
+void writeCorrection(Context& context, const ToolTarget& target, const ToolEdge& edge, int component, double amount) {
+  const auto index = static_cast<std::size_t>(component);
+  if (target.memory == Memory::Wear && component < 3) amount *= edge.wearScale[index];
+  if (target.memory == Memory::Geometry && component < 3) amount *= edge.lengthScale[index];
   const auto dp = [component](int firstLength, int radius) {
     return fmt::format("$TC_DP{}", component == 3 ? radius : firstLength + component);
   };
@@ -133,17 +138,18 @@ void writeCorrection(Context& context, const ToolTarget& target, int component, 
 
 bool usesTolerance(const Context& context) { return context.digit("_AMODE", 1) == 1; }
 
+/// How many empirical or mean values the machine keeps.
+int memoriesOf(const Context& context, std::string_view count) {
+  return std::clamp(static_cast<int>(context.control().machineData(count, 20)), 0, 20);
+}
+
 /// The memory of the mean that S_EVNUM selects, 1 to 20; 0: none.
 int meanMemory(Context& context) {
   const int number = context.integer("S_EVNUM") / 10000;
-  if (number < 0 || number > 20) context.alarm(61319, fmt::format("S_EVNUM = {}", context.integer("S_EVNUM")));
-  return number;
-}
-
-void stopIfAsked(Context& context, const std::string& text) {
-  if (maskBit(context.control().data, "$SNS_MEA_FUNCTION_MASK", 2)) {
-    context.control().panel.stop(text, context.channel().seconds());
+  if (number < 0 || number > memoriesOf(context, "$SCS_MEA_AVERAGE_VALUE_NUM")) {
+    context.alarm(61319, fmt::format("S_EVNUM = {}", context.integer("S_EVNUM")));
   }
+  return number;
 }
 
 }  // namespace
@@ -191,7 +197,9 @@ Compared comparedSize(Context& context, Task task, double set, double actual, Si
 
 double empiricalValue(Context& context) {
   const int number = context.integer("S_EVNUM") % 10000;
-  if (number < 0 || number > 20) context.alarm(61319, fmt::format("S_EVNUM = {}", context.integer("S_EVNUM")));
+  if (number < 0 || number > memoriesOf(context, "$SCS_MEA_EMPIRIC_VALUE_NUM")) {
+    context.alarm(61319, fmt::format("S_EVNUM = {}", context.integer("S_EVNUM")));
+  }
   return number == 0 ? 0 : context.control().data.number("$SCS_MEA_EMPIRIC_VALUE", {number - 1});
 }
 
@@ -222,8 +230,12 @@ void correctTool(Context& context, std::span<const Dimension> dimensions, const 
   for (const Dimension& dimension : dimensions) {
     const double difference = dimension.actual - dimension.set - empirical;
     sum += difference;
+    wornOut = wornOut || decideCorrection(difference, bands, std::nullopt).toolWornOut;
+  }
+  if (wornOut) context.repeatIfAsked(61306, fmt::format("S_TDIF = {:.4f} mm", bands.dimensionalDifference));
+  for (const Dimension& dimension : dimensions) {
+    const double difference = dimension.actual - dimension.set - empirical;
     const CorrectionDecision single = decideCorrection(difference, bands, std::nullopt);
-    wornOut = wornOut || single.toolWornOut;
     if (tolerance) {
       context.result(dimension.upperResult, halfTolerance);
       context.result(dimension.lowerResult, -halfTolerance);
@@ -234,12 +246,13 @@ void correctTool(Context& context, std::span<const Dimension> dimensions, const 
     if (single.size == CorrectionDecision::Size::Under) {
       context.warn(61305, fmt::format("{:.4f} mm below the middle of the tolerance", -difference));
     }
-    if (single.size != CorrectionDecision::Size::Within) stopIfAsked(context, "The workpiece is out of tolerance");
+    if (single.size != CorrectionDecision::Size::Within)
+      context.stopOutOfTolerance("The workpiece is out of tolerance");
   }
   CorrectionDecision decision = decideCorrection(sum / static_cast<double>(dimensions.size()), bands, mean);
   if (wornOut) {
     context.warn(61306, fmt::format("S_TDIF = {:.4f} mm", bands.dimensionalDifference));
-    stopIfAsked(context, "The permissible dimensional difference is exceeded");
+    context.stopOutOfTolerance("The permissible dimensional difference is exceeded");
     decision = {};
     if (mean) decision.mean = mean->old;
   }
@@ -250,7 +263,7 @@ void correctTool(Context& context, std::span<const Dimension> dimensions, const 
     const int component = componentIndex(context, *target, edge, influence);
     written = decision.correction * (component == 3 ? influence.radius : influence.length);
     if (target->inverted) written = -written;
-    writeCorrection(context, *target, component, written);
+    writeCorrection(context, *target, edge, component, written);
   }
   if (memory != 0 && decision.mean) {
     const DataKey key("$SCS_MEA_AVERAGE_VALUE", {memory - 1});
@@ -269,6 +282,7 @@ void correctTool(Context& context, std::span<const Dimension> dimensions, const 
   context.resultInteger(7, context.integer("S_EVNUM") % 10000);
   context.resultInteger(8, target->tool);
   context.resultInteger(13, target->dl);
+  context.correctedTool(toolName(control.data, target->tool));
 }
 
 }  // namespace probewright::cycles::sinumerik

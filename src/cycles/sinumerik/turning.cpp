@@ -28,6 +28,13 @@ void requireTurningProbe(Context& context) {
   if (position < 5 || position > 8) context.alarm(61315, fmt::format("$TC_DP2 = {}, 5 to 8 are possible", position));
 }
 
+void requireUnturned(Context& context) {
+  const Matrix3 turned = context.control().machineFromWorkpiece().linear();
+  if ((turned.cwiseAbs() - Matrix3::Identity()).norm() > 1e-9) {
+    context.alarm(61330, "turned parts are measured along the axes of the machine");
+  }
+}
+
 int turningAxis(Context& context, int code, bool needsRelease) {
   if (code < 1 || code > 3) context.alarm(61325, fmt::format("axis {} of S_MA: 1 to 3 are possible", code));
   const auto plane = context.control().workingPlane();
@@ -44,7 +51,8 @@ void requireTrigger(Context& context, int axis, double sign) {
   if (!maskBit(context.control().data, "$MNS_MEA_FUNCTION_MASK", 0)) return;
   const probing::SinumerikProbe& probe = context.prober().probe();
   const auto index = static_cast<std::size_t>(axis);
-  if ((sign > 0 ? probe.triggerPlus : probe.triggerMinus)[index] != 0) return;
+  const bool plus = (sign > 0) != context.prober().mirrored(axis);
+  if ((plus ? probe.triggerPlus : probe.triggerMinus)[index] != 0) return;
   context.alarm(61341, fmt::format("data set {} has no trigger point for the {} direction of axis {} of the plane",
                                    context.dataSet() + 1, sign > 0 ? "plus" : "minus", axis + 1));
 }
@@ -94,6 +102,8 @@ void concludeTurned(Context& context, Task task, TurnedFeature feature, const Tu
   influence.radiusFromAxis = true;
   influence.radius /= dimension.count;
   influence.length /= dimension.count;
+  // In the counter-spindle the workpiece system is mirrored, the tool is not.
+  if (context.prober().mirrored(axis == 2 ? 1 : axis)) influence.length = -influence.length;
   const Dimension dimensions[] = {{.set = dimension.set, .actual = dimension.actual}};
   correctTool(context, dimensions, influence);
 }

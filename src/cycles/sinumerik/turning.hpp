@@ -11,6 +11,9 @@ namespace probewright::cycles::sinumerik {
 /// not one of 5 to 8 (61315).
 void requireTurningProbe(Context& context);
 
+/// Refuses to measure in a workpiece system that is turned against the axes: alarm 61330.
+void requireUnturned(Context& context);
+
 /// Axis `code` (1, 2, 3) as an index. Alarm 61325 for another number; 61336 for the 3rd axis of the plane unless the
 /// machine has it and, with `needsRelease`, MD 52740 bit 1 lets turning cycles use it.
 int turningAxis(Context& context, int code, bool needsRelease = true);

@@ -1,0 +1,166 @@
+#include <algorithm>
+
+#include "support/sinumerik_bench.hpp"
+
+/// Which kind of probe measures what, and how each is led.
+namespace probewright {
+namespace {
+
+using namespace testing_support;
+
+constexpr double table = -350;
+
+simulation::Truth hole() {
+  simulation::Truth truth = perfectWorld();
+  place(truth, simulation::Ring(20, 45, -60), translation({0, 0, table}));
+  return truth;
+}
+
+TEST(ProbeKinds, EachCycleTakesTheKindsThatCanDoItsWork) {
+  const struct {
+    const char* name;
+    NamedNumbers call;
+    std::vector<int> types;
+  } cases[] = {
+      {"CYCLE977", {{"S_MVAR", 1}, {"S_SETV", 40}}, {710, 712, 714, 580}},
+      {"CYCLE977", {{"S_MVAR", 3}, {"S_SETV", 40}, {"S_MA", 1}}, {710, 712, 580}},
+      {"CYCLE978", {{"S_SETV", 20}, {"S_MA", 1}, {"S_MD", 1}}, {710, 712, 713, 580}},
+      {"CYCLE979", {{"S_MVAR", 1}, {"S_SETV", 40}, {"S_INCA", 90}}, {710, 712, 580}},
+      {"CYCLE976", {{"S_MVAR", 1}, {"S_SETV", 40}}, {710, 712, 713, 714, 580}},
+      {"CYCLE998", {{"S_MVAR", 100005}, {"S_MA", 201}, {"S_MD", 1}, {"S_ID", 2}, {"S_SETV", 20}}, {710, 712, 580}},
+  };
+  for (const auto& [name, call, types] : cases) {
+    for (const int type : {710, 712, 713, 714, 580, 120, 725}) {
+      SinumerikBench bench(hole());
+      plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
+      bench.set("$TC_DP1", {1, 1}, type);
+      bench.set("$TC_DP2", {1, 1}, 7);
+      bench.start({0, 0, -10});
+      const bool refused = bench.alarmOf(name, with({{"S_FA", 5}, {"S_TSA", 30}}, call)) == "61309";
+      EXPECT_EQ(refused, std::ranges::find(types, type) == types.end()) << name << " with type " << type;
+    }
+  }
+}
+
+TEST(ProbeKinds, AMonodirectionalProbeTurnsIntoEachTouch) {
+  // Its ball lies off the axis towards the side that switches; wherever it is turned, that side meets the surface.
+  Planter plant(712);
+  for (int world = 0; world < 24; ++world) {
+    const double angle = plant.number(0, 359.9), aside = plant.number(0.05, 0.4);
+    simulation::Truth truth = perfectWorld();
+    truth.tools[0].probe.tipOffset = {aside * std::cos(radiansFromDegrees(-angle)),
+                                      aside * std::sin(radiansFromDegrees(-angle))};
+    const Vector3 error(plant.number(-1, 1), plant.number(-1, 1), 0);
+    const double turn = plant.number(-40, 40);
+    const Pose part = translation({0, 0, table}) * rotation(Vector3::UnitZ(), turn) * translation(error);
+    const bool edge = world % 2 == 0;
+    if (edge) {
+      place(truth, simulation::Box({0, 0, -60}, {80, 80, 0}), part);
+    } else {
+      place(truth, simulation::RoundBar(22, -60, 0), part);
+    }
+    SinumerikBench bench(truth);
+    plantFrame(bench, "$P_UIFR", 1, {0, 0, table}, {0, 0, turn});
+    bench.set("$TC_DP1", {1, 1}, 712);
+    bench.set("$TC_DP10", {1, 1}, angle);
+    for (const char* trigger : {"$SNS_MEA_WP_TRIG_PLUS_DIR_AX1", "$SNS_MEA_WP_TRIG_PLUS_DIR_AX2"})
+      bench.set(trigger, {0}, 2 + aside);
+    for (const char* trigger : {"$SNS_MEA_WP_TRIG_MINUS_DIR_AX1", "$SNS_MEA_WP_TRIG_MINUS_DIR_AX2"})
+      bench.set(trigger, {0}, -2 - aside);
+    bench.set("$SNS_MEA_WP_BALL_DIAM", {0}, 4 + 2 * aside);
+    if (edge) {
+      const int axis = world % 4 / 2;
+      bench.start(axis == 0 ? Vector3(-12, 20, -10) : Vector3(20, -12, -10));
+      bench.run("CYCLE978",
+                {{"S_MVAR", 100}, {"S_KNUM", 1}, {"S_FA", 7}, {"S_TSA", 3}, {"S_MA", axis + 1.0}, {"S_MD", 1}});
+      EXPECT_NEAR(bench.ovr(4), error[axis], 1e-9) << world;
+    } else {
+      bench.start({0, 0, 10});
+      bench.run("CYCLE977",
+                {{"S_MVAR", 102}, {"S_KNUM", 1}, {"S_SETV", 44.2}, {"S_FA", 5}, {"S_TSA", 3}, {"S_ID", -20}});
+      EXPECT_NEAR(bench.ovr(4), 44, 1e-7) << world;
+      EXPECT_NEAR(inWorkpiece(bench, part.translation()).head<2>().norm(), 0, 1e-7) << world;
+    }
+  }
+}
+
+TEST(ProbeKinds, AnLShapedProbePullsAgainstAnOverhang) {
+  // A plate 20 mm thick over the probe's ball, which sits at the end of an arm of 30 mm.
+  Planter plant(713);
+  for (int world = 0; world < 10; ++world) {
+    const double under = plant.number(-41, -39), reference = plant.number(-41, -39);
+    simulation::Truth truth = perfectWorld();
+    simulation::TrueTool& tool = truth.tools[0];
+    tool.length = 150;
+    tool.probe.stylusLength = 90;
+    tool.probe.tipOffset = {30, 0};
+    tool.probe.axialPretravel = plant.number(0, 0.02);
+    place(truth, simulation::Box({10, -30, under}, {60, 30, -20}), translation({0, 0, table}));
+    place(truth, simulation::Box({110, -30, reference}, {160, 30, -20}), translation({0, 0, table}));
+    SinumerikBench bench(truth);
+    plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
+    bench.set("$TC_DP1", {1, 1}, 713);
+    bench.set("$TC_DP3", {1, 1}, 148);  // to the equator of the ball
+    bench.set("$TC_DP6", {1, 1}, 30);
+    bench.set("$TC_DP7", {1, 1}, 2);
+    // The ball goes below the plate from the side: the arm reaches 30 mm in X.
+    const auto below = [](double x) { return fmt::format("G0 Y-80\nSUPA G0 Z0 D0\nD1\nG0 X{} Y-80\nZ-60\nY0\n", x); };
+    bench.run("CYCLE976",
+              {{"S_MVAR", 1000}, {"S_SETV", reference}, {"S_MA", 3}, {"S_MD", 0}, {"S_FA", 8}, {"S_TSA", 4}}, {},
+              below(100));
+    EXPECT_NEAR(bench.data("$SNS_MEA_WP_TRIG_PLUS_DIR_AX3", {0}), 2 - tool.probe.axialPretravel, 1e-7);
+    bench.run("CYCLE978",
+              {{"S_MVAR", 100}, {"S_KNUM", 1}, {"S_SETV", -40}, {"S_FA", 8}, {"S_TSA", 4}, {"S_MA", 3}, {"S_MD", 1}},
+              {}, below(0));
+    EXPECT_NEAR(bench.ovr(4), under, 1e-7) << world;
+    EXPECT_NEAR(inWorkpiece(bench, {30, 0, table + under}).z(), -40, 1e-7);
+  }
+}
+
+TEST(ProbeKinds, AStarShapedProbeMeasuresAHoleAlongTheAxes) {
+  // In touches along the axes through the middle its four balls act as one as wide as the star.
+  Planter plant(714);
+  for (int world = 0; world < 10; ++world) {
+    const Vector3 error(plant.number(-0.5, 0.5), plant.number(-0.5, 0.5), 0);
+    simulation::Truth truth = perfectWorld();
+    simulation::TrueTool& tool = truth.tools[0];
+    tool.probe.ballRadius = 12;
+    tool.probe.stylusRadius = 2;
+    tool.length = 112;
+    place(truth, simulation::Ring(20, 45, -60), translation({0, 0, table}));
+    place(truth, simulation::Ring(26, 50, -60), translation(Vector3(150, 0, table) + error));
+    SinumerikBench bench(truth);
+    plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
+    bench.set("$TC_DP1", {1, 1}, 714);
+    bench.set("$TC_DP3", {1, 1}, 100);  // to the equator
+    bench.set("$TC_DP6", {1, 1}, 12);
+    bench.start({0, 0, -20});
+    bench.run("CYCLE976", {{"S_MVAR", 1}, {"S_SETV", 40}, {"S_FA", 4}, {"S_TSA", 15}});
+    EXPECT_NEAR(bench.data("$SNS_MEA_WP_BALL_DIAM", {0}), 24, 1e-9);
+    bench.start({150, 0, -20});
+    bench.run("CYCLE977", {{"S_MVAR", 101}, {"S_KNUM", 1}, {"S_SETV", 52}, {"S_FA", 4}, {"S_TSA", 2}});
+    EXPECT_NEAR(bench.ovr(4), 52, 1e-9);
+    EXPECT_NEAR(bench.ovr(17), error.x(), 1e-9);
+    EXPECT_NEAR(bench.ovr(18), error.y(), 1e-9);
+  }
+}
+
+TEST(ProbeKinds, ATurningProbeOnAMillKnowsItsBallByItsCentre) {
+  simulation::Truth truth = perfectWorld();
+  place(truth, simulation::Box({0, 0, -60}, {80, 80, 0}), translation({0.25, 0, table + 0.5}));
+  SinumerikBench bench(truth);
+  plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
+  bench.set("$TC_DP1", {1, 1}, 580);
+  bench.set("$TC_DP2", {1, 1}, 7);
+  bench.set("$TC_DP3", {1, 1}, 98);
+  bench.set("$SC_TOOL_LENGTH_TYPE", {}, 0);
+  bench.set("$SNS_MEA_WP_TRIG_MINUS_DIR_AX3", {0}, -2);
+  // Length 1 of a turning probe acts in the 2nd axis of the plane: of G19 that is Z.
+  bench.plane = "G19";
+  bench.start({30, 30, 20});
+  bench.run("CYCLE978", {{"S_FA", 7}, {"S_TSA", 3}, {"S_MA", 2}, {"S_MD", 2}});
+  EXPECT_NEAR(bench.ovr(4), 0.5, 1e-9);
+}
+
+}  // namespace
+}  // namespace probewright
