@@ -65,7 +65,7 @@ TEST(Alarms, OfCallsOnMills) {
   Provoker bench;
   bench.edge(61300, "tool radius compensation", {}, "G41\n");
   bench.edge(61301, "probe does not switch", {{"S_SETV", -20}});
-  bench.edge(61302, "probe collision", {{"S_SETV", 60}});
+  Provoker().edge(61302, "probe collision", {{"S_SETV", 60}});
   bench.edge(61303, "safe area exceeded", {{"S_SETV", 3}});
   bench.edge(61307, "wrong measuring variant", {{"S_MVAR", 5}});
   bench.edge(61308, "measuring path", {{"S_FA", 0}});

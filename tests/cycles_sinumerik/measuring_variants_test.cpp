@@ -212,7 +212,8 @@ TEST(MeasuringVariants, Cycle997InEveryCombination) {
                  {"S_STA1", plant.number(-180, 180)},
                  {"S_INCA", four ? 90.0 : 110.0}});
       // Without repetition the equator is the expected one.
-      const double tolerance = repeat ? 2e-5 : 0.02;
+      // A tip beside the axis meets the pole beside it, by 0.1 on radii that add up to 17.
+      const double tolerance = (repeat ? 2e-5 : 0.02) + (method == Aligned ? 0.1 * 0.1 / (2 * 17) : 0);
       for (int axis = 0; axis < 3; ++axis)
         EXPECT_NEAR(bench.ovr(5 + axis), error[axis], tolerance);
       EXPECT_NEAR(bench.ovr(4), 30, diameter ? tolerance : 0);

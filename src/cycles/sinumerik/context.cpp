@@ -79,7 +79,7 @@ Context::Context(Control& control, const Arguments& arguments, SourcePlace place
 void Context::clearResults() {
   control_.ovr.fill(0);
   control_.ovi.fill(0);
-  control_.data.set(control::sinumerik::DataKey("_OVS_TNAME", {}), std::string());
+  correctedTool({});
   record().results.clear();
   record().verdict = Verdict::None;
 }
@@ -198,7 +198,8 @@ void Context::resultInteger(int index, int value) {
 }
 
 void Context::correctedTool(const std::string& name) {
-  control_.data.set(control::sinumerik::DataKey("_OVS_TNAME", {}), name);
+  // A result, not a datum to be kept: programs read it, files do not hold it.
+  control_.data.setDefault("_OVS_TNAME", name);
 }
 
 void Context::checkSafeArea(double difference, double factor) {
