@@ -49,7 +49,7 @@ struct Interpreter::Dispatch {
   template <class Other>
   Flow operator()(const Other&) const {
     self.host_.execute(instruction, evaluation);
-    return Flow::Next;
+    return self.followRequest(evaluation);
   }
 };
 
@@ -83,7 +83,9 @@ RunResult Interpreter::run(std::shared_ptr<Program> main) {
     result = runLoop();
   } catch (const control::Alarm& alarm) {
     result.end = RunEnd::Alarm;
-    result.diagnostics = explain(here(Severity::Error, alarm.text(), alarm.advice(), alarm.code()));
+    Diagnostic cause = here(Severity::Error, alarm.text(), alarm.advice(), alarm.code());
+    if (alarm.place()) relocate(cause, *alarm.place());
+    result.diagnostics = explain(std::move(cause));
   } catch (const control::Cancelled&) {
     result.end = RunEnd::Cancelled;
     result.diagnostics = explain(here(Severity::Note, "the run was cancelled at this block"));
@@ -432,6 +434,13 @@ Interpreter::Flow Interpreter::callProgram(const CallProgram& call, const Instru
   return Flow::Moved;
 }
 
+Interpreter::Flow Interpreter::followRequest(Evaluation& evaluation) {
+  const std::string name = host_.requestedProgram();
+  if (name.empty()) return Flow::Next;
+  enter(*called(name, false), CallProgram{}, evaluation, 0);
+  return Flow::Moved;
+}
+
 void Interpreter::enter(Loaded& program, const CallProgram& call, Evaluation& caller, double remaining) {
   if (levels_ >= options_.programDepth) {
     refuse(Refusal::NestingDepth, fmt::format("more than {} programs call each other", options_.programDepth),
@@ -560,6 +569,18 @@ Diagnostic Interpreter::here(Severity severity, std::string message, std::string
     diagnostic.excerpt = block_->block.at(block_->block.source);
   }
   return diagnostic;
+}
+
+void Interpreter::relocate(Diagnostic& diagnostic, const control::AlarmPlace& place) const {
+  if (diagnostic.place.file == place.file && diagnostic.place.line == place.line) return;
+  diagnostic.place = {place.file, place.line, 0};
+  diagnostic.excerpt.clear();
+  for (const auto& loaded : programs_) {
+    if (loaded->program->file() != place.file) continue;
+    Block block;
+    Diagnostics ignored;
+    if (loaded->program->parse({place.offset, place.line}, block, ignored)) diagnostic.excerpt = block.at(block.source);
+  }
 }
 
 Diagnostics Interpreter::explain(Diagnostic cause) const {

@@ -141,6 +141,7 @@ private:
   Flow repeatPart(const CallLabel& call, Evaluation& evaluation);
   Flow repeatSection(const RepeatSection& repeat, Evaluation& evaluation);
   Flow callProgram(const CallProgram& call, const Instruction& instruction, Evaluation& evaluation);
+  Flow followRequest(Evaluation& evaluation);
   Flow structured(const Structured& statement, Evaluation& evaluation);
   Flow endFor();
   Flow leaveProgram();
@@ -166,6 +167,7 @@ private:
   Loaded* called(std::string_view name, bool maybeNone);
   [[noreturn]] void refuse(Refusal refusal, std::string text, std::string advice = {}) const;
   Diagnostic here(Severity severity, std::string message, std::string advice = {}, std::string code = {}) const;
+  void relocate(Diagnostic& diagnostic, const control::AlarmPlace& place) const;
   Diagnostics explain(Diagnostic cause) const;
 
   ProgramLibrary& library_;

@@ -1,7 +1,7 @@
 #include "machine/rotary_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace probewright::machine {
 
@@ -36,17 +36,9 @@ std::optional<double> withinTravel(const machine::Axis& axis, double angle, doub
   return best;
 }
 
-}  // namespace
-
-Matrix3 toolOrientation(const MachineDescription& machine, const AxisPositions& reference, const AxisPositions& axes) {
-  return machine::baseFromTable(machine, reference).linear() *
-         machine::baseFromTable(machine, axes).linear().transpose() * machine::baseFromSpindle(machine, axes).linear();
-}
-
-std::vector<AxisPositions> solveRotaryAxes(const MachineDescription& machine, const Vector3& direction,
-                                           const Vector3& toolAxis, const AxisPositions& reference,
-                                           const AxisPositions& now) {
-  // Direction in the table = inverse of the table's rotations, from the table outwards, then those of the spindle.
+/// The rotary axes in their order from the workpiece to the tool. Direction in the table = inverse of the table's
+/// rotations, from the table outwards, then those of the spindle.
+std::vector<Joint> rotaryJoints(const MachineDescription& machine) {
   std::vector<Joint> joints;
   for (auto element = machine.tableChain.rbegin(); element != machine.tableChain.rend(); ++element) {
     if (element->axis && machine.axes[*element->axis].kind == machine::AxisKind::Rotary) {
@@ -58,9 +50,63 @@ std::vector<AxisPositions> solveRotaryAxes(const MachineDescription& machine, co
       joints.push_back({*element.axis, element.direction, 1});
     }
   }
-  // Axes that turn the tool about itself do not help.
+  return joints;
+}
+
+/// Without those at the end that turn the tool about itself.
+std::vector<Joint> turningJoints(const MachineDescription& machine, const Vector3& toolAxis) {
+  std::vector<Joint> joints = rotaryJoints(machine);
   while (!joints.empty() && joints.back().direction.cross(toolAxis).norm() < tolerance)
     joints.pop_back();
+  return joints;
+}
+
+}  // namespace
+
+std::optional<TiltingAxis> tiltingAxis(const MachineDescription& machine, const Vector3& toolAxis) {
+  const std::vector<Joint> joints = turningJoints(machine, toolAxis);
+  if (joints.empty()) return std::nullopt;
+  const Joint& inner = joints.back();
+  if (joints.size() == 1) return TiltingAxis{inner.axis, 0};
+  const Joint& outer = joints[joints.size() - 2];
+  return TiltingAxis{inner.axis, inner.sign * angleAbout(inner.direction, toolAxis, outer.sign * outer.direction)};
+}
+
+std::optional<std::size_t> freeRotaryAxis(const MachineDescription& machine, const Vector3& direction,
+                                          const AxisPositions& reference) {
+  const std::vector<Joint> joints = rotaryJoints(machine);
+  if (joints.empty()) return std::nullopt;
+  const Vector3 inTable = baseFromTable(machine, reference).linear().transpose() * direction;
+  if (joints.front().direction.cross(inTable).norm() > 1e-7) return std::nullopt;
+  return joints.front().axis;
+}
+
+std::optional<double> alignedAngle(const MachineDescription& machine, std::size_t axis, const Vector3& along,
+                                   const Vector3& target, const AxisPositions& reference, const AxisPositions& rest) {
+  const std::vector<Joint> joints = rotaryJoints(machine);
+  const auto joint = std::ranges::find(joints, axis, &Joint::axis);
+  if (joint == joints.end()) return std::nullopt;
+  AxisPositions others = rest;
+  others[axis] = 0;
+  double angle = 0;
+  if (joint->sign < 0) {
+    const Vector3 inTable = baseFromTable(machine, reference).linear().transpose() * along;
+    angle = angleAbout(joint->direction, inTable, baseFromTable(machine, others).linear().transpose() * target);
+  } else {
+    angle = angleAbout(joint->direction, target, along);
+  }
+  return withinTravel(machine.axes[axis], angle, rest[axis]);
+}
+
+Matrix3 toolOrientation(const MachineDescription& machine, const AxisPositions& reference, const AxisPositions& axes) {
+  return machine::baseFromTable(machine, reference).linear() *
+         machine::baseFromTable(machine, axes).linear().transpose() * machine::baseFromSpindle(machine, axes).linear();
+}
+
+std::vector<AxisPositions> solveRotaryAxes(const MachineDescription& machine, const Vector3& direction,
+                                           const Vector3& toolAxis, const AxisPositions& reference,
+                                           const AxisPositions& now) {
+  const std::vector<Joint> joints = turningJoints(machine, toolAxis);
 
   const Vector3 wanted = machine::baseFromTable(machine, reference).linear().transpose() * direction;
   std::vector<AxisPositions> solutions;
@@ -118,7 +164,8 @@ std::vector<AxisPositions> solveRotaryAxes(const MachineDescription& machine, co
   const Vector3 inPlane = alpha * a + beta * b;
   const double rest = 1 - inPlane.squaredNorm();
   if (rest < -1e-9) return solutions;
-  const double gamma = std::sqrt(std::max(rest, 0.0) / determinant);
+  // Where the two solutions meet, rounding would push them apart.
+  const double gamma = rest < 1e-15 ? 0 : std::sqrt(rest / determinant);
   for (const double side : {1.0, -1.0}) {
     const Vector3 between = (inPlane + side * gamma * a.cross(b)).normalized();
     AxisPositions candidate = now;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "geometry/primitives.hpp"
@@ -17,5 +18,27 @@ std::vector<AxisPositions> solveRotaryAxes(const MachineDescription& machine, co
 
 /// The direction of the tool in the same frame, at the axis positions `axes`.
 Matrix3 toolOrientation(const MachineDescription& machine, const AxisPositions& reference, const AxisPositions& axes);
+
+/// The axis that decides how far the tool leans: the last one from the workpiece to the tool that does not turn the
+/// tool about itself; nothing if there is none.
+struct TiltingAxis {
+  std::size_t axis = 0;
+  /// Where the tool points as nearly as it can along the positive direction of the rotary axis in front of it, degrees
+  /// in machine coordinates; there the two solutions of a direction lie opposite each other. 0 if it stands alone.
+  double symmetry = 0;
+};
+std::optional<TiltingAxis> tiltingAxis(const MachineDescription& machine, const Vector3& toolAxis);
+
+/// The rotary axis next to the workpiece if it lies parallel to the tool that points along `direction` (as in
+/// solveRotaryAxes): turning it does not change where the tool points. Otherwise nothing.
+std::optional<std::size_t> freeRotaryAxis(const MachineDescription& machine, const Vector3& direction,
+                                          const AxisPositions& reference);
+
+/// The position of a free rotary axis that brings a direction in line with another as far as turning can: for an axis
+/// of the table the direction `along` of the workpiece (as it lies at `reference`) with `target` in the base frame, for
+/// an axis of the spindle side the direction `target` of the spindle frame with `along`. The one nearest to `rest`,
+/// where the other axes stand; nothing if no such position lies within the travel.
+std::optional<double> alignedAngle(const MachineDescription& machine, std::size_t axis, const Vector3& along,
+                                   const Vector3& target, const AxisPositions& reference, const AxisPositions& rest);
 
 }  // namespace probewright::machine

@@ -249,6 +249,14 @@ private:
       if (remark != std::string_view::npos) line(std::string(trimmed(source.substr(remark))), false);
       return;
     }
+    const bool oldMachining = std::ranges::any_of(block.instructions, [&block](const Instruction& instruction) {
+      const auto* cycle = std::get_if<language::CycleCall>(&instruction);
+      return cycle != nullptr && block.at(cycle->name).starts_with('G');
+    });
+    if (!toDinIso_ && oldMachining) {
+      leaveOut(original, "this form of a machining cycle is not translated into Klartext", "write the cycle anew");
+      return;
+    }
     if (!toDinIso_) {
       line(language::klartext::writeBlock(block), true);
       return;
@@ -258,9 +266,14 @@ private:
       line(*written, true);
       return;
     }
-    report(original, written.error().message, written.error().advice);
-    forEachLine(original.at(original.source),
-                [this](std::string_view rest) { line(fmt::format("; NOT CARRIED OVER: {} *", trimmed(rest)), false); });
+    leaveOut(original, written.error().message, written.error().advice);
+  }
+
+  void leaveOut(const Block& original, std::string message, std::string advice) {
+    report(original, std::move(message), std::move(advice));
+    forEachLine(original.at(original.source), [this](std::string_view rest) {
+      line(fmt::format("; NOT CARRIED OVER: {}{}", trimmed(rest), toDinIso_ ? " *" : ""), false);
+    });
   }
 
   /// Appends the lines of a block with their numbers. Lines behind a `~` have none.

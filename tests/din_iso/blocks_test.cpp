@@ -183,7 +183,7 @@ TEST(DinIso, ACycleTakesOnlyItsOwnLines) {
 TEST(DinIso, MistakesNamePlaceAndReason) {
   EXPECT_EQ(resolvedText("N10 G00 X+ *"), "1:12: a number or a Q parameter is expected for X");
   EXPECT_EQ(resolvedText("N10 G00 G01 X+5 *"), "1:9: a block has one path function only");
-  EXPECT_EQ(resolvedText("N10 G20 X+5 *"), "1:5: the function G20 is not available");
+  EXPECT_EQ(resolvedText("N10 G20 X+5 *"), "1:5: the tool axis of G20 is not available");
   EXPECT_EQ(resolvedText("\nN10 HELLO *"), "2:6: a number or a Q parameter is expected for the angle H");
   EXPECT_EQ(resolvedText("N10 *\nN20 O1234 *"), "2:5: this is no word of the DIN/ISO language");
   EXPECT_EQ(resolvedText("%A *\n"), "1:4: G71 (mm) or G70 (inch) is expected behind the name of the program");
@@ -194,6 +194,21 @@ TEST(DinIso, MistakesNamePlaceAndReason) {
   EXPECT_EQ(resolvedText("G25 X+5 R3 *"), "1:12: G25 takes no X");
   EXPECT_EQ(resolvedText("G98 *"), "1:5: L with the number or name of the label is expected behind G98");
   EXPECT_EQ(resolvedText("G54 G73 X+5 *"), "1:8: G54 and G73 cannot stand in one block");
+}
+
+TEST(DinIso, OldMachiningCyclesKeepTheirParameters) {
+  EXPECT_EQ(resolvedText("N10 G83 P01 -2 P02 -20 P03 -5 P04 0 P05 500 *"), "Cycle 1 G83 1=-2 2=-20 3=-5 4=0 5=500");
+  EXPECT_EQ(resolvedText("N20 G74 P01 -2 P05 X+80 P06 Y+Q3 P07 275 *"),
+            "Cycle 3 G74 1=-2 " + std::to_string(5 + 256 * 'X') + "=80 " + std::to_string(6 + 256 * 'Y') + "=Q3 7=275");
+  EXPECT_EQ(resolvedText("N30 G37 P01 1 P02 2 M99 *"), "Cycle 14 G37 1=1 2=2 | CYCL CALL");
+  EXPECT_EQ(resolvedText("G83 X+5 *"), "1:8: G83 takes no X");
+}
+
+TEST(DinIso, NamesOfProgramsAreWholeOrRefused) {
+  EXPECT_EQ(resolvedText("%A G71 *\nN10 %:\x85\"\"\"\" *\n"),
+            "2:14: the quotation marks of this name do not match");
+  EXPECT_THAT(resolvedText("%A G71 *\nN10 %:TAB: *\n"), ::testing::HasSubstr("the name of a file is expected"));
+  EXPECT_THAT(resolvedText("%A G71 *\nN10 G39 P01 \"MY PROGRAM.I\" *\n"), ::testing::HasSubstr("MY PROGRAM.I'"));
 }
 
 TEST(DinIso, BytesBeyondAsciiStay) {

@@ -5,30 +5,13 @@
 #include <random>
 
 #include "base/number_text.hpp"
+#include "klartext/expectations.hpp"
 #include "klartext/host_world.hpp"
 
 namespace probewright::language::klartext::testing {
 namespace {
 
 using ::testing::HasSubstr;
-
-::testing::AssertionResult near(const Vector3& actual, const Vector3& expected, double tolerance = 1e-9) {
-  if ((actual - expected).norm() <= tolerance) return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure() << actual.transpose() << " instead of " << expected.transpose();
-}
-
-void expectFinished(const RunResult& result) {
-  EXPECT_EQ(result.end, RunEnd::Finished);
-  for (const Diagnostic& diagnostic : result.diagnostics)
-    ADD_FAILURE() << format(diagnostic);
-}
-
-void expectPath(const World& world, const std::vector<Vector3>& expected, double tolerance = 1e-9) {
-  const std::vector<Vector3> path = world.path();
-  ASSERT_EQ(path.size(), expected.size());
-  for (std::size_t i = 0; i < path.size(); ++i)
-    EXPECT_TRUE(near(path[i], expected[i], tolerance)) << "point " << i;
-}
 
 TEST(Host, FormulasFollowTheirArithmetic) {
   World world;
@@ -159,9 +142,8 @@ TEST(Host, StraightMovesWithToolLengthAndPreset) {
 
 TEST(Host, InchProgramsMoveInInches) {
   World world;
-  expectFinished(world.run("0 BEGIN PGM A INCH\nL X+1 Y-2 F10\nQ5 = 3\nL XQ5\nFN 18: SYSREAD Q1 = ID270 NR1 IDX1\n"));
+  expectFinished(world.run("0 BEGIN PGM A INCH\nL X+1 Y-2 F10\nQ5 = 3\nL XQ5\n"));
   expectPath(world, {{25.4, -50.8, 0}, {76.2, -50.8, 0}});
-  EXPECT_DOUBLE_EQ(world.q(1), 3);
   EXPECT_EQ(world.q(113), 1);
   EXPECT_DOUBLE_EQ(world.machine->steps[0].feed.perMinute, 254);
 }
@@ -280,38 +262,6 @@ TEST(Host, RetractionGoesToTheLimit) {
   EXPECT_NEAR(world.machine->position()[2], description.axes[2].maximum, 1e-5);
 }
 
-TEST(Host, SystemData) {
-  World world;
-  expectFinished(
-      world.run("TOOL CALL 5 Z S1200 DR+0.1\nL X+3 Y+4 Z-100 FMAX\nFN 18: SYSREAD Q1 = ID20 NR1\n"
-                "FN18 : SYSREAD Q2 = ID270 NR1 IDX2\nFN 18: SYSREAD Q3 = ID50 NR2 IDX1\n"
-                "FN 18: SYSREAD Q4 = ID200 NR1 IDX3\nFN 18: SYSREAD Q5 = ID20 NR4\nQS7 = \"PROBE\"\n"
-                "FN 18: SYSREAD Q6 = ID990 NR10 IDX7\nFN 17: SYSWRITE ID50 NR4 IDX5 = +0.25\n"
-                "FN 18: SYSREAD Q7 = ID50 NR4 IDX5\nFN 18: SYSREAD Q8 = ID240 NR1 IDX3\nQ9 = Q108"));
-  EXPECT_EQ(world.q(1), 5);
-  EXPECT_EQ(world.q(2), 4);
-  EXPECT_EQ(world.q(3), 2);
-  EXPECT_DOUBLE_EQ(world.q(4), 5.1);
-  EXPECT_EQ(world.q(5), 1200);
-  EXPECT_EQ(world.q(6), 1);
-  EXPECT_EQ(world.q(7), 0.25);
-  EXPECT_DOUBLE_EQ(world.q(8), -50);
-  EXPECT_DOUBLE_EQ(world.q(9), 5.1);
-  EXPECT_THAT(world.run("FN 18: SYSREAD Q1 = ID99999 NR1").diagnostics.front().message, HasSubstr("ID99999"));
-}
-
-TEST(Host, ProtocolsFollowTheirMask) {
-  World world;
-  world.control->wallClockStart = 1'700'000'000;  // 2023-11-14 22:13:20 UTC
-  world.files["M.A"] =
-      "\"RESULT OF %S\",QS1;\n\"X = %9.3LF (%+.1F) %%\",Q31, Q32;\n\"%2d.%02d.%4d %02d:%02d\", "
-      "DAY,MONTH,YEAR4,HOUR,MIN;\n"
-      "M_CLOSE\n";
-  expectFinished(world.run("QS1 = \"RING\"\nQ31 = 12.34567\nQ32 = 5\nFN 16: F-PRINT M.A / TNC:\\LOG\\R.TXT\n"));
-  EXPECT_EQ(world.control->panel.files().at("R.TXT"), "RESULT OF RING\nX =    12.346 (+5.0) %\n14.11.2023 22:13\n");
-  EXPECT_THAT(world.run("FN 16: F-PRINT NONE.A / R.TXT").diagnostics.front().message, HasSubstr("NONE.A"));
-}
-
 TEST(Host, FreeTablesAreReadAndWritten) {
   World world;
   world.files["T.TAB"] = "BEGIN T.TAB MM\nNR   X          Y          DOC\n0    +1.500     +2.250     first\n[END]\n";
@@ -334,87 +284,6 @@ TEST(Host, CirclesThroughPoints) {
   EXPECT_NEAR(world.q(20), 3, 1e-12);
   EXPECT_NEAR(world.q(21), 4, 1e-12);
   EXPECT_NEAR(world.q(22), 10, 1e-12);
-}
-
-TEST(Host, TiltedPlanesPointTheToolAlongTheirNormal) {
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> angle(-50, 50);
-  for (const char* name : {"mill5-table-table", "mill5-head-table", "mill5-head-head"}) {
-    for (int i = 0; i < 20; ++i) {
-      World world(name);
-      const double a = angle(random), b = angle(random), c = angle(random);
-      const RunResult result = world.run("TOOL CALL 1 Z\nPLANE SPATIAL SPA" + formatSigned(a, 6) + " SPB" +
-                                         formatSigned(b, 6) + " SPC" + formatSigned(c, 6) + " TURN F5000\n");
-      ASSERT_EQ(result.end, RunEnd::Finished) << name << " " << a << " " << b << " " << c << "\n"
-                                              << (result.diagnostics.empty() ? "" : format(result.diagnostics[0]));
-      EXPECT_TRUE(near(world.control->channel.toolAxis(), Vector3::UnitZ(), 1e-9)) << name;
-    }
-  }
-}
-
-TEST(Host, PlaneDefinitionsAgree) {
-  const auto tiltOf = [](const std::string& block) {
-    World world("mill5-table-table");
-    const RunResult result = world.run("TOOL CALL 1 Z\n" + block + "\n");
-    EXPECT_EQ(result.end, RunEnd::Finished) << block;
-    return world.control->coordinates.tilt.value_or(Matrix3::Zero());
-  };
-  const Matrix3 a30 = tiltOf("PLANE SPATIAL SPA+30 SPB+0 SPC+0 STAY");
-  EXPECT_NEAR((a30 * Vector3::UnitZ() - Vector3(0, -0.5, std::sqrt(0.75))).norm(), 0, 1e-12);
-  EXPECT_NEAR((tiltOf("PLANE EULER EULPR0 EULNU30 EULROT0 STAY") - a30).norm(), 0, 1e-12);
-  EXPECT_NEAR((tiltOf("PLANE PROJECTED PROPR0 PROMIN30 ROT0 STAY") - a30).norm(), 0, 1e-12);
-  EXPECT_NEAR((tiltOf("PLANE VECTOR BX1 BY0 BZ0 NX0 NY-0.5 NZ0.8660254037844386 STAY") - a30).norm(), 0, 1e-12);
-  EXPECT_NEAR((tiltOf("PLANE POINTS P1X0 P1Y0 P1Z0 P2X10 P2Y0 P2Z0 P3X0 P3Y8.660254037844386 P3Z5 STAY") - a30).norm(),
-              0, 1e-12);
-  EXPECT_NEAR((tiltOf("PLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY\nPLANE RELATIV SPA20 STAY") - a30).norm(), 0, 1e-12);
-  EXPECT_NEAR((tiltOf("CYCL DEF 19.0 TILT\nCYCL DEF 19.1 A+30 B+0 C+0") - a30).norm(), 0, 1e-12);
-  EXPECT_NEAR((tiltOf("PLANE AXIAL A30 C0 STAY") - a30).norm(), 0, 1e-12);
-  EXPECT_NEAR((tiltOf("PLANE SPATIAL SPA+30 SPB+0 SPC+0 STAY\nPLANE RESET STAY") - Matrix3::Zero()).norm(), 0, 1e-12);
-}
-
-TEST(Host, SequencePicksTheSignOfTheTiltingAxis) {
-  for (const int sign : {1, -1}) {
-    World world("mill5-table-table");
-    const RunResult result = world.run(std::string("TOOL CALL 1 Z\nPLANE SPATIAL SPA+0 SPB+30 SPC+0 TURN FMAX SEQ") +
-                                       (sign > 0 ? "+" : "-") + "\n");
-    ASSERT_EQ(result.end, RunEnd::Finished);
-    EXPECT_NEAR(world.machine->position()[3], sign * 30, 1e-9);
-    EXPECT_NEAR(world.q(120), sign * 30, 1e-9);
-  }
-}
-
-TEST(Host, MoveKeepsTheTipOnTheWorkpiece) {
-  World world("mill5-table-table");
-  const RunResult result = world.run(
-      "TOOL CALL 1 Z\nL X+10 Y+20 Z-400 FMAX\n"
-      "PLANE SPATIAL SPA+20 SPB+0 SPC+0 MOVE DIST0 F2000\nPLANE RESET STAY\n");
-  ASSERT_EQ(result.end, RunEnd::Finished);
-  world.control->coordinates.tilt = Matrix3::Identity();
-  world.control->applyCoordinates();
-  EXPECT_TRUE(near(world.control->channel.position(), {10, 20, -400}, 1e-9));
-}
-
-TEST(Host, MoveWithADistanceKeepsThePointAboveTheTip) {
-  World world("mill5-table-table");
-  const RunResult result = world.run(
-      "TOOL CALL 1 Z\nL X+10 Y+20 Z-400 FMAX\n"
-      "PLANE SPATIAL SPA+20 SPB+0 SPC+0 MOVE DIST50 F2000\nPLANE RESET STAY\n");
-  ASSERT_EQ(result.end, RunEnd::Finished);
-  world.control->coordinates.tilt = Matrix3::Identity();
-  world.control->applyCoordinates();
-  // The tool stands square to the tilted plane; 50 mm up its axis lies the point that was 50 mm above the tip before.
-  const Vector3 axis(0, -std::sin(radiansFromDegrees(20)), std::cos(radiansFromDegrees(20)));
-  EXPECT_TRUE(near(world.control->channel.position() + 50 * axis, {10, 20, -350}, 1e-9));
-}
-
-TEST(Host, MachiningCyclesAreSkippedOrRefused) {
-  const std::string program = "CYCL DEF 200 DRILLING ~\n Q200=2 ~\n Q201=-20\nL X+1 Y+1 FMAX M99\nCYCL CALL\n";
-  World world;
-  expectFinished(world.run(program));
-  EXPECT_EQ(std::ranges::count(world.control->journal.events, control::EventKind::Skipped, &control::EventRecord::kind),
-            2);
-  world.options.strict = true;
-  EXPECT_EQ(world.run(program).end, RunEnd::Alarm);
 }
 
 TEST(Host, AlarmsNameTheReason) {

@@ -17,10 +17,20 @@ Result<std::shared_ptr<Program>> MemoryLibrary::open(std::string_view name, cons
   return std::make_shared<KlartextProgram>(found->first, found->second);
 }
 
-World::World(const std::string& machineName) {
+namespace {
+
+machine::MachineDescription readyMade(const std::string& machineName) {
   auto description = machine::readMachine(machineName);
   EXPECT_TRUE(description) << format(description.error());
-  machine = std::make_unique<TraceMachine>(std::move(*description));
+  return std::move(*description);
+}
+
+}  // namespace
+
+World::World(const std::string& machineName) : World(readyMade(machineName)) {}
+
+World::World(machine::MachineDescription description) {
+  machine = std::make_unique<TraceMachine>(std::move(description));
   const auto kind = control::ControlKind::TNC640;
   hh::Tables tables{hh::defaultToolTable(kind), hh::defaultProbeTable(kind), hh::defaultPresetTable(kind), {}};
   const auto tool = [&](const std::string& row, const std::string& name, double length, double radius) {

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ public:
   const machine::MachineDescription& description() const override { return description_; }
   machine::AxisPositions position() const override { return axes_; }
   machine::MoveResult move(const machine::AxisPositions& target, machine::Feed feed) override {
+    if (limitX && target[0] > *limitX) return {machine::MoveEnd::AxisLimit, "X ends here"};
     axes_ = target;
     steps.push_back({target, feed});
     return {};
@@ -51,6 +53,7 @@ public:
 
   std::vector<Step> steps;
   std::vector<machine::ToolOrder> tools;
+  std::optional<double> limitX;  ///< moves beyond it are refused
 
 private:
   machine::MachineDescription description_;
@@ -70,6 +73,7 @@ public:
 /// A TNC 640 on a ready-made machine, with tools 1 (length 100, radius 2) and 5 "MILL" (length 50, radius 5).
 struct World {
   explicit World(const std::string& machineName = "mill3");
+  explicit World(machine::MachineDescription description);
   /// Runs a program; block numbers and frame may be left out.
   RunResult run(const std::string& text);
   /// Tips reached by the moves so far, in machine coordinates without the tool's length: with preset 0 and no tilt the

@@ -6,7 +6,8 @@
 namespace probewright::control::heidenhain {
 
 bool Transformations::active() const {
-  return !shift.isZero(0) || mirror[0] || mirror[1] || mirror[2] || rotation != 0 || !scale.isOnes(0);
+  return !shift.isZero(0) || mirror[0] || mirror[1] || mirror[2] || rotation != 0 || !scale.isOnes(0) ||
+         axisShift != machine::AxisPositions{};
 }
 
 Eigen::Affine3d Transformations::matrix(const WorkingPlane& plane) const {
@@ -45,6 +46,13 @@ Vector3 spaceAnglesFromRotation(const Matrix3& rotation) {
     c = std::atan2(-rotation(0, 1), rotation(1, 1));
   }
   return {degreesFromRadians(a), degreesFromRadians(std::atan2(sinB, cosB)), degreesFromRadians(c)};
+}
+
+machine::AxisPositions Coordinates::axisOffset() const {
+  machine::AxisPositions offset = preset.rotaryOffset;
+  for (std::size_t i = 0; i < machine::maximumAxes; ++i)
+    offset[i] += workpiece.axisShift[i] + (tilt ? workingPlane.axisShift[i] : 0);
+  return offset;
 }
 
 Pose Coordinates::machineFromPreset() const {

@@ -27,6 +27,7 @@ struct Transformations {
   double rotation = 0;                    ///< cycle 10, degrees in the working plane
   Vector3 scale = Vector3::Ones();        ///< cycles 11 and 26
   Vector3 scaleCentre = Vector3::Zero();  ///< cycle 26
+  machine::AxisPositions axisShift;       ///< cycle 7, TRANS DATUM: axes beside X, Y, Z, by axis index
   bool active() const;
   Eigen::Affine3d matrix(const WorkingPlane& plane) const;
 };
@@ -36,11 +37,16 @@ struct Coordinates {
   ActivePreset preset;
   Transformations workpiece;     ///< in the workpiece coordinate system W-CS
   std::optional<Matrix3> tilt;   ///< PLANE, cycle 19: the tilted plane's axes in the workpiece coordinate system
+  bool tiltIsAxial = false;      ///< the tilt was defined by axis angles (PLANE AXIAL)
   Transformations workingPlane;  ///< in the working plane coordinate system WPL-CS, while a tilt is active
 
   /// Where new transformations go: the tilted plane if there is one.
   Transformations& current() { return tilt ? workingPlane : workpiece; }
   const Transformations& current() const { return tilt ? workingPlane : workpiece; }
+
+  /// Program position = machine position - offset, of axes beside X, Y, Z, by axis index: the preset's offset and the
+  /// datum shifts.
+  machine::AxisPositions axisOffset() const;
 
   /// Machine from the workpiece system of the preset, basic rotation included.
   Pose machineFromPreset() const;

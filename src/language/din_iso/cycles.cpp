@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "cycles/catalogue.hpp"
 #include "cycles/heidenhain/probe_words.hpp"
@@ -20,6 +21,28 @@ bool isTouchProbeCycle(int number) {
 }
 
 }  // namespace
+
+int oldMachiningCycle(int function) {
+  struct Twin {
+    int function, cycle;
+  };
+  static constexpr std::array<Twin, 14> twins = {{{83, 1},
+                                                  {84, 2},
+                                                  {74, 3},
+                                                  {75, 4},
+                                                  {76, 4},
+                                                  {77, 5},
+                                                  {78, 5},
+                                                  {57, 6},
+                                                  {37, 14},
+                                                  {56, 15},
+                                                  {58, 16},
+                                                  {59, 16},
+                                                  {85, 17},
+                                                  {86, 18}}};
+  const auto found = std::ranges::find(twins, function, &Twin::function);
+  return found == twins.end() ? 0 : found->cycle;
+}
 
 const Word* BlockParser::find(std::string_view address) const {
   for (std::size_t i = 0; i < coordinateCount_; ++i) {
@@ -111,9 +134,20 @@ bool BlockParser::emitFunction() {
       return rotation();
     case 79:
       return onlyTakes({}) && emitWithFunctions(Command{constant("CYCL CALL"), {}, -1, {}});
-    default:
-      return tilt();
+    default: {
+      const int machining = oldMachiningCycle(function_);
+      return machining != 0 ? oldMachining(machining) : tilt();
+    }
   }
+}
+
+/// G83 P01 -2 P02 -20 P03 -5 P04 0 P05 500.
+bool BlockParser::oldMachining(int cycle) {
+  if (!onlyTakes("P")) return false;
+  const std::size_t first = block_.words.size();
+  block_.words.insert(block_.words.end(), parameters_.begin(),
+                      parameters_.begin() + static_cast<std::ptrdiff_t>(parameterCount_));
+  return emitWithFunctions(CycleCall{cycle, constant(fmt::format("G{}", function_)), wordsSince(first)});
 }
 
 bool BlockParser::corner(MoveKind kind) {

@@ -72,83 +72,38 @@ bool BlockParser::function() {
 bool BlockParser::assignmentOf(int number) {
   const std::optional<std::uint32_t> target = variableIndex();
   if (!target) return false;
-  const auto call = [&](Function function, std::initializer_list<Operand> arguments) {
-    Node node;
-    node.operation = Operation::Call;
-    node.function = function;
-    node.a = static_cast<std::uint32_t>(block_.operands.size());
-    node.b = static_cast<std::uint32_t>(arguments.size());
-    block_.operands.insert(block_.operands.end(), arguments);
-    return push(node);
-  };
+  std::optional<Operand> result;
   if (number == 0 && parameterAddress(1)) {
     const std::optional<std::string_view> text = lexer_.quoted();
-    const std::optional<Operand> assigned = text ? textOperand(ref(*text)) : value("P01");
-    if (!assigned) return false;
-    emit(Assign{*target, *assigned});
-    return expectEnd();
-  }
-  const std::optional<Operand> left = parameterValue(1);
-  if (!left) return false;
-  Operand result;
-  if (number >= 5 && number <= 7) {
-    result = call(number == 5 ? Function::Sqrt : number == 6 ? Function::Sin : Function::Cos, {*left});
+    result = text ? textOperand(ref(*text)) : value("P01");
   } else {
-    const std::optional<Operand> right = parameterValue(2);
+    const std::optional<Operand> left = parameterValue(1);
+    if (!left) return false;
+    const bool alone = number == 0 || (number >= 5 && number <= 7);
+    const std::optional<Operand> right = alone ? Operand{} : parameterValue(2);
     if (!right) return false;
-    switch (number) {
-      case 1:
-        result = binary(Operation::Add, *left, *right);
-        break;
-      case 2:
-        result = binary(Operation::Subtract, *left, *right);
-        break;
-      case 3:
-        result = binary(Operation::Multiply, *left, *right);
-        break;
-      case 4:
-        result = binary(Operation::Divide, *left, *right);
-        break;
-      case 8:
-        result = call(Function::RootSumOfSquares, {*left, *right});
-        break;
-      default:
-        result = callHost("ANG", {*left, *right});
-        break;
-    }
+    result = number == 0 ? *left : functionResult(number, *left, *right);
   }
-  emit(Assign{*target, result});
+  if (!result) return false;
+  emit(Assign{*target, *result});
   return expectEnd();
 }
 
 /// D09 P01 +Q1 P02 +5 P03 10; D09 P01 +Q1 IS UNDEFINED P03 "NAME".
 bool BlockParser::jumpOf(int number) {
-  static constexpr std::array<Operation, 4> operations = {Operation::Equal, Operation::NotEqual, Operation::Greater,
-                                                          Operation::Less};
   const std::size_t variables = block_.variables.size();
   const std::optional<Operand> left = parameterValue(1);
   if (!left) return false;
-  Jump jump;
+  std::optional<Operand> condition;
   if (block_.variables.size() > variables && lexer_.acceptKeyword("IS")) {
-    const bool undefined = lexer_.acceptKeyword("UNDEFINED");
-    if (!undefined && !lexer_.acceptKeyword("DEFINED")) return error("DEFINED or UNDEFINED is expected behind IS");
-    Node node;
-    node.operation = Operation::Undefined;
-    node.a = static_cast<std::uint32_t>(block_.variables.size() - 1);
-    jump.condition = push(node);
-    if (!undefined) {
-      Node invert;
-      invert.operation = Operation::Not;
-      invert.left = jump.condition;
-      jump.condition = push(invert);
-    }
+    condition = definedCondition();
   } else {
     if (!parameterAddress(2)) return error("P02 with its value is expected here");
-    const std::optional<std::string_view> text = lexer_.quoted();
-    const std::optional<Operand> right = text ? textOperand(ref(*text)) : value("P02");
-    if (!right) return false;
-    jump.condition = binary(operations[static_cast<std::size_t>(number - 9)], *left, *right);
+    condition = comparison(number, *left, "P02");
   }
+  if (!condition) return false;
+  Jump jump;
+  jump.condition = *condition;
   if (!parameterAddress(3)) return error("P03 with the label to jump to is expected here");
   if (!labelName(jump.label, jump.labelValue)) return false;
   emit(jump);
@@ -164,10 +119,7 @@ bool BlockParser::systemRead() {
   command.variable = static_cast<std::int32_t>(*target);
   lexer_.accept('=');
   const std::size_t first = block_.words.size();
-  if (!lexer_.acceptPrefix("ID")) return error("ID with the group of the system datum is expected here");
-  if (!word(addressOf("ID"), "ID")) return false;
-  if (lexer_.acceptPrefix("NR") && !word(addressOf("NR"), "NR")) return false;
-  if (lexer_.acceptPrefix("IDX") && !word(addressOf("IDX"), "IDX")) return false;
+  if (!systemDatum()) return false;
   command.words = wordsSince(first);
   command.name = constant("FN18");
   emit(command);

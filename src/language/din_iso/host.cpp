@@ -23,6 +23,8 @@ Value DinIsoHost::call(std::string_view name, std::span<const Value> arguments) 
 
 std::string DinIsoHost::code(Refusal refusal) const { return klartext_.code(refusal); }
 
+std::string DinIsoHost::requestedProgram() { return klartext_.requestedProgram(); }
+
 bool DinIsoHost::beginBlock(const Program& program, const Block& block) {
   program_ = nullptr;
   if (dynamic_cast<const DinIsoProgram*>(&program) != nullptr) {

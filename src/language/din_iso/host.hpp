@@ -20,6 +20,7 @@ public:
   bool isDefined(const VariableRef& variable, Evaluation& evaluation) override;
   Value call(std::string_view name, std::span<const Value> arguments) override;
   void execute(const Instruction& instruction, Evaluation& evaluation) override;
+  std::string requestedProgram() override;
   bool beginBlock(const Program& program, const Block& block) override;
   std::string code(Refusal refusal) const override;
   double relativeEquality() const override { return klartext_.relativeEquality(); }

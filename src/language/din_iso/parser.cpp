@@ -83,8 +83,9 @@ bool BlockParser::percent() {
     emit(call);
     return expectEnd();
   }
-  const std::string_view rest = lexer_.restOfBlock();
+  const std::string_view rest = lexer_.restOfLine();
   if (rest.empty()) return error("the name of a program is expected behind %");
+  if (!checkPath(rest) || !expectEnd()) return false;
   const std::size_t blank = rest.find_last_of(" \t");
   const std::string_view unit = blank == std::string_view::npos ? std::string_view() : rest.substr(blank + 1);
   const bool inch = unit == "G70" || unit == "g70";
@@ -120,8 +121,14 @@ bool BlockParser::selectionByPercent() {
     } else if (variableFollows() && upper(lexer_.here(1)) == 'S') {
       addWord(0, variableOperand(*variable()));
     } else {
-      command.text = ref(lexer_.restOfLine());
+      const std::string_view name = lexer_.restOfLine();
+      if (!checkPath(name)) return false;
+      command.text = ref(name);
     }
+    if (command.text.length == 0 && block_.words.size() == first) {
+      return error(fmt::format("the name of a file is expected behind %{}", selection.sign));
+    }
+    if (!expectEnd()) return false;
     command.name = constant(selection.name);
     command.words = wordsSince(first);
     emit(command);
@@ -130,8 +137,10 @@ bool BlockParser::selectionByPercent() {
   // %:NAME.I: a program in the folder of the caller.
   lexer_.advance();
   CallProgram call;
-  call.name = ref(lexer_.restOfLine());
-  if (call.name.length == 0) return error("the name of a program is expected behind %:");
+  const std::string_view name = lexer_.restOfLine();
+  if (name.empty()) return error("the name of a program is expected behind %:");
+  if (!checkPath(name) || !expectEnd()) return false;
+  call.name = ref(name);
   emit(call);
   return true;
 }

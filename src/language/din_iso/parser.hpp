@@ -7,6 +7,11 @@
 
 namespace probewright::language::din_iso {
 
+/// The number in Klartext of the machining cycle that an old G function with parameters P01, P02... defines; 0: it
+/// defines none. Such a block becomes a CycleCall with the name "G83", whose words have the number of their parameter
+/// as address, and its axis, if it has one, shifted left by 8.
+int oldMachiningCycle(int function);
+
 /// Lowers one DIN/ISO block into the instruction set, as far as its own text tells. What only the blocks in front of it
 /// tell (G90 or G91, the path function, the tool axis) is left open for ModalState::resolve:
 /// - Modal "G0" "G1" ... "G16", "G17" "G18" "G19", "G90", "G91" for each such function, in front of all else.
@@ -63,6 +68,7 @@ private:
   bool toolDefinition();
   bool blankForm();
   bool measuringOrMachining(int number);
+  bool oldMachining(int cycle);
 
   // functions.cpp: D00 to D38
   bool function();
@@ -83,7 +89,7 @@ private:
   std::size_t coordinateCount_ = 0;
   std::array<Word, 3> centre_{};
   std::size_t centreCount_ = 0;
-  std::array<Word, 8> parameters_{};  ///< P01, P02...: the number is the address
+  std::array<Word, 12> parameters_{};  ///< P01, P02...: the number is the address
   std::size_t parameterCount_ = 0;
   char probingAxis_ = 0;
   bool probingPositive_ = false;

@@ -23,7 +23,7 @@ bool isPath(int number) {
 bool isFunction(int number) {
   static constexpr std::array<int, 24> functions = {4,  24, 25, 26, 27, 28, 29, 30, 31, 36, 38, 39,
                                                     51, 53, 54, 55, 62, 72, 73, 79, 80, 98, 99, 247};
-  return std::ranges::find(functions, number) != functions.end();
+  return std::ranges::find(functions, number) != functions.end() || oldMachiningCycle(number) != 0;
 }
 
 }  // namespace
@@ -156,6 +156,10 @@ bool BlockParser::preparatory() {
     function_ = number;
     return measuringOrMachining(number);
   }
+  if (number == 20) {
+    lexer_.seek(start);
+    return error("the tool axis of G20 is not available", "choose the tool axis Z, Y or X with G17, G18 or G19");
+  }
   if (!isFunction(number)) {
     lexer_.seek(start);
     return error(fmt::format("the function G{} is not available", number),
@@ -173,9 +177,11 @@ bool BlockParser::takeFunction(int number) {
   if (number == 98) return labelDefinition();
   if (number == 247) return measuringOrMachining(number);
   if (number == 39) {
-    if (lexer_.peek() == 'P' && isDigit(lexer_.here(1))) lexer_.advance(3);
-    name_ = lexer_.restOfLine();
+    parameterAddress(1);
+    const std::optional<std::string_view> quoted = lexer_.quoted();
+    name_ = quoted ? *quoted : lexer_.restOfLine();
     if (name_.empty()) return error("the name of a program is expected behind G39 P01");
+    if (!checkPath(name_)) return false;
   }
   return true;
 }
@@ -212,6 +218,10 @@ bool BlockParser::parameterWord() {
   Word added;
   added.address = static_cast<std::uint32_t>(number);
   added.column = column;
+  if (const char axis = lexer_.peek(); oldMachiningCycle(function_) != 0 && axis >= 'X' && axis <= 'Z') {
+    lexer_.advance();
+    added.address |= static_cast<std::uint32_t>(axis) << 8;
+  }
   const std::optional<Operand> found = value(fmt::format("the parameter P{:02}", number));
   if (!found) return false;
   added.value = *found;

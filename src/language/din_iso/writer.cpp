@@ -262,9 +262,7 @@ private:
   }
   void add(const CallProgram& call) {
     if (!call.nameValue.present()) {
-      const std::string_view name = at(call.name);
-      const bool plain = name.find_first_of(" ;*\"") == std::string_view::npos;
-      return word(plain ? fmt::format("%{}", name) : fmt::format("%\"{}\"", name));
+      return word(fmt::format("%{}", klartext::writePath(at(call.name))));
     }
     const Node& node = block_.nodes[static_cast<std::size_t>(call.nameValue.node)];
     word(node.operation == Operation::Call ? std::string("%<>%")
@@ -278,6 +276,14 @@ private:
   }
 
   void add(const CycleCall& call) {
+    if (at(call.name).starts_with('G')) {
+      word(at(call.name));
+      for (const Word& w : wordsOf(call.parameters)) {
+        const char axis = static_cast<char>(w.address >> 8);
+        word(fmt::format("P{:02} {}{}", w.address & 0xFF, axis == 0 ? "" : std::string(1, axis), value(w.value)));
+      }
+      return;
+    }
     if (call.number >= 200) {
       if (call.parameters.count == 0) return refuse("this form of a cycle has no twin in DIN/ISO");
       return parameterCycle(klartext::writeCycle(block_, call), fmt::format("{} ", at(call.name)));
@@ -363,7 +369,7 @@ private:
     };
     if (name == "CYCL DEF 9") return setting("G04 F");
     if (name == "CYCL DEF 13") return setting("G36 S");
-    if (name == "CYCL DEF 12") return word(fmt::format("G39 P01 {}", text));
+    if (name == "CYCL DEF 12") return word(fmt::format("G39 P01 {}", klartext::writePath(text)));
     if (name == "CYCL DEF 32") {
       word("G62");
       constexpr std::string_view forms[] = {"T", "P01 ", "P02 "};

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "control/alarm.hpp"
+#include "language/klartext/heidenhain_program.hpp"
 
 namespace probewright::language::klartext {
 
@@ -137,7 +138,33 @@ Element tangentialArc(const Vector2& from, const Vector2& direction, const Vecto
   return element;
 }
 
+/// Alarms of `work` name the block of the element that was under way.
+template <class Work>
+void Contour::located(Work work) {
+  try {
+    work();
+  } catch (Alarm& alarm) {
+    if (!alarm.place() && current_.program != nullptr) {
+      alarm.setPlace({current_.program->file(), current_.position.line, current_.position.offset});
+    }
+    throw;
+  }
+}
+
 void Contour::add(const Element& element, bool waits) {
+  located([&] { addLocated(element, waits); });
+}
+
+void Contour::flush() {
+  located([&] { flushLocated(); });
+}
+
+void Contour::depart(const Approach& departure) {
+  located([&] { departLocated(departure); });
+}
+
+void Contour::addLocated(const Element& element, bool waits) {
+  current_ = element.block;
   Element added = element;
   end_ = element.to;
   endHeight_ = element.heightTo;
@@ -159,20 +186,22 @@ void Contour::add(const Element& element, bool waits) {
   compensate(added);
 }
 
-void Contour::round(double radius, std::optional<Feed> feed) {
-  if (last_) corner_ = Corner{radius, true, feed};
+void Contour::round(double radius, std::optional<Feed> feed, const BlockPlace& block) {
+  if (last_) corner_ = Corner{radius, true, feed, block};
 }
 
-void Contour::chamfer(double length, std::optional<Feed> feed) {
-  if (last_) corner_ = Corner{length, false, feed};
+void Contour::chamfer(double length, std::optional<Feed> feed, const BlockPlace& block) {
+  if (last_) corner_ = Corner{length, false, feed, block};
 }
 
-std::optional<Element> Contour::cut(Element& first, Element& second, const Corner& corner) const {
+std::optional<Element> Contour::cut(Element& first, Element& second, const Corner& corner) {
+  current_ = corner.block;
   const Vector2 in = first.endDirection();
   const Vector2 out = second.startDirection();
   const double turn = cross(in, out);
   if (corner.size <= 0 || std::abs(turn) < tangentTolerance) return std::nullopt;
   Element between;
+  between.block = corner.block;
   between.side = first.side;
   between.feed = corner.feed.value_or(first.feed);
   between.heightFrom = between.heightTo = first.heightTo;
@@ -204,10 +233,12 @@ std::optional<Element> Contour::cut(Element& first, Element& second, const Corne
 }
 
 void Contour::compensate(const Element& element) {
+  current_ = element.block;
   if (element.side == Side::Off) {
     finish();
     compensated_ = false;
     if (approach_) runApproach(element);
+    current_ = element.block;
     Element free = element;
     if (lastSide_ != Side::Off && !free.arc) {
       free.from = position_;
@@ -241,7 +272,8 @@ void Contour::compensate(const Element& element) {
 }
 
 void Contour::join(const Element& next) {
-  const Element& first = previous_->element;
+  const Element first = previous_->element;
+  current_ = first.block;
   const double offset = sign(next.side) * radius_();
   const Vector2 vertex = first.to;
   const Vector2 out = next.startDirection();
@@ -252,6 +284,7 @@ void Contour::join(const Element& next) {
   const Vector2 in = first.endDirection();
   if (in.isZero(0) || out.isZero(0)) {  // a move of the tool axis alone keeps the place beside the contour
     runOffset(first, in.isZero(0) ? position_ : Vector2(vertex + offset * left(in)));
+    current_ = next.block;
     if (!out.isZero(0)) lineTo(vertex + offset * left(out), height_, next.feed);
     return;
   }
@@ -259,11 +292,14 @@ void Contour::join(const Element& next) {
   const bool straightOn = std::abs(turn) < tangentTolerance && in.dot(out) > 0;
   if (straightOn || first.side != next.side) {
     runOffset(first, vertex + sign(first.side) * radius_() * left(in));
+    current_ = next.block;
     if (first.side != next.side) lineTo(vertex + offset * left(out), first.heightTo, next.feed);
     return;
   }
   if (turn * offset > 0) {
-    const std::optional<Vector2> corner = intersection(beside(first, offset), beside(next, offset), vertex);
+    const Curve besideFirst = beside(first, offset);
+    current_ = next.block;
+    const std::optional<Vector2> corner = intersection(besideFirst, beside(next, offset), vertex);
     if (!corner) {
       throw Alarm("Tool radius too large", "The tool does not fit into an inside corner of the contour",
                   "use a smaller tool");
@@ -282,6 +318,7 @@ void Contour::finish() {
   const Waiting waiting = *previous_;
   previous_.reset();
   const Element& element = waiting.element;
+  current_ = element.block;
   const Vector2 direction = element.endDirection();
   const Vector2 end =
       direction.isZero(0) ? position_ : Vector2(element.to + sign(element.side) * radius_() * left(direction));
@@ -294,6 +331,7 @@ void Contour::finish() {
 
 /// Runs beside an element of the contour, from where the tool centre stands to `end`.
 void Contour::runOffset(const Element& element, const Vector2& end) {
+  current_ = element.block;
   Element moved = element;
   if (element.arc) {
     beside(element, sign(element.side) * radius_());  // refuses an inside radius smaller than the tool's
@@ -311,6 +349,7 @@ void Contour::runOffset(const Element& element, const Vector2& end) {
 
 void Contour::lineTo(const Vector2& to, double height, Feed feed) {
   Element line;
+  line.block = current_;
   line.from = position_;
   line.to = to;
   line.heightFrom = height_;
@@ -323,6 +362,7 @@ void Contour::lineTo(const Vector2& to, double height, Feed feed) {
 
 void Contour::arcTo(const Vector2& centre, double sweep, double height, Feed feed) {
   Element arc;
+  arc.block = current_;
   arc.arc = true;
   arc.centre = centre;
   arc.sweep = sweep;
@@ -349,6 +389,7 @@ void Contour::approach(const Vector2& from, double heightFrom, const Approach& a
 void Contour::runApproach(const Element& next) {
   const Approach way = *approach_;
   approach_.reset();
+  current_ = way.block;
   const Vector2 direction = next.startDirection();
   const double side = way.side == Side::Right ? -1 : 1;
   const Vector2 outward = side * left(direction);
@@ -390,13 +431,14 @@ void Contour::runApproach(const Element& next) {
   compensated_ = way.side != Side::Off;
 }
 
-void Contour::depart(const Approach& departure) {
+void Contour::departLocated(const Approach& departure) {
   const Vector2 direction = direction_;
   const bool beside = lastSide_ != Side::Off || previous_.has_value();
   const double side = (previous_ ? previous_->element.side : lastSide_) == Side::Right ? -1 : 1;
   const double height = endHeight_;
   const Vector2 last = end_;
-  flush();
+  flushLocated();
+  current_ = departure.block;
   if (!beside) {
     position_ = last;
     height_ = height;
@@ -435,7 +477,7 @@ void Contour::depart(const Approach& departure) {
   discard();
 }
 
-void Contour::flush() {
+void Contour::flushLocated() {
   if (last_) {
     const Element element = *last_;
     last_.reset();

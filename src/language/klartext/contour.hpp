@@ -5,10 +5,19 @@
 
 #include "control/channel.hpp"
 #include "geometry/primitives.hpp"
+#include "language/block.hpp"
 
 /// The contour that path functions describe: roundings and chamfers between its elements, and the path of the tool
 /// centre beside it.
 namespace probewright::language::klartext {
+
+class HeidenhainProgram;
+
+/// The block that a piece of a contour comes from: alarms name it, however late the piece is carried out.
+struct BlockPlace {
+  const HeidenhainProgram* program = nullptr;
+  BlockPosition position{};
+};
 
 /// On which side of the contour the tool centre runs, seen in the direction of motion.
 enum class Side { Off = 0, Left = 1, Right = -1 };
@@ -22,6 +31,7 @@ struct Element {
   double sweep = 0;  ///< arcs: radians, counter-clockwise positive; may exceed a full turn
   Side side = Side::Off;
   control::Feed feed;
+  BlockPlace block;
   /// Axes beside X, Y, Z that move along, by axis index.
   std::array<std::optional<double>, machine::maximumAxes> rotary;
 
@@ -45,11 +55,12 @@ struct Approach {
   double angle = 0;                 ///< CCA, radians
   Side side = Side::Off;
   control::Feed feed;
+  BlockPlace block;
 };
 
 /// Takes elements in their order and hands on what the tool centre does. Elements wait here as long as what follows
 /// them decides where they end: in front of a rounding, and while radius compensation is on. Throws Alarm where the
-/// geometry is impossible.
+/// geometry is impossible; alarms, also those of the moves, name the block of the element that was under way.
 class Contour {
 public:
   /// `run` moves along an element. `radius` is asked for the tool radius (mm) when an element with compensation comes.
@@ -62,8 +73,8 @@ public:
   void passed(const Vector2& motion) {
     if (motion.squaredNorm() > 1e-18) direction_ = motion.normalized();
   }
-  void round(double radius, std::optional<control::Feed> feed);
-  void chamfer(double length, std::optional<control::Feed> feed);
+  void round(double radius, std::optional<control::Feed> feed, const BlockPlace& block);
+  void chamfer(double length, std::optional<control::Feed> feed, const BlockPlace& block);
   /// Begins a contour at `from`, where the tool stands; its direction comes with the next element.
   void approach(const Vector2& from, double heightFrom, const Approach& approach);
   /// Leaves the contour behind the last element.
@@ -87,13 +98,19 @@ private:
     double size = 0;
     bool rounding = true;
     std::optional<control::Feed> feed;
+    BlockPlace block;
   };
   struct Waiting {
     Element element;
     bool approachLine = false;  ///< the block that switches compensation on
   };
 
-  std::optional<Element> cut(Element& first, Element& second, const Corner& corner) const;
+  template <class Work>
+  void located(Work work);
+  void addLocated(const Element& element, bool waits);
+  void flushLocated();
+  void departLocated(const Approach& departure);
+  std::optional<Element> cut(Element& first, Element& second, const Corner& corner);
   void compensate(const Element& element);
   void join(const Element& next);
   void finish();
@@ -115,6 +132,7 @@ private:
   double endHeight_ = 0;
   Vector2 direction_ = Vector2::Zero();
   Side lastSide_ = Side::Off;
+  BlockPlace current_;  ///< of what is under way
 };
 
 }  // namespace probewright::language::klartext

@@ -93,6 +93,11 @@ std::string headOf(std::string_view kind, int number, const std::string& title) 
   return title.empty() ? fmt::format("{} {}", kind, number) : fmt::format("{} {} {}", kind, number, title);
 }
 
+std::string unsignedValue(const Block& block, const Operand& operand) {
+  const std::string text = writeValue(block, operand);
+  return text.starts_with('+') ? text.substr(1) : text;
+}
+
 std::string parameterText(const Block& block, const Word& word) {
   std::string_view name = "Q";
   if (word.value.node >= 0) {
@@ -103,6 +108,9 @@ std::string parameterText(const Block& block, const Word& word) {
       name = "QS";
     } else if (node.operation == Operation::Call && node.function == Function::Host && written == "PREDEF") {
       return fmt::format("Q{}=PREDEF", word.address);
+    } else if (node.operation == Operation::Call && node.function == Function::Host &&
+               (written == "FU" || written == "FZ")) {
+      return fmt::format("Q{}={}{}", word.address, written, unsignedValue(block, block.operands[node.a]));
     }
   }
   return fmt::format("{}{}={}", name, word.address, writeValue(block, word.value));
@@ -209,11 +217,6 @@ private:
   std::span<const Word> words_;
 };
 
-std::string unsignedValue(const Block& block, const Operand& operand) {
-  const std::string text = writeValue(block, operand);
-  return text.starts_with('+') ? text.substr(1) : text;
-}
-
 /// Words with incremental signs, blanks between.
 std::string plainWords(const Block& block, std::span<const Word> words) {
   std::string out;
@@ -246,8 +249,8 @@ std::string planeWords(const Block& block, std::span<const Word> words) {
   for (const Word& word : words) {
     const std::string_view own = planeWord(word.address);
     const std::string name = own.empty() ? addressName(word.address) : std::string(own);
-    if (word.address == addressOf("SEQ")) {
-      out += word.value.number > 0 ? " SEQ+" : " SEQ-";
+    if (word.address == addressOf("SEQ") || word.address == addressOf("SYM")) {
+      out += fmt::format(" {}{}", name, word.value.number > 0 ? '+' : '-');
     } else if (word.address == addressOf("MB") && !word.value.present()) {
       out += " MB MAX";
     } else if (word.address == addressOf("F")) {
@@ -352,7 +355,8 @@ std::string writeCommand(const Block& block, const Command& command) {
   if (name == "GLOBAL DEF") {
     return parameterCycle(block, "GLOBAL DEF", static_cast<int>(words[0].value.number), words.subspan(1));
   }
-  if (name == "CYCL DEF 12") return inParts("CYCL DEF", 12, {titleOfParts(block, 12), fmt::format("PGM {}", text)});
+  if (name == "CYCL DEF 12")
+    return inParts("CYCL DEF", 12, {titleOfParts(block, 12), fmt::format("PGM {}", writePath(text))});
   if (name == "CYCL DEF 9") {
     return inParts("CYCL DEF", 9, {titleOfParts(block, 9), words.empty() ? "" : fmt::format("DWELL {}", value(0))});
   }

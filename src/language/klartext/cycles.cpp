@@ -119,8 +119,10 @@ bool BlockParser::cycleParameter() {
   } else if (lexer_.acceptKeyword("FAUTO") || lexer_.acceptKeyword("AUTO")) {
     assigned = textOperand(constant("FAUTO"));
   } else if (lexer_.peek() == 'F' && (upper(lexer_.here(1)) == 'U' || upper(lexer_.here(1)) == 'Z')) {
+    const bool perRevolution = upper(lexer_.here(1)) == 'U';
     lexer_.advance(2);
-    assigned = value("the feed");
+    const std::optional<Operand> feed = value("the feed");
+    if (feed) assigned = callHost(perRevolution ? "FU" : "FZ", {*feed});
   } else if (parameter.space == VariableSpace::QS && isWordByte(lexer_.peek()) && !variableFollows()) {
     // Printed programs leave the quotation marks out.
     const std::string_view bare = lexer_.chunk();

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <utility>
+
+#include "language/klartext/lexer.hpp"
 
 namespace probewright::language::klartext {
 
@@ -163,6 +166,16 @@ std::string writeValue(const Block& block, const Operand& operand) {
   const Node& node = block.nodes[static_cast<std::size_t>(operand.node)];
   if (node.operation == Operation::Variable) return fmt::format("+{}", writeVariable(block.variables[node.a]));
   return writeFormula(block, operand);
+}
+
+std::string writePath(std::string_view path) {
+  const auto isPlain = [](char c) {
+    return isLetter(upper(c)) || isDigit(c) || std::string_view("_.-\\/:$#&+").find(c) != std::string_view::npos;
+  };
+  Lexer lexer(path);
+  const bool isVariable = lexer.acceptPrefix("Q") && (lexer.acceptPrefix("S"), isDigit(lexer.here()));
+  const bool plain = !path.empty() && path.front() != ':' && !isVariable && std::ranges::all_of(path, isPlain);
+  return plain ? std::string(path) : fmt::format("\"{}\"", path);
 }
 
 std::string writeFormula(const Block& block, const Operand& operand) { return FormulaWriter(block).formula(operand); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "language/block.hpp"
 
@@ -16,6 +17,9 @@ std::string writeVariable(const VariableRef& variable);
 
 /// The value of a word: a signed number or a parameter with an optional minus.
 std::string writeValue(const Block& block, const Operand& operand);
+
+/// The name of a file, in quotation marks where it would be read as something else without them.
+std::string writePath(std::string_view path);
 
 /// A formula, as it stands on the right of an assignment.
 std::string writeFormula(const Block& block, const Operand& operand);

@@ -59,120 +59,135 @@ bool BlockParser::functionBody(int number) {
   }
 }
 
+Operand BlockParser::call(Function function, std::initializer_list<Operand> arguments) {
+  Node node;
+  node.operation = Operation::Call;
+  node.function = function;
+  node.a = static_cast<std::uint32_t>(block_.operands.size());
+  node.b = static_cast<std::uint32_t>(arguments.size());
+  block_.operands.insert(block_.operands.end(), arguments);
+  return push(node);
+}
+
+/// What FN 1 to 8 and 13 compute of their values; FN 5 to 7 take `left` alone.
+Operand BlockParser::functionResult(int number, Operand left, Operand right) {
+  switch (number) {
+    case 1:
+      return binary(Operation::Add, left, right);
+    case 2:
+      return binary(Operation::Subtract, left, right);
+    case 3:
+      return binary(Operation::Multiply, left, right);
+    case 4:
+      return binary(Operation::Divide, left, right);
+    case 5:
+      return call(Function::Sqrt, {left});
+    case 6:
+      return call(Function::Sin, {left});
+    case 7:
+      return call(Function::Cos, {left});
+    case 8:
+      return call(Function::RootSumOfSquares, {left, right});
+    default:
+      return callHost("ANG", {left, right});
+  }
+}
+
 bool BlockParser::functionAssignment(int number) {
   const std::optional<std::uint32_t> target = variableIndex();
   if (!target || !expect('=', "the parameter")) return false;
-  const auto call = [&](Function function, Operand argument) {
-    Node node;
-    node.operation = Operation::Call;
-    node.function = function;
-    node.a = static_cast<std::uint32_t>(block_.operands.size());
-    node.b = 1;
-    block_.operands.push_back(argument);
-    return push(node);
-  };
+  static constexpr std::array<std::string_view, 14> signs = {"",    "+",   "-", "*", "DIV", "SQRT", "SIN",
+                                                             "COS", "LEN", "",  "",  "",    "",     "ANG"};
+  const std::string_view sign = signs[static_cast<std::size_t>(number)];
   std::optional<Operand> result;
   if (number == 0) {
     // A text may be assigned to a QS parameter in this form as well.
     const std::optional<std::string_view> text = lexer_.quoted();
     result = text ? textOperand(ref(*text)) : value("the parameter");
   } else if (number >= 5 && number <= 7) {
-    const std::string_view name = number == 5 ? "SQRT" : number == 6 ? "SIN" : "COS";
-    if (!lexer_.acceptPrefix(name)) return error(std::string(name) + " is expected here");
-    const std::optional<Operand> argument = value(name);
-    if (!argument) return false;
-    result = call(number == 5 ? Function::Sqrt : number == 6 ? Function::Sin : Function::Cos, *argument);
+    if (!lexer_.acceptPrefix(sign)) return error(std::string(sign) + " is expected here");
+    const std::optional<Operand> argument = value(sign);
+    if (argument) result = functionResult(number, *argument, {});
   } else {
     const std::optional<Operand> left = value("the first value");
     if (!left) return false;
-    std::string_view sign;
-    Operation operation = Operation::Add;
-    switch (number) {
-      case 1:
-        sign = "+";
-        break;
-      case 2:
-        sign = "-", operation = Operation::Subtract;
-        break;
-      case 3:
-        sign = "*", operation = Operation::Multiply;
-        break;
-      case 4:
-        sign = "DIV", operation = Operation::Divide;
-        break;
-      case 8:
-        sign = "LEN";
-        break;
-      default:
-        sign = "ANG";
-        break;
-    }
     if (!lexer_.acceptPrefix(sign) && !(number == 4 && lexer_.accept('/'))) {
       return error(std::string(sign) + " is expected between the two values");
     }
     const std::optional<Operand> right = value("the second value");
-    if (!right) return false;
-    if (number == 13) {
-      result = callHost("ANG", {*left, *right});
-    } else if (number == 8) {
-      Node node;
-      node.operation = Operation::Call;
-      node.function = Function::RootSumOfSquares;
-      node.a = static_cast<std::uint32_t>(block_.operands.size());
-      node.b = 2;
-      block_.operands.push_back(*left);
-      block_.operands.push_back(*right);
-      result = push(node);
-    } else {
-      result = binary(operation, *left, *right);
-    }
+    if (right) result = functionResult(number, *left, *right);
   }
   if (!result) return false;
   emit(Assign{*target, *result});
   return expectEnd();
 }
 
-bool BlockParser::functionJump(int number) {
-  static constexpr std::array<std::string_view, 4> comparisons = {"EQU", "NE", "GT", "LT"};
+/// IS DEFINED or IS UNDEFINED behind the parameter that was read last.
+std::optional<Operand> BlockParser::definedCondition() {
+  const bool undefined = lexer_.acceptKeyword("UNDEFINED");
+  if (!undefined && !lexer_.acceptKeyword("DEFINED")) {
+    error("DEFINED or UNDEFINED is expected behind IS");
+    return std::nullopt;
+  }
+  Node node;
+  node.operation = Operation::Undefined;
+  node.a = static_cast<std::uint32_t>(block_.variables.size() - 1);
+  const Operand condition = push(node);
+  if (undefined) return condition;
+  Node invert;
+  invert.operation = Operation::Not;
+  invert.left = condition;
+  return push(invert);
+}
+
+/// The comparison of FN 9 to 12 with what stands next: a value or a text.
+std::optional<Operand> BlockParser::comparison(int number, Operand left, std::string_view what) {
   static constexpr std::array<Operation, 4> operations = {Operation::Equal, Operation::NotEqual, Operation::Greater,
                                                           Operation::Less};
-  const auto kind = static_cast<std::size_t>(number - 9);
+  const std::optional<std::string_view> text = lexer_.quoted();
+  const std::optional<Operand> right = text ? textOperand(ref(*text)) : value(what);
+  if (!right) return std::nullopt;
+  return binary(operations[static_cast<std::size_t>(number - 9)], left, *right);
+}
+
+bool BlockParser::functionJump(int number) {
+  static constexpr std::array<std::string_view, 4> comparisons = {"EQU", "NE", "GT", "LT"};
+  const std::string_view sign = comparisons[static_cast<std::size_t>(number - 9)];
   if (!lexer_.acceptKeyword("IF")) return error("IF is expected here");
   const bool isVariable = variableFollows() || (lexer_.peek() == '+' && upper(lexer_.here(1)) == 'Q');
   const std::optional<Operand> left = value("the first value");
   if (!left) return false;
-  Jump jump;
+  std::optional<Operand> condition;
   if (isVariable && lexer_.acceptKeyword("IS")) {
-    const bool undefined = lexer_.acceptKeyword("UNDEFINED");
-    if (!undefined && !lexer_.acceptKeyword("DEFINED")) return error("DEFINED or UNDEFINED is expected behind IS");
-    Node node;
-    node.operation = Operation::Undefined;
-    node.a = static_cast<std::uint32_t>(block_.variables.size() - 1);
-    jump.condition = push(node);
-    if (!undefined) {
-      Node invert;
-      invert.operation = Operation::Not;
-      invert.left = jump.condition;
-      jump.condition = push(invert);
-    }
+    condition = definedCondition();
   } else {
-    if (!lexer_.acceptPrefix(comparisons[kind])) {
-      return error(std::string(comparisons[kind]) + " is expected between the two values");
-    }
-    std::optional<Operand> right;
-    if (const std::optional<std::string_view> text = lexer_.quoted()) {
-      right = textOperand(ref(*text));
-    } else {
-      right = value("the second value");
-    }
-    if (!right) return false;
-    jump.condition = binary(operations[kind], *left, *right);
+    if (!lexer_.acceptPrefix(sign)) return error(std::string(sign) + " is expected between the two values");
+    condition = comparison(number, *left, "the second value");
   }
+  if (!condition) return false;
+  Jump jump;
+  jump.condition = *condition;
   if (!lexer_.acceptPrefix("GOTO")) return error("GOTO LBL is expected behind the condition");
   if (!lexer_.acceptPrefix("LBL")) return error("LBL is expected behind GOTO");
   if (!labelName(jump.label, jump.labelValue)) return false;
   emit(jump);
   return expectEnd();
+}
+
+/// ID.., and NR.. and IDX.. as far as they stand there.
+bool BlockParser::systemDatum() {
+  if (!lexer_.acceptPrefix("ID")) return error("ID with the group of the system datum is expected here");
+  if (!word(addressOf("ID"), "ID")) return false;
+  while (lexer_.peek() == 'N' || lexer_.peek() == 'I') {
+    if (lexer_.acceptPrefix("NR")) {
+      if (!word(addressOf("NR"), "NR")) return false;
+    } else if (lexer_.acceptPrefix("IDX")) {
+      if (!word(addressOf("IDX"), "IDX")) return false;
+    } else {
+      return error("NR or IDX is expected here");
+    }
+  }
+  return true;
 }
 
 /// FN 17: SYSWRITE ID990 NR10 IDX0 = +5, FN 18: SYSREAD Q5 = ID210 NR4 IDX3. Words ID, NR, IDX and VAL.
@@ -186,17 +201,7 @@ bool BlockParser::functionSystemData(int number) {
     command.variable = static_cast<std::int32_t>(*target);
   }
   const std::size_t first = block_.words.size();
-  if (!lexer_.acceptPrefix("ID")) return error("ID with the group of the system datum is expected here");
-  if (!word(addressOf("ID"), "ID")) return false;
-  while (lexer_.peek() == 'N' || lexer_.peek() == 'I') {
-    if (lexer_.acceptPrefix("NR")) {
-      if (!word(addressOf("NR"), "NR")) return false;
-    } else if (lexer_.acceptPrefix("IDX")) {
-      if (!word(addressOf("IDX"), "IDX")) return false;
-    } else {
-      return error("NR or IDX is expected here");
-    }
-  }
+  if (!systemDatum()) return false;
   if (number == 17) {
     if (!expect('=', "the system datum")) return false;
     const std::optional<Operand> written = formula();

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "control/heidenhain/control.hpp"
@@ -23,6 +24,15 @@ struct HostOptions {
   std::function<Result<std::string>(const std::string& name)> readFile;
 };
 
+/// What a mask of FN 16 makes of a file.
+struct ProtocolResult {
+  enum class Going { AsOpen, Append, Truncate };
+  std::string text;
+  bool close = false;
+  Going going = Going::AsOpen;
+  std::size_t mostBytes = 0;  ///< of the file, M_APPEND_MAX; 0: any
+};
+
 /// Carries out Klartext on a HEIDENHAIN control. Program coordinates and feeds are in the unit of the program.
 class KlartextHost : public Host {
 public:
@@ -33,6 +43,7 @@ public:
   bool isDefined(const VariableRef& variable, Evaluation& evaluation) override;
   Value call(std::string_view name, std::span<const Value> arguments) override;
   void execute(const Instruction& instruction, Evaluation& evaluation) override;
+  std::string requestedProgram() override { return std::exchange(requestedProgram_, {}); }
   bool beginBlock(const Program& program, const Block& block) override;
   std::string code(Refusal refusal) const override;
   void enter(const Program& program, const CallProgram* call, Evaluation* caller) override;
@@ -60,7 +71,11 @@ private:
   Vector3 pointOf(const Move& move, Evaluation& evaluation, const Vector3& from) const;
   std::size_t axisOf(char letter) const;
   control::Feed feedOf(const Move& move, Evaluation& evaluation);
+  BlockPlace placeOf(Evaluation& evaluation) const;
+  /// Of the tool in the spindle, at least 1.
+  double teeth() const;
   Side sideOf(const Move& move);
+  bool travels(const Move& move, Evaluation& evaluation) const;
   double length(const Operand& operand, Evaluation& evaluation) const;
   const Word* find(WordRange range, std::string_view address, Evaluation& evaluation) const;
   /// Ends all motion that waits; compensation ends too.
@@ -78,6 +93,7 @@ private:
   // host_transforms.cpp
   void transform(const Transform& transform, Evaluation& evaluation);
   void shiftDatum(WordRange words, Evaluation& evaluation);
+  void shiftAxis(char letter, double value, bool incremental);
   void shiftDatumByTable(double row);
   void selectDatumTable(const std::string& name);
   void activatePreset(int row);
@@ -87,12 +103,19 @@ private:
   void plane(std::string_view name, WordRange words, Evaluation& evaluation);
   void tiltByCycle19(WordRange words, Evaluation& evaluation);
   void tilt(const std::optional<Matrix3>& tilt, WordRange words, Evaluation& evaluation);
+  void keepWantedSide(std::vector<machine::AxisPositions>& solutions, const Vector3& toolAxis, WordRange words,
+                      Evaluation& evaluation) const;
+  void placeFreeAxis(const Matrix3& machineFromPlane, const Vector3& toolAxis, bool onlyTurned,
+                     machine::AxisPositions& target, WordRange words, Evaluation& evaluation) const;
   void positionRotaryAxes(const machine::AxisPositions& target, WordRange words, Evaluation& evaluation);
   void publishRotaryAxes(const machine::AxisPositions& target);
 
   // host_cycles.cpp
   void cycle(const CycleCall& call, Evaluation& evaluation);
   void measure(const CycleCall& call, Evaluation& evaluation);
+  void defineCycle(int number);
+  void callCycle(const Command& command, Evaluation& evaluation);
+  void moveToCallPosition(const Command& command, Evaluation& evaluation);
   void callMachiningCycle();
   void skip(int number);
 
@@ -102,15 +125,29 @@ private:
   void setPresetInAxis(const Command& command, Evaluation& evaluation);
   void message(std::string text);
 
-  // host_system_data.cpp: FN 17 and FN 18
+  // host_system_data.cpp: FN 18
   void systemRead(const Command& command, Evaluation& evaluation);
-  void systemWrite(const Command& command, Evaluation& evaluation);
-  std::optional<double> systemData(int id, int number, double index) const;
+  std::optional<double> systemData(int id, int number, double index, Evaluation& evaluation);
+  std::optional<double> programData(int number, int index) const;
+  std::optional<double> parameterData(int number, int index, Evaluation& evaluation);
+  std::optional<double> stateData(int number) const;
+  std::optional<double> touchData(int number, int index) const;
+  std::optional<double> tableData(int id, int number, int index) const;
+  std::optional<double> probingState(int number, int index) const;
+  std::optional<double> coordinateData(int id, int number, int index) const;
+  double spindleState() const;
+
+  // host_tool_data.cpp: tools and touch probes of FN 18, and FN 17
+  std::string toolRowOf(double index) const;
   std::optional<double> toolData(int number, const std::string& row) const;
+  std::optional<double> toolCallData(int number) const;
+  std::optional<double> toolCompensation(int number, double index) const;
   std::optional<double> probeData(int number, int index) const;
+  void systemWrite(const Command& command, Evaluation& evaluation);
 
   // host_protocol.cpp: FN 16
   void protocol(const Command& command, Evaluation& evaluation);
+  void writeProtocol(const std::string& name, const ProtocolResult& result);
 
   // host_tables.cpp: FN 26, 27, 28, and files that programs name
   void openTable(std::string_view path);
@@ -119,7 +156,9 @@ private:
   /// The bytes of a file of the control: at its path, or by its name alone.
   Result<std::string> readHostFile(std::string_view path) const;
 
+  // host_system_text.cpp
   Value systemText(int id, int number, int index) const;
+  Value configuration(const std::string& object, const std::string& attribute, int index) const;
   double machineSeconds() const;
 
   control::heidenhain::Control& control_;
@@ -134,9 +173,14 @@ private:
   int arcDirection_ = 0;
   bool shortestPath_ = false;  ///< M126
   bool spindleRuns_ = false;
+  bool spindleHasRun_ = false;
+  double preparedTool_ = 0;  ///< of TOOL DEF
+  std::optional<int> lastProbeCycle_;
   bool clockwise_ = true;
   std::string selectedProgram_;
   std::optional<int> machiningCycle_;
+  std::string cycleProgram_;      ///< of cycle 12
+  std::string requestedProgram_;  ///< to be called behind this instruction
   bool cycleAtEachMove_ = false;  ///< M89
   std::map<std::string, bool> protocolOpen_;
   std::optional<control::heidenhain::TextTable> table_;  ///< opened with FN 26
@@ -146,11 +190,6 @@ private:
 std::string fileNameOf(std::string_view path);
 
 /// Formats a FN 16 mask line by line; see host_protocol.cpp. `read` gives the value of "Q5" or "QS3".
-struct ProtocolResult {
-  std::string text;
-  bool close = false;
-  bool append = false;
-};
 ProtocolResult formatProtocol(std::string_view mask, const std::function<Value(std::string_view)>& read,
                               std::int64_t secondsSince1970, std::string_view callPath);
 

@@ -55,16 +55,21 @@ void KlartextHost::command(const Command& command, Evaluation& evaluation) {
     contour_.flush();
     if (const Word* angle = first()) control_.channel.orientSpindle(evaluation.number(angle->value));
   } else if (name == "CYCL DEF 12") {
-    throw Alarm("Cycle not available", "Cycle 12 PGM CALL is not available", "call the program with CALL PGM");
+    settle();
+    defineCycle(12);
+    cycleProgram_ = text;
   } else if (name == "CYCL CALL") {
     contour_.flush();
-    callMachiningCycle();
+    callCycle(command, evaluation);
   } else if (name == "GLOBAL DEF") {
     const std::span<const Word> words = evaluation.words(command.words);
     for (std::size_t i = 1; i < words.size(); ++i) {
       const Value value = evaluation.value(words[i].value);
       if (!isText(value)) control_.globalDefinitions[static_cast<int>(words[i].address)] = std::get<double>(value);
     }
+  } else if (name == "TOOL DEF") {
+    const Value tool = evaluation.value(first()->value);
+    if (!isText(tool)) preparedTool_ = std::floor(std::get<double>(tool));
   } else if (name == "SEL PGM") {
     selectedProgram_ = command.words.count > 0 ? evaluation.text(first()->value) : std::string(text);
   } else if (name == "SEL TABLE") {

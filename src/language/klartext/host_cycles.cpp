@@ -9,10 +9,11 @@
 #include "cycles/heidenhain/registry.hpp"
 #include "language/klartext/host.hpp"
 
-/// Touch probe cycles run; machining cycles are named as skipped.
+/// Touch probe cycles run; cycle 12 calls its program; all other machining cycles are named as skipped.
 namespace probewright::language::klartext {
 
 using control::Alarm;
+using control::Feed;
 
 namespace {
 
@@ -30,7 +31,39 @@ void KlartextHost::cycle(const CycleCall& call, Evaluation& evaluation) {
     skip(call.number);
     return;
   }
-  machiningCycle_ = call.number;
+  defineCycle(call.number);
+}
+
+/// A new cycle ends M89.
+void KlartextHost::defineCycle(int number) {
+  machiningCycle_ = number;
+  cycleAtEachMove_ = false;
+}
+
+/// CYCL CALL, CYCL CALL POS at a position, and M99, which ends M89.
+void KlartextHost::callCycle(const Command& command, Evaluation& evaluation) {
+  cycleAtEachMove_ = false;
+  if (evaluation.at(command.text) == "PAT" && machiningCycle_ == 12) {
+    throw Alarm("Function not available", "CYCL CALL PAT is not available: patterns of points are not simulated",
+                "program the positions with CYCL CALL POS or M99");
+  }
+  if (evaluation.at(command.text) == "POS") moveToCallPosition(command, evaluation);
+  callMachiningCycle();
+}
+
+/// In the plane at the greater of the two heights; cycles that are skipped stay above.
+void KlartextHost::moveToCallPosition(const Command& command, Evaluation& evaluation) {
+  Move way;
+  way.words = command.words;
+  const Word* feedWord = find(command.words, "F", evaluation);
+  const Feed feed = feedWord == nullptr ? Feed::rapidTraverse() : Feed::at(length(feedWord->value, evaluation));
+  const control::WorkingPlane& plane = control_.coordinates.plane;
+  const Vector3 from = plane.planeFromXyz(control_.channel.position());
+  const Vector3 to = plane.planeFromXyz(pointOf(way, evaluation, control_.channel.position()));
+  const double above = std::max(from.z(), to.z());
+  control_.channel.moveTo(plane.xyzFromPlane({from.x(), from.y(), above}), feed);
+  control_.channel.moveTo(plane.xyzFromPlane({to.x(), to.y(), above}), feed);
+  if (machiningCycle_ == 12) control_.channel.moveTo(plane.xyzFromPlane(to), feed);
 }
 
 void KlartextHost::measure(const CycleCall& call, Evaluation& evaluation) {
@@ -66,6 +99,7 @@ void KlartextHost::measure(const CycleCall& call, Evaluation& evaluation) {
       arguments.set(word.address, std::get<double>(value));
     }
   }
+  lastProbeCycle_ = call.number;
   cycles::heidenhain::runCycle(control_, *entry, arguments, evaluation.place());
   control_.applyCoordinates();
 }
@@ -74,6 +108,10 @@ void KlartextHost::callMachiningCycle() {
   if (!machiningCycle_) {
     throw Alarm("Cycle not defined", "CYCL CALL, M99 or M89 finds no cycle defined",
                 "program CYCL DEF with the cycle before it");
+  }
+  if (machiningCycle_ == 12) {
+    requestedProgram_ = cycleProgram_;
+    return;
   }
   skip(*machiningCycle_);
 }

@@ -17,15 +17,19 @@ void KlartextHost::machineFunction(const MachineFunction& function, Evaluation& 
     case 13:
     case 4:
     case 14:
-      spindleRuns_ = true;
+      spindleRuns_ = spindleHasRun_ = true;
       clockwise_ = function.number == 3 || function.number == 13;
+      control_.q.setQ(110, spindleState());
       break;
     case 5:
     case 6:
       spindleRuns_ = false;
+      control_.q.setQ(110, spindleState());
       break;
     case 89:
+      contour_.flush();
       cycleAtEachMove_ = true;
+      callMachiningCycle();
       break;
     case 126:
       shortestPath_ = true;

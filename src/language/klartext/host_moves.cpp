@@ -79,14 +79,28 @@ Feed KlartextHost::feedOf(const Move& move, Evaluation& evaluation) {
     feed_ = length(perRevolution->value, evaluation) * control_.tool.spindleSpeed;
   }
   if (const Word* perTooth = find(move.words, "FZ", evaluation)) {
-    const double teeth = control_.tables.tools.numberOr(control_.tool.row, "CUT", 1);
-    feed_ = length(perTooth->value, evaluation) * control_.tool.spindleSpeed * std::max(teeth, 1.0);
+    feed_ = length(perTooth->value, evaluation) * control_.tool.spindleSpeed * teeth();
   }
   if (move.rapid) return Feed::rapidTraverse();
   if (!(feed_ > 0)) {
     throw Alarm("Feed rate is missing", "No feed rate has been programmed yet", "program F or FMAX in this block");
   }
   return Feed::at(feed_);
+}
+
+BlockPlace KlartextHost::placeOf(Evaluation& evaluation) const {
+  return {levels_.back().program, evaluation.block().position};
+}
+
+double KlartextHost::teeth() const {
+  return std::max(control_.tables.tools.numberOr(control_.tool.row, "CUT", 1), 1.0);
+}
+
+/// True if the block moves an axis; a feed or a radius compensation alone does not.
+bool KlartextHost::travels(const Move& move, Evaluation& evaluation) const {
+  return std::ranges::any_of(evaluation.words(move.words), [](const Word& word) {
+    return word.address != addressOf("FU") && word.address != addressOf("FZ");
+  });
 }
 
 Side KlartextHost::sideOf(const Move& move) {
@@ -131,10 +145,16 @@ void KlartextHost::move(const Move& move, Evaluation& evaluation) {
       arc(move, evaluation);
       break;
   }
+  bool callsByItself = false;  // M99 in the block: the call comes behind the move
   for (const Instruction& instruction : evaluation.block().instructions) {
     if (std::holds_alternative<EndProgram>(instruction)) settle();
+    const auto* command = std::get_if<Command>(&instruction);
+    callsByItself = callsByItself || (command != nullptr && evaluation.at(command->name) == "CYCL CALL");
   }
-  if (cycleAtEachMove_) callMachiningCycle();
+  if (cycleAtEachMove_ && !callsByItself && travels(move, evaluation)) {
+    contour_.flush();
+    callMachiningCycle();
+  }
 }
 
 void KlartextHost::straight(const Move& move, Evaluation& evaluation) {
@@ -213,12 +233,14 @@ void KlartextHost::straight(const Move& move, Evaluation& evaluation) {
   element.heightTo = b.z();
   element.side = side;
   element.feed = feed;
+  element.block = placeOf(evaluation);
   contour_.add(element, waits);
 }
 
 void KlartextHost::addElement(Element element, const Move& move, Evaluation& evaluation) {
   element.side = sideOf(move);
   element.feed = feedOf(move, evaluation);
+  element.block = placeOf(evaluation);
   contour_.add(element,
                levels_.back().program != nullptr && levels_.back().program->cornerFollows(evaluation.block().next));
 }
@@ -343,9 +365,9 @@ void KlartextHost::corner(const Move& move, Evaluation& evaluation) {
   if (move.feed.present()) feed = Feed::at(length(move.feed, evaluation));
   const double value = length(size->value, evaluation);
   if (move.kind == MoveKind::Rounding) {
-    contour_.round(value, feed);
+    contour_.round(value, feed, placeOf(evaluation));
   } else {
-    contour_.chamfer(value, feed);
+    contour_.chamfer(value, feed, placeOf(evaluation));
   }
 }
 
@@ -383,6 +405,7 @@ void KlartextHost::approachOrDepart(const Move& move, Evaluation& evaluation) {
   if (const Word* word = find(move.words, "CCA", evaluation))
     way.angle = radiansFromDegrees(evaluation.number(word->value));
   way.feed = feedOf(move, evaluation);
+  way.block = placeOf(evaluation);
   if (move.kind == MoveKind::Approach) {
     way.side = sideOf(move);
     const Vector3 start = plane.planeFromXyz(from);

@@ -83,12 +83,14 @@ void KlartextHost::plane(std::string_view name, WordRange words, Evaluation& eva
       if (word.address < 'A' || word.address > 'C') continue;
       const std::size_t axis = axisOf(static_cast<char>(word.address));
       const double angle = evaluation.number(word.value);
-      target[axis] = word.mode == WordMode::Incremental ? target[axis] + angle : angle + reference[axis];
+      target[axis] =
+          word.mode == WordMode::Incremental ? target[axis] + angle : angle + control_.channel.rotaryOffset[axis];
     }
     // In the workpiece system of the preset; basic rotation turns with it.
     const Matrix3 preset = control_.coordinates.machineFromPreset().linear();
     axes = preset.transpose() * toolOrientation(control_.channel.description(), reference, target) * preset;
     control_.coordinates.tilt = axes;
+    control_.coordinates.tiltIsAxial = true;
     control_.coordinates.workingPlane = {};
     positionRotaryAxes(target, words, evaluation);
     control_.applyCoordinates();
@@ -114,12 +116,60 @@ void KlartextHost::tiltByCycle19(WordRange words, Evaluation& evaluation) {
   tilt(rotationFromSpaceAngles(angles), words, evaluation);
 }
 
+/// The solutions on the side that SEQ (of the rest position) or SYM (of the point of symmetry) asks for.
+void KlartextHost::keepWantedSide(std::vector<machine::AxisPositions>& solutions, const Vector3& toolAxis,
+                                  WordRange words, Evaluation& evaluation) const {
+  const machine::MachineDescription& description = control_.channel.description();
+  const std::optional<machine::TiltingAxis> tilting = tiltingAxis(description, toolAxis);
+  if (!tilting) return;
+  for (const std::string_view side : {"SEQ", "SYM"}) {
+    const Word* word = find(words, side, evaluation);
+    if (word == nullptr) continue;
+    const double middle = side == "SYM" ? tilting->symmetry : control_.coordinates.preset.rotaryOffset[tilting->axis];
+    const double sign = evaluation.number(word->value);
+    std::erase_if(solutions, [&](const machine::AxisPositions& s) {
+      return std::remainder(s[tilting->axis] - middle, 360.0) * sign < -1e-9;
+    });
+    if (!solutions.empty()) continue;
+    throw Alarm("Entered angle not permitted",
+                fmt::format("Axis {} reaches this plane only on the other side than {}{} asks for",
+                            description.axes[tilting->axis].name, side, sign > 0 ? '+' : '-'),
+                fmt::format("use the other sign, or leave {} out", side));
+  }
+}
+
+/// COORD ROT, which is the standard, leaves a free rotary axis at 0. TABLE ROT turns it until the plane lies along the
+/// machine's axes if the plane is turned about the tool axis only, and otherwise leaves it where it stands.
+void KlartextHost::placeFreeAxis(const Matrix3& machineFromPlane, const Vector3& toolAxis, bool onlyTurned,
+                                 machine::AxisPositions& target, WordRange words, Evaluation& evaluation) const {
+  const machine::MachineDescription& description = control_.channel.description();
+  const machine::AxisPositions& reference = control_.coordinates.preset.rotaryOffset;
+  const std::optional<std::size_t> axis = freeRotaryAxis(description, machineFromPlane * toolAxis, reference);
+  if (!axis) return;
+  if (find(words, "TABL", evaluation) == nullptr) {
+    target[*axis] = control_.channel.rotaryOffset[*axis];
+    return;
+  }
+  target[*axis] = control_.channel.axes()[*axis];
+  if (!onlyTurned) return;
+  Vector3 main = Vector3::Zero();
+  main[control_.coordinates.plane.main] = 1;
+  const std::optional<double> angle =
+      alignedAngle(description, *axis, machineFromPlane * main, main, reference, target);
+  if (!angle) {
+    throw Alarm("Entered angle not permitted",
+                fmt::format("Axis {} cannot turn the workpiece as TABLE ROT asks for", description.axes[*axis].name),
+                "use COORD ROT");
+  }
+  target[*axis] = *angle;
+}
+
 /// Tilts the working plane, or ends the tilt, and positions the rotary axes as the block asks for.
 void KlartextHost::tilt(const std::optional<Matrix3>& wanted, WordRange words, Evaluation& evaluation) {
   const machine::MachineDescription& description = control_.channel.description();
-  const machine::AxisPositions& reference = control_.coordinates.preset.rotaryOffset;
-  const machine::AxisPositions now = control_.channel.axes();
   control::heidenhain::Coordinates& coordinates = control_.coordinates;
+  const machine::AxisPositions& reference = coordinates.preset.rotaryOffset;
+  const machine::AxisPositions now = control_.channel.axes();
 
   machine::AxisPositions target = now;
   Vector3 toolAxis = Vector3::Zero();
@@ -130,33 +180,14 @@ void KlartextHost::tilt(const std::optional<Matrix3>& wanted, WordRange words, E
     }
   } else {
     const Matrix3 workpiece = about(toolAxis, coordinates.workpiece.rotation);
-    const Vector3 direction = coordinates.machineFromPreset().linear() * workpiece * *wanted * toolAxis;
-    std::vector<machine::AxisPositions> solutions = solveRotaryAxes(description, direction, toolAxis, reference, now);
+    const Matrix3 machineFromPlane = coordinates.machineFromPreset().linear() * workpiece * *wanted;
+    std::vector<machine::AxisPositions> solutions =
+        solveRotaryAxes(description, machineFromPlane * toolAxis, toolAxis, reference, now);
     if (solutions.empty()) {
-      throw Alarm("Tilting not possible", "The rotary axes of the machine cannot reach this plane",
+      throw Alarm("Entered angle not permitted", "The rotary axes of the machine cannot reach this plane",
                   "choose another plane or a machine whose rotary axes reach it");
     }
-    // The axis that tilts is the one that is not parallel to the tool axis at rest.
-    std::size_t master = description.axes.size();
-    const auto search = [&](const std::vector<machine::ChainElement>& chain) {
-      for (const machine::ChainElement& element : chain) {
-        const bool rotary = element.axis && description.axes[*element.axis].kind == machine::AxisKind::Rotary;
-        if (rotary && element.direction.cross(toolAxis).norm() > 1e-6) master = *element.axis;
-      }
-    };
-    search(description.tableChain);
-    search(description.spindleChain);
-    const Word* sequence = find(words, "SEQ", evaluation);
-    if (sequence != nullptr && master < description.axes.size()) {
-      const double sign = evaluation.number(sequence->value);
-      std::erase_if(solutions,
-                    [&](const machine::AxisPositions& s) { return (s[master] - reference[master]) * sign < -1e-9; });
-      if (solutions.empty()) {
-        throw Alarm("Tilting not possible",
-                    fmt::format("No position of axis {} has the sign that SEQ asks for", description.axes[master].name),
-                    "use the other sign or leave SEQ out");
-      }
-    }
+    keepWantedSide(solutions, toolAxis, words, evaluation);
     const auto distance = [&](const machine::AxisPositions& s) {
       double sum = 0;
       for (std::size_t i = 0; i < description.axes.size(); ++i)
@@ -164,10 +195,13 @@ void KlartextHost::tilt(const std::optional<Matrix3>& wanted, WordRange words, E
       return sum;
     };
     target = *std::ranges::min_element(solutions, {}, distance);
+    const bool onlyTurned = (*wanted * toolAxis - toolAxis).norm() < 1e-9;
+    placeFreeAxis(machineFromPlane, toolAxis, onlyTurned, target, words, evaluation);
   }
   publishRotaryAxes(target);
   positionRotaryAxes(target, words, evaluation);
   coordinates.tilt = wanted;
+  coordinates.tiltIsAxial = false;
   coordinates.workingPlane = {};
   control_.applyCoordinates();
 }
@@ -177,7 +211,7 @@ void KlartextHost::publishRotaryAxes(const machine::AxisPositions& target) {
   for (int i = 0; i < 3; ++i) {
     const char name = static_cast<char>('A' + i);
     const auto axis = description.axisIndex(std::string_view(&name, 1));
-    control_.q.setQ(120 + i, axis ? target[*axis] - control_.coordinates.preset.rotaryOffset[*axis] : 0);
+    control_.q.setQ(120 + i, axis ? target[*axis] - control_.channel.rotaryOffset[*axis] : 0);
   }
 }
 

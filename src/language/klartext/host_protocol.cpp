@@ -12,9 +12,11 @@
 
 /// FN 16: F-PRINT mask / target. A mask holds format lines
 ///   "X = %9.3LF in %S", Q31, QS4;
-/// and keywords CALL_PATH, M_CLOSE, M_APPEND, M_TRUNCATE, L_ENGLISH..., M_EMPTY_HIDE. %F, %LF, %D and %I take numbers,
-/// %S texts (%RS raw), %% is a percent sign, \n a new line. DAY, MONTH, STR_MONTH, YEAR2, YEAR4, HOUR, MIN and SEC
-/// stand where parameters may.
+/// and keywords. CALL_PATH writes the path of the program, M_CLOSE closes the file, M_APPEND, M_APPEND_MAX20
+/// (kilobytes) and M_TRUNCATE say how it goes on, M_EMPTY_HIDE leaves out lines whose texts are empty until
+/// M_EMPTY_SHOW, L_ENGLISH, L_GERMAN... restrict the lines behind them to one language of the control until L_ALL. %F,
+/// %LF, %D and %I take numbers, %S texts (%RS raw), %% is a percent sign, \n a new line. DAY, MONTH, STR_MONTH, YEAR2,
+/// YEAR4, HOUR, MIN and SEC stand where parameters may. Lines that begin with * are comments.
 namespace probewright::language::klartext {
 
 using control::Alarm;
@@ -24,6 +26,7 @@ namespace {
 constexpr std::array<std::string_view, 12> months = {"JAN", "FEB", "MAR", "APR", "MAY", "JUN",
                                                      "JUL", "AUG", "SEP", "OCT", "NOV", "DEC"};
 constexpr std::size_t widestField = 200;
+constexpr std::string_view languageOfControl = "L_ENGLISH";
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (isBlank(text.front()) || text.front() == '\n'))
@@ -50,6 +53,10 @@ std::vector<std::string_view> statementsOf(std::string_view mask) {
       if (mask[end] == '"' && (end == 0 || mask[end - 1] != '\\')) inText = !inText;
       if (!inText && (mask[end] == ';' || (!format && mask[end] == '\n'))) break;
     }
+    if (mask.front() == '*') {
+      mask = mask.substr(std::min(mask.find('\n'), mask.size()));
+      continue;
+    }
     statements.push_back(trimmed(mask.substr(0, end)));
     mask = mask.substr(std::min(end, mask.size()));
   }
@@ -66,6 +73,9 @@ class LineFormatter {
 public:
   LineFormatter(std::string_view line, const std::function<Value(std::string_view)>& read, const std::tm& time)
       : line_(line), read_(read), time_(time) {}
+
+  /// True if the line had text parameters and all of them were empty.
+  bool onlyEmptyTexts() const { return texts_ > 0 && texts_ == emptyTexts_; }
 
   std::string format() {
     const std::size_t close = line_.rfind('"');
@@ -128,6 +138,8 @@ private:
         written = formatFixed(std::round(std::get<double>(value)), 0);
         break;
       case 'S':
+        ++texts_;
+        if (isText(value) && std::get<std::string>(value).empty()) ++emptyTexts_;
         written = isText(value) ? std::get<std::string>(value) : formatShortest(std::get<double>(value));
         if (decimals) written = written.substr(0, *decimals);
         out += padded(std::move(written), width, left);
@@ -164,6 +176,8 @@ private:
 
   std::string_view line_;
   std::string_view arguments_;
+  int texts_ = 0;
+  int emptyTexts_ = 0;
   const std::function<Value(std::string_view)>& read_;
   const std::tm& time_;
 };
@@ -176,17 +190,34 @@ ProtocolResult formatProtocol(std::string_view mask, const std::function<Value(s
   std::tm time{};
   gmtime_r(&seconds, &time);
   ProtocolResult result;
+  bool shown = true;
+  bool hideEmpty = false;
   for (const std::string_view statement : statementsOf(mask)) {
     if (statement.front() == '"') {
-      result.text += LineFormatter(statement, read, time).format();
-      result.text += '\n';
+      if (!shown) continue;
+      LineFormatter formatter(statement, read, time);
+      const std::string line = formatter.format();
+      if (!hideEmpty || !formatter.onlyEmptyTexts()) result.text.append(line).append("\n");
     } else if (statement == "M_CLOSE") {
       result.close = true;
     } else if (statement == "M_APPEND") {
-      result.append = true;
+      result.going = ProtocolResult::Going::Append;
+    } else if (statement.starts_with("M_APPEND_MAX")) {
+      const auto kilobytes = parseInteger(statement.substr(12));
+      if (!kilobytes || *kilobytes < 1) refuse(fmt::format("{} needs a size in kilobytes", statement));
+      result.going = ProtocolResult::Going::Append;
+      result.mostBytes = static_cast<std::size_t>(std::min<std::int64_t>(*kilobytes, 1'000'000)) * 1024;
+    } else if (statement == "M_TRUNCATE") {
+      result.going = ProtocolResult::Going::Truncate;
+    } else if (statement == "M_EMPTY_HIDE" || statement == "M_EMPTY_SHOW") {
+      hideEmpty = statement == "M_EMPTY_HIDE";
     } else if (statement == "CALL_PATH") {
-      result.text.append(callPath).append("\n");
-    } else if (!statement.starts_with("L_") && !statement.starts_with("M_")) {
+      if (shown) result.text.append(callPath).append("\n");
+    } else if (statement == "L_ALL") {
+      shown = true;
+    } else if (statement.starts_with("L_")) {
+      shown = statement == languageOfControl;
+    } else {
       refuse(fmt::format("{} is no format line and no keyword", statement));
     }
   }
@@ -232,14 +263,31 @@ void KlartextHost::protocol(const Command& command, Evaluation& evaluation) {
     return KlartextHost::read(variable, evaluation);
   };
   const ProtocolResult result =
-      formatProtocol(*bytes, read, static_cast<std::int64_t>(machineSeconds()), control_.programPath);
+      formatProtocol(*bytes, read, static_cast<std::int64_t>(machineSeconds()), levels_.back().file);
+  if (target == "SCLR:") return;  // closes the window of an earlier message
   if (target.starts_with("SCREEN:")) {
     if (!result.text.empty()) message(std::string(trimmed(result.text)));
     return;
   }
-  const std::string name = fileNameOf(target);
+  writeProtocol(fileNameOf(target), result);
+}
+
+/// A file that stands open goes on; one that was closed, or comes from an earlier program, begins anew unless the mask
+/// says otherwise.
+void KlartextHost::writeProtocol(const std::string& name, const ProtocolResult& result) {
+  if (name.empty()) {
+    throw Alarm("FN 16: file missing", "FN 16 has no name of a file behind its /",
+                "write FN 16: F-PRINT MASK.A / LOG.TXT");
+  }
   bool& open = protocolOpen_[name];
-  if (open || result.append) {
+  const auto written = control_.panel.files().find(name);
+  const std::size_t size = written == control_.panel.files().end() ? 0 : written->second.size();
+  const bool full = result.mostBytes > 0 && size + result.text.size() > result.mostBytes;
+  const bool goesOn =
+      result.going == ProtocolResult::Going::Append || (open && result.going == ProtocolResult::Going::AsOpen);
+  if (full) {
+    message(fmt::format("FN 16: {} has reached the size that M_APPEND_MAX allows", name));
+  } else if (goesOn) {
     control_.panel.appendToFile(name, result.text);
   } else {
     control_.panel.file(name, result.text);

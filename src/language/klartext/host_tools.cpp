@@ -43,7 +43,7 @@ void KlartextHost::publishTool() {
   control_.q.setQ(108, (tool.radius + tool.deltaRadius) / control_.unit);
   const std::size_t axis = std::string_view("XYZ???UVW").find(tool.axis);
   control_.q.setQ(109, !tool.called || axis == std::string_view::npos ? -1 : static_cast<double>(axis));
-  control_.q.setQ(110, !spindleRuns_ ? -1 : clockwise_ ? 0 : 1);
+  control_.q.setQ(110, spindleState());
   control_.q.setQ(113, control_.unit == 1 ? 0 : 1);
   control_.q.setQ(114, (tool.length + tool.deltaLength) / control_.unit);
 }

@@ -40,6 +40,7 @@ void KlartextHost::transform(const Transform& transform, Evaluation& evaluation)
     shiftDatum(words, evaluation);
   } else if (name == "TRANS DATUM RESET") {
     current.shift = Vector3::Zero();
+    current.axisShift = {};
   } else if (name == "CYCL DEF 8" || name == "TRANS MIRROR AXIS" || name == "TRANS MIRROR RESET") {
     current.mirror = {};
     for (const Word& word : evaluation.words(words)) {
@@ -91,20 +92,29 @@ void KlartextHost::transform(const Transform& transform, Evaluation& evaluation)
 }
 
 void KlartextHost::shiftDatum(WordRange words, Evaluation& evaluation) {
-  Vector3& shift = control_.coordinates.current().shift;
+  Transformations& current = control_.coordinates.current();
   for (const Word& word : evaluation.words(words)) {
-    const int axis = linearAxis(word);
+    const int linear = linearAxis(word);
+    const bool incremental = word.mode == WordMode::Incremental;
     if (word.address == '#') {
       shiftDatumByTable(evaluation.number(word.value));
-    } else if (axis >= 0) {
+    } else if (linear >= 0) {
       const double value = length(word.value, evaluation);
-      shift[axis] = word.mode == WordMode::Incremental ? shift[axis] + value : value;
-    } else if (evaluation.number(word.value) != 0) {
-      throw Alarm("Axis not permitted",
-                  fmt::format("A datum shift of axis {} is not available here", addressName(word.address)),
-                  "shift X, Y and Z; set rotary axes with a preset");
+      current.shift[linear] = incremental ? current.shift[linear] + value : value;
+    } else {
+      const char letter = static_cast<char>(word.address);
+      const bool rotary = letter >= 'A' && letter <= 'C';
+      const double value = rotary ? evaluation.number(word.value) : length(word.value, evaluation);
+      shiftAxis(letter, value, incremental);
     }
   }
+}
+
+/// Shifts the zero of an axis beside X, Y and Z. An axis that the machine does not have can only be shifted by 0.
+void KlartextHost::shiftAxis(char letter, double value, bool incremental) {
+  if (value == 0 && !control_.channel.description().axisIndex(std::string_view(&letter, 1))) return;
+  double& shift = control_.coordinates.current().axisShift[axisOf(letter)];
+  shift = incremental ? shift + value : value;
 }
 
 void KlartextHost::shiftDatumByTable(double row) {
@@ -118,6 +128,10 @@ void KlartextHost::shiftDatumByTable(double row) {
                 "add the row or correct the number");
   }
   control_.coordinates.current().shift = datum->shift;
+  for (std::size_t i = 0; i < 3; ++i) {
+    shiftAxis("ABC"[i], datum -> rotary[i], false);
+    shiftAxis("UVW"[i], datum -> parallel[i], false);
+  }
 }
 
 void KlartextHost::selectDatumTable(const std::string& name) {

@@ -104,6 +104,8 @@ Value KlartextHost::call(std::string_view name, std::span<const Value> arguments
     }
     return found->second;
   }
+  if (name == "FU") return numberArgument(arguments, 0) * control_.tool.spindleSpeed;
+  if (name == "FZ") return numberArgument(arguments, 0) * control_.tool.spindleSpeed * teeth();
   if (name == "SELECTED PGM") {
     if (selectedProgram_.empty()) {
       throw Alarm("Program not selected", "CALL SELECTED PGM finds no program selected", "program SEL PGM before it");
@@ -140,8 +142,15 @@ Value KlartextHost::call(std::string_view name, std::span<const Value> arguments
     return order < 0 ? -1.0 : order > 0 ? 1.0 : 0.0;
   }
   if (name == "SYSSTR") {
-    return systemText(static_cast<int>(numberArgument(arguments, 0)), static_cast<int>(numberArgument(arguments, 1)),
-                      static_cast<int>(numberArgument(arguments, 2)));
+    const Value text =
+        systemText(static_cast<int>(numberArgument(arguments, 0)), static_cast<int>(numberArgument(arguments, 1)),
+                   static_cast<int>(numberArgument(arguments, 2)));
+    const double most = numberArgument(arguments, 3);
+    return most < 0 ? text : Value(std::get<std::string>(text).substr(0, static_cast<std::size_t>(most)));
+  }
+  if (name == "CFGREAD") {
+    return configuration(textArgument(arguments, 1), textArgument(arguments, 2),
+                         static_cast<int>(numberArgument(arguments, 3)));
   }
   throw Alarm("Function not available",
               fmt::format("{} reads data of the control that a virtual one does not have", name),

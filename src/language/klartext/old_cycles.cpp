@@ -245,11 +245,17 @@ bool BlockParser::oldCycle(int number) {
     last = part.part;
     if (number == 12 && part.part == 1) {
       lexer_.acceptKeyword("PGM");
-      text = lexer_.restOfLine();
+      const std::optional<std::string_view> quoted = lexer_.quoted();
+      text = quoted ? *quoted : lexer_.restOfLine();
+      if (text.empty()) return error("the name of a program is expected behind CYCL DEF 12.1 PGM");
+      if (!checkPath(text)) return false;
     } else if (part.part > 0 && (isTransform(number) || isSetting(number)) && !oldCyclePart(part)) {
       return false;
     }
     if (!nextPart("CYCL", "DEF", part)) return false;
+  }
+  if (number == 12 && text.empty()) {
+    return error("part 12.1 of this cycle is missing", "write CYCL DEF 12.1 PGM and the name of a program below");
   }
   const WordRange words = wordsSince(first);
   const TextRef name =

@@ -101,6 +101,11 @@ protected:
   // functions.cpp: FN 0 to 38
   bool function();
   bool functionBody(int number);
+  Operand call(Function function, std::initializer_list<Operand> arguments);
+  Operand functionResult(int number, Operand left, Operand right);
+  std::optional<Operand> definedCondition();
+  std::optional<Operand> comparison(int number, Operand left, std::string_view what);
+  bool systemDatum();
   bool functionAssignment(int number);
   bool functionJump(int number);
   bool functionSystemData(int number);

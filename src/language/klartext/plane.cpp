@@ -4,7 +4,7 @@
 ///
 /// PLANE becomes Transform "PLANE SPATIAL"... Words: the definition's own (SPA, SPB, SPC, PROP, PROM, ROT, EULP, EULN,
 /// EULR, BX..BZ, NX..NZ, P1X..P3Z, axes), and the positioning behind it: MOVE, TURN or STAY without value, DIST, MB
-/// (absent value: MAX), F, FMAX without value, SEQ or SYM (+1 or -1), TABL or COOR (TABLE ROT, COORD ROT) without
+/// (absent value: MAX), F, FMAX without value, SEQ, SYM (+1 or -1), TABL or COOR (TABLE ROT, COORD ROT) without
 /// value.
 namespace probewright::language::klartext {
 
@@ -83,11 +83,12 @@ bool BlockParser::planeOption() {
     if (lexer_.acceptKeyword("MAX")) return flag("MB");
     return word(addressOf("MB"), "MB");
   }
-  if (lexer_.acceptPrefix("SEQ") || lexer_.acceptPrefix("SYM")) {
+  for (const std::string_view side : {"SEQ", "SYM"}) {
+    if (!lexer_.acceptPrefix(side)) continue;
     const char sign = lexer_.peek();
     if (sign != '+' && sign != '-') return error("+ or - is expected here");
     lexer_.advance();
-    addWord(addressOf("SEQ"), Operand::of(sign == '+' ? 1 : -1));
+    addWord(addressOf(side), Operand::of(sign == '+' ? 1 : -1));
     return true;
   }
   if (lexer_.acceptKeyword("TABLE"))
@@ -103,8 +104,9 @@ bool BlockParser::planeOption() {
     if (feed.present()) addWord(addressOf("F"), feed);
     return true;
   }
-  return error("this word is not known in a PLANE block",
-               "MOVE, TURN, STAY, DIST, MB, F, SEQ+, SEQ-, COORD ROT and TABLE ROT may follow the definition");
+  return error(
+      "this word is not known in a PLANE block",
+      "MOVE, TURN, STAY, DIST, MB, F, SEQ+, SEQ-, SYM+, SYM-, COORD ROT and TABLE ROT may follow the definition");
 }
 
 /// TRANS DATUM AXIS X+10 | TABLE TABLINE 5 ["table"] | RESET, TRANS MIRROR AXIS X | RESET, TRANS ROTATION ROT+10 |

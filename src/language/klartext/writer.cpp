@@ -210,9 +210,7 @@ private:
                     : fmt::format("CALL PGM {}", writeFormula(block_, call.nameValue)));
       return;
     }
-    const std::string_view name = at(call.name);
-    word(name.find_first_of(" ;") == std::string_view::npos ? fmt::format("CALL PGM {}", name)
-                                                            : fmt::format("CALL PGM \"{}\"", name));
+    word(fmt::format("CALL PGM {}", writePath(at(call.name))));
   }
   void add(const Transform& transform) { word(writeTransform(block_, transform)); }
   void add(const CycleCall& call) { word(writeCycle(block_, call)); }

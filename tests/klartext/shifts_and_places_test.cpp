@@ -1,0 +1,77 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "klartext/expectations.hpp"
+#include "klartext/host_world.hpp"
+
+namespace probewright::language::klartext::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string messageOf(const RunResult& result) {
+  return result.diagnostics.empty() ? std::string("none") : result.diagnostics.front().message;
+}
+
+TEST(Shifts, OfRotaryAxesMoveTheirZero) {
+  World world("mill5-table-table");
+  expectFinished(
+      world.run("TRANS DATUM AXIS C+30\nL C+5 FMAX\nFN 18: SYSREAD Q1 = ID270 NR1 IDX6\n"
+                "FN 18: SYSREAD Q2 = ID220 NR2 IDX6\nCYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 IC+10\n"
+                "FN 18: SYSREAD Q3 = ID220 NR2 IDX6\nTRANS DATUM RESET\n"
+                "FN 18: SYSREAD Q4 = ID270 NR1 IDX6\n"));
+  EXPECT_NEAR(world.machine->position()[4], 35, 1e-9);
+  EXPECT_NEAR(world.q(1), 5, 1e-9);
+  EXPECT_NEAR(world.q(2), 30, 1e-9);
+  EXPECT_NEAR(world.q(3), 40, 1e-9);
+  EXPECT_NEAR(world.q(4), 35, 1e-9);
+}
+
+TEST(Shifts, OfRotaryAxesComeFromDatumTables) {
+  World world("mill5-table-table");
+  world.files["D.D"] =
+      "BEGIN D.D MM\nD    X        Y        Z        A        B        C\n0    0        0        0        0        0   "
+      "     0\n1    2        3        4        0        0        45\n[END]\n";
+  expectFinished(world.run("SEL TABLE \"D.D\"\nCYCL DEF 7.0\nCYCL DEF 7.1 #1\nL X+1 C+0 FMAX\n"));
+  EXPECT_NEAR(world.machine->position()[0], 3, 1e-9);
+  EXPECT_NEAR(world.machine->position()[4], 45, 1e-9);
+}
+
+TEST(Shifts, OfAxesThatTheMachineLacks) {
+  World world;
+  expectFinished(world.run("CYCL DEF 7.0\nCYCL DEF 7.1 X+5\nCYCL DEF 7.2 C+0\n"));
+  EXPECT_THAT(messageOf(world.run("TRANS DATUM AXIS C+5\n")), HasSubstr("no axis C"));
+}
+
+TEST(Shifts, EndWithThePreset) {
+  World world("mill5-table-table");
+  expectFinished(world.run("TRANS DATUM AXIS C+30\nPRESET SELECT #0\nL C+0 FMAX\n"));
+  EXPECT_NEAR(world.machine->position()[4], 0, 1e-9);
+}
+
+/// Where the alarm of a run stands, and what it quotes.
+std::string placeOf(const RunResult& result) {
+  if (result.diagnostics.empty()) return "none";
+  return std::to_string(result.diagnostics.front().place.line) + ": " + result.diagnostics.front().excerpt;
+}
+
+TEST(AlarmPlaces, NameTheElementOfTheContourThatWasUnderWay) {
+  World world;
+  world.machine->limitX = 50;
+  const std::string contour = "TOOL CALL 5 Z\nL X-20 Y-20 FMAX\nL X+0 Y+0 RL F1000\n";
+  EXPECT_EQ(placeOf(world.run(contour + "L X+100\nL Y+50\nL X+0\n")), "4: L X+100");
+  EXPECT_EQ(placeOf(world.run(contour + "L Y+50\nL X+100\nL Y+80\nL X+0 R0\n")), "5: L X+100");
+  // The corner's own block cuts the corner off.
+  EXPECT_EQ(placeOf(world.run(contour + "L X+20\nRND R30\nL Y+10\nL X+0 R0\n")), "5: RND R30");
+  EXPECT_EQ(placeOf(world.run("TOOL CALL 5 Z\nL X+0 Y+0 FMAX\nL X+100 R0 FMAX\nL Y+5 FMAX\n")), "3: L X+100 R0 FMAX");
+}
+
+TEST(AlarmPlaces, NameTheArcThatIsTooSmallForTheTool) {
+  World world;
+  EXPECT_EQ(
+      placeOf(world.run("TOOL CALL 5 Z\nL X-20 Y-20 FMAX\nL X+0 Y+0 RL F1000\nL X+30\nCR X+30 Y+4 R2 DR+\nL X+0\n")),
+      "5: CR X+30 Y+4 R2 DR+");
+}
+
+}  // namespace
+}  // namespace probewright::language::klartext::testing
