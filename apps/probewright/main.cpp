@@ -1,9 +1,8 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
 #include <map>
 
 #include "commands.hpp"
+#include "guard.hpp"
 
 namespace {
 
@@ -82,14 +81,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  try {
+  return probewright::app::guarded([&] {
     if (run->parsed()) return probewright::app::run(runArguments);
     if (check->parsed()) return probewright::app::check(checkArguments);
     if (convert->parsed()) return probewright::app::convert(convertArguments);
     return probewright::app::cycles(cyclesArguments);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "probewright: internal error: %s\nPlease report this with the program and the setup.\n",
-                 error.what());
-    return 4;
-  }
+  });
 }

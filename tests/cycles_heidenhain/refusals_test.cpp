@@ -76,6 +76,19 @@ TEST(Refusals, ProbeSwitchedOff) {
   expectRefused(bench.run(probe(412, preset412)), "Touch probe not ready");
 }
 
+TEST(Refusals, TheTouchBeginsWithADeflectedStylus) {
+  Bench bench = holeBench();
+  bench.part(simulation::HalfSpace({Vector3(0, 0, -400), Vector3::UnitZ()}));
+  // Cycle 4 without retraction leaves the stylus in contact; cycle 0 begins where it stands.
+  const Ran ran = bench.run(
+      "L X-80 Y-80 R0 FMAX\nL Z+5 R0 FMAX\nTCH PROBE 4.0 M\nTCH PROBE 4.1 Q30\nTCH PROBE 4.2 IZ-1\n"
+      "TCH PROBE 4.3 ABST+9 F100 MB0 REFERENCE SYSTEM:0\nTCH PROBE 0.0 REF. PLANE Q5 Z-\nTCH PROBE 0.1 IX+0 IY+0 IZ+0\n"
+      "Q20 = 1\n");
+  expectRefused(ran, "Stylus already in contact", "before probing begins");
+  EXPECT_EQ(ran.cycle().touches.back().outcome, "deflected");
+  EXPECT_EQ(ran.q(20), 0);
+}
+
 TEST(Refusals, ActiveTransformations) {
   const std::string shift = "CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+5\n";
   const std::string turn = "CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+15\n";

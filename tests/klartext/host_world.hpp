@@ -26,7 +26,7 @@ public:
   const machine::MachineDescription& description() const override { return description_; }
   machine::AxisPositions position() const override { return axes_; }
   machine::MoveResult move(const machine::AxisPositions& target, machine::Feed feed) override {
-    if (limitX && target[0] > *limitX) return {machine::MoveEnd::AxisLimit, "X ends here"};
+    if (limitX && target[0] > *limitX) return {beyondLimit, "X ends here"};
     axes_ = target;
     steps.push_back({target, feed});
     return {};
@@ -54,6 +54,7 @@ public:
   std::vector<Step> steps;
   std::vector<machine::ToolOrder> tools;
   std::optional<double> limitX;  ///< moves beyond it are refused
+  machine::MoveEnd beyondLimit = machine::MoveEnd::AxisLimit;
 
 private:
   machine::MachineDescription description_;

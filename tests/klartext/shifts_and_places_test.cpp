@@ -73,5 +73,19 @@ TEST(AlarmPlaces, NameTheArcThatIsTooSmallForTheTool) {
       "5: CR X+30 Y+4 R2 DR+");
 }
 
+TEST(Collisions, StopTheProgramOrTheAxesAsTheTouchProbeTableSays) {
+  const auto codeOf = [](const std::string& tool, const std::string& reaction) {
+    World world;
+    world.machine->limitX = 50;
+    world.machine->beyondLimit = machine::MoveEnd::Collision;
+    EXPECT_TRUE(world.control->tables.probes.setText("1", "REACTION", reaction));
+    const RunResult result = world.run("TOOL CALL " + tool + " Z\nL X+100 FMAX\n");
+    return result.diagnostics.empty() ? std::string("none") : result.diagnostics.front().code;
+  };
+  EXPECT_EQ(codeOf("1", "NCSTOP"), "Collision");
+  EXPECT_EQ(codeOf("1", "EMERGSTOP"), "Emergency stop");
+  EXPECT_EQ(codeOf("5", "EMERGSTOP"), "Collision");
+}
+
 }  // namespace
 }  // namespace probewright::language::klartext::testing
