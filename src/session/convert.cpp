@@ -301,12 +301,29 @@ private:
 
 }  // namespace
 
-bool convertible(ProgramLanguage from, ProgramLanguage to) {
-  return from != ProgramLanguage::Sinumerik && to != ProgramLanguage::Sinumerik;
-}
+bool convertible(ProgramLanguage from, ProgramLanguage to) { return from != to; }
 
 Conversion convert(language::Program& program, ProgramLanguage from, ProgramLanguage to) {
-  return Converter(dynamic_cast<HeidenhainProgram&>(program), from, to).run();
+  if (from == to) return {};
+  const bool vendors = from == ProgramLanguage::Sinumerik || to == ProgramLanguage::Sinumerik;
+  if (!vendors) return Converter(dynamic_cast<HeidenhainProgram&>(program), from, to).run();
+  const auto between = [&](ProgramLanguage first, ProgramLanguage second, ProgramLanguage last) {
+    Conversion begun = convert(program, first, second);
+    if (hasErrors(begun.mistakes)) return begun;
+    const auto halfway = programOf(program.file(), begun.text, second);
+    Conversion ended = convert(*halfway, second, last);
+    // Places of the second half count in a text that nobody has seen.
+    for (Diagnostic& each : ended.notCarriedOver) {
+      each.place.line = each.place.column = 0;
+      begun.notCarriedOver.push_back(std::move(each));
+    }
+    ended.notCarriedOver = std::move(begun.notCarriedOver);
+    return ended;
+  };
+  if (from == ProgramLanguage::Sinumerik && to == ProgramLanguage::Klartext)
+    return conversion::toKlartext(dynamic_cast<sinumerik::SinumerikProgram&>(program));
+  if (from == ProgramLanguage::Klartext) return conversion::toSinumerik(dynamic_cast<HeidenhainProgram&>(program));
+  return between(from, ProgramLanguage::Klartext, to);
 }
 
 }  // namespace probewright::session

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "conversion/measuring_task.hpp"
+
+/// Calls of measuring cycles, as both vendors' readers take and their writers give them.
+namespace probewright::conversion {
+
+/// What the other language cannot say. Thrown inside a conversion; the statement then stays as a comment.
+class NotCarriedOver : public std::runtime_error {
+public:
+  explicit NotCarriedOver(const std::string& message, std::string advice = {})
+      : std::runtime_error(message), advice_(std::move(advice)) {}
+  const std::string& advice() const { return advice_; }
+
+private:
+  std::string advice_;
+};
+
+/// A call: the cycle ("412", "CYCLE977") and its parameters by name ("Q321", "S_FA").
+struct Call {
+  std::string cycle;
+  std::map<std::string, Quantity, std::less<>> numbers;
+  std::map<std::string, std::string, std::less<>> texts;
+
+  bool has(std::string_view name) const { return numbers.contains(name); }
+  /// 0 if the parameter is not given.
+  Quantity number(std::string_view name) const;
+  /// The whole number; throws NotCarriedOver if only the running program knows it.
+  int integer(std::string_view name) const;
+  std::string text(std::string_view name) const;
+  /// Decimal digit of a coded parameter, counted from 1 at the units.
+  int digit(std::string_view name, int place) const;
+};
+
+/// Where a cycle leaves what it has measured: names by meaning ("Q151", "_OVR[5]").
+using Results = std::map<Meaning, std::string>;
+
+/// What a reader reports of a call besides its task: each entry is lost and says how.
+using Losses = std::vector<std::string>;
+
+/// SET_UP of the touch probe table that conversions reckon with, mm: the table is not part of a program.
+inline constexpr double assumedSetUp = 2;
+
+}  // namespace probewright::conversion

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "base/diagnostic.hpp"
+#include "language/klartext/heidenhain_program.hpp"
+#include "language/sinumerik/program.hpp"
+
+/// Programs of one vendor in the language of the other. What is measured, corrected and driven is kept;
+/// docs/conversion.md says which cycle becomes which, and what differs.
+namespace probewright::conversion {
+
+/// A program written in another language.
+struct Conversion {
+  std::string text;
+  /// Blocks that cannot be read. With any of them `text` is no program.
+  Diagnostics mistakes;
+  /// What the other language cannot say; it stands as a comment in `text`. And blocks that mean what the translation
+  /// says only under a condition that the message names.
+  Diagnostics notCarriedOver;
+};
+
+Conversion toSinumerik(language::klartext::HeidenhainProgram& program);
+Conversion toKlartext(sinumerik::SinumerikProgram& program);
+
+}  // namespace probewright::conversion

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "conversion/call.hpp"
+
+/// HEIDENHAIN touch probe cycles as measuring tasks.
+namespace probewright::conversion {
+
+/// The tasks of a call, in the order in which the cycle carries them out. What of the call a task cannot say goes to
+/// `losses`. Throws NotCarriedOver for cycles and parameters without a task. `ballRadius`: as the written program
+/// names it.
+std::vector<MeasuringTask> heidenhainTasks(const Call& call, const Quantity& ballRadius, Losses& losses);
+
+/// A call that carries out the task, with all parameters of the cycle; throws NotCarriedOver if there is none.
+Call heidenhainCall(const MeasuringTask& task, Losses& losses);
+
+/// Where that cycle leaves its results.
+Results heidenhainResults(const std::string& cycle, const MeasuringTask& task);
+
+}  // namespace probewright::conversion

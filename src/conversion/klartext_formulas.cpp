@@ -1,0 +1,260 @@
+#include "conversion/klartext_formulas.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "conversion/call.hpp"
+#include "conversion/sinumerik_formulas.hpp"
+
+namespace probewright::conversion {
+
+using namespace language;
+
+namespace {
+
+constexpr int firstHelper = 1900;
+constexpr int lastHelper = 1999;
+constexpr int firstResult = 1700;
+
+const char* functionName(Function function) {
+  switch (function) {
+    case Function::Sin:
+      return "SIN";
+    case Function::Cos:
+      return "COS";
+    case Function::Tan:
+      return "TAN";
+    case Function::Asin:
+      return "ASIN";
+    case Function::Acos:
+      return "ACOS";
+    case Function::Sqrt:
+      return "SQRT";
+    case Function::Square:
+      return "SQ";
+    case Function::Ln:
+      return "LN";
+    case Function::Exp:
+      return "EXP";
+    case Function::Abs:
+      return "ABS";
+    case Function::Truncate:
+      return "INT";
+    default:
+      return nullptr;
+  }
+}
+
+const char* operatorSign(Operation operation) {
+  switch (operation) {
+    case Operation::Add:
+      return " + ";
+    case Operation::Subtract:
+      return " - ";
+    case Operation::Multiply:
+      return " * ";
+    case Operation::Divide:
+      return " / ";
+    case Operation::Modulo:
+      return " % ";
+    case Operation::Concatenate:
+      return " || ";
+    default:
+      return nullptr;
+  }
+}
+
+bool isParameter(std::string_view text) {
+  std::size_t i = 1;
+  while (i < text.size() && std::string_view("LRS").find(text[i]) != std::string_view::npos)
+    ++i;
+  return text.starts_with('Q') && i < text.size() &&
+         std::all_of(text.begin() + static_cast<std::ptrdiff_t>(i), text.end(),
+                     [](char c) { return c >= '0' && c <= '9'; });
+}
+
+}  // namespace
+
+std::string KlartextFormulas::define(std::string_view name, bool text) {
+  const auto found = names_.find(name);
+  if (found != names_.end()) return found->second;
+  const std::string number = text ? fmt::format("QS{}", nextText_++) : fmt::format("Q{}", nextNumber_++);
+  if (nextNumber_ > firstResult || nextText_ > firstResult) {
+    throw NotCarriedOver("the program defines more variables than there are free Q parameters");
+  }
+  names_.emplace(name, number);
+  return number;
+}
+
+std::string KlartextFormulas::variable(const Block& block, const VariableRef& variable) {
+  const bool indexed = variable.index[0].present();
+  const int index = static_cast<int>(variable.index[0].number);
+  switch (variable.space) {
+    case VariableSpace::R:
+      if (!variable.index[0].isLiteral()) {
+        throw NotCarriedOver("an R parameter whose number is computed has no twin in Klartext");
+      }
+      if (index < 100) return fmt::format("Q{}", index);
+      if (index < 500) return fmt::format("Q{}", index + 1100);
+      throw NotCarriedOver(fmt::format("R{} has no twin: R0 to R499 have", index));
+    case VariableSpace::User: {
+      const std::string_view name = block.at(variable.name);
+      if (name == "_OVR" && variable.index[0].isLiteral() && index >= 0 && index < 32) {
+        return fmt::format("Q{}", firstResult + index);
+      }
+      if (indexed) throw NotCarriedOver(fmt::format("array {} has no twin in Klartext", name));
+      if (name.starts_with("_Q") && isParameter(name.substr(1))) return std::string(name.substr(1));
+      const auto found = names_.find(name);
+      if (found == names_.end()) {
+        throw NotCarriedOver(fmt::format("{} is not defined in this program", name),
+                             "define it in the program, or use an R parameter");
+      }
+      return found->second;
+    }
+    case VariableSpace::System:
+      return systemDatum(block, variable);
+    default:
+      throw NotCarriedOver("this variable has no twin in Klartext");
+  }
+}
+
+std::string KlartextFormulas::systemDatum(const Block& block, const VariableRef& variable) {
+  const std::string_view name = block.at(variable.name);
+  if (name == "$P_TOOLR") return "Q108";
+  if (name == "$P_TOOLL" && variable.index[0].isLiteral() && variable.index[0].number == 1) return "Q114";
+  const bool position = name == "$AA_IW" || name == "$P_EP";
+  std::string read;
+  if (position && variable.index[0].node >= 0) {
+    const Node& node = block.nodes[static_cast<std::size_t>(variable.index[0].node)];
+    const std::string_view axis = block.at(node.text);
+    if (node.operation == Operation::AxisName && axis.size() == 1 && axis[0] >= 'X' && axis[0] <= 'Z')
+      read = fmt::format("ID270 NR1 IDX{}", axis[0] - 'X' + 1);
+  }
+  if (name == "$P_UIFRNUM") read = "ID530 NR1";
+  if (read.empty()) throw NotCarriedOver(fmt::format("{} has no twin in Klartext", name));
+  const std::string result = helper("");
+  prelude_.back() = fmt::format("FN 18: SYSREAD {} = {}", result, read);
+  return result;
+}
+
+std::string KlartextFormulas::helper(const std::string& formula) {
+  const std::string name = fmt::format("Q{}", firstHelper + nextHelper_);
+  nextHelper_ = (nextHelper_ + 1) % (lastHelper - firstHelper + 1);
+  prelude_.push_back(fmt::format("{} = {}", name, formula));
+  return name;
+}
+
+std::vector<std::string> KlartextFormulas::takePrelude() {
+  std::vector<std::string> taken;
+  taken.swap(prelude_);
+  return taken;
+}
+
+std::string KlartextFormulas::value(const Quantity& quantity) {
+  if (quantity.isNumber()) {
+    const std::string text = numberText(quantity.number());
+    return text.front() == '-' ? text : fmt::format("+{}", text);
+  }
+  const bool single = quantity.terms().size() == 1 && std::abs(quantity.number()) < 1e-12;
+  if (single && std::abs(quantity.terms()[0].factor) == 1 && isParameter(quantity.terms()[0].expression)) {
+    return fmt::format("{}{}", quantity.terms()[0].factor < 0 ? '-' : '+', quantity.terms()[0].expression);
+  }
+  return fmt::format("+{}", helper(expressionText(quantity, true)));
+}
+
+std::string KlartextFormulas::unsignedValue(const Quantity& quantity) {
+  const std::string text = value(quantity);
+  return text.front() == '+' ? text.substr(1) : text;
+}
+
+std::string KlartextFormulas::formula(const Block& block, const Operand& operand) {
+  if (operand.isLiteral()) return numberText(operand.number);
+  if (!operand.present()) return {};
+  const Node& node = block.nodes[static_cast<std::size_t>(operand.node)];
+  const auto factor = [&](const Operand& side) {
+    if (side.isLiteral() && side.number < 0) return fmt::format("({})", numberText(side.number));
+    return factorText(formula(block, side));
+  };
+  switch (node.operation) {
+    case Operation::Number:
+      return numberText(node.number);
+    case Operation::Text:
+      return fmt::format("\"{}\"", block.at(node.text));
+    case Operation::Variable:
+      return variable(block, block.variables[node.a]);
+    case Operation::Negate:
+      return fmt::format("-{}", factor(node.left));
+    case Operation::IntegerDivide:
+      return fmt::format("INT ({} / {})", factor(node.left), factor(node.right));
+    case Operation::Call:
+      return call(block, node);
+    default:
+      break;
+  }
+  const char* sign = operatorSign(node.operation);
+  if (sign == nullptr) throw NotCarriedOver("formulas in Klartext have no comparisons and no logic");
+  return factor(node.left) + sign + factor(node.right);
+}
+
+std::string KlartextFormulas::call(const Block& block, const Node& node) {
+  const auto argument = [&](std::uint32_t i) { return formula(block, block.operands[node.a + i]); };
+  if (const char* name = functionName(node.function)) return fmt::format("{} ({})", name, argument(0));
+  switch (node.function) {
+    case Function::Atan2: {
+      const std::string result = helper("");
+      std::string first = argument(0), second = argument(1);
+      const auto asValue = [&](const std::string& text) {
+        return fmt::format("+{}", isParameter(text) ? text : helper(text));
+      };
+      // FN 13 takes parameters only; the helper of its result comes last.
+      const auto own = std::ranges::find(prelude_, fmt::format("{} = ", result));
+      prelude_.erase(own);
+      first = asValue(first);
+      second = asValue(second);
+      prelude_.push_back(fmt::format("FN 13: {} = {} ANG {}", result, first, second));
+      return result;
+    }
+    case Function::Round:
+      return fmt::format("INT ({0} + SGN ({0}) * 0.5)", factorText(argument(0)));
+    default:
+      throw NotCarriedOver(fmt::format("the function {} has no twin in Klartext", block.at(node.text)));
+  }
+}
+
+Quantity KlartextFormulas::quantity(const Block& block, const Operand& operand) {
+  if (operand.isLiteral()) return operand.number;
+  if (!operand.present()) return {};
+  const Node& node = block.nodes[static_cast<std::size_t>(operand.node)];
+  switch (node.operation) {
+    case Operation::Number:
+      return node.number;
+    case Operation::Negate:
+      return -quantity(block, node.left);
+    case Operation::Add:
+      return quantity(block, node.left) + quantity(block, node.right);
+    case Operation::Subtract:
+      return quantity(block, node.left) - quantity(block, node.right);
+    case Operation::Multiply:
+      if (node.left.isLiteral()) return quantity(block, node.right) * node.left.number;
+      if (node.right.isLiteral()) return quantity(block, node.left) * node.right.number;
+      break;
+    case Operation::Divide:
+      if (node.right.isLiteral() && node.right.number != 0) return quantity(block, node.left) / node.right.number;
+      break;
+    case Operation::Call:
+      if (node.function == Function::Maximum || node.function == Function::Minimum) {
+        const Quantity a = quantity(block, block.operands[node.a]), b = quantity(block, block.operands[node.a + 1]);
+        const Quantity half = (a - b) / 2;
+        const Quantity spread = Quantity::of(fmt::format("ABS ({})", expressionText(half, true)));
+        return (a + b) / 2 + spread * (node.function == Function::Maximum ? 1 : -1);
+      }
+      break;
+    default:
+      break;
+  }
+  return Quantity::of(factorText(formula(block, operand)));
+}
+
+}  // namespace probewright::conversion

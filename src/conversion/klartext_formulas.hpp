@@ -1,0 +1,50 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "conversion/quantity.hpp"
+#include "language/block.hpp"
+
+/// Expressions and variables of a SINUMERIK program as Klartext writes them.
+namespace probewright::conversion {
+
+/// The radius of the ball in the spindle.
+inline const Quantity klartextBallRadius = Quantity::of("Q108");
+
+/// R0 to R99 are Q0 to Q99, R100 to R499 are Q1200 to Q1599, _OVR[0] to _OVR[31] are Q1700 to Q1731; variables that the
+/// program defines get numbers from Q1600 on. What a formula needs beforehand goes into `prelude`.
+class KlartextFormulas {
+public:
+  std::string variable(const language::Block& block, const language::VariableRef& variable);
+  std::string formula(const language::Block& block, const language::Operand& operand);
+  Quantity quantity(const language::Block& block, const language::Operand& operand);
+
+  /// A number or a parameter with its sign, as coordinates are written: "+5", "-Q3". Everything else is computed in
+  /// front of the block into a parameter of the converter's own.
+  std::string value(const Quantity& quantity);
+  /// The same without "+".
+  std::string unsignedValue(const Quantity& quantity);
+
+  /// A number for a variable that the program defines.
+  std::string define(std::string_view name, bool text);
+
+  /// Blocks that must stand in front of what was asked for since the last call.
+  std::vector<std::string> takePrelude();
+
+private:
+  std::string call(const language::Block& block, const language::Node& node);
+  std::string systemDatum(const language::Block& block, const language::VariableRef& variable);
+  std::string helper(const std::string& formula);
+
+  std::map<std::string, std::string, std::less<>> names_;
+  std::map<std::string, std::string> systemData_;
+  int nextNumber_ = 1600;
+  int nextText_ = 1600;
+  int nextHelper_ = 0;
+  std::vector<std::string> prelude_;
+};
+
+}  // namespace probewright::conversion

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "conversion/quantity.hpp"
+
+/// What a measuring cycle is to do, in words that belong to no vendor: a reader per vendor fills it from a cycle's
+/// call, a writer per vendor makes a call of it. Coordinates are those of the working plane: main axis, minor axis,
+/// tool axis.
+namespace probewright::conversion {
+
+enum class Feature {
+  Hole,
+  Spigot,
+  HoleSegment,    ///< a hole touched at given angles
+  SpigotSegment,  ///< a spigot touched at given angles
+  Groove,
+  Rib,
+  Pocket,             ///< rectangular
+  RectangularSpigot,  ///< rectangular
+  Surface,            ///< one touch along an axis
+  Edge,               ///< its angle, by two touches along an axis
+  Plane,              ///< its two angles, by three touches along the tool axis
+  Corner,             ///< of two edges, by three or four touches
+  Ball,
+};
+
+bool isInside(Feature feature);
+bool isRound(Feature feature);
+bool isRectangular(Feature feature);
+/// Groove or rib: measured along one axis.
+bool isWidth(Feature feature);
+
+enum class Correction {
+  None,
+  Origin,    ///< the zero offset shifts until the feature lies where it should
+  Rotation,  ///< the zero offset turns
+  Tool,      ///< the tool that made the feature
+};
+
+/// A point of the plane and its height.
+using Place = std::array<Quantity, 3>;
+
+/// What is measured; both controls have a result for most of it.
+enum class Meaning {
+  Centre1,
+  Centre2,
+  Centre3,
+  Size1,
+  Size2,
+  Coordinate,
+  Angle,
+  Angle2,
+  Centre1Deviation,
+  Centre2Deviation,
+  Centre3Deviation,
+  Size1Deviation,
+  Size2Deviation,
+  CoordinateDeviation,
+  AngleDeviation,
+};
+
+struct Limits {
+  Quantity upper, lower;  ///< deviations from the set size
+};
+
+struct MeasuringTask {
+  Feature feature = Feature::Hole;
+  /// The expected centre or place of touch. The third is the height of the ball's centre; of a surface along the tool
+  /// axis the height of the surface.
+  Place place;
+  /// Further places of touch: second point of an edge, second and third of a plane, all points of a corner.
+  std::vector<Place> further;
+  std::array<Quantity, 2> size;  ///< diameter, width or the two lengths
+  Quantity angle;                ///< of the first touch on a circle; set angle of an edge; set angle of a plane
+  Quantity step;                 ///< from touch to touch on a circle
+  int touches = 4;
+  int axis = 0;  ///< measuring axis, 0 to 2
+  int sign = 1;  ///< of the probing direction
+
+  Quantity path;                  ///< from where a touch begins to the expected surface
+  Quantity clearance;             ///< height of the tip that is free everywhere
+  bool clearanceBetween = false;  ///< go to that height between touches
+
+  Correction correction = Correction::None;
+  Quantity row;                                 ///< of the preset table, number of the settable zero offset
+  bool active = false;                          ///< correct the zero offset that is in effect, whatever its number
+  std::array<std::optional<Quantity>, 3> wish;  ///< coordinates that the feature gets by the correction
+  Quantity setAngle;                            ///< that the edge gets by the correction
+  std::array<std::optional<Limits>, 2> limits;  ///< of the sizes
+  std::string tool;                             ///< to correct: a quoted name or a number
+  bool stops = false;                           ///< the program ends if a limit is exceeded
+};
+
+}  // namespace probewright::conversion

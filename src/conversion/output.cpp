@@ -1,0 +1,40 @@
+#include "conversion/output.hpp"
+
+#include <algorithm>
+
+namespace probewright::conversion {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+void Output::list(const language::Block& block, std::string message, std::string advice) {
+  std::string_view line = block.at(block.source);
+  line = trimmed(line.substr(0, line.find('\n')));
+  listed_.push_back({Severity::Warning,
+                     {file_, block.position.line, 1},
+                     std::move(message),
+                     std::string(line),
+                     std::move(advice),
+                     {}});
+}
+
+void Output::lose(const language::Block& block, const std::string& what) {
+  list(block, what);
+  line("; NOT CARRIED OVER: " + what);
+}
+
+void Output::keepAsComment(const language::Block& block, const std::string& message, const std::string& advice) {
+  list(block, message, advice);
+  std::string_view rest = trimmed(block.at(block.source));
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    line("; NOT CARRIED OVER: " + std::string(trimmed(rest.substr(0, end))));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+}
+
+}  // namespace probewright::conversion

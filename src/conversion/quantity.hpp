@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+/// Values of a program that is being converted.
+namespace probewright::conversion {
+
+/// A number plus terms, each a factor and an expression that the written program computes, in its language. Sums and
+/// differences of what is known stay numbers; what only the running program knows stays an expression.
+class Quantity {
+public:
+  struct Term {
+    double factor = 1;
+    std::string expression;
+  };
+
+  Quantity(double number = 0) : number_(number) {}  // NOLINT: numbers are quantities
+  static Quantity of(std::string expression, double factor = 1);
+
+  bool isNumber() const { return terms_.empty(); }
+  /// The number, without the terms.
+  double number() const { return number_; }
+  const std::vector<Term>& terms() const { return terms_; }
+
+  Quantity operator+(const Quantity& other) const;
+  Quantity operator-(const Quantity& other) const { return *this + other * -1; }
+  Quantity operator*(double factor) const;
+  Quantity operator/(double divisor) const { return *this * (1 / divisor); }
+  Quantity operator-() const { return *this * -1; }
+  /// The same number and the same expressions.
+  bool operator==(const Quantity& other) const;
+
+private:
+  double number_ = 0;
+  std::vector<Term> terms_;  ///< no two with the same expression, none with factor 0
+};
+
+/// Text of the quantity as an expression that either language reads: "12.5", "R5-2", "0.5*(R1+R2)".
+/// `loose`: with blanks around operators, as Klartext formulas are written.
+std::string expressionText(const Quantity& quantity, bool loose);
+
+/// The number, rounded to what programs can tell (1e-9), without exponent.
+std::string numberText(double number);
+
+}  // namespace probewright::conversion

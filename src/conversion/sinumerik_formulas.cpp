@@ -1,0 +1,217 @@
+#include "conversion/sinumerik_formulas.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "conversion/call.hpp"
+
+namespace probewright::conversion {
+
+using language::Block;
+using language::Function;
+using language::Node;
+using language::Operand;
+using language::Operation;
+using language::VariableRef;
+using language::VariableSpace;
+
+namespace {
+
+constexpr int firstControlParameter = 100;
+constexpr int toolRadius = 108;
+constexpr int toolLength = 114;
+constexpr int firstResult = 115;
+
+const char* functionName(Function function) {
+  switch (function) {
+    case Function::Sin:
+      return "SIN";
+    case Function::Cos:
+      return "COS";
+    case Function::Tan:
+      return "TAN";
+    case Function::Asin:
+      return "ASIN";
+    case Function::Acos:
+      return "ACOS";
+    case Function::Sqrt:
+      return "SQRT";
+    case Function::Square:
+      return "POT";
+    case Function::Ln:
+      return "LN";
+    case Function::Exp:
+      return "EXP";
+    case Function::Abs:
+      return "ABS";
+    case Function::Integer:
+      return "TRUNC";
+    default:
+      return nullptr;
+  }
+}
+
+const char* operatorSign(Operation operation) {
+  switch (operation) {
+    case Operation::Add:
+      return "+";
+    case Operation::Subtract:
+      return "-";
+    case Operation::Multiply:
+      return "*";
+    case Operation::Divide:
+      return "/";
+    case Operation::Modulo:
+      return " MOD ";
+    case Operation::Concatenate:
+      return "<<";
+    case Operation::Equal:
+      return "==";
+    case Operation::NotEqual:
+      return "<>";
+    case Operation::Less:
+      return "<";
+    case Operation::Greater:
+      return ">";
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace
+
+std::string factorText(const std::string& expression) {
+  int depth = 0;
+  bool tight = true;
+  for (std::size_t i = 0; i < expression.size(); ++i) {
+    const char c = expression[i];
+    if (c == '(' || c == '[') ++depth;
+    if (c == ')' || c == ']') --depth;
+    if (depth == 0 && std::string_view("+-*/<>= ").find(c) != std::string_view::npos) tight = false;
+  }
+  return tight ? expression : fmt::format("({})", expression);
+}
+
+std::string sinumerikText(const Quantity& quantity) { return expressionText(quantity, false); }
+
+std::string settableCode(int number) {
+  return number == 0 ? "G599" : number < 5 ? fmt::format("G{}", 53 + number) : fmt::format("G{}", 500 + number);
+}
+
+std::string addressWord(std::string_view address, const Quantity& value) {
+  const bool direct = address.size() == 1 && value.isNumber();
+  return fmt::format("{}{}{}", address, direct ? "" : "=", sinumerikText(value));
+}
+
+std::string SinumerikFormulas::variable(const VariableRef& variable) {
+  const int number = static_cast<int>(variable.index[0].number);
+  const bool indirect = !variable.index[0].isLiteral();
+  if (indirect) throw NotCarriedOver("a parameter whose number is computed has no twin on a SINUMERIK");
+  std::string name;
+  switch (variable.space) {
+    case VariableSpace::Q:
+      if (number < firstControlParameter) return fmt::format("R{}", number);
+      if (number == toolRadius) return "$P_TOOLR";
+      if (number == toolLength) return "$P_TOOLL[1]";
+      if (number < firstResult) {
+        throw NotCarriedOver(fmt::format("the control itself fills Q{}", number),
+                             "take the value from a system variable of the SINUMERIK by hand");
+      }
+      name = fmt::format("_Q{}", number);
+      break;
+    case VariableSpace::QL:
+      name = fmt::format("_QL{}", number);
+      break;
+    case VariableSpace::QR:
+      name = fmt::format("_QR{}", number);
+      break;
+    case VariableSpace::QS:
+      name = fmt::format("_QS{}", number);
+      break;
+    default:
+      throw NotCarriedOver("this variable has no twin on a SINUMERIK");
+  }
+  declared_.insert(name);
+  return name;
+}
+
+std::string SinumerikFormulas::formula(const Block& block, const Operand& operand) {
+  if (operand.isLiteral()) return sinumerikText(operand.number);
+  if (!operand.present()) return {};
+  const Node& node = block.nodes[static_cast<std::size_t>(operand.node)];
+  const auto factor = [&](const Operand& side) {
+    if (side.isLiteral() && side.number < 0) return fmt::format("({})", formula(block, side));
+    return factorText(formula(block, side));
+  };
+  switch (node.operation) {
+    case Operation::Number:
+      return sinumerikText(node.number);
+    case Operation::Text:
+      return fmt::format("\"{}\"", block.at(node.text));
+    case Operation::Variable:
+      return variable(block.variables[node.a]);
+    case Operation::Negate:
+      return fmt::format("-{}", factor(node.left));
+    case Operation::Call:
+      return call(block, node);
+    case Operation::Power:
+      return fmt::format("EXP({}*LN({}))", factor(node.right), formula(block, node.left));
+    default:
+      break;
+  }
+  const char* sign = operatorSign(node.operation);
+  if (sign == nullptr) throw NotCarriedOver("this condition has no twin on a SINUMERIK");
+  return factor(node.left) + sign + factor(node.right);
+}
+
+std::string SinumerikFormulas::call(const Block& block, const Node& node) {
+  const auto argument = [&](std::uint32_t i) { return formula(block, block.operands[node.a + i]); };
+  if (const char* name = functionName(node.function)) return fmt::format("{}({})", name, argument(0));
+  switch (node.function) {
+    case Function::Atan:
+      return fmt::format("ATAN2({},1)", argument(0));
+    case Function::Log:
+      return fmt::format("(LN({})/LN(10))", argument(0));
+    case Function::Fraction:
+      return fmt::format("({0}-TRUNC({0}))", factorText(argument(0)));
+    case Function::RootSumOfSquares:
+      return fmt::format("SQRT(POT({})+POT({}))", argument(0), argument(1));
+    default:
+      break;
+  }
+  if (node.function == Function::Host && block.at(node.text) == "ANG") {
+    return fmt::format("ATAN2({},{})", argument(0), argument(1));
+  }
+  throw NotCarriedOver("this function has no twin on a SINUMERIK");
+}
+
+Quantity SinumerikFormulas::quantity(const Block& block, const Operand& operand) {
+  if (operand.isLiteral()) return operand.number;
+  if (!operand.present()) return {};
+  const Node& node = block.nodes[static_cast<std::size_t>(operand.node)];
+  const auto isNumber = [&](const Operand& side) { return side.isLiteral(); };
+  switch (node.operation) {
+    case Operation::Number:
+      return node.number;
+    case Operation::Negate:
+      return -quantity(block, node.left);
+    case Operation::Add:
+      return quantity(block, node.left) + quantity(block, node.right);
+    case Operation::Subtract:
+      return quantity(block, node.left) - quantity(block, node.right);
+    case Operation::Multiply:
+      if (isNumber(node.left)) return quantity(block, node.right) * node.left.number;
+      if (isNumber(node.right)) return quantity(block, node.left) * node.right.number;
+      break;
+    case Operation::Divide:
+      if (isNumber(node.right) && node.right.number != 0) return quantity(block, node.left) / node.right.number;
+      break;
+    default:
+      break;
+  }
+  return Quantity::of(factorText(formula(block, operand)));
+}
+
+}  // namespace probewright::conversion

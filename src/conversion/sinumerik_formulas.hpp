@@ -1,0 +1,47 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "conversion/quantity.hpp"
+#include "language/block.hpp"
+
+/// Formulas and parameters of a HEIDENHAIN program as a SINUMERIK writes them.
+namespace probewright::conversion {
+
+/// The radius of the ball in the spindle.
+inline const Quantity sinumerikBallRadius = Quantity::of("$P_TOOLR");
+
+/// Q0 to Q99 are R0 to R99; other parameters become variables of their own, _Q150, _QL1, _QS3, which have to be
+/// declared.
+class SinumerikFormulas {
+public:
+  /// Throws NotCarriedOver for parameters that only the HEIDENHAIN control fills.
+  std::string variable(const language::VariableRef& variable);
+  /// All of these throw NotCarriedOver for functions without a twin.
+  std::string formula(const language::Block& block, const language::Operand& operand);
+  Quantity quantity(const language::Block& block, const language::Operand& operand);
+
+  /// Variables named so far that the program must declare, "_Q150".
+  const std::set<std::string>& declared() const { return declared_; }
+
+private:
+  std::string call(const language::Block& block, const language::Node& node);
+
+  std::set<std::string> declared_;
+};
+
+/// The expression, in parentheses unless it binds as tightly as a factor.
+std::string factorText(const std::string& expression);
+
+/// The expression of the quantity without blanks.
+std::string sinumerikText(const Quantity& quantity);
+
+/// "X10", "X=R5", "CR=4".
+std::string addressWord(std::string_view address, const Quantity& value);
+
+/// "G54" for 1 to "G599" for 99. Row 0 of a preset table has the last one.
+std::string settableCode(int number);
+
+}  // namespace probewright::conversion

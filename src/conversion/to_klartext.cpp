@@ -1,0 +1,368 @@
+#include "conversion/to_klartext.hpp"
+
+#include "conversion/sinumerik_formulas.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace probewright::conversion {
+
+using namespace language;
+
+namespace {
+
+constexpr int firstSettableCode = 54;
+constexpr int furtherSettableCodes = 505;
+
+/// The number of the settable zero offset that a G function selects: 1 for G54; 0 for G500.
+std::optional<int> settableOf(std::string_view code) {
+  if (code.size() < 3 || code.front() != 'G') return std::nullopt;
+  int number = 0;
+  for (const char c : code.substr(1)) {
+    if (std::isdigit(static_cast<unsigned char>(c)) == 0) return std::nullopt;
+    number = number * 10 + (c - '0');
+  }
+  if (number >= firstSettableCode && number <= 57) return number - 53;
+  if (number >= furtherSettableCodes && number <= 599) return number - 500;
+  return number == 500 ? std::optional(0) : std::nullopt;
+}
+
+std::string_view commentOf(std::string_view source) {
+  bool inText = false;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    if (source[i] == '"') inText = !inText;
+    if (source[i] == ';' && !inText) return source.substr(i);
+  }
+  return {};
+}
+
+}  // namespace
+
+ToKlartext::ToKlartext(sinumerik::SinumerikProgram& program) : program_(program), out_(program.file()) {}
+
+std::string ToKlartext::axis(std::size_t index) const {
+  static constexpr const char* names[] = {"X", "Y", "Z"};
+  const std::size_t tool = toolAxis_ == 'X' ? 0 : toolAxis_ == 'Y' ? 1 : 2;
+  return names[(tool + 1 + index) % 3];
+}
+
+std::optional<std::size_t> ToKlartext::planeIndex(std::uint32_t address) const {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (addressOf(axis(i)) == address) return i;
+  return std::nullopt;
+}
+
+void ToKlartext::survey() {
+  Block block;
+  for (BlockPosition at = program_.begin(); program_.parse(at, block, result_.mistakes); at = block.next) {
+    for (const VariableRef& variable : block.variables) {
+      const bool result = variable.space == VariableSpace::User && block.at(variable.name) == "_OVR";
+      if (result && variable.index[0].isLiteral()) usedResults_.insert(static_cast<int>(variable.index[0].number));
+    }
+    for (const Instruction& instruction : block.instructions) {
+      if (const auto* jump = std::get_if<Jump>(&instruction)) targets_.insert(std::string(block.at(jump->label)));
+      if (const auto* section = std::get_if<RepeatSection>(&instruction)) {
+        targets_.insert(std::string(block.at(section->from)));
+        if (section->to.length != 0) {
+          targets_.insert(std::string(block.at(section->to)));
+          sections_.insert(std::string(block.at(section->to)));
+        }
+      }
+      const auto* function = std::get_if<MachineFunction>(&instruction);
+      changesTool_ = changesTool_ || (function != nullptr && function->number == 6);
+      const auto* modal = std::get_if<Modal>(&instruction);
+      const std::string_view name = modal == nullptr ? std::string_view() : block.at(modal->name);
+      inch_ = inch_ || name == "G70" || name == "G700";
+    }
+  }
+}
+
+Conversion ToKlartext::run() {
+  survey();
+  if (hasErrors(result_.mistakes)) return std::move(result_);
+  Diagnostics ignored;
+  Block block;
+  for (BlockPosition at = program_.begin(); program_.parse(at, block, ignored); at = block.next)
+    write(block);
+  result_.text = numbered();
+  result_.notCarriedOver = std::move(out_.listed());
+  return std::move(result_);
+}
+
+std::string ToKlartext::numbered() const {
+  const std::string frame = fmt::format("PGM {} {}", program_.name(), inch_ ? "INCH" : "MM");
+  std::string text = fmt::format("0 BEGIN {}\n", frame);
+  int number = 1;
+  bool continued = false;
+  for (const std::string& line : out_.lines()) {
+    text += continued ? fmt::format("{}\n", line) : fmt::format("{} {}\n", number++, line);
+    continued = line.ends_with('~');
+  }
+  return text + fmt::format("{} END {}\n", number, frame);
+}
+
+void ToKlartext::line(std::string text) {
+  for (std::string& each : formulas_.takePrelude())
+    out_.line(std::move(each));
+  out_.line(std::move(text));
+}
+
+void ToKlartext::write(const Block& block) {
+  const std::string_view source = block.at(block.source);
+  const std::string_view remark = trimmed(commentOf(source));
+  const std::size_t before = out_.size();
+  if (trimmed(source).starts_with('%')) return;
+  try {
+    const std::string name(block.at(block.label));
+    if (!name.empty() && targets_.contains(name)) label(name);
+    const std::size_t first = out_.size();
+    statements(block);
+    if (block.instructions.empty() && remark.empty()) {
+      if (trimmed(source).empty()) line(";");
+    } else if (!remark.empty()) {
+      const bool fits = out_.size() == first + 1 && !out_.at(first).starts_with(';');
+      if (fits) {
+        out_.at(first) += fmt::format(" {}", remark);
+      } else {
+        out_.insert(first, {std::string(remark)});
+      }
+    }
+    for (std::size_t i = before; block.skippable && i < out_.size(); ++i)
+      if (i == before || !out_.at(i - 1).ends_with('~')) out_.at(i) = fmt::format("/{}", out_.at(i));
+    if (!name.empty() && sections_.contains(name)) line("LBL 0");
+  } catch (const NotCarriedOver& reason) {
+    out_.shorten(before);
+    formulas_.takePrelude();
+    out_.keepAsComment(block, reason.what(), reason.advice());
+  }
+}
+
+void ToKlartext::statements(const Block& block) {
+  // A tool change stands in one block with its M6; suppression of the tool length belongs to a motion on the machine.
+  for (const Instruction& each : block.instructions)
+    instruction(block, each);
+}
+
+void ToKlartext::instruction(const Block& block, const Instruction& instruction) {
+  if (const auto* assigned = std::get_if<Assign>(&instruction)) {
+    assign(block, *assigned);
+  } else if (const auto* each = std::get_if<Jump>(&instruction)) {
+    jump(block, *each);
+  } else if (const auto* section = std::get_if<RepeatSection>(&instruction)) {
+    repeat(block, *section);
+  } else if (const auto* called = std::get_if<CallProgram>(&instruction)) {
+    call(block, *called);
+  } else if (const auto* structure = std::get_if<Structured>(&instruction)) {
+    structured(block, *structure);
+  } else if (std::holds_alternative<EndProgram>(instruction)) {
+    line("M30");
+  } else if (std::holds_alternative<Return>(instruction)) {
+    if (program_.parse(block.next, *std::make_unique<Block>(), result_.mistakes)) {
+      throw NotCarriedOver("a return in the middle of a program has no twin in Klartext", "jump to its end");
+    }
+  } else if (const auto* stop = std::get_if<Stop>(&instruction)) {
+    line(stop->optional ? "M1" : "STOP");
+  } else if (const auto* travel = std::get_if<Move>(&instruction)) {
+    move(block, *travel);
+  } else if (const auto* tool = std::get_if<ToolCall>(&instruction)) {
+    toolCall(block, *tool);
+  } else if (const auto* function = std::get_if<Modal>(&instruction)) {
+    modal(block, *function);
+  } else if (const auto* auxiliary = std::get_if<MachineFunction>(&instruction)) {
+    machineFunction(block, *auxiliary);
+  } else if (const auto* change = std::get_if<Transform>(&instruction)) {
+    transform(block, *change);
+  } else if (const auto* other = std::get_if<Command>(&instruction)) {
+    command(block, *other);
+  } else {
+    throw NotCarriedOver("this block has no twin in Klartext", "write it by hand");
+  }
+}
+
+void ToKlartext::assign(const Block& block, const Assign& assign) {
+  const VariableRef& variable = block.variables[assign.variable];
+  if (variable.space == VariableSpace::System) {
+    throw NotCarriedOver(fmt::format("{} cannot be written in Klartext", block.at(variable.name)));
+  }
+  const std::string name = formulas_.variable(block, variable);
+  const std::string formula = formulas_.formula(block, assign.value);
+  line(fmt::format("{} = {}", name, formula));
+  for (auto& coordinate : position_)
+    if (coordinate && !coordinate->isNumber()) coordinate.reset();
+}
+
+void ToKlartext::toolCall(const Block& block, const ToolCall& call) {
+  pendingTool_ =
+      call.name.present() ? formulas_.formula(block, call.name) : formulas_.unsignedValue(quantity(block, call.number));
+  if (!changesTool_) changeTool();
+}
+
+void ToKlartext::changeTool() {
+  if (pendingTool_.empty()) return;
+  line(fmt::format("TOOL CALL {} {}", pendingTool_, toolAxis_));
+  pendingTool_.clear();
+  forgetPosition();
+}
+
+void ToKlartext::modal(const Block& block, const Modal& modal) {
+  const std::string_view name = block.at(modal.name);
+  const auto words = std::span<const Word>(block.words).subspan(modal.words.first, modal.words.count);
+  if (const auto settable = settableOf(name)) {
+    if (*settable == 0) throw NotCarriedOver("G500 takes all settable zero offsets back; a preset is always in effect");
+    const int row = *settable == 99 ? 0 : *settable;
+    line("CYCL DEF 247 PRESETTING ~");
+    out_.line(fmt::format("    Q339=+{} ;PRESET NUMBER", row));
+    forgetPosition();
+    return;
+  }
+  static constexpr std::array<std::string_view, 12> silent = {"G60", "G64",    "G71", "G710",  "G70", "G700",
+                                                              "G94", "DIAMOF", "CFC", "CFTCP", "G9",  "G601"};
+  if (std::ranges::find(silent, name) != silent.end()) return;
+  if (name == "G90" || name == "G91") {
+    incremental_ = name == "G91";
+  } else if (name == "G17" || name == "G18" || name == "G19") {
+    toolAxis_ = name == "G17" ? 'Z' : name == "G18" ? 'Y' : 'X';
+    forgetPosition();
+  } else if (name == "G0" || name == "G1" || name == "G2" || name == "G3") {
+    motion_ = name == "G0"   ? MoveKind::Rapid
+              : name == "G1" ? MoveKind::Linear
+              : name == "G2" ? MoveKind::ArcClockwise
+                             : MoveKind::ArcCounterclockwise;
+  } else if (name == "G40" || name == "G41" || name == "G42") {
+    compensation_ = name == "G40" ? "R0" : name == "G41" ? "RL" : "RR";
+  } else if (name == "G95") {
+    line("M136");
+  } else if (name == "TRAORI") {
+    line("M128");
+  } else if (name == "TRAFOOF") {
+    line("M129");
+  } else if (name == "F" && words.size() == 1) {
+    line(fmt::format("L {} F{}", compensation_, formulas_.unsignedValue(quantity(block, words[0].value))));
+  } else if (name == "S" && words.size() == 1 && addressName(words[0].address) == "S") {
+    line(fmt::format("TOOL CALL S{}", formulas_.unsignedValue(quantity(block, words[0].value))));
+  } else if (name == "D" && words.size() == 1) {
+    const Quantity edge = quantity(block, words[0].value);
+    if (!(edge == 1 || edge == 0)) out_.lose(block, fmt::format("D{}", sinumerikText(edge)));
+  } else {
+    throw NotCarriedOver(fmt::format("{} has no twin in Klartext", name), "write it by hand");
+  }
+}
+
+void ToKlartext::machineFunction(const Block&, const MachineFunction& function) {
+  if (function.argument.present() || function.number < 0) {
+    throw NotCarriedOver("M functions of further spindles have no twin in Klartext");
+  }
+  switch (function.number) {
+    case 6:
+      return changeTool();
+    case 3:
+    case 4:
+    case 5:
+    case 7:
+    case 8:
+    case 9:
+    case 19:
+      return line(fmt::format("M{}", function.number));
+    default:
+      throw NotCarriedOver(fmt::format("M{} means something else on a HEIDENHAIN control, or nothing", function.number),
+                           "see the machine's own list of M functions");
+  }
+}
+
+void ToKlartext::transform(const Block& block, const Transform& transform) {
+  const std::string_view name = block.at(transform.name);
+  const auto words = std::span<const Word>(block.words).subspan(transform.words.first, transform.words.count);
+  const bool adds = name == "ATRANS" || name == "AROT";
+  if (name == "TRANS" || name == "ATRANS") {
+    if (adds && rotated_) throw NotCarriedOver("a shift along turned axes has no twin in Klartext");
+    std::array<std::optional<Quantity>, 3> shift = adds ? shift_ : std::array<std::optional<Quantity>, 3>{};
+    for (const Word& word : words) {
+      const auto index = planeIndex(word.address);
+      if (!index) throw NotCarriedOver("shifts of rotary axes are not converted");
+      shift[*index] = shift[*index].value_or(0) + quantity(block, word.value);
+    }
+    if (rotated_) {
+      line("CYCL DEF 10.0 ROTATION");
+      out_.line("CYCL DEF 10.1 ROT+0");
+      rotated_ = false;
+    }
+    std::vector<std::string> parts;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!shift[i] && !shift_[i]) continue;
+      parts.push_back(
+          fmt::format("CYCL DEF 7.{} {}{}", parts.size() + 1, axis(i), formulas_.value(shift[i].value_or(0))));
+    }
+    shift_ = shift;
+    if (!parts.empty()) {
+      line("CYCL DEF 7.0 DATUM SHIFT");
+      for (const std::string& part : parts)
+        out_.line(part);
+    }
+  } else if (name == "ROT" || name == "AROT") {
+    const bool plain =
+        words.size() == 1 && (words[0].address == addressOf(axis(2)) || words[0].address == addressOf("RPL"));
+    if (!plain && !words.empty()) throw NotCarriedOver("rotations out of the working plane are not converted");
+    if (!adds && std::ranges::any_of(shift_, [](const auto& each) { return each.has_value(); })) {
+      throw NotCarriedOver("ROT takes a shift back that Klartext would keep", "write TRANS in front of it, or AROT");
+    }
+    const std::string angle = words.empty() ? "+0" : formulas_.value(quantity(block, words[0].value));
+    line("CYCL DEF 10.0 ROTATION");
+    out_.line(fmt::format("CYCL DEF 10.1 {}ROT{}", adds && rotated_ ? "I" : "", angle));
+    rotated_ = !words.empty();
+  } else {
+    throw NotCarriedOver(fmt::format("{} has no twin in Klartext", name), "write it by hand");
+  }
+  forgetPosition();
+}
+
+void ToKlartext::command(const Block& block, const Command& command) {
+  const std::string_view name = block.at(command.name);
+  const auto words = std::span<const Word>(block.words).subspan(command.words.first, command.words.count);
+  if (name == "DEF") {
+    const VariableRef& variable = block.variables[static_cast<std::size_t>(command.variable)];
+    if (variable.index[0].present()) throw NotCarriedOver("arrays have no twin in Klartext");
+    const std::string own(block.at(variable.name));
+    const std::string_view type = block.at(command.text);
+    if (type == "FRAME" || type == "AXIS")
+      throw NotCarriedOver("variables for frames and axes have no twin in Klartext");
+    const bool known = own.starts_with("_Q");
+    const std::string target = known ? own.substr(1) : formulas_.define(own, type == "STRING" || type == "CHAR");
+    const bool text = target.starts_with("QS");
+    std::string value = text ? "\"\"" : "0";
+    for (const Word& word : words)
+      if (word.address == addressOf("INIT")) value = formulas_.formula(block, word.value);
+    return line(fmt::format("{} = {}{}", target, value, known ? "" : fmt::format(" ; {}", own)));
+  }
+  if (name == "MSG") {
+    if (words.empty()) return;
+    return line(fmt::format("; MSG: {}", formulas_.formula(block, words[0].value)));
+  }
+  if (name == "SETAL" && !words.empty() && words[0].value.isLiteral()) {
+    const int number = static_cast<int>(words[0].value.number);
+    return line(fmt::format("FN 14: ERROR = {}", number >= 65000 ? number - 64000 : number));
+  }
+  if (name == "STOPRE") return line("FN 20: WAIT FOR SYNC");
+  if (name == "G4" && !words.empty() && words[0].address == 'F') {
+    line("CYCL DEF 9.0 DWELL TIME");
+    return out_.line(fmt::format("CYCL DEF 9.1 DWELL {}", formulas_.unsignedValue(quantity(block, words[0].value))));
+  }
+  if (name == "SPOS" && !words.empty()) {
+    const std::string angle = formulas_.value(quantity(block, words[0].value));
+    line("CYCL DEF 13.0 ORIENTATION");
+    return out_.line(fmt::format("CYCL DEF 13.1 ANGLE {}", angle));
+  }
+  if (name == "PROC") {
+    if (block.at(command.text).find("REAL") == std::string_view::npos &&
+        block.at(command.text).find("INT") == std::string_view::npos)
+      return;
+    throw NotCarriedOver("parameters of subprograms have no twin in Klartext", "hand values over in Q parameters");
+  }
+  throw NotCarriedOver(fmt::format("{} has no twin in Klartext", name), "write it by hand");
+}
+
+Conversion toKlartext(sinumerik::SinumerikProgram& program) { return ToKlartext(program).run(); }
+
+}  // namespace probewright::conversion

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "conversion/call.hpp"
+#include "conversion/klartext_formulas.hpp"
+#include "conversion/output.hpp"
+
+/// Writes a SINUMERIK program in Klartext, block by block.
+namespace probewright::conversion {
+
+class ToKlartext {
+public:
+  explicit ToKlartext(sinumerik::SinumerikProgram& program);
+  Conversion run();
+
+private:
+  // to_klartext.cpp: the program, tools, frames
+  void survey();
+  void write(const language::Block& block);
+  void statements(const language::Block& block);
+  void instruction(const language::Block& block, const language::Instruction& instruction);
+  void assign(const language::Block& block, const language::Assign& assign);
+  void toolCall(const language::Block& block, const language::ToolCall& call);
+  void changeTool();
+  void modal(const language::Block& block, const language::Modal& modal);
+  void machineFunction(const language::Block& block, const language::MachineFunction& function);
+  void transform(const language::Block& block, const language::Transform& transform);
+  void command(const language::Block& block, const language::Command& command);
+  std::string numbered() const;
+
+  // to_klartext_flow.cpp
+  void structured(const language::Block& block, const language::Structured& structured);
+  void jump(const language::Block& block, const language::Jump& jump);
+  void repeat(const language::Block& block, const language::RepeatSection& section);
+  void call(const language::Block& block, const language::CallProgram& call);
+  /// Jumps to the label if the condition is `wanted`.
+  void jumpIf(const language::Block& block, const language::Operand& condition, bool wanted, const std::string& label);
+  void goTo(const std::string& label);
+  std::string comparable(const language::Block& block, const language::Operand& operand);
+  void label(const std::string& name);
+
+  // to_klartext_moves.cpp
+  void move(const language::Block& block, const language::Move& move);
+  void arc(const language::Block& block, const language::Move& move, bool clockwise);
+  std::string coordinate(const language::Block& block, const language::Word& word);
+
+  // to_klartext_cycles.cpp
+  void cycle(const language::Block& block, const language::CallProgram& call);
+  Place here();
+  void copyResults(const Call& heidenhain, const Call& sinumerik, const MeasuringTask& task);
+
+  std::string axis(std::size_t index) const;
+  std::optional<std::size_t> planeIndex(std::uint32_t address) const;
+  Quantity quantity(const language::Block& block, const language::Operand& operand) {
+    return formulas_.quantity(block, operand);
+  }
+  /// Writes the line behind what its values need.
+  void line(std::string text);
+  void forgetPosition() { position_ = {}; }
+
+  sinumerik::SinumerikProgram& program_;
+  Output out_;
+  KlartextFormulas formulas_;
+  Conversion result_;
+
+  // What the whole program tells.
+  std::set<std::string> targets_;   ///< labels that jumps and repetitions name
+  std::set<std::string> sections_;  ///< labels that end a repeated section
+  std::set<int> usedResults_;       ///< n of _OVR[n]
+  bool changesTool_ = false;        ///< by M6
+  bool inch_ = false;
+
+  // Where the text has come to.
+  char toolAxis_ = 'Z';
+  std::array<std::optional<Quantity>, 3> position_;  ///< of the tip: main, minor, tool axis
+  language::MoveKind motion_ = language::MoveKind::Rapid;
+  bool incremental_ = false;
+  std::string compensation_ = "R0";
+  std::string pendingTool_;
+  std::array<std::optional<Quantity>, 3> shift_;
+  bool rotated_ = false;
+  bool ended_ = false;
+
+  struct Open {
+    language::Structure kind;
+    std::string begin, end, other;
+    std::string counter;
+    bool hasElse = false;
+  };
+  std::vector<Open> open_;
+  int nextLabel_ = 1;
+};
+
+}  // namespace probewright::conversion

@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "conversion/sinumerik_formulas.hpp"
+#include "conversion/to_klartext.hpp"
+
+/// Motion of SINUMERIK programs in Klartext.
+namespace probewright::conversion {
+
+using namespace language;
+
+namespace {
+
+bool isAxis(std::uint32_t address) {
+  return address < 128 && std::string_view("XYZABCUVW").find(static_cast<char>(address)) != std::string_view::npos;
+}
+
+const Word* find(std::span<const Word> words, std::string_view address) {
+  const auto found = std::ranges::find(words, addressOf(address), &Word::address);
+  return found == words.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::string ToKlartext::coordinate(const Block& block, const Word& word) {
+  const Quantity value = quantity(block, word.value);
+  const bool incremental = word.mode == WordMode::Incremental || (word.mode == WordMode::Plain && incremental_);
+  if (const auto index = planeIndex(word.address)) {
+    auto& now = position_[*index];
+    if (!incremental) {
+      now = value;
+    } else if (now) {
+      now = *now + value;
+    }
+  }
+  return fmt::format(" {}{}{}", incremental ? "I" : "", addressName(word.address), formulas_.value(value));
+}
+
+void ToKlartext::move(const Block& block, const Move& move) {
+  const auto words = std::span<const Word>(block.words).subspan(move.words.first, move.words.count);
+  if (move.compensation != RadiusCompensation::Unchanged) {
+    compensation_ = move.compensation == RadiusCompensation::Off    ? "R0"
+                    : move.compensation == RadiusCompensation::Left ? "RL"
+                                                                    : "RR";
+  }
+  if (move.kind != MoveKind::Modal) motion_ = move.kind;
+  const std::string_view variant = block.at(move.variant);
+  const bool onMachine = variant == "SUPA" || variant == "G53" || variant == "G153";
+  if (!onMachine && !variant.empty()) throw NotCarriedOver(fmt::format("{} has no twin in Klartext", variant));
+  for (const Word& word : words) {
+    const std::string address = addressName(word.address);
+    static constexpr std::array<std::string_view, 6> known = {"I", "J", "K", "CR", "RND", "CHR"};
+    if (!isAxis(word.address) && std::ranges::find(known, address) == known.end()) {
+      throw NotCarriedOver(fmt::format("{} in a motion block has no twin in Klartext", address));
+    }
+  }
+  std::string ending;
+  if (move.feed.present()) ending = fmt::format(" F{}", formulas_.unsignedValue(quantity(block, move.feed)));
+  switch (motion_) {
+    case MoveKind::Rapid:
+    case MoveKind::Linear: {
+      std::string text = "L";
+      for (const Word& word : words)
+        if (isAxis(word.address)) text += coordinate(block, word);
+      const bool rapid = motion_ == MoveKind::Rapid;
+      if (onMachine) {
+        const bool suppressed = std::ranges::any_of(block.instructions, [&](const Instruction& instruction) {
+          const auto* modal = std::get_if<Modal>(&instruction);
+          return modal != nullptr && block.at(modal->name) == "D" &&
+                 quantity(block, block.words[modal->words.first].value) == 0;
+        });
+        if (!suppressed) out_.list(block, "M91 counts without the length of the tool", "write D0 in this block");
+        forgetPosition();
+      }
+      line(fmt::format("{} {}{}{}", text, compensation_, rapid ? " FMAX" : ending, onMachine ? " M91" : ""));
+      break;
+    }
+    case MoveKind::ArcClockwise:
+    case MoveKind::ArcCounterclockwise:
+      arc(block, move, motion_ == MoveKind::ArcClockwise);
+      break;
+    case MoveKind::ArcTangential: {
+      std::string text = "CT";
+      for (const Word& word : words)
+        if (isAxis(word.address)) text += coordinate(block, word);
+      line(text + ending);
+      break;
+    }
+    default:
+      throw NotCarriedOver("this path function has no twin in Klartext", "write lines and arcs");
+  }
+  if (const Word* round = find(words, "RND")) {
+    line(fmt::format("RND R{}", formulas_.unsignedValue(quantity(block, round->value))));
+  }
+  if (const Word* chamfer = find(words, "CHR")) {
+    line(fmt::format("CHF {}", formulas_.unsignedValue(quantity(block, chamfer->value))));
+  }
+}
+
+void ToKlartext::arc(const Block& block, const Move& move, bool clockwise) {
+  const auto words = std::span<const Word>(block.words).subspan(move.words.first, move.words.count);
+  const std::string direction = clockwise ? " DR-" : " DR+";
+  std::string feed;
+  if (move.feed.present()) feed = fmt::format(" F{}", formulas_.unsignedValue(quantity(block, move.feed)));
+  const Word* radius = find(words, "CR");
+  std::string centre = "CC";
+  if (radius == nullptr) {
+    static constexpr std::array<const char*, 3> letters = {"I", "J", "K"};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::string name = axis(i);
+      const Word* word = find(words, letters[static_cast<std::size_t>(name[0] - 'X')]);
+      const bool absolute = word != nullptr && word->mode == WordMode::Absolute;
+      const Quantity value = word == nullptr ? Quantity() : quantity(block, word->value);
+      centre += fmt::format(" {}{}{}", absolute ? "" : "I", name, formulas_.value(value));
+    }
+    line(centre);
+  }
+  std::string ends;
+  bool inPlane = false;
+  for (const Word& word : words) {
+    if (!isAxis(word.address)) continue;
+    const auto index = planeIndex(word.address);
+    inPlane = inPlane || (index && *index < 2);
+    ends += coordinate(block, word);
+  }
+  if (radius != nullptr) {
+    line(fmt::format("CR{} R{}{} {}{}", ends, formulas_.value(quantity(block, radius->value)), direction, compensation_,
+                     feed));
+  } else if (!inPlane) {
+    line(fmt::format("CP IPA{}360{}{} {}{}", clockwise ? '-' : '+', ends, direction, compensation_, feed));
+  } else {
+    line(fmt::format("C{}{} {}{}", ends, direction, compensation_, feed));
+  }
+}
+
+}  // namespace probewright::conversion

@@ -1,0 +1,371 @@
+#include "conversion/to_sinumerik.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "language/klartext/block_extent.hpp"
+#include "language/klartext/cycle_writer.hpp"
+
+namespace probewright::conversion {
+
+using namespace language;
+using klartext::FramePart;
+
+namespace {
+
+std::string upperCase(std::string_view text) {
+  std::string upper(text);
+  std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return upper;
+}
+
+/// Letters, digits and underscores of the text; everything else becomes an underscore.
+std::string identifierFrom(std::string_view text) {
+  std::string name = upperCase(text);
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  return name;
+}
+
+std::string withoutEnding(std::string_view path) {
+  path = trimmed(path);
+  if (const std::size_t slash = path.find_last_of("/\\:"); slash != std::string_view::npos)
+    path.remove_prefix(slash + 1);
+  return std::string(path.substr(0, path.rfind('.')));
+}
+
+}  // namespace
+
+ToSinumerik::ToSinumerik(klartext::HeidenhainProgram& program) : program_(program), out_(program.file()) {}
+
+std::string ToSinumerik::axis(std::size_t index) const {
+  static constexpr const char* names[] = {"X", "Y", "Z"};
+  const std::size_t tool = toolAxis_ == 'X' ? 0 : toolAxis_ == 'Y' ? 1 : 2;
+  return names[(tool + 1 + index) % 3];
+}
+
+std::optional<std::size_t> ToSinumerik::planeIndex(std::uint32_t address) const {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (addressOf(axis(i)) == address) return i;
+  return std::nullopt;
+}
+
+void ToSinumerik::survey() {
+  Block block;
+  for (BlockPosition at = program_.begin(); program_.parse(at, block, result_.mistakes); at = block.next) {
+    for (const VariableRef& variable : block.variables) {
+      if (variable.space == VariableSpace::Q && variable.index[0].isLiteral())
+        usedQ_.insert(static_cast<int>(variable.index[0].number));
+    }
+    for (const Instruction& instruction : block.instructions) {
+      if (const auto* call = std::get_if<CallLabel>(&instruction); call != nullptr && !call->repeats.present())
+        calledLabels_.insert(std::string(block.at(call->label)));
+      if (const auto* move = std::get_if<Move>(&instruction)) {
+        compensates_ = compensates_ || move->compensation == RadiusCompensation::Left ||
+                       move->compensation == RadiusCompensation::Right;
+      }
+    }
+  }
+}
+
+Conversion ToSinumerik::run() {
+  survey();
+  if (!hasErrors(result_.mistakes)) {
+    Diagnostics ignored;
+    Block block;
+    for (BlockPosition at = program_.begin(); program_.parse(at, block, ignored); at = block.next)
+      write(block);
+    if (!ended_) out_.line("M30");
+    for (const std::string& line : head())
+      result_.text += line + '\n';
+    for (const std::string& line : out_.lines())
+      result_.text += line + '\n';
+    result_.notCarriedOver = std::move(out_.listed());
+  }
+  return std::move(result_);
+}
+
+std::vector<std::string> ToSinumerik::head() const {
+  std::vector<std::string> lines = {fmt::format("; {}", program_.name())};
+  for (const std::string& name : formulas_.declared()) {
+    const bool text = name.starts_with("_QS");
+    lines.push_back(fmt::format("DEF {} {}", text ? "STRING[254]" : "REAL", name));
+  }
+  lines.push_back(fmt::format("G17 G90 G40 {} G94", program_.unit() == klartext::Unit::Inch ? "G700" : "G710"));
+  return lines;
+}
+
+void ToSinumerik::write(const Block& block) {
+  const FramePart part = program_.framePart(block);
+  if (part == FramePart::Begin || part == FramePart::End) return;
+  if (block.instructions.empty()) return comment(block);
+  const std::size_t before = out_.size();
+  try {
+    for (const Instruction& each : block.instructions)
+      instruction(block, each);
+    const bool oneLine = block.at(block.source).find('\n') == std::string_view::npos;
+    const std::string_view remark = oneLine ? klartext::commentOfLine(block, 0) : std::string_view();
+    if (!remark.empty()) {
+      if (out_.size() > before) {
+        out_.at(before) += fmt::format(" {}", remark);
+      } else {
+        out_.line(std::string(remark));
+      }
+    }
+    for (std::size_t i = before; block.skippable && i < out_.size(); ++i)
+      out_.at(i) = fmt::format("/{}", out_.at(i));
+  } catch (const NotCarriedOver& reason) {
+    out_.shorten(before);
+    lastMove_ = std::min(lastMove_, before);
+    out_.keepAsComment(block, reason.what(), reason.advice());
+  }
+}
+
+void ToSinumerik::comment(const Block& block) {
+  const std::string_view text = trimmed(klartext::withoutBlockNumber(block.at(block.source)));
+  if (text.empty()) return out_.line("");
+  out_.line(fmt::format("{}{}", text.front() == ';' ? "" : "; ", text.substr(0, text.find('\n'))));
+}
+
+void ToSinumerik::instruction(const Block& block, const Instruction& instruction) {
+  const auto join = [this](const std::string& word) { out_.line(word); };
+  if (const auto* assign = std::get_if<Assign>(&instruction)) {
+    const std::string name = formulas_.variable(block.variables[assign->variable]);
+    if (name.front() == '$') throw NotCarriedOver(fmt::format("{} cannot be set by a program", name));
+    for (auto& coordinate : position_)
+      if (coordinate && !coordinate->isNumber()) coordinate.reset();
+    out_.line(fmt::format("{}={}", name, formulas_.formula(block, assign->value)));
+  } else if (const auto* each = std::get_if<Jump>(&instruction)) {
+    jump(block, *each);
+  } else if (const auto* label = std::get_if<LabelMark>(&instruction)) {
+    mark(block, *label);
+  } else if (const auto* called = std::get_if<CallLabel>(&instruction)) {
+    callLabel(block, *called);
+  } else if (const auto* program = std::get_if<CallProgram>(&instruction)) {
+    callProgram(block, *program);
+  } else if (std::holds_alternative<EndProgram>(instruction)) {
+    ended_ = true;
+    join("M30");
+  } else if (const auto* stop = std::get_if<Stop>(&instruction)) {
+    join(stop->optional ? "M1" : "M0");
+  } else if (const auto* travel = std::get_if<Move>(&instruction)) {
+    move(block, *travel);
+  } else if (const auto* tool = std::get_if<ToolCall>(&instruction)) {
+    toolCall(block, *tool);
+  } else if (const auto* function = std::get_if<MachineFunction>(&instruction)) {
+    machineFunction(*function);
+  } else if (const auto* change = std::get_if<Transform>(&instruction)) {
+    transform(block, *change);
+  } else if (const auto* measure = std::get_if<CycleCall>(&instruction)) {
+    cycle(block, *measure);
+  } else if (const auto* other = std::get_if<Command>(&instruction)) {
+    command(block, *other);
+  } else {
+    throw NotCarriedOver("this block has no twin on a SINUMERIK", "write it by hand");
+  }
+}
+
+std::string ToSinumerik::labelName(std::string_view label) {
+  const auto found = labelNames_.find(label);
+  if (found != labelNames_.end()) return found->second;
+  std::string name = fmt::format("LBL_{}", identifierFrom(label).substr(0, 20));
+  const auto taken = [&] {
+    return std::ranges::any_of(labelNames_, [&](const auto& entry) { return entry.second == name; });
+  };
+  while (taken())
+    name += '_';
+  labelNames_.emplace(label, name);
+  return name;
+}
+
+void ToSinumerik::jump(const Block& block, const Jump& jump) {
+  if (jump.label.length == 0) throw NotCarriedOver("a computed label has no twin on a SINUMERIK");
+  const std::string target = labelName(block.at(jump.label));
+  if (!jump.condition.present()) return out_.line(fmt::format("GOTO {}", target));
+  out_.line(fmt::format("IF {} GOTO {}", formulas_.formula(block, jump.condition), target));
+}
+
+void ToSinumerik::mark(const Block& block, const LabelMark& mark) {
+  forgetPosition();
+  centre_ = {};
+  if (mark.end) {
+    for (const std::string& label : openLabels_)
+      if (calledLabels_.contains(label)) out_.line(fmt::format("{}_END:", labelName(label)));
+    openLabels_.clear();
+    return;
+  }
+  openLabels_.emplace_back(block.at(mark.label));
+  out_.line(labelName(block.at(mark.label)) + ":");
+}
+
+void ToSinumerik::callLabel(const Block& block, const CallLabel& call) {
+  if (call.label.length == 0) throw NotCarriedOver("a computed label has no twin on a SINUMERIK");
+  const std::string name = labelName(block.at(call.label));
+  if (call.repeats.present()) {
+    const Quantity times = quantity(block, call.repeats);
+    out_.line(fmt::format("REPEAT {} P{}{}", name, times.isNumber() ? "" : "=", sinumerikText(times)));
+  } else {
+    out_.line(fmt::format("REPEAT {0} {0}_END", name));
+  }
+  forgetPosition();
+  centre_ = {};
+}
+
+void ToSinumerik::callProgram(const Block& block, const CallProgram& call) {
+  if (call.name.length == 0) throw NotCarriedOver("a program whose name is computed has no twin on a SINUMERIK");
+  const std::string name = withoutEnding(block.at(call.name));
+  if (name.size() < 2 || identifierFrom(name) != upperCase(name) || std::isdigit(static_cast<unsigned char>(name[0])))
+    throw NotCarriedOver(fmt::format("{} is no name of a SINUMERIK program", name),
+                         "names begin with two letters or an underscore and have letters, digits and underscores");
+  out_.line(upperCase(name));
+  out_.list(block, fmt::format("program {} is called as it stands", upperCase(name)),
+            "convert it too; it must be an .SPF");
+  forgetPosition();
+}
+
+void ToSinumerik::toolCall(const Block& block, const ToolCall& call) {
+  for (const auto& [operand, name] :
+       {std::pair(&call.deltaLength, "DL"), std::pair(&call.deltaRadius, "DR"), std::pair(&call.deltaRadius2, "DR2")}) {
+    const bool none = !operand->present() || (operand->isLiteral() && operand->number == 0);
+    if (!none) out_.lose(block, fmt::format("{} of the tool call", name));
+  }
+  if (call.index.present()) out_.lose(block, "the step index of the tool");
+  if (call.axis != 0) {
+    toolAxis_ = call.axis;
+    if (toolAxis_ != 'X' && toolAxis_ != 'Y' && toolAxis_ != 'Z')
+      throw NotCarriedOver("tool axes other than X, Y and Z have no twin on a SINUMERIK");
+  }
+  const bool named = call.name.present();
+  if (named || call.number.present()) {
+    const std::string tool = formulas_.formula(block, named ? call.name : call.number);
+    out_.line(named || !call.number.isLiteral() ? fmt::format("T={}", tool) : fmt::format("T{}", tool));
+    out_.line("M6 D1");
+  }
+  if (call.axis != 0) out_.line(toolAxis_ == 'Z' ? "G17" : toolAxis_ == 'Y' ? "G18" : "G19");
+  std::string technology;
+  if (call.spindleSpeed.present()) {
+    const Quantity speed = quantity(block, call.spindleSpeed);
+    technology += fmt::format("S{}{}", speed.isNumber() ? "" : "=", sinumerikText(speed));
+  }
+  if (call.feed.present()) {
+    const Quantity feed = quantity(block, call.feed);
+    technology +=
+        fmt::format("{}F{}{}", technology.empty() ? "" : " ", feed.isNumber() ? "" : "=", sinumerikText(feed));
+  }
+  if (!technology.empty()) out_.line(technology);
+  forgetPosition();
+}
+
+void ToSinumerik::machineFunction(const MachineFunction& function) {
+  switch (function.number) {
+    case 3:
+    case 4:
+    case 5:
+    case 6:
+    case 7:
+    case 8:
+    case 9:
+    case 19:
+      return out_.line(fmt::format("M{}", function.number));
+    case 13:
+      return out_.line("M3 M8");
+    case 14:
+      return out_.line("M4 M8");
+    case 126:
+    case 127:
+      return;  // rotary axes with modulo take the way that the programmed position has anyway
+    case 128:
+      return out_.line("TRAORI");
+    case 129:
+      return out_.line("TRAFOOF");
+    case 136:
+      return out_.line("G95");
+    case 137:
+      return out_.line("G94");
+    default:
+      throw NotCarriedOver(fmt::format("M{} means something else on a SINUMERIK, or nothing", function.number),
+                           "see the machine's own list of M functions");
+  }
+}
+
+void ToSinumerik::transform(const Block& block, const Transform& transform) {
+  const std::string_view name = block.at(transform.name);
+  const auto words = std::span<const Word>(block.words).subspan(transform.words.first, transform.words.count);
+  if (name == "CYCL DEF 247") {
+    const Quantity row = words.empty() ? Quantity() : quantity(block, words.front().value);
+    if (!row.isNumber()) throw NotCarriedOver("the row of the preset table is known only when the program runs");
+    const int number = static_cast<int>(row.number());
+    if (number < 0 || number > 99) throw NotCarriedOver("settable zero offsets go from 1 (G54) to 99 (G599)");
+    out_.line(settableCode(number));
+    forgetPosition();
+    return;
+  }
+  const bool shifts = name == "CYCL DEF 7" || name == "TRANS DATUM AXIS";
+  const bool rotates = name == "CYCL DEF 10" || name == "TRANS ROTATION" || name == "TRANS ROTATION RESET";
+  if (shifts) {
+    for (const Word& word : words) {
+      const auto index = planeIndex(word.address);
+      if (!index) throw NotCarriedOver("datum tables and shifts of rotary axes have no twin on a SINUMERIK");
+      const Quantity value = quantity(block, word.value);
+      const Quantity old = shift_[*index].value_or(0);
+      shift_[*index] = word.mode == WordMode::Incremental ? old + value : value;
+    }
+  } else if (name == "TRANS DATUM RESET") {
+    shift_ = {};
+  } else if (rotates) {
+    if (words.empty()) {
+      rotation_ = 0;
+    } else {
+      const Quantity angle = quantity(block, words.front().value);
+      rotation_ = words.front().mode == WordMode::Incremental ? rotation_ + angle : angle;
+    }
+  } else {
+    throw NotCarriedOver(fmt::format("{} has no twin on a SINUMERIK", name), "write frames by hand");
+  }
+  // The frames of both act together: shift, then rotation.
+  std::string words_;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (shift_[i] && !(*shift_[i] == 0)) words_ += fmt::format(" {}", addressWord(axis(i), *shift_[i]));
+  }
+  out_.line(fmt::format("TRANS{}", words_));
+  if (!(rotation_ == 0)) out_.line(fmt::format("AROT {}", addressWord(axis(2), rotation_)));
+  forgetPosition();
+}
+
+void ToSinumerik::command(const Block& block, const Command& command) {
+  const std::string_view name = block.at(command.name);
+  const auto words = std::span<const Word>(block.words).subspan(command.words.first, command.words.count);
+  if (name == "GLOBAL DEF") return globalDefinition(block, command);
+  if (name == "FN14") {
+    const Quantity number = words.empty() ? Quantity() : quantity(block, words.front().value);
+    if (!number.isNumber()) throw NotCarriedOver("the number of the error is known only when the program runs");
+    const int error = static_cast<int>(number.number());
+    return out_.line(fmt::format("SETAL({})", error >= 1000 && error < 6000 ? error + 64000 : error + 65000));
+  }
+  if (name == "CYCL DEF 9" && !words.empty()) {
+    return out_.line(fmt::format("G4 {}", addressWord("F", quantity(block, words.front().value))));
+  }
+  if (name == "CYCL DEF 13" && !words.empty()) {
+    return out_.line(fmt::format("SPOS={}", sinumerikText(quantity(block, words.front().value))));
+  }
+  if (name == "FN18" && command.variable >= 0) {
+    const auto wordOr = [&](std::string_view address, double otherwise) {
+      const auto found = std::ranges::find(words, addressOf(address), &Word::address);
+      return found == words.end() ? Quantity(otherwise) : quantity(block, found->value);
+    };
+    const Quantity id = wordOr("ID", 0), index = wordOr("IDX", 0);
+    const std::string target = formulas_.variable(block.variables[static_cast<std::size_t>(command.variable)]);
+    const bool position = id == 270 && index.isNumber() && index.number() >= 1 && index.number() <= 3;
+    if (position) {
+      return out_.line(fmt::format("{}=$AA_IW[{}]", target, "XYZ"[static_cast<std::size_t>(index.number()) - 1]));
+    }
+    if (id == 530) return out_.line(fmt::format("{}=$P_UIFRNUM", target));
+  }
+  throw NotCarriedOver(fmt::format("{} has no twin on a SINUMERIK", name), "write it by hand");
+}
+
+Conversion toSinumerik(klartext::HeidenhainProgram& program) { return ToSinumerik(program).run(); }
+
+}  // namespace probewright::conversion

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "conversion/call.hpp"
+#include "conversion/output.hpp"
+#include "conversion/sinumerik_formulas.hpp"
+
+/// Writes a HEIDENHAIN program in the language of a SINUMERIK, block by block.
+namespace probewright::conversion {
+
+class ToSinumerik {
+public:
+  explicit ToSinumerik(language::klartext::HeidenhainProgram& program);
+  Conversion run();
+
+private:
+  // to_sinumerik.cpp: the program and its flow
+  void survey();
+  void write(const language::Block& block);
+  std::vector<std::string> head() const;
+  void comment(const language::Block& block);
+  void instruction(const language::Block& block, const language::Instruction& instruction);
+  void jump(const language::Block& block, const language::Jump& jump);
+  void mark(const language::Block& block, const language::LabelMark& mark);
+  void callLabel(const language::Block& block, const language::CallLabel& call);
+  void callProgram(const language::Block& block, const language::CallProgram& call);
+  void toolCall(const language::Block& block, const language::ToolCall& call);
+  void machineFunction(const language::MachineFunction& function);
+  void transform(const language::Block& block, const language::Transform& transform);
+  void command(const language::Block& block, const language::Command& command);
+  std::string labelName(std::string_view label);
+
+  // to_sinumerik_moves.cpp
+  struct Target {
+    std::string text;  ///< of the axis words, each with a blank in front
+  };
+  void move(const language::Block& block, const language::Move& move);
+  void setCentre(const language::Block& block, const language::Move& move);
+  void moveOnMachine(const language::Block& block, const language::Move& move);
+  std::string axisWords(const language::Block& block, const language::Move& move);
+  std::string centreWords() const;
+  std::string feedWord(const language::Block& block, const language::Move& move);
+  std::string cornerWord(const language::Block& block, const language::Move& move);
+  void wherePolar(const language::Block& block, const language::Move& move, Place& target);
+
+  // to_sinumerik_cycles.cpp
+  void cycle(const language::Block& block, const language::CycleCall& call);
+  void task(const language::Block& block, const MeasuringTask& task, const std::string& heidenhainCycle);
+  void approach(const Place& start, const Quantity& clearance);
+  void shiftToWish(const MeasuringTask& task);
+  void copyResults(const std::string& heidenhainCycle, const MeasuringTask& task, const std::string& cycle);
+  Call callOf(const language::Block& block, const language::CycleCall& call);
+  void globalDefinition(const language::Block& block, const language::Command& command);
+
+  /// "X", the axis of the plane's main (0), minor (1) or tool axis (2).
+  std::string axis(std::size_t index) const;
+  Quantity quantity(const language::Block& block, const language::Operand& operand) {
+    return formulas_.quantity(block, operand);
+  }
+  std::optional<std::size_t> planeIndex(std::uint32_t address) const;
+  void forgetPosition() { position_ = {}; }
+
+  language::klartext::HeidenhainProgram& program_;
+  Output out_;
+  SinumerikFormulas formulas_;
+  Conversion result_;
+
+  // What the whole program tells.
+  std::set<std::string> calledLabels_;  ///< as subprograms
+  std::map<std::string, std::string, std::less<>> labelNames_;
+  std::set<int> usedQ_;
+  bool compensates_ = false;
+
+  // Where the text has come to.
+  char toolAxis_ = 'Z';
+  std::array<std::optional<Quantity>, 3> position_;  ///< of the tip; as the SINUMERIK program drives
+  std::array<std::optional<Quantity>, 2> centre_;
+  bool besidePath_ = false;  ///< the probe stands where the original program did not leave it
+  int arcDirection_ = 0;
+  std::vector<std::string> openLabels_;
+  std::map<int, Quantity> global_;  ///< GLOBAL DEF values by Q number
+  std::array<std::optional<Quantity>, 3> shift_;
+  Quantity rotation_ = 0;
+  bool ended_ = false;
+  std::size_t lastMove_ = 0;  ///< line of the last motion, plus 1
+};
+
+}  // namespace probewright::conversion

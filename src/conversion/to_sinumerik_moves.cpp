@@ -1,0 +1,200 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "conversion/to_sinumerik.hpp"
+
+/// Motion of HEIDENHAIN programs in the language of a SINUMERIK.
+namespace probewright::conversion {
+
+using namespace language;
+
+namespace {
+
+std::span<const Word> wordsOf(const Block& block, WordRange range) {
+  return std::span<const Word>(block.words).subspan(range.first, range.count);
+}
+
+const Word* find(std::span<const Word> words, std::string_view address) {
+  const auto found = std::ranges::find(words, addressOf(address), &Word::address);
+  return found == words.end() ? nullptr : &*found;
+}
+
+bool isAxis(std::uint32_t address) {
+  return address < 128 && std::string_view("XYZABCUVW").find(static_cast<char>(address)) != std::string_view::npos;
+}
+
+/// `radius` times a function ("COS") of `degrees`.
+Quantity projected(const Quantity& radius, const char* function, const Quantity& degrees) {
+  if (degrees.isNumber()) {
+    const double angle = degrees.number() * std::numbers::pi / 180;
+    return radius * (std::string_view(function) == "COS" ? std::cos(angle) : std::sin(angle));
+  }
+  return Quantity::of(fmt::format("{}*{}({})", factorText(sinumerikText(radius)), function, sinumerikText(degrees)));
+}
+
+}  // namespace
+
+std::string ToSinumerik::feedWord(const Block& block, const Move& move) {
+  if (!move.feed.present()) return {};
+  return fmt::format(" {}", addressWord("F", quantity(block, move.feed)));
+}
+
+std::string ToSinumerik::axisWords(const Block& block, const Move& move) {
+  std::string text;
+  for (const Word& word : wordsOf(block, move.words)) {
+    if (!isAxis(word.address)) continue;
+    const Quantity value = quantity(block, word.value);
+    const std::string name = addressName(word.address);
+    const auto index = planeIndex(word.address);
+    const bool incremental = word.mode == WordMode::Incremental;
+    if (incremental && index && !position_[*index] && besidePath_ && *index < 2) {
+      out_.list(block, fmt::format("I{} counts from where the measuring cycle has left the probe", name),
+                "give the coordinate as an absolute one");
+    }
+    text += incremental ? fmt::format(" {}=IC({})", name, sinumerikText(value))
+                        : fmt::format(" {}", addressWord(name, value));
+    if (!index) continue;
+    auto& coordinate = position_[*index];
+    if (!incremental) {
+      coordinate = value;
+    } else if (coordinate) {
+      coordinate = *coordinate + value;
+    }
+  }
+  return text;
+}
+
+void ToSinumerik::wherePolar(const Block& block, const Move& move, Place& target) {
+  if (!centre_[0] || !centre_[1]) throw NotCarriedOver("the pole (CC) is not known here", "program CC in front of it");
+  const auto words = wordsOf(block, move.words);
+  const Word* radius = find(words, "PR");
+  const Word* angle = find(words, "PA");
+  const bool absolute = radius != nullptr && angle != nullptr && radius->mode != WordMode::Incremental &&
+                        angle->mode != WordMode::Incremental;
+  if (!absolute) {
+    throw NotCarriedOver("polar coordinates that continue from the last position are not converted",
+                         "give radius PR and angle PA in the block");
+  }
+  const Quantity distance = quantity(block, radius->value), direction = quantity(block, angle->value);
+  target[0] = *centre_[0] + projected(distance, "COS", direction);
+  target[1] = *centre_[1] + projected(distance, "SIN", direction);
+}
+
+void ToSinumerik::setCentre(const Block& block, const Move& move) {
+  const auto words = wordsOf(block, move.words);
+  if (words.empty()) centre_ = {position_[0], position_[1]};
+  for (const Word& word : words) {
+    const auto index = planeIndex(word.address);
+    if (!index || *index > 1) throw NotCarriedOver("CC has two coordinates of the working plane");
+    const Quantity value = quantity(block, word.value);
+    if (word.mode != WordMode::Incremental) {
+      centre_[*index] = value;
+    } else {
+      centre_[*index] = position_[*index] ? std::optional(*position_[*index] + value) : std::nullopt;
+    }
+  }
+}
+
+std::string ToSinumerik::centreWords() const {
+  if (!centre_[0] || !centre_[1]) {
+    throw NotCarriedOver("the circle centre (CC) is not known here", "program CC with both coordinates in front of it");
+  }
+  static constexpr const char* letters[] = {"I", "J", "K"};
+  std::string text;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string name = axis(i);
+    text += fmt::format(" {}=AC({})", letters[name[0] - 'X'], sinumerikText(*centre_[i]));
+  }
+  return text;
+}
+
+std::string ToSinumerik::cornerWord(const Block& block, const Move& move) {
+  const Word* size = find(wordsOf(block, move.words), "R");
+  const Quantity value = size == nullptr ? Quantity() : quantity(block, size->value);
+  return fmt::format(" {}={}", move.kind == MoveKind::Rounding ? "RND" : "CHR", sinumerikText(value));
+}
+
+void ToSinumerik::moveOnMachine(const Block& block, const Move& move) {
+  if (move.machineReference2) throw NotCarriedOver("M92 counts from a point that only the machine builder knows");
+  std::string text;
+  for (const Word& word : wordsOf(block, move.words)) {
+    if (word.mode == WordMode::Incremental) throw NotCarriedOver("incremental positions with M91 are not converted");
+    text += fmt::format(" {}", addressWord(addressName(word.address), quantity(block, word.value)));
+  }
+  out_.line(fmt::format("SUPA {}{} D0{}", move.rapid ? "G0" : "G1", text, feedWord(block, move)));
+  out_.line("D1");
+  forgetPosition();
+}
+
+void ToSinumerik::move(const Block& block, const Move& move) {
+  if (move.kind == MoveKind::SetCentre) return setCentre(block, move);
+  if (move.machineCoordinates || move.machineReference2) return moveOnMachine(block, move);
+  if (move.kind == MoveKind::Rounding || move.kind == MoveKind::Chamfer) {
+    if (lastMove_ == 0) throw NotCarriedOver("there is no path in front of this corner");
+    out_.at(lastMove_ - 1) += cornerWord(block, move);
+    return;
+  }
+  std::string compensation;
+  if (compensates_ && move.compensation == RadiusCompensation::Off) compensation = "G40 ";
+  if (move.compensation == RadiusCompensation::Left) compensation = "G41 ";
+  if (move.compensation == RadiusCompensation::Right) compensation = "G42 ";
+
+  std::string words;
+  if (move.polar && move.kind == MoveKind::Linear) {
+    Place target;
+    wherePolar(block, move, target);
+    for (std::size_t i = 0; i < 2; ++i) {
+      words += fmt::format(" {}", addressWord(axis(i), target[i]));
+      position_[i] = target[i];
+    }
+  } else if (move.polar) {
+    throw NotCarriedOver("arcs in polar coordinates are not converted", "write them with C or CR");
+  }
+  words += axisWords(block, move);
+  const auto given = wordsOf(block, move.words);
+  std::string path;
+  switch (move.kind) {
+    case MoveKind::Linear:
+    case MoveKind::Rapid:
+      path = move.rapid ? "G0" : "G1";
+      break;
+    case MoveKind::ArcTangential:
+      path = "CT";
+      break;
+    case MoveKind::ArcClockwise:
+    case MoveKind::ArcCounterclockwise:
+    case MoveKind::Modal: {
+      if (move.kind == MoveKind::ArcClockwise) arcDirection_ = -1;
+      if (move.kind == MoveKind::ArcCounterclockwise) arcDirection_ = 1;
+      if (arcDirection_ == 0) throw NotCarriedOver("the direction of this arc is not known", "program DR+ or DR-");
+      path = arcDirection_ < 0 ? "G2" : "G3";
+      const Word* radius = find(given, "R");
+      words += radius != nullptr ? fmt::format(" CR={}", sinumerikText(quantity(block, radius->value))) : centreWords();
+      break;
+    }
+    default:
+      throw NotCarriedOver("APPR and DEP have no twin on a SINUMERIK", "write the approach as straight lines and arcs");
+  }
+  const std::string feed = feedWord(block, move);
+  if (words.empty()) {  // a change of compensation or feed alone
+    const std::string rest = compensation + (feed.empty() ? "" : feed.substr(1));
+    if (!rest.empty()) out_.line(std::string(trimmed(rest)));
+    return;
+  }
+  if (besidePath_) {
+    const bool both = find(given, axis(0)) != nullptr && find(given, axis(1)) != nullptr;
+    const bool neither = find(given, axis(0)) == nullptr && find(given, axis(1)) == nullptr;
+    if (!both && !neither && !move.polar) {
+      out_.list(block, "this block moves one axis of the plane from where the measuring cycle has left the other",
+                "give both coordinates");
+    }
+    if (!neither) besidePath_ = false;
+  }
+  out_.line(compensation + path + words + feed);
+  lastMove_ = out_.size();
+}
+
+}  // namespace probewright::conversion
