@@ -310,9 +310,9 @@ CadModel cadModel(const TopoDS_Shape& shape, double deflection) {
       model.bounds.minimum = model.bounds.minimum.cwiseMin(corner);
       model.bounds.maximum = model.bounds.maximum.cwiseMax(corner);
     }
-    search.push_back(searchElement(element.corners, element.growth));
+    search.push_back({element.corners, element.growth});
   }
-  model.tree = SearchTree(search);
+  model.tree = SearchTree(search, Elements::NearTriangles);
   std::vector<CadElement> ordered;
   ordered.reserve(model.elements.size());
   for (const std::uint32_t i : model.tree.order())

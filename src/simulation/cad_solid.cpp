@@ -68,8 +68,8 @@ std::size_t CadSolid::triangleCount() const {
 }
 
 bool CadSolid::isInside(const Vector3& point) const {
-  return model_->closed && rayMeetsBack(model_->tree, model_->elements, point, [](const CadElement& element) {
-           return element.kind == CadElement::Kind::Face ? &element.corners : nullptr;
+  return model_->closed && rayMeetsBack(model_->tree, point, [&](std::uint32_t place) {
+           return model_->elements[place].kind == CadElement::Kind::Face;
          });
 }
 
@@ -77,8 +77,9 @@ std::optional<BallContact> CadSolid::firstContact(const Vector3& from, const Vec
   const Mover mover{wayBetween(from, to), radius};
   Meeting best;
   Memory memory;
-  model_->tree.search(mover, best, model_->elements,
-                      [&](const CadElement& element) { meet(*model_, element, mover.way, radius, memory, best); });
+  model_->tree.search(mover, best, [&](std::uint32_t place, const Triangle&) {
+    meet(*model_, model_->elements[place], mover.way, radius, memory, best);
+  });
   if (model_->closed && !(best.when < 0)) {
     const bool onFace = best.found() && !best.normal.isZero();
     const bool inside = onFace ? best.normal.dot(mover.way.at(best.when) - best.point) < 0 : isInside(from);
@@ -95,8 +96,8 @@ std::optional<BallContact> CadSolid::firstCapsuleContact(const Vector3& from, co
   const Vector3 part = axis / static_cast<double>(parts);
   for (std::size_t i = 0; i < parts; ++i) {
     const Mover mover{{way.start + static_cast<double>(i) * part, way.direction, way.length}, radius, part};
-    model_->tree.search(mover, best, model_->elements, [&](const CadElement& element) {
-      if (element.kind == CadElement::Kind::Face) sweepCapsule(mover.way, radius, part, element.corners, best);
+    model_->tree.search(mover, best, [&](std::uint32_t place, const Triangle& t) {
+      if (model_->elements[place].kind == CadElement::Kind::Face) sweepCapsule(mover.way, radius, part, t, best);
     });
   }
   if (!(best.when < 0) && isInside(from)) return contactWithin(way, radius);

@@ -20,11 +20,10 @@ BallContact contactWithin(const Way& way, double radius);
 std::size_t capsuleParts(const Vector3& axis, double radius);
 
 /// True if the first triangle that a ray from `point` meets shows its back. For a closed surface: `point` lies inside.
-/// The ray's direction is one that edges of real parts do not have. `triangleOf` gives the triangle of one of
-/// the tree's elements, or nullptr for others.
-template <class Element, class TriangleOf>
-bool rayMeetsBack(const SearchTree& tree, const std::vector<Element>& elements, const Vector3& point,
-                  const TriangleOf& triangleOf) {
+/// The ray's direction is one that edges of real parts do not have. `isFace(place)` tells triangles from the other
+/// elements of the tree.
+template <class IsFace>
+bool rayMeetsBack(const SearchTree& tree, const Vector3& point, const IsFace& isFace) {
   const Bounds& box = tree.bounds();
   if ((point - box.minimum).minCoeff() <= 0 || (box.maximum - point).minCoeff() <= 0) return false;
   Mover ray;
@@ -33,15 +32,14 @@ bool rayMeetsBack(const SearchTree& tree, const std::vector<Element>& elements, 
   ray.way.length = (box.maximum - box.minimum).norm();
   Meeting best;
   bool back = false;
-  tree.search(ray, best, elements, [&](const Element& element) {
-    const Triangle* t = triangleOf(element);
-    if (t == nullptr) return;
-    const Vector3 e1 = (*t)[1] - (*t)[0];
-    const Vector3 e2 = (*t)[2] - (*t)[0];
+  tree.search(ray, best, [&](std::uint32_t place, const Triangle& t) {
+    if (!isFace(place)) return;
+    const Vector3 e1 = t[1] - t[0];
+    const Vector3 e2 = t[2] - t[0];
     const Vector3 p = ray.way.direction.cross(e2);
     const double determinant = e1.dot(p);
     if (determinant == 0) return;
-    const Vector3 s = point - (*t)[0];
+    const Vector3 s = point - t[0];
     const double u = s.dot(p) / determinant;
     const Vector3 q = s.cross(e1);
     const double v = ray.way.direction.dot(q) / determinant;

@@ -49,7 +49,7 @@ double signedVolume(const TriangleMesh& mesh) {
 
 }  // namespace
 
-MeshSolid::MeshSolid(TriangleMesh mesh) : mesh_(std::move(mesh)) {
+MeshSolid::MeshSolid(TriangleMesh mesh, Instructions instructions) : mesh_(std::move(mesh)) {
   if (mesh_.triangles.empty()) return;
   closed_ = everyEdgeIsShared(mesh_);
   if (closed_ && signedVolume(mesh_) < 0) {
@@ -63,21 +63,18 @@ MeshSolid::MeshSolid(TriangleMesh mesh) : mesh_(std::move(mesh)) {
   std::vector<SearchElement> elements;
   elements.reserve(mesh_.triangles.size());
   for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
-    elements.push_back(searchElement(triangle(i)));
-  tree_ = SearchTree(elements);
-  triangles_.reserve(elements.size());
-  for (const std::uint32_t i : tree_.order())
-    triangles_.push_back(triangle(i));
+    elements.push_back({triangle(i)});
+  tree_ = SearchTree(elements, Elements::Triangles, instructions);
 }
 
 bool MeshSolid::isInside(const Vector3& point) const {
-  return closed_ && rayMeetsBack(tree_, triangles_, point, [](const Triangle& t) { return &t; });
+  return closed_ && rayMeetsBack(tree_, point, [](std::uint32_t) { return true; });
 }
 
 std::optional<BallContact> MeshSolid::firstContact(const Vector3& from, const Vector3& to, double radius) const {
   const Mover mover{wayBetween(from, to), radius};
   Meeting best;
-  tree_.search(mover, best, triangles_, [&](const Triangle& t) { sweepTriangle(mover.way, radius, t, best); });
+  tree_.search(mover, best, [&](std::uint32_t, const Triangle& t) { sweepTriangle(mover.way, radius, t, best); });
   // A ball met on a face stands before or behind it; only for other meetings a ray has to tell.
   if (closed_ && !(best.when < 0)) {
     const bool onFace = best.found() && !best.normal.isZero();
@@ -95,7 +92,8 @@ std::optional<BallContact> MeshSolid::firstCapsuleContact(const Vector3& from, c
   const Vector3 part = axis / static_cast<double>(parts);
   for (std::size_t i = 0; i < parts; ++i) {
     const Mover mover{{way.start + static_cast<double>(i) * part, way.direction, way.length}, radius, part};
-    tree_.search(mover, best, triangles_, [&](const Triangle& t) { sweepCapsule(mover.way, radius, part, t, best); });
+    tree_.search(mover, best,
+                 [&](std::uint32_t, const Triangle& t) { sweepCapsule(mover.way, radius, part, t, best); });
   }
   if (!(best.when < 0) && isInside(from)) return contactWithin(way, radius);
   return capsuleContact(way, axis, best);

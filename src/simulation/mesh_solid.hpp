@@ -15,7 +15,7 @@ namespace probewright::simulation {
 /// normal against its way. An open mesh is a skin that can be touched from both sides.
 class MeshSolid final : public Solid {
 public:
-  explicit MeshSolid(TriangleMesh mesh);
+  explicit MeshSolid(TriangleMesh mesh, Instructions instructions = bestInstructions());
 
   Bounds bounds() const override { return tree_.bounds(); }
   std::optional<BallContact> firstContact(const Vector3& from, const Vector3& to, double radius) const override;
@@ -23,7 +23,7 @@ public:
                                                  double radius) const override;
 
   bool isClosed() const { return closed_; }
-  std::size_t triangleCount() const { return triangles_.size(); }
+  std::size_t triangleCount() const { return mesh_.triangles.size(); }
   DrawingMesh drawing() const;
 
 private:
@@ -31,7 +31,6 @@ private:
 
   TriangleMesh mesh_;
   SearchTree tree_;
-  std::vector<Triangle> triangles_;  ///< in the order of the tree
   bool closed_ = false;
 };
 

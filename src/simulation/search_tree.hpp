@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,91 +18,110 @@ struct Mover {
   Vector3 axis = Vector3::Zero();  ///< zero for a ball
 };
 
-/// What the tree knows of an element: it lies in the flat round disc about `centre`.
+/// What the tree knows of an element: it lies within `growth` of a triangle. A segment is a triangle whose last two
+/// corners are one.
 struct SearchElement {
-  Bounds box;
-  Vector3 centre = Vector3::Zero();
-  Vector3 normal = Vector3::UnitZ();
-  double radius = 0;
-  double thickness = 0;  ///< to either side of the disc's middle plane
+  Triangle corners;
+  double growth = 0;
 };
 
-/// A triangle, or a segment as a triangle whose last two corners are one, together with all points within `growth`.
-SearchElement searchElement(const Triangle& triangle, double growth = 0);
+/// What a visitor makes of an element.
+enum class Elements : std::uint8_t {
+  Triangles,      ///< the triangle, exactly
+  NearTriangles,  ///< something else within `growth` of the triangle
+};
+
+/// The processor's instructions that a search uses. The results are the same.
+enum class Instructions : std::uint8_t {
+  Plain,  ///< any processor
+  Wide    ///< AVX2 and FMA
+};
+
+/// The fastest that this processor has.
+Instructions bestInstructions();
 
 /// Finds the elements a moving ball may meet, the nearest first.
 ///
-/// The hierarchy of boxes is Embree's (its surface area heuristic builder); the walk through it is our own because no
-/// query of Embree's has a lower bound for a *ball* on a way, and without one a ball wider than the triangles looks at
-/// hundreds of them. The bound for a box: no meeting before the ball's centre enters the box grown by the radius, and
-/// from there not before the ball has travelled the remaining distance between ball and box. The bound for an element
-/// is the same with its disc, which is far thinner than a box about a slanted triangle.
+/// The hierarchy is Embree's (its surface area heuristic builder), the boxes and the walk through it are our own. No
+/// query of Embree's has a lower bound for a *ball* on a way, and boxes along the axes are thick where a surface is
+/// slanted: a ball wider than the triangles would look at hundreds of them. So every box lies along the surface within
+/// it, and is as thin as the surface is flat. The bound for a box: no meeting before the ball's centre enters the box
+/// grown by the radius, and from there not before the ball has travelled the remaining distance between ball and box.
+/// The bound for an element is the same with its triangle.
 class SearchTree {
 public:
   SearchTree() = default;
   /// Throws std::runtime_error if Embree cannot allocate its memory.
-  explicit SearchTree(std::span<const SearchElement> elements);
+  SearchTree(std::span<const SearchElement> elements, Elements kind, Instructions instructions = bestInstructions());
 
   /// The elements' indices in the order in which the tree stores them.
   const std::vector<std::uint32_t>& order() const { return order_; }
   const Bounds& bounds() const { return bounds_; }
 
-  /// Calls `visit(element)` for every element that could be met before best.when, in rising order of the bound as far
-  /// as boxes tell; `visit` lowers best.when as it finds meetings. `elements` are the caller's, in the tree's order.
-  template <class Element, class Visit>
-  void search(const Mover& mover, const Meeting& best, const std::vector<Element>& elements, const Visit& visit) const {
-    struct Call {
-      const Element* elements;
-      const Visit* visit;
-    };
-    const Call call{elements.data(), &visit};
-    walk(mover, best, {&call, elements.data(), sizeof(Element), [](const void* to, std::uint32_t place) {
-                         const Call& c = *static_cast<const Call*>(to);
-                         (*c.visit)(c.elements[place]);
-                       }});
+  /// Calls `visit(place, triangle)` for every element that could be met before best.when, in rising order of the bound
+  /// as far as boxes tell; `visit` lowers best.when as it finds meetings. `place` counts in order().
+  template <class Visit>
+  void search(const Mover& mover, const Meeting& best, const Visit& visit) const {
+    search(mover, best, {&visit, exactTriangles_, [](const void* to, std::uint32_t place, const Triangle& triangle) {
+                           (*static_cast<const Visit*>(to))(place, triangle);
+                         }});
   }
 
 private:
   static constexpr std::size_t kWidth = 8;
   using Lane = std::array<float, kWidth>;
 
-  struct Boxes {
-    std::array<Lane, 3> low;
-    std::array<Lane, 3> high;
-  };
-
+  /// Eight boxes with directions of their own, relative to the tree's centre.
   struct alignas(64) Node {
-    Boxes boxes;
-    std::array<std::uint32_t, kWidth> child;  ///< a node, or kLeaf | index of a block
+    std::array<Lane, 3> middle;
+    std::array<Lane, 3> normal;               ///< unit
+    std::array<Lane, 3> tangent;              ///< unit, across the normal
+    std::array<Lane, 3> half;                 ///< along normal, tangent, and normal x tangent
+    std::array<std::uint32_t, kWidth> child;  ///< a node, or kLeaf | index of a block's first line
   };
 
-  /// Up to eight elements side by side.
-  struct alignas(64) Block {
-    std::array<Lane, 3> centre;
-    std::array<Lane, 3> normal;
-    Lane radius;
-    Lane thickness;
+  /// Up to eight triangles and their corners, each corner once: as many doubles as needed follow.
+  struct Block {
+    std::uint32_t firstPlace;
+    float growth;  ///< the largest
+    std::uint32_t count;
+    std::array<std::array<std::uint8_t, kWidth>, 3> at;  ///< the triangles' corners
+    std::uint32_t cornerCount;
+
+    const double* corner(std::size_t i) const { return reinterpret_cast<const double*>(this + 1) + 3 * i; }
+    Triangle triangle(std::size_t k) const {
+      const auto point = [&](std::size_t i) { return Vector3(Eigen::Map<const Vector3>(corner(at[i][k]))); };
+      return {point(0), point(1), point(2)};
+    }
+  };
+  struct alignas(64) Line {
+    std::array<std::byte, 64> bytes;
   };
 
   struct Walker;
-  /// How the walk reaches the caller's elements: to fetch them from memory ahead of time, and to visit them.
+  struct Walks;
+  struct Builder;
+  /// How the walk reaches the caller.
   struct Visitor {
     const void* to;
-    const void* elements;
-    std::size_t size;
-    void (*visit)(const void* to, std::uint32_t place);
+    bool exactTriangles;
+    void (*visit)(const void* to, std::uint32_t place, const Triangle& triangle);
   };
 
+  void search(const Mover& mover, const Meeting& best, const Visitor& visitor) const;
   bool enter(const Mover& mover, Walker& walker) const;
-  void walk(const Mover& mover, const Meeting& best, const Visitor& visitor) const;
-  static void boundBoxes(const Walker& w, const Boxes& boxes, Lane& bound);
-  static void boundDiscs(const Walker& w, const Block& block, Lane& bound);
+
+  const Block& block(std::uint32_t child) const { return *reinterpret_cast<const Block*>(&lines_[child & ~kLeaf]); }
+
+  static constexpr std::uint32_t kLeaf = 0x80000000U;
+  static constexpr float kNever = 1e30F;
 
   std::vector<Node> nodes_;
-  std::vector<Block> blocks_;
-  std::vector<std::uint32_t> firstPlaces_;  ///< of the blocks' elements
+  std::vector<Line> lines_;  ///< of the blocks
   std::vector<std::uint32_t> order_;
   std::uint32_t root_ = 0;
+  bool exactTriangles_ = false;
+  Instructions instructions_ = Instructions::Plain;
   Bounds bounds_;
   Vector3 centre_ = Vector3::Zero();
 };

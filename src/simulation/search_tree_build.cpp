@@ -1,0 +1,238 @@
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+#include "simulation/search_tree.hpp"
+
+namespace probewright::simulation {
+namespace {
+
+constexpr std::size_t kLeafSize = 8;
+constexpr float kFarAway = 1e12F;
+
+struct BuildNode {
+  std::uint32_t count = 0;
+  bool leaf = false;
+  std::array<BuildNode*, 8> child{};
+  std::array<std::uint32_t, kLeafSize> elements{};
+};
+
+void* createNode(RTCThreadLocalAllocator allocator, unsigned count, void*) {
+  auto* node = new (rtcThreadLocalAlloc(allocator, sizeof(BuildNode), 16)) BuildNode;
+  node->count = count;
+  return node;
+}
+
+void setChildren(void* place, void** children, unsigned count, void*) {
+  for (unsigned i = 0; i < count; ++i)
+    static_cast<BuildNode*>(place)->child[i] = static_cast<BuildNode*>(children[i]);
+}
+
+void setBounds(void*, const RTCBounds**, unsigned, void*) {}
+
+void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* elements, std::size_t count, void*) {
+  auto* node = new (rtcThreadLocalAlloc(allocator, sizeof(BuildNode), 16)) BuildNode;
+  node->leaf = true;
+  node->count = static_cast<std::uint32_t>(count);
+  for (std::size_t i = 0; i < count; ++i)
+    node->elements[i] = elements[i].primID;
+  return node;
+}
+
+float below(double value) { return std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity()); }
+float above(double value) { return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity()); }
+
+RTCDevice embree() {
+  static const RTCDevice device = rtcNewDevice(nullptr);
+  if (device == nullptr) throw std::runtime_error("Embree could not be started");
+  return device;
+}
+
+Bounds boundsOf(const SearchElement& element) {
+  Bounds box;
+  for (const Vector3& corner : element.corners) {
+    box.minimum = box.minimum.cwiseMin(corner);
+    box.maximum = box.maximum.cwiseMax(corner);
+  }
+  box.minimum.array() -= element.growth;
+  box.maximum.array() += element.growth;
+  return box;
+}
+
+/// A box with directions of its own.
+struct SlantedBox {
+  Matrix3 axes = Matrix3::Identity();  ///< columns: normal, tangent, normal x tangent
+  Vector3 minimum = Vector3::Constant(1e300);
+  Vector3 maximum = Vector3::Constant(-1e300);
+
+  Vector3 half() const { return (maximum - minimum) / 2; }
+  Vector3 middle() const { return axes * ((maximum + minimum) / 2); }
+  double surface() const {
+    const Vector3 h = half();
+    return h[0] * h[1] + h[1] * h[2] + h[2] * h[0];
+  }
+};
+
+using Range = std::span<const SearchElement>;
+
+SlantedBox boxAlong(const Matrix3& axes, Range elements) {
+  SlantedBox box;
+  box.axes = axes;
+  const Matrix3 toBox = axes.transpose();
+  for (const SearchElement& element : elements) {
+    for (const Vector3& corner : element.corners) {
+      const Vector3 p = toBox * corner;
+      box.minimum = box.minimum.cwiseMin(p - Vector3::Constant(element.growth));
+      box.maximum = box.maximum.cwiseMax(p + Vector3::Constant(element.growth));
+    }
+  }
+  return box;
+}
+
+Vector3 areaVector(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
+
+/// The smallest of a few boxes about the elements: along the coordinate axes, and along the surface's mean normal with
+/// its sides near the coordinate axes or along the elements' first edge.
+SlantedBox smallBox(Range elements) {
+  SlantedBox best = boxAlong(Matrix3::Identity(), elements);
+  Vector3 sum = Vector3::Zero();
+  for (const SearchElement& element : elements) {
+    // Neighbours may be wound in opposite senses on an open skin.
+    const Vector3 area = areaVector(element.corners);
+    sum += area.dot(sum) < 0 ? Vector3(-area) : area;
+  }
+  const double size = sum.norm();
+  if (!(size > 0)) return best;
+  const Vector3 normal = sum / size;
+  const Triangle& first = elements[0].corners;
+  for (const Vector3& side : {Vector3(Vector3::UnitX()), Vector3(Vector3::UnitY()), Vector3(Vector3::UnitZ()),
+                              Vector3(first[1] - first[0])}) {
+    const Vector3 across = side - side.dot(normal) * normal;
+    if (across.norm() < 0.1 * side.norm() || across.norm() == 0) continue;
+    Matrix3 axes;
+    axes.col(0) = normal;
+    axes.col(1) = across.normalized();
+    axes.col(2) = axes.col(0).cross(axes.col(1));
+    SlantedBox box = boxAlong(axes, elements);
+    if (box.surface() < best.surface()) best = box;
+  }
+  return best;
+}
+
+}  // namespace
+
+struct SearchTree::Builder {
+  SearchTree& tree;
+  std::span<const SearchElement> elements;
+  std::vector<SearchElement> ordered;
+
+  static void setBox(Node& node, std::size_t k, const SlantedBox& box, const Vector3& middle) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto i = static_cast<Eigen::Index>(a);
+      node.middle[a][k] = static_cast<float>(middle[i]);
+      node.normal[a][k] = static_cast<float>(box.axes.col(0)[i]);
+      node.tangent[a][k] = static_cast<float>(box.axes.col(1)[i]);
+      // The roundings of the directions turn the box a little.
+      node.half[a][k] = above(box.half()[i] + 3e-7 * box.half().sum());
+    }
+  }
+
+  std::uint32_t makeBlock(const BuildNode& from) {
+    Block block{};
+    block.firstPlace = static_cast<std::uint32_t>(ordered.size());
+    block.count = from.count;
+    std::vector<Vector3> corners;
+    for (std::uint32_t k = 0; k < from.count; ++k) {
+      const SearchElement& element = elements[from.elements[k]];
+      tree.order_.push_back(from.elements[k]);
+      ordered.push_back(element);
+      block.growth = std::max(block.growth, above(element.growth));
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto place = std::find(corners.begin(), corners.end(), element.corners[i]);
+        block.at[i][k] = static_cast<std::uint8_t>(place - corners.begin());
+        if (place == corners.end()) corners.push_back(element.corners[i]);
+      }
+    }
+    block.cornerCount = static_cast<std::uint32_t>(corners.size());
+    const std::size_t first = tree.lines_.size();
+    // Corners are read four numbers at a time.
+    const std::size_t size = sizeof(Block) + corners.size() * sizeof(Vector3) + sizeof(double);
+    tree.lines_.resize(first + (size + sizeof(Line) - 1) / sizeof(Line));
+    std::byte* to = tree.lines_[first].bytes.data();
+    std::memcpy(to, &block, sizeof(Block));
+    std::memcpy(to + sizeof(Block), corners.data(), corners.size() * sizeof(Vector3));
+    return kLeaf | static_cast<std::uint32_t>(first);
+  }
+
+  std::uint32_t makeNode(const BuildNode& from) {
+    if (from.leaf) return makeBlock(from);
+    const auto index = static_cast<std::uint32_t>(tree.nodes_.size());
+    tree.nodes_.emplace_back();
+    Node node{};
+    for (std::uint32_t k = 0; k < kWidth; ++k) {
+      if (k >= from.count) {
+        setBox(node, k, {Matrix3::Identity(), Vector3::Zero(), Vector3::Zero()}, {kFarAway, 0, 0});
+        continue;
+      }
+      const std::size_t first = ordered.size();
+      node.child[k] = makeNode(*from.child[k]);
+      const SlantedBox box = smallBox(Range(ordered).subspan(first));
+      setBox(node, k, box, box.middle() - tree.centre_);
+    }
+    tree.nodes_[index] = node;
+    return index;
+  }
+};
+
+SearchTree::SearchTree(std::span<const SearchElement> elements, Elements kind, Instructions instructions)
+    : exactTriangles_(kind == Elements::Triangles), instructions_(instructions) {
+  if (elements.empty()) return;
+  if (elements.size() >= kLeaf) throw std::runtime_error("more elements than a search tree can hold");
+  for (const SearchElement& element : elements) {
+    const Bounds box = boundsOf(element);
+    bounds_.minimum = bounds_.minimum.cwiseMin(box.minimum);
+    bounds_.maximum = bounds_.maximum.cwiseMax(box.maximum);
+  }
+  centre_ = (bounds_.minimum + bounds_.maximum) / 2;
+  std::vector<RTCBuildPrimitive> primitives(elements.size());
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const Bounds box = boundsOf(elements[i]);
+    const Vector3 low = box.minimum - centre_;
+    const Vector3 high = box.maximum - centre_;
+    primitives[i] = {below(low.x()),  below(low.y()),  below(low.z()),  0,
+                     above(high.x()), above(high.y()), above(high.z()), static_cast<unsigned>(i)};
+  }
+
+  RTCBuildArguments arguments = rtcDefaultBuildArguments();
+  arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
+  arguments.maxBranchingFactor = kWidth;
+  arguments.maxDepth = 48;
+  arguments.sahBlockSize = kLeafSize;
+  arguments.maxLeafSize = kLeafSize;
+  arguments.bvh = rtcNewBVH(embree());
+  arguments.primitives = primitives.data();
+  arguments.primitiveCount = primitives.size();
+  arguments.primitiveArrayCapacity = primitives.size();
+  arguments.createNode = createNode;
+  arguments.setNodeChildren = setChildren;
+  arguments.setNodeBounds = setBounds;
+  arguments.createLeaf = createLeaf;
+  const auto* root = static_cast<const BuildNode*>(rtcBuildBVH(&arguments));
+  if (root == nullptr) {
+    rtcReleaseBVH(arguments.bvh);
+    throw std::runtime_error("Embree could not build the search tree");
+  }
+  Builder builder{*this, elements, {}};
+  builder.ordered.reserve(elements.size());
+  order_.reserve(elements.size());
+  root_ = builder.makeNode(*root);
+  rtcReleaseBVH(arguments.bvh);
+  nodes_.shrink_to_fit();
+  lines_.shrink_to_fit();
+}
+
+}  // namespace probewright::simulation
