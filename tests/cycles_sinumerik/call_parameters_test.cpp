@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <tuple>
 
 #include "support/sinumerik_bench.hpp"
 
@@ -58,6 +59,81 @@ TEST(CallParameters, NmspMeasuresEachPointSoManyTimes) {
       const std::size_t from = bench.machine.path().points.size();
       bench.run(cycle, with(call, {{"S_FA", 6}, {"S_TSA", 5}, {"S_NMSP", times}}));
       EXPECT_EQ(measuringMoves(bench, from), points * static_cast<std::size_t>(times)) << times;
+    }
+  }
+}
+
+TEST(CallParameters, PrnumSelectsOneOfTwelveDataSets) {
+  simulation::Truth truth = perfectWorld();
+  place(truth, simulation::Ring(20, 80, -60), translation({0, 0, table}));
+  SinumerikBench bench(truth);
+  plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
+  // Each set believes in a ball of its own: the hole is found larger or smaller by as much.
+  for (int set = 0; set < 12; ++set) {
+    const double radius = 1.5 + 0.1 * set;
+    bench.set("$SNS_MEA_WP_BALL_DIAM", {set}, 2 * radius);
+    for (const char* axis : {"1", "2"}) {
+      bench.set((std::string("$SNS_MEA_WP_TRIG_PLUS_DIR_AX") + axis).c_str(), {set}, radius);
+      bench.set((std::string("$SNS_MEA_WP_TRIG_MINUS_DIR_AX") + axis).c_str(), {set}, -radius);
+    }
+  }
+  for (int number = 0; number <= 12; ++number) {
+    const double radius = 1.5 + 0.1 * std::max(0, number - 1);
+    for (const auto& [cycle, start, call] :
+         {std::tuple("CYCLE977", Vector3(0, 0, -10), NamedNumbers{{"S_MVAR", 1}}),
+          std::tuple("CYCLE979", Vector3(8, 0, -10), NamedNumbers{{"S_MVAR", 1}, {"S_INCA", 90}})}) {
+      bench.start(start);
+      bench.run(cycle, with(call, {{"S_SETV", 40}, {"S_FA", 6}, {"S_TSA", 5}, {"S_PRNUM", number}}));
+      EXPECT_NEAR(bench.ovr(4), 40 + 2 * (radius - 2), 1e-7) << cycle << " " << number;
+      EXPECT_EQ(bench.ovi(5), std::max(1, number)) << "0 counts as 1";
+    }
+  }
+  // A calibration fills the set that it is given.
+  bench.start({0, 0, -10});
+  bench.run("CYCLE976", {{"S_MVAR", 1}, {"S_SETV", 40}, {"S_FA", 6}, {"S_TSA", 5}, {"S_PRNUM", 12}});
+  EXPECT_NEAR(bench.data("$SNS_MEA_WP_BALL_DIAM", {11}), 4, 1e-9);
+  EXPECT_NEAR(bench.data("$SNS_MEA_WP_BALL_DIAM", {10}), 5, 1e-9);
+}
+
+TEST(CallParameters, Cycle961InsideCornersInEveryPosition) {
+  Planter plant(9615);
+  for (const int units : {5, 7}) {
+    for (const bool zone : {false, true}) {
+      for (int position = 0; position <= 4; ++position) {
+        SCOPED_TRACE(fmt::format("units {} zone {} position {}", units, zone, position));
+        const double x = position == 2 || position == 3 ? -1 : 1, y = position >= 3 ? -1 : 1;
+        const double angle = plant.number(-1.5, 1.5);
+        const Pose part =
+            translation({plant.number(-1, 1), plant.number(-1, 1), table}) * rotation(Vector3::UnitZ(), angle);
+        simulation::Truth truth = perfectWorld();
+        // Material behind both walls; the room lies towards plus or minus of each axis.
+        place(
+            truth,
+            simulation::Box({x > 0 ? -60.0 : -150, y > 0 ? -60.0 : 0, -60}, {x > 0 ? 150.0 : 60, y > 0 ? 0.0 : 60, 0}),
+            part);
+        place(
+            truth,
+            simulation::Box({x > 0 ? -60.0 : 0, y > 0 ? -60.0 : -150, -60}, {x > 0 ? 0.0 : 60, y > 0 ? 150.0 : 60, 0}),
+            part);
+        SinumerikBench bench(truth);
+        plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
+        const Vector3 pole(15 * x, 15 * y, zone ? 10 : -10);
+        bench.start(pole);
+        bench.run("CYCLE961", {{"S_MVAR", 10000.0 * position + (zone ? 1000 : 0) + 100 + units},
+                               {"S_KNUM", 1},
+                               {"S_SETV0", 10 * x},
+                               {"S_SETV1", 70 * x},
+                               {"S_SETV2", 10 * y},
+                               {"S_SETV3", 70 * y},
+                               {"S_SETV4", pole.x()},
+                               {"S_SETV5", pole.y()},
+                               {"S_INCA", 90},
+                               {"S_ID", zone ? -20 : 0},
+                               {"S_FA", 20},
+                               {"S_TSA", 5}});
+        EXPECT_NEAR(bench.ovr(4), angle, 1e-7);
+        EXPECT_NEAR(inWorkpiece(bench, part.translation()).head<2>().norm(), 0, 1e-7);
+      }
     }
   }
 }

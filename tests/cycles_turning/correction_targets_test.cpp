@@ -107,15 +107,18 @@ TEST(TurningTargets, EachVariantIntoEachZeroOffset) {
     for (const auto& target : targets) {
       SCOPED_TRACE(fmt::format("{} into {}", variant.name, target.knum));
       LatheBench bench(setupOf(variant));
-      plantFrame(bench, "$P_UIFR", 1, 0, face);
+      // Those that are not active stand where the active one does.
+      for (const int number : {1, 3, 6})
+        plantFrame(bench, "$P_UIFR", number, 0, face);
+      const char* axis = variant.length == 2 ? "Z" : "X";
+      const double before = bench.data(target.frame, {target.number, axis, target.part});
       const std::string program = callOf(variant, 1, target.knum, 0, "", 0);
       if (std::string_view(variant.cycle) == "CYCLE994") {
         EXPECT_EQ(bench.alarmOf(program), "61307") << "two points correct no zero offset";
         continue;
       }
       bench.run(program);
-      const char* axis = variant.length == 2 ? "Z" : "X";
-      EXPECT_NEAR(bench.data(target.frame, {target.number, axis, target.part}), 0.04, 1e-7);
+      EXPECT_NEAR(bench.data(target.frame, {target.number, axis, target.part}) - before, 0.04, 1e-7);
       const auto& writes = bench.control.journal.cycles.back().writes;
       ASSERT_EQ(writes.size(), 1U);
       EXPECT_EQ(writes[0].table, target.frame);

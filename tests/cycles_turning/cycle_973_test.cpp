@@ -135,6 +135,26 @@ std::string wayTo(const Groove& groove, double zero) {
   return fmt::format("DIAMON\nG0 X{:.9f} Z{:.9f}\n", 2 * x, z - zero);
 }
 
+TEST(Cycle973, RepeatsFromOutsideTheGroove) {
+  for (const int position : {7, 8}) {
+    Planter plant(97340 + position);
+    const Groove groove = someGroove(plant, position);
+    simulation::Setup setup = latheSetup(somePeculiarProbe(plant, position));
+    placeGroove(setup, groove);
+    LatheBench bench(setup);
+    plantFrame(bench, "$P_UIFR", 1, 0, 60);
+    enterGroove(bench, groove, 1);
+    bench.set("$SNS_MEA_FUNCTION_MASK", {}, 1);
+    // A data set of zeros, and a safe area smaller than the ball's radius.
+    const std::string axis = position == 8 ? "1" : "2";
+    EXPECT_EQ(bench.alarmOf(wayTo(groove, 60) + "CYCLE973(2103,6,1,," + axis + ",,3,0.5,,1,,2,0)"), "61303");
+    std::size_t repetitions = 0;
+    for (const auto& event : bench.control.journal.events)
+      repetitions += event.text.find("repeated") != std::string::npos;
+    EXPECT_EQ(repetitions, 4U);
+  }
+}
+
 TEST(Cycle973, CalibratesInTheGrooveInBothDirections) {
   Planter plant(9733);
   for (int world = 0; world < 120; ++world) {

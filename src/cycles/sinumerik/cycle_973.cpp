@@ -197,12 +197,19 @@ void cycle973(Context& context, const Arguments&) {
     if (!variant.length && turningAxis(context, context.integer("S_MA")) != groove.wallsAxis) {
       context.alarm(61325, fmt::format("the walls of the groove lie across axis {}", groove.wallsAxis + 1));
     }
+    probing::SinumerikProber& prober = context.prober();
+    const double outside = prober.position()[groove.baseAxis];
     calibrateInGroove(context, calibration, variant, groove);
-  } else {
-    const int axis = turningAxis(context, context.integer("S_MA"), false);
-    const double surface = context.real("S_SETV") / countOf(context, axis);
-    calibrateOneWay(context, calibration, variant, axis, signOf(context), surface);
+    context.setWayBack([&prober, &groove, outside] {
+      Vector3 target = prober.position();
+      target[groove.baseAxis] = outside;
+      prober.moveTo(target);
+    });
+    return calibration.store();
   }
+  const int axis = turningAxis(context, context.integer("S_MA"), false);
+  const double surface = context.real("S_SETV") / countOf(context, axis);
+  calibrateOneWay(context, calibration, variant, axis, signOf(context), surface);
   calibration.store();
 }
 
