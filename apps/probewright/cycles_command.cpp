@@ -25,6 +25,11 @@ std::string controlsText(control::ControlSet controls) {
   return text;
 }
 
+/// Whether the decimal digits have meanings of their own.
+bool isCode(const Parameter& parameter) {
+  return !parameter.digits.empty() && !parameter.digits.front().meaning.empty();
+}
+
 std::string rangeText(const Parameter& parameter) {
   switch (parameter.kind) {
     case ValueKind::Text:
@@ -34,6 +39,10 @@ std::string rangeText(const Parameter& parameter) {
     }
     default:
       break;
+  }
+  if (!parameter.digits.empty()) {
+    const cycles::CodeDigit& first = parameter.digits.front();
+    return isCode(parameter) ? "coded" : fmt::format("0 to {}", first.most);
   }
   std::string text = fmt::format("{} to {}", formatShortest(parameter.minimum), formatShortest(parameter.maximum));
   const std::string_view unit = cycles::unitOf(parameter.kind);
@@ -66,6 +75,14 @@ void show(const CycleDefinition& cycle) {
     fmt::print("           {}\n", line);
     for (const cycles::Choice& choice : parameter.choices) {
       fmt::print("             {:>3}  {}\n", choice.value, choice.meaning);
+    }
+    for (const cycles::CodeDigit& digit : isCode(parameter) ? parameter.digits : std::span<const cycles::CodeDigit>()) {
+      const std::string place = digit.width == 1 ? std::string(cycles::placeName(digit.place))
+                                                 : fmt::format("{} to {}", cycles::placeName(digit.place),
+                                                               cycles::placeName(digit.place + digit.width - 1));
+      fmt::print("             {}: {}\n", place, digit.meaning);
+      for (const cycles::Choice& choice : digit.choices)
+        fmt::print("             {:>3}  {}\n", choice.value, choice.meaning.empty() ? "no" : choice.meaning);
     }
   }
   if (cycle.results.empty()) return;

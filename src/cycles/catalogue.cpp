@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <stdexcept>
@@ -21,6 +22,16 @@ std::string choicesText(std::span<const Choice> choices) {
     text += fmt::format("{} ({})", choice.value, choice.meaning);
   }
   return text;
+}
+
+/// The number in `digit` of `value`, which is not negative.
+int digitOf(std::int64_t value, const CodeDigit& digit) {
+  for (int i = 1; i < digit.place; ++i)
+    value /= 10;
+  std::int64_t size = 1;
+  for (int i = 0; i < digit.width; ++i)
+    size *= 10;
+  return static_cast<int>(value % size);
 }
 
 }  // namespace
@@ -152,6 +163,62 @@ std::string complaint(const Parameter& parameter, const Argument& argument) {
                        unitOf(parameter.kind).empty() ? "" : " ", unitOf(parameter.kind));
   }
   return {};
+}
+
+std::string_view placeName(int place) {
+  constexpr std::string_view names[] = {
+      "units", "tens", "hundreds", "thousands", "ten thousands", "hundred thousands", "millions", "ten millions"};
+  return names[static_cast<std::size_t>(std::clamp(place, 1, 8) - 1)];
+}
+
+std::string codeComplaint(const Parameter& parameter, const Argument& argument) {
+  if (parameter.digits.empty() || argument.isText || !std::isfinite(argument.number)) return {};
+  const auto wrong = [&](const std::string& why) {
+    return fmt::format("{} ({}) cannot be {}: {}", parameter.name, parameter.meaning, formatShortest(argument.number),
+                       why);
+  };
+  if (argument.number < 0) return wrong("a coded number is not negative");
+  if (argument.number > parameter.maximum) return wrong("it has too many digits");
+  const auto value = static_cast<std::int64_t>(argument.number);
+  std::array<bool, 8> listed = {};
+  for (const CodeDigit& digit : parameter.digits) {
+    for (int i = 0; i < digit.width; ++i)
+      listed.at(static_cast<std::size_t>(digit.place - 1 + i)) = true;
+    const int found = digitOf(value, digit);
+    if (digit.choices.empty() ? found <= digit.most
+                              : std::ranges::find(digit.choices, found, &Choice::value) != digit.choices.end()) {
+      continue;
+    }
+    if (digit.choices.empty()) return wrong(fmt::format("the largest is {}", digit.most));
+    return wrong(fmt::format("its {} ({}) can be {}; not {}", placeName(digit.place), digit.meaning,
+                             choicesText(digit.choices), found));
+  }
+  for (int place = 1; place <= 8; ++place) {
+    const int found = digitOf(value, {.place = place});
+    if (found != 0 && !listed.at(static_cast<std::size_t>(place - 1))) {
+      return wrong(fmt::format("its {} mean nothing and must be 0, not {}", placeName(place), found));
+    }
+  }
+  return {};
+}
+
+std::string codeText(const Parameter& parameter, double value) {
+  std::string text;
+  if (parameter.digits.empty() || value < 0 || value > parameter.maximum) return text;
+  // A number of which nothing is chosen asks for nothing, whatever its other digits say.
+  if (value == 0 && parameter.digits.front().choices.empty()) return text;
+  for (const CodeDigit& digit : parameter.digits) {
+    const int found = digitOf(static_cast<std::int64_t>(value), digit);
+    const auto choice = std::ranges::find(digit.choices, found, &Choice::value);
+    std::string part;
+    if (choice != digit.choices.end()) {
+      part = choice->meaning;
+    } else if (found != 0 && !digit.meaning.empty()) {
+      part = fmt::format("{} {}", digit.meaning, found);
+    }
+    if (!part.empty()) text += fmt::format("{}{}", text.empty() ? "" : ", ", part);
+  }
+  return text;
 }
 
 Diagnostics check(const Arguments& arguments, ControlKind kind) {

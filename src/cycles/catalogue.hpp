@@ -35,6 +35,15 @@ struct Choice {
   std::string_view meaning;
 };
 
+/// One decimal digit of a coded whole number, or several that belong together.
+struct CodeDigit {
+  int place = 1;                         ///< of its last digit: 1 units, 2 tens, ... 8 ten millions
+  int width = 1;                         ///< digits
+  std::string_view meaning = {};         ///< "feature"
+  std::span<const Choice> choices = {};  ///< what it can be; empty: 0 to `most`
+  int most = 99999999;
+};
+
 struct Parameter {
   std::string_view name;      ///< "Q321", "S_MVAR"
   std::uint32_t address = 0;  ///< HEIDENHAIN: the Q number; SINUMERIK: the position from 0
@@ -45,6 +54,7 @@ struct Parameter {
   std::optional<double> standard =
       std::nullopt;  ///< used when the parameter is left out; without it the parameter is required
   std::span<const Choice> choices = {};
+  std::span<const CodeDigit> digits = {};  ///< of a coded number; digits that are not listed are 0
   ControlSet controls = control::onBothTNC | control::onSinumerik;
   bool predefinable = false;  ///< HEIDENHAIN: may be PREDEF, taken from GLOBAL DEF
   bool required() const { return !standard && kind != ValueKind::Text; }
@@ -120,6 +130,16 @@ private:
 
 /// What is wrong with the value for this parameter on this control, as one sentence; empty if nothing is.
 std::string complaint(const Parameter& parameter, const Argument& argument);
+
+/// "units", "tens", ... of CodeDigit::place.
+std::string_view placeName(int place);
+
+/// What is wrong with the digits of a coded number, as one sentence; empty if nothing is or the parameter has none. The
+/// cycles refuse such a number with an alarm of their own.
+std::string codeComplaint(const Parameter& parameter, const Argument& argument);
+
+/// What the digits of a coded number ask for: "hole, correct the zero offset".
+std::string codeText(const Parameter& parameter, double value);
 
 /// All that is wrong with a call: values out of range, required parameters left out. The messages have no place yet.
 Diagnostics check(const Arguments& arguments, ControlKind kind);

@@ -58,8 +58,12 @@ Context::Context(Control& control, const Arguments& arguments, SourcePlace place
   for (std::size_t i = 0; i < definition.parameters.size(); ++i) {
     const Argument& value = arguments.values()[i];
     const Parameter& parameter = definition.parameters[i];
+    std::string meaning(parameter.meaning);
+    if (const std::string code = codeText(parameter, value.number); value.given && !code.empty()) {
+      meaning += fmt::format(": {}", code);
+    }
     record.parameters.push_back({std::string(parameter.name), value.isText ? value.text : formatShortest(value.number),
-                                 std::string(parameter.meaning), !value.given});
+                                 std::move(meaning), !value.given});
   }
   record.startSeconds = control.channel.seconds();
   record_ = control.journal.cycles.size();

@@ -12,12 +12,20 @@
 namespace probewright::cycles::sinumerik {
 namespace {
 
+constexpr Choice corners961[] = {{5, "right-angled inside corner"},
+                                 {6, "right-angled outside corner"},
+                                 {7, "inside corner of any angle"},
+                                 {8, "outside corner of any angle"}};
+constexpr Choice points961[] = {{0, "points by distances from a pole"}, {1, "points by coordinates"}};
+constexpr Choice positions961[] = {{0, ""}, {1, "corner 1"}, {2, "corner 2"}, {3, "corner 3"}, {4, "corner 4"}};
+constexpr CodeDigit variant961[] = {{1, 1, "feature", corners961},
+                                    {2, 1, "points", points961},
+                                    {3, 1, "task", parameters::measureOrShift},
+                                    {4, 1, "protection zone", parameters::protectionZone},
+                                    {5, 1, "position of the corner; 0: by the angle of its edge", positions961}};
+
 constexpr Parameter parameters961[] = {
-    parameters::variant(
-        "units: 5 right-angled inside corner, 6 right-angled outside corner, 7 any inside corner, 8 any "
-        "outside corner; tens: 0 points by distances from a pole, 1 by coordinates; hundreds: 0 "
-        "measure only, 1 zero offset; thousands: 1 protection zone; 10^4: position of the corner",
-        6),
+    parameters::variant(variant961, 6),
     parameters::zeroOffset(1),
     parameters::dataSet(2),
     parameters::length(3, "S_SETV0", "distance of point 1 from the pole along the 1st edge, or its 1st coordinate"),

@@ -9,16 +9,26 @@ namespace probewright::cycles::sinumerik {
 
 namespace {
 
+constexpr Choice tasks973[] = {
+    {0, "length on a surface"}, {1, "radius on a surface"}, {2, "length in the groove"}, {3, "radius in the groove"}};
+constexpr Choice reserved973[] = {{0, ""}, {1, ""}};
+constexpr Choice directions973[] = {
+    {0, "axis and direction from the cutting edge position"}, {1, "one direction"}, {2, "both directions of one axis"}};
+constexpr Choice deviation973[] = {{0, "with positional deviation"}, {1, "without positional deviation"}};
+constexpr Choice toolLength973[] = {{0, ""}, {1, "corrects the tool length"}};
+constexpr CodeDigit variant973[] = {{1, 1, "task", tasks973},
+                                    {3, 1, "reserved", reserved973},
+                                    {4, 1, "directions", directions973},
+                                    {5, 1, "positional deviation", deviation973},
+                                    {7, 1, "tool length", toolLength973}};
+
 constexpr Parameter parameters973[] = {
-    parameters::variant("units: 0 length on a surface, 1 radius on a surface, 2 length in the groove, 3 radius in the "
-                        "groove; hundreds: 1; thousands: 0 axis and direction from the cutting edge position, 1 one "
-                        "direction, 2 both directions of one axis; 10^4: 1 without positional deviation; 10^6: 1 "
-                        "corrects the tool length"),
+    parameters::variant(variant973),
     parameters::dataSet(1),
-    parameters::code(2, "S_CALNUM", "number of the reference groove, 1 to 3"),
+    parameters::count<3>(2, "S_CALNUM", "number of the reference groove, 1 to 3"),
     parameters::length(3, "S_SETV", "position of the surface"),
-    parameters::code(4, "S_MA", "measuring axis: 1, 2 in the plane, 3 on a surface if the machine has it"),
-    parameters::code(5, "S_MD", "measuring direction: 0 plus, 1 minus"),
+    parameters::count<3>(4, "S_MA", "measuring axis: 1, 2 in the plane, 3 on a surface if the machine has it"),
+    parameters::count<1>(5, "S_MD", "measuring direction: 0 plus, 1 minus"),
     parameters::measuringPath(6),
     parameters::safeArea(7),
     parameters::feed(8, "S_VMS", "measuring feed; 0: that of SD 55630"),

@@ -7,14 +7,18 @@
 namespace probewright::cycles::sinumerik {
 namespace {
 
+constexpr Choice features974[] = {{0, "front edge"}, {1, "inside diameter"}, {2, "outside diameter"}};
+constexpr Choice reversal974[] = {{0, "without reversal"}, {1, "with reversal of the turning spindle"}};
+constexpr CodeDigit variant974[] = {
+    {1, 1, "feature", features974}, {3, 1, "task", parameters::measureOrCorrect}, {5, 1, "reversal", reversal974}};
+
 constexpr Parameter parameters974[] = {
-    parameters::variant("units: 0 front edge, 1 inside diameter, 2 outside diameter; hundreds: 0 measure only, 1 zero "
-                        "offset, 2 tool; 10^4: 1 with reversal of the turning spindle"),
+    parameters::variant(variant974),
     parameters::zeroOffset(1),
-    parameters::toolToCorrect(2),
+    parameters::turnedToolToCorrect(2),
     parameters::dataSet(3),
     parameters::length(4, "S_SETV", "set value of the face, or of the diameter"),
-    parameters::code(5, "S_MA", "measuring axis: 1, 2 in the plane, 3 if the machine has it", 1),
+    parameters::count<3>(5, "S_MA", "measuring axis: 1, 2 in the plane, 3 if the machine has it", 1),
     parameters::measuringPath(6),
     parameters::safeArea(7),
     parameters::angle(8, "S_STA1", "angle of the turning spindle at the first touch with reversal"),

@@ -13,17 +13,28 @@
 namespace probewright::cycles::sinumerik {
 namespace {
 
+constexpr Choice tasks976[] = {{0, "length on a surface"},
+                               {1, "radius in a ring about the start position"},
+                               {2, "radius in a ring with unknown centre"},
+                               {3, "radius and length on a ball"},
+                               {4, "radius on an edge"}};
+constexpr Choice directions976[] = {{0, ""}, {1, "one direction"}, {2, "both directions of one axis"}};
+constexpr Choice deviation976[] = {{0, "with positional deviation"}, {1, "without positional deviation"}};
+constexpr Choice angle976[] = {{0, "along the axes"}, {1, "at an angle"}};
+constexpr Choice toolLength976[] = {{0, ""}, {1, "with tool length"}};
+constexpr CodeDigit variant976[] = {{1, 1, "task", tasks976},
+                                    {4, 1, "directions", directions976},
+                                    {5, 1, "positional deviation", deviation976},
+                                    {6, 1, "angle", angle976},
+                                    {7, 1, "tool length", toolLength976}};
+
 constexpr Parameter parameters976[] = {
-    parameters::variant("units: 0 length on a surface, 1 radius in a ring about the start position, 2 radius in a ring "
-                        "with unknown centre, 3 on a ball, 4 radius on an edge; thousands: 1 one direction, 2 both "
-                        "directions of one axis; 10^4: 1 without position deviation; 10^5: 1 at an angle; 10^6: 1 "
-                        "with tool length",
-                        1000),
+    parameters::variant(variant976, 1000),
     parameters::dataSet(1),
     parameters::length(2, "S_SETV", "set value: surface, diameter of ring or ball, distance of two edges"),
     parameters::length(3, "S_SETV0", "top of the ball in the 3rd axis (with tool length)"),
-    parameters::code(4, "S_MA", "measuring axis: 1, 2, 3", 1),
-    parameters::code(5, "S_MD", "measuring direction: 0 plus, 1 minus"),
+    parameters::count<3>(4, "S_MA", "measuring axis: 1, 2, 3", 1),
+    parameters::count<1>(5, "S_MD", "measuring direction: 0 plus, 1 minus"),
     parameters::measuringPath(6),
     parameters::safeArea(7),
     parameters::feed(8, "S_VMS", "measuring feed; 0: as in the setting data"),

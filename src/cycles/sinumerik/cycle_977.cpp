@@ -10,10 +10,15 @@
 namespace probewright::cycles::sinumerik {
 namespace {
 
+constexpr Choice features977[] = {{1, "hole"}, {2, "circular spigot"},    {3, "groove"},
+                                  {4, "rib"},  {5, "rectangular pocket"}, {6, "rectangular spigot"}};
+constexpr CodeDigit variant977[] = {{1, 1, "feature", features977},
+                                    {3, 1, "task", parameters::measureOrCorrect},
+                                    {4, 1, "protection zone", parameters::protectionZone},
+                                    {5, 1, "method", parameters::method}};
+
 constexpr Parameter parameters977[] = {
-    parameters::variant("units: 1 hole, 2 circular spigot, 3 groove, 4 rib, 5 rectangular pocket, 6 rectangular "
-                        "spigot; hundreds: 0 measure only, 1 zero offset, 2 tool; thousands: 1 protection zone; 10^4: "
-                        "0 as calibrated, 1 spindle reversal, 2 probe aligned"),
+    parameters::variant(variant977),
     parameters::zeroOffset(1),
     parameters::toolToCorrect(2),
     parameters::dataSet(3),
@@ -26,7 +31,7 @@ constexpr Parameter parameters977[] = {
     parameters::length(10, "S_ID", "infeed to the measuring height, with sign"),
     parameters::length(11, "S_SZA", "protection zone: diameter, width, or length in the 1st axis"),
     parameters::length(12, "S_SZO", "protection zone of a rectangle: length in the 2nd axis"),
-    parameters::code(13, "S_MA", "measuring axis of groove and rib: 1 or 2"),
+    parameters::count<3>(13, "S_MA", "measuring axis of groove and rib: 1 or 2"),
     parameters::repetitions(14),
     parameters::toolName(15),
     parameters::dlNumber(16),

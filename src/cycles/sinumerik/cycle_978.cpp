@@ -6,17 +6,20 @@
 namespace probewright::cycles::sinumerik {
 namespace {
 
+constexpr Choice features978[] = {{0, "surface"}};
+constexpr CodeDigit variant978[] = {
+    {1, 1, "feature", features978}, {3, 1, "task", parameters::measureOrCorrect}, {5, 1, "method", parameters::method}};
+
 constexpr Parameter parameters978[] = {
-    parameters::variant("units 0; hundreds: 0 measure only, 1 zero offset, 2 tool; 10^4: 0 as calibrated, 1 spindle "
-                        "reversal, 2 probe aligned"),
+    parameters::variant(variant978),
     parameters::zeroOffset(1),
     parameters::toolToCorrect(2),
     parameters::dataSet(3),
     parameters::length(4, "S_SETV", "set value of the surface"),
     parameters::measuringPath(5),
     parameters::safeArea(6),
-    parameters::code(7, "S_MA", "measuring axis: 1, 2 in the plane, 3 along the tool"),
-    parameters::code(8, "S_MD", "measuring direction: 1 plus, 2 minus"),
+    parameters::count<3>(7, "S_MA", "measuring axis: 1, 2 in the plane, 3 along the tool"),
+    parameters::count<2>(8, "S_MD", "measuring direction: 1 plus, 2 minus"),
     parameters::repetitions(9),
     parameters::toolName(10),
     parameters::dlNumber(11),

@@ -12,9 +12,15 @@
 namespace probewright::cycles::sinumerik {
 namespace {
 
+constexpr Choice features979[] = {{1, "hole"}, {2, "circular spigot"}};
+constexpr Choice points979[] = {{0, "three points"}, {1, "four points"}};
+constexpr CodeDigit variant979[] = {{1, 1, "feature", features979},
+                                    {3, 1, "task", parameters::measureOrCorrect},
+                                    {4, 1, "points", points979},
+                                    {5, 1, "method", parameters::method}};
+
 constexpr Parameter parameters979[] = {
-    parameters::variant("units: 1 hole, 2 spigot; hundreds: 0 measure only, 1 zero offset, 2 tool; thousands: 0 three "
-                        "points, 1 four points; 10^4: 0 as calibrated, 1 spindle reversal, 2 probe aligned"),
+    parameters::variant(variant979),
     parameters::zeroOffset(1),
     parameters::toolToCorrect(2),
     parameters::dataSet(3),

@@ -11,12 +11,19 @@
 namespace probewright::cycles::sinumerik {
 namespace {
 
+constexpr Choice features994[] = {{1, "inside diameter"}, {2, "outside diameter"}};
+constexpr Choice tasks994[] = {{0, "measure only"}, {2, "correct the tool"}};
+constexpr Choice zones994[] = {{0, "without protection zone"},
+                               {1, "protection zone, passed by in the 1st axis"},
+                               {2, "protection zone, passed by in the 2nd axis"},
+                               {3, "protection zone, passed by in the 3rd axis"}};
+constexpr CodeDigit variant994[] = {
+    {1, 1, "feature", features994}, {3, 1, "task", tasks994}, {4, 1, "protection zone", zones994}};
+
 constexpr Parameter parameters994[] = {
-    parameters::variant("units: 1 inside diameter, 2 outside diameter; hundreds: 0 measure only, 2 tool; thousands: "
-                        "protection zone, passed by in axis 1, 2, 3 of the plane",
-                        1),
+    parameters::variant(variant994, 1),
     parameters::zeroOffset(1),
-    parameters::toolToCorrect(2),
+    parameters::turnedToolToCorrect(2),
     parameters::dataSet(3),
     parameters::length(4, "S_SETV", "set value of the diameter"),
     parameters::code(5, "S_MA", "measuring axis 1, 2, 3; hundreds: the axis in which the probe passes by", 1),

@@ -13,11 +13,18 @@
 namespace probewright::cycles::sinumerik {
 namespace {
 
+constexpr Choice features995[] = {{5, "spindle"}};
+constexpr Choice repeat995[] = {{1, "repeated about the centre found"}};
+constexpr Choice method995[] = {{2, "probe aligned with each touch"}};
+constexpr Choice points995[] = {{1, "four points"}};
+constexpr Choice diameter995[] = {{0, ""}, {1, "finds the diameter of the ball"}};
+constexpr CodeDigit variant995[] = {
+    {1, 1, "feature", features995}, {2, 1, "repetition", repeat995}, {3, 1, "task", parameters::measureOnly},
+    {4, 1, "method", method995},    {6, 1, "points", points995},     {7, 1, "diameter", diameter995}};
+
 constexpr Parameter parameters995[] = {
-    parameters::variant("102015, or 1102015 to find the diameter of the ball too: units 5 spindle, tens 1 repeat, "
-                        "thousands 2 probe aligned with each touch, 10^5 1 four points",
-                        5),
-    parameters::code(1, "S_KNUM", "0: nothing is corrected"),
+    parameters::variant(variant995, 5),
+    parameters::count<0>(1, "S_KNUM", "0: nothing is corrected"),
     parameters::dataSet(2),
     parameters::length(3, "S_SETV", "diameter of the calibration ball"),
     parameters::measuringPath(4),
@@ -33,7 +40,7 @@ constexpr Parameter parameters995[] = {
     parameters::repetitions(14),
     parameters::reserved(15),
     parameters::plane(16),
-    parameters::code(17, "_AMODE", "1: S_TUL is a tolerance"),
+    parameters::count<1>(17, "_AMODE", "1: S_TUL is a tolerance"),
 };
 
 constexpr ResultDefinition results995[] = {

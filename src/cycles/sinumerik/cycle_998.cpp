@@ -10,11 +10,17 @@
 namespace probewright::cycles::sinumerik {
 namespace {
 
+constexpr Choice features998[] = {{5, "edge"}, {6, "plane"}};
+constexpr Choice reversal998[] = {{0, "probe as calibrated"}, {1, "with spindle reversal"}};
+constexpr Choice ways998[] = {{0, "positions along the expected angle"}, {1, "positions along the axes"}};
+constexpr CodeDigit variant998[] = {{1, 1, "feature", features998},
+                                    {3, 1, "task", parameters::measureOrShift},
+                                    {4, 1, "protection zone", parameters::protectionZone},
+                                    {5, 1, "method", reversal998},
+                                    {6, 1, "way", ways998}};
+
 constexpr Parameter parameters998[] = {
-    parameters::variant(
-        "units: 5 edge, 6 plane; hundreds: 0 measure only, 1 zero offset; thousands: 1 protection zone; "
-        "10^4: 1 spindle reversal; 10^5: 0 positions along the expected angle, 1 along the axes",
-        5),
+    parameters::variant(variant998, 5),
     parameters::zeroOffset(1),
     parameters::code(2, "S_RA", "0: correct the rotation; otherwise number of the rotary axis to correct"),
     parameters::dataSet(3),
@@ -26,7 +32,7 @@ constexpr Parameter parameters998[] = {
     parameters::measuringPath(7),
     parameters::angle(8, "S_TSA", "safe area: a larger deviation of the angle stops the program"),
     parameters::code(9, "S_MA", "units: measuring axis, hundreds: offset axis", 201),
-    parameters::code(10, "S_MD", "measuring direction: 0 by S_SETV, 1 plus, 2 minus"),
+    parameters::count<2>(10, "S_MD", "measuring direction: 0 by S_SETV, 1 plus, 2 minus"),
     parameters::length(11, "S_ID", "edge: distance of the points in the offset axis"),
     parameters::length(12, "S_SETV0", "plane: distance from point 1 to point 2 in the 1st axis"),
     parameters::length(13, "S_SETV1", "not used"),

@@ -21,6 +21,29 @@ constexpr Parameter code(std::uint32_t address, std::string_view name, std::stri
           .controls = control::onSinumerik};
 }
 
+/// A number of which each decimal digit has a meaning of its own.
+constexpr Parameter coded(std::uint32_t address, std::string_view name, std::string_view meaning,
+                          std::span<const CodeDigit> digits, double standard = 0) {
+  return {.name = name,
+          .address = address,
+          .meaning = meaning,
+          .kind = ValueKind::Integer,
+          .minimum = -largestCode,
+          .maximum = largestCode,
+          .standard = standard,
+          .digits = digits,
+          .controls = control::onSinumerik};
+}
+
+template <int Most>
+inline constexpr CodeDigit upTo[] = {{.width = Most > 9 ? 2 : 1, .most = Most}};
+
+/// A whole number from 0 to `Most`: a count, an axis.
+template <int Most>
+constexpr Parameter count(std::uint32_t address, std::string_view name, std::string_view meaning, double standard = 0) {
+  return coded(address, name, meaning, upTo<Most>, standard);
+}
+
 constexpr Parameter length(std::uint32_t address, std::string_view name, std::string_view meaning) {
   return {.name = name,
           .address = address,
@@ -54,17 +77,56 @@ constexpr Parameter text(std::uint32_t address, std::string_view name, std::stri
       .name = name, .address = address, .meaning = meaning, .kind = ValueKind::Text, .controls = control::onSinumerik};
 }
 
-constexpr Parameter variant(std::string_view meaning, double standard = 0) {
-  return code(0, "S_MVAR", meaning, standard);
+constexpr Parameter variant(std::span<const CodeDigit> digits, double standard = 0) {
+  return coded(0, "S_MVAR", "measuring variant", digits, standard);
 }
+
+inline constexpr Choice measureOnly[] = {{0, "measure only"}};
+inline constexpr Choice measureOrShift[] = {{0, "measure only"}, {1, "correct the zero offset"}};
+inline constexpr Choice measureOrCorrect[] = {
+    {0, "measure only"}, {1, "correct the zero offset"}, {2, "correct the tool"}};
+inline constexpr Choice protectionZone[] = {{0, "without protection zone"}, {1, "with protection zone"}};
+inline constexpr Choice method[] = {
+    {0, "probe as calibrated"}, {1, "with spindle reversal"}, {2, "probe aligned with each touch"}};
+inline constexpr Choice fineOrCoarse[] = {{0, "fine"}, {1, "coarse"}};
+inline constexpr Choice zeroOffsetKinds[] = {{0, "settable zero offset"},
+                                             {1, "basic zero offset of the channel"},
+                                             {2, "base reference"},
+                                             {3, "global basic zero offset"},
+                                             {9, "active zero offset"}};
+inline constexpr CodeDigit zeroOffsetDigits[] = {
+    {1, 2, "number"}, {4, 1, "kind", zeroOffsetKinds}, {5, 1, "part", fineOrCoarse}};
+
+inline constexpr Choice toolMemories[] = {{0, "wear"},
+                                          {1, "additive offset"},
+                                          {2, "setup offset, the additive offset added to it"},
+                                          {3, "setup offset"},
+                                          {4, "geometry"}};
+inline constexpr Choice signOfCorrection[] = {{0, ""}, {1, "inverted"}};
+inline constexpr Choice milledComponents[] = {
+    {0, ""}, {1, "length 1"}, {2, "length 2"}, {3, "length 3"}, {4, "radius"}};
+inline constexpr Choice turnedComponents[] = {{0, "radius"}, {1, "length 1"}, {2, "length 2"}, {3, "length 3"}};
+inline constexpr CodeDigit milledToolDigits[] = {{1, 5, "D"},
+                                                 {6, 1, "component", milledComponents},
+                                                 {7, 1, "memory", toolMemories},
+                                                 {8, 1, "sign", signOfCorrection}};
+inline constexpr CodeDigit turnedToolDigits[] = {{1, 3, "D"},
+                                                 {5, 1, "sign", signOfCorrection},
+                                                 {6, 1, "component", turnedComponents},
+                                                 {7, 1, "memory", toolMemories}};
+
 constexpr Parameter zeroOffset(std::uint32_t address) {
-  return code(address, "S_KNUM", "zero offset to correct: number, kind in the thousands, fine or coarse in the 10^4");
+  return coded(address, "S_KNUM", "zero offset to correct", zeroOffsetDigits);
 }
+/// Of milling cycles, of turning cycles.
 constexpr Parameter toolToCorrect(std::uint32_t address) {
-  return code(address, "S_KNUM1", "tool offset to correct: D number, component, memory, sign");
+  return coded(address, "S_KNUM1", "tool offset to correct", milledToolDigits);
+}
+constexpr Parameter turnedToolToCorrect(std::uint32_t address) {
+  return coded(address, "S_KNUM1", "tool offset to correct", turnedToolDigits);
 }
 constexpr Parameter dataSet(std::uint32_t address) {
-  return code(address, "S_PRNUM", "calibration data set of the probe, 1 to 12", 1);
+  return count<12>(address, "S_PRNUM", "calibration data set of the probe, 1 to 12; 0 counts as 1", 1);
 }
 constexpr Parameter measuringPath(std::uint32_t address) {
   return length(address, "S_FA", "measuring path DFA: from the start position to the expected surface");
@@ -73,7 +135,7 @@ constexpr Parameter safeArea(std::uint32_t address) {
   return length(address, "S_TSA", "safe area: a larger difference from the set value stops the program");
 }
 constexpr Parameter repetitions(std::uint32_t address) {
-  return code(address, "S_NMSP", "number of measurements at the same place, 1 to 9", 1);
+  return count<9>(address, "S_NMSP", "number of measurements at the same place, 1 to 9; 0 counts as 1", 1);
 }
 constexpr Parameter toolName(std::uint32_t address) { return text(address, "S_TNAME", "name of the tool to correct"); }
 constexpr Parameter dlNumber(std::uint32_t address) {
@@ -100,10 +162,10 @@ constexpr Parameter memories(std::uint32_t address) {
 }
 constexpr Parameter reserved(std::uint32_t address) { return code(address, "S_MCBIT", "reserved"); }
 constexpr Parameter plane(std::uint32_t address) {
-  return code(address, "_DMODE", "plane: 0 as active, 1 G17, 2 G18, 3 G19");
+  return count<3>(address, "_DMODE", "plane: 0 as active, 1 G17, 2 G18, 3 G19");
 }
 constexpr Parameter tolerance(std::uint32_t address) {
-  return code(address, "_AMODE", "1: S_TUL and S_TLL are a tolerance");
+  return count<1>(address, "_AMODE", "1: S_TUL and S_TLL are a tolerance");
 }
 constexpr Parameter alternative(std::uint32_t address) { return code(address, "_AMODE", "reserved"); }
 

@@ -185,7 +185,8 @@ void Checker::checkCycle(const CallProgram& call, const cycles::CycleDefinition&
       argument.isText = true;
       argument.text = std::string(block_.at(node.text));
     }
-    const std::string wrong = cycles::complaint(parameter, argument);
+    std::string wrong = cycles::complaint(parameter, argument);
+    if (wrong.empty()) wrong = cycles::codeComplaint(parameter, argument);
     if (!wrong.empty()) report(word.column, place + wrong, fmt::format("See 'probewright cycles {}'.", cycle.name));
   }
 }
