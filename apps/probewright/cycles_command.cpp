@@ -82,7 +82,7 @@ void show(const CycleDefinition& cycle) {
                                                                cycles::placeName(digit.place + digit.width - 1));
       fmt::print("             {}: {}\n", place, digit.meaning);
       for (const cycles::Choice& choice : digit.choices)
-        fmt::print("             {:>3}  {}\n", choice.value, choice.meaning.empty() ? "no" : choice.meaning);
+        fmt::print("             {:>3}  {}\n", choice.value, choice.meaning);
     }
   }
   if (cycle.results.empty()) return;

@@ -31,6 +31,30 @@ TEST(SinumerikCheck, AGoodProgramHasNoMistakes) {
   EXPECT_EQ(found[0].message, "the destination N10 is missing");
 }
 
+TEST(SinumerikCheck, KnowsWhatEachDigitOfACycleParameterCanBe) {
+  const auto complaint = [](const std::string& call) {
+    const Diagnostics found = checkText(call + "\nM30\n");
+    return found.empty() ? std::string() : found[0].message;
+  };
+  // A hole, with correction of the radius of D2 in the wear, inverted; coarse; four measurements at each point.
+  EXPECT_EQ(complaint("CYCLE977(21201,10001,10400002,1,40,,,8,4,0,,,,1,4,\"\",,0,,,,,,,,1,1)"), "");
+  EXPECT_EQ(complaint("CYCLE977(108,,,1,40)"),
+            "argument 1 of CYCLE977: S_MVAR (measuring variant) cannot be 108: its units (feature) can be 1 (hole), 2 "
+            "(circular spigot), 3 (groove), 4 (rib), 5 (rectangular pocket), 6 (rectangular spigot); not 8");
+  EXPECT_EQ(
+      complaint("CYCLE977(171,,,1,40)"),
+      "argument 1 of CYCLE977: S_MVAR (measuring variant) cannot be 171: its tens mean nothing and must be 0, not 7");
+  EXPECT_EQ(complaint("CYCLE977(-101,,,1,40)"),
+            "argument 1 of CYCLE977: S_MVAR (measuring variant) cannot be -101: a coded number is not negative");
+  EXPECT_EQ(complaint("CYCLE978(100,14001,,1,0)"),
+            "argument 2 of CYCLE978: S_KNUM (zero offset to correct) cannot be 14001: its thousands (kind) can be 0 "
+            "(settable zero offset), 1 (basic zero offset of the channel), 2 (base reference), 3 (global basic zero "
+            "offset), 9 (active zero offset); not 4");
+  EXPECT_EQ(complaint("CYCLE978(100,1,,13,0)"),
+            "argument 4 of CYCLE978: S_PRNUM (calibration data set of the probe, 1 to 12; 0 counts as 1) cannot be 13: "
+            "the largest is 12");
+}
+
 TEST(SinumerikCheck, NamesAllMistakesInTheOrderOfTheProgram) {
   const Diagnostics found = checkText(
       "DEF REAL DEPTH\n"

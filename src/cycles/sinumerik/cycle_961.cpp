@@ -17,12 +17,13 @@ constexpr Choice corners961[] = {{5, "right-angled inside corner"},
                                  {7, "inside corner of any angle"},
                                  {8, "outside corner of any angle"}};
 constexpr Choice points961[] = {{0, "points by distances from a pole"}, {1, "points by coordinates"}};
-constexpr Choice positions961[] = {{0, ""}, {1, "corner 1"}, {2, "corner 2"}, {3, "corner 3"}, {4, "corner 4"}};
+constexpr Choice positions961[] = {
+    {0, "corner by the angle of its edge"}, {1, "corner 1"}, {2, "corner 2"}, {3, "corner 3"}, {4, "corner 4"}};
 constexpr CodeDigit variant961[] = {{1, 1, "feature", corners961},
                                     {2, 1, "points", points961},
                                     {3, 1, "task", parameters::measureOrShift},
                                     {4, 1, "protection zone", parameters::protectionZone},
-                                    {5, 1, "position of the corner; 0: by the angle of its edge", positions961}};
+                                    {5, 1, "position of the corner", positions961}};
 
 constexpr Parameter parameters961[] = {
     parameters::variant(variant961, 6),

@@ -11,11 +11,11 @@ namespace {
 
 constexpr Choice tasks973[] = {
     {0, "length on a surface"}, {1, "radius on a surface"}, {2, "length in the groove"}, {3, "radius in the groove"}};
-constexpr Choice reserved973[] = {{0, ""}, {1, ""}};
+constexpr Choice reserved973[] = {{0, "reserved"}, {1, "reserved"}};
 constexpr Choice directions973[] = {
     {0, "axis and direction from the cutting edge position"}, {1, "one direction"}, {2, "both directions of one axis"}};
 constexpr Choice deviation973[] = {{0, "with positional deviation"}, {1, "without positional deviation"}};
-constexpr Choice toolLength973[] = {{0, ""}, {1, "corrects the tool length"}};
+constexpr Choice toolLength973[] = {{0, "trigger points only"}, {1, "corrects the tool length"}};
 constexpr CodeDigit variant973[] = {{1, 1, "task", tasks973},
                                     {3, 1, "reserved", reserved973},
                                     {4, 1, "directions", directions973},

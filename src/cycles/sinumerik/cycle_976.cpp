@@ -18,10 +18,10 @@ constexpr Choice tasks976[] = {{0, "length on a surface"},
                                {2, "radius in a ring with unknown centre"},
                                {3, "radius and length on a ball"},
                                {4, "radius on an edge"}};
-constexpr Choice directions976[] = {{0, ""}, {1, "one direction"}, {2, "both directions of one axis"}};
+constexpr Choice directions976[] = {{0, "all directions"}, {1, "one direction"}, {2, "both directions of one axis"}};
 constexpr Choice deviation976[] = {{0, "with positional deviation"}, {1, "without positional deviation"}};
 constexpr Choice angle976[] = {{0, "along the axes"}, {1, "at an angle"}};
-constexpr Choice toolLength976[] = {{0, ""}, {1, "with tool length"}};
+constexpr Choice toolLength976[] = {{0, "without tool length"}, {1, "with tool length"}};
 constexpr CodeDigit variant976[] = {{1, 1, "task", tasks976},
                                     {4, 1, "directions", directions976},
                                     {5, 1, "positional deviation", deviation976},

@@ -17,7 +17,7 @@ constexpr Choice features995[] = {{5, "spindle"}};
 constexpr Choice repeat995[] = {{1, "repeated about the centre found"}};
 constexpr Choice method995[] = {{2, "probe aligned with each touch"}};
 constexpr Choice points995[] = {{1, "four points"}};
-constexpr Choice diameter995[] = {{0, ""}, {1, "finds the diameter of the ball"}};
+constexpr Choice diameter995[] = {{0, "diameter as set"}, {1, "finds the diameter of the ball"}};
 constexpr CodeDigit variant995[] = {
     {1, 1, "feature", features995}, {2, 1, "repetition", repeat995}, {3, 1, "task", parameters::measureOnly},
     {4, 1, "method", method995},    {6, 1, "points", points995},     {7, 1, "diameter", diameter995}};

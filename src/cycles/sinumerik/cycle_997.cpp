@@ -14,11 +14,11 @@ namespace probewright::cycles::sinumerik {
 namespace {
 
 constexpr Choice features997[] = {{9, "ball"}};
-constexpr Choice repeat997[] = {{0, ""}, {1, "repeated about the centre found"}};
+constexpr Choice repeat997[] = {{0, "not repeated"}, {1, "repeated about the centre found"}};
 constexpr Choice ways997[] = {{0, "along the axes"}, {1, "round the equator"}, {2, "round the equator, probe aligned"}};
 constexpr Choice balls997[] = {{0, "one ball"}, {1, "three balls"}};
 constexpr Choice points997[] = {{0, "three points"}, {1, "four points"}};
-constexpr Choice diameter997[] = {{0, ""}, {1, "finds the diameter of the ball"}};
+constexpr Choice diameter997[] = {{0, "diameter as set"}, {1, "finds the diameter of the ball"}};
 constexpr CodeDigit variant997[] = {
     {1, 1, "feature", features997}, {2, 1, "repetition", repeat997}, {3, 1, "task", parameters::measureOrShift},
     {4, 1, "way", ways997},         {5, 1, "balls", balls997},       {6, 1, "points round the equator", points997},

@@ -102,9 +102,9 @@ inline constexpr Choice toolMemories[] = {{0, "wear"},
                                           {2, "setup offset, the additive offset added to it"},
                                           {3, "setup offset"},
                                           {4, "geometry"}};
-inline constexpr Choice signOfCorrection[] = {{0, ""}, {1, "inverted"}};
+inline constexpr Choice signOfCorrection[] = {{0, "not inverted"}, {1, "inverted"}};
 inline constexpr Choice milledComponents[] = {
-    {0, ""}, {1, "length 1"}, {2, "length 2"}, {3, "length 3"}, {4, "radius"}};
+    {0, "component by the feature"}, {1, "length 1"}, {2, "length 2"}, {3, "length 3"}, {4, "radius"}};
 inline constexpr Choice turnedComponents[] = {{0, "radius"}, {1, "length 1"}, {2, "length 2"}, {3, "length 3"}};
 inline constexpr CodeDigit milledToolDigits[] = {{1, 5, "D"},
                                                  {6, 1, "component", milledComponents},
