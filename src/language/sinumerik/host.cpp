@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "control/alarm.hpp"
@@ -24,6 +25,15 @@ SinumerikHost::SinumerikHost(Control& control, HostOptions options)
   state_.gGroup[8] = control.frames.settable + 1;
   state_.gGroup[7] = state_.gGroup[14] = 1;
   state_.gGroup[13] = state_.gGroup[15] = 2;
+  if (const int units = control.initialFunction(13); units >= 1 && units <= 4) {
+    state_.gGroup[13] = units;
+    state_.feedInInch = units == 3;
+  }
+  if (control.initialFunction(14) == 2) {
+    state_.gGroup[14] = 2;
+    state_.incremental = true;
+  }
+  state_.gGroup[29] = control.initialFunction(29) == 3 ? 3 : control.diameter ? 2 : 1;
 }
 
 SinumerikHost::~SinumerikHost() { storeParameters(); }
@@ -59,7 +69,24 @@ bool SinumerikHost::beginBlock(const Program& program, const Block& block) {
   }
   control_.panel.place.line = block.position.line;
   block_ = &block;
+  if (control_.blockSearch && levels_.size() == 1 && block.position.line >= options_.searchLine) {
+    motion_.flush();
+    control_.blockSearch = false;
+    if (options_.searchEnds) options_.searchEnds();
+  }
   return true;
+}
+
+/// Motions, also those without a way: G0 or G1 alone, F and S while G0 or G1 is active.
+bool SinumerikHost::drivesModalCall(const Block& block) const {
+  const bool straight = state_.group1 == MoveKind::Rapid || state_.group1 == MoveKind::Linear;
+  return std::ranges::any_of(block.instructions, [&](const Instruction& each) {
+    if (std::holds_alternative<Move>(each)) return true;
+    const auto* modal = std::get_if<Modal>(&each);
+    if (modal == nullptr) return false;
+    const std::string_view name = block.at(modal->name);
+    return name == "G0" || name == "G1" || (straight && (name == "F" || name == "S"));
+  });
 }
 
 void SinumerikHost::execute(const Instruction& instruction, Evaluation& evaluation) {
@@ -100,11 +127,16 @@ Value SinumerikHost::call(std::string_view name, std::span<const Value> argument
 void SinumerikHost::enter(const Program& program, const CallProgram* call, Evaluation* caller) {
   Level level;
   level.program = &program;
+  level.call = control_.panel.place;
   const auto* own = dynamic_cast<const SinumerikProgram*>(&program);
   const BlockParser::Header* header = nullptr;
   if (own != nullptr) {
-    const auto& found = const_cast<SinumerikProgram*>(own)->structure().header();
-    if (found) header = &*found;
+    ProgramStructure& structure = const_cast<SinumerikProgram*>(own)->structure();
+    if (structure.header()) header = &*structure.header();
+    if (!structure.headerMistake().empty())
+      throw Alarm("14020",
+                  fmt::format("the PROC line of {} cannot be read: {}", program.name(), structure.headerMistake()),
+                  "correct it in " + program.file());
   }
   UserVariables::Scope parameters;
   const std::uint32_t given = call != nullptr ? call->arguments.count : 0;
@@ -123,7 +155,7 @@ void SinumerikHost::enter(const Program& program, const CallProgram* call, Evalu
         sizes[k] = std::max(parameter.dimensions[k], 1);
       UserVariable variable(parameter.type, sizes, 200);
       if (!present) {
-        if (parameter.byReference)
+        if (parameter.byReference && call->from.length == 0)
           throw Alarm("14020",
                       fmt::format("the VAR parameter {} of {} has no argument", parameter.name, program.name()));
         const bool text = parameter.type == Type::String || parameter.type == Type::Axis;
@@ -155,7 +187,8 @@ void SinumerikHost::enter(const Program& program, const CallProgram* call, Evalu
   }
   if (header != nullptr &&
       std::find(header->attributes.begin(), header->attributes.end(), "SAVE") != header->attributes.end())
-    level.saved = SavedState{state_, control_.plane, control_.unit, control_.frames, control_.diameter};
+    level.saved = SavedState{
+        state_, control_.plane, control_.unit, control_.diameter, control_.frames.settable, control_.frames.programmed};
   variables_.enter();
   for (auto& [name, variable] : parameters)
     variables_.declare(name, std::move(variable));
@@ -163,11 +196,32 @@ void SinumerikHost::enter(const Program& program, const CallProgram* call, Evalu
   control_.level = static_cast<int>(levels_.size());
 }
 
+/// SAVE brings modal G functions and the programmed frame back. F and S stay as they are. The active settable frame and
+/// basic frames stay too, so that measuring in a subprogram lasts (MD 10617 as delivered), but G54 to G599 is selected
+/// as before.
+void SinumerikHost::restore(const SavedState& saved) {
+  const MotionState left = state_;
+  state_ = saved.motion;
+  state_.spindleSpeed = left.spindleSpeed;
+  state_.spindleDirection = left.spindleDirection;
+  if (left.feedType == state_.feedType) state_.feed = left.feed;
+  control_.plane = saved.plane;
+  control_.unit = saved.unit;
+  control_.diameter = saved.diameter;
+  control_.frames.programmed = saved.programmed;
+  if (control_.frames.settable != saved.settable) {
+    control_.activateSettable(saved.settable);
+  } else {
+    control_.handOverFrames();
+  }
+}
+
 void SinumerikHost::leave(const Program&) {
   if (levels_.empty()) return;
   motion_.flush();
   Level level = std::move(levels_.back());
   levels_.pop_back();
+  if (!levels_.empty()) control_.panel.place = level.call;
   control_.level = std::max(1, static_cast<int>(levels_.size()));
   UserVariables::Scope left = variables_.leave();
   for (const auto& [parameter, source] : level.references) {
@@ -181,14 +235,7 @@ void SinumerikHost::leave(const Program&) {
       write(source, found->second.at(0));
     }
   }
-  if (level.saved) {
-    state_ = level.saved->motion;
-    control_.plane = level.saved->plane;
-    control_.unit = level.saved->unit;
-    control_.frames = level.saved->frames;
-    control_.diameter = level.saved->diameter;
-    control_.applyFrames();
-  }
+  if (level.saved) restore(*level.saved);
   lastProgram_ = nullptr;
   if (levels_.empty()) storeParameters();
 }
