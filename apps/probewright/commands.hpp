@@ -22,6 +22,9 @@ struct RunArguments {
   std::filesystem::path answers;  ///< empty: no file
   std::uint64_t stepLimit = 50'000'000;
   std::optional<std::uint64_t> seed;  ///< instead of the setup's
+  control::DialogLanguage language = control::DialogLanguage::English;
+  bool screens = false;
+  std::vector<std::string> measuringLogs;  ///< of a SINUMERIK control; .csv: as a table
   bool quiet = false;
 };
 int run(const RunArguments& arguments);
@@ -35,6 +38,7 @@ int check(const CheckArguments& arguments);
 struct CyclesArguments {
   std::string name;  ///< empty: all
   std::optional<control::ControlKind> control;
+  bool asJson = false;
 };
 int cycles(const CyclesArguments& arguments);
 

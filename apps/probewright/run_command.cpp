@@ -103,6 +103,9 @@ int run(const RunArguments& arguments) {
   options.onStop = arguments.onStop;
   options.ask = askOnTerminal;
   options.stepLimit = arguments.stepLimit;
+  options.language = arguments.language;
+  options.showAllResults = arguments.screens;
+  options.measuringLogs = arguments.measuringLogs;
   options.wallClock = std::time(nullptr);
   options.stop = interrupted.get_token();
   std::map<std::string, std::string> answers;

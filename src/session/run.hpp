@@ -34,6 +34,9 @@ struct RunOptions {
   std::stop_token stop;
   std::int64_t wallClock = 0;  ///< seconds since 1970 (UTC) when the program starts, for logs
   bool recordPath = true;
+  control::DialogLanguage language = control::DialogLanguage::English;  ///< of logs and screens
+  std::vector<std::string> measuringLogs;  ///< SINUMERIK: logs of all measurements; a table if the name ends in .csv
+  bool showAllResults = false;             ///< screens of results even where nothing asks for them
   /// Told now and then how many blocks have been carried out.
   std::function<void(std::uint64_t blocks)> progress;
 };
