@@ -100,13 +100,17 @@ AxisPositions Channel::axesFromProgram(const Vector3& point, const AxisPositions
 }
 
 Vector3 Channel::toolAxis() const {
-  Vector3 direction = toolVector.norm() > 1e-9 ? toolVector.normalized() : Vector3::UnitZ();
-  if (following_ == Following::Kinematics) {
-    const AxisPositions now = axes();
-    direction = referenceFromTable_.linear() * machine::baseFromTable(description_, now).linear().transpose() *
-                machine::baseFromSpindle(description_, now).linear() * direction;
-  }
-  return (programFromMachine_.linear() * direction).normalized();
+  const Vector3 direction = toolVector.norm() > 1e-9 ? toolVector.normalized() : Vector3::UnitZ();
+  return (spindleFromProgram().inverse() * direction).normalized();
+}
+
+Matrix3 Channel::spindleFromProgram() const {
+  if (following_ != Following::Kinematics) return machineFromProgram_.linear();
+  const AxisPositions now = axes();
+  const Matrix3 referenceFromSpindle = referenceFromTable_.linear() *
+                                       machine::baseFromTable(description_, now).linear().transpose() *
+                                       machine::baseFromSpindle(description_, now).linear();
+  return referenceFromSpindle.transpose() * machineFromProgram_.linear();
 }
 
 void Channel::judge(const machine::MoveResult& result) const {

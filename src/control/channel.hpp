@@ -87,6 +87,9 @@ public:
   /// The direction from the tool tip towards the spindle in program coordinates, unit length.
   Vector3 toolAxis() const;
 
+  /// Directions in the spindle frame, not turned with the spindle, from directions in program coordinates.
+  Matrix3 spindleFromProgram() const;
+
   // ---- where things are ----
 
   AxisPositions axes() const { return machine_.position(); }

@@ -40,7 +40,7 @@ enum class MeasureEnd {
   Collision,
   AxisLimit,
   Cancelled,
-  NotReady,  ///< there is no probe in the spindle or it is switched off
+  NotReady,  ///< there is no probe that could signal or it is switched off
 };
 
 struct MeasureResult {
@@ -68,7 +68,8 @@ public:
   /// Moves in a straight line. A probe signal or a collision on the way stops the axes at once.
   virtual MoveResult move(const AxisPositions& target, Feed feed) = 0;
 
-  /// Moves in a straight line towards `target` until the probe signals, latches, stops. The machine does not retract.
+  /// Moves in a straight line towards `target` until the probe signals, latches, stops: the touch probe in the spindle
+  /// or, with a tool in the spindle, the tool touch probe on the table. The machine does not retract.
   virtual MeasureResult measure(const AxisPositions& target, Feed feed) = 0;
 
   /// As measure(), for the few touches that the shaft of the stylus is meant to make. A probe signals for its shaft as
@@ -79,8 +80,11 @@ public:
   /// no mistake; once it is free, contact stops the move as in move().
   virtual MoveResult retract(const AxisPositions& target, Feed feed) = 0;
 
-  /// True while the stylus is deflected.
+  /// True while the stylus of the probe in the spindle, or the tool touch probe, is deflected.
   virtual bool probeDeflected() const = 0;
+
+  /// The serial number that the touch probe in the spindle tells by its interface; empty if it tells none.
+  virtual std::string probeSerial() const { return {}; }
 
   /// Turns the spindle to `degrees` (counter-clockwise seen against the tool direction is positive) and holds it.
   virtual MoveResult orientSpindle(double degrees) = 0;

@@ -67,13 +67,19 @@ void HeidenhainProber::moveOnArc(const Vector3& centre, double angle) {
   }
 }
 
+double HeidenhainProber::spindleTurn() const { return channel_.machine().spindleAngle() - probe_.calibrationAngle; }
+
 Vector3 HeidenhainProber::xyzOffset() const {
   if (probe_.tipOffset.isZero(0)) return Vector3::Zero();
-  const double turn = channel_.machine().spindleAngle() - probe_.calibrationAngle;
-  const Vector2 turned = Eigen::Rotation2Dd(radiansFromDegrees(turn)) * probe_.tipOffset;
-  // Spindle X and Y lie along the main and minor axis of the machine's working plane.
-  const Vector3 machine = plane_.xyzFromPlane({turned.x(), turned.y(), 0});
-  return (channel_.frame().linear().inverse() * machine);
+  const Vector2 turned = Eigen::Rotation2Dd(radiansFromDegrees(spindleTurn())) * probe_.tipOffset;
+  // Spindle X and Y lie along the main and minor axis of the working plane that belongs to the tool.
+  return channel_.spindleFromProgram().inverse() * plane_.xyzFromPlane({turned.x(), turned.y(), 0});
+}
+
+double HeidenhainProber::directionalRadius(const Vector3& xyzDirection) const {
+  if (probe_.directions.rings().empty()) return 0;
+  const Vector3 inSpindle = plane_.planeFromXyz(channel_.spindleFromProgram() * xyzDirection);
+  return probe_.directions.at(rotation(Vector3::UnitZ(), -spindleTurn()).linear() * inSpindle);
 }
 
 EvaluatedTouch HeidenhainProber::touch(const PlannedTouch& planned) {
@@ -86,8 +92,7 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
   const Vector3 startTip = channel_.position();
   const Vector3 xyzDirection = plane_.xyzFromPlane(direction);
   if (probe_.track && std::hypot(direction[0], direction[1]) > 1e-9) {
-    const Vector3 machineDirection = channel_.frame().linear() * xyzDirection;
-    const Vector3 inPlane = plane_.planeFromXyz(machineDirection);
+    const Vector3 inPlane = plane_.planeFromXyz(channel_.spindleFromProgram() * xyzDirection);
     channel_.orientSpindle(probe_.calibrationAngle + degreesFromRadians(std::atan2(inPlane.y(), inPlane.x())));
   }
   control::TouchRecord record;
@@ -144,6 +149,7 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
                   "clean the part, check the probe and MP6171");
     }
   }
+  mean += direction * directionalRadius(xyzDirection);
   touch.ballCentre = mean;
   touch.surface = mean + direction * probe_.ballRadius;
   record.ballCentre = plane_.xyzFromPlane(touch.ballCentre);

@@ -4,6 +4,7 @@
 
 #include "control/channel.hpp"
 #include "control/working_plane.hpp"
+#include "probing/directional_radius.hpp"
 #include "probing/touch_plan.hpp"
 
 /// The measuring move and the positioning habits of the HEIDENHAIN touch probe cycles.
@@ -22,8 +23,10 @@ struct HeidenhainProbe {
   double positioningFeed = 3000;           ///< FMAX
   bool prepositionAtMachineRapid = false;  ///< F_PREPOS = FMAX_MACHINE
   bool track = false;                      ///< TRACK = ON: the spindle turns the same side of the probe to every touch
-  int repetitions = 1;                     ///< iTNC 530, MP6170: measurements of one point
-  double confidence = 0;                   ///< iTNC 530, MP6171: largest difference between them, mm
+  bool aside = false;            ///< STYLUS = L-TYPE: the ball stands aside; its radius counts from the spindle axis
+  int repetitions = 1;           ///< iTNC 530, MP6170: measurements of one point
+  double confidence = 0;         ///< iTNC 530, MP6171: largest difference between them, mm
+  DirectionalRadius directions;  ///< of a 3-D calibration: what comes on top of the ball radius
 };
 
 /// One touch, evaluated. Coordinates (main, minor, tool axis) of the active program coordinate system.
@@ -73,6 +76,8 @@ public:
 private:
   Vector3 tipFromBall(const Vector3& ballCentre) const;
   Vector3 xyzOffset() const;
+  double spindleTurn() const;
+  double directionalRadius(const Vector3& xyzDirection) const;
   machine::Feed positioning() const;
 
   control::Channel& channel_;

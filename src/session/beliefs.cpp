@@ -9,10 +9,13 @@
 #include <functional>
 
 #include "base/file.hpp"
+#include "control/heidenhain/axis_shift_table.hpp"
 #include "control/heidenhain/datum_table.hpp"
+#include "control/heidenhain/deflection_table.hpp"
 #include "control/heidenhain/preset_table.hpp"
 #include "control/heidenhain/probe_table.hpp"
 #include "control/heidenhain/tool_table.hpp"
+#include "control/heidenhain/turning_tool_table.hpp"
 #include "control/sinumerik/measuring_data.hpp"
 #include "session/lathe_beliefs.hpp"
 
@@ -115,6 +118,13 @@ void enterTool(hh::Tables& tables, const BelievedTool& tool, bool probeRow, cons
       entry.number("CAL-OF2", tool.tipOffset.y());
       entry.number("CAL-ANG", tool.calibrationAngle);
     }
+    if (tool.kind == "turn") entry.text("TYP", "TURN");
+  }
+  if (tool.kind == "turn" && tables.turningTools && !tables.turningTools->hasRow(row)) {
+    Entry entry(*tables.turningTools, row, setup, diagnostics);
+    entry.text("NAME", tool.name);
+    entry.number("ZL", tool.length);
+    entry.number("RS", tool.radius);
   }
   const std::string probe = std::to_string(tool.probeNumber);
   if (tool.kind == "probe" && probeRow) {
@@ -137,13 +147,25 @@ hh::Tables heidenhainTables(const Setup& setup, ControlKind kind, Diagnostics& d
   hh::Tables tables{tableNamed("TOOL.T", files, hh::parseToolTable, hh::defaultToolTable(kind), diagnostics),
                     tableNamed("TCHPROBE.TP", files, hh::parseProbeTable, hh::defaultProbeTable(kind), diagnostics),
                     tableNamed("PRESET.PR", files, hh::parsePresetTable, hh::defaultPresetTable(kind), diagnostics),
+                    {},
+                    {},
+                    {},
                     {}};
+  if (kind == ControlKind::TNC640) {
+    tables.turningTools =
+        tableNamed("TOOLTURN.TRN", files, hh::parseTurningToolTable, hh::defaultTurningToolTable(), diagnostics);
+  } else {
+    tables.axisShifts =
+        tableNamed("AXSHIFT.TAB", files, hh::parseAxisShiftTable, hh::defaultAxisShiftTable(), diagnostics);
+  }
   for (const fs::path& path : files) {
-    if (upper(path.extension().string()) != ".D") continue;
+    const bool datums = upper(path.extension().string()) == ".D";
+    if (!datums && upper(path.extension().string()) != ".3DTC") continue;
     if (const auto text = contents(path, diagnostics)) {
-      Result<hh::TypedTable> table = hh::parseDatumTable(*text, path.string(), diagnostics);
+      Result<hh::TypedTable> table = datums ? hh::parseDatumTable(*text, path.string(), diagnostics)
+                                            : hh::parseDeflectionTable(*text, path.string(), diagnostics);
       if (table) {
-        tables.datums.emplace(upper(path.filename().string()), std::move(*table));
+        (datums ? tables.datums : tables.deflections).emplace(upper(path.filename().string()), std::move(*table));
       } else {
         diagnostics.push_back(table.error());
       }
@@ -184,6 +206,19 @@ hh::MachineParameters machineParameters(const Setup& setup, ControlKind kind, Di
     parameters.mp6150 = tool.rapid;
     parameters.mp6165 = tool.orient;
     break;
+  }
+  // The control knows its tool touch probe as it was fitted, unless the setup says otherwise.
+  for (const simulation::SetupSolid& solid : setup.solids) {
+    if (solid.role != simulation::SolidRole::ToolProbe) continue;
+    const Vector3 place =
+        (machine::baseFromTable(setup.truth.machine, setup.truth.start) * solid.tableFromSolid) * Vector3::Zero();
+    parameters.mp6580x = place.x();
+    parameters.mp6580y = place.y();
+    parameters.mp6580z = place.z();
+    if (!solid.source.recipe.features.empty()) {
+      const simulation::SolidFeature& plate = solid.source.recipe.features.front();
+      parameters.mp6531 = plate.diameter > 0 ? plate.diameter : plate.size.x();
+    }
   }
   for (const auto& [name, parameter] : setup.parameters) {
     const double* number = std::get_if<double>(&parameter.value);

@@ -94,6 +94,13 @@ void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>
   outcome.files["PRESET.PR"] = control.tables.presets.table().bytes();
   for (const auto& [name, table] : control.tables.datums)
     outcome.files[name] = table.table().bytes();
+  for (const auto& [name, table] : control.tables.deflections)
+    outcome.files[name] = table.table().bytes();
+  // Tables that few machines have come out if there is anything in them.
+  for (const auto* table : {&control.tables.turningTools, &control.tables.axisShifts}) {
+    if (*table && !(*table)->table().keys().empty())
+      outcome.files[(*table)->table().name()] = (*table)->table().bytes();
+  }
   outcome.machineFromWorkpiece = control.coordinates.machineFromPreset();
   outcome.ballRadius = control.tool.radius;
   outcome.qParameters = control.q;

@@ -22,6 +22,7 @@ MeshRole roleOf(simulation::SolidRole role) {
     case simulation::SolidRole::Ring:
     case simulation::SolidRole::Sphere:
     case simulation::SolidRole::GaugeBlock:
+    case simulation::SolidRole::ToolProbe:
       return MeshRole::Artefact;
   }
   return MeshRole::Artefact;

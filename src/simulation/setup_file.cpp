@@ -192,6 +192,29 @@ private:
       if (size.minCoeff() <= 0) reader->report("size", "the lengths of a gauge block must be above 0");
       placeGauge(gaugeBlock(size.x(), size.y(), size.z()), *reader, "gauge block", SolidRole::GaugeBlock);
     }
+    readToolProbe();
+  }
+
+  void readToolProbe() {
+    auto reader = root_.table("tool_probe");
+    if (!reader) return;
+    ToolProbeContact contact;
+    if (reader->has("diameter") == reader->has("size")) {
+      reader->report("diameter", "the contact of a tool touch probe needs a diameter or a size, one of both",
+                     "Write diameter = 40 for a disc, size = [25, 25] for a cuboid");
+    }
+    contact.diameter = reader->number("diameter", positive).value_or(contact.diameter);
+    if (const auto size = vector2(*reader, "size")) {
+      if (size->minCoeff() <= 0) reader->report("size", "the lengths of a contact must be above 0");
+      contact.length = size->x();
+      contact.width = size->y();
+    }
+    contact.thickness = reader->number("thickness", positive).value_or(contact.thickness);
+    contact.stemDiameter = reader->number("stem_diameter", positive).value_or(contact.stemDiameter);
+    contact.stemLength = reader->number("stem_length", positive).value_or(contact.stemLength);
+    const double across = contact.length > 0 ? std::min(contact.length, contact.width) : contact.diameter;
+    if (contact.stemDiameter >= across) reader->report("stem_diameter", "the stem is not thinner than the contact");
+    placeGauge(toolProbeContact(contact), *reader, "tool touch probe", SolidRole::ToolProbe);
   }
 
   void readProbe(TomlReader& reader, TrueTool& tool, BelievedTool& believed) {
@@ -212,6 +235,7 @@ private:
     probe.repeatability = get("repeatability", 0, {0, 1});
     probe.signalDelay = get("signal_delay", 0, {0, 1});
     probe.switchedOn = reader.boolean("switched_on").value_or(true);
+    probe.serial = reader.text("serial").value_or("");
     if (probe.stylusRadius >= probe.ballRadius) {
       reader.report("stylus_radius", "the stylus is not thinner than its ball");
     }

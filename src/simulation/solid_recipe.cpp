@@ -351,6 +351,24 @@ SolidRecipe referenceSphere(double diameter, double stemDiameter, double stemLen
   return {{sphere, stem}};
 }
 
+SolidRecipe toolProbeContact(const ToolProbeContact& contact) {
+  SolidFeature plate;
+  plate.centre = {0, 0, -contact.thickness};
+  if (contact.length > 0) {
+    plate.size = {contact.length, contact.width, contact.thickness};
+  } else {
+    plate.shape = FeatureShape::Cylinder;
+    plate.diameter = contact.diameter;
+    plate.height = contact.thickness;
+  }
+  SolidFeature stem;
+  stem.shape = FeatureShape::Cylinder;
+  stem.centre = {0, 0, -contact.thickness - contact.stemLength};
+  stem.diameter = contact.stemDiameter;
+  stem.height = contact.stemLength;
+  return {{plate, stem}};
+}
+
 SolidRecipe gaugeBlock(double length, double width, double height) {
   SolidFeature block;
   block.centre = {0, 0, -height};

@@ -69,6 +69,15 @@ SolidRecipe ringGauge(double boreDiameter, double outerDiameter, double height);
 /// A sphere around the origin on a stem that reaches down to -stemLength below the centre.
 SolidRecipe referenceSphere(double diameter, double stemDiameter, double stemLength);
 
+/// The contact of a tool touch probe on its stem: the middle of its top face in the origin. A disc where `length` is 0.
+struct ToolProbeContact {
+  double diameter = 40;          ///< of a disc
+  double length = 0, width = 0;  ///< of a cuboid
+  double thickness = 10;
+  double stemDiameter = 8, stemLength = 30;  ///< below the contact
+};
+SolidRecipe toolProbeContact(const ToolProbeContact& contact);
+
 /// A block with the middle of its top face in the origin.
 SolidRecipe gaugeBlock(double length, double width, double height);
 

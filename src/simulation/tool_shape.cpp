@@ -27,6 +27,19 @@ void addCylinder(ToolShape& shape, const Vector3& base, const Vector3& up, doubl
 
 }  // namespace
 
+Matrix3 toolFrame(const TrueTool& tool) {
+  const Vector3& up = tool.shankDirection;
+  Matrix3 frame;
+  if (up.isApprox(Vector3::UnitX())) {
+    frame << Vector3::UnitY(), Vector3::UnitZ(), Vector3::UnitX();
+  } else if (up.isApprox(Vector3::UnitY())) {
+    frame << Vector3::UnitZ(), Vector3::UnitX(), Vector3::UnitY();
+  } else {
+    frame = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), up).toRotationMatrix();
+  }
+  return frame;
+}
+
 ToolShape shapeOf(const TrueTool* tool, double spindleDegrees) {
   ToolShape shape;
   if (!tool) return shape;
@@ -39,29 +52,28 @@ ToolShape shapeOf(const TrueTool* tool, double spindleDegrees) {
     return shape;
   }
   const TrueProbe& probe = tool->probe;
-  const Matrix3 turned = rotation(Vector3::UnitZ(), spindleDegrees).linear();
-  const Vector3 centre = turned * (tip + up * probe.ballRadius + Vector3(probe.tipOffset.x(), probe.tipOffset.y(), 0));
-  const Vector3 turnedUp = turned * up;
+  const Vector3 offset = toolFrame(*tool) * rotation(Vector3::UnitZ(), spindleDegrees).linear() *
+                         Vector3(probe.tipOffset.x(), probe.tipOffset.y(), 0);
+  const Vector3 centre = tip + up * probe.ballRadius + offset;
   shape.ball = Ball{centre, probe.ballRadius};
   shape.tip = centre;
-  shape.shank = turnedUp;
   // The shaft starts clear of the ball, so that a touching ball does not make the shaft touch too.
   const double clear = probe.ballRadius + probe.stylusRadius;
   // A ball far off the spindle axis sits at the end of an arm: the stylus is an L.
-  const Vector3 onAxis = turned * (tip + up * probe.ballRadius);
+  const Vector3 onAxis = tip + up * probe.ballRadius;
   const Vector3 arm = onAxis - centre;
   const bool bent = arm.norm() > 2 * clear;
   const Vector3 foot = bent ? onAxis : centre;
   if (probe.stylusRadius > 0 && bent) {
     const Vector3 along = arm.normalized();
     shape.capsules.push_back({centre + along * clear, arm - along * clear, probe.stylusRadius, shaftName});
-    shape.capsules.push_back({foot, turnedUp * probe.stylusLength, probe.stylusRadius, shaftName});
+    shape.capsules.push_back({foot, up * probe.stylusLength, probe.stylusRadius, shaftName});
   } else if (probe.stylusRadius > 0 && probe.stylusLength > clear) {
     shape.capsules.push_back(
-        {centre + turnedUp * clear, turnedUp * (probe.stylusLength - clear), probe.stylusRadius, shaftName});
+        {centre + up * clear, up * (probe.stylusLength - clear), probe.stylusRadius, shaftName});
   }
   if (probe.bodyRadius > 0) {
-    addCylinder(shape, foot + turnedUp * probe.stylusLength, turnedUp, probe.bodyLength, probe.bodyRadius, "body");
+    addCylinder(shape, foot + up * probe.stylusLength, up, probe.bodyLength, probe.bodyRadius, "body");
   }
   return shape;
 }

@@ -31,6 +31,11 @@ struct ToolShape {
   Vector3 shank = Vector3::UnitZ();  ///< unit, from the tip along the shank
 };
 
+/// The axes of a tool as columns, spindle frame, untwisted: Z from the tip to the holder; X and Y the spindle's own, or
+/// of tools along the spindle's X or Y the two axes that follow it in the order X, Y, Z. The spindle turns the tool
+/// about its Z, also where an angle head leads it aside.
+Matrix3 toolFrame(const TrueTool& tool);
+
 /// The shape of `tool` (none: the empty spindle) with the spindle turned to `spindleDegrees`.
 ToolShape shapeOf(const TrueTool* tool, double spindleDegrees);
 

@@ -13,7 +13,7 @@
 /// Plain data; a VirtualMachine is built from it and no control ever sees it.
 namespace probewright::simulation {
 
-enum class SolidRole { Part, Fixture, Ring, Sphere, GaugeBlock };
+enum class SolidRole { Part, Fixture, Ring, Sphere, GaugeBlock, ToolProbe };
 
 /// A solid that lies on the table and travels with it.
 struct PlacedSolid {
@@ -75,7 +75,8 @@ struct MachineErrors {
   std::vector<ThermalDrift> thermal;
 };
 
-/// A touch probe as it truly is. Frame: the spindle's at spindle angle 0.
+/// A touch probe as it truly is. Frame: the spindle's at spindle angle 0; of a tool across the spindle axis its own,
+/// see toolFrame() in tool_shape.hpp.
 struct TrueProbe {
   double ballRadius = 3;
   double stylusRadius = 1.5;   ///< of the shaft; 0 for none
@@ -95,6 +96,7 @@ struct TrueProbe {
   double repeatability = 0;  ///< standard deviation of the signal along the path, mm
   double signalDelay = 0;    ///< seconds from signal to latched position; the axes travel on meanwhile
   bool switchedOn = true;
+  std::string serial;  ///< that its interface tells; empty for none
 };
 
 enum class ToolKind { Probe, Cutter };

@@ -36,6 +36,8 @@ constexpr const char* roleName(SolidRole role) {
       return "the calibration sphere";
     case SolidRole::GaugeBlock:
       return "the gauge block";
+    case SolidRole::ToolProbe:
+      return "the tool touch probe";
   }
   return "";
 }
@@ -125,8 +127,9 @@ std::string VirtualMachine::describe(const Touch& touch) const {
 double VirtualMachine::pretravel(const Motion& motion, const Touch& touch) const {
   const TrueProbe& probe = tool_->probe;
   const Matrix3 spindleFromTable = motion.tableFromSpindleAt(touch.fraction).linear().transpose();
-  const Vector3 normal = rotation(Vector3::UnitZ(), -spindleDegrees_).linear() * (spindleFromTable * touch.normal);
-  const double axial = std::pow(normal.dot(tool_->shankDirection), 2);
+  const Vector3 normal = rotation(Vector3::UnitZ(), -spindleDegrees_).linear() *
+                         (toolFrame(*tool_).transpose() * (spindleFromTable * touch.normal));
+  const double axial = std::pow(normal.z(), 2);
   const double lobed =
       probe.lobing == 0
           ? 0
@@ -205,8 +208,9 @@ MoveResult VirtualMachine::move(const AxisPositions& target, Feed feed) {
   if (cancelled_) return {MoveEnd::Cancelled, cancelledText};
   if (!feed.rapid && !(feed.perMinute > 0)) return {MoveEnd::Cancelled, "the feed is not above 0"};
   if (auto limit = beyondTravel(target)) return {MoveEnd::AxisLimit, *limit};
-  if (deflection_ && !(target == reading_))
-    return {MoveEnd::ProbeSignal, "the stylus is still deflected: " + describe(*deflection_)};
+  const std::optional<Touch>& deflection = deflection_ ? deflection_ : toolContact_;
+  if (deflection && !(target == reading_))
+    return {MoveEnd::ProbeSignal, "the stylus is still deflected: " + describe(*deflection)};
   const Motion motion = motionTo(target, feed);
   return finish(motion, firstTouch(motion, 0, 1, shape_, surroundings_, {positioningPrecision}),
                 feed.rapid ? PathKind::Rapid : PathKind::Feed);
@@ -248,6 +252,7 @@ Touch VirtualMachine::preciseShaftTouch(const Motion& motion, const Touch& rough
 MeasureResult VirtualMachine::measure(const AxisPositions& target, Feed feed, bool shaftSignals) {
   const auto end = [&](MeasureEnd how, std::string detail) { return MeasureResult{how, reading_, std::move(detail)}; };
   if (cancelled_) return end(MeasureEnd::Cancelled, cancelledText);
+  if (tool_ && tool_->kind == ToolKind::Cutter && hasToolProbe()) return measureTool(target, feed);
   if (!tool_ || tool_->kind != ToolKind::Probe)
     return end(MeasureEnd::NotReady, "there is no touch probe in the spindle");
   if (!tool_->probe.switchedOn) return end(MeasureEnd::NotReady, "the touch probe is switched off");
@@ -276,6 +281,34 @@ MeasureResult VirtualMachine::measure(const AxisPositions& target, Feed feed, bo
   advance(motion, stop, PathKind::Measure);
   if (!byShaft) deflection_ = touch;
   return {MeasureEnd::Touched, motion.readingAt(stop.signal.value_or(stop.end)), describe(*touch)};
+}
+
+bool VirtualMachine::hasToolProbe() const {
+  return std::ranges::any_of(truth_.solids,
+                             [](const PlacedSolid& solid) { return solid.role == SolidRole::ToolProbe; });
+}
+
+MeasureResult VirtualMachine::measureTool(const AxisPositions& target, Feed feed) {
+  const auto end = [&](MeasureEnd how, std::string detail) { return MeasureResult{how, reading_, std::move(detail)}; };
+  if (!feed.rapid && !(feed.perMinute > 0)) return end(MeasureEnd::Cancelled, "the feed is not above 0");
+  if (toolContact_) return end(MeasureEnd::DeflectedAtStart, describe(*toolContact_));
+  if (auto limit = beyondTravel(target)) return end(MeasureEnd::AxisLimit, *limit);
+  const Motion motion = motionTo(target, feed);
+  const auto touch = firstTouch(motion, 0, 1, shape_, surroundings_, {measuringPrecision});
+  if (!touch) {
+    advance(motion, Stop{}, PathKind::Measure);
+    return end(MeasureEnd::NoContact, "the target was reached without contact");
+  }
+  if (truth_.solids[touch->solid].role != SolidRole::ToolProbe) {
+    advance(motion, Stop{touch, std::nullopt, touch->fraction}, PathKind::Measure);
+    return end(MeasureEnd::Collision, describe(*touch));
+  }
+  const double length = motion.profile.length();
+  const double contact = touch->fraction * length;
+  const double stop = std::min(contact + motion.profile.brakingDistanceAt(contact), length);
+  advance(motion, Stop{touch, touch->fraction, stop / length}, PathKind::Measure);
+  toolContact_ = touch;
+  return {MeasureEnd::Touched, motion.readingAt(touch->fraction), describe(*touch)};
 }
 
 std::optional<double> VirtualMachine::freeFrom(const Motion& motion) const {
@@ -311,7 +344,8 @@ MoveResult VirtualMachine::retract(const AxisPositions& target, Feed feed) {
   if (motion.profile.length() == 0) return {};
   SearchOptions options{positioningPrecision};
   // What a collision left touching may be pulled off.
-  options.ignoreCapsules = capsuleOverlap(tableFromSpindle(), shape_, surroundings_).has_value();
+  options.ignoreCapsules = toolContact_ || capsuleOverlap(tableFromSpindle(), shape_, surroundings_);
+  toolContact_.reset();
   double begin = 0;
   if (deflection_) {
     const auto free = freeFrom(motion);

@@ -31,6 +31,9 @@ namespace probewright::simulation {
 /// beyond the contact, and never beyond the target. If the target comes before the signal, there is none. Pretravel,
 /// delay and noise act along the path.
 ///
+/// Tool touch probe. A solid of that role signals at the first touch of a tool without sensor, latched where it
+/// touches; every other solid in the way is a collision.
+///
 /// Errors of the axes act between the readings and the true place of the spindle; see MachineErrors.
 ///
 /// Tool change. The last linear axis of the spindle chain goes to the tool change position first, then the other linear
@@ -47,7 +50,10 @@ public:
   machine::MeasureResult measure(const machine::AxisPositions& target, machine::Feed feed) override;
   machine::MeasureResult measureWithShaft(const machine::AxisPositions& target, machine::Feed feed) override;
   machine::MoveResult retract(const machine::AxisPositions& target, machine::Feed feed) override;
-  bool probeDeflected() const override { return deflection_.has_value(); }
+  bool probeDeflected() const override { return deflection_ || toolContact_; }
+  std::string probeSerial() const override {
+    return tool_ && tool_->kind == ToolKind::Probe ? tool_->probe.serial : std::string();
+  }
   machine::MoveResult orientSpindle(double degrees) override;
   double spindleAngle() const override { return spindleDegrees_; }
   machine::MoveResult changeTool(const machine::ToolOrder& order) override;
@@ -86,6 +92,8 @@ private:
   Stop stopFor(const Motion& motion, const Touch& touch);
   Stop signalStop(const Motion& motion, const Touch& touch);
   double pretravel(const Motion& motion, const Touch& touch) const;
+  bool hasToolProbe() const;
+  machine::MeasureResult measureTool(const machine::AxisPositions& target, machine::Feed feed);
   void advance(const Motion& motion, const Stop& stop, PathKind kind);
   machine::MoveResult finish(const Motion& motion, std::optional<Touch> touch, PathKind kind);
   std::optional<double> freeFrom(const Motion& motion) const;
@@ -102,7 +110,8 @@ private:
   ToolShape shape_;
   machine::AxisPositions reading_;
   machine::AxisPositions slides_;
-  std::optional<Touch> deflection_;  ///< the touch that deflected the stylus, while it is deflected
+  std::optional<Touch> deflection_;   ///< the touch that deflected the stylus, while it is deflected
+  std::optional<Touch> toolContact_;  ///< that of a tool with the tool touch probe, until it is pulled off
   double spindleDegrees_ = 0;
   double clock_ = 0;
   std::mt19937_64 noise_;

@@ -251,8 +251,6 @@ TEST(Calibrations, RefuseTransformationsAndMissingTouches) {
   EXPECT_EQ(world.bench.run(shift + probe(462, ring)).alarm(), "Coordinate transformation not permitted");
   EXPECT_EQ(world.bench.run(goTo(world.place, 20) + probe(461, {{434, 0}})).alarm(), "Touch point inaccessible");
   EXPECT_EQ(world.bench.runBare(probe(461, {{434, 0}})).alarm(), "Touch probe axis not defined");
-  const Words threeD = {{407, 12}, {320, 0}, {301, 0}, {423, 4}, {380, 0}, {433, 0}, {434, 0}, {455, 5}};
-  EXPECT_EQ(world.bench.run(probe(460, threeD)).alarm(), "Option 92 not enabled");
 }
 
 /// A hole and a probe whose tip offset (0.1, 0) the control does not know.

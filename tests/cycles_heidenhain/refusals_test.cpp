@@ -1,9 +1,6 @@
-#include <unistd.h>
-
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 
+#include "cycles_heidenhain/table_folder.hpp"
 #include "cycles_heidenhain/worlds.hpp"
 
 /// What the cycles refuse, what stops them, and what they leave behind when they stop.
@@ -194,26 +191,6 @@ TEST(Refusals, Geometry) {
   expectRefused(block.run(probe(403, apart)), "Rotary axis not permitted");
   expectRefused(block.run(probe(403, with(apart, {{312, 6}}))), "Rotary axis not available");
 }
-
-/// A folder with tables of the control that is removed again.
-class TableFolder {
-public:
-  explicit TableFolder(Bench& bench) {
-    path_ = std::filesystem::temp_directory_path() /
-            fmt::format("probewright-tables-{}", ::testing::UnitTest::GetInstance()->random_seed() + ::getpid());
-    std::filesystem::create_directories(path_);
-    bench.setup.tables = path_;
-  }
-  ~TableFolder() { std::filesystem::remove_all(path_); }
-  TableFolder(const TableFolder&) = delete;
-  TableFolder& operator=(const TableFolder&) = delete;
-  void put(const std::string& name, const hh::TypedTable& table) const {
-    std::ofstream(path_ / name, std::ios::binary) << table.table().bytes();
-  }
-
-private:
-  std::filesystem::path path_;
-};
 
 TEST(Refusals, LockedPresetRow) {
   Bench bench = holeBench();

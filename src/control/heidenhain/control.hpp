@@ -23,6 +23,10 @@ struct Tables {
   TypedTable probes;                         ///< TCHPROBE.TP; the iTNC 530 uses machine parameters instead
   TypedTable presets;                        ///< PRESET.PR
   std::map<std::string, TypedTable> datums;  ///< datum tables by the name a program uses
+  std::optional<TypedTable> turningTools;    ///< TOOLTURN.TRN of a TNC 640 that turns
+  /// Results of 3-D calibrations, *.3DTC, by file name; column DR2TABLE of the tool table refers to them.
+  std::map<std::string, TypedTable> deflections;
+  std::optional<TypedTable> axisShifts;  ///< AXSHIFT.TAB of an iTNC 530: what cycle 440 has calibrated
 };
 
 /// The tool in the spindle.
@@ -107,6 +111,8 @@ public:
   void writeText(TypedTable& table, const std::string& row, const std::string& column, const std::string& value);
 
 private:
+  /// Enters the serial number that the touch probe tells, and takes over its REACTION to a collision.
+  void meetProbe();
   void note(const TypedTable& table, const std::string& row, const std::string& column, const std::string& before);
 
   ControlKind kind_;

@@ -14,17 +14,25 @@ struct MachineParameters {
   // TNC 640
   double maxTouchFeed = 3000;
   bool checkTiltingAxes = false;
+  bool option92 = true;
   // iTNC 530
   double mp6120 = 500;
   double mp6130 = 50;
   double mp6140 = 2;
   double mp6150 = 3000;
   bool mp6151 = false;
+  int mp6160 = -1;
   bool mp6165 = false;
   int mp6170 = 1;
   double mp6171 = 0.1;
   double mp6180x = 0, mp6180y = 0, mp6180z = 0;
   double mp6185 = 5;
+  double mp6520 = 300;
+  double mp6530 = 5;
+  double mp6531 = 40;
+  double mp6540 = 5;
+  double mp6550 = 2000;
+  double mp6580x = 0, mp6580y = 0, mp6580z = 0;
   // both: habits of Probewright where the manuals only warn
   bool refuseTransformations = true;
 };

@@ -41,6 +41,7 @@ constexpr std::array columns = {
     ColumnSpec{"NMAX", "", 8, Integer, 0, "maximum spindle speed"},
     ColumnSpec{"LIFTOFF", "", 8, Text, 0, "Y: lifts off at an NC stop"},
     ColumnSpec{"TP_NO", "", 6, Integer, 0, "row of the touch probe table", false, true},
+    ColumnSpec{"DR2TABLE", "", 34, Text, 0, "table of the 3-D calibration of a touch probe, *.3DTC", false, true},
     ColumnSpec{"T-ANGLE", "", 9, Angle, 3, "point angle"},
     ColumnSpec{"CAL-OF1", "CAL_OF1", 12, Length, 4, "centre offset of the ball, main axis", true},
     ColumnSpec{"CAL-OF2", "CAL_OF2", 12, Length, 4, "centre offset of the ball, minor axis", true},

@@ -44,6 +44,13 @@ std::vector<std::string> row(const char* name, double before, double after) {
   return {name, fmt::format("{:.4f}", before), fmt::format("{:.4f}", after)};
 }
 
+/// An offset of the ball in the program's axes as one along the axes of the spindle, where it belongs.
+Vector2 inSpindle(Context& context, const Vector2& offset) {
+  const auto& plane = context.control().coordinates.plane;
+  return plane.planeFromXyz(context.channel().spindleFromProgram() * plane.xyzFromPlane({offset.x(), offset.y(), 0}))
+      .head<2>();
+}
+
 void log(Context& context, const Rows& rows) { addToHtmlLog(context, {"", "Before", "After"}, rows); }
 
 }  // namespace
@@ -51,7 +58,8 @@ void log(Context& context, const Rows& rows) { addToHtmlLog(context, {"", "Befor
 HeidenhainProber calibrationProber(Context& context) {
   probing::HeidenhainProbe probe = activeProbe(context.control(), Calibrated::NotYet);
   probe.tipOffset.setZero();
-  probe.track = false;
+  probe.track = probe.aside;
+  probe.directions = {};
   if (context.channel().description().spindleOrients) context.channel().orientSpindle(probe.calibrationAngle);
   return {context.channel(), context.control().coordinates.plane, probe};
 }
@@ -67,12 +75,29 @@ CalibratedRadius calibrateRadius(Context& context, HeidenhainProber& prober, Cal
                 fmt::format("The measured ball radius {:.4f} mm is not positive", calibrated.radius),
                 "check the radius of the standard (Q407)");
   }
-  if (context.channel().description().spindleOrients) {
+  if (prober.probe().aside) {
+    calibrated.centreOffset = Vector2::Zero();
+    context.channel().orientSpindle(prober.probe().calibrationAngle);
+    return calibrated;
+  }
+  const auto& control = context.control();
+  const bool reverses =
+      context.channel().description().spindleOrients && (control.isTNC640() || control.parameters.mp6160 != 0);
+  if (reverses) {
     context.channel().orientSpindle(prober.probe().calibrationAngle + 180);
     const metrology::Circle2 reversed = touchCircle(prober, task, fine.centre, 4);
     context.channel().orientSpindle(prober.probe().calibrationAngle);
     calibrated.centreOffset = (reversed.centre - fine.centre) / 2;
     calibrated.centre.head<2>() = (reversed.centre + fine.centre) / 2;
+    // A probe that the spindle turns to every touch always signals with the same side: that side is calibrated.
+    if (probing::HeidenhainProbe turned = activeProbe(control, Calibrated::NotYet); turned.track) {
+      turned.directions = {};
+      turned.tipOffset = inSpindle(context, *calibrated.centreOffset);
+      HeidenhainProber turning(context.channel(), control.coordinates.plane, turned);
+      const metrology::Circle2 circle = touchCircle(turning, task, calibrated.centre.head<2>(), task.count);
+      calibrated.radius = probing::outwards(task.side) * (task.standardRadius - circle.radius);
+      context.channel().orientSpindle(prober.probe().calibrationAngle);
+    }
   }
   return calibrated;
 }
@@ -84,11 +109,7 @@ void storeRadius(Context& context, const CalibratedRadius& calibrated) {
   Rows rows = {row("R", tools.numberOr(tool, "R", 0), calibrated.radius)};
   control.writeNumber(tools, tool, "R", calibrated.radius);
   if (calibrated.centreOffset) {
-    // The offset belongs to the machine's axes, whatever basic rotation is active.
-    const auto& plane = control.coordinates.plane;
-    const Vector3 offset =
-        plane.planeFromXyz(control.channel.frame().linear() *
-                           plane.xyzFromPlane({calibrated.centreOffset->x(), calibrated.centreOffset->y(), 0}));
+    const Vector2 offset = inSpindle(context, *calibrated.centreOffset);
     const bool inProbeTable = control.isTNC640();
     auto& table = inProbeTable ? control.tables.probes : tools;
     const std::string& key = inProbeTable ? control.tool.probeRow : tool;

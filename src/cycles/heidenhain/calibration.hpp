@@ -49,11 +49,13 @@ struct CalibrationTask {
 };
 
 /// The prober for calibrating: without tip offset, turned to CAL_ANG where the spindle can be oriented, with the
-/// radius of the tool table as a first guess.
+/// radius of the tool table as a first guess. Only a stylus whose ball stands aside is turned to every touch.
 probing::HeidenhainProber calibrationProber(Context& context);
 
 /// Coarse measurement of the centre by four touches, fine measurement by `count` touches from there; then, if the
-/// spindle can be oriented, four more touches with the probe turned by 180 degrees, which give the centre offset.
+/// spindle can be oriented, four more touches with the probe turned by 180 degrees, which give the centre offset. With
+/// TRACK = ON the radius is that of as many more touches with the probe turned to each. Where the ball stands aside, the
+/// radius counts from the spindle axis and there is no offset.
 CalibratedRadius calibrateRadius(Context& context, probing::HeidenhainProber& prober, CalibrationTask task);
 
 /// Writes R and the centre offset, puts them into effect and notes them in TCHPRAUTO.html.

@@ -4,6 +4,7 @@
 
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/inspection.hpp"
+#include "cycles/heidenhain/tool_monitoring.hpp"
 #include "cycles/heidenhain/transfer.hpp"
 #include "metrology/fits.hpp"
 #include "probing/heidenhain_strategies.hpp"
@@ -67,7 +68,9 @@ void inspectCircle(Context& context, Side side, const std::string& title, const 
       .measured = {},
       .further = {{"Measuring height", context.q(261)}}};
   const double deviation = circle.diameter - context.q(262);
-  finishInspection(context, inspection, {.monitored = deviation, .excess = -probing::outwards(side) * deviation / 2});
+  finishInspection(
+      context, inspection,
+      {.monitored = deviation, .excess = -probing::outwards(side) * deviation / 2, .turned = deviation / 2});
 }
 
 }  // namespace probewright::cycles::heidenhain

@@ -6,6 +6,7 @@
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
+#include "control/heidenhain/deflection_table.hpp"
 #include "control/heidenhain/probe_table.hpp"
 
 namespace probewright::cycles::heidenhain {
@@ -44,8 +45,9 @@ bool needsReset(const Transformations& active, const Context::Conditions& condit
   return rest.active();
 }
 
-/// The probe must stand square to the working plane: the rotary axes as the tilt (or its absence) asks.
-void requireMatchingRotaryAxes(const Control& control) {
+}  // namespace
+
+bool rotaryAxesMatchTilt(const Control& control) {
   const control::Channel& channel = control.channel;
   const machine::MachineDescription& description = channel.description();
   const machine::AxisPositions now = channel.axes();
@@ -55,14 +57,8 @@ void requireMatchingRotaryAxes(const Control& control) {
                           machine::baseFromTable(description, now).linear().transpose() *
                           machine::baseFromSpindle(description, now).linear() * toolAxis;
   const Vector3 inProgram = (channel.frame().linear().inverse() * onTable).normalized();
-  if (inProgram.cross(toolAxis).norm() > radiansFromDegrees(0.01)) {
-    throw Alarm("Rotary axes and tilt do not match",
-                "The positions of the rotary axes do not agree with the tilt of the working plane (chkTiltingAxes)",
-                "move the rotary axes to the tilt, or correct PLANE");
-  }
+  return inProgram.cross(toolAxis).norm() < radiansFromDegrees(0.01);
 }
-
-}  // namespace
 
 Context::Context(Control& control, const Arguments& arguments, SourcePlace place)
     : control_(control), arguments_(arguments) {
@@ -112,7 +108,12 @@ void Context::require(const Conditions& conditions) const {
                 "A datum shift, mirror image, rotation or scaling is active (cycle 7, 8, 10, 11 or 26)",
                 "reset the transformation before the cycle");
   }
-  if (control_.parameters.checkTiltingAxes) requireMatchingRotaryAxes(control_);
+  const bool mayDiffer = conditions.mismatchWithTcpmAllowed && control_.channel.holdTip;
+  if (control_.parameters.checkTiltingAxes && !mayDiffer && !rotaryAxesMatchTilt(control_)) {
+    throw Alarm("Rotary axes and tilt do not match",
+                "The positions of the rotary axes do not agree with the tilt of the working plane (chkTiltingAxes)",
+                "move the rotary axes to the tilt, or correct PLANE");
+  }
   if (control_.coordinates.tilt && !conditions.tiltAllowed) {
     throw Alarm("Tilted working plane not permitted", "The cycle does not run in a tilted working plane",
                 "reset PLANE or cycle 19 before the cycle");
@@ -120,8 +121,20 @@ void Context::require(const Conditions& conditions) const {
 }
 
 probing::HeidenhainProber& Context::prober() {
-  if (!prober_) prober_.emplace(control_.channel, control_.coordinates.plane, activeProbe(control_));
+  if (!prober_) {
+    const probing::HeidenhainProbe probe = activeProbe(control_);
+    orientToCalibration(control_.channel, probe);
+    prober_.emplace(control_.channel, control_.coordinates.plane, probe);
+  }
   return *prober_;
+}
+
+void orientToCalibration(control::Channel& channel, const probing::HeidenhainProbe& probe) {
+  const machine::MachineDescription& machine = channel.description();
+  if (!machine.spindleOrients || machine.mainSpindle || probe.track) return;
+  if (std::abs(std::remainder(channel.spindleAngle() - probe.calibrationAngle, 360.0)) > 1e-9) {
+    channel.orientSpindle(probe.calibrationAngle);
+  }
 }
 
 void Context::result(int number, double value, const Compared& compared) {
@@ -172,6 +185,36 @@ void applyOverrides(probing::HeidenhainProbe& probe, const control::heidenhain::
   probe.track = overrides.track.value_or(probe.track);
 }
 
+/// What the table named in DR2TABLE says, if there is an entry.
+probing::DirectionalRadius directionsOf(const Control& control) {
+  const std::string entry = control.tables.tools.text(control.tool.row, "DR2TABLE");
+  if (entry.empty() || !control.parameters.option92) return {};
+  const auto table = control.tables.deflections.find(control::heidenhain::deflectionTableName(entry));
+  if (table == control.tables.deflections.end()) {
+    throw Alarm("Calibration data missing",
+                fmt::format("There is no table {}, which DR2TABLE of tool {} names", entry, control.tool.row),
+                "calibrate the probe with cycle 460, or clear the entry");
+  }
+  const auto rows = control::heidenhain::deflectionsOf(table->second);
+  std::vector<probing::DirectionalRadius::Ring> rings;
+  for (auto row = rows.begin(); row != rows.end();) {
+    const auto end = std::find_if(row, rows.end(), [&](const auto& other) { return other.polar != row->polar; });
+    probing::DirectionalRadius::Ring ring{row->polar, row->azimuth, {}};
+    const double step = 360.0 / static_cast<double>(end - row);
+    for (; row != end; ++row) {
+      const double expected = ring.azimuth + step * static_cast<double>(ring.deviations.size());
+      if (std::abs(row->azimuth - expected) > 0.01) {
+        throw Alarm("Calibration data wrong",
+                    fmt::format("Table {}: the directions at {} degrees are not evenly spread", entry, ring.polar),
+                    "calibrate the probe with cycle 460");
+      }
+      ring.deviations.push_back(row->deviation);
+    }
+    rings.push_back(std::move(ring));
+  }
+  return probing::DirectionalRadius(std::move(rings));
+}
+
 }  // namespace
 
 probing::HeidenhainProbe activeProbe(const Control& control, Calibrated calibrated) {
@@ -220,6 +263,13 @@ probing::HeidenhainProbe activeProbe(const Control& control, Calibrated calibrat
   probe.prepositionAtMachineRapid = row->prepositionAtMachineRapid;
   probe.track = row->track;
   applyOverrides(probe, control.overrides);
+  probe.aside = row->stylus == "L-TYPE";
+  if (probe.aside && !(probe.track && control.channel.description().spindleOrients)) {
+    throw Alarm("Spindle orientation required",
+                "The ball of an L-shaped stylus stands aside; only the spindle can turn it to the surface",
+                "set TRACK = ON in TCHPROBE.TP, or STYLUS to SIMPLE");
+  }
+  if (calibrated == Calibrated::Required) probe.directions = directionsOf(control);
   return probe;
 }
 

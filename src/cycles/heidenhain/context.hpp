@@ -55,6 +55,7 @@ public:
     bool rotationAllowed = false;          ///< cycle 10 may be active
     bool tiltAllowed = true;
     bool turningModeAllowed = false;
+    bool mismatchWithTcpmAllowed = false;  ///< with TCPM, rotary axes need not agree with the tilt
   };
   void require(const Conditions& conditions) const;
 
@@ -84,10 +85,16 @@ private:
 /// noted in the record and thrown on.
 void runCycle(Control& control, const Entry& entry, const Arguments& arguments, const SourcePlace& place);
 
+/// The probe stands square to the working plane: the rotary axes as the tilt (or its absence) asks.
+bool rotaryAxesMatchTilt(const Control& control);
+
 enum class Calibrated { Required, NotYet };
 
 /// The probe as tables, machine parameters and cycle 441 describe it. Throws Alarm if the active tool is none, or is
 /// not calibrated although it must be.
 probing::HeidenhainProbe activeProbe(const Control& control, Calibrated calibrated = Calibrated::Required);
+
+/// Turns the spindle to CAL_ANG where it can be oriented, unless the probe is turned to every touch anyway.
+void orientToCalibration(control::Channel& channel, const probing::HeidenhainProbe& probe);
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,6 +1,7 @@
 #include "cycles/heidenhain/cycles.hpp"
 #include "cycles/heidenhain/inspection.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
+#include "cycles/heidenhain/tool_monitoring.hpp"
 
 namespace probewright::cycles::heidenhain {
 namespace {
@@ -67,7 +68,8 @@ void cycle427(Context& context, const Arguments&) {
   inspection.items = {
       inspectedDimension(160, 0, "Measured coordinate", "coordinate", nominal, actual, maximum, minimum, side)};
   const double deviation = actual - nominal;
-  finishInspection(context, inspection, {.monitored = deviation, .excess = -sense * deviation, .length = axis == 2});
+  finishInspection(context, inspection,
+                   {.monitored = deviation, .excess = -sense * deviation, .length = axis == 2, .turned = deviation});
 }
 
 }  // namespace probewright::cycles::heidenhain

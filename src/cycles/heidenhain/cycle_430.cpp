@@ -2,6 +2,7 @@
 #include "cycles/heidenhain/cycles.hpp"
 #include "cycles/heidenhain/inspection.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
+#include "cycles/heidenhain/tool_monitoring.hpp"
 
 namespace probewright::cycles::heidenhain {
 namespace {

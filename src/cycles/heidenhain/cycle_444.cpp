@@ -96,7 +96,7 @@ const CycleDefinition cycle444Definition = {
 };
 
 void cycle444(Context& context, const Arguments&) {
-  context.require({.shiftAndRotationAllowed = true});
+  context.require({.shiftAndRotationAllowed = true, .mismatchWithTcpmAllowed = true});
   const Vector3 given(context.q(581), context.q(582), context.q(583));
   if (!(given.norm() > 1e-9)) {
     throw control::Alarm("Surface normal wrong", "The normal vector Q581, Q582, Q583 has no length",

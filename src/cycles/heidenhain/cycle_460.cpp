@@ -1,6 +1,7 @@
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/calibration.hpp"
 #include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/directional_calibration.hpp"
 #include "cycles/heidenhain/parameters.hpp"
 
 namespace probewright::cycles::heidenhain {
@@ -45,10 +46,8 @@ const CycleDefinition cycle460Definition = {
 
 void cycle460(Context& context, const Arguments&) {
   context.require({.turningModeAllowed = true});
-  if (context.option(455) > 0) {
-    throw control::Alarm("Option 92 not enabled", "3-D calibration data need the software option 3D-ToolComp",
-                         "set Q455 = 0");
-  }
+  const bool directional = context.given(455) && context.option(455) > 0;
+  if (directional) requireDirectionalCalibration(context);
   auto prober = calibrationProber(context);
   const Vector3 start = prober.position();
   const double standardRadius = context.q(407);
@@ -83,7 +82,19 @@ void cycle460(Context& context, const Arguments&) {
     const auto& tool = context.control().tool;
     storeLength(context, tool.length + tool.deltaLength + tip - (context.q(434) + standardRadius));
   }
-  prober.moveTo(start);
+  if (directional) {
+    calibrateDirections(context, {.centre = calibrated.centre.head<2>(),
+                                  .centreKnown = calibrated.centreOffset.has_value(),
+                                  .standardRadius = standardRadius,
+                                  .rings = context.option(455),
+                                  .count = context.option(423),
+                                  .startAngle = context.q(380),
+                                  .extraClearance = context.q(320),
+                                  .travelHeight = prober.position().z(),
+                                  .atClearance = context.option(301) == 1});
+  }
+  prober.moveHeightTo(start.z());
+  prober.moveInPlane(start);
 }
 
 }  // namespace probewright::cycles::heidenhain

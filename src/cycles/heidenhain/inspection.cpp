@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "cycles/heidenhain/tool_monitoring.hpp"
 #include "metrology/tolerance.hpp"
 
 namespace probewright::cycles::heidenhain {
@@ -59,45 +60,6 @@ Verdict verdictOf(const Inspection& inspection) {
     verdict = metrology::worst(verdict, item.verdict);
   return verdict;
 }
-
-std::string monitoredToolRow(Context& context) {
-  const Argument& argument = context.arguments().at(330);
-  auto& control = context.control();
-  if (argument.isText) return argument.text.empty() ? "" : control.toolRowNamed(argument.text);
-  if (argument.number == 0) return "";
-  const double number = std::floor(argument.number);
-  const int index = static_cast<int>(std::lround((argument.number - number) * 10));
-  const std::string row = index == 0 ? fmt::format("{:.0f}", number) : fmt::format("{:.0f}.{}", number, index);
-  if (!control.tables.tools.hasRow(row)) {
-    throw Alarm("Tool not defined", fmt::format("Q330 names tool {}, which TOOL.T does not have", row),
-                "correct Q330 or add the tool");
-  }
-  return row;
-}
-
-namespace {
-
-/// Corrects the tool by the material left, or locks it if the deviation says that it broke.
-void monitorTool(Context& context, const ToolMonitoring& monitoring) {
-  const std::string row = monitoredToolRow(context);
-  if (row.empty()) return;
-  auto& control = context.control();
-  auto& tools = control.tables.tools;
-  const double breakage = tools.numberOr(row, "RBREAK", 0);
-  if (breakage > 0 && std::abs(monitoring.monitored) > breakage) {
-    control.writeText(tools, row, "TL", "L");
-    throw Alarm(
-        "Tool breakage",
-        fmt::format("The deviation {:.4f} mm exceeds the breakage tolerance {:.4f} mm of tool {}; the tool is locked",
-                    monitoring.monitored, breakage, row),
-        "check the tool, then release it in TOOL.T (column TL)");
-  }
-  if (!monitoring.correct) return;
-  const std::string column = monitoring.length ? "DL" : "DR";
-  control.writeNumber(tools, row, column, tools.numberOr(row, column, 0) - monitoring.excess);
-}
-
-}  // namespace
 
 void writeLog(Context& context, const Inspection& inspection) {
   const int log = context.option(281);

@@ -49,15 +49,10 @@ struct Inspection {
 /// The worst verdict of the items; Good if nothing is monitored.
 Verdict verdictOf(const Inspection& inspection);
 
+struct ToolMonitoring;
+
 /// Sets the result and status parameters Q180 to Q182, writes the log as Q281 says, monitors and corrects the tool as
-/// Q330 says (`excess`: material left per side; `monitored`: the deviation that breakage is judged by; `length`: the
-/// tool length is corrected instead of the radius), and stops as Q309 says. In this order, results first.
-struct ToolMonitoring {
-  double monitored = 0;
-  double excess = 0;
-  bool length = false;
-  bool correct = true;
-};
+/// Q330 says, and stops as Q309 says. In this order, results first.
 void finishInspection(Context& context, const Inspection& inspection, const ToolMonitoring& tool);
 
 /// Writes or shows the log as Q281 says.
@@ -66,9 +61,5 @@ void writeLog(Context& context, const Inspection& inspection);
 /// The text (UTF-8) of a measuring log in the layout of the control and in its conversational language: all values end
 /// in one column, with 4 decimals, in inch programs with 5.
 std::string logText(Context& context, const Inspection& inspection);
-
-/// The row of TOOL.T that Q330 means, by number (5, 5.1) or name; empty if monitoring is off. Throws Alarm if there is
-/// no such tool.
-std::string monitoredToolRow(Context& context);
 
 }  // namespace probewright::cycles::heidenhain

@@ -21,6 +21,7 @@ probing::HeidenhainProber proberFor(Context& context) {
   probing::HeidenhainProbe probe = activeProbe(context.control());
   probe.prepositionAtMachineRapid = false;
   if (context.option(1125) == clearancePerPoint) probe.positioningFeed = feedPerPoint;
+  orientToCalibration(context.channel(), probe);
   return {context.channel(), context.control().coordinates.plane, probe};
 }
 

@@ -1,6 +1,7 @@
 #include "cycles/heidenhain/rectangle_measurement.hpp"
 
 #include "cycles/heidenhain/inspection.hpp"
+#include "cycles/heidenhain/tool_monitoring.hpp"
 #include "cycles/heidenhain/transfer.hpp"
 #include "probing/heidenhain_strategies.hpp"
 

@@ -19,10 +19,10 @@ std::span<const Entry> entries() {
       {&cycle420Definition, cycle420},   {&cycle421Definition, cycle421},   {&cycle422Definition, cycle422},
       {&cycle423Definition, cycle423},   {&cycle424Definition, cycle424},   {&cycle425Definition, cycle425},
       {&cycle426Definition, cycle426},   {&cycle427Definition, cycle427},   {&cycle430Definition, cycle430},
-      {&cycle431Definition, cycle431},   {&cycle441Definition, cycle441},   {&cycle444Definition, cycle444},
-      {&cycle460Definition, cycle460},   {&cycle461Definition, cycle461},   {&cycle462Definition, cycle462},
-      {&cycle463Definition, cycle463},   {&cycle1410Definition, cycle1410}, {&cycle1411Definition, cycle1411},
-      {&cycle1420Definition, cycle1420},
+      {&cycle431Definition, cycle431},   {&cycle440Definition, cycle440},   {&cycle441Definition, cycle441},
+      {&cycle444Definition, cycle444},   {&cycle460Definition, cycle460},   {&cycle461Definition, cycle461},
+      {&cycle462Definition, cycle462},   {&cycle463Definition, cycle463},   {&cycle1410Definition, cycle1410},
+      {&cycle1411Definition, cycle1411}, {&cycle1420Definition, cycle1420},
   };
   return all;
 }

@@ -152,7 +152,7 @@ Pose workpieceTurn(Context& context, std::size_t axis, double degrees) {
 }  // namespace
 
 void requireRotationCycle(Context& context) {
-  context.require({.shiftAndRotationAllowed = true});
+  context.require({.shiftAndRotationAllowed = true, .mismatchWithTcpmAllowed = true});
   const int aligns = context.option(1126);
   const int transfers = context.option(1121);
   if (aligns != 0 && transfers == 0) {
@@ -199,8 +199,16 @@ PlaneRotation planeRotation(Context& context, const MeasuredPosition& first, con
     return degreesFromRadians(std::atan2(along.y(), along.x()));
   };
   PlaneRotation rotation;
-  rotation.nominal = angle(second.nominal - first.nominal);
-  rotation.actual = angle(second.actual - first.actual);
+  const Control& control = context.control();
+  rotation.inWorkpiece = control.parameters.checkTiltingAxes && !rotaryAxesMatchTilt(control);
+  const auto& plane = control.coordinates.plane;
+  const Matrix3 workpieceFromInput =
+      control.coordinates.machineFromPreset().linear().transpose() * context.channel().frame().linear();
+  const auto along = [&](const Vector3& line) {
+    return rotation.inWorkpiece ? plane.planeFromXyz(workpieceFromInput * plane.xyzFromPlane(line)) : line;
+  };
+  rotation.nominal = angle(along(second.nominal - first.nominal));
+  rotation.actual = angle(along(second.actual - first.actual));
   rotation.deviation = normalizedDegrees(rotation.actual - rotation.nominal);
   rotation.axis = alignmentAxis(context);
   const double sign = rotation.axis ? rotation.axis->workpieceTurn : 1;
@@ -222,8 +230,8 @@ void transferPlaneRotation(Context& context, const PlaneRotation& rotation, cons
   Pose moved = Pose::Identity();
   AxisPositions target = context.channel().axes();
   if (transfer == 1) {
-    axes = turnedAxes(context,
-                      Eigen::AngleAxisd(radiansFromDegrees(rotation.deviation), Vector3::UnitZ()).toRotationMatrix());
+    const Matrix3 turn = Eigen::AngleAxisd(radiansFromDegrees(rotation.deviation), Vector3::UnitZ()).toRotationMatrix();
+    axes = rotation.inWorkpiece ? Matrix3(axes * xyzFromPlane(context, turn)) : turnedAxes(context, turn);
     setAngles(change, axes);
   }
   if (rotation.axis) target[rotation.axis->index] -= rotation.tableDeviation;

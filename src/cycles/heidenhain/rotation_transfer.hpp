@@ -17,8 +17,10 @@ struct TableAxis {
 /// Nothing if the machine has none or it does not turn about the active tool axis.
 std::optional<TableAxis> alignmentAxis(Context& context);
 
-/// A rotation in the working plane, degrees from nominal to actual, and the same as an angle of the table's axis.
+/// A rotation in the working plane, degrees from nominal to actual, and the same as an angle of the table's axis. Where
+/// chkTiltingAxes finds that the rotary axes do not agree with the tilt, it is one in the workpiece coordinate system.
 struct PlaneRotation {
+  bool inWorkpiece = false;
   double nominal = 0, actual = 0, deviation = 0;
   double tableActual = 0, tableDeviation = 0;
   std::optional<TableAxis> axis;

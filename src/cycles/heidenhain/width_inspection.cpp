@@ -1,4 +1,5 @@
 #include "cycles/heidenhain/width_inspection.hpp"
+#include "cycles/heidenhain/tool_monitoring.hpp"
 
 namespace probewright::cycles::heidenhain {
 

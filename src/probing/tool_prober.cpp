@@ -1,0 +1,111 @@
+#include "probing/tool_prober.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "control/alarm.hpp"
+
+namespace probewright::probing {
+
+using control::Alarm;
+using machine::Feed;
+using machine::MeasureEnd;
+
+ToolProber::ToolProber(control::Channel& channel, const WorkingPlane& plane, const ToolTouchProbe& probe,
+                       double clearanceHeight)
+    : channel_(channel),
+      plane_(plane),
+      probe_(probe),
+      height_(std::max(clearanceHeight, probe.place[plane.tool] + probe.clearance)) {}
+
+Vector3 ToolProber::tip() const { return channel_.machineFromAxes(channel_.axes()); }
+
+Vector3 ToolProber::inPlane(int axis, double value) const {
+  Vector3 inPlane = Vector3::Zero();
+  inPlane[axis] = value;
+  return plane_.xyzFromPlane(inPlane);
+}
+
+void ToolProber::moveTo(const Vector3& tip) {
+  channel_.moveAxes(channel_.axesFromMachine(tip, channel_.axes()), Feed::at(probe_.rapid));
+}
+
+void ToolProber::rise() {
+  Vector3 target = tip();
+  if (target[plane_.tool] >= height_) return;
+  target[plane_.tool] = height_;
+  moveTo(target);
+}
+
+void ToolProber::approach(const Vector3& target) {
+  rise();
+  Vector3 above = target;
+  above[plane_.tool] = std::max(tip()[plane_.tool], height_);
+  moveTo(above);
+  moveTo(target);
+}
+
+Vector3 ToolProber::stroke(const Vector3& direction) {
+  const Vector3 start = tip();
+  const Vector3 startInProgram = channel_.position();
+  const Vector3 end = channel_.frame().inverse() * Vector3(start + probe_.reach * direction);
+  control::TouchRecord record;
+  record.target = end;
+  record.direction = (end - startInProgram).normalized();
+  const machine::MeasureResult result = channel_.measureTo(end, Feed::at(probe_.feed));
+  const auto fail = [&](const char* outcome, const std::string& code, const std::string& text, const char* advice) {
+    record.seconds = channel_.seconds();
+    record.outcome = outcome;
+    if (control::CycleRecord* cycle = channel_.journal().open()) cycle->touches.push_back(record);
+    throw Alarm(code, text, advice);
+  };
+  switch (result.end) {
+    case MeasureEnd::Touched:
+      break;
+    case MeasureEnd::NoContact:
+      fail("no contact", "Touch point inaccessible",
+           fmt::format("The tool touch probe was not deflected within {:.3f} mm", probe_.reach),
+           "check the position of the tool touch probe (MP6580) and the tool's length and radius");
+      break;
+    case MeasureEnd::DeflectedAtStart:
+      fail("deflected", "Stylus already in contact", "The tool touch probe is deflected before probing begins",
+           "check the length of the tool and MP6540");
+      break;
+    case MeasureEnd::NotReady:
+      fail("not ready", "Touch probe not ready",
+           result.detail.empty() ? "The machine has no tool touch probe" : result.detail,
+           "connect the tool touch probe, and call a tool that is no touch probe");
+      break;
+    case MeasureEnd::AxisLimit:
+      fail("limit", channel_.alarms.limit, result.detail, "");
+      break;
+    case MeasureEnd::Collision:
+    case MeasureEnd::Cancelled:
+      fail("collision", channel_.alarms.collision, result.detail, "check the clearance height and the tool's data");
+      break;
+  }
+  const control::Touch touch = channel_.touchFrom(result);
+  channel_.retractTo(startInProgram, Feed::rapidTraverse());
+  record.ballCentre = record.surface = touch.tip;
+  record.latched = touch.latched;
+  record.seconds = channel_.seconds();
+  record.outcome = "touched";
+  if (control::CycleRecord* cycle = channel_.journal().open()) cycle->touches.push_back(record);
+  return channel_.machineFromAxes(touch.latched);
+}
+
+Vector3 ToolProber::touchTop(const Vector2& offset) {
+  approach(probe_.place + inPlane(0, offset.x()) + inPlane(1, offset.y()) + inPlane(2, probe_.clearance));
+  return stroke(inPlane(2, -1));
+}
+
+Vector3 ToolProber::touchSide(int axis, int sense, double toolRadius, double depth) {
+  const double away = probe_.size / 2 + toolRadius + probe_.clearance;
+  approach(probe_.place + inPlane(axis, -sense * away) + inPlane(2, -depth));
+  const Vector3 touched = stroke(inPlane(axis, sense));
+  rise();
+  return touched;
+}
+
+}  // namespace probewright::probing

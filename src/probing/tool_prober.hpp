@@ -1,0 +1,53 @@
+#pragma once
+
+#include "control/channel.hpp"
+#include "control/working_plane.hpp"
+
+/// How tools are led to the tool touch probe TT on the machine table. What the tool measuring cycles share.
+namespace probewright::probing {
+
+using control::WorkingPlane;
+
+/// The tool touch probe as the control knows it. Machine coordinates (X, Y, Z), mm and mm/min.
+struct ToolTouchProbe {
+  Vector3 place = Vector3::Zero();  ///< middle of the upper edge of its contact
+  double size = 40;                 ///< diameter or edge length of the contact
+  double depth = 5;                 ///< of the tool's lower end below the upper edge in radial probing
+  double clearance = 5;             ///< about the contact
+  double reach = 50;                ///< longest stroke
+  double feed = 300;                ///< of the touch
+  double rapid = 2000;              ///< near the contact
+};
+
+/// Leads the tip of a tool to the contact and back. Positions are the tip's in machine coordinates; main, minor and
+/// tool axis are those of the working plane. Touches are made with a stationary spindle.
+class ToolProber {
+public:
+  /// `clearanceHeight`: machine coordinate along the tool axis between the touches; it is raised to the clearance above
+  /// the contact where it is lower.
+  ToolProber(control::Channel& channel, const WorkingPlane& plane, const ToolTouchProbe& probe, double clearanceHeight);
+
+  /// To the clearance height, unless the tool is above it.
+  void rise();
+  /// From above onto the contact, the tool's axis beside its middle by `offset` in the plane. Returns the tip at the
+  /// signal; the tool is back at the clearance in front of the contact. Throws Alarm.
+  Vector3 touchTop(const Vector2& offset);
+  /// Against the side of the contact along main (0) or minor axis (1) in the direction `sense` (+1, -1), the tool's
+  /// lower end `depth` below the upper edge, starting `toolRadius` and the clearance in front of it. Ends at the
+  /// clearance height.
+  Vector3 touchSide(int axis, int sense, double toolRadius, double depth);
+
+private:
+  void moveTo(const Vector3& tip);
+  void approach(const Vector3& tip);
+  Vector3 stroke(const Vector3& direction);
+  Vector3 tip() const;
+  Vector3 inPlane(int axis, double value) const;
+
+  control::Channel& channel_;
+  WorkingPlane plane_;
+  ToolTouchProbe probe_;
+  double height_ = 0;
+};
+
+}  // namespace probewright::probing

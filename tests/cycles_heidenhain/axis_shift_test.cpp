@@ -1,0 +1,197 @@
+#include "cycles_heidenhain/table_folder.hpp"
+#include "cycles_heidenhain/worlds.hpp"
+
+/// Cycle 440 of the iTNC 530: how far the axes have shifted since a calibration, by a tool at the tool touch probe.
+namespace probewright::testing_support {
+namespace {
+
+constexpr double exact = 2e-6;
+
+/// A tool touch probe on the table, a calibrating tool (tool 9), a block with a wall at X+0 of the preset.
+struct Shifting {
+  Bench bench{ControlKind::iTNC530};
+  Vector3 contact = Vector3::Zero();  ///< middle of its upper edge
+  double radius = 0;                  ///< of the tool
+  std::string before = "TOOL CALL 9 Z\n";
+
+  Ran run(int mode, int directions, const std::string& after = {}) const {
+    return bench.runBare(before + probe(440, {{363, mode}, {364, directions}, {320, 1}, {260, 20}}) + after);
+  }
+  void shift(const Vector3& amount) {
+    auto& errors = bench.setup.truth.errors;
+    errors.axes.resize(3);
+    for (std::size_t i = 0; i < 3; ++i)
+      errors.axes[i].offset = amount[static_cast<Eigen::Index>(i)];
+  }
+};
+
+Shifting shifting(Dice& dice) {
+  Shifting world;
+  Bench& bench = world.bench;
+  bench.preset(1, {0, 0, -420});
+  world.radius = written(dice.between(4, 12), 4);
+  const double length = written(dice.between(60, 90), 4);
+  bench.knows(9, "PIN", length, world.radius);
+  simulation::TrueTool pin;
+  pin.number = 9;
+  pin.name = "PIN";
+  pin.kind = simulation::ToolKind::Cutter;
+  pin.length = length;
+  pin.radius = world.radius;
+  bench.setup.truth.tools.push_back(pin);
+  world.contact = {written(dice.between(120, 160)), written(dice.between(-80, -60)), written(dice.between(-480, -460))};
+  const double half = written(dice.between(12, 20));
+  if (dice.coin()) {
+    place(bench.setup.truth, simulation::RoundBar(half, -10, 0), pose(world.contact), "TT",
+          simulation::SolidRole::ToolProbe);
+  } else {
+    place(bench.setup.truth, simulation::Box({-half, -half, -10}, {half, half, 0}), pose(world.contact), "TT",
+          simulation::SolidRole::ToolProbe);
+  }
+  bench.part(simulation::Box({0, -20, -40}, {40, 20, 0}), pose({0, 0, -420}));
+  // The control knows place and size a little wrong.
+  const Vector3 roughly = world.contact + dice.within(0.5);
+  const char* names[] = {"MP6580.0", "MP6580.1", "MP6580.2"};
+  for (int i = 0; i < 3; ++i)
+    bench.setup.parameters[names[i]] = {roughly[i], {}};
+  bench.setup.parameters["MP6531"] = {2 * half, {}};
+  return world;
+}
+
+TEST(Cycle440, FindsAnyShiftOfTheAxes) {
+  Dice dice(440);
+  for (int at = 0; at < 60; ++at) {
+    SCOPED_TRACE(fmt::format("world {}", at));
+    Shifting world = shifting(dice);
+    const int directions = dice.whole(0, 7);
+    const Ran calibrated = world.run(0, directions);
+    ASSERT_TRUE(calibrated.finished()) << calibrated.why();
+    for (int i = 0; i < 3; ++i)
+      EXPECT_EQ(calibrated.q(185 + i), 0);
+    // The tip stands above the contact again.
+    EXPECT_GE(calibrated.outcome.machine->tipOnTable().z(), -400 - exact);
+    const TableFolder folder(world.bench);
+    folder.put("AXSHIFT.TAB", calibrated.outcome.files.at("AXSHIFT.TAB"));
+    const Vector3 shift = dice.within(0.3);
+    world.shift(shift);
+    const Ran ran = world.run(1, directions);
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    const bool alongX = directions == 0 || directions == 2 || directions > 3;
+    const bool alongY = directions == 1 || directions == 3 || directions > 3;
+    EXPECT_NEAR(ran.q(185), alongX ? -shift.x() : 0, exact);
+    EXPECT_NEAR(ran.q(186), alongY ? -shift.y() : 0, exact);
+    EXPECT_NEAR(ran.q(187), -shift.z(), exact);
+    EXPECT_EQ(ran.touches(), 1U + (alongX ? 1 : 0) + (alongY ? 1 : 0));
+  }
+}
+
+TEST(Cycle440, LetsADatumShiftFollowTheAxes) {
+  Dice dice(4401);
+  Shifting world = shifting(dice);
+  const std::string wall = "TOOL CALL 1 Z\n" + probe(427, {{263, 0},
+                                                           {264, 0},
+                                                           {261, -8},
+                                                           {320, 0},
+                                                           {272, 1},
+                                                           {267, 1},
+                                                           {260, 20},
+                                                           {281, 0},
+                                                           {288, 0},
+                                                           {289, 0},
+                                                           {309, 0},
+                                                           {330, 0}});
+  const Ran calibrated = world.run(0, 4, wall);
+  ASSERT_TRUE(calibrated.finished()) << calibrated.why();
+  EXPECT_NEAR(calibrated.q(160), 0, exact);
+  const TableFolder folder(world.bench);
+  folder.put("AXSHIFT.TAB", calibrated.outcome.files.at("AXSHIFT.TAB"));
+  world.shift({0.17, -0.11, 0.08});
+  const Ran wrong = world.run(1, 4, wall);
+  ASSERT_TRUE(wrong.finished()) << wrong.why();
+  EXPECT_NEAR(wrong.q(160), -0.17, exact);
+  const std::string follow = "CYCL DEF 7.0 SHIFT\nCYCL DEF 7.1 IX+Q185\nCYCL DEF 7.2 IY+Q186\nCYCL DEF 7.3 IZ+Q187\n";
+  const Ran right = world.run(1, 4, follow + wall);
+  ASSERT_TRUE(right.finished()) << right.why();
+  EXPECT_NEAR(right.q(160), 0, exact);
+}
+
+TEST(Cycle440, RefusesAndStops) {
+  Dice dice(4402);
+  Shifting world = shifting(dice);
+  EXPECT_EQ(world.run(1, 4).alarm(), "Axis shift not calibrated");
+  EXPECT_EQ(world.bench.runBare(probe(440, {{363, 0}, {364, 0}, {320, 0}, {260, 20}})).alarm(),
+            "Touch probe axis not defined");
+  const Ran calibrated = world.run(0, 4);
+  ASSERT_TRUE(calibrated.finished()) << calibrated.why();
+  const TableFolder folder(world.bench);
+  folder.put("AXSHIFT.TAB", calibrated.outcome.files.at("AXSHIFT.TAB"));
+  const Ran other = world.run(1, 5);
+  EXPECT_EQ(other.alarm(), "Probing directions differ");
+  EXPECT_NE(other.why().find("Q364 = 5"), std::string::npos) << other.why();
+  EXPECT_EQ(other.q(185), 0);
+
+  control::heidenhain::TypedTable tools = control::heidenhain::defaultToolTable(ControlKind::iTNC530);
+  ASSERT_TRUE(tools.setText("9", "NAME", "PIN"));
+  ASSERT_TRUE(tools.setNumber("9", "L", world.bench.setup.tools.back().length));
+  ASSERT_TRUE(tools.setNumber("9", "R", world.radius));
+  ASSERT_TRUE(tools.setNumber("9", "LTOL", 0.05));
+  ASSERT_TRUE(tools.setNumber("9", "RTOL", 0.1));
+  folder.put("TOOL.T", tools);
+  world.shift({0.08, 0, 0.03});
+  EXPECT_TRUE(world.run(1, 4).finished()) << world.run(1, 4).why();
+  world.shift({0.08, 0, 0.06});
+  const Ran length = world.run(1, 4);
+  EXPECT_EQ(length.alarm(), "Axis shift too large");
+  EXPECT_NE(length.why().find("LTOL"), std::string::npos) << length.why();
+  EXPECT_NEAR(length.q(187), -0.06, exact);
+  world.shift({0.12, 0, 0.03});
+  const Ran radius = world.run(1, 4);
+  EXPECT_EQ(radius.alarm(), "Axis shift too large");
+  EXPECT_NE(radius.why().find("RTOL"), std::string::npos) << radius.why();
+
+  Shifting gone = shifting(dice);
+  gone.bench.setup.truth.solids.clear();
+  EXPECT_EQ(gone.run(0, 4).alarm(), "Touch probe not ready");
+  Shifting away = shifting(dice);
+  away.bench.setup.truth.solids.front().tableFromSolid.translation().z() -= 100;
+  EXPECT_EQ(away.run(0, 4).alarm(), "Touch point inaccessible");
+  Shifting unset = shifting(dice);
+  unset.bench.setup.parameters.clear();
+  EXPECT_EQ(unset.run(0, 4).alarm(), "Tool touch probe not calibrated");
+  Bench newer(ControlKind::TNC640);
+  EXPECT_FALSE(newer.run(probe(440, {{363, 0}, {364, 0}, {320, 0}, {260, 20}})).finished());
+}
+
+TEST(Cycle440, UsesFeedsDepthAndOffsetsOfTheTables) {
+  Dice dice(4403);
+  Shifting world = shifting(dice);
+  const Ran plain = world.run(0, 0);
+  ASSERT_TRUE(plain.finished()) << plain.why();
+  const auto seconds = [](const Ran& ran) { return ran.cycle().endSeconds - ran.cycle().startSeconds; };
+  world.bench.setup.parameters["MP6520"] = {30.0, {}};
+  const Ran slow = world.run(0, 0);
+  EXPECT_GT(seconds(slow), seconds(plain) + 10);
+  world.bench.setup.parameters["MP6550"] = {100.0, {}};
+  EXPECT_GT(seconds(world.run(0, 0)), seconds(slow) + 60);
+  // The top is touched beside the middle by R-OFFS, the side MP6530 plus L-OFFS below the upper edge.
+  const auto tip = [&](const Ran& ran, std::size_t touch) {
+    const auto& latched = ran.cycle().touches[touch].latched;
+    return Vector3(latched[0], latched[1], latched[2] - world.bench.setup.tools.back().length);
+  };
+  const double depth = tip(plain, 0).z() - tip(plain, 1).z();
+  control::heidenhain::TypedTable tools = control::heidenhain::defaultToolTable(ControlKind::iTNC530);
+  ASSERT_TRUE(tools.setText("9", "NAME", "PIN"));
+  ASSERT_TRUE(tools.setNumber("9", "L", world.bench.setup.tools.back().length));
+  ASSERT_TRUE(tools.setNumber("9", "R", world.radius));
+  ASSERT_TRUE(tools.setNumber("9", "R-OFFS", 1.5));
+  ASSERT_TRUE(tools.setNumber("9", "L-OFFS", 2));
+  const TableFolder folder(world.bench);
+  folder.put("TOOL.T", tools);
+  const Ran offset = world.run(0, 0);
+  ASSERT_TRUE(offset.finished()) << offset.why();
+  EXPECT_NEAR(tip(plain, 0).x() - tip(offset, 0).x(), world.radius - 1.5, exact);
+  EXPECT_NEAR(tip(offset, 0).z() - tip(offset, 1).z(), depth + 2, exact);
+}
+
+}  // namespace
+}  // namespace probewright::testing_support

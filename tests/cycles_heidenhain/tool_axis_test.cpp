@@ -1,0 +1,228 @@
+#include "control/working_plane.hpp"
+#include "cycles_heidenhain/worlds.hpp"
+
+/// Touch probe axis X and Y: a probe in an angle head. Main and minor axis are Y and Z, or Z and X.
+namespace probewright::testing_support {
+namespace {
+
+constexpr double exact = 1e-6;
+
+/// A world that is laid out in (main, minor, tool axis) of the touch probe axis.
+struct Across {
+  Bench bench;
+  char axis;
+  control::WorkingPlane plane;
+  Vector3 origin;  ///< of the preset, machine coordinates
+  Vector2 tip = Vector2::Zero();
+
+  Across(ControlKind kind, char toolAxis)
+      : bench(kind), axis(toolAxis), plane(control::WorkingPlane::ofToolAxis(toolAxis)) {
+    simulation::TrueTool& tool = bench.setup.truth.tools.front();
+    tool.shankDirection = Vector3::Zero();
+    tool.shankDirection[plane.tool] = 1;
+    tip = {0.08, -0.05};
+    tool.probe.tipOffset = tip;
+    bench.believedProbe().tipOffset = tip;
+    bench.believedProbe().maximumTravel = 30;
+    origin = {40, -30, -300};
+    origin[plane.tool] -= 90;
+    bench.preset(1, origin);
+  }
+
+  /// Machine coordinates from coordinates (main, minor, tool axis) of the preset.
+  Pose machineFromPlane() const {
+    Pose result = Pose::Identity();
+    result.translation() = origin;
+    for (int i = 0; i < 3; ++i)
+      result.linear().col(i) = plane.xyzFromPlane(Vector3::Unit(i));
+    return result;
+  }
+  template <class SolidType>
+  void part(SolidType solid, const Pose& planeFromSolid) {
+    bench.part(std::move(solid), machineFromPlane() * planeFromSolid);
+  }
+  Ran run(const std::string& blocks) const { return bench.runBare(fmt::format("TOOL CALL 1 {}\n", axis) + blocks); }
+  /// A place, given in (main, minor, tool axis) of the old preset, in that of the new one.
+  Vector3 seen(const Ran& ran, const Vector3& place) const {
+    return plane.planeFromXyz(ran.seen(machineFromPlane() * place));
+  }
+};
+
+Words presetInto1(Words words) {
+  return with(std::move(words), {{305, 1}, {303, 1}, {381, 0}, {382, 0}, {383, 0}, {384, 0}, {333, 0}});
+}
+
+TEST(ToolAxis, MeasuresHolesStudsAndHeightsAlongXAndY) {
+  Dice dice(181);
+  for (int at = 0; at < 40; ++at) {
+    const char axis = dice.coin() ? 'X' : 'Y';
+    SCOPED_TRACE(fmt::format("world {}, tool axis {}", at, axis));
+    Across world(controlOf(at / 2), axis);
+    const bool newer = world.bench.control == ControlKind::TNC640;
+    const Vector3 centre(dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1));
+    const double diameter = dice.between(30, 40);
+    const bool hole = dice.coin();
+    if (hole) {
+      world.part(simulation::Ring(diameter / 2, diameter / 2 + 20, -30), pose(centre));
+    } else {
+      world.part(simulation::RoundBar(diameter / 2, -30, 0), pose(centre));
+    }
+    Words words = {{273, 0},  {274, 0}, {262, 35}, {325, 20}, {247, 90}, {261, -9}, {320, 1},
+                   {260, 20}, {301, 1}, {279, 0},  {280, 0},  {281, 0},  {309, 0},  {330, 0}};
+    words = with(words, hole ? Words{{275, 0}, {276, 0}} : Words{{277, 0}, {278, 0}});
+    if (newer) words = with(words, {{423, 4}, {365, 1}});
+    const Ran ran = world.run(probe(hole ? 421 : 422, words));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(ran.q(151), centre.x(), exact);
+    EXPECT_NEAR(ran.q(152), centre.y(), exact);
+    EXPECT_NEAR(ran.q(153), diameter, exact);
+
+    Words preset = {{321, 0}, {322, 0},  {262, 35}, {325, 0}, {247, 90}, {261, -9},
+                    {320, 1}, {260, 20}, {301, 1},  {331, 7}, {332, -3}};
+    if (newer) preset = with(preset, {{423, 4}, {365, 1}});
+    const Ran moved = world.run(probe(hole ? 412 : 413, presetInto1(preset)));
+    ASSERT_TRUE(moved.finished()) << moved.why();
+    EXPECT_LT((world.seen(moved, centre) - Vector3(7, -3, centre.z())).norm(), exact);
+
+    // The face square to the tool axis, beside the hole or on the stud.
+    const double aside = hole ? 27 : 4;
+    const Ran height = world.run(probe(427, {{263, aside},
+                                             {264, 0},
+                                             {261, 0},
+                                             {320, 1},
+                                             {272, 3},
+                                             {267, -1},
+                                             {260, 20},
+                                             {281, 0},
+                                             {288, 0},
+                                             {289, 0},
+                                             {309, 0},
+                                             {330, 0}}));
+    ASSERT_TRUE(height.finished()) << height.why();
+    EXPECT_NEAR(height.q(160), centre.z(), exact);
+    const Ran level =
+        world.run(probe(417, {{263, aside}, {264, 0}, {294, 0}, {320, 1}, {260, 20}, {305, 1}, {333, 2.5}, {303, 1}}));
+    ASSERT_TRUE(level.finished()) << level.why();
+    EXPECT_NEAR(world.seen(level, centre).z(), 2.5, exact);
+  }
+}
+
+TEST(ToolAxis, MeasuresRectanglesWidthsAndEdgesAlongXAndY) {
+  for (const char axis : {'X', 'Y'}) {
+    for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
+      SCOPED_TRACE(fmt::format("tool axis {}", axis));
+      Across world(kind, axis);
+      const Vector3 centre(0.4, -0.3, 0.2);
+      world.part(simulation::Box({-20, -15, -30}, {20, 15, 0}), pose(centre));
+      const Ran stud = world.run(probe(424, {{273, 0},
+                                             {274, 0},
+                                             {282, 40},
+                                             {283, 30},
+                                             {261, -9},
+                                             {320, 1},
+                                             {260, 20},
+                                             {301, 1},
+                                             {284, 0},
+                                             {285, 0},
+                                             {286, 0},
+                                             {287, 0},
+                                             {279, 0},
+                                             {280, 0},
+                                             {281, 0},
+                                             {309, 0},
+                                             {330, 0}}));
+      ASSERT_TRUE(stud.finished()) << stud.why();
+      EXPECT_NEAR(stud.q(151), centre.x(), exact);
+      EXPECT_NEAR(stud.q(152), centre.y(), exact);
+      EXPECT_NEAR(stud.q(154), 40, exact);
+      EXPECT_NEAR(stud.q(155), 30, exact);
+      const Ran ridge = world.run(probe(426, {{263, 0},
+                                              {264, 15},
+                                              {265, 0},
+                                              {266, -15},
+                                              {272, 2},
+                                              {261, -9},
+                                              {320, 1},
+                                              {260, 20},
+                                              {311, 30},
+                                              {288, 0},
+                                              {289, 0},
+                                              {281, 0},
+                                              {309, 0},
+                                              {330, 0}}));
+      ASSERT_TRUE(ridge.finished()) << ridge.why();
+      EXPECT_NEAR(ridge.q(156), 30, exact);
+      EXPECT_NEAR(ridge.q(157), centre.y(), exact);
+      for (int measured = 1; measured <= 2; ++measured) {
+        const Ran wall = world.run(probe(419, {{263, measured == 1 ? -20 : 0},
+                                               {264, measured == 2 ? -15 : 0},
+                                               {261, -9},
+                                               {320, 1},
+                                               {260, 20},
+                                               {272, measured},
+                                               {267, 1},
+                                               {305, 1},
+                                               {333, 1.5},
+                                               {303, 1}}));
+        ASSERT_TRUE(wall.finished()) << wall.why();
+        EXPECT_NEAR(world.seen(wall, centre - Vector3(20, 15, 0))[measured - 1], 1.5, exact);
+      }
+    }
+  }
+}
+
+TEST(ToolAxis, FindsTheMisalignmentAboutXAndY) {
+  Dice dice(1810);
+  for (int at = 0; at < 20; ++at) {
+    const char axis = dice.coin() ? 'X' : 'Y';
+    SCOPED_TRACE(fmt::format("world {}, tool axis {}", at, axis));
+    Across world(ControlKind::TNC640, axis);
+    const double skew = dice.between(-2, 2);
+    world.part(simulation::Box({-40, -30, -30}, {40, 30, 0}), pose(Vector3::Zero(), {0, 0, skew}));
+    const Words edge = {{263, -30}, {264, -30}, {265, 30}, {266, -30}, {272, 2}, {267, 1},
+                        {261, -9},  {320, 3},   {260, 20}, {301, 1},   {307, 0}, {305, 0}};
+    const Ran ran = world.run(probe(400, edge) + probe(400, edge));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    // The second run finds nothing left, and the preset's axes are those of the part.
+    EXPECT_NEAR(ran.q(150), 0, exact);
+    const Matrix3 part = (world.machineFromPlane() * pose(Vector3::Zero(), {0, 0, skew})).linear();
+    EXPECT_LT((ran.preset().linear() * world.machineFromPlane().linear() - part).norm(), 1e-6);
+
+    const Words words = {{1100, -30}, {1101, -30}, {1102, -9}, {1103, 30}, {1104, -30}, {1105, -9}, {372, 2},
+                         {320, 3},    {260, 20},   {1125, 1},  {309, 0},   {1126, 0},   {1120, 0},  {1121, 1}};
+    const Ran rotated = world.run(probe(1410, words));
+    ASSERT_TRUE(rotated.finished()) << rotated.why();
+    EXPECT_NEAR(rotated.q(994), skew, exact);
+    EXPECT_LT((rotated.preset().linear() * world.machineFromPlane().linear() - part).norm(), 1e-6);
+  }
+}
+
+TEST(ToolAxis, CalibratesAlongXAndY) {
+  for (const char axis : {'X', 'Y'}) {
+    SCOPED_TRACE(fmt::format("tool axis {}", axis));
+    Across world(ControlKind::TNC640, axis);
+    world.part(simulation::Ring(20, 40, -30), pose({0.3, -0.2, 0}));
+    auto& believed = world.bench.believedProbe();
+    believed.tipOffset = {-0.1, 0.2};
+    believed.radius += 0.1;
+    believed.length -= 0.2;
+    const char* names[] = {"X", "Y", "Z"};
+    const std::string go =
+        fmt::format("L {}+60 R0 FMAX\nL {}+0 {}+0 R0 FMAX\nL {}-9 R0 FMAX\n", names[world.plane.tool],
+                    names[world.plane.main], names[world.plane.minor], names[world.plane.tool]);
+    const std::string up = fmt::format("L {}+60 R0 FMAX\n", names[world.plane.tool]);
+    const std::string beside = fmt::format("L {}+30 {}+0 R0 FMAX\nL {}+5 R0 FMAX\n", names[world.plane.main],
+                                           names[world.plane.minor], names[world.plane.tool]);
+    const Ran ran =
+        world.run(go + probe(462, {{407, 20}, {320, 0}, {423, 4}, {380, 30}}) + up + beside + probe(461, {{434, 0}}));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(ran.cell("TOOL.T", "1", "R"), 2, exact);
+    EXPECT_NEAR(ran.cell("TOOL.T", "1", "L"), 100, exact);
+    const std::string& table = ran.outcome.files.at("TCHPROBE.TP");
+    EXPECT_NE(table.find("+0.0800"), std::string::npos) << table;
+    EXPECT_NE(table.find("-0.0500"), std::string::npos) << table;
+  }
+}
+
+}  // namespace
+}  // namespace probewright::testing_support
