@@ -260,7 +260,7 @@ void KlartextHost::send(std::string_view text, Evaluation& evaluation) {
     mask += c == '/' ? ',' : c;
   const ProtocolResult sent = formatProtocol(
       mask, [&](std::string_view name) { return readNamed(name, evaluation); },
-      static_cast<std::int64_t>(machineSeconds()), levels_.back().file);
+      static_cast<std::int64_t>(machineSeconds()), levels_.back().file, control_.panel.language);
   message(fmt::format("FN 38: {}", trimmed(sent.text)));
 }
 
