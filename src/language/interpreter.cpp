@@ -21,6 +21,14 @@ bool matches(const Breakpoint& breakpoint, const std::string& file) {
   return file.size() > ending.size() && file.compare(file.size() - ending.size(), ending.size(), ending) == 0;
 }
 
+/// What a message quotes of a block.
+std::string_view firstLine(std::string_view text) {
+  text = text.substr(0, text.find('\n'));
+  while (text.ends_with(' ') || text.ends_with('\r') || text.ends_with('~'))
+    text.remove_suffix(1);
+  return text;
+}
+
 /// A block that cannot be read ends the run with its own messages.
 struct Broken {
   Diagnostics mistakes;
@@ -278,7 +286,8 @@ BlockPosition Interpreter::label(TextRef literal, const Operand& computed, JumpD
     const char* where = direction == JumpDirection::Forward    ? " behind this block"
                         : direction == JumpDirection::Backward ? " in front of this block"
                                                                : " in this program";
-    refuse(Refusal::MissingLabel, fmt::format("there is no label {}{}", name, where), "check how the label is written");
+    refuse(Refusal::MissingLabel, fmt::format("there is no label {}{}", name.empty() ? "\"\"" : name, where),
+           "check how the label is written");
   }
   if (same) {
     block_->targetOf = instruction_;
@@ -566,7 +575,7 @@ Diagnostic Interpreter::here(Severity severity, std::string message, std::string
                         std::move(message), {},
                         std::move(advice),  std::move(code)};
   if (block_ != nullptr && block_->block.position.offset == position_.offset) {
-    diagnostic.excerpt = block_->block.at(block_->block.source);
+    diagnostic.excerpt = firstLine(block_->block.at(block_->block.source));
   }
   return diagnostic;
 }
@@ -579,7 +588,8 @@ void Interpreter::relocate(Diagnostic& diagnostic, const control::AlarmPlace& pl
     if (loaded->program->file() != place.file) continue;
     Block block;
     Diagnostics ignored;
-    if (loaded->program->parse({place.offset, place.line}, block, ignored)) diagnostic.excerpt = block.at(block.source);
+    if (loaded->program->parse({place.offset, place.line}, block, ignored))
+      diagnostic.excerpt = firstLine(block.at(block.source));
   }
 }
 

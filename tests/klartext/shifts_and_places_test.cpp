@@ -49,6 +49,34 @@ TEST(Shifts, EndWithThePreset) {
   EXPECT_NEAR(world.machine->position()[4], 0, 1e-9);
 }
 
+TEST(Presets, AreSelectedByNumberOrTextAndKeepTransformations) {
+  World world;
+  ASSERT_TRUE(world.control->tables.presets.ensureRow("7"));
+  ASSERT_TRUE(world.control->tables.presets.setText("7", "DOC", "VISE"));
+  ASSERT_TRUE(world.control->tables.presets.setNumber("7", "X", 100));
+  expectFinished(
+      world.run("TRANS DATUM AXIS X+5\nPRESET SELECT \"VISE\" KEEP TRANS WP\nL X+1 FMAX\n"
+                "PRESET SELECT #7\nL X+1 FMAX\n"));
+  EXPECT_NEAR(world.machine->steps[0].axes[0], 106, 1e-9);
+  EXPECT_NEAR(world.machine->steps[1].axes[0], 101, 1e-9);
+  EXPECT_THAT(messageOf(world.run("PRESET SELECT \"NONE\"\n")), HasSubstr("NONE"));
+  EXPECT_THAT(messageOf(world.run("PRESET SELECT #7 KEEP IT\n")), HasSubstr("TRANS is expected"));
+  EXPECT_THAT(messageOf(world.run("PRESET SELECT #7 ALWAYS\n")), HasSubstr("block should end"));
+}
+
+TEST(Presets, AreCopiedWholeAndSelected) {
+  World world("mill5-table-table");
+  control::heidenhain::Control::PresetChange change;
+  change.origin = {1, 2, 3};
+  change.rotaryOffset[4] = 10;
+  world.control->writePreset(1, change);
+  expectFinished(world.run("PRESET COPY #1 TO #4 SELECT TARGET\nL X+0 C+5 FMAX\nPRESET CORR X+0.5\nL X+0 FMAX\n"));
+  EXPECT_NEAR(world.machine->steps[0].axes[0], 1, 1e-9);
+  EXPECT_NEAR(world.machine->steps[0].axes[4], 15, 1e-9);
+  EXPECT_NEAR(world.machine->steps[1].axes[0], 1.5, 1e-9);
+  EXPECT_EQ(world.control->coordinates.preset.row, 4);
+}
+
 /// Where the alarm of a run stands, and what it quotes.
 std::string placeOf(const RunResult& result) {
   if (result.diagnostics.empty()) return "none";

@@ -191,6 +191,14 @@ TEST(Protocols, GoToTheScreenAndNameTheirProgram) {
   EXPECT_TRUE(world.control->panel.files().empty());
 }
 
+TEST(Protocols, FN38SendsItsTextWithItsValues) {
+  World world;
+  expectFinished(world.run("Q1 = 5\nQ23 = -0.5\nFN 38: SEND /\"Q1: %F, Q23: %F\" / +Q1 / +Q23\nFN 38: SEND\n"));
+  const auto& events = world.control->journal.events;
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].text, "FN 38: Q1: 5.000, Q23: -0.500");
+}
+
 TEST(Protocols, MistakesOfMasks) {
   World world;
   const auto mistake = [&](const std::string& mask) {

@@ -176,6 +176,7 @@ bool BlockParser::setting(std::string_view name, std::string_view address, Opera
 
 bool BlockParser::transform(std::string_view name, std::string_view addresses) {
   if (!onlyTakes(addresses)) return false;
+  if (function_ == 54 && coordinateCount_ == 0) return error("an axis with its shift is missing", "write G54 X+10");
   const std::size_t first = block_.words.size();
   block_.words.insert(block_.words.end(), coordinates_.begin(),
                       coordinates_.begin() + static_cast<std::ptrdiff_t>(coordinateCount_));

@@ -201,6 +201,9 @@ bool BlockParser::coordinate(char address, std::string_view what) {
     if (!found) return false;
     added.value = *found;
   }
+  if (find({&address, 1}) != nullptr && find({&address, 1})->mode != WordMode::DirectShortest) {
+    return error(fmt::format("{} is given twice in this block", address), "leave one of the two out");
+  }
   coordinates_[coordinateCount_++] = added;
   return true;
 }

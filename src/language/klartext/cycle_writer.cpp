@@ -227,6 +227,23 @@ std::string plainWords(const Block& block, std::span<const Word> words) {
   return out;
 }
 
+/// PRESET SELECT and PRESET COPY.
+std::string presetText(const Block& block, std::string_view name, std::span<const Word> words) {
+  std::string out(name);
+  for (const Word& word : words) {
+    const std::string address = addressName(word.address);
+    if (address == "KEEP") {
+      out += " KEEP TRANS";
+    } else if (address == "SEL") {
+      out += " SELECT TARGET";
+    } else {
+      const std::string row = writeValue(block, word.value);
+      out += fmt::format(" {}{}{}", address == "TO" ? "TO " : "", row.starts_with('"') ? "" : "#", row);
+    }
+  }
+  return out;
+}
+
 std::string_view planeWord(std::uint32_t address) {
   struct Named {
     std::string_view address, written;
@@ -377,8 +394,7 @@ std::string writeCommand(const Block& block, const Command& command) {
                             : fmt::format("TOOL DEF {}", tool);
   }
   if (name == "CYCL CALL") return fmt::format("CYCL CALL {} {}", text, plainWords(block, words));
-  if (name == "PRESET SELECT") return fmt::format("PRESET SELECT #{}", value(0));
-  if (name == "PRESET COPY") return fmt::format("PRESET COPY #{} TO #{}", value(0), value(1));
+  if (name == "PRESET SELECT" || name == "PRESET COPY") return presetText(block, name, words);
   if (name == "PRESET CORR") return fmt::format("PRESET CORR {}", plainWords(block, words));
   if (name.starts_with("SEL ")) {
     return words.empty() ? fmt::format("{} \"{}\"", name, text)

@@ -81,6 +81,9 @@ bool BlockParser::parameterCycle(std::string_view kind, int number) {
   if (kind == "GLOBAL DEF") {
     emit(Command{constant(kind), {}, -1, words});
   } else if (kind == "CYCL DEF" && number == 247) {
+    if (words.count != 1 || block_.words[first].address != 339) {
+      return error("cycle 247 takes Q339 with the row of the preset table and nothing else", "write Q339=+1");
+    }
     emit(Transform{constant("CYCL DEF 247"), words, {}});
   } else {
     emit(CycleCall{number, constant(kind), words});

@@ -284,9 +284,8 @@ bool BlockParser::functionTable(int number) {
 bool BlockParser::functionText(int number) {
   if (number == 14) {
     const std::size_t first = block_.words.size();
-    if (!lexer_.acceptPrefix("ERROR") || !expect('=', "ERROR")) {
-      return error("ERROR = with the number of the message is expected here");
-    }
+    if (!lexer_.acceptPrefix("ERROR")) return error("ERROR = with the number of the message is expected here");
+    if (!expect('=', "ERROR")) return false;
     if (!word(0, "the number of the message")) return false;
     emit(Command{constant("FN14"), {}, -1, wordsSince(first)});
     return expectEnd();

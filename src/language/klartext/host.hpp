@@ -96,7 +96,8 @@ private:
   void shiftAxis(char letter, double value, bool incremental);
   void shiftDatumByTable(double row);
   void selectDatumTable(const std::string& name);
-  void activatePreset(int row);
+  void activatePreset(int row, bool keepTransformations);
+  int presetRowOf(const Word& word, Evaluation& evaluation) const;
   void presetCommand(std::string_view name, const Command& command, Evaluation& evaluation);
 
   // host_planes.cpp
@@ -124,6 +125,7 @@ private:
   void circleThroughPoints(const Command& command, Evaluation& evaluation);
   void setPresetInAxis(const Command& command, Evaluation& evaluation);
   void message(std::string text);
+  void skipFunction(std::string_view name, std::string_view text);
 
   // host_system_data.cpp: FN 18
   void systemRead(const Command& command, Evaluation& evaluation);
@@ -147,6 +149,8 @@ private:
 
   // host_protocol.cpp: FN 16
   void protocol(const Command& command, Evaluation& evaluation);
+  Value readNamed(std::string_view name, Evaluation& evaluation);
+  void send(std::string_view text, Evaluation& evaluation);
   void writeProtocol(const std::string& name, const ProtocolResult& result);
 
   // host_tables.cpp: FN 26, 27, 28, and files that programs name

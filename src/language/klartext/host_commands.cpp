@@ -10,6 +10,16 @@ namespace probewright::language::klartext {
 
 using control::Alarm;
 
+/// What has no effect here is named; --strict refuses it.
+void KlartextHost::skipFunction(std::string_view name, std::string_view text) {
+  if (options_.strict) {
+    throw Alarm("Function not available", fmt::format("{} {} is not simulated", name, text),
+                "run without --strict to skip it");
+  }
+  control_.panel.message(control::EventKind::Skipped, fmt::format("{} {} is not simulated and was skipped", name, text),
+                         control_.channel.seconds());
+}
+
 void KlartextHost::message(std::string text) {
   control_.panel.message(control::EventKind::Message, std::move(text), control_.channel.seconds());
 }
@@ -35,8 +45,10 @@ void KlartextHost::command(const Command& command, Evaluation& evaluation) {
     throw Alarm(fmt::format("FN 14: ERROR = {}", number),
                 fmt::format("The program stops with its own error message {}", number),
                 "look in the program why it jumps to this FN 14");
-  } else if (name == "FN15" || name == "FN38") {
-    message(fmt::format("{} {}", name, text));
+  } else if (name == "FN15") {
+    message(fmt::format("FN 15: {}", text));
+  } else if (name == "FN38") {
+    send(text, evaluation);
   } else if (name == "FN23" || name == "FN24") {
     circleThroughPoints(command, evaluation);
   } else if (name == "FN25") {
@@ -75,7 +87,13 @@ void KlartextHost::command(const Command& command, Evaluation& evaluation) {
   } else if (name == "SEL TABLE") {
     selectDatumTable(command.words.count > 0 ? evaluation.text(first()->value) : std::string(text));
   } else if (name == "FUNCTION") {
-    if (text.starts_with("MODE")) control_.turningMode = text.find("TURN") != std::string_view::npos;
+    if (text.starts_with("MODE")) {
+      control_.turningMode = text.find("TURN") != std::string_view::npos;
+    } else {
+      skipFunction(name, text);
+    }
+  } else if (name == "SQL" || name == "FUNCTION RESET") {
+    skipFunction(name, text);
   } else if (name == "ERROR") {
     throw Alarm("Block marked as wrong", "The control marked this block as wrong when it read it (ERROR =)",
                 "correct the block and take ERROR = away");

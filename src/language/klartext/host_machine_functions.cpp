@@ -50,6 +50,10 @@ void KlartextHost::machineFunction(const MachineFunction& function, Evaluation& 
       std::optional<double> distance;
       if (const Word* back = find(function.words, "MB", evaluation); back != nullptr && back->value.present()) {
         distance = length(back->value, evaluation);
+        if (!(*distance >= 0)) {
+          throw Alarm("Retraction not permitted", "M140 MB goes back along the tool axis: its way cannot be negative",
+                      "program a way from 0 on, or MB MAX");
+        }
       }
       Feed feed = Feed::rapidTraverse();
       if (function.argument.present()) feed = Feed::at(length(function.argument, evaluation));

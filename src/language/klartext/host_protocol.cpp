@@ -224,6 +224,41 @@ ProtocolResult formatProtocol(std::string_view mask, const std::function<Value(s
   return result;
 }
 
+/// The parameter that a text names: "Q5", "QL3", "QS1", with or without a plus.
+Value KlartextHost::readNamed(std::string_view name, Evaluation& evaluation) {
+  if (name.starts_with('+')) name.remove_prefix(1);
+  VariableRef variable;
+  std::size_t letters = 1;
+  const char kind = name.size() > 1 ? upper(name[1]) : '\0';
+  if (kind == 'S') variable.space = VariableSpace::QS;
+  if (kind == 'L') variable.space = VariableSpace::QL;
+  if (kind == 'R') variable.space = VariableSpace::QR;
+  if (variable.space != VariableSpace::Q) ++letters;
+  const auto number = parseInteger(name.substr(std::min(letters, name.size())));
+  if (name.empty() || upper(name[0]) != 'Q' || !number || *number < 0) {
+    refuse(fmt::format("{} is no Q parameter", name));
+  }
+  variable.index[0] = Operand::of(static_cast<double>(*number));
+  return read(variable, evaluation);
+}
+
+/// FN 38: SEND /"X = %F" / +Q1: the text with its values, among the messages.
+void KlartextHost::send(std::string_view text, Evaluation& evaluation) {
+  const std::size_t open = text.find('"');
+  const std::size_t close = text.rfind('"');
+  if (open == std::string_view::npos || close == open) {
+    message(fmt::format("FN38 {}", text));
+    return;
+  }
+  std::string mask(text.substr(open, close + 1 - open));
+  for (const char c : text.substr(close + 1))
+    mask += c == '/' ? ',' : c;
+  const ProtocolResult sent = formatProtocol(
+      mask, [&](std::string_view name) { return readNamed(name, evaluation); },
+      static_cast<std::int64_t>(machineSeconds()), levels_.back().file);
+  message(fmt::format("FN 38: {}", trimmed(sent.text)));
+}
+
 void KlartextHost::protocol(const Command& command, Evaluation& evaluation) {
   std::string text(evaluation.at(command.text));
   // :'QS1': stands for the text of the parameter.
@@ -247,21 +282,7 @@ void KlartextHost::protocol(const Command& command, Evaluation& evaluation) {
   const Result<std::string> bytes = readHostFile(mask);
   if (!bytes) throw Alarm("FN 16: file missing", bytes.error().message, bytes.error().advice);
 
-  const auto read = [&](std::string_view name) -> Value {
-    VariableRef variable;
-    std::size_t letters = 1;
-    const char kind = name.size() > 1 ? upper(name[1]) : '\0';
-    if (kind == 'S') variable.space = VariableSpace::QS;
-    if (kind == 'L') variable.space = VariableSpace::QL;
-    if (kind == 'R') variable.space = VariableSpace::QR;
-    if (variable.space != VariableSpace::Q) ++letters;
-    const auto number = parseInteger(name.substr(std::min(letters, name.size())));
-    if (name.empty() || upper(name[0]) != 'Q' || !number || *number < 0) {
-      refuse(fmt::format("{} is no Q parameter", name));
-    }
-    variable.index[0] = Operand::of(static_cast<double>(*number));
-    return KlartextHost::read(variable, evaluation);
-  };
+  const auto read = [&](std::string_view name) { return readNamed(name, evaluation); };
   const ProtocolResult result =
       formatProtocol(*bytes, read, static_cast<std::int64_t>(machineSeconds()), levels_.back().file);
   if (target == "SCLR:") return;  // closes the window of an earlier message

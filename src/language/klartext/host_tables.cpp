@@ -63,7 +63,11 @@ Result<std::string> KlartextHost::readHostFile(std::string_view path) const {
 
 void KlartextHost::openTable(std::string_view path) {
   const Result<std::string> bytes = readHostFile(path);
-  if (!bytes) throw Alarm("Table missing", bytes.error().message, "put the table beside the program");
+  if (path.empty()) throw Alarm("Table missing", "FN 26 names no table", "write FN 26: TABOPEN TABLE.TAB");
+  if (!bytes) {
+    throw Alarm("Table missing", fmt::format("The table {} cannot be read: {}", path, bytes.error().message),
+                "put the table beside the program");
+  }
   Diagnostics mistakes;
   Result<TextTable> table = TextTable::parse(*bytes, fileNameOf(path), mistakes);
   if (!table) throw Alarm("Table wrong", table.error().message, table.error().advice);

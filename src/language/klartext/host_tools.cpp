@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <cmath>
 
+#include "control/alarm.hpp"
 #include "control/heidenhain/tool_table.hpp"
 #include "language/klartext/host.hpp"
 
@@ -32,7 +35,14 @@ void KlartextHost::callTool(const ToolCall& call, Evaluation& evaluation) {
                       deltaRadius2);
     control_.applyCoordinates();
   }
-  if (call.spindleSpeed.present()) control_.tool.spindleSpeed = evaluation.number(call.spindleSpeed);
+  if (call.spindleSpeed.present()) {
+    const double speed = evaluation.number(call.spindleSpeed);
+    if (!(speed >= 0)) {
+      throw control::Alarm("Spindle speed wrong", fmt::format("A spindle speed of {} is not possible", speed),
+                           "program S from 0 on; M4 turns the other way");
+    }
+    control_.tool.spindleSpeed = speed;
+  }
   if (call.feed.present()) control_.tool.feed = length(call.feed, evaluation);
   publishTool();
 }

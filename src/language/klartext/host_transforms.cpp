@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.hpp"
 #include "control/alarm.hpp"
 #include "control/heidenhain/datum_table.hpp"
 #include "control/heidenhain/preset_table.hpp"
@@ -81,7 +82,7 @@ void KlartextHost::transform(const Transform& transform, Evaluation& evaluation)
     return;
   } else if (name == "CYCL DEF 247") {
     for (const Word& word : evaluation.words(words)) {
-      if (word.address == 339) activatePreset(static_cast<int>(std::lround(evaluation.number(word.value))));
+      if (word.address == 339) activatePreset(static_cast<int>(std::lround(evaluation.number(word.value))), false);
     }
     return;
   } else if (name.starts_with("PLANE")) {
@@ -153,23 +154,40 @@ void KlartextHost::selectDatumTable(const std::string& name) {
   control_.activeDatumTable = upperName(name);
 }
 
-/// A preset ends datum shift, mirror image, rotation and scaling; a tilted plane stays.
-void KlartextHost::activatePreset(int row) {
-  control_.coordinates.workpiece = {};
-  control_.coordinates.workingPlane = {};
+/// A preset ends datum shift, mirror image, rotation and scaling, unless they are kept; a tilted plane stays.
+void KlartextHost::activatePreset(int row, bool keepTransformations) {
+  if (!keepTransformations) {
+    control_.coordinates.workpiece = {};
+    control_.coordinates.workingPlane = {};
+  }
   control_.activatePreset(row);
   control_.panel.message(control::EventKind::Message, fmt::format("Preset {} activated", row),
                          control_.channel.seconds());
+}
+
+/// A row of the preset table by its number or by its text in the column DOC.
+int KlartextHost::presetRowOf(const Word& word, Evaluation& evaluation) const {
+  const Value named = evaluation.value(word.value);
+  if (!isText(named)) return static_cast<int>(std::lround(std::get<double>(named)));
+  const std::string& text = std::get<std::string>(named);
+  const auto& presets = control_.tables.presets;
+  for (const std::string& key : presets.table().keys()) {
+    const auto number = parseInteger(key);
+    if (number && presets.text(key, "DOC") == text) return static_cast<int>(*number);
+  }
+  throw Alarm("Preset not defined", fmt::format("No row of the preset table has \"{}\" in its column DOC", text),
+              "correct the text or name the row by its number");
 }
 
 void KlartextHost::presetCommand(std::string_view name, const Command& command, Evaluation& evaluation) {
   settle();
   const auto row = [&](std::string_view address) {
     const Word* word = find(command.words, address, evaluation);
-    return word == nullptr ? 0 : static_cast<int>(std::lround(evaluation.number(word->value)));
+    return word == nullptr ? 0 : presetRowOf(*word, evaluation);
   };
+  const bool keep = find(command.words, "KEEP", evaluation) != nullptr;
   if (name == "PRESET SELECT") {
-    activatePreset(row("#"));
+    activatePreset(row("#"), keep);
     return;
   }
   const int source = name == "PRESET COPY" ? row("#") : control_.coordinates.preset.row;
@@ -185,7 +203,12 @@ void KlartextHost::presetCommand(std::string_view name, const Command& command, 
     change.origin[i] = preset->origin[static_cast<Eigen::Index>(i)];
     if (control_.isTNC640() || i == 2) change.spaceAngles[i] = preset->spaceAngles[static_cast<Eigen::Index>(i)];
   }
+  const auto& axes = control_.channel.description().axes;
+  for (std::size_t i = 0; name == "PRESET COPY" && i < axes.size(); ++i) {
+    if (axes[i].kind == machine::AxisKind::Rotary) change.rotaryOffset[i] = preset->rotaryOffset[i];
+  }
   control_.writePreset(target, change);
+  if (find(command.words, "SEL", evaluation) != nullptr) activatePreset(target, keep);
 }
 
 }  // namespace probewright::language::klartext

@@ -56,6 +56,8 @@ bool BlockParser::machineFunction(Move* move) {
       } else if (!word(addressOf(keyword), keyword)) {
         return false;
       }
+    } else if (number == 140) {
+      return error("MB with the way back is expected behind M140", "write M140 MB MAX or M140 MB50");
     }
   }
   while (takesAxes(number)) {

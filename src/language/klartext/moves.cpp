@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "language/klartext/parser.hpp"
 
 /// Path functions: L, LP, LN, CC, C, CR, CT, CP, CTP, RND, CHF, APPR, DEP and single axis blocks.
@@ -66,6 +68,20 @@ bool BlockParser::radiusWord(Move& move) {
   return word(addressOf("R"), "the radius R");
 }
 
+/// Refuses a word that a block has twice.
+bool BlockParser::eachOnce(WordRange range) {
+  for (std::uint32_t i = 1; i < range.count; ++i) {
+    const Word& word = block_.words[range.first + i];
+    for (std::uint32_t k = 0; k < i; ++k) {
+      const Word& other = block_.words[range.first + k];
+      if (other.address != word.address || other.mode == WordMode::DirectShortest) continue;
+      return error(fmt::format("{} is given twice in this block", addressName(word.address)),
+                   "leave one of the two out");
+    }
+  }
+  return true;
+}
+
 bool BlockParser::moveWords(Move& move) {
   const std::size_t first = block_.words.size();
   bool wordsEnded = false;
@@ -78,7 +94,7 @@ bool BlockParser::moveWords(Move& move) {
     switch (c) {
       case '\0':
         if (!wordsEnded) move.words = wordsSince(first);
-        return true;
+        return eachOnce(move.words);
       case 'X':
       case 'Y':
       case 'Z':

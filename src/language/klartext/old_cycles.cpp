@@ -254,8 +254,9 @@ bool BlockParser::oldCycle(int number) {
     }
     if (!nextPart("CYCL", "DEF", part)) return false;
   }
-  if (number == 12 && text.empty()) {
-    return error("part 12.1 of this cycle is missing", "write CYCL DEF 12.1 PGM and the name of a program below");
+  if ((isTransform(number) || isSetting(number)) && last < 1) {
+    return error(fmt::format("part {}.1 of this cycle is missing", number),
+                 fmt::format("write CYCL DEF {}.1 with its values below this block", number));
   }
   const WordRange words = wordsSince(first);
   const TextRef name =
@@ -271,7 +272,9 @@ bool BlockParser::oldCycle(int number) {
 }
 
 bool BlockParser::oldCyclePart(Part part) {
-  if (lexer_.atEnd()) return true;
+  // An empty list of axes ends a mirror image, tilting or a tolerance; everything else has a value.
+  const bool mayBeEmpty = part.cycle == 8 || part.cycle == 12 || part.cycle == 19 || part.cycle == 32 || part.part > 1;
+  if (lexer_.atEnd() && mayBeEmpty) return true;
   const auto behindWords = [&](std::string_view address, std::string_view what) {
     const std::optional<Operand> found = valueBehindWords(what);
     if (found) addWord(addressOf(address), *found);
@@ -280,6 +283,7 @@ bool BlockParser::oldCyclePart(Part part) {
   switch (part.cycle) {
     case 7:
       if (lexer_.accept('#')) return word(addressOf("#"), "the row of the datum table") && expectEnd();
+      if (lexer_.atEnd()) return error("an axis with its shift, or # with a row of the datum table, is expected here");
       return axisList(true);
     case 8:
       return axisList(false);

@@ -74,6 +74,7 @@ protected:
   bool arcWithRadius();
   bool approachOrDepart(MoveKind kind);
   bool moveWords(Move& move);
+  bool eachOnce(WordRange range);
   bool axisWord(WordMode mode);
   bool radiusWord(Move& move);
   bool feedWord(Operand& feed, bool* rapid, bool* autoFeed);

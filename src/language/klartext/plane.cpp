@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "language/klartext/parser.hpp"
 
 /// PLANE, TRANS, FUNCTION and PRESET blocks.
@@ -29,6 +33,21 @@ constexpr std::array<Variant, 9> variants = {{{"SPATIAL", "PLANE SPATIAL"},
 constexpr std::array<std::string_view, 24> definitionWords = {
     "SPA", "SPB", "SPC", "PROPR", "PROMIN", "EULPR", "EULNU", "EULROT", "ROT", "BX",  "BY",  "BZ",
     "NX",  "NY",  "NZ",  "P1X",   "P1Y",    "P1Z",   "P2X",   "P2Y",    "P2Z", "P3X", "P3Y", "P3Z"};
+
+bool definesPlane(std::uint32_t address) {
+  return (address >= 'A' && address <= 'C') ||
+         std::ranges::any_of(definitionWords, [address](std::string_view name) { return addressOf(name) == address; });
+}
+
+std::string_view exampleOf(std::string_view name) {
+  if (name == "PLANE SPATIAL") return "PLANE SPATIAL SPA+0 SPB+45 SPC+0 TURN FMAX";
+  if (name == "PLANE PROJECTED") return "PLANE PROJECTED PROPR+24 PROMIN+24 ROT+0 TURN FMAX";
+  if (name == "PLANE EULER") return "PLANE EULER EULPR+45 EULNU+20 EULROT+22 TURN FMAX";
+  if (name == "PLANE VECTOR") return "PLANE VECTOR BX+1 BY+0 BZ+0 NX+0 NY-0.5 NZ+0.8 TURN FMAX";
+  if (name == "PLANE POINTS") return "PLANE POINTS P1X+0 P1Y+0 P1Z+0 P2X+9 P2Y+0 P2Z+0 P3X+0 P3Y+9 P3Z+4 TURN FMAX";
+  if (name == "PLANE RELATIVE") return "PLANE RELATIV SPB-45 TURN FMAX";
+  return "PLANE AXIAL B-45 TURN FMAX";
+}
 
 }  // namespace
 
@@ -64,6 +83,11 @@ bool BlockParser::plane() {
     } else if (!planeOption()) {
       return false;
     }
+  }
+  const bool defined = std::any_of(block_.words.begin() + static_cast<std::ptrdiff_t>(first), block_.words.end(),
+                                   [](const Word& word) { return definesPlane(word.address); });
+  if (!defined && variant->keyword != "RESET") {
+    return error("the values that define the plane are missing", fmt::format("write {}", exampleOf(variant->name)));
   }
   const Instruction instruction = Transform{constant(variant->name), wordsSince(first), {}};
   emitWithMachineFunctions(&instruction);
@@ -118,6 +142,7 @@ bool BlockParser::transformation() {
   if (lexer_.acceptKeyword("DATUM")) {
     if (lexer_.acceptKeyword("AXIS")) {
       name = "TRANS DATUM AXIS";
+      if (lexer_.atEnd()) return error("an axis with its shift is expected here", "write TRANS DATUM AXIS X+10");
       if (!axisList(true)) return false;
     } else if (lexer_.acceptKeyword("TABLE")) {
       name = "TRANS DATUM TABLE";
@@ -139,6 +164,7 @@ bool BlockParser::transformation() {
     name = lexer_.acceptKeyword("RESET") ? "TRANS MIRROR RESET" : "TRANS MIRROR AXIS";
     if (name == "TRANS MIRROR AXIS") {
       if (!lexer_.acceptKeyword("AXIS")) return error("AXIS or RESET is expected behind TRANS MIRROR");
+      if (lexer_.atEnd()) return error("the mirrored axes are expected here", "write TRANS MIRROR AXIS X");
       if (!axisList(false)) return false;
     }
   } else if (lexer_.acceptKeyword("ROTATION")) {
@@ -183,7 +209,16 @@ bool BlockParser::functionKeyword() {
     emit(Command{constant("FUNCTION RESET"), ref(lexer_.restOfBlock()), -1, {}});
     return true;
   }
-  if (!lexer_.acceptKeyword("TCPM")) return textCommand("FUNCTION");
+  if (!lexer_.acceptKeyword("TCPM")) {
+    const std::size_t start = (lexer_.peek(), lexer_.offset());
+    if (lexer_.acceptKeyword("MODE")) {
+      const bool known = lexer_.acceptKeyword("MILL") || lexer_.acceptKeyword("TURN") ||
+                         lexer_.acceptKeyword("GRIND") || lexer_.acceptKeyword("SET");
+      if (!known) return error("MILL, TURN, GRIND or SET is expected behind FUNCTION MODE");
+      lexer_.seek(start);
+    }
+    return textCommand("FUNCTION");
+  }
   const std::size_t first = block_.words.size();
   while (!lexer_.atEnd()) {
     if (lexer_.acceptKeyword("F")) {
@@ -203,22 +238,43 @@ bool BlockParser::functionKeyword() {
   return true;
 }
 
-/// PRESET SELECT #5 | PRESET COPY #1 TO #5 | PRESET CORR X+1: words # (and TO), axes.
+/// PRESET SELECT #5 [KEEP TRANS] [WP] | PRESET COPY #1 TO #5 [SELECT TARGET [KEEP TRANS]] | PRESET CORR X+1: words #
+/// and TO with the rows, axes, and without value KEEP and SEL. A row may be named by its DOC text instead: #, TO as
+/// text.
 bool BlockParser::presetKeyword() {
   const std::size_t first = block_.words.size();
   std::string_view name;
+  const auto row = [&](std::string_view address, std::string_view behind) {
+    if (const std::optional<std::string_view> text = lexer_.quoted()) {
+      addWord(addressOf(address), textOperand(ref(*text)));
+      return true;
+    }
+    return expect('#', behind) && word(addressOf(address), "the row of the preset table");
+  };
+  const auto keepTransformations = [&]() {
+    if (!lexer_.acceptKeyword("KEEP")) return true;
+    if (!lexer_.acceptKeyword("TRANS")) return error("TRANS is expected behind KEEP");
+    addWord(addressOf("KEEP"), {});
+    return true;
+  };
   if (lexer_.acceptKeyword("SELECT")) {
     name = "PRESET SELECT";
-    if (!expect('#', "PRESET SELECT") || !word(addressOf("#"), "the row of the preset table")) return false;
-    lexer_.restOfBlock();
+    if (!row("#", name) || !keepTransformations()) return false;
+    lexer_.acceptKeyword("WP");
+    if (!keepTransformations()) return false;
   } else if (lexer_.acceptKeyword("COPY")) {
     name = "PRESET COPY";
-    if (!expect('#', "PRESET COPY") || !word(addressOf("#"), "the row of the preset table")) return false;
+    if (!row("#", name)) return false;
     if (!lexer_.acceptKeyword("TO")) return error("TO #row is expected here");
-    if (!expect('#', "TO") || !word(addressOf("TO"), "the row of the preset table")) return false;
-    lexer_.restOfBlock();
+    if (!row("TO", "TO")) return false;
+    if (lexer_.acceptKeyword("SELECT")) {
+      if (!lexer_.acceptKeyword("TARGET")) return error("TARGET is expected behind SELECT");
+      addWord(addressOf("SEL"), {});
+      if (!keepTransformations()) return false;
+    }
   } else if (lexer_.acceptKeyword("CORR")) {
     name = "PRESET CORR";
+    if (lexer_.atEnd()) return error("an axis with its correction is expected here", "write PRESET CORR X+0.1");
     if (!axisList(true)) return false;
   } else {
     return error("SELECT, COPY or CORR is expected behind PRESET");

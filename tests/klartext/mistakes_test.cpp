@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "klartext/host_world.hpp"
+
+namespace probewright::language::klartext::testing {
+namespace {
+
+/// What is said about these blocks: "line:column: message", or "code: message" for what only the run finds.
+std::string saidOf(const std::string& blocks) {
+  World world;
+  const RunResult result = world.run("TOOL CALL 1 Z\nL X+0 Y+0 Z+100 R0 FMAX\n" + blocks + "\n");
+  if (result.diagnostics.empty()) return "nothing";
+  const Diagnostic& first = result.diagnostics.front();
+  if (!first.code.empty()) return first.code + ": " + first.message;
+  return std::to_string(first.place.line) + ":" + std::to_string(first.place.column) + ": " + first.message;
+}
+
+struct Mistake {
+  std::string blocks, said;
+};
+
+void expectSaid(const std::vector<Mistake>& mistakes) {
+  for (const Mistake& mistake : mistakes)
+    EXPECT_EQ(saidOf(mistake.blocks), mistake.said) << mistake.blocks;
+}
+
+TEST(Mistakes, OfPathBlocks) {
+  expectSaid(
+      {{"L X+", "3:5: a number or a Q parameter is expected for X"},
+       {"L X+1 X+2 FMAX", "3:15: X is given twice in this block"},
+       {"L X+1 IX+2 FMAX", "3:16: X is given twice in this block"},
+       {"L X+5 RX", "3:8: a number or a Q parameter is expected for the radius R"},
+       {"L X+1e5 FMAX", "3:6: an axis, R0/RL/RR, F or M is expected here"},
+       {"APPR LT X+5", "3:12: LEN with the length of the line is expected in this block"},
+       {"APPR XX", "3:6: LT, LN, CT, LCT or one of their polar forms PLT, PLN, PCT, PLCT is expected"},
+       {"CR X+5 Y+5 R10 DR", "3:18: + or - is expected behind DR"},
+       {"C X+5 Y+5 DR+ F100", "Circle centre missing: There is no circle centre"},
+       {"CT X+5 F100", "Tangential arc not permitted: There is no contour element in front of CT"},
+       {"LP PR+10 PA+45 FMAX", "Pole missing: There is no pole for polar coordinates"},
+       {"M140", "3:5: MB with the way back is expected behind M140"},
+       {"M140 MB-5", "Retraction not permitted: M140 MB goes back along the tool axis: its way cannot be negative"},
+       {"HELLO", "3:1: this is no block of the Klartext language"}});
+}
+
+TEST(Mistakes, OfToolsAndCalls) {
+  expectSaid({{"TOOL CALL 99 Z", "Tool not defined: TOOL.T has no tool 99"},
+              {"TOOL CALL \"NONE\" Z", "Tool not defined: TOOL.T has no tool named NONE"},
+              {"TOOL CALL 5 Q", "3:13: the tool axis, S, F, DL, DR, DR2 or M is expected here"},
+              {"TOOL CALL 5 Z S-5", "Spindle speed wrong: A spindle speed of -5 is not possible"},
+              {"TOOL DEF", "3:9: a tool number or name is expected behind TOOL DEF"},
+              {"LBL \"A", "3:5: a label number, a label name in quotation marks or a QS parameter is expected"},
+              {"CALL LBL 7", "Label not found: there is no label 7 in this program"},
+              {"CALL LBL QS4", "Label not found: there is no label \"\" in this program"},
+              {"CALL PGM NONE.H", "Program not found: there is no program NONE.H"},
+              {"CALL SELECTED PGM", "Program not selected: CALL SELECTED PGM finds no program selected"},
+              {"SEL TABLE", "3:10: the name of a file is expected here"}});
+}
+
+TEST(Mistakes, OfCyclesInParts) {
+  expectSaid(
+      {{"CYCL DEF 7", "3:11: cycle 7 is written in parts"},
+       {"CYCL DEF 7.1 X+5", "3:13: this part of a cycle stands alone"},
+       {"CYCL DEF 7.0 SHIFT", "3:19: part 7.1 of this cycle is missing"},
+       {"CYCL DEF 7.0\nCYCL DEF 7.1",
+        "4:13: an axis with its shift, or # with a row of the datum table, is expected here"},
+       {"CYCL DEF 8.0\nCYCL DEF 8.1 X+5", "4:15: an axis letter is expected here"},
+       {"CYCL DEF 10.0\nCYCL DEF 10.1", "4:14: a number or a Q parameter is expected for the angle ROT"},
+       {"CYCL DEF 11.0\nCYCL DEF 11.1 SCL 0", "Scaling factor wrong: A scaling factor must be greater than 0"},
+       {"CYCL DEF 247 PRESET ~\nQ340=+3",
+        "4:8: cycle 247 takes Q339 with the row of the preset table and nothing else"},
+       {"CYCL DEF 247 PRESET ~\nQ339=+77", "Preset not defined: The preset table has no row 77"},
+       {"TCH PROBE 0.0 REF Q5 X-", "3:24: part 0.1 of this touch probe cycle is missing"},
+       {"TCH PROBE 0.0 REF Q5 X\nTCH PROBE 0.1 X+5", "3:23: the probing direction + or - is expected behind the axis"},
+       {"TCH PROBE 17 X", "3:13: touch probe cycle 17 is written in parts"},
+       {"CYCL DEF 200 X ~\nQ200=2 ~\nQ200=3", "5:7: Q200 is given twice in this cycle"}});
+}
+
+TEST(Mistakes, OfFunctionsAndFormulas) {
+  expectSaid({{"FN 99: Q1 = 2", "3:6: a number from 0 to 38 is expected behind FN"},
+              {"FN 1: Q1 = +1 - +2", "3:15: + is expected between the two values"},
+              {"FN 4: Q1 = +1 DIV +0", "Division by zero: division by zero"},
+              {"FN 5: Q1 = SQRT -4", "Argument out of range: the square root of -4 does not exist"},
+              {"FN 9: IF +1 EQU +1 LBL 3", "3:20: GOTO LBL is expected behind the condition"},
+              {"FN 14: ERROR", "3:13: '=' is expected behind ERROR"},
+              {"FN 26: TABOPEN", "Table missing: FN 26 names no table"},
+              {"FN 27: TABWRITE 5/\"A\" = Q1", "Table missing: No table is open for FN 27"},
+              {"Q1 = (3", "3:8: ')' is expected behind the expression in parentheses"},
+              {"Q1 = \"A\"", "Wrong data type: A Q parameter takes a number, not a text"},
+              {"QS1 = 5", "Wrong data type: QS1 takes a text, not a number"},
+              {"Q2000 = 3", "Parameter number wrong: Q2000 does not exist; the highest number is 1999"},
+              {"Q1 = TONUMB( SRC_\"abc\" )", "String is no number: TONUMB cannot read \"abc\" as a number"}});
+}
+
+TEST(Mistakes, OfPlanesAndTransformations) {
+  expectSaid({{"PLANE SPATIAL TURN FMAX", "3:24: the values that define the plane are missing"},
+              {"PLANE SPATIAL SPAX TURN", "3:18: a number or a Q parameter is expected for SPA"},
+              {"PLANE VECTOR BX0 NZ1 STAY", "Plane definition wrong: the base vector has no length"},
+              {"TRANS DATUM", "3:12: AXIS, TABLE or RESET is expected behind TRANS DATUM"},
+              {"TRANS DATUM AXIS", "3:17: an axis with its shift is expected here"},
+              {"TRANS DATUM TABLE TABLINE 5", "Datum table missing: No datum table is selected"},
+              {"PRESET SELECT 5", "3:15: '#' is expected behind PRESET SELECT"},
+              {"FUNCTION MODE X", "3:15: MILL, TURN, GRIND or SET is expected behind FUNCTION MODE"},
+              {"FUNCTION TCPM F TCP AXIS POS",
+               "Function not available: M128 and FUNCTION TCPM need a machine with rotary axes"}});
+}
+
+TEST(Mistakes, QuoteTheFirstLineOfTheirBlock) {
+  World world;
+  const RunResult result = world.run("CYCL DEF 247 PRESET ~\n  Q339=+77\n");
+  ASSERT_FALSE(result.diagnostics.empty());
+  EXPECT_EQ(result.diagnostics.front().excerpt, "CYCL DEF 247 PRESET");
+}
+
+TEST(Mistakes, WhatHasNoEffectIsNamedOrRefused) {
+  World world;
+  EXPECT_EQ(world.run("FUNCTION FILECOPY \"A\" TO \"B\"\nFUNCTION MODE MILL\n").end, RunEnd::Finished);
+  const auto& events = world.control->journal.events;
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].kind, control::EventKind::Skipped);
+  EXPECT_EQ(events[0].text, "FUNCTION FILECOPY \"A\" TO \"B\" is not simulated and was skipped");
+  world.options.strict = true;
+  EXPECT_EQ(world.run("FUNCTION FILECOPY \"A\" TO \"B\"\n").end, RunEnd::Alarm);
+}
+
+}  // namespace
+}  // namespace probewright::language::klartext::testing
