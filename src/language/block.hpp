@@ -200,7 +200,9 @@ struct CallProgram {
   Operand nameValue{};      ///< computed name instead of `name`
   WordRange arguments{};    ///< address: position from 0; absent values are omitted arguments
   Operand times{};          ///< P; absent: once
+  TextRef from{}, to{};     ///< SINUMERIK CALL NAME BLOCK from TO to: only this section of the program
   bool maybeCycle = false;  ///< if no program of that name exists, a measuring cycle of that name is meant
+  bool modal = false;       ///< SINUMERIK MCALL: from now on behind each block with a motion; without a name: no more
 };
 
 struct Return {};      ///< M17, RET

@@ -52,6 +52,9 @@ public:
   /// The control's own number or name of an alarm that evaluation or interpreter raise; empty: none is known.
   virtual std::string code(Refusal) const { return {}; }
 
+  /// Whether a program that was called modally (MCALL) is carried out behind this block.
+  virtual bool drivesModalCall(const Block&) const { return false; }
+
   /// Comparisons take two numbers for equal that differ by no more than this fraction of the larger one. SINUMERIK:
   /// 1e-12.
   virtual double relativeEquality() const { return 0; }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "base/number_text.hpp"
@@ -12,7 +13,6 @@ namespace probewright::language {
 
 namespace {
 
-constexpr std::uint64_t noSection = std::numeric_limits<std::uint64_t>::max();
 constexpr std::size_t mostCalls = 256;
 
 bool matches(const Breakpoint& breakpoint, const std::string& file) {
@@ -27,6 +27,18 @@ std::string_view firstLine(std::string_view text) {
   while (text.ends_with(' ') || text.ends_with('\r') || text.ends_with('~'))
     text.remove_suffix(1);
   return text;
+}
+
+/// The instructions of a block without the stop, return or end at its end.
+std::uint32_t behindLastAction(const Block& block) {
+  std::size_t behind = block.instructions.size();
+  const auto ends = [](const Instruction& each) {
+    return std::holds_alternative<Stop>(each) || std::holds_alternative<Return>(each) ||
+           std::holds_alternative<EndProgram>(each);
+  };
+  while (behind > 0 && ends(block.instructions[behind - 1]))
+    --behind;
+  return static_cast<std::uint32_t>(behind);
 }
 
 /// A block that cannot be read ends the run with its own messages.
@@ -69,6 +81,7 @@ void Interpreter::clear() {
   calls_.clear();
   frames_.clear();
   repeats_.clear();
+  modal_.reset();
   cache_.clear();
   current_ = nullptr;
   block_ = nullptr;
@@ -162,10 +175,13 @@ RunResult Interpreter::runLoop() {
 Interpreter::Flow Interpreter::carryOut(const Block& block, std::uint32_t first) {
   Evaluation evaluation(*current_->program, block, host_);
   const auto count = static_cast<std::uint32_t>(block.instructions.size());
+  const bool modally = modal_ != nullptr && modal_->level == 0 && host_.drivesModalCall(block);
+  const std::uint32_t last = modally ? behindLastAction(block) : 0;
   for (std::uint32_t i = first; i < count; ++i) {
     instruction_ = i;
     const Instruction& instruction = block.instructions[i];
-    const Flow flow = std::visit(Dispatch{*this, instruction, evaluation}, instruction);
+    Flow flow = std::visit(Dispatch{*this, instruction, evaluation}, instruction);
+    if (flow == Flow::Next && modally && i + 1 == last) flow = callModally();
     if (flow != Flow::Next) return flow;
   }
   return Flow::Next;
@@ -219,6 +235,8 @@ void Interpreter::nextPass() {
   if (section.remaining >= 1) {
     section.remaining -= 1;
     position_ = section.first;
+  } else if (section.kind == FrameKind::Program) {
+    leaveProgram();
   } else {
     resume(pop());
   }
@@ -267,10 +285,7 @@ Interpreter::Frame Interpreter::pop() {
   return frame;
 }
 
-void Interpreter::watchSection() {
-  const bool section = !frames_.empty() && frames_.back().kind == FrameKind::Section;
-  sectionLast_ = section ? frames_.back().last : noSection;
-}
+void Interpreter::watchSection() { sectionLast_ = frames_.empty() ? noSection : frames_.back().last; }
 
 // ---- jumps, subprograms, repeats ----
 
@@ -429,6 +444,10 @@ Interpreter::Loaded* Interpreter::called(std::string_view name, bool maybeNone) 
 
 Interpreter::Flow Interpreter::callProgram(const CallProgram& call, const Instruction& instruction,
                                            Evaluation& evaluation) {
+  if (call.modal) {
+    setModalCall(call, evaluation);
+    return Flow::Next;
+  }
   std::string computed;
   if (call.nameValue.present()) computed = evaluation.text(call.nameValue);
   const std::string_view name = call.nameValue.present() ? std::string_view(computed) : evaluation.at(call.name);
@@ -455,14 +474,79 @@ void Interpreter::enter(Loaded& program, const CallProgram& call, Evaluation& ca
     refuse(Refusal::NestingDepth, fmt::format("more than {} programs call each other", options_.programDepth),
            "look for a program that calls itself");
   }
+  BlockPosition first = program.program->begin();
+  std::uint64_t last = noSection;
+  if (call.from.length > 0) std::tie(first, last) = sectionOf(*program.program, call, caller);
   host_.enter(*program.program, &call, &caller);
-  push({.kind = FrameKind::Program, .caller = current_, .remaining = remaining});
+  push({.kind = FrameKind::Program, .caller = current_, .remaining = remaining, .last = last});
   frames_.back().sections = sections_ - 1;
   sections_ = 0;
   ++levels_;
   current_ = &program;
   block_ = nullptr;
-  position_ = program.program->begin();
+  position_ = first;
+}
+
+std::pair<BlockPosition, std::uint64_t> Interpreter::sectionOf(Program& program, const CallProgram& call,
+                                                               Evaluation& caller) const {
+  const auto labelled = [&](TextRef label, BlockPosition from, JumpDirection direction) {
+    const auto found = program.findLabel(caller.at(label), from, direction);
+    if (found) return *found;
+    refuse(Refusal::MissingLabel,
+           fmt::format("the program {} has no section from {} to {}: the label {} is missing", program.name(),
+                       caller.at(call.from), caller.at(call.to), caller.at(label)),
+           "check how the labels are written, and their order");
+  };
+  const BlockPosition first = labelled(call.from, program.begin(), JumpDirection::Any);
+  if (caller.at(call.from) == caller.at(call.to)) return {first, first.offset};
+  return {first, labelled(call.to, first, JumpDirection::Forward).offset};
+}
+
+void Interpreter::setModalCall(const CallProgram& call, Evaluation& evaluation) {
+  if (call.name.length == 0) {
+    modal_.reset();
+    return;
+  }
+  auto modal = std::make_unique<ModalCall>();
+  Block& kept = modal->block;
+  CallProgram copy = call;
+  copy.modal = false;
+  copy.name = kept.add(evaluation.at(call.name));
+  copy.arguments.first = 0;
+  for (Word word : evaluation.words(call.arguments)) {
+    if (word.value.present()) {
+      const Value value = evaluation.value(word.value);
+      if (const auto* text = std::get_if<std::string>(&value)) {
+        Node node;
+        node.operation = Operation::Text;
+        node.text = kept.add(*text);
+        kept.nodes.push_back(node);
+        word.value = {0, static_cast<std::int32_t>(kept.nodes.size() - 1)};
+      } else {
+        word.value = Operand::of(std::get<double>(value));
+      }
+    }
+    kept.words.push_back(word);
+  }
+  kept.source = kept.add(evaluation.at(evaluation.block().source));
+  kept.instructions.emplace_back(copy);
+  modal_ = std::move(modal);
+}
+
+Interpreter::Flow Interpreter::callModally() {
+  Block& block = modal_->block;
+  block.position = block_->block.position;
+  Evaluation evaluation(*current_->program, block, host_);
+  const Instruction& instruction = block.instructions.front();
+  const auto& call = std::get<CallProgram>(instruction);
+  Loaded* program = called(block.at(call.name), true);
+  if (program == nullptr) {
+    host_.execute(instruction, evaluation);
+    return Flow::Next;
+  }
+  enter(*program, call, evaluation, 0);
+  modal_->level = levels_;
+  return Flow::Moved;
 }
 
 Interpreter::Flow Interpreter::leaveProgram() {
@@ -476,6 +560,7 @@ Interpreter::Flow Interpreter::leaveProgram() {
   }
   sections_ = frame.sections;
   --levels_;
+  if (modal_ && modal_->level > levels_) modal_->level = 0;
   current_ = frame.caller;
   position_ = frame.call;
   block_ = nullptr;

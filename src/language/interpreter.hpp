@@ -3,11 +3,13 @@
 #include <bitset>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/diagnostic.hpp"
@@ -78,6 +80,8 @@ struct RunResult {
 ///   with the block of the label ENDLABEL. If REPEAT stands in front of the section's end, the section ends with
 ///   REPEAT. A jump out of the section ends its repetition.
 /// - END PGM, M2, M30, M17, RET and the end of the file end the program, in a called one they return to the caller.
+/// - MCALL (CallProgram::modal): the arguments are computed once, there; the call follows each block that the host says
+///   drives it, in front of M0, M1, M17 and M30 of that block, but not inside of the program that is called this way.
 /// - FOR counts up in steps of one and compares with its limit, which is computed anew each time; the variable keeps
 ///   the first value above the limit.
 class Interpreter {
@@ -109,6 +113,14 @@ private:
     double remaining;
   };
 
+  /// MCALL as it was programmed, its arguments computed.
+  struct ModalCall {
+    Block block;
+    int level = 0;  ///< of the called program while it is under way; 0: it is not
+  };
+
+  static constexpr std::uint64_t noSection = std::numeric_limits<std::uint64_t>::max();
+
   enum class FrameKind : std::uint8_t { Program, Label, Section };
 
   /// Where to go on after a program, a subprogram or a section.
@@ -118,12 +130,12 @@ private:
     BlockPosition call{};      ///< the block with the call
     BlockPosition next{};      ///< the one behind it
     std::uint32_t instruction = 0;
-    bool more = false;        ///< the block has instructions behind the call
-    double remaining = 0;     ///< passes that are still to come
-    BlockPosition first{};    ///< Section
-    std::uint64_t last = 0;   ///< Section: offset of its last block
-    std::size_t repeats = 0;  ///< counts in force below this frame
-    int sections = 0;         ///< Program: labels and sections under way in the caller
+    bool more = false;               ///< the block has instructions behind the call
+    double remaining = 0;            ///< passes that are still to come
+    BlockPosition first{};           ///< Section
+    std::uint64_t last = noSection;  ///< Section, or Program of which a section was called: offset of its last block
+    std::size_t repeats = 0;         ///< counts in force below this frame
+    int sections = 0;                ///< Program: labels and sections under way in the caller
   };
 
   enum class Flow { Next, Moved, Finished };
@@ -142,6 +154,8 @@ private:
   Flow repeatSection(const RepeatSection& repeat, Evaluation& evaluation);
   Flow callProgram(const CallProgram& call, const Instruction& instruction, Evaluation& evaluation);
   Flow followRequest(Evaluation& evaluation);
+  void setModalCall(const CallProgram& call, Evaluation& evaluation);
+  Flow callModally();
   Flow structured(const Structured& statement, Evaluation& evaluation);
   Flow endFor();
   Flow leaveProgram();
@@ -154,6 +168,8 @@ private:
   void goTo(BlockPosition position);
   void resume(const Frame& frame);
   void enter(Loaded& program, const CallProgram& call, Evaluation& caller, double remaining);
+  std::pair<BlockPosition, std::uint64_t> sectionOf(Program& program, const CallProgram& call,
+                                                    Evaluation& caller) const;
   void push(Frame frame);
   Frame pop();
   void watchSection();
@@ -190,6 +206,7 @@ private:
   std::uint64_t sectionLast_ = 0;  ///< offset of the last block of the innermost section
   int sections_ = 0;               ///< labels and sections under way in the current program
   int levels_ = 0;                 ///< programs under way
+  std::unique_ptr<ModalCall> modal_;
   std::uint64_t blocks_ = 0;
   bool stepping_ = false;
 };

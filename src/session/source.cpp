@@ -106,7 +106,7 @@ std::shared_ptr<language::Program> programOf(std::string name, std::string text,
 std::unique_ptr<language::ProgramLibrary> programLibrary(ControlKind kind, std::vector<std::filesystem::path> folders) {
   const bool heidenhain = control::isHeidenhain(kind);
   std::vector<std::string> endings =
-      heidenhain ? std::vector<std::string>{".H", ".I"} : std::vector<std::string>{".SPF", ".MPF"};
+      heidenhain ? std::vector<std::string>{".H", ".I"} : std::vector<std::string>{".SPF", ".MPF", ".CPF", ".CYC"};
   const auto open = [kind](const std::filesystem::path& path) {
     return openProgram(path, languageFor(kind, path, {}));
   };

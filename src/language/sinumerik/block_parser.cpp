@@ -155,6 +155,9 @@ void BlockParser::parseStatements() {
       parseAssignment(cursor_.offset());
     } else {
       const std::string found(1, first);
+      if (first == ':' && !block_->instructions.empty())
+        return fail(cursor_.offset(), "what stands before this ':' is no label",
+                    "The name of a label begins with two letters or underscores: LA1:.");
       fail(cursor_.offset(), "'" + found + "' cannot begin a statement",
            "Addresses are letters with a value (X10), everything else is written NAME=value or NAME(arguments).");
     }

@@ -30,7 +30,6 @@ namespace probewright::sinumerik {
 ///  - PROC, EXTERN, DEFINE, synchronized actions: Command whose text is the rest of the block in upper case.
 ///  - G4: Command{"G4"}, words F or S. MEAS/MEAW: Command, words[0] address "MEAS" the event, then axis words and F;
 ///    text: "G0" or "G1" if the block says so; MEASA/MEAWA have "MAX" the axis and "MMO" the mode behind the event.
-///    MCALL: Command, text the program, words the arguments.
 ///  - An axis given by a variable, AX[v]=..: word "AX[]" with the axis followed by word "=AX" with the value.
 ///  - M functions with a spindle number, M2=3: number 3, argument the spindle. M=expression: number -1, argument.
 class BlockParser {
@@ -107,6 +106,7 @@ private:
 
   // calls.cpp
   void parseCall(std::size_t start);
+  bool parseCalledSection(language::TextRef& from, language::TextRef& to);
   void parsePathCall(std::size_t start);
   void parseModalCall();
   void parseRest(std::string_view name);

@@ -50,9 +50,14 @@ void BlockParser::parseProgramCall(TextRef name, bool maybeCycle) {
   if (!failed_) block_->instructions.emplace_back(call);
 }
 
-/// CALL "NAME", CALL NAMEVARIABLE, EXTCALL "PATH", EXTCALL("PATH").
+/// CALL "NAME", CALL NAMEVARIABLE, EXTCALL "PATH", EXTCALL("PATH"); CALL ["NAME"] BLOCK FROM TO LAST.
 void BlockParser::parseCall(std::size_t start) {
   cursor_.skipBlanks();
+  if (cursor_.peekName() == "BLOCK") {
+    RepeatSection section;
+    if (parseCalledSection(section.from, section.to)) block_->instructions.emplace_back(section);
+    return;
+  }
   if (cursor_.atEnd()) return fail(start, "the program to call is missing", "Write CALL \"NAME\".");
   CallProgram call;
   call.nameValue = parseExpression();
@@ -66,7 +71,28 @@ void BlockParser::parseCall(std::size_t start) {
   } else {
     return fail(start, "CALL needs the name of a program", "Write CALL \"NAME\".");
   }
+  cursor_.skipBlanks();
+  if (cursor_.peekName() == "BLOCK" && !parseCalledSection(call.from, call.to)) return;
   block_->instructions.emplace_back(call);
+}
+
+/// BLOCK FROM TO LAST behind CALL.
+bool BlockParser::parseCalledSection(TextRef& from, TextRef& to) {
+  constexpr const char* advice = "Write CALL \"NAME\" BLOCK FIRSTLABEL TO LASTLABEL.";
+  cursor_.advance(5);
+  from = parseTarget();
+  cursor_.skipBlanks();
+  if (from.length == 0 || cursor_.peekName() != "TO") {
+    fail(
+        cursor_.offset(),
+        from.length == 0 ? "the first label of the section to call was expected" : "TO expected behind the first label",
+        advice);
+    return false;
+  }
+  cursor_.advance(2);
+  to = parseTarget();
+  if (to.length == 0) fail(cursor_.offset(), "the last label of the section to call was expected", advice);
+  return !failed_;
 }
 
 /// PCALL /_N_WKS_DIR/_N_PART_WPD/_N_SUB_SPF(arguments).
@@ -82,17 +108,17 @@ void BlockParser::parsePathCall(std::size_t start) {
 
 /// MCALL NAME(arguments) calls after each motion; MCALL alone ends that.
 void BlockParser::parseModalCall() {
-  Command command;
-  command.name = block_->add("MCALL");
+  CallProgram call;
+  call.modal = call.maybeCycle = true;
   cursor_.skipBlanks();
-  const std::size_t start = cursor_.offset();
   if (isNameStart(cursor_.peek())) {
+    const std::size_t start = cursor_.offset();
     cursor_.name();
-    command.text = upper(cursor_.since(start));
+    call.name = upper(cursor_.since(start));
     cursor_.skipBlanks();
-    if (cursor_.peek() == '(') command.words = parseArguments();
+    if (cursor_.peek() == '(') call.arguments = parseArguments();
   }
-  if (!failed_) block_->instructions.emplace_back(command);
+  if (!failed_) block_->instructions.emplace_back(call);
 }
 
 /// Statements whose text is kept whole.

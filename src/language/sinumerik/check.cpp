@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cycles/catalogue.hpp"
+#include "language/sinumerik/cursor.hpp"
 #include "language/sinumerik/keywords.hpp"
 #include "language/sinumerik/operators.hpp"
 #include "language/sinumerik/writer.hpp"
@@ -41,6 +42,8 @@ private:
   Diagnostic complaint(std::size_t column, std::string message, std::string advice) const;
   void report(std::size_t column, std::string message, std::string advice, Severity severity = Severity::Error);
   void declare(const Instruction& instruction);
+  void declareFromBrokenBlock();
+  void checkSection(const CallProgram& call, Program& called);
   void checkNames();
   void checkPriorities();
   void checkInstruction(const Instruction& instruction);
@@ -90,6 +93,28 @@ void Checker::declare(const Instruction& instruction) {
   } else if (what == "DEFINE") {
     const std::string text = upperCase(block_.at(command->text));
     macros_.insert(text.substr(0, text.find(' ')));
+  }
+}
+
+/// A DEF with a mistake has been reported; that its variables are missing then need not be said again.
+void Checker::declareFromBrokenBlock() {
+  const std::string line = upperCase(block_.at(block_.source));
+  Cursor cursor(line);
+  std::string_view word;
+  while (!cursor.atEnd() && word != "DEF") {
+    word = cursor.name();
+    if (word.empty()) cursor.advance();
+  }
+  if (word != "DEF") return;
+  for (bool inText = false; !cursor.atEnd();) {
+    const char c = cursor.peek();
+    if (c == '"') inText = !inText;
+    if (c == ';' && !inText) return;
+    word = inText ? std::string_view() : cursor.name();
+    if (word.empty())
+      cursor.advance();
+    else
+      declared_.insert(std::string(word));
   }
 }
 
@@ -201,7 +226,14 @@ void Checker::checkParameters(const CallProgram& call, const BlockParser::Header
   }
   for (std::size_t i = 0; i < header.parameters.size(); ++i) {
     const BlockParser::Parameter& parameter = header.parameters[i];
-    if (!parameter.byReference || i >= call.arguments.count) continue;
+    if (!parameter.byReference) continue;
+    if (i >= call.arguments.count || !words[i].value.present()) {
+      report(columnOf(header.name),
+             fmt::format("argument {} of {} is missing: the VAR parameter {} needs a variable", i + 1, header.name,
+                         parameter.name),
+             "Write the name of the variable that takes the result.");
+      continue;
+    }
     const Operand& value = words[i].value;
     const bool isVariable =
         value.node >= 0 && block_.nodes[static_cast<std::size_t>(value.node)].operation == Operation::Variable;
@@ -213,19 +245,42 @@ void Checker::checkParameters(const CallProgram& call, const BlockParser::Header
   }
 }
 
+/// "/_N_WKS_DIR/_N_PART_WPD/_N_SUB_SPF" -> "SUB".
+std::string plainName(std::string_view path) {
+  path = path.substr(path.find_last_of("/\\") + 1);
+  if (!path.starts_with("_N_")) return std::string(path);
+  path.remove_prefix(3);
+  const bool ending = path.size() > 4 && path[path.size() - 4] == '_';
+  return std::string(path.substr(0, path.size() - (ending ? 4 : 0)));
+}
+
+void Checker::checkSection(const CallProgram& call, Program& called) {
+  const std::string_view from = block_.at(call.from), to = block_.at(call.to);
+  const auto first = called.findLabel(from, called.begin(), JumpDirection::Any);
+  const bool last = first && (from == to || called.findLabel(to, *first, JumpDirection::Forward));
+  if (!last)
+    report(columnOf(first ? to : from),
+           fmt::format("the program {} has no section from {} to {}", called.name(), from, to),
+           fmt::format("The label {} is missing there, or stands before {}.", first ? to : from, from));
+}
+
 void Checker::checkCall(const CallProgram& call) {
-  if (call.nameValue.present()) return;
-  const std::string name = upperCase(block_.at(call.name));
+  if (call.nameValue.present() || call.name.length == 0) return;
+  const std::string path = upperCase(block_.at(call.name)), name = plainName(path);
   if (macros_.contains(name)) return;
-  if (options_.library != nullptr && options_.library->exists(name, &program_)) {
-    const auto called = options_.library->open(name, &program_);
-    if (!called) return;
+  if (options_.library != nullptr && options_.library->exists(path, &program_)) {
+    const auto called = options_.library->open(path, &program_);
+    if (!called) {
+      const Diagnostic& why = called.error();
+      return report(columnOf(path), fmt::format("the program {} cannot be read: {}", name, why.message), why.advice);
+    }
+    if (call.from.length != 0) return checkSection(call, **called);
     if (auto* subprogram = dynamic_cast<SinumerikProgram*>(called->get());
         subprogram != nullptr && subprogram->structure().header())
       checkParameters(call, *subprogram->structure().header());
     return;
   }
-  const std::size_t column = columnOf(name);
+  const std::size_t column = columnOf(path);
   if (call.maybeCycle) {
     if (const cycles::CycleDefinition* cycle = cycles::sinumerikCycle(name)) return checkCycle(call, *cycle);
     if (name == "CYCLE800" || name == "CYCLE116") return;
@@ -243,8 +298,9 @@ void Checker::checkCall(const CallProgram& call) {
   for (const KeywordEntry& keyword : keywords())
     names.push_back(keyword.name);
   const std::string_view close = closestName(name, names);
-  const std::string message = "there is no program and no cycle " + name;
-  const std::string advice = close.empty() ? "Put " + name + ".SPF beside the program, or check the spelling."
+  const std::string message = (call.maybeCycle ? "there is no program and no cycle " : "there is no program ") + name;
+  const std::string file = name.find('.') == std::string::npos ? name + ".SPF" : name;
+  const std::string advice = close.empty() ? "Put " + file + " beside the program, or check the spelling."
                                            : "Did you mean " + std::string(close) + "?";
   if (options_.library == nullptr && close.empty()) return;
   report(column, message, advice);
@@ -280,7 +336,10 @@ Diagnostics Checker::run() {
   if (const auto& header = program_.structure().header())
     for (const BlockParser::Parameter& parameter : header->parameters)
       declared_.insert(parameter.name);
-  for (BlockPosition at = program_.begin(); program_.parse(at, block_, found_); at = block_.next) {
+  for (BlockPosition at = program_.begin();; at = block_.next) {
+    const std::size_t before = found_.size();
+    if (!program_.parse(at, block_, found_)) break;
+    if (found_.size() > before) declareFromBrokenBlock();
     for (const Instruction& instruction : block_.instructions)
       declare(instruction);
     checkNames();

@@ -120,7 +120,7 @@ void BlockParser::parseProcedure(std::string_view keyword) {
   std::size_t mistakeOffset = 0;
   const std::string_view text = std::string_view(upper_).substr(offset, command.text.length);
   if (!parseHeader(text, header, mistake, mistakeOffset))
-    return fail(offset + mistakeOffset, mistake, "Write " + std::string(keyword) + " NAME(REAL A, VAR INT B).");
+    return fail(offset + mistakeOffset, mistake, "Write " + std::string(keyword) + " NAME(REAL WIDTH, VAR INT COUNT).");
   block_->instructions.emplace_back(command);
 }
 
@@ -152,6 +152,8 @@ bool BlockParser::parseHeader(std::string_view text, Header& header, std::string
       }
       cursor.skipBlanks();
       parameter.name = std::string(cursor.name());
+      if (!parameter.name.empty() && (parameter.name.size() < 2 || !isNameStart(parameter.name[1])))
+        return refuse("the name " + parameter.name + " of a parameter does not begin with two letters or underscores");
       if (cursor.take('[')) {
         do {
           cursor.skipBlanks();

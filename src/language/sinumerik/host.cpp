@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "control/alarm.hpp"
@@ -62,6 +63,18 @@ bool SinumerikHost::beginBlock(const Program& program, const Block& block) {
   return true;
 }
 
+/// Motions, also those without a way: G0 or G1 alone, F and S while G0 or G1 is active.
+bool SinumerikHost::drivesModalCall(const Block& block) const {
+  const bool straight = state_.group1 == MoveKind::Rapid || state_.group1 == MoveKind::Linear;
+  return std::ranges::any_of(block.instructions, [&](const Instruction& each) {
+    if (std::holds_alternative<Move>(each)) return true;
+    const auto* modal = std::get_if<Modal>(&each);
+    if (modal == nullptr) return false;
+    const std::string_view name = block.at(modal->name);
+    return name == "G0" || name == "G1" || (straight && (name == "F" || name == "S"));
+  });
+}
+
 void SinumerikHost::execute(const Instruction& instruction, Evaluation& evaluation) {
   std::visit([&](const auto& each) { carryOut(each, evaluation); }, instruction);
 }
@@ -100,6 +113,7 @@ Value SinumerikHost::call(std::string_view name, std::span<const Value> argument
 void SinumerikHost::enter(const Program& program, const CallProgram* call, Evaluation* caller) {
   Level level;
   level.program = &program;
+  level.call = control_.panel.place;
   const auto* own = dynamic_cast<const SinumerikProgram*>(&program);
   const BlockParser::Header* header = nullptr;
   if (own != nullptr) {
@@ -123,7 +137,7 @@ void SinumerikHost::enter(const Program& program, const CallProgram* call, Evalu
         sizes[k] = std::max(parameter.dimensions[k], 1);
       UserVariable variable(parameter.type, sizes, 200);
       if (!present) {
-        if (parameter.byReference)
+        if (parameter.byReference && call->from.length == 0)
           throw Alarm("14020",
                       fmt::format("the VAR parameter {} of {} has no argument", parameter.name, program.name()));
         const bool text = parameter.type == Type::String || parameter.type == Type::Axis;
@@ -168,6 +182,7 @@ void SinumerikHost::leave(const Program&) {
   motion_.flush();
   Level level = std::move(levels_.back());
   levels_.pop_back();
+  if (!levels_.empty()) control_.panel.place = level.call;
   control_.level = std::max(1, static_cast<int>(levels_.size()));
   UserVariables::Scope left = variables_.leave();
   for (const auto& [parameter, source] : level.references) {

@@ -37,6 +37,7 @@ public:
   bool isDefined(const language::VariableRef& variable, Evaluation& evaluation) override;
   Value call(std::string_view name, std::span<const Value> arguments) override;
   void execute(const language::Instruction& instruction, Evaluation& evaluation) override;
+  bool drivesModalCall(const language::Block& block) const override;
   bool beginBlock(const language::Program& program, const language::Block& block) override;
   std::string code(language::Refusal refusal) const override;
   double relativeEquality() const override { return 1e-12; }
@@ -103,6 +104,7 @@ private:
   /// One program level.
   struct Level {
     const language::Program* program = nullptr;
+    SourcePlace call;                                                  ///< the block of the caller
     std::vector<std::pair<std::string, ResolvedVariable>> references;  ///< VAR parameters and where they come from
     std::optional<SavedState> saved;
   };

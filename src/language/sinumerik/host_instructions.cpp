@@ -375,11 +375,6 @@ void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
     return control_.applyFrames();
   }
   if (keywordOf(name) == Keyword::SynchronizedAction) return skip(fmt::format("the synchronized action {}", name));
-  if (name == "MCALL") {
-    const std::string_view program = evaluation.at(command.text);
-    if (program.empty()) return;
-    return skip(fmt::format("MCALL {}", program));
-  }
   static constexpr std::string_view noticed[] = {"G74",    "PRESETON", "READ",      "DELETE",   "EXECSTRING",
                                                  "REPOSA", "REPOSL",   "MMC",       "FTOCON",   "CONTPRON",
                                                  "NEWT",   "DELT",     "PRESETONS", "WORKPIECE"};

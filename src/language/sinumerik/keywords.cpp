@@ -388,6 +388,7 @@ constexpr auto keywordTable = [] {
       {"IDS", Keyword::SynchronizedAction},
       // Words inside statements.
       {"TO", Keyword::Reserved},
+      {"BLOCK", Keyword::Reserved},
       {"OF", Keyword::Reserved},
       {"DEFAULT", Keyword::Reserved},
       {"AND", Keyword::Reserved},

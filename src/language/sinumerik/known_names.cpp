@@ -32,8 +32,15 @@ bool isSkippedCycle(std::string_view name) {
   };
   if (std::find(std::begin(machining), std::end(machining), name) != std::end(machining)) return true;
   if (!name.starts_with("CYCLE") || name.size() < 7 || name.size() > 9) return false;
-  if (isMeasuringCycle(name)) return false;
-  return std::all_of(name.begin() + 5, name.end(), isDigit);
+  if (isMeasuringCycle(name) || !std::all_of(name.begin() + 5, name.end(), isDigit)) return false;
+  // Technology cycles: drilling and milling 60 to 99 and 800 to 899, turning 930 to 959, grinding 4070 to 4079,
+  // position patterns and the like.
+  int number = 0;
+  for (const char digit : name.substr(5))
+    number = 10 * number + (digit - '0');
+  const auto within = [number](int first, int last) { return number >= first && number <= last; };
+  return within(60, 119) || within(200, 299) || within(400, 499) || within(700, 899) || within(930, 959) ||
+         within(3000, 3999) || within(4070, 4079);
 }
 
 bool isMeasuringCycle(std::string_view name) {

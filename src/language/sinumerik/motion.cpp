@@ -25,7 +25,11 @@ double turnsTowards(double current, double angle) { return angle + 360 * std::ro
 }  // namespace
 
 PathMotion::PathMotion(Control& control, MotionState& state)
-    : control_(control), state_(state), compensator_([this](const PathElement& element) { run(element); }) {
+    : control_(control),
+      state_(state),
+      corners_(
+          [this](const PathElement& element) { compensator_.active() ? compensator_.add(element) : run(element); }),
+      compensator_([this](const PathElement& element) { run(element); }) {
   for (const machine::Axis& axis : control.channel.description().axes)
     axisCodes_.push_back(addressOf(control::sinumerik::upperCase(axis.name)));
 }
@@ -129,17 +133,104 @@ bool PathMotion::readArcWord(std::uint32_t address, WordMode mode, double value,
       words.polarRadius = length;
       words.polarRadiusIncremental = mode == WordMode::Incremental;
       return true;
-    // Corner rounding and chamfers, feeds of corners, tool orientation: the corner itself is travelled.
+    case addressOf("ANG"):
+      words.angle = value;
+      return true;
+    case addressOf("ANG1"):
+    case addressOf("ANG2"):
+      throw Alarm("12080", fmt::format("contours with {} are not carried out", addressName(address)),
+                  "write each straight line into a block of its own, with ANG or with its end point");
+    default:
+      return readCornerWord(address, value, words);
+  }
+}
+
+/// Roundings and chamfers: what the block says goes before RNDM.
+bool PathMotion::readCornerWord(std::uint32_t address, double value, Words& words) {
+  const auto corner = [&](Corner::Kind kind) { words.corner = Corner{kind, value * control_.unit, {}}; };
+  if (!(value >= 0) && (address == addressOf("RND") || address == addressOf("RNDM") || address == addressOf("CHF") ||
+                        address == addressOf("CHR")))
+    throw Alarm("14020", fmt::format("{} cannot be negative", addressName(address)), "write its size without a sign");
+  switch (address) {
     case addressOf("RND"):
-    case addressOf("RNDM"):
+      corner(Corner::Kind::Rounding);
+      return true;
     case addressOf("CHF"):
+      corner(Corner::Kind::ChamferLength);
+      return true;
     case addressOf("CHR"):
+      corner(Corner::Kind::ChamferWidth);
+      return true;
+    case addressOf("RNDM"):
+      state_.modalRounding = value * control_.unit;
+      return true;
     case addressOf("FRC"):
+      words.cornerFeed = value;
+      return true;
     case addressOf("FRCM"):
+      state_.modalCornerFeed = value;
       return true;
     default:
       return false;
   }
+}
+
+std::optional<Corner> PathMotion::cornerOf(const Words& words, Feed own) const {
+  std::optional<Corner> corner = words.corner;
+  if (!corner && state_.modalRounding > 0) corner = Corner{Corner::Kind::Rounding, state_.modalRounding, {}};
+  if (!corner) return corner;
+  const double programmed = words.cornerFeed > 0 ? words.cornerFeed : state_.modalCornerFeed;
+  // F of the block stands for the same kind of feed.
+  if (programmed > 0 && !own.rapid && state_.feed > 0)
+    corner->feed = Feed::at(own.perMinute * programmed / state_.feed);
+  return corner;
+}
+
+/// ANG: the direction of a straight line and one coordinate of its end give the other one. A line with ANG alone ends
+/// where the line of the next block begins, whose end and direction are known. False if this line waits for that.
+bool PathMotion::resolveAngle(Words& words, MoveKind kind) {
+  const control::WorkingPlane plane = control_.workingPlane();
+  std::optional<double>& main = words.target.linear[static_cast<std::size_t>(plane.main)];
+  std::optional<double>& minor = words.target.linear[static_cast<std::size_t>(plane.minor)];
+  const auto refuse = [](const char* why) { throw Alarm("14090", why, "check ANG and the end point"); };
+  const auto along = [&](double angle) {
+    Vector3 direction = Vector3::Zero();
+    direction[plane.main] = std::cos(radiansFromDegrees(angle));
+    direction[plane.minor] = std::sin(radiansFromDegrees(angle));
+    return direction;
+  };
+  const Vector3 from = start();
+  if (openLine_) {
+    Words first = *openLine_;
+    openLine_.reset();
+    if (!words.angle || !main || !minor) refuse("the line behind one with ANG alone needs its end point and ANG");
+    PathElement one, other;
+    one.start = from;
+    one.end = from + along(*first.angle);
+    other.end = from;
+    other.end[plane.main] = *main;
+    other.end[plane.minor] = *minor;
+    other.start = other.end - along(*words.angle);
+    const std::vector<Vector3> crossing = intersections(one, other, plane);
+    if (crossing.empty()) refuse("the two lines with ANG are parallel");
+    first.target.linear[static_cast<std::size_t>(plane.main)] = crossing.front()[plane.main];
+    first.target.linear[static_cast<std::size_t>(plane.minor)] = crossing.front()[plane.minor];
+    moveStraight(first, kind);
+    return true;
+  }
+  const Vector3 direction = along(*words.angle);
+  if (main && !minor) {
+    if (std::abs(direction[plane.main]) < 1e-9) refuse("a line square to the 1st axis of the plane cannot end there");
+    minor = from[plane.minor] + (*main - from[plane.main]) * direction[plane.minor] / direction[plane.main];
+  } else if (minor && !main) {
+    if (std::abs(direction[plane.minor]) < 1e-9) refuse("a line along the 1st axis of the plane cannot end there");
+    main = from[plane.main] + (*minor - from[plane.minor]) * direction[plane.main] / direction[plane.minor];
+  } else if (!main) {
+    openLine_ = words;
+    openLine_->anyLinear = true;
+    return false;
+  }
+  return true;
 }
 
 PathMotion::Words PathMotion::read(WordRange range, Evaluation& evaluation) {
@@ -222,20 +313,23 @@ void PathMotion::carryOut(const Move& move, Evaluation& evaluation) {
     flush();
     return moveWithoutFrames(move, evaluation);
   }
-  const Words words = read(move.words, evaluation);
+  Words words = read(move.words, evaluation);
   const MoveKind kind = state_.group1;
+  if ((words.angle || openLine_) && !resolveAngle(words, kind)) return;
+  if (!words.anyMotion()) return;  // RNDM, FRCM
   if (kind == MoveKind::Rapid || kind == MoveKind::Linear || kind == MoveKind::Modal) return moveStraight(words, kind);
   PathElement element = arc(words, kind);
   element.feed = feed(kind, element.start, element.end);
   direction_ = element.endDirection();
-  append(element);
+  append(element, cornerOf(words, element.feed));
 }
 
 void PathMotion::moveStraight(const Words& words, MoveKind kind) {
   const Vector3 from = start(), to = endOf(words);
   const Feed speed = feed(kind == MoveKind::Rapid ? MoveKind::Rapid : MoveKind::Linear, from, to);
   if ((to - from).norm() > 1e-9) direction_ = (to - from).normalized();
-  if (words.anyRotary || !compensator_.active()) {
+  const std::optional<Corner> corner = cornerOf(words, speed);
+  if (words.anyRotary || (!compensator_.active() && !corner && !corners_.holds())) {
     flush();
     control_.channel.moveTo(words.target, speed);
     return;
@@ -244,14 +338,13 @@ void PathMotion::moveStraight(const Words& words, MoveKind kind) {
   line.start = from;
   line.end = to;
   line.feed = speed;
-  append(line);
+  append(line, corner);
 }
 
-void PathMotion::append(PathElement element) {
-  if (!compensator_.active()) return run(element);
+void PathMotion::append(const PathElement& element, const std::optional<Corner>& corner) {
   programmed_ = element.end;
-  compensator_.add(element);
-  if (!compensator_.active()) programmed_.reset();
+  corners_.add(element, corner, control_.workingPlane());
+  if (!compensator_.active() && !corners_.holds()) programmed_.reset();
 }
 
 void PathMotion::run(const PathElement& element) {
@@ -265,6 +358,8 @@ void PathMotion::run(const PathElement& element) {
 }
 
 void PathMotion::flush() {
+  openLine_.reset();
+  corners_.flush();
   compensator_.flush();
   if (programmed_ && !compensator_.active()) programmed_.reset();
 }
@@ -273,6 +368,7 @@ void PathMotion::setCompensation(RadiusCompensation compensation) {
   const bool wanted = compensation != RadiusCompensation::Off;
   if (compensation == state_.compensation) return;
   const bool was = state_.compensation != RadiusCompensation::Off;
+  corners_.flush();
   state_.compensation = compensation;
   control_.radiusCompensation = wanted;
   if (was) {

@@ -10,6 +10,7 @@
 #include "control/sinumerik/control.hpp"
 #include "language/block.hpp"
 #include "language/evaluation.hpp"
+#include "language/sinumerik/corner.hpp"
 #include "language/sinumerik/radius_compensation.hpp"
 
 namespace probewright::sinumerik {
@@ -30,6 +31,8 @@ struct MotionState {
   Vector3 pole = Vector3::Zero();  ///< of polar coordinates, program coordinates
   language::RadiusCompensation compensation = language::RadiusCompensation::Off;
   bool cornerArc = true;                   ///< G450; false: G451
+  double modalRounding = 0;                ///< RNDM, mm; 0: corners stay as they are
+  double modalCornerFeed = 0;              ///< FRCM; 0: corners have the feed of their block
   std::map<std::string, double> axisFeed;  ///< FA[axis]
   std::array<int, 70> gGroup{};            ///< $P_GG: active function of each G group; 0: as after reset
 };
@@ -41,8 +44,8 @@ struct Measurement {
   Vector3 tip = Vector3::Zero();  ///< program coordinates
 };
 
-/// Carries out the motions of a channel: straight lines, arcs, polar coordinates, tool radius compensation, measuring
-/// blocks. Throws Alarm.
+/// Carries out the motions of a channel: straight lines, arcs, polar coordinates, roundings and chamfers, tool radius
+/// compensation, measuring blocks. Throws Alarm.
 class PathMotion {
 public:
   PathMotion(Control& control, MotionState& state);
@@ -79,6 +82,13 @@ private:
     std::optional<double> radius, opening, polarAngle, polarRadius;
     bool polarAngleIncremental = false, polarRadiusIncremental = false;
     int turns = 0;
+    std::optional<double> angle;  ///< ANG, towards the 1st axis of the plane
+    std::optional<Corner> corner;
+    double cornerFeed = 0;  ///< FRC
+
+    bool anyMotion() const {
+      return anyLinear || anyRotary || centre[0] || centre[1] || centre[2] || opening || turns > 0;
+    }
   };
   Words read(language::WordRange range, Evaluation& evaluation);
   void readAxis(std::uint32_t address, language::WordMode mode, double value, Words& words);
@@ -94,7 +104,10 @@ private:
   PathElement arcAboutCentre(const Words& words, bool clockwise, Vector3 from, Vector3 to) const;
   PathElement arcThroughPoint(const Words& words, Vector3 from, Vector3 to) const;
   PathElement tangentialArc(Vector3 from, Vector3 to) const;
-  void append(PathElement element);
+  bool readCornerWord(std::uint32_t address, double value, Words& words);
+  bool resolveAngle(Words& words, language::MoveKind kind);
+  std::optional<Corner> cornerOf(const Words& words, control::Feed next) const;
+  void append(const PathElement& element, const std::optional<Corner>& corner);
   void run(const PathElement& element);
   void moveWithoutFrames(const language::Move& move, Evaluation& evaluation);
 
@@ -103,8 +116,10 @@ private:
   Measurement measurement_;
   Vector3 direction_ = Vector3::UnitX();  ///< of the last motion at its end, for CT
   std::vector<std::uint32_t> axisCodes_;
+  CornerMaker corners_;
   RadiusCompensator compensator_;
-  std::optional<Vector3> programmed_;  ///< end of the programmed contour while compensation is active
+  std::optional<Vector3> programmed_;  ///< end of the programmed contour while the tool stands elsewhere
+  std::optional<Words> openLine_;      ///< a line with ANG alone: it ends where the line of the next block begins
 };
 
 }  // namespace probewright::sinumerik

@@ -10,6 +10,12 @@ using namespace language;
 Result<std::shared_ptr<SinumerikProgram>> SinumerikProgram::open(const std::filesystem::path& path) {
   Result<SourceText> text = SourceText::open(path);
   if (!text) return tl::unexpected(std::move(text.error()));
+  const std::string_view head = text->bytes(text->begin(), std::min(text->end(), text->begin() + 4096));
+  const auto isBinary = [](unsigned char c) { return c < 0x20 && c != '\t' && c != '\r' && c != '\n' && c != 0x1a; };
+  if (std::ranges::any_of(head, isBinary))
+    return fail({path.string(), 0, 0},
+                "this is no text: an encrypted or compiled program, which only the control reads",
+                "put the program's own text (.SPF, .MPF) in its place");
   return std::make_shared<SinumerikProgram>(std::move(*text));
 }
 

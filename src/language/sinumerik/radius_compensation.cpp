@@ -11,40 +11,12 @@ namespace probewright::sinumerik {
 
 namespace {
 
-constexpr double tangential = 1e-6;  ///< sine of the angle below which a corner counts as none
-
 Vector3 direction(const Vector3& vector) {
   const double length = vector.norm();
   return length > 1e-12 ? Vector3(vector / length) : Vector3::Zero();
 }
 
-Vector3 turned(const Vector3& vector, const Vector3& axis, double angle) {
-  return Eigen::AngleAxisd(angle, axis) * vector;
-}
-
 }  // namespace
-
-Vector3 PathElement::startDirection() const {
-  if (!isArc) return direction(end - start);
-  return direction(axis.cross(start - centre) * (sweep < 0 ? -1 : 1));
-}
-
-Vector3 PathElement::endDirection() const {
-  if (!isArc) return direction(end - start);
-  return turned(startDirection(), axis, sweep);
-}
-
-Vector3 PathElement::at(double fraction) const {
-  if (!isArc) return start + fraction * (end - start);
-  const Vector3 arm = start - centre;
-  const Vector3 flat = arm - arm.dot(axis) * axis;
-  const double rise = (end - start).dot(axis);
-  // The radius goes over from that of the start to that of the end, so that both are met exactly.
-  const Vector3 endArm = end - centre;
-  const double growth = flat.norm() > 0 ? (endArm - endArm.dot(axis) * axis).norm() / flat.norm() : 1;
-  return centre + turned(flat, axis, fraction * sweep) * (1 + fraction * (growth - 1)) +
-         (arm.dot(axis) + fraction * rise) * axis;
-}
 
 void RadiusCompensator::begin(int side, double radius, const control::WorkingPlane& plane, bool cornerArc) {
   side_ = side;
@@ -96,45 +68,11 @@ void RadiusCompensator::putOut(PathElement element, const Vector3& end) {
 
 std::optional<Vector3> RadiusCompensator::intersection(const PathElement& first, const PathElement& second,
                                                        const Vector3& corner) const {
-  const auto flat = [this](const Vector3& p) { return Vector2(p[plane_.main], p[plane_.minor]); };
-  const auto nearest = [&](std::vector<Vector2> points) -> std::optional<Vector3> {
-    if (points.empty()) return std::nullopt;
-    const Vector2 wanted = flat(corner);
-    const Vector2 best = *std::min_element(points.begin(), points.end(), [&](const Vector2& a, const Vector2& b) {
-      return (a - wanted).squaredNorm() < (b - wanted).squaredNorm();
-    });
-    Vector3 point = corner;
-    point[plane_.main] = best.x();
-    point[plane_.minor] = best.y();
-    return point;
-  };
-  const auto cross = [](const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); };
-  const auto lineCircle = [&](const PathElement& line, const PathElement& arc) {
-    const Vector2 p = flat(line.start), d = (flat(line.end) - p).normalized(), c = flat(arc.centre);
-    const double radius = (flat(arc.start) - c).norm();
-    const double along = d.dot(c - p), across = cross(d, c - p);
-    std::vector<Vector2> points;
-    if (std::abs(across) > radius) return points;
-    const double half = std::sqrt(radius * radius - across * across);
-    points.push_back(p + (along - half) * d);
-    points.push_back(p + (along + half) * d);
-    return points;
-  };
-  if (!first.isArc && !second.isArc) {
-    const Vector2 p = flat(first.start), d = flat(first.end) - p, q = flat(second.start), e = flat(second.end) - q;
-    const double denominator = cross(d, e);
-    if (std::abs(denominator) < 1e-12) return std::nullopt;
-    return nearest({p + cross(q - p, e) / denominator * d});
-  }
-  if (!first.isArc) return nearest(lineCircle(first, second));
-  if (!second.isArc) return nearest(lineCircle(second, first));
-  const Vector2 a = flat(first.centre), b = flat(second.centre);
-  const double ra = (flat(first.start) - a).norm(), rb = (flat(second.start) - b).norm(), distance = (b - a).norm();
-  if (distance < 1e-12 || distance > ra + rb || distance < std::abs(ra - rb)) return std::nullopt;
-  const double along = (distance * distance + ra * ra - rb * rb) / (2 * distance);
-  const double half = std::sqrt(std::max(0.0, ra * ra - along * along));
-  const Vector2 d = (b - a) / distance, n(-d.y(), d.x());
-  return nearest({a + along * d + half * n, a + along * d - half * n});
+  const std::vector<Vector3> points = intersections(first, second, plane_);
+  if (points.empty()) return std::nullopt;
+  Vector3 nearest = *std::ranges::min_element(points, {}, [&](const Vector3& p) { return (p - corner).squaredNorm(); });
+  nearest[plane_.tool] = corner[plane_.tool];
+  return nearest;
 }
 
 void RadiusCompensator::add(const PathElement& element) {

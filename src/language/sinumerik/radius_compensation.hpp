@@ -3,29 +3,9 @@
 #include <functional>
 #include <optional>
 
-#include "control/channel.hpp"
-#include "control/working_plane.hpp"
-#include "language/block.hpp"
+#include "language/sinumerik/path_element.hpp"
 
 namespace probewright::sinumerik {
-
-/// A straight line or an arc in program coordinates, mm. An arc turns about `centre` around the unit vector `axis` by
-/// `sweep` radians, counterclockwise positive, and at the same time moves along the axis to the height of `end`.
-struct PathElement {
-  Vector3 start = Vector3::Zero();
-  Vector3 end = Vector3::Zero();
-  bool isArc = false;
-  Vector3 centre = Vector3::Zero();
-  Vector3 axis = Vector3::UnitZ();
-  double sweep = 0;
-  control::Feed feed;
-
-  /// Unit tangents; of a line without length the zero vector.
-  Vector3 startDirection() const;
-  Vector3 endDirection() const;
-  /// The point at `fraction` of the way, 0 to 1.
-  Vector3 at(double fraction) const;
-};
 
 /// Tool radius compensation in the working plane (G41, G42, G40 with NORM; corners G450 and G451). Elements go in as
 /// they are programmed; what the tool centre travels comes out, one element later, because a corner needs both sides.

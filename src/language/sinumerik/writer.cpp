@@ -155,6 +155,7 @@ void BlockWriter::statement(const RepeatSection& section) {
 void BlockWriter::statement(const CallProgram& call) {
   // CALL names its program by a text; that lies in the source as it was written.
   const bool byText = call.name.offset < block_.source.offset + block_.source.length;
+  if (call.modal && call.name.length == 0) return add("MCALL");
   const std::string program = name(call.name);
   if (call.nameValue.present()) {
     add(fmt::format("CALL {}", expression(call.nameValue)));
@@ -162,9 +163,11 @@ void BlockWriter::statement(const CallProgram& call) {
     add(fmt::format("CALL \"{}\"", program));
   } else {
     const bool numbered = program.size() > 1 && program[0] == 'L' && program[1] >= '0' && program[1] <= '9';
-    add(fmt::format("{}{}", call.maybeCycle || numbered ? "" : "PCALL ", program));
+    const bool plain = call.maybeCycle || numbered;
+    add(fmt::format("{}{}", call.modal ? "MCALL " : plain ? "" : "PCALL ", program));
     if (call.arguments.count > 0) text_ += arguments(call.arguments);
   }
+  if (call.from.length > 0) add(fmt::format("BLOCK {} TO {}", name(call.from), name(call.to)));
   if (call.times.present()) add(address("P", call.times));
 }
 

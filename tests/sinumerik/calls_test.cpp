@@ -1,0 +1,131 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "language/sinumerik/check.hpp"
+#include "sinumerik/world.hpp"
+
+/// Calls in all their forms: modal ones, sections of programs, programs that nobody can read.
+namespace probewright::sinumerik {
+namespace {
+
+TEST(SinumerikCalls, ModalCallsFollowEachMotion) {
+  World world;
+  world.texts.add("COUNT", "PROC COUNT\nR10=R10+1\nRET\n");
+  world.run("R10=0\nMCALL COUNT\nR1=R10\nG0 X10\nR2=R10\nY10\nMSG(\"no motion\")\nM8\nR3=R10\nMCALL\nX20\nR4=R10\n");
+  EXPECT_EQ(world.r(1), 0);
+  EXPECT_EQ(world.r(2), 1);
+  EXPECT_EQ(world.r(3), 2);
+  EXPECT_EQ(world.r(4), 2);
+}
+
+TEST(SinumerikCalls, ModalCallsComputeTheirArgumentsOnce) {
+  World world;
+  world.texts.add("NOTE", "PROC NOTE(REAL WIDTH, STRING[10] TEXT)\nR10=R10+WIDTH\nR11=STRLEN(TEXT)\nRET\n");
+  world.run("R10=0 R1=5\nMCALL NOTE(R1,\"abc\")\nR1=100\nG0 X10\nX20\n");
+  EXPECT_EQ(world.r(10), 10);
+  EXPECT_EQ(world.r(11), 3);
+}
+
+TEST(SinumerikCalls, AModalCallReachesIntoSubprogramsButNotIntoItself) {
+  World world;
+  world.texts.add("DRILL", "PROC DRILL\nR10=R10+1\nG0 Z=IC(-1)\nZ=IC(1)\nRET\n");
+  world.texts.add("L50", "G0 X30\nX40\nM17\n");
+  world.run("R10=0\nMCALL DRILL\nL50\n");
+  EXPECT_EQ(world.r(10), 2);
+}
+
+TEST(SinumerikCalls, FeedSpindleAndG0AloneDriveAModalCallToo) {
+  World world;
+  world.texts.add("COUNT", "PROC COUNT\nR10=R10+1\nRET\n");
+  world.run("R10=0\nG1 F100 X1\nMCALL COUNT\nF200\nS500\nG0\nM3\nR1=R10\nG2 F100 X3 Y0 CR=5\nR2=R10\nF300\n");
+  EXPECT_EQ(world.r(1), 3);
+  EXPECT_EQ(world.r(2), 4);
+  EXPECT_EQ(world.r(10), 4) << "not while an arc is active";
+}
+
+TEST(SinumerikCalls, AModalCallComesBeforeTheEndOfItsBlock) {
+  World world;
+  world.texts.add("COUNT", "PROC COUNT\nR10=R10+1\nRET\n");
+  world.run("R10=0\nMCALL COUNT\nG0 X10 M0\nX20 M30\n");
+  EXPECT_EQ(world.r(10), 2);
+  const auto& events = world.control.journal.events;
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back().place.file, "MAIN.MPF");
+  EXPECT_EQ(events.back().place.line, 3u);
+}
+
+TEST(SinumerikCalls, AMeasuringCycleIsCalledModally) {
+  World world;
+  // Without a probe the cycle refuses; what counts is that it is reached at the motion.
+  const language::RunResult result = world.tryRun("MCALL CYCLE978(0,,,1,10,,5,1,2,1,\"\",,0)\nR1=1\nG0 X10\nR1=2\n");
+  EXPECT_EQ(result.end, language::RunEnd::Alarm);
+  ASSERT_FALSE(result.diagnostics.empty());
+  EXPECT_EQ(result.diagnostics.front().place.line, 3u);
+  EXPECT_EQ(world.r(1), 1);
+}
+
+TEST(SinumerikCalls, SectionsOfThisAndOfOtherPrograms) {
+  World world;
+  world.texts.add("PARTS", "PROC PARTS\nR10=100\nFIRST: R10=R10+1\nR10=R10+2\nLAST: R10=R10+4\nR10=100\nRET\n");
+  world.run("R10=0\nCALL \"PARTS\" BLOCK FIRST TO LAST\nR1=R10\nCALL \"PARTS\" BLOCK LAST TO LAST\nR2=R10\n");
+  EXPECT_EQ(world.r(1), 7);
+  EXPECT_EQ(world.r(2), 11);
+  world.run("R10=0\nCALL BLOCK AA TO BB\nR1=R10\nGOTOF ENDE\nAA: R10=R10+1\nBB: R10=R10+2\nR10=50\nENDE: R2=R10\n");
+  EXPECT_EQ(world.r(1), 3);
+  EXPECT_EQ(world.r(2), 3);
+  EXPECT_EQ(world.alarm("CALL \"PARTS\" BLOCK LAST TO FIRST\n"), "14080");
+  EXPECT_EQ(world.alarm("CALL \"PARTS\" BLOCK NONE TO LAST\n"), "14080");
+}
+
+std::vector<std::string> messagesOf(const Diagnostics& found) {
+  std::vector<std::string> messages;
+  for (const Diagnostic& each : found)
+    messages.push_back(std::to_string(each.place.line) + ":" + std::to_string(each.place.column) + " " + each.message);
+  return messages;
+}
+
+TEST(SinumerikCalls, CheckNamesWhatIsWrongWithACall) {
+  Texts library;
+  library.add("SUB", "PROC SUB(REAL WIDTH, VAR REAL RESULT)\nAA: R1=1\nBB: R2=2\nRET\n");
+  const auto program = SinumerikProgram::fromText("test.mpf",
+                                                  "SUB(1)\n"
+                                                  "SUB(1,2)\n"
+                                                  "SUB(1,R1,3)\n"
+                                                  "CALL \"SUB\" BLOCK BB TO AA\n"
+                                                  "CALL BLOCK AA\n"
+                                                  "MCALL NOTHING(1)\n"
+                                                  "PCALL /_N_WKS_DIR/_N_A_WPD/_N_GONE_SPF(3)\n"
+                                                  "CYCLE9777(1)\n"
+                                                  "MCALL\n");
+  EXPECT_EQ(messagesOf(check(*program, {&library, {}})),
+            (std::vector<std::string>{
+                "1:1 argument 2 of SUB is missing: the VAR parameter RESULT needs a variable",
+                "2:7 argument 2 of SUB: the VAR parameter RESULT needs a variable",
+                "3:10 SUB has 2 parameters, here are 3 arguments",
+                "4:24 the program SUB has no section from BB to AA",
+                "5:14 TO expected behind the first label",
+                "6:7 there is no program and no cycle NOTHING",
+                "7:7 there is no program GONE",
+                "8:1 there is no program and no cycle CYCLE9777",
+            }));
+}
+
+TEST(SinumerikCalls, AMistakeInDefIsSaidOnce) {
+  const auto program = SinumerikProgram::fromText("test.mpf", "DEF REAL WIDTH=1, H, DEPTH[2]\nWIDTH=DEPTH[0]\n");
+  EXPECT_EQ(messagesOf(check(*program, {})), (std::vector<std::string>{"1:19 the name of the variable was expected"}));
+}
+
+TEST(SinumerikCalls, EncryptedProgramsAreNamed) {
+  const std::filesystem::path path = std::filesystem::path(::testing::TempDir()) / "SECRET.CPF";
+  std::ofstream(path, std::ios::binary) << std::string("Header\0\1\2\3\xfe\xff", 12);
+  const auto program = SinumerikProgram::open(path);
+  ASSERT_FALSE(program);
+  EXPECT_EQ(program.error().place.file, path.string());
+  EXPECT_NE(program.error().message.find("encrypted"), std::string::npos);
+  EXPECT_FALSE(program.error().advice.empty());
+}
+
+}  // namespace
+}  // namespace probewright::sinumerik
