@@ -22,6 +22,8 @@ struct RunArguments {
   std::filesystem::path answers;  ///< empty: no file
   std::uint64_t stepLimit = 50'000'000;
   std::optional<std::uint64_t> seed;  ///< instead of the setup's
+  bool dryRun = false, programTest = false;
+  std::optional<std::uint64_t> searchLine;
   bool quiet = false;
 };
 int run(const RunArguments& arguments);

@@ -55,6 +55,16 @@ int main(int argc, char** argv) {
   run->add_option("--step-limit", runArguments.stepLimit, "Blocks after which an endless loop is assumed; 0: never")
       ->capture_default_str();
   run->add_option("--seed", runArguments.seed, "Seed of the random effects, instead of the setup's");
+  CLI::Option* test = run->add_flag("--program-test", runArguments.programTest,
+                                    "SINUMERIK PRT: the axes stand, measuring cycles are skipped");
+  run->add_flag("--dry-run", runArguments.dryRun,
+                "SINUMERIK DRY: paths at the dry run feed $SC_DRY_RUN_FEED, measuring cycles are skipped")
+      ->excludes(test);
+  run->add_option(
+         "--search", runArguments.searchLine,
+         "SINUMERIK block search: begin at this line of the program as if all before it had run, without motion "
+         "and measuring")
+      ->type_name("LINE");
   run->add_flag("--quiet", runArguments.quiet, "Print nothing but mistakes");
 
   probewright::app::CheckArguments checkArguments;

@@ -103,6 +103,10 @@ int run(const RunArguments& arguments) {
   options.onStop = arguments.onStop;
   options.ask = askOnTerminal;
   options.stepLimit = arguments.stepLimit;
+  options.mode = arguments.dryRun        ? session::ProgramMode::DryRun
+                 : arguments.programTest ? session::ProgramMode::ProgramTest
+                                         : session::ProgramMode::Normal;
+  options.searchLine = arguments.searchLine;
   options.wallClock = std::time(nullptr);
   options.stop = interrupted.get_token();
   std::map<std::string, std::string> answers;

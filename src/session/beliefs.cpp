@@ -205,7 +205,12 @@ SinumerikData sinumerikData(const Setup& setup, Diagnostics& diagnostics) {
   sin::DataStore& store = data.store;
   sin::setMeasuringDefaults(store);
   const bool lathe = isLathe(setup.truth.machine);
-  if (lathe) store.load(sin::DataKey("$SC_TOOL_LENGTH_TYPE", {}), 2.0);
+  if (lathe) {
+    store.load(sin::DataKey("$SC_TOOL_LENGTH_TYPE", {}), 2.0);
+    // A lathe begins with G18 and DIAMON.
+    store.load(sin::DataKey("$MC_GCODE_RESET_VALUES", {5}), 2.0);
+    store.load(sin::DataKey("$MC_GCODE_RESET_VALUES", {28}), 2.0);
+  }
   for (const BelievedTool& tool : setup.tools) {
     const int t = tool.number;
     if (lathe) {

@@ -14,6 +14,7 @@
 #include "session/beliefs.hpp"
 #include "session/check.hpp"
 #include "session/source.hpp"
+#include "session/standing_machine.hpp"
 
 namespace probewright::session {
 
@@ -112,11 +113,21 @@ void addDataFiles(RunOutcome& outcome, const SinumerikData& data, const sin::Dat
   written("DATA.INI", [&](const sin::DataKey& key) { return !isTool(key) && !isFrame(key); });
 }
 
+/// Behind a block search the machine catches up: tool, spindle, then straight to where the program stands.
+void goOnMoving(StandingMachine& machine, sin::Control& control) {
+  const machine::AxisPositions target = machine.position();
+  machine.release();
+  if (machine.orderedTool()) control.channel.changeTool(*machine.orderedTool());
+  if (machine.orderedAngle()) machine.orientSpindle(*machine.orderedAngle());
+  control.channel.moveAxes(target, machine::Feed::rapidTraverse());
+}
+
 void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>& program, const fs::path& path,
                   const simulation::Setup& setup, const RunOptions& options) {
   SinumerikData data = sinumerikData(setup, outcome.diagnostics);
   if (hasErrors(outcome.diagnostics)) return;
-  sin::Control control(*outcome.machine, data.store);
+  StandingMachine machine(*outcome.machine);
+  sin::Control control(machine, data.store);
   setPanel(control.panel, options);
   control.programPath = path.string();
   control.wallClockStart = options.wallClock;
@@ -126,10 +137,31 @@ void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>&
   }
   control.applyFrames();
 
-  sinumerik::SinumerikHost host(control, {.strict = options.strict, .fileExists = {}});
+  control.dryRun = options.mode == ProgramMode::DryRun;
+  control.programTest = options.mode == ProgramMode::ProgramTest;
+  control.blockSearch = options.searchLine.has_value();
+  const bool stands = control.programTest || control.blockSearch;
+  if (stands) machine.hold();
+  sinumerik::HostOptions hostOptions;
+  hostOptions.strict = options.strict;
+  hostOptions.searchLine = options.searchLine.value_or(0);
+  hostOptions.searchEnds = [&] {
+    if (!control.programTest) goOnMoving(machine, control);
+  };
+  sinumerik::SinumerikHost host(control, hostOptions);
   const auto library = programLibrary(outcome.control);
   language::Interpreter interpreter(*library, host, interpreterOptions(options, outcome.control));
   outcome.result = interpreter.run(program);
+  if (control.blockSearch && outcome.result.end == RunEnd::Finished) {
+    outcome.result.end = RunEnd::Alarm;
+    outcome.result.diagnostics.push_back(
+        {Severity::Error,
+         {program->file(), *options.searchLine, 0},
+         "the block search did not find its target: the program ended before this line",
+         {},
+         "name a line that the program reaches",
+         "15370"});
+  }
 
   outcome.files = control.panel.files();
   addDataFiles(outcome, data, control.data);
@@ -187,6 +219,16 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
     if (solid.role != simulation::SolidRole::Part) continue;
     outcome.info.partName = solid.name;
     outcome.info.partPath = solid.source.file.string();
+  }
+  if (control::isHeidenhain(kind) && (options.mode != ProgramMode::Normal || options.searchLine)) {
+    outcome.diagnostics.push_back({Severity::Error,
+                                   {path.string(), 0, 0},
+                                   "dry run, program test and block search are modes of SINUMERIK controls",
+                                   {},
+                                   "leave them out for this program",
+                                   {}});
+    conclude(outcome);
+    return outcome;
   }
   outcome.diagnostics = checkProgram(*program, kind);
   if (hasErrors(outcome.diagnostics)) {

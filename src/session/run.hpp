@@ -22,6 +22,13 @@
 /// A program, a world and a control put together: what the command line does, and what tests of cycles go through.
 namespace probewright::session {
 
+/// The program influences of a SINUMERIK control's operating area.
+enum class ProgramMode {
+  Normal,
+  DryRun,       ///< DRY: paths at the dry run feed; measuring cycles are skipped
+  ProgramTest,  ///< PRT: the axes stand; measuring cycles are skipped
+};
+
 /// How a run is to go on; the defaults are those of the command line.
 struct RunOptions {
   std::optional<control::ControlKind> control;  ///< without it: the setup's, or what the program tells
@@ -34,6 +41,11 @@ struct RunOptions {
   std::stop_token stop;
   std::int64_t wallClock = 0;  ///< seconds since 1970 (UTC) when the program starts, for logs
   bool recordPath = true;
+  /// SINUMERIK only.
+  ProgramMode mode = ProgramMode::Normal;
+  /// SINUMERIK only: block search with calculation. The axes stand and measuring cycles are skipped up to this line of
+  /// the main program; there they go straight to where the program stands, and the program goes on.
+  std::optional<std::uint64_t> searchLine;
   /// Told now and then how many blocks have been carried out.
   std::function<void(std::uint64_t blocks)> progress;
 };

@@ -72,7 +72,7 @@ public:
     return add(Jump{block.add(name), {}, condition, direction});
   }
   Make& callProgram(std::string_view name, double times = 1, bool maybeCycle = false) {
-    return add(CallProgram{block.add(name), {}, {}, Operand::of(times), maybeCycle});
+    return add(CallProgram{.name = block.add(name), .times = Operand::of(times), .maybeCycle = maybeCycle});
   }
   Make& repeat(std::string_view from, std::string_view to, double times, bool onlyBlock = false) {
     return add(RepeatSection{block.add(from), block.add(to), Operand::of(times), onlyBlock});

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/number_text.hpp"
@@ -11,6 +12,8 @@
 
 namespace probewright::control::sinumerik {
 namespace {
+
+constexpr double millimetresPerInch = 25.4;
 
 Frame chained(const Frame& outer, const Frame& inner) {
   const Result<Frame> frame = chain(outer, inner);
@@ -29,8 +32,16 @@ std::string shown(const DataValue& value) {
 Control::Control(machine::Machine& machine, DataStore store)
     : panel(journal), channel(machine, journal), data(std::move(store)) {
   channel.alarms = {"10720", "61302", "61302"};
-  if (!channel.description().axisIndex("Y")) plane = 18;
+  const int planes = initialFunction(6);
+  plane = planes >= 1 && planes <= 3 ? 16 + planes : channel.description().axisIndex("Y") ? 17 : 18;
+  const int units = initialFunction(13);
+  unit = units == 1 || units == 3 ? millimetresPerInch : 1;
+  diameter = initialFunction(29) == 2 || initialFunction(29) == 3;
   applyFrames();
+}
+
+int Control::initialFunction(int group) const {
+  return static_cast<int>(std::lround(data.number("$MC_GCODE_RESET_VALUES", {group - 1})));
 }
 
 int Control::toolNumbered(const std::string& name) const {
@@ -114,10 +125,38 @@ std::vector<DataKey> Control::baseFrameKeys() const {
 }
 
 void Control::applyFrames() {
-  frames.base = data.frame("$P_SETFR", {});
+  frames.basic.assign(1, {DataKey("$P_SETFR", {}), data.frame("$P_SETFR", {})});
   for (const DataKey& key : baseFrameKeys())
-    frames.base = chained(frames.base, data.frame(key));
+    frames.basic.emplace_back(key, data.frame(key));
   frames.settableFrame = data.frame("$P_UIFR", {frames.settable});
+  handOverFrames();
+}
+
+Frame Control::activeBasicFrame(const DataKey& key) const {
+  const auto found = std::ranges::find(frames.basic, key, &std::pair<DataKey, Frame>::first);
+  return found == frames.basic.end() ? Frame{} : found->second;
+}
+
+void Control::setActiveBasicFrame(const DataKey& key, const Frame& frame) {
+  // Outside in: $P_SETFR, $P_NCBFR[0..], $P_CHBFR[0..].
+  const auto rank = [](const DataKey& each) { return each.name == "$P_SETFR" ? 0 : each.name == "$P_NCBFR" ? 1 : 2; };
+  const auto before = [&](const std::pair<DataKey, Frame>& a, const std::pair<DataKey, Frame>& b) {
+    return rank(a.first) != rank(b.first) ? rank(a.first) < rank(b.first) : a.first < b.first;
+  };
+  std::pair<DataKey, Frame> entry{key, frame};
+  const auto place = std::ranges::lower_bound(frames.basic, entry, before);
+  if (place != frames.basic.end() && place->first == key) {
+    place->second = frame;
+  } else {
+    frames.basic.insert(place, std::move(entry));
+  }
+  handOverFrames();
+}
+
+void Control::handOverFrames() {
+  frames.base = {};
+  for (const auto& [key, frame] : frames.basic)
+    frames.base = chained(frames.base, frame);
   refreshTool();
   const machine::MachineDescription& description = channel.description();
   for (std::size_t i = 0; i < description.axes.size(); ++i) {

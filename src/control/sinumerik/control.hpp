@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "control/channel.hpp"
@@ -32,8 +33,10 @@ struct ActiveTool {
 
 /// The frames in effect, from the outside in. Machine from workpiece = base : settable : swivel : programmed.
 struct ActiveFrames {
-  int settable = 0;         ///< n of $P_UIFR[n]: 1 = G54; 0 = G500
-  Frame base;               ///< chain of system, global and channel basic frames
+  int settable = 0;  ///< n of $P_UIFR[n]: 1 = G54; 0 = G500
+  /// The basic frames that act, from the outside in: system, global, channel frames by the names of their data.
+  std::vector<std::pair<DataKey, Frame>> basic;
+  Frame base;               ///< their chain
   Frame settableFrame;      ///< $P_IFRAME
   Frame toolOriented;       ///< $P_WPFRAME, $P_TOOLFRAME: swivelled planes of CYCLE800
   Frame programmed;         ///< $P_PFRAME
@@ -81,9 +84,18 @@ public:
 
   /// Activates settable frame n (0: G500). Throws Alarm 18310 if there is none.
   void activateSettable(int number);
-  /// Reads base and settable frames from the store again and hands the chain to the channel. To be called after any
-  /// change of frames, plane or tool.
+  /// Activates what data management holds: reads base and settable frames from the store again, as G54 to G599 and
+  /// corrections by measuring cycles do, then handOverFrames().
   void applyFrames();
+  /// Hands the active frames to the channel. To be called after any change of frames, plane or tool.
+  void handOverFrames();
+  /// Sets the active basic frame whose data are `key` ($P_CHBFR[0]) without touching these data: $P_CHBFRAME[0]=...
+  void setActiveBasicFrame(const DataKey& key, const Frame& frame);
+  /// The active basic frame of these data; neutral if there is none.
+  Frame activeBasicFrame(const DataKey& key) const;
+  /// MD 20150 $MC_GCODE_RESET_VALUES: the number of the G function that a channel begins with in G group `group`; 0 if
+  /// the datum has no value.
+  int initialFunction(int group) const;
   /// The base frames that have values: all global ones by number ($P_NCBFR), then the channel's ($P_CHBFR), as they are
   /// chained from the outside in.
   std::vector<DataKey> baseFrameKeys() const;

@@ -71,7 +71,7 @@ Context::Context(Control& control, const Arguments& arguments, SourcePlace place
   const int plane = has("_DMODE") ? digit("_DMODE", 1) : 0;
   if (plane >= 1 && plane <= 3 && control.plane != 16 + plane) {
     control.plane = 16 + plane;
-    control.applyFrames();
+    control.handOverFrames();
   }
   resultInteger(2, definition.number);
 }
@@ -89,7 +89,7 @@ Context::~Context() {
   control_.journal.cycleOpen = false;
   if (control_.plane != planeBefore_) {
     control_.plane = planeBefore_;
-    control_.applyFrames();
+    control_.handOverFrames();
   }
 }
 
@@ -274,10 +274,12 @@ Alarm asCycleAlarm(const Alarm& alarm) {
 
 void runCycle(Control& control, const Entry& entry, const Arguments& arguments, const SourcePlace& place) {
   if (control.dryRun || control.programTest || control.blockSearch) {
-    control.panel.message(
-        EventKind::Skipped,
-        fmt::format("{} is skipped in dry run, program test and block search", entry.definition->name),
-        control.channel.seconds());
+    control.panel.message(EventKind::Skipped,
+                          fmt::format("{} is skipped in {}", entry.definition->name,
+                                      control.dryRun        ? "dry run"
+                                      : control.programTest ? "program test"
+                                                            : "block search"),
+                          control.channel.seconds());
     return;
   }
   const Diagnostics mistakes = check(arguments, control::ControlKind::Sinumerik840Dsl);

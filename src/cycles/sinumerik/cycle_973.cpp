@@ -96,11 +96,11 @@ class MachineCoordinates {
 public:
   explicit MachineCoordinates(Control& control) : control_(control), before_(control.frames.suppressed) {
     control_.frames.suppressed = true;
-    control_.applyFrames();
+    control_.handOverFrames();
   }
   ~MachineCoordinates() {
     control_.frames.suppressed = before_;
-    control_.applyFrames();
+    control_.handOverFrames();
   }
   MachineCoordinates(const MachineCoordinates&) = delete;
   MachineCoordinates& operator=(const MachineCoordinates&) = delete;

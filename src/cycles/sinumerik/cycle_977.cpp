@@ -202,7 +202,9 @@ void cycle977(Context& context, const Arguments&) {
   const Vector3 second = probing::directionAt(context.real("S_STA1") + 90);
   const double set1 = setValueOf(context, task, context.real(isRectangle(feature) ? "S_SETV0" : "S_SETV"));
   const double set2 = isRectangle(feature) ? setValueOf(context, task, context.real("S_SETV1")) : set1;
-  if (!(set1 > 0) || !(set2 > 0)) context.alarm(61319, "the set size must be greater than 0");
+  if (!(set1 > 0) || !(set2 > 0))
+    context.alarm(61319, isRectangle(feature) ? "S_SETV0 and S_SETV1, the set lengths, must be greater than 0"
+                                              : "S_SETV, the set size, must be greater than 0");
 
   Walls walls(context, feature, method);
   const Pair pair1 = walls.measure(start, first, set1, context.real("S_SZA"));

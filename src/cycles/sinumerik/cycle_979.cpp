@@ -83,7 +83,7 @@ void cycle979(Context& context, const Arguments&) {
   }
   const auto target = task == Task::ZeroOffset ? frameTarget(context, GlobalBase::Allowed) : std::nullopt;
   const double set = setValueOf(context, task, context.real("S_SETV"));
-  if (!(set > 0)) context.alarm(61319, "the set diameter must be greater than 0");
+  if (!(set > 0)) context.alarm(61319, "S_SETV, the set diameter, must be greater than 0");
 
   probing::SinumerikProber& prober = context.prober();
   const Vector3 setCentre(context.real("S_CPA"), context.real("S_CPO"), prober.position().z());

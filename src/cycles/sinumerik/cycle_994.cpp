@@ -175,7 +175,7 @@ void cycle994(Context& context, const Arguments&) {
   // Along the 1st axis a diameter counts as those across.
   const double count = countOf(context, axis == 0 ? 1 : axis);
   const double set = setValueOf(context, task, context.real("S_SETV"));
-  if (!(set > 0)) context.alarm(61319, "the set diameter must be greater than 0");
+  if (!(set > 0)) context.alarm(61319, "S_SETV, the set diameter, must be greater than 0");
   const double setRadius = set / count;
   const bool inside = feature == TurnedFeature::Inside;
   const double start = context.prober().position()[axis];

@@ -182,6 +182,24 @@ void Checker::checkTarget(TextRef label, JumpDirection direction) {
                        : "Did you mean " + std::string(close) + "?");
 }
 
+/// What every cycle refuses with an alarm of its own when it runs.
+std::string outOfRange(const cycles::Parameter& parameter, double value) {
+  struct Range {
+    std::string_view name;
+    double minimum, maximum;
+  };
+  constexpr double endless = 1e9;
+  static constexpr Range ranges[] = {
+      {"S_PRNUM", 0, 12}, {"S_NMSP", 0, 9}, {"S_MD", 0, 2}, {"S_FA", 0, endless}, {"S_MVAR", 0, endless}};
+  for (const Range& range : ranges) {
+    if (parameter.name != range.name || (value >= range.minimum && value <= range.maximum)) continue;
+    return fmt::format("{} ({}) cannot be {}; it {}", parameter.name, parameter.meaning, value,
+                       range.maximum < endless ? fmt::format("goes from {} to {}", range.minimum, range.maximum)
+                                               : "cannot be negative");
+  }
+  return {};
+}
+
 void Checker::checkCycle(const CallProgram& call, const cycles::CycleDefinition& cycle) {
   const Word* words = block_.words.data() + call.arguments.first;
   const std::size_t most = cycle.parameters.size();
@@ -210,7 +228,8 @@ void Checker::checkCycle(const CallProgram& call, const cycles::CycleDefinition&
       argument.isText = true;
       argument.text = std::string(block_.at(node.text));
     }
-    const std::string wrong = cycles::complaint(parameter, argument);
+    std::string wrong = cycles::complaint(parameter, argument);
+    if (wrong.empty() && !argument.isText) wrong = outOfRange(parameter, argument.number);
     if (!wrong.empty()) report(word.column, place + wrong, fmt::format("See 'probewright cycles {}'.", cycle.name));
   }
 }
@@ -283,7 +302,7 @@ void Checker::checkCall(const CallProgram& call) {
   const std::size_t column = columnOf(path);
   if (call.maybeCycle) {
     if (const cycles::CycleDefinition* cycle = cycles::sinumerikCycle(name)) return checkCycle(call, *cycle);
-    if (name == "CYCLE800" || name == "CYCLE116") return;
+    if (name == "CYCLE800" || name == "CYCLE116" || isCycleWithoutEffect(name)) return;
     if (isMeasuringCycle(name))
       return report(column, fmt::format("the measuring cycle {} is not available", name),
                     "'probewright cycles --control 840Dsl' lists the cycles that are.");
@@ -314,6 +333,15 @@ void Checker::checkInstruction(const Instruction& instruction) {
     if (section->to.length != 0) checkTarget(section->to, JumpDirection::ForwardThenBackward);
   } else if (const auto* call = std::get_if<CallProgram>(&instruction)) {
     checkCall(*call);
+  } else if (const auto* command = std::get_if<Command>(&instruction)) {
+    const std::string name(block_.at(command->name));
+    if (keywordOf(name) == Keyword::SynchronizedAction)
+      report(columnOf(name), "the synchronized action " + name + " is not carried out", "The run goes on behind it.",
+             Severity::Warning);
+  } else if (const auto* modal = std::get_if<Modal>(&instruction)) {
+    const std::string name(block_.at(modal->name));
+    const std::string_view how = skippedFunction(name);
+    if (!how.empty()) report(columnOf(name), fmt::format("{} {}", name, how), "The run goes on.", Severity::Warning);
   }
 }
 

@@ -27,6 +27,14 @@ bool isGlobalUserData(std::string_view name);
 /// True if `name` is a machining or service cycle of the control that the house reads but does not carry out.
 bool isSkippedCycle(std::string_view name);
 
+/// True for cycles that change nothing that measuring depends on: groups of the editor, settings of dynamics and
+/// tolerances, hooks of the machine's builder that are empty as delivered.
+bool isCycleWithoutEffect(std::string_view name);
+
+/// What becomes of a G function or switch that is not carried out as on the control ("is not carried out"); empty for
+/// all others.
+std::string_view skippedFunction(std::string_view name);
+
 /// True if `name` is one of the control's measuring cycles, whether the catalogue has it or not.
 bool isMeasuringCycle(std::string_view name);
 

@@ -25,6 +25,15 @@ SinumerikHost::SinumerikHost(Control& control, HostOptions options)
   state_.gGroup[8] = control.frames.settable + 1;
   state_.gGroup[7] = state_.gGroup[14] = 1;
   state_.gGroup[13] = state_.gGroup[15] = 2;
+  if (const int units = control.initialFunction(13); units >= 1 && units <= 4) {
+    state_.gGroup[13] = units;
+    state_.feedInInch = units == 3;
+  }
+  if (control.initialFunction(14) == 2) {
+    state_.gGroup[14] = 2;
+    state_.incremental = true;
+  }
+  state_.gGroup[29] = control.initialFunction(29) == 3 ? 3 : control.diameter ? 2 : 1;
 }
 
 SinumerikHost::~SinumerikHost() { storeParameters(); }
@@ -60,6 +69,11 @@ bool SinumerikHost::beginBlock(const Program& program, const Block& block) {
   }
   control_.panel.place.line = block.position.line;
   block_ = &block;
+  if (control_.blockSearch && levels_.size() == 1 && block.position.line >= options_.searchLine) {
+    motion_.flush();
+    control_.blockSearch = false;
+    if (options_.searchEnds) options_.searchEnds();
+  }
   return true;
 }
 
@@ -169,12 +183,33 @@ void SinumerikHost::enter(const Program& program, const CallProgram* call, Evalu
   }
   if (header != nullptr &&
       std::find(header->attributes.begin(), header->attributes.end(), "SAVE") != header->attributes.end())
-    level.saved = SavedState{state_, control_.plane, control_.unit, control_.frames, control_.diameter};
+    level.saved = SavedState{
+        state_, control_.plane, control_.unit, control_.diameter, control_.frames.settable, control_.frames.programmed};
   variables_.enter();
   for (auto& [name, variable] : parameters)
     variables_.declare(name, std::move(variable));
   levels_.push_back(std::move(level));
   control_.level = static_cast<int>(levels_.size());
+}
+
+/// SAVE brings modal G functions and the programmed frame back. F and S stay as they are. The active settable frame and
+/// basic frames stay too, so that measuring in a subprogram lasts (MD 10617 as delivered), but G54 to G599 is selected
+/// as before.
+void SinumerikHost::restore(const SavedState& saved) {
+  const MotionState left = state_;
+  state_ = saved.motion;
+  state_.spindleSpeed = left.spindleSpeed;
+  state_.spindleDirection = left.spindleDirection;
+  if (left.feedType == state_.feedType) state_.feed = left.feed;
+  control_.plane = saved.plane;
+  control_.unit = saved.unit;
+  control_.diameter = saved.diameter;
+  control_.frames.programmed = saved.programmed;
+  if (control_.frames.settable != saved.settable) {
+    control_.activateSettable(saved.settable);
+  } else {
+    control_.handOverFrames();
+  }
 }
 
 void SinumerikHost::leave(const Program&) {
@@ -196,14 +231,7 @@ void SinumerikHost::leave(const Program&) {
       write(source, found->second.at(0));
     }
   }
-  if (level.saved) {
-    state_ = level.saved->motion;
-    control_.plane = level.saved->plane;
-    control_.unit = level.saved->unit;
-    control_.frames = level.saved->frames;
-    control_.diameter = level.saved->diameter;
-    control_.applyFrames();
-  }
+  if (level.saved) restore(*level.saved);
   lastProgram_ = nullptr;
   if (levels_.empty()) storeParameters();
 }

@@ -20,7 +20,11 @@ struct HostOptions {
   /// Cycles that are read but not carried out end the run with an alarm instead of being noted as skipped.
   bool strict = false;
   /// ISFILE: whether a program or file of that name exists.
-  std::function<bool(std::string_view path)> fileExists;
+  std::function<bool(std::string_view path)> fileExists = {};
+  /// While Control::blockSearch: the line of the main program that is searched for. In front of it the search ends, and
+  /// `searchEnds` brings the machine to where the program stands.
+  std::uint64_t searchLine = 0;
+  std::function<void()> searchEnds = {};
 };
 
 /// Carries out the instructions of SINUMERIK programs on a control: its variables, motions, tools, frames and cycles.
@@ -88,7 +92,7 @@ private:
   void raiseAlarm(const language::Command& command, Evaluation& evaluation);
   void dwell(const language::Command& command, Evaluation& evaluation);
   void writeFile(const language::Command& command, Evaluation& evaluation);
-  void skip(std::string_view what);
+  void skip(std::string_view what, std::string_view how = "is not carried out");
   void runCircle(language::WordRange arguments, Evaluation& evaluation);
   void runCycle(std::string_view name, language::WordRange arguments, Evaluation& evaluation);
   void runSwivel(language::WordRange arguments, Evaluation& evaluation);
@@ -98,9 +102,11 @@ private:
     MotionState motion;
     int plane = 17;
     double unit = 1;
-    control::sinumerik::ActiveFrames frames;
     bool diameter = false;
+    int settable = 0;
+    control::sinumerik::Frame programmed;
   };
+  void restore(const SavedState& saved);
   /// One program level.
   struct Level {
     const language::Program* program = nullptr;

@@ -35,6 +35,22 @@ std::optional<int> gNumber(std::string_view name) {
   return number;
 }
 
+/// The parameters that an alarm speaks of, by their place in the call and their meaning.
+std::string namedArguments(const cycles::CycleDefinition& definition, const Alarm& alarm) {
+  const std::string said = alarm.text() + ' ' + alarm.advice() + ' ';
+  std::string named;
+  for (const cycles::Parameter& parameter : definition.parameters) {
+    const auto isWhole = [&](std::size_t at) { return !isNamePart(said[at + parameter.name.size()]); };
+    std::size_t at = said.find(parameter.name);
+    while (at != std::string::npos && !isWhole(at))
+      at = said.find(parameter.name, at + 1);
+    if (at == std::string::npos) continue;
+    named += fmt::format("; {} is argument {} of {}: {}", parameter.name, parameter.address + 1, definition.name,
+                         parameter.meaning);
+  }
+  return named;
+}
+
 }  // namespace
 
 // ---- tools ----
@@ -62,13 +78,14 @@ void SinumerikHost::changeTool() {
   preparedTool_ = -1;
   if (edgeAfterChange_) control_.selectEdge(*edgeAfterChange_);
   edgeAfterChange_.reset();
-  control_.applyFrames();
+  control_.handOverFrames();
 }
 
 // ---- G functions ----
 
 void SinumerikHost::carryOut(const Modal& modal, Evaluation& evaluation) {
   const std::string_view name = evaluation.at(modal.name);
+  if (const std::string_view how = skippedFunction(name); !how.empty()) skip(name, how);
   if (const auto number = gNumber(name)) return carryOutG(*number);
   const auto words = evaluation.words(modal.words);
   if (name.size() == 1 && words.size() == 1) {
@@ -92,8 +109,12 @@ void SinumerikHost::carryOut(const Modal& modal, Evaluation& evaluation) {
           edgeAfterChange_ = wholeNumber(value);
           return;
         }
+        if (control_.tool.number == 0 && preparedTool_ > 0 && wholeNumber(value) > 0)
+          throw Alarm("17180",
+                      fmt::format("Illegal D number {}: tool {} is not yet in the spindle", value, preparedTool_),
+                      "write D behind M6, or into its block");
         control_.selectEdge(wholeNumber(value));
-        control_.applyFrames();
+        control_.handOverFrames();
         return;
       }
       default:
@@ -105,18 +126,17 @@ void SinumerikHost::carryOut(const Modal& modal, Evaluation& evaluation) {
 
 void SinumerikHost::carryOutG(int number) {
   auto& groups = state_.gGroup;
-  const auto frames = [&](auto&& change) {
+  const auto settable = [&](int frame) {
     motion_.flush();
-    change();
-    control_.applyFrames();
+    control_.activateSettable(frame);
   };
   if (number >= 54 && number <= 57) {
     groups[8] = number - 52;
-    return frames([&] { control_.activateSettable(number - 53); });
+    return settable(number - 53);
   }
   if (number >= 505 && number <= 599) {
     groups[8] = number - 499;
-    return frames([&] { control_.activateSettable(number - 500); });
+    return settable(number - 500);
   }
   switch (number) {
     case 0:
@@ -141,10 +161,9 @@ void SinumerikHost::carryOutG(int number) {
     case 18:
     case 19:
       groups[6] = number - 16;
-      return frames([&] {
-        control_.plane = number;
-        control_.refreshTool();
-      });
+      motion_.flush();
+      control_.plane = number;
+      return control_.handOverFrames();
     case 40:
       return motion_.setCompensation(RadiusCompensation::Off);
     case 41:
@@ -183,7 +202,7 @@ void SinumerikHost::carryOutG(int number) {
       return;
     case 500:
       groups[8] = 1;
-      return frames([&] { control_.activateSettable(0); });
+      return settable(0);
     default:
       return;
   }
@@ -200,7 +219,7 @@ void SinumerikHost::carryOutNamedFunction(std::string_view name, const Modal& mo
   if (name == "TRAORI" || name == "TRAFOOF") {
     motion_.flush();
     control_.transformation = name == "TRAORI";
-    control_.applyFrames();
+    control_.handOverFrames();
     return;
   }
   const bool withOrigin = name == "TOFRAME" || name == "TOFRAMEZ";
@@ -211,11 +230,8 @@ void SinumerikHost::carryOutNamedFunction(std::string_view name, const Modal& mo
   if (name == "TOROTOF") {
     motion_.flush();
     control_.frames.toolOriented = {};
-    return control_.applyFrames();
+    return control_.handOverFrames();
   }
-  if (name == "TRANSMIT" || name == "TRACYL" || name == "TRAANG" || name.starts_with("TOFRAME") ||
-      name.starts_with("TOROT") || name == "PAROT")
-    skip(name);
 }
 
 /// TOROT: Z of the program lies along the tool, turned the shortest way; TOFRAME: and the tool tip is its origin.
@@ -234,7 +250,7 @@ void SinumerikHost::alignFrameWithTool(bool withOrigin) {
   if (!aligned) throw Alarm("18314", aligned.error().message, aligned.error().advice);
   frame = *aligned;
   if (withOrigin) control_.frames.programmed = {};
-  control_.applyFrames();
+  control_.handOverFrames();
 }
 
 void SinumerikHost::carryOut(const MachineFunction& function, Evaluation& evaluation) {
@@ -295,7 +311,7 @@ void SinumerikHost::carryOut(const Transform& transform, Evaluation& evaluation)
       programmed.set(axis.axis,
                      name == "G58" ? control::sinumerik::FramePart::Translation : control::sinumerik::FramePart::Fine,
                      axis.value);
-    return control_.applyFrames();
+    return control_.handOverFrames();
   }
   const bool additive = name.front() == 'A';
   const std::string_view kind = additive ? name.substr(1) : name;
@@ -315,16 +331,15 @@ void SinumerikHost::carryOut(const Transform& transform, Evaluation& evaluation)
   } else {
     programmed = *frame;
   }
-  control_.applyFrames();
+  control_.handOverFrames();
 }
 
 // ---- commands ----
 
-void SinumerikHost::skip(std::string_view what) {
-  if (options_.strict)
-    throw Alarm("12550", fmt::format("{} is not carried out", what), "run without --strict to skip it");
+void SinumerikHost::skip(std::string_view what, std::string_view how) {
+  if (options_.strict) throw Alarm("12550", fmt::format("{} {}", what, how), "run without --strict to skip it");
   if (!skipped_.insert(std::string(what)).second) return;
-  control_.panel.message(EventKind::Skipped, fmt::format("{} is not carried out", what), control_.channel.seconds());
+  control_.panel.message(EventKind::Skipped, fmt::format("{} {}", what, how), control_.channel.seconds());
 }
 
 void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
@@ -366,13 +381,13 @@ void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
     motion_.flush();
     (length ? control_.tool.programmedLength : control_.tool.programmedRadius) =
         evaluation.number(words[0].value) * control_.unit;
-    return control_.applyFrames();
+    return control_.handOverFrames();
   }
   if (name == "DL") {
     motion_.flush();
     control_.tool.dl = wholeNumber(evaluation.number(words[0].value));
     control_.refreshTool();
-    return control_.applyFrames();
+    return control_.handOverFrames();
   }
   if (keywordOf(name) == Keyword::SynchronizedAction) return skip(fmt::format("the synchronized action {}", name));
   static constexpr std::string_view noticed[] = {"G74",    "PRESETON", "READ",      "DELETE",   "EXECSTRING",
@@ -440,6 +455,7 @@ void SinumerikHost::runCycle(std::string_view name, WordRange range, Evaluation&
     if (isMeasuringCycle(name))
       throw Alarm("14011", fmt::format("the measuring cycle {} is not available", name),
                   "'probewright cycles --control 840Dsl' lists the cycles that are");
+    if (isCycleWithoutEffect(name)) return;
     if (isSkippedCycle(name)) return skip(name);
     throw Alarm("14011", fmt::format("there is no program and no cycle {}", name),
                 fmt::format("put {}.SPF beside the program, or check the spelling", name));
@@ -459,7 +475,13 @@ void SinumerikHost::runCycle(std::string_view name, WordRange range, Evaluation&
       arguments.set(word.address, std::get<double>(value));
     }
   }
-  cycles::sinumerik::runCycle(control_, *entry, arguments, evaluation.place());
+  try {
+    cycles::sinumerik::runCycle(control_, *entry, arguments, evaluation.place());
+  } catch (const Alarm& alarm) {
+    const std::string named = namedArguments(definition, alarm);
+    if (named.empty()) throw;
+    throw Alarm(alarm.code(), alarm.text(), alarm.advice() + named);
+  }
 }
 
 void SinumerikHost::runSwivel(WordRange range, Evaluation& evaluation) {

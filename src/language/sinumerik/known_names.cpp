@@ -9,13 +9,15 @@ namespace probewright::sinumerik {
 namespace {
 
 constexpr std::string_view globals[] = {
-    "_OVR",      "_OVI",        "_EV",       "_MV",      "_EVMVNUM", "_WP",     "_TP",    "_TPW",     "_KB",
-    "_CM",       "_CBIT",       "_CHBIT",    "_SPEED",   "_CVAL",    "_MFS",    "_TP_CF", "_MT_COMP", "_TXT",
-    "_PROTNAME", "_HEADLINE",   "_PROTFORM", "_PROTSYM", "_PROTVAL", "_PMI",    "_SP_B",  "_JM_I",    "_JM_B",
-    "_MC_MA",    "_MC_SIMDIFF", "_KNUM",     "_MVAR",    "_PRNUM",   "_SETVAL", "_MA",    "_MD",      "_FA",
-    "_TSA",      "_VMS",        "_NMSP",     "_TNAME",   "_TZL",     "_TMV",    "_TUL",   "_TLL",     "_TDIF",
-    "_K",        "_EVNUM",      "_CALNUM",   "_SETV",    "_ID",      "_INCA",   "_STA1",  "_RA",      "_CPA",
-    "_CPO",      "_SZA",        "_SZO",      "_RF",      "_TENV",    "_DLNUM",  "_CORA",  "_TNUM",    "_TNVL",
+    "_OVR",     "_OVI",  "_EV",         "_MV",          "_EVMVNUM",    "_WP",       "_TP",      "_TPW",
+    "_KB",      "_CM",   "_CBIT",       "_CHBIT",       "_SPEED",      "_CVAL",     "_MFS",     "_TP_CF",
+    "_MT_COMP", "_TXT",  "_PROTNAME",   "_HEADLINE",    "_PROTFORM",   "_PROTSYM",  "_PROTVAL", "_PMI",
+    "_SP_B",    "_JM_I", "_JM_B",       "_MC_MA",       "_MC_SIMDIFF", "_KNUM",     "_MVAR",    "_PRNUM",
+    "_SETVAL",  "_MA",   "_MD",         "_FA",          "_TSA",        "_VMS",      "_NMSP",    "_TNAME",
+    "_TZL",     "_TMV",  "_TUL",        "_TLL",         "_TDIF",       "_K",        "_EVNUM",   "_CALNUM",
+    "_SETV",    "_ID",   "_INCA",       "_STA1",        "_RA",         "_CPA",      "_FINISH",  "_SEMIFIN",
+    "_ROUGH",   "_OFF",  "_ORI_FINISH", "_ORI_SEMIFIN", "_ORI_ROUGH",  "_CYCLE832", "_CPO",     "_SZA",
+    "_SZO",     "_RF",   "_TENV",       "_DLNUM",       "_CORA",       "_TNUM",     "_TNVL",
 };
 
 }  // namespace
@@ -26,9 +28,8 @@ bool isGlobalUserData(std::string_view name) {
 
 bool isSkippedCycle(std::string_view name) {
   static constexpr std::string_view machining[] = {
-      "HOLES1",       "HOLES2",   "POCKET1",     "POCKET2",      "POCKET3",    "POCKET4",   "SLOT1",       "SLOT2",
-      "LONGHOLE",     "CUST_800", "CUST_MEACYC", "CUST_TECHCYC", "PROG_EVENT", "TOOLCARR",  "GROUP_BEGIN", "GROUP_END",
-      "GROUP_ADDEND", "F_HEAD",   "F_END",       "E_HEAD",       "E_END",      "CYCLE_HSC",
+      "HOLES1", "HOLES2",   "POCKET1",  "POCKET2", "POCKET3", "POCKET4", "SLOT1",
+      "SLOT2",  "LONGHOLE", "TOOLCARR", "E_HEAD",  "E_END",   "F_HEAD",  "F_END",
   };
   if (std::find(std::begin(machining), std::end(machining), name) != std::end(machining)) return true;
   if (!name.starts_with("CYCLE") || name.size() < 7 || name.size() > 9) return false;
@@ -41,6 +42,32 @@ bool isSkippedCycle(std::string_view name) {
   const auto within = [number](int first, int last) { return number >= first && number <= last; };
   return within(60, 119) || within(200, 299) || within(400, 499) || within(700, 899) || within(930, 959) ||
          within(3000, 3999) || within(4070, 4079);
+}
+
+bool isCycleWithoutEffect(std::string_view name) {
+  static constexpr std::string_view names[] = {
+      "GROUP_BEGIN", "GROUP_END",   "GROUP_ADDEND", "CYCLE832",   "CYCLE_HSC",
+      "CUST_800",    "CUST_MEACYC", "CUST_TECHCYC", "CUST_CLAMP", "PROG_EVENT",
+  };
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+std::string_view skippedFunction(std::string_view name) {
+  struct Skipped {
+    std::string_view name, how;
+  };
+  constexpr std::string_view no = "is not carried out", straight = "is travelled as straight lines",
+                             norm = "is not carried out: the contour is approached and left as with NORM";
+  static constexpr Skipped skipped[] = {
+      {"TRANSMIT", no},   {"TRACYL", no},      {"TRAANG", no},        {"PAROT", no},         {"TOFRAMEX", no},
+      {"TOFRAMEY", no},   {"TOROTX", no},      {"TOROTY", no},        {"KONT", norm},        {"KONTC", norm},
+      {"KONTT", norm},    {"G147", norm},      {"G148", norm},        {"G247", norm},        {"G248", norm},
+      {"G347", norm},     {"G348", norm},      {"ASPLINE", straight}, {"BSPLINE", straight}, {"CSPLINE", straight},
+      {"POLY", straight}, {"INVCW", straight}, {"INVCCW", straight},  {"G33", straight},     {"G34", straight},
+      {"G35", straight},  {"G331", straight},  {"G332", straight},    {"G63", straight},
+  };
+  const auto found = std::ranges::find(skipped, name, &Skipped::name);
+  return found == std::end(skipped) ? std::string_view() : found->how;
 }
 
 bool isMeasuringCycle(std::string_view name) {

@@ -19,6 +19,8 @@ namespace {
 
 /// Feed types from here on count per revolution of the spindle.
 constexpr int feedPerTurn = 95;
+/// SD 42100 as delivered, mm/min.
+constexpr double dryRunFeed = 5000;
 
 double turnsTowards(double current, double angle) { return angle + 360 * std::round((current - angle) / 360); }
 
@@ -81,8 +83,10 @@ double PathMotion::rotaryTarget(std::size_t axis, WordMode mode, double value) c
 void PathMotion::readAxis(std::uint32_t address, WordMode mode, double value, Words& words) {
   if (const auto linear = linearAxis(address)) {
     const bool asDiameter = *linear == 0 && control_.diameter;
-    const double length = value * control_.unit / (asDiameter ? 2 : 1);
     const bool incremental = mode == WordMode::Incremental || (mode == WordMode::Plain && state_.incremental);
+    // DIAM90: diameters in absolute positions only.
+    const bool halved = asDiameter && !(incremental && state_.gGroup[29] == 3);
+    const double length = value * control_.unit / (halved ? 2 : 1);
     words.target.linear[*linear] = incremental ? start()[static_cast<Eigen::Index>(*linear)] + length : length;
     words.anyLinear = true;
     return;
@@ -302,6 +306,8 @@ Feed PathMotion::feed(MoveKind kind, const Vector3& from, const Vector3& to) con
     throw Alarm("10860", perTurn ? "the feed per revolution needs a turning spindle" : "no feed is programmed",
                 perTurn ? "program S, or G94 for a feed per minute" : "program F before the first G1, G2 or G3");
   }
+  // SD 42101 as delivered: the faster of the two.
+  if (control_.dryRun) perMinute = std::max(perMinute, control_.machineData("$SC_DRY_RUN_FEED", dryRunFeed));
   return Feed::at(perMinute);
 }
 
@@ -393,10 +399,10 @@ void PathMotion::moveWithoutFrames(const Move& move, Evaluation& evaluation) {
     const bool rapid = state_.group1 == MoveKind::Rapid;
     channel.moveTo(words.target, feed(rapid ? MoveKind::Rapid : MoveKind::Linear, start(), endOf(words)));
   } catch (...) {
-    control_.applyFrames();
+    control_.handOverFrames();
     throw;
   }
-  control_.applyFrames();
+  control_.handOverFrames();
 }
 
 void PathMotion::position(const std::string& axis, WordMode mode, double value) {

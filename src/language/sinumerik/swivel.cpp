@@ -180,7 +180,7 @@ std::vector<AxisPositions> solveToolDirection(const machine::MachineDescription&
 void deselectSwivel(Control& control) {
   control.frames.toolOriented = {};
   control.swivelled = false;
-  control.applyFrames();
+  control.handOverFrames();
 }
 
 void swivel(Control& control, const SwivelCall& call) {
@@ -220,7 +220,7 @@ void swivel(Control& control, const SwivelCall& call) {
   if (!frame) throw Alarm("62201", frame.error().message, frame.error().advice);
   control.frames.toolOriented = *frame;
   control.frames.programmed = {};
-  control.applyFrames();
+  control.handOverFrames();
 
   if (rotation) {
     const Vector3 normal = (control.machineFromWorkpiece().linear() * Vector3::UnitZ()).normalized();

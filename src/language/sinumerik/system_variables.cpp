@@ -42,10 +42,21 @@ Value fromDatum(const DataValue& value) {
   return std::get<std::string>(value);
 }
 
+/// The data behind an active basic frame: $P_BFRAME and $P_CHBFRAME[0] are $P_CHBFR[0].
+std::optional<DataKey> basicFrameData(std::string_view name, std::span<const Value> indices) {
+  const bool numbered = !indices.empty() && !language::isText(indices[0]);
+  const int number = numbered ? integerAt(indices, 0) : 0;
+  if (name == "$P_BFRAME" || name == "$P_CHBFRAME") return DataKey("$P_CHBFR", {number});
+  if (name == "$P_NCBFRAME") return DataKey("$P_NCBFR", {number});
+  if (name == "$P_SETFRAME") return DataKey("$P_SETFR", {});
+  return std::nullopt;
+}
+
 /// Frames of data management, whose components the store keeps.
 bool isStoredFrame(std::string_view name) {
-  return name == "$P_UIFR" || name == "$P_CHBFR" || name == "$P_NCBFR" || name == "$P_SETFR" || name == "$P_EXTFR" ||
-         name == "$P_PARTFR" || name == "$P_TOOLFR" || name == "$P_WPFR" || name == "$P_CYCFR" || name == "$P_TRAFR";
+  return name == "$P_UIFR" || name == "$P_UBFR" || name == "$P_CHBFR" || name == "$P_NCBFR" || name == "$P_SETFR" ||
+         name == "$P_EXTFR" || name == "$P_PARTFR" || name == "$P_TOOLFR" || name == "$P_WPFR" || name == "$P_CYCFR" ||
+         name == "$P_TRAFR";
 }
 
 }  // namespace
@@ -143,7 +154,6 @@ Frame* SystemVariables::activeFrame(std::string_view name) {
   if (name == "$P_PFRAME") return &control_.frames.programmed;
   if (name == "$P_WPFRAME" || name == "$P_TOOLFRAME" || name == "$P_PARTFRAME") return &control_.frames.toolOriented;
   if (name == "$P_IFRAME") return &control_.frames.settableFrame;
-  if (name == "$P_BFRAME" || name == "$P_ACTBFRAME" || name == "$P_CHBFRAME") return &control_.frames.base;
   return nullptr;
 }
 
@@ -155,12 +165,16 @@ std::optional<Value> SystemVariables::readFrame(std::string_view name, std::span
     const auto whole = control::sinumerik::frameFromTransform(control_.machineFromWorkpiece());
     if (!whole) throw Alarm("18314", whole.error().message, whole.error().advice);
     frame = *whole;
+  } else if (name == "$P_ACTBFRAME") {
+    frame = control_.frames.base;
+  } else if (const auto basic = basicFrameData(name, indices)) {
+    own = !indices.empty() && !language::isText(indices[0]) ? 1 : 0;
+    frame = control_.activeBasicFrame(*basic);
   } else if (const Frame* active = activeFrame(name)) {
     frame = *active;
-    if (name == "$P_CHBFRAME" && !indices.empty() && !language::isText(indices[0])) own = 1;
   } else if (isStoredFrame(name)) {
     own = !indices.empty() && !language::isText(indices[0]) ? 1 : 0;
-    frame = control_.data.frame(dataKey(name, indices.first(own)));
+    frame = control_.data.frame(name == "$P_UBFR" ? DataKey("$P_CHBFR", {0}) : dataKey(name, indices.first(own)));
   } else {
     return std::nullopt;
   }
@@ -202,7 +216,16 @@ std::optional<Value> SystemVariables::readState(std::string_view name, std::span
   if (name == "$P_F") return number(state_.feed);
   if (name == "$P_S") return number(state_.spindleSpeed);
   if (name == "$P_SDIR") return number(state_.spindleDirection);
-  if (name == "$P_MSNUM") return number(1);
+  if (name == "$P_MSNUM" || name == "$P_CHANNO" || name == "$AC_PROG") return number(1);
+  if (name == "$AC_STAT") return number(2);  // a program is running
+  if (name == "$P_D") return number(control_.tool.edge);
+  if (name == "$MC_MM_NUM_USER_FRAMES") return number(control_.machineData(name, 100));
+  if (name == "$MA_POS_LIMIT_PLUS" || name == "$MA_POS_LIMIT_MINUS") {
+    const auto axis = motion_.machineAxis(language::addressOf(axisAt(indices, 0, name)));
+    if (!axis) throw Alarm("17020", fmt::format("{}: there is no such axis", name));
+    const machine::Axis& travel = control_.channel.description().axes[*axis];
+    return number(name == "$MA_POS_LIMIT_PLUS" ? travel.maximum : travel.minimum);
+  }
   if (name == "$P_ISTEST") return number(control_.programTest ? 1 : 0);
   if (name == "$P_DRYRUN") return number(control_.dryRun ? 1 : 0);
   if (name == "$P_SEARCH" || name == "$P_SEARCHL") return number(control_.blockSearch ? 1 : 0);
@@ -254,13 +277,14 @@ bool SystemVariables::exists(std::string_view name, std::span<const Value> indic
 bool SystemVariables::writeFrame(std::string_view name, std::span<const Value> indices, const Value& value) {
   Frame* active = activeFrame(name);
   const bool stored = isStoredFrame(name);
-  if (active == nullptr && !stored) return false;
-  if (name == "$P_IFRAME" || active == &control_.frames.base)
-    throw Alarm("12130", fmt::format("{} cannot be written here", name),
-                "write the data, $P_UIFR[n] or $P_CHBFR[0], and activate them with G54 to G599");
-  const std::size_t own = stored && !indices.empty() && !language::isText(indices[0]) ? 1 : 0;
-  const DataKey key = dataKey(name, indices.first(own));
-  const Frame before = stored ? control_.data.frame(key) : *active;
+  const auto basic = basicFrameData(name, indices);
+  if (active == nullptr && !stored && !basic) return false;
+  const std::size_t own = (stored || basic) && !indices.empty() && !language::isText(indices[0]) ? 1 : 0;
+  if (basic && own == 1 && (integerAt(indices, 0) < 0 || integerAt(indices, 0) > 15))
+    throw Alarm("17020", fmt::format("{}: there is no basic frame {}", name, integerAt(indices, 0)),
+                "basic frames have the numbers 0 to 15");
+  const DataKey key = basic ? *basic : name == "$P_UBFR" ? DataKey("$P_CHBFR", {0}) : dataKey(name, indices.first(own));
+  const Frame before = basic ? control_.activeBasicFrame(key) : stored ? control_.data.frame(key) : *active;
   Frame after = before;
   if (indices.size() == own) {
     after = frameOf(value);
@@ -274,9 +298,13 @@ bool SystemVariables::writeFrame(std::string_view name, std::span<const Value> i
     const bool length = *part == FramePart::Translation || *part == FramePart::Fine;
     after.set(axis, *part, *number * (length && control::sinumerik::geometryAxisOf(axis) ? control_.unit : 1));
   }
+  if (basic) {
+    control_.setActiveBasicFrame(key, after);
+    return true;
+  }
   if (!stored) {
     *active = after;
-    control_.applyFrames();
+    control_.handOverFrames();
     return true;
   }
   std::vector<std::string> axes = {"X", "Y", "Z"};
@@ -300,7 +328,8 @@ void SystemVariables::write(std::string_view name, std::span<const Value> indice
   motion_.flush();
   if (writeFrame(name, indices, value)) return;
   const bool computed = name.starts_with("$AA_") || name == "$P_TOOLNO" || name == "$P_TOOL" || name == "$P_UIFRNUM" ||
-                        name == "$P_ACTFRAME" || name == "$P_GG" || name == "$PI" || name == "$AC_MEA";
+                        name == "$P_ACTFRAME" || name == "$P_ACTBFRAME" || name == "$P_GG" || name == "$PI" ||
+                        name == "$AC_MEA";
   if (computed) throw Alarm("12130", fmt::format("{} can only be read", name));
   const DataKey key = dataKey(name, indices);
   if (const auto* number = std::get_if<double>(&value)) return control_.write(key, *number);
