@@ -26,6 +26,9 @@ public:
   machine::AxisPositions position() const override { return released_ ? machine_.position() : at_; }
   machine::MoveResult move(const machine::AxisPositions& target, machine::Feed feed) override;
   machine::MeasureResult measure(const machine::AxisPositions& target, machine::Feed feed) override;
+  machine::MeasureResult measureWithShaft(const machine::AxisPositions& target, machine::Feed feed) override {
+    return released_ ? machine_.measureWithShaft(target, feed) : measure(target, feed);
+  }
   machine::MoveResult retract(const machine::AxisPositions& target, machine::Feed feed) override;
   bool probeDeflected() const override { return released_ && machine_.probeDeflected(); }
   machine::MoveResult orientSpindle(double degrees) override;
