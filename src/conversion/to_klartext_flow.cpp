@@ -126,6 +126,9 @@ void ToKlartext::repeat(const Block& block, const RepeatSection& section) {
 }
 
 void ToKlartext::call(const Block& block, const CallProgram& call) {
+  if (call.modal || call.from.length != 0)
+    throw NotCarriedOver("modal calls and calls of a section of a program have no twin in Klartext",
+                         "write each call out");
   if (call.maybeCycle && cycles::sinumerikCycle(block.at(call.name)) != nullptr) return cycle(block, call);
   if (call.name.length == 0) throw NotCarriedOver("a program whose name is computed has no twin in Klartext");
   const std::string name(block.at(call.name));

@@ -511,6 +511,7 @@ void Interpreter::setModalCall(const CallProgram& call, Evaluation& evaluation) 
   Block& kept = modal->block;
   CallProgram copy = call;
   copy.modal = false;
+  copy.times = {};
   copy.name = kept.add(evaluation.at(call.name));
   copy.arguments.first = 0;
   for (Word word : evaluation.words(call.arguments)) {
