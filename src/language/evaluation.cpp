@@ -79,10 +79,23 @@ double Evaluation::number(const Operand& operand) {
   return result;
 }
 
+namespace {
+
+/// Twelve significant digits: what lies behind them is noise of computing.
+double shown(double value) {
+  if (value == 0 || value == std::trunc(value)) return value;
+  const double digits = 11 - std::floor(std::log10(std::abs(value)));
+  const double scale = std::pow(10.0, digits);
+  const double rounded = std::round(value * scale) / scale;
+  return std::isfinite(rounded) && digits < 300 ? rounded : value;
+}
+
+}  // namespace
+
 std::string Evaluation::text(const Operand& operand) {
   Value result = value(operand);
   if (auto* text = std::get_if<std::string>(&result)) return std::move(*text);
-  return formatShortest(std::get<double>(result));
+  return formatShortest(shown(std::get<double>(result)));
 }
 
 double Evaluation::operand(const Operand& operand) {

@@ -28,7 +28,7 @@ public:
   /// Never infinite and never NaN.
   double number(const Operand& operand);
   bool truth(const Operand& operand) { return number(operand) != 0; }
-  /// The text, or a number as its shortest decimal text.
+  /// The text, or a number as its shortest decimal text with twelve digits at most.
   std::string text(const Operand& operand);
   /// The number, or `otherwise` if the operand is absent.
   double numberOr(const Operand& operand, double otherwise) { return operand.present() ? number(operand) : otherwise; }

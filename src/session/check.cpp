@@ -1,5 +1,7 @@
 #include "session/check.hpp"
 
+#include <utility>
+
 #include "base/file.hpp"
 #include "language/klartext/check.hpp"
 #include "language/sinumerik/check.hpp"
@@ -17,13 +19,13 @@ Diagnostics checkProgram(const std::filesystem::path& path, std::optional<contro
   return checkProgram(**program, *kind);
 }
 
-Diagnostics checkProgram(language::Program& program, control::ControlKind kind) {
+Diagnostics checkProgram(language::Program& program, control::ControlKind kind, std::set<std::string> globalVariables) {
   if (control::isHeidenhain(kind)) {
     return language::klartext::checkProgram(static_cast<language::klartext::HeidenhainProgram&>(program), kind);
   }
   const auto library = programLibrary(kind);
   return sinumerik::check(static_cast<sinumerik::SinumerikProgram&>(program),
-                          {.library = library.get(), .globalVariables = {}});
+                          {.library = library.get(), .globalVariables = std::move(globalVariables)});
 }
 
 }  // namespace probewright::session

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/file.hpp"
 #include "control/alarm.hpp"
@@ -207,6 +208,17 @@ void conclude(RunOutcome& outcome) {
   }
 }
 
+/// The names of global user data (GUD) that files of the setup's table folder give values to.
+std::set<std::string> globalUserData(const simulation::Setup& setup, ControlKind kind) {
+  std::set<std::string> names;
+  if (control::isHeidenhain(kind)) return names;
+  Diagnostics ignored;  // the run names them
+  for (const sin::DataKey& key : sinumerikData(setup, ignored).store.keys()) {
+    if (!key.name.starts_with('$')) names.insert(key.name);
+  }
+  return names;
+}
+
 RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path& path, ControlKind kind,
                const simulation::Setup& setup, const RunOptions& options) {
   RunOutcome outcome;
@@ -230,7 +242,7 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
     conclude(outcome);
     return outcome;
   }
-  outcome.diagnostics = checkProgram(*program, kind);
+  outcome.diagnostics = checkProgram(*program, kind, globalUserData(setup, kind));
   if (hasErrors(outcome.diagnostics)) {
     conclude(outcome);
     return outcome;

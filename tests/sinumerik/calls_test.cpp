@@ -112,6 +112,23 @@ TEST(SinumerikCalls, CheckNamesWhatIsWrongWithACall) {
             }));
 }
 
+TEST(SinumerikCalls, CalledProgramsAreCheckedToo) {
+  Texts library;
+  library.add("OUTER", "PROC OUTER\nINNER(1)\nOUTER\nR1=WIDHT\nRET\n");
+  library.add("INNER", "PROC INNER(REAL K1)\nRET\n");
+  const auto program = SinumerikProgram::fromText("test.mpf", "OUTER\nOUTER\nR1=1+\n");
+  std::vector<std::string> places;
+  for (const Diagnostic& each : check(*program, {&library, {}}))
+    places.push_back(each.place.file + ":" + std::to_string(each.place.line));
+  EXPECT_EQ(places, (std::vector<std::string>{"test.mpf:3", "OUTER.SPF:4", "INNER.SPF:1"}));
+  World world;
+  world.texts.add("INNER", "PROC INNER(REAL K1)\nRET\n");
+  const language::RunResult result = world.tryRun("INNER(1)\n");
+  ASSERT_FALSE(result.diagnostics.empty());
+  EXPECT_EQ(result.diagnostics.front().code, "14020");
+  EXPECT_NE(result.diagnostics.front().message.find("PROC line of INNER"), std::string::npos);
+}
+
 TEST(SinumerikCalls, AMistakeInDefIsSaidOnce) {
   const auto program = SinumerikProgram::fromText("test.mpf", "DEF REAL WIDTH=1, H, DEPTH[2]\nWIDTH=DEPTH[0]\n");
   EXPECT_EQ(messagesOf(check(*program, {})), (std::vector<std::string>{"1:19 the name of the variable was expected"}));

@@ -31,6 +31,8 @@ class Checker {
 public:
   Checker(SinumerikProgram& program, const CheckOptions& options) : program_(program), options_(options) {}
   Diagnostics run();
+  /// The programs that this one calls.
+  std::vector<std::shared_ptr<Program>> called;
 
 private:
   struct Use {
@@ -43,7 +45,7 @@ private:
   void report(std::size_t column, std::string message, std::string advice, Severity severity = Severity::Error);
   void declare(const Instruction& instruction);
   void declareFromBrokenBlock();
-  void checkSection(const CallProgram& call, Program& called);
+  void checkSection(const CallProgram& call, Program& other);
   void checkNames();
   void checkPriorities();
   void checkInstruction(const Instruction& instruction);
@@ -273,13 +275,13 @@ std::string plainName(std::string_view path) {
   return std::string(path.substr(0, path.size() - (ending ? 4 : 0)));
 }
 
-void Checker::checkSection(const CallProgram& call, Program& called) {
+void Checker::checkSection(const CallProgram& call, Program& other) {
   const std::string_view from = block_.at(call.from), to = block_.at(call.to);
-  const auto first = called.findLabel(from, called.begin(), JumpDirection::Any);
-  const bool last = first && (from == to || called.findLabel(to, *first, JumpDirection::Forward));
+  const auto first = other.findLabel(from, other.begin(), JumpDirection::Any);
+  const bool last = first && (from == to || other.findLabel(to, *first, JumpDirection::Forward));
   if (!last)
     report(columnOf(first ? to : from),
-           fmt::format("the program {} has no section from {} to {}", called.name(), from, to),
+           fmt::format("the program {} has no section from {} to {}", other.name(), from, to),
            fmt::format("The label {} is missing there, or stands before {}.", first ? to : from, from));
 }
 
@@ -288,13 +290,14 @@ void Checker::checkCall(const CallProgram& call) {
   const std::string path = upperCase(block_.at(call.name)), name = plainName(path);
   if (macros_.contains(name)) return;
   if (options_.library != nullptr && options_.library->exists(path, &program_)) {
-    const auto called = options_.library->open(path, &program_);
-    if (!called) {
-      const Diagnostic& why = called.error();
+    const auto found = options_.library->open(path, &program_);
+    if (!found) {
+      const Diagnostic& why = found.error();
       return report(columnOf(path), fmt::format("the program {} cannot be read: {}", name, why.message), why.advice);
     }
-    if (call.from.length != 0) return checkSection(call, **called);
-    if (auto* subprogram = dynamic_cast<SinumerikProgram*>(called->get());
+    this->called.push_back(*found);
+    if (call.from.length != 0) return checkSection(call, **found);
+    if (auto* subprogram = dynamic_cast<SinumerikProgram*>(found->get());
         subprogram != nullptr && subprogram->structure().header())
       checkParameters(call, *subprogram->structure().header());
     return;
@@ -397,6 +400,22 @@ Diagnostics Checker::run() {
 
 }  // namespace
 
-Diagnostics check(SinumerikProgram& program, const CheckOptions& options) { return Checker(program, options).run(); }
+Diagnostics check(SinumerikProgram& program, const CheckOptions& options) {
+  constexpr std::size_t mostPrograms = 500;
+  Checker main(program, options);
+  Diagnostics found = main.run();
+  std::set<std::string> known = {program.file()};
+  std::vector<std::shared_ptr<Program>> open = std::move(main.called);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const std::shared_ptr<Program> each = open[i];
+    auto* subprogram = dynamic_cast<SinumerikProgram*>(each.get());
+    if (subprogram == nullptr || known.size() >= mostPrograms || !known.insert(each->file()).second) continue;
+    Checker checker(*subprogram, options);
+    const Diagnostics more = checker.run();
+    found.insert(found.end(), more.begin(), more.end());
+    open.insert(open.end(), checker.called.begin(), checker.called.end());
+  }
+  return found;
+}
 
 }  // namespace probewright::sinumerik

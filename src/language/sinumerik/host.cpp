@@ -131,8 +131,12 @@ void SinumerikHost::enter(const Program& program, const CallProgram* call, Evalu
   const auto* own = dynamic_cast<const SinumerikProgram*>(&program);
   const BlockParser::Header* header = nullptr;
   if (own != nullptr) {
-    const auto& found = const_cast<SinumerikProgram*>(own)->structure().header();
-    if (found) header = &*found;
+    ProgramStructure& structure = const_cast<SinumerikProgram*>(own)->structure();
+    if (structure.header()) header = &*structure.header();
+    if (!structure.headerMistake().empty())
+      throw Alarm("14020",
+                  fmt::format("the PROC line of {} cannot be read: {}", program.name(), structure.headerMistake()),
+                  "correct it in " + program.file());
   }
   UserVariables::Scope parameters;
   const std::uint32_t given = call != nullptr ? call->arguments.count : 0;

@@ -140,6 +140,11 @@ bool PathMotion::readArcWord(std::uint32_t address, WordMode mode, double value,
     case addressOf("ANG"):
       words.angle = value;
       return true;
+    // Soft approach and the angle at which a thread begins: the lines around them are travelled without.
+    case addressOf("DISR"):
+    case addressOf("FAD"):
+    case addressOf("SF"):
+      return true;
     case addressOf("ANG1"):
     case addressOf("ANG2"):
       throw Alarm("12080", fmt::format("contours with {} are not carried out", addressName(address)),

@@ -167,6 +167,8 @@ void ProgramStructure::scanLine(std::string_view line, BlockPosition position) {
       if (!header_ && proc != std::string::npos &&
           BlockParser::parseHeader(std::string_view(whole).substr(proc + 4), header, mistake, mistakeOffset))
         header_ = std::move(header);
+      else if (!header_)
+        headerMistake_ = std::move(mistake);
       return;
     }
     case Keyword::Declare: {

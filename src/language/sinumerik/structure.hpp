@@ -39,6 +39,8 @@ public:
 
   /// The PROC line, if the program has one.
   const std::optional<BlockParser::Header>& header() const { return header_; }
+  /// Why the PROC line cannot be read; empty if it can or there is none.
+  const std::string& headerMistake() const { return headerMistake_; }
 
 private:
   struct Mark {
@@ -57,6 +59,7 @@ private:
   std::vector<std::size_t> open_;
   std::vector<std::string> stringVariables_;
   std::optional<BlockParser::Header> header_;
+  std::string headerMistake_;
   Diagnostics mistakes_;
   std::string file_;
   std::string upper_;
