@@ -156,7 +156,7 @@ TEST(SinumerikUnits, InchProgramsMeasureWhatMetricOnesMeasure) {
     };
     EXPECT_NEAR(r("R1"), -29.5, 1e-6) << units.code;
     EXPECT_NEAR(r("R2"), 0.5, 1e-6) << units.code;
-    EXPECT_NEAR(r("R4"), 0.5, 1e-6) << units.code;
+    EXPECT_NEAR(r("R4") / units.scale * units.feedScale, 0.5, 1e-6) << units.code << ": G70 reads system data in mm";
   }
 }
 

@@ -111,6 +111,19 @@ TEST(SinumerikActiveFrames, AChannelBeginsAsMachineDatum20150Says) {
   EXPECT_TRUE(host.motionState().feedInInch);
 }
 
+TEST(SinumerikActiveFrames, G700ConvertsSystemVariablesAndFeedsG70DoesNot) {
+  World world;
+  world.run("G70 G500 G90 G0 X1 Y0 Z0\nTRANS X2\nR1=$AA_IW[X] R2=$P_PFRAME[X,TR]\nG1 X0 F100\n");
+  EXPECT_NEAR(world.r(1), 25.4 - 50.8, 1e-9);
+  EXPECT_NEAR(world.r(2), 50.8, 1e-9);
+  EXPECT_EQ(world.machine.moves.back().feed.perMinute, 100);
+  world.run("G700\nR1=$AA_IW[X] R2=$P_PFRAME[X,TR]\nG1 X1 F10\n$P_UIFR[1,X,TR]=1\nG71\nR3=$P_UIFR[1,X,TR]\n");
+  EXPECT_NEAR(world.r(1), 0, 1e-9);
+  EXPECT_NEAR(world.r(2), 2, 1e-9);
+  EXPECT_EQ(world.machine.moves.back().feed.perMinute, 254);
+  EXPECT_NEAR(world.r(3), 25.4, 1e-9);
+}
+
 TEST(SinumerikActiveFrames, DiametersInAbsoluteAndIncrementalPositions) {
   World world("lathe2c");
   world.run("DIAMON G90 G0 X100 Z50\nR1=$AA_IM[X] R2=$AA_IW[X]\nG91 X10\nR3=$AA_IM[X]\n");

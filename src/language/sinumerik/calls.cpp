@@ -55,8 +55,10 @@ void BlockParser::parseCall(std::size_t start) {
   cursor_.skipBlanks();
   if (cursor_.peekName() == "BLOCK") {
     RepeatSection section;
-    if (parseCalledSection(section.from, section.to)) block_->instructions.emplace_back(section);
-    return;
+    if (!isFirstStatement()) return fail(start, "CALL BLOCK stands in a block of its own", "Begin a new line with it.");
+    if (!parseCalledSection(section.from, section.to)) return;
+    block_->instructions.emplace_back(section);
+    return expectEnd("the section to call");
   }
   if (cursor_.atEnd()) return fail(start, "the program to call is missing", "Write CALL \"NAME\".");
   CallProgram call;

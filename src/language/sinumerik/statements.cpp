@@ -182,7 +182,7 @@ TextRef BlockParser::parseTarget() {
     cursor_.advance();
     cursor_.digits();
   } else if (isNameStart(cursor_.peek()) && isNameStart(cursor_.peek(1))) {
-    cursor_.name();
+    if (keywordOf(cursor_.peekName()) == Keyword::None) cursor_.name();
   }
   return upper(cursor_.since(start));
 }

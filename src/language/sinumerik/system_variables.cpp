@@ -122,7 +122,7 @@ std::optional<Value> SystemVariables::readPosition(std::string_view name, std::s
     return axes[*machineAxis] - control_.channel.rotaryOffset[*machineAxis];
   }
   const bool length = control_.channel.description().axes[machineAxis.value_or(0)].kind == machine::AxisKind::Linear;
-  return length ? value / control_.unit : value;
+  return length ? value / unit() : value;
 }
 
 std::optional<Value> SystemVariables::readTool(std::string_view name, std::span<const Value> indices) {
@@ -185,7 +185,7 @@ std::optional<Value> SystemVariables::readFrame(std::string_view name, std::span
   if (!part) throw Alarm("17030", fmt::format("{} has the components TR, FI, RT, SC and MI", name));
   const double value = frame.get(axis, *part);
   const bool length = *part == FramePart::Translation || *part == FramePart::Fine;
-  return length && control::sinumerik::geometryAxisOf(axis) ? value / control_.unit : value;
+  return length && control::sinumerik::geometryAxisOf(axis) ? value / unit() : value;
 }
 
 std::optional<Value> SystemVariables::readState(std::string_view name, std::span<const Value> indices) {
@@ -296,7 +296,7 @@ bool SystemVariables::writeFrame(std::string_view name, std::span<const Value> i
                                                : std::optional(FramePart::Translation);
     if (!part) throw Alarm("17030", fmt::format("{} has the components TR, FI, RT, SC and MI", name));
     const bool length = *part == FramePart::Translation || *part == FramePart::Fine;
-    after.set(axis, *part, *number * (length && control::sinumerik::geometryAxisOf(axis) ? control_.unit : 1));
+    after.set(axis, *part, *number * (length && control::sinumerik::geometryAxisOf(axis) ? unit() : 1));
   }
   if (basic) {
     control_.setActiveBasicFrame(key, after);
