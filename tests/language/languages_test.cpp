@@ -134,10 +134,10 @@ R7=1
 
 TEST(SinumerikRun, SectionsAndJumps) {
   Control control;
-  const RunResult result = control.sinumerik(R"(GOTOF START
+  const RunResult result = control.sinumerik(R"(GOTOF BEGIN_1
 SUB: R1=R1+1
 SUBEND: R2=R2+1
-START: REPEAT SUB SUBEND P=3
+BEGIN_1: REPEAT SUB SUBEND P=3
 AGAIN: R3=R3+1
 REPEAT AGAIN P=2
 HERE: R4=R4+1
