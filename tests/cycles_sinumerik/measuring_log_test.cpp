@@ -76,7 +76,7 @@ TEST(ResultScreen, ComesAsTheSettingDataSays) {
   measure(bench);
   EXPECT_THAT(bench.screen(), HasSubstr("CYCLE977"));
   EXPECT_THAT(bench.screen(), HasSubstr("S_MVAR = 1"));
-  EXPECT_THAT(valuesBehind(bench.screen(), "diameter [mm]"), ElementsAre("40.0000", "40.0120", "0.0120"));
+  EXPECT_THAT(valuesBehind(bench.screen(), "diameter of the hole [mm]"), ElementsAre("40.0000", "40.0120", "0.0120"));
   EXPECT_THAT(valuesBehind(bench.screen(), "centre, 1st axis [mm]"), ElementsAre("0.0000", "0.0500", "0.0500"));
   EXPECT_THAT(valuesBehind(bench.screen(), "centre, 2nd axis [mm]"), ElementsAre("0.0000", "-0.0200", "-0.0200"));
   EXPECT_THAT(valuesBehind(bench.screen(), "safe area"), ElementsAre("1"));
