@@ -7,6 +7,8 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "control/sinumerik/control.hpp"
 #include "control/sinumerik/measuring_data.hpp"
@@ -134,18 +136,134 @@ std::string argument(FuzzedDataProvider& input) {
   }
 }
 
-std::string call(FuzzedDataProvider& input) {
+using Named = std::vector<std::pair<std::string_view, const char*>>;
+
+/// A call that measures, and where it begins.
+struct Sound {
+  const char* way;
+  const char* cycle;
+  Named arguments;
+};
+
+const std::vector<Sound>& soundCalls(bool lathe) {
+  static constexpr const char* edge = "G54\nG0 X-30 Y0 Z10\nZ-10\n";
+  static constexpr const char* top = "G54\nG0 X0 Y0 Z10\n";
+  static constexpr const char* corner = "G54\nG0 X-30 Y-25 Z10\nZ-10\n";
+  static constexpr const char* hole = "G55\nG0 X0 Y0 Z10\nZ-8\n";
+  static constexpr const char* ball = "G56\nG0 X0 Y0 Z22\n";
+  static constexpr const char* outside = "G0 Z80\nX120\n";
+  static const std::vector<Sound> mill = {
+      {edge,
+       "CYCLE978",
+       {{"S_MVAR", "100"},
+        {"S_KNUM", "1"},
+        {"S_SETV", "-20"},
+        {"S_FA", "8"},
+        {"S_TSA", "5"},
+        {"S_MA", "1"},
+        {"S_MD", "1"}}},
+      {top,
+       "CYCLE978",
+       {{"S_MVAR", "200"},
+        {"S_KNUM1", "1"},
+        {"S_FA", "8"},
+        {"S_TSA", "5"},
+        {"S_MA", "3"},
+        {"S_MD", "2"},
+        {"S_TNAME", "\"MILL\""}}},
+      {hole, "CYCLE976", {{"S_MVAR", "1"}, {"S_SETV", "30"}, {"S_FA", "8"}, {"S_TSA", "3"}}},
+      {hole, "CYCLE977", {{"S_MVAR", "101"}, {"S_KNUM", "2"}, {"S_SETV", "30"}, {"S_FA", "8"}, {"S_TSA", "5"}}},
+      {top,
+       "CYCLE977",
+       {{"S_MVAR", "106"},
+        {"S_KNUM", "1"},
+        {"S_SETV0", "40"},
+        {"S_SETV1", "30"},
+        {"S_ID", "-20"},
+        {"S_FA", "8"},
+        {"S_TSA", "5"}}},
+      {top,
+       "CYCLE977",
+       {{"S_MVAR", "104"}, {"S_SETV", "30"}, {"S_MA", "2"}, {"S_ID", "-20"}, {"S_FA", "8"}, {"S_TSA", "5"}}},
+      {hole,
+       "CYCLE979",
+       {{"S_MVAR", "101"}, {"S_KNUM", "10002"}, {"S_SETV", "30"}, {"S_INCA", "80"}, {"S_FA", "8"}, {"S_TSA", "5"}}},
+      {corner,
+       "CYCLE961",
+       {{"S_MVAR", "106"},
+        {"S_KNUM", "1"},
+        {"S_FA", "15"},
+        {"S_TSA", "8"},
+        {"S_SETV0", "20"},
+        {"S_SETV1", "35"},
+        {"S_SETV2", "20"},
+        {"S_SETV3", "30"},
+        {"S_SETV4", "-30"},
+        {"S_SETV5", "-25"},
+        {"S_INCA", "90"}}},
+      {edge,
+       "CYCLE998",
+       {{"S_MVAR", "100105"},
+        {"S_KNUM", "1"},
+        {"S_FA", "9"},
+        {"S_TSA", "12"},
+        {"S_MA", "201"},
+        {"S_MD", "1"},
+        {"S_ID", "10"}}},
+      {top,
+       "CYCLE998",
+       {{"S_MVAR", "100106"}, {"S_KNUM", "1"}, {"S_FA", "9"}, {"S_TSA", "12"}, {"S_SETV0", "10"}, {"S_SETV3", "10"}}},
+      {ball,
+       "CYCLE997",
+       {{"S_MVAR", "101119"}, {"S_KNUM", "3"}, {"S_SETV", "25"}, {"S_INCA", "90"}, {"S_FA", "8"}, {"S_TSA", "5"}}},
+  };
+  static const std::vector<Sound> turned = {
+      {outside,
+       "CYCLE974",
+       {{"S_MVAR", "102"}, {"S_KNUM", "1"}, {"S_SETV", "40"}, {"S_MA", "2"}, {"S_FA", "50"}, {"S_TSA", "4"}}},
+      {outside,
+       "CYCLE994",
+       {{"S_MVAR", "2"}, {"S_SETV", "40"}, {"S_MA", "2"}, {"S_SZO", "30"}, {"S_FA", "50"}, {"S_TSA", "4"}}},
+      {outside,
+       "CYCLE973",
+       {{"S_MVAR", "0"}, {"S_SETV", "40"}, {"S_MA", "2"}, {"S_MD", "2"}, {"S_FA", "50"}, {"S_TSA", "4"}}},
+  };
+  return lathe ? turned : mill;
+}
+
+std::string text(const char* cycle, const std::vector<std::string>& places) {
+  std::string call = std::string(cycle) + "(";
+  for (std::size_t i = 0; i < places.size(); ++i)
+    call += (i > 0 ? "," : "") + places[i];
+  return call + ")\n";
+}
+
+/// A call that measures, with up to four of its arguments changed.
+std::string nearlySoundCall(FuzzedDataProvider& input, bool lathe) {
+  const auto& all = soundCalls(lathe);
+  const Sound& sound = all[input.ConsumeIntegralInRange<std::size_t>(0, all.size() - 1)];
+  const cycles::CycleDefinition& definition = *cycles::sinumerikCycle(sound.cycle);
+  std::vector<std::string> places(definition.parameters.size());
+  for (const cycles::Parameter& parameter : definition.parameters) {
+    for (const auto& [name, value] : sound.arguments)
+      if (parameter.name == name) places[parameter.address] = value;
+  }
+  for (int changes = input.ConsumeIntegralInRange<int>(0, 4); changes > 0; --changes)
+    places[input.ConsumeIntegralInRange<std::size_t>(0, places.size() - 1)] = argument(input);
+  return (lathe ? "G90 G0 X150\n" : "G90 SUPA G0 Z0 D0\nD1\n") + (sound.way + text(sound.cycle, places));
+}
+
+/// Any cycle with anything.
+std::string anyCall(FuzzedDataProvider& input) {
   const auto cycles = cycles::cyclesOf(control::ControlKind::Sinumerik840Dsl);
   const auto pick = input.ConsumeIntegralInRange<std::size_t>(0, cycles.size() + 1);
-  std::string text = pick < cycles.size()    ? std::string(cycles[pick]->name)
-                     : pick == cycles.size() ? "CYCLE800"
-                                             : "CYCLE116";
-  const std::size_t most = pick < cycles.size() ? cycles[pick]->parameters.size() + 1 : 16;
-  const auto count = input.ConsumeIntegralInRange<std::size_t>(0, most);
-  text += '(';
-  for (std::size_t i = 0; i < count; ++i)
-    text += (i > 0 ? "," : "") + argument(input);
-  return text + ")\n";
+  const bool known = pick < cycles.size();
+  const std::string name = known ? std::string(cycles[pick]->name) : pick == cycles.size() ? "CYCLE800" : "CYCLE116";
+  const std::size_t most = known ? cycles[pick]->parameters.size() + 1 : 16;
+  std::vector<std::string> places(input.ConsumeIntegralInRange<std::size_t>(0, most));
+  for (std::string& place : places)
+    place = argument(input);
+  return text(name.c_str(), places);
 }
 
 }  // namespace
@@ -159,21 +277,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   static constexpr const char* before[] = {"",           "G19\n",      "G70\n",       "G700\n",        "ROT Z30\n",
                                            "SCALE X2\n", "G18\n",      "MIRROR X0\n", "TRANS X5 Z1\n", "DIAMOF\n",
                                            "G500\n",     "AROT X10\n", "DIAMON\n",    "G91\n"};
-  std::string text = "G90 G71\nT1 D1 M6\n";
-  if (lathe) {
-    text += "G0 X120\nZ80\n";
-  } else {
-    static constexpr const char* places[] = {"G54\nG0 X-30 Y0 Z10\nZ-10\n", "G54\nG0 X0 Y0 Z10\n",
-                                             "G55\nG0 X0 Y0 Z10\nZ-10\n", "G56\nG0 X0 Y0 Z20\n",
-                                             "G56\nG0 X-25 Y0 Z20\nZ0\n"};
-    text += input.PickValueInArray(places);
-  }
-  text += input.PickValueInArray(before);
-  const int calls = input.ConsumeIntegralInRange<int>(1, 3);
-  for (int i = 0; i < calls; ++i)
-    text += call(input);
+  std::string source = "G90 G71\nT1 D1 M6\n";
+  source += lathe ? "G0 X150\nZ80\n" : "G54\nG0 X-30 Y0 Z10\nZ-10\n";
+  if (input.ConsumeBool()) source += input.PickValueInArray(before);
+  for (int calls = input.ConsumeIntegralInRange<int>(1, 3); calls > 0; --calls)
+    source += calls == 1 && input.ConsumeBool() ? anyCall(input) : nearlySoundCall(input, lathe);
 
-  const auto program = sinumerik::SinumerikProgram::fromText("fuzz.mpf", text);
+  const auto program = sinumerik::SinumerikProgram::fromText("fuzz.mpf", source);
   sinumerik::check(*program, {});
   simulation::VirtualMachine machine(worlds[lathe ? 1 : 0]);
   machine.recordPath(false);
