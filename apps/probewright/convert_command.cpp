@@ -39,16 +39,16 @@ int convert(const ConvertArguments& arguments) {
                    {arguments.output.string(), 0, 0},
                    "the ending does not tell the language to convert to",
                    {},
-                   "end the name with .H for Klartext or .I for DIN/ISO",
+                   "end the name with .H for Klartext, .I for DIN/ISO or .MPF for a SINUMERIK",
                    {}});
   }
   if (!session::convertible(*from, *to)) {
     return refuse(
         {Severity::Error,
          {arguments.input.string(), 0, 0},
-         fmt::format("programs cannot be converted from {} to {}", session::nameOf(*from), session::nameOf(*to)),
+         fmt::format("the program is one of {} already", session::nameOf(*from)),
          {},
-         "Klartext and DIN/ISO can be converted into each other",
+         "name a file with the ending of another language: .H, .I or .MPF",
          {}});
   }
   const auto program = session::programOf(arguments.input.string(), *text, *from);

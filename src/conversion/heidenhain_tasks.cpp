@@ -4,14 +4,13 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 
-#include "cycles/catalogue.hpp"
-
+/// Touch probe cycles read as measuring tasks.
 namespace probewright::conversion {
 
 namespace {
 
-/// Reads one call.
 class Reader {
 public:
   Reader(const Call& call, const Quantity& ballRadius, Losses& losses)
@@ -19,14 +18,57 @@ public:
 
   std::vector<MeasuringTask> tasks() {
     switch (std::atoi(call_.cycle.c_str())) {
+      case 400:
+        return {edge(Correction::Rotation)};
+      case 420:
+        return {edge(Correction::None)};
+      case 408:
+        return preset(width(Feature::Groove, 321, 322), {405});
+      case 409:
+        return preset(width(Feature::Rib, 321, 322), {405});
+      case 410:
+        return preset(rectangle(Feature::Pocket, 321, 323), {331, 332});
+      case 411:
+        return preset(rectangle(Feature::RectangularSpigot, 321, 323), {331, 332});
       case 412:
-        return preset(circle(Feature::Hole, 321, 322));
+        return preset(circle(Feature::Hole, 321), {331, 332});
       case 413:
-        return preset(circle(Feature::Spigot, 321, 322));
+        return preset(circle(Feature::Spigot, 321), {331, 332});
+      case 414:
+        return preset(outsideCorner(), {331, 332});
+      case 415:
+        return preset(insideCorner(), {331, 332});
+      case 417:
+        return {presetSurface(surface(294, 2, -1))};
+      case 419:
+        return {presetSurface(surface(261, option(272) - 1, option(267)))};
       case 421:
-        return inspection(circle(Feature::Hole, 273, 274), {{{275, 276}}});
+        return inspection(circle(Feature::Hole, 273), {{275, 276}});
       case 422:
-        return inspection(circle(Feature::Spigot, 273, 274), {{{277, 278}}});
+        return inspection(circle(Feature::Spigot, 273), {{277, 278}});
+      case 423:
+        return inspection(rectangle(Feature::Pocket, 273, 282), {{284, 285}, {286, 287}});
+      case 424:
+        return inspection(rectangle(Feature::RectangularSpigot, 273, 282), {{284, 285}, {286, 287}});
+      case 425:
+        if (asked(310)) throw NotCarriedOver("Q310: CYCLE977 touches both walls at the same place");
+        return inspection(width(Feature::Groove, 328, 329), {{288, 289}});
+      case 426:
+        return inspection(ridge(), {{288, 289}});
+      case 427:
+        return inspection(surface(261, option(272) - 1, option(267)), {{288, 289}});
+      case 431:
+        return {plane()};
+      case 1410:
+        return {alignedEdge()};
+      case 1420:
+        return {alignedPlane()};
+      case 460:
+        return {calibration(Feature::ProbeOnBall)};
+      case 461:
+        return {calibration(Feature::ProbeLength)};
+      case 462:
+        return {calibration(Feature::ProbeInRing)};
       default:
         throw NotCarriedOver(fmt::format("touch probe cycle {} has no twin on a SINUMERIK", call_.cycle),
                              "docs/conversion.md lists the cycles that both controls have");
@@ -54,10 +96,10 @@ private:
     return task;
   }
 
-  MeasuringTask circle(Feature feature, int centre1, int centre2) const {
+  MeasuringTask circle(Feature feature, int centre) const {
     MeasuringTask task = begun(feature);
-    task.place[0] = q(centre1);
-    task.place[1] = q(centre2);
+    task.place[0] = q(centre);
+    task.place[1] = q(centre + 1);
     task.size[0] = q(262);
     task.angle = q(325);
     task.step = q(247);
@@ -67,39 +109,200 @@ private:
     return task;
   }
 
+  MeasuringTask rectangle(Feature feature, int centre, int length) const {
+    MeasuringTask task = begun(feature);
+    for (int i = 0; i < 2; ++i) {
+      task.place[static_cast<std::size_t>(i)] = q(centre + i);
+      task.size[static_cast<std::size_t>(i)] = q(length + i);
+    }
+    return task;
+  }
+
+  MeasuringTask width(Feature feature, int first, int second) const {
+    MeasuringTask task = begun(feature);
+    task.place[0] = q(first);
+    task.place[1] = q(second);
+    task.size[0] = q(311);
+    task.axis = option(272) - 1;
+    return task;
+  }
+
+  /// Cycle 426 has the two places of touch.
+  MeasuringTask ridge() {
+    MeasuringTask task = width(Feature::Rib, 263, 264);
+    const auto axis = static_cast<std::size_t>(task.axis);
+    const Place other = {q(265), q(266), {}};
+    if (!(task.place[1 - axis] == other[1 - axis])) {
+      losses_.push_back("Q265, Q266: CYCLE977 touches both sides at the place of the first touch");
+    }
+    task.place[axis] = (task.place[axis] + other[axis]) / 2;
+    return task;
+  }
+
+  MeasuringTask surface(int height, int axis, int sign) const {
+    MeasuringTask task = begun(Feature::Surface);
+    task.place = {q(263), q(264), q(height)};
+    task.axis = axis;
+    task.sign = sign;
+    task.size[0] = task.place[static_cast<std::size_t>(axis)];
+    return task;
+  }
+
+  MeasuringTask edge(Correction correction) const {
+    MeasuringTask task = begun(Feature::Edge);
+    task.place = {q(263), q(264), q(261)};
+    task.further = {{q(265), q(266), q(261)}};
+    task.axis = option(272) - 1;
+    task.sign = option(267);
+    task.along = task.axis == 2 ? 0 : 1 - task.axis;
+    const Quantity dx = task.further[0][0] - task.place[0], dy = task.further[0][1] - task.place[1];
+    const bool numbers = dx.isNumber() && dy.isNumber();
+    if (task.axis == 2 && numbers && std::abs(dy.number()) > std::abs(dx.number())) task.along = 1;
+    task.angle = task.axis == 0 ? 90 : 0;
+    task.correction = correction;
+    if (correction == Correction::Rotation) {
+      task.angle = q(307);
+      task.row = q(305);
+      task.active = task.row == 0;
+      task.fromUnturned = true;
+    } else if (numbers && task.axis != 2) {
+      const double degrees = std::atan2(dy.number(), dx.number()) * 180 / std::numbers::pi;
+      task.angle = degrees > 90 ? degrees - 180 : degrees <= -90 ? degrees + 180 : degrees;
+    }
+    return task;
+  }
+
+  MeasuringTask outsideCorner() const {
+    MeasuringTask task = begun(Feature::OutsideCorner);
+    const Quantity beside = q(296) - q(263), above = q(297) - q(264);
+    if (!beside.isNumber() || !above.isNumber()) {
+      throw NotCarriedOver("which corner is meant is known only when the program runs");
+    }
+    task.place = {q(263), q(264), q(261)};
+    task.further = {{q(263) + q(326), q(264), q(261)}, {q(296), q(297), q(261)}, {q(296), q(297) + q(327), q(261)}};
+    task.sign = above.number() > 0 ? 1 : -1;
+    task.secondSign = beside.number() < 0 ? 1 : -1;
+    return task;
+  }
+
+  MeasuringTask insideCorner() const {
+    MeasuringTask task = begun(Feature::InsideCorner);
+    const int corner = option(308);
+    const double inwards1 = corner == 1 || corner == 4 ? 1 : -1;
+    const double inwards2 = corner == 1 || corner == 2 ? 1 : -1;
+    const Quantity standOff = ballRadius_ + task.path;
+    const Quantity x = q(263), y = q(264), z = q(261);
+    task.place = {x + standOff * inwards1, y, z};
+    task.further = {{x + q(326) * inwards1, y, z}, {x, y + standOff * inwards2, z}, {x, y + q(327) * inwards2, z}};
+    task.sign = inwards2 > 0 ? -1 : 1;
+    task.secondSign = inwards1 > 0 ? -1 : 1;
+    return task;
+  }
+
+  /// What cycles 1410 and 1420 correct.
+  Correction rotationCorrection() const {
+    if (asked(1120)) throw NotCarriedOver("Q1120: the cycle corrects an origin and an angle in one");
+    if (asked(1126)) throw NotCarriedOver("Q1126: the cycle positions rotary axes");
+    if (asked(309)) throw NotCarriedOver("Q309: tolerances of positions are not monitored");
+    const int transfer = option(1121);
+    if (transfer > 1) throw NotCarriedOver("Q1121: the cycle corrects a rotary axis");
+    return transfer == 1 ? Correction::Rotation : Correction::None;
+  }
+
+  Place position(int number) const {
+    for (int i = 0; i < 3; ++i) {
+      const std::string name = nameOf(number + i);
+      if (!call_.text(name).empty()) {
+        throw NotCarriedOver(fmt::format("{}: positions by hand and with tolerances are not converted", name));
+      }
+    }
+    return {q(number), q(number + 1), q(number + 2)};
+  }
+
+  MeasuringTask alignedEdge() const {
+    MeasuringTask task = begun(Feature::Edge);
+    task.place = position(1100);
+    task.further = {position(1103)};
+    task.axis = std::abs(option(372)) - 1;
+    task.sign = option(372) < 0 ? -1 : 1;
+    if (task.axis == 2) throw NotCarriedOver("Q372: touches along the tool axis are not converted");
+    task.along = 1 - task.axis;
+    task.clearanceBetween = option(1125) > 0;
+    task.correction = rotationCorrection();
+    task.active = true;
+    const Quantity dx = task.further[0][0] - task.place[0], dy = task.further[0][1] - task.place[1];
+    if (!dx.isNumber() || !dy.isNumber()) throw NotCarriedOver("the angle is known only when the program runs");
+    task.angle = std::atan2(dy.number(), dx.number()) * 180 / std::numbers::pi;
+    return task;
+  }
+
+  MeasuringTask alignedPlane() const {
+    MeasuringTask task = begun(Feature::Plane);
+    if (option(372) != -3) throw NotCarriedOver("Q372: a plane is measured from above only");
+    task.place = position(1100);
+    task.further = {position(1103), position(1106)};
+    task.correction = rotationCorrection();
+    task.active = true;
+    return task;
+  }
+
+  MeasuringTask plane() {
+    MeasuringTask task = begun(Feature::Plane);
+    task.place = {q(263), q(264), q(294)};
+    task.further = {{q(265), q(266), q(295)}, {q(296), q(297), q(298)}};
+    if (asked(281)) losses_.push_back("Q281: no measuring log is written");
+    return task;
+  }
+
+  MeasuringTask calibration(Feature feature) {
+    MeasuringTask task;
+    task.feature = feature;
+    constexpr double lengthPath = 5;  // cycle 461 has no set-up clearance
+    task.path = feature == Feature::ProbeLength ? Quantity(lengthPath) : q(320) + assumedSetUp;
+    task.size[0] = q(407) * 2;
+    task.place[2] = q(434);
+    task.angle = q(380);
+    if (asked(433)) losses_.push_back("Q433: the length is not calibrated along with the ball");
+    if (asked(455)) losses_.push_back("Q455: no 3-D calibration");
+    return task;
+  }
+
   /// Where a presetting cycle writes to.
   void target(MeasuringTask& task) const {
-    task.correction = Correction::Origin;
+    const bool turns = isCorner(task.feature) && option(304) == 1;
+    task.correction = turns ? Correction::OriginAndRotation : Correction::Origin;
     task.row = q(305);
     const int table = call_.has("Q303") ? option(303) : -1;
-    const bool datumTable = table == 0 && !(task.row == 0);
-    if (datumTable || (table == -1 && !(task.row == 0))) {
+    if (table != 1 && !(task.row == 0)) {
       throw NotCarriedOver("the result goes to a datum table, which a SINUMERIK does not have",
                            "let the cycle write to the preset table: Q303 = 1");
     }
   }
 
-  /// The task sets the preset, and after it the one in the touch probe axis if Q381 asks for that.
-  std::vector<MeasuringTask> preset(MeasuringTask task) const {
+  MeasuringTask presetSurface(MeasuringTask task) const {
     target(task);
-    task.wish = {q(331), q(332), std::nullopt};
-    return withToolAxis(std::move(task));
+    task.wish[static_cast<std::size_t>(task.axis)] = q(333);
+    return task;
   }
 
-  std::vector<MeasuringTask> withToolAxis(MeasuringTask task) const {
+  /// The task sets the preset, and after it the one in the touch probe axis if Q381 asks for that.
+  std::vector<MeasuringTask> preset(MeasuringTask task, const std::vector<int>& wishes) const {
+    target(task);
+    for (std::size_t i = 0; i < wishes.size(); ++i)
+      task.wish[wishes.size() == 1 ? static_cast<std::size_t>(task.axis) : i] = q(wishes[i]);
     std::vector<MeasuringTask> tasks = {task};
     if (asked(381)) {
       MeasuringTask surface = begun(Feature::Surface);
       surface.place = {q(382), q(383), q(384)};
       surface.axis = 2;
       surface.sign = -1;
+      surface.size[0] = surface.place[2];
+      if (isCorner(task.feature)) throw NotCarriedOver("Q381: the preset in the touch probe axis", "set it with 417");
       target(surface);
       surface.wish[2] = q(333);
-      // The point of touch is given in coordinates before the first correction, which are gone by then.
-      if (task.wish[0] && task.row == surface.row) {
-        for (std::size_t i = 0; i < 2; ++i)
-          if (task.wish[i]) surface.place[i] = surface.place[i] + (*task.wish[i] - task.place[i]);
-      }
+      // The point of touch counts from the origin that was in effect in front of the cycle.
+      for (std::size_t i = 0; i < 2; ++i)
+        if (task.wish[i]) surface.place[i] = surface.place[i] + (*task.wish[i] - task.place[i]);
       tasks.push_back(surface);
     }
     return tasks;
@@ -111,114 +314,16 @@ private:
       if (upper == 0 && lower == 0) continue;
       task.limits[i] = Limits{upper - task.size[i], lower - task.size[i]};
     }
-    for (const int number : {279, 280}) {
-      if (asked(number)) losses_.push_back(fmt::format("Q{} (tolerance of the centre) is not monitored", number));
-    }
-    logAndTool(task);
-    return {task};
-  }
-
-  void logAndTool(MeasuringTask& task) {
+    task.centreTolerance = {q(279), q(280)};
+    task.stops = asked(309);
     if (asked(281)) losses_.push_back("Q281: no measuring log is written");
     if (asked(330) || !call_.text("Q330").empty()) losses_.push_back("Q330: no tool is monitored");
-    task.stops = asked(309);
+    return {task};
   }
 
   const Call& call_;
   Quantity ballRadius_;
   Losses& losses_;
-};
-
-/// Makes one call.
-class Writer {
-public:
-  Writer(const MeasuringTask& task, Losses& losses) : task_(task), losses_(losses) {}
-
-  Call call() {
-    switch (task_.feature) {
-      case Feature::Hole:
-      case Feature::Spigot:
-      case Feature::HoleSegment:
-      case Feature::SpigotSegment:
-        circle();
-        break;
-      default:
-        throw NotCarriedOver("no touch probe cycle measures this");
-    }
-    fillUp();
-    return std::move(call_);
-  }
-
-private:
-  void set(int number, const Quantity& value) { call_.numbers[fmt::format("Q{}", number)] = value; }
-  bool presets() const { return task_.correction == Correction::Origin; }
-
-  void begin(int preset, int inspection) {
-    if (task_.correction == Correction::Rotation) {
-      throw NotCarriedOver("no touch probe cycle that measures this turns the coordinate system");
-    }
-    call_.cycle = std::to_string(presets() ? preset : inspection);
-    heights();
-  }
-
-  void heights() {
-    Quantity extra = task_.path - assumedSetUp;
-    if (extra.isNumber() && extra.number() < 0) extra = 0;
-    set(320, extra);
-    set(260, task_.clearance);
-    set(261, task_.place[2]);
-    set(301, task_.clearanceBetween ? 1 : 0);
-  }
-
-  void target() {
-    set(305, task_.row);
-    set(303, 1);
-  }
-
-  void circle() {
-    const bool inside = isInside(task_.feature);
-    begin(inside ? 412 : 413, inside ? 421 : 422);
-    set(262, task_.size[0]);
-    set(325, task_.angle);
-    set(247, task_.step);
-    set(423, task_.touches);
-    set(365, 1);
-    if (presets()) {
-      set(321, task_.place[0]);
-      set(322, task_.place[1]);
-      target();
-      set(331, task_.wish[0].value_or(task_.place[0]));
-      set(332, task_.wish[1].value_or(task_.place[1]));
-    } else {
-      set(273, task_.place[0]);
-      set(274, task_.place[1]);
-      limits(0, inside ? 275 : 277, inside ? 276 : 278);
-    }
-  }
-
-  void limits(std::size_t size, int upper, int lower) {
-    const auto& given = task_.limits[size];
-    set(upper, given ? task_.size[size] + given->upper : Quantity());
-    set(lower, given ? task_.size[size] + given->lower : Quantity());
-    set(309, task_.stops ? 1 : 0);
-  }
-
-  /// Every parameter of the cycle stands in the call, those not set with the value that does nothing.
-  void fillUp() {
-    const cycles::CycleDefinition* definition = cycles::heidenhainCycle(std::stoi(call_.cycle));
-    for (const cycles::Parameter& parameter : definition->parameters) {
-      if (parameter.kind == cycles::ValueKind::Text) continue;
-      call_.numbers.try_emplace(std::string(parameter.name), parameter.standard.value_or(0));
-    }
-    std::erase_if(call_.numbers, [&](const auto& entry) {
-      const auto address = static_cast<std::uint32_t>(std::stoi(entry.first.substr(1)));
-      return definition->parameter(address) == nullptr;
-    });
-  }
-
-  const MeasuringTask& task_;
-  Losses& losses_;
-  Call call_;
 };
 
 }  // namespace
@@ -227,18 +332,34 @@ std::vector<MeasuringTask> heidenhainTasks(const Call& call, const Quantity& bal
   return Reader(call, ballRadius, losses).tasks();
 }
 
-Call heidenhainCall(const MeasuringTask& task, Losses& losses) { return Writer(task, losses).call(); }
-
 Results heidenhainResults(const std::string& cycle, const MeasuringTask& task) {
   const int number = std::stoi(cycle);
+  const bool inspects = number >= 420;
   Results results;
-  if (isRound(task.feature)) {
-    results = {{Meaning::Centre1, "Q151"}, {Meaning::Centre2, "Q152"}, {Meaning::Size1, "Q153"}};
-    if (number == 421 || number == 422) {
-      results.insert({{Meaning::Centre1Deviation, "Q161"},
-                      {Meaning::Centre2Deviation, "Q162"},
-                      {Meaning::Size1Deviation, "Q163"}});
+  if (isRound(task.feature) || isRectangular(task.feature)) {
+    results = {{Meaning::Centre1, "Q151"}, {Meaning::Centre2, "Q152"}};
+    results[Meaning::Size1] = isRound(task.feature) ? "Q153" : "Q154";
+    if (isRectangular(task.feature)) results[Meaning::Size2] = "Q155";
+    if (inspects) {
+      results.insert({{Meaning::Centre1Deviation, "Q161"}, {Meaning::Centre2Deviation, "Q162"}});
+      results[Meaning::Size1Deviation] = isRound(task.feature) ? "Q163" : "Q164";
+      if (isRectangular(task.feature)) results[Meaning::Size2Deviation] = "Q165";
     }
+  } else if (isWidth(task.feature)) {
+    results = {{Meaning::Coordinate, "Q157"}, {Meaning::Size1, inspects ? "Q156" : "Q166"}};
+    if (inspects) results[Meaning::Size1Deviation] = "Q166";
+  } else if (isCorner(task.feature)) {
+    results = {{Meaning::Centre1, "Q151"}, {Meaning::Centre2, "Q152"}};
+  } else if (task.feature == Feature::Surface && number != 419) {
+    results = {{Meaning::Coordinate, "Q160"}};
+  } else if (number == 420) {
+    results = {{Meaning::Angle, "Q150"}};
+  } else if (number == 431) {
+    results = {{Meaning::Angle, "Q158"}, {Meaning::Angle2, "Q159"}};
+  } else if (number == 1410) {
+    results = {{Meaning::Angle, "Q964"}, {Meaning::AngleDeviation, "Q994"}};
+  } else if (number == 1420) {
+    results = {{Meaning::Angle, "Q961"}, {Meaning::Angle2, "Q962"}};
   }
   return results;
 }

@@ -11,7 +11,7 @@ namespace probewright::conversion {
 std::vector<MeasuringTask> heidenhainTasks(const Call& call, const Quantity& ballRadius, Losses& losses);
 
 /// A call that carries out the task, with all parameters of the cycle; throws NotCarriedOver if there is none.
-Call heidenhainCall(const MeasuringTask& task, Losses& losses);
+Call heidenhainCall(const MeasuringTask& task);
 
 /// Where that cycle leaves its results.
 Results heidenhainResults(const std::string& cycle, const MeasuringTask& task);

@@ -195,7 +195,9 @@ std::string KlartextFormulas::formula(const Block& block, const Operand& operand
   }
   const char* sign = operatorSign(node.operation);
   if (sign == nullptr) throw NotCarriedOver("formulas in Klartext have no comparisons and no logic");
-  return factor(node.left) + sign + factor(node.right);
+  // Sums are computed from left to right anyway.
+  const bool sum = node.operation == Operation::Add || node.operation == Operation::Subtract;
+  return (sum ? formula(block, node.left) : factor(node.left)) + sign + factor(node.right);
 }
 
 std::string KlartextFormulas::call(const Block& block, const Node& node) {

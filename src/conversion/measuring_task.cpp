@@ -4,7 +4,7 @@ namespace probewright::conversion {
 
 bool isInside(Feature feature) {
   return feature == Feature::Hole || feature == Feature::HoleSegment || feature == Feature::Groove ||
-         feature == Feature::Pocket;
+         feature == Feature::Pocket || feature == Feature::InsideCorner;
 }
 
 bool isRound(Feature feature) {
@@ -13,6 +13,8 @@ bool isRound(Feature feature) {
 }
 
 bool isRectangular(Feature feature) { return feature == Feature::Pocket || feature == Feature::RectangularSpigot; }
+
+bool isCorner(Feature feature) { return feature == Feature::InsideCorner || feature == Feature::OutsideCorner; }
 
 bool isWidth(Feature feature) { return feature == Feature::Groove || feature == Feature::Rib; }
 

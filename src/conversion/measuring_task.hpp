@@ -24,8 +24,11 @@ enum class Feature {
   Surface,            ///< one touch along an axis
   Edge,               ///< its angle, by two touches along an axis
   Plane,              ///< its two angles, by three touches along the tool axis
-  Corner,             ///< of two edges, by three or four touches
-  Ball,
+  InsideCorner,       ///< of two edges, by two touches each
+  OutsideCorner,
+  ProbeLength,  ///< calibration on a surface of known height
+  ProbeInRing,  ///< calibration of the ball in a ring
+  ProbeOnBall,  ///< calibration of the ball on a calibration sphere
 };
 
 bool isInside(Feature feature);
@@ -33,12 +36,13 @@ bool isRound(Feature feature);
 bool isRectangular(Feature feature);
 /// Groove or rib: measured along one axis.
 bool isWidth(Feature feature);
+bool isCorner(Feature feature);
 
 enum class Correction {
   None,
-  Origin,    ///< the zero offset shifts until the feature lies where it should
-  Rotation,  ///< the zero offset turns
-  Tool,      ///< the tool that made the feature
+  Origin,             ///< the zero offset shifts until the feature lies where it should
+  Rotation,           ///< the zero offset turns
+  OriginAndRotation,  ///< of a corner: its first edge becomes the main axis
 };
 
 /// A point of the plane and its height.
@@ -48,7 +52,6 @@ using Place = std::array<Quantity, 3>;
 enum class Meaning {
   Centre1,
   Centre2,
-  Centre3,
   Size1,
   Size2,
   Coordinate,
@@ -56,7 +59,6 @@ enum class Meaning {
   Angle2,
   Centre1Deviation,
   Centre2Deviation,
-  Centre3Deviation,
   Size1Deviation,
   Size2Deviation,
   CoordinateDeviation,
@@ -72,14 +74,17 @@ struct MeasuringTask {
   /// The expected centre or place of touch. The third is the height of the ball's centre; of a surface along the tool
   /// axis the height of the surface.
   Place place;
-  /// Further places of touch: second point of an edge, second and third of a plane, all points of a corner.
+  /// Further places of touch: second point of an edge, second and third of a plane, points 2 to 4 of a corner. Points 1
+  /// and 2 of a corner lie on the edge along the main axis, 3 and 4 on the other one.
   std::vector<Place> further;
   std::array<Quantity, 2> size;  ///< diameter, width or the two lengths
-  Quantity angle;                ///< of the first touch on a circle; set angle of an edge; set angle of a plane
+  Quantity angle;                ///< of the first touch on a circle; set angle of an edge, from the main axis
   Quantity step;                 ///< from touch to touch on a circle
   int touches = 4;
-  int axis = 0;  ///< measuring axis, 0 to 2
-  int sign = 1;  ///< of the probing direction
+  int axis = 0;        ///< measuring axis, 0 to 2
+  int sign = 1;        ///< of the probing direction; of a corner's first edge
+  int along = 0;       ///< axis in which the points of an edge lie apart
+  int secondSign = 1;  ///< of the probing direction at a corner's second edge
 
   Quantity path;                  ///< from where a touch begins to the expected surface
   Quantity clearance;             ///< height of the tip that is free everywhere
@@ -89,9 +94,9 @@ struct MeasuringTask {
   Quantity row;                                 ///< of the preset table, number of the settable zero offset
   bool active = false;                          ///< correct the zero offset that is in effect, whatever its number
   std::array<std::optional<Quantity>, 3> wish;  ///< coordinates that the feature gets by the correction
-  Quantity setAngle;                            ///< that the edge gets by the correction
+  bool fromUnturned = false;                    ///< an edge is measured without the rotation that was in effect
   std::array<std::optional<Limits>, 2> limits;  ///< of the sizes
-  std::string tool;                             ///< to correct: a quoted name or a number
+  std::array<Quantity, 2> centreTolerance;      ///< permissible deviations of the centre; 0: not monitored
   bool stops = false;                           ///< the program ends if a limit is exceeded
 };
 

@@ -163,7 +163,9 @@ std::string SinumerikFormulas::formula(const Block& block, const Operand& operan
   }
   const char* sign = operatorSign(node.operation);
   if (sign == nullptr) throw NotCarriedOver("this condition has no twin on a SINUMERIK");
-  return factor(node.left) + sign + factor(node.right);
+  // Sums are computed from left to right anyway.
+  const bool sum = node.operation == Operation::Add || node.operation == Operation::Subtract;
+  return (sum ? formula(block, node.left) : factor(node.left)) + sign + factor(node.right);
 }
 
 std::string SinumerikFormulas::call(const Block& block, const Node& node) {

@@ -5,29 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+/// Measuring cycles of a SINUMERIK read as measuring tasks.
 namespace probewright::conversion {
 
 namespace {
-
-constexpr int holeUnits = 1;
-
-/// S_MVAR of CYCLE977, units.
-int units977(Feature feature) {
-  switch (feature) {
-    case Feature::Spigot:
-      return 2;
-    case Feature::Groove:
-      return 3;
-    case Feature::Rib:
-      return 4;
-    case Feature::Pocket:
-      return 5;
-    case Feature::RectangularSpigot:
-      return 6;
-    default:
-      return holeUnits;
-  }
-}
 
 Feature feature977(int units) {
   static constexpr Feature features[] = {Feature::Hole, Feature::Spigot, Feature::Groove,
@@ -36,7 +17,8 @@ Feature feature977(int units) {
   return features[units - 1];
 }
 
-/// Reads one call.
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
 class Reader {
 public:
   Reader(const Call& call, const Place& start, const Quantity& ballRadius, Losses& losses)
@@ -44,13 +26,25 @@ public:
 
   MeasuringTask task() {
     if (call_.cycle == "CYCLE977") return cycle977();
+    if (call_.cycle == "CYCLE978") return cycle978();
     if (call_.cycle == "CYCLE979") return cycle979();
+    if (call_.cycle == "CYCLE998") return cycle998();
+    if (call_.cycle == "CYCLE961") return cycle961();
+    if (call_.cycle == "CYCLE976") return cycle976();
     throw NotCarriedOver(fmt::format("{} has no twin on a HEIDENHAIN control", call_.cycle),
                          "docs/conversion.md lists the cycles that both controls have");
   }
 
 private:
   Quantity number(std::string_view name) const { return call_.number(name); }
+  double known(std::string_view name) const {
+    const Quantity value = number(name);
+    if (!value.isNumber()) {
+      throw NotCarriedOver(fmt::format("{} of {} is known only when the program runs", name, call_.cycle),
+                           "write a number there, or convert this call by hand");
+    }
+    return value.number();
+  }
 
   MeasuringTask begun(Feature feature) {
     MeasuringTask task;
@@ -60,7 +54,7 @@ private:
     task.clearance = start_[2];
     task.path = number("S_FA");
     correction(task);
-    if (call_.digit("S_MVAR", 5) != 0 && call_.cycle != "CYCLE961") {
+    if (call_.cycle != "CYCLE961" && call_.digit("S_MVAR", 5) != 0) {
       losses_.push_back("S_MVAR: the probe measures as it was calibrated, without turning the spindle");
     }
     if (number("S_NMSP").number() > 1) losses_.push_back("S_NMSP: each point is measured once");
@@ -82,10 +76,9 @@ private:
     } else if (which == 0 && code % 1000 >= 1 && code % 1000 <= 99) {
       task.row = code % 1000;
     } else {
-      throw NotCarriedOver(fmt::format("S_KNUM = {} corrects a base or system frame, which a HEIDENHAIN control does "
-                                       "not have",
-                                       code),
-                           "correct a settable zero offset: S_KNUM = 10001 is G54");
+      throw NotCarriedOver(
+          fmt::format("S_KNUM = {} corrects a base or system frame, which a HEIDENHAIN control does not have", code),
+          "correct a settable zero offset: S_KNUM = 10001 is G54");
     }
   }
 
@@ -96,8 +89,7 @@ private:
       task.place[2] = task.place[2] + number("S_ID");
       task.clearanceBetween = true;
     }
-    task.size[0] = number(isRectangular(task.feature) ? "S_SETV0" : "S_SETV");
-    task.size[1] = number("S_SETV1");
+    task.size = {number(isRectangular(task.feature) ? "S_SETV0" : "S_SETV"), number("S_SETV1")};
     task.angle = number("S_STA1");
     task.step = 90;
     if (isWidth(task.feature)) task.axis = call_.integer("S_MA") - 1;
@@ -109,6 +101,18 @@ private:
       if (isWidth(task.feature) && i != static_cast<std::size_t>(task.axis)) continue;
       if (task.correction == Correction::Origin) task.wish[i] = task.place[i];
     }
+    return task;
+  }
+
+  MeasuringTask cycle978() {
+    MeasuringTask task = begun(Feature::Surface);
+    task.axis = call_.integer("S_MA") - 1;
+    if (task.axis < 0 || task.axis > 2) throw NotCarriedOver("S_MA of CYCLE978 is 1, 2 or 3");
+    task.sign = call_.integer("S_MD") == 1 ? 1 : -1;
+    const auto axis = static_cast<std::size_t>(task.axis);
+    task.place[axis] = task.size[0] = number("S_SETV");
+    if (task.correction == Correction::Origin) task.wish[axis] = task.place[axis];
+    if (task.axis == 2 && task.sign > 0) throw NotCarriedOver("a touch from below is not converted");
     return task;
   }
 
@@ -124,107 +128,145 @@ private:
     return task;
   }
 
+  MeasuringTask cycle998() { return call_.digit("S_MVAR", 1) == 6 ? plane() : edge(); }
+
+  MeasuringTask edge() {
+    MeasuringTask task = begun(Feature::Edge);
+    if (!(number("S_RA") == 0)) {
+      throw NotCarriedOver("S_RA: the HEIDENHAIN cycles that align a rotary axis turn it themselves",
+                           "see cycle 403, and convert this call by hand");
+    }
+    if (call_.digit("S_MVAR", 4) == 1) losses_.push_back("S_MVAR: no protection zone");
+    const int code = call_.integer("S_MA");
+    task.axis = code % 10 - 1;
+    task.along = code / 100 - 1;
+    if (task.axis < 0 || task.axis > 2 || task.along < 0 || task.along > 1 || task.axis == task.along) {
+      throw NotCarriedOver(fmt::format("S_MA = {}: HEIDENHAIN cycles do not measure that way", code));
+    }
+    const int way = call_.integer("S_MD");
+    task.sign = way == 1 || (way == 0 && known("S_SETV") > 0) ? 1 : -1;
+    if (task.axis == 2 && task.sign > 0) throw NotCarriedOver("a touch from below is not converted");
+    const auto axis = static_cast<std::size_t>(task.axis), along = static_cast<std::size_t>(task.along);
+    task.place = start_;
+    task.place[2] = task.axis == 2 ? start_[2] : start_[2] + ballRadius_;
+    task.place[axis] = start_[axis] + (task.path + (axis == 2 ? Quantity() : ballRadius_)) * task.sign;
+    const Quantity set = number("S_STA1");
+    task.further = {task.place};
+    task.further[0][along] = task.further[0][along] + number("S_ID");
+    if (call_.digit("S_MVAR", 6) != 1 && !(set == 0)) {
+      const bool against = (task.axis == 0 && task.along == 1) || (task.axis == 2 && task.along == 0);
+      const double slope = std::tan(radians(known("S_STA1"))) * (against ? -1 : 1);
+      task.further[0][axis] = task.further[0][axis] + number("S_ID") * slope;
+    }
+    task.angle = task.axis == 0 ? set + 90 : set;
+    if (task.correction == Correction::Origin) task.correction = Correction::Rotation;
+    return task;
+  }
+
+  MeasuringTask plane() {
+    MeasuringTask task = begun(Feature::Plane);
+    if (call_.digit("S_MVAR", 4) == 1) losses_.push_back("S_MVAR: no protection zone");
+    task.place[2] = start_[2] - task.path;
+    task.sign = -1;
+    if (task.correction == Correction::Origin) task.correction = Correction::Rotation;
+    task.further = {task.place, task.place};
+    task.further[0][0] = task.place[0] + number("S_SETV0");
+    task.further[1][0] = task.place[0] + number("S_SETV2");
+    task.further[1][1] = task.place[1] + number("S_SETV3");
+    const bool level = number("S_STA1") == 0 && number("S_INCA") == 0;
+    if (!level && call_.digit("S_MVAR", 6) != 1) {
+      const double first = radians(known("S_STA1")), second = radians(known("S_INCA"));
+      // Turned about the 2nd axis, then about the 1st.
+      const double nx = std::cos(first) * std::sin(second), ny = -std::sin(first),
+                   nz = std::cos(first) * std::cos(second);
+      for (Place& point : task.further) {
+        point[2] = point[2] - (point[0] - task.place[0]) * (nx / nz) - (point[1] - task.place[1]) * (ny / nz);
+      }
+    }
+    return task;
+  }
+
+  MeasuringTask cycle961() {
+    const int units = call_.digit("S_MVAR", 1);
+    if (units != 7 && units != 8) {
+      throw NotCarriedOver("HEIDENHAIN cycles measure a corner by two points on each edge",
+                           "measure it with four points (S_MVAR units 7 or 8) before converting");
+    }
+    MeasuringTask task = begun(units == 7 ? Feature::InsideCorner : Feature::OutsideCorner);
+    const auto value = [this](int i) { return known(fmt::format("S_SETV{}", i)); };
+    std::array<std::array<double, 2>, 4> starts{};
+    if (call_.digit("S_MVAR", 2) == 1) {
+      for (std::size_t i = 0; i < 4; ++i)
+        starts[i] = {value(static_cast<int>(2 * i)), value(static_cast<int>(2 * i + 1))};
+    } else {
+      const double first = radians(known("S_STA1")), second = first + radians(known("S_INCA"));
+      const int corner = call_.digit("S_MVAR", 5);
+      for (int i = 0; i < 4; ++i) {
+        const bool backwards = i < 2 ? corner == 2 || corner == 3 : corner == 3 || corner == 4;
+        double length = value(i);
+        if (backwards) length = -std::abs(length);
+        if (i == 0 && length == 0) length = (backwards ? -std::abs(value(1)) : value(1)) / 2;
+        const double angle = i < 2 ? first : second;
+        starts[static_cast<std::size_t>(i)] = {value(4) + length * std::cos(angle),
+                                               value(5) + length * std::sin(angle)};
+      }
+    }
+    constexpr double parallel = 1e-6;
+    if (std::abs(starts[0][1] - starts[1][1]) > parallel || std::abs(starts[2][0] - starts[3][0]) > parallel) {
+      throw NotCarriedOver("HEIDENHAIN cycles measure corners whose edges run along the axes",
+                           "turn the coordinate system in front of the cycle");
+    }
+    // The pole is where the start positions' lines meet; from there the edges run towards the points.
+    const double toFirst = (starts[0][0] + starts[1][0]) / 2 - starts[2][0];
+    const double toSecond = (starts[2][1] + starts[3][1]) / 2 - starts[0][1];
+    const int side = units == 7 ? -1 : 1;
+    task.sign = side * (toSecond > 0 ? 1 : -1);
+    task.secondSign = side * (toFirst > 0 ? 1 : -1);
+    constexpr double longestPath = 5;  // within the stroke that touch probe tables allow
+    const Quantity cornerX = number("S_SETV8"), cornerY = number("S_SETV9");
+    task.path = longestPath;
+    const Quantity height = call_.digit("S_MVAR", 4) == 1 ? task.place[2] + number("S_ID") : task.place[2];
+    task.clearanceBetween = call_.digit("S_MVAR", 4) == 1;
+    task.place = {starts[0][0], cornerY, height};
+    task.further = {{starts[1][0], cornerY, height}, {cornerX, starts[2][1], height}, {cornerX, starts[3][1], height}};
+    if (task.correction != Correction::None) {
+      task.correction = Correction::OriginAndRotation;
+      task.wish = {cornerX, cornerY, std::nullopt};
+    }
+    return task;
+  }
+
+  MeasuringTask cycle976() {
+    MeasuringTask task;
+    task.path = number("S_FA");
+    switch (call_.digit("S_MVAR", 1)) {
+      case 0:
+        if (call_.digit("S_MVAR", 7) != 1 || call_.integer("S_MA") != 3 || call_.integer("S_MD") != 1) {
+          throw NotCarriedOver("this calibration has no twin on a HEIDENHAIN control");
+        }
+        task.feature = Feature::ProbeLength;
+        task.place[2] = number("S_SETV");
+        break;
+      case 1:
+      case 2:
+        task.feature = Feature::ProbeInRing;
+        break;
+      case 3:
+        task.feature = Feature::ProbeOnBall;
+        if (call_.digit("S_MVAR", 7) == 1) losses_.push_back("the length is not calibrated along with the ball");
+        break;
+      default:
+        throw NotCarriedOver("a HEIDENHAIN control does not calibrate at an edge");
+    }
+    task.size[0] = number("S_SETV");
+    if (call_.digit("S_MVAR", 6) == 1) task.angle = number("S_STA1");
+    return task;
+  }
+
   const Call& call_;
   const Place& start_;
   Quantity ballRadius_;
   Losses& losses_;
-};
-
-/// Makes one call.
-class Writer {
-public:
-  Writer(const MeasuringTask& task, const Quantity& ballRadius, Losses& losses)
-      : task_(task), ballRadius_(ballRadius), losses_(losses) {}
-
-  SinumerikPassage passage() {
-    switch (task_.feature) {
-      case Feature::Hole:
-      case Feature::Spigot:
-      case Feature::Groove:
-      case Feature::Rib:
-      case Feature::Pocket:
-      case Feature::RectangularSpigot:
-        cycle977();
-        break;
-      case Feature::HoleSegment:
-      case Feature::SpigotSegment:
-        cycle979();
-        break;
-      default:
-        throw NotCarriedOver("no measuring cycle of a SINUMERIK measures this");
-    }
-    return std::move(passage_);
-  }
-
-private:
-  void set(const std::string& name, const Quantity& value) { passage_.call.numbers[name] = value; }
-  /// Height of the tip when the ball's centre is at the measuring height.
-  Quantity tip() const { return task_.place[2] - ballRadius_; }
-
-  void begin(const std::string& cycle, int variant) {
-    passage_.call.cycle = cycle;
-    passage_.start = task_.place;
-    passage_.start[2] = tip();
-    const bool corrects = task_.correction == Correction::Origin || task_.correction == Correction::Rotation;
-    set("S_MVAR", variant + (corrects ? 100 : 0));
-    set("S_PRNUM", 1);
-    set("S_FA", task_.path);
-    set("S_NMSP", 1);
-    if (!corrects) return;
-    set("S_KNUM", task_.active ? Quantity(19000) : task_.row + 10000);
-  }
-
-  void cycle977() {
-    const bool fromAbove = !isInside(task_.feature) || task_.clearanceBetween;
-    const bool zone = isInside(task_.feature) && fromAbove;
-    begin("CYCLE977", units977(task_.feature) + (zone ? 1000 : 0));
-    if (fromAbove) {
-      passage_.start[2] = task_.clearance;
-      set("S_ID", tip() - task_.clearance);
-    }
-    if (isRectangular(task_.feature)) {
-      set("S_SETV0", task_.size[0]);
-      set("S_SETV1", task_.size[1]);
-    } else {
-      set("S_SETV", task_.size[0]);
-    }
-    set("S_STA1", isRound(task_.feature) ? task_.angle : Quantity());
-    if (isWidth(task_.feature)) set("S_MA", task_.axis + 1);
-    set("S_TSA", task_.path * 2);
-  }
-
-  void cycle979() {
-    const bool inside = isInside(task_.feature);
-    begin("CYCLE979", (inside ? 1 : 2) + (task_.touches == 4 ? 1000 : 0));
-    if (!task_.step.isNumber() || !task_.angle.isNumber()) {
-      throw NotCarriedOver("the angles of the touches are known only when the program runs");
-    }
-    const double step = task_.step.number();
-    if (std::abs(step) > 360.0 / task_.touches) {
-      throw NotCarriedOver(
-          fmt::format("CYCLE979 measures {} points at most {} degrees apart", task_.touches, 360 / task_.touches),
-          "choose a smaller stepping angle Q247");
-    }
-    set("S_SETV", task_.size[0]);
-    set("S_CPA", task_.place[0]);
-    set("S_CPO", task_.place[1]);
-    set("S_STA1", task_.angle);
-    set("S_INCA", task_.step);
-    set("S_TSA", task_.path * 2);
-    const double angle = task_.angle.number() * std::numbers::pi / 180;
-    const Quantity radius =
-        inside ? task_.size[0] / 2 - task_.path - ballRadius_ : task_.size[0] / 2 + task_.path + ballRadius_;
-    passage_.start[0] = task_.place[0] + radius * std::cos(angle);
-    passage_.start[1] = task_.place[1] + radius * std::sin(angle);
-    if (task_.clearanceBetween) {
-      losses_.push_back("the probe stays at the measuring height between the touches (Q301)");
-    }
-  }
-
-  const MeasuringTask& task_;
-  Quantity ballRadius_;
-  Losses& losses_;
-  SinumerikPassage passage_;
 };
 
 }  // namespace
@@ -234,41 +276,73 @@ MeasuringTask sinumerikTask(const Call& call, const Place& start, const Quantity
 }
 
 std::array<std::optional<Quantity>, 3> sinumerikEnd(const Call& call, const MeasuringTask& task, const Place& start,
-                                                    const Results& results) {
+                                                    const Quantity& ballRadius, const Results& results) {
   std::array<std::optional<Quantity>, 3> end = {start[0], start[1], start[2]};
   const auto measured = [&](Meaning meaning) -> std::optional<Quantity> {
     const auto found = results.find(meaning);
     return found == results.end() ? std::nullopt : std::optional(Quantity::of(found->second));
   };
+  const auto axis = static_cast<std::size_t>(task.axis);
   if (call.cycle == "CYCLE977") {
     // In the middle of the feature, at the height of the start.
     if (isWidth(task.feature)) {
-      end[static_cast<std::size_t>(task.axis)] = measured(Meaning::Coordinate);
+      end[axis] = measured(Meaning::Coordinate);
     } else {
       end[0] = measured(Meaning::Centre1);
       end[1] = measured(Meaning::Centre2);
     }
+  } else if (task.feature == Feature::Surface) {
+    end[axis] = task.place[axis] - (task.path + (axis == 2 ? Quantity() : ballRadius)) * task.sign;
   } else {
-    end[0] = end[1] = std::nullopt;
+    end = {};
   }
   return end;
 }
 
-SinumerikPassage sinumerikPassage(const MeasuringTask& task, const Quantity& ballRadius, Losses& losses) {
-  return Writer(task, ballRadius, losses).passage();
+Results sinumerikResults(const MeasuringTask& task) {
+  if (isRound(task.feature)) {
+    return {{Meaning::Size1, "_OVR[4]"},
+            {Meaning::Centre1, "_OVR[5]"},
+            {Meaning::Centre2, "_OVR[6]"},
+            {Meaning::Size1Deviation, "_OVR[16]"},
+            {Meaning::Centre1Deviation, "_OVR[17]"},
+            {Meaning::Centre2Deviation, "_OVR[18]"}};
+  }
+  if (isRectangular(task.feature)) {
+    return {{Meaning::Size1, "_OVR[4]"},
+            {Meaning::Size2, "_OVR[5]"},
+            {Meaning::Centre1, "_OVR[6]"},
+            {Meaning::Centre2, "_OVR[7]"},
+            {Meaning::Size1Deviation, "_OVR[16]"},
+            {Meaning::Size2Deviation, "_OVR[17]"},
+            {Meaning::Centre1Deviation, "_OVR[18]"},
+            {Meaning::Centre2Deviation, "_OVR[19]"}};
+  }
+  if (isWidth(task.feature)) {
+    return {{Meaning::Size1, "_OVR[4]"},
+            {Meaning::Coordinate, fmt::format("_OVR[{}]", 5 + task.axis)},
+            {Meaning::Size1Deviation, "_OVR[16]"},
+            {Meaning::CoordinateDeviation, fmt::format("_OVR[{}]", 17 + task.axis)}};
+  }
+  switch (task.feature) {
+    case Feature::Surface:
+      return {{Meaning::Coordinate, "_OVR[4]"}, {Meaning::CoordinateDeviation, "_OVR[16]"}};
+    case Feature::Edge:
+      return {{Meaning::Angle, "_OVR[4]"}, {Meaning::AngleDeviation, "_OVR[16]"}};
+    case Feature::Plane:
+      return {{Meaning::Angle, "_OVR[4]"}, {Meaning::Angle2, "_OVR[5]"}};
+    case Feature::InsideCorner:
+    case Feature::OutsideCorner:
+      return {{Meaning::Angle, "_OVR[4]"}, {Meaning::Centre1, "_OVR[5]"}, {Meaning::Centre2, "_OVR[6]"}};
+    default:
+      return {};
+  }
 }
 
-Results sinumerikResults(const std::string&, const MeasuringTask& task) {
-  Results results;
-  if (isRound(task.feature)) {
-    results = {{Meaning::Size1, "_OVR[4]"},
-               {Meaning::Centre1, "_OVR[5]"},
-               {Meaning::Centre2, "_OVR[6]"},
-               {Meaning::Size1Deviation, "_OVR[16]"},
-               {Meaning::Centre1Deviation, "_OVR[17]"},
-               {Meaning::Centre2Deviation, "_OVR[18]"}};
-  }
-  return results;
+Quantity sinumerikEdgeAngle(const MeasuringTask& task, const Quantity& angle) {
+  const Quantity counted = task.axis == 0 ? angle - 90 : angle;
+  if (!counted.isNumber()) return counted;
+  return std::remainder(counted.number(), 180.0);
 }
 
 }  // namespace probewright::conversion

@@ -12,17 +12,27 @@ MeasuringTask sinumerikTask(const Call& call, const Place& start, const Quantity
 /// Where the probe stands behind the cycle, in the coordinates of the call; what is not known is empty.
 /// `results`: where the written program has what was measured.
 std::array<std::optional<Quantity>, 3> sinumerikEnd(const Call& call, const MeasuringTask& task, const Place& start,
-                                                    const Results& results);
+                                                    const Quantity& ballRadius, const Results& results);
 
-/// A call that carries out the task, and from where: the tip goes up to task.clearance if it is below, over to `start`,
-/// down to its height.
+/// A call that carries out the task, and from where: the tip goes up to the clearance height if it is below, over to
+/// `start`, down to its height.
 struct SinumerikPassage {
-  Place start;
+  /// What the call corrects; where it differs from the task, the program has to do the rest.
+  enum class Rest {
+    Nothing,
+    ShiftFromPlace,     ///< the feature has the coordinates of its place: shift the origin to the wish
+    ShiftFromMeasured,  ///< nothing is corrected: shift the origin from what was measured to the wish
+  };
+  std::optional<Place> start;  ///< empty: from where the probe is
   Call call;
+  Rest rest = Rest::Nothing;
 };
 SinumerikPassage sinumerikPassage(const MeasuringTask& task, const Quantity& ballRadius, Losses& losses);
 
 /// Where that cycle leaves its results.
-Results sinumerikResults(const std::string& cycle, const MeasuringTask& task);
+Results sinumerikResults(const MeasuringTask& task);
+
+/// S_STA1 of CYCLE998 for an edge at an angle to the main axis, both in degrees: it counts from the offset axis.
+Quantity sinumerikEdgeAngle(const MeasuringTask& task, const Quantity& angle);
 
 }  // namespace probewright::conversion

@@ -1,6 +1,7 @@
 #include "conversion/to_klartext.hpp"
 
 #include "conversion/sinumerik_formulas.hpp"
+#include "cycles/catalogue.hpp"
 
 #include <fmt/format.h>
 
@@ -56,11 +57,14 @@ std::optional<std::size_t> ToKlartext::planeIndex(std::uint32_t address) const {
 }
 
 void ToKlartext::survey() {
+  wantedAfter_.emplace_back();
   Block block;
   for (BlockPosition at = program_.begin(); program_.parse(at, block, result_.mistakes); at = block.next) {
     for (const VariableRef& variable : block.variables) {
       const bool result = variable.space == VariableSpace::User && block.at(variable.name) == "_OVR";
-      if (result && variable.index[0].isLiteral()) usedResults_.insert(static_cast<int>(variable.index[0].number));
+      if (!result || !variable.index[0].isLiteral()) continue;
+      usedResults_.insert(static_cast<int>(variable.index[0].number));
+      wantedAfter_.back().insert(static_cast<int>(variable.index[0].number));
     }
     for (const Instruction& instruction : block.instructions) {
       if (const auto* jump = std::get_if<Jump>(&instruction)) targets_.insert(std::string(block.at(jump->label)));
@@ -71,6 +75,8 @@ void ToKlartext::survey() {
           sections_.insert(std::string(block.at(section->to)));
         }
       }
+      const auto* called = std::get_if<CallProgram>(&instruction);
+      if (called != nullptr && cycles::sinumerikCycle(block.at(called->name)) != nullptr) wantedAfter_.emplace_back();
       const auto* function = std::get_if<MachineFunction>(&instruction);
       changesTool_ = changesTool_ || (function != nullptr && function->number == 6);
       const auto* modal = std::get_if<Modal>(&instruction);
@@ -184,6 +190,12 @@ void ToKlartext::instruction(const Block& block, const Instruction& instruction)
 
 void ToKlartext::assign(const Block& block, const Assign& assign) {
   const VariableRef& variable = block.variables[assign.variable];
+  const bool frame = variable.space == VariableSpace::System && block.at(variable.name) == "$P_UIFR";
+  if (frame && assign.value.isLiteral() && assign.value.number == 0 &&
+      block.at(block.source).find(fmt::format(",{},RT]=", axis(2))) != std::string_view::npos) {
+    unturned_ = true;
+    return forgetPosition();
+  }
   if (variable.space == VariableSpace::System) {
     throw NotCarriedOver(fmt::format("{} cannot be written in Klartext", block.at(variable.name)));
   }
@@ -215,6 +227,7 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
     const int row = *settable == 99 ? 0 : *settable;
     line("CYCL DEF 247 PRESETTING ~");
     out_.line(fmt::format("    Q339=+{} ;PRESET NUMBER", row));
+    activeRow_ = *settable;
     forgetPosition();
     return;
   }
@@ -318,6 +331,19 @@ void ToKlartext::transform(const Block& block, const Transform& transform) {
   forgetPosition();
 }
 
+void ToKlartext::blank(const Block& block, const Command& command) {
+  const auto words = std::span<const Word>(block.words).subspan(command.words.first, command.words.count);
+  const auto number = [&](std::uint32_t place) {
+    const auto found = std::ranges::find(words, place, &Word::address);
+    if (found == words.end() || !found->value.isLiteral()) throw NotCarriedOver("this blank has no twin in Klartext");
+    return formulas_.value(found->value.number);
+  };
+  const bool box = block.at(block.source).find("\"BOX\"") != std::string_view::npos && number(4) == "+112";
+  if (!box) throw NotCarriedOver("this blank has no twin in Klartext", "it is a picture only");
+  line(fmt::format("BLK FORM 0.1 Z X{} Y{} Z{}", number(8), number(9), number(6)));
+  line(fmt::format("BLK FORM 0.2 X{} Y{} Z{}", number(10), number(11), number(5)));
+}
+
 void ToKlartext::command(const Block& block, const Command& command) {
   const std::string_view name = block.at(command.name);
   const auto words = std::span<const Word>(block.words).subspan(command.words.first, command.words.count);
@@ -344,6 +370,7 @@ void ToKlartext::command(const Block& block, const Command& command) {
     const int number = static_cast<int>(words[0].value.number);
     return line(fmt::format("FN 14: ERROR = {}", number >= 65000 ? number - 64000 : number));
   }
+  if (name == "WORKPIECE") return blank(block, command);
   if (name == "STOPRE") return line("FN 20: WAIT FOR SYNC");
   if (name == "G4" && !words.empty() && words[0].address == 'F') {
     line("CYCL DEF 9.0 DWELL TIME");

@@ -32,6 +32,7 @@ private:
   void machineFunction(const language::Block& block, const language::MachineFunction& function);
   void transform(const language::Block& block, const language::Transform& transform);
   void command(const language::Block& block, const language::Command& command);
+  void blank(const language::Block& block, const language::Command& command);
   std::string numbered() const;
 
   // to_klartext_flow.cpp
@@ -45,6 +46,9 @@ private:
   std::string comparable(const language::Block& block, const language::Operand& operand);
   void label(const std::string& name);
 
+  // planes.cpp
+  void swivel(const language::Block& block, const language::CallProgram& call);
+
   // to_klartext_moves.cpp
   void move(const language::Block& block, const language::Move& move);
   void arc(const language::Block& block, const language::Move& move, bool clockwise);
@@ -53,7 +57,9 @@ private:
   // to_klartext_cycles.cpp
   void cycle(const language::Block& block, const language::CallProgram& call);
   Place here();
-  void copyResults(const Call& heidenhain, const Call& sinumerik, const MeasuringTask& task);
+  void copyResults(const language::Block& block, const Results& left, const MeasuringTask& task);
+  /// To where the SINUMERIK cycle leaves the probe.
+  void goBack(const MeasuringTask& task, std::array<std::optional<Quantity>, 3> end);
 
   std::string axis(std::size_t index) const;
   std::optional<std::size_t> planeIndex(std::uint32_t address) const;
@@ -70,10 +76,11 @@ private:
   Conversion result_;
 
   // What the whole program tells.
-  std::set<std::string> targets_;   ///< labels that jumps and repetitions name
-  std::set<std::string> sections_;  ///< labels that end a repeated section
-  std::set<int> usedResults_;       ///< n of _OVR[n]
-  bool changesTool_ = false;        ///< by M6
+  std::set<std::string> targets_;           ///< labels that jumps and repetitions name
+  std::set<std::string> sections_;          ///< labels that end a repeated section
+  std::set<int> usedResults_;               ///< n of _OVR[n]
+  std::vector<std::set<int>> wantedAfter_;  ///< those read behind the n-th measuring cycle; 0: before any
+  bool changesTool_ = false;                ///< by M6
   bool inch_ = false;
 
   // Where the text has come to.
@@ -85,7 +92,9 @@ private:
   std::string pendingTool_;
   std::array<std::optional<Quantity>, 3> shift_;
   bool rotated_ = false;
-  bool ended_ = false;
+  std::optional<int> activeRow_;
+  bool unturned_ = false;  ///< the zero offset has lost its rotation, as for cycle 400
+  std::size_t cycleNumber_ = 0;
 
   struct Open {
     language::Structure kind;

@@ -43,6 +43,7 @@ Operation opposite(Operation operation) {
 void ToKlartext::label(const std::string& name) {
   line(fmt::format("LBL \"{}\"", name));
   forgetPosition();
+  activeRow_.reset();
 }
 
 void ToKlartext::goTo(const std::string& label) { line(fmt::format("FN 9: IF +0 EQU +0 GOTO LBL \"{}\"", label)); }
@@ -130,6 +131,7 @@ void ToKlartext::call(const Block& block, const CallProgram& call) {
     throw NotCarriedOver("modal calls and calls of a section of a program have no twin in Klartext",
                          "write each call out");
   if (call.maybeCycle && cycles::sinumerikCycle(block.at(call.name)) != nullptr) return cycle(block, call);
+  if (block.at(call.name) == "CYCLE800") return swivel(block, call);
   if (call.name.length == 0) throw NotCarriedOver("a program whose name is computed has no twin in Klartext");
   const std::string name(block.at(call.name));
   const bool hasArguments =

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/number_text.hpp"
 #include "language/klartext/block_extent.hpp"
 #include "language/klartext/cycle_writer.hpp"
 
@@ -56,8 +57,8 @@ void ToSinumerik::survey() {
   Block block;
   for (BlockPosition at = program_.begin(); program_.parse(at, block, result_.mistakes); at = block.next) {
     for (const VariableRef& variable : block.variables) {
-      if (variable.space == VariableSpace::Q && variable.index[0].isLiteral())
-        usedQ_.insert(static_cast<int>(variable.index[0].number));
+      if (variable.space != VariableSpace::Q || !variable.index[0].isLiteral()) continue;
+      usedQ_.insert(static_cast<int>(variable.index[0].number));
     }
     for (const Instruction& instruction : block.instructions) {
       if (const auto* call = std::get_if<CallLabel>(&instruction); call != nullptr && !call->repeats.present())
@@ -126,6 +127,12 @@ void ToSinumerik::write(const Block& block) {
 void ToSinumerik::comment(const Block& block) {
   const std::string_view text = trimmed(klartext::withoutBlockNumber(block.at(block.source)));
   if (text.empty()) return out_.line("");
+  constexpr std::string_view message = "; MSG: ";
+  if (text.starts_with(message)) {
+    const std::string_view said = trimmed(text.substr(message.size()));
+    const bool quoted = said.size() > 1 && said.front() == '"' && said.find('"', 1) == said.size() - 1;
+    if (quoted) return out_.line(fmt::format("MSG({})", said));
+  }
   out_.line(fmt::format("{}{}", text.front() == ';' ? "" : "; ", text.substr(0, text.find('\n'))));
 }
 
@@ -189,6 +196,7 @@ void ToSinumerik::jump(const Block& block, const Jump& jump) {
 
 void ToSinumerik::mark(const Block& block, const LabelMark& mark) {
   forgetPosition();
+  activeRow_.reset();
   centre_ = {};
   if (mark.end) {
     for (const std::string& label : openLabels_)
@@ -210,6 +218,7 @@ void ToSinumerik::callLabel(const Block& block, const CallLabel& call) {
     out_.line(fmt::format("REPEAT {0} {0}_END", name));
   }
   forgetPosition();
+  activeRow_.reset();
   centre_ = {};
 }
 
@@ -299,9 +308,11 @@ void ToSinumerik::transform(const Block& block, const Transform& transform) {
     const int number = static_cast<int>(row.number());
     if (number < 0 || number > 99) throw NotCarriedOver("settable zero offsets go from 1 (G54) to 99 (G599)");
     out_.line(settableCode(number));
+    activeRow_ = number == 0 ? 99 : number;
     forgetPosition();
     return;
   }
+  if (name.starts_with("PLANE ")) return plane(block, transform);
   const bool shifts = name == "CYCL DEF 7" || name == "TRANS DATUM AXIS";
   const bool rotates = name == "CYCL DEF 10" || name == "TRANS ROTATION" || name == "TRANS ROTATION RESET";
   if (shifts) {
@@ -334,10 +345,36 @@ void ToSinumerik::transform(const Block& block, const Transform& transform) {
   forgetPosition();
 }
 
+void ToSinumerik::blank(std::string_view text) {
+  // "0.1 Z X+0 Y+0 Z-40", "0.2 X+120 Y+80 Z+12"
+  std::string corner(text);
+  std::array<std::string, 3> coordinates;
+  bool complete = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t at = corner.rfind("XYZ"[i]);
+    const std::size_t end = at == std::string::npos ? at : corner.find_first_not_of("+-.0123456789", at + 1);
+    const std::string digits = at == std::string::npos ? std::string() : corner.substr(at + 1, end - at - 1);
+    const auto value = parseDecimal(digits);
+    complete = complete && value.has_value();
+    coordinates[i] = value ? numberText(*value) : std::string();
+  }
+  const bool first = corner.starts_with("0.1"), second = corner.starts_with("0.2");
+  if (!complete || !(first || (second && blank_.size() == 3))) {
+    throw NotCarriedOver("this blank form has no twin on a SINUMERIK", "it is a picture only");
+  }
+  if (first) {
+    blank_ = {coordinates.begin(), coordinates.end()};
+    return;
+  }
+  out_.line(fmt::format("WORKPIECE(,\"\",,\"BOX\",112,{},{},-80,{},{},{},{})", coordinates[2], blank_[2], blank_[0],
+                        blank_[1], coordinates[0], coordinates[1]));
+}
+
 void ToSinumerik::command(const Block& block, const Command& command) {
   const std::string_view name = block.at(command.name);
   const auto words = std::span<const Word>(block.words).subspan(command.words.first, command.words.count);
   if (name == "GLOBAL DEF") return globalDefinition(block, command);
+  if (name == "BLK FORM") return blank(block.at(command.text));
   if (name == "FN14") {
     const Quantity number = words.empty() ? Quantity() : quantity(block, words.front().value);
     if (!number.isNumber()) throw NotCarriedOver("the number of the error is known only when the program runs");

@@ -10,6 +10,7 @@
 #include "conversion/call.hpp"
 #include "conversion/output.hpp"
 #include "conversion/sinumerik_formulas.hpp"
+#include "conversion/sinumerik_tasks.hpp"
 
 /// Writes a HEIDENHAIN program in the language of a SINUMERIK, block by block.
 namespace probewright::conversion {
@@ -34,12 +35,13 @@ private:
   void machineFunction(const language::MachineFunction& function);
   void transform(const language::Block& block, const language::Transform& transform);
   void command(const language::Block& block, const language::Command& command);
+  void blank(std::string_view text);
   std::string labelName(std::string_view label);
 
+  // planes.cpp
+  void plane(const language::Block& block, const language::Transform& transform);
+
   // to_sinumerik_moves.cpp
-  struct Target {
-    std::string text;  ///< of the axis words, each with a blank in front
-  };
   void move(const language::Block& block, const language::Move& move);
   void setCentre(const language::Block& block, const language::Move& move);
   void moveOnMachine(const language::Block& block, const language::Move& move);
@@ -53,8 +55,16 @@ private:
   void cycle(const language::Block& block, const language::CycleCall& call);
   void task(const language::Block& block, const MeasuringTask& task, const std::string& heidenhainCycle);
   void approach(const Place& start, const Quantity& clearance);
-  void shiftToWish(const MeasuringTask& task);
-  void copyResults(const std::string& heidenhainCycle, const MeasuringTask& task, const std::string& cycle);
+  void shiftToWish(const language::Block& block, const MeasuringTask& task, SinumerikPassage::Rest rest);
+  void copyResults(const language::Block& block, const std::string& heidenhainCycle, const MeasuringTask& task);
+  void planeByTouches(const language::Block& block, const MeasuringTask& plane);
+  void takeRotationOut(const MeasuringTask& task);
+  /// Selects the zero offset `row` again if it is in effect, behind the statement `before`.
+  void selectIfActive(const Quantity& row, const std::string& before);
+  void judge(const MeasuringTask& task);
+  std::string parameter(int number);
+  /// Results of the cycle that the program reads, but for the status.
+  std::set<int> readResults(const std::string& heidenhainCycle) const;
   Call callOf(const language::Block& block, const language::CycleCall& call);
   void globalDefinition(const language::Block& block, const language::Command& command);
 
@@ -87,8 +97,10 @@ private:
   std::map<int, Quantity> global_;  ///< GLOBAL DEF values by Q number
   std::array<std::optional<Quantity>, 3> shift_;
   Quantity rotation_ = 0;
+  std::optional<int> activeRow_;
   bool ended_ = false;
-  std::size_t lastMove_ = 0;  ///< line of the last motion, plus 1
+  std::vector<std::string> blank_;  ///< X, Y, Z of BLK FORM 0.1
+  std::size_t lastMove_ = 0;        ///< line of the last motion, plus 1
 };
 
 }  // namespace probewright::conversion

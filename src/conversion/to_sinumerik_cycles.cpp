@@ -14,6 +14,15 @@ using namespace language;
 
 namespace {
 
+/// True if CYCLE998 measures the plane: its second point lies along the main axis, the third beyond both.
+bool alongMainAxis(const MeasuringTask& plane) {
+  const auto apart = [&](std::size_t point, std::size_t axis) {
+    return plane.further.at(point)[axis] - plane.place[axis];
+  };
+  return apart(0, 1) == 0 && apart(0, 0).isNumber() && apart(0, 0).number() > 0 && apart(1, 1).isNumber() &&
+         apart(1, 1).number() > 0;
+}
+
 /// The call as text: each parameter at its place.
 std::string callText(const Call& call) {
   const cycles::CycleDefinition* definition = cycles::sinumerikCycle(call.cycle);
@@ -68,8 +77,13 @@ void ToSinumerik::cycle(const Block& block, const CycleCall& cycle) {
   Losses losses;
   const std::vector<MeasuringTask> tasks = heidenhainTasks(call, sinumerikBallRadius, losses);
   out_.line(fmt::format("; {} {}", cycle.number, definition == nullptr ? "" : definition->title));
-  for (const MeasuringTask& each : tasks)
-    task(block, each, call.cycle);
+  for (const MeasuringTask& each : tasks) {
+    if (call.cycle == "431" && !alongMainAxis(each)) {
+      planeByTouches(block, each);
+    } else {
+      task(block, each, call.cycle);
+    }
+  }
   for (const std::string& loss : losses)
     out_.lose(block, loss);
 }
@@ -90,71 +104,248 @@ void ToSinumerik::approach(const Place& start, const Quantity& clearance) {
 
 void ToSinumerik::task(const Block& block, const MeasuringTask& given, const std::string& heidenhainCycle) {
   MeasuringTask task = given;
-  if (task.correction != Correction::None && task.row == 0) {
+  const bool corrects = task.correction != Correction::None;
+  if (corrects && !task.active && task.row == 0) {
     // Row 0 is the preset that the cycle sets at once; its twin is the last settable zero offset.
     out_.line("$P_UIFR[99]=$P_UIFR[$P_UIFRNUM]");
     out_.line(settableCode(0));
     task.row = 99;
+    activeRow_ = 99;
     forgetPosition();
   }
   Losses losses;
   const SinumerikPassage passage = sinumerikPassage(task, sinumerikBallRadius, losses);
-  approach(passage.start, task.clearance);
+  if (task.fromUnturned) takeRotationOut(task);
+  if (passage.start) approach(*passage.start, task.clearance);
   out_.line(callText(passage.call));
-  copyResults(heidenhainCycle, task, passage.call.cycle);
-  out_.line(fmt::format("G0 {}", addressWord(axis(2), task.clearance)));
-  shiftToWish(task);
+  // What else a cycle sets on the way, as the preset in the tool axis, leaves no results.
+  const bool incidental = task.feature == Feature::Surface && heidenhainCycle.starts_with("41") &&
+                          heidenhainCycle != "417" && heidenhainCycle != "419";
+  if (!incidental) copyResults(block, heidenhainCycle, task);
+  const int number = std::stoi(heidenhainCycle);
+  if (number >= 421 && number <= 427) judge(task);
+  if (passage.start) out_.line(fmt::format("G0 {}", addressWord(axis(2), task.clearance)));
+  shiftToWish(block, task, passage.rest);
   for (const std::string& loss : losses)
     out_.lose(block, loss);
   forgetPosition();
-  if (task.correction == Correction::None) position_[2] = task.clearance;
+  if (!corrects && passage.start) position_[2] = task.clearance;
   besidePath_ = true;
 }
 
-void ToSinumerik::shiftToWish(const MeasuringTask& task) {
-  if (task.correction != Correction::Origin) return;
-  // The cycle has given the feature the coordinates that it was expected at; the origin moves by what is left.
+void ToSinumerik::shiftToWish(const Block& block, const MeasuringTask& task, SinumerikPassage::Rest rest) {
+  if (rest == SinumerikPassage::Rest::Nothing) return;
+  const bool fromMeasured = rest == SinumerikPassage::Rest::ShiftFromMeasured;
+  // By the correction the feature has the coordinates of its place; the origin moves by what is left.
+  const Place now = fromMeasured ? Place{Quantity::of("_OVR[5]"), Quantity::of("_OVR[6]"), {}} : task.place;
   std::array<Quantity, 3> left;
   bool any = false;
   for (std::size_t i = 0; i < 3; ++i) {
     if (!task.wish[i]) continue;
-    left[i] = task.place[i] - *task.wish[i];
+    left[i] = now[i] - *task.wish[i];
     any = any || !(left[i] == 0);
   }
   if (!any) return;
+  const bool isActive = task.active || (activeRow_ && task.row == *activeRow_);
+  if (fromMeasured && !isActive) {
+    out_.list(block, "the origin is shifted as if its zero offset were the one in effect",
+              "select the preset with cycle 247 in front of this cycle");
+  }
   const std::string row = task.active ? "$P_UIFRNUM" : sinumerikText(task.row);
   const auto component = [&](std::size_t i) { return fmt::format("$P_UIFR[{},{},TR]", row, axis(i)); };
   const std::string angle = fmt::format("$P_UIFR[{},{},RT]", row, axis(2));
   const auto times = [&](const char* function, const Quantity& value, double sign) {
     if (value == 0) return std::string();
-    const std::string text = factorText(sinumerikText(sign < 0 ? -value : value));
-    return fmt::format("+{}*{}({})", text.front() == '-' ? "(" + text + ")" : text, function, angle);
+    const std::string text = sinumerikText(sign < 0 ? -value : value);
+    const std::string factor = text.front() == '-' ? fmt::format("({})", text) : factorText(text);
+    return fmt::format("+{}*{}({})", factor, function, angle);
   };
   if (!(left[0] == 0 && left[1] == 0)) {
     out_.line(fmt::format("{0}={0}{1}{2}", component(0), times("COS", left[0], 1), times("SIN", left[1], -1)));
     out_.line(fmt::format("{0}={0}{1}{2}", component(1), times("SIN", left[0], 1), times("COS", left[1], 1)));
   }
-  if (!(left[2] == 0)) out_.line(fmt::format("{0}={0}+{1}", component(2), factorText(sinumerikText(left[2]))));
-  if (!task.row.isNumber() || task.active) {
-    out_.line("G[8]=$P_UIFRNUM+1");
-  } else {
-    const int number = static_cast<int>(task.row.number());
+  if (!(left[2] == 0)) {
+    const std::string text = sinumerikText(left[2]);
+    out_.line(fmt::format("{0}={0}{1}{2}", component(2), text.front() == '-' ? "" : "+", text));
+  }
+  if (task.row.isNumber() && activeRow_ && task.row == *activeRow_) {
+    out_.line(settableCode(*activeRow_));
+    return;
+  }
+  selectIfActive(task.active ? Quantity::of(row) : task.row, {});
+}
+
+void ToSinumerik::selectIfActive(const Quantity& row, const std::string& before) {
+  // Zero offsets are selected by name: one that only the running program knows is taken for one of the first four.
+  const bool known = row.isNumber();
+  const int first = known ? static_cast<int>(row.number()) : 1, last = known ? first : 4;
+  for (int number = first; number <= last; ++number) {
     out_.line(fmt::format("IF $P_UIFRNUM=={}", number));
-    out_.line("  " + settableCode(number));
+    if (!before.empty()) out_.line(fmt::format("  {}", before));
+    out_.line(fmt::format("  {}", settableCode(number)));
     out_.line("ENDIF");
   }
 }
 
-void ToSinumerik::copyResults(const std::string& heidenhainCycle, const MeasuringTask& task, const std::string& cycle) {
-  const Results wanted = heidenhainResults(heidenhainCycle, task);
-  const Results left = sinumerikResults(cycle, task);
-  for (const auto& [meaning, name] : wanted) {
-    if (!usedQ_.contains(std::stoi(name.substr(1)))) continue;
+void ToSinumerik::takeRotationOut(const MeasuringTask& task) {
+  const auto rotation = [this](const std::string& row) { return fmt::format("$P_UIFR[{},{},RT]=0", row, axis(2)); };
+  forgetPosition();
+  if (activeRow_ && !task.active && !(task.row == *activeRow_)) {
+    throw NotCarriedOver("the cycle takes the rotation of the active preset out, but corrects another one",
+                         "select the preset with cycle 247 in front of this cycle");
+  }
+  if (activeRow_) {
+    out_.line(rotation(std::to_string(*activeRow_)));
+    out_.line(settableCode(*activeRow_));
+  } else if (!task.active && task.row.isNumber()) {
+    selectIfActive(task.row, rotation(sinumerikText(task.row)));
+  } else {
+    out_.line(rotation("$P_UIFRNUM"));
+    selectIfActive(Quantity::of("$P_UIFRNUM"), {});
+  }
+}
+
+void ToSinumerik::planeByTouches(const Block& block, const MeasuringTask& plane) {
+  static constexpr int heights[] = {173, 174, 175};
+  const std::array<Place, 3> points = {plane.place, plane.further.at(0), plane.further.at(1)};
+  std::set<int> missing = readResults("431");
+  for (std::size_t i = 0; i < 3; ++i) {
+    MeasuringTask touch = plane;
+    touch.feature = Feature::Surface;
+    touch.place = points[i];
+    touch.axis = 2;
+    touch.sign = -1;
+    Losses losses;
+    const SinumerikPassage passage = sinumerikPassage(touch, sinumerikBallRadius, losses);
+    approach(*passage.start, plane.clearance);
+    out_.line(callText(passage.call));
+    out_.line(fmt::format("{}=_OVR[4]", parameter(heights[i])));
+    missing.erase(heights[i]);
+    out_.line(fmt::format("G0 {}", addressWord(axis(2), plane.clearance)));
+    position_ = {touch.place[0], touch.place[1], plane.clearance};
+  }
+  besidePath_ = true;
+  const auto apart = [&](std::size_t point, std::size_t axis) {
+    return fmt::format("({})", sinumerikText(points[point][axis] - points[0][axis]));
+  };
+  const std::string z1 = fmt::format("({}-{})", parameter(174), parameter(173)),
+                    z2 = fmt::format("({}-{})", parameter(175), parameter(173));
+  const std::string x1 = apart(1, 0), y1 = apart(1, 1), x2 = apart(2, 0), y2 = apart(2, 1);
+  // The normal is the cross product of two sides.
+  const std::string nx = fmt::format("{}*{}-{}*{}", y1, z2, z1, y2), ny = fmt::format("{}*{}-{}*{}", z1, x2, x1, z2),
+                    nz = fmt::format("{}*{}-{}*{}", x1, y2, y1, x2);
+  const std::pair<int, std::string> angles[] = {{158, fmt::format("ATAN2(-({})/({}),1)", ny, nz)},
+                                                {159, fmt::format("ATAN2(({})/({}),1)", nx, nz)}};
+  for (const auto& [number, formula] : angles) {
+    if (!usedQ_.contains(number)) continue;
+    missing.erase(number);
+    out_.line(fmt::format("{}={}", parameter(number), formula));
+  }
+  for (const int number : missing)
+    out_.lose(block, fmt::format("Q{}: no SINUMERIK cycle has such a result", number));
+}
+
+std::set<int> ToSinumerik::readResults(const std::string& heidenhainCycle) const {
+  std::set<int> read;
+  const cycles::CycleDefinition* definition = cycles::heidenhainCycle(std::stoi(heidenhainCycle));
+  for (const cycles::ResultDefinition& result : definition->results) {
+    const int number = std::stoi(std::string(result.name.substr(1)));
+    const bool status = number >= 180 && number <= 183;
+    if (!status && usedQ_.contains(number)) read.insert(number);
+  }
+  return read;
+}
+
+std::string ToSinumerik::parameter(int number) {
+  VariableRef variable;
+  variable.index[0] = Operand::of(number);
+  return formulas_.variable(variable);
+}
+
+void ToSinumerik::copyResults(const Block& block, const std::string& heidenhainCycle, const MeasuringTask& task) {
+  std::set<int> missing = readResults(heidenhainCycle);
+  const Results left = sinumerikResults(task);
+  for (const auto& [meaning, name] : heidenhainResults(heidenhainCycle, task)) {
+    const int number = std::stoi(name.substr(1));
     const auto found = left.find(meaning);
-    if (found == left.end()) continue;
-    VariableRef variable;
-    variable.index[0] = Operand::of(std::stod(name.substr(1)));
-    out_.line(fmt::format("{}={}", formulas_.variable(variable), found->second));
+    if (!usedQ_.contains(number) || found == left.end()) continue;
+    missing.erase(number);
+    const std::string target = parameter(number);
+    if (heidenhainCycle == "1410") {
+      // An angle from the first point to the second, in any direction.
+      const double offset = task.angle.number() - sinumerikEdgeAngle(task, task.angle).number();
+      out_.line(fmt::format("{}={}", target,
+                            sinumerikText(meaning == Meaning::Angle ? Quantity::of(found->second) + offset
+                                                                    : Quantity::of(found->second))));
+    } else if (task.feature == Feature::Edge && task.axis == 0) {
+      // The angle counts from the other axis there.
+      out_.line(fmt::format("{}={}+90", target, found->second));
+      out_.line(fmt::format("IF {}>90", target));
+      out_.line(fmt::format("  {0}={0}-180", target));
+      out_.line("ENDIF");
+    } else if (heidenhainCycle == "431" && meaning == Meaning::Angle) {
+      out_.line(fmt::format("{}=ATAN2(SIN(_OVR[4]),COS(_OVR[4])*COS(_OVR[5]))", target));
+    } else {
+      out_.line(fmt::format("{}={}", target, found->second));
+    }
+  }
+  for (const int number : missing)
+    out_.lose(block, fmt::format("Q{}: the SINUMERIK cycle has no such result", number));
+}
+
+void ToSinumerik::judge(const MeasuringTask& task) {
+  const bool flags = usedQ_.contains(180) || usedQ_.contains(181) || usedQ_.contains(182);
+  if (!flags && !task.stops) return;
+  const Results results = sinumerikResults(task);
+  std::vector<std::string> rework, scrap;
+  const auto compare = [&](Meaning meaning, const char* sign, const Quantity& limit) {
+    return fmt::format("({}{}{})", results.at(meaning), sign, sinumerikText(limit));
+  };
+  const bool surface = task.feature == Feature::Surface;
+  static constexpr Meaning sizes[] = {Meaning::Size1Deviation, Meaning::Size2Deviation};
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!task.limits[i]) continue;
+    Limits limits = *task.limits[i];
+    bool inside = isInside(task.feature);
+    if (surface && (limits.upper - limits.lower).number() < 0) {
+      std::swap(limits.upper, limits.lower);
+      inside = true;
+    }
+    const Meaning meaning = surface ? Meaning::CoordinateDeviation : sizes[i];
+    // What is too small inside, or too large outside, still has material to take away.
+    (inside ? scrap : rework).push_back(compare(meaning, ">", limits.upper));
+    (inside ? rework : scrap).push_back(compare(meaning, "<", limits.lower));
+  }
+  static constexpr Meaning centres[] = {Meaning::Centre1Deviation, Meaning::Centre2Deviation};
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (task.centreTolerance[i] == 0) continue;
+    scrap.push_back(fmt::format("(ABS({})>{})", results.at(centres[i]), sinumerikText(task.centreTolerance[i])));
+  }
+  const auto either = [](const std::vector<std::string>& conditions) {
+    return fmt::format("{}", fmt::join(conditions, " OR "));
+  };
+  if (flags) {
+    const auto state = [&](const char* indent, int good, int again, int lost) {
+      out_.line(fmt::format("{}{}={} {}={} {}={}", indent, parameter(180), good, parameter(181), again, parameter(182),
+                            lost));
+    };
+    state("", 1, 0, 0);
+    if (!rework.empty()) {
+      out_.line(fmt::format("IF {}", either(rework)));
+      state("  ", 0, 1, 0);
+      out_.line("ENDIF");
+    }
+    if (!scrap.empty()) {
+      out_.line(fmt::format("IF {}", either(scrap)));
+      state("  ", 0, 0, 1);
+      out_.line("ENDIF");
+    }
+  }
+  rework.insert(rework.end(), scrap.begin(), scrap.end());
+  if (task.stops && !rework.empty()) {
+    out_.line(fmt::format("IF {}", either(rework)));
+    out_.line("  SETAL(65000) ; tolerance exceeded");
+    out_.line("ENDIF");
   }
 }
 

@@ -301,10 +301,11 @@ private:
 
 }  // namespace
 
-bool convertible(ProgramLanguage from, ProgramLanguage to) { return from != to; }
+bool convertible(ProgramLanguage from, ProgramLanguage to) {
+  return from != ProgramLanguage::Sinumerik || to != ProgramLanguage::Sinumerik;
+}
 
 Conversion convert(language::Program& program, ProgramLanguage from, ProgramLanguage to) {
-  if (from == to) return {};
   const bool vendors = from == ProgramLanguage::Sinumerik || to == ProgramLanguage::Sinumerik;
   if (!vendors) return Converter(dynamic_cast<HeidenhainProgram&>(program), from, to).run();
   const auto between = [&](ProgramLanguage first, ProgramLanguage second, ProgramLanguage last) {

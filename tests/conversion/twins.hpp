@@ -1,9 +1,5 @@
 #pragma once
 
-#include <fstream>
-
-#include "control/sinumerik/data_store.hpp"
-#include "control/sinumerik/init_text.hpp"
 #include "cycles_heidenhain/worlds.hpp"
 #include "session/convert.hpp"
 #include "session/run.hpp"
@@ -38,6 +34,7 @@ struct Twin {
   Pose machineFromWorkpiece = Pose::Identity();
   control::Journal journal;
   std::map<std::string, std::string> files;
+  machine::AxisPositions axes;  ///< at the end
 
   /// Where a place of the machine lies in the workpiece system at the end.
   Vector3 seen(const Vector3& machinePoint) const { return machineFromWorkpiece.inverse() * machinePoint; }
@@ -74,6 +71,7 @@ inline Twin runTwin(const std::string& text, const simulation::Setup& setup, Con
     twin.why = format(outcome.result.diagnostics.front());
   }
   twin.machineFromWorkpiece = outcome.machineFromWorkpiece.value_or(Pose::Identity());
+  if (outcome.machine) twin.axes = outcome.machine->position();
   twin.journal = std::move(outcome.journal);
   twin.files = std::move(outcome.files);
   return twin;
@@ -82,6 +80,53 @@ inline Twin runTwin(const std::string& text, const simulation::Setup& setup, Con
 /// Blocks with the frame of a Klartext program.
 inline std::string klartextProgram(const std::string& blocks) {
   return "BEGIN PGM BENCH MM\nTOOL CALL 1 Z\nL Z+100 R0 FMAX\n" + blocks + "END PGM BENCH MM\n";
+}
+
+/// A result by its names on both controls.
+struct Counterpart {
+  std::string heidenhain, sinumerik;
+};
+
+/// Two ends of the same measurement: what was measured and where the origin lies.
+inline void expectSame(const Twin& one, const Twin& other, const std::vector<Counterpart>& results,
+                       double exact = 1e-6) {
+  for (const Counterpart& each : results) {
+    const bool sameVendor = std::isnan(other.result(each.sinumerik));
+    EXPECT_NEAR(one.result(each.heidenhain), other.result(sameVendor ? each.heidenhain : each.sinumerik), exact)
+        << each.heidenhain;
+  }
+  const Pose difference = one.machineFromWorkpiece.inverse() * other.machineFromWorkpiece;
+  EXPECT_LT(difference.translation().norm(), exact);
+  EXPECT_LT((difference.linear() - Eigen::Matrix3d::Identity()).norm(), 1e-8);
+}
+
+/// Runs a Klartext program, its twin and the twin's twin in the part's world.
+inline void expectTwins(const std::string& klartext, const PlantedPart& part, const std::vector<Counterpart>& results,
+                        bool andBack = true) {
+  const std::string sinumerik = toSinumerik(klartext);
+  const std::string again = andBack ? toKlartext(sinumerik) : std::string();
+  SCOPED_TRACE(fmt::format("{}\n{}\n{}", klartext, sinumerik, again));
+  const Twin original = runTwin(klartext, part.bench.setup, ControlKind::TNC640);
+  const Twin there = runTwin(sinumerik, part.bench.setup, ControlKind::Sinumerik840Dsl);
+  ASSERT_TRUE(original.finished) << original.why;
+  ASSERT_TRUE(there.finished) << there.why;
+  expectSame(original, there, results);
+  if (!andBack) return;
+  const Twin back = runTwin(again, part.bench.setup, ControlKind::TNC640);
+  ASSERT_TRUE(back.finished) << back.why;
+  expectSame(original, back, results);
+}
+
+/// Runs a SINUMERIK program and its twin in the part's world.
+inline void expectTwinOfSinumerik(const std::string& sinumerik, const PlantedPart& part,
+                                  const std::vector<Counterpart>& results) {
+  const std::string klartext = toKlartext(sinumerik);
+  SCOPED_TRACE(fmt::format("{}\n{}", sinumerik, klartext));
+  const Twin original = runTwin(sinumerik, part.bench.setup, ControlKind::Sinumerik840Dsl);
+  const Twin there = runTwin(klartext, part.bench.setup, ControlKind::TNC640);
+  ASSERT_TRUE(original.finished) << original.why;
+  ASSERT_TRUE(there.finished) << there.why;
+  expectSame(there, original, results);
 }
 
 }  // namespace probewright::testing_support

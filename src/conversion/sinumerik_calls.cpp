@@ -1,0 +1,301 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "conversion/sinumerik_tasks.hpp"
+
+/// Measuring tasks written as measuring cycles of a SINUMERIK.
+namespace probewright::conversion {
+
+namespace {
+
+constexpr double safeAngle = 5;         ///< degrees that an edge may be off
+constexpr double safeCornerAngle = 10;  ///< degrees that a corner's edge may be off
+
+/// S_MVAR of CYCLE977, units.
+int units977(Feature feature) {
+  switch (feature) {
+    case Feature::Hole:
+      return 1;
+    case Feature::Spigot:
+      return 2;
+    case Feature::Groove:
+      return 3;
+    case Feature::Rib:
+      return 4;
+    case Feature::Pocket:
+      return 5;
+    default:
+      return 6;
+  }
+}
+
+class Writer {
+public:
+  Writer(const MeasuringTask& task, const Quantity& ballRadius, Losses& losses)
+      : task_(task), ballRadius_(ballRadius), losses_(losses) {}
+
+  SinumerikPassage passage() {
+    switch (task_.feature) {
+      case Feature::Hole:
+      case Feature::Spigot:
+      case Feature::Groove:
+      case Feature::Rib:
+      case Feature::Pocket:
+      case Feature::RectangularSpigot:
+        cycle977();
+        break;
+      case Feature::HoleSegment:
+      case Feature::SpigotSegment:
+        cycle979();
+        break;
+      case Feature::Surface:
+        cycle978();
+        break;
+      case Feature::Edge:
+        edge();
+        break;
+      case Feature::Plane:
+        plane();
+        break;
+      case Feature::InsideCorner:
+      case Feature::OutsideCorner:
+        corner();
+        break;
+      case Feature::ProbeLength:
+      case Feature::ProbeInRing:
+      case Feature::ProbeOnBall:
+        cycle976();
+        break;
+    }
+    return std::move(passage_);
+  }
+
+private:
+  using Rest = SinumerikPassage::Rest;
+
+  void set(const std::string& name, const Quantity& value) { passage_.call.numbers[name] = value; }
+  Quantity& start(std::size_t i) { return (*passage_.start)[i]; }
+  /// Height of the tip when the ball's centre is at the measuring height.
+  Quantity tip() const { return task_.place[2] - ballRadius_; }
+  /// The number, or the reason why the task has no twin.
+  static double known(const Quantity& value, const char* what) {
+    if (!value.isNumber()) throw NotCarriedOver(fmt::format("{} known only when the program runs", what));
+    return value.number();
+  }
+
+  /// `corrects`: the cycle itself corrects the zero offset.
+  void begin(const std::string& cycle, int variant, bool corrects) {
+    passage_.call.cycle = cycle;
+    passage_.start = task_.place;
+    start(2) = tip();
+    set("S_MVAR", variant + (corrects ? 100 : 0));
+    set("S_PRNUM", 1);
+    set("S_FA", task_.path);
+    set("S_NMSP", 1);
+    if (corrects) set("S_KNUM", task_.active ? Quantity(19000) : task_.row + 10000);
+  }
+  void begin(const std::string& cycle, int variant) {
+    const bool corrects = task_.correction == Correction::Origin;
+    begin(cycle, variant, corrects);
+    if (corrects) passage_.rest = Rest::ShiftFromPlace;
+  }
+
+  void cycle977() {
+    const bool fromAbove = !isInside(task_.feature) || task_.clearanceBetween;
+    const bool zone = isInside(task_.feature) && fromAbove;
+    begin("CYCLE977", units977(task_.feature) + (zone ? 1000 : 0));
+    if (fromAbove) {
+      start(2) = task_.clearance;
+      set("S_ID", tip() - task_.clearance);
+    }
+    if (isRectangular(task_.feature)) {
+      set("S_SETV0", task_.size[0]);
+      set("S_SETV1", task_.size[1]);
+    } else {
+      set("S_SETV", task_.size[0]);
+    }
+    set("S_STA1", isRound(task_.feature) ? task_.angle : Quantity());
+    if (isWidth(task_.feature)) set("S_MA", task_.axis + 1);
+    set("S_TSA", task_.path * 2);
+  }
+
+  void cycle978() {
+    begin("CYCLE978", 0);
+    const auto axis = static_cast<std::size_t>(task_.axis);
+    if (task_.axis == 2) {
+      if (task_.sign > 0) throw NotCarriedOver("a touch from below is not converted");
+      start(2) = task_.clearance;
+    } else {
+      start(axis) = task_.place[axis] - (task_.path + ballRadius_) * task_.sign;
+    }
+    set("S_SETV", task_.place[axis]);
+    set("S_MA", task_.axis + 1);
+    set("S_MD", task_.sign > 0 ? 1 : 2);
+    set("S_TSA", task_.path * 2);
+  }
+
+  void cycle979() {
+    const bool inside = isInside(task_.feature);
+    begin("CYCLE979", (inside ? 1 : 2) + (task_.touches == 4 ? 1000 : 0));
+    const double step = known(task_.step, "the step from touch to touch is");
+    const double angle = known(task_.angle, "the angle of the first touch is") * std::numbers::pi / 180;
+    if (std::abs(step) > 360.0 / task_.touches) {
+      throw NotCarriedOver(
+          fmt::format("CYCLE979 measures {} points at most {} degrees apart", task_.touches, 360 / task_.touches),
+          "choose a smaller stepping angle Q247");
+    }
+    set("S_SETV", task_.size[0]);
+    set("S_CPA", task_.place[0]);
+    set("S_CPO", task_.place[1]);
+    set("S_STA1", task_.angle);
+    set("S_INCA", task_.step);
+    set("S_TSA", task_.path * 2);
+    const Quantity back = task_.path + ballRadius_;
+    const Quantity radius = task_.size[0] / 2 + back * (inside ? -1 : 1);
+    start(0) = task_.place[0] + radius * std::cos(angle);
+    start(1) = task_.place[1] + radius * std::sin(angle);
+    staysDown();
+  }
+
+  void staysDown() {
+    if (task_.clearanceBetween) {
+      losses_.push_back("Q301: the probe stays at the measuring height between the touches");
+    }
+  }
+
+  void edge() {
+    begin("CYCLE998", 5, task_.correction == Correction::Rotation);
+    const auto axis = static_cast<std::size_t>(task_.axis), along = static_cast<std::size_t>(task_.along);
+    Place first = task_.place, second = task_.further.at(0);
+    double distance = known(second[along] - first[along], "the distance of the two points is");
+    if (distance < 0) {
+      std::swap(first, second);
+      distance = -distance;
+    }
+    const double rise = known(second[axis] - first[axis], "the expected slope is");
+    const bool against = (axis == 0 && along == 1) || (axis == 2 && along == 0);
+    const double expected = std::atan2(rise, distance) * 180 / std::numbers::pi * (against ? -1 : 1);
+    const bool rotates = task_.correction == Correction::Rotation;
+    const Quantity set_ = rotates ? sinumerikEdgeAngle(task_, task_.angle) : Quantity(expected);
+    Quantity path = task_.path;
+    if (!(set_ == expected)) {
+      // The second point counts from the first one's height, not from the set angle.
+      set("S_MVAR", passage_.call.number("S_MVAR") + 100000);
+      path = path + std::abs(rise);
+      set("S_FA", path);
+    }
+    if (set_.isNumber() && std::abs(set_.number()) > 45) {
+      throw NotCarriedOver("CYCLE998 aligns edges by at most 45 degrees");
+    }
+    passage_.start = first;
+    start(2) = first[2] - ballRadius_;
+    if (axis == 2) {
+      if (task_.sign > 0) throw NotCarriedOver("a touch from below is not converted");
+      start(2) = first[2] + path;
+    } else {
+      start(axis) = first[axis] - (path + ballRadius_) * task_.sign;
+    }
+    set("S_RA", 0);
+    set("S_STA1", set_);
+    set("S_TSA", safeAngle);
+    set("S_MA", static_cast<double>((along + 1) * 100 + axis + 1));
+    set("S_MD", task_.sign > 0 ? 1 : 2);
+    set("S_ID", distance);
+    staysDown();
+  }
+
+  void plane() {
+    begin("CYCLE998", 6, task_.correction == Correction::Rotation);
+    const Place& first = task_.place;
+    const auto apart = [&](std::size_t point, std::size_t axis) {
+      return known(task_.further.at(point)[axis] - first[axis], "the distance of the points is");
+    };
+    if (std::abs(apart(0, 1)) > 1e-9 || !(apart(0, 0) > 0) || !(apart(1, 1) > 0)) {
+      throw NotCarriedOver("CYCLE998 takes the second point along the main axis and the third beyond both",
+                           "choose points with Q266 = Q264, Q265 > Q263 and Q297 > Q264");
+    }
+    // The plane through the three expected points: z = rise1 x + rise2 y.
+    const double rise1 = apart(0, 2) / apart(0, 0);
+    const double rise2 = (apart(1, 2) - rise1 * apart(1, 0)) / apart(1, 1);
+    const double length = std::sqrt(1 + rise1 * rise1 + rise2 * rise2);
+    constexpr double degrees = 180 / std::numbers::pi;
+    set("S_STA1", std::asin(rise2 / length) * degrees);
+    set("S_INCA", -std::atan(rise1) * degrees);
+    set("S_TSA", safeAngle);
+    set("S_SETV0", apart(0, 0));
+    set("S_SETV2", apart(1, 0));
+    set("S_SETV3", apart(1, 1));
+    start(2) = first[2] + task_.path;
+  }
+
+  void corner() {
+    const bool turns = task_.correction == Correction::OriginAndRotation;
+    const bool inside = isInside(task_.feature);
+    begin("CYCLE961", (inside ? 7 : 8) + 10 + (task_.clearanceBetween ? 1000 : 0), turns);
+    if (!turns) passage_.rest = Rest::ShiftFromMeasured;
+    std::array<Place, 4> starts = {task_.place, task_.further.at(0), task_.further.at(1), task_.further.at(2)};
+    const Quantity back = task_.path + ballRadius_;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t axis = i < 2 ? 1 : 0;
+      starts[i][axis] = starts[i][axis] - back * (i < 2 ? task_.sign : task_.secondSign);
+    }
+    // The first edge becomes the positive main axis. A distance that contains the ball's radius has the sign of its
+    // number, or it would be no distance.
+    if ((starts[1][0] - starts[0][0]).number() < 0) std::swap(starts[0], starts[1]);
+    for (std::size_t i = 0; i < 4; ++i) {
+      set(fmt::format("S_SETV{}", 2 * i), starts[i][0]);
+      set(fmt::format("S_SETV{}", 2 * i + 1), starts[i][1]);
+    }
+    set("S_SETV8", task_.wish[0].value_or(0));
+    set("S_SETV9", task_.wish[1].value_or(0));
+    set("S_TSA", safeCornerAngle);
+    start(0) = starts[0][0];
+    start(1) = starts[0][1];
+    if (task_.clearanceBetween) {
+      start(2) = task_.clearance;
+      set("S_ID", tip() - task_.clearance);
+    }
+  }
+
+  void cycle976() {
+    passage_.call.cycle = "CYCLE976";
+    set("S_PRNUM", 1);
+    set("S_NMSP", 1);
+    set("S_FA", task_.path);
+    set("S_TSA", task_.path);
+    set("S_MA", 3);
+    set("S_MD", 1);
+    switch (task_.feature) {
+      case Feature::ProbeLength:
+        set("S_MVAR", 1000000);
+        set("S_SETV", task_.place[2]);
+        break;
+      case Feature::ProbeInRing:
+        set("S_MVAR", task_.angle == 0 ? 2 : 100002);
+        set("S_SETV", task_.size[0]);
+        set("S_STA1", task_.angle);
+        break;
+      default:
+        set("S_MVAR", task_.angle == 0 ? 3 : 100003);
+        set("S_SETV", task_.size[0]);
+        set("S_STA1", task_.angle);
+        break;
+    }
+  }
+
+  const MeasuringTask& task_;
+  Quantity ballRadius_;
+  Losses& losses_;
+  SinumerikPassage passage_;
+};
+
+}  // namespace
+
+SinumerikPassage sinumerikPassage(const MeasuringTask& task, const Quantity& ballRadius, Losses& losses) {
+  return Writer(task, ballRadius, losses).passage();
+}
+
+}  // namespace probewright::conversion
