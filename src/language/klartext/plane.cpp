@@ -190,7 +190,8 @@ bool BlockParser::transformation() {
 }
 
 /// FUNCTION TCPM becomes Modal "FUNCTION TCPM" with the words F (1 = F TCP, 0 = F CONT), AXIS (1 = AXIS POS, 0 = AXIS
-/// SPAT), PATH (1 = PATHCTRL AXIS, 0 = PATHCTRL VECTOR); FUNCTION RESET TCPM becomes Modal "FUNCTION RESET TCPM"; all
+/// SPAT), PATH (1 = PATHCTRL AXIS, 0 = PATHCTRL VECTOR), REFP (REFPNT 0 = TIP-TIP, 1 = TIP-CENTER, 2 = CENTER-CENTER);
+/// FUNCTION RESET TCPM becomes Modal "FUNCTION RESET TCPM"; all
 /// others are Command "FUNCTION" with their text.
 bool BlockParser::functionKeyword() {
   const auto choice = [&](std::string_view address, std::string_view one, std::string_view zero) {
@@ -228,7 +229,11 @@ bool BlockParser::functionKeyword() {
     } else if (lexer_.acceptKeyword("PATHCTRL")) {
       if (!choice("PATH", "AXIS", "VECTOR")) return false;
     } else if (lexer_.acceptKeyword("REFPNT")) {
-      lexer_.chunk();
+      static constexpr std::array<std::string_view, 3> points = {"TIP-TIP", "TIP-CENTER", "CENTER-CENTER"};
+      const std::string_view written = lexer_.chunk();
+      const auto point = std::ranges::find(points, written);
+      if (point == points.end()) return error("TIP-TIP, TIP-CENTER or CENTER-CENTER is expected behind REFPNT");
+      addWord(addressOf("REFP"), Operand::of(static_cast<double>(point - points.begin())));
     } else {
       return error("F TCP, F CONT, AXIS POS, AXIS SPAT, PATHCTRL or REFPNT is expected here");
     }

@@ -222,6 +222,9 @@ private:
       if (address == "F") word(one ? "F TCP" : "F CONT");
       if (address == "AXIS") word(one ? "AXIS POS" : "AXIS SPAT");
       if (address == "PATH") word(one ? "PATHCTRL AXIS" : "PATHCTRL VECTOR");
+      if (address == "REFP") {
+        word(!one ? "REFPNT TIP-TIP" : w.value.number == 1 ? "REFPNT TIP-CENTER" : "REFPNT CENTER-CENTER");
+      }
     }
   }
   void add(const Command& command) { word(writeCommand(block_, command)); }
