@@ -7,8 +7,8 @@
 namespace probewright::testing_support {
 namespace {
 
-/// Between two rings of 3.6 degrees the response bends by less than this.
-constexpr double interpolated = 5e-5;
+/// Between two rings of 3.6 degrees the response bends by 4e-5; the length in the table has four decimals.
+constexpr double interpolated = 1e-4;
 
 /// A sphere, a wall somewhere beside it, and a probe with pretravel that depends on the direction.
 struct Lobed {
@@ -167,7 +167,7 @@ TEST(DirectionalRadius, FollowsLobesAndStaysOnItsRings) {
     const int ring = dice.whole(1, 9);
     EXPECT_NEAR(radius.at(3 * direction(10 * ring, azimuth)), truth(10 * ring, azimuth), 1e-12);
     const double between = dice.between(0, 90);
-    EXPECT_NEAR(radius.at(direction(between, azimuth)), truth(between, azimuth), 1e-4);
+    EXPECT_NEAR(radius.at(direction(between, azimuth)), truth(between, azimuth), 1.5e-4);
     EXPECT_NEAR(radius.at(direction(dice.between(90, 180), azimuth)), truth(90, azimuth), 1e-12);
   }
   EXPECT_EQ(radius.at(Vector3::Zero()), 0);

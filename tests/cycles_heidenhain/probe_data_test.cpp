@@ -59,11 +59,11 @@ private:
   hh::TypedTable table_;
 };
 
-void expectHole(const Ran& ran) {
+void expectHole(const Ran& ran, double near = exact) {
   ASSERT_TRUE(ran.finished()) << ran.why();
   EXPECT_NEAR(ran.q(151), 0, exact);
   EXPECT_NEAR(ran.q(152), 0, exact);
-  EXPECT_NEAR(ran.q(153), diameter, exact);
+  EXPECT_NEAR(ran.q(153), diameter, near);
 }
 
 TEST(TouchProbeTable, SaysHowFastTheProbeMoves) {
@@ -123,7 +123,7 @@ TEST(TouchProbeTable, SaysHowTheSpindleHoldsTheProbe) {
   EXPECT_NEAR(tracked.q(151), 0, exact);
   EXPECT_NEAR(tracked.q(152), 0, exact);
   EXPECT_NEAR(tracked.q(153), diameter - 0.2, exact);
-  EXPECT_NEAR(latched(tracked, 0, 0) - latched(turned, 0, 0), -0.1, exact);
+  EXPECT_NEAR(latched(tracked, 0, 0) - latched(turned, 0, 0), -0.1, 1e-3);
   world.number("CAL_OF1", 0.1);
   world.number("CAL_OF2", 0);
   expectHole(world.run());
@@ -175,7 +175,8 @@ TEST(TouchProbeTable, HoldsAStylusWhoseBallStandsAside) {
     const std::string calibrate = "L Z+60 R0 FMAX\nL X+0.2 Y-0.1 R0 FMAX\nL Z-10 R0 FMAX\n" +
                                   probe(462, {{407, diameter / 2}, {320, 0}, {423, 4}, {380, 0}}) + "L Z+60 R0 FMAX\n";
     const Ran ran = world.bench.run(calibrate + probe(421, world.words()));
-    expectHole(ran);
+    // The radius has four decimals in the table.
+    expectHole(ran, 1.1e-4);
     EXPECT_NEAR(ran.cell("TOOL.T", "1", "R"), arm + 2 - stylus.pretravel, 0.0085);
   }
 }
@@ -252,7 +253,7 @@ TEST(MachineParameters, MeasureEveryPointSeveralTimesOnTheITNC530) {
   };
   const double single = scatter();
   parameters["MP6170"] = {3.0, {}};
-  EXPECT_GT(seconds(world.run()), once + 4);
+  EXPECT_GT(seconds(world.run()), once + 3);
   const double triple = scatter();
   EXPECT_LT(triple, 0.75 * single);
   EXPECT_GT(triple, 0.4 * single);

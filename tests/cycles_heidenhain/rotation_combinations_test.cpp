@@ -63,7 +63,7 @@ Words wordsOf(int cycle) {
                {1107, 40},
                {1108, 0},
                {372, -3}},
-              travel);
+              with(travel, {{1125, 2}}));
 }
 
 Ran run(const Block& world, int cycle, int position, int rotation, int alignment) {

@@ -60,7 +60,7 @@ TEST(ToolAxis, MeasuresHolesStudsAndHeightsAlongXAndY) {
     Across world(controlOf(at / 2), axis);
     const bool newer = world.bench.control == ControlKind::TNC640;
     const Vector3 centre(dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1));
-    const double diameter = dice.between(30, 40);
+    const double diameter = dice.between(33, 37);
     const bool hole = dice.coin();
     if (hole) {
       world.part(simulation::Ring(diameter / 2, diameter / 2 + 20, -30), pose(centre));

@@ -143,7 +143,7 @@ TEST(Inspection, CorrectsTurningToolsSoThatTheNextPartIsRight) {
     // Both deltas have four decimals.
     EXPECT_NEAR(world.left(ran)[measured], 0, 1e-4);
     // The mill's columns stay.
-    EXPECT_EQ(ran.table("TOOL.T").text("7", "DR"), "0");
+    EXPECT_EQ(ran.cell("TOOL.T", "7", "DR"), 0);
   }
 }
 

@@ -10,7 +10,7 @@ using enum CellKind;
 
 constexpr std::array columns = {
     ColumnSpec{"NR", "", 5, Integer, 0, "traverse range"},
-    ColumnSpec{"T", "", 8, Text, 0, "the tool that calibrated"},
+    ColumnSpec{"TOOL", "", 8, Text, 0, "the tool that calibrated"},
     ColumnSpec{"DIRECTION", "", 11, Integer, 0, "probing directions, Q364"},
     ColumnSpec{"X", "", 16, Length, 6, "tool tip at the signal, machine coordinates; empty: not probed"},
     ColumnSpec{"Y", "", 16, Length, 6, ""},

@@ -111,8 +111,8 @@ public:
   void writeText(TypedTable& table, const std::string& row, const std::string& column, const std::string& value);
 
 private:
-  /// Enters the serial number that the touch probe tells, and takes over its REACTION to a collision.
-  void meetProbe();
+  /// Enters the serial number that the touch probe in the spindle tells into the touch probe table.
+  void readSerialNumber();
   void note(const TypedTable& table, const std::string& row, const std::string& column, const std::string& before);
 
   ControlKind kind_;

@@ -85,7 +85,7 @@ CalibratedRadius calibrateRadius(Context& context, HeidenhainProber& prober, Cal
       context.channel().description().spindleOrients && (control.isTNC640() || control.parameters.mp6160 != 0);
   if (reverses) {
     context.channel().orientSpindle(prober.probe().calibrationAngle + 180);
-    const metrology::Circle2 reversed = touchCircle(prober, task, fine.centre, 4);
+    const metrology::Circle2 reversed = touchCircle(prober, task, fine.centre, task.count);
     context.channel().orientSpindle(prober.probe().calibrationAngle);
     calibrated.centreOffset = (reversed.centre - fine.centre) / 2;
     calibrated.centre.head<2>() = (reversed.centre + fine.centre) / 2;

@@ -53,9 +53,9 @@ struct CalibrationTask {
 probing::HeidenhainProber calibrationProber(Context& context);
 
 /// Coarse measurement of the centre by four touches, fine measurement by `count` touches from there; then, if the
-/// spindle can be oriented, four more touches with the probe turned by 180 degrees, which give the centre offset. With
-/// TRACK = ON the radius is that of as many more touches with the probe turned to each. Where the ball stands aside, the
-/// radius counts from the spindle axis and there is no offset.
+/// spindle can be oriented, as many more touches with the probe turned by 180 degrees, which give the centre offset.
+/// With TRACK = ON the radius is that of as many more touches with the probe turned to each. Where the ball stands
+/// aside, the radius counts from the spindle axis and there is no offset.
 CalibratedRadius calibrateRadius(Context& context, probing::HeidenhainProber& prober, CalibrationTask task);
 
 /// Writes R and the centre offset, puts them into effect and notes them in TCHPRAUTO.html.

@@ -97,7 +97,7 @@ void Context::require(const Conditions& conditions) const {
     throw Alarm("Function not permitted", "The cycle runs in milling mode only",
                 "program FUNCTION MODE MILL before it");
   }
-  if (!control_.tool.called) {
+  if (!control_.tool.called && conditions.probes) {
     throw Alarm("Touch probe axis not defined", "No tool has been called before the cycle",
                 "program TOOL CALL with the touch probe and its axis");
   }
@@ -109,7 +109,7 @@ void Context::require(const Conditions& conditions) const {
                 "reset the transformation before the cycle");
   }
   const bool mayDiffer = conditions.mismatchWithTcpmAllowed && control_.channel.holdTip;
-  if (control_.parameters.checkTiltingAxes && !mayDiffer && !rotaryAxesMatchTilt(control_)) {
+  if (control_.parameters.checkTiltingAxes && conditions.probes && !mayDiffer && !rotaryAxesMatchTilt(control_)) {
     throw Alarm("Rotary axes and tilt do not match",
                 "The positions of the rotary axes do not agree with the tilt of the working plane (chkTiltingAxes)",
                 "move the rotary axes to the tilt, or correct PLANE");

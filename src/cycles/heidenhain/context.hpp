@@ -55,6 +55,7 @@ public:
     bool rotationAllowed = false;          ///< cycle 10 may be active
     bool tiltAllowed = true;
     bool turningModeAllowed = false;
+    bool probes = true;                    ///< false: it only sets values, without a tool and wherever axes stand
     bool mismatchWithTcpmAllowed = false;  ///< with TCPM, rotary axes need not agree with the tilt
   };
   void require(const Conditions& conditions) const;

@@ -32,6 +32,7 @@ const CycleDefinition cycle404Definition = {
 };
 
 void cycle404(Context& context, const Arguments&) {
+  context.require({.probes = false});
   const int row = context.option(305);
   if (row == 0) copyActivePresetTo0(context, {});
   setBasicRotation(context, context.q(307), row > 0 ? row : 0);

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "control/alarm.hpp"
 #include "cycles/heidenhain/cycles.hpp"
 #include "cycles/heidenhain/edge_measurement.hpp"
 #include "cycles/heidenhain/inspection.hpp"
@@ -42,6 +43,14 @@ const CycleDefinition cycle420Definition = {
 
 void cycle420(Context& context, const Arguments&) {
   context.require({});
+  const bool aside =
+      std::abs(context.q(263) - context.q(265)) > 1e-4 && std::abs(context.q(264) - context.q(266)) > 1e-4;
+  if (context.option(272) == 3 && aside) {
+    throw control::Alarm(
+        "Angle not determined",
+        "With Q272 = 3 the points must lie along the main or the minor axis: A and B are angles about them",
+        "make Q263 and Q265, or Q264 and Q266, equal");
+  }
   const MeasuredEdge edge = measureEdge(context);
   double measured = 0;
   if (context.option(272) != 3) {

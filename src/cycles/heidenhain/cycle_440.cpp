@@ -69,7 +69,7 @@ using Places = std::array<std::optional<double>, 3>;
 void storeCalibration(Context& context, const Places& places) {
   auto& control = context.control();
   auto& table = *control.tables.axisShifts;
-  control.writeText(table, "1", "T", control.tool.row);
+  control.writeText(table, "1", "TOOL", control.tool.row);
   control.writeNumber(table, "1", "DIRECTION", context.option(364));
   for (std::size_t i = 0; i < 3; ++i) {
     if (places[i]) {

@@ -1,0 +1,363 @@
+#include <set>
+
+#include "cycles/heidenhain/registry.hpp"
+#include "cycles_heidenhain/table_folder.hpp"
+#include "cycles_heidenhain/worlds.hpp"
+
+/// What the page of every cycle refuses, cycle by cycle through the whole catalogue.
+namespace probewright::testing_support {
+namespace {
+
+using cycles::CycleDefinition;
+using cycles::Parameter;
+
+/// A value that makes sense in whatever cycle has the parameter.
+double sensible(const Parameter& parameter) {
+  static const std::map<std::uint32_t, double> values = {
+      {261, -8}, {260, 40},  {262, 30},  {247, 90},   {267, 1},    {272, 1},   {423, 4},    {365, 1},    {303, 1},
+      {305, 1},  {407, 12},  {583, 1},   {1100, -30}, {1101, -30}, {1102, -5}, {1103, 30},  {1104, -30}, {1105, -5},
+      {1106, 0}, {1107, 30}, {1108, -5}, {372, 1},    {1116, 20},  {1117, 20}, {1119, 360}, {1125, 1},   {266, 40},
+      {297, 40}, {296, 30},  {265, 20},  {312, 6},    {271, 30},   {292, 90},  {293, 180},  {291, 0}};
+  const auto found = values.find(parameter.address);
+  if (found != values.end()) return found->second;
+  if (!parameter.choices.empty()) return parameter.choices.front().value;
+  return std::clamp(parameter.standard.value_or(0), parameter.minimum, parameter.maximum);
+}
+
+/// The cycle's block with sensible values.
+std::string block(const CycleDefinition& cycle, ControlKind kind) {
+  switch (cycle.number) {
+    case 0:
+      return "TCH PROBE 0.0 REF. PLANE Q5 X-\nTCH PROBE 0.1 X+5 Y+0 Z-5\n";
+    case 1:
+      return "TCH PROBE 1.0 POLAR\nTCH PROBE 1.1 X ANGLE: +30\nTCH PROBE 1.2 X+5 Y+10 Z-5\n";
+    case 2:
+      return "TCH PROBE 2.0 CALIBRATE TS\nTCH PROBE 2.1 HEIGHT: +30 R +20 DIRECTION: 0\n";
+    case 3:
+      return "TCH PROBE 3.0 MEASURING\nTCH PROBE 3.1 Q10\nTCH PROBE 3.2 Z ANGLE: +180\n"
+             "TCH PROBE 3.3 DIST +10 F100 MB1 REFERENCE SYSTEM: 0\n";
+    case 4:
+      return "TCH PROBE 4.0 M\nTCH PROBE 4.1 Q10\nTCH PROBE 4.2 IZ-1\n"
+             "TCH PROBE 4.3 ABST+5 F100 MB1 REFERENCE SYSTEM:0\n";
+    case 9:
+      return "TCH PROBE 9.0 CALIBRATE TS LENGTH\nTCH PROBE 9.1 DATUM +0 REFERENCE SYSTEM 0\n";
+    default:
+      break;
+  }
+  Words words;
+  for (const Parameter& parameter : cycle.parameters) {
+    if (!parameter.controls.contains(kind) || parameter.kind == cycles::ValueKind::Text) continue;
+    words.emplace_back(parameter.address, sensible(parameter));
+  }
+  return probe(cycle.number, words, cycle.number == 444 ? " ~\n  QS400=\" \" ;T" : "");
+}
+
+/// A 5-axis machine with nothing on it.
+Bench emptyBench(ControlKind kind) {
+  Bench bench(kind, "mill5-table-table");
+  bench.preset(1, {0, 0, -450});
+  bench.setup.parameters.clear();
+  if (kind == ControlKind::iTNC530) {
+    for (const char* name : {"MP6180.0", "MP6180.1", "MP6180.2"})
+      bench.setup.parameters[name] = {-300.0, {}};
+    bench.setup.parameters["MP6580.2"] = {-450.0, {}};
+  }
+  return bench;
+}
+
+/// Runs `check` for each cycle of the control.
+template <class Check>
+void forEveryCycle(ControlKind kind, const Check& check) {
+  for (const auto& entry : cycles::heidenhain::entries()) {
+    if (!entry.definition->controls.contains(kind)) continue;
+    SCOPED_TRACE(fmt::format("cycle {} on the {}", entry.definition->name, control::name(kind)));
+    check(*entry.definition, block(*entry.definition, kind));
+  }
+}
+
+constexpr ControlKind newer = ControlKind::TNC640, older = ControlKind::iTNC530;
+
+TEST(EveryPage, SaysWhetherTheCycleRunsInTurningMode) {
+  const std::set<int> allowed = {3, 4, 460, 461, 462, 463};
+  forEveryCycle(newer, [&](const CycleDefinition& cycle, const std::string& blocks) {
+    const Ran ran = emptyBench(newer).run("FUNCTION MODE TURN\n" + blocks);
+    if (allowed.contains(cycle.number)) {
+      EXPECT_NE(ran.alarm(), "Function not permitted");
+      return;
+    }
+    EXPECT_EQ(ran.alarm(), "Function not permitted") << ran.why();
+    EXPECT_NE(ran.why().find("milling mode"), std::string::npos) << ran.why();
+  });
+}
+
+TEST(EveryPage, NeedsAToolCallThatDefinesTheTouchProbeAxis) {
+  const std::set<int> still = {404, 441};
+  for (const ControlKind kind : {newer, older}) {
+    forEveryCycle(kind, [&](const CycleDefinition& cycle, const std::string& blocks) {
+      const Ran ran = emptyBench(kind).runBare(blocks);
+      if (still.contains(cycle.number)) {
+        EXPECT_TRUE(ran.finished()) << ran.why();
+        return;
+      }
+      EXPECT_EQ(ran.alarm(), "Touch probe axis not defined") << ran.why();
+      EXPECT_NE(ran.why().find("TOOL CALL"), std::string::npos) << ran.why();
+    });
+  }
+}
+
+TEST(EveryPage, RefusesCoordinateTransformations) {
+  const std::string shift = "CYCL DEF 7.0 SHIFT\nCYCL DEF 7.1 X+5\n", mirror = "CYCL DEF 8.0 MIRROR\nCYCL DEF 8.1 X\n",
+                    turn = "CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+15\n",
+                    scale = "CYCL DEF 11.0 SCALING\nCYCL DEF 11.1 SCL 1.1\n",
+                    axes = "CYCL DEF 26.0 AXIS-SPEC. SCALING\nCYCL DEF 26.1 X1.1 CCX+0 CCY+0\n";
+  forEveryCycle(newer, [&](const CycleDefinition& cycle, const std::string& blocks) {
+    // 0, 1, 3 and 4 are not of the family 400 to 499; 441 only sets values.
+    const bool free = cycle.number < 400 || cycle.number == 441;
+    const bool presets = cycle.number >= 408 && cycle.number <= 419;
+    const bool family14 = cycle.number >= 1400 || cycle.number == 444;
+    for (const std::string& before : {shift, mirror, turn, scale, axes}) {
+      SCOPED_TRACE(before);
+      const bool may = free || (family14 && (before == shift || before == turn)) || (presets && before == turn);
+      const Ran ran = emptyBench(newer).run(before + blocks);
+      if (may) {
+        EXPECT_NE(ran.alarm(), "Coordinate transformation not permitted") << ran.why();
+      } else {
+        EXPECT_EQ(ran.alarm(), "Coordinate transformation not permitted") << ran.why();
+      }
+    }
+  });
+}
+
+TEST(EveryPage, ReportsThatTheStylusWasNotDeflected) {
+  const std::set<int> still = {404, 441}, silent = {3, 4};
+  for (const ControlKind kind : {newer, older}) {
+    forEveryCycle(kind, [&](const CycleDefinition& cycle, const std::string& blocks) {
+      const std::string above = cycle.number == 2 || cycle.number == 440 ? "" : "L Z+60 R0 FMAX\nL X+0 Y+0 R0 FMAX\n";
+      const Ran ran = emptyBench(kind).run(above + blocks);
+      if (still.contains(cycle.number)) {
+        EXPECT_TRUE(ran.finished()) << ran.why();
+        return;
+      }
+      if (silent.contains(cycle.number)) {
+        EXPECT_TRUE(ran.finished()) << ran.why();
+        EXPECT_EQ(ran.q(13), -1);
+        return;
+      }
+      EXPECT_EQ(ran.alarm(), "Touch point inaccessible") << ran.why();
+      EXPECT_NE(ran.why().find("not deflected within"), std::string::npos) << ran.why();
+      ASSERT_FALSE(ran.outcome.journal.cycles.empty());
+      EXPECT_EQ(ran.cycle().touches.size(), 1U);
+      EXPECT_TRUE(ran.cycle().writes.empty());
+    });
+  }
+}
+
+TEST(EveryPage, ChecksThatRotaryAxesAgreeWithTheTilt) {
+  const std::set<int> still = {404, 441};
+  Bench bench = emptyBench(newer);
+  bench.setup.parameters["chkTiltingAxes"] = {1.0, {}};
+  forEveryCycle(newer, [&](const CycleDefinition& cycle, const std::string& blocks) {
+    if (still.contains(cycle.number)) return;
+    const Ran ran = bench.run("PLANE SPATIAL SPA+0 SPB+10 SPC+0 STAY\n" + blocks);
+    EXPECT_EQ(ran.alarm(), "Rotary axes and tilt do not match") << ran.why();
+    EXPECT_NE(ran.why().find("chkTiltingAxes"), std::string::npos) << ran.why();
+  });
+}
+
+TEST(EveryPage, KeepsTheOldMisalignmentCyclesOutOfTiltedPlanes) {
+  for (const int number : {400, 401, 402, 403, 405}) {
+    const CycleDefinition& cycle = *cycles::heidenhain::findEntry(number)->definition;
+    SCOPED_TRACE(number);
+    const Ran ran = emptyBench(newer).run("PLANE SPATIAL SPA+0 SPB+10 SPC+0 STAY\n" + block(cycle, newer));
+    EXPECT_EQ(ran.alarm(), "Tilted working plane not permitted") << ran.why();
+  }
+  const Ran old = emptyBench(older).run("PLANE SPATIAL SPA+0 SPB+10 SPC+0 STAY\n" +
+                                        block(*cycles::heidenhain::findEntry(403)->definition, older));
+  EXPECT_EQ(old.alarm(), "Tilted working plane not permitted") << old.why();
+}
+
+TEST(EveryPage, RefusesGeometriesThatDetermineNothing) {
+  const auto changed = [](int number, const Words& changes) {
+    const CycleDefinition& cycle = *cycles::heidenhain::findEntry(number)->definition;
+    Words words;
+    for (const Parameter& parameter : cycle.parameters) {
+      if (parameter.controls.contains(newer)) words.emplace_back(parameter.address, sensible(parameter));
+    }
+    return probe(number, with(words, changes));
+  };
+  for (const int number : {405, 421, 422, 412, 413}) {
+    SCOPED_TRACE(number);
+    const Ran ran = emptyBench(newer).run(changed(number, {{247, 4}}));
+    EXPECT_EQ(ran.alarm(), "Stepping angle too small") << ran.why();
+    EXPECT_NE(ran.why().find("5 degrees"), std::string::npos) << ran.why();
+  }
+  const Ran aside = emptyBench(newer).run(changed(420, {{272, 3}, {263, 0}, {264, 0}, {265, 20}, {266, 10}}));
+  EXPECT_EQ(aside.alarm(), "Angle not determined") << aside.why();
+  EXPECT_NE(aside.why().find("Q272"), std::string::npos) << aside.why();
+  for (const int wrong : {-1, 2}) {
+    const Ran ran = emptyBench(newer).run(changed(420, {{301, wrong}}));
+    EXPECT_EQ(ran.outcome.info.exit, records::ExitState::InputMistake);
+    EXPECT_NE(ran.why().find("Q301"), std::string::npos) << ran.why();
+  }
+  // Three holes of a bolt circle in one line.
+  Bench holes = emptyBench(newer);
+  for (const double x : {-40.0, 0.0, 40.0})
+    holes.part(simulation::Ring(8, 14, -20), pose({x, 0, -450}));
+  // The angles that lead from the centre (0, 0) at radius 40 to holes in one line do not exist; two of them coincide.
+  const Ran twice = holes.run(changed(430, {{273, 0}, {274, 0}, {262, 80}, {291, 0}, {292, 0}, {293, 180}, {261, -8}}));
+  EXPECT_EQ(twice.alarm(), "Circle not determined") << twice.why();
+}
+
+/// A part that each of the inspection cycles finds 0.3 mm too large, and a mill that breaks at 0.2 mm.
+struct Inspected {
+  int cycle;
+  Bench bench{newer};
+  Words words;
+};
+
+std::vector<Inspected> inspected() {
+  const Words common = {{261, -8}, {320, 1}, {260, 20}, {281, 0}, {309, 0}, {330, 0}};
+  const Words circle = with(common, {{273, 0}, {274, 0}, {262, 30}, {325, 0}, {247, 90}, {301, 1}, {279, 0}, {280, 0}});
+  const Words rectangle = with(
+      common,
+      {{273, 0}, {274, 0}, {282, 40}, {283, 30}, {301, 1}, {284, 0}, {285, 0}, {286, 0}, {287, 0}, {279, 0}, {280, 0}});
+  std::vector<Inspected> all(8);
+  for (Inspected& one : all) {
+    one.bench.preset(1, {0, 0, -400});
+    one.bench.believedProbe().maximumTravel = 30;
+  }
+  const auto at = pose({0, 0, -400});
+  const auto walls = [&](Bench& bench, double x, double y) {
+    bench.part(simulation::Box({x, -40, -30}, {x + 20, 40, 0}), at);
+    bench.part(simulation::Box({-x - 20, -40, -30}, {-x, 40, 0}), at);
+    bench.part(simulation::Box({-60, y, -30}, {60, y + 20, 0}), at);
+    bench.part(simulation::Box({-60, -y - 20, -30}, {60, -y, 0}), at);
+  };
+  all[0].cycle = 421;
+  all[0].bench.part(simulation::Ring(15.15, 40, -30), at);
+  all[0].words = with(circle, {{275, 30.1}, {276, 29.9}});
+  all[1].cycle = 422;
+  all[1].bench.part(simulation::RoundBar(15.15, -30, 0), at);
+  all[1].words = with(circle, {{277, 30.1}, {278, 29.9}});
+  all[2].cycle = 423;
+  walls(all[2].bench, 20.15, 15.15);
+  all[2].words = with(rectangle, {{284, 40.1}, {285, 39.9}, {286, 30.1}, {287, 29.9}});
+  all[3].cycle = 424;
+  all[3].bench.part(simulation::Box({-20.15, -15.15, -30}, {20.15, 15.15, 0}), at);
+  all[3].words = with(rectangle, {{284, 40.1}, {285, 39.9}, {286, 30.1}, {287, 29.9}});
+  all[4].cycle = 425;
+  walls(all[4].bench, 20.15, 30);
+  all[4].words = with(common, {{328, 0}, {329, 0}, {310, 0}, {272, 1}, {311, 40}, {288, 40.1}, {289, 39.9}, {301, 0}});
+  all[5].cycle = 426;
+  all[5].bench.part(simulation::Box({-20.15, -15, -30}, {20.15, 15, 0}), at);
+  all[5].words =
+      with(common, {{263, 20}, {264, 0}, {265, -20}, {266, 0}, {272, 1}, {311, 40}, {288, 40.1}, {289, 39.9}});
+  all[6].cycle = 427;
+  all[6].bench.part(simulation::Box({-20, -15, -30}, {20.3, 15, 0}), at);
+  all[6].words = with(common, {{263, 20}, {264, 0}, {272, 1}, {267, -1}, {288, 20.1}, {289, 19.9}});
+  all[7].cycle = 430;
+  for (const double angle : {0.0, 120.0, 240.0}) {
+    all[7].bench.part(simulation::Ring(6, 12, -30),
+                      at * pose({30.15 * std::cos(radians(angle)), 30.15 * std::sin(radians(angle)), 0}));
+  }
+  all[7].words = with(
+      common,
+      {{273, 0}, {274, 0}, {262, 60}, {291, 0}, {292, 120}, {293, 240}, {288, 60.1}, {289, 59.9}, {279, 0}, {280, 0}});
+  return all;
+}
+
+TEST(EveryInspection, StopsOutOfToleranceAndLocksBrokenTools) {
+  for (Inspected& part : inspected()) {
+    SCOPED_TRACE(fmt::format("cycle {}", part.cycle));
+    const Ran going = part.bench.run(probe(part.cycle, part.words));
+    ASSERT_TRUE(going.finished()) << going.why();
+    EXPECT_EQ(going.q(181) + going.q(182), 1);
+    const Ran stopped = part.bench.run(probe(part.cycle, with(part.words, {{309, 1}})));
+    EXPECT_EQ(stopped.alarm(), "Tolerance exceeded") << stopped.why();
+    EXPECT_NE(stopped.why().find(going.q(182) == 1 ? "Scrap" : "Rework"), std::string::npos) << stopped.why();
+
+    const TableFolder folder(part.bench);
+    const auto withBreakage = [&](double breakage) {
+      control::heidenhain::TypedTable tools = control::heidenhain::defaultToolTable(newer);
+      EXPECT_TRUE(tools.setText("5", "NAME", "MILL"));
+      EXPECT_TRUE(tools.setNumber("5", "RBREAK", breakage));
+      EXPECT_TRUE(tools.setText("5.2", "NAME", "STEP"));
+      folder.put("TOOL.T", tools);
+      return part.bench.run(probe(part.cycle, with(part.words, {{330, 5}})));
+    };
+    const Ran broken = withBreakage(0.2);
+    EXPECT_EQ(broken.alarm(), "Tool breakage") << broken.why();
+    EXPECT_NE(broken.why().find("RBREAK"), std::string::npos) << broken.why();
+    EXPECT_EQ(broken.table("TOOL.T").text("5", "TL"), "L");
+    EXPECT_EQ(broken.cell("TOOL.T", "5", "DR"), 0);
+    const Ran worn = withBreakage(0.31);
+    EXPECT_TRUE(worn.finished()) << worn.why();
+    EXPECT_EQ(worn.table("TOOL.T").text("5", "TL"), "");
+    EXPECT_EQ(std::abs(worn.cell("TOOL.T", "5", "DR")) > 0.1, part.cycle != 430);
+    // An index behind the number names the step.
+    const Ran step = part.bench.run(probe(part.cycle, with(part.words, {{330, 5.2}})));
+    EXPECT_TRUE(step.finished()) << step.why();
+    EXPECT_EQ(std::abs(step.cell("TOOL.T", "5.2", "DR")) > 0.1, part.cycle != 430);
+    EXPECT_EQ(step.cell("TOOL.T", "5", "DR"), 0);
+  }
+}
+
+/// Q305 and Q303 of the iTNC 530: row 0 sets the datum at once whatever Q303 says.
+TEST(PresetTransfer, FollowsTheITNC530InEveryCombination) {
+  Bench bench(older);
+  bench.preset(1, {10, 20, -400});
+  bench.part(simulation::Ring(15, 40, -30), pose({60, 60, -400}));
+  const Words words = {{321, 50}, {322, 40}, {262, 30}, {325, 0}, {247, 90}, {261, -8},
+                       {320, 0},  {260, 20}, {301, 0},  {331, 7}, {332, -2}, {381, 0}};
+  const TableFolder folder(bench);
+  control::heidenhain::TypedTable datums = control::heidenhain::defaultDatumTable(older);
+  folder.put("ZERO.D", datums);
+  for (const int transfer : {-1, 0, 1}) {
+    for (const bool selected : {false, true}) {
+      SCOPED_TRACE(fmt::format("Q303 = {}, table selected {}", transfer, selected));
+      const std::string select = selected ? "SEL TABLE \"ZERO.D\"\n" : "";
+      const Ran atOnce = bench.run(select + probe(412, with(words, {{305, 0}, {303, transfer}})));
+      ASSERT_TRUE(atOnce.finished()) << atOnce.why();
+      EXPECT_LT((atOnce.seen({60, 60, -400}) - Vector3(7, -2, 0)).norm(), 1e-6);
+      const Ran row = bench.run(select + probe(412, with(words, {{305, 3}, {303, transfer}})));
+      if (transfer == -1) {
+        EXPECT_EQ(row.alarm(), "Measured value transfer not defined") << row.why();
+      } else if (transfer == 0 && !selected) {
+        EXPECT_EQ(row.alarm(), "Datum table not selected") << row.why();
+      } else {
+        ASSERT_TRUE(row.finished()) << row.why();
+        // Nothing acts before cycle 7 or 247.
+        EXPECT_TRUE(row.preset().isApprox(pose({10, 20, -400}), 1e-12));
+        const std::string table = transfer == 0 ? "ZERO.D" : "PRESET.PR";
+        const Vector2 expected = transfer == 0 ? Vector2(43, 42) : Vector2(53, 62);
+        EXPECT_NEAR(row.cell(table, "3", "X"), expected.x(), 1e-4);
+        EXPECT_NEAR(row.cell(table, "3", "Y"), expected.y(), 1e-4);
+        const std::string after =
+            transfer == 0 ? "CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 #3\n" : "CYCL DEF 247 PRESET ~\n  Q339=3 ;NUMBER\n";
+        const Ran active = bench.run(select + probe(412, with(words, {{305, 3}, {303, transfer}})) + after +
+                                     probe(421, {{273, 7},
+                                                 {274, -2},
+                                                 {262, 30},
+                                                 {325, 0},
+                                                 {247, 90},
+                                                 {261, -8},
+                                                 {320, 0},
+                                                 {260, 20},
+                                                 {301, 0},
+                                                 {275, 0},
+                                                 {276, 0},
+                                                 {279, 0},
+                                                 {280, 0},
+                                                 {281, 0},
+                                                 {309, 0},
+                                                 {330, 0}}));
+        ASSERT_TRUE(active.finished()) << active.why();
+        EXPECT_NEAR(active.q(151), 7, 1e-4);
+        EXPECT_NEAR(active.q(152), -2, 1e-4);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace probewright::testing_support
