@@ -193,5 +193,42 @@ TEST(Cycle440, UsesFeedsDepthAndOffsetsOfTheTables) {
   EXPECT_NEAR(tip(offset, 0).z() - tip(offset, 1).z(), depth + 2, exact);
 }
 
+/// Place and size of the contact come from [tool_probe] of the setup.
+TEST(Cycle440, KnowsTheToolTouchProbeOfTheSetup) {
+  Diagnostics diagnostics;
+  const auto setup = simulation::parseSetup(R"(
+[control]
+type = "iTNC530"
+[tool_probe]
+size = [30, 30]
+pose = { x = 120, y = -60, z = -450 }
+[[preset]]
+row = 1
+origin = [0, 0, -430]
+active = true
+[[tool]]
+number = 9
+kind = "mill"
+length = 80
+radius = 6
+[[tool]]
+number = 1
+kind = "probe"
+length = 100
+ball_radius = 2
+)",
+                                            "setup.toml", diagnostics);
+  ASSERT_TRUE(setup) << format(diagnostics.front());
+  Shifting world{};
+  world.bench.setup = *setup;
+  const Ran ran = world.run(0, 4);
+  ASSERT_TRUE(ran.finished()) << ran.why();
+  ASSERT_EQ(ran.touches(), 3U);
+  const auto& touches = ran.cycle().touches;
+  EXPECT_NEAR(touches[0].latched[2], -450 + 80, exact);
+  EXPECT_NEAR(touches[1].latched[0], 120 - 15 - 6, exact);
+  EXPECT_NEAR(touches[2].latched[1], -60 - 15 - 6, exact);
+}
+
 }  // namespace
 }  // namespace probewright::testing_support
