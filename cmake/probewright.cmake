@@ -57,5 +57,6 @@ function(probewright_test name)
     set(suppressions ${PROJECT_SOURCE_DIR}/cmake/leak_suppressions.txt)
     list(APPEND properties ENVIRONMENT LSAN_OPTIONS=suppressions=${suppressions}:print_suppressions=0)
   endif()
-  gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 PROPERTIES ${properties})
+  gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 XML_OUTPUT_DIR ${PROJECT_BINARY_DIR}/test-results/${name}
+                                        PROPERTIES ${properties})
 endfunction()

@@ -24,6 +24,9 @@ struct RunArguments {
   std::optional<std::uint64_t> seed;  ///< instead of the setup's
   bool dryRun = false, programTest = false;
   std::optional<std::uint64_t> searchLine;
+  control::DialogLanguage language = control::DialogLanguage::English;
+  bool screens = false;
+  std::vector<std::string> measuringLogs;  ///< of a SINUMERIK control; .csv: as a table
   bool quiet = false;
 };
 int run(const RunArguments& arguments);
@@ -37,6 +40,7 @@ int check(const CheckArguments& arguments);
 struct CyclesArguments {
   std::string name;  ///< empty: all
   std::optional<control::ControlKind> control;
+  bool asJson = false;
 };
 int cycles(const CyclesArguments& arguments);
 

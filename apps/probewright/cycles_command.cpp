@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "base/number_text.hpp"
 #include "commands.hpp"
@@ -77,6 +78,48 @@ void show(const CycleDefinition& cycle) {
   }
 }
 
+nlohmann::ordered_json namesOf(control::ControlSet controls) {
+  auto names = nlohmann::ordered_json::array();
+  for (const ControlKind kind : control::allControlKinds) {
+    if (controls.contains(kind)) names.push_back(control::name(kind));
+  }
+  return names;
+}
+
+nlohmann::ordered_json toJson(const CycleDefinition& cycle) {
+  nlohmann::ordered_json object = {{"name", cycle.name},
+                                   {"number", cycle.number},
+                                   {"title", cycle.title},
+                                   {"family", cycles::nameOf(cycle.family)},
+                                   {"controls", namesOf(cycle.controls)},
+                                   {"summary", cycle.summary},
+                                   {"parameters", nlohmann::ordered_json::array()},
+                                   {"results", nlohmann::ordered_json::array()}};
+  for (const Parameter& parameter : cycle.parameters) {
+    nlohmann::ordered_json entry = {
+        {"name", parameter.name},
+        {"meaning", parameter.meaning},
+        {"unit", cycles::unitOf(parameter.kind)},
+        {"required", parameter.required()},
+        {"controls", namesOf({static_cast<std::uint8_t>(parameter.controls.bits & cycle.controls.bits)})}};
+    if (parameter.kind == ValueKind::Option) {
+      entry["choices"] = nlohmann::ordered_json::array();
+      for (const cycles::Choice& choice : parameter.choices)
+        entry["choices"].push_back({{"value", choice.value}, {"meaning", choice.meaning}});
+    } else if (parameter.kind != ValueKind::Text) {
+      entry["minimum"] = parameter.minimum;
+      entry["maximum"] = parameter.maximum;
+    }
+    if (parameter.standard) entry["default"] = *parameter.standard;
+    object["parameters"].push_back(std::move(entry));
+  }
+  for (const auto& result : cycle.results) {
+    object["results"].push_back(
+        {{"name", result.name}, {"meaning", result.meaning}, {"unit", cycles::unitOf(result.kind)}});
+  }
+  return object;
+}
+
 bool sameName(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
@@ -87,21 +130,27 @@ int cycles(const CyclesArguments& arguments) {
   std::vector<ControlKind> kinds(control::allControlKinds.begin(), control::allControlKinds.end());
   if (arguments.control) kinds = {*arguments.control};
   bool found = false;
+  auto list = nlohmann::ordered_json::array();
   std::vector<const CycleDefinition*> seen;
   for (const ControlKind kind : kinds) {
     for (const CycleDefinition* cycle : cycles::cyclesOf(kind)) {
       if (std::ranges::find(seen, cycle) != seen.end()) continue;
       seen.push_back(cycle);
-      if (arguments.name.empty()) {
+      const bool wanted = arguments.name.empty() || sameName(arguments.name, cycle->name) ||
+                          sameName(arguments.name, std::to_string(cycle->number));
+      if (!wanted) continue;
+      found = true;
+      if (arguments.asJson) {
+        list.push_back(toJson(*cycle));
+      } else if (arguments.name.empty()) {
         fmt::print("{:<11}{:<64}{:<24}{}\n", cycle->name, cycle->title, cycles::nameOf(cycle->family),
                    controlsText(cycle->controls));
-        found = true;
-      } else if (sameName(arguments.name, cycle->name) || sameName(arguments.name, std::to_string(cycle->number))) {
+      } else {
         show(*cycle);
-        found = true;
       }
     }
   }
+  if (found && arguments.asJson) fmt::print("{}\n", list.dump(2));
   if (found) return 0;
   std::fputs(
       fmt::format("probewright: there is no cycle {}; `probewright cycles` lists them all\n", arguments.name).c_str(),

@@ -7,6 +7,7 @@
 namespace {
 
 using probewright::control::ControlKind;
+using probewright::control::DialogLanguage;
 using probewright::control::OnStop;
 
 /// The option --control of all subcommands.
@@ -65,6 +66,23 @@ int main(int argc, char** argv) {
          "SINUMERIK block search: begin at this line of the program as if all before it had run, without motion "
          "and measuring")
       ->type_name("LINE");
+  std::map<std::string, DialogLanguage> languages;
+  for (const DialogLanguage language : probewright::control::allDialogLanguages)
+    languages.emplace(probewright::control::code(language), language);
+  run->add_option("--language", runArguments.language, "Language of the control's logs: en, ru, sv, zh, pl")
+      ->transform(CLI::CheckedTransformer(languages, CLI::ignore_case))
+      ->type_name("CODE");
+  run->add_option("--measuring-log", runArguments.measuringLogs,
+                  "SINUMERIK: log all measurements in this file of the output folder; .csv: as a table, .txt: as text")
+      ->type_name("NAME")
+      ->check([](const std::string& name) {
+        const std::filesystem::path path(name);
+        const bool plain = path.filename() == path && path.has_stem();
+        return plain && (path.extension() == ".csv" || path.extension() == ".txt")
+                   ? std::string()
+                   : name + " is no file name ending in .txt or .csv";
+      });
+  run->add_flag("--screens", runArguments.screens, "Show the result screens of all cycles, also of those that are off");
   run->add_flag("--quiet", runArguments.quiet, "Print nothing but mistakes");
 
   probewright::app::CheckArguments checkArguments;
@@ -76,6 +94,7 @@ int main(int argc, char** argv) {
   CLI::App* cycles = app.add_subcommand("cycles", "The catalogue of measuring cycles, or one of them in full");
   cycles->add_option("NAME", cyclesArguments.name, "411, CYCLE977");
   addControl(*cycles, cyclesArguments.control);
+  cycles->add_flag("--json", cyclesArguments.asJson, "Everything the catalogue knows, for other programs");
 
   probewright::app::ConvertArguments convertArguments;
   CLI::App* convert =

@@ -107,6 +107,9 @@ int run(const RunArguments& arguments) {
                  : arguments.programTest ? session::ProgramMode::ProgramTest
                                          : session::ProgramMode::Normal;
   options.searchLine = arguments.searchLine;
+  options.language = arguments.language;
+  options.showAllResults = arguments.screens;
+  options.measuringLogs = arguments.measuringLogs;
   options.wallClock = std::time(nullptr);
   options.stop = interrupted.get_token();
   std::map<std::string, std::string> answers;

@@ -62,7 +62,8 @@ struct CycleRecord {
   std::vector<ResultRecord> results;
   std::vector<WriteRecord> writes;
   std::vector<std::string> logFiles;
-  std::string alarm;  ///< code and text if the cycle ended with one
+  std::vector<std::string> screens;  ///< results as the control showed them: text of several lines, UTF-8
+  std::string alarm;                 ///< code and text if the cycle ended with one
   Verdict verdict = Verdict::None;
   double startSeconds = 0, endSeconds = 0;
   double pathLength = 0;  ///< mm travelled by the tool within the cycle

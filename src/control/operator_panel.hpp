@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "control/dialog_language.hpp"
 #include "control/journal.hpp"
 
 /// What stands between a running program and the person at the machine.
@@ -18,6 +19,9 @@ public:
   explicit OperatorPanel(Journal& journal) : journal_(journal) {}
 
   OnStop onStop = OnStop::Continue;
+  DialogLanguage language = DialogLanguage::English;
+  /// Results are shown even where the program and the control's settings don't ask for it.
+  bool showAllResults = false;
   /// Asked at a stop when onStop is Ask: shows the text, returns true to go on.
   std::function<bool(const std::string& text)> ask;
   /// Asked for a value or a position by name (semi-automatic cycles, INPUT dialogs): nothing means abort.

@@ -14,17 +14,18 @@ using Byte = unsigned char;
 
 bool isHigh(char c) { return static_cast<Byte>(c) >= 0x80; }
 
-std::string convert(std::string_view bytes, const char* from, bool& complete) {
+std::string convert(std::string_view bytes, const char* from, const char* to, bool& complete) {
   const auto open = [](const char* name) {
     UErrorCode status = U_ZERO_ERROR;
     return std::unique_ptr<UConverter, decltype(&ucnv_close)>(ucnv_open(name, &status), &ucnv_close);
   };
   const auto source = open(from);
-  const auto target = open("UTF-8");
+  const auto target = open(to);
   std::string text;
   complete = source && target;
   if (!complete) return text;
   UErrorCode status = U_ZERO_ERROR;
+  if (std::string_view(to) != "UTF-8") ucnv_setSubstChars(target.get(), "?", 1, &status);
   char buffer[4096];
   const char* in = bytes.data();
   const char* end = in + bytes.size();
@@ -159,12 +160,19 @@ Encoding detectEncoding(std::string_view bytes) {
 std::string toUtf8(std::string_view bytes, Encoding encoding) {
   if (std::none_of(bytes.begin(), bytes.end(), isHigh)) return std::string(bytes);
   bool complete = false;
-  std::string text = convert(bytes, encodingName(encoding).data(), complete);
+  std::string text = convert(bytes, encodingName(encoding).data(), "UTF-8", complete);
   if (complete) return text;
   text.clear();
   for (const char c : bytes)
     text += isHigh(c) ? std::string_view("\xef\xbf\xbd") : std::string_view(&c, 1);
   return text;
+}
+
+std::string fromUtf8(std::string_view text, Encoding encoding) {
+  if (encoding == Encoding::Utf8 || std::none_of(text.begin(), text.end(), isHigh)) return std::string(text);
+  bool complete = false;
+  std::string bytes = convert(text, "UTF-8", encodingName(encoding).data(), complete);
+  return complete ? bytes : std::string(text);
 }
 
 }  // namespace probewright::language

@@ -22,4 +22,7 @@ Encoding detectEncoding(std::string_view bytes);
 /// `bytes` as UTF-8. What is no character in `encoding` becomes U+FFFD.
 std::string toUtf8(std::string_view bytes, Encoding encoding);
 
+/// `text` (UTF-8) in `encoding`. What `encoding` has no character for becomes '?'.
+std::string fromUtf8(std::string_view text, Encoding encoding);
+
 }  // namespace probewright::language

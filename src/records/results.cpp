@@ -90,6 +90,7 @@ json cycle(const control::CycleRecord& record, const std::vector<machine::Axis>&
                  {"results", list(record.results, [&](const auto& r) { return result(r, text); })},
                  {"writes", list(record.writes, [&](const auto& w) { return write(w, text); })},
                  {"logFiles", list(record.logFiles, text)},
+                 {"screens", list(record.screens, text)},
                  {"start", number(record.startSeconds)},
                  {"end", number(record.endSeconds)},
                  {"pathLength", number(record.pathLength)}};

@@ -130,6 +130,18 @@ std::string writeLine(const control::WriteRecord& write, const Style& style) {
                      shown(write.before), shown(write.after));
 }
 
+/// A text of several lines in a frame, as a screen shows it.
+std::string screenText(const std::string& screen, const Style& style) {
+  std::string text = "      +" + std::string(30, '-') + "\n";
+  std::size_t begin = 0;
+  while (begin < screen.size()) {
+    const std::size_t end = std::min(screen.find('\n', begin), screen.size());
+    text += "      | " + style.line(screen.substr(begin, end - begin)) + "\n";
+    begin = end + 1;
+  }
+  return text + "      +" + std::string(30, '-') + "\n";
+}
+
 std::string cycleText(const control::CycleRecord& cycle, std::size_t number, const Style& style) {
   std::string text = fmt::format("{:>3}  {} {}", number, style.line(cycle.name), style.line(cycle.title));
   const std::string place = style.place(cycle.place);
@@ -154,6 +166,8 @@ std::string cycleText(const control::CycleRecord& cycle, std::size_t number, con
   }
   for (const auto& write : cycle.writes)
     text += writeLine(write, style);
+  for (const auto& screen : cycle.screens)
+    text += screenText(screen, style);
   for (const auto& file : cycle.logFiles)
     text += fmt::format("      log {}\n", style.line(fileName(file)));
   if (!cycle.alarm.empty()) text += fmt::format("      {}\n", style.paint(Tone::Bad, style.line(cycle.alarm)));
@@ -175,7 +189,10 @@ std::string eventText(const control::EventRecord& event, const Style& style) {
                      "  ";
   text += style.line(event.code);
   if (!event.code.empty() && !event.text.empty()) text += ": ";
-  text += style.line(event.text);
+  // Of a screen at which the program stopped its first line; all of it stands with its cycle.
+  const std::size_t lineEnd = event.kind == control::EventKind::Stop ? event.text.find('\n') : std::string::npos;
+  text += style.line(event.text.substr(0, lineEnd));
+  if (lineEnd != std::string::npos) text += " ...";
   const std::string place = style.place(event.place);
   if (!place.empty()) text += fmt::format("  ({})", place);
   return text + "\n";

@@ -8,6 +8,7 @@
 #include "base/file.hpp"
 #include "control/alarm.hpp"
 #include "language/din_iso/host.hpp"
+#include "language/encoding.hpp"
 #include "language/klartext/host.hpp"
 #include "language/sinumerik/host.hpp"
 #include "language/sinumerik/program.hpp"
@@ -43,6 +44,22 @@ void setPanel(control::OperatorPanel& panel, const RunOptions& options) {
   panel.onStop = options.onStop;
   panel.ask = options.ask;
   panel.answer = options.answer;
+  panel.language = options.language;
+  panel.showAllResults = options.showAllResults;
+}
+
+/// What the control writes text files in: the TNC 640 in UTF-8, the iTNC 530 in the 8-bit character set of its
+/// language.
+language::Encoding textFileEncoding(ControlKind kind, control::DialogLanguage language) {
+  if (kind != ControlKind::iTNC530) return language::Encoding::Utf8;
+  return language == control::DialogLanguage::Russian ? language::Encoding::Windows1251
+                                                      : language::Encoding::Windows1252;
+}
+
+void encodeLogs(std::map<std::string, std::string>& files, language::Encoding encoding) {
+  for (auto& [name, text] : files) {
+    if (name.starts_with("TCHPR") && name.ends_with(".TXT")) text = language::fromUtf8(text, encoding);
+  }
 }
 
 void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>& program, const fs::path& path,
@@ -71,6 +88,7 @@ void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>
   outcome.result = interpreter.run(program);
 
   outcome.files = control.panel.files();
+  encodeLogs(outcome.files, textFileEncoding(outcome.control, options.language));
   outcome.files["TOOL.T"] = control.tables.tools.table().bytes();
   outcome.files["TCHPROBE.TP"] = control.tables.probes.table().bytes();
   outcome.files["PRESET.PR"] = control.tables.presets.table().bytes();
@@ -132,6 +150,9 @@ void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>&
   setPanel(control.panel, options);
   control.programPath = path.string();
   control.wallClockStart = options.wallClock;
+  for (const std::string& name : options.measuringLogs)
+    control.output.logs.push_back(
+        {name, fs::path(name).extension() == ".csv" ? sin::MeasuringLog::Form::Table : sin::MeasuringLog::Form::Text});
   control.activateSettable(activeZeroOffset(setup));
   for (const auto& tool : setup.tools) {
     if (tool.inSpindle) control.loadTool(tool.number);

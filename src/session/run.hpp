@@ -46,6 +46,9 @@ struct RunOptions {
   /// SINUMERIK only: block search with calculation. The axes stand and measuring cycles are skipped up to this line of
   /// the main program; there they go straight to where the program stands, and the program goes on.
   std::optional<std::uint64_t> searchLine;
+  control::DialogLanguage language = control::DialogLanguage::English;  ///< of logs and screens
+  std::vector<std::string> measuringLogs;  ///< SINUMERIK: logs of all measurements; a table if the name ends in .csv
+  bool showAllResults = false;             ///< screens of results even where nothing asks for them
   /// Told now and then how many blocks have been carried out.
   std::function<void(std::uint64_t blocks)> progress;
 };

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "app/program.hpp"
 
@@ -75,6 +76,15 @@ TEST(Cycles, AreListedAndExplained) {
   EXPECT_EQ(one.exit, 0);
   EXPECT_THAT(one.output, HasSubstr("S_MVAR"));
   EXPECT_THAT(one.output, HasSubstr("_OVR[4]"));
+  const auto everything = nlohmann::json::parse(probewright({"cycles", "--json"}).output);
+  std::size_t lines = 0;
+  for (const char c : all.output)
+    lines += c == '\n' ? 1 : 0;
+  EXPECT_EQ(everything.size(), lines);
+  const auto bore = nlohmann::json::parse(probewright({"cycles", "412", "--json"}).output);
+  ASSERT_EQ(bore.size(), 1U);
+  EXPECT_EQ(bore[0]["controls"], (nlohmann::json{"TNC640", "iTNC530"}));
+  EXPECT_EQ(bore[0]["parameters"][0]["name"], "Q321");
   const Answer none = probewright({"cycles", "4711"});
   EXPECT_EQ(none.exit, 2);
   EXPECT_EQ(none.errors, "probewright: there is no cycle 4711; `probewright cycles` lists them all\n");

@@ -55,6 +55,7 @@ Answer probewright(const std::vector<std::string>& words) {
   answer.output = textOf(output);
   answer.errors = textOf(errors);
   answer.cpuSeconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  answer.peakMegabytes = static_cast<double>(usage.ru_maxrss) / 1024;
   return answer;
 }
 

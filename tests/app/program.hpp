@@ -13,6 +13,7 @@ struct Answer {
   std::string output;     ///< standard output
   std::string errors;     ///< standard error
   double cpuSeconds = 0;  ///< of the process, user and system
+  double peakMegabytes = 0;
 };
 
 /// Runs probewright with these words; its working folder is the root of the sources.

@@ -42,7 +42,7 @@ TEST(Cycle420, MeasuresTheAngleOfAnyEdge) {
     double expected = part.skew + (axis == 0 ? 90 : 0);
     if (expected > 90) expected -= 180;
     EXPECT_NEAR(ran.q(150), expected, 1e-6);
-    EXPECT_NEAR(readLog(ran.outcome.files.at("TCHPR420.TXT")).at("Actual values:Measured angle"), expected, 0.6e-4);
+    EXPECT_NEAR(readLog(ran.log("TCHPR420.TXT")).at("Actual values:Measured angle"), expected, 0.6e-4);
   }
 }
 
@@ -97,7 +97,7 @@ TEST(Cycles420And431, MeasureTheTiltOfAnyPlane) {
     const double above = ball / n.z() - ball;
     for (int i = 0; i < 3; ++i)
       EXPECT_NEAR(ran.q(173 + i), height(at[static_cast<std::size_t>(i)]) + above, exact);
-    const auto log = readLog(ran.outcome.files.at("TCHPR431.TXT"));
+    const auto log = readLog(ran.log("TCHPR431.TXT"));
     EXPECT_NEAR(log.at("Actual values:Space angle B"), ran.q(171), 0.6e-4);
     EXPECT_NEAR(log.at("Actual values:3rd measured value"), ran.q(175), 0.6e-4);
 

@@ -1,4 +1,3 @@
-#include "control/heidenhain/probe_table.hpp"
 #include "cycles_heidenhain/worlds.hpp"
 
 /// Cycles 2, 9, 441 and 460 to 463: a probe of unknown length, radius and tip offset becomes known, and what it
@@ -45,16 +44,20 @@ std::string goTo(const Vector3& place, double height) {
   return fmt::format("L Z+60 R0 FMAX\nL X{:+.4f} Y{:+.4f} R0 FMAX\nL Z{:+.4f} R0 FMAX\n", place.x(), place.y(), height);
 }
 
-double probeCell(const Ran& ran, const std::string& column) {
-  Diagnostics diagnostics;
-  const auto table =
-      control::heidenhain::parseProbeTable(ran.outcome.files.at("TCHPROBE.TP"), "TCHPROBE.TP", diagnostics);
-  EXPECT_TRUE(table);
-  return table->number("1", column).value_or(std::nan(""));
+double probeCell(const Ran& ran, const std::string& column) { return ran.cell("TCHPROBE.TP", "1", column); }
+
+/// The log has a row for the datum with its new value.
+void expectLogged(const Ran& ran, const std::string& datum) {
+  const std::string log = ran.log("TCHPRAUTO.html");
+  const std::size_t row = log.find("<td>" + datum + "</td>");
+  ASSERT_NE(row, std::string::npos) << log;
+  const std::string after = fmt::format("<td>{:.4f}</td></tr>", ran.cell("TOOL.T", "1", datum));
+  EXPECT_LT(log.find(after, row), log.find("\n", row)) << log;
 }
 
 void expectRadius(const Ran& ran, const Standard& world, bool withOffset = true) {
   EXPECT_NEAR(ran.cell("TOOL.T", "1", "R"), world.ball, exact);
+  expectLogged(ran, "R");
   if (!withOffset) return;
   const bool table = world.bench.control == ControlKind::TNC640;
   EXPECT_NEAR(table ? probeCell(ran, "CAL_OF1") : ran.cell("TOOL.T", "1", "CAL-OF1"), world.tip.x(), exact);
@@ -119,7 +122,6 @@ TEST(Cycle462, CalibratesInAnyRing) {
     ASSERT_TRUE(ran.finished()) << ran.why();
     expectRadius(ran, world);
     expectHole(ran, hole);
-    EXPECT_EQ(ran.outcome.files.count("TCHPRAUTO.html"), 1U);
   }
 }
 
@@ -182,6 +184,7 @@ TEST(Cycle461, CalibratesTheLengthOnAnySurface) {
     ASSERT_TRUE(ran.finished()) << ran.why();
     EXPECT_NEAR(ran.cell("TOOL.T", "1", "L"), world.length, exact);
     EXPECT_NEAR(ran.cell("TOOL.T", "1", "DL"), 0, exact);
+    expectLogged(ran, "L");
   }
 }
 
@@ -199,6 +202,7 @@ TEST(Cycle9, CalibratesTheLengthInBothSystems) {
                                                 inMachine ? height - 400 : height, inMachine ? 1 : 0));
     ASSERT_TRUE(ran.finished()) << ran.why();
     EXPECT_NEAR(ran.cell("TOOL.T", "1", "L"), world.length, exact);
+    expectLogged(ran, "L");
   }
 }
 

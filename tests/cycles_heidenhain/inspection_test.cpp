@@ -73,7 +73,7 @@ void expectCircle(const CircleFeature& feature) {
     const double left = (feature.inside ? nominal - diameter : diameter - nominal) / 2;
     EXPECT_NEAR(ran.cell("TOOL.T", "5", "DR"), correct ? -left : 0, 6e-5);
 
-    const auto log = readLog(ran.outcome.files.at(fmt::format("TCHPR{}.TXT", feature.cycle)));
+    const auto log = readLog(ran.log(fmt::format("TCHPR{}.TXT", feature.cycle)));
     const double shown = inch ? 0.6e-5 * 25.4 + near : 0.6e-4;
     const auto value = [&](const std::string& key) {
       const auto found = log.find(key);
@@ -158,7 +158,7 @@ void expectRectangle(int cycle, bool inside) {
     // Only the first side corrects the tool.
     const double left = (inside ? -1 : 1) * (found.length.x() - nominal.x()) / 2;
     EXPECT_NEAR(ran.cell("TOOL.T", "5", "DR"), -left, 6e-5);
-    const auto log = readLog(ran.outcome.files.at(fmt::format("TCHPR{}.TXT", cycle)));
+    const auto log = readLog(ran.log(fmt::format("TCHPR{}.TXT", cycle)));
     EXPECT_NEAR(log.at("Actual values:Side length in reference axis"), found.length.x(), 0.6e-4);
     EXPECT_NEAR(log.at("Deviations:Side length in minor axis"), found.length.y() - nominal.y(), 0.6e-4);
   }
@@ -225,7 +225,7 @@ void expectWidth(int cycle, bool inside) {
     EXPECT_NEAR(ran.q(166), found - nominal, exact);
     expectStatus(ran, dimension(found, limits.maximum, limits.minimum, inside));
     EXPECT_NEAR(ran.cell("TOOL.T", "5", "DR"), -out * (found - nominal) / 2, 6e-5);
-    const auto log = readLog(ran.outcome.files.at(fmt::format("TCHPR{}.TXT", cycle)));
+    const auto log = readLog(ran.log(fmt::format("TCHPR{}.TXT", cycle)));
     EXPECT_NEAR(log.at("Actual values:Length"), found, 0.6e-4);
     EXPECT_NEAR(log.at("Actual values:Position of center line"), (plus + minus) / 2, 0.6e-4);
   }
@@ -274,55 +274,8 @@ TEST(Cycle427, MeasuresACoordinateInAnyAxis) {
     const double left = -sense * (actual - nominal[axis]);
     EXPECT_NEAR(ran.cell("TOOL.T", "5", axis == 2 ? "DL" : "DR"), -left, 6e-5);
     EXPECT_NEAR(ran.cell("TOOL.T", "5", axis == 2 ? "DR" : "DL"), 0, 1e-12);
-    EXPECT_NEAR(readLog(ran.outcome.files.at("TCHPR427.TXT")).at("Actual values:Measured coordinate"), actual, 0.6e-4);
+    EXPECT_NEAR(readLog(ran.log("TCHPR427.TXT")).at("Actual values:Measured coordinate"), actual, 0.6e-4);
   }
-}
-
-/// A hole whose measured values are those of the log in the manual.
-TEST(MeasuringLog, IsLaidOutAsPrinted) {
-  Bench bench;
-  bench.preset(1, {0, 0, -400});
-  bench.part(simulation::Ring(12.0259 / 2, 40, -40), pose({50.081, 64.953, -400}));
-  bench.probeOf(100, 1);
-  bench.wallClock = 1120114500;  // 30 June 2005, 6:55:00
-  const Words words = {{273, 50}, {274, 65},     {262, 12}, {325, 0},   {247, 90},  {261, -5}, {320, 0}, {260, 20},
-                       {301, 0},  {275, 12.045}, {276, 12}, {279, 0.1}, {280, 0.1}, {281, 1},  {309, 0}, {330, 0}};
-  const Ran ran = bench.run(probe(421, words));
-  ASSERT_TRUE(ran.finished()) << ran.why();
-  EXPECT_EQ(ran.q(180), 1);
-  std::string text = ran.outcome.files.at("TCHPR421.TXT");
-  // The time depends on how long the machine travelled.
-  const std::size_t time = text.find("Time:");
-  ASSERT_NE(time, std::string::npos);
-  EXPECT_EQ(text.substr(time, 23).substr(0, 21), "Time:              6:");
-  text.erase(time, text.find('\n', time) - time + 1);
-  EXPECT_EQ(text,
-            "****** Measuring Log for Probing Cycle 421 Hole Measuring *****\n"
-            "\n"
-            "Date:              30-06-2005\n"
-            "Measuring program: BENCH.H\n"
-            "-------------------------------------------------------------\n"
-            "Nominal values:      Center in reference axis:                   50.0000\n"
-            "                     Center in minor axis:                       65.0000\n"
-            "                     Diameter:                                   12.0000\n"
-            "-------------------------------------------------------------\n"
-            "Given limit values:  Maximum limit for center in reference axis: 50.1000\n"
-            "                     Minimum limit for center in reference axis: 49.9000\n"
-            "                     Maximum limit for center in minor axis:     65.1000\n"
-            "                     Minimum limit for center in minor axis:     64.9000\n"
-            "                     Maximum dimension for hole:                 12.0450\n"
-            "                     Minimum dimension for hole:                 12.0000\n"
-            "*************************************************************\n"
-            "Actual values:       Center in reference axis:                   50.0810\n"
-            "                     Center in minor axis:                       64.9530\n"
-            "                     Diameter:                                   12.0259\n"
-            "-------------------------------------------------------------\n"
-            "Deviations:          Center in reference axis:                    0.0810\n"
-            "                     Center in minor axis:                       -0.0470\n"
-            "                     Diameter:                                    0.0259\n"
-            "*************************************************************\n"
-            "Further measuring results: Measuring height:                     -5.0000\n"
-            "******************** End of measuring log ********************\n");
 }
 
 }  // namespace

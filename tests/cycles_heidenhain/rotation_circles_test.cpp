@@ -33,6 +33,7 @@ TEST(Cycle1411, FindsTheMisalignmentOfAnyTwoCircles) {
       return position == 3 ? Vector3((points[0] + points[1]) / 2) : points[static_cast<std::size_t>(position - 1)];
     };
     expectTransfer(ran, place, aboutZ(rotation * turned), chosen(circles.centre), chosen(circles.nominal));
+    EXPECT_NE(ran.log("TCHPRAUTO.html").find("<h2>1411 "), std::string::npos);
   }
 }
 

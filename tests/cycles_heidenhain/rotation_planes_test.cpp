@@ -39,6 +39,7 @@ TEST(Cycle1420, FindsTheAnglesOfAnyPlane) {
     };
     expectTransfer(ran, place, rotation == 1 ? turnTo(plane.normal) : Matrix3(Matrix3::Identity()),
                    chosen(plane.expected), chosen(plane.nominal));
+    EXPECT_NE(ran.log("TCHPRAUTO.html").find("<h2>1420 "), std::string::npos);
   }
 }
 

@@ -87,7 +87,7 @@ TEST(Cycle444, FindsTheDeviationAlongAnyNormal) {
     const auto stops =
         std::ranges::count(ran.outcome.journal.events, control::EventKind::Stop, &control::EventRecord::kind);
     EXPECT_EQ(stops, (reaction == 1 && state > 0) || (reaction == 2 && state == 2) ? 1 : 0);
-    const std::string& log = ran.outcome.files.at("TCHPR444.html");
+    const std::string log = ran.log("TCHPR444.html");
     static constexpr const char* colours[] = {"color:green", "color:orange", "color:red"};
     EXPECT_NE(log.find(colours[state]), std::string::npos);
   }

@@ -262,6 +262,17 @@ TEST(Host, RetractionGoesToTheLimit) {
   EXPECT_NEAR(world.machine->position()[2], description.axes[2].maximum, 1e-5);
 }
 
+TEST(Host, ProtocolsSpeakTheLanguageOfTheControl) {
+  World world;
+  world.files["M.A"] =
+      "\"1\";\nL_ENGLISH\n\"READY\";\nL_SWEDISH\n\"KLAR\";\nL_GERMAN\n\"FERTIG\";\nL_ALL\n\"2\";\nM_CLOSE\n";
+  expectFinished(world.run("FN 16: F-PRINT M.A / EN.TXT\n"));
+  EXPECT_EQ(world.control->panel.files().at("EN.TXT"), "1\nREADY\n2\n");
+  world.control->panel.language = control::DialogLanguage::Swedish;
+  expectFinished(world.run("FN 16: F-PRINT M.A / SV.TXT\n"));
+  EXPECT_EQ(world.control->panel.files().at("SV.TXT"), "1\nKLAR\n2\n");
+}
+
 TEST(Host, FreeTablesAreReadAndWritten) {
   World world;
   world.files["T.TAB"] = "BEGIN T.TAB MM\nNR   X          Y          DOC\n0    +1.500     +2.250     first\n[END]\n";

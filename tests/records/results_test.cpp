@@ -116,6 +116,8 @@ TEST(Results, KeepEveryNumberOfTheRun) {
   EXPECT_EQ(hole["touches"][1]["axes"]["Z"].get<double>(), 285);
   EXPECT_EQ(hole["touches"][1]["axes"].size(), 3U);
   EXPECT_EQ(hole["logFiles"], json{"TCHPR421.TXT"});
+  EXPECT_TRUE(hole["screens"].empty());
+  EXPECT_EQ(results["cycles"][4]["screens"], json{"Measuring log 424\nSide length in minor axis:   80.0541\n"});
   EXPECT_EQ(results["cycles"][2]["writes"][1],
             (json{{"table", "PRESET.PR"}, {"entry", "row 5, column Y"}, {"before", "-98.500"}, {"after", "-98.682"}}));
   EXPECT_EQ(results["totals"], (json{{"cycles", 5}, {"touches", 15}, {"pathLength", 2311.8}, {"time", 95.2}}));

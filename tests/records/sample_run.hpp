@@ -227,6 +227,7 @@ inline control::CycleRecord measureRectangle() {
       toleranced("Q154", "actual value, side length in the main axis", 120.04, 120, 119.9, 120.1, Verdict::Good),
       toleranced("Q155", "actual value, side length in the minor axis", 80.0541, 80, 79.97, 80.03, Verdict::Rework)};
   record.logFiles = {"TCHPR424.TXT"};
+  record.screens = {"Measuring log 424\nSide length in minor axis:   80.0541\n"};
   record.verdict = Verdict::Rework;
   return record;
 }

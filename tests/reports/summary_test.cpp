@@ -30,6 +30,10 @@ TEST(Summary, TellsEachCycleWithItsLineResultsAndChanges) {
   EXPECT_THAT(text,
               ContainsRegex("Q155 .* 80\\.0541 mm +deviation \\+0\\.0541 +\\[79\\.9700 \\.\\. 80\\.0300\\]  REWORK\n"));
   EXPECT_THAT(text, HasSubstr("      log TCHPR421.TXT\n"));
+  EXPECT_THAT(text, HasSubstr("      +------------------------------\n"
+                              "      | Measuring log 424\n"
+                              "      | Side length in minor axis:   80.0541\n"
+                              "      +------------------------------\n"));
   EXPECT_THAT(text, HasSubstr("  by the program itself\n      -> PRESET.PR active row: 0 -> 5\n"));
   EXPECT_THAT(text, HasSubstr("  message  BORE 30.012 / WIDTH 80.054  (line 60)\n"));
   EXPECT_THAT(text, EndsWith("OUT OF TOLERANCE: 1 of 5 toleranced values\n"
@@ -68,6 +72,13 @@ TEST(Summary, KeepsControlCharactersFromTheTerminal) {
   auto journal = sample::journal();
   journal.events[1].text = "beep\x07\x1b[2Jgone\nnext";
   EXPECT_THAT(summaryText(journal, sample::runInfo()), HasSubstr("beep  [2Jgone next  (line 60)\n"));
+}
+
+TEST(Summary, ShowsOfAStopItsFirstLine) {
+  auto journal = sample::journal();
+  journal.events[1].kind = control::EventKind::Stop;
+  journal.events[1].text = "Measuring log 424\nSide length";
+  EXPECT_THAT(summaryText(journal, sample::runInfo()), HasSubstr("Measuring log 424 ...  (line 60)\n"));
 }
 
 TEST(Summary, NamesTheSubprogramOfACycle) {

@@ -15,8 +15,10 @@
 
 #include "control/heidenhain/datum_table.hpp"
 #include "control/heidenhain/preset_table.hpp"
+#include "control/heidenhain/probe_table.hpp"
 #include "control/heidenhain/tool_table.hpp"
 #include "session/run.hpp"
+#include "support/coverage.hpp"
 #include "support/virtual_world.hpp"
 
 /// HEIDENHAIN programs in worlds whose truth is planted: one line a world, one line a run.
@@ -82,44 +84,90 @@ inline std::string probe(int number, const Words& words, const std::string& more
 }
 
 /// How a run went, with what tests ask of it.
-struct Ran {
+class Ran {
+public:
+  Ran(session::RunOutcome run) : outcome(std::move(run)) { coverage::noteRun(outcome.control, outcome.journal); }
+
   session::RunOutcome outcome;
 
   bool finished() const { return outcome.diagnostics.empty() && outcome.result.end == language::RunEnd::Finished; }
   /// What stopped the run; empty if nothing did.
   std::string why() const {
-    if (!outcome.diagnostics.empty()) return format(outcome.diagnostics.front());
-    return outcome.result.diagnostics.empty() ? std::string() : format(outcome.result.diagnostics.front());
+    const Diagnostics& diagnostics = outcome.diagnostics.empty() ? outcome.result.diagnostics : outcome.diagnostics;
+    if (diagnostics.empty()) return {};
+    noteRefusal(diagnostics.front().place);
+    return format(diagnostics.front());
   }
   /// The short text of the alarm that stopped the run.
   std::string alarm() const {
+    if (outcome.result.end == language::RunEnd::Alarm) noteRefusal(outcome.result.diagnostics.front().place);
     return outcome.result.end == language::RunEnd::Alarm ? outcome.result.diagnostics.front().code : std::string();
   }
   const control::CycleRecord& cycle() const { return outcome.journal.cycles.back(); }
   /// Parameter Qn as it stands at the end, in the unit of the program.
-  double q(int number) const { return outcome.qParameters ? outcome.qParameters->q(number) : std::nan(""); }
+  double q(int number) const {
+    coverage::resultRead(outcome.control, outcome.journal, fmt::format("Q{}", number));
+    return outcome.qParameters ? outcome.qParameters->q(number) : std::nan("");
+  }
   /// Machine coordinates from the workpiece system at the end.
-  Pose preset() const { return outcome.machineFromWorkpiece.value_or(Pose(Eigen::Translation3d(1e9, 1e9, 1e9))); }
+  Pose preset() const {
+    noteRead("PRESET.PR");
+    return outcome.machineFromWorkpiece.value_or(Pose(Eigen::Translation3d(1e9, 1e9, 1e9)));
+  }
   /// Where a place of the machine lies in the workpiece system at the end.
   Vector3 seen(const Vector3& machinePoint) const { return preset().inverse() * machinePoint; }
 
   control::heidenhain::TypedTable table(const std::string& name) const {
+    noteRead(name);
+    return parsed(name);
+  }
+  /// A number of a table, as the file has it.
+  double cell(const std::string& tableName, const std::string& row, const std::string& column) const {
+    const std::string entry = fmt::format("row {}, column {}", row, column);
+    coverage::writesRead(outcome.control, outcome.journal, [&](const control::WriteRecord& write) {
+      return write.table == tableName && write.entry == entry;
+    });
+    return parsed(tableName).number(row, column).value_or(std::nan(""));
+  }
+  /// A log file beside the program; empty if there is none.
+  std::string log(const std::string& name) const {
+    coverage::logRead(outcome.control, outcome.journal, name);
+    const auto found = outcome.files.find(name);
+    return found == outcome.files.end() ? std::string() : found->second;
+  }
+  /// What the cycles showed on the screen, in the order they ran.
+  std::vector<std::string> screens() const {
+    coverage::logRead(outcome.control, outcome.journal, {});
+    std::vector<std::string> shown;
+    for (const auto& each : outcome.journal.cycles)
+      shown.insert(shown.end(), each.screens.begin(), each.screens.end());
+    return shown;
+  }
+  /// Touches of the last cycle.
+  std::size_t touches() const { return cycle().touches.size(); }
+
+private:
+  void noteRefusal(const SourcePlace& place) const {
+    const auto& programs = outcome.info.programs;
+    coverage::refusalRead(outcome.control, outcome.journal, place, programs.empty() ? "" : programs.front().text,
+                          "TCH PROBE");
+  }
+  void noteRead(const std::string& table) const {
+    coverage::writesRead(outcome.control, outcome.journal,
+                         [&](const control::WriteRecord& write) { return write.table == table; });
+  }
+  control::heidenhain::TypedTable parsed(const std::string& name) const {
     Diagnostics diagnostics;
-    const auto parse = name == "PRESET.PR" ? control::heidenhain::parsePresetTable
-                       : name == "TOOL.T"  ? control::heidenhain::parseToolTable
-                                           : control::heidenhain::parseDatumTable;
+    const auto parse = name == "PRESET.PR"     ? control::heidenhain::parsePresetTable
+                       : name == "TOOL.T"      ? control::heidenhain::parseToolTable
+                       : name == "TCHPROBE.TP" ? control::heidenhain::parseProbeTable
+                                               : control::heidenhain::parseDatumTable;
     const auto found = outcome.files.find(name);
     EXPECT_NE(found, outcome.files.end()) << "no file " << name;
     auto table = parse(found->second, name, diagnostics);
     EXPECT_TRUE(table);
     return *table;
   }
-  /// A number of a table, as the file has it.
-  double cell(const std::string& tableName, const std::string& row, const std::string& column) const {
-    return table(tableName).number(row, column).value_or(std::nan(""));
-  }
-  /// Touches of the last cycle.
-  std::size_t touches() const { return cycle().touches.size(); }
 };
 
 /// A perfect machine of the given kind with a perfect probe, known to the control as it is. Nothing on the table.
@@ -181,8 +229,10 @@ struct Bench {
     options.recordPath = false;
     options.onStop = onStop;
     options.answer = answer;
+    options.language = language;
+    options.showAllResults = showAllResults;
     std::string text = "BEGIN PGM BENCH " + unit + "\n" + blocks + "END PGM BENCH " + unit + "\n";
-    return {session::runText("BENCH.H", std::move(text), setup, options)};
+    return {session::runText(program, std::move(text), setup, options)};
   }
   /// Runs the blocks behind TOOL CALL of the probe.
   Ran run(const std::string& blocks, const std::string& unit = "MM") const {
@@ -192,6 +242,9 @@ struct Bench {
   simulation::Setup setup;
   ControlKind control;
   std::int64_t wallClock = 0;
+  std::string program = "BENCH.H";
+  control::DialogLanguage language = control::DialogLanguage::English;
+  bool showAllResults = false;
   control::OnStop onStop = control::OnStop::Continue;
   std::function<std::optional<std::string>(const std::string& question)> answer;
 };

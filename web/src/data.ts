@@ -58,6 +58,7 @@ export interface Cycle {
   results: ResultValue[];
   writes: Write[];
   logFiles: string[];
+  screens: string[];
   start: number | null;
   end: number | null;
   pathLength: number | null;

@@ -226,6 +226,7 @@ function cycleBody(cycle: Cycle, index: number, selector: Selector): HTMLElement
   const notes: Child[] = [
     cycle.alarm ? h("p", { class: "note alarm" }, icon("stop"), cycle.alarm) : null,
     ...cycle.writes.map(writeLine),
+    ...cycle.screens.map((screen) => h("pre", { class: "screen", "aria-label": "Screen of the control" }, screen)),
     ...cycle.logFiles.map((file) => h("p", { class: "note" }, "Log: ", h("b", {}, fileName(file)))),
   ];
   const body = h(

@@ -11,6 +11,7 @@
 #include "control/operator_panel.hpp"
 #include "control/sinumerik/data_store.hpp"
 #include "control/sinumerik/frame.hpp"
+#include "control/sinumerik/result_output.hpp"
 #include "control/working_plane.hpp"
 
 /// Everything a SINUMERIK control knows while a program runs.
@@ -53,6 +54,7 @@ public:
   OperatorPanel panel;
   Channel channel;
   DataStore data;
+  ResultOutput output;
 
   int plane = 17;  ///< 17, 18, 19
   ActiveTool tool;

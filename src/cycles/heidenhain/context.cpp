@@ -142,7 +142,10 @@ void Context::result(int number, double value, const Compared& compared) {
   this->record().results.push_back(std::move(record));
 }
 
-void Context::stop(const std::string& text) { control_.panel.stop(text, control_.channel.seconds()); }
+void Context::stop(const std::string& text) {
+  record().screens.push_back(text);
+  control_.panel.stop(text, control_.channel.seconds());
+}
 
 void Context::log(const std::string& name, const std::string& text) {
   control_.panel.file(name, text);

@@ -67,7 +67,7 @@ public:
   /// Sets Qn without recording: states and counters.
   void set(int number, double value) { control_.q.setQ(number, value); }
 
-  /// The operator sees the text and the program waits for NC start.
+  /// The operator sees the text on the screen and the program waits for NC start.
   void stop(const std::string& text);
 
   /// "TCHPR421.TXT": writes it as the cycle's log.

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "cycles/heidenhain/log_texts.hpp"
+
 namespace probewright::cycles::heidenhain {
 namespace {
 
@@ -22,12 +24,12 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-std::string row(const char* cell, const std::vector<std::string>& cells) {
+std::string row(const char* cell, const std::vector<std::string>& cells, DialogLanguage language) {
   std::string text = "<tr>";
   for (const std::string& content : cells) {
     const char* colour = content == "good" ? "green" : content == "rework" ? "orange" : content == "scrap" ? "red" : "";
     const std::string style = *colour == 0 ? std::string() : fmt::format(" style=\"color:{}\"", colour);
-    text += fmt::format("<{0}{1}>{2}</{0}>", cell, style, escaped(content));
+    text += fmt::format("<{0}{1}>{2}</{0}>", cell, style, escaped(std::string(translated(content, language))));
   }
   return text + "</tr>\n";
 }
@@ -39,17 +41,22 @@ void addToHtmlLog(Context& context, const std::vector<std::string>& heading,
   auto& control = context.control();
   const auto& files = control.panel.files();
   const auto found = files.find(file);
-  std::string text = found == files.end() ? "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-                                            "<title>Touch probe log</title></head>\n<body>\n"
-                                          : found->second.substr(0, found->second.rfind("</body>"));
+  const DialogLanguage language = control.panel.language;
+  std::string text = found == files.end()
+                         ? fmt::format(
+                               "<!DOCTYPE html>\n<html lang=\"{}\"><head>"
+                               "<meta charset=\"utf-8\"><title>{}</title></head>\n<body>\n",
+                               code(translated("tool", language) == "tool" ? DialogLanguage::English : language),
+                               translated("Touch probe log", language))
+                         : found->second.substr(0, found->second.rfind("</body>"));
   const std::int64_t now = control.wallClockStart +
                            static_cast<std::int64_t>(std::llround(context.channel().seconds() - control.startSeconds));
-  text += fmt::format("<h2>{} {}</h2>\n<p>{:%d-%m-%Y %H:%M:%S}, tool {} {}</p>\n<table>\n", context.record().name,
-                      context.record().title, fmt::gmtime(static_cast<std::time_t>(now)), control.tool.row,
-                      escaped(control.tool.name));
-  text += row("th", heading);
+  text += fmt::format("<h2>{} {}</h2>\n<p>{:%d-%m-%Y %H:%M:%S}, {} {} {}</p>\n<table>\n", context.record().name,
+                      translated(context.record().title, language), fmt::gmtime(static_cast<std::time_t>(now)),
+                      translated("tool", language), control.tool.row, escaped(control.tool.name));
+  text += row("th", heading, language);
   for (const auto& cells : rows)
-    text += row("td", cells);
+    text += row("td", cells, language);
   text += "</table>\n</body></html>\n";
   context.log(file, text);
 }

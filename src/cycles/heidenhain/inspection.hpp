@@ -63,8 +63,8 @@ void finishInspection(Context& context, const Inspection& inspection, const Tool
 /// Writes or shows the log as Q281 says.
 void writeLog(Context& context, const Inspection& inspection);
 
-/// The text of a measuring log in the layout of the control: all values end in one column, with 4 decimals, in inch
-/// programs with 5.
+/// The text (UTF-8) of a measuring log in the layout of the control and in its conversational language: all values end
+/// in one column, with 4 decimals, in inch programs with 5.
 std::string logText(Context& context, const Inspection& inspection);
 
 /// The row of TOOL.T that Q330 means, by number (5, 5.1) or name; empty if monitoring is off. Throws Alarm if there is

@@ -98,8 +98,9 @@ void transferPreset(Context& context, const NewPreset& preset) {
   Control& control = context.control();
   const int target = context.option(303);
   const int row = context.option(305);
-  // Row 0 stands for the preset that is set at once; older programs and the iTNC 530 say no more than that.
-  const bool atOnce = row == 0 && (target != 0 || !control.isTNC640());
+  // Row 0 stands for the preset that is set at once, whatever Q303 says: so the examples of both controls. Only where a
+  // datum table is active does the TNC 640 take its row 0.
+  const bool atOnce = row == 0 && (target != 0 || !control.isTNC640() || control.activeDatumTable.empty());
   if (atOnce) {
     copyActivePresetTo0(context, presetChange(context, preset, control.coordinates.preset));
     return;

@@ -9,6 +9,7 @@
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
 #include "control/sinumerik/measuring_data.hpp"
+#include "cycles/sinumerik/measuring_log.hpp"
 
 namespace probewright::cycles::sinumerik {
 
@@ -284,7 +285,12 @@ void runCycle(Control& control, const Entry& entry, const Arguments& arguments, 
   }
   const Diagnostics mistakes = check(arguments, control::ControlKind::Sinumerik840Dsl);
   if (!mistakes.empty()) throw Alarm("12150", mistakes.front().message, mistakes.front().advice);
+  if (entry.set != nullptr) return entry.set(control, arguments);
   Context context(control, arguments, place);
+  const auto output = [&] {
+    context.record().endSeconds = control.channel.seconds();
+    outputResults(control, context.record(), control.ovi[9]);
+  };
   try {
     followRotation(control);
     for (bool done = false; !done;) {
@@ -299,8 +305,10 @@ void runCycle(Control& control, const Entry& entry, const Arguments& arguments, 
     const Alarm shown = asCycleAlarm(alarm);
     if (const auto number = parseInteger(shown.code())) context.resultInteger(9, static_cast<int>(*number));
     context.record().alarm = shown.what();
+    output();
     throw shown;
   }
+  output();
 }
 
 probing::SinumerikProbe probeOfDataSet(const Control& control, int index) {

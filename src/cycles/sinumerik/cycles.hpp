@@ -5,6 +5,7 @@
 /// Every SINUMERIK measuring cycle: its catalogue entry and its code, each in the file of its number.
 namespace probewright::cycles::sinumerik {
 
+extern const CycleDefinition cycle150Definition;
 extern const CycleDefinition cycle961Definition;
 extern const CycleDefinition cycle973Definition;
 extern const CycleDefinition cycle974Definition;
@@ -17,6 +18,7 @@ extern const CycleDefinition cycle995Definition;
 extern const CycleDefinition cycle997Definition;
 extern const CycleDefinition cycle998Definition;
 
+void setMeasuringLog(control::sinumerik::Control& control, const Arguments& arguments);
 void cycle961(Context& context, const Arguments& arguments);
 void cycle973(Context& context, const Arguments& arguments);
 void cycle974(Context& context, const Arguments& arguments);

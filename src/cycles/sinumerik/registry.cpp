@@ -9,10 +9,18 @@ namespace probewright::cycles::sinumerik {
 
 std::span<const Entry> entries() {
   static constexpr Entry all[] = {
-      {&cycle961Definition, cycle961}, {&cycle973Definition, cycle973}, {&cycle974Definition, cycle974},
-      {&cycle976Definition, cycle976}, {&cycle977Definition, cycle977}, {&cycle978Definition, cycle978},
-      {&cycle979Definition, cycle979}, {&cycle994Definition, cycle994}, {&cycle995Definition, cycle995},
-      {&cycle997Definition, cycle997}, {&cycle998Definition, cycle998},
+      {&cycle150Definition, nullptr, setMeasuringLog},
+      {&cycle961Definition, cycle961},
+      {&cycle973Definition, cycle973},
+      {&cycle974Definition, cycle974},
+      {&cycle976Definition, cycle976},
+      {&cycle977Definition, cycle977},
+      {&cycle978Definition, cycle978},
+      {&cycle979Definition, cycle979},
+      {&cycle994Definition, cycle994},
+      {&cycle995Definition, cycle995},
+      {&cycle997Definition, cycle997},
+      {&cycle998Definition, cycle998},
   };
   return all;
 }

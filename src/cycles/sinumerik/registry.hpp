@@ -9,10 +9,19 @@
 namespace probewright::cycles::sinumerik {
 
 class Context;
+}  // namespace probewright::cycles::sinumerik
+
+namespace probewright::control::sinumerik {
+class Control;
+}
+
+namespace probewright::cycles::sinumerik {
 
 struct Entry {
   const CycleDefinition* definition = nullptr;
   void (*run)(Context& context, const Arguments& arguments) = nullptr;
+  /// A call that changes settings of the control and measures nothing has this instead of `run`.
+  void (*set)(control::sinumerik::Control& control, const Arguments& arguments) = nullptr;
 };
 
 /// In the order of their numbers.

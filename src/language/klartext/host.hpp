@@ -195,6 +195,7 @@ std::string fileNameOf(std::string_view path);
 
 /// Formats a FN 16 mask line by line; see host_protocol.cpp. `read` gives the value of "Q5" or "QS3".
 ProtocolResult formatProtocol(std::string_view mask, const std::function<Value(std::string_view)>& read,
-                              std::int64_t secondsSince1970, std::string_view callPath);
+                              std::int64_t secondsSince1970, std::string_view callPath,
+                              control::DialogLanguage language);
 
 }  // namespace probewright::language::klartext

@@ -26,7 +26,6 @@ namespace {
 constexpr std::array<std::string_view, 12> months = {"JAN", "FEB", "MAR", "APR", "MAY", "JUN",
                                                      "JUL", "AUG", "SEP", "OCT", "NOV", "DEC"};
 constexpr std::size_t widestField = 200;
-constexpr std::string_view languageOfControl = "L_ENGLISH";
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (isBlank(text.front()) || text.front() == '\n'))
@@ -182,10 +181,16 @@ private:
   const std::tm& time_;
 };
 
+std::string_view languageWord(control::DialogLanguage language) {
+  constexpr std::array<std::string_view, 5> words = {"L_ENGLISH", "L_RUSSIAN", "L_SWEDISH", "L_CHINESE", "L_POLISH"};
+  return words[static_cast<std::size_t>(language)];
+}
+
 }  // namespace
 
 ProtocolResult formatProtocol(std::string_view mask, const std::function<Value(std::string_view)>& read,
-                              std::int64_t secondsSince1970, std::string_view callPath) {
+                              std::int64_t secondsSince1970, std::string_view callPath,
+                              control::DialogLanguage language) {
   const auto seconds = static_cast<std::time_t>(secondsSince1970);
   std::tm time{};
   gmtime_r(&seconds, &time);
@@ -216,7 +221,7 @@ ProtocolResult formatProtocol(std::string_view mask, const std::function<Value(s
     } else if (statement == "L_ALL") {
       shown = true;
     } else if (statement.starts_with("L_")) {
-      shown = statement == languageOfControl;
+      shown = statement == languageWord(language);
     } else {
       refuse(fmt::format("{} is no format line and no keyword", statement));
     }
@@ -284,7 +289,8 @@ void KlartextHost::protocol(const Command& command, Evaluation& evaluation) {
 
   const auto read = [&](std::string_view name) { return readNamed(name, evaluation); };
   const ProtocolResult result =
-      formatProtocol(*bytes, read, static_cast<std::int64_t>(machineSeconds()), levels_.back().file);
+      formatProtocol(*bytes, read, static_cast<std::int64_t>(machineSeconds()), levels_.back().file,
+                     control_.panel.language);
   if (target == "SCLR:") return;  // closes the window of an earlier message
   if (target.starts_with("SCREEN:")) {
     if (!result.text.empty()) message(std::string(trimmed(result.text)));

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "control/dialog_language.hpp"
+
+/// The words of the logs of HEIDENHAIN cycles in the conversational languages: this is the one place for them.
+///
+/// English, Russian and Swedish logs are worded as the manuals of these languages print the log of cycle 421; what is
+/// not printed there (the other cycles) takes the terms that the manuals use for the same parameters. The Chinese
+/// manual prints the log in English and the Polish one prints none: these languages have the English words.
+namespace probewright::cycles::heidenhain {
+
+using control::DialogLanguage;
+
+/// What stands around the values of a measuring log.
+struct LogFrame {
+  std::string_view title;  ///< with {0} for the cycle's number and {1} for its title
+  std::string_view date, time, program;
+  std::string_view dateForm;  ///< strftime form
+  std::string_view nominal, limits, actual, deviations, further;
+  std::string_view end;
+};
+const LogFrame& logFrame(DialogLanguage language);
+
+/// A label, heading or title of a log in another language than English; what has no translation stays English.
+std::string_view translated(std::string_view english, DialogLanguage language);
+
+/// The number of characters (code points) of a UTF-8 text: what columns are aligned by.
+std::size_t width(std::string_view utf8);
+/// `text` with blanks behind it up to `columns` characters.
+std::string padded(std::string_view text, std::size_t columns);
+
+}  // namespace probewright::cycles::heidenhain

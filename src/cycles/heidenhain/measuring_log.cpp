@@ -1,0 +1,90 @@
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "base/number_text.hpp"
+#include "cycles/heidenhain/inspection.hpp"
+#include "cycles/heidenhain/log_texts.hpp"
+
+namespace probewright::cycles::heidenhain {
+namespace {
+
+/// One section of the log: a title and what stands beside and below it.
+struct Section {
+  std::string_view rule;
+  std::string_view title;
+  std::vector<LogLine> lines;
+};
+
+constexpr std::size_t ruleWidth = 61;
+
+}  // namespace
+
+std::string logText(Context& context, const Inspection& inspection) {
+  const auto& control = context.control();
+  const DialogLanguage language = control.panel.language;
+  const LogFrame& frame = logFrame(language);
+  const std::int64_t now = control.wallClockStart +
+                           static_cast<std::int64_t>(std::llround(context.channel().seconds() - control.startSeconds));
+  const std::tm time = fmt::gmtime(static_cast<std::time_t>(now));
+  const std::string rule(ruleWidth, '-');
+  const std::string stars(ruleWidth, '*');
+
+  Section nominal{rule, frame.nominal, {}}, limits{rule, frame.limits, {}}, actual{stars, frame.actual, {}},
+      deviations{rule, frame.deviations, {}}, further{stars, frame.further, {}};
+  const auto add = [language](Section& section, std::string_view label, double value, ValueKind kind) {
+    section.lines.push_back({std::string(translated(label, language)), value, kind});
+  };
+  for (const Inspected& item : inspection.items) {
+    add(nominal, item.label, item.nominal, ValueKind::Length);
+    add(actual, item.label, item.actual, ValueKind::Length);
+    add(deviations, item.label, item.deviation(), ValueKind::Length);
+    if (item.maximum) add(limits, item.maximumLabel, *item.maximum, ValueKind::Length);
+    if (item.minimum) add(limits, item.minimumLabel, *item.minimum, ValueKind::Length);
+  }
+  for (const LogLine& line : inspection.measured)
+    add(actual, line.label, line.value, line.kind);
+  for (const LogLine& line : inspection.further)
+    add(further, line.label, line.value, line.kind);
+
+  // Values end in one column throughout, 8 characters right of the longest label.
+  constexpr std::size_t shortestLabel = 43, valueWidth = 8;
+  std::size_t indent = 0, labelWidth = shortestLabel, headWidth = 0;
+  for (const Section* section : {&nominal, &limits, &actual, &deviations}) {
+    indent = std::max(indent, width(section->title) + 2);
+    for (const LogLine& line : section->lines)
+      labelWidth = std::max(labelWidth, width(line.label) + 1);
+  }
+  for (const std::string_view label : {frame.date, frame.time, frame.program})
+    headWidth = std::max(headWidth, width(label) + 1);
+
+  const std::string title =
+      fmt::format(fmt::runtime(frame.title), context.record().name, translated(inspection.title, language));
+  std::string text = fmt::format("****** {} *****\n\n", title);
+  text += padded(frame.date, headWidth) + fmt::format(fmt::runtime(frame.dateForm), time) + "\n";
+  text += padded(frame.time, headWidth) + fmt::format("{}:{:02}:{:02}\n", time.tm_hour, time.tm_min, time.tm_sec);
+  text += padded(frame.program, headWidth) + control.programPath + "\n";
+  const int decimals = control.unit == 1 ? 4 : 5;
+  for (const Section* section : {&nominal, &limits, &actual, &deviations, &further}) {
+    if (section->lines.empty()) continue;
+    text += fmt::format("{}\n", section->rule);
+    const std::size_t left = std::max(indent, width(section->title) + 1);
+    for (std::size_t i = 0; i < section->lines.size(); ++i) {
+      const LogLine& line = section->lines[i];
+      const double value = line.kind == ValueKind::Length ? line.value / control.unit : line.value;
+      const std::string label = padded(i == 0 ? section->title : "", left) + line.label + ":";
+      const std::string number = formatFixed(value, decimals);
+      const std::size_t end = indent + labelWidth + valueWidth;
+      const std::size_t room = std::max(end - std::min(end, width(label)), number.size() + 1);
+      text += fmt::format("{}{:>{}}\n", label, number, room);
+    }
+  }
+  const std::string edge(20, '*');
+  text += fmt::format("{0} {1} {0}\n", edge, frame.end);
+  return text;
+}
+
+}  // namespace probewright::cycles::heidenhain

@@ -1,0 +1,270 @@
+#include "cycles/sinumerik/measuring_log.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ctime>
+
+#include "base/number_text.hpp"
+
+namespace probewright::cycles::sinumerik {
+namespace {
+
+using control::CycleRecord;
+using control::ResultRecord;
+
+constexpr std::size_t labelWidth = 46, valueWidth = 12;
+
+const ResultRecord* resultNamed(const CycleRecord& record, const std::string& name) {
+  // The last one counts: a cycle may measure again.
+  const auto found = std::find_if(record.results.rbegin(), record.results.rend(),
+                                  [&](const ResultRecord& each) { return each.name == name; });
+  return found == record.results.rend() ? nullptr : &*found;
+}
+
+const ResultRecord* ovr(const CycleRecord& record, int index) {
+  return resultNamed(record, fmt::format("_OVR[{}]", index));
+}
+
+std::string parameter(const CycleRecord& record, const std::string& name) {
+  const auto found = std::ranges::find(record.parameters, name, &control::ParameterRecord::name);
+  return found == record.parameters.end() ? std::string() : found->value;
+}
+
+/// The part of a meaning that holds for the variant: some results hold something else for rectangles and planes, which
+/// stands behind a semicolon.
+std::string forVariant(const CycleRecord& record, const std::string& meaning) {
+  const std::string variant = parameter(record, "S_MVAR");
+  const char kind = variant.empty() ? '0' : variant.back();
+  const bool second =
+      (record.name == "CYCLE977" && (kind == '5' || kind == '6')) || (record.name == "CYCLE998" && kind == '6');
+  const std::size_t semicolon = meaning.find(';');
+  std::string text = meaning.substr(0, semicolon);
+  if (second && semicolon != std::string::npos) {
+    const std::size_t colon = meaning.find(": ", semicolon);
+    if (colon != std::string::npos) text = meaning.substr(colon + 2);
+  }
+  // Holes and spigots are 1 and 2, grooves and ribs 3 and 4, rectangles 5 and 6.
+  constexpr std::string_view sizes = "diameter, width, length in the 1st axis";
+  if (record.name == "CYCLE977" && text.ends_with(sizes)) {
+    text.resize(text.size() - sizes.size());
+    text += kind <= '2' ? "diameter" : kind <= '4' ? "width" : "length in the 1st axis";
+  }
+  return text;
+}
+
+/// What a value is the set value, actual value or difference of.
+std::string quantityOf(const CycleRecord& record, const ResultRecord& result) {
+  std::string text = forVariant(record, result.meaning);
+  for (const std::string_view front : {"set value", "actual value", "difference", "set", "actual"}) {
+    if (!text.starts_with(front)) continue;
+    text.erase(0, front.size());
+    break;
+  }
+  for (const std::string_view joint : {" of the ", " of a ", ": ", ", ", " "}) {
+    if (!text.starts_with(joint)) continue;
+    text.erase(0, joint.size());
+    break;
+  }
+  return text;
+}
+
+bool hasFront(const ResultRecord* result, std::string_view front) {
+  return result != nullptr && result->meaning.starts_with(front);
+}
+
+std::string number(const std::optional<double>& value) { return value ? formatFixed(*value, 4) : std::string(); }
+
+std::string_view word(control::Verdict verdict) {
+  constexpr std::array<std::string_view, 4> words = {"", "good", "rework", "scrap"};
+  return words[static_cast<std::size_t>(verdict)];
+}
+
+/// The rows in columns, a heading above them.
+std::string columns(const std::vector<MeasuredRow>& rows) {
+  const bool limits = std::ranges::any_of(rows, [](const MeasuredRow& row) { return row.lower || row.upper; });
+  std::string text = fmt::format("{:<{}}{:>{w}}{:>{w}}{:>{w}}", "", labelWidth, "Setpoint", "Measured", "Difference",
+                                 fmt::arg("w", valueWidth));
+  if (limits) text += fmt::format("{:>{w}}{:>{w}}", "Lower limit", "Upper limit", fmt::arg("w", valueWidth));
+  text += "\n";
+  for (const MeasuredRow& row : rows) {
+    const std::string label = row.unit.empty() ? row.label : fmt::format("{} [{}]", row.label, row.unit);
+    std::string line = fmt::format("{:<{}}{:>{w}}{:>{w}}{:>{w}}", label, labelWidth, number(row.setpoint),
+                                   number(row.measured), number(row.difference), fmt::arg("w", valueWidth));
+    if (limits) line += fmt::format("{:>{w}}{:>{w}}", number(row.lower), number(row.upper), fmt::arg("w", valueWidth));
+    if (row.verdict != control::Verdict::None) line += fmt::format("  {}", word(row.verdict));
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string variantOf(const CycleRecord& record) {
+  const std::string variant = parameter(record, "S_MVAR");
+  return variant.empty() ? std::string() : fmt::format("S_MVAR = {}", variant);
+}
+
+/// What was corrected: the memory of the first entry written.
+std::string corrected(const CycleRecord& record) {
+  if (record.writes.empty()) return {};
+  const control::WriteRecord& first = record.writes.front();
+  return fmt::format("{}{}", first.table, first.entry);
+}
+
+std::string toolText(const Control& control) {
+  return fmt::format("T {} D{}", control.tool.name.empty() ? std::to_string(control.tool.number) : control.tool.name,
+                     control.tool.edge);
+}
+
+std::tm clock(const Control& control, double seconds) {
+  return fmt::gmtime(static_cast<std::time_t>(control.wallClockStart + std::llround(seconds)));
+}
+
+std::string probeText(const CycleRecord& record) {
+  const ResultRecord* probe = resultNamed(record, "_OVI[5]");
+  return probe == nullptr ? std::string() : fmt::format("{:.0f}", probe->value);
+}
+
+std::string textEntry(const Control& control, const MeasuringLog& log, const CycleRecord& record) {
+  const std::string rule(94, '-');
+  std::string text;
+  if (log.entries == 0) {
+    text += fmt::format("{}\nDate: {:%Y-%m-%d}   Time: {:%H:%M:%S}\nProgram: {}\nLog: {}\n{}\n", rule,
+                        clock(control, record.endSeconds), clock(control, record.endSeconds), control.programPath,
+                        log.file, rule);
+  }
+  text += fmt::format("{}  {}  {}   {}   Time: {:%H:%M:%S}   Line: {}\n", log.entries + 1, record.name, record.title,
+                      variantOf(record), clock(control, record.endSeconds), record.place.line);
+  text += columns(measuredRows(record));
+  if (const std::string probe = probeText(record); !probe.empty()) text += fmt::format("Probe number: {}   ", probe);
+  text += toolText(control);
+  if (const std::string target = corrected(record); !target.empty()) text += fmt::format("   Corrected: {}", target);
+  if (!record.alarm.empty()) text += fmt::format("\nAlarm: {}", record.alarm);
+  return text + "\n" + rule + "\n";
+}
+
+/// A field of the table: quoted where it holds a separator or a quotation mark.
+std::string field(const std::string& text) {
+  if (text.find_first_of(";\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c == '\n' ? ' ' : c;
+  }
+  return quoted + '"';
+}
+
+std::string tableEntry(const Control& control, const MeasuringLog& log, const CycleRecord& record) {
+  std::string text;
+  if (log.entries == 0) {
+    text +=
+        "No;Date;Time;Program;Line;Cycle;Variant;Value;Unit;Setpoint;Measured;Difference;Lower limit;Upper limit;"
+        "Status;Probe;Tool;Corrected;Alarm\n";
+  }
+  const std::tm time = clock(control, record.endSeconds);
+  std::vector<MeasuredRow> rows = measuredRows(record);
+  if (rows.empty()) rows.emplace_back();  // an alarm before the first value
+  for (const MeasuredRow& row : rows) {
+    text +=
+        fmt::format("{};{:%Y-%m-%d};{:%H:%M:%S};{};{};{};{};{};{};{};{};{};{};{};{};{};{};{};{}\n", log.entries + 1,
+                    time, time, field(control.programPath), record.place.line, record.name, parameter(record, "S_MVAR"),
+                    field(row.label), row.unit, number(row.setpoint), number(row.measured), number(row.difference),
+                    number(row.lower), number(row.upper), word(row.verdict), probeText(record),
+                    field(toolText(control)), field(corrected(record)), field(record.alarm));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<MeasuredRow> measuredRows(const CycleRecord& record) {
+  constexpr int count = 32, tripleCount = 4, actualAt = 4, differenceAt = 16;
+  std::vector<MeasuredRow> rows;
+  std::array<bool, count> used{};
+  for (int i = 0; i < tripleCount; ++i) {
+    const ResultRecord* set = ovr(record, i);
+    const ResultRecord* actual = ovr(record, i + actualAt);
+    const ResultRecord* difference = ovr(record, i + differenceAt);
+    if (!hasFront(actual, "actual")) continue;
+    MeasuredRow row;
+    row.label = quantityOf(record, *actual);
+    row.unit = actual->unit;
+    row.measured = actual->value;
+    used[static_cast<std::size_t>(i + actualAt)] = true;
+    if (hasFront(set, "set")) {
+      row.setpoint = set->value;
+      used[static_cast<std::size_t>(i)] = true;
+    }
+    if (hasFront(difference, "difference")) {
+      row.difference = difference->value;
+      used[static_cast<std::size_t>(i + differenceAt)] = true;
+    }
+    for (const ResultRecord* each : {actual, difference}) {
+      if (each == nullptr || each->verdict == control::Verdict::None) continue;
+      // Limits of a difference count from the set value.
+      const double from = each == actual ? 0 : row.setpoint.value_or(0);
+      if (each->lowerLimit) row.lower = from + *each->lowerLimit;
+      if (each->upperLimit) row.upper = from + *each->upperLimit;
+      row.verdict = each->verdict;
+    }
+    rows.push_back(std::move(row));
+  }
+  for (int i = 0; i < count; ++i) {
+    const ResultRecord* result = ovr(record, i);
+    if (result == nullptr || used[static_cast<std::size_t>(i)]) continue;
+    if (result->meaning == "its difference" && !rows.empty()) {
+      rows.back().difference = result->value;
+      continue;
+    }
+    MeasuredRow row;
+    row.label = forVariant(record, result->meaning);
+    row.unit = result->unit;
+    row.measured = result->value;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::string resultScreen(const Control& control, const CycleRecord& record) {
+  std::string text = fmt::format("{}  {}   {}\n", record.name, record.title, variantOf(record));
+  text += columns(measuredRows(record));
+  const auto line = [&](std::string_view name, const std::string& value) {
+    if (!value.empty()) text += fmt::format("{:<{}}{}\n", name, labelWidth, value);
+  };
+  // Where the cycle leaves no result for it: as the call says.
+  if (ovr(record, 28) == nullptr) line("safe area", parameter(record, "S_TSA"));
+  line("probe number", probeText(record));
+  line("tool", toolText(control));
+  line("corrected", corrected(record));
+  line("alarm", record.alarm);
+  return text;
+}
+
+void addToLog(Control& control, MeasuringLog& log, const CycleRecord& record) {
+  control.panel.appendToFile(log.file, log.form == MeasuringLog::Form::Text ? textEntry(control, log, record)
+                                                                            : tableEntry(control, log, record));
+  ++log.entries;
+}
+
+void outputResults(Control& control, CycleRecord& record, int alarm) {
+  control::sinumerik::ResultOutput& output = control.output;
+  const auto write = [&](MeasuringLog& log) {
+    addToLog(control, log, record);
+    if (std::ranges::find(record.logFiles, log.file) == record.logFiles.end()) record.logFiles.push_back(log.file);
+  };
+  for (MeasuringLog& log : output.logs)
+    write(log);
+  if (output.programLog) write(*output.programLog);
+
+  const int display = output.display.value_or(static_cast<int>(control.data.number("$SCS_MEA_RESULT_DISPLAY", {}, 0)));
+  const bool limitsExceeded = alarm >= 61303 && alarm <= 61306;
+  const bool waits = display == 3 || (display == 4 && limitsExceeded);
+  if (!waits && display != 1 && !control.panel.showAllResults) return;
+  record.screens.push_back(resultScreen(control, record));
+  if (waits) control.panel.stop(record.screens.back(), control.channel.seconds());
+}
+
+}  // namespace probewright::cycles::sinumerik
