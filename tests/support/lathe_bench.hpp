@@ -63,7 +63,7 @@ public:
     const std::size_t firstRecord = control.journal.cycles.size();
     language::RunResult result =
         language::Interpreter(library, host, options).run(sinumerik::SinumerikProgram::fromText("TURN.MPF", text));
-    coverage::noteRun(kind, control.journal, firstRecord);
+    coverage::noteRun(controlKind, control.journal, firstRecord);
     return result;
   }
 
@@ -76,21 +76,21 @@ public:
   std::string alarmOf(const std::string& program) {
     const language::RunResult result = tryRun(program);
     if (result.diagnostics.empty()) return {};
-    coverage::refusalRead(kind, control.journal, {"TURN.MPF", ~std::uint64_t{0}, 1}, program, "CYCLE");
+    coverage::refusalRead(controlKind, control.journal, {"TURN.MPF", ~std::uint64_t{0}, 1}, program, "CYCLE");
     EXPECT_FALSE(result.diagnostics.front().advice.empty()) << format(result.diagnostics.front());
     return result.diagnostics.front().code;
   }
 
   double ovr(int index) const {
-    coverage::resultRead(kind, control.journal, fmt::format("_OVR[{}]", index));
+    coverage::resultRead(controlKind, control.journal, fmt::format("_OVR[{}]", index));
     return control.ovr[static_cast<std::size_t>(index)];
   }
   int ovi(int index) const {
-    coverage::resultRead(kind, control.journal, fmt::format("_OVI[{}]", index));
+    coverage::resultRead(controlKind, control.journal, fmt::format("_OVI[{}]", index));
     return control.ovi[static_cast<std::size_t>(index)];
   }
   double data(std::string_view name, std::initializer_list<control::sinumerik::DataIndex> indices) const {
-    coverage::writesRead(kind, control.journal, [&](const control::WriteRecord& write) { return write.table == name; });
+    coverage::writesRead(controlKind, control.journal, [&](const control::WriteRecord& write) { return write.table == name; });
     return control.data.number(name, indices);
   }
   void set(std::string_view name, std::initializer_list<control::sinumerik::DataIndex> indices, double value) {
@@ -104,7 +104,7 @@ public:
     return codes;
   }
 
-  static constexpr control::ControlKind kind = control::ControlKind::Sinumerik840Dsl;
+  static constexpr control::ControlKind controlKind = control::ControlKind::Sinumerik840Dsl;
   simulation::VirtualMachine machine;
   control::sinumerik::Control control;
 

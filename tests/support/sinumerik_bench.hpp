@@ -66,10 +66,10 @@ public:
     const std::size_t firstRecord = control.journal.cycles.size();
     language::RunResult result =
         language::Interpreter(library, host, options).run(sinumerik::SinumerikProgram::fromText("TEST.MPF", text));
-    coverage::noteRun(kind, control.journal, firstRecord);
+    coverage::noteRun(controlKind, control.journal, firstRecord);
     if (result.diagnostics.empty()) {
-      coverage::note(kind, name, "parsed");
-      coverage::note(kind, name, "runs");
+      coverage::note(controlKind, name, "parsed");
+      coverage::note(controlKind, name, "runs");
     }
     return result;
   }
@@ -86,22 +86,22 @@ public:
     const language::RunResult result = tryRun(name, numbers, texts);
     if (result.diagnostics.empty()) return {};
     const Diagnostic& first = result.diagnostics.front();
-    coverage::note(kind, name, "refusals");
+    coverage::note(controlKind, name, "refusals");
     EXPECT_FALSE(first.message.empty());
     EXPECT_FALSE(first.advice.empty()) << format(first);
     return first.code;
   }
 
   double ovr(int index) const {
-    coverage::resultRead(kind, control.journal, fmt::format("_OVR[{}]", index));
+    coverage::resultRead(controlKind, control.journal, fmt::format("_OVR[{}]", index));
     return control.ovr[static_cast<std::size_t>(index)];
   }
   int ovi(int index) const {
-    coverage::resultRead(kind, control.journal, fmt::format("_OVI[{}]", index));
+    coverage::resultRead(controlKind, control.journal, fmt::format("_OVI[{}]", index));
     return control.ovi[static_cast<std::size_t>(index)];
   }
   double data(const char* name, std::initializer_list<control::sinumerik::DataIndex> indices) const {
-    coverage::writesRead(kind, control.journal, [&](const control::WriteRecord& write) { return write.table == name; });
+    coverage::writesRead(controlKind, control.journal, [&](const control::WriteRecord& write) { return write.table == name; });
     return control.data.number(name, indices);
   }
   void set(const char* name, std::initializer_list<control::sinumerik::DataIndex> indices, double value) {
@@ -118,18 +118,18 @@ public:
 
   /// A log that cycles have written; empty if there is none.
   std::string log(const std::string& name) const {
-    coverage::logRead(kind, control.journal, name);
+    coverage::logRead(controlKind, control.journal, name);
     const auto found = control.panel.files().find(name);
     return found == control.panel.files().end() ? std::string() : found->second;
   }
   /// What the last cycle showed on the screen; empty if nothing.
   std::string screen() const {
-    coverage::logRead(kind, control.journal, {});
+    coverage::logRead(controlKind, control.journal, {});
     const auto& screens = control.journal.cycles.back().screens;
     return screens.empty() ? std::string() : screens.back();
   }
 
-  static constexpr control::ControlKind kind = control::ControlKind::Sinumerik840Dsl;
+  static constexpr control::ControlKind controlKind = control::ControlKind::Sinumerik840Dsl;
   simulation::VirtualMachine machine;
   control::sinumerik::Control control;
   std::string plane = "G17";  ///< in effect when the cycle is called
@@ -216,7 +216,7 @@ inline void plantFrame(SinumerikBench& bench, const char* name, int number, cons
 
 /// Where a point of the table lies in the workpiece coordinate system now.
 inline Vector3 inWorkpiece(SinumerikBench& bench, const Vector3& onTable) {
-  coverage::writesRead(SinumerikBench::kind, bench.control.journal,
+  coverage::writesRead(SinumerikBench::controlKind, bench.control.journal,
                        [](const control::WriteRecord& write) { return control::sinumerik::isFrameName(write.table); });
   return bench.control.machineFromWorkpiece().inverse() * onTable;
 }
