@@ -26,6 +26,18 @@ std::optional<int> parallelAxis(const Vector3& direction) {
 
 }  // namespace
 
+double angleFromSpindle(const control::Channel& channel, const control::WorkingPlane& plane, const Vector3& direction) {
+  const machine::MachineDescription& description = channel.description();
+  const machine::AxisPositions here = channel.axes();
+  Vector3 seen = channel.frame().linear() * plane.xyzFromPlane(direction);
+  if (channel.following() == control::Following::Kinematics) {
+    seen = machine::baseFromTable(description, here).linear() *
+           machine::baseFromTable(description, channel.reference()).linear().transpose() * seen;
+  }
+  seen = plane.planeFromXyz(machine::baseFromSpindle(description, here).linear().transpose() * seen);
+  return degreesFromRadians(std::atan2(seen.y(), seen.x()));
+}
+
 Vector3 SinumerikProber::position() const { return plane_.planeFromXyz(channel_.position()); }
 
 void SinumerikProber::moveTo(const Vector3& tcp) {
@@ -113,8 +125,7 @@ void SinumerikProber::orientTo(const Vector3& direction) {
 
 void SinumerikProber::alignTo(const Vector3& direction) {
   if (direction.head<2>().norm() < 1e-9) return;
-  const Vector3 machine = plane_.planeFromXyz(channel_.frame().linear() * plane_.xyzFromPlane(direction));
-  channel_.orientSpindle(probe_.correctionAngle + degreesFromRadians(std::atan2(machine.y(), machine.x())));
+  channel_.orientSpindle(probe_.correctionAngle + angleFromSpindle(channel_, plane_, direction));
 }
 
 MeasuredPoint SinumerikProber::measure(const Vector3& setpoint, const Vector3& direction, double path, int count) {

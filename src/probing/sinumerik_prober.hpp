@@ -46,6 +46,10 @@ struct MeasuredPoint {
   machine::AxisPositions latched;     ///< of the last measurement
 };
 
+/// The angle about the spindle axis at which a direction of the plane lies for the spindle as it stands now, wherever
+/// frames and rotary axes have turned the workpiece or the head; degrees, from the plane's 1st axis at spindle angle 0.
+double angleFromSpindle(const control::Channel& channel, const control::WorkingPlane& plane, const Vector3& direction);
+
 /// Moves the probe in coordinates (1st, 2nd, 3rd axis of the plane) of the workpiece coordinate system. Positions are
 /// those of the tool centre point (TCP), as the tool length defines it.
 class SinumerikProber {

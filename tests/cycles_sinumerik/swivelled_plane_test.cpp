@@ -218,6 +218,66 @@ TEST(SwivelledPlane, Cycle997SetsBalls) {
   }
 }
 
+TEST(SwivelledPlane, TheSpindleTurnsTheProbeIntoDirectionsOfThePlane) {
+  // A tip 0.2 beside the axis. A probe with one direction, one that is aligned, one that is reversed, and one whose
+  // spindle follows the workpiece system: each knows only what its method needs.
+  Planter plant(8008);
+  enum Way { OneDirection, Aligned, Reversed, Following };
+  for (int world = 0; world < 48; ++world) {
+    Scene scene(plant, world);
+    const Way way = static_cast<Way>(world / 3 % 4);
+    const int axis = world / 12 % 2;
+    const double angle = way == OneDirection ? plant.number(0, 300) : 0;
+    scene.truth.tools[0].probe.tipOffset = {0.2 * std::cos(radiansFromDegrees(-angle)),
+                                            0.2 * std::sin(radiansFromDegrees(-angle))};
+    const Vector3 error = plant.within(1);
+    place(scene.truth, simulation::Box({0, 0, -60}, {120, 100, 0}), scene.plane.pose * translation(error));
+    SinumerikBench bench(scene.truth);
+    scene.plane.plantIn(bench);
+    if (way == OneDirection) {
+      bench.set("$TC_DP1", {1, 1}, 712);
+      bench.set("$TC_DP10", {1, 1}, angle);
+      bench.set("$SNS_MEA_WP_TRIG_PLUS_DIR_AX2", {0}, 2.2);
+    }
+    if (way != Reversed) bench.set("$SNS_MEA_WP_TRIG_PLUS_DIR_AX1", {0}, 2.2);
+    if (way == Following) {
+      bench.set("$SNS_MEA_WP_POS_DEV_AX1", {0}, 0.2);
+      bench.set("$SCS_MEA_FUNCTION_MASK", {}, 3);
+    }
+    const Vector3 start = axis == 0 ? Vector3(-12, 20, -10) : Vector3(20, -12, -10);
+    bench.run("CYCLE978",
+              {{"S_MVAR", 100 + (way == Aligned    ? 20000.0
+                                 : way == Reversed ? 10000.0
+                                                   : 0)},
+               {"S_KNUM", targets[world % 4]},
+               {"S_FA", 7},
+               {"S_TSA", 5},
+               {"S_MA", axis + 1.0},
+               {"S_MD", 1}},
+              {}, scene.plane.approach(start));
+    EXPECT_NEAR(bench.ovr(4), error[axis], 1e-7) << "world " << world << " way " << static_cast<int>(way);
+  }
+}
+
+TEST(Traori, TurnsTheProbeWithTheTable) {
+  Planter plant(8009);
+  for (int world = 0; world < 12; ++world) {
+    simulation::Truth truth = perfectWorld(world % 2 == 0 ? "mill5-table-table" : "mill5-head-table");
+    const Vector3 origin(20, -15, -400);
+    const Vector3 error(plant.number(-1, 1), plant.number(-1, 1), 0);
+    truth.tools[0].probe.tipOffset = {0.2, 0};
+    place(truth, simulation::Ring(20, 80, -50), translation(origin + error));
+    SinumerikBench bench(truth);
+    plantFrame(bench, "$P_UIFR", 1, origin);
+    bench.set("$SNS_MEA_WP_TRIG_PLUS_DIR_AX1", {0}, 2.2);
+    bench.run("CYCLE977", {{"S_MVAR", 20001}, {"S_SETV", 40.1}, {"S_FA", 4}, {"S_TSA", 2}}, {},
+              fmt::format("SUPA G0 Z0 D0\nD1\nTRAORI\nG0 C{:.6f}\nG0 X0 Y0\nG0 Z-8\n", plant.number(-170, 170)));
+    EXPECT_NEAR(bench.ovr(4), 40, 1e-6) << world;
+    EXPECT_NEAR(bench.ovr(5), error.x(), 1e-6) << world;
+    EXPECT_NEAR(bench.ovr(6), error.y(), 1e-6) << world;
+  }
+}
+
 TEST(Traori, MeasuresOnATableThatHasTurned) {
   Planter plant(8007);
   for (int world = 0; world < 20; ++world) {

@@ -262,9 +262,7 @@ void followRotation(Control& control) {
   if (!maskBit(control.data, "$SCS_MEA_FUNCTION_MASK", 1) || !control.tool.isProbe() || control.tool.type == 712)
     return;
   if (!control.channel.description().spindleOrients) return;
-  const control::WorkingPlane plane = control.workingPlane();
-  const Vector3 first = plane.planeFromXyz(control.channel.frame().linear() * plane.xyzFromPlane(Vector3::UnitX()));
-  control.channel.orientSpindle(degreesFromRadians(std::atan2(first.y(), first.x())));
+  control.channel.orientSpindle(probing::angleFromSpindle(control.channel, control.workingPlane(), Vector3::UnitX()));
 }
 
 /// An alarm of a move within a cycle, by the name that the cycles give it.
