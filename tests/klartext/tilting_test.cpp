@@ -185,6 +185,16 @@ TEST(Tilting, SymCountsFromThePointOfSymmetryAndSeqFromZero) {
   EXPECT_EQ(end(""), "-45.000 0.000");
 }
 
+TEST(Tilting, TcpmGuidesTheTipByAxisAnglesOnly) {
+  const auto codeOf = [](const std::string& block) {
+    World world("mill5-table-table");
+    const RunResult result = world.run(block + "\n");
+    return result.diagnostics.empty() ? std::string() : result.diagnostics.front().code;
+  };
+  EXPECT_EQ(codeOf("FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS"), "");
+  EXPECT_EQ(codeOf("FUNCTION TCPM F TCP AXIS SPAT PATHCTRL AXIS"), "Function not available");
+}
+
 TEST(Tilting, AxialTiltsGoToTheirAnglesFromTheShiftedZero) {
   World world("mill5-table-table");
   expectFinished(

@@ -37,6 +37,11 @@ void KlartextHost::execute(const Instruction& instruction, Evaluation& evaluatio
       command(*other, evaluation);
     } else if (const auto* modal = std::get_if<Modal>(&instruction)) {
       contour_.flush();
+      const Word* axis = find(modal->words, "AXIS", evaluation);
+      if (axis != nullptr && axis->value.number == 0) {
+        throw Alarm("Function not available", "FUNCTION TCPM takes rotary axes by their positions, not by space angles",
+                    "program AXIS POS");
+      }
       setHoldTip(evaluation.at(modal->name) == "FUNCTION TCPM");
     } else if (std::holds_alternative<Stop>(instruction)) {
       contour_.flush();
