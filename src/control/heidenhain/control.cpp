@@ -101,8 +101,6 @@ void Control::refreshTool() {
   channel.toolVector = Vector3::Zero();
   channel.toolVector[coordinates.plane.tool] = tool.length + tool.deltaLength;
   channel.toolRadius = tool.radius + tool.deltaRadius;
-  const bool stopsAxes = !tool.probeRow.empty() && tables.probes.text(tool.probeRow, "REACTION") == "EMERGSTOP";
-  channel.alarms.collision = stopsAxes ? "Emergency stop" : "Collision";
 }
 
 std::optional<ActivePreset> Control::presetRow(int row) const {

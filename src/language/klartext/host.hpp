@@ -193,6 +193,9 @@ private:
 /// The name of a file without the folders of the control: "TNC:\\LOG\\R.TXT" -> "R.TXT".
 std::string fileNameOf(std::string_view path);
 
+/// The keyword of a mask for a language of the control: "L_ENGLISH".
+std::string_view languageWord(control::DialogLanguage language);
+
 /// Formats a FN 16 mask line by line; see host_protocol.cpp. `read` gives the value of "Q5" or "QS3".
 ProtocolResult formatProtocol(std::string_view mask, const std::function<Value(std::string_view)>& read,
                               std::int64_t secondsSince1970, std::string_view callPath,

@@ -181,12 +181,12 @@ private:
   const std::tm& time_;
 };
 
+}  // namespace
+
 std::string_view languageWord(control::DialogLanguage language) {
   constexpr std::array<std::string_view, 5> words = {"L_ENGLISH", "L_RUSSIAN", "L_SWEDISH", "L_CHINESE", "L_POLISH"};
   return words[static_cast<std::size_t>(language)];
 }
-
-}  // namespace
 
 ProtocolResult formatProtocol(std::string_view mask, const std::function<Value(std::string_view)>& read,
                               std::int64_t secondsSince1970, std::string_view callPath,
@@ -288,9 +288,8 @@ void KlartextHost::protocol(const Command& command, Evaluation& evaluation) {
   if (!bytes) throw Alarm("FN 16: file missing", bytes.error().message, bytes.error().advice);
 
   const auto read = [&](std::string_view name) { return readNamed(name, evaluation); };
-  const ProtocolResult result =
-      formatProtocol(*bytes, read, static_cast<std::int64_t>(machineSeconds()), levels_.back().file,
-                     control_.panel.language);
+  const ProtocolResult result = formatProtocol(*bytes, read, static_cast<std::int64_t>(machineSeconds()),
+                                               levels_.back().file, control_.panel.language);
   if (target == "SCLR:") return;  // closes the window of an earlier message
   if (target.starts_with("SCREEN:")) {
     if (!result.text.empty()) message(std::string(trimmed(result.text)));

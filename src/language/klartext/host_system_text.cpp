@@ -101,7 +101,7 @@ Value KlartextHost::systemText(int id, int number, int index) const {
 /// CFGREAD: language and unit of the control, the axes it shows, and the parameters of docs/machine-parameters.md by
 /// their names.
 Value KlartextHost::configuration(const std::string& object, const std::string& attribute, int index) const {
-  if (sameWord(attribute, "ncLanguage")) return std::string("ENGLISH");
+  if (sameWord(attribute, "ncLanguage")) return std::string(languageWord(control_.panel.language).substr(2));
   if (sameWord(attribute, "unitOfMeasure")) return std::string("metric");
   if (sameWord(attribute, "axisDisplayOrder")) {
     const auto& axes = control_.channel.description().axes;
