@@ -84,9 +84,28 @@ std::optional<BallContact> MeshSolid::firstContact(const Vector3& from, const Ve
   return ballContact(mover.way, best);
 }
 
+std::optional<Meeting> MeshSolid::meetingAlongAxis(const Way& way, const Vector3& axis, double radius) const {
+  constexpr double kAside = 1e-7;
+  const double along = axis.dot(way.direction);
+  if (way.length == 0 || (axis - along * way.direction).norm() > kAside) return std::nullopt;
+  const double size = std::abs(along);
+  const Vector3 tail = along < 0 ? Vector3(way.start + axis) : way.start;
+  const Mover ball{{tail, way.direction, size + way.length}, radius};
+  Meeting best;
+  tree_.search(ball, best, [&](std::uint32_t, const Triangle& t) { sweepTriangle(ball.way, radius, t, best); });
+  if (!best.found()) return best;
+  best.when -= size;
+  if (best.when < 0) return std::nullopt;
+  return best;
+}
+
 std::optional<BallContact> MeshSolid::firstCapsuleContact(const Vector3& from, const Vector3& to, const Vector3& axis,
                                                           double radius) const {
   const Way way = wayBetween(from, to);
+  if (const auto meeting = meetingAlongAxis(way, axis, radius)) {
+    if (isInside(from)) return contactWithin(way, radius);
+    return capsuleContact(way, axis, *meeting);
+  }
   Meeting best;
   const std::size_t parts = capsuleParts(axis, radius);
   const Vector3 part = axis / static_cast<double>(parts);

@@ -28,6 +28,9 @@ public:
 
 private:
   bool isInside(const Vector3& point) const;
+  /// A capsule on a way along its own axis meets what a ball meets that starts at its tail. Nothing if its way is not
+  /// of that kind, or if it overlaps something at the start; a meeting that is not found if its way is free.
+  std::optional<Meeting> meetingAlongAxis(const Way& way, const Vector3& axis, double radius) const;
 
   TriangleMesh mesh_;
   SearchTree tree_;

@@ -101,7 +101,6 @@ struct SearchTree::Walks {
 
 #define PROBEWRIGHT_INLINE [[gnu::always_inline]] static inline
 
-  PROBEWRIGHT_INLINE Lanes load(const Lane& lane) { return *reinterpret_cast<const Lanes*>(lane.data()); }
   PROBEWRIGHT_INLINE void store(std::array<float, kWidth>& to, const Lanes& from) {
     *reinterpret_cast<Lanes*>(to.data()) = from;
   }
@@ -125,6 +124,12 @@ struct SearchTree::Walks {
       Lanes result;
       for (std::size_t k = 0; k < kWidth; ++k)
         result[k] = std::sqrt(x[k]);
+      return result;
+    }
+    PROBEWRIGHT_INLINE Lanes grid(const Grid& numbers) {
+      Lanes result;
+      for (std::size_t k = 0; k < kWidth; ++k)
+        result[k] = numbers[k];
       return result;
     }
     PROBEWRIGHT_INLINE unsigned notAbove(const Lanes& x, float limit) {
@@ -161,6 +166,10 @@ struct SearchTree::Walks {
     PROBEWRIGHT_INLINE Lanes most(const Lanes& x, const Lanes& y) { return _mm256_max_ps(x, y); }
     PROBEWRIGHT_INLINE Lanes size(const Lanes& x) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0F), x); }
     PROBEWRIGHT_INLINE Lanes root(const Lanes& x) { return _mm256_sqrt_ps(x); }
+    PROBEWRIGHT_INLINE Lanes grid(const Grid& numbers) {
+      const __m128i shorts = _mm_loadu_si128(reinterpret_cast<const __m128i*>(numbers.data()));
+      return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(shorts));
+    }
     PROBEWRIGHT_INLINE unsigned notAbove(const Lanes& x, float limit) {
       return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(x, _mm256_set1_ps(limit), _CMP_LE_OQ)));
     }

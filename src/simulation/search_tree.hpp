@@ -71,14 +71,20 @@ private:
   static constexpr std::size_t kWidth = 8;
   using Lane = std::array<float, kWidth>;
 
-  /// Eight boxes with directions of their own, relative to the tree's centre.
+  using Grid = std::array<std::int16_t, kWidth>;
+
+  /// Eight boxes with directions of their own, in whole numbers: a search waits for memory more than for its sums.
   struct alignas(64) Node {
-    std::array<Lane, 3> middle;
-    std::array<Lane, 3> normal;               ///< unit
-    std::array<Lane, 3> tangent;              ///< unit, across the normal
-    std::array<Lane, 3> half;                 ///< along normal, tangent, and normal x tangent
+    std::array<Grid, 3> middle;               ///< from the origin, in units
+    std::array<Grid, 3> normal;               ///< 1 / kDirection
+    std::array<Grid, 3> tangent;              ///< 1 / kDirection, across the normal
+    std::array<Grid, 3> half;                 ///< along normal, tangent, and normal x tangent, in units
     std::array<std::uint32_t, kWidth> child;  ///< a node, or kLeaf | index of a block's first line
+    std::array<float, 3> origin;              ///< from the tree's centre
+    float unit;
+    std::uint32_t count;
   };
+  static constexpr float kDirection = 32768;
 
   /// Up to eight triangles and their corners, each corner once: as many doubles as needed follow.
   struct Block {

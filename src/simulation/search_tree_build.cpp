@@ -12,7 +12,6 @@ namespace probewright::simulation {
 namespace {
 
 constexpr std::size_t kLeafSize = 8;
-constexpr float kFarAway = 1e12F;
 
 struct BuildNode {
   std::uint32_t count = 0;
@@ -63,14 +62,17 @@ Bounds boundsOf(const SearchElement& element) {
   return box;
 }
 
+constexpr double kDirection = 32768;
+constexpr double kLargest = 32767;
+
 /// A box with directions of its own.
 struct SlantedBox {
-  Matrix3 axes = Matrix3::Identity();  ///< columns: normal, tangent, normal x tangent
+  Matrix3 axes = Matrix3::Identity();  ///< rows: normal, tangent, normal x tangent
   Vector3 minimum = Vector3::Constant(1e300);
   Vector3 maximum = Vector3::Constant(-1e300);
 
   Vector3 half() const { return (maximum - minimum) / 2; }
-  Vector3 middle() const { return axes * ((maximum + minimum) / 2); }
+  Vector3 middle() const { return axes.inverse() * ((maximum + minimum) / 2); }
   double surface() const {
     const Vector3 h = half();
     return h[0] * h[1] + h[1] * h[2] + h[2] * h[0];
@@ -79,13 +81,25 @@ struct SlantedBox {
 
 using Range = std::span<const SearchElement>;
 
+/// The directions as a node holds them. Distances along them are never larger than they are, nor are their squares
+/// together: they are a little shorter than 1, by more than rounding takes from their right angle.
+Matrix3 heldAxes(const Vector3& normal, const Vector3& tangent) {
+  const auto held = [](const Vector3& v) {
+    return Vector3((v.normalized() * (kDirection - 4)).array().round() / kDirection);
+  };
+  Matrix3 axes;
+  const Vector3 n = held(normal);
+  const Vector3 u = held(tangent - tangent.dot(n) / n.squaredNorm() * n);
+  axes << n.transpose(), u.transpose(), n.cross(u).transpose();
+  return axes;
+}
+
 SlantedBox boxAlong(const Matrix3& axes, Range elements) {
   SlantedBox box;
   box.axes = axes;
-  const Matrix3 toBox = axes.transpose();
   for (const SearchElement& element : elements) {
     for (const Vector3& corner : element.corners) {
-      const Vector3 p = toBox * corner;
+      const Vector3 p = axes * corner;
       box.minimum = box.minimum.cwiseMin(p - Vector3::Constant(element.growth));
       box.maximum = box.maximum.cwiseMax(p + Vector3::Constant(element.growth));
     }
@@ -98,7 +112,7 @@ Vector3 areaVector(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]);
 /// The smallest of a few boxes about the elements: along the coordinate axes, and along the surface's mean normal with
 /// its sides near the coordinate axes or along the elements' first edge.
 SlantedBox smallBox(Range elements) {
-  SlantedBox best = boxAlong(Matrix3::Identity(), elements);
+  SlantedBox best = boxAlong(heldAxes(Vector3::UnitX(), Vector3::UnitY()), elements);
   Vector3 sum = Vector3::Zero();
   for (const SearchElement& element : elements) {
     // Neighbours may be wound in opposite senses on an open skin.
@@ -113,11 +127,7 @@ SlantedBox smallBox(Range elements) {
                               Vector3(first[1] - first[0])}) {
     const Vector3 across = side - side.dot(normal) * normal;
     if (across.norm() < 0.1 * side.norm() || across.norm() == 0) continue;
-    Matrix3 axes;
-    axes.col(0) = normal;
-    axes.col(1) = across.normalized();
-    axes.col(2) = axes.col(0).cross(axes.col(1));
-    SlantedBox box = boxAlong(axes, elements);
+    SlantedBox box = boxAlong(heldAxes(normal, across), elements);
     if (box.surface() < best.surface()) best = box;
   }
   return best;
@@ -129,17 +139,6 @@ struct SearchTree::Builder {
   SearchTree& tree;
   std::span<const SearchElement> elements;
   std::vector<SearchElement> ordered;
-
-  static void setBox(Node& node, std::size_t k, const SlantedBox& box, const Vector3& middle) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      const auto i = static_cast<Eigen::Index>(a);
-      node.middle[a][k] = static_cast<float>(middle[i]);
-      node.normal[a][k] = static_cast<float>(box.axes.col(0)[i]);
-      node.tangent[a][k] = static_cast<float>(box.axes.col(1)[i]);
-      // The roundings of the directions turn the box a little.
-      node.half[a][k] = above(box.half()[i] + 3e-7 * box.half().sum());
-    }
-  }
 
   std::uint32_t makeBlock(const BuildNode& from) {
     Block block{};
@@ -168,21 +167,49 @@ struct SearchTree::Builder {
     return kLeaf | static_cast<std::uint32_t>(first);
   }
 
+  void setBoxes(Node& node, const std::vector<SlantedBox>& boxes) const {
+    Bounds around;
+    for (const SlantedBox& box : boxes) {
+      around.minimum = around.minimum.cwiseMin(box.middle());
+      around.maximum = around.maximum.cwiseMax(box.middle());
+    }
+    const Eigen::Vector3f origin = ((around.minimum + around.maximum) / 2 - tree.centre_).cast<float>();
+    const Vector3 held = origin.cast<double>() + tree.centre_;
+    double reach = 1e-30;
+    for (const SlantedBox& box : boxes)
+      reach = std::max({reach, (box.middle() - held).cwiseAbs().maxCoeff(), box.half().maxCoeff()});
+    // Space for rounding.
+    node.unit = above(1.001 * reach / (kLargest - 3));
+    node.count = static_cast<std::uint32_t>(boxes.size());
+    const double unit = static_cast<double>(node.unit);
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+      const SlantedBox& box = boxes[k];
+      const Vector3 middle = box.middle() - held;
+      for (std::size_t a = 0; a < 3; ++a) {
+        const auto i = static_cast<Eigen::Index>(a);
+        node.origin[a] = origin[i];
+        node.middle[a][k] = static_cast<std::int16_t>(std::lround(middle[i] / unit));
+        node.normal[a][k] = static_cast<std::int16_t>(std::lround(box.axes(0, i) * kDirection));
+        node.tangent[a][k] = static_cast<std::int16_t>(std::lround(box.axes(1, i) * kDirection));
+        // The middle has moved by up to half a unit in each coordinate, the sums are single precision.
+        const double half = box.half()[i] + 3e-7 * box.half().sum();
+        node.half[a][k] = static_cast<std::int16_t>(std::ceil(half / unit + 0.9));
+      }
+    }
+  }
+
   std::uint32_t makeNode(const BuildNode& from) {
     if (from.leaf) return makeBlock(from);
     const auto index = static_cast<std::uint32_t>(tree.nodes_.size());
     tree.nodes_.emplace_back();
     Node node{};
-    for (std::uint32_t k = 0; k < kWidth; ++k) {
-      if (k >= from.count) {
-        setBox(node, k, {Matrix3::Identity(), Vector3::Zero(), Vector3::Zero()}, {kFarAway, 0, 0});
-        continue;
-      }
+    std::vector<SlantedBox> boxes;
+    for (std::uint32_t k = 0; k < from.count; ++k) {
       const std::size_t first = ordered.size();
       node.child[k] = makeNode(*from.child[k]);
-      const SlantedBox box = smallBox(Range(ordered).subspan(first));
-      setBox(node, k, box, box.middle() - tree.centre_);
+      boxes.push_back(smallBox(Range(ordered).subspan(first)));
     }
+    setBoxes(node, boxes);
     tree.nodes_[index] = node;
     return index;
   }

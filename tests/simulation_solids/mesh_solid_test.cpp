@@ -208,10 +208,13 @@ TEST(MeshSolid, MeetsACapsuleWhereBruteForceMeetsIt) {
   const TriangleMesh mesh = bumpySphere(4, 20, 0.2);
   const MeshSolid solid(mesh);
   int contacts = 0;
-  for (int i = 0; i < 120; ++i) {
-    const Vector3 axis = uniform(random, 5, 60) * randomDirection(random);
+  for (int i = 0; i < 180; ++i) {
     const Vector3 from = 90 * randomDirection(random);
+    const double size = uniform(random, 5, 60);
+    Vector3 axis = size * randomDirection(random);
     const Vector3 to = from + uniform(random, 20, 90) * (randomPoint(random, 25) - axis / 2 - from).normalized();
+    // A stylus behind its ball, and the same drawn back.
+    if (i % 3 == 0) axis = (i % 2 == 0 ? size : -size) * (to - from).normalized();
     const double radius = uniform(random, 0.5, 4);
     const auto expected =
         walkToContact([&](const Vector3& p) { return distanceOfSegment(p, axis, mesh); }, from, to, radius);
