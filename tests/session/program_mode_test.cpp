@@ -131,6 +131,24 @@ TEST(ProgramMode, HeidenhainControlsHaveOtherModes) {
   EXPECT_EQ(outcome.info.exit, records::ExitState::InputMistake);
 }
 
+TEST(SinumerikMeasuringBlock, IsFollowedByTheWayBackThatTheProgramWrites) {
+  const auto run = [](const std::string& behind) {
+    return runText("EDGE.MPF",
+                   "G90 G17 G54\nT=\"PROBE\" D1 M6\nG0 X-40 Y0 Z20\nZ-10\nMEAS=1 G1 X-20 F200\nSTOPRE\n"
+                   "IF $AC_MEA[1]==0\nSETAL(65000,\"no touch\")\nENDIF\nR1=$AA_MW[X]\n" +
+                       behind + "M30\n",
+                   blockSetup({0.5, 0, 0}), {});
+  };
+  for (const char* back :
+       {"G0 X-40\nZ20\n", "G1 X=IC(-5) F2000\nG0 Z20\n", "SUPA G0 X-60\n", "POS[X]=-60\n", "G2 X-40 Y0 CR=40 F500\n"}) {
+    const RunOutcome outcome = run(back);
+    EXPECT_EQ(outcome.info.exit, records::ExitState::Good) << back << outcome.info.exitText;
+    // The ball's centre stands its radius in front of the wall; the probe tells where the tip of the tool is.
+    EXPECT_NE(outcome.files.at("DATA.INI").find("R1=-31.5\n"), std::string::npos) << outcome.files.at("DATA.INI");
+  }
+  EXPECT_EQ(run("G0 X30\n").info.exit, records::ExitState::Stopped) << "into the part";
+}
+
 TEST(SinumerikUnits, InchProgramsMeasureWhatMetricOnesMeasure) {
   struct Units {
     const char* code;

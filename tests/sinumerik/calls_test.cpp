@@ -66,6 +66,17 @@ TEST(SinumerikCalls, AMeasuringCycleIsCalledModally) {
   EXPECT_EQ(world.r(1), 1);
 }
 
+TEST(SinumerikCalls, ALabelMayBeNamedAsAStatementButNotAsAWordOfTheFlow) {
+  World world;
+  world.run("GOTOF START\nR1=1\nSTART: R2=2\n");
+  EXPECT_NE(world.r(1), 1);
+  EXPECT_EQ(world.r(2), 2);
+  const auto program = SinumerikProgram::fromText("test.mpf", "CALL BLOCK AA TO IF EN\nREPEAT AA ELSE\nAA: R1=1\n");
+  const Diagnostics found = check(*program, {});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].message, "the last label of the section to call was expected");
+}
+
 TEST(SinumerikCalls, SectionsOfThisAndOfOtherPrograms) {
   World world;
   world.texts.add("PARTS", "PROC PARTS\nR10=100\nFIRST: R10=R10+1\nR10=R10+2\nLAST: R10=R10+4\nR10=100\nRET\n");

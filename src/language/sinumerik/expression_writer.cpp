@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/number_text.hpp"
 #include "language/sinumerik/keywords.hpp"
 #include "language/sinumerik/operators.hpp"
@@ -20,8 +22,9 @@ std::string writeNumber(double value) {
 
 std::string writeVariable(const Block& block, const VariableRef& variable) {
   std::string text;
-  const bool plainR = variable.space == VariableSpace::R && variable.index[0].isLiteral();
-  if (plainR) return fmt::format("R{}", variable.index[0].number);
+  const double number = variable.index[0].isLiteral() ? variable.index[0].number : -1;
+  const bool plainR = variable.space == VariableSpace::R && number >= 0 && number < 1e6 && number == std::floor(number);
+  if (plainR) return fmt::format("R{}", number);
   text = variable.space == VariableSpace::R ? "R" : std::string(block.at(variable.name));
   char separator = '[';
   for (const Operand& index : variable.index) {

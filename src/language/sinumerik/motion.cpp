@@ -342,7 +342,7 @@ void PathMotion::moveStraight(const Words& words, MoveKind kind) {
   const std::optional<Corner> corner = cornerOf(words, speed);
   if (words.anyRotary || (!compensator_.active() && !corner && !corners_.holds())) {
     flush();
-    control_.channel.moveTo(words.target, speed);
+    travel(words.target, speed);
     return;
   }
   PathElement line;
@@ -358,14 +358,30 @@ void PathMotion::append(const PathElement& element, const std::optional<Corner>&
   if (!compensator_.active() && !corners_.holds()) programmed_.reset();
 }
 
+/// Straight to a target. Behind a measuring block the stylus is still deflected: it may leave the surface.
+void PathMotion::travel(const control::Target& target, Feed feed) {
+  control::Channel& channel = control_.channel;
+  const bool turns = std::ranges::any_of(target.rotary, [](const auto& angle) { return angle.has_value(); });
+  if (turns || !channel.machine().probeDeflected()) return channel.moveTo(target, feed);
+  Vector3 to = channel.position();
+  for (std::size_t i = 0; i < 3; ++i)
+    if (target.linear[i]) to[static_cast<Eigen::Index>(i)] = *target.linear[i];
+  channel.retractTo(to, feed);
+}
+
+void PathMotion::travel(const Vector3& point, Feed feed) {
+  if (control_.channel.machine().probeDeflected()) return control_.channel.retractTo(point, feed);
+  control_.channel.moveTo(point, feed);
+}
+
 void PathMotion::run(const PathElement& element) {
-  if (!element.isArc) return control_.channel.moveTo(element.end, element.feed);
+  if (!element.isArc) return travel(element.end, element.feed);
   const double radius = (element.start - element.centre).norm();
   const double tolerance = std::min(control_.channel.pathTolerance, radius / 2);
   const double step = radius > 0 ? 2 * std::acos(1 - tolerance / radius) : std::numbers::pi;
   const int pieces = std::clamp(static_cast<int>(std::ceil(std::abs(element.sweep) / step)), 1, 100000);
   for (int i = 1; i <= pieces; ++i)
-    control_.channel.moveTo(i == pieces ? element.end : element.at(static_cast<double>(i) / pieces), element.feed);
+    travel(i == pieces ? element.end : element.at(static_cast<double>(i) / pieces), element.feed);
 }
 
 void PathMotion::flush() {
@@ -402,7 +418,7 @@ void PathMotion::moveWithoutFrames(const Move& move, Evaluation& evaluation) {
   try {
     const Words words = read(move.words, evaluation);
     const bool rapid = state_.group1 == MoveKind::Rapid;
-    channel.moveTo(words.target, feed(rapid ? MoveKind::Rapid : MoveKind::Linear, start(), endOf(words)));
+    travel(words.target, feed(rapid ? MoveKind::Rapid : MoveKind::Linear, start(), endOf(words)));
   } catch (...) {
     control_.handOverFrames();
     throw;
@@ -415,8 +431,7 @@ void PathMotion::position(const std::string& axis, WordMode mode, double value) 
   Words words;
   readAxis(addressOf(axis), mode, value, words);
   const auto own = state_.axisFeed.find(axis);
-  control_.channel.moveTo(
-      words.target, own != state_.axisFeed.end() && own->second > 0 ? Feed::at(own->second) : Feed::rapidTraverse());
+  travel(words.target, own != state_.axisFeed.end() && own->second > 0 ? Feed::at(own->second) : Feed::rapidTraverse());
 }
 
 void PathMotion::approachFixedPoint(const Command& command, Evaluation& evaluation) {

@@ -182,7 +182,11 @@ TextRef BlockParser::parseTarget() {
     cursor_.advance();
     cursor_.digits();
   } else if (isNameStart(cursor_.peek()) && isNameStart(cursor_.peek(1))) {
-    if (keywordOf(cursor_.peekName()) == Keyword::None) cursor_.name();
+    // Programs have labels such as START, which is a statement too; words of the flow are no labels.
+    const Keyword keyword = keywordOf(cursor_.peekName());
+    const bool flow =
+        isStructure(keyword) || keyword == Keyword::If || keyword == Keyword::Goto || keyword == Keyword::Reserved;
+    if (!flow) cursor_.name();
   }
   return upper(cursor_.since(start));
 }
