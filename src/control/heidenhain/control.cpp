@@ -82,15 +82,17 @@ void Control::callTool(const std::string& row, std::optional<char> axis, double 
   }
   tool = std::move(next);
   refreshTool();
-  readSerialNumber();
+  meetProbe();
 }
 
-void Control::readSerialNumber() {
+void Control::meetProbe() {
+  channel.alarms.collision = "Collision";
   if (!isTNC640() || tool.probeRow.empty() || !tables.probes.hasRow(tool.probeRow)) return;
   const std::string serial = channel.machine().probeSerial();
   if (!serial.empty() && tables.probes.hasColumn("SERIAL")) {
     writeText(tables.probes, tool.probeRow, "SERIAL", serial);
   }
+  if (tables.probes.text(tool.probeRow, "REACTION") == "EMERGSTOP") channel.alarms.collision = "Emergency stop";
 }
 
 void Control::refreshTool() {

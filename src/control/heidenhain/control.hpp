@@ -111,8 +111,9 @@ public:
   void writeText(TypedTable& table, const std::string& row, const std::string& column, const std::string& value);
 
 private:
-  /// Enters the serial number that the touch probe in the spindle tells into the touch probe table.
-  void readSerialNumber();
+  /// Takes over what the touch probe in the spindle tells: its serial number into the touch probe table, and what the
+  /// table says of collisions.
+  void meetProbe();
   void note(const TypedTable& table, const std::string& row, const std::string& column, const std::string& before);
 
   ControlKind kind_;
