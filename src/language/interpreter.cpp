@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include "base/number_text.hpp"
@@ -12,14 +11,6 @@
 namespace probewright::language {
 
 namespace {
-
-constexpr std::size_t mostCalls = 256;
-
-bool matches(const Breakpoint& breakpoint, const std::string& file) {
-  if (breakpoint.file == file) return true;
-  const std::string ending = "/" + breakpoint.file;
-  return file.size() > ending.size() && file.compare(file.size() - ending.size(), ending.size(), ending) == 0;
-}
 
 /// The instructions of a block without the stop, return or end at its end.
 std::uint32_t behindLastAction(const Block& block) {
@@ -403,179 +394,6 @@ std::uint64_t Interpreter::sectionEnd(const RepeatSection& repeat, BlockPosition
   refuse(Refusal::MissingLabel,
          fmt::format("the section that begins with label {} has no end label {}", evaluation.at(repeat.from), name),
          "the end label belongs behind the first label");
-}
-
-// ---- programs ----
-
-Interpreter::Loaded* Interpreter::load(std::shared_ptr<Program> program) {
-  for (const auto& loaded : programs_) {
-    if (loaded->program == program || loaded->program->file() == program->file()) return loaded.get();
-  }
-  auto loaded = std::make_unique<Loaded>();
-  loaded->id = static_cast<std::uint32_t>(programs_.size());
-  for (const Breakpoint& breakpoint : options_.breakpoints) {
-    if (matches(breakpoint, program->file())) loaded->breakpointLines.push_back(breakpoint.line);
-  }
-  std::sort(loaded->breakpointLines.begin(), loaded->breakpointLines.end());
-  loaded->program = std::move(program);
-  programs_.push_back(std::move(loaded));
-  return programs_.back().get();
-}
-
-Interpreter::Loaded* Interpreter::called(std::string_view name, bool maybeNone) {
-  const Program* caller = current_->program.get();
-  for (const Call& call : calls_) {
-    if (call.caller == caller && call.name == name && (call.called != nullptr || maybeNone)) return call.called;
-  }
-  Loaded* loaded = nullptr;
-  if (!maybeNone || library_.exists(name, caller)) {
-    auto opened = library_.open(name, caller);
-    if (!opened) {
-      const Diagnostic& reason = opened.error();
-      const std::string file = reason.place.file.empty() ? std::string() : reason.place.file + ": ";
-      refuse(Refusal::MissingProgram, file + reason.message, reason.advice);
-    }
-    loaded = load(std::move(*opened));
-  }
-  if (calls_.size() >= mostCalls) calls_.clear();
-  calls_.push_back({caller, std::string(name), loaded});
-  return loaded;
-}
-
-Interpreter::Flow Interpreter::callProgram(const CallProgram& call, const Instruction& instruction,
-                                           Evaluation& evaluation) {
-  if (call.modal) {
-    setModalCall(call, evaluation);
-    return Flow::Next;
-  }
-  std::string computed;
-  if (call.nameValue.present()) computed = evaluation.text(call.nameValue);
-  const std::string_view name = call.nameValue.present() ? std::string_view(computed) : evaluation.at(call.name);
-  Loaded* program = called(name, call.maybeCycle);
-  if (program == nullptr) {
-    host_.execute(instruction, evaluation);
-    return Flow::Next;
-  }
-  const double times = evaluation.numberOr(call.times, 1);
-  if (times < 1) return Flow::Next;
-  enter(*program, call, evaluation, times - 1);
-  return Flow::Moved;
-}
-
-Interpreter::Flow Interpreter::followRequest(Evaluation& evaluation) {
-  const std::string name = host_.requestedProgram();
-  if (name.empty()) return Flow::Next;
-  enter(*called(name, false), CallProgram{}, evaluation, 0);
-  return Flow::Moved;
-}
-
-void Interpreter::enter(Loaded& program, const CallProgram& call, Evaluation& caller, double remaining) {
-  if (levels_ >= options_.programDepth) {
-    refuse(Refusal::NestingDepth, fmt::format("more than {} programs call each other", options_.programDepth),
-           "look for a program that calls itself");
-  }
-  BlockPosition first = program.program->begin();
-  std::uint64_t last = noSection;
-  if (call.from.length > 0) std::tie(first, last) = sectionOf(*program.program, call, caller);
-  host_.enter(*program.program, &call, &caller);
-  push({.kind = FrameKind::Program, .caller = current_, .remaining = remaining, .last = last});
-  frames_.back().sections = sections_ - 1;
-  sections_ = 0;
-  ++levels_;
-  current_ = &program;
-  block_ = nullptr;
-  position_ = first;
-}
-
-std::pair<BlockPosition, std::uint64_t> Interpreter::sectionOf(Program& program, const CallProgram& call,
-                                                               Evaluation& caller) const {
-  const auto labelled = [&](TextRef label, BlockPosition from, JumpDirection direction) {
-    const auto found = program.findLabel(caller.at(label), from, direction);
-    if (found) return *found;
-    refuse(Refusal::MissingLabel,
-           fmt::format("the program {} has no section from {} to {}: the label {} is missing", program.name(),
-                       caller.at(call.from), caller.at(call.to), caller.at(label)),
-           "check how the labels are written, and their order");
-  };
-  const BlockPosition first = labelled(call.from, program.begin(), JumpDirection::Any);
-  if (caller.at(call.from) == caller.at(call.to)) return {first, first.offset};
-  return {first, labelled(call.to, first, JumpDirection::Forward).offset};
-}
-
-void Interpreter::setModalCall(const CallProgram& call, Evaluation& evaluation) {
-  if (call.name.length == 0) {
-    modal_.reset();
-    return;
-  }
-  auto modal = std::make_unique<ModalCall>();
-  Block& kept = modal->block;
-  CallProgram copy = call;
-  copy.modal = false;
-  copy.times = {};
-  copy.name = kept.add(evaluation.at(call.name));
-  copy.arguments.first = 0;
-  for (Word word : evaluation.words(call.arguments)) {
-    if (word.value.present()) {
-      const Value value = evaluation.value(word.value);
-      if (const auto* text = std::get_if<std::string>(&value)) {
-        Node node;
-        node.operation = Operation::Text;
-        node.text = kept.add(*text);
-        kept.nodes.push_back(node);
-        word.value = {0, static_cast<std::int32_t>(kept.nodes.size() - 1)};
-      } else {
-        word.value = Operand::of(std::get<double>(value));
-      }
-    }
-    kept.words.push_back(word);
-  }
-  kept.source = kept.add(evaluation.at(evaluation.block().source));
-  kept.instructions.emplace_back(copy);
-  modal_ = std::move(modal);
-}
-
-Interpreter::Flow Interpreter::callModally() {
-  Block& block = modal_->block;
-  block.position = block_->block.position;
-  Evaluation evaluation(*current_->program, block, host_);
-  const Instruction& instruction = block.instructions.front();
-  const auto& call = std::get<CallProgram>(instruction);
-  Loaded* program = called(block.at(call.name), true);
-  if (program == nullptr) {
-    host_.execute(instruction, evaluation);
-    return Flow::Next;
-  }
-  enter(*program, call, evaluation, 0);
-  modal_->level = levels_;
-  return Flow::Moved;
-}
-
-Interpreter::Flow Interpreter::leaveProgram() {
-  while (frames_.back().kind != FrameKind::Program)
-    pop();
-  const Frame frame = pop();
-  Loaded* left = current_;
-  if (frame.caller == nullptr) {
-    host_.leave(*left->program);
-    return Flow::Finished;
-  }
-  sections_ = frame.sections;
-  --levels_;
-  if (modal_ && modal_->level > levels_) modal_->level = 0;
-  current_ = frame.caller;
-  position_ = frame.call;
-  block_ = nullptr;
-  host_.leave(*left->program);
-  if (frame.remaining < 1) {
-    resume(frame);
-    return Flow::Moved;
-  }
-  // The arguments of the next pass are computed anew.
-  block_ = &fetchAside(frame.call);
-  instruction_ = frame.instruction;
-  Evaluation evaluation(*current_->program, block_->block, host_);
-  enter(*left, std::get<CallProgram>(block_->block.instructions[frame.instruction]), evaluation, frame.remaining - 1);
-  return Flow::Moved;
 }
 
 // ---- structured statements ----
