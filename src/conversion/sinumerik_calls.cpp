@@ -245,6 +245,8 @@ private:
     // The first edge becomes the positive main axis. A distance that contains the ball's radius has the sign of its
     // number, or it would be no distance.
     if ((starts[1][0] - starts[0][0]).number() < 0) std::swap(starts[0], starts[1]);
+    // Inside, the nearest points of both edges are begun from one place, which is also the pole of the others.
+    if (inside) std::swap(starts[2], starts[3]);
     for (std::size_t i = 0; i < 4; ++i) {
       set(fmt::format("S_SETV{}", 2 * i), starts[i][0]);
       set(fmt::format("S_SETV{}", 2 * i + 1), starts[i][1]);

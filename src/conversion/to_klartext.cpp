@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <utility>
 
 namespace probewright::conversion {
 
@@ -191,10 +192,21 @@ void ToKlartext::instruction(const Block& block, const Instruction& instruction)
 void ToKlartext::assign(const Block& block, const Assign& assign) {
   const VariableRef& variable = block.variables[assign.variable];
   const bool frame = variable.space == VariableSpace::System && block.at(variable.name) == "$P_UIFR";
-  if (frame && assign.value.isLiteral() && assign.value.number == 0 &&
-      block.at(block.source).find(fmt::format(",{},RT]=", axis(2))) != std::string_view::npos) {
-    unturned_ = true;
+  if (frame && block.at(block.source).find(fmt::format(",{},RT]=", axis(2))) != std::string_view::npos) {
+    const bool active = block.at(block.source).find("$P_UIFR[$P_UIFRNUM,") != std::string_view::npos;
+    const Quantity angle = quantity(block, assign.value);
+    const Quantity row = active ? Quantity(-1) : quantity(block, variable.index[0]);
+    unturned_ = angle == 0;
+    const std::string angleText = formulas_.value(angle), rowText = formulas_.value(row == 99 ? Quantity(0) : row);
+    line("TCH PROBE 404 SET BASIC ROTATION ~");
+    out_.line(fmt::format("    Q307={} ;PRESET ROTATION ANG. ~", angleText));
+    out_.line(fmt::format("    Q305={} ;NUMBER IN TABLE", rowText));
     return forgetPosition();
+  }
+  // A HEIDENHAIN cycle with Q305 = 0 copies the active preset to row 0 and selects it by itself.
+  if (frame && trimmed(block.at(block.source)).starts_with("$P_UIFR[99]=$P_UIFR[$P_UIFRNUM]")) {
+    copiesToRow0_ = true;
+    return;
   }
   if (variable.space == VariableSpace::System) {
     throw NotCarriedOver(fmt::format("{} cannot be written in Klartext", block.at(variable.name)));
@@ -225,10 +237,11 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
   if (const auto settable = settableOf(name)) {
     if (*settable == 0) throw NotCarriedOver("G500 takes all settable zero offsets back; a preset is always in effect");
     const int row = *settable == 99 ? 0 : *settable;
-    line("CYCL DEF 247 PRESETTING ~");
-    out_.line(fmt::format("    Q339=+{} ;PRESET NUMBER", row));
     activeRow_ = *settable;
     forgetPosition();
+    if (row == 0 && std::exchange(copiesToRow0_, false)) return;
+    line("CYCL DEF 247 PRESETTING ~");
+    out_.line(fmt::format("    Q339=+{} ;PRESET NUMBER", row));
     return;
   }
   static constexpr std::array<std::string_view, 12> silent = {"G60", "G64",    "G71", "G710",  "G70", "G700",

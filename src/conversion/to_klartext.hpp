@@ -93,7 +93,8 @@ private:
   std::array<std::optional<Quantity>, 3> shift_;
   bool rotated_ = false;
   std::optional<int> activeRow_;
-  bool unturned_ = false;  ///< the zero offset has lost its rotation, as for cycle 400
+  bool copiesToRow0_ = false;  ///< the active zero offset was copied to the last one
+  bool unturned_ = false;      ///< the zero offset has lost its rotation, as for cycle 400
   std::size_t cycleNumber_ = 0;
 
   struct Open {

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "conversion/heidenhain_tasks.hpp"
 #include "conversion/sinumerik_formulas.hpp"
 #include "conversion/sinumerik_tasks.hpp"
@@ -104,11 +106,7 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   MeasuringTask task = sinumerikTask(call, start, klartextBallRadius, losses);
   const bool turns = task.correction == Correction::Rotation;
   if (turns && activeRow_ && task.row == *activeRow_) task.active = true;
-  if (unturned_) {
-    if (!turns || task.feature != Feature::Edge) throw NotCarriedOver("the rotation was taken out of the frame above");
-    task.fromUnturned = true;
-    unturned_ = false;
-  }
+  task.fromUnturned = std::exchange(unturned_, false) && turns;
   if (task.active && !turns) {
     const std::string row = formulas_.define("active preset", false);
     line(fmt::format("FN 18: SYSREAD {} = ID530 NR1", row));
@@ -146,7 +144,7 @@ void ToKlartext::goBack(const MeasuringTask& task, std::array<std::optional<Quan
     const bool otherRow = activeRow_ && !isActive;
     if (!otherRow) {
       for (std::size_t i = 0; i < 3; ++i)
-        end[i] = isActive && centred && i < 2 && task.wish[i] ? task.wish[i] : std::nullopt;
+        end[i] = isActive && end[i] && centred && i < 2 && task.wish[i] ? task.wish[i] : std::nullopt;
     }
   }
   std::string back;

@@ -59,8 +59,11 @@ private:
   void copyResults(const language::Block& block, const std::string& heidenhainCycle, const MeasuringTask& task);
   void planeByTouches(const language::Block& block, const MeasuringTask& plane);
   void takeRotationOut(const MeasuringTask& task);
-  /// Selects the zero offset `row` again if it is in effect, behind the statement `before`.
-  void selectIfActive(const Quantity& row, const std::string& before);
+  /// The rotation of a zero offset about the tool axis; without `row` of the one in effect.
+  void setRotation(const std::optional<Quantity>& row, const Quantity& angle);
+  void basicRotation(const Call& call);
+  /// Selects the zero offset `row` again if it is in effect.
+  void selectIfActive(const Quantity& row);
   void judge(const MeasuringTask& task);
   std::string parameter(int number);
   /// Results of the cycle that the program reads, but for the status.

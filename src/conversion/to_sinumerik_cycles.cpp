@@ -74,6 +74,7 @@ void ToSinumerik::cycle(const Block& block, const CycleCall& cycle) {
   }
   const cycles::CycleDefinition* definition = cycles::heidenhainCycle(cycle.number);
   const Call call = callOf(block, cycle);
+  if (cycle.number == 404) return basicRotation(call);
   Losses losses;
   const std::vector<MeasuringTask> tasks = heidenhainTasks(call, sinumerikBallRadius, losses);
   out_.line(fmt::format("; {} {}", cycle.number, definition == nullptr ? "" : definition->title));
@@ -172,37 +173,54 @@ void ToSinumerik::shiftToWish(const Block& block, const MeasuringTask& task, Sin
     out_.line(settableCode(*activeRow_));
     return;
   }
-  selectIfActive(task.active ? Quantity::of(row) : task.row, {});
+  selectIfActive(task.active ? Quantity::of(row) : task.row);
 }
 
-void ToSinumerik::selectIfActive(const Quantity& row, const std::string& before) {
+void ToSinumerik::selectIfActive(const Quantity& row) {
   // Zero offsets are selected by name: one that only the running program knows is taken for one of the first four.
   const bool known = row.isNumber();
   const int first = known ? static_cast<int>(row.number()) : 1, last = known ? first : 4;
   for (int number = first; number <= last; ++number) {
     out_.line(fmt::format("IF $P_UIFRNUM=={}", number));
-    if (!before.empty()) out_.line(fmt::format("  {}", before));
     out_.line(fmt::format("  {}", settableCode(number)));
     out_.line("ENDIF");
   }
 }
 
 void ToSinumerik::takeRotationOut(const MeasuringTask& task) {
-  const auto rotation = [this](const std::string& row) { return fmt::format("$P_UIFR[{},{},RT]=0", row, axis(2)); };
-  forgetPosition();
   if (activeRow_ && !task.active && !(task.row == *activeRow_)) {
     throw NotCarriedOver("the cycle takes the rotation of the active preset out, but corrects another one",
                          "select the preset with cycle 247 in front of this cycle");
   }
-  if (activeRow_) {
+  setRotation(task.active ? std::nullopt : std::optional(task.row), 0);
+}
+
+void ToSinumerik::setRotation(const std::optional<Quantity>& row, const Quantity& angle) {
+  const auto rotation = [&](const std::string& number) {
+    return fmt::format("$P_UIFR[{},{},RT]={}", number, axis(2), sinumerikText(angle));
+  };
+  forgetPosition();
+  if (activeRow_ && (!row || *row == *activeRow_)) {
     out_.line(rotation(std::to_string(*activeRow_)));
     out_.line(settableCode(*activeRow_));
-  } else if (!task.active && task.row.isNumber()) {
-    selectIfActive(task.row, rotation(sinumerikText(task.row)));
+  } else if (row && row->isNumber()) {
+    out_.line(rotation(sinumerikText(*row)));
+    selectIfActive(*row);
   } else {
     out_.line(rotation("$P_UIFRNUM"));
-    selectIfActive(Quantity::of("$P_UIFRNUM"), {});
+    selectIfActive(Quantity::of("$P_UIFRNUM"));
   }
+}
+
+void ToSinumerik::basicRotation(const Call& call) {
+  const Quantity row = call.has("Q305") ? call.number("Q305") : Quantity(-1);
+  if (row == 0) {
+    out_.line("$P_UIFR[99]=$P_UIFR[$P_UIFRNUM]");
+    out_.line(settableCode(0));
+    activeRow_ = 99;
+  }
+  const bool active = row.isNumber() && row.number() <= 0;
+  setRotation(active ? std::nullopt : std::optional(row), call.number("Q307"));
 }
 
 void ToSinumerik::planeByTouches(const Block& block, const MeasuringTask& plane) {

@@ -128,7 +128,11 @@ std::string surface(Dice& dice, PlantedPart& part, int cycle, int axis) {
   const int sign = axis == 2 ? -1 : dice.coin() ? 1 : -1;
   Words words = with(heights(dice, part), {{263, part.nominal.x() + written(dice.between(-30, 30))},
                                            {264, part.nominal.y() + written(dice.between(-30, 30))}});
-  if (axis == 2) words = with(words, {{261, part.nominal.z()}, {294, part.nominal.z()}});
+  if (axis == 2 && cycle != 417) words = with(words, {{261, part.nominal.z()}});
+  if (cycle == 417) {
+    std::erase_if(words, [](const auto& word) { return word.first == 261; });
+    words = with(words, {{294, part.nominal.z()}});
+  }
   if (axis < 2) words = with(words, {{263 + axis, part.nominal[axis] - sign * 50}});
   if (cycle != 417) words = with(words, {{272, axis + 1}, {267, sign}});
   if (cycle == 427) {
@@ -141,6 +145,10 @@ std::string surface(Dice& dice, PlantedPart& part, int cycle, int axis) {
 }
 
 std::string edge(Dice& dice, PlantedPart& part, int cycle, int axis) {
+  if (cycle == 400) {  // its points count from the unturned axes
+    part.machineFromPreset = pose(part.machineFromPreset.translation());
+    part.machineFromPart = part.machineFromPreset * pose(part.nominal + dice.within(1), {0, 0, part.skew});
+  }
   layBlock(part);
   const int sign = axis == 2 ? -1 : dice.coin() ? 1 : -1;
   Vector3 first = part.nominal, second = part.nominal;
@@ -156,6 +164,8 @@ std::string edge(Dice& dice, PlantedPart& part, int cycle, int axis) {
                                            {272, axis + 1},
                                            {267, sign},
                                            {301, 0}});
+  // A skewed edge comes nearer on the way to the second point.
+  words = with(words, {{320, 3}});
   if (axis == 2) words = with(words, {{261, part.nominal.z()}});
   if (cycle == 1410) {
     return probe(cycle, {{1100, first.x()},
@@ -194,7 +204,7 @@ std::string corner(Dice& dice, PlantedPart& part, int cycle, bool turns) {
                                                                {332, turns ? written(dice.between(-50, 50)) : n.y()},
                                                                {301, dice.whole(0, 1)},
                                                                {304, turns ? 1 : 0}});
-  words = with(words, {{305, 1}});
+  words = with(words, {{305, 1}, {320, 3}});
   if (cycle == 414) {
     box(0, 100 * x, 0, 100 * y);
     const double near = 15, far = written(dice.between(20, 40));
