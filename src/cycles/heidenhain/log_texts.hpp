@@ -25,7 +25,7 @@ struct LogFrame {
 const LogFrame& logFrame(DialogLanguage language);
 
 /// A label, heading or title of a log in another language than English; what has no translation stays English.
-std::string_view translated(std::string_view english, DialogLanguage language);
+std::string_view translated(std::string_view term, DialogLanguage language);
 
 /// The number of characters (code points) of a UTF-8 text: what columns are aligned by.
 std::size_t width(std::string_view utf8);
