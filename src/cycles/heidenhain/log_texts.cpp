@@ -173,10 +173,10 @@ const LogFrame& logFrame(DialogLanguage language) {
   return english;
 }
 
-std::string_view translated(std::string_view english, DialogLanguage language) {
-  if (language != DialogLanguage::Russian && language != DialogLanguage::Swedish) return english;
-  const auto found = std::ranges::find(terms, english, &Term::english);
-  if (found == terms.end()) return english;
+std::string_view translated(std::string_view term, DialogLanguage language) {
+  if (language != DialogLanguage::Russian && language != DialogLanguage::Swedish) return term;
+  const auto found = std::ranges::find(terms, term, &Term::english);
+  if (found == terms.end()) return term;
   return language == DialogLanguage::Russian ? found->russian : found->swedish;
 }
 
