@@ -43,7 +43,9 @@ TEST(ToolProbe, SignalsWhenAToolTouchesIt) {
     // The side of the contact lies at x 30, the tool is 6 mm thick.
     const auto side = machine->measure(positions({40, 20, -325}), slow);
     ASSERT_EQ(side.end, MeasureEnd::Touched) << side.detail;
-    EXPECT_NEAR(side.latched[0], 24, 1e-6);
+    // Tools meet curved faces of a setup's solids as drawn, by facets.
+    const bool curved = std::string_view(contact).starts_with("diameter");
+    EXPECT_NEAR(side.latched[0], 24, curved ? 0.01 : 1e-6);
     EXPECT_TRUE(machine->probeDeflected());
     EXPECT_GE(machine->position()[0], 24);
     EXPECT_EQ(machine->measure(positions({40, 20, -325}), slow).end, MeasureEnd::DeflectedAtStart);

@@ -81,7 +81,8 @@ void calibrateDirections(Context& context, const DirectionalTask& task) {
     return prober.stroke(probing::axisDirection(2, -1), standOff + 2 * task.standardRadius).ballCentre;
   };
   // Positions are those of the spindle axis; the ball, which stands beside it by the tip offset, must meet the pole.
-  const Vector2 offset = touchPole(task.centre).head<2>() - prober.position().head<2>();
+  const Vector3 beside = touchPole(task.centre);
+  const Vector2 offset = beside.head<2>() - prober.position().head<2>();
   Vector2 centre = task.centreKnown ? task.centre : Vector2(task.centre + offset);
   const Vector3 pole = touchPole(centre - offset);
   const Vector3 sphere(centre.x(), centre.y(), pole.z() - reach);
