@@ -68,8 +68,7 @@ TEST(WrongProbe, MovesSinglePoints) {
     EXPECT_NEAR(coordinate.q(160), expected, exact);
     const Ran preset = wrong.run(419, with(side, {{305, 1}, {333, 0}, {303, 1}}));
     EXPECT_NEAR(wrong.moved(preset)[axis], expected, exact);
-    const Ran top =
-        wrong.run(417, {{263, 30}, {264, 30}, {294, 0}, {320, 0}, {260, 20}, {305, 1}, {333, 0}, {303, 1}});
+    const Ran top = wrong.run(417, {{263, 30}, {264, 30}, {294, 0}, {320, 0}, {260, 20}, {305, 1}, {333, 0}, {303, 1}});
     EXPECT_NEAR(wrong.moved(top).z(), -wrong.lateAlong, exact) << "only what comes late along the stylus counts";
   }
 }
@@ -122,7 +121,8 @@ TEST(WrongProbe, MovesCentresAndChangesSizes) {
           wrong.run(inside ? 412 : 413,
                     with(with(heights, intoPreset), {{321, 40}, {322, 30}, {262, 40}, {325, 10}, {247, 90}, {381, 0}}));
       expectCentre(wrong.moved(circle));
-      EXPECT_NEAR(circle.q(153), 40 + sign * 2 * wrong.late, exact);
+      // Beside the axis the tip meets the wall at a slant of up to 0.28 / 18: the late way counts half its square more.
+      EXPECT_NEAR(circle.q(153), 40 + sign * 2 * wrong.late, 8e-6);
     }
   }
 }
