@@ -43,13 +43,12 @@ int convert(const ConvertArguments& arguments) {
                    {}});
   }
   if (!session::convertible(*from, *to)) {
-    return refuse(
-        {Severity::Error,
-         {arguments.input.string(), 0, 0},
-         fmt::format("the program is one of {} already", session::nameOf(*from)),
-         {},
-         "name a file with the ending of another language: .H, .I or .MPF",
-         {}});
+    return refuse({Severity::Error,
+                   {arguments.input.string(), 0, 0},
+                   fmt::format("the program is one of {} already", session::nameOf(*from)),
+                   {},
+                   "name a file with the ending of another language: .H, .I or .MPF",
+                   {}});
   }
   const auto program = session::programOf(arguments.input.string(), *text, *from);
   const session::Conversion conversion = session::convert(*program, *from, *to);

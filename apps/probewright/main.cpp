@@ -97,13 +97,14 @@ int main(int argc, char** argv) {
   cycles->add_flag("--json", cyclesArguments.asJson, "Everything the catalogue knows, for other programs");
 
   probewright::app::ConvertArguments convertArguments;
-  CLI::App* convert =
-      app.add_subcommand("convert", "Write a program in another language: Klartext (.H), DIN/ISO (.I), SINUMERIK (.MPF)");
+  CLI::App* convert = app.add_subcommand(
+      "convert", "Write a program in another language: Klartext (.H), DIN/ISO (.I), SINUMERIK (.MPF)");
   convert->add_option("IN", convertArguments.input, "The program")->required();
   convert->add_option("OUT", convertArguments.output, "The file to write; its ending names the language")->required();
   convert->footer(
       "Exit codes: 0 everything carried over, 1 something was not or is doubtful: it is named, and what the other "
-      "language cannot say stands as a comment in OUT; 2 a mistake in the input, nothing written. docs/conversion.md says "
+      "language cannot say stands as a comment in OUT; 2 a mistake in the input, nothing written. docs/conversion.md "
+      "says "
       "which measuring cycle becomes which.");
 
   try {

@@ -76,8 +76,8 @@ public:
   /// position deviation. measure() leads the ball's centre, not the tool centre point, along the line through the set
   /// point.
   Vector3 lateralDeviation(const Vector3& direction) const;
-  /// True if the workpiece system is mirrored along an axis of the plane, as for a part in the counter-spindle. The other
-  /// side of the ball touches there: trigger points and deviations are those of the machine's direction.
+  /// True if the workpiece system is mirrored along an axis of the plane, as for a part in the counter-spindle. The
+  /// other side of the ball touches there: trigger points and deviations are those of the machine's direction.
   bool mirrored(int axis) const;
   /// What the trigger points say for a direction (unit vector): the way from the TCP to the surface along it.
   double trigger(const Vector3& direction) const;

@@ -82,7 +82,8 @@ reports::Path pathOf(const simulation::PathRecord& record) {
   constexpr double upright = 1 - 1e-12;
   if (std::any_of(record.points.begin(), record.points.end(),
                   [](const simulation::PathPoint& point) { return point.shank.z() < upright; })) {
-    for (const simulation::PathPoint& point : record.points) path.toolAxes.push_back(point.shank.cast<float>());
+    for (const simulation::PathPoint& point : record.points)
+      path.toolAxes.push_back(point.shank.cast<float>());
   }
   return path;
 }

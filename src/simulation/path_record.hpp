@@ -14,9 +14,9 @@ enum class PathKind : std::uint8_t { Start, Rapid, Feed, Measure, Retract, ToolC
 
 /// The end of a piece of path. Table frame, mm.
 struct PathPoint {
-  Vector3 tip = Vector3::Zero();      ///< the ball's centre; a cutter's tip; the spindle nose
-  Vector3 shank = Vector3::UnitZ();   ///< unit, from the tip along the tool's shank
-  PathKind kind = PathKind::Start;    ///< how the tool came here
+  Vector3 tip = Vector3::Zero();     ///< the ball's centre; a cutter's tip; the spindle nose
+  Vector3 shank = Vector3::UnitZ();  ///< unit, from the tip along the tool's shank
+  PathKind kind = PathKind::Start;   ///< how the tool came here
   double seconds = 0;
 };
 

@@ -69,8 +69,7 @@ ToolShape shapeOf(const TrueTool* tool, double spindleDegrees) {
     shape.capsules.push_back({centre + along * clear, arm - along * clear, probe.stylusRadius, shaftName});
     shape.capsules.push_back({foot, up * probe.stylusLength, probe.stylusRadius, shaftName});
   } else if (probe.stylusRadius > 0 && probe.stylusLength > clear) {
-    shape.capsules.push_back(
-        {centre + up * clear, up * (probe.stylusLength - clear), probe.stylusRadius, shaftName});
+    shape.capsules.push_back({centre + up * clear, up * (probe.stylusLength - clear), probe.stylusRadius, shaftName});
   }
   if (probe.bodyRadius > 0) {
     addCylinder(shape, foot + up * probe.stylusLength, up, probe.bodyLength, probe.bodyRadius, "body");

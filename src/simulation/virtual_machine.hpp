@@ -26,10 +26,10 @@ namespace probewright::simulation {
 /// own query; otherwise the path is cut until its chords are true to 1e-7 mm when measuring and 1e-4 mm when
 /// positioning.
 ///
-/// Signal. The ball touches (or the shaft, where it is meant to); the axes travel on by the pretravel, by speed times signal delay, and by a random amount
-/// with the probe's repeatability; there the readings are latched. The axes brake and stop, at most 0.8 ball radii
-/// beyond the contact, and never beyond the target. If the target comes before the signal, there is none. Pretravel,
-/// delay and noise act along the path.
+/// Signal. The ball touches (or the shaft, where it is meant to); the axes travel on by the pretravel, by speed times
+/// signal delay, and by a random amount with the probe's repeatability; there the readings are latched. The axes brake
+/// and stop, at most 0.8 ball radii beyond the contact, and never beyond the target. If the target comes before the
+/// signal, there is none. Pretravel, delay and noise act along the path.
 ///
 /// Tool touch probe. A solid of that role signals at the first touch of a tool without sensor, latched where it
 /// touches; every other solid in the way is a collision.

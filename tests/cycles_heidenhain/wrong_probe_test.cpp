@@ -64,7 +64,8 @@ TEST(WrongProbe, MovesSinglePoints) {
     EXPECT_NEAR(polar.q(115 + axis), expected - 2, exact) << "the ball's centre, not the surface";
 
     const Words side = with(height, {{263, axis == 0 ? 0 : 30}, {264, axis == 0 ? 30 : 0}, {272, axis + 1}, {267, 1}});
-    const Ran coordinate = wrong.run(427, with(with(side, unmonitored), {{288, 0}, {289, 0}, {498, 0}, {531, 0}}));
+    const Ran coordinate =
+        wrong.run(427, with(side, {{281, 0}, {288, 0}, {289, 0}, {309, 0}, {330, 0}, {498, 0}, {531, 0}}));
     EXPECT_NEAR(coordinate.q(160), expected, exact);
     const Ran preset = wrong.run(419, with(side, {{305, 1}, {333, 0}, {303, 1}}));
     EXPECT_NEAR(wrong.moved(preset)[axis], expected, exact);

@@ -32,7 +32,8 @@ World::World(const std::string& machineName) : World(readyMade(machineName)) {}
 World::World(machine::MachineDescription description) {
   machine = std::make_unique<TraceMachine>(std::move(description));
   const auto kind = control::ControlKind::TNC640;
-  hh::Tables tables{hh::defaultToolTable(kind), hh::defaultProbeTable(kind), hh::defaultPresetTable(kind), {}, {}, {}, {}};
+  hh::Tables tables{
+      hh::defaultToolTable(kind), hh::defaultProbeTable(kind), hh::defaultPresetTable(kind), {}, {}, {}, {}};
   const auto tool = [&](const std::string& row, const std::string& name, double length, double radius) {
     EXPECT_TRUE(tables.tools.ensureRow(row));
     EXPECT_TRUE(tables.tools.setText(row, "NAME", name));

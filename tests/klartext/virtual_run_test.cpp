@@ -22,7 +22,8 @@ struct RingWorld {
     testing_support::place(truth, simulation::Ring(20, 200, -40), translation({30.25, -12.5, -300}));
     machine = std::make_unique<simulation::VirtualMachine>(truth);
     const auto kind = control::ControlKind::TNC640;
-    hh::Tables tables{hh::defaultToolTable(kind), hh::defaultProbeTable(kind), hh::defaultPresetTable(kind), {}, {}, {}, {}};
+    hh::Tables tables{
+        hh::defaultToolTable(kind), hh::defaultProbeTable(kind), hh::defaultPresetTable(kind), {}, {}, {}, {}};
     EXPECT_TRUE(tables.tools.ensureRow("1"));
     EXPECT_TRUE(tables.tools.setText("1", "NAME", "PROBE"));
     EXPECT_TRUE(tables.tools.setNumber("1", "L", 100));

@@ -101,7 +101,8 @@ public:
     return control.ovi[static_cast<std::size_t>(index)];
   }
   double data(const char* name, std::initializer_list<control::sinumerik::DataIndex> indices) const {
-    coverage::writesRead(controlKind, control.journal, [&](const control::WriteRecord& write) { return write.table == name; });
+    coverage::writesRead(controlKind, control.journal,
+                         [&](const control::WriteRecord& write) { return write.table == name; });
     return control.data.number(name, indices);
   }
   void set(const char* name, std::initializer_list<control::sinumerik::DataIndex> indices, double value) {

@@ -16,9 +16,9 @@ struct CheckOptions {
   std::set<std::string> globalVariables;
 };
 
-/// Reads the whole program, and those that it calls by name, without running them and names every mistake: those of single blocks, structured statements
-/// that are not closed, missing and doubled labels, names that nobody declares, programs that do not exist, and
-/// arguments of measuring cycles that the catalogue refuses.
+/// Reads the whole program, and those that it calls by name, without running them and names every mistake: those of
+/// single blocks, structured statements that are not closed, missing and doubled labels, names that nobody declares,
+/// programs that do not exist, and arguments of measuring cycles that the catalogue refuses.
 Diagnostics check(SinumerikProgram& program, const CheckOptions& options = {});
 
 /// True if the measuring cycles or the control declare this global variable (upper case, without indices).

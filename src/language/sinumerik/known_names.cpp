@@ -72,8 +72,8 @@ std::string_view skippedFunction(std::string_view name) {
 
 bool isMeasuringCycle(std::string_view name) {
   static constexpr std::string_view measuring[] = {
-      "CYCLE116", "CYCLE150", "CYCLE961", "CYCLE971", "CYCLE972", "CYCLE973", "CYCLE974", "CYCLE976", "CYCLE977",  "CYCLE978",
-      "CYCLE979", "CYCLE982", "CYCLE994", "CYCLE995", "CYCLE996", "CYCLE997", "CYCLE998", "CYCLE9960",
+      "CYCLE116", "CYCLE150", "CYCLE961", "CYCLE971", "CYCLE972", "CYCLE973", "CYCLE974", "CYCLE976", "CYCLE977",
+      "CYCLE978", "CYCLE979", "CYCLE982", "CYCLE994", "CYCLE995", "CYCLE996", "CYCLE997", "CYCLE998", "CYCLE9960",
   };
   return std::find(std::begin(measuring), std::end(measuring), name) != std::end(measuring);
 }
