@@ -71,6 +71,9 @@ inline void run(const std::shared_ptr<language::Program>& program, const std::st
                       {tools,
                        hh::defaultProbeTable(control::ControlKind::TNC640),
                        hh::defaultPresetTable(control::ControlKind::TNC640),
+                       {},
+                       {},
+                       {},
                        {}});
   control.channel.pathTolerance = 1;
   language::klartext::HostOptions hostOptions;
