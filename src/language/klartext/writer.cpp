@@ -87,7 +87,9 @@ private:
   void add(const Move& move) {
     const bool isArc = move.kind == MoveKind::ArcClockwise || move.kind == MoveKind::ArcCounterclockwise ||
                        move.kind == MoveKind::Modal;
-    const bool hasRadius = std::ranges::any_of(wordsOf(move.words), [](const Word& w) { return w.address == 'R'; });
+    // R+ and R- are radius compensations.
+    const bool hasRadius = std::ranges::any_of(
+        wordsOf(move.words), [](const Word& w) { return w.address == 'R' && w.mode != WordMode::DirectShortest; });
     switch (move.kind) {
       case MoveKind::SetCentre:
         word("CC");
