@@ -1,6 +1,6 @@
 #pragma once
 
-#include <unistd.h>
+#include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -13,9 +13,9 @@ namespace probewright::testing_support {
 class TableFolder {
 public:
   explicit TableFolder(Bench& bench) {
-    path_ = std::filesystem::temp_directory_path() /
-            fmt::format("probewright-tables-{}", ::testing::UnitTest::GetInstance()->random_seed() + ::getpid());
-    std::filesystem::create_directories(path_);
+    std::string name = (std::filesystem::temp_directory_path() / "probewright-tables-XXXXXX").string();
+    EXPECT_NE(::mkdtemp(name.data()), nullptr);
+    path_ = name;
     bench.setup.tables = path_;
   }
   ~TableFolder() { std::filesystem::remove_all(path_); }
