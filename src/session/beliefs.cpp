@@ -6,7 +6,6 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <functional>
 
 #include "base/file.hpp"
 #include "control/heidenhain/axis_shift_table.hpp"
@@ -57,17 +56,15 @@ std::optional<std::string> contents(const fs::path& path, Diagnostics& diagnosti
   return std::move(*text);
 }
 
-using Parse = std::function<Result<hh::TypedTable>(std::string_view, std::string, Diagnostics&)>;
-
 /// The table from the file called `name`, or `otherwise`.
-hh::TypedTable tableNamed(const std::string& name, const std::vector<fs::path>& files, const Parse& parse,
-                          hh::TypedTable otherwise, Diagnostics& diagnostics) {
+hh::TypedTable tableNamed(const std::string& name, const std::vector<fs::path>& files,
+                          std::span<const hh::ColumnSpec> columns, hh::TypedTable otherwise, Diagnostics& diagnostics) {
   const auto found =
       std::ranges::find_if(files, [&](const fs::path& path) { return upper(path.filename().string()) == name; });
   if (found == files.end()) return otherwise;
   const auto text = contents(*found, diagnostics);
   if (!text) return otherwise;
-  Result<hh::TypedTable> table = parse(*text, found->string(), diagnostics);
+  Result<hh::TypedTable> table = hh::TypedTable::parse(*text, found->string(), columns, diagnostics);
   if (!table) {
     diagnostics.push_back(table.error());
     return otherwise;
@@ -144,26 +141,26 @@ void enterTool(hh::Tables& tables, const BelievedTool& tool, bool probeRow, cons
 
 hh::Tables heidenhainTables(const Setup& setup, ControlKind kind, Diagnostics& diagnostics) {
   const std::vector<fs::path> files = tableFiles(setup);
-  hh::Tables tables{tableNamed("TOOL.T", files, hh::parseToolTable, hh::defaultToolTable(kind), diagnostics),
-                    tableNamed("TCHPROBE.TP", files, hh::parseProbeTable, hh::defaultProbeTable(kind), diagnostics),
-                    tableNamed("PRESET.PR", files, hh::parsePresetTable, hh::defaultPresetTable(kind), diagnostics),
+  hh::Tables tables{tableNamed("TOOL.T", files, hh::toolColumns(), hh::defaultToolTable(kind), diagnostics),
+                    tableNamed("TCHPROBE.TP", files, hh::probeColumns(), hh::defaultProbeTable(kind), diagnostics),
+                    tableNamed("PRESET.PR", files, hh::presetColumns(), hh::defaultPresetTable(kind), diagnostics),
                     {},
                     {},
                     {},
                     {}};
   if (kind == ControlKind::TNC640) {
     tables.turningTools =
-        tableNamed("TOOLTURN.TRN", files, hh::parseTurningToolTable, hh::defaultTurningToolTable(), diagnostics);
+        tableNamed("TOOLTURN.TRN", files, hh::turningToolColumns(), hh::defaultTurningToolTable(), diagnostics);
   } else {
     tables.axisShifts =
-        tableNamed("AXSHIFT.TAB", files, hh::parseAxisShiftTable, hh::defaultAxisShiftTable(), diagnostics);
+        tableNamed("AXSHIFT.TAB", files, hh::axisShiftColumns(), hh::defaultAxisShiftTable(), diagnostics);
   }
   for (const fs::path& path : files) {
     const bool datums = upper(path.extension().string()) == ".D";
     if (!datums && upper(path.extension().string()) != ".3DTC") continue;
     if (const auto text = contents(path, diagnostics)) {
-      Result<hh::TypedTable> table = datums ? hh::parseDatumTable(*text, path.string(), diagnostics)
-                                            : hh::parseDeflectionTable(*text, path.string(), diagnostics);
+      Result<hh::TypedTable> table = hh::TypedTable::parse(
+          *text, path.string(), datums ? hh::datumColumns() : hh::deflectionColumns(), diagnostics);
       if (table) {
         (datums ? tables.datums : tables.deflections).emplace(upper(path.filename().string()), std::move(*table));
       } else {

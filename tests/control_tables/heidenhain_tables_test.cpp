@@ -18,14 +18,14 @@ using testing::Not;
 
 TEST(ToolTable, ReadsToolsAndSteps) {
   Diagnostics diagnostics;
-  const auto table = parseToolTable(
+  const auto table = TypedTable::parse(
       "BEGIN TOOL.T MM\n"
       "T     NAME        L           R         DL       DR       TL LTOL    RBREAK  TT:R-OFFS CUR_TIME TP_NO CUT\n"
       "1     PROBE_A     +120.5000   +3.0000   +0       +0          0       0                 0.00     2\n"
       "5     MILL_D10    +90.2500    +5.0000   -0.0120  +0.0030  L  0.0500  0.1     2.5       12.25          4\n"
       "5.1   MILL_D10    +85.0000    +5.0010\n"
       "[END]\n",
-      "TOOL.T", diagnostics);
+      "TOOL.T", toolColumns(), diagnostics);
   ASSERT_TRUE(table);
   EXPECT_TRUE(diagnostics.empty());
   const Tool mill = findTool(*table, "5").value();
@@ -52,8 +52,8 @@ TEST(ToolTable, ReadsToolsAndSteps) {
 
 TEST(ToolTable, NamesAnEntryThatIsNoNumber) {
   Diagnostics diagnostics;
-  const auto table =
-      parseToolTable("BEGIN TOOL.T MM\nT  L      R\n1  12,5   3\n2  1e3    3\n[END]\n", "TOOL.T", diagnostics);
+  const auto table = TypedTable::parse("BEGIN TOOL.T MM\nT  L      R\n1  12,5   3\n2  1e3    3\n[END]\n", "TOOL.T",
+                                       toolColumns(), diagnostics);
   ASSERT_TRUE(table);
   ASSERT_EQ(diagnostics.size(), 2U);
   EXPECT_THAT(format(diagnostics[0]), HasSubstr("TOOL.T:3:4: error: column L takes a number"));
@@ -64,8 +64,8 @@ TEST(ToolTable, NamesAnEntryThatIsNoNumber) {
 
 TEST(ToolTable, InchTablesConvertAtTheBorder) {
   Diagnostics diagnostics;
-  auto table =
-      parseToolTable("BEGIN TOOL.T INCH\nT  L          ANGLE\n1  +2.00000   +30.000\n[END]\n", "T", diagnostics);
+  auto table = TypedTable::parse("BEGIN TOOL.T INCH\nT  L          ANGLE\n1  +2.00000   +30.000\n[END]\n", "T",
+                                 toolColumns(), diagnostics);
   ASSERT_TRUE(table);
   EXPECT_DOUBLE_EQ(findTool(*table, "1").value().length, 50.8);
   EXPECT_EQ(table->number("1", "ANGLE"), 30.0);
@@ -84,7 +84,7 @@ TEST(ToolTable, NewTablesHaveTheColumnsOfTheirControl) {
   ASSERT_TRUE(tnc.setNumber("3", "L", 150.12344));
   ASSERT_TRUE(tnc.setNumber("3", "TP_NO", 1));
   Diagnostics diagnostics;
-  const auto again = parseToolTable(tnc.table().bytes(), "TOOL.T", diagnostics);
+  const auto again = TypedTable::parse(tnc.table().bytes(), "TOOL.T", toolColumns(), diagnostics);
   ASSERT_TRUE(again);
   EXPECT_TRUE(diagnostics.empty());
   EXPECT_EQ(findTool(*again, "3").value().length, 150.1234);
@@ -149,10 +149,10 @@ TEST(PresetTable, RotationOfTheITNCIsTheColumnRot) {
 
 TEST(DatumTable, ReadsShiftsByNumber) {
   Diagnostics diagnostics;
-  const auto table = parseDatumTable(
+  const auto table = TypedTable::parse(
       "BEGIN ZERO.D MM\nD     X         Y         Z      C       DOC\n"
       "0     +0        +0        +0     +0\n7     +12.5     -3.25            +90     left vice\n[END]\n",
-      "ZERO.D", diagnostics);
+      "ZERO.D", datumColumns(), diagnostics);
   ASSERT_TRUE(table);
   const Datum datum = findDatum(*table, 7).value();
   EXPECT_EQ(datum.shift, Vector3(12.5, -3.25, 0));
@@ -164,7 +164,8 @@ TEST(DatumTable, ReadsShiftsByNumber) {
 
 TEST(TypedTable, RefusesTheWrongKindOfTable) {
   Diagnostics diagnostics;
-  const auto table = parseToolTable("BEGIN ZERO.D MM\nD     X\n0     +0\n[END]\n", "ZERO.D", diagnostics);
+  const auto table =
+      TypedTable::parse("BEGIN ZERO.D MM\nD     X\n0     +0\n[END]\n", "ZERO.D", toolColumns(), diagnostics);
   ASSERT_TRUE(table);
   ASSERT_EQ(diagnostics.size(), 1U);
   EXPECT_THAT(diagnostics[0].message, HasSubstr("no column T"));
@@ -188,7 +189,7 @@ TEST(TypedTable, ValuesSurviveTheFile) {
   const auto path = std::filesystem::temp_directory_path() / "probewright_tables_test" / "PRESET.PR";
   ASSERT_TRUE(table.table().save(path));
   Diagnostics diagnostics;
-  const auto again = parsePresetTable(readFile(path).value(), "PRESET.PR", diagnostics);
+  const auto again = TypedTable::parse(readFile(path).value(), "PRESET.PR", presetColumns(), diagnostics);
   std::filesystem::remove_all(path.parent_path());
   ASSERT_TRUE(again);
   EXPECT_TRUE(diagnostics.empty());

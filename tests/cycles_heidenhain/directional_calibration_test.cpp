@@ -115,8 +115,8 @@ TEST(Cycle460, LeavesATableThatLaterRunsBelieve) {
 
   // A wrong table yields wrong results: 0.05 more ball radius in all directions puts the surface 0.05 deeper.
   Diagnostics diagnostics;
-  auto table =
-      control::heidenhain::parseDeflectionTable(calibrated.outcome.files.at("T1.3DTC"), "T1.3DTC", diagnostics);
+  auto table = control::heidenhain::TypedTable::parse(calibrated.outcome.files.at("T1.3DTC"), "T1.3DTC",
+                                                      control::heidenhain::deflectionColumns(), diagnostics);
   ASSERT_TRUE(table);
   auto rows = control::heidenhain::deflectionsOf(*table);
   EXPECT_GE(rows.size(), 1U + 25 * 7);

@@ -201,7 +201,8 @@ TEST(TouchProbeTable, TakesTheSerialNumberOfTheProbe) {
     const Ran ran = world.run();
     expectHole(ran);
     Diagnostics diagnostics;
-    return hh::parseProbeTable(ran.outcome.files.at("TCHPROBE.TP"), "TCHPROBE.TP", diagnostics)->text("1", "SERIAL");
+    return hh::TypedTable::parse(ran.outcome.files.at("TCHPROBE.TP"), "TCHPROBE.TP", hh::probeColumns(), diagnostics)
+        ->text("1", "SERIAL");
   };
   EXPECT_EQ(serial(), "");
   world.bench.trueProbe().serial = "4711-08";

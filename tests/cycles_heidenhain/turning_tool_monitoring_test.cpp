@@ -30,7 +30,8 @@ struct Turned {
   /// The error that the lengths of `ran` leave in the part.
   Vector2 left(const Ran& ran) const {
     Diagnostics diagnostics;
-    const auto table = hh::parseTurningToolTable(ran.outcome.files.at("TOOLTURN.TRN"), "TOOLTURN.TRN", diagnostics);
+    const auto table = hh::TypedTable::parse(ran.outcome.files.at("TOOLTURN.TRN"), "TOOLTURN.TRN",
+                                             hh::turningToolColumns(), diagnostics);
     EXPECT_TRUE(table);
     const Vector2 believed = posture.tip(zl + table->numberOr("7", "DZL", 99), xl + table->numberOr("7", "DXL", 99));
     return posture.tip(zl + dzl, xl + dxl) + missing - believed;

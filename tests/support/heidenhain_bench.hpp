@@ -158,13 +158,13 @@ private:
   }
   control::heidenhain::TypedTable parsed(const std::string& name) const {
     Diagnostics diagnostics;
-    const auto parse = name == "PRESET.PR"     ? control::heidenhain::parsePresetTable
-                       : name == "TOOL.T"      ? control::heidenhain::parseToolTable
-                       : name == "TCHPROBE.TP" ? control::heidenhain::parseProbeTable
-                                               : control::heidenhain::parseDatumTable;
+    const auto columns = name == "PRESET.PR"     ? control::heidenhain::presetColumns()
+                         : name == "TOOL.T"      ? control::heidenhain::toolColumns()
+                         : name == "TCHPROBE.TP" ? control::heidenhain::probeColumns()
+                                                 : control::heidenhain::datumColumns();
     const auto found = outcome.files.find(name);
     EXPECT_NE(found, outcome.files.end()) << "no file " << name;
-    auto table = parse(found->second, name, diagnostics);
+    auto table = control::heidenhain::TypedTable::parse(found->second, name, columns, diagnostics);
     EXPECT_TRUE(table);
     return *table;
   }

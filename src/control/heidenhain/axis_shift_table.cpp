@@ -19,9 +19,7 @@ constexpr std::array columns = {
 
 }  // namespace
 
-Result<TypedTable> parseAxisShiftTable(std::string_view bytes, std::string file, Diagnostics& diagnostics) {
-  return TypedTable::parse(bytes, std::move(file), columns, diagnostics);
-}
+std::span<const ColumnSpec> axisShiftColumns() { return columns; }
 
 TypedTable defaultAxisShiftTable() {
   return TypedTable::create("AXSHIFT.TAB", TableUnit::Millimetre, columns, ControlKind::iTNC530, 0);

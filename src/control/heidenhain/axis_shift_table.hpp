@@ -6,7 +6,7 @@
 /// name no place for these data; name and layout of the table are Probewright's.
 namespace probewright::control::heidenhain {
 
-Result<TypedTable> parseAxisShiftTable(std::string_view bytes, std::string file, Diagnostics& diagnostics);
+std::span<const ColumnSpec> axisShiftColumns();
 
 TypedTable defaultAxisShiftTable();
 

@@ -24,10 +24,6 @@ constexpr std::array columns = {
 
 std::span<const ColumnSpec> datumColumns() { return columns; }
 
-Result<TypedTable> parseDatumTable(std::string_view bytes, std::string file, Diagnostics& diagnostics) {
-  return TypedTable::parse(bytes, std::move(file), columns, diagnostics);
-}
-
 TypedTable defaultDatumTable(ControlKind kind, std::string_view name, TableUnit unit) {
   return TypedTable::create(name, unit, columns, kind, 1);
 }

@@ -18,8 +18,6 @@ struct Datum {
   std::string comment;                  ///< DOC
 };
 
-Result<TypedTable> parseDatumTable(std::string_view bytes, std::string file, Diagnostics& diagnostics);
-
 /// A datum table with row 0, all zero. `name`: "ZEROSHIFT.D".
 TypedTable defaultDatumTable(ControlKind kind, std::string_view name = "ZEROSHIFT.D",
                              TableUnit unit = TableUnit::Millimetre);

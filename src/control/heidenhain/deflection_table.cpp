@@ -22,10 +22,6 @@ constexpr std::array columns = {
 
 std::span<const ColumnSpec> deflectionColumns() { return columns; }
 
-Result<TypedTable> parseDeflectionTable(std::string_view bytes, std::string file, Diagnostics& diagnostics) {
-  return TypedTable::parse(bytes, std::move(file), columns, diagnostics);
-}
-
 Result<TypedTable> deflectionTable(const std::string& name, const std::vector<Deflection>& rows) {
   TypedTable table = TypedTable::create(name, TableUnit::Millimetre, columns, ControlKind::TNC640, 0);
   for (std::size_t i = 0; i < rows.size(); ++i) {

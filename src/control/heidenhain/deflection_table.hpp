@@ -17,8 +17,6 @@ struct Deflection {
 
 std::span<const ColumnSpec> deflectionColumns();
 
-Result<TypedTable> parseDeflectionTable(std::string_view bytes, std::string file, Diagnostics& diagnostics);
-
 /// A table of the given name that holds `rows`.
 Result<TypedTable> deflectionTable(const std::string& name, const std::vector<Deflection>& rows);
 

@@ -66,10 +66,6 @@ bool usesRot(const TypedTable& table) { return table.hasColumn("ROT") && !table.
 
 std::span<const ColumnSpec> presetColumns() { return columns; }
 
-Result<TypedTable> parsePresetTable(std::string_view bytes, std::string file, Diagnostics& diagnostics) {
-  return TypedTable::parse(bytes, std::move(file), columns, diagnostics);
-}
-
 TypedTable defaultPresetTable(ControlKind kind, TableUnit unit) {
   return TypedTable::create("PRESET.PR", unit, columns, kind, 2);
 }

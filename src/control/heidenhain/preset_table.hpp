@@ -22,8 +22,6 @@ struct Preset {
   bool locked = false;                  ///< LOCKED has an entry
 };
 
-Result<TypedTable> parsePresetTable(std::string_view bytes, std::string file, Diagnostics& diagnostics);
-
 /// A preset table with rows 0 and 1, all zero.
 TypedTable defaultPresetTable(ControlKind kind, TableUnit unit = TableUnit::Millimetre);
 

@@ -29,10 +29,6 @@ constexpr std::array columns = {
 
 std::span<const ColumnSpec> probeColumns() { return columns; }
 
-Result<TypedTable> parseProbeTable(std::string_view bytes, std::string file, Diagnostics& diagnostics) {
-  return TypedTable::parse(bytes, std::move(file), columns, diagnostics);
-}
-
 TypedTable defaultProbeTable(ControlKind kind, TableUnit unit) {
   TypedTable table = TypedTable::create("TCHPROBE.TP", unit, columns, kind, 2);
   return table;

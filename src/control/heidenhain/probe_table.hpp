@@ -23,8 +23,6 @@ struct TouchProbe {
   std::string stylus;  ///< STYLUS: "SIMPLE", "L-TYPE"
 };
 
-Result<TypedTable> parseProbeTable(std::string_view bytes, std::string file, Diagnostics& diagnostics);
-
 /// A touch probe table with probes 0 and 1 as the values of TouchProbe say. Both controls: what the iTNC 530 keeps in
 /// machine parameters stands here.
 TypedTable defaultProbeTable(ControlKind kind, TableUnit unit = TableUnit::Millimetre);

@@ -52,10 +52,6 @@ constexpr std::array columns = {
 
 std::span<const ColumnSpec> toolColumns() { return columns; }
 
-Result<TypedTable> parseToolTable(std::string_view bytes, std::string file, Diagnostics& diagnostics) {
-  return TypedTable::parse(bytes, std::move(file), columns, diagnostics);
-}
-
 TypedTable defaultToolTable(ControlKind kind, TableUnit unit) {
   return TypedTable::create("TOOL.T", unit, columns, kind, 1);
 }

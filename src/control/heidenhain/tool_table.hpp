@@ -31,8 +31,6 @@ struct Tool {
   double totalRadius() const { return radius + deltaRadius; }
 };
 
-Result<TypedTable> parseToolTable(std::string_view bytes, std::string file, Diagnostics& diagnostics);
-
 /// An empty tool table as a new control has it: row 0 with length and radius 0.
 TypedTable defaultToolTable(ControlKind kind, TableUnit unit = TableUnit::Millimetre);
 

@@ -30,10 +30,6 @@ constexpr std::array columns = {
 
 std::span<const ColumnSpec> turningToolColumns() { return columns; }
 
-Result<TypedTable> parseTurningToolTable(std::string_view bytes, std::string file, Diagnostics& diagnostics) {
-  return TypedTable::parse(bytes, std::move(file), columns, diagnostics);
-}
-
 TypedTable defaultTurningToolTable(TableUnit unit) {
   return TypedTable::create("TOOLTURN.TRN", unit, columns, ControlKind::TNC640, 0);
 }

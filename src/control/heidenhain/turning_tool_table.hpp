@@ -8,8 +8,6 @@ namespace probewright::control::heidenhain {
 
 std::span<const ColumnSpec> turningToolColumns();
 
-Result<TypedTable> parseTurningToolTable(std::string_view bytes, std::string file, Diagnostics& diagnostics);
-
 /// A table without rows.
 TypedTable defaultTurningToolTable(TableUnit unit = TableUnit::Millimetre);
 

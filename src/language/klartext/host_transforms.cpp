@@ -148,7 +148,7 @@ void KlartextHost::selectDatumTable(const std::string& name) {
                 "add the table to the setup or correct its name");
   }
   Diagnostics mistakes;
-  auto table = control::heidenhain::parseDatumTable(*bytes, name, mistakes);
+  auto table = control::heidenhain::TypedTable::parse(*bytes, name, control::heidenhain::datumColumns(), mistakes);
   if (!table) throw Alarm("Datum table wrong", table.error().message, table.error().advice);
   control_.tables.datums.emplace(upperName(name), std::move(*table));
   control_.activeDatumTable = upperName(name);
