@@ -4,10 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "control/heidenhain/datum_table.hpp"
-#include "control/heidenhain/preset_table.hpp"
-#include "control/heidenhain/probe_table.hpp"
-#include "control/heidenhain/tool_table.hpp"
+#include "control/heidenhain/text_table.hpp"
 
 using namespace probewright;
 using namespace probewright::control::heidenhain;
@@ -29,15 +26,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(!format(diagnostic).empty());
   if (!table) return 0;
   require(table->bytes() == bytes);
-  for (const auto parse : {&parseToolTable, &parseProbeTable, &parsePresetTable, &parseDatumTable}) {
-    diagnostics.clear();
-    const auto typed = parse(bytes, "TABLE", diagnostics);
-    if (!typed) continue;
-    findTool(*typed, "1");
-    findProbe(*typed, 1);
-    findPreset(*typed, 1);
-    findDatum(*typed, 1);
-  }
   const auto keys = table->keys();
   if (keys.size() > 40 || table->columns().size() > 40) return 0;
   for (const std::string& key : keys) {

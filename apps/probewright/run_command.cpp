@@ -14,6 +14,7 @@
 #include "records/results.hpp"
 #include "reports/report.hpp"
 #include "reports/summary.hpp"
+#include "session/answers.hpp"
 #include "session/run.hpp"
 #include "session/scene.hpp"
 
@@ -37,35 +38,6 @@ bool askOnTerminal(const std::string& text) {
   std::string line;
   if (!std::getline(std::cin, line)) return false;
   return line.empty() || line[0] == 'y' || line[0] == 'Y';
-}
-
-/// NAME=VALUE lines; # begins a comment.
-Result<std::map<std::string, std::string>> readAnswers(const fs::path& path) {
-  std::map<std::string, std::string> answers;
-  const Result<std::string> text = readFile(path);
-  if (!text) return tl::unexpected(text.error());
-  std::uint64_t number = 0;
-  std::size_t begin = 0;
-  while (begin <= text->size()) {
-    std::size_t end = text->find('\n', begin);
-    if (end == std::string::npos) end = text->size();
-    std::string line = text->substr(begin, end - begin);
-    begin = end + 1;
-    ++number;
-    line = line.substr(0, line.find('#'));
-    const auto trimmed = [](std::string part) {
-      const std::size_t first = part.find_first_not_of(" \t\r");
-      if (first == std::string::npos) return std::string();
-      return part.substr(first, part.find_last_not_of(" \t\r") - first + 1);
-    };
-    if (trimmed(line).empty()) continue;
-    const std::size_t equals = line.find('=');
-    if (equals == std::string::npos) {
-      return fail({path.string(), number, 1}, fmt::format("'{}' is no answer", trimmed(line)), "write NAME = VALUE");
-    }
-    answers[trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
-  }
-  return answers;
 }
 
 /// Writes every file of the run; the first that cannot be written is the reason.
@@ -114,7 +86,9 @@ int run(const RunArguments& arguments) {
   options.stop = interrupted.get_token();
   std::map<std::string, std::string> answers;
   if (!arguments.answers.empty()) {
-    auto read = readAnswers(arguments.answers);
+    auto read = readFile(arguments.answers).and_then([&](const std::string& text) {
+      return session::parseAnswers(text, arguments.answers.string());
+    });
     if (!read) {
       print({read.error()});
       return 2;
