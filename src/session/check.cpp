@@ -20,10 +20,11 @@ Diagnostics checkProgram(const std::filesystem::path& path, std::optional<contro
 }
 
 Diagnostics checkProgram(language::Program& program, control::ControlKind kind, std::set<std::string> globalVariables) {
-  if (control::isHeidenhain(kind)) {
-    return language::klartext::checkProgram(static_cast<language::klartext::HeidenhainProgram&>(program), kind);
-  }
   const auto library = programLibrary(kind);
+  if (control::isHeidenhain(kind)) {
+    return language::klartext::checkProgram(static_cast<language::klartext::HeidenhainProgram&>(program), kind,
+                                            library.get());
+  }
   return sinumerik::check(static_cast<sinumerik::SinumerikProgram&>(program),
                           {.library = library.get(), .globalVariables = std::move(globalVariables)});
 }

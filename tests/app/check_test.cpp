@@ -55,6 +55,56 @@ TEST(Check, ReadsAllProgramsEvenIfOneIsWrong) {
   EXPECT_THAT(answer.output, HasSubstr("good.h: no mistakes found"));
 }
 
+TEST(Check, NamesCalledProgramsThatAreNotBesideTheProgram) {
+  const Folder folder;
+  folder.file("THERE.H", "0 BEGIN PGM THERE MM\n1 END PGM THERE MM\n");
+  folder.file("HERE.SPF", "RET\n");
+  const std::string klartext = folder.file("main.h",
+                                           "0 BEGIN PGM MAIN MM\n1 CALL PGM THERE\n2 CALL PGM TNC:\\NC\\GONE.H\n"
+                                           "3 SEL PGM \"THERE.H\"\n4 SEL PGM \"GONE2\"\n5 QS1 = \"GONE3\"\n"
+                                           "6 SEL PGM QS1\n7 CALL SELECTED PGM\n8 CYCL DEF 12.0 PGM CALL\n"
+                                           "9 CYCL DEF 12.1 PGM GONE4\n10 END PGM MAIN MM\n");
+  const std::string dinIso =
+      folder.file("main.i", "%MAIN G71 *\nN10 %THERE*\nN20 %GONE*\nN30 %:PGM: \"GONE2\" *\nN99999999 %MAIN G71 *\n");
+  const std::string sinumerik = folder.file("main.mpf",
+                                            "DEF STRING[20] NAME_1=\"GONE\"\nHERE\nGONE_1(1,2)\nCALL NAME_1\n"
+                                            "N50 CALL \"GONE_2\"\nPCALL /_N_SPF_DIR/_N_HERE_SPF\nM30\n");
+  const Answer warned = probewright({"check", klartext, dinIso});
+  EXPECT_EQ(warned.exit, 0);
+  EXPECT_THAT(warned.errors, HasSubstr(klartext + ":3:12: warning: there is no program TNC:\\NC\\GONE.H"));
+  EXPECT_THAT(warned.errors, HasSubstr(klartext + ":5:12: warning: there is no program GONE2"));
+  EXPECT_THAT(warned.errors, HasSubstr(klartext + ":10:21: warning: there is no program GONE4"));
+  EXPECT_THAT(warned.errors, HasSubstr(dinIso + ":3:6: warning: there is no program GONE"));
+  EXPECT_THAT(warned.errors, HasSubstr(dinIso + ":4:13: warning: there is no program GONE2"));
+  EXPECT_THAT(warned.errors, Not(HasSubstr("THERE")));
+  EXPECT_THAT(warned.errors, Not(HasSubstr("GONE3")));
+  const Answer refused = probewright({"check", sinumerik});
+  EXPECT_EQ(refused.exit, 2);
+  EXPECT_THAT(refused.errors, HasSubstr(sinumerik + ":3:1: error: there is no program and no cycle GONE_1"));
+  EXPECT_THAT(refused.errors, HasSubstr(sinumerik + ":5:11: error: there is no program GONE_2"));
+  EXPECT_THAT(refused.errors, Not(HasSubstr("HERE")));
+}
+
+TEST(Check, NamesProgramsThatOnlyTheControlReads) {
+  const Folder folder;
+  folder.file("SECRET.CPF", std::string("\x00\x01\x93\xfe\x7f secret", 12));
+  const std::string path = folder.file("main.mpf", "G54\nN20 SECRET(1)\nM30\n");
+  const Answer answer = probewright({"check", path});
+  EXPECT_EQ(answer.exit, 2);
+  EXPECT_THAT(answer.errors, HasSubstr(path + ":2:5: error: the program SECRET cannot be read"));
+  EXPECT_THAT(answer.errors, HasSubstr("encrypted"));
+}
+
+TEST(Check, HoldsCallsOfOwnProgramsAgainstTheirHead) {
+  const Folder folder;
+  folder.file("CYCLE977.SPF", "PROC CYCLE977(INT VAR_1, VAR REAL RES_1)\nRES_1=VAR_1\nRET\n");
+  const std::string path = folder.file("main.mpf", "DEF REAL OUT_1\nCYCLE977(1,OUT_1)\nCYCLE977(1,2,3)\nM30\n");
+  const Answer answer = probewright({"check", path});
+  EXPECT_EQ(answer.exit, 2);
+  EXPECT_THAT(answer.errors, HasSubstr(path + ":3:14: error: CYCLE977 has 2 parameters, here are 3 arguments"));
+  EXPECT_THAT(answer.errors, Not(HasSubstr(":2:")));
+}
+
 TEST(Check, StartsInLessThanFiftyMilliseconds) {
   if (!PROBEWRIGHT_OPTIMIZED) GTEST_SKIP() << "only the release build is measured";
   // Processor time, and the best of some: other programs on the machine are not what is measured.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr Choice tasks973[] = {
     {0, "length on a surface"}, {1, "radius on a surface"}, {2, "length in the groove"}, {3, "radius in the groove"}};
-constexpr Choice reserved973[] = {{0, "reserved"}, {1, "reserved"}};
+constexpr Choice reserved973[] = {{1, "reserved"}};
 constexpr Choice directions973[] = {
     {0, "axis and direction from the cutting edge position"}, {1, "one direction"}, {2, "both directions of one axis"}};
 constexpr Choice deviation973[] = {{0, "with positional deviation"}, {1, "without positional deviation"}};

@@ -19,7 +19,8 @@ constexpr std::uint32_t firstProbeWord = cycles::heidenhain::probe_word::result;
 
 class Checker {
 public:
-  Checker(HeidenhainProgram& program, control::ControlKind kind) : program_(program), kind_(kind) {}
+  Checker(HeidenhainProgram& program, control::ControlKind kind, ProgramLibrary* library)
+      : program_(program), kind_(kind), library_(library) {}
 
   Diagnostics run() {
     BlockPosition position = program_.begin();
@@ -126,6 +127,20 @@ private:
     uses_.push_back({std::string(name), block_.position.line, label.offset + 1, lineText(0)});
   }
 
+  /// A program that is called or selected by its name.
+  void called(TextRef name) {
+    const std::string_view path = block_.at(name);
+    if (library_ == nullptr || path.empty() || library_->exists(path, &program_)) return;
+    // Names lie in the block's own text.
+    const std::string_view source = block_.at(block_.source);
+    const std::string_view before = source.substr(0, std::min(source.find(path), source.size()));
+    const auto below = static_cast<std::uint32_t>(std::ranges::count(before, '\n'));
+    const std::size_t column = before.size() - (below == 0 ? 0 : before.rfind('\n') + 1);
+    report(block_.position.line + below, static_cast<std::uint32_t>(column) + 1,
+           fmt::format("there is no program {}", path), "put it beside this program, or check how its name is written",
+           lineText(below), Severity::Warning);
+  }
+
   void look(const LabelMark& mark) {
     if (mark.end) return;
     const std::string name(block_.at(mark.label));
@@ -136,9 +151,15 @@ private:
   }
   void look(const CallLabel& call) { use(call.label); }
   void look(const Jump& jump) { use(jump.label); }
+  void look(const CallProgram& call) {
+    if (!call.nameValue.present()) called(call.name);
+  }
   void look(const Command& command) {
     if (block_.at(command.name) == "ERROR") {
       reportHere("the control marked this block as wrong", "correct the block and take ERROR = away");
+    } else if (const auto name = block_.at(command.name);
+               (name == "SEL PGM" && command.words.count == 0) || name == "CYCL DEF 12") {
+      called(command.text);
     }
   }
   void look(const CycleCall& call) {
@@ -217,6 +238,7 @@ private:
 
   HeidenhainProgram& program_;
   control::ControlKind kind_;
+  ProgramLibrary* library_;
   Block block_;
   Diagnostics found_;
   std::map<std::string, std::uint64_t> labels_;
@@ -231,6 +253,8 @@ private:
 
 }  // namespace
 
-Diagnostics checkProgram(HeidenhainProgram& program, control::ControlKind kind) { return Checker(program, kind).run(); }
+Diagnostics checkProgram(HeidenhainProgram& program, control::ControlKind kind, ProgramLibrary* library) {
+  return Checker(program, kind, library).run();
+}
 
 }  // namespace probewright::language::klartext

@@ -8,7 +8,8 @@ namespace probewright::language::klartext {
 /// All mistakes of a program, in the order of their lines, without running it: blocks that cannot be read or that the
 /// control marked with ERROR =, labels that are missing or defined twice, a missing beginning or end of the program,
 /// and in measuring cycles parameters that the cycle of this control does not have, lacks, or cannot take. Warnings for
-/// what can be run but not simulated.
-Diagnostics checkProgram(HeidenhainProgram& program, control::ControlKind kind);
+/// what can be run but not simulated, and for programs that are called or selected by name and that `library` does not
+/// have; null: they are not looked for.
+Diagnostics checkProgram(HeidenhainProgram& program, control::ControlKind kind, ProgramLibrary* library = nullptr);
 
 }  // namespace probewright::language::klartext

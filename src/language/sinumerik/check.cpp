@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cycles/catalogue.hpp"
+#include "language/sinumerik/argument_check.hpp"
 #include "language/sinumerik/cursor.hpp"
 #include "language/sinumerik/keywords.hpp"
 #include "language/sinumerik/operators.hpp"
@@ -51,7 +52,7 @@ private:
   void checkInstruction(const Instruction& instruction);
   void checkTarget(TextRef label, JumpDirection direction);
   void checkCall(const CallProgram& call);
-  void checkCycle(const CallProgram& call, const cycles::CycleDefinition& cycle);
+  void checkArguments(const std::vector<ArgumentMistake>& mistakes);
   void checkParameters(const CallProgram& call, const BlockParser::Header& header);
   void checkLabels();
 
@@ -60,6 +61,7 @@ private:
   Block block_;
   Diagnostics found_;
   std::set<std::string> declared_;
+  std::map<std::string, Type> types_;  ///< of those whose DEF or PROC line tells it
   std::set<std::string> macros_;
   std::map<std::string, Diagnostic> unknown_;  ///< first use of each name that no DEF came before
 };
@@ -92,6 +94,7 @@ void Checker::declare(const Instruction& instruction) {
     std::string name(block_.at(block_.variables[static_cast<std::size_t>(command->variable)].name));
     if (!declared_.insert(name).second)
       report(columnOf(name), "the variable " + name + " is declared twice", "Remove one of the two DEF.");
+    if (Type type = Type::Real; typeOf(block_.at(command->text), type)) types_.emplace(name, type);
   } else if (what == "DEFINE") {
     const std::string text = upperCase(block_.at(command->text));
     macros_.insert(text.substr(0, text.find(' ')));
@@ -184,38 +187,9 @@ void Checker::checkTarget(TextRef label, JumpDirection direction) {
                        : "Did you mean " + std::string(close) + "?");
 }
 
-void Checker::checkCycle(const CallProgram& call, const cycles::CycleDefinition& cycle) {
-  const Word* words = block_.words.data() + call.arguments.first;
-  const std::size_t most = cycle.parameters.size();
-  if (call.arguments.count > most) {
-    report(words[most].column,
-           fmt::format("{} takes at most {} arguments, here are {}", cycle.name, most, call.arguments.count),
-           fmt::format("See 'probewright cycles {}'.", cycle.name));
-  }
-  for (const cycles::Parameter& parameter : cycle.parameters) {
-    const std::string place = fmt::format("argument {} of {}: ", parameter.address + 1, cycle.name);
-    const bool written = parameter.address < call.arguments.count && words[parameter.address].value.present();
-    if (!written) {
-      if (parameter.required())
-        report(columnOf(cycle.name), place + fmt::format("{} ({}) is missing", parameter.name, parameter.meaning),
-               "This argument has no standard value and must be written.");
-      continue;
-    }
-    const Word& word = words[parameter.address];
-    cycles::Argument argument;
-    argument.given = true;
-    if (word.value.isLiteral()) {
-      argument.number = word.value.number;
-    } else {
-      const Node& node = block_.nodes[static_cast<std::size_t>(word.value.node)];
-      if (node.operation != Operation::Text) continue;
-      argument.isText = true;
-      argument.text = std::string(block_.at(node.text));
-    }
-    std::string wrong = cycles::complaint(parameter, argument);
-    if (wrong.empty()) wrong = cycles::codeComplaint(parameter, argument);
-    if (!wrong.empty()) report(word.column, place + wrong, fmt::format("See 'probewright cycles {}'.", cycle.name));
-  }
+void Checker::checkArguments(const std::vector<ArgumentMistake>& mistakes) {
+  for (const ArgumentMistake& each : mistakes)
+    report(each.column, each.message, each.advice, each.severity);
 }
 
 void Checker::checkParameters(const CallProgram& call, const BlockParser::Header& header) {
@@ -286,8 +260,10 @@ void Checker::checkCall(const CallProgram& call) {
   }
   const std::size_t column = columnOf(path);
   if (call.maybeCycle) {
-    if (const cycles::CycleDefinition* cycle = cycles::sinumerikCycle(name)) return checkCycle(call, *cycle);
-    if (name == "CYCLE800" || name == "CYCLE116" || isCycleWithoutEffect(name)) return;
+    if (const cycles::CycleDefinition* cycle = cycles::sinumerikCycle(name))
+      return checkArguments(argumentMistakes(block_, call, *cycle, types_));
+    if (name == "CYCLE800" || name == "CYCLE116") return checkArguments(serviceMistakes(block_, call, name, types_));
+    if (isCycleWithoutEffect(name)) return;
     if (isMeasuringCycle(name))
       return report(column, fmt::format("the measuring cycle {} is not available", name),
                     "'probewright cycles --control 840Dsl' lists the cycles that are.");
@@ -347,8 +323,10 @@ void Checker::checkLabels() {
 
 Diagnostics Checker::run() {
   if (const auto& header = program_.structure().header())
-    for (const BlockParser::Parameter& parameter : header->parameters)
+    for (const BlockParser::Parameter& parameter : header->parameters) {
       declared_.insert(parameter.name);
+      types_.emplace(parameter.name, parameter.type);
+    }
   for (BlockPosition at = program_.begin();; at = block_.next) {
     const std::size_t before = found_.size();
     if (!program_.parse(at, block_, found_)) break;

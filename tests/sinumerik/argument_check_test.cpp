@@ -1,0 +1,126 @@
+#include <gtest/gtest.h>
+
+#include "cycles/catalogue.hpp"
+#include "language/sinumerik/check.hpp"
+
+namespace probewright::sinumerik {
+namespace {
+
+/// "5:12 message" of each mistake in a program.
+std::vector<std::string> mistakesIn(const std::string& text) {
+  std::vector<std::string> messages;
+  for (const Diagnostic& each : check(*SinumerikProgram::fromText("TEST.MPF", text)))
+    messages.push_back(std::to_string(each.place.line) + ":" + std::to_string(each.place.column) +
+                       (each.severity == Severity::Warning ? " warning: " : " ") + each.message);
+  return messages;
+}
+
+using Messages = std::vector<std::string>;
+
+constexpr const char* path = "S_FA (measuring path DFA: from the start position to the expected surface)";
+
+TEST(SinumerikArguments, CallsAsPostProcessorsWriteThemHaveNoMistakes) {
+  EXPECT_EQ(mistakesIn("DEF REAL DIA_1=40\n"
+                       "DEF INT AXIS_1=1\n"
+                       "DEF STRING[32] CUTTER=\"MILL_20\"\n"
+                       "N10 CYCLE977(101,10001,,1,40,,,8,4,0,,,,1,1,\"\",,0,0,0,,,,,1,) ; bore\n"
+                       "cycle977 (101,10001,,1,dia_1*2,,,8,4,0)\n"
+                       "  Cycle978( 0 , , , 1 , R5+20 , R1 , 4 , axis_1 , 1 , 1 )\n"
+                       "CYCLE978(0,,,1,20,5,1,1,1,1,\"\",0,0,0,0,0,0,0,0,0,1,0)\n"
+                       "CYCLE978(200,,1,1,20.,5.0,1,3,2,1,CUTTER,,0,.5,+0.1,-0.1,,1)\n"
+                       "CYCLE977(201,,1,1,40,,,8,4,0,,,,1,1,\"MILL_\"<<20,,0,0.5,0.1,-0.1,,1,,,1,1)\n"
+                       "CYCLE961(107,1,1,20,20,20,20,0,0,,,0,0,0,90,2,5,2,1,,1,)\n"
+                       "CYCLE998(105,10004,0,1,1,0,,5,5,201,1,10,,,,,1,,1,)\n"
+                       "CYCLE979(R10,,,1,40,5,2,0,0,0,90)\n"
+                       "CYCLE997(109,1,1,25,5,2,0,90,,,,,,,,,,,1,,1,)\n"
+                       "CYCLE976(1000,1,0,,3,1,5,1,0,0,1,,1,)\n"
+                       "CYCLE973(12103,1,1,0,1,1,3,1,0,1,0,2,0)\n"
+                       "CYCLE974(2,0,0,1,80,2,2,1)\n"
+                       "CYCLE994(2,0,0,1,80,2,,10,2,1)\n"
+                       "CYCLE995(1102015,,1,25,4,1,0,,30,,,,0.1,,1,,1,1)\n"
+                       "CYCLE150(31,101,\"PART\")\n"
+                       "CYCLE800(1,\"TABLE\",100000,57,0,0,0,0,0,0,0,0,0,-1,100,1)\n"
+                       "CYCLE800()\n"
+                       "M30\n"),
+            Messages{});
+}
+
+TEST(SinumerikArguments, MissingOnesAreNamedByPlaceNameAndMeaning) {
+  EXPECT_EQ(
+      mistakesIn("CYCLE978(0,,,1,20)\n"),
+      (Messages{std::string("1:18 argument 6 of CYCLE978: ") + path + " is missing",
+                "1:18 warning: argument 7 of CYCLE978: S_TSA (safe area: a larger difference from the set value stops "
+                "the program) is missing: the smallest difference stops the program",
+                "1:18 argument 8 of CYCLE978: S_MA (measuring axis: 1, 2 in the plane, 3 along the tool) is missing",
+                "1:18 argument 9 of CYCLE978: S_MD (measuring direction: 1 plus, 2 minus) is missing"}));
+  // Where it should stand, if that place is there.
+  EXPECT_EQ(mistakesIn("N10 CYCLE978(0,,,1,20, ,1,1,1) ; (5,5)\n"),
+            (Messages{std::string("1:24 argument 6 of CYCLE978: ") + path + " is missing"}));
+  EXPECT_EQ(mistakesIn("CYCLE977\n"), (Messages{"1:1 argument 1 of CYCLE977: S_MVAR (measuring variant) is missing"}));
+  EXPECT_EQ(mistakesIn("CYCLE979()\n"),
+            (Messages{"1:10 argument 1 of CYCLE979: S_MVAR (measuring variant) is missing"}));
+}
+
+TEST(SinumerikArguments, WhatIsNeededDependsOnTheVariant) {
+  const auto missing = [](const std::string& call) {
+    std::string names;
+    for (const std::string& message : mistakesIn(call + "\n")) {
+      const std::size_t at = message.find(": ") + 2;
+      names += message.substr(at, message.find(' ', at) - at) + ' ';
+    }
+    return names;
+  };
+  EXPECT_EQ(missing("CYCLE977(1,,,1,,,,8,4)"), "S_SETV ");
+  EXPECT_EQ(missing("CYCLE977(5,,,1,,,,8,4)"), "S_SETV0 S_SETV1 ");
+  EXPECT_EQ(missing("CYCLE977(3,,,1,40,,,8,4)"), "S_MA ");
+  EXPECT_EQ(missing("CYCLE998(5,,,1,1,,,8,4,201,1)"), "S_ID ");
+  EXPECT_EQ(missing("CYCLE998(6,,,1,1,,,8,4)"), "S_SETV0 S_SETV3 ");
+  EXPECT_EQ(missing("CYCLE961(6,,1,10,20,10,,,,,,,,,,,8,4)"), "");
+  EXPECT_EQ(missing("CYCLE961(7,,1,10,20,10,20,,,,,,,,,,8,4)"), "S_INCA ");
+  EXPECT_EQ(missing("CYCLE997(9,,1,25,8,4)"), "");
+  EXPECT_EQ(missing("CYCLE997(1009,,1,25,8,4)"), "S_INCA ");
+  EXPECT_EQ(missing("CYCLE976(1,1,,,,,8,4)"), "S_SETV ");
+  EXPECT_EQ(missing("CYCLE973(100,1,,0,,1,8,4)"), "S_MA ");
+  EXPECT_EQ(missing("CYCLE973(102,1,,,,,8,4)"), "S_CALNUM ");
+  EXPECT_EQ(missing("CYCLE994(2,,,1,40,2,,,8,4)"), "S_SZO ");
+  // A variant that only the run computes needs no more than all of them do.
+  EXPECT_EQ(mistakesIn("CYCLE977(R1)\n").front(), std::string("1:12 argument 8 of CYCLE977: ") + path + " is missing");
+}
+
+TEST(SinumerikArguments, NeitherSignNorKindMayBeWrong) {
+  EXPECT_EQ(mistakesIn("CYCLE978(0,,,1,20,-5,1,1,1)\n"),
+            (Messages{std::string("1:19 argument 6 of CYCLE978: ") + path + " must be greater than 0, not -5"}));
+  EXPECT_EQ(mistakesIn("DEF STRING[8] WIDTH\nCYCLE978(0,,,1,WIDTH,5,1,1,1)\n"),
+            (Messages{"2:16 argument 5 of CYCLE978: S_SETV (set value of the surface) takes a number, not a text"}));
+  EXPECT_EQ(mistakesIn("CYCLE978(0,,,1,20,5,1,X,1)\n"),
+            (Messages{"1:23 argument 8 of CYCLE978: S_MA (measuring axis: 1, 2 in the plane, 3 along the tool) takes a "
+                      "number, not the name of an axis"}));
+  EXPECT_EQ(
+      mistakesIn("CYCLE978(200,,1,1,20,5,1,1,1,1,R5)\n"),
+      (Messages{"1:32 argument 11 of CYCLE978: S_TNAME (name of the tool to correct) takes a text, not a number"}));
+  EXPECT_EQ(mistakesIn("CYCLE978(0,,,1,20,5,1,1,1.5)\n"),
+            (Messages{"1:25 argument 9 of CYCLE978: S_MD (measuring direction: 1 plus, 2 minus) takes a whole number, "
+                      "not 1.5"}));
+}
+
+TEST(SinumerikArguments, CorrectionsWithoutATargetAreNamed) {
+  EXPECT_EQ(mistakesIn("CYCLE978(100,,,1,20,5,1,1,1)\n"),
+            (Messages{"1:14 warning: argument 2 of CYCLE978: S_KNUM (zero offset to correct) is missing: S_MVAR asks "
+                      "for a correction, and nothing is corrected"}));
+  EXPECT_EQ(mistakesIn("CYCLE978(200,,0,1,20,5,1,1,1)\n"),
+            (Messages{"1:15 warning: argument 3 of CYCLE978: S_KNUM1 (tool offset to correct) cannot be 0 here: S_MVAR "
+                      "asks for a correction, and nothing is corrected"}));
+}
+
+TEST(SinumerikArguments, ThoseOfCycle800And116AreCounted) {
+  EXPECT_EQ(mistakesIn("CYCLE800(1,TABLE,100000)\n"), (Messages{"1:12 nothing of the name TABLE is declared"}));
+  EXPECT_EQ(mistakesIn("CYCLE800(1,5,100000,\"57\")\n"),
+            (Messages{"1:12 argument 2 of CYCLE800: _TC (name of the swivel data set) takes a text",
+                      "1:21 argument 4 of CYCLE800: _MODE (kind and order of the angles) takes a number"}));
+  EXPECT_EQ(mistakesIn("CYCLE800(1,\"\",0,57,0,0,0,0,0,0,0,0,0,-1,100,1,2)\n"),
+            (Messages{"1:47 CYCLE800 takes at most 16 arguments, here are 17"}));
+  EXPECT_EQ(mistakesIn("CYCLE116()\n").size(), 1u);
+}
+
+}  // namespace
+}  // namespace probewright::sinumerik
