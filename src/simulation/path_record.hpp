@@ -36,7 +36,33 @@ struct PathTouch {
 struct PathRecord {
   std::vector<PathPoint> points;
   std::vector<PathTouch> touches;
-  double length = 0;  ///< mm, of the tip on the table
+  double length = 0;     ///< mm, of the tip on the table, as it was travelled
+  double tolerance = 0;  ///< mm: how far points that were left out may lie beside the path that is kept
+};
+
+/// Keeps the record of a run without letting it grow with a program of a million blocks. Beyond twice `most` points it
+/// leaves out ends of positioning and feed moves, as far as the rest, joined by straight lines, stays within a
+/// tolerance. The tolerance begins at 0.001 mm and doubles until at most `most` points are left. Measuring and
+/// retracting moves, tool changes, turns of the tool of more than 2 degrees and points where something was touched
+/// stay, however many they are.
+class PathRecorder {
+public:
+  explicit PathRecorder(PathPoint start, std::size_t most = 100'000);
+
+  void add(const PathPoint& point);
+  /// A touch at the last point.
+  void add(PathTouch touch);
+  const PathRecord& record() const { return record_; }
+
+private:
+  void thinOut();
+  void thinOutFrom(std::size_t first, double tolerance);
+  bool chordHolds(std::size_t from, std::size_t to, double tolerance) const;
+
+  std::size_t most_;
+  std::size_t limit_;        ///< the number of points that thins out again
+  std::size_t thinned_ = 0;  ///< the points before this one are as thin as the tolerance allows
+  PathRecord record_;
 };
 
 }  // namespace probewright::simulation

@@ -63,9 +63,8 @@ VirtualMachine::VirtualMachine(Truth truth)
       surroundings_(truth_.solids),
       reading_(truth_.start),
       slides_(truth_.start),
-      noise_(streamSeed(truth_.seed, "probe")) {
-  path_.points.push_back(pathPoint(tableFromSpindle(), PathKind::Start, 0));
-}
+      noise_(streamSeed(truth_.seed, "probe")),
+      path_(pathPoint(tableFromSpindle(), PathKind::Start, 0)) {}
 
 Pose VirtualMachine::tableFromSpindle() const { return kinematics_.tableFromSpindle(slides_, clock_); }
 
@@ -173,14 +172,10 @@ void VirtualMachine::advance(const Motion& motion, const Stop& stop, PathKind ki
   for (int i = 1; i <= pieces; ++i) {
     const double fraction = stop.end * i / pieces;
     const double seconds = motion.startSeconds + motion.profile.secondsAt(fraction * motion.profile.length());
-    const PathPoint point = pathPoint(motion.tableFromSpindleAt(fraction), kind, seconds);
-    path_.length += (point.tip - path_.points.back().tip).norm();
-    path_.points.push_back(point);
+    path_.add(pathPoint(motion.tableFromSpindleAt(fraction), kind, i == pieces ? clock_ : seconds));
   }
-  path_.points.back().seconds = clock_;
   if (!stop.touch) return;
   PathTouch touch;
-  touch.pathPoint = path_.points.size() - 1;
   touch.kind = kind;
   touch.solid = truth_.solids[stop.touch->solid].name;
   touch.part = stop.touch->capsule ? shape_.capsules[*stop.touch->capsule].part : "ball";
@@ -189,7 +184,7 @@ void VirtualMachine::advance(const Motion& motion, const Stop& stop, PathKind ki
   touch.ballCentre = stop.touch->ballCentre;
   if (stop.signal) touch.latched = motion.readingAt(*stop.signal);
   touch.seconds = clock_;
-  path_.touches.push_back(std::move(touch));
+  path_.add(std::move(touch));
 }
 
 MoveResult VirtualMachine::finish(const Motion& motion, std::optional<Touch> touch, PathKind kind) {
@@ -395,7 +390,7 @@ std::optional<const TrueTool*> VirtualMachine::findTool(const machine::ToolOrder
 MoveResult VirtualMachine::load(const TrueTool* tool) {
   tool_ = tool;
   shape_ = shapeOf(tool_, spindleDegrees_);
-  if (recording_) path_.points.push_back(pathPoint(tableFromSpindle(), PathKind::ToolChange, clock_));
+  if (recording_) path_.add(pathPoint(tableFromSpindle(), PathKind::ToolChange, clock_));
   return settle();
 }
 

@@ -64,8 +64,8 @@ public:
   machine::MoveResult insertTool(const machine::ToolOrder& order);
 
   const Truth& truth() const { return truth_; }
-  const PathRecord& path() const { return path_; }
-  /// The record grows with every move (about 70 bytes); switched off it is no longer added to. On at the start.
+  const PathRecord& path() const { return path_.record(); }
+  /// Switched off, moves are no longer added to the record. On at the start.
   void recordPath(bool on) { recording_ = on; }
 
   /// The true place of the spindle (at spindle angle 0) on the table now, and of the tip of the tool.
@@ -118,7 +118,7 @@ private:
   std::normal_distribution<double> gaussian_;
   std::atomic<bool> cancelled_ = false;
   bool recording_ = true;
-  PathRecord path_;
+  PathRecorder path_;
 };
 
 /// The seed of the random stream called `name` in a world seeded with `seed`.
