@@ -22,7 +22,9 @@ Vector3 HeidenhainProber::position() const {
 }
 
 Vector3 HeidenhainProber::prePosition(const PlannedTouch& touch, double extra) const {
-  return touch.surface - touch.direction * (probe_.ballRadius + probe_.setUp + extra);
+  const Vector3 ball = touch.surface - touch.direction * (probe_.ballRadius + probe_.setUp + extra);
+  if (!probe_.aside) return ball;
+  return ball - tipOffsetAt(orientationFor(touch.direction).value_or(channel_.machine().spindleAngle()));
 }
 
 Feed HeidenhainProber::positioning() const {
@@ -67,19 +69,30 @@ void HeidenhainProber::moveOnArc(const Vector3& centre, double angle) {
   }
 }
 
-double HeidenhainProber::spindleTurn() const { return channel_.machine().spindleAngle() - probe_.calibrationAngle; }
-
-Vector3 HeidenhainProber::xyzOffset() const {
+Vector3 HeidenhainProber::tipOffsetAt(double spindleAngle) const {
   if (probe_.tipOffset.isZero(0)) return Vector3::Zero();
-  const Vector2 turned = Eigen::Rotation2Dd(radiansFromDegrees(spindleTurn())) * probe_.tipOffset;
+  const double turn = radiansFromDegrees(spindleAngle - probe_.calibrationAngle);
+  const Vector2 turned = Eigen::Rotation2Dd(turn) * probe_.tipOffset;
   // Spindle X and Y lie along the main and minor axis of the working plane that belongs to the tool.
-  return channel_.spindleFromProgram().inverse() * plane_.xyzFromPlane({turned.x(), turned.y(), 0});
+  return plane_.planeFromXyz(channel_.spindleFromProgram().inverse() *
+                             plane_.xyzFromPlane({turned.x(), turned.y(), 0}));
+}
+
+Vector3 HeidenhainProber::tipOffsetNow() const { return tipOffsetAt(channel_.machine().spindleAngle()); }
+
+std::optional<double> HeidenhainProber::orientationFor(const Vector3& direction) const {
+  const Vector3 inSpindle = plane_.planeFromXyz(channel_.spindleFromProgram() * plane_.xyzFromPlane(direction));
+  if (!probe_.track || std::hypot(inSpindle.x(), inSpindle.y()) <= 1e-9) return std::nullopt;
+  // The side that lies along the main axis at the calibration angle leads; a ball that stands aside leads itself.
+  const double leading = probe_.aside ? std::atan2(probe_.tipOffset.y(), probe_.tipOffset.x()) : 0;
+  return probe_.calibrationAngle + degreesFromRadians(std::atan2(inSpindle.y(), inSpindle.x()) - leading);
 }
 
 double HeidenhainProber::directionalRadius(const Vector3& xyzDirection) const {
   if (probe_.directions.rings().empty()) return 0;
   const Vector3 inSpindle = plane_.planeFromXyz(channel_.spindleFromProgram() * xyzDirection);
-  return probe_.directions.at(rotation(Vector3::UnitZ(), -spindleTurn()).linear() * inSpindle);
+  const double turn = channel_.machine().spindleAngle() - probe_.calibrationAngle;
+  return probe_.directions.at(rotation(Vector3::UnitZ(), -turn).linear() * inSpindle);
 }
 
 EvaluatedTouch HeidenhainProber::touch(const PlannedTouch& planned) {
@@ -91,10 +104,7 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
   const Vector3 start = position();
   const Vector3 startTip = channel_.position();
   const Vector3 xyzDirection = plane_.xyzFromPlane(direction);
-  if (probe_.track && std::hypot(direction[0], direction[1]) > 1e-9) {
-    const Vector3 inPlane = plane_.planeFromXyz(channel_.spindleFromProgram() * xyzDirection);
-    channel_.orientSpindle(probe_.calibrationAngle + degreesFromRadians(std::atan2(inPlane.y(), inPlane.x())));
-  }
+  if (const std::optional<double> angle = orientationFor(direction)) channel_.orientSpindle(*angle);
   control::TouchRecord record;
   record.target = plane_.xyzFromPlane(expected.value_or(start + direction * distance));
   record.direction = xyzDirection;
@@ -135,7 +145,7 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
     }
     const control::Touch latched = channel_.touchFrom(result);
     touch.latched = latched.latched;
-    centres.push_back(plane_.planeFromXyz(latched.tip + probe_.ballRadius * channel_.toolAxis() + xyzOffset()));
+    centres.push_back(plane_.planeFromXyz(latched.tip + probe_.ballRadius * channel_.toolAxis()) + tipOffsetNow());
     channel_.retractTo(startTip, Feed::rapidTraverse());
   }
   Vector3 mean = Vector3::Zero();

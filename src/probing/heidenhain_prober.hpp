@@ -23,10 +23,13 @@ struct HeidenhainProbe {
   double positioningFeed = 3000;           ///< FMAX
   bool prepositionAtMachineRapid = false;  ///< F_PREPOS = FMAX_MACHINE
   bool track = false;                      ///< TRACK = ON: the spindle turns the same side of the probe to every touch
-  bool aside = false;            ///< STYLUS = L-TYPE: the ball stands aside; its radius counts from the spindle axis
-  int repetitions = 1;           ///< iTNC 530, MP6170: measurements of one point
-  double confidence = 0;         ///< iTNC 530, MP6171: largest difference between them, mm
+  bool aside = false;     ///< STYLUS = L-TYPE: the ball stands aside by tipOffset, which is turned to the surface
+  int repetitions = 1;    ///< iTNC 530, MP6170: measurements of one point
+  double confidence = 0;  ///< iTNC 530, MP6171: largest difference between them, mm
   DirectionalRadius directions;  ///< of a 3-D calibration: what comes on top of the ball radius
+
+  /// How far the ball reaches from the spindle axis when it is turned to a surface.
+  double reach() const { return ballRadius + (aside ? tipOffset.norm() : 0); }
 };
 
 /// One touch, evaluated. Coordinates (main, minor, tool axis) of the active program coordinate system.
@@ -38,7 +41,8 @@ struct EvaluatedTouch {
 
 /// Moves the ball in coordinates (main, minor, tool axis) of the active program coordinate system. Positions are of the
 /// ball centre as the control drives it: on the spindle axis, one ball radius above the tool tip; the tip offset is
-/// taken into account only in results, as the controls do.
+/// taken into account only in results, as the controls do. Only pre-positions of a ball that stands aside make room for
+/// it.
 class HeidenhainProber {
 public:
   HeidenhainProber(control::Channel& channel, const WorkingPlane& plane, const HeidenhainProbe& probe)
@@ -48,7 +52,8 @@ public:
 
   Vector3 position() const;
 
-  /// Ball centre pre-position of a touch: ball radius, SET_UP and `extra` (Q320) in front of the surface.
+  /// Ball centre pre-position of a touch: ball radius, SET_UP and `extra` (Q320) in front of the surface. If the ball
+  /// stands aside, the spindle axis stays behind so that the ball gets there once it is turned to the surface.
   Vector3 prePosition(const PlannedTouch& touch, double extra) const;
 
   /// Straight to the ball centre position at the positioning feed (FMAX of the probe table, or machine rapid).
@@ -73,10 +78,15 @@ public:
   /// From wherever the ball is towards `direction`, at most `distance`; stays at the start of the stroke afterwards.
   EvaluatedTouch stroke(const Vector3& direction, double distance, const std::optional<Vector3>& expected = {});
 
+  /// The spindle angle of a touch along `direction`: nothing if the probe is not turned to it.
+  std::optional<double> orientationFor(const Vector3& direction) const;
+
+  /// Where the ball stands from the spindle axis at the present spindle angle.
+  Vector3 tipOffsetNow() const;
+
 private:
   Vector3 tipFromBall(const Vector3& ballCentre) const;
-  Vector3 xyzOffset() const;
-  double spindleTurn() const;
+  Vector3 tipOffsetAt(double spindleAngle) const;
   double directionalRadius(const Vector3& xyzDirection) const;
   machine::Feed positioning() const;
 

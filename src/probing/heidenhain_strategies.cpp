@@ -7,9 +7,9 @@ namespace {
 
 Vector3 at(const Vector2& point, double height) { return {point.x(), point.y(), height}; }
 
-/// How far pre-positions stand back from the surface.
+/// How far the spindle axis stands back from the surface in pre-positions.
 double standOff(const HeidenhainProber& prober, const Heights& heights) {
-  return prober.probe().ballRadius + prober.probe().setUp + heights.extraClearance;
+  return prober.probe().reach() + prober.probe().setUp + heights.extraClearance;
 }
 
 /// Touches all of `plan` from one place in the middle, at the measuring height.

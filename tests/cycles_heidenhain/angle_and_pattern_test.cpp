@@ -119,6 +119,25 @@ TEST(Cycles420And431, MeasureTheTiltOfAnyPlane) {
     ASSERT_TRUE(angle.finished()) << angle.why();
     const double rise = (height(second) - height(middle)) / (second - middle)[axis];
     EXPECT_NEAR(angle.q(150), axis == 1 ? degrees(std::atan(rise)) : -degrees(std::atan(rise)), 1e-6);
+    // Points apart in both axes are those of a B axis on the older control only.
+    const Vector2 third = second + Vector2(5, 10);
+    const Ran aside = part.bench.run(probe(420, {{263, middle.x()},
+                                                 {264, middle.y()},
+                                                 {265, third.x()},
+                                                 {266, third.y()},
+                                                 {272, 3},
+                                                 {267, -1},
+                                                 {261, part.nominal.z()},
+                                                 {320, 10},
+                                                 {260, part.nominal.z() + 40},
+                                                 {301, 1},
+                                                 {281, 0}}));
+    if (part.bench.control == ControlKind::TNC640) {
+      EXPECT_EQ(aside.alarm(), "Angle not determined");
+    } else {
+      const double climb = (height(third) - height(middle)) / (third - middle).x();
+      EXPECT_NEAR(aside.q(150), -degrees(std::atan(climb)), 1e-6);
+    }
   }
 }
 

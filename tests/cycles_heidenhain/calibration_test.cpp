@@ -308,5 +308,46 @@ TEST(Cycle441, SetsTheFeedAndTheInterruption) {
   EXPECT_EQ(stops(slow), 1);
 }
 
+TEST(Cycle441, TakesRapidAndTheFeedOfTheToolCall) {
+  Dice dice(4412);
+  Standard world = standard(dice, ControlKind::TNC640);
+  const Hole hole = layHole(dice, world);
+  const auto seconds = [&](const std::string& feed) {
+    const Ran ran = world.bench.runBare("TOOL CALL 1 Z F300\n" +
+                                        fmt::format("TCH PROBE 441 FAST PROBING ~\n Q396={} ~\n Q397=0 ~\n Q399=0 ~\n "
+                                                    "Q400=0\n",
+                                                    feed) +
+                                        hole.cycle);
+    EXPECT_TRUE(ran.finished()) << ran.why();
+    return ran.cycle().endSeconds - ran.cycle().startSeconds;
+  };
+  EXPECT_NEAR(seconds("FAUTO"), seconds("300"), exact);
+  EXPECT_LT(seconds("FMAX"), seconds("3000") - 1);
+}
+
+TEST(Cycle441, TurnsTheProbeOfTheITNC530OnlyWhereMP6165AllowsIt) {
+  Dice dice(4413);
+  Standard world = standard(dice, ControlKind::iTNC530);
+  world.bench.believedProbe().radius = world.ball;
+  world.bench.believedProbe().tipOffset = {0, 0};
+  world.bench.trueProbe().tipOffset = {0.1, 0};
+  const Hole hole = layHole(dice, world);
+  const auto run = [&](double allowed, int track) {
+    world.bench.setup.parameters["MP6165"] = {allowed, {}};
+    return world.bench.run(
+        fmt::format("TCH PROBE 441 FAST PROBING ~\n Q396=3000 ~\n Q397=0 ~\n Q399={} ~\n Q400=0\n", track) +
+        hole.cycle);
+  };
+  const auto warnings = [](const Ran& ran) {
+    return std::ranges::count(ran.outcome.journal.events, control::EventKind::Warning, &control::EventRecord::kind);
+  };
+  // Turned to every touch, an unknown offset makes the hole small; held still, it does not.
+  EXPECT_NEAR(run(1, 1).q(153), hole.diameter - 0.2, exact);
+  EXPECT_NEAR(run(1, 0).q(153), hole.diameter, 1e-3);
+  EXPECT_NEAR(run(0, 1).q(153), hole.diameter, 1e-3);
+  EXPECT_EQ(warnings(run(0, 1)), 1);
+  EXPECT_EQ(warnings(run(1, 1)) + warnings(run(0, 0)), 0);
+}
+
 }  // namespace
 }  // namespace probewright::testing_support

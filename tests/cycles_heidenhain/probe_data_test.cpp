@@ -156,31 +156,6 @@ TEST(TouchProbeTable, AsksForACalibrationWithTheSameTracking) {
   EXPECT_GT(std::abs(found(false)), 0.002);
 }
 
-TEST(TouchProbeTable, HoldsAStylusWhoseBallStandsAside) {
-  Dice dice(640);
-  for (int at = 0; at < 20; ++at) {
-    SCOPED_TRACE(fmt::format("world {}", at));
-    TableWorld world;
-    world.text("STYLUS", "L-TYPE");
-    EXPECT_EQ(world.run().alarm(), "Spindle orientation required");
-    world.text("TRACK", "ON");
-    const double arm = written(dice.between(6, 12), 3), towards = dice.between(-180, 180);
-    simulation::TrueProbe& stylus = world.bench.trueProbe();
-    stylus.tipOffset = arm * Vector2(std::cos(radians(towards)), std::sin(radians(towards)));
-    stylus.pretravel = 0.02;
-    stylus.lobing = 0.008;
-    world.number("CAL_ANG", written(-towards, 4));
-    world.number("CAL_OF1", 0);
-    world.bench.believedProbe().radius = arm + 2 + written(dice.between(-0.3, 0.3));
-    const std::string calibrate = "L Z+60 R0 FMAX\nL X+0.2 Y-0.1 R0 FMAX\nL Z-10 R0 FMAX\n" +
-                                  probe(462, {{407, diameter / 2}, {320, 0}, {423, 4}, {380, 0}}) + "L Z+60 R0 FMAX\n";
-    const Ran ran = world.bench.run(calibrate + probe(421, world.words()));
-    // The radius has four decimals in the table.
-    expectHole(ran, 1.1e-4);
-    EXPECT_NEAR(ran.cell("TOOL.T", "1", "R"), arm + 2 - stylus.pretravel, 0.0085);
-  }
-}
-
 TEST(TouchProbeTable, SaysHowTheMachineStopsAtACollision) {
   TableWorld world;
   place(world.bench.setup.truth, simulation::Box({-60, 24, 0}, {60, 40, 70}), pose({0, 0, -400}), "clamp",

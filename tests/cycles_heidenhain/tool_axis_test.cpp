@@ -1,3 +1,5 @@
+#include <array>
+
 #include "control/working_plane.hpp"
 #include "cycles_heidenhain/worlds.hpp"
 
@@ -221,6 +223,118 @@ TEST(ToolAxis, CalibratesAlongXAndY) {
     const std::string& table = ran.outcome.files.at("TCHPROBE.TP");
     EXPECT_NE(table.find("+0.0800"), std::string::npos) << table;
     EXPECT_NE(table.find("-0.0500"), std::string::npos) << table;
+  }
+}
+
+TEST(ToolAxis, MeasuresPocketsSlotsAndBoltCirclesAlongXAndY) {
+  Dice dice(183);
+  for (int at = 0; at < 40; ++at) {
+    const char axis = dice.coin() ? 'X' : 'Y';
+    SCOPED_TRACE(fmt::format("world {}, tool axis {}", at, axis));
+    const ControlKind kind = controlOf(at / 2);
+    const Vector3 middle(dice.between(-0.5, 0.5), dice.between(-0.5, 0.5), dice.between(-1, 1));
+    const Vector2 size(dice.between(39.5, 40.5), dice.between(29.5, 30.5));
+    Across pocket(kind, axis);
+    const Vector2 half = size / 2;
+    pocket.part(simulation::Box({half.x(), -40, -30}, {half.x() + 20, 40, 0}), pose(middle));
+    pocket.part(simulation::Box({-half.x() - 20, -40, -30}, {-half.x(), 40, 0}), pose(middle));
+    pocket.part(simulation::Box({-half.x(), half.y(), -30}, {half.x(), half.y() + 20, 0}), pose(middle));
+    pocket.part(simulation::Box({-half.x(), -half.y() - 20, -30}, {half.x(), -half.y(), 0}), pose(middle));
+    const Words common = {{261, -9}, {260, 20}, {281, 0}, {309, 0}, {330, 0}};
+    const Ran inside = pocket.run(probe(423, with(common, {{273, 0},
+                                                           {274, 0},
+                                                           {282, 40},
+                                                           {283, 30},
+                                                           {320, 1},
+                                                           {301, dice.whole(0, 1)},
+                                                           {284, 0},
+                                                           {285, 0},
+                                                           {286, 0},
+                                                           {287, 0},
+                                                           {279, 0},
+                                                           {280, 0}})));
+    ASSERT_TRUE(inside.finished()) << inside.why();
+    EXPECT_NEAR(inside.q(151), middle.x(), exact);
+    EXPECT_NEAR(inside.q(152), middle.y(), exact);
+    EXPECT_NEAR(inside.q(154), size.x(), exact);
+    EXPECT_NEAR(inside.q(155), size.y(), exact);
+    for (const int across : {1, 2}) {
+      const double width = size[across - 1];
+      const Words slot = {{328, 0}, {329, 0}, {310, written(dice.between(-5, 5))}, {272, across}, {311, written(width)},
+                          {288, 0}, {289, 0}};
+      const Ran ran = pocket.run(probe(425, with(common, slot)));
+      ASSERT_TRUE(ran.finished()) << ran.why();
+      EXPECT_NEAR(ran.q(156), width, exact);
+      EXPECT_NEAR(ran.q(157), middle[across - 1], exact);
+    }
+
+    Across holes(kind, axis);
+    const double radius = dice.between(29.5, 30.5);
+    const Vector3 angles(10, 130, 250);
+    for (const double angle : angles) {
+      holes.part(simulation::Ring(6, 12, -30),
+                 pose(middle + radius * Vector3(std::cos(radians(angle)), std::sin(radians(angle)), 0)));
+    }
+    const Ran ran = holes.run(probe(430, with(common, {{273, 0},
+                                                       {274, 0},
+                                                       {262, 60},
+                                                       {291, angles[0]},
+                                                       {292, angles[1]},
+                                                       {293, angles[2]},
+                                                       {288, 0},
+                                                       {289, 0},
+                                                       {279, 0},
+                                                       {280, 0}})));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(ran.q(151), middle.x(), exact);
+    EXPECT_NEAR(ran.q(152), middle.y(), exact);
+    EXPECT_NEAR(ran.q(153), 2 * radius, exact);
+  }
+}
+
+/// Projection angles count in the planes of the touch probe axis, space angles about X, Y and Z: turned by them, the
+/// axes of the program lie in the plane.
+TEST(ToolAxis, MeasuresPlanesAlongXAndY) {
+  Dice dice(184);
+  for (int at = 0; at < 40; ++at) {
+    const char axis = dice.coin() ? 'X' : 'Y';
+    SCOPED_TRACE(fmt::format("world {}, tool axis {}", at, axis));
+    Across world(controlOf(at / 2), axis);
+    const Pose face = pose({0, 0, dice.between(-1, 1)}, {dice.between(-15, 15), dice.between(-15, 15), 0});
+    world.part(simulation::Box({-60, -60, -20}, {60, 60, 0}), face);
+    const Vector3 n = face.linear().col(2);
+    const auto heightAt = [&](const Vector2& place) {
+      return face.translation().z() - (n.x() * place.x() + n.y() * place.y()) / n.z();
+    };
+    const std::array<Vector2, 3> places = {Vector2(-20, -20), Vector2(25, written(dice.between(-25, 0))),
+                                           Vector2(0, 20)};
+    const Ran ran = world.run(probe(431, {{263, places[0].x()},
+                                          {264, places[0].y()},
+                                          {294, written(heightAt(places[0]))},
+                                          {265, places[1].x()},
+                                          {266, places[1].y()},
+                                          {295, written(heightAt(places[1]))},
+                                          {296, places[2].x()},
+                                          {297, places[2].y()},
+                                          {298, written(heightAt(places[2]))},
+                                          {320, 1},
+                                          {260, 30},
+                                          {281, 0}}));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(ran.q(158), degrees(std::atan2(-n.y(), n.z())), exact);
+    EXPECT_NEAR(ran.q(159), degrees(std::atan2(n.x(), n.z())), exact);
+    const Matrix3 turned = pose(Vector3::Zero(), {ran.q(170), ran.q(171), ran.q(172)}).linear();
+    EXPECT_LT((turned.col(world.plane.tool) - world.plane.xyzFromPlane(n)).norm(), 1e-8);
+    const Vector3 along(places[1].x() - places[0].x(), places[1].y() - places[0].y(),
+                        heightAt(places[1]) - heightAt(places[0]));
+    EXPECT_LT((turned.col(world.plane.main) - world.plane.xyzFromPlane(along.normalized())).norm(), 1e-8);
+    // The ball meets a slanting plane beside its south pole.
+    const double ball = world.bench.believedProbe().radius, tilt = 1 / n.z() - 1;
+    const Vector2 tip = world.tip;
+    for (std::size_t i = 0; i < 3; ++i) {
+      // The spindle axis is over the place, the ball aside by its tip offset.
+      EXPECT_NEAR(ran.q(173 + static_cast<int>(i)), heightAt(places[i] + tip) + ball * tilt, exact) << i;
+    }
   }
 }
 

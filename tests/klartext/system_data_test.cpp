@@ -114,6 +114,26 @@ TEST(SystemData, ParametersByComputedNumbersAndPrograms) {
   EXPECT_EQ(world.q(9), 200);
 }
 
+/// ID 350 NR 10 to 15 are those of the older control.
+TEST(SystemData, CalibrationOfTheTouchProbe) {
+  World world;
+  auto& tools = world.control->tables.tools;
+  auto& probes = world.control->tables.probes;
+  ASSERT_TRUE(probes.setNumber("1", "CAL_OF1", 0.03));
+  ASSERT_TRUE(probes.setNumber("1", "CAL_OF2", 0.03));
+  ASSERT_TRUE(probes.setNumber("1", "CAL_ANG", 15));
+  expectFinished(
+      world.run("TOOL CALL 1 Z\nFN 18: SYSREAD Q1 = ID350 NR10\nFN 18: SYSREAD Q2 = ID350 NR11\n"
+                "FN 18: SYSREAD Q3 = ID350 NR12\nFN 18: SYSREAD Q4 = ID350 NR14 IDX1\n"
+                "FN 18: SYSREAD Q5 = ID350 NR15\nFN 18: SYSREAD Q6 = ID350 NR54\n"));
+  EXPECT_EQ(world.q(1), 2);
+  EXPECT_EQ(world.q(2), tools.number("1", "R"));
+  EXPECT_EQ(world.q(3), tools.number("1", "L"));
+  EXPECT_DOUBLE_EQ(world.q(4), 0.03);
+  EXPECT_DOUBLE_EQ(world.q(5), 30);
+  EXPECT_DOUBLE_EQ(world.q(6), 15);
+}
+
 TEST(SystemData, WhatTheControlDoesNotHaveIsRefused) {
   World world;
   EXPECT_THAT(messageOf(world.run("FN 18: SYSREAD Q1 = ID990 NR77\n")), HasSubstr("ID990 NR77"));

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
+
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/html_log.hpp"
 #include "metrology/fits.hpp"
@@ -20,11 +23,14 @@ metrology::Circle2 touchCircle(HeidenhainProber& prober, const CalibrationTask& 
   const Vector3 middle(centre.x(), centre.y(), task.measuringHeight);
   const auto plan = probing::planCircle(middle, 2 * task.standardRadius, task.startAngle, step, count, task.side);
   const bool fromCentre = task.side == Side::Inside &&
-                          task.standardRadius <= prober.probe().ballRadius + prober.probe().setUp + task.extraClearance;
+                          task.standardRadius <= prober.probe().reach() + prober.probe().setUp + task.extraClearance;
+  const bool around = task.side == Side::Outside && task.between == probing::Between::AtMeasuringHeight;
   std::vector<Vector2> centres;
   for (const PlannedTouch& planned : plan) {
     const Vector3 start = fromCentre ? middle : prober.prePosition(planned, task.extraClearance);
-    if (task.side == Side::Outside) {
+    if (around && !centres.empty()) {
+      prober.moveOnArc(middle, step);
+    } else if (task.side == Side::Outside) {
       prober.moveHeightTo(task.travelHeight);
       prober.moveInPlane(start);
     }
@@ -51,13 +57,108 @@ Vector2 inSpindle(Context& context, const Vector2& offset) {
       .head<2>();
 }
 
+/// The other way round.
+Vector2 inProgram(Context& context, const Vector2& offset) {
+  const auto& plane = context.control().coordinates.plane;
+  return plane
+      .planeFromXyz(context.channel().spindleFromProgram().inverse() * plane.xyzFromPlane({offset.x(), offset.y(), 0}))
+      .head<2>();
+}
+
+/// What two touches find while the ball, which stands aside along `towards`, is moved across it to either side.
+struct Across {
+  double half = 0;    ///< half the way between them
+  double middle = 0;  ///< of the spindle axis, from the centre of the standard
+};
+Across touchAcross(HeidenhainProber& prober, const CalibrationTask& task, const Vector2& centre,
+                   const Vector2& towards) {
+  const bool inside = task.side == Side::Inside;
+  const double offset = prober.probe().tipOffset.norm(), ball = prober.probe().ballRadius;
+  const double locus = task.standardRadius - probing::outwards(task.side) * ball;
+  // In a ring the spindle axis stands in the middle, where there is room for the stylus; beside a stud the ball does.
+  const double along = inside ? offset : 0;
+  if (!(locus > along)) {
+    throw Alarm("Calibration not possible", "The standard is too small for a stylus whose ball stands so far aside",
+                "use a larger standard");
+  }
+  const Vector2 across(-towards.y(), towards.x());
+  std::array<double, 2> found{};
+  for (const int side : {0, 1}) {
+    const double sign = side == 0 ? 1 : -1;
+    const double away = std::sqrt(locus * locus - along * along) + probing::outwards(task.side) * ball;
+    const Vector2 place = centre + along * towards + sign * away * across;
+    const Vector2 direction = sign * probing::outwards(task.side) * across;
+    const PlannedTouch planned{{place.x(), place.y(), task.measuringHeight}, {direction.x(), direction.y(), 0}};
+    Vector3 start = prober.prePosition(planned, task.extraClearance);
+    // Not beyond the middle of a narrow ring.
+    const Vector2 middle = centre + along * towards - prober.tipOffsetNow().head<2>();
+    if (inside && (start.head<2>() - middle).dot(sign * across) < 0) start.head<2>() = middle;
+    if (!inside) {
+      prober.moveHeightTo(task.travelHeight);
+      prober.moveInPlane(start);
+    }
+    prober.moveTo(start);
+    found[static_cast<std::size_t>(side)] = (prober.touch(planned).ballCentre.head<2>() - centre).dot(across);
+  }
+  if (!inside) prober.moveHeightTo(task.travelHeight);
+  prober.moveInPlane({centre.x(), centre.y(), task.measuringHeight});
+  return {(found[0] - found[1]) / 2, (found[0] + found[1]) / 2};
+}
+
+/// A ball that stands aside. Turned to every touch, the spindle axis runs on a circle of radius a about the centre of
+/// the standard, the ball on one of radius u, and the ball stands |u - a| aside. Held across two touches half a way h
+/// apart, with the spindle axis e from the centre in the direction of the ball, h^2 = u^2 - (e + offset)^2, which
+/// gives u.
+CalibratedRadius calibrateAside(Context& context, HeidenhainProber& prober, const CalibrationTask& task) {
+  const double out = probing::outwards(task.side);
+  probing::HeidenhainProbe probe = prober.probe();
+  CalibratedRadius calibrated;
+  Vector2 centre = task.centre;
+  const Vector2 towards = probing::directionAt(task.startAngle).head<2>();
+  constexpr int passes = 4;
+  for (int pass = 0; pass < passes; ++pass) {
+    // The tip stays at its height whatever radius the ball turns out to have.
+    CalibrationTask now = task;
+    now.measuringHeight += probe.ballRadius - prober.probe().ballRadius;
+    now.travelHeight += probe.ballRadius - prober.probe().ballRadius;
+    HeidenhainProber tracking(context.channel(), context.control().coordinates.plane, probe);
+    const metrology::Circle2 circle = touchCircle(tracking, now, centre, pass == 0 ? 4 : task.count);
+    centre = circle.centre;
+    const double offset = probe.tipOffset.norm();
+    const double a = task.side == Side::Inside ? circle.radius - offset : circle.radius + offset;
+    probing::HeidenhainProbe held = probe;
+    held.track = false;
+    context.channel().orientSpindle(*tracking.orientationFor({towards.x(), towards.y(), 0}));
+    HeidenhainProber holding(context.channel(), context.control().coordinates.plane, held);
+    const Across across = touchAcross(holding, now, centre, towards);
+    const double m = task.side == Side::Inside ? a : a - offset;
+    const double u = (across.half * across.half + m * m) / (2 * m);
+    probe.ballRadius = out * (task.standardRadius - u);
+    const double along = task.side == Side::Inside ? u - a : a - u;
+    if (!(probe.ballRadius > 0 && along > 0)) {
+      throw Alarm("Calibration not possible",
+                  fmt::format("The measured ball radius {:.4f} mm or its distance {:.4f} mm from the spindle axis is "
+                              "not positive",
+                              probe.ballRadius, along),
+                  "check the radius of the standard (Q407), R of the tool and CAL_OF1, CAL_OF2");
+    }
+    probe.tipOffset =
+        Eigen::Rotation2Dd(std::atan2(probe.tipOffset.y(), probe.tipOffset.x())) * Vector2(along, -across.middle);
+  }
+  context.channel().orientSpindle(probe.calibrationAngle);
+  calibrated.centre = {centre.x(), centre.y(), task.measuringHeight};
+  calibrated.radius = probe.ballRadius;
+  calibrated.centreOffset = inProgram(context, probe.tipOffset);
+  return calibrated;
+}
+
 void log(Context& context, const Rows& rows) { addToHtmlLog(context, {"", "Before", "After"}, rows); }
 
 }  // namespace
 
 HeidenhainProber calibrationProber(Context& context) {
   probing::HeidenhainProbe probe = activeProbe(context.control(), Calibrated::NotYet);
-  probe.tipOffset.setZero();
+  if (!probe.aside) probe.tipOffset.setZero();
   probe.track = probe.aside;
   probe.directions = {};
   if (context.channel().description().spindleOrients) context.channel().orientSpindle(probe.calibrationAngle);
@@ -65,6 +166,7 @@ HeidenhainProber calibrationProber(Context& context) {
 }
 
 CalibratedRadius calibrateRadius(Context& context, HeidenhainProber& prober, CalibrationTask task) {
+  if (prober.probe().aside) return calibrateAside(context, prober, task);
   const metrology::Circle2 coarse = touchCircle(prober, task, task.centre, 4);
   const metrology::Circle2 fine = touchCircle(prober, task, coarse.centre, task.count);
   CalibratedRadius calibrated;
@@ -74,11 +176,6 @@ CalibratedRadius calibrateRadius(Context& context, HeidenhainProber& prober, Cal
     throw Alarm("Calibration not possible",
                 fmt::format("The measured ball radius {:.4f} mm is not positive", calibrated.radius),
                 "check the radius of the standard (Q407)");
-  }
-  if (prober.probe().aside) {
-    calibrated.centreOffset = Vector2::Zero();
-    context.channel().orientSpindle(prober.probe().calibrationAngle);
-    return calibrated;
   }
   const auto& control = context.control();
   const bool reverses =

@@ -2,6 +2,7 @@
 
 #include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/parameters.hpp"
+#include "probing/heidenhain_strategies.hpp"
 
 /// What the calibration cycles 460 to 463 have in common.
 namespace probewright::cycles::heidenhain {
@@ -44,18 +45,26 @@ struct CalibrationTask {
   int count = 4;  ///< touches of the fine measurement
   double startAngle = 0;
   double measuringHeight = 0;  ///< of the ball centre
-  double travelHeight = 0;     ///< of the ball centre, between the touches
+  double travelHeight = 0;     ///< of the ball centre, on the way to a stud or sphere and back
   double extraClearance = 0;
+  probing::Between between = probing::Between::AtClearanceHeight;  ///< around a stud or sphere
 };
 
+/// How a calibration travels between its touches, as Q301 says.
+inline probing::Between betweenTouches(const Context& context) {
+  return context.option(301) == 1 ? probing::Between::AtClearanceHeight : probing::Between::AtMeasuringHeight;
+}
+
 /// The prober for calibrating: without tip offset, turned to CAL_ANG where the spindle can be oriented, with the
-/// radius of the tool table as a first guess. Only a stylus whose ball stands aside is turned to every touch.
+/// radius of the tool table as a first guess. Only a stylus whose ball stands aside is turned to every touch, with the
+/// offset of the touch probe table as a first guess.
 probing::HeidenhainProber calibrationProber(Context& context);
 
 /// Coarse measurement of the centre by four touches, fine measurement by `count` touches from there; then, if the
 /// spindle can be oriented, as many more touches with the probe turned by 180 degrees, which give the centre offset.
-/// With TRACK = ON the radius is that of as many more touches with the probe turned to each. Where the ball stands
-/// aside, the radius counts from the spindle axis and there is no offset.
+/// With TRACK = ON the radius is that of as many more touches with the probe turned to each. A ball that stands aside
+/// can touch with one half of its surface only: turned to every touch it tells how far it reaches, held across two
+/// touches how far of that is ball and how far offset.
 CalibratedRadius calibrateRadius(Context& context, probing::HeidenhainProber& prober, CalibrationTask task);
 
 /// Writes R and the centre offset, puts them into effect and notes them in TCHPRAUTO.html.

@@ -269,6 +269,13 @@ probing::HeidenhainProbe activeProbe(const Control& control, Calibrated calibrat
                 "The ball of an L-shaped stylus stands aside; only the spindle can turn it to the surface",
                 "set TRACK = ON in TCHPROBE.TP, or STYLUS to SIMPLE");
   }
+  if (probe.aside && !(probe.tipOffset.norm() > 0)) {
+    throw Alarm("Touch probe not calibrated",
+                fmt::format("CAL_OF1 and CAL_OF2 of touch probe {} do not say where the ball of its L-shaped stylus "
+                            "stands",
+                            tool.probeRow),
+                "enter how far the ball stands from the spindle axis at CAL_ANG; calibrating finds it exactly");
+  }
   if (calibrated == Calibrated::Required) probe.directions = directionsOf(control);
   return probe;
 }

@@ -69,6 +69,11 @@ public:
   /// Sets Qn without recording: states and counters.
   void set(int number, double value) { control_.q.setQ(number, value); }
 
+  /// A remark on the run that stops nothing.
+  void warn(std::string text) {
+    control_.panel.message(control::EventKind::Warning, std::move(text), channel().seconds());
+  }
+
   /// The operator sees the text on the screen and the program waits for NC start.
   void stop(const std::string& text);
 

@@ -43,9 +43,10 @@ const CycleDefinition cycle420Definition = {
 
 void cycle420(Context& context, const Arguments&) {
   context.require({});
-  const bool aside =
-      std::abs(context.q(263) - context.q(265)) > 1e-4 && std::abs(context.q(264) - context.q(266)) > 1e-4;
-  if (context.option(272) == 3 && aside) {
+  const bool sameMain = std::abs(context.q(263) - context.q(265)) <= 1e-4;
+  const bool sameMinor = std::abs(context.q(264) - context.q(266)) <= 1e-4;
+  // The older control takes all other points for those of a B axis.
+  if (context.option(272) == 3 && !sameMain && !sameMinor && context.control().isTNC640()) {
     throw control::Alarm(
         "Angle not determined",
         "With Q272 = 3 the points must lie along the main or the minor axis: A and B are angles about them",
@@ -55,7 +56,7 @@ void cycle420(Context& context, const Arguments&) {
   double measured = 0;
   if (context.option(272) != 3) {
     measured = undirected(degreesFromRadians(std::atan2(edge.along.y(), edge.along.x())));
-  } else if (std::abs(edge.along.y()) > std::abs(edge.along.x())) {
+  } else if (sameMain) {
     // Along the minor axis: the angle in the direction of the A axis.
     measured = undirected(degreesFromRadians(std::atan2(edge.along.z(), edge.along.y())));
   } else {

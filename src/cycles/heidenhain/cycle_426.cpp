@@ -57,7 +57,10 @@ void cycle426(Context& context, const Arguments&) {
   Vector3 minus(context.q(265), context.q(266), context.q(261));
   // The first stroke goes in the negative direction: it belongs to the face with the larger coordinate. Points given
   // the other way round would let the probe start inside the ridge.
-  if (plus[axis] < minus[axis]) std::swap(plus, minus);
+  if (plus[axis] < minus[axis]) {
+    std::swap(plus, minus);
+    context.warn("The first point lies on the smaller coordinate; the points are touched in the opposite order");
+  }
   const auto touches = probing::probePoints(
       context.prober(), {{{plus, probing::axisDirection(axis, -1)}}, {{minus, probing::axisDirection(axis, 1)}}},
       {.measuring = context.q(261),

@@ -73,7 +73,12 @@ void cycle431(Context& context, const Arguments&) {
   }
   const Vector3 u = main.normalized();
   Vector3 n = cross.normalized();
-  if (n.z() < 0) n = -n;
+  if (n.z() < 0) {
+    n = -n;
+    context.warn(
+        "The third point lies on the negative side of the line through the first two; the tool axis was turned out of "
+        "the part");
+  }
   const auto& plane = context.control().coordinates.plane;
   // Space angles count about X, Y and Z, whatever the touch probe axis.
   Matrix3 axes;

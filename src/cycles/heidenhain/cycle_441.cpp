@@ -43,7 +43,12 @@ void cycle441(Context& context, const Arguments&) {
   const double feed = context.q(396);
   if (feed > 0) overrides.positioningFeed = feed;
   overrides.machineRapid = context.option(397) == 1;
-  overrides.track = context.option(399) == 1;
+  const Control& control = context.control();
+  // The older control tracks only where its machine parameter has it prepared.
+  overrides.track = context.option(399) == 1 && (control.isTNC640() || control.parameters.mp6165);
+  if (context.option(399) == 1 && !*overrides.track) {
+    context.warn("Q399 = 1 has no effect: MP6165 does not allow the probe to be turned to the touches");
+  }
   overrides.interrupt = context.option(400) == 1;
 }
 

@@ -48,7 +48,15 @@ void cycle460(Context& context, const Arguments&) {
   context.require({.turningModeAllowed = true});
   const bool directional = context.given(455) && context.option(455) > 0;
   if (directional) requireDirectionalCalibration(context);
+  if (!context.control().isTNC640() && context.option(423) > 4) {
+    throw control::Alarm("Cycle parameter wrong", "Q423 takes four or three touches on the iTNC 530", "enter 4 or 3");
+  }
   auto prober = calibrationProber(context);
+  if (directional && prober.probe().aside) {
+    throw control::Alarm("Calibration not possible",
+                         "An L-shaped stylus is turned to every touch; there are no 3-D calibration data for it",
+                         "set Q455 = 0");
+  }
   const Vector3 start = prober.position();
   const double standardRadius = context.q(407);
   const Vector3 down = probing::axisDirection(2, -1);
@@ -61,7 +69,9 @@ void cycle460(Context& context, const Arguments&) {
                        .count = context.option(423),
                        .startAngle = context.q(380),
                        .travelHeight = start.z(),
-                       .extraClearance = context.q(320)};
+                       .extraClearance = context.q(320),
+                       .between = betweenTouches(context)};
+  if (prober.probe().aside) prober.moveInPlane(start - prober.tipOffsetNow());
   CalibratedRadius calibrated;
   for (int pass = 0; pass < 3; ++pass) {
     const EvaluatedTouch pole = prober.stroke(down, standOff + 2 * standardRadius);
@@ -91,7 +101,7 @@ void cycle460(Context& context, const Arguments&) {
                                   .startAngle = context.q(380),
                                   .extraClearance = context.q(320),
                                   .travelHeight = prober.position().z(),
-                                  .atClearance = context.option(301) == 1});
+                                  .between = task.between});
   }
   prober.moveHeightTo(start.z());
   prober.moveInPlane(start);

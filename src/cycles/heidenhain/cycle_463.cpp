@@ -44,7 +44,8 @@ void cycle463(Context& context, const Arguments&) {
                                         .startAngle = context.q(380),
                                         .measuringHeight = touchHeight,
                                         .travelHeight = start.z(),
-                                        .extraClearance = context.q(320)}));
+                                        .extraClearance = context.q(320),
+                                        .between = betweenTouches(context)}));
 }
 
 }  // namespace probewright::cycles::heidenhain

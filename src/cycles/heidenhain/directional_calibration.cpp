@@ -96,7 +96,7 @@ void calibrateDirections(Context& context, const DirectionalTask& task) {
       const Vector3 aside(offset.x(), offset.y(), 0);
       const PlannedTouch planned{sphere - direction * task.standardRadius - aside, direction};
       const Vector3 start = prober.prePosition(planned, task.extraClearance);
-      if (i == 0 || task.atClearance) {
+      if (i == 0 || task.between == probing::Between::AtClearanceHeight) {
         prober.moveHeightTo(task.travelHeight);
         prober.moveInPlane(start);
       } else {

@@ -13,8 +13,8 @@ struct DirectionalTask {
   int count = 4;          ///< touches around the sphere on each ring
   double startAngle = 0;  ///< of the first touch of a ring
   double extraClearance = 0;
-  double travelHeight = 0;   ///< of the ball centre, between the rings
-  bool atClearance = false;  ///< also between the touches of a ring
+  double travelHeight = 0;                                         ///< of the ball centre, between the rings
+  probing::Between between = probing::Between::AtMeasuringHeight;  ///< the touches of a ring
 };
 
 /// Touches the pole of the sphere and `count` points on each of `rings` circles down to the equator, and writes what

@@ -144,13 +144,13 @@ std::vector<EvaluatedTouch> ObjectProbing::touchCircle(const NominalPosition& no
     if (side == Side::Outside) middle[2] -= 2 * (probe.setUp + extra_) + probe.ballRadius;
   }
   double extra = extra_;
-  const double room = diameter / 2 - probe.ballRadius;
+  const double room = diameter / 2 - probe.reach();
   const bool narrow = side == Side::Inside && room <= probe.setUp + extra;
   if (narrow) {
     if (!(room > 0)) {
       throw Alarm("Hole too small",
-                  fmt::format("The ball of radius {:.4f} mm does not fit into a hole of diameter {:.4f} mm",
-                              probe.ballRadius, diameter),
+                  fmt::format("The ball, which reaches {:.4f} mm, does not fit into a hole of diameter {:.4f} mm",
+                              probe.reach(), diameter),
                   "use a smaller stylus, or correct the diameter");
     }
     context_.stop(

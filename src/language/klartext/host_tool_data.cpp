@@ -136,6 +136,12 @@ std::optional<double> KlartextHost::probeData(int number, int index) const {
   const bool known = !row.empty() && probes.hasRow(row);
   const auto cell = [&](std::string_view column) { return known ? probes.numberOr(row, column, 0) : 0; };
   const double length = control_.tool.length + control_.tool.deltaLength;
+  // The iTNC 530 keeps its calibration in the tool table.
+  const auto calibrated = [&](std::string name) {
+    if (control_.isTNC640()) return cell(name);
+    std::ranges::replace(name, '_', '-');
+    return control_.tables.tools.numberOr(control_.tool.row, name, 0);
+  };
   switch (number) {
     case 10:
       return control_.q.q(109);
@@ -144,7 +150,10 @@ std::optional<double> KlartextHost::probeData(int number, int index) const {
     case 12:
       return length;
     case 14:
-      return cell(index == 2 ? "CAL_OF2" : "CAL_OF1");
+      return calibrated(index == 2 ? "CAL_OF2" : "CAL_OF1");
+    case 15:
+      return normalizedDegrees(degreesFromRadians(std::atan2(calibrated("CAL_OF2"), calibrated("CAL_OF1"))) -
+                               calibrated("CAL_ANG"));
     case 50:
       if (index == 2) return row.empty() ? -1 : std::stod(row);
       return probeType(known ? probes.text(row, "TYPE") : "");
@@ -153,9 +162,9 @@ std::optional<double> KlartextHost::probeData(int number, int index) const {
     case 52:
       return index == 2 ? control_.tool.radius2 : control_.tool.radius;
     case 53:
-      return cell(index == 2 ? "CAL_OF2" : "CAL_OF1");
+      return calibrated(index == 2 ? "CAL_OF2" : "CAL_OF1");
     case 54:
-      return cell("CAL_ANG");
+      return calibrated("CAL_ANG");
     case 55:
       if (index == 3) return known && probes.text(row, "F_PREPOS") == "FMAX_MACHINE" ? 1 : 0;
       return cell(index == 2 ? "F" : "FMAX");
