@@ -56,6 +56,10 @@ public:
         set(407, task_.size[0] / 2);
         set(423, 4);
         set(380, task_.angle);
+        if (task_.calibratesLength) {
+          set(433, 1);
+          set(434, task_.place[2]);
+        }
         extraClearance();
         break;
     }
@@ -210,9 +214,6 @@ private:
   }
 
   void corner() {
-    if (task_.correction == Correction::None) {
-      throw NotCarriedOver("the touch probe cycles for corners always set a preset");
-    }
     const bool inside = isInside(task_.feature);
     call_.cycle = inside ? "415" : "414";
     heights();
@@ -224,12 +225,16 @@ private:
     };
     Place first = task_.place, second = task_.further.at(0), third = task_.further.at(1), fourth = task_.further.at(2);
     if (inside) {
-      set(263, third[0]);
-      set(264, first[1]);
+      const Quantity main = third[0], minor = first[1];
+      set(263, main);
+      set(264, minor);
       const bool right = task_.secondSign < 0, up = task_.sign < 0;  // away from the corner into the pocket
       set(308, right ? (up ? 1 : 4) : (up ? 2 : 3));
-      set(326, std::max(std::abs(apart(third[0], first[0])), std::abs(apart(third[0], second[0]))));
-      set(327, std::max(std::abs(apart(first[1], third[1])), std::abs(apart(first[1], fourth[1]))));
+      // The nearer point of each edge is touched as near as the clearance allows.
+      const bool secondFarther = ((second[0] - first[0]).number() > 0) == right;
+      const bool fourthFarther = ((fourth[1] - third[1]).number() > 0) == up;
+      set(326, ((secondFarther ? second : first)[0] - main) * (right ? 1 : -1));
+      set(327, ((fourthFarther ? fourth : third)[1] - minor) * (up ? 1 : -1));
     } else {
       if (apart(first[0], second[0]) < 0) std::swap(first, second);
       if (apart(third[1], fourth[1]) < 0) std::swap(third, fourth);

@@ -262,7 +262,10 @@ private:
     task.size[0] = q(407) * 2;
     task.place[2] = q(434);
     task.angle = q(380);
-    if (asked(433)) losses_.push_back("Q433: the length is not calibrated along with the ball");
+    task.calibratesLength = asked(433);
+    if (asked(433) && feature != Feature::ProbeOnBall) {
+      losses_.push_back("Q433: the length is not calibrated along with the ball");
+    }
     if (asked(455)) losses_.push_back("Q455: no 3-D calibration");
     return task;
   }

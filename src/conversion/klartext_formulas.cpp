@@ -122,20 +122,40 @@ std::string KlartextFormulas::variable(const Block& block, const VariableRef& va
 
 std::string KlartextFormulas::systemDatum(const Block& block, const VariableRef& variable) {
   const std::string_view name = block.at(variable.name);
+  const auto word = [&](std::size_t i) {
+    const std::int32_t node = variable.index[i].node;
+    return node < 0 ? std::string_view() : block.at(block.nodes[static_cast<std::size_t>(node)].text);
+  };
+  const auto axisNumber = [](std::string_view axis) {
+    return axis.size() == 1 && axis[0] >= 'X' && axis[0] <= 'Z' ? axis[0] - 'X' + 1 : 0;
+  };
   if (name == "$P_TOOLR") return "Q108";
   if (name == "$P_TOOLL" && variable.index[0].isLiteral() && variable.index[0].number == 1) return "Q114";
-  const bool position = name == "$AA_IW" || name == "$P_EP";
-  std::string read;
-  if (position && variable.index[0].node >= 0) {
-    const Node& node = block.nodes[static_cast<std::size_t>(variable.index[0].node)];
-    const std::string_view axis = block.at(node.text);
-    if (node.operation == Operation::AxisName && axis.size() == 1 && axis[0] >= 'X' && axis[0] <= 'Z')
-      read = fmt::format("ID270 NR1 IDX{}", axis[0] - 'X' + 1);
+  if (name == "$SNS_MEA_WP_BALL_DIAM") return fmt::format("(2 * {})", read("ID350 NR52 IDX1"));
+  if (name == "$P_UIFRNUM") return read("ID530 NR1");
+  if ((name == "$AA_IW" || name == "$P_EP") && axisNumber(word(0)) != 0) {
+    return read(fmt::format("ID270 NR1 IDX{}", axisNumber(word(0))));
   }
-  if (name == "$P_UIFRNUM") read = "ID530 NR1";
-  if (read.empty()) throw NotCarriedOver(fmt::format("{} has no twin in Klartext", name));
+  const bool component = word(2) == "TR" || word(2) == "RT";
+  if (name == "$P_UIFR" && component && axisNumber(word(1)) != 0) {
+    return presetDatum(quantity(block, variable.index[0]), axisNumber(word(1)) + (word(2) == "RT" ? 3 : 0));
+  }
+  throw NotCarriedOver(fmt::format("{} has no twin in Klartext", name));
+}
+
+std::string KlartextFormulas::presetDatum(const Quantity& row, int index) {
+  return read(fmt::format("ID507 NR{} IDX{}", unsignedValue(row == 99 ? Quantity(0) : row), index));
+}
+
+std::string KlartextFormulas::read(const std::string& datum) {
+  for (const std::string& line : prelude_) {
+    const std::size_t equals = line.find(" = ");
+    const std::string_view start = "FN 18: SYSREAD ";
+    if (line.starts_with(start) && line.substr(equals + 3) == datum)
+      return line.substr(start.size(), equals - start.size());
+  }
   const std::string result = helper("");
-  prelude_.back() = fmt::format("FN 18: SYSREAD {} = {}", result, read);
+  prelude_.back() = fmt::format("FN 18: SYSREAD {} = {}", result, datum);
   return result;
 }
 
@@ -216,7 +236,8 @@ std::string KlartextFormulas::call(const Block& block, const Node& node) {
       first = asValue(first);
       second = asValue(second);
       prelude_.push_back(fmt::format("FN 13: {} = {} ANG {}", result, first, second));
-      return result;
+      // FN 13 counts from 0 to 360 degrees, ATAN2 from -180 to 180.
+      return fmt::format("({0} - 360 * INT (({0} + 179.999999999) / 360))", result);
     }
     case Function::Round:
       return fmt::format("INT ({0} + SGN ({0}) * 0.5)", factorText(argument(0)));

@@ -28,6 +28,10 @@ public:
   /// The same without "+".
   std::string unsignedValue(const Quantity& quantity);
 
+  /// What a component of $P_UIFR holds now, read from the preset table. `row`: its number, which is that of the preset
+  /// but for the last, 99, whose twin is row 0. `index`: 1 to 3 for the translation, 4 to 6 for the rotation.
+  std::string presetDatum(const Quantity& row, int index);
+
   /// A number for a variable that the program defines.
   std::string define(std::string_view name, bool text);
 
@@ -38,9 +42,10 @@ private:
   std::string call(const language::Block& block, const language::Node& node);
   std::string systemDatum(const language::Block& block, const language::VariableRef& variable);
   std::string helper(const std::string& formula);
+  /// A system datum in a parameter; the same one again if it was just read.
+  std::string read(const std::string& datum);
 
   std::map<std::string, std::string, std::less<>> names_;
-  std::map<std::string, std::string> systemData_;
   int nextNumber_ = 1600;
   int nextText_ = 1600;
   int nextHelper_ = 0;

@@ -86,6 +86,8 @@ struct MeasuringTask {
   int along = 0;       ///< axis in which the points of an edge lie apart
   int secondSign = 1;  ///< of the probing direction at a corner's second edge
 
+  bool calibratesLength = false;  ///< of the probe, along with the ball on a calibration sphere
+
   Quantity path;                  ///< from where a touch begins to the expected surface
   Quantity clearance;             ///< height of the tip that is free everywhere
   bool clearanceBetween = false;  ///< go to that height between touches

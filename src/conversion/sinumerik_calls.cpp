@@ -281,8 +281,9 @@ private:
         set("S_STA1", task_.angle);
         break;
       default:
-        set("S_MVAR", task_.angle == 0 ? 3 : 100003);
+        set("S_MVAR", 3 + (task_.angle == 0 ? 0 : 100000) + (task_.calibratesLength ? 1000000 : 0));
         set("S_SETV", task_.size[0]);
+        if (task_.calibratesLength) set("S_SETV0", task_.place[2] + task_.size[0] / 2);
         set("S_STA1", task_.angle);
         break;
     }

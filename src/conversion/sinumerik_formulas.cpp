@@ -184,7 +184,9 @@ std::string SinumerikFormulas::call(const Block& block, const Node& node) {
       break;
   }
   if (node.function == Function::Host && block.at(node.text) == "ANG") {
-    return fmt::format("ATAN2({},{})", argument(0), argument(1));
+    // FN 13 counts from 0 to 360 degrees, ATAN2 from -180 to 180.
+    const std::string angle = fmt::format("ATAN2({},{})", argument(0), argument(1));
+    return fmt::format("({0}-360*TRUNC(({0}-359.999999999)/360))", angle);
   }
   throw NotCarriedOver("this function has no twin on a SINUMERIK");
 }

@@ -12,6 +12,8 @@ namespace probewright::conversion {
 
 /// The radius of the ball in the spindle.
 inline const Quantity sinumerikBallRadius = Quantity::of("$P_TOOLR");
+/// The same as the last calibration has found it.
+inline const Quantity calibratedBallRadius = Quantity::of("$SNS_MEA_WP_BALL_DIAM[0]", 0.5);
 
 /// Q0 to Q99 are R0 to R99; other parameters become variables of their own, _Q150, _QL1, _QS3, which have to be
 /// declared.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -16,6 +17,8 @@ Feature feature977(int units) {
   if (units < 1 || units > 6) throw NotCarriedOver("this variant of CYCLE977 (S_MVAR) is not known");
   return features[units - 1];
 }
+
+constexpr double leastCornerPath = 20;  ///< CYCLE961 measures over at least that, mm
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
@@ -44,6 +47,21 @@ private:
                            "write a number there, or convert this call by hand");
     }
     return value.number();
+  }
+
+  /// From one coordinate to another; if they differ by the ball's radius, as near as a common ball lets it be known.
+  double distance(const Quantity& from, const Quantity& to) const {
+    constexpr double commonRadius = 2;
+    const Quantity way = to - from;
+    double length = way.number();
+    for (const Quantity::Term& term : way.terms()) {
+      if (ballRadius_.terms().empty() || term.expression != ballRadius_.terms().front().expression) {
+        throw NotCarriedOver(fmt::format("how the points of {} lie is known only when the program runs", call_.cycle),
+                             "write numbers there, or convert this call by hand");
+      }
+      length += term.factor * commonRadius;
+    }
+    return length;
   }
 
   MeasuringTask begun(Feature feature) {
@@ -193,8 +211,8 @@ private:
                            "measure it with four points (S_MVAR units 7 or 8) before converting");
     }
     MeasuringTask task = begun(units == 7 ? Feature::InsideCorner : Feature::OutsideCorner);
-    const auto value = [this](int i) { return known(fmt::format("S_SETV{}", i)); };
-    std::array<std::array<double, 2>, 4> starts{};
+    const auto value = [this](int i) { return number(fmt::format("S_SETV{}", i)); };
+    std::array<std::array<Quantity, 2>, 4> starts;
     if (call_.digit("S_MVAR", 2) == 1) {
       for (std::size_t i = 0; i < 4; ++i)
         starts[i] = {value(static_cast<int>(2 * i)), value(static_cast<int>(2 * i + 1))};
@@ -203,35 +221,45 @@ private:
       const int corner = call_.digit("S_MVAR", 5);
       for (int i = 0; i < 4; ++i) {
         const bool backwards = i < 2 ? corner == 2 || corner == 3 : corner == 3 || corner == 4;
-        double length = value(i);
+        double length = known(fmt::format("S_SETV{}", i));
         if (backwards) length = -std::abs(length);
-        if (i == 0 && length == 0) length = (backwards ? -std::abs(value(1)) : value(1)) / 2;
+        if (i == 0 && length == 0) length = (backwards ? -std::abs(known("S_SETV1")) : known("S_SETV1")) / 2;
         const double angle = i < 2 ? first : second;
         starts[static_cast<std::size_t>(i)] = {value(4) + length * std::cos(angle),
                                                value(5) + length * std::sin(angle)};
       }
     }
     constexpr double parallel = 1e-6;
-    if (std::abs(starts[0][1] - starts[1][1]) > parallel || std::abs(starts[2][0] - starts[3][0]) > parallel) {
+    if (std::abs(distance(starts[0][1], starts[1][1])) > parallel ||
+        std::abs(distance(starts[2][0], starts[3][0])) > parallel) {
       throw NotCarriedOver("HEIDENHAIN cycles measure corners whose edges run along the axes",
                            "turn the coordinate system in front of the cycle");
     }
+    if (distance(starts[0][0], starts[1][0]) < 0) {
+      throw NotCarriedOver("the first edge becomes the negative main axis, which HEIDENHAIN cycles do not do",
+                           "let the first edge run in the positive direction");
+    }
     // The pole is where the start positions' lines meet; from there the edges run towards the points.
-    const double toFirst = (starts[0][0] + starts[1][0]) / 2 - starts[2][0];
-    const double toSecond = (starts[2][1] + starts[3][1]) / 2 - starts[0][1];
+    const Quantity pole1 = starts[2][0], pole2 = starts[0][1];
+    const std::array apart = {distance(pole1, starts[0][0]), distance(pole1, starts[1][0]),
+                              distance(pole2, starts[2][1]), distance(pole2, starts[3][1])};
     const int side = units == 7 ? -1 : 1;
-    task.sign = side * (toSecond > 0 ? 1 : -1);
-    task.secondSign = side * (toFirst > 0 ? 1 : -1);
-    constexpr double longestPath = 5;  // within the stroke that touch probe tables allow
-    const Quantity cornerX = number("S_SETV8"), cornerY = number("S_SETV9");
-    task.path = longestPath;
+    task.sign = side * (apart[2] + apart[3] > 0 ? 1 : -1);
+    task.secondSign = side * (apart[0] + apart[1] > 0 ? 1 : -1);
+    // The edges are taken to lie within S_FA, but not so far that the points would lie on the other side of a corner.
+    double nearest = std::abs(apart[0]);
+    for (const double each : apart)
+      if (std::abs(each) > parallel) nearest = std::min(nearest == 0 ? std::abs(each) : nearest, std::abs(each));
+    task.path = std::min(std::max(known("S_FA"), leastCornerPath), nearest / 2);
     const Quantity height = call_.digit("S_MVAR", 4) == 1 ? task.place[2] + number("S_ID") : task.place[2];
     task.clearanceBetween = call_.digit("S_MVAR", 4) == 1;
-    task.place = {starts[0][0], cornerY, height};
-    task.further = {{starts[1][0], cornerY, height}, {cornerX, starts[2][1], height}, {cornerX, starts[3][1], height}};
+    const Quantity edge1 = pole2 + (task.path + ballRadius_) * task.sign;
+    const Quantity edge2 = pole1 + (task.path + ballRadius_) * task.secondSign;
+    task.place = {starts[0][0], edge1, height};
+    task.further = {{starts[1][0], edge1, height}, {edge2, starts[2][1], height}, {edge2, starts[3][1], height}};
     if (task.correction != Correction::None) {
       task.correction = Correction::OriginAndRotation;
-      task.wish = {cornerX, cornerY, std::nullopt};
+      task.wish = {number("S_SETV8"), number("S_SETV9"), std::nullopt};
     }
     return task;
   }
@@ -253,7 +281,8 @@ private:
         break;
       case 3:
         task.feature = Feature::ProbeOnBall;
-        if (call_.digit("S_MVAR", 7) == 1) losses_.push_back("the length is not calibrated along with the ball");
+        task.calibratesLength = call_.digit("S_MVAR", 7) == 1;
+        task.place[2] = number("S_SETV0") - number("S_SETV") / 2;
         break;
       default:
         throw NotCarriedOver("a HEIDENHAIN control does not calibrate at an edge");

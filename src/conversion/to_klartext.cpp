@@ -192,17 +192,7 @@ void ToKlartext::instruction(const Block& block, const Instruction& instruction)
 void ToKlartext::assign(const Block& block, const Assign& assign) {
   const VariableRef& variable = block.variables[assign.variable];
   const bool frame = variable.space == VariableSpace::System && block.at(variable.name) == "$P_UIFR";
-  if (frame && block.at(block.source).find(fmt::format(",{},RT]=", axis(2))) != std::string_view::npos) {
-    const bool active = block.at(block.source).find("$P_UIFR[$P_UIFRNUM,") != std::string_view::npos;
-    const Quantity angle = quantity(block, assign.value);
-    const Quantity row = active ? Quantity(-1) : quantity(block, variable.index[0]);
-    unturned_ = angle == 0;
-    const std::string angleText = formulas_.value(angle), rowText = formulas_.value(row == 99 ? Quantity(0) : row);
-    line("TCH PROBE 404 SET BASIC ROTATION ~");
-    out_.line(fmt::format("    Q307={} ;PRESET ROTATION ANG. ~", angleText));
-    out_.line(fmt::format("    Q305={} ;NUMBER IN TABLE", rowText));
-    return forgetPosition();
-  }
+  if (frame && variable.index[2].present()) return assignFrameComponent(block, assign);
   // A HEIDENHAIN cycle with Q305 = 0 copies the active preset to row 0 and selects it by itself.
   if (frame && trimmed(block.at(block.source)).starts_with("$P_UIFR[99]=$P_UIFR[$P_UIFRNUM]")) {
     copiesToRow0_ = true;
@@ -216,6 +206,43 @@ void ToKlartext::assign(const Block& block, const Assign& assign) {
   line(fmt::format("{} = {}", name, formula));
   for (auto& coordinate : position_)
     if (coordinate && !coordinate->isNumber()) coordinate.reset();
+}
+
+void ToKlartext::assignFrameComponent(const Block& block, const Assign& assign) {
+  const VariableRef& variable = block.variables[assign.variable];
+  const auto word = [&](std::size_t i) {
+    const std::int32_t node = variable.index[i].node;
+    return node < 0 ? std::string_view() : block.at(block.nodes[static_cast<std::size_t>(node)].text);
+  };
+  const bool active = word(0) == "$P_UIFRNUM" || block.at(block.source).find("[$P_UIFRNUM,") != std::string_view::npos;
+  const Quantity value = quantity(block, assign.value);
+  const Quantity number = active ? Quantity(-1) : quantity(block, variable.index[0]);
+  const Quantity row = number == 99 ? Quantity(0) : number;
+  forgetPosition();
+  if (word(2) == "RT" && word(1) == axis(2)) {
+    unturned_ = value == 0;
+    const std::string angle = formulas_.value(value), rowText = formulas_.value(row);
+    line("TCH PROBE 404 SET BASIC ROTATION ~");
+    out_.line(fmt::format("    Q307={} ;PRESET ROTATION ANG. ~", angle));
+    out_.line(fmt::format("    Q305={} ;NUMBER IN TABLE", rowText));
+    return;
+  }
+  const std::size_t place = word(1).size() == 1 ? std::string_view("XYZ").find(word(1)[0]) : std::string_view::npos;
+  if (word(2) != "TR" || place == std::string_view::npos) {
+    throw NotCarriedOver(fmt::format("$P_UIFR[..,{},{}] cannot be written in Klartext", word(1), word(2)));
+  }
+  // A preset moves by an amount, and only while it is in effect.
+  const Quantity present = active ? quantity(block, variable.index[0]) : row;
+  const Quantity shift = value - Quantity::of(formulas_.presetDatum(present, static_cast<int>(place) + 1));
+  const std::string amount = formulas_.value(shift);
+  const bool selected = active || (activeRow_ && number == *activeRow_);
+  const std::string before = formulas_.define("preset in effect", false);
+  if (!selected) {
+    line(fmt::format("FN 18: SYSREAD {} = ID530 NR1", before));
+    out_.line(fmt::format("PRESET SELECT #{} KEEP TRANS", formulas_.unsignedValue(row)));
+  }
+  line(fmt::format("PRESET CORR {}{}", word(1), amount));
+  if (!selected) line(fmt::format("PRESET SELECT #{} KEEP TRANS", before));
 }
 
 void ToKlartext::toolCall(const Block& block, const ToolCall& call) {

@@ -26,6 +26,8 @@ private:
   void statements(const language::Block& block);
   void instruction(const language::Block& block, const language::Instruction& instruction);
   void assign(const language::Block& block, const language::Assign& assign);
+  /// A component of $P_UIFR: a translation or the rotation about the tool axis.
+  void assignFrameComponent(const language::Block& block, const language::Assign& assign);
   void toolCall(const language::Block& block, const language::ToolCall& call);
   void changeTool();
   void modal(const language::Block& block, const language::Modal& modal);
@@ -57,6 +59,10 @@ private:
   // to_klartext_cycles.cpp
   void cycle(const language::Block& block, const language::CallProgram& call);
   Place here();
+  /// Writes the touch probe cycle that carries out the task; its number.
+  std::string writeTask(const MeasuringTask& task);
+  /// A corner that is measured only, which no touch probe cycle does: four times cycle 427.
+  Results cornerByTouches(const MeasuringTask& corner);
   void copyResults(const language::Block& block, const Results& left, const MeasuringTask& task);
   /// To where the SINUMERIK cycle leaves the probe.
   void goBack(const MeasuringTask& task, std::array<std::optional<Quantity>, 3> end);
@@ -73,6 +79,7 @@ private:
   sinumerik::SinumerikProgram& program_;
   Output out_;
   KlartextFormulas formulas_;
+  Quantity ballRadius_ = klartextBallRadius;
   Conversion result_;
 
   // What the whole program tells.

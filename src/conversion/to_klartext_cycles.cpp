@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <utility>
 
 #include "conversion/heidenhain_tasks.hpp"
@@ -82,6 +83,63 @@ void ToKlartext::copyResults(const Block& block, const Results& left, const Meas
     out_.lose(block, fmt::format("_OVR[{}]: the touch probe cycle has no such result", index));
 }
 
+std::string ToKlartext::writeTask(const MeasuringTask& task) {
+  const Call call = heidenhainCall(task);
+  const cycles::CycleDefinition* definition = cycles::heidenhainCycle(std::stoi(call.cycle));
+  std::vector<std::string> lines = {fmt::format("TCH PROBE {} {} ~", call.cycle, definition->title)};
+  for (const cycles::Parameter& parameter : definition->parameters) {
+    if (!call.has(parameter.name)) continue;
+    const std::string_view meaning = parameter.meaning.substr(0, parameter.meaning.find_first_of(":;,"));
+    lines.push_back(
+        fmt::format("    {}={} ;{} ~", parameter.name, formulas_.value(call.number(parameter.name)), meaning));
+  }
+  lines.back().resize(lines.back().size() - 2);
+  for (std::string& each : formulas_.takePrelude())
+    out_.line(std::move(each));
+  for (std::string& each : lines)
+    out_.line(std::move(each));
+  return call.cycle;
+}
+
+Results ToKlartext::cornerByTouches(const MeasuringTask& corner) {
+  const std::array<Place, 4> places = {corner.place, corner.further.at(0), corner.further.at(1), corner.further.at(2)};
+  const auto own = [this](const char* what) { return formulas_.define(fmt::format("corner {}", what), false); };
+  const auto text = [](const Quantity& quantity) { return expressionText(quantity, true); };
+  // Where the ball's centre stood in the measuring direction.
+  const std::array<std::string, 4> found = {own("touch 1"), own("touch 2"), own("touch 3"), own("touch 4")};
+  for (std::size_t i = 0; i < 4; ++i) {
+    MeasuringTask touch = corner;
+    touch.feature = Feature::Surface;
+    touch.place = places[i];
+    touch.axis = i < 2 ? 1 : 0;
+    touch.sign = i < 2 ? corner.sign : corner.secondSign;
+    if (i == 2 && !corner.clearanceBetween) {
+      // Round the corner, as the original goes.
+      const Quantity back = corner.path + ballRadius_;
+      line(fmt::format("L {}{} {}{} R0 FMAX", axis(0), formulas_.value(places[2][0] - back * corner.secondSign),
+                       axis(1), formulas_.value(places[0][1] - back * corner.sign)));
+    }
+    writeTask(touch);
+    out_.line(fmt::format("{} = Q160 {} {}", found[i], touch.sign > 0 ? "-" : "+", text(ballRadius_)));
+  }
+  // Each edge is a straight line one radius beside its two centres: y = at1 + slope1 * x and x = at2 + slope2 * y.
+  const std::string slope1 = own("slope 1"), slope2 = own("slope 2"), at1 = own("edge 1"), at2 = own("edge 2");
+  const auto edge = [&](const std::string& slope, const std::string& at, std::size_t first, std::size_t along,
+                        int sign) {
+    const Quantity apart = places[first + 1][along] - places[first][along];
+    out_.line(fmt::format("{} = ({} - {}) / ({})", slope, found[first + 1], found[first], text(apart)));
+    out_.line(fmt::format("{0} = {1} - {2} * ({3}) {4} {5} * SQRT (1 + SQ {2})", at, found[first], slope,
+                          text(places[first][along]), sign > 0 ? "+" : "-", text(ballRadius_)));
+  };
+  edge(slope1, at1, 0, 0, corner.sign);
+  edge(slope2, at2, 2, 1, corner.secondSign);
+  const std::string main = own("main axis"), minor = own("minor axis"), angle = own("angle");
+  out_.line(fmt::format("{} = ({} + {} * {}) / (1 - {} * {})", main, at2, slope2, at1, slope1, slope2));
+  out_.line(fmt::format("{} = {} + {} * {}", minor, at1, slope1, main));
+  out_.line(fmt::format("{} = ATAN {}", angle, slope1));
+  return {{Meaning::Centre1, main}, {Meaning::Centre2, minor}, {Meaning::Angle, angle}};
+}
+
 void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   const cycles::CycleDefinition* definition = cycles::sinumerikCycle(block.at(called.name));
   Call call;
@@ -103,7 +161,7 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   Losses losses;
   const bool calibrates = call.cycle == "CYCLE976";
   const Place start = calibrates ? Place{} : here();
-  MeasuringTask task = sinumerikTask(call, start, klartextBallRadius, losses);
+  MeasuringTask task = sinumerikTask(call, start, ballRadius_, losses);
   const bool turns = task.correction == Correction::Rotation;
   if (turns && activeRow_ && task.row == *activeRow_) task.active = true;
   task.fromUnturned = std::exchange(unturned_, false) && turns;
@@ -113,25 +171,30 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
     task.row = Quantity::of(row);
   }
   if (task.row == 99) task.row = 0;
-  const Call measuring = heidenhainCall(task);
-  const cycles::CycleDefinition* heidenhain = cycles::heidenhainCycle(std::stoi(measuring.cycle));
-  std::vector<std::string> lines = {fmt::format("TCH PROBE {} {} ~", measuring.cycle, heidenhain->title)};
-  for (const cycles::Parameter& parameter : heidenhain->parameters) {
-    if (!measuring.has(parameter.name)) continue;
-    const std::string_view meaning = parameter.meaning.substr(0, parameter.meaning.find_first_of(":;,"));
-    lines.push_back(
-        fmt::format("    {}={} ;{} ~", parameter.name, formulas_.value(measuring.number(parameter.name)), meaning));
+  const bool measuresCorner = isCorner(task.feature) && task.correction == Correction::None;
+  const bool measuresBefore = task.feature == Feature::Surface && task.correction != Correction::None &&
+                              task.axis != 2 && !wantedAfter_[cycleNumber_].empty();
+  Results results;
+  if (measuresCorner) {
+    results = cornerByTouches(task);
+  } else {
+    if (measuresBefore) {  // cycle 419 has no results
+      MeasuringTask inspection = task;
+      inspection.correction = Correction::None;
+      results = heidenhainResults(writeTask(inspection), task);
+    }
+    results.merge(heidenhainResults(writeTask(task), task));
   }
-  lines.back().resize(lines.back().size() - 2);
-  for (std::string& each : formulas_.takePrelude())
-    out_.line(std::move(each));
-  for (std::string& each : lines)
-    out_.line(std::move(each));
-  const Results results = heidenhainResults(measuring.cycle, task);
   copyResults(block, results, task);
   for (const std::string& loss : losses)
     out_.lose(block, loss);
-  if (!calibrates) goBack(task, sinumerikEnd(call, task, start, klartextBallRadius, results));
+  if (!calibrates) goBack(task, sinumerikEnd(call, task, start, ballRadius_, results));
+  if (task.feature == Feature::ProbeInRing || task.feature == Feature::ProbeOnBall) {
+    // Q108 knows the new radius from the next tool call on.
+    const std::string radius = formulas_.define("ball radius", false);
+    line(fmt::format("FN 18: SYSREAD {} = ID350 NR52 IDX1", radius));
+    ballRadius_ = Quantity::of(radius);
+  }
 }
 
 void ToKlartext::goBack(const MeasuringTask& task, std::array<std::optional<Quantity>, 3> end) {

@@ -82,6 +82,7 @@ private:
   language::klartext::HeidenhainProgram& program_;
   Output out_;
   SinumerikFormulas formulas_;
+  Quantity ballRadius_ = sinumerikBallRadius;
   Conversion result_;
 
   // What the whole program tells.

@@ -6,6 +6,7 @@
 #include "conversion/sinumerik_tasks.hpp"
 #include "conversion/to_sinumerik.hpp"
 #include "cycles/catalogue.hpp"
+#include "geometry/primitives.hpp"
 
 /// Touch probe cycles of HEIDENHAIN programs as measuring cycles of a SINUMERIK.
 namespace probewright::conversion {
@@ -76,7 +77,7 @@ void ToSinumerik::cycle(const Block& block, const CycleCall& cycle) {
   const Call call = callOf(block, cycle);
   if (cycle.number == 404) return basicRotation(call);
   Losses losses;
-  const std::vector<MeasuringTask> tasks = heidenhainTasks(call, sinumerikBallRadius, losses);
+  const std::vector<MeasuringTask> tasks = heidenhainTasks(call, ballRadius_, losses);
   out_.line(fmt::format("; {} {}", cycle.number, definition == nullptr ? "" : definition->title));
   for (const MeasuringTask& each : tasks) {
     if (call.cycle == "431" && !alongMainAxis(each)) {
@@ -115,7 +116,7 @@ void ToSinumerik::task(const Block& block, const MeasuringTask& given, const std
     forgetPosition();
   }
   Losses losses;
-  const SinumerikPassage passage = sinumerikPassage(task, sinumerikBallRadius, losses);
+  const SinumerikPassage passage = sinumerikPassage(task, ballRadius_, losses);
   if (task.fromUnturned) takeRotationOut(task);
   if (passage.start) approach(*passage.start, task.clearance);
   out_.line(callText(passage.call));
@@ -130,6 +131,9 @@ void ToSinumerik::task(const Block& block, const MeasuringTask& given, const std
   for (const std::string& loss : losses)
     out_.lose(block, loss);
   forgetPosition();
+  if (task.feature == Feature::ProbeInRing || task.feature == Feature::ProbeOnBall) {
+    ballRadius_ = calibratedBallRadius;  // the tool data may keep the old one
+  }
   if (!corrects && passage.start) position_[2] = task.clearance;
   besidePath_ = true;
 }
@@ -234,7 +238,7 @@ void ToSinumerik::planeByTouches(const Block& block, const MeasuringTask& plane)
     touch.axis = 2;
     touch.sign = -1;
     Losses losses;
-    const SinumerikPassage passage = sinumerikPassage(touch, sinumerikBallRadius, losses);
+    const SinumerikPassage passage = sinumerikPassage(touch, ballRadius_, losses);
     approach(*passage.start, plane.clearance);
     out_.line(callText(passage.call));
     out_.line(fmt::format("{}=_OVR[4]", parameter(heights[i])));
@@ -291,10 +295,15 @@ void ToSinumerik::copyResults(const Block& block, const std::string& heidenhainC
     const std::string target = parameter(number);
     if (heidenhainCycle == "1410") {
       // An angle from the first point to the second, in any direction.
-      const double offset = task.angle.number() - sinumerikEdgeAngle(task, task.angle).number();
+      const double offset = normalizedDegrees(task.angle.number() - sinumerikEdgeAngle(task, task.angle).number());
       out_.line(fmt::format("{}={}", target,
                             sinumerikText(meaning == Meaning::Angle ? Quantity::of(found->second) + offset
                                                                     : Quantity::of(found->second))));
+      if (meaning == Meaning::Angle && offset == 180) {
+        out_.line(fmt::format("IF {}>180", target));
+        out_.line(fmt::format("  {0}={0}-360", target));
+        out_.line("ENDIF");
+      }
     } else if (task.feature == Feature::Edge && task.axis == 0) {
       // The angle counts from the other axis there.
       out_.line(fmt::format("{}={}+90", target, found->second));

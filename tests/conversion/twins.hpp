@@ -1,5 +1,8 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include "cycles/catalogue.hpp"
 #include "cycles_heidenhain/worlds.hpp"
 #include "session/convert.hpp"
 #include "session/run.hpp"
@@ -10,25 +13,24 @@ namespace probewright::testing_support {
 
 using session::ProgramLanguage;
 
-/// The program in the other language; nothing may be lost.
-inline std::string converted(const std::string& text, ProgramLanguage from, ProgramLanguage to) {
-  const auto program = session::programOf(from == ProgramLanguage::Sinumerik ? "BENCH.MPF" : "BENCH.H", text, from);
-  const session::Conversion conversion = session::convert(*program, from, to);
-  for (const Diagnostic& mistake : conversion.mistakes)
-    ADD_FAILURE() << format(mistake) << "\n" << text;
-  for (const Diagnostic& lost : conversion.notCarriedOver)
-    ADD_FAILURE() << format(lost);
-  return conversion.text;
-}
-inline std::string toSinumerik(const std::string& text) {
-  return converted(text, ProgramLanguage::Klartext, ProgramLanguage::Sinumerik);
-}
-inline std::string toKlartext(const std::string& text) {
-  return converted(text, ProgramLanguage::Sinumerik, ProgramLanguage::Klartext);
+inline constexpr double exactly = 1e-6;  ///< mm, degrees
+
+inline ProgramLanguage otherLanguage(ProgramLanguage language) {
+  return language == ProgramLanguage::Klartext ? ProgramLanguage::Sinumerik : ProgramLanguage::Klartext;
 }
 
-/// What both controls believe at the end, and what was measured on the way.
+inline session::Conversion converted(const std::string& text, ProgramLanguage from) {
+  const auto program = session::programOf(from == ProgramLanguage::Sinumerik ? "BENCH.MPF" : "BENCH.H", text, from);
+  return session::convert(*program, from, otherLanguage(from));
+}
+inline session::Conversion toSinumerik(const std::string& text) { return converted(text, ProgramLanguage::Klartext); }
+inline session::Conversion toKlartext(const std::string& text) { return converted(text, ProgramLanguage::Sinumerik); }
+
+/// A program with its run: what was measured on the way, what the control believes at the end, where the probe stands.
 struct Twin {
+  std::string text;
+  ProgramLanguage language = ProgramLanguage::Klartext;
+  Diagnostics lost;  ///< by the conversion that gave the text
   bool finished = false;
   std::string why;
   Pose machineFromWorkpiece = Pose::Identity();
@@ -36,8 +38,6 @@ struct Twin {
   std::map<std::string, std::string> files;
   machine::AxisPositions axes;  ///< at the end
 
-  /// Where a place of the machine lies in the workpiece system at the end.
-  Vector3 seen(const Vector3& machinePoint) const { return machineFromWorkpiece.inverse() * machinePoint; }
   /// A result of the last cycle that has it, by its name on the control.
   double result(std::string_view name) const {
     for (auto cycle = journal.cycles.rbegin(); cycle != journal.cycles.rend(); ++cycle) {
@@ -57,13 +57,15 @@ inline simulation::Setup twinSetup(const simulation::Setup& setup) {
   return twin;
 }
 
-inline Twin runTwin(const std::string& text, const simulation::Setup& setup, ControlKind control) {
+inline Twin run(const std::string& text, ProgramLanguage language, const simulation::Setup& setup) {
+  const bool heidenhain = language == ProgramLanguage::Klartext;
   session::RunOptions options;
-  options.control = control;
+  options.control = heidenhain ? ControlKind::TNC640 : ControlKind::Sinumerik840Dsl;
   options.recordPath = false;
-  const char* name = control::isHeidenhain(control) ? "BENCH.H" : "BENCH.MPF";
-  session::RunOutcome outcome = session::runText(name, text, twinSetup(setup), options);
+  session::RunOutcome outcome = session::runText(heidenhain ? "BENCH.H" : "BENCH.MPF", text, twinSetup(setup), options);
   Twin twin;
+  twin.text = text;
+  twin.language = language;
   twin.finished = outcome.diagnostics.empty() && outcome.result.end == language::RunEnd::Finished;
   if (!outcome.diagnostics.empty()) {
     twin.why = format(outcome.diagnostics.front());
@@ -76,57 +78,96 @@ inline Twin runTwin(const std::string& text, const simulation::Setup& setup, Con
   twin.files = std::move(outcome.files);
   return twin;
 }
+inline Twin runKlartext(const std::string& text, const PlantedPart& part) {
+  return run(text, ProgramLanguage::Klartext, part.bench.setup);
+}
+inline Twin runSinumerik(const std::string& text, const PlantedPart& part) {
+  return run(text, ProgramLanguage::Sinumerik, part.bench.setup);
+}
+
+/// The program in the other language, run in the same world.
+inline Twin runConverted(const Twin& twin, const PlantedPart& part) {
+  session::Conversion conversion = converted(twin.text, twin.language);
+  Twin other = run(conversion.text, otherLanguage(twin.language), part.bench.setup);
+  other.lost = std::move(conversion.mistakes);
+  other.lost.insert(other.lost.end(), conversion.notCarriedOver.begin(), conversion.notCarriedOver.end());
+  return other;
+}
+
+/// The program ran to its end, and its conversion has lost nothing.
+inline ::testing::AssertionResult ranWhole(const Twin& twin) {
+  if (!twin.lost.empty()) return ::testing::AssertionFailure() << format(twin.lost.front()) << "\n" << twin.text;
+  if (!twin.finished) return ::testing::AssertionFailure() << twin.why << "\n" << twin.text;
+  return ::testing::AssertionSuccess();
+}
+
+/// A result by its names on both controls.
+struct Counterpart {
+  std::string heidenhain, sinumerik;
+  const std::string& on(ProgramLanguage language) const {
+    return language == ProgramLanguage::Klartext ? heidenhain : sinumerik;
+  }
+};
+
+/// Both controls have the same results.
+inline ::testing::AssertionResult sameResults(const Twin& one, const Twin& other,
+                                              const std::vector<Counterpart>& results) {
+  for (const Counterpart& each : results) {
+    const double first = one.result(each.on(one.language)), second = other.result(each.on(other.language));
+    if (!(std::abs(first - second) < exactly)) {
+      return ::testing::AssertionFailure() << each.on(one.language) << " = " << fmt::format("{:.9f}", first) << ", "
+                                           << each.on(other.language) << " = " << fmt::format("{:.9f}", second) << "\n"
+                                           << one.text << "\n"
+                                           << other.text;
+    }
+  }
+  return ::testing::AssertionSuccess();
+}
+
+/// Both controls have their origin at the same place, turned alike.
+inline ::testing::AssertionResult sameOrigin(const Twin& one, const Twin& other) {
+  const Pose difference = one.machineFromWorkpiece.inverse() * other.machineFromWorkpiece;
+  const double turned = (difference.linear() - Eigen::Matrix3d::Identity()).norm();
+  if (difference.translation().norm() < exactly && turned < 1e-8) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << fmt::format("shifted by {:.9f} {:.9f} {:.9f}, turned by {:.3g}\n",
+                                                      difference.translation().x(), difference.translation().y(),
+                                                      difference.translation().z(), turned)
+                                       << one.text << "\n"
+                                       << other.text;
+}
+
+/// Both machines stand at the same place, linear and rotary axes.
+inline ::testing::AssertionResult sameEnd(const Twin& one, const Twin& other) {
+  for (std::size_t i = 0; i < one.axes.values.size(); ++i) {
+    if (std::abs(one.axes[i] - other.axes[i]) < exactly) continue;
+    return ::testing::AssertionFailure() << fmt::format("axis {}: {:.9f} and {:.9f}\n", i, one.axes[i], other.axes[i])
+                                         << one.text << "\n"
+                                         << other.text;
+  }
+  return ::testing::AssertionSuccess();
+}
 
 /// Blocks with the frame of a Klartext program.
 inline std::string klartextProgram(const std::string& blocks) {
   return "BEGIN PGM BENCH MM\nTOOL CALL 1 Z\nL Z+100 R0 FMAX\n" + blocks + "END PGM BENCH MM\n";
 }
 
-/// A result by its names on both controls.
-struct Counterpart {
-  std::string heidenhain, sinumerik;
-};
+using Named = std::vector<std::pair<std::string, double>>;
 
-/// Two ends of the same measurement: what was measured and where the origin lies.
-inline void expectSame(const Twin& one, const Twin& other, const std::vector<Counterpart>& results,
-                       double exact = 1e-6) {
-  for (const Counterpart& each : results) {
-    const bool sameVendor = std::isnan(other.result(each.sinumerik));
-    EXPECT_NEAR(one.result(each.heidenhain), other.result(sameVendor ? each.heidenhain : each.sinumerik), exact)
-        << each.heidenhain;
+/// A call of a SINUMERIK cycle with its arguments by name.
+inline std::string sinumerikCall(const std::string& cycle, const Named& arguments) {
+  const cycles::CycleDefinition* definition = cycles::sinumerikCycle(cycle);
+  std::vector<std::string> places(definition->parameters.size());
+  for (const auto& [name, value] : arguments) {
+    const auto parameter = std::find_if(definition->parameters.begin(), definition->parameters.end(),
+                                        [&](const cycles::Parameter& each) { return each.name == name; });
+    EXPECT_NE(parameter, definition->parameters.end()) << cycle << " has no " << name;
+    places[parameter->address] =
+        value == std::round(value) ? fmt::format("{:.0f}", value) : fmt::format("{:.6f}", value);
   }
-  const Pose difference = one.machineFromWorkpiece.inverse() * other.machineFromWorkpiece;
-  EXPECT_LT(difference.translation().norm(), exact);
-  EXPECT_LT((difference.linear() - Eigen::Matrix3d::Identity()).norm(), 1e-8);
-}
-
-/// Runs a Klartext program, its twin and the twin's twin in the part's world.
-inline void expectTwins(const std::string& klartext, const PlantedPart& part, const std::vector<Counterpart>& results,
-                        bool andBack = true) {
-  const std::string sinumerik = toSinumerik(klartext);
-  const std::string again = andBack ? toKlartext(sinumerik) : std::string();
-  SCOPED_TRACE(fmt::format("{}\n{}\n{}", klartext, sinumerik, again));
-  const Twin original = runTwin(klartext, part.bench.setup, ControlKind::TNC640);
-  const Twin there = runTwin(sinumerik, part.bench.setup, ControlKind::Sinumerik840Dsl);
-  ASSERT_TRUE(original.finished) << original.why;
-  ASSERT_TRUE(there.finished) << there.why;
-  expectSame(original, there, results);
-  if (!andBack) return;
-  const Twin back = runTwin(again, part.bench.setup, ControlKind::TNC640);
-  ASSERT_TRUE(back.finished) << back.why;
-  expectSame(original, back, results);
-}
-
-/// Runs a SINUMERIK program and its twin in the part's world.
-inline void expectTwinOfSinumerik(const std::string& sinumerik, const PlantedPart& part,
-                                  const std::vector<Counterpart>& results) {
-  const std::string klartext = toKlartext(sinumerik);
-  SCOPED_TRACE(fmt::format("{}\n{}", sinumerik, klartext));
-  const Twin original = runTwin(sinumerik, part.bench.setup, ControlKind::Sinumerik840Dsl);
-  const Twin there = runTwin(klartext, part.bench.setup, ControlKind::TNC640);
-  ASSERT_TRUE(original.finished) << original.why;
-  ASSERT_TRUE(there.finished) << there.why;
-  expectSame(there, original, results);
+  while (places.back().empty())
+    places.pop_back();
+  return fmt::format("{}({})\n", cycle, fmt::join(places, ","));
 }
 
 }  // namespace probewright::testing_support

@@ -256,11 +256,13 @@ void Calibration976::ball() {
   const Crosswise rough = acrossBall(start_, roughTop - down, radius);
   // Over the middle of the first pass the probe's own centre is over the ball's: now the height counts.
   const double top = topOfBall(rough.middle, roughTop + (prober_.probe().lengthToCentre ? -radius_ : 0));
-  const Crosswise fine = acrossBall(rough.middle, top - down, radius);
+  // The first pass has found the radius of the probe's ball, and with it the height of the equator.
+  const double equator = top - (rough.half1 + rough.half2) / 2;
+  const Crosswise fine = acrossBall(rough.middle, equator, radius);
   Vector3 centre = fine.middle;
   if (wantsDeviation() && canReverse()) {
     turn(reversal);
-    centre = (fine.middle + acrossBall(fine.middle, top - down, radius).middle) / 2;
+    centre = (fine.middle + acrossBall(fine.middle, equator, radius).middle) / 2;
     turn(0);
   }
   takeOver(centre - fine.middle, fine.half1 - radius, fine.half2 - radius);
