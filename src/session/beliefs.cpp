@@ -256,9 +256,12 @@ SinumerikData sinumerikData(const Setup& setup, Diagnostics& diagnostics) {
       store.load(sin::DataKey(fmt::format("$TC_DP{}", parameter), {t, 1}), value);
     };
     store.load(sin::DataKey("$TC_TP2", {t}), tool.name);
-    dp(1, probe ? 710 : turning ? 500 : tool.kind == "drill" ? 200 : 120);
-    dp(3, tool.length);
+    const bool star = tool.starArm > 0;
+    dp(1, star ? 714 : probe ? 710 : turning ? 500 : tool.kind == "drill" ? 200 : 120);
+    // The length of a star ends at the equator of its balls.
+    dp(3, star ? tool.length - tool.axialRadius : tool.length);
     dp(6, tool.radius);
+    if (star) dp(7, tool.axialRadius);
     if (!probe) continue;
     const int n = tool.probeNumber - 1;
     const auto calibration = [&](const char* name, double value) { store.load(sin::DataKey(name, {n}), value); };

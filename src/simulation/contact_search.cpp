@@ -82,8 +82,9 @@ private:
     const auto bend = [&](const Vector3& p) {
       return (atMiddle * p - 0.5 * (piece.atBegin * p + piece.atEnd * p)).norm();
     };
-    double ballBend = shape_.ball ? bend(shape_.ball->centre) : 0;
-    double capsuleBend = 0;
+    double ballBend = 0, capsuleBend = 0;
+    for (const Ball& ball : shape_.balls)
+      ballBend = std::max(ballBend, bend(ball.centre));
     for (const Capsule& capsule : shape_.capsules) {
       const double turn = ((piece.atEnd.linear() - piece.atBegin.linear()) * capsule.axis).norm();
       capsuleBend = std::max({capsuleBend, bend(capsule.start), bend(capsule.start + capsule.axis), turn});
@@ -101,26 +102,29 @@ private:
   std::optional<Touch> sweep(const Piece& piece, double growBall, double growCapsules) const {
     std::optional<Touch> first;
     double reach = 1;  // the part of the piece that is still in question
-    const auto take = [&](const BallContact& contact, std::size_t solid, std::optional<std::size_t> capsule) {
+    const auto take = [&](const BallContact& contact, std::size_t solid, std::optional<std::size_t> capsule,
+                          std::size_t ball) {
       const double local = reach * contact.fraction;
       if (first && local >= reach) return;
       const Surroundings::Item& item = surroundings_.items()[solid];
       first = Touch{piece.begin + (piece.end - piece.begin) * local,
                     solid,
                     capsule,
+                    ball,
                     item.tableFromSolid * contact.ballCentre,
                     item.tableFromSolid * contact.touchPoint,
                     item.tableFromSolid.linear() * contact.normal};
       reach = local;
     };
     const auto& items = surroundings_.items();
-    if (shape_.ball && !options_.ignoreBall) {
-      const Vector3 from = piece.atBegin * shape_.ball->centre, to = piece.atEnd * shape_.ball->centre;
-      const double radius = shape_.ball->radius + growBall;
+    for (std::size_t which = 0; which < shape_.balls.size() && !options_.ignoreBall; ++which) {
+      const Ball& ball = shape_.balls[which];
+      const Vector3 from = piece.atBegin * ball.centre, to = piece.atEnd * ball.centre;
+      const double radius = ball.radius + growBall;
       for (std::size_t i = 0; i < items.size(); ++i) {
         const Vector3 a = items[i].solidFromTable * from, b = items[i].solidFromTable * (from + (to - from) * reach);
         if (sweptBoxMisses(items[i].bounds, a, b, Vector3::Zero(), radius)) continue;
-        if (const auto contact = items[i].solid->firstContact(a, b, radius)) take(*contact, i, std::nullopt);
+        if (const auto contact = items[i].solid->firstContact(a, b, radius)) take(*contact, i, std::nullopt, which);
       }
     }
     if (options_.ignoreCapsules) return first;
@@ -133,7 +137,7 @@ private:
         const Vector3 a = items[i].solidFromTable * from, b = items[i].solidFromTable * (from + (to - from) * reach);
         const Vector3 turned = items[i].solidFromTable.linear() * axis;
         if (sweptBoxMisses(items[i].bounds, a, b, turned, radius)) continue;
-        if (const auto contact = items[i].solid->firstCapsuleContact(a, b, turned, radius)) take(*contact, i, c);
+        if (const auto contact = items[i].solid->firstCapsuleContact(a, b, turned, radius)) take(*contact, i, c, 0);
       }
     }
     return first;
@@ -181,19 +185,22 @@ std::optional<Touch> firstTouch(const Motion& motion, double begin, double end, 
 
 std::optional<Touch> ballOverlap(const Pose& tableFromSpindle, const ToolShape& shape,
                                  const Surroundings& surroundings) {
-  if (!shape.ball) return std::nullopt;
-  const Vector3 centre = tableFromSpindle * shape.ball->centre;
-  for (std::size_t i = 0; i < surroundings.items().size(); ++i) {
-    const Surroundings::Item& item = surroundings.items()[i];
-    const Vector3 p = item.solidFromTable * centre;
-    if (sweptBoxMisses(item.bounds, p, p, Vector3::Zero(), shape.ball->radius)) continue;
-    if (const auto contact = item.solid->firstContact(p, p, shape.ball->radius)) {
-      return Touch{0,
-                   i,
-                   std::nullopt,
-                   centre,
-                   item.tableFromSolid * contact->touchPoint,
-                   item.tableFromSolid.linear() * contact->normal};
+  for (std::size_t b = 0; b < shape.balls.size(); ++b) {
+    const double radius = shape.balls[b].radius;
+    const Vector3 centre = tableFromSpindle * shape.balls[b].centre;
+    for (std::size_t i = 0; i < surroundings.items().size(); ++i) {
+      const Surroundings::Item& item = surroundings.items()[i];
+      const Vector3 p = item.solidFromTable * centre;
+      if (sweptBoxMisses(item.bounds, p, p, Vector3::Zero(), radius)) continue;
+      if (const auto contact = item.solid->firstContact(p, p, radius)) {
+        return Touch{0,
+                     i,
+                     std::nullopt,
+                     b,
+                     centre,
+                     item.tableFromSolid * contact->touchPoint,
+                     item.tableFromSolid.linear() * contact->normal};
+      }
     }
   }
   return std::nullopt;
@@ -212,6 +219,7 @@ std::optional<Touch> capsuleOverlap(const Pose& tableFromSpindle, const ToolShap
         return Touch{0,
                      i,
                      c,
+                     0,
                      Vector3::Zero(),
                      item.tableFromSolid * contact->touchPoint,
                      item.tableFromSolid.linear() * contact->normal};

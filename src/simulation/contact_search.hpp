@@ -40,11 +40,12 @@ private:
   std::vector<Item> items_;
 };
 
-/// What touched where. `capsule` counts in ToolShape::capsules; nothing for the ball. Table frame.
+/// What touched where. `capsule` counts in ToolShape::capsules; nothing for a ball. Table frame.
 struct Touch {
   double fraction = 0;
   std::size_t solid = 0;
   std::optional<std::size_t> capsule;
+  std::size_t ball = 0;                  ///< counts in ToolShape::balls
   Vector3 ballCentre = Vector3::Zero();  ///< ball only
   Vector3 point = Vector3::Zero();
   Vector3 normal = Vector3::UnitZ();
@@ -60,11 +61,11 @@ struct SearchOptions {
 std::optional<Touch> firstTouch(const Motion& motion, double begin, double end, const ToolShape& shape,
                                 const Surroundings& surroundings, const SearchOptions& options);
 
-/// The solid that the ball overlaps with the spindle at `tableFromSpindle`, by more than 1e-9 mm.
+/// The solid that a ball overlaps with the spindle at `tableFromSpindle`, by more than 1e-9 mm.
 std::optional<Touch> ballOverlap(const Pose& tableFromSpindle, const ToolShape& shape,
                                  const Surroundings& surroundings);
 
-/// The same for everything but the ball.
+/// The same for everything but the balls.
 std::optional<Touch> capsuleOverlap(const Pose& tableFromSpindle, const ToolShape& shape,
                                     const Surroundings& surroundings);
 

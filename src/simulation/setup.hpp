@@ -47,13 +47,14 @@ struct BelievedTool {
   Vector3 shankDirection = Vector3::UnitZ();  ///< as TrueTool::shankDirection
 
   // Of a probe, as its control keeps them.
-  double axialRadius = 0;       ///< mm; effective ball radius along the stylus
-  Vector2 tipOffset = {0, 0};   ///< mm, of the ball from the spindle axis at spindle angle 0
-  int probeNumber = 1;          ///< row of the touch probe table, number of the calibration data set
-  double feed = 300;            ///< mm/min, of measuring moves
-  double rapid = 2000;          ///< mm/min, of moves between touches
-  double maximumTravel = 10;    ///< mm
-  double setUpClearance = 2;    ///< mm
+  double axialRadius = 0;      ///< mm; effective ball radius along the stylus
+  Vector2 tipOffset = {0, 0};  ///< mm, of the ball from the spindle axis at spindle angle 0
+  double starArm = 0;          ///< mm; above 0 a star with balls this far from its middle: `radius` is that of the star
+  int probeNumber = 1;         ///< row of the touch probe table, number of the calibration data set
+  double feed = 300;           ///< mm/min, of measuring moves
+  double rapid = 2000;         ///< mm/min, of moves between touches
+  double maximumTravel = 10;   ///< mm
+  double setUpClearance = 2;   ///< mm
   double calibrationAngle = 0;  ///< degrees, of the spindle when probing
   bool orient = false;          ///< the spindle turns the probe to the probing direction
 };

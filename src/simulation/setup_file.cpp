@@ -239,6 +239,11 @@ private:
     if (probe.stylusRadius >= probe.ballRadius) {
       reader.report("stylus_radius", "the stylus is not thinner than its ball");
     }
+    probe.starArm = believed.starArm = get("star_arm", 0, notNegative);
+    if (probe.starArm > 0 && probe.starArm < 1.5 * probe.ballRadius) {
+      reader.report("star_arm", "the balls of the star run into each other",
+                    "Make star_arm, from the middle of the star to the centre of each ball, at least 1.5 ball_radius");
+    }
     if (tool.length <= 2 * probe.ballRadius) reader.report("length", "the probe is shorter than its ball");
 
     believed.probeNumber = static_cast<int>(reader.integer("probe_number", 0, 99).value_or(1));
@@ -250,8 +255,8 @@ private:
     believed.orient = reader.boolean("orient").value_or(false);
     const double delayed = probe.signalDelay * believed.feed / 60;
     believed.length = get("believed_length", tool.length - probe.axialPretravel - delayed);
-    believed.radius = get("believed_radius", probe.ballRadius - probe.pretravel - delayed, notNegative);
-    believed.axialRadius = believed.radius + probe.pretravel - probe.axialPretravel;
+    believed.radius = get("believed_radius", probe.starArm + probe.ballRadius - probe.pretravel - delayed, notNegative);
+    believed.axialRadius = believed.radius - probe.starArm + probe.pretravel - probe.axialPretravel;
     believed.tipOffset = vector2(reader, "believed_tip_offset").value_or(probe.tipOffset);
   }
 

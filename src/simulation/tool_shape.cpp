@@ -55,13 +55,27 @@ ToolShape shapeOf(const TrueTool* tool, double spindleDegrees) {
   const Vector3 offset = toolFrame(*tool) * rotation(Vector3::UnitZ(), spindleDegrees).linear() *
                          Vector3(probe.tipOffset.x(), probe.tipOffset.y(), 0);
   const Vector3 centre = tip + up * probe.ballRadius + offset;
-  shape.ball = Ball{centre, probe.ballRadius};
   shape.tip = centre;
   // The shaft starts clear of the ball, so that a touching ball does not make the shaft touch too.
   const double clear = probe.ballRadius + probe.stylusRadius;
   // A ball far off the spindle axis sits at the end of an arm: the stylus is an L.
   const Vector3 onAxis = tip + up * probe.ballRadius;
   const Vector3 arm = onAxis - centre;
+  if (probe.starArm > 0) {
+    for (int i = 0; i < 4; ++i) {
+      const Vector3 along =
+          toolFrame(*tool) * rotation(Vector3::UnitZ(), spindleDegrees + 90 * i).linear() * Vector3::UnitX();
+      shape.balls.push_back({centre + along * probe.starArm, probe.ballRadius});
+      if (probe.stylusRadius > 0 && probe.starArm > clear)
+        shape.capsules.push_back({centre, along * (probe.starArm - clear), probe.stylusRadius, shaftName});
+    }
+    if (probe.stylusRadius > 0)
+      shape.capsules.push_back({centre, up * probe.stylusLength, probe.stylusRadius, shaftName});
+    if (probe.bodyRadius > 0)
+      addCylinder(shape, centre + up * probe.stylusLength, up, probe.bodyLength, probe.bodyRadius, "body");
+    return shape;
+  }
+  shape.balls.push_back({centre, probe.ballRadius});
   const bool bent = arm.norm() > 2 * clear;
   const Vector3 foot = bent ? onAxis : centre;
   if (probe.stylusRadius > 0 && bent) {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "simulation/truth.hpp"
 
-/// What of a tool can touch something: the ball of a probe, and capsules for everything else. All in the spindle frame.
+/// What of a tool can touch something: the ball of a probe (four of a star), and capsules for everything else. All in
+/// the spindle frame.
 namespace probewright::simulation {
 
 struct Ball {
@@ -25,9 +25,10 @@ struct Capsule {
 inline constexpr const char* shaftName = "stylus";
 
 struct ToolShape {
-  std::optional<Ball> ball;
+  std::vector<Ball> balls;  ///< none of a cutter
   std::vector<Capsule> capsules;
-  Vector3 tip = Vector3::Zero();  ///< what the path record follows: the ball's centre, a cutter's tip, the spindle nose
+  Vector3 tip = Vector3::Zero();  ///< what the path record follows: the ball's centre, the middle of a star, a cutter's
+                                  ///< tip, the nose
   Vector3 shank = Vector3::UnitZ();  ///< unit, from the tip along the shank
 };
 

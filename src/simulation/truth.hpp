@@ -84,6 +84,9 @@ struct TrueProbe {
   double bodyRadius = 30;      ///< 0 for none
   double bodyLength = 100;     ///< upwards from that face; its edges are rounded by a sixth of its radius
   Vector2 tipOffset = {0, 0};  ///< of the ball from the spindle axis, mm; turns with the spindle
+  /// mm; above 0 the tip is a star: four balls, this far from its middle in +X, +Y, -X, -Y. The middle has the tip
+  /// offset.
+  double starArm = 0;
 
   /// How much further the axes travel along their path from contact to signal, mm. With n the outward normal of the
   /// surface in the turned spindle frame, e the part of n along the stylus, phi the angle of n about it:

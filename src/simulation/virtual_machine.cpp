@@ -225,7 +225,7 @@ Touch VirtualMachine::preciseShaftTouch(const Motion& motion, const Touch& rough
   const Vector3 along = shaft.axis / length;
   ToolShape bead;
   const auto touchAt = [&](double place) {
-    bead.ball = Ball{shaft.start + along * place, shaft.radius};
+    bead.balls = {Ball{shaft.start + along * place, shaft.radius}};
     return firstTouch(motion, 0, 1, bead, surroundings_, {measuringPrecision});
   };
   const Vector3 inSpindle = motion.tableFromSpindleAt(rough.fraction).inverse() * rough.point;
@@ -316,8 +316,8 @@ std::optional<double> VirtualMachine::freeFrom(const Motion& motion) const {
   };
   // On a flat surface the ball is free where it has left the plane of contact.
   const auto gap = [&](double fraction) {
-    const Vector3 centre = motion.tableFromSpindleAt(fraction) * shape_.ball->centre;
-    return (centre - deflection_->point).dot(deflection_->normal) - shape_.ball->radius;
+    const Vector3 centre = motion.tableFromSpindleAt(fraction) * shape_.balls[deflection_->ball].centre;
+    return (centre - deflection_->point).dot(deflection_->normal) - shape_.balls[deflection_->ball].radius;
   };
   const double atStart = gap(0), atEnd = gap(1);
   double fraction = 0;
@@ -346,9 +346,12 @@ MoveResult VirtualMachine::retract(const AxisPositions& target, Feed feed) {
     const auto free = freeFrom(motion);
     if (!free || (*free == 1 && ballOverlap(motion.tableFromSpindleAt(1), shape_, surroundings_))) {
       // Pressing on instead of leaving: the stylus gives way as far as it can.
-      const auto centre = [&](double f) { return Vector3(motion.tableFromSpindleAt(f) * shape_.ball->centre); };
-      const double depth = (deflection_->point - centre(1)).dot(deflection_->normal) + shape_.ball->radius;
-      if (depth > 2 * mostOvertravel * shape_.ball->radius) {
+      const auto centre = [&](double f) {
+        return Vector3(motion.tableFromSpindleAt(f) * shape_.balls[deflection_->ball].centre);
+      };
+      const double depth =
+          (deflection_->point - centre(1)).dot(deflection_->normal) + shape_.balls[deflection_->ball].radius;
+      if (depth > 2 * mostOvertravel * shape_.balls[deflection_->ball].radius) {
         return {MoveEnd::Collision, "the stylus would be pressed beyond its deflection: " + describe(*deflection_)};
       }
       advance(motion, Stop{}, PathKind::Retract);

@@ -137,6 +137,18 @@ TEST(Cycle976, FindsTheLengthOnASurface) {
   }
 }
 
+TEST(Cycle976, FindsTheLengthAgainstTheToolWithoutAWordOnTheDirection) {
+  simulation::Truth truth = perfectWorld();
+  place(truth, simulation::Box({-60, -60, -60}, {60, 60, 0.25}), translation({0, 0, -350}));
+  SinumerikBench bench(truth);
+  plantFrame(bench, "$P_UIFR", 1, {0, 0, -350});
+  bench.set("$TC_DP3", {1, 1}, 99.6);
+  bench.start({0, 0, 8});
+  bench.run("CYCLE976", {{"S_MVAR", 1000000}, {"S_SETV", 0.25}, {"S_FA", 6}, {"S_TSA", 1}});
+  EXPECT_NEAR(bench.data("$TC_DP3", {1, 1}), 100, 1e-9);
+  EXPECT_NEAR(bench.ovr(22), 100, 1e-9);
+}
+
 TEST(Cycle976, TakesTheTriggerPointInsteadOfTheLength) {
   simulation::Truth truth = perfectWorld();
   truth.tools[0].length = 100.35;

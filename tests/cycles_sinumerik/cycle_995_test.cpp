@@ -71,6 +71,29 @@ TEST(Cycle995, FindsHowTheSpindleLeans) {
   }
 }
 
+TEST(Cycle995, MeasuresEachPlaceSoManyTimes) {
+  // Scatter of the signal: the mean of nine measurements has a third of it.
+  double sums[2] = {0, 0};
+  for (const int count : {1, 9}) {
+    for (int world = 0; world < 60; ++world) {
+      simulation::Truth truth = leaningWorld({0.02, 0.03, 0}, {0, 0, table}, 10);
+      truth.seed = static_cast<std::uint64_t>(1000 + world);
+      truth.tools[0].probe.repeatability = 0.002;
+      SinumerikBench bench(truth);
+      bench.set("$TC_DP3", {1, 1}, 160);
+      plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
+      bench.start({0, 0, 15});
+      bench.run("CYCLE995", with(callOf(20, 50), {{"S_NMSP", count}}));
+      const double expected = leaning({0.02, 0.03, 0}).x();
+      sums[count / 9] += std::pow(bench.ovr(2) - expected, 2);
+      const auto& touches = bench.machine.path().touches;
+      // Twice four points and the pole, then four of the shaft.
+      EXPECT_EQ(std::ranges::count(touches, simulation::PathKind::Measure, &simulation::PathTouch::kind), 14 * count);
+    }
+  }
+  EXPECT_NEAR(std::sqrt(sums[0] / sums[1]), 3, 0.8);
+}
+
 TEST(Cycle995, ComparesWithToleranceAndZeroRange) {
   const Vector3 tilt(-0.02, 0.05, 0);  // leans by 0.05 towards X and 0.02 towards Y
   SinumerikBench bench(leaningWorld(tilt, {0, 0, table}, 10));
@@ -106,6 +129,7 @@ TEST(Cycle995, RefusesWithTheControlsAlarms) {
   EXPECT_EQ(alarm({{"S_MVAR", 102115}}), "61307");
   EXPECT_EQ(alarm({{"S_KNUM", 1}}), "61321");
   EXPECT_EQ(alarm({{"S_DZ", 0}}), "61319");
+  EXPECT_EQ(alarm({{"S_STA1", 361}}), "61319");
   EXPECT_EQ(alarm({{"S_SETV", 0}}), "61319");
   EXPECT_EQ(alarm({{"S_FA", 0}}), "61308");
   EXPECT_EQ(alarm({{"S_PRNUM", 13}}), "61313");

@@ -73,6 +73,13 @@ TEST(Cycle997, LaysTheWorkpieceSystemOnThreeBalls) {
     const language::RunResult distorted = bench.tryRun("CYCLE997", with(call, {{"S_SETV3", 90.5}}));
     ASSERT_FALSE(distorted.diagnostics.empty());
     EXPECT_NE(distorted.diagnostics[0].message.find("triangle"), std::string::npos);
+    // Left out, the limit is 1.2: half a millimetre on one side passes, that of two sides together not.
+    NamedNumbers open = with(call, {{"S_SETV3", 90.5}});
+    std::erase_if(open, [](const auto& each) { return each.first == "S_TNVL"; });
+    bench.start({0, 0, 30});
+    EXPECT_EQ(bench.tryRun("CYCLE997", open).diagnostics.size(), 0U);
+    bench.start({0, 0, 30});
+    EXPECT_EQ(bench.tryRun("CYCLE997", with(open, {{"S_SETV3", 92}})).diagnostics.size(), 1U);
   }
 }
 
@@ -92,6 +99,10 @@ TEST(Cycle997, RefusesWithTheControlsAlarms) {
   EXPECT_EQ(alarm({{"S_MVAR", 111109}, {"S_KNUM", 3001}}), "61322");
   EXPECT_EQ(alarm({{"S_SETV", 0}}), "61319");
   EXPECT_EQ(alarm({{"S_INCA", 91}}), "61319");
+  EXPECT_EQ(alarm({{"S_STA1", 91}}), "61319") << "the last point lies beyond 360 degrees";
+  EXPECT_EQ(alarm({{"S_STA1", -361}}), "61319");
+  EXPECT_EQ(alarm({{"S_STA1", 90}}), "");
+  EXPECT_EQ(alarm({{"S_STA1", -360}}), "");
   EXPECT_EQ(alarm({{"S_SETV0", 1.5}}), "61303");
   EXPECT_EQ(alarm({}), "");
   bench.set("$TC_DP1", {1, 1}, 712);

@@ -28,6 +28,13 @@ TEST(ProbeKinds, EachCycleTakesTheKindsThatCanDoItsWork) {
       {"CYCLE979", {{"S_MVAR", 1}, {"S_SETV", 40}, {"S_INCA", 90}}, {710, 712, 580}},
       {"CYCLE976", {{"S_MVAR", 1}, {"S_SETV", 40}}, {710, 712, 713, 714, 580}},
       {"CYCLE998", {{"S_MVAR", 100005}, {"S_MA", 201}, {"S_MD", 1}, {"S_ID", 2}, {"S_SETV", 20}}, {710, 712, 580}},
+      {"CYCLE961", {{"S_MVAR", 5}, {"S_SETV1", 9}, {"S_SETV2", 5}}, {710, 712, 580}},
+      {"CYCLE961", {{"S_MVAR", 7}, {"S_SETV1", 9}, {"S_SETV2", 5}, {"S_SETV3", 9}, {"S_INCA", 90}}, {710, 580}},
+      {"CYCLE997", {{"S_MVAR", 9}, {"S_SETV", 20}}, {710, 580}},
+      {"CYCLE995", {{"S_MVAR", 102015}, {"S_SETV", 20}, {"S_DZ", 9}}, {710, 580}},
+      {"CYCLE976", {{"S_MVAR", 0}, {"S_MA", 3}, {"S_MD", 1}}, {710, 712, 713, 580}},
+      {"CYCLE976", {{"S_MVAR", 3}, {"S_SETV", 20}}, {710, 712, 714, 580}},
+      {"CYCLE976", {{"S_MVAR", 1004}, {"S_SETV", 20}, {"S_MA", 1}}, {710, 712, 580}},
   };
   for (const auto& [name, call, types] : cases) {
     for (const int type : {710, 712, 713, 714, 580, 120, 725}) {
@@ -103,6 +110,8 @@ TEST(ProbeKinds, AnLShapedProbePullsAgainstAnOverhang) {
     bench.set("$TC_DP3", {1, 1}, 148);  // to the equator of the ball
     bench.set("$TC_DP6", {1, 1}, 30);
     bench.set("$TC_DP7", {1, 1}, 2);
+    // Calibrated in the plane, it reaches 32 mm: along the tool the ball of the tool data counts.
+    if (world % 2 == 1) bench.set("$SNS_MEA_WP_BALL_DIAM", {0}, 64);
     // The ball goes below the plate from the side: the arm reaches 30 mm in X.
     const auto below = [](double x) { return fmt::format("G0 Y-80\nSUPA G0 Z0 D0\nD1\nG0 X{} Y-80\nZ-60\nY0\n", x); };
     bench.run("CYCLE976",
@@ -117,31 +126,125 @@ TEST(ProbeKinds, AnLShapedProbePullsAgainstAnOverhang) {
   }
 }
 
+/// A star: four balls of radius 1.5, their centres 10 from the middle.
+void makeStar(simulation::Truth& truth) {
+  simulation::TrueTool& tool = truth.tools[0];
+  tool.probe.ballRadius = 1.5;
+  tool.probe.starArm = 10;
+  tool.probe.stylusRadius = 1;
+  tool.length = 101.5;
+}
+void believeInStar(SinumerikBench& bench) {
+  bench.set("$TC_DP1", {1, 1}, 714);
+  bench.set("$TC_DP3", {1, 1}, 100);  // to the equator
+  bench.set("$TC_DP6", {1, 1}, 11.5);
+  bench.set("$TC_DP7", {1, 1}, 1.5);
+}
+
 TEST(ProbeKinds, AStarShapedProbeMeasuresAHoleAlongTheAxes) {
-  // In touches along the axes through the middle its four balls act as one as wide as the star.
   Planter plant(714);
-  for (int world = 0; world < 10; ++world) {
+  for (int world = 0; world < 20; ++world) {
     const Vector3 error(plant.number(-0.5, 0.5), plant.number(-0.5, 0.5), 0);
+    const double radius = plant.number(24, 27);
     simulation::Truth truth = perfectWorld();
-    simulation::TrueTool& tool = truth.tools[0];
-    tool.probe.ballRadius = 12;
-    tool.probe.stylusRadius = 2;
-    tool.length = 112;
-    place(truth, simulation::Ring(20, 45, -60), translation({0, 0, table}));
-    place(truth, simulation::Ring(26, 50, -60), translation(Vector3(150, 0, table) + error));
+    makeStar(truth);
+    // Its middle runs out; each of its balls shows that in its own direction.
+    const Vector2 aside(plant.number(-0.05, 0.05), plant.number(-0.05, 0.05));
+    if (world % 2 == 1) truth.tools[0].probe.tipOffset = aside;
+    const Vector3 ring(plant.number(-0.3, 0.3), plant.number(-0.3, 0.3), 0);
+    place(truth, simulation::Ring(20, 45, -60), translation(Vector3(0, 0, table) + ring), "ring");
+    place(truth, simulation::Ring(radius, 50, -60), translation(Vector3(150, 0, table) + error));
     SinumerikBench bench(truth);
     plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
-    bench.set("$TC_DP1", {1, 1}, 714);
-    bench.set("$TC_DP3", {1, 1}, 100);  // to the equator
-    bench.set("$TC_DP6", {1, 1}, 12);
+    believeInStar(bench);
+    bench.set("$SNS_MEA_WP_BALL_DIAM", {0}, 0);
     bench.start({0, 0, -20});
-    bench.run("CYCLE976", {{"S_MVAR", 1}, {"S_SETV", 40}, {"S_FA", 4}, {"S_TSA", 15}});
-    EXPECT_NEAR(bench.data("$SNS_MEA_WP_BALL_DIAM", {0}), 24, 1e-9);
+    bench.run("CYCLE976", {{"S_MVAR", 2}, {"S_SETV", 40}, {"S_FA", 4}, {"S_TSA", 15}});
+    EXPECT_NEAR(bench.ovr(6), ring.x(), 1e-6);
+    EXPECT_NEAR(bench.ovr(7), ring.y(), 1e-6);
+    EXPECT_NEAR(bench.data("$SNS_MEA_WP_BALL_DIAM", {0}), 23, 1e-6);
+    if (world % 2 == 1) {
+      EXPECT_NEAR(bench.data("$SNS_MEA_WP_POS_DEV_AX1", {0}), aside.x(), 1e-6);
+    }
     bench.start({150, 0, -20});
-    bench.run("CYCLE977", {{"S_MVAR", 101}, {"S_KNUM", 1}, {"S_SETV", 52}, {"S_FA", 4}, {"S_TSA", 2}});
-    EXPECT_NEAR(bench.ovr(4), 52, 1e-9);
-    EXPECT_NEAR(bench.ovr(17), error.x(), 1e-9);
-    EXPECT_NEAR(bench.ovr(18), error.y(), 1e-9);
+    bench.run("CYCLE977", {{"S_MVAR", 101}, {"S_KNUM", 1}, {"S_SETV", 2 * radius}, {"S_FA", 4}, {"S_TSA", 2}});
+    EXPECT_NEAR(bench.ovr(4), 2 * radius, 1e-6) << world;
+    EXPECT_NEAR(bench.ovr(17), error.x(), 1e-6);
+    EXPECT_NEAR(bench.ovr(18), error.y(), 1e-6);
+  }
+}
+
+TEST(ProbeKinds, AStarPassesBetweenWhatOneWideBallWouldMeet) {
+  // Four pins at 45 degrees stand in the hole where no arm of the star goes. Turned there, two balls at once meet the
+  // wall beside the middle.
+  for (const double angle : {0.0, 45.0}) {
+    simulation::Truth truth = perfectWorld();
+    makeStar(truth);
+    place(truth, simulation::Ring(20, 45, -60), translation({0, 0, table}));
+    for (int i = 0; i < 4; ++i)
+      place(truth, simulation::RoundBar(1, -60, 0),
+            translation(Vector3(0, 0, table) + 15.5 * probing::directionAt(45 + 90 * i)), "pin");
+    SinumerikBench bench(truth);
+    plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
+    believeInStar(bench);
+    bench.set("$SNS_MEA_WP_BALL_DIAM", {0}, 23);
+    for (const char* axis : {"1", "2"}) {
+      bench.set((std::string("$SNS_MEA_WP_TRIG_PLUS_DIR_AX") + axis).c_str(), {0}, 11.5);
+      bench.set((std::string("$SNS_MEA_WP_TRIG_MINUS_DIR_AX") + axis).c_str(), {0}, -11.5);
+    }
+    const language::RunResult result =
+        bench.tryRun("CYCLE977", {{"S_MVAR", 1}, {"S_SETV", 40}, {"S_FA", 4}, {"S_TSA", 2}}, {},
+                     fmt::format("SPOS={}\nG0 X0 Y0\nZ-20\n", angle));
+    if (angle == 0) {
+      ASSERT_TRUE(result.diagnostics.empty()) << format(result.diagnostics.front());
+      EXPECT_NEAR(bench.ovr(4), 40, 1e-7);
+    } else {
+      ASSERT_FALSE(result.diagnostics.empty());
+      EXPECT_EQ(result.diagnostics.front().code, "61303");
+    }
+  }
+}
+
+TEST(ProbeKinds, ReversalNeedsNoCalibrationButTheBallOfTheToolData) {
+  // Data set 5 is empty. The ball stands 0.3 beside the axis, and only the tool data know how large it is.
+  Planter plant(716);
+  const struct {
+    const char* cycle;
+    NamedNumbers call;
+    Vector3 start;
+  } cases[] = {
+      {"CYCLE978", {{"S_MVAR", 10000}, {"S_MA", 1}, {"S_MD", 1}}, {188, 0, -10}},
+      {"CYCLE977", {{"S_MVAR", 10001}, {"S_SETV", 40}}, {0, 0, -10}},
+      {"CYCLE977", {{"S_MVAR", 10004}, {"S_SETV", 60}, {"S_MA", 1}, {"S_ID", -20}}, {230, 0, 10}},
+      {"CYCLE979", {{"S_MVAR", 11001}, {"S_SETV", 40}, {"S_INCA", 90}}, {8, 0, -10}},
+      {"CYCLE998", {{"S_MVAR", 110005}, {"S_MA", 201}, {"S_MD", 1}, {"S_ID", 30}}, {188, -15, -10}},
+  };
+  for (const auto& [cycle, call, start] : cases) {
+    SCOPED_TRACE(fmt::format("{} {}", cycle, call.front().second));
+    simulation::Truth truth = perfectWorld();
+    truth.tools[0].probe.tipOffset = {0.02, -0.03};
+    const double error = plant.number(-0.5, 0.5);
+    place(truth, simulation::Ring(20, 45, -60), translation({error, 0, table}));
+    place(truth, simulation::Box({200, -50, -60}, {260, 50, 0}), translation({error, 0, table}));
+    SinumerikBench bench(truth);
+    plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
+    const NamedNumbers full = with({{"S_FA", 8}, {"S_TSA", 3}, {"S_PRNUM", 5}, {"S_SETV", 200}}, call);
+    bench.start(start);
+    bench.run(cycle, full);
+    const bool edge = std::string_view(cycle) == "CYCLE978", angle = std::string_view(cycle) == "CYCLE998";
+    const double size = edge ? 200 + error : angle ? 0 : call.front().second == 10004 ? 60 : 40;
+    EXPECT_NEAR(bench.ovr(4), size, std::string_view(cycle) == "CYCLE979" ? 2e-3 : 3e-4);
+    if (!edge && !angle) {
+      EXPECT_NEAR(bench.ovr(5), call.front().second == 10004 ? 230 + error : error, 3e-4);
+    }
+    NamedNumbers standard = full;
+    for (auto& [name, value] : standard)
+      if (name == "S_MVAR") value -= 10000;
+    bench.start(start);
+    EXPECT_EQ(bench.alarmOf(cycle, standard), "61341");
+    bench.set("$TC_DP6", {1, 1}, 0);
+    bench.start(start);
+    EXPECT_EQ(bench.alarmOf(cycle, full), "61351");
   }
 }
 

@@ -62,7 +62,7 @@ public:
     language::InterpreterOptions options;
     options.programDepth = sinumerik::SinumerikHost::programDepth;
     NoPrograms library;
-    sinumerik::SinumerikHost host(control);
+    sinumerik::SinumerikHost host(control, hostOptions);
     const std::size_t firstRecord = control.journal.cycles.size();
     language::RunResult result =
         language::Interpreter(library, host, options).run(sinumerik::SinumerikProgram::fromText("TEST.MPF", text));
@@ -134,6 +134,7 @@ public:
   simulation::VirtualMachine machine;
   control::sinumerik::Control control;
   std::string plane = "G17";  ///< in effect when the cycle is called
+  sinumerik::HostOptions hostOptions;
 
 private:
   static constexpr double clearance = 60;

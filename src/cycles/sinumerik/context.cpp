@@ -317,6 +317,8 @@ probing::SinumerikProbe probeOfDataSet(const Control& control, int index) {
   const auto datum = [&](const char* name) { return control.data.number(name, {index}); };
   probing::SinumerikProbe probe;
   probe.ballDiameter = datum("$SNS_MEA_WP_BALL_DIAM");
+  const bool oneBall = control.tool.type == 710 || control.tool.type == 712 || control.tool.type == 580;
+  if (probe.ballDiameter == 0 && oneBall) probe.ballDiameter = 2 * control.tool.radius;
   probe.triggerMinus = {datum("$SNS_MEA_WP_TRIG_MINUS_DIR_AX1"), datum("$SNS_MEA_WP_TRIG_MINUS_DIR_AX2"),
                         datum("$SNS_MEA_WP_TRIG_MINUS_DIR_AX3")};
   probe.triggerPlus = {datum("$SNS_MEA_WP_TRIG_PLUS_DIR_AX1"), datum("$SNS_MEA_WP_TRIG_PLUS_DIR_AX2"),

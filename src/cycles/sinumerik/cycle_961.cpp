@@ -113,6 +113,7 @@ Plan planOf(Context& context) {
   } else {
     plan.pole = {value(4), value(5)};
     plan.axisAngle = context.real("S_STA1");
+    if (std::abs(plan.axisAngle) > 270) context.alarm(61319, "S_STA1 is between -270 and 270 degrees");
     const double opening = rightAngled ? 90 : context.real("S_INCA");
     if (std::abs(std::sin(radiansFromDegrees(opening))) < 0.01) context.alarm(61319, "S_INCA is no angle of a corner");
     const Vector2 first = probing::directionAt(plan.axisAngle).head<2>();
@@ -157,9 +158,13 @@ const CycleDefinition cycle961Definition = {
 };
 
 void cycle961(Context& context, const Arguments&) {
-  context.requireProbe({710, 712, 580});
-  context.requireCalibration();
   const int units = context.digit("S_MVAR", 1);
+  if (units == 7 || units == 8) {
+    context.requireProbe({710, 580});
+  } else {
+    context.requireProbe({710, 712, 580});
+  }
+  context.requireCalibration();
   if (units < 5 || units > 8 || context.digit("S_MVAR", 2) > 1 || context.digit("S_MVAR", 4) > 1 ||
       context.digit("S_MVAR", 5) > 4) {
     context.alarm(61307);

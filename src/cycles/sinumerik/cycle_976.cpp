@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -106,6 +107,10 @@ private:
   Crosswise acrossRing(const Vector3& from, double radius);
   Crosswise acrossBall(const Vector3& from, double height, double radius);
   double topOfBall(const Vector3& over, std::optional<double> expected);
+  /// How far the balls of a star stand from its middle, by its tool data; 0 for other probes.
+  double starArm() const;
+  /// The radius of a ball of an L or star, as it stands in the tool data for touches along the tool.
+  double ballAlongTool() const;
   void takeOver(const Vector3& deviation, double effective1, double effective2);
 
   Context& context_;
@@ -128,11 +133,16 @@ void Calibration976::takeOver(const Vector3& deviation, double effective1, doubl
 }
 
 void Calibration976::surface() {
-  const int axis = context_.measuringAxis(3);
-  const double way = sign(), set = context_.real("S_SETV");
+  // Without a word on axis and direction: against the tool.
+  const bool open = context_.digit("S_MVAR", 4) == 0 && !context_.given("S_MA");
+  const int axis = open ? 2 : context_.measuringAxis(3);
+  const double way = open ? -1 : sign(), set = context_.real("S_SETV");
   const bool toCentre = prober_.probe().lengthToCentre || axis != 2;
-  const double reference = toCentre ? radius_ : 0;
-  if (toCentre && !(radius_ > 0)) context_.alarm(61351, "the radius of the ball must be known: calibrate it first");
+  // The ball of an L is not as large as its reach in the plane.
+  const bool bent = axis == 2 && context_.control().tool.type == 713 && ballAlongTool() > 0;
+  const double radius = bent ? ballAlongTool() : radius_, reference = toCentre ? radius : 0;
+  if (toCentre && !(radius > 0)) context_.alarm(61351, "the radius of the ball must be known: calibrate it first");
+  calibration_.list({axis}, ProbeCalibration::Listed::WithLength);
   Vector3 setpoint = start_;
   setpoint[axis] = set;
   const double tcp = calibration_.touch(setpoint, probing::axisDirection(axis, way), path_, reference)[axis];
@@ -142,6 +152,16 @@ void Calibration976::surface() {
   } else {
     calibration_.setTrigger(axis, way, set - tcp);
   }
+}
+
+double Calibration976::starArm() const {
+  const control::sinumerik::ActiveTool& tool = context_.control().tool;
+  return tool.type == 714 && ballAlongTool() > 0 ? std::max(0.0, radius_ - ballAlongTool()) : 0;
+}
+
+double Calibration976::ballAlongTool() const {
+  const control::sinumerik::ActiveTool& tool = context_.control().tool;
+  return context_.control().data.number("$TC_DP7", {tool.number, tool.edge});
 }
 
 /// Two opposite touches along each direction inside a ring, the second pair through the middle of the first.
@@ -159,7 +179,8 @@ Crosswise Calibration976::acrossRing(const Vector3& from, double radius) {
   result.middle += second_ * middle2;
   prober_.moveInPlane(result.middle);
   // The first pair lay beside the middle: its chord is shorter than the diameter.
-  result.half1 = std::hypot(half1, middle2);
+  const double arm = starArm();
+  result.half1 = std::hypot(half1 + arm, middle2) - arm;
   result.half2 = half2;
   return result;
 }
@@ -167,6 +188,7 @@ Crosswise Calibration976::acrossRing(const Vector3& from, double radius) {
 void Calibration976::ring(bool centreKnown) {
   const double radius = context_.real("S_SETV") / 2;
   if (!(radius > 0)) context_.alarm(61319, "S_SETV, the diameter of the ring, must be greater than 0");
+  calibration_.list({0, 1}, ProbeCalibration::Listed::WithDeviations);
   const int directions = centreKnown ? context_.digit("S_MVAR", 4) : 0;
   if (directions == 1) {
     const int axis = context_.measuringAxis(2);
@@ -249,6 +271,7 @@ void Calibration976::ball() {
   const double radius = context_.real("S_SETV") / 2;
   if (!(radius > 0)) context_.alarm(61319, "S_SETV, the diameter of the ball, must be greater than 0");
   if (!(radius_ > 0)) context_.alarm(61351, "the radius of the probe's ball must stand in its tool data");
+  calibration_.list({0, 1, 2}, ProbeCalibration::Listed::WithDeviationsAndLength);
   const std::optional<double> set = wantsLength() ? std::optional(context_.real("S_SETV0")) : std::nullopt;
   const double down = radius + radius_;
 
@@ -281,6 +304,7 @@ void Calibration976::edge() {
   const int directions = context_.digit("S_MVAR", 4);
   const int axis = context_.measuringAxis(2);
   const double set = context_.real("S_SETV");
+  calibration_.list({0, 1}, ProbeCalibration::Listed::WithDeviations);
   if (directions == 1) {
     const double way = sign();
     Vector3 setpoint = start_;

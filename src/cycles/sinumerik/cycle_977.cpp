@@ -194,9 +194,9 @@ void cycle977(Context& context, const Arguments&) {
   } else {
     context.requireProbe({710, 712, 580});
   }
-  context.requireCalibration();
   const Task task = taskOf(context);
   const Method method = methodOf(context);
+  requireCalibrationFor(context, method);
   const bool oneAxis = feature == Feature::Groove || feature == Feature::Rib;
   const int axis = oneAxis ? context.measuringAxis(2) : 0;
   const auto target = task == Task::ZeroOffset ? frameTarget(context, GlobalBase::Allowed) : std::nullopt;

@@ -66,10 +66,10 @@ const CycleDefinition cycle978Definition = {
 
 void cycle978(Context& context, const Arguments&) {
   context.requireProbe({710, 712, 713, 580});
-  context.requireCalibration();
   if (context.digit("S_MVAR", 1) != 0) context.alarm(61307);
   const Task task = taskOf(context);
   const Method method = methodOf(context);
+  requireCalibrationFor(context, method);
   const int axis = context.measuringAxis(3);
   if (axis == 2 && method != Method::Standard) context.alarm(61307, "along the tool only the standard method measures");
   const int way = context.integer("S_MD");

@@ -75,18 +75,19 @@ const CycleDefinition cycle979Definition = {
 
 void cycle979(Context& context, const Arguments&) {
   context.requireProbe({710, 712, 580});
-  context.requireCalibration();
   const int units = context.digit("S_MVAR", 1);
   if (units < 1 || units > 2 || context.digit("S_MVAR", 4) > 1) context.alarm(61307);
   const Side side = units == 1 ? Side::Inside : Side::Outside;
   const Task task = taskOf(context);
   const Method method = methodOf(context);
+  requireCalibrationFor(context, method);
   const int count = 3 + context.digit("S_MVAR", 4);
   const double step = context.real("S_INCA");
   if (step == 0 || std::abs(step) > 360.0 / count) {
     context.alarm(61319,
                   fmt::format("S_INCA: more than 0, at most {:.0f} degrees with {} points", 360.0 / count, count));
   }
+  if (std::abs(context.real("S_STA1")) > 360) context.alarm(61319, "S_STA1 is between -360 and 360 degrees");
   const auto target = task == Task::ZeroOffset ? frameTarget(context, GlobalBase::Allowed) : std::nullopt;
   const double set = setValueOf(context, task, context.real("S_SETV"));
   if (!(set > 0)) context.alarm(61319, "S_SETV, the set diameter, must be greater than 0");

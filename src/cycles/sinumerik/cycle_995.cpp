@@ -178,6 +178,7 @@ void cycle995(Context& context, const Arguments&) {
   const double distance = context.real("S_DZ");
   if (!(distance > 0)) context.alarm(61319, "S_DZ, the distance to the place on the shaft, must be greater than 0");
   if (!(context.real("S_SETV") > 0)) context.alarm(61319, "S_SETV, the diameter, must be greater than 0");
+  if (std::abs(context.real("S_STA1")) > 360) context.alarm(61319, "S_STA1 is between -360 and 360 degrees");
   if (context.digit("_AMODE", 1) == 1 && context.real("S_TUL") < 0) context.alarm(61319, "S_TUL is smaller than 0");
 
   probing::SinumerikProber& prober = context.prober();

@@ -42,7 +42,7 @@ constexpr Parameter parameters997[] = {
     parameters::length(14, "S_SETV6", "set centre of ball 3, 1st axis"),
     parameters::length(15, "S_SETV7", "set centre of ball 3, 2nd axis"),
     parameters::length(16, "S_SETV8", "set centre of ball 3, 3rd axis"),
-    parameters::length(17, "S_TNVL", "limit of the distortion of the triangle of three balls"),
+    parameters::length(17, "S_TNVL", "limit of the distortion of the triangle of three balls", 1.2),
     parameters::repetitions(18),
     parameters::reserved(19),
     parameters::plane(20),
@@ -173,6 +173,10 @@ void cycle997(Context& context, const Arguments&) {
   if (!(plan.diameter > 0)) context.alarm(61319, "S_SETV, the diameter, must be greater than 0");
   if (plan.round && (plan.step == 0 || std::abs(plan.step) * plan.points > 360)) {
     context.alarm(61319, fmt::format("S_INCA: more than 0, at most {} degrees", 360 / plan.points));
+  }
+
+  if (plan.round && (std::abs(plan.startAngle) > 360 || plan.startAngle + (plan.points - 1) * plan.step > 360)) {
+    context.alarm(61319, "S_STA1 is between -360 and 360 degrees, and with all steps of S_INCA at most 360");
   }
 
   Triangle set, actual;

@@ -283,13 +283,13 @@ const CycleDefinition cycle998Definition = {
 
 void cycle998(Context& context, const Arguments&) {
   context.requireProbe({710, 712, 580});
-  context.requireCalibration();
   const int units = context.digit("S_MVAR", 1);
   if ((units != 5 && units != 6) || context.digit("S_MVAR", 4) > 1 || context.digit("S_MVAR", 6) > 1) {
     context.alarm(61307);
   }
   const Method method = methodOf(context);
   if (method == Method::ProbeAligned) context.alarm(61307, "10^4 of S_MVAR");
+  requireCalibrationFor(context, method);
   const auto target = taskOf(context) == Task::ZeroOffset ? frameTarget(context, GlobalBase::Refused) : std::nullopt;
   if (units == 5) {
     measureEdge(context, target, method);

@@ -16,6 +16,13 @@ Method methodOf(Context& context) {
   return method;
 }
 
+void requireCalibrationFor(Context& context, Method method) {
+  if (method != Method::SpindleReversal) return context.requireCalibration();
+  if (!(context.prober().ballRadius() > 0)) {
+    context.alarm(61351, "the radius of the ball must stand in the data set or in the tool data of the probe");
+  }
+}
+
 Toucher::Toucher(Context& context, Method method)
     : context_(context), method_(method), spindle_(context.channel().spindleAngle()) {}
 

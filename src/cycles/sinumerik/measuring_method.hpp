@@ -15,11 +15,15 @@ enum class Method { Standard, SpindleReversal, ProbeAligned };
 /// switches in all directions, type 710), 61372 (they need a spindle that can be positioned).
 Method methodOf(Context& context);
 
+/// Refuses to measure with a data set that was never calibrated (61341). Spindle reversal needs none: where there is
+/// none, the ball counts as large as the tool data say (61351 if they say nothing).
+void requireCalibrationFor(Context& context, Method method);
+
 /// Touches points with one method, S_NMSP times each.
 ///
 /// Spindle reversal: the first point along an axis is touched with the spindle at 180 degrees and again at its position
 /// at the start; the mean of both is free of the ball's deviation from the spindle axis, which is known from then on
-/// and serves the opposite point. Only the effective ball diameter of the calibration is used.
+/// and serves the opposite point. Of the calibration only the effective ball diameter is used.
 class Toucher {
 public:
   Toucher(Context& context, Method method);

@@ -5,7 +5,8 @@
 #include "cycles/catalogue.hpp"
 
 /// Call parameters and results that many SINUMERIK cycles share. Addresses are positions in the call, from 0. What a
-/// call leaves out is 0 or empty, as everywhere in this language; the cycle refuses what it cannot do with that.
+/// call leaves out has the parameter's standard value, most often 0 or empty; the cycle refuses what it cannot do with
+/// that.
 namespace probewright::cycles::sinumerik::parameters {
 
 inline constexpr double largestCode = 99999999;
@@ -44,12 +45,13 @@ constexpr Parameter count(std::uint32_t address, std::string_view name, std::str
   return coded(address, name, meaning, upTo<Most>, standard);
 }
 
-constexpr Parameter length(std::uint32_t address, std::string_view name, std::string_view meaning) {
+constexpr Parameter length(std::uint32_t address, std::string_view name, std::string_view meaning,
+                           double standard = 0) {
   return {.name = name,
           .address = address,
           .meaning = meaning,
           .kind = ValueKind::Length,
-          .standard = 0,
+          .standard = standard,
           .controls = control::onSinumerik};
 }
 

@@ -80,6 +80,35 @@ void ProbeCalibration::correctLength(int axis, double amount) {
   lengths_.emplace_back(axis, context_.prober().mirrored(axis) ? -amount : amount);
 }
 
+void ProbeCalibration::list(std::vector<int> axes, Listed listed) {
+  listed_.push_back({ballDiameterName, 4, 0, true});
+  for (const int axis : axes) {
+    for (const double sign : {-1.0, 1.0})
+      listed_.push_back({triggerName(axis, sign), 8 + 4 * axis + (sign < 0 ? 0 : 2), 0, true});
+  }
+  if (listed == Listed::WithDeviations || listed == Listed::WithDeviationsAndLength) {
+    for (const int axis : {0, 1})
+      listed_.push_back({fmt::format("$SNS_MEA_WP_POS_DEV_AX{}", axis + 1), 20 + axis, 0, false});
+  }
+  listsLength_ = listed == Listed::WithLength || listed == Listed::WithDeviationsAndLength;
+}
+
+void ProbeCalibration::showUnchanged() {
+  for (const Change& each : listed_) {
+    if (std::ranges::find(changes_, each.name, &Change::name) != changes_.end()) continue;
+    context_.result(each.result, context_.control().data.number(each.name, {dataSet_}));
+    if (each.compared) context_.result(each.result + 1, 0);
+  }
+}
+
+std::string ProbeCalibration::lengthName(int axis) const {
+  const Control& control = context_.control();
+  const auto edge = toolEdge(control.data, control.tool.number, control.tool.edge);
+  const auto axes = lengthAxes(planeOf(control), edge.value_or(control::sinumerik::ToolEdge{}));
+  const int geometryAxis = planeAxes(planeOf(control))[static_cast<std::size_t>(axis)];
+  return fmt::format("$TC_DP{}", 3 + (std::ranges::find(axes, geometryAxis) - axes.begin()));
+}
+
 void ProbeCalibration::store() {
   Control& control = context_.control();
   for (const Change& change : changes_) {
@@ -87,6 +116,7 @@ void ProbeCalibration::store() {
     context_.result(change.result, change.value);
     if (change.compared) context_.result(change.result + 1, change.value - old);
   }
+  showUnchanged();
   context_.result(28, context_.real("S_TSA"));
   context_.noteCall();
   for (const Change& change : changes_) {
@@ -106,13 +136,12 @@ void ProbeCalibration::store() {
   control.write(DataKey("$SNS_MEA_WP_FEED", {dataSet_}), feed_);
   noteStatus();
   for (const auto& [axis, amount] : lengths_) {
-    const auto edge = toolEdge(control.data, control.tool.number, control.tool.edge);
-    const auto axes = lengthAxes(planeOf(control), edge.value_or(control::sinumerik::ToolEdge{}));
-    const int geometryAxis = planeAxes(planeOf(control))[static_cast<std::size_t>(axis)];
-    const int length = static_cast<int>(std::ranges::find(axes, geometryAxis) - axes.begin());
-    const DataKey key(fmt::format("$TC_DP{}", 3 + length), {control.tool.number, control.tool.edge});
+    const DataKey key(lengthName(axis), {control.tool.number, control.tool.edge});
     control.write(key, control.data.number(key) + amount);
     context_.result(22, control.data.number(key));
+  }
+  if (listsLength_ && lengths_.empty()) {
+    context_.result(22, control.data.number(lengthName(2), {control.tool.number, control.tool.edge}));
   }
   control.refreshTool();
 }

@@ -59,12 +59,19 @@ public:
   /// Adds to the geometry of the tool length that acts in an axis of the plane.
   void correctLength(int axis, double amount);
 
+  /// What the variant's list of results names is shown even where it stays as it was: ball diameter, the trigger points
+  /// of `axes`, the deviations, the length that acts in the 3rd axis.
+  enum class Listed { Triggers, WithDeviations, WithLength, WithDeviationsAndLength };
+  void list(std::vector<int> axes, Listed listed);
+
   /// Alarm 61303 or all written: setting data of the data set, and the ball radius to the tool data if the machine
   /// wants it there.
   void store();
 
 private:
   double trigger(int axis, double sign) const;
+  void showUnchanged();
+  std::string lengthName(int axis) const;
   /// What is calibrated, into SD 54609 and 54610: a digit for each axis of the plane from the units on (1 minus, 2
   /// plus, 3 both directions); units the plane (1 G17), tens 1 with position deviation, hundreds 1 with the length.
   void noteStatus();
@@ -80,6 +87,8 @@ private:
   double feed_;
   std::vector<Change> changes_;
   std::vector<std::pair<int, double>> lengths_;
+  std::vector<Change> listed_;  ///< by name and result
+  bool listsLength_ = false;
 };
 
 }  // namespace probewright::cycles::sinumerik

@@ -1,0 +1,156 @@
+#include "cycles_sinumerik/milling_variants.hpp"
+
+/// What holds for every call of a milling cycle: it is left out in dry run, program test and block search, and its
+/// results fit together.
+namespace probewright {
+namespace {
+
+using namespace testing_support;
+
+double valueOf(const NamedNumbers& call, std::string_view name) {
+  const auto found = std::ranges::find(call, name, [](const auto& each) { return std::string_view(each.first); });
+  return found == call.end() ? 0 : found->second;
+}
+
+/// All variants, and the cycles that correct nothing.
+std::vector<Variant> calls() {
+  std::vector<Variant> all = variants();
+  const auto ring = [](simulation::Truth& truth, const Pose& pose) {
+    place(truth, simulation::Ring(20, 60, -40), pose);
+  };
+  const auto ball = [](simulation::Truth& truth, const Pose& pose) {
+    place(truth, simulation::SolidSphere(Vector3::Zero(), 12), pose);
+  };
+  const NamedNumbers path = {{"S_FA", 6}, {"S_TSA", 4}};
+  all.push_back({"976 ring", "CYCLE976", ring, with(path, {{"S_MVAR", 1}, {"S_SETV", 40}}), {0, 0, -10}, {}});
+  all.push_back({"976 ball", "CYCLE976", ball, with(path, {{"S_MVAR", 3}, {"S_SETV", 24}}), {0, 0, 20}, {}});
+  all.push_back(
+      {"995", "CYCLE995", ball, with(path, {{"S_MVAR", 102015}, {"S_SETV", 24}, {"S_DZ", 20}}), {0, 0, 18}, {}});
+  return all;
+}
+
+TEST(EveryCycle, IsLeftOutInDryRunProgramTestAndBlockSearch) {
+  for (const Variant& variant : calls()) {
+    for (int state = 0; state < 3; ++state) {
+      SCOPED_TRACE(fmt::format("{} in state {}", variant.name, state));
+      simulation::Truth truth = perfectWorld();
+      variant.part(truth, translation(origin + Vector3(0.2, 0.1, 0)));
+      SinumerikBench bench(truth);
+      plantFrame(bench, "$P_UIFR", 1, origin);
+      bench.control.ovr[4] = 123;
+      bench.control.dryRun = state == 0;
+      bench.control.programTest = state == 1;
+      bench.control.blockSearch = state == 2;
+      bench.hostOptions.searchLine = 1000;
+      bench.start(variant.start);
+      // Not even what the call would be refused for counts.
+      bench.run(variant.cycle, with(variant.call, {{"S_KNUM", variant.axes.empty() ? 0.0 : 1.0}, {"S_FA", 0}}));
+      EXPECT_TRUE(bench.control.journal.cycles.empty());
+      EXPECT_TRUE(bench.machine.path().touches.empty());
+      EXPECT_EQ(bench.control.ovr[4], 123) << "the results of the last cycle stay";
+      EXPECT_EQ(bench.data("$P_UIFR", {1, "X", "FI"}), 0);
+      EXPECT_EQ(bench.control.journal.events.back().kind, control::EventKind::Skipped);
+    }
+  }
+}
+
+/// The cycles that give set value, actual value and difference of one thing in elements that lie 4 and 16 apart.
+TEST(EveryCycle, DifferencesAreActualLessSetValue) {
+  Planter plant(501);
+  for (const Variant& variant : calls()) {
+    const std::string_view cycle = variant.cycle;
+    if (cycle == "CYCLE961" || cycle == "CYCLE976" || cycle == "CYCLE995") continue;
+    SCOPED_TRACE(variant.name);
+    const Pose part = displaced(variant, translation(origin), plant);
+    simulation::Truth truth = perfectWorld();
+    variant.part(truth, part);
+    SinumerikBench bench(truth);
+    plantFrame(bench, "$P_UIFR", 1, origin);
+    bench.start(variant.start);
+    bench.run(variant.cycle, with(variant.call, {{"S_KNUM", 1}}));
+    const int apart = cycle == "CYCLE997" ? 8 : 16, balls = variant.tilts && cycle == "CYCLE997" ? 3 : 1;
+    int seen = 0;
+    for (int element = 0; element < 4; ++element) {
+      EXPECT_NEAR(bench.ovr(apart + element), bench.ovr(4 + element) - bench.ovr(element), 1e-9) << element;
+      seen += bench.ovr(apart + element) != 0 ? 1 : 0;
+    }
+    EXPECT_GE(seen, 1);
+    for (int ball = 1; ball < balls; ++ball) {
+      Vector3 set;
+      for (int axis = 0; axis < 3; ++axis)
+        set[axis] = valueOf(variant.call, fmt::format("S_SETV{}", 3 * ball + axis));
+      const Vector3 actual = translation(origin).inverse() * (part * set);
+      EXPECT_NEAR(bench.ovr(4 + 8 * ball), 20, 1e-6);
+      EXPECT_NEAR(bench.ovr(8 + 8 * ball), 0, 1e-6);
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(bench.ovr(5 + 8 * ball + axis), actual[axis], 1e-6) << ball;
+        EXPECT_NEAR(bench.ovr(9 + 8 * ball + axis), actual[axis] - set[axis], 1e-6) << ball;
+      }
+    }
+    EXPECT_EQ(bench.ovi(2), std::stoi(variant.cycle + 5));
+    EXPECT_EQ(bench.ovi(3), valueOf(variant.call, "S_MVAR"));
+    EXPECT_EQ(bench.ovi(5), 1);
+    EXPECT_EQ(bench.ovi(9), 0);
+    EXPECT_EQ(bench.ovr(28), valueOf(variant.call, "S_TSA"));
+  }
+}
+
+TEST(EveryCycle, ACalibrationShowsAllOfItsData) {
+  // The lists of results: ball, trigger points of the axes concerned, deviations, length; changed or not.
+  simulation::Truth truth = perfectWorld();
+  truth.tools[0].probe.tipOffset = {0.03, -0.02};
+  place(truth, simulation::Ring(20, 60, -40), translation(origin));
+  place(truth, simulation::SolidSphere({100, 0, 0}, 12), translation(origin));
+  SinumerikBench bench(truth);
+  plantFrame(bench, "$P_UIFR", 1, origin);
+  const struct {
+    NamedNumbers call;
+    Vector3 start;
+    std::vector<int> shown;
+  } cases[] = {
+      {{{"S_MVAR", 0}, {"S_SETV", 0}}, {30, 0, 8}, {4, 5, 16, 17, 18, 19, 22, 28}},
+      {{{"S_MVAR", 1}, {"S_SETV", 40}}, {0, 0, -10}, {4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 20, 21, 24, 28}},
+      {{{"S_MVAR", 1001}, {"S_SETV", 40}, {"S_MA", 2}, {"S_MD", 1}},
+       {0, 0, -10},
+       {4, 5, 8, 9, 10, 11, 12, 13, 14, 15, 20, 21, 24, 28}},
+      {{{"S_MVAR", 2004}, {"S_SETV", 40}, {"S_MA", 1}},
+       {0, 0, -10},
+       {4, 5, 8, 9, 10, 11, 12, 13, 14, 15, 20, 21, 24, 28}},
+      {{{"S_MVAR", 3}, {"S_SETV", 24}}, {100, 0, 20}, {4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14,
+                                                       15, 16, 17, 18, 19, 20, 21, 22, 24, 28}},
+  };
+  constexpr const char* data[] = {"$SNS_MEA_WP_TRIG_MINUS_DIR_AX1", "$SNS_MEA_WP_TRIG_PLUS_DIR_AX1",
+                                  "$SNS_MEA_WP_TRIG_MINUS_DIR_AX2", "$SNS_MEA_WP_TRIG_PLUS_DIR_AX2",
+                                  "$SNS_MEA_WP_TRIG_MINUS_DIR_AX3", "$SNS_MEA_WP_TRIG_PLUS_DIR_AX3"};
+  for (const auto& [call, start, shown] : cases) {
+    SCOPED_TRACE(call.front().second);
+    double before[6];
+    for (int i = 0; i < 6; ++i)
+      before[i] = bench.data(data[i], {0});
+    const double ball = bench.data("$SNS_MEA_WP_BALL_DIAM", {0});
+    bench.start(start);
+    bench.run("CYCLE976", with({{"S_FA", 6}, {"S_TSA", 4}}, call));
+    for (const int index : shown) {
+      const auto& results = bench.control.journal.cycles.back().results;
+      const std::string name = fmt::format("_OVR[{}]", index);
+      EXPECT_TRUE(std::ranges::any_of(results, [&](const auto& result) { return result.name == name; })) << name;
+    }
+    EXPECT_NEAR(bench.ovr(4), bench.data("$SNS_MEA_WP_BALL_DIAM", {0}), 1e-12);
+    EXPECT_NEAR(bench.ovr(5), bench.data("$SNS_MEA_WP_BALL_DIAM", {0}) - ball, 1e-12);
+    for (int i = 0; i < 6; ++i) {
+      if (std::ranges::find(shown, 8 + 2 * i) == shown.end()) continue;
+      EXPECT_NEAR(bench.ovr(8 + 2 * i), bench.data(data[i], {0}), 1e-12) << i;
+      EXPECT_NEAR(bench.ovr(9 + 2 * i), bench.data(data[i], {0}) - before[i], 1e-12) << i;
+    }
+    if (shown.back() == 28 && std::ranges::find(shown, 22) != shown.end()) {
+      EXPECT_NEAR(bench.ovr(22), bench.data("$TC_DP3", {1, 1}), 1e-12);
+    }
+    if (std::ranges::find(shown, 20) != shown.end()) {
+      EXPECT_NEAR(bench.ovr(20), bench.data("$SNS_MEA_WP_POS_DEV_AX1", {0}), 1e-12);
+      EXPECT_NEAR(bench.ovr(21), bench.data("$SNS_MEA_WP_POS_DEV_AX2", {0}), 1e-12);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace probewright
