@@ -95,6 +95,54 @@ TEST(EveryCycle, DifferencesAreActualLessSetValue) {
   }
 }
 
+TEST(EveryCycle, EndsWhereTheManualSays) {
+  // In front of the last surface by the measuring path, in the middle of what was measured, or where it began. The ball
+  // has radius 2, positions are those of its lowest point.
+  Planter plant(502);
+  for (const Variant& variant : calls()) {
+    const std::string_view name = variant.name;
+    SCOPED_TRACE(name);
+    const Pose part = displaced(variant, translation(origin), plant);
+    simulation::Truth truth = perfectWorld();
+    variant.part(truth, part);
+    SinumerikBench bench(truth);
+    plantFrame(bench, "$P_UIFR", 1, origin);
+    NamedNumbers call = variant.call;
+    for (auto& [parameter, value] : call)
+      if (parameter == "S_MVAR" && static_cast<int>(value) / 100 % 10 == 1) value -= 100;
+    bench.start(variant.start);
+    bench.run(variant.cycle, call);
+    const Vector3 middle = part.translation() - origin;
+    const double path = valueOf(call, "S_FA");
+    Vector3 end = variant.start;
+    if (name.starts_with("978")) {
+      const int axis = variant.axes.front();
+      end[axis] = axis == 2 ? path : -path - 2;
+    } else if (name.starts_with("977")) {
+      for (const int axis : variant.axes)
+        end[axis] = middle[axis];
+    } else if (name.starts_with("979")) {
+      const double step = valueOf(call, "S_INCA");
+      end = name == "979 inside" ? (20 - path - 2) * probing::directionAt(2 * step)
+                                 : (20 + path + 2) * probing::directionAt(3 * step);
+      end.z() = variant.start.z();
+    } else if (name == "997 ball") {
+      end.head<2>() = middle.head<2>();
+    } else if (name == "997 three balls") {
+      end.head<2>() = (part * Vector3(20, 50, -5) - origin).head<2>();
+    } else if (name.starts_with("961 any")) {
+      end = Vector3(valueOf(call, "S_SETV4"), valueOf(call, "S_SETV5") + valueOf(call, "S_SETV3"), variant.start.z());
+    } else if (name == "998 edge") {
+      end.y() += valueOf(call, "S_ID");
+    } else if (name == "998 plane") {
+      end += Vector3(valueOf(call, "S_SETV2"), valueOf(call, "S_SETV3"), 0);
+    }
+    const Vector3 here = bench.control.channel.position();
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(here[axis], end[axis], name == "995" ? 1e-3 : 1e-6) << axis;
+  }
+}
+
 TEST(EveryCycle, ACalibrationShowsAllOfItsData) {
   // The lists of results: ball, trigger points of the axes concerned, deviations, length; changed or not.
   simulation::Truth truth = perfectWorld();

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "cycles/catalogue.hpp"
-#include "support/sinumerik_bench.hpp"
+#include "cycles_sinumerik/milling_variants.hpp"
 
 /// The same measurement ordered in millimetres and in inches, for every milling cycle that takes lengths.
 namespace probewright {
@@ -11,84 +11,62 @@ namespace {
 
 using namespace testing_support;
 
-constexpr double table = -350;
-
 struct Task {
-  const char* name;
+  std::string name;
   const char* cycle;
   simulation::Truth truth;
   NamedNumbers call;  ///< lengths in mm
   Vector3 start;
 };
 
-template <class SolidType>
-simulation::Truth worldWith(SolidType solid, const Pose& pose) {
-  simulation::Truth truth = perfectWorld();
-  place(truth, std::move(solid), translation({0, 0, table}) * pose);
-  return truth;
-}
-
 std::vector<Task> tasks() {
-  const Pose off = translation({0.4, -0.3, 0.2});
-  const Pose turned = translation({0.4, -0.3, 0}) * rotation(Vector3::UnitZ(), 1.5);
-  const simulation::Ring hole(20, 80, -60);
-  const simulation::Box block({0, 0, -60}, {120, 120, 0});
-  const NamedNumbers common = {{"S_KNUM", 1}, {"S_FA", 8}, {"S_TSA", 8}};
-  const auto call = [&](const NamedNumbers& own) { return testing_support::with(common, own); };
-  return {
-      {"976 ring",
-       "CYCLE976",
-       worldWith(hole, Pose::Identity()),
-       {{"S_MVAR", 1}, {"S_SETV", 40}, {"S_FA", 8}, {"S_TSA", 3}},
-       {0, 0, -10}},
-      {"977 hole", "CYCLE977", worldWith(hole, off), call({{"S_MVAR", 101}, {"S_SETV", 40}}), {0, 0, -10}},
-      {"977 spigot",
-       "CYCLE977",
-       worldWith(simulation::RoundBar(20, -60, 0), off),
-       call({{"S_MVAR", 102}, {"S_SETV", 40}, {"S_ID", -20}}),
-       {0, 0, 10}},
-      {"977 rectangle",
-       "CYCLE977",
-       worldWith(simulation::Box({-15, -15, -60}, {15, 15, 0}), off),
-       call({{"S_MVAR", 106}, {"S_SETV0", 30}, {"S_SETV1", 30}, {"S_ID", -20}}),
-       {0, 0, 10}},
-      {"978 edge",
-       "CYCLE978",
-       worldWith(block, off),
-       call({{"S_MVAR", 100}, {"S_SETV", 0.1}, {"S_MA", 1}, {"S_MD", 1}}),
-       {-12, 20, -10}},
-      {"978 top", "CYCLE978", worldWith(block, off), call({{"S_MVAR", 100}, {"S_MA", 3}, {"S_MD", 2}}), {30, 30, 8}},
-      {"979 hole",
-       "CYCLE979",
-       worldWith(hole, off),
-       call({{"S_MVAR", 101}, {"S_SETV", 40}, {"S_CPA", 0.1}, {"S_INCA", 80}}),
-       {8, 0, -10}},
-      {"961 corner",
-       "CYCLE961",
-       worldWith(block, turned),
-       {{"S_MVAR", 106},
-        {"S_KNUM", 1},
-        {"S_FA", 20},
-        {"S_TSA", 8},
-        {"S_SETV0", 30},
-        {"S_SETV1", 80},
-        {"S_SETV2", 30},
-        {"S_SETV3", 80},
-        {"S_SETV4", -15},
-        {"S_SETV5", -15},
-        {"S_INCA", 90}},
-       {-15, -15, -10}},
-      {"998 edge",
-       "CYCLE998",
-       worldWith(block, turned),
-       {{"S_MVAR", 100105}, {"S_KNUM", 1}, {"S_FA", 9}, {"S_TSA", 12}, {"S_MA", 201}, {"S_MD", 1}, {"S_ID", 50}},
-       {-14, 20, -10}},
-      {"997 ball",
-       "CYCLE997",
-       worldWith(simulation::SolidSphere(Vector3::Zero(), 15), off),
-       call({{"S_MVAR", 101119}, {"S_SETV", 30}, {"S_INCA", 90}, {"S_SETV0", 0.1}}),
-       {0, 0, 25}},
+  std::vector<Task> all;
+  Planter plant(254);
+  for (const Variant& variant : variants()) {
+    Task task{variant.name, variant.cycle, perfectWorld(), with(variant.call, {{"S_KNUM", 1}}), variant.start};
+    variant.part(task.truth, displaced(variant, translation(origin), plant));
+    all.push_back(task);
+    const std::string_view cycle = variant.cycle;
+    if (cycle != "CYCLE977" && cycle != "CYCLE978" && cycle != "CYCLE979") continue;
+    // The same with the correction of a tool: a tolerance, and a mean that is kept.
+    task.name += " corrects a tool";
+    for (auto& [name, value] : task.call)
+      if (name == "S_MVAR") value += 100;
+    task.call = with(task.call, {{"S_KNUM1", 1},
+                                 {"S_TUL", 2.1},
+                                 {"S_TLL", -1.9},
+                                 {"S_TDIF", 4},
+                                 {"S_TMV", 1.5},
+                                 {"S_TZL", 0.1},
+                                 {"S_K", 3},
+                                 {"S_EVNUM", 10002},
+                                 {"_AMODE", 1}});
+    all.push_back(std::move(task));
+  }
+  const NamedNumbers path = {{"S_FA", 8}, {"S_TSA", 3}, {"S_VMS", 254}};
+  const auto calibration = [&](const char* name, auto solid, const NamedNumbers& call, const Vector3& start) {
+    Task task{name, "CYCLE976", perfectWorld(), with(path, call), start};
+    task.truth.tools[0].probe.tipOffset = {0.03, -0.02};
+    place(task.truth, solid, translation(origin));
+    all.push_back(std::move(task));
   };
+  const simulation::Ring ring(20, 60, -40);
+  const simulation::Box block({0, 0, -60}, {80, 80, 0});
+  calibration("976 ring", ring, {{"S_MVAR", 1}, {"S_SETV", 40}}, {0, 0, -10});
+  calibration("976 two edges", ring, {{"S_MVAR", 2004}, {"S_SETV", 40}, {"S_MA", 1}}, {0, 0, -10});
+  calibration("976 edge", block, {{"S_MVAR", 1004}, {"S_SETV", 0.02}, {"S_MA", 1}}, {-12, 30, -10});
+  calibration("976 length", block, {{"S_MVAR", 1000000}, {"S_SETV", 0.02}}, {30, 30, 10});
+  calibration("976 ball", simulation::SolidSphere({0, 0, -12}, 12),
+              {{"S_MVAR", 1000003}, {"S_SETV", 24}, {"S_SETV0", 0.01}}, {0, 0, 8});
+  Task spindle{"995",
+               "CYCLE995",
+               perfectWorld(),
+               {{"S_MVAR", 1102015}, {"S_SETV", 24}, {"S_FA", 6}, {"S_TSA", 3}, {"S_DZ", 20}},
+               {0, 0, 18}};
+  spindle.truth.errors.spindleTilt = {0.02, 0.03, 0};
+  place(spindle.truth, simulation::SolidSphere(Vector3::Zero(), 12), translation(origin));
+  all.push_back(std::move(spindle));
+  return all;
 }
 
 /// Frames, calibration data, and results in mm, by name.
@@ -97,14 +75,21 @@ std::map<std::string, double> outcome(const Task& task, const char* units, doubl
   NamedNumbers call = task.call;
   for (auto& [name, value] : call) {
     for (const cycles::Parameter& parameter : definition.parameters)
-      if (parameter.name == name && parameter.kind == cycles::ValueKind::Length) value /= scale;
+      if (parameter.name == name &&
+          (parameter.kind == cycles::ValueKind::Length || parameter.kind == cycles::ValueKind::Feed))
+        value /= scale;
   }
   SinumerikBench bench(task.truth);
-  plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
+  plantFrame(bench, "$P_UIFR", 1, origin);
+  bench.control.data.set("$TC_TP2", {7}, std::string("MILL"));
+  bench.set("$TC_DP1", {7, 1}, 120);
+  bench.set("$SCS_MEA_EMPIRIC_VALUE", {1}, 0.05);
   bench.start(task.start);
-  bench.run(task.cycle, call, {}, std::string(units) + "\n");
+  const bool corrects = task.name.ends_with("tool");
+  bench.run(task.cycle, call, corrects ? NamedTexts{{"S_TNAME", "MILL"}} : NamedTexts{}, std::string(units) + "\n");
   std::map<std::string, double> found;
-  for (const char* name : {"$P_UIFR", "$SNS_MEA_WP_BALL_DIAM", "$SNS_MEA_WP_TRIG_PLUS_DIR_AX1"}) {
+  for (const char* name : {"$P_UIFR", "$SNS_MEA_WP_BALL_DIAM", "$SNS_MEA_WP_TRIG_PLUS_DIR_AX1", "$SNS_MEA_WP_FEED",
+                           "$TC_DP3", "$TC_DP15", "$SCS_MEA_AVERAGE_VALUE"}) {
     for (const auto& key : bench.control.data.keys(name))
       found[key.text()] = bench.control.data.number(key);
   }

@@ -416,5 +416,16 @@ believed_tip_offset = [0.1, 0.2]
   EXPECT_EQ(believed.tipOffset, Vector2(0.1, 0.2));
 }
 
+TEST(Setup, AStarIsKnownByItsReach) {
+  Diagnostics diagnostics;
+  const std::string tool = "[[tool]]\nnumber = 1\nkind = \"probe\"\nlength = 150\nball_radius = 2\npretravel = 0.01\n";
+  const auto setup = parseSetup(tool + "star_arm = 12\n", "s.toml", diagnostics);
+  ASSERT_TRUE(setup) << format(diagnostics.at(0));
+  EXPECT_EQ(setup->truth.tools.at(0).probe.starArm, 12);
+  EXPECT_NEAR(setup->tools.at(0).radius, 13.99, 1e-12);
+  EXPECT_NEAR(setup->tools.at(0).axialRadius, 2, 1e-12);
+  EXPECT_FALSE(parseSetup(tool + "star_arm = 2.5\n", "s.toml", diagnostics)) << "its balls run into each other";
+}
+
 }  // namespace
 }  // namespace probewright::simulation

@@ -32,9 +32,25 @@ bool codedAsTurning(const Context& context) {
   return number == 974 || number == 994;
 }
 
-int toolOf(Context& context) {
+/// The tool that alone has edge `edge`, where D numbers are given once on the whole machine.
+std::optional<int> ownerOf(const Control& control, int edge) {
+  std::optional<int> owner;
+  for (const int tool : toolNumbers(control.data)) {
+    if (!toolEdge(control.data, tool, edge)) continue;
+    if (owner) return std::nullopt;
+    owner = tool;
+  }
+  return owner;
+}
+
+int toolOf(Context& context, int edge) {
   const Control& control = context.control();
   const std::string& name = context.text("S_TNAME");
+  // Unique D numbers, the fourth and fifth digit of S_KNUM1, need no name beside them.
+  if (name.empty() && edge > 999) {
+    if (const auto owner = ownerOf(control, edge)) return *owner;
+    context.alarm(61328, fmt::format("D{} belongs to no tool, or to several", edge));
+  }
   if (name.empty()) context.alarm(61343, "S_TNAME names no tool");
   if (const auto tool = toolNamed(control.data, name)) return *tool;
   const auto number = parseInteger(name);
@@ -65,7 +81,7 @@ std::optional<ToolTarget> toolTarget(Context& context) {
   const int memory = context.digit("S_KNUM1", 7);
   if (memory > 4) context.alarm(61314, fmt::format("seventh digit of S_KNUM1 = {}", code));
   target.memory = static_cast<Memory>(memory);
-  target.tool = toolOf(context);
+  target.tool = toolOf(context, target.edge);
   if (!toolEdge(context.control().data, target.tool, target.edge)) {
     context.alarm(61328, fmt::format("tool {} has no edge D{}", target.tool, target.edge));
   }
