@@ -95,6 +95,70 @@ TEST(EveryCycle, DifferencesAreActualLessSetValue) {
   }
 }
 
+/// Results and frame after a call on a displaced part.
+std::vector<double> outcome(const Variant& variant, const NamedNumbers& more, const std::string& before = {},
+                            int dataSet = 0) {
+  Planter plant(503);
+  simulation::Truth truth = perfectWorld();
+  variant.part(truth, displaced(variant, translation(origin), plant));
+  SinumerikBench bench(truth);
+  plantFrame(bench, "$P_UIFR", 1, origin);
+  if (dataSet != 0) {
+    for (const auto& name : {"$SNS_MEA_WP_BALL_DIAM", "$SNS_MEA_WP_TRIG_MINUS_DIR_AX1", "$SNS_MEA_WP_TRIG_PLUS_DIR_AX1",
+                             "$SNS_MEA_WP_TRIG_MINUS_DIR_AX2", "$SNS_MEA_WP_TRIG_PLUS_DIR_AX2"}) {
+      bench.set(name, {dataSet}, bench.data(name, {0}));
+      bench.set(name, {0}, 0);
+    }
+  }
+  bench.start(variant.start);
+  bench.run(variant.cycle, with(with(variant.call, {{"S_KNUM", variant.axes.empty() && !variant.turns ? 0 : 1}}), more),
+            {}, before);
+  EXPECT_EQ(bench.control.plane, before.starts_with("G18") ? 18 : 17) << "PROC ... SAVE";
+  std::vector<double> all(bench.control.ovr.begin(), bench.control.ovr.end());
+  for (const auto& key : bench.control.data.keys("$P_UIFR"))
+    all.push_back(bench.control.data.number(key));
+  all.push_back(bench.ovi(5));
+  return all;
+}
+
+void expectAlike(const std::vector<double>& first, const std::vector<double>& second) {
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i)
+    EXPECT_NEAR(first[i], second[i], 1e-9) << i;
+}
+
+TEST(EveryCycle, TakesPlaneAndDataSetOfTheCall) {
+  for (const Variant& variant : calls()) {
+    SCOPED_TRACE(variant.name);
+    const std::vector<double> plain = outcome(variant, {});
+    EXPECT_EQ(plain.back(), 1);
+    expectAlike(plain, outcome(variant, {{"_DMODE", 1}}));
+    // In G18 the length of the probe acts in Y: the plane is changed in front of the call only.
+    expectAlike(plain, outcome(variant, {{"_DMODE", 1}}, "G18\n"));
+    for (const int number : {2, 12}) {
+      std::vector<double> other = outcome(variant, {{"S_PRNUM", number}}, {}, number - 1);
+      EXPECT_EQ(other.back(), number);
+      other.back() = 1;
+      expectAlike(plain, other);
+    }
+  }
+}
+
+TEST(EveryCycle, ReservedArgumentsChangeNothing) {
+  for (const Variant& variant : calls()) {
+    SCOPED_TRACE(variant.name);
+    NamedNumbers reserved = {{"S_MCBIT", 255}};
+    const std::string_view cycle = variant.cycle;
+    if (cycle == "CYCLE961" || cycle == "CYCLE976" || cycle == "CYCLE997" || cycle == "CYCLE998")
+      reserved.emplace_back("_AMODE", 1);
+    if (cycle == "CYCLE998") reserved.emplace_back("S_SETV1", 17);
+    if (cycle == "CYCLE995")
+      reserved = with(reserved, {{"S_INCA", 30}, {"S_SETV0", 7}, {"S_SETV1", 8}, {"S_SETV2", 9}, {"S_KNUM", 0}});
+    if (cycle == "CYCLE998") reserved.erase(reserved.begin());  // has none
+    expectAlike(outcome(variant, {}), outcome(variant, reserved));
+  }
+}
+
 TEST(EveryCycle, EndsWhereTheManualSays) {
   // In front of the last surface by the measuring path, in the middle of what was measured, or where it began. The ball
   // has radius 2, positions are those of its lowest point.

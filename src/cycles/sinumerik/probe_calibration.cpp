@@ -117,6 +117,7 @@ void ProbeCalibration::store() {
     if (change.compared) context_.result(change.result + 1, change.value - old);
   }
   showUnchanged();
+  context_.result(27, 0);  // the call of a calibration has no zero offset range
   context_.result(28, context_.real("S_TSA"));
   context_.noteCall();
   for (const Change& change : changes_) {
