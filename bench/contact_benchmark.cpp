@@ -10,6 +10,7 @@
 
 #include "simulation/cad_solid.hpp"
 #include "simulation/mesh_solid.hpp"
+#include "support/bumpy_body.hpp"
 
 /// Contacts of a ball of 2 mm on its way to a part, against the queries of other engines that come nearest to it.
 namespace probewright::simulation {
@@ -19,39 +20,13 @@ constexpr double kRadius = 2;
 constexpr double kSize = 100;
 
 /// A closed bumpy body of about 200 mm diameter with about `triangles` triangles.
-TriangleMesh bumpyBody(std::size_t triangles) {
-  const auto rings = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles) / 4.0));
-  const std::uint32_t around = 2 * rings;
-  TriangleMesh mesh;
-  const auto place = [](double polar, double azimuth) {
-    const double r = kSize * (1 + 0.03 * std::sin(9 * polar) * std::cos(8 * azimuth));
-    return Vector3(r * std::sin(polar) * std::cos(azimuth), r * std::sin(polar) * std::sin(azimuth),
-                   r * std::cos(polar));
-  };
-  mesh.corners.push_back(place(0, 0));
-  for (std::uint32_t i = 1; i < rings; ++i) {
-    for (std::uint32_t j = 0; j < around; ++j) {
-      mesh.corners.push_back(place(std::numbers::pi * i / rings, 2 * std::numbers::pi * j / around));
-    }
-  }
-  mesh.corners.push_back(place(std::numbers::pi, 0));
-  const auto at = [&](std::uint32_t i, std::uint32_t j) { return 1 + (i - 1) * around + j % around; };
-  const auto last = static_cast<std::uint32_t>(mesh.corners.size() - 1);
-  for (std::uint32_t j = 0; j < around; ++j) {
-    mesh.triangles.push_back({0, at(1, j), at(1, j + 1)});
-    mesh.triangles.push_back({last, at(rings - 1, j + 1), at(rings - 1, j)});
-    for (std::uint32_t i = 1; i + 1 < rings; ++i) {
-      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  }
-  return mesh;
-}
-
 const TriangleMesh& body(std::size_t triangles) {
   static std::map<std::size_t, TriangleMesh> bodies;
   auto [place, isNew] = bodies.try_emplace(triangles);
-  if (isNew) place->second = bumpyBody(triangles);
+  if (isNew) {
+    const auto rings = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles) / 4.0));
+    place->second = bumpyBody(rings, kSize, {.height = 0.03, .alongPolar = 9, .aroundAxis = 8});
+  }
   return place->second;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "probing/arc.hpp"
 
 namespace probewright::probing {
 
@@ -55,18 +56,8 @@ void HeidenhainProber::approach(const Vector3& ballCentre, double clearanceHeigh
 }
 
 void HeidenhainProber::moveOnArc(const Vector3& centre, double angle) {
-  const Vector3 start = position();
-  const Vector2 arm = (start - centre).head<2>();
-  const double radius = arm.norm();
-  if (radius < 1e-9) return;
-  // Pieces so short that the path leaves the arc by at most 0.01 mm.
-  const double piece = 2 * std::acos(std::clamp(1 - 0.01 / radius, -1.0, 1.0));
-  const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(radiansFromDegrees(angle)) / piece)));
-  for (int i = 1; i <= pieces; ++i) {
-    const Eigen::Rotation2Dd turn(radiansFromDegrees(angle) * i / pieces);
-    const Vector2 point = centre.head<2>() + turn * arm;
-    moveTo({point.x(), point.y(), start.z()});
-  }
+  for (const Vector3& point : pointsOnArc(position(), centre, angle))
+    moveTo(point);
 }
 
 Vector3 HeidenhainProber::tipOffsetAt(double spindleAngle) const {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "control/alarm.hpp"
+#include "probing/arc.hpp"
 
 namespace probewright::probing {
 
@@ -79,16 +80,8 @@ void SinumerikProber::moveHeightTo(double height) {
 }
 
 void SinumerikProber::moveOnArc(const Vector3& centre, double angle) {
-  const Vector3 start = position();
-  const Vector2 arm = (start - centre).head<2>();
-  const double radius = arm.norm();
-  if (radius < 1e-9) return;
-  const double piece = 2 * std::acos(std::clamp(1 - 0.01 / radius, -1.0, 1.0));
-  const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(radiansFromDegrees(angle)) / piece)));
-  for (int i = 1; i <= pieces; ++i) {
-    const Eigen::Rotation2Dd turn(radiansFromDegrees(angle) * i / pieces);
-    const Vector2 point = centre.head<2>() + turn * arm;
-    channel_.moveTo(plane_.xyzFromPlane({point.x(), point.y(), start.z()}), Feed::at(habits_.circleFeed));
+  for (const Vector3& point : pointsOnArc(position(), centre, angle)) {
+    channel_.moveTo(plane_.xyzFromPlane(point), Feed::at(habits_.circleFeed));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/bumpy_body.hpp"
 #include "worlds.hpp"
 
 namespace probewright::simulation {
@@ -40,35 +41,6 @@ double distanceToMesh(const Vector3& p, const TriangleMesh& mesh) {
   return best;
 }
 
-/// A bumpy closed body of about 4 * rings * rings triangles.
-TriangleMesh bumpySphere(std::uint32_t rings, double size, double bumps) {
-  TriangleMesh mesh;
-  const std::uint32_t around = 2 * rings;
-  const auto place = [&](double polar, double azimuth) {
-    const double r = size * (1 + bumps * std::sin(5 * polar) * std::cos(4 * azimuth));
-    return Vector3(r * std::sin(polar) * std::cos(azimuth), r * std::sin(polar) * std::sin(azimuth),
-                   r * std::cos(polar));
-  };
-  mesh.corners.push_back(place(0, 0));
-  for (std::uint32_t i = 1; i < rings; ++i) {
-    for (std::uint32_t j = 0; j < around; ++j) {
-      mesh.corners.push_back(place(std::numbers::pi * i / rings, 2 * std::numbers::pi * j / around));
-    }
-  }
-  mesh.corners.push_back(place(std::numbers::pi, 0));
-  const auto at = [&](std::uint32_t i, std::uint32_t j) { return 1 + (i - 1) * around + j % around; };
-  const auto last = static_cast<std::uint32_t>(mesh.corners.size() - 1);
-  for (std::uint32_t j = 0; j < around; ++j) {
-    mesh.triangles.push_back({0, at(1, j), at(1, j + 1)});
-    mesh.triangles.push_back({last, at(rings - 1, j + 1), at(rings - 1, j)});
-    for (std::uint32_t i = 1; i + 1 < rings; ++i) {
-      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  }
-  return mesh;
-}
-
 TriangleMesh cube(double low, double high) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) {
@@ -81,7 +53,7 @@ TriangleMesh cube(double low, double high) {
 
 TEST(MeshSolid, MeetsABallWhereBruteForceMeetsIt) {
   std::mt19937_64 random(1);
-  const TriangleMesh mesh = bumpySphere(12, 20, 0.2);
+  const TriangleMesh mesh = bumpyBody(12, 20, {0.2, 5, 4});
   const MeshSolid solid(mesh);
   ASSERT_TRUE(solid.isClosed());
   int contacts = 0;
@@ -111,7 +83,7 @@ TEST(MeshSolid, MeetsABallWhereBruteForceMeetsIt) {
 
 TEST(MeshSolid, IsMetByBallsFarFromTheOrigin) {
   std::mt19937_64 random(2);
-  TriangleMesh mesh = bumpySphere(8, 10, 0.1);
+  TriangleMesh mesh = bumpyBody(8, 10, {0.1, 5, 4});
   const Vector3 offset(700, -400, 900);
   for (Vector3& corner : mesh.corners)
     corner += offset;
@@ -205,7 +177,7 @@ double distanceOfSegment(const Vector3& p, const Vector3& axis, const TriangleMe
 
 TEST(MeshSolid, MeetsACapsuleWhereBruteForceMeetsIt) {
   std::mt19937_64 random(3);
-  const TriangleMesh mesh = bumpySphere(4, 20, 0.2);
+  const TriangleMesh mesh = bumpyBody(4, 20, {0.2, 5, 4});
   const MeshSolid solid(mesh);
   int contacts = 0;
   for (int i = 0; i < 180; ++i) {

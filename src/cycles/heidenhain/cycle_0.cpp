@@ -21,14 +21,6 @@ constexpr Parameter parameters0[] = {
     prePosition("0.1 C", 5),
 };
 
-constexpr ResultDefinition results0[] = {
-    {"Q115", "position at the touch, X"},
-    {"Q116", "position at the touch, Y"},
-    {"Q117", "position at the touch, Z"},
-    {"Q118", "position at the touch, 4th axis", ValueKind::Angle},
-    {"Q119", "position at the touch, 5th axis", ValueKind::Angle},
-};
-
 }  // namespace
 
 const CycleDefinition cycle0Definition = {
@@ -38,7 +30,7 @@ const CycleDefinition cycle0Definition = {
     .family = CycleFamily::Inspection,
     .summary = "Measures one position in an axis direction and stores its coordinate in a Q parameter.",
     .parameters = parameters0,
-    .results = results0,
+    .results = touchPositionResults,
 };
 
 void cycle0(Context& context, const Arguments& arguments) {

@@ -14,14 +14,6 @@ constexpr Parameter parameters1[] = {
     prePosition("1.2 Z", 2), prePosition("1.2 A", 3),   prePosition("1.2 B", 4), prePosition("1.2 C", 5),
 };
 
-constexpr ResultDefinition results1[] = {
-    {"Q115", "position at the touch, X"},
-    {"Q116", "position at the touch, Y"},
-    {"Q117", "position at the touch, Z"},
-    {"Q118", "position at the touch, 4th axis", ValueKind::Angle},
-    {"Q119", "position at the touch, 5th axis", ValueKind::Angle},
-};
-
 }  // namespace
 
 const CycleDefinition cycle1Definition = {
@@ -31,7 +23,7 @@ const CycleDefinition cycle1Definition = {
     .family = CycleFamily::Inspection,
     .summary = "Measures one position in any direction of a plane: X in X/Y, Y in Y/Z, Z in Z/X.",
     .parameters = parameters1,
-    .results = results1,
+    .results = touchPositionResults,
 };
 
 void cycle1(Context& context, const Arguments& arguments) {

@@ -9,8 +9,16 @@ namespace probewright::cycles::heidenhain {
 /// probe_word::coordinate), from wherever the probe stands.
 void moveToProgrammedPosition(Context& context);
 
-/// Q115 to Q119: the position at the touch in X, Y, Z and the first two rotary axes, in the active coordinate system.
-/// Stylus length and ball radius are not taken into account: it is the tool reference point's.
+inline constexpr ResultDefinition touchPositionResults[] = {
+    {"Q115", "position at the touch, X"},
+    {"Q116", "position at the touch, Y"},
+    {"Q117", "position at the touch, Z"},
+    {"Q118", "position at the touch, 4th axis", ValueKind::Angle},
+    {"Q119", "position at the touch, 5th axis", ValueKind::Angle},
+};
+
+/// Sets them, Q115 to Q119: the position at the touch in X, Y, Z and the first two rotary axes, in the active
+/// coordinate system. Stylus length and ball radius are not taken into account: it is the tool reference point's.
 void storeTouchPosition(Context& context, const EvaluatedTouch& touch);
 
 }  // namespace probewright::cycles::heidenhain
