@@ -55,6 +55,9 @@ ProgramLanguage languageFor(ControlKind kind, const std::filesystem::path& path,
 
 Result<ControlKind> controlFor(const std::filesystem::path& path, std::string_view text,
                                std::optional<ControlKind> wanted, std::optional<ControlKind> setup) {
+  if (text.find_first_not_of(" \t\r\n\x1a\xEF\xBB\xBF") == std::string_view::npos) {
+    return fail({path.string(), 0, 0}, "the program is empty", "check that the file was saved and copied whole");
+  }
   const std::optional<ProgramLanguage> language = languageOf(path, text);
   if (wanted) {
     if (!language || speaks(*wanted, *language)) return *wanted;

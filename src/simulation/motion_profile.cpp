@@ -6,7 +6,10 @@
 namespace probewright::simulation {
 
 MotionProfile::MotionProfile(double length, double speed, double acceleration)
-    : length_(length), speed_(std::min(speed, std::sqrt(length * acceleration))), acceleration_(acceleration) {}
+    : length_(length),
+      target_(speed),
+      speed_(std::min(speed, std::sqrt(length * acceleration))),
+      acceleration_(acceleration) {}
 
 double MotionProfile::duration() const { return length_ > 0 ? length_ / speed_ + speed_ / acceleration_ : 0; }
 

@@ -10,13 +10,15 @@ public:
   MotionProfile(double length, double speed, double acceleration);
 
   double length() const { return length_; }
+  double targetSpeed() const { return target_; }  ///< the `speed` asked for, reached or not
+  double acceleration() const { return acceleration_; }
   double duration() const;                           ///< seconds
   double speedAt(double travelled) const;            ///< per second
   double secondsAt(double travelled) const;          ///< since the start
   double brakingDistanceAt(double travelled) const;  ///< from the speed there to standstill
 
 private:
-  double length_, speed_, acceleration_;
+  double length_, target_, speed_, acceleration_;
 };
 
 }  // namespace probewright::simulation

@@ -161,7 +161,19 @@ void VirtualMachine::advance(const Motion& motion, const Stop& stop, PathKind ki
   slides_ = motion.slidesAt(stop.end);
   // Stopping early takes the time of braking from the speed reached.
   const double travelled = stop.end * motion.profile.length();
-  clock_ = motion.startSeconds + (stop.end == 1 ? motion.profile.duration() : motion.profile.secondsAt(travelled));
+  double duration = stop.end == 1 ? motion.profile.duration() : motion.profile.secondsAt(travelled);
+  double pace = 1;  // of the clock
+  if (kind != PathKind::Feed || stop.end != 1 || stop.touch || duration == 0) {
+    continuous_.stop();
+  } else {
+    AxisPositions way;
+    for (std::size_t i = 0; i < truth_.machine.axes.size(); ++i)
+      way[i] = reading_[i] - motion.from[i];
+    const double added = continuous_.join(way, motion.profile);
+    pace = added / duration;
+    duration = added;
+  }
+  clock_ = motion.startSeconds + duration;
   if (!recording_ || (motion.profile.length() == 0 && !stop.touch)) return;
   constexpr double turnPerPoint = 2;  // degrees
   double turn = 0;
@@ -171,7 +183,7 @@ void VirtualMachine::advance(const Motion& motion, const Stop& stop, PathKind ki
   const int pieces = std::clamp(static_cast<int>(std::ceil(turn / turnPerPoint)), 1, 360);
   for (int i = 1; i <= pieces; ++i) {
     const double fraction = stop.end * i / pieces;
-    const double seconds = motion.startSeconds + motion.profile.secondsAt(fraction * motion.profile.length());
+    const double seconds = motion.startSeconds + pace * motion.profile.secondsAt(fraction * motion.profile.length());
     path_.add(pathPoint(motion.tableFromSpindleAt(fraction), kind, i == pieces ? clock_ : seconds));
   }
   if (!stop.touch) return;
@@ -375,6 +387,7 @@ MoveResult VirtualMachine::orientSpindle(double degrees) {
   if (cancelled_) return {MoveEnd::Cancelled, cancelledText};
   if (!truth_.machine.spindleOrients) return {MoveEnd::AxisLimit, "the spindle of this machine cannot be oriented"};
   if (!std::isfinite(degrees)) return {MoveEnd::AxisLimit, "the spindle is sent to an angle that is no number"};
+  continuous_.stop();
   clock_ += orientationSeconds;
   spindleDegrees_ = degrees;
   shape_ = shapeOf(tool_, degrees);
@@ -423,10 +436,14 @@ MoveResult VirtualMachine::changeTool(const machine::ToolOrder& order) {
     if (axes[i].kind == AxisKind::Linear) target[i] = truth_.machine.toolChange[i];
   }
   advance(motionTo(target, Feed::rapidTraverse()), Stop{}, PathKind::ToolChange);
+  continuous_.stop();
   clock_ += truth_.machine.toolChangeSeconds;
   return load(*tool);
 }
 
-void VirtualMachine::dwell(double seconds) { clock_ += std::max(seconds, 0.0); }
+void VirtualMachine::dwell(double seconds) {
+  continuous_.stop();
+  clock_ += std::max(seconds, 0.0);
+}
 
 }  // namespace probewright::simulation

@@ -8,6 +8,7 @@
 
 #include "machine/machine.hpp"
 #include "simulation/contact_search.hpp"
+#include "simulation/continuous_path.hpp"
 #include "simulation/path_record.hpp"
 #include "simulation/tool_shape.hpp"
 #include "simulation/true_kinematics.hpp"
@@ -118,6 +119,7 @@ private:
   std::normal_distribution<double> gaussian_;
   std::atomic<bool> cancelled_ = false;
   bool recording_ = true;
+  ContinuousPath continuous_;
   PathRecorder path_;
 };
 

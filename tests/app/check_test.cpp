@@ -34,6 +34,17 @@ TEST(Check, NamesEveryMistakeWithItsPlace) {
   EXPECT_THAT(answer.errors, HasSubstr("1 L X+ZZ"));
 }
 
+TEST(Check, RefusesAnEmptyProgram) {
+  const Folder folder;
+  for (const char* name : {"empty.h", "empty.i", "empty.mpf", "empty"}) {
+    const std::string path = folder.file(name, " \r\n\n");
+    const Answer answer = probewright({"check", path});
+    EXPECT_EQ(answer.exit, 2) << name;
+    EXPECT_EQ(answer.errors,
+              path + ": error: the program is empty\n    check that the file was saved and copied whole\n");
+  }
+}
+
 TEST(Check, FindsParametersThatTheCatalogueDoesNotAllow) {
   const Folder folder;
   const std::string path = folder.file(

@@ -44,6 +44,33 @@ TEST(Check, EveryMistakeOfAFileIsReported) {
             "comments with ';'\n");
 }
 
+TEST(Check, TouchProbeCyclesThatNoControlHas) {
+  EXPECT_EQ(checked(framed("1 TCH PROBE 499 NONE\n")),
+            "a.h:2:3: error: there is no touch probe cycle 499\n    1 TCH PROBE 499 NONE\n"
+            "    check its number; list the available cycles with: probewright cycles\n");
+  EXPECT_EQ(checked(framed("1 TCH PROBE 580 OWN\n")),
+            "a.h:2:3: warning: touch probe cycle 580 is not available; its parameters are not checked\n"
+            "    1 TCH PROBE 580 OWN\n    list the available cycles with: probewright cycles\n");
+}
+
+TEST(Check, SteppingAnglesThatTheCycleWouldRefuse) {
+  const auto of = [](const std::string& angle) {
+    return checked(framed("1 TCH PROBE 421 HOLE ~\n Q273=+50 ~\n Q274=+50 ~\n Q262=75 ~\n Q325=+0 ~\n Q247=" + angle +
+                          " ~\n Q261=-5 ~\n Q320=0 ~\n Q260=+20 ~\n Q301=1 ~\n Q275=75.12 ~\n Q276=74.95 ~\n"
+                          " Q279=0.1 ~\n Q280=0.1 ~\n Q281=1 ~\n Q309=0 ~\n Q330=0\n"));
+  };
+  EXPECT_NE(of("3").find("a.h:7:2: error: Q247"), std::string::npos) << of("3");
+  EXPECT_NE(of("-4.9").find("cannot be -4.9"), std::string::npos) << of("-4.9");
+  EXPECT_EQ(of("5"), "");
+  EXPECT_EQ(of("-5"), "");
+}
+
+TEST(Check, TheFrameInEitherCase) {
+  KlartextProgram program("a.h", "begin pgm a inch\nl x+1 fmax m30\nend pgm a inch\n");
+  EXPECT_TRUE(checkProgram(program, control::ControlKind::TNC640).empty());
+  EXPECT_EQ(program.unit(), Unit::Inch);
+}
+
 TEST(Check, TheFrameOfAProgram) {
   EXPECT_EQ(checked("1 L X+1 FMAX\n"),
             "a.h:1:1: error: the program does not begin with BEGIN PGM\n"

@@ -45,6 +45,15 @@ TEST(Mistakes, OfPathBlocks) {
        {"HELLO", "3:1: this is no block of the Klartext language"}});
 }
 
+TEST(Mistakes, OfParameterNumbers) {
+  expectSaid({{"Q2000 = 1", "3:6: there is no parameter Q2000"},
+              {"Q1 = QL500 + 1", "3:11: there is no parameter QL500"},
+              {"L X+QR500 FMAX", "3:10: there is no parameter QR500"},
+              {"QS99999999 = \"A\"", "3:11: there is no parameter QS99999"},
+              {"Q1999 = 1", "nothing"},
+              {"QR499 = QL499", "nothing"}});
+}
+
 TEST(Mistakes, OfToolsAndCalls) {
   expectSaid({{"TOOL CALL 99 Z", "Tool not defined: TOOL.T has no tool 99"},
               {"TOOL CALL \"NONE\" Z", "Tool not defined: TOOL.T has no tool named NONE"},

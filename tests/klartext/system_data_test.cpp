@@ -43,6 +43,8 @@ TEST(Protocols, FollowTheirMask) {
   expectFinished(world.run("QS1 = \"RING\"\nQ31 = 12.34567\nQ32 = 5\nFN 16: F-PRINT M.A / TNC:\\LOG\\R.TXT\n"));
   EXPECT_EQ(world.control->panel.files().at("R.TXT"), "RESULT OF RING\nX =    12.346 (+5.0) %\n14.11.2023 22:13\n");
   EXPECT_THAT(world.run("FN 16: F-PRINT NONE.A / R.TXT").diagnostics.front().message, HasSubstr("NONE.A"));
+  expectFinished(world.run("FN 16: F-PRINT M.A / ../logs/S.TXT\n"));
+  EXPECT_TRUE(world.control->panel.files().contains("S.TXT"));
 }
 
 TEST(SystemData, LengthsAreInMillimetresInInchProgramsToo) {

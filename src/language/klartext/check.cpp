@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <utility>
 
+#include "base/number_text.hpp"
 #include "cycles/catalogue.hpp"
 #include "cycles/heidenhain/probe_words.hpp"
 #include "language/klartext/block_extent.hpp"
@@ -16,6 +19,18 @@ namespace {
 
 /// Parts of the old block form have words of their own in place of Q parameters.
 constexpr std::uint32_t firstProbeWord = cycles::heidenhain::probe_word::result;
+
+/// Q247 of the cycles that touch a circle.
+constexpr std::uint32_t steppingAngle = 247;
+constexpr double smallestStep = 5;  // degrees
+
+/// Touch probe cycles that the controls have, whether Probewright runs them or not; 500 to 599 belong to machine tool
+/// builders.
+bool existsOnControls(int number) {
+  constexpr std::pair<int, int> ranges[] = {{0, 4},     {9, 9},     {30, 33},   {400, 405}, {408, 427},  {430, 431},
+                                            {440, 444}, {450, 463}, {480, 485}, {500, 601}, {1400, 1499}};
+  return std::ranges::any_of(ranges, [&](const auto& r) { return number >= r.first && number <= r.second; });
+}
 
 class Checker {
 public:
@@ -178,6 +193,11 @@ private:
 
   void measuringCycle(const CycleCall& call) {
     const cycles::CycleDefinition* cycle = cycles::heidenhainCycle(call.number);
+    if (cycle == nullptr && !existsOnControls(call.number)) {
+      reportHere(fmt::format("there is no touch probe cycle {}", call.number),
+                 "check its number; list the available cycles with: probewright cycles");
+      return;
+    }
     if (cycle == nullptr) {
       reportHere(fmt::format("touch probe cycle {} is not available; its parameters are not checked", call.number),
                  "list the available cycles with: probewright cycles", Severity::Warning);
@@ -233,6 +253,9 @@ private:
       argument.text = block_.at(node->text);
     }
     std::string text = cycles::complaint(*parameter, argument);
+    if (text.empty() && parameter->address == steppingAngle && std::abs(argument.number) < smallestStep) {
+      text = fmt::format("{} cannot be {}", nameOf(*parameter), formatShortest(argument.number));
+    }
     if (!text.empty()) reportAt(word, std::move(text), "correct the value");
   }
 

@@ -277,15 +277,29 @@ void KlartextHost::protocol(const Command& command, Evaluation& evaluation) {
     at += inserted.size();
   }
   std::erase(text, '"');
-  const std::size_t slash = text.rfind('/');
-  if (slash == std::string::npos) {
+  const auto trimmedPart = [&](std::size_t from, std::size_t to) {
+    return std::string(trimmed(std::string_view(text).substr(from, to - from)));
+  };
+  const std::size_t first = text.find('/');
+  if (first == std::string::npos) {
     throw Alarm("FN 16: file missing", "FN 16 needs a mask file and a target, separated by /",
                 "write FN 16: F-PRINT MASK.A / LOG.TXT");
   }
-  const std::string mask(trimmed(std::string_view(text).substr(0, slash)));
-  const std::string target(trimmed(std::string_view(text).substr(slash + 1)));
-  const Result<std::string> bytes = readHostFile(mask);
-  if (!bytes) throw Alarm("FN 16: file missing", bytes.error().message, bytes.error().advice);
+  // Either path may hold slashes itself: the mask is the shortest beginning that names a file.
+  std::size_t slash = first;
+  Result<std::string> bytes = readHostFile(trimmedPart(0, first));
+  for (std::size_t next = first; !bytes && (next = text.find('/', next + 1)) != std::string::npos;) {
+    if (Result<std::string> longer = readHostFile(trimmedPart(0, next))) {
+      bytes = std::move(longer);
+      slash = next;
+    }
+  }
+  if (!bytes) {
+    throw Alarm("FN 16: file missing",
+                fmt::format("the mask file {}: {}", trimmedPart(0, first), bytes.error().message),
+                "put it beside the program, or check how its name is written");
+  }
+  const std::string target = trimmedPart(slash + 1, text.size());
 
   const auto read = [&](std::string_view name) { return readNamed(name, evaluation); };
   const ProtocolResult result = formatProtocol(*bytes, read, static_cast<std::int64_t>(machineSeconds()),

@@ -10,6 +10,15 @@ namespace probewright::language::klartext {
 
 /// The letter in upper case; every other byte unchanged, whatever the encoding.
 constexpr char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; }
+
+/// True if `text` ends with the capitals `word` in either case.
+constexpr bool endsWithWord(std::string_view text, std::string_view word) {
+  if (text.size() < word.size()) return false;
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    if (upper(text[text.size() - word.size() + i]) != word[i]) return false;
+  }
+  return true;
+}
 constexpr bool isDigit(char c) { return c >= '0' && c <= '9'; }
 constexpr bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 constexpr bool isLetter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }

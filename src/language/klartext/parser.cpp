@@ -190,9 +190,8 @@ bool BlockParser::statement() {
 bool BlockParser::beginOrEnd() {
   if (!lexer_.acceptPrefix("PGM")) return error("PGM is expected behind BEGIN");
   const std::string_view head = lexer_.restOfLine();
-  const bool millimetre = head.size() >= 2 && head.substr(head.size() - 2) == "MM";
-  const bool inch = head.size() >= 4 && head.substr(head.size() - 4) == "INCH";
-  if (!millimetre && !inch) return error("MM or INCH is expected at the end of BEGIN PGM");
+  if (!endsWithWord(head, "MM") && !endsWithWord(head, "INCH"))
+    return error("MM or INCH is expected at the end of BEGIN PGM");
   emit(Command{constant("BEGIN PGM"), ref(head), -1, {}});
   return true;
 }

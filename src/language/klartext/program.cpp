@@ -37,8 +37,7 @@ void KlartextProgram::readHead() {
     Lexer lexer(withoutBlockNumber(readBlock(position, next)));
     if (next.offset == position.offset) return;
     if (lexer.acceptKeyword("BEGIN")) {
-      const std::string_view head = lexer.restOfLine();
-      if (head.size() >= 4 && head.substr(head.size() - 4) == "INCH") unit_ = Unit::Inch;
+      if (endsWithWord(lexer.restOfLine(), "INCH")) unit_ = Unit::Inch;
       return;
     }
     if (!lexer.atEnd() && lexer.peek() != '*') return;

@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "language/klartext/formula_writer.hpp"
 #include "language/klartext/parser.hpp"
 
 /// Numbers, parameters and words: what all kinds of blocks are made of.
@@ -63,7 +66,7 @@ bool BlockParser::variableFollows() {
 }
 
 std::optional<VariableRef> BlockParser::variable() {
-  constexpr double highestNumber = 99999;
+  constexpr double mostDigits = 99999;
   if (!variableFollows()) {
     error("a parameter Q, QL, QR or QS with its number is expected");
     return std::nullopt;
@@ -88,8 +91,15 @@ std::optional<VariableRef> BlockParser::variable() {
   lexer_.peek();
   double number = 0;
   for (; isDigit(lexer_.here()); lexer_.advance())
-    number = std::min(number * 10 + (lexer_.here() - '0'), highestNumber);
+    number = std::min(number * 10 + (lexer_.here() - '0'), mostDigits);
   variable.index[0] = Operand::of(number);
+  const bool few = variable.space == VariableSpace::QL || variable.space == VariableSpace::QR;
+  const int most = few ? 499 : 1999;
+  if (number > most) {
+    error(fmt::format("there is no parameter {}", writeVariable(variable)),
+          fmt::format("their numbers go up to {}", most));
+    return std::nullopt;
+  }
   return variable;
 }
 
