@@ -18,6 +18,11 @@ namespace {
 constexpr NumberRange anyNumber{};
 constexpr NumberRange positive = NumberRange::positive();
 constexpr NumberRange notNegative = NumberRange::notNegative();
+/// What the columns of tool tables hold, mm.
+constexpr double longestTool = 9999;
+constexpr NumberRange toolLength{0, longestTool, true};
+constexpr NumberRange toolRadius{0, longestTool};
+constexpr NumberRange believedLength{-longestTool, longestTool};
 constexpr double effectivelyEndless = 1e6;
 
 std::optional<Vector2> vector2(TomlReader& reader, std::string_view key) {
@@ -244,7 +249,12 @@ private:
       reader.report("star_arm", "the balls of the star run into each other",
                     "Make star_arm, from the middle of the star to the centre of each ball, at least 1.5 ball_radius");
     }
-    if (tool.length <= 2 * probe.ballRadius) reader.report("length", "the probe is shorter than its ball");
+    if (tool.length <= 2 * probe.ballRadius) {
+      reader.report("length", "the probe is shorter than its ball");
+    } else if (probe.stylusLength >= tool.length) {
+      reader.report("stylus_length", "the stylus is not shorter than the whole probe",
+                    "length is that from the spindle nose to the tip, stylus_length that of the stylus alone");
+    }
 
     believed.probeNumber = static_cast<int>(reader.integer("probe_number", 0, 99).value_or(1));
     believed.feed = get("probing_feed", believed.feed, positive);
@@ -254,8 +264,8 @@ private:
     believed.calibrationAngle = get("calibration_angle", 0, {-360, 360});
     believed.orient = reader.boolean("orient").value_or(false);
     const double delayed = probe.signalDelay * believed.feed / 60;
-    believed.length = get("believed_length", tool.length - probe.axialPretravel - delayed);
-    believed.radius = get("believed_radius", probe.starArm + probe.ballRadius - probe.pretravel - delayed, notNegative);
+    believed.length = get("believed_length", tool.length - probe.axialPretravel - delayed, believedLength);
+    believed.radius = get("believed_radius", probe.starArm + probe.ballRadius - probe.pretravel - delayed, toolRadius);
     believed.axialRadius = believed.radius - probe.starArm + probe.pretravel - probe.axialPretravel;
     believed.tipOffset = vector2(reader, "believed_tip_offset").value_or(probe.tipOffset);
   }
@@ -272,7 +282,7 @@ private:
       const std::size_t kind = reader.choice("kind", kinds).value_or(0);
       tool.kind = kind == 0 ? ToolKind::Probe : ToolKind::Cutter;
       believed.kind = kinds[kind];
-      tool.length = reader.requiredNumber("length", positive).value_or(100);
+      tool.length = reader.requiredNumber("length", toolLength).value_or(100);
       if (auto direction = readVector(reader, "shank_direction")) {
         if (direction->norm() < 1e-9) {
           reader.report("shank_direction", "a direction cannot be [0, 0, 0]");
@@ -287,9 +297,9 @@ private:
       if (tool.kind == ToolKind::Probe) {
         readProbe(reader, tool, believed);
       } else {
-        tool.radius = reader.requiredNumber("radius", notNegative).value_or(5);
-        believed.length = reader.number("believed_length", anyNumber).value_or(tool.length);
-        believed.radius = reader.number("believed_radius", notNegative).value_or(tool.radius);
+        tool.radius = reader.requiredNumber("radius", toolRadius).value_or(5);
+        believed.length = reader.number("believed_length", believedLength).value_or(tool.length);
+        believed.radius = reader.number("believed_radius", toolRadius).value_or(tool.radius);
       }
       for (const BelievedTool& other : setup_.tools) {
         if (other.number == tool.number) {

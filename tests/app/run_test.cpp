@@ -139,6 +139,30 @@ TEST(Run, MeasuresTheHousingOfTheExamplesAndCorrectsThePreset) {
   EXPECT_THAT(report, Not(HasSubstr("<link rel=\"stylesheet\"")));
 }
 
+TEST(Run, PutsAPresetIntoTheBoreOnAnITNC530) {
+  const Folder folder;
+  const Answer answer = probewright({"run", "examples/programs/bore-itnc530.h", "--setup",
+                                     "examples/setups/housing-itnc530.toml", "--out", (folder / "out").string()});
+  ASSERT_EQ(answer.exit, 0) << answer.errors;
+  // Where the setup puts the bore at X60 Y40 of the part, with the errors of its probe.
+  const double turn = 0.8 * std::numbers::pi / 180;
+  const double truth[] = {-58.65 + 60 * std::cos(turn) - 40 * std::sin(turn),
+                          -40.82 + 60 * std::sin(turn) + 40 * std::cos(turn), -469.59};
+  std::istringstream table(textOf(folder / "out/PRESET.PR"));
+  std::string line;
+  for (int i = 0; i < 5; ++i)
+    std::getline(table, line);
+  std::istringstream row(line);
+  double number = 0, rotation = 0;
+  row >> number >> rotation;
+  EXPECT_EQ(number, 2);
+  for (const double expected : truth) {
+    double found = 0;
+    row >> found;
+    EXPECT_NEAR(found, expected, 0.002);
+  }
+}
+
 TEST(Run, MeasuresTheHousingOfTheExamplesAndCorrectsTheZeroOffset) {
   const Folder folder;
   const Answer answer = probewright({"run", "examples/programs/housing.mpf", "--setup",

@@ -99,7 +99,6 @@ TEST(Mistakes, OfFunctionsAndFormulas) {
               {"Q1 = (3", "3:8: ')' is expected behind the expression in parentheses"},
               {"Q1 = \"A\"", "Wrong data type: A Q parameter takes a number, not a text"},
               {"QS1 = 5", "Wrong data type: QS1 takes a text, not a number"},
-              {"Q2000 = 3", "Parameter number wrong: Q2000 does not exist; the highest number is 1999"},
               {"Q1 = TONUMB( SRC_\"abc\" )", "String is no number: TONUMB cannot read \"abc\" as a number"}});
 }
 

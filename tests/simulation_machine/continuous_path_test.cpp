@@ -27,12 +27,14 @@ TEST(ContinuousPath, AStraightLineInPiecesTakesTheTimeOfOneMove) {
 
 TEST(ContinuousPath, ShortPiecesArePassedNoFasterThanTheNextOneAllowsToStop) {
   // Pieces of 0.1 mm: 20 mm/s at their ends, sqrt(20 * 20 + 2000 * 0.1) in their middle.
-  ContinuousPath path;
-  double seconds = 0;
-  path.join(along(0.1, 0), MotionProfile(0.1, 50, 2000));
-  for (int i = 0; i < 1000; ++i)
-    seconds += path.join(along(0.1, 0), MotionProfile(0.1, 50, 2000));
-  EXPECT_NEAR(seconds / 1000, 2 * (std::sqrt(600) - 20) / 2000, 1e-9);
+  const auto secondsOf = [](int pieces) {
+    ContinuousPath path;
+    double seconds = 0;
+    for (int i = 0; i < pieces; ++i)
+      seconds += path.join(along(0.1, 0), MotionProfile(0.1, 50, 2000));
+    return seconds;
+  };
+  EXPECT_NEAR((secondsOf(1500) - secondsOf(500)) / 1000, 2 * (std::sqrt(600) - 20) / 2000, 1e-9);
 }
 
 TEST(ContinuousPath, ARightAngleIsPassedAtTheSpeedOfItsArc) {
