@@ -10,7 +10,7 @@ namespace probewright::metrology {
 
 /// The tolerance of a class: letters and grade, capitals for holes, small letters for shafts ("H7", "js6", "ZC10").
 /// Deviations a, b, c, cd, d, e, ef, f, fg, g, h, js, j, k, m, n, p, r, s, t, u, v, x, y, z, za, zb, zc and the holes'
-/// likewise; cd, ef and fg up to 10 mm. Exactly the values of the standard's tables; js is half the grade, not rounded
+/// likewise; cd, ef and fg up to 50 mm. Exactly the values of the standard's tables; js is half the grade, not rounded
 /// to whole micrometres. Fails where the standard defines no such class, and names what is wrong with it: no size of 0
 /// mm or less or above 500 mm; a, b from 1 mm up; j5 to j7 (j8 to 3 mm) and J6 to J8; K above IT8 only to 3 mm; hole
 /// classes K to ZC from IT3 up.

@@ -58,7 +58,9 @@ INSTANTIATE_TEST_SUITE_P(Iso286Part2, PublishedLimits, testing::Values(
     Published{70, "r6", 62, 43}, Published{25, "s6", 48, 35}, Published{100, "s6", 93, 71}, Published{110, "s6", 101, 79},
     Published{28, "t6", 54, 41}, Published{22, "u6", 54, 41}, Published{28, "u6", 61, 48}, Published{60, "u6", 106, 87},
     Published{16, "x8", 72, 45}, Published{25, "x8", 97, 64}, Published{40, "z8", 151, 112}, Published{25, "zc10", 302, 218},
-    Published{5, "ef6", -14, -22}, Published{5, "cd8", -46, -64}, Published{5, "fg6", -6, -14}));
+    Published{5, "ef6", -14, -22}, Published{5, "cd8", -46, -64}, Published{5, "fg6", -6, -14},
+    Published{12, "cd8", -70, -97}, Published{18, "EF7", 41, 23}, Published{25, "cd9", -85, -137}, Published{24, "fg6", -12, -25},
+    Published{40, "ef8", -35, -74}, Published{50, "FG7", 40, 15}, Published{50, "CD10", 200, 100}));
 // clang-format on
 
 // Upper bounds of the intermediate ranges.
@@ -184,7 +186,7 @@ TEST(Refusals, NameWhatIsWrong) {
   EXPECT_EQ(isoTolerance(10, "H07").error().message, "'H07' is no tolerance class of ISO 286");
   EXPECT_EQ(isoTolerance(10, "").error().message, "'' is no tolerance class of ISO 286");
   EXPECT_EQ(isoTolerance(20, "t6").error().message, "ISO 286 defines no class t6 for 20 mm");
-  EXPECT_EQ(isoTolerance(20, "fg6").error().message, "ISO 286 defines no class fg6 for 20 mm");
+  EXPECT_EQ(isoTolerance(60, "fg6").error().message, "ISO 286 defines no class fg6 for 60 mm");
   EXPECT_EQ(isoTolerance(0.8, "a11").error().message, "ISO 286 defines no class a11 for 0.8 mm");
   EXPECT_EQ(isoTolerance(20, "J9").error().message, "ISO 286 defines no class J9 for 20 mm");
   EXPECT_EQ(isoTolerance(20, "K9").error().message, "ISO 286 defines no class K9 for 20 mm");
