@@ -43,7 +43,8 @@ public:
   virtual void execute(const Instruction& instruction, Evaluation& evaluation) = 0;
 
   /// The program that the control calls by itself behind the instruction it has just carried out (HEIDENHAIN cycle 12
-  /// behind CYCL CALL, M99 or M89); empty: none. Asked once behind every instruction; the answer is forgotten then.
+  /// behind CYCL CALL, M99 or M89); empty: none. Asked once behind every instruction, and once more when the program it
+  /// has called so is left (patterns of points); the answer is forgotten then.
   virtual std::string requestedProgram() { return {}; }
 
   /// A block begins: for records, single block, dry run. False skips the block.

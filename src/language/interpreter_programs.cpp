@@ -180,7 +180,8 @@ Interpreter::Flow Interpreter::leaveProgram() {
   position_ = frame.call;
   block_ = nullptr;
   host_.leave(*left->program);
-  if (frame.remaining < 1) {
+  const std::string again = host_.requestedProgram();
+  if (frame.remaining < 1 && again.empty()) {
     resume(frame);
     return Flow::Moved;
   }
@@ -188,6 +189,10 @@ Interpreter::Flow Interpreter::leaveProgram() {
   block_ = &fetchAside(frame.call);
   instruction_ = frame.instruction;
   Evaluation evaluation(*current_->program, block_->block, host_);
+  if (!again.empty()) {
+    enter(*called(again, false), CallProgram{}, evaluation, frame.remaining);
+    return Flow::Moved;
+  }
   enter(*left, std::get<CallProgram>(block_->block.instructions[frame.instruction]), evaluation, frame.remaining - 1);
   return Flow::Moved;
 }

@@ -312,18 +312,5 @@ TEST(GlobalDefinitions, StandForTheValuesOfAllProbingCycles) {
   }
 }
 
-/// Patterns and hole circles call machining cycles; probing cycles act where they are defined, once.
-TEST(GlobalDefinitions, LeavePatternsToMachiningCycles) {
-  Holed world(ControlKind::TNC640);
-  const Ran ran = world.bench.run(
-      "GLOBAL DEF 125 POSITIONING ~\n  Q345=+1 ;HEIGHT\n"
-      "PATTERN DEF POS1 (X+10 Y+0 Z+0)\n" +
-      probe(421, world.words()));
-  expectHole(ran);
-  EXPECT_EQ(ran.outcome.journal.cycles.size(), 1U);
-  const Ran called = world.bench.run(probe(421, world.words()) + "CYCL CALL PAT FMAX\n");
-  EXPECT_LE(called.outcome.journal.cycles.size(), 1U);
-}
-
 }  // namespace
 }  // namespace probewright::testing_support

@@ -1,4 +1,5 @@
 #include "language/klartext/parser.hpp"
+#include "language/klartext/pattern.hpp"
 #include "language/klartext/program.hpp"
 
 /// Labels, calls and selections of other files.
@@ -123,6 +124,16 @@ bool BlockParser::cycleCall() {
   command.name = constant("CYCL CALL");
   const Instruction instruction = command;
   emitWithMachineFunctions(&instruction);
+  return true;
+}
+
+/// PATTERN DEF: the points are computed when the block is carried out; what it may say is known here.
+bool BlockParser::patternDefinition() {
+  if (!lexer_.acceptKeyword("DEF")) return error("DEF is expected behind PATTERN");
+  const std::string_view text = lexer_.restOfBlock();
+  const auto points = patternPoints(text, [](std::string_view) { return 1.0; });
+  if (!points) return error(points.error().message, points.error().advice);
+  emit(Command{constant("PATTERN DEF"), ref(text), -1, {}});
   return true;
 }
 

@@ -116,6 +116,7 @@ void KlartextHost::leave(const Program&) {
     control_.overrides = {};
   } else {
     publishTool();
+    nextPatternPoint();
   }
 }
 

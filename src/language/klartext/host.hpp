@@ -50,11 +50,19 @@ public:
   void leave(const Program& program) override;
 
 private:
+  /// Cycle 12 under way through the points of a pattern.
+  struct PatternRun {
+    std::vector<Vector3> points;  ///< mm
+    std::size_t next = 0;
+    Vector3 shift = Vector3::Zero();  ///< the datum shift without them
+    std::string program;
+  };
   struct Level {
     const HeidenhainProgram* program = nullptr;
     std::string file;
     double outerUnit = 1;
     std::vector<double> local;  ///< QL
+    std::optional<PatternRun> pattern;
   };
 
   // host_moves.cpp
@@ -147,6 +155,12 @@ private:
   std::optional<double> probeData(int number, int index) const;
   void systemWrite(const Command& command, Evaluation& evaluation);
 
+  // host_patterns.cpp
+  void definePattern(std::string_view text, Evaluation& evaluation);
+  void selectPattern(const std::string& path);
+  void callAtPattern();
+  void nextPatternPoint();
+
   // host_protocol.cpp: FN 16
   void protocol(const Command& command, Evaluation& evaluation);
   Value readNamed(std::string_view name, Evaluation& evaluation);
@@ -186,6 +200,7 @@ private:
   std::string cycleProgram_;      ///< of cycle 12
   std::string requestedProgram_;  ///< to be called behind this instruction
   bool cycleAtEachMove_ = false;  ///< M89
+  std::vector<Vector3> pattern_;  ///< of PATTERN DEF or SEL PATTERN, mm
   std::map<std::string, bool> protocolOpen_;
   std::optional<control::heidenhain::TextTable> table_;  ///< opened with FN 26
 };

@@ -114,6 +114,10 @@ void KlartextHost::command(const Command& command, Evaluation& evaluation) {
     selectedProgram_ = command.words.count > 0 ? evaluation.text(first()->value) : std::string(text);
   } else if (name == "SEL TABLE") {
     selectDatumTable(command.words.count > 0 ? evaluation.text(first()->value) : std::string(text));
+  } else if (name == "PATTERN DEF") {
+    definePattern(text, evaluation);
+  } else if (name == "SEL PATTERN") {
+    selectPattern(command.words.count > 0 ? evaluation.text(first()->value) : std::string(text));
   } else if (name == "FUNCTION") {
     if (text.starts_with("MODE")) {
       control_.turningMode = text.find("TURN") != std::string_view::npos;

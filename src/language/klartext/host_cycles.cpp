@@ -44,8 +44,8 @@ void KlartextHost::defineCycle(int number) {
 void KlartextHost::callCycle(const Command& command, Evaluation& evaluation) {
   cycleAtEachMove_ = false;
   if (evaluation.at(command.text) == "PAT" && machiningCycle_ == 12) {
-    throw Alarm("Function not available", "CYCL CALL PAT is not available: patterns of points are not simulated",
-                "program the positions with CYCL CALL POS or M99");
+    callAtPattern();
+    return;
   }
   if (evaluation.at(command.text) == "POS") moveToCallPosition(command, evaluation);
   callMachiningCycle();

@@ -159,7 +159,7 @@ bool BlockParser::statement() {
     case 'P':
       if (lexer_.acceptKeyword("PLANE")) return plane();
       if (lexer_.acceptKeyword("PRESET")) return presetKeyword();
-      if (lexer_.acceptKeyword("PATTERN")) return textCommand("PATTERN");
+      if (lexer_.acceptKeyword("PATTERN")) return patternDefinition();
       break;
     case 'S':
       if (lexer_.acceptKeyword("STOP")) return stop();

@@ -97,6 +97,7 @@ protected:
   bool checkPath(std::string_view path);
   bool selection();
   bool cycleCall();
+  bool patternDefinition();
   bool labelName(TextRef& label, Operand& labelValue);
 
   // functions.cpp: FN 0 to 38
