@@ -20,6 +20,15 @@ void check(const Result<void>& done) {
   if (!done) throw Alarm("Table write error", done.error().message, done.error().advice);
 }
 
+/// A preset table with the one column ROT (iTNC 530) turns the working plane, whatever its axis is.
+ActivePreset aboutToolAxis(ActivePreset preset, const TypedTable& presets, const WorkingPlane& plane) {
+  if (presets.hasColumn("SPC") || !presets.hasColumn("ROT")) return preset;
+  const double rotation = preset.spaceAngles.sum();
+  preset.spaceAngles.setZero();
+  preset.spaceAngles[plane.tool] = rotation;
+  return preset;
+}
+
 }  // namespace
 
 Control::Control(ControlKind kind, machine::Machine& machine, Tables tables_, MachineParameters parameters_)
@@ -100,6 +109,7 @@ void Control::refreshTool() {
   tool.radius = tables.tools.numberOr(tool.row, "R", 0) + tables.tools.numberOr(tool.row, "DR", 0);
   tool.radius2 = tables.tools.numberOr(tool.row, "R2", 0) + tables.tools.numberOr(tool.row, "DR2", 0);
   coordinates.plane = WorkingPlane::ofToolAxis(tool.axis);
+  coordinates.preset = aboutToolAxis(coordinates.preset, tables.presets, coordinates.plane);
   channel.toolVector = Vector3::Zero();
   channel.toolVector[coordinates.plane.tool] = tool.length + tool.deltaLength;
   channel.toolRadius = tool.radius + tool.deltaRadius;
@@ -107,7 +117,7 @@ void Control::refreshTool() {
 
 std::optional<ActivePreset> Control::presetRow(int row) const {
   const auto exact = exactPresets_.find(row);
-  if (exact != exactPresets_.end()) return exact->second;
+  if (exact != exactPresets_.end()) return aboutToolAxis(exact->second, tables.presets, coordinates.plane);
   const std::string key = std::to_string(row);
   const TypedTable& table = tables.presets;
   if (!table.hasRow(key)) return std::nullopt;
@@ -119,7 +129,7 @@ std::optional<ActivePreset> Control::presetRow(int row) const {
       preset.spaceAngles[static_cast<Eigen::Index>(i)] = table.numberOr(key, spaceAngleNames[i], 0);
     }
   }
-  if (table.hasColumn("ROT")) preset.spaceAngles.z() = table.numberOr(key, "ROT", 0);
+  if (table.hasColumn("ROT")) preset.spaceAngles[coordinates.plane.tool] = table.numberOr(key, "ROT", 0);
   const machine::MachineDescription& description = channel.description();
   for (std::size_t i = 0; i < description.axes.size(); ++i) {
     const machine::Axis& axis = description.axes[i];
@@ -154,6 +164,7 @@ void Control::writePreset(int row, const PresetChange& change) {
     throw Alarm("Preset locked", fmt::format("Row {} of the preset table is write-protected", row),
                 "unlock the row or use another");
   }
+  const auto toolAxis = static_cast<std::size_t>(coordinates.plane.tool);
   for (std::size_t i = 0; i < 3; ++i) {
     if (change.origin[i]) {
       preset.origin[static_cast<Eigen::Index>(i)] = *change.origin[i];
@@ -163,7 +174,7 @@ void Control::writePreset(int row, const PresetChange& change) {
       preset.spaceAngles[static_cast<Eigen::Index>(i)] = *change.spaceAngles[i];
       if (table.hasColumn(spaceAngleNames[i])) {
         writeNumber(table, key, spaceAngleNames[i], *change.spaceAngles[i]);
-      } else if (i == 2 && table.hasColumn("ROT")) {
+      } else if (i == toolAxis && table.hasColumn("ROT")) {
         writeNumber(table, key, "ROT", *change.spaceAngles[i]);
       } else {
         throw Alarm("Table write error", fmt::format("The preset table has no column {}", spaceAngleNames[i]));

@@ -14,7 +14,7 @@ constexpr Parameter parameters417[] = {
     coordinate(294, "Q294", "touch, touch probe axis"),
     setUpClearance,
     clearanceHeight,
-    tableRow,
+    presetTableRow,
     newPreset3,
     standard(transfer, -1),
 };

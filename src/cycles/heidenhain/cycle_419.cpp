@@ -16,7 +16,7 @@ constexpr Parameter parameters419[] = {
     clearanceHeight,
     measuringAxis3,
     probingDirection,
-    tableRow,
+    presetTableRow,
     coordinate(333, "Q333", "coordinate that the touched point gets in the measuring axis"),
     standard(transfer, -1),
 };

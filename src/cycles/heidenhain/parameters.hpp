@@ -140,6 +140,13 @@ inline constexpr Parameter tableRow = {.name = "Q305",
                                        .minimum = 0,
                                        .maximum = 99999};
 
+/// The rows that the presetting cycles know.
+constexpr Parameter upTo9999(Parameter parameter) {
+  parameter.maximum = 9999;
+  return parameter;
+}
+inline constexpr Parameter presetTableRow = upTo9999(tableRow);
+
 inline constexpr Parameter newPreset1 = coordinate(331, "Q331", "coordinate that the feature gets in the main axis");
 inline constexpr Parameter newPreset2 = coordinate(332, "Q332", "coordinate that the feature gets in the minor axis");
 inline constexpr Parameter newPreset3 =

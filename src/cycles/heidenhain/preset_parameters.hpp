@@ -26,7 +26,8 @@ inline constexpr std::array transferAndToolAxis = {
 };
 
 /// Where the measured centre goes: Q305, Q331, Q332, Q303, and the preset in the touch probe axis.
-inline constexpr std::array centreTransfer = joined(std::array{tableRow, newPreset1, newPreset2}, transferAndToolAxis);
+inline constexpr std::array centreTransfer =
+    joined(std::array{presetTableRow, newPreset1, newPreset2}, transferAndToolAxis);
 
 inline constexpr Choice basicRotationChoices[] = {{0, "no"}, {1, "yes"}};
 inline constexpr Parameter basicRotation =

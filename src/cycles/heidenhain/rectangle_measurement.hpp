@@ -68,9 +68,9 @@ inline constexpr std::array widthCentre = {
     length(311, "Q311", "width"),
     measuringAxis2,
 };
-inline constexpr std::array widthTransfer =
-    joined(std::array{tableRow, coordinate(405, "Q405", "coordinate that the centre line gets in the measured axis")},
-           transferAndToolAxis);
+inline constexpr std::array widthTransfer = joined(
+    std::array{presetTableRow, coordinate(405, "Q405", "coordinate that the centre line gets in the measured axis")},
+    transferAndToolAxis);
 
 inline constexpr std::array widthResults = {
     ResultDefinition{"Q166", "actual width"},

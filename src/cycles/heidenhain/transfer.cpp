@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "control/alarm.hpp"
 
 namespace probewright::cycles::heidenhain {
@@ -14,9 +16,36 @@ using control::heidenhain::spaceAnglesFromRotation;
 
 namespace {
 
+enum class Transformed { Remains, Ends };
+
+/// The basic rotation that makes up for `degrees` seen in the active coordinates. A rotation by cycle 10 that ends when
+/// the preset becomes active is part of it.
+Matrix3 turnedAxes(const Coordinates& coordinates, double degrees, Transformed cycle10) {
+  Vector3 toolAxis = Vector3::Zero();
+  toolAxis[coordinates.plane.tool] = 1;
+  const bool ends = cycle10 == Transformed::Ends && !coordinates.tilt;
+  const double all = ends ? degrees + coordinates.workpiece.rotation : degrees;
+  return rotationFromSpaceAngles(coordinates.preset.spaceAngles) *
+         Eigen::AngleAxisd(radiansFromDegrees(all), toolAxis).toRotationMatrix();
+}
+
+/// Enters the axes of a preset. The iTNC 530 knows one angle, about the tool axis.
+void setAngles(Context& context, const Matrix3& axes, Control::PresetChange& change) {
+  const auto& plane = context.control().coordinates.plane;
+  if (context.control().isTNC640()) {
+    const Vector3 spaceAngles = spaceAnglesFromRotation(axes);
+    for (std::size_t i = 0; i < 3; ++i)
+      change.spaceAngles[i] = spaceAngles[static_cast<Eigen::Index>(i)];
+    return;
+  }
+  change.spaceAngles[static_cast<std::size_t>(plane.tool)] =
+      degreesFromRadians(std::atan2(axes(plane.minor, plane.main), axes(plane.main, plane.main)));
+}
+
 /// What changes in `target` so that `preset.measured` has the wished coordinates once `target` is active. Along its
 /// axes only those with a wish move.
-Control::PresetChange presetChange(Context& context, const NewPreset& preset, const ActivePreset& target) {
+Control::PresetChange presetChange(Context& context, const NewPreset& preset, const ActivePreset& target,
+                                   Transformed cycle10) {
   const Coordinates& coordinates = context.control().coordinates;
   const auto& plane = coordinates.plane;
   // The feature in machine coordinates does not depend on the preset that it was measured with.
@@ -24,16 +53,8 @@ Control::PresetChange presetChange(Context& context, const NewPreset& preset, co
   Control::PresetChange change;
   Matrix3 axes = rotationFromSpaceAngles(target.spaceAngles);
   if (preset.rotation) {
-    // The angle counts from the axes that were active when it was measured.
-    Vector3 toolAxis = Vector3::Zero();
-    toolAxis[plane.tool] = 1;
-    axes = rotationFromSpaceAngles(coordinates.preset.spaceAngles) *
-           Eigen::AngleAxisd(radiansFromDegrees(*preset.rotation), toolAxis).toRotationMatrix();
-    const Vector3 spaceAngles = spaceAnglesFromRotation(axes);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double angle = spaceAngles[static_cast<Eigen::Index>(i)];
-      if (i == static_cast<std::size_t>(plane.tool) || context.control().isTNC640()) change.spaceAngles[i] = angle;
-    }
+    axes = turnedAxes(coordinates, *preset.rotation, cycle10);
+    setAngles(context, axes, change);
   }
   const Vector3 local = axes.transpose() * (feature - target.origin);
   Vector3 wish = local;
@@ -56,7 +77,8 @@ void takeOverActive(Context& context, Control::PresetChange& change) {
   for (std::size_t i = 0; i < 3; ++i) {
     const auto index = static_cast<Eigen::Index>(i);
     if (!change.origin[i]) change.origin[i] = active.origin[index];
-    if (!change.spaceAngles[i] && (i == 2 || control.isTNC640())) change.spaceAngles[i] = active.spaceAngles[index];
+    const bool known = control.isTNC640() || i == static_cast<std::size_t>(control.coordinates.plane.tool);
+    if (!change.spaceAngles[i] && known) change.spaceAngles[i] = active.spaceAngles[index];
   }
   for (std::size_t i = 0; i < context.channel().description().axes.size(); ++i) {
     if (!change.rotaryOffset[i] && active.rotaryOffset[i] != 0) change.rotaryOffset[i] = active.rotaryOffset[i];
@@ -79,10 +101,16 @@ void writeDatumRow(Context& context, int row, const NewPreset& preset) {
   Control& control = context.control();
   auto& table = datumTableWithRow(context, row);
   const std::string key = std::to_string(row);
-  // Datum shifts count from the preset along its axes.
   const auto& plane = control.coordinates.plane;
-  const Vector3 feature = control.coordinates.machineFromPreset().inverse() *
-                          (context.channel().frame() * plane.xyzFromPlane(preset.measured));
+  const Vector3 inMachine = context.channel().frame() * plane.xyzFromPlane(preset.measured);
+  if (preset.rotation) {
+    // No column of a datum table takes a basic rotation: the active preset does.
+    Control::PresetChange change;
+    setAngles(context, turnedAxes(control.coordinates, *preset.rotation, Transformed::Remains), change);
+    writePresetRow(context, control.coordinates.preset.row, change);
+  }
+  // Datum shifts count from the preset along its axes.
+  const Vector3 feature = control.coordinates.machineFromPreset().inverse() * inMachine;
   const std::array<const char*, 3> names = {"X", "Y", "Z"};
   for (std::size_t i = 0; i < 3; ++i) {
     const int axis = i == 0 ? plane.main : i == 1 ? plane.minor : plane.tool;
@@ -102,7 +130,7 @@ void transferPreset(Context& context, const NewPreset& preset) {
   // datum table is active does the TNC 640 take its row 0.
   const bool atOnce = row == 0 && (target != 0 || !control.isTNC640() || control.activeDatumTable.empty());
   if (atOnce) {
-    copyActivePresetTo0(context, presetChange(context, preset, control.coordinates.preset));
+    copyActivePresetTo0(context, presetChange(context, preset, control.coordinates.preset, Transformed::Ends));
     return;
   }
   if (target == -1) {
@@ -114,8 +142,10 @@ void transferPreset(Context& context, const NewPreset& preset) {
     writeDatumRow(context, row, preset);
     return;
   }
-  const auto present = row == control.coordinates.preset.row ? control.coordinates.preset : control.presetRow(row);
-  Control::PresetChange change = presetChange(context, preset, present.value_or(control.coordinates.preset));
+  const bool isActive = row == control.coordinates.preset.row;
+  const auto present = isActive ? control.coordinates.preset : control.presetRow(row);
+  Control::PresetChange change = presetChange(context, preset, present.value_or(control.coordinates.preset),
+                                              isActive ? Transformed::Remains : Transformed::Ends);
   writePresetRow(context, row, change);
 }
 
@@ -153,16 +183,10 @@ void resetBasicRotation(Context& context) {
 }
 
 Control::PresetChange rotationChange(Context& context, double degrees) {
-  Control& control = context.control();
   Vector3 toolAxis = Vector3::Zero();
-  toolAxis[control.coordinates.plane.tool] = 1;
-  const Vector3 angles =
-      spaceAnglesFromRotation(Eigen::AngleAxisd(radiansFromDegrees(degrees), toolAxis).toRotationMatrix());
+  toolAxis[context.control().coordinates.plane.tool] = 1;
   Control::PresetChange change;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (i == static_cast<std::size_t>(control.coordinates.plane.tool) || control.isTNC640())
-      change.spaceAngles[i] = angles[static_cast<Eigen::Index>(i)];
-  }
+  setAngles(context, Eigen::AngleAxisd(radiansFromDegrees(degrees), toolAxis).toRotationMatrix(), change);
   return change;
 }
 
