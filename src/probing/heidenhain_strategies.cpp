@@ -19,7 +19,7 @@ std::vector<EvaluatedTouch> probeFromCentre(HeidenhainProber& prober, const Vect
   std::vector<EvaluatedTouch> touches;
   for (const PlannedTouch& planned : plan)
     touches.push_back(prober.touch(planned));
-  prober.moveSouthPoleTo(heights.clearance);
+  if (heights.ending == Ending::AtClearanceHeight) prober.moveSouthPoleTo(heights.clearance);
   return touches;
 }
 
@@ -50,7 +50,7 @@ std::vector<EvaluatedTouch> probeCircle(HeidenhainProber& prober, const CircleTa
     }
     touches.push_back(prober.touch(plan[i]));
   }
-  prober.moveSouthPoleTo(heights.clearance);
+  if (heights.ending == Ending::AtClearanceHeight) prober.moveSouthPoleTo(heights.clearance);
   return touches;
 }
 

@@ -15,6 +15,8 @@ enum class Between {
   AtClearanceHeight,
 };
 enum class Traverse { Straight, Arc };
+/// Where the probe is after the last touch of a circle.
+enum class Ending { AtClearanceHeight, AtMeasuringHeight };
 
 /// What all strategies need to know of heights and clearances.
 struct Heights {
@@ -22,6 +24,7 @@ struct Heights {
   double clearance = 0;       ///< Q260: of the south pole
   double extraClearance = 0;  ///< Q320: added to SET_UP
   Between between = Between::AtMeasuringHeight;
+  Ending ending = Ending::AtClearanceHeight;  ///< of circles
 };
 
 struct CircleTask {

@@ -171,6 +171,13 @@ TEST(EveryPage, KeepsTheOldMisalignmentCyclesOutOfTiltedPlanes) {
     const Ran ran = emptyBench(newer).run("PLANE SPATIAL SPA+0 SPB+10 SPC+0 STAY\n" + block(cycle, newer));
     EXPECT_EQ(ran.alarm(), "Tilted working plane not permitted") << ran.why();
   }
+  // The iTNC 530 forbids it for 403 alone.
+  for (const int number : {400, 401, 402, 405}) {
+    SCOPED_TRACE(number);
+    const Ran ran = emptyBench(older).run("PLANE SPATIAL SPA+0 SPB+10 SPC+0 STAY\n" +
+                                          block(*cycles::heidenhain::findEntry(number)->definition, older));
+    EXPECT_EQ(ran.alarm(), "Touch point inaccessible") << ran.why();
+  }
   const Ran old = emptyBench(older).run("PLANE SPATIAL SPA+0 SPB+10 SPC+0 STAY\n" +
                                         block(*cycles::heidenhain::findEntry(403)->definition, older));
   EXPECT_EQ(old.alarm(), "Tilted working plane not permitted") << old.why();

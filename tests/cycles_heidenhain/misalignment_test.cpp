@@ -1,3 +1,4 @@
+#include "cycles_heidenhain/table_folder.hpp"
 #include "cycles_heidenhain/worlds.hpp"
 #include "machine/description.hpp"
 
@@ -224,7 +225,8 @@ TEST(Cycle403, TurnsTheTableUntilTheEdgeIsAligned) {
     }
     const double c = ran.outcome.machine->position()[4];
     const std::string column = control == ControlKind::TNC640 ? "C_OFFS" : "C";
-    const std::string entered = !automatic ? "1" : row == 0 ? "0" : "5";
+    // Q305 counts for the axis that the cycle finds, on the iTNC 530 for any.
+    const std::string entered = !automatic && control == ControlKind::TNC640 ? "1" : row == 0 ? "0" : "5";
     if (zero) {
       EXPECT_NEAR(ran.cell("PRESET.PR", entered, column), c, 6e-5);
     } else {
@@ -266,8 +268,15 @@ TEST(Cycles401And402, TurnTheTableUntilTwoFeaturesAreAligned) {
     EXPECT_NEAR(std::remainder(finalAngle(part, tableFromPart, ran) - reference, 360), 0, exact);
     const double c = ran.outcome.machine->position()[4];
     const std::string column = control == ControlKind::TNC640 ? "C_OFFS" : "C";
-    const std::string entered = !zero ? "1" : row == 0 ? "0" : "5";
-    EXPECT_NEAR(ran.cell("PRESET.PR", entered, column), c, 6e-5);
+    if (control == ControlKind::TNC640) {
+      // Zero where the axis stands, or the offset with which it shows what it showed before.
+      const std::string entered = !zero ? "1" : row == 0 ? "0" : "5";
+      const double before = part.bench.setup.truth.start[4];
+      EXPECT_NEAR(std::remainder(ran.cell("PRESET.PR", entered, column) - (zero ? c : c - before), 360), 0, 6e-5);
+    } else {
+      EXPECT_NEAR(ran.cell("PRESET.PR", "1", column), zero ? c : 0, 6e-5);
+      EXPECT_FALSE(ran.table("PRESET.PR").hasRow("5"));
+    }
   }
 }
 
@@ -275,37 +284,57 @@ TEST(Cycle405, TurnsTheTableUntilTheHoleLiesWhereItShould) {
   Dice dice(405);
   for (int world = 0; world < worlds; ++world) {
     SCOPED_TRACE(fmt::format("world {}", world));
+    const ControlKind control = controlOf(world);
     // The preset lies on the axis of the table.
-    PlantedPart part = onTable(dice, controlOf(world), 0, {0, 0, -400}, written(dice.between(-90, 90)));
+    const double start = written(dice.between(-90, 90));
+    PlantedPart part = onTable(dice, control, 0, {0, 0, -400}, start);
+    // Q322 = 0 places the hole on the X axis, and asks for the positive Y axis.
     const bool toY = dice.coin();
-    const double direction = toY ? 90 + dice.between(-2, 2) : dice.between(30, 150);
+    const double drawn = toY ? (dice.coin() ? 0 : 180) : dice.between(30, 150);
+    const double direction = drawn + dice.between(-0.5, 0.5);
     const double reach = dice.between(50, 100), diameter = dice.between(15, 30);
-    const Vector3 centre(reach * std::cos(radians(direction)), reach * std::sin(radians(direction)), 0);
-    part.machineFromPart = pose(centre + Vector3(0, 0, -400));
+    const auto at = [&](double angle) {
+      return Vector3(reach * std::cos(radians(angle)), reach * std::sin(radians(angle)), 0);
+    };
+    part.machineFromPart = pose(at(direction) + Vector3(0, 0, -400));
     const Pose tableFromPart = onTableOf(part);
     part.bench.part(simulation::Ring(diameter / 2, diameter / 2 + 10, -40), tableFromPart);
-    const double nominalDirection = toY ? 90 : direction + dice.between(-0.5, 0.5);
-    const Vector2 nominal(written(reach * std::cos(radians(nominalDirection))),
-                          written(reach * std::sin(radians(nominalDirection))));
-    // With Q322 = 0 the nominal centre cannot be told; the hole has to lie about there all the same.
-    if (toY) continue;
-    const Ran ran = part.bench.run(probe(405, {{321, nominal.x()},
-                                               {322, nominal.y()},
-                                               {262, written(diameter) - 0.5},
-                                               {325, 0},
-                                               {247, 90},
-                                               {261, -8},
-                                               {320, 0},
-                                               {260, 20},
-                                               {301, dice.whole(0, 1)},
-                                               {337, 0}}));
+    const Vector2 nominal(written(at(drawn).x()), toY ? 0 : written(at(drawn).y()));
+    const int row = dice.coin() ? 0 : 3;
+    const TableFolder folder(part.bench);
+    control::heidenhain::TypedTable datums = control::heidenhain::defaultDatumTable(control, "ZERO.D");
+    ASSERT_TRUE(datums.ensureRow("3"));
+    ASSERT_TRUE(datums.setNumber("3", "C", 1.5));
+    folder.put("ZERO.D", datums);
+    const Ran ran = part.bench.run("SEL TABLE \"ZERO.D\"\n" + probe(405, {{321, nominal.x()},
+                                                                          {322, nominal.y()},
+                                                                          {262, written(diameter) - 0.5},
+                                                                          {325, 0},
+                                                                          {247, 90},
+                                                                          {261, -8},
+                                                                          {320, 0},
+                                                                          {260, 20},
+                                                                          {301, dice.whole(0, 1)},
+                                                                          {337, row}}));
     ASSERT_TRUE(ran.finished()) << ran.why();
-    const double target = degrees(std::atan2(nominal.y(), nominal.x()));
-    EXPECT_NEAR(ran.q(150), direction - target, exact);
+    const double target = toY ? 90 : degrees(std::atan2(nominal.y(), nominal.x()));
+    const double offset = std::remainder(direction - target, 360);
+    EXPECT_NEAR(ran.q(150), offset, exact);
     const auto& truth = part.bench.setup.truth;
     const Vector3 now =
         (machine::baseFromTable(truth.machine, ran.outcome.machine->position()) * tableFromPart).translation();
     EXPECT_NEAR(degrees(std::atan2(now.y(), now.x())), target, exact);
+    // The probe has left the hole above its centre, not above the last touch.
+    const auto stands = ran.outcome.machine->position();
+    EXPECT_NEAR(std::hypot(stands[0] - at(direction).x(), stands[1] - at(direction).y()), 0, exact);
+    const std::string column = control == ControlKind::TNC640 ? "C_OFFS" : "C";
+    if (row == 0) {
+      EXPECT_NEAR(ran.cell("PRESET.PR", "1", column), ran.outcome.machine->position()[4], 6e-5);
+      EXPECT_EQ(ran.cell("ZERO.D", "3", "C"), 1.5);
+    } else {
+      EXPECT_NEAR(ran.cell("ZERO.D", "3", "C"), 1.5 + offset, 6e-5);
+      EXPECT_EQ(ran.cell("PRESET.PR", "1", column), 0);
+    }
   }
 }
 

@@ -11,7 +11,7 @@
 
 namespace probewright::cycles::heidenhain {
 
-MeasuredCircle measureCircle(Context& context, const CircleParameters& numbers, Side side) {
+MeasuredCircle measureCircle(Context& context, const CircleParameters& numbers, Side side, probing::Ending ending) {
   using probing::Between;
   using probing::Traverse;
   const double step = context.q(247);
@@ -31,7 +31,8 @@ MeasuredCircle measureCircle(Context& context, const CircleParameters& numbers, 
       .measuring = context.q(261),
       .clearance = context.q(260),
       .extraClearance = context.q(320),
-      .between = context.option(301) == 1 ? Between::AtClearanceHeight : Between::AtMeasuringHeight};
+      .between = context.option(301) == 1 ? Between::AtClearanceHeight : Between::AtMeasuringHeight,
+      .ending = ending};
   const auto touches = probing::probeCircle(context.prober(), task, heights);
 
   std::vector<Vector3> centres;

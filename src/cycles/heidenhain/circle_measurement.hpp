@@ -2,6 +2,7 @@
 
 #include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
+#include "probing/heidenhain_strategies.hpp"
 
 /// What cycles 412, 413, 421 and 422 have in common: a circle measured from their parameters.
 namespace probewright::cycles::heidenhain {
@@ -68,7 +69,8 @@ struct CircleParameters {
 
 /// Touches the circle as Q325, Q247, Q261, Q320, Q260, Q301, Q423 and Q365 say and fits it: three touches exactly, four
 /// by least squares. Throws Alarm for a stepping angle below 5 degrees.
-MeasuredCircle measureCircle(Context& context, const CircleParameters& numbers, Side side);
+MeasuredCircle measureCircle(Context& context, const CircleParameters& numbers, Side side,
+                             probing::Ending ending = probing::Ending::AtClearanceHeight);
 
 /// Cycles 412 and 413: measures, leaves the results and sets the preset to the centre.
 void presetCircle(Context& context, Side side);

@@ -38,7 +38,7 @@ const CycleDefinition cycle400Definition = {
 };
 
 void cycle400(Context& context, const Arguments&) {
-  context.require({.tiltAllowed = false});
+  context.require({.tiltAllowed = !context.control().isTNC640()});
   resetBasicRotation(context);
   const MeasuredEdge edge = measureEdge(context);
   const double measured = undirected(degreesFromRadians(std::atan2(edge.along.y(), edge.along.x())));

@@ -11,10 +11,11 @@
 namespace probewright::cycles::heidenhain {
 namespace {
 
+using control::Alarm;
 using namespace parameters;
 
 constexpr Choice axisChoices[] = {
-    {0, "the axis that fits, found by the cycle"}, {4, "A axis"}, {5, "B axis"}, {6, "C axis"}};
+    {0, "first axis of the table from the workpiece (TNC 640)"}, {4, "A axis"}, {5, "B axis"}, {6, "C axis"}};
 
 constexpr Parameter parameters403[] = {
     coordinate(263, "Q263", "first touch, main axis"),
@@ -37,22 +38,42 @@ constexpr Parameter parameters403[] = {
 constexpr ResultDefinition results403[] = {{"Q150", "measured angle", ValueKind::Angle}};
 
 /// The axis of machine coordinates that the compensating axis turns about: 0, 1, 2 for A, B, C.
-int compensationAxis(Context& context, const MeasuredEdge& edge) {
+int compensationAxis(Context& context) {
   const auto& plane = context.control().coordinates.plane;
   const bool inPlane = context.option(272) != 3;
   const int wanted = context.option(312);
-  int fitting = plane.tool;
-  if (!inPlane) fitting = std::abs(edge.along.x()) > std::abs(edge.along.y()) ? plane.minor : plane.main;
-  if (wanted == 0) return fitting;
-  const int axis = wanted - 4;
+  if (wanted == 0 && !context.control().isTNC640()) {
+    throw Alarm("Cycle parameter wrong", "The iTNC 530 does not find the rotary axis itself (Q312 = 0)",
+                "name the axis: Q312 = 4 (A), 5 (B) or 6 (C)");
+  }
+  const int axis = wanted == 0 ? firstTableTurn(context) : wanted - 4;
   const bool possible = inPlane ? axis == plane.tool : axis != plane.tool;
   if (!possible) {
-    throw control::Alarm("Rotary axis not permitted",
-                         fmt::format("Axis {} cannot compensate what is measured along axis {} (Q272)", "ABC"[axis],
-                                     context.option(272)),
-                         "choose the measuring axis or the compensation axis (Q312) that fits");
+    throw Alarm("Rotary axis not permitted",
+                fmt::format("Axis {} cannot compensate what is measured along axis {} (Q272)", "ABC"[axis],
+                            context.option(272)),
+                "choose the measuring axis or the compensation axis (Q312) that fits");
   }
   return axis;
+}
+
+/// The machine axes X, Y, Z as 0, 1, 2 of main, minor and touch probe axis (1, 2, 3 of Q272).
+int machineAxis(Context& context, int programAxis) {
+  const auto& plane = context.control().coordinates.plane;
+  return programAxis == 1 ? plane.main : programAxis == 2 ? plane.minor : plane.tool;
+}
+
+/// The angle of a line about machine axis `axis`, counted from machine axis `from`.
+double angleAbout(int axis, int from, const Vector3& along) {
+  const double cosine = along[(axis + 1) % 3], sine = along[(axis + 2) % 3];
+  if (std::hypot(cosine, sine) < 0.1 * along.norm()) {
+    throw Alarm(
+        "Angle not determined",
+        fmt::format("The touches lie along the axis that {} turns about and say nothing of its angle", "ABC"[axis]),
+        "choose the other rotary axis (Q312), or other points");
+  }
+  const double angle = degreesFromRadians(std::atan2(sine, cosine));
+  return from == (axis + 1) % 3 ? angle : normalizedDegrees(angle - 90);
 }
 
 }  // namespace
@@ -69,23 +90,23 @@ const CycleDefinition cycle403Definition = {
 
 void cycle403(Context& context, const Arguments&) {
   context.require({.tiltAllowed = false});
+  const int axis = compensationAxis(context);
   const MeasuredEdge edge = measureEdge(context);
-  const int axis = compensationAxis(context, edge);
   const auto& plane = context.control().coordinates.plane;
-
-  // The angle in the plane square to the axis, counted about it from the next axis in turn: C from X, A from Y, B from
-  // Z.
-  const Vector3 along = plane.xyzFromPlane(edge.along);
-  double measured = degreesFromRadians(std::atan2(along[(axis + 2) % 3], along[(axis + 1) % 3]));
   const bool directed = context.option(312) == 0;
-  const double target = context.option(312) == 0 || context.option(312) == 6 ? context.q(380) : 0;
+  // Angles count from the main axis; where that is the axis of rotation, from the minor axis.
+  const int zero = plane.main == axis ? plane.minor : plane.main;
+  double measured = angleAbout(axis, zero, plane.xyzFromPlane(edge.along));
   if (!directed) measured = undirected(measured);
+  // Q380 acts for C and the axis that the cycle finds. A and B align the edge to the axis that it runs along.
+  const int runsAlong = 3 - axis - machineAxis(context, context.option(272));
+  double target = runsAlong == zero ? 0 : 90;
+  if (directed || context.option(312) == 6) target = context.q(380);
   context.result(150, measured, {.nominal = target});
-  // B counts from Z: an edge along X lies at 90 degrees there.
-  const double reference = axis == 1 && context.option(312) != 0 ? target + 90 : target;
-  const double turn = directed ? normalizedDegrees(reference - measured) : undirected(reference - measured);
+  const double turn = directed ? normalizedDegrees(target - measured) : undirected(target - measured);
   const std::size_t rotary = turnWorkpiece(context, axis, turn);
-  if (context.option(337) == 1) zeroRotaryAxis(context, rotary, context.option(312) == 0);
+  // A named axis is entered in the active preset; the older control knows Q305 for it too.
+  if (context.option(337) == 1) zeroRotaryAxis(context, rotary, directed || !context.control().isTNC640());
 }
 
 }  // namespace probewright::cycles::heidenhain

@@ -52,12 +52,18 @@ const CycleDefinition cycle405Definition = {
 };
 
 void cycle405(Context& context, const Arguments&) {
-  context.require({.tiltAllowed = false});
-  const MeasuredCircle circle = measureCircle(context, {321, 322, 262}, Side::Inside);
-  const double target = context.q(322) == 0 ? 90 : degreesFromRadians(std::atan2(context.q(322), context.q(321)));
-  const double offset = normalizedDegrees(angleOf(Vector3::Zero(), circle.centre) - target);
+  context.require({.tiltAllowed = !context.control().isTNC640()});
+  const MeasuredCircle circle =
+      measureCircle(context, {321, 322, 262}, Side::Inside, probing::Ending::AtMeasuringHeight);
+  context.prober().moveTo(circle.centre);
+  context.prober().moveSouthPoleTo(context.q(260));
+  // The C axis turns in the plane of X and Y whatever the touch probe axis is.
+  const auto& plane = context.control().coordinates.plane;
+  const auto inXY = [&](const Vector3& place) { return angleOf(Vector3::Zero(), plane.xyzFromPlane(place)); };
+  const double target = context.q(322) == 0 ? 90 : inXY({context.q(321), context.q(322), context.q(261)});
+  const double offset = normalizedDegrees(inXY(circle.centre) - target);
   context.result(150, offset);
-  const std::size_t axis = turnWorkpiece(context, context.control().coordinates.plane.tool, -offset);
+  const std::size_t axis = turnWorkpiece(context, 2, -offset);
   const int row = context.option(337);
   if (row == 0) {
     zeroRotaryAxisInPreset(context, axis, false);

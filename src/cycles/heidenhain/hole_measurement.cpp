@@ -61,8 +61,9 @@ void compensateByRotationOrTable(Context& context, double angle) {
     }
     return;
   }
+  const machine::AxisPositions before = context.channel().axes();
   const std::size_t axis = turnWorkpiece(context, context.control().coordinates.plane.tool, -misalignment);
-  zeroRotaryAxisInPreset(context, axis, context.option(337) == 1);
+  enterAlignment(context, axis, context.channel().axes()[axis] - before[axis]);
 }
 
 }  // namespace probewright::cycles::heidenhain

@@ -94,11 +94,6 @@ NominalValue nominalValue(Context& context, int number) {
   }
   if (text->actual) value.actual = *text->actual * unit;
   if (!text->actualParameter.empty()) value.actual = actualFrom(context, number, text->actualParameter) * unit;
-  if (value.actual && value.semiAutomatic) {
-    throw Alarm("Nominal position wrong",
-                fmt::format("QS{} = \"{}\" asks for a position and gives it", number, argument.text),
-                "leave ? or @ out");
-  }
   if (!value.nominal && !value.semiAutomatic) {
     throw Alarm("Nominal position wrong", fmt::format("QS{} = \"{}\" has no nominal position", number, argument.text),
                 "write the nominal position, or ? where it is not known");

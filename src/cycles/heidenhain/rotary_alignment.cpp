@@ -9,28 +9,63 @@ namespace probewright::cycles::heidenhain {
 
 using control::Alarm;
 
+namespace {
+
+/// How the table turns while `axis` turns by one degree, as axis and degrees in machine coordinates.
+Vector3 tableTurn(const machine::MachineDescription& description, const machine::AxisPositions& position,
+                  std::size_t axis) {
+  machine::AxisPositions next = position;
+  next[axis] += 1;
+  const Matrix3 turn = machine::baseFromTable(description, next).linear() *
+                       machine::baseFromTable(description, position).linear().transpose();
+  const Eigen::AngleAxisd rotation(turn);
+  return rotation.axis() * degreesFromRadians(rotation.angle());
+}
+
+[[noreturn]] void refuseAxis(const std::string& reason) {
+  throw Alarm("Rotary axis not available", reason, "use a basic rotation instead");
+}
+
+}  // namespace
+
 std::size_t turnWorkpiece(Context& context, int about, double degrees) {
   const machine::MachineDescription& description = context.channel().description();
   machine::AxisPositions position = context.channel().axes();
-  Vector3 wanted = Vector3::Zero();
-  wanted[about] = 1;
   for (std::size_t axis = 0; axis < description.axes.size(); ++axis) {
     if (description.axes[axis].kind != machine::AxisKind::Rotary) continue;
-    // How the table turns while this axis turns by one degree.
-    machine::AxisPositions next = position;
-    next[axis] += 1;
-    const Matrix3 turn = machine::baseFromTable(description, next).linear() *
-                         machine::baseFromTable(description, position).linear().transpose();
-    const Eigen::AngleAxisd rotation(turn);
-    const double along = rotation.axis().dot(wanted) * degreesFromRadians(rotation.angle());
+    const double along = tableTurn(description, position, axis)[about];
     if (std::abs(along) < 0.999) continue;
     position[axis] += degrees / along;
     context.channel().moveAxes(position, machine::Feed::at(context.prober().probe().positioningFeed));
     return axis;
   }
-  throw Alarm("Rotary axis not available",
-              fmt::format("The machine has no rotary table that turns the workpiece about {}", "XYZ"[about]),
-              "use a basic rotation instead");
+  refuseAxis(fmt::format("The machine has no rotary table that turns the workpiece about {}", "XYZ"[about]));
+}
+
+int firstTableTurn(Context& context) {
+  const machine::MachineDescription& description = context.channel().description();
+  for (auto element = description.tableChain.rbegin(); element != description.tableChain.rend(); ++element) {
+    if (!element->axis || description.axes[*element->axis].kind != machine::AxisKind::Rotary) continue;
+    const Vector3 turn = tableTurn(description, context.channel().axes(), *element->axis);
+    for (int about = 0; about < 3; ++about) {
+      if (std::abs(turn[about]) > 0.999) return about;
+    }
+    refuseAxis(fmt::format("The first axis of the table, {}, turns about none of X, Y and Z",
+                           description.axes[*element->axis].name));
+  }
+  refuseAxis("The machine has no rotary table");
+}
+
+void enterAlignment(Context& context, std::size_t axis, double turned) {
+  Control& control = context.control();
+  const bool zero = context.option(337) == 1;
+  if (zero) {
+    zeroRotaryAxisInPreset(context, axis, control.isTNC640());
+  } else if (control.isTNC640()) {
+    Control::PresetChange change;
+    change.rotaryOffset[axis] = control.coordinates.preset.rotaryOffset[axis] + turned;
+    writePresetRow(context, control.coordinates.preset.row, change);
+  }
 }
 
 void zeroRotaryAxis(Context& context, std::size_t axis, bool rowGiven) {

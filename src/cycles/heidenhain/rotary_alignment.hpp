@@ -10,6 +10,15 @@ namespace probewright::cycles::heidenhain {
 /// Throws Alarm if the machine has none.
 std::size_t turnWorkpiece(Context& context, int about, double degrees);
 
+/// About which machine axis (0, 1, 2: X, Y, Z) the rotary axis of the table turns that is nearest to the workpiece.
+/// Throws Alarm if there is none, or if it stands askew.
+int firstTableTurn(Context& context);
+
+/// What 401 and 402 enter for the rotary axis that has turned by `turned` degrees, as Q337 says. The TNC 640 sets its
+/// angle to zero in row Q305, or gives the active preset the offset that leaves the angle shown what it was; the
+/// iTNC 530 sets it to zero in the active preset, or enters nothing.
+void enterAlignment(Context& context, std::size_t axis, double turned);
+
 /// Sets the angle of the rotary axis to zero where it stands: in the preset table or the active datum table as Q303
 /// says; in row Q305 if `rowGiven` (row 0 takes over the active preset and becomes active), else in the active row.
 void zeroRotaryAxis(Context& context, std::size_t axis, bool rowGiven);
