@@ -29,10 +29,8 @@ TEST(Cycle1411, FindsTheMisalignmentOfAnyTwoCircles) {
     EXPECT_NEAR(ran.q(994), turned, exact);
     EXPECT_EQ(ran.q(183), -1);
     if (position == 0) continue;
-    const auto chosen = [&](const std::array<Vector3, 2>& points) -> Vector3 {
-      return position == 3 ? Vector3((points[0] + points[1]) / 2) : points[static_cast<std::size_t>(position - 1)];
-    };
-    expectTransfer(ran, place, aboutZ(rotation * turned), chosen(circles.centre), chosen(circles.nominal));
+    expectTransfer(ran, place, aboutZ(rotation * turned), chosen(position, circles.centre),
+                   chosen(position, circles.nominal));
     EXPECT_NE(ran.log("TCHPRAUTO.html").find("<h2>1411 "), std::string::npos);
   }
 }

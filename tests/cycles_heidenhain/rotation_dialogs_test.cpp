@@ -59,10 +59,7 @@ TEST(Cycle1410, AsksTheOperatorForPlacesThatAreNotKnown) {
       }
     }
     EXPECT_NEAR(ran.q(994), place.skew, exact);
-    const auto chosen = [&](const std::array<Vector3, 2>& points) -> Vector3 {
-      return position == 3 ? Vector3((points[0] + points[1]) / 2) : points[static_cast<std::size_t>(position - 1)];
-    };
-    expectTransfer(ran, place, aboutZ(place.skew), chosen(found), chosen(wanted));
+    expectTransfer(ran, place, aboutZ(place.skew), chosen(position, found), chosen(position, wanted));
     const auto stops =
         std::ranges::count(ran.outcome.journal.events, control::EventKind::Stop, &control::EventRecord::kind);
     EXPECT_EQ(stops, 4);
@@ -124,10 +121,10 @@ TEST(Cycle1411, AsksTheOperatorForTheObjects) {
       EXPECT_NEAR(ran.q(966 + i), circles.diameter[at], exact);
     }
     // The chosen centre reads its nominal place, the other lies on the line to it.
-    const auto chosen = static_cast<std::size_t>(position - 1);
-    Vector3 wanted = circles.nominal[chosen];
-    Vector3 actual = circles.centre[chosen];
-    wanted.z() = actual.z() = ran.q(952 + 3 * static_cast<int>(chosen));
+    const auto which = static_cast<std::size_t>(position - 1);
+    Vector3 wanted = circles.nominal[which];
+    Vector3 actual = circles.centre[which];
+    wanted.z() = actual.z() = ran.q(952 + 3 * static_cast<int>(which));
     expectTransfer(ran, place, aboutZ(turned), actual, wanted);
   }
 }
@@ -184,28 +181,6 @@ TEST(RotationCycles, AskAgainInLaterCalls) {
   const std::vector<std::string> expected = {"1420 point 1",        "1420 point 2",        "1420 point 3",
                                              "1420 call 2 point 1", "1420 call 2 point 2", "1420 call 2 point 3"};
   EXPECT_EQ(asked, expected);
-}
-
-TEST(RotationCycles, RefuseAnswersThatAreNoPositions) {
-  Bench bench;
-  bench.preset(1, {0, 0, -400}, 0);
-  bench.answer = [](const std::string&) -> std::optional<std::string> { return "over there"; };
-  const Ran ran = bench.run(probe(1410,
-                                  {{1100, 0},
-                                   {1102, 0},
-                                   {1103, 9},
-                                   {1104, 0},
-                                   {1105, 0},
-                                   {372, 2},
-                                   {320, 0},
-                                   {260, 20},
-                                   {1125, 1},
-                                   {309, 0},
-                                   {1126, 0},
-                                   {1120, 0},
-                                   {1121, 0}},
-                                  " ~\n QS1101=\"?0\""));
-  EXPECT_EQ(ran.alarm(), "Position of the probe wrong");
 }
 
 }  // namespace

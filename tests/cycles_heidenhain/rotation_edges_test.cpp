@@ -34,10 +34,8 @@ TEST(Cycle1410, FindsTheMisalignmentOfAnyEdge) {
       EXPECT_LT((ran.preset().translation() - place.machineFromPreset.translation()).norm(), exact);
       continue;
     }
-    const auto chosen = [&](const std::array<Vector3, 2>& points) -> Vector3 {
-      return position == 3 ? Vector3((points[0] + points[1]) / 2) : points[static_cast<std::size_t>(position - 1)];
-    };
-    expectTransfer(ran, place, aboutZ(rotation * place.skew), chosen(edge.expected), chosen(edge.nominal));
+    expectTransfer(ran, place, aboutZ(rotation * place.skew), chosen(position, edge.expected),
+                   chosen(position, edge.nominal));
     EXPECT_NE(ran.log("TCHPRAUTO.html").find("<h2>1410 "), std::string::npos);
   }
 }

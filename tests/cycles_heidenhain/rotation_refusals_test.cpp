@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 
 #include "cycles_heidenhain/worlds.hpp"
@@ -31,49 +32,176 @@ Ran withTexts(const std::map<int, std::string>& texts, const Words& words = edge
   return refusingBench().run(probe(cycle, rest, more));
 }
 
+const Words circleWords = {{1100, -30}, {1101, 0}, {1102, -8}, {1116, 20}, {1103, 30},  {1104, 0}, {1105, -8},
+                           {1117, 20},  {1115, 0}, {423, 4},   {325, 0},   {1119, 360}, {320, 0},  {260, 20},
+                           {1125, 1},   {309, 0},  {1126, 0},  {1120, 0},  {1121, 0}};
+
+struct RotationCycle {
+  int number;
+  const Words& words;
+  const char* asks;  ///< how it asks the operator
+};
+const RotationCycle rotationCycles[] = {
+    {1410, edgeWords, "1410 point 1"}, {1411, circleWords, "1411 object 1"}, {1420, planeWords, "1420 point 1"}};
+
+/// Refused in these words, with no table changed.
+void expectRefused(const Ran& ran, const std::string& code, const std::string& part) {
+  EXPECT_EQ(ran.alarm(), code) << ran.why();
+  EXPECT_NE(ran.why().find(part), std::string::npos) << ran.why();
+  for (const auto& cycle : ran.outcome.journal.cycles)
+    EXPECT_TRUE(cycle.writes.empty());
+}
+
 TEST(RotationCycles, MeasureTheEdgeThatTheRefusalsSpoil) {
-  const Ran edge = refusingBench().run(probe(1410, edgeWords));
-  EXPECT_TRUE(edge.finished()) << edge.why();
-  const Ran plane = refusingBench().run(probe(1420, planeWords));
-  EXPECT_TRUE(plane.finished()) << plane.why();
+  for (const RotationCycle& cycle : rotationCycles) {
+    Bench bench = refusingBench();
+    if (cycle.number == 1411) {
+      bench.setup.truth.solids.clear();
+      for (const double x : {-30.0, 30.0})
+        bench.part(simulation::Ring(10, 15, -40), pose({x, 0, -400}));
+    }
+    const Ran ran = bench.run(probe(cycle.number, cycle.words));
+    EXPECT_TRUE(ran.finished()) << ran.why();
+  }
 }
 
 TEST(RotationCycles, RefuseTextsThatAreNoPositions) {
-  EXPECT_EQ(withTexts({{1101, "fifty"}}).alarm(), "Nominal position wrong");
-  EXPECT_EQ(withTexts({{1101, "?-50@-50.1"}}).alarm(), "Nominal position wrong");
-  EXPECT_EQ(withTexts({{1101, "100000"}}).alarm(), "Nominal position wrong");
-  EXPECT_EQ(withTexts({{1101, "-50@Q12"}, {1100, "1@1"}, {1102, "1@1"}}).alarm(), "Actual position wrong");
+  for (const auto& [number, words, asks] : rotationCycles) {
+    SCOPED_TRACE(number);
+    expectRefused(withTexts({{1101, "fifty"}}, words, number), "Nominal position wrong",
+                  "QS1101 = \"fifty\", column 1");
+    expectRefused(withTexts({{1101, "?-50@-50.1"}}, words, number), "Nominal position wrong",
+                  "cannot have an actual value");
+    expectRefused(withTexts({{1101, "100000"}}, words, number), "Nominal position wrong", "-99999.9999 to 99999.9999");
+    expectRefused(withTexts({{1101, "-50@Q12"}, {1100, "1@1"}, {1102, "1@1"}}, words, number), "Actual position wrong",
+                  "Q1900 to Q1999");
+    expectRefused(withTexts({{1104, "10H19"}}, words, number), "Nominal position wrong", "H19");
+    expectRefused(withTexts({{1104, ""}}, words, number), "Nominal position wrong", "QS1104");
+  }
+  for (const char* text : {"?20", "20@20.1", "0", "?"}) {
+    SCOPED_TRACE(text);
+    expectRefused(withTexts({{1116, text}}, circleWords, 1411), "Diameter wrong", "known and larger than 0");
+  }
 }
 
 TEST(RotationCycles, RefusePositionsWithoutNominal) {
-  EXPECT_EQ(withTexts({{1100, "?"}, {1101, "?"}, {1102, "?"}}).alarm(), "Nominal position not defined");
-  // The probed axis is needed.
-  EXPECT_EQ(withTexts({{1101, "?"}}).alarm(), "Nominal position not defined");
-  EXPECT_EQ(withTexts({{1100, "?"}}, planeWords, 1420).alarm(), "Nominal position not defined");
+  for (const auto& [number, words, asks] : rotationCycles) {
+    SCOPED_TRACE(number);
+    expectRefused(withTexts({{1103, "?"}, {1104, "?"}, {1105, "?"}}, words, number), "Nominal position not defined",
+                  "Position 2 has no nominal position in any axis (Q1103 to Q1105)");
+  }
+  // The axes that the object needs: the probed one, both of the plane, or all three.
+  expectRefused(withTexts({{1101, "?"}}), "Nominal position not defined", "minor axis, which is measured (Q1101)");
+  for (const int parameter : {1100, 1101, 1103, 1104}) {
+    expectRefused(withTexts({{parameter, "?"}}, circleWords, 1411), "Nominal position not defined",
+                  fmt::format("(Q{})", parameter));
+  }
+  for (int parameter = 1100; parameter <= 1108; ++parameter) {
+    expectRefused(withTexts({{parameter, "?"}}, planeWords, 1420), "Nominal position not defined",
+                  fmt::format("(Q{})", parameter));
+  }
 }
 
-TEST(RotationCycles, RefuseActualPositionsInOneAxisOnly) {
-  const Ran ran = withTexts({{1101, "-50@-50.1"}});
-  EXPECT_EQ(ran.alarm(), "Actual position incomplete");
+TEST(RotationCycles, RefuseActualPositionsInSomeAxesOnly) {
+  for (const auto& [number, words, asks] : rotationCycles) {
+    SCOPED_TRACE(number);
+    expectRefused(withTexts({{1101, "-50@-50.1"}}, words, number), "Actual position incomplete", "in 1 of three axes");
+    expectRefused(withTexts({{1103, "30@30"}, {1105, "-8@-8"}}, words, number), "Actual position incomplete",
+                  "Position 2 has an actual position (@) in 2 of three axes");
+  }
 }
 
 TEST(RotationCycles, RefuseToAskNobody) {
-  const Ran ran = withTexts({{1101, "?-50"}});
-  EXPECT_EQ(ran.alarm(), "Semi-automatic probing without operator");
-  EXPECT_NE(ran.why().find("1410 point 1"), std::string::npos) << ran.why();
+  for (const auto& [number, words, asks] : rotationCycles) {
+    SCOPED_TRACE(number);
+    const Ran ran = withTexts({{1100, "?-30"}}, words, number);
+    expectRefused(ran, "Semi-automatic probing without operator", fmt::format("'{} = MAIN MINOR TOOL'", asks));
+  }
+}
+
+/// The block of `cycle` with a first position that the operator shows.
+std::string asking(const RotationCycle& cycle, int clearanceMode = 1) {
+  Words words = with(cycle.words, {{1125, clearanceMode}});
+  const auto first = std::ranges::find(words, 1100, &std::pair<int, double>::first);
+  const std::string text = fmt::format(" ~\n  QS1100=\"?{}\" ;X", first->second);
+  words.erase(first);
+  return probe(cycle.number, words, text);
+}
+
+TEST(RotationCycles, RefuseAnswersThatAreNoPositions) {
+  for (const RotationCycle& cycle : rotationCycles) {
+    SCOPED_TRACE(cycle.number);
+    for (const char* answer : {"over there", "1 2", "1 2 3 4", "1 2 up", "1 2 30; 5"}) {
+      Bench bench = refusingBench();
+      bench.answer = [answer](const std::string&) -> std::optional<std::string> { return answer; };
+      expectRefused(bench.run(asking(cycle)), "Position of the probe wrong",
+                    fmt::format("'{}' is no position for {}", answer, cycle.asks));
+    }
+  }
+}
+
+TEST(RotationCycles, StopWhereTheOperatorGivesUpOrStandsWrong) {
+  for (const RotationCycle& cycle : rotationCycles) {
+    SCOPED_TRACE(cycle.number);
+    Bench bench = refusingBench();
+    bench.answer = [](const std::string&) -> std::optional<std::string> { return "200 200 50"; };
+    // Far from the part nothing is touched within DIST.
+    expectRefused(bench.run(asking(cycle)), "Touch point inaccessible", "not deflected within");
+    bench.onStop = control::OnStop::Abort;
+    const Ran cancelled = bench.run(asking(cycle));
+    EXPECT_EQ(cancelled.outcome.result.end, language::RunEnd::Cancelled);
+    EXPECT_EQ(cancelled.touches(), 0U);
+  }
+}
+
+/// With Q1125 = 1 or 2 the operator is told to retract by hand; with -1 and 0 he is not.
+TEST(RotationCycles, TellTheOperatorToRetract) {
+  for (const int mode : {-1, 0, 1, 2}) {
+    SCOPED_TRACE(mode);
+    Bench bench = refusingBench();
+    bench.answer = [](const std::string& question) -> std::optional<std::string> {
+      if (question == "1420 point 1") return "-30 -30 5";
+      return std::nullopt;
+    };
+    const Ran ran = bench.run(asking(rotationCycles[2], mode));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    const auto screens = ran.screens();
+    ASSERT_EQ(screens.size(), mode > 0 ? 2U : 1U);
+    EXPECT_NE(screens.front().find("1420 point 1: move the probe in front of the point"), std::string::npos);
+    if (mode > 0) {
+      EXPECT_NE(screens.back().find("no automatic retraction to the clearance height"), std::string::npos);
+    }
+  }
 }
 
 TEST(RotationCycles, RefuseAlignmentWithoutRotation) {
-  const Ran ran = refusingBench().run(probe(1410, with(edgeWords, {{1126, 1}})));
-  EXPECT_EQ(ran.alarm(), "Rotary axes cannot be aligned");
+  for (const auto& [number, words, asks] : rotationCycles) {
+    for (const int aligns : {1, 2}) {
+      SCOPED_TRACE(number);
+      for (const char* machine : {"mill3", "mill5-table-table"}) {
+        expectRefused(refusingBench(machine).run(probe(number, with(words, {{1126, aligns}}))),
+                      "Rotary axes cannot be aligned", "Q1121 takes over no rotation");
+      }
+    }
+  }
 }
 
 TEST(RotationCycles, RefuseAlignmentWithoutAxes) {
-  EXPECT_EQ(refusingBench().run(probe(1410, with(edgeWords, {{1121, 2}}))).alarm(), "Rotary axes cannot be aligned");
-  EXPECT_EQ(refusingBench().run(probe(1410, with(edgeWords, {{1126, 1}, {1121, 1}}))).alarm(),
-            "Rotary axes cannot be aligned");
-  EXPECT_EQ(refusingBench().run(probe(1420, with(planeWords, {{1126, 1}, {1121, 1}}))).alarm(),
-            "Rotary axes cannot be aligned");
+  const std::string nearest = "nearest to the workpiece does not turn about the tool axis";
+  for (const auto& [number, words] : {std::pair(1410, edgeWords), {1411, circleWords}}) {
+    SCOPED_TRACE(number);
+    for (const Words& wish : {Words{{1121, 2}}, Words{{1126, 1}, {1121, 1}}, Words{{1126, 2}, {1121, 2}}}) {
+      // No table, and a table that has been tilted: its C axis stands askew to the tool.
+      expectRefused(refusingBench().run(probe(number, with(words, wish))), "Rotary axes cannot be aligned", nearest);
+      expectRefused(refusingBench("mill5-head-head").run(probe(number, with(words, wish))),
+                    "Rotary axes cannot be aligned", nearest);
+      const std::string tilted = "L Z-1 R0 FMAX M91\nL A+30 R0 FMAX\n";
+      expectRefused(refusingBench("mill5-table-table").run(tilted + probe(number, with(words, wish))),
+                    "Rotary axes cannot be aligned", nearest);
+    }
+  }
+  expectRefused(refusingBench().run(probe(1420, with(planeWords, {{1126, 1}, {1121, 1}}))),
+                "Rotary axes cannot be aligned", "less than two rotary axes");
 }
 
 TEST(RotationCycles, RefuseRotaryAxesThatDoNotMatchTheTilt) {
@@ -81,48 +209,86 @@ TEST(RotationCycles, RefuseRotaryAxesThatDoNotMatchTheTilt) {
   bench.setup.parameters["chkTiltingAxes"] = {1.0, {}};
   EXPECT_TRUE(bench.run(probe(1420, planeWords)).finished());
   const std::string tilt = "PLANE SPATIAL SPA+0 SPB+10 SPC+0 STAY\n";
-  EXPECT_EQ(bench.run(tilt + probe(1420, planeWords)).alarm(), "Rotary axes and tilt do not match");
+  expectRefused(bench.run(tilt + probe(1420, planeWords)), "Rotary axes and tilt do not match", "chkTiltingAxes");
 }
 
-TEST(RotationCycles, RefuseAPlaneThroughALine) {
-  const Ran ran = refusingBench().run(probe(1420, with(planeWords, {{1106, 0}, {1107, -30}})));
-  EXPECT_EQ(ran.alarm(), "Plane wrongly defined");
+TEST(RotationCycles, RefuseWhatDeterminesNothing) {
+  expectRefused(refusingBench().run(probe(1420, with(planeWords, {{1106, 0}, {1107, -30}}))), "Plane wrongly defined",
+                "one straight line");
+  expectRefused(refusingBench().run(probe(1410, with(edgeWords, {{1103, -30}}))), "Angle not determined",
+                "coincide in the working plane");
+  // Known positions of two circles in one place.
+  const Ran same = withTexts(
+      {{1100, "5@5"}, {1101, "5@5"}, {1102, "0@0"}, {1103, "30@5"}, {1104, "0@5"}, {1105, "0@1"}}, circleWords, 1411);
+  expectRefused(same, "Angle not determined", "coincide in the working plane");
+  expectRefused(refusingBench().run(probe(1411, with(circleWords, {{1119, 0}}))), "Angular length wrong", "Q1119 = 0");
 }
 
-TEST(RotationCycles, RefuseCoincidingPositions) {
-  const Ran ran = refusingBench().run(probe(1410, with(edgeWords, {{1103, -30}})));
-  EXPECT_EQ(ran.alarm(), "Angle not determined");
+TEST(RotationCycles, RefuseHolesThatTheBallDoesNotFitInto) {
+  expectRefused(refusingBench().run(probe(1411, with(circleWords, {{1116, 3.9}}))), "Hole too small",
+                "radius 2.0000 mm does not fit into a hole of diameter 3.9000 mm");
 }
 
 TEST(RotationCycles, RefuseOtherTransformations) {
   const std::string mirror = "CYCL DEF 8.0 MIRROR\nCYCL DEF 8.1 X\n";
   const std::string scale = "CYCL DEF 11.0 SCALING\nCYCL DEF 11.1 SCL 1.1\n";
-  for (const std::string& before : {mirror, scale}) {
-    const Ran ran = refusingBench().run(before + probe(1410, edgeWords));
-    EXPECT_EQ(ran.alarm(), "Coordinate transformation not permitted");
+  const std::string axes = "CYCL DEF 26.0 AXIS-SPEC. SCALING\nCYCL DEF 26.1 X1.1 CCX+0 CCY+0\n";
+  for (const auto& [number, words, asks] : rotationCycles) {
+    for (const std::string& before : {mirror, scale, axes}) {
+      expectRefused(refusingBench().run(before + probe(number, words)), "Coordinate transformation not permitted",
+                    "cycle 7, 8, 10, 11 or 26");
+    }
   }
 }
 
 TEST(RotationCycles, RefuseWithoutToolCallAndInTurningMode) {
-  EXPECT_EQ(refusingBench().runBare(probe(1410, edgeWords)).alarm(), "Touch probe axis not defined");
-  EXPECT_EQ(refusingBench().run("FUNCTION MODE TURN\n" + probe(1410, edgeWords)).alarm(), "Function not permitted");
+  for (const auto& [number, words, asks] : rotationCycles) {
+    expectRefused(refusingBench().runBare(probe(number, words)), "Touch probe axis not defined", "TOOL CALL");
+    expectRefused(refusingBench().run("FUNCTION MODE TURN\n" + probe(number, words)), "Function not permitted",
+                  "FUNCTION MODE MILL");
+  }
 }
 
 TEST(RotationCycles, RefuseWhatIsNotThere) {
-  const Ran ran = refusingBench().run(probe(1410, with(edgeWords, {{1101, -80}, {1104, -80}})));
-  EXPECT_EQ(ran.alarm(), "Touch point inaccessible");
+  expectRefused(refusingBench().run(probe(1410, with(edgeWords, {{1101, -80}, {1104, -80}}))),
+                "Touch point inaccessible", "not deflected within");
 }
 
 TEST(RotationCycles, RefuseTheToolAxisForARotation) {
-  const Ran ran = refusingBench().run(
-      probe(1410, with(edgeWords, {{372, -3}, {1101, -30}, {1102, 0}, {1104, -30}, {1105, 0}, {1121, 1}})));
-  EXPECT_EQ(ran.alarm(), "Probing direction not permitted");
+  for (const int rotation : {1, 2}) {
+    expectRefused(
+        refusingBench("mill5-table-table")
+            .run(probe(1410,
+                       with(edgeWords, {{372, -3}, {1101, -30}, {1102, 0}, {1104, -30}, {1105, 0}, {1121, rotation}}))),
+        "Probing direction not permitted", "say nothing about the rotation");
+  }
 }
 
 TEST(RotationCycles, RefuseParametersOutOfRange) {
-  EXPECT_FALSE(refusingBench().run(probe(1410, with(edgeWords, {{372, 0}}))).finished());
-  EXPECT_FALSE(refusingBench().run(probe(1410, with(edgeWords, {{1125, 3}}))).finished());
-  EXPECT_FALSE(refusingBench().run(probe(1420, with(planeWords, {{1121, 2}}))).finished());
+  const auto mistake = [](int number, const Words& words, const std::string& part) {
+    const Ran ran = refusingBench().run(probe(number, words));
+    EXPECT_EQ(ran.outcome.info.exit, records::ExitState::InputMistake);
+    EXPECT_NE(ran.why().find(part), std::string::npos) << ran.why();
+  };
+  for (const int number : {1410, 1420}) {
+    const Words& words = number == 1410 ? edgeWords : planeWords;
+    mistake(number, with(words, {{372, 0}}), "Q372");
+    mistake(number, with(words, {{372, 4}}), "Q372");
+  }
+  for (const auto& [number, words, asks] : rotationCycles) {
+    mistake(number, with(words, {{1125, 3}}), "Q1125");
+    mistake(number, with(words, {{309, 3}}), "Q309");
+    mistake(number, with(words, {{1126, 3}}), "Q1126");
+    mistake(number, with(words, {{1120, 5}}), "Q1120");
+    mistake(number, with(words, {{1121, 3}}), "Q1121");
+    mistake(number, with(words, {{1100, 100000}}), "Q1100");
+    mistake(number, with(words, {{320, -1}}), "Q320");
+  }
+  mistake(1420, with(planeWords, {{1121, 2}}), "Q1121");
+  mistake(1411, with(circleWords, {{423, 9}}), "Q423");
+  mistake(1411, with(circleWords, {{1115, 4}}), "Q1115");
+  mistake(1411, with(circleWords, {{1119, 361}}), "Q1119");
+  mistake(1411, with(circleWords, {{1116, 10000}}), "Q1116");
 }
 
 TEST(RotationCycles, DoNotExistOnTheOlderControl) {

@@ -116,6 +116,11 @@ inline void expectTransfer(const Ran& ran, const Place& place, const Matrix3& ro
   EXPECT_LT((found.inverse() * (place.machineFromInput * actual) - wanted).norm(), exact);
 }
 
+/// The position that Q1120 = `position` transfers: the first, the second, or the mean.
+inline Vector3 chosen(int position, const std::array<Vector3, 2>& points) {
+  return position == 3 ? Vector3((points[0] + points[1]) / 2) : points[static_cast<std::size_t>(position - 1)];
+}
+
 inline Matrix3 aboutZ(double degreesTurned) { return pose(Vector3::Zero(), {0, 0, degreesTurned}).linear(); }
 
 /// Two holes or studs about the part's origin.

@@ -1,4 +1,4 @@
-#include "cycles_heidenhain/worlds.hpp"
+#include "cycles_heidenhain/wrong_probe.hpp"
 
 /// Every way of touching with a probe that is not as the control believes: its tip lies beside the spindle axis and
 /// its signal comes late. What is found is wrong by what theory says: by -offset everywhere, and by the late way along
@@ -8,39 +8,6 @@ namespace {
 
 constexpr int worlds = 20;
 constexpr double exact = 1e-6;
-
-/// A block of 80 x 60 mm, and beside it a pocket, a hole and a stud; all lie where the programmer thinks.
-struct WrongProbe {
-  explicit WrongProbe(Dice& dice, const std::string& machine = "mill3") : bench(ControlKind::TNC640, machine) {
-    bench.preset(1, origin);
-    offset = {dice.between(-0.2, 0.2), dice.between(-0.2, 0.2)};
-    late = dice.between(0, 0.03);
-    lateAlong = dice.between(0, 0.02);
-    bench.trueProbe().tipOffset = offset;
-    bench.believedProbe().tipOffset = Vector2::Zero();
-    bench.trueProbe().pretravel = late;
-    bench.trueProbe().axialPretravel = lateAlong;
-  }
-  /// A block whose lower left corner is the preset.
-  void layBlock() { bench.part(simulation::Box({0, 0, -40}, {80, 60, 0}), pose(origin)); }
-  Ran run(int cycle, const Words& words) const {
-    Ran ran = bench.run(probe(cycle, words));
-    EXPECT_TRUE(ran.finished()) << ran.why();
-    return ran;
-  }
-  /// Where the new preset lies in the old one.
-  Vector3 moved(const Ran& ran) const { return ran.preset().translation() - origin; }
-
-  Vector3 origin = {-10, 5, -400};
-  Bench bench;
-  Vector2 offset;
-  double late = 0, lateAlong = 0;
-};
-
-const Words height = {{261, -8}, {320, 0}, {260, 20}};
-const Words heights = with(height, {{301, 0}});
-const Words intoPreset = {{305, 1}, {303, 1}, {331, 0}, {332, 0}};
-const Words unmonitored = {{279, 0}, {280, 0}, {281, 0}, {309, 0}, {330, 0}};
 
 TEST(WrongProbe, MovesSinglePoints) {
   Dice dice(1);

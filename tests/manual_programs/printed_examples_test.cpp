@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "machine/description.hpp"
 #include "manual_programs/part.hpp"
 #include "manual_programs/printed_blocks.hpp"
 #include "session/check.hpp"
@@ -37,8 +38,13 @@ TEST(PrintedBlocks, AreRead) {
   }
 }
 
-/// One edition prints the parameters of a rectangle in the examples of the circles.
+/// One edition prints the parameters of a rectangle in the examples of the circles, and those of the outside corner in
+/// that of the inside corner.
 TEST(PrintedBlocks, MisprintsAreNamed) {
+  const Diagnostics corner = mistakesOf(ControlKind::iTNC530, probe(415, printed::cycle414));
+  ASSERT_FALSE(corner.empty());
+  EXPECT_THAT(format(corner.front()), HasSubstr("cycle 415"));
+  EXPECT_THAT(format(corner.front()), ::testing::AnyOf(HasSubstr("Q296"), HasSubstr("Q308")));
   for (const int cycle : {412, 413}) {
     const Diagnostics mistakes = mistakesOf(ControlKind::iTNC530, probe(cycle, printed::cycle410));
     ASSERT_FALSE(mistakes.empty());
@@ -85,6 +91,45 @@ TEST_P(Printed, Cycle402TurnsByTheLineThroughTwoStuds) {
   EXPECT_NEAR(degrees(std::atan2(ran.preset().linear()(1, 0), ran.preset().linear()(0, 0))), expected, 1e-7);
 }
 
+/// Where a machine place that was fixed to the table at the start of the run is at its end.
+Vector3 afterTurning(const Part& part, const Ran& ran, const Vector3& place) {
+  const auto& truth = part.bench.setup.truth;
+  return machine::baseFromTable(truth.machine, ran.outcome.machine->position()) *
+         (machine::baseFromTable(truth.machine, truth.start).inverse() * place);
+}
+double directionOf(const Vector3& place) { return degrees(std::atan2(place.y(), place.x())); }
+
+TEST_P(Printed, Cycle403TurnsTheEdgeParallelToY) {
+  Part turning(GetParam(), "mill5-table-table");
+  const double lies = degrees(std::atan2(30, 20)) + 0.3;
+  turning.wall({0, 0}, lies);
+  // The older control does not find the axis itself: its edition prints Q312=6.
+  const Words words = isTNC640() ? printed::cycle403 : with(printed::cycle403, {{312, 6}});
+  const Ran ran = turning.run(403, words);
+  EXPECT_NEAR(ran.q(150), lies, 1e-7);
+  const Vector3 along(std::cos(radians(lies)), std::sin(radians(lies)), 0);
+  EXPECT_NEAR(directionOf(afterTurning(turning, ran, along) - afterTurning(turning, ran, Vector3::Zero())), 90, 1e-7);
+  EXPECT_TRUE(ran.cycle().writes.empty()) << "Q337 = 0 enters nothing";
+}
+
+TEST_P(Printed, Cycle404TakesTheBasicRotationBack) {
+  part.bench.setup.presets.front().rotation = {0, 0, 3.5};
+  const Ran ran = part.run(404, isTNC640() ? Words{{307, 0}, {305, -1}} : Words{{307, 0}});
+  EXPECT_TRUE(ran.preset().isApprox(pose({0, 0, tableHeight}), 1e-12));
+  EXPECT_EQ(ran.cell("PRESET.PR", "1", isTNC640() ? "SPC" : "ROT"), 0);
+}
+
+TEST_P(Printed, Cycle405BringsTheHoleToItsDirection) {
+  Part turning(GetParam(), "mill5-table-table");
+  const Vector2 centre(50.4, 49.7);
+  turning.hole(centre, 11);
+  const Ran ran = turning.run(405, printed::cycle405);
+  const Vector3 found(centre.x(), centre.y(), tableHeight);
+  EXPECT_NEAR(ran.q(150), directionOf(found) - 45, 1e-7);
+  EXPECT_NEAR(directionOf(afterTurning(turning, ran, found)), 45, 1e-7);
+  EXPECT_NEAR(ran.cell("PRESET.PR", "1", isTNC640() ? "C_OFFS" : "C"), ran.outcome.machine->position()[4], digit);
+}
+
 TEST_P(Printed, Cycle408CentresTheSlotAndSetsTheTop) {
   const double middle = 50.12, width = 25.3, top = 0.07;
   part.box({middle + width / 2, 0, -40}, {130, 100, top});
@@ -111,9 +156,44 @@ TEST_P(Printed, Cycle411CentresTheStud) {
   EXPECT_TRUE(found.isApprox(Vector3(50.2, 49.9, -15.2), exact)) << found.transpose();
 }
 
+/// The example of a circle as far as the control knows its parameters.
+Words circleWords(const Words& printedWords, bool newer) {
+  Words words = printedWords;
+  if (!newer) words.resize(words.size() - 2);
+  return words;
+}
+
+TEST_P(Printed, Cycle412CentresTheHoleAndSetsItsFloor) {
+  part.hole({50.2, 49.9}, 75.3);
+  part.box({20, 20, -60}, {90, 80, -14.2});
+  const Ran ran = part.run(412, circleWords(printed::cycle412, isTNC640()));
+  EXPECT_NEAR(ran.q(153), 75.3, exact);
+  expectRow(ran, "12", {50.2, 49.9, -15.2});
+}
+
+TEST_P(Printed, Cycle413CentresTheStudAndSetsItsTop) {
+  part.stud({50.2, 49.9}, 74.6, 0.3);
+  const Ran ran = part.run(413, circleWords(printed::cycle413, isTNC640()));
+  EXPECT_NEAR(ran.q(153), 74.6, exact);
+  expectRow(ran, "15", {50.2, 49.9, 0.3 - 1});
+}
+
 TEST_P(Printed, Cycle414FindsTheCorner) {
   part.box({-40, 7.3, -40}, {95.2, 120, 0.1});
   expectRow(part.run(414, printed::cycle414), "7", {95.2, 7.3, 0.1 - 1});
+}
+
+/// Q263 and Q264 are the corner in one edition and the first point in the other: both find the same corner.
+TEST_P(Printed, Cycle415FindsTheInsideCorner) {
+  part.box({0, -40, -40}, {37.3, 120, 0});
+  part.box({0, -40, -40}, {140, 7.2, 0});
+  part.box({75, 40, -60}, {95, 60, -14.2});
+  for (const double first : {37.0, 46.0}) {
+    const Ran ran = part.run(415, with(printed::cycle415, {{263, first}}));
+    EXPECT_NEAR(ran.q(151), 37.3, exact);
+    EXPECT_NEAR(ran.q(152), 7.2, exact);
+    expectRow(ran, "7", {37.3, 7.2, -15.2});
+  }
 }
 
 TEST_P(Printed, Cycle416CentresTheBoltHoleCircle) {
@@ -257,6 +337,7 @@ TEST_P(Printed, NoCycleRunsWithoutProbeOrPart) {
                                                   {412, circle},
                                                   {413, circle},
                                                   {414, printed::cycle414},
+                                                  {415, printed::cycle415},
                                                   {416, printed::cycle416},
                                                   {417, printed::cycle417},
                                                   {418, printed::cycle418},
