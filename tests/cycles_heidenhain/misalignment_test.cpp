@@ -144,6 +144,11 @@ TEST(Cycle404, SetsABasicRotationWithoutMeasuring) {
     EXPECT_EQ(ran.cell("PRESET.PR", "1", rotationColumn(control)), -12.5);
     EXPECT_EQ(ran.touches(), 0U);
   }
+  Bench older(ControlKind::iTNC530);
+  older.preset(1, {10, 20, -400}, 5);
+  const Ran row = older.run(probe(404, {{307, 3}, {305, 4}}));
+  EXPECT_EQ(row.outcome.info.exit, records::ExitState::InputMistake);
+  EXPECT_NE(row.why().find("Q305"), std::string::npos) << row.why();
   Bench bench;
   bench.preset(1, {10, 20, -400}, 5);
   const Ran other = bench.run(probe(404, {{307, 3}, {305, 4}}) + transferInto(4).after);

@@ -128,7 +128,8 @@ TEST(Patterns, LeaveProbingCyclesAlone) {
   for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
     Plate plate(kind);
     plate.holes({{0, 0}});
-    const std::string pattern = "PATTERN DEF POS1 (X+50 Y+0 Z+0) POS2 (X+90 Y+0 Z+0)\n";
+    const std::string pattern =
+        "GLOBAL DEF 125 POSITIONING ~\n  Q345=+1 ;HEIGHT\nPATTERN DEF POS1 (X+50 Y+0 Z+0) POS2 (X+90 Y+0 Z+0)\n";
     const std::string drill =
         "CYCL DEF 200 DRILLING ~\n  Q200=2 ~\n  Q201=-5 ~\n  Q206=150 ~\n  Q202=5 ~\n  Q210=0 ~\n"
         "  Q203=+0 ~\n  Q204=50 ~\n  Q211=0\n";

@@ -151,6 +151,7 @@ TEST(Refusals, Parameters) {
   expectMistake(run({{320, -1}}), "Q320");
   expectMistake(run({{301, 2}}), "Q301");
   expectMistake(run({{305, 1.5}}), "whole number");
+  expectMistake(run({{305, 10000}}), "9999");
   expectMistake(run({{321, 100000}}), "99999.9999");
   expectMistake(run({{423, 5}}), "Q423");
   expectMistake(run({{423, 4}}, ControlKind::iTNC530), "Q423");

@@ -144,6 +144,18 @@ TEST(Cycle1411, ReducesTheClearanceInSmallHoles) {
   const auto stops =
       std::ranges::count(ran.outcome.journal.events, control::EventKind::Stop, &control::EventRecord::kind);
   EXPECT_EQ(stops, 2);
+  // What is shown: the nominal diameter, the ball radius, and the clearance that is left of the radius.
+  ASSERT_EQ(ran.screens().size(), 2U);
+  for (const char* line : {"1411 object 2: the hole is too small", "Nominal diameter 7.0000", "Ball radius 2.0000",
+                           "Possible set-up clearance 1.5000"}) {
+    EXPECT_NE(ran.screens().back().find(line), std::string::npos) << ran.screens().back();
+  }
+  // Cancelled at the first of them: nothing has been touched.
+  bench.onStop = control::OnStop::Abort;
+  const Ran cancelled = bench.run(probe(1411, words));
+  EXPECT_EQ(cancelled.outcome.result.end, language::RunEnd::Cancelled);
+  EXPECT_EQ(cancelled.touches(), 0U);
+  bench.onStop = control::OnStop::Continue;
   const Ran tooSmall = bench.run(probe(1411, with(words, {{1117, 3}})));
   EXPECT_EQ(tooSmall.alarm(), "Hole too small");
 }
