@@ -226,7 +226,7 @@ TEST(RotationCycles, RefuseWhatDeterminesNothing) {
 
 TEST(RotationCycles, RefuseHolesThatTheBallDoesNotFitInto) {
   expectRefused(refusingBench().run(probe(1411, with(circleWords, {{1116, 3.9}}))), "Hole too small",
-                "radius 2.0000 mm does not fit into a hole of diameter 3.9000 mm");
+                "does not fit into a hole of diameter 3.9000 mm");
 }
 
 TEST(RotationCycles, RefuseOtherTransformations) {
