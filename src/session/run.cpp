@@ -17,6 +17,7 @@
 #include "session/check.hpp"
 #include "session/source.hpp"
 #include "session/standing_machine.hpp"
+#include "simulation/mesh_solid.hpp"
 
 namespace probewright::session {
 
@@ -247,6 +248,21 @@ std::set<std::string> globalUserData(const simulation::Setup& setup, ControlKind
   return names;
 }
 
+/// A mesh with holes holds no material: the probe may enter where a triangle is missing.
+void warnOfOpenMeshes(RunOutcome& outcome, const simulation::Setup& setup) {
+  for (const simulation::PlacedSolid& placed : outcome.machine->truth().solids) {
+    const auto* mesh = dynamic_cast<const simulation::MeshSolid*>(placed.solid.get());
+    if (mesh == nullptr || mesh->isClosed()) continue;
+    outcome.diagnostics.push_back(
+        {Severity::Warning,
+         {setup.file, 0, 0},
+         fmt::format("the surface of \"{}\" is not closed: triangles are missing", placed.name),
+         {},
+         "the probe meets only the triangles there are; export the part again as one solid body",
+         {}});
+  }
+}
+
 RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path& path, ControlKind kind,
                const simulation::Setup& setup, const RunOptions& options) {
   RunOutcome outcome;
@@ -282,6 +298,7 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
     return outcome;
   }
   outcome.machine = std::move(*machine);
+  warnOfOpenMeshes(outcome, setup);
   outcome.machine->recordPath(options.recordPath);
   outcome.info.machine = outcome.machine->description().name;
   outcome.info.axes = outcome.machine->description().axes;

@@ -249,6 +249,22 @@ TEST(Run, StopsAnEndlessLoop) {
   EXPECT_EQ(answer.exit, 3) << answer.errors;
 }
 
+TEST(Run, WarnsOfAPartThatIsNoClosedBody) {
+  const Folder folder;
+  const std::string sheet =
+      "solid s\nfacet normal 0 0 1\nouter loop\nvertex -50 -50 0\nvertex 50 -50 0\nvertex 0 50 0\nendloop\nendfacet\n"
+      "endsolid\n";
+  folder.file("sheet.stl", sheet);
+  const std::string own =
+      folder.file("s.toml",
+                  "[control]\ntype = \"TNC640\"\n[part]\nfile = \"sheet.stl\"\npose = { z = -500 }\n"
+                  "[[tool]]\nnumber = 1\nkind = \"mill\"\nlength = 50\nradius = 5\n");
+  const std::string path = folder.file("a.h", "BEGIN PGM A MM\nL Z-10 R0 FMAX M30\nEND PGM A MM\n");
+  const Answer answer = probewright({"run", path, "--setup", own, "--out", (folder / "out").string()});
+  EXPECT_EQ(answer.exit, 0) << answer.errors;
+  EXPECT_THAT(answer.errors, HasSubstr(own + ": warning: the surface of \"part\" is not closed"));
+}
+
 TEST(Run, RefusesWhatItCannotRead) {
   const Folder folder;
   const std::string out = (folder / "out").string();
