@@ -73,6 +73,51 @@ TEST(CorrectionTargets, EachVariantIntoEachZeroOffset) {
   }
 }
 
+TEST(CorrectionTargets, TheTableAxisIntoEachZeroOffset) {
+  Planter plant(102);
+  for (const char* build : {"mill5-head-table", "mill5-table-table"}) {
+    for (const Target& target : targets) {
+      SCOPED_TRACE(fmt::format("{} on {}", target.knum, build));
+      const Vector3 place0(10, -5, -450);
+      const double set = plant.number(-3, 3), angle = set + plant.number(-6, 6);
+      simulation::Truth truth = perfectWorld(build);
+      place(truth, simulation::Box({0, -100, -80}, {200, 200, 0}),
+            translation(place0) * rotation(Vector3::UnitZ(), angle));
+      SinumerikBench bench(truth);
+      plantFrame(bench, "$P_CHBFR", 0, {place0.x(), place0.y(), 0});
+      plantFrame(bench, target.settable == 1 ? "$P_UIFR" : "$P_CHBFR", 1, {0, 0, place0.z()});
+      const auto axis = truth.machine.axisIndex("C");
+      ASSERT_TRUE(axis);
+      const NamedNumbers call = {{"S_MVAR", 100105},
+                                 {"S_KNUM", target.knum},
+                                 {"S_RA", static_cast<double>(*axis) + 1},
+                                 {"S_STA1", set},
+                                 {"S_FA", 13},
+                                 {"S_TSA", 10},
+                                 {"S_MA", 201},
+                                 {"S_MD", 1},
+                                 {"S_ID", 40}};
+      bench.start({-14, -20, -10}, target.settable);
+      if (target.global) {
+        EXPECT_EQ(bench.alarmOf("CYCLE998", call), "61322");
+        continue;
+      }
+      bench.run("CYCLE998", call);
+      EXPECT_NEAR(bench.ovr(16), angle - set, 1e-7);
+      const auto& writes = bench.control.journal.cycles.back().writes;
+      ASSERT_EQ(writes.size(), 1U);
+      EXPECT_EQ(writes[0].table, target.frame);
+      const std::string index = target.number < 0 ? "" : fmt::format("{},", target.number);
+      EXPECT_EQ(writes[0].entry, fmt::format("[{}C,{}]", index, target.coarse ? "TR" : "FI"));
+      // Positioned anew, the edge has its set angle.
+      bench.start({-40, -20, -10}, target.settable);
+      bench.run("CYCLE998", with(call, {{"S_MVAR", 100005}, {"S_KNUM", 0}, {"S_FA", 45}}), {},
+                "G0 Z80\nG0 C0\nG0 Z-10\n");
+      EXPECT_NEAR(bench.ovr(4), set, 1e-7);
+    }
+  }
+}
+
 TEST(CorrectionTargets, AFrameThatIsNotActiveGetsTheSameCorrection) {
   for (const Variant& variant : variants()) {
     SCOPED_TRACE(variant.name);
