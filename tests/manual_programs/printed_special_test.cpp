@@ -182,7 +182,7 @@ TEST_P(PrintedCalibration, Cycle460OnASphereOf25Millimetres) {
   const Ran ran = runs(before + probe(460, words));
   expect(ran, true, false);
   EXPECT_EQ(ran.outcome.files.contains("T1.3DTC"), isTNC640());
-  EXPECT_THAT(ran.log("TCHPRAUTO.html"), HasSubstr("2.0000"));
+  EXPECT_EQ(ran.log("TCHPRAUTO.html").find("2.0000") != std::string::npos, isTNC640());
   expect(runs(before + probe(460, with(words, {{433, 1}}))), true, true);
   // The older control knows three and four touches.
   const Ran more = part.bench.run(before + probe(460, with(words, {{423, 5}})));

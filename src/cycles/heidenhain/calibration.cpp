@@ -152,7 +152,10 @@ CalibratedRadius calibrateAside(Context& context, HeidenhainProber& prober, cons
   return calibrated;
 }
 
-void log(Context& context, const Rows& rows) { addToHtmlLog(context, {"", "Before", "After"}, rows); }
+/// The iTNC 530 keeps no log of calibrations.
+void log(Context& context, const Rows& rows) {
+  if (context.control().isTNC640()) addToHtmlLog(context, {"", "Before", "After"}, rows);
+}
 
 }  // namespace
 

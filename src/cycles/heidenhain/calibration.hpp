@@ -67,10 +67,10 @@ probing::HeidenhainProber calibrationProber(Context& context);
 /// touches how far of that is ball and how far offset.
 CalibratedRadius calibrateRadius(Context& context, probing::HeidenhainProber& prober, CalibrationTask task);
 
-/// Writes R and the centre offset, puts them into effect and notes them in TCHPRAUTO.html.
+/// Writes R and the centre offset, puts them into effect and, on the TNC 640, notes them in TCHPRAUTO.html.
 void storeRadius(Context& context, const CalibratedRadius& calibrated);
 
-/// Writes the effective length L (DL becomes 0), puts it into effect and notes it in TCHPRAUTO.html.
+/// Writes the effective length L (DL becomes 0), puts it into effect and, on the TNC 640, notes it in TCHPRAUTO.html.
 void storeLength(Context& context, double length);
 
 }  // namespace probewright::cycles::heidenhain
