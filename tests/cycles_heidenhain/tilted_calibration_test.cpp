@@ -1,4 +1,5 @@
 #include "cycles_heidenhain/worlds.hpp"
+#include "machine/description.hpp"
 
 /// Calibrations and single touches on machines with five axes: standards that lie in a tilted plane, with a stylus
 /// whose tip offset belongs to the spindle whatever the rotary axes do.
@@ -119,6 +120,23 @@ TEST(TiltedPlane, TouchesSinglePoints) {
       EXPECT_NEAR(four.q(10), face - world.ball, exact) << "the ball lies against the face";
     }
     EXPECT_LE(std::abs(three.q(10) - face + world.ball), world.tip.norm() + exact);
+    // In the machine's system: the ball below the spindle nose, wherever table and head stand. A hole, because the
+    // direction may be any.
+    world.part(simulation::Ring(20, 35, -40), {0, 90, 0});
+    const Ran machine = world.run(startAt(0, 90, -18) +
+                                  "TCH PROBE 3.0 M\nTCH PROBE 3.1 Q10\nTCH PROBE 3.2 X ANGLE: +0\n"
+                                  "TCH PROBE 3.3 DIST +30 F100 MB50 REFERENCE SYSTEM: 1\n");
+    EXPECT_EQ(machine.q(13), 1);
+    const auto& description = world.bench.setup.truth.machine;
+    const auto& touch = machine.cycle().touches.back();
+    const Vector3 below =
+        machine::baseFromSpindle(description, touch.latched) * Vector3(0, 0, -(world.length - world.ball));
+    EXPECT_LT((Vector3(machine.q(10), machine.q(11), machine.q(12)) - below).norm(), exact);
+    if (newer) {
+      // There the direction is one of the machine's axes, too: on a table the part is turned against it.
+      const Matrix3 inMachine = machine::baseFromTable(description, touch.latched).linear() * world.plane.linear();
+      EXPECT_LT((inMachine * touch.direction - Vector3::UnitX()).norm(), exact);
+    }
     if (!newer) continue;
     const Ran ran = world.run(
         probe(444, {{263, 0}, {264, 0}, {294, -8}, {581, -1}, {582, 0}, {583, 0}, {320, 1}, {260, 50}, {309, 0}},

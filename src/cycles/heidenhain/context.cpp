@@ -137,6 +137,14 @@ void orientToCalibration(control::Channel& channel, const probing::HeidenhainPro
   }
 }
 
+Eigen::Affine3d Context::machineFromProgram() {
+  const control::Channel& channel = control_.channel;
+  if (channel.following() != control::Following::Kinematics) return channel.frame();
+  const machine::MachineDescription& machine = channel.description();
+  return machine::baseFromTable(machine, channel.axes()) *
+         machine::baseFromTable(machine, channel.reference()).inverse() * channel.frame();
+}
+
 void Context::result(int number, double value, const Compared& compared) {
   const CycleDefinition& definition = arguments_.definition();
   const std::string name = fmt::format("Q{}", number);

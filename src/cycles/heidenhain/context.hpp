@@ -64,6 +64,9 @@ public:
   probing::HeidenhainProber& prober();
   double ballRadius() { return prober().probe().ballRadius; }
 
+  /// Machine coordinates (REF) from program coordinates, with the rotary axes of the table where they stand now.
+  Eigen::Affine3d machineFromProgram();
+
   /// Sets Qn (mm or degrees; converted to the program's unit) and records it as a result.
   void result(int number, double value, const Compared& compared = {});
   /// Sets Qn without recording: states and counters.

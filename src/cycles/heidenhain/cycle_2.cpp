@@ -48,7 +48,7 @@ void cycle2(Context& context, const Arguments&) {
   }
   auto prober = calibrationProber(context);
   const auto& plane = context.control().coordinates.plane;
-  const Vector3 place = plane.planeFromXyz(context.channel().frame().inverse() * centre);
+  const Vector3 place = plane.planeFromXyz(context.machineFromProgram().inverse() * centre);
   const double clearance = context.q(probe_word::height);
   CalibrationTask task{.centre = place.head<2>(),
                        .standardRadius = context.q(probe_word::radius),

@@ -31,7 +31,7 @@ void cycle9(Context& context, const Arguments&) {
   Vector3 tip = touch.ballCentre - Vector3(0, 0, prober.probe().ballRadius);
   const auto& plane = context.control().coordinates.plane;
   if (context.option(probe_word::referenceSystem) == 1) {
-    tip = plane.planeFromXyz(context.channel().frame() * plane.xyzFromPlane(tip));
+    tip = plane.planeFromXyz(context.machineFromProgram() * plane.xyzFromPlane(tip));
   }
   const auto& tool = context.control().tool;
   storeLength(context, tool.length + tool.deltaLength + tip.z() - context.q(probe_word::datum));

@@ -16,15 +16,6 @@ namespace {
 
 constexpr double touched = 1, notTouched = -1;
 
-/// The ball centre lies so far from the spindle axis, program coordinates.
-Vector3 tipOffset(Context& context, const probing::HeidenhainProbe& probe) {
-  auto& channel = context.channel();
-  const double turn = channel.machine().spindleAngle() - probe.calibrationAngle;
-  const Vector2 turned = Eigen::Rotation2Dd(radiansFromDegrees(turn)) * probe.tipOffset;
-  return channel.frame().linear().inverse() *
-         context.control().coordinates.plane.xyzFromPlane({turned.x(), turned.y(), 0});
-}
-
 }  // namespace
 
 void measureFreely(Context& context, const FreeMeasurement& measurement) {
@@ -35,12 +26,11 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
     throw Alarm("Parameter number wrong", fmt::format("Q{} leaves no room for four results", first),
                 "use a number up to 1996");
   }
-  const double scale = measurement.directionInMachine
-                           ? (channel.frame().linear().inverse() * measurement.direction.normalized()).norm()
-                           : 1.0;
-  const Vector3 inProgram = measurement.directionInMachine
-                                ? Vector3(channel.frame().linear().inverse() * measurement.direction)
-                                : measurement.direction;
+  const Eigen::Affine3d machineFromProgram = context.machineFromProgram();
+  const Matrix3 programFromDirection =
+      measurement.directionInMachine ? Matrix3(machineFromProgram.linear().inverse()) : Matrix3(Matrix3::Identity());
+  const double scale = (programFromDirection * measurement.direction.normalized()).norm();
+  const Vector3 inProgram = programFromDirection * measurement.direction;
   if (!(inProgram.norm() > 0)) {
     throw Alarm("Probing direction not defined", "The vector of the probing direction has no length",
                 "give at least one of IX, IY and IZ");
@@ -66,7 +56,10 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
     case MeasureEnd::Touched: {
       const control::Touch touch = channel.touchFrom(result);
       ball = touch.tip + toBall;
-      if (measurement.withTipOffset) ball += tipOffset(context, probe);
+      if (measurement.withTipOffset) {
+        const control::WorkingPlane& plane = control.coordinates.plane;
+        ball += plane.xyzFromPlane(probing::HeidenhainProber(channel, plane, probe).tipOffsetNow());
+      }
       record.ballCentre = ball;
       record.surface = ball + direction * probe.ballRadius;
       record.latched = touch.latched;
@@ -104,7 +97,7 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
     const double back = std::min(context.q(probe_word::retraction), (now - start).norm());
     channel.retractTo(now - direction * back, machine::Feed::rapidTraverse());
   }
-  if (measurement.resultInMachine) ball = channel.frame() * ball;
+  if (measurement.resultInMachine) ball = machineFromProgram * ball;
   for (int i = 0; i < 3; ++i) {
     control.q.setQ(first + i, ball[i] / control.unit);
     control::ResultRecord value;
