@@ -129,12 +129,17 @@ TEST(TiltedPlane, TouchesSinglePoints) {
     EXPECT_EQ(machine.q(13), 1);
     const auto& description = world.bench.setup.truth.machine;
     const auto& touch = machine.cycle().touches.back();
+    machine::AxisPositions turned = touch.latched;
+    for (std::size_t i = 0; i < description.axes.size(); ++i) {
+      if (description.axes[i].kind != machine::AxisKind::Rotary) turned[i] = 0;
+    }
     const Vector3 below =
+        machine::baseFromTable(description, turned) * machine::baseFromTable(description, touch.latched).inverse() *
         machine::baseFromSpindle(description, touch.latched) * Vector3(0, 0, -(world.length - world.ball));
     EXPECT_LT((Vector3(machine.q(10), machine.q(11), machine.q(12)) - below).norm(), exact);
     if (newer) {
       // There the direction is one of the machine's axes, too: on a table the part is turned against it.
-      const Matrix3 inMachine = machine::baseFromTable(description, touch.latched).linear() * world.plane.linear();
+      const Matrix3 inMachine = machine::baseFromTable(description, turned).linear() * world.plane.linear();
       EXPECT_LT((inMachine * touch.direction - Vector3::UnitX()).norm(), exact);
     }
     if (!newer) continue;

@@ -141,8 +141,13 @@ Eigen::Affine3d Context::machineFromProgram() {
   const control::Channel& channel = control_.channel;
   if (channel.following() != control::Following::Kinematics) return channel.frame();
   const machine::MachineDescription& machine = channel.description();
-  return machine::baseFromTable(machine, channel.axes()) *
-         machine::baseFromTable(machine, channel.reference()).inverse() * channel.frame();
+  // Linear axes count alike whether they move the table or the tool.
+  machine::AxisPositions turned = channel.axes();
+  for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    if (machine.axes[i].kind != machine::AxisKind::Rotary) turned[i] = 0;
+  }
+  return machine::baseFromTable(machine, turned) * machine::baseFromTable(machine, channel.reference()).inverse() *
+         channel.frame();
 }
 
 void Context::result(int number, double value, const Compared& compared) {

@@ -64,7 +64,8 @@ public:
   probing::HeidenhainProber& prober();
   double ballRadius() { return prober().probe().ballRadius; }
 
-  /// Machine coordinates (REF) from program coordinates, with the rotary axes of the table where they stand now.
+  /// Machine coordinates (REF) from program coordinates, with the rotary axes of the table where they stand now. Linear
+  /// axes count alike whether they move the table or the tool.
   Eigen::Affine3d machineFromProgram();
 
   /// Sets Qn (mm or degrees; converted to the program's unit) and records it as a result.
