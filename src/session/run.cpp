@@ -149,6 +149,21 @@ void goOnMoving(StandingMachine& machine, sin::Control& control) {
   control.channel.moveAxes(target, machine::Feed::rapidTraverse());
 }
 
+/// Runs the program `name`, if there is one; see sinumerik::HostOptions::callProgram.
+bool callAside(language::ProgramLibrary& library, language::Host& host, language::InterpreterOptions options,
+               std::string_view name, const language::Program* caller) {
+  if (!library.exists(name, caller)) return false;
+  const auto opened = library.open(name, caller);
+  if (!opened) throw control::Alarm("14011", opened.error().message, opened.error().advice);
+  const language::RunResult result = language::Interpreter(library, host, std::move(options)).run(*opened);
+  if (result.end == RunEnd::Finished) return true;
+  if (result.end == RunEnd::Cancelled || result.end == RunEnd::Halted) throw control::Cancelled();
+  const Diagnostic& why = result.diagnostics.front();
+  control::Alarm alarm(why.code, why.message, why.advice);
+  alarm.setPlace({why.place.file, why.place.line, 0});
+  throw alarm;
+}
+
 void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>& program, const fs::path& path,
                   const simulation::Setup& setup, const RunOptions& options) {
   SinumerikData data = sinumerikData(setup, outcome.diagnostics);
@@ -178,8 +193,14 @@ void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>&
   hostOptions.searchEnds = [&] {
     if (!control.programTest) goOnMoving(machine, control);
   };
-  sinumerik::SinumerikHost host(control, hostOptions);
   const auto library = programLibrary(outcome.control);
+  hostOptions.fileExists = [&](std::string_view name) { return library->exists(name, program.get()); };
+  sinumerik::SinumerikHost* running = nullptr;
+  hostOptions.callProgram = [&](std::string_view name, const language::Program* caller) {
+    return callAside(*library, *running, interpreterOptions(options, outcome.control), name, caller);
+  };
+  sinumerik::SinumerikHost host(control, hostOptions);
+  running = &host;
   language::Interpreter interpreter(*library, host, interpreterOptions(options, outcome.control));
   outcome.result = interpreter.run(program);
   if (control.blockSearch && outcome.result.end == RunEnd::Finished) {

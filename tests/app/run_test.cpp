@@ -308,5 +308,34 @@ TEST(Run, RefusesUnknownWords) {
   EXPECT_EQ(probewright({"run", program, "--setup", setup, "--on-stop", "dance"}).exit, 2);
 }
 
+/// The machine builder's program runs in front of each measuring cycle and is told which one.
+TEST(Run, CallsTheMachineBuildersProgramBeforeMeasuring) {
+  const Folder folder;
+  const std::string hook = folder.file("CUST_MEACYC.SPF",
+                                       "PROC CUST_MEACYC(INT CYCLE_1) SAVE\n"
+                                       "CASE CYCLE_1 OF 977 GOTOF _M977 978 GOTOF _M978 DEFAULT GOTOF _MEND\n"
+                                       "_M977: ; in front of CYCLE977\n"
+                                       "MSG(\"probe on for \"<<_OVI[2])\nR10=R10+1\nM17\n"
+                                       "_M978:\nSETAL(66001,\"no probe\")\nM17\n_MEND:\nM17\n");
+  const std::string bore =
+      "G17 G54 G90\nT1 M6\nD1\nG0 X60 Y40 Z50\nG1 Z-13 F2000\nCYCLE977(1,,,1,40,,,8,4)\nMSG(\"count \"<<R10)\n"
+      "R11=_OVR[4]\n";
+  const std::string housing = "examples/setups/housing-840dsl.toml";
+  const std::string good = folder.file("good.mpf", bore + "CYCLE977(1,,,1,40,,,8,4)\nMSG(\"again \"<<R10)\nM30\n");
+  const Answer ran = probewright({"run", good, "--setup", housing, "--out", (folder / "out").string()});
+  EXPECT_EQ(ran.exit, 0) << ran.errors;
+  EXPECT_THAT(ran.output, HasSubstr("probe on for 977"));
+  EXPECT_THAT(ran.output, HasSubstr("count 1"));
+  EXPECT_THAT(ran.output, HasSubstr("again 2"));
+  const Answer tested =
+      probewright({"run", good, "--setup", housing, "--out", (folder / "out").string(), "--program-test"});
+  EXPECT_THAT(tested.output, Not(HasSubstr("probe on"))) << "a cycle that is skipped calls nothing";
+  const std::string bad = folder.file("bad.mpf", bore + "CYCLE978(0,,,1,0,26,3,3,2,1)\nM30\n");
+  const Answer stopped = probewright({"run", bad, "--setup", housing, "--out", (folder / "out").string()});
+  EXPECT_EQ(stopped.exit, 3);
+  EXPECT_THAT(stopped.errors, HasSubstr(hook + ":8"));
+  EXPECT_THAT(stopped.errors, HasSubstr("66001"));
+}
+
 }  // namespace
 }  // namespace probewright::app::testing

@@ -116,6 +116,34 @@ TEST(CounterSpindle, CorrectsTheToolTheOtherWayRound) {
   }
 }
 
+TEST(CounterSpindle, MeasuresDiametersByOneAndByTwoPoints) {
+  // X is not mirrored: trigger points and tool corrections across stay as they are; the way round leads along the
+  // mirrored Z, off the face.
+  Planter plant(4712);
+  for (int world = 0; world < 30; ++world) {
+    LatheProbe probe = probeTowards(plant, 5);
+    probe.mount = {plant.number(-90, -80), 0, 0};
+    simulation::Setup setup = latheSetup(probe);
+    const double radius = plant.number(15, 22), wrong = plant.number(-0.3, 0.3);
+    counterBar(setup, radius, 300);
+    LatheBench bench(setup);
+    plantFrame(bench, "$P_UIFR", 1, 0, 300);
+    bench.set("$P_UIFR", {1, "Z", "MI"}, 1);
+    const bool two = world % 2 == 0, tool = world % 3 == 0;
+    const std::string call =
+        two ? fmt::format("CYCLE994({},,{},1,{:.12f},2,0,30,4,3,1,\"{}\",,0.0001,0,0,0,0,1,0,,2,0)", tool ? 202 : 2,
+                          tool ? 1 : 0, 2 * (radius - wrong), tool ? "FINISH" : "")
+            : fmt::format("CYCLE974({},,{},1,{:.12f},2,4,3,,1,\"{}\",,0.0001,0,0,0,0,1,0,,2,0)", tool ? 202 : 2,
+                          tool ? 1 : 0, 2 * (radius - wrong), tool ? "FINISH" : "");
+    bench.run("DIAMON\nG0 X300\nG0 Z60\nG0 X90\nG0 Z-10\n" + call);
+    EXPECT_NEAR(bench.ovr(4), 2 * radius, 1e-8) << world;
+    EXPECT_NEAR(bench.ovr(16), 2 * wrong, 1e-8);
+    if (tool) {
+      EXPECT_NEAR(bench.data("$TC_DP12", {2, 1}), std::abs(2 * wrong) > 0.0001 ? -wrong : 0, 1e-8);
+    }
+  }
+}
+
 TEST(CounterSpindle, CalibratesInTheDirectionsOfTheMachine) {
   LatheProbe probe;
   probe.position = 5;

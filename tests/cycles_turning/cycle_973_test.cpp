@@ -248,7 +248,7 @@ TEST(Cycle973, RefusesWhatItCannotDo) {
     EXPECT_EQ(bench.alarmOf(call(std::string(mvar) + ",1,1,,1,,3,4,300,1,,2,0")), "61307") << mvar;
   EXPECT_EQ(bench.alarmOf(call("2103,13,1,,1,,3,4,300,1,,2,0")), "61313");
   EXPECT_EQ(bench.alarmOf(call("2103,1,4,,1,,3,4,300,1,,2,0")), "61333");
-  EXPECT_EQ(bench.alarmOf(call("2103,1,,,1,,3,4,300,1,,2,0")), "61333");
+  EXPECT_EQ(bench.alarmOf(call("2103,1,0,,1,,3,4,300,1,,2,0")), "61333");
   EXPECT_EQ(bench.alarmOf(call("2103,1,3,,1,,3,4,300,1,,2,0")), "61319") << "groove 3 is not entered";
   EXPECT_EQ(bench.alarmOf(call("2103,1,1,,2,,3,4,300,1,,2,0")), "61325") << "no walls in X";
   EXPECT_EQ(bench.alarmOf(call("1103,1,1,,1,2,3,4,300,1,,2,0")), "61326");

@@ -147,6 +147,64 @@ TEST(Cycle994, PassesByAndMeasuresInAThirdAxis) {
   }
 }
 
+/// Outside, the zone leads the probe round: out to its edge above, across, and in from its edge below.
+TEST(Cycle994, TheZoneMakesTheWayRoundWiderByItsMeasure) {
+  Planter plant(9945);
+  for (int world = 0; world < 40; ++world) {
+    const LatheProbe probe = longProbe(plant);
+    simulation::Setup setup = latheSetup(probe);
+    const double radius = plant.number(15, 20), zone = radius + plant.number(8, 14), way = plant.number(24, 30);
+    place(setup.truth, simulation::RoundBar(radius, -100, 0), translation({0, 0, face}));
+    LatheBench bench(setup);
+    plantFrame(bench, "$P_UIFR", 1, 0, face);
+    const auto travelled = [&](int mvar, double size) {
+      const std::string start = "SUPA G0 Z500 D0\nDIAMON\nD1\nG0 X100\nG0 Z-20\n";
+      bench.run(start);
+      const double before = bench.control.channel.pathLength();
+      bench.run(start + fmt::format("CYCLE994({},,,1,{:.12f},2,{:.12f},{:.12f},3,1)", mvar, 2 * radius, 2 * size, way));
+      EXPECT_NEAR(bench.ovr(4), 2 * radius, 1e-8) << "world " << world;
+      return bench.control.channel.pathLength() - before;
+    };
+    const double start = radius + 3 + probe.ballRadius - probe.pretravel;
+    // Four times the way between start position and edge of the zone: out, half across and half across, in.
+    EXPECT_NEAR(travelled(1002, zone) - travelled(2, zone), 4 * (zone - start), 1e-6) << "world " << world;
+    EXPECT_NEAR(travelled(1002, radius) - travelled(2, 0), 0, 1e-6) << "a zone that the path keeps clear of anyway";
+  }
+}
+
+/// 301: the probe across the bed measures along Z and passes by in Y; the axis of the way round by S_MVAR as well.
+TEST(Cycle994, MeasuresAlongTheBedAndPassesByInAThirdAxis) {
+  struct Call {
+    int mvar, ma;
+  };
+  for (const Call call : {Call{2, 301}, Call{3002, 1}, Call{3002, 301}}) {
+    Planter plant(9946);
+    for (int world = 0; world < 20; ++world) {
+      LatheProbe probe;
+      probe.position = 8;
+      probe.mount = {0, 0, -50};
+      simulation::Setup setup = latheSetup(probe, "mill3");
+      const double half = plant.number(15, 20), shift = plant.number(-0.3, 0.3);
+      place(setup.truth, simulation::Box({-30, -10, -half}, {20, 10, half}), translation({50, 0, -350 + shift}));
+      LatheBench bench(setup);
+      bench.set("$TC_DP1", {1, 1}, 580);
+      bench.set("$TC_DP2", {1, 1}, 8);
+      bench.set("$TC_DP3", {1, 1}, 98);
+      bench.set("$TC_DP4", {1, 1}, 50);
+      bench.set("$SNS_MEA_WP_TRIG_MINUS_DIR_AX1", {0}, -2);
+      bench.set("$SNS_MEA_WP_TRIG_PLUS_DIR_AX1", {0}, 2);
+      bench.set("$MCS_MEA_FUNCTION_MASK", {}, 2);
+      plantFrame(bench, "$P_UIFR", 1, 50, -350);
+      bench.run(fmt::format("DIAMON\nG0 Z80\nG0 X0 Y0\nG0 Z40\nCYCLE994({},,,1,{:.12f},{},0,40,4,3)", call.mvar,
+                            2 * (half - 0.2), call.ma));
+      EXPECT_NEAR(bench.ovr(4), 2 * half, 1e-9) << call.mvar << " " << call.ma;
+      EXPECT_NEAR(bench.ovr(5), 2 * half, 1e-9);
+      EXPECT_NEAR(bench.ovr(17), 0.4, 1e-9);
+      EXPECT_EQ(bench.ovr(6), 0) << "axis 2 was not measured";
+    }
+  }
+}
+
 TEST(Cycle994, RefusesWhatItCannotDo) {
   LatheProbe probe;
   probe.position = 7;

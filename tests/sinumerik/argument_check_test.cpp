@@ -80,8 +80,10 @@ TEST(SinumerikArguments, WhatIsNeededDependsOnTheVariant) {
   EXPECT_EQ(missing("CYCLE997(9,,1,25,8,4)"), "");
   EXPECT_EQ(missing("CYCLE997(1009,,1,25,8,4)"), "S_INCA ");
   EXPECT_EQ(missing("CYCLE976(1,1,,,,,8,4)"), "S_SETV ");
-  EXPECT_EQ(missing("CYCLE973(100,1,,0,,1,8,4)"), "S_MA ");
-  EXPECT_EQ(missing("CYCLE973(102,1,,,,,8,4)"), "S_CALNUM ");
+  EXPECT_EQ(missing("CYCLE973(100,1,,0,0,1,8,4)"), "S_MA ");
+  EXPECT_EQ(missing("CYCLE973(102,1,0,,,,8,4)"), "S_CALNUM ");
+  // Groove 1, its axis 1, and the variant 12103 are what the call stands for without them.
+  EXPECT_EQ(missing("CYCLE973(,1,,,,,8,4)"), "");
   EXPECT_EQ(missing("CYCLE994(2,,,1,40,2,,,8,4)"), "S_SZO ");
   // A variant that only the run computes needs no more than all of them do.
   EXPECT_EQ(mistakesIn("CYCLE977(R1)\n").front(), std::string("1:12 argument 8 of CYCLE977: ") + path + " is missing");

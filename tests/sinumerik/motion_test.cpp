@@ -49,6 +49,54 @@ TEST(SinumerikMotion, FeedMustBeProgrammed) {
   EXPECT_EQ(world.alarm("X1 Q5\n"), "12080") << "the machine has no axis Q";
 }
 
+TEST(SinumerikMotion, ConstantCuttingSpeedTurnsTheSpindleByTheDiameter) {
+  World world("lathe2c");
+  const auto feed = [&world] { return world.machine.moves.back().feed.perMinute; };
+  const auto turns = [](double metres, double diameter) { return 1000 * metres / (std::numbers::pi * diameter); };
+  // A line along Z: the diameter stays. LIMS and S in any order of the block.
+  world.run("DIAMON G0 X80 Z5\nS120 LIMS=3000 G96 M4 F0.2\nG1 Z0\n");
+  EXPECT_NEAR(feed(), 0.2 * turns(120, 80), 1e-9);
+  // Across: the time is that of the middle diameter.
+  world.run("G1 X40\n");
+  EXPECT_NEAR(feed(), 0.2 * turns(120, 60), 1e-9);
+  world.run("G1 X0\n");
+  EXPECT_NEAR(feed(), 0.2 * turns(120, 20), 1e-9);
+  world.run("G1 Z-1\n");
+  EXPECT_EQ(feed(), 0.2 * 3000) << "at the turning centre LIMS holds";
+  // G97 keeps the speed that the spindle has; feeds per minute take no notice.
+  world.run("G0 X100\nG97\nG1 X50\n");
+  EXPECT_NEAR(feed(), 0.2 * turns(120, 100), 1e-9);
+  world.run("G961 S60 F150\nG1 X60\n");
+  EXPECT_EQ(feed(), 150);
+  world.run("G0 X20 S1000 G971\nG95 F0.1\nG1 X10\n");
+  EXPECT_EQ(feed(), 100);
+}
+
+TEST(SinumerikMotion, SpeedsOfOtherSpindlesAreNoConcernOfTheFeed) {
+  World world;
+  world.run("S1000 M3 S2=50 M2=4 G95 F0.2\nG1 X20\n");
+  EXPECT_EQ(world.machine.moves.back().feed.perMinute, 200);
+  world.run("S1=500 M1=3 G95 F0.2\nG1 X30\n");
+  EXPECT_EQ(world.machine.moves.back().feed.perMinute, 100);
+}
+
+TEST(SinumerikMotion, TheEdgeMayStandInFrontOfTheChange) {
+  for (const char* change : {"T=\"MILL\" D1\nM6\n", "T=\"MILL\"\nD1\nM6\n", "T1 D1 M6\n", "T1 M6\nD1\n"}) {
+    World world;
+    world.run(change + std::string("G0 Z0\n"));
+    EXPECT_NEAR(world.machine.moves.back().to[2], 100, 1e-12) << change;
+  }
+  World world;
+  EXPECT_EQ(world.alarm("T1 D9\nM6\n"), "17180");
+}
+
+TEST(SinumerikMotion, AxesThatTheMachineHasNotAreRefusedByNumber) {
+  World world("lathe2c");
+  world.run("G0 X80 Y0 Z5\n");
+  EXPECT_EQ(world.alarm("G0 Y5\n"), "12080");
+  EXPECT_EQ(world.alarm("G91 G1 X1 Y1 F100\n"), "12080");
+}
+
 TEST(SinumerikMotion, ToolLengthAndFramesMakeTheAxesPosition) {
   World world;
   world.control.data.load({"$P_UIFR", {1, "X", "TR"}}, 100.0);

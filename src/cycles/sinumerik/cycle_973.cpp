@@ -23,12 +23,12 @@ constexpr CodeDigit variant973[] = {{1, 1, "task", tasks973},
                                     {7, 1, "tool length", toolLength973}};
 
 constexpr Parameter parameters973[] = {
-    parameters::variant(variant973),
+    parameters::variant(variant973, 12103),
     parameters::dataSet(1),
-    parameters::count<3>(2, "S_CALNUM", "number of the reference groove, 1 to 3"),
+    parameters::count<3>(2, "S_CALNUM", "number of the reference groove, 1 to 3", 1),
     parameters::length(3, "S_SETV", "position of the surface"),
-    parameters::count<3>(4, "S_MA", "measuring axis: 1, 2 in the plane, 3 on a surface if the machine has it"),
-    parameters::count<1>(5, "S_MD", "measuring direction: 0 plus, 1 minus"),
+    parameters::count<3>(4, "S_MA", "measuring axis: 1, 2 in the plane, 3 on a surface if the machine has it", 1),
+    parameters::count<1>(5, "S_MD", "measuring direction: 0 plus, 1 minus", 1),
     parameters::measuringPath(6),
     parameters::safeArea(7),
     parameters::feed(8, "S_VMS", "measuring feed; 0: that of SD 55630"),

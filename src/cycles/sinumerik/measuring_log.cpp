@@ -16,7 +16,7 @@ namespace {
 using control::CycleRecord;
 using control::ResultRecord;
 
-constexpr std::size_t labelWidth = 46, valueWidth = 12;
+constexpr std::size_t leastLabelWidth = 46, valueWidth = 12;
 
 const ResultRecord* resultNamed(const CycleRecord& record, const std::string& name) {
   // The last one counts: a cycle may measure again.
@@ -83,16 +83,28 @@ std::string_view word(control::Verdict verdict) {
   return words[static_cast<std::size_t>(verdict)];
 }
 
+std::string labelOf(const MeasuredRow& row) {
+  return row.unit.empty() ? row.label : fmt::format("{} [{}]", row.label, row.unit);
+}
+
+/// As wide as the longest label asks.
+std::size_t labelWidthOf(const std::vector<MeasuredRow>& rows) {
+  std::size_t width = leastLabelWidth;
+  for (const MeasuredRow& row : rows)
+    width = std::max(width, labelOf(row).size());
+  return width;
+}
+
 /// The rows in columns, a heading above them.
 std::string columns(const std::vector<MeasuredRow>& rows) {
+  const std::size_t labelWidth = labelWidthOf(rows);
   const bool limits = std::ranges::any_of(rows, [](const MeasuredRow& row) { return row.lower || row.upper; });
   std::string text = fmt::format("{:<{}}{:>{w}}{:>{w}}{:>{w}}", "", labelWidth, "Setpoint", "Measured", "Difference",
                                  fmt::arg("w", valueWidth));
   if (limits) text += fmt::format("{:>{w}}{:>{w}}", "Lower limit", "Upper limit", fmt::arg("w", valueWidth));
   text += "\n";
   for (const MeasuredRow& row : rows) {
-    const std::string label = row.unit.empty() ? row.label : fmt::format("{} [{}]", row.label, row.unit);
-    std::string line = fmt::format("{:<{}}{:>{w}}{:>{w}}{:>{w}}", label, labelWidth, number(row.setpoint),
+    std::string line = fmt::format("{:<{}}{:>{w}}{:>{w}}{:>{w}}", labelOf(row), labelWidth, number(row.setpoint),
                                    number(row.measured), number(row.difference), fmt::arg("w", valueWidth));
     if (limits) line += fmt::format("{:>{w}}{:>{w}}", number(row.lower), number(row.upper), fmt::arg("w", valueWidth));
     if (row.verdict != control::Verdict::None) line += fmt::format("  {}", word(row.verdict));
@@ -119,6 +131,22 @@ std::string toolText(const Control& control) {
                      control.tool.edge);
 }
 
+/// The tool whose offset the call names: "T MILL D1 DL2"; empty if it corrects none.
+std::string correctedTool(const Control& control, const CycleRecord& record) {
+  const ResultRecord* tool = resultNamed(record, "_OVI[8]");
+  if (tool == nullptr || tool->value == 0) return {};
+  const auto value = [&record](const char* name) {
+    const ResultRecord* result = resultNamed(record, name);
+    return result == nullptr ? 0 : result->value;
+  };
+  const auto name = control.data.get("$TC_TP2", {static_cast<int>(tool->value)});
+  const std::string* text = name ? std::get_if<std::string>(&*name) : nullptr;
+  std::string line = fmt::format(
+      "T {} D{:.0f}", text != nullptr && !text->empty() ? *text : fmt::format("{:.0f}", tool->value), value("_OVI[0]"));
+  if (const double dl = value("_OVI[13]"); dl != 0) line += fmt::format(" DL{:.0f}", dl);
+  return line;
+}
+
 std::tm clock(const Control& control, double seconds) {
   return fmt::gmtime(static_cast<std::time_t>(control.wallClockStart + std::llround(seconds)));
 }
@@ -141,6 +169,8 @@ std::string textEntry(const Control& control, const MeasuringLog& log, const Cyc
   text += columns(measuredRows(record));
   if (const std::string probe = probeText(record); !probe.empty()) text += fmt::format("Probe number: {}   ", probe);
   text += toolText(control);
+  if (const std::string tool = correctedTool(control, record); !tool.empty())
+    text += fmt::format("   Corrected tool: {}", tool);
   if (const std::string target = corrected(record); !target.empty()) text += fmt::format("   Corrected: {}", target);
   if (!record.alarm.empty()) text += fmt::format("\nAlarm: {}", record.alarm);
   return text + "\n" + rule + "\n";
@@ -230,14 +260,18 @@ std::vector<MeasuredRow> measuredRows(const CycleRecord& record) {
 
 std::string resultScreen(const Control& control, const CycleRecord& record) {
   std::string text = fmt::format("{}  {}   {}\n", record.name, record.title, variantOf(record));
-  text += columns(measuredRows(record));
+  const std::vector<MeasuredRow> rows = measuredRows(record);
+  text += columns(rows);
+  const std::size_t labelWidth = labelWidthOf(rows);
   const auto line = [&](std::string_view name, const std::string& value) {
     if (!value.empty()) text += fmt::format("{:<{}}{}\n", name, labelWidth, value);
   };
   // Where the cycle leaves no result for it: as the call says.
-  if (ovr(record, 28) == nullptr) line("safe area", parameter(record, "S_TSA"));
+  if (std::ranges::none_of(rows, [](const MeasuredRow& row) { return row.label == "safe area"; }))
+    line("safe area", parameter(record, "S_TSA"));
   line("probe number", probeText(record));
   line("tool", toolText(control));
+  line("corrected tool", correctedTool(control, record));
   line("corrected", corrected(record));
   line("alarm", record.alarm);
   return text;

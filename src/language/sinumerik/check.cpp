@@ -61,6 +61,7 @@ private:
   Block block_;
   Diagnostics found_;
   std::set<std::string> declared_;
+  bool callsHook_ = false;             ///< a measuring cycle calls CUST_MEACYC
   std::map<std::string, Type> types_;  ///< of those whose DEF or PROC line tells it
   std::set<std::string> macros_;
   std::map<std::string, Diagnostic> unknown_;  ///< first use of each name that no DEF came before
@@ -260,8 +261,10 @@ void Checker::checkCall(const CallProgram& call) {
   }
   const std::size_t column = columnOf(path);
   if (call.maybeCycle) {
-    if (const cycles::CycleDefinition* cycle = cycles::sinumerikCycle(name))
+    if (const cycles::CycleDefinition* cycle = cycles::sinumerikCycle(name)) {
+      callsHook_ = true;
       return checkArguments(argumentMistakes(block_, call, *cycle, types_));
+    }
     if (name == "CYCLE800" || name == "CYCLE116") return checkArguments(serviceMistakes(block_, call, name, types_));
     if (isCycleWithoutEffect(name)) return;
     if (isMeasuringCycle(name))
@@ -337,6 +340,10 @@ Diagnostics Checker::run() {
     checkPriorities();
     for (const Instruction& instruction : block_.instructions)
       checkInstruction(instruction);
+  }
+  if (constexpr const char* hook = "CUST_MEACYC";
+      callsHook_ && options_.library != nullptr && options_.library->exists(hook, &program_)) {
+    if (const auto found = options_.library->open(hook, &program_)) called.push_back(*found);
   }
   for (auto& [name, mistake] : unknown_) {
     std::vector<std::string_view> names(declared_.begin(), declared_.end());

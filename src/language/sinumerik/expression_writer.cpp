@@ -63,7 +63,7 @@ std::string writeOperand(const Block& block, const Operand& operand, Priority ou
     return text.front() == '-' && outer > Priority::Comparison ? fmt::format("({})", text) : text;
   }
   const Node& node = block.nodes[static_cast<std::size_t>(operand.node)];
-  Priority own = Priority::Value;
+  Priority own = Priority::Single;
   std::string text;
   switch (node.operation) {
     case Operation::Number:
@@ -82,7 +82,7 @@ std::string writeOperand(const Block& block, const Operand& operand, Priority ou
       text += writeOperand(block, node.left, Priority::Sign);
       break;
     case Operation::Call:
-      own = block.at(node.text) == "CHAIN" ? Priority::Chain : Priority::Value;
+      own = block.at(node.text) == "CHAIN" ? Priority::Chain : Priority::Single;
       text = writeCall(block, node);
       break;
     default: {

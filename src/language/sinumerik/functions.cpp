@@ -205,6 +205,8 @@ std::string formatText(std::string_view format, std::span<const Value> arguments
   return out;
 }
 
+int wholeNumber(double value) { return static_cast<int>(std::lround(std::clamp(value, -2e9, 2e9))); }
+
 std::optional<Value> callFunction(std::string_view name, std::span<const Value> values,
                                   const FunctionQuestions& questions) {
   const Arguments arguments(name, values);

@@ -12,6 +12,9 @@
 /// The control's own functions: texts, axes, frames.
 namespace probewright::sinumerik {
 
+/// The number of an option, a function or a program: rounded, and within int whatever was computed.
+int wholeNumber(double value);
+
 using language::Value;
 
 /// What functions ask the control.

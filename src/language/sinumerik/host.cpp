@@ -184,6 +184,8 @@ void SinumerikHost::enter(const Program& program, const CallProgram* call, Evalu
   } else if (header != nullptr) {
     for (const BlockParser::Parameter& parameter : header->parameters)
       parameters.emplace(parameter.name, UserVariable(parameter.type, {}, 200));
+    if (measuringCycle_ && !header->parameters.empty() && header->parameters[0].type == Type::Int)
+      parameters.at(header->parameters[0].name).set(0, static_cast<double>(*measuringCycle_));
   }
   if (header != nullptr &&
       std::find(header->attributes.begin(), header->attributes.end(), "SAVE") != header->attributes.end())
@@ -202,7 +204,7 @@ void SinumerikHost::enter(const Program& program, const CallProgram* call, Evalu
 void SinumerikHost::restore(const SavedState& saved) {
   const MotionState left = state_;
   state_ = saved.motion;
-  state_.spindleSpeed = left.spindleSpeed;
+  if (left.constantCuttingSpeed == state_.constantCuttingSpeed) state_.spindleSpeed = left.spindleSpeed;
   state_.spindleDirection = left.spindleDirection;
   if (left.feedType == state_.feedType) state_.feed = left.feed;
   control_.plane = saved.plane;

@@ -25,6 +25,9 @@ struct HostOptions {
   /// `searchEnds` brings the machine to where the program stands.
   std::uint64_t searchLine = 0;
   std::function<void()> searchEnds = {};
+  /// Runs a program that the control calls by itself, if `caller` finds one of that name; false if not. Throws what the
+  /// program ends with.
+  std::function<bool(std::string_view name, const language::Program* caller)> callProgram = {};
 };
 
 /// Carries out the instructions of SINUMERIK programs on a control: its variables, motions, tools, frames and cycles.
@@ -96,6 +99,7 @@ private:
   void runCircle(language::WordRange arguments, Evaluation& evaluation);
   void runCycle(std::string_view name, language::WordRange arguments, Evaluation& evaluation);
   void runSwivel(language::WordRange arguments, Evaluation& evaluation);
+  void callBeforeMeasuring(int cycle);
 
   /// What SAVE keeps over a subprogram.
   struct SavedState {
@@ -128,6 +132,7 @@ private:
   const language::Block* block_ = nullptr;
   int preparedTool_ = -1;
   std::optional<int> edgeAfterChange_;
+  std::optional<int> measuringCycle_;  ///< what a program is told that is called in front of it
   std::set<std::string, std::less<>> skipped_;
 };
 

@@ -10,6 +10,7 @@
 #include "cycles/sinumerik/registry.hpp"
 #include "language/sinumerik/check.hpp"
 #include "language/sinumerik/cursor.hpp"
+#include "language/sinumerik/functions.hpp"
 #include "language/sinumerik/host.hpp"
 #include "language/sinumerik/swivel.hpp"
 
@@ -20,8 +21,6 @@ using namespace language;
 using control::Alarm;
 
 namespace {
-
-int wholeNumber(double value) { return static_cast<int>(std::lround(std::clamp(value, -2e9, 2e9))); }
 
 /// The parameters that an alarm speaks of, by their place in the call and their meaning.
 std::string namedArguments(const cycles::CycleDefinition& definition, const Alarm& alarm) {
@@ -77,6 +76,7 @@ void SinumerikHost::runCycle(std::string_view name, WordRange range, Evaluation&
       arguments.set(word.address, std::get<double>(value));
     }
   }
+  if (entry->run != nullptr) callBeforeMeasuring(definition.number);
   try {
     cycles::sinumerik::runCycle(control_, *entry, arguments, evaluation.place());
   } catch (const Alarm& alarm) {
@@ -84,6 +84,24 @@ void SinumerikHost::runCycle(std::string_view name, WordRange range, Evaluation&
     if (named.empty()) throw;
     throw Alarm(alarm.code(), alarm.text(), alarm.advice() + named);
   }
+}
+
+/// CUST_MEACYC, the machine builder's program in front of every measuring cycle. It is told the cycle's number by
+/// _OVI[2] and by its first parameter, if that is an INT.
+void SinumerikHost::callBeforeMeasuring(int cycle) {
+  if (!options_.callProgram || levels_.empty()) return;
+  if (control_.dryRun || control_.programTest || control_.blockSearch) return;
+  const Block* const block = block_;
+  const SourcePlace place = control_.panel.place;
+  control_.ovi[2] = cycle;
+  measuringCycle_ = cycle;
+  const bool called = options_.callProgram("CUST_MEACYC", levels_.back().program);
+  measuringCycle_.reset();
+  block_ = block;
+  control_.panel.place = place;
+  if (!called) return;
+  lastProgram_ = levels_.back().program;
+  motion_.flush();
 }
 
 void SinumerikHost::runSwivel(WordRange range, Evaluation& evaluation) {

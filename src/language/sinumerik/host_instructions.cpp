@@ -1,16 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "control/alarm.hpp"
 #include "control/sinumerik/text.hpp"
-#include "language/sinumerik/check.hpp"
 #include "language/sinumerik/functions.hpp"
 #include "language/sinumerik/host.hpp"
+#include "language/sinumerik/spindle_speed.hpp"
 
-/// What SINUMERIK blocks order besides motions: G and M functions, tools, frames, messages.
+/// What SINUMERIK blocks order besides motions and G functions: tools, M functions, frames, messages.
 namespace probewright::sinumerik {
 
 using namespace language;
@@ -18,20 +17,6 @@ using control::Alarm;
 using control::EventKind;
 using control::sinumerik::AxisValue;
 using control::sinumerik::Frame;
-
-namespace {
-
-int wholeNumber(double value) { return static_cast<int>(std::lround(std::clamp(value, -2e9, 2e9))); }
-
-std::optional<int> gNumber(std::string_view name) {
-  int number = 0;
-  if (name.size() < 2 || name[0] != 'G') return std::nullopt;
-  const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), number);
-  if (error != std::errc() || end != name.data() + name.size()) return std::nullopt;
-  return number;
-}
-
-}  // namespace
 
 // ---- tools ----
 
@@ -58,178 +43,6 @@ void SinumerikHost::changeTool() {
   preparedTool_ = -1;
   if (edgeAfterChange_) control_.selectEdge(*edgeAfterChange_);
   edgeAfterChange_.reset();
-  control_.handOverFrames();
-}
-
-// ---- G functions ----
-
-void SinumerikHost::carryOut(const Modal& modal, Evaluation& evaluation) {
-  const std::string_view name = evaluation.at(modal.name);
-  if (const std::string_view how = skippedFunction(name); !how.empty()) skip(name, how);
-  if (const auto number = gNumber(name)) return carryOutG(*number);
-  const auto words = evaluation.words(modal.words);
-  if (name.size() == 1 && words.size() == 1) {
-    const double value = evaluation.number(words[0].value);
-    switch (name[0]) {
-      case 'F':
-        state_.feed = value;
-        return;
-      case 'S':
-        state_.spindleSpeed = value;
-        return;
-      case 'D': {
-        motion_.flush();
-        const bool changesLater =
-            preparedTool_ >= 0 && block_ != nullptr &&
-            std::any_of(block_->instructions.begin(), block_->instructions.end(), [](const Instruction& each) {
-              const auto* function = std::get_if<MachineFunction>(&each);
-              return function != nullptr && function->number == 6;
-            });
-        if (changesLater) {
-          edgeAfterChange_ = wholeNumber(value);
-          return;
-        }
-        if (control_.tool.number == 0 && preparedTool_ > 0 && wholeNumber(value) > 0)
-          throw Alarm("17180",
-                      fmt::format("Illegal D number {}: tool {} is not yet in the spindle", value, preparedTool_),
-                      "write D behind M6, or into its block");
-        control_.selectEdge(wholeNumber(value));
-        control_.handOverFrames();
-        return;
-      }
-      default:
-        return;
-    }
-  }
-  carryOutNamedFunction(name, modal, evaluation);
-}
-
-void SinumerikHost::carryOutG(int number) {
-  auto& groups = state_.gGroup;
-  const auto settable = [&](int frame) {
-    motion_.flush();
-    control_.activateSettable(frame);
-  };
-  if (number >= 54 && number <= 57) {
-    groups[8] = number - 52;
-    return settable(number - 53);
-  }
-  if (number >= 505 && number <= 599) {
-    groups[8] = number - 499;
-    return settable(number - 500);
-  }
-  switch (number) {
-    case 0:
-    case 1:
-    case 2:
-    case 3: {
-      static constexpr MoveKind kinds[] = {MoveKind::Rapid, MoveKind::Linear, MoveKind::ArcClockwise,
-                                           MoveKind::ArcCounterclockwise};
-      state_.group1 = kinds[number];
-      groups[1] = number + 1;
-      return;
-    }
-    case 33:
-    case 34:
-    case 35:
-    case 63:
-    case 331:
-    case 332:
-      state_.group1 = MoveKind::Linear;
-      return;
-    case 17:
-    case 18:
-    case 19:
-      groups[6] = number - 16;
-      motion_.flush();
-      control_.plane = number;
-      return control_.handOverFrames();
-    case 40:
-      return motion_.setCompensation(RadiusCompensation::Off);
-    case 41:
-      return motion_.setCompensation(RadiusCompensation::Left);
-    case 42:
-      return motion_.setCompensation(RadiusCompensation::Right);
-    case 450:
-    case 451:
-      state_.cornerArc = number == 450;
-      groups[18] = number - 449;
-      return;
-    case 70:
-    case 700:
-    case 71:
-    case 710: {
-      const bool inch = number == 70 || number == 700;
-      control_.unit = inch ? 25.4 : 1;
-      state_.feedInInch = number == 700;
-      groups[13] = number == 70 ? 1 : number == 71 ? 2 : number == 700 ? 3 : 4;
-      return;
-    }
-    case 90:
-    case 91:
-      state_.incremental = number == 91;
-      groups[14] = number - 89;
-      return;
-    case 93:
-    case 94:
-    case 95:
-    case 96:
-    case 97:
-      // A feed of one kind means nothing to another.
-      if ((state_.feedType >= 95) != (number >= 95) || (state_.feedType == 93) != (number == 93)) state_.feed = 0;
-      state_.feedType = number;
-      groups[15] = number - 92;
-      return;
-    case 500:
-      groups[8] = 1;
-      return settable(0);
-    default:
-      return;
-  }
-}
-
-void SinumerikHost::carryOutNamedFunction(std::string_view name, const Modal& modal, Evaluation& evaluation) {
-  (void)modal;
-  (void)evaluation;
-  if (name == "DIAMON" || name == "DIAM90" || name == "DIAMOF" || name == "DIAMCYCOF") {
-    control_.diameter = name == "DIAMON" || name == "DIAM90";
-    state_.gGroup[29] = name == "DIAMON" ? 2 : name == "DIAM90" ? 3 : 1;
-    return;
-  }
-  if (name == "TRAORI" || name == "TRAFOOF") {
-    motion_.flush();
-    control_.transformation = name == "TRAORI";
-    control_.handOverFrames();
-    return;
-  }
-  const bool withOrigin = name == "TOFRAME" || name == "TOFRAMEZ";
-  if (withOrigin || name == "TOROT" || name == "TOROTZ") {
-    motion_.flush();
-    return alignFrameWithTool(withOrigin);
-  }
-  if (name == "TOROTOF") {
-    motion_.flush();
-    control_.frames.toolOriented = {};
-    return control_.handOverFrames();
-  }
-}
-
-/// TOROT: Z of the program lies along the tool, turned the shortest way; TOFRAME: and the tool tip is its origin.
-void SinumerikHost::alignFrameWithTool(bool withOrigin) {
-  Frame& frame = control_.frames.toolOriented;
-  const Eigen::Affine3d program = control_.machineFromWorkpiece();
-  const Vector3 along = program.linear() * control_.channel.toolAxis();
-  const Vector3 tip = program * control_.channel.position();
-  const Eigen::Affine3d outer =
-      control_.machineFromBase() * control::sinumerik::transform(control_.frames.settableFrame);
-  const Vector3 direction = (outer.linear().inverse() * along).normalized();
-  Eigen::Affine3d turned = Eigen::Affine3d::Identity();
-  turned.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), direction).toRotationMatrix();
-  if (withOrigin) turned.translation() = outer.inverse() * tip;
-  const auto aligned = control::sinumerik::frameFromTransform(turned);
-  if (!aligned) throw Alarm("18314", aligned.error().message, aligned.error().advice);
-  frame = *aligned;
-  if (withOrigin) control_.frames.programmed = {};
   control_.handOverFrames();
 }
 
@@ -349,6 +162,11 @@ void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
     const std::string axis = control::sinumerik::upperCase(evaluation.text(words[1].value));
     return motion_.position(axis, words[0].mode, evaluation.number(words[0].value));
   }
+  if (name == "LIMS") {
+    const bool main = words.size() < 2 || wholeNumber(evaluation.number(words[1].value)) == 1;
+    if (main) state_.speedLimit = evaluation.number(words[0].value);
+    return;
+  }
   if (name == "FA" && words.size() > 1) {
     state_.axisFeed[control::sinumerik::upperCase(evaluation.text(words[1].value))] = evaluation.number(words[0].value);
     return;
@@ -398,8 +216,8 @@ void SinumerikHost::dwell(const Command& command, Evaluation& evaluation) {
     const double value = evaluation.number(word.value);
     if (!(value >= 0)) throw Alarm("14020", "G4 cannot wait for a negative time");
     if (word.address == addressOf("F")) control_.channel.dwell(value);
-    if (word.address == addressOf("S") && state_.spindleSpeed > 0)
-      control_.channel.dwell(value / state_.spindleSpeed * 60);
+    const double speed = spindleSpeedAt(state_, control_.channel.position());
+    if (word.address == addressOf("S") && speed > 0) control_.channel.dwell(value / speed * 60);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "control/alarm.hpp"
 #include "control/sinumerik/text.hpp"
+#include "language/sinumerik/spindle_speed.hpp"
 
 namespace probewright::sinumerik {
 
@@ -87,7 +88,12 @@ void PathMotion::readAxis(std::uint32_t address, WordMode mode, double value, Wo
     // DIAM90: diameters in absolute positions only.
     const bool halved = asDiameter && !(incremental && state_.gGroup[29] == 3);
     const double length = value * control_.unit / (halved ? 2 : 1);
-    words.target.linear[*linear] = incremental ? start()[static_cast<Eigen::Index>(*linear)] + length : length;
+    const double from = start()[static_cast<Eigen::Index>(*linear)], to = incremental ? from + length : length;
+    if (!machineAxis(address) && std::abs(to - from) > 1e-6) {
+      throw Alarm("12080", fmt::format("the machine has no axis {}", addressName(address)),
+                  "the machine's description names its axes");
+    }
+    words.target.linear[*linear] = to;
     words.anyLinear = true;
     return;
   }
@@ -304,7 +310,8 @@ Feed PathMotion::feed(MoveKind kind, const Vector3& from, const Vector3& to) con
   if (kind == MoveKind::Rapid) return Feed::rapidTraverse();
   const double factor = state_.feedInInch ? control_.unit : 1;
   double perMinute = state_.feed * factor;
-  if (state_.feedType >= feedPerTurn) perMinute *= state_.spindleSpeed;
+  // The speed in the middle of a line gives the time of the whole line.
+  if (state_.feedType >= feedPerTurn) perMinute *= spindleSpeedAt(state_, (from + to) / 2);
   if (state_.feedType == 93) perMinute = state_.feed * std::max((to - from).norm(), 1e-3);
   if (!(perMinute > 0)) {
     const bool perTurn = state_.feedType >= feedPerTurn && state_.feed > 0;

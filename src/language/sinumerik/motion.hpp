@@ -22,13 +22,16 @@ using language::Evaluation;
 /// The modal state of a channel as far as motions need it.
 struct MotionState {
   language::MoveKind group1 = language::MoveKind::Linear;
-  bool incremental = false;        ///< G91
-  double feed = 0;                 ///< F as programmed
-  int feedType = 94;               ///< 93, 94, 95, 96, 97
-  bool feedInInch = false;         ///< G700
-  double spindleSpeed = 0;         ///< S
-  int spindleDirection = 5;        ///< 3, 4, 5
-  Vector3 pole = Vector3::Zero();  ///< of polar coordinates, program coordinates
+  bool incremental = false;           ///< G91
+  double feed = 0;                    ///< F as programmed
+  int feedType = 94;                  ///< 93, 94, 95, 96, 97
+  bool feedInInch = false;            ///< G700
+  double spindleSpeed = 0;            ///< S: rev/min; m/min with constant cutting speed
+  bool constantCuttingSpeed = false;  ///< G96, G961, G962
+  double speedLimit = 0;              ///< LIMS, rev/min; 0: none
+  double speedBefore = 0;             ///< S in front of G96, rev/min
+  int spindleDirection = 5;           ///< 3, 4, 5
+  Vector3 pole = Vector3::Zero();     ///< of polar coordinates, program coordinates
   language::RadiusCompensation compensation = language::RadiusCompensation::Off;
   bool cornerArc = true;                   ///< G450; false: G451
   double modalRounding = 0;                ///< RNDM, mm; 0: corners stay as they are

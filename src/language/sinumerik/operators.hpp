@@ -21,9 +21,9 @@ enum class Priority : int {
   BitAnd,
   Sum,
   Product,
-  Chain,  ///< frames: CTRANS(..):CROT(..)
-  Sign,   ///< unary operators
-  Value,
+  Chain,   ///< frames: CTRANS(..):CROT(..)
+  Sign,    ///< unary operators
+  Single,  ///< a number, a variable, a call
 };
 
 struct BinaryOperator {

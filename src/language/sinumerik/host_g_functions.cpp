@@ -1,0 +1,212 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "control/alarm.hpp"
+#include "language/sinumerik/check.hpp"
+#include "language/sinumerik/functions.hpp"
+#include "language/sinumerik/host.hpp"
+#include "language/sinumerik/spindle_speed.hpp"
+
+/// G functions, by number and by name.
+namespace probewright::sinumerik {
+
+using namespace language;
+using control::Alarm;
+using control::sinumerik::Frame;
+
+namespace {
+
+std::optional<int> gNumber(std::string_view name) {
+  int number = 0;
+  if (name.size() < 2 || name[0] != 'G') return std::nullopt;
+  const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), number);
+  if (error != std::errc() || end != name.data() + name.size()) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+void SinumerikHost::carryOut(const Modal& modal, Evaluation& evaluation) {
+  const std::string_view name = evaluation.at(modal.name);
+  if (const std::string_view how = skippedFunction(name); !how.empty()) skip(name, how);
+  if (const auto number = gNumber(name)) return carryOutG(*number);
+  const auto words = evaluation.words(modal.words);
+  if (name.size() == 1 && words.size() == 1) {
+    const double value = evaluation.number(words[0].value);
+    switch (name[0]) {
+      case 'F':
+        state_.feed = value;
+        return;
+      case 'S':
+        // S2= and so on are the speeds of other spindles.
+        if (words[0].address == addressOf("S") || words[0].address == addressOf("S1")) state_.spindleSpeed = value;
+        return;
+      case 'D': {
+        motion_.flush();
+        // T and D of the next tool stand in front of M6, in its block or while no tool is in the spindle.
+        const bool changesHere = block_ != nullptr && std::ranges::any_of(block_->instructions, [](const auto& each) {
+                                   const auto* function = std::get_if<MachineFunction>(&each);
+                                   return function != nullptr && function->number == 6;
+                                 });
+        const bool noToolYet = control_.tool.number == 0 && preparedTool_ > 0 && wholeNumber(value) > 0;
+        if (preparedTool_ >= 0 && (changesHere || noToolYet)) {
+          edgeAfterChange_ = wholeNumber(value);
+          return;
+        }
+        control_.selectEdge(wholeNumber(value));
+        control_.handOverFrames();
+        return;
+      }
+      default:
+        return;
+    }
+  }
+  carryOutNamedFunction(name, modal, evaluation);
+}
+
+void SinumerikHost::carryOutG(int number) {
+  auto& groups = state_.gGroup;
+  const auto settable = [&](int frame) {
+    motion_.flush();
+    control_.activateSettable(frame);
+  };
+  if (number >= 54 && number <= 57) {
+    groups[8] = number - 52;
+    return settable(number - 53);
+  }
+  if (number >= 505 && number <= 599) {
+    groups[8] = number - 499;
+    return settable(number - 500);
+  }
+  switch (number) {
+    case 0:
+    case 1:
+    case 2:
+    case 3: {
+      static constexpr MoveKind kinds[] = {MoveKind::Rapid, MoveKind::Linear, MoveKind::ArcClockwise,
+                                           MoveKind::ArcCounterclockwise};
+      state_.group1 = kinds[number];
+      groups[1] = number + 1;
+      return;
+    }
+    case 33:
+    case 34:
+    case 35:
+    case 63:
+    case 331:
+    case 332:
+      state_.group1 = MoveKind::Linear;
+      return;
+    case 17:
+    case 18:
+    case 19:
+      groups[6] = number - 16;
+      motion_.flush();
+      control_.plane = number;
+      return control_.handOverFrames();
+    case 40:
+      return motion_.setCompensation(RadiusCompensation::Off);
+    case 41:
+      return motion_.setCompensation(RadiusCompensation::Left);
+    case 42:
+      return motion_.setCompensation(RadiusCompensation::Right);
+    case 450:
+    case 451:
+      state_.cornerArc = number == 450;
+      groups[18] = number - 449;
+      return;
+    case 70:
+    case 700:
+    case 71:
+    case 710: {
+      const bool inch = number == 70 || number == 700;
+      control_.unit = inch ? 25.4 : 1;
+      state_.feedInInch = number == 700;
+      groups[13] = number == 70 ? 1 : number == 71 ? 2 : number == 700 ? 3 : 4;
+      return;
+    }
+    case 90:
+    case 91:
+      state_.incremental = number == 91;
+      groups[14] = number - 89;
+      return;
+    case 93:
+    case 94:
+    case 95:
+    case 96:
+    case 97:
+    case 961:
+    case 962:
+    case 971:
+    case 972:
+    case 973:
+      motion_.flush();
+      setFeedType(state_, number, control_.channel.position(),
+                  block_ != nullptr && std::ranges::any_of(block_->instructions, [this](const Instruction& each) {
+                    const auto* modal = std::get_if<Modal>(&each);
+                    return modal != nullptr && block_->at(modal->name) == "S";
+                  }));
+      groups[15] = number < 100    ? number - 92
+                   : number == 961 ? 7
+                   : number == 971 ? 8
+                   : number == 962 ? 11
+                   : number == 972 ? 12
+                                   : 13;
+      return;
+    case 500:
+      groups[8] = 1;
+      return settable(0);
+    default:
+      return;
+  }
+}
+
+void SinumerikHost::carryOutNamedFunction(std::string_view name, const Modal& modal, Evaluation& evaluation) {
+  (void)modal;
+  (void)evaluation;
+  if (name == "DIAMON" || name == "DIAM90" || name == "DIAMOF" || name == "DIAMCYCOF") {
+    control_.diameter = name == "DIAMON" || name == "DIAM90";
+    state_.gGroup[29] = name == "DIAMON" ? 2 : name == "DIAM90" ? 3 : 1;
+    return;
+  }
+  if (name == "TRAORI" || name == "TRAFOOF") {
+    motion_.flush();
+    control_.transformation = name == "TRAORI";
+    control_.handOverFrames();
+    return;
+  }
+  const bool withOrigin = name == "TOFRAME" || name == "TOFRAMEZ";
+  if (withOrigin || name == "TOROT" || name == "TOROTZ") {
+    motion_.flush();
+    return alignFrameWithTool(withOrigin);
+  }
+  if (name == "TOROTOF") {
+    motion_.flush();
+    control_.frames.toolOriented = {};
+    return control_.handOverFrames();
+  }
+}
+
+/// TOROT: Z of the program lies along the tool, turned the shortest way; TOFRAME: and the tool tip is its origin.
+void SinumerikHost::alignFrameWithTool(bool withOrigin) {
+  Frame& frame = control_.frames.toolOriented;
+  const Eigen::Affine3d program = control_.machineFromWorkpiece();
+  const Vector3 along = program.linear() * control_.channel.toolAxis();
+  const Vector3 tip = program * control_.channel.position();
+  const Eigen::Affine3d outer =
+      control_.machineFromBase() * control::sinumerik::transform(control_.frames.settableFrame);
+  const Vector3 direction = (outer.linear().inverse() * along).normalized();
+  Eigen::Affine3d turned = Eigen::Affine3d::Identity();
+  turned.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), direction).toRotationMatrix();
+  if (withOrigin) turned.translation() = outer.inverse() * tip;
+  const auto aligned = control::sinumerik::frameFromTransform(turned);
+  if (!aligned) throw Alarm("18314", aligned.error().message, aligned.error().advice);
+  frame = *aligned;
+  if (withOrigin) control_.frames.programmed = {};
+  control_.handOverFrames();
+}
+
+}  // namespace probewright::sinumerik
