@@ -107,6 +107,36 @@ TEST(Cycle978, CorrectsTheToolThatMadeTheFace) {
   EXPECT_NEAR(bench.data("$TC_DP12", {7, 1}), -0.01, 1e-12);
 }
 
+TEST(Cycle978, JudgesTheFaceByItsTolerance) {
+  // Where the face is touched in plus direction, what lies short of the set value is material left.
+  const auto judged = [](double error, const NamedNumbers& values) {
+    SinumerikBench bench(blockAt(translation({error, 0, -350})));
+    plantFrame(bench, "$P_UIFR", 1, {0, 0, -350});
+    bench.control.data.set("$TC_TP2", {7}, std::string("MILL_20"));
+    bench.set("$TC_DP1", {7, 1}, 120);
+    bench.set("$TC_DP6", {7, 1}, 10);
+    bench.set("$SCS_MEA_EMPIRIC_VALUE", {2}, 0.3);
+    bench.start({-12, 20, -10});
+    NamedNumbers call = {{"S_MVAR", 200}, {"S_KNUM1", 1}, {"S_FA", 9},    {"S_TSA", 1},   {"S_MA", 1},
+                         {"S_MD", 1},     {"_AMODE", 1},  {"S_TUL", 0.1}, {"S_TLL", -0.3}};
+    for (const auto& each : values)
+      call.push_back(each);
+    bench.run("CYCLE978", call, {{"S_TNAME", "MILL_20"}});
+    return bench.control.journal.cycles.back();
+  };
+  EXPECT_EQ(judged(0.05, {}).verdict, control::Verdict::Good);
+  EXPECT_EQ(judged(0.15, {}).verdict, control::Verdict::Scrap);
+  EXPECT_EQ(judged(-0.35, {}).verdict, control::Verdict::Rework);
+  EXPECT_EQ(judged(0.15, {{"S_EVNUM", 3}}).verdict, control::Verdict::Good) << "0.3 of it are the empirical value";
+  // The tool is worn out, the part still good.
+  EXPECT_EQ(judged(0.05, {{"S_TDIF", 0.02}}).verdict, control::Verdict::Good);
+  const control::CycleRecord record = judged(0.15, {});
+  const auto actual = std::ranges::find(record.results, "_OVR[4]", &control::ResultRecord::name);
+  ASSERT_NE(actual, record.results.end());
+  EXPECT_NEAR(actual->lowerLimit.value_or(99), -0.3, 1e-12);
+  EXPECT_NEAR(actual->upperLimit.value_or(99), 0.1, 1e-12);
+}
+
 TEST(Cycle978, SpindleReversalNeedsNoCalibratedDeviation) {
   simulation::Truth truth = blockAt(translation({0.5, -0.25, -350}));
   truth.tools[0].probe.tipOffset = {0.08, -0.05};

@@ -86,8 +86,12 @@ struct Dimension {
 double setValueOf(const Context& context, Task task, double programmed);
 
 /// What a size is compared with: its set value, and with a tolerance its limits and the verdict, which also counts for
-/// the whole cycle. A hole too small can be reworked, one too large cannot; a spigot the other way round.
+/// the whole cycle. A hole too small can be reworked, one too large cannot; a spigot the other way round. The empirical
+/// value is taken off first.
 Compared comparedSize(Context& context, Task task, double set, double actual, Side side);
+/// The same of the place of a surface that was touched in `direction` (+1, -1): short of its set value it can be
+/// reworked.
+Compared comparedSurface(Context& context, Task task, double set, double actual, double direction);
 
 /// The empirical value that S_EVNUM selects; 0 without. Alarm 61319 for a number beyond 20.
 double empiricalValue(Context& context);

@@ -89,8 +89,9 @@ void cycle978(Context& context, const Arguments&) {
   const double difference = actual - set - empirical;
   for (const int element : {0, 1 + axis})
     context.result(element, set);
+  const Compared compared = comparedSurface(context, task, set, actual, sign);
   for (const int element : {4, 5 + axis})
-    context.result(element, actual, {.nominal = set});
+    context.result(element, actual, compared);
   for (const int element : {16, 17 + axis})
     context.result(element, difference);
   context.noteCall();

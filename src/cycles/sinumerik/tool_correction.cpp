@@ -199,6 +199,11 @@ double setValueOf(const Context& context, Task task, double programmed) {
   return programmed + (context.real("S_TUL") + context.real("S_TLL")) / 2;
 }
 
+Compared comparedSurface(Context& context, Task task, double set, double actual, double direction) {
+  // Material in front of the set value, where the probe comes from, can still be taken away: as in a hole too small.
+  return comparedSize(context, task, set, actual, direction > 0 ? Side::Inside : Side::Outside);
+}
+
 Compared comparedSize(Context& context, Task task, double set, double actual, Side side) {
   Compared compared{.nominal = set};
   if (task != Task::Tool || !usesTolerance(context)) return compared;
@@ -206,7 +211,8 @@ Compared comparedSize(Context& context, Task task, double set, double actual, Si
   const metrology::Limits limits{set - half, set + half};
   compared.lower = limits.lower;
   compared.upper = limits.upper;
-  compared.verdict = side == Side::Inside ? boreVerdict(actual, limits) : studVerdict(actual, limits);
+  const double judged = actual - empiricalValue(context);
+  compared.verdict = side == Side::Inside ? boreVerdict(judged, limits) : studVerdict(judged, limits);
   context.record().verdict = worst(context.record().verdict, compared.verdict);
   return compared;
 }

@@ -85,7 +85,7 @@ void concludeTurned(Context& context, Task task, TurnedFeature feature, const Tu
   for (const int element : {0, 1 + axis})
     context.result(element, dimension.set);
   const Compared compared = feature == TurnedFeature::Face
-                                ? Compared{.nominal = dimension.set}
+                                ? comparedSurface(context, task, dimension.set, dimension.actual, direction)
                                 : comparedSize(context, task, dimension.set, dimension.actual,
                                                feature == TurnedFeature::Inside ? Side::Inside : Side::Outside);
   for (const int element : {4, 5 + axis})
