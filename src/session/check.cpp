@@ -5,6 +5,7 @@
 #include "base/file.hpp"
 #include "language/klartext/check.hpp"
 #include "language/sinumerik/check.hpp"
+#include "session/global_data.hpp"
 #include "session/source.hpp"
 
 namespace probewright::session {
@@ -16,17 +17,24 @@ Diagnostics checkProgram(const std::filesystem::path& path, std::optional<contro
   if (!kind) return {kind.error()};
   const Result<std::shared_ptr<language::Program>> program = openProgram(path, languageFor(*kind, path, *text));
   if (!program) return {program.error()};
-  return checkProgram(**program, *kind);
+  if (control::isHeidenhain(*kind)) return checkProgram(**program, *kind);
+  Diagnostics found;
+  const sinumerik::GlobalUserData globalData = globalUserData(path, {}, found);
+  const Diagnostics more = checkProgram(**program, *kind, {}, &globalData);
+  found.insert(found.end(), more.begin(), more.end());
+  return found;
 }
 
-Diagnostics checkProgram(language::Program& program, control::ControlKind kind, std::set<std::string> globalVariables) {
+Diagnostics checkProgram(language::Program& program, control::ControlKind kind, std::set<std::string> globalVariables,
+                         const sinumerik::GlobalUserData* globalData) {
   const auto library = programLibrary(kind);
   if (control::isHeidenhain(kind)) {
     return language::klartext::checkProgram(static_cast<language::klartext::HeidenhainProgram&>(program), kind,
                                             library.get());
   }
-  return sinumerik::check(static_cast<sinumerik::SinumerikProgram&>(program),
-                          {.library = library.get(), .globalVariables = std::move(globalVariables)});
+  return sinumerik::check(
+      static_cast<sinumerik::SinumerikProgram&>(program),
+      {.library = library.get(), .globalVariables = std::move(globalVariables), .globalData = globalData});
 }
 
 }  // namespace probewright::session

@@ -9,15 +9,20 @@
 #include "control/control_kind.hpp"
 #include "language/program.hpp"
 
+namespace probewright::sinumerik {
+class GlobalUserData;
+}
+
 namespace probewright::session {
 
 /// Every mistake of a program that can be seen without running it, in the order of its lines; programs that it calls
-/// are looked for beside it, and with SINUMERIK checked too.
+/// are looked for beside it, and with SINUMERIK checked too; there also definition files of global user data.
 Diagnostics checkProgram(const std::filesystem::path& path, std::optional<control::ControlKind> control);
 
-/// The same for a program that is open; it must be one of the language of `kind`. `globalVariables`: global user data
-/// of the control, upper case.
+/// The same for a program that is open; it must be one of the language of `kind`. `globalVariables`: names of
+/// data that the control has values for, upper case; `globalData`: what its definition files declare, null if nothing.
 Diagnostics checkProgram(language::Program& program, control::ControlKind kind,
-                         std::set<std::string> globalVariables = {});
+                         std::set<std::string> globalVariables = {},
+                         const sinumerik::GlobalUserData* globalData = nullptr);
 
 }  // namespace probewright::session

@@ -7,6 +7,7 @@
 
 #include "base/file.hpp"
 #include "control/alarm.hpp"
+#include "control/sinumerik/text.hpp"
 #include "language/din_iso/host.hpp"
 #include "language/encoding.hpp"
 #include "language/klartext/host.hpp"
@@ -15,6 +16,7 @@
 #include "records/results.hpp"
 #include "session/beliefs.hpp"
 #include "session/check.hpp"
+#include "session/global_data.hpp"
 #include "session/source.hpp"
 #include "session/standing_machine.hpp"
 #include "simulation/mesh_solid.hpp"
@@ -111,7 +113,7 @@ void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>
 }
 
 /// The SINUMERIK control's data as initialization texts: the files that were read, or one for tools, frames and the
-/// rest.
+/// rest. Global user data that no file mentions go into the first *.GUD, or into one of their own.
 void addDataFiles(RunOutcome& outcome, const SinumerikData& data, const sin::DataStore& store) {
   const auto keep = [&](const std::string& name, Result<std::string> text) {
     if (text) {
@@ -120,24 +122,51 @@ void addDataFiles(RunOutcome& outcome, const SinumerikData& data, const sin::Dat
       outcome.diagnostics.push_back(text.error());
     }
   };
-  if (!data.files.empty()) {
-    for (std::size_t i = 0; i < data.files.size(); ++i) {
-      // What no file mentions goes into the first one.
-      const bool first = i == 0;
-      keep(data.files[i].name, data.files[i].text.updated(store, [first](const sin::DataKey&) { return first; }));
-    }
-    return;
-  }
   const auto written = [&](const char* name, const sin::InitText::Accepts& accepts) {
     sin::DataStore nothing;
     Diagnostics none;
     keep(name, sin::InitText::parse("M17\n", name, nothing, none).updated(store, accepts));
   };
+  const auto isUserData = [](const sin::DataKey& key) { return !key.name.starts_with('$') && key.name != "R"; };
+  std::set<sin::DataKey> inFiles;
+  for (const SinumerikData::File& file : data.files)
+    inFiles.merge(file.text.keys());
+  const auto mentioned = [&](const sin::DataKey& key) { return inFiles.contains(key); };
+  const std::vector<sin::DataKey> keys = store.keys();
+  const bool newUserData =
+      std::ranges::any_of(keys, [&](const sin::DataKey& key) { return isUserData(key) && !mentioned(key); });
+  const auto holdsUserData = [](const SinumerikData::File& file) {
+    return sin::upperCase(file.name).ends_with(".GUD");
+  };
+  const auto userFile = std::ranges::find_if(data.files, holdsUserData);
+  const auto otherFile = std::ranges::find_if_not(data.files, holdsUserData);
+  for (auto file = data.files.begin(); file != data.files.end(); ++file) {
+    keep(file->name, file->text.updated(store, [&](const sin::DataKey& key) {
+      return !mentioned(key) && file == (isUserData(key) ? userFile : otherFile);
+    }));
+  }
+  if (newUserData && userFile == data.files.end())
+    written("USER.GUD", [&](const sin::DataKey& key) { return isUserData(key) && !mentioned(key); });
+  if (otherFile != data.files.end()) return;
   const auto isTool = [](const sin::DataKey& key) { return key.name.starts_with("$TC_"); };
   const auto isFrame = [](const sin::DataKey& key) { return sin::isFrameName(key.name); };
-  written("TOOLS.TOA", isTool);
-  written("FRAMES.UFR", isFrame);
-  written("DATA.INI", [&](const sin::DataKey& key) { return !isTool(key) && !isFrame(key); });
+  written("TOOLS.TOA", [&](const sin::DataKey& key) { return isTool(key) && !mentioned(key); });
+  written("FRAMES.UFR", [&](const sin::DataKey& key) { return isFrame(key) && !mentioned(key); });
+  written("DATA.INI", [&](const sin::DataKey& key) {
+    return !isTool(key) && !isFrame(key) && !isUserData(key) && !mentioned(key);
+  });
+}
+
+/// The definition files of the folder of tables, as they are, so that what the run leaves can be the tables of the
+/// next.
+void addDefinitionFiles(RunOutcome& outcome, const fs::path& tables) {
+  if (tables.empty()) return;
+  std::error_code error;
+  for (fs::directory_iterator entry(tables, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (sinumerik::definitionFileName(name).empty()) continue;
+    if (Result<std::string> text = readFile(entry->path())) outcome.files[name] = std::move(*text);
+  }
 }
 
 /// Behind a block search the machine catches up: tool, spindle, then straight to where the program stands.
@@ -165,8 +194,11 @@ bool callAside(language::ProgramLibrary& library, language::Host& host, language
 }
 
 void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>& program, const fs::path& path,
-                  const simulation::Setup& setup, const RunOptions& options) {
+                  const simulation::Setup& setup, const sinumerik::GlobalUserData& globalData,
+                  const RunOptions& options) {
   SinumerikData data = sinumerikData(setup, outcome.diagnostics);
+  sinumerik::HostOptions hostOptions;
+  hostOptions.globalData = globalData.variables(data.store, outcome.diagnostics);
   if (hasErrors(outcome.diagnostics)) return;
   StandingMachine machine(*outcome.machine);
   sin::Control control(machine, data.store);
@@ -187,7 +219,6 @@ void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>&
   control.blockSearch = options.searchLine.has_value();
   const bool stands = control.programTest || control.blockSearch;
   if (stands) machine.hold();
-  sinumerik::HostOptions hostOptions;
   hostOptions.strict = options.strict;
   hostOptions.searchLine = options.searchLine.value_or(0);
   hostOptions.searchEnds = [&] {
@@ -216,6 +247,7 @@ void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>&
 
   outcome.files = control.panel.files();
   addDataFiles(outcome, data, control.data);
+  addDefinitionFiles(outcome, setup.tables);
   const Eigen::Affine3d workpiece = control.machineFromBase() * sin::transform(control.frames.settableFrame);
   outcome.machineFromWorkpiece = Pose(workpiece.matrix());
   outcome.ballRadius = control.tool.radius;
@@ -258,14 +290,13 @@ void conclude(RunOutcome& outcome) {
   }
 }
 
-/// The names of global user data (GUD) that files of the setup's table folder give values to.
-std::set<std::string> globalUserData(const simulation::Setup& setup, ControlKind kind) {
+/// The names of all data that the setup and the files of its table folder give values to.
+std::set<std::string> namesOfData(const simulation::Setup& setup, ControlKind kind) {
   std::set<std::string> names;
   if (control::isHeidenhain(kind)) return names;
   Diagnostics ignored;  // the run names them
-  for (const sin::DataKey& key : sinumerikData(setup, ignored).store.keys()) {
-    if (!key.name.starts_with('$')) names.insert(key.name);
-  }
+  for (const sin::DataKey& key : sinumerikData(setup, ignored).store.keys())
+    names.insert(key.name);
   return names;
 }
 
@@ -307,7 +338,11 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
     conclude(outcome);
     return outcome;
   }
-  outcome.diagnostics = checkProgram(*program, kind, globalUserData(setup, kind));
+  const sinumerik::GlobalUserData globalData = control::isHeidenhain(kind)
+                                                   ? sinumerik::GlobalUserData()
+                                                   : globalUserData(path, setup.tables, outcome.diagnostics);
+  const Diagnostics mistakes = checkProgram(*program, kind, namesOfData(setup, kind), &globalData);
+  outcome.diagnostics.insert(outcome.diagnostics.end(), mistakes.begin(), mistakes.end());
   if (hasErrors(outcome.diagnostics)) {
     conclude(outcome);
     return outcome;
@@ -327,7 +362,7 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
     if (control::isHeidenhain(kind)) {
       runHeidenhain(outcome, program, path, setup, options);
     } else {
-      runSinumerik(outcome, program, path, setup, options);
+      runSinumerik(outcome, program, path, setup, globalData, options);
     }
   } catch (const control::Alarm& alarm) {
     // Before the first block: an active preset or a tool in the spindle that the tables do not have.

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/file.hpp"
 #include "base/toml_table.hpp"
@@ -347,14 +348,23 @@ private:
   }
 
   void readFrames() {
+    const auto refuse = [&](TomlReader& reader, const char* key, const char* what, const char* instead) {
+      reader.report(key, fmt::format("the {} has no {}", control::name(*setup_.control), what),
+                    fmt::format("Write {}, or leave [control] type out if the setup serves both", instead));
+    };
+    const bool heidenhain = setup_.control && control::isHeidenhain(*setup_.control);
+    bool told = false;
     for (TomlReader& reader : root_.tables("preset")) {
       BelievedFrame frame;
+      if (setup_.control && !heidenhain && !std::exchange(told, true))
+        refuse(reader, "row", "preset table", "[[zero_offset]]");
       reader.require("row");
       frame.index = static_cast<int>(reader.integer("row", 0, 9999).value_or(1));
       readFrame(reader, frame, setup_.presets, "row");
     }
     for (TomlReader& reader : root_.tables("zero_offset")) {
       BelievedFrame frame;
+      if (heidenhain && !std::exchange(told, true)) refuse(reader, "name", "settable zero offsets", "[[preset]]");
       if (auto name = reader.requiredText("name")) {
         frame.name = *name;
         const auto index = zeroOffsetIndex(*name);

@@ -36,8 +36,6 @@ seed = 42
 [machine]
 name = "mill5-table-table"
 start = { X = 10, C = 400 }
-[control]
-type = "840Dsl"
 [ring]
 diameter = 50
 pose = { x = 100, z = -500 }
@@ -100,7 +98,7 @@ MP6140 = 3
 flag = true
 )");
   EXPECT_EQ(setup.truth.seed, 42u);
-  EXPECT_EQ(setup.control, control::ControlKind::Sinumerik840Dsl);
+  EXPECT_EQ(read("[control]\ntype = \"840Dsl\"").control, control::ControlKind::Sinumerik840Dsl);
   EXPECT_EQ(setup.truth.machine.axes.size(), 5u);
   EXPECT_EQ(setup.truth.start[0], 10);
   EXPECT_EQ(setup.truth.start[4], 400);
@@ -367,6 +365,11 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"[[preset]]\nrow = 1\n[[preset]]\nrow = 1", "s.toml:4:7: error: this row stands here twice"},
         Mistake{"[[preset]]\nrow = 1\nactive = true\n[[preset]]\nrow = 2\nactive = true", "only one can be active"},
         Mistake{"[[preset]]\nrow = 1\nrotary = { X = 1 }", "the machine has no rotary axis called X"},
+        Mistake{"[control]\ntype = \"TNC640\"\n[[zero_offset]]\nname = \"G54\"\n[[zero_offset]]\nname = \"G55\"",
+                "s.toml:4:8: error: the TNC640 has no settable zero offsets\n    Write [[preset]], or leave [control] "
+                "type"},
+        Mistake{"[control]\ntype = \"840Dsl\"\n[[preset]]\nrow = 1",
+                "s.toml:4:7: error: the 840Dsl has no preset table\n    Write [[zero_offset]]"},
         Mistake{"[[zero_offset]]\nname = \"G58\"", "s.toml:2:8: error: \"G58\" is no settable zero offset"},
         Mistake{"[errors.axis.W]\nscale_mm_per_m = 1", "the machine has no axis called W"},
         Mistake{"[errors.axis.X]\nscale = 1", "s.toml:2:1: error: unknown key \"scale\" in [errors.axis.X]"},

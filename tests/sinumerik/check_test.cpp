@@ -67,6 +67,7 @@ TEST(SinumerikCheck, NamesAllMistakesInTheOrderOfTheProgram) {
       "AB_1: R1=$XYZ\n"
       "DEF INT DEPTH\n"
       "M30\n");
+  ASSERT_EQ(found.size(), 9u);
   std::vector<std::string> messages;
   for (const Diagnostic& diagnostic : found)
     messages.push_back(std::to_string(diagnostic.place.line) + ":" + std::to_string(diagnostic.place.column) + " " +
@@ -79,6 +80,7 @@ TEST(SinumerikCheck, NamesAllMistakesInTheOrderOfTheProgram) {
                           "7:7 the destination AB_2 is missing",
                           "8:1 the label AB_1 stands also in line 4",
                           "8:10 the control has no system variable $XYZ",
+                          "9:1 this DEF stands behind the first block that is carried out",
                           "9:9 the variable DEPTH is declared twice",
                       }));
   EXPECT_EQ(found[0].advice, "Did you mean DEPTH?");
@@ -130,6 +132,65 @@ TEST(SinumerikCheck, ArgumentsOfMeasuringCyclesAreHeldAgainstTheCatalogue) {
   ASSERT_FALSE(text.empty());
   EXPECT_NE(text[0].message.find("argument 1 of CYCLE977: S_MVAR"), std::string::npos) << text[0].message;
   EXPECT_EQ(text[0].place.column, 10u);
+}
+
+/// The messages of errors, those of warnings in parentheses.
+std::string told(const std::string& text) {
+  std::string all;
+  for (const Diagnostic& each : checkText(text)) {
+    const std::string line = std::to_string(each.place.line) + ":" + std::to_string(each.place.column);
+    all +=
+        each.severity == Severity::Error ? line + " " + each.message + "\n" : "(" + line + " " + each.message + ")\n";
+  }
+  return all;
+}
+
+TEST(SinumerikCheck, SystemVariablesAreKnownByTheirNames) {
+  for (const char* wrong : {"$P_UIFRR[1,X,TR]", "$SNS_MEA_WP_BALL_DIAMM[0]", "$TC_DPX[1,1]", "$TC_DP26[1,1]",
+                            "$AA_FOO[X]", "$AC_TIMR", "$A_IM[1]", "$P_", "$TC_", "$FOO"}) {
+    const std::string name = std::string(wrong).substr(0, std::string(wrong).find('['));
+    EXPECT_EQ(told(std::string("R1=") + wrong + "\nM30"), "1:4 the control has no system variable " + name + "\n");
+    EXPECT_EQ(told(std::string(wrong) + "=1\nM30"), "1:1 the control has no system variable " + name + "\n");
+  }
+  for (const char* right :
+       {"$P_UIFR[1,X,TR]", "$SNS_MEA_WP_BALL_DIAM[0]", "$TC_DP25[1,1]", "$TC_SCP13[1,1]", "$TC_TP2[1]", "$AA_IW[X]",
+        "$AA_MW1[X]", "$AC_TIME", "$A_YEAR", "$P_TOOLNO", "$MC_MM_NUM_USER_FRAMES", "$PI", "$P_IFRAME[X,TR]", "$R[1]",
+        "$SCS_MEA_EMPIRIC_VALUE[3]", "$AC_MARKER[1]", "$TC_CARR34[1]"})
+    EXPECT_EQ(told(std::string("R1=") + right + "\nM30"), "");
+  // The control has it, the virtual machine nothing behind it: named once.
+  EXPECT_EQ(told("R1=$AA_CURR[X]\nR2=$AA_CURR[Y]\n$MN_FOO=3\nM30"),
+            "(1:4 $AA_CURR has no meaning here)\n(3:1 $MN_FOO has no meaning here)\n");
+  const Diagnostics close = checkText("R1=$P_UIFRR[1,X,TR]\nR2=$SNS_MEA_WP_BALL_DIAMM[0]\nM30");
+  ASSERT_EQ(close.size(), 2u);
+  EXPECT_EQ(close[0].advice, "Did you mean $P_UIFR?");
+  EXPECT_EQ(close[1].advice, "Did you mean $SNS_MEA_WP_BALL_DIAM?");
+}
+
+TEST(SinumerikCheck, NamesOfDataThatTheControlHasAreRight) {
+  const auto program = SinumerikProgram::fromText("test.mpf", "R1=$MN_USER_DATA_INT[1]\nR2=$AA_FOO[X]\nM30");
+  CheckOptions options;
+  options.globalVariables = {"$MN_USER_DATA_INT", "$AA_FOO"};
+  EXPECT_TRUE(check(*program, options).empty());
+}
+
+TEST(SinumerikCheck, DefinitionsStandAtTheBeginning) {
+  EXPECT_EQ(told("G0 X1\nDEF REAL XX1\nDEF REAL XX2\nXX1=XX2\nM30"),
+            "2:1 this DEF stands behind the first block that is carried out\n");
+  EXPECT_EQ(told("; remark\nPROC MAIN(REAL AA_1)\nEXTERN SUB_1(REAL)\nN10 DEF REAL XX1\nDEFINE QUICK AS G0\n"
+                 "DEF INT XX2\nXX1=XX2\nM30"),
+            "");
+}
+
+TEST(SinumerikCheck, OnlyTheCauseOfABrokenProcIsTold) {
+  EXPECT_EQ(told("PROC SUB_1(REAL AA_1,REAL B,INT CC_1)\nAA_1=CC_1+AA_1\nM17"),
+            "1:27 the name B of a parameter does not begin with two letters or underscores\n");
+  EXPECT_EQ(told("PROC SUB_1(RAEL AA_1,INT CC_1)\nAA_1=CC_1\nM17"), "1:12 the type of a parameter was expected\n");
+}
+
+TEST(SinumerikCheck, LengthsBelowZeroAreMistakes) {
+  EXPECT_NE(told("CYCLE978(0,,,1,0,-5,3,1,1)\nM30").find("argument 6 of CYCLE978: S_FA"), std::string::npos);
+  EXPECT_NE(told("CYCLE978(0,,,1,0,5,-3,1,1)\nM30").find("argument 7 of CYCLE978: S_TSA"), std::string::npos);
+  EXPECT_EQ(told("CYCLE978(0,,,1,0,5,3,1,1)\nM30"), "");
 }
 
 }  // namespace

@@ -445,6 +445,14 @@ InitText InitText::parse(std::string_view bytes, std::string file, DataStore& st
   return text;
 }
 
+std::set<DataKey> InitText::keys() const {
+  std::set<DataKey> keys;
+  for (const Assignment& assignment : assignments_)
+    for (const auto& [key, value] : assignment.values)
+      keys.insert(key);
+  return keys;
+}
+
 std::string InitText::bytes() const {
   std::string bytes;
   for (const std::string& line : lines_)

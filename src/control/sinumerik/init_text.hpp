@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,6 +35,9 @@ public:
 
   /// The text as it was read.
   std::string bytes() const;
+
+  /// The data that it gives values to.
+  std::set<DataKey> keys() const;
 
   /// The text with the values of `store`: an assignment is rewritten only if one of its values differs, the last one
   /// where a datum is assigned more than once. Data that the text doesn't mention come before the end (M17, M30, M2,

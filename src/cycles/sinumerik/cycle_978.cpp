@@ -89,9 +89,8 @@ void cycle978(Context& context, const Arguments&) {
   const double difference = actual - set - empirical;
   for (const int element : {0, 1 + axis})
     context.result(element, set);
-  const Compared compared = comparedSurface(context, task, set, actual, sign);
-  for (const int element : {4, 5 + axis})
-    context.result(element, actual, compared);
+  context.result(4, actual, comparedSurface(context, task, set, actual, sign));
+  context.result(5 + axis, actual, {.nominal = set});
   for (const int element : {16, 17 + axis})
     context.result(element, difference);
   context.noteCall();

@@ -55,6 +55,13 @@ constexpr Parameter length(std::uint32_t address, std::string_view name, std::st
           .controls = control::onSinumerik};
 }
 
+/// A length that no cycle takes below 0.
+constexpr Parameter distance(std::uint32_t address, std::string_view name, std::string_view meaning) {
+  Parameter parameter = length(address, name, meaning);
+  parameter.minimum = 0;
+  return parameter;
+}
+
 constexpr Parameter angle(std::uint32_t address, std::string_view name, std::string_view meaning) {
   return {.name = name,
           .address = address,
@@ -131,10 +138,10 @@ constexpr Parameter dataSet(std::uint32_t address) {
   return count<12>(address, "S_PRNUM", "calibration data set of the probe, 1 to 12; 0 counts as 1", 1);
 }
 constexpr Parameter measuringPath(std::uint32_t address) {
-  return length(address, "S_FA", "measuring path DFA: from the start position to the expected surface");
+  return distance(address, "S_FA", "measuring path DFA: from the start position to the expected surface");
 }
 constexpr Parameter safeArea(std::uint32_t address) {
-  return length(address, "S_TSA", "safe area: a larger difference from the set value stops the program");
+  return distance(address, "S_TSA", "safe area: a larger difference from the set value stops the program");
 }
 constexpr Parameter repetitions(std::uint32_t address) {
   return count<9>(address, "S_NMSP", "number of measurements at the same place, 1 to 9; 0 counts as 1", 1);
@@ -144,10 +151,11 @@ constexpr Parameter dlNumber(std::uint32_t address) {
   return code(address, "S_DLNUM", "DL number of the additive or setup offset");
 }
 constexpr Parameter zeroOffsetRange(std::uint32_t address) {
-  return length(address, "S_TZL", "zero offset range: smaller differences correct no tool");
+  return distance(address, "S_TZL", "zero offset range: smaller differences correct no tool");
 }
 constexpr Parameter dimensionalDifference(std::uint32_t address) {
-  return length(address, "S_TDIF", "dimensional difference check: beyond it the tool counts as worn out; 0: no check");
+  return distance(address, "S_TDIF",
+                  "dimensional difference check: beyond it the tool counts as worn out; 0: no check");
 }
 constexpr Parameter upperTolerance(std::uint32_t address) {
   return length(address, "S_TUL", "upper tolerance limit, from the set value");
@@ -156,7 +164,7 @@ constexpr Parameter lowerTolerance(std::uint32_t address) {
   return length(address, "S_TLL", "lower tolerance limit, from the set value");
 }
 constexpr Parameter meanRange(std::uint32_t address) {
-  return length(address, "S_TMV", "range of the mean: larger differences correct at once and whole");
+  return distance(address, "S_TMV", "range of the mean: larger differences correct at once and whole");
 }
 constexpr Parameter weight(std::uint32_t address) { return code(address, "S_K", "weighting factor of the mean"); }
 constexpr Parameter memories(std::uint32_t address) {

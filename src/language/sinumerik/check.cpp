@@ -9,7 +9,9 @@
 #include "cycles/catalogue.hpp"
 #include "language/sinumerik/argument_check.hpp"
 #include "language/sinumerik/cursor.hpp"
+#include "language/sinumerik/global_data.hpp"
 #include "language/sinumerik/keywords.hpp"
+#include "language/sinumerik/known_system_variables.hpp"
 #include "language/sinumerik/operators.hpp"
 #include "language/sinumerik/writer.hpp"
 
@@ -64,6 +66,9 @@ private:
   bool callsHook_ = false;             ///< a measuring cycle calls CUST_MEACYC
   std::map<std::string, Type> types_;  ///< of those whose DEF or PROC line tells it
   std::set<std::string> macros_;
+  bool begun_ = false;                         ///< a block was met that is carried out
+  bool toldOrder_ = false;                     ///< of a DEF behind it
+  std::set<std::string> told_;                 ///< system variables that were reported
   std::map<std::string, Diagnostic> unknown_;  ///< first use of each name that no DEF came before
 };
 
@@ -89,29 +94,35 @@ void Checker::report(std::size_t column, std::string message, std::string advice
 
 void Checker::declare(const Instruction& instruction) {
   const Command* command = std::get_if<Command>(&instruction);
+  const std::string_view what = command == nullptr ? std::string_view() : block_.at(command->name);
+  begun_ = begun_ || (what != "DEF" && what != "DEFINE" && what != "PROC" && what != "EXTERN");
   if (command == nullptr) return;
-  const std::string_view what = block_.at(command->name);
   if (what == "DEF") {
     std::string name(block_.at(block_.variables[static_cast<std::size_t>(command->variable)].name));
+    if (begun_ && !toldOrder_) {
+      toldOrder_ = true;
+      report(columnOf("DEF"), "this DEF stands behind the first block that is carried out",
+             "The control refuses it with alarm 14500: put all DEF at the beginning of the program.");
+    }
     if (!declared_.insert(name).second)
       report(columnOf(name), "the variable " + name + " is declared twice", "Remove one of the two DEF.");
-    if (Type type = Type::Real; typeOf(block_.at(command->text), type)) types_.emplace(name, type);
+    if (Type type = Type::Real; typeOf(block_.at(command->text), type)) types_.insert_or_assign(name, type);
   } else if (what == "DEFINE") {
     const std::string text = upperCase(block_.at(command->text));
     macros_.insert(text.substr(0, text.find(' ')));
   }
 }
 
-/// A DEF with a mistake has been reported; that its variables are missing then need not be said again.
+/// A DEF or PROC with a mistake has been reported; that its variables are missing then need not be said again.
 void Checker::declareFromBrokenBlock() {
   const std::string line = upperCase(block_.at(block_.source));
   Cursor cursor(line);
   std::string_view word;
-  while (!cursor.atEnd() && word != "DEF") {
+  while (!cursor.atEnd() && word != "DEF" && word != "PROC") {
     word = cursor.name();
     if (word.empty()) cursor.advance();
   }
-  if (word != "DEF") return;
+  if (word != "DEF" && word != "PROC") return;
   for (bool inText = false; !cursor.atEnd();) {
     const char c = cursor.peek();
     if (c == '"') inText = !inText;
@@ -130,23 +141,27 @@ void Checker::checkNames() {
     if (variable.space == VariableSpace::R) continue;
     const std::string name(block_.at(variable.name));
     if (variable.space == VariableSpace::User) {
-      const bool known = declared_.contains(name) || isGlobalUserData(name) ||
+      const bool defined = options_.globalData != nullptr && options_.globalData->find(name) != nullptr;
+      const bool known = declared_.contains(name) || isGlobalUserData(name) || defined ||
                          options_.globalVariables.contains(name) || macros_.contains(name);
       if (known || unknown_.contains(name)) continue;
       unknown_.emplace(name, complaint(columnOf(name), "nothing of the name " + name + " is declared",
-                                       "Declare it at the beginning of the program: DEF REAL " + name + "."));
+                                       "Declare it at the beginning of the program: DEF REAL " + name +
+                                           ", or as global user data in a definition file beside it (UGUD.DEF)."));
       continue;
     }
-    static constexpr std::string_view families[] = {
-        "$P_",  "$A_",  "$AA_", "$AC_", "$AN_",  "$VA_",  "$VC_",  "$TC_",  "$MN_",  "$MC_",  "$MA_",
-        "$MD_", "$SN_", "$SC_", "$SA_", "$SNS_", "$SCS_", "$SAS_", "$MNS_", "$MCS_", "$MAS_", "$PI",
-        "$AD_", "$NT_", "$NK_", "$NP_", "$AS_",  "$PA_",  "$R",    "$SYG_", "$SYM_"};
-    const std::string_view bare = name.starts_with("$$") ? std::string_view(name).substr(1) : name;
-    const bool known = std::any_of(std::begin(families), std::end(families),
-                                   [&](std::string_view family) { return bare.starts_with(family); });
-    if (!known)
-      report(columnOf(name), "the control has no system variable " + name,
-             "System variables begin with $P_, $AA_, $AC_, $A_, $TC_, $MN_, $MC_, $MA_, $SNS_, $SCS_ and the like.");
+    const std::string bare = name.starts_with("$$") ? name.substr(1) : name;
+    const SystemName known = options_.globalVariables.contains(bare) ? SystemName::Simulated : systemName(bare);
+    if (known == SystemName::Simulated || !told_.insert(bare).second) continue;
+    if (known == SystemName::Elsewhere) {
+      report(columnOf(name), name + " has no meaning here",
+             "It reads as 0 unless a value is given; nothing follows it.", Severity::Warning);
+      continue;
+    }
+    const std::string meant = meantSystemName(bare);
+    report(columnOf(name), "the control has no system variable " + name,
+           meant.empty() ? "Compare the name with the control's list of system variables."
+                         : "Did you mean " + meant + "?");
   }
 }
 
@@ -325,10 +340,13 @@ void Checker::checkLabels() {
 }
 
 Diagnostics Checker::run() {
+  if (options_.globalData != nullptr)
+    for (const GlobalDatum& datum : options_.globalData->data())
+      types_.emplace(datum.name, datum.variable.type());
   if (const auto& header = program_.structure().header())
     for (const BlockParser::Parameter& parameter : header->parameters) {
       declared_.insert(parameter.name);
-      types_.emplace(parameter.name, parameter.type);
+      types_.insert_or_assign(parameter.name, parameter.type);
     }
   for (BlockPosition at = program_.begin();; at = block_.next) {
     const std::size_t before = found_.size();
@@ -347,6 +365,9 @@ Diagnostics Checker::run() {
   }
   for (auto& [name, mistake] : unknown_) {
     std::vector<std::string_view> names(declared_.begin(), declared_.end());
+    if (options_.globalData != nullptr)
+      for (const GlobalDatum& datum : options_.globalData->data())
+        names.push_back(datum.name);
     const std::string_view close = closestName(name, names);
     if (declared_.contains(name)) {
       mistake.message = name + " is used before its DEF";

@@ -9,11 +9,15 @@
 
 namespace probewright::sinumerik {
 
+class GlobalUserData;
+
 struct CheckOptions {
   /// Where called programs are looked for; null: calls of other programs are not checked.
   language::ProgramLibrary* library = nullptr;
-  /// Global user data of the control besides those of the measuring cycles, upper case.
+  /// Names of data that the control has values for, upper case: global user data, system variables.
   std::set<std::string> globalVariables;
+  /// What definition files declare; null: none are known.
+  const GlobalUserData* globalData = nullptr;
 };
 
 /// Reads the whole program, and those that it calls by name, without running them and names every mistake: those of

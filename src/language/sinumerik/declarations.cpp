@@ -126,9 +126,15 @@ void BlockParser::parseProcedure(std::string_view keyword) {
 
 bool BlockParser::parseHeader(std::string_view text, Header& header, std::string& mistake, std::size_t& mistakeOffset) {
   Cursor cursor(text);
+  std::size_t word = 0;  // where the last name began
   const auto refuse = [&](std::string why) {
     mistake = std::move(why);
     mistakeOffset = cursor.offset();
+    return false;
+  };
+  const auto refuseWord = [&](std::string why) {
+    mistake = std::move(why);
+    mistakeOffset = word;
     return false;
   };
   cursor.skipBlanks();
@@ -138,22 +144,26 @@ bool BlockParser::parseHeader(std::string_view text, Header& header, std::string
     for (;;) {
       Parameter parameter;
       cursor.skipBlanks();
-      std::string_view word = cursor.name();
-      if (word == "VAR") {
+      word = cursor.offset();
+      std::string_view type = cursor.name();
+      if (type == "VAR") {
         parameter.byReference = true;
         cursor.skipBlanks();
-        word = cursor.name();
+        word = cursor.offset();
+        type = cursor.name();
       }
-      if (!typeOf(word, parameter.type)) return refuse("the type of a parameter was expected");
+      if (!typeOf(type, parameter.type)) return refuseWord("the type of a parameter was expected");
       if (parameter.type == Type::String && cursor.take('[')) {
         cursor.skipBlanks();
         cursor.digits();
         if (!cursor.take(']')) return refuse("']' expected behind the length of the text");
       }
       cursor.skipBlanks();
+      word = cursor.offset();
       parameter.name = std::string(cursor.name());
       if (!parameter.name.empty() && (parameter.name.size() < 2 || !isNameStart(parameter.name[1])))
-        return refuse("the name " + parameter.name + " of a parameter does not begin with two letters or underscores");
+        return refuseWord("the name " + parameter.name +
+                          " of a parameter does not begin with two letters or underscores");
       if (cursor.take('[')) {
         do {
           cursor.skipBlanks();

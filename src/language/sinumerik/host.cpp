@@ -33,10 +33,14 @@ SinumerikHost::SinumerikHost(Control& control, HostOptions options)
     state_.gGroup[14] = 2;
     state_.incremental = true;
   }
+  variables_.global() = options_.globalData;
   state_.gGroup[29] = control.initialFunction(29) == 3 ? 3 : control.diameter ? 2 : 1;
 }
 
-SinumerikHost::~SinumerikHost() { storeParameters(); }
+SinumerikHost::~SinumerikHost() {
+  storeParameters();
+  storeGlobalData();
+}
 
 std::string SinumerikHost::code(Refusal refusal) const {
   switch (refusal) {
@@ -239,7 +243,9 @@ void SinumerikHost::leave(const Program&) {
   }
   if (level.saved) restore(*level.saved);
   lastProgram_ = nullptr;
-  if (levels_.empty()) storeParameters();
+  if (!levels_.empty()) return;
+  storeParameters();
+  storeGlobalData();
 }
 
 }  // namespace probewright::sinumerik

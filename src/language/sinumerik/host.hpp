@@ -28,6 +28,9 @@ struct HostOptions {
   /// Runs a program that the control calls by itself, if `caller` finds one of that name; false if not. Throws what the
   /// program ends with.
   std::function<bool(std::string_view name, const language::Program* caller)> callProgram = {};
+  /// Global user data with their values at the start. What programs change of them goes into the control's data when the
+  /// last one ends.
+  UserVariables::Scope globalData = {};
 };
 
 /// Carries out the instructions of SINUMERIK programs on a control: its variables, motions, tools, frames and cycles.
@@ -74,6 +77,7 @@ private:
   void fill(const language::Command& command, Evaluation& evaluation);
   bool isVariableNamed(std::string_view text);
   void storeParameters();
+  void storeGlobalData();
 
   // host_instructions.cpp
   void carryOut(const language::Assign& assign, Evaluation& evaluation);

@@ -7,6 +7,7 @@
 #include "control/sinumerik/measuring_data.hpp"
 #include "control/sinumerik/text.hpp"
 #include "language/sinumerik/check.hpp"
+#include "language/sinumerik/global_data.hpp"
 #include "language/sinumerik/host.hpp"
 
 /// Variables of SINUMERIK programs: R parameters, user variables, global user data, system variables.
@@ -44,6 +45,11 @@ void SinumerikHost::storeParameters() {
     if (rChanged_[i]) control_.data.set("R", {static_cast<int>(i)}, r_[i]);
     rChanged_[i] = false;
   }
+}
+
+void SinumerikHost::storeGlobalData() {
+  storeChanges(options_.globalData, variables_.global(), control_);
+  options_.globalData = variables_.global();
 }
 
 SinumerikHost::ResolvedVariable SinumerikHost::resolve(const VariableRef& variable, Evaluation& evaluation) const {
@@ -218,39 +224,7 @@ bool SinumerikHost::isVariableNamed(std::string_view text) {
 
 void SinumerikHost::declare(const Command& command, Evaluation& evaluation) {
   const VariableRef& variable = evaluation.block().variables[static_cast<std::size_t>(command.variable)];
-  const std::string_view name = evaluation.at(variable.name);
-  Type type = Type::Real;
-  typeOf(evaluation.at(command.text), type);
-  std::array<int, 3> sizes{};
-  std::size_t elements = 1;
-  for (std::size_t i = 0; i < 3 && variable.index[i].present(); ++i) {
-    const double size = evaluation.number(variable.index[i]);
-    if (!(size >= 1 && size <= 1000000) || size != std::floor(size) || static_cast<double>(elements) * size > 65536)
-      throw Alarm("12200", fmt::format("an array cannot have {} elements in dimension {}", size, i + 1));
-    sizes[i] = static_cast<int>(size);
-    elements *= static_cast<std::size_t>(size);
-  }
-  const auto words = evaluation.words(command.words);
-  int length = 0;
-  for (const Word& word : words)
-    if (word.address == addressOf("LEN"))
-      length = static_cast<int>(std::clamp(evaluation.number(word.value), 0.0, 1e6));
-  UserVariable declared(type, sizes, length);
-  std::size_t place = 0;
-  for (const Word& word : words) {
-    if (word.address == addressOf("LEN")) continue;
-    if (word.address == addressOf("REP")) {
-      const Value value = evaluation.value(word.value);
-      for (std::size_t i = 0; i < declared.count(); ++i)
-        declared.set(i, value);
-      break;
-    }
-    if (place >= declared.count())
-      throw Alarm("17020", fmt::format("the list of first values of {} is longer than the array", name));
-    if (word.value.present()) declared.set(place, evaluation.value(word.value));
-    ++place;
-  }
-  variables_.declare(name, std::move(declared));
+  variables_.declare(evaluation.at(variable.name), declaredVariable(command, evaluation));
 }
 
 /// NAME[i]=SET(...) from that element on, NAME[i]=REP(value) to the end of the array, REP(value, count).

@@ -10,6 +10,7 @@
 #include "control/alarm.hpp"
 #include "control/sinumerik/text.hpp"
 #include "control/sinumerik/tool_data.hpp"
+#include "language/sinumerik/datum_check.hpp"
 #include "language/sinumerik/functions.hpp"
 
 namespace probewright::sinumerik {
@@ -74,6 +75,7 @@ DataKey dataKey(std::string_view name, std::span<const Value> indices) {
 }
 
 Value SystemVariables::read(std::string_view name, std::span<const Value> indices) {
+  requireDatum(name, indices, nullptr, control_.data);
   if (name == "$PI") return std::numbers::pi;
   if (name.starts_with("$TC_")) return datum(name, indices);
   if (name.starts_with("$AA_") || name.starts_with("$P_EP") || name.starts_with("$VA_"))
@@ -295,6 +297,8 @@ bool SystemVariables::writeFrame(std::string_view name, std::span<const Value> i
     const auto part = indices.size() > own + 1 ? control::sinumerik::framePartOf(axisAt(indices, own + 1, name))
                                                : std::optional(FramePart::Translation);
     if (!part) throw Alarm("17030", fmt::format("{} has the components TR, FI, RT, SC and MI", name));
+    if (!control::sinumerik::geometryAxisOf(axis) && !motion_.machineAxis(language::addressOf(axis)))
+      throw Alarm(own == 0 ? "17020" : "17030", fmt::format("{}: there is no axis {}", name, axis));
     const bool length = *part == FramePart::Translation || *part == FramePart::Fine;
     after.set(axis, *part, *number * (length && control::sinumerik::geometryAxisOf(axis) ? unit() : 1));
   }
@@ -326,6 +330,7 @@ bool SystemVariables::writeFrame(std::string_view name, std::span<const Value> i
 
 void SystemVariables::write(std::string_view name, std::span<const Value> indices, const Value& value) {
   motion_.flush();
+  requireDatum(name, indices, &value, control_.data);
   if (writeFrame(name, indices, value)) return;
   const bool computed = name.starts_with("$AA_") || name == "$P_TOOLNO" || name == "$P_TOOL" || name == "$P_UIFRNUM" ||
                         name == "$P_ACTFRAME" || name == "$P_ACTBFRAME" || name == "$P_GG" || name == "$PI" ||

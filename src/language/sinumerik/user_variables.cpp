@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "language/evaluation.hpp"
 
 namespace probewright::sinumerik {
 
@@ -69,11 +71,11 @@ void UserVariable::set(std::size_t place, const Value& value) {
   switch (type_) {
     case Type::Real:
       if (number == nullptr) throw refuse();
-      target = *number;
+      target = withinLimits(*number);
       return;
     case Type::Int:
       if (number == nullptr) throw refuse();
-      target = wholeNumber(*number, -2147483648.0, 2147483647.0);
+      target = withinLimits(wholeNumber(*number, -2147483648.0, 2147483647.0));
       return;
     case Type::Bool:
       if (number == nullptr) throw refuse();
@@ -98,6 +100,63 @@ void UserVariable::set(std::size_t place, const Value& value) {
       target = *text;
       return;
   }
+}
+
+double UserVariable::withinLimits(double value) const {
+  if (value < lower_)
+    throw Alarm("17080", fmt::format("the value {} is below the lower limit {}", value, lower_),
+                "the limits are those of its DEF: LLI, ULI");
+  if (value > upper_)
+    throw Alarm("17090", fmt::format("the value {} is above the upper limit {}", value, upper_),
+                "the limits are those of its DEF: LLI, ULI");
+  return value;
+}
+
+void UserVariable::limit(double lower, double upper) {
+  lower_ = lower;
+  upper_ = upper;
+  if ((type_ != Type::Real && type_ != Type::Int) || lower > upper) return;
+  for (Value& value : values_) {
+    auto& number = std::get<double>(value);
+    number = number == 0 ? std::clamp(number, lower, upper) : withinLimits(number);
+  }
+}
+
+UserVariable declaredVariable(const language::Command& command, language::Evaluation& evaluation) {
+  const language::VariableRef& variable = evaluation.block().variables[static_cast<std::size_t>(command.variable)];
+  const std::string_view name = evaluation.at(variable.name);
+  Type type = Type::Real;
+  typeOf(evaluation.at(command.text), type);
+  std::array<int, 3> sizes{};
+  std::size_t elements = 1;
+  for (std::size_t i = 0; i < 3 && variable.index[i].present(); ++i) {
+    const double size = evaluation.number(variable.index[i]);
+    if (!(size >= 1 && size <= 1000000) || size != std::floor(size) || static_cast<double>(elements) * size > 65536)
+      throw Alarm("12200", fmt::format("an array cannot have {} elements in dimension {}", size, i + 1));
+    sizes[i] = static_cast<int>(size);
+    elements *= static_cast<std::size_t>(size);
+  }
+  const auto words = evaluation.words(command.words);
+  int length = 0;
+  for (const language::Word& word : words)
+    if (word.address == language::addressOf("LEN"))
+      length = static_cast<int>(std::clamp(evaluation.number(word.value), 0.0, 1e6));
+  UserVariable declared(type, sizes, length);
+  std::size_t place = 0;
+  for (const language::Word& word : words) {
+    if (word.address == language::addressOf("LEN")) continue;
+    if (word.address == language::addressOf("REP")) {
+      const Value value = evaluation.value(word.value);
+      for (std::size_t i = 0; i < declared.count(); ++i)
+        declared.set(i, value);
+      break;
+    }
+    if (place >= declared.count())
+      throw Alarm("17020", fmt::format("the list of first values of {} is longer than the array", name));
+    if (word.value.present()) declared.set(place, evaluation.value(word.value));
+    ++place;
+  }
+  return declared;
 }
 
 UserVariables::Scope UserVariables::leave() {

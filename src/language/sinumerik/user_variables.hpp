@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +10,10 @@
 
 #include "language/sinumerik/keywords.hpp"
 #include "language/value.hpp"
+
+namespace probewright::language {
+class Evaluation;
+}
 
 namespace probewright::sinumerik {
 
@@ -24,21 +29,32 @@ public:
   Type type() const { return type_; }
   bool isArray() const { return sizes_[0] > 0; }
   std::size_t count() const { return values_.size(); }
+  const std::array<int, 3>& sizes() const { return sizes_; }
 
   /// The place of an element. Throws Alarm 17020, 17030 or 17040 for an index out of range, 12261 for missing indices.
   std::size_t place(std::string_view name, std::span<const double> indices) const;
 
   const Value& at(std::size_t place) const { return values_[place]; }
   /// Converts to the variable's type as the control does: REAL to INT rounds, everything but 0 is TRUE. Throws Alarm
-  /// 12150 if the type does not fit, 12160 if the value is out of range.
+  /// 12150 if the type does not fit, 12160 if the value is out of range, 17080 and 17090 if it is beyond its limits.
   void set(std::size_t place, const Value& value);
+  /// Least and greatest value of its numbers from now on (LLI, ULI). Elements at 0, as they began, move to the nearer
+  /// limit; others that lie beyond are refused, as by set().
+  void limit(double lower, double upper);
 
 private:
+  double withinLimits(double value) const;
+
   Type type_ = Type::Real;
   std::array<int, 3> sizes_{};
   int length_ = 0;
+  double lower_ = -std::numeric_limits<double>::infinity(), upper_ = std::numeric_limits<double>::infinity();
   std::vector<Value> values_;
 };
+
+/// The variable that a DEF declares, with its first values. Throws Alarm 12200 for impossible sizes, 17020 for too many
+/// values, and what set() throws.
+UserVariable declaredVariable(const language::Command& command, language::Evaluation& evaluation);
 
 /// The user variables of all program levels. A level sees its own variables and the global ones.
 class UserVariables {

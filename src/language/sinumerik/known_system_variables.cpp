@@ -1,0 +1,225 @@
+#include "language/sinumerik/known_system_variables.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <vector>
+
+#include "control/sinumerik/measuring_data.hpp"
+#include "language/sinumerik/cursor.hpp"
+#include "language/sinumerik/keywords.hpp"
+
+/// The names of the 840D sl's system variables (software 4.7 to 4.95) in the families that measuring programs use.
+/// Families of machine data are too large and depend on options: there every name may exist.
+namespace probewright::sinumerik {
+namespace {
+
+constexpr std::string_view programSimulated =
+    "ACSFRAME ACTBFRAME ACTFRAME AD ADT AXN1 AXN2 AXN3 BFRAME CHANNO CHBFR CHBFRAME CYCFR CYCFRAME D DRYRUN EP "
+    "EPM EXTFR EXTFRAME F GFR GFRAME GG IFRAME ISTEST MSNUM NCBFR NCBFRAME PARTFR PARTFRAME PFRAME PROG PROGPATH "
+    "RELFR RELFRAME S SDIR SEARCH SEARCHL SETFR SETFRAME SIM STACK TOOL TOOLEXIST TOOLFR TOOLFRAME TOOLL TOOLND "
+    "TOOLNO TOOLR TRAFO TRAFR TRAFRAME UBFR UIFR UIFRNUM WPFR WPFRAME ";
+constexpr std::string_view programOthers =
+    "ACCESSLEVEL ACTGEOAX ACTID ACT_TOOL_LENGTH_INDEX AEP AP APDV APR ATD ATDT ATPG BLOCKNO CHBFRMASK CHSFRMASK "
+    "CONSTCUT_S COUP_OFFS CTABDEF CTOL CUTMOD CUTMODK CUTMODKA CUTMOD_ANG CUTMOD_ERR CUT_INV DELAYFST DIAM_STAT "
+    "DLNO DL_BEFORE_SEARCH D_BEFORE_SEARCH EG_BC EXTBUF EXTGG EXTPATH EXTSFRAME FA FGROUP_MASK FIX_STAT FZ F_TYPE "
+    "GFRNUM GWPS H INCOAP_B INCOAP_C INCOAP_I INCOAP_R INCOAP_S16 INCOAP_S160 INCOAP_S32 INCOAP_SIZE IPTRLOCK "
+    "ISO1FR ISO1FRAME ISO2FR ISO2FRAME ISO2_DNO ISO2_HNO ISO3FR ISO3FRAME ISO3_DNO ISO4FR ISO4FRAME ISO_STACK "
+    "IS_EES_PATH LIFTFAST LINENO MAG MAGA MAGDISL MAGDISS MAGHLT MAGN MAGNA MAGNDIS MAGNH MAGNHLT MAGNREL MAGNS "
+    "MAGREL MAGS MC MMCA MODEL_SCALING_OVL MTHNUM MTHNUM_BEFORE_SEARCH MTHSDC MTOOLMT MTOOLN MTOOLNT MTOOLT "
+    "M_TOOL_LENGTH_INDEX NCBFRMASK NCKTYPE NUM_SPINDLES OFFN OFF_LEAD OFF_O OFF_O_ANGLE OFF_O_DIR OFF_R "
+    "OFF_R_ANGLE OFF_R_DIR OFF_THETA OFF_TILT OPMODE ORI_DIFF ORI_POS ORI_SOL ORI_STAT OTOL PATH POLF POLF_VALID "
+    "PROG_EVENT PROG_NAME PROG_SUFFIX REPINF SAUTOGEAR SCC_STAT SEARCH1 SEARCH2 SEARCH_MASLC SEARCH_MASLD "
+    "SEARCH_S SEARCH_SDIR SEARCH_SGEAR SEARCH_SMODE SEARCH_SPOS SEARCH_SPOSMODE SGEAR SIMUL SIM_MODE SMODE STOLF "
+    "SUBPAR SUB_AUTOGEAR SUB_AXFCT SUB_CA SUB_GEAR SUB_LA SUB_M19 SUB_SPOS SUB_SPOSA SUB_SPOSIT SUB_SPOSMODE "
+    "SUB_STAT SVC S_TYPE TC TCANG TCDIFF TCNUM TCSOL TCSTAT TECCYCLE THREAD_PITCH THREAD_PITCH_INC TH_OF_D TMNOIS "
+    "TOFF TOFFL TOFFR TOOLBIN TOOLD TOOLENV TOOLENVN TOOLNDL TOOLNG TOOLNT TOOLO TOOLP TOOLROT TOOLT TOOL_O "
+    "TOOL_R TRAFO_CHAIN TRAFO_PAR TRAFO_PARSET TRAFRAME_P TRAFRAME_T T_TOOL_LENGTH_INDEX USEKT VDITCP WORKAREA_CS "
+    "WORKAREA_CS_COORD_SYSTEM WORKAREA_CS_LIMIT_MINUS WORKAREA_CS_LIMIT_PLUS WORKAREA_CS_MINUS_ENABLE "
+    "WORKAREA_CS_PLUS_ENABLE WP_STAT ";
+constexpr std::string_view axisSimulated = "IB IBN IEN IM IW MM MM1 MM2 MM3 MM4 MW MW1 MW2 MW3 MW4 ";
+constexpr std::string_view axisOthers =
+    "ACC ACCLIMA ACC_PERCENT ACS_REL ACT_INDEX_AX_POS_NO ALARM_STAT ATOL AXCHANGE_STAT AXCHANGE_TYP AX_DISABLE "
+    "AX_DISABLE_SRC BCS_OFFSET BRAKE_CONDB BRAKE_CONDM BRAKE_STATE CHANNO COLLPOS COUP_ACT COUP_CORR "
+    "COUP_CORR_DIST COUP_OFFS CPACTFA CPACTLA CPBC CPDEFLA CPFACCT CPFACT CPFCMDPT CPFCMDVT CPFMOF CPFMON CPFMSON "
+    "CPFREQV CPFRS CPLACC CPLCMDP CPLCMDV CPLCTID CPLDEN CPLINSC CPLINTR CPLNUM CPLOUTSC CPLOUTTR CPLSETVAL "
+    "CPLSTATE CPLTYPE CPMALARM CPMRESET CPMSTART CPMSTARTPRT CPMVDI CPNACTFA CPNACTLA CPNDEFLA CPSETTYPE CPSYNCOP "
+    "CPSYNCOP2 CPSYNCOV CPSYNFIP CPSYNFIP2 CPSYNFIV CURR DELT DEPAXO DIAM_STAT DTBB DTBREB DTBREB_CMD DTBREB_CORR "
+    "DTBREB_DEP DTBREM DTBREM_CMD DTBREM_CORR DTBREM_DEP DTBW DTEB DTEPB DTEPW DTEW DTSB DTSW EG_ACTIVE EG_AX "
+    "EG_DENOM EG_NUMERA EG_NUM_LA EG_SYN EG_SYNFA EG_TYPE ENC1_ACTIVE ENC2_ACTIVE ENC_ACTIVE ENC_COMP "
+    "ENC_COMP_IS_MODULO ENC_COMP_MAX ENC_COMP_MIN ENC_COMP_STEP ESR_ENABLE ESR_STAT ESR_TRIGGER ETRANS FGREF "
+    "FGROUP FIX_POINT_SELECTED FOC FXS IBC IBN_CORR IB_CORR IEN_CORR INPOS_STAT IN_SYNC IPO_NC_CHANAX ITR IW_CORR "
+    "JERKLIMA JERK_COUNT JERK_TIME JERK_TOT JOG_POS_ACT JOG_POS_SELECTED LEAD_P LEAD_P_TURN LEAD_SP LEAD_SV "
+    "LEAD_V LOAD LOAD_SMOOTH MACHAX MASL_DEF MASL_STAT MEAACT MEAS_LATCH MEAS_P1_VALID MEAS_P2_VALID "
+    "MEAS_P3_VALID MEAS_P4_VALID MEAS_POINT1 MEAS_POINT2 MEAS_POINT3 MEAS_POINT4 MEAS_SETANGLE MEAS_SETPOINT "
+    "MEAS_SP_VALID MOTEND OFF OFF_LIMIT OFF_VAL ON_FIX_POINT OSCILL_BREAK_POS1 OSCILL_BREAK_POS2 "
+    "OSCILL_REVERSE_POS1 OSCILL_REVERSE_POS2 OVR PCS_REL PLC_OVR POLFA POLFA_VALID POSRES POWER POWER_SMOOTH "
+    "PROG_INDEX_AX_POS_NO QEC QEC_ACCEL_1 QEC_ACCEL_2 QEC_ACCEL_3 QEC_COARSE_STEPS QEC_DIRECTIONAL QEC_FINE_STEPS "
+    "QEC_LEARNING_RATE QEC_MEAS_TIME_1 QEC_MEAS_TIME_2 QEC_MEAS_TIME_3 QEC_TIME_1 QEC_TIME_2 REF REPOS_DELAY S "
+    "SCC_STAT SCPAR SCTRACE SNGLAX_STAT SOFTENDN SOFTENDP STAT SYNC SYNCDIFF SYNCDIFF_STAT TOFF TOFF_LIMIT "
+    "TOFF_PREP_DIFF TOFF_VAL TORQUE TOTAL_OVR TRAVEL_COUNT TRAVEL_COUNT_HS TRAVEL_DIST TRAVEL_DIST_HS TRAVEL_TIME "
+    "TRAVEL_TIME_HS TYP TYPE VACTB VACTM VACTW VC VELOLIMA ";
+constexpr std::string_view channelSimulated = "MARKER MEA OPERATING_TIME PARAM PROG STAT TIME TIMER TRAFO ";
+constexpr std::string_view channelOthers =
+    "ACTUAL_PARTS ACT_ORI_TOOL_LENGTH ACT_PROG_NET_TIME ACT_TOOL_LENGTH_INDEX ALARM_STAT ASUP AUTO_JOG_STATE "
+    "AUXFU_EXT AUXFU_M_EXT AUXFU_M_STATE AUXFU_M_TICK AUXFU_M_VALUE AUXFU_PREDEF_INDEX AUXFU_SPEC AUXFU_STATE "
+    "AUXFU_TICK AUXFU_TYPE AUXFU_VALUE AXCTSWA BLOCKTYPE BLOCKTYPEINFO BLOCK_PROGINFO COLLPOS CONE_ANGLE "
+    "CONSTCUT_S CTOL CUTMOD CUTMODK CUTMODKA CUTMOD_ANG CUTTING_TIME CUT_INV CYCLE_TIME DELAYFST DELT DRF DTBB "
+    "DTBW DTEB DTEW ESR_TRIGGER F FCT0 FCT1 FCT1C FCT1LL FCT1UL FCT2 FCT2C FCT2LL FCT2UL FCT3 FCT3C FCT3LL FCT3UL "
+    "FCTLL FCTUL FGROUP_MASK FIFO FIFO1 FIFO10 FIFO2 FIFO3 FIFO4 FIFO5 FIFO6 FIFO7 FIFO8 FIFO9 FZ F_G0 F_TYPE "
+    "G0MODE IN_KEY_G IN_KEY_G_ENABLE IN_KEY_G_ISENABLE IN_KEY_G_RUN_IN IN_KEY_G_RUN_OUT IPO_BUF IPO_BUFLA "
+    "IPO_STATE IW_STAT IW_TU JOG_CIRCLE_SELECTED JOG_COORD LIFTFAST MEAS_ACT_PLANE MEAS_CHBFR MEAS_CHSFR "
+    "MEAS_CORNER_ANGLE MEAS_CORNER_SETANGLE MEAS_DIAMETER MEAS_DIR_APPROACH MEAS_D_NUMBER MEAS_FINE_TRANS "
+    "MEAS_FRAME MEAS_FRAME_SELECT MEAS_GFR MEAS_INPUT MEAS_LATCH MEAS_NCBFR MEAS_ORIWKS MEAS_P1_COORD "
+    "MEAS_P2_COORD MEAS_P3_COORD MEAS_P4_COORD MEAS_PFRAME MEAS_RESULTS MEAS_SCALEUNIT MEAS_SEMA MEAS_SET_COORD "
+    "MEAS_TOOL_LENGTH MEAS_TOOL_MASK MEAS_TYPE MEAS_T_NUMBER MEAS_UIFR MEAS_VALID MEAS_WP_ANGLE MEAS_WP_SETANGLE "
+    "MONMIN MSNUM MTHNUM M_TOOL_LENGTH_INDEX OFF_LEAD OFF_O OFF_ORI_LIMIT OFF_O_ANGLE OFF_O_DIR OFF_R OFF_R_ANGLE "
+    "OFF_R_DIR OFF_THETA OFF_TILT OLD_PROG_NET_TIME OLD_PROG_NET_TIMES OLD_PROG_NET_TIME_COUNT ORI_OFF_LIMIT OTOL "
+    "OVR PATHACC PATHJERK PATHN PLC_OVR PLTBB PLTEB PREP_ACT_LOAD PREP_ACT_LOAD_GROSS PREP_MAX_LOAD "
+    "PREP_MAX_LOAD_GROSS PREP_MIN_LOAD PREP_MIN_LOAD_GROSS PRESET PROG_NET_TIME_TRIGGER PRTIME_A PRTIME_A_INC "
+    "PRTIME_B PRTIME_M PRTIME_M_INC REPOS_PATH_MODE REQUIRED_PARTS RETPOINT ROT_SYS RPVALID SAFE_SYNA_MEM SDIR "
+    "SERUPRO SGEAR SIM_MODE SIM_TIME_BLOCK SIM_TIME_STEP SMAXACC SMAXACC_INFO SMAXVELO SMAXVELO_INFO SMINVELO "
+    "SMINVELO_INFO SMODE SNY_STATE SPECIAL_PARTS SPIND_STATE SPLITBLOCK STOLF STOP_COND SVC SYNA_MEM SYNA_STATE "
+    "SYNC_ACT_LOAD SYNC_AVERAGE_LOAD SYNC_MAX_LOAD SYSTEM_MARKER SYSTEM_PARAM S_TYPE TANEB TC TC_ACKC TC_ACKT "
+    "TC_CMDC TC_CMDT TC_FCT TC_LFN TC_LFO TC_LMYN TC_LTN TC_LTO TC_MFN TC_MFO TC_MMYN TC_MTDIST TC_MTLTN TC_MTN "
+    "TC_MTNLOC TC_MTO TC_MTTN TC_STATUS TC_THNO TC_TNO TC_TOOLIS THREAD_PITCH THREAD_PITCH_ACT THREAD_PITCH_INC "
+    "TIMEC TIMES TIMESC TOFF TOFFL TOFFR TOOLO_ACT TOOLO_DIFF TOOLO_END TOOLR_ACT TOOLR_DIFF TOOLR_END TOOL_O_ACT "
+    "TOOL_O_CORR TOOL_O_CORRD TOOL_O_CORR_ANGLE TOOL_O_CORR_DIR TOOL_O_DIFF TOOL_O_END TOOL_R_ACT TOOL_R_CORR "
+    "TOOL_R_CORRD TOOL_R_CORR_ANGLE TOOL_R_CORR_DIR TOOL_R_DIFF TOOL_R_END TOTAL_OVR TOTAL_PARTS TRAFO_CHAIN "
+    "TRAFO_CORR_ELEM_P TRAFO_CORR_ELEM_T TRAFO_NAME TRAFO_ORIAX_DIR_P TRAFO_ORIAX_DIR_T TRAFO_ORIAX_LOC TRAFO_PAR "
+    "TRAFO_PARSET TRAFO_SECTION_P TRAFO_SECTION_T TRAFO_TYPE_NAME TRANS_SYS TRIGGER T_TOOL_LENGTH_INDEX VACTB "
+    "VACTBF VACTW VACTWF VC WORKAREA_CS_COORD_SYSTEM WORKAREA_CS_GROUP WORKAREA_CS_LIMIT_MINUS "
+    "WORKAREA_CS_LIMIT_PLUS WORKAREA_CS_MINUS_ENABLE WORKAREA_CS_PLUS_ENABLE ";
+constexpr std::string_view generalSimulated = "DAY HOUR MINUTE MONTH PROBE SECOND YEAR ";
+constexpr std::string_view generalOthers =
+    "CMD CMDSI DB DBB DBD DBR DBSB DBSW DBW DL DLB DLD DLR DLW DP DPB_IN DPB_OUT DPR_IN DPR_OUT DPSB_IN DPSB_OUT "
+    "DPSD_IN DPSD_OUT DPSW_IN DPSW_OUT DPW_IN DPW_OUT DP_IN_CONF DP_IN_LENGTH DP_IN_STATE DP_IN_VALID DP_OUT_CONF "
+    "DP_OUT_LENGTH DP_OUT_STATE DP_OUT_VALID FRDP_ACK_REQ FRDP_DIAG FRDP_ERROR FRDP_ERR_REAC FRDP_SENDMODE "
+    "FRDP_SUBS FRDP_SUBS_ON FSDP_DIAG FSDP_ERROR FSDP_ERR_REAC FSDP_SUBS_ON GG IN INA INCO INSE INSED INSEP "
+    "INSEPD INSI INSID INSIP INSIPD LEVELSID LINK_TRANS_RATE MARKERSI MARKERSID MARKERSIP MARKERSIPD MONIFACT "
+    "MSECOND MYMLN MYMN MYMTLN MYMTN OUT OUTA OUTSE OUTSED OUTSEP OUTSEPD OUTSI OUTSID OUTSIP OUTSIPD PB PBB_IN "
+    "PBB_OUT PBD_IN PBD_OUT PBR_IN PBR_OUT PBW_IN PBW_OUT PLCSIIN PLCSIOUT PROBE_LIMITED PROTO PROTOC PROT_LOCK "
+    "STATSID STOPESI TIMERSI TOOLMLN TOOLMN TOOLMTLN TOOLMTN USEDD USEDND USEDT XFAULTSI ";
+
+/// $SNS_MEA_... and the like that the table of measuring data has not: other software versions, screens of JOG.
+constexpr std::string_view measuringOthers =
+    "$MCS_J_MEA_FIXPOINT $MCS_J_MEA_T_PROBE_APPR_MODE $MNS_J_MEA_MEASURING_FEED $MNS_J_MEA_T_PROBE_MEASURE_DIST "
+    "$MNS_MEA_ACCESS_EXEC $MNS_MEA_CAL_EDGE_NUM $MNS_MEA_CAL_TPW_NUM $MNS_MEA_CAL_TP_NUM $MNS_MEA_CAL_WP_NUM "
+    "$MNS_MEA_T_PROBE_THICKNESS $SCS_J_MEA_PROTOCOL_FILE $SCS_J_MEA_SET_PROBE_MONO $SCS_MEA_FEED_MEASURE_DEG "
+    "$SCS_MEA_FEED_POS_DEG $SCS_MEA_KIN_BALL_VEC $SCS_MEA_KIN_DM_TOL $SCS_MEA_KIN_MIN_ANG_POS "
+    "$SCS_MEA_KIN_MIN_ANG_TRIANGLE $SCS_MEA_KIN_MODE $SCS_MEA_KIN_VALUE $SCS_MEA_PROTOCOL_USER_EXT "
+    "$SCS_MEA_RESULT_MRD $SCS_MEA_SIMULTAN_LIMIT $SCS_MEA_SIM_MEASURE_DIFF $SNS_MEA_ALARM_MASK "
+    "$SNS_MEA_INPUT_PIECE_PROBE_SUB $SNS_MEA_TPW_STATUS_GEN $SNS_MEA_TP_STATUS_GEN $SNS_MEA_T_CIRCULAR_ARC_DIST "
+    "$SNS_MEA_T_MAX_STEPS ";
+
+/// Tool, magazine and tool carrier data whose name ends with a number, and how many there are.
+struct Numbered {
+  std::string_view stem;
+  int most;
+};
+constexpr Numbered numbered[] = {
+    {"DP", 25},    {"DPC", 10},   {"DPCS", 10},  {"DPV", 5},     {"DPVN", 5},   {"SCP", 999},
+    {"ECP", 999},  {"TP", 11},    {"TPC", 64},   {"TPCS", 10},   {"TPG", 99},   {"MOP", 15},
+    {"MOPC", 64},  {"MOPCS", 10}, {"MAP", 99},   {"MAPC", 64},   {"MAPCS", 10}, {"MAMP", 99},
+    {"MPP", 99},   {"MPPC", 64},  {"MPPCS", 10}, {"MDP", 99},    {"MTP", 99},   {"MTPC", 64},
+    {"MTPCS", 10}, {"MTPP", 99},  {"MTPPC", 64}, {"MTPPCS", 10}, {"CARR", 99},  {"ADPT", 9},
+};
+constexpr std::string_view unnumbered =
+    "ADPTT CARR_CORR_ELEM CARR_KIN_CNTRL CARR_KIN_PART_END CARR_KIN_PART_START CARR_KIN_ROTAX_NAME CARR_KIN_TOOL_END "
+    "CARR_KIN_TOOL_START DPCE DPH DPNT DPROT DPV DPVN ISO_D ISO_DW ISO_H ISO_HW ISO_L1 ISO_L2 ISO_L3 ISO_L1W ISO_L2W "
+    "ISO_L3W ISO_Q ISO_R ISO_RW MLSR MPP_SP MPTH MTPN MTPPA MTPPL MTP_KD MTP_POS MTP_PROTA TPG_DRSPATH TPG_DRSPROG "
+    "TP_MAX_ACC TP_MAX_VELO TP_PROTA ";
+
+/// Machine and setting data that act here.
+constexpr std::string_view actingData =
+    "$MA_POS_LIMIT_MINUS $MA_POS_LIMIT_PLUS $MC_GCODE_RESET_VALUES $MC_MM_NUM_USER_FRAMES $MC_TOOL_CHANGE_MODE "
+    "$MC_TOOL_PARAMETER_DEF_MASK $MN_MM_FRAME_FINE_TRANS $MN_MM_NUM_SUMCORR $MN_MM_TOOL_MANAGEMENT_MASK "
+    "$MN_SCALING_SYSTEM_IS_METRIC $SA_M19_SPOS $SC_DRY_RUN_FEED $SC_TOOL_LENGTH_TYPE $AN_SETUP_TIME $VA_IM $PI $R ";
+
+struct Family {
+  std::string_view prefix, simulated, others;
+};
+constexpr Family families[] = {{"$P_", programSimulated, programOthers},
+                               {"$AA_", axisSimulated, axisOthers},
+                               {"$AC_", channelSimulated, channelOthers},
+                               {"$A_", generalSimulated, generalOthers}};
+
+/// Calls `use` for each word of the list.
+template <class Use>
+void forEachWord(std::string_view list, Use use) {
+  while (!list.empty()) {
+    const std::size_t end = std::min(list.find(' '), list.size());
+    use(list.substr(0, end));
+    list.remove_prefix(std::min(end + 1, list.size()));
+  }
+}
+
+bool contains(std::string_view list, std::string_view word) {
+  bool found = false;
+  forEachWord(list, [&](std::string_view each) { found = found || each == word; });
+  return found;
+}
+
+bool isToolDatum(std::string_view name) {
+  if (contains(unnumbered, name)) return true;
+  std::string_view stem = name;
+  int number = 0, scale = 1;
+  while (!stem.empty() && isDigit(stem.back()) && scale < 10000) {
+    number += scale * (stem.back() - '0');
+    scale *= 10;
+    stem.remove_suffix(1);
+  }
+  return std::ranges::any_of(
+      numbered, [&](const Numbered& each) { return each.stem == stem && number >= 1 && number <= each.most; });
+}
+
+bool isOfMeasuring(std::string_view name) {
+  static constexpr std::string_view prefixes[] = {"$SNS_MEA_",   "$SCS_MEA_",   "$MNS_MEA_",   "$MCS_MEA_",
+                                                  "$SNS_J_MEA_", "$SCS_J_MEA_", "$MNS_J_MEA_", "$MCS_J_MEA_"};
+  return std::ranges::any_of(prefixes, [name](std::string_view prefix) { return name.starts_with(prefix); });
+}
+
+}  // namespace
+
+SystemName systemName(std::string_view name) {
+  if (name.starts_with("$TC_")) return isToolDatum(name.substr(4)) ? SystemName::Simulated : SystemName::Missing;
+  if (isOfMeasuring(name)) {
+    if (control::sinumerik::findMeasuringDatum(name) != nullptr) return SystemName::Simulated;
+    return contains(measuringOthers, name) ? SystemName::Elsewhere : SystemName::Missing;
+  }
+  for (const Family& family : families) {
+    if (!name.starts_with(family.prefix)) continue;
+    const std::string_view rest = name.substr(family.prefix.size());
+    if (contains(family.simulated, rest)) return SystemName::Simulated;
+    return contains(family.others, rest) ? SystemName::Elsewhere : SystemName::Missing;
+  }
+  if (contains(actingData, name)) return SystemName::Simulated;
+  static constexpr std::string_view open[] = {
+      "$AN_",  "$VA_",  "$VC_",  "$MN_", "$MC_", "$MA_", "$MD_", "$SN_", "$SC_", "$SA_",  "$SNS_", "$SCS_", "$SAS_",
+      "$MNS_", "$MCS_", "$MAS_", "$AD_", "$NT_", "$NK_", "$NP_", "$AS_", "$PA_", "$SYG_", "$SYM_", "$ON_",  "$OC_"};
+  const bool possible = std::ranges::any_of(
+      open, [name](std::string_view prefix) { return name.size() > prefix.size() && name.starts_with(prefix); });
+  return possible ? SystemName::Elsewhere : SystemName::Missing;
+}
+
+std::string meantSystemName(std::string_view name) {
+  std::vector<std::string_view> whole;
+  if (isOfMeasuring(name))
+    for (const control::sinumerik::MeasuringDatum& datum : control::sinumerik::measuringData())
+      whole.push_back(datum.identifier);
+  if (const std::string_view close = closestName(name, whole); !close.empty()) return std::string(close);
+  for (const Family& family : families) {
+    if (!name.starts_with(family.prefix)) continue;
+    std::vector<std::string_view> names;
+    forEachWord(family.simulated, [&](std::string_view each) { names.push_back(each); });
+    std::string_view close = closestName(name.substr(family.prefix.size()), names);
+    if (close.empty()) {
+      forEachWord(family.others, [&](std::string_view each) { names.push_back(each); });
+      close = closestName(name.substr(family.prefix.size()), names);
+    }
+    return close.empty() ? std::string() : std::string(family.prefix) + std::string(close);
+  }
+  return {};
+}
+
+}  // namespace probewright::sinumerik

@@ -1,0 +1,45 @@
+#include <gtest/gtest.h>
+
+#include "sinumerik/world.hpp"
+
+namespace probewright::sinumerik {
+namespace {
+
+std::string codeOf(const std::string& block) {
+  const language::RunResult result = World().tryRun(block + "\nM30");
+  return result.diagnostics.empty() ? "" : result.diagnostics.front().code;
+}
+
+TEST(DatumCheck, IndicesThatTheControlHasNotAreRefused) {
+  EXPECT_EQ(codeOf("$TC_DP3[0,1]=5"), "17020");
+  EXPECT_EQ(codeOf("$TC_DP6[-1,1]=5"), "17020");
+  EXPECT_EQ(codeOf("$TC_DP3[1,0]=5"), "17030");
+  EXPECT_EQ(codeOf("$TC_DP3[1]=5"), "12400");
+  EXPECT_EQ(codeOf("$TC_DP3=5"), "12400");
+  EXPECT_EQ(codeOf("$TC_DP3[X,1]=5"), "12150");
+  EXPECT_EQ(codeOf("R1=$TC_DP3[1,0]"), "17030");
+  EXPECT_EQ(codeOf("$P_UIFR[100,X,TR]=1"), "17020");
+  EXPECT_EQ(codeOf("$P_UIFR[-1,X,TR]=1"), "17020");
+  EXPECT_EQ(codeOf("R1=$P_UIFR[100,X,TR]"), "17020");
+  EXPECT_EQ(codeOf("$P_UIFR[1,V,TR]=1"), "17030");
+  EXPECT_EQ(codeOf("$P_CHBFR[16,X,TR]=1"), "17020");
+  EXPECT_EQ(codeOf("$SNS_MEA_WP_BALL_DIAM[12]=5"), "17020");
+  EXPECT_EQ(codeOf("$SCS_MEA_EMPIRIC_VALUE[20]=0.1"), "17020");
+}
+
+TEST(DatumCheck, ValuesHaveTheKindOfTheirDatum) {
+  EXPECT_EQ(codeOf("$TC_DP3[1,1]=\"x\""), "12150");
+  EXPECT_EQ(codeOf("$TC_TP2[1]=5"), "12150");
+  EXPECT_EQ(codeOf("$SNS_MEA_WP_BALL_DIAM[0]=\"x\""), "12150");
+}
+
+TEST(DatumCheck, WhatTheControlHasIsTaken) {
+  for (const char* block :
+       {"$TC_DP3[1,1]=5", "$TC_DP3[30,2]=5", "$TC_SCP13[1,1]=0.1", "$TC_TP2[7]=\"DRILL\"", "$P_UIFR[99,X,TR]=1",
+        "$P_UIFR[0,Z,FI]=1", "$P_CHBFR[0,X,TR]=1", "$P_UIFR[1]=CTRANS(X,1)", "$SNS_MEA_WP_BALL_DIAM[11]=5",
+        "$SCS_MEA_EMPIRIC_VALUE[19]=0.1", "R1=$P_UBFR[X,TR]", "$SCS_MEA_FEED_MEASURE=200"})
+    EXPECT_EQ(codeOf(block), "") << block;
+}
+
+}  // namespace
+}  // namespace probewright::sinumerik
