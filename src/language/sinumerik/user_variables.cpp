@@ -132,7 +132,8 @@ UserVariable declaredVariable(const language::Command& command, language::Evalua
   for (std::size_t i = 0; i < 3 && variable.index[i].present(); ++i) {
     const double size = evaluation.number(variable.index[i]);
     if (!(size >= 1 && size <= 1000000) || size != std::floor(size) || static_cast<double>(elements) * size > 65536)
-      throw Alarm("12200", fmt::format("an array cannot have {} elements in dimension {}", size, i + 1));
+      throw Alarm("12200", fmt::format("an array cannot have {} elements in dimension {}", size, i + 1),
+                  "an array has 1 to 65536 elements");
     sizes[i] = static_cast<int>(size);
     elements *= static_cast<std::size_t>(size);
   }
@@ -152,7 +153,8 @@ UserVariable declaredVariable(const language::Command& command, language::Evalua
       break;
     }
     if (place >= declared.count())
-      throw Alarm("17020", fmt::format("the list of first values of {} is longer than the array", name));
+      throw Alarm("17020", fmt::format("the list of first values of {} is longer than the array", name),
+                  "shorten the list or give the array more elements");
     if (word.value.present()) declared.set(place, evaluation.value(word.value));
     ++place;
   }
