@@ -39,6 +39,7 @@ private:
 
   // to_klartext_flow.cpp
   void structured(const language::Block& block, const language::Structured& structured);
+  void carryOver(const language::Block& block, const language::Structured& structured);
   void jump(const language::Block& block, const language::Jump& jump);
   void repeat(const language::Block& block, const language::RepeatSection& section);
   void call(const language::Block& block, const language::CallProgram& call);
@@ -109,6 +110,7 @@ private:
     std::string begin, end, other;
     std::string counter;
     bool hasElse = false;
+    bool lost = false;  ///< it could not be carried over, but what closes it is still to come
   };
   std::vector<Open> open_;
   int nextLabel_ = 1;

@@ -150,6 +150,24 @@ void ToKlartext::call(const Block& block, const CallProgram& call) {
 }
 
 void ToKlartext::structured(const Block& block, const Structured& structured) {
+  const Structure kind = structured.kind;
+  const bool opens = kind == Structure::If || kind == Structure::While || kind == Structure::For ||
+                     kind == Structure::Loop || kind == Structure::Repeat;
+  const std::size_t depth = open_.size();
+  if (!opens && (open_.empty() || open_.back().lost)) {
+    if (!open_.empty() && kind != Structure::Else) open_.pop_back();
+    throw NotCarriedOver("the statement that this one belongs to is not carried over");
+  }
+  try {
+    carryOver(block, structured);
+  } catch (const NotCarriedOver&) {
+    // What closes it must find it all the same.
+    if (opens && open_.size() == depth) open_.push_back({kind, {}, {}, {}, {}, false, true});
+    throw;
+  }
+}
+
+void ToKlartext::carryOver(const Block& block, const Structured& structured) {
   const auto named = [this](const char* what) { return fmt::format("{}_{}", what, nextLabel_++); };
   Open* top = open_.empty() ? nullptr : &open_.back();
   switch (structured.kind) {
@@ -201,10 +219,12 @@ void ToKlartext::structured(const Block& block, const Structured& structured) {
       label(top->end);
       open_.pop_back();
       break;
-    case Structure::Until:
-      jumpIf(block, structured.condition, false, top->begin);
+    case Structure::Until: {
+      const std::string begin = top->begin;
       open_.pop_back();
+      jumpIf(block, structured.condition, false, begin);
       break;
+    }
   }
 }
 

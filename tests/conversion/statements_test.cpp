@@ -99,6 +99,20 @@ TEST(ConvertMotion, TiltsPlanes) {
   EXPECT_THAT(toKlartext("CYCLE800()\nM30\n").text, HasSubstr("PLANE RESET"));
 }
 
+TEST(ConvertStatements, StructuresOfLostConditionsAreLostToTheirEnd) {
+  for (const char* structure :
+       {"IF _GONE>1\nG0 X1\nELSE\nG0 X2\nENDIF\n", "WHILE _GONE<4\nG0 X1\nENDWHILE\n", "REPEAT\nG0 X1\nUNTIL _GONE\n",
+        "FOR _GONE=1 TO 3\nG0 X1\nENDFOR\n", "LOOP\nIF NOT _GONE\nG0 X1\nENDIF\nENDLOOP\n"}) {
+    // Around and within structures that are carried over.
+    const session::Conversion lost =
+        toKlartext(std::string("IF R1>3\n") + structure + "WHILE R2<3\nR2=R2+1\nENDWHILE\nENDIF\nG0 X9\nM30\n");
+    EXPECT_FALSE(lost.notCarriedOver.empty()) << structure;
+    EXPECT_THAT(lost.text, HasSubstr("NOT CARRIED OVER")) << structure;
+    EXPECT_THAT(lost.text, HasSubstr("LBL \"ENDWHILE_")) << structure << lost.text;
+    EXPECT_THAT(lost.text, HasSubstr("X+9")) << structure << lost.text;
+  }
+}
+
 TEST(ConvertStatements, NamesWhatIsLost) {
   const session::Conversion there =
       toSinumerik(klartextProgram("APPR LT X+1 Y+1 LEN5 RL F100\nFN 16: F-PRINT A.A/B\n"));
