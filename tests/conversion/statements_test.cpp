@@ -28,8 +28,9 @@ PlantedPart emptyTable() {
 ::testing::AssertionResult drivesTheSame(const std::string& blocks) {
   return driveTheSame(klartextProgram(blocks), ProgramLanguage::Klartext);
 }
-::testing::AssertionResult drivesTheSameFromSinumerik(const std::string& blocks) {
-  return driveTheSame("G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\n" + blocks + "M30\n", ProgramLanguage::Sinumerik);
+::testing::AssertionResult drivesTheSameFromSinumerik(const std::string& blocks, const std::string& definitions = {}) {
+  return driveTheSame(definitions + "G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\n" + blocks + "M30\n",
+                      ProgramLanguage::Sinumerik);
 }
 
 TEST(ConvertMotion, DrivesLinesAndArcs) {
@@ -61,7 +62,8 @@ TEST(ConvertMotion, MovesTheOrigin) {
 }
 
 TEST(ConvertMotion, KnowsTheStructuresOfSinumerik) {
-  EXPECT_TRUE(drivesTheSameFromSinumerik("DEF REAL AA=3\nDEF INT II\nFOR II=1 TO 4\nAA=AA+II\nENDFOR\nG0 X=AA Y=II\n"));
+  EXPECT_TRUE(
+      drivesTheSameFromSinumerik("FOR II=1 TO 4\nAA=AA+II\nENDFOR\nG0 X=AA Y=II\n", "DEF REAL AA=3\nDEF INT II\n"));
   EXPECT_TRUE(drivesTheSameFromSinumerik("R1=5\nIF (R1>3) AND NOT (R1==4)\nG0 X10\nELSE\nG0 X20\nENDIF\nG0 Y=R1\n"));
   EXPECT_TRUE(drivesTheSameFromSinumerik("R1=2\nIF (R1>=2) OR (R1<0)\nG0 X10\nENDIF\nIF R1<=1\nG0 X30\nENDIF\n"));
   EXPECT_TRUE(

@@ -75,7 +75,7 @@ std::vector<Variant> variants() {
         {"corrected", {"$P_UIFR[1,Z,FI]"}}}},
       {"CYCLE974",
        1,
-       6,
+       7,
        bore(40.1),
        inside,
        ",,,1,80,2,6,4",
@@ -122,7 +122,6 @@ TEST(TurningScreens, HaveWhatTheControlShowsInEveryVariant) {
     LatheProbe probe;
     probe.position = variant.position;
     if (probe.position != 8) probe.mount = {-75, 0, 0};
-    if (probe.position == 6) probe.mount = {-60, 0, 0};
     simulation::Setup setup = latheSetup(probe);
     variant.part(setup.truth);
     LatheBench bench(setup);
