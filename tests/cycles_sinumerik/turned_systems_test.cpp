@@ -165,5 +165,39 @@ TEST(TurnedSystems, Cycle995TellsTheLeaningInTheWorkpieceSystem) {
   }
 }
 
+TEST(TurnedSystems, ALeaningProbeMeasuresByTheCentreOfItsBall) {
+  // Under TRAORI the tool leans against the 3rd axis. Where its length ends at the ball's centre (bit 1 of MD 51740
+  // off), trigger points hold for it as it stands.
+  Planter plant(405);
+  for (int world = 0; world < 36; ++world) {
+    const char* build = builds[world % 3];
+    const char* leans = world % 3 == 1 ? "B" : "A";
+    const int axis = world / 3 % 3;
+    const Vector3 error = plant.within(1);
+    simulation::Truth truth = perfectWorld(build);
+    truth.tools[0].probe.stylusRadius = 0.5;
+    place(truth, simulation::Box({0, 0, -60}, {100, 80, 0}), translation(origin + error));
+    SinumerikBench bench(truth);
+    plantFrame(bench, "$P_UIFR", 1, origin);
+    bench.set("$TC_DP3", {1, 1}, 98);
+    bench.set("$MNS_MEA_FUNCTION_MASK", {}, 9);
+    bench.set("$SNS_MEA_WP_TRIG_MINUS_DIR_AX3", {0}, -2);
+    Vector3 start(40, 40, -1.5);
+    start[axis] = axis == 2 ? 12 : -12;
+    bench.run("CYCLE978",
+              {{"S_MVAR", 100},
+               {"S_KNUM", targets[world % 7]},
+               {"S_FA", 7},
+               {"S_TSA", 3},
+               {"S_MA", axis + 1},
+               {"S_MD", axis == 2 ? 2 : 1}},
+              {},
+              fmt::format("SUPA G0 Z0 D0\nD1\nTRAORI\nG0 {}{:.6f} C{:.6f}\nG0 X{:.12f} Y{:.12f}\nG0 Z{:.12f}\n", leans,
+                          plant.number(-14, 14), plant.number(-170, 170), start.x(), start.y(), start.z()));
+    EXPECT_NEAR(bench.ovr(4), error[axis], 1e-6) << world;
+    EXPECT_NEAR(inWorkpiece(bench, origin + error)[axis], 0, 1e-6) << world;
+  }
+}
+
 }  // namespace
 }  // namespace probewright
