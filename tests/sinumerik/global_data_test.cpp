@@ -168,6 +168,7 @@ TEST(GlobalData, MistakesOfDefinitionFilesHavePlaces) {
       {"DEF NCK REAL _A[2]=SET(1,2,3)", 1, 14, "longer"},
       {"DEF NCK INT _A=\"x\"", 1, 13, "type INT"},
       {"DEF NCK REAL LLI 1 ULI 2 _A=3", 1, 26, "above"},
+      {"DEF NCK INT LLI 2 ULI 1 _A", 1, 25, "above the upper limit"},
       {"DEF NCK REAL _A=_B", 1, 14, "_B has no value"},
       {"G0 X10", 1, 1, "lines of DEF only"},
       {"DEF NCK REAL _A=1/0", 1, 14, "zero"},

@@ -115,7 +115,10 @@ double UserVariable::withinLimits(double value) const {
 void UserVariable::limit(double lower, double upper) {
   lower_ = lower;
   upper_ = upper;
-  if ((type_ != Type::Real && type_ != Type::Int) || lower > upper) return;
+  if (type_ != Type::Real && type_ != Type::Int) return;
+  if (lower > upper)
+    throw Alarm("12160", fmt::format("the lower limit {} lies above the upper limit {}", lower, upper),
+                "exchange LLI and ULI");
   for (Value& value : values_) {
     auto& number = std::get<double>(value);
     number = number == 0 ? std::clamp(number, lower, upper) : withinLimits(number);
