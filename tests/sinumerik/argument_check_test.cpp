@@ -93,7 +93,7 @@ TEST(SinumerikArguments, NeitherSignNorKindMayBeWrong) {
   EXPECT_EQ(mistakesIn("CYCLE978(0,,,1,20,-5,1,1,1)\n"), (Messages{std::string("1:19 argument 6 of CYCLE978: ") + path +
                                                                    " cannot be -5; its range is 0 to 99999.9999 mm"}));
   EXPECT_EQ(mistakesIn("CYCLE978(0,,,1,20,0,1,1,1)\n"),
-            (Messages{std::string("1:19 argument 6 of CYCLE978: ") + path + " must be greater than 0, not 0"}));
+            (Messages{std::string("1:19 argument 6 of CYCLE978: ") + path + " cannot be 0 here"}));
   EXPECT_EQ(mistakesIn("DEF STRING[8] WIDTH\nCYCLE978(0,,,1,WIDTH,5,1,1,1)\n"),
             (Messages{"2:16 argument 5 of CYCLE978: S_SETV (set value of the surface) takes a number, not a text"}));
   EXPECT_EQ(mistakesIn("CYCLE978(0,,,1,20,5,1,X,1)\n"),

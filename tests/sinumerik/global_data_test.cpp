@@ -171,7 +171,7 @@ TEST(GlobalData, MistakesOfDefinitionFilesHavePlaces) {
       {"DEF NCK INT LLI 2 ULI 1 _A", 1, 25, "above the upper limit"},
       {"DEF NCK REAL _A=_B", 1, 14, "_B has no value"},
       {"G0 X10", 1, 1, "lines of DEF only"},
-      {"DEF NCK REAL _A=1/0", 1, 14, "zero"},
+      {"DEF NCK REAL _A=1/0", 1, 14, "divis"},
       {"DEF NCK STRING _A", 1, 16, "'['"},
   };
   for (const Case& each : cases) {
