@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -24,10 +25,8 @@ public:
         circle();
         break;
       case Feature::Pocket:
-        rectangle(410, 423);
-        break;
       case Feature::RectangularSpigot:
-        rectangle(411, 424);
+        rectangle();
         break;
       case Feature::Groove:
       case Feature::Rib:
@@ -79,6 +78,11 @@ private:
     heights();
   }
 
+  void begin() {
+    const auto cycles = std::ranges::find(centredCycles, task_.feature, &CentredCycles::feature);
+    begin(cycles->preset, cycles->inspection);
+  }
+
   void extraClearance() {
     Quantity extra = task_.path - assumedSetUp;
     if (extra.isNumber() && extra.number() < 0) extra = 0;
@@ -96,8 +100,7 @@ private:
   }
 
   void circle() {
-    const bool inside = isInside(task_.feature);
-    begin(inside ? 412 : 413, inside ? 421 : 422);
+    begin();
     set(262, task_.size[0]);
     set(325, task_.angle);
     set(247, task_.step);
@@ -106,8 +109,8 @@ private:
     centre();
   }
 
-  void rectangle(int preset, int inspection) {
-    begin(preset, inspection);
+  void rectangle() {
+    begin();
     for (int i = 0; i < 2; ++i)
       set((presets() ? 323 : 282) + i, task_.size[static_cast<std::size_t>(i)]);
     centre();
@@ -124,7 +127,7 @@ private:
 
   void width() {
     const bool inside = isInside(task_.feature);
-    begin(inside ? 408 : 409, inside ? 425 : 426);
+    begin();
     const auto axis = static_cast<std::size_t>(task_.axis);
     set(311, task_.size[0]);
     set(272, task_.axis + 1);
@@ -167,6 +170,13 @@ private:
     if (turns && task_.axis == 2) {
       throw NotCarriedOver("no touch probe cycle turns the coordinate system by an angle measured along the tool");
     }
+    if (task_.correction == Correction::RotaryAxis) {
+      if (!task_.active) {
+        throw NotCarriedOver("cycle 1410 corrects the active preset only",
+                             "select the zero offset in front of the cycle");
+      }
+      return alignment("1410", task_.axis + 1);
+    }
     // 400 counts from the unturned axes, 1410 from those in effect, and corrects no other preset.
     if (turns && task_.active && !task_.fromUnturned) return alignment("1410", task_.axis + 1);
     call_.cycle = turns ? "400" : "420";
@@ -186,7 +196,7 @@ private:
     set(260, task_.clearance);
     set(372, axis * task_.sign);
     set(1125, task_.clearanceBetween ? 2 : 0);
-    set(1121, 1);
+    set(1121, task_.correction == Correction::RotaryAxis ? 2 : 1);
     const auto position = [this](int number, const Place& place) {
       for (int i = 0; i < 3; ++i)
         set(number + i, place[static_cast<std::size_t>(i)]);

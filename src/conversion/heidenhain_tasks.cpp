@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "cycles/heidenhain/probe_words.hpp"
+
 /// Touch probe cycles read as measuring tasks.
 namespace probewright::conversion {
 
@@ -17,23 +19,15 @@ public:
       : call_(call), ballRadius_(ballRadius), losses_(losses) {}
 
   std::vector<MeasuringTask> tasks() {
-    switch (std::atoi(call_.cycle.c_str())) {
+    const int number = std::atoi(call_.cycle.c_str());
+    for (const CentredCycles& each : centredCycles)
+      if (number == each.preset || number == each.inspection) return centred(each.feature, number == each.preset);
+    switch (number) {
       case 400:
         return {edge(Correction::Rotation)};
+      case 403:
       case 420:
         return {edge(Correction::None)};
-      case 408:
-        return preset(width(Feature::Groove, 321, 322), {405});
-      case 409:
-        return preset(width(Feature::Rib, 321, 322), {405});
-      case 410:
-        return preset(rectangle(Feature::Pocket, 321, 323), {331, 332});
-      case 411:
-        return preset(rectangle(Feature::RectangularSpigot, 321, 323), {331, 332});
-      case 412:
-        return preset(circle(Feature::Hole, 321), {331, 332});
-      case 413:
-        return preset(circle(Feature::Spigot, 321), {331, 332});
       case 414:
         return preset(outsideCorner(), {331, 332});
       case 415:
@@ -42,19 +36,6 @@ public:
         return {presetSurface(surface(294, 2, -1))};
       case 419:
         return {presetSurface(surface(261, option(272) - 1, option(267)))};
-      case 421:
-        return inspection(circle(Feature::Hole, 273), {{275, 276}});
-      case 422:
-        return inspection(circle(Feature::Spigot, 273), {{277, 278}});
-      case 423:
-        return inspection(rectangle(Feature::Pocket, 273, 282), {{284, 285}, {286, 287}});
-      case 424:
-        return inspection(rectangle(Feature::RectangularSpigot, 273, 282), {{284, 285}, {286, 287}});
-      case 425:
-        if (asked(310)) throw NotCarriedOver("Q310: CYCLE977 touches both walls at the same place");
-        return inspection(width(Feature::Groove, 328, 329), {{288, 289}});
-      case 426:
-        return inspection(ridge(), {{288, 289}});
       case 427:
         return inspection(surface(261, option(272) - 1, option(267)), {{288, 289}});
       case 431:
@@ -63,6 +44,8 @@ public:
         return {alignedEdge()};
       case 1420:
         return {alignedPlane()};
+      case 9:
+        return {lengthOnSurface()};
       case 460:
         return {calibration(Feature::ProbeOnBall)};
       case 461:
@@ -125,6 +108,23 @@ private:
     task.size[0] = q(311);
     task.axis = option(272) - 1;
     return task;
+  }
+
+  std::vector<MeasuringTask> centred(Feature feature, bool presets) {
+    const bool inside = isInside(feature);
+    if (isRound(feature)) {
+      const MeasuringTask task = circle(feature, presets ? 321 : 273);
+      if (presets) return preset(task, {331, 332});
+      return inspection(task, {inside ? LimitNumbers{275, 276} : LimitNumbers{277, 278}});
+    }
+    if (isRectangular(feature)) {
+      const MeasuringTask task = rectangle(feature, presets ? 321 : 273, presets ? 323 : 282);
+      return presets ? preset(task, {331, 332}) : inspection(task, {{284, 285}, {286, 287}});
+    }
+    if (presets) return preset(width(feature, 321, 322), {405});
+    if (!inside) return inspection(ridge(), {{288, 289}});
+    if (asked(310)) throw NotCarriedOver("Q310: CYCLE977 touches both walls at the same place");
+    return inspection(width(feature, 328, 329), {{288, 289}});
   }
 
   /// Cycle 426 has the two places of touch.
@@ -205,8 +205,7 @@ private:
     if (asked(1126)) throw NotCarriedOver("Q1126: the cycle positions rotary axes");
     if (asked(309)) throw NotCarriedOver("Q309: tolerances of positions are not monitored");
     const int transfer = option(1121);
-    if (transfer > 1) throw NotCarriedOver("Q1121: the cycle corrects a rotary axis");
-    return transfer == 1 ? Correction::Rotation : Correction::None;
+    return transfer == 2 ? Correction::RotaryAxis : transfer == 1 ? Correction::Rotation : Correction::None;
   }
 
   Place position(int number) const {
@@ -267,6 +266,17 @@ private:
       losses_.push_back("Q433: the length is not calibrated along with the ball");
     }
     if (asked(455)) losses_.push_back("Q455: no 3-D calibration");
+    return task;
+  }
+
+  /// Cycle 9, whose words have no Q numbers.
+  MeasuringTask lengthOnSurface() {
+    const auto word = [](std::uint32_t address) { return fmt::format("Q{}", address); };
+    if (!(call_.number(word(cycles::heidenhain::probe_word::referenceSystem)) == 0)) {
+      throw NotCarriedOver("REFERENCE SYSTEM 1: a height in the machine system is not converted");
+    }
+    MeasuringTask task = calibration(Feature::ProbeLength);
+    task.place[2] = call_.number(word(cycles::heidenhain::probe_word::datum));
     return task;
   }
 

@@ -1,9 +1,25 @@
 #pragma once
 
+#include <array>
+
 #include "conversion/call.hpp"
 
 /// HEIDENHAIN touch probe cycles as measuring tasks.
 namespace probewright::conversion {
+
+/// The cycles of a feature with a centre: one sets the preset to it, one inspects it.
+struct CentredCycles {
+  Feature feature;
+  int preset, inspection;
+};
+inline constexpr std::array<CentredCycles, 8> centredCycles = {{{Feature::Hole, 412, 421},
+                                                                {Feature::Spigot, 413, 422},
+                                                                {Feature::HoleSegment, 412, 421},
+                                                                {Feature::SpigotSegment, 413, 422},
+                                                                {Feature::Groove, 408, 425},
+                                                                {Feature::Rib, 409, 426},
+                                                                {Feature::Pocket, 410, 423},
+                                                                {Feature::RectangularSpigot, 411, 424}}};
 
 /// The tasks of a call, in the order in which the cycle carries them out. What of the call a task cannot say goes to
 /// `losses`. Throws NotCarriedOver for cycles and parameters without a task. `ballRadius`: as the written program

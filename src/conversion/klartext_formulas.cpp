@@ -7,6 +7,7 @@
 
 #include "conversion/call.hpp"
 #include "conversion/sinumerik_formulas.hpp"
+#include "language/klartext/formula_writer.hpp"
 
 namespace probewright::conversion {
 
@@ -17,54 +18,6 @@ namespace {
 constexpr int firstHelper = 1900;
 constexpr int lastHelper = 1999;
 constexpr int firstResult = 1700;
-
-const char* functionName(Function function) {
-  switch (function) {
-    case Function::Sin:
-      return "SIN";
-    case Function::Cos:
-      return "COS";
-    case Function::Tan:
-      return "TAN";
-    case Function::Asin:
-      return "ASIN";
-    case Function::Acos:
-      return "ACOS";
-    case Function::Sqrt:
-      return "SQRT";
-    case Function::Square:
-      return "SQ";
-    case Function::Ln:
-      return "LN";
-    case Function::Exp:
-      return "EXP";
-    case Function::Abs:
-      return "ABS";
-    case Function::Truncate:
-      return "INT";
-    default:
-      return nullptr;
-  }
-}
-
-const char* operatorSign(Operation operation) {
-  switch (operation) {
-    case Operation::Add:
-      return " + ";
-    case Operation::Subtract:
-      return " - ";
-    case Operation::Multiply:
-      return " * ";
-    case Operation::Divide:
-      return " / ";
-    case Operation::Modulo:
-      return " % ";
-    case Operation::Concatenate:
-      return " || ";
-    default:
-      return nullptr;
-  }
-}
 
 bool isParameter(std::string_view text) {
   std::size_t i = 1;
@@ -136,6 +89,11 @@ std::string KlartextFormulas::systemDatum(const Block& block, const VariableRef&
   if ((name == "$AA_IW" || name == "$P_EP") && axisNumber(word(0)) != 0) {
     return read(fmt::format("ID270 NR1 IDX{}", axisNumber(word(0))));
   }
+  if (!measured_[0].empty() && name == "$AC_MEA") return fmt::format("((1 + {}) / 2)", measured_[3]);
+  if (!measured_[0].empty() && name == "$AA_MW" && axisNumber(word(0)) != 0) {
+    const auto axis = static_cast<std::size_t>(axisNumber(word(0)) - 1);
+    return axis == measuredToolAxis_ ? fmt::format("({} - Q108)", measured_[axis]) : measured_[axis];
+  }
   const bool component = word(2) == "TR" || word(2) == "RT";
   if (name == "$P_UIFR" && component && axisNumber(word(1)) != 0) {
     return presetDatum(quantity(block, variable.index[0]), axisNumber(word(1)) + (word(2) == "RT" ? 3 : 0));
@@ -157,6 +115,13 @@ std::string KlartextFormulas::read(const std::string& datum) {
   const std::string result = helper("");
   prelude_.back() = fmt::format("FN 18: SYSREAD {} = {}", result, datum);
   return result;
+}
+
+std::string KlartextFormulas::measuringBlock(int toolAxis) {
+  measuredToolAxis_ = static_cast<std::size_t>(toolAxis);
+  for (std::size_t i = 0; measured_[3].empty() && i < 4; ++i)
+    measured_[i] = define(fmt::format("measuring block {}", i + 1), false);
+  return measured_[0];
 }
 
 std::string KlartextFormulas::helper(const std::string& formula) {
@@ -213,16 +178,18 @@ std::string KlartextFormulas::formula(const Block& block, const Operand& operand
     default:
       break;
   }
-  const char* sign = operatorSign(node.operation);
-  if (sign == nullptr) throw NotCarriedOver("formulas in Klartext have no comparisons and no logic");
+  const std::string_view sign = klartext::operatorText(node.operation);
+  if (sign.empty()) throw NotCarriedOver("formulas in Klartext have no comparisons and no logic");
   // Sums are computed from left to right anyway.
   const bool sum = node.operation == Operation::Add || node.operation == Operation::Subtract;
-  return (sum ? formula(block, node.left) : factor(node.left)) + sign + factor(node.right);
+  return fmt::format("{}{}{}", sum ? formula(block, node.left) : factor(node.left), sign, factor(node.right));
 }
 
 std::string KlartextFormulas::call(const Block& block, const Node& node) {
   const auto argument = [&](std::uint32_t i) { return formula(block, block.operands[node.a + i]); };
-  if (const char* name = functionName(node.function)) return fmt::format("{} ({})", name, argument(0));
+  const bool truncates = node.function == Function::Truncate;  // INT leaves the decimals off, too
+  const std::string_view name = klartext::functionName(truncates ? Function::Integer : node.function);
+  if (!name.empty()) return fmt::format("{} ({})", name, argument(0));
   switch (node.function) {
     case Function::Atan2: {
       const std::string result = helper("");
@@ -239,6 +206,10 @@ std::string KlartextFormulas::call(const Block& block, const Node& node) {
       // FN 13 counts from 0 to 360 degrees, ATAN2 from -180 to 180.
       return fmt::format("({0} - 360 * INT (({0} + 179.999999999) / 360))", result);
     }
+    case Function::Maximum:
+    case Function::Minimum:
+      return fmt::format("((({0}) + ({1})) / 2 {2} ABS (({0}) - ({1})) / 2)", argument(0), argument(1),
+                         node.function == Function::Maximum ? '+' : '-');
     case Function::Round:
       return fmt::format("INT ({0} + SGN ({0}) * 0.5)", factorText(argument(0)));
     default:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <string_view>
@@ -35,6 +36,10 @@ public:
   /// A number for a variable that the program defines.
   std::string define(std::string_view name, bool text);
 
+  /// The first of the four parameters that measuring blocks fill: ball centre X, Y, Z and whether it was touched.
+  /// `toolAxis`: 0 to 2; $AA_MW, which reads them, counts in it to the tip.
+  std::string measuringBlock(int toolAxis);
+
   /// Blocks that must stand in front of what was asked for since the last call.
   std::vector<std::string> takePrelude();
 
@@ -49,6 +54,8 @@ private:
   int nextNumber_ = 1600;
   int nextText_ = 1600;
   int nextHelper_ = 0;
+  std::array<std::string, 4> measured_;  ///< empty in front of the first measuring block
+  std::size_t measuredToolAxis_ = 2;
   std::vector<std::string> prelude_;
 };
 

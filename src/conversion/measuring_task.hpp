@@ -42,6 +42,7 @@ enum class Correction {
   None,
   Origin,             ///< the zero offset shifts until the feature lies where it should
   Rotation,           ///< the zero offset turns
+  RotaryAxis,         ///< the zero offset of the rotary axis about the tool axis
   OriginAndRotation,  ///< of a corner: its first edge becomes the main axis
 };
 

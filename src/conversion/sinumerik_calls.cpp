@@ -16,20 +16,7 @@ constexpr double safeCornerAngle = 10;  ///< degrees that a corner's edge may be
 
 /// S_MVAR of CYCLE977, units.
 int units977(Feature feature) {
-  switch (feature) {
-    case Feature::Hole:
-      return 1;
-    case Feature::Spigot:
-      return 2;
-    case Feature::Groove:
-      return 3;
-    case Feature::Rib:
-      return 4;
-    case Feature::Pocket:
-      return 5;
-    default:
-      return 6;
-  }
+  return static_cast<int>(std::ranges::find(features977, feature) - features977.begin()) + 1;
 }
 
 class Writer {
@@ -178,7 +165,7 @@ private:
     const double rise = known(second[axis] - first[axis], "the expected slope is");
     const bool against = (axis == 0 && along == 1) || (axis == 2 && along == 0);
     const double expected = std::atan2(rise, distance) * 180 / std::numbers::pi * (against ? -1 : 1);
-    const bool rotates = task_.correction == Correction::Rotation;
+    const bool rotates = task_.correction == Correction::Rotation || task_.correction == Correction::RotaryAxis;
     const Quantity set_ = rotates ? sinumerikEdgeAngle(task_, task_.angle) : Quantity(expected);
     Quantity path = task_.path;
     if (!(set_ == expected)) {

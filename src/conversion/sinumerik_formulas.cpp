@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "conversion/call.hpp"
+#include "language/sinumerik/keywords.hpp"
+#include "language/sinumerik/operators.hpp"
 
 namespace probewright::conversion {
 
@@ -24,60 +26,12 @@ constexpr int toolRadius = 108;
 constexpr int toolLength = 114;
 constexpr int firstResult = 115;
 
-const char* functionName(Function function) {
-  switch (function) {
-    case Function::Sin:
-      return "SIN";
-    case Function::Cos:
-      return "COS";
-    case Function::Tan:
-      return "TAN";
-    case Function::Asin:
-      return "ASIN";
-    case Function::Acos:
-      return "ACOS";
-    case Function::Sqrt:
-      return "SQRT";
-    case Function::Square:
-      return "POT";
-    case Function::Ln:
-      return "LN";
-    case Function::Exp:
-      return "EXP";
-    case Function::Abs:
-      return "ABS";
-    case Function::Integer:
-      return "TRUNC";
-    default:
-      return nullptr;
-  }
-}
-
-const char* operatorSign(Operation operation) {
-  switch (operation) {
-    case Operation::Add:
-      return "+";
-    case Operation::Subtract:
-      return "-";
-    case Operation::Multiply:
-      return "*";
-    case Operation::Divide:
-      return "/";
-    case Operation::Modulo:
-      return " MOD ";
-    case Operation::Concatenate:
-      return "<<";
-    case Operation::Equal:
-      return "==";
-    case Operation::NotEqual:
-      return "<>";
-    case Operation::Less:
-      return "<";
-    case Operation::Greater:
-      return ">";
-    default:
-      return nullptr;
-  }
+/// "SIN"; empty if there is no such function of one argument.
+std::string_view functionName(Function function) {
+  if (function == Function::Integer) function = Function::Truncate;  // INT leaves the decimals off, too
+  for (const sinumerik::FunctionEntry& each : sinumerik::functions())
+    if (each.function == function && function != Function::Host && each.mostArguments == 1) return each.name;
+  return {};
 }
 
 }  // namespace
@@ -161,16 +115,20 @@ std::string SinumerikFormulas::formula(const Block& block, const Operand& operan
     default:
       break;
   }
-  const char* sign = operatorSign(node.operation);
+  const sinumerik::BinaryOperator* sign = sinumerik::operatorOf(node.operation);
   if (sign == nullptr) throw NotCarriedOver("this condition has no twin on a SINUMERIK");
+  const char* blank = sign->symbol.front() >= 'A' ? " " : "";
   // Sums are computed from left to right anyway.
   const bool sum = node.operation == Operation::Add || node.operation == Operation::Subtract;
-  return (sum ? formula(block, node.left) : factor(node.left)) + sign + factor(node.right);
+  const std::string left = sum ? formula(block, node.left) : factor(node.left);
+  return fmt::format("{}{}{}{}{}", left, blank, sign->symbol, blank, factor(node.right));
 }
 
 std::string SinumerikFormulas::call(const Block& block, const Node& node) {
   const auto argument = [&](std::uint32_t i) { return formula(block, block.operands[node.a + i]); };
-  if (const char* name = functionName(node.function)) return fmt::format("{}({})", name, argument(0));
+  if (const std::string_view name = functionName(node.function); !name.empty()) {
+    return fmt::format("{}({})", name, argument(0));
+  }
   switch (node.function) {
     case Function::Atan:
       return fmt::format("ATAN2({},1)", argument(0));

@@ -26,6 +26,8 @@ public:
   Quantity quantity(const language::Block& block, const language::Operand& operand);
 
   /// Variables named so far that the program must declare, "_Q150".
+  /// A variable of the converter's own, declared at the beginning.
+  const std::string& declare(const std::string& name) { return *declared_.insert(name).first; }
   const std::set<std::string>& declared() const { return declared_; }
 
 private:

@@ -12,10 +12,10 @@ namespace probewright::conversion {
 namespace {
 
 Feature feature977(int units) {
-  static constexpr Feature features[] = {Feature::Hole, Feature::Spigot, Feature::Groove,
-                                         Feature::Rib,  Feature::Pocket, Feature::RectangularSpigot};
-  if (units < 1 || units > 6) throw NotCarriedOver("this variant of CYCLE977 (S_MVAR) is not known");
-  return features[units - 1];
+  if (units < 1 || units > static_cast<int>(features977.size())) {
+    throw NotCarriedOver("this variant of CYCLE977 (S_MVAR) is not known");
+  }
+  return features977[static_cast<std::size_t>(units - 1)];
 }
 
 constexpr double leastCornerPath = 20;  ///< CYCLE961 measures over at least that, mm
@@ -150,10 +150,6 @@ private:
 
   MeasuringTask edge() {
     MeasuringTask task = begun(Feature::Edge);
-    if (!(number("S_RA") == 0)) {
-      throw NotCarriedOver("S_RA: the HEIDENHAIN cycles that align a rotary axis turn it themselves",
-                           "see cycle 403, and convert this call by hand");
-    }
     if (call_.digit("S_MVAR", 4) == 1) losses_.push_back("S_MVAR: no protection zone");
     const int code = call_.integer("S_MA");
     task.axis = code % 10 - 1;
@@ -177,7 +173,11 @@ private:
       task.further[0][axis] = task.further[0][axis] + number("S_ID") * slope;
     }
     task.angle = task.axis == 0 ? set + 90 : set;
-    if (task.correction == Correction::Origin) task.correction = Correction::Rotation;
+    if (task.correction == Correction::Origin) {
+      const bool rotary = !(number("S_RA") == 0);
+      if (rotary && task.axis == 2) throw NotCarriedOver("S_RA: only the axis about the tool axis is corrected");
+      task.correction = rotary ? Correction::RotaryAxis : Correction::Rotation;
+    }
     return task;
   }
 

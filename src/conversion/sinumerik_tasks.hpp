@@ -1,9 +1,15 @@
 #pragma once
 
+#include <array>
+
 #include "conversion/call.hpp"
 
 /// SINUMERIK measuring cycles as measuring tasks.
 namespace probewright::conversion {
+
+/// What CYCLE977 measures, by the units of S_MVAR from 1 on.
+inline constexpr std::array<Feature, 6> features977 = {Feature::Hole, Feature::Spigot, Feature::Groove,
+                                                       Feature::Rib,  Feature::Pocket, Feature::RectangularSpigot};
 
 /// The task of a call made with the tip of the probe at `start`. Throws NotCarriedOver for cycles and variants without
 /// a task. `ballRadius`: as the written program names it.

@@ -411,6 +411,7 @@ void ToKlartext::command(const Block& block, const Command& command) {
     return line(fmt::format("FN 14: ERROR = {}", number >= 65000 ? number - 64000 : number));
   }
   if (name == "WORKPIECE") return blank(block, command);
+  if (name == "MEAS") return measuringBlock(block, command);
   if (name == "STOPRE") return line("FN 20: WAIT FOR SYNC");
   if (name == "G4" && !words.empty() && words[0].address == 'F') {
     line("CYCL DEF 9.0 DWELL TIME");

@@ -52,6 +52,9 @@ private:
   // planes.cpp
   void swivel(const language::Block& block, const language::CallProgram& call);
 
+  // single_touches.cpp
+  void measuringBlock(const language::Block& block, const language::Command& command);
+
   // to_klartext_moves.cpp
   void move(const language::Block& block, const language::Move& move);
   void arc(const language::Block& block, const language::Move& move, bool clockwise);
@@ -101,8 +104,9 @@ private:
   std::array<std::optional<Quantity>, 3> shift_;
   bool rotated_ = false;
   std::optional<int> activeRow_;
-  bool copiesToRow0_ = false;  ///< the active zero offset was copied to the last one
-  bool unturned_ = false;      ///< the zero offset has lost its rotation, as for cycle 400
+  bool copiesToRow0_ = false;    ///< the active zero offset was copied to the last one
+  bool besideMeasured_ = false;  ///< a measuring block has left the probe elsewhere than the original one
+  bool unturned_ = false;        ///< the zero offset has lost its rotation, as for cycle 400
   std::size_t cycleNumber_ = 0;
 
   struct Open {

@@ -162,7 +162,7 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   const bool calibrates = call.cycle == "CYCLE976";
   const Place start = calibrates ? Place{} : here();
   MeasuringTask task = sinumerikTask(call, start, ballRadius_, losses);
-  const bool turns = task.correction == Correction::Rotation;
+  const bool turns = task.correction == Correction::Rotation || task.correction == Correction::RotaryAxis;
   if (turns && activeRow_ && task.row == *activeRow_) task.active = true;
   task.fromUnturned = std::exchange(unturned_, false) && turns;
   if (task.active && !turns) {

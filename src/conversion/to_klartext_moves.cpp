@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "conversion/sinumerik_formulas.hpp"
 #include "conversion/to_klartext.hpp"
@@ -27,6 +28,10 @@ const Word* find(std::span<const Word> words, std::string_view address) {
 std::string ToKlartext::coordinate(const Block& block, const Word& word) {
   const Quantity value = quantity(block, word.value);
   const bool incremental = word.mode == WordMode::Incremental || (word.mode == WordMode::Plain && incremental_);
+  if (std::exchange(besideMeasured_, besideMeasured_ && incremental) && incremental) {
+    out_.list(block, "this counts from where the probe was touched, but the stylus has been retracted",
+              "give the coordinate as an absolute one");
+  }
   if (const auto index = planeIndex(word.address)) {
     auto& now = position_[*index];
     if (!incremental) {

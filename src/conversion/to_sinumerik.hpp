@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -14,6 +15,9 @@
 
 /// Writes a HEIDENHAIN program in the language of a SINUMERIK, block by block.
 namespace probewright::conversion {
+
+/// The call as text: each parameter at its place.
+std::string callText(const Call& call);
 
 class ToSinumerik {
 public:
@@ -41,6 +45,14 @@ private:
   // planes.cpp
   void plane(const language::Block& block, const language::Transform& transform);
 
+  // single_touches.cpp
+  void singleTouch(const language::Block& block, const language::CycleCall& cycle, const Call& call);
+
+  // rotary_axes.cpp
+  /// The rotary axis about the tool axis.
+  std::string tableAxis() const;
+  void alignRotaryAxis(const language::Block& block, const Call& call);
+
   // to_sinumerik_moves.cpp
   void move(const language::Block& block, const language::Move& move);
   void setCentre(const language::Block& block, const language::Move& move);
@@ -62,6 +74,12 @@ private:
   /// The rotation of a zero offset about the tool axis; without `row` of the one in effect.
   void setRotation(const std::optional<Quantity>& row, const Quantity& angle);
   void basicRotation(const Call& call);
+  /// Row 0, the preset that a cycle sets at once; its twin is the last settable zero offset, a copy of the active one.
+  void takeRowZero();
+  /// Writes a component of a zero offset, "Z,RT", and selects it again if it is in effect; without `row` that of the
+  /// one in effect. `value` makes the new one of the text of the present one.
+  void setComponent(const std::optional<Quantity>& row, const std::string& component,
+                    const std::function<std::string(const std::string&)>& value);
   /// Selects the zero offset `row` again if it is in effect.
   void selectIfActive(const Quantity& row);
   void judge(const MeasuringTask& task);

@@ -24,7 +24,8 @@ bool alongMainAxis(const MeasuringTask& plane) {
          apart(1, 1).number() > 0;
 }
 
-/// The call as text: each parameter at its place.
+}  // namespace
+
 std::string callText(const Call& call) {
   const cycles::CycleDefinition* definition = cycles::sinumerikCycle(call.cycle);
   std::vector<std::string> places(definition->parameters.size());
@@ -37,8 +38,6 @@ std::string callText(const Call& call) {
     places.pop_back();
   return fmt::format("{}({})", call.cycle, fmt::join(places, ","));
 }
-
-}  // namespace
 
 Call ToSinumerik::callOf(const Block& block, const CycleCall& cycle) {
   Call call;
@@ -76,6 +75,8 @@ void ToSinumerik::cycle(const Block& block, const CycleCall& cycle) {
   const cycles::CycleDefinition* definition = cycles::heidenhainCycle(cycle.number);
   const Call call = callOf(block, cycle);
   if (cycle.number == 404) return basicRotation(call);
+  if (cycle.number == 403) return alignRotaryAxis(block, call);
+  if (cycle.number == 0 || cycle.number == 3 || cycle.number == 4) return singleTouch(block, cycle, call);
   Losses losses;
   const std::vector<MeasuringTask> tasks = heidenhainTasks(call, ballRadius_, losses);
   out_.line(fmt::format("; {} {}", cycle.number, definition == nullptr ? "" : definition->title));
@@ -108,12 +109,8 @@ void ToSinumerik::task(const Block& block, const MeasuringTask& given, const std
   MeasuringTask task = given;
   const bool corrects = task.correction != Correction::None;
   if (corrects && !task.active && task.row == 0) {
-    // Row 0 is the preset that the cycle sets at once; its twin is the last settable zero offset.
-    out_.line("$P_UIFR[99]=$P_UIFR[$P_UIFRNUM]");
-    out_.line(settableCode(0));
+    takeRowZero();
     task.row = 99;
-    activeRow_ = 99;
-    forgetPosition();
   }
   Losses losses;
   const SinumerikPassage passage = sinumerikPassage(task, ballRadius_, losses);
@@ -128,6 +125,10 @@ void ToSinumerik::task(const Block& block, const MeasuringTask& given, const std
   if (number >= 421 && number <= 427) judge(task);
   if (passage.start) out_.line(fmt::format("G0 {}", addressWord(axis(2), task.clearance)));
   shiftToWish(block, task, passage.rest);
+  if (task.correction == Correction::RotaryAxis) {
+    // A table turns the workpiece against the direction of its axis (ISO 841).
+    setComponent(std::nullopt, tableAxis() + ",TR", [](const std::string& present) { return present + "+_OVR[16]"; });
+  }
   for (const std::string& loss : losses)
     out_.lose(block, loss);
   forgetPosition();
@@ -200,29 +201,38 @@ void ToSinumerik::takeRotationOut(const MeasuringTask& task) {
 }
 
 void ToSinumerik::setRotation(const std::optional<Quantity>& row, const Quantity& angle) {
-  const auto rotation = [&](const std::string& number) {
-    return fmt::format("$P_UIFR[{},{},RT]={}", number, axis(2), sinumerikText(angle));
+  setComponent(row, axis(2) + ",RT", [&](const std::string&) { return sinumerikText(angle); });
+}
+
+void ToSinumerik::setComponent(const std::optional<Quantity>& row, const std::string& component,
+                               const std::function<std::string(const std::string&)>& value) {
+  const auto write = [&](const std::string& number) {
+    const std::string text = fmt::format("$P_UIFR[{},{}]", number, component);
+    out_.line(fmt::format("{}={}", text, value(text)));
   };
   forgetPosition();
   if (activeRow_ && (!row || *row == *activeRow_)) {
-    out_.line(rotation(std::to_string(*activeRow_)));
+    write(std::to_string(*activeRow_));
     out_.line(settableCode(*activeRow_));
   } else if (row && row->isNumber()) {
-    out_.line(rotation(sinumerikText(*row)));
+    write(sinumerikText(*row));
     selectIfActive(*row);
   } else {
-    out_.line(rotation("$P_UIFRNUM"));
+    write("$P_UIFRNUM");
     selectIfActive(Quantity::of("$P_UIFRNUM"));
   }
 }
 
+void ToSinumerik::takeRowZero() {
+  out_.line("$P_UIFR[99]=$P_UIFR[$P_UIFRNUM]");
+  out_.line(settableCode(0));
+  activeRow_ = 99;
+  forgetPosition();
+}
+
 void ToSinumerik::basicRotation(const Call& call) {
   const Quantity row = call.has("Q305") ? call.number("Q305") : Quantity(-1);
-  if (row == 0) {
-    out_.line("$P_UIFR[99]=$P_UIFR[$P_UIFRNUM]");
-    out_.line(settableCode(0));
-    activeRow_ = 99;
-  }
+  if (row == 0) takeRowZero();
   const bool active = row.isNumber() && row.number() <= 0;
   setRotation(active ? std::nullopt : std::optional(row), call.number("Q307"));
 }
@@ -285,6 +295,7 @@ std::string ToSinumerik::parameter(int number) {
 }
 
 void ToSinumerik::copyResults(const Block& block, const std::string& heidenhainCycle, const MeasuringTask& task) {
+  if (heidenhainCycle == "403") return;
   std::set<int> missing = readResults(heidenhainCycle);
   const Results left = sinumerikResults(task);
   for (const auto& [meaning, name] : heidenhainResults(heidenhainCycle, task)) {

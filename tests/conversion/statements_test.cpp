@@ -17,7 +17,7 @@ PlantedPart emptyTable() {
 /// The blocks, their conversion and what becomes of it on the way back end at the same place.
 ::testing::AssertionResult driveTheSame(const std::string& program, ProgramLanguage language) {
   const PlantedPart part = emptyTable();
-  const Twin original = run(program, language, part.bench.setup);
+  const Twin original = run(program, language, part);
   const Twin there = runConverted(original, part);
   for (const auto& result : {ranWhole(original), ranWhole(there), sameEnd(original, there)})
     if (!result) return result;

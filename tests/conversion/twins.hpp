@@ -57,12 +57,13 @@ inline simulation::Setup twinSetup(const simulation::Setup& setup) {
   return twin;
 }
 
-inline Twin run(const std::string& text, ProgramLanguage language, const simulation::Setup& setup) {
+inline Twin run(const std::string& text, ProgramLanguage language, const PlantedPart& part) {
   const bool heidenhain = language == ProgramLanguage::Klartext;
   session::RunOptions options;
-  options.control = heidenhain ? ControlKind::TNC640 : ControlKind::Sinumerik840Dsl;
+  options.control = heidenhain ? part.bench.control : ControlKind::Sinumerik840Dsl;
   options.recordPath = false;
-  session::RunOutcome outcome = session::runText(heidenhain ? "BENCH.H" : "BENCH.MPF", text, twinSetup(setup), options);
+  session::RunOutcome outcome =
+      session::runText(heidenhain ? "BENCH.H" : "BENCH.MPF", text, twinSetup(part.bench.setup), options);
   Twin twin;
   twin.text = text;
   twin.language = language;
@@ -79,16 +80,16 @@ inline Twin run(const std::string& text, ProgramLanguage language, const simulat
   return twin;
 }
 inline Twin runKlartext(const std::string& text, const PlantedPart& part) {
-  return run(text, ProgramLanguage::Klartext, part.bench.setup);
+  return run(text, ProgramLanguage::Klartext, part);
 }
 inline Twin runSinumerik(const std::string& text, const PlantedPart& part) {
-  return run(text, ProgramLanguage::Sinumerik, part.bench.setup);
+  return run(text, ProgramLanguage::Sinumerik, part);
 }
 
 /// The program in the other language, run in the same world.
 inline Twin runConverted(const Twin& twin, const PlantedPart& part) {
   session::Conversion conversion = converted(twin.text, twin.language);
-  Twin other = run(conversion.text, otherLanguage(twin.language), part.bench.setup);
+  Twin other = run(conversion.text, otherLanguage(twin.language), part);
   other.lost = std::move(conversion.mistakes);
   other.lost.insert(other.lost.end(), conversion.notCarriedOver.begin(), conversion.notCarriedOver.end());
   return other;
@@ -136,10 +137,12 @@ inline ::testing::AssertionResult sameOrigin(const Twin& one, const Twin& other)
                                        << other.text;
 }
 
-/// Both machines stand at the same place, linear and rotary axes.
+/// Both machines stand at the same place, linear and rotary axes; whole turns do not count.
 inline ::testing::AssertionResult sameEnd(const Twin& one, const Twin& other) {
   for (std::size_t i = 0; i < one.axes.values.size(); ++i) {
-    if (std::abs(one.axes[i] - other.axes[i]) < exactly) continue;
+    double apart = one.axes[i] - other.axes[i];
+    if (i >= 3) apart = std::remainder(apart, 360);  // rotary axes stand behind X, Y and Z
+    if (std::abs(apart) < exactly) continue;
     return ::testing::AssertionFailure() << fmt::format("axis {}: {:.9f} and {:.9f}\n", i, one.axes[i], other.axes[i])
                                          << one.text << "\n"
                                          << other.text;

@@ -11,8 +11,6 @@
 
 namespace probewright::language::klartext {
 
-namespace {
-
 std::string_view functionName(Function function) {
   switch (function) {
     case Function::Sin:
@@ -70,6 +68,8 @@ std::string_view operatorText(Operation operation) {
       return {};
   }
 }
+
+namespace {
 
 /// The names of string functions' arguments, in the order of their operands.
 std::array<std::string_view, 4> argumentNames(std::string_view function) {

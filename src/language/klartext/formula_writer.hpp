@@ -12,6 +12,11 @@ std::string writeNumber(double number);
 /// With its sign: "+50", "-0.5".
 std::string writeSigned(double number);
 
+/// "SIN"; empty if formulas have no such function.
+std::string_view functionName(Function function);
+/// " + "; empty if formulas have no such operator.
+std::string_view operatorText(Operation operation);
+
 /// "Q5", "QS3".
 std::string writeVariable(const VariableRef& variable);
 

@@ -1,0 +1,242 @@
+#include "conversion/twins.hpp"
+
+/// Machines with rotary axes: tilted planes, and workpieces that a rotary table aligns, in random worlds.
+namespace probewright::testing_support {
+namespace {
+
+constexpr int worlds = 200;
+constexpr const char* builds[] = {"mill5-table-table", "mill5-head-table", "mill5-head-head"};
+
+/// A hole in a plane that is tilted about the preset by the space angles. Each control has its own choice of two
+/// postures for such a plane: results are compared, not axes.
+struct TiltedHole {
+  PlantedPart part;
+  Vector3 angles;   ///< SPA, SPB, SPC
+  double diameter;  ///< nominal and true
+
+  TiltedHole(Dice& dice, const char* machine)
+      : part(plant(dice, ControlKind::TNC640, 0, 0, machine)),
+        angles(written(dice.between(-20, 20)), written(dice.between(-20, 20)), written(dice.between(-40, 40))),
+        diameter(written(dice.between(20, 60))) {
+    part.nominal = {written(dice.between(-30, 30)), written(dice.between(-30, 30)), written(dice.between(-10, 10))};
+    // Turned about X, then about Y, then about Z, each of the preset.
+    part.machineFromPart =
+        part.machineFromPreset * pose(Vector3::Zero(), angles) * pose(part.nominal + dice.within(0.5));
+    part.bench.part(simulation::Ring(diameter / 2, diameter / 2 + 40, -40), part.machineFromPart);
+  }
+};
+
+const std::vector<Counterpart> circleResults = {{"Q151", "_OVR[5]"}, {"Q152", "_OVR[6]"}, {"Q153", "_OVR[4]"}};
+
+TEST(ConvertTiltedPlane, MeasuresHolesInPlaneSpatial) {
+  Dice dice(8000);
+  for (int world = 0; world < worlds; ++world) {
+    SCOPED_TRACE(fmt::format("world {}", world));
+    const TiltedHole hole(dice, builds[world % 3]);
+    const Vector3& n = hole.part.nominal;
+    const std::string text =
+        fmt::format("L Z-1 R0 FMAX M91\nPLANE SPATIAL SPA{:+.3f} SPB{:+.3f} SPC{:+.3f} TURN FMAX\n", hole.angles.x(),
+                    hole.angles.y(), hole.angles.z()) +
+        fmt::format("L X{:+.3f} Y{:+.3f} R0 FMAX\nL Z{:+.3f} R0 FMAX\n", n.x(), n.y(), n.z() + 30) +
+        probe(421, {{273, n.x()},
+                    {274, n.y()},
+                    {262, hole.diameter},
+                    {325, 0},
+                    {247, 90},
+                    {261, n.z() - 8},
+                    {320, 1},
+                    {260, n.z() + 20},
+                    {301, 0},
+                    {275, 0},
+                    {276, 0},
+                    {279, 0},
+                    {280, 0},
+                    {281, 0},
+                    {309, 0},
+                    {330, 0},
+                    {423, 4},
+                    {365, 1}}) +
+        fmt::format("L Z{:+.3f} R0 FMAX\nL X+Q151 Y+Q152 FMAX\n", n.z() + 20);
+    const Twin original = runKlartext("BEGIN PGM BENCH MM\nTOOL CALL 1 Z\n" + text + "END PGM BENCH MM\n", hole.part);
+    ASSERT_TRUE(ranWhole(original));
+    EXPECT_NEAR(original.result("Q153"), hole.diameter, exactly);
+
+    const Twin there = runConverted(original, hole.part);
+    ASSERT_TRUE(ranWhole(there));
+    EXPECT_TRUE(sameResults(original, there, circleResults));
+
+    const Twin back = runConverted(there, hole.part);
+    ASSERT_TRUE(ranWhole(back));
+    EXPECT_TRUE(sameResults(original, back, circleResults));
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(ConvertTiltedPlane, MeasuresHolesInSwivelledPlanes) {
+  Dice dice(8001);
+  for (int world = 0; world < worlds; ++world) {
+    SCOPED_TRACE(fmt::format("world {}", world));
+    TiltedHole hole(dice, builds[world % 3]);
+    const Vector3& n = hole.part.nominal;
+    const bool zyx = dice.coin();  // about Z, the new Y, the new X; or about X, the new Y, the new Z
+    std::string angles = fmt::format("{:.3f},{:.3f},{:.3f}", hole.angles.z(), hole.angles.y(), hole.angles.x());
+    if (!zyx) {
+      const Matrix3 turn = (rotation(Vector3::UnitX(), hole.angles.x()) * rotation(Vector3::UnitY(), hole.angles.y()) *
+                            rotation(Vector3::UnitZ(), hole.angles.z()))
+                               .linear();
+      const Matrix3 before = pose(Vector3::Zero(), hole.angles).linear();
+      Pose turned = Pose::Identity();
+      turned.linear() = turn * before.transpose();
+      hole.part.bench.setup.truth.solids.back().tableFromSolid =
+          hole.part.machineFromPreset * turned * hole.part.machineFromPreset.inverse() * hole.part.machineFromPart;
+      angles = fmt::format("{:.3f},{:.3f},{:.3f}", hole.angles.x(), hole.angles.y(), hole.angles.z());
+    }
+    const std::string text =
+        fmt::format("G17 G90 G710\nT1\nM6 D1\nG54\nSUPA G0 Z-1 D0\nD1\nCYCLE800(0,\"\",0,{},0,0,0,{},0,0,0,1)\n",
+                    zyx ? 27 : 57, angles) +
+        fmt::format("G0 X{:.3f} Y{:.3f}\nG0 Z{:.3f}\n", n.x(), n.y(), n.z() + 30) +
+        fmt::format("G1 Z{:.3f} F1000\n", n.z() - 8) +
+        sinumerikCall(
+            "CYCLE977",
+            {{"S_MVAR", 1}, {"S_PRNUM", 1}, {"S_NMSP", 1}, {"S_SETV", hole.diameter}, {"S_FA", 4}, {"S_TSA", 5}}) +
+        fmt::format("R1=_OVR[5]\nR2=_OVR[6]\nG0 Z{:.3f}\nG0 X=R1 Y=R2\nM30\n", n.z() + 20);
+    const Twin original = runSinumerik(text, hole.part);
+    ASSERT_TRUE(ranWhole(original));
+    EXPECT_NEAR(original.result("_OVR[4]"), hole.diameter, exactly);
+
+    const Twin there = runConverted(original, hole.part);
+    ASSERT_TRUE(ranWhole(there));
+    EXPECT_TRUE(sameResults(original, there, circleResults));
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+/// A skewed block on a table whose C axis turns it, and two points of an edge.
+struct SkewedBlock {
+  PlantedPart part;
+  int axis, sign;
+  Vector3 first, second;
+
+  explicit SkewedBlock(Dice& dice)
+      : part(plant(dice, ControlKind::TNC640, 0.5, 2, "mill5-table-table")),
+        axis(dice.whole(0, 1)),
+        sign(dice.coin() ? 1 : -1),
+        first(part.nominal),
+        second(part.nominal) {
+    part.bench.part(simulation::Box({-50, -50, -40}, {50, 50, 0}), part.machineFromPart);
+    first[axis] = second[axis] = part.nominal[axis] - sign * 50;
+    first[1 - axis] += written(dice.between(-40, -10));
+    second[1 - axis] += written(dice.between(10, 40));
+  }
+};
+
+TEST(ConvertRotaryTable, AlignsWithCycle403) {
+  Dice dice(4030);
+  for (int world = 0; world < worlds; ++world) {
+    SCOPED_TRACE(fmt::format("world {}", world));
+    SkewedBlock block(dice);
+    const bool directed = dice.coin();
+    if (directed && dice.coin()) std::swap(block.first, block.second);
+    const Vector3 way = block.second - block.first;
+    const double nominal = degrees(std::atan2(way.y(), way.x()));
+    const double target = directed ? (nominal < 0 ? nominal + 360 : nominal) : block.axis == 0 ? 90 : 0;
+    const double up = block.part.nominal.z() + 30;
+    const Twin original =
+        runKlartext(klartextProgram("CYCL DEF 247 PRESETTING ~\n  Q339=+1 ;NUMBER\n" +
+                                    probe(403, {{263, block.first.x()},
+                                                {264, block.first.y()},
+                                                {265, block.second.x()},
+                                                {266, block.second.y()},
+                                                {272, block.axis + 1},
+                                                {267, block.sign},
+                                                {261, block.part.nominal.z() - 8},
+                                                {320, 3},
+                                                {260, up},
+                                                {301, 0},
+                                                {312, directed ? 0 : 6},
+                                                {337, dice.whole(0, 1)},
+                                                {305, dice.whole(0, 1)},
+                                                {303, 1},
+                                                {380, target}}) +
+                                    "L Z+100 R0 FMAX\nL X+0 Y+0 FMAX\nL Y+Q150 X+1 FMAX\nL IC+10 FMAX\nL C+5 FMAX\n"),
+                    block.part);
+    ASSERT_TRUE(ranWhole(original));
+
+    const Twin there = runConverted(original, block.part);
+    ASSERT_TRUE(ranWhole(there));
+    EXPECT_TRUE(sameOrigin(original, there));
+    EXPECT_TRUE(sameEnd(original, there));
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(ConvertRotaryTable, CorrectsItsZeroWithCycle1410) {
+  Dice dice(1410);
+  for (int world = 0; world < worlds; ++world) {
+    SCOPED_TRACE(fmt::format("world {}", world));
+    SkewedBlock block(dice);
+    if (dice.coin()) std::swap(block.first, block.second);
+    const double height = block.part.nominal.z() - 8;
+    const Twin original = runKlartext(klartextProgram(probe(1410, {{1100, block.first.x()},
+                                                                   {1101, block.first.y()},
+                                                                   {1102, height},
+                                                                   {1103, block.second.x()},
+                                                                   {1104, block.second.y()},
+                                                                   {1105, height},
+                                                                   {372, block.sign * (block.axis + 1)},
+                                                                   {320, 3},
+                                                                   {260, block.part.nominal.z() + 20},
+                                                                   {1125, 0},
+                                                                   {309, 0},
+                                                                   {1126, 0},
+                                                                   {1120, 0},
+                                                                   {1121, 2}}) +
+                                                      "L Z+100 R0 FMAX\nL X+0 Y+0 FMAX\nL C+0 FMAX\n"),
+                                      block.part);
+    ASSERT_TRUE(ranWhole(original));
+
+    const Twin there = runConverted(original, block.part);
+    ASSERT_TRUE(ranWhole(there));
+    EXPECT_TRUE(sameResults(original, there, {{"Q994", "_OVR[16]"}}));
+    EXPECT_TRUE(sameOrigin(original, there));
+    EXPECT_TRUE(sameEnd(original, there));
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(ConvertRotaryTable, CorrectsItsZeroWithCycle998) {
+  Dice dice(998);
+  for (int world = 0; world < worlds; ++world) {
+    SCOPED_TRACE(fmt::format("world {}", world));
+    SkewedBlock block(dice);
+    Vector3 start = block.first;
+    start[block.axis] -= block.sign * 12;
+    const double high = block.part.nominal.z() + 30;
+    const std::string text =
+        fmt::format("G17 G90 G710\nT1\nM6 D1\nG54\nG0 Z{:.3f}\nG0 X{:.3f} Y{:.3f}\nG1 Z{:.3f} F1000\n", high, start.x(),
+                    start.y(), block.part.nominal.z() - 10) +
+        sinumerikCall("CYCLE998", {{"S_MVAR", dice.coin() ? 100105 : 105},
+                                   {"S_KNUM", dice.coin() ? 10001 : 19000},
+                                   {"S_RA", 5},  // C, the fifth axis of the channel
+                                   {"S_PRNUM", 1},
+                                   {"S_NMSP", 1},
+                                   {"S_FA", 10},
+                                   {"S_TSA", 5},
+                                   {"S_MA", (2 - block.axis) * 100 + block.axis + 1},
+                                   {"S_MD", block.sign > 0 ? 1 : 2},
+                                   {"S_ID", (block.second - block.first)[1 - block.axis]}}) +
+        fmt::format("G0 Z{:.3f}\nG0 X0 Y0\nG54\nG0 C0\nM30\n", high);
+    const Twin original = runSinumerik(text, block.part);
+    ASSERT_TRUE(ranWhole(original));
+
+    const Twin there = runConverted(original, block.part);
+    ASSERT_TRUE(ranWhole(there));
+    EXPECT_TRUE(sameResults(original, there, {{"Q994", "_OVR[16]"}}));
+    EXPECT_TRUE(sameOrigin(original, there));
+    EXPECT_TRUE(sameEnd(original, there));
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+}  // namespace
+}  // namespace probewright::testing_support
