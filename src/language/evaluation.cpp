@@ -11,6 +11,7 @@
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
+#include "language/word_column.hpp"
 
 namespace probewright::language {
 
@@ -59,7 +60,9 @@ bool equal(double a, double b, double relative) {
 
 }  // namespace
 
-SourcePlace Evaluation::place() const { return {program_.file(), block_.position.line, 0}; }
+SourcePlace Evaluation::place() const {
+  return {program_.file(), block_.position.line, columnOfFirstWord(block_.at(block_.source))};
+}
 
 void Evaluation::refuse(Refusal refusal, std::string text, std::string advice) const {
   throw control::Alarm(host_.code(refusal), std::move(text), std::move(advice));
@@ -190,13 +193,18 @@ double Evaluation::compute(const Node& node) {
     case Operation::IntegerDivide:
     case Operation::Modulo: {
       const double dividend = operand(node.left), divisor = operand(node.right);
-      if (divisor == 0) refuse(Refusal::DivisionByZero, "division by zero");
+      if (divisor == 0) {
+        refuse(Refusal::DivisionByZero, "the divisor is 0", "compare the divisor with 0 in a block before this one");
+      }
       if (node.operation == Operation::Divide) return dividend / divisor;
       return node.operation == Operation::Modulo ? std::fmod(dividend, divisor) : std::trunc(dividend / divisor);
     }
     case Operation::Power: {
       const double base = operand(node.left), exponent = operand(node.right);
-      if (base == 0 && exponent < 0) refuse(Refusal::DivisionByZero, "zero to a negative power divides by zero");
+      if (base == 0 && exponent < 0) {
+        refuse(Refusal::DivisionByZero, "zero to a negative power divides by zero",
+               "compare the base with 0 in a block before this one");
+      }
       if (base < 0 && exponent != std::trunc(exponent)) {
         refuse(Refusal::Domain,
                fmt::format("the negative number {} has no power {}", formatShortest(base), formatShortest(exponent)));
@@ -277,7 +285,8 @@ double Evaluation::callNumber(const Node& node) {
     return operand(block_.operands[node.a + index]);
   };
   const auto domain = [&](const char* what, double x) {
-    refuse(Refusal::Domain, fmt::format("{} of {} does not exist", what, formatShortest(x)));
+    refuse(Refusal::Domain, fmt::format("{} of {} does not exist", what, formatShortest(x)),
+           "check how this value comes about, in the blocks before this one");
   };
   const double x = argument(0);
   switch (node.function) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "language/word_column.hpp"
 
 namespace probewright::language {
 
@@ -99,7 +100,9 @@ RunResult Interpreter::run(std::shared_ptr<Program> main) {
     result.diagnostics = explain(std::move(cause));
   } catch (const control::Cancelled&) {
     result.end = RunEnd::Cancelled;
-    result.diagnostics = explain(here(Severity::Note, "the run was cancelled at this block"));
+    result.diagnostics = explain(options_.stop.stop_requested()
+                                     ? here(Severity::Note, "the run was interrupted at this block")
+                                     : here(Severity::Note, "the program stopped here and was not continued"));
   } catch (Broken& broken) {
     result.end = RunEnd::BrokenProgram;
     result.diagnostics = std::move(broken.mistakes);
@@ -288,7 +291,9 @@ Diagnostic Interpreter::here(Severity severity, std::string message, std::string
                         std::move(message), {},
                         std::move(advice),  std::move(code)};
   if (block_ != nullptr && block_->block.position.offset == position_.offset) {
-    diagnostic.excerpt = firstLine(block_->block.at(block_->block.source));
+    const std::string_view source = block_->block.at(block_->block.source);
+    diagnostic.excerpt = firstLine(source);
+    diagnostic.place.column = columnOfFirstWord(source);
   }
   return diagnostic;
 }
@@ -301,8 +306,10 @@ void Interpreter::relocate(Diagnostic& diagnostic, const control::AlarmPlace& pl
     if (loaded->program->file() != place.file) continue;
     Block block;
     Diagnostics ignored;
-    if (loaded->program->parse({place.offset, place.line}, block, ignored))
+    if (loaded->program->parse({place.offset, place.line}, block, ignored)) {
       diagnostic.excerpt = firstLine(block.at(block.source));
+      diagnostic.place.column = columnOfFirstWord(block.at(block.source));
+    }
   }
 }
 

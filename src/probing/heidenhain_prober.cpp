@@ -100,6 +100,7 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
   record.target = plane_.xyzFromPlane(expected.value_or(start + direction * distance));
   record.direction = xyzDirection;
 
+  const double directional = directionalRadius(xyzDirection);
   std::vector<Vector3> centres;
   EvaluatedTouch touch;
   const auto finish = [&](std::string outcome) {
@@ -137,6 +138,11 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
     const control::Touch latched = channel_.touchFrom(result);
     touch.latched = latched.latched;
     centres.push_back(plane_.planeFromXyz(latched.tip + probe_.ballRadius * channel_.toolAxis()) + tipOffsetNow());
+    const Vector3 centre = centres.back() + direction * directional;
+    record.ballCentre = plane_.xyzFromPlane(centre);
+    record.surface = plane_.xyzFromPlane(centre + direction * probe_.ballRadius);
+    record.latched = latched.latched;
+    finish("touched");
     channel_.retractTo(startTip, Feed::rapidTraverse());
   }
   Vector3 mean = Vector3::Zero();
@@ -144,19 +150,13 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
     mean += centre / static_cast<double>(centres.size());
   for (const Vector3& centre : centres) {
     if (centres.size() > 1 && probe_.confidence > 0 && (centre - mean).norm() > probe_.confidence) {
-      finish("scatter");
       throw Alarm("Value beyond tolerance",
                   fmt::format("Repeated measurements of one point differ by more than {:.4f} mm", probe_.confidence),
                   "clean the part, check the probe and MP6171");
     }
   }
-  mean += direction * directionalRadius(xyzDirection);
-  touch.ballCentre = mean;
-  touch.surface = mean + direction * probe_.ballRadius;
-  record.ballCentre = plane_.xyzFromPlane(touch.ballCentre);
-  record.surface = plane_.xyzFromPlane(touch.surface);
-  record.latched = touch.latched;
-  finish("touched");
+  touch.ballCentre = mean + direction * directional;
+  touch.surface = touch.ballCentre + direction * probe_.ballRadius;
   return touch;
 }
 

@@ -191,6 +191,12 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
     return std::nullopt;
   };
 
+  const auto noteTouch = [&](const control::Touch& touch) {
+    record.ballCentre = touch.tip;
+    record.surface = plane_.xyzFromPlane(plane_.planeFromXyz(touch.tip) + surfaceFromTcp);
+    record.latched = touch.latched;
+    finish("touched");
+  };
   Vector3 sum = Vector3::Zero();
   MeasuredPoint point;
   for (int i = 0; i < std::max(1, count); ++i) {
@@ -198,6 +204,7 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
       // A first quick touch, back off, then the one that counts.
       const auto quick = probeOnce(end, habits_.fastFeed);
       if (quick) {
+        noteTouch(*quick);
         const Vector3 back = plane_.planeFromXyz(quick->tip) - direction * std::min(2.0, path);
         channel_.retractTo(plane_.xyzFromPlane(back), retract);
       }
@@ -208,6 +215,7 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
       throw Alarm("61301", fmt::format("Probe does not switch within {:.3f} mm", 2 * path),
                   "check the setpoint, the measuring path DFA and the zero offset");
     }
+    noteTouch(*touch);
     sum += plane_.planeFromXyz(touch->tip);
     point.latched = touch->latched;
     channel_.retractTo(plane_.xyzFromPlane(start), retract);
@@ -216,10 +224,6 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
   point.surface = point.tcp + surfaceFromTcp;
   const auto axis = parallelAxis(direction);
   point.difference = axis ? point.surface[*axis] - setpoint[*axis] : (point.surface - setpoint).dot(direction);
-  record.ballCentre = plane_.xyzFromPlane(point.tcp);
-  record.surface = plane_.xyzFromPlane(point.surface);
-  record.latched = point.latched;
-  finish("touched");
   return point;
 }
 

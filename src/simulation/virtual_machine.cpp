@@ -119,8 +119,9 @@ std::string VirtualMachine::describe(const Touch& touch) const {
   const char* part = touch.capsule ? shape_.capsules[*touch.capsule].part : "stylus tip";
   const std::string tool = tool_->name.empty() ? fmt::format("tool {}", tool_->number)
                                                : fmt::format("tool {} \"{}\"", tool_->number, tool_->name);
-  return fmt::format("the {} of {} touched {} \"{}\" at X{:+.3f} Y{:+.3f} Z{:+.3f} on the table", part, tool,
-                     roleName(solid.role), solid.name, touch.point.x(), touch.point.y(), touch.point.z());
+  const std::string what = part == std::string_view("tool") ? tool : fmt::format("the {} of {}", part, tool);
+  return fmt::format("{} touched {} \"{}\" at X{:+.3f} Y{:+.3f} Z{:+.3f} on the table", what, roleName(solid.role),
+                     solid.name, touch.point.x(), touch.point.y(), touch.point.z());
 }
 
 double VirtualMachine::pretravel(const Motion& motion, const Touch& touch) const {

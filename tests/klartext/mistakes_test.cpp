@@ -90,7 +90,7 @@ TEST(Mistakes, OfCyclesInParts) {
 TEST(Mistakes, OfFunctionsAndFormulas) {
   expectSaid({{"FN 99: Q1 = 2", "3:6: a number from 0 to 38 is expected behind FN"},
               {"FN 1: Q1 = +1 - +2", "3:15: + is expected between the two values"},
-              {"FN 4: Q1 = +1 DIV +0", "Division by zero: division by zero"},
+              {"FN 4: Q1 = +1 DIV +0", "Division by zero: the divisor is 0"},
               {"FN 5: Q1 = SQRT -4", "Argument out of range: the square root of -4 does not exist"},
               {"FN 9: IF +1 EQU +1 LBL 3", "3:20: GOTO LBL is expected behind the condition"},
               {"FN 14: ERROR", "3:13: '=' is expected behind ERROR"},

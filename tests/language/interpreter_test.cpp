@@ -156,7 +156,7 @@ TEST(Jumps, WithoutLabelAreAnAlarmOrLeftOut) {
   EXPECT_EQ(result.end, RunEnd::Alarm);
   EXPECT_EQ(
       format(result.diagnostics.at(0)),
-      "MAIN.prg:2: error 14080: there is no label NOWHERE in this program\n    block 2\n    check how the label is "
+      "MAIN.prg:2:1: error 14080: there is no label NOWHERE in this program\n    block 2\n    check how the label is "
       "written");
   Make silent;
   silent.add(Jump{silent.block.add("NOWHERE"), {}, {}, JumpDirection::Any, true});
@@ -299,7 +299,7 @@ TEST(Structures, WithoutCounterpartAreAnAlarm) {
   Bench bench;
   const RunResult result = bench.run({Make().structure(Structure::While, Operand::of(0))});
   EXPECT_EQ(result.end, RunEnd::Alarm);
-  EXPECT_THAT(text(result), HasSubstr("MAIN.prg:1: error: this statement has no counterpart"));
+  EXPECT_THAT(text(result), HasSubstr("MAIN.prg:1:1: error: this statement has no counterpart"));
 }
 
 // ---- programs ----
@@ -344,7 +344,7 @@ TEST(ProgramCalls, OfAMissingProgramSayWhy) {
   Bench bench;
   const RunResult result = bench.run({Make().callProgram("NONE")});
   EXPECT_EQ(result.end, RunEnd::Alarm);
-  EXPECT_EQ(text(result), "MAIN.prg:1: error: there is no program NONE\n    block 1\n    look at the name\n");
+  EXPECT_EQ(text(result), "MAIN.prg:1:1: error: there is no program NONE\n    block 1\n    look at the name\n");
 }
 
 // ---- ends ----
@@ -355,7 +355,7 @@ TEST(Ends, AlarmComesWithPlaceAndCalls) {
   const RunResult result = bench.run({Make(), Make(), Make().callProgram("SUB")});
   EXPECT_EQ(result.end, RunEnd::Alarm);
   EXPECT_EQ(text(result),
-            "SUB.prg:4: error 4711: the axis is stuck\n    block 4\n    free it\n"
+            "SUB.prg:4:1: error 4711: the axis is stuck\n    block 4\n    free it\n"
             "SUB.prg:2: note: the subprogram was called here\n"
             "MAIN.prg:3: note: program SUB was called here\n");
   EXPECT_EQ(bench.host.protocol, "<MAIN <SUB SUB> MAIN> ") << "every level is left";
@@ -410,7 +410,7 @@ TEST(Ends, CancelFromOutsideAndFromTheHost) {
   Bench second;
   result = second.run({Make(), Make().say("cancel"), Make().say("never")});
   EXPECT_EQ(result.end, RunEnd::Cancelled);
-  EXPECT_THAT(text(result), HasSubstr("MAIN.prg:2: note"));
+  EXPECT_THAT(text(result), HasSubstr("MAIN.prg:2:1: note"));
 }
 
 // ---- operator ----

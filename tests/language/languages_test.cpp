@@ -95,7 +95,9 @@ TEST(KlartextRun, AlarmsNameTheBlock) {
   Control control;
   const RunResult result = control.klartext("0 BEGIN PGM MAIN MM\n1 Q1 = 5 / Q2\n2 END PGM MAIN MM\n");
   EXPECT_EQ(result.end, RunEnd::Alarm);
-  EXPECT_EQ(explained(result), "MAIN.H:2: error: division by zero\n    1 Q1 = 5 / Q2\n");
+  EXPECT_EQ(explained(result),
+            "MAIN.H:2:3: error: the divisor is 0\n    1 Q1 = 5 / Q2\n    compare the divisor with 0 in a block before "
+            "this one\n");
 }
 
 TEST(SinumerikRun, StructuresNest) {
@@ -175,7 +177,7 @@ TEST(SinumerikRun, MissingDestinationsHaveTheControlsNumber) {
   Control control;
   const RunResult result = control.sinumerik("R1=1\nGOTOF NOWHERE\nM30\n");
   EXPECT_EQ(result.end, RunEnd::Alarm);
-  EXPECT_THAT(explained(result), HasSubstr("MAIN.MPF:2: error 14080: there is no label NOWHERE behind this block"));
+  EXPECT_THAT(explained(result), HasSubstr("MAIN.MPF:2:1: error 14080: there is no label NOWHERE behind this block"));
 }
 
 TEST(BadPrograms, AreMessagesNotEndlessLoopsOrOverflows) {

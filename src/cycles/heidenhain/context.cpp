@@ -185,7 +185,7 @@ void runCycle(Control& control, const Entry& entry, const Arguments& arguments, 
   try {
     entry.run(context, arguments);
   } catch (const Alarm& alarm) {
-    context.record().alarm = alarm.what();
+    context.record().alarm = alarm.code().empty() ? alarm.text() : alarm.code() + ": " + alarm.text();
     throw;
   }
 }

@@ -306,7 +306,7 @@ void runCycle(Control& control, const Entry& entry, const Arguments& arguments, 
   } catch (const Alarm& alarm) {
     const Alarm shown = asCycleAlarm(alarm);
     if (const auto number = parseInteger(shown.code())) context.resultInteger(9, static_cast<int>(*number));
-    context.record().alarm = shown.what();
+    context.record().alarm = shown.code().empty() ? shown.text() : shown.code() + ": " + shown.text();
     output();
     throw shown;
   }

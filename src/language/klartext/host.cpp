@@ -1,6 +1,7 @@
 #include "language/klartext/host.hpp"
 
 #include "control/alarm.hpp"
+#include "language/word_column.hpp"
 
 namespace probewright::language::klartext {
 
@@ -59,6 +60,7 @@ void KlartextHost::execute(const Instruction& instruction, Evaluation& evaluatio
 bool KlartextHost::beginBlock(const Program& program, const Block& block) {
   SourcePlace& place = control_.panel.place;
   place.line = block.position.line;
+  place.column = columnOfFirstWord(block.at(block.source));
   if (levels_.empty() || levels_.back().file != place.file) place.file = program.file();
   // The end of a program has no instruction for the host, but motion that waits must come to its end.
   if (block.instructions.size() == 1 && std::holds_alternative<EndProgram>(block.instructions.front())) settle();

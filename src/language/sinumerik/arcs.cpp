@@ -6,6 +6,7 @@
 
 #include "control/alarm.hpp"
 #include "language/sinumerik/motion.hpp"
+#include "language/word_column.hpp"
 
 /// Arcs as the SINUMERIK language writes them: G2, G3, CIP, CT.
 namespace probewright::sinumerik {
@@ -186,6 +187,7 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
     record.title =
         record.name == "MEAS" ? "Measuring, rest of the path deleted" : "Measuring, path travelled to its end";
     record.place = evaluation.place();
+    record.place.column = language::columnOf(record.name, evaluation.at(evaluation.block().source));
     record.startSeconds = channel.seconds();
     journal.cycles.push_back(std::move(record));
     journal.cycleOpen = true;
@@ -243,7 +245,7 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
   record.endSeconds = channel.seconds();
   if (ownRecord) journal.cycleOpen = false;
   if (!alarm.empty()) {
-    record.alarm = alarm + " " + touch.outcome;
+    record.alarm = alarm + ": " + touch.outcome;
     throw Alarm(alarm,
                 fmt::format("the measuring block ended with: {}{}{}", touch.outcome, result.detail.empty() ? "" : ", ",
                             result.detail),

@@ -8,6 +8,7 @@
 #include "control/alarm.hpp"
 #include "language/sinumerik/functions.hpp"
 #include "language/sinumerik/program.hpp"
+#include "language/word_column.hpp"
 
 namespace probewright::sinumerik {
 
@@ -72,6 +73,7 @@ bool SinumerikHost::beginBlock(const Program& program, const Block& block) {
     lastProgram_ = &program;
   }
   control_.panel.place.line = block.position.line;
+  control_.panel.place.column = columnOfFirstWord(block.at(block.source));
   block_ = &block;
   if (control_.blockSearch && levels_.size() == 1 && block.position.line >= options_.searchLine) {
     motion_.flush();

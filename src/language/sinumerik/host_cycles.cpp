@@ -13,6 +13,7 @@
 #include "language/sinumerik/functions.hpp"
 #include "language/sinumerik/host.hpp"
 #include "language/sinumerik/swivel.hpp"
+#include "language/word_column.hpp"
 
 /// Calls of cycles: what their arguments are and where they go.
 namespace probewright::sinumerik {
@@ -77,8 +78,10 @@ void SinumerikHost::runCycle(std::string_view name, WordRange range, Evaluation&
     }
   }
   if (entry->run != nullptr) callBeforeMeasuring(definition.number);
+  SourcePlace place = evaluation.place();
+  place.column = language::columnOf(name, evaluation.at(evaluation.block().source));
   try {
-    cycles::sinumerik::runCycle(control_, *entry, arguments, evaluation.place());
+    cycles::sinumerik::runCycle(control_, *entry, arguments, place);
   } catch (const Alarm& alarm) {
     const std::string named = namedArguments(definition, alarm);
     if (named.empty()) throw;
