@@ -2,7 +2,9 @@
 
 #include <cstdio>
 
+#include "base/file.hpp"
 #include "commands.hpp"
+#include "console.hpp"
 #include "session/check.hpp"
 
 namespace probewright::app {
@@ -11,10 +13,9 @@ int check(const CheckArguments& arguments) {
   bool errors = false;
   for (const std::filesystem::path& path : arguments.programs) {
     const Diagnostics found = session::checkProgram(path, arguments.control);
-    for (const Diagnostic& diagnostic : found)
-      std::fputs((format(diagnostic) + "\n").c_str(), stderr);
+    print(found, language::detectEncoding(readFile(path).value_or(std::string())));
     errors = errors || hasErrors(found);
-    if (found.empty()) std::fputs(fmt::format("{}: no mistakes found\n", path.string()).c_str(), stdout);
+    if (found.empty()) std::fputs(printable(fmt::format("{}: no mistakes found\n", path.string())).c_str(), stdout);
   }
   return errors ? 2 : 0;
 }

@@ -1,21 +1,11 @@
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "base/file.hpp"
 #include "commands.hpp"
+#include "console.hpp"
 #include "session/convert.hpp"
 
 namespace probewright::app {
-
-namespace {
-
-void print(const Diagnostics& diagnostics) {
-  for (const Diagnostic& diagnostic : diagnostics)
-    std::fputs((format(diagnostic) + "\n").c_str(), stderr);
-}
-
-}  // namespace
 
 int convert(const ConvertArguments& arguments) {
   const auto refuse = [](const Diagnostic& why) {
@@ -52,12 +42,13 @@ int convert(const ConvertArguments& arguments) {
   }
   const auto program = session::programOf(arguments.input.string(), *text, *from);
   const session::Conversion conversion = session::convert(*program, *from, *to);
-  print(conversion.mistakes);
+  const language::Encoding encoding = language::detectEncoding(*text);
+  print(conversion.mistakes, encoding);
   if (hasErrors(conversion.mistakes)) return 2;
   if (const Result<void> written = writeFileAtomically(arguments.output, conversion.text); !written) {
     return refuse(written.error());
   }
-  print(conversion.notCarriedOver);
+  print(conversion.notCarriedOver, encoding);
   return conversion.notCarriedOver.empty() ? 0 : 1;
 }
 

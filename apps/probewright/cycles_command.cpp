@@ -7,6 +7,7 @@
 
 #include "base/number_text.hpp"
 #include "commands.hpp"
+#include "console.hpp"
 #include "cycles/catalogue.hpp"
 
 namespace probewright::app {
@@ -61,37 +62,46 @@ std::string variantsText(const cycles::ResultDefinition& result) {
   return text.empty() ? text : text + ")";
 }
 
+template <class... Values>
+void put(fmt::format_string<Values...> layout, Values&&... values) {
+  std::fputs(fmt::format(layout, std::forward<Values>(values)...).c_str(), stdout);
+}
+
 void show(const CycleDefinition& cycle) {
-  fmt::print("{}  {}\n", cycle.name, cycle.title);
-  fmt::print("{} | {}\n\n{}\n\nParameters\n", cycles::nameOf(cycle.family), controlsText(cycle.controls),
-             cycle.summary);
+  std::size_t width = 8;
+  for (const Parameter& parameter : cycle.parameters)
+    width = std::max(width, parameter.name.size());
+  for (const auto& result : cycle.results)
+    width = std::max(width, result.name.size());
+  put("{}  {}\n", cycle.name, cycle.title);
+  put("{} | {}\n\n{}\n\nParameters\n", cycles::nameOf(cycle.family), controlsText(cycle.controls), cycle.summary);
   for (const Parameter& parameter : cycle.parameters) {
-    fmt::print("  {:<9}{}\n", parameter.name, parameter.meaning);
+    put("  {:<{}} {}\n", parameter.name, width, parameter.meaning);
     std::string line = rangeText(parameter);
     if (parameter.standard) line += fmt::format("; default {}", formatShortest(*parameter.standard));
     if (parameter.predefinable) line += "; PREDEF";
     control::ControlSet here = parameter.controls;
     here.bits = static_cast<std::uint8_t>(here.bits & cycle.controls.bits);
     if (here.bits != cycle.controls.bits) line += fmt::format("; {} only", controlsText(here));
-    fmt::print("           {}\n", line);
+    put("  {:<{}} {}\n", "", width, line);
     for (const cycles::Choice& choice : parameter.choices) {
-      fmt::print("             {:>3}  {}\n", choice.value, choice.meaning);
+      put("  {:<{}}   {:>3}  {}\n", "", width, choice.value, choice.meaning);
     }
     for (const cycles::CodeDigit& digit : isCode(parameter) ? parameter.digits : std::span<const cycles::CodeDigit>()) {
       const std::string place = digit.width == 1 ? std::string(cycles::placeName(digit.place))
                                                  : fmt::format("{} to {}", cycles::placeName(digit.place),
                                                                cycles::placeName(digit.place + digit.width - 1));
-      fmt::print("             {}: {}\n", place, digit.meaning);
+      put("  {:<{}}   {}: {}\n", "", width, place, digit.meaning);
       for (const cycles::Choice& choice : digit.choices)
-        fmt::print("             {:>3}  {}\n", choice.value, choice.meaning);
+        put("  {:<{}}   {:>3}  {}\n", "", width, choice.value, choice.meaning);
     }
   }
   if (cycle.results.empty()) return;
-  fmt::print("\nResults\n");
+  put("\nResults\n");
   for (const auto& result : cycle.results) {
     const std::string_view unit = cycles::unitOf(result.kind);
-    fmt::print("  {:<9}{}{}{}\n", result.name, result.meaning, unit.empty() ? "" : fmt::format(", {}", unit),
-               variantsText(result));
+    put("  {:<{}} {}{}{}\n", result.name, width, result.meaning, unit.empty() ? "" : fmt::format(", {}", unit),
+        variantsText(result));
   }
 }
 
@@ -137,8 +147,17 @@ nlohmann::ordered_json toJson(const CycleDefinition& cycle) {
   return object;
 }
 
-bool sameName(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+/// "CYCLE 977", "cycle977", "Cycle_977" all ask for CYCLE977; "TCH PROBE 421" and "CYCL DEF 421" for 421.
+std::string plainName(std::string_view name) {
+  std::string plain;
+  for (const char c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      plain += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  }
+  for (const std::string_view words : {"TCHPROBE", "CYCLDEF"}) {
+    if (plain.starts_with(words)) plain.erase(0, words.size());
+  }
+  return plain;
 }
 
 }  // namespace
@@ -146,6 +165,7 @@ bool sameName(std::string_view a, std::string_view b) {
 int cycles(const CyclesArguments& arguments) {
   std::vector<ControlKind> kinds(control::allControlKinds.begin(), control::allControlKinds.end());
   if (arguments.control) kinds = {*arguments.control};
+  const std::string name = plainName(arguments.name);
   bool found = false;
   auto list = nlohmann::ordered_json::array();
   std::vector<const CycleDefinition*> seen;
@@ -153,24 +173,24 @@ int cycles(const CyclesArguments& arguments) {
     for (const CycleDefinition* cycle : cycles::cyclesOf(kind)) {
       if (std::ranges::find(seen, cycle) != seen.end()) continue;
       seen.push_back(cycle);
-      const bool wanted = arguments.name.empty() || sameName(arguments.name, cycle->name) ||
-                          sameName(arguments.name, std::to_string(cycle->number));
+      const bool wanted = arguments.name.empty() || name == cycle->name || name == std::to_string(cycle->number);
       if (!wanted) continue;
       found = true;
       if (arguments.asJson) {
         list.push_back(toJson(*cycle));
       } else if (arguments.name.empty()) {
-        fmt::print("{:<11}{:<64}{:<24}{}\n", cycle->name, cycle->title, cycles::nameOf(cycle->family),
-                   controlsText(cycle->controls));
+        put("{:<11}{:<64}{:<24}{}\n", cycle->name, cycle->title, cycles::nameOf(cycle->family),
+            controlsText(cycle->controls));
       } else {
         show(*cycle);
       }
     }
   }
-  if (found && arguments.asJson) fmt::print("{}\n", list.dump(2));
+  if (found && arguments.asJson) put("{}\n", list.dump(2));
   if (found) return 0;
   std::fputs(
-      fmt::format("probewright: there is no cycle {}; `probewright cycles` lists them all\n", arguments.name).c_str(),
+      fmt::format("probewright: there is no cycle {}; `probewright cycles` lists them all\n", printable(arguments.name))
+          .c_str(),
       stderr);
   return 2;
 }

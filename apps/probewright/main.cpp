@@ -1,7 +1,11 @@
 #include <CLI/CLI.hpp>
-#include <map>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "guard.hpp"
 
 namespace {
@@ -21,6 +25,64 @@ void addControl(CLI::App& command, std::optional<ControlKind>& control) {
           },
           "The control the program is for, where ending and text don't tell: TNC640, iTNC530, 840Dsl")
       ->type_name("NAME");
+}
+
+/// Reading "-1" into an unsigned number would wrap it around.
+std::string notNegative(const std::string& text) {
+  const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  return digits && text.size() <= 19 ? std::string() : text + " is no whole number from 0 up";
+}
+
+/// An option that takes one of a few words, in any case.
+template <class Value>
+CLI::Option& addChoice(CLI::App& command, const std::string& name, Value& value,
+                       std::vector<std::pair<std::string, Value>> choices, const std::string& meaning) {
+  std::string words;
+  for (const auto& [word, choice] : choices)
+    words += (words.empty() ? "" : ", ") + word;
+  return *command
+              .add_option_function<std::string>(
+                  name,
+                  [&value, name, words, choices = std::move(choices)](const std::string& text) {
+                    for (const auto& [word, choice] : choices) {
+                      if (CLI::detail::to_lower(text) != word) continue;
+                      value = choice;
+                      return;
+                    }
+                    throw CLI::ValidationError(name, text + " is none of " + words);
+                  },
+                  meaning + ": " + words)
+              ->type_name("WORD");
+}
+
+/// The unknown word of a command line: an option that the subcommand does not have, or no subcommand at all; empty if
+/// all are known. What else is missing is no help to somebody who mistyped a word.
+std::string unknownWord(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2) return {};
+  const std::string first = argv[1];
+  const CLI::App* command = nullptr;
+  for (const CLI::App* each : app.get_subcommands(nullptr)) {
+    if (each->get_name() == first) command = each;
+  }
+  if (command == nullptr) {
+    if (first.starts_with('-')) {
+      return app.get_option_no_throw(first.substr(0, first.find('='))) == nullptr ? "there is no option " + first : "";
+    }
+    std::string words;
+    for (const CLI::App* each : app.get_subcommands(nullptr))
+      words += (words.empty() ? "" : ", ") + each->get_name();
+    return "there is no subcommand " + first + "; the subcommands are " + words;
+  }
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--") break;
+    if (!word.starts_with("--")) continue;
+    const std::string name = word.substr(0, word.find('='));
+    if (command->get_option_no_throw(name) == nullptr) {
+      return first + " has no option " + name + "; `probewright " + first + " --help` lists them";
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -45,17 +107,19 @@ int main(int argc, char** argv) {
       ->type_name("DIR");
   addControl(*run, runArguments.control);
   run->add_flag("--strict", runArguments.strict, "Refuse machining cycles, which are skipped otherwise");
-  const std::map<std::string, OnStop> stops = {
-      {"continue", OnStop::Continue}, {"abort", OnStop::Abort}, {"ask", OnStop::Ask}};
-  run->add_option("--on-stop", runArguments.onStop, "What a programmed stop does: continue, abort, ask")
-      ->transform(CLI::CheckedTransformer(stops, CLI::ignore_case).description(""))
-      ->type_name("WHAT")
-      ->default_str("continue");
+  addChoice(*run, "--on-stop", runArguments.onStop,
+            {{"continue", OnStop::Continue}, {"abort", OnStop::Abort}, {"ask", OnStop::Ask}},
+            "What a programmed stop does")
+      .default_str("continue");
   run->add_option("--answers", runArguments.answers, "Answers to what the program asks, one NAME=VALUE a line")
       ->type_name("FILE");
   run->add_option("--step-limit", runArguments.stepLimit, "Blocks after which an endless loop is assumed; 0: never")
+      ->check(notNegative)
+      ->type_name("COUNT")
       ->capture_default_str();
-  run->add_option("--seed", runArguments.seed, "Seed of the random effects, instead of the setup's");
+  run->add_option("--seed", runArguments.seed, "Seed of the random effects, instead of the setup's")
+      ->check(notNegative)
+      ->type_name("NUMBER");
   CLI::Option* test = run->add_flag("--program-test", runArguments.programTest,
                                     "SINUMERIK PRT: the axes stand, measuring cycles are skipped");
   run->add_flag("--dry-run", runArguments.dryRun,
@@ -65,13 +129,12 @@ int main(int argc, char** argv) {
          "--search", runArguments.searchLine,
          "SINUMERIK block search: begin at this line of the program as if all before it had run, without motion "
          "and measuring")
+      ->check(notNegative)
       ->type_name("LINE");
-  std::map<std::string, DialogLanguage> languages;
+  std::vector<std::pair<std::string, DialogLanguage>> languages;
   for (const DialogLanguage language : probewright::control::allDialogLanguages)
-    languages.emplace(probewright::control::code(language), language);
-  run->add_option("--language", runArguments.language, "Language of the control's logs: en, ru, sv, zh, pl")
-      ->transform(CLI::CheckedTransformer(languages, CLI::ignore_case))
-      ->type_name("CODE");
+    languages.emplace_back(probewright::control::code(language), language);
+  addChoice(*run, "--language", runArguments.language, languages, "Language of the control's logs").default_str("en");
   run->add_option("--measuring-log", runArguments.measuringLogs,
                   "SINUMERIK: log all measurements in this file of the output folder; .csv: as a table, .txt: as text")
       ->type_name("NAME")
@@ -110,12 +173,19 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    if (const std::string word = error.get_exit_code() == 0 ? "" : unknownWord(app, argc, argv); !word.empty()) {
+      std::fputs(("probewright: " + probewright::app::printable(word) + "\n").c_str(), stderr);
+      return 2;
+    }
+    const bool fine = app.exit(error) == 0;
+    return probewright::app::outputArrived() && fine ? 0 : 2;
   }
-  return probewright::app::guarded([&] {
+  const int exit = probewright::app::guarded([&] {
     if (run->parsed()) return probewright::app::run(runArguments);
     if (check->parsed()) return probewright::app::check(checkArguments);
     if (convert->parsed()) return probewright::app::convert(convertArguments);
     return probewright::app::cycles(cyclesArguments);
   });
+  // Whoever asked for an answer must learn that it did not come; an alarm or an error says more.
+  return probewright::app::outputArrived() || exit > 2 ? exit : 2;
 }

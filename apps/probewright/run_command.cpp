@@ -11,6 +11,8 @@
 #include "base/file.hpp"
 #include "base/number_text.hpp"
 #include "commands.hpp"
+#include "console.hpp"
+#include "output_folder.hpp"
 #include "records/results.hpp"
 #include "reports/report.hpp"
 #include "reports/summary.hpp"
@@ -27,37 +29,12 @@ std::stop_source interrupted;
 
 extern "C" void onInterrupt(int) { interrupted.request_stop(); }
 
-void print(const Diagnostics& diagnostics) {
-  for (const Diagnostic& diagnostic : diagnostics)
-    std::fputs((format(diagnostic) + "\n").c_str(), stderr);
-}
-
 bool askOnTerminal(const std::string& text) {
-  std::fputs(fmt::format("\n{}\nContinue? [Y/n] ", text).c_str(), stdout);
+  std::fputs(fmt::format("\n{}\nContinue? [Y/n] ", printable(text)).c_str(), stdout);
   std::fflush(stdout);
   std::string line;
   if (!std::getline(std::cin, line)) return false;
   return line.empty() || line[0] == 'y' || line[0] == 'Y';
-}
-
-/// Writes every file of the run; the first that cannot be written is the reason.
-Result<void> writeOutput(const fs::path& folder, const session::RunOutcome& outcome, const records::RunInfo& info) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    return fail({folder.string(), 0, 0}, "the output folder cannot be made: " + error.message(),
-                "name another folder with --out");
-  }
-  for (const auto& [name, text] : outcome.files) {
-    if (const Result<void> done = writeFileAtomically(folder / name, text); !done) return done;
-  }
-  if (const Result<void> done =
-          writeFileAtomically(folder / "results.json", records::resultsText(outcome.journal, info));
-      !done) {
-    return done;
-  }
-  return writeFileAtomically(folder / "report.html",
-                             reports::reportHtml(outcome.journal, info, session::sceneOf(outcome)));
 }
 
 }  // namespace
@@ -66,7 +43,11 @@ int run(const RunArguments& arguments) {
   Diagnostics mistakes;
   std::optional<simulation::Setup> setup = simulation::readSetup(arguments.setup, mistakes);
   print(mistakes);
-  if (!setup) return 2;
+  if (!setup) {
+    // Which tables the run would have begun from is unknown: those of an earlier run stay.
+    removeEarlierVerdict(arguments.out);
+    return 2;
+  }
   if (arguments.seed) setup->truth.seed = *arguments.seed;
 
   session::RunOptions options;
@@ -91,6 +72,7 @@ int run(const RunArguments& arguments) {
     });
     if (!read) {
       print({read.error()});
+      removeEarlierRun(arguments.out, setup->tables);
       return 2;
     }
     answers = std::move(*read);
@@ -98,7 +80,7 @@ int run(const RunArguments& arguments) {
   options.answer = [&](const std::string& question) -> std::optional<std::string> {
     if (const auto found = answers.find(question); found != answers.end()) return found->second;
     if (isatty(STDIN_FILENO) == 0) return std::nullopt;
-    std::fputs(fmt::format("{}: ", question).c_str(), stdout);
+    std::fputs(fmt::format("{}: ", printable(question)).c_str(), stdout);
     std::fflush(stdout);
     std::string line;
     if (!std::getline(std::cin, line)) return std::nullopt;
@@ -112,17 +94,29 @@ int run(const RunArguments& arguments) {
 
   session::RunOutcome outcome = session::runProgram(arguments.program, *setup, options);
   if (progress) std::fputs("\r\033[K", stderr);
-  print(outcome.diagnostics);
-  if (hasErrors(outcome.diagnostics)) return 2;
-  print(outcome.result.diagnostics);
+  const language::Encoding encoding = outcome.info.programs.empty()
+                                          ? language::Encoding::Windows1252
+                                          : language::detectEncoding(outcome.info.programs.front().text);
+  print(outcome.diagnostics, encoding);
+  if (hasErrors(outcome.diagnostics)) {
+    removeEarlierRun(arguments.out, setup->tables);
+    return 2;
+  }
+  print(outcome.result.diagnostics, encoding);
 
   records::RunInfo info = outcome.info;
   info.version = PROBEWRIGHT_VERSION;
   info.startedAt = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(options.wallClock)));
   for (const auto& [name, text] : outcome.files)
     info.outputFiles.push_back(name);
-  if (const Result<void> written = writeOutput(arguments.out, outcome, info); !written) {
+  const std::string results = records::resultsText(outcome.journal, info);
+  const std::string report = reports::reportHtml(outcome.journal, info, session::sceneOf(outcome));
+  std::map<std::string, std::string> files = std::move(outcome.files);
+  files["results.json"] = results;
+  files["report.html"] = report;
+  if (const Result<void> written = writeOutput(arguments.out, files); !written) {
     print({written.error()});
+    removeEarlierVerdict(arguments.out);
     return 2;
   }
   if (!arguments.quiet) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 #include <regex>
 
 #include "language/din_iso/program.hpp"
@@ -79,7 +80,38 @@ Result<ControlKind> controlFor(const std::filesystem::path& path, std::string_vi
   return *language == ProgramLanguage::Sinumerik ? ControlKind::Sinumerik840Dsl : ControlKind::TNC640;
 }
 
+namespace {
+
+/// Why the file cannot be the text of a program, from its beginning; nothing if it can.
+std::optional<Diagnostic> whyNoText(const std::filesystem::path& path, ProgramLanguage language) {
+  std::string head(4096, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  const auto because = [&](std::string message, std::string advice) {
+    return Diagnostic{Severity::Error, {path.string(), 0, 0}, std::move(message), {}, std::move(advice), {}};
+  };
+  if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF")) return std::nullopt;  // has a message of its own
+  // Zeros behind the text are what some transfers fill the last block with.
+  head.erase(head.find_last_not_of('\0') + 1);
+  const auto isBinary = [](unsigned char c) {
+    return (c < 0x20 && c != '\t' && c != '\n' && c != '\f' && c != '\r' && c != 0x1A) || c == 0x7F;
+  };
+  if (language != ProgramLanguage::Sinumerik && std::ranges::any_of(head, isBinary)) {
+    return because("this is no text: it contains control characters",
+                   "name a program as text, as an editor shows it and the control sends it out");
+  }
+  if (head.find('\n') == std::string::npos && std::ranges::count(head, '\r') > 1) {
+    return because("the lines of this file end with CR alone, which no control reads",
+                   "save it with LF or CR LF at the end of each line");
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 Result<std::shared_ptr<language::Program>> openProgram(const std::filesystem::path& path, ProgramLanguage language) {
+  if (const auto why = whyNoText(path, language)) return tl::unexpected(*why);
   if (language == ProgramLanguage::Klartext) {
     auto program = language::klartext::KlartextProgram::open(path);
     if (!program) return tl::unexpected(program.error());

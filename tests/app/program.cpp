@@ -23,9 +23,9 @@ double seconds(const timeval& time) {
 
 }  // namespace
 
-Answer probewright(const std::vector<std::string>& words) {
+Answer probewright(const std::vector<std::string>& words, const std::string& elsewhere) {
   const Folder folder;
-  const std::string output = (folder / "output").string();
+  const std::string output = elsewhere.empty() ? (folder / "output").string() : elsewhere;
   const std::string errors = (folder / "errors").string();
   std::vector<std::string> all{PROBEWRIGHT_PROGRAM};
   all.insert(all.end(), words.begin(), words.end());
@@ -52,7 +52,7 @@ Answer probewright(const std::vector<std::string>& words) {
     return answer;
   }
   if (WIFEXITED(status)) answer.exit = WEXITSTATUS(status);
-  answer.output = textOf(output);
+  if (elsewhere.empty()) answer.output = textOf(output);
   answer.errors = textOf(errors);
   answer.cpuSeconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   answer.peakMegabytes = static_cast<double>(usage.ru_maxrss) / 1024;

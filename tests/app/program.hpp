@@ -17,7 +17,8 @@ struct Answer {
 };
 
 /// Runs probewright with these words; its working folder is the root of the sources.
-Answer probewright(const std::vector<std::string>& words);
+/// Its standard output goes into the answer, or to the file `output`.
+Answer probewright(const std::vector<std::string>& words, const std::string& output = {});
 
 /// A folder of one test, empty at its start and gone at its end.
 class Folder {

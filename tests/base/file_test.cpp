@@ -39,5 +39,16 @@ TEST_F(FileTest, LeavesTheOldFileWhenTheNewOneCannotBeWritten) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);
 }
 
+TEST_F(FileTest, WritesAllFilesThatBelongTogetherOrNone) {
+  ASSERT_TRUE(writeFilesTogether({{folder / "first", "old"}, {folder / "second", "old"}}));
+  std::filesystem::create_directory(folder / "last");
+  EXPECT_FALSE(writeFilesTogether({{folder / "first", "new"}, {folder / "second", "new"}, {folder / "last", "new"}}));
+  EXPECT_EQ(readFile(folder / "first").value(), "old");
+  EXPECT_EQ(readFile(folder / "second").value(), "old");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 3) << "neighbours stayed";
+  ASSERT_TRUE(writeFilesTogether({{folder / "first", "new"}, {folder / "second", "new"}}));
+  EXPECT_EQ(readFile(folder / "first").value(), "new");
+}
+
 }  // namespace
 }  // namespace probewright
