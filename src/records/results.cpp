@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cycles/main_results.hpp"
 #include "records/readable_text.hpp"
 
 namespace probewright::records {
@@ -41,11 +42,12 @@ json touch(const control::TouchRecord& record, const std::vector<machine::Axis>&
   return object;
 }
 
-json result(const control::ResultRecord& record, const ReadableText& text) {
+json result(const control::ResultRecord& record, bool isMain, const ReadableText& text) {
   json object = {{"name", text(record.name)},
                  {"meaning", text(record.meaning)},
                  {"value", number(record.value)},
                  {"unit", text(record.unit)},
+                 {"main", isMain},
                  {"verdict", verdictName(record.verdict)}};
   const auto optional = [&](const char* key, const std::optional<double>& value) {
     if (value) object[key] = number(*value);
@@ -56,6 +58,14 @@ json result(const control::ResultRecord& record, const ReadableText& text) {
   optional("upperLimit", record.upperLimit);
   optional("uncertainty", record.uncertainty);
   return object;
+}
+
+json results(const control::CycleRecord& record, const ReadableText& text) {
+  const std::vector<bool> isMain = cycles::mainResults(record);
+  json array = json::array();
+  for (std::size_t i = 0; i < isMain.size(); ++i)
+    array.push_back(result(record.results[i], isMain[i], text));
+  return array;
 }
 
 template <class Records, class Convert>
@@ -87,7 +97,7 @@ json cycle(const control::CycleRecord& record, const std::vector<machine::Axis>&
                  {"verdict", verdictName(record.verdict)},
                  {"parameters", list(record.parameters, [&](const auto& p) { return parameter(p, text); })},
                  {"touches", list(record.touches, [&](const auto& t) { return touch(t, axes, text); })},
-                 {"results", list(record.results, [&](const auto& r) { return result(r, text); })},
+                 {"results", results(record, text)},
                  {"writes", list(record.writes, [&](const auto& w) { return write(w, text); })},
                  {"logFiles", list(record.logFiles, text)},
                  {"screens", list(record.screens, text)},
@@ -181,11 +191,18 @@ control::Verdict worstVerdict(const control::Journal& journal) {
   return worst;
 }
 
+TouchCount countTouches(const control::Journal& journal) {
+  TouchCount count;
+  for (const auto& record : journal.cycles) {
+    for (const auto& touch : record.touches)
+      ++(touch.outcome == "touched" ? count.touched : count.failed);
+  }
+  return count;
+}
+
 json resultsJson(const control::Journal& journal, const RunInfo& run) {
   const ReadableText text(run);
-  std::size_t touches = 0;
-  for (const auto& record : journal.cycles)
-    touches += record.touches.size();
+  const TouchCount touches = countTouches(journal);
   return {{"schema", "probewright results"},
           {"schemaVersion", resultsSchemaVersion},
           {"units", {{"length", "mm"}, {"angle", "deg"}, {"time", "s"}}},
@@ -193,7 +210,8 @@ json resultsJson(const control::Journal& journal, const RunInfo& run) {
           {"verdict", verdictName(worstVerdict(journal))},
           {"totals",
            {{"cycles", journal.cycles.size()},
-            {"touches", touches},
+            {"touches", touches.touched},
+            {"failedTouches", touches.failed},
             {"pathLength", number(run.totalPathLength)},
             {"time", number(run.totalSeconds)}}},
           {"cycles", list(journal.cycles, [&](const auto& record) { return cycle(record, run.axes, text); })},

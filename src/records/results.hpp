@@ -24,6 +24,12 @@ std::string resultsText(const control::Journal& journal, const RunInfo& run);
 /// The worst verdict of all cycles; None if nothing was toleranced.
 control::Verdict worstVerdict(const control::Journal& journal);
 
+/// Measuring moves that came to a touch, and those that did not.
+struct TouchCount {
+  std::size_t touched = 0, failed = 0;
+};
+TouchCount countTouches(const control::Journal& journal);
+
 /// "message", "alarm", "stop", "skipped", "tool", "warning": the names in results.json.
 std::string_view eventName(control::EventKind kind);
 

@@ -99,6 +99,12 @@ json sceneData(const Scene& scene, const records::ReadableText& readable) {
     centres.push_back(touch.ballCentre);
     surfaces.push_back(touch.surface);
   }
+  json collisions = json::array();
+  for (const SceneCollision& collision : scene.collisions) {
+    collisions.push_back({{"at", {collision.at.x(), collision.at.y(), collision.at.z()}},
+                          {"what", readable(collision.what)},
+                          {"solid", readable(collision.solid)}});
+  }
   std::vector<std::uint8_t> kinds;
   for (const MoveKind kind : scene.path.kinds)
     kinds.push_back(static_cast<std::uint8_t>(kind));
@@ -112,6 +118,7 @@ json sceneData(const Scene& scene, const records::ReadableText& readable) {
            {{"indices", base64(indices)},
             {"centres", base64(coordinates(centres))},
             {"surfaces", base64(coordinates(surfaces))}}},
+          {"collisions", std::move(collisions)},
           {"ballRadius", scene.ballRadius},
           {"workpiece", scene.sceneFromWorkpiece ? matrix(*scene.sceneFromWorkpiece) : json(nullptr)}};
 }

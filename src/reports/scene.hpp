@@ -46,10 +46,18 @@ struct SceneTouch {
   Vector3f surface = Vector3f::Zero();  ///< on the part; equal to ballCentre if there was no contact
 };
 
+/// Where the tool ran into something, or the ball was deflected while the axes only positioned.
+struct SceneCollision {
+  Vector3f at = Vector3f::Zero();  ///< on the surface
+  std::string what;                ///< "stylus", "ball", "tool": the part of the tool that hit
+  std::string solid;               ///< the name of what was hit
+};
+
 struct Scene {
   std::vector<Mesh> meshes;
   Path path;
   std::vector<SceneTouch> touches;
+  std::vector<SceneCollision> collisions;
   double ballRadius = 0;  ///< of the probe, mm; 0: not drawn
   std::optional<Pose>
       sceneFromWorkpiece;  ///< the workpiece coordinate system at the end of the run, as the control believes

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/number_text.hpp"
+#include "cycles/main_results.hpp"
 #include "records/readable_text.hpp"
 #include "records/results.hpp"
 
@@ -15,8 +16,6 @@ namespace probewright::reports {
 namespace {
 
 using control::Verdict;
-
-constexpr std::size_t mostPlainResults = 6;
 
 enum class Tone { Plain, Good, Warning, Bad };
 
@@ -80,6 +79,10 @@ struct Style {
     std::string text = readable(bytes);
     std::replace_if(
         text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
+    // U+0080 to U+009F: some terminals take them for the beginning of a command too.
+    for (std::size_t at = text.find('\xC2'); at != std::string::npos; at = text.find('\xC2', at + 1)) {
+      if (at + 1 < text.size() && static_cast<unsigned char>(text[at + 1]) < 0xA0) text.replace(at, 2, " ");
+    }
     return text;
   }
 
@@ -105,7 +108,7 @@ std::string counted(std::size_t n, std::string_view one, std::string_view many) 
   return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
-std::string resultLine(const control::ResultRecord& result, const Style& style) {
+std::string resultLine(const control::ResultRecord& result, std::size_t meaningWidth, const Style& style) {
   std::string limits;
   if (result.lowerLimit && result.upperLimit)
     limits = fmt::format("  [{} .. {}]", quantity(*result.lowerLimit, result.unit),
@@ -115,8 +118,8 @@ std::string resultLine(const control::ResultRecord& result, const Style& style) 
     deviation = fmt::format(
         "  deviation {}", result.unit.empty() ? formatShortest(*result.deviation) : formatSigned(*result.deviation, 4));
   std::string text =
-      fmt::format("      {:<9} {:<44} {:>11} {:<3}{}{}", style.line(result.name), style.line(result.meaning),
-                  quantity(result.value, result.unit), result.unit, deviation, limits);
+      fmt::format("      {:<9} {:<{}} {:>11} {:<3}{}{}", style.line(result.name), style.line(result.meaning),
+                  meaningWidth, quantity(result.value, result.unit), result.unit, deviation, limits);
   text.erase(text.find_last_not_of(' ') + 1);
   if (result.verdict != Verdict::None) text += "  " + style.paint(tone(result.verdict), word(result.verdict));
   return text + "\n";
@@ -142,7 +145,7 @@ std::string screenText(const std::string& screen, const Style& style) {
   return text + "      +" + std::string(30, '-') + "\n";
 }
 
-std::string cycleText(const control::CycleRecord& cycle, std::size_t number, const Style& style) {
+std::string cycleText(const control::CycleRecord& cycle, std::size_t number, bool saidAtTheEnd, const Style& style) {
   std::string text = fmt::format("{:>3}  {} {}", number, style.line(cycle.name), style.line(cycle.title));
   const std::string place = style.place(cycle.place);
   if (!place.empty()) text += fmt::format("  ({})", place);
@@ -151,18 +154,13 @@ std::string cycleText(const control::CycleRecord& cycle, std::size_t number, con
   else if (cycle.verdict != Verdict::None)
     text += "  " + style.paint(tone(cycle.verdict), word(cycle.verdict));
   text += "\n";
-  const auto any = [&](auto&& property) { return std::any_of(cycle.results.begin(), cycle.results.end(), property); };
-  const bool toleranced = any([](const auto& result) { return result.verdict != Verdict::None; });
-  const bool compared = any([](const auto& result) { return result.deviation.has_value(); });
-  const bool measured = any([](const auto& result) { return !result.unit.empty(); });
-  std::size_t shown = 0;
-  for (const auto& result : cycle.results) {
-    const bool isMain = toleranced ? result.verdict != Verdict::None
-                        : compared ? result.deviation.has_value()
-                                   : !measured || !result.unit.empty();
-    if (!isMain || (!toleranced && shown == mostPlainResults)) continue;
-    text += resultLine(result, style);
-    ++shown;
+  const std::vector<bool> isMain = cycles::mainResults(cycle);
+  std::size_t width = 44;
+  for (std::size_t i = 0; i < isMain.size(); ++i) {
+    if (isMain[i]) width = std::max(width, cycle.results[i].meaning.size());
+  }
+  for (std::size_t i = 0; i < isMain.size(); ++i) {
+    if (isMain[i]) text += resultLine(cycle.results[i], width, style);
   }
   for (const auto& write : cycle.writes)
     text += writeLine(write, style);
@@ -170,7 +168,8 @@ std::string cycleText(const control::CycleRecord& cycle, std::size_t number, con
     text += screenText(screen, style);
   for (const auto& file : cycle.logFiles)
     text += fmt::format("      log {}\n", style.line(fileName(file)));
-  if (!cycle.alarm.empty()) text += fmt::format("      {}\n", style.paint(Tone::Bad, style.line(cycle.alarm)));
+  if (!cycle.alarm.empty() && !saidAtTheEnd)
+    text += fmt::format("      {}\n", style.paint(Tone::Bad, style.line(cycle.alarm)));
   return text;
 }
 
@@ -196,6 +195,11 @@ std::string eventText(const control::EventRecord& event, const Style& style) {
   const std::string place = style.place(event.place);
   if (!place.empty()) text += fmt::format("  ({})", place);
   return text + "\n";
+}
+
+/// As an exit text says it.
+std::string messageOf(const control::EventRecord& event) {
+  return event.code.empty() ? event.text : event.code + ": " + event.text;
 }
 
 std::string outcome(const control::Journal& journal, const records::RunInfo& run, const Style& style) {
@@ -239,22 +243,30 @@ std::string summaryText(const control::Journal& journal, const records::RunInfo&
     if (!part.empty()) text += (text.empty() ? "" : ", ") + style.line(part);
   text += "\n";
 
-  std::size_t touches = 0, alarms = 0;
   for (std::size_t i = 0; i < journal.cycles.size(); ++i) {
-    text += cycleText(journal.cycles[i], i + 1, style);
-    touches += journal.cycles[i].touches.size();
+    const control::CycleRecord& cycle = journal.cycles[i];
+    text += cycleText(cycle, i + 1, !cycle.alarm.empty() && cycle.alarm == run.exitText, style);
   }
   if (!journal.writes.empty()) text += "  by the program itself\n";
   for (const auto& write : journal.writes)
     text += writeLine(write, style);
+  std::size_t alarms = 0;
+  std::string where;
   for (const auto& event : journal.events) {
-    alarms += event.kind == control::EventKind::Alarm;
-    if (event.kind != control::EventKind::Tool) text += eventText(event, style);
+    const bool isAlarm = event.kind == control::EventKind::Alarm;
+    alarms += isAlarm;
+    // What ended the run is said once, as its outcome.
+    const bool ended = isAlarm && &event == &journal.events.back() && messageOf(event) == run.exitText;
+    if (ended) where = style.place(event.place);
+    if (event.kind != control::EventKind::Tool && !ended) text += eventText(event, style);
   }
-  text += fmt::format("{}\n{}, {}, path {}, time {}, {}\n", outcome(journal, run, style),
-                      counted(journal.cycles.size(), "cycle", "cycles"), counted(touches, "touch", "touches"),
-                      distance(run.totalPathLength), duration(run.totalSeconds),
-                      alarms == 0 ? "no alarms" : counted(alarms, "alarm", "alarms"));
+  if (!where.empty()) where = fmt::format("  ({})", where);
+  const records::TouchCount touches = records::countTouches(journal);
+  std::string touchText = counted(touches.touched, "touch", "touches");
+  if (touches.failed > 0) touchText += " and " + counted(touches.failed, "failed attempt", "failed attempts");
+  text += fmt::format("{}{}\n{}, {}, path {}, time {}, {}\n", outcome(journal, run, style), where,
+                      counted(journal.cycles.size(), "cycle", "cycles"), touchText, distance(run.totalPathLength),
+                      duration(run.totalSeconds), alarms == 0 ? "no alarms" : counted(alarms, "alarm", "alarms"));
   return text;
 }
 

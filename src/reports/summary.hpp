@@ -9,10 +9,9 @@ namespace probewright::reports {
 
 enum class Colour { Off, On };
 
-/// The run in a few lines for a terminal: each cycle with its line, its main results, what it wrote and its verdict; at
-/// the end the state of the whole, path, time and alarms. Main results are the toleranced ones; without
-/// tolerances the first six that have a nominal value; without those, the first six with a unit. With Colour::On
-/// verdicts carry ANSI colours.
+/// The run in a few lines for a terminal: each cycle with its line, its main results (cycles::mainResults), what it
+/// wrote and its verdict; at the end the state of the whole, path, time and alarms. With Colour::On verdicts carry ANSI
+/// colours.
 std::string summaryText(const control::Journal& journal, const records::RunInfo& run, Colour colour = Colour::Off);
 
 }  // namespace probewright::reports

@@ -124,6 +124,12 @@ private:
   std::size_t next_ = 0;
 };
 
+/// A contact that was not measured: on the way, or with anything but what the probe feels with.
+bool isCollision(const simulation::PathTouch& touch) {
+  const bool withoutSignal = touch.part != "ball" && touch.latched == machine::AxisPositions{};
+  return touch.kind != PathKind::Measure || withoutSignal;
+}
+
 }  // namespace
 
 reports::Scene sceneOf(const control::Journal& journal, const simulation::Truth& truth,
@@ -134,6 +140,9 @@ reports::Scene sceneOf(const control::Journal& journal, const simulation::Truth&
     if (!mesh.triangles.empty()) scene.meshes.push_back(std::move(mesh));
   }
   scene.path = pathOf(path);
+  for (const simulation::PathTouch& touch : path.touches) {
+    if (isCollision(touch)) scene.collisions.push_back({touch.point.cast<float>(), touch.part, touch.solid});
+  }
   TouchFinder finder(path);
   for (std::uint32_t cycle = 0; cycle < journal.cycles.size(); ++cycle) {
     const auto& touches = journal.cycles[cycle].touches;

@@ -8,7 +8,8 @@
 
 namespace probewright::session {
 
-/// What the report draws of a run: the solids of the world, the path as it truly was, the true place of every touch.
+/// What the report draws of a run: the solids of the world, the path as it truly was, the true place of every touch
+/// and of every collision.
 reports::Scene sceneOf(const RunOutcome& outcome);
 
 /// The same without ball and workpiece coordinate system. A touch of the journal is found in the path by the axis

@@ -98,6 +98,13 @@ TEST(Report, HoldsTheSceneToTheBit) {
   EXPECT_DOUBLE_EQ(block["pose"][1].get<double>(), std::sin(1.5 * std::numbers::pi / 180));
 }
 
+TEST(Report, HoldsThePlaceOfACollision) {
+  Scene scene;
+  scene.collisions = {{{1.5F, -2, 3}, "stylus", "Fixed jaw"}};
+  const json data = dataOf(reportHtml({}, {}, scene))["scene"];
+  EXPECT_EQ(data["collisions"], json::parse(R"([{"at": [1.5, -2.0, 3.0], "what": "stylus", "solid": "Fixed jaw"}])"));
+}
+
 TEST(Report, EncodesArraysOfEveryLength) {
   for (std::size_t length = 0; length < 10; ++length) {
     Scene scene;
@@ -213,7 +220,13 @@ TEST(Report, IsWrittenForTheBrowser) {
   };
   write("rework.html", sampleHtml());
   const auto alarm = sample::alarmJournal();
-  write("alarm.html", reportHtml(alarm, sample::alarmRunInfo(), sample::scene(alarm)));
+  Scene alarmScene = sample::scene(alarm);
+  const Vector3 jaw(0, -sample::blockWidth / 2, -10);
+  alarmScene.collisions = {{(sample::blockPose() * jaw).cast<float>(), "stylus", "Fixed jaw"}};
+  // A gauge far beside the part, with a touch on it: the first view must hold it.
+  alarmScene.meshes.push_back(sample::box("Ring", {600, 200, 32}, {640, 240, 60}));
+  alarmScene.touches.push_back({0, 0, {620, 220, 63}, {620, 220, 60}});
+  write("alarm.html", reportHtml(alarm, sample::alarmRunInfo(), alarmScene));
   auto good = sample::journal();
   good.cycles.pop_back();
   good.cycles.back().results.push_back(sample::plain("Q180", "1: good", 1, ""));

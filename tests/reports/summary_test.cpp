@@ -41,14 +41,21 @@ TEST(Summary, TellsEachCycleWithItsLineResultsAndChanges) {
   EXPECT_THAT(text, Not(HasSubstr("\x1b")));
 }
 
-TEST(Summary, NamesTheAlarm) {
-  const std::string text = summaryText(sample::alarmJournal(), sample::alarmRunInfo());
+TEST(Summary, NamesTheAlarmOnce) {
+  auto journal = sample::alarmJournal();
+  journal.cycles.back().alarm = "Touch point inaccessible: no contact within the measuring path of 10 mm";
+  const std::string text = summaryText(journal, sample::alarmRunInfo());
+  EXPECT_THAT(text, HasSubstr("  3  412 Preset at the centre of a hole  (line 27)  ALARM\n"));
   EXPECT_THAT(text,
-              HasSubstr("  3  412 Preset at the centre of a hole  (line 27)  ALARM\n      Touch point inaccessible\n"));
-  EXPECT_THAT(
-      text, HasSubstr("  ALARM  Touch point inaccessible: no contact within the measuring path of 10 mm  (line 27)\n"));
-  EXPECT_THAT(text, EndsWith("STOPPED: Touch point inaccessible: no contact within the measuring path of 10 mm\n"
-                             "3 cycles, 5 touches, path 640 mm, time 33.7 s, 1 alarm\n"));
+              EndsWith("STOPPED: Touch point inaccessible: no contact within the measuring path of 10 mm  (line 27)\n"
+                       "3 cycles, 4 touches and 1 failed attempt, path 640 mm, time 33.7 s, 1 alarm\n"));
+  EXPECT_EQ(text.find("no contact"), text.rfind("no contact"));
+}
+
+TEST(Summary, NamesAnAlarmThatDidNotEndTheRun) {
+  auto journal = sample::journal();
+  journal.events.push_back({control::EventKind::Alarm, {}, "65000", "a message of the program", 1});
+  EXPECT_THAT(summaryText(journal, sample::runInfo()), HasSubstr("  ALARM  65000: a message of the program\n"));
 }
 
 TEST(Summary, SaysOkOnlyWhenAllIsWithinTheLimits) {
@@ -70,8 +77,17 @@ TEST(Summary, ColoursVerdictsOnRequest) {
 
 TEST(Summary, KeepsControlCharactersFromTheTerminal) {
   auto journal = sample::journal();
-  journal.events[1].text = "beep\x07\x1b[2Jgone\nnext";
-  EXPECT_THAT(summaryText(journal, sample::runInfo()), HasSubstr("beep  [2Jgone next  (line 60)\n"));
+  journal.events[1].text = "beep\x07\x1b[2Jgone\nnext \xC2\x9B";
+  EXPECT_THAT(summaryText(journal, sample::runInfo()), HasSubstr("beep  [2Jgone next    (line 60)\n"));
+}
+
+TEST(Summary, ReadsOldTextsOfAProgramInAscii) {
+  auto journal = sample::journal();
+  journal.events[1].text =
+      "Gr\xF6\xDF"
+      "e 1.23";
+  EXPECT_THAT(summaryText(journal, sample::runInfo()), HasSubstr("Gr\xC3\xB6\xC3\x9F"
+                                                                 "e 1.23  (line 60)\n"));
 }
 
 TEST(Summary, ShowsOfAStopItsFirstLine) {
@@ -95,6 +111,20 @@ TEST(Summary, KeepsACycleWithoutTolerancesShort) {
   const std::string text = summaryText(journal, {});
   EXPECT_THAT(text, HasSubstr("R5 "));
   EXPECT_THAT(text, Not(HasSubstr("R6 ")));
+}
+
+TEST(Summary, ShowsTheAnglesOfAPlane) {
+  control::Journal journal;
+  journal.cycles.push_back(sample::cycle("431", "MEASURE PLANE", 0, 1, 1));
+  journal.cycles[0].results = {sample::plain("Q158", "projection angle of the A axis", 0.5, "deg"),
+                               sample::plain("Q172", "space angle C", -0.25, "deg"),
+                               sample::plain("Q173", "first touch in the touch probe axis", -1.4)};
+  journal.cycles[0].results[2].nominal = 0;
+  journal.cycles[0].results[2].deviation = -1.4;
+  const std::string text = summaryText(journal, {});
+  EXPECT_THAT(text, HasSubstr("Q158 "));
+  EXPECT_THAT(text, HasSubstr("Q172 "));
+  EXPECT_THAT(text, Not(HasSubstr("Q173 ")));
 }
 
 TEST(Summary, SurvivesAnEmptyRunAndNumbersThatAreNone) {

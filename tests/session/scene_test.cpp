@@ -83,6 +83,22 @@ TEST_F(SceneOfRun, ShowsTouchesWhereTheyWere) {
   EXPECT_LT((scene.touches[2].ballCentre - onTable(70, 50, 40)).norm(), 1e-4);
 }
 
+TEST_F(SceneOfRun, MarksWhereThePathRanIntoSomething) {
+  goTo(100, 50, 60);
+  probe(100, 50, 45);
+  EXPECT_TRUE(sceneOf({}, truth_, machine_.path()).collisions.empty()) << "measuring is no collision";
+  backTo(100, 50, 60);
+  goTo(60, 50, 60);
+  goTo(60, 50, 40);
+  EXPECT_EQ(machine_.move(axesFor(100, 50, 40), Feed::rapidTraverse()).end, machine::MoveEnd::ProbeSignal);
+
+  const reports::Scene scene = sceneOf({}, truth_, machine_.path());
+  ASSERT_EQ(scene.collisions.size(), 1U);
+  EXPECT_LT((scene.collisions[0].at - onTable(80, 50, 40)).norm(), 1e-2);
+  EXPECT_EQ(scene.collisions[0].what, "ball");
+  EXPECT_EQ(scene.collisions[0].solid, "block");
+}
+
 TEST_F(SceneOfRun, LeavesOutTouchesThatThePathDoesNotKnow) {
   control::Journal journal;
   journal.cycles.resize(1);

@@ -25,6 +25,8 @@ export interface ResultValue {
   meaning: string;
   value: number | null;
   unit: string;
+  /** Answers the question that the cycle was called for. */
+  main: boolean;
   verdict: Verdict;
   nominal?: number | null;
   deviation?: number | null;
@@ -86,7 +88,7 @@ export interface Results {
     exit: { code: number; state: string; text?: string };
   };
   verdict: Verdict;
-  totals: { cycles: number; touches: number; pathLength: number | null; time: number | null };
+  totals: { cycles: number; touches: number; failedTouches: number; pathLength: number | null; time: number | null };
   cycles: Cycle[];
   writes: Write[];
   events: RunEvent[];
@@ -108,10 +110,18 @@ export interface SceneMesh {
   edges: Float32Array;
 }
 
+/** Where the tool ran into something. */
+export interface Collision {
+  at: [number, number, number];
+  what: string;
+  solid: string;
+}
+
 export interface Scene {
   meshes: SceneMesh[];
   path: { points: Float32Array; kinds: Uint8Array; seconds: Float32Array; toolAxes: Float32Array };
   touches: { indices: Uint32Array; centres: Float32Array; surfaces: Float32Array };
+  collisions: Collision[];
   ballRadius: number;
   workpiece: number[] | null;
 }
@@ -128,6 +138,7 @@ interface PackedScene {
     Record<"positions" | "normals" | "triangles" | "edges", string>)[];
   path: Record<"points" | "kinds" | "seconds" | "toolAxes", string>;
   touches: Record<"indices" | "centres" | "surfaces", string>;
+  collisions: Collision[];
   ballRadius: number;
   workpiece: number[] | null;
 }
@@ -148,7 +159,7 @@ export function readReport(): Report {
     programs: ProgramText[];
     scene: PackedScene;
   };
-  const { meshes, path, touches, ballRadius, workpiece } = packed.scene;
+  const { meshes, path, touches, collisions, ballRadius, workpiece } = packed.scene;
   return {
     results: packed.results,
     programs: packed.programs,
@@ -173,6 +184,7 @@ export function readReport(): Report {
         centres: floats(touches.centres),
         surfaces: floats(touches.surfaces),
       },
+      collisions,
       ballRadius,
       workpiece,
     },

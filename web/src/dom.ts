@@ -28,6 +28,7 @@ const icons: Record<string, string> = {
   warning: "M12 4L2.5 20.5h19zM12 10v5M12 17.6v.4",
   cross: "M5 5l14 14M19 5L5 19",
   stop: "M8 2.5h8l5.5 5.5v8L16 21.5H8L2.5 16V8zM12 7v6M12 16v.4",
+  dot: "M12 9.5a2.5 2.5 0 100 5 2.5 2.5 0 000-5z",
   arrow: "M4 12h15M13 6l6 6-6 6",
   fit: "M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5",
   play: "M7 4l13 8-13 8z",

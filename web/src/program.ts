@@ -1,9 +1,17 @@
 // The program's text with the lines of cycles marked.
 
 import type { Report } from "./data";
-import { count, fileName, h } from "./dom";
+import { count, fileName, h, icon } from "./dom";
 import type { Selector } from "./selection";
-import { badge, cycleState } from "./verdict";
+import { cycleState, type State, stateWord } from "./verdict";
+
+const symbols: Record<State, "check" | "warning" | "cross" | "stop" | "dot"> = {
+  good: "check",
+  rework: "warning",
+  scrap: "cross",
+  alarm: "stop",
+  none: "dot",
+};
 
 const severity = ["none", "good", "rework", "scrap", "alarm"];
 
@@ -39,7 +47,7 @@ export function programSection(report: Report, selector: Selector): ProgramView 
     const listing = h("div", { class: "listing", role: "region", "aria-label": fileName(path), tabindex: 0 });
     let next = 1;
     for (const piece of program.pieces) {
-      if (piece.first > next) listing.append(h("div", { class: "gap" }, `${count(piece.first - next, "line")} left out`));
+      if (piece.first > next) listing.append(h("div", { class: "left-out" }, `${count(piece.first - next, "line")} left out`));
       piece.lines.forEach((text, offset) => {
         const line = piece.first + offset;
         const key = `${path}\n${line}`;
@@ -66,16 +74,17 @@ export function programSection(report: Report, selector: Selector): ProgramView 
             {
               type: "button",
               class: "line-badge",
-              title: "Show the results",
+              title: `${stateWord(worst)}: show the results`,
+              "aria-label": `${stateWord(worst)}: show the results`,
               click: (event) => {
                 event.stopPropagation();
                 choose("badge");
               },
             },
-            here.length > 1 && `${here.length} \u00d7 `,
-            badge(worst, true),
+            here.length > 1 && `${here.length}\u00d7 `,
+            icon(symbols[worst]),
           );
-          row.append(toResults);
+          code.before(toResults);
           row.addEventListener("click", () => choose("program"));
         } else if (troubleAt.has(key)) {
           row.classList.add("alarm");
@@ -85,7 +94,7 @@ export function programSection(report: Report, selector: Selector): ProgramView 
       });
       next = piece.first + piece.lines.length;
     }
-    if (program.lineCount >= next) listing.append(h("div", { class: "gap" }, `${count(program.lineCount - next + 1, "line")} left out`));
+    if (program.lineCount >= next) listing.append(h("div", { class: "left-out" }, `${count(program.lineCount - next + 1, "line")} left out`));
     return listing;
   });
 

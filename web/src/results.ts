@@ -43,12 +43,6 @@ function resultRow(result: ResultValue): HTMLElement {
   );
 }
 
-/** What was measured stands open; values that only tell how the cycle was called or what it did stay folded. */
-function measured(cycle: Cycle): ResultValue[] {
-  const compared = cycle.results.filter((result) => result.deviation !== undefined || result.verdict !== "none");
-  return compared.length > 0 ? compared : cycle.results.filter((result) => !result.name.startsWith("_OVI"));
-}
-
 function furtherResults(further: ResultValue[]): HTMLElement {
   return h(
     "section",
@@ -163,8 +157,8 @@ function writeLine(write: Write): HTMLElement {
 
 function cycleBody(cycle: Cycle, index: number, selector: Selector): HTMLElement {
   const state = cycleState(cycle);
-  const shown = measured(cycle);
-  const further = cycle.results.filter((result) => !shown.includes(result));
+  const shown = cycle.results.filter((result) => result.main);
+  const further = cycle.results.filter((result) => !result.main);
   const room = h("td", { colspan: 10 });
   const extra = h("tr", { class: "extra", hidden: true }, room);
   const toggle = h(

@@ -76,6 +76,10 @@ function meshGeometry(mesh: SceneMesh): BufferGeometry {
   return geometry;
 }
 
+function cornersOf({ min, max }: Box3): Vector3[] {
+  return [min.x, max.x].flatMap((x) => [min.y, max.y].flatMap((y) => [min.z, max.z].map((z) => new Vector3(x, y, z))));
+}
+
 function dotTexture(): CanvasTexture {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = 64;
@@ -90,13 +94,37 @@ function dotTexture(): CanvasTexture {
   return new CanvasTexture(canvas);
 }
 
+function crossTexture(): CanvasTexture {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 64;
+  const context = canvas.getContext("2d")!;
+  context.lineCap = "round";
+  for (const [width, style] of [
+    [18, "rgba(255, 255, 255, 0.9)"],
+    [11, "#fff"],
+  ] as const) {
+    context.beginPath();
+    context.moveTo(14, 14);
+    context.lineTo(50, 50);
+    context.moveTo(50, 14);
+    context.lineTo(14, 50);
+    context.lineWidth = width;
+    context.strokeStyle = style;
+    context.stroke();
+  }
+  return new CanvasTexture(canvas);
+}
+
 export class Drawing {
   readonly scene = new ThreeScene();
   readonly markers: Marker[];
-  /** Around the part, or what is measured where there is none. */
+  /** Around the part, every touch and collision, and whatever else was touched. */
   readonly sphere: Sphere;
   /** Around the part, the fixtures, the gauges and every touch. */
   readonly everything: Sphere;
+  /** The corners of what stands in the first view, and of all there is: a view is filled by them. */
+  readonly focusCorners: Vector3[];
+  readonly allCorners: Vector3[];
   /** Where the names of the workpiece's axes stand. */
   readonly axisEnds: { name: string; at: Vector3 }[] = [];
   private readonly solids = new Group();
@@ -110,28 +138,43 @@ export class Drawing {
   private readonly edgeMaterials: LineBasicMaterial[] = [];
   private readonly lineMaterials: { material: LineMaterial; kind: number; faint: boolean }[] = [];
   private markerGeometry: BufferGeometry | null = null;
+  private collisionMaterial: PointsMaterial | null = null;
 
   constructor(private readonly report: Report) {
     const { scene } = report;
     this.markers = markersOf(scene);
     this.colours = new Float32Array(3 * this.markers.length);
 
-    const bounds = new Box3();
-    for (const mesh of scene.meshes) bounds.union(this.addMesh(mesh));
-    for (const marker of this.markers) bounds.expandByPoint(marker.centre);
-    // Fixtures, gauges and the way to the tool changer may reach far beyond the part.
-    const focus = new Box3();
-    for (const mesh of this.solids.children) focus.expandByObject(mesh);
-    if (focus.isEmpty()) for (const marker of this.markers) focus.expandByPoint(marker.centre);
+    const points = [
+      ...this.markers.flatMap(({ centre, surface }) => [centre, surface]),
+      ...scene.collisions.map(({ at }) => new Vector3().fromArray(at)),
+    ];
+    const bounds = new Box3().setFromPoints(points);
+    const focus = bounds.clone();
+    this.focusCorners = [...points];
+    this.allCorners = [...points];
+    // Fixtures, gauges and the way to the tool changer may reach far beyond the part: only what was touched counts.
+    for (const mesh of scene.meshes) {
+      const box = this.addMesh(mesh);
+      bounds.union(box);
+      const reached = box.clone().expandByScalar(0.5);
+      this.allCorners.push(...cornersOf(box));
+      if (mesh.role !== "part" && !points.some((point) => reached.containsPoint(point))) continue;
+      focus.union(box);
+      this.focusCorners.push(...cornersOf(box));
+    }
     if (focus.isEmpty()) focus.copy(bounds);
     if (focus.isEmpty()) for (let i = 0; i + 2 < scene.path.points.length; i += 3) focus.expandByPoint(new Vector3().fromArray(scene.path.points, i));
     if (focus.isEmpty()) focus.set(new Vector3(-50, -50, -50), new Vector3(50, 50, 50));
+    if (this.focusCorners.length === 0) this.focusCorners = cornersOf(focus);
+    if (this.allCorners.length === 0) this.allCorners = cornersOf(focus);
     this.sphere = focus.getBoundingSphere(new Sphere());
     this.sphere.radius = Math.max(this.sphere.radius, 1);
     this.everything = bounds.union(focus).getBoundingSphere(new Sphere());
 
     this.addPath();
     this.addMarkers();
+    this.addCollisions();
     const ballRadius = scene.ballRadius > 0 ? scene.ballRadius : this.sphere.radius / 60;
     const ball = new Mesh(
       new SphereGeometry(ballRadius, 32, 20),
@@ -255,8 +298,29 @@ export class Drawing {
     }
   }
 
+  /** Crosses that nothing hides; they say why the run ended where it did. */
+  private addCollisions() {
+    const { collisions } = this.report.scene;
+    if (collisions.length === 0) return;
+    const positions = new Float32Array(collisions.flatMap(({ at }) => at));
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(positions, 3));
+    this.collisionMaterial = new PointsMaterial({
+      size: 26 * Math.min(window.devicePixelRatio, 2),
+      sizeAttenuation: false,
+      map: crossTexture(),
+      transparent: true,
+      alphaTest: 0.05,
+      depthTest: false,
+      depthWrite: false,
+    });
+    const points = new Points(geometry, this.collisionMaterial);
+    points.renderOrder = 5;
+    this.scene.add(points);
+  }
+
   private addTriad(pose: number[]) {
-    const size = this.sphere.radius * 0.3;
+    const size = this.sphere.radius * 0.22;
     const triad = new Group();
     const sceneFromWorkpiece = new Matrix4().fromArray(pose);
     const axes: [string, string, Vector3][] = [
@@ -280,6 +344,7 @@ export class Drawing {
     for (const { material, role } of this.solidMaterials) material.color.set(palette[role]);
     for (const material of this.edgeMaterials) material.color.set(palette.edge);
     for (const { material, kind } of this.lineMaterials) material.color.set(palette[moveNames[kind]]);
+    this.collisionMaterial?.color.set(palette.alarm);
     const colour = new Color();
     this.markers.forEach((marker, i) => {
       const cycle = this.report.results.cycles[marker.cycle];

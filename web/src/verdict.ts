@@ -15,6 +15,8 @@ export function cycleState(cycle: Cycle): State {
   return cycle.alarm ? "alarm" : cycle.verdict;
 }
 
+export const stateWord = (state: State): string => words[state];
+
 export function badge(state: State, small = false): HTMLElement {
   const symbol = state === "good" ? "check" : state === "alarm" ? "stop" : state === "scrap" ? "cross" : state === "rework" ? "warning" : null;
   return h("span", { class: `badge ${state}${small ? " small" : ""}` }, symbol && icon(symbol), words[state]);

@@ -1,6 +1,6 @@
 // The 3D view: camera, buttons, picking of touches, the card that tells about one, replay.
 
-import { MathUtils, OrthographicCamera, type Sphere, Vector3, WebGLRenderer } from "three";
+import { MathUtils, OrthographicCamera, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 import { type Report, touchDeviation, type Triple } from "./data";
@@ -48,7 +48,8 @@ export class View {
   private controls: OrbitControls | null = null;
   private scheduled = false;
   private shown: { at: Vector3; label: HTMLElement }[] = [];
-  private readonly axisNames: { at: Vector3; label: HTMLElement }[];
+  /** The names of the axes, and what stands at a collision. */
+  private readonly standing: { at: Vector3; label: HTMLElement }[];
 
   constructor(
     private readonly report: Report,
@@ -56,7 +57,13 @@ export class View {
   ) {
     this.drawing = new Drawing(report);
     this.camera.up.set(0, 0, 1);
-    this.axisNames = this.drawing.axisEnds.map(({ name, at }) => ({ at, label: h("span", { class: "axis" }, h("b", {}, name)) }));
+    this.standing = [
+      ...this.drawing.axisEnds.map(({ name, at }) => ({ at, label: h("span", { class: "axis" }, h("b", {}, name)) })),
+      ...report.scene.collisions.map(({ at, what, solid }) => ({
+        at: new Vector3().fromArray(at),
+        label: h("span", { class: "label collision" }, h("b", {}, `Collision: ${what}, ${solid}`)),
+      })),
+    ];
     this.element = h(
       "section",
       { class: "card view", id: "view", "aria-label": "3D view" },
@@ -82,7 +89,7 @@ export class View {
     }
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     const canvas = this.renderer.domElement;
-    this.labels.append(...this.axisNames.map(({ label }) => label));
+    this.labels.append(...this.standing.map(({ label }) => label));
     this.stage.append(canvas, this.labels);
     this.camera.add(...this.drawing.headlights);
     this.drawing.scene.add(this.camera);
@@ -140,16 +147,29 @@ export class View {
     this.camera.position.copy(center).addScaledVector(towards, 20 * reach);
     this.camera.near = reach;
     this.camera.far = 60 * reach;
-    this.zoomTo(this.drawing.sphere);
+    this.zoomTo(this.drawing.focusCorners);
   }
 
-  private zoomTo({ center, radius }: Sphere) {
+  /** Moves and zooms so that these points fill the view, with room for what lies over its edges. */
+  private zoomTo(points: Vector3[]) {
     if (!this.controls) return;
-    const offset = center.clone().sub(this.controls.target);
-    this.controls.target.add(offset);
-    this.camera.position.add(offset);
-    const aspect = this.camera.right;
-    this.camera.zoom = Math.min(1, aspect) / (1.06 * radius);
+    this.controls.update();
+    this.camera.updateMatrixWorld();
+    const shift = new Vector3();
+    const [width, height] = [0, 1].map((column) => {
+      const along = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, column);
+      let [low, high] = [Infinity, -Infinity];
+      for (const point of points) {
+        const place = point.dot(along);
+        low = Math.min(low, place);
+        high = Math.max(high, place);
+      }
+      shift.addScaledVector(along, (low + high) / 2 - this.controls!.target.dot(along));
+      return Math.max(high - low, 2);
+    });
+    this.controls.target.add(shift);
+    this.camera.position.add(shift);
+    this.camera.zoom = Math.min((2 * this.camera.right) / (1.15 * width), 2 / (1.35 * height));
     this.camera.updateProjectionMatrix();
     this.controls.update();
     this.draw();
@@ -166,7 +186,7 @@ export class View {
 
   private render() {
     this.renderer!.render(this.drawing.scene, this.camera);
-    for (const { at, label } of [...this.shown, ...this.axisNames]) {
+    for (const { at, label } of [...this.shown, ...this.standing]) {
       const { x, y } = this.onScreen(at);
       label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
     }
@@ -208,7 +228,7 @@ export class View {
   }
 
   private showSelection(cycle: number | null, touch: number | null) {
-    this.labels.replaceChildren(...this.axisNames.map(({ label }) => label));
+    this.labels.replaceChildren(...this.standing.map(({ label }) => label));
     this.shown = [];
     const ofCycle = cycle === null ? [] : this.drawing.markers.filter((marker) => marker.cycle === cycle);
     // Numbers help with a handful of touches; with hundreds they only hide the part.
@@ -304,7 +324,7 @@ export class View {
       h(
         "div",
         { class: "group" },
-        h("button", { type: "button", title: "Show everything", click: () => this.zoomTo(this.drawing.everything) }, icon("fit"), "Fit"),
+        h("button", { type: "button", title: "Show everything", click: () => this.zoomTo(this.drawing.allCorners) }, icon("fit"), "Fit"),
         ...Object.keys(directions).map((name) => button(name, () => this.look(name))),
       ),
       h(
@@ -320,7 +340,7 @@ export class View {
 
   private legend(): HTMLElement {
     const item = (kind: string, text: string) => h("span", {}, h("i", { class: `swatch ${kind}` }), text);
-    return h("div", { class: "legend" }, item("rapid", "Rapid"), item("feed", "Feed"), item("measure", "Measuring"), item("dot", "Touch"));
+    return h("div", { class: "legend" }, item("rapid", "Rapid"), item("feed", "Feed"), item("measure", "Measuring"), item("dot", "Touch"), this.report.scene.collisions.length > 0 && item("collision", "Collision"));
   }
 
   /** A slider over the machine's clock. */

@@ -134,6 +134,12 @@ test("a part out of tolerance", async () => {
   assert.match(await text(page, ".line.has-cycle.rework"), /13 TCH PROBE 424/);
   assert.equal((await page.$$(".line.has-cycle")).length, 5);
 
+  // The verdict of a line stands beside its text, however long that is.
+  const apart = await page.$$eval(".line.has-cycle", (lines) =>
+    lines.map((line) => line.querySelector("code").getBoundingClientRect().left - line.querySelector(".line-badge").getBoundingClientRect().right),
+  );
+  assert.ok(apart.length === 5 && apart.every((gap) => gap >= 0), `${apart}`);
+
   const content = await canvasContent(page);
   assert.ok(content.share > 0.15 && content.share < 0.95, `drawn share ${content.share}`);
   assert.ok(content.colours > 200, `${content.colours} colours`);
@@ -226,6 +232,21 @@ test("an alarm", async () => {
   assert.match(await text(page, ".headline"), /Alarm\s+Touch point inaccessible: no contact[\s\S]*BEARING_BLOCK\.H, line 27/);
   assert.match(await text(page, "#cycle-2"), /Alarm[\s\S]*Touch point inaccessible/);
   assert.match(await text(page, ".event.alarm"), /33\.7 s\s+Alarm\s+Touch point inaccessible/);
+  // The place of the collision stands in the view, which begins wide enough for it and for the gauge touched first.
+  assert.match(await text(page, ".label.collision"), /^Collision: stylus, Fixed jaw$/);
+  const stage = await (await page.$(".stage")).boundingBox();
+  await page.$$eval("#cycle-0 .cycle-line", ([line]) => line.click());
+  await settle(page);
+  const dots = await page.$$eval(".label", (labels) =>
+    labels.map((label) => {
+      const at = new DOMMatrix(getComputedStyle(label).transform);
+      return { x: at.e, y: at.f };
+    }),
+  );
+  assert.equal(dots.length, 4, "two touches of the edge, one of the gauge, the collision");
+  for (const { x, y } of dots) assert.ok(x > 0 && x < stage.width && y > 0 && y < stage.height, `a label at ${x}, ${y}`);
+  assert.ok(await page.$(".label.collision"), "it stays when touches are shown");
+  await page.keyboard.press("Escape");
   await page.click("#cycle-2 .toggle");
   await page.$$eval("#cycle-2 tr.touch", (rows) => rows[1].click());
   await settle(page);
