@@ -30,7 +30,7 @@ const CycleDefinition cycle0Definition = {
     .family = CycleFamily::Inspection,
     .summary = "Measures one position in an axis direction and stores its coordinate in a Q parameter.",
     .parameters = parameters0,
-    .results = touchPositionResults,
+    .results = singleTouchResults,
 };
 
 void cycle0(Context& context, const Arguments& arguments) {

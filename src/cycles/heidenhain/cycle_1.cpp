@@ -1,4 +1,5 @@
 #include <cmath>
+#include <span>
 
 #include "cycles/heidenhain/cycles.hpp"
 #include "cycles/heidenhain/old_form_parameters.hpp"
@@ -23,7 +24,7 @@ const CycleDefinition cycle1Definition = {
     .family = CycleFamily::Inspection,
     .summary = "Measures one position in any direction of a plane: X in X/Y, Y in Y/Z, Z in Z/X.",
     .parameters = parameters1,
-    .results = touchPositionResults,
+    .results = std::span(singleTouchResults).subspan(1),
 };
 
 void cycle1(Context& context, const Arguments& arguments) {

@@ -9,7 +9,9 @@ namespace probewright::cycles::heidenhain {
 /// probe_word::coordinate), from wherever the probe stands.
 void moveToProgrammedPosition(Context& context);
 
-inline constexpr ResultDefinition touchPositionResults[] = {
+/// Of cycle 0, which chooses its parameter by its first word; cycle 1 leaves those behind the first.
+inline constexpr ResultDefinition singleTouchResults[] = {
+    {"Qn", "measured coordinate"},
     {"Q115", "position at the touch, X"},
     {"Q116", "position at the touch, Y"},
     {"Q117", "position at the touch, Z"},
@@ -17,7 +19,7 @@ inline constexpr ResultDefinition touchPositionResults[] = {
     {"Q119", "position at the touch, 5th axis", ValueKind::Angle},
 };
 
-/// Sets them, Q115 to Q119: the position at the touch in X, Y, Z and the first two rotary axes, in the active
+/// Sets Q115 to Q119: the position at the touch in X, Y, Z and the first two rotary axes, in the active
 /// coordinate system. Stylus length and ball radius are not taken into account: it is the tool reference point's.
 void storeTouchPosition(Context& context, const EvaluatedTouch& touch);
 
