@@ -90,6 +90,47 @@ TEST(SinumerikMotion, TheEdgeMayStandInFrontOfTheChange) {
   EXPECT_EQ(world.alarm("T1 D9\nM6\n"), "17180");
 }
 
+TEST(SinumerikMotion, DiametersAndRadiiByTheWordItself) {
+  World world("lathe2c");
+  const auto radius = [&world] { return world.control.channel.position().x(); };
+  for (const char* mode : {"DIAMON", "DIAM90", "DIAMOF", "DIAMONA[X]", "DIAM90A[X]", "DIAMOFA[X]"}) {
+    SCOPED_TRACE(mode);
+    world.machine.moves.clear();
+    world.run(std::string(mode) + "\nG0 X=DAC(90) Z=RAC(-5)\nX=RAC(30)\nX=DIC(4)\nX=RIC(-4)\n");
+    ASSERT_EQ(world.machine.moves.size(), 4u);
+    EXPECT_NEAR(tipOf(world, 0).x(), 45, 1e-12);
+    EXPECT_NEAR(tipOf(world, 0).z(), -5, 1e-12) << "Z has no diameter";
+    EXPECT_NEAR(tipOf(world, 1).x(), 30, 1e-12);
+    EXPECT_NEAR(tipOf(world, 2).x(), 32, 1e-12);
+    EXPECT_NEAR(tipOf(world, 3).x(), 28, 1e-12);
+  }
+  world.run("DIAMON\nDIAMCHANA[X]\nDIAMOFA[Z]\nG0 X50\n");
+  EXPECT_EQ(radius(), 25) << "the channel's own diameters stay";
+  EXPECT_EQ(world.alarm("X=DAC(\"A\")\n"), "12150");
+}
+
+TEST(SinumerikMotion, FunctionsAreChosenByTheirPlaceInTheGroup) {
+  World world;
+  world.control.data.load({"$P_UIFR", {2, "X", "TR"}}, 100.0);
+  world.control.data.load({"$P_UIFR", {5, "X", "TR"}}, 50.0);
+  // What a subprogram changes is brought back by what $P_GG said before.
+  world.run(
+      "G55 G91 G18\nR1=$P_GG[8] R2=$P_GG[14] R3=$P_GG[6]\nG54 G90 G17\nG[8]=R1 G[14]=R2\nG[6]=R3\n"
+      "R4=$P_GG[8] R5=$P_GG[14] R6=$P_GG[6]\n");
+  EXPECT_EQ(world.r(4), 3);
+  EXPECT_EQ(world.r(5), 2);
+  EXPECT_EQ(world.r(6), 2);
+  EXPECT_EQ(world.control.frames.settable, 2);
+  world.run("G90 G17 G[8]=6\nG0 X1\n");
+  EXPECT_EQ(world.machine.moves.back().to[0], 51) << "G505";
+  world.run("G[1]=2 F100\nX5\n");
+  EXPECT_EQ(world.machine.moves.back().feed.perMinute, 100);
+  world.run("G[8]=1\nG0 X1\n");
+  EXPECT_EQ(world.machine.moves.back().to[0], 1);
+  EXPECT_EQ(world.alarm("G[6]=4\n"), "12470");
+  EXPECT_EQ(world.alarm("G[99]=1\n"), "12470");
+}
+
 TEST(SinumerikMotion, AxesThatTheMachineHasNotAreRefusedByNumber) {
   World world("lathe2c");
   world.run("G0 X80 Y0 Z5\n");

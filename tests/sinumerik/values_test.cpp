@@ -242,5 +242,19 @@ TEST(SinumerikVariables, SystemVariablesShowAndChangeTheControl) {
   EXPECT_EQ(world.control.journal.writes[0].after, "12.5");
 }
 
+TEST(SinumerikValues, FramesOfTheProgramHaveComponents) {
+  World world;
+  world.run(
+      "DEF FRAME FR_1, FR_2[3]\nFR_1=CTRANS(X,1,Y,2):CROT(Z,10)\nFR_1[X,TR]=5\nFR_1[Y,FI]=0.5\n"
+      "R1=FR_1[X,TR] R2=FR_1[Y,TR] R3=FR_1[Z,RT] R4=FR_1[Y,FI]\n"
+      "FR_2[2]=FR_1\nFR_2[2,Z,RT]=30\nR5=FR_2[2,Z,RT] R6=FR_1[Z,RT] R7=FR_2[1,X,TR]\n"
+      "$P_UIFR[1]=FR_2[2]\nR8=$P_UIFR[1,X,TR]\n");
+  const double expected[] = {5, 2, 10, 0.5, 30, 10, 0, 5};
+  for (int i = 0; i < 8; ++i)
+    EXPECT_NEAR(world.r(i + 1), expected[i], 1e-12) << "R" << i + 1;
+  EXPECT_EQ(world.alarm("DEF FRAME FR_1\nR1=FR_1[X]\n"), "17020");
+  EXPECT_EQ(world.alarm("DEF FRAME FR_1\nR1=FR_1[X,Y]\n"), "17030");
+}
+
 }  // namespace
 }  // namespace probewright::sinumerik

@@ -81,6 +81,8 @@ private:
   bool parseExtension(std::uint32_t& address);
   bool parseShortValue(double& value);
   language::Operand parseValue(language::WordMode* mode);
+  bool parseDimensionedValue(language::Word& word);
+  void parseAxialDiameter(std::string_view name);
   void addMoveWord(std::uint32_t address, std::size_t start);
   void parseMoveWord(std::string_view name, std::size_t start);
   void parseSetting(std::string_view name, std::size_t start);

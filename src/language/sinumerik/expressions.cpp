@@ -321,9 +321,12 @@ void BlockParser::parseIndices(VariableRef& variable) {
     cursor_.skipBlanks();
     // Empty brackets hand over a whole array.
     if (i == 0 && variable.space == VariableSpace::User && cursor_.take(']')) return;
-    // Components of frames are words of their own.
+    // Components of frames are words of their own: behind an axis in frames of the program.
     const std::string_view name = cursor_.peekName();
-    const bool component = variable.space == VariableSpace::System &&
+    const Operand before = i > 0 ? variable.index[i - 1] : Operand{};
+    const bool behindAxis =
+        before.node >= 0 && block_->nodes[static_cast<std::size_t>(before.node)].operation == Operation::AxisName;
+    const bool component = (variable.space == VariableSpace::System || behindAxis) &&
                            (name == "TR" || name == "FI" || name == "RT" || name == "SC" || name == "MI");
     if (component) {
       cursor_.advance(2);

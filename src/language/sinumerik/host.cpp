@@ -113,6 +113,13 @@ void SinumerikHost::carryOut(const Assign& assign, Evaluation& evaluation) {
 }
 
 Value SinumerikHost::call(std::string_view name, std::span<const Value> arguments) {
+  if (isDimensionFunction(name) && arguments.size() == 1) {
+    const auto* number = std::get_if<double>(&arguments[0]);
+    if (number == nullptr) throw Alarm("12150", fmt::format("{} takes a number, not a text", name));
+    // DIAM90 counts incremental values as radii.
+    const bool countsDiameters = control_.diameter && !(name[1] == 'I' && state_.gGroup[29] == 3);
+    return name[0] == 'D' ? *number / (countsDiameters ? 1 : 2) : *number * (countsDiameters ? 2 : 1);
+  }
   FunctionQuestions questions;
   questions.isVariable = [this](std::string_view text) { return isVariableNamed(text); };
   questions.isAxis = [this](std::string_view axis) {

@@ -93,6 +93,7 @@ private:
   void carryOut(const Other&, Evaluation&) {}
 
   void carryOutG(int number);
+  void carryOutGroup(int group, int number);
   void carryOutNamedFunction(std::string_view name, const language::Modal& modal, Evaluation& evaluation);
   void changeTool();
   void alignFrameWithTool(bool withOrigin);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <span>
 
 #include "control/alarm.hpp"
 #include "language/sinumerik/check.hpp"
@@ -10,7 +11,7 @@
 #include "language/sinumerik/host.hpp"
 #include "language/sinumerik/spindle_speed.hpp"
 
-/// G functions, by number and by name.
+/// G functions, by number, by their place in a group, and by name.
 namespace probewright::sinumerik {
 
 using namespace language;
@@ -161,6 +162,47 @@ void SinumerikHost::carryOutG(int number) {
       return settable(0);
     default:
       return;
+  }
+}
+
+/// G[group]=number: the function that has this place in its group.
+void SinumerikHost::carryOutGroup(int group, int number) {
+  const auto refuse = [&] {
+    throw Alarm("12470", fmt::format("G[{}]={}: the group has no such function", group, number),
+                "numbers count from 1 in the order of the list of G functions");
+  };
+  const auto choose = [&](std::span<const int> functions) {
+    if (number < 1 || number > static_cast<int>(functions.size())) refuse();
+    carryOutG(functions[static_cast<std::size_t>(number - 1)]);
+  };
+  static constexpr int motions[] = {0, 1, 2, 3}, planes[] = {17, 18, 19}, compensations[] = {40, 41, 42},
+                       units[] = {70, 71, 700, 710}, dimensions[] = {90, 91},
+                       feeds[] = {93, 94, 95, 96, 97, 931, 961, 971, 942, 952, 962, 972, 973}, corners[] = {450, 451};
+  switch (group) {
+    case 1:
+      return choose(motions);
+    case 6:
+      return choose(planes);
+    case 7:
+      return choose(compensations);
+    case 8:
+      if (number < 1 || number > 100) refuse();
+      return carryOutG(number == 1 ? 500 : number <= 5 ? 52 + number : 499 + number);
+    case 13:
+      return choose(units);
+    case 14:
+      return choose(dimensions);
+    case 15:
+      return choose(feeds);
+    case 18:
+      return choose(corners);
+    case 29:
+      if (number < 1 || number > 4) refuse();
+      control_.diameter = number == 2 || number == 3;
+      state_.gGroup[29] = number;
+      return;
+    default:
+      if (group < 1 || group >= static_cast<int>(state_.gGroup.size()) || number < 0) refuse();
   }
 }
 

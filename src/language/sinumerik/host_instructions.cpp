@@ -146,6 +146,9 @@ void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
     return;
   }
   if (name == "STOPRE") return motion_.flush();
+  if (name == "G" && words.size() == 2)
+    return carryOutGroup(wholeNumber(evaluation.number(words[1].value)),
+                         wholeNumber(evaluation.number(words[0].value)));
   if (name == "SETAL") return raiseAlarm(command, evaluation);
   if (name == "G4") return dwell(command, evaluation);
   if (name.starts_with("MEAS") || name.starts_with("MEAW")) return motion_.measure(command, evaluation);

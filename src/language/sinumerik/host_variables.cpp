@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "control/alarm.hpp"
 #include "control/sinumerik/measuring_data.hpp"
 #include "control/sinumerik/text.hpp"
 #include "language/sinumerik/check.hpp"
+#include "language/sinumerik/functions.hpp"
 #include "language/sinumerik/global_data.hpp"
 #include "language/sinumerik/host.hpp"
 
@@ -24,6 +26,34 @@ constexpr double mostRParameters = 10000;
 double numberOf(const Value& value, std::string_view name) {
   if (const auto* number = std::get_if<double>(&value)) return *number;
   throw Alarm("12150", fmt::format("{} takes a number, not a text", name));
+}
+
+/// FRAME_1[X,TR] and FRAMES_1[2,X,TR]: a component of a frame of the program.
+struct FrameComponent {
+  std::size_t place = 0;  ///< of the frame in its variable
+  std::string axis;
+  control::sinumerik::FramePart part = control::sinumerik::FramePart::Translation;
+};
+
+/// Nothing if `indices` name a whole frame.
+std::optional<FrameComponent> frameComponent(const UserVariable& user, std::string_view name,
+                                             std::span<const Value> indices) {
+  const std::size_t own = user.isArray() ? 1 : 0;
+  if (user.type() != Type::Frame || indices.size() <= own) return std::nullopt;
+  const auto text = [&](std::size_t i) {
+    const auto* word = i < indices.size() ? std::get_if<std::string>(&indices[i]) : nullptr;
+    if (word == nullptr)
+      throw Alarm("17020", fmt::format("{}: a component of a frame is named by axis and kind", name),
+                  "write for instance [X,TR]");
+    return control::sinumerik::upperCase(*word);
+  };
+  FrameComponent component;
+  if (own == 1) component.place = user.place(name, std::array{numberOf(indices[0], "an index")});
+  component.axis = text(own);
+  const auto part = control::sinumerik::framePartOf(text(own + 1));
+  if (!part) throw Alarm("17030", fmt::format("{} has the components TR, FI, RT, SC and MI", name));
+  component.part = *part;
+  return component;
 }
 
 }  // namespace
@@ -66,7 +96,8 @@ SinumerikHost::ResolvedVariable SinumerikHost::resolve(const VariableRef& variab
 Value SinumerikHost::read(const VariableRef& variable, Evaluation& evaluation) {
   if (variable.space == VariableSpace::R) return rParameter(evaluation.number(variable.index[0]));
   if (variable.space == VariableSpace::User) {
-    if (UserVariable* user = variables_.find(evaluation.at(variable.name))) {
+    if (UserVariable* user = variables_.find(evaluation.at(variable.name));
+        user != nullptr && user->type() != Type::Frame) {
       double indices[3];
       std::size_t count = 0;
       for (const Operand& index : variable.index)
@@ -79,7 +110,8 @@ Value SinumerikHost::read(const VariableRef& variable, Evaluation& evaluation) {
 
 void SinumerikHost::write(const VariableRef& variable, const Value& value, Evaluation& evaluation) {
   if (variable.space == VariableSpace::User) {
-    if (UserVariable* user = variables_.find(evaluation.at(variable.name))) {
+    if (UserVariable* user = variables_.find(evaluation.at(variable.name));
+        user != nullptr && user->type() != Type::Frame) {
       double indices[3];
       std::size_t count = 0;
       for (const Operand& index : variable.index)
@@ -101,6 +133,8 @@ Value SinumerikHost::read(const ResolvedVariable& variable) {
       break;
   }
   if (const UserVariable* user = variables_.find(variable.name)) {
+    if (const auto component = frameComponent(*user, variable.name, variable.indices))
+      return frameOf(user->at(component->place)).get(component->axis, component->part);
     std::vector<double> indices;
     for (const Value& index : variable.indices)
       indices.push_back(numberOf(index, "an index"));
@@ -127,6 +161,11 @@ void SinumerikHost::write(const ResolvedVariable& variable, const Value& value) 
       break;
   }
   if (UserVariable* user = variables_.find(variable.name)) {
+    if (const auto component = frameComponent(*user, variable.name, variable.indices)) {
+      control::sinumerik::Frame frame = frameOf(user->at(component->place));
+      frame.set(component->axis, component->part, numberOf(value, variable.name));
+      return user->set(component->place, frameValue(frame));
+    }
     std::vector<double> indices;
     for (const Value& index : variable.indices)
       indices.push_back(numberOf(index, "an index"));

@@ -73,6 +73,11 @@ enum class Type : std::uint8_t { Int, Real, Bool, Char, String, Axis, Frame };
 bool typeOf(std::string_view name, Type& type);
 std::string_view typeName(Type type);
 
+/// DAC, DIC, RAC, RIC: values of the transverse axis that are diameters or radii by themselves.
+constexpr bool isDimensionFunction(std::string_view name) {
+  return name == "DAC" || name == "DIC" || name == "RAC" || name == "RIC";
+}
+
 /// True if the control knows G`number`.
 bool isGFunction(int number);
 

@@ -333,8 +333,21 @@ void BlockParser::parseFill(std::uint32_t variable) {
   if (!failed_) block_->instructions.emplace_back(Command{upper(name), {}, static_cast<std::int32_t>(variable), words});
 }
 
+/// DIAMONA[X], DIAMOFA[X], DIAM90A[X], DIACYCOFA[X]: as the function of the channel; what they say of other axes, and
+/// DIAMCHANA (as the channel), changes nothing.
+void BlockParser::parseAxialDiameter(std::string_view name) {
+  if (!expect('[', "behind an axial function for diameters")) return;
+  const Operand axis = parseExpression();
+  if (failed_ || !expect(']', "behind the axis")) return;
+  const Node* node = axis.node >= 0 ? &block_->nodes[static_cast<std::size_t>(axis.node)] : nullptr;
+  if (node == nullptr || node->operation != Operation::AxisName || block_->at(node->text) != "X") return;
+  std::string_view whole = name == "DIACYCOFA" ? "DIAMCYCOF" : name.substr(0, name.size() - 1);
+  if (whole != "DIAMCHAN") block_->instructions.emplace_back(Modal{block_->add(whole), {}});
+}
+
 /// NAME or NAME(arguments).
 void BlockParser::parseStatement(Keyword keyword, std::string_view name) {
+  if (name.starts_with("DIA") && name.ends_with("A")) return parseAxialDiameter(name);
   Command command;
   command.name = upper(name);
   cursor_.skipBlanks();

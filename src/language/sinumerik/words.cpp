@@ -140,8 +140,35 @@ void BlockParser::addMoveWord(std::uint32_t address, std::size_t start) {
   Word word;
   word.address = address;
   word.column = static_cast<std::uint32_t>(start) + 1;
-  word.value = parseValue(&word.mode);
+  if (!parseDimensionedValue(word)) word.value = parseValue(&word.mode);
   axisWords_.push_back(word);
+}
+
+/// X=DAC(value), DIC, RAC, RIC: a diameter or a radius, whatever DIAMON says. The run computes what to add or take off.
+bool BlockParser::parseDimensionedValue(Word& word) {
+  Cursor ahead = cursor_;
+  if (!ahead.take('=')) return false;
+  ahead.skipBlanks();
+  const std::string_view name = ahead.peekName();
+  if (!isDimensionFunction(name)) return false;
+  ahead.advance(name.size());
+  cursor_ = ahead;
+  word.mode = name[1] == 'A' ? WordMode::Absolute : WordMode::Incremental;
+  if (!expect('(', "behind DAC, DIC, RAC or RIC")) return true;
+  const Operand value = parseExpression();
+  if (failed_ || !expect(')', "behind the value")) return true;
+  word.value = value;
+  if (word.address != addressOf("X")) return true;
+  Node node;
+  node.operation = Operation::Call;
+  node.function = Function::Host;
+  node.text = block_->add(name);
+  node.a = static_cast<std::uint32_t>(block_->operands.size());
+  node.b = 1;
+  block_->operands.push_back(value);
+  block_->nodes.push_back(node);
+  word.value = {0, static_cast<std::int32_t>(block_->nodes.size() - 1)};
+  return true;
 }
 
 void BlockParser::parseAxisWord(std::uint32_t address, std::size_t start) {
@@ -189,6 +216,7 @@ void BlockParser::setOwner(Owner owner, TextRef name, std::size_t start) {
 
 void BlockParser::parseG(std::size_t start) {
   cursor_.skipBlanks();
+  if (cursor_.peek() == '[') return parseSetting(cursor_.since(start).substr(0, 1), start);
   const std::size_t numberStart = cursor_.offset();
   const std::string_view digits = cursor_.digits();
   int number = 0;

@@ -92,6 +92,12 @@ std::string BlockWriter::variable(std::uint32_t index) const { return writeVaria
 
 std::string BlockWriter::value(const Word& word) const {
   const std::string_view mode = modeName(word.mode);
+  if (word.value.node >= 0) {
+    const Node& node = block_.nodes[static_cast<std::size_t>(word.value.node)];
+    if (node.operation == Operation::Call && node.function == Function::Host &&
+        isDimensionFunction(block_.at(node.text)))
+      return expression(word.value);
+  }
   return mode.empty() ? expression(word.value) : fmt::format("{}({})", mode, expression(word.value));
 }
 
