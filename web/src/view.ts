@@ -46,6 +46,8 @@ export class View {
   private readonly drawing: Drawing;
   private renderer: WebGLRenderer | null = null;
   private controls: OrbitControls | null = null;
+  /** What the view was filled with last, until the reader moves it: a page that changes its size fills it anew. */
+  private filledBy: Vector3[] | null = null;
   private scheduled = false;
   private shown: { at: Vector3; label: HTMLElement }[] = [];
   /** The names of the axes, and what stands at a collision. */
@@ -95,6 +97,7 @@ export class View {
     this.drawing.scene.add(this.camera);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.zoomToCursor = true;
+    this.controls.addEventListener("start", () => (this.filledBy = null));
     this.controls.addEventListener("change", () => this.draw());
     this.pick(canvas);
     this.colour();
@@ -130,6 +133,7 @@ export class View {
     this.camera.right = aspect;
     this.camera.updateProjectionMatrix();
     if (first) this.look("Iso");
+    else if (this.filledBy) this.zoomTo(this.filledBy);
     // At once, not in the next frame: setting the size has emptied the canvas.
     this.render();
   }
@@ -169,6 +173,7 @@ export class View {
     });
     this.controls.target.add(shift);
     this.camera.position.add(shift);
+    this.filledBy = points;
     this.camera.zoom = Math.min((2 * this.camera.right) / (1.15 * width), 2 / (1.35 * height));
     this.camera.updateProjectionMatrix();
     this.controls.update();
