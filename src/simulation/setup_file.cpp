@@ -122,7 +122,11 @@ private:
     std::vector<std::string> names;
     for (const control::ControlKind kind : control::allControlKinds)
       names.emplace_back(control::name(kind));
-    if (auto type = reader->choice("type", names)) setup_.control = control::allControlKinds[*type];
+    names.emplace_back("828D");  // measures as the 840D sl does
+    if (auto type = reader->choice("type", names)) {
+      const bool listed = *type < control::allControlKinds.size();
+      setup_.control = listed ? control::allControlKinds[*type] : control::ControlKind::Sinumerik840Dsl;
+    }
     if (auto tables = reader->text("tables")) {
       setup_.tables = resolve(*tables);
       std::error_code ignored;

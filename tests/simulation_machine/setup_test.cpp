@@ -99,6 +99,7 @@ flag = true
 )");
   EXPECT_EQ(setup.truth.seed, 42u);
   EXPECT_EQ(read("[control]\ntype = \"840Dsl\"").control, control::ControlKind::Sinumerik840Dsl);
+  EXPECT_EQ(read("[control]\ntype = \"828D\"").control, control::ControlKind::Sinumerik840Dsl);
   EXPECT_EQ(setup.truth.machine.axes.size(), 5u);
   EXPECT_EQ(setup.truth.start[0], 10);
   EXPECT_EQ(setup.truth.start[4], 400);
