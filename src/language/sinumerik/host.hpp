@@ -28,8 +28,8 @@ struct HostOptions {
   /// Runs a program that the control calls by itself, if `caller` finds one of that name; false if not. Throws what the
   /// program ends with.
   std::function<bool(std::string_view name, const language::Program* caller)> callProgram = {};
-  /// Global user data with their values at the start. What programs change of them goes into the control's data when the
-  /// last one ends.
+  /// Global user data with their values at the start. What programs change of them goes into the control's data when
+  /// the last one ends.
   UserVariables::Scope globalData = {};
 };
 
