@@ -230,6 +230,7 @@ TEST(SinumerikParsing, NamesEachMistakeWithPlaceAndWayOut) {
            Case{"CYCLE977(1 2)", 12, "',' or ')' expected"},
            Case{"TO 5", 1, "no statement begins with TO"},
            Case{"T1 DEFINE AA_B AS R1=5", 4, "DEFINE stands in a block of its own"},
+           Case{"TRANS X10 DO M8", 11, "DO stands in a block of its own"},
            Case{"G1 X1 N20", 7, "block number stands only at the beginning"},
        }) {
     const Diagnostic mistake = mistakeOf(c.text);

@@ -37,6 +37,7 @@ bool isStructure(Keyword keyword) {
     case Keyword::External:
     case Keyword::Declare:
     case Keyword::Define:
+    case Keyword::SynchronizedAction:
       return true;
     default:
       return false;
