@@ -96,8 +96,7 @@ TEST(Check, ParametersOfMeasuringCyclesByTheCatalogue) {
   EXPECT_NE(found.find("a.h:7:2: error: Q303"), std::string::npos) << found;
   EXPECT_NE(found.find("cannot be PREDEF"), std::string::npos) << found;
   EXPECT_NE(found.find("a.h:2:3: error: cycle 412 lacks Q322"), std::string::npos) << found;
-  EXPECT_NE(checked(framed("1 TCH PROBE 599 X ~\n Q1=1\n")).find("warning: touch probe cycle 599"),
-            std::string::npos);
+  EXPECT_NE(checked(framed("1 TCH PROBE 599 X ~\n Q1=1\n")).find("warning: touch probe cycle 599"), std::string::npos);
 }
 
 }  // namespace
