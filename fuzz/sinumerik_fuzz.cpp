@@ -77,7 +77,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!readable) continue;
     const auto once = sinumerik::writeBlock(block);
     if (!once || once->empty()) continue;
-    const auto again = sinumerik::SinumerikProgram::fromText("again.mpf", *once);
+    // As in a program: a line that ends with 0x1A would otherwise end with the mark of the file's end.
+    const auto again = sinumerik::SinumerikProgram::fromText("again.mpf", *once + "\n");
     again->parse(again->begin(), second, mistakes);
     const auto twice = sinumerik::writeBlock(second);
     if (!mistakes.empty() || !twice || *once != *twice) {
