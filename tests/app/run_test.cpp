@@ -400,7 +400,7 @@ TEST(Run, PrintsNoControlCharactersOfAProgram) {
   const auto run = [&](const std::string& text) {
     return probewright({"run", folder.file("a.h", text), "--setup", world, "--out", (folder / "out").string()});
   };
-  const Answer binary = run(std::string("BEGIN PGM A MM\n\x01\x02\x1B[2J\0\x7F\nEND PGM A MM\n", 40));
+  const Answer binary = run(std::string("BEGIN PGM A MM\n\x01\x02\x1B[2J\0\x7F\nEND PGM A MM\n", 37));
   EXPECT_EQ(binary.exit, 2);
   EXPECT_THAT(binary.errors, HasSubstr("a.h: error: this is no text"));
   EXPECT_EQ(messages(binary.errors), 1U) << binary.errors;

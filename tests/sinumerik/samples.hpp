@@ -44,6 +44,7 @@ inline constexpr const char* sampleBlocks[] = {
     "G4 F2.5",
     "G4 S30",
     "MEAS=1 G1 X100 F300",
+    "MEAS=1 BSPLINE X100 F300",
     "MEASA[X]=(1,1) G1 X100 F100",
     "MEAWA[AX1]=(1,-1,1) X5",
     "GEOAX(1,X)",

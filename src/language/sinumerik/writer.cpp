@@ -307,7 +307,12 @@ void BlockWriter::statement(const Command& command) {
       } else {
         add(fmt::format("{}={}", what, expression(given.front().value)));
       }
-      if (command.text.length != 0) add(name(command.text));
+      // Splines write their word themselves.
+      const bool written = std::ranges::any_of(block_.instructions, [&](const Instruction& each) {
+        const auto* modal = std::get_if<language::Modal>(&each);
+        return modal != nullptr && name(modal->name) == name(command.text);
+      });
+      if (command.text.length != 0 && !written) add(name(command.text));
       const std::string axes =
           axisWords({command.words.first + (axial ? 3 : 1), command.words.count - (axial ? 3 : 1)});
       if (!axes.empty()) add(axes.substr(1));
