@@ -9,6 +9,7 @@
 #include "machine/machine_file.hpp"
 #include "simulation/setup.hpp"
 #include "simulation/setup_solids.hpp"
+#include "simulation/setup_tools.hpp"
 
 namespace probewright::simulation {
 
@@ -19,17 +20,7 @@ namespace {
 constexpr NumberRange anyNumber{};
 constexpr NumberRange positive = NumberRange::positive();
 constexpr NumberRange notNegative = NumberRange::notNegative();
-/// What the columns of tool tables hold, mm.
-constexpr double longestTool = 9999;
-constexpr NumberRange toolLength{0, longestTool, true};
-constexpr NumberRange toolRadius{0, longestTool};
-constexpr NumberRange believedLength{-longestTool, longestTool};
 constexpr double effectivelyEndless = 1e6;
-
-std::optional<Vector2> vector2(TomlReader& reader, std::string_view key) {
-  const auto values = reader.numbers(key, 2);
-  return values ? std::optional(Vector2((*values)[0], (*values)[1])) : std::nullopt;
-}
 
 class SetupReader {
 public:
@@ -44,7 +35,7 @@ public:
     setup_.truth.seed = static_cast<std::uint64_t>(root_.integer("seed", 0, INT64_MAX).value_or(1));
     readSolids();
     readGauges();
-    readTools();
+    readTools(root_, setup_);
     readFrames();
     readErrors();
     readParameters();
@@ -214,7 +205,7 @@ private:
                      "Write diameter = 40 for a disc, size = [25, 25] for a cuboid");
     }
     contact.diameter = reader->number("diameter", positive).value_or(contact.diameter);
-    if (const auto size = vector2(*reader, "size")) {
+    if (const auto size = readVector2(*reader, "size")) {
       if (size->minCoeff() <= 0) reader->report("size", "the lengths of a contact must be above 0");
       contact.length = size->x();
       contact.width = size->y();
@@ -225,99 +216,6 @@ private:
     const double across = contact.length > 0 ? std::min(contact.length, contact.width) : contact.diameter;
     if (contact.stemDiameter >= across) reader->report("stem_diameter", "the stem is not thinner than the contact");
     placeGauge(toolProbeContact(contact), *reader, "tool touch probe", SolidRole::ToolProbe);
-  }
-
-  void readProbe(TomlReader& reader, TrueTool& tool, BelievedTool& believed) {
-    TrueProbe& probe = tool.probe;
-    const auto get = [&](const char* key, double otherwise, NumberRange range = anyNumber) {
-      return reader.number(key, range).value_or(otherwise);
-    };
-    probe.ballRadius = reader.requiredNumber("ball_radius", positive).value_or(probe.ballRadius);
-    probe.stylusRadius = get("stylus_radius", 0.6 * probe.ballRadius, notNegative);
-    probe.stylusLength = get("stylus_length", std::min(50.0, 0.5 * tool.length), positive);
-    probe.bodyRadius = get("body_radius", 30, notNegative);
-    probe.bodyLength = get("body_length", std::max(tool.length - probe.stylusLength, 2 * probe.bodyRadius), positive);
-    probe.tipOffset = vector2(reader, "tip_offset").value_or(Vector2::Zero());
-    probe.pretravel = get("pretravel", 0, {-1, 1});
-    probe.lobing = get("lobing", 0, {-1, 1});
-    probe.lobingPhase = get("lobing_phase", 0);
-    probe.axialPretravel = get("axial_pretravel", 0, {-1, 1});
-    probe.repeatability = get("repeatability", 0, {0, 1});
-    probe.signalDelay = get("signal_delay", 0, {0, 1});
-    probe.switchedOn = reader.boolean("switched_on").value_or(true);
-    probe.serial = reader.text("serial").value_or("");
-    if (probe.stylusRadius >= probe.ballRadius) {
-      reader.report("stylus_radius", "the stylus is not thinner than its ball");
-    }
-    probe.starArm = believed.starArm = get("star_arm", 0, notNegative);
-    if (probe.starArm > 0 && probe.starArm < 1.5 * probe.ballRadius) {
-      reader.report("star_arm", "the balls of the star run into each other",
-                    "Make star_arm, from the middle of the star to the centre of each ball, at least 1.5 ball_radius");
-    }
-    if (tool.length <= 2 * probe.ballRadius) {
-      reader.report("length", "the probe is shorter than its ball");
-    } else if (probe.stylusLength >= tool.length) {
-      reader.report("stylus_length", "the stylus is not shorter than the whole probe",
-                    "length is that from the spindle nose to the tip, stylus_length that of the stylus alone");
-    }
-
-    believed.probeNumber = static_cast<int>(reader.integer("probe_number", 0, 99).value_or(1));
-    believed.feed = get("probing_feed", believed.feed, positive);
-    believed.rapid = get("probing_rapid", believed.rapid, positive);
-    believed.maximumTravel = get("maximum_travel", believed.maximumTravel, positive);
-    believed.setUpClearance = get("set_up_clearance", believed.setUpClearance, notNegative);
-    believed.calibrationAngle = get("calibration_angle", 0, {-360, 360});
-    believed.orient = reader.boolean("orient").value_or(false);
-    const double delayed = probe.signalDelay * believed.feed / 60;
-    believed.length = get("believed_length", tool.length - probe.axialPretravel - delayed, believedLength);
-    believed.radius = get("believed_radius", probe.starArm + probe.ballRadius - probe.pretravel - delayed, toolRadius);
-    believed.axialRadius = believed.radius - probe.starArm + probe.pretravel - probe.axialPretravel;
-    believed.tipOffset = vector2(reader, "believed_tip_offset").value_or(probe.tipOffset);
-  }
-
-  void readTools() {
-    static const std::vector<std::string> kinds = {"probe", "mill", "drill", "turn"};
-    for (TomlReader& reader : root_.tables("tool")) {
-      TrueTool tool;
-      BelievedTool believed;
-      reader.require("number");
-      tool.number = believed.number = static_cast<int>(reader.integer("number", 1, 32767).value_or(1));
-      tool.name = believed.name = reader.text("name").value_or("");
-      reader.require("kind");
-      const std::size_t kind = reader.choice("kind", kinds).value_or(0);
-      tool.kind = kind == 0 ? ToolKind::Probe : ToolKind::Cutter;
-      believed.kind = kinds[kind];
-      tool.length = reader.requiredNumber("length", toolLength).value_or(100);
-      if (auto direction = readVector(reader, "shank_direction")) {
-        if (direction->norm() < 1e-9) {
-          reader.report("shank_direction", "a direction cannot be [0, 0, 0]");
-        } else {
-          tool.shankDirection = direction->normalized();
-        }
-      }
-      tool.mount = readVector(reader, "mount").value_or(Vector3::Zero());
-      believed.mount = tool.mount;
-      believed.shankDirection = tool.shankDirection;
-      believed.inSpindle = reader.boolean("in_spindle").value_or(false);
-      if (tool.kind == ToolKind::Probe) {
-        readProbe(reader, tool, believed);
-      } else {
-        tool.radius = reader.requiredNumber("radius", toolRadius).value_or(5);
-        believed.length = reader.number("believed_length", believedLength).value_or(tool.length);
-        believed.radius = reader.number("believed_radius", toolRadius).value_or(tool.radius);
-      }
-      for (const BelievedTool& other : setup_.tools) {
-        if (other.number == tool.number) {
-          reader.report("number", fmt::format("there are two tools with number {}", tool.number));
-        } else if (!tool.name.empty() && other.name == tool.name) {
-          reader.report("name", fmt::format("there are two tools called \"{}\"", tool.name));
-        }
-        if (other.inSpindle && believed.inSpindle) reader.report("in_spindle", "two tools are in the spindle");
-      }
-      reader.finish();
-      setup_.truth.tools.push_back(std::move(tool));
-      setup_.tools.push_back(std::move(believed));
-    }
   }
 
   /// "G54" to "G57" as 1 to 4, "G505" to "G599" as 5 to 99.

@@ -103,6 +103,11 @@ SolidFeature readFeature(TomlReader& reader) {
 
 }  // namespace
 
+std::optional<Vector2> readVector2(TomlReader& reader, std::string_view key) {
+  const auto values = reader.numbers(key, 2);
+  return values ? std::optional(Vector2((*values)[0], (*values)[1])) : std::nullopt;
+}
+
 std::optional<Vector3> readVector(TomlReader& reader, std::string_view key) {
   const auto values = reader.numbers(key, 3);
   return values ? std::optional(Vector3((*values)[0], (*values)[1], (*values)[2])) : std::nullopt;

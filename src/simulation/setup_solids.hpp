@@ -8,6 +8,7 @@
 namespace probewright::simulation {
 
 std::optional<Vector3> readVector(TomlReader& reader, std::string_view key);
+std::optional<Vector2> readVector2(TomlReader& reader, std::string_view key);
 
 /// [pose] of `owner`: x, y, z and the rotation a about X, then b about Y, then c about Z of the table.
 Pose readPose(TomlReader& owner);
