@@ -151,6 +151,14 @@ TEST(Cycles, AreListedAndExplained) {
   EXPECT_EQ(none.errors, "probewright: there is no cycle 4711; `probewright cycles` lists them all\n");
 }
 
+TEST(Cycles, AreFoundHoweverTheyAreWritten) {
+  for (const char* name : {"CYCLE977", "CYCLE 977", "cycle977", "977"})
+    EXPECT_THAT(probewright({"cycles", name}).output, ::testing::StartsWith("CYCLE977  ")) << name;
+  EXPECT_THAT(probewright({"cycles", "TCH PROBE 421"}).output, ::testing::StartsWith("421  "));
+  EXPECT_EQ(probewright({"cycles", "CYCLE 9"}).exit, 2);
+  EXPECT_THAT(probewright({"cycles", "0"}).output, HasSubstr("  0.0 direction probing direction\n"));
+}
+
 TEST(Program, TellsItsVersion) {
   const Answer answer = probewright({"--version"});
   EXPECT_EQ(answer.exit, 0);

@@ -12,6 +12,7 @@
 #include <valijson/validation_results.hpp>
 #include <valijson/validator.hpp>
 
+#include "app/block_world.hpp"
 #include "app/program.hpp"
 
 namespace probewright::app::testing {
@@ -42,47 +43,6 @@ std::string complaints(const json& document) {
     text += ": " + error.description + "\n";
   }
   return text;
-}
-
-/// The number of lines that begin a message.
-std::size_t messages(const std::string& errors) {
-  std::size_t count = 0;
-  std::istringstream lines(errors);
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.empty() && line[0] != ' ') ++count;
-  }
-  return count;
-}
-
-/// A setup with a block of 40 x 30 x 20 mm whose top face lies at Z -480, and `more` of a setup.
-std::string blockSetup(const std::string& more = "") {
-  return R"(
-[control]
-type = "TNC640"
-[part]
-pose = { z = -500 }
-[[part.feature]]
-shape = "box"
-size = [40, 30, 20]
-[[tool]]
-number = 1
-name = "PROBE"
-kind = "probe"
-length = 100
-ball_radius = 3
-[[preset]]
-row = 1
-origin = [0, 0, -480]
-active = true
-)" + more;
-}
-
-/// Measures the right side of the block, nominally at X 20, against these limits.
-std::string blockProgram(const std::string& largest, const std::string& smallest) {
-  return "0 BEGIN PGM BLOCK MM\n1 TOOL CALL 1 Z\n2 L Z+50 R0 FMAX\n"
-         "3 TCH PROBE 427 SIDE ~\nQ263=+20 ~\nQ264=+0 ~\nQ261=-5 ~\nQ320=+2 ~\nQ272=+1 ~\nQ267=-1 ~\nQ260=+30 ~\n"
-         "Q281=+0 ~\nQ288=" +
-         largest + " ~\nQ289=" + smallest + " ~\nQ309=+0 ~\nQ330=+0\n4 END PGM BLOCK MM\n";
 }
 
 /// A message, exit code 2, and nothing written.
@@ -285,89 +245,12 @@ TEST(Run, RefusesWhatItCannotRead) {
   expectRefused(run(folder.file("wrong.mpf", "G0 X1\nM30\n"), setup), folder, "SINUMERIK program");
 }
 
-TEST(Run, RefusesAFolderItCannotWriteTo) {
-  const Folder folder;
-  const std::string file = folder.file("file", "kept");
-  const Answer answer = probewright({"run", program, "--setup", setup, "--out", file + "/out"});
-  EXPECT_EQ(answer.exit, 2);
-  EXPECT_THAT(answer.errors, HasSubstr("--out"));
-  EXPECT_EQ(messages(answer.errors), 1U) << answer.errors;
-  EXPECT_EQ(textOf(file), "kept");
-}
-
-/// Measures a hole of the block, with a log.
-std::string loggedProgram() {
-  return "0 BEGIN PGM BLOCK MM\n1 TOOL CALL 1 Z\n2 L Z+50 R0 FMAX\n"
-         "3 TCH PROBE 427 SIDE ~\nQ263=+20 ~\nQ264=+0 ~\nQ261=-5 ~\nQ320=+2 ~\nQ272=+1 ~\nQ267=-1 ~\nQ260=+30 ~\n"
-         "Q281=+1 ~\nQ288=+0 ~\nQ289=+0 ~\nQ309=+0 ~\nQ330=+0\n4 END PGM BLOCK MM\n";
-}
-
-TEST(Run, LeavesNothingOfAnEarlierRun) {
-  const Folder folder;
-  const std::string world = folder.file("block.toml", blockSetup());
-  const auto run = [&](const std::string& name, const std::string& text) {
-    return probewright({"run", folder.file(name, text), "--setup", world, "--out", (folder / "out").string()});
-  };
-  ASSERT_EQ(run("a.h", loggedProgram()).exit, 0);
-  folder.file("out/mine.txt", "kept");
-  EXPECT_THAT(namesIn(folder / "out"), IsSupersetOf({"TCHPR427.TXT", "results.json", "report.html"}));
-
-  // Another program in the same folder: the log of the first is gone, and what somebody put there is not.
-  ASSERT_EQ(run("b.h", "0 BEGIN PGM B MM\n1 END PGM B MM\n").exit, 0);
-  EXPECT_THAT(namesIn(folder / "out"),
-              ::testing::ElementsAre("PRESET.PR", "TCHPROBE.TP", "TOOL.T", "mine.txt", "report.html", "results.json"));
-
-  // A program that cannot be read: no result may look like its own.
-  ASSERT_EQ(run("c.h", "0 BEGIN PGM C MM\n1 FOO\n2 END PGM C MM\n").exit, 2);
-  EXPECT_THAT(namesIn(folder / "out"), ::testing::ElementsAre("mine.txt"));
-}
-
-TEST(Run, KeepsTheTablesItBeginsFromWhenAProgramIsWrong) {
-  const Folder folder;
-  const std::string first = folder.file("first.toml", blockSetup());
-  const std::string out = (folder / "out").string();
-  ASSERT_EQ(probewright({"run", folder.file("a.h", loggedProgram()), "--setup", first, "--out", out}).exit, 0);
-  const std::string next = folder.file("next.toml", "tables = \"out\"\n" + blockSetup());
-  const std::string wrong = folder.file("b.h", "0 BEGIN PGM B MM\n1 FOO\n2 END PGM B MM\n");
-  ASSERT_EQ(probewright({"run", wrong, "--setup", next, "--out", out}).exit, 2);
-  EXPECT_THAT(namesIn(folder / "out"), IsSupersetOf({"PRESET.PR", "TOOL.T"}));
-  EXPECT_THAT(namesIn(folder / "out"), Not(::testing::Contains("results.json")));
-}
-
-TEST(Run, RemovesOnlyPlainFilesThatItsResultsList) {
-  const Folder folder;
-  const std::string world = folder.file("block.toml", blockSetup());
-  std::filesystem::create_directory(folder / "out");
-  folder.file("outside.txt", "kept");
-  folder.file("out/results.json",
-              R"({"schema": "probewright results", "files": ["../outside.txt", ".", "", 7, "LOG.TXT"]})");
-  folder.file("out/LOG.TXT", "old");
-  const std::string out = (folder / "out").string();
-  ASSERT_EQ(probewright({"run", folder.file("a.h", loggedProgram()), "--setup", world, "--out", out}).exit, 0);
-  EXPECT_EQ(textOf(folder / "outside.txt"), "kept");
-  EXPECT_THAT(namesIn(folder / "out"), Not(::testing::Contains("LOG.TXT")));
-  // Somebody else's file of that name.
-  folder.file("out/results.json", R"({"files": ["TOOL.T"]})");
-  ASSERT_EQ(probewright({"run", folder.file("b.h", "nothing\n"), "--setup", world, "--out", out}).exit, 2);
-  EXPECT_THAT(namesIn(folder / "out"), IsSupersetOf({"TOOL.T", "results.json"}));
-}
-
-TEST(Run, WritesAllFilesOrNone) {
-  const Folder folder;
-  const std::string world = folder.file("block.toml", blockSetup());
-  const std::string out = (folder / "out").string();
-  std::filesystem::create_directories(folder / "out/report.html");  // a folder: no file can have its name
-  const Answer answer = probewright({"run", folder.file("a.h", loggedProgram()), "--setup", world, "--out", out});
-  EXPECT_EQ(answer.exit, 2);
-  EXPECT_THAT(answer.errors, HasSubstr("report.html: error: cannot write this file"));
-  EXPECT_THAT(namesIn(folder / "out"), ::testing::ElementsAre("report.html"));
-}
-
 TEST(Run, TellsWhereEachCycleStands) {
   const Folder folder;
   const std::string world = folder.file("block.toml", blockSetup());
   const std::string out = (folder / "out").string();
-  ASSERT_EQ(probewright({"run", folder.file("a.h", loggedProgram()), "--setup", world, "--out", out}).exit, 0);
+  ASSERT_EQ(probewright({"run", folder.file("a.h", blockProgram("+0", "+0", 1)), "--setup", world, "--out", out}).exit,
+            0);
   const json place = json::parse(textOf(folder / "out/results.json"))["cycles"][0]["place"];
   EXPECT_EQ(place["line"], 4);
   EXPECT_EQ(place["column"], 3) << "3 TCH PROBE 427";
@@ -379,8 +262,8 @@ TEST(Run, KeepsEveryTouchOfAPointThatIsMeasuredSeveralTimes) {
   text.replace(text.find("TNC640"), 6, "iTNC530");
   text.insert(text.find("ball_radius"), "repeatability = 0.002\n");
   const std::string out = (folder / "out").string();
-  const Answer answer = probewright(
-      {"run", folder.file("a.h", loggedProgram()), "--setup", folder.file("block.toml", text), "--out", out});
+  const Answer answer = probewright({"run", folder.file("a.h", blockProgram("+0", "+0", 1)), "--setup",
+                                     folder.file("block.toml", text), "--out", out});
   ASSERT_EQ(answer.exit, 0) << answer.errors;
   EXPECT_THAT(answer.output, HasSubstr("1 cycle, 3 touches, "));
   const json cycle = json::parse(textOf(folder / "out/results.json"))["cycles"][0];
@@ -414,60 +297,6 @@ TEST(Run, PrintsNoControlCharactersOfAProgram) {
           "e\nGR\xD6SSE\nEND PGM A MM\n");
   EXPECT_EQ(old.exit, 2);
   EXPECT_THAT(old.errors, HasSubstr("GR\xC3\x96SSE"));
-}
-
-TEST(Run, NoticesThatItsOutputDidNotArrive) {
-  const Folder folder;
-  EXPECT_EQ(probewright({"cycles"}, "/dev/full").exit, 2);
-  EXPECT_EQ(probewright({"--help"}, "/dev/full").exit, 2);
-  const Answer answer = probewright({"run", folder.file("a.h", loggedProgram()), "--setup",
-                                     folder.file("block.toml", blockSetup()), "--out", (folder / "out").string()},
-                                    "/dev/full");
-  EXPECT_EQ(answer.exit, 2);
-  EXPECT_THAT(answer.errors, HasSubstr("standard output could not be written"));
-}
-
-TEST(Run, NamesTheWordItDoesNotKnow) {
-  EXPECT_THAT(probewright({"frobnicate"}).errors, HasSubstr("there is no subcommand frobnicate"));
-  EXPECT_THAT(probewright({"run", "--foo"}).errors, HasSubstr("run has no option --foo"));
-  EXPECT_THAT(probewright({"--foo"}).errors, HasSubstr("there is no option --foo"));
-  EXPECT_THAT(probewright({"run"}).errors, HasSubstr("PROGRAM is required"));
-  for (const auto& [option, value, message] :
-       std::vector<std::array<std::string, 3>>{{"--on-stop", "foo", "foo is none of continue, abort, ask"},
-                                               {"--language", "de", "de is none of en, ru, sv, zh, pl"},
-                                               {"--step-limit", "-1", "-1 is no whole number from 0 up"},
-                                               {"--seed", "x", "x is no whole number"}}) {
-    const Answer answer = probewright({"run", program, "--setup", setup, option, value});
-    EXPECT_EQ(answer.exit, 2) << option;
-    EXPECT_THAT(answer.errors, HasSubstr(message));
-  }
-  const std::string help = probewright({"run", "--help"}).output;
-  EXPECT_THAT(help, HasSubstr("Language of the control's logs: en, ru, sv, zh, pl"));
-  EXPECT_EQ(help.find('\0'), std::string::npos);
-  EXPECT_EQ(probewright({"run", program, "--setup", setup, "--language", "SV", "--out", "/dev/null/x"}).exit, 2)
-      << "any case, but no folder";
-}
-
-TEST(Cycles, AreFoundHoweverTheyAreWritten) {
-  for (const char* name : {"CYCLE977", "CYCLE 977", "cycle977", "977"})
-    EXPECT_THAT(probewright({"cycles", name}).output, ::testing::StartsWith("CYCLE977  ")) << name;
-  EXPECT_THAT(probewright({"cycles", "TCH PROBE 421"}).output, ::testing::StartsWith("421  "));
-  EXPECT_EQ(probewright({"cycles", "CYCLE 9"}).exit, 2);
-  EXPECT_THAT(probewright({"cycles", "0"}).output, HasSubstr("  0.0 direction probing direction\n"));
-}
-
-TEST(Run, RefusesUnknownWords) {
-  const Answer control = probewright({"run", program, "--setup", setup, "--control", "TNC7"});
-  EXPECT_EQ(control.exit, 2);
-  EXPECT_THAT(control.errors, HasSubstr("TNC7 is none of TNC640, iTNC530, 840Dsl"));
-  const Answer other = probewright({"run", program, "--setup", setup, "--control", "840Dsl"});
-  EXPECT_EQ(other.exit, 2);
-  EXPECT_THAT(other.errors, HasSubstr("this is a Klartext program, which the 840Dsl does not read"));
-  EXPECT_EQ(messages(other.errors), 1U) << other.errors;
-  EXPECT_EQ(probewright({"run", program}).exit, 2);
-  EXPECT_EQ(probewright({"measure"}).exit, 2);
-  EXPECT_EQ(probewright({}).exit, 2);
-  EXPECT_EQ(probewright({"run", program, "--setup", setup, "--on-stop", "dance"}).exit, 2);
 }
 
 /// The machine builder's program runs in front of each measuring cycle and is told which one.
