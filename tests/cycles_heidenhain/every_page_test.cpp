@@ -49,6 +49,8 @@ std::string block(const CycleDefinition& cycle, ControlKind kind) {
     if (!parameter.controls.contains(kind) || parameter.kind == cycles::ValueKind::Text) continue;
     words.emplace_back(parameter.address, sensible(parameter));
   }
+  // Its points span a plane square to the tool axis.
+  if (cycle.number == 1420) words = with(words, {{372, -3}});
   return probe(cycle.number, words, cycle.number == 444 ? " ~\n  QS400=\" \" ;T" : "");
 }
 

@@ -163,6 +163,46 @@ TEST(Cycle1420, AsksTheOperatorForTheThreePoints) {
   }
 }
 
+/// Q372 asks for Y+, but the edge that the operator finds runs along Y: he probes along X, from either side.
+TEST(Cycle1410, ProbesWhereTheOperatorPointsTo) {
+  for (const bool fromRight : {false, true}) {
+    SCOPED_TRACE(fromRight);
+    const double turn = 1.5, sense = fromRight ? 1 : -1;
+    Bench bench;
+    bench.preset(1, {0, 0, -400});
+    bench.part(simulation::Box({-50, -50, -40}, {50, 50, 0}), pose({0, 0, -400}, {0, 0, turn}));
+    bench.answer = [&](const std::string& question) -> std::optional<std::string> {
+      const double y = question == "1410 point 1" ? -20 : 25;
+      return fmt::format("{0} {1} 50; {0} {1} -10 {2}", sense * 58, y, fromRight ? "X-" : "X+");
+    };
+    std::string texts;
+    for (const int number : {1100, 1103})
+      texts += fmt::format(" ~\n  QS{}=\"?{}+-0.4\" ;X ~\n  QS{}=\"?\" ;Y ~\n  QS{}=\"?\" ;Z", number, sense * 50,
+                           number + 1, number + 2);
+    texts.replace(texts.find("QS1101=\"?\""), 11, "QS1101=\"?-20\"");
+    texts.replace(texts.find("QS1104=\"?\""), 11, "QS1104=\"?25\"");
+    const Words words = {{372, 2}, {320, 0}, {260, 40}, {1125, 0}, {309, 0}, {1126, 0}, {1120, 1}, {1121, 1}};
+    const Ran ran = bench.run(probe(1410, words, texts));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NE(ran.screens().front().find("probing direction Y+"), std::string::npos) << ran.screens().front();
+    std::array<Vector3, 2> met;
+    const Vector3 normal = aboutZ(turn) * Vector3(sense, 0, 0);
+    for (int i = 0; i < 2; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      met[at] = touchOnPlane({sense * 58, i == 0 ? -20.0 : 25.0, -8}, 0, -sense, normal * 50, normal, 2);
+      EXPECT_NEAR(ran.q(950 + 3 * i), met[at].x(), exact);
+      EXPECT_NEAR(ran.q(951 + 3 * i), met[at].y(), exact);
+      // The deviation counts along X now.
+      EXPECT_NEAR(ran.q(980 + 3 * i), met[at].x() - sense * 50, exact);
+      EXPECT_NEAR(ran.q(981 + 3 * i), 0, exact);
+    }
+    EXPECT_NEAR(ran.q(964), angleBetween(met), exact);
+    EXPECT_NEAR(ran.q(994), turn, exact);
+    // Material stands out at one point, which is rework, and lacks at the other.
+    EXPECT_EQ(ran.q(183), 2);
+  }
+}
+
 TEST(RotationCycles, AskAgainInLaterCalls) {
   Bench bench;
   bench.preset(1, {0, 0, -400}, 0);

@@ -131,13 +131,37 @@ std::string asking(const RotationCycle& cycle, int clearanceMode = 1) {
 TEST(RotationCycles, RefuseAnswersThatAreNoPositions) {
   for (const RotationCycle& cycle : rotationCycles) {
     SCOPED_TRACE(cycle.number);
-    for (const char* answer : {"over there", "1 2", "1 2 3 4", "1 2 up", "1 2 30; 5"}) {
+    for (const char* answer : {"over there", "1 2", "1 2 3 4", "1 2 up", "1 2 30; 5", "1 2 30 W-", "1 2 Y-",
+                               "1 2 30 X+ 4", "1 2 30 X+; 1 2 5", "1 2 30 X+ Y+"}) {
       Bench bench = refusingBench();
       bench.answer = [answer](const std::string&) -> std::optional<std::string> { return answer; };
       expectRefused(bench.run(asking(cycle)), "Position of the probe wrong",
                     fmt::format("'{}' is no position for {}", answer, cycle.asks));
     }
   }
+}
+
+/// Another direction than Q372 asks for a nominal value along it, and may not end the rotation that is taken over.
+TEST(RotationCycles, RefuseDirectionsThatTheProgramCannotUse) {
+  const auto shown = [](const std::string& place, const Words& changes, const std::map<int, std::string>& texts) {
+    Bench bench = refusingBench();
+    bench.answer = [place](const std::string& question) -> std::optional<std::string> {
+      return question == "1410 point 1" ? std::optional(place) : std::nullopt;
+    };
+    Words rest = with(edgeWords, changes);
+    std::erase_if(rest, [&](const auto& word) { return texts.contains(word.first); });
+    std::string more;
+    for (const auto& [parameter, text] : texts)
+      more += fmt::format(" ~\n  QS{}=\"{}\" ;X", parameter, text);
+    return bench.run(probe(1410, rest, more));
+  };
+  expectRefused(shown("-60 0 50; -60 0 -8 X+", {}, {{1100, "?"}, {1101, "?-50"}}), "Nominal position not defined",
+                "main axis, which is measured (Q1100)");
+  expectRefused(shown("0 0 6 Z-", {{1121, 1}}, {{1100, "?"}, {1102, "?0"}}), "Probing direction not permitted",
+                "say nothing about the rotation");
+  Bench circles = refusingBench();
+  circles.answer = [](const std::string&) -> std::optional<std::string> { return "0 0 50 X+"; };
+  expectRefused(circles.run(asking(rotationCycles[1])), "Position of the probe wrong", "1411 object 1");
 }
 
 TEST(RotationCycles, StopWhereTheOperatorGivesUpOrStandsWrong) {
@@ -170,6 +194,36 @@ TEST(RotationCycles, TellTheOperatorToRetract) {
     EXPECT_NE(screens.front().find("1420 point 1: move the probe in front of the point"), std::string::npos);
     if (mode > 0) {
       EXPECT_NE(screens.back().find("no automatic retraction to the clearance height"), std::string::npos);
+    }
+  }
+}
+
+/// Behind a point that the operator has shown nothing moves by itself, also where the program knows the next ones.
+TEST(RotationCycles, LeaveTheProbeWhereTheOperatorHasIt) {
+  for (const int number : {1410, 1420}) {
+    for (const int mode : {-1, 0, 1, 2}) {
+      SCOPED_TRACE(fmt::format("{}, Q1125 {}", number, mode));
+      std::map<int, std::string> texts = {{1103, "30@30"}, {1105, number == 1410 ? "-8@-8" : "0@0"}};
+      texts[1104] = number == 1410 ? "-50@-50" : "-30@-30";
+      if (number == 1420) texts.insert({{1106, "0@0"}, {1107, "30@30"}, {1108, "0@0"}});
+      texts[1100] = "?-30";
+      Words rest = with(number == 1410 ? edgeWords : planeWords, {{1125, mode}});
+      std::erase_if(rest, [&](const auto& word) { return texts.contains(word.first); });
+      std::string more;
+      for (const auto& [parameter, text] : texts)
+        more += fmt::format(" ~\n  QS{}=\"{}\" ;X", parameter, text);
+      Bench bench = refusingBench();
+      const std::string first = std::to_string(number) + " point 1";
+      bench.answer = [&](const std::string& question) -> std::optional<std::string> {
+        if (question != first) return std::nullopt;
+        return number == 1410 ? "-30 -60 30; -30 -60 -8" : "-30 -30 6";
+      };
+      const Ran ran = bench.run(probe(number, rest, more));
+      ASSERT_TRUE(ran.finished()) << ran.why();
+      EXPECT_EQ(ran.touches(), 1U);
+      // The spindle nose stands above the tip by the length of the probe.
+      const auto stands = ran.outcome.machine->position();
+      EXPECT_NEAR(stands[2], -400 + 100 + (number == 1410 ? -8 : 6), exact);
     }
   }
 }
@@ -215,6 +269,10 @@ TEST(RotationCycles, RefuseRotaryAxesThatDoNotMatchTheTilt) {
 TEST(RotationCycles, RefuseWhatDeterminesNothing) {
   expectRefused(refusingBench().run(probe(1420, with(planeWords, {{1106, 0}, {1107, -30}}))), "Plane wrongly defined",
                 "one straight line");
+  for (const int along : {-2, -1, 1, 2}) {
+    expectRefused(refusingBench().run(probe(1420, with(planeWords, {{372, along}}))), "Plane wrongly defined",
+                  "lies along the probing direction");
+  }
   expectRefused(refusingBench().run(probe(1410, with(edgeWords, {{1103, -30}}))), "Angle not determined",
                 "coincide in the working plane");
   // Known positions of two circles in one place.

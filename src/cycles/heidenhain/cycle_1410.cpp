@@ -34,6 +34,13 @@ constexpr ResultDefinition results1410[] = {
     {"Q183", "workpiece: -1 not monitored, 0 good, 1 rework, 2 scrap", ValueKind::Integer},
 };
 
+void requireRotation(Context& context, int direction) {
+  if (std::abs(direction) != 3 || context.option(1121) == 0) return;
+  throw control::Alarm("Probing direction not permitted",
+                       "Touches along the tool axis say nothing about the rotation in the working plane",
+                       "probe along the main or minor axis (Q372), or set Q1121 = 0");
+}
+
 }  // namespace
 
 const CycleDefinition cycle1410Definition = {
@@ -52,18 +59,15 @@ const CycleDefinition cycle1410Definition = {
 void cycle1410(Context& context, const Arguments&) {
   requireRotationCycle(context);
   const int direction = context.option(372);
-  const int axis = std::abs(direction) - 1;
-  if (axis == 2 && (context.option(1121) != 0)) {
-    throw control::Alarm("Probing direction not permitted",
-                         "Touches along the tool axis say nothing about the rotation in the working plane",
-                         "probe along the main or minor axis (Q372), or set Q1121 = 0");
-  }
-  std::array<bool, 3> measured{};
-  measured[static_cast<std::size_t>(axis)] = true;
-  const std::array nominal = {nominalPosition(context, 1, measured), nominalPosition(context, 2, measured)};
+  requireRotation(context, direction);
+  const std::array nominal = {nominalPosition(context, 1, axisOf(direction)),
+                              nominalPosition(context, 2, axisOf(direction))};
 
+  // The operator may choose other directions than Q372.
+  std::array<int, 2> directions = {direction, direction};
   std::array<MeasuredPosition, 2> found;
   std::optional<ObjectProbing> probing;
+  bool endsByHand = false;
   for (std::size_t i = 0; i < 2; ++i) {
     Vector3 actual = nominal[i].known()
                          ? Vector3(*nominal[i].axes[0].actual, *nominal[i].axes[1].actual, *nominal[i].axes[2].actual)
@@ -71,16 +75,18 @@ void cycle1410(Context& context, const Arguments&) {
     if (!nominal[i].known()) {
       const bool first = !probing;
       if (!probing) probing.emplace(context);
-      actual = probing->touch(nominal[i], probing::axisDirection(axis, direction), first).surface;
+      actual = probing->touch(nominal[i], directions[i], first).surface;
+      requireRotation(context, directions[i]);
+      endsByHand = nominal[i].semiAutomatic();
     }
-    found[i] = measuredPosition(nominal[i], actual, measured);
+    found[i] = measuredPosition(nominal[i], actual, axisOf(directions[i]));
   }
-  if (probing) probing->leave(true, nominal[1].semiAutomatic());
+  if (probing) probing->leave(true, endsByHand);
 
   const PlaneRotation rotation = planeRotation(context, found[0], found[1]);
   RotationFindings findings(context);
-  findings.add(nominal[0], found[0], direction);
-  findings.add(nominal[1], found[1], direction);
+  findings.add(nominal[0], found[0], directions[0]);
+  findings.add(nominal[1], found[1], directions[1]);
   findings.addAngle(964, "Measured angle", rotation.actual);
   findings.addAngle(965, "Measured angle of the rotary table", rotation.tableActual);
   findings.addAngle(994, "Deviation of the angle", rotation.deviation);

@@ -54,8 +54,7 @@ constexpr ResultDefinition results1420[] = {
     {"Q183", "workpiece: -1 not monitored, 0 good, 1 rework, 2 scrap", ValueKind::Integer},
 };
 
-/// The normal of the plane through three points, its third component positive (in a plane along the third axis: the
-/// normal points against the probing direction).
+/// The normal of the plane through three points, on the side of `towards`.
 Vector3 normalOf(const Vector3& p1, const Vector3& p2, const Vector3& p3, const Vector3& towards) {
   const Vector3 a = p2 - p1;
   const Vector3 b = p3 - p1;
@@ -68,11 +67,44 @@ Vector3 normalOf(const Vector3& p1, const Vector3& p2, const Vector3& p3, const 
   return normal.dot(towards) < 0 ? Vector3(-normal) : normal;
 }
 
-/// The shortest way to describe a normal by space angles: about the first and second axis, none about the third.
-Matrix3 axesOfNormal(const Vector3& normal) {
-  const double a = std::asin(std::clamp(-normal.y(), -1.0, 1.0));
-  const double b = std::atan2(normal.x(), normal.z());
-  return (Eigen::AngleAxisd(b, Vector3::UnitY()) * Eigen::AngleAxisd(a, Vector3::UnitX())).toRotationMatrix();
+Matrix3 turned(double radians, int axis) { return Eigen::AngleAxisd(radians, Vector3::Unit(axis)).toRotationMatrix(); }
+
+/// The rotation that brings the axis of probing to `normal` (or to its opposite) by space angles about the other two
+/// axes, none about itself. A plane that can be probed along the axis is never parallel to it, so nothing is singular.
+Matrix3 axesOfNormal(const Vector3& normal, int axis) {
+  const Vector3 n = normal[axis] < 0 ? Vector3(-normal) : normal;
+  switch (axis) {
+    case 0:
+      return turned(std::atan2(n.y(), n.x()), 2) * turned(std::asin(std::clamp(-n.z(), -1.0, 1.0)), 1);
+    case 1:
+      return turned(std::atan2(-n.x(), n.y()), 2) * turned(std::asin(std::clamp(n.z(), -1.0, 1.0)), 0);
+    default:
+      return turned(std::atan2(n.x(), n.z()), 1) * turned(std::asin(std::clamp(-n.y(), -1.0, 1.0)), 0);
+  }
+}
+
+/// Angles about main, minor and tool axis (of the unturned system, in this order) that bring the tool axis to `normal`.
+/// The third is 0; for walls across the minor axis, where the second would say nothing, the second is.
+Vector3 anglesOfNormal(const Vector3& n, bool wall) {
+  if (wall && std::abs(n.y()) > std::abs(n.x())) {
+    const double side = n.y() < 0 ? 1 : -1;
+    return {std::atan2(side * std::hypot(n.x(), n.y()), n.z()), 0, std::atan2(side * n.x(), -side * n.y())};
+  }
+  return {std::asin(std::clamp(-n.y(), -1.0, 1.0)), std::atan2(n.x(), n.z()), 0};
+}
+
+/// The same as space angles about X, Y and Z in degrees.
+Vector3 spaceAnglesOfNormal(const control::WorkingPlane& plane, const Vector3& normal, bool wall) {
+  const Vector3 angles = anglesOfNormal(normal, wall);
+  // Read off as they are: a matrix would not tell a wall that leans over from one turned round.
+  if (plane.tool == 2) return angles.unaryExpr([](double angle) { return degreesFromRadians(angle); });
+  const Matrix3 axes = turned(angles.z(), 2) * turned(angles.y(), 1) * turned(angles.x(), 0);
+  Matrix3 xyz;
+  for (int i = 0; i < 3; ++i) {
+    const int column = i == 0 ? plane.main : i == 1 ? plane.minor : plane.tool;
+    xyz.col(column) = plane.xyzFromPlane(axes.col(i));
+  }
+  return control::heidenhain::spaceAnglesFromRotation(xyz);
 }
 
 }  // namespace
@@ -94,17 +126,30 @@ void cycle1420(Context& context, const Arguments&) {
   requireRotationCycle(context);
   const int direction = context.option(372);
   const int axis = std::abs(direction) - 1;
-  std::array<bool, 3> measured{};
-  measured[static_cast<std::size_t>(axis)] = true;
   constexpr std::array<bool, 3> needed = {true, true, true};
   const std::array nominal = {nominalPosition(context, 1, needed), nominalPosition(context, 2, needed),
                               nominalPosition(context, 3, needed)};
-  const Vector3 against = -probing::axisDirection(axis, direction);
-  const auto middles = [&](std::size_t i) { return measuredPosition(nominal[i], Vector3::Zero(), measured).nominal; };
-  const Vector3 nominalNormal = normalOf(middles(0), middles(1), middles(2), against);
+  // The normal points along the tool axis, that of a wall towards the probe.
+  const Vector3 side = axis == 2 ? Vector3(Vector3::UnitZ()) : Vector3(-probing::axisDirection(axis, direction));
+  const auto middles = [&](std::size_t i) { return measuredPosition(nominal[i], Vector3::Zero(), needed).nominal; };
+  const Vector3 nominalNormal = normalOf(middles(0), middles(1), middles(2), side);
 
+  // About which axes the plane is described: not about the one that it faces.
+  int facing = axis;
+  if (std::abs(nominalNormal[axis]) < 0.1) {
+    if (!std::ranges::all_of(nominal, &NominalPosition::known)) {
+      throw control::Alarm("Plane wrongly defined",
+                           "The plane of the nominal positions lies along the probing direction",
+                           "choose the axis that the plane faces (Q372)");
+    }
+    nominalNormal.cwiseAbs().maxCoeff(&facing);
+  }
+
+  // The operator may choose other directions than Q372.
+  std::array<int, 3> directions = {direction, direction, direction};
   std::array<MeasuredPosition, 3> found;
   std::optional<ObjectProbing> probing;
+  bool endsByHand = false;
   for (std::size_t i = 0; i < 3; ++i) {
     Vector3 actual = Vector3::Zero();
     if (nominal[i].known()) {
@@ -112,34 +157,29 @@ void cycle1420(Context& context, const Arguments&) {
     } else {
       const bool first = !probing;
       if (!probing) probing.emplace(context);
-      actual = probing->touch(nominal[i], probing::axisDirection(axis, direction), first).surface;
+      actual = probing->touch(nominal[i], directions[i], first).surface;
+      endsByHand = nominal[i].semiAutomatic();
     }
-    found[i] = measuredPosition(nominal[i], actual, measured);
+    found[i] = measuredPosition(nominal[i], actual, axisOf(directions[i]));
   }
-  if (probing) probing->leave(true, nominal[2].semiAutomatic());
+  if (probing) probing->leave(true, endsByHand);
 
-  const Vector3 normal = normalOf(found[0].actual, found[1].actual, found[2].actual, against);
+  const Vector3 normal = normalOf(found[0].actual, found[1].actual, found[2].actual, nominalNormal);
   // Space angles count in the workpiece coordinate system, about its X, Y and Z.
   const auto& coordinates = context.control().coordinates;
   const auto& plane = coordinates.plane;
   const Vector3 inWorkpiece = plane.planeFromXyz(coordinates.machineFromPreset().linear().transpose() *
                                                  context.channel().frame().linear() * plane.xyzFromPlane(normal));
-  const Matrix3 axes = axesOfNormal(inWorkpiece);
-  Matrix3 xyz;
-  for (int i = 0; i < 3; ++i) {
-    const int column = i == 0 ? plane.main : i == 1 ? plane.minor : plane.tool;
-    xyz.col(column) = plane.xyzFromPlane(axes.col(i));
-  }
-  const Vector3 space = control::heidenhain::spaceAnglesFromRotation(xyz);
+  const Vector3 space = spaceAnglesOfNormal(plane, inWorkpiece, facing != 2);
 
   RotationFindings findings(context);
   for (std::size_t i = 0; i < 3; ++i)
-    findings.add(nominal[i], found[i], direction);
+    findings.add(nominal[i], found[i], directions[i]);
   findings.addAngle(961, "Measured space angle SPA", space.x());
   findings.addAngle(962, "Measured space angle SPB", space.y());
   findings.addAngle(963, "Measured space angle SPC", space.z());
   findings.finish();
-  transferSpaceRotation(context, axesOfNormal(normal) * axesOfNormal(nominalNormal).transpose(), found);
+  transferSpaceRotation(context, axesOfNormal(normal, facing) * axesOfNormal(nominalNormal, facing).transpose(), found);
 }
 
 }  // namespace probewright::cycles::heidenhain

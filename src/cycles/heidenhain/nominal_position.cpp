@@ -109,6 +109,14 @@ Vector3 NominalPosition::at(const Vector3& otherwise) const {
   return position;
 }
 
+void requireNominal(const NominalPosition& position, std::size_t axis) {
+  if (position.axes[axis].nominal) return;
+  throw Alarm("Nominal position not defined",
+              fmt::format("Position {} has no nominal position in the {}, which is measured (Q{})", position.ordinal,
+                          axisNames[axis], position.first + static_cast<int>(axis)),
+              "write the nominal position behind the ?");
+}
+
 NominalPosition nominalPosition(Context& context, int ordinal, const std::array<bool, 3>& needed) {
   NominalPosition position;
   position.ordinal = ordinal;
@@ -127,11 +135,7 @@ NominalPosition nominalPosition(Context& context, int ordinal, const std::array<
                 "give the nominal position at least in the axis that is measured");
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    if (!needed[i] || position.axes[i].nominal) continue;
-    throw Alarm("Nominal position not defined",
-                fmt::format("Position {} has no nominal position in the {}, which is measured (Q{})", ordinal,
-                            axisNames[i], position.first + static_cast<int>(i)),
-                "write the nominal position behind the ?");
+    if (needed[i]) requireNominal(position, i);
   }
   if (actuals != 0 && actuals != 3) {
     throw Alarm("Actual position incomplete",
@@ -139,6 +143,12 @@ NominalPosition nominalPosition(Context& context, int ordinal, const std::array<
                 "give it in all three axes or in none");
   }
   return position;
+}
+
+std::array<bool, 3> axisOf(int direction) {
+  std::array<bool, 3> axes{};
+  axes[static_cast<std::size_t>(std::abs(direction) - 1)] = true;
+  return axes;
 }
 
 MeasuredPosition measuredPosition(const NominalPosition& nominal, const Vector3& actual,

@@ -38,6 +38,9 @@ struct NominalPosition {
 /// `needed` has no nominal position, if no axis has one, or if only some axes have an actual position.
 NominalPosition nominalPosition(Context& context, int ordinal, const std::array<bool, 3>& needed);
 
+/// Throws Alarm if the position has no nominal value along `axis` (0, 1, 2), which is to be measured.
+void requireNominal(const NominalPosition& position, std::size_t axis);
+
 /// A position as it was measured, and as it ought to be.
 struct MeasuredPosition {
   Vector3 actual = Vector3::Zero();
@@ -45,6 +48,9 @@ struct MeasuredPosition {
   Vector3 wanted = Vector3::Zero();   ///< the same, but actual also along axes that a touch says nothing about
   Vector3 deviation() const { return actual - wanted; }
 };
+
+/// The axis that a touch along `direction` (1, 2, 3, or negative) says something about.
+std::array<bool, 3> axisOf(int direction);
 
 /// `measuredAxes`: along which the touches say something about the place.
 MeasuredPosition measuredPosition(const NominalPosition& nominal, const Vector3& actual,

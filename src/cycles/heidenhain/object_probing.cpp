@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <sstream>
 
 #include "base/number_text.hpp"
@@ -62,9 +63,24 @@ std::optional<std::string> ObjectProbing::answer(const std::string& what) {
   return panel.answer ? panel.answer(what) : std::nullopt;
 }
 
+int ObjectProbing::directionFrom(const std::string& word) const {
+  for (const int direction : {1, 2, 3, -1, -2, -3}) {
+    if (word == nameOf(direction)) return direction;
+  }
+  return 0;
+}
+
+std::string ObjectProbing::nameOf(int direction) const {
+  const auto& plane = context_.control().coordinates.plane;
+  const int axis = std::abs(direction) == 1 ? plane.main : std::abs(direction) == 2 ? plane.minor : plane.tool;
+  return {"XYZ"[axis], direction < 0 ? '-' : '+'};
+}
+
 /// Waypoints "main minor tool; main minor tool": where the tip of the probe stands, as the position display shows it.
-bool ObjectProbing::moveAlong(const std::string& what, const std::string& waypoints) {
+/// Behind the last one a direction may follow: "10 20 -5 Y-".
+bool ObjectProbing::moveAlong(const std::string& what, const std::string& waypoints, int* direction) {
   bool moved = false;
+  bool directed = false;
   std::istringstream all(waypoints);
   std::string one;
   while (std::getline(all, one, ';')) {
@@ -73,15 +89,19 @@ bool ObjectProbing::moveAlong(const std::string& what, const std::string& waypoi
     Vector3 tip = Vector3::Zero();
     int count = 0;
     std::string word;
-    while (words >> word) {
-      const auto number = parseDecimal(word);
-      if (!number || count == 3) {
-        count = 0;
-        break;
+    bool valid = !directed;
+    for (; valid && words >> word; ++count) {
+      if (count < 3) {
+        const auto number = parseDecimal(word);
+        valid = number.has_value();
+        if (valid) tip[count] = *number * context_.control().unit;
+      } else {
+        const int chosen = direction && count == 3 ? directionFrom(word) : 0;
+        valid = directed = chosen != 0;
+        if (directed) *direction = chosen;
       }
-      tip[count++] = *number * context_.control().unit;
     }
-    if (count != 3) {
+    if (!valid || count < 3) {
       throw Alarm("Position of the probe wrong", fmt::format("'{}' is no position for {}", waypoints, what),
                   "answer with three coordinates of the tip: main, minor and tool axis; ; between waypoints");
     }
@@ -92,10 +112,10 @@ bool ObjectProbing::moveAlong(const std::string& what, const std::string& waypoi
   return moved;
 }
 
-void ObjectProbing::askOperator(const std::string& what, const std::string& task) {
+void ObjectProbing::askOperator(const std::string& what, const std::string& task, int* direction) {
   context_.stop(fmt::format("{}: {}, then NC start", what, task));
   const auto reply = answer(what);
-  if (!reply || !moveAlong(what, *reply)) {
+  if (!reply || !moveAlong(what, *reply, direction)) {
     throw Alarm("Semi-automatic probing without operator",
                 fmt::format("Nobody says where the probe is to stand for {}", what),
                 fmt::format("give the answer '{} = MAIN MINOR TOOL', the position of the probe's tip", what));
@@ -112,16 +132,19 @@ void ObjectProbing::retractByOperator(const std::string& what) {
   if (const auto reply = answer(away)) moveAlong(away, *reply);
 }
 
-EvaluatedTouch ObjectProbing::touch(const NominalPosition& nominal, const Vector3& direction, bool firstOfObject) {
+EvaluatedTouch ObjectProbing::touch(const NominalPosition& nominal, int& direction, bool firstOfObject) {
+  const auto along = [](int signedAxis) { return probing::axisDirection(std::abs(signedAxis) - 1, signedAxis); };
   if (nominal.semiAutomatic()) {
     const std::string what = question(nominal.ordinal);
-    askOperator(what, "move the probe in front of the point");
+    askOperator(what, fmt::format("move the probe in front of the point, probing direction {}", nameOf(direction)),
+                &direction);
+    requireNominal(nominal, static_cast<std::size_t>(std::abs(direction) - 1));
     entered_ = true;
-    const EvaluatedTouch touch = prober_.stroke(direction, prober_.probe().distance);
+    const EvaluatedTouch touch = prober_.stroke(along(direction), prober_.probe().distance);
     retractByOperator(what);
     return touch;
   }
-  const PlannedTouch planned{nominal.at(Vector3::Zero()), direction};
+  const PlannedTouch planned{nominal.at(Vector3::Zero()), along(direction)};
   enter(prober_.prePosition(planned, extra_), firstOfObject);
   return prober_.touch(planned);
 }

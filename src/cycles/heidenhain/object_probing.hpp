@@ -13,8 +13,9 @@ public:
   probing::HeidenhainProber& prober() { return prober_; }
 
   /// Touches the point of an edge or plane whose position is not known beforehand. The first and the last point of the
-  /// object enter and leave it as Q1125 says; of a position with "?" the operator says where the touch begins.
-  EvaluatedTouch touch(const NominalPosition& nominal, const Vector3& direction, bool firstOfObject);
+  /// object enter and leave it as Q1125 says; of a position with "?" the operator says where the touch begins, and may
+  /// choose another direction. `direction`: 1, 2, 3 along main, minor, tool axis, or negative, as in Q372.
+  EvaluatedTouch touch(const NominalPosition& nominal, int& direction, bool firstOfObject);
   /// The ball centres on a circle at `count` angles `step` apart. With "?" the operator brings the ball to the middle
   /// of the object at the measuring height (hole) or centred above it by the set-up clearance (stud).
   std::vector<EvaluatedTouch> touchCircle(const NominalPosition& nominal, const Vector2& diameterAndStart, double step,
@@ -24,11 +25,14 @@ public:
 
 private:
   void enter(const Vector3& ballCentre, bool firstOfObject);
-  void askOperator(const std::string& what, const std::string& task);
+  void askOperator(const std::string& what, const std::string& task, int* direction = nullptr);
   /// Where the operator retracts to by hand, if he says so.
   void retractByOperator(const std::string& what);
   std::optional<std::string> answer(const std::string& what);
-  bool moveAlong(const std::string& what, const std::string& waypoints);
+  bool moveAlong(const std::string& what, const std::string& waypoints, int* direction = nullptr);
+  /// "Y-" as Q372 counts, 0 if it is none; and the other way round.
+  int directionFrom(const std::string& word) const;
+  std::string nameOf(int direction) const;
   std::string question(int ordinal) const;
 
   Context& context_;
