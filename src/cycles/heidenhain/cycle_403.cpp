@@ -17,6 +17,8 @@ using namespace parameters;
 constexpr Choice axisChoices[] = {
     {0, "first axis of the table from the workpiece (TNC 640)"}, {4, "A axis"}, {5, "B axis"}, {6, "C axis"}};
 
+constexpr Choice tableChoices[] = {{0, "into the active datum table"}, {1, "into the preset table"}};
+
 constexpr Parameter parameters403[] = {
     coordinate(263, "Q263", "first touch, main axis"),
     coordinate(264, "Q264", "first touch, minor axis"),
@@ -31,7 +33,7 @@ constexpr Parameter parameters403[] = {
     option(312, "Q312", "axis of the compensating movement", axisChoices),
     setToZero,
     standard(tableRow, 0),
-    standard(transfer, 1),
+    standard(option(303, "Q303", "where the zero of the axis goes", tableChoices), 1),
     standard(angle(380, "Q380", "angle that the edge is aligned to", 0, 360), 0),
 };
 

@@ -53,6 +53,9 @@ double angleOf(const Vector3& first, const Vector3& second) {
 void compensateByRotationOrTable(Context& context, double angle) {
   const double misalignment = normalizedDegrees(angle - context.q(307));
   if (context.option(402) == 0) {
+    if (context.option(337) == 1) {
+      context.warn("Q337 = 1 sets a rotary axis to zero that Q402 = 0 does not turn: it has no effect");
+    }
     // The TNC 640 makes row 0 the active preset; older controls know it as the preset set by hand.
     if (context.option(305) == 0 && context.control().isTNC640()) {
       copyActivePresetTo0(context, rotationChange(context, misalignment));

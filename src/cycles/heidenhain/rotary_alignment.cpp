@@ -66,6 +66,8 @@ void enterAlignment(Context& context, std::size_t axis, double turned) {
     change.rotaryOffset[axis] = control.coordinates.preset.rotaryOffset[axis] + turned;
     writePresetRow(context, control.coordinates.preset.row, change);
   }
+  // The workpiece lies straight now. A basic rotation in the row that counts is over, as it was while measuring.
+  if (!control.coordinates.preset.spaceAngles.isZero(0)) setBasicRotation(context, 0, 0);
 }
 
 void zeroRotaryAxis(Context& context, std::size_t axis, bool rowGiven) {
