@@ -188,6 +188,12 @@ TEST(Refusals, Geometry) {
   const Words edge = {{263, 10}, {264, 0},  {265, 10}, {266, 0},  {272, 2},
                       {267, 1},  {261, -5}, {320, 0},  {260, 20}, {301, 1}};
   expectRefused(block.run(probe(400, with(edge, {{307, 0}, {305, 0}}))), "Edge not determined");
+  // Which corner it is follows from the third touch, which must lie beside the first in both axes.
+  const Words corner = {{263, 10}, {264, 0}, {326, 20}, {296, 0}, {297, 10}, {327, 20}, {261, -5}, {320, 0},
+                        {260, 20}, {301, 1}, {304, 0},  {305, 1}, {331, 0},  {332, 0},  {303, 1},  {381, 0}};
+  EXPECT_TRUE(block.run(probe(414, corner)).finished());
+  for (const Words& same : {Words{{296, 10}}, Words{{297, 0}}})
+    expectRefused(block.run(probe(414, with(corner, same))), "Corner not determined", "third touch share a coordinate");
   const Words apart = with(edge, {{265, 30}, {312, 4}, {337, 0}});
   expectRefused(block.run(probe(403, apart)), "Rotary axis not permitted");
   expectRefused(block.run(probe(403, with(apart, {{312, 6}}))), "Rotary axis not available");

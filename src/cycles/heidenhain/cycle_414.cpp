@@ -1,3 +1,4 @@
+#include "control/alarm.hpp"
 #include "cycles/heidenhain/corner_measurement.hpp"
 #include "cycles/heidenhain/cycles.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
@@ -44,6 +45,11 @@ void cycle414(Context& context, const Arguments&) {
   context.require({.rotationAllowed = true});
   const double height = context.q(261);
   // The third point tells on which sides of the corner the material lies.
+  if (context.q(296) == context.q(263) || context.q(297) == context.q(264)) {
+    throw control::Alarm("Corner not determined",
+                         "The first and the third touch share a coordinate: the corner may lie on either side",
+                         "choose the third touch (Q296, Q297) on the other side of the corner");
+  }
   const double towards1 = context.q(296) < context.q(263) ? 1 : -1;
   const double towards2 = context.q(297) > context.q(264) ? 1 : -1;
   const Vector3 first(context.q(263), context.q(264), height);

@@ -42,8 +42,9 @@ void setAngles(Context& context, const Matrix3& axes, Control::PresetChange& cha
       degreesFromRadians(std::atan2(axes(plane.minor, plane.main), axes(plane.main, plane.main)));
 }
 
-/// What changes in `target` so that `preset.measured` has the wished coordinates once `target` is active. Along its
-/// axes only those with a wish move.
+/// What changes in `target` so that `preset.measured` has the wished coordinates once `target` is active. They count
+/// along its axes, tilted as the working plane is or rotated by a cycle 10 that remains, and only those with a wish
+/// move.
 Control::PresetChange presetChange(Context& context, const NewPreset& preset, const ActivePreset& target,
                                    Transformed cycle10) {
   const Coordinates& coordinates = context.control().coordinates;
@@ -55,6 +56,11 @@ Control::PresetChange presetChange(Context& context, const NewPreset& preset, co
   if (preset.rotation) {
     axes = turnedAxes(coordinates, *preset.rotation, cycle10);
     setAngles(context, axes, change);
+  }
+  if (coordinates.tilt) {
+    axes *= *coordinates.tilt;
+  } else if (cycle10 == Transformed::Remains) {
+    axes *= rotation(Vector3::Unit(plane.tool), coordinates.workpiece.rotation).linear();
   }
   const Vector3 local = axes.transpose() * (feature - target.origin);
   Vector3 wish = local;
@@ -109,8 +115,11 @@ void writeDatumRow(Context& context, int row, const NewPreset& preset) {
     setAngles(context, turnedAxes(control.coordinates, *preset.rotation, Transformed::Remains), change);
     writePresetRow(context, control.coordinates.preset.row, change);
   }
-  // Datum shifts count from the preset along its axes.
-  const Vector3 feature = control.coordinates.machineFromPreset().inverse() * inMachine;
+  // Datum shifts count from the preset along its axes, or in the tilted plane.
+  const Coordinates& coordinates = control.coordinates;
+  Eigen::Affine3d shifted(coordinates.machineFromPreset().matrix());
+  if (coordinates.tilt) shifted = shifted * coordinates.workpiece.matrix(plane) * Eigen::Affine3d(*coordinates.tilt);
+  const Vector3 feature = shifted.inverse() * inMachine;
   const std::array<const char*, 3> names = {"X", "Y", "Z"};
   for (std::size_t i = 0; i < 3; ++i) {
     const int axis = i == 0 ? plane.main : i == 1 ? plane.minor : plane.tool;
