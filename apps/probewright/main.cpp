@@ -111,7 +111,8 @@ int main(int argc, char** argv) {
             {{"continue", OnStop::Continue}, {"abort", OnStop::Abort}, {"ask", OnStop::Ask}},
             "What a programmed stop does")
       .default_str("continue");
-  run->add_option("--answers", runArguments.answers, "Answers to what the program asks, one NAME=VALUE a line")
+  run->add_option("--answers", runArguments.answers,
+                  "Answers to what the program asks, one NAME=VALUE a line; they go before [answers] of the setup")
       ->type_name("FILE");
   run->add_option("--step-limit", runArguments.stepLimit, "Blocks after which an endless loop is assumed; 0: never")
       ->check(notNegative)

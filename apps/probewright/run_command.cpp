@@ -65,6 +65,7 @@ int run(const RunArguments& arguments) {
   options.measuringLogs = arguments.measuringLogs;
   options.wallClock = std::time(nullptr);
   options.stop = interrupted.get_token();
+  // Answers of the file go before those of the setup.
   std::map<std::string, std::string> answers;
   if (!arguments.answers.empty()) {
     auto read = readFile(arguments.answers).and_then([&](const std::string& text) {
@@ -77,6 +78,7 @@ int run(const RunArguments& arguments) {
     }
     answers = std::move(*read);
   }
+  if (auto ofSetup = session::answersInSetup(arguments.setup)) answers.merge(*ofSetup);
   options.answer = [&](const std::string& question) -> std::optional<std::string> {
     if (const auto found = answers.find(question); found != answers.end()) return found->second;
     if (isatty(STDIN_FILENO) == 0) return std::nullopt;

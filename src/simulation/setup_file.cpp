@@ -39,6 +39,7 @@ public:
     readFrames();
     readErrors();
     readParameters();
+    readAnswers();
     root_.finish();
     return std::move(setup_);
   }
@@ -374,6 +375,14 @@ private:
         setup_.parameters.emplace(key, SetupParameter{std::move(*parameter), reader->placeOf(key)});
       }
     }
+  }
+
+  /// Checks them only: they are no part of the world (session/answers.hpp).
+  void readAnswers() {
+    auto reader = root_.table("answers");
+    if (!reader) return;
+    for (const std::string& key : reader->keys())
+      reader->text(key);
   }
 
   TomlReader root_;

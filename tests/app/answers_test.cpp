@@ -1,0 +1,117 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/block_world.hpp"
+#include "app/program.hpp"
+
+namespace probewright::app::testing {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+/// Feels the front of the block, whose place the program does not know; it wishes it at Y-14.
+const std::string program =
+    "0 BEGIN PGM EDGE MM\n1 TOOL CALL 1 Z\n2 L Z+50 R0 FMAX\n3 TCH PROBE 1410 EDGE ~\nQS1100=\"?\" ~\nQS1101=\"?-14\" "
+    "~\n"
+    "QS1102=\"?\" ~\nQS1103=\"?\" ~\nQS1104=\"?-14\" ~\nQS1105=\"?\" ~\nQ372=+2 ~\nQ320=+0 ~\nQ260=+40 ~\nQ1125=+0 ~\n"
+    "Q309=+0 ~\nQ1126=+0 ~\nQ1120=+1 ~\nQ1121=+0\n4 END PGM EDGE MM\n";
+
+const std::string answers =
+    "[answers]\n\"1410 point 1\" = \"-10 -22 20; -10 -22 -8\"\n\"1410 point 2\" = \"10 -22 20; 10 -22 -8\"\n";
+
+/// Runs the program with this setup and, if there are any, these answers of a file.
+Answer runEdge(const Folder& folder, const std::string& setup, const std::string& file = {}) {
+  std::vector<std::string> words = {"run",   folder.file("EDGE.H", program), "--setup", folder.file("edge.toml", setup),
+                                    "--out", (folder / "out").string()};
+  if (!file.empty()) words.insert(words.end(), {"--answers", folder.file("ANSWERS.TXT", file)});
+  return probewright(words);
+}
+
+double found(const Folder& folder, const std::string& name) {
+  const json results = json::parse(textOf(folder / "out/results.json"));
+  for (const json& result : results["cycles"].at(0)["results"]) {
+    if (result["name"] == name) return result["value"];
+  }
+  ADD_FAILURE() << "no result " << name;
+  return 0;
+}
+
+TEST(RunAnswers, ComeFromTheSetupAndTheFileGoesBeforeIt) {
+  const Folder folder;
+  const Answer ofSetup = runEdge(folder, blockSetup(answers));
+  ASSERT_EQ(ofSetup.exit, 0) << ofSetup.errors << ofSetup.output;
+  EXPECT_NEAR(found(folder, "Q950"), -10, 1e-6);
+  EXPECT_NEAR(found(folder, "Q951"), -15, 1e-6);
+  EXPECT_NEAR(found(folder, "Q953"), 10, 1e-6);
+  EXPECT_NEAR(found(folder, "Q981"), -1, 1e-6);
+  const Answer ofBoth = runEdge(folder, blockSetup(answers), "1410 point 1 = 5 -22 20; 5 -22 -8\n");
+  ASSERT_EQ(ofBoth.exit, 0) << ofBoth.errors;
+  EXPECT_NEAR(found(folder, "Q950"), 5, 1e-6);
+  EXPECT_NEAR(found(folder, "Q953"), 10, 1e-6);
+}
+
+/// What the program writes to a terminal on which these lines are typed; empty if it does not end well.
+std::string onTerminal(std::vector<std::string> words, const std::string& typed) {
+  words.insert(words.begin(), PROBEWRIGHT_PROGRAM);
+  std::vector<char*> arguments;
+  for (std::string& word : words)
+    arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    execv(arguments[0], arguments.data());
+    _exit(127);
+  }
+  EXPECT_GT(child, 0);
+  EXPECT_EQ(write(terminal, typed.data(), typed.size()), static_cast<ssize_t>(typed.size()));
+  std::string seen;
+  char part[4096];
+  for (ssize_t count = 0; (count = read(terminal, part, sizeof part)) > 0;)
+    seen.append(part, static_cast<std::size_t>(count));
+  close(terminal);
+  int status = 0;
+  EXPECT_EQ(waitpid(child, &status, 0), child);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? seen : std::string();
+}
+
+TEST(RunAnswers, AreAskedForOnTheTerminal) {
+  const Folder folder;
+  const std::vector<std::string> words = {"run",     folder.file("EDGE.H", program),
+                                          "--setup", folder.file("edge.toml", blockSetup()),
+                                          "--out",   (folder / "out").string()};
+  const std::string seen = onTerminal(words, "-10 -22 20; -10 -22 -8\n10 -22 20; 10 -22 -8\n");
+  EXPECT_THAT(seen, HasSubstr("1410 point 1: "));
+  EXPECT_THAT(seen, HasSubstr("1410 point 2: "));
+  EXPECT_NEAR(found(folder, "Q950"), -10, 1e-6);
+  EXPECT_NEAR(found(folder, "Q981"), -1, 1e-6);
+  // With --on-stop ask the dialog comes first.
+  std::vector<std::string> asking = words;
+  asking.insert(asking.end(), {"--on-stop", "ask"});
+  const std::string dialog = onTerminal(asking, "y\n-10 -22 20; -10 -22 -8\ny\n10 -22 20; 10 -22 -8\n");
+  EXPECT_THAT(dialog, HasSubstr("move the probe in front of the point, probing direction Y+, then NC start"));
+  EXPECT_THAT(dialog, HasSubstr("Continue? [Y/n]"));
+}
+
+TEST(RunAnswers, AreMissedByName) {
+  const Folder folder;
+  const Answer nobody = runEdge(folder, blockSetup());
+  EXPECT_EQ(nobody.exit, 3);
+  EXPECT_THAT(nobody.errors, HasSubstr("Semi-automatic probing without operator"));
+  EXPECT_THAT(nobody.errors, HasSubstr("'1410 point 1 = MAIN MINOR TOOL'"));
+  const Answer half = runEdge(folder, blockSetup(), "1410 point 1 = -10 -22 20; -10 -22 -8\n");
+  EXPECT_EQ(half.exit, 3);
+  EXPECT_THAT(half.errors, HasSubstr("'1410 point 2 = MAIN MINOR TOOL'"));
+  const Answer wrong = runEdge(folder, blockSetup("[answers]\n\"1410 point 1\" = 5\n"));
+  EXPECT_EQ(wrong.exit, 2);
+  EXPECT_THAT(wrong.errors, HasSubstr("\"1410 point 1\" in [answers] must be a text"));
+}
+
+}  // namespace
+}  // namespace probewright::app::testing
