@@ -1,5 +1,5 @@
 #include "cycles_heidenhain/table_folder.hpp"
-#include "cycles_heidenhain/worlds.hpp"
+#include "cycles_heidenhain/tilted_place.hpp"
 
 /// Presetting cycles in a tilted working plane: what is measured there gets the wished coordinates there.
 namespace probewright::testing_support {
@@ -7,27 +7,10 @@ namespace {
 
 constexpr double exact = 1e-6;
 
-struct TiltedPlace {
-  Bench bench;
-  Matrix3 tilt = Matrix3::Identity();
-  Pose preset, part;  ///< `part`: of the tilted plane, a little beside where the program thinks
-  std::string before;
-
-  TiltedPlace(Dice& dice, ControlKind kind) : bench(kind, "mill5-head-table") {
-    const Vector3 origin(written(dice.between(-60, 60)), written(dice.between(-60, 60)), -500);
-    const double rotation = written(dice.between(-20, 20));
-    bench.preset(1, origin, rotation);
-    bench.believedProbe().maximumTravel = 40;
-    const double a = written(dice.between(-25, 25)), b = written(dice.between(-25, 25));
-    tilt = pose(Vector3::Zero(), {a, b, 0}).linear();
-    preset = pose(origin, {0, 0, rotation});
-    part = preset * pose(Vector3::Zero(), {a, b, 0}) * pose(dice.within(0.5));
-    before = fmt::format("L Z+0 R0 FMAX M91\nPLANE SPATIAL SPA{:+.3f} SPB{:+.3f} SPC+0 TURN FMAX\n", a, b);
-  }
-  /// A place of the machine in the tilted plane of a preset.
-  Vector3 inPlane(const Pose& machineFromPreset, const Vector3& place) const {
-    return tilt.transpose() * (machineFromPreset.inverse() * place);
-  }
+/// A part in the tilted plane, a little beside where the program thinks.
+struct PartInPlane : TiltedPlace {
+  Pose part;
+  PartInPlane(Dice& dice, ControlKind kind) : TiltedPlace(dice, kind), part(input * pose(dice.within(0.5))) {}
   template <class SolidType>
   void lay(SolidType solid, const Vector3& at = Vector3::Zero()) {
     bench.part(std::move(solid), part * pose(at));
@@ -37,7 +20,7 @@ struct TiltedPlace {
 struct Case {
   int cycle;
   Words words;
-  std::function<void(TiltedPlace&)> lay;
+  std::function<void(PartInPlane&)> lay;
   Vector3 feature;             ///< on the part
   std::array<bool, 3> wishes;  ///< the axes that are set: to 7, -2 and 5
 };
@@ -45,10 +28,10 @@ struct Case {
 const Words heights = {{261, -8}, {260, 30}};
 const Words centre = {{331, 7}, {332, -2}};
 
-void holeAt(TiltedPlace& place, double x, double y) { place.lay(simulation::Ring(10, 16, -30), {x, y, 0}); }
+void holeAt(PartInPlane& place, double x, double y) { place.lay(simulation::Ring(10, 16, -30), {x, y, 0}); }
 
 std::vector<Case> cases() {
-  const auto block = [](TiltedPlace& place) { place.lay(simulation::Box({-50, -40, -30}, {50, 40, 0})); };
+  const auto block = [](PartInPlane& place) { place.lay(simulation::Box({-50, -40, -30}, {50, 40, 0})); };
   const Words circle = with(heights, {{321, 0}, {322, 0}, {262, 40}, {325, 0}, {247, 90}, {320, 1}, {301, 1}});
   const Words width = with(heights, {{321, 0}, {322, 0}, {311, 80}, {272, 2}, {320, 1}, {405, -2}});
   const Words toolAxis = {{381, 1}, {382, 30}, {383, 0}, {384, 0}, {333, 5}};
@@ -61,12 +44,12 @@ std::vector<Case> cases() {
        {true, true, false}},
       {412,
        with(with(circle, centre), toolAxis),
-       [](TiltedPlace& place) { place.lay(simulation::Ring(20, 45, -30)); },
+       [](PartInPlane& place) { place.lay(simulation::Ring(20, 45, -30)); },
        {0, 0, 0},
        {true, true, true}},
       {413,
        with(with(circle, centre), {{381, 0}}),
-       [](TiltedPlace& place) { place.lay(simulation::RoundBar(20, -30, 0)); },
+       [](PartInPlane& place) { place.lay(simulation::RoundBar(20, -30, 0)); },
        {0, 0, -8},
        {true, true, false}},
       {414,
@@ -78,7 +61,7 @@ std::vector<Case> cases() {
        {true, true, false}},
       {416,
        with(with(heights, {{273, 0}, {274, 0}, {262, 80}, {291, 0}, {292, 90}, {293, 180}}), centre),
-       [](TiltedPlace& place) {
+       [](PartInPlane& place) {
          for (const Vector2& at : {Vector2(40, 0), Vector2(0, 40), Vector2(-40, 0)})
            holeAt(place, at.x(), at.y());
        },
@@ -88,7 +71,7 @@ std::vector<Case> cases() {
       {418,
        with(with(heights, {{268, -30}, {269, -30}, {270, 30}, {271, -30}, {316, 30}, {317, 30}, {318, -30}, {319, 30}}),
             centre),
-       [](TiltedPlace& place) {
+       [](PartInPlane& place) {
          for (const Vector2& at : {Vector2(-30, -30), Vector2(30, -30), Vector2(30, 30), Vector2(-30, 30)})
            holeAt(place, at.x(), at.y());
        },
@@ -108,7 +91,7 @@ TEST(TiltedPlane, TakesPresetsWhereTheyWereMeasured) {
   for (const Case& one : cases()) {
     for (int world = 0; world < 20; ++world) {
       const ControlKind kind = controlOf(world);
-      TiltedPlace place(dice, kind);
+      PartInPlane place(dice, kind);
       one.lay(place);
       const int rows[] = {0, 1, 6};
       const int row = rows[dice.whole(0, 2)];
@@ -133,7 +116,7 @@ TEST(TiltedPlane, ShiftsItsDatumByATable) {
   for (const Case& one : cases()) {
     for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
       SCOPED_TRACE(fmt::format("cycle {} on the {}", one.cycle, control::name(kind)));
-      TiltedPlace place(dice, kind);
+      PartInPlane place(dice, kind);
       one.lay(place);
       const TableFolder folder(place.bench);
       folder.put("ZERO.D", control::heidenhain::defaultDatumTable(kind, "ZERO.D"));

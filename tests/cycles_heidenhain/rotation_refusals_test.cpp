@@ -22,6 +22,18 @@ const Words planeWords = {{1100, -30}, {1101, -30}, {1102, 0}, {1103, 30}, {1104
                           {1106, 0},   {1107, 30},  {1108, 0}, {372, -3},  {320, 0},    {260, 20},
                           {1125, 1},   {309, 0},    {1126, 0}, {1120, 0},  {1121, 0}};
 
+/// The same with texts that stand in QS parameters, so that only the run can read them.
+Ran withComputedTexts(const std::map<int, std::string>& texts, const Words& words, int cycle) {
+  Words rest = words;
+  std::erase_if(rest, [&](const auto& word) { return texts.contains(word.first); });
+  std::string before, more;
+  for (const auto& [number, text] : texts) {
+    before += fmt::format("QS{} = \"{}\"\n", number - 1000, text);
+    more += fmt::format(" ~\n  QS{}=QS{} ;X", number, number - 1000);
+  }
+  return refusingBench().run(before + probe(cycle, rest, more));
+}
+
 /// The edge with some positions as texts.
 Ran withTexts(const std::map<int, std::string>& texts, const Words& words = edgeWords, int cycle = 1410) {
   Words rest = words;
@@ -66,17 +78,31 @@ TEST(RotationCycles, MeasureTheEdgeThatTheRefusalsSpoil) {
 }
 
 TEST(RotationCycles, RefuseTextsThatAreNoPositions) {
+  struct Row {
+    int parameter;
+    const char* text;
+    const char* reason;
+  };
+  const Row rows[] = {{1101, "fifty", "column 1"},
+                      {1101, "?-50@-50.1", "cannot have an actual value"},
+                      {1104, "10H19", "H19"},
+                      {1104, "", "QS1104"}};
   for (const auto& [number, words, asks] : rotationCycles) {
     SCOPED_TRACE(number);
-    expectRefused(withTexts({{1101, "fifty"}}, words, number), "Nominal position wrong",
-                  "QS1101 = \"fifty\", column 1");
-    expectRefused(withTexts({{1101, "?-50@-50.1"}}, words, number), "Nominal position wrong",
-                  "cannot have an actual value");
+    for (const Row& row : rows) {
+      SCOPED_TRACE(row.text);
+      expectRefused(withComputedTexts({{row.parameter, row.text}}, words, number), "Nominal position wrong",
+                    row.reason);
+      // Where the text stands in the program, nothing moves.
+      const Ran checked = withTexts({{row.parameter, row.text}}, words, number);
+      EXPECT_EQ(checked.outcome.info.exit, records::ExitState::InputMistake);
+      EXPECT_TRUE(checked.outcome.journal.cycles.empty());
+      EXPECT_NE(checked.why().find(fmt::format("Q{} (", row.parameter)), std::string::npos) << checked.why();
+      EXPECT_NE(checked.why().find(fmt::format("= \"{}\": ", row.text)), std::string::npos) << checked.why();
+    }
     expectRefused(withTexts({{1101, "100000"}}, words, number), "Nominal position wrong", "-99999.9999 to 99999.9999");
     expectRefused(withTexts({{1101, "-50@Q12"}, {1100, "1@1"}, {1102, "1@1"}}, words, number), "Actual position wrong",
                   "Q1900 to Q1999");
-    expectRefused(withTexts({{1104, "10H19"}}, words, number), "Nominal position wrong", "H19");
-    expectRefused(withTexts({{1104, ""}}, words, number), "Nominal position wrong", "QS1104");
   }
   for (const char* text : {"?20", "20@20.1", "0", "?"}) {
     SCOPED_TRACE(text);

@@ -1,34 +1,16 @@
 #include "cycles_heidenhain/rotation_worlds.hpp"
+#include "cycles_heidenhain/tilted_place.hpp"
 
 /// Cycles 1411 and 1420 in a tilted working plane that the rotary axes agree with.
 namespace probewright::testing_support {
 namespace {
 
-/// A plane tilted by PLANE SPATIAL about the axes of a preset with a basic rotation.
-struct TiltedPlace {
-  Bench bench{ControlKind::TNC640, "mill5-head-table"};
-  Matrix3 tilt = Matrix3::Identity();
-  Pose input = Pose::Identity();  ///< machine coordinates from those of the tilted plane
-  std::string before;
-
-  explicit TiltedPlace(Dice& dice) {
-    const Vector3 origin(written(dice.between(-60, 60)), written(dice.between(-60, 60)), -500);
-    const double rotation = written(dice.between(-20, 20));
-    bench.preset(1, origin, rotation);
-    bench.believedProbe().maximumTravel = 40;
-    bench.believedProbe().setUpClearance = 8;
-    const double a = written(dice.between(-25, 25)), b = written(dice.between(-25, 25));
-    tilt = pose(Vector3::Zero(), {a, b, 0}).linear();
-    input = pose(origin, {0, 0, rotation}) * pose(Vector3::Zero(), {a, b, 0});
-    before = fmt::format("L Z+0 R0 FMAX M91\nPLANE SPATIAL SPA{:+.3f} SPB{:+.3f} SPC+0 TURN FMAX\n", a, b);
-  }
-};
-
 TEST(Cycle1411, TurnsTheBasicRotationInATiltedPlane) {
   Dice dice(14115);
   for (int world = 0; world < worlds; ++world) {
     SCOPED_TRACE(fmt::format("world {}", world));
-    TiltedPlace place(dice);
+    TiltedPlace place(dice, ControlKind::TNC640);
+    place.bench.believedProbe().setUpClearance = 8;
     const double skew = dice.between(-1, 1);
     const Pose part = place.input * pose(dice.within(0.5), {0, 0, skew});
     const bool studs = dice.coin();
@@ -75,7 +57,8 @@ TEST(Cycle1420, TurnsTheBasicRotationInATiltedPlane) {
   Dice dice(14205);
   for (int world = 0; world < worlds; ++world) {
     SCOPED_TRACE(fmt::format("world {}", world));
-    TiltedPlace place(dice);
+    TiltedPlace place(dice, ControlKind::TNC640);
+    place.bench.believedProbe().setUpClearance = 8;
     const Vector3 lean(dice.between(-3, 3), dice.between(-3, 3), 0);
     const Pose part = place.input * pose(dice.within(0.5), lean);
     place.bench.part(simulation::Box({-80, -80, -30}, {80, 80, 0}), part);

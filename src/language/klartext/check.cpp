@@ -12,6 +12,7 @@
 #include "cycles/heidenhain/probe_words.hpp"
 #include "language/klartext/block_extent.hpp"
 #include "language/klartext/lexer.hpp"
+#include "metrology/tolerance.hpp"
 
 namespace probewright::language::klartext {
 
@@ -23,6 +24,9 @@ constexpr std::uint32_t firstProbeWord = cycles::heidenhain::probe_word::result;
 /// Q247 of the cycles that touch a circle.
 constexpr std::uint32_t steppingAngle = 247;
 constexpr double smallestStep = 5;  // degrees
+
+/// Nominal positions and diameters of cycles 1410, 1411 and 1420, which may be texts such as "?30" and "10+0.02".
+bool isDimension(std::uint32_t parameter) { return parameter >= 1100 && parameter <= 1117; }
 
 /// Touch probe cycles that the controls have, whether Probewright runs them or not; 500 to 599 belong to machine tool
 /// builders.
@@ -255,6 +259,13 @@ private:
     std::string text = cycles::complaint(*parameter, argument);
     if (text.empty() && parameter->address == steppingAngle && std::abs(argument.number) < smallestStep) {
       text = fmt::format("{} cannot be {}", nameOf(*parameter), formatShortest(argument.number));
+    }
+    if (argument.isText && isDimension(word.address)) {
+      const auto dimension = metrology::parseDimension(argument.text);
+      if (dimension) return;
+      reportAt(word, fmt::format("{} = \"{}\": {}", nameOf(*parameter), argument.text, dimension.error().message),
+               dimension.error().advice);
+      return;
     }
     if (!text.empty()) reportAt(word, std::move(text), "correct the value");
   }
