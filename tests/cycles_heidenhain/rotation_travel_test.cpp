@@ -1,3 +1,4 @@
+#include "cycles_heidenhain/table_folder.hpp"
 #include "cycles_heidenhain/worlds.hpp"
 
 /// When the rotation cycles visit the clearance height, and how fast they pre-position (Q1125).
@@ -113,6 +114,44 @@ TEST(RotationCycles, VisitTheClearanceHeightAsTheyAreTold) {
         EXPECT_NEAR(travel.across, mode == 2 ? 2000 : 900, mode == 2 ? 200 : 90);
       }
     }
+  }
+}
+
+/// F_PREPOS = FMAX_MACHINE is for the older cycles: these pre-position at FMAX of the probe, or at 2000 mm/min.
+TEST(RotationCycles, PrepositionAtTheFeedOfTheProbe) {
+  for (const int cycle : {1410, 1420}) {
+    for (const int mode : {-1, 0, 1, 2}) {
+      SCOPED_TRACE(fmt::format("cycle {}, Q1125 {}", cycle, mode));
+      Bench bench = benchFor(cycle);
+      const TableFolder folder(bench);
+      auto table = control::heidenhain::defaultProbeTable(ControlKind::TNC640);
+      ASSERT_TRUE(table.setNumber("1", "FMAX", 900));
+      ASSERT_TRUE(table.setText("1", "F_PREPOS", "FMAX_MACHINE"));
+      folder.put("TCHPROBE.TP", table);
+      const Travel travel = travelOf(bench, probe(cycle, with(wordsFor(cycle), {{1125, mode}})));
+      EXPECT_NEAR(travel.across, mode == 2 ? 2000 : 900, mode == 2 ? 200 : 90);
+    }
+  }
+}
+
+TEST(RotationCycles, TakeClearanceAndHeightFromGlobalDefinitions) {
+  const std::string global =
+      fmt::format("GLOBAL DEF 120 PROBING ~\n  Q320=+3 ;X ~\n  Q260=+{} ;X ~\n  Q301=+0 ;X\n", clearance);
+  for (const int cycle : {1410, 1411, 1420}) {
+    SCOPED_TRACE(cycle);
+    const Words words = with(wordsFor(cycle), {{1125, 2}, {320, 3}});
+    std::string block = probe(cycle, words);
+    for (const int number : {320, 260}) {
+      const std::size_t at = block.find(fmt::format("Q{}=", number)) + 5;
+      block.replace(at, block.find(' ', at) - at, "PREDEF");
+    }
+    const Bench bench = benchFor(cycle);
+    const Ran named = bench.run(probe(cycle, words)), predefined = bench.run(global + block);
+    ASSERT_TRUE(predefined.finished()) << predefined.why();
+    EXPECT_NEAR(predefined.cycle().pathLength, named.cycle().pathLength, 1e-6);
+    const Ran other = bench.run(probe(cycle, with(words, {{320, 0}})));
+    EXPECT_GT(std::abs(other.cycle().pathLength - named.cycle().pathLength), 1);
+    EXPECT_EQ(bench.run(block).alarm(), "GLOBAL DEF missing");
   }
 }
 
