@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/number_text.hpp"
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/html_log.hpp"
 #include "metrology/fits.hpp"
@@ -47,7 +48,7 @@ metrology::Circle2 touchCircle(HeidenhainProber& prober, const CalibrationTask& 
 using Rows = std::vector<std::vector<std::string>>;
 
 std::vector<std::string> row(const char* name, double before, double after) {
-  return {name, fmt::format("{:.4f}", before), fmt::format("{:.4f}", after)};
+  return {name, formatFixed(before, 4), formatFixed(after, 4)};
 }
 
 /// An offset of the ball in the program's axes as one along the axes of the spindle, where it belongs.
@@ -112,7 +113,7 @@ Across touchAcross(HeidenhainProber& prober, const CalibrationTask& task, const 
 CalibratedRadius calibrateAside(Context& context, HeidenhainProber& prober, const CalibrationTask& task) {
   const double out = probing::outwards(task.side);
   probing::HeidenhainProbe probe = prober.probe();
-  CalibratedRadius calibrated;
+  CalibratedRadius calibrated{.standardRadius = task.standardRadius};
   Vector2 centre = task.centre;
   const Vector2 towards = probing::directionAt(task.startAngle).head<2>();
   constexpr int passes = 4;
@@ -122,7 +123,8 @@ CalibratedRadius calibrateAside(Context& context, HeidenhainProber& prober, cons
     now.measuringHeight += probe.ballRadius - prober.probe().ballRadius;
     now.travelHeight += probe.ballRadius - prober.probe().ballRadius;
     HeidenhainProber tracking(context.channel(), context.control().coordinates.plane, probe);
-    const metrology::Circle2 circle = touchCircle(tracking, now, centre, pass == 0 ? 4 : task.count);
+    const int count = pass == 0 ? 4 : task.count;
+    const metrology::Circle2 circle = touchCircle(tracking, now, centre, count);
     centre = circle.centre;
     const double offset = probe.tipOffset.norm();
     const double a = task.side == Side::Inside ? circle.radius - offset : circle.radius + offset;
@@ -144,6 +146,8 @@ CalibratedRadius calibrateAside(Context& context, HeidenhainProber& prober, cons
     }
     probe.tipOffset =
         Eigen::Rotation2Dd(std::atan2(probe.tipOffset.y(), probe.tipOffset.x())) * Vector2(along, -across.middle);
+    calibrated.passes.push_back(
+        {pass == 0 ? "Coarse measurement" : "Measurement with angle tracking", count, centre, probe.ballRadius});
   }
   context.channel().orientSpindle(probe.calibrationAngle);
   calibrated.centre = {centre.x(), centre.y(), task.measuringHeight};
@@ -152,10 +156,29 @@ CalibratedRadius calibrateAside(Context& context, HeidenhainProber& prober, cons
   return calibrated;
 }
 
-/// The iTNC 530 keeps no log of calibrations.
-void log(Context& context, const Rows& rows) {
-  if (context.control().isTNC640()) addToHtmlLog(context, {"", "Before", "After"}, rows);
+std::string millimetres(double length) { return formatFixed(length, 4); }
+
+/// What the pass of `count` touches on `circle`, through the ball centres, tells.
+void note(CalibratedRadius& calibrated, const CalibrationTask& task, std::string_view name, int count,
+          const metrology::Circle2& circle) {
+  calibrated.passes.push_back(
+      {name, count, circle.centre, probing::outwards(task.side) * (task.standardRadius - circle.radius)});
 }
+
+/// The iTNC 530 keeps no log of calibrations.
+bool keepsLog(Context& context) { return context.control().isTNC640(); }
+
+void logPasses(Context& context, const CalibratedRadius& calibrated) {
+  addToHtmlLog(context, {"", "Nominal"}, {{"Radius of the standard", millimetres(calibrated.standardRadius)}});
+  Rows rows;
+  for (const CalibrationPass& pass : calibrated.passes) {
+    rows.push_back({std::string(pass.name), std::to_string(pass.touches), millimetres(pass.centre.x()),
+                    millimetres(pass.centre.y()), millimetres(pass.ballRadius)});
+  }
+  addToHtmlLog(context, {"", "Number of touches", "Main axis", "Minor axis", "Ball radius"}, rows);
+}
+
+void logChanges(Context& context, const Rows& rows) { addToHtmlLog(context, {"", "Before", "After"}, rows); }
 
 }  // namespace
 
@@ -172,7 +195,9 @@ CalibratedRadius calibrateRadius(Context& context, HeidenhainProber& prober, Cal
   if (prober.probe().aside) return calibrateAside(context, prober, task);
   const metrology::Circle2 coarse = touchCircle(prober, task, task.centre, 4);
   const metrology::Circle2 fine = touchCircle(prober, task, coarse.centre, task.count);
-  CalibratedRadius calibrated;
+  CalibratedRadius calibrated{.standardRadius = task.standardRadius};
+  note(calibrated, task, "Coarse measurement", 4, coarse);
+  note(calibrated, task, "Fine measurement", task.count, fine);
   calibrated.centre = {fine.centre.x(), fine.centre.y(), task.measuringHeight};
   calibrated.radius = probing::outwards(task.side) * (task.standardRadius - fine.radius);
   if (!(calibrated.radius > 0)) {
@@ -187,6 +212,7 @@ CalibratedRadius calibrateRadius(Context& context, HeidenhainProber& prober, Cal
     context.channel().orientSpindle(prober.probe().calibrationAngle + 180);
     const metrology::Circle2 reversed = touchCircle(prober, task, fine.centre, task.count);
     context.channel().orientSpindle(prober.probe().calibrationAngle);
+    note(calibrated, task, "Reversal measurement", task.count, reversed);
     calibrated.centreOffset = (reversed.centre - fine.centre) / 2;
     calibrated.centre.head<2>() = (reversed.centre + fine.centre) / 2;
     // A probe that the spindle turns to every touch always signals with the same side: that side is calibrated.
@@ -196,6 +222,7 @@ CalibratedRadius calibrateRadius(Context& context, HeidenhainProber& prober, Cal
       HeidenhainProber turning(context.channel(), control.coordinates.plane, turned);
       const metrology::Circle2 circle = touchCircle(turning, task, calibrated.centre.head<2>(), task.count);
       calibrated.radius = probing::outwards(task.side) * (task.standardRadius - circle.radius);
+      note(calibrated, task, "Measurement with angle tracking", task.count, circle);
       context.channel().orientSpindle(prober.probe().calibrationAngle);
     }
   }
@@ -220,18 +247,23 @@ void storeRadius(Context& context, const CalibratedRadius& calibrated) {
     }
   }
   control.refreshTool();
-  log(context, rows);
+  if (!keepsLog(context)) return;
+  logPasses(context, calibrated);
+  logChanges(context, rows);
 }
 
 void storeLength(Context& context, double length) {
   auto& control = context.control();
   auto& tools = control.tables.tools;
   const std::string& tool = control.tool.row;
-  const Rows rows = {row("L", tools.numberOr(tool, "L", 0), length)};
+  Rows rows = {row("L", tools.numberOr(tool, "L", 0), length)};
+  if (const double before = tools.numberOr(tool, "DL", 0); before != 0) rows.push_back(row("DL", before, 0));
   control.writeNumber(tools, tool, "L", length);
   control.writeNumber(tools, tool, "DL", 0);
   control.refreshTool();
-  log(context, rows);
+  if (!keepsLog(context)) return;
+  addToHtmlLog(context, {"", "Nominal"}, {{"Reference point for length", millimetres(context.q(434))}});
+  logChanges(context, rows);
 }
 
 }  // namespace probewright::cycles::heidenhain

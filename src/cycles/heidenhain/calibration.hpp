@@ -31,11 +31,21 @@ inline constexpr Parameter calibrationStartAngle =
 
 }  // namespace parameters
 
+/// One pass around the standard.
+struct CalibrationPass {
+  std::string_view name;  ///< in English, for the log
+  int touches = 0;
+  Vector2 centre = Vector2::Zero();
+  double ballRadius = 0;
+};
+
 /// What a radius calibration has found.
 struct CalibratedRadius {
-  Vector3 centre = Vector3::Zero();     ///< of ring, stud or sphere; as the spindle axis sees it at CAL_ANG
-  double radius = 0;                    ///< effective ball radius
-  std::optional<Vector2> centreOffset;  ///< CAL_OF1, CAL_OF2, if the spindle can reverse the probe
+  Vector3 centre = Vector3::Zero();  ///< of ring, stud or sphere; as the spindle axis sees it at CAL_ANG
+  double radius = 0;                 ///< effective ball radius
+  std::optional<Vector2> centreOffset = std::nullopt;  ///< CAL_OF1, CAL_OF2, if the spindle can reverse the probe
+  double standardRadius = 0;
+  std::vector<CalibrationPass> passes = {};  ///< in the order in which they were made
 };
 
 struct CalibrationTask {
@@ -67,10 +77,12 @@ probing::HeidenhainProber calibrationProber(Context& context);
 /// touches how far of that is ball and how far offset.
 CalibratedRadius calibrateRadius(Context& context, probing::HeidenhainProber& prober, CalibrationTask task);
 
-/// Writes R and the centre offset, puts them into effect and, on the TNC 640, notes them in TCHPRAUTO.html.
+/// Writes R and the centre offset, puts them into effect and, on the TNC 640, notes them in TCHPRAUTO.html with the
+/// passes that found them.
 void storeRadius(Context& context, const CalibratedRadius& calibrated);
 
-/// Writes the effective length L (DL becomes 0), puts it into effect and, on the TNC 640, notes it in TCHPRAUTO.html.
+/// Writes the effective length L (DL becomes 0), puts it into effect and, on the TNC 640, notes it in TCHPRAUTO.html
+/// with the reference point (Q434).
 void storeLength(Context& context, double length);
 
 }  // namespace probewright::cycles::heidenhain

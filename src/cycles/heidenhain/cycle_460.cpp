@@ -1,8 +1,13 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/calibration.hpp"
 #include "cycles/heidenhain/cycles.hpp"
 #include "cycles/heidenhain/directional_calibration.hpp"
 #include "cycles/heidenhain/parameters.hpp"
+#include "metrology/elements.hpp"
 
 namespace probewright::cycles::heidenhain {
 namespace {
@@ -28,6 +33,71 @@ constexpr Parameter parameters460[] = {
           .standard = 0},
          control::onTNC640),
 };
+
+EvaluatedTouch touchPole(probing::HeidenhainProber& prober, const CalibrationTask& task) {
+  const double standOff = prober.probe().setUp + task.extraClearance;
+  return prober.stroke(probing::axisDirection(2, -1), standOff + 2 * task.standardRadius);
+}
+
+/// Not the spindle axis but the ball is to stand over the pole.
+void moveOverPole(probing::HeidenhainProber& prober, const CalibratedRadius& calibrated) {
+  Vector3 overPole = calibrated.centre;
+  if (calibrated.centreOffset) overPole.head<2>() -= *calibrated.centreOffset;
+  prober.moveInPlane(overPole);
+}
+
+/// The pole gives the height of the equator, the equator the place of the pole: twice is exact.
+CalibratedRadius calibrateFromPole(Context& context, probing::HeidenhainProber& prober, CalibrationTask task) {
+  CalibratedRadius calibrated;
+  for (int pass = 0; pass < 2; ++pass) {
+    const double radius = pass == 0 ? prober.probe().ballRadius : calibrated.radius;
+    task.measuringHeight = touchPole(prober, task).ballCentre.z() - task.standardRadius - radius;
+    calibrated = calibrateRadius(context, prober, task);
+    task.centre = calibrated.centre.head<2>();
+    moveOverPole(prober, calibrated);
+  }
+  return calibrated;
+}
+
+/// Touches above one another on the side of the reference angle: the ball centres lie on a circle, whose middle is the
+/// height of the equator however far the probe stands beside the sphere's axis. Begins where the equator is if the
+/// probe stands above the sphere as the cycle asks for, and follows it as long as it turns out to lie elsewhere.
+double searchEquator(probing::HeidenhainProber& prober, const CalibrationTask& task) {
+  const double ball = prober.probe().ballRadius, locus = task.standardRadius + ball;
+  double equator = task.travelHeight - ball - prober.probe().setUp - task.extraClearance - task.standardRadius;
+  const Vector3 outwards = probing::directionAt(task.startAngle);
+  bool there = false;
+  /// How far out and how high the ball centre stands when it meets the sphere at `height`.
+  const auto meet = [&](double height) {
+    const double away = std::sqrt(std::max(0.0, locus * locus - std::pow(height - equator, 2))) - ball;
+    const PlannedTouch planned{Vector3(task.centre.x(), task.centre.y(), height) + away * outwards, -outwards};
+    const Vector3 start = prober.prePosition(planned, task.extraClearance);
+    if (!std::exchange(there, true)) prober.moveInPlane(start);
+    prober.moveTo(start);
+    const Vector3 centre = prober.touch(planned).ballCentre;
+    return Vector2(centre.dot(outwards), centre.z());
+  };
+  // Short enough that below the equator the ball still touches before the shaft.
+  const double step = task.standardRadius / 10;
+  constexpr int longest = 6;
+  for (int search = 0; search < longest; ++search) {
+    const double begin = equator;
+    const Vector2 first = meet(begin), second = meet(begin + step);
+    const bool above = second.x() < first.x();
+    const Vector2 third = meet(above ? begin - step : begin + 2 * step);
+    const auto section = metrology::circleThrough(first, second, third);
+    if (!section) throw control::Alarm("Calibration not possible", section.error().message, section.error().advice);
+    equator = section->centre.y();
+    if (std::abs(equator - begin) <= 2 * step) break;
+  }
+  prober.moveHeightTo(task.travelHeight);
+  return equator;
+}
+
+CalibratedRadius calibrateFromEquator(Context& context, probing::HeidenhainProber& prober, CalibrationTask task) {
+  task.measuringHeight = searchEquator(prober, task);
+  return calibrateRadius(context, prober, task);
+}
 
 }  // namespace
 
@@ -57,12 +127,8 @@ void cycle460(Context& context, const Arguments&) {
                          "An L-shaped stylus is turned to every touch; there are no 3-D calibration data for it",
                          "set Q455 = 0");
   }
-  const Vector3 start = prober.position();
+  Vector3 start = prober.position();
   const double standardRadius = context.q(407);
-  const Vector3 down = probing::axisDirection(2, -1);
-  const double standOff = prober.probe().setUp + context.q(320);
-
-  // The pole gives the height of the equator; the equator gives the place of the pole: twice is exact.
   CalibrationTask task{.centre = start.head<2>(),
                        .standardRadius = standardRadius,
                        .side = Side::Outside,
@@ -71,26 +137,21 @@ void cycle460(Context& context, const Arguments&) {
                        .travelHeight = start.z(),
                        .extraClearance = context.q(320),
                        .between = betweenTouches(context)};
+  // The older control begins at the pole; so does a ball that stands aside, which cannot be met at any height.
+  const bool fromPole = !context.control().isTNC640() || prober.probe().aside;
   if (prober.probe().aside) prober.moveInPlane(start - prober.tipOffsetNow());
-  CalibratedRadius calibrated;
-  for (int pass = 0; pass < 3; ++pass) {
-    const EvaluatedTouch pole = prober.stroke(down, standOff + 2 * standardRadius);
-    const double radius = pass == 0 ? prober.probe().ballRadius : calibrated.radius;
-    task.measuringHeight = pole.ballCentre.z() - standardRadius - radius;
-    if (pass == 2) break;
-    calibrated = calibrateRadius(context, prober, task);
-    task.centre = calibrated.centre.head<2>();
-    // Not the spindle axis but the ball is to stand over the pole.
-    Vector3 overPole = calibrated.centre;
-    if (calibrated.centreOffset) overPole.head<2>() -= *calibrated.centreOffset;
-    prober.moveInPlane(overPole);
-  }
+  const CalibratedRadius calibrated =
+      fromPole ? calibrateFromPole(context, prober, task) : calibrateFromEquator(context, prober, task);
   storeRadius(context, calibrated);
   if (context.option(433) == 1) {
-    const EvaluatedTouch pole = prober.stroke(down, standOff + 2 * standardRadius);
+    moveOverPole(prober, calibrated);
+    const EvaluatedTouch pole = touchPole(prober, task);
     const double tip = pole.ballCentre.z() - prober.probe().ballRadius;
     const auto& tool = context.control().tool;
-    storeLength(context, tool.length + tool.deltaLength + tip - (context.q(434) + standardRadius));
+    const double before = tool.length + tool.deltaLength;
+    storeLength(context, before + tip - (context.q(434) + standardRadius));
+    // The same place has another coordinate for a tool of another length.
+    start.z() -= tool.length + tool.deltaLength - before;
   }
   if (directional) {
     calibrateDirections(context, {.centre = calibrated.centre.head<2>(),

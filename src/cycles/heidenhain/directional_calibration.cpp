@@ -49,7 +49,7 @@ void storeDeflections(Context& context, const std::vector<Deflection>& rows) {
   double largest = 0;
   for (const Deflection& row : rows)
     largest = std::max(largest, std::abs(row.deviation));
-  addToHtmlLog(context, {"3-D calibration", "Points", "Largest deviation"},
+  addToHtmlLog(context, {"3-D calibration", "Number of touches", "Largest deviation"},
                {{name, std::to_string(rows.size()), fmt::format("{:.4f}", largest)}});
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cycles/heidenhain/log_texts.hpp"
@@ -34,6 +35,25 @@ std::string row(const char* cell, const std::vector<std::string>& cells, DialogL
   return text + "</tr>\n";
 }
 
+/// Title of the cycle, when and by which program it ran, tool and touch probe.
+std::string sectionHead(Context& context) {
+  const auto& control = context.control();
+  const DialogLanguage language = control.panel.language;
+  const std::int64_t now = control.wallClockStart +
+                           static_cast<std::int64_t>(std::llround(context.channel().seconds() - control.startSeconds));
+  const std::tm time = fmt::gmtime(static_cast<std::time_t>(now));
+  std::string text =
+      fmt::format("<h2>{} {}</h2>\n<p>", context.record().name, translated(context.record().title, language));
+  text += fmt::format(fmt::runtime(logFrame(language).dateForm), time);
+  text +=
+      fmt::format(" {}:{:02}:{:02}, {}, {} {} {}", time.tm_hour, time.tm_min, time.tm_sec, escaped(control.programPath),
+                  translated("tool", language), control.tool.row, escaped(control.tool.name));
+  if (!control.tool.probeRow.empty()) {
+    text += fmt::format(", {} {}", translated("touch probe", language), control.tool.probeRow);
+  }
+  return text + "</p>\n";
+}
+
 }  // namespace
 
 void addToHtmlLog(Context& context, const std::vector<std::string>& heading,
@@ -49,11 +69,8 @@ void addToHtmlLog(Context& context, const std::vector<std::string>& heading,
                                code(translated("tool", language) == "tool" ? DialogLanguage::English : language),
                                translated("Touch probe log", language))
                          : found->second.substr(0, found->second.rfind("</body>"));
-  const std::int64_t now = control.wallClockStart +
-                           static_cast<std::int64_t>(std::llround(context.channel().seconds() - control.startSeconds));
-  text += fmt::format("<h2>{} {}</h2>\n<p>{:%d-%m-%Y %H:%M:%S}, {} {} {}</p>\n<table>\n", context.record().name,
-                      translated(context.record().title, language), fmt::gmtime(static_cast<std::time_t>(now)),
-                      translated("tool", language), control.tool.row, escaped(control.tool.name));
+  if (std::ranges::count(context.record().logFiles, file) == 0) text += sectionHead(context);
+  text += "<table>\n";
   text += row("th", heading, language);
   for (const auto& cells : rows)
     text += row("td", cells, language);
