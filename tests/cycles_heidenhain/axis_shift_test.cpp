@@ -1,3 +1,4 @@
+#include "control/heidenhain/axis_shift_table.hpp"
 #include "cycles_heidenhain/table_folder.hpp"
 #include "cycles_heidenhain/worlds.hpp"
 
@@ -58,6 +59,119 @@ Shifting shifting(Dice& dice) {
     bench.setup.parameters[names[i]] = {roughly[i], {}};
   bench.setup.parameters["MP6531"] = {2 * half, {}};
   return world;
+}
+
+/// AXSHIFT.TAB as a run has left it; the cycles that wrote it count as read.
+control::heidenhain::TypedTable calibration(const Ran& ran) {
+  coverage::writesRead(ran.outcome.control, ran.outcome.journal,
+                       [](const control::WriteRecord& write) { return write.table == "AXSHIFT.TAB"; });
+  Diagnostics diagnostics;
+  auto table = control::heidenhain::TypedTable::parse(ran.outcome.files.at("AXSHIFT.TAB"), "AXSHIFT.TAB",
+                                                      control::heidenhain::axisShiftColumns(), diagnostics);
+  EXPECT_TRUE(table);
+  return *table;
+}
+
+TEST(Cycle440, WritesWhereItMetTheToolTouchProbe) {
+  Dice dice(4404);
+  for (int at = 0; at < 40; ++at) {
+    SCOPED_TRACE(fmt::format("world {}", at));
+    Shifting world = shifting(dice);
+    const int directions = at % 8;
+    const Ran ran = world.run(0, directions);
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    const auto table = calibration(ran);
+    EXPECT_EQ(table.text("1", "TOOL"), "9");
+    EXPECT_EQ(table.number("1", "DIRECTION"), directions);
+    // The tip stands on the upper edge, the flank beside it.
+    constexpr double flank = 1e-5;  // how far a tool enters a solid of the bench before they count as touching
+    EXPECT_NEAR(*table.number("1", "Z"), world.contact.z(), flank);
+    const double half = std::get<double>(world.bench.setup.parameters.at("MP6531").value) / 2;
+    static constexpr int senses[8][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+    for (int axis = 0; axis < 2; ++axis) {
+      const int sense = senses[directions][axis];
+      const std::string column = axis == 0 ? "X" : "Y";
+      if (sense == 0) {
+        EXPECT_EQ(table.text("1", column), "");
+        continue;
+      }
+      const double near = world.disc ? 0.05 * 0.05 / 12 : flank;
+      EXPECT_NEAR(*table.number("1", column), world.contact[axis] - sense * (half + world.radius), near);
+    }
+    // The next calibration overwrites it, also what it does not probe.
+    const Ran again =
+        world.bench.runBare(world.before + probe(440, {{363, 0}, {364, directions}, {320, 1}, {260, 20}}) +
+                            probe(440, {{363, 0}, {364, 0}, {320, 1}, {260, 20}}));
+    ASSERT_TRUE(again.finished()) << again.why();
+    EXPECT_EQ(calibration(again).text("1", "Y"), "");
+    EXPECT_EQ(calibration(again).number("1", "DIRECTION"), 0);
+    // Measuring writes nothing.
+    const Ran measured =
+        world.bench.runBare(world.before + probe(440, {{363, 0}, {364, directions}, {320, 1}, {260, 20}}) +
+                            probe(440, {{363, 1}, {364, directions}, {320, 1}, {260, 20}}));
+    ASSERT_TRUE(measured.finished()) << measured.why();
+    EXPECT_TRUE(measured.cycle().writes.empty());
+    EXPECT_EQ(calibration(measured).table().bytes(), table.table().bytes());
+  }
+}
+
+/// What is wrong at both runs alike drops out: length and radius of the tool, its place, pretravel. Scales and
+/// squareness do not: an axis that displays too little shifts by less.
+TEST(Cycle440, IsWrongByTheGeometryOfTheMachineOnly) {
+  Dice dice(4405);
+  for (int at = 0; at < 30; ++at) {
+    SCOPED_TRACE(fmt::format("world {}", at));
+    Shifting world = shifting(dice);
+    if (world.disc) continue;
+    auto& believed = world.bench.setup.tools.back();
+    believed.length += written(dice.between(-0.5, 0.5), 4);
+    believed.radius += written(dice.between(-0.5, 0.5), 4);
+    auto& errors = world.bench.setup.truth.errors;
+    errors.axes.resize(3);
+    for (auto& axis : errors.axes)
+      axis.scale = dice.between(-1e-3, 1e-3);
+    const double square = dice.between(-0.05, 0.05);
+    errors.squareness = {{0, 1, square}};
+    const Ran calibrated = world.run(0, 4);
+    ASSERT_TRUE(calibrated.finished()) << calibrated.why();
+    const TableFolder folder(world.bench);
+    folder.put("AXSHIFT.TAB", calibrated.outcome.files.at("AXSHIFT.TAB"));
+    const Vector3 shift = dice.within(0.3);
+    world.shift(shift);
+    const Ran ran = world.run(1, 4);
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    // The offsets are those of the slides, along their own directions: X drags Y along.
+    const double aside = std::sin(radians(square));
+    EXPECT_NEAR(ran.q(185), -shift.x() / (1 + errors.axes[0].scale), exact);
+    EXPECT_NEAR(ran.q(186), -(shift.y() + shift.x() * aside) / (1 + errors.axes[1].scale), exact);
+    EXPECT_NEAR(ran.q(187), -shift.z() / (1 + errors.axes[2].scale), exact);
+  }
+}
+
+/// The results are in the unit of the program; each run resets them, and the spindle is left as it was.
+TEST(Cycle440, ResetsItsResultsAndLeavesTheSpindleRunning) {
+  Dice dice(4406);
+  Shifting world = shifting(dice);
+  world.disc = false;
+  const std::string old = "Q185 = 5\nQ186 = 6\nQ187 = 7\n";
+  const Words words = {{363, 0}, {364, 4}, {320, 1}, {260, 20}};
+  const Ran calibrated = world.bench.runBare("TOOL CALL 9 Z S100\nM4\n" + old + probe(440, words));
+  ASSERT_TRUE(calibrated.finished()) << calibrated.why();
+  for (int i = 185; i <= 187; ++i)
+    EXPECT_EQ(calibrated.q(i), 0);
+  EXPECT_EQ(calibrated.q(110), 1) << "M4 is active";
+  const Ran refused = world.bench.runBare(world.before + old + probe(440, with(words, {{363, 1}})));
+  EXPECT_EQ(refused.alarm(), "Axis shift not calibrated");
+  for (int i = 185; i <= 187; ++i)
+    EXPECT_EQ(refused.q(i), 0);
+  const TableFolder folder(world.bench);
+  folder.put("AXSHIFT.TAB", calibrated.outcome.files.at("AXSHIFT.TAB"));
+  world.shift({0.1016, -0.0508, 0.2032});
+  const Ran inch =
+      world.bench.runBare(world.before + probe(440, {{363, 1}, {364, 4}, {320, 0.04}, {260, 0.8}}), "INCH");
+  ASSERT_TRUE(inch.finished()) << inch.why();
+  EXPECT_NEAR(inch.q(187), -0.008, 1e-7);
+  EXPECT_NEAR(inch.q(185), -0.004, 1e-4);
 }
 
 TEST(Cycle440, FindsAnyShiftOfTheAxes) {
@@ -195,6 +309,31 @@ TEST(Cycle440, UsesFeedsDepthAndOffsetsOfTheTables) {
   ASSERT_TRUE(offset.finished()) << offset.why();
   EXPECT_NEAR(tip(plain, 0).x() - tip(offset, 0).x(), world.radius - 1.5, exact);
   EXPECT_NEAR(tip(offset, 0).z() - tip(offset, 1).z(), depth + 2, exact);
+}
+
+/// Another pin than the one that calibrated: the run goes on, but the operator is told.
+TEST(Cycle440, WarnsOfAnotherTool) {
+  Dice dice(4407);
+  Shifting world = shifting(dice);
+  simulation::TrueTool other = world.bench.setup.truth.tools.back();
+  other.number = 8;
+  other.name = "OTHER";
+  world.bench.setup.truth.tools.push_back(other);
+  world.bench.knows(8, "OTHER", other.length, other.radius);
+  const Words calibrate = {{363, 0}, {364, 4}, {320, 1}, {260, 20}}, measure = with(calibrate, {{363, 1}});
+  const auto warnings = [&](int tool) {
+    const Ran ran = world.bench.runBare(world.before + probe(440, calibrate) + fmt::format("TOOL CALL {} Z\n", tool) +
+                                        probe(440, measure));
+    EXPECT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(ran.q(185), 0, exact);
+    std::string text;
+    for (const auto& event : ran.outcome.journal.events) {
+      if (event.kind == control::EventKind::Warning) text += event.text;
+    }
+    return text;
+  };
+  EXPECT_EQ(warnings(9), "");
+  EXPECT_NE(warnings(8).find("Tool 8 measures, but tool 9 has calibrated"), std::string::npos);
 }
 
 /// Place and size of the contact come from [tool_probe] of the setup.

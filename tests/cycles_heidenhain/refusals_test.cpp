@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 
 #include "cycles_heidenhain/table_folder.hpp"
 #include "cycles_heidenhain/worlds.hpp"
@@ -253,6 +254,32 @@ TEST(Inspection, StopsOutOfToleranceWithEverythingWritten) {
   const Ran going = holeBench().run(probe(421, with(words, {{309, 0}})));
   EXPECT_TRUE(going.finished());
   EXPECT_EQ(going.outcome.info.exit, records::ExitState::OutOfTolerance);
+}
+
+/// What the message says counts in the unit of the program, as its parameters do.
+TEST(Inspection, SaysInInchesWhatIsOutOfTolerance) {
+  Words inches = with(inspect421, {{275, 29.95}, {276, 29.9}, {309, 1}});
+  const std::set<int> lengths = {273, 274, 262, 261, 320, 260, 275, 276, 279, 280};
+  for (auto& [number, value] : inches) {
+    if (lengths.contains(number)) value /= 25.4;
+  }
+  const Ran ran = holeBench().run(probe(421, inches), "INCH");
+  EXPECT_EQ(ran.alarm(), "Tolerance exceeded");
+  EXPECT_NE(ran.why().find("Diameter 1.18110 ("), std::string::npos) << ran.why();
+}
+
+/// Cycle 441 can make every inspection wait, also those that write a file: it is there whatever the operator decides.
+TEST(Inspection, WritesTheLogBeforeItWaits) {
+  for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
+    Bench bench = holeBench(kind);
+    bench.onStop = control::OnStop::Abort;
+    const std::string wait = "TCH PROBE 441 FAST PROBING ~\n Q396=3000 ~\n Q397=0 ~\n Q399=0 ~\n Q400=1\n";
+    const Ran ran = bench.run(wait + probe(421, with(inspect421, {{281, 1}})));
+    EXPECT_EQ(ran.outcome.result.end, language::RunEnd::Cancelled);
+    EXPECT_NE(ran.log("TCHPR421.TXT").find("30.0000"), std::string::npos);
+    ASSERT_EQ(ran.screens().size(), 1U);
+    EXPECT_EQ(ran.screens().front(), ran.log("TCHPR421.TXT"));
+  }
 }
 
 TEST(Inspection, ShowsTheLogAndWaits) {

@@ -1,4 +1,4 @@
-#include "cycles_heidenhain/worlds.hpp"
+#include "cycles_heidenhain/walls.hpp"
 
 /// Cycles 3, 4 and 444: single points in any direction.
 namespace probewright::testing_support {
@@ -6,51 +6,6 @@ namespace {
 
 constexpr int worlds = 100;
 constexpr double exact = 1e-6;
-
-/// A plane somewhere, and a probe with a known tip offset in front of it.
-struct Wall {
-  Bench bench;
-  Pose machineFromPreset = Pose::Identity();
-  Vector3 point = Vector3::Zero();    ///< of the plane, in the preset
-  Vector3 normal = Vector3::UnitZ();  ///< outward
-  double ball = 0;
-  Vector3 tip = Vector3::Zero();  ///< offset of the ball in the preset's axes
-};
-
-/// A block whose face lies in the plane, 25 mm to all sides.
-void layWall(Wall& world, const Vector3& normal) {
-  world.normal = normal;
-  Pose presetFromBlock = Pose::Identity();
-  presetFromBlock.translation() = world.point;
-  presetFromBlock.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), normal).toRotationMatrix();
-  world.bench.setup.truth.solids.clear();
-  world.bench.part(simulation::Box({-25, -25, -20}, {25, 25, 0}), world.machineFromPreset * presetFromBlock);
-}
-
-Wall wall(Dice& dice, ControlKind control, const Vector3& normal) {
-  Wall world{Bench(control)};
-  world.ball = written(dice.between(1, 3), 4);
-  world.bench.probeOf(written(dice.between(80, 140), 4), world.ball);
-  const Vector2 tip(written(dice.between(-0.2, 0.2), 4), written(dice.between(-0.2, 0.2), 4));
-  world.bench.trueProbe().tipOffset = tip;
-  world.bench.believedProbe().tipOffset = tip;
-  world.bench.believedProbe().maximumTravel = 40;
-  const Vector3 origin(written(dice.between(-80, 80), 4), written(dice.between(-60, 60), 4),
-                       written(dice.between(-420, -380), 4));
-  const double rotation = dice.coin() ? 0 : written(dice.between(-170, 170));
-  world.bench.preset(1, origin, rotation);
-  world.machineFromPreset = pose(origin, {0, 0, rotation});
-  world.tip = world.machineFromPreset.linear().transpose() * Vector3(tip.x(), tip.y(), 0);
-  world.point = dice.within(10);
-  layWall(world, normal.normalized());
-  return world;
-}
-
-/// A direction that a stylus can touch a wall in: sideways or from above.
-Vector3 anyNormal(Dice& dice) {
-  Vector3 normal(dice.between(-1, 1), dice.between(-1, 1), dice.between(0.05, 1));
-  return normal.norm() < 0.2 ? Vector3(Vector3::UnitX()) : Vector3(normal.normalized());
-}
 
 TEST(Cycle444, FindsTheDeviationAlongAnyNormal) {
   Dice dice(444);
@@ -115,6 +70,42 @@ TEST(Cycle444, ReadsEveryFormOfTheTolerance) {
   EXPECT_EQ(status("1-1", -0.9), 0);
   for (const char* none : {" ", "0", "0.1+0.1", "0.1+0.2"})
     EXPECT_EQ(status(none, 1), -1) << none;
+}
+
+/// Every number of the log, in mm and in inches; a row for each axis and one along the normal.
+TEST(Cycle444, WritesDownWhatItMeasured) {
+  for (const bool inch : {false, true}) {
+    SCOPED_TRACE(inch);
+    const double unit = inch ? 25.4 : 1;
+    Bench bench;
+    bench.preset(1, {0, 0, -400}, 0);
+    bench.believedProbe().maximumTravel = 25.4;
+    bench.program = "TNC:\\FORM\\P1.H";
+    bench.part(simulation::HalfSpace({Vector3(0, 0, -400 + 0.254), Vector3::UnitZ()}));
+    const Words words = {{263, 25.4 / unit}, {264, -12.7 / unit}, {294, 0}, {581, 0}, {582, 0}, {583, 2},
+                         {320, 0},           {260, 50.8 / unit},  {309, 1}};
+    const std::string tolerance = fmt::format(" ~\n  QS400=\"{}-{}\" ;T", 0.127 / unit, 0.0508 / unit);
+    const Ran ran = bench.run(probe(444, words, tolerance), inch ? "INCH" : "MM");
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    const std::string log = ran.log("TCHPR444.html");
+    const auto row = [&](const std::string& name, const std::vector<double>& values, const std::string& state = "") {
+      std::string text = "<tr><td>" + name + "</td>";
+      for (const double value : values)
+        text += fmt::format("<td>{:.{}f}</td>", value / unit, inch ? 5 : 4);
+      return text + (state.empty() ? "<td></td></tr>" : state + "</tr>");
+    };
+    EXPECT_NE(log.find(", TNC:\\FORM\\P1.H, tool 1 PROBE, touch probe 1</p>"), std::string::npos) << log;
+    // Direction of the stroke with the length of DIST, nominal, limits, actual, deviation.
+    EXPECT_NE(log.find(row("Main axis", {0, 25.4, 25.4, 25.4, 25.4, 0})), std::string::npos) << log;
+    EXPECT_NE(log.find(row("Minor axis", {0, -12.7, -12.7, -12.7, -12.7, 0})), std::string::npos) << log;
+    EXPECT_NE(log.find(row("Tool axis", {-25.4, 0, -0.0508, 0.127, 0.254, 0.254})), std::string::npos) << log;
+    EXPECT_NE(log.find(row("Along the normal", {25.4, 0, -0.0508, 0.127, 0.254, 0.254},
+                           "<td style=\"color:orange\">rework</td>")),
+              std::string::npos)
+        << log;
+    ASSERT_EQ(ran.screens().size(), 1U);
+    EXPECT_NE(ran.screens().front().find(inch ? "+0.01000" : "+0.2540"), std::string::npos) << ran.screens().front();
+  }
 }
 
 TEST(Cycle444, Refusals) {

@@ -131,6 +131,12 @@ void cycle440(Context& context, const Arguments&) {
         fmt::format("Q364 = {}, but the calibration was made with {}", directions, shifts->text("1", "DIRECTION")),
         "measure in the directions of the calibration, or calibrate again");
   }
+  if (const std::string tool = measuring ? shifts->text("1", "TOOL") : control.tool.row; tool != control.tool.row) {
+    context.warn(
+        fmt::format("Tool {} measures, but tool {} has calibrated: the deviations contain what differs in "
+                    "their true lengths and radii",
+                    control.tool.row, tool));
+  }
 
   const auto& plane = control.coordinates.plane;
   auto& channel = context.channel();

@@ -129,7 +129,8 @@ void cycle444(Context& context, const Arguments&) {
   context.record().verdict = verdict;
 
   const double unit = context.control().unit;
-  const auto number = [unit](double length) { return formatFixed(length / unit, 4); };
+  const int decimals = unit == 1 ? 4 : 5;
+  const auto number = [unit, decimals](double length) { return formatFixed(length / unit, decimals); };
   const Vector3 path = -n * prober.probe().distance;
   static constexpr const char* names[] = {"Main axis", "Minor axis", "Tool axis"};
   static constexpr const char* words[] = {"", "good", "rework", "scrap"};
@@ -149,8 +150,8 @@ void cycle444(Context& context, const Arguments&) {
   const int reaction = context.option(309);
   const bool stops = verdict == Verdict::Scrap ? reaction != 0 : verdict == Verdict::Rework && reaction == 1;
   if (stops) {
-    context.stop(
-        fmt::format("Tolerance exceeded: {}\nDeviation along the surface normal {:+.4f}", state, along / unit));
+    context.stop(fmt::format("Tolerance exceeded: {}\nDeviation along the surface normal {:+.{}f}", state, along / unit,
+                             decimals));
   }
 }
 

@@ -63,14 +63,12 @@ Verdict verdictOf(const Inspection& inspection) {
 
 void writeLog(Context& context, const Inspection& inspection) {
   const int log = context.option(281);
+  if (log == 1) context.log(fmt::format("TCHPR{}.TXT", context.record().name), logText(context, inspection));
   const std::optional<bool> interrupt = context.control().overrides.interrupt;
   if (interrupt ? *interrupt : log == 2) {
     context.stop(logText(context, inspection));
   } else if (context.control().panel.showAllResults) {
     context.record().screens.push_back(logText(context, inspection));
-  }
-  if (log == 1) {
-    context.log(fmt::format("TCHPR{}.TXT", context.record().name), logText(context, inspection));
   }
 }
 
@@ -91,11 +89,13 @@ void finishInspection(Context& context, const Inspection& inspection, const Tool
   monitorTool(context, tool);
 
   if (context.option(309) == 1 && verdict != Verdict::Good) {
+    const double unit = context.control().unit;
+    const int decimals = unit == 1 ? 4 : 5;
     std::string which;
     for (const Inspected& item : inspection.items) {
       if (item.verdict != Verdict::Rework && item.verdict != Verdict::Scrap) continue;
-      which +=
-          fmt::format("{}{} {:.4f} ({:+.4f})", which.empty() ? "" : ", ", item.label, item.actual, item.deviation());
+      which += fmt::format("{0}{1} {2:.{4}f} ({3:+.{4}f})", which.empty() ? "" : ", ", item.label, item.actual / unit,
+                           item.deviation() / unit, decimals);
     }
     throw Alarm("Tolerance exceeded", fmt::format("{}: {}", verdict == Verdict::Scrap ? "Scrap" : "Rework", which));
   }
