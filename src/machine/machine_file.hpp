@@ -20,8 +20,8 @@ std::optional<MachineDescription> parseMachine(std::string_view text, const std:
 /// advice tells how many more there are.
 Result<MachineDescription> readMachine(const std::string& nameOrPath);
 
-/// The names of the ready-made machines: "mill3", "mill5-table-table", "mill5-head-table", "mill5-head-head",
-/// "lathe2c". They are part of the program and need no file.
+/// The names of the ready-made machines: "mill3", "mill4-table", "mill5-table-table", "mill5-head-table",
+/// "mill5-head-head", "lathe2c". They are part of the program and need no file.
 std::vector<std::string> readyMadeMachines();
 
 }  // namespace probewright::machine

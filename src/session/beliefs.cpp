@@ -202,6 +202,11 @@ hh::MachineParameters machineParameters(const Setup& setup, ControlKind kind, Di
     parameters.mp6140 = tool.setUpClearance;
     parameters.mp6150 = tool.rapid;
     parameters.mp6165 = tool.orient;
+    parameters.calibratedLength = tool.length;
+    parameters.calibratedRadius = tool.radius;
+    parameters.calibratedOffset1 = tool.tipOffset.x();
+    parameters.calibratedOffset2 = tool.tipOffset.y();
+    parameters.calibratedAngle = tool.calibrationAngle;
     break;
   }
   // The control knows its tool touch probe as it was fitted, unless the setup says otherwise.

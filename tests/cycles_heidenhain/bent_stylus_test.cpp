@@ -236,5 +236,71 @@ TEST(BentStylus, NeedsATurningSpindleAndAnArm) {
   EXPECT_FALSE(narrow.finished());
 }
 
+/// Cycles 0 and 1 start with the spindle axis where the block says, turn the ball to the surface, and leave the spindle
+/// position in Q115 and Q116. Cycles 3 and 4 do not turn it: 3 leaves the spindle axis, 4 the ball.
+TEST(BentStylus, SingleTouchesPlaceTheSpindleAxis) {
+  Dice dice(4605);
+  for (int at = 0; at < 30; ++at) {
+    SCOPED_TRACE(fmt::format("world {}", at));
+    Bent world(dice);
+    world.bench.believedProbe().radius = world.ball;
+    world.number("CAL_OF1", world.arm.x());
+    world.number("CAL_OF2", world.arm.y());
+    const bool square = at % 2 == 0;
+    const double angle = square ? 90.0 * dice.whole(-1, 2) : written(dice.between(-179, 179));
+    const double wall = 80 + dice.between(-0.5, 0.5), reach = world.ball + world.arm.norm();
+    const Vector3 towards = pose(Vector3::Zero(), {0, 0, angle}).linear().col(0);
+    const Vector3 across = pose(Vector3::Zero(), {0, 0, angle}).linear().col(1);
+    Pose lying = pose({0, 0, height}, {0, 0, angle});
+    world.bench.part(simulation::Box({wall, -60, -40}, {wall + 30, 60, 0}), lying);
+    const Vector3 start = (towards * (80 - reach - 4) + across * 7).unaryExpr([](double v) { return written(v, 4); });
+    std::string blocks = fmt::format(
+        "TCH PROBE 1.0 POLAR\nTCH PROBE 1.1 X ANGLE: {0:+.4f}\nTCH PROBE 1.2 X{1:+.4f} Y{2:+.4f} Z-8\n"
+        "Q40 = Q115\nQ41 = Q116\n"
+        "TCH PROBE 3.0 MEASURING\nTCH PROBE 3.1 Q50\nTCH PROBE 3.2 X ANGLE: {0:+.4f}\n"
+        "TCH PROBE 3.3 DIST +10 F100 MB10 REFERENCE SYSTEM: 0\n"
+        "TCH PROBE 4.0 MEASURING IN 3-D\nTCH PROBE 4.1 Q60\nTCH PROBE 4.2 IX{3:+.6f} IY{4:+.6f} IZ+0\n"
+        "TCH PROBE 4.3 ABST+10 F100 MB10 REFERENCE SYSTEM:0\n",
+        angle, start.x(), start.y(), towards.x(), towards.y());
+    const bool alongX = std::abs(towards.x()) > 0.5;
+    const bool positive = (alongX ? towards.x() : towards.y()) > 0;
+    if (square) {
+      blocks += fmt::format("TCH PROBE 0.0 REF. PLANE Q5 {}{}\nTCH PROBE 0.1 X{:+.4f} Y{:+.4f} Z-8\n",
+                            alongX ? 'X' : 'Y', positive ? '+' : '-', start.x(), start.y());
+    }
+    const Ran ran = world.bench.run(blocks);
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    const auto place = [&](int number) { return Vector3(ran.q(number), ran.q(number + 1), 0); };
+    EXPECT_NEAR(place(40).dot(towards), wall - reach, fromTables);
+    EXPECT_NEAR(place(40).dot(across), start.dot(across), fromTables);
+    EXPECT_NEAR(place(50).dot(towards), wall - reach, fromTables);
+    EXPECT_EQ(ran.q(53), 1);
+    EXPECT_NEAR(place(60).dot(towards), wall - world.ball, fromTables);
+    EXPECT_NEAR(place(60).dot(across), start.dot(across), fromTables);
+    EXPECT_EQ(ran.q(63), 1);
+    if (square) {
+      EXPECT_NEAR(ran.q(5), positive ? wall : -wall, fromTables);
+    }
+  }
+}
+
+/// 461 holds the ball at CAL_ANG: the surface must lie below the ball, beside the spindle axis.
+TEST(BentStylus, IsCalibratedInItsLengthBesideTheSpindleAxis) {
+  Dice dice(4606);
+  for (int at = 0; at < 20; ++at) {
+    SCOPED_TRACE(fmt::format("world {}", at));
+    Bent world(dice);
+    const double length = world.bench.believedProbe().length;
+    world.bench.believedProbe().length = written(length + dice.between(-0.5, 0.5), 4);
+    const double top = written(dice.between(-3, 3), 4);
+    const Vector2 ball(world.arm);
+    world.bench.part(simulation::RoundBar(3, -30, 0), world.at(ball.x(), ball.y(), top));
+    const Ran ran = world.bench.run(above(top + 6) + probe(461, {{434, top}}));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(ran.cell("TOOL.T", "1", "L"), length, fromTables);
+    EXPECT_EQ(ran.touches(), 1U);
+  }
+}
+
 }  // namespace
 }  // namespace probewright::testing_support

@@ -331,5 +331,28 @@ TEST(PresetTransfer, FollowsTheITNC530InEveryCombination) {
   }
 }
 
+TEST(EveryPage, RefusesATransferToNowhereBeforeAnythingIsTouched) {
+  for (const ControlKind kind : {newer, older}) {
+    forEveryCycle(kind, [&](const CycleDefinition& cycle, std::string blocks) {
+      if (cycle.family != cycles::CycleFamily::Preset) return;
+      const auto set = [&](const std::string& from, const std::string& to) {
+        const std::size_t at = blocks.find(from);
+        ASSERT_NE(at, std::string::npos) << blocks;
+        blocks.replace(at, from.size(), to);
+      };
+      set("Q305=+1.000000", "Q305=+5.000000");
+      set("Q303=+1.000000", "Q303=-1.000000");
+      const Ran undefined = emptyBench(kind).run(blocks);
+      EXPECT_EQ(undefined.alarm(), "Measured value transfer not defined") << undefined.why();
+      EXPECT_EQ(undefined.touches(), 0U);
+      set("Q303=-1.000000", "Q303=+0.000000");
+      const Ran unselected = emptyBench(kind).run(blocks);
+      EXPECT_EQ(unselected.alarm(), "Datum table not selected") << unselected.why();
+      EXPECT_EQ(unselected.touches(), 0U);
+      EXPECT_EQ(unselected.cycle().pathLength, 0);
+    });
+  }
+}
+
 }  // namespace
 }  // namespace probewright::testing_support

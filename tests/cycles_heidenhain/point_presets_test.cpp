@@ -104,6 +104,43 @@ void expectCorner(int cycle, bool outside) {
 TEST(Cycle414, FindsAnyOutsideCorner) { expectCorner(414, true); }
 TEST(Cycle415, FindsAnyInsideCorner) { expectCorner(415, false); }
 
+/// The manual of the iTNC 530 calls Q263 and Q264 the first touch point, that of the TNC 640 the corner. Whatever a
+/// programmer puts there, the corner or a point of the first wall beside it, both controls find the same corner.
+TEST(Cycle415, FindsTheCornerFromAPointOfTheFirstWallToo) {
+  Dice dice(4151);
+  for (int world = 0; world < worlds; ++world) {
+    SCOPED_TRACE(fmt::format("world {}", world));
+    PlantedPart part = plant(dice, controlOf(world), 0.5, 5);
+    part.bench.part(simulation::Box({-140, -100, -40}, {0, 100, 0}), part.machineFromPart);
+    part.bench.part(simulation::Box({0, -100, -40}, {140, 0, 0}), part.machineFromPart);
+    const double beside = written(dice.between(0, 15));
+    const Words words = {{263, part.nominal.x() + beside},
+                         {264, part.nominal.y()},
+                         {326, written(dice.between(20, 35))},
+                         {327, written(dice.between(20, 35))},
+                         {308, 1},
+                         {261, part.nominal.z() - 8},
+                         {320, 4},
+                         {260, part.nominal.z() + 20},
+                         {301, dice.whole(0, 1)},
+                         {304, 0},
+                         {305, 0},
+                         {331, 0},
+                         {332, 0},
+                         {303, 1},
+                         {381, 0},
+                         {382, 0},
+                         {383, 0},
+                         {384, 0},
+                         {333, 0}};
+    const Ran ran = part.bench.run(probe(415, words));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(ran.q(151), part.truth().x(), exact);
+    EXPECT_NEAR(ran.q(152), part.truth().y(), exact);
+    EXPECT_LT((ran.seen(part.machineFromPart.translation()).head<2>()).norm(), exact);
+  }
+}
+
 TEST(Cycle416, FindsTheCentreOfAnyBoltHoleCircle) {
   Dice dice(416);
   for (int world = 0; world < worlds; ++world) {

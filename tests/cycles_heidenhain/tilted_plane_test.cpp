@@ -1,4 +1,5 @@
 #include "cycles_heidenhain/worlds.hpp"
+#include "machine/description.hpp"
 
 /// Cycle 431 on a machine with a rotary table: the plane it has measured is tilted level, and measured again. Cycles
 /// 400 to 402 in tilted planes of the iTNC 530, which does not forbid them.
@@ -49,7 +50,7 @@ TEST(Cycle431, MeasuresAnglesThatTiltThePlaneLevel) {
     ASSERT_EQ(ran.outcome.journal.cycles.size(), 2U);
     for (const int angle : {158, 159, 170, 171, 172})
       EXPECT_NEAR(ran.q(angle), 0, 1e-6) << angle;
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < (part.bench.control == ControlKind::TNC640 ? 3 : 1); ++i)
       EXPECT_NEAR(ran.q(173 + i), level(p1).z(), 1e-6);
   }
 }
@@ -99,6 +100,94 @@ TEST(Cycles400To402, MeasureInTheTiltedPlaneOfTheITNC530) {
       EXPECT_LT((ran.preset().linear() * tilted.linear() - part.linear()).norm(), 1e-9);
     }
   }
+}
+
+TEST(Tcpm, TouchProbeCyclesPlaceTheTip) {
+  Bench bench(ControlKind::TNC640, "mill5-table-table");
+  bench.preset(1, {0, 0, -400});
+  bench.believedProbe().maximumTravel = 40;
+  bench.part(simulation::HalfSpace({Vector3(0, 0, -398.75), Vector3(0, 0, 1)}));
+  const std::string face = probe(427, {{263, 10},
+                                       {264, 0},
+                                       {261, 0},
+                                       {320, 0},
+                                       {272, 3},
+                                       {267, -1},
+                                       {260, 30},
+                                       {281, 0},
+                                       {288, 9},
+                                       {289, -9},
+                                       {309, 0},
+                                       {330, 0}});
+  for (const char* point : {"TIP-TIP", "TIP-CENTER", "CENTER-CENTER"}) {
+    SCOPED_TRACE(point);
+    const auto ran =
+        bench.run(fmt::format("FN 17: SYSWRITE ID50 NR3 IDX1 = +2\nL Z+50 R0 FMAX\n"
+                              "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS REFPNT {}\n{}L X+0 Y+0 R0 FMAX\n"
+                              "L Z+20 R0 FMAX\nFN 18: SYSREAD Q40 = ID240 NR1 IDX3\n",
+                              point, face));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(ran.q(160), 1.25, 1e-6);
+    EXPECT_NEAR(ran.q(40), -400 + 20 + 100 - (std::string(point) == "CENTER-CENTER" ? 2 : 0), 1e-6);
+  }
+}
+
+/// In the tilted plane of the iTNC 530 the angle is that of the plane. The C axis turns by it about the machine's Z,
+/// which aligns a plane that is turned about the tool axis alone.
+TEST(Cycle405, MeasuresInAnyTiltedPlaneOfTheITNC530) {
+  Dice dice(4053);
+  for (int at = 0; at < 40; ++at) {
+    SCOPED_TRACE(fmt::format("world {}", at));
+    Bench bench(ControlKind::iTNC530, "mill5-head-table");
+    const Vector3 origin(0, 0, -500);
+    bench.preset(1, origin);
+    bench.believedProbe().maximumTravel = 40;
+    const bool flat = at % 2 == 0;
+    const Vector3 tilt =
+        flat ? Vector3(0, 0, written(dice.between(-60, 60)))
+             : Vector3(written(dice.between(-25, 25)), written(dice.between(-25, 25)), written(dice.between(-60, 60)));
+    const Pose tilted = pose(Vector3::Zero(), tilt);
+    const double off = dice.between(-4, 4), far = dice.between(50, 70);
+    // Aligned to the positive Y axis of the plane, or to a nominal place.
+    const bool toAxis = dice.coin();
+    const double nominal = toAxis ? 90 : written(dice.between(40, 140));
+    const Vector3 drawn =
+        toAxis ? Vector3(0, 0, 0)
+               : Vector3(written(far * std::cos(radians(nominal))), written(far * std::sin(radians(nominal))), 0);
+    const double target = toAxis ? 90 : degrees(std::atan2(drawn.y(), drawn.x()));
+    // With a nominal minor coordinate of 0 the hole itself must lie where the cycle looks for it.
+    const Vector3 centre = toAxis ? Vector3(dice.between(30, 40), dice.between(-0.5, 0.5), 0)
+                                  : Vector3(drawn + Vector3(-drawn.y(), drawn.x(), 0) * radians(off / 4));
+    const double q321 = toAxis ? written(centre.x()) : drawn.x();
+    bench.part(simulation::Ring(16, 24, -30), pose(origin) * tilted * pose(centre));
+    const std::string plane = fmt::format(
+        "L Z+0 R0 FMAX M91\nPLANE SPATIAL SPA{:+.3f} SPB{:+.3f} SPC{:+.3f} TURN FMAX\n", tilt.x(), tilt.y(), tilt.z());
+    const Words words = {{321, q321}, {322, drawn.y()}, {262, 24}, {325, 0}, {247, 90},
+                         {261, -8},   {320, 0},         {260, 30}, {301, 0}, {337, 0}};
+    const Ran ran = bench.run(plane + "FN 18: SYSREAD Q40 = ID240 NR1 IDX6\n" + probe(405, words));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    const double measured = degrees(std::atan2(centre.y(), centre.x())) - target;
+    EXPECT_NEAR(std::remainder(ran.q(150) - measured, 360), 0, 1e-6);
+    machine::AxisPositions before = ran.outcome.machine->position();
+    before[*bench.setup.truth.machine.axisIndex("C")] = ran.q(40);
+    const Matrix3 turn = machine::baseFromTable(bench.setup.truth.machine, ran.outcome.machine->position()).linear() *
+                         machine::baseFromTable(bench.setup.truth.machine, before).linear().transpose();
+    EXPECT_LT((turn - pose(Vector3::Zero(), {0, 0, -measured}).linear()).norm(), 1e-8);
+    if (!flat || toAxis) continue;
+    const Ran again = bench.run(plane + probe(405, words) + probe(405, words));
+    ASSERT_TRUE(again.finished()) << again.why();
+    EXPECT_NEAR(again.q(150), 0, 1e-6);
+  }
+  // A trunnion that has tilted takes C along: it turns about no axis of the plane any more.
+  Bench trunnion(ControlKind::iTNC530, "mill5-table-table");
+  trunnion.preset(1, {0, 0, -500});
+  trunnion.believedProbe().maximumTravel = 40;
+  trunnion.part(simulation::Ring(16, 24, -30), pose({0, 0, -500}, {20, 0, 0}) * pose({0, 40, 0}));
+  const Ran refused = trunnion.run(
+      "L Z+0 R0 FMAX M91\nPLANE SPATIAL SPA+20 SPB+0 SPC+0 TURN FMAX\n" +
+      probe(405,
+            {{321, 0}, {322, 40}, {262, 24}, {325, 0}, {247, 90}, {261, -8}, {320, 0}, {260, 30}, {301, 0}, {337, 0}}));
+  EXPECT_EQ(refused.alarm(), "Rotary axis not available") << refused.why();
 }
 
 }  // namespace

@@ -192,8 +192,6 @@ TEST(Tilting, TcpmGuidesTheTipByAxisAnglesOnly) {
     return result.diagnostics.empty() ? std::string() : result.diagnostics.front().code;
   };
   EXPECT_EQ(codeOf("FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS REFPNT TIP-TIP"), "");
-  EXPECT_EQ(codeOf("FUNCTION TCPM F TCP AXIS SPAT PATHCTRL AXIS"), "Function not available");
-  EXPECT_EQ(codeOf("FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS REFPNT CENTER-CENTER"), "Function not available");
 }
 
 TEST(Tilting, AxialTiltsGoToTheirAnglesFromTheShiftedZero) {

@@ -105,14 +105,29 @@ void Control::meetProbe() {
 }
 
 void Control::refreshTool() {
-  tool.length = tables.tools.numberOr(tool.row, "L", 0) + tables.tools.numberOr(tool.row, "DL", 0);
-  tool.radius = tables.tools.numberOr(tool.row, "R", 0) + tables.tools.numberOr(tool.row, "DR", 0);
-  tool.radius2 = tables.tools.numberOr(tool.row, "R2", 0) + tables.tools.numberOr(tool.row, "DR2", 0);
+  const auto cell = [&](const char* column) { return tables.tools.numberOr(tool.row, column, 0); };
+  const bool calibrated = probing_ && !keepsCalibrationInTable();
+  tool.length = calibrated ? parameters.calibratedLength : cell("L") + cell("DL");
+  tool.radius = calibrated ? parameters.calibratedRadius : cell("R") + cell("DR");
+  tool.radius2 = cell("R2") + cell("DR2");
   coordinates.plane = WorkingPlane::ofToolAxis(tool.axis);
   coordinates.preset = aboutToolAxis(coordinates.preset, tables.presets, coordinates.plane);
   channel.toolVector = Vector3::Zero();
-  channel.toolVector[coordinates.plane.tool] = tool.length + tool.deltaLength;
-  channel.toolRadius = tool.radius + tool.deltaRadius;
+  channel.toolVector[coordinates.plane.tool] = tool.length + (calibrated ? 0 : tool.deltaLength);
+  channel.toolRadius = tool.radius + (calibrated ? 0 : tool.deltaRadius);
+}
+
+void Control::setProbing(bool probing) {
+  if (probing_ == probing || keepsCalibrationInTable()) return;
+  probing_ = probing;
+  refreshTool();
+}
+
+void Control::writeCalibration(double MachineParameters::*member, const std::string& name, double value) {
+  const std::string before = fmt::format("{:.4f}", parameters.*member);
+  parameters.*member = value;
+  const std::string after = fmt::format("{:.4f}", value);
+  if (after != before) journal.write({"calibration data", name, before, after});
 }
 
 std::optional<ActivePreset> Control::presetRow(int row) const {

@@ -81,14 +81,22 @@ public:
   std::map<int, double> globalDefinitions;
   ProbingOverrides overrides;  ///< reset at the end of the main program
   bool turningMode = false;    ///< FUNCTION MODE TURN
+  /// Radius of the ring or pin with which cycle 2 has last calibrated; 0 before.
+  double calibrationRingRadius = 0;
 
   /// Calls a tool by the key of its row; throws Alarm if TOOL.T has no such row.
   void callTool(const std::string& row, std::optional<char> axis, double deltaLength, double deltaRadius,
                 double deltaRadius2);
   /// The key of the row whose NAME is `name`; throws Alarm if there is none.
   std::string toolRowNamed(const std::string& name) const;
-  /// Puts length and radius of the active tool's row into effect again.
+  /// Puts length and radius of the active tool's row into effect again; while a touch probe cycle measures, those of
+  /// the calibration data if MP7411 says so.
   void refreshTool();
+  /// A touch probe cycle begins or ends to measure. With the calibration data of MP7411 = 0, length and radius of tool
+  /// table and TOOL CALL are overwritten by them until it ends.
+  void setProbing(bool probing);
+  /// Measured lengths and radii of probes stand in the tool table, not in the calibration data of MP7411 = 0.
+  bool keepsCalibrationInTable() const { return isTNC640() || parameters.mp7411; }
 
   /// Activates a row of the preset table; resets nothing else. Throws Alarm if there is no such row.
   void activatePreset(int row);
@@ -109,6 +117,8 @@ public:
   /// Write a cell (numbers in mm, degrees, mm/min) and record what changed. Throw Alarm if the table refuses it.
   void writeNumber(TypedTable& table, const std::string& row, const std::string& column, double value);
   void writeText(TypedTable& table, const std::string& row, const std::string& column, const std::string& value);
+  /// Changes one of the calibration data of MP7411 = 0 and records it as the entry `name`.
+  void writeCalibration(double MachineParameters::*member, const std::string& name, double value);
 
 private:
   /// Takes over what the touch probe in the spindle tells: its serial number into the touch probe table, and what the
@@ -117,6 +127,7 @@ private:
   void note(const TypedTable& table, const std::string& row, const std::string& column, const std::string& before);
 
   ControlKind kind_;
+  bool probing_ = false;
   std::map<int, ActivePreset> exactPresets_;  ///< rows written in this run, unrounded
 };
 

@@ -26,7 +26,15 @@ struct MachineParameters {
   int mp6170 = 1;
   double mp6171 = 0.1;
   double mp6180x = 0, mp6180y = 0, mp6180z = 0;
-  double mp6185 = 5;
+  double mp6181x = 0, mp6181y = 0, mp6181z = 0;
+  double mp6182x = 0, mp6182y = 0, mp6182z = 0;
+  double mp6185 = 5, mp6185second = 5, mp6185third = 5;
+  int traverseRange = 1;  ///< the one that the PLC has selected
+  bool mp7411 = true;
+  int featureLevel = 3;
+  /// The calibration data of the touch probe that are in no table, in effect with MP7411 = 0.
+  double calibratedLength = 0, calibratedRadius = 0;
+  double calibratedOffset1 = 0, calibratedOffset2 = 0, calibratedAngle = 0;
   double mp6520 = 300;
   double mp6530 = 5;
   double mp6531 = 40;

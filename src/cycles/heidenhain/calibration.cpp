@@ -13,6 +13,7 @@
 namespace probewright::cycles::heidenhain {
 
 using control::Alarm;
+using control::heidenhain::MachineParameters;
 using probing::HeidenhainProber;
 
 namespace {
@@ -231,6 +232,16 @@ CalibratedRadius calibrateRadius(Context& context, HeidenhainProber& prober, Cal
 
 void storeRadius(Context& context, const CalibratedRadius& calibrated) {
   auto& control = context.control();
+  if (!control.keepsCalibrationInTable()) {
+    control.writeCalibration(&MachineParameters::calibratedRadius, "effective radius", calibrated.radius);
+    if (calibrated.centreOffset) {
+      const Vector2 offset = inSpindle(context, *calibrated.centreOffset);
+      control.writeCalibration(&MachineParameters::calibratedOffset1, "centre offset, main axis", offset.x());
+      control.writeCalibration(&MachineParameters::calibratedOffset2, "centre offset, minor axis", offset.y());
+    }
+    control.refreshTool();
+    return;
+  }
   auto& tools = control.tables.tools;
   const std::string& tool = control.tool.row;
   Rows rows = {row("R", tools.numberOr(tool, "R", 0), calibrated.radius)};
@@ -252,8 +263,15 @@ void storeRadius(Context& context, const CalibratedRadius& calibrated) {
   logChanges(context, rows);
 }
 
+double activeLength(Context& context) { return context.channel().toolVector[context.control().coordinates.plane.tool]; }
+
 void storeLength(Context& context, double length) {
   auto& control = context.control();
+  if (!control.keepsCalibrationInTable()) {
+    control.writeCalibration(&MachineParameters::calibratedLength, "effective length", length);
+    control.refreshTool();
+    return;
+  }
   auto& tools = control.tables.tools;
   const std::string& tool = control.tool.row;
   Rows rows = {row("L", tools.numberOr(tool, "L", 0), length)};

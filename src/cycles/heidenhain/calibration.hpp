@@ -81,6 +81,9 @@ CalibratedRadius calibrateRadius(Context& context, probing::HeidenhainProber& pr
 /// passes that found them.
 void storeRadius(Context& context, const CalibratedRadius& calibrated);
 
+/// The length with which the control now computes, that of the oversizes included.
+double activeLength(Context& context);
+
 /// Writes the effective length L (DL becomes 0), puts it into effect and, on the TNC 640, notes it in TCHPRAUTO.html
 /// with the reference point (Q434).
 void storeLength(Context& context, double length);

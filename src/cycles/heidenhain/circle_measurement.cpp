@@ -48,6 +48,7 @@ MeasuredCircle measureCircle(Context& context, const CircleParameters& numbers, 
 
 void presetCircle(Context& context, Side side) {
   context.require({.rotationAllowed = true});
+  requireTransferTarget(context);
   const MeasuredCircle circle = measureCircle(context, {321, 322, 262}, side);
   context.result(151, circle.centre.x(), {.nominal = context.q(321)});
   context.result(152, circle.centre.y(), {.nominal = context.q(322)});

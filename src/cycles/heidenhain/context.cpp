@@ -81,6 +81,7 @@ Context::Context(Control& control, const Arguments& arguments, SourcePlace place
 }
 
 Context::~Context() {
+  control_.setProbing(false);
   record().endSeconds = control_.channel.seconds();
   control_.journal.cycleOpen = false;
 }
@@ -92,7 +93,14 @@ double Context::q(int number) const {
   return scaled && given(number) ? value * control_.unit : value;
 }
 
-void Context::require(const Conditions& conditions) const {
+void Context::require(const Conditions& conditions) {
+  const int level = control_.parameters.featureLevel;
+  if (!control_.isTNC640() && level < conditions.featureLevel) {
+    throw Alarm("Function not enabled",
+                fmt::format("The cycle belongs to feature content level {}; this control has level {} (FCL)",
+                            conditions.featureLevel, level),
+                "enable the feature content level, or measure with another cycle");
+  }
   if (control_.turningMode && !conditions.turningModeAllowed) {
     throw Alarm("Function not permitted", "The cycle runs in milling mode only",
                 "program FUNCTION MODE MILL before it");
@@ -118,6 +126,7 @@ void Context::require(const Conditions& conditions) const {
     throw Alarm("Tilted working plane not permitted", "The cycle does not run in a tilted working plane",
                 "reset PLANE or cycle 19 before the cycle");
   }
+  if (conditions.probes && !conditions.measuresTool) control_.setProbing(true);
 }
 
 probing::HeidenhainProber& Context::prober() {
@@ -236,7 +245,9 @@ probing::HeidenhainProbe activeProbe(const Control& control, Calibrated calibrat
   probe.ballRadius = tool.radius;
   if (!(tool.radius > 0) && calibrated == Calibrated::Required) {
     throw Alarm("Touch probe not calibrated",
-                fmt::format("Tool {} has no effective ball radius in column R of TOOL.T", tool.row),
+                control.keepsCalibrationInTable()
+                    ? fmt::format("Tool {} has no effective ball radius in column R of TOOL.T", tool.row)
+                    : "The calibration data have no effective ball radius (MP7411 = 0)",
                 "calibrate the touch probe or enter its radius");
   }
   const auto& parameters = control.parameters;
@@ -250,8 +261,13 @@ probing::HeidenhainProbe activeProbe(const Control& control, Calibrated calibrat
     probe.repetitions = parameters.mp6170;
     probe.confidence = parameters.mp6171;
     const auto& tools = control.tables.tools;
-    probe.tipOffset = {tools.numberOr(tool.row, "CAL-OF1", 0), tools.numberOr(tool.row, "CAL-OF2", 0)};
-    probe.calibrationAngle = tools.numberOr(tool.row, "CAL-ANG", 0);
+    if (control.keepsCalibrationInTable()) {
+      probe.tipOffset = {tools.numberOr(tool.row, "CAL-OF1", 0), tools.numberOr(tool.row, "CAL-OF2", 0)};
+      probe.calibrationAngle = tools.numberOr(tool.row, "CAL-ANG", 0);
+    } else {
+      probe.tipOffset = {parameters.calibratedOffset1, parameters.calibratedOffset2};
+      probe.calibrationAngle = parameters.calibratedAngle;
+    }
     applyOverrides(probe, control.overrides);
     return probe;
   }

@@ -57,8 +57,11 @@ public:
     bool turningModeAllowed = false;
     bool probes = true;                    ///< false: it only sets values, without a tool and wherever axes stand
     bool mismatchWithTcpmAllowed = false;  ///< with TCPM, rotary axes need not agree with the tilt
+    int featureLevel = 0;                  ///< FCL of the iTNC 530 that the cycle belongs to
+    bool measuresTool = false;             ///< with the tool touch probe: the tool has its own length and radius
   };
-  void require(const Conditions& conditions) const;
+  /// If all is well and the cycle probes, the data of the touch probe come into effect.
+  void require(const Conditions& conditions);
 
   /// The prober with the active probe's data. Made on first use.
   probing::HeidenhainProber& prober();

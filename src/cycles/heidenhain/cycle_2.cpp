@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/calibration.hpp"
 #include "cycles/heidenhain/cycles.hpp"
@@ -30,20 +32,40 @@ const CycleDefinition cycle2Definition = {
     .family = CycleFamily::Calibration,
     .summary =
         "Calibrates the ball radius of the touch probe in a ring or on a pin whose place stands in MP6180.0 to "
-        "MP6180.2 "
-        "and MP6185.0.",
+        "MP6180.2 and MP6185.0; in the second and third traverse range in MP6181, MP6185.1 and MP6182, MP6185.2.",
     .parameters = parameters2,
     .results = {},
     .controls = control::onITNC530,
 };
 
+namespace {
+
+/// Where the ring or pin of the traverse range in force stands, machine coordinates.
+struct Standard {
+  Vector3 centre;
+  double depth = 0;  ///< of the touches below its upper edge
+};
+Standard standardOf(const control::heidenhain::MachineParameters& mp) {
+  switch (mp.traverseRange) {
+    case 2:
+      return {{mp.mp6181x, mp.mp6181y, mp.mp6181z}, mp.mp6185second};
+    case 3:
+      return {{mp.mp6182x, mp.mp6182y, mp.mp6182z}, mp.mp6185third};
+    default:
+      return {{mp.mp6180x, mp.mp6180y, mp.mp6180z}, mp.mp6185};
+  }
+}
+
+}  // namespace
+
 void cycle2(Context& context, const Arguments&) {
   context.require({.transformationsAllowed = true, .tiltAllowed = false});
   const auto& parameters = context.control().parameters;
-  const Vector3 centre(parameters.mp6180x, parameters.mp6180y, parameters.mp6180z);
+  const auto [centre, depth] = standardOf(parameters);
   if (centre.isZero(0)) {
+    const std::string name = fmt::format("MP618{}", parameters.traverseRange - 1);
     throw control::Alarm("Calibration workpiece not defined",
-                         "MP6180.0 to MP6180.2 hold no position of the ring or pin",
+                         fmt::format("{}.0 to {}.2 hold no position of the ring or pin", name, name),
                          "enter its centre and upper edge in machine coordinates");
   }
   auto prober = calibrationProber(context);
@@ -55,7 +77,7 @@ void cycle2(Context& context, const Arguments&) {
                        .side = context.option(probe_word::outside) == 1 ? Side::Outside : Side::Inside,
                        .count = 4,
                        .startAngle = 0,
-                       .measuringHeight = place.z() - parameters.mp6185,
+                       .measuringHeight = place.z() - depth,
                        .travelHeight = clearance + prober.probe().ballRadius,
                        .extraClearance = 0};
   const Vector3 middle(place.x(), place.y(), task.measuringHeight);
@@ -68,6 +90,7 @@ void cycle2(Context& context, const Arguments&) {
   // The cycle finds the radius only; the centre offset stays as it is.
   calibrated.centreOffset.reset();
   prober.moveSouthPoleTo(clearance);
+  context.control().calibrationRingRadius = task.standardRadius;
   storeRadius(context, calibrated);
 }
 

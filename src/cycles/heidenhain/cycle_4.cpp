@@ -36,7 +36,7 @@ const CycleDefinition cycle4Definition = {
 };
 
 void cycle4(Context& context, const Arguments&) {
-  context.require({.transformationsAllowed = true, .turningModeAllowed = true});
+  context.require({.transformationsAllowed = true, .turningModeAllowed = true, .featureLevel = 3});
   measureFreely(context, {.direction = {context.q(probe_word::coordinate), context.q(probe_word::coordinate + 1),
                                         context.q(probe_word::coordinate + 2)},
                           .distance = context.q(probe_word::distance),

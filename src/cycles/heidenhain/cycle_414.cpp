@@ -43,6 +43,7 @@ const CycleDefinition cycle414Definition = {
 
 void cycle414(Context& context, const Arguments&) {
   context.require({.rotationAllowed = true});
+  requireTransferTarget(context);
   const double height = context.q(261);
   // The third point tells on which sides of the corner the material lies.
   if (context.q(296) == context.q(263) || context.q(297) == context.q(264)) {

@@ -44,6 +44,7 @@ const CycleDefinition cycle415Definition = {
 
 void cycle415(Context& context, const Arguments&) {
   context.require({.rotationAllowed = true});
+  requireTransferTarget(context);
   const int corner = context.option(308);
   // Away from the corner into the pocket.
   const double inwards1 = corner == 1 || corner == 4 ? 1 : -1;

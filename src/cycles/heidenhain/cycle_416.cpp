@@ -32,6 +32,7 @@ const CycleDefinition cycle416Definition = {
 
 void cycle416(Context& context, const Arguments&) {
   context.require({.rotationAllowed = true});
+  requireTransferTarget(context);
   const MeasuredCircle circle = measureBoltCircle(context);
   context.result(151, circle.centre.x(), {.nominal = context.q(273)});
   context.result(152, circle.centre.y(), {.nominal = context.q(274)});

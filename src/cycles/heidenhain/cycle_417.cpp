@@ -35,6 +35,7 @@ const CycleDefinition cycle417Definition = {
 
 void cycle417(Context& context, const Arguments&) {
   context.require({.rotationAllowed = true});
+  requireTransferTarget(context);
   const PlannedTouch planned{{context.q(263), context.q(264), context.q(294)}, probing::axisDirection(2, -1)};
   auto& prober = context.prober();
   prober.approach(prober.prePosition(planned, context.q(320)), context.q(260));

@@ -44,6 +44,7 @@ const CycleDefinition cycle418Definition = {
 
 void cycle418(Context& context, const Arguments&) {
   context.require({.rotationAllowed = true});
+  requireTransferTarget(context);
   std::vector<Vector2> centres;
   for (const auto& [main, minor] : {std::pair{268, 269}, {270, 271}, {316, 317}, {318, 319}}) {
     centres.push_back(measureHoleCentre(context, {context.q(main), context.q(minor)}, context.q(261)).head<2>());

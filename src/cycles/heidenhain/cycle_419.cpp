@@ -35,6 +35,7 @@ const CycleDefinition cycle419Definition = {
 
 void cycle419(Context& context, const Arguments&) {
   context.require({.rotationAllowed = true});
+  requireTransferTarget(context);
   const int axis = context.option(272) - 1;
   const PlannedTouch planned{{context.q(263), context.q(264), context.q(261)},
                              probing::axisDirection(axis, context.option(267))};

@@ -33,8 +33,8 @@ constexpr ResultDefinition results431[] = {
     {"Q171", "space angle B", ValueKind::Angle},
     {"Q172", "space angle C", ValueKind::Angle},
     {"Q173", "first touch in the touch probe axis"},
-    {"Q174", "second touch in the touch probe axis"},
-    {"Q175", "third touch in the touch probe axis"},
+    {"Q174", "second touch in the touch probe axis (TNC 640)"},
+    {"Q175", "third touch in the touch probe axis (TNC 640)"},
 };
 
 }  // namespace
@@ -92,8 +92,11 @@ void cycle431(Context& context, const Arguments&) {
   context.result(171, space.y());
   context.result(172, space.z());
   context.result(173, touches[0].surface.z(), {.nominal = context.q(294)});
-  context.result(174, touches[1].surface.z(), {.nominal = context.q(295)});
-  context.result(175, touches[2].surface.z(), {.nominal = context.q(298)});
+  // The older control has one result for the touch probe axis.
+  if (context.control().isTNC640()) {
+    context.result(174, touches[1].surface.z(), {.nominal = context.q(295)});
+    context.result(175, touches[2].surface.z(), {.nominal = context.q(298)});
+  }
   const auto angle = [](std::string label, double degrees) {
     return LogLine{std::move(label), degrees, ValueKind::Angle};
   };

@@ -112,7 +112,7 @@ const CycleDefinition cycle440Definition = {
 };
 
 void cycle440(Context& context, const Arguments&) {
-  context.require({});
+  context.require({.measuresTool = true});
   auto& control = context.control();
   for (int i = 0; i < 3; ++i)
     control.q.setQ(185 + i, 0);

@@ -38,7 +38,7 @@ const CycleDefinition cycle441Definition = {
 };
 
 void cycle441(Context& context, const Arguments&) {
-  context.require({.transformationsAllowed = true, .probes = false});
+  context.require({.transformationsAllowed = true, .probes = false, .featureLevel = 2});
   auto& overrides = context.control().overrides;
   const double feed = context.q(396);
   if (feed > 0) overrides.positioningFeed = feed;

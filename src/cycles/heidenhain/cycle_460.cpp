@@ -147,11 +147,10 @@ void cycle460(Context& context, const Arguments&) {
     moveOverPole(prober, calibrated);
     const EvaluatedTouch pole = touchPole(prober, task);
     const double tip = pole.ballCentre.z() - prober.probe().ballRadius;
-    const auto& tool = context.control().tool;
-    const double before = tool.length + tool.deltaLength;
+    const double before = activeLength(context);
     storeLength(context, before + tip - (context.q(434) + standardRadius));
     // The same place has another coordinate for a tool of another length.
-    start.z() -= tool.length + tool.deltaLength - before;
+    start.z() -= activeLength(context) - before;
   }
   if (directional) {
     calibrateDirections(context, {.centre = calibrated.centre.head<2>(),

@@ -28,8 +28,7 @@ void cycle461(Context& context, const Arguments&) {
   const EvaluatedTouch touch = prober.stroke(probing::axisDirection(2, -1), prober.probe().distance);
   // The tool reference point stands one tool length above the tip.
   const double tip = touch.ballCentre.z() - prober.probe().ballRadius;
-  const auto& tool = context.control().tool;
-  storeLength(context, tool.length + tool.deltaLength + tip - context.q(434));
+  storeLength(context, activeLength(context) + tip - context.q(434));
 }
 
 }  // namespace probewright::cycles::heidenhain

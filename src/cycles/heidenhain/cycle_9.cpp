@@ -33,8 +33,7 @@ void cycle9(Context& context, const Arguments&) {
   if (context.option(probe_word::referenceSystem) == 1) {
     tip = plane.planeFromXyz(context.machineFromProgram() * plane.xyzFromPlane(tip));
   }
-  const auto& tool = context.control().tool;
-  storeLength(context, tool.length + tool.deltaLength + tip.z() - context.q(probe_word::datum));
+  storeLength(context, activeLength(context) + tip.z() - context.q(probe_word::datum));
 }
 
 }  // namespace probewright::cycles::heidenhain

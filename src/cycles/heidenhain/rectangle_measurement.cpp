@@ -47,6 +47,7 @@ MeasuredWidth measureWidth(Context& context, const Vector2& centre, double width
 
 void presetRectangle(Context& context, Side side) {
   context.require({.rotationAllowed = true});
+  requireTransferTarget(context);
   const MeasuredRectangle rectangle = measureRectangle(context, {321, 322, 323, 324}, side);
   context.result(151, rectangle.centre.x(), {.nominal = context.q(321)});
   context.result(152, rectangle.centre.y(), {.nominal = context.q(322)});
@@ -76,7 +77,8 @@ void inspectRectangle(Context& context, Side side, const std::string& title) {
 }
 
 void presetWidth(Context& context, Side side) {
-  context.require({.rotationAllowed = true});
+  context.require({.rotationAllowed = true, .featureLevel = 3});
+  requireTransferTarget(context);
   const int axis = context.option(272) - 1;
   const Vector2 centre(context.q(321), context.q(322));
   const bool atClearance = side == Side::Outside || context.option(301) == 1;

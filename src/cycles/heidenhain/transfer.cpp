@@ -91,16 +91,29 @@ void takeOverActive(Context& context, Control::PresetChange& change) {
   }
 }
 
-control::heidenhain::TypedTable& datumTableWithRow(Context& context, int row) {
+control::heidenhain::TypedTable& activeDatumTable(Context& context) {
   Control& control = context.control();
   const auto found = control.tables.datums.find(control.activeDatumTable);
   if (found == control.tables.datums.end()) {
     throw Alarm("Datum table not selected", "No datum table is active for the transfer with Q303 = 0",
                 "select one with SEL TABLE, or transfer to the preset table with Q303 = 1");
   }
-  const Result<void> added = found->second.ensureRow(std::to_string(row));
-  if (!added) throw Alarm("Table write error", added.error().message, added.error().advice);
   return found->second;
+}
+
+control::heidenhain::TypedTable& datumTableWithRow(Context& context, int row) {
+  auto& table = activeDatumTable(context);
+  const Result<void> added = table.ensureRow(std::to_string(row));
+  if (!added) throw Alarm("Table write error", added.error().message, added.error().advice);
+  return table;
+}
+
+/// Row 0 stands for the preset that is set at once, whatever Q303 says: so the examples of both controls. Only where a
+/// datum table is active does the TNC 640 take its row 0.
+bool setsPresetAtOnce(Context& context) {
+  const Control& control = context.control();
+  return context.option(305) == 0 &&
+         (context.option(303) != 0 || !control.isTNC640() || control.activeDatumTable.empty());
 }
 
 void writeDatumRow(Context& context, int row, const NewPreset& preset) {
@@ -131,21 +144,23 @@ void writeDatumRow(Context& context, int row, const NewPreset& preset) {
 
 }  // namespace
 
+void requireTransferTarget(Context& context) {
+  if (setsPresetAtOnce(context)) return;
+  if (context.option(303) == -1) {
+    throw Alarm("Measured value transfer not defined",
+                "Q303 = -1 comes from a program of an older control, which knew no choice of table",
+                "set Q303 to 0 (datum table) or 1 (preset table)");
+  }
+  if (context.option(303) == 0) activeDatumTable(context);
+}
+
 void transferPreset(Context& context, const NewPreset& preset) {
   Control& control = context.control();
   const int target = context.option(303);
   const int row = context.option(305);
-  // Row 0 stands for the preset that is set at once, whatever Q303 says: so the examples of both controls. Only where a
-  // datum table is active does the TNC 640 take its row 0.
-  const bool atOnce = row == 0 && (target != 0 || !control.isTNC640() || control.activeDatumTable.empty());
-  if (atOnce) {
+  if (setsPresetAtOnce(context)) {
     copyActivePresetTo0(context, presetChange(context, preset, control.coordinates.preset, Transformed::Ends));
     return;
-  }
-  if (target == -1) {
-    throw Alarm("Measured value transfer not defined",
-                "Q303 = -1 comes from a program of an older control, which knew no choice of table",
-                "set Q303 to 0 (datum table) or 1 (preset table)");
   }
   if (target == 0) {
     writeDatumRow(context, row, preset);

@@ -14,6 +14,10 @@ struct NewPreset {
   std::optional<double> rotation;
 };
 
+/// Refuses, before anything is touched, a transfer that Q303 and Q305 leave nowhere to go: Q303 = -1 with a row, Q303 = 0
+/// without an active datum table.
+void requireTransferTarget(Context& context);
+
 /// Writes the preset as Q303 and Q305 say: Q305 = 0 with Q303 = 1 or -1 (on the iTNC 530 with any Q303) copies the
 /// active preset to row 0 and activates it, clearing simple transformations; otherwise row Q305 of the preset table
 /// (effective at once if it is the active one) or of the active datum table. The feature reads the wished coordinates

@@ -38,14 +38,7 @@ void KlartextHost::execute(const Instruction& instruction, Evaluation& evaluatio
       command(*other, evaluation);
     } else if (const auto* modal = std::get_if<Modal>(&instruction)) {
       contour_.flush();
-      const Word* axis = find(modal->words, "AXIS", evaluation);
-      const Word* point = find(modal->words, "REFP", evaluation);
-      if ((axis != nullptr && axis->value.number == 0) || (point != nullptr && point->value.number != 0)) {
-        throw Alarm("Function not available",
-                    "FUNCTION TCPM guides the tip by axis angles here, not by space angles and not at the tool centre",
-                    "program AXIS POS and REFPNT TIP-TIP");
-      }
-      setHoldTip(evaluation.at(modal->name) == "FUNCTION TCPM");
+      guideTool(*modal, evaluation);
     } else if (std::holds_alternative<Stop>(instruction)) {
       contour_.flush();
       const bool optional = std::get<Stop>(instruction).optional;

@@ -94,6 +94,13 @@ private:
   void retract(std::optional<double> distance, control::Feed feed);
   void setHoldTip(bool hold);
 
+  // host_tcpm.cpp
+  void guideTool(const Modal& modal, Evaluation& evaluation);
+  void placeControlledPoint();
+  void turnToSpaceAngles(WordRange words, std::array<std::optional<double>, machine::maximumAxes>& rotary,
+                         Evaluation& evaluation);
+  void moveTurning(const control::Target& target, control::Feed feed);
+
   // host_tools.cpp
   void callTool(const ToolCall& call, Evaluation& evaluation);
   void publishTool();
@@ -190,6 +197,11 @@ private:
   bool poleSet_ = false;
   int arcDirection_ = 0;
   bool shortestPath_ = false;  ///< M126
+  /// FUNCTION TCPM: the point of the tool that the program names, and the one about which rotary axes turn the tool.
+  enum class ReferencePoint { TipTip, TipCentre, CentreCentre };
+  ReferencePoint referencePoint_ = ReferencePoint::TipTip;
+  bool spaceAngles_ = false;              ///< AXIS SPAT: A, B, C are space angles of the tool
+  Vector3 toolAngles_ = Vector3::Zero();  ///< as last programmed with AXIS SPAT
   bool spindleRuns_ = false;
   bool spindleHasRun_ = false;
   double preparedTool_ = 0;  ///< of TOOL DEF

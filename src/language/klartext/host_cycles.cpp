@@ -100,7 +100,12 @@ void KlartextHost::measure(const CycleCall& call, Evaluation& evaluation) {
     }
   }
   lastProbeCycle_ = call.number;
+  // Cycles place the tip, whatever FUNCTION TCPM says.
+  const ReferencePoint point = std::exchange(referencePoint_, ReferencePoint::TipTip);
+  placeControlledPoint();
   cycles::heidenhain::runCycle(control_, *entry, arguments, evaluation.place());
+  referencePoint_ = point;
+  placeControlledPoint();
   control_.applyCoordinates();
 }
 

@@ -99,6 +99,9 @@ void KlartextHost::setHoldTip(bool hold) {
     }
   }
   control_.channel.holdTip = hold;
+  referencePoint_ = ReferencePoint::TipTip;
+  spaceAngles_ = false;
+  placeControlledPoint();
   control_.applyCoordinates();
 }
 

@@ -173,6 +173,8 @@ void KlartextHost::straight(const Move& move, Evaluation& evaluation) {
     const char letter = axisLetter(word);
     if (isLinearAxis(letter)) travels = true;
     if (letter == '\0' || isLinearAxis(letter)) continue;
+    turns = true;
+    if (spaceAngles_ && letter <= 'C') continue;
     const std::size_t axis = axisOf(letter);
     const machine::Axis& description = control_.channel.description().axes[axis];
     const bool rotary = description.kind == machine::AxisKind::Rotary;
@@ -181,8 +183,8 @@ void KlartextHost::straight(const Move& move, Evaluation& evaluation) {
     if (word.mode == WordMode::Incremental) value += now;
     if (rotary && shortestPath_ && description.modulo) value = now + std::remainder(value - now, 360.0);
     element.rotary[axis] = value;
-    turns = true;
   }
+  if (spaceAngles_ && turns) turnToSpaceAngles(move.words, element.rotary, evaluation);
   if (move.polar) {
     const control::WorkingPlane& plane = control_.coordinates.plane;
     if (!poleSet_)
@@ -221,7 +223,7 @@ void KlartextHost::straight(const Move& move, Evaluation& evaluation) {
     }
     if (move.polar) target.linear = {to.x(), to.y(), to.z()};
     target.rotary = element.rotary;
-    control_.channel.moveTo(target, feed);
+    moveTurning(target, feed);
     return;
   }
   const control::WorkingPlane& plane = control_.coordinates.plane;
@@ -444,7 +446,7 @@ void KlartextHost::runElement(const Element& element) {
       control::Target target;
       target.linear = {to.x(), to.y(), to.z()};
       target.rotary = element.rotary;
-      channel.moveTo(target, element.feed);
+      moveTurning(target, element.feed);
     } else {
       channel.moveTo(to, element.feed);
     }

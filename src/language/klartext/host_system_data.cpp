@@ -86,6 +86,10 @@ std::optional<double> KlartextHost::systemData(int id, int number, double index,
     case 360:
       return touchData(number, whole);
     case 500:
+    case 501:
+    case 502:
+    case 503:
+    case 504:
     case 505:
     case 507:
     case 508:
@@ -199,12 +203,36 @@ std::optional<double> KlartextHost::touchData(int number, int index) const {
   }
 }
 
-/// ID 500, 505, 507, 508, 530: datum and preset tables.
+/// ID 500 to 508, 530: datum and preset tables. 501 to 504 are those of the iTNC 530.
 std::optional<double> KlartextHost::tableData(int id, int number, int index) const {
   const bool isAxis = index >= 1 && index <= 9;
   const auto place = static_cast<std::size_t>(index - 1);
-  const auto preset = id == 507 || id == 508 ? control_.presetRow(number) : std::nullopt;
+  const bool olderControl = !control_.isTNC640();
+  const auto preset = id == 500 || id == 501 || id == 505 || id == 530 ? std::nullopt : control_.presetRow(number);
+  const auto axis =
+      isAxis ? control_.channel.description().axisIndex(axisNames.substr(place, 1)) : std::optional<std::size_t>();
+  const auto& inForce = control_.coordinates.preset;
   switch (id) {
+    case 501: {  // where the origin would lie in the machine
+      const std::optional<double> entry = tableData(500, number, index);
+      if (!olderControl || !entry) return std::nullopt;
+      if (index > 3) return *entry + (axis ? inForce.rotaryOffset[*axis] : 0);
+      Vector3 shift;
+      for (int i = 0; i < 3; ++i)
+        shift[i] = tableData(500, number, i + 1).value_or(0);
+      return (control_.coordinates.machineFromPreset() * shift)[index - 1];
+    }
+    case 502:  // as the active coordinate system sees it
+      if (!olderControl || !preset || !isAxis) return std::nullopt;
+      if (index <= 3) return (control_.channel.frame().inverse() * preset->origin)[index - 1];
+      return axis ? preset->rotaryOffset[*axis] - inForce.rotaryOffset[*axis] : 0;
+    case 503:
+      if (!olderControl || !preset || !isAxis) return std::nullopt;
+      if (index <= 3) return preset->origin[index - 1];
+      return axis ? preset->rotaryOffset[*axis] : 0;
+    case 504:
+      return olderControl && preset ? std::optional<double>(preset->spaceAngles[control_.coordinates.plane.tool])
+                                    : std::nullopt;
     case 500: {
       const auto table = control_.tables.datums.find(control_.activeDatumTable);
       if (table == control_.tables.datums.end() || !isAxis) return std::nullopt;
@@ -218,12 +246,15 @@ std::optional<double> KlartextHost::tableData(int id, int number, int index) con
     case 507:
       if (!preset || index < 1 || index > 6) return std::nullopt;
       return index <= 3 ? preset->origin[index - 1] : preset->spaceAngles[index - 4];
-    case 508: {
-      const auto axis = isAxis ? control_.channel.description().axisIndex(axisNames.substr(place, 1)) : std::nullopt;
+    case 508:
       return preset && axis ? std::optional<double>(preset->rotaryOffset[*axis]) : std::nullopt;
+    default: {
+      if (number == 1) return inForce.row;
+      const auto& presets = control_.tables.presets;
+      const std::string row = std::to_string(index);
+      if (number != 2 || !presets.hasRow(row)) return std::nullopt;
+      return presets.text(row, "LOCKED").empty() ? 0 : 1;
     }
-    default:
-      return number == 1 || number == 2 ? std::optional<double>(control_.coordinates.preset.row) : std::nullopt;
   }
 }
 

@@ -135,10 +135,18 @@ std::optional<double> KlartextHost::probeData(int number, int index) const {
   const std::string& row = control_.tool.probeRow;
   const bool known = !row.empty() && probes.hasRow(row);
   const auto cell = [&](std::string_view column) { return known ? probes.numberOr(row, column, 0) : 0; };
-  const double length = control_.tool.length + control_.tool.deltaLength;
-  // The iTNC 530 keeps its calibration in the tool table.
+  const auto& parameters = control_.parameters;
+  const bool inTable = control_.keepsCalibrationInTable();
+  const double length = inTable ? control_.tool.length + control_.tool.deltaLength : parameters.calibratedLength;
+  const double radius = inTable ? control_.tool.radius : parameters.calibratedRadius;
+  // The iTNC 530 keeps its calibration in the tool table, or beside all tables.
   const auto calibrated = [&](std::string name) {
     if (control_.isTNC640()) return cell(name);
+    if (!inTable) {
+      return name == "CAL_OF1"   ? parameters.calibratedOffset1
+             : name == "CAL_OF2" ? parameters.calibratedOffset2
+                                 : parameters.calibratedAngle;
+    }
     std::ranges::replace(name, '_', '-');
     return control_.tables.tools.numberOr(control_.tool.row, name, 0);
   };
@@ -146,21 +154,29 @@ std::optional<double> KlartextHost::probeData(int number, int index) const {
     case 10:
       return control_.q.q(109);
     case 11:
-      return control_.tool.radius;
+      return radius;
     case 12:
       return length;
+    case 13:
+      return control_.isTNC640() ? std::nullopt : std::optional<double>(control_.calibrationRingRadius);
     case 14:
       return calibrated(index == 2 ? "CAL_OF2" : "CAL_OF1");
     case 15:
       return normalizedDegrees(degreesFromRadians(std::atan2(calibrated("CAL_OF2"), calibrated("CAL_OF1"))) -
                                calibrated("CAL_ANG"));
+    case 20:
+      if (control_.isTNC640() || index < 1 || index > 3) return std::nullopt;
+      return std::array{parameters.mp6580x, parameters.mp6580y,
+                        parameters.mp6580z}[static_cast<std::size_t>(index - 1)];
+    case 21:
+      return control_.isTNC640() ? std::nullopt : std::optional<double>(parameters.mp6531 / 2);
     case 50:
       if (index == 2) return row.empty() ? -1 : std::stod(row);
       return probeType(known ? probes.text(row, "TYPE") : "");
     case 51:
       return length;
     case 52:
-      return index == 2 ? control_.tool.radius2 : control_.tool.radius;
+      return index == 2 ? control_.tool.radius2 : radius;
     case 53:
       return calibrated(index == 2 ? "CAL_OF2" : "CAL_OF1");
     case 54:
@@ -199,7 +215,10 @@ void KlartextHost::systemWrite(const Command& command, Evaluation& evaluation) {
       const std::string_view column = columnOf(number);
       if (column.empty() || !control_.tables.tools.hasRow(row)) refuse();
       control_.writeNumber(control_.tables.tools, row, std::string(column), value);
-      if (row == control_.tool.row) control_.refreshTool();
+      if (row == control_.tool.row) {
+        control_.refreshTool();
+        placeControlledPoint();
+      }
       publishTool();
       break;
     }

@@ -33,6 +33,7 @@ void KlartextHost::callTool(const ToolCall& call, Evaluation& evaluation) {
       call.deltaRadius2.present()) {
     control_.callTool(row, call.axis == 0 ? std::nullopt : std::optional<char>(call.axis), deltaLength, deltaRadius,
                       deltaRadius2);
+    placeControlledPoint();
     control_.applyCoordinates();
   }
   if (call.spindleSpeed.present()) {
