@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cctype>
+#include <set>
 
+#include "cycles/sinumerik/alarms.hpp"
 #include "support/lathe_bench.hpp"
 #include "support/sinumerik_bench.hpp"
 
-/// Each alarm of the workpiece cycles, provoked once: its number, its text, what to do, and _OVI[9].
+/// Every alarm and message of the workpiece cycles, provoked once: its number, its text, what to do, and _OVI[9].
 namespace probewright {
 namespace {
 
@@ -17,15 +19,26 @@ std::string lowerCase(std::string text) {
   return text;
 }
 
+/// What an operator and a program see of an alarm.
+struct Seen {
+  std::string code, text, advice;
+  int ovi9 = 0;
+};
+
+/// The alarm that a program ends with; otherwise the first message with a number.
 template <class Bench>
-void expectAlarm(const Bench& bench, const language::RunResult& result, int number, const std::string& text) {
-  ASSERT_FALSE(result.diagnostics.empty()) << number << " " << text;
-  const Diagnostic& first = result.diagnostics.front();
-  EXPECT_EQ(first.code, std::to_string(number)) << format(first);
-  EXPECT_NE(lowerCase(first.message).find(text), std::string::npos) << format(first);
-  EXPECT_FALSE(first.advice.empty()) << format(first);
-  EXPECT_EQ(bench.ovi(9), number) << format(first);
-  EXPECT_NE(bench.control.journal.cycles.back().alarm.find(std::to_string(number)), std::string::npos);
+Seen seenBy(const Bench& bench, const language::RunResult& result) {
+  if (!result.diagnostics.empty()) {
+    const Diagnostic& first = result.diagnostics.front();
+    EXPECT_NE(bench.control.journal.cycles.back().alarm.find(first.code), std::string::npos) << format(first);
+    return {first.code, first.message, first.advice, bench.ovi(9)};
+  }
+  for (const auto& event : bench.control.journal.events) {
+    if (event.code.empty()) continue;
+    const auto advice = cycles::sinumerik::alarmAdvice(std::stoi(event.code));
+    return {event.code, event.text, std::string(advice), bench.ovi(9)};
+  }
+  return {};
 }
 
 /// A block with faces towards minus X, minus Y and plus Z, and a hole of diameter 40 in another.
@@ -44,80 +57,216 @@ public:
     set("$TC_DP1", {7, 1}, 120);
     set("$TC_DP6", {7, 1}, 10);
   }
-  /// A call of CYCLE978 at the face towards minus X, with what is changed.
-  void edge(int number, const std::string& text, const NamedNumbers& changed, const std::string& before = {},
-            const NamedTexts& texts = {{"S_TNAME", "MILL"}}) {
-    control.radiusCompensation = false;
-    control.frames.programmed = {};
-    control.applyFrames();
-    start({-30, 30, -10});
-    expectAlarm(*this,
-                tryRun("CYCLE978", with({{"S_FA", 6}, {"S_TSA", 2}, {"S_MA", 1}, {"S_MD", 1}}, changed), texts, before),
-                number, text);
-  }
-  void hole(int number, const std::string& text, const char* cycle, const NamedNumbers& call) {
-    start({-150, 0, -10});
-    expectAlarm(*this, tryRun(cycle, call), number, text);
+  Seen seen(const char* cycle, const NamedNumbers& call, const Vector3& from, const std::string& before = {},
+            const char* tool = "MILL") {
+    start(from);
+    const cycles::CycleDefinition* definition = cycles::sinumerikCycle(cycle);
+    const bool named = std::ranges::any_of(definition->parameters, [](const auto& p) { return p.name == "S_TNAME"; });
+    return seenBy(*this, tryRun(cycle, call, named ? NamedTexts{{"S_TNAME", tool}} : NamedTexts{}, before));
   }
 };
 
-TEST(Alarms, OfCallsOnMills) {
-  Provoker bench;
-  bench.edge(61300, "tool radius compensation", {}, "G41\n");
-  bench.edge(61301, "probe does not switch", {{"S_SETV", -20}});
-  Provoker().edge(61302, "probe collision", {{"S_SETV", 60}});
-  bench.edge(61303, "safe area exceeded", {{"S_SETV", 3}});
-  bench.edge(61307, "wrong measuring variant", {{"S_MVAR", 5}});
-  bench.edge(61308, "measuring path", {{"S_FA", 0}});
-  bench.edge(61310, "scale factor", {}, "SCALE X2\n");
-  bench.edge(61311, "no d number", {}, "D0\n");
-  bench.edge(61313, "probe number", {{"S_PRNUM", 13}});
-  bench.edge(61314, "tool type", {{"S_MVAR", 200}, {"S_KNUM1", 500001}});
-  bench.edge(61318, "weighting factor", {{"S_MVAR", 200}, {"S_KNUM1", 1}, {"S_EVNUM", 10000}});
-  bench.edge(61319, "call parameter", {{"S_MVAR", 200}, {"S_KNUM1", 1}, {"S_EVNUM", 21}});
-  bench.edge(61321, "zero offset number", {{"S_MVAR", 100}, {"S_KNUM", 1017}});
-  bench.edge(61322, "4th digit", {{"S_MVAR", 100}, {"S_KNUM", 4001}});
-  bench.edge(61323, "5th digit", {{"S_MVAR", 100}, {"S_KNUM", 20001}});
-  bench.edge(61324, "6th digit", {{"S_MVAR", 100}, {"S_KNUM", 100001}});
-  bench.edge(61325, "measuring axis", {{"S_MA", 4}});
-  bench.edge(61326, "measuring direction", {{"S_MD", 3}});
-  bench.edge(61328, "d number", {{"S_MVAR", 200}, {"S_KNUM1", 2}});
-  bench.edge(61341, "not calibrated", {{"S_PRNUM", 2}});
-  bench.edge(61343, "tool does not exist", {{"S_MVAR", 200}, {"S_KNUM1", 1}}, {}, {{"S_TNAME", "NONE"}});
-  bench.set("$SCS_MEA_FEED_PLANE_VALUE", {}, 0);
-  bench.edge(61338, "positioning speed", {});
-  bench.set("$SCS_MEA_FEED_PLANE_VALUE", {}, 1000);
-  bench.set("$TC_DP1", {1, 1}, 120);
-  bench.edge(61309, "probe type", {});
+/// Provokes an alarm by a call of CYCLE978 at the face towards minus X, with what is changed.
+Seen edge(const NamedNumbers& changed, const std::string& before = {}, const char* tool = "MILL") {
+  return Provoker().seen("CYCLE978", with({{"S_FA", 6}, {"S_TSA", 2}, {"S_MA", 1}, {"S_MD", 1}}, changed),
+                         {-30, 30, -10}, before, tool);
 }
 
-TEST(Alarms, OfGeometryOnMills) {
+/// The same with a datum that is wrong.
+Seen edgeWith(const char* datum, std::initializer_list<control::sinumerik::DataIndex> indices, double value) {
   Provoker bench;
-  const NamedNumbers segment = {{"S_MVAR", 1}, {"S_SETV", 40}, {"S_FA", 5}, {"S_TSA", 2}, {"S_CPA", -150}};
-  // Three points in one place lie on no circle.
-  bench.hole(61316, "centre and radius", "CYCLE979", with(segment, {{"S_INCA", 1e-9}}));
-  bench.hole(61334, "protection zone", "CYCLE977",
-             {{"S_MVAR", 1001}, {"S_SETV", 40}, {"S_FA", 5}, {"S_TSA", 2}, {"S_SZA", 38}, {"S_ID", 20}});
-  // The edge lies at 50 degrees to the axis.
-  simulation::Truth slanted = perfectWorld();
-  place(slanted, simulation::Box({0, -60, -60}, {80, 60, 0}),
+  bench.set(datum, indices, value);
+  return bench.seen("CYCLE978", {{"S_FA", 6}, {"S_TSA", 2}, {"S_MA", 1}, {"S_MD", 1}}, {-30, 30, -10});
+}
+
+/// By a call at the hole.
+Seen hole(const char* cycle, const NamedNumbers& call) {
+  return Provoker().seen(cycle, with({{"S_SETV", 40}, {"S_FA", 5}, {"S_TSA", 2}}, call), {-150, 0, -10});
+}
+
+/// By the correction of a tool after measuring the hole.
+Seen corrected(const NamedNumbers& call) { return hole("CYCLE977", with({{"S_MVAR", 201}, {"S_KNUM1", 1}}, call)); }
+
+/// By CYCLE974 and 973 at a bar on a lathe.
+Seen turned(const std::string& call, const std::string& before = {}, int position = 8) {
+  simulation::Setup setup = latheSetup({});
+  place(setup.truth, simulation::RoundBar(20, -150, 0), translation({0, 0, 150}));
+  LatheBench bench(setup);
+  plantFrame(bench, "$P_UIFR", 1, 0, 150);
+  bench.set("$TC_DP2", {1, 1}, position);
+  return seenBy(bench, bench.tryRun("DIAMON\nG0 X120\nG0 Z-10\n" + before + "\n" + call));
+}
+
+/// An edge at 50 degrees to its axis.
+Seen steepEdge() {
+  simulation::Truth truth = perfectWorld();
+  place(truth, simulation::Box({0, -60, -60}, {80, 60, 0}),
         translation({0, 0, table}) * rotation(Vector3::UnitZ(), 50));
-  Provoker turned(slanted);
-  turned.start({-14, 0, -10});
-  expectAlarm(turned,
-              turned.tryRun("CYCLE998",
-                            {{"S_MVAR", 100005}, {"S_FA", 12}, {"S_TSA", 80}, {"S_MA", 201}, {"S_MD", 1}, {"S_ID", 5}}),
-              61331, "angle too large");
+  return Provoker(truth).seen(
+      "CYCLE998", {{"S_MVAR", 100005}, {"S_FA", 12}, {"S_TSA", 80}, {"S_MA", 201}, {"S_MD", 1}, {"S_ID", 5}},
+      {-14, 0, -10});
+}
+
+Seen ballWithoutRadius() {
+  Provoker bench;
   bench.set("$TC_DP6", {1, 1}, 0);
   bench.set("$SNS_MEA_WP_BALL_DIAM", {0}, 0);
-  bench.hole(61351, "length or radius", "CYCLE976", {{"S_MVAR", 3}, {"S_SETV", 30}, {"S_FA", 5}, {"S_TSA", 3}});
+  return bench.seen("CYCLE976", {{"S_MVAR", 3}, {"S_SETV", 30}, {"S_FA", 5}, {"S_TSA", 3}}, {-150, 0, -10});
 }
 
-TEST(Alarms, OfASpindleThatCannotBePositioned) {
+Seen spindleWithoutPosition() {
   simulation::Truth truth = world();
   truth.machine.spindleOrients = false;
-  Provoker bench(truth);
-  bench.edge(61372, "spindle that can be positioned", {{"S_MVAR", 10000}});
+  return Provoker(truth).seen("CYCLE978", {{"S_MVAR", 10000}, {"S_FA", 6}, {"S_TSA", 2}, {"S_MA", 1}, {"S_MD", 1}},
+                              {-30, 30, -10});
+}
+
+/// CYCLE116 raises no alarm: its number stands in _MODE.
+Seen circleOfTwoPoints() {
+  LatheBench bench(latheSetup({}));
+  bench.run("DEF INT _MODE\nDEF REAL _CAL[13]=(2,0,10,-10,0,0,0,0,0,0,0,0,0)\nCYCLE116(_CAL[], _MODE)\nR1=_MODE");
+  const int number = static_cast<int>(bench.data("R", {1}));
+  return {std::to_string(number), std::string(cycles::sinumerik::alarmText(number)),
+          std::string(cycles::sinumerik::alarmAdvice(number)), number};
+}
+
+struct Row {
+  int number;
+  const char* text;
+  std::function<Seen()> provoke;
+};
+
+const NamedNumbers tolerance = {{"_AMODE", 1}, {"S_TUL", 0.1}, {"S_TLL", -0.1}};
+
+const Row rows[] = {
+    {61300, "tool radius compensation", [] { return edge({}, "G41\n"); }},
+    {61301, "probe does not switch",
+     [] {
+       return edge({{"S_SETV", -20}});
+     }},
+    {61302, "probe collision",
+     [] {
+       return edge({{"S_SETV", 60}});
+     }},
+    {61303, "safe area exceeded",
+     [] {
+       return edge({{"S_SETV", 3}});
+     }},
+    {61304, "oversize",
+     [] {
+       return corrected(with(tolerance, {{"S_SETV", 39.8}}));
+     }},
+    {61305, "undersize",
+     [] {
+       return corrected(with(tolerance, {{"S_SETV", 40.2}}));
+     }},
+    {61306, "permissible dimensional difference exceeded",
+     [] {
+       return corrected({{"S_SETV", 39.5}, {"S_TDIF", 0.3}});
+     }},
+    {61307, "wrong measuring variant",
+     [] {
+       return edge({{"S_MVAR", 5}});
+     }},
+    {61308, "measuring path",
+     [] {
+       return edge({{"S_FA", 0}});
+     }},
+    {61309, "probe type",
+     [] {
+       return edgeWith("$TC_DP1", {1, 1}, 120);
+     }},
+    {61310, "scale factor", [] { return edge({}, "SCALE X2\n"); }},
+    {61310, "mirroring is active", [] { return edge({}, "MIRROR Y0\n"); }},
+    {61311, "no d number", [] { return edge({}, "D0\n"); }},
+    {61313, "probe number",
+     [] {
+       return edge({{"S_PRNUM", 13}});
+     }},
+    {61314, "tool type",
+     [] {
+       return edge({{"S_MVAR", 200}, {"S_KNUM1", 500001}});
+     }},
+    {61315, "cutting edge position", [] { return turned("CYCLE974(2,,,1,40,2,4,1,,1)", {}, 3); }},
+    // Three points in one place lie on no circle.
+    {61316, "centre and radius",
+     [] {
+       return hole("CYCLE979", {{"S_MVAR", 1}, {"S_CPA", -150}, {"S_INCA", 1e-9}});
+     }},
+    {61317, "number of points", circleOfTwoPoints},
+    {61318, "weighting factor",
+     [] {
+       return corrected({{"S_EVNUM", 10000}});
+     }},
+    {61319, "call parameter",
+     [] {
+       return corrected({{"S_EVNUM", 21}});
+     }},
+    {61321, "zero offset number",
+     [] {
+       return edge({{"S_MVAR", 100}, {"S_KNUM", 1017}});
+     }},
+    {61322, "4th digit",
+     [] {
+       return edge({{"S_MVAR", 100}, {"S_KNUM", 4001}});
+     }},
+    {61323, "5th digit",
+     [] {
+       return edge({{"S_MVAR", 100}, {"S_KNUM", 20001}});
+     }},
+    {61324, "6th digit",
+     [] {
+       return edge({{"S_MVAR", 100}, {"S_KNUM", 100001}});
+     }},
+    {61325, "measuring axis",
+     [] {
+       return edge({{"S_MA", 4}});
+     }},
+    {61326, "measuring direction",
+     [] {
+       return edge({{"S_MD", 3}});
+     }},
+    {61328, "d number",
+     [] {
+       return edge({{"S_MVAR", 200}, {"S_KNUM1", 2}});
+     }},
+    {61330, "rotation", [] { return turned("CYCLE974(2,,,1,40,2,4,1,,1)", "ROT Y10"); }},
+    {61331, "angle too large", steepEdge},
+    {61332, "position of the tool tip", [] { return turned("CYCLE974(2,,,1,130,2,4,1,,1)"); }},
+    {61333, "calibration body", [] { return turned("CYCLE973(2103,1,4,,1,,3,4,300,1,,2,0)"); }},
+    {61334, "protection zone",
+     [] {
+       return hole("CYCLE977", {{"S_MVAR", 1001}, {"S_SZA", 38}, {"S_ID", 20}});
+     }},
+    {61336, "geometry axes", [] { return turned("CYCLE974(2,,,1,40,3,4,1,,1)"); }},
+    {61338, "positioning speed", [] { return edgeWith("$SCS_MEA_FEED_PLANE_VALUE", {}, 0); }},
+    {61341, "not calibrated",
+     [] {
+       return edge({{"S_PRNUM", 2}});
+     }},
+    {61343, "tool does not exist",
+     [] {
+       return edge({{"S_MVAR", 200}, {"S_KNUM1", 1}}, {}, "NONE");
+     }},
+    {61351, "length or radius", ballWithoutRadius},
+    {61372, "spindle that can be positioned", spindleWithoutPosition},
+};
+
+TEST(Alarms, EachOfTheListComesWithNumberTextAndAdvice) {
+  std::set<int> provoked;
+  for (const auto& [number, text, provoke] : rows) {
+    SCOPED_TRACE(fmt::format("{} {}", number, text));
+    const Seen seen = provoke();
+    EXPECT_EQ(seen.code, std::to_string(number)) << seen.text;
+    EXPECT_NE(lowerCase(seen.text).find(text), std::string::npos) << seen.text;
+    EXPECT_FALSE(seen.advice.empty());
+    EXPECT_EQ(seen.ovi9, number);
+    provoked.insert(number);
+  }
+  // A new alarm needs a new row.
+  const std::vector<int> listed = cycles::sinumerik::alarmNumbers();
+  EXPECT_TRUE(std::ranges::is_sorted(listed));
+  EXPECT_EQ(provoked, std::set<int>(listed.begin(), listed.end()));
 }
 
 TEST(Alarms, OfACallTooDeep) {
@@ -152,60 +301,48 @@ TEST(Alarms, OfACallTooDeep) {
     if (depth == 4) {
       EXPECT_TRUE(result.diagnostics.empty()) << format(result.diagnostics.front());
     } else {
-      expectAlarm(bench, result, 61300, "cannot be called here");
+      const Seen seen = seenBy(bench, result);
+      EXPECT_EQ(seen.code, "61300");
+      EXPECT_NE(lowerCase(seen.text).find("cannot be called here"), std::string::npos) << seen.text;
     }
   }
 }
 
 TEST(Alarms, MessagesLetTheProgramGoOn) {
   Provoker bench;
-  const auto correct = [&](double set, const NamedNumbers& changed) {
+  const auto numberAfter = [&](double set, const NamedNumbers& changed) {
     bench.control.journal.events.clear();
     bench.start({-150, 0, -10});
     bench.run("CYCLE977", with({{"S_MVAR", 201}, {"S_KNUM1", 1}, {"S_SETV", set}, {"S_FA", 5}, {"S_TSA", 2}}, changed),
-              {{"S_TNAME", "MILL"}});
-    std::string text;
-    for (const auto& event : bench.control.journal.events)
-      if (!event.code.empty()) text += event.code + " " + lowerCase(event.text);
-    return text;
+              {{"S_TNAME", "MILL"}}, "R9=0\n");
+    return bench.ovi(9);
   };
-  const NamedNumbers tolerance = {{"_AMODE", 1}, {"S_TUL", 0.1}, {"S_TLL", -0.1}};
-  EXPECT_EQ(correct(39.8, tolerance).rfind("61304 oversize", 0), 0U);
-  EXPECT_EQ(bench.ovi(9), 61304);
-  EXPECT_EQ(correct(40.2, tolerance).rfind("61305 undersize", 0), 0U);
-  EXPECT_EQ(bench.ovi(9), 61305);
-  EXPECT_EQ(correct(39.5, {{"S_TDIF", 0.3}}).rfind("61306 permissible dimensional difference exceeded", 0), 0U);
-  EXPECT_EQ(bench.ovi(9), 61306);
-  EXPECT_EQ(correct(40, tolerance), "");
-  EXPECT_EQ(bench.ovi(9), 0);
+  EXPECT_EQ(numberAfter(39.8, tolerance), 61304);
+  EXPECT_EQ(numberAfter(40.2, tolerance), 61305);
+  EXPECT_EQ(numberAfter(39.5, {{"S_TDIF", 0.3}}), 61306);
+  EXPECT_EQ(numberAfter(40, tolerance), 0);
+  EXPECT_EQ(bench.messages(), "");
 }
 
-TEST(Alarms, OfLathes) {
-  simulation::Setup setup = latheSetup({});
-  place(setup.truth, simulation::RoundBar(20, -150, 0), translation({0, 0, 150}));
-  LatheBench bench(setup);
-  plantFrame(bench, "$P_UIFR", 1, 0, 150);
-  const auto turned = [&](int number, const std::string& text, const std::string& arguments,
-                          const std::string& before = {}) {
-    expectAlarm(bench, bench.tryRun("DIAMON\nG0 X120\nG0 Z-10\n" + before + "\nCYCLE974(" + arguments + ")"), number,
-                text);
-  };
-  turned(61332, "position of the tool tip", "2,,,1,130,2,4,1,,1");
-  turned(61336, "geometry axes", "2,,,1,40,3,4,1,,1");
-  turned(61330, "rotation", "2,,,1,40,2,4,1,,1", "ROT Y10\n");
-  expectAlarm(bench, bench.tryRun("ROT\nDIAMON\nG0 X120\nG0 Z-10\nCYCLE973(2103,1,4,,1,,3,4,300,1,,2,0)"), 61333,
-              "calibration body");
-  bench.set("$TC_DP2", {1, 1}, 3);
-  turned(61315, "cutting edge position", "2,,,1,40,2,4,1,,1");
-}
-
-TEST(Alarms, EachHasATextAndAWayOut) {
-  for (const int number : {61300, 61301, 61302, 61303, 61304, 61305, 61306, 61307, 61308, 61309, 61310, 61311, 61313,
-                           61314, 61315, 61316, 61317, 61318, 61319, 61321, 61322, 61323, 61324, 61325, 61326, 61328,
-                           61330, 61331, 61332, 61333, 61334, 61336, 61338, 61341, 61343, 61351, 61372}) {
-    EXPECT_FALSE(cycles::sinumerik::alarmText(number).empty()) << number;
-    EXPECT_FALSE(cycles::sinumerik::alarmAdvice(number).empty()) << number;
-  }
+TEST(Alarms, ADistortedTriangleHasNoNumber) {
+  simulation::Truth truth = perfectWorld();
+  for (const Vector3& centre : {Vector3(0, 0, 0), Vector3(60.5, 0, 0), Vector3(0, 60, 0)})
+    place(truth, simulation::SolidSphere(centre, 10), translation({0, 0, table}));
+  Provoker bench(truth);
+  const Seen seen = bench.seen("CYCLE997",
+                               {{"S_MVAR", 10109},
+                                {"S_KNUM", 1},
+                                {"S_SETV", 20},
+                                {"S_FA", 5},
+                                {"S_TSA", 2},
+                                {"S_SETV3", 60},
+                                {"S_SETV7", 60},
+                                {"S_TNVL", 0.1}},
+                               {0, 0, 25});
+  EXPECT_EQ(seen.code, "");
+  EXPECT_NE(seen.text.find("distorted"), std::string::npos) << seen.text;
+  EXPECT_FALSE(seen.advice.empty());
+  EXPECT_EQ(bench.data("$P_UIFR", {1, "X", "FI"}), 0) << "nothing is corrected";
 }
 
 }  // namespace

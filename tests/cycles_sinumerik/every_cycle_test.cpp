@@ -7,30 +7,8 @@ namespace {
 
 using namespace testing_support;
 
-double valueOf(const NamedNumbers& call, std::string_view name) {
-  const auto found = std::ranges::find(call, name, [](const auto& each) { return std::string_view(each.first); });
-  return found == call.end() ? 0 : found->second;
-}
-
-/// All variants, and the cycles that correct nothing.
-std::vector<Variant> calls() {
-  std::vector<Variant> all = variants();
-  const auto ring = [](simulation::Truth& truth, const Pose& pose) {
-    place(truth, simulation::Ring(20, 60, -40), pose);
-  };
-  const auto ball = [](simulation::Truth& truth, const Pose& pose) {
-    place(truth, simulation::SolidSphere(Vector3::Zero(), 12), pose);
-  };
-  const NamedNumbers path = {{"S_FA", 6}, {"S_TSA", 4}};
-  all.push_back({"976 ring", "CYCLE976", ring, with(path, {{"S_MVAR", 1}, {"S_SETV", 40}}), {0, 0, -10}, {}});
-  all.push_back({"976 ball", "CYCLE976", ball, with(path, {{"S_MVAR", 3}, {"S_SETV", 24}}), {0, 0, 20}, {}});
-  all.push_back(
-      {"995", "CYCLE995", ball, with(path, {{"S_MVAR", 102015}, {"S_SETV", 24}, {"S_DZ", 20}}), {0, 0, 18}, {}});
-  return all;
-}
-
 TEST(EveryCycle, IsLeftOutInDryRunProgramTestAndBlockSearch) {
-  for (const Variant& variant : calls()) {
+  for (const Variant& variant : everyCall()) {
     for (int state = 0; state < 3; ++state) {
       SCOPED_TRACE(fmt::format("{} in state {}", variant.name, state));
       simulation::Truth truth = perfectWorld();
@@ -57,7 +35,7 @@ TEST(EveryCycle, IsLeftOutInDryRunProgramTestAndBlockSearch) {
 /// The cycles that give set value, actual value and difference of one thing in elements that lie 4 and 16 apart.
 TEST(EveryCycle, DifferencesAreActualLessSetValue) {
   Planter plant(501);
-  for (const Variant& variant : calls()) {
+  for (const Variant& variant : everyCall()) {
     const std::string_view cycle = variant.cycle;
     if (cycle == "CYCLE961" || cycle == "CYCLE976" || cycle == "CYCLE995") continue;
     SCOPED_TRACE(variant.name);
@@ -128,7 +106,7 @@ void expectAlike(const std::vector<double>& first, const std::vector<double>& se
 }
 
 TEST(EveryCycle, TakesPlaneAndDataSetOfTheCall) {
-  for (const Variant& variant : calls()) {
+  for (const Variant& variant : everyCall()) {
     SCOPED_TRACE(variant.name);
     const std::vector<double> plain = outcome(variant, {});
     EXPECT_EQ(plain.back(), 1);
@@ -145,7 +123,7 @@ TEST(EveryCycle, TakesPlaneAndDataSetOfTheCall) {
 }
 
 TEST(EveryCycle, ReservedArgumentsChangeNothing) {
-  for (const Variant& variant : calls()) {
+  for (const Variant& variant : everyCall()) {
     SCOPED_TRACE(variant.name);
     NamedNumbers reserved = {{"S_MCBIT", 255}};
     const std::string_view cycle = variant.cycle;
@@ -163,7 +141,7 @@ TEST(EveryCycle, EndsWhereTheManualSays) {
   // In front of the last surface by the measuring path, in the middle of what was measured, or where it began. The ball
   // has radius 2, positions are those of its lowest point.
   Planter plant(502);
-  for (const Variant& variant : calls()) {
+  for (const Variant& variant : everyCall()) {
     const std::string_view name = variant.name;
     SCOPED_TRACE(name);
     const Pose part = displaced(variant, translation(origin), plant);

@@ -21,6 +21,8 @@ struct Variant {
   std::vector<int> axes;  ///< in which the translation is corrected
   bool turns = false;     ///< the rotation about the 3rd axis is corrected
   bool tilts = false;     ///< those about the 1st and 2nd are
+
+  bool corrects() const { return !axes.empty() || turns || tilts; }
 };
 
 inline std::vector<Variant> variants() {
@@ -145,6 +147,29 @@ inline std::vector<Variant> variants() {
   return all;
 }
 
+/// All variants, and the cycles that correct nothing.
+inline std::vector<Variant> everyCall() {
+  std::vector<Variant> all = variants();
+  const auto ring = [](simulation::Truth& truth, const Pose& pose) {
+    place(truth, simulation::Ring(20, 60, -40), pose);
+  };
+  const auto ball = [](simulation::Truth& truth, const Pose& pose) {
+    place(truth, simulation::SolidSphere(Vector3::Zero(), 12), pose);
+  };
+  const NamedNumbers path = {{"S_FA", 6}, {"S_TSA", 4}};
+  all.push_back({"976 ring", "CYCLE976", ring, with(path, {{"S_MVAR", 1}, {"S_SETV", 40}}), {0, 0, -10}, {}});
+  all.push_back({"976 ball", "CYCLE976", ball, with(path, {{"S_MVAR", 3}, {"S_SETV", 24}}), {0, 0, 20}, {}});
+  all.push_back(
+      {"995", "CYCLE995", ball, with(path, {{"S_MVAR", 102015}, {"S_SETV", 24}, {"S_DZ", 20}}), {0, 0, 18}, {}});
+  return all;
+}
+
+/// An argument of a call; 0 if it is left out.
+inline double valueOf(const NamedNumbers& call, std::string_view name) {
+  const auto found = std::ranges::find(call, name, [](const auto& each) { return std::string_view(each.first); });
+  return found == call.end() ? 0 : found->second;
+}
+
 /// The part of `variant` where the control believes it, displaced and turned by as much as the variant is to find.
 inline Pose displaced(const Variant& variant, const Pose& believed, Planter& plant, double extent = 0.9,
                       double degrees = 2) {
@@ -160,11 +185,13 @@ inline Pose displaced(const Variant& variant, const Pose& believed, Planter& pla
 }
 
 /// What the correction of `variant` promises: the part has its set place, and its set directions if it finds angles.
-inline void expectInPlace(SinumerikBench& bench, const Variant& variant, const Pose& part) {
-  const Vector3 seen = inWorkpiece(bench, part.translation());
+/// `axes`: the directions of the axes of the plane, as columns.
+inline void expectInPlace(SinumerikBench& bench, const Variant& variant, const Pose& part,
+                          const Matrix3& axes = Matrix3::Identity()) {
+  const Vector3 seen = axes.transpose() * inWorkpiece(bench, part.translation());
   for (const int axis : variant.axes)
     EXPECT_NEAR(seen[axis], 0, 1e-6) << variant.name << " axis " << axis;
-  const Matrix3 turned = bench.control.machineFromWorkpiece().linear().inverse() * part.linear();
+  const Matrix3 turned = axes.transpose() * bench.control.machineFromWorkpiece().linear().inverse() * part.linear();
   if (variant.turns || variant.tilts) {
     EXPECT_NEAR((turned.col(2) - Vector3::UnitZ()).norm(), 0, 1e-6) << variant.name;
   }

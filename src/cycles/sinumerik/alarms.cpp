@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "cycles/sinumerik/alarms.hpp"
 #include "cycles/sinumerik/context.hpp"
 
 namespace probewright::cycles::sinumerik {
@@ -57,6 +58,13 @@ const AlarmEntry* find(int number) {
 }
 
 }  // namespace
+
+std::vector<int> alarmNumbers() {
+  std::vector<int> numbers;
+  for (const AlarmEntry& entry : alarms)
+    numbers.push_back(entry.number);
+  return numbers;
+}
 
 std::string_view alarmText(int number) {
   const AlarmEntry* entry = find(number);

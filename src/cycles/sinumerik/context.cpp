@@ -134,9 +134,15 @@ void Context::requireProbe(std::initializer_list<int> types) const {
   if (control_.level > 5) refuse(61300);
   if (control_.tool.edge == 0) refuse(61311);
   if (std::ranges::find(types, control_.tool.type) == types.end()) refuse(61309);
+  // A mirrored system belongs to a counter-spindle.
+  const bool mayMirror = control_.tool.type == 580 || control_.channel.description().mainSpindle;
   for (const auto* frame : {&control_.frames.base, &control_.frames.settableFrame, &control_.frames.programmed}) {
     for (const auto& axis : frame->geometry) {
       if (axis.scale != 1) refuse(61310);
+      if (axis.mirror && !mayMirror) {
+        throw Alarm("61310", "Mirroring is active: it is allowed for counter-spindles of lathes only",
+                    "cancel MIRROR, or the mirroring of the zero offset, before the measuring cycle");
+      }
     }
   }
   if (control_.radiusCompensation) {
@@ -236,18 +242,25 @@ void Context::beginAgain() {
   resultInteger(2, arguments_.definition().number);
 }
 
+namespace {
+
+/// The text of an alarm with what is the matter this time. Cycles raise alarms of the list only.
+std::string messageOf(int number, const std::string& detail) {
+  const std::string_view text = alarmText(number);
+  if (text.empty()) throw std::logic_error(fmt::format("alarm {} is not listed", number));
+  return detail.empty() ? std::string(text) : fmt::format("{}: {}", text, detail);
+}
+
+}  // namespace
+
 void Context::alarm(int number, const std::string& detail) {
-  throw Alarm(std::to_string(number),
-              detail.empty() ? std::string(alarmText(number)) : fmt::format("{}: {}", alarmText(number), detail),
-              std::string(alarmAdvice(number)));
+  throw Alarm(std::to_string(number), messageOf(number, detail), std::string(alarmAdvice(number)));
 }
 
 void Context::warn(int number, const std::string& detail) {
   resultInteger(9, number);
-  control_.panel.message(
-      EventKind::Warning,
-      detail.empty() ? std::string(alarmText(number)) : fmt::format("{}: {}", alarmText(number), detail),
-      control_.channel.seconds(), std::to_string(number));
+  control_.panel.message(EventKind::Warning, messageOf(number, detail), control_.channel.seconds(),
+                         std::to_string(number));
 }
 
 void Context::stopOutOfTolerance(const std::string& text) {
@@ -263,6 +276,23 @@ void followRotation(Control& control) {
     return;
   if (!control.channel.description().spindleOrients) return;
   control.channel.orientSpindle(probing::angleFromSpindle(control.channel, control.workingPlane(), Vector3::UnitX()));
+}
+
+/// Refuses before anything moves what no variant can do with: no measuring path (61308), and digits that no list of the
+/// manual has, where only the run knows them (S_MVAR = R1): 61307 in S_MVAR, 61319 in S_NMSP, _DMODE and _AMODE. What
+/// selects axes, data sets and targets is asked for where it is used.
+void requireArguments(Context& context) {
+  const auto& parameters = context.arguments().definition().parameters;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const std::string_view name = parameters[i].name;
+    const bool variant = name == "S_MVAR";
+    if (!variant && name != "S_NMSP" && name != "_DMODE" && name != "_AMODE") continue;
+    const Argument& argument = context.arguments().values()[i];
+    if (!argument.given) continue;
+    const std::string complaint = codeComplaint(parameters[i], argument);
+    if (!complaint.empty()) context.alarm(variant ? 61307 : 61319, complaint);
+  }
+  if (context.has("S_FA") && !(context.real("S_FA") > 0)) context.alarm(61308);
 }
 
 /// An alarm of a move within a cycle, by the name that the cycles give it.
@@ -294,6 +324,7 @@ void runCycle(Control& control, const Entry& entry, const Arguments& arguments, 
     outputResults(control, context.record(), control.ovi[9]);
   };
   try {
+    requireArguments(context);
     followRotation(control);
     for (bool done = false; !done;) {
       try {
