@@ -48,6 +48,16 @@ constexpr bool cornerOfAnyAngle(int variant) { return units<7, 8>(variant) && di
 /// CYCLE997.
 constexpr bool roundTheEquator(int variant) { return digit(variant, 4) > 0; }
 
+/// Of S_KNUM, S_KNUM1: the digits of the number are 0. The base reference and the active zero offset have none.
+bool namesNothing(const Parameter& parameter, long value) {
+  if (parameter.name == "S_KNUM") return value % 100 == 0 && (value / 1000 % 10 != 2 && value / 1000 % 10 != 9);
+  // D numbers have three digits on lathes, five on mills.
+  long most = 1;
+  for (int i = 0; i < parameter.digits.front().width; ++i)
+    most *= 10;
+  return value % most == 0;
+}
+
 constexpr Requirement requirements[] = {
     {0, "S_FA", Need::Positive},
     {0, "S_TSA", Need::SafeArea},
@@ -87,8 +97,14 @@ std::optional<CallComplaint> requirementComplaint(const CycleDefinition& cycle, 
     if (each.parameter != parameter.name || (each.cycle != 0 && each.cycle != cycle.number)) continue;
     if (each.asks != nullptr && (!variant || !each.asks(*variant))) continue;
     const double value = argument.given ? argument.number : parameter.standard.value_or(0);
-    if (value > 0 || (value < 0 && each.need != Need::Positive)) continue;
     const std::string name = fmt::format("{} ({})", parameter.name, parameter.meaning);
+    if (each.need == Need::Correction && value > 0 && namesNothing(parameter, static_cast<long>(value))) {
+      return CallComplaint{
+          fmt::format("{} = {} names no number: S_MVAR asks for a correction, and nothing is corrected", name,
+                      formatShortest(value)),
+          false};
+    }
+    if (value > 0 || (value < 0 && each.need != Need::Positive)) continue;
     std::string text = value < 0        ? fmt::format("{} must be greater than 0, not {}", name, formatShortest(value))
                        : argument.given ? name + " cannot be 0 here"
                                         : name + " is missing";

@@ -33,7 +33,7 @@ enum class GlobalBase { Allowed, Refused };
 ///   thousands    0 settable, 1 channel base frame, 2 base reference, 3 global base frame, 9 the active settable zero
 ///                offset, with G500 the last channel base frame
 ///   10^4         0 fine translation (coarse if the machine has none: $MN_MM_FRAME_FINE_TRANS = 0), 1 coarse
-/// Nothing for 0. Alarms 61321 (number), 61322 (fourth digit), 61323 (fifth digit), 61324 (digits beyond).
+/// Nothing for number 0 of a settable zero offset or base frame. Alarms 61321 (number), 61322 (fourth digit), 61323 (fifth digit), 61324 (digits beyond).
 std::optional<FrameTarget> frameTarget(Context& context, GlobalBase globalBase);
 
 /// Shifts the frame so that a feature gets its set position.

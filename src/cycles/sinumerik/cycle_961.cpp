@@ -44,7 +44,8 @@ constexpr Parameter parameters961[] = {
     parameters::length(12, "S_SETV9", "set value of the corner in the 2nd axis"),
     parameters::angle(13, "S_STA1", "angle from the 1st axis to the 1st edge"),
     parameters::angle(14, "S_INCA", "angle from the 1st edge to the 2nd"),
-    parameters::length(15, "S_ID", "infeed to the measuring height at each point (protection zone)"),
+    parameters::length(15, "S_ID",
+                       "way down to the measuring height at each point (protection zone); its sign does not matter"),
     parameters::measuringPath(16),
     parameters::angle(17, "S_TSA", "safe area: a larger deviation of the 1st edge's angle stops the program"),
     parameters::repetitions(18),
@@ -68,7 +69,7 @@ constexpr ResultDefinition results961[] = {
     {"_OVI[11]", "1: a zero offset was corrected", ValueKind::Integer},
 };
 
-/// The least measuring path of this cycle, mm.
+/// The least measuring path round corners of any angle, mm.
 constexpr double leastPath = 20;
 
 double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -174,7 +175,7 @@ void cycle961(Context& context, const Arguments&) {
   const bool zone = context.digit("S_MVAR", 4) == 1;
   const Plan plan = planOf(context);
   const double asked = context.real("S_FA");
-  const double path = asked > 0 ? std::max(asked, leastPath) : asked;
+  const double path = asked > 0 && plan.points == 4 ? std::max(asked, leastPath) : asked;
 
   probing::SinumerikProber& prober = context.prober();
   const Vector3 start = prober.position();
@@ -187,7 +188,7 @@ void cycle961(Context& context, const Arguments&) {
     // Without leave to pass over the corner, the way to the second edge leads round it.
     if (i == 2 && !zone) prober.moveInPlane({plan.pole.x(), plan.pole.y(), 0});
     prober.moveInPlane({place.x(), place.y(), 0});
-    if (zone) prober.moveHeightTo(start.z() + context.real("S_ID"));
+    if (zone) prober.moveHeightTo(start.z() - std::abs(context.real("S_ID")));
     const Vector2 into = i < 2 ? into1 : into2;
     const Vector3 direction(into.x(), into.y(), 0);
     const Vector3 setpoint = prober.position() - toucher.startOf(Vector3::Zero(), direction, path);

@@ -202,6 +202,7 @@ void cycle973(Context& context, const Arguments&) {
   if (!(context.real("S_FA") > 0)) context.alarm(61308);
   if (!(context.control().tool.radius > 0)) context.alarm(61351, "radius $TC_DP6 of the probe");
   ProbeCalibration calibration(context);
+  calibration.list({0, 1}, ProbeCalibration::Listed::WithDeviations);
   if (variant.inGroove) {
     const Groove groove = grooveOf(context);
     if (!variant.length && turningAxis(context, context.integer("S_MA")) != groove.wallsAxis) {

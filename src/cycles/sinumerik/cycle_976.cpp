@@ -86,7 +86,11 @@ public:
   }
 
 private:
-  bool atAngle() const { return context_.digit("S_MVAR", 6) == 1; }
+  /// In rings and on balls only.
+  bool atAngle() const {
+    const int units = context_.digit("S_MVAR", 1);
+    return units >= 1 && units <= 3 && context_.digit("S_MVAR", 6) == 1;
+  }
   bool wantsDeviation() const { return context_.digit("S_MVAR", 5) == 0; }
   bool wantsLength() const { return context_.digit("S_MVAR", 7) == 1; }
   /// A probe that is turned into each direction has no deviation across; others show theirs when turned round.

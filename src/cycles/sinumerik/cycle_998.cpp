@@ -25,8 +25,8 @@ constexpr Parameter parameters998[] = {
     parameters::code(2, "S_RA", "0: correct the rotation; otherwise number of the rotary axis to correct"),
     parameters::dataSet(3),
     parameters::length(4, "S_SETV",
-                       "way along the measuring axis to the measuring height (protection zone); its sign is "
-                       "the measuring direction where S_MD leaves it open"),
+                       "way towards the surface to the measuring height (protection zone); its sign is the "
+                       "measuring direction where S_MD leaves it open"),
     parameters::angle(5, "S_STA1", "set angle of the edge, or of the plane about the 1st axis"),
     parameters::angle(6, "S_INCA", "set angle of the plane about the 2nd axis"),
     parameters::measuringPath(7),
@@ -86,7 +86,7 @@ public:
         home_(context.prober().position()),
         path_(context.real("S_FA")),
         zone_(context.digit("S_MVAR", 4) == 1),
-        infeed_(zone_ ? context.real("S_SETV") : 0) {}
+        infeed_(zone_ ? std::abs(context.real("S_SETV")) : 0) {}
 
   /// From where the cycle started.
   Vector3 first() { return touchFrom(Vector3::Zero()); }
@@ -114,7 +114,7 @@ public:
   void leave() { leave(Vector3::Zero()); }
 
 private:
-  Vector3 infeedVector() const { return direction_.cwiseAbs() * infeed_; }
+  Vector3 infeedVector() const { return direction_ * infeed_; }
 
   /// With a protection zone: back to the start height and over to the next place.
   void leave(const Vector3& offset) {

@@ -12,7 +12,7 @@
 namespace probewright::cycles::sinumerik {
 
 /// Results of every calibration of a workpiece probe.
-inline constexpr std::array<ResultDefinition, 23> calibrationResults = {{
+inline constexpr std::array<ResultDefinition, 24> calibrationResults = {{
     {"_OVR[4]", "effective diameter of the ball"},
     {"_OVR[5]", "difference of the diameter"},
     {"_OVR[8]", "trigger point, minus direction, 1st axis"},
@@ -34,6 +34,7 @@ inline constexpr std::array<ResultDefinition, 23> calibrationResults = {{
     {"_OVR[27]", "zero offset range"},
     {"_OVR[28]", "safe area"},
     {"_OVI[2]", "number of the cycle", ValueKind::Integer},
+    {"_OVI[3]", "measuring variant", ValueKind::Integer},
     {"_OVI[5]", "data set of the probe", ValueKind::Integer},
     {"_OVI[9]", "number of the alarm", ValueKind::Integer},
 }};

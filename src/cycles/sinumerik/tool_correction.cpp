@@ -81,6 +81,7 @@ std::optional<ToolTarget> toolTarget(Context& context) {
   const int memory = context.digit("S_KNUM1", 7);
   if (memory > 4) context.alarm(61314, fmt::format("seventh digit of S_KNUM1 = {}", code));
   target.memory = static_cast<Memory>(memory);
+  if (target.edge == 0) return std::nullopt;
   target.tool = toolOf(context, target.edge);
   if (!toolEdge(context.control().data, target.tool, target.edge)) {
     context.alarm(61328, fmt::format("tool {} has no edge D{}", target.tool, target.edge));

@@ -85,6 +85,12 @@ void noteCorrection(Context& context, const FrameTarget& target) {
   context.resultInteger(11, 1);
 }
 
+/// A rotary axis takes fine offsets where bit 6 of MD 52207 releases it; a machine without the datum releases all.
+bool hasFineOffset(const Control& control, std::size_t axis) {
+  const DataKey key("$MCS_AXIS_USAGE_ATTRIB", {static_cast<int>(axis)});
+  return !control.data.isSet(key) || (static_cast<long>(control.data.number(key)) >> 6 & 1) != 0;
+}
+
 constexpr std::array<std::string_view, 3> axisNames = {"X", "Y", "Z"};
 
 }  // namespace
@@ -99,6 +105,8 @@ std::optional<FrameTarget> frameTarget(Context& context, GlobalBase globalBase) 
   if (code < 0 || code >= 100000) context.alarm(61324, fmt::format("S_KNUM = {}", code));
   if (context.digit("S_KNUM", 3) != 0) context.alarm(61321, fmt::format("hundreds of S_KNUM = {}", code));
   if (fine > 1) context.alarm(61323, fmt::format("S_KNUM = {}", code));
+  // Nothing to correct is named; the base reference and the active frame have no number.
+  if (number == 0 && (kind == 0 || kind == 1 || kind == 3)) return std::nullopt;
   FrameTarget target;
   target.coarse = fine == 1 || control.machineData("$MN_MM_FRAME_FINE_TRANS", 1) == 0;
   target.shown = code % 10000;
@@ -214,7 +222,8 @@ void correctRotaryAxis(Context& context, const FrameTarget& target, std::size_t 
                                      "and offset axis (S_RA)",
                                      description.axes[axis].name));
   }
-  const FramePart part = target.coarse ? FramePart::Translation : FramePart::Fine;
+  const bool fine = !target.coarse && hasFineOffset(control, axis);
+  const FramePart part = fine ? FramePart::Fine : FramePart::Translation;
   const std::string name = control::sinumerik::upperCase(description.axes[axis].name);
   const double old = control.data.frame(keyOf(target)).get(name, part);
   writeComponent(context, target, name, part, old - angle / effect);
