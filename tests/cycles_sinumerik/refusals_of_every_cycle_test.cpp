@@ -102,5 +102,76 @@ TEST(EveryCycleRefuses, DigitsThatNoListHas) {
   }
 }
 
+TEST(EveryCycleRefuses, WrongTargetsAndLimitsBeforeAnythingMoves) {
+  const NamedNumbers tool = {{"S_KNUM1", 1}};
+  const struct {
+    const char* variant;
+    const char* alarm;
+    double task;  ///< hundreds of S_MVAR
+    NamedNumbers call;
+  } cases[] = {
+      {"978 1st axis", "61319", 1, {{"S_KNUM", 1}, {"S_EVNUM", 21}}},
+      {"978 1st axis", "61319", 2, with(tool, {{"S_EVNUM", 21}})},
+      {"978 1st axis", "61319", 2, with(tool, {{"S_EVNUM", 210000}})},
+      {"978 1st axis", "61319", 2, with(tool, {{"_AMODE", 1}, {"S_TUL", -0.1}, {"S_TLL", 0.1}})},
+      {"978 1st axis", "61321", 1, {{"S_KNUM", 101}}},
+      {"978 1st axis", "61325", 0, {{"S_MA", 4}}},
+      {"978 1st axis", "61326", 0, {{"S_MD", 3}}},
+      {"977 hole", "61319", 2, with(tool, {{"S_EVNUM", 9999}})},
+      {"977 hole", "61318", 2, with(tool, {{"S_EVNUM", 10000}})},
+      {"977 hole", "61343", 2, with(tool, {{"S_KNUM1", 1000}})},
+      {"977 hole", "61314", 2, {{"S_KNUM1", 5000001}}},
+      {"977 pocket", "61319", 2, with(tool, {{"S_KNUM1", 1000001}, {"S_DLNUM", 7}})},
+      {"977 pocket", "61322", 1, {{"S_KNUM", 4001}}},
+      {"979 inside", "61319", 2, with(tool, {{"_AMODE", 1}, {"S_TUL", 0}, {"S_TLL", 0.001}})},
+      {"979 inside", "61328", 2, {{"S_KNUM1", 9}}},
+      {"979 outside", "61323", 1, {{"S_KNUM", 20001}}},
+      {"961 right outside", "61322", 1, {{"S_KNUM", 3001}}},
+      {"961 any inside", "61324", 1, {{"S_KNUM", 100001}}},
+      {"997 ball", "61319", 1, {{"S_KNUM", 1}, {"S_INCA", 91}}},
+      {"997 three balls", "61322", 1, {{"S_KNUM", 3001}}},
+      {"997 three balls", "61319", 1, {{"S_KNUM", 1}, {"S_SETV7", 5.0 / 3}, {"S_SETV8", 10.0 / 3}}},
+      {"998 edge", "61319", 1, {{"S_KNUM", 1}, {"S_EVNUM", 21}}},
+      {"998 edge", "61325", 1, {{"S_KNUM", 1}, {"S_RA", 1}}},
+      {"998 edge", "61325", 1, {{"S_KNUM", 1}, {"S_RA", 9}}},
+      {"998 edge", "61325", 1, {{"S_MA", 101}}},
+      {"998 plane", "61319", 1, {{"S_KNUM", 1}, {"S_EVNUM", 21}}},
+      {"998 plane", "61325", 1, {{"S_KNUM", 1}, {"S_RA", 4}}},
+  };
+  const std::vector<Variant> known = everyCall();
+  for (const auto& [name, alarm, task, call] : cases) {
+    const Variant& variant = *std::ranges::find(known, std::string_view(name), &Variant::name);
+    const int number = static_cast<int>(valueOf(variant.call, "S_MVAR"));
+    SCOPED_TRACE(fmt::format("{}: {} {}", name, call.back().first, call.back().second));
+    simulation::Truth truth = perfectWorld();
+    variant.part(truth, translation(origin));
+    SinumerikBench bench(truth);
+    plantFrame(bench, "$P_UIFR", 1, origin);
+    bench.control.data.set("$TC_TP2", {7}, std::string("MILL"));
+    bench.set("$TC_DP1", {7, 1}, 120);
+    bench.start(variant.start);
+    const cycles::CycleDefinition& definition = *cycles::sinumerikCycle(variant.cycle);
+    const bool named = std::ranges::any_of(definition.parameters, [](const auto& p) { return p.name == "S_TNAME"; });
+    EXPECT_EQ(
+        bench.alarmOf(
+            variant.cycle, with(with(variant.call, {{"S_MVAR", number + (task - number / 100 % 10) * 100}}), call),
+            named ? NamedTexts{{"S_TNAME", std::string_view(alarm) == "61343" ? "NONE" : "MILL"}} : NamedTexts{}),
+        alarm);
+    EXPECT_TRUE(bench.machine.path().touches.empty());
+  }
+}
+
+TEST(EveryCycleRefuses, AProtectionZoneThatFillsTheOtherLengthBeforeTheFirstTouch) {
+  const std::vector<Variant> known = everyCall();
+  const Variant& pocket = *std::ranges::find(known, std::string_view("977 pocket"), &Variant::name);
+  simulation::Truth truth = perfectWorld();
+  pocket.part(truth, translation(origin));
+  SinumerikBench bench(truth);
+  plantFrame(bench, "$P_UIFR", 1, origin);
+  bench.start(pocket.start);
+  EXPECT_EQ(bench.alarmOf("CYCLE977", with(pocket.call, {{"S_MVAR", 1105}, {"S_SZA", 10}, {"S_SZO", 27}})), "61334");
+  EXPECT_TRUE(bench.machine.path().touches.empty());
+}
+
 }  // namespace
 }  // namespace probewright

@@ -13,7 +13,7 @@ namespace probewright::cycles::sinumerik {
 enum class Task { MeasureOnly, ZeroOffset, Tool };
 
 /// The task of this call. Alarm 61307 for another digit, or for the tool where a cycle has no tool correction. What
-/// S_KNUM1 and S_TNAME name is looked up already here, so that a wrong call is refused before anything moves.
+/// S_KNUM1, S_TNAME and S_EVNUM name is looked up already here, so that a wrong call is refused before anything moves.
 Task taskOf(Context& context);
 
 // ---- zero offset ----
@@ -33,7 +33,8 @@ enum class GlobalBase { Allowed, Refused };
 ///   thousands    0 settable, 1 channel base frame, 2 base reference, 3 global base frame, 9 the active settable zero
 ///                offset, with G500 the last channel base frame
 ///   10^4         0 fine translation (coarse if the machine has none: $MN_MM_FRAME_FINE_TRANS = 0), 1 coarse
-/// Nothing for number 0 of a settable zero offset or base frame. Alarms 61321 (number), 61322 (fourth digit), 61323 (fifth digit), 61324 (digits beyond).
+/// Nothing for number 0 of a settable zero offset or base frame. Alarms 61321 (number), 61322 (fourth digit), 61323
+/// (fifth digit), 61324 (digits beyond).
 std::optional<FrameTarget> frameTarget(Context& context, GlobalBase globalBase);
 
 /// Shifts the frame so that a feature gets its set position.
@@ -55,6 +56,9 @@ void correctRotation(Context& context, const FrameTarget& target, const Matrix3&
 /// that direction.
 void correctRotaryAxis(Context& context, const FrameTarget& target, std::size_t axis, const Vector3& direction,
                        double angle);
+
+/// Refuses an axis that correctRotaryAxis() would refuse, before anything is measured.
+void requireRotaryAxis(Context& context, std::size_t axis, const Vector3& direction);
 
 /// Machine coordinates (X, Y, Z) of a point of the workpiece coordinate system (plane coordinates).
 Vector3 machinePoint(Context& context, const Vector3& point);

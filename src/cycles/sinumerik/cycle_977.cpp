@@ -129,6 +129,9 @@ public:
     return {.size = upper - lower, .middle = (upper + lower) / 2};
   }
 
+  /// Refuses a zone that leaves no room for the ball.
+  void requireRoom(double size, double zone) { measuringPath(size, zone); }
+
   /// To the centre, at the height of the start.
   void finish(const Vector3& centre) {
     toucher_.finish();
@@ -212,12 +215,15 @@ void cycle977(Context& context, const Arguments&) {
                                               : "S_SETV, the set size, must be greater than 0");
 
   Walls walls(context, feature, method);
-  const Pair pair1 = walls.measure(start, first, set1, context.real("S_SZA"));
+  const double zone1 = context.real("S_SZA"), zone2 = isRectangle(feature) ? context.real("S_SZO") : zone1;
+  walls.requireRoom(set1, zone1);
+  if (!oneAxis) walls.requireRoom(set2, zone2);
+  const Pair pair1 = walls.measure(start, first, set1, zone1);
   Vector3 centre = start + first * pair1.middle;
   Pair pair2;
   if (!oneAxis) {
     walls.finish(centre);
-    pair2 = walls.measure(centre, second, set2, context.real(isRectangle(feature) ? "S_SZO" : "S_SZA"));
+    pair2 = walls.measure(centre, second, set2, zone2);
     centre += second * pair2.middle;
   }
   walls.finish(centre);

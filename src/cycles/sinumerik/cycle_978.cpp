@@ -77,6 +77,7 @@ void cycle978(Context& context, const Arguments&) {
   const double sign = way == 1 ? 1 : -1;
   const auto target = task == Task::ZeroOffset ? frameTarget(context, GlobalBase::Allowed) : std::nullopt;
 
+  const double empirical = task == Task::MeasureOnly ? 0 : empiricalValue(context);
   const double set = setValueOf(context, task, context.real("S_SETV"));
   Vector3 setpoint = context.prober().position();
   setpoint[axis] = set;
@@ -84,7 +85,6 @@ void cycle978(Context& context, const Arguments&) {
   const MeasuredPoint point = toucher.measure(setpoint, probing::axisDirection(axis, sign), context.real("S_FA"));
   toucher.finish();
 
-  const double empirical = task == Task::MeasureOnly ? 0 : empiricalValue(context);
   const double actual = point.surface[axis];
   const double difference = actual - set - empirical;
   for (const int element : {0, 1 + axis})

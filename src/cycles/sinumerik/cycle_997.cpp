@@ -115,9 +115,6 @@ Matrix3 columns(const Triangle& triangle) {
 /// Turns and shifts the frame so that the three centres come closest to their set positions.
 void correctByTriangle(Context& context, const FrameTarget& target, const Triangle& set, const Triangle& actual) {
   const Vector3 setMiddle = (set[0] + set[1] + set[2]) / 3, middle = (actual[0] + actual[1] + actual[2]) / 3;
-  if ((set[1] - set[0]).cross(set[2] - set[0]).norm() < 1e-6) {
-    context.alarm(61319, "the set centres of the three balls lie on one line");
-  }
   const double distorted = distortion(set, actual), limit = context.real("S_TNVL");
   if (distorted > limit + 1e-9) {
     throw control::Alarm(
@@ -180,8 +177,12 @@ void cycle997(Context& context, const Arguments&) {
   }
 
   Triangle set, actual;
-  for (std::size_t ball = 0; ball < count; ++ball) {
+  for (std::size_t ball = 0; ball < count; ++ball)
     set[ball] = setCentre(context, static_cast<int>(ball));
+  if (target && count == 3 && (set[1] - set[0]).cross(set[2] - set[0]).norm() < 1e-6) {
+    context.alarm(61319, "the set centres of the three balls lie on one line");
+  }
+  for (std::size_t ball = 0; ball < count; ++ball) {
     plan.centre = set[ball];
     context.prober().moveInPlane(plan.centre);
     const MeasuredBall measured = measureBall(context, plan);

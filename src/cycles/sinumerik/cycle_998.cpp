@@ -171,6 +171,9 @@ void measureEdge(Context& context, const std::optional<FrameTarget>& target, Met
                 about = Vector3::Unit(3 - measuring - offset);
   const double sense = along.cross(across).dot(about);
 
+  const double empirical = target ? empiricalValue(context) : 0;
+  const int rotaryAxis = context.integer("S_RA");
+  if (target && rotaryAxis != 0) requireRotaryAxis(context, static_cast<std::size_t>(rotaryAxis - 1), about);
   Toucher toucher(context, method);
   Steps steps(context, toucher, across * sign);
   const Vector3 first = steps.first();
@@ -181,7 +184,6 @@ void measureEdge(Context& context, const std::optional<FrameTarget>& target, Met
   toucher.finish();
   context.setWayBack([&] { steps.leave(); });
 
-  const double empirical = target ? empiricalValue(context) : 0;
   const double actual = degreesFromRadians(sense * std::atan2(across.dot(second - first), along.dot(second - first)));
   const double difference = actual - set - empirical;
   context.result(0, set);
@@ -217,6 +219,7 @@ void measurePlane(Context& context, const std::optional<FrameTarget>& target, Me
     context.alarm(61319, "the distances S_SETV0 and S_SETV3 of the points must be greater than 0");
   }
 
+  const double empirical = target ? empiricalValue(context) : 0;
   Toucher toucher(context, method);
   Steps steps(context, toucher, -Vector3::UnitZ());
   const Vector3 first = steps.first();
@@ -234,7 +237,6 @@ void measurePlane(Context& context, const std::optional<FrameTarget>& target, Me
   }
   context.setWayBack([&] { steps.leave(); });
 
-  const double empirical = target ? empiricalValue(context) : 0;
   const Vector3 normal = (second - first).cross(third - first).normalized();
   const double actualFirst = degreesFromRadians(std::asin(-normal.y()));
   const double actualSecond = degreesFromRadians(std::atan2(normal.x(), normal.z()));

@@ -179,6 +179,10 @@ Task taskOf(Context& context) {
     if (meanMemory(context) != 0 && context.integer("S_K") <= 0) {
       context.alarm(61318, fmt::format("S_K = {}", context.integer("S_K")));
     }
+    empiricalValue(context);
+    if (usesTolerance(context) && context.real("S_TUL") < context.real("S_TLL")) {
+      context.alarm(61319, "S_TUL is smaller than S_TLL");
+    }
   }
   return task;
 }
@@ -233,7 +237,6 @@ void correctTool(Context& context, std::span<const Dimension> dimensions, const 
 
   const bool tolerance = usesTolerance(context);
   const double halfTolerance = (context.real("S_TUL") - context.real("S_TLL")) / 2;
-  if (tolerance && halfTolerance < 0) context.alarm(61319, "S_TUL is smaller than S_TLL");
   const CorrectionBands bands = {
       .zeroOffsetRange = context.real("S_TZL"),
       .meanRange = context.real("S_TMV"),

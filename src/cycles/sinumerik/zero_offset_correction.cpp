@@ -201,8 +201,10 @@ void correctRotation(Context& context, const FrameTarget& target, const Matrix3&
   noteCorrection(context, target);
 }
 
-void correctRotaryAxis(Context& context, const FrameTarget& target, std::size_t axis, const Vector3& direction,
-                       double angle) {
+namespace {
+
+/// By how many degrees the part turns about `direction` when the axis turns by one.
+double rotaryEffect(Context& context, std::size_t axis, const Vector3& direction) {
   const Control& control = context.control();
   const machine::MachineDescription& description = context.channel().description();
   if (axis >= description.axes.size() || description.axes[axis].kind != machine::AxisKind::Rotary) {
@@ -222,9 +224,22 @@ void correctRotaryAxis(Context& context, const FrameTarget& target, std::size_t 
                                      "and offset axis (S_RA)",
                                      description.axes[axis].name));
   }
+  return effect;
+}
+
+}  // namespace
+
+void requireRotaryAxis(Context& context, std::size_t axis, const Vector3& direction) {
+  rotaryEffect(context, axis, direction);
+}
+
+void correctRotaryAxis(Context& context, const FrameTarget& target, std::size_t axis, const Vector3& direction,
+                       double angle) {
+  const Control& control = context.control();
+  const double effect = rotaryEffect(context, axis, direction);
   const bool fine = !target.coarse && hasFineOffset(control, axis);
   const FramePart part = fine ? FramePart::Fine : FramePart::Translation;
-  const std::string name = control::sinumerik::upperCase(description.axes[axis].name);
+  const std::string name = control::sinumerik::upperCase(context.channel().description().axes[axis].name);
   const double old = control.data.frame(keyOf(target)).get(name, part);
   writeComponent(context, target, name, part, old - angle / effect);
   noteCorrection(context, target);
