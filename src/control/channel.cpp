@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "control/missing_axis.hpp"
 
 namespace probewright::control {
 namespace {
@@ -68,7 +69,8 @@ AxisPositions Channel::axesFromMachine(const Vector3& tip, const AxisPositions& 
       if (linearAxis_[i]) {
         axes[*linearAxis_[i]] = reference[static_cast<Eigen::Index>(i)];
       } else if (std::abs(reference[static_cast<Eigen::Index>(i)]) > 1e-6) {
-        throw Alarm("", fmt::format("The machine has no axis {} to reach the position", linearNames[i]));
+        throw MissingAxis("", fmt::format("The machine has no axis {} to reach the position", linearNames[i]),
+                          "program positions that its axes reach; cancel frames that turn them out of their plane");
       }
     }
     return axes;

@@ -119,6 +119,7 @@ void SinumerikProber::orientTo(const Vector3& direction) {
 void SinumerikProber::alignTo(const Vector3& direction) {
   if (direction.head<2>().norm() < 1e-9) return;
   channel_.orientSpindle(probe_.correctionAngle + angleFromSpindle(channel_, plane_, direction));
+  if (habits_.spindlePositioned) habits_.spindlePositioned();
 }
 
 MeasuredPoint SinumerikProber::measure(const Vector3& setpoint, const Vector3& direction, double path, int count) {
@@ -167,6 +168,7 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
         case MeasureEnd::Touched:
           return channel_.touchFrom(result);
         case MeasureEnd::NoContact:
+          finish("no contact");
           channel_.retractTo(plane_.xyzFromPlane(start), retract);
           break;
         case MeasureEnd::DeflectedAtStart:
@@ -211,7 +213,6 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
     }
     const auto touch = probeOnce(end, feed);
     if (!touch) {
-      finish("no contact");
       throw Alarm("61301", fmt::format("Probe does not switch within {:.3f} mm", 2 * path),
                   "check the setpoint, the measuring path DFA and the zero offset");
     }

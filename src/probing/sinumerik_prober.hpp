@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "control/channel.hpp"
 #include "control/working_plane.hpp"
@@ -27,15 +29,16 @@ struct SinumerikProbe {
 
 /// Speeds and habits from setting data.
 struct SinumerikHabits {
-  double planeFeed = 1000;        ///< SD 55634, mm/min
-  double infeedFeed = 1000;       ///< SD 55636, mm/min
-  double circleFeed = 1000;       ///< SD 55640, mm/min
-  double fastFeed = 900;          ///< SD 55638, mm/min
-  double rapidPercent = 50;       ///< SD 55632
-  bool monitorCollisions = true;  ///< SD 55740 bit 0
-  bool oneAttempt = false;        ///< SD 55740 bit 3
-  bool fastApproach = false;      ///< SD 55740 bit 4
-  bool rapidRetract = false;      ///< SD 55740 bit 5
+  double planeFeed = 1000;                       ///< SD 55634, mm/min
+  double infeedFeed = 1000;                      ///< SD 55636, mm/min
+  double circleFeed = 1000;                      ///< SD 55640, mm/min
+  double fastFeed = 900;                         ///< SD 55638, mm/min
+  double rapidPercent = 50;                      ///< SD 55632
+  bool monitorCollisions = true;                 ///< SD 55740 bit 0
+  bool oneAttempt = false;                       ///< SD 55740 bit 3
+  bool fastApproach = false;                     ///< SD 55740 bit 4
+  bool rapidRetract = false;                     ///< SD 55740 bit 5
+  std::function<void()> spindlePositioned = {};  ///< called behind each positioning of the spindle
 };
 
 /// One measured point.
@@ -55,8 +58,8 @@ double angleFromSpindle(const control::Channel& channel, const control::WorkingP
 class SinumerikProber {
 public:
   SinumerikProber(control::Channel& channel, const control::WorkingPlane& plane, const SinumerikProbe& probe,
-                  const SinumerikHabits& habits)
-      : channel_(channel), plane_(plane), probe_(probe), habits_(habits) {}
+                  SinumerikHabits habits)
+      : channel_(channel), plane_(plane), probe_(probe), habits_(std::move(habits)) {}
 
   const SinumerikProbe& probe() const { return probe_; }
   double ballRadius() const { return probe_.ballDiameter / 2; }

@@ -16,6 +16,7 @@
 #include "control/heidenhain/tool_table.hpp"
 #include "control/heidenhain/turning_tool_table.hpp"
 #include "control/sinumerik/measuring_data.hpp"
+#include "language/sinumerik/global_data.hpp"
 #include "session/lathe_beliefs.hpp"
 
 namespace probewright::session {
@@ -237,7 +238,21 @@ hh::MachineParameters machineParameters(const Setup& setup, ControlKind kind, Di
   return parameters;
 }
 
-SinumerikData sinumerikData(const Setup& setup, Diagnostics& diagnostics) {
+namespace {
+
+/// True if the ball of a probe is believed at the end of an arm: further off the spindle axis than twice ball and shaft
+/// together, as where the true stylus is made.
+bool isBent(const Setup& setup, const BelievedTool& tool) {
+  const auto truth = std::ranges::find(setup.truth.tools, tool.number, &simulation::TrueTool::number);
+  if (tool.kind != "probe" || truth == setup.truth.tools.end()) return false;
+  return tool.tipOffset.norm() > 2 * (truth->probe.ballRadius + truth->probe.stylusRadius);
+}
+
+}  // namespace
+
+SinumerikData sinumerikData(const Setup& setup, Diagnostics& diagnostics, const sinumerik::GlobalUserData* globalData) {
+  sin::InitText::ArraySizes sizes;
+  if (globalData != nullptr) sizes = [globalData](std::string_view name) { return globalData->sizesOf(name); };
   SinumerikData data;
   sin::DataStore& store = data.store;
   sin::setMeasuringDefaults(store);
@@ -261,16 +276,26 @@ SinumerikData sinumerikData(const Setup& setup, Diagnostics& diagnostics) {
       store.load(sin::DataKey(fmt::format("$TC_DP{}", parameter), {t, 1}), value);
     };
     store.load(sin::DataKey("$TC_TP2", {t}), tool.name);
-    const bool star = tool.starArm > 0;
-    dp(1, star ? 714 : probe ? 710 : turning ? 500 : tool.kind == "drill" ? 200 : 120);
-    // The length of a star ends at the equator of its balls.
-    dp(3, star ? tool.length - tool.axialRadius : tool.length);
-    dp(6, tool.radius);
-    if (star) dp(7, tool.axialRadius);
+    const bool star = tool.starArm > 0, bent = !star && isBent(setup, tool);
+    dp(1, star ? 714 : bent ? 713 : probe ? 710 : turning ? 500 : tool.kind == "drill" ? 200 : 120);
+    // The length of stars and Ls ends at the equator of their balls.
+    dp(3, star || bent ? tool.length - tool.axialRadius : tool.length);
+    dp(6, bent ? tool.tipOffset.norm() : tool.radius);
+    if (star || bent) dp(7, tool.axialRadius);
     if (!probe) continue;
     const int n = tool.probeNumber - 1;
     const auto calibration = [&](const char* name, double value) { store.load(sin::DataKey(name, {n}), value); };
     calibration("$SNS_MEA_WP_BALL_DIAM", 2 * tool.radius);
+    calibration("$SNS_MEA_WP_FEED", tool.feed);
+    if (bent) {
+      // The cycles turn its arm to +X. It measures there, and up and down.
+      const double angle = degreesFromRadians(std::atan2(tool.tipOffset.y(), tool.tipOffset.x()));
+      dp(10, angle > 0 ? 360 - angle : -angle);
+      calibration("$SNS_MEA_WP_TRIG_PLUS_DIR_AX1", tool.tipOffset.norm() + tool.radius);
+      calibration("$SNS_MEA_WP_TRIG_MINUS_DIR_AX3", -tool.axialRadius);
+      calibration("$SNS_MEA_WP_TRIG_PLUS_DIR_AX3", tool.axialRadius);
+      continue;
+    }
     calibration("$SNS_MEA_WP_TRIG_MINUS_DIR_AX1", -tool.radius + tool.tipOffset.x());
     calibration("$SNS_MEA_WP_TRIG_PLUS_DIR_AX1", tool.radius + tool.tipOffset.x());
     calibration("$SNS_MEA_WP_TRIG_MINUS_DIR_AX2", -tool.radius + tool.tipOffset.y());
@@ -279,7 +304,6 @@ SinumerikData sinumerikData(const Setup& setup, Diagnostics& diagnostics) {
     calibration("$SNS_MEA_WP_TRIG_MINUS_DIR_AX3", 0);
     calibration("$SNS_MEA_WP_POS_DEV_AX1", tool.tipOffset.x());
     calibration("$SNS_MEA_WP_POS_DEV_AX2", tool.tipOffset.y());
-    calibration("$SNS_MEA_WP_FEED", tool.feed);
   }
   for (const BelievedFrame& offset : setup.zeroOffsets) {
     sin::Frame frame;
@@ -312,7 +336,8 @@ SinumerikData sinumerikData(const Setup& setup, Diagnostics& diagnostics) {
     static constexpr std::array<std::string_view, 6> endings = {".INI", ".TOA", ".UFR", ".GUD", ".SEA", ".MD"};
     if (std::ranges::find(endings, ending) == endings.end()) continue;
     if (const auto text = contents(path, diagnostics)) {
-      data.files.push_back({path.filename().string(), sin::InitText::parse(*text, path.string(), store, diagnostics)});
+      data.files.push_back(
+          {path.filename().string(), sin::InitText::parse(*text, path.string(), store, diagnostics, 1, sizes)});
     }
   }
   return data;

@@ -9,6 +9,10 @@
 #include "control/sinumerik/init_text.hpp"
 #include "simulation/setup.hpp"
 
+namespace probewright::sinumerik {
+class GlobalUserData;
+}
+
 /// What a control believes when a program starts: its own table files where the setup names a folder, otherwise tables
 /// made from the setup. Mistakes go to `diagnostics`.
 namespace probewright::session {
@@ -36,7 +40,9 @@ struct SinumerikData {
   };
   std::vector<File> files;
 };
-SinumerikData sinumerikData(const simulation::Setup& setup, Diagnostics& diagnostics);
+/// Lists in them that are longer than a row of their array go on in the next one: `globalData` knows the arrays.
+SinumerikData sinumerikData(const simulation::Setup& setup, Diagnostics& diagnostics,
+                            const sinumerik::GlobalUserData* globalData = nullptr);
 
 /// Number of the settable zero offset that is active at the start: 0 is G500.
 int activeZeroOffset(const simulation::Setup& setup);

@@ -20,6 +20,7 @@ Diagnostics checkProgram(const std::filesystem::path& path, std::optional<contro
   if (control::isHeidenhain(*kind)) return checkProgram(**program, *kind);
   Diagnostics found;
   const sinumerik::GlobalUserData globalData = globalUserData(path, {}, found);
+  useMacros(**program, globalData);
   const Diagnostics more = checkProgram(**program, *kind, {}, &globalData);
   found.insert(found.end(), more.begin(), more.end());
   return found;
@@ -27,7 +28,7 @@ Diagnostics checkProgram(const std::filesystem::path& path, std::optional<contro
 
 Diagnostics checkProgram(language::Program& program, control::ControlKind kind, std::set<std::string> globalVariables,
                          const sinumerik::GlobalUserData* globalData) {
-  const auto library = programLibrary(kind);
+  const auto library = programLibrary(kind, {}, globalData);
   if (control::isHeidenhain(kind)) {
     return language::klartext::checkProgram(static_cast<language::klartext::HeidenhainProgram&>(program), kind,
                                             library.get());

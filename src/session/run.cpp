@@ -9,6 +9,7 @@
 #include "control/alarm.hpp"
 #include "control/sinumerik/text.hpp"
 #include "language/din_iso/host.hpp"
+#include "language/directory_library.hpp"
 #include "language/encoding.hpp"
 #include "language/klartext/host.hpp"
 #include "language/sinumerik/host.hpp"
@@ -193,10 +194,26 @@ bool callAside(language::ProgramLibrary& library, language::Host& host, language
   throw alarm;
 }
 
+/// The text of the file or program that `program` means by `name`.
+std::optional<std::string> textBeside(const fs::path& path, language::ProgramLibrary& library,
+                                      const language::Program& program, std::string_view name) {
+  const std::string plain(name.substr(name.find_last_of("/\\") + 1));
+  fs::path file = path.parent_path() / plain;
+  std::error_code error;
+  if (plain.empty() || !fs::is_regular_file(file, error)) {
+    const auto* folder = dynamic_cast<language::DirectoryLibrary*>(&library);
+    const auto found = folder == nullptr ? std::nullopt : folder->find(name, &program);
+    if (!found) return std::nullopt;
+    file = *found;
+  }
+  Result<std::string> text = readFile(file);
+  return text ? std::optional(std::move(*text)) : std::nullopt;
+}
+
 void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>& program, const fs::path& path,
                   const simulation::Setup& setup, const sinumerik::GlobalUserData& globalData,
                   const RunOptions& options) {
-  SinumerikData data = sinumerikData(setup, outcome.diagnostics);
+  SinumerikData data = sinumerikData(setup, outcome.diagnostics, &globalData);
   sinumerik::HostOptions hostOptions;
   hostOptions.globalData = globalData.variables(data.store, outcome.diagnostics);
   if (hasErrors(outcome.diagnostics)) return;
@@ -224,8 +241,9 @@ void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>&
   hostOptions.searchEnds = [&] {
     if (!control.programTest) goOnMoving(machine, control);
   };
-  const auto library = programLibrary(outcome.control);
+  const auto library = programLibrary(outcome.control, {}, &globalData);
   hostOptions.fileExists = [&](std::string_view name) { return library->exists(name, program.get()); };
+  hostOptions.readFile = [&](std::string_view name) { return textBeside(path, *library, *program, name); };
   sinumerik::SinumerikHost* running = nullptr;
   hostOptions.callProgram = [&](std::string_view name, const language::Program* caller) {
     return callAside(*library, *running, interpreterOptions(options, outcome.control), name, caller);
@@ -246,6 +264,7 @@ void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>&
   }
 
   outcome.files = control.panel.files();
+  std::erase_if(outcome.files, [](const auto& file) { return file.second.empty(); });  // what DELETE left
   addDataFiles(outcome, data, control.data);
   addDefinitionFiles(outcome, setup.tables);
   const Eigen::Affine3d workpiece = control.machineFromBase() * sin::transform(control.frames.settableFrame);
@@ -341,6 +360,7 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
   const sinumerik::GlobalUserData globalData = control::isHeidenhain(kind)
                                                    ? sinumerik::GlobalUserData()
                                                    : globalUserData(path, setup.tables, outcome.diagnostics);
+  useMacros(*program, globalData);
   const Diagnostics mistakes = checkProgram(*program, kind, namesOfData(setup, kind), &globalData);
   outcome.diagnostics.insert(outcome.diagnostics.end(), mistakes.begin(), mistakes.end());
   if (hasErrors(outcome.diagnostics)) {

@@ -10,6 +10,7 @@
 #include "language/din_iso/program.hpp"
 #include "language/directory_library.hpp"
 #include "language/klartext/program.hpp"
+#include "language/sinumerik/global_data.hpp"
 #include "language/sinumerik/program.hpp"
 
 namespace probewright::session {
@@ -138,12 +139,19 @@ std::shared_ptr<language::Program> programOf(std::string name, std::string text,
   }
 }
 
-std::unique_ptr<language::ProgramLibrary> programLibrary(ControlKind kind, std::vector<std::filesystem::path> folders) {
+void useMacros(language::Program& program, const sinumerik::GlobalUserData& globalData) {
+  if (auto* own = dynamic_cast<sinumerik::SinumerikProgram*>(&program)) own->useMacros(globalData.macros());
+}
+
+std::unique_ptr<language::ProgramLibrary> programLibrary(ControlKind kind, std::vector<std::filesystem::path> folders,
+                                                         const sinumerik::GlobalUserData* globalData) {
   const bool heidenhain = control::isHeidenhain(kind);
   std::vector<std::string> endings =
       heidenhain ? std::vector<std::string>{".H", ".I"} : std::vector<std::string>{".SPF", ".MPF", ".CPF", ".CYC"};
-  const auto open = [kind](const std::filesystem::path& path) {
-    return openProgram(path, languageFor(kind, path, {}));
+  const auto open = [kind, globalData](const std::filesystem::path& path) {
+    auto program = openProgram(path, languageFor(kind, path, {}));
+    if (program && globalData != nullptr) useMacros(**program, *globalData);
+    return program;
   };
   return std::make_unique<language::DirectoryLibrary>(std::move(endings), open, std::move(folders));
 }

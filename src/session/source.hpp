@@ -8,6 +8,10 @@
 #include "control/control_kind.hpp"
 #include "language/program.hpp"
 
+namespace probewright::sinumerik {
+class GlobalUserData;
+}
+
 /// Program files, whatever their language.
 namespace probewright::session {
 
@@ -37,8 +41,13 @@ Result<std::shared_ptr<language::Program>> openProgram(const std::filesystem::pa
 /// A program in memory; `name` names it in messages.
 std::shared_ptr<language::Program> programOf(std::string name, std::string text, ProgramLanguage language);
 
-/// Where programs of that control look for others: the caller's folder, then `folders`.
+/// Tells a SINUMERIK program the macros of definition files; nothing for other programs.
+void useMacros(language::Program& program, const sinumerik::GlobalUserData& globalData);
+
+/// Where programs of that control look for others: the caller's folder, then `folders`. SINUMERIK programs know the
+/// macros of `globalData`, which must outlive the library.
 std::unique_ptr<language::ProgramLibrary> programLibrary(control::ControlKind kind,
-                                                         std::vector<std::filesystem::path> folders = {});
+                                                         std::vector<std::filesystem::path> folders = {},
+                                                         const sinumerik::GlobalUserData* globalData = nullptr);
 
 }  // namespace probewright::session

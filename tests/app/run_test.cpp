@@ -328,5 +328,74 @@ TEST(Run, CallsTheMachineBuildersProgramBeforeMeasuring) {
   EXPECT_THAT(stopped.errors, HasSubstr("66001"));
 }
 
+/// A stylus with a long arm is an L on a SINUMERIK: type 713, whose arm the cycles turn to +X and which can pull.
+TEST(Run, MeasuresUnderAnOverhangWithABentStylus) {
+  const Folder folder;
+  const std::string world = folder.file("bent.toml",
+                                        "[control]\ntype = \"840Dsl\"\n[part]\npose = { z = -420 }\n"
+                                        "[[part.feature]]\nshape = \"box\"\nsize = [60, 60, 20]\ncentre = [0, 0, 40]\n"
+                                        "[[tool]]\nnumber = 1\nname = \"HOOK\"\nkind = \"probe\"\nlength = 150\n"
+                                        "ball_radius = 2\nstylus_radius = 1\nstylus_length = 90\nbody_radius = 20\n"
+                                        "tip_offset = [0, 40]\n"
+                                        "[[zero_offset]]\nname = \"G54\"\norigin = [0, 0, -380.3]\nactive = true\n");
+  // From the side below the plate, whose lower face lies at Z 0.3 of G54; the hook reaches 40 mm in +X.
+  const std::string pull = folder.file("pull.mpf",
+                                       "G17 G54 G90\nT1 M6\nD1\nG0 X-120 Y0 Z-20\nSPOS=270\nG1 X-60 F2000\n"
+                                       "R1=$TC_DP1[1,1] R2=$TC_DP10[1,1]\nCYCLE978(0,,,1,0,12,2,3,1,1)\n"
+                                       "MSG(\"type \"<<R1<<\" at \"<<R2<<\" face \"<<ROUND(_OVR[4]*1000))\nM30\n");
+  const Answer ran = probewright({"run", pull, "--setup", world, "--out", (folder / "out").string()});
+  EXPECT_EQ(ran.exit, 0) << ran.errors;
+  EXPECT_THAT(ran.output, HasSubstr("type 713 at 270 face 300"));
+}
+
+/// With a second INT in its PROC line the machine builder's program is called on every occasion.
+TEST(Run, CallsTheMachineBuildersProgramOnEveryOccasion) {
+  const Folder folder;
+  const std::string housing = "examples/setups/housing-840dsl.toml";
+  const auto run = [&](const std::string& mask) {
+    const std::string reversed = folder.file("reversed.mpf", "G17 G54 G90\nT1 M6\nD1\nG0 X60 Y40 Z50\nG1 Z-13 F2000\n" +
+                                                                 mask + "CYCLE977(10001,,,1,40,,,8,4)\nM30\n");
+    return probewright({"run", reversed, "--setup", housing, "--out", (folder / "out").string()});
+  };
+  const std::string told = "MSG(\"told \"<<CYCLE_NO<<\" \"<<OCCASION<<\" at \"<<R1<<\" deviation \"<<_OVR[4])\n";
+  folder.file("CUST_MEACYC.SPF", "PROC CUST_MEACYC(INT CYCLE_NO, INT OCCASION) SAVE\nR1=R1+1\n" + told + "M17\n");
+  const auto calls = [](const std::string& text, const std::string& what) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+      ++count;
+    return count;
+  };
+  const Answer around = run("");
+  ASSERT_EQ(around.exit, 0) << around.errors;
+  EXPECT_THAT(around.output, HasSubstr("told 977 0 at 1 deviation 0"));
+  EXPECT_THAT(around.output, HasSubstr("told 977 1 at 2 deviation 40.0")) << "behind the cycle it reads the results";
+  EXPECT_EQ(calls(around.output, "told 977 2"), 0U);
+  const Answer turning = run("$SCS_MEA_FUNCTION_MASK=$SCS_MEA_FUNCTION_MASK B_OR 64\n");
+  ASSERT_EQ(turning.exit, 0) << turning.errors;
+  // In both axes: turned round, back for the second touch, and as it stood when the axis is done.
+  EXPECT_EQ(calls(turning.output, "told 977 2"), 6U) << turning.output;
+  EXPECT_THAT(turning.output, HasSubstr("told 977 1 at 8"));
+
+  // Without the second parameter it cannot tell what it is called for.
+  folder.file("CUST_MEACYC.SPF", "PROC CUST_MEACYC(INT CYCLE_NO) SAVE\nR1=R1+1\nMSG(\"call \"<<R1)\nM17\n");
+  EXPECT_EQ(calls(run("").output, "call "), 1U);
+  EXPECT_EQ(calls(run("$SCS_MEA_FUNCTION_MASK=$SCS_MEA_FUNCTION_MASK B_OR 64\n").output, "call "), 7U);
+
+  // What goes wrong in it between two touches ends the cycle.
+  folder.file("CUST_MEACYC.SPF",
+              "PROC CUST_MEACYC(INT CYCLE_NO, INT OCCASION) SAVE\n"
+              "IF OCCASION==2\nSETAL(66002,\"the probe is off\")\nENDIF\nM17\n");
+  const Answer stopped = run("$SCS_MEA_FUNCTION_MASK=$SCS_MEA_FUNCTION_MASK B_OR 64\n");
+  EXPECT_EQ(stopped.exit, 3);
+  EXPECT_THAT(stopped.errors, HasSubstr("CUST_MEACYC.SPF:3"));
+  EXPECT_THAT(stopped.errors, HasSubstr("66002"));
+
+  // A cycle in it measures without calling it again.
+  folder.file("CUST_MEACYC.SPF", "PROC CUST_MEACYC SAVE\nR1=R1+1\nMSG(\"call \"<<R1)\nCYCLE977(1,,,1,40,,,8,4)\nM17\n");
+  const Answer nested = run("");
+  EXPECT_EQ(nested.exit, 0) << nested.errors;
+  EXPECT_EQ(calls(nested.output, "call "), 1U);
+}
+
 }  // namespace
 }  // namespace probewright::app::testing

@@ -20,6 +20,12 @@ void placeCorner(simulation::Truth& truth, const Pose& pose, double opening, boo
   }
 }
 
+/// The manual: measurements run parallel to the axes of the active workpiece system.
+void expectTouchesAlongTheAxes(const SinumerikBench& bench) {
+  for (const control::TouchRecord& touch : bench.control.journal.cycles.back().touches)
+    EXPECT_EQ(touch.direction.cwiseAbs().maxCoeff(), 1.0) << touch.direction.transpose();
+}
+
 struct Scene {
   Pose believed, part;
   double angle;
@@ -58,8 +64,8 @@ TEST(Cycle961, FindsRightAngledCornersByThreePoints) {
     bench.start(pole);
     bench.run("CYCLE961", {{"S_MVAR", inside ? 105.0 : 106.0},
                            {"S_KNUM", 1},
-                           {"S_SETV0", inside ? 10.0 : 30.0},
-                           {"S_SETV1", 80},
+                           {"S_SETV0", inside ? 10.0 : 45.0},
+                           {"S_SETV1", 90},
                            {"S_SETV2", 60},
                            {"S_SETV4", pole.x()},
                            {"S_SETV5", pole.y()},
@@ -74,9 +80,49 @@ TEST(Cycle961, FindsRightAngledCornersByThreePoints) {
     EXPECT_NEAR(bench.ovr(6), corner.y(), 1e-9);
     EXPECT_NEAR(bench.ovr(21), scene.part.translation().x(), 1e-9);
     EXPECT_NEAR(bench.ovr(22), scene.part.translation().y(), 1e-9);
+    expectTouchesAlongTheAxes(bench);
     expectAligned(bench, scene, {5, -7});
     EXPECT_NEAR((bench.machine.tipOnTable() - (scene.believed * pole + Vector3(0, 0, 2))).norm(), 0, 1e-6)
         << "the probe is back where it started, its ball's centre over its lowest point";
+  }
+}
+
+TEST(Cycle961, TouchesAlongTheAxesOfATurnedSystem) {
+  // The part lies at 30 degrees, and so does G54: the probe travels along the edges of the part, not of the machine.
+  // With G54 straight it travels along the machine's axes and meets the same edges askew.
+  for (const bool turned : {true, false}) {
+    const Pose part = translation({20.4, 30.3, table}) * rotation(Vector3::UnitZ(), 31);
+    simulation::Truth truth = perfectWorld();
+    placeCorner(truth, part, 90, false);
+    SinumerikBench bench(truth);
+    plantFrame(bench, "$P_UIFR", 1, {20, 30, table}, {0, 0, turned ? 30.0 : 0.0});
+    const Vector3 pole =
+        turned ? Vector3(-15, -15, -10) : Vector3(rotation(Vector3::UnitZ(), 30) * Vector3(-15, -15, -10));
+    bench.start(pole);
+    bench.run("CYCLE961", {{"S_MVAR", 6},
+                           {"S_SETV0", 45},
+                           {"S_SETV1", 90},
+                           {"S_SETV2", 60},
+                           {"S_SETV4", pole.x()},
+                           {"S_SETV5", pole.y()},
+                           {"S_STA1", turned ? 0.0 : 30.0},
+                           {"S_FA", 20},
+                           {"S_TSA", 5}});
+    EXPECT_NEAR(bench.ovr(20), 31, 1e-9);
+    EXPECT_NEAR(bench.ovr(21), 20.4, 1e-9);
+    EXPECT_NEAR(bench.ovr(22), 30.3, 1e-9);
+    expectTouchesAlongTheAxes(bench);
+    // Across an edge that lies askew the way is longer: the ball comes to rest beside the point, not in front of it.
+    const auto& touches = bench.control.journal.cycles.back().touches;
+    ASSERT_EQ(touches.size(), 3U);
+    const Vector3 along =
+        turned ? Vector3(Vector3::UnitX()) : Vector3(rotation(Vector3::UnitZ(), 30) * Vector3::UnitX());
+    const double aside = (touches[0].ballCentre - pole).dot(along) - 45;
+    if (turned) {
+      EXPECT_NEAR(aside, 0, 1e-9);
+    } else {
+      EXPECT_GT(std::abs(aside), 5) << "15 mm tan 30 degrees and less the ball";
+    }
   }
 }
 
@@ -138,6 +184,7 @@ TEST(Cycle961, FindsAnyCornerByFourPoints) {
                          {"S_SETV5", pole.y()}});
     }
     bench.run("CYCLE961", call);
+    expectTouchesAlongTheAxes(bench);
     EXPECT_NEAR(bench.ovr(4), scene.angle, 1e-9);
     expectAligned(bench, scene, {0, 0});
   }

@@ -228,6 +228,11 @@ TEST(Cycle978, TheSpindleFollowsATurnedSystemIfAskedTo) {
   EXPECT_NEAR(measured(), 0.1 - 0.1 * std::cos(radiansFromDegrees(40)), 1e-9);
   bench.set("$SCS_MEA_FUNCTION_MASK", {}, 3);
   EXPECT_NEAR(measured(), 0, 1e-9);
+  EXPECT_NEAR(bench.machine.spindleAngle(), 40, 1e-9);
+  // Bit 2 is for spindles that count clockwise. This one does not: the ball goes the wrong way and leads by 0.1 cos 80.
+  bench.set("$SCS_MEA_FUNCTION_MASK", {}, 7);
+  EXPECT_NEAR(measured(), 0.1 - 0.1 * std::cos(radiansFromDegrees(80)), 1e-9);
+  EXPECT_NEAR(bench.machine.spindleAngle(), -40, 1e-9);
 }
 
 TEST(Cycle978, CountsInTheProgramsUnit) {

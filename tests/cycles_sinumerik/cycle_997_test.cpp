@@ -73,6 +73,13 @@ TEST(Cycle997, LaysTheWorkpieceSystemOnThreeBalls) {
     const language::RunResult distorted = bench.tryRun("CYCLE997", with(call, {{"S_SETV3", 90.5}}));
     ASSERT_FALSE(distorted.diagnostics.empty());
     EXPECT_NE(distorted.diagnostics[0].message.find("triangle"), std::string::npos);
+    EXPECT_EQ(distorted.diagnostics[0].code, "61414");
+    EXPECT_EQ(bench.ovi(9), 61414);
+    EXPECT_EQ(bench.ovi(12), 0) << "no single ball is at fault";
+    // The second ball is where none lies: what was being measured is told with the alarm.
+    bench.start({0, 0, 30});
+    EXPECT_EQ(bench.alarmOf("CYCLE997", with(call, {{"S_SETV4", 60}})), "61301");
+    EXPECT_EQ(bench.ovi(12), 2);
     // Left out, the limit is 1.2: half a millimetre on one side passes, that of two sides together not.
     NamedNumbers open = with(call, {{"S_SETV3", 90.5}});
     std::erase_if(open, [](const auto& each) { return each.first == "S_TNVL"; });

@@ -187,5 +187,40 @@ TEST(MeasuringLog, BeginsEndsAndGoesOnAsCycle150Says) {
   EXPECT_EQ(entries("MEASPROT.TXT"), 1U);
 }
 
+TEST(MeasuringLog, GoesOnCountingWhereAnotherLogCameBetween) {
+  HoleBench bench;
+  for (const auto& [code, file, numbers] :
+       {std::tuple{1, "A.TXT", std::vector<std::string>{"1", "2", "3"}},
+        std::tuple{101, "A.CSV", std::vector<std::string>{"1", "1", "1", "2", "2", "2", "3", "3", "3"}}}) {
+    const auto setLog = [&](int digits, const char* name) {
+      bench.run("CYCLE150", {{"S_PROT", digits}}, {{"S_PATH", name}});
+    };
+    setLog(code, "A");
+    measure(bench);
+    measure(bench);
+    setLog(code, "B");
+    measure(bench);
+    setLog(1000 + code, "A");
+    measure(bench);
+    std::vector<std::string> found;
+    std::size_t headings = 0;
+    for (const std::string& line : linesOf(bench.log(file))) {
+      headings += line.starts_with("No;") || line.starts_with("Date:") ? 1 : 0;
+      const std::size_t end = line.find_first_not_of("0123456789");
+      if (end != 0 && end != std::string::npos) found.push_back(line.substr(0, end));
+    }
+    EXPECT_EQ(found, numbers) << file;
+    EXPECT_EQ(headings, 1U);
+  }
+}
+
+TEST(MeasuringLog, RefusesDigitsThatCycle150DoesNotHave) {
+  HoleBench bench;
+  for (const NamedNumbers& call :
+       {NamedNumbers{{"S_PICT", 2}}, {{"S_PICT", 21}}, {{"S_PROT", 3}}, {{"S_PROT", 201}}, {{"S_PROT", 2001}}})
+    EXPECT_EQ(bench.alarmOf("CYCLE150", call), "12150") << call.front().first << " " << call.front().second;
+  EXPECT_EQ(bench.alarmOf("CYCLE150", {{"S_PICT", 41}, {"S_PROT", 1111}}), "");
+}
+
 }  // namespace
 }  // namespace probewright::testing_support

@@ -174,6 +174,53 @@ TEST(ProbeKinds, AStarShapedProbeMeasuresAHoleAlongTheAxes) {
   }
 }
 
+TEST(ProbeKinds, AStarHasNoBallForThePoleOfACalibrationBall) {
+  simulation::Truth truth = perfectWorld();
+  makeStar(truth);
+  place(truth, simulation::SolidSphere(Vector3::Zero(), 15), translation({0, 0, table - 15}));
+  SinumerikBench bench(truth);
+  plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
+  believeInStar(bench);
+  bench.start({0, 0, 8});
+  const language::RunResult result =
+      bench.tryRun("CYCLE976", {{"S_MVAR", 1000003}, {"S_SETV", 30}, {"S_SETV0", 0}, {"S_FA", 5}, {"S_TSA", 3}});
+  ASSERT_FALSE(result.diagnostics.empty());
+  EXPECT_EQ(result.diagnostics.front().code, "61302") << format(result.diagnostics.front());
+  EXPECT_NE(result.diagnostics.front().message.find("stylus"), std::string::npos) << result.diagnostics.front().message;
+  EXPECT_EQ(bench.control.data.number("$SNS_MEA_WP_TRIG_MINUS_DIR_AX3", {0}), 0) << "nothing is stored";
+}
+
+TEST(ProbeKinds, TheArmOfAnLGoesToPlusOfTheFirstAxis) {
+  // The arm is mounted at any angle, which the correction angle tells; the workpiece system is turned, the spindle
+  // stands anywhere.
+  Planter plant(7131);
+  for (int world = 0; world < 12; ++world) {
+    const double mounted = plant.number(0, 359.9), turn = plant.number(-90, 90), error = plant.number(-1, 1);
+    simulation::Truth truth = perfectWorld();
+    simulation::TrueTool& tool = truth.tools[0];
+    tool.length = 150;
+    tool.probe.stylusLength = 90;
+    tool.probe.tipOffset = (30 * probing::directionAt(-mounted)).head<2>();
+    const Pose part = translation({0, 0, table}) * rotation(Vector3::UnitZ(), turn);
+    place(truth, simulation::Box({60 + error, -40, -60}, {90, 40, 0}), part);
+    SinumerikBench bench(truth);
+    plantFrame(bench, "$P_UIFR", 1, {0, 0, table}, {0, 0, turn});
+    bench.set("$TC_DP1", {1, 1}, 713);
+    bench.set("$TC_DP3", {1, 1}, 148);
+    bench.set("$TC_DP6", {1, 1}, 30);
+    bench.set("$TC_DP7", {1, 1}, 2);
+    bench.set("$TC_DP10", {1, 1}, mounted);
+    bench.set("$SNS_MEA_WP_TRIG_PLUS_DIR_AX1", {0}, 32);
+    bench.set("$SNS_MEA_WP_TRIG_MINUS_DIR_AX1", {0}, 0);
+    bench.start({0, 0, -10});
+    const NamedNumbers call = {{"S_MVAR", 100}, {"S_KNUM", 1}, {"S_SETV", 60}, {"S_FA", 6}, {"S_TSA", 2}, {"S_MA", 1}};
+    bench.run("CYCLE978", with(call, {{"S_MD", 1}}), {}, fmt::format("SPOS={:.3f}\n", plant.number(0, 359)));
+    EXPECT_NEAR(bench.ovr(4), 60 + error, 1e-7) << world;
+    EXPECT_NEAR(inWorkpiece(bench, part * Vector3(60 + error, 0, 0)).x(), 60, 1e-7);
+    EXPECT_EQ(bench.alarmOf("CYCLE978", with(call, {{"S_MD", 2}})), "61341") << "the arm is not calibrated that way";
+  }
+}
+
 TEST(ProbeKinds, AStarPassesBetweenWhatOneWideBallWouldMeet) {
   // Four pins at 45 degrees stand in the hole where no arm of the star goes. Turned there, two balls at once meet the
   // wall beside the middle.

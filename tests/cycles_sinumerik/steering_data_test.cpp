@@ -224,9 +224,15 @@ TEST(SteeringData, Sd55740Bit3TriesOnce) {
     EXPECT_EQ(bench.alarmOf("CYCLE978", with(SteeredBench::touching(0, 1), {{"S_SETV", -20}})), "61301");
     return bench.countOf(PathKind::Measure);
   };
+  const auto failed = [&] {
+    const auto& touches = bench.control.journal.cycles.back().touches;
+    return std::ranges::count(touches, "no contact", &control::TouchRecord::outcome);
+  };
   EXPECT_EQ(attempts(), 5U);
+  EXPECT_EQ(failed(), 5) << "each attempt counts";
   setBit(bench, "$SCS_MEA_FUNCTION_MASK", 3, true);
   EXPECT_EQ(attempts(), 1U);
+  EXPECT_EQ(failed(), 1);
 }
 
 TEST(SteeringData, Md51740Bit0WatchesTheCalibration) {

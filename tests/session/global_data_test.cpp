@@ -94,5 +94,52 @@ TEST(GlobalDataFiles, AreKnownToCheck) {
   EXPECT_EQ(outcome.info.exit, records::ExitState::InputMistake);
 }
 
+TEST(GlobalDataFiles, MacrosAreKnownToEveryProgram) {
+  const Folder folder;
+  folder.write("tables/SMAC.DEF", "%_N_SMAC_DEF\nDEFINE TWICE AS *2\nDEFINE PROBE_ON AS R5=1\nM17\n");
+  folder.write("_N_UMAC_DEF", "define Where as R2 ; a comment\nDEFINE PROBE_ON AS R5=3\nM17\n");
+  folder.write("UGUD.DEF", "DEFINE ADD1 AS +1\nDEF NCK REAL _KEPT\nM17\n");
+  const fs::path program =
+      folder.write("P.MPF", "DEFINE ADD1 AS +10\nWHERE=4 TWICE\nPROBE_ON\nBESIDE\n_KEPT=R2 ADD1\nR3=R2\nM30\n");
+  folder.write("BESIDE.SPF", "PROC BESIDE\nR6=5 ADD1\nM17\n");
+  simulation::Setup setup = emptyMachine();
+  setup.tables = folder.path / "tables";
+  const RunOutcome outcome = runProgram(program, setup, {});
+  ASSERT_EQ(outcome.info.exit, records::ExitState::Good) << outcome.info.exitText;
+  const std::string& data = outcome.files.at("DATA.INI");
+  EXPECT_NE(data.find("R2=8\n"), std::string::npos) << data;
+  EXPECT_NE(data.find("R5=3\n"), std::string::npos) << "UMAC goes before SMAC" << data;
+  EXPECT_NE(data.find("R6=6\n"), std::string::npos) << "called programs know them too" << data;
+  EXPECT_EQ(outcome.files.at("USER.GUD"), "_KEPT=18\nM17\n") << "the program's own macro goes first";
+
+  // Beside the program check knows them; what is no DEFINE is a mistake of the file.
+  const fs::path other = folder.write("Q.MPF", "WHERE=4\nPROBE_ON\nM30\n");
+  for (const Diagnostic& each : checkProgram(other, std::nullopt))
+    ADD_FAILURE() << format(each);
+  folder.write("_N_UMAC_DEF", "DEFINE WHERE AS R2\nR1=1\nM17\n");
+  const Diagnostics found = checkProgram(other, std::nullopt);
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].place.line, 2U);
+}
+
+TEST(GlobalDataFiles, ListsOfInitializationTextsGoOnInTheNextRow) {
+  const Folder folder;
+  folder.write("UGUD.DEF", "DEF NCK REAL _GRID[2,3]\nDEF NCK REAL _CUBE[2,2,2]\nM17\n");
+  folder.write("tables/A.GUD", "_GRID[0,1]=SET(1,2,3,4,5) ; by rows\n_CUBE=SET(1,2,3,4,5,6,7,8)\nM17\n");
+  const fs::path program = folder.write(
+      "P.MPF", "R1=_GRID[0,0]\nR2=_GRID[0,2]\nR3=_GRID[1,0]\nR4=_GRID[1,2]\nR5=_CUBE[1,0,1]\n_GRID[1,1]=40\nM30\n");
+  simulation::Setup setup = emptyMachine();
+  setup.tables = folder.path / "tables";
+  const RunOutcome outcome = runProgram(program, setup, {});
+  ASSERT_EQ(outcome.info.exit, records::ExitState::Good) << outcome.info.exitText;
+  const std::string& data = outcome.files.at("DATA.INI");
+  for (const char* value : {"R2=2\n", "R3=3\n", "R4=5\n", "R5=6\n"})
+    EXPECT_NE(data.find(value), std::string::npos) << value << data;
+  EXPECT_EQ(outcome.files.at("A.GUD"), "_GRID[0,1]=SET(1,2,3,40,5) ; by rows\n_CUBE=SET(1,2,3,4,5,6,7,8)\nM17\n");
+  // More values than the array has elements.
+  folder.write("tables/A.GUD", "_GRID[1,1]=SET(1,2,3)\nM17\n");
+  EXPECT_EQ(runProgram(program, setup, {}).info.exit, records::ExitState::InputMistake);
+}
+
 }  // namespace
 }  // namespace probewright::session

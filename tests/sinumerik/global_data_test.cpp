@@ -163,14 +163,14 @@ TEST(GlobalData, MistakesOfDefinitionFilesHavePlaces) {
       {"DEF REAL _A", 1, 1, "NCK or CHAN is missing"},
       {"DEF NCK REAL _A\nDEF CHAN INT _A", 2, 14, "declared already"},
       {"DEF NCK RAEL _A", 1, 9, "type"},
-      {"R1=5\nDEF NCK REAL _A", 1, 1, "lines of DEF only"},
+      {"R1=5\nDEF NCK REAL _A", 1, 1, "lines of DEF and DEFINE only"},
       {"DEF NCK REAL _A[0]", 1, 14, "elements"},
       {"DEF NCK REAL _A[2]=SET(1,2,3)", 1, 14, "longer"},
       {"DEF NCK INT _A=\"x\"", 1, 13, "type INT"},
       {"DEF NCK REAL LLI 1 ULI 2 _A=3", 1, 26, "above"},
       {"DEF NCK INT LLI 2 ULI 1 _A", 1, 25, "above the upper limit"},
       {"DEF NCK REAL _A=_B", 1, 14, "_B has no value"},
-      {"G0 X10", 1, 1, "lines of DEF only"},
+      {"G0 X10", 1, 1, "lines of DEF and DEFINE only"},
       {"DEF NCK REAL _A=1/0", 1, 14, "divis"},
       {"DEF NCK STRING _A", 1, 16, "'['"},
   };
@@ -228,7 +228,8 @@ TEST(GlobalData, FilesAreKnownByTheirNames) {
   EXPECT_EQ(definitionFileName("_N_GUD4_DEF"), "GUD4.DEF");
   EXPECT_EQ(definitionFileName("gud9.def"), "GUD9.DEF");
   EXPECT_EQ(definitionFileName("_N_SGUD.DEF"), "SGUD.DEF");
-  for (const char* name : {"UGUD.MPF", "GUD10.DEF", "UMAC.DEF", "DEF", ".DEF", "OLDUGUD.DEF"})
+  EXPECT_EQ(definitionFileName("_N_UMAC_DEF"), "UMAC.DEF");
+  for (const char* name : {"UGUD.MPF", "GUD10.DEF", "XMAC.DEF", "DEF", ".DEF", "OLDUGUD.DEF"})
     EXPECT_EQ(definitionFileName(name), "") << name;
 }
 

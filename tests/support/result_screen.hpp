@@ -11,6 +11,7 @@
 
 #include "base/number_text.hpp"
 #include "control/sinumerik/control.hpp"
+#include "support/coverage.hpp"
 
 /// The result screen of a measuring cycle, and the logs of the same measurement, as a reader sees them.
 namespace probewright::testing_support {
@@ -93,6 +94,8 @@ inline void expectScreenAndLogs(const control::sinumerik::Control& control, cons
   ASSERT_FALSE(control.journal.cycles.empty());
   const control::CycleRecord& record = control.journal.cycles.back();
   ASSERT_EQ(record.screens.size(), 1U) << cycle;
+  for (const char* log : {"", "ALL.TXT", "ALL.CSV"})
+    coverage::logRead(control::ControlKind::Sinumerik840Dsl, control.journal, log);
   const std::string& text = record.screens.back();
   SCOPED_TRACE(text);
   const ResultScreen screen(text);

@@ -58,6 +58,7 @@ public:
       }
     }
     approach_.reset();
+    opensLogs_ = opensLogs_ || std::string_view(name) == "CYCLE150";
     text += before + callOf(name, numbers, texts) + "\n";
     language::InterpreterOptions options;
     options.programDepth = sinumerik::SinumerikHost::programDepth;
@@ -120,6 +121,7 @@ public:
   /// A log that cycles have written; empty if there is none.
   std::string log(const std::string& name) const {
     coverage::logRead(controlKind, control.journal, name);
+    if (opensLogs_) coverage::note(controlKind, "CYCLE150", "log");
     const auto found = control.panel.files().find(name);
     return found == control.panel.files().end() ? std::string() : found->second;
   }
@@ -174,6 +176,7 @@ private:
   }
 
   int settable_ = 1;
+  bool opensLogs_ = false;  ///< a program has called CYCLE150
   std::optional<Vector3> approach_;
 
   /// The data of a control whose probe T1 (length 100, to the south pole) is calibrated for an ideal ball.

@@ -79,8 +79,14 @@ std::optional<double> parseNumber(std::string_view text) {
 /// Reads one text. Positions are bytes in the current line.
 class InitText::Reader {
 public:
-  Reader(InitText& text, std::string file, DataStore& store, Diagnostics& diagnostics, int channel)
-      : text_(text), file_(std::move(file)), store_(store), diagnostics_(diagnostics), wanted_(channel) {}
+  Reader(InitText& text, std::string file, DataStore& store, Diagnostics& diagnostics, int channel,
+         const ArraySizes& sizes)
+      : text_(text),
+        file_(std::move(file)),
+        store_(store),
+        diagnostics_(diagnostics),
+        sizes_(sizes),
+        wanted_(channel) {}
 
   void readAll() {
     text_.insertLine_ = firstEnd_ = text_.lines_.size();
@@ -312,11 +318,17 @@ private:
     const auto first = key.indices.empty() ? std::optional(0LL) : parseInteger(key.indices.back());
     if (!first || *first > 1'000'000) fail(assignment.begin, "a list needs a number as its last index");
     DataKey each = key;
-    if (each.indices.empty()) each.indices.emplace_back("0");
+    if (each.indices.empty()) {
+      const std::vector<int> sizes = sizes_ ? sizes_(key.name) : std::vector<int>();
+      each.indices.assign(std::max<std::size_t>(sizes.size(), 1), "0");
+    }
+    const DataKey begin = each;
     for (long long offset = 0;; ++offset) {
       ++at_;
       skipBlanks();
+      each.indices = begin.indices;
       each.indices.back() = std::to_string(*first + offset);
+      wrapAround(each);
       if (peek() != ',' && peek() != ')') {
         const auto value = readConstant();
         if (!value) return false;
@@ -330,6 +342,18 @@ private:
     }
     ++at_;
     return true;
+  }
+
+  /// Brings a last index beyond the end of its row into the rows that follow.
+  void wrapAround(DataKey& key) const {
+    const std::vector<int> sizes = sizes_ ? sizes_(key.name) : std::vector<int>();
+    if (sizes.size() != key.indices.size()) return;
+    for (std::size_t i = sizes.size(); i-- > 1;) {
+      const auto index = parseInteger(key.indices[i]), outer = parseInteger(key.indices[i - 1]);
+      if (!index || !outer || *index < sizes[i]) return;
+      key.indices[i] = std::to_string(*index % sizes[i]);
+      key.indices[i - 1] = std::to_string(*outer + *index / sizes[i]);
+    }
   }
 
   static bool isFrameFunction(std::string_view word) {
@@ -422,6 +446,7 @@ private:
   std::string file_;
   DataStore& store_;
   Diagnostics& diagnostics_;
+  const ArraySizes& sizes_;
   int wanted_ = 1, current_ = 1;
   bool sawChannel_ = false;
   std::size_t line_ = 0, at_ = 0, firstEnd_ = 0;
@@ -430,7 +455,7 @@ private:
 };
 
 InitText InitText::parse(std::string_view bytes, std::string file, DataStore& store, Diagnostics& diagnostics,
-                         int channel) {
+                         int channel, const ArraySizes& sizes) {
   InitText text;
   while (!bytes.empty()) {
     const std::size_t end = bytes.find('\n');
@@ -438,7 +463,7 @@ InitText InitText::parse(std::string_view bytes, std::string file, DataStore& st
     text.lines_.emplace_back(bytes.substr(0, length));
     bytes.remove_prefix(length);
   }
-  Reader(text, std::move(file), store, diagnostics, channel).readAll();
+  Reader(text, std::move(file), store, diagnostics, channel, sizes).readAll();
   return text;
 }
 

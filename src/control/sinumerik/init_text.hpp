@@ -30,8 +30,11 @@ public:
   /// FALSE, strings, SET(...) lists that fill consecutive elements, and chains of frame functions with constants.
   /// To `diagnostics`: errors where an assignment is malformed (the rest of its line is skipped), notes for statements
   /// that have no meaning here. Never fails as a whole: what could be read is in the store.
+  /// `sizes` tells the elements per dimension of an array, by its name in capitals: a list that is longer than its row
+  /// goes on in the next one. Without them it fills the last index alone.
+  using ArraySizes = std::function<std::vector<int>(std::string_view name)>;
   static InitText parse(std::string_view bytes, std::string file, DataStore& store, Diagnostics& diagnostics,
-                        int channel = 1);
+                        int channel = 1, const ArraySizes& sizes = {});
 
   /// The text as it was read.
   std::string bytes() const;

@@ -50,6 +50,8 @@ constexpr std::array alarms = {
     AlarmEntry{61343, "The tool does not exist", "correct S_TNAME"},
     AlarmEntry{61351, "Tool length or radius is 0", "enter the tool data"},
     AlarmEntry{61372, "The variant needs a spindle that can be positioned", "use another variant"},
+    AlarmEntry{61414, "The triangle of the three balls is distorted more than allowed",
+               "check the set centres of the balls, or enlarge S_TNVL"},
 };
 
 const AlarmEntry* find(int number) {

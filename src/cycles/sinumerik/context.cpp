@@ -8,6 +8,7 @@
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
+#include "control/missing_axis.hpp"
 #include "control/sinumerik/measuring_data.hpp"
 #include "cycles/sinumerik/measuring_log.hpp"
 
@@ -49,8 +50,10 @@ bool scales(ValueKind kind) { return kind == ValueKind::Length || kind == ValueK
 
 }  // namespace
 
-Context::Context(Control& control, const Arguments& arguments, SourcePlace place)
+Context::Context(Control& control, const Arguments& arguments, SourcePlace place,
+                 const std::function<void()>& spindlePositioned)
     : control_(control), arguments_(arguments), planeBefore_(control.plane) {
+  if (maskBit(control.data, "$SCS_MEA_FUNCTION_MASK", 6)) spindlePositioned_ = spindlePositioned;
   const CycleDefinition& definition = arguments.definition();
   control::CycleRecord record;
   record.name = definition.name;
@@ -172,9 +175,16 @@ void Context::noteCall() {
 
 probing::SinumerikProber& Context::prober() {
   if (!prober_) {
-    prober_.emplace(control_.channel, control_.workingPlane(), probeOfDataSet(control_, dataSet()), habitsOf(control_));
+    probing::SinumerikHabits habits = habitsOf(control_);
+    habits.spindlePositioned = spindlePositioned_;
+    prober_.emplace(control_.channel, control_.workingPlane(), probeOfDataSet(control_, dataSet()), std::move(habits));
   }
   return *prober_;
+}
+
+void Context::positionSpindle(double degrees) {
+  control_.channel.orientSpindle(degrees);
+  if (spindlePositioned_) spindlePositioned_();
 }
 
 int Context::repetitions() const { return std::clamp(integer("S_NMSP"), 1, 9); }
@@ -270,12 +280,16 @@ void Context::stopOutOfTolerance(const std::string& text) {
 namespace {
 
 /// Turns the spindle with the workpiece coordinate system about the infeed axis, where setting data ask for it, so that
-/// the probe touches as it was calibrated. A probe with one direction is turned into every touch anyway.
-void followRotation(Control& control) {
-  if (!maskBit(control.data, "$SCS_MEA_FUNCTION_MASK", 1) || !control.tool.isProbe() || control.tool.type == 712)
-    return;
-  if (!control.channel.description().spindleOrients) return;
-  control.channel.orientSpindle(probing::angleFromSpindle(control.channel, control.workingPlane(), Vector3::UnitX()));
+/// the probe touches as it was calibrated; the arm of an L always goes to plus of the 1st axis. A probe with one
+/// direction is turned into every touch anyway. Bit 2 is for spindles that count their angle clockwise.
+void followRotation(Context& context) {
+  const Control& control = context.control();
+  if (!control.tool.isProbe() || !control.channel.description().spindleOrients) return;
+  const bool bent = control.tool.type == 713;
+  if (control.tool.type == 712 || (!bent && !maskBit(control.data, "$SCS_MEA_FUNCTION_MASK", 1))) return;
+  const double angle = probing::angleFromSpindle(control.channel, control.workingPlane(), Vector3::UnitX());
+  if (bent) return context.positionSpindle(probeOfDataSet(control, context.dataSet()).correctionAngle + angle);
+  context.positionSpindle(maskBit(control.data, "$SCS_MEA_FUNCTION_MASK", 2) ? -angle : angle);
 }
 
 /// Refuses before anything moves what no variant can do with: no measuring path (61308), and digits that no list of the
@@ -297,6 +311,8 @@ void requireArguments(Context& context) {
 
 /// An alarm of a move within a cycle, by the name that the cycles give it.
 Alarm asCycleAlarm(const Alarm& alarm) {
+  if (dynamic_cast<const control::MissingAxis*>(&alarm) != nullptr)
+    return {"61336", fmt::format("{}: {}", alarmText(61336), alarm.text()), alarm.advice()};
   const auto number = parseInteger(alarm.code());
   const std::string_view text = number ? alarmText(static_cast<int>(*number)) : std::string_view();
   if (text.empty() || number != 61302 || alarm.text().starts_with(text)) return alarm;
@@ -305,7 +321,8 @@ Alarm asCycleAlarm(const Alarm& alarm) {
 
 }  // namespace
 
-void runCycle(Control& control, const Entry& entry, const Arguments& arguments, const SourcePlace& place) {
+void runCycle(Control& control, const Entry& entry, const Arguments& arguments, const SourcePlace& place,
+              const std::function<void()>& spindlePositioned) {
   if (control.dryRun || control.programTest || control.blockSearch) {
     control.panel.message(EventKind::Skipped,
                           fmt::format("{} is skipped in {}", entry.definition->name,
@@ -318,14 +335,14 @@ void runCycle(Control& control, const Entry& entry, const Arguments& arguments, 
   const Diagnostics mistakes = check(arguments, control::ControlKind::Sinumerik840Dsl);
   if (!mistakes.empty()) throw Alarm("12150", mistakes.front().message, mistakes.front().advice);
   if (entry.set != nullptr) return entry.set(control, arguments);
-  Context context(control, arguments, place);
+  Context context(control, arguments, place, spindlePositioned);
   const auto output = [&] {
     context.record().endSeconds = control.channel.seconds();
     outputResults(control, context.record(), control.ovi[9]);
   };
   try {
     requireArguments(context);
-    followRotation(control);
+    followRotation(context);
     for (bool done = false; !done;) {
       try {
         entry.run(context, arguments);
@@ -337,6 +354,7 @@ void runCycle(Control& control, const Entry& entry, const Arguments& arguments, 
   } catch (const Alarm& alarm) {
     const Alarm shown = asCycleAlarm(alarm);
     if (const auto number = parseInteger(shown.code())) context.resultInteger(9, static_cast<int>(*number));
+    if (context.failingPart() != 0) context.resultInteger(12, context.failingPart());
     context.record().alarm = shown.code().empty() ? shown.text() : shown.code() + ": " + shown.text();
     output();
     throw shown;

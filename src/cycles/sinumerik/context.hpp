@@ -32,8 +32,10 @@ struct Compared {
 
 class Context {
 public:
-  /// Opens the cycle's record, clears _OVR and _OVI, and selects the plane that _DMODE asks for.
-  Context(Control& control, const Arguments& arguments, SourcePlace place);
+  /// Opens the cycle's record, clears _OVR and _OVI, and selects the plane that _DMODE asks for. `spindlePositioned`
+  /// is called behind each positioning of the spindle, where bit 6 of SD 55740 asks for it.
+  Context(Control& control, const Arguments& arguments, SourcePlace place,
+          const std::function<void()>& spindlePositioned = {});
   /// Closes the record and restores the plane (PROC ... SAVE).
   ~Context();
   Context(const Context&) = delete;
@@ -68,6 +70,8 @@ public:
 
   /// The prober with the calibration of data set S_PRNUM. Made on first use.
   probing::SinumerikProber& prober();
+  /// Positions the spindle, as SPOS does: the tool spindle, on lathes the main spindle.
+  void positionSpindle(double degrees);
   /// Measurements at one place, S_NMSP; 0 counts as 1.
   int repetitions() const;
 
@@ -77,6 +81,10 @@ public:
   void noteCall();
   /// Sets _OVI[index] and records it.
   void resultInteger(int index, int value);
+
+  /// What _OVI[12] tells if an alarm comes from here on: the part of the task that failed. 0: nothing.
+  void markFailing(int part) { failing_ = part; }
+  int failingPart() const { return failing_; }
 
   /// Sets _OVS_TNAME, the name of the tool that was corrected.
   void correctedTool(const std::string& name);
@@ -110,13 +118,17 @@ private:
   int planeBefore_ = 17;
   Vector3 start_ = Vector3::Zero();
   int repetitionsLeft_ = 0;
+  int failing_ = 0;
   std::function<void()> wayBack_;
+  std::function<void()> spindlePositioned_;
   std::optional<probing::SinumerikProber> prober_;
 };
 
 /// Runs cycle `entry` with `arguments` at `place`: skipped in dry run, program test and block search; otherwise checks
-/// the arguments, opens the record, runs, closes. An alarm is noted in the record and thrown on.
-void runCycle(Control& control, const Entry& entry, const Arguments& arguments, const SourcePlace& place);
+/// the arguments, opens the record, runs, closes. An alarm is noted in the record and thrown on. `spindlePositioned`:
+/// see Context.
+void runCycle(Control& control, const Entry& entry, const Arguments& arguments, const SourcePlace& place,
+              const std::function<void()>& spindlePositioned = {});
 
 /// Calibration data set `index` (from 0) with what the active tool says.
 probing::SinumerikProbe probeOfDataSet(const Control& control, int index);

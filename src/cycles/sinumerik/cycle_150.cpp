@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <charconv>
 
+#include "control/alarm.hpp"
 #include "control/sinumerik/control.hpp"
 #include "cycles/sinumerik/cycles.hpp"
 #include "cycles/sinumerik/measuring_log.hpp"
@@ -10,14 +12,19 @@ namespace probewright::cycles::sinumerik {
 
 namespace {
 
+constexpr Choice screens150[] = {{0, "result screen off"}, {1, "result screen on"}};
+constexpr Choice waits150[] = {{0, "for 8 s"}, {1, "for 8 s"}, {3, "until NC start"}, {4, "with tolerance alarms"}};
+constexpr CodeDigit screen150[] = {{1, 1, "screen", screens150}, {2, 1, "shown", waits150}};
+constexpr Choice logs150[] = {{0, "log off"}, {1, "log on"}, {2, "log of the last measurement"}};
+constexpr Choice kinds150[] = {{0, "standard log"}, {1, "user log, written as the standard one"}};
+constexpr Choice forms150[] = {{0, "text"}, {1, "table"}};
+constexpr Choice files150[] = {{0, "new file"}, {1, "append"}};
+constexpr CodeDigit log150[] = {
+    {1, 1, "log", logs150}, {2, 1, "kind", kinds150}, {3, 1, "form", forms150}, {4, 1, "file", files150}};
+
 constexpr Parameter parameters150[] = {
-    parameters::code(0, "S_PICT",
-                     "result screen; units: 0 off, 1 on; tens: 1 for 8 s, 3 until NC start, 4 with tolerance alarms",
-                     0),
-    parameters::code(1, "S_PROT",
-                     "measuring log; units: 0 off, 1 on, 2 the last measurement only; hundreds: 0 text, 1 table; "
-                     "thousands: 0 new file, 1 append",
-                     0),
+    parameters::coded(0, "S_PICT", "result screen", screen150),
+    parameters::coded(1, "S_PROT", "measuring log", log150),
     {.name = "S_PATH",
      .address = 2,
      .meaning = "name of the log file",
@@ -43,6 +50,19 @@ std::string fileNameOf(const std::string& path, MeasuringLog::Form form) {
   return name + (form == MeasuringLog::Form::Text ? ".TXT" : ".CSV");
 }
 
+/// How many measurements a log holds: the number of the last one.
+int entriesIn(const std::string& log, MeasuringLog::Form form) {
+  const std::string_view behind = form == MeasuringLog::Form::Text ? "  " : ";";
+  int entries = 0;
+  for (std::size_t at = 0; at < log.size(); at = std::min(log.find('\n', at), log.size()) + 1) {
+    int number = 0;
+    const auto [end, error] = std::from_chars(log.data() + at, log.data() + log.size(), number);
+    if (error != std::errc() || !std::string_view(end, log.data() + log.size()).starts_with(behind)) continue;
+    entries = std::max(entries, number);
+  }
+  return entries;
+}
+
 }  // namespace
 
 const CycleDefinition cycle150Definition{
@@ -59,6 +79,10 @@ const CycleDefinition cycle150Definition{
 };
 
 void setMeasuringLog(Control& control, const Arguments& arguments) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string mistake = codeComplaint(parameters150[i], arguments.values()[i]);
+    if (!mistake.empty()) throw control::Alarm("12150", mistake, "see 'probewright cycles CYCLE150'");
+  }
   const int screen = arguments.integer(0), log = arguments.integer(1);
   control::sinumerik::ResultOutput& output = control.output;
   output.display = digitOf(screen, 1) == 0 ? 0 : std::max(digitOf(screen, 2), 1);
@@ -71,11 +95,10 @@ void setMeasuringLog(Control& control, const Arguments& arguments) {
   opened.form = digitOf(log, 3) == 1 ? MeasuringLog::Form::Table : MeasuringLog::Form::Text;
   opened.file = fileNameOf(arguments.text(2), opened.form);
   const bool append = digitOf(log, 4) == 1;
-  const bool exists = control.panel.files().contains(opened.file);
-  if (append && output.programLog && output.programLog->file == opened.file) {
-    opened.entries = output.programLog->entries;
-  } else if (append && exists) {
-    opened.entries = 1;  // the heading is there
+  const auto written = control.panel.files().find(opened.file);
+  const bool exists = written != control.panel.files().end();
+  if (append && exists) {
+    opened.entries = entriesIn(written->second, opened.form);
   } else if (exists) {
     control.panel.file(opened.file, {});
   }

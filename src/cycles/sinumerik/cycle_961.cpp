@@ -77,6 +77,14 @@ double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() 
 /// The part of `v` at right angles to the unit vector `along`, unit length.
 Vector2 squareTo(const Vector2& along, const Vector2& v) { return (v - along * along.dot(v)).normalized(); }
 
+/// The direction in which a surface is touched that faces against `into`: along an axis of the plane, the one that is
+/// most nearly at right angles to the surface.
+Vector2 alongAxis(const Vector2& into) {
+  Eigen::Index axis = 0;
+  into.cwiseAbs().maxCoeff(&axis);
+  return Vector2::Unit(axis) * (into[axis] < 0 ? -1 : 1);
+}
+
 /// Where the lines p + t*d and q + t*e meet; the directions must differ.
 Vector2 intersection(const Vector2& p, const Vector2& d, const Vector2& q, const Vector2& e) {
   return p + d * (cross(q - p, e) / cross(d, e));
@@ -181,7 +189,8 @@ void cycle961(Context& context, const Arguments&) {
   const Vector3 start = prober.position();
   Toucher toucher(context, Method::Standard);
   const double side = inside ? -1 : 1;
-  const Vector2 into1 = side * squareTo(plan.edge1, plan.edge2), into2 = side * squareTo(plan.edge2, plan.edge1);
+  const Vector2 into1 = alongAxis(side * squareTo(plan.edge1, plan.edge2));
+  const Vector2 into2 = alongAxis(side * squareTo(plan.edge2, plan.edge1));
   Vector2 centre[4];
   for (int i = 0; i < plan.points; ++i) {
     const Vector2& place = plan.point[i];

@@ -97,7 +97,7 @@ private:
   bool canReverse() const {
     return !prober_.probe().monodirectional && context_.channel().description().spindleOrients;
   }
-  void turn(double degrees) { context_.channel().orientSpindle(spindle_ + degrees); }
+  void turn(double degrees) { context_.positionSpindle(spindle_ + degrees); }
 
   Vector3 touch(const Vector3& setpoint, const Vector3& direction) {
     return calibration_.touch(setpoint, direction, path_, radius_);

@@ -103,7 +103,7 @@ Vector2 centreOfShaft(Context& context, const MeasuredBall& ball, double safeHei
                                                             assumed, prober.probe().feed, control::TouchWith::Shaft);
     tips.push_back(point.tcp.head<2>());
   }
-  context.channel().orientSpindle(spindle);
+  context.positionSpindle(spindle);
   prober.moveHeightTo(safeHeight);
   const auto fit = metrology::fitCircle(tips);
   if (!fit) context.alarm(61316, fit.error().message);

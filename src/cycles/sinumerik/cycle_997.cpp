@@ -85,6 +85,7 @@ constexpr ResultDefinition results997[] = {
     {"_OVI[5]", "data set of the probe", ValueKind::Integer},
     {"_OVI[9]", "number of the alarm", ValueKind::Integer},
     {"_OVI[11]", "1: a zero offset was corrected", ValueKind::Integer},
+    {"_OVI[12]", "with an alarm: number of the ball that was being measured", ValueKind::Integer},
 };
 
 Vector3 setCentre(const Context& context, int ball) {
@@ -117,10 +118,7 @@ void correctByTriangle(Context& context, const FrameTarget& target, const Triang
   const Vector3 setMiddle = (set[0] + set[1] + set[2]) / 3, middle = (actual[0] + actual[1] + actual[2]) / 3;
   const double distorted = distortion(set, actual), limit = context.real("S_TNVL");
   if (distorted > limit + 1e-9) {
-    throw control::Alarm(
-        "",
-        fmt::format("The triangle of the three balls is distorted by {:.4f} mm, {:.4f} are allowed", distorted, limit),
-        "check the set centres of the balls, or enlarge S_TNVL");
+    context.alarm(61414, fmt::format("{:.4f} mm, {:.4f} are allowed", distorted, limit));
   }
   const Vector3 onMachine = machinePoint(context, middle);
   const Eigen::Matrix4d moved = Eigen::umeyama(columns(set), columns(actual), false);
@@ -185,6 +183,7 @@ void cycle997(Context& context, const Arguments&) {
   for (std::size_t ball = 0; ball < count; ++ball) {
     plan.centre = set[ball];
     context.prober().moveInPlane(plan.centre);
+    context.markFailing(static_cast<int>(ball) + 1);
     const MeasuredBall measured = measureBall(context, plan);
     actual[ball] = measured.centre;
     if (ball == 0) {
@@ -203,6 +202,7 @@ void cycle997(Context& context, const Arguments&) {
     for (int axis = 0; axis < 3; ++axis)
       context.checkSafeArea(measured.centre[axis] - plan.centre[axis]);
   }
+  context.markFailing(0);
   context.result(28, context.real("S_TSA"));
   context.noteCall();
 

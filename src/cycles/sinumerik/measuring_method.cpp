@@ -65,9 +65,9 @@ MeasuredPoint Toucher::measureReversed(const Vector3& setpoint, const Vector3& d
     if (std::abs(std::abs(along) - 1) > 1e-9) continue;
     return prober.measureUncompensated(setpoint, direction, path, count, radius + known.along * along, feed);
   }
-  context_.channel().orientSpindle(spindle_ + 180);
+  context_.positionSpindle(spindle_ + 180);
   const MeasuredPoint reversed = prober.measureUncompensated(setpoint, direction, path, count, radius, feed);
-  context_.channel().orientSpindle(spindle_);
+  context_.positionSpindle(spindle_);
   MeasuredPoint point = prober.measureUncompensated(setpoint, direction, path, count, radius, feed);
   const double deviation = (reversed.tcp - point.tcp).dot(direction) / 2;
   deviations_.push_back({direction, deviation});
@@ -78,7 +78,7 @@ MeasuredPoint Toucher::measureReversed(const Vector3& setpoint, const Vector3& d
 }
 
 void Toucher::finish() {
-  if (method_ != Method::Standard) context_.channel().orientSpindle(spindle_);
+  if (method_ != Method::Standard) context_.positionSpindle(spindle_);
 }
 
 }  // namespace probewright::cycles::sinumerik

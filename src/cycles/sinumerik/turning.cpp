@@ -69,7 +69,7 @@ void requireWorkpieceSpindle(Context& context) {
 
 void turnWorkpiece(Context& context, double degrees) {
   control::Channel& channel = context.channel();
-  if (channel.description().mainSpindle) return channel.orientSpindle(degrees);
+  if (channel.description().mainSpindle) return context.positionSpindle(degrees);
   const auto axis = workpieceAxis(channel.description());
   if (!axis) context.alarm(61372);
   machine::AxisPositions target = channel.axes();

@@ -317,6 +317,10 @@ void Checker::checkInstruction(const Instruction& instruction) {
     if (keywordOf(name) == Keyword::SynchronizedAction)
       report(columnOf(name), "the synchronized action " + name + " is not carried out", "The run goes on behind it.",
              Severity::Warning);
+    if (name == "ISOCALL")
+      report(columnOf(name),
+             fmt::format("ISOCALL {}: programs of the ISO dialect are not available", block_.at(command->text)),
+             "Write the program in the language of the control.");
   } else if (const auto* modal = std::get_if<Modal>(&instruction)) {
     const std::string name(block_.at(modal->name));
     const std::string_view how = skippedFunction(name);

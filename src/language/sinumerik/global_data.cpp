@@ -121,7 +121,8 @@ public:
         const std::string_view what = command == nullptr ? std::string_view() : block_.at(command->name);
         if (what == "DEFINE") continue;
         if (what != "DEF") {
-          complain(1, "a definition file holds lines of DEF only", "write DEF NCK REAL NAME, and M17 behind the last");
+          complain(1, "a definition file holds lines of DEF and DEFINE only",
+                   "write DEF NCK REAL NAME or DEFINE NAME AS text, and M17 behind the last");
           break;
         }
         if (!attributes_.hasScope) {
@@ -133,6 +134,8 @@ public:
       }
     }
   }
+
+  const Macros& macros() const { return program_->macros(); }
 
 private:
   std::size_t columnOf(std::string_view name) const {
@@ -224,7 +227,19 @@ DataKey elementKey(std::string_view name, const UserVariable& variable, std::siz
 }  // namespace
 
 void GlobalUserData::read(const std::string& file, std::string text, Diagnostics& diagnostics) {
-  DefinitionReader(file, std::move(text), data_, diagnostics).readAll();
+  DefinitionReader reader(file, std::move(text), data_, diagnostics);
+  reader.readAll();
+  for (const auto& [name, macro] : reader.macros())
+    macros_.insert_or_assign(name, macro);
+}
+
+std::vector<int> GlobalUserData::sizesOf(std::string_view name) const {
+  const GlobalDatum* datum = find(name);
+  std::vector<int> sizes;
+  if (datum == nullptr) return sizes;
+  for (const int size : datum->variable.sizes())
+    if (size > 0) sizes.push_back(size);
+  return sizes;
 }
 
 const GlobalDatum* GlobalUserData::find(std::string_view name) const {
@@ -272,7 +287,8 @@ std::string definitionFileName(std::string_view fileName) {
   if (!name.ends_with(".DEF") && !name.ends_with("_DEF")) return {};
   name.resize(name.size() - 4);
   const bool numbered = name.size() == 4 && name.starts_with("GUD") && name[3] >= '1' && name[3] <= '9';
-  if (!numbered && name != "SGUD" && name != "MGUD" && name != "UGUD" && name != "GUD") return {};
+  static constexpr std::string_view names[] = {"SGUD", "MGUD", "UGUD", "GUD", "SMAC", "MMAC", "UMAC"};
+  if (!numbered && std::ranges::find(names, name) == std::end(names)) return {};
   return name + ".DEF";
 }
 

@@ -6,12 +6,15 @@
 
 #include "base/diagnostic.hpp"
 #include "control/sinumerik/data_store.hpp"
+#include "language/sinumerik/program.hpp"
 #include "language/sinumerik/user_variables.hpp"
 
-/// Global user data (GUD): variables of the whole control or of its channel, which definition files declare.
+/// Global user data (GUD): variables of the whole control or of its channel, and macros, which definition files
+/// declare.
 ///
 ///     DEF NCK REAL _CLEARANCE[3]=SET(2,2,5)
 ///     DEF CHAN INT PHU 0 LLI 0 ULI 99 _PARTS
+///     DEFINE PROBE_ON AS M50 G4 F1
 ///     M17
 namespace probewright::control::sinumerik {
 class Control;
@@ -28,24 +31,31 @@ struct GlobalDatum {
 /// What definition files declare.
 class GlobalUserData {
 public:
-  /// Reads a definition file: lines of DEF with NCK or CHAN, up to M17 or M30. Of attributes the limits LLI and ULI
-  /// count; unit, access rights and data class are read over. Variables of the measuring cycles are read over too: the
-  /// control has them. Mistakes go to `diagnostics`; what could be read is kept.
+  /// Reads a definition file: lines of DEF with NCK or CHAN and of DEFINE, up to M17 or M30. Of attributes the limits
+  /// LLI and ULI count; unit, access rights and data class are read over. Variables of the measuring cycles are read
+  /// over too: the control has them. Of a macro that is defined twice the last text counts. Mistakes go to
+  /// `diagnostics`; what could be read is kept.
   void read(const std::string& file, std::string text, Diagnostics& diagnostics);
 
   const std::vector<GlobalDatum>& data() const { return data_; }
   /// The datum called `name` (upper case), or null.
   const GlobalDatum* find(std::string_view name) const;
 
+  /// The macros of all definition files: programs know them without DEFINE.
+  const Macros& macros() const { return macros_; }
+  /// Elements per dimension of the array called `name` (upper case); empty for everything else.
+  std::vector<int> sizesOf(std::string_view name) const;
+
   /// The variables with the values that `store` has for them. Values that do not fit go to `diagnostics`.
   UserVariables::Scope variables(const control::sinumerik::DataStore& store, Diagnostics& diagnostics) const;
 
 private:
   std::vector<GlobalDatum> data_;
+  Macros macros_;
 };
 
-/// The control's name for a definition file of global user data ("UGUD.DEF" of "_N_UGUD_DEF", "ugud.def"): SGUD, MGUD,
-/// UGUD, GUD and GUD1 to GUD9; empty for all other names.
+/// The control's name for a definition file ("UGUD.DEF" of "_N_UGUD_DEF", "ugud.def"): SGUD, MGUD, UGUD, GUD and GUD1
+/// to GUD9 for global user data, SMAC, MMAC and UMAC for macros; empty for all other names.
 std::string definitionFileName(std::string_view fileName);
 
 /// Enters into the control's data, and notes in its journal, what `now` has other than `before`.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "control/missing_axis.hpp"
 #include "language/sinumerik/functions.hpp"
 #include "language/sinumerik/program.hpp"
 #include "language/word_column.hpp"
@@ -96,7 +97,12 @@ bool SinumerikHost::drivesModalCall(const Block& block) const {
 }
 
 void SinumerikHost::execute(const Instruction& instruction, Evaluation& evaluation) {
-  std::visit([&](const auto& each) { carryOut(each, evaluation); }, instruction);
+  try {
+    std::visit([&](const auto& each) { carryOut(each, evaluation); }, instruction);
+  } catch (const control::MissingAxis& alarm) {
+    // A frame has turned the programmed axes.
+    throw Alarm("18310", alarm.text(), alarm.advice());
+  }
 }
 
 void SinumerikHost::carryOut(const Assign& assign, Evaluation& evaluation) {
@@ -125,7 +131,7 @@ Value SinumerikHost::call(std::string_view name, std::span<const Value> argument
   questions.isAxis = [this](std::string_view axis) {
     return motion_.machineAxis(addressOf(axis)).has_value() || PathMotion::linearAxis(addressOf(axis)).has_value();
   };
-  questions.isFile = [this](std::string_view path) { return options_.fileExists && options_.fileExists(path); };
+  questions.isFile = [this](std::string_view path) { return isFile(std::string(path)); };
   questions.toolNumber = [this](std::string_view tool) {
     try {
       return control_.toolNumbered(std::string(tool));
@@ -197,8 +203,15 @@ void SinumerikHost::enter(const Program& program, const CallProgram* call, Evalu
   } else if (header != nullptr) {
     for (const BlockParser::Parameter& parameter : header->parameters)
       parameters.emplace(parameter.name, UserVariable(parameter.type, {}, 200));
-    if (measuringCycle_ && !header->parameters.empty() && header->parameters[0].type == Type::Int)
-      parameters.at(header->parameters[0].name).set(0, static_cast<double>(*measuringCycle_));
+    if (notice_) {
+      const auto tell = [&](std::size_t place, int number) {
+        if (header->parameters.size() <= place || header->parameters[place].type != Type::Int) return false;
+        parameters.at(header->parameters[place].name).set(0, static_cast<double>(number));
+        return true;
+      };
+      tell(0, notice_->cycle);
+      builderTellsOccasions_ = tell(1, static_cast<int>(notice_->occasion));
+    }
   }
   if (header != nullptr &&
       std::find(header->attributes.begin(), header->attributes.end(), "SAVE") != header->attributes.end())

@@ -21,6 +21,8 @@ struct HostOptions {
   bool strict = false;
   /// ISFILE: whether a program or file of that name exists.
   std::function<bool(std::string_view path)> fileExists = {};
+  /// READ: the text of a file beside the program; nothing if there is none of that name.
+  std::function<std::optional<std::string>(std::string_view path)> readFile = {};
   /// While Control::blockSearch: the line of the main program that is searched for. In front of it the search ends, and
   /// `searchEnds` brings the machine to where the program stands.
   std::uint64_t searchLine = 0;
@@ -99,12 +101,30 @@ private:
   void alignFrameWithTool(bool withOrigin);
   void raiseAlarm(const language::Command& command, Evaluation& evaluation);
   void dwell(const language::Command& command, Evaluation& evaluation);
-  void writeFile(const language::Command& command, Evaluation& evaluation);
+  void executeText(const language::Command& command, Evaluation& evaluation);
+  void callFromText(const language::CallProgram& call, Evaluation& evaluation);
+  bool callAside(std::string_view name);
   void skip(std::string_view what, std::string_view how = "is not carried out");
   void runCircle(language::WordRange arguments, Evaluation& evaluation);
   void runCycle(std::string_view name, language::WordRange arguments, Evaluation& evaluation);
   void runSwivel(language::WordRange arguments, Evaluation& evaluation);
-  void callBeforeMeasuring(int cycle);
+  /// When the machine builder's program CUST_MEACYC is called.
+  enum class Occasion { BeforeMeasuring, AfterMeasuring, SpindlePositioned };
+  /// What it is told.
+  struct MeasuringNotice {
+    int cycle = 0;
+    Occasion occasion = Occasion::BeforeMeasuring;
+  };
+  void callMachineBuilder(int cycle, Occasion occasion);
+
+  // host_files.cpp
+  const std::string* writtenFile(const std::string& name) const;
+  std::optional<std::string> fileText(const std::string& file) const;
+  bool isFile(const std::string& path) const;
+  void setVariable(const language::Operand& target, const Value& value, Evaluation& evaluation);
+  void writeFile(const language::Command& command, Evaluation& evaluation);
+  void readFile(const language::Command& command, Evaluation& evaluation);
+  void deleteFile(const language::Command& command, Evaluation& evaluation);
 
   /// What SAVE keeps over a subprogram.
   struct SavedState {
@@ -137,8 +157,10 @@ private:
   const language::Block* block_ = nullptr;
   int preparedTool_ = -1;
   std::optional<int> edgeAfterChange_;
-  std::optional<int> measuringCycle_;  ///< what a program is told that is called in front of it
+  std::optional<MeasuringNotice> notice_;  ///< while the call of CUST_MEACYC is being made
+  bool builderTellsOccasions_ = false;     ///< the last CUST_MEACYC has a parameter for the occasion
   std::set<std::string, std::less<>> skipped_;
+  std::set<std::string> deletedFiles_;  ///< what DELETE took from the files that lay there
 };
 
 }  // namespace probewright::sinumerik

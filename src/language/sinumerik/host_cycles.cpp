@@ -77,34 +77,35 @@ void SinumerikHost::runCycle(std::string_view name, WordRange range, Evaluation&
       arguments.set(word.address, std::get<double>(value));
     }
   }
-  if (entry->run != nullptr) callBeforeMeasuring(definition.number);
+  const bool measures = entry->run != nullptr;
+  if (measures) callMachineBuilder(definition.number, Occasion::BeforeMeasuring);
   SourcePlace place = evaluation.place();
   place.column = language::columnOf(name, evaluation.at(evaluation.block().source));
   try {
-    cycles::sinumerik::runCycle(control_, *entry, arguments, place);
+    cycles::sinumerik::runCycle(control_, *entry, arguments, place,
+                                [&] { callMachineBuilder(definition.number, Occasion::SpindlePositioned); });
   } catch (const Alarm& alarm) {
     const std::string named = namedArguments(definition, alarm);
     if (named.empty()) throw;
     throw Alarm(alarm.code(), alarm.text(), alarm.advice() + named);
   }
+  if (measures) callMachineBuilder(definition.number, Occasion::AfterMeasuring);
 }
 
-/// CUST_MEACYC, the machine builder's program in front of every measuring cycle. It is told the cycle's number by
-/// _OVI[2] and by its first parameter, if that is an INT.
-void SinumerikHost::callBeforeMeasuring(int cycle) {
-  if (!options_.callProgram || levels_.empty()) return;
+/// CUST_MEACYC, the machine builder's program around every measuring cycle. It is told the cycle's number by _OVI[2]
+/// and by its first parameter, the occasion by its second, if these are INT. A program without the second cannot tell
+/// the calls apart and is called as the manual says, in front of the cycle; behind the spindle's positioning where bit
+/// 6 of SD 55740 asks for it.
+void SinumerikHost::callMachineBuilder(int cycle, Occasion occasion) {
+  // A cycle that CUST_MEACYC itself calls measures without it: it would call itself for ever.
+  if (!options_.callProgram || levels_.empty() || notice_) return;
   if (control_.dryRun || control_.programTest || control_.blockSearch) return;
-  const Block* const block = block_;
-  const SourcePlace place = control_.panel.place;
+  if (occasion == Occasion::AfterMeasuring && !builderTellsOccasions_) return;
   control_.ovi[2] = cycle;
-  measuringCycle_ = cycle;
-  const bool called = options_.callProgram("CUST_MEACYC", levels_.back().program);
-  measuringCycle_.reset();
-  block_ = block;
-  control_.panel.place = place;
-  if (!called) return;
-  lastProgram_ = levels_.back().program;
-  motion_.flush();
+  builderTellsOccasions_ = false;
+  notice_ = MeasuringNotice{cycle, occasion};
+  callAside("CUST_MEACYC");
+  notice_.reset();
 }
 
 void SinumerikHost::runSwivel(WordRange range, Evaluation& evaluation) {

@@ -176,6 +176,13 @@ void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
   }
   if (name == "G75") return motion_.approachFixedPoint(command, evaluation);
   if (name == "WRITE") return writeFile(command, evaluation);
+  if (name == "READ") return readFile(command, evaluation);
+  if (name == "DELETE") return deleteFile(command, evaluation);
+  if (name == "EXECSTRING") return executeText(command, evaluation);
+  if (name == "ISOCALL")
+    throw Alarm("14011",
+                fmt::format("ISOCALL {}: programs of the ISO dialect are not available", evaluation.at(command.text)),
+                "write the program in the language of the control");
   if (name == "TOFFL" || name == "TOFFR") {
     const bool length = name == "TOFFL";
     if (words.size() > 1 && wholeNumber(evaluation.number(words[1].value)) != 1) return skip("TOFFL[2], TOFFL[3]");
@@ -191,9 +198,8 @@ void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
     return control_.handOverFrames();
   }
   if (keywordOf(name) == Keyword::SynchronizedAction) return skip(fmt::format("the synchronized action {}", name));
-  static constexpr std::string_view noticed[] = {"G74",    "PRESETON", "READ",      "DELETE",   "EXECSTRING",
-                                                 "REPOSA", "REPOSL",   "MMC",       "FTOCON",   "CONTPRON",
-                                                 "NEWT",   "DELT",     "PRESETONS", "WORKPIECE"};
+  static constexpr std::string_view noticed[] = {"G74",      "PRESETON", "REPOSA", "REPOSL",    "MMC",      "FTOCON",
+                                                 "CONTPRON", "NEWT",     "DELT",   "PRESETONS", "WORKPIECE"};
   if (name == "WORKPIECE") return;  // the blank of the simulation screen
   if (std::find(std::begin(noticed), std::end(noticed), name) != std::end(noticed)) return skip(name);
 }
@@ -224,18 +230,65 @@ void SinumerikHost::dwell(const Command& command, Evaluation& evaluation) {
   }
 }
 
-/// WRITE(ERROR, "FILE", "text"): appends a line.
-void SinumerikHost::writeFile(const Command& command, Evaluation& evaluation) {
+/// EXECSTRING(text): carries the text out as a block of the program.
+void SinumerikHost::executeText(const Command& command, Evaluation& evaluation) {
   const auto words = evaluation.words(command.words);
-  if (words.size() < 3 || !words[2].value.present() || words[0].value.node < 0)
-    throw Alarm("14020", "WRITE takes a variable for the error, a file and a text",
-                "write WRITE(ERR,\"FILE\",\"text\")");
-  std::string file = evaluation.text(words[1].value);
-  if (const std::size_t folder = file.find_last_of("/\\"); folder != std::string::npos) file.erase(0, folder + 1);
-  if (file.empty() || file == "." || file == "..") throw Alarm("14020", "WRITE needs the name of a file");
-  control_.panel.appendToFile(file, evaluation.text(words[2].value) + "\n");
-  const Node& node = evaluation.block().nodes[static_cast<std::size_t>(words[0].value.node)];
-  if (node.operation == Operation::Variable) write(evaluation.block().variables[node.a], 0.0, evaluation);
+  if (words.empty() || !words[0].value.present())
+    throw Alarm("14020", "EXECSTRING needs the text of a block", "write EXECSTRING(\"R1=5\")");
+  const std::string text = evaluation.text(words[0].value);
+  const auto refuse = [&](const std::string& why, const std::string& advice) {
+    throw Alarm("12080", fmt::format("EXECSTRING(\"{}\"): {}", text, why), advice);
+  };
+  BlockParser parser;
+  Block block;
+  block.position = evaluation.block().position;
+  Diagnostics mistakes;
+  parser.parse(text, evaluation.place(), block, mistakes);
+  if (!mistakes.empty()) refuse(mistakes.front().message, mistakes.front().advice);
+  Evaluation inner(evaluation.program(), block, *this);
+  for (const Instruction& instruction : block.instructions) {
+    const auto* statement = std::get_if<Command>(&instruction);
+    const std::string_view name = statement == nullptr ? std::string_view() : block.at(statement->name);
+    const bool belongsToProgram = name == "DEF" || name == "DEFINE" || name == "PROC" || name == "EXTERN";
+    const auto* call = std::get_if<CallProgram>(&instruction);
+    const bool flow = std::holds_alternative<Jump>(instruction) || std::holds_alternative<RepeatSection>(instruction) ||
+                      std::holds_alternative<Return>(instruction) || std::holds_alternative<EndProgram>(instruction) ||
+                      std::holds_alternative<Structured>(instruction) ||
+                      (call != nullptr && (call->modal || call->from.length != 0));
+    if (flow || belongsToProgram || name == "EXECSTRING")
+      refuse("jumps, loops, definitions and ends of programs cannot be carried out from a text",
+             "write the block into the program");
+    if (call != nullptr) {
+      callFromText(*call, inner);
+    } else {
+      execute(instruction, inner);
+    }
+  }
+}
+
+/// A program beside the caller comes before a cycle of its name, as where the call stands in the program itself.
+void SinumerikHost::callFromText(const CallProgram& call, Evaluation& evaluation) {
+  const std::string name(call.nameValue.present() ? evaluation.text(call.nameValue)
+                                                  : std::string(evaluation.at(call.name)));
+  if (!options_.callProgram || !options_.fileExists || !options_.fileExists(name)) return carryOut(call, evaluation);
+  if (call.arguments.count != 0)
+    throw Alarm("12080", fmt::format("EXECSTRING calls the program {} with arguments, which is not available", name),
+                "write the call into the program");
+  motion_.flush();
+  callAside(name);
+}
+
+/// Runs a program that no block calls and comes back to the block that is under way; false if there is none.
+bool SinumerikHost::callAside(std::string_view name) {
+  const Block* const block = block_;
+  const SourcePlace place = control_.panel.place;
+  const bool called = options_.callProgram(name, levels_.back().program);
+  block_ = block;
+  control_.panel.place = place;
+  if (!called) return false;
+  lastProgram_ = levels_.back().program;
+  motion_.flush();
+  return true;
 }
 
 }  // namespace probewright::sinumerik

@@ -277,6 +277,7 @@ constexpr auto keywordTable = [] {
       {"ENABLE", Keyword::Statement},
       {"DISABLE", Keyword::Statement},
       {"EXECSTRING", Keyword::Statement},
+      {"ISOCALL", Keyword::IsoCall},
       {"GWPSON", Keyword::Statement},
       {"GWPSOF", Keyword::Statement},
       {"REPOSA", Keyword::Statement},

@@ -26,6 +26,7 @@ enum class Keyword : std::uint8_t {
   Until,
   Goto,  ///< all five forms
   Define,
+  IsoCall,  ///< a program of the ISO dialect is called
   Declare,  ///< DEF, REDEF
   Procedure,
   External,

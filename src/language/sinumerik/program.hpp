@@ -13,10 +13,14 @@
 
 namespace probewright::sinumerik {
 
+/// Macros by their names in capitals: what DEFINE NAME AS text defines.
+using Macros = std::map<std::string, std::string, std::less<>>;
+
 /// A part program or subprogram (.MPF, .SPF) of a SINUMERIK 840D sl or 828D. One line is one block.
 ///
 /// Macros (DEFINE NAME AS text) are known from the block on that defines them; a block that uses one is parsed with the
-/// macro's text in its place, which is then also the block's source.
+/// macro's text in its place, which is then also the block's source. Macros of the whole control (useMacros) are known
+/// from the beginning; one that the program defines itself goes before them.
 class SinumerikProgram : public language::Program {
 public:
   static Result<std::shared_ptr<SinumerikProgram>> open(const std::filesystem::path& path);
@@ -38,6 +42,11 @@ public:
 
   const language::SourceText& text() const { return text_; }
 
+  /// Macros of definition files. To be called before the first parse().
+  void useMacros(const Macros& macros) { macros_.insert(macros.begin(), macros.end()); }
+  /// All macros that are known by now.
+  const Macros& macros() const { return macros_; }
+
 private:
   void resolveTargets(language::Block& block);
   void defineMacro(const language::Block& block, const language::Command& command);
@@ -47,7 +56,7 @@ private:
   std::string name_;
   BlockParser parser_;
   SourcePlace place_;
-  std::map<std::string, std::string, std::less<>> macros_;  ///< DEFINE NAME AS text
+  Macros macros_;
   std::string expanded_;
   std::unique_ptr<ProgramStructure> structure_;
 };

@@ -108,6 +108,7 @@ void BlockParser::parseKeyword(Keyword keyword, std::string_view name, std::size
     case Keyword::Goto:
       return parseJump(name, {});
     case Keyword::Define:
+    case Keyword::IsoCall:
     case Keyword::SynchronizedAction:
       return parseRest(name);
     case Keyword::Declare:

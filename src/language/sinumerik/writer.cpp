@@ -325,6 +325,7 @@ void BlockWriter::statement(const Command& command) {
     case Keyword::Procedure:
     case Keyword::External:
     case Keyword::Define:
+    case Keyword::IsoCall:
     case Keyword::SynchronizedAction: {
       // Texts keep their own letters: the statement is taken from the source.
       const std::size_t at = command.text.offset - block_.source.length - block_.source.offset;
