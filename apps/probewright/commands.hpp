@@ -46,7 +46,9 @@ int cycles(const CyclesArguments& arguments);
 
 struct ConvertArguments {
   std::filesystem::path input;
-  std::filesystem::path output;  ///< its ending names the language
+  std::filesystem::path output;                 ///< its ending names the language
+  std::optional<control::ControlKind> control;  ///< to write for
+  std::filesystem::path setup;  ///< whose tables have definition files and values of global user data; empty: none
 };
 /// Here 1 means that something could not be carried over; it stands as a comment in the output.
 int convert(const ConvertArguments& arguments);

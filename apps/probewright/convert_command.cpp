@@ -4,6 +4,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "session/convert.hpp"
+#include "simulation/setup.hpp"
 
 namespace probewright::app {
 
@@ -14,6 +15,14 @@ int convert(const ConvertArguments& arguments) {
   };
   const Result<std::string> text = readFile(arguments.input);
   if (!text) return refuse(text.error());
+  if (text->find_first_not_of(" \t\r\n\x1a\xEF\xBB\xBF") == std::string::npos) {
+    return refuse({Severity::Error,
+                   {arguments.input.string(), 0, 0},
+                   "the program is empty",
+                   {},
+                   "check that the file was saved and copied whole",
+                   {}});
+  }
   const auto from = session::languageOf(arguments.input, *text);
   if (!from) {
     return refuse({Severity::Error,
@@ -40,11 +49,48 @@ int convert(const ConvertArguments& arguments) {
                    "name a file with the ending of another language: .H, .I or .MPF",
                    {}});
   }
-  const auto program = session::programOf(arguments.input.string(), *text, *from);
-  const session::Conversion conversion = session::convert(*program, *from, *to);
+  Diagnostics found;
+  std::optional<simulation::Setup> setup;
+  if (!arguments.setup.empty()) {
+    setup = simulation::readSetup(arguments.setup, found);
+    if (!setup) {
+      print(found);
+      return 2;
+    }
+  }
+  conversion::GlobalData globalData;
+  if (*from == session::ProgramLanguage::Sinumerik)
+    globalData = session::globalDataFor(arguments.input, setup ? &*setup : nullptr, found);
+  print(found);
+  if (hasErrors(found)) return 2;
+  if (arguments.control && (*to == session::ProgramLanguage::Sinumerik) == control::isHeidenhain(*arguments.control)) {
+    return refuse({Severity::Error,
+                   {arguments.output.string(), 0, 0},
+                   fmt::format("the {} does not read {}", control::name(*arguments.control), session::nameOf(*to)),
+                   {},
+                   "leave --control out, or name a control of the language of OUT",
+                   {}});
+  }
+  const auto program = session::openProgram(arguments.input, *from);
+  if (!program) return refuse(program.error());
+  const session::Conversion conversion = session::convert(
+      **program, *from, *to,
+      {.globalData = &globalData, .control = arguments.control.value_or(control::ControlKind::TNC640)});
   const language::Encoding encoding = language::detectEncoding(*text);
   print(conversion.mistakes, encoding);
-  if (hasErrors(conversion.mistakes)) return 2;
+  if (hasErrors(conversion.mistakes)) {
+    const auto told = session::languageOf("program", *text);
+    if (told && *told != *from) {
+      print({{Severity::Note,
+              {arguments.input.string(), 0, 0},
+              fmt::format("it was read as {} because of its ending, but looks like {}", session::nameOf(*from),
+                          session::nameOf(*told)),
+              {},
+              "give it the ending of its language: .H for Klartext, .I for DIN/ISO, .MPF or .SPF for a SINUMERIK",
+              {}}});
+    }
+    return 2;
+  }
   if (const Result<void> written = writeFileAtomically(arguments.output, conversion.text); !written) {
     return refuse(written.error());
   }

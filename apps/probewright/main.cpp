@@ -165,6 +165,14 @@ int main(int argc, char** argv) {
       "convert", "Write a program in another language: Klartext (.H), DIN/ISO (.I), SINUMERIK (.MPF)");
   convert->add_option("IN", convertArguments.input, "The program")->required();
   convert->add_option("OUT", convertArguments.output, "The file to write; its ending names the language")->required();
+  addControl(*convert, convertArguments.control);
+  convert->get_option("--control")->description("The control to write for: TNC640, iTNC530, 840Dsl; else TNC640");
+  convert
+      ->add_option("--setup", convertArguments.setup,
+                   "The setup of the control that a SINUMERIK program is for: its folder of tables has the definition "
+                   "files (UGUD.DEF...) and values (*.INI, *.GUD) of global user data; without it, definition files "
+                   "beside IN count")
+      ->type_name("FILE");
   convert->footer(
       "Exit codes: 0 everything carried over, 1 something was not or is doubtful: it is named, and what the other "
       "language cannot say stands as a comment in OUT; 2 a mistake in the input, nothing written. docs/conversion.md "

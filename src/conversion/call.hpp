@@ -27,6 +27,7 @@ struct Call {
   std::string cycle;
   std::map<std::string, Quantity, std::less<>> numbers;
   std::map<std::string, std::string, std::less<>> texts;
+  double millimetre = 1;  ///< in the unit of the program
 
   bool has(std::string_view name) const { return numbers.contains(name); }
   /// 0 if the parameter is not given.
@@ -43,6 +44,8 @@ using Results = std::map<Meaning, std::string>;
 
 /// What a reader reports of a call besides its task: each entry is lost and says how.
 using Losses = std::vector<std::string>;
+
+inline constexpr double millimetresOfInch = 25.4;
 
 /// SET_UP of the touch probe table that conversions reckon with, mm: the table is not part of a program.
 inline constexpr double assumedSetUp = 2;

@@ -3,8 +3,10 @@
 #include <string>
 
 #include "base/diagnostic.hpp"
+#include "control/control_kind.hpp"
 #include "language/klartext/heidenhain_program.hpp"
 #include "language/sinumerik/program.hpp"
+#include "language/sinumerik/user_variables.hpp"
 
 /// Programs of one vendor in the language of the other. What is measured, corrected and driven is kept;
 /// docs/conversion.md says which cycle becomes which, and what differs.
@@ -21,6 +23,12 @@ struct Conversion {
 };
 
 Conversion toSinumerik(language::klartext::HeidenhainProgram& program);
-Conversion toKlartext(sinumerik::SinumerikProgram& program);
+
+/// Global user data of a SINUMERIK with their values, by name in capitals.
+using GlobalData = sinumerik::UserVariables::Scope;
+/// `globalData`: what the program may use without defining it; null if nothing is known of its control. `control`: the
+/// HEIDENHAIN control to write for.
+Conversion toKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData = nullptr,
+                      control::ControlKind control = control::ControlKind::TNC640);
 
 }  // namespace probewright::conversion

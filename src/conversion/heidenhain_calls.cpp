@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 
@@ -14,7 +15,7 @@ namespace {
 
 class Writer {
 public:
-  explicit Writer(const MeasuringTask& task) : task_(task) {}
+  Writer(const MeasuringTask& task, control::ControlKind control) : task_(task), control_(control) {}
 
   Call call() {
     switch (task_.feature) {
@@ -76,6 +77,32 @@ private:
     }
     call_.cycle = std::to_string(presets() ? preset : inspection);
     heights();
+    if (presets()) return;
+    limits();
+    if (task_.tool) tool();
+  }
+
+  void limits() {
+    const bool round = isRound(task_.feature), inside = isInside(task_.feature);
+    // A surface measured in the positive direction is that of a recess: its limits are exchanged.
+    const bool exchanged = task_.feature == Feature::Surface && task_.sign > 0;
+    const int first = isRectangular(task_.feature) ? 284 : !round ? 288 : inside ? 275 : 277;
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (!task_.limits[i]) continue;
+      const int upper = first + 2 * static_cast<int>(i) + (exchanged ? 1 : 0);
+      set(upper, task_.size[i] + task_.limits[i]->upper);
+      set(exchanged ? upper - 1 : upper + 1, task_.size[i] + task_.limits[i]->lower);
+    }
+  }
+
+  void tool() {
+    const std::string& name = task_.tool->tool;
+    const bool number = std::ranges::all_of(name, [](unsigned char c) { return std::isdigit(c) != 0; });
+    if (number && name.size() < 6) {
+      set(330, std::stoi(name));
+    } else {
+      call_.texts["Q330"] = name;
+    }
   }
 
   void begin() {
@@ -84,7 +111,7 @@ private:
   }
 
   void extraClearance() {
-    Quantity extra = task_.path - assumedSetUp;
+    Quantity extra = task_.path - assumedSetUp * task_.millimetre;
     if (extra.isNumber() && extra.number() < 0) extra = 0;
     set(320, extra);
   }
@@ -263,9 +290,21 @@ private:
   /// Every parameter of the cycle stands in the call, those not set with the value that does nothing.
   void fillUp() {
     const cycles::CycleDefinition* definition = cycles::heidenhainCycle(std::stoi(call_.cycle));
+    if (!definition->controls.contains(control_)) {
+      throw NotCarriedOver(fmt::format("the {} has no cycle {}", control::name(control_), call_.cycle),
+                           "measure and correct by hand, or write for a TNC640");
+    }
+    const bool fourTouches = call_.number("Q423") == 4 || !call_.has("Q423");
     for (const cycles::Parameter& parameter : definition->parameters) {
-      if (parameter.kind == cycles::ValueKind::Text) continue;
+      if (!parameter.controls.contains(control_)) {
+        call_.numbers.erase(std::string(parameter.name));
+        continue;
+      }
+      if (parameter.kind == cycles::ValueKind::Text || call_.texts.contains(parameter.name)) continue;
       call_.numbers.try_emplace(std::string(parameter.name), parameter.standard.value_or(0));
+    }
+    if (!fourTouches && !call_.has("Q423")) {
+      throw NotCarriedOver(fmt::format("the {} touches circles four times", control::name(control_)));
     }
     std::erase_if(call_.numbers, [&](const auto& entry) {
       const auto address = static_cast<std::uint32_t>(std::stoi(entry.first.substr(1)));
@@ -274,11 +313,12 @@ private:
   }
 
   const MeasuringTask& task_;
+  control::ControlKind control_;
   Call call_;
 };
 
 }  // namespace
 
-Call heidenhainCall(const MeasuringTask& task) { return Writer(task).call(); }
+Call heidenhainCall(const MeasuringTask& task, control::ControlKind control) { return Writer(task, control).call(); }
 
 }  // namespace probewright::conversion

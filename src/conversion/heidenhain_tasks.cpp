@@ -72,7 +72,8 @@ private:
   MeasuringTask begun(Feature feature) const {
     MeasuringTask task;
     task.feature = feature;
-    task.path = q(320) + assumedSetUp;
+    task.millimetre = call_.millimetre;
+    task.path = q(320) + assumedSetUp * call_.millimetre;
     task.clearance = q(260);
     task.place[2] = q(261);
     task.clearanceBetween = call_.has("Q301") && option(301) == 1;
@@ -256,8 +257,9 @@ private:
   MeasuringTask calibration(Feature feature) {
     MeasuringTask task;
     task.feature = feature;
-    constexpr double lengthPath = 5;  // cycle 461 has no set-up clearance
-    task.path = feature == Feature::ProbeLength ? Quantity(lengthPath) : q(320) + assumedSetUp;
+    task.millimetre = call_.millimetre;
+    const double lengthPath = 5 * call_.millimetre;  // cycle 461 has no set-up clearance
+    task.path = feature == Feature::ProbeLength ? Quantity(lengthPath) : q(320) + assumedSetUp * call_.millimetre;
     task.size[0] = q(407) * 2;
     task.place[2] = q(434);
     task.angle = q(380);
@@ -330,8 +332,29 @@ private:
     task.centreTolerance = {q(279), q(280)};
     task.stops = asked(309);
     if (asked(281)) losses_.push_back("Q281: no measuring log is written");
-    if (asked(330) || !call_.text("Q330").empty()) losses_.push_back("Q330: no tool is monitored");
+    task.tool = monitoredTool();
     return {task};
+  }
+
+  /// The tool of Q330.
+  std::optional<ToolCorrection> monitoredTool() {
+    std::string tool = call_.text("Q330");
+    if (tool.empty() && !asked(330)) return std::nullopt;
+    const Quantity number = q(330);
+    if (!number.isNumber()) {
+      losses_.push_back("Q330: which tool is corrected is known only when the program runs");
+      return std::nullopt;
+    }
+    if (tool.empty() && number.number() != std::round(number.number())) {
+      losses_.push_back("Q330: tools with a step index are not corrected");
+      return std::nullopt;
+    }
+    if (asked(498) || asked(531)) {
+      losses_.push_back("Q498, Q531: turning tools are not corrected");
+      return std::nullopt;
+    }
+    if (tool.empty()) tool = numberText(number.number());
+    return ToolCorrection{.tool = tool, .least = {}, .most = {}};
   }
 
   const Call& call_;

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "control/control_kind.hpp"
 #include "conversion/call.hpp"
 
 /// HEIDENHAIN touch probe cycles as measuring tasks.
@@ -26,8 +27,9 @@ inline constexpr std::array<CentredCycles, 8> centredCycles = {{{Feature::Hole, 
 /// names it.
 std::vector<MeasuringTask> heidenhainTasks(const Call& call, const Quantity& ballRadius, Losses& losses);
 
-/// A call that carries out the task, with all parameters of the cycle; throws NotCarriedOver if there is none.
-Call heidenhainCall(const MeasuringTask& task);
+/// A call that carries out the task, with all parameters that the cycle has on that control; throws NotCarriedOver if
+/// there is none.
+Call heidenhainCall(const MeasuringTask& task, control::ControlKind control);
 
 /// Where that cycle leaves its results.
 Results heidenhainResults(const std::string& cycle, const MeasuringTask& task);

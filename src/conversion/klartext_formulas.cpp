@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/alarm.hpp"
 #include "conversion/call.hpp"
 #include "conversion/sinumerik_formulas.hpp"
 #include "language/klartext/formula_writer.hpp"
@@ -57,19 +58,56 @@ std::string KlartextFormulas::variable(const Block& block, const VariableRef& va
       if (name == "_OVR" && variable.index[0].isLiteral() && index >= 0 && index < 32) {
         return fmt::format("Q{}", firstResult + index);
       }
-      if (indexed) throw NotCarriedOver(fmt::format("array {} has no twin in Klartext", name));
-      if (name.starts_with("_Q") && isParameter(name.substr(1))) return std::string(name.substr(1));
-      const auto found = names_.find(name);
-      if (found == names_.end()) {
-        throw NotCarriedOver(fmt::format("{} is not defined in this program", name),
-                             "define it in the program, or use an R parameter");
-      }
-      return found->second;
+      if (!indexed && name.starts_with("_Q") && isParameter(name.substr(1))) return std::string(name.substr(1));
+      return userVariable(block, variable);
     }
     case VariableSpace::System:
       return systemDatum(block, variable);
     default:
       throw NotCarriedOver("this variable has no twin in Klartext");
+  }
+}
+
+bool KlartextFormulas::isGlobal(std::string_view name) const {
+  return globalData_ != nullptr && globalData_->contains(std::string(name));
+}
+
+std::string KlartextFormulas::userVariable(const Block& block, const VariableRef& variable) {
+  const std::string name(block.at(variable.name));
+  std::vector<double> indices;
+  std::string element = name;
+  for (const Operand& index : variable.index) {
+    if (!index.present()) break;
+    if (!index.isLiteral()) {
+      throw NotCarriedOver(fmt::format("which element of {} is meant is known only when the program runs", name),
+                           "Q parameters have no indices: write numbers there, or convert this block by hand");
+    }
+    element += fmt::format("{}{}", indices.empty() ? "[" : ",", static_cast<int>(index.number));
+    indices.push_back(index.number);
+  }
+  if (!indices.empty()) element += ']';
+  if (const auto found = names_.find(element); found != names_.end()) return found->second;
+  if (!isGlobal(name)) {
+    throw NotCarriedOver(
+        fmt::format("{} is not defined in this program", element),
+        "define it in the program, use an R parameter, or name with --setup the setup whose definition "
+        "files declare it");
+  }
+  const sinumerik::UserVariable& datum = globalData_->at(name);
+  const bool inRange = datum.isArray() && !indices.empty() && indices[0] >= 0;
+  if (datum.isArray() ? !inRange : !indices.empty()) {
+    throw NotCarriedOver(fmt::format("{} is no element of {}", element, name));
+  }
+  try {
+    const language::Value& value = datum.at(datum.isArray() ? datum.place(name, indices) : 0);
+    const std::string parameter = define(element, isText(value));
+    globalValues_.push_back(fmt::format(
+        "{} = {} ; {}", parameter,
+        isText(value) ? fmt::format("\"{}\"", std::get<std::string>(value)) : numberText(std::get<double>(value)),
+        element));
+    return parameter;
+  } catch (const control::Alarm&) {
+    throw NotCarriedOver(fmt::format("{} has no element {}", name, element));
   }
 }
 
@@ -82,18 +120,23 @@ std::string KlartextFormulas::systemDatum(const Block& block, const VariableRef&
   const auto axisNumber = [](std::string_view axis) {
     return axis.size() == 1 && axis[0] >= 'X' && axis[0] <= 'Z' ? axis[0] - 'X' + 1 : 0;
   };
-  if (name == "$P_TOOLR") return "Q108";
-  if (name == "$P_TOOLL" && variable.index[0].isLiteral() && variable.index[0].number == 1) return "Q114";
+  const char* toMillimetres = inch_ ? " * 25.4" : "";
+  const auto toolLength = [&](const char* parameter) {
+    return inch_ ? fmt::format("({}{})", parameter, toMillimetres) : std::string(parameter);
+  };
+  if (name == "$P_TOOLR") return toolLength("Q108");
+  if (name == "$P_TOOLL" && variable.index[0].isLiteral() && variable.index[0].number == 1) return toolLength("Q114");
   if (name == "$SNS_MEA_WP_BALL_DIAM") return fmt::format("(2 * {})", read("ID350 NR52 IDX1"));
   if (name == "$P_UIFRNUM") return read("ID530 NR1");
   if ((name == "$AA_IW" || name == "$P_EP") && axisNumber(word(0)) != 0) {
-    return read(fmt::format("ID270 NR1 IDX{}", axisNumber(word(0))));
+    return readLength(fmt::format("ID270 NR1 IDX{}", axisNumber(word(0))));
   }
   if (!measured_[0].empty() && name == "$AC_MEA") return fmt::format("((1 + {}) / 2)", measured_[3]);
   if (!measured_[0].empty() && name == "$AA_MW" && axisNumber(word(0)) != 0) {
     const auto axis = static_cast<std::size_t>(axisNumber(word(0)) - 1);
     return axis == measuredToolAxis_ ? fmt::format("({} - Q108)", measured_[axis]) : measured_[axis];
   }
+  if (const std::string datum = toolDatum(block, variable); !datum.empty()) return read(datum);
   const bool component = word(2) == "TR" || word(2) == "RT";
   if (name == "$P_UIFR" && component && axisNumber(word(1)) != 0) {
     return presetDatum(quantity(block, variable.index[0]), axisNumber(word(1)) + (word(2) == "RT" ? 3 : 0));
@@ -101,8 +144,26 @@ std::string KlartextFormulas::systemDatum(const Block& block, const VariableRef&
   throw NotCarriedOver(fmt::format("{} has no twin in Klartext", name));
 }
 
+std::string KlartextFormulas::toolDatum(const Block& block, const VariableRef& variable) {
+  static constexpr std::array<std::string_view, 6> names = {"$TC_DP3",  "$TC_DP6",  "$TC_DP7",
+                                                            "$TC_DP12", "$TC_DP15", "$TC_DP16"};
+  const auto found = std::ranges::find(names, block.at(variable.name));
+  if (found == names.end()) return {};
+  if (!variable.index[1].isLiteral() || variable.index[1].number != 1) {
+    throw NotCarriedOver("only the first edge of a tool stands in the tool table");
+  }
+  // L, R, R2, DL, DR, DR2.
+  return fmt::format("ID50 NR{} IDX{}", found - names.begin() + 1, unsignedValue(quantity(block, variable.index[0])));
+}
+
 std::string KlartextFormulas::presetDatum(const Quantity& row, int index) {
-  return read(fmt::format("ID507 NR{} IDX{}", unsignedValue(row == 99 ? Quantity(0) : row), index));
+  const std::string datum = fmt::format("ID507 NR{} IDX{}", unsignedValue(row == 99 ? Quantity(0) : row), index);
+  return index <= 3 ? readLength(datum) : read(datum);
+}
+
+std::string KlartextFormulas::readLength(const std::string& datum) {
+  const std::string millimetres = read(datum);
+  return inch_ ? fmt::format("({} / 25.4)", millimetres) : millimetres;
 }
 
 std::string KlartextFormulas::read(const std::string& datum) {
@@ -143,7 +204,8 @@ std::string KlartextFormulas::value(const Quantity& quantity) {
     return text.front() == '-' ? text : fmt::format("+{}", text);
   }
   const bool single = quantity.terms().size() == 1 && std::abs(quantity.number()) < 1e-12;
-  if (single && std::abs(quantity.terms()[0].factor) == 1 && isParameter(quantity.terms()[0].expression)) {
+  if (single && std::abs(std::abs(quantity.terms()[0].factor) - 1) < 1e-12 &&
+      isParameter(quantity.terms()[0].expression)) {
     return fmt::format("{}{}", quantity.terms()[0].factor < 0 ? '-' : '+', quantity.terms()[0].expression);
   }
   return fmt::format("+{}", helper(expressionText(quantity, true)));
@@ -177,6 +239,19 @@ std::string KlartextFormulas::formula(const Block& block, const Operand& operand
       return call(block, node);
     default:
       break;
+  }
+  if (node.operation == Operation::Subtract) {  // (x>0)-(x<0)
+    const auto compares = [&](const Operand& side, Operation operation) {
+      const Node* each = side.node < 0 ? nullptr : &block.nodes[static_cast<std::size_t>(side.node)];
+      return each != nullptr && each->operation == operation && each->right.isLiteral() && each->right.number == 0;
+    };
+    if (compares(node.left, Operation::Greater) && compares(node.right, Operation::Less)) {
+      const auto compared = [&](const Operand& side) {
+        return formula(block, block.nodes[static_cast<std::size_t>(side.node)].left);
+      };
+      const std::string first = compared(node.left);
+      if (first == compared(node.right)) return fmt::format("SGN ({})", first);
+    }
   }
   const std::string_view sign = klartext::operatorText(node.operation);
   if (sign.empty()) throw NotCarriedOver("formulas in Klartext have no comparisons and no logic");
@@ -212,6 +287,13 @@ std::string KlartextFormulas::call(const Block& block, const Node& node) {
                          node.function == Function::Maximum ? '+' : '-');
     case Function::Round:
       return fmt::format("INT ({0} + SGN ({0}) * 0.5)", factorText(argument(0)));
+    case Function::Host:
+      if (block.at(node.text) == "GETT") {
+        const std::string tool = define("name of a tool", true);
+        prelude_.push_back(fmt::format("{} = {}", tool, argument(0)));
+        return read(fmt::format("ID990 NR10 IDX{}", tool.substr(2)));
+      }
+      [[fallthrough]];
     default:
       throw NotCarriedOver(fmt::format("the function {} has no twin in Klartext", block.at(node.text)));
   }
@@ -224,6 +306,9 @@ Quantity KlartextFormulas::quantity(const Block& block, const Operand& operand) 
   switch (node.operation) {
     case Operation::Number:
       return node.number;
+    case Operation::Variable:
+      if (inch_ && block.at(block.variables[node.a].name) == "$P_TOOLR") return Quantity::of("Q108", millimetresOfInch);
+      break;
     case Operation::Negate:
       return -quantity(block, node.left);
     case Operation::Add:

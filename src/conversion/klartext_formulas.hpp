@@ -8,6 +8,7 @@
 
 #include "conversion/quantity.hpp"
 #include "language/block.hpp"
+#include "language/sinumerik/user_variables.hpp"
 
 /// Expressions and variables of a SINUMERIK program as Klartext writes them.
 namespace probewright::conversion {
@@ -16,9 +17,18 @@ namespace probewright::conversion {
 inline const Quantity klartextBallRadius = Quantity::of("Q108");
 
 /// R0 to R99 are Q0 to Q99, R100 to R499 are Q1200 to Q1599, _OVR[0] to _OVR[31] are Q1700 to Q1731; variables that the
-/// program defines get numbers from Q1600 on. What a formula needs beforehand goes into `prelude`.
+/// program defines get numbers from Q1600 on, each element of an array its own. What a formula needs beforehand goes
+/// into `prelude`.
 class KlartextFormulas {
 public:
+  using GlobalData = sinumerik::UserVariables::Scope;
+
+  /// `globalData`: global user data with their values, null if none are known; must outlive the formulas.
+  explicit KlartextFormulas(const GlobalData* globalData) : globalData_(globalData) {}
+
+  /// From here on the program counts in inches; FN 18 answers in millimetres.
+  void countInches() { inch_ = true; }
+
   std::string variable(const language::Block& block, const language::VariableRef& variable);
   std::string formula(const language::Block& block, const language::Operand& operand);
   Quantity quantity(const language::Block& block, const language::Operand& operand);
@@ -29,9 +39,16 @@ public:
   /// The same without "+".
   std::string unsignedValue(const Quantity& quantity);
 
+  /// The entry of the tool table, as FN 17 and FN 18 name it, that $TC_DPx[t,1] has; empty for other variables.
+  std::string toolDatum(const language::Block& block, const language::VariableRef& variable);
+
   /// What a component of $P_UIFR holds now, read from the preset table. `row`: its number, which is that of the preset
   /// but for the last, 99, whose twin is row 0. `index`: 1 to 3 for the translation, 4 to 6 for the rotation.
   std::string presetDatum(const Quantity& row, int index);
+
+  /// Blocks that give the global user data named so far their values.
+  const std::vector<std::string>& globalValues() const { return globalValues_; }
+  bool isGlobal(std::string_view name) const;
 
   /// A number for a variable that the program defines.
   std::string define(std::string_view name, bool text);
@@ -44,12 +61,19 @@ public:
   std::vector<std::string> takePrelude();
 
 private:
+  /// The parameter of a user variable, or of an element of an array by numbers.
+  std::string userVariable(const language::Block& block, const language::VariableRef& variable);
   std::string call(const language::Block& block, const language::Node& node);
   std::string systemDatum(const language::Block& block, const language::VariableRef& variable);
   std::string helper(const std::string& formula);
   /// A system datum in a parameter; the same one again if it was just read.
   std::string read(const std::string& datum);
+  /// The same for a length, in the unit of the program.
+  std::string readLength(const std::string& datum);
 
+  bool inch_ = false;
+  const GlobalData* globalData_;
+  std::vector<std::string> globalValues_;
   std::map<std::string, std::string, std::less<>> names_;
   int nextNumber_ = 1600;
   int nextText_ = 1600;

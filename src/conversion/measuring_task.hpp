@@ -70,8 +70,16 @@ struct Limits {
   Quantity upper, lower;  ///< deviations from the set size
 };
 
+/// The tool that made what is measured, corrected by half the deviation of a size or the whole one of a surface.
+struct ToolCorrection {
+  std::string tool;  ///< its name, or its number as text
+  Quantity least;    ///< smaller deviations correct nothing
+  Quantity most;     ///< neither do larger ones; 0: no such limit
+};
+
 struct MeasuringTask {
   Feature feature = Feature::Hole;
+  double millimetre = 1;  ///< in the unit of all lengths
   /// The expected centre or place of touch. The third is the height of the ball's centre; of a surface along the tool
   /// axis the height of the surface.
   Place place;
@@ -100,7 +108,8 @@ struct MeasuringTask {
   bool fromUnturned = false;                    ///< an edge is measured without the rotation that was in effect
   std::array<std::optional<Limits>, 2> limits;  ///< of the sizes
   std::array<Quantity, 2> centreTolerance;      ///< permissible deviations of the centre; 0: not monitored
-  bool stops = false;                           ///< the program ends if a limit is exceeded
+  std::optional<ToolCorrection> tool;
+  bool stops = false;  ///< the program ends if a limit is exceeded
 };
 
 }  // namespace probewright::conversion

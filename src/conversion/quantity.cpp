@@ -65,6 +65,7 @@ std::string expressionText(const Quantity& quantity, bool loose) {
   const char* plus = loose ? " + " : "+";
   const char* minus = loose ? " - " : "-";
   const char* times = loose ? " * " : "*";
+  const char* over = loose ? " / " : "/";
   std::string text;
   const auto add = [&](double sign, const std::string& what) {
     if (text.empty()) {
@@ -81,7 +82,14 @@ std::string expressionText(const Quantity& quantity, bool loose) {
   if (!numberLast) addNumber();
   for (const Quantity::Term& term : quantity.terms()) {
     const double amount = std::abs(term.factor);
-    add(term.factor, amount == 1 ? term.expression : numberText(amount) + times + term.expression);
+    const auto isShort = [](double number) { return std::abs(number - std::round(number * 1e6) / 1e6) < negligible; };
+    if (std::abs(amount - 1) < negligible) {
+      add(term.factor, term.expression);
+    } else if (!isShort(amount) && isShort(1 / amount)) {  // one in 25.4 has no short number
+      add(term.factor, term.expression + over + numberText(1 / amount));
+    } else {
+      add(term.factor, numberText(amount) + times + term.expression);
+    }
   }
   if (numberLast) addNumber();
   return text;

@@ -48,7 +48,8 @@ void ToSinumerik::singleTouch(const Block& block, const CycleCall& cycle, const 
     touch.feature = Feature::Surface;
     touch.axis = static_cast<int>(*axis);
     touch.sign = call.integer(wordName(probe_word::direction)) < 0 ? -1 : 1;
-    touch.path = halfStroke;
+    touch.path = halfStroke * millimetre_;
+    touch.millimetre = millimetre_;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto index = planeIndex(addressOf(axisNames[i]));
       const bool given = call.has(coordinate(i));

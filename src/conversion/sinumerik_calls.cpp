@@ -86,8 +86,24 @@ private:
   }
   void begin(const std::string& cycle, int variant) {
     const bool corrects = task_.correction == Correction::Origin;
-    begin(cycle, variant, corrects);
+    // Of a rectangle SINUMERIK cycles take the mean of both sides, touch probe cycles the first one.
+    const bool correctsTool = task_.tool && !isRectangular(task_.feature);
+    begin(cycle, variant + (correctsTool ? 200 : 0), corrects);
     if (corrects) passage_.rest = Rest::ShiftFromPlace;
+    if (correctsTool) correctTool();
+  }
+
+  /// In the wear of its first edge, by the whole difference.
+  void correctTool() {
+    set("S_KNUM1", 1);
+    passage_.call.texts["S_TNAME"] = task_.tool->tool;
+    if (!task_.limits[0]) return;
+    const auto& [upper, lower] = *task_.limits[0];
+    const bool aboutSetValue = upper == -lower && upper.isNumber() && upper.number() > 0;
+    if (!aboutSetValue) return;  // a tolerance would move the set value to its middle
+    set("S_TUL", upper);
+    set("S_TLL", lower);
+    set("_AMODE", 1);
   }
 
   void cycle977() {

@@ -67,8 +67,9 @@ std::string SinumerikFormulas::variable(const VariableRef& variable) {
   switch (variable.space) {
     case VariableSpace::Q:
       if (number < firstControlParameter) return fmt::format("R{}", number);
-      if (number == toolRadius) return "$P_TOOLR";
-      if (number == toolLength) return "$P_TOOLL[1]";
+      // Tool data count in millimetres.
+      if (number == toolRadius) return inch_ ? "($P_TOOLR/25.4)" : "$P_TOOLR";
+      if (number == toolLength) return inch_ ? "($P_TOOLL[1]/25.4)" : "$P_TOOLL[1]";
       if (number < firstResult) {
         throw NotCarriedOver(fmt::format("the control itself fills Q{}", number),
                              "take the value from a system variable of the SINUMERIK by hand");
@@ -111,6 +112,10 @@ std::string SinumerikFormulas::formula(const Block& block, const Operand& operan
     case Operation::Call:
       return call(block, node);
     case Operation::Power:
+      // Logarithms are of positive numbers only.
+      if (node.right.isLiteral() && node.right.number == 2) return fmt::format("POT({})", formula(block, node.left));
+      if (node.right.isLiteral() && node.right.number == 3)
+        return fmt::format("POT({0})*{1}", formula(block, node.left), factor(node.left));
       return fmt::format("EXP({}*LN({}))", factor(node.right), formula(block, node.left));
     default:
       break;
@@ -136,6 +141,8 @@ std::string SinumerikFormulas::call(const Block& block, const Node& node) {
       return fmt::format("(LN({})/LN(10))", argument(0));
     case Function::Fraction:
       return fmt::format("({0}-TRUNC({0}))", factorText(argument(0)));
+    case Function::Sign:
+      return fmt::format("(({0}>0)-({0}<0))", factorText(argument(0)));
     case Function::RootSumOfSquares:
       return fmt::format("SQRT(POT({})+POT({}))", argument(0), argument(1));
     default:
@@ -157,6 +164,13 @@ Quantity SinumerikFormulas::quantity(const Block& block, const Operand& operand)
   switch (node.operation) {
     case Operation::Number:
       return node.number;
+    case Operation::Variable: {
+      const VariableRef& variable = block.variables[node.a];
+      const bool radius =
+          variable.space == VariableSpace::Q && variable.index[0].isLiteral() && variable.index[0].number == toolRadius;
+      if (inch_ && radius) return sinumerikBallRadius / millimetresOfInch;
+      break;
+    }
     case Operation::Negate:
       return -quantity(block, node.left);
     case Operation::Add:

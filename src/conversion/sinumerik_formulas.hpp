@@ -19,6 +19,8 @@ inline const Quantity calibratedBallRadius = Quantity::of("$SNS_MEA_WP_BALL_DIAM
 /// declared.
 class SinumerikFormulas {
 public:
+  /// From here on the program counts in inches.
+  void countInches() { inch_ = true; }
   /// Throws NotCarriedOver for parameters that only the HEIDENHAIN control fills.
   std::string variable(const language::VariableRef& variable);
   /// All of these throw NotCarriedOver for functions without a twin.
@@ -33,6 +35,7 @@ public:
 private:
   std::string call(const language::Block& block, const language::Node& node);
 
+  bool inch_ = false;
   std::set<std::string> declared_;
 };
 

@@ -51,7 +51,7 @@ private:
 
   /// From one coordinate to another; if they differ by the ball's radius, as near as a common ball lets it be known.
   double distance(const Quantity& from, const Quantity& to) const {
-    constexpr double commonRadius = 2;
+    const double commonRadius = 2 * call_.millimetre;
     const Quantity way = to - from;
     double length = way.number();
     for (const Quantity::Term& term : way.terms()) {
@@ -67,6 +67,7 @@ private:
   MeasuringTask begun(Feature feature) {
     MeasuringTask task;
     task.feature = feature;
+    task.millimetre = call_.millimetre;
     task.place = start_;
     task.place[2] = start_[2] + ballRadius_;
     task.clearance = start_[2];
@@ -81,10 +82,7 @@ private:
 
   void correction(MeasuringTask& task) {
     const int kind = call_.digit("S_MVAR", 3);
-    if (kind == 2) {
-      losses_.push_back("the tool (S_TNAME) is not corrected");
-      return;
-    }
+    if (kind == 2) return correctedTool(task);
     if (kind != 1 || number("S_KNUM") == 0) return;
     task.correction = Correction::Origin;
     const int code = call_.integer("S_KNUM");
@@ -100,6 +98,44 @@ private:
     }
   }
 
+  /// The tool of S_KNUM1 and S_TNAME.
+  void correctedTool(MeasuringTask& task) {
+    const int code = call_.integer("S_KNUM1");
+    if (code == 0) return;
+    const int component = call_.digit("S_KNUM1", 6), memory = call_.digit("S_KNUM1", 7);
+    const bool alongTool = task.feature == Feature::Surface && call_.integer("S_MA") == 3;
+    const std::string tool = call_.text("S_TNAME");
+    if (tool.empty()) {
+      losses_.push_back("S_TNAME: the tool to correct is not named here, none is corrected");
+    } else if (code % 100000 != 1) {
+      losses_.push_back("S_KNUM1: touch probe cycles correct the first edge of a tool only, none is corrected");
+    } else if (call_.digit("S_KNUM1", 8) == 1) {
+      losses_.push_back("S_KNUM1: no tool is corrected with the opposite sign");
+    } else if (component != 0 && component != (alongTool ? 1 : 4)) {
+      losses_.push_back("S_KNUM1: touch probe cycles correct the radius, along the tool its length; none is corrected");
+    } else if (memory != 0 && memory != 4) {
+      losses_.push_back("S_KNUM1: tool tables have no additive and setup offsets, none is corrected");
+    } else {
+      if (memory == 4) losses_.push_back("S_KNUM1: the wear (DR, DL) is corrected instead of the geometry");
+      if (!(number("S_EVNUM") == 0)) losses_.push_back("S_EVNUM: neither empirical nor mean values are kept");
+      task.tool = {.tool = tool, .least = number("S_TZL"), .most = number("S_TDIF")};
+    }
+  }
+
+  /// With a tolerance the set value of a tool correction is its middle.
+  void tolerate(MeasuringTask& task) const {
+    if (call_.digit("S_MVAR", 3) != 2 || call_.digit("_AMODE", 1) != 1) return;
+    const Quantity upper = number("S_TUL"), lower = number("S_TLL");
+    const Limits limits{(upper - lower) / 2, (lower - upper) / 2};
+    for (std::size_t i = 0; i < (isRectangular(task.feature) ? 2U : 1U); ++i) {
+      task.size[i] = task.size[i] + (upper + lower) / 2;
+      task.limits[i] = limits;
+    }
+    // Beyond the tolerance every difference corrects.
+    if (task.tool && task.tool->least.number() > limits.upper.number()) task.tool->least = limits.upper;
+    if (task.feature == Feature::Surface) task.place[static_cast<std::size_t>(task.axis)] = task.size[0];
+  }
+
   MeasuringTask cycle977() {
     MeasuringTask task = begun(feature977(call_.digit("S_MVAR", 1)));
     const bool zone = call_.digit("S_MVAR", 4) == 1;
@@ -108,6 +144,7 @@ private:
       task.clearanceBetween = true;
     }
     task.size = {number(isRectangular(task.feature) ? "S_SETV0" : "S_SETV"), number("S_SETV1")};
+    tolerate(task);
     task.angle = number("S_STA1");
     task.step = 90;
     if (isWidth(task.feature)) task.axis = call_.integer("S_MA") - 1;
@@ -129,6 +166,7 @@ private:
     task.sign = call_.integer("S_MD") == 1 ? 1 : -1;
     const auto axis = static_cast<std::size_t>(task.axis);
     task.place[axis] = task.size[0] = number("S_SETV");
+    tolerate(task);
     if (task.correction == Correction::Origin) task.wish[axis] = task.place[axis];
     if (task.axis == 2 && task.sign > 0) throw NotCarriedOver("a touch from below is not converted");
     return task;
@@ -139,6 +177,7 @@ private:
     task.place[0] = number("S_CPA");
     task.place[1] = number("S_CPO");
     task.size[0] = number("S_SETV");
+    tolerate(task);
     task.angle = number("S_STA1");
     task.step = number("S_INCA");
     task.touches = call_.digit("S_MVAR", 4) == 1 ? 4 : 3;
@@ -250,7 +289,7 @@ private:
     double nearest = std::abs(apart[0]);
     for (const double each : apart)
       if (std::abs(each) > parallel) nearest = std::min(nearest == 0 ? std::abs(each) : nearest, std::abs(each));
-    task.path = std::min(std::max(known("S_FA"), leastCornerPath), nearest / 2);
+    task.path = std::min(std::max(known("S_FA"), leastCornerPath * call_.millimetre), nearest / 2);
     const Quantity height = call_.digit("S_MVAR", 4) == 1 ? task.place[2] + number("S_ID") : task.place[2];
     task.clearanceBetween = call_.digit("S_MVAR", 4) == 1;
     const Quantity edge1 = pole2 + (task.path + ballRadius_) * task.sign;
@@ -266,6 +305,7 @@ private:
 
   MeasuringTask cycle976() {
     MeasuringTask task;
+    task.millimetre = call_.millimetre;
     task.path = number("S_FA");
     switch (call_.digit("S_MVAR", 1)) {
       case 0:

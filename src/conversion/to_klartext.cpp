@@ -43,7 +43,8 @@ std::string_view commentOf(std::string_view source) {
 
 }  // namespace
 
-ToKlartext::ToKlartext(sinumerik::SinumerikProgram& program) : program_(program), out_(program.file()) {}
+ToKlartext::ToKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData, control::ControlKind control)
+    : program_(program), control_(control), out_(program.file()), formulas_(globalData) {}
 
 std::string ToKlartext::axis(std::size_t index) const {
   static constexpr const char* names[] = {"X", "Y", "Z"};
@@ -82,7 +83,7 @@ void ToKlartext::survey() {
       changesTool_ = changesTool_ || (function != nullptr && function->number == 6);
       const auto* modal = std::get_if<Modal>(&instruction);
       const std::string_view name = modal == nullptr ? std::string_view() : block.at(modal->name);
-      inch_ = inch_ || name == "G70" || name == "G700";
+      if (name == "G70" || name == "G700") millimetre_ = 1 / millimetresOfInch;
     }
   }
 }
@@ -90,17 +91,19 @@ void ToKlartext::survey() {
 Conversion ToKlartext::run() {
   survey();
   if (hasErrors(result_.mistakes)) return std::move(result_);
+  if (millimetre_ != 1) formulas_.countInches();
   Diagnostics ignored;
   Block block;
   for (BlockPosition at = program_.begin(); program_.parse(at, block, ignored); at = block.next)
     write(block);
+  out_.insert(0, formulas_.globalValues());
   result_.text = numbered();
   result_.notCarriedOver = std::move(out_.listed());
   return std::move(result_);
 }
 
 std::string ToKlartext::numbered() const {
-  const std::string frame = fmt::format("PGM {} {}", program_.name(), inch_ ? "INCH" : "MM");
+  const std::string frame = fmt::format("PGM {} {}", program_.name(), millimetre_ == 1 ? "MM" : "INCH");
   std::string text = fmt::format("0 BEGIN {}\n", frame);
   int number = 1;
   bool continued = false;
@@ -199,11 +202,20 @@ void ToKlartext::assign(const Block& block, const Assign& assign) {
     return;
   }
   if (variable.space == VariableSpace::System) {
+    const std::string value = formulas_.value(quantity(block, assign.value));
+    if (const std::string datum = formulas_.toolDatum(block, variable); !datum.empty()) {
+      return line(fmt::format("FN 17: SYSWRITE {} = {}", datum, value));
+    }
     throw NotCarriedOver(fmt::format("{} cannot be written in Klartext", block.at(variable.name)));
   }
   const std::string name = formulas_.variable(block, variable);
   const std::string formula = formulas_.formula(block, assign.value);
   line(fmt::format("{} = {}", name, formula));
+  const std::string own(variable.space == VariableSpace::User ? block.at(variable.name) : std::string_view());
+  if (formulas_.isGlobal(own) && changedGlobals_.insert(own).second) {
+    out_.list(block, fmt::format("{} is global user data: other programs do not see what it is set to here", own),
+              "use a QR parameter if they shall");
+  }
   for (auto& coordinate : position_)
     if (coordinate && !coordinate->isNumber()) coordinate.reset();
 }
@@ -220,16 +232,26 @@ void ToKlartext::assignFrameComponent(const Block& block, const Assign& assign) 
   const Quantity row = number == 99 ? Quantity(0) : number;
   forgetPosition();
   if (word(2) == "RT" && word(1) == axis(2)) {
+    const bool ofTables = control_ != control::ControlKind::iTNC530;
+    const bool inEffect = active || (activeRow_ && number == *activeRow_);
+    if (!ofTables && !inEffect) {
+      throw NotCarriedOver("cycle 404 of the iTNC530 turns the active preset only",
+                           "select the zero offset in front of this block");
+    }
     unturned_ = value == 0;
     const std::string angle = formulas_.value(value), rowText = formulas_.value(row);
     line("TCH PROBE 404 SET BASIC ROTATION ~");
-    out_.line(fmt::format("    Q307={} ;PRESET ROTATION ANG. ~", angle));
-    out_.line(fmt::format("    Q305={} ;NUMBER IN TABLE", rowText));
+    out_.line(fmt::format("    Q307={} ;PRESET ROTATION ANG.{}", angle, ofTables ? " ~" : ""));
+    if (ofTables) out_.line(fmt::format("    Q305={} ;NUMBER IN TABLE", rowText));
     return;
   }
   const std::size_t place = word(1).size() == 1 ? std::string_view("XYZ").find(word(1)[0]) : std::string_view::npos;
   if (word(2) != "TR" || place == std::string_view::npos) {
     throw NotCarriedOver(fmt::format("$P_UIFR[..,{},{}] cannot be written in Klartext", word(1), word(2)));
+  }
+  if (control_ == control::ControlKind::iTNC530) {
+    throw NotCarriedOver("the iTNC530 has no PRESET CORR",
+                         "let the measuring cycle in front correct the offset itself");
   }
   // A preset moves by an amount, and only while it is in effect.
   const Quantity present = active ? quantity(block, variable.index[0]) : row;
@@ -270,6 +292,14 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
     line("CYCL DEF 247 PRESETTING ~");
     out_.line(fmt::format("    Q339=+{} ;PRESET NUMBER", row));
     return;
+  }
+  if ((name == "G71" || name == "G710") && millimetre_ != 1) {
+    throw NotCarriedOver("this program counts in inches as well, and a HEIDENHAIN program has one unit",
+                         "measure in one unit throughout");
+  }
+  if (name == "G70") {
+    out_.list(block, "G70 leaves feeds and system variables in millimetres; in an INCH program they are inches",
+              "use G700, or convert the feeds by hand");
   }
   static constexpr std::array<std::string_view, 12> silent = {"G60", "G64",    "G71", "G710",  "G70", "G700",
                                                               "G94", "DIAMOF", "CFC", "CFTCP", "G9",  "G601"};
@@ -384,24 +414,46 @@ void ToKlartext::blank(const Block& block, const Command& command) {
   line(fmt::format("BLK FORM 0.2 X{} Y{} Z{}", number(10), number(11), number(5)));
 }
 
+void ToKlartext::define(const Block& block, const Command& command) {
+  const VariableRef& variable = block.variables[static_cast<std::size_t>(command.variable)];
+  const auto words = std::span<const Word>(block.words).subspan(command.words.first, command.words.count);
+  const std::string own(block.at(variable.name));
+  const std::string_view type = block.at(command.text);
+  if (type == "FRAME" || type == "AXIS") throw NotCarriedOver("variables for frames and axes have no twin in Klartext");
+  const bool isText = type == "STRING" || type == "CHAR";
+  std::vector<std::string> elements = {own};
+  for (std::size_t i = 0; i < 3 && variable.index[i].present(); ++i) {
+    constexpr double most = 100;  // there are no more free parameters
+    const double count = variable.index[i].number;
+    if (!variable.index[i].isLiteral() || count * static_cast<double>(elements.size()) > most) {
+      throw NotCarriedOver(fmt::format("array {} has more elements than there are free Q parameters", own));
+    }
+    std::vector<std::string> deeper;
+    for (const std::string& each : elements)
+      for (int k = 0; k < count; ++k)
+        deeper.push_back(fmt::format("{}{}{}", each, i == 0 ? "[" : ",", k));
+    elements = std::move(deeper);
+  }
+  std::vector<std::string> values;
+  for (const Word& word : words) {
+    if (word.address == addressOf("LEN")) continue;
+    values.push_back(word.value.present() ? formulas_.formula(block, word.value) : std::string());
+    if (word.address == addressOf("REP")) values.resize(elements.size(), values.back());
+  }
+  values.resize(elements.size());
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (variable.index[0].present()) elements[i] += ']';
+    const bool known = elements.size() == 1 && own.starts_with("_Q");
+    const std::string target = known ? own.substr(1) : formulas_.define(elements[i], isText);
+    if (values[i].empty()) values[i] = target.starts_with("QS") ? "\"\"" : "0";
+    line(fmt::format("{} = {}{}", target, values[i], known ? "" : fmt::format(" ; {}", elements[i])));
+  }
+}
+
 void ToKlartext::command(const Block& block, const Command& command) {
   const std::string_view name = block.at(command.name);
   const auto words = std::span<const Word>(block.words).subspan(command.words.first, command.words.count);
-  if (name == "DEF") {
-    const VariableRef& variable = block.variables[static_cast<std::size_t>(command.variable)];
-    if (variable.index[0].present()) throw NotCarriedOver("arrays have no twin in Klartext");
-    const std::string own(block.at(variable.name));
-    const std::string_view type = block.at(command.text);
-    if (type == "FRAME" || type == "AXIS")
-      throw NotCarriedOver("variables for frames and axes have no twin in Klartext");
-    const bool known = own.starts_with("_Q");
-    const std::string target = known ? own.substr(1) : formulas_.define(own, type == "STRING" || type == "CHAR");
-    const bool text = target.starts_with("QS");
-    std::string value = text ? "\"\"" : "0";
-    for (const Word& word : words)
-      if (word.address == addressOf("INIT")) value = formulas_.formula(block, word.value);
-    return line(fmt::format("{} = {}{}", target, value, known ? "" : fmt::format(" ; {}", own)));
-  }
+  if (name == "DEF") return define(block, command);
   if (name == "MSG") {
     if (words.empty()) return;
     return line(fmt::format("; MSG: {}", formulas_.formula(block, words[0].value)));
@@ -431,6 +483,9 @@ void ToKlartext::command(const Block& block, const Command& command) {
   throw NotCarriedOver(fmt::format("{} has no twin in Klartext", name), "write it by hand");
 }
 
-Conversion toKlartext(sinumerik::SinumerikProgram& program) { return ToKlartext(program).run(); }
+Conversion toKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData,
+                      control::ControlKind control) {
+  return ToKlartext(program, globalData, control).run();
+}
 
 }  // namespace probewright::conversion

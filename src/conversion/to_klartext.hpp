@@ -16,7 +16,8 @@ namespace probewright::conversion {
 
 class ToKlartext {
 public:
-  explicit ToKlartext(sinumerik::SinumerikProgram& program);
+  /// `globalData`: global user data with their values; null if none are known.
+  ToKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData, control::ControlKind control);
   Conversion run();
 
 private:
@@ -34,6 +35,7 @@ private:
   void machineFunction(const language::Block& block, const language::MachineFunction& function);
   void transform(const language::Block& block, const language::Transform& transform);
   void command(const language::Block& block, const language::Command& command);
+  void define(const language::Block& block, const language::Command& command);
   void blank(const language::Block& block, const language::Command& command);
   std::string numbered() const;
 
@@ -68,6 +70,8 @@ private:
   /// A corner that is measured only, which no touch probe cycle does: four times cycle 427.
   Results cornerByTouches(const MeasuringTask& corner);
   void copyResults(const language::Block& block, const Results& left, const MeasuringTask& task);
+  /// Corrects the tool by FN 17, if that depends on conditions or on both sides of a rectangle.
+  void correctTool(const MeasuringTask& task, const Results& results);
   /// To where the SINUMERIK cycle leaves the probe.
   void goBack(const MeasuringTask& task, std::array<std::optional<Quantity>, 3> end);
 
@@ -81,6 +85,7 @@ private:
   void forgetPosition() { position_ = {}; }
 
   sinumerik::SinumerikProgram& program_;
+  control::ControlKind control_;
   Output out_;
   KlartextFormulas formulas_;
   Quantity ballRadius_ = klartextBallRadius;
@@ -92,7 +97,7 @@ private:
   std::set<int> usedResults_;               ///< n of _OVR[n]
   std::vector<std::set<int>> wantedAfter_;  ///< those read behind the n-th measuring cycle; 0: before any
   bool changesTool_ = false;                ///< by M6
-  bool inch_ = false;
+  double millimetre_ = 1;                   ///< in the unit of the program
 
   // Where the text has come to.
   char toolAxis_ = 'Z';
@@ -117,6 +122,7 @@ private:
     bool lost = false;  ///< it could not be carried over, but what closes it is still to come
   };
   std::vector<Open> open_;
+  std::set<std::string> changedGlobals_;
   int nextLabel_ = 1;
 };
 

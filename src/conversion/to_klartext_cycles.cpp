@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <utility>
 
 #include "conversion/heidenhain_tasks.hpp"
@@ -20,6 +22,7 @@ Place ToKlartext::here() {
     if (!position_[i]) {
       const std::string name = formulas_.define(fmt::format("position {}", axis(i)), false);
       line(fmt::format("FN 18: SYSREAD {} = ID270 NR1 IDX{}", name, axis(i)[0] - 'X' + 1));
+      if (millimetre_ != 1) line(fmt::format("{0} = {0} / 25.4", name));
       position_[i] = Quantity::of(name);
     }
     place[i] = *position_[i];
@@ -84,14 +87,16 @@ void ToKlartext::copyResults(const Block& block, const Results& left, const Meas
 }
 
 std::string ToKlartext::writeTask(const MeasuringTask& task) {
-  const Call call = heidenhainCall(task);
+  const Call call = heidenhainCall(task, control_);
   const cycles::CycleDefinition* definition = cycles::heidenhainCycle(std::stoi(call.cycle));
   std::vector<std::string> lines = {fmt::format("TCH PROBE {} {} ~", call.cycle, definition->title)};
   for (const cycles::Parameter& parameter : definition->parameters) {
-    if (!call.has(parameter.name)) continue;
+    const std::string text = call.text(parameter.name);
+    if (!call.has(parameter.name) && text.empty()) continue;
     const std::string_view meaning = parameter.meaning.substr(0, parameter.meaning.find_first_of(":;,"));
-    lines.push_back(
-        fmt::format("    {}={} ;{} ~", parameter.name, formulas_.value(call.number(parameter.name)), meaning));
+    lines.push_back(fmt::format(
+        "    {}={} ;{} ~", parameter.name,
+        text.empty() ? formulas_.value(call.number(parameter.name)) : fmt::format("\"{}\"", text), meaning));
   }
   lines.back().resize(lines.back().size() - 2);
   for (std::string& each : formulas_.takePrelude())
@@ -140,10 +145,51 @@ Results ToKlartext::cornerByTouches(const MeasuringTask& corner) {
   return {{Meaning::Centre1, main}, {Meaning::Centre2, minor}, {Meaning::Angle, angle}};
 }
 
+void ToKlartext::correctTool(const MeasuringTask& task, const Results& results) {
+  const auto deviation = [&](Meaning meaning, Meaning actual, const Quantity& set) {
+    const auto found = results.find(meaning);
+    return found != results.end() ? Quantity::of(found->second) : Quantity::of(results.at(actual)) - set;
+  };
+  const std::string past = fmt::format("TOOL_{}", nextLabel_++);
+  const std::string amount = formulas_.define("deviation of the tool", false);
+  const auto passIf = [&](const Quantity& value, int function, const char* comparison, const Quantity& limit) {
+    if (limit == 0) return;
+    line(fmt::format("{} = ABS ({})", amount, expressionText(value, true)));
+    const std::string bound = formulas_.value(limit);
+    line(fmt::format("FN {}: IF +{} {} {} GOTO LBL \"{}\"", function, amount, comparison, bound, past));
+  };
+  const bool surface = task.feature == Feature::Surface;
+  Quantity found = surface ? deviation(Meaning::CoordinateDeviation, Meaning::Coordinate, task.size[0])
+                           : deviation(Meaning::Size1Deviation, Meaning::Size1, task.size[0]);
+  passIf(found, 11, "GT", task.tool->most);
+  if (isRectangular(task.feature)) {
+    const Quantity second = deviation(Meaning::Size2Deviation, Meaning::Size2, task.size[1]);
+    passIf(second, 11, "GT", task.tool->most);
+    found = (found + second) / 2;
+  }
+  passIf(found, 12, "LT", task.tool->least);
+  const std::string& name = task.tool->tool;
+  std::string row = name;
+  if (std::ranges::any_of(name, [](unsigned char c) { return std::isdigit(c) == 0; })) {
+    const std::string text = formulas_.define("name of a tool", true);
+    row = formulas_.define("row of a tool", false);
+    line(fmt::format("{} = \"{}\"", text, name));
+    line(fmt::format("FN 18: SYSREAD {} = ID990 NR10 IDX{}", row, text.substr(2)));
+  }
+  // The tool table counts in millimetres: DL, DR.
+  const double share = surface ? (task.axis == 2 ? -1 : task.sign) : isInside(task.feature) ? 0.5 : -0.5;
+  const std::string datum = fmt::format("ID50 NR{} IDX{}", surface && task.axis == 2 ? 4 : 5, row);
+  line(fmt::format("FN 18: SYSREAD {} = {}", amount, datum));
+  line(fmt::format("{} = {}", amount, expressionText(Quantity::of(amount) + found * (share / millimetre_), true)));
+  line(fmt::format("FN 17: SYSWRITE {} = +{}", datum, amount));
+  line(fmt::format("LBL \"{}\"", past));
+}
+
 void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   const cycles::CycleDefinition* definition = cycles::sinumerikCycle(block.at(called.name));
   Call call;
   call.cycle = definition->name;
+  call.millimetre = millimetre_;
   for (const Word& word : std::span<const Word>(block.words).subspan(called.arguments.first, called.arguments.count)) {
     const cycles::Parameter* parameter = definition->parameter(word.address);
     if (parameter == nullptr || !word.value.present()) continue;
@@ -174,9 +220,16 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   const bool measuresCorner = isCorner(task.feature) && task.correction == Correction::None;
   const bool measuresBefore = task.feature == Feature::Surface && task.correction != Correction::None &&
                               task.axis != 2 && !wantedAfter_[cycleNumber_].empty();
+  // Cycles with Q330 correct always, and by the first side of a rectangle.
+  const bool correctsLater =
+      task.tool && (isRectangular(task.feature) || !(task.tool->least == 0) || !(task.tool->most == 0));
   Results results;
   if (measuresCorner) {
     results = cornerByTouches(task);
+  } else if (correctsLater) {
+    MeasuringTask inspection = task;
+    inspection.tool.reset();
+    results = heidenhainResults(writeTask(inspection), task);
   } else {
     if (measuresBefore) {  // cycle 419 has no results
       MeasuringTask inspection = task;
@@ -186,6 +239,7 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
     results.merge(heidenhainResults(writeTask(task), task));
   }
   copyResults(block, results, task);
+  if (correctsLater) correctTool(task, results);
   for (const std::string& loss : losses)
     out_.lose(block, loss);
   if (!calibrates) goBack(task, sinumerikEnd(call, task, start, ballRadius_, results));
@@ -193,6 +247,7 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
     // Q108 knows the new radius from the next tool call on.
     const std::string radius = formulas_.define("ball radius", false);
     line(fmt::format("FN 18: SYSREAD {} = ID350 NR52 IDX1", radius));
+    if (millimetre_ != 1) line(fmt::format("{0} = {0} / 25.4", radius));
     ballRadius_ = Quantity::of(radius);
   }
 }

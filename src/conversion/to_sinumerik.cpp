@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "base/number_text.hpp"
 #include "language/klartext/block_extent.hpp"
@@ -74,6 +75,11 @@ void ToSinumerik::survey() {
 Conversion ToSinumerik::run() {
   survey();
   if (!hasErrors(result_.mistakes)) {
+    if (program_.unit() == klartext::Unit::Inch) {
+      millimetre_ = 1 / millimetresOfInch;
+      ballRadius_ = ballRadius_ * millimetre_;
+      formulas_.countInches();
+    }
     Diagnostics ignored;
     Block block;
     for (BlockPosition at = program_.begin(); program_.parse(at, block, ignored); at = block.next)
@@ -140,7 +146,8 @@ void ToSinumerik::instruction(const Block& block, const Instruction& instruction
   const auto join = [this](const std::string& word) { out_.line(word); };
   if (const auto* assign = std::get_if<Assign>(&instruction)) {
     const std::string name = formulas_.variable(block.variables[assign->variable]);
-    if (name.front() == '$') throw NotCarriedOver(fmt::format("{} cannot be set by a program", name));
+    if (name.front() == '$' || name.front() == '(')
+      throw NotCarriedOver(fmt::format("{} cannot be set by a program", name));
     for (auto& coordinate : position_)
       if (coordinate && !coordinate->isNumber()) coordinate.reset();
     out_.line(fmt::format("{}={}", name, formulas_.formula(block, assign->value)));
@@ -370,6 +377,17 @@ void ToSinumerik::blank(std::string_view text) {
                         blank_[1], coordinates[0], coordinates[1]));
 }
 
+std::string ToSinumerik::toolDatum(const Quantity& number, const Quantity& tool) const {
+  static constexpr std::array<int, 6> parameters = {3, 6, 7, 12, 15, 16};  // L, R, R2, DL, DR, DR2
+  const bool known = number.isNumber() && number.number() >= 1 && number.number() <= 6;
+  if (!known || (tool.isNumber() && tool.number() != std::round(tool.number()))) {
+    throw NotCarriedOver("this entry of the tool table has no twin on a SINUMERIK", "write it by hand");
+  }
+  const bool active = tool.isNumber() && tool.number() <= 0;
+  return fmt::format("$TC_DP{}[{},1]", parameters[static_cast<std::size_t>(number.number()) - 1],
+                     active ? "$P_TOOLNO" : sinumerikText(tool));
+}
+
 void ToSinumerik::command(const Block& block, const Command& command) {
   const std::string_view name = block.at(command.name);
   const auto words = std::span<const Word>(block.words).subspan(command.words.first, command.words.count);
@@ -387,17 +405,24 @@ void ToSinumerik::command(const Block& block, const Command& command) {
   if (name == "CYCL DEF 13" && !words.empty()) {
     return out_.line(fmt::format("SPOS={}", sinumerikText(quantity(block, words.front().value))));
   }
+  const auto wordOr = [&](std::string_view address, double otherwise) {
+    const auto found = std::ranges::find(words, addressOf(address), &Word::address);
+    return found == words.end() ? Quantity(otherwise) : quantity(block, found->value);
+  };
+  if (name == "FN17" && wordOr("ID", 0) == 50) {
+    return out_.line(
+        fmt::format("{}={}", toolDatum(wordOr("NR", 0), wordOr("IDX", 0)), sinumerikText(wordOr("VAL", 0))));
+  }
   if (name == "FN18" && command.variable >= 0) {
-    const auto wordOr = [&](std::string_view address, double otherwise) {
-      const auto found = std::ranges::find(words, addressOf(address), &Word::address);
-      return found == words.end() ? Quantity(otherwise) : quantity(block, found->value);
-    };
     const Quantity id = wordOr("ID", 0), index = wordOr("IDX", 0);
     const std::string target = formulas_.variable(block.variables[static_cast<std::size_t>(command.variable)]);
     const bool position = id == 270 && index.isNumber() && index.number() >= 1 && index.number() <= 3;
     if (position) {
-      return out_.line(fmt::format("{}=$AA_IW[{}]", target, "XYZ"[static_cast<std::size_t>(index.number()) - 1]));
+      // FN 18 answers in millimetres, $AA_IW in the unit of the program.
+      return out_.line(fmt::format("{}=$AA_IW[{}]{}", target, "XYZ"[static_cast<std::size_t>(index.number()) - 1],
+                                   millimetre_ == 1 ? std::string() : fmt::format("*{}", numberText(1 / millimetre_))));
     }
+    if (id == 50) return out_.line(fmt::format("{}={}", target, toolDatum(wordOr("NR", 0), index)));
     if (id == 530) return out_.line(fmt::format("{}=$P_UIFRNUM", target));
   }
   throw NotCarriedOver(fmt::format("{} has no twin on a SINUMERIK", name), "write it by hand");

@@ -39,6 +39,8 @@ private:
   void machineFunction(const language::MachineFunction& function);
   void transform(const language::Block& block, const language::Transform& transform);
   void command(const language::Block& block, const language::Command& command);
+  /// $TC_DPx of what FN 17 and FN 18 know as number `number` of ID 50, in the tool's first edge.
+  std::string toolDatum(const Quantity& number, const Quantity& tool) const;
   void blank(std::string_view text);
   std::string labelName(std::string_view label);
 
@@ -67,6 +69,8 @@ private:
   void cycle(const language::Block& block, const language::CycleCall& call);
   void task(const language::Block& block, const MeasuringTask& task, const std::string& heidenhainCycle);
   void approach(const Place& start, const Quantity& clearance);
+  /// By the first side of a rectangle.
+  void correctTool(const MeasuringTask& task);
   void shiftToWish(const language::Block& block, const MeasuringTask& task, SinumerikPassage::Rest rest);
   void copyResults(const language::Block& block, const std::string& heidenhainCycle, const MeasuringTask& task);
   void planeByTouches(const language::Block& block, const MeasuringTask& plane);
@@ -100,6 +104,7 @@ private:
   language::klartext::HeidenhainProgram& program_;
   Output out_;
   SinumerikFormulas formulas_;
+  double millimetre_ = 1;  ///< in the unit of the program
   Quantity ballRadius_ = sinumerikBallRadius;
   Conversion result_;
 

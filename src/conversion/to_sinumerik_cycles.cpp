@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <vector>
 
 #include "conversion/heidenhain_tasks.hpp"
@@ -42,6 +44,7 @@ std::string callText(const Call& call) {
 Call ToSinumerik::callOf(const Block& block, const CycleCall& cycle) {
   Call call;
   call.cycle = std::to_string(cycle.number);
+  call.millimetre = millimetre_;
   for (const Word& word : std::span<const Word>(block.words).subspan(cycle.parameters.first, cycle.parameters.count)) {
     const std::string name = fmt::format("Q{}", word.address);
     if (word.value.node >= 0) {
@@ -122,6 +125,7 @@ void ToSinumerik::task(const Block& block, const MeasuringTask& given, const std
                           heidenhainCycle != "417" && heidenhainCycle != "419";
   if (!incidental) copyResults(block, heidenhainCycle, task);
   const int number = std::stoi(heidenhainCycle);
+  if (task.tool && isRectangular(task.feature)) correctTool(task);
   if (number >= 421 && number <= 427) judge(task);
   if (passage.start) out_.line(fmt::format("G0 {}", addressWord(axis(2), task.clearance)));
   shiftToWish(block, task, passage.rest);
@@ -133,10 +137,19 @@ void ToSinumerik::task(const Block& block, const MeasuringTask& given, const std
     out_.lose(block, loss);
   forgetPosition();
   if (task.feature == Feature::ProbeInRing || task.feature == Feature::ProbeOnBall) {
-    ballRadius_ = calibratedBallRadius;  // the tool data may keep the old one
+    ballRadius_ = calibratedBallRadius * millimetre_;  // the tool data may keep the old one
   }
   if (!corrects && passage.start) position_[2] = task.clearance;
   besidePath_ = true;
+}
+
+void ToSinumerik::correctTool(const MeasuringTask& task) {
+  const std::string& tool = task.tool->tool;
+  const bool number = std::ranges::all_of(tool, [](unsigned char c) { return std::isdigit(c) != 0; });
+  const std::string wear = fmt::format("$TC_DP15[{},1]", number ? tool : fmt::format("GETT(\"{}\",1)", tool));
+  // Tool data count in millimetres.
+  out_.line(fmt::format("{0}={0}{1}{2}", wear, isInside(task.feature) ? "+" : "-",
+                        sinumerikText(Quantity::of("_OVR[16]", 0.5 / millimetre_))));
 }
 
 void ToSinumerik::shiftToWish(const Block& block, const MeasuringTask& task, SinumerikPassage::Rest rest) {

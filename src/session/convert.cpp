@@ -11,6 +11,9 @@
 #include "language/klartext/heidenhain_program.hpp"
 #include "language/klartext/lexer.hpp"
 #include "language/klartext/writer.hpp"
+#include "session/beliefs.hpp"
+#include "session/global_data.hpp"
+#include "simulation/setup.hpp"
 
 namespace probewright::session {
 
@@ -305,11 +308,19 @@ bool convertible(ProgramLanguage from, ProgramLanguage to) {
   return from != ProgramLanguage::Sinumerik || to != ProgramLanguage::Sinumerik;
 }
 
-Conversion convert(language::Program& program, ProgramLanguage from, ProgramLanguage to) {
+conversion::GlobalData globalDataFor(const std::filesystem::path& path, const simulation::Setup* setup,
+                                     Diagnostics& diagnostics) {
+  const auto declared = globalUserData(path, setup == nullptr ? std::filesystem::path() : setup->tables, diagnostics);
+  if (setup == nullptr) return declared.variables({}, diagnostics);
+  return declared.variables(sinumerikData(*setup, diagnostics).store, diagnostics);
+}
+
+Conversion convert(language::Program& program, ProgramLanguage from, ProgramLanguage to,
+                   const ConvertOptions& options) {
   const bool vendors = from == ProgramLanguage::Sinumerik || to == ProgramLanguage::Sinumerik;
   if (!vendors) return Converter(dynamic_cast<HeidenhainProgram&>(program), from, to).run();
   const auto between = [&](ProgramLanguage first, ProgramLanguage second, ProgramLanguage last) {
-    Conversion begun = convert(program, first, second);
+    Conversion begun = convert(program, first, second, options);
     if (hasErrors(begun.mistakes)) return begun;
     const auto halfway = programOf(program.file(), begun.text, second);
     Conversion ended = convert(*halfway, second, last);
@@ -322,7 +333,8 @@ Conversion convert(language::Program& program, ProgramLanguage from, ProgramLang
     return ended;
   };
   if (from == ProgramLanguage::Sinumerik && to == ProgramLanguage::Klartext)
-    return conversion::toKlartext(dynamic_cast<sinumerik::SinumerikProgram&>(program));
+    return conversion::toKlartext(dynamic_cast<sinumerik::SinumerikProgram&>(program), options.globalData,
+                                  options.control);
   if (from == ProgramLanguage::Klartext) return conversion::toSinumerik(dynamic_cast<HeidenhainProgram&>(program));
   return between(from, ProgramLanguage::Klartext, to);
 }

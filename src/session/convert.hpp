@@ -4,6 +4,10 @@
 #include "language/program.hpp"
 #include "session/source.hpp"
 
+namespace probewright::simulation {
+struct Setup;
+}
+
 namespace probewright::session {
 
 using conversion::Conversion;
@@ -11,10 +15,23 @@ using conversion::Conversion;
 /// True if programs can be converted from one of the languages into the other.
 bool convertible(ProgramLanguage from, ProgramLanguage to);
 
+struct ConvertOptions {
+  /// What a SINUMERIK program may use without defining it; null if nothing is known of its control.
+  const conversion::GlobalData* globalData = nullptr;
+  /// The HEIDENHAIN control to write for.
+  control::ControlKind control = control::ControlKind::TNC640;
+};
+
 /// The program, which is one of the language `from`, in the language `to`. What the blocks do is kept, and their
 /// comments; layout and block numbers are those of the other language. Between the two languages of a HEIDENHAIN
 /// control a DIN/ISO block behind a label or a call that relies on G90, G91 or a path function in front of it is listed
 /// too.
-Conversion convert(language::Program& program, ProgramLanguage from, ProgramLanguage to);
+Conversion convert(language::Program& program, ProgramLanguage from, ProgramLanguage to,
+                   const ConvertOptions& options = {});
+
+/// The global user data of the control that a SINUMERIK program `path` is for: what definition files beside it declare
+/// and, with a setup, those in its folder of tables, with the values that initialization texts there have for them.
+conversion::GlobalData globalDataFor(const std::filesystem::path& path, const simulation::Setup* setup,
+                                     Diagnostics& diagnostics);
 
 }  // namespace probewright::session

@@ -37,15 +37,26 @@ std::string driveTo(const std::vector<int>& results) {
   return text;
 }
 
-/// Measured only, or a zero offset corrected: the active one, the active one by its number, another one.
+/// Measured only, or corrected: a zero offset, the active one, the active one by its number, another one; or a tool,
+/// always or by limits, with a tolerance or without.
 struct Task {
   bool corrects = false;
+  bool correctsTool = false;
   Named words;
-  int variant() const { return corrects ? 100 : 0; }
+  int variant() const { return corrects ? 100 : correctsTool ? 200 : 0; }
 };
 Task anyTask(Dice& dice) {
   Task task;
   task.corrects = dice.coin();
+  task.correctsTool = !task.corrects && dice.coin();
+  if (task.correctsTool) {
+    task.words = {{"S_KNUM1", 1}, {"S_TNAME", dice.coin() ? 5 : 0}};
+    if (dice.coin()) task.words.insert(task.words.end(), {{"S_TZL", 0.3}, {"S_TDIF", 0.9}});
+    if (dice.coin())
+      task.words.insert(
+          task.words.end(),
+          {{"S_TUL", written(dice.between(0.1, 0.5))}, {"S_TLL", -written(dice.between(0.1, 0.5))}, {"_AMODE", 1}});
+  }
   constexpr std::array<double, 3> frames = {19000, 10001, 2};
   if (task.corrects) task.words = {{"S_KNUM", frames[static_cast<std::size_t>(dice.whole(0, 2))]}};
   return task;
@@ -86,7 +97,7 @@ std::string round977(Dice& dice, PlantedPart& part, bool hole) {
   const double diameter = dice.between(20, 80);
   layRound(part, hole, diameter);
   return cycle977(dice, part, hole, hole ? 1 : 2,
-                  {{"S_SETV", written(diameter)}, {"S_STA1", written(dice.between(-90, 90))}});
+                  {{"S_SETV", written(diameter + dice.between(-1, 1))}, {"S_STA1", written(dice.between(-90, 90))}});
 }
 
 std::string width977(Dice& dice, PlantedPart& part, bool groove, int axis) {
@@ -102,7 +113,8 @@ std::string width977(Dice& dice, PlantedPart& part, bool groove, int axis) {
     high[axis] = size / 2;
   }
   part.bench.part(simulation::Box(low, high), part.machineFromPart);
-  return cycle977(dice, part, groove, groove ? 3 : 4, {{"S_SETV", written(size)}, {"S_MA", axis + 1}});
+  return cycle977(dice, part, groove, groove ? 3 : 4,
+                  {{"S_SETV", written(size + dice.between(-1, 1))}, {"S_MA", axis + 1}});
 }
 
 std::string rectangle977(Dice& dice, PlantedPart& part, bool pocket) {
@@ -113,8 +125,9 @@ std::string rectangle977(Dice& dice, PlantedPart& part, bool pocket) {
     part.bench.part(simulation::Box({-length.x() / 2, -length.y() / 2, -40}, {length.x() / 2, length.y() / 2, 0}),
                     part.machineFromPart);
   }
-  return cycle977(dice, part, pocket, pocket ? 5 : 6,
-                  {{"S_SETV0", written(length.x())}, {"S_SETV1", written(length.y())}});
+  return cycle977(
+      dice, part, pocket, pocket ? 5 : 6,
+      {{"S_SETV0", written(length.x() + dice.between(-1, 1))}, {"S_SETV1", written(length.y() + dice.between(-1, 1))}});
 }
 
 std::string segment979(Dice& dice, PlantedPart& part, bool hole) {
@@ -128,7 +141,7 @@ std::string segment979(Dice& dice, PlantedPart& part, bool hole) {
   return above(first, part.nominal.z() + 15) + down(part.nominal.z() - 8) +
          sinumerikCall("CYCLE979", with(with(always, task.words),
                                         {{"S_MVAR", (hole ? 1 : 2) + (points == 4 ? 1000 : 0) + task.variant()},
-                                         {"S_SETV", written(diameter)},
+                                         {"S_SETV", written(diameter + dice.between(-1, 1))},
                                          {"S_CPA", part.nominal.x()},
                                          {"S_CPO", part.nominal.y()},
                                          {"S_STA1", start},
@@ -307,6 +320,7 @@ TEST_P(AnyWorldOfSinumerik, MeasuresAndCorrectsTheSame) {
   for (int world = 0; world < worlds; ++world) {
     PlantedPart part = plant(dice, ControlKind::TNC640, each.misplaced, each.skewed);
     part.bench.preset(2, part.machineFromPreset.translation() + Vector3(3, 4, 5), 10, false);
+    part.bench.knows(5, "MILL", 80, 5);
     const std::string blocks = each.blocks(dice, part);
     SCOPED_TRACE(fmt::format("world {}", world));
     const Twin original =
@@ -318,6 +332,7 @@ TEST_P(AnyWorldOfSinumerik, MeasuresAndCorrectsTheSame) {
     EXPECT_TRUE(sameResults(original, there, each.results));
     EXPECT_TRUE(sameOrigin(original, there));
     EXPECT_TRUE(sameEnd(original, there));
+    EXPECT_TRUE(sameTool(original, there));
     if (::testing::Test::HasFailure()) return;
   }
 }

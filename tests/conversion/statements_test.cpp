@@ -54,6 +54,41 @@ TEST(ConvertMotion, ComputesAndJumps) {
   EXPECT_TRUE(drivesTheSame("Q1 = INT (7.6) + FRAC (2.25) + ABS (-3)\nL X+Q1 R0 FMAX\n"));
 }
 
+TEST(ConvertMotion, ComputesWithSignsAndPowers) {
+  EXPECT_TRUE(drivesTheSame("Q1 = -3\nQ2 = SGN Q1 * 7 + Q1 ^ 2\nQ3 = Q1 ^ 3 / 2\nL X+Q2 Y+Q3 R0 FMAX\n"));
+  EXPECT_TRUE(drivesTheSame("Q1 = 4\nQ2 = 5 - SGN (Q1 - 4) + SGN (Q1 + 1)\nL X+Q2 Y+Q1 R0 FMAX\n"));
+}
+
+TEST(ConvertMotion, KeepsArraysByNumber) {
+  EXPECT_TRUE(drivesTheSameFromSinumerik("AA[1]=AA[0]+AA[2]\nBB[1,0]=7\nG0 X=AA[1] Y=BB[1,0]+BB[0,1]+CC[3]\n",
+                                         "DEF REAL AA[3]=SET(3,,5)\nDEF INT BB[2,2]=REP(2)\nDEF REAL CC[4]\n"));
+  const session::Conversion lost = toKlartext("DEF REAL AA[3]\nDEF INT II=1\nAA[II]=5\nM30\n");
+  ASSERT_EQ(lost.notCarriedOver.size(), 1U);
+  EXPECT_THAT(lost.text, HasSubstr("; NOT CARRIED OVER: AA[II]=5\n"));
+}
+
+TEST(ConvertStatements, KeepsToolData) {
+  // Measured by hand, added by hand: DR of tool 5, DL of the tool with a name.
+  const std::string there =
+      toSinumerik(klartextProgram("FN 18: SYSREAD Q1 = ID50 NR5 IDX5\nQ1 = Q1 + 0.25\nFN 17: SYSWRITE ID50 NR5 IDX5 = "
+                                  "+Q1\nL X+Q1 R0 FMAX\n"))
+          .text;
+  EXPECT_THAT(there, HasSubstr("R1=$TC_DP15[5,1]\nR1=R1+0.25\n$TC_DP15[5,1]=R1\n"));
+  PlantedPart part = emptyTable();
+  part.bench.knows(5, "MILL", 80, 6);
+  const Twin original = runSinumerik(
+      "G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\n$TC_DP15[5,1]=$TC_DP15[5,1]+0.25\n$TC_DP12[GETT(\"MILL\",1),1]=-0.5\n"
+      "$TC_DP15[5,1]=$TC_DP15[5,1]+$TC_DP6[5,1]\nG0 X=$TC_DP15[5,1]\nM30\n",
+      part);
+  const Twin twin = runConverted(original, part);
+  ASSERT_TRUE(ranWhole(original));
+  ASSERT_TRUE(ranWhole(twin));
+  EXPECT_TRUE(sameTool(original, twin));
+  EXPECT_TRUE(sameEnd(original, twin));
+  EXPECT_NEAR(correctionsOfTool(twin)[1], 6.25, 1e-6);
+  EXPECT_NEAR(correctionsOfTool(twin)[0], -0.5, 1e-6);
+}
+
 TEST(ConvertMotion, MovesTheOrigin) {
   EXPECT_TRUE(drivesTheSame("CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+10\nCYCL DEF 7.2 Y+5\nL X+1 Y+1 R0 FMAX\n"));
   EXPECT_TRUE(drivesTheSame(

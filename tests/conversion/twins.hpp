@@ -19,9 +19,11 @@ inline ProgramLanguage otherLanguage(ProgramLanguage language) {
   return language == ProgramLanguage::Klartext ? ProgramLanguage::Sinumerik : ProgramLanguage::Klartext;
 }
 
-inline session::Conversion converted(const std::string& text, ProgramLanguage from) {
+/// `control`: to write for, if it is to be a HEIDENHAIN control.
+inline session::Conversion converted(const std::string& text, ProgramLanguage from,
+                                     ControlKind control = ControlKind::TNC640) {
   const auto program = session::programOf(from == ProgramLanguage::Sinumerik ? "BENCH.MPF" : "BENCH.H", text, from);
-  return session::convert(*program, from, otherLanguage(from));
+  return session::convert(*program, from, otherLanguage(from), {.globalData = nullptr, .control = control});
 }
 inline session::Conversion toSinumerik(const std::string& text) { return converted(text, ProgramLanguage::Klartext); }
 inline session::Conversion toKlartext(const std::string& text) { return converted(text, ProgramLanguage::Sinumerik); }
@@ -88,7 +90,7 @@ inline Twin runSinumerik(const std::string& text, const PlantedPart& part) {
 
 /// The program in the other language, run in the same world.
 inline Twin runConverted(const Twin& twin, const PlantedPart& part) {
-  session::Conversion conversion = converted(twin.text, twin.language);
+  session::Conversion conversion = converted(twin.text, twin.language, part.bench.control);
   Twin other = run(conversion.text, otherLanguage(twin.language), part);
   other.lost = std::move(conversion.mistakes);
   other.lost.insert(other.lost.end(), conversion.notCarriedOver.begin(), conversion.notCarriedOver.end());
@@ -125,6 +127,35 @@ inline ::testing::AssertionResult sameResults(const Twin& one, const Twin& other
   return ::testing::AssertionSuccess();
 }
 
+/// What the tools' corrections are at the end, by length and radius: of tool 5, "MILL".
+inline std::array<double, 2> correctionsOfTool(const Twin& twin) {
+  if (twin.language == ProgramLanguage::Klartext) {
+    Diagnostics diagnostics;
+    const auto table = control::heidenhain::TypedTable::parse(twin.files.at("TOOL.T"), "TOOL.T",
+                                                              control::heidenhain::toolColumns(), diagnostics);
+    return {table->numberOr("5", "DL", 0), table->numberOr("5", "DR", 0)};
+  }
+  const auto wear = [&](const char* name) {
+    const std::string& text = twin.files.at("TOOLS.TOA");
+    const std::size_t at = text.find(fmt::format("{}[5,1]=", name));
+    return at == std::string::npos ? 0 : std::stod(text.substr(text.find('=', at) + 1));
+  };
+  return {wear("$TC_DP12"), wear("$TC_DP15")};
+}
+
+/// Both controls have corrected the tool alike, as far as TOOL.T tells it (four decimals).
+inline ::testing::AssertionResult sameTool(const Twin& one, const Twin& other) {
+  const auto first = correctionsOfTool(one), second = correctionsOfTool(other);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (std::abs(first[i] - second[i]) < 0.5001e-4) continue;
+    return ::testing::AssertionFailure() << fmt::format("{} of the tool: {:.6f} and {:.6f}\n",
+                                                        i == 0 ? "length" : "radius", first[i], second[i])
+                                         << one.text << "\n"
+                                         << other.text;
+  }
+  return ::testing::AssertionSuccess();
+}
+
 /// Both controls have their origin at the same place, turned alike.
 inline ::testing::AssertionResult sameOrigin(const Twin& one, const Twin& other) {
   const Pose difference = one.machineFromWorkpiece.inverse() * other.machineFromWorkpiece;
@@ -157,7 +188,7 @@ inline std::string klartextProgram(const std::string& blocks) {
 
 using Named = std::vector<std::pair<std::string, double>>;
 
-/// A call of a SINUMERIK cycle with its arguments by name.
+/// A call of a SINUMERIK cycle with its arguments by name. S_TNAME is the number of a tool, 0: "MILL".
 inline std::string sinumerikCall(const std::string& cycle, const Named& arguments) {
   const cycles::CycleDefinition* definition = cycles::sinumerikCycle(cycle);
   std::vector<std::string> places(definition->parameters.size());
@@ -165,6 +196,10 @@ inline std::string sinumerikCall(const std::string& cycle, const Named& argument
     const auto parameter = std::find_if(definition->parameters.begin(), definition->parameters.end(),
                                         [&](const cycles::Parameter& each) { return each.name == name; });
     EXPECT_NE(parameter, definition->parameters.end()) << cycle << " has no " << name;
+    if (name == "S_TNAME") {
+      places[parameter->address] = value == 0 ? "\"MILL\"" : fmt::format("\"{:.0f}\"", value);
+      continue;
+    }
     places[parameter->address] =
         value == std::round(value) ? fmt::format("{:.0f}", value) : fmt::format("{:.6f}", value);
   }
