@@ -149,8 +149,11 @@ TEST(RotationCycles, TakeClearanceAndHeightFromGlobalDefinitions) {
     const Ran named = bench.run(probe(cycle, words)), predefined = bench.run(global + block);
     ASSERT_TRUE(predefined.finished()) << predefined.why();
     EXPECT_NEAR(predefined.cycle().pathLength, named.cycle().pathLength, 1e-6);
+    // The plane of 1420 is touched along the way that leads down to it: there the longer stroke tells by its time
+    // alone.
     const Ran other = bench.run(probe(cycle, with(words, {{320, 0}})));
-    EXPECT_GT(std::abs(other.cycle().pathLength - named.cycle().pathLength), 1);
+    const auto seconds = [](const Ran& ran) { return ran.cycle().endSeconds - ran.cycle().startSeconds; };
+    EXPECT_GT(seconds(named) - seconds(other), 0.5);
     EXPECT_EQ(bench.run(block).alarm(), "GLOBAL DEF missing");
   }
 }
