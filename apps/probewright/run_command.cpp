@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <ctime>
 #include <iostream>
-#include <map>
+#include <optional>
 
 #include "base/file.hpp"
 #include "base/number_text.hpp"
@@ -32,9 +32,26 @@ extern "C" void onInterrupt(int) { interrupted.request_stop(); }
 bool askOnTerminal(const std::string& text) {
   std::fputs(fmt::format("\n{}\nContinue? [Y/n] ", printable(text)).c_str(), stdout);
   std::fflush(stdout);
-  std::string line;
-  if (!std::getline(std::cin, line)) return false;
-  return line.empty() || line[0] == 'y' || line[0] == 'Y';
+  for (std::string line; std::getline(std::cin, line);) {
+    if (line.empty() || line == "y" || line == "Y") return true;
+    if (line == "n" || line == "N") return false;
+    std::fputs("y or n? ", stdout);
+    std::fflush(stdout);
+  }
+  return false;
+}
+
+/// Asks until the answer can be understood or the input ends. Nothing where nobody sits at the terminal.
+std::optional<std::string> answerOnTerminal(const control::Question& question) {
+  if (isatty(STDIN_FILENO) == 0) return std::nullopt;
+  std::fputs(fmt::format("\n{}: {}\n", printable(question.name), question.wanted).c_str(), stdout);
+  while (true) {
+    std::fputs("> ", stdout);
+    std::fflush(stdout);
+    std::string line;
+    if (!std::getline(std::cin, line)) return std::nullopt;
+    if (question.understood(line)) return line;
+  }
 }
 
 }  // namespace
@@ -65,8 +82,6 @@ int run(const RunArguments& arguments) {
   options.measuringLogs = arguments.measuringLogs;
   options.wallClock = std::time(nullptr);
   options.stop = interrupted.get_token();
-  // Answers of the file go before those of the setup.
-  std::map<std::string, std::string> answers;
   if (!arguments.answers.empty()) {
     auto read = readFile(arguments.answers).and_then([&](const std::string& text) {
       return session::parseAnswers(text, arguments.answers.string());
@@ -76,18 +91,9 @@ int run(const RunArguments& arguments) {
       removeEarlierRun(arguments.out, setup->tables);
       return 2;
     }
-    answers = std::move(*read);
+    options.answers = std::move(*read);
   }
-  if (auto ofSetup = session::answersInSetup(arguments.setup)) answers.merge(*ofSetup);
-  options.answer = [&](const std::string& question) -> std::optional<std::string> {
-    if (const auto found = answers.find(question); found != answers.end()) return found->second;
-    if (isatty(STDIN_FILENO) == 0) return std::nullopt;
-    std::fputs(fmt::format("{}: ", printable(question)).c_str(), stdout);
-    std::fflush(stdout);
-    std::string line;
-    if (!std::getline(std::cin, line)) return std::nullopt;
-    return line;
-  };
+  options.answer = answerOnTerminal;
   const bool progress = !arguments.quiet && isatty(STDERR_FILENO) != 0;
   if (progress) {
     options.progress = [](std::uint64_t blocks) { std::fputs(fmt::format("\r{} blocks ", blocks).c_str(), stderr); };

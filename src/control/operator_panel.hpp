@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "control/dialog_language.hpp"
@@ -12,6 +13,13 @@ namespace probewright::control {
 
 /// What happens when a program waits for NC start.
 enum class OnStop { Continue, Abort, Ask };
+
+/// What a cycle wants to know from the operator.
+struct Question {
+  std::string name;                                    ///< as a list of answers has it: "1410 point 1"
+  std::string wanted;                                  ///< what an answer consists of
+  std::function<bool(const std::string&)> understood;  ///< whether a text is such an answer
+};
 
 /// Messages, stops and files that a program and its cycles leave for the operator.
 class OperatorPanel {
@@ -24,8 +32,8 @@ public:
   bool showAllResults = false;
   /// Asked at a stop when onStop is Ask: shows the text, returns true to go on.
   std::function<bool(const std::string& text)> ask;
-  /// Asked for a value or a position by name (semi-automatic cycles, INPUT dialogs): nothing means abort.
-  std::function<std::optional<std::string>(const std::string& question)> answer;
+  /// Asked where a semi-automatic cycle is to probe: nothing means that nobody answers.
+  std::function<std::optional<std::string>(const Question& question)> answer;
 
   /// Where the program stands now; kept up to date by the interpreter's host.
   SourcePlace place;

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "base/file.hpp"
-#include "base/toml_table.hpp"
-
 namespace probewright::session {
 
 namespace {
@@ -34,20 +31,6 @@ Result<std::map<std::string, std::string>> parseAnswers(std::string_view text, c
       return fail({file, number, 1}, fmt::format("'{}' is answered twice", name.substr(0, 60)),
                   "leave one of the two lines");
     }
-  }
-  return answers;
-}
-
-Result<std::map<std::string, std::string>> answersInSetup(const std::filesystem::path& setup) {
-  const auto text = readFile(setup);
-  if (!text) return tl::unexpected(text.error());
-  Diagnostics mistakes;
-  const auto root = parseToml(*text, setup.string(), mistakes);
-  if (!root) return tl::unexpected(mistakes.front());
-  std::map<std::string, std::string> answers;
-  if (const toml::table* table = root->get_as<toml::table>("answers")) {
-    for (const auto& [question, answer] : *table)
-      answers.emplace(question.str(), answer.value_or(std::string()));
   }
   return answers;
 }

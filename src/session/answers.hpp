@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
@@ -13,8 +12,5 @@ namespace probewright::session {
 /// comment, blanks around name and value do not count, a value may be empty. Errors, with their place in `file`: a line
 /// without `=` or without a name, a question answered twice.
 Result<std::map<std::string, std::string>> parseAnswers(std::string_view text, const std::string& file);
-
-/// The same from table [answers] of a setup file. Errors: the file cannot be read, or is no TOML.
-Result<std::map<std::string, std::string>> answersInSetup(const std::filesystem::path& setup);
 
 }  // namespace probewright::session

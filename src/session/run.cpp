@@ -43,11 +43,16 @@ language::InterpreterOptions interpreterOptions(const RunOptions& options, Contr
   return interpreter;
 }
 
-/// How the control greets the operator with the panel's habits.
-void setPanel(control::OperatorPanel& panel, const RunOptions& options) {
+/// How the control greets the operator with the panel's habits. The panel must not outlive `options` and `setup`.
+void setPanel(control::OperatorPanel& panel, const simulation::Setup& setup, const RunOptions& options) {
   panel.onStop = options.onStop;
   panel.ask = options.ask;
-  panel.answer = options.answer;
+  panel.answer = [&](const control::Question& question) -> std::optional<std::string> {
+    for (const auto* known : {&options.answers, &setup.answers}) {
+      if (const auto found = known->find(question.name); found != known->end()) return found->second;
+    }
+    return options.answer ? options.answer(question) : std::nullopt;
+  };
   panel.language = options.language;
   panel.showAllResults = options.showAllResults;
 }
@@ -72,7 +77,7 @@ void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>
   const hh::MachineParameters parameters = machineParameters(setup, outcome.control, outcome.diagnostics);
   if (hasErrors(outcome.diagnostics)) return;
   hh::Control control(outcome.control, *outcome.machine, std::move(tables), parameters);
-  setPanel(control.panel, options);
+  setPanel(control.panel, setup, options);
   control.programPath = path.string();
   control.startSeconds = control.channel.seconds();
   control.wallClockStart = options.wallClock;
@@ -219,7 +224,7 @@ void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>&
   if (hasErrors(outcome.diagnostics)) return;
   StandingMachine machine(*outcome.machine);
   sin::Control control(machine, data.store);
-  setPanel(control.panel, options);
+  setPanel(control.panel, setup, options);
   control.programPath = path.string();
   control.wallClockStart = options.wallClock;
   for (const std::string& name : options.measuringLogs)

@@ -35,7 +35,10 @@ struct RunOptions {
   bool strict = false;                          ///< refuse machining cycles that are not simulated
   control::OnStop onStop = control::OnStop::Continue;
   std::function<bool(const std::string& text)> ask;
-  std::function<std::optional<std::string>(const std::string& question)> answer;
+  /// What a semi-automatic cycle asks for, by the name of the question; they go before those of the setup.
+  std::map<std::string, std::string> answers;
+  /// Asked what neither of both answers.
+  std::function<std::optional<std::string>(const control::Question& question)> answer;
   std::uint64_t stepLimit = 50'000'000;
   std::vector<language::Breakpoint> breakpoints;
   std::stop_token stop;

@@ -88,6 +88,7 @@ struct Setup {
   std::vector<BelievedFrame> presets;
   std::vector<BelievedFrame> zeroOffsets;
   std::map<std::string, SetupParameter> parameters;
+  std::map<std::string, std::string> answers;  ///< of the operator, by the name of the question
 };
 
 /// The setup that `text` describes. Relative paths in it count from the folder of `file`. Mistakes go to `diagnostics`,

@@ -377,12 +377,12 @@ private:
     }
   }
 
-  /// Checks them only: they are no part of the world (session/answers.hpp).
   void readAnswers() {
     auto reader = root_.table("answers");
     if (!reader) return;
-    for (const std::string& key : reader->keys())
-      reader->text(key);
+    for (const std::string& key : reader->keys()) {
+      if (auto answer = reader->text(key)) setup_.answers.emplace(key, std::move(*answer));
+    }
   }
 
   TomlReader root_;

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "app/block_world.hpp"
@@ -56,8 +57,8 @@ TEST(RunAnswers, ComeFromTheSetupAndTheFileGoesBeforeIt) {
   EXPECT_NEAR(found(folder, "Q953"), 10, 1e-6);
 }
 
-/// What the program writes to a terminal on which these lines are typed; empty if it does not end well.
-std::string onTerminal(std::vector<std::string> words, const std::string& typed) {
+/// Runs the program at a terminal of its own, on which these lines are typed.
+Answer onTerminal(std::vector<std::string> words, const std::string& typed) {
   words.insert(words.begin(), PROBEWRIGHT_PROGRAM);
   std::vector<char*> arguments;
   for (std::string& word : words)
@@ -71,14 +72,15 @@ std::string onTerminal(std::vector<std::string> words, const std::string& typed)
   }
   EXPECT_GT(child, 0);
   EXPECT_EQ(write(terminal, typed.data(), typed.size()), static_cast<ssize_t>(typed.size()));
-  std::string seen;
-  char part[4096];
-  for (ssize_t count = 0; (count = read(terminal, part, sizeof part)) > 0;)
-    seen.append(part, static_cast<std::size_t>(count));
+  Answer seen;
+  std::array<char, 4096> part{};
+  for (ssize_t count = 0; (count = read(terminal, part.data(), part.size())) > 0;)
+    seen.output.append(part.data(), static_cast<std::size_t>(count));
   close(terminal);
   int status = 0;
   EXPECT_EQ(waitpid(child, &status, 0), child);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? seen : std::string();
+  if (WIFEXITED(status)) seen.exit = WEXITSTATUS(status);
+  return seen;
 }
 
 TEST(RunAnswers, AreAskedForOnTheTerminal) {
@@ -86,7 +88,10 @@ TEST(RunAnswers, AreAskedForOnTheTerminal) {
   const std::vector<std::string> words = {"run",     folder.file("EDGE.H", program),
                                           "--setup", folder.file("edge.toml", blockSetup()),
                                           "--out",   (folder / "out").string()};
-  const std::string seen = onTerminal(words, "-10 -22 20; -10 -22 -8\n10 -22 20; 10 -22 -8\n");
+  // What is no position is asked for again.
+  const std::string seen =
+      onTerminal(words, "over there\n-10 -22\n-10 -22 20; -10 -22 -8\n10 -22 20; 10,-22,-8 Z\n10 -22 20; 10,-22,-8\n")
+          .output;
   EXPECT_THAT(seen, HasSubstr("1410 point 1: "));
   EXPECT_THAT(seen, HasSubstr("1410 point 2: "));
   EXPECT_NEAR(found(folder, "Q950"), -10, 1e-6);
@@ -94,9 +99,24 @@ TEST(RunAnswers, AreAskedForOnTheTerminal) {
   // With --on-stop ask the dialog comes first.
   std::vector<std::string> asking = words;
   asking.insert(asking.end(), {"--on-stop", "ask"});
-  const std::string dialog = onTerminal(asking, "y\n-10 -22 20; -10 -22 -8\ny\n10 -22 20; 10 -22 -8\n");
+  const std::string dialog = onTerminal(asking, "y\n-10 -22 20; -10 -22 -8\ny\n10 -22 20; 10 -22 -8\n").output;
   EXPECT_THAT(dialog, HasSubstr("move the probe in front of the point, probing direction Y+, then NC start"));
   EXPECT_THAT(dialog, HasSubstr("Continue? [Y/n]"));
+}
+
+TEST(RunAnswers, SayWhetherAStopIsTheEnd) {
+  const Folder folder;
+  const std::vector<std::string> words = {
+      "run",       folder.file("STOP.H", "0 BEGIN PGM STOP MM\n1 STOP\n2 STOP\n3 END PGM STOP MM\n"),
+      "--setup",   folder.file("edge.toml", blockSetup()),
+      "--out",     (folder / "out").string(),
+      "--on-stop", "ask"};
+  EXPECT_EQ(onTerminal(words, "y\n\n").exit, 0) << "the enter key is NC start";
+  const Answer wondering = onTerminal(words, "perhaps\ny\nn\n");
+  EXPECT_EQ(wondering.exit, 3);
+  EXPECT_THAT(wondering.output, HasSubstr("y or n?"));
+  EXPECT_THAT(wondering.output, HasSubstr("was not continued"));
+  EXPECT_EQ(probewright(words).exit, 3) << "nobody sits there";
 }
 
 TEST(RunAnswers, AreMissedByName) {

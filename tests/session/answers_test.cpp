@@ -1,12 +1,7 @@
 #include "session/answers.hpp"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 
 namespace probewright::session {
 namespace {
@@ -29,22 +24,6 @@ TEST(Answers, NameLineAndReasonOfAMistake) {
   EXPECT_THAT(mistake("Q5 = 1\nno answer at all\n"), HasSubstr("A.TXT:2:1: error: 'no answer at all' is no answer"));
   EXPECT_THAT(mistake("\n\n = 5"), HasSubstr("A.TXT:3:1: error: '= 5' is no answer"));
   EXPECT_THAT(mistake("Q5 = 1\nQ6 = 2\nQ5 = 3\n"), HasSubstr("A.TXT:3:1: error: 'Q5' is answered twice"));
-}
-
-TEST(Answers, StandInASetupToo) {
-  const auto file = std::filesystem::temp_directory_path() / fmt::format("probewright-answers-{}.toml", ::getpid());
-  const auto read = [&](const std::string& text) {
-    std::ofstream(file) << text;
-    auto answers = answersInSetup(file);
-    std::filesystem::remove(file);
-    return answers;
-  };
-  const auto answers = read("seed = 3\n[answers]\n\"1410 point 1\" = \"10 20 50\"\nQ5 = \"7.5\"\n");
-  ASSERT_TRUE(answers);
-  EXPECT_THAT(*answers, UnorderedElementsAre(Pair("1410 point 1", "10 20 50"), Pair("Q5", "7.5")));
-  EXPECT_TRUE(read("seed = 3\n")->empty());
-  EXPECT_THAT(format(read("[answers\n").error()), HasSubstr("no valid TOML"));
-  EXPECT_THAT(format(answersInSetup("/nowhere/setup.toml").error()), HasSubstr("/nowhere/setup.toml"));
 }
 
 }  // namespace

@@ -228,7 +228,7 @@ struct Bench {
     options.wallClock = wallClock;
     options.recordPath = false;
     options.onStop = onStop;
-    options.answer = answer;
+    if (answer) options.answer = [this](const control::Question& question) { return answer(question.name); };
     options.language = language;
     options.showAllResults = showAllResults;
     std::string text = "BEGIN PGM BENCH " + unit + "\n" + blocks + "END PGM BENCH " + unit + "\n";

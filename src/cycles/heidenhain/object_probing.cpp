@@ -58,9 +58,16 @@ std::string ObjectProbing::question(int ordinal) const {
                     : fmt::format("{} call {} {} {}", name, calls, what, ordinal);
 }
 
-std::optional<std::string> ObjectProbing::answer(const std::string& what) {
-  auto& panel = context_.control().panel;
-  return panel.answer ? panel.answer(what) : std::nullopt;
+std::optional<std::string> ObjectProbing::answer(const std::string& what, bool choosesDirection, bool mayStay) {
+  const auto& panel = context_.control().panel;
+  if (!panel.answer) return std::nullopt;
+  std::string wanted = "tip of the probe in main, minor and tool axis; waypoints are separated by ;";
+  if (choosesDirection) wanted += ", a probing direction may follow: 10 20 -5 Y-";
+  if (mayStay) wanted += "; nothing: it stays";
+  return panel.answer({what, wanted, [&](const std::string& text) {
+                         const bool empty = text.find_first_not_of(" ;") == std::string::npos;
+                         return empty ? mayStay : wayOf(text, choosesDirection).has_value();
+                       }});
 }
 
 int ObjectProbing::directionFrom(const std::string& word) const {
@@ -76,45 +83,49 @@ std::string ObjectProbing::nameOf(int direction) const {
   return {"XYZ"[axis], direction < 0 ? '-' : '+'};
 }
 
-/// Waypoints "main minor tool; main minor tool": where the tip of the probe stands, as the position display shows it.
-/// Behind the last one a direction may follow: "10 20 -5 Y-".
-bool ObjectProbing::moveAlong(const std::string& what, const std::string& waypoints, int* direction) {
-  bool moved = false;
-  bool directed = false;
-  std::istringstream all(waypoints);
+std::optional<ObjectProbing::Way> ObjectProbing::wayOf(const std::string& text, bool choosesDirection) const {
+  Way way;
+  std::istringstream all(text);
   std::string one;
   while (std::getline(all, one, ';')) {
     std::ranges::replace(one, ',', ' ');
     std::istringstream words(one);
     Vector3 tip = Vector3::Zero();
     int count = 0;
-    std::string word;
-    bool valid = !directed;
-    for (; valid && words >> word; ++count) {
+    for (std::string word; words >> word; ++count) {
+      if (way.direction != 0) return std::nullopt;
       if (count < 3) {
         const auto number = parseDecimal(word);
-        valid = number.has_value();
-        if (valid) tip[count] = *number * context_.control().unit;
+        if (!number) return std::nullopt;
+        tip[count] = *number * context_.control().unit;
       } else {
-        const int chosen = direction && count == 3 ? directionFrom(word) : 0;
-        valid = directed = chosen != 0;
-        if (directed) *direction = chosen;
+        way.direction = choosesDirection ? directionFrom(word) : 0;
+        if (way.direction == 0) return std::nullopt;
       }
     }
-    if (!valid || count < 3) {
-      throw Alarm("Position of the probe wrong", fmt::format("'{}' is no position for {}", waypoints, what),
-                  "answer with three coordinates of the tip: main, minor and tool axis; ; between waypoints");
-    }
-    const Vector3 ball = tip + Vector3(0, 0, prober_.probe().ballRadius);
-    prober_.approach(ball, tip.z());
-    moved = true;
+    if (count < 3) return std::nullopt;
+    way.tips.push_back(tip);
   }
-  return moved;
+  if (way.tips.empty()) return std::nullopt;
+  return way;
+}
+
+bool ObjectProbing::moveAlong(const std::string& what, const std::string& waypoints, int* direction) {
+  if (waypoints.find_first_not_of(" ;") == std::string::npos) return false;
+  const std::optional<Way> way = wayOf(waypoints, direction != nullptr);
+  if (!way) {
+    throw Alarm("Position of the probe wrong", fmt::format("'{}' is no position for {}", waypoints, what),
+                "answer with three coordinates of the tip: main, minor and tool axis; ; between waypoints");
+  }
+  for (const Vector3& tip : way->tips)
+    prober_.approach(tip + Vector3(0, 0, prober_.probe().ballRadius), tip.z());
+  if (way->direction != 0) *direction = way->direction;
+  return true;
 }
 
 void ObjectProbing::askOperator(const std::string& what, const std::string& task, int* direction) {
   context_.stop(fmt::format("{}: {}, then NC start", what, task));
-  const auto reply = answer(what);
+  const auto reply = answer(what, direction != nullptr, false);
   if (!reply || !moveAlong(what, *reply, direction)) {
     throw Alarm("Semi-automatic probing without operator",
                 fmt::format("Nobody says where the probe is to stand for {}", what),
@@ -129,7 +140,7 @@ void ObjectProbing::retractByOperator(const std::string& what) {
                   "then NC start",
                   what));
   const std::string away = what + " away";
-  if (const auto reply = answer(away)) moveAlong(away, *reply);
+  if (const auto reply = answer(away, false, true)) moveAlong(away, *reply);
 }
 
 EvaluatedTouch ObjectProbing::touch(const NominalPosition& nominal, int& direction, bool firstOfObject) {

@@ -28,7 +28,15 @@ private:
   void askOperator(const std::string& what, const std::string& task, int* direction = nullptr);
   /// Where the operator retracts to by hand, if he says so.
   void retractByOperator(const std::string& what);
-  std::optional<std::string> answer(const std::string& what);
+  /// Where the operator wants the tip of the probe to go, and the probing direction if he chooses one, otherwise 0.
+  struct Way {
+    std::vector<Vector3> tips;
+    int direction = 0;
+  };
+  /// "main minor tool; main minor tool" in the unit of the program, as the position display shows it. Behind the last
+  /// waypoint a direction may follow, where it can be chosen: "10 20 -5 Y-". Nothing if the text is something else.
+  std::optional<Way> wayOf(const std::string& text, bool choosesDirection) const;
+  std::optional<std::string> answer(const std::string& what, bool choosesDirection, bool mayStay);
   bool moveAlong(const std::string& what, const std::string& waypoints, int* direction = nullptr);
   /// "Y-" as Q372 counts, 0 if it is none; and the other way round.
   int directionFrom(const std::string& word) const;
