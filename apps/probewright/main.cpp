@@ -21,9 +21,9 @@ void addControl(CLI::App& command, std::optional<ControlKind>& control) {
           "--control",
           [&control](const std::string& text) {
             control = probewright::control::controlKindOf(text);
-            if (!control) throw CLI::ValidationError("--control", text + " is none of TNC640, iTNC530, 840Dsl");
+            if (!control) throw CLI::ValidationError("--control", text + " is none of TNC640, iTNC530, 840Dsl, 828D");
           },
-          "The control the program is for, where ending and text don't tell: TNC640, iTNC530, 840Dsl")
+          "The control the program is for, where ending and text don't tell: TNC640, iTNC530, 840Dsl, 828D")
       ->type_name("NAME");
 }
 
@@ -166,7 +166,7 @@ int main(int argc, char** argv) {
   convert->add_option("IN", convertArguments.input, "The program")->required();
   convert->add_option("OUT", convertArguments.output, "The file to write; its ending names the language")->required();
   addControl(*convert, convertArguments.control);
-  convert->get_option("--control")->description("The control to write for: TNC640, iTNC530, 840Dsl; else TNC640");
+  convert->get_option("--control")->description("The control to write for: TNC640, iTNC530, 840Dsl, 828D; else TNC640");
   convert
       ->add_option("--setup", convertArguments.setup,
                    "The setup of the control that a SINUMERIK program is for: its folder of tables has the definition "
