@@ -24,15 +24,6 @@ constexpr std::array parameters425 = {
     only(standard(moveToClearance, 0), control::onTNC640),
 };
 
-constexpr ResultDefinition results425[] = {
-    {"Q156", "actual width"},
-    {"Q157", "actual position of the centre line"},
-    {"Q166", "deviation of the width"},
-    {"Q180", "1: within tolerance", ValueKind::Integer},
-    {"Q181", "1: rework", ValueKind::Integer},
-    {"Q182", "1: scrap", ValueKind::Integer},
-};
-
 }  // namespace
 
 const CycleDefinition cycle425Definition = {
@@ -44,7 +35,7 @@ const CycleDefinition cycle425Definition = {
         "Measures the width of a slot by a touch on each wall and compares it with limits; can correct the tool that "
         "made it.",
     .parameters = parameters425,
-    .results = results425,
+    .results = parameters::widthInspectionResults,
 };
 
 void cycle425(Context& context, const Arguments&) {

@@ -27,15 +27,6 @@ constexpr std::array parameters426 = {
     monitoredTool,
 };
 
-constexpr ResultDefinition results426[] = {
-    {"Q156", "actual width"},
-    {"Q157", "actual position of the centre line"},
-    {"Q166", "deviation of the width"},
-    {"Q180", "1: within tolerance", ValueKind::Integer},
-    {"Q181", "1: rework", ValueKind::Integer},
-    {"Q182", "1: scrap", ValueKind::Integer},
-};
-
 }  // namespace
 
 const CycleDefinition cycle426Definition = {
@@ -47,7 +38,7 @@ const CycleDefinition cycle426Definition = {
         "Measures the width of a ridge by a touch on each side and compares it with limits; can correct the tool that "
         "made it.",
     .parameters = parameters426,
-    .results = results426,
+    .results = parameters::widthInspectionResults,
 };
 
 void cycle426(Context& context, const Arguments&) {

@@ -35,21 +35,9 @@ constexpr Parameter parameters978[] = {
     parameters::tolerance(21),
 };
 
-constexpr auto results978 =
-    parameters::joined(std::array<ResultDefinition, 13>{{{"_OVR[0]", "set value, measuring axis"},
-                                                         {"_OVR[1]", "set value, 1st axis of the plane"},
-                                                         {"_OVR[2]", "set value, 2nd axis of the plane"},
-                                                         {"_OVR[3]", "set value, 3rd axis of the plane"},
-                                                         {"_OVR[4]", "actual value, measuring axis"},
-                                                         {"_OVR[5]", "actual value, 1st axis of the plane"},
-                                                         {"_OVR[6]", "actual value, 2nd axis of the plane"},
-                                                         {"_OVR[7]", "actual value, 3rd axis of the plane"},
-                                                         {"_OVR[16]", "difference, measuring axis"},
-                                                         {"_OVR[17]", "difference, 1st axis of the plane"},
-                                                         {"_OVR[18]", "difference, 2nd axis of the plane"},
-                                                         {"_OVR[19]", "difference, 3rd axis of the plane"},
-                                                         {"_OVR[21]", "mean value"}}},
-                       parameters::correctionResults);
+constexpr auto results978 = parameters::joined(
+    parameters::joined(parameters::coordinateResults, std::array{ResultDefinition{"_OVR[21]", "mean value"}}),
+    parameters::correctionResults);
 
 }  // namespace
 

@@ -191,6 +191,22 @@ constexpr std::array<ResultDefinition, A + B> joined(const std::array<ResultDefi
   return all;
 }
 
+/// Results of a measurement of one coordinate.
+inline constexpr std::array coordinateResults = {
+    ResultDefinition{"_OVR[0]", "set value, measuring axis"},
+    ResultDefinition{"_OVR[1]", "set value, 1st axis of the plane"},
+    ResultDefinition{"_OVR[2]", "set value, 2nd axis of the plane"},
+    ResultDefinition{"_OVR[3]", "set value, 3rd axis of the plane"},
+    ResultDefinition{"_OVR[4]", "actual value, measuring axis"},
+    ResultDefinition{"_OVR[5]", "actual value, 1st axis of the plane"},
+    ResultDefinition{"_OVR[6]", "actual value, 2nd axis of the plane"},
+    ResultDefinition{"_OVR[7]", "actual value, 3rd axis of the plane"},
+    ResultDefinition{"_OVR[16]", "difference, measuring axis"},
+    ResultDefinition{"_OVR[17]", "difference, 1st axis of the plane"},
+    ResultDefinition{"_OVR[18]", "difference, 2nd axis of the plane"},
+    ResultDefinition{"_OVR[19]", "difference, 3rd axis of the plane"},
+};
+
 /// What cycles with tool or zero offset correction leave besides their own results.
 inline constexpr std::array<ResultDefinition, 18> correctionResultsWithoutLimits = {{
     {"_OVR[20]", "correction value of the tool"},

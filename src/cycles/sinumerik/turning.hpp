@@ -47,18 +47,4 @@ struct TurnedDimension {
 void concludeTurned(Context& context, Task task, TurnedFeature feature, const TurnedDimension& dimension,
                     double direction);
 
-/// The element of the 13 results of set value, actual value and difference.
-inline constexpr std::array<ResultDefinition, 12> turnedResults = {{{"_OVR[0]", "set value, measuring axis"},
-                                                                    {"_OVR[1]", "set value, 1st axis of the plane"},
-                                                                    {"_OVR[2]", "set value, 2nd axis of the plane"},
-                                                                    {"_OVR[3]", "set value, 3rd axis of the plane"},
-                                                                    {"_OVR[4]", "actual value, measuring axis"},
-                                                                    {"_OVR[5]", "actual value, 1st axis of the plane"},
-                                                                    {"_OVR[6]", "actual value, 2nd axis of the plane"},
-                                                                    {"_OVR[7]", "actual value, 3rd axis of the plane"},
-                                                                    {"_OVR[16]", "difference, measuring axis"},
-                                                                    {"_OVR[17]", "difference, 1st axis of the plane"},
-                                                                    {"_OVR[18]", "difference, 2nd axis of the plane"},
-                                                                    {"_OVR[19]", "difference, 3rd axis of the plane"}}};
-
 }  // namespace probewright::cycles::sinumerik
