@@ -29,8 +29,7 @@ const CycleDefinition cycle4Definition = {
     .family = CycleFamily::Special,
     .summary =
         "Measures from where the probe stands in the direction of a vector and writes the ball centre and a status "
-        "into "
-        "four Q parameters.",
+        "into four Q parameters. On the iTNC 530 a function of feature content level 3.",
     .parameters = parameters4,
     .results = results4,
 };

@@ -14,7 +14,9 @@ const CycleDefinition cycle408Definition = {
     .name = "408",
     .title = "SLOT CENTER REF PT",
     .family = CycleFamily::Preset,
-    .summary = "Measures the width of a slot by a touch on each wall and sets the preset to its centre line.",
+    .summary =
+        "Measures the width of a slot by a touch on each wall and sets the preset to its centre line. On the iTNC 530 "
+        "a function of feature content level 3.",
     .parameters = parameters408,
     .results = parameters::widthResults,
 };

@@ -14,7 +14,9 @@ const CycleDefinition cycle409Definition = {
     .name = "409",
     .title = "RIDGE CENTER REF PT",
     .family = CycleFamily::Preset,
-    .summary = "Measures the width of a ridge by a touch on each wall and sets the preset to its centre line.",
+    .summary =
+        "Measures the width of a ridge by a touch on each wall and sets the preset to its centre line. On the iTNC 530 "
+        "a function of feature content level 3.",
     .parameters = parameters409,
     .results = parameters::widthResults,
 };

@@ -31,7 +31,7 @@ const CycleDefinition cycle441Definition = {
     .family = CycleFamily::Special,
     .summary =
         "Sets positioning feed, tracking and interruption for all touch probe cycles that follow, until the end of the "
-        "program.",
+        "program. On the iTNC 530 a function of feature content level 2.",
     .parameters = parameters441,
     .results = {},
 
