@@ -236,5 +236,27 @@ TEST(MisalignmentTables, Align405ToTheRotatedSystem) {
   EXPECT_EQ(warnings(ran, "positive side of the Y axis"), 1U);
 }
 
+/// A machine without a table that turns the workpiece about the tool axis: nothing is written.
+TEST(MisalignmentTables, RefuseTablesThatAreNotThere) {
+  for (const ControlKind kind : {newer, older}) {
+    for (const char* machine : {"mill3", "mill5-head-head"}) {
+      SCOPED_TRACE(fmt::format("{}, {}", control::name(kind), machine));
+      Bench bench(kind, machine);
+      bench.preset(1, {0, 0, -400});
+      bench.believedProbe().maximumTravel = 40;
+      for (const double side : {-40.0, 40.0})
+        bench.part(simulation::Ring(8, 16, -30), pose({side, 0, -400}, {0, 0, 4}));
+      const Words hole = {{321, 40}, {322, 0}, {262, 14}, {325, 0}, {247, 90},
+                          {261, -8}, {320, 0}, {260, 20}, {301, 0}, {337, 0}};
+      for (const std::string& block : {probe(401, holes), probe(405, hole)}) {
+        const Ran ran = bench.run(block);
+        EXPECT_EQ(ran.alarm(), "Rotary axis not available") << ran.why();
+        EXPECT_NE(ran.why().find("no rotary table that turns the workpiece about Z"), std::string::npos) << ran.why();
+        EXPECT_TRUE(ran.cycle().writes.empty());
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace probewright::testing_support
