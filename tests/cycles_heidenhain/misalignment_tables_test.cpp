@@ -205,6 +205,27 @@ TEST(MisalignmentTables, SetTheBasicRotationOf404InEveryRow) {
     EXPECT_EQ(none.cell("PRESET.PR", "3", column), 0);
 }
 
+/// 400 to 402 measure in the unturned system, whatever three angles the preset had, and leave one about the tool axis.
+TEST(MisalignmentTables, ReplaceARotationOfThreeAngles) {
+  Bench straight = edge(newer, 0);
+  straight.setup.presets.front().rotation = {1, -2, 5};
+  Words words = edgeWords;
+  std::erase_if(words, [](const auto& word) {
+    return word.first == 312 || word.first == 337 || word.first == 303 || word.first == 380;
+  });
+  Bench pair = twoHoles(newer);
+  pair.setup.presets.front().rotation = {1, -2, 5};
+  const Ran along = straight.run(probe(400, with(words, {{307, 0}, {305, 0}})));
+  const Ran between = pair.run(probe(401, with(holes, {{402, 0}, {337, 0}, {305, 1}})));
+  for (const auto& [ran, angle] : {std::pair(&along, 2.0), std::pair(&between, 4.0)}) {
+    ASSERT_TRUE(ran->finished()) << ran->why();
+    EXPECT_EQ(ran->cell("PRESET.PR", "1", "SPA"), 0);
+    EXPECT_EQ(ran->cell("PRESET.PR", "1", "SPB"), 0);
+    EXPECT_NEAR(ran->cell("PRESET.PR", "1", "SPC"), angle, digit);
+    EXPECT_TRUE(ran->preset().isApprox(pose({0, 0, -400}, {0, 0, angle}), 1e-9));
+  }
+}
+
 /// 405 counts from the axes of the active system, whichever way they are turned.
 TEST(MisalignmentTables, Align405ToTheRotatedSystem) {
   for (const ControlKind kind : {newer, older}) {

@@ -17,6 +17,18 @@ struct PartInPlane : TiltedPlace {
   }
 };
 
+/// The same in a preset with a 3-D basic rotation, while the tool stands upright.
+struct PartInRotation : PartInPlane {
+  explicit PartInRotation(Dice& dice) : PartInPlane(dice, ControlKind::TNC640) {
+    const Vector3 angles(written(dice.between(-3, 3)), written(dice.between(-3, 3)), written(dice.between(-40, 40)));
+    bench.setup.presets.front().rotation = angles;
+    tilt = Matrix3::Identity();
+    preset = input = pose(preset.translation(), angles);
+    part = input * pose(dice.within(0.5));
+    before.clear();
+  }
+};
+
 struct Case {
   int cycle;
   Words words;
@@ -85,28 +97,45 @@ std::vector<Case> cases() {
   };
 }
 
+/// Measures `one` into the given row and expects what was wished; the other axes keep their zero.
+void expectWished(PartInPlane& place, const Case& one, int row) {
+  const Vector3 wishes(7, -2, 5);
+  one.lay(place);
+  const Transfer transfer = transferInto(row);
+  const Ran ran = place.bench.run(place.before + probe(one.cycle, with(one.words, transfer.words)) + transfer.after);
+  ASSERT_TRUE(ran.finished()) << ran.why();
+  const Vector3 feature = place.part * one.feature;
+  const Vector3 before = place.inPlane(place.preset, feature), after = place.inPlane(ran.preset(), feature);
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool wished = one.wishes[static_cast<std::size_t>(axis)];
+    EXPECT_NEAR(after[axis], wished ? wishes[axis] : before[axis], exact) << "axis " << axis;
+  }
+  EXPECT_TRUE(ran.preset().linear().isApprox(place.preset.linear(), 1e-12));
+}
+
 TEST(TiltedPlane, TakesPresetsWhereTheyWereMeasured) {
   Dice dice(4081);
-  const Vector3 wishes(7, -2, 5);
+  constexpr int rows[] = {0, 1, 6};
   for (const Case& one : cases()) {
     for (int world = 0; world < 20; ++world) {
       const ControlKind kind = controlOf(world);
       PartInPlane place(dice, kind);
-      one.lay(place);
-      const int rows[] = {0, 1, 6};
       const int row = rows[dice.whole(0, 2)];
       SCOPED_TRACE(fmt::format("cycle {} on the {}, world {}, row {}", one.cycle, control::name(kind), world, row));
-      const Transfer transfer = transferInto(row);
-      const Ran ran =
-          place.bench.run(place.before + probe(one.cycle, with(one.words, transfer.words)) + transfer.after);
-      ASSERT_TRUE(ran.finished()) << ran.why();
-      const Vector3 feature = place.part * one.feature;
-      const Vector3 before = place.inPlane(place.preset, feature), after = place.inPlane(ran.preset(), feature);
-      for (int axis = 0; axis < 3; ++axis) {
-        const bool wished = one.wishes[static_cast<std::size_t>(axis)];
-        EXPECT_NEAR(after[axis], wished ? wishes[axis] : before[axis], exact) << "axis " << axis;
-      }
-      EXPECT_TRUE(ran.preset().linear().isApprox(place.preset.linear(), 1e-12));
+      expectWished(place, one, row);
+    }
+  }
+}
+
+TEST(BasicRotation3d, TakesPresetsAlongItsAxes) {
+  Dice dice(4083);
+  constexpr int rows[] = {0, 1, 6};
+  for (const Case& one : cases()) {
+    for (int world = 0; world < 10; ++world) {
+      PartInRotation place(dice);
+      const int row = rows[dice.whole(0, 2)];
+      SCOPED_TRACE(fmt::format("cycle {}, world {}, row {}", one.cycle, world, row));
+      expectWished(place, one, row);
     }
   }
 }

@@ -203,6 +203,39 @@ TEST(Cycle1410, ProbesWhereTheOperatorPointsTo) {
   }
 }
 
+/// NC start without a move: the program has brought the probe to the place.
+TEST(RotationCycles, TouchFromWhereTheProbeStands) {
+  Bench bench;
+  bench.preset(1, {0, 0, -400});
+  bench.part(simulation::Ring(10, 18, -40), pose({0.3, -0.2, -400}));
+  bench.part(simulation::Ring(10, 18, -40), pose({60.1, 0.4, -400}));
+  bench.answer = [](const std::string& question) -> std::optional<std::string> {
+    return question == "1411 object 1" ? "" : "0 0 30; 60 0 30; 60 0 -10";
+  };
+  const Ran ran = bench.run("L X+0 Y+0 R0 FMAX\nL Z-10 R0 FMAX\n" +
+                            probe(1411,
+                                  {{1116, 20},
+                                   {1117, 20},
+                                   {1115, 0},
+                                   {423, 4},
+                                   {325, 0},
+                                   {1119, 360},
+                                   {320, 0},
+                                   {260, 20},
+                                   {1125, 0},
+                                   {309, 0},
+                                   {1126, 0},
+                                   {1120, 0},
+                                   {1121, 0}},
+                                  " ~\n QS1100=\"?0\" ~\n QS1101=\"?0\" ~\n QS1102=\"?\" ~\n QS1103=\"?60\""
+                                  " ~\n QS1104=\"?0\" ~\n QS1105=\"?\""));
+  ASSERT_TRUE(ran.finished()) << ran.why();
+  EXPECT_NEAR(ran.q(950), 0.3, exact);
+  EXPECT_NEAR(ran.q(951), -0.2, exact);
+  EXPECT_NEAR(ran.q(952), -8, exact);
+  EXPECT_NEAR(ran.q(953), 60.1, exact);
+}
+
 TEST(RotationCycles, AskAgainInLaterCalls) {
   Bench bench;
   bench.preset(1, {0, 0, -400}, 0);

@@ -58,16 +58,14 @@ std::string ObjectProbing::question(int ordinal) const {
                     : fmt::format("{} call {} {} {}", name, calls, what, ordinal);
 }
 
-std::optional<std::string> ObjectProbing::answer(const std::string& what, bool choosesDirection, bool mayStay) {
+std::optional<std::string> ObjectProbing::answer(const std::string& what, bool choosesDirection) {
   const auto& panel = context_.control().panel;
   if (!panel.answer) return std::nullopt;
-  std::string wanted = "tip of the probe in main, minor and tool axis; waypoints are separated by ;";
-  if (choosesDirection) wanted += ", a probing direction may follow: 10 20 -5 Y-";
-  if (mayStay) wanted += "; nothing: it stays";
-  return panel.answer({what, wanted, [&](const std::string& text) {
-                         const bool empty = text.find_first_not_of(" ;") == std::string::npos;
-                         return empty ? mayStay : wayOf(text, choosesDirection).has_value();
-                       }});
+  std::string wanted = "tip of the probe in main, minor and tool axis, as 10 20 50; 10 20 -5";
+  if (choosesDirection) wanted += " Y- (with another probing direction)";
+  wanted += "; nothing: it stays";
+  return panel.answer(
+      {what, wanted, [&](const std::string& text) { return wayOf(text, choosesDirection).has_value(); }});
 }
 
 int ObjectProbing::directionFrom(const std::string& word) const {
@@ -103,15 +101,14 @@ std::optional<ObjectProbing::Way> ObjectProbing::wayOf(const std::string& text, 
         if (way.direction == 0) return std::nullopt;
       }
     }
+    if (count == 0) continue;
     if (count < 3) return std::nullopt;
     way.tips.push_back(tip);
   }
-  if (way.tips.empty()) return std::nullopt;
   return way;
 }
 
-bool ObjectProbing::moveAlong(const std::string& what, const std::string& waypoints, int* direction) {
-  if (waypoints.find_first_not_of(" ;") == std::string::npos) return false;
+void ObjectProbing::moveAlong(const std::string& what, const std::string& waypoints, int* direction) {
   const std::optional<Way> way = wayOf(waypoints, direction != nullptr);
   if (!way) {
     throw Alarm("Position of the probe wrong", fmt::format("'{}' is no position for {}", waypoints, what),
@@ -120,17 +117,17 @@ bool ObjectProbing::moveAlong(const std::string& what, const std::string& waypoi
   for (const Vector3& tip : way->tips)
     prober_.approach(tip + Vector3(0, 0, prober_.probe().ballRadius), tip.z());
   if (way->direction != 0) *direction = way->direction;
-  return true;
 }
 
 void ObjectProbing::askOperator(const std::string& what, const std::string& task, int* direction) {
   context_.stop(fmt::format("{}: {}, then NC start", what, task));
-  const auto reply = answer(what, direction != nullptr, false);
-  if (!reply || !moveAlong(what, *reply, direction)) {
+  const auto reply = answer(what, direction != nullptr);
+  if (!reply) {
     throw Alarm("Semi-automatic probing without operator",
                 fmt::format("Nobody says where the probe is to stand for {}", what),
                 fmt::format("give the answer '{} = MAIN MINOR TOOL', the position of the probe's tip", what));
   }
+  moveAlong(what, *reply, direction);
 }
 
 void ObjectProbing::retractByOperator(const std::string& what) {
@@ -140,7 +137,7 @@ void ObjectProbing::retractByOperator(const std::string& what) {
                   "then NC start",
                   what));
   const std::string away = what + " away";
-  if (const auto reply = answer(away, false, true)) moveAlong(away, *reply);
+  if (const auto reply = answer(away, false)) moveAlong(away, *reply);
 }
 
 EvaluatedTouch ObjectProbing::touch(const NominalPosition& nominal, int& direction, bool firstOfObject) {

@@ -34,10 +34,11 @@ private:
     int direction = 0;
   };
   /// "main minor tool; main minor tool" in the unit of the program, as the position display shows it. Behind the last
-  /// waypoint a direction may follow, where it can be chosen: "10 20 -5 Y-". Nothing if the text is something else.
+  /// waypoint a direction may follow, where it can be chosen: "10 20 -5 Y-". Without waypoints the probe stays where it
+  /// is. Nothing if the text is something else.
   std::optional<Way> wayOf(const std::string& text, bool choosesDirection) const;
-  std::optional<std::string> answer(const std::string& what, bool choosesDirection, bool mayStay);
-  bool moveAlong(const std::string& what, const std::string& waypoints, int* direction = nullptr);
+  std::optional<std::string> answer(const std::string& what, bool choosesDirection);
+  void moveAlong(const std::string& what, const std::string& waypoints, int* direction = nullptr);
   /// "Y-" as Q372 counts, 0 if it is none; and the other way round.
   int directionFrom(const std::string& word) const;
   std::string nameOf(int direction) const;
