@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::array entries = {
     MachineParameterEntry{"maxTouchFeed", "122602", onTNC640, 1, 100000, "mm/min",
-                          "upper limit of the probing feed rate F", &MachineParameters::maxTouchFeed},
+                          "upper limit of the probing feed rate F and of Q396 of cycle 441",
+                          &MachineParameters::maxTouchFeed},
     MachineParameterEntry{"chkTiltingAxes", "204601", onTNC640, 0, 1, "",
                           "1: before probing, the rotary axes must stand as the tilted plane asks",
                           &MachineParameters::checkTiltingAxes},

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/cycles.hpp"
 #include "cycles/heidenhain/parameters.hpp"
@@ -40,10 +42,15 @@ const CycleDefinition cycle441Definition = {
 void cycle441(Context& context, const Arguments&) {
   context.require({.transformationsAllowed = true, .probes = false, .featureLevel = 2});
   auto& overrides = context.control().overrides;
-  const double feed = context.q(396);
+  const Control& control = context.control();
+  double feed = context.q(396);
+  const bool rapid = context.arguments().number(396) >= largest;  // FMAX
+  if (const double limit = control.parameters.maxTouchFeed; control.isTNC640() && !rapid && feed > limit) {
+    context.warn(fmt::format("Q396 = {:.0f} mm/min is limited to {:.0f} mm/min (maxTouchFeed)", feed, limit));
+    feed = limit;
+  }
   if (feed > 0) overrides.positioningFeed = feed;
   overrides.machineRapid = context.option(397) == 1;
-  const Control& control = context.control();
   // The older control tracks only where its machine parameter has it prepared.
   overrides.track = context.option(399) == 1 && (control.isTNC640() || control.parameters.mp6165);
   if (context.option(399) == 1 && !*overrides.track) {

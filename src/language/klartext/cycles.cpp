@@ -104,6 +104,7 @@ bool BlockParser::cycleParameters(std::size_t firstWord) {
 }
 
 bool BlockParser::cycleParameter() {
+  constexpr int monitoredTool = 330;
   if (!variableFollows()) {
     return error("a parameter Qn = value of the cycle is expected here",
                  "each parameter stands as Qn=value ;COMMENT, continued by ~");
@@ -131,6 +132,10 @@ bool BlockParser::cycleParameter() {
     const std::string_view bare = lexer_.chunk();
     if (bare.find('"') != std::string_view::npos) return error("the quotation marks of this text do not match");
     assigned = textOperand(ref(bare));
+  } else if (parameter.index[0].number == monitoredTool && lexer_.peek() == '"' && isWordByte(lexer_.here(1))) {
+    // The control shows a tool's name without its closing quotation mark.
+    lexer_.advance(1);
+    assigned = textOperand(ref(lexer_.chunk()));
   } else {
     assigned = formula();
   }
