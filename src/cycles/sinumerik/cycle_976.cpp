@@ -81,7 +81,8 @@ public:
   void ball();
   void edge();
   void store() {
-    context_.result(24, atAngle() ? context_.real("S_STA1") : 0);
+    const bool inPlane = context_.digit("S_MVAR", 1) != static_cast<int>(Body::Surface);
+    if (inPlane) context_.result(24, atAngle() ? context_.real("S_STA1") : 0);
     calibration_.store();
   }
 
