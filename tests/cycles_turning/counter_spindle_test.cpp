@@ -92,6 +92,26 @@ TEST(CounterSpindle, MeasuresInTheMirroredSystem) {
   }
 }
 
+TEST(CounterSpindle, Cycle978SetsTheFaceInTheMirroredSystem) {
+  // With the tool type of lathes; every target, from every side of 0.
+  Planter plant(4712);
+  constexpr const char* targets[] = {"1", "10001", "9000", "1001", "11001", "3001", "13001"};
+  for (int world = 0; world < 42; ++world) {
+    simulation::Setup setup = latheSetup(probeTowards(plant, 5));
+    const double error = plant.number(-0.8, 0.8), set = plant.number(-1, 1);
+    counterBar(setup, 30, 300 - error);
+    LatheBench bench(setup);
+    plantFrame(bench, "$P_UIFR", 1, 0, 300);
+    bench.set("$P_UIFR", {1, "Z", "MI"}, 1);
+    bench.run(fmt::format("DIAMON\nG0 X300\nG0 Z60\nG0 X40\nG0 Z15\nCYCLE978(100,{},,1,{:.12f},6,4,1,2)",
+                          targets[world % 7], set));
+    EXPECT_NEAR(bench.ovr(4), error, 1e-8) << world;
+    EXPECT_NEAR(bench.ovr(16), error - set, 1e-8);
+    const Vector3 onFace = bench.control.machineFromWorkpiece().inverse() * Vector3(20, 0, 300 - error);
+    EXPECT_NEAR(onFace.z(), set, 1e-8) << world << " into " << targets[world % 7];
+  }
+}
+
 TEST(CounterSpindle, CorrectsTheToolTheOtherWayRound) {
   // In the main spindle a face too far out means a tool longer than its data say; mirrored, a shorter one.
   for (const bool mirrored : {false, true}) {

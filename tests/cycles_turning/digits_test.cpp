@@ -1,0 +1,190 @@
+#include <map>
+#include <set>
+
+#include "cycles/catalogue.hpp"
+#include "support/lathe_bench.hpp"
+
+/// Every digit of S_MVAR in the cycles for lathes: each value that the catalogue lists runs and does something else
+/// than the others; and the lists of results of the manual.
+namespace probewright {
+namespace {
+
+using namespace testing_support;
+
+constexpr double face = 200;
+
+/// A lathe with a part and the probe in front of it.
+struct Scene {
+  simulation::Setup setup;
+  std::string way;
+  std::function<void(LatheBench&)> data = [](LatheBench&) {};
+};
+
+LatheProbe probeAt(int position) {
+  LatheProbe probe;
+  probe.position = position;
+  if (position != 8) probe.mount = {-75, 0, 0};
+  probe.pretravel = 0.01;
+  probe.axialPretravel = 0.02;
+  return probe;
+}
+
+Scene sceneOf(std::string_view name) {
+  if (name == "thirdAxis") {
+    LatheProbe probe;
+    probe.position = 7;
+    probe.mount = {-50, 0, 0};
+    Scene scene{latheSetup(probe, "mill3"), "G0 Z60\n"};
+    place(scene.setup.truth, simulation::RoundBar(18, -80, 0), translation({50, 0, -350}));
+    scene.data = [](LatheBench& bench) {
+      bench.set("$TC_DP1", {1, 1}, 580);
+      bench.set("$TC_DP2", {1, 1}, 7);
+      bench.set("$TC_DP3", {1, 1}, 50);
+      bench.set("$TC_DP4", {1, 1}, 98);
+      bench.set("$SNS_MEA_WP_TRIG_MINUS_DIR_AX3", {0}, -2);
+      bench.set("$SNS_MEA_WP_TRIG_PLUS_DIR_AX3", {0}, 2);
+      bench.set("$MCS_MEA_FUNCTION_MASK", {}, 2);
+      plantFrame(bench, "$P_UIFR", 1, 50, -350);
+    };
+    return scene;
+  }
+  const bool under = name == "face" || name == "bore" || name == "round";
+  Scene scene{latheSetup(probeAt(under ? 7 : 8)), ""};
+  simulation::Truth& truth = scene.setup.truth;
+  if (name == "face") {
+    place(truth, simulation::RoundBar(40, -100, 0), translation({0, 0, face + 0.25}));
+    scene.way = "G0 Z40\nG0 X40\nG0 Z12\n";
+  } else if (name == "bore") {
+    place(truth, simulation::Ring(40.1, 70, -100), translation({0, 0, face}));
+    scene.way = "G0 Z30\nG0 X60\nG0 Z-10\n";
+  } else if (name == "round") {
+    place(truth, simulation::RoundBar(20.1, -100, 0), translation({0, 0, face}));
+    scene.way = "G0 X80\nG0 Z-10\n";
+  } else if (name == "groove") {
+    place(truth, simulation::Box({90, -20, 270}, {100, 20, 310}));
+    place(truth, simulation::Box({100, -20, 270}, {112, 20, 280}));
+    place(truth, simulation::Box({100, -20, 300}, {112, 20, 310}));
+    scene.way = "G0 X264 Z92\n";
+  } else {
+    place(truth, simulation::RoundBar(40.1, -100, 0), translation({0.2, 0, face}));
+    scene.way = "G0 X110\nG0 Z-10\n";
+  }
+  scene.data = [](LatheBench& bench) {
+    plantFrame(bench, "$P_UIFR", 1, 0, face);
+    // Entered a little beside where the walls are.
+    bench.set("$SNS_MEA_CAL_EDGE_BASE_AX2", {0}, 100);
+    bench.set("$SNS_MEA_CAL_EDGE_UPPER_AX2", {0}, 112);
+    bench.set("$SNS_MEA_CAL_EDGE_PLUS_DIR_AX1", {0}, 300.1);
+    bench.set("$SNS_MEA_CAL_EDGE_MINUS_DIR_AX1", {0}, 280.1);
+  };
+  return scene;
+}
+
+/// One value of a digit of S_MVAR, and a call that has it.
+struct Value {
+  const char* cycle;
+  int place, value;
+  const char* scene;
+  const char* call;
+};
+
+constexpr Value values[] = {
+    {"CYCLE973", 1, 0, "bar", "CYCLE973(1100,1,,80,2,1,6,4)"},
+    {"CYCLE973", 1, 1, "bar", "CYCLE973(1101,1,,80,2,1,6,4)"},
+    {"CYCLE973", 1, 2, "groove", "CYCLE973(102,1,1,,,,3,4)"},
+    {"CYCLE973", 1, 3, "groove", "CYCLE973(2103,1,1,,1,,3,4)"},
+    {"CYCLE973", 3, 1, "bar", "CYCLE973(1100,1,,80,2,1,6,4)"},
+    {"CYCLE973", 4, 0, "groove", "CYCLE973(102,1,1,,1,,3,4)"},
+    {"CYCLE973", 4, 1, "groove", "CYCLE973(1103,1,1,,1,,3,4)"},
+    {"CYCLE973", 4, 2, "groove", "CYCLE973(2103,1,1,,1,,3,4)"},
+    {"CYCLE973", 5, 0, "groove", "CYCLE973(2103,1,1,,1,,3,4)"},
+    {"CYCLE973", 5, 1, "groove", "CYCLE973(12103,1,1,,1,,3,4)"},
+    {"CYCLE973", 7, 0, "bar", "CYCLE973(1100,1,,80,2,1,6,4)"},
+    {"CYCLE973", 7, 1, "bar", "CYCLE973(1001100,1,,80,2,1,6,4)"},
+    {"CYCLE974", 1, 0, "face", "CYCLE974(0,,,1,0,1,6,4)"},
+    {"CYCLE974", 1, 1, "bore", "CYCLE974(1,,,1,80,2,6,4)"},
+    {"CYCLE974", 1, 2, "bar", "CYCLE974(2,,,1,80,2,6,4)"},
+    {"CYCLE974", 3, 0, "bar", "CYCLE974(2,1,1,1,80,2,6,4,,1,\"FINISH\")"},
+    {"CYCLE974", 3, 1, "bar", "CYCLE974(102,1,1,1,80,2,6,4,,1,\"FINISH\")"},
+    {"CYCLE974", 3, 2, "bar", "CYCLE974(202,1,1,1,80,2,6,4,,1,\"FINISH\")"},
+    {"CYCLE974", 5, 0, "bar", "CYCLE974(2,,,1,80,2,6,4,30)"},
+    {"CYCLE974", 5, 1, "bar", "CYCLE974(10002,,,1,80,2,6,4,30)"},
+    {"CYCLE994", 1, 1, "bore", "CYCLE994(1,,,1,80,2,,30,6,4)"},
+    {"CYCLE994", 1, 2, "round", "CYCLE994(2,,,1,40,2,,30,6,4)"},
+    {"CYCLE994", 3, 0, "round", "CYCLE994(2,1,1,1,40,2,,30,6,4,1,\"FINISH\")"},
+    {"CYCLE994", 3, 1, "round", "CYCLE994(102,1,1,1,40,2,,30,6,4,1,\"FINISH\")"},
+    {"CYCLE994", 3, 2, "round", "CYCLE994(202,1,1,1,40,2,,30,6,4,1,\"FINISH\")"},
+    {"CYCLE994", 4, 0, "round", "CYCLE994(2,,,1,40,2,66,30,6,4)"},
+    {"CYCLE994", 4, 1, "round", "CYCLE994(1002,,,1,40,2,66,30,6,4)"},
+    {"CYCLE994", 4, 2, "thirdAxis", "G0 X0 Y60\nG0 Z-10\nCYCLE994(2002,,,1,36.4,3,0,40,4,3)"},
+    {"CYCLE994", 4, 3, "thirdAxis", "G0 X60 Y0\nG0 Z-10\nCYCLE994(3002,,,1,36.4,2,0,40,4,3)"},
+};
+
+control::CycleRecord carriedOut(const Value& value) {
+  const Scene scene = sceneOf(value.scene);
+  LatheBench bench(scene.setup);
+  scene.data(bench);
+  bench.run("DIAMON\n" + (std::string_view(value.scene) == "thirdAxis" ? "" : std::string("G0 X300\n")) + scene.way +
+            value.call);
+  EXPECT_EQ(bench.ovi(2), std::stoi(value.cycle + 5));
+  return bench.control.journal.cycles.back();
+}
+
+std::string deedsOf(const control::CycleRecord& record) {
+  std::string deeds;
+  for (const auto& result : record.results)
+    if (result.name != "_OVI[3]") deeds += fmt::format("{} = {:.5f}\n", result.name, result.value);
+  for (const auto& write : record.writes)
+    deeds += fmt::format("{}{} = {}\n", write.table, write.entry, write.after);
+  for (const auto& touch : record.touches)
+    deeds += fmt::format("{:.4f} {:.4f} {:.4f}\n", touch.surface.x(), touch.surface.y(), touch.surface.z());
+  return deeds + fmt::format("{:.3f} s\n", record.endSeconds - record.startSeconds);
+}
+
+TEST(TurningDigits, EachValueOfSMvarDoesSomethingOfItsOwn) {
+  for (const char* cycle : {"CYCLE973", "CYCLE974", "CYCLE994"}) {
+    for (const cycles::CodeDigit& digit : cycles::sinumerikCycle(cycle)->parameters.front().digits) {
+      std::map<std::string, int> seen;
+      for (const cycles::Choice& choice : digit.choices) {
+        SCOPED_TRACE(fmt::format("{} digit {} = {} ({})", cycle, digit.place, choice.value, choice.meaning));
+        const auto found = std::ranges::find_if(values, [&](const Value& value) {
+          return std::string_view(value.cycle) == cycle && value.place == digit.place && value.value == choice.value;
+        });
+        ASSERT_NE(found, std::end(values)) << "no call has it";
+        const auto [known, first] = seen.try_emplace(deedsOf(carriedOut(*found)), choice.value);
+        EXPECT_TRUE(first) << "as " << known->second;
+      }
+    }
+  }
+}
+
+TEST(TurningDigits, LeaveTheResultsThatTheManualLists) {
+  std::set<int> calibration = {4, 5, 20, 21, 27, 28};
+  for (int i = 8; i <= 15; ++i)
+    calibration.insert(i);
+  for (const Value& value : values) {
+    const int task = value.place == 3 ? value.value : 0;
+    if (std::string_view(value.cycle) == "CYCLE994" && task == 1) continue;
+    SCOPED_TRACE(value.call);
+    const control::CycleRecord record = carriedOut(value);
+    std::set<int> reals;
+    for (const auto& result : record.results) {
+      EXPECT_FALSE(result.meaning.empty()) << result.name;
+      if (result.name.starts_with("_OVR[")) reals.insert(std::stoi(result.name.substr(5)));
+    }
+    if (std::string_view(value.cycle) == "CYCLE973") {
+      reals.erase(22);  // the length, where it is corrected
+      EXPECT_EQ(reals, calibration);
+      continue;
+    }
+    const std::string_view scene = value.scene;
+    const int axis = scene == "face" ? 0 : scene == "thirdAxis" && value.value == 2 ? 2 : 1;
+    std::set<int> expected = {0, 1 + axis, 4, 5 + axis, 16, 17 + axis};
+    if (task == 1) expected.insert(28);
+    if (task == 2) expected.insert({20, 27, 28, 29, 30, 31});
+    EXPECT_EQ(reals, expected);
+  }
+}
+
+}  // namespace
+}  // namespace probewright
