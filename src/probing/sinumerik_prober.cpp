@@ -124,11 +124,14 @@ void SinumerikProber::alignTo(const Vector3& direction) {
 
 MeasuredPoint SinumerikProber::measure(const Vector3& setpoint, const Vector3& direction, double path, int count) {
   const auto axis = parallelAxis(direction);
-  if (probe_.calibrationWatched && axis && *axis < 2 && trigger(direction) == 0) {
+  // A length that ends at the south pole makes the trigger point in front of the tool 0.
+  const bool mayBeZero = axis == 2 && direction.z() < 0 && !probe_.lengthToCentre;
+  if (probe_.calibrationWatched && axis && !mayBeZero && trigger(direction) == 0) {
+    constexpr std::array ordinals = {"1st", "2nd", "3rd"};
     throw Alarm("61341",
                 fmt::format("The probe is not calibrated in the active plane: no trigger point for the {} direction of "
                             "the {} axis",
-                            direction[*axis] > 0 ? "plus" : "minus", *axis == 0 ? "1st" : "2nd"),
+                            direction[*axis] > 0 ? "plus" : "minus", ordinals[static_cast<std::size_t>(*axis)]),
                 "calibrate with CYCLE976 or CYCLE973");
   }
   return stroke(setpoint, direction, path, count, direction * trigger(direction) + lateralDeviation(direction),

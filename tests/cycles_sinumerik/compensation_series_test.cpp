@@ -179,6 +179,14 @@ TEST(CompensationSeries, UniqueDNumbersNeedNoName) {
   }
   bench.start({0, 0, -10});
   EXPECT_EQ(bench.alarmOf("CYCLE977", call(1)), "61343");
+  // Where MD 18102 says that D numbers are unique, those of three digits need none either.
+  bench.set("$MN_MM_TYPE_CUTTING_EDGE", {}, 1);
+  bench.set("$TC_DP1", {7, 5}, 120);
+  bench.start({0, 0, -10});
+  bench.run("CYCLE977", call(400005));
+  EXPECT_NEAR(bench.data("$TC_DP15", {7, 5}), 0.05, 1e-7);
+  bench.start({0, 0, -10});
+  EXPECT_EQ(bench.alarmOf("CYCLE977", call(1)), "61328") << "the probe has a D1, too";
 }
 
 }  // namespace

@@ -235,6 +235,31 @@ TEST(Cycle978, TheSpindleFollowsATurnedSystemIfAskedTo) {
   EXPECT_NEAR(bench.machine.spindleAngle(), -40, 1e-9);
 }
 
+TEST(Cycle978, MeasuresAlongTheToolAsFarAsItIsCalibrated) {
+  simulation::Truth truth = perfectWorld();
+  place(truth, simulation::Box({0, 0, -60}, {80, 80, 0}), translation({0, 0, -350}));
+  SinumerikBench bench(truth);
+  plantFrame(bench, "$P_UIFR", 1, {0, 0, -350});
+  const NamedNumbers call = {{"S_FA", 6}, {"S_TSA", 2}, {"S_MA", 3}, {"S_MD", 2}};
+  // The length ends at the south pole: nothing is left for a trigger point.
+  bench.start({30, 30, 12});
+  bench.run("CYCLE978", call);
+  EXPECT_NEAR(bench.ovr(4), 0, 1e-9);
+  bench.set("$MNS_MEA_FUNCTION_MASK", {}, 1);  // the length ends at the centre
+  bench.set("$TC_DP3", {1, 1}, 98);
+  bench.start({30, 30, 12});
+  EXPECT_EQ(bench.alarmOf("CYCLE978", call), "61341");
+  bench.set("$SNS_MEA_WP_TRIG_MINUS_DIR_AX3", {0}, -2);
+  bench.start({30, 30, 12});
+  bench.run("CYCLE978", call);
+  EXPECT_NEAR(bench.ovr(4), 0, 1e-9);
+  bench.start({30, 30, 12});
+  EXPECT_EQ(bench.alarmOf("CYCLE978", with(call, {{"S_MD", 1}, {"S_SETV", 20}})), "61341");
+  bench.set("$MNS_MEA_FUNCTION_MASK", {}, 0);  // nothing is watched
+  bench.start({30, 30, 12});
+  EXPECT_EQ(bench.alarmOf("CYCLE978", with(call, {{"S_MD", 1}, {"S_SETV", 20}})), "61301");
+}
+
 TEST(Cycle978, CountsInTheProgramsUnit) {
   SinumerikBench bench(blockAt(translation({0.254, 0, -350})));
   plantFrame(bench, "$P_UIFR", 1, {0, 0, -350});

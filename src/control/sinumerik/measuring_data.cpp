@@ -303,6 +303,7 @@ std::string measuringDataPage() {
       "\n## Data of the NC that the cycles observe\n\n"
       "| number | identifier | if absent | effect |\n|---|---|---|---|\n"
       "| 18080 | `$MN_MM_TOOL_MANAGEMENT_MASK` | bit 8 on | bit 8: additive and setup offsets exist |\n"
+      "| 18102 | `$MN_MM_TYPE_CUTTING_EDGE` | 0 | 1: D numbers are unique, tools to be corrected need no name |\n"
       "| 18108 | `$MN_MM_NUM_SUMCORR` | 6 | number of additive and setup offsets, DL |\n"
       "| 18600 | `$MN_MM_FRAME_FINE_TRANS` | 1 | 0: no fine offsets, corrections are coarse |\n"
       "| 20360 | `$MC_TOOL_PARAMETER_DEF_MASK` | 0 | length 1 of turning tools counts as a diameter: bit 0 wear, bit 1 "

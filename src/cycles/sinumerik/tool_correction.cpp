@@ -46,8 +46,8 @@ std::optional<int> ownerOf(const Control& control, int edge) {
 int toolOf(Context& context, int edge) {
   const Control& control = context.control();
   const std::string& name = context.text("S_TNAME");
-  // Unique D numbers, the fourth and fifth digit of S_KNUM1, need no name beside them.
-  if (name.empty() && edge > 999) {
+  // Unique D numbers need no name beside them: where the machine has such, and the fourth and fifth digit of S_KNUM1.
+  if (name.empty() && (edge > 999 || control.machineData("$MN_MM_TYPE_CUTTING_EDGE") == 1)) {
     if (const auto owner = ownerOf(control, edge)) return *owner;
     context.alarm(61328, fmt::format("D{} belongs to no tool, or to several", edge));
   }
