@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
@@ -98,6 +99,41 @@ TEST(Run, MeasuresTheHousingOfTheExamplesAndCorrectsThePreset) {
   EXPECT_THAT(report, HasSubstr("</html>"));
   EXPECT_THAT(report, Not(HasSubstr("<script src")));
   EXPECT_THAT(report, Not(HasSubstr("<link rel=\"stylesheet\"")));
+}
+
+/// What cycle number `index` of the run left in table entries, the last value of each.
+std::map<std::string, double> writtenBy(const Folder& folder, std::size_t index) {
+  std::map<std::string, double> written;
+  const json cycle = json::parse(textOf(folder / "out/results.json"))["cycles"].at(index);
+  for (const json& write : cycle["writes"]) {
+    written[write["table"].get<std::string>() + " " + write["entry"].get<std::string>()] =
+        std::stod(write["after"].get<std::string>());
+  }
+  return written;
+}
+
+TEST(Run, SetsACornerByADinIsoProgram) {
+  const Folder folder;
+  const Answer answer =
+      probewright({"run", "examples/programs/corner.i", "--setup", setup, "--out", (folder / "out").string()});
+  ASSERT_EQ(answer.exit, 0) << answer.errors;
+  // Where the setup clamps the corner, with the errors of its probe.
+  std::map<std::string, double> written = writtenBy(folder, 0);
+  EXPECT_NEAR(written["PRESET.PR row 3, column X"], -58.65, 0.002);
+  EXPECT_NEAR(written["PRESET.PR row 3, column Y"], -40.82, 0.002);
+  EXPECT_NEAR(written["PRESET.PR row 3, column Z"], -469.59, 0.002);
+  EXPECT_NEAR(written["PRESET.PR row 3, column SPC"], 0.8, 0.002);
+}
+
+TEST(Run, CorrectsTheToolThatTurnedAShaft) {
+  const Folder folder;
+  const Answer answer = probewright({"run", "examples/programs/shaft.mpf", "--setup",
+                                     "examples/setups/shaft-lathe.toml", "--out", (folder / "out").string()});
+  EXPECT_EQ(answer.exit, 1) << answer.errors;
+  EXPECT_THAT(answer.output, HasSubstr("OUT OF TOLERANCE: 1 of 1 toleranced value"));
+  EXPECT_NEAR(writtenBy(folder, 0)["$P_UIFR [1,Z,TR]"], 180.18, 0.002);
+  // The shoulder has 40.014 mm; 40 h7 lies in the middle at 39.9875 mm.
+  EXPECT_NEAR(writtenBy(folder, 1)["$TC_DP12 [3,1]"], -(40.014 - 39.9875) / 2, 0.001);
 }
 
 TEST(Run, PutsAPresetIntoTheBoreOnAnITNC530) {

@@ -86,7 +86,7 @@ std::vector<Variant> variants() {
        bar(40.05),
        outside,
        ",,1,1,80,2,6,4,,1,\"FINISH\",,0.001,0.5,0.2,-0.2,,1,,,2,1",
-       {{"2nd axis of the plane [mm]", {"80.0000", "80.1000", "0.1000", "79.8000", "80.2000", "good"}},
+       {{"measuring axis [mm]", {"80.0000", "80.1000", "0.1000", "79.8000", "80.2000", "good"}},
         {"correction value of the tool [mm]", {"-0.0500"}},
         {"dimensional difference [mm]", {"0.5000"}},
         {"corrected tool", {"T", "FINISH", "D1"}},
@@ -111,7 +111,7 @@ std::vector<Variant> variants() {
        bar(20.1),
        "G0 X80\nG0 Z-10\n",
        ",,1,1,40,2,66,28,4,3,1,\"FINISH\",,0.001,0.5,0.3,-0.3,,1,,,2,1",
-       {{"2nd axis of the plane [mm]", {"40.0000", "40.2000", "0.2000", "39.7000", "40.3000", "good"}},
+       {{"measuring axis [mm]", {"40.0000", "40.2000", "0.2000", "39.7000", "40.3000", "good"}},
         {"corrected tool", {"T", "FINISH", "D1"}}}},
   };
 }

@@ -88,15 +88,15 @@ void concludeTurned(Context& context, Task task, TurnedFeature feature, const Tu
                                 ? comparedSurface(context, task, dimension.set, dimension.actual, direction)
                                 : comparedSize(context, task, dimension.set, dimension.actual,
                                                feature == TurnedFeature::Inside ? Side::Inside : Side::Outside);
-  for (const int element : {4, 5 + axis})
-    context.result(element, dimension.actual, compared);
+  context.result(4, dimension.actual, compared);
+  context.result(5 + axis, dimension.actual, {.nominal = dimension.set});
   for (const int element : {16, 17 + axis})
     context.result(element, difference);
   context.noteCall();
   context.checkSafeArea(difference);
   if (task != Task::Tool) return;
 
-  // A cutter that turned the part too large is longer than its data say, by the difference on the radius.
+  // A cutter that turned the part too large ends further out than its length says, by the difference on the radius.
   ToolInfluence influence = influenceOnSurface(axis == 2 ? 1 : axis, direction);
   if (feature != TurnedFeature::Face) influence.radius = feature == TurnedFeature::Inside ? 1 : -1;
   influence.radiusFromAxis = true;
