@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/diagnostic.hpp"
 #include "control/control_kind.hpp"
@@ -20,6 +21,8 @@ struct Conversion {
   /// What the other language cannot say; it stands as a comment in `text`. And blocks that mean what the translation
   /// says only under a condition that the message names.
   Diagnostics notCarriedOver;
+  /// Between Klartext and DIN/ISO: for each line of `text` the block that it comes from.
+  std::vector<language::BlockPosition> origins;
 };
 
 Conversion toSinumerik(language::klartext::HeidenhainProgram& program);

@@ -151,6 +151,7 @@ public:
     Block block;
     for (BlockPosition at = program_.begin(); program_.parse(at, block, result_.mistakes); at = block.next) {
       const FramePart part = program_.framePart(block);
+      origin_ = block.position;
       if (!fromDinIso_) {
         write(block, part, block);
         continue;
@@ -191,8 +192,8 @@ private:
       return;
     }
     const std::string_view name = trimmed(std::string_view(head_).substr(0, head_.size() - (inch ? 4 : 2)));
-    const std::string text = fmt::format("%{} {} *\n", name, inch ? "G70" : "G71");
-    result_.text += begin ? text : fmt::format("{} {}", lastBlockNumber, text);
+    const std::string text = fmt::format("%{} {} *", name, inch ? "G70" : "G71");
+    append(begin ? text : fmt::format("{} {}", lastBlockNumber, text));
   }
 
   /// `original`: the block as it was read, for messages.
@@ -283,16 +284,21 @@ private:
   void line(const std::string& text, bool mayContinue) {
     bool continued = false;
     forEachLine(text, [&](std::string_view one) {
-      if (!continued) {
-        result_.text += toDinIso_ ? fmt::format("N{} ", number_ += 10) : fmt::format("{} ", number_++);
-      }
-      result_.text += one;
-      result_.text += '\n';
+      const std::string number = continued   ? std::string()
+                                 : toDinIso_ ? fmt::format("N{} ", number_ += 10)
+                                             : fmt::format("{} ", number_++);
+      append(number + std::string(one));
       continued = mayContinue && language::klartext::endsWithContinuation(one);
     });
   }
 
+  void append(const std::string& line) {
+    result_.text += line + "\n";
+    result_.origins.push_back(origin_);
+  }
+
   HeidenhainProgram& program_;
+  BlockPosition origin_;
   bool fromDinIso_;
   bool toDinIso_;
   Conversion result_;
@@ -301,6 +307,21 @@ private:
   std::string head_;
   std::uint64_t number_ = 0;
 };
+
+/// Leads a message about a program half way, which nobody has seen, back to the block that its line comes from.
+void placeInOriginal(Diagnostic& message, language::Program& program, const std::vector<BlockPosition>& origins) {
+  const std::uint64_t line = message.place.line;
+  message.place.line = message.place.column = 0;
+  if (line == 0 || line > origins.size()) return;
+  Block block;
+  Diagnostics ignored;
+  const BlockPosition& origin = origins[line - 1];
+  if (!program.parse(origin, block, ignored)) return;
+  message.place.line = origin.line;
+  message.place.column = 1;
+  const std::string_view source = block.at(block.source);
+  message.excerpt = trimmed(source.substr(0, source.find('\n')));
+}
 
 }  // namespace
 
@@ -324,9 +345,8 @@ Conversion convert(language::Program& program, ProgramLanguage from, ProgramLang
     if (hasErrors(begun.mistakes)) return begun;
     const auto halfway = programOf(program.file(), begun.text, second);
     Conversion ended = convert(*halfway, second, last);
-    // Places of the second half count in a text that nobody has seen.
     for (Diagnostic& each : ended.notCarriedOver) {
-      each.place.line = each.place.column = 0;
+      placeInOriginal(each, program, begun.origins);
       begun.notCarriedOver.push_back(std::move(each));
     }
     ended.notCarriedOver = std::move(begun.notCarriedOver);

@@ -22,6 +22,14 @@ TEST(Convert, WritesTheOtherLanguageOfTheControl) {
   EXPECT_EQ(textOf(folder / "again.h"), textOf(klartext));
 }
 
+TEST(Convert, PlacesWhatIsLostInTheProgramThatWasRead) {
+  const Folder folder;
+  const Answer answer = probewright({"convert", "examples/programs/corner.i", (folder / "corner.mpf").string()});
+  EXPECT_EQ(answer.exit, 1);
+  EXPECT_THAT(answer.errors, HasSubstr("examples/programs/corner.i:10:1: warning: Q381: "));
+  EXPECT_THAT(answer.errors, HasSubstr("\n    N90 G414\n"));
+}
+
 TEST(Convert, WritesForTheOtherVendor) {
   const Folder folder;
   const std::string klartext = folder.file(
