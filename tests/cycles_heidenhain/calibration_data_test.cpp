@@ -131,6 +131,37 @@ TEST(MP7411, TheOneSetKnowsItsCentreOffsetAndItsEmptyRadius) {
   EXPECT_NE(empty.why().find("MP7411 = 0"), std::string::npos) << empty.why();
 }
 
+TEST(MP7411, Cycle460CalibratesTheOneSetWithItsCentreOffset) {
+  // The equator of the sphere is found in passes.
+  constexpr double near = 1e-5;
+  Dice dice(74113);
+  for (int at = 0; at < 12; ++at) {
+    SCOPED_TRACE(at);
+    TwoProbes world(dice);
+    const Vector2 tip(written(dice.between(-0.2, 0.2), 4), written(dice.between(-0.2, 0.2), 4));
+    world.bench.setup.truth.tools[1].probe.tipOffset = tip;
+    set(world.bench, "MP7411", 0);
+    const double radius = 12.5, height = 6;
+    const Vector3 place = world.origin + Vector3(120 + dice.between(-0.4, 0.4), dice.between(-0.4, 0.4), height);
+    world.bench.part(simulation::SolidSphere(Vector3::Zero(), radius), pose(place));
+    const Words words = {{407, radius}, {320, 2}, {301, 1}, {423, 4}, {380, 0}, {433, 1}, {434, height}};
+    const Ran ran = world.bench.runBare("TOOL CALL 2 Z\nL Z+60 R0 FMAX\nL X+120 Y+0 R0 FMAX\n" +
+                                        fmt::format("L Z{:+.4f} R0 FMAX\n", height + radius + 5) + probe(460, words) +
+                                        "L Z+60 R0 FMAX\n" + TwoProbes::measure() +
+                                        "FN 18: SYSREAD Q44 = ID350 NR14 IDX1\nFN 18: SYSREAD Q45 = ID350 NR14 IDX2\n");
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(ran.q(40), world.diameter, near);
+    EXPECT_NEAR(ran.q(41), 0, near);
+    EXPECT_NEAR(ran.q(42), world.ball[1], near);
+    EXPECT_NEAR(ran.q(43), world.length[1], near);
+    EXPECT_NEAR(ran.q(44), tip.x(), near);
+    EXPECT_NEAR(ran.q(45), tip.y(), near);
+    EXPECT_NEAR(ran.cell("TOOL.T", "2", "L"), world.length[1], near);
+    for (const control::WriteRecord& write : ran.outcome.journal.cycles.front().writes)
+      EXPECT_EQ(write.table, "calibration data");
+  }
+}
+
 TEST(Cycle2, TakesTheStandardOfTheTraverseRange) {
   Dice dice(6182);
   for (int at = 0; at < 12; ++at) {

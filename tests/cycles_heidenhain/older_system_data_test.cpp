@@ -85,6 +85,23 @@ TEST(OlderSystemData, KnowsTheToolTouchProbeAndNoCalibrationYet) {
   EXPECT_EQ(ran.q(5), 0);
 }
 
+/// ID 50 NR 24 to 26: in TOOL.T of the older control, in the touch probe table of the newer one.
+TEST(SystemDataOfProbes, TellsTheCalibrationOfAnyTool) {
+  for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
+    Bench bench(kind);
+    bench.preset(1, {0, 0, -400});
+    bench.believedProbe().tipOffset = {0.0125, -0.034};
+    bench.believedProbe().calibrationAngle = 30;
+    bench.knows(7, "MILL", 80, 5);
+    const Ran ran = bench.run(read(1, 50, 24, 1) + read(2, 50, 25, 1) + read(3, 50, 26, 1) + read(4, 50, 24, 7));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_EQ(ran.q(1), 0.0125);
+    EXPECT_EQ(ran.q(2), -0.034);
+    EXPECT_EQ(ran.q(3), 30);
+    EXPECT_EQ(ran.q(4), 0);
+  }
+}
+
 TEST(OlderSystemData, IsNotThatOfTheNewerControl) {
   Bench newer;
   newer.preset(1, {0, 0, -400});

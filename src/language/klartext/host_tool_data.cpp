@@ -24,11 +24,12 @@ struct ToolColumn {
   int number;
   std::string_view column;
 };
-constexpr std::array<ToolColumn, 22> toolColumns = {
-    {{1, "L"},     {2, "R"},        {3, "R2"},        {4, "DL"},      {5, "DR"},      {6, "DR2"},
-     {9, "TIME1"}, {10, "TIME2"},   {11, "CUR.TIME"}, {13, "LCUTS"},  {14, "ANGLE"},  {15, "CUT"},
-     {16, "LTOL"}, {17, "RTOL"},    {19, "R-OFFS"},   {20, "L-OFFS"}, {21, "LBREAK"}, {22, "RBREAK"},
-     {28, "NMAX"}, {32, "T-ANGLE"}, {37, "TP_NO"},    {40, "PITCH"}}};
+constexpr std::array<ToolColumn, 25> toolColumns = {
+    {{1, "L"},        {2, "R"},       {3, "R2"},       {4, "DL"},        {5, "DR"},
+     {6, "DR2"},      {9, "TIME1"},   {10, "TIME2"},   {11, "CUR.TIME"}, {13, "LCUTS"},
+     {14, "ANGLE"},   {15, "CUT"},    {16, "LTOL"},    {17, "RTOL"},     {19, "R-OFFS"},
+     {20, "L-OFFS"},  {21, "LBREAK"}, {22, "RBREAK"},  {24, "CAL-OF1"},  {25, "CAL-OF2"},
+     {26, "CAL-ANG"}, {28, "NMAX"},   {32, "T-ANGLE"}, {37, "TP_NO"},    {40, "PITCH"}}};
 
 /// The number of a model of touch probe, as FN 18 ID 350 gives it; 0 for all that have none of their own.
 double probeType(std::string_view name) {
@@ -62,6 +63,16 @@ std::optional<double> KlartextHost::toolData(int number, const std::string& row)
       return parseDecimal(text("RT")).value_or(0);
     case 18:
       return text("DIRECT") == "-" ? -1 : 0;
+    case 24:
+    case 25:
+    case 26: {
+      if (!control_.isTNC640()) break;
+      // The newer control keeps them in the touch probe table.
+      constexpr std::array columns = {"CAL_OF1", "CAL_OF2", "CAL_ANG"};
+      const auto& probes = control_.tables.probes;
+      const std::string probe = text("TP_NO");
+      return probes.hasRow(probe) ? probes.numberOr(probe, columns[static_cast<std::size_t>(number - 24)], 0) : 0;
+    }
     case 34:
       return text("LIFTOFF") == "Y" ? 1 : 0;
     case 36: {
