@@ -46,6 +46,17 @@ TEST(MisalignmentTables, SetTheAxisToZeroInRow0AndActivateIt) {
   EXPECT_TRUE(ran.preset().isApprox(pose({0, 0, -400}), 1e-9));
 }
 
+/// What row 0 was before does not show through: all of it comes from the active preset.
+TEST(MisalignmentTables, CopyOffsetsOfZeroToo) {
+  const std::string activate1 = "CYCL DEF 247 PRESET ~\n  Q339=1 ;NUMBER\n";
+  const std::string block = probe(401, holes) + activate1 + probe(404, {{307, 3}, {305, 0}}) + toZero;
+  const Ran ran = twoHoles(newer).run(block);
+  ASSERT_TRUE(ran.finished()) << ran.why();
+  EXPECT_EQ(ran.cell("PRESET.PR", "0", "C_OFFS"), 0);
+  EXPECT_EQ(ran.cell("PRESET.PR", "0", "SPC"), 3);
+  EXPECT_NEAR(angleOfC(ran), 0, exact);
+}
+
 TEST(MisalignmentTables, SetTheAxisToZeroInAnyRow) {
   const std::string block = probe(401, with(holes, {{305, 5}}));
   const Ran waiting = twoHoles(newer).run(block + toZero);
@@ -273,6 +284,7 @@ TEST(MisalignmentTables, RefuseTablesThatAreNotThere) {
         const Ran ran = bench.run(block);
         EXPECT_EQ(ran.alarm(), "Rotary axis not available") << ran.why();
         EXPECT_NE(ran.why().find("no rotary table that turns the workpiece about Z"), std::string::npos) << ran.why();
+        EXPECT_EQ(ran.touches(), 0U) << "found out before the first touch";
         EXPECT_TRUE(ran.cycle().writes.empty());
       }
     }

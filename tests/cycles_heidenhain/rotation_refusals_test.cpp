@@ -371,6 +371,9 @@ TEST(RotationCycles, RefuseParametersOutOfRange) {
   mistake(1420, with(planeWords, {{1121, 2}}), "Q1121");
   mistake(1411, with(circleWords, {{423, 9}}), "Q423");
   mistake(1411, with(circleWords, {{1115, 4}}), "Q1115");
+  const Ran kind = withTexts({{1115, "1"}}, circleWords, 1411);
+  EXPECT_EQ(kind.outcome.info.exit, records::ExitState::InputMistake);
+  EXPECT_NE(kind.why().find("takes a number, not a text"), std::string::npos) << kind.why();
   mistake(1411, with(circleWords, {{1119, 361}}), "Q1119");
   mistake(1411, with(circleWords, {{1116, 10000}}), "Q1116");
 }

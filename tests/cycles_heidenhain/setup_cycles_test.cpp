@@ -166,6 +166,48 @@ TEST(InchPrograms, SetTheSamePresets) {
   }
 }
 
+/// Parameters count in the unit of the program that they stand in, results and logs in that of the main program.
+TEST(InchPrograms, LeaveResultsInTheUnitOfTheMainProgram) {
+  for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
+    for (const bool mainInInch : {false, true}) {
+      SCOPED_TRACE(fmt::format("{}, main program {}", control::name(kind), mainInInch ? "INCH" : "MM"));
+      Bench bench(kind);
+      bench.preset(1, origin);
+      ring(bench, 50.9, 25.1, 15.4);
+      const TableFolder folder(bench);
+      bench.program = (bench.setup.tables / "BENCH.H").string();
+      const auto& definition = *cycles::heidenhain::findEntry(421)->definition;
+      const Words inspect = with(height, {{273, 50.8},
+                                          {274, 25.4},
+                                          {262, 30.48},
+                                          {325, 0},
+                                          {247, 90},
+                                          {320, 2.54},
+                                          {301, 0},
+                                          {275, 0},
+                                          {276, 0},
+                                          {279, 0},
+                                          {280, 0},
+                                          {281, 1},
+                                          {309, 0},
+                                          {330, 0}});
+      const Words written = mainInInch ? inspect : inInches(definition, inspect);
+      const std::string sub = mainInInch ? "MM" : "INCH", outer = mainInInch ? "INCH" : "MM";
+      folder.put("FEEL.H",
+                 "BEGIN PGM FEEL " + sub + "\n" + probe(421, written) + "Q50 = Q113\nEND PGM FEEL " + sub + "\n");
+      const Ran ran = bench.run("CALL PGM FEEL.H\n", outer);
+      ASSERT_TRUE(ran.finished()) << ran.why();
+      const double unit = mainInInch ? inch : 1;
+      EXPECT_NEAR(ran.q(151) * unit, 50.9, exact);
+      EXPECT_NEAR(ran.q(152) * unit, 25.1, exact);
+      EXPECT_NEAR(ran.q(153) * unit, 30.8, exact);
+      EXPECT_EQ(ran.q(50), mainInInch ? 1 : 0);
+      EXPECT_NE(ran.log("TCHPR421.TXT").find(mainInInch ? "1.21260" : "30.8000"), std::string::npos)
+          << ran.log("TCHPR421.TXT");
+    }
+  }
+}
+
 TEST(PresetCycles, ShiftTheDatumAsTheyShiftThePreset) {
   for (const Case& one : cases()) {
     if (one.cycle < 408) continue;

@@ -74,6 +74,7 @@ public:
   /// Preset origins carry more digits here than their table can show.
   std::string activeDatumTable;     ///< key of Tables::datums; empty: none selected
   double unit = 1;                  ///< mm in one program unit: 25.4 in a program that ends in INCH
+  double mainUnit = 1;              ///< the same of the main program: results and logs count in it (Q113)
   std::string programPath;          ///< of the main program, for logs
   double startSeconds = 0;          ///< machine clock when the program began
   std::int64_t wallClockStart = 0;  ///< seconds since 1970 (UTC) that logs show for startSeconds

@@ -163,7 +163,7 @@ void Context::result(int number, double value, const Compared& compared) {
   const CycleDefinition& definition = arguments_.definition();
   const std::string name = fmt::format("Q{}", number);
   const ValueKind kind = kindOf(definition, name);
-  control_.q.setQ(number, kind == ValueKind::Length ? value / control_.unit : value);
+  control_.q.setQ(number, kind == ValueKind::Length ? value / control_.mainUnit : value);
   control::ResultRecord record;
   record.name = name;
   record.meaning = meaningOf(definition, name);

@@ -71,7 +71,7 @@ public:
   /// axes count alike whether they move the table or the tool.
   Eigen::Affine3d machineFromProgram();
 
-  /// Sets Qn (mm or degrees; converted to the program's unit) and records it as a result.
+  /// Sets Qn (mm or degrees; converted to the main program's unit) and records it as a result.
   void result(int number, double value, const Compared& compared = {});
   /// Sets Qn without recording: states and counters.
   void set(int number, double value) { control_.q.setQ(number, value); }

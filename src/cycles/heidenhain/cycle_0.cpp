@@ -46,7 +46,7 @@ void cycle0(Context& context, const Arguments& arguments) {
 
   const double coordinate = plane.xyzFromPlane(touch.surface)[axis];
   const int number = arguments.integer(probe_word::result);
-  context.set(number, coordinate / context.control().unit);
+  context.set(number, coordinate / context.control().mainUnit);
   control::ResultRecord result;
   result.name = fmt::format("Q{}", number);
   result.meaning = fmt::format("measured coordinate, {}", "XYZ"[axis]);

@@ -53,6 +53,7 @@ const CycleDefinition cycle405Definition = {
 
 void cycle405(Context& context, const Arguments&) {
   context.require({.tiltAllowed = !context.control().isTNC640()});
+  requireTable(context, 2);
   const MeasuredCircle circle =
       measureCircle(context, {321, 322, 262}, Side::Inside, probing::Ending::AtMeasuringHeight);
   context.prober().moveTo(circle.centre);

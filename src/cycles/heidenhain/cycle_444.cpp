@@ -128,7 +128,7 @@ void cycle444(Context& context, const Arguments&) {
   context.set(183, verdict == Verdict::None ? -1 : static_cast<int>(verdict) - static_cast<int>(Verdict::Good));
   context.record().verdict = verdict;
 
-  const double unit = context.control().unit;
+  const double unit = context.control().mainUnit;
   const int decimals = unit == 1 ? 4 : 5;
   const auto number = [unit, decimals](double length) { return formatFixed(length / unit, decimals); };
   const Vector3 path = -n * prober.probe().distance;

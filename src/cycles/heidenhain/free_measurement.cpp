@@ -99,7 +99,7 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
   }
   if (measurement.resultInMachine) ball = machineFromProgram * ball;
   for (int i = 0; i < 3; ++i) {
-    control.q.setQ(first + i, ball[i] / control.unit);
+    control.q.setQ(first + i, ball[i] / control.mainUnit);
     control::ResultRecord value;
     value.name = fmt::format("Q{}", first + i);
     value.meaning = fmt::format("ball centre, {}", "XYZ"[i]);

@@ -89,7 +89,7 @@ void finishInspection(Context& context, const Inspection& inspection, const Tool
   monitorTool(context, tool);
 
   if (context.option(309) == 1 && verdict != Verdict::Good) {
-    const double unit = context.control().unit;
+    const double unit = context.control().mainUnit;
     const int decimals = unit == 1 ? 4 : 5;
     std::string which;
     for (const Inspected& item : inspection.items) {

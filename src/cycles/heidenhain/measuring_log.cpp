@@ -67,14 +67,14 @@ std::string logText(Context& context, const Inspection& inspection) {
   text += padded(frame.date, headWidth) + fmt::format(fmt::runtime(frame.dateForm), time) + "\n";
   text += padded(frame.time, headWidth) + fmt::format("{}:{:02}:{:02}\n", time.tm_hour, time.tm_min, time.tm_sec);
   text += padded(frame.program, headWidth) + control.programPath + "\n";
-  const int decimals = control.unit == 1 ? 4 : 5;
+  const int decimals = control.mainUnit == 1 ? 4 : 5;
   for (const Section* section : {&nominal, &limits, &actual, &deviations, &further}) {
     if (section->lines.empty()) continue;
     text += fmt::format("{}\n", section->rule);
     const std::size_t left = std::max(indent, width(section->title) + 1);
     for (std::size_t i = 0; i < section->lines.size(); ++i) {
       const LogLine& line = section->lines[i];
-      const double value = line.kind == ValueKind::Length ? line.value / control.unit : line.value;
+      const double value = line.kind == ValueKind::Length ? line.value / control.mainUnit : line.value;
       const std::string label = padded(i == 0 ? section->title : "", left) + line.label + ":";
       const std::string number = formatFixed(value, decimals);
       const std::size_t end = indent + labelWidth + valueWidth;

@@ -165,7 +165,7 @@ MeasuredPosition measuredPosition(const NominalPosition& nominal, const Vector3&
 
 void RotationFindings::note(const std::string& label, const NominalValue& value, double actual, double deviation,
                             Verdict verdict) {
-  const double unit = context_.control().unit;
+  const double unit = context_.control().mainUnit;
   const auto number = [unit](double length) { return formatFixed(length / unit, 4); };
   static constexpr const char* words[] = {"", "good", "rework", "scrap"};
   rows_.push_back({label, value.nominal ? number(*value.nominal) : "?", value.limits ? number(value.limits->lower) : "",

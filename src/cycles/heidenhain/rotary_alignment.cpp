@@ -28,18 +28,22 @@ Vector3 tableTurn(const machine::MachineDescription& description, const machine:
 
 }  // namespace
 
-std::size_t turnWorkpiece(Context& context, int about, double degrees) {
+std::size_t requireTable(Context& context, int about) {
   const machine::MachineDescription& description = context.channel().description();
-  machine::AxisPositions position = context.channel().axes();
+  const machine::AxisPositions position = context.channel().axes();
   for (std::size_t axis = 0; axis < description.axes.size(); ++axis) {
     if (description.axes[axis].kind != machine::AxisKind::Rotary) continue;
-    const double along = tableTurn(description, position, axis)[about];
-    if (std::abs(along) < 0.999) continue;
-    position[axis] += degrees / along;
-    context.channel().moveAxes(position, machine::Feed::at(context.prober().probe().positioningFeed));
-    return axis;
+    if (std::abs(tableTurn(description, position, axis)[about]) >= 0.999) return axis;
   }
   refuseAxis(fmt::format("The machine has no rotary table that turns the workpiece about {}", "XYZ"[about]));
+}
+
+std::size_t turnWorkpiece(Context& context, int about, double degrees) {
+  const std::size_t axis = requireTable(context, about);
+  machine::AxisPositions position = context.channel().axes();
+  position[axis] += degrees / tableTurn(context.channel().description(), position, axis)[about];
+  context.channel().moveAxes(position, machine::Feed::at(context.prober().probe().positioningFeed));
+  return axis;
 }
 
 int firstTableTurn(Context& context) {

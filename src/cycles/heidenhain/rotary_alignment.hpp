@@ -5,9 +5,12 @@
 /// What cycles 401 to 405 have in common: a rotary axis turns the workpiece until it is aligned.
 namespace probewright::cycles::heidenhain {
 
-/// Turns the workpiece by `degrees` counter-clockwise about machine axis 0, 1 or 2 (X, Y, Z), seen in machine
-/// coordinates, with the rotary axis of the table that does so (A, B, C), at the positioning feed. Returns the axis.
-/// Throws Alarm if the machine has none.
+/// The rotary axis of the table that turns the workpiece about machine axis 0, 1 or 2 (X, Y, Z). Throws Alarm if the
+/// machine has none.
+std::size_t requireTable(Context& context, int about);
+
+/// Turns the workpiece with it by `degrees` counter-clockwise, seen in machine coordinates, at the positioning feed.
+/// Returns the axis.
 std::size_t turnWorkpiece(Context& context, int about, double degrees);
 
 /// About which machine axis (0, 1, 2: X, Y, Z) the rotary axis of the table turns that is nearest to the workpiece.

@@ -76,9 +76,10 @@ Control::PresetChange presetChange(Context& context, const NewPreset& preset, co
   return change;
 }
 
-/// Adds what `change` leaves open from the active preset.
-void takeOverActive(Context& context, Control::PresetChange& change) {
+/// Adds what `change` of `row` leaves open from the active preset.
+void takeOverActive(Context& context, int row, Control::PresetChange& change) {
   const Control& control = context.control();
+  const ActivePreset there = control.presetRow(row).value_or(ActivePreset{});
   const ActivePreset& active = control.coordinates.preset;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto index = static_cast<Eigen::Index>(i);
@@ -87,7 +88,8 @@ void takeOverActive(Context& context, Control::PresetChange& change) {
     if (!change.spaceAngles[i] && known) change.spaceAngles[i] = active.spaceAngles[index];
   }
   for (std::size_t i = 0; i < context.channel().description().axes.size(); ++i) {
-    if (!change.rotaryOffset[i] && active.rotaryOffset[i] != 0) change.rotaryOffset[i] = active.rotaryOffset[i];
+    const bool differs = active.rotaryOffset[i] != there.rotaryOffset[i];
+    if (!change.rotaryOffset[i] && differs) change.rotaryOffset[i] = active.rotaryOffset[i];
   }
 }
 
@@ -175,13 +177,13 @@ void transferPreset(Context& context, const NewPreset& preset) {
 
 void writePresetRow(Context& context, int row, Control::PresetChange change) {
   Control& control = context.control();
-  if (!control.presetRow(row)) takeOverActive(context, change);
+  if (!control.presetRow(row)) takeOverActive(context, row, change);
   control.writePreset(row, change);
 }
 
 void copyActivePresetTo0(Context& context, Control::PresetChange change) {
   Control& control = context.control();
-  takeOverActive(context, change);
+  takeOverActive(context, 0, change);
   control.coordinates.workpiece = {};
   control.coordinates.workingPlane = {};
   control.writePreset(0, change);

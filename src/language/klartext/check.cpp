@@ -260,7 +260,7 @@ private:
     if (text.empty() && parameter->address == steppingAngle && std::abs(argument.number) < smallestStep) {
       text = fmt::format("{} cannot be {}", nameOf(*parameter), formatShortest(argument.number));
     }
-    if (argument.isText && isDimension(word.address)) {
+    if (text.empty() && argument.isText && isDimension(word.address)) {
       const auto dimension = metrology::parseDimension(argument.text);
       if (dimension) return;
       reportAt(word, fmt::format("{} = \"{}\": {}", nameOf(*parameter), argument.text, dimension.error().message),

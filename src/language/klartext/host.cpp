@@ -98,6 +98,7 @@ void KlartextHost::enter(const Program& program, const CallProgram*, Evaluation*
     control_.applyCoordinates();
   }
   if (level.program != nullptr) control_.unit = level.program->unit() == Unit::Inch ? 25.4 : 1;
+  if (levels_.empty()) control_.mainUnit = control_.unit;
   levels_.push_back(std::move(level));
   publishTool();
 }

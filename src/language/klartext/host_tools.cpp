@@ -55,7 +55,7 @@ void KlartextHost::publishTool() {
   const std::size_t axis = std::string_view("XYZ???UVW").find(tool.axis);
   control_.q.setQ(109, !tool.called || axis == std::string_view::npos ? -1 : static_cast<double>(axis));
   control_.q.setQ(110, spindleState());
-  control_.q.setQ(113, control_.unit == 1 ? 0 : 1);
+  control_.q.setQ(113, control_.mainUnit == 1 ? 0 : 1);
   control_.q.setQ(114, (tool.length + tool.deltaLength) / control_.unit);
 }
 
