@@ -73,19 +73,22 @@ TEST(EveryInspection, StopsOutOfToleranceAndLocksBrokenTools) {
   }
 }
 
+/// The cycle of the part with a log, for a program in inches.
+std::string inInches(const InspectedPart& part) {
+  std::string text = fmt::format("TCH PROBE {} MEASURE", part.cycle);
+  for (auto [number, value] : with(part.words, {{281, 1}})) {
+    const auto* parameter = cycles::heidenhainCycle(part.cycle)->parameter(static_cast<std::uint32_t>(number));
+    if (parameter->kind == cycles::ValueKind::Length) value = written(value / 25.4, 7);
+    text += fmt::format(" ~\n  Q{}={:+.9f} ;VALUE", number, value);
+  }
+  return text + "\n";
+}
+
 TEST(EveryInspection, TakesTheSameValuesInInch) {
   for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
     for (InspectedPart& part : inspectedParts(levelBench(kind), pose({0, 0, -400}))) {
       SCOPED_TRACE(fmt::format("cycle {}", part.cycle));
-      Words inches = with(part.words, {{281, 1}});
-      for (auto& [number, value] : inches) {
-        const auto* parameter = cycles::heidenhainCycle(part.cycle)->parameter(static_cast<std::uint32_t>(number));
-        if (parameter->kind == cycles::ValueKind::Length) value = written(value / 25.4, 7);
-      }
-      std::string text = fmt::format("TCH PROBE {} MEASURE", part.cycle);
-      for (const auto& [number, value] : inches)
-        text += fmt::format(" ~\n  Q{}={:+.9f} ;VALUE", number, value);
-      const Ran ran = part.bench.run(text + "\n", "INCH");
+      const Ran ran = part.bench.run(inInches(part), "INCH");
       const Ran millimetres = part.bench.run(probe(part.cycle, part.words));
       ASSERT_TRUE(ran.finished()) << ran.why();
       EXPECT_EQ(statusOf(ran), statusOf(millimetres));
@@ -94,6 +97,36 @@ TEST(EveryInspection, TakesTheSameValuesInInch) {
         const int number = std::stoi(name.substr(1));
         EXPECT_NEAR(ran.q(number) * 25.4, value, 5e-6) << name;
         EXPECT_NE(log.find(formatFixed(ran.q(number), 5)), std::string::npos) << name << "\n" << log;
+      }
+    }
+  }
+}
+
+/// Parameters count in the unit of the program that they stand in, return parameters and logs in that of the main
+/// program.
+TEST(EveryInspection, AnswersInTheUnitOfTheMainProgram) {
+  for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
+    for (InspectedPart& part : inspectedParts(levelBench(kind), pose({0, 0, -400}))) {
+      for (const bool inchMain : {false, true}) {
+        SCOPED_TRACE(fmt::format("{} cycle {} called by a program in {}", control::name(kind), part.cycle,
+                                 inchMain ? "inches" : "mm"));
+        const TableFolder folder(part.bench);
+        part.bench.program = (part.bench.setup.tables / "MAIN.H").string();
+        const std::string unit = inchMain ? "MM" : "INCH";
+        const std::string block = inchMain ? probe(part.cycle, with(part.words, {{281, 1}})) : inInches(part);
+        folder.put("SUB.H", "BEGIN PGM SUB " + unit + "\n" + block + "Q50 = Q113\nEND PGM SUB " + unit + "\n");
+        const Ran ran = part.bench.run("CALL PGM SUB.H\n", inchMain ? "INCH" : "MM");
+        ASSERT_TRUE(ran.finished()) << ran.why();
+        EXPECT_EQ(ran.q(50), inchMain ? 1 : 0);
+        const Ran millimetres = part.bench.run(probe(part.cycle, part.words));
+        EXPECT_EQ(statusOf(ran), statusOf(millimetres));
+        const std::string log = ran.log(fmt::format("TCHPR{}.TXT", part.cycle));
+        for (const auto& [name, value] : resultsOf(millimetres)) {
+          const int number = std::stoi(name.substr(1));
+          EXPECT_NEAR(ran.q(number) * (inchMain ? 25.4 : 1), value, 5e-6) << name;
+          EXPECT_NE(log.find(" " + formatFixed(ran.q(number), inchMain ? 5 : 4) + "\n"), std::string::npos)
+              << name << log;
+        }
       }
     }
   }

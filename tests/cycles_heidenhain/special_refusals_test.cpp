@@ -249,6 +249,33 @@ TEST(MonitoredTool, IsFoundHoweverItIsWritten) {
   EXPECT_TRUE(bench.run(text).finished()) << "no name: not monitored";
 }
 
+/// 0, 3, 4 and 444 in a program in inches that one in mm calls.
+TEST(SingleTouches, AnswerInTheUnitOfTheMainProgram) {
+  Bench bench = standards();
+  const TableFolder folder(bench);
+  bench.program = (bench.setup.tables / "MAIN.H").string();
+  const std::string go = "L Z+3 R0 FMAX\nL X+0 Y+3.149606 R0 FMAX\nL Z+0.5 R0 FMAX\n";
+  const std::string touches =
+      go + "TCH PROBE 0.0 REF. PLANE Q1 Z-\nTCH PROBE 0.1 X+0 Y+3.149606 Z+0.5\n" +
+      "TCH PROBE 3.0 MEASURING\nTCH PROBE 3.1 Q10\nTCH PROBE 3.2 Z ANGLE: +180\n"
+      "TCH PROBE 3.3 DIST +1 F20 MB1 REFERENCE SYSTEM: 0\nTCH PROBE 4.0 M\nTCH PROBE 4.1 Q20\nTCH PROBE 4.2 IZ-1\n"
+      "TCH PROBE 4.3 ABST+1 F20 MB1 REFERENCE SYSTEM:0\n" +
+      probe(444, {{263, 0}, {264, 3.149606}, {294, 0.19}, {581, 0}, {582, 0}, {583, 1}, {320, 0}, {260, 1}, {309, 0}},
+            " ~\n  QS400=\"0.01-0.01\" ;T");
+  folder.put("SUB.H", "BEGIN PGM SUB INCH\n" + touches + "END PGM SUB INCH\n");
+  const Ran ran = bench.run("CALL PGM SUB.H\n");
+  ASSERT_TRUE(ran.finished()) << ran.why();
+  EXPECT_NEAR(ran.q(1), 5, 1e-6);
+  EXPECT_NEAR(ran.q(117), 5 + 100, 1e-6);
+  EXPECT_NEAR(ran.q(12), 5 + 2, 1e-6);
+  EXPECT_NEAR(ran.q(22), 5 + 2, 1e-6);
+  EXPECT_NEAR(ran.q(153), 5, 1e-6);
+  EXPECT_NEAR(ran.q(164), 5 - 0.19 * 25.4, 1e-6);
+  // The tolerance is that of the program with the cycle: 0.254 mm.
+  EXPECT_EQ(ran.q(183), 0);
+  EXPECT_THAT(ran.log("TCHPR444.html"), HasSubstr("<td>4.5720</td><td>5.0800</td><td>5.0000</td>"));
+}
+
 /// A tool that broke is locked: the control does not take it into the spindle any more.
 TEST(MonitoredTool, IsNotCalledOnceLocked) {
   Bench bench = standards();

@@ -12,7 +12,7 @@
 /// What HEIDENHAIN cycles are written with.
 ///
 /// Coordinates are (main axis, minor axis, touch probe axis) of the active program coordinate system, mm and degrees:
-/// values of arguments and results are converted at this border in inch programs.
+/// values of arguments are converted at this border in inch programs, results in inch main programs.
 namespace probewright::cycles::heidenhain {
 
 using control::Verdict;

@@ -166,7 +166,8 @@ MeasuredPosition measuredPosition(const NominalPosition& nominal, const Vector3&
 void RotationFindings::note(const std::string& label, const NominalValue& value, double actual, double deviation,
                             Verdict verdict) {
   const double unit = context_.control().mainUnit;
-  const auto number = [unit](double length) { return formatFixed(length / unit, 4); };
+  const int decimals = unit == 1 ? 4 : 5;
+  const auto number = [unit, decimals](double length) { return formatFixed(length / unit, decimals); };
   static constexpr const char* words[] = {"", "good", "rework", "scrap"};
   rows_.push_back({label, value.nominal ? number(*value.nominal) : "?", value.limits ? number(value.limits->lower) : "",
                    value.limits ? number(value.limits->upper) : "", number(actual), number(deviation),

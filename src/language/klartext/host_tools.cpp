@@ -48,7 +48,7 @@ void KlartextHost::callTool(const ToolCall& call, Evaluation& evaluation) {
   publishTool();
 }
 
-/// Q108 tool radius, Q109 tool axis, Q110 spindle, Q113 unit, Q114 tool length.
+/// Q108 tool radius, Q109 tool axis, Q110 spindle, Q113 unit of the main program, Q114 tool length.
 void KlartextHost::publishTool() {
   const control::heidenhain::ActiveTool& tool = control_.tool;
   control_.q.setQ(108, (tool.radius + tool.deltaRadius) / control_.unit);
