@@ -27,7 +27,8 @@ std::optional<int> parallelAxis(const Vector3& direction) {
 
 }  // namespace
 
-double angleFromSpindle(const control::Channel& channel, const control::WorkingPlane& plane, const Vector3& direction) {
+Vector3 directionFromSpindle(const control::Channel& channel, const control::WorkingPlane& plane,
+                             const Vector3& direction) {
   const machine::MachineDescription& description = channel.description();
   const machine::AxisPositions here = channel.axes();
   Vector3 seen = channel.frame().linear() * plane.xyzFromPlane(direction);
@@ -35,7 +36,11 @@ double angleFromSpindle(const control::Channel& channel, const control::WorkingP
     seen = machine::baseFromTable(description, here).linear() *
            machine::baseFromTable(description, channel.reference()).linear().transpose() * seen;
   }
-  seen = plane.planeFromXyz(machine::baseFromSpindle(description, here).linear().transpose() * seen);
+  return (machine::baseFromSpindle(description, here).linear().transpose() * seen).normalized();
+}
+
+double angleFromSpindle(const control::Channel& channel, const control::WorkingPlane& plane, const Vector3& direction) {
+  const Vector3 seen = plane.planeFromXyz(directionFromSpindle(channel, plane, direction));
   return degreesFromRadians(std::atan2(seen.y(), seen.x()));
 }
 

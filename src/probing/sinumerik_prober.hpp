@@ -49,6 +49,11 @@ struct MeasuredPoint {
   machine::AxisPositions latched;     ///< of the last measurement
 };
 
+/// A direction of the plane as the spindle sees it as it stands now, wherever frames and rotary axes have turned the
+/// workpiece or the head: X, Y, Z of the spindle's frame at spindle angle 0, unit length.
+Vector3 directionFromSpindle(const control::Channel& channel, const control::WorkingPlane& plane,
+                             const Vector3& direction);
+
 /// The angle about the spindle axis at which a direction of the plane lies for the spindle as it stands now, wherever
 /// frames and rotary axes have turned the workpiece or the head; degrees, from the plane's 1st axis at spindle angle 0.
 double angleFromSpindle(const control::Channel& channel, const control::WorkingPlane& plane, const Vector3& direction);

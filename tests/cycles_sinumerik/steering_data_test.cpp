@@ -235,6 +235,42 @@ TEST(SteeringData, Sd55740Bit3TriesOnce) {
   EXPECT_EQ(failed(), 1);
 }
 
+TEST(SteeringData, Md51740Bit2ObservesTheTurnedHead) {
+  // The head lies: the probe looks into plus Y, as the mill did whose end made the face. It cut 0.15 too deep, so it is
+  // 0.15 longer than its data say.
+  for (const bool observed : {false, true}) {
+    simulation::Truth truth = perfectWorld("mill5-head-head");
+    place(truth, simulation::Box({0, 0.15, -60}, {120, 100, 0}), translation({0, 0, table}));
+    SteeredBench bench(truth);
+    setBit(bench, "$MNS_MEA_FUNCTION_MASK", 1, false);  // the length ends at the ball's centre
+    setBit(bench, "$MNS_MEA_FUNCTION_MASK", 2, observed);
+    bench.set("$TC_DP3", {1, 1}, 98);
+    bench.control.data.set("$TC_TP2", {2}, std::string("MILL"));
+    bench.set("$TC_DP1", {2, 1}, 120);
+    bench.set("$TC_DP3", {2, 1}, 80);
+    bench.set("$TC_DP6", {2, 1}, 5);
+    bench.run("CYCLE978", with(SteeredBench::touching(1, 1), {{"S_MVAR", 200}, {"S_KNUM1", 1}, {"S_SETV", 0}}),
+              {{"S_TNAME", "MILL"}}, "SUPA G0 Z0 D0\nD1\nTRAORI\nG0 A90 C0\nG0 X30 Y-60 Z-20\nG0 Y-20\n");
+    EXPECT_NEAR(bench.ovr(4), 0.15, 1e-7);
+    EXPECT_NEAR(bench.data("$TC_DP12", {2, 1}), observed ? 0.15 : 0, 1e-7);
+    EXPECT_NEAR(bench.data("$TC_DP15", {2, 1}), observed ? 0 : 0.15, 1e-7) << "an edge across Y: the radius";
+  }
+}
+
+TEST(SteeringData, Sd42940KeepsTheAxesOfTheLengths) {
+  // In G18 the probe still stands along Z: its length is length 1 of G17, and the cycle corrects it there.
+  SteeredBench bench(block());
+  bench.set("$SC_TOOL_LENGTH_CONST", {}, 17);
+  setBit(bench, "$MNS_MEA_FUNCTION_MASK", 1, false);  // the length ends at the ball's centre
+  bench.set("$TC_DP3", {1, 1}, 98);
+  bench.plane = "G18";
+  bench.start({30, 30, 40});
+  bench.run("CYCLE978", {{"S_FA", 6}, {"S_TSA", 5}, {"S_SETV", 0}, {"S_MA", 1}, {"S_MD", 2}}, {}, "");
+  EXPECT_NEAR(bench.ovr(4), 0, 1e-9) << "the top of the block, along the 1st axis of G18";
+  bench.set("$SC_TOOL_LENGTH_CONST", {}, 0);
+  EXPECT_EQ(bench.control.channel.toolVector, Vector3(0, 0, 98)) << "until the tool is called again";
+}
+
 TEST(SteeringData, Md51740Bit0WatchesTheCalibration) {
   SteeredBench bench(block());
   bench.start({-40, 30, -10});

@@ -71,6 +71,9 @@ TEST(SinumerikFiles, WhatWasWrittenCanBeReadAgainAndDeleted) {
   EXPECT_EQ(world.r(4), 3) << "there is no such file any more";
   EXPECT_EQ(world.r(5), 3);
   EXPECT_EQ(world.r(6), 0);
+  world.run("R7=ISFILE(\"..\")\nR8=ISFILE(\"/\")\nR9=ISFILE(\"\")\n");
+  EXPECT_EQ(world.r(7) + world.r(8) + world.r(9), 0) << "folders are no files";
+  EXPECT_EQ(world.alarm("DEF INT ERR\nWRITE(ERR,\"/_N_WKS_DIR/\",\"a\")\n"), "14020");
 }
 
 TEST(SinumerikFiles, ErrorsOfReadAreTold) {

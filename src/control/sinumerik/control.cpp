@@ -88,10 +88,7 @@ void Control::refreshTool() {
   tool.radius = edge.totalRadius();
   tool.correctionAngle = edge.correctionAngle;
   const bool asTurning = machineData("$SC_TOOL_LENGTH_TYPE") == 2;
-  const auto active = plane == 18   ? sinumerik::WorkingPlane::G18
-                      : plane == 19 ? sinumerik::WorkingPlane::G19
-                                    : sinumerik::WorkingPlane::G17;
-  channel.toolVector = toolVector(active, edge, asTurning);
+  channel.toolVector = toolVector(planeOfLengths(data, plane), edge, asTurning);
   channel.toolRadius = tool.radius;
 }
 

@@ -309,6 +309,7 @@ std::string measuringDataPage() {
       "| 20360 | `$MC_TOOL_PARAMETER_DEF_MASK` | 0 | length 1 of turning tools counts as a diameter: bit 0 wear, bit 1 "
       "geometry |\n"
       "| 28080 | `$MC_MM_NUM_USER_FRAMES` | 100 | number of settable zero offsets |\n"
+      "| 42940 | `$SC_TOOL_LENGTH_CONST` | 0 | 17, 18, 19: tool lengths act as in this plane, whichever is active |\n"
       "| 42950 | `$SC_TOOL_LENGTH_TYPE` | 0 | 2: lengths of all tools as of turning tools |\n"
       "| 52207 | `$MCS_AXIS_USAGE_ATTRIB[n]` | bit 6 on | rotary axis n, from 0; without bit 6 CYCLE998 corrects it "
       "coarse |\n";

@@ -127,6 +127,12 @@ std::array<int, 3> lengthAxes(WorkingPlane plane, const ToolEdge& edge, bool asT
   return {third, second, first};
 }
 
+WorkingPlane planeOfLengths(const DataStore& store, int activePlane) {
+  const auto constant = static_cast<int>(store.number("$SC_TOOL_LENGTH_CONST", {}));
+  const int plane = constant >= 17 && constant <= 19 ? constant : activePlane;
+  return plane == 18 ? WorkingPlane::G18 : plane == 19 ? WorkingPlane::G19 : WorkingPlane::G17;
+}
+
 Vector3 toolVector(WorkingPlane plane, const ToolEdge& edge, bool asTurning) {
   const auto axes = lengthAxes(plane, edge, asTurning);
   const auto lengths = edge.totalLength();

@@ -63,6 +63,10 @@ std::string toolName(const DataStore& store, int tool);
 /// 2): length 1 in the second axis, 2 in the first, 3 in the third.
 std::array<int, 3> lengthAxes(WorkingPlane plane, const ToolEdge& edge, bool asTurning = false);
 
+/// The plane by which the lengths of tools get their axes: the active one (17, 18, 19), unless SD 42940
+/// $SC_TOOL_LENGTH_CONST names one for good.
+WorkingPlane planeOfLengths(const DataStore& store, int activePlane);
+
 /// From the tool tip to the tool reference point in X, Y, Z.
 Vector3 toolVector(WorkingPlane plane, const ToolEdge& edge, bool asTurning = false);
 

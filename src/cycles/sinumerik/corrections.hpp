@@ -71,6 +71,7 @@ struct ToolInfluence {
   double length = 0;           ///< correction of a length for a difference of +1
   bool radiusFromAxis = true;  ///< S_KNUM1 leaves the component open: radius (or, false, length 1)
   int measuringAxis = 0;       ///< 0, 1, 2: decides the length of a turning tool that S_KNUM1 leaves open
+  bool surface = false;        ///< one surface across measuringAxis: turned tool carriers count (MD 51740 bit 2)
 };
 
 /// A hole or pocket too large: the tool is larger than its data say. A spigot too large: smaller.

@@ -100,19 +100,52 @@ std::optional<ToolTarget> toolTarget(Context& context) {
   return target;
 }
 
-/// 0, 1, 2: length 1, 2, 3; 3: the radius.
-int componentIndex(const Context& context, const ToolTarget& target, const ToolEdge& edge,
-                   const ToolInfluence& influence) {
-  if (target.component == Component::Radius) return 3;
-  if (target.component != Component::FromAxis) return static_cast<int>(target.component) - 1;
-  if (!edge.isTurning()) return influence.radiusFromAxis ? 3 : 0;
+/// The datum that a correction changes: 0, 1, 2 are length 1, 2, 3, and 3 is the radius.
+struct Corrected {
+  int component = 0;
+  double sign = 1;  ///< -1: the length acts against the measuring axis
+};
+
+/// True if rotary axes have turned the head that holds the tools.
+bool carrierIsTurned(const Context& context) {
+  const control::Channel& channel = context.control().channel;
+  return !machine::baseFromSpindle(channel.description(), channel.axes()).linear().isIdentity(1e-9);
+}
+
+/// The tool as its carrier holds it now, in a head that rotary axes have turned (bit 2 of MD 51740): its lengths act
+/// where the head has turned their axes.
+Corrected onTurnedCarrier(const Context& context, const ToolTarget& target, const ToolEdge& edge,
+                          const ToolInfluence& influence, const std::array<int, 3>& lengths) {
+  const Vector3 seen = probing::directionFromSpindle(context.control().channel, context.control().workingPlane(),
+                                                     Vector3::Unit(influence.measuringAxis));
+  const auto signOf = [&](int component) {
+    return seen[lengths[static_cast<std::size_t>(component)]] < -1e-9 ? -1.0 : 1.0;
+  };
+  if (target.component != Component::FromAxis) {
+    const int component = static_cast<int>(target.component) - 1;
+    return {component, signOf(component)};
+  }
+  Eigen::Index axis = 0;
+  seen.cwiseAbs().maxCoeff(&axis);
+  const auto component = static_cast<int>(std::ranges::find(lengths, static_cast<int>(axis)) - lengths.begin());
+  if (!edge.isTurning() && component != 0) return {3, 1};
+  return {component, signOf(component)};
+}
+
+Corrected correctedBy(const Context& context, const ToolTarget& target, const ToolEdge& edge,
+                      const ToolInfluence& influence) {
+  if (target.component == Component::Radius) return {3, 1};
   const int plane = context.control().plane;
   const auto working = plane == 18   ? control::sinumerik::WorkingPlane::G18
                        : plane == 19 ? control::sinumerik::WorkingPlane::G19
                                      : control::sinumerik::WorkingPlane::G17;
-  const auto lengths = lengthAxes(working, edge);
+  const auto lengths = lengthAxes(planeOfLengths(context.control().data, plane), edge);
+  if (maskBit(context.control().data, "$MNS_MEA_FUNCTION_MASK", 2) && influence.surface && carrierIsTurned(context))
+    return onTurnedCarrier(context, target, edge, influence, lengths);
+  if (target.component != Component::FromAxis) return {static_cast<int>(target.component) - 1, 1};
+  if (!edge.isTurning()) return {influence.radiusFromAxis ? 3 : 0, 1};
   const int axis = planeAxes(working)[static_cast<std::size_t>(influence.measuringAxis)];
-  return static_cast<int>(std::ranges::find(lengths, axis) - lengths.begin());
+  return {static_cast<int>(std::ranges::find(lengths, axis) - lengths.begin()), 1};
 }
 
 void addTo(Context& context, const ToolTarget& target, const std::string& name, double amount) {
@@ -196,7 +229,8 @@ ToolInfluence influenceOnSurface(int measuringAxis, double direction) {
   return {.radius = direction < 0 ? -1.0 : 1.0,
           .length = -1,
           .radiusFromAxis = measuringAxis != 2,
-          .measuringAxis = measuringAxis};
+          .measuringAxis = measuringAxis,
+          .surface = true};
 }
 
 double setValueOf(const Context& context, Task task, double programmed) {
@@ -286,8 +320,8 @@ void correctTool(Context& context, std::span<const Dimension> dimensions, const 
   double written = 0;
   if (decision.corrects) {
     const ToolEdge edge = toolEdge(control.data, target->tool, target->edge).value_or(ToolEdge{});
-    const int component = componentIndex(context, *target, edge, influence);
-    written = decision.correction * (component == 3 ? influence.radius : influence.length);
+    const auto [component, sign] = correctedBy(context, *target, edge, influence);
+    written = decision.correction * (component == 3 ? influence.radius : sign * influence.length);
     if (target->inverted) written = -written;
     writeCorrection(context, *target, edge, component, written);
   }

@@ -19,7 +19,8 @@ enum class FileError { None = 0, NotFound = 3, NoSuchLine = 21, ResultTooSmall =
 
 std::string withoutFolders(std::string file) {
   if (const std::size_t folder = file.find_last_of("/\\"); folder != std::string::npos) file.erase(0, folder + 1);
-  if (file.empty() || file == "." || file == "..") throw Alarm("14020", "the name of a file is missing");
+  if (file.empty() || file == "." || file == "..")
+    throw Alarm("14020", "the name of a file is missing", "name the file behind its folders");
   return file;
 }
 
@@ -68,7 +69,8 @@ std::optional<std::string> SinumerikHost::fileText(const std::string& file) cons
 }
 
 bool SinumerikHost::isFile(const std::string& path) const {
-  if (path.find_last_not_of("/\\ ") == std::string::npos) return false;
+  const std::string plain = path.substr(path.find_last_of("/\\") + 1);
+  if (plain.empty() || plain == "." || plain == "..") return false;
   const std::string name = comparedName(path);
   if (writtenFile(name) != nullptr) return true;
   if (deletedFiles_.contains(name)) return false;
