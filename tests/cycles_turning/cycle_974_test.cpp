@@ -274,5 +274,18 @@ TEST(Cycle974, RefusesWhatItCannotDo) {
   EXPECT_EQ(bench.alarmOf(call("2,,,1,40,2,4,1,,1" + rest)), "61309");
 }
 
+TEST(Lathe, NamesTheAxisThatATurnedFrameAsksFor) {
+  // The lathe has X and Z. A frame turned about Z asks for Y as well.
+  simulation::Setup setup = latheSetup({});
+  place(setup.truth, simulation::RoundBar(40, -100, 0), translation({0, 0, 200}));
+  LatheBench bench(setup);
+  plantFrame(bench, "$P_UIFR", 1, 0, 200);
+  const std::string beside = "ROT\nDIAMOF\nG0 X60\nG0 Z-10\n";
+  EXPECT_EQ(bench.alarmOf(beside + "ROT Z30\nG0 X55\nCYCLE978(0,,,1,40,6,4,2,2,1)\n"), "18310") << "in the program";
+  EXPECT_EQ(bench.alarmOf(beside + "ROT Z30\nCYCLE978(0,,,1,40,6,4,2,2,1)\n"), "61336") << "in the cycle";
+  EXPECT_EQ(bench.alarmOf(beside + "CYCLE978(0,,,1,40,6,4,2,2,1)\n"), "");
+  EXPECT_NEAR(bench.ovr(4), 40, 1e-7);
+}
+
 }  // namespace
 }  // namespace probewright
