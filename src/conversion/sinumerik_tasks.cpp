@@ -185,6 +185,13 @@ private:
     return task;
   }
 
+  /// With a protection zone, the way from the start height to the part, whatever its sign.
+  Quantity wayDown(std::string_view name) const {
+    if (call_.digit("S_MVAR", 4) != 1) return 0;
+    const Quantity way = number(name);
+    return way.number() < 0 ? -way : way;
+  }
+
   MeasuringTask cycle998() { return call_.digit("S_MVAR", 1) == 6 ? plane() : edge(); }
 
   MeasuringTask edge() {
@@ -202,7 +209,8 @@ private:
     const auto axis = static_cast<std::size_t>(task.axis), along = static_cast<std::size_t>(task.along);
     task.place = start_;
     task.place[2] = task.axis == 2 ? start_[2] : start_[2] + ballRadius_;
-    task.place[axis] = start_[axis] + (task.path + (axis == 2 ? Quantity() : ballRadius_)) * task.sign;
+    task.place[axis] =
+        start_[axis] + (task.path + (axis == 2 ? Quantity() : ballRadius_) + wayDown("S_SETV")) * task.sign;
     const Quantity set = number("S_STA1");
     task.further = {task.place};
     task.further[0][along] = task.further[0][along] + number("S_ID");
@@ -223,7 +231,7 @@ private:
   MeasuringTask plane() {
     MeasuringTask task = begun(Feature::Plane);
     if (call_.digit("S_MVAR", 4) == 1) losses_.push_back("S_MVAR: no protection zone");
-    task.place[2] = start_[2] - task.path;
+    task.place[2] = start_[2] - task.path - wayDown("S_SETV");
     task.sign = -1;
     if (task.correction == Correction::Origin) task.correction = Correction::Rotation;
     task.further = {task.place, task.place};
@@ -290,7 +298,7 @@ private:
     for (const double each : apart)
       if (std::abs(each) > parallel) nearest = std::min(nearest == 0 ? std::abs(each) : nearest, std::abs(each));
     task.path = std::min(std::max(known("S_FA"), leastCornerPath * call_.millimetre), nearest / 2);
-    const Quantity height = call_.digit("S_MVAR", 4) == 1 ? task.place[2] + number("S_ID") : task.place[2];
+    const Quantity height = task.place[2] - wayDown("S_ID");
     task.clearanceBetween = call_.digit("S_MVAR", 4) == 1;
     const Quantity edge1 = pole2 + (task.path + ballRadius_) * task.sign;
     const Quantity edge2 = pole1 + (task.path + ballRadius_) * task.secondSign;

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <functional>
+#include <sstream>
 
 #include "conversion/twins.hpp"
 
@@ -243,7 +245,7 @@ std::string corner961(Dice& dice, PlantedPart& part, bool outside, bool corrects
   words = with(words, {{"S_KNUM", corrects ? (dice.coin() ? 10001 : 19000) : 0},
                        {"S_SETV8", dice.coin() ? n.x() : written(dice.between(-50, 50))},
                        {"S_SETV9", dice.coin() ? n.y() : written(dice.between(-50, 50))}});
-  if (zone) words = with(words, {{"S_ID", -25}});
+  if (zone) words = with(words, {{"S_ID", dice.coin() ? -25 : 25}});
   if (dice.coin()) {
     words = with(words, {{"S_MVAR", variant + 10},
                          {"S_SETV0", pole.x() + l1},
@@ -422,6 +424,40 @@ std::vector<Case> cases() {
 
 INSTANTIATE_TEST_SUITE_P(Convert, AnyWorldOfSinumerik, ::testing::ValuesIn(cases()),
                          [](const auto& each) { return each.param.name; });
+
+/// The text without straight moves, comments and the height that the probe goes to between points.
+std::string withoutMoves(const std::string& klartext) {
+  std::string rest, line;
+  for (std::istringstream lines(klartext); std::getline(lines, line);) {
+    line.erase(0, std::min(line.find_first_not_of("0123456789 "), line.size()));
+    const bool left = line.starts_with("L ") || line.starts_with(";") || line.starts_with("Q260=");
+    if (!left) rest += line + '\n';
+  }
+  return rest;
+}
+
+TEST(ConvertProtectionZones, OfEdgeAndPlaneLeadToTheSamePoints) {
+  // S_SETV leads from further away to where the call without a zone begins, whatever its sign.
+  const auto edge = [](int x, const char* call) {
+    return withoutMoves(
+        toKlartext(fmt::format("G17 G90 G71 G54\nT1 D1 M6\nG0 X{} Y0\nG0 Z-10\nCYCLE998({},,,10,5,201,1,40)\n"
+                               "M30\n",
+                               x, call))
+            .text);
+  };
+  const auto plane = [](int z, const char* call) {
+    return withoutMoves(
+        toKlartext(fmt::format("G17 G90 G71 G54\nT1 D1 M6\nG0 X0 Y0\nG0 Z{}\nCYCLE998({},,,8,5,,,,40,,10,40)\n"
+                               "M30\n",
+                               z, call))
+            .text);
+  };
+  for (const char* call : {"101005,,,1,20", "101005,,,1,-20"})
+    EXPECT_EQ(edge(-82, call), edge(-62, "100005,,,1,"));
+  for (const char* call : {"101006,,,1,20", "101006,,,1,-20"})
+    EXPECT_EQ(plane(28, call), plane(8, "100006,,,1,"));
+  EXPECT_NE(edge(-82, "101005,,,1,19"), edge(-62, "100005,,,1,"));
+}
 
 }  // namespace
 }  // namespace probewright::testing_support

@@ -127,5 +127,20 @@ TEST(TurningTargets, EachVariantIntoEachZeroOffset) {
   }
 }
 
+TEST(TurningTargets, TheBaseReferenceFineAndCoarse) {
+  for (const Variant& variant : variants()) {
+    if (std::string_view(variant.cycle) == "CYCLE994") continue;
+    for (const auto& [knum, part] : {std::pair(2000, "FI"), std::pair(12000, "TR")}) {
+      SCOPED_TRACE(fmt::format("{} into {}", variant.name, knum));
+      LatheBench bench(setupOf(variant));
+      plantFrame(bench, "$P_UIFR", 1, 0, face);
+      bench.run(callOf(variant, 1, knum, 0, "", 0));
+      EXPECT_NEAR(bench.data("$P_SETFR", {variant.length == 2 ? "Z" : "X", part}), 0.04, 1e-7);
+      EXPECT_EQ(bench.control.journal.cycles.back().writes.size(), 1U);
+      EXPECT_EQ(bench.ovi(0), 2000);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace probewright

@@ -120,13 +120,35 @@ constexpr Value values[] = {
     {"CYCLE994", 4, 3, "thirdAxis", "G0 X60 Y0\nG0 Z-10\nCYCLE994(3002,,,1,36.4,2,0,40,4,3)"},
 };
 
-control::CycleRecord carriedOut(const Value& value) {
+/// The call with its lengths and feeds in inches, and the word that says so in front of it.
+std::string inInches(const std::string& text) {
+  const std::size_t name = text.find("CYCLE"), open = text.find('(', name);
+  const cycles::CycleDefinition& definition = *cycles::sinumerikCycle(text.substr(name, open - name));
+  std::string call = text.substr(0, name) + "G700\n" + text.substr(name, open + 1 - name);
+  std::size_t at = open + 1;
+  for (const cycles::Parameter& parameter : definition.parameters) {
+    const std::size_t end = text.find_first_of(",)", at);
+    const std::string argument = text.substr(at, end - at);
+    const bool length = parameter.kind == cycles::ValueKind::Length || parameter.kind == cycles::ValueKind::Feed;
+    call += length && !argument.empty() ? fmt::format("{:.12f}", std::stod(argument) / 25.4) : argument;
+    call += text[end];
+    if (text[end] == ')') break;
+    at = end + 1;
+  }
+  return call;
+}
+
+control::CycleRecord carriedOut(const Value& value, bool inches = false) {
   const Scene scene = sceneOf(value.scene);
   LatheBench bench(scene.setup);
   scene.data(bench);
   bench.run("DIAMON\n" + (std::string_view(value.scene) == "thirdAxis" ? "" : std::string("G0 X300\n")) + scene.way +
-            value.call);
+            (inches ? inInches(value.call) : value.call));
   EXPECT_EQ(bench.ovi(2), std::stoi(value.cycle + 5));
+  for (const auto& result : bench.control.journal.cycles.back().results) {
+    if (!inches || result.unit != "mm") continue;
+    EXPECT_NEAR(bench.ovr(std::stoi(result.name.substr(5))) * 25.4, result.value, 1e-9) << result.name;
+  }
   return bench.control.journal.cycles.back();
 }
 
@@ -154,6 +176,24 @@ TEST(TurningDigits, EachValueOfSMvarDoesSomethingOfItsOwn) {
         const auto [known, first] = seen.try_emplace(deedsOf(carriedOut(*found)), choice.value);
         EXPECT_TRUE(first) << "as " << known->second;
       }
+    }
+  }
+}
+
+TEST(TurningDigits, MeanTheSameInInches) {
+  for (const Value& value : values) {
+    if (std::string_view(value.cycle) == "CYCLE994" && value.place == 3 && value.value == 1) continue;
+    SCOPED_TRACE(value.call);
+    const control::CycleRecord metric = carriedOut(value), inches = carriedOut(value, true);
+    ASSERT_EQ(metric.results.size(), inches.results.size());
+    for (std::size_t i = 0; i < metric.results.size(); ++i) {
+      EXPECT_EQ(metric.results[i].name, inches.results[i].name);
+      EXPECT_NEAR(metric.results[i].value, inches.results[i].value, 1e-7) << metric.results[i].name;
+    }
+    ASSERT_EQ(metric.writes.size(), inches.writes.size());
+    for (std::size_t i = 0; i < metric.writes.size(); ++i) {
+      EXPECT_EQ(metric.writes[i].table + metric.writes[i].entry, inches.writes[i].table + inches.writes[i].entry);
+      EXPECT_NEAR(std::stod(metric.writes[i].after), std::stod(inches.writes[i].after), 1e-7);
     }
   }
 }
