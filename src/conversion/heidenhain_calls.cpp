@@ -46,6 +46,11 @@ public:
       case Feature::OutsideCorner:
         corner();
         break;
+      case Feature::HolePair:
+      case Feature::SpigotPair:
+      case Feature::BoltCircle:
+      case Feature::HoleDiagonals:
+        throw NotCarriedOver("several holes are measured one by one");
       case Feature::ProbeLength:
         call_.cycle = "461";
         set(434, task_.place[2]);
@@ -63,6 +68,7 @@ public:
         extraClearance();
         break;
     }
+    if (task_.log != MeasuringTask::Log::None) set(281, static_cast<int>(task_.log));
     fillUp();
     return std::move(call_);
   }

@@ -26,8 +26,18 @@ public:
       case 400:
         return {edge(Correction::Rotation)};
       case 403:
-      case 420:
         return {edge(Correction::None)};
+      case 420:
+        return {angle()};
+      case 401:
+      case 402:
+        return {pair(number == 401 ? Feature::HolePair : Feature::SpigotPair)};
+      case 416:
+        return preset(boltCircle(), {331, 332});
+      case 418:
+        return preset(holes(Feature::HoleDiagonals, {268, 270, 316, 318}), {331, 332});
+      case 430:
+        return inspectedBoltCircle();
       case 414:
         return preset(outsideCorner(), {331, 332});
       case 415:
@@ -140,6 +150,15 @@ private:
     return task;
   }
 
+  void log(MeasuringTask& task) {
+    if (!call_.has("Q281")) return;
+    if (!q(281).isNumber()) {
+      losses_.push_back("Q281: whether there is a log is known only when the program runs");
+      return;
+    }
+    task.log = static_cast<MeasuringTask::Log>(std::clamp(option(281), 0, 2));
+  }
+
   MeasuringTask surface(int height, int axis, int sign) const {
     MeasuringTask task = begun(Feature::Surface);
     task.place = {q(263), q(264), q(height)};
@@ -171,6 +190,61 @@ private:
       task.angle = degrees > 90 ? degrees - 180 : degrees <= -90 ? degrees + 180 : degrees;
     }
     return task;
+  }
+
+  MeasuringTask angle() {
+    MeasuringTask task = edge(Correction::None);
+    log(task);
+    return task;
+  }
+
+  /// The holes that `places` tells, by the first of their two parameters.
+  MeasuringTask holes(Feature feature, const std::vector<int>& places) const {
+    MeasuringTask task = begun(feature);
+    for (const int each : places)
+      task.further.push_back({q(each), q(each + 1), task.place[2]});
+    task.place = task.further.front();
+    task.further.erase(task.further.begin());
+    return task;
+  }
+
+  MeasuringTask pair(Feature feature) const {
+    MeasuringTask task = holes(feature, {268, 270});
+    if (asked(402))
+      throw NotCarriedOver("Q402: the rotary table is not turned", "align with 403, or by 401 and Q402 = 0");
+    if (feature == Feature::SpigotPair) {
+      task.size = {q(313), q(314)};
+      task.further[0][2] = q(315);
+    }
+    task.correction = Correction::Rotation;
+    task.row = q(305);
+    task.angle = q(307);
+    task.fromUnturned = true;
+    return task;
+  }
+
+  MeasuringTask boltCircle() const {
+    MeasuringTask task = begun(Feature::BoltCircle);
+    const Place centre = {q(273), q(274), q(261)};
+    for (const int angle : {291, 292, 293}) {
+      if (!q(angle).isNumber()) throw NotCarriedOver(fmt::format("Q{} is known only when the program runs", angle));
+      const double radians = q(angle).number() * std::numbers::pi / 180;
+      task.further.push_back(
+          {centre[0] + q(262) * (std::cos(radians) / 2), centre[1] + q(262) * (std::sin(radians) / 2), centre[2]});
+    }
+    task.place = centre;
+    task.size[0] = q(262);
+    return task;
+  }
+
+  std::vector<MeasuringTask> inspectedBoltCircle() {
+    MeasuringTask task = boltCircle();
+    if (!(q(288) == 0 && q(289) == 0)) task.limits[0] = Limits{q(288) - q(262), q(289) - q(262)};
+    task.centreTolerance = {q(279), q(280)};
+    task.stops = asked(309);
+    if (asked(281)) losses_.push_back("Q281: no measuring log is written of three holes");
+    if (asked(330) || !call_.text("Q330").empty()) losses_.push_back("Q330: the breakage of a tool is not monitored");
+    return {task};
   }
 
   MeasuringTask outsideCorner() const {
@@ -250,7 +324,7 @@ private:
     MeasuringTask task = begun(Feature::Plane);
     task.place = {q(263), q(264), q(294)};
     task.further = {{q(265), q(266), q(295)}, {q(296), q(297), q(298)}};
-    if (asked(281)) losses_.push_back("Q281: no measuring log is written");
+    log(task);
     return task;
   }
 
@@ -331,7 +405,7 @@ private:
     }
     task.centreTolerance = {q(279), q(280)};
     task.stops = asked(309);
-    if (asked(281)) losses_.push_back("Q281: no measuring log is written");
+    log(task);
     task.tool = monitoredTool();
     return {task};
   }
@@ -366,38 +440,6 @@ private:
 
 std::vector<MeasuringTask> heidenhainTasks(const Call& call, const Quantity& ballRadius, Losses& losses) {
   return Reader(call, ballRadius, losses).tasks();
-}
-
-Results heidenhainResults(const std::string& cycle, const MeasuringTask& task) {
-  const int number = std::stoi(cycle);
-  const bool inspects = number >= 420;
-  Results results;
-  if (isRound(task.feature) || isRectangular(task.feature)) {
-    results = {{Meaning::Centre1, "Q151"}, {Meaning::Centre2, "Q152"}};
-    results[Meaning::Size1] = isRound(task.feature) ? "Q153" : "Q154";
-    if (isRectangular(task.feature)) results[Meaning::Size2] = "Q155";
-    if (inspects) {
-      results.insert({{Meaning::Centre1Deviation, "Q161"}, {Meaning::Centre2Deviation, "Q162"}});
-      results[Meaning::Size1Deviation] = isRound(task.feature) ? "Q163" : "Q164";
-      if (isRectangular(task.feature)) results[Meaning::Size2Deviation] = "Q165";
-    }
-  } else if (isWidth(task.feature)) {
-    results = {{Meaning::Coordinate, "Q157"}, {Meaning::Size1, inspects ? "Q156" : "Q166"}};
-    if (inspects) results[Meaning::Size1Deviation] = "Q166";
-  } else if (isCorner(task.feature)) {
-    results = {{Meaning::Centre1, "Q151"}, {Meaning::Centre2, "Q152"}};
-  } else if (task.feature == Feature::Surface && number != 419) {
-    results = {{Meaning::Coordinate, "Q160"}};
-  } else if (number == 420) {
-    results = {{Meaning::Angle, "Q150"}};
-  } else if (number == 431) {
-    results = {{Meaning::Angle, "Q158"}, {Meaning::Angle2, "Q159"}};
-  } else if (number == 1410) {
-    results = {{Meaning::Angle, "Q964"}, {Meaning::AngleDeviation, "Q994"}};
-  } else if (number == 1420) {
-    results = {{Meaning::Angle, "Q961"}, {Meaning::Angle2, "Q962"}};
-  }
-  return results;
 }
 
 }  // namespace probewright::conversion

@@ -26,9 +26,13 @@ enum class Feature {
   Plane,              ///< its two angles, by three touches along the tool axis
   InsideCorner,       ///< of two edges, by two touches each
   OutsideCorner,
-  ProbeLength,  ///< calibration on a surface of known height
-  ProbeInRing,  ///< calibration of the ball in a ring
-  ProbeOnBall,  ///< calibration of the ball on a calibration sphere
+  HolePair,       ///< the line through the centres of two holes, whose size nobody tells
+  SpigotPair,     ///< the same of two spigots
+  BoltCircle,     ///< of three such holes
+  HoleDiagonals,  ///< where the lines through four such holes cross, 1 and 3, 2 and 4
+  ProbeLength,    ///< calibration on a surface of known height
+  ProbeInRing,    ///< calibration of the ball in a ring
+  ProbeOnBall,    ///< calibration of the ball on a calibration sphere
 };
 
 bool isInside(Feature feature);
@@ -83,8 +87,9 @@ struct MeasuringTask {
   /// The expected centre or place of touch. The third is the height of the ball's centre; of a surface along the tool
   /// axis the height of the surface.
   Place place;
-  /// Further places of touch: second point of an edge, second and third of a plane, points 2 to 4 of a corner. Points 1
-  /// and 2 of a corner lie on the edge along the main axis, 3 and 4 on the other one.
+  /// Further places: centres of holes and spigots; places of touch: second point of an edge, second and third of a
+  /// plane, points 2 to 4 of a corner. Points 1 and 2 of a corner lie on the edge along the main axis, 3 and 4 on the
+  /// other one.
   std::vector<Place> further;
   std::array<Quantity, 2> size;  ///< diameter, width or the two lengths
   Quantity angle;                ///< of the first touch on a circle; set angle of an edge, from the main axis
@@ -109,6 +114,7 @@ struct MeasuringTask {
   std::array<std::optional<Limits>, 2> limits;  ///< of the sizes
   std::array<Quantity, 2> centreTolerance;      ///< permissible deviations of the centre; 0: not monitored
   std::optional<ToolCorrection> tool;
+  enum class Log { None, File, Screen } log = Log::None;
   bool stops = false;  ///< the program ends if a limit is exceeded
 };
 

@@ -16,7 +16,8 @@ namespace {
 
 /// _MODE of CYCLE800, axis by axis: about Z, then the new Y, then the new X, which are the space angles of PLANE
 /// SPATIAL from the last to the first; and the usual order X, Y, Z.
-constexpr int modeZYX = 27, modeXYZ = 57;
+/// With the last mode the angles are those of the rotary axes.
+constexpr int modeZYX = 27, modeXYZ = 57, modeRotaryAxes = 192;
 
 constexpr double degrees = 180 / std::numbers::pi;
 
@@ -48,7 +49,9 @@ void ToSinumerik::plane(const Block& block, const Transform& transform) {
   }
   const int direction = find("STAY") != nullptr ? 0 : 1;
   if (name == "PLANE RESET") {
-    out_.line(fmt::format("CYCLE800(0,\"\",0,{},0,0,0,0,0,0,0,0,0,{})", modeZYX, direction));
+    // Where the plane is level the table may stand anywhere; PLANE RESET turns it home.
+    if (direction != 0) out_.line(fmt::format("CYCLE800(0,\"\",0,{},0,0,0,0,0,0,0,0,0,1)", modeRotaryAxes));
+    out_.line("CYCLE800()");
   } else if (name == "PLANE SPATIAL") {
     for (const Word& word : words)
       if (word.mode == WordMode::Incremental) throw NotCarriedOver("incremental angles of planes are not converted");
@@ -82,7 +85,7 @@ void ToKlartext::swivel(const Block& block, const CallProgram& call) {
     if (!(argument(place) == 0))
       throw NotCarriedOver("the shifts of CYCLE800 are not converted", "write them as TRANS");
   }
-  const std::string positioning = argument(13) == 0 && !words.empty() ? " STAY" : " TURN FMAX";
+  const std::string positioning = argument(13) == 0 ? " STAY" : " TURN FMAX";
   forgetPosition();
   shift_ = {};
   rotated_ = false;

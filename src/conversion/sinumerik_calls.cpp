@@ -51,6 +51,11 @@ public:
       case Feature::OutsideCorner:
         corner();
         break;
+      case Feature::HolePair:
+      case Feature::SpigotPair:
+      case Feature::BoltCircle:
+      case Feature::HoleDiagonals:
+        throw NotCarriedOver("no SINUMERIK cycle measures several holes");
       case Feature::ProbeLength:
       case Feature::ProbeInRing:
       case Feature::ProbeOnBall:

@@ -253,29 +253,33 @@ private:
 
   MeasuringTask cycle961() {
     const int units = call_.digit("S_MVAR", 1);
-    if (units != 7 && units != 8) {
-      throw NotCarriedOver("HEIDENHAIN cycles measure a corner by two points on each edge",
+    const bool rightAngled = units == 5 || units == 6;  // three points
+    const bool inside = units == 5 || units == 7;
+    MeasuringTask task = begun(inside ? Feature::InsideCorner : Feature::OutsideCorner);
+    if (rightAngled && task.correction != Correction::None) {
+      throw NotCarriedOver("HEIDENHAIN cycles set a preset at a corner by two points on each edge",
                            "measure it with four points (S_MVAR units 7 or 8) before converting");
     }
-    MeasuringTask task = begun(units == 7 ? Feature::InsideCorner : Feature::OutsideCorner);
     const auto value = [this](int i) { return number(fmt::format("S_SETV{}", i)); };
     std::array<std::array<Quantity, 2>, 4> starts;
     if (call_.digit("S_MVAR", 2) == 1) {
       for (std::size_t i = 0; i < 4; ++i)
         starts[i] = {value(static_cast<int>(2 * i)), value(static_cast<int>(2 * i + 1))};
     } else {
-      const double first = radians(known("S_STA1")), second = first + radians(known("S_INCA"));
+      const double first = radians(known("S_STA1")), second = first + radians(rightAngled ? 90 : known("S_INCA"));
       const int corner = call_.digit("S_MVAR", 5);
       for (int i = 0; i < 4; ++i) {
         const bool backwards = i < 2 ? corner == 2 || corner == 3 : corner == 3 || corner == 4;
         double length = known(fmt::format("S_SETV{}", i));
         if (backwards) length = -std::abs(length);
+        if (i == 2 && length == 0 && rightAngled) length = known("S_SETV3") / 2;
         if (i == 0 && length == 0) length = (backwards ? -std::abs(known("S_SETV1")) : known("S_SETV1")) / 2;
         const double angle = i < 2 ? first : second;
         starts[static_cast<std::size_t>(i)] = {value(4) + length * std::cos(angle),
                                                value(5) + length * std::sin(angle)};
       }
     }
+    if (rightAngled) starts[3] = starts[2];
     constexpr double parallel = 1e-6;
     if (std::abs(distance(starts[0][1], starts[1][1])) > parallel ||
         std::abs(distance(starts[2][0], starts[3][0])) > parallel) {
@@ -290,7 +294,7 @@ private:
     const Quantity pole1 = starts[2][0], pole2 = starts[0][1];
     const std::array apart = {distance(pole1, starts[0][0]), distance(pole1, starts[1][0]),
                               distance(pole2, starts[2][1]), distance(pole2, starts[3][1])};
-    const int side = units == 7 ? -1 : 1;
+    const int side = inside ? -1 : 1;
     task.sign = side * (apart[2] + apart[3] > 0 ? 1 : -1);
     task.secondSign = side * (apart[0] + apart[1] > 0 ? 1 : -1);
     // The edges are taken to lie within S_FA, but not so far that the points would lie on the other side of a corner.
@@ -304,6 +308,7 @@ private:
     const Quantity edge2 = pole1 + (task.path + ballRadius_) * task.secondSign;
     task.place = {starts[0][0], edge1, height};
     task.further = {{starts[1][0], edge1, height}, {edge2, starts[2][1], height}, {edge2, starts[3][1], height}};
+    if (rightAngled) task.further.pop_back();
     if (task.correction != Correction::None) {
       task.correction = Correction::OriginAndRotation;
       task.wish = {number("S_SETV8"), number("S_SETV9"), std::nullopt};

@@ -78,7 +78,8 @@ void ToKlartext::survey() {
         }
       }
       const auto* called = std::get_if<CallProgram>(&instruction);
-      if (called != nullptr && cycles::sinumerikCycle(block.at(called->name)) != nullptr) wantedAfter_.emplace_back();
+      const auto* cycle = called == nullptr ? nullptr : cycles::sinumerikCycle(block.at(called->name));
+      if (cycle != nullptr && cycle->number != 150) wantedAfter_.emplace_back();
       const auto* function = std::get_if<MachineFunction>(&instruction);
       changesTool_ = changesTool_ || (function != nullptr && function->number == 6);
       const auto* modal = std::get_if<Modal>(&instruction);
@@ -192,81 +193,6 @@ void ToKlartext::instruction(const Block& block, const Instruction& instruction)
   }
 }
 
-void ToKlartext::assign(const Block& block, const Assign& assign) {
-  const VariableRef& variable = block.variables[assign.variable];
-  const bool frame = variable.space == VariableSpace::System && block.at(variable.name) == "$P_UIFR";
-  if (frame && variable.index[2].present()) return assignFrameComponent(block, assign);
-  // A HEIDENHAIN cycle with Q305 = 0 copies the active preset to row 0 and selects it by itself.
-  if (frame && trimmed(block.at(block.source)).starts_with("$P_UIFR[99]=$P_UIFR[$P_UIFRNUM]")) {
-    copiesToRow0_ = true;
-    return;
-  }
-  if (variable.space == VariableSpace::System) {
-    const std::string value = formulas_.value(quantity(block, assign.value));
-    if (const std::string datum = formulas_.toolDatum(block, variable); !datum.empty()) {
-      return line(fmt::format("FN 17: SYSWRITE {} = {}", datum, value));
-    }
-    throw NotCarriedOver(fmt::format("{} cannot be written in Klartext", block.at(variable.name)));
-  }
-  const std::string name = formulas_.variable(block, variable);
-  const std::string formula = formulas_.formula(block, assign.value);
-  line(fmt::format("{} = {}", name, formula));
-  const std::string own(variable.space == VariableSpace::User ? block.at(variable.name) : std::string_view());
-  if (formulas_.isGlobal(own) && changedGlobals_.insert(own).second) {
-    out_.list(block, fmt::format("{} is global user data: other programs do not see what it is set to here", own),
-              "use a QR parameter if they shall");
-  }
-  for (auto& coordinate : position_)
-    if (coordinate && !coordinate->isNumber()) coordinate.reset();
-}
-
-void ToKlartext::assignFrameComponent(const Block& block, const Assign& assign) {
-  const VariableRef& variable = block.variables[assign.variable];
-  const auto word = [&](std::size_t i) {
-    const std::int32_t node = variable.index[i].node;
-    return node < 0 ? std::string_view() : block.at(block.nodes[static_cast<std::size_t>(node)].text);
-  };
-  const bool active = word(0) == "$P_UIFRNUM" || block.at(block.source).find("[$P_UIFRNUM,") != std::string_view::npos;
-  const Quantity value = quantity(block, assign.value);
-  const Quantity number = active ? Quantity(-1) : quantity(block, variable.index[0]);
-  const Quantity row = number == 99 ? Quantity(0) : number;
-  forgetPosition();
-  if (word(2) == "RT" && word(1) == axis(2)) {
-    const bool ofTables = control_ != control::ControlKind::iTNC530;
-    const bool inEffect = active || (activeRow_ && number == *activeRow_);
-    if (!ofTables && !inEffect) {
-      throw NotCarriedOver("cycle 404 of the iTNC530 turns the active preset only",
-                           "select the zero offset in front of this block");
-    }
-    unturned_ = value == 0;
-    const std::string angle = formulas_.value(value), rowText = formulas_.value(row);
-    line("TCH PROBE 404 SET BASIC ROTATION ~");
-    out_.line(fmt::format("    Q307={} ;PRESET ROTATION ANG.{}", angle, ofTables ? " ~" : ""));
-    if (ofTables) out_.line(fmt::format("    Q305={} ;NUMBER IN TABLE", rowText));
-    return;
-  }
-  const std::size_t place = word(1).size() == 1 ? std::string_view("XYZ").find(word(1)[0]) : std::string_view::npos;
-  if (word(2) != "TR" || place == std::string_view::npos) {
-    throw NotCarriedOver(fmt::format("$P_UIFR[..,{},{}] cannot be written in Klartext", word(1), word(2)));
-  }
-  if (control_ == control::ControlKind::iTNC530) {
-    throw NotCarriedOver("the iTNC530 has no PRESET CORR",
-                         "let the measuring cycle in front correct the offset itself");
-  }
-  // A preset moves by an amount, and only while it is in effect.
-  const Quantity present = active ? quantity(block, variable.index[0]) : row;
-  const Quantity shift = value - Quantity::of(formulas_.presetDatum(present, static_cast<int>(place) + 1));
-  const std::string amount = formulas_.value(shift);
-  const bool selected = active || (activeRow_ && number == *activeRow_);
-  const std::string before = formulas_.define("preset in effect", false);
-  if (!selected) {
-    line(fmt::format("FN 18: SYSREAD {} = ID530 NR1", before));
-    out_.line(fmt::format("PRESET SELECT #{} KEEP TRANS", formulas_.unsignedValue(row)));
-  }
-  line(fmt::format("PRESET CORR {}{}", word(1), amount));
-  if (!selected) line(fmt::format("PRESET SELECT #{} KEEP TRANS", before));
-}
-
 void ToKlartext::toolCall(const Block& block, const ToolCall& call) {
   pendingTool_ =
       call.name.present() ? formulas_.formula(block, call.name) : formulas_.unsignedValue(quantity(block, call.number));
@@ -276,7 +202,7 @@ void ToKlartext::toolCall(const Block& block, const ToolCall& call) {
 void ToKlartext::changeTool() {
   if (pendingTool_.empty()) return;
   line(fmt::format("TOOL CALL {} {}", pendingTool_, toolAxis_));
-  pendingTool_.clear();
+  tool_ = std::exchange(pendingTool_, {});
   forgetPosition();
 }
 
@@ -289,6 +215,8 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
     activeRow_ = *settable;
     forgetPosition();
     if (row == 0 && std::exchange(copiesToRow0_, false)) return;
+    // On the iTNC 530 row 0 is the preset set by hand; the active one stays selected.
+    if (row == 0 && hasRowZero_ && control_ == control::ControlKind::iTNC530) return;
     line("CYCL DEF 247 PRESETTING ~");
     out_.line(fmt::format("    Q339=+{} ;PRESET NUMBER", row));
     return;
@@ -307,7 +235,8 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
   if (name == "G90" || name == "G91") {
     incremental_ = name == "G91";
   } else if (name == "G17" || name == "G18" || name == "G19") {
-    toolAxis_ = name == "G17" ? 'Z' : name == "G18" ? 'Y' : 'X';
+    const char before = std::exchange(toolAxis_, name == "G17" ? 'Z' : name == "G18" ? 'Y' : 'X');
+    if (toolAxis_ != before && !tool_.empty()) line(fmt::format("TOOL CALL {} {}", tool_, toolAxis_));
     forgetPosition();
   } else if (name == "G0" || name == "G1" || name == "G2" || name == "G3") {
     motion_ = name == "G0"   ? MoveKind::Rapid
@@ -412,42 +341,6 @@ void ToKlartext::blank(const Block& block, const Command& command) {
   if (!box) throw NotCarriedOver("this blank has no twin in Klartext", "it is a picture only");
   line(fmt::format("BLK FORM 0.1 Z X{} Y{} Z{}", number(8), number(9), number(6)));
   line(fmt::format("BLK FORM 0.2 X{} Y{} Z{}", number(10), number(11), number(5)));
-}
-
-void ToKlartext::define(const Block& block, const Command& command) {
-  const VariableRef& variable = block.variables[static_cast<std::size_t>(command.variable)];
-  const auto words = std::span<const Word>(block.words).subspan(command.words.first, command.words.count);
-  const std::string own(block.at(variable.name));
-  const std::string_view type = block.at(command.text);
-  if (type == "FRAME" || type == "AXIS") throw NotCarriedOver("variables for frames and axes have no twin in Klartext");
-  const bool isText = type == "STRING" || type == "CHAR";
-  std::vector<std::string> elements = {own};
-  for (std::size_t i = 0; i < 3 && variable.index[i].present(); ++i) {
-    constexpr double most = 100;  // there are no more free parameters
-    const double count = variable.index[i].number;
-    if (!variable.index[i].isLiteral() || count * static_cast<double>(elements.size()) > most) {
-      throw NotCarriedOver(fmt::format("array {} has more elements than there are free Q parameters", own));
-    }
-    std::vector<std::string> deeper;
-    for (const std::string& each : elements)
-      for (int k = 0; k < count; ++k)
-        deeper.push_back(fmt::format("{}{}{}", each, i == 0 ? "[" : ",", k));
-    elements = std::move(deeper);
-  }
-  std::vector<std::string> values;
-  for (const Word& word : words) {
-    if (word.address == addressOf("LEN")) continue;
-    values.push_back(word.value.present() ? formulas_.formula(block, word.value) : std::string());
-    if (word.address == addressOf("REP")) values.resize(elements.size(), values.back());
-  }
-  values.resize(elements.size());
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    if (variable.index[0].present()) elements[i] += ']';
-    const bool known = elements.size() == 1 && own.starts_with("_Q");
-    const std::string target = known ? own.substr(1) : formulas_.define(elements[i], isText);
-    if (values[i].empty()) values[i] = target.starts_with("QS") ? "\"\"" : "0";
-    line(fmt::format("{} = {}{}", target, values[i], known ? "" : fmt::format(" ; {}", elements[i])));
-  }
 }
 
 void ToKlartext::command(const Block& block, const Command& command) {

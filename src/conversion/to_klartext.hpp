@@ -26,18 +26,20 @@ private:
   void write(const language::Block& block);
   void statements(const language::Block& block);
   void instruction(const language::Block& block, const language::Instruction& instruction);
-  void assign(const language::Block& block, const language::Assign& assign);
-  /// A component of $P_UIFR: a translation or the rotation about the tool axis.
-  void assignFrameComponent(const language::Block& block, const language::Assign& assign);
   void toolCall(const language::Block& block, const language::ToolCall& call);
   void changeTool();
   void modal(const language::Block& block, const language::Modal& modal);
   void machineFunction(const language::Block& block, const language::MachineFunction& function);
   void transform(const language::Block& block, const language::Transform& transform);
   void command(const language::Block& block, const language::Command& command);
-  void define(const language::Block& block, const language::Command& command);
   void blank(const language::Block& block, const language::Command& command);
   std::string numbered() const;
+
+  // to_klartext_variables.cpp
+  void assign(const language::Block& block, const language::Assign& assign);
+  /// A component of $P_UIFR: a translation or the rotation about the tool axis.
+  void assignFrameComponent(const language::Block& block, const language::Assign& assign);
+  void define(const language::Block& block, const language::Command& command);
 
   // to_klartext_flow.cpp
   void structured(const language::Block& block, const language::Structured& structured);
@@ -64,6 +66,8 @@ private:
 
   // to_klartext_cycles.cpp
   void cycle(const language::Block& block, const language::CallProgram& call);
+  /// CYCLE150: whether the cycles that follow write a log.
+  void measuringLog(const language::Block& block, const Call& call);
   Place here();
   /// Writes the touch probe cycle that carries out the task; its number.
   std::string writeTask(const MeasuringTask& task);
@@ -105,14 +109,17 @@ private:
   language::MoveKind motion_ = language::MoveKind::Rapid;
   bool incremental_ = false;
   std::string compensation_ = "R0";
-  std::string pendingTool_;
+  std::string pendingTool_, tool_;  ///< to be changed to, in the spindle
   std::array<std::optional<Quantity>, 3> shift_;
   bool rotated_ = false;
   std::optional<int> activeRow_;
+  bool hasRowZero_ = false;      ///< the last zero offset is a copy of another
+  bool rowZeroIsDue_ = false;    ///< so it was, but no cycle has done it yet
   bool copiesToRow0_ = false;    ///< the active zero offset was copied to the last one
   bool besideMeasured_ = false;  ///< a measuring block has left the probe elsewhere than the original one
   bool unturned_ = false;        ///< the zero offset has lost its rotation, as for cycle 400
   std::size_t cycleNumber_ = 0;
+  MeasuringTask::Log log_ = MeasuringTask::Log::None;  ///< as CYCLE150 has said
 
   struct Open {
     language::Structure kind;

@@ -60,6 +60,8 @@ void ToKlartext::copyResults(const Block& block, const Results& left, const Meas
     if (!usedResults_.contains(index)) continue;
     const auto found = left.find(meaning);
     const auto deviation = deviationOf(meaning);
+    const bool spaceAngle = found != left.end() && (found->second == "Q961" || found->second == "Q962");
+    if (spaceAngle && toolAxis_ != 'Z') continue;
     std::string formula;
     if (found != left.end() && found->second == "Q964") {
       // From the first point to the second, that is along the positive axis.
@@ -107,12 +109,13 @@ std::string ToKlartext::writeTask(const MeasuringTask& task) {
 }
 
 Results ToKlartext::cornerByTouches(const MeasuringTask& corner) {
-  const std::array<Place, 4> places = {corner.place, corner.further.at(0), corner.further.at(1), corner.further.at(2)};
+  std::vector<Place> places = corner.further;  // of a right-angled corner two more, otherwise three
+  places.insert(places.begin(), corner.place);
   const auto own = [this](const char* what) { return formulas_.define(fmt::format("corner {}", what), false); };
   const auto text = [](const Quantity& quantity) { return expressionText(quantity, true); };
   // Where the ball's centre stood in the measuring direction.
   const std::array<std::string, 4> found = {own("touch 1"), own("touch 2"), own("touch 3"), own("touch 4")};
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
     MeasuringTask touch = corner;
     touch.feature = Feature::Surface;
     touch.place = places[i];
@@ -131,8 +134,12 @@ Results ToKlartext::cornerByTouches(const MeasuringTask& corner) {
   const std::string slope1 = own("slope 1"), slope2 = own("slope 2"), at1 = own("edge 1"), at2 = own("edge 2");
   const auto edge = [&](const std::string& slope, const std::string& at, std::size_t first, std::size_t along,
                         int sign) {
-    const Quantity apart = places[first + 1][along] - places[first][along];
-    out_.line(fmt::format("{} = ({} - {}) / ({})", slope, found[first + 1], found[first], text(apart)));
+    if (first + 1 < places.size()) {
+      const Quantity apart = places[first + 1][along] - places[first][along];
+      out_.line(fmt::format("{} = ({} - {}) / ({})", slope, found[first + 1], found[first], text(apart)));
+    } else {
+      out_.line(fmt::format("{} = -{}", slope, slope1));
+    }
     out_.line(fmt::format("{0} = {1} - {2} * ({3}) {4} {5} * SQRT (1 + SQ {2})", at, found[first], slope,
                           text(places[first][along]), sign > 0 ? "+" : "-", text(ballRadius_)));
   };
@@ -143,6 +150,19 @@ Results ToKlartext::cornerByTouches(const MeasuringTask& corner) {
   out_.line(fmt::format("{} = {} + {} * {}", minor, at1, slope1, main));
   out_.line(fmt::format("{} = ATAN {}", angle, slope1));
   return {{Meaning::Centre1, main}, {Meaning::Centre2, minor}, {Meaning::Angle, angle}};
+}
+
+void ToKlartext::measuringLog(const Block& block, const Call& call) {
+  const int screen = call.integer("S_PICT"), file = call.integer("S_PROT");
+  log_ = file % 10 == 1                              ? MeasuringTask::Log::File
+         : screen % 10 == 1 && screen / 10 % 10 == 3 ? MeasuringTask::Log::Screen
+                                                     : MeasuringTask::Log::None;
+  if (file % 10 == 2) {
+    out_.lose(block, "S_PROT: the log of a measurement is asked for in its cycle (Q281), not behind it");
+  } else if (file % 10 == 1 && !call.text("S_PATH").starts_with("TCHPR")) {
+    out_.list(block, "the logs have the names of their cycles: TCHPR421.TXT",
+              "only cycles 420 to 427, 430 and 431 write logs; each writes its file anew");
+  }
 }
 
 void ToKlartext::correctTool(const MeasuringTask& task, const Results& results) {
@@ -203,6 +223,7 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
     }
     call.numbers[std::string(parameter->name)] = quantity(block, word.value);
   }
+  if (call.cycle == "CYCLE150") return measuringLog(block, call);
   ++cycleNumber_;
   Losses losses;
   const bool calibrates = call.cycle == "CYCLE976";
@@ -211,12 +232,16 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   const bool turns = task.correction == Correction::Rotation || task.correction == Correction::RotaryAxis;
   if (turns && activeRow_ && task.row == *activeRow_) task.active = true;
   task.fromUnturned = std::exchange(unturned_, false) && turns;
+  task.log = log_;
   if (task.active && !turns) {
     const std::string row = formulas_.define("active preset", false);
     line(fmt::format("FN 18: SYSREAD {} = ID530 NR1", row));
     task.row = Quantity::of(row);
   }
-  if (task.row == 99) task.row = 0;
+  if (task.row == 99) {
+    task.row = 0;
+    rowZeroIsDue_ = false;
+  }
   const bool measuresCorner = isCorner(task.feature) && task.correction == Correction::None;
   const bool measuresBefore = task.feature == Feature::Surface && task.correction != Correction::None &&
                               task.axis != 2 && !wantedAfter_[cycleNumber_].empty();

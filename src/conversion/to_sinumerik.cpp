@@ -253,13 +253,13 @@ void ToSinumerik::toolCall(const Block& block, const ToolCall& call) {
     if (toolAxis_ != 'X' && toolAxis_ != 'Y' && toolAxis_ != 'Z')
       throw NotCarriedOver("tool axes other than X, Y and Z have no twin on a SINUMERIK");
   }
+  if (call.axis != 0) out_.line(toolAxis_ == 'Z' ? "G17" : toolAxis_ == 'Y' ? "G18" : "G19");
   const bool named = call.name.present();
   if (named || call.number.present()) {
     const std::string tool = formulas_.formula(block, named ? call.name : call.number);
     out_.line(named || !call.number.isLiteral() ? fmt::format("T={}", tool) : fmt::format("T{}", tool));
     out_.line("M6 D1");
   }
-  if (call.axis != 0) out_.line(toolAxis_ == 'Z' ? "G17" : toolAxis_ == 'Y' ? "G18" : "G19");
   std::string technology;
   if (call.spindleSpeed.present()) {
     const Quantity speed = quantity(block, call.spindleSpeed);

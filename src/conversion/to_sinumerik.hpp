@@ -55,6 +55,15 @@ private:
   std::string tableAxis() const;
   void alignRotaryAxis(const language::Block& block, const Call& call);
 
+  // hole_patterns.cpp
+  /// Two variables of the converter's own: where a centre was found.
+  using Centre = std::array<std::string, 2>;
+  void holePattern(const language::Block& block, const MeasuringTask& pattern, const std::string& heidenhainCycle);
+  Centre holeByStrokes(int number, const Place& place, const Quantity& clearance);
+  Centre spigotCentre(int number, const MeasuringTask& pair);
+  void turnByPair(const MeasuringTask& pair, const std::vector<Centre>& centres);
+  void judgePattern(const MeasuringTask& pattern, const Centre& centre, const std::string& diameter);
+
   // to_sinumerik_moves.cpp
   void move(const language::Block& block, const language::Move& move);
   void setCentre(const language::Block& block, const language::Move& move);
@@ -71,6 +80,9 @@ private:
   void approach(const Place& start, const Quantity& clearance);
   /// By the first side of a rectangle.
   void correctTool(const MeasuringTask& task);
+  /// Shifts the origin so that what lies at `now` gets the coordinates of the wish; `measured`: in the coordinates that
+  /// are in effect.
+  void shiftOrigin(const language::Block& block, const MeasuringTask& task, const Place& now, bool measured);
   void shiftToWish(const language::Block& block, const MeasuringTask& task, SinumerikPassage::Rest rest);
   void copyResults(const language::Block& block, const std::string& heidenhainCycle, const MeasuringTask& task);
   void planeByTouches(const language::Block& block, const MeasuringTask& plane);
@@ -87,6 +99,8 @@ private:
   /// Selects the zero offset `row` again if it is in effect.
   void selectIfActive(const Quantity& row);
   void judge(const MeasuringTask& task);
+  /// Sets Q180 to Q182 by conditions and stops, if that is asked for.
+  void decide(const std::vector<std::string>& rework, const std::vector<std::string>& scrap, bool stops);
   std::string parameter(int number);
   /// Results of the cycle that the program reads, but for the status.
   std::set<int> readResults(const std::string& heidenhainCycle) const;

@@ -83,13 +83,22 @@ void ToSinumerik::cycle(const Block& block, const CycleCall& cycle) {
   Losses losses;
   const std::vector<MeasuringTask> tasks = heidenhainTasks(call, ballRadius_, losses);
   out_.line(fmt::format("; {} {}", cycle.number, definition == nullptr ? "" : definition->title));
+  // A file of the same name as on the HEIDENHAIN control; or the result screen until NC start.
+  const MeasuringTask::Log log = tasks.front().log;
+  if (log == MeasuringTask::Log::File) out_.line(fmt::format("CYCLE150(0,1,\"TCHPR{}\")", call.cycle));
+  if (log == MeasuringTask::Log::Screen) out_.line("CYCLE150(31,0)");
   for (const MeasuringTask& each : tasks) {
-    if (call.cycle == "431" && !alongMainAxis(each)) {
+    const Feature what = each.feature;
+    if (what == Feature::HolePair || what == Feature::SpigotPair || what == Feature::BoltCircle ||
+        what == Feature::HoleDiagonals) {
+      holePattern(block, each, call.cycle);
+    } else if (call.cycle == "431" && !alongMainAxis(each)) {
       planeByTouches(block, each);
     } else {
       task(block, each, call.cycle);
     }
   }
+  if (log != MeasuringTask::Log::None) out_.line("CYCLE150(0,0)");
   for (const std::string& loss : losses)
     out_.lose(block, loss);
 }
@@ -157,6 +166,10 @@ void ToSinumerik::shiftToWish(const Block& block, const MeasuringTask& task, Sin
   const bool fromMeasured = rest == SinumerikPassage::Rest::ShiftFromMeasured;
   // By the correction the feature has the coordinates of its place; the origin moves by what is left.
   const Place now = fromMeasured ? Place{Quantity::of("_OVR[5]"), Quantity::of("_OVR[6]"), {}} : task.place;
+  shiftOrigin(block, task, now, fromMeasured);
+}
+
+void ToSinumerik::shiftOrigin(const Block& block, const MeasuringTask& task, const Place& now, bool measured) {
   std::array<Quantity, 3> left;
   bool any = false;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -166,7 +179,7 @@ void ToSinumerik::shiftToWish(const Block& block, const MeasuringTask& task, Sin
   }
   if (!any) return;
   const bool isActive = task.active || (activeRow_ && task.row == *activeRow_);
-  if (fromMeasured && !isActive) {
+  if (measured && !isActive) {
     out_.list(block, "the origin is shifted as if its zero offset were the one in effect",
               "select the preset with cycle 247 in front of this cycle");
   }
@@ -315,6 +328,8 @@ void ToSinumerik::copyResults(const Block& block, const std::string& heidenhainC
     const int number = std::stoi(name.substr(1));
     const auto found = left.find(meaning);
     if (!usedQ_.contains(number) || found == left.end()) continue;
+    // Space angles count about X, Y and Z whatever the tool axis is.
+    if (heidenhainCycle == "1420" && toolAxis_ != 'Z') continue;
     missing.erase(number);
     const std::string target = parameter(number);
     if (heidenhainCycle == "1410") {
@@ -372,10 +387,14 @@ void ToSinumerik::judge(const MeasuringTask& task) {
     if (task.centreTolerance[i] == 0) continue;
     scrap.push_back(fmt::format("(ABS({})>{})", results.at(centres[i]), sinumerikText(task.centreTolerance[i])));
   }
+  decide(rework, scrap, task.stops);
+}
+
+void ToSinumerik::decide(const std::vector<std::string>& rework, const std::vector<std::string>& scrap, bool stops) {
   const auto either = [](const std::vector<std::string>& conditions) {
     return fmt::format("{}", fmt::join(conditions, " OR "));
   };
-  if (flags) {
+  if (usedQ_.contains(180) || usedQ_.contains(181) || usedQ_.contains(182)) {
     const auto state = [&](const char* indent, int good, int again, int lost) {
       out_.line(fmt::format("{}{}={} {}={} {}={}", indent, parameter(180), good, parameter(181), again, parameter(182),
                             lost));
@@ -392,9 +411,10 @@ void ToSinumerik::judge(const MeasuringTask& task) {
       out_.line("ENDIF");
     }
   }
-  rework.insert(rework.end(), scrap.begin(), scrap.end());
-  if (task.stops && !rework.empty()) {
-    out_.line(fmt::format("IF {}", either(rework)));
+  std::vector<std::string> exceeded = rework;
+  exceeded.insert(exceeded.end(), scrap.begin(), scrap.end());
+  if (stops && !exceeded.empty()) {
+    out_.line(fmt::format("IF {}", either(exceeded)));
     out_.line("  SETAL(65000) ; tolerance exceeded");
     out_.line("ENDIF");
   }

@@ -37,7 +37,7 @@ TEST(Convert, WritesForTheOtherVendor) {
   const std::string sinumerik = (folder / "part.mpf").string();
   const Answer there = probewright({"convert", klartext, sinumerik});
   EXPECT_EQ(there.exit, 0) << there.errors;
-  EXPECT_EQ(textOf(sinumerik), "; part\nG17 G90 G40 G710 G94\nT1\nM6 D1\nG17\nG0 Z100\nG1 X10 Y-5 F500\nM30\n");
+  EXPECT_EQ(textOf(sinumerik), "; part\nG17 G90 G40 G710 G94\nG17\nT1\nM6 D1\nG0 Z100\nG1 X10 Y-5 F500\nM30\n");
   const Answer back = probewright({"convert", sinumerik, (folder / "again.h").string()});
   EXPECT_EQ(back.exit, 0) << back.errors;
   EXPECT_THAT(textOf(folder / "again.h"), HasSubstr("L X+10 Y-5 R0 F500\n"));

@@ -1,6 +1,5 @@
-#include <regex>
-
-#include "conversion/heidenhain_cases.hpp"
+#include "conversion/pattern_cases.hpp"
+#include "conversion/settings.hpp"
 
 /// Klartext programs with one touch probe cycle, their SINUMERIK twins and the twins' twins, in random worlds; on both
 /// controls, in both units, with each tool axis.
@@ -8,30 +7,6 @@ namespace probewright::testing_support {
 namespace {
 
 using namespace heidenhain;
-
-/// What a program is written for.
-struct Setting {
-  std::string name;
-  ControlKind control = ControlKind::TNC640;
-  bool inch = false;
-  char toolAxis = 'Z';
-  int worlds = 200;
-};
-
-const Setting settings[] = {{.name = "TNC640"}, {.name = "Inch", .inch = true, .worlds = 60}};
-
-/// The text with `replaced(match)` in place of each match.
-template <class Replace>
-std::string replaced(const std::string& text, const std::regex& pattern, const Replace& replace) {
-  std::string result;
-  auto last = text.begin();
-  for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match) {
-    result.append(last, (*match)[0].first);
-    result += replace(*match);
-    last = (*match)[0].second;
-  }
-  return result.append(last, text.end());
-}
 
 /// The program without the parameters that the control does not have; there circles are touched four times. Empty if
 /// the control lacks a cycle.
@@ -99,44 +74,35 @@ std::string inInches(const std::string& program) {
 std::string turned(const std::string& program, char toolAxis) {
   std::string text;
   std::istringstream lines(program);
-  const std::string names = toolAxis == 'X' ? "YZX" : "ZXY";
   for (std::string line; std::getline(lines, line); text += line + '\n') {
     if (line.starts_with("TOOL CALL")) line.back() = toolAxis;
     if (line.starts_with("L ")) {
       static const std::regex word(R"([XYZ](?=[-+]))");
-      line = replaced(line, word,
-                      [&](const std::smatch& match) { return std::string(1, names[match[0].str()[0] - 'X']); });
+      line = replaced(line, word, [&](const std::smatch& match) {
+        return std::string(1, turnedAxis(match[0].str()[0], toolAxis));
+      });
     }
   }
   return text;
 }
-void turn(PlantedPart& part, char toolAxis) {
-  Pose turn = Pose::Identity();
-  const int main = toolAxis == 'X' ? 1 : 2;
-  for (int i = 0; i < 3; ++i)
-    turn.linear().col(i) = Vector3::Unit((main + i) % 3);
-  turn.translation() = toolAxis == 'X' ? Vector3(150, 0, -300) : Vector3(0, 250, -300);
-  for (simulation::PlacedSolid& placed : part.bench.setup.truth.solids)
-    placed.tableFromSolid = turn * placed.tableFromSolid;
-  for (simulation::BelievedFrame& frame : part.bench.setup.presets) {
-    frame.origin = turn * frame.origin;
-    frame.rotation = turn.linear() * frame.rotation;
-  }
-  part.bench.setup.truth.tools.front().shankDirection = turn.linear() * Vector3::UnitZ();
+std::string nameOf(const ::testing::TestParamInfo<std::tuple<Case, Setting>>& test) {
+  return std::get<Case>(test.param).name + std::get<Setting>(test.param).name;
 }
 
 class AnyWorld : public ::testing::TestWithParam<std::tuple<Case, Setting>> {};
 
 TEST_P(AnyWorld, MeasuresAndCorrectsTheSame) {
   const auto& [each, setting] = GetParam();
+  // Space angles have no twin in other planes than that of X and Y.
+  const bool comparable = setting.toolAxis == 'Z' || each.name != "Cycle1420";
+  const auto reads = comparable ? each.reads : std::vector<std::string>();
   Dice dice(static_cast<unsigned>(std::hash<std::string>()(each.name)));
   for (int world = 0; world < setting.worlds; ++world) {
     PlantedPart part = plant(dice, setting.control, each.misplaced, each.skewed);
     const std::string block = each.block(dice, part);
     SCOPED_TRACE(fmt::format("world {}", world));
     part.bench.knows(5, "MILL", 80, 5);
-    std::string program =
-        klartextProgram(block + driveTo(each.reads) + (each.inspects ? driveByStatus : std::string()));
+    std::string program = klartextProgram(block + driveTo(reads) + (each.inspects ? driveByStatus : std::string()));
     program = forControl(program, setting.control);
     if (program.empty()) return;  // the control has no such cycle
     if (setting.inch) program = inInches(program);
@@ -149,12 +115,20 @@ TEST_P(AnyWorld, MeasuresAndCorrectsTheSame) {
 
     const Twin there = runConverted(original, part);
     ASSERT_TRUE(ranWhole(there));
-    EXPECT_TRUE(sameResults(original, there, each.results));
+    if (comparable) {
+      EXPECT_TRUE(sameResults(original, there, each.results));
+    }
     EXPECT_TRUE(sameOrigin(original, there));
     EXPECT_TRUE(sameEnd(original, there));
     EXPECT_TRUE(sameTool(original, there));
 
     const Twin back = runConverted(there, part);
+    if (setting.control == ControlKind::iTNC530 && !back.lost.empty()) {
+      // It cannot shift a preset by PRESET CORR, nor turn one that is not in effect: both are listed.
+      for (const Diagnostic& lost : back.lost)
+        EXPECT_NE(lost.message.find("iTNC530"), std::string::npos) << format(lost);
+      continue;
+    }
     ASSERT_TRUE(ranWhole(back));
     EXPECT_TRUE(sameOrigin(original, back));
     EXPECT_TRUE(sameTool(original, back));
@@ -164,10 +138,10 @@ TEST_P(AnyWorld, MeasuresAndCorrectsTheSame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Convert, AnyWorld,
-                         ::testing::Combine(::testing::ValuesIn(cases()), ::testing::ValuesIn(settings)),
-                         [](const auto& each) {
-                           return std::get<Case>(each.param).name + std::get<Setting>(each.param).name;
-                         });
+                         ::testing::Combine(::testing::ValuesIn(cases()), ::testing::ValuesIn(settings)), nameOf);
+INSTANTIATE_TEST_SUITE_P(ConvertPatterns, AnyWorld,
+                         ::testing::Combine(::testing::ValuesIn(patternCases()), ::testing::ValuesIn(settings)),
+                         nameOf);
 
 }  // namespace
 }  // namespace probewright::testing_support

@@ -143,11 +143,11 @@ inline std::array<double, 2> correctionsOfTool(const Twin& twin) {
   return {wear("$TC_DP12"), wear("$TC_DP15")};
 }
 
-/// Both controls have corrected the tool alike, as far as TOOL.T tells it (four decimals).
-inline ::testing::AssertionResult sameTool(const Twin& one, const Twin& other) {
+/// Both controls have corrected the tool alike, as far as TOOL.T tells it: four decimals at each of the `corrections`.
+inline ::testing::AssertionResult sameTool(const Twin& one, const Twin& other, int corrections = 1) {
   const auto first = correctionsOfTool(one), second = correctionsOfTool(other);
   for (std::size_t i = 0; i < 2; ++i) {
-    if (std::abs(first[i] - second[i]) < 0.5001e-4) continue;
+    if (std::abs(first[i] - second[i]) < corrections * 0.5001e-4) continue;
     return ::testing::AssertionFailure() << fmt::format("{} of the tool: {:.6f} and {:.6f}\n",
                                                         i == 0 ? "length" : "radius", first[i], second[i])
                                          << one.text << "\n"
