@@ -27,8 +27,8 @@ MachineDescription ready(const std::string& name) {
 }
 
 TEST(ReadyMadeMachines, AreTheFiveOfTheManual) {
-  EXPECT_THAT(readyMadeMachines(),
-              ElementsAre("lathe2c", "mill3", "mill4-table", "mill5-head-head", "mill5-head-table", "mill5-table-table"));
+  EXPECT_THAT(readyMadeMachines(), ElementsAre("lathe2c", "mill3", "mill4-table", "mill5-head-head", "mill5-head-table",
+                                               "mill5-table-table"));
 }
 
 TEST(ReadyMadeMachines, MoveTheToolRelativeToTheWorkpieceAlongTheAxesOfIso841) {

@@ -14,8 +14,8 @@ struct NewPreset {
   std::optional<double> rotation;
 };
 
-/// Refuses, before anything is touched, a transfer that Q303 and Q305 leave nowhere to go: Q303 = -1 with a row, Q303 = 0
-/// without an active datum table.
+/// Refuses, before anything is touched, a transfer that Q303 and Q305 leave nowhere to go: Q303 = -1 with a row, Q303 =
+/// 0 without an active datum table.
 void requireTransferTarget(Context& context);
 
 /// Writes the preset as Q303 and Q305 say: Q305 = 0 with Q303 = 1 or -1 (on the iTNC 530 with any Q303) copies the

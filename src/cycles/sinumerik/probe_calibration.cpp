@@ -104,7 +104,8 @@ void ProbeCalibration::showUnchanged() {
 std::string ProbeCalibration::lengthName(int axis) const {
   const Control& control = context_.control();
   const auto edge = toolEdge(control.data, control.tool.number, control.tool.edge);
-  const auto axes = lengthAxes(planeOfLengths(control.data, control.plane), edge.value_or(control::sinumerik::ToolEdge{}));
+  const auto axes =
+      lengthAxes(planeOfLengths(control.data, control.plane), edge.value_or(control::sinumerik::ToolEdge{}));
   const int geometryAxis = planeAxes(planeOf(control))[static_cast<std::size_t>(axis)];
   return fmt::format("$TC_DP{}", 3 + (std::ranges::find(axes, geometryAxis) - axes.begin()));
 }
