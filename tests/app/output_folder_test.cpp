@@ -18,6 +18,17 @@ const std::string setup = "examples/setups/housing-tnc640.toml";
 
 const std::string loggedProgram = blockProgram("+0", "+0", 1);
 
+TEST(OutputFolder, HoldsNoFileThatTheProgramHasDeleted) {
+  const Folder folder;
+  const std::string text =
+      "DEF INT ERR\nWRITE(ERR,\"NOTE\",\"A\")\nWRITE(ERR,\"KEPT\",\"B\")\nDELETE(ERR,\"NOTE\")\nM30\n";
+  const Answer answer = probewright({"run", folder.file("a.mpf", text), "--setup",
+                                     "examples/setups/housing-840dsl.toml", "--out", (folder / "out").string()});
+  ASSERT_EQ(answer.exit, 0) << answer.errors;
+  EXPECT_EQ(textOf(folder / "out/KEPT"), "B\n");
+  EXPECT_THAT(namesIn(folder / "out"), Not(::testing::Contains("NOTE")));
+}
+
 TEST(OutputFolder, RefusesAFolderItCannotWriteTo) {
   const Folder folder;
   const std::string file = folder.file("file", "kept");
