@@ -19,7 +19,6 @@ namespace {
 
 constexpr NumberRange anyNumber{};
 constexpr NumberRange positive = NumberRange::positive();
-constexpr NumberRange notNegative = NumberRange::notNegative();
 constexpr double effectivelyEndless = 1e6;
 
 class SetupReader {
