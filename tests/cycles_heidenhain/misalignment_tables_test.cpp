@@ -280,7 +280,7 @@ TEST(MisalignmentTables, RefuseTablesThatAreNotThere) {
         bench.part(simulation::Ring(8, 16, -30), pose({side, 0, -400}, {0, 0, 4}));
       const Words hole = {{321, 40}, {322, 0}, {262, 14}, {325, 0}, {247, 90},
                           {261, -8}, {320, 0}, {260, 20}, {301, 0}, {337, 0}};
-      for (const std::string& block : {probe(401, holes), probe(405, hole)}) {
+      for (const std::string& block : {probe(401, holes), probe(403, edgeWords), probe(405, hole)}) {
         const Ran ran = bench.run(block);
         EXPECT_EQ(ran.alarm(), "Rotary axis not available") << ran.why();
         EXPECT_NE(ran.why().find("no rotary table that turns the workpiece about Z"), std::string::npos) << ran.why();

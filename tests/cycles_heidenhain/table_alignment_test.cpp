@@ -61,7 +61,7 @@ TEST(Cycle403, RefusesAxesThatDoNotFit) {
   expectRefused(older.run(probe(403, with(alongToolAxis, {{312, 0}}))), "Cycle parameter wrong", "Q312 = 0");
   for (const Bench& bench : {newer, older}) {
     expectRefused(bench.run(probe(403, with(alongToolAxis, {{312, 6}}))), "Rotary axis not permitted", "Axis C");
-    expectRefused(bench.run(probe(403, with(alongToolAxis, {{312, 5}}))), "Angle not determined", "B turns about");
+    expectRefused(bench.run(probe(403, with(alongToolAxis, {{312, 5}}))), "Rotary axis not available", "about Y");
     const Words alongX = with(alongToolAxis, {{263, -30}, {264, 0}, {265, 30}, {266, 0}});
     expectRefused(bench.run(probe(403, with(alongX, {{312, 4}}))), "Angle not determined", "A turns about");
     expectRefused(bench.run(probe(403, with(alongX, {{312, 5}}))), "Rotary axis not available", "about Y");

@@ -93,6 +93,7 @@ const CycleDefinition cycle403Definition = {
 void cycle403(Context& context, const Arguments&) {
   context.require({.tiltAllowed = false});
   const int axis = compensationAxis(context);
+  requireTable(context, axis);
   const MeasuredEdge edge = measureEdge(context);
   const auto& plane = context.control().coordinates.plane;
   const bool directed = context.option(312) == 0;
