@@ -52,6 +52,16 @@ void expectRefused(const Ran& ran, const std::string& code, const std::string& p
     EXPECT_TRUE(cycle.writes.empty());
 }
 
+/// TOOL.T with the probe of standards(), which names this row of the touch probe table.
+hh::TypedTable toolTable(const std::string& probeRow) {
+  hh::TypedTable tools = hh::defaultToolTable(newer);
+  EXPECT_TRUE(tools.setText("1", "NAME", "PROBE"));
+  EXPECT_TRUE(tools.setNumber("1", "L", 100));
+  EXPECT_TRUE(tools.setNumber("1", "R", 2));
+  EXPECT_TRUE(tools.setText("1", "TP_NO", probeRow));
+  return tools;
+}
+
 TEST(CalibrationRefusals, AStandardThatIsAnother) {
   // Felt from within, a ring that is said to be smaller leaves nothing for the ball; so does a larger stud or sphere.
   expectRefused(standards().run(ring({{407, 17.9}})), "Calibration not possible", "Q407");
@@ -67,11 +77,7 @@ TEST(CalibrationRefusals, AToolThatIsNoTouchProbe) {
   // TP_NO of the tool table and the number in the touch probe table have to agree.
   Bench bench = standards();
   const TableFolder folder(bench);
-  hh::TypedTable tools = hh::defaultToolTable(newer);
-  ASSERT_TRUE(tools.setText("1", "NAME", "PROBE"));
-  ASSERT_TRUE(tools.setNumber("1", "L", 100));
-  ASSERT_TRUE(tools.setNumber("1", "R", 2));
-  ASSERT_TRUE(tools.setText("1", "TP_NO", "7"));
+  hh::TypedTable tools = toolTable("7");
   folder.put("TOOL.T", tools);
   for (const std::string& cycle : {ring(), stud(), sphere(), length()}) {
     expectRefused(bench.run(cycle), "Touch probe not defined", "row 7");
@@ -81,11 +87,7 @@ TEST(CalibrationRefusals, AToolThatIsNoTouchProbe) {
 TEST(CalibrationRefusals, AToolTableWithoutRoomForDirections) {
   Bench bench = standards();
   const TableFolder folder(bench);
-  hh::TypedTable tools = hh::defaultToolTable(newer);
-  ASSERT_TRUE(tools.setText("1", "NAME", "PROBE"));
-  ASSERT_TRUE(tools.setNumber("1", "L", 100));
-  ASSERT_TRUE(tools.setNumber("1", "R", 2));
-  ASSERT_TRUE(tools.setText("1", "TP_NO", "1"));
+  hh::TypedTable tools = toolTable("1");
   std::string bytes = tools.table().bytes();
   const std::size_t column = bytes.find("DR2TABLE");
   ASSERT_NE(column, std::string::npos);
@@ -202,11 +204,7 @@ TEST(Mistakes, TheLimitsOfAHoleInAStud) {
 TEST(MonitoredTool, IsFoundHoweverItIsWritten) {
   Bench bench = standards();
   const TableFolder folder(bench);
-  hh::TypedTable tools = hh::defaultToolTable(newer);
-  ASSERT_TRUE(tools.setText("1", "NAME", "PROBE"));
-  ASSERT_TRUE(tools.setNumber("1", "L", 100));
-  ASSERT_TRUE(tools.setNumber("1", "R", 2));
-  ASSERT_TRUE(tools.setText("1", "TP_NO", "1"));
+  hh::TypedTable tools = toolTable("1");
   ASSERT_TRUE(tools.setText("5", "NAME", "MILL"));
   ASSERT_TRUE(tools.setText("5.2", "NAME", "MILL_B"));
   folder.put("TOOL.T", tools);
