@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "control/alarm.hpp"
 #include "control/missing_axis.hpp"
@@ -115,6 +116,18 @@ Matrix3 Channel::spindleFromProgram() const {
   return referenceFromSpindle.transpose() * machineFromProgram_.linear();
 }
 
+void Channel::judgeTravel(machine::MoveResult result) const {
+  if (result.end == machine::MoveEnd::ProbeSignal || result.end == machine::MoveEnd::Collision) addPlace(result.detail);
+  judge(result);
+}
+
+void Channel::addPlace(std::string& detail) const {
+  const Vector3 tip = position();
+  detail += fmt::format("{} tool tip stopped at X{:+.3f}{} Y{:+.3f} Z{:+.3f} of the active workpiece system",
+                        detail.empty() ? "The" : "; the", tip.x(), description_.mainSpindle ? " (radius)" : "", tip.y(),
+                        tip.z());
+}
+
 void Channel::judge(const machine::MoveResult& result) const {
   switch (result.end) {
     case machine::MoveEnd::Reached:
@@ -139,9 +152,9 @@ void Channel::count(const AxisPositions& from, const AxisPositions& to) {
 void Channel::moveAxes(const AxisPositions& target, Feed feed) {
   const AxisPositions start = axes();
   if (start == target) return;
-  const machine::MoveResult result = machine_.move(target, feed);
+  machine::MoveResult result = machine_.move(target, feed);
   count(start, axes());
-  judge(result);
+  judgeTravel(std::move(result));
 }
 
 void Channel::moveTo(const Vector3& point, Feed feed) { moveAxes(axesFromProgram(point, axes()), feed); }
@@ -202,6 +215,7 @@ machine::MeasureResult Channel::measureTo(const Vector3& point, Feed feed, Touch
       part == TouchWith::Shaft ? machine_.measureWithShaft(target, feed) : machine_.measure(target, feed);
   count(start, axes());
   if (result.end == machine::MeasureEnd::Cancelled) throw Cancelled();
+  if (result.end == machine::MeasureEnd::Collision) addPlace(result.detail);
   return result;
 }
 
@@ -211,9 +225,9 @@ Touch Channel::touchFrom(const machine::MeasureResult& result) const {
 
 void Channel::retractTo(const Vector3& point, Feed feed) {
   const AxisPositions start = axes();
-  const machine::MoveResult result = machine_.retract(axesFromProgram(point, start), feed);
+  machine::MoveResult result = machine_.retract(axesFromProgram(point, start), feed);
   count(start, axes());
-  judge(result);
+  judgeTravel(std::move(result));
 }
 
 void Channel::orientSpindle(double degrees) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 
 #include "control/journal.hpp"
 #include "geometry/primitives.hpp"
@@ -126,6 +127,9 @@ public:
 private:
   void count(const AxisPositions& from, const AxisPositions& to);
   void judge(const machine::MoveResult& result) const;
+  void judgeTravel(machine::MoveResult result) const;
+  /// Adds where the tip stands in program coordinates: the numbers that the person at the control can look at.
+  void addPlace(std::string& detail) const;
 
   machine::Machine& machine_;
   Journal& journal_;

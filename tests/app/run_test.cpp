@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -110,6 +111,28 @@ std::map<std::string, double> writtenBy(const Folder& folder, std::size_t index)
         std::stod(write["after"].get<std::string>());
   }
   return written;
+}
+
+TEST(Run, SaysWhereTheTipStoppedInTheActiveWorkpieceSystem) {
+  const Folder folder;
+  // The preset lies 5 mm beside the middle of the block in X, so the ball of 3 mm meets the side at 20 + 3 - 5.
+  std::string world = blockSetup();
+  world.replace(world.find("[0, 0, -480]"), 12, "[5, -2, -480]");
+  const std::string path = folder.file("s.toml", world);
+  const std::string way = folder.file("p.h",
+                                      "0 BEGIN PGM P MM\n1 TOOL CALL 1 Z\n2 L X+40 Y+4 R0 FMAX\n3 L Z-8 R0 FMAX\n"
+                                      "4 L X+0 R0 F100\n5 END PGM P MM\n");
+  const Answer answer = probewright({"run", way, "--setup", path, "--out", (folder / "out").string()});
+  EXPECT_EQ(answer.exit, 3) << answer.errors;
+  double x = 0, y = 0, z = 0;
+  const std::size_t at = answer.errors.find("the tool tip stopped at X");
+  ASSERT_NE(at, std::string::npos) << answer.errors;
+  ASSERT_EQ(std::sscanf(answer.errors.c_str() + at, "the tool tip stopped at X%lf Y%lf Z%lf of the active", &x, &y, &z),
+            3)
+      << answer.errors;
+  EXPECT_NEAR(x, 18, 0.01);
+  EXPECT_EQ(y, 4);
+  EXPECT_EQ(z, -8);
 }
 
 TEST(Run, SetsACornerByADinIsoProgram) {
