@@ -154,10 +154,31 @@ std::string plainName(std::string_view name) {
     if (std::isalnum(static_cast<unsigned char>(c)) != 0)
       plain += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   }
-  for (const std::string_view words : {"TCHPROBE", "CYCLDEF"}) {
+  for (const std::string_view words : {"TCHPROBE", "TCH", "CYCLDEF"}) {
     if (plain.starts_with(words)) plain.erase(0, words.size());
   }
   return plain;
+}
+
+std::string lowerCase(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
+/// One row of the list of all cycles.
+std::string row(const CycleDefinition& cycle) {
+  return fmt::format("{:<11}{:<64}{:<24}{}\n", cycle.name, cycle.title, cycles::nameOf(cycle.family),
+                     controlsText(cycle.controls));
+}
+
+/// The rows of the cycles whose title has the text that somebody asked for.
+std::string rowsAbout(std::string_view text, const std::vector<const CycleDefinition*>& known) {
+  std::string rows;
+  for (const CycleDefinition* cycle : known) {
+    if (lowerCase(cycle->title).find(lowerCase(text)) != std::string::npos) rows += row(*cycle);
+  }
+  return rows;
 }
 
 }  // namespace
@@ -179,8 +200,7 @@ int cycles(const CyclesArguments& arguments) {
       if (arguments.asJson) {
         list.push_back(toJson(*cycle));
       } else if (arguments.name.empty()) {
-        put("{:<11}{:<64}{:<24}{}\n", cycle->name, cycle->title, cycles::nameOf(cycle->family),
-            controlsText(cycle->controls));
+        put("{}", row(*cycle));
       } else {
         show(*cycle);
       }
@@ -188,10 +208,11 @@ int cycles(const CyclesArguments& arguments) {
   }
   if (found && arguments.asJson) put("{}\n", list.dump(2));
   if (found) return 0;
-  std::fputs(
-      fmt::format("probewright: there is no cycle {}; `probewright cycles` lists them all\n", printable(arguments.name))
-          .c_str(),
-      stderr);
+  const std::string about = rowsAbout(arguments.name, seen);
+  const std::string advice =
+      about.empty() ? "`probewright cycles` lists them all\n" : "these have it in their title:\n";
+  std::fputs(fmt::format("probewright: there is no cycle {}; {}{}", printable(arguments.name), advice, about).c_str(),
+             stderr);
   return 2;
 }
 

@@ -11,6 +11,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 TEST(Check, FindsNothingWrongWithTheExamples) {
   for (const std::string& name : namesIn(PROBEWRIGHT_SOURCE_DIR "/examples/programs")) {
@@ -149,6 +150,13 @@ TEST(Cycles, AreListedAndExplained) {
   const Answer none = probewright({"cycles", "4711"});
   EXPECT_EQ(none.exit, 2);
   EXPECT_EQ(none.errors, "probewright: there is no cycle 4711; `probewright cycles` lists them all\n");
+  const Answer word = probewright({"cycles", "Hole"});
+  EXPECT_EQ(word.exit, 2);
+  EXPECT_THAT(word.errors, HasSubstr("there is no cycle Hole; these have it in their title:\n"));
+  EXPECT_THAT(word.errors, HasSubstr("\n421 "));
+  EXPECT_THAT(word.errors, HasSubstr("\nCYCLE977 "));
+  EXPECT_THAT(word.errors, Not(HasSubstr("\n420 ")));
+  EXPECT_THAT(probewright({"cycles", "TCH421"}).output, StartsWith("421  "));
 }
 
 TEST(Cycles, AreFoundHoweverTheyAreWritten) {
