@@ -13,6 +13,7 @@
 #include <toml++/toml.h>
 
 #include "base/diagnostic.hpp"
+#include "base/nearest_name.hpp"
 
 /// Reading TOML files that people write: every mistake gets its place, and a key nobody asked for is a mistake.
 namespace probewright {
@@ -81,8 +82,5 @@ private:
   Diagnostics* diagnostics_;
   std::set<std::string, std::less<>> asked_;
 };
-
-/// The one of `names` that is most like `word`, if any is like it at all: for "did you mean".
-std::optional<std::string> nearestName(std::string_view word, const std::vector<std::string>& names);
 
 }  // namespace probewright
