@@ -31,6 +31,7 @@ struct RunInfo {
   std::optional<std::uint64_t> seed;     ///< of the random effects; nothing if there were none
   std::string version;                   ///< of Probewright
   std::string startedAt;                 ///< wall clock, ISO 8601 with offset; empty: not recorded
+  bool inches = false;                   ///< the main program counts in inches
   double totalSeconds = 0;               ///< machine clock at the end of the run
   double totalPathLength = 0;            ///< mm travelled by the tool in the whole run
   std::vector<std::string> outputFiles;  ///< tables and logs left by the control, relative to the output folder

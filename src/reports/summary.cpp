@@ -63,7 +63,19 @@ std::string_view word(Verdict verdict) {
 
 std::string quantity(double value, const std::string& unit) {
   if (!std::isfinite(value)) return "not a number";
-  return unit.empty() ? formatShortest(value) : formatFixed(value, 4);
+  return unit.empty() ? formatShortest(value) : formatFixed(value, unit == "in" ? 5 : 4);
+}
+
+/// The result in the unit of its program.
+control::ResultRecord inInches(control::ResultRecord result) {
+  if (result.unit != "mm") return result;
+  constexpr double inch = 25.4;
+  result.unit = "in";
+  result.value /= inch;
+  for (auto* length : {&result.nominal, &result.deviation, &result.lowerLimit, &result.upperLimit}) {
+    if (*length) **length /= inch;
+  }
+  return result;
 }
 
 std::string fileName(const std::string& path) { return path.substr(path.find_last_of("/\\") + 1); }
@@ -73,6 +85,7 @@ struct Style {
   Painter paint;
   records::ReadableText readable;
   std::string mainProgram;
+  bool inches = false;
 
   /// One line of text whatever the program put into it: control characters must not reach the terminal.
   std::string line(const std::string& bytes) const {
@@ -115,8 +128,9 @@ std::string resultLine(const control::ResultRecord& result, std::size_t meaningW
                          quantity(*result.upperLimit, result.unit));
   std::string deviation;
   if (result.deviation && std::isfinite(*result.deviation))
-    deviation = fmt::format(
-        "  deviation {}", result.unit.empty() ? formatShortest(*result.deviation) : formatSigned(*result.deviation, 4));
+    deviation = fmt::format("  deviation {}", result.unit.empty()
+                                                  ? formatShortest(*result.deviation)
+                                                  : formatSigned(*result.deviation, result.unit == "in" ? 5 : 4));
   std::string text =
       fmt::format("      {:<9} {:<{}} {:>11} {:<3}{}{}", style.line(result.name), style.line(result.meaning),
                   meaningWidth, quantity(result.value, result.unit), result.unit, deviation, limits);
@@ -160,7 +174,8 @@ std::string cycleText(const control::CycleRecord& cycle, std::size_t number, boo
     if (isMain[i]) width = std::max(width, cycle.results[i].meaning.size());
   }
   for (std::size_t i = 0; i < isMain.size(); ++i) {
-    if (isMain[i]) text += resultLine(cycle.results[i], width, style);
+    if (!isMain[i]) continue;
+    text += resultLine(style.inches ? inInches(cycle.results[i]) : cycle.results[i], width, style);
   }
   for (const auto& write : cycle.writes)
     text += writeLine(write, style);
@@ -237,7 +252,8 @@ std::string outcome(const control::Journal& journal, const records::RunInfo& run
 }  // namespace
 
 std::string summaryText(const control::Journal& journal, const records::RunInfo& run, Colour colour) {
-  const Style style{Painter(colour), records::ReadableText(run), run.programs.empty() ? "" : run.programs[0].path};
+  const Style style{Painter(colour), records::ReadableText(run), run.programs.empty() ? "" : run.programs[0].path,
+                    run.inches};
   std::string text = style.line(fileName(style.mainProgram));
   for (const std::string& part : {run.control, run.machine, run.partName})
     if (!part.empty()) text += (text.empty() ? "" : ", ") + style.line(part);

@@ -41,6 +41,16 @@ TEST(Summary, TellsEachCycleWithItsLineResultsAndChanges) {
   EXPECT_THAT(text, Not(HasSubstr("\x1b")));
 }
 
+TEST(Summary, ShowsTheInchesOfAProgramInInches) {
+  records::RunInfo run = sample::runInfo();
+  run.inches = true;
+  const std::string text = summaryText(sample::journal(), run);
+  // 30.0119 mm, 0.0119 mm above, between 30.0000 mm and 30.0210 mm
+  EXPECT_THAT(text, ContainsRegex("Q153 +actual value, diameter +1\\.18157 in +deviation \\+0\\.00047 +\\[1\\.18110 "
+                                  "\\.\\. 1\\.18193\\]  OK\n"));
+  EXPECT_THAT(text, ContainsRegex("Q150 +actual value of the rotation angle +1\\.5008 deg\n"));
+}
+
 TEST(Summary, NamesTheAlarmOnce) {
   auto journal = sample::alarmJournal();
   journal.cycles.back().alarm = "Touch point inaccessible: no contact within the measuring path of 10 mm";
