@@ -71,8 +71,10 @@ std::vector<fs::path> DirectoryLibrary::foldersOf(const Program* caller) const {
 }
 
 std::optional<fs::path> DirectoryLibrary::find(std::string_view name, const Program* caller) const {
+  constexpr std::size_t mostComponents = 64;
   std::vector<std::string> components = componentsOf(name);
-  if (components.empty()) return std::nullopt;
+  if (components.empty() || components.size() > mostComponents) return std::nullopt;
+  if (!root_ && caller != nullptr) root_ = fs::path(caller->file()).parent_path();
   const std::string file = std::move(components.back());
   components.pop_back();
   const bool hasEnding = std::any_of(endings_.begin(), endings_.end(), [&](const std::string& ending) {
@@ -90,11 +92,27 @@ std::optional<fs::path> DirectoryLibrary::find(std::string_view name, const Prog
       for (std::size_t i = leftOut; place && i < components.size(); ++i)
         place = entryOf(*place, components[i], true);
       for (std::size_t i = 0; place && i < candidates.size(); ++i) {
-        if (auto found = entryOf(*place, candidates[i], false)) return found->lexically_normal();
+        const auto found = entryOf(*place, candidates[i], false);
+        if (found && isWithinReach(*found)) return found->lexically_normal();
       }
     }
   }
   return std::nullopt;
+}
+
+/// Below the folder of the first caller, or below one of the further folders.
+bool DirectoryLibrary::isWithinReach(const fs::path& path) const {
+  std::error_code error;
+  const auto whole = [&](const fs::path& each) {
+    return fs::absolute(each.empty() ? fs::path(".") : each, error).lexically_normal();
+  };
+  const fs::path place = whole(path).parent_path();
+  const auto isAbove = [&](const fs::path& folder) {
+    fs::path above = whole(folder);
+    if (!above.has_filename()) above = above.parent_path();
+    return std::mismatch(above.begin(), above.end(), place.begin(), place.end()).first == above.end();
+  };
+  return !root_ || isAbove(*root_) || std::any_of(folders_.begin(), folders_.end(), isAbove);
 }
 
 Result<std::shared_ptr<Program>> DirectoryLibrary::open(std::string_view name, const Program* caller) {
@@ -105,7 +123,9 @@ Result<std::shared_ptr<Program>> DirectoryLibrary::open(std::string_view name, c
   std::string endings;
   for (const std::string& ending : endings_)
     endings += (endings.empty() ? "" : ", ") + ending;
-  return fail("there is no program " + std::string(name),
+  constexpr std::size_t longestQuote = 80;
+  const std::string quoted = std::string(name.substr(0, longestQuote)) + (name.size() > longestQuote ? "..." : "");
+  return fail("there is no program " + quoted,
               "looked in " + where + " for a file of this name with one of the endings " + endings);
 }
 

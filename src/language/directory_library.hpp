@@ -18,7 +18,8 @@ namespace probewright::language {
 /// Names are taken as programs write them: "SUB", "SUB.H", "PARTS\SUB.H", "TNC:\PARTS\SUB.H", "L100",
 /// "_N_L100_SPF", "/_N_WKS_DIR/_N_RING_WPD/_N_L100_SPF". A path is looked up below the caller's folder and below
 /// each of the further folders; if it is not there, its folders are left out one after the other from the front, so
-/// that programs copied from a control need not keep its folders.
+/// that programs copied from a control need not keep its folders. ".." leads up, but not out of the folder of the
+/// program that called first.
 class DirectoryLibrary : public ProgramLibrary {
 public:
   /// Opens the program file at a path.
@@ -36,10 +37,12 @@ public:
 
 private:
   std::vector<std::filesystem::path> foldersOf(const Program* caller) const;
+  bool isWithinReach(const std::filesystem::path& path) const;
 
   std::vector<std::string> endings_;
   Open open_;
   std::vector<std::filesystem::path> folders_;
+  mutable std::optional<std::filesystem::path> root_;  ///< folder of the program that called first
 };
 
 }  // namespace probewright::language

@@ -18,6 +18,8 @@
 #include "session/beliefs.hpp"
 #include "session/check.hpp"
 #include "session/global_data.hpp"
+#include "session/host_files.hpp"
+#include "session/remanent_parameters.hpp"
 #include "session/source.hpp"
 #include "session/standing_machine.hpp"
 #include "simulation/mesh_solid.hpp"
@@ -87,9 +89,13 @@ void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>
   }
   control.applyCoordinates();
 
-  const fs::path folder = path.parent_path();
-  language::klartext::HostOptions hostOptions{
-      .strict = options.strict, .readFile = [folder](const std::string& name) { return readFile(folder / name); }};
+  readRemanentParameters(setup.tables, control.q, outcome.diagnostics);
+  if (hasErrors(outcome.diagnostics)) return;
+  const HostFiles files(path, setup);
+  language::klartext::HostOptions hostOptions;
+  hostOptions.strict = options.strict;
+  hostOptions.readFile = [&files](const std::string& name) { return files.read(name); };
+  hostOptions.isInput = [&files](const std::string& name) { return files.isInput(name); };
   language::klartext::KlartextHost klartext(control, hostOptions);
   language::din_iso::DinIsoHost host(klartext);
   const auto library = programLibrary(outcome.control);
@@ -105,6 +111,8 @@ void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>
     outcome.files[name] = table.table().bytes();
   for (const auto& [name, table] : control.tables.deflections)
     outcome.files[name] = table.table().bytes();
+  if (std::string remanent = remanentParametersText(control.q); !remanent.empty())
+    outcome.files[remanentFile] = std::move(remanent);
   // Tables that few machines have come out if there is anything in them.
   for (const auto* table : {&control.tables.turningTools, &control.tables.axisShifts}) {
     if (*table && !(*table)->table().keys().empty())
@@ -113,6 +121,7 @@ void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>
   outcome.machineFromWorkpiece = control.coordinates.machineFromPreset();
   outcome.ballRadius = control.tool.radius;
   outcome.qParameters = control.q;
+  outcome.info.inches = control.mainUnit != 1;
   outcome.info.totalPathLength = control.channel.pathLength();
   outcome.info.totalSeconds = control.channel.seconds();
   outcome.journal = std::move(control.journal);

@@ -85,7 +85,8 @@ TEST(Blocks, Functions) {
 TEST(Blocks, Formulas) {
   EXPECT_EQ(irOf("Q1 = 5 * 3 + 2 * 10"), "Q1 := ((5*3)+(2*10))");
   EXPECT_EQ(irOf("Q1 = 10 - 3 - 2"), "Q1 := ((10-3)-2)");
-  EXPECT_EQ(irOf("Q1 = -3 ^ 2 + 400 % 360"), "Q1 := (-(3^2)+(400%360))");
+  EXPECT_EQ(irOf("Q1 = -3 ^ 2 + 400 % 360"), "Q1 := ((-3^2)+(400%360))");
+  EXPECT_EQ(irOf("Q1 = -Q2 ^ 2 ^ -SIN Q3"), "Q1 := (-Q2^(2^-f0(Q3)))");
   EXPECT_EQ(irOf("QL1=(Q2+Q3)/-2"), "QL1 := ((Q2+Q3)/-2)");
   EXPECT_EQ(irOf("QS3 = QS1 || \"mm\" || TOCHAR( DAT+Q5 DECIMALS3 )"), "QS3 := ((QS1||'mm')||TOCHAR(Q5,3))");
   EXPECT_EQ(irOf("QS3 = SUBSTR( SRC_QS10 BEG2 LEN4 )"), "QS3 := SUBSTR(QS10,2,4)");

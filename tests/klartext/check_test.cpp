@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "language/klartext/program.hpp"
@@ -97,6 +98,41 @@ TEST(Check, ParametersOfMeasuringCyclesByTheCatalogue) {
   EXPECT_NE(found.find("cannot be PREDEF"), std::string::npos) << found;
   EXPECT_NE(found.find("a.h:2:3: error: cycle 412 lacks Q322"), std::string::npos) << found;
   EXPECT_NE(checked(framed("1 TCH PROBE 599 X ~\n Q1=1\n")).find("warning: touch probe cycle 599"), std::string::npos);
+}
+
+TEST(Check, WhatTheControlDoesNotHave) {
+  const auto mistakes = [](const std::string& blocks, control::ControlKind kind) {
+    const std::string all = checked(framed(blocks), kind);
+    return all.substr(0, all.find('\n'));
+  };
+  using control::ControlKind;
+  const auto newer = ControlKind::TNC640, older = ControlKind::iTNC530;
+  EXPECT_EQ(mistakes("1 LBL 1000\n", older), "a.h:2:3: error: there is no label number 1000");
+  EXPECT_EQ(mistakes("1 LBL 1000\n", newer), "");
+  EXPECT_EQ(mistakes("1 LBL 70000\n", newer), "a.h:2:3: error: there is no label number 70000");
+  EXPECT_EQ(mistakes("1 LBL \"5\"\n", newer), "a.h:2:3: warning: the label name \"5\" is taken for the label number 5");
+  EXPECT_EQ(mistakes("1 CYCL DEF 999 NONE ~\n Q200=1\n", newer), "a.h:2:3: error: there is no cycle 999");
+  EXPECT_EQ(mistakes("1 CYCL DEF 200 DRILLING ~\n Q200=1\n", newer), "");
+  EXPECT_EQ(mistakes("1 FN 15: PRINT 5\n", newer), "a.h:2:3: warning: the TNC 640 has no FN 15");
+  EXPECT_EQ(mistakes("1 FN 15: PRINT 5\n", older), "");
+  EXPECT_EQ(mistakes("1 FN 22: X\n", newer), "a.h:2:3: warning: the control has no FN 22");
+  EXPECT_EQ(mistakes("1 FN 18: SYSREAD Q1 = ID503 NR1 IDX1\n", newer),
+            "a.h:2:3: warning: FN 18 cannot read ID503 NR1 here: the run stops at this block");
+  EXPECT_EQ(mistakes("1 FN 18: SYSREAD Q1 = ID503 NR1 IDX1\n", older), "");
+  EXPECT_EQ(mistakes("1 FN 17: SYSWRITE ID210 NR1 IDX1 = +5\n", older),
+            "a.h:2:3: warning: FN 17 cannot write ID210 NR1 here: the run stops at this block");
+  EXPECT_EQ(mistakes("1 PLANE AXIAL B+30 TURN FMAX SEQ+\n", newer),
+            "a.h:2:3: warning: SEQ has no effect in PLANE AXIAL");
+  EXPECT_EQ(mistakes("1 Q1 = 2 * 1234567890\n", newer),
+            "a.h:2:3: warning: the control takes no number as large as 1234567890");
+  EXPECT_EQ(mistakes("1 L X+1 RL F100\n2 RND R5\n3 CYCL CALL\n", newer),
+            "a.h:4:3: warning: no contour element follows the last RND");
+}
+
+TEST(Check, AMissingContinuationOfACycleIsNamed) {
+  EXPECT_THAT(checked(framed("1 TCH PROBE 403 ROT ~\n Q263=+0 ~\n Q264=+0 ~\n Q265=+20 ~\n Q266=+0 ~\n Q272=2 ~\n"
+                             " Q267=+1 ~\n Q261=-5 ~\n Q320=0 ~\n Q260=+20 ~\n Q301=0\n Q312=0\n")),
+              ::testing::HasSubstr("it stands in line 13, outside of the cycle: end the line before it with ~"));
 }
 
 }  // namespace

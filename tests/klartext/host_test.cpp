@@ -19,7 +19,8 @@ TEST(Host, FormulasFollowTheirArithmetic) {
       world.run("Q1 = 5 * 3 + 2 * 10\nQ2 = SQ 10 - 3^3\nQ3 = SIN 30 + COS (60) * 2\nQ4 = 400 % 360\n"
                 "Q5 = (Q1 + Q2) / -4\nQ6 = SQRT 2 * SQRT 2\nQ7 = NEG Q1 + ABS -3 + INT 2.7 + FRAC 2.25\n"
                 "FN 13: Q8 = +25 ANG +50\nFN 13: Q9 = -1 ANG -1\nFN 8: Q10 = +3 LEN +4\nQ11 = PI\n"
-                "Q12 = -2 ^ 2\nQ13 = LN EXP 2\nQ14 = SGN -5\nQL1 = 7\nQR1 = QL1 * 2\nQ15 = QR1"));
+                "Q12 = -2 ^ 2\nQ16 = 2 ^ 3 ^ 2\nQ20 = 3\nQ17 = -Q20 ^ 2 * 2\nQ18 = 2 ^ -1 - 3 ^ 2\nQ13 = LN EXP 2\nQ14 "
+                "= SGN -5\nQL1 = 7\nQR1 = QL1 * 2\nQ15 = QR1"));
   EXPECT_DOUBLE_EQ(world.q(1), 35);
   EXPECT_DOUBLE_EQ(world.q(2), 73);
   EXPECT_DOUBLE_EQ(world.q(3), 1.5);
@@ -31,7 +32,10 @@ TEST(Host, FormulasFollowTheirArithmetic) {
   EXPECT_DOUBLE_EQ(world.q(9), 225);
   EXPECT_DOUBLE_EQ(world.q(10), 5);
   EXPECT_DOUBLE_EQ(world.q(11), std::numbers::pi);
-  EXPECT_DOUBLE_EQ(world.q(12), -4);
+  EXPECT_DOUBLE_EQ(world.q(12), 4);
+  EXPECT_DOUBLE_EQ(world.q(16), 512);
+  EXPECT_DOUBLE_EQ(world.q(17), 18);
+  EXPECT_DOUBLE_EQ(world.q(18), -8.5);
   EXPECT_DOUBLE_EQ(world.q(13), 2);
   EXPECT_DOUBLE_EQ(world.q(14), -1);
   EXPECT_DOUBLE_EQ(world.q(15), 14);

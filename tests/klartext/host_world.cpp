@@ -27,11 +27,10 @@ machine::MachineDescription readyMade(const std::string& machineName) {
 
 }  // namespace
 
-World::World(const std::string& machineName) : World(readyMade(machineName)) {}
+World::World(const std::string& machineName, control::ControlKind kind) : World(readyMade(machineName), kind) {}
 
-World::World(machine::MachineDescription description) {
+World::World(machine::MachineDescription description, control::ControlKind kind) {
   machine = std::make_unique<TraceMachine>(std::move(description));
-  const auto kind = control::ControlKind::TNC640;
   hh::Tables tables{
       hh::defaultToolTable(kind), hh::defaultProbeTable(kind), hh::defaultPresetTable(kind), {}, {}, {}, {}};
   const auto tool = [&](const std::string& row, const std::string& name, double length, double radius) {
@@ -42,7 +41,9 @@ World::World(machine::MachineDescription description) {
   };
   tool("1", "PROBE", 100, 2);
   tool("5", "MILL", 50, 5);
-  EXPECT_TRUE(tables.tools.setText("1", "TP_NO", "1"));
+  if (tables.tools.hasColumn("TP_NO")) {
+    EXPECT_TRUE(tables.tools.setText("1", "TP_NO", "1"));
+  }
   control = std::make_unique<hh::Control>(kind, *machine, std::move(tables));
   control->applyCoordinates();
   options.readFile = [this](const std::string& name) -> Result<std::string> {
@@ -56,6 +57,14 @@ RunResult World::run(const std::string& text) {
   KlartextHost host(*control, options);
   Interpreter interpreter(library, host);
   return interpreter.run(std::make_shared<KlartextProgram>("main.h", text));
+}
+
+std::vector<std::string> World::told(control::EventKind kind) const {
+  std::vector<std::string> texts;
+  for (const control::EventRecord& event : control->journal.events) {
+    if (event.kind == kind) texts.push_back(event.text);
+  }
+  return texts;
 }
 
 std::vector<Vector3> World::path() const {

@@ -71,16 +71,19 @@ public:
   bool exists(std::string_view name, const Program*) override { return texts.contains(std::string(name)); }
 };
 
-/// A TNC 640 on a ready-made machine, with tools 1 (length 100, radius 2) and 5 "MILL" (length 50, radius 5).
+/// A HEIDENHAIN control on a ready-made machine, with tools 1 (length 100, radius 2) and 5 "MILL" (length 50, radius
+/// 5).
 struct World {
-  explicit World(const std::string& machineName = "mill3");
-  explicit World(machine::MachineDescription description);
+  explicit World(const std::string& machineName = "mill3", control::ControlKind kind = control::ControlKind::TNC640);
+  explicit World(machine::MachineDescription description, control::ControlKind kind = control::ControlKind::TNC640);
   /// Runs a program; block numbers and frame may be left out.
   RunResult run(const std::string& text);
   /// Tips reached by the moves so far, in machine coordinates without the tool's length: with preset 0 and no tilt the
   /// program's coordinates.
   std::vector<Vector3> path() const;
   double q(int number) const { return control->q.q(number); }
+  /// What the operator has seen of one kind.
+  std::vector<std::string> told(control::EventKind kind) const;
 
   std::unique_ptr<TraceMachine> machine;
   std::unique_ptr<control::heidenhain::Control> control;

@@ -49,13 +49,46 @@ TEST(Mistakes, OfParameterNumbers) {
   expectSaid({{"Q2000 = 1", "3:6: there is no parameter Q2000"},
               {"Q1 = QL500 + 1", "3:11: there is no parameter QL500"},
               {"L X+QR500 FMAX", "3:10: there is no parameter QR500"},
-              {"QS99999999 = \"A\"", "3:11: there is no parameter QS99999"},
+              {"QS99999999 = \"A\"", "3:11: there is no parameter QS99999999"},
               {"Q1999 = 1", "nothing"},
               {"QR499 = QL499", "nothing"}});
 }
 
+TEST(Mistakes, OfFeedsAndTimes) {
+  expectSaid({{"L X+1 F-5", "Feed rate wrong: A feed rate of -5 mm/min is not possible"},
+              {"L X+1 F0.0001", "Feed rate wrong: A feed rate of 0.0001 mm/min is not possible"},
+              {"L X+1 F0.5 M136",
+               "Spindle speed missing: With M136 the feed rate counts per revolution, but the "
+               "spindle has no speed"},
+              {"L X+1 FMAXX", "3:11: this is no feed rate"},
+              {"L X+1 FMAXM3", "nothing"},
+              {"Q1 = 10 ^ 9\nCYCL DEF 9.0 DWELL TIME\nCYCL DEF 9.1 DWELL Q1",
+               "Dwell time wrong: A dwell time of 1000000000 s is not possible"},
+              {"M140 MB 5 F1", "nothing"}});
+}
+
+TEST(Mistakes, OfTexts) {
+  expectSaid({{"QS1 = \"0123456789ABCDEF\"\nLBL 1\nQS1 = QS1 || QS1\nCALL LBL 1 REP9",
+               "String too long: QS1 takes at most 255 characters, these are 256"},
+              {"QS1 = SUBSTR( SRC_QS2 BEG-1 LEN2 )", "Argument out of range: SUBSTR cannot begin at BEG-1"}});
+}
+
+/// The advice for a block that begins with no keyword.
+TEST(Mistakes, KeywordsThatAreNearlyRightAreNamed) {
+  const auto advice = [](const std::string& block) {
+    World world;
+    const RunResult result = world.run(block + "\n");
+    return result.diagnostics.empty() ? std::string("nothing") : result.diagnostics.front().advice;
+  };
+  EXPECT_EQ(advice("TOL CALL 1 Z"), "Did you mean TOOL CALL?");
+  EXPECT_EQ(advice("CYCLE DEF 247 PRESET ~\n Q339=1"), "Did you mean CYCL DEF?");
+  EXPECT_EQ(advice("PLAIN SPATIAL SPA+0"), "Did you mean PLANE SPATIAL?");
+  EXPECT_EQ(advice("L X+1 FMAXX"), "Did you mean FMAX?");
+}
+
 TEST(Mistakes, OfToolsAndCalls) {
-  expectSaid({{"TOOL CALL 99 Z", "Tool not defined: TOOL.T has no tool 99"},
+  expectSaid({{"TOOL CALL 99999999999 Z", "3:22: there is no tool with such a number"},
+              {"TOOL CALL 99 Z", "Tool not defined: TOOL.T has no tool 99"},
               {"TOOL CALL \"NONE\" Z", "Tool not defined: TOOL.T has no tool named NONE"},
               {"TOOL CALL 5 Q", "3:13: the tool axis, S, F, DL, DR, DR2 or M is expected here"},
               {"TOOL CALL 5 Z S-5", "Spindle speed wrong: A spindle speed of -5 is not possible"},

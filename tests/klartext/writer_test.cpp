@@ -32,6 +32,12 @@ TEST(Writer, KeepsNamesAndComments) {
   EXPECT_EQ(written("5 L x + 1,5 Y - q3  r0 f max"), "0 L X+1.5 Y-Q3 R0 FMAX\n");
 }
 
+TEST(Writer, KeepsCommentsThatGoOnInTheNextLine) {
+  const std::string once = written("5 L X+1 FMAX ; first ~\n  second ~\nthird\n7 L X+2 ~\n  Y+3 FMAX ; only here\n");
+  EXPECT_EQ(once, "0 L X+1 FMAX ; first ~\n  second ~\nthird\n1 L X+2 Y+3 FMAX ; only here\n");
+  EXPECT_EQ(written(once), once);
+}
+
 TEST(Writer, KeepsFeedsPerToothOfBlocksWithoutPath) {
   EXPECT_EQ(written("F Z 0.1\n"), "0 L FZ+0.1\n");
   EXPECT_EQ(irOf(written("F Z 0.1\n")), irOf("0 F Z 0.1\n"));

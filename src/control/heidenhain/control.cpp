@@ -217,7 +217,7 @@ void Control::writePreset(int row, const PresetChange& change) {
 
 void Control::applyCoordinates() {
   channel.rotaryOffset = coordinates.axisOffset();
-  const bool follows = coordinates.tilt.has_value() || channel.holdTip;
+  const bool follows = coordinates.tilt.has_value() || channel.holdTip || coordinates.tiltedAxesInPosition;
   channel.setFollowing(follows ? Following::Kinematics : Following::LinearAxes, coordinates.preset.rotaryOffset);
   channel.setFrame(coordinates.machineFromProgram());
 }

@@ -7,24 +7,27 @@ namespace probewright::control::heidenhain {
 
 bool Transformations::active() const {
   return !shift.isZero(0) || mirror[0] || mirror[1] || mirror[2] || rotation != 0 || !scale.isOnes(0) ||
-         axisShift != machine::AxisPositions{};
+         axisShift != machine::AxisPositions{} || mirroredAxes != 0;
 }
 
 Eigen::Affine3d Transformations::matrix(const WorkingPlane& plane) const {
   Eigen::Affine3d matrix = Eigen::Affine3d::Identity();
   matrix.translate(shift);
-  Vector3 signs = Vector3::Ones();
-  for (int i = 0; i < 3; ++i) {
-    if (mirror[static_cast<std::size_t>(i)]) signs[i] = -1;
-  }
-  matrix.scale(signs);
-  Vector3 toolAxis = Vector3::Zero();
-  toolAxis[plane.tool] = 1;
-  matrix.rotate(Eigen::AngleAxisd(radiansFromDegrees(rotation), toolAxis));
+  matrix = matrix * Eigen::Affine3d(directions(plane));
   matrix.translate(scaleCentre);
   matrix.scale(scale);
   matrix.translate(-scaleCentre);
   return matrix;
+}
+
+Matrix3 Transformations::directions(const WorkingPlane& plane) const {
+  Vector3 signs = Vector3::Ones();
+  for (int i = 0; i < 3; ++i) {
+    if (mirror[static_cast<std::size_t>(i)]) signs[i] = -1;
+  }
+  Vector3 toolAxis = Vector3::Zero();
+  toolAxis[plane.tool] = 1;
+  return signs.asDiagonal() * Eigen::AngleAxisd(radiansFromDegrees(rotation), toolAxis).toRotationMatrix();
 }
 
 Matrix3 rotationFromSpaceAngles(const Vector3& degrees) {
@@ -51,8 +54,13 @@ Vector3 spaceAnglesFromRotation(const Matrix3& rotation) {
 machine::AxisPositions Coordinates::axisOffset() const {
   machine::AxisPositions offset = preset.rotaryOffset;
   for (std::size_t i = 0; i < machine::maximumAxes; ++i)
-    offset[i] += workpiece.axisShift[i] + (tilt ? workingPlane.axisShift[i] : 0);
+    offset[i] += turnsTaken[i] + workpiece.axisShift[i] + (tilt ? workingPlane.axisShift[i] : 0);
   return offset;
+}
+
+double Coordinates::axisSign(std::size_t axis) const {
+  const unsigned mirrored = workpiece.mirroredAxes ^ (tilt ? workingPlane.mirroredAxes : 0U);
+  return (mirrored >> axis & 1U) != 0 ? -1 : 1;
 }
 
 Pose Coordinates::machineFromPreset() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,35 +13,38 @@ public:
   static constexpr int count = 2000;         ///< Q0 to Q1999, QS0 to QS1999
   static constexpr int remanentCount = 500;  ///< QR0 to QR499
 
-  QParameters() : q_(count), undefined_(count, false), qs_(count) {}
+  static constexpr std::size_t longestText = 255;  ///< characters of a QS parameter
+
+  QParameters() : q_(count), qs_(count) {}
 
   static bool exists(long number) { return number >= 0 && number < count; }
 
-  /// Numbers in the unit of the program (Q113: 0 = mm, 1 = inch).
-  double q(int number) const { return q_[index(number)]; }
-  void setQ(int number, double value) {
-    q_[index(number)] = value;
-    undefined_[index(number)] = false;
-  }
-  bool isUndefined(int number) const { return undefined_[index(number)]; }
-  void setUndefined(int number) {
-    q_[index(number)] = 0;
-    undefined_[index(number)] = true;
-  }
+  /// Numbers in the unit of the program (Q113: 0 = mm, 1 = inch). A parameter that nobody has set is undefined and
+  /// reads as 0, or as an empty text.
+  double q(int number) const { return q_[index(number)].value_or(0); }
+  void setQ(int number, double value) { q_[index(number)] = value; }
+  bool isUndefined(int number) const { return !q_[index(number)]; }
+  void setUndefined(int number) { q_[index(number)].reset(); }
 
-  double qr(int number) const { return qr_[static_cast<std::size_t>(number)]; }
-  void setQr(int number, double value) { qr_[static_cast<std::size_t>(number)] = value; }
+  /// Remanent: they outlive the run.
+  double qr(int number) const { return qr_[index(number)].value_or(0); }
+  void setQr(int number, std::optional<double> value) { qr_[index(number)] = value; }
+  bool isQrUndefined(int number) const { return !qr_[index(number)]; }
 
-  const std::string& qs(int number) const { return qs_[index(number)]; }
-  void setQs(int number, std::string value) { qs_[index(number)] = std::move(value); }
+  const std::string& qs(int number) const {
+    static const std::string empty;
+    const auto& text = qs_[index(number)];
+    return text ? *text : empty;
+  }
+  void setQs(int number, std::optional<std::string> value) { qs_[index(number)] = std::move(value); }
+  bool isQsUndefined(int number) const { return !qs_[index(number)]; }
 
 private:
   static std::size_t index(int number) { return static_cast<std::size_t>(number); }
 
-  std::vector<double> q_;
-  std::vector<bool> undefined_;
-  std::array<double, remanentCount> qr_{};
-  std::vector<std::string> qs_;
+  std::vector<std::optional<double>> q_;
+  std::array<std::optional<double>, remanentCount> qr_{};
+  std::vector<std::optional<std::string>> qs_;
 };
 
 }  // namespace probewright::control::heidenhain

@@ -35,17 +35,21 @@ bool BlockParser::label() {
   return expectEnd();
 }
 
+/// The number of repeats; with the number 0 nothing is repeated: the label is called as a subprogram.
+bool BlockParser::repeats(CallLabel& call) {
+  const std::optional<Operand> number = value("the number of repeats");
+  if (!number) return false;
+  if (!number->isLiteral() || number->number != 0) call.repeats = *number;
+  return true;
+}
+
 bool BlockParser::callLabel() {
   CallLabel call;
   if (!labelName(call.label, call.labelValue)) return false;
-  if (lexer_.acceptPrefix("REP")) {
-    // Older programs show the repeats still to come as well: REP 2/2.
-    if (!lexer_.atEnd()) {
-      const std::optional<Operand> repeats = value("the number of repeats");
-      if (!repeats) return false;
-      call.repeats = *repeats;
-      if (lexer_.accept('/') && !value("the number of repeats")) return false;
-    }
+  // REP without a number calls a subprogram. Older programs show the repeats still to come as well: REP 2/2.
+  if (lexer_.acceptPrefix("REP") && !lexer_.atEnd()) {
+    if (!repeats(call)) return false;
+    if (lexer_.accept('/') && !value("the number of repeats")) return false;
   }
   emit(call);
   return expectEnd();
@@ -78,7 +82,8 @@ bool BlockParser::callProgram() {
   return true;
 }
 
-/// SEL PGM, SEL TABLE, SEL PATTERN, SEL CONTOUR... with a path as it stands, in quotation marks, or a QS parameter.
+/// SEL PGM, SEL CYCLE, SEL TABLE, SEL PATTERN, SEL CONTOUR... with a path as it stands, in quotation marks, or a QS
+/// parameter.
 bool BlockParser::selection() {
   lexer_.peek();
   const std::size_t start = lexer_.offset();
@@ -89,8 +94,8 @@ bool BlockParser::selection() {
   for (const char c : kind)
     name += upper(c);
   if (name != "SEL PGM" && name != "SEL TABLE" && name != "SEL PATTERN" && name != "SEL CONTOUR" &&
-      name != "SEL CORR-TABLE") {
-    return error("PGM, TABLE, PATTERN, CONTOUR or CORR-TABLE is expected behind SEL");
+      name != "SEL CYCLE" && name != "SEL CORR-TABLE") {
+    return error("PGM, CYCLE, TABLE, PATTERN, CONTOUR or CORR-TABLE is expected behind SEL");
   }
   Command command;
   const std::size_t first = block_.words.size();

@@ -12,6 +12,7 @@
 #include "cycles/heidenhain/probe_words.hpp"
 #include "language/klartext/block_extent.hpp"
 #include "language/klartext/lexer.hpp"
+#include "language/klartext/statement_notes.hpp"
 #include "metrology/tolerance.hpp"
 
 namespace probewright::language::klartext {
@@ -39,13 +40,16 @@ bool existsOnControls(int number) {
 class Checker {
 public:
   Checker(HeidenhainProgram& program, control::ControlKind kind, ProgramLibrary* library)
-      : program_(program), kind_(kind), library_(library) {}
+      : program_(program), kind_(kind), library_(library), notes_(kind) {}
 
   Diagnostics run() {
     BlockPosition position = program_.begin();
     while (program_.parse(position, block_, found_)) {
+      nameMissingContinuation();
       for (const Instruction& instruction : block_.instructions)
         std::visit([this](const auto& i) { look(i); }, instruction);
+      for (StatementNotes::Note& note : notes_.of(block_))
+        reportHere(std::move(note.message), std::move(note.advice), note.severity);
       frame();
       position = block_.next;
     }
@@ -103,6 +107,18 @@ private:
   void reportHere(std::string message, std::string advice, Severity severity = Severity::Error) {
     report(block_.position.line, columnOf(withoutBlockNumber(block_.at(block_.source))), std::move(message),
            std::move(advice), lineText(0), severity);
+  }
+
+  /// A parameter that a cycle lacks and that stands in the next block: the line in between does not end with ~.
+  void nameMissingContinuation() {
+    for (const auto& [mistake, parameter] : std::exchange(lacking_, {})) {
+      for (const Instruction& instruction : block_.instructions) {
+        const auto* assign = std::get_if<Assign>(&instruction);
+        if (assign == nullptr || block_.variables[assign->variable].index[0].number != parameter) continue;
+        found_[mistake].advice = fmt::format(
+            "it stands in line {}, outside of the cycle: end the line before it with ~", block_.position.line);
+      }
+    }
   }
 
   void reportAt(const Word& word, std::string message, std::string advice) {
@@ -177,7 +193,7 @@ private:
     if (block_.at(command.name) == "ERROR") {
       reportHere("the control marked this block as wrong", "correct the block and take ERROR = away");
     } else if (const auto name = block_.at(command.name);
-               (name == "SEL PGM" && command.words.count == 0) || name == "CYCL DEF 12") {
+               ((name == "SEL PGM" || name == "SEL CYCLE") && command.words.count == 0) || name == "CYCL DEF 12") {
       called(command.text);
     }
   }
@@ -221,6 +237,7 @@ private:
       if (!needed || std::ranges::find(words, parameter.address, &Word::address) != words.end()) continue;
       reportHere(fmt::format("cycle {} lacks {}", cycle->name, nameOf(parameter)),
                  fmt::format("add {} with its value", parameter.name));
+      lacking_.emplace_back(found_.size() - 1, parameter.address);
     }
   }
 
@@ -273,6 +290,8 @@ private:
   HeidenhainProgram& program_;
   control::ControlKind kind_;
   ProgramLibrary* library_;
+  StatementNotes notes_;
+  std::vector<std::pair<std::size_t, std::uint32_t>> lacking_;  ///< messages and parameters of the last cycle
   Block block_;
   Diagnostics found_;
   std::map<std::string, std::uint64_t> labels_;

@@ -291,6 +291,19 @@ std::string_view commentOfLine(const Block& block, std::uint32_t line) {
   return {};
 }
 
+std::string commentOf(const Block& block) {
+  std::string comment(commentOfLine(block, 0));
+  const auto lines = static_cast<std::uint32_t>(std::ranges::count(block.at(block.source), '\n'));
+  for (std::uint32_t line = 1; line <= lines; ++line) {
+    if (comment.empty()) {
+      comment = commentOfLine(block, line);
+    } else {
+      comment.append(" ~\n").append(sourceLine(block, line));
+    }
+  }
+  return comment;
+}
+
 std::string writeCycle(const Block& block, const CycleCall& call) {
   const std::string_view kind = block.at(call.name);
   const std::span<const Word> words = wordsOf(block, call.parameters);
@@ -399,6 +412,13 @@ std::string writeCommand(const Block& block, const Command& command) {
   if (name.starts_with("SEL ")) {
     return words.empty() ? fmt::format("{} \"{}\"", name, text)
                          : fmt::format("{} {}", name, writeFormula(block, words[0].value));
+  }
+  if (name == "SET UNDEFINED") return fmt::format("FN 0: {} SET UNDEFINED", variable);
+  if (name.starts_with("TABDATA")) {
+    const std::string target = variable.empty() ? std::string() : fmt::format("{} = ", variable);
+    const std::string entry = words.size() > 2 ? fmt::format(" = {}", value(2)) : std::string();
+    return fmt::format("{} {}{} COLUMN {} KEY {}{}", name, target, text, writeFormula(block, words[0].value),
+                       writeFormula(block, words[1].value), entry);
   }
   if (name == "ERROR") return fmt::format("ERROR = {}", text);
   if (name.starts_with("FN")) {

@@ -2,9 +2,9 @@
 
 #include "language/klartext/parser.hpp"
 
-/// Assignments Q = formula. Precedence, lowest first: || ; + - ; * / % ; sign ; ^ ; functions and parentheses.
-/// Operators of one rank are computed from left to right. Functions take the value behind them: SIN Q1 + 2 is (SIN Q1)
-/// + 2.
+/// Assignments Q = formula. Precedence, lowest first: || ; + - ; * / % ; ^ ; functions, signs and parentheses.
+/// Operators of one rank are computed from left to right, powers from right to left. Functions take the value behind
+/// them: SIN Q1 + 2 is (SIN Q1) + 2.
 namespace probewright::language::klartext {
 
 namespace {
@@ -72,7 +72,7 @@ std::optional<Operand> BlockParser::sum() {
 }
 
 std::optional<Operand> BlockParser::product() {
-  std::optional<Operand> left = factor();
+  std::optional<Operand> left = power();
   while (left) {
     const char c = lexer_.peek();
     Operation operation = Operation::Multiply;
@@ -89,40 +89,36 @@ std::optional<Operand> BlockParser::product() {
     } else {
       break;
     }
-    const std::optional<Operand> right = factor();
+    const std::optional<Operand> right = power();
     if (!right) return std::nullopt;
     left = binary(operation, *left, *right);
   }
   return left;
 }
 
-std::optional<Operand> BlockParser::factor() {
-  const char c = lexer_.peek();
-  if (c != '+' && c != '-') return power();
+/// a ^ b ^ c is a ^ (b ^ c).
+std::optional<Operand> BlockParser::power() {
+  const std::optional<Operand> base = signedPrimary();
+  if (!base || !lexer_.accept('^')) return base;
   if (++depth_ > deepestNesting) {
     error("this formula is nested too deeply", "compute it in several blocks");
     return std::nullopt;
   }
-  lexer_.advance();
-  const std::optional<Operand> operand = factor();
+  const std::optional<Operand> exponent = power();
   --depth_;
-  if (!operand || c == '+') return operand;
-  return negated(*operand);
+  if (!exponent) return std::nullopt;
+  return binary(Operation::Power, *base, *exponent);
 }
 
-std::optional<Operand> BlockParser::power() {
-  std::optional<Operand> left = primary();
-  while (left && lexer_.accept('^')) {
-    bool negative = false;
-    while (lexer_.peek() == '+' || lexer_.peek() == '-') {
-      if (lexer_.peek() == '-') negative = !negative;
-      lexer_.advance();
-    }
-    const std::optional<Operand> right = primary();
-    if (!right) return std::nullopt;
-    left = binary(Operation::Power, *left, negative ? negated(*right) : *right);
+/// A sign belongs to the value behind it: -2 ^ 2 is 4.
+std::optional<Operand> BlockParser::signedPrimary() {
+  bool negative = false;
+  for (char c = lexer_.peek(); c == '+' || c == '-'; c = lexer_.peek()) {
+    if (c == '-') negative = !negative;
+    lexer_.advance();
   }
-  return left;
+  const std::optional<Operand> value = primary();
+  return value && negative ? negated(*value) : value;
 }
 
 std::optional<Operand> BlockParser::primary() {
@@ -172,15 +168,9 @@ std::optional<Operand> BlockParser::functionCall() {
     error("a number, a parameter, a function or a parenthesis is expected in this formula");
     return std::nullopt;
   }
-  bool negative = negate;
-  while (lexer_.peek() == '+' || lexer_.peek() == '-') {
-    if (lexer_.peek() == '-') negative = !negative;
-    lexer_.advance();
-  }
-  std::optional<Operand> argument = primary();
+  std::optional<Operand> argument = signedPrimary();
   if (!argument) return std::nullopt;
-  if (negative) argument = negated(*argument);
-  if (found == nullptr) return argument;
+  if (found == nullptr) return negated(*argument);
   Node node;
   node.operation = Operation::Call;
   node.function = found->function;
@@ -192,7 +182,7 @@ std::optional<Operand> BlockParser::functionCall() {
 
 /// The arguments of string functions have names; the host gets them in a fixed order, -1 for what is left out:
 /// TOCHAR(value, decimals) SUBSTR(text, begin, length) SYSSTR(id, nr, idx, length) TONUMB(text)
-/// INSTR(text, searched, begin) STRLEN(text) STRCOMP(text, text) CFGREAD(key, tag, attribute, index).
+/// INSTR(text, searched, begin) STRLEN(text [, is undefined]) STRCOMP(text, text) CFGREAD(key, tag, attribute, index).
 std::optional<Operand> BlockParser::stringFunction(std::string_view name) {
   struct Named {
     std::string_view keyword;
@@ -235,7 +225,16 @@ std::optional<Operand> BlockParser::stringFunction(std::string_view name) {
       error(std::string("the argument ").append(names[i].keyword).append(" of ").append(name).append(" is missing"));
       return std::nullopt;
     }
-    arguments[i] = Operand::of(-1);
+    arguments[i] = Operand::of(name == "SUBSTR" && names[i].keyword == "BEG" ? 0 : -1);
+  }
+  if (name == "STRLEN" && arguments[0].node >= 0) {
+    const Node& text = block_.nodes[static_cast<std::size_t>(arguments[0].node)];
+    if (text.operation == Operation::Variable) {
+      Node undefined;
+      undefined.operation = Operation::Undefined;
+      undefined.a = text.a;
+      return callHost(name, {arguments[0], push(undefined)});
+    }
   }
   switch (count) {
     case 1:

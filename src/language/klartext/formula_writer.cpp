@@ -127,7 +127,7 @@ private:
     const std::string_view name = block_.at(node.text);
     const auto names = argumentNames(name);
     std::string text = fmt::format("{}(", name);
-    for (std::uint32_t i = 0; i < node.b && i < names.size(); ++i) {
+    for (std::uint32_t i = 0; i < node.b && i < names.size() && !names[i].empty(); ++i) {
       const Operand value = argument(i);
       if (value.isLiteral() && value.number == -1) continue;
       text += fmt::format(" {}{}", names[i], value.isLiteral() ? writeNumber(value.number) : formula(value));

@@ -95,7 +95,9 @@ Operand BlockParser::functionResult(int number, Operand left, Operand right) {
 
 bool BlockParser::functionAssignment(int number) {
   const std::optional<std::uint32_t> target = variableIndex();
-  if (!target || !expect('=', "the parameter")) return false;
+  if (!target) return false;
+  if (number == 0 && lexer_.acceptKeyword("SET")) return setUndefined(*target);
+  if (!expect('=', "the parameter")) return false;
   static constexpr std::array<std::string_view, 14> signs = {"",    "+",   "-", "*", "DIV", "SQRT", "SIN",
                                                              "COS", "LEN", "",  "",  "",    "",     "ANG"};
   const std::string_view sign = signs[static_cast<std::size_t>(number)];
@@ -119,6 +121,56 @@ bool BlockParser::functionAssignment(int number) {
   }
   if (!result) return false;
   emit(Assign{*target, *result});
+  return expectEnd();
+}
+
+/// FN 0: Q5 SET UNDEFINED.
+bool BlockParser::setUndefined(std::uint32_t target) {
+  if (!lexer_.acceptKeyword("UNDEFINED")) return error("UNDEFINED is expected behind SET");
+  emit(Command{constant("SET UNDEFINED"), {}, static_cast<std::int32_t>(target), {}});
+  return expectEnd();
+}
+
+/// TABDATA READ Q1 = PRESET COLUMN "X" KEY "3", TABDATA WRITE TOOL COLUMN "DL" KEY "5" = +Q1, TABDATA ADD likewise: the
+/// table as text; words COL, KEY, VAL.
+bool BlockParser::tableData() {
+  Command command;
+  std::string_view name;
+  for (const std::string_view way : {"TABDATA READ", "TABDATA WRITE", "TABDATA ADD"}) {
+    if (name.empty() && lexer_.acceptKeyword(way.substr(8))) name = way;
+  }
+  if (name.empty()) return error("READ, WRITE or ADD is expected behind TABDATA");
+  const bool reads = name == "TABDATA READ";
+  if (reads) {
+    const std::optional<std::uint32_t> target = variableIndex();
+    if (!target || !expect('=', "the parameter")) return false;
+    command.variable = static_cast<std::int32_t>(*target);
+  }
+  lexer_.peek();
+  const std::size_t start = lexer_.offset();
+  while (isLetter(lexer_.here()) || lexer_.here() == '-')
+    lexer_.advance();
+  const std::string_view table = lexer_.text().substr(start, lexer_.offset() - start);
+  if (table.empty()) return error("the table is expected here: TOOL, PRESET, CORR-TCS or CORR-WPL");
+  command.text = ref(table);
+  const std::size_t first = block_.words.size();
+  for (const std::string_view key : {"COLUMN", "KEY"}) {
+    if (!lexer_.acceptKeyword(key))
+      return error(fmt::format("{} with a name in quotation marks is expected here", key));
+    const std::optional<Operand> named = textOrVariable(key);
+    if (!named) return false;
+    addWord(addressOf(key.substr(0, 3)), *named);
+  }
+  if (!reads) {
+    if (!expect('=', "the key")) return false;
+    const std::optional<std::string_view> text = lexer_.quoted();
+    const std::optional<Operand> written = text ? textOperand(ref(*text)) : value("the entry");
+    if (!written) return false;
+    addWord(addressOf("VAL"), *written);
+  }
+  command.name = constant(name);
+  command.words = wordsSince(first);
+  emit(command);
   return expectEnd();
 }
 

@@ -1,5 +1,7 @@
 #include "language/klartext/host.hpp"
 
+#include <algorithm>
+
 #include "control/alarm.hpp"
 #include "language/word_column.hpp"
 
@@ -16,7 +18,7 @@ constexpr std::size_t localCount = 500;
 KlartextHost::KlartextHost(control::heidenhain::Control& control, HostOptions options)
     : control_(control),
       options_(std::move(options)),
-      contour_([this](const Element& element) { runElement(element); },
+      contour_([this](const Element& element) { runElement(element, control_.coordinates.plane); },
                [this]() { return control_.channel.toolRadius; }) {}
 
 void KlartextHost::execute(const Instruction& instruction, Evaluation& evaluation) {
@@ -51,13 +53,26 @@ void KlartextHost::execute(const Instruction& instruction, Evaluation& evaluatio
 }
 
 bool KlartextHost::beginBlock(const Program& program, const Block& block) {
+  untiltedPositions_ = ignoreProbe_ = false;
   SourcePlace& place = control_.panel.place;
   place.line = block.position.line;
   place.column = columnOfFirstWord(block.at(block.source));
   if (levels_.empty() || levels_.back().file != place.file) place.file = program.file();
   // The end of a program has no instruction for the host, but motion that waits must come to its end.
-  if (block.instructions.size() == 1 && std::holds_alternative<EndProgram>(block.instructions.front())) settle();
+  const bool ends = std::ranges::any_of(
+      block.instructions, [](const Instruction& each) { return std::holds_alternative<EndProgram>(each); });
+  if (ends && block.instructions.size() == 1) settle();
+  if (ends) warnOfEarlyEnd(block);
   return true;
+}
+
+/// Controls warn of M2 and M30 in called programs.
+void KlartextHost::warnOfEarlyEnd(const Block& block) {
+  const HeidenhainProgram* program = levels_.empty() ? nullptr : levels_.back().program;
+  if (levels_.size() < 2 || program == nullptr || program->framePart(block) == FramePart::End) return;
+  if (leftOut_.insert("M30 of " + levels_.back().file).second) {
+    warn("M2 or M30 stands in a called program: it ends this program, and the calling one goes on");
+  }
 }
 
 std::string KlartextHost::code(Refusal refusal) const {
@@ -91,7 +106,7 @@ void KlartextHost::enter(const Program& program, const CallProgram*, Evaluation*
   level.program = dynamic_cast<const HeidenhainProgram*>(&program);
   level.file = program.file();
   level.outerUnit = control_.unit;
-  level.local.assign(localCount, 0);
+  level.local.assign(localCount, std::nullopt);
   if (levels_.empty()) {
     control_.programPath = program.file();
     control_.startSeconds = control_.channel.seconds();

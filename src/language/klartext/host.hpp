@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,8 @@ struct HostOptions {
   bool strict = false;
   /// The bytes of a file that a program names: masks of FN 16, datum tables. Without it no such file is found.
   std::function<Result<std::string>(const std::string& name)> readFile;
+  /// True if the run reads a file of this name where it would write it: FN 16 must not write over it.
+  std::function<bool(const std::string& name)> isInput;
 };
 
 /// What a mask of FN 16 makes of a file.
@@ -61,7 +64,7 @@ private:
     const HeidenhainProgram* program = nullptr;
     std::string file;
     double outerUnit = 1;
-    std::vector<double> local;  ///< QL
+    std::vector<std::optional<double>> local;  ///< QL
     std::optional<PatternRun> pattern;
   };
 
@@ -73,12 +76,17 @@ private:
   void approachOrDepart(const Move& move, Evaluation& evaluation);
   void setCentre(const Move& move, Evaluation& evaluation);
   void moveInMachineCoordinates(const Move& move, Evaluation& evaluation);
-  void runElement(const Element& element);
+  void runElement(const Element& element, const control::WorkingPlane& plane);
   void addElement(Element element, const Move& move, Evaluation& evaluation);
   Vector3 programmedPosition() const;
   Vector3 pointOf(const Move& move, Evaluation& evaluation, const Vector3& from) const;
   std::size_t axisOf(char letter) const;
   control::Feed feedOf(const Move& move, Evaluation& evaluation);
+  static control::Feed checkedFeed(double millimetresPerMinute);
+  control::Feed feedFor(double programmed) const;
+  void namePathWords(const Move& move, Evaluation& evaluation);
+  Vector3 untiltedTarget(const Move& move, Evaluation& evaluation, const Vector3& from) const;
+  void straightTo(const Vector3& to, control::Feed feed);
   BlockPlace placeOf(Evaluation& evaluation) const;
   /// Of the tool in the spindle, at least 1.
   double teeth() const;
@@ -86,19 +94,27 @@ private:
   bool travels(const Move& move, Evaluation& evaluation) const;
   double length(const Operand& operand, Evaluation& evaluation) const;
   const Word* find(WordRange range, std::string_view address, Evaluation& evaluation) const;
+  void warnOfEarlyEnd(const Block& block);
   /// Ends all motion that waits; compensation ends too.
   void settle();
 
   // host_machine_functions.cpp
+  void setUndefined(const VariableRef& variable);
   void machineFunction(const MachineFunction& function, Evaluation& evaluation);
+  void nameMachineFunction(int number);
+  void retractAlongTool(const MachineFunction& function, Evaluation& evaluation);
+  void takeTurns(const MachineFunction& function, Evaluation& evaluation);
+  void deleteBasicRotation();
   void retract(std::optional<double> distance, control::Feed feed);
   void setHoldTip(bool hold);
 
   // host_tcpm.cpp
   void guideTool(const Modal& modal, Evaluation& evaluation);
   void placeControlledPoint();
-  void turnToSpaceAngles(WordRange words, std::array<std::optional<double>, machine::maximumAxes>& rotary,
-                         Evaluation& evaluation);
+  using RotaryTarget = std::array<std::optional<double>, machine::maximumAxes>;
+  void turnToSpaceAngles(WordRange words, RotaryTarget& rotary, Evaluation& evaluation);
+  void turnToVector(WordRange words, RotaryTarget& rotary, Evaluation& evaluation);
+  void turnTo(const Vector3& direction, RotaryTarget& rotary) const;
   void moveTurning(const control::Target& target, control::Feed feed);
 
   // host_tools.cpp
@@ -117,6 +133,7 @@ private:
 
   // host_planes.cpp
   void plane(std::string_view name, WordRange words, Evaluation& evaluation);
+  Matrix3 machineFromWorkpiece() const;
   void tiltByCycle19(WordRange words, Evaluation& evaluation);
   void tilt(const std::optional<Matrix3>& tilt, WordRange words, Evaluation& evaluation);
   void keepWantedSide(std::vector<machine::AxisPositions>& solutions, const Vector3& toolAxis, WordRange words,
@@ -140,7 +157,12 @@ private:
   void circleThroughPoints(const Command& command, Evaluation& evaluation);
   void setPresetInAxis(const Command& command, Evaluation& evaluation);
   void message(std::string text);
-  void skipFunction(std::string_view name, std::string_view text);
+  void warn(std::string text);
+  /// Names what is not carried out, once in a run; refuses it under --strict.
+  void leaveOut(const std::string& what);
+  void functionBlock(std::string_view text, Evaluation& evaluation);
+  void dwell(double seconds);
+  void print(std::string_view text, Evaluation& evaluation);
 
   // host_system_data.cpp: FN 18
   void systemRead(const Command& command, Evaluation& evaluation);
@@ -171,13 +193,18 @@ private:
   // host_protocol.cpp: FN 16
   void protocol(const Command& command, Evaluation& evaluation);
   Value readNamed(std::string_view name, Evaluation& evaluation);
+  double numberNamed(std::string_view name, Evaluation& evaluation);
   void send(std::string_view text, Evaluation& evaluation);
+  void insertParameters(std::string& text, Evaluation& evaluation);
+  std::string protocolFile(const std::string& target) const;
   void writeProtocol(const std::string& name, const ProtocolResult& result);
 
   // host_tables.cpp: FN 26, 27, 28, and files that programs name
   void openTable(std::string_view path);
   void writeTable(const Command& command, Evaluation& evaluation);
   void readTable(const Command& command, Evaluation& evaluation);
+  void tableData(const Command& command, Evaluation& evaluation);
+  void writeTableNumber(bool tool, const std::string& row, const std::string& column, double value);
   /// The bytes of a file of the control: at its path, or by its name alone.
   Result<std::string> readHostFile(std::string_view path) const;
 
@@ -190,11 +217,16 @@ private:
   HostOptions options_;
   std::vector<Level> levels_;
   Contour contour_;
-  double feed_ = 0;  ///< mm/min; 0: none programmed yet
+  double feed_ = 0;                 ///< mm/min, or with M136 mm per revolution; 0: none programmed yet
+  bool feedPerRevolution_ = false;  ///< M136
+  bool untiltedPositions_ = false;  ///< M130, in this block
+  bool ignoreProbe_ = false;        ///< M141, in this block
+  std::set<std::string> leftOut_;   ///< named already
   bool feedIsAuto_ = false;
   Side side_ = Side::Off;
   Vector3 pole_ = Vector3::Zero();
   bool poleSet_ = false;
+  std::optional<control::WorkingPlane> polePlane_;  ///< of CC, if it is not that of the tool axis
   int arcDirection_ = 0;
   bool shortestPath_ = false;  ///< M126
   /// FUNCTION TCPM: the point of the tool that the program names, and the one about which rotary axes turn the tool.

@@ -5,22 +5,27 @@
 #include <cmath>
 #include <span>
 
+#include "base/number_text.hpp"
 #include "control/alarm.hpp"
 #include "language/klartext/host.hpp"
+#include "language/klartext/lexer.hpp"
 
 /// FN functions and all blocks that are neither motion nor transformation nor cycle.
 namespace probewright::language::klartext {
 
 using control::Alarm;
 
-/// What has no effect here is named; --strict refuses it.
-void KlartextHost::skipFunction(std::string_view name, std::string_view text) {
+void KlartextHost::leaveOut(const std::string& what) {
   if (options_.strict) {
-    throw Alarm("Function not available", fmt::format("{} {} is not simulated", name, text),
-                "run without --strict to skip it");
+    throw Alarm("Function not available", fmt::format("{} is not simulated", what), "run without --strict to skip it");
   }
-  control_.panel.message(control::EventKind::Skipped, fmt::format("{} {} is not simulated and was skipped", name, text),
+  if (!leftOut_.insert(what).second) return;
+  control_.panel.message(control::EventKind::Skipped, fmt::format("{} is not simulated and was skipped", what),
                          control_.channel.seconds());
+}
+
+void KlartextHost::warn(std::string text) {
+  control_.panel.message(control::EventKind::Warning, std::move(text), control_.channel.seconds());
 }
 
 namespace {
@@ -51,6 +56,69 @@ void KlartextHost::message(std::string text) {
   control_.panel.message(control::EventKind::Message, std::move(text), control_.channel.seconds());
 }
 
+/// FUNCTION blocks other than TCPM. Feed, spindle, collision monitoring, counters and lift off leave alone where the
+/// tool is.
+void KlartextHost::functionBlock(std::string_view text, Evaluation& evaluation) {
+  static constexpr std::array<std::string_view, 8> harmless = {"FEED", "S-PULSE", "SPINDLE", "AFC",
+                                                               "DCM",  "LIFTOFF", "COUNT",   "ACC"};
+  const auto begins = [&](std::string_view word) {
+    return text.size() >= word.size() && std::ranges::equal(text.substr(0, word.size()), word, {}, upper);
+  };
+  if (begins("MODE")) {
+    control_.turningMode = text.find("TURN") != std::string_view::npos;
+  } else if (begins("DWELL TIME")) {
+    contour_.flush();
+    std::string_view time = text.substr(10);
+    while (time.starts_with(' '))
+      time.remove_prefix(1);
+    const auto seconds = parseDecimal(time);
+    dwell(seconds ? *seconds : numberNamed(time, evaluation));
+  } else if (std::ranges::none_of(harmless, begins)) {
+    leaveOut(fmt::format("FUNCTION {}", text));
+  }
+}
+
+/// An hour is the longest time that the control waits.
+void KlartextHost::dwell(double seconds) {
+  constexpr double longest = 3600;
+  if (!(seconds >= 0 && seconds <= longest)) {
+    throw Alarm("Dwell time wrong", fmt::format("A dwell time of {} s is not possible", formatShortest(seconds)),
+                "program a time from 0 to 3600 seconds");
+  }
+  control_.channel.dwell(seconds);
+}
+
+/// FN 15: PRINT 12/Q5/QS1 adds a line to %FN15RUN.A: numbers with their sign, a decimal comma and up to four decimals.
+void KlartextHost::print(std::string_view text, Evaluation& evaluation) {
+  if (control_.isTNC640()) {
+    message(fmt::format("FN 15: {}", text));
+    return;
+  }
+  const auto numberText = [](double number) {
+    std::string written = formatSigned(number, 4);
+    written.erase(written.find_last_not_of('0') + 1);
+    if (written.ends_with('.')) written.pop_back();
+    std::ranges::replace(written, '.', ',');
+    return written;
+  };
+  std::string line;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t end = std::min(rest.find('/'), rest.size());
+    std::string_view item = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    while (!item.empty() && isBlank(item.front()))
+      item.remove_prefix(1);
+    while (!item.empty() && isBlank(item.back()))
+      item.remove_suffix(1);
+    if (item.empty()) continue;
+    const auto number = parseDecimal(item.starts_with('+') ? item.substr(1) : item);
+    const Value value = number ? Value(*number) : readNamed(item, evaluation);
+    line.append(line.empty() ? "" : "  ");
+    line += isText(value) ? std::get<std::string>(value) : numberText(std::get<double>(value));
+  }
+  control_.panel.appendToFile("%FN15RUN.A", line + "\n");
+}
+
 void KlartextHost::command(const Command& command, Evaluation& evaluation) {
   const std::string_view name = evaluation.at(command.name);
   const std::string_view text = evaluation.at(command.text);
@@ -73,7 +141,9 @@ void KlartextHost::command(const Command& command, Evaluation& evaluation) {
                 fmt::format("The program stops with its own error message {}", number),
                 "look in the program why it jumps to this FN 14");
   } else if (name == "FN15") {
-    message(fmt::format("FN 15: {}", text));
+    print(text, evaluation);
+  } else if (name == "SET UNDEFINED") {
+    setUndefined(evaluation.block().variables[static_cast<std::size_t>(command.variable)]);
   } else if (name == "FN38") {
     send(text, evaluation);
   } else if (name == "FN23" || name == "FN24") {
@@ -89,14 +159,14 @@ void KlartextHost::command(const Command& command, Evaluation& evaluation) {
     readTable(command, evaluation);
   } else if (name == "CYCL DEF 9") {
     contour_.flush();
-    if (const Word* time = first()) control_.channel.dwell(std::max(0.0, evaluation.number(time->value)));
+    if (const Word* time = first()) dwell(evaluation.number(time->value));
   } else if (name == "CYCL DEF 13") {
     contour_.flush();
     if (const Word* angle = first()) control_.channel.orientSpindle(evaluation.number(angle->value));
-  } else if (name == "CYCL DEF 12") {
+  } else if (name == "CYCL DEF 12" || name == "SEL CYCLE") {
     settle();
     defineCycle(12);
-    cycleProgram_ = text;
+    cycleProgram_ = command.words.count > 0 ? evaluation.text(first()->value) : std::string(text);
   } else if (name == "CYCL CALL") {
     contour_.flush();
     callCycle(command, evaluation);
@@ -119,13 +189,13 @@ void KlartextHost::command(const Command& command, Evaluation& evaluation) {
   } else if (name == "SEL PATTERN") {
     selectPattern(command.words.count > 0 ? evaluation.text(first()->value) : std::string(text));
   } else if (name == "FUNCTION") {
-    if (text.starts_with("MODE")) {
-      control_.turningMode = text.find("TURN") != std::string_view::npos;
-    } else {
-      skipFunction(name, text);
-    }
-  } else if (name == "SQL" || name == "FUNCTION RESET") {
-    skipFunction(name, text);
+    functionBlock(text, evaluation);
+  } else if (name.starts_with("TABDATA")) {
+    tableData(command, evaluation);
+  } else if (name == "SQL" || name == "FUNCTION RESET" || name == "SEL CORR-TABLE") {
+    leaveOut(fmt::format("{} {}", name, text));
+  } else if (name == "FN37") {
+    leaveOut("FN 37: EXPORT");
   } else if (name == "ERROR") {
     throw Alarm("Block marked as wrong", "The control marked this block as wrong when it read it (ERROR =)",
                 "correct the block and take ERROR = away");

@@ -18,7 +18,7 @@ using control::Feed;
 namespace {
 
 /// Cycles of CYCL DEF that act where they stand; all others wait for CYCL CALL, M99 or M89.
-constexpr std::array<int, 12> actingAtOnce = {14, 20, 220, 221, 224, 225, 238, 239, 291, 292, 800, 880};
+constexpr std::array actingAtOnce = {14, 20, 220, 221, 224, 225, 238, 239, 270, 291, 292, 800, 801, 880, 892};
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void KlartextHost::moveToCallPosition(const Command& command, Evaluation& evalua
   Move way;
   way.words = command.words;
   const Word* feedWord = find(command.words, "F", evaluation);
-  const Feed feed = feedWord == nullptr ? Feed::rapidTraverse() : Feed::at(length(feedWord->value, evaluation));
+  const Feed feed = feedWord == nullptr ? Feed::rapidTraverse() : checkedFeed(length(feedWord->value, evaluation));
   const control::WorkingPlane& plane = control_.coordinates.plane;
   const Vector3 from = plane.planeFromXyz(control_.channel.position());
   const Vector3 to = plane.planeFromXyz(pointOf(way, evaluation, control_.channel.position()));

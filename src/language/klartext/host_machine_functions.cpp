@@ -1,11 +1,14 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "control/alarm.hpp"
 #include "language/klartext/host.hpp"
+#include "language/klartext/m_functions.hpp"
 
-/// M functions. Those without an effect on a measuring run (spindle, coolant, feed behaviour) are accepted.
+/// M functions; m_functions.hpp tells which of them are carried out.
 namespace probewright::language::klartext {
 
 using control::Alarm;
@@ -20,49 +23,134 @@ void KlartextHost::machineFunction(const MachineFunction& function, Evaluation& 
       spindleRuns_ = spindleHasRun_ = true;
       clockwise_ = function.number == 3 || function.number == 13;
       control_.q.setQ(110, spindleState());
+      if (function.number > 10) control_.q.setQ(111, 1);
       break;
     case 5:
     case 6:
       spindleRuns_ = false;
       control_.q.setQ(110, spindleState());
       break;
+    case 8:
+    case 9:
+      control_.q.setQ(111, function.number == 8 ? 1 : 0);
+      break;
     case 89:
       contour_.flush();
       cycleAtEachMove_ = true;
       callMachiningCycle();
       break;
-    case 126:
-      shortestPath_ = true;
-      break;
-    case 127:
-      shortestPath_ = false;
-      break;
-    case 128:
+    case 94:
       settle();
-      setHoldTip(true);
+      takeTurns(function, evaluation);
       break;
+    case 126:
+    case 127:
+      shortestPath_ = function.number == 126;
+      break;
+    case 114:
+    case 115:
+      if (control_.isTNC640()) {
+        nameMachineFunction(function.number);
+        break;
+      }
+      [[fallthrough]];
+    case 128:
     case 129:
       settle();
-      setHoldTip(false);
+      setHoldTip(function.number == 114 || function.number == 128);
       break;
-    case 140: {
+    case 130:
       settle();
-      std::optional<double> distance;
-      if (const Word* back = find(function.words, "MB", evaluation); back != nullptr && back->value.present()) {
-        distance = length(back->value, evaluation);
-        if (!(*distance >= 0)) {
-          throw Alarm("Retraction not permitted", "M140 MB goes back along the tool axis: its way cannot be negative",
-                      "program a way from 0 on, or MB MAX");
-        }
-      }
-      Feed feed = Feed::rapidTraverse();
-      if (function.argument.present()) feed = Feed::at(length(function.argument, evaluation));
-      retract(distance, feed);
+      untiltedPositions_ = true;
       break;
-    }
+    case 136:
+    case 137:
+      feedPerRevolution_ = function.number == 136;
+      break;
+    case 140:
+      settle();
+      retractAlongTool(function, evaluation);
+      break;
+    case 141:
+      settle();
+      ignoreProbe_ = true;
+      break;
+    case 143:
+      settle();
+      deleteBasicRotation();
+      break;
+    case 144:
+    case 145:
+      settle();
+      control_.coordinates.tiltedAxesInPosition = function.number == 144;
+      control_.applyCoordinates();
+      break;
     default:
+      nameMachineFunction(function.number);
       break;
   }
+}
+
+void KlartextHost::nameMachineFunction(int number) {
+  switch (effectOf(number, control_.kind())) {
+    case FunctionEffect::CarriedOut:
+    case FunctionEffect::Harmless:
+      break;
+    case FunctionEffect::NotCarriedOut:
+      leaveOut(fmt::format("M{}", number));
+      break;
+    case FunctionEffect::OfBuilder:
+      leaveOut(fmt::format("M{}, which is a function of the machine tool builder,", number));
+      break;
+    case FunctionEffect::OfOtherOne:
+      leaveOut(fmt::format("M{}, which the {} does not have,", number, control::name(control_.kind())));
+      break;
+  }
+}
+
+/// M140 MB: back along the tool axis.
+void KlartextHost::retractAlongTool(const MachineFunction& function, Evaluation& evaluation) {
+  std::optional<double> distance;
+  if (const Word* back = find(function.words, "MB", evaluation); back != nullptr && back->value.present()) {
+    distance = length(back->value, evaluation);
+    if (!(*distance >= 0)) {
+      throw Alarm("Retraction not permitted", "M140 MB goes back along the tool axis: its way cannot be negative",
+                  "program a way from 0 on, or MB MAX");
+    }
+  }
+  Feed feed = Feed::rapidTraverse();
+  if (function.argument.present()) feed = checkedFeed(length(function.argument, evaluation));
+  retract(distance, feed);
+}
+
+/// M94: the readings of all rotary axes, or of those that it names, lose their whole turns.
+void KlartextHost::takeTurns(const MachineFunction& function, Evaluation& evaluation) {
+  control::Channel& channel = control_.channel;
+  const auto& axes = channel.description().axes;
+  const auto take = [&](std::size_t axis) {
+    if (axes[axis].kind != machine::AxisKind::Rotary) return;
+    const double reading = channel.axes()[axis] - channel.rotaryOffset[axis];
+    control_.coordinates.turnsTaken[axis] += 360 * std::floor(reading / 360 + 1e-9);
+  };
+  for (const Word& word : evaluation.words(function.words))
+    take(axisOf(static_cast<char>(word.address)));
+  for (std::size_t i = 0; function.words.count == 0 && i < axes.size(); ++i)
+    take(i);
+  control_.applyCoordinates();
+}
+
+/// M143: the basic rotation ends. The TNC 640 also clears it in the active row of the preset table.
+void KlartextHost::deleteBasicRotation() {
+  if (control_.isTNC640()) {
+    control::heidenhain::Control::PresetChange change;
+    for (int i = 0; i < 3; ++i) {
+      if (control_.coordinates.preset.spaceAngles[i] != 0) change.spaceAngles[static_cast<std::size_t>(i)] = 0;
+    }
+    control_.writePreset(control_.coordinates.preset.row, change);
+    return;
+  }
+  control_.coordinates.preset.spaceAngles.setZero();
+  control_.applyCoordinates();
 }
 
 /// Away from the workpiece along the tool axis, by a distance or to the limit of travel.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/number_text.hpp"
 #include "control/alarm.hpp"
 #include "language/klartext/host.hpp"
 #include "language/klartext/lexer.hpp"
@@ -72,20 +73,38 @@ Vector3 KlartextHost::pointOf(const Move& move, Evaluation& evaluation, const Ve
   return point;
 }
 
+/// Slower than any control takes, and it would never arrive.
+Feed KlartextHost::checkedFeed(double millimetresPerMinute) {
+  constexpr double slowest = 1e-3;
+  if (millimetresPerMinute >= slowest) return Feed::at(millimetresPerMinute);
+  throw Alarm("Feed rate wrong",
+              fmt::format("A feed rate of {} mm/min is not possible", formatShortest(millimetresPerMinute)),
+              "program F from 0.001 on");
+}
+
+/// A programmed feed, with M136 per revolution.
+Feed KlartextHost::feedFor(double programmed) const {
+  if (!feedPerRevolution_) return checkedFeed(programmed);
+  if (control_.tool.spindleSpeed > 0) return checkedFeed(programmed * control_.tool.spindleSpeed);
+  throw Alarm("Spindle speed missing", "With M136 the feed rate counts per revolution, but the spindle has no speed",
+              "program S in TOOL CALL, or M137");
+}
+
 Feed KlartextHost::feedOf(const Move& move, Evaluation& evaluation) {
   if (move.autoFeed) feed_ = control_.tool.feed;
   if (move.feed.present()) feed_ = length(move.feed, evaluation);
+  const double perMinute = feedPerRevolution_ ? 1 : control_.tool.spindleSpeed;
   if (const Word* perRevolution = find(move.words, "FU", evaluation)) {
-    feed_ = length(perRevolution->value, evaluation) * control_.tool.spindleSpeed;
+    feed_ = length(perRevolution->value, evaluation) * perMinute;
   }
   if (const Word* perTooth = find(move.words, "FZ", evaluation)) {
-    feed_ = length(perTooth->value, evaluation) * control_.tool.spindleSpeed * teeth();
+    feed_ = length(perTooth->value, evaluation) * perMinute * teeth();
   }
   if (move.rapid) return Feed::rapidTraverse();
-  if (!(feed_ > 0)) {
+  if (feed_ == 0) {
     throw Alarm("Feed rate is missing", "No feed rate has been programmed yet", "program F or FMAX in this block");
   }
-  return Feed::at(feed_);
+  return feedFor(feed_);
 }
 
 BlockPlace KlartextHost::placeOf(Evaluation& evaluation) const {
@@ -157,7 +176,39 @@ void KlartextHost::move(const Move& move, Evaluation& evaluation) {
   }
 }
 
+/// Words of straight lines that would change where the tool is, and are not carried out.
+void KlartextHost::namePathWords(const Move& move, Evaluation& evaluation) {
+  const control::heidenhain::ActiveTool& tool = control_.tool;
+  const bool oversized = tool.deltaLength != 0 || tool.deltaRadius != 0 || tool.deltaRadius2 != 0;
+  for (const Word& word : evaluation.words(move.words)) {
+    if (word.address == 'R' && word.mode == WordMode::DirectShortest) {
+      leaveOut(word.value.number > 0 ? "The paraxial radius compensation R+" : "The paraxial radius compensation R-");
+    }
+    const bool normal =
+        word.address == addressOf("NX") || word.address == addressOf("NY") || word.address == addressOf("NZ");
+    if (normal && oversized) leaveOut("The 3-D compensation of tool oversizes in LN blocks");
+  }
+}
+
+/// M130: the end point in coordinates of the workpiece system that is not tilted, as the tilted one sees it.
+Vector3 KlartextHost::untiltedTarget(const Move& move, Evaluation& evaluation, const Vector3& from) const {
+  const control::heidenhain::Coordinates& coordinates = control_.coordinates;
+  const Eigen::Affine3d machineFromUntilted =
+      Eigen::Affine3d(coordinates.machineFromPreset().matrix()) * coordinates.workpiece.matrix(coordinates.plane);
+  const Eigen::Affine3d programFromUntilted = control_.channel.frame().inverse() * machineFromUntilted;
+  return programFromUntilted * pointOf(move, evaluation, programFromUntilted.inverse() * from);
+}
+
+void KlartextHost::straightTo(const Vector3& to, Feed feed) {
+  if (ignoreProbe_) {  // M141: away with a deflected stylus
+    control_.channel.retractTo(to, feed);
+  } else {
+    control_.channel.moveTo(to, feed);
+  }
+}
+
 void KlartextHost::straight(const Move& move, Evaluation& evaluation) {
+  namePathWords(move, evaluation);
   const Side side = sideOf(move);
   const bool hasWords = move.words.count > 0;
   if (!hasWords && !contour_.holds()) {
@@ -165,28 +216,40 @@ void KlartextHost::straight(const Move& move, Evaluation& evaluation) {
     return;
   }
   const Vector3 from = programmedPosition();
-  Vector3 to = pointOf(move, evaluation, from);
+  const bool untilted = untiltedPositions_ && control_.coordinates.tilt.has_value();
+  Vector3 to = untilted ? untiltedTarget(move, evaluation, from) : pointOf(move, evaluation, from);
   Element element;
   bool turns = false;
   bool travels = move.polar;
+  bool directed = false;
   for (const Word& word : evaluation.words(move.words)) {
     const char letter = axisLetter(word);
     if (isLinearAxis(letter)) travels = true;
+    if (word.address == addressOf("TX") || word.address == addressOf("TY") || word.address == addressOf("TZ")) {
+      directed = true;
+    }
     if (letter == '\0' || isLinearAxis(letter)) continue;
     turns = true;
     if (spaceAngles_ && letter <= 'C') continue;
     const std::size_t axis = axisOf(letter);
     const machine::Axis& description = control_.channel.description().axes[axis];
     const bool rotary = description.kind == machine::AxisKind::Rotary;
-    const double now = control_.channel.axes()[axis] - control_.channel.rotaryOffset[axis];
+    const double sign = control_.coordinates.axisSign(axis);
+    const double now = sign * (control_.channel.axes()[axis] - control_.channel.rotaryOffset[axis]);
     double value = rotary ? evaluation.number(word.value) : length(word.value, evaluation);
     if (word.mode == WordMode::Incremental) value += now;
     if (rotary && shortestPath_ && description.modulo) value = now + std::remainder(value - now, 360.0);
-    element.rotary[axis] = value;
+    element.rotary[axis] = sign * value;
   }
   if (spaceAngles_ && turns) turnToSpaceAngles(move.words, element.rotary, evaluation);
+  if (directed && control_.channel.holdTip) {
+    turns = true;
+    turnToVector(move.words, element.rotary, evaluation);
+  } else if (directed) {
+    leaveOut("The tool direction TX, TY, TZ of LN blocks without M128 or FUNCTION TCPM");
+  }
   if (move.polar) {
-    const control::WorkingPlane& plane = control_.coordinates.plane;
+    const control::WorkingPlane plane = polePlane_.value_or(control_.coordinates.plane);
     if (!poleSet_)
       throw Alarm("Pole missing", "There is no pole for polar coordinates", "program CC before this block");
     const Vector3 start = plane.planeFromXyz(from);
@@ -212,7 +275,7 @@ void KlartextHost::straight(const Move& move, Evaluation& evaluation) {
     const control::WorkingPlane& plane = control_.coordinates.plane;
     contour_.passed((plane.planeFromXyz(to) - plane.planeFromXyz(from)).head<2>());
     if (!turns) {
-      control_.channel.moveTo(to, feed);
+      straightTo(to, feed);
       return;
     }
     control::Target target;
@@ -221,7 +284,7 @@ void KlartextHost::straight(const Move& move, Evaluation& evaluation) {
         target.linear[i] = to[static_cast<Eigen::Index>(i)];
       }
     }
-    if (move.polar) target.linear = {to.x(), to.y(), to.z()};
+    if (move.polar || (travels && untilted)) target.linear = {to.x(), to.y(), to.z()};
     target.rotary = element.rotary;
     moveTurning(target, feed);
     return;
@@ -248,7 +311,11 @@ void KlartextHost::addElement(Element element, const Move& move, Evaluation& eva
 }
 
 void KlartextHost::arc(const Move& move, Evaluation& evaluation) {
-  const control::WorkingPlane& plane = control_.coordinates.plane;
+  const Word* radiusWord = find(move.words, "R", evaluation);
+  const bool needsPole = move.polar || (move.kind != MoveKind::ArcTangential && radiusWord == nullptr);
+  const bool beside = needsPole && polePlane_.has_value();
+  const control::WorkingPlane plane = beside ? *polePlane_ : control_.coordinates.plane;
+  if (beside) contour_.flush();
   const Vector3 from3 = programmedPosition();
   const Vector3 from = plane.planeFromXyz(from3);
   const Vector3 to = plane.planeFromXyz(pointOf(move, evaluation, from3));
@@ -260,10 +327,8 @@ void KlartextHost::arc(const Move& move, Evaluation& evaluation) {
   element.to = to.head<2>();
   element.heightFrom = from.z();
   element.heightTo = to.z();
-  const Word* radiusWord = find(move.words, "R", evaluation);
   const Vector3 pole3 = plane.planeFromXyz(pole_);
   const Vector2 pole = pole3.head<2>();
-  const bool needsPole = move.polar || (move.kind != MoveKind::ArcTangential && radiusWord == nullptr);
   if (needsPole && !poleSet_) throw Alarm("Circle centre missing", "There is no circle centre", "program CC before it");
   if (move.kind != MoveKind::ArcTangential && arcDirection_ == 0) {
     throw Alarm("Direction of rotation missing", "The arc has no direction of rotation", "program DR+ or DR-");
@@ -289,6 +354,10 @@ void KlartextHost::arc(const Move& move, Evaluation& evaluation) {
     Element tangential = tangentialArc(element.from, contour_.direction(), element.to);
     tangential.heightFrom = element.heightFrom;
     tangential.heightTo = element.heightTo;
+    if (beside) {
+      throw Alarm("Tangential arc not permitted", "CTP joins its arc in the plane of the tool axis only",
+                  "program CC in the working plane, or the arc with CP");
+    }
     addElement(tangential, move, evaluation);
     return;
   }
@@ -332,30 +401,47 @@ void KlartextHost::arc(const Move& move, Evaluation& evaluation) {
     if (std::abs(a.norm() - b.norm()) > endPointTolerance) {
       throw Alarm("Circle end point wrong",
                   fmt::format("The end point lies {:.4f} mm beside the circle", std::abs(a.norm() - b.norm())),
-                  "correct the end point or the centre CC");
+                  "correct the end point or the centre: the two axes of CC are the plane of the circle");
     }
     double sweep = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
     if (sweep * direction <= 1e-9) sweep += direction * 2 * std::numbers::pi;
     element.sweep = sweep;
     element.to = pole + turned(a, sweep);
   }
-  addElement(element, move, evaluation);
+  if (!beside) {
+    addElement(element, move, evaluation);
+    return;
+  }
+  if (sideOf(move) != Side::Off) {
+    throw Alarm("Radius compensation not permitted",
+                "An arc that does not lie in the plane of the tool axis takes no radius compensation",
+                "program it with R0, or call the tool with another axis");
+  }
+  element.feed = feedOf(move, evaluation);
+  runElement(element, plane);
 }
 
 void KlartextHost::setCentre(const Move& move, Evaluation& evaluation) {
   const Vector3 from = programmedPosition();
   if (move.words.count == 0) {
     pole_ = from;
+    polePlane_.reset();
   } else {
+    std::string missing = "XYZ";
     Vector3 base = poleSet_ ? pole_ : from;
     for (const Word& word : evaluation.words(move.words)) {
       const char letter = axisLetter(word);
       if (!isLinearAxis(letter)) throw Alarm("Axis not permitted", "CC takes coordinates X, Y, Z only");
       const int axis = letter - 'X';
+      std::erase(missing, letter);
       const double value = length(word.value, evaluation);
       base[axis] = word.mode == WordMode::Incremental ? from[axis] + value : value;
     }
     pole_ = base;
+    if (missing.size() == 1) {  // two axes: their plane
+      polePlane_ = control::WorkingPlane::ofToolAxis(missing.front());
+      if (polePlane_->tool == control_.coordinates.plane.tool) polePlane_.reset();
+    }
   }
   poleSet_ = true;
 }
@@ -364,7 +450,7 @@ void KlartextHost::corner(const Move& move, Evaluation& evaluation) {
   const Word* size = find(move.words, "R", evaluation);
   if (size == nullptr) return;
   std::optional<Feed> feed;
-  if (move.feed.present()) feed = Feed::at(length(move.feed, evaluation));
+  if (move.feed.present()) feed = feedFor(length(move.feed, evaluation));
   const double value = length(size->value, evaluation);
   if (move.kind == MoveKind::Rounding) {
     contour_.round(value, feed, placeOf(evaluation));
@@ -428,15 +514,15 @@ void KlartextHost::moveInMachineCoordinates(const Move& move, Evaluation& evalua
     const std::size_t axis = axisOf(letter);
     const bool rotary = description.axes[axis].kind == machine::AxisKind::Rotary;
     const double value = rotary ? evaluation.number(word.value) : length(word.value, evaluation);
-    const double reference = move.machineReference2 ? description.toolChange[axis] : 0;
+    const double reference =
+        control_.coordinates.turnsTaken[axis] + (move.machineReference2 ? description.toolChange[axis] : 0);
     target[axis] = word.mode == WordMode::Incremental ? target[axis] + value : reference + value;
   }
   sideOf(move);
   control_.channel.moveAxes(target, feedOf(move, evaluation));
 }
 
-void KlartextHost::runElement(const Element& element) {
-  const control::WorkingPlane& plane = control_.coordinates.plane;
+void KlartextHost::runElement(const Element& element, const control::WorkingPlane& plane) {
   control::Channel& channel = control_.channel;
   const auto point = [&](const Vector2& p, double height) { return plane.xyzFromPlane({p.x(), p.y(), height}); };
   if (!element.arc) {
@@ -448,7 +534,7 @@ void KlartextHost::runElement(const Element& element) {
       target.rotary = element.rotary;
       moveTurning(target, element.feed);
     } else {
-      channel.moveTo(to, element.feed);
+      straightTo(to, element.feed);
     }
     return;
   }

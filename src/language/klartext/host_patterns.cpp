@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "control/alarm.hpp"
+#include "language/klartext/excerpt.hpp"
 #include "language/klartext/host.hpp"
 #include "language/klartext/pattern.hpp"
 
@@ -10,11 +11,7 @@ namespace probewright::language::klartext {
 using control::Alarm;
 
 void KlartextHost::definePattern(std::string_view text, Evaluation& evaluation) {
-  const auto value = [&](std::string_view name) {
-    const Value found = readNamed(name, evaluation);
-    if (isText(found)) throw Alarm("Wrong data type", fmt::format("{} is a text, not a number", name));
-    return std::get<double>(found);
-  };
+  const auto value = [&](std::string_view name) { return numberNamed(name, evaluation); };
   auto points = patternPoints(text, value);
   if (!points) throw Alarm("Pattern wrong", points.error().message, points.error().advice);
   for (Vector3& point : *points)
@@ -25,7 +22,8 @@ void KlartextHost::definePattern(std::string_view text, Evaluation& evaluation) 
 void KlartextHost::selectPattern(const std::string& path) {
   const Result<std::string> bytes = readHostFile(path);
   if (!bytes) {
-    throw Alarm("Table missing", fmt::format("The point table {} cannot be read: {}", path, bytes.error().message),
+    throw Alarm("Table missing",
+                fmt::format("The point table {} cannot be read: {}", excerptOf(path), bytes.error().message),
                 "put the table beside the program");
   }
   auto points = pointTable(*bytes, fileNameOf(path));

@@ -86,9 +86,9 @@ void KlartextHost::plane(std::string_view name, WordRange words, Evaluation& eva
       target[axis] =
           word.mode == WordMode::Incremental ? target[axis] + angle : angle + control_.channel.rotaryOffset[axis];
     }
-    // In the workpiece system of the preset; basic rotation turns with it.
-    const Matrix3 preset = control_.coordinates.machineFromPreset().linear();
-    axes = preset.transpose() * toolOrientation(control_.channel.description(), reference, target) * preset;
+    // As the workpiece system sees it, with basic rotation, rotation and mirror image.
+    const Matrix3 workpiece = machineFromWorkpiece();
+    axes = workpiece.transpose() * toolOrientation(control_.channel.description(), reference, target) * workpiece;
     control_.coordinates.tilt = axes;
     control_.coordinates.tiltIsAxial = true;
     control_.coordinates.workingPlane = {};
@@ -97,6 +97,12 @@ void KlartextHost::plane(std::string_view name, WordRange words, Evaluation& eva
     return;
   }
   tilt(axes, words, evaluation);
+}
+
+/// Directions of the workpiece system: preset with basic rotation, then rotation and mirror image before the tilt.
+Matrix3 KlartextHost::machineFromWorkpiece() const {
+  const control::heidenhain::Coordinates& coordinates = control_.coordinates;
+  return coordinates.machineFromPreset().linear() * coordinates.workpiece.directions(coordinates.plane);
 }
 
 void KlartextHost::tiltByCycle19(WordRange words, Evaluation& evaluation) {
@@ -179,8 +185,11 @@ void KlartextHost::tilt(const std::optional<Matrix3>& wanted, WordRange words, E
       if (description.axes[i].kind == machine::AxisKind::Rotary) target[i] = reference[i];
     }
   } else {
-    const Matrix3 workpiece = about(toolAxis, coordinates.workpiece.rotation);
-    const Matrix3 machineFromPlane = coordinates.machineFromPreset().linear() * workpiece * *wanted;
+    if (coordinates.workpiece.mirror[static_cast<std::size_t>(coordinates.plane.tool)]) {
+      throw Alarm("Plane definition wrong", "The tool axis is mirrored: the tilted plane would lie upside down",
+                  "mirror other axes, or end the mirror image before the plane");
+    }
+    const Matrix3 machineFromPlane = machineFromWorkpiece() * *wanted;
     std::vector<machine::AxisPositions> solutions =
         solveRotaryAxes(description, machineFromPlane * toolAxis, toolAxis, reference, now);
     if (solutions.empty()) {
@@ -225,7 +234,7 @@ void KlartextHost::positionRotaryAxes(const machine::AxisPositions& target, Word
   const Word* feedWord = find(words, "F", evaluation);
   if (stays || (!isMove && !isTurn && feedWord == nullptr)) return;
   control::Feed feed = control::Feed::rapidTraverse();
-  if (feedWord != nullptr) feed = control::Feed::at(evaluation.number(feedWord->value));
+  if (feedWord != nullptr) feed = checkedFeed(length(feedWord->value, evaluation));
   if (const Word* back = find(words, "MB", evaluation)) {
     std::optional<double> distance;
     if (back->value.present()) distance = length(back->value, evaluation);

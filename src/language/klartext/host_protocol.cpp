@@ -7,6 +7,7 @@
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
+#include "language/klartext/excerpt.hpp"
 #include "language/klartext/host.hpp"
 #include "language/klartext/lexer.hpp"
 
@@ -62,6 +63,13 @@ std::vector<std::string_view> statementsOf(std::string_view mask) {
   return statements;
 }
 
+/// Files that the run itself leaves, whatever their case.
+bool isOwnFile(std::string_view name) {
+  static constexpr std::array<std::string_view, 8> own = {"TOOL.T",      "TCHPROBE.TP", "PRESET.PR",    "TOOLTURN.TRN",
+                                                          "AXSHIFT.TAB", "REPORT.HTML", "RESULTS.JSON", "QR.TXT"};
+  return std::ranges::any_of(own, [&](std::string_view each) { return std::ranges::equal(each, name, {}, {}, upper); });
+}
+
 std::string padded(std::string text, std::size_t width, bool left) {
   if (text.size() >= width) return text;
   const std::string blanks(width - text.size(), ' ');
@@ -77,8 +85,13 @@ public:
   bool onlyEmptyTexts() const { return texts_ > 0 && texts_ == emptyTexts_; }
 
   std::string format() {
-    const std::size_t close = line_.rfind('"');
-    if (close == 0) refuse(fmt::format("the text {} is not closed by a quotation mark", line_));
+    std::size_t close = 1;
+    while (close < line_.size() && (line_[close] != '"' || line_[close - 1] == '\\'))
+      ++close;
+    if (close >= line_.size()) refuse(fmt::format("the text {} is not closed by a quotation mark", excerptOf(line_)));
+    if (line_.find('"', close + 1) != std::string_view::npos) {
+      refuse(fmt::format("the format line {} does not end with ;", excerptOf(line_)));
+    }
     const std::string_view text = line_.substr(1, close - 1);
     arguments_ = line_.substr(close + 1);
     std::string out;
@@ -94,6 +107,9 @@ public:
       } else {
         i = field(text, i + 1, out);
       }
+    }
+    if (!trimmed(arguments_).empty()) {
+      refuse(fmt::format("the format line {} has more parameters than %", excerptOf(line_)));
     }
     return out;
   }
@@ -193,7 +209,7 @@ ProtocolResult formatProtocol(std::string_view mask, const std::function<Value(s
                               control::DialogLanguage language) {
   const auto seconds = static_cast<std::time_t>(secondsSince1970);
   std::tm time{};
-  gmtime_r(&seconds, &time);
+  if (gmtime_r(&seconds, &time) == nullptr) refuse("the clock of the machine has left the calendar");
   ProtocolResult result;
   bool shown = true;
   bool hideEmpty = false;
@@ -223,7 +239,7 @@ ProtocolResult formatProtocol(std::string_view mask, const std::function<Value(s
     } else if (statement.starts_with("L_")) {
       shown = statement == languageWord(language);
     } else {
-      refuse(fmt::format("{} is no format line and no keyword", statement));
+      refuse(fmt::format("{} is no format line and no keyword", excerptOf(statement)));
     }
   }
   return result;
@@ -241,10 +257,16 @@ Value KlartextHost::readNamed(std::string_view name, Evaluation& evaluation) {
   if (variable.space != VariableSpace::Q) ++letters;
   const auto number = parseInteger(name.substr(std::min(letters, name.size())));
   if (name.empty() || upper(name[0]) != 'Q' || !number || *number < 0) {
-    refuse(fmt::format("{} is no Q parameter", name));
+    refuse(fmt::format("{} is no Q parameter", excerptOf(name)));
   }
   variable.index[0] = Operand::of(static_cast<double>(*number));
   return read(variable, evaluation);
+}
+
+double KlartextHost::numberNamed(std::string_view name, Evaluation& evaluation) {
+  const Value value = readNamed(name, evaluation);
+  if (isText(value)) throw Alarm("Wrong data type", fmt::format("{} is a text, not a number", name));
+  return std::get<double>(value);
 }
 
 /// FN 38: SEND /"X = %F" / +Q1: the text with its values, among the messages.
@@ -264,18 +286,25 @@ void KlartextHost::send(std::string_view text, Evaluation& evaluation) {
   message(fmt::format("FN 38: {}", trimmed(sent.text)));
 }
 
-void KlartextHost::protocol(const Command& command, Evaluation& evaluation) {
-  std::string text(evaluation.at(command.text));
-  // :'QS1': stands for the text of the parameter.
-  for (std::size_t at = text.find(":'QS"); at != std::string::npos; at = text.find(":'QS", at)) {
-    const std::size_t end = text.find("':", at + 2);
-    if (end == std::string::npos) break;
-    const auto number = parseInteger(std::string_view(text).substr(at + 4, end - at - 4));
-    if (!number || !control::heidenhain::QParameters::exists(*number)) break;
-    const std::string& inserted = control_.q.qs(static_cast<int>(*number));
-    text.replace(at, end + 2 - at, inserted);
+/// :'QS1' or :'QL3' in a path, also with a colon after it, stands for the value of the parameter.
+void KlartextHost::insertParameters(std::string& text, Evaluation& evaluation) {
+  for (std::size_t at = text.find(":'Q"); at != std::string::npos; at = text.find(":'Q", at)) {
+    const std::size_t end = text.find('\'', at + 2);
+    if (end == std::string::npos) {
+      throw Alarm("FN 16: file missing", fmt::format("the quotation mark after {} is missing", text.substr(at, 20)),
+                  "write the parameter as :'QS1'");
+    }
+    const Value value = readNamed(std::string_view(text).substr(at + 2, end - at - 2), evaluation);
+    const std::string inserted = isText(value) ? std::get<std::string>(value) : formatShortest(std::get<double>(value));
+    const std::size_t behind = end + 1 < text.size() && text[end + 1] == ':' ? end + 2 : end + 1;
+    text.replace(at, behind - at, inserted);
     at += inserted.size();
   }
+}
+
+void KlartextHost::protocol(const Command& command, Evaluation& evaluation) {
+  std::string text(evaluation.at(command.text));
+  insertParameters(text, evaluation);
   std::erase(text, '"');
   const auto trimmedPart = [&](std::size_t from, std::size_t to) {
     return std::string(trimmed(std::string_view(text).substr(from, to - from)));
@@ -295,8 +324,9 @@ void KlartextHost::protocol(const Command& command, Evaluation& evaluation) {
     }
   }
   if (!bytes) {
-    throw Alarm("FN 16: file missing",
-                fmt::format("the mask file {}: {}", trimmedPart(0, first), bytes.error().message),
+    std::string mask = trimmedPart(0, first);
+    if (mask.empty()) mask = trimmedPart(0, text.rfind('/'));
+    throw Alarm("FN 16: file missing", fmt::format("the mask file {}: {}", excerptOf(mask), bytes.error().message),
                 "put it beside the program, or check how its name is written");
   }
   const std::string target = trimmedPart(slash + 1, text.size());
@@ -309,16 +339,35 @@ void KlartextHost::protocol(const Command& command, Evaluation& evaluation) {
     if (!result.text.empty()) message(std::string(trimmed(result.text)));
     return;
   }
-  writeProtocol(fileNameOf(target), result);
+  writeProtocol(protocolFile(target), result);
+}
+
+/// The target of FN 16 as a name in the folder of the run.
+std::string KlartextHost::protocolFile(const std::string& target) const {
+  constexpr std::size_t longestName = 248;  // bytes; file systems take 255
+  const std::string name = fileNameOf(target);
+  const auto refuseName = [&](std::string reason) {
+    throw Alarm("FN 16: file wrong", std::move(reason), "write another name after the / of FN 16");
+  };
+  if (name.empty()) {
+    throw Alarm("FN 16: file missing", "FN 16 has no name of a file behind its /",
+                "write FN 16: F-PRINT MASK.A / LOG.TXT");
+  }
+  if (name == "." || name == "..") refuseName(fmt::format("{} is a folder, not a file", name));
+  if (name.size() > longestName) {
+    refuseName(fmt::format("The name {}... has {} bytes, at most {} are possible", name.substr(0, 40), name.size(),
+                           longestName));
+  }
+  const bool table = std::ranges::any_of(
+      control_.tables.datums, [&](const auto& each) { return std::ranges::equal(each.first, name, {}, upper, upper); });
+  if (isOwnFile(name) || table) refuseName(fmt::format("The run writes {} itself", name));
+  if (options_.isInput && options_.isInput(name)) refuseName(fmt::format("{} is read by this run", name));
+  return name;
 }
 
 /// A file that stands open goes on; one that was closed, or comes from an earlier program, begins anew unless the mask
 /// says otherwise.
 void KlartextHost::writeProtocol(const std::string& name, const ProtocolResult& result) {
-  if (name.empty()) {
-    throw Alarm("FN 16: file missing", "FN 16 has no name of a file behind its /",
-                "write FN 16: F-PRINT MASK.A / LOG.TXT");
-  }
   bool& open = protocolOpen_[name];
   const auto written = control_.panel.files().find(name);
   const std::size_t size = written == control_.panel.files().end() ? 0 : written->second.size();

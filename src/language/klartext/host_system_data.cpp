@@ -48,7 +48,10 @@ void KlartextHost::systemRead(const Command& command, Evaluation& evaluation) {
   const int id = static_cast<int>(std::lround(wordOr("ID", 0)));
   const int number = static_cast<int>(std::lround(wordOr("NR", 0)));
   const double index = wordOr("IDX", 0);
-  const std::optional<double> value = systemData(id, number, index, evaluation);
+  // On the iTNC 530 IDX 0 of ID 50 is tool 0; without IDX it is the active tool.
+  const bool rowZero =
+      id == 50 && index == 0 && !control_.isTNC640() && find(command.words, "IDX", evaluation) != nullptr;
+  const std::optional<double> value = rowZero ? toolData(number, "0") : systemData(id, number, index, evaluation);
   if (!value) {
     throw Alarm("System datum not available",
                 fmt::format("FN 18 cannot read ID{} NR{} IDX{} on this control", id, number, index),
@@ -164,7 +167,7 @@ std::optional<double> KlartextHost::stateData(int number) const {
     case 5:
       return spindleState();
     case 8:
-      return 0;
+      return control_.q.q(111);
     case 9:
       return feed_;
     case 10:
@@ -299,6 +302,10 @@ std::optional<double> KlartextHost::coordinateData(int id, int number, int index
           double bits = 0;
           for (std::size_t i = 0; i < 3; ++i)
             bits += current.mirror[i] ? static_cast<double>(1U << i) : 0;
+          for (std::size_t i = 3; i < axisNames.size(); ++i) {
+            const auto mirrored = description.axisIndex(axisNames.substr(i, 1));
+            if (mirrored && (current.mirroredAxes >> *mirrored & 1U) != 0) bits += static_cast<double>(1U << i);
+          }
           return bits;
         }
         case 4:
@@ -328,17 +335,19 @@ std::optional<double> KlartextHost::coordinateData(int id, int number, int index
       if (number == 3) return description.axes[*axis].maximum;
       return std::nullopt;
     case 240:
-      return axis ? std::optional<double>(control_.channel.axes()[*axis]) : std::nullopt;
+      if (!axis) return std::nullopt;
+      return control_.channel.axes()[*axis] - coordinates.turnsTaken[*axis];
     case 270:
       if (isLinear) return control_.channel.position()[index - 1];
       if (!axis) return std::nullopt;
-      return control_.channel.axes()[*axis] - control_.channel.rotaryOffset[*axis];
+      return coordinates.axisSign(*axis) * (control_.channel.axes()[*axis] - control_.channel.rotaryOffset[*axis]);
     case 280:
       return number == 1 ? std::optional<double>(control_.channel.holdTip ? active : 0) : std::nullopt;
     case 310:
       if (number == 126) return shortestPath_ ? active : 0;
       if (number == 128) return control_.channel.holdTip ? active : 0;
-      return number == 116 || number == 144 ? std::optional<double>(0) : std::nullopt;
+      if (number == 144) return coordinates.tiltedAxesInPosition ? active : 0;
+      return number == 116 ? std::optional<double>(0) : std::nullopt;
     default:
       return std::nullopt;
   }

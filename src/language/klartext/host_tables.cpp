@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
+#include "language/klartext/excerpt.hpp"
 #include "language/klartext/host.hpp"
 #include "language/klartext/lexer.hpp"
 
@@ -52,7 +55,7 @@ std::string fileNameOf(std::string_view path) {
 Result<std::string> KlartextHost::readHostFile(std::string_view path) const {
   std::string name(path);
   std::erase(name, '"');
-  if (!options_.readFile) return fail(fmt::format("the file {} does not exist", name));
+  if (!options_.readFile) return fail(fmt::format("the file {} does not exist", excerptOf(name)));
   Result<std::string> bytes = options_.readFile(name);
   if (!bytes && fileNameOf(name) != name) {
     Result<std::string> byName = options_.readFile(fileNameOf(name));
@@ -62,10 +65,10 @@ Result<std::string> KlartextHost::readHostFile(std::string_view path) const {
 }
 
 void KlartextHost::openTable(std::string_view path) {
-  const Result<std::string> bytes = readHostFile(path);
   if (path.empty()) throw Alarm("Table missing", "FN 26 names no table", "write FN 26: TABOPEN TABLE.TAB");
+  const Result<std::string> bytes = readHostFile(path);
   if (!bytes) {
-    throw Alarm("Table missing", fmt::format("The table {} cannot be read: {}", path, bytes.error().message),
+    throw Alarm("Table missing", fmt::format("The table {} cannot be read: {}", excerptOf(path), bytes.error().message),
                 "put the table beside the program");
   }
   Diagnostics mistakes;
@@ -95,6 +98,82 @@ void KlartextHost::writeTable(const Command& command, Evaluation& evaluation) {
     }
   }
   control_.panel.file(table_->file(), table_->bytes());
+}
+
+/// TABDATA READ, WRITE, ADD: an entry of the tool table or of the preset table, in the unit of the table's numbers: mm
+/// and degrees. A preset in force changes at once.
+void KlartextHost::tableData(const Command& command, Evaluation& evaluation) {
+  settle();
+  const std::string_view name = evaluation.at(command.name);
+  std::string kind(evaluation.at(command.text));
+  std::ranges::transform(kind, kind.begin(), upper);
+  if (kind.starts_with("CORR")) {
+    leaveOut(fmt::format("{} of the correction table {}", name, kind));
+    return;
+  }
+  auto& table = kind == "TOOL" ? control_.tables.tools : control_.tables.presets;
+  if (kind != "TOOL" && kind != "PRESET") {
+    throw Alarm("Table missing", fmt::format("TABDATA knows no table {}", excerptOf(kind)), "name TOOL or PRESET");
+  }
+  const std::string column = evaluation.text(find(command.words, "COL", evaluation)->value);
+  const std::string row = evaluation.text(find(command.words, "KEY", evaluation)->value);
+  if (!table.hasRow(row) || !table.hasColumn(column)) {
+    throw Alarm("Table entry missing",
+                fmt::format("{} has no {}", table.table().name(),
+                            table.hasRow(row) ? fmt::format("column {}", column) : fmt::format("row {}", row)),
+                "correct COLUMN or KEY");
+  }
+  if (name == "TABDATA READ") {
+    const VariableRef& target = evaluation.block().variables[static_cast<std::size_t>(command.variable)];
+    const std::string cell = table.text(row, column);
+    const auto number = parseDecimal(cell);
+    if (target.space == VariableSpace::QS) {
+      write(target, cell, evaluation);
+    } else if (number || cell.empty() || cell == "-") {
+      write(target, number ? table.numberOr(row, column, 0) : 0, evaluation);
+    } else {
+      throw Alarm("Wrong data type", fmt::format("\"{}\" in column {} is no number", cell, column),
+                  "read it into a QS parameter");
+    }
+    return;
+  }
+  const Value value = evaluation.value(find(command.words, "VAL", evaluation)->value);
+  if (isText(value)) {
+    if (name == "TABDATA ADD") throw Alarm("Wrong data type", "TABDATA ADD adds numbers, not texts");
+    control_.writeText(table, row, column, std::get<std::string>(value));
+    return;
+  }
+  const double before = name == "TABDATA ADD" ? table.numberOr(row, column, 0) : 0;
+  writeTableNumber(kind == "TOOL", row, column, before + std::get<double>(value));
+}
+
+void KlartextHost::writeTableNumber(bool tool, const std::string& row, const std::string& column, double value) {
+  if (tool) {
+    control_.writeNumber(control_.tables.tools, row, column, value);
+    if (row != control_.tool.row) return;
+    control_.refreshTool();
+    placeControlledPoint();
+    control_.applyCoordinates();
+    publishTool();
+    return;
+  }
+  control::heidenhain::Control::PresetChange change;
+  constexpr std::array<std::string_view, 3> origin = {"X", "Y", "Z"}, angles = {"SPA", "SPB", "SPC"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (column == origin[i]) change.origin[i] = value;
+    if (column == angles[i]) change.spaceAngles[i] = value;
+  }
+  const auto axis = control_.channel.description().axisIndex(column.substr(0, column.find("_OFFS")));
+  if (axis && column.ends_with("_OFFS")) change.rotaryOffset[*axis] = value;
+  const bool known = std::ranges::count(origin, column) + std::ranges::count(angles, column) > 0 ||
+                     (axis && column.ends_with("_OFFS") &&
+                      control_.channel.description().axes[*axis].kind == machine::AxisKind::Rotary);
+  if (!known) {
+    control_.writeNumber(control_.tables.presets, row, column, value);
+    return;
+  }
+  const auto number = parseInteger(row);
+  if (number) control_.writePreset(static_cast<int>(*number), change);
 }
 
 void KlartextHost::readTable(const Command& command, Evaluation& evaluation) {

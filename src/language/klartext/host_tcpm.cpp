@@ -50,9 +50,8 @@ void KlartextHost::placeControlledPoint() {
 }
 
 /// AXIS SPAT: A, B, C are space angles of the tool in the active coordinate system; those that the block leaves out
-/// keep their value. The rotary axes go the shortest way to where the tool points in this direction.
-void KlartextHost::turnToSpaceAngles(WordRange words, std::array<std::optional<double>, machine::maximumAxes>& rotary,
-                                     Evaluation& evaluation) {
+/// keep their value.
+void KlartextHost::turnToSpaceAngles(WordRange words, RotaryTarget& rotary, Evaluation& evaluation) {
   bool given = false;
   for (const Word& word : evaluation.words(words)) {
     if (word.address < 'A' || word.address > 'C') continue;
@@ -62,19 +61,38 @@ void KlartextHost::turnToSpaceAngles(WordRange words, std::array<std::optional<d
     given = true;
   }
   if (!given) return;
+  Vector3 toolAxis = Vector3::Zero();
+  toolAxis[control_.coordinates.plane.tool] = 1;
+  turnTo(control::heidenhain::rotationFromSpaceAngles(toolAngles_) * toolAxis, rotary);
+}
+
+/// LN with TX, TY, TZ: where the tool points from its tip, while M128 or FUNCTION TCPM is on.
+void KlartextHost::turnToVector(WordRange words, RotaryTarget& rotary, Evaluation& evaluation) {
+  Vector3 direction = Vector3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const char name[2] = {'T', "XYZ"[i]};
+    if (const Word* word = find(words, {name, 2}, evaluation)) direction[i] = evaluation.number(word->value);
+  }
+  if (direction.norm() < 1e-9) {
+    throw Alarm("Tool direction wrong", "TX, TY and TZ of LN are all 0", "program the direction of the tool axis");
+  }
+  turnTo(direction, rotary);
+}
+
+/// The rotary axes go the shortest way to where the tool points in this direction of the active coordinate system.
+void KlartextHost::turnTo(const Vector3& inProgram, RotaryTarget& rotary) const {
   const control::Channel& channel = control_.channel;
   const machine::MachineDescription& description = channel.description();
   const machine::AxisPositions& reference = control_.coordinates.preset.rotaryOffset;
   const machine::AxisPositions now = channel.axes();
   Vector3 toolAxis = Vector3::Zero();
   toolAxis[control_.coordinates.plane.tool] = 1;
-  const Vector3 direction =
-      (channel.frame().linear() * control::heidenhain::rotationFromSpaceAngles(toolAngles_) * toolAxis).normalized();
+  const Vector3 direction = (channel.frame().linear() * inProgram).normalized();
   std::vector<machine::AxisPositions> solutions =
       machine::solveRotaryAxes(description, direction, toolAxis, reference, now);
   if (solutions.empty()) {
     throw Alarm("Entered angle not permitted", "The rotary axes of the machine cannot point the tool in this direction",
-                "choose other space angles, or a machine whose rotary axes reach them");
+                "choose other angles, or a machine whose rotary axes reach them");
   }
   const std::optional<std::size_t> free = machine::freeRotaryAxis(description, direction, reference);
   const auto distance = [&](machine::AxisPositions& solution) {

@@ -39,6 +39,9 @@ double probeType(std::string_view name) {
   return found == models.end() ? 0 : static_cast<double>(found - models.begin());
 }
 
+/// The type of a tool by its number, as far as measuring programs know them; empty for any other.
+std::string_view toolTypeOf(double number) { return number == 0 ? "MILL" : number == 21 ? "TCHP" : std::string_view(); }
+
 std::string_view columnOf(int number) {
   const auto column = std::ranges::find(toolColumns, number, &ToolColumn::number);
   return column == toolColumns.end() ? std::string_view() : column->column;
@@ -54,7 +57,7 @@ std::string KlartextHost::toolRowOf(double index) const {
 
 std::optional<double> KlartextHost::toolData(int number, const std::string& row) const {
   const auto& tools = control_.tables.tools;
-  if (!tools.hasRow(row)) return std::nullopt;
+  if (!tools.hasRow(row)) return row == "0" && !columnOf(number).empty() ? std::optional<double>(0) : std::nullopt;
   const auto text = [&](std::string_view column) { return tools.hasColumn(column) ? tools.text(row, column) : ""; };
   switch (number) {
     case 7:
@@ -222,10 +225,18 @@ void KlartextHost::systemWrite(const Command& command, Evaluation& evaluation) {
   switch (id) {
     case 50:
     case 950: {
-      const std::string row = id == 950 || index <= 0 ? control_.tool.row : toolRowOf(index);
+      const bool rowZero = index == 0 && !control_.isTNC640() && find(command.words, "IDX", evaluation) != nullptr;
+      const std::string row = id == 950 || (index <= 0 && !rowZero) ? control_.tool.row : toolRowOf(index);
       const std::string_view column = columnOf(number);
-      if (column.empty() || !control_.tables.tools.hasRow(row)) refuse();
-      control_.writeNumber(control_.tables.tools, row, std::string(column), value);
+      const std::string_view type = number == 36 ? toolTypeOf(value) : std::string_view();
+      if ((column.empty() && type.empty()) || !control_.tables.tools.hasRow(row)) refuse();
+      if (type.empty()) {
+        control_.writeNumber(control_.tables.tools, row, std::string(column), value);
+      } else if (control_.tables.tools.hasColumn("TYP")) {
+        control_.writeText(control_.tables.tools, row, "TYP", std::string(type));
+      } else {
+        leaveOut("The type of a tool, for which TOOL.T has no column TYP,");
+      }
       if (row == control_.tool.row) {
         control_.refreshTool();
         placeControlledPoint();
@@ -238,6 +249,21 @@ void KlartextHost::systemWrite(const Command& command, Evaluation& evaluation) {
       if (table == control_.tables.datums.end() || whole < 1 || whole > 9) refuse();
       control_.writeNumber(table->second, std::to_string(number),
                            std::string(axisNames.substr(static_cast<std::size_t>(whole - 1), 1)), value);
+      break;
+    }
+    case 503: {  // as the table shows them: machine coordinates
+      if (control_.isTNC640() || whole < 1 || whole > 6) refuse();
+      const auto axis =
+          control_.channel.description().axisIndex(axisNames.substr(static_cast<std::size_t>(whole - 1), 1));
+      control::heidenhain::Control::PresetChange change;
+      if (whole <= 3) {
+        change.origin[static_cast<std::size_t>(whole - 1)] = value;
+      } else if (axis) {
+        change.rotaryOffset[*axis] = value;
+      } else {
+        refuse();
+      }
+      control_.writePreset(number, change);
       break;
     }
     case 507: {

@@ -7,6 +7,7 @@
 #include "control/alarm.hpp"
 #include "control/heidenhain/datum_table.hpp"
 #include "control/heidenhain/preset_table.hpp"
+#include "language/klartext/excerpt.hpp"
 #include "language/klartext/host.hpp"
 #include "language/klartext/lexer.hpp"
 
@@ -21,6 +22,8 @@ namespace {
 int linearAxis(const Word& word) {
   return word.address >= 'X' && word.address <= 'Z' ? static_cast<int>(word.address) - 'X' : -1;
 }
+
+char axisName(int axis) { return "XYZ"[axis]; }
 
 std::string upperName(std::string_view path) {
   std::string name = fileNameOf(path);
@@ -44,10 +47,17 @@ void KlartextHost::transform(const Transform& transform, Evaluation& evaluation)
     current.axisShift = {};
   } else if (name == "CYCL DEF 8" || name == "TRANS MIRROR AXIS" || name == "TRANS MIRROR RESET") {
     current.mirror = {};
+    current.mirroredAxes = 0;
     for (const Word& word : evaluation.words(words)) {
       const int axis = linearAxis(word);
-      if (axis < 0) throw Alarm("Axis not permitted", "Only X, Y and Z can be mirrored here");
-      current.mirror[static_cast<std::size_t>(axis)] = true;
+      if (axis >= 0) {
+        current.mirror[static_cast<std::size_t>(axis)] = true;
+        if (axis == control_.coordinates.plane.tool && leftOut_.insert("mirrored tool axis").second) {
+          warn(fmt::format("The tool axis {} is mirrored here, which the control does not permit", axisName(axis)));
+        }
+      } else {
+        current.mirroredAxes |= 1U << axisOf(static_cast<char>(word.address));
+      }
     }
   } else if (name == "CYCL DEF 10" || name == "TRANS ROTATION" || name == "TRANS ROTATION RESET") {
     const Word* angle = find(words, "ROT", evaluation);
@@ -144,7 +154,7 @@ void KlartextHost::selectDatumTable(const std::string& name) {
   }
   const Result<std::string> bytes = readHostFile(name);
   if (!bytes) {
-    throw Alarm("Datum table missing", fmt::format("The datum table {} does not exist", name),
+    throw Alarm("Datum table missing", fmt::format("The datum table {} does not exist", excerptOf(name)),
                 "add the table to the setup or correct its name");
   }
   Diagnostics mistakes;

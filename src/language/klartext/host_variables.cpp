@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
+#include "language/klartext/excerpt.hpp"
 #include "language/klartext/host.hpp"
 
 /// Q, QL, QR and QS parameters, and the functions that formulas call.
@@ -33,6 +35,12 @@ const std::string& textArgument(std::span<const Value> arguments, std::size_t in
   throw Alarm("Wrong data type", "A text is needed here, not a number", "convert the number with TOCHAR");
 }
 
+/// Letters beyond ASCII are several bytes of UTF-8 and one character.
+std::size_t charactersOf(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
 std::string trimmed(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
     text.remove_prefix(1);
@@ -46,7 +54,9 @@ std::string trimmed(std::string_view text) {
 Value KlartextHost::read(const VariableRef& variable, Evaluation&) {
   switch (variable.space) {
     case VariableSpace::QL:
-      return levels_.back().local[static_cast<std::size_t>(numberOf(variable, levels_.back().local.size(), "QL"))];
+      return levels_.back()
+          .local[static_cast<std::size_t>(numberOf(variable, levels_.back().local.size(), "QL"))]
+          .value_or(0);
     case VariableSpace::QR:
       return control_.q.qr(numberOf(variable, QParameters::remanentCount, "QR"));
     case VariableSpace::QS:
@@ -63,7 +73,14 @@ void KlartextHost::write(const VariableRef& variable, const Value& value, Evalua
       throw Alarm("Wrong data type", fmt::format("QS{} takes a text, not a number", number),
                   "convert the number with TOCHAR");
     }
-    control_.q.setQs(number, std::get<std::string>(value));
+    const std::string& text = std::get<std::string>(value);
+    if (charactersOf(text) > QParameters::longestText) {
+      throw Alarm("String too long",
+                  fmt::format("QS{} takes at most {} characters, these are {}", number, QParameters::longestText,
+                              charactersOf(text)),
+                  "shorten the text, or spread it over several parameters");
+    }
+    control_.q.setQs(number, text);
     return;
   }
   if (isText(value)) {
@@ -84,10 +101,36 @@ void KlartextHost::write(const VariableRef& variable, const Value& value, Evalua
 }
 
 bool KlartextHost::isDefined(const VariableRef& variable, Evaluation&) {
-  if (variable.space == VariableSpace::QS) {
-    return !control_.q.qs(numberOf(variable, QParameters::count, "QS")).empty();
+  switch (variable.space) {
+    case VariableSpace::QL:
+      return levels_.back()
+          .local[static_cast<std::size_t>(numberOf(variable, levels_.back().local.size(), "QL"))]
+          .has_value();
+    case VariableSpace::QR:
+      return !control_.q.isQrUndefined(numberOf(variable, QParameters::remanentCount, "QR"));
+    case VariableSpace::QS:
+      return !control_.q.isQsUndefined(numberOf(variable, QParameters::count, "QS"));
+    default:
+      return !control_.q.isUndefined(numberOf(variable, QParameters::count, "Q"));
   }
-  return variable.space != VariableSpace::Q || !control_.q.isUndefined(numberOf(variable, QParameters::count, "Q"));
+}
+
+/// FN 0: Q5 SET UNDEFINED.
+void KlartextHost::setUndefined(const VariableRef& variable) {
+  switch (variable.space) {
+    case VariableSpace::QL:
+      levels_.back().local[static_cast<std::size_t>(numberOf(variable, levels_.back().local.size(), "QL"))].reset();
+      break;
+    case VariableSpace::QR:
+      control_.q.setQr(numberOf(variable, QParameters::remanentCount, "QR"), std::nullopt);
+      break;
+    case VariableSpace::QS:
+      control_.q.setQs(numberOf(variable, QParameters::count, "QS"), std::nullopt);
+      break;
+    default:
+      control_.q.setUndefined(numberOf(variable, QParameters::count, "Q"));
+      break;
+  }
 }
 
 Value KlartextHost::call(std::string_view name, std::span<const Value> arguments) {
@@ -120,13 +163,25 @@ Value KlartextHost::call(std::string_view name, std::span<const Value> arguments
   if (name == "TONUMB") {
     const std::string text = trimmed(textArgument(arguments, 0));
     if (const auto number = parseDecimal(text)) return *number;
-    throw Alarm("String is no number", fmt::format("TONUMB cannot read \"{}\" as a number", text));
+    throw Alarm("String is no number", fmt::format("TONUMB cannot read \"{}\" as a number", excerptOf(text)));
   }
-  if (name == "STRLEN") return static_cast<double>(textArgument(arguments, 0).size());
+  // The second argument tells whether the parameter has no text at all.
+  if (name == "STRLEN") {
+    if (arguments.size() > 1 && numberArgument(arguments, 1) != 0) return -1.0;
+    return static_cast<double>(textArgument(arguments, 0).size());
+  }
   if (name == "SUBSTR") {
     const std::string& text = textArgument(arguments, 0);
-    const double begin = std::max(0.0, numberArgument(arguments, 1));
-    const double count = numberArgument(arguments, 2);
+    const double begin = numberArgument(arguments, 1);
+    if (begin < 0) {
+      throw Alarm("Argument out of range", fmt::format("SUBSTR cannot begin at BEG{}", formatShortest(begin)),
+                  "characters are counted from BEG0");
+    }
+    const double count = numberArgument(arguments, 2);  // -1: all that follows
+    if (count < -1) {
+      throw Alarm("Argument out of range", fmt::format("SUBSTR cannot take LEN{} characters", formatShortest(count)),
+                  "give a length from 0 on");
+    }
     if (begin >= static_cast<double>(text.size())) return std::string();
     return text.substr(static_cast<std::size_t>(begin),
                        count < 0 ? std::string::npos : static_cast<std::size_t>(count));

@@ -14,6 +14,8 @@ bool BlockParser::feedWord(Operand& feed, bool* rapid, bool* autoFeed) {
       lexer_.advance();
       return value("F MAXT").has_value();
     }
+    const bool functionFollows = upper(lexer_.here()) == 'M' && isDigit(lexer_.here(1));
+    if (isWordByte(lexer_.here()) && !functionFollows) return error("this is no feed rate", "Did you mean FMAX?");
     *rapid = true;
     return true;
   }

@@ -1,6 +1,11 @@
 #include "language/klartext/parser.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <vector>
+
+#include "base/nearest_name.hpp"
 
 namespace probewright::language::klartext {
 
@@ -121,6 +126,7 @@ bool BlockParser::statement() {
         return error("CALL or DEF is expected behind TOOL");
       }
       if (lexer_.acceptKeyword("TRANS")) return transformation();
+      if (lexer_.acceptKeyword("TABDATA")) return tableData();
       break;
     case 'M':
       if (isDigit(second) || isBlank(second)) return machineFunctionBlock();
@@ -167,6 +173,11 @@ bool BlockParser::statement() {
       if (lexer_.acceptKeyword("SQL")) return textCommand("SQL");
       if (lexer_.acceptKeyword("SECTION")) return textCommand("SECTION");
       break;
+    case 'O':
+      if (lexer_.acceptKeyword("OPEN")) {
+        return lexer_.acceptKeyword("FILE") ? textCommand("OPEN FILE") : error("FILE is expected behind OPEN");
+      }
+      break;
     case 'G':
       if (lexer_.acceptKeyword("GLOBAL")) {
         if (!lexer_.acceptKeyword("DEF")) return error("DEF is expected behind GLOBAL");
@@ -182,9 +193,59 @@ bool BlockParser::statement() {
   if (first == 'I' && std::string_view("XYZABCUVW").find(second) != std::string_view::npos) {
     return move(MoveKind::Linear, false);
   }
-  return error("this is no block of the Klartext language",
-               "begin the block with a path function (L, CC, C...), TOOL CALL, CYCL DEF, TCH PROBE, FN, Q or M; begin "
-               "comments with ';'");
+  return error("this is no block of the Klartext language", meantKeyword());
+}
+
+/// Advice for a block that begins with no keyword: the keyword that is nearly the same, or all kinds of blocks.
+std::string BlockParser::meantKeyword() {
+  static const std::vector<std::string> keywords = {"TOOL CALL",
+                                                    "TOOL DEF",
+                                                    "CYCL DEF",
+                                                    "CYCL CALL",
+                                                    "TCH PROBE",
+                                                    "CALL LBL",
+                                                    "CALL PGM",
+                                                    "BEGIN PGM",
+                                                    "END PGM",
+                                                    "BLK FORM",
+                                                    "GLOBAL DEF",
+                                                    "PATTERN DEF",
+                                                    "SEL TABLE",
+                                                    "SEL PGM",
+                                                    "SEL PATTERN",
+                                                    "SEL CYCLE",
+                                                    "PLANE SPATIAL",
+                                                    "PLANE RESET",
+                                                    "PLANE AXIAL",
+                                                    "FUNCTION TCPM",
+                                                    "TRANS DATUM",
+                                                    "TRANS MIRROR",
+                                                    "TRANS ROTATION",
+                                                    "PRESET SELECT",
+                                                    "PRESET CORR",
+                                                    "TABDATA READ",
+                                                    "LBL",
+                                                    "STOP",
+                                                    "FN",
+                                                    "RND",
+                                                    "CHF",
+                                                    "APPR",
+                                                    "DEP"};
+  std::string written;
+  std::size_t words = 1;
+  for (std::size_t i = 0; i < 30; ++i) {
+    const char c = lexer_.here(i);
+    if (isBlank(c) && (written.empty() || written.back() == ' ' || ++words > 2)) break;
+    if (!isLetter(c) && !isBlank(c)) break;
+    written += isBlank(c) ? ' ' : upper(c);
+  }
+  while (written.ends_with(' '))
+    written.pop_back();
+  if (written.size() > 3) {
+    if (const auto near = nearestName(written, keywords)) return fmt::format("Did you mean {}?", *near);
+  }
+  return "begin the block with a path function (L, CC, C...), TOOL CALL, CYCL DEF, TCH PROBE, FN, Q or M; begin "
+         "comments with ';'";
 }
 
 bool BlockParser::beginOrEnd() {

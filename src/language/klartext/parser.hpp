@@ -26,6 +26,7 @@ public:
 protected:
   // parser.cpp: the kinds of blocks, and what all share
   bool statement();
+  std::string meantKeyword();
   bool expectEnd();
   bool beginOrEnd();
   bool blankForm();
@@ -62,8 +63,8 @@ protected:
   std::optional<Operand> formula();
   std::optional<Operand> sum();
   std::optional<Operand> product();
-  std::optional<Operand> factor();
   std::optional<Operand> power();
+  std::optional<Operand> signedPrimary();
   std::optional<Operand> primary();
   std::optional<Operand> functionCall();
   std::optional<Operand> stringFunction(std::string_view name);
@@ -93,6 +94,7 @@ protected:
   // calls.cpp
   bool label();
   bool callLabel();
+  bool repeats(CallLabel& call);
   bool callProgram();
   bool checkPath(std::string_view path);
   bool selection();
@@ -109,6 +111,8 @@ protected:
   std::optional<Operand> comparison(int number, Operand left, std::string_view what);
   bool systemDatum();
   bool functionAssignment(int number);
+  bool setUndefined(std::uint32_t target);
+  bool tableData();
   bool functionJump(int number);
   bool functionSystemData(int number);
   bool functionCircle(int number);

@@ -190,7 +190,8 @@ bool BlockParser::transformation() {
 }
 
 /// FUNCTION TCPM becomes Modal "FUNCTION TCPM" with the words F (1 = F TCP, 0 = F CONT), AXIS (1 = AXIS POS, 0 = AXIS
-/// SPAT), PATH (1 = PATHCTRL AXIS, 0 = PATHCTRL VECTOR), REFP (REFPNT 0 = TIP-TIP, 1 = TIP-CENTER, 2 = CENTER-CENTER);
+/// SPAT), PATH (1 = PATHCTRL AXIS, 0 = PATHCTRL VECTOR), REFP (REFPNT 0 = TIP-TIP, 1 = TIP-CENTER, 2 = CENTER-CENTER),
+/// FLIM (the limit of the feed, absent: FMAX);
 /// FUNCTION RESET TCPM becomes Modal "FUNCTION RESET TCPM"; all
 /// others are Command "FUNCTION" with their text.
 bool BlockParser::functionKeyword() {
@@ -222,8 +223,22 @@ bool BlockParser::functionKeyword() {
   }
   const std::size_t first = block_.words.size();
   while (!lexer_.atEnd()) {
+    const std::size_t start = (lexer_.peek(), lexer_.offset());
     if (lexer_.acceptKeyword("F")) {
-      if (!choice("F", "TCP", "CONT")) return false;
+      const bool tcp = lexer_.acceptKeyword("TCP");
+      if (tcp || lexer_.acceptKeyword("CONT")) {
+        addWord(addressOf("F"), Operand::of(tcp ? 1 : 0));
+        continue;
+      }
+      if (isLetter(lexer_.peek()) && !variableFollows()) return error("TCP, CONT or a feed is expected behind F");
+    }
+    lexer_.seek(start);
+    if (lexer_.peek() == 'F') {  // the feed limit of the compensating movement
+      bool rapid = false;
+      bool automatic = false;
+      Operand feed;
+      if (!feedWord(feed, &rapid, &automatic)) return false;
+      addWord(addressOf("FLIM"), feed);
     } else if (lexer_.acceptKeyword("AXIS")) {
       if (!choice("AXIS", "POS", "SPAT")) return false;
     } else if (lexer_.acceptKeyword("PATHCTRL")) {

@@ -7,6 +7,8 @@ namespace probewright::language::klartext {
 
 namespace {
 
+constexpr double highestTool = 32767;
+
 bool isToolAxis(char letter) { return std::string_view("XYZUVW").find(letter) != std::string_view::npos; }
 
 }  // namespace
@@ -20,6 +22,7 @@ bool BlockParser::toolIdentity(ToolCall& call) {
     double number = 0;
     for (; isDigit(lexer_.here()); lexer_.advance())
       number = std::min(number * 10 + (lexer_.here() - '0'), 1e9);
+    if (number > highestTool) return error("there is no tool with such a number", "tool numbers go up to 32767");
     call.number = Operand::of(number);
     if (lexer_.here() == '.' && isDigit(lexer_.here(1))) {
       lexer_.advance();

@@ -90,14 +90,19 @@ std::optional<VariableRef> BlockParser::variable() {
   if (variable.space != VariableSpace::Q) lexer_.advance();
   lexer_.peek();
   double number = 0;
+  const std::size_t start = lexer_.offset();
   for (; isDigit(lexer_.here()); lexer_.advance())
     number = std::min(number * 10 + (lexer_.here() - '0'), mostDigits);
+  const std::string_view digits = lexer_.text().substr(start, lexer_.offset() - start);
   variable.index[0] = Operand::of(number);
   const bool few = variable.space == VariableSpace::QL || variable.space == VariableSpace::QR;
   const int most = few ? 499 : 1999;
   if (number > most) {
-    error(fmt::format("there is no parameter {}", writeVariable(variable)),
-          fmt::format("their numbers go up to {}", most));
+    constexpr std::size_t longestQuote = 20;
+    std::string name = writeVariable(variable);
+    if (number == mostDigits)
+      name = fmt::format("{}{}", name.substr(0, name.find('9')), digits.substr(0, longestQuote));
+    error(fmt::format("there is no parameter {}", name), fmt::format("their numbers go up to {}", most));
     return std::nullopt;
   }
   return variable;

@@ -221,6 +221,10 @@ private:
     for (const Word& w : wordsOf(modal.words)) {
       const bool one = w.value.number != 0;
       const std::string address = addressName(w.address);
+      if (address == "FLIM") {
+        word(w.value.present() ? fmt::format("F{}", unsignedValue(w.value)) : std::string("FMAX"));
+        continue;
+      }
       if (address == "F") word(one ? "F TCP" : "F CONT");
       if (address == "AXIS") word(one ? "AXIS POS" : "AXIS SPAT");
       if (address == "PATH") word(one ? "PATHCTRL AXIS" : "PATHCTRL VECTOR");
@@ -254,7 +258,7 @@ std::string writeBlock(const Block& block) {
   }
   text = BlockWriter(block).write();
   if (text.find('\n') == std::string::npos) {
-    const std::string_view comment = commentOfLine(block, 0);
+    const std::string comment = commentOf(block);
     if (!comment.empty()) text += fmt::format(" {}", comment);
   }
   return block.skippable ? fmt::format("/{}", text) : text;

@@ -1,0 +1,136 @@
+#include "language/klartext/statement_notes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "base/number_text.hpp"
+#include "language/klartext/lexer.hpp"
+#include "language/klartext/system_data_numbers.hpp"
+
+namespace probewright::language::klartext {
+
+namespace {
+
+/// Cycles of CYCL DEF and G that the controls have; 300 to 399 and 500 to 599 belong to machine tool builders.
+bool isCycle(int number) {
+  constexpr std::array<std::pair<int, int>, 8> ranges = {
+      {{0, 39}, {200, 599}, {600, 601}, {800, 899}, {1000, 1099}, {1200, 1299}, {1400, 1499}, {1500, 1599}}};
+  return std::ranges::any_of(ranges, [&](const auto& r) { return number >= r.first && number <= r.second; });
+}
+
+std::span<const Word> wordsOf(const Block& block, WordRange range) {
+  return std::span<const Word>(block.words).subspan(range.first, range.count);
+}
+
+}  // namespace
+
+std::vector<StatementNotes::Note> StatementNotes::of(const Block& block) {
+  notes_.clear();
+  for (const Instruction& instruction : block.instructions)
+    std::visit([&](const auto& each) { look(block, each); }, instruction);
+  return std::exchange(notes_, {});
+}
+
+void StatementNotes::look(const Block& block, const LabelMark& mark) {
+  const std::string_view label = block.at(mark.label);
+  if (!std::ranges::all_of(label, isDigit)) return;
+  const bool named = mark.label.offset > 0 && block.text[mark.label.offset - 1] == '"';
+  if (named) {
+    note(Severity::Warning, fmt::format("the label name \"{}\" is taken for the label number {}", label, label),
+         "give the label a name with a letter");
+    return;
+  }
+  const int highest = kind_ == control::ControlKind::TNC640 ? 65535 : 999;
+  const auto number = parseInteger(label);
+  if (number && *number <= highest) return;
+  note(Severity::Error, fmt::format("there is no label number {}", label.substr(0, 20)),
+       fmt::format("label numbers go up to {} on the {}", highest, control::name(kind_)));
+}
+
+void StatementNotes::systemDatum(const Block& block, const Command& command) {
+  const bool reads = block.at(command.name) == "FN18";
+  int id = 0, number = 0;
+  for (const Word& word : wordsOf(block, command.words)) {
+    if (word.address != addressOf("ID") && word.address != addressOf("NR")) continue;
+    if (!word.value.isLiteral() || std::abs(word.value.number) > 1e6) return;
+    (word.address == addressOf("ID") ? id : number) = static_cast<int>(std::lround(word.value.number));
+  }
+  if (reads ? canRead(id, number, kind_) : canWrite(id, number, kind_)) return;
+  note(Severity::Warning,
+       fmt::format("FN {} cannot {} ID{} NR{} here: the run stops at this block", reads ? 18 : 17,
+                   reads ? "read" : "write", id, number),
+       "use another system datum, or set the parameter to a fixed value");
+}
+
+void StatementNotes::look(const Block& block, const Command& command) {
+  const std::string_view name = block.at(command.name);
+  if (name == "FN17" || name == "FN18") systemDatum(block, command);
+  if (name == "FN15" && kind_ == control::ControlKind::TNC640) {
+    note(Severity::Warning, "the TNC 640 has no FN 15", "write texts and values with FN 16: F-PRINT");
+  }
+  if (name == "FN21" || name == "FN22") {
+    note(Severity::Warning, fmt::format("the control has no FN {}", name.substr(2)), "take the block out");
+  }
+  if (name == "CYCL CALL" || name == "PATTERN DEF" || name.starts_with("CYCL DEF")) endContour();
+}
+
+void StatementNotes::look(const Block& block, const CycleCall& call) {
+  endContour();
+  if (block.at(call.name) != "CYCL DEF" || isCycle(call.number)) return;
+  note(Severity::Error, fmt::format("there is no cycle {}", call.number), "check its number");
+}
+
+void StatementNotes::look(const Block& block, const Transform& transform) {
+  endContour();
+  if (block.at(transform.name) != "PLANE AXIAL") return;
+  for (const Word& word : wordsOf(block, transform.words)) {
+    for (const std::string_view option : {"SEQ", "SYM", "TABL", "COOR"}) {
+      if (word.address != addressOf(option)) continue;
+      note(Severity::Warning,
+           fmt::format("{} has no effect in PLANE AXIAL", option == "TABL"   ? "TABLE ROT"
+                                                          : option == "COOR" ? "COORD ROT"
+                                                                             : option),
+           "the axis angles say already how the axes stand");
+    }
+  }
+}
+
+void StatementNotes::look(const Block& block, const Assign& assign) {
+  constexpr double largest = 999'999'999;
+  double value = 0;
+  if (assign.value.isLiteral()) value = assign.value.number;
+  for (const Node& node : block.nodes) {
+    for (const Operand& operand : {node.left, node.right}) {
+      if (operand.isLiteral() && std::abs(operand.number) > std::abs(value)) value = operand.number;
+    }
+  }
+  if (std::abs(value) <= largest) return;
+  note(Severity::Warning, fmt::format("the control takes no number as large as {}", formatShortest(value)),
+       "numbers of programs go up to 999 999 999");
+}
+
+void StatementNotes::look(const Block& block, const Move& move) {
+  if (move.kind == MoveKind::Rounding || move.kind == MoveKind::Chamfer) {
+    corner_ = move.kind == MoveKind::Rounding ? "RND" : "CHF";
+    return;
+  }
+  const bool path = std::ranges::any_of(wordsOf(block, move.words), [](const Word& word) {
+    return word.address != addressOf("FU") && word.address != addressOf("FZ");
+  });
+  if (path) corner_.clear();
+}
+
+/// What ends a contour while a corner still waits.
+void StatementNotes::endContour() {
+  if (corner_.empty()) return;
+  note(Severity::Warning, fmt::format("no contour element follows the last {}", corner_),
+       "program the element that the corner leads to before this block");
+  corner_.clear();
+}
+
+}  // namespace probewright::language::klartext

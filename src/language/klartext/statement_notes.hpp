@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/diagnostic.hpp"
+#include "control/control_kind.hpp"
+#include "language/block.hpp"
+
+namespace probewright::language::klartext {
+
+/// What can be said of a block without running it, beside its spelling: what the control does not have, what the run
+/// would refuse, and what is hardly meant. To be asked for all blocks of a program in their order.
+class StatementNotes {
+public:
+  struct Note {
+    Severity severity = Severity::Warning;
+    std::string message, advice;
+  };
+  explicit StatementNotes(control::ControlKind kind) : kind_(kind) {}
+
+  std::vector<Note> of(const Block& block);
+
+private:
+  void look(const Block& block, const LabelMark& mark);
+  void look(const Block& block, const Command& command);
+  void look(const Block& block, const CycleCall& call);
+  void look(const Block& block, const Transform& transform);
+  void look(const Block& block, const Assign& assign);
+  void look(const Block& block, const Move& move);
+  template <class Other>
+  void look(const Block&, const Other&) {}
+  void systemDatum(const Block& block, const Command& command);
+  void endContour();
+  void note(Severity severity, std::string message, std::string advice) {
+    notes_.push_back({severity, std::move(message), std::move(advice)});
+  }
+
+  control::ControlKind kind_;
+  std::string corner_;  ///< RND or CHF that waits for the element behind it
+  std::vector<Note> notes_;
+};
+
+}  // namespace probewright::language::klartext

@@ -1,0 +1,165 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "klartext/expectations.hpp"
+#include "klartext/host_world.hpp"
+#include "language/klartext/m_functions.hpp"
+
+namespace probewright::language::klartext::testing {
+namespace {
+
+using control::ControlKind;
+using control::EventKind;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr std::array fiveAxes = {"mill5-table-table", "mill5-head-table", "mill5-head-head"};
+
+Vector3 direction(double degrees) {
+  const double angle = radiansFromDegrees(degrees);
+  return {std::cos(angle), std::sin(angle), 0};
+}
+
+/// Where the tip is in the system of preset 0, which lies in the machine's origin.
+Vector3 tipOf(const World& world) { return world.control->channel.machineFromAxes(world.control->channel.axes()); }
+
+void turnPreset(World& world, double degrees) {
+  control::heidenhain::Control::PresetChange change;
+  change.origin = {0, 0, 0};
+  change.spaceAngles[2] = degrees;
+  world.control->writePreset(0, change);
+  world.control->activatePreset(0);
+}
+
+TEST(MFunctions, M143EndsTheBasicRotation) {
+  for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
+    World world("mill3", kind);
+    turnPreset(world, 10);
+    expectFinished(world.run("L X+10 Y+0 Z+0 R0 FMAX\nM143\nL X+10 Y+0 R0 FMAX\n"));
+    ASSERT_EQ(world.machine->steps.size(), 2U);
+    const auto& steps = world.machine->steps;
+    EXPECT_TRUE(near({steps[0].axes[0], steps[0].axes[1], 0}, 10 * direction(10)));
+    EXPECT_TRUE(near({steps[1].axes[0], steps[1].axes[1], 0}, {10, 0, 0}));
+    // The TNC 640 clears its preset as well.
+    const auto& presets = world.control->tables.presets;
+    const bool clears = kind == ControlKind::TNC640;
+    EXPECT_EQ(presets.numberOr("0", clears ? "SPC" : "ROT", -1), clears ? 0 : 10);
+  }
+}
+
+TEST(MFunctions, M130GoesToCoordinatesThatAreNotTilted) {
+  for (const char* machine : fiveAxes) {
+    World world(machine);
+    expectFinished(
+        world.run("TOOL CALL 1 Z\nCYCL DEF 7.0 DATUM\nCYCL DEF 7.1 X+3\nPLANE SPATIAL SPA+0 SPB+20 SPC+0 TURN FMAX\n"
+                  "L X+10 Y+15 Z+120 R0 FMAX M130\n"));
+    EXPECT_TRUE(near(tipOf(world), {13, 15, 120}, 1e-6)) << machine;
+    World next(machine);
+    expectFinished(
+        next.run("TOOL CALL 1 Z\nPLANE SPATIAL SPA+0 SPB+20 SPC+0 TURN FMAX\n"
+                 "L X+10 Y+15 Z+120 R0 FMAX M130\nL IZ+10 R0 FMAX\n"));
+    // The next block is one of the tilted plane again: along the tool.
+    const double tilt = radiansFromDegrees(20);
+    EXPECT_TRUE(near(tipOf(next), {10 + 10 * std::sin(tilt), 15, 120 + 10 * std::cos(tilt)}, 1e-6)) << machine;
+  }
+}
+
+TEST(MFunctions, M144CountsTiltedAxesInAndMovesNothingByItself) {
+  const std::string moves = "L X+0 Y+0 Z+200 R0 FMAX\nL A+30 R0 FMAX\nL X+5 Y+0 Z+100 R0 FMAX\n";
+  World guided("mill5-head-head"), counted("mill5-head-head"), plain("mill5-head-head");
+  expectFinished(guided.run("TOOL CALL 1 Z\nM128\n" + moves));
+  expectFinished(counted.run("TOOL CALL 1 Z\nM144\n" + moves));
+  expectFinished(plain.run("TOOL CALL 1 Z\nM144\nM145\n" + moves));
+  EXPECT_EQ(counted.machine->steps.back().axes, guided.machine->steps.back().axes);
+  EXPECT_TRUE(near(tipOf(counted), {5, 0, 100}, 1e-6));
+  ASSERT_EQ(counted.machine->steps.size(), 3U);
+  const auto &before = counted.machine->steps[0].axes, &turned = counted.machine->steps[1].axes;
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(turned[i], before[i]);
+  EXPECT_EQ(plain.machine->steps.back().axes[2], 200);
+}
+
+TEST(MFunctions, M114OfTheOlderControlHoldsTheTip) {
+  World older("mill5-head-head", ControlKind::iTNC530), newer("mill5-head-head");
+  const std::string program = "TOOL CALL 1 Z\nM114\nL X+0 Y+0 Z+100 R0 FMAX\nL A+30 R0 FMAX\n";
+  expectFinished(older.run(program));
+  EXPECT_TRUE(near(tipOf(older), {0, 0, 100}, 1e-6));
+  expectFinished(newer.run(program));
+  EXPECT_THAT(newer.told(EventKind::Skipped),
+              ElementsAre("M114, which the TNC640 does not have, is not simulated and was skipped"));
+}
+
+TEST(MFunctions, M136CountsTheFeedPerRevolution) {
+  World world;
+  expectFinished(world.run("TOOL CALL 1 Z S1000\nL X+100 R0 F0.5 M136\nL X+0 F0.2\nL X+10 FU0.3\nL X+20 F700 M137\n"));
+  std::vector<double> feeds;
+  for (const TraceMachine::Step& step : world.machine->steps)
+    feeds.push_back(step.feed.perMinute);
+  EXPECT_THAT(feeds, ElementsAre(500, 200, 300, 700));
+}
+
+TEST(MFunctions, M94TakesWholeTurnsFromTheReading) {
+  World world("mill5-head-table");
+  expectFinished(
+      world.run("L C+730 R0 FMAX\nM94 C\nFN 18: SYSREAD Q1 = ID270 NR1 IDX6\nL C+15 R0 FMAX\n"
+                "L C+20 R0 FMAX M91\n"));
+  EXPECT_NEAR(world.q(1), 10, 1e-9);
+  const auto axis = world.machine->description().axisIndex("C");
+  ASSERT_TRUE(axis);
+  EXPECT_NEAR(world.machine->steps[1].axes[*axis], 735, 1e-9);
+  EXPECT_NEAR(world.machine->steps[2].axes[*axis], 740, 1e-9);
+}
+
+TEST(MFunctions, WhatIsNotCarriedOutIsNamedOnce) {
+  World world;
+  expectFinished(
+      world.run("LBL 1\nM25\nM138 A C\nL X+1 R0 FMAX M8\nM116\nM118 X1\nM103 F0.5\nM10 M11\nCALL LBL 1 REP2\n"));
+  EXPECT_THAT(world.told(EventKind::Skipped),
+              ElementsAre("M25, which is a function of the machine tool builder, is not simulated and was skipped",
+                          "M138 is not simulated and was skipped",
+                          "M10, which is a function of the machine tool builder, is not simulated and was skipped",
+                          "M11, which is a function of the machine tool builder, is not simulated and was skipped"));
+  EXPECT_EQ(world.q(111), 1);
+  world.options.strict = true;
+  const RunResult refused = world.run("L X+1 R0 FMAX\nM138 A C\n");
+  ASSERT_EQ(refused.end, RunEnd::Alarm);
+  EXPECT_EQ(refused.diagnostics.front().message, "M138 is not simulated");
+  EXPECT_EQ(refused.diagnostics.front().place.line, 2U);
+}
+
+/// No M function is ignored in silence: what is neither carried out nor without an effect on positions is named.
+TEST(MFunctions, EachOneIsCarriedOutOrHarmlessOrNamed) {
+  for (int number = 0; number < 1000; ++number) {
+    const FunctionEffect effect = effectOf(number, ControlKind::TNC640);
+    if (effect == FunctionEffect::CarriedOut) continue;
+    World world("mill5-head-table");
+    expectFinished(world.run("M" + std::to_string(number) + "\n"));
+    EXPECT_EQ(world.told(EventKind::Skipped).size(), effect == FunctionEffect::Harmless ? 0U : 1U) << number;
+  }
+}
+
+TEST(MFunctions, FunctionBlocksThatMoveNothingAreQuiet) {
+  World world;
+  expectFinished(
+      world.run("FUNCTION DWELL TIME2.5\nFUNCTION FEED DWELL D-TIME0.5 F-TIME2\nFUNCTION COUNT INC\n"
+                "FUNCTION DCM OFF\n"));
+  EXPECT_THAT(world.told(EventKind::Skipped), IsEmpty());
+  EXPECT_EQ(world.machine->seconds(), 2.5);
+  expectFinished(world.run("LBL 1\nFUNCTION PARAXCOMP DISPLAY W\nFUNCTION PARAXCOMP DISPLAY W\n"));
+  EXPECT_THAT(world.told(EventKind::Skipped),
+              ElementsAre("FUNCTION PARAXCOMP DISPLAY W is not simulated and was skipped"));
+}
+
+TEST(MFunctions, M30InACalledProgramIsNamed) {
+  World world;
+  world.library.texts["SUB.H"] = "0 BEGIN PGM SUB MM\n1 Q1 = 5\n2 M30\n3 END PGM SUB MM\n";
+  expectFinished(world.run("CALL PGM SUB.H\nCALL PGM SUB.H\nQ2 = Q1\n"));
+  EXPECT_EQ(world.q(2), 5);
+  EXPECT_THAT(world.told(EventKind::Warning),
+              ElementsAre("M2 or M30 stands in a called program: it ends this program, and the calling one goes on"));
+}
+
+}  // namespace
+}  // namespace probewright::language::klartext::testing
