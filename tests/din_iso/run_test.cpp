@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "session/check.hpp"
 #include "session/run.hpp"
 #include "session/source.hpp"
@@ -91,6 +94,44 @@ TEST(DinIsoRun, ASubprogramFollowsTheModalFunctionsOfItsCaller) {
   EXPECT_NEAR(end("L1 *\nL1 *\n"), 5, 1e-9);
   EXPECT_NEAR(end("G91 *\nL1 *\nL1 *\nL1 *\n"), 15, 1e-9);
   EXPECT_NEAR(end("G91 *\nL1 *\nL1 *\nG90 *\nL1 *\n"), 5, 1e-9);
+}
+
+TEST(DinIsoRun, ACallWithoutRepeatsIsASubprogram) {
+  const Bench bench = ringWorld();
+  const std::string head = "%A G71 *\nT1 G17 *\nG247 Q339=+1 *\nG00 G90 Z+50 *\nX+0 Y+0 *\n";
+  const std::string tail = "M30 *\nG98 L1 *\nG91 X+10 *\nG90 *\nG98 L0 *\nN99999999 %A G71 *\n";
+  for (const char* call : {"L1,0 *\n", "L1 *\n"}) {
+    const Ran ran = run(bench, "A.I", head + call + tail);
+    EXPECT_EQ(ran.why(), "") << call;
+    EXPECT_NEAR(ran.outcome.machine->position()[0] - 30, 10, 1e-9) << call;
+  }
+}
+
+/// G90 or G91 within a block is for the words behind it.
+TEST(DinIsoRun, WordsBeforeAModeKeepTheModeBefore) {
+  const Bench bench = ringWorld();
+  struct Case {
+    const char* block;
+    Vector3 end;
+    double way;  ///< behind X+20 Y+0
+  };
+  const double turn = 2 * std::numbers::pi * 20;
+  for (const Case& each : {Case{"X+5 G91 Y+5 *\n", {5, 5, 50}, std::hypot(15, 5)},
+                           Case{"I+0 J+0 G13 G91 H+450 F9000 *\n", {0, 20, 50}, 1.25 * turn},
+                           Case{"I+0 J+0 G13 G91 H+720 Z+10 F9000 *\n", {20, 0, 60}, std::hypot(2 * turn, 10)},
+                           Case{"I+0 J+0 G11 R+20 G91 H+90 F9000 *\n", {0, 20, 50}, std::hypot(20, 20)},
+                           Case{"I+0 J+0 G03 G91 X-20 Y+20 F9000 *\n", {0, 20, 50}, turn / 4}}) {
+    const Ran ran = run(bench, "A.I",
+                        std::string("%A G71 *\nT1 G17 *\nG247 Q339=+1 *\nG00 G90 Z+50 *\nX+20 Y+0 *\n") + each.block +
+                            "N99999999 %A G71 *\n");
+    EXPECT_EQ(ran.why(), "") << each.block;
+    const auto at = ran.outcome.machine->position();
+    EXPECT_NEAR(at[0] - 30, each.end.x(), 1e-9) << each.block;
+    EXPECT_NEAR(at[1] + 12, each.end.y(), 1e-9) << each.block;
+    const Ran before =
+        run(bench, "A.I", "%A G71 *\nT1 G17 *\nG247 Q339=+1 *\nG00 G90 Z+50 *\nX+20 Y+0 *\nN99999999 %A G71 *\n");
+    EXPECT_NEAR(ran.outcome.info.totalPathLength - before.outcome.info.totalPathLength, each.way, 0.02) << each.block;
+  }
 }
 
 TEST(DinIsoRun, InchProgramsAreConverted) {

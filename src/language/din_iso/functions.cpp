@@ -72,6 +72,7 @@ bool BlockParser::function() {
 bool BlockParser::assignmentOf(int number) {
   const std::optional<std::uint32_t> target = variableIndex();
   if (!target) return false;
+  if (number == 0 && lexer_.acceptKeyword("SET")) return setUndefined(*target);
   std::optional<Operand> result;
   if (number == 0 && parameterAddress(1)) {
     const std::optional<std::string_view> text = lexer_.quoted();

@@ -80,6 +80,8 @@ bool isModalFunction(const Block& block, const Modal& modal) {
 
 void ModalState::resolve(const Block& block, Block& resolved) {
   resolved = block;
+  // Words without a mode of their own stand before the block's first G90 or G91: for them the one before it holds.
+  const bool before = incremental;
   for (Instruction& instruction : resolved.instructions) {
     if (auto* modal = std::get_if<Modal>(&instruction)) {
       if (!isModalFunction(resolved, *modal)) continue;
@@ -107,17 +109,17 @@ void ModalState::resolve(const Block& block, Block& resolved) {
       toolCalled = toolCalled || tool;
     } else if (auto* move = std::get_if<Move>(&instruction)) {
       if (move->kind == MoveKind::Modal && resolved.at(move->variant) == "G") {
-        resolvePath(*move, path, incremental, resolved);
+        resolvePath(*move, path, before, resolved);
       } else if (move->kind == MoveKind::SetCentre) {
         for (std::uint32_t i = 0; i < move->words.count; ++i)
-          resolveMode(resolved.words[move->words.first + i], incremental);
+          resolveMode(resolved.words[move->words.first + i], before);
       }
     } else if (const auto* transform = std::get_if<Transform>(&instruction)) {
       const std::string_view name = resolved.at(transform->name);
       if (name != "CYCL DEF 7" && name != "CYCL DEF 10") continue;
       for (std::uint32_t i = 0; i < transform->words.count; ++i) {
         Word& word = resolved.words[transform->words.first + i];
-        if (word.address != addressOf("#")) resolveMode(word, incremental);
+        if (word.address != addressOf("#")) resolveMode(word, before);
       }
     }
   }

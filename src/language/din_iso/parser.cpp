@@ -51,7 +51,8 @@ bool BlockParser::statement() {
       break;
   }
   // What newer controls added stands in DIN/ISO programs as it stands in Klartext.
-  for (const std::string_view keyword : {"PLANE", "FUNCTION", "TRANS", "PRESET", "DECLARE", "SQL", "ERROR"}) {
+  for (const std::string_view keyword :
+       {"PLANE", "FUNCTION", "TRANS", "PRESET", "DECLARE", "SQL", "ERROR", "TABDATA", "SEL", "OPEN"}) {
     const std::size_t start = lexer_.offset();
     if (!lexer_.acceptKeyword(keyword)) continue;
     lexer_.seek(start);
@@ -145,16 +146,12 @@ bool BlockParser::selectionByPercent() {
   return true;
 }
 
-/// L1 and L1,5.
+/// L1 and L1,0 call a subprogram, L1,5 repeats a part.
 bool BlockParser::labelCall() {
   lexer_.advance();
   CallLabel call;
   if (!labelName(call.label, call.labelValue)) return false;
-  if (lexer_.accept(',')) {
-    const std::optional<Operand> repeats = value("the number of repeats");
-    if (!repeats) return false;
-    call.repeats = *repeats;
-  }
+  if (lexer_.accept(',') && !repeats(call)) return false;
   emit(call);
   return expectEnd();
 }

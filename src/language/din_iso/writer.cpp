@@ -351,6 +351,10 @@ private:
     if (name == "BLK FORM") return blankForm(text);
     if (name == "FN14") return word(fmt::format("D14 P01 {}", value(words[0].value)));
     if (name == "FN16") return word(fmt::format("D16 P01 F-PRINT {}", text));
+    if (name == "SET UNDEFINED") {
+      return word(fmt::format("D00 {} SET UNDEFINED",
+                              writeVariable(block_.variables[static_cast<std::size_t>(command.variable)])));
+    }
     if (name.starts_with("FN")) {
       const std::string written = klartext::writeCommand(block_, command);  // "FN 18: ..."
       return word(fmt::format("D{}", written.substr(3)));
@@ -387,7 +391,8 @@ private:
       return;
     }
     const bool sameInBoth = name.starts_with("PRESET") || name.starts_with("FUNCTION") || name == "SQL" ||
-                            name == "DECLARE" || name == "ERROR";
+                            name == "DECLARE" || name == "ERROR" || name.starts_with("TABDATA") ||
+                            name == "OPEN FILE" || name == "SEL CYCLE";
     if (!sameInBoth) return refuse(fmt::format("{} has no twin in DIN/ISO", name));
     word(klartext::writeCommand(block_, command));
   }
@@ -446,7 +451,7 @@ Result<std::string> writeBlock(const Block& block) {
   Result<std::string> written = BlockWriter(block).write();
   if (!written) return written;
   if (written->find('\n') == std::string::npos) {
-    const std::string_view comment = klartext::commentOfLine(block, 0);
+    const std::string comment = klartext::commentOf(block);
     if (!comment.empty()) *written += fmt::format(" {}", comment);
   }
   *written += " *";
