@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <sstream>
 
 #include "base/number_text.hpp"
 #include "language/klartext/block_extent.hpp"
@@ -65,11 +66,26 @@ void ToSinumerik::survey() {
       if (const auto* call = std::get_if<CallLabel>(&instruction); call != nullptr && !call->repeats.present())
         calledLabels_.insert(std::string(block.at(call->label)));
       if (const auto* move = std::get_if<Move>(&instruction)) {
+        if (move->kind == MoveKind::SetCentre) surveyCentre(block, *move);
         compensates_ = compensates_ || move->compensation == RadiusCompensation::Left ||
                        move->compensation == RadiusCompensation::Right;
       }
     }
   }
+}
+
+/// Whether this CC names the point that all others name.
+void ToSinumerik::surveyCentre(const Block& block, const Move& move) {
+  std::array<std::optional<double>, 2> point;
+  for (std::uint32_t i = 0; i < move.words.count; ++i) {
+    const Word& word = block.words[move.words.first + i];
+    const auto index = planeIndex(word.address);
+    if (index && *index < 2 && word.mode != WordMode::Incremental && word.value.isLiteral())
+      point[*index] = word.value.number;
+  }
+  const bool whole = point[0] && point[1];
+  if (!surveyedCentre_) surveyedCentre_ = point;
+  oneCentre_ = oneCentre_ && whole && *surveyedCentre_ == point;
 }
 
 Conversion ToSinumerik::run() {
@@ -112,8 +128,17 @@ void ToSinumerik::write(const Block& block) {
   try {
     for (const Instruction& each : block.instructions)
       instruction(block, each);
-    const bool oneLine = block.at(block.source).find('\n') == std::string_view::npos;
-    const std::string_view remark = oneLine ? klartext::commentOfLine(block, 0) : std::string_view();
+    const bool isCycle = std::ranges::any_of(
+        block.instructions, [](const Instruction& each) { return std::holds_alternative<CycleCall>(each); });
+    std::string remark = isCycle ? std::string() : klartext::commentOf(block);
+    if (const std::size_t more = remark.find(" ~\n"); more != std::string::npos) {  // goes on in the next lines
+      std::istringstream lines(remark.substr(more + 3));
+      for (std::string line; std::getline(lines, line);) {
+        if (line.ends_with(" ~")) line.resize(line.size() - 2);
+        out_.line(fmt::format("; {}", trimmed(line)));
+      }
+      remark.resize(more);
+    }
     if (!remark.empty()) {
       if (out_.size() > before) {
         out_.at(before) += fmt::format(" {}", remark);
@@ -204,7 +229,7 @@ void ToSinumerik::jump(const Block& block, const Jump& jump) {
 void ToSinumerik::mark(const Block& block, const LabelMark& mark) {
   forgetPosition();
   activeRow_.reset();
-  centre_ = {};
+  if (!oneCentre_) centre_ = {};
   if (mark.end) {
     for (const std::string& label : openLabels_)
       if (calledLabels_.contains(label)) out_.line(fmt::format("{}_END:", labelName(label)));
@@ -226,7 +251,7 @@ void ToSinumerik::callLabel(const Block& block, const CallLabel& call) {
   }
   forgetPosition();
   activeRow_.reset();
-  centre_ = {};
+  if (!oneCentre_) centre_ = {};
 }
 
 void ToSinumerik::callProgram(const Block& block, const CallProgram& call) {

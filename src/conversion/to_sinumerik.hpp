@@ -27,6 +27,7 @@ public:
 private:
   // to_sinumerik.cpp: the program and its flow
   void survey();
+  void surveyCentre(const language::Block& block, const language::Move& move);
   void write(const language::Block& block);
   std::vector<std::string> head() const;
   void comment(const language::Block& block);
@@ -132,6 +133,8 @@ private:
   char toolAxis_ = 'Z';
   std::array<std::optional<Quantity>, 3> position_;  ///< of the tip; as the SINUMERIK program drives
   std::array<std::optional<Quantity>, 2> centre_;
+  std::optional<std::array<std::optional<double>, 2>> surveyedCentre_;
+  bool oneCentre_ = true;    ///< every CC of the program names the same point: it is known after labels too
   bool besidePath_ = false;  ///< the probe stands where the original program did not leave it
   int arcDirection_ = 0;
   std::vector<std::string> openLabels_;

@@ -39,6 +39,9 @@ TEST(ConvertMotion, DrivesLinesAndArcs) {
   EXPECT_TRUE(drivesTheSame("CC X+10 Y+10\nLP PR+30 PA+45 R0 FMAX\nL Z+50 FMAX\n"));
   EXPECT_TRUE(drivesTheSame("L X+0 Y+0 R0 FMAX\nCC X+10 Y+0\nC X+0 Y+0 DR+ F300\nL X+1\n"));
   EXPECT_TRUE(drivesTheSame("L Z-10 R0 FMAX M91\nL X+3 Y+4 R0 FMAX\n"));
+  EXPECT_TRUE(
+      drivesTheSame("L X+0 Y+0 R0 FMAX\nCC X+10 Y+0\nLBL 3\nC X+20 Y+0 DR+ F300\nC X+0 Y+0 DR+\n"
+                    "CALL LBL 3 REP2\nC X+10 Y+10 DR-\n"));
 }
 
 TEST(ConvertMotion, ComputesAndJumps) {
