@@ -96,7 +96,7 @@ void probeContact(benchmark::State& state) {
     const Vector3 lift = 50 * axis;
     benchmark::DoNotOptimize(solid.firstContact(leg.from, leg.to, kRadius));
     benchmark::DoNotOptimize(solid.firstCapsuleContact(leg.from + 3 * axis, leg.to + 3 * axis, 47 * axis, 1));
-    benchmark::DoNotOptimize(solid.firstCapsuleContact(leg.from + lift, leg.to + lift, 80 * axis, 20));
+    benchmark::DoNotOptimize(solid.firstCylinderContact(leg.from + lift, leg.to + lift, 80 * axis, 20));
   }
   state.SetItemsProcessed(state.iterations());
 }
@@ -114,7 +114,7 @@ void uprightProbeContact(benchmark::State& state) {
     benchmark::DoNotOptimize(
         solid.firstCapsuleContact(from + Vector3(0, 0, 3), to + Vector3(0, 0, 3), Vector3(0, 0, 47), 1));
     benchmark::DoNotOptimize(
-        solid.firstCapsuleContact(from + Vector3(0, 0, 50), to + Vector3(0, 0, 50), Vector3(0, 0, 80), 20));
+        solid.firstCylinderContact(from + Vector3(0, 0, 50), to + Vector3(0, 0, 50), Vector3(0, 0, 80), 20));
   }
   state.SetItemsProcessed(state.iterations());
 }

@@ -122,6 +122,54 @@ std::optional<BallContact> DistanceSolid::firstCapsuleContact(const Vector3& fro
   return BallContact{length > 0 ? *travelled / length : 0.0, p, near.point, near.normal};
 }
 
+std::optional<BallContact> DistanceSolid::firstCylinderContact(const Vector3& from, const Vector3& to,
+                                                               const Vector3& axis, double radius) const {
+  const double height = axis.norm();
+  const Vector3 up = axis / height, x = up.unitOrthogonal(), y = up.cross(x);
+  const auto within = [&](const Vector3& base, const Vector3& point) {
+    const Vector3 arm = point - base;
+    const double along = arm.dot(up);
+    const Vector3 aside = arm - along * up;
+    const double far = aside.norm();
+    return Vector3(base + std::clamp(along, 0.0, height) * up +
+                   (far > radius ? Vector3(aside * (radius / far)) : aside));
+  };
+  // From some places of the cylinder to the nearest of the solid, from there to the nearest of the cylinder, and again.
+  const auto closestOfCylinder = [&](const Vector3& base) {
+    const double around = std::hypot(height / 2, radius);
+    ClosestPoint best = closest(base + axis / 2);
+    if (best.distance > around + 1) return ClosestPoint{best.distance - around, best.point, best.normal};
+    const auto look = [&](Vector3 place) {
+      ClosestPoint near = closest(place);
+      for (int i = 0; i < 20 && near.distance > 0; ++i) {
+        const Vector3 next = within(base, near.point);
+        const bool settled = (next - place).norm() < 1e-6;
+        place = next;
+        near = closest(place);
+        if (settled) break;
+      }
+      if (near.distance < best.distance) best = near;
+    };
+    for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0})
+      look(base + share * axis);
+    for (const double end : {0.0, 1.0}) {
+      for (int i = 0; i < 12; ++i) {
+        const double angle = std::numbers::pi * i / 6;
+        look(base + end * axis + radius * (std::cos(angle) * x + std::sin(angle) * y));
+      }
+    }
+    return best;
+  };
+  const double length = (to - from).norm();
+  const Vector3 direction = length > 0 ? Vector3((to - from) / length) : Vector3::Zero();
+  const auto gap = [&](double travelled) { return closestOfCylinder(from + direction * travelled).distance; };
+  const auto travelled = march(length, gap, 1e-4);
+  if (!travelled) return std::nullopt;
+  const Vector3 p = from + direction * *travelled;
+  const ClosestPoint near = closestOfCylinder(p);
+  return BallContact{length > 0 ? *travelled / length : 0.0, p, near.point, near.normal};
+}
+
 Bounds HalfSpace::bounds() const { return {Vector3::Constant(-farAway), Vector3::Constant(farAway)}; }
 
 ClosestPoint HalfSpace::closest(const Vector3& point) const {

@@ -4,8 +4,8 @@
 
 /// Solids with closed-form distance: for gauges (rings, spheres, blocks) and for tests that need an exact truth.
 ///
-/// All ball contacts are exact to rounding (about 1e-11 mm for coordinates below 1 m); capsule contacts to 1e-3 mm.
-/// A ball whose path enters a solid by less than 1e-9 mm counts as passing along it.
+/// All ball contacts are exact to rounding (about 1e-11 mm for coordinates below 1 m); contacts of capsules and
+/// cylinders to 1e-3 mm. A ball whose path enters a solid by less than 1e-9 mm counts as passing along it.
 namespace probewright::simulation {
 
 /// The nearest point of a surface. `distance` is negative inside the material.
@@ -23,6 +23,8 @@ public:
   std::optional<BallContact> firstContact(const Vector3& from, const Vector3& to, double radius) const override;
   std::optional<BallContact> firstCapsuleContact(const Vector3& from, const Vector3& to, const Vector3& axis,
                                                  double radius) const override;
+  std::optional<BallContact> firstCylinderContact(const Vector3& from, const Vector3& to, const Vector3& axis,
+                                                  double radius) const override;
 };
 
 /// All points behind a plane whose normal points out of the material.

@@ -37,7 +37,8 @@ SurfaceFoot AnalyticSurface::foot(const Vector3& p) const {
   const Vector3 q = axes.transpose() * (p - origin);
   const double rho = std::hypot(q.x(), q.y());
   const Vector3 outward = rho > 0 ? Vector3(q.x() / rho, q.y() / rho, 0) : Vector3::UnitX();
-  const double azimuth = std::atan2(outward.y(), outward.x());
+  // The formula of the far sheet counts its azimuth from the other side of the axis.
+  const double azimuth = farSheet ? std::atan2(-outward.y(), -outward.x()) : std::atan2(outward.y(), outward.x());
   SurfaceFoot foot;
   foot.exists = true;
   Vector3 normal;
@@ -72,13 +73,35 @@ SurfaceFoot AnalyticSurface::foot(const Vector3& p) const {
       const double distance = arm.norm();
       normal = distance > 0 ? Vector3(arm / distance) : outward;
       foot.signedDistance = distance - tubeRadius;
-      foot.parameters = {azimuth, std::atan2(q.z(), rho - radius)};
+      foot.exists = radius + tubeRadius * normal.dot(outward) >= 0;
+      foot.parameters = {azimuth, std::atan2(q.z(), farSheet ? radius - rho : rho - radius)};
+      if (farSheet) {
+        normal = -normal;
+        foot.signedDistance = -foot.signedDistance;
+      }
       break;
     }
   }
   foot.normal = axes * normal;
   foot.point = p - foot.signedDistance * foot.normal;
   return foot;
+}
+
+bool AnalyticSurface::reachesFarSheet(double lowV, double highV) const {
+  if (kind == Kind::Torus) return tubeRadius > radius;
+  return kind == Kind::Cone && std::min(radius + lowV * coneSine, radius + highV * coneSine) < 0;
+}
+
+bool AnalyticSurface::reachesNearSheet(double lowV, double highV) const {
+  return kind != Kind::Cone || std::max(radius + lowV * coneSine, radius + highV * coneSine) >= 0;
+}
+
+AnalyticSurface AnalyticSurface::otherSheet() const {
+  AnalyticSurface other = *this;
+  other.radius = -radius;
+  other.coneSine = -coneSine;
+  other.farSheet = !farSheet;
+  return other;
 }
 
 AnalyticSurface::Touches AnalyticSurface::touches(const Way& way, double ballRadius) const {

@@ -15,7 +15,8 @@ struct SurfaceFoot {
   bool exists = false;
 };
 
-/// A plane, cylinder, cone, sphere or torus without borders.
+/// A plane, cylinder, cone, sphere or torus without borders. Of a cone it is one nappe, of a torus that meets itself
+/// one of its two sheets.
 struct AnalyticSurface {
   enum class Kind { Plane, Cylinder, Cone, Sphere, Torus };
 
@@ -26,6 +27,14 @@ struct AnalyticSurface {
   double tubeRadius = 0;               ///< of the torus
   double coneSine = 0;                 ///< of the angle between the cone's axis and its side
   double coneCosine = 1;
+  /// The sheet on which the surface's own formula gives negative distances from the axis: the nappe beyond the apex,
+  /// the lemon within a torus. `radius` and `coneSine` are then the formula's, with the sign changed.
+  bool farSheet = false;
+
+  /// True if the surface has a far sheet for some parameters v between low and high.
+  bool reachesFarSheet(double lowV, double highV) const;
+  bool reachesNearSheet(double lowV, double highV) const;
+  AnalyticSurface otherSheet() const;
 
   /// The nearest point of the surface; on the axis of a round surface one of many.
   SurfaceFoot foot(const Vector3& p) const;

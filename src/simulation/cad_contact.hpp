@@ -6,7 +6,7 @@
 /// `best`. Accuracy 1e-8 mm wherever the ball does not merely graze.
 namespace probewright::simulation {
 
-/// A face with a closed form, whole.
+/// A face with closed forms, whole.
 void meetAnalyticFace(const CadFace& face, const Way& way, double radius, Meeting& best);
 
 /// A face of any shape, near one triangle of its tessellation; `coarse` is the meeting with the grown triangle.
@@ -16,8 +16,8 @@ void meetFaceNear(const CadFace& face, const CadElement& triangle, const Meeting
 /// A straight or round edge with its ends, whole.
 void meetSimpleEdge(const CadEdge& edge, const Way& way, double radius, Meeting& best);
 
-/// Any edge near one of its chords, with the chord's ends.
-void meetEdgeNear(const CadEdge& edge, const CadElement& chord, const Meeting& coarse, const Way& way, double radius,
-                  Meeting& best);
+/// Any edge near one of its chords, with the chord's ends. The kink of a face counts within the face's domain only.
+void meetEdgeNear(const CadEdge& edge, const TrimmedDomain* within, const CadElement& chord, const Meeting& coarse,
+                  const Way& way, double radius, Meeting& best);
 
 }  // namespace probewright::simulation

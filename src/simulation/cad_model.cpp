@@ -1,37 +1,29 @@
 #include "simulation/cad_model.hpp"
 
-#include <BRepAdaptor_Surface.hxx>
 #include <BRepLib.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
-#include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
-#include <Geom2d_Curve.hxx>
-#include <Geom2d_Line.hxx>
-#include <Geom2d_TrimmedCurve.hxx>
+#include <GeomAdaptor_Curve.hxx>
+#include <GeomAdaptor_Surface.hxx>
 #include <Geom_Circle.hxx>
 #include <Geom_Line.hxx>
+#include <Geom_OffsetSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
 #include <Poly_Triangulation.hxx>
+#include <Precision.hxx>
+#include <TColStd_Array1OfReal.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
-#include <TopoDS_Wire.hxx>
-#include <gp_Cone.hxx>
-#include <gp_Cylinder.hxx>
-#include <gp_Pln.hxx>
-#include <gp_Sphere.hxx>
-#include <gp_Torus.hxx>
 #include <stdexcept>
 
 namespace probewright::simulation {
 namespace {
 
-/// A border polygon may leave its edge by this much: the contact of a ball then errs by the square over its diameter.
-constexpr double kBorderTolerance = 2e-4;
 constexpr double kAngularDeflection = 0.3;
 constexpr double kLeastGrowth = 1e-6;
 
@@ -47,138 +39,76 @@ Matrix3 axesOf(const Position& position) {
   return axes;
 }
 
-std::optional<AnalyticSurface> analyticSurface(const BRepAdaptor_Surface& face) {
-  AnalyticSurface s;
-  gp_Ax3 position;
-  switch (face.GetType()) {
-    case GeomAbs_Plane:
-      s.kind = AnalyticSurface::Kind::Plane;
-      position = face.Plane().Position();
-      break;
-    case GeomAbs_Cylinder:
-      s.kind = AnalyticSurface::Kind::Cylinder;
-      position = face.Cylinder().Position();
-      s.radius = face.Cylinder().Radius();
-      break;
-    case GeomAbs_Cone:
-      s.kind = AnalyticSurface::Kind::Cone;
-      position = face.Cone().Position();
-      s.radius = face.Cone().RefRadius();
-      s.coneSine = std::sin(face.Cone().SemiAngle());
-      s.coneCosine = std::cos(face.Cone().SemiAngle());
-      break;
-    case GeomAbs_Sphere:
-      s.kind = AnalyticSurface::Kind::Sphere;
-      position = face.Sphere().Position();
-      s.radius = face.Sphere().Radius();
-      break;
-    case GeomAbs_Torus:
-      s.kind = AnalyticSurface::Kind::Torus;
-      position = face.Torus().Position();
-      s.radius = face.Torus().MajorRadius();
-      s.tubeRadius = face.Torus().MinorRadius();
-      // A tube wider than its ring meets itself; the closed form knows only the outer part.
-      if (s.tubeRadius >= s.radius) return std::nullopt;
-      break;
-    default:
-      return std::nullopt;
-  }
-  s.origin = vector(position.Location());
-  s.axes = axesOf(position);
-  return s;
-}
-
-/// Appends the parameters of a curve's points so that chords stay within a tolerance. `deviates(a, b)` tells whether
-/// the chord between two parameters does not.
-template <class Deviates>
-void subdivide(double a, double b, int depth, const Deviates& deviates, std::vector<double>& parameters) {
-  if (depth > 0 && deviates(a, b)) {
-    const double middle = (a + b) / 2;
-    subdivide(a, middle, depth - 1, deviates, parameters);
-    subdivide(middle, b, depth - 1, deviates, parameters);
-  } else {
-    parameters.push_back(b);
-  }
-}
-
-/// The points of an edge's parameter curve on a face, in the direction in which the wire runs.
-std::vector<Vector2> borderPoints(const TopoDS_Edge& edge, const TopoDS_Face& face, const Geom_Surface& surface) {
-  double first = 0;
-  double last = 0;
-  const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
-  std::vector<Vector2> points;
-  if (curve.IsNull()) return points;
-  const auto at = [&](double t) {
-    const gp_Pnt2d p = curve->Value(t);
-    return Vector2(p.X(), p.Y());
+/// How far the surface leaves the element, sampled.
+double deviationOf(const CadElement& element, const Geom_Surface& surface) {
+  double deviation = 0;
+  const auto probe = [&](double a, double b, double c) {
+    const Vector2 uv = a * element.parameters[0] + b * element.parameters[1] + c * element.parameters[2];
+    const Vector3 chord = a * element.corners[0] + b * element.corners[1] + c * element.corners[2];
+    deviation = std::max(deviation, (vector(surface.Value(uv.x(), uv.y())) - chord).norm());
   };
-  Handle(Geom2d_Curve) plain = curve;
-  if (const auto trimmed = Handle(Geom2d_TrimmedCurve)::DownCast(plain)) plain = trimmed->BasisCurve();
-  std::vector<double> parameters{first};
-  if (plain->IsKind(STANDARD_TYPE(Geom2d_Line))) {
-    parameters.push_back(last);
-  } else {
-    const auto onSurface = [&](const Vector2& uv) { return vector(surface.Value(uv.x(), uv.y())); };
-    const auto deviates = [&](double a, double b) {
-      const Vector2 from = at(a);
-      const Vector2 to = at(b);
-      for (const double part : {0.5, 0.3}) {
-        const Vector2 chord = from + part * (to - from);
-        if ((onSurface(at(a + part * (b - a))) - onSurface(chord)).norm() > kBorderTolerance) return true;
-      }
-      return false;
-    };
-    constexpr int kPieces = 4;
-    for (int i = 0; i < kPieces; ++i) {
-      subdivide(first + (last - first) * i / kPieces, first + (last - first) * (i + 1) / kPieces, 12, deviates,
-                parameters);
-    }
-  }
-  for (const double t : parameters)
-    points.push_back(at(t));
-  if (edge.Orientation() == TopAbs_REVERSED) std::reverse(points.begin(), points.end());
-  return points;
+  probe(0.5, 0.5, 0);
+  probe(0, 0.5, 0.5);
+  probe(0.5, 0, 0.5);
+  probe(1.0 / 3, 1.0 / 3, 1.0 / 3);
+  return deviation;
 }
 
-TrimmedDomain trimmedDomain(const TopoDS_Face& oriented, const Geom_Surface& surface) {
-  const TopoDS_Face face = TopoDS::Face(oriented.Oriented(TopAbs_FORWARD));
-  std::vector<TrimmedDomain::Segment> border;
-  for (TopExp_Explorer wires(face, TopAbs_WIRE); wires.More(); wires.Next()) {
-    const TopoDS_Wire& wire = TopoDS::Wire(wires.Current());
-    std::vector<TopoDS_Edge> chain;
-    for (BRepTools_WireExplorer edges(wire, face); edges.More(); edges.Next())
-      chain.push_back(edges.Current());
-    std::vector<TopoDS_Edge> all;
-    for (TopExp_Explorer edges(wire, TopAbs_EDGE); edges.More(); edges.Next()) {
-      const TopAbs_Orientation orientation = edges.Current().Orientation();
-      if (orientation == TopAbs_FORWARD || orientation == TopAbs_REVERSED) {
-        all.push_back(TopoDS::Edge(edges.Current()));
+double areaInParameters(const CadElement& element) {
+  const Vector2 a = element.parameters[1] - element.parameters[0];
+  const Vector2 b = element.parameters[2] - element.parameters[0];
+  return std::abs(a.x() * b.y() - a.y() * b.x()) / 2;
+}
+
+/// A grid over the box about the face's domain, for a face that cannot be tessellated. It finds contacts of balls as
+/// well as a tessellation does; contacts of anything else err by a cell at the borders.
+void addGridElements(CadModel& model, std::uint32_t owner, double deflection) {
+  const CadFace& exact = model.faces[owner];
+  Vector2 low = exact.domain.low();
+  Vector2 high = exact.domain.high();
+  if (exact.domain.isEverywhere()) exact.surface->Bounds(low.x(), high.x(), low.y(), high.y());
+  if (!(std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()) < 1e9)) return;
+  std::vector<CadElement> elements;
+  for (int cells = 8; cells <= 64; cells *= 2) {
+    elements.clear();
+    double largest = 0;
+    const auto add = [&](const std::array<Vector2, 3>& corners) {
+      CadElement element;
+      element.owner = owner;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t from = exact.reversed ? 2 - k : k;
+        element.parameters[k] = low + (high - low).cwiseProduct(corners[from]);
+        element.corners[k] = vector(exact.surface->Value(element.parameters[k].x(), element.parameters[k].y()));
+      }
+      const Vector2 middle = (element.parameters[0] + element.parameters[1] + element.parameters[2]) / 3;
+      element.onFace = exact.domain.contains(middle);
+      const double deviation = deviationOf(element, *exact.surface);
+      largest = std::max(largest, deviation);
+      element.growth = kLeastGrowth + 1.5 * deviation;
+      elements.push_back(element);
+    };
+    const double step = 1.0 / cells;
+    for (int i = 0; i < cells; ++i) {
+      for (int j = 0; j < cells; ++j) {
+        const Vector2 a(i * step, j * step), b(a.x() + step, a.y()), c(a.x(), a.y() + step), d(b.x(), c.y());
+        add({a, b, d});
+        add({a, d, c});
       }
     }
-    // The chain joins the ends of neighbours; a wire that the explorer cannot follow is taken as loose pieces.
-    const bool chained = chain.size() == all.size();
-    std::vector<Vector2> loop;
-    for (const TopoDS_Edge& edge : chained ? chain : all) {
-      const std::vector<Vector2> points = borderPoints(edge, face, surface);
-      if (!chained) loop.clear();
-      loop.insert(loop.end(), points.begin(), points.end());
-      for (std::size_t i = 0; !chained && i + 1 < loop.size(); ++i)
-        border.push_back({loop[i], loop[i + 1]});
-    }
-    for (std::size_t i = 0; chained && i < loop.size(); ++i)
-      border.push_back({loop[i], loop[(i + 1) % loop.size()]});
+    if (largest <= deflection) break;
   }
-  return {std::move(border), surface.IsUPeriodic() ? surface.UPeriod() : 0,
-          surface.IsVPeriodic() ? surface.VPeriod() : 0};
+  model.elements.insert(model.elements.end(), elements.begin(), elements.end());
 }
 
 void addFaceElements(CadModel& model, const TopoDS_Face& face, std::uint32_t owner, double deflection) {
   TopLoc_Location location;
   const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, location);
-  if (mesh.IsNull() || !mesh->HasUVNodes()) return;
+  if (mesh.IsNull() || !mesh->HasUVNodes()) return addGridElements(model, owner, deflection);
   const CadFace& exact = model.faces[owner];
+  const std::size_t firstElement = model.elements.size();
+  double area = 0;
   const gp_Trsf transform = location.Transformation();
-  const bool flat = exact.analytic && exact.analytic->kind == AnalyticSurface::Kind::Plane;
+  const bool flat = exact.forms.isPlane();
   bool straight = true;
   for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More() && straight; edges.Next()) {
     double first = 0;
@@ -197,21 +127,17 @@ void addFaceElements(CadModel& model, const TopoDS_Face& face, std::uint32_t own
       const gp_Pnt2d uv = mesh->UVNode(nodes[k]);
       element.parameters[k] = {uv.X(), uv.Y()};
     }
-    double deviation = 0;
-    if (!flat) {
-      const auto probe = [&](double a, double b, double c) {
-        const Vector2 uv = a * element.parameters[0] + b * element.parameters[1] + c * element.parameters[2];
-        const Vector3 chord = a * element.corners[0] + b * element.corners[1] + c * element.corners[2];
-        deviation = std::max(deviation, (vector(exact.surface->Value(uv.x(), uv.y())) - chord).norm());
-      };
-      probe(0.5, 0.5, 0);
-      probe(0, 0.5, 0.5);
-      probe(0.5, 0, 0.5);
-      probe(1.0 / 3, 1.0 / 3, 1.0 / 3);
-    }
+    const double deviation = flat ? 0 : deviationOf(element, *exact.surface);
+    area += areaInParameters(element);
     // Between a bent border and its chord no triangle lies.
     element.growth = kLeastGrowth + 1.5 * std::max(deviation, straight ? 0.0 : 1.5 * deflection);
     model.elements.push_back(element);
+  }
+  // Triangles that leave a part of the face open would hide it.
+  constexpr double kLeastCover = 0.9;
+  if (area < kLeastCover * exact.domain.area()) {
+    model.elements.resize(firstElement);
+    addGridElements(model, owner, deflection);
   }
 }
 
@@ -219,7 +145,8 @@ CadEdge cadEdge(const TopoDS_Edge& edge) {
   CadEdge exact;
   exact.curve = BRep_Tool::Curve(edge, exact.first, exact.last);
   if (exact.curve.IsNull()) return exact;
-  if (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(exact.curve)) exact.curve = trimmed->BasisCurve();
+  while (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(exact.curve))
+    exact.curve = trimmed->BasisCurve();
   exact.start = vector(exact.curve->Value(exact.first));
   exact.end = vector(exact.curve->Value(exact.last));
   if (exact.curve->IsKind(STANDARD_TYPE(Geom_Line))) exact.kind = CadEdge::Kind::Line;
@@ -232,6 +159,20 @@ CadEdge cadEdge(const TopoDS_Edge& edge) {
   return exact;
 }
 
+/// The ends of the parts of an edge that have no kink.
+std::vector<double> smoothParts(const CadEdge& edge) {
+  std::vector<double> ends;
+  if (edge.kind == CadEdge::Kind::Curve) {
+    const GeomAdaptor_Curve curve(edge.curve, edge.first, edge.last);
+    TColStd_Array1OfReal bounds(1, curve.NbIntervals(GeomAbs_C1) + 1);
+    curve.Intervals(bounds, GeomAbs_C1);
+    for (int i = 2; i < bounds.Length(); ++i)
+      ends.push_back(bounds(i));
+  }
+  ends.push_back(edge.last);
+  return ends;
+}
+
 void addEdgeElements(CadModel& model, std::uint32_t owner, double deflection) {
   const CadEdge& edge = model.edges[owner];
   const auto at = [&](double t) { return vector(edge.curve->Value(t)); };
@@ -242,13 +183,17 @@ void addEdgeElements(CadModel& model, std::uint32_t owner, double deflection) {
                     (at(0.7 * a + 0.3 * b) - (0.7 * from + 0.3 * to)).norm());
   };
   std::vector<double> parameters{edge.first};
-  const int pieces = edge.kind == CadEdge::Kind::Line ? 1 : 8;
-  for (int i = 0; i < pieces; ++i) {
-    const double a = edge.first + (edge.last - edge.first) * i / pieces;
-    const double b = edge.first + (edge.last - edge.first) * (i + 1) / pieces;
-    subdivide(
-        a, b, edge.kind == CadEdge::Kind::Line ? 0 : 10,
-        [&](double from, double to) { return deviation(from, to) > deflection; }, parameters);
+  const std::vector<double> smooth = smoothParts(edge);
+  const int pieces = edge.kind == CadEdge::Kind::Line ? 1 : std::max(1, 8 / static_cast<int>(smooth.size()));
+  double from = edge.first;
+  for (const double to : smooth) {
+    for (int i = 0; i < pieces; ++i) {
+      subdivide(
+          from + (to - from) * i / pieces, from + (to - from) * (i + 1) / pieces,
+          edge.kind == CadEdge::Kind::Line ? 0 : 10, [&](double a, double b) { return deviation(a, b) > deflection; },
+          parameters);
+    }
+    from = to;
   }
   for (std::size_t i = 0; i + 1 < parameters.size(); ++i) {
     CadElement element;
@@ -262,10 +207,54 @@ void addEdgeElements(CadModel& model, std::uint32_t owner, double deflection) {
   }
 }
 
-bool boundsMaterial(const TopoDS_Shape& shape) {
-  if (!TopExp_Explorer(shape, TopAbs_SOLID).More()) return false;
-  if (TopExp_Explorer(shape, TopAbs_FACE, TopAbs_SOLID).More()) return false;
-  for (TopExp_Explorer shells(shape, TopAbs_SHELL); shells.More(); shells.Next()) {
+/// The parameters within a face at which its surface has a kink, across u or across v.
+std::vector<double> kinksOf(const CadFace& face, bool acrossU) {
+  std::vector<double> kinks;
+  const Vector2& low = face.domain.low();
+  const Vector2& high = face.domain.high();
+  if (!(low.x() < high.x() && low.y() < high.y())) return kinks;
+  const GeomAdaptor_Surface surface(face.surface, low.x(), high.x(), low.y(), high.y());
+  TColStd_Array1OfReal bounds(1, (acrossU ? surface.NbUIntervals(GeomAbs_C1) : surface.NbVIntervals(GeomAbs_C1)) + 1);
+  acrossU ? surface.UIntervals(bounds, GeomAbs_C1) : surface.VIntervals(bounds, GeomAbs_C1);
+  for (int i = 2; i < bounds.Length(); ++i)
+    kinks.push_back(bounds(i));
+  return kinks;
+}
+
+/// The kinks within a face, as edges: there no point of the surface has a normal along which a ball could touch it.
+void addRidges(CadModel& model, std::uint32_t owner, double deflection) {
+  if (model.faces[owner].forms.count > 0 || model.faces[owner].domain.isEverywhere()) return;
+  if (model.faces[owner].surface->IsKind(STANDARD_TYPE(Geom_OffsetSurface))) return;
+  for (const bool acrossU : {true, false}) {
+    for (const double at : kinksOf(model.faces[owner], acrossU)) {
+      const CadFace& face = model.faces[owner];
+      CadEdge ridge;
+      ridge.curve = acrossU ? face.surface->UIso(at) : face.surface->VIso(at);
+      ridge.first = acrossU ? face.domain.low().y() : face.domain.low().x();
+      ridge.last = acrossU ? face.domain.high().y() : face.domain.high().x();
+      ridge.within = owner;
+      ridge.acrossU = acrossU;
+      ridge.kinkAt = at;
+      model.edges.push_back(std::move(ridge));
+      addEdgeElements(model, static_cast<std::uint32_t>(model.edges.size() - 1), deflection);
+    }
+  }
+}
+
+/// Reads all faces. Those of closed solids tell inside from outside, whatever loose faces the file has besides.
+void addFaces(CadModel& model, TopExp_Explorer faces, bool boundsSolid, double deflection) {
+  for (; faces.More(); faces.Next()) {
+    const TopoDS_Face& face = TopoDS::Face(faces.Current());
+    model.faces.push_back(cadFace(face));
+    model.faces.back().boundsSolid = boundsSolid;
+    const auto owner = static_cast<std::uint32_t>(model.faces.size() - 1);
+    addFaceElements(model, face, owner, deflection);
+    addRidges(model, owner, deflection);
+  }
+}
+
+bool isClosed(const TopoDS_Shape& solid) {
+  for (TopExp_Explorer shells(solid, TopAbs_SHELL); shells.More(); shells.Next()) {
     if (!BRep_Tool::IsClosed(shells.Current())) return false;
   }
   return true;
@@ -280,17 +269,12 @@ CadModel cadModel(const TopoDS_Shape& shape, double deflection) {
   BRepTools::Clean(shape);
   BRepMesh_IncrementalMesh mesher(shape, deflection, Standard_False, kAngularDeflection);
 
-  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
-    const TopoDS_Face& face = TopoDS::Face(faces.Current());
-    CadFace exact;
-    exact.surface = BRep_Tool::Surface(face);
-    if (exact.surface.IsNull()) throw std::runtime_error("a face has no surface");
-    exact.analytic = analyticSurface(BRepAdaptor_Surface(face, Standard_False));
-    exact.reversed = face.Orientation() == TopAbs_REVERSED;
-    exact.domain = trimmedDomain(face, *exact.surface);
-    model.faces.push_back(std::move(exact));
-    addFaceElements(model, face, static_cast<std::uint32_t>(model.faces.size() - 1), deflection);
+  for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next()) {
+    const bool closed = isClosed(solids.Current());
+    model.closed = model.closed || closed;
+    addFaces(model, TopExp_Explorer(solids.Current(), TopAbs_FACE), closed, deflection);
   }
+  addFaces(model, TopExp_Explorer(shape, TopAbs_FACE, TopAbs_SOLID), false, deflection);
   TopTools_IndexedMapOfShape edges;
   TopExp::MapShapes(shape, TopAbs_EDGE, edges);
   for (int i = 1; i <= edges.Extent(); ++i) {
@@ -318,7 +302,6 @@ CadModel cadModel(const TopoDS_Shape& shape, double deflection) {
   for (const std::uint32_t i : model.tree.order())
     ordered.push_back(model.elements[i]);
   model.elements = std::move(ordered);
-  model.closed = boundsMaterial(shape);
   return model;
 }
 

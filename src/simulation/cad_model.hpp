@@ -1,24 +1,15 @@
 #pragma once
 
 #include <Geom_Curve.hxx>
-#include <Geom_Surface.hxx>
 #include <TopoDS_Shape.hxx>
 #include <optional>
 #include <vector>
 
-#include "simulation/analytic_surface.hpp"
+#include "simulation/cad_face.hpp"
 #include "simulation/search_tree.hpp"
-#include "simulation/trimmed_domain.hpp"
 
 /// A boundary representation prepared for contact queries: exact faces and edges, and a tessellation to find them by.
 namespace probewright::simulation {
-
-struct CadFace {
-  std::optional<AnalyticSurface> analytic;  ///< the exact surface where it has a closed form
-  Handle(Geom_Surface) surface;             ///< the exact surface in every case
-  TrimmedDomain domain;
-  bool reversed = false;  ///< the material lies on the side the surface's own normal points to
-};
 
 struct CadEdge {
   enum class Kind { Line, Circle, Curve };
@@ -32,6 +23,10 @@ struct CadEdge {
   Vector3 centre = Vector3::Zero();
   Matrix3 axes = Matrix3::Identity();
   double radius = 0;
+  // A kink of a surface, which counts within the face's domain only:
+  std::optional<std::uint32_t> within;  ///< the face
+  bool acrossU = false;                 ///< u is the same all along, else v
+  double kinkAt = 0;                    ///< that u or v
 };
 
 /// A triangle of a face's tessellation, or a chord of an edge: what the search tree finds.
@@ -42,6 +37,9 @@ struct CadElement {
   double growth = 0;                  ///< the exact shape lies within this distance
   std::uint32_t owner = 0;            ///< index of the face or edge
   Kind kind = Kind::Face;
+  bool onFace = true;  ///< stands for a part of the face; else it only helps to find the face
+
+  bool isTriangle() const { return kind == Kind::Face && onFace; }
 };
 
 struct CadModel {
@@ -51,7 +49,7 @@ struct CadModel {
   std::vector<CadElement> elements;  ///< in the order of the tree
   SearchTree tree;
   Bounds bounds;        ///< of the exact shape, to within the deflection
-  bool closed = false;  ///< bounds material, so that a point is inside or outside
+  bool closed = false;  ///< some of its faces bound solids, so that a point is inside or outside
 };
 
 /// Tessellates and prepares a shape. Throws Standard_Failure or std::runtime_error where that is impossible.

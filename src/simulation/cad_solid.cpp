@@ -44,11 +44,12 @@ void meet(const CadModel& model, const CadElement& element, const Way& way, doub
   if (!near) return;
   if (isFace) {
     const CadFace& face = model.faces[element.owner];
-    if (!face.analytic) return meetFaceNear(face, element, coarse, way, radius, best);
+    if (face.forms.count == 0) return meetFaceNear(face, element, coarse, way, radius, best);
     if (!memory.knows(element)) meetAnalyticFace(face, way, radius, best);
   } else {
     const CadEdge& edge = model.edges[element.owner];
-    if (edge.kind == CadEdge::Kind::Curve) return meetEdgeNear(edge, element, coarse, way, radius, best);
+    const TrimmedDomain* within = edge.within ? &model.faces[*edge.within].domain : nullptr;
+    if (edge.kind == CadEdge::Kind::Curve) return meetEdgeNear(edge, within, element, coarse, way, radius, best);
     if (!memory.knows(element)) meetSimpleEdge(edge, way, radius, best);
   }
 }
@@ -59,6 +60,7 @@ CadSolid::CadSolid(CadModel model) : model_(std::make_unique<const CadModel>(std
 CadSolid::~CadSolid() = default;
 
 Bounds CadSolid::bounds() const { return model_->bounds; }
+Bounds CadSolid::reach() const { return model_->tree.bounds(); }
 const TopoDS_Shape& CadSolid::shape() const { return model_->shape; }
 std::size_t CadSolid::faceCount() const { return model_->faces.size(); }
 
@@ -68,8 +70,9 @@ std::size_t CadSolid::triangleCount() const {
 }
 
 bool CadSolid::isInside(const Vector3& point) const {
-  return model_->closed && rayMeetsBack(model_->tree, point, [&](std::uint32_t place) {
-           return model_->elements[place].kind == CadElement::Kind::Face;
+  return model_->closed && isWithin(model_->tree, point, [&](std::uint32_t place) {
+           const CadElement& element = model_->elements[place];
+           return element.isTriangle() && model_->faces[element.owner].boundsSolid;
          });
 }
 
@@ -80,11 +83,7 @@ std::optional<BallContact> CadSolid::firstContact(const Vector3& from, const Vec
   model_->tree.search(mover, best, [&](std::uint32_t place, const Triangle&) {
     meet(*model_, model_->elements[place], mover.way, radius, memory, best);
   });
-  if (model_->closed && !(best.when < 0)) {
-    const bool onFace = best.found() && !best.normal.isZero();
-    const bool inside = onFace ? best.normal.dot(mover.way.at(best.when) - best.point) < 0 : isInside(from);
-    if (inside) return contactWithin(mover.way, radius);
-  }
+  if (!(best.when < 0) && !meetsFront(mover.way, best) && isInside(from)) return contactWithin(mover.way, radius);
   return ballContact(mover.way, best);
 }
 
@@ -97,11 +96,22 @@ std::optional<BallContact> CadSolid::firstCapsuleContact(const Vector3& from, co
   for (std::size_t i = 0; i < parts; ++i) {
     const Mover mover{{way.start + static_cast<double>(i) * part, way.direction, way.length}, radius, part};
     model_->tree.search(mover, best, [&](std::uint32_t place, const Triangle& t) {
-      if (model_->elements[place].kind == CadElement::Kind::Face) sweepCapsule(mover.way, radius, part, t, best);
+      if (model_->elements[place].isTriangle()) sweepCapsule(mover.way, radius, part, t, best);
     });
   }
   if (!(best.when < 0) && isInside(from)) return contactWithin(way, radius);
   return capsuleContact(way, axis, best);
+}
+
+std::optional<BallContact> CadSolid::firstCylinderContact(const Vector3& from, const Vector3& to, const Vector3& axis,
+                                                          double radius) const {
+  const Mover mover{wayBetween(from, to), 0, axis, radius};
+  Meeting best;
+  model_->tree.search(mover, best, [&](std::uint32_t place, const Triangle& t) {
+    if (model_->elements[place].isTriangle()) sweepCylinder(mover.way, radius, axis, t, best);
+  });
+  if (!(best.when < 0) && isInside(from)) return contactWithin(mover.way, radius);
+  return cylinderContact(mover.way, axis, radius, best);
 }
 
 Result<std::unique_ptr<Solid>> cadSolid(const TopoDS_Shape& shape, const CadOptions& options) {

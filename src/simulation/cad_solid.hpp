@@ -15,23 +15,26 @@ struct CadModel;
 
 struct CadOptions {
   /// How far the triangles that find the faces may be off, mm. Contacts of balls do not depend on it, contacts of
-  /// capsules do; smaller takes longer to load.
+  /// capsules and cylinders do; smaller takes longer to load.
   double deflection = 0.01;
 };
 
 /// A solid from CAD: planes, cylinders, cones, spheres and tori in closed form, free-form faces and edges by iteration.
-/// Contacts of balls are exact on the surface to 1e-6 mm, contacts of capsules on its tessellation.
-/// A shape of loose faces is a skin that can be touched from both sides; a body knows its inside, and whatever starts
-/// there makes contact at fraction 0.
+/// Contacts of balls are exact on the surface to 1e-6 mm, contacts of capsules and cylinders on its tessellation.
+/// Loose faces and open bodies are skins that can be touched from both sides; a closed body knows its inside, and
+/// whatever starts there makes contact at fraction 0.
 class CadSolid final : public Solid {
 public:
   explicit CadSolid(CadModel model);
   ~CadSolid() override;
 
   Bounds bounds() const override;
+  Bounds reach() const override;
   std::optional<BallContact> firstContact(const Vector3& from, const Vector3& to, double radius) const override;
   std::optional<BallContact> firstCapsuleContact(const Vector3& from, const Vector3& to, const Vector3& axis,
                                                  double radius) const override;
+  std::optional<BallContact> firstCylinderContact(const Vector3& from, const Vector3& to, const Vector3& axis,
+                                                  double radius) const override;
 
   const TopoDS_Shape& shape() const;
   std::size_t faceCount() const;

@@ -35,6 +35,23 @@ std::optional<BallContact> capsuleContact(const Way& way, const Vector3& axis, c
   return contact;
 }
 
+std::optional<BallContact> cylinderContact(const Way& way, const Vector3& axis, double radius, const Meeting& meeting) {
+  if (!meeting.found()) return std::nullopt;
+  BallContact contact = contactAt(way, meeting);
+  const double length = axis.norm();
+  const Vector3 up = axis / length;
+  const Vector3 arm = contact.touchPoint - contact.ballCentre;
+  const double height = arm.dot(up);
+  const Vector3 aside = arm - height * up;
+  constexpr double kOnEnd = 1e-6;
+  if (std::min(height, length - height) < kOnEnd && aside.norm() < radius - kOnEnd) {
+    contact.normal = height < length / 2 ? up : Vector3(-up);
+  } else {
+    setNormal(contact, -aside, way);
+  }
+  return contact;
+}
+
 BallContact contactWithin(const Way& way, double radius) {
   BallContact contact;
   contact.ballCentre = way.start;

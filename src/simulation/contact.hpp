@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "simulation/search_tree.hpp"
 #include "simulation/solid.hpp"
 
@@ -12,6 +14,9 @@ std::optional<BallContact> ballContact(const Way& way, const Meeting& meeting);
 /// The contact of a capsule: the normal points from the touch point to the capsule's axis.
 std::optional<BallContact> capsuleContact(const Way& way, const Vector3& axis, const Meeting& meeting);
 
+/// The same of a cylinder, whose flat ends have the normal of its axis.
+std::optional<BallContact> cylinderContact(const Way& way, const Vector3& axis, double radius, const Meeting& meeting);
+
 /// The contact of something that starts within the material.
 BallContact contactWithin(const Way& way, double radius);
 
@@ -19,36 +24,58 @@ BallContact contactWithin(const Way& way, double radius);
 /// about them stay slim.
 std::size_t capsuleParts(const Vector3& axis, double radius);
 
-/// True if the first triangle that a ray from `point` meets shows its back. For a closed surface: `point` lies inside.
-/// The ray's direction is one that edges of real parts do not have. `isFace(place)` tells triangles from the other
-/// elements of the tree.
-template <class IsFace>
-bool rayMeetsBack(const SearchTree& tree, const Vector3& point, const IsFace& isFace) {
+/// True if the ball met the outer side of a face: then its way did not start within the material.
+inline bool meetsFront(const Way& way, const Meeting& meeting) {
+  return meeting.found() && meeting.normal.dot(way.at(meeting.when) - meeting.point) > 0;
+}
+
+/// True if `point` lies within the closed surfaces that the triangles make: the rays from there leave them more or less
+/// often than they enter them. That holds whichever way the surfaces are turned, and where bodies overlap. A ray that
+/// passes an edge too closely to tell is replaced by another. `bounds(place)` tells which elements of the tree are
+/// triangles of such surfaces.
+template <class BoundsSolid>
+bool isWithin(const SearchTree& tree, const Vector3& point, const BoundsSolid& bounds) {
   const Bounds& box = tree.bounds();
   if ((point - box.minimum).minCoeff() <= 0 || (box.maximum - point).minCoeff() <= 0) return false;
+  // Directions that edges of real parts do not have.
+  static const std::array<Vector3, 5> kDirections{
+      Vector3(0.1234567, 0.3141593, 0.9412357), Vector3(-0.7390851, 0.2718282, 0.6164321),
+      Vector3(0.3819660, -0.8451542, 0.3740041), Vector3(-0.2360680, -0.4142136, -0.8790213),
+      Vector3(0.8660114, 0.1415927, -0.4795328)};
   Mover ray;
   ray.way.start = point;
-  ray.way.direction = Vector3(0.1234567, 0.3141593, 0.9412357).normalized();
   ray.way.length = (box.maximum - box.minimum).norm();
-  Meeting best;
-  bool back = false;
-  tree.search(ray, best, [&](std::uint32_t place, const Triangle& t) {
-    if (!isFace(place)) return;
-    const Vector3 e1 = t[1] - t[0];
-    const Vector3 e2 = t[2] - t[0];
-    const Vector3 p = ray.way.direction.cross(e2);
-    const double determinant = e1.dot(p);
-    if (determinant == 0) return;
-    const Vector3 s = point - t[0];
-    const double u = s.dot(p) / determinant;
-    const Vector3 q = s.cross(e1);
-    const double v = ray.way.direction.dot(q) / determinant;
-    const double when = e2.dot(q) / determinant;
-    if (u < 0 || v < 0 || u + v > 1 || when < 0 || when >= best.when) return;
-    best.when = when;
-    back = determinant < 0;
-  });
-  return back;
+  for (const Vector3& direction : kDirections) {
+    ray.way.direction = direction.normalized();
+    int crossings = 0;
+    bool clear = true;
+    const Meeting none;
+    tree.search(ray, none, [&](std::uint32_t place, const Triangle& t) {
+      if (!clear || !bounds(place)) return;
+      const Vector3 e1 = t[1] - t[0];
+      const Vector3 e2 = t[2] - t[0];
+      const Vector3 p = ray.way.direction.cross(e2);
+      const double determinant = e1.dot(p);
+      const Vector3 s = point - t[0];
+      const Vector3 q = s.cross(e1);
+      // The ray's place in the triangle, and the way to it, times the determinant.
+      const double size = std::abs(determinant);
+      const double sign = determinant < 0 ? -1 : 1;
+      const double u = sign * s.dot(p);
+      const double v = sign * ray.way.direction.dot(q);
+      const double when = sign * e2.dot(q);
+      const double least = std::min({u, v, size - u - v});
+      const double unsure = 1e-12 * s.norm() * (e1.norm() + e2.norm());
+      if (least < -unsure || when < 0) return;
+      if (least <= unsure) {
+        clear = false;
+        return;
+      }
+      crossings += determinant < 0 ? 1 : -1;
+    });
+    if (clear) return crossings != 0;
+  }
+  return false;
 }
 
 }  // namespace probewright::simulation

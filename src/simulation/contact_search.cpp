@@ -9,8 +9,8 @@ using machine::AxisPositions;
 
 namespace {
 
-/// Capsules sweep with a fixed direction; where they turn on the way, pieces are cut until they turn less than this.
-constexpr double capsulePrecision = 0.005;  // mm
+/// Shafts sweep with a fixed direction; where they turn on the way, pieces are cut until they turn less than this.
+constexpr double shaftPrecision = 0.005;  // mm
 
 bool sweptBoxMisses(const Bounds& bounds, const Vector3& from, const Vector3& to, const Vector3& axis, double radius) {
   for (Eigen::Index i = 0; i < 3; ++i) {
@@ -19,6 +19,23 @@ bool sweptBoxMisses(const Bounds& bounds, const Vector3& from, const Vector3& to
     if (low > bounds.maximum[i] || high < bounds.minimum[i]) return true;
   }
   return false;
+}
+
+/// A shaft with all its surface moved out by `growth`.
+Shaft grown(Shaft shaft, double growth) {
+  shaft.radius += growth;
+  if (growth == 0 || shaft.ends == Ends::Round) return shaft;
+  const Vector3 out = growth * shaft.axis.normalized();
+  shaft.start -= out;
+  shaft.axis += 2 * out;
+  return shaft;
+}
+
+/// The first contact of a shaft whose start moves straight, in the solid's frame.
+std::optional<BallContact> shaftContact(const Solid& solid, const Shaft& shaft, const Vector3& from, const Vector3& to,
+                                        const Vector3& axis) {
+  return shaft.ends == Ends::Flat ? solid.firstCylinderContact(from, to, axis, shaft.radius)
+                                  : solid.firstCapsuleContact(from, to, axis, shaft.radius);
 }
 
 /// A stretch of the motion that is taken as straight on the table.
@@ -82,34 +99,34 @@ private:
     const auto bend = [&](const Vector3& p) {
       return (atMiddle * p - 0.5 * (piece.atBegin * p + piece.atEnd * p)).norm();
     };
-    double ballBend = 0, capsuleBend = 0;
+    double ballBend = 0, shaftBend = 0;
     for (const Ball& ball : shape_.balls)
       ballBend = std::max(ballBend, bend(ball.centre));
-    for (const Capsule& capsule : shape_.capsules) {
-      const double turn = ((piece.atEnd.linear() - piece.atBegin.linear()) * capsule.axis).norm();
-      capsuleBend = std::max({capsuleBend, bend(capsule.start), bend(capsule.start + capsule.axis), turn});
+    for (const Shaft& shaft : shape_.shafts) {
+      const double turn = ((piece.atEnd.linear() - piece.atBegin.linear()) * shaft.axis).norm();
+      shaftBend = std::max({shaftBend, bend(shaft.start), bend(shaft.start + shaft.axis), turn});
     }
     constexpr int deepest = 40;
     constexpr double safety = 2;  // the bend of a smooth path is largest near the middle, where it was taken
-    const bool fine = ballBend <= options_.precision && capsuleBend <= capsulePrecision;
+    const bool fine = ballBend <= options_.precision && shaftBend <= shaftPrecision;
     if (fine || depth >= deepest) return sweep(piece, 0, 0);
-    if (!sweep(piece, safety * ballBend, safety * capsuleBend)) return std::nullopt;
+    if (!sweep(piece, safety * ballBend, safety * shaftBend)) return std::nullopt;
     if (auto touch = bent({piece.begin, middle, piece.atBegin, atMiddle}, depth + 1)) return touch;
     return bent({middle, piece.end, atMiddle, piece.atEnd}, depth + 1);
   }
 
   /// The first touch of the tool, with its radii grown, along the chord of the piece.
-  std::optional<Touch> sweep(const Piece& piece, double growBall, double growCapsules) const {
+  std::optional<Touch> sweep(const Piece& piece, double growBall, double growShafts) const {
     std::optional<Touch> first;
     double reach = 1;  // the part of the piece that is still in question
-    const auto take = [&](const BallContact& contact, std::size_t solid, std::optional<std::size_t> capsule,
+    const auto take = [&](const BallContact& contact, std::size_t solid, std::optional<std::size_t> shaft,
                           std::size_t ball) {
       const double local = reach * contact.fraction;
       if (first && local >= reach) return;
       const Surroundings::Item& item = surroundings_.items()[solid];
       first = Touch{piece.begin + (piece.end - piece.begin) * local,
                     solid,
-                    capsule,
+                    shaft,
                     ball,
                     item.tableFromSolid * contact.ballCentre,
                     item.tableFromSolid * contact.touchPoint,
@@ -127,17 +144,16 @@ private:
         if (const auto contact = items[i].solid->firstContact(a, b, radius)) take(*contact, i, std::nullopt, which);
       }
     }
-    if (options_.ignoreCapsules) return first;
-    for (std::size_t c = 0; c < shape_.capsules.size(); ++c) {
-      const Capsule& capsule = shape_.capsules[c];
-      const Vector3 from = piece.atBegin * capsule.start, to = piece.atEnd * capsule.start;
-      const Vector3 axis = 0.5 * (piece.atBegin.linear() * capsule.axis + piece.atEnd.linear() * capsule.axis);
-      const double radius = capsule.radius + growCapsules;
+    if (options_.ignoreShafts) return first;
+    for (std::size_t c = 0; c < shape_.shafts.size(); ++c) {
+      const Shaft shaft = grown(shape_.shafts[c], growShafts);
+      const Vector3 from = piece.atBegin * shaft.start, to = piece.atEnd * shaft.start;
+      const Vector3 axis = 0.5 * (piece.atBegin.linear() * shaft.axis + piece.atEnd.linear() * shaft.axis);
       for (std::size_t i = 0; i < items.size(); ++i) {
         const Vector3 a = items[i].solidFromTable * from, b = items[i].solidFromTable * (from + (to - from) * reach);
         const Vector3 turned = items[i].solidFromTable.linear() * axis;
-        if (sweptBoxMisses(items[i].bounds, a, b, turned, radius)) continue;
-        if (const auto contact = items[i].solid->firstCapsuleContact(a, b, turned, radius)) take(*contact, i, c, 0);
+        if (sweptBoxMisses(items[i].bounds, a, b, turned, shaft.radius)) continue;
+        if (const auto contact = shaftContact(*items[i].solid, shaft, a, b, turned)) take(*contact, i, c, 0);
       }
     }
     return first;
@@ -174,7 +190,7 @@ Pose Motion::tableFromSpindleAt(double fraction) const {
 Surroundings::Surroundings(const std::vector<PlacedSolid>& solids) {
   for (const PlacedSolid& placed : solids) {
     items_.push_back(
-        {placed.solid.get(), placed.tableFromSolid.inverse(), placed.tableFromSolid, placed.solid->bounds()});
+        {placed.solid.get(), placed.tableFromSolid.inverse(), placed.tableFromSolid, placed.solid->reach()});
   }
 }
 
@@ -206,16 +222,16 @@ std::optional<Touch> ballOverlap(const Pose& tableFromSpindle, const ToolShape& 
   return std::nullopt;
 }
 
-std::optional<Touch> capsuleOverlap(const Pose& tableFromSpindle, const ToolShape& shape,
-                                    const Surroundings& surroundings) {
-  for (std::size_t c = 0; c < shape.capsules.size(); ++c) {
-    const Capsule& capsule = shape.capsules[c];
+std::optional<Touch> shaftOverlap(const Pose& tableFromSpindle, const ToolShape& shape,
+                                  const Surroundings& surroundings) {
+  for (std::size_t c = 0; c < shape.shafts.size(); ++c) {
+    const Shaft& shaft = shape.shafts[c];
     for (std::size_t i = 0; i < surroundings.items().size(); ++i) {
       const Surroundings::Item& item = surroundings.items()[i];
-      const Vector3 p = item.solidFromTable * (tableFromSpindle * capsule.start);
-      const Vector3 axis = item.solidFromTable.linear() * (tableFromSpindle.linear() * capsule.axis);
-      if (sweptBoxMisses(item.bounds, p, p, axis, capsule.radius)) continue;
-      if (const auto contact = item.solid->firstCapsuleContact(p, p, axis, capsule.radius)) {
+      const Vector3 p = item.solidFromTable * (tableFromSpindle * shaft.start);
+      const Vector3 axis = item.solidFromTable.linear() * (tableFromSpindle.linear() * shaft.axis);
+      if (sweptBoxMisses(item.bounds, p, p, axis, shaft.radius)) continue;
+      if (const auto contact = shaftContact(*item.solid, shaft, p, p, axis)) {
         return Touch{0,
                      i,
                      c,

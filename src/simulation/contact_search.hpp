@@ -40,11 +40,11 @@ private:
   std::vector<Item> items_;
 };
 
-/// What touched where. `capsule` counts in ToolShape::capsules; nothing for a ball. Table frame.
+/// What touched where. `shaft` counts in ToolShape::shafts; nothing for a ball. Table frame.
 struct Touch {
   double fraction = 0;
   std::size_t solid = 0;
-  std::optional<std::size_t> capsule;
+  std::optional<std::size_t> shaft;
   std::size_t ball = 0;                  ///< counts in ToolShape::balls
   Vector3 ballCentre = Vector3::Zero();  ///< ball only
   Vector3 point = Vector3::Zero();
@@ -52,8 +52,8 @@ struct Touch {
 };
 
 struct SearchOptions {
-  double precision = 1e-7;      ///< how far the ball's true path may be from the one searched, mm
-  bool ignoreCapsules = false;  ///< search the ball only
+  double precision = 1e-7;    ///< how far the ball's true path may be from the one searched, mm
+  bool ignoreShafts = false;  ///< search the ball only
   bool ignoreBall = false;
 };
 
@@ -66,7 +66,7 @@ std::optional<Touch> ballOverlap(const Pose& tableFromSpindle, const ToolShape& 
                                  const Surroundings& surroundings);
 
 /// The same for everything but the balls.
-std::optional<Touch> capsuleOverlap(const Pose& tableFromSpindle, const ToolShape& shape,
-                                    const Surroundings& surroundings);
+std::optional<Touch> shaftOverlap(const Pose& tableFromSpindle, const ToolShape& shape,
+                                  const Surroundings& surroundings);
 
 }  // namespace probewright::simulation

@@ -68,19 +68,14 @@ MeshSolid::MeshSolid(TriangleMesh mesh, Instructions instructions) : mesh_(std::
 }
 
 bool MeshSolid::isInside(const Vector3& point) const {
-  return closed_ && rayMeetsBack(tree_, point, [](std::uint32_t) { return true; });
+  return closed_ && isWithin(tree_, point, [](std::uint32_t) { return true; });
 }
 
 std::optional<BallContact> MeshSolid::firstContact(const Vector3& from, const Vector3& to, double radius) const {
   const Mover mover{wayBetween(from, to), radius};
   Meeting best;
   tree_.search(mover, best, [&](std::uint32_t, const Triangle& t) { sweepTriangle(mover.way, radius, t, best); });
-  // A ball met on a face stands before or behind it; only for other meetings a ray has to tell.
-  if (closed_ && !(best.when < 0)) {
-    const bool onFace = best.found() && !best.normal.isZero();
-    const bool inside = onFace ? best.normal.dot(mover.way.at(best.when) - best.point) < 0 : isInside(from);
-    if (inside) return contactWithin(mover.way, radius);
-  }
+  if (!(best.when < 0) && !meetsFront(mover.way, best) && isInside(from)) return contactWithin(mover.way, radius);
   return ballContact(mover.way, best);
 }
 
@@ -116,6 +111,15 @@ std::optional<BallContact> MeshSolid::firstCapsuleContact(const Vector3& from, c
   }
   if (!(best.when < 0) && isInside(from)) return contactWithin(way, radius);
   return capsuleContact(way, axis, best);
+}
+
+std::optional<BallContact> MeshSolid::firstCylinderContact(const Vector3& from, const Vector3& to, const Vector3& axis,
+                                                           double radius) const {
+  const Mover mover{wayBetween(from, to), 0, axis, radius};
+  Meeting best;
+  tree_.search(mover, best, [&](std::uint32_t, const Triangle& t) { sweepCylinder(mover.way, radius, axis, t, best); });
+  if (!(best.when < 0) && isInside(from)) return contactWithin(mover.way, radius);
+  return cylinderContact(mover.way, axis, radius, best);
 }
 
 DrawingMesh MeshSolid::drawing() const {

@@ -21,6 +21,8 @@ public:
   std::optional<BallContact> firstContact(const Vector3& from, const Vector3& to, double radius) const override;
   std::optional<BallContact> firstCapsuleContact(const Vector3& from, const Vector3& to, const Vector3& axis,
                                                  double radius) const override;
+  std::optional<BallContact> firstCylinderContact(const Vector3& from, const Vector3& to, const Vector3& axis,
+                                                  double radius) const override;
 
   bool isClosed() const { return closed_; }
   std::size_t triangleCount() const { return mesh_.triangles.size(); }

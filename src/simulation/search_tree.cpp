@@ -25,8 +25,10 @@ struct SearchTree::Walker {
   std::array<float, 3> direction;
   std::array<float, 3> halfAxis;
   float radius;
-  float slack;     ///< what rounding may do to places in the tree's frame
-  float axisSize;  ///< sum of the magnitudes of halfAxis
+  float slack;              ///< what rounding may do to places in the tree's frame
+  float axisSize;           ///< sum of the magnitudes of halfAxis, and the disc
+  std::array<float, 3> up;  ///< unit, along the axis
+  float disc;
   float length;
   double offset;
   Vector3 from;  ///< the start in the caller's frame
@@ -39,7 +41,7 @@ bool SearchTree::enter(const Mover& mover, Walker& w) const {
   const Vector3& direction = mover.way.direction;
   const Vector3 growLow = (-mover.axis).cwiseMin(0.0);
   const Vector3 growHigh = (-mover.axis).cwiseMax(0.0);
-  const double margin = mover.radius + 1e-3;
+  const double margin = mover.radius + mover.disc + 1e-3;
   double enterAt = 0;
   double leaveAt = mover.way.length;
   for (Eigen::Index a = 0; a < 3; ++a) {
@@ -68,7 +70,11 @@ bool SearchTree::enter(const Mover& mover, Walker& w) const {
     w.direction[i] = static_cast<float>(direction[a]);
     w.halfAxis[i] = static_cast<float>(mover.axis[a] / 2);
   }
-  w.axisSize = static_cast<float>(mover.axis.lpNorm<1>() / 2);
+  const Vector3 up = mover.axis.normalized();
+  for (std::size_t i = 0; i < 3; ++i)
+    w.up[i] = static_cast<float>(up[static_cast<Eigen::Index>(i)]);
+  w.disc = static_cast<float>(mover.disc * (1 + 1e-6));
+  w.axisSize = static_cast<float>(mover.axis.lpNorm<1>() / 2 + mover.disc);
   // Two roundings of each of the places in play.
   const double scale = (bounds_.maximum - bounds_.minimum).maxCoeff() + from.lpNorm<1>() + leaveAt - enterAt;
   w.slack = static_cast<float>(1.2e-7 * scale);

@@ -11,11 +11,13 @@
 
 namespace probewright::simulation {
 
-/// What moves: all points within `radius` of the segment from p to p + `axis`, p moving along `way`.
+/// What moves: all points within `radius` of the segment from p to p + `axis`, p moving along `way`. With a `disc`, of
+/// the cylinder of that radius with flat ends about the segment.
 struct Mover {
   Way way;
   double radius = 0;
   Vector3 axis = Vector3::Zero();  ///< zero for a ball
+  double disc = 0;
 };
 
 /// What the tree knows of an element: it lies within `growth` of a triangle. A segment is a triangle whose last two

@@ -28,6 +28,9 @@ public:
 
   virtual Bounds bounds() const = 0;
 
+  /// A box about all that can be touched. Where `bounds` follow a tessellation this one is a little larger.
+  virtual Bounds reach() const { return bounds(); }
+
   /// The first contact of a ball of `radius` (> 0) whose centre moves straight from `from` to `to`, or nothing if the
   /// way is free. A ball that overlaps the solid at `from` by more than 1e-9 mm makes contact at fraction 0; one that
   /// merely touches there and moves away or along does not.
@@ -35,10 +38,14 @@ public:
   virtual std::optional<BallContact> firstContact(const Vector3& from, const Vector3& to, double radius) const = 0;
 
   /// The first contact of a capsule (all points within `radius` of the segment from p to p + `axis`) whose end p moves
-  /// straight from `from` to `to`: the shaft of a stylus, the body of a probe. Touch point to within 0.01 mm;
-  /// `ballCentre` is p at contact.
+  /// straight from `from` to `to`: the shaft of a stylus. Touch point to within 0.01 mm; `ballCentre` is p at contact.
   virtual std::optional<BallContact> firstCapsuleContact(const Vector3& from, const Vector3& to, const Vector3& axis,
                                                          double radius) const = 0;
+
+  /// The same for a cylinder with flat ends, p in the middle of one and p + `axis` (not zero) of the other: the body of
+  /// a probe, a mill.
+  virtual std::optional<BallContact> firstCylinderContact(const Vector3& from, const Vector3& to, const Vector3& axis,
+                                                          double radius) const = 0;
 };
 
 }  // namespace probewright::simulation

@@ -42,6 +42,10 @@ bool sweepTriangle(const Way& way, double radius, const Triangle& triangle, Meet
 /// The same for all points within `radius` of the segment from p to p + `axis`, p moving along the way.
 bool sweepCapsule(const Way& way, double radius, const Vector3& axis, const Triangle& triangle, Meeting& best);
 
+/// The same for the cylinder of that radius with flat ends about the segment, which must not be empty. A cylinder that
+/// overlaps at the start meets at a negative `when` that says nothing of its depth. Contacts to 1e-6 mm along the way.
+bool sweepCylinder(const Way& way, double radius, const Vector3& axis, const Triangle& triangle, Meeting& best);
+
 Vector3 closestOnSegment(const Vector3& p, const Vector3& a, const Vector3& b);
 Vector3 closestOnTriangle(const Vector3& p, const Triangle& triangle);
 

@@ -7,22 +7,10 @@ namespace probewright::simulation {
 
 namespace {
 
-/// A cylinder from `base` along `up` (unit) as capsules: one of its full radius, whose ends are too round, and a ring
-/// of slender ones along its surface that fill its edges.
+/// A cylinder from `base` along `up` (unit).
 void addCylinder(ToolShape& shape, const Vector3& base, const Vector3& up, double length, double radius,
                  const char* part) {
-  const auto add = [&](const Vector3& foot, double capsuleRadius) {
-    const double round = std::min(capsuleRadius, length / 2);
-    shape.capsules.push_back({foot + up * round, up * (length - 2 * round), round, part});
-  };
-  add(base, radius);
-  constexpr int ring = 12;
-  const double slender = radius / 6;
-  const Vector3 x = up.unitOrthogonal(), y = up.cross(x);
-  for (int i = 0; i < ring; ++i) {
-    const double angle = 2 * std::numbers::pi * i / ring;
-    add(base + (radius - slender) * (std::cos(angle) * x + std::sin(angle) * y), slender);
-  }
+  if (length > 0) shape.shafts.push_back({base, up * length, radius, part, Ends::Flat});
 }
 
 }  // namespace
@@ -67,10 +55,10 @@ ToolShape shapeOf(const TrueTool* tool, double spindleDegrees) {
           toolFrame(*tool) * rotation(Vector3::UnitZ(), spindleDegrees + 90 * i).linear() * Vector3::UnitX();
       shape.balls.push_back({centre + along * probe.starArm, probe.ballRadius});
       if (probe.stylusRadius > 0 && probe.starArm > clear)
-        shape.capsules.push_back({centre, along * (probe.starArm - clear), probe.stylusRadius, shaftName});
+        shape.shafts.push_back({centre, along * (probe.starArm - clear), probe.stylusRadius, shaftName});
     }
     if (probe.stylusRadius > 0)
-      shape.capsules.push_back({centre, up * probe.stylusLength, probe.stylusRadius, shaftName});
+      shape.shafts.push_back({centre, up * probe.stylusLength, probe.stylusRadius, shaftName});
     if (probe.bodyRadius > 0)
       addCylinder(shape, centre + up * probe.stylusLength, up, probe.bodyLength, probe.bodyRadius, "body");
     return shape;
@@ -80,10 +68,10 @@ ToolShape shapeOf(const TrueTool* tool, double spindleDegrees) {
   const Vector3 foot = bent ? onAxis : centre;
   if (probe.stylusRadius > 0 && bent) {
     const Vector3 along = arm.normalized();
-    shape.capsules.push_back({centre + along * clear, arm - along * clear, probe.stylusRadius, shaftName});
-    shape.capsules.push_back({foot, up * probe.stylusLength, probe.stylusRadius, shaftName});
+    shape.shafts.push_back({centre + along * clear, arm - along * clear, probe.stylusRadius, shaftName});
+    shape.shafts.push_back({foot, up * probe.stylusLength, probe.stylusRadius, shaftName});
   } else if (probe.stylusRadius > 0 && probe.stylusLength > clear) {
-    shape.capsules.push_back({centre + up * clear, up * (probe.stylusLength - clear), probe.stylusRadius, shaftName});
+    shape.shafts.push_back({centre + up * clear, up * (probe.stylusLength - clear), probe.stylusRadius, shaftName});
   }
   if (probe.bodyRadius > 0) {
     addCylinder(shape, foot + up * probe.stylusLength, up, probe.bodyLength, probe.bodyRadius, "body");

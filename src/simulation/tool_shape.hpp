@@ -4,8 +4,8 @@
 
 #include "simulation/truth.hpp"
 
-/// What of a tool can touch something: the ball of a probe (four of a star), and capsules for everything else. All in
-/// the spindle frame.
+/// What of a tool can touch something: the ball of a probe (four of a star), and shafts for everything else: capsules
+/// and cylinders. All in the spindle frame.
 namespace probewright::simulation {
 
 struct Ball {
@@ -13,12 +13,15 @@ struct Ball {
   double radius = 0;
 };
 
-/// All points within `radius` of the segment from start to start + axis.
-struct Capsule {
+enum class Ends { Round, Flat };
+
+/// All points within `radius` of the segment from start to start + axis; with flat ends the cylinder about it.
+struct Shaft {
   Vector3 start = Vector3::Zero();
   Vector3 axis = Vector3::UnitZ();
   double radius = 0;
   const char* part = "";  ///< for messages: "stylus", "body", "tool"
+  Ends ends = Ends::Round;
 };
 
 /// The part that a stylus is called.
@@ -26,7 +29,7 @@ inline constexpr const char* shaftName = "stylus";
 
 struct ToolShape {
   std::vector<Ball> balls;  ///< none of a cutter
-  std::vector<Capsule> capsules;
+  std::vector<Shaft> shafts;
   Vector3 tip = Vector3::Zero();  ///< what the path record follows: the ball's centre, the middle of a star, a cutter's
                                   ///< tip, the nose
   Vector3 shank = Vector3::UnitZ();  ///< unit, from the tip along the shank

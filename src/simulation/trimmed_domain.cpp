@@ -38,7 +38,7 @@ TrimmedDomain::TrimmedDomain(std::vector<Segment> border, double periodU, double
 }
 
 bool TrimmedDomain::containsPlain(const Vector2& p) const {
-  if (border_.empty() || (p - low_).minCoeff() < 0 || (high_ - p).minCoeff() < 0) return false;
+  if ((p - low_).minCoeff() < 0 || (high_ - p).minCoeff() < 0) return false;
   const double height = (high_.y() - low_.y()) / static_cast<double>(bands_.size());
   const double band = height > 0 ? std::floor((p.y() - low_.y()) / height) : 0;
   bool inside = false;
@@ -52,10 +52,33 @@ bool TrimmedDomain::containsPlain(const Vector2& p) const {
   return inside;
 }
 
-bool TrimmedDomain::contains(Vector2 p) const {
-  p.x() = wrapped(p.x(), low_.x(), periodU_);
-  p.y() = wrapped(p.y(), low_.y(), periodV_);
-  return containsPlain(p);
+bool TrimmedDomain::contains(const Vector2& parameters) const {
+  if (border_.empty()) return true;
+  const double firstU = wrapped(parameters.x(), low_.x(), periodU_);
+  const double firstV = wrapped(parameters.y(), low_.y(), periodV_);
+  // Every image of the point counts: a hole may be drawn in another period than the loop around it.
+  bool inside = containsPlain({firstU, firstV});
+  if (periodU_ == 0 && periodV_ == 0) return inside;
+  const auto further = [](double first, double period, double high) {
+    return period > 0 && first + period <= high ? static_cast<int>((high - first) / period) : 0;
+  };
+  const int moreU = further(firstU, periodU_, high_.x());
+  const int moreV = further(firstV, periodV_, high_.y());
+  for (int i = 0; i <= moreU; ++i) {
+    for (int j = i == 0 ? 1 : 0; j <= moreV; ++j)
+      inside ^= containsPlain({firstU + i * periodU_, firstV + j * periodV_});
+  }
+  return inside;
+}
+
+double TrimmedDomain::area() const {
+  double twice = 0;
+  for (const Segment& s : border_) {
+    const Vector2 from = s.from - low_;
+    const Vector2 to = s.to - low_;
+    twice += from.x() * to.y() - from.y() * to.x();
+  }
+  return std::abs(twice) / 2;
 }
 
 }  // namespace probewright::simulation

@@ -7,7 +7,9 @@
 
 namespace probewright::simulation {
 
-/// The part of a surface's parameter plane that a face covers: the inside of closed polygons, by the even-odd rule.
+/// The part of a surface's parameter plane that a face covers: the inside of closed polygons, by the even-odd rule; the
+/// whole surface where there is no polygon. On a surface that closes, the polygons may lie in any period, each loop in
+/// another, and reach across more than one.
 /// The polygons follow the face's borders closely, not exactly; near a border its edge decides about contacts.
 class TrimmedDomain {
 public:
@@ -20,7 +22,14 @@ public:
   /// Periods are zero for directions that do not close.
   TrimmedDomain(std::vector<Segment> border, double periodU, double periodV);
 
-  bool contains(Vector2 parameters) const;
+  bool contains(const Vector2& parameters) const;
+  bool isEverywhere() const { return border_.empty(); }
+
+  /// The corners of the box about the polygons.
+  const Vector2& low() const { return low_; }
+  const Vector2& high() const { return high_; }
+  /// The area within the polygons where all run in their right sense.
+  double area() const;
 
 private:
   bool containsPlain(const Vector2& p) const;

@@ -82,7 +82,7 @@ struct TrueProbe {
   double stylusRadius = 1.5;   ///< of the shaft; 0 for none
   double stylusLength = 50;    ///< from the ball's centre to the face of the body
   double bodyRadius = 30;      ///< 0 for none
-  double bodyLength = 100;     ///< upwards from that face; its edges are rounded by a sixth of its radius
+  double bodyLength = 100;     ///< upwards from that face
   Vector2 tipOffset = {0, 0};  ///< of the ball from the spindle axis, mm; turns with the spindle
   /// mm; above 0 the tip is a star: four balls, this far from its middle in +X, +Y, -X, -Y. The middle has the tip
   /// offset.
@@ -113,7 +113,7 @@ struct TrueTool {
   double length = 100;
   Vector3 mount = Vector3::Zero();            ///< from the spindle nose to where `length` begins, spindle frame
   Vector3 shankDirection = Vector3::UnitZ();  ///< from the tip to the holder, spindle frame; unit
-  double radius = 5;                          ///< of a cutter; its edge is rounded by a sixth of it
+  double radius = 5;                          ///< of a cutter, a cylinder
   TrueProbe probe;                            ///< if kind is Probe
 };
 

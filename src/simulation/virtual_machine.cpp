@@ -116,7 +116,7 @@ Motion VirtualMachine::motionTo(const AxisPositions& target, Feed feed) const {
 
 std::string VirtualMachine::describe(const Touch& touch) const {
   const PlacedSolid& solid = truth_.solids[touch.solid];
-  const char* part = touch.capsule ? shape_.capsules[*touch.capsule].part : "stylus tip";
+  const char* part = touch.shaft ? shape_.shafts[*touch.shaft].part : "stylus tip";
   const std::string tool = tool_->name.empty() ? fmt::format("tool {}", tool_->number)
                                                : fmt::format("tool {} \"{}\"", tool_->number, tool_->name);
   const std::string what = part == std::string_view("tool") ? tool : fmt::format("the {} of {}", part, tool);
@@ -138,7 +138,7 @@ double VirtualMachine::pretravel(const Motion& motion, const Touch& touch) const
 }
 
 VirtualMachine::Stop VirtualMachine::stopFor(const Motion& motion, const Touch& touch) {
-  if (touch.capsule) return {touch, std::nullopt, touch.fraction};
+  if (touch.shaft) return {touch, std::nullopt, touch.fraction};
   return signalStop(motion, touch);
 }
 
@@ -191,7 +191,7 @@ void VirtualMachine::advance(const Motion& motion, const Stop& stop, PathKind ki
   PathTouch touch;
   touch.kind = kind;
   touch.solid = truth_.solids[stop.touch->solid].name;
-  touch.part = stop.touch->capsule ? shape_.capsules[*stop.touch->capsule].part : "ball";
+  touch.part = stop.touch->shaft ? shape_.shafts[*stop.touch->shaft].part : "ball";
   touch.point = stop.touch->point;
   touch.normal = stop.touch->normal;
   touch.ballCentre = stop.touch->ballCentre;
@@ -207,7 +207,7 @@ MoveResult VirtualMachine::finish(const Motion& motion, std::optional<Touch> tou
   }
   const Stop stop = stopFor(motion, *touch);
   advance(motion, stop, kind);
-  if (touch->capsule) return {MoveEnd::Collision, describe(*touch)};
+  if (touch->shaft) return {MoveEnd::Collision, describe(*touch)};
   deflection_ = touch;
   return {MoveEnd::ProbeSignal, describe(*touch)};
 }
@@ -230,10 +230,10 @@ MeasureResult VirtualMachine::measureWithShaft(const AxisPositions& target, Feed
   return measure(target, feed, true);
 }
 
-/// Where along the shaft it touches first, and when, as exactly as a ball there would: the search for capsules is
+/// Where along the shaft it touches first, and when, as exactly as a ball there would: the search for shafts is
 /// made for collisions. Near the place found the way to contact is a parabola over the shaft.
 Touch VirtualMachine::preciseShaftTouch(const Motion& motion, const Touch& rough) const {
-  const Capsule& shaft = shape_.capsules[*rough.capsule];
+  const Shaft& shaft = shape_.shafts[*rough.shaft];
   const double length = shaft.axis.norm();
   const Vector3 along = shaft.axis / length;
   ToolShape bead;
@@ -253,7 +253,7 @@ Touch VirtualMachine::preciseShaftTouch(const Motion& motion, const Touch& rough
                        length);
   }
   Touch precise = touchAt(place).value_or(rough);
-  precise.capsule = rough.capsule;
+  precise.shaft = rough.shaft;
   return precise;
 }
 
@@ -273,9 +273,9 @@ MeasureResult VirtualMachine::measure(const AxisPositions& target, Feed feed, bo
     advance(motion, Stop{}, PathKind::Measure);
     return end(MeasureEnd::NoContact, "the target was reached without contact");
   }
-  const bool byShaft = touch->capsule && std::string_view(shape_.capsules[*touch->capsule].part) == shaftName;
+  const bool byShaft = touch->shaft && std::string_view(shape_.shafts[*touch->shaft].part) == shaftName;
   if (byShaft && shaftSignals) touch = preciseShaftTouch(motion, *touch);
-  if (touch->capsule && !(byShaft && shaftSignals)) {
+  if (touch->shaft && !(byShaft && shaftSignals)) {
     advance(motion, Stop{touch, std::nullopt, touch->fraction}, PathKind::Measure);
     return end(MeasureEnd::Collision, describe(*touch));
   }
@@ -352,7 +352,7 @@ MoveResult VirtualMachine::retract(const AxisPositions& target, Feed feed) {
   if (motion.profile.length() == 0) return {};
   SearchOptions options{positioningPrecision};
   // What a collision left touching may be pulled off.
-  options.ignoreCapsules = toolContact_ || capsuleOverlap(tableFromSpindle(), shape_, surroundings_);
+  options.ignoreShafts = toolContact_ || shaftOverlap(tableFromSpindle(), shape_, surroundings_);
   toolContact_.reset();
   double begin = 0;
   if (deflection_) {
@@ -379,7 +379,7 @@ MoveResult VirtualMachine::retract(const AxisPositions& target, Feed feed) {
 MoveResult VirtualMachine::settle() {
   const Pose pose = tableFromSpindle();
   deflection_ = ballOverlap(pose, shape_, surroundings_);
-  if (auto touch = capsuleOverlap(pose, shape_, surroundings_)) return {MoveEnd::Collision, describe(*touch)};
+  if (auto touch = shaftOverlap(pose, shape_, surroundings_)) return {MoveEnd::Collision, describe(*touch)};
   if (deflection_) return {MoveEnd::ProbeSignal, describe(*deflection_)};
   return {};
 }

@@ -1,0 +1,237 @@
+#include "simulation/cad_face.hpp"
+
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepTools_WireExplorer.hxx>
+#include <BRep_Tool.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Geom2d_Line.hxx>
+#include <Geom2d_TrimmedCurve.hxx>
+#include <Geom_OffsetSurface.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
+#include <Geom_SurfaceOfLinearExtrusion.hxx>
+#include <Geom_SurfaceOfRevolution.hxx>
+#include <Geom_TrimmedCurve.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Wire.hxx>
+#include <gp_Cone.hxx>
+#include <gp_Cylinder.hxx>
+#include <gp_Pln.hxx>
+#include <gp_Sphere.hxx>
+#include <gp_Torus.hxx>
+#include <optional>
+#include <stdexcept>
+
+namespace probewright::simulation {
+namespace {
+
+/// A border polygon may leave its edge by this much: the contact of a ball then errs by the square over its diameter.
+constexpr double kBorderTolerance = 2e-4;
+
+template <class Triple>
+Vector3 vector(const Triple& p) {
+  return {p.X(), p.Y(), p.Z()};
+}
+
+template <class Position>
+Matrix3 axesOf(const Position& position) {
+  Matrix3 axes;
+  axes << vector(position.XDirection()), vector(position.YDirection()), vector(position.Direction());
+  return axes;
+}
+
+std::optional<AnalyticSurface> analyticSurface(const BRepAdaptor_Surface& face) {
+  AnalyticSurface s;
+  gp_Ax3 position;
+  switch (face.GetType()) {
+    case GeomAbs_Plane:
+      s.kind = AnalyticSurface::Kind::Plane;
+      position = face.Plane().Position();
+      break;
+    case GeomAbs_Cylinder:
+      s.kind = AnalyticSurface::Kind::Cylinder;
+      position = face.Cylinder().Position();
+      s.radius = face.Cylinder().Radius();
+      break;
+    case GeomAbs_Cone:
+      s.kind = AnalyticSurface::Kind::Cone;
+      position = face.Cone().Position();
+      s.radius = face.Cone().RefRadius();
+      s.coneSine = std::sin(face.Cone().SemiAngle());
+      s.coneCosine = std::cos(face.Cone().SemiAngle());
+      break;
+    case GeomAbs_Sphere:
+      s.kind = AnalyticSurface::Kind::Sphere;
+      position = face.Sphere().Position();
+      s.radius = face.Sphere().Radius();
+      break;
+    case GeomAbs_Torus:
+      s.kind = AnalyticSurface::Kind::Torus;
+      position = face.Torus().Position();
+      s.radius = face.Torus().MajorRadius();
+      s.tubeRadius = face.Torus().MinorRadius();
+      break;
+    default:
+      return std::nullopt;
+  }
+  s.origin = vector(position.Location());
+  s.axes = axesOf(position);
+  return s;
+}
+
+ClosedForms closedForms(const BRepAdaptor_Surface& face, const TrimmedDomain& domain) {
+  ClosedForms forms;
+  const std::optional<AnalyticSurface> surface = analyticSurface(face);
+  if (!surface) return forms;
+  const double low = domain.isEverywhere() ? -1e9 : domain.low().y();
+  const double high = domain.isEverywhere() ? 1e9 : domain.high().y();
+  if (surface->reachesNearSheet(low, high)) forms.sheets[forms.count++] = *surface;
+  if (surface->reachesFarSheet(low, high)) forms.sheets[forms.count++] = surface->otherSheet();
+  return forms;
+}
+
+Handle(Geom_Curve) curveWithoutLimits(const Handle(Geom_Curve) & curve) {
+  Handle(Geom_Curve) plain = curve;
+  while (const auto trimmed = Handle(Geom_TrimmedCurve)::DownCast(plain))
+    plain = trimmed->BasisCurve();
+  return plain;
+}
+
+/// The points of an edge's parameter curve on a face, in the direction in which the wire runs.
+std::vector<Vector2> borderPoints(const TopoDS_Edge& edge, const TopoDS_Face& face, const Geom_Surface& surface) {
+  double first = 0;
+  double last = 0;
+  const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
+  std::vector<Vector2> points;
+  if (curve.IsNull()) return points;
+  const auto at = [&](double t) {
+    const gp_Pnt2d p = curve->Value(t);
+    return Vector2(p.X(), p.Y());
+  };
+  Handle(Geom2d_Curve) plain = curve;
+  if (const auto trimmed = Handle(Geom2d_TrimmedCurve)::DownCast(plain)) plain = trimmed->BasisCurve();
+  std::vector<double> parameters{first};
+  if (plain->IsKind(STANDARD_TYPE(Geom2d_Line))) {
+    parameters.push_back(last);
+  } else {
+    const auto onSurface = [&](const Vector2& uv) { return vector(surface.Value(uv.x(), uv.y())); };
+    const auto deviates = [&](double a, double b) {
+      const Vector2 from = at(a);
+      const Vector2 to = at(b);
+      for (const double part : {0.5, 0.3}) {
+        const Vector2 chord = from + part * (to - from);
+        if ((onSurface(at(a + part * (b - a))) - onSurface(chord)).norm() > kBorderTolerance) return true;
+      }
+      return false;
+    };
+    constexpr int kPieces = 4;
+    for (int i = 0; i < kPieces; ++i) {
+      subdivide(first + (last - first) * i / kPieces, first + (last - first) * (i + 1) / kPieces, 12, deviates,
+                parameters);
+    }
+  }
+  for (const double t : parameters)
+    points.push_back(at(t));
+  if (edge.Orientation() == TopAbs_REVERSED) std::reverse(points.begin(), points.end());
+  return points;
+}
+
+/// The edges of a wire, each with the next at its end.
+std::vector<TopoDS_Edge> chainOf(const TopoDS_Wire& wire, const TopoDS_Face& face) {
+  std::vector<TopoDS_Edge> all;
+  for (TopExp_Explorer edges(wire, TopAbs_EDGE); edges.More(); edges.Next()) {
+    const TopAbs_Orientation orientation = edges.Current().Orientation();
+    if (orientation == TopAbs_FORWARD || orientation == TopAbs_REVERSED) all.push_back(TopoDS::Edge(edges.Current()));
+  }
+  std::vector<TopoDS_Edge> chain;
+  for (BRepTools_WireExplorer edges(wire, face); edges.More(); edges.Next())
+    chain.push_back(edges.Current());
+  return chain.size() == all.size() ? chain : all;
+}
+
+/// The closed polygons of a wire. Most wires are one; where an edge does not begin where the one before ends, the piece
+/// that begins nearest goes on.
+std::vector<std::vector<Vector2>> loopsOf(std::vector<std::vector<Vector2>> pieces, double tolerance) {
+  std::vector<std::vector<Vector2>> loops;
+  std::vector<bool> used(pieces.size(), false);
+  for (std::size_t first = 0; first < pieces.size(); ++first) {
+    if (used[first] || pieces[first].empty()) continue;
+    used[first] = true;
+    std::vector<Vector2> loop = pieces[first];
+    std::size_t last = first;
+    for (;;) {
+      const Vector2 end = loop.back();
+      const auto gap = [&](std::size_t i) { return (pieces[i].front() - end).norm(); };
+      std::size_t next = pieces.size();
+      if (last + 1 < pieces.size() && !used[last + 1] && !pieces[last + 1].empty() && gap(last + 1) <= tolerance) {
+        next = last + 1;
+      } else {
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+          if (used[i] || pieces[i].empty()) continue;
+          if (next == pieces.size() || gap(i) < gap(next)) next = i;
+        }
+        if (next < pieces.size() && gap(next) > (loop.front() - end).norm()) break;
+      }
+      if (next == pieces.size()) break;
+      used[next] = true;
+      loop.insert(loop.end(), pieces[next].begin(), pieces[next].end());
+      last = next;
+    }
+    loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+TrimmedDomain trimmedDomain(const TopoDS_Face& oriented, const Geom_Surface& surface) {
+  const TopoDS_Face face = TopoDS::Face(oriented.Oriented(TopAbs_FORWARD));
+  std::vector<TrimmedDomain::Segment> border;
+  for (TopExp_Explorer wires(face, TopAbs_WIRE); wires.More(); wires.Next()) {
+    std::vector<std::vector<Vector2>> pieces;
+    double size = 0;
+    for (const TopoDS_Edge& edge : chainOf(TopoDS::Wire(wires.Current()), face)) {
+      pieces.push_back(borderPoints(edge, face, surface));
+      for (const Vector2& p : pieces.back())
+        size = std::max(size, (p - pieces.front().front()).norm());
+    }
+    for (const std::vector<Vector2>& loop : loopsOf(std::move(pieces), 1e-4 * size)) {
+      for (std::size_t i = 0; i < loop.size(); ++i)
+        border.push_back({loop[i], loop[(i + 1) % loop.size()]});
+    }
+  }
+  return {std::move(border), surface.IsUPeriodic() ? surface.UPeriod() : 0,
+          surface.IsVPeriodic() ? surface.VPeriod() : 0};
+}
+
+}  // namespace
+
+Handle(Geom_Surface) surfaceWithoutLimits(const Handle(Geom_Surface) & surface) {
+  if (const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface)) {
+    return surfaceWithoutLimits(trimmed->BasisSurface());
+  }
+  if (const auto offset = Handle(Geom_OffsetSurface)::DownCast(surface)) {
+    const Handle(Geom_Surface) basis = surfaceWithoutLimits(offset->BasisSurface());
+    if (basis == offset->BasisSurface()) return surface;
+    return new Geom_OffsetSurface(basis, offset->Offset(), Standard_True);
+  }
+  if (const auto extrusion = Handle(Geom_SurfaceOfLinearExtrusion)::DownCast(surface)) {
+    return new Geom_SurfaceOfLinearExtrusion(curveWithoutLimits(extrusion->BasisCurve()), extrusion->Direction());
+  }
+  if (const auto revolution = Handle(Geom_SurfaceOfRevolution)::DownCast(surface)) {
+    return new Geom_SurfaceOfRevolution(curveWithoutLimits(revolution->BasisCurve()), revolution->Axis());
+  }
+  return surface;
+}
+
+CadFace cadFace(const TopoDS_Face& face) {
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  if (surface.IsNull()) throw std::runtime_error("a face has no surface");
+  CadFace exact;
+  exact.surface = surfaceWithoutLimits(surface);
+  exact.reversed = face.Orientation() == TopAbs_REVERSED;
+  exact.domain = trimmedDomain(face, *exact.surface);
+  exact.forms = closedForms(BRepAdaptor_Surface(face, Standard_False), exact.domain);
+  return exact;
+}
+
+}  // namespace probewright::simulation

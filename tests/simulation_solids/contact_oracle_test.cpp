@@ -1,0 +1,217 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <IGESControl_Writer.hxx>
+#include <Interface_Static.hxx>
+#include <STEPControl_Writer.hxx>
+#include <Standard_Failure.hxx>
+
+#include "oracle.hpp"
+#include "simulation/cad_solid.hpp"
+#include "simulation/solid_recipe.hpp"
+#include "worlds_of_faces.hpp"
+
+/// Random ways on every kind of surface, each contact judged by the oracle. PROBEWRIGHT_CAMPAIGN=100 asks for a hundred
+/// times as many worlds.
+namespace probewright::simulation {
+namespace {
+
+using namespace testing;
+
+void judge(const NamedShape& named, std::mt19937_64& random, int ways) {
+  const auto solid = cadSolid(named.shape);
+  ASSERT_TRUE(solid) << named.name << ": " << format(solid.error());
+  EXPECT_GT(expectTrueContacts(named.name, named.shape, **solid, random, ways), ways / 10) << named.name;
+}
+
+TEST(ContactOracle, FacesInAnyRangeOfTheirParametersAreMetWhereTheyAre) {
+  std::mt19937_64 random(101);
+  for (int i = 0; i < 2 * campaignFactor(); ++i) {
+    for (const NamedShape& face : singleFaces(random))
+      judge(face, random, 40);
+  }
+}
+
+TEST(ContactOracle, BodiesAreMetWhateverOtherSystemsMakeOfThem) {
+  std::mt19937_64 random(102);
+  for (int i = 0; i < campaignFactor(); ++i) {
+    const std::vector<NamedShape> all = bodies(random);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const std::vector<NamedShape> kinds = disguises(all[k], random);
+      // One after the other here, all in a campaign.
+      for (std::size_t j = 0; j < kinds.size(); ++j) {
+        if (campaignFactor() > 1 || j == k % kinds.size() || j == 0) judge(kinds[j], random, 40);
+      }
+    }
+  }
+}
+
+/// A file of a format and unit, read back.
+Result<std::unique_ptr<Solid>> throughFile(const TopoDS_Shape& shape, const std::string& schema,
+                                           const std::string& unit, const ScratchFolder& folder) {
+  if (schema.starts_with("IGES")) {
+    IGESControl_Writer writer(unit.c_str(), schema == "IGES bodies" ? 1 : 0);
+    writer.AddShape(shape);
+    writer.ComputeModel();
+    if (!writer.Write((folder / "part.igs").c_str())) return fail("not written");
+    return readIges(folder / "part.igs");
+  }
+  STEPControl_Writer writer;
+  Interface_Static::SetCVal("write.step.schema", schema.c_str());
+  Interface_Static::SetCVal("write.step.unit", unit.c_str());
+  writer.Transfer(shape, STEPControl_AsIs);
+  writer.Write((folder / "part.step").c_str());
+  Interface_Static::SetCVal("write.step.schema", "AP214IS");
+  Interface_Static::SetCVal("write.step.unit", "MM");
+  return readStep(folder / "part.step");
+}
+
+TEST(ContactOracle, FilesOfAnyFormatAndUnitAreMetWhereTheirShapesAre) {
+  std::mt19937_64 random(103);
+  const std::vector<std::pair<std::string, std::string>> formats{
+      {"AP203", "MM"},      {"AP203", "INCH"},  {"AP214IS", "M"},     {"AP214IS", "INCH"},
+      {"AP242DIS", "INCH"}, {"AP242DIS", "MM"}, {"IGES faces", "MM"}, {"IGES bodies", "INCH"}};
+  const ScratchFolder folder;
+  for (int i = 0; i < campaignFactor(); ++i) {
+    const std::vector<NamedShape> all = bodies(random);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const auto kinds = disguises(all[k], random);
+      for (std::size_t j = 0; j < formats.size(); ++j) {
+        if (campaignFactor() == 1 && j != k % formats.size()) continue;
+        const auto& [schema, unit] = formats[j];
+        const NamedShape& written = kinds[random() % kinds.size()];
+        const std::string name = written.name + " through " + schema + " in " + unit;
+        const auto solid = throughFile(written.shape, schema, unit, folder);
+        ASSERT_TRUE(solid) << name << ": " << format(solid.error());
+        // The reader mends shapes; what it made of them is judged, and that it is about the same.
+        const auto& read = dynamic_cast<const CadSolid&>(**solid);
+        EXPECT_GT(expectTrueContacts(name, read.shape(), read, random, 40), 4) << name;
+      }
+    }
+  }
+}
+
+SolidFeature randomFeature(std::mt19937_64& random, FeatureShape shape) {
+  SolidFeature f;
+  f.shape = shape;
+  f.diameter = uniform(random, 6, 30);
+  f.height = uniform(random, 5, 30);
+  f.size = {uniform(random, 15, 50), uniform(random, 10, 15), uniform(random, 5, 30)};
+  switch (random() % 3) {
+    case 0:
+      f.cornerRadius = 0;
+      break;
+    case 1:
+      f.cornerRadius = f.size.y() / 2;
+      break;
+    default:
+      f.cornerRadius = uniform(random, 1, 4);
+  }
+  f.topDiameter = random() % 2 == 0 ? 0 : uniform(random, 0.1, 0.9) * f.diameter;
+  f.tubeDiameter = uniform(random, 0.1, 0.8) * f.diameter;
+  f.depth = random() % 3 == 0 ? 0 : uniform(random, 2, 12);
+  f.rotation = {random() % 2 == 0 ? 0 : uniform(random, -40, 40), random() % 2 == 0 ? 0 : uniform(random, -40, 40),
+                uniform(random, -180, 180)};
+  f.centre = {uniform(random, -20, 20), uniform(random, -15, 15), random() % 2 == 0 ? 0 : uniform(random, -6, 6)};
+  f.mode = random() % 2 == 0 ? FeatureMode::Add : FeatureMode::Cut;
+  if (random() % 3 == 0) {
+    FeaturePattern pattern;
+    pattern.kind = random() % 2 == 0 ? FeaturePattern::Kind::Linear : FeaturePattern::Kind::Circular;
+    pattern.count = 2 + static_cast<int>(random() % 3);
+    pattern.spacing = {uniform(random, 8, 25), uniform(random, -10, 10), 0};
+    f.patterns = {pattern};
+  }
+  return f;
+}
+
+TEST(ContactOracle, PartsOfAllFeaturesAreMetWhereTheyAre) {
+  std::mt19937_64 random(104);
+  constexpr std::array kShapes{FeatureShape::Box,   FeatureShape::Cylinder, FeatureShape::Cone,   FeatureShape::Sphere,
+                               FeatureShape::Torus, FeatureShape::Hole,     FeatureShape::Pocket, FeatureShape::Slot};
+  int parts = 0;
+  for (std::size_t i = 0; i < 24 * static_cast<std::size_t>(campaignFactor()); ++i) {
+    SolidFeature base;
+    base.size = {80, 60, 25};
+    base.centre.z() = -25;
+    SolidRecipe recipe{{base, randomFeature(random, kShapes[i % kShapes.size()])}};
+    if (random() % 2 == 0) recipe.features.push_back(randomFeature(random, kShapes[random() % kShapes.size()]));
+    if (random() % 3 == 0) {
+      SolidFeature edge;
+      edge.shape = random() % 2 == 0 ? FeatureShape::Fillet : FeatureShape::Chamfer;
+      edge.edgeSize = uniform(random, 0.5, 2);
+      edge.edges = {{40, 30, -15}, {-40, -30, -15}};
+      recipe.features.push_back(edge);
+    }
+    const auto shape = buildShape(recipe);
+    if (!shape) continue;
+    ++parts;
+    std::string name = fmt::format("part {}", i);
+    for (const SolidFeature& f : recipe.features)
+      name += fmt::format(" {}{}", f.mode == FeatureMode::Cut ? "-" : "+", nameOf(f.shape));
+    judge({name, *shape}, random, 60);
+  }
+  EXPECT_GT(parts, 15 * campaignFactor());
+}
+
+/// The probe goes from the middle of a slot to its round ends and from the middle of a pocket to its round sides.
+TEST(SlotsAndPockets, HaveWallsAtBothTheirEnds) {
+  for (const double turn : {0.0, 20.0, 90.0, 180.0, -135.0}) {
+    for (const bool slot : {true, false}) {
+      SolidFeature block;
+      block.size = {70, 70, 30};
+      SolidFeature cut;
+      cut.shape = slot ? FeatureShape::Slot : FeatureShape::Pocket;
+      cut.centre = {1, 2, 30};
+      cut.rotation = {0, 0, turn};
+      cut.size = {44, 18, 0};
+      cut.cornerRadius = 9;
+      cut.depth = 11;
+      const auto part = buildSolid({{block, cut}});
+      ASSERT_TRUE(part) << format(part.error());
+      const Pose pose = translation({1, 2, 22}) * rotation(Vector3::UnitZ(), turn);
+      for (int degrees = 0; degrees < 360; degrees += 15) {
+        const Vector3 out = rotation(Vector3::UnitZ(), degrees) * Vector3::UnitX();
+        const Vector3 from(out.x() < -1e-9 ? -13 : 13, 0, 0);
+        const auto contact = (*part)->firstContact(pose * from, pose * (from + 30 * out), 1.5);
+        ASSERT_TRUE(contact) << degrees;
+        EXPECT_NEAR(contact->fraction * 30, 7.5, 1e-9) << degrees << " degrees, turned by " << turn;
+      }
+    }
+  }
+}
+
+TEST(SlotsAndPockets, BoxesAsRoundAsTheyAreWideHaveRoundEnds) {
+  SolidFeature box;
+  box.size = {60, 50, 30};
+  box.cornerRadius = 25;
+  const auto part = buildSolid({{box}});
+  ASSERT_TRUE(part) << format(part.error());
+  for (int degrees = 10; degrees < 360; degrees += 20) {
+    const Vector3 out = rotation(Vector3::UnitZ(), degrees) * Vector3::UnitX();
+    const Vector3 centre(out.x() < 0 ? -5 : 5, 0, 20);
+    const auto contact = (*part)->firstContact(centre + 45 * out, centre, 2);
+    ASSERT_TRUE(contact) << degrees;
+    EXPECT_NEAR(contact->fraction * 45, 45 - 27, 1e-9) << degrees;
+  }
+}
+
+/// The washer's bead in closed form: from above the ball stands on a torus of tube 1.2 and ring 20.8.
+TEST(BeadWasher, IsTouchedOnItsBeadAllAround) {
+  const auto washer = cadSolid(beadWasher());
+  ASSERT_TRUE(washer) << format(washer.error());
+  const double radius = 0.7;
+  for (int degrees = 0; degrees < 360; degrees += 7) {
+    for (const double rho : {19.9, 20.3, 20.8, 21.4, 21.9}) {
+      const Vector3 place = rotation(Vector3::UnitZ(), degrees) * Vector3(rho, 0, 0);
+      const auto contact = (*washer)->firstContact(place + Vector3(0, 0, 40), place, radius);
+      ASSERT_TRUE(contact) << degrees << " " << rho;
+      EXPECT_NEAR(contact->ballCentre.z(), 5 + std::sqrt(std::pow(1.2 + radius, 2) - std::pow(rho - 20.8, 2)), 1e-6)
+          << degrees << " " << rho;
+    }
+    const Vector3 free = rotation(Vector3::UnitZ(), degrees) * Vector3(5, 0, 0);
+    EXPECT_FALSE((*washer)->firstContact(free + Vector3(0, 0, 40), free - Vector3(0, 0, 40), radius));
+  }
+}
+
+}  // namespace
+}  // namespace probewright::simulation

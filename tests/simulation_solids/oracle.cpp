@@ -1,0 +1,203 @@
+#include "oracle.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Copy.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <Geom_Surface.hxx>
+#include <Poly_Triangulation.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
+#include <cstdlib>
+#include <map>
+
+namespace probewright::simulation::testing {
+
+struct Oracle::Face {
+  TopoDS_Face face;
+  Bnd_Box box;
+};
+
+namespace {
+
+template <class Triple>
+Vector3 vector(const Triple& p) {
+  return {p.X(), p.Y(), p.Z()};
+}
+
+/// Corners at the same place to 1e-6 mm become one.
+class Welder {
+public:
+  explicit Welder(TriangleMesh& mesh) : mesh_(mesh) {}
+
+  std::uint32_t corner(const Vector3& p) {
+    const std::array<std::int64_t, 3> key{std::llround(p.x() * 1e6), std::llround(p.y() * 1e6),
+                                          std::llround(p.z() * 1e6)};
+    const auto [place, added] = corners_.try_emplace(key, static_cast<std::uint32_t>(mesh_.corners.size()));
+    if (added) mesh_.corners.push_back(p);
+    return place->second;
+  }
+
+private:
+  TriangleMesh& mesh_;
+  std::map<std::array<std::int64_t, 3>, std::uint32_t> corners_;
+};
+
+bool isClosed(const TriangleMesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses;
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+      uses[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+    }
+  }
+  return std::all_of(uses.begin(), uses.end(), [](const auto& use) { return use.second == 0; });
+}
+
+}  // namespace
+
+Oracle::Oracle(const TopoDS_Shape& shape) : shape_(BRepBuilderAPI_Copy(shape).Shape()) {
+  Bnd_Box all;
+  BRepBndLib::Add(shape_, all);
+  const double size = all.CornerMin().Distance(all.CornerMax());
+  const double deflection = 5e-5 * size;
+  const BRepMesh_IncrementalMesh mesher(shape_, deflection, Standard_False, 0.1);
+  TriangleMesh mesh;
+  Welder welder(mesh);
+  auto faces = std::make_shared<std::vector<Face>>();
+  double deviation = 0;
+  for (TopExp_Explorer found(shape_, TopAbs_FACE); found.More(); found.Next()) {
+    Face face{TopoDS::Face(found.Current()), {}};
+    BRepBndLib::Add(face.face, face.box);
+    faces->push_back(face);
+    TopLoc_Location location;
+    const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face.face, location);
+    if (triangles.IsNull()) continue;
+    const Handle(Geom_Surface) surface = BRep_Tool::Surface(face.face);
+    for (int i = 1; i <= triangles->NbTriangles(); ++i) {
+      std::array<int, 3> nodes{};
+      triangles->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
+      if (face.face.Orientation() == TopAbs_REVERSED) std::swap(nodes[1], nodes[2]);
+      std::array<std::uint32_t, 3> corners{};
+      Vector3 middle = Vector3::Zero();
+      gp_XY uv(0, 0);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const gp_Pnt p = triangles->Node(nodes[k]).Transformed(location.Transformation());
+        corners[k] = welder.corner(vector(p));
+        middle += vector(p) / 3;
+        uv += triangles->UVNode(nodes[k]).XY() / 3;
+      }
+      const Vector3 above = vector(surface->Value(uv.X(), uv.Y()));
+      deviation = std::max(deviation, (above - middle).norm());
+      places_.push_back(above);
+      if (corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0]) {
+        mesh.triangles.push_back({corners[0], corners[1], corners[2]});
+      }
+    }
+  }
+  faces_ = std::move(faces);
+  tolerance_ = 2 * std::max(deviation, deflection);
+  closed_ = isClosed(mesh);
+  mesh_ = std::make_unique<MeshSolid>(std::move(mesh));
+}
+
+double Oracle::exactDistance(const Vector3& point, double about) const {
+  const gp_Pnt p(point.x(), point.y(), point.z());
+  const TopoDS_Shape vertex = BRepBuilderAPI_MakeVertex(p).Shape();
+  Bnd_Box here;
+  here.Set(p);
+  here.Enlarge(about + 1e-3);
+  double nearest = 1e300;
+  for (const Face& face : *faces_) {
+    if (here.IsOut(face.box)) continue;
+    const BRepExtrema_DistShapeShape distance(vertex, face.face);
+    if (distance.IsDone()) nearest = std::min(nearest, distance.Value());
+  }
+  return nearest;
+}
+
+std::string Oracle::objectionTo(const std::optional<BallContact>& contact, const Vector3& from, const Vector3& to,
+                                double radius, bool exactly) const {
+  const double length = (to - from).norm();
+  // What a larger ball meets on the tessellation is met no later, what a smaller one meets no sooner.
+  const auto early = mesh_->firstContact(from, to, radius + tolerance_);
+  const auto late = radius > tolerance_ ? mesh_->firstContact(from, to, radius - tolerance_) : std::nullopt;
+  if (!contact) return late ? fmt::format("passes what is in the way after {:.4f} mm", late->fraction * length) : "";
+  const double travelled = contact->fraction * length;
+  if (!early) return fmt::format("stops after {:.4f} mm where nothing is", travelled);
+  if (travelled < early->fraction * length - 1e-6)
+    return fmt::format("stops after {:.4f} mm, {:.4f} mm too early", travelled, early->fraction * length - travelled);
+  if (late && travelled > late->fraction * length + 1e-6)
+    return fmt::format("stops after {:.4f} mm, {:.4f} mm too late", travelled, travelled - late->fraction * length);
+  if (contact->fraction == 0) return "";
+  if (std::abs((contact->touchPoint - contact->ballCentre).norm() - radius) > 1e-6)
+    return fmt::format("touches {:.7f} mm away from its centre", (contact->touchPoint - contact->ballCentre).norm());
+  if (!exactly) return "";
+  const double distance = exactDistance(contact->ballCentre, radius);
+  if (std::abs(distance - radius) <= 1e-6) return "";
+  // OpenCASCADE misses places of some wrapped surfaces: then the point that was touched must be on the surface.
+  if (distance > radius && exactDistance(contact->touchPoint, 0) < 1e-6) return "";
+  return fmt::format("stops {:.7f} mm from the shape, {:.7f} mm too far", distance, distance - radius);
+}
+
+Oracle::Way Oracle::randomWay(std::mt19937_64& random) const {
+  const Bounds bounds = mesh_->bounds();
+  const Vector3 middle = (bounds.minimum + bounds.maximum) / 2;
+  const double size = (bounds.maximum - bounds.minimum).norm();
+  Way way;
+  way.radius = size * std::pow(10, uniform(random, -2.3, -0.9));
+  const Vector3 aim = places_[random() % places_.size()] + randomPoint(random, way.radius);
+  switch (random() % 5) {
+    case 0:  // straight along an axis
+      way.from = aim;
+      way.from[static_cast<Eigen::Index>(random() % 3)] += (random() % 2 == 0 ? 1 : -1) * size;
+      break;
+    case 1:  // from a place about it, perhaps within
+      way.from = middle + randomPoint(random, size / 2);
+      if (!closed_) way.from = middle + size * randomDirection(random);
+      break;
+    case 2: {  // in a plane through the middle, along an axis
+      way.from = middle;
+      way.from[static_cast<Eigen::Index>(random() % 3)] += (random() % 2 == 0 ? 1 : -1) * size;
+      way.to = middle + uniform(random, -0.3, 1) * (middle - way.from);
+      return way;
+    }
+    default:
+      way.from = middle + size * randomDirection(random);
+  }
+  way.to = way.from + uniform(random, 0.3, 2.2) * (aim - way.from);
+  return way;
+}
+
+int expectTrueContacts(const std::string& name, const TopoDS_Shape& shape, const Solid& solid, std::mt19937_64& random,
+                       int count) {
+  const Oracle oracle(shape);
+  int contacts = 0;
+  int objections = 0;
+  for (int i = 0; i < count && objections < 3; ++i) {
+    const Oracle::Way way = oracle.randomWay(random);
+    const auto contact = solid.firstContact(way.from, way.to, way.radius);
+    if (contact) ++contacts;
+    const std::string objection = oracle.objectionTo(contact, way.from, way.to, way.radius, i % 4 == 0);
+    if (objection.empty()) continue;
+    ++objections;
+    ADD_FAILURE() << name << ", way " << i << " from " << way.from.transpose() << " to " << way.to.transpose()
+                  << " radius " << way.radius << ": the ball " << objection << " (tolerance " << oracle.tolerance()
+                  << ")";
+  }
+  return contacts;
+}
+
+int campaignFactor() {
+  const char* factor = std::getenv("PROBEWRIGHT_CAMPAIGN");
+  return factor != nullptr ? std::max(1, std::atoi(factor)) : 1;
+}
+
+}  // namespace probewright::simulation::testing
