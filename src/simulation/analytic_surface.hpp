@@ -47,6 +47,16 @@ struct AnalyticSurface {
   Touches touches(const Way& way, double radius) const;
 };
 
+/// True if the ball goes on into the surface after a touch, before it touches again at `next`: the gap may come back to
+/// zero on the way, so one place in between does not tell.
+template <class GapAndSlope>
+bool goesIn(double when, double next, const GapAndSlope& gapAndSlope) {
+  for (const double share : {0.5, 1.0, 0.1, 0.7, 0.01}) {
+    if (gapAndSlope(when + share * (next - when)).first < -kTouchTolerance) return true;
+  }
+  return false;
+}
+
 /// Refines a distance along the way at which the gap is nearly zero. The gap must be known by value and slope.
 template <class GapAndSlope>
 double refineTouch(double when, const GapAndSlope& gapAndSlope) {

@@ -49,7 +49,7 @@ void meetCircle(const CadEdge& edge, const Way& way, double radius, Meeting& bes
     const double when = touches[i];
     if (when < 0 || when > way.length || when >= best.when) continue;
     const double next = i + 1 < count ? touches[i + 1] : way.length;
-    if (std::min(gapAndSlope((when + next) / 2).first, gapAndSlope(next).first) >= -kTouchTolerance) continue;
+    if (!goesIn(when, next, gapAndSlope)) continue;
     const auto [gap, slope] = gapAndSlope(when);
     if (slope >= 0 || std::abs(gap) > 1e-7) continue;
     const CircleFoot foot = circleFoot(edge, way.at(when));
@@ -88,7 +88,7 @@ void meetSheet(const CadFace& face, const AnalyticSurface& surface, const Way& w
     if (when < 0 || when > way.length || when >= best.when) continue;
     if (gapAndSlope(when).second >= 0) continue;
     const double next = i + 1 < touches.count ? touches.values[i + 1] : way.length;
-    if (std::min(gapAndSlope((when + next) / 2).first, gapAndSlope(next).first) >= -kTouchTolerance) continue;
+    if (!goesIn(when, next, gapAndSlope)) continue;
     const SurfaceFoot foot = surface.foot(way.at(when));
     if (foot.exists && face.domain.contains(foot.parameters)) {
       meet(when, foot);

@@ -105,7 +105,7 @@ public:
 
   /// Looks near one triangle; `coarse` is the meeting with the grown triangle.
   void near(const CadElement& triangle, const Meeting& coarse) {
-    if (settles(triangle, coarse)) return;
+    if (settles(triangle, coarse, true) || best_.when < 0) return;
     // The iterations went astray: smaller triangles around, until they settle or are as good as the surface.
     const CadElement wide = widened(triangle);
     for (const CadElement& part : quarters(wide))
@@ -114,7 +114,7 @@ public:
 
 private:
   static constexpr int kDeepest = 8;
-  static constexpr int kMostParts = 3000;
+  static constexpr int kMostParts = 300;
 
   CadElement element(const std::array<Vector2, 3>& parameters) const {
     CadElement e;
@@ -132,10 +132,12 @@ private:
   }
 
   /// The same triangle, large enough to cover what a chord cuts off beside it.
-  static CadElement widened(CadElement triangle) {
+  CadElement widened(CadElement triangle) const {
     const Vector2 middle = (triangle.parameters[0] + triangle.parameters[1] + triangle.parameters[2]) / 3;
-    for (Vector2& corner : triangle.parameters)
+    for (Vector2& corner : triangle.parameters) {
       corner += 0.5 * (corner - middle);
+      if (!face_.domain.isEverywhere()) corner = corner.cwiseMax(face_.domain.low()).cwiseMin(face_.domain.high());
+    }
     return triangle;
   }
 
@@ -152,18 +154,18 @@ private:
   void divide(const CadElement& part, int depth) {
     Meeting coarse;
     coarse.when = best_.when;
-    if (++parts_ > kMostParts || !sweepTriangle(way_, radius_ + part.growth, part.corners, coarse)) return;
-    if (coarse.when > best_.when - 1e-7 || settles(part, coarse)) return;
-    if (depth < kDeepest && part.growth > 1e-8) {
+    if (best_.when < 0 || !sweepTriangle(way_, radius_ + part.growth, part.corners, coarse)) return;
+    if (coarse.when > best_.when - 1e-7 || settles(part, coarse, false)) return;
+    if (depth < kDeepest && part.growth > 1e-8 && ++parts_ < kMostParts) {
       for (const CadElement& quarter : quarters(part))
         divide(quarter, depth + 1);
       return;
     }
+    // As a last resort the triangle itself, unless what is known already is the same within its precision.
     const Vector2 at = parametersOf(part, coarse.point);
-    Meeting exact;
-    if (part.growth < 1e-6 && face_.domain.contains(at) && sweepTriangle(way_, radius_, part.corners, exact)) {
-      meet(exact.when, at);
-    }
+    Meeting flat;
+    flat.when = best_.when - 4 * part.growth;
+    if (face_.domain.contains(at) && sweepTriangle(way_, radius_, part.corners, flat)) meet(flat.when, at);
   }
 
   void meet(double when, const Vector2& at) {
@@ -178,11 +180,11 @@ private:
   }
 
   /// True if what happens near the triangle is known: a contact, which goes into the best, or none.
-  bool settles(const CadElement& triangle, const Meeting& coarse) {
+  bool settles(const CadElement& triangle, const Meeting& coarse, bool mayWalk) {
     const Vector2 extent = 2 * parameterExtent(triangle);
     const Vector2 low = triangle.parameters[0].cwiseMin(triangle.parameters[1]).cwiseMin(triangle.parameters[2]);
     const auto isNear = [&](const Vector2& at) {
-      return (at - low + extent / 2).minCoeff() >= 0 && (low + extent - at).minCoeff() >= 0;
+      return (at - low + 1.5 * extent).minCoeff() >= 0 && (low + 2 * extent - at).minCoeff() >= 0;
     };
     Vector2 at = parametersOf(triangle, coarse.point);
     if (coarse.when < 0) {
@@ -206,10 +208,11 @@ private:
     if (solved && isNear(at)) return accept(when, at);
     // A contact elsewhere counts, too, but this place is still open.
     if (solved) accept(when, at);
+    if (!mayWalk) return false;
     // Walk up to the surface: slower, but never past the first contact.
     at = seed;
     when = std::max(0.0, coarse.when);
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 50; ++i) {
       if (!projectOntoSurface(surface_, way_.at(when), extent, at) || !isNear(at)) return false;
       const double gap = gapAt(when, at);
       if (gap < -1e-6) return false;

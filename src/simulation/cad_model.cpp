@@ -11,7 +11,7 @@
 #include <Geom_OffsetSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
 #include <Poly_Triangulation.hxx>
-#include <Precision.hxx>
+#include <ShapeUpgrade_ShapeDivideContinuity.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -212,6 +212,7 @@ std::vector<double> kinksOf(const CadFace& face, bool acrossU) {
   std::vector<double> kinks;
   const Vector2& low = face.domain.low();
   const Vector2& high = face.domain.high();
+  if (face.forms.count > 0 || face.surface->IsKind(STANDARD_TYPE(Geom_OffsetSurface))) return kinks;
   if (!(low.x() < high.x() && low.y() < high.y())) return kinks;
   const GeomAdaptor_Surface surface(face.surface, low.x(), high.x(), low.y(), high.y());
   TColStd_Array1OfReal bounds(1, (acrossU ? surface.NbUIntervals(GeomAbs_C1) : surface.NbVIntervals(GeomAbs_C1)) + 1);
@@ -223,8 +224,6 @@ std::vector<double> kinksOf(const CadFace& face, bool acrossU) {
 
 /// The kinks within a face, as edges: there no point of the surface has a normal along which a ball could touch it.
 void addRidges(CadModel& model, std::uint32_t owner, double deflection) {
-  if (model.faces[owner].forms.count > 0 || model.faces[owner].domain.isEverywhere()) return;
-  if (model.faces[owner].surface->IsKind(STANDARD_TYPE(Geom_OffsetSurface))) return;
   for (const bool acrossU : {true, false}) {
     for (const double at : kinksOf(model.faces[owner], acrossU)) {
       const CadFace& face = model.faces[owner];
@@ -260,10 +259,27 @@ bool isClosed(const TopoDS_Shape& solid) {
   return true;
 }
 
+/// The shape with faces cut along the kinks of their surfaces, which OpenCASCADE tessellates for hours.
+TopoDS_Shape withoutKinks(const TopoDS_Shape& shape) {
+  bool kinked = false;
+  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More() && !kinked; faces.Next()) {
+    const CadFace face = cadFace(TopoDS::Face(faces.Current()));
+    kinked = !kinksOf(face, true).empty() || !kinksOf(face, false).empty();
+  }
+  if (!kinked) return shape;
+  ShapeUpgrade_ShapeDivideContinuity divide(shape);
+  divide.SetSurfaceCriterion(GeomAbs_C1);
+  divide.SetBoundaryCriterion(GeomAbs_C0);
+  divide.SetPCurveCriterion(GeomAbs_C0);
+  divide.Perform();
+  return divide.Result().IsNull() ? shape : divide.Result();
+}
+
 }  // namespace
 
-CadModel cadModel(const TopoDS_Shape& shape, double deflection) {
+CadModel cadModel(const TopoDS_Shape& part, double deflection) {
   CadModel model;
+  const TopoDS_Shape shape = withoutKinks(part);
   model.shape = shape;
   BRepLib::BuildCurves3d(shape);
   BRepTools::Clean(shape);

@@ -21,7 +21,9 @@ using namespace testing;
 void judge(const NamedShape& named, std::mt19937_64& random, int ways) {
   const auto solid = cadSolid(named.shape);
   ASSERT_TRUE(solid) << named.name << ": " << format(solid.error());
-  EXPECT_GT(expectTrueContacts(named.name, named.shape, **solid, random, ways), ways / 10) << named.name;
+  // As it was prepared: OpenCASCADE tessellates some surfaces with kinks for hours.
+  const auto& prepared = dynamic_cast<const CadSolid&>(**solid);
+  EXPECT_GT(expectTrueContacts(named.name, prepared.shape(), prepared, random, ways), ways / 10) << named.name;
 }
 
 TEST(ContactOracle, FacesInAnyRangeOfTheirParametersAreMetWhereTheyAre) {

@@ -8,6 +8,7 @@
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <Geom_Surface.hxx>
@@ -67,8 +68,8 @@ Oracle::Oracle(const TopoDS_Shape& shape) : shape_(BRepBuilderAPI_Copy(shape).Sh
   Bnd_Box all;
   BRepBndLib::Add(shape_, all);
   const double size = all.CornerMin().Distance(all.CornerMax());
-  const double deflection = 5e-5 * size;
-  const BRepMesh_IncrementalMesh mesher(shape_, deflection, Standard_False, 0.1);
+  const double deflection = 2e-4 * size;
+  const BRepMesh_IncrementalMesh mesher(shape_, deflection, Standard_False, 0.2);
   TriangleMesh mesh;
   Welder welder(mesh);
   auto faces = std::make_shared<std::vector<Face>>();
@@ -79,8 +80,16 @@ Oracle::Oracle(const TopoDS_Shape& shape) : shape_(BRepBuilderAPI_Copy(shape).Sh
     faces->push_back(face);
     TopLoc_Location location;
     const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face.face, location);
-    if (triangles.IsNull()) continue;
     const Handle(Geom_Surface) surface = BRep_Tool::Surface(face.face);
+    if (triangles.IsNull()) {
+      // Not even OpenCASCADE can tessellate it: its distances alone must do.
+      double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
+      BRepTools::UVBounds(face.face, u0, u1, v0, v1);
+      for (int i = 0; i < 64; ++i)
+        places_.push_back(
+            vector(surface->Value(u0 + (i % 8 + 0.5) / 8 * (u1 - u0), v0 + (i / 8 + 0.5) / 8 * (v1 - v0))));
+      continue;
+    }
     for (int i = 1; i <= triangles->NbTriangles(); ++i) {
       std::array<int, 3> nodes{};
       triangles->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
@@ -104,7 +113,11 @@ Oracle::Oracle(const TopoDS_Shape& shape) : shape_(BRepBuilderAPI_Copy(shape).Sh
   }
   faces_ = std::move(faces);
   tolerance_ = 2 * std::max(deviation, deflection);
-  closed_ = isClosed(mesh);
+  closed_ = isClosed(mesh) && !mesh.triangles.empty();
+  for (const Vector3& place : places_) {
+    bounds_.minimum = bounds_.minimum.cwiseMin(place);
+    bounds_.maximum = bounds_.maximum.cwiseMax(place);
+  }
   mesh_ = std::make_unique<MeshSolid>(std::move(mesh));
 }
 
@@ -129,14 +142,32 @@ std::string Oracle::objectionTo(const std::optional<BallContact>& contact, const
   // What a larger ball meets on the tessellation is met no later, what a smaller one meets no sooner.
   const auto early = mesh_->firstContact(from, to, radius + tolerance_);
   const auto late = radius > tolerance_ ? mesh_->firstContact(from, to, radius - tolerance_) : std::nullopt;
-  if (!contact) return late ? fmt::format("passes what is in the way after {:.4f} mm", late->fraction * length) : "";
+  // A tessellation can be worse than it looks; then the other means decides, too.
+  const auto isThere = [&](const BallContact& met) {
+    return met.fraction == 0 || exactDistance(met.ballCentre, radius) < radius - 1e-6;
+  };
+  const auto isTouched = [&] { return std::abs(exactDistance(contact->ballCentre, radius) - radius) <= 1e-6; };
+  if (!contact) {
+    for (const double share : {0.13, 0.31, 0.52, 0.77, 1.0}) {
+      if (exactly && exactDistance(from + share * (to - from), radius) < radius - 1e-6) return "passes the shape";
+    }
+    return late && isThere(*late) ? fmt::format("passes what is in the way after {:.4f} mm", late->fraction * length)
+                                  : "";
+  }
   const double travelled = contact->fraction * length;
-  if (!early) return fmt::format("stops after {:.4f} mm where nothing is", travelled);
-  if (travelled < early->fraction * length - 1e-6)
+  if (!early && !isTouched()) return fmt::format("stops after {:.4f} mm where nothing is", travelled);
+  if (early && travelled < early->fraction * length - 1e-6 && !isTouched())
     return fmt::format("stops after {:.4f} mm, {:.4f} mm too early", travelled, early->fraction * length - travelled);
-  if (late && travelled > late->fraction * length + 1e-6)
+  if (late && travelled > late->fraction * length + 1e-6 && isThere(*late))
     return fmt::format("stops after {:.4f} mm, {:.4f} mm too late", travelled, travelled - late->fraction * length);
   if (contact->fraction == 0) return "";
+  if (exactly) {
+    // Some places on the way up to there.
+    for (const double share : {0.31, 0.77, 0.97}) {
+      const double distance = exactDistance(from + share * contact->fraction * (to - from), radius);
+      if (distance < radius - 1e-6) return fmt::format("stops after {:.4f} mm, past a part of the shape", travelled);
+    }
+  }
   if (std::abs((contact->touchPoint - contact->ballCentre).norm() - radius) > 1e-6)
     return fmt::format("touches {:.7f} mm away from its centre", (contact->touchPoint - contact->ballCentre).norm());
   if (!exactly) return "";
@@ -148,9 +179,8 @@ std::string Oracle::objectionTo(const std::optional<BallContact>& contact, const
 }
 
 Oracle::Way Oracle::randomWay(std::mt19937_64& random) const {
-  const Bounds bounds = mesh_->bounds();
-  const Vector3 middle = (bounds.minimum + bounds.maximum) / 2;
-  const double size = (bounds.maximum - bounds.minimum).norm();
+  const Vector3 middle = (bounds_.minimum + bounds_.maximum) / 2;
+  const double size = (bounds_.maximum - bounds_.minimum).norm();
   Way way;
   way.radius = size * std::pow(10, uniform(random, -2.3, -0.9));
   const Vector3 aim = places_[random() % places_.size()] + randomPoint(random, way.radius);

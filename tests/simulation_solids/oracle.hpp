@@ -36,6 +36,7 @@ private:
   TopoDS_Shape shape_;
   std::unique_ptr<MeshSolid> mesh_;
   std::vector<Vector3> places_;  ///< on the surface
+  Bounds bounds_;                ///< of these
   struct Face;
   std::shared_ptr<const std::vector<Face>> faces_;
   double tolerance_ = 0;

@@ -198,7 +198,7 @@ std::vector<NamedShape> bodies(std::mt19937_64& random) {
   all.push_back({"cone", BRepPrimAPI_MakeCone(up, 15, uniform(random, 0, 10), 20).Shape()});
   all.push_back({"sphere piece", BRepPrimAPI_MakeSphere(up, 18, -0.6, 1.1, uniform(random, 1, 6)).Shape()});
   all.push_back({"torus", BRepPrimAPI_MakeTorus(up, 20, uniform(random, 3, 15)).Shape()});
-  all.push_back({"torus piece", BRepPrimAPI_MakeTorus(up, 20, 6, 0.5, 3.8, uniform(random, 1, 6)).Shape()});
+  all.push_back({"torus piece", BRepPrimAPI_MakeTorus(up, 20, 6, 0.3, 2.4, uniform(random, 1, 6)).Shape()});
   const TopoDS_Shape bored = BRepAlgoAPI_Cut(box(50, 40, 20), BRepPrimAPI_MakeCylinder(up, 9, 50).Shape()).Shape();
   all.push_back({"bored and rounded", rounded(bored, 2)});
   all.push_back(
