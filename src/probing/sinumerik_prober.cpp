@@ -117,6 +117,16 @@ Vector3 SinumerikProber::lateralDeviation(const Vector3& direction) const {
   return deviation - direction * direction.dot(deviation);
 }
 
+Vector3 SinumerikProber::toolAxis() const { return plane_.planeFromXyz(channel_.toolAxis()).normalized(); }
+
+Vector3 SinumerikProber::uprightTcp(const Vector3& direction) const {
+  if (probe_.lengthToCentre) return Vector3::Zero();
+  const Vector3 axis = toolAxis();
+  Vector3 offset = ballRadius() * (axis - std::copysign(1.0, axis.z()) * Vector3::UnitZ());
+  if (direction.z() == 0) offset.z() = 0;
+  return offset;
+}
+
 void SinumerikProber::orientTo(const Vector3& direction) {
   if (probe_.monodirectional) alignTo(direction);
 }
@@ -154,7 +164,8 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
   if (!(path > 0)) {
     throw Alarm("61308", "Measuring path DFA must be greater than 0", "correct parameter S_FA");
   }
-  const Vector3 start = setpoint - direction * path - surfaceFromTcp;
+  const Vector3 upright = uprightTcp(direction);
+  const Vector3 start = setpoint - direction * path - surfaceFromTcp - upright;
   const Vector3 end = start + direction * 2 * path;
   orientTo(direction);
   moveTo(start);
@@ -203,7 +214,7 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
 
   const auto noteTouch = [&](const control::Touch& touch) {
     record.ballCentre = touch.tip;
-    record.surface = plane_.xyzFromPlane(plane_.planeFromXyz(touch.tip) + surfaceFromTcp);
+    record.surface = plane_.xyzFromPlane(plane_.planeFromXyz(touch.tip) + upright + surfaceFromTcp);
     record.latched = touch.latched;
     finish("touched");
   };
@@ -229,7 +240,7 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
     point.latched = touch->latched;
     channel_.retractTo(plane_.xyzFromPlane(start), retract);
   }
-  point.tcp = sum / std::max(1, count);
+  point.tcp = sum / std::max(1, count) + upright;
   point.surface = point.tcp + surfaceFromTcp;
   const auto axis = parallelAxis(direction);
   point.difference = axis ? point.surface[*axis] - setpoint[*axis] : (point.surface - setpoint).dot(direction);

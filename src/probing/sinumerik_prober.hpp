@@ -43,7 +43,9 @@ struct SinumerikHabits {
 
 /// One measured point.
 struct MeasuredPoint {
-  Vector3 tcp = Vector3::Zero();      ///< tool centre point at the signal (mean of the measurements), plane coordinates
+  /// Tool centre point at the signal (mean of the measurements), plane coordinates, as if the tool stood upright on the
+  /// plane: SinumerikProber::uprightTcp().
+  Vector3 tcp = Vector3::Zero();
   Vector3 surface = Vector3::Zero();  ///< the point on the surface, by trigger points
   double difference = 0;              ///< surface - setpoint along the positive axis or direction
   machine::AxisPositions latched;     ///< of the last measurement
@@ -84,6 +86,13 @@ public:
   /// position deviation. measure() leads the ball's centre, not the tool centre point, along the line through the set
   /// point.
   Vector3 lateralDeviation(const Vector3& direction) const;
+  /// Where a tool that stands upright on the plane, its ball in the same place, would have its tool centre point, seen
+  /// from the one that the tool has as it stands. Not 0 where the workpiece system is tilted against the tool and the
+  /// tool length ends at the ball's south pole: the ball's centre lies a radius along the tool then, and trigger points
+  /// count from it. In the plane for a `direction` of the plane: heights stay as they are programmed.
+  Vector3 uprightTcp(const Vector3& direction) const;
+  /// Direction from the ball towards the spindle, plane coordinates, unit length.
+  Vector3 toolAxis() const;
   /// True if the workpiece system is mirrored along an axis of the plane, as for a part in the counter-spindle. The
   /// other side of the ball touches there: trigger points and deviations are those of the machine's direction.
   bool mirrored(int axis) const;

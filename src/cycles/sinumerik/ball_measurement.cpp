@@ -59,7 +59,7 @@ private:
   /// `planned` at the height of the ball's centre; down to it from the safe height first.
   Vector3 touch(const probing::PlannedTouch& planned) {
     Vector3 setpoint = planned.surface;
-    if (!prober_.probe().lengthToCentre) setpoint.z() -= prober_.ballRadius();
+    if (!prober_.probe().lengthToCentre) setpoint.z() -= prober_.ballRadius() * prober_.toolAxis().z();
     if (prober_.position().z() > setpoint.z() + 1e-6) {
       prober_.moveInPlane(toucher_.startOf(setpoint, planned.direction, plan_.path));
       prober_.moveHeightTo(setpoint.z());

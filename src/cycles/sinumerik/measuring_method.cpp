@@ -23,20 +23,31 @@ void requireCalibrationFor(Context& context, Method method) {
   }
 }
 
+double measuringDirection(Context& context, double toSetValue) {
+  const int way = context.integer("S_MD");
+  if (way < 0 || way > 2) context.alarm(61326, "S_MD is 1 (plus) or 2 (minus)");
+  if (way != 0) return way == 1 ? 1 : -1;
+  if (std::abs(toSetValue) < 1e-9) {
+    context.alarm(61326, "S_MD leaves the direction open, and the probe stands at the set value already");
+  }
+  return toSetValue > 0 ? 1 : -1;
+}
+
 Toucher::Toucher(Context& context, Method method)
     : context_(context), method_(method), spindle_(context.channel().spindleAngle()) {}
 
 Vector3 Toucher::startOf(const Vector3& setpoint, const Vector3& direction, double path) const {
   probing::SinumerikProber& prober = context_.prober();
+  const Vector3 upright = setpoint - prober.uprightTcp(direction);
   switch (method_) {
     case Method::SpindleReversal:
-      return setpoint - direction * (path + prober.ballRadius());
+      return upright - direction * (path + prober.ballRadius());
     case Method::ProbeAligned:
-      return setpoint - direction * (path + prober.probe().triggerPlus[0]);
+      return upright - direction * (path + prober.probe().triggerPlus[0]);
     case Method::Standard:
       break;
   }
-  return setpoint - direction * (path + prober.trigger(direction)) - prober.lateralDeviation(direction);
+  return upright - direction * (path + prober.trigger(direction)) - prober.lateralDeviation(direction);
 }
 
 MeasuredPoint Toucher::measure(const Vector3& setpoint, const Vector3& direction, double path) {

@@ -19,6 +19,10 @@ Method methodOf(Context& context);
 /// none, the ball counts as large as the tool data say (61351 if they say nothing).
 void requireCalibrationFor(Context& context, Method method);
 
+/// The measuring direction, +1 or -1: S_MD = 1 or 2. Where S_MD is 0 or left out, it leads from where the probe stands
+/// to the set value, which is `toSetValue` away along the measuring axis. Alarm 61326 if that is no way.
+double measuringDirection(Context& context, double toSetValue);
+
 /// Touches points with one method, S_NMSP times each.
 ///
 /// Spindle reversal: the first point along an axis is touched with the spindle at 180 degrees and again at its position
