@@ -343,6 +343,15 @@ TEST(MeasuringData, OldNamesReachTheNewData) {
   EXPECT_TRUE(maskBit(store, "$SCS_MEA_FUNCTION_MASK", 14));
   EXPECT_TRUE(writeGud(store, {"_CHBIT", {10}}, 4));
   EXPECT_EQ(store.number("$SCS_MEA_RESULT_DISPLAY", {}), 4);
+  EXPECT_EQ(readGud(store, {"_CHBIT", {10}}), 4);
+  EXPECT_TRUE(writeGud(store, {"_MT_EC_R", {3, 4}}, 0.012));
+  EXPECT_EQ(store.number("$SNS_MEA_RESULT_OFFSET_TAB_RAD3", {4}), 0.012);
+  EXPECT_TRUE(writeGud(store, {"_MT_EC_L", {6, 0}}, -0.02));
+  EXPECT_EQ(store.number("$SNS_MEA_RESULT_OFFSET_TAB_LEN6", {0}), -0.02);
+  EXPECT_FALSE(writeGud(store, {"_MT_EC_R", {7, 0}}, 1));
+  EXPECT_FALSE(writeGud(store, {"_MT_EC_R", {1, 5}}, 1));
+  EXPECT_TRUE(writeGud(store, {"E_MESS_SETT", {1}}, 1));
+  EXPECT_TRUE(maskBit(store, "$SCS_MEA_FUNCTION_MASK", 15));
   EXPECT_EQ(readGud(store, {"_OVR", {4}}), std::nullopt);
   EXPECT_EQ(readGud(store, {"_WP", {"X"}}), std::nullopt);
 }

@@ -37,6 +37,13 @@ Control::Control(machine::Machine& machine, DataStore store)
   const int units = initialFunction(13);
   unit = units == 1 || units == 3 ? millimetresPerInch : 1;
   diameter = initialFunction(29) == 2 || initialFunction(29) == 3;
+  // What a channel begins with can be read, whether a file of the control says it or not.
+  data.setDefault("$MC_TOOL_CHANGE_MODE", channel.description().axisIndex("Y") ? 1.0 : 0.0);
+  const std::pair<int, int> begins[] = {{6, plane - 16}, {13, unit == 1 ? 2 : 1}, {29, diameter ? 2 : 1}};
+  for (const auto& [group, number] : begins) {
+    const DataKey key("$MC_GCODE_RESET_VALUES", {group - 1});
+    if (!data.isSet(key)) data.load(key, static_cast<double>(number));
+  }
   applyFrames();
 }
 
@@ -80,7 +87,12 @@ void Control::selectEdge(int edge) {
 }
 
 void Control::refreshTool() {
-  ToolEdge edge = toolEdge(data, tool.number, tool.edge, tool.dl).value_or(ToolEdge{});
+  edge_ = toolEdge(data, tool.number, tool.edge, tool.dl).value_or(ToolEdge{});
+  applyTool();
+}
+
+void Control::applyTool() {
+  ToolEdge edge = edge_;
   edge.length[0] += tool.programmedLength;
   edge.radius += tool.programmedRadius;
   tool.type = edge.type;
@@ -154,7 +166,7 @@ void Control::handOverFrames() {
   frames.base = {};
   for (const auto& [key, frame] : frames.basic)
     frames.base = chained(frames.base, frame);
-  refreshTool();
+  applyTool();
   const machine::MachineDescription& description = channel.description();
   for (std::size_t i = 0; i < description.axes.size(); ++i) {
     if (description.axes[i].kind != machine::AxisKind::Rotary) continue;
@@ -175,6 +187,8 @@ void Control::handOverFrames() {
 void Control::write(const DataKey& key, double value) {
   const std::optional<DataValue> before = data.get(key);
   data.set(key, value);
+  // What is as it was is no correction.
+  if (before && *before == DataValue(value)) return;
   const std::string text = key.text();
   const std::size_t bracket = text.find('[');
   journal.write({text.substr(0, bracket), bracket == std::string::npos ? "" : text.substr(bracket),

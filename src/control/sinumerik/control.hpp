@@ -12,6 +12,7 @@
 #include "control/sinumerik/data_store.hpp"
 #include "control/sinumerik/frame.hpp"
 #include "control/sinumerik/result_output.hpp"
+#include "control/sinumerik/tool_data.hpp"
 #include "control/working_plane.hpp"
 
 /// Everything a SINUMERIK control knows while a program runs.
@@ -81,7 +82,8 @@ public:
   int toolNumbered(const std::string& name) const;
   /// Activates an offset (0: none). Throws Alarm 17180 if the tool has no such edge.
   void selectEdge(int edge);
-  /// Puts the data of the active tool and edge into effect again.
+  /// Reads the data of the active tool and edge and puts them into effect, as D does. What a program writes into them
+  /// has no effect before that.
   void refreshTool();
 
   /// Activates settable frame n (0: G500). Throws Alarm 18310 if there is none.
@@ -110,6 +112,12 @@ public:
   void write(const DataKey& key, double value);
 
   double machineData(std::string_view name, double otherwise = 0) const { return data.number(name, {}, otherwise); }
+
+private:
+  /// The edge in effect, in the active plane, with what TOFFL and TOFFR add.
+  void applyTool();
+
+  ToolEdge edge_;  ///< as it was read
 };
 
 }  // namespace probewright::control::sinumerik

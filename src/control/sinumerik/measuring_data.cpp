@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include "base/number_text.hpp"
 
@@ -134,29 +135,29 @@ constexpr std::array data = {
     MeasuringDatum{54690, "$SNS_MEA_T_PROBE_MANUFACTURER", 0, 0, "", "maker of the tool probe", "_TP_CF"},
     MeasuringDatum{54691, "$SNS_MEA_T_PROBE_OFFSET", 0, 0, "", "result offset of the tool probe", "_MT_COMP"},
     MeasuringDatum{54695, "$SNS_MEA_RESULT_OFFSET_TAB_RAD1", 5, 0, "mm",
-                   "correction table of rotating tools, radius, row 1"},
+                   "correction table of rotating tools, radius, row 1", "_MT_EC_R", -1, 1},
     MeasuringDatum{54696, "$SNS_MEA_RESULT_OFFSET_TAB_RAD2", 5, 0, "mm",
-                   "correction table of rotating tools, radius, row 2"},
+                   "correction table of rotating tools, radius, row 2", "_MT_EC_R", -1, 2},
     MeasuringDatum{54697, "$SNS_MEA_RESULT_OFFSET_TAB_RAD3", 5, 0, "mm",
-                   "correction table of rotating tools, radius, row 3"},
+                   "correction table of rotating tools, radius, row 3", "_MT_EC_R", -1, 3},
     MeasuringDatum{54698, "$SNS_MEA_RESULT_OFFSET_TAB_RAD4", 5, 0, "mm",
-                   "correction table of rotating tools, radius, row 4"},
+                   "correction table of rotating tools, radius, row 4", "_MT_EC_R", -1, 4},
     MeasuringDatum{54699, "$SNS_MEA_RESULT_OFFSET_TAB_RAD5", 5, 0, "mm",
-                   "correction table of rotating tools, radius, row 5"},
+                   "correction table of rotating tools, radius, row 5", "_MT_EC_R", -1, 5},
     MeasuringDatum{54700, "$SNS_MEA_RESULT_OFFSET_TAB_RAD6", 5, 0, "mm",
-                   "correction table of rotating tools, radius, row 6"},
+                   "correction table of rotating tools, radius, row 6", "_MT_EC_R", -1, 6},
     MeasuringDatum{54705, "$SNS_MEA_RESULT_OFFSET_TAB_LEN1", 5, 0, "mm",
-                   "correction table of rotating tools, length, row 1"},
+                   "correction table of rotating tools, length, row 1", "_MT_EC_L", -1, 1},
     MeasuringDatum{54706, "$SNS_MEA_RESULT_OFFSET_TAB_LEN2", 5, 0, "mm",
-                   "correction table of rotating tools, length, row 2"},
+                   "correction table of rotating tools, length, row 2", "_MT_EC_L", -1, 2},
     MeasuringDatum{54707, "$SNS_MEA_RESULT_OFFSET_TAB_LEN3", 5, 0, "mm",
-                   "correction table of rotating tools, length, row 3"},
+                   "correction table of rotating tools, length, row 3", "_MT_EC_L", -1, 3},
     MeasuringDatum{54708, "$SNS_MEA_RESULT_OFFSET_TAB_LEN4", 5, 0, "mm",
-                   "correction table of rotating tools, length, row 4"},
+                   "correction table of rotating tools, length, row 4", "_MT_EC_L", -1, 4},
     MeasuringDatum{54709, "$SNS_MEA_RESULT_OFFSET_TAB_LEN5", 5, 0, "mm",
-                   "correction table of rotating tools, length, row 5"},
+                   "correction table of rotating tools, length, row 5", "_MT_EC_L", -1, 5},
     MeasuringDatum{54710, "$SNS_MEA_RESULT_OFFSET_TAB_LEN6", 5, 0, "mm",
-                   "correction table of rotating tools, length, row 6"},
+                   "correction table of rotating tools, length, row 6", "_MT_EC_L", -1, 6},
     MeasuringDatum{54740, "$SNS_MEA_FUNCTION_MASK", 0, 8, "", "function mask of measuring"},
     MeasuringDatum{54760, "$SNS_MEA_FUNCTION_MASK_PIECE", 0, 0, "", "fields of the screens of workpiece measurement"},
     MeasuringDatum{54762, "$SNS_MEA_FUNCTION_MASK_TOOL", 0, 0, "", "fields of the screens of tool measurement"},
@@ -165,7 +166,7 @@ constexpr std::array data = {
                    "fields of the JOG screens of workpiece measurement"},
     MeasuringDatum{54782, "$SNS_J_MEA_FUNCTION_MASK_TOOL", 0, 0, "", "fields of the JOG screens of tool measurement"},
     MeasuringDatum{55613, "$SCS_MEA_RESULT_DISPLAY", 0, 0, "",
-                   "result screen: 0 off, 1 for 8 s, 3 until NC start, 4 with tolerance alarms"},
+                   "result screen: 0 off, 1 for 8 s, 3 until NC start, 4 with tolerance alarms", "_CHBIT", 10},
     MeasuringDatum{55618, "$SCS_MEA_SIM_ENABLE", 0, 0, "",
                    "simulation: 0 skips measuring cycles, 1 runs them without measuring"},
     MeasuringDatum{55622, "$SCS_MEA_EMPIRIC_VALUE_NUM", 0, 20, "", "number of empirical values", "_EVMVNUM", 0},
@@ -221,8 +222,9 @@ constexpr std::array bits = {
     MaskBit{"$SCS_MEA_FUNCTION_MASK", 4, false, "workpiece: approach with the fast measuring feed", "_CHBIT", 17},
     MaskBit{"$SCS_MEA_FUNCTION_MASK", 5, false, "workpiece: retract at rapid, not with the plane feed", "_CHBIT", 16},
     MaskBit{"$SCS_MEA_FUNCTION_MASK", 6, false, "workpiece: CUST_MEACYC is called after the spindle was positioned"},
-    MaskBit{"$SCS_MEA_FUNCTION_MASK", 14, true, "JOG: the spindle follows the rotation about the infeed axis"},
-    MaskBit{"$SCS_MEA_FUNCTION_MASK", 15, false, "JOG: the centre of the calibration ring is known"},
+    MaskBit{"$SCS_MEA_FUNCTION_MASK", 14, true, "JOG: the spindle follows the rotation about the infeed axis",
+            "E_MESS_SETT", 0},
+    MaskBit{"$SCS_MEA_FUNCTION_MASK", 15, false, "JOG: the centre of the calibration ring is known", "E_MESS_SETT", 1},
     MaskBit{"$SCS_MEA_FUNCTION_MASK", 16, true, "tool: positioning within cycles is watched for collisions", "_CHBIT",
             2},
     MaskBit{"$SCS_MEA_FUNCTION_MASK", 17, false, "tool: one attempt to touch, not five", "_CHBIT", 15},
@@ -244,6 +246,10 @@ std::optional<DataKey> targetIn(const MeasuringDatum& datum, const DataKey& key)
   DataKey target;
   target.name = datum.identifier;
   std::vector<std::string> indices = key.indices;
+  if (datum.gudRow >= 0) {
+    if (indices.size() != 2 || parseInteger(indices.front()) != datum.gudRow) return std::nullopt;
+    indices.erase(indices.begin());
+  }
   if (datum.gudElement >= 0) {
     if (lastIndex(key) != datum.gudElement) return std::nullopt;
     indices.pop_back();
@@ -291,7 +297,8 @@ std::string measuringDataPage() {
     std::string gud;
     if (!datum.gud.empty()) {
       const std::string_view element = datum.elements > 1 ? "n" : "";
-      gud = datum.gudElement < 0
+      gud = datum.gudRow >= 0 ? fmt::format("`{}[{},n]`", datum.gud, datum.gudRow)
+            : datum.gudElement < 0
                 ? (element.empty() ? fmt::format("`{}`", datum.gud) : fmt::format("`{}[n]`", datum.gud))
             : element.empty() ? fmt::format("`{}[{}]`", datum.gud, datum.gudElement)
                               : fmt::format("`{}[n,{}]`", datum.gud, datum.gudElement);
@@ -328,6 +335,15 @@ void setMeasuringDefaults(DataStore& store) {
   for (const MeasuringDatum& datum : data)
     store.setDefault(datum.identifier, datum.initial);
   store.setDefault("R", 0.0);
+  // Data of the NC that act with these values where a control's file has none; programs read what acts.
+  constexpr std::pair<const char*, double> acting[] = {
+      {"$MN_MM_TOOL_MANAGEMENT_MASK", 256}, {"$MN_MM_TYPE_CUTTING_EDGE", 0}, {"$MN_MM_NUM_SUMCORR", 6},
+      {"$MN_MM_FRAME_FINE_TRANS", 1},       {"$MC_MM_NUM_USER_FRAMES", 100}, {"$MC_TOOL_PARAMETER_DEF_MASK", 0},
+      {"$SC_TOOL_LENGTH_CONST", 0},         {"$SC_TOOL_LENGTH_TYPE", 0},     {"$SC_DRY_RUN_FEED", 5000}};
+  for (const auto& [name, value] : acting)
+    store.setDefault(name, value);
+  for (const char* text : {"_OVS_TNAME", "_TNAME", "_TENV"})
+    store.setDefault(text, std::string());
 }
 
 bool maskBit(const DataStore& store, std::string_view identifier, int bit) {
@@ -351,7 +367,6 @@ std::vector<GudTarget> gudTargets(const DataKey& key) {
     if (bit.gud.empty() || bit.gud != key.name || key.indices.size() != 1 || lastIndex(key) != bit.gudElement) continue;
     targets.push_back({DataKey(bit.identifier, {}), bit.bit});
   }
-  if (key == DataKey("_CHBIT", {10})) targets.push_back({DataKey("$SCS_MEA_RESULT_DISPLAY", {}), -1});
   return targets;
 }
 

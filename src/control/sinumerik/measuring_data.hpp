@@ -21,6 +21,7 @@ struct MeasuringDatum {
   std::string_view meaning;
   std::string_view gud = {};  ///< name in programs of older cycles, such as "_WP"; may be empty
   int gudElement = -1;        ///< last index under that name: _WP[n,gudElement]; -1: the index of the datum itself
+  int gudRow = -1;            ///< first index under that name: _MT_EC_R[gudRow,n]; -1: none
 };
 
 std::span<const MeasuringDatum> measuringData();

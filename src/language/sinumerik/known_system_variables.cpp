@@ -5,6 +5,7 @@
 #include <iterator>
 #include <vector>
 
+#include "control/sinumerik/former_names.hpp"
 #include "control/sinumerik/measuring_data.hpp"
 #include "language/sinumerik/cursor.hpp"
 #include "language/sinumerik/keywords.hpp"
@@ -90,20 +91,20 @@ constexpr std::string_view channelOthers =
     "TRAFO_PARSET TRAFO_SECTION_P TRAFO_SECTION_T TRAFO_TYPE_NAME TRANS_SYS TRIGGER T_TOOL_LENGTH_INDEX VACTB "
     "VACTBF VACTW VACTWF VC WORKAREA_CS_COORD_SYSTEM WORKAREA_CS_GROUP WORKAREA_CS_LIMIT_MINUS "
     "WORKAREA_CS_LIMIT_PLUS WORKAREA_CS_MINUS_ENABLE WORKAREA_CS_PLUS_ENABLE ";
-constexpr std::string_view generalSimulated = "DAY HOUR MINUTE MONTH PROBE SECOND YEAR ";
+constexpr std::string_view generalSimulated = "DAY HOUR MINUTE MONTH MSECOND PROBE SECOND YEAR ";
 constexpr std::string_view generalOthers =
     "CMD CMDSI DB DBB DBD DBR DBSB DBSW DBW DL DLB DLD DLR DLW DP DPB_IN DPB_OUT DPR_IN DPR_OUT DPSB_IN DPSB_OUT "
     "DPSD_IN DPSD_OUT DPSW_IN DPSW_OUT DPW_IN DPW_OUT DP_IN_CONF DP_IN_LENGTH DP_IN_STATE DP_IN_VALID DP_OUT_CONF "
     "DP_OUT_LENGTH DP_OUT_STATE DP_OUT_VALID FRDP_ACK_REQ FRDP_DIAG FRDP_ERROR FRDP_ERR_REAC FRDP_SENDMODE "
     "FRDP_SUBS FRDP_SUBS_ON FSDP_DIAG FSDP_ERROR FSDP_ERR_REAC FSDP_SUBS_ON GG IN INA INCO INSE INSED INSEP "
     "INSEPD INSI INSID INSIP INSIPD LEVELSID LINK_TRANS_RATE MARKERSI MARKERSID MARKERSIP MARKERSIPD MONIFACT "
-    "MSECOND MYMLN MYMN MYMTLN MYMTN OUT OUTA OUTSE OUTSED OUTSEP OUTSEPD OUTSI OUTSID OUTSIP OUTSIPD PB PBB_IN "
+    "MYMLN MYMN MYMTLN MYMTN OUT OUTA OUTSE OUTSED OUTSEP OUTSEPD OUTSI OUTSID OUTSIP OUTSIPD PB PBB_IN "
     "PBB_OUT PBD_IN PBD_OUT PBR_IN PBR_OUT PBW_IN PBW_OUT PLCSIIN PLCSIOUT PROBE_LIMITED PROTO PROTOC PROT_LOCK "
     "STATSID STOPESI TIMERSI TOOLMLN TOOLMN TOOLMTLN TOOLMTN USEDD USEDND USEDT XFAULTSI ";
 
 /// $SNS_MEA_... and the like that the table of measuring data has not: other software versions, screens of JOG.
 constexpr std::string_view measuringOthers =
-    "$MCS_J_MEA_FIXPOINT $MCS_J_MEA_T_PROBE_APPR_MODE $MNS_J_MEA_MEASURING_FEED $MNS_J_MEA_T_PROBE_MEASURE_DIST "
+    "$MCS_J_MEA_FIXPOINT $MCS_J_MEA_T_PROBE_APPR_MODE $MNS_J_MEA_T_PROBE_MEASURE_DIST "
     "$MNS_MEA_ACCESS_EXEC $MNS_MEA_CAL_EDGE_NUM $MNS_MEA_CAL_TPW_NUM $MNS_MEA_CAL_TP_NUM $MNS_MEA_CAL_WP_NUM "
     "$MNS_MEA_T_PROBE_THICKNESS $SCS_J_MEA_PROTOCOL_FILE $SCS_J_MEA_SET_PROBE_MONO $SCS_MEA_FEED_MEASURE_DEG "
     "$SCS_MEA_FEED_POS_DEG $SCS_MEA_KIN_BALL_VEC $SCS_MEA_KIN_DM_TOL $SCS_MEA_KIN_MIN_ANG_POS "
@@ -186,7 +187,8 @@ bool isOfMeasuring(std::string_view name) {
 SystemName systemName(std::string_view name) {
   if (name.starts_with("$TC_")) return isToolDatum(name.substr(4)) ? SystemName::Simulated : SystemName::Missing;
   if (isOfMeasuring(name)) {
-    if (control::sinumerik::findMeasuringDatum(name) != nullptr) return SystemName::Simulated;
+    if (control::sinumerik::findMeasuringDatum(name) != nullptr || control::sinumerik::isFormerName(name))
+      return SystemName::Simulated;
     return contains(measuringOthers, name) ? SystemName::Elsewhere : SystemName::Missing;
   }
   for (const Family& family : families) {

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <ctime>
 #include <numbers>
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
+#include "control/sinumerik/former_names.hpp"
 #include "control/sinumerik/text.hpp"
 #include "control/sinumerik/tool_data.hpp"
 #include "language/sinumerik/datum_check.hpp"
@@ -242,9 +245,11 @@ std::optional<Value> SystemVariables::readState(std::string_view name, std::span
     return number(control_.channel.seconds());
   if (name == "$MN_SCALING_SYSTEM_IS_METRIC") return number(1);
   if (name == "$A_YEAR" || name == "$A_MONTH" || name == "$A_DAY" || name == "$A_HOUR" || name == "$A_MINUTE" ||
-      name == "$A_SECOND") {
-    const std::time_t now =
-        static_cast<std::time_t>(control_.wallClockStart + std::llround(control_.channel.seconds()));
+      name == "$A_SECOND" || name == "$A_MSECOND") {
+    const double seconds = std::floor(control_.channel.seconds() + 1e-9);
+    if (name == "$A_MSECOND")
+      return number(std::floor(1000 * std::max(0.0, control_.channel.seconds() - seconds) + 1e-6));
+    const auto now = static_cast<std::time_t>(control_.wallClockStart + static_cast<std::int64_t>(seconds));
     std::tm parts{};
     ::gmtime_r(&now, &parts);
     if (name == "$A_YEAR") return number(parts.tm_year + 1900);
@@ -260,8 +265,13 @@ Value SystemVariables::datum(std::string_view name, std::span<const Value> indic
   const DataKey key = dataKey(name, indices);
   if (const auto value = control_.data.get(key)) return fromDatum(*value);
   if (name == "$TC_TP2" || name == "$TC_CARR34") return std::string();
+  if (const auto former = control::sinumerik::readFormer(control_.data, key)) return *former;
   // Tool data of an existing edge have the neutral value 0; everything else is worth a word.
-  if (!name.starts_with("$TC_") && !warned_.contains(name)) {
+  const bool ofEdge = name.starts_with("$TC_DP") && indices.size() == 2;
+  const bool exists =
+      name.starts_with("$TC_") &&
+      !(ofEdge && !control::sinumerik::toolEdge(control_.data, integerAt(indices, 0), integerAt(indices, 1)));
+  if (!exists && !warned_.contains(name)) {
     warned_.insert(std::string(name));
     control_.panel.message(control::EventKind::Warning, fmt::format("{} has no value here and reads as 0", key.text()),
                            control_.channel.seconds());
@@ -337,7 +347,10 @@ void SystemVariables::write(std::string_view name, std::span<const Value> indice
                         name == "$AC_MEA";
   if (computed) throw Alarm("12130", fmt::format("{} can only be read", name));
   const DataKey key = dataKey(name, indices);
-  if (const auto* number = std::get_if<double>(&value)) return control_.write(key, *number);
+  if (const auto* number = std::get_if<double>(&value)) {
+    if (control::sinumerik::writeFormer(control_.data, key, *number)) return;
+    return control_.write(key, *number);
+  }
   const auto before = control_.data.get(key);
   const std::string& text = std::get<std::string>(value);
   control_.data.set(key, text);
