@@ -40,6 +40,17 @@ public:
 
 private:
   Quantity number(std::string_view name) const { return call_.number(name); }
+  /// The measuring direction: S_MD, or where that is 0 or left out, the sign of the way to the set value.
+  int direction(const Quantity& toSetValue) const {
+    const int way = call_.integer("S_MD");
+    if (way != 0) return way == 1 ? 1 : -1;
+    if (!toSetValue.isNumber()) {
+      throw NotCarriedOver(
+          fmt::format("the measuring direction of {} is known only when the program runs", call_.cycle),
+          "write S_MD there: 1 plus, 2 minus");
+    }
+    return toSetValue.number() > 0 ? 1 : -1;
+  }
   double known(std::string_view name) const {
     const Quantity value = number(name);
     if (!value.isNumber()) {
@@ -163,8 +174,8 @@ private:
     MeasuringTask task = begun(Feature::Surface);
     task.axis = call_.integer("S_MA") - 1;
     if (task.axis < 0 || task.axis > 2) throw NotCarriedOver("S_MA of CYCLE978 is 1, 2 or 3");
-    task.sign = call_.integer("S_MD") == 1 ? 1 : -1;
     const auto axis = static_cast<std::size_t>(task.axis);
+    task.sign = direction(number("S_SETV") - start_[axis]);
     task.place[axis] = task.size[0] = number("S_SETV");
     tolerate(task);
     if (task.correction == Correction::Origin) task.wish[axis] = task.place[axis];
@@ -203,10 +214,12 @@ private:
     if (task.axis < 0 || task.axis > 2 || task.along < 0 || task.along > 1 || task.axis == task.along) {
       throw NotCarriedOver(fmt::format("S_MA = {}: HEIDENHAIN cycles do not measure that way", code));
     }
-    const int way = call_.integer("S_MD");
-    task.sign = way == 1 || (way == 0 && known("S_SETV") > 0) ? 1 : -1;
+    const auto axis = static_cast<std::size_t>(task.axis);
+    // With a protection zone S_SETV is a way from where the probe stands.
+    const bool zone = call_.digit("S_MVAR", 4) == 1;
+    task.sign = direction(zone ? number("S_SETV") : number("S_SETV") - start_[axis]);
     if (task.axis == 2 && task.sign > 0) throw NotCarriedOver("a touch from below is not converted");
-    const auto axis = static_cast<std::size_t>(task.axis), along = static_cast<std::size_t>(task.along);
+    const auto along = static_cast<std::size_t>(task.along);
     task.place = start_;
     task.place[2] = task.axis == 2 ? start_[2] : start_[2] + ballRadius_;
     task.place[axis] =

@@ -126,5 +126,22 @@ TEST(ConvertProtectionZones, OfEdgeAndPlaneLeadToTheSamePoints) {
   EXPECT_NE(edge(-82, "101005,,,1,19"), edge(-62, "100005,,,1,"));
 }
 
+TEST(ConvertDirections, ThatACallLeavesOpenLeadToTheSetValue) {
+  const auto converted = [](int x, const char* call) {
+    return toKlartext(fmt::format("G17 G90 G71 G54\nT1 D1 M6\nG0 X{} Y-10\nG0 Z-10\n{}\nM30\n", x, call)).text;
+  };
+  const auto body = [&](int x, const char* call) {
+    std::string rest, line;
+    for (std::istringstream lines(converted(x, call)); std::getline(lines, line);)
+      if (line.find(';') == std::string::npos || line.find('Q') != std::string::npos) rest += line + '\n';
+    return rest;
+  };
+  EXPECT_EQ(body(-60, "CYCLE978(0,,,1,-45,10,5,1,,1)"), body(-60, "CYCLE978(0,,,1,-45,10,5,1,1,1)"));
+  EXPECT_EQ(body(60, "CYCLE978(0,,,1,45,10,5,1,0,1)"), body(60, "CYCLE978(0,,,1,45,10,5,1,2,1)"));
+  EXPECT_NE(body(-60, "CYCLE978(0,,,1,-45,10,5,1,,1)"), body(-60, "CYCLE978(0,,,1,-45,10,5,1,2,1)"));
+  EXPECT_EQ(body(-60, "CYCLE998(5,,,1,-45,,,10,5,201,,20)"), body(-60, "CYCLE998(5,,,1,-45,,,10,5,201,1,20)"));
+  EXPECT_EQ(body(60, "CYCLE998(5,,,1,45,,,10,5,201,,20)"), body(60, "CYCLE998(5,,,1,45,,,10,5,201,2,20)"));
+}
+
 }  // namespace
 }  // namespace probewright::testing_support

@@ -39,6 +39,7 @@ constexpr std::array alarms = {
     AlarmEntry{61325, "Check the measuring axis or offset axis", "correct S_MA"},
     AlarmEntry{61326, "Check the measuring direction", "correct S_MD"},
     AlarmEntry{61328, "Check the D number", "the tool to be corrected has no such cutting edge"},
+    AlarmEntry{61329, "Check the rotary axis", "correct S_RA"},
     AlarmEntry{61330, "A coordinate rotation is active", "cancel the rotation before the measuring cycle"},
     AlarmEntry{61331, "Angle too large", "align the workpiece better, or enlarge TSA"},
     AlarmEntry{61332, "Change the position of the tool tip", "start the cycle from another position"},

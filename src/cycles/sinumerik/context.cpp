@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <stdexcept>
 
@@ -46,6 +47,33 @@ struct RepeatMeasurement {};
 /// The manual gives no number.
 constexpr int mostRepetitions = 4;
 
+/// What is measured, where S_MVAR tells it, with its set size: "Hole 40". Else the cycle's title.
+std::string titleOf(const Arguments& arguments) {
+  const CycleDefinition& definition = arguments.definition();
+  static constexpr int named[] = {961, 974, 977, 979, 994, 997};
+  if (std::ranges::find(named, definition.number) == std::end(named)) return std::string(definition.title);
+  const Parameter& variant = definition.parameters.front();
+  const CodeDigit& feature = variant.digits.front();
+  const int units = std::abs(arguments.integer(variant.address)) % 10;
+  const auto choice = std::ranges::find(feature.choices, units, &Choice::value);
+  if (choice == feature.choices.end()) return std::string(definition.title);
+  std::string title(choice->meaning);
+  title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
+  const auto append = [&](std::string_view name, const char* between) {
+    const Parameter* size = parameterNamed(definition, name);
+    if (size == nullptr || !(arguments.number(size->address) > 0)) return;
+    title += between + formatShortest(std::round(arguments.number(size->address) * 1e4) / 1e4);
+  };
+  const bool rectangle = definition.number == 977 && units >= 5;
+  if (rectangle) {
+    append("S_SETV0", " ");
+    append("S_SETV1", " x ");
+  } else if (definition.number != 974 || units != 0) {
+    append("S_SETV", " ");
+  }
+  return title;
+}
+
 bool scales(ValueKind kind) { return kind == ValueKind::Length || kind == ValueKind::Feed; }
 
 }  // namespace
@@ -57,7 +85,7 @@ Context::Context(Control& control, const Arguments& arguments, SourcePlace place
   const CycleDefinition& definition = arguments.definition();
   control::CycleRecord record;
   record.name = definition.name;
-  record.title = definition.title;
+  record.title = titleOf(arguments);
   record.place = std::move(place);
   for (std::size_t i = 0; i < definition.parameters.size(); ++i) {
     const Argument& value = arguments.values()[i];
@@ -220,6 +248,8 @@ void Context::resultInteger(int index, int value) {
 
 void Context::correctedTool(const std::string& name) {
   // A result, not a datum to be kept: programs read it, files do not hold it.
+  const control::sinumerik::DataKey key("_OVS_TNAME", {});
+  if (control_.data.isSet(key)) return control_.data.set(key, name);
   control_.data.setDefault("_OVS_TNAME", name);
 }
 

@@ -27,7 +27,7 @@ constexpr CodeDigit variant961[] = {{1, 1, "feature", corners961},
 
 constexpr Parameter parameters961[] = {
     parameters::variant(variant961, 6),
-    parameters::zeroOffset(1),
+    parameters::turnedOffset(1),
     parameters::dataSet(2),
     parameters::length(3, "S_SETV0", "distance of point 1 from the pole along the 1st edge, or its 1st coordinate"),
     parameters::length(4, "S_SETV1",
@@ -124,6 +124,7 @@ Plan planOf(Context& context) {
     plan.axisAngle = context.real("S_STA1");
     if (std::abs(plan.axisAngle) > 270) context.alarm(61319, "S_STA1 is between -270 and 270 degrees");
     const double opening = rightAngled ? 90 : context.real("S_INCA");
+    if (std::abs(opening) > 180) context.alarm(61319, "S_INCA is between -180 and 180 degrees");
     if (std::abs(std::sin(radiansFromDegrees(opening))) < 0.01) context.alarm(61319, "S_INCA is no angle of a corner");
     const Vector2 first = probing::directionAt(plan.axisAngle).head<2>();
     const Vector2 second = probing::directionAt(plan.axisAngle + opening).head<2>();

@@ -55,6 +55,10 @@ enum class Body { Surface = 0, RingAboutStart, Ring, Ball, Edge };
 
 constexpr double reversal = 180;
 
+constexpr const char* bentAdvice =
+    "an L-shaped probe (713) touches in a ring in plus direction of the 1st axis only: S_MVAR = 1001, S_MA = 1, S_MD = "
+    "0";
+
 /// The middle between opposite touches in two directions, and half their distances.
 struct Crosswise {
   Vector3 middle = Vector3::Zero();
@@ -114,8 +118,11 @@ private:
   double topOfBall(const Vector3& over, std::optional<double> expected);
   /// How far the balls of a star stand from its middle, by its tool data; 0 for other probes.
   double starArm() const;
+  /// An L-shaped probe.
+  bool isBent() const { return context_.control().tool.type == 713; }
   /// The radius of a ball of an L or star, as it stands in the tool data for touches along the tool.
   double ballAlongTool() const;
+  void finishAtEdge(const Vector3& edge, const Vector3& direction);
   void takeOver(const Vector3& deviation, double effective1, double effective2);
 
   Context& context_;
@@ -144,8 +151,9 @@ void Calibration976::surface() {
   const double way = open ? -1 : sign(), set = context_.real("S_SETV");
   const bool toCentre = prober_.probe().lengthToCentre || axis != 2;
   // The ball of an L is not as large as its reach in the plane.
-  const bool bent = axis == 2 && context_.control().tool.type == 713 && ballAlongTool() > 0;
-  const double radius = bent ? ballAlongTool() : radius_, reference = toCentre ? radius : 0;
+  const bool bent = axis == 2 && isBent();
+  const double ball = ballAlongTool() > 0 ? ballAlongTool() : prober_.ballRadius();
+  const double radius = bent ? ball : radius_, reference = toCentre ? radius : 0;
   if (toCentre && !(radius > 0)) context_.alarm(61351, "the radius of the ball must be known: calibrate it first");
   calibration_.list({axis}, ProbeCalibration::Listed::WithLength);
   Vector3 setpoint = start_;
@@ -195,10 +203,12 @@ void Calibration976::ring(bool centreKnown) {
   if (!(radius > 0)) context_.alarm(61319, "S_SETV, the diameter of the ring, must be greater than 0");
   calibration_.list({0, 1}, ProbeCalibration::Listed::WithDeviations);
   const int directions = centreKnown ? context_.digit("S_MVAR", 4) : 0;
+  if (isBent() && directions != 1) context_.alarm(61309, bentAdvice);
   if (directions == 1) {
     const int axis = context_.measuringAxis(2);
     const double way = sign();
     const Vector3 along = (axis == 0 ? first_ : second_) * way;
+    if (isBent() && along.x() < 1 - 1e-9) context_.alarm(61309, bentAdvice);
     const Vector3 tcp = touch(start_ + along * radius, along);
     calibration_.setTrigger(axis, way, way * (radius - along.dot(tcp - start_)));
     calibration_.completeAxis(axis, wantsDeviation());
@@ -305,6 +315,12 @@ void Calibration976::ball() {
   prober_.moveInPlane(centre);
 }
 
+/// The ball's centre to DFA in front of the edge that was touched last; where that leaves less than its radius of room,
+/// the ball stays where it is, its surface DFA away.
+void Calibration976::finishAtEdge(const Vector3& edge, const Vector3& direction) {
+  if (path_ >= 2 * radius_) prober_.moveInPlane(edge - direction * path_ - prober_.uprightTcp(direction));
+}
+
 void Calibration976::edge() {
   const int directions = context_.digit("S_MVAR", 4);
   const int axis = context_.measuringAxis(2);
@@ -315,6 +331,7 @@ void Calibration976::edge() {
     Vector3 setpoint = start_;
     setpoint[axis] = set;
     calibration_.setTrigger(axis, way, set - touch(setpoint, probing::axisDirection(axis, way))[axis]);
+    finishAtEdge(setpoint, probing::axisDirection(axis, way));
   } else if (directions == 2) {
     if (!(set > 0)) context_.alarm(61319, "S_SETV, the distance of the edges, must be greater than 0");
     const Vector3 along = Vector3::Unit(axis);
@@ -334,6 +351,7 @@ void Calibration976::edge() {
     if (reversed) deviation = (*reversed - middle) / 2;
     calibration_.setTrigger(axis, 1, deviation + set / 2 - half);
     calibration_.setTrigger(axis, -1, deviation - (set / 2 - half));
+    finishAtEdge(start_ - along * set / 2, -along);
   } else {
     context_.alarm(61307, "thousands of S_MVAR: 1 one direction, 2 two directions");
   }

@@ -19,7 +19,8 @@ constexpr Parameter parameters978[] = {
     parameters::measuringPath(5),
     parameters::safeArea(6),
     parameters::count<3>(7, "S_MA", "measuring axis: 1, 2 in the plane, 3 along the tool"),
-    parameters::count<2>(8, "S_MD", "measuring direction: 1 plus, 2 minus"),
+    parameters::count<2>(8, "S_MD",
+                         "measuring direction: 1 plus, 2 minus; 0: from where the probe stands to the set value"),
     parameters::repetitions(9),
     parameters::toolName(10),
     parameters::dlNumber(11),
@@ -60,14 +61,12 @@ void cycle978(Context& context, const Arguments&) {
   requireCalibrationFor(context, method);
   const int axis = context.measuringAxis(3);
   if (axis == 2 && method != Method::Standard) context.alarm(61307, "along the tool only the standard method measures");
-  const int way = context.integer("S_MD");
-  if (way != 1 && way != 2) context.alarm(61326, "S_MD is 1 (plus) or 2 (minus)");
-  const double sign = way == 1 ? 1 : -1;
   const auto target = task == Task::ZeroOffset ? frameTarget(context, GlobalBase::Allowed) : std::nullopt;
 
   const double empirical = task == Task::MeasureOnly ? 0 : empiricalValue(context);
   const double set = setValueOf(context, task, context.real("S_SETV"));
   Vector3 setpoint = context.prober().position();
+  const double sign = measuringDirection(context, set - setpoint[axis]);
   setpoint[axis] = set;
   Toucher toucher(context, method);
   const MeasuredPoint point = toucher.measure(setpoint, probing::axisDirection(axis, sign), context.real("S_FA"));

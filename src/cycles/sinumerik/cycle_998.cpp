@@ -21,18 +21,18 @@ constexpr CodeDigit variant998[] = {{1, 1, "feature", features998},
 
 constexpr Parameter parameters998[] = {
     parameters::variant(variant998, 5),
-    parameters::zeroOffset(1),
+    parameters::turnedOffset(1),
     parameters::code(2, "S_RA", "0: correct the rotation; otherwise number of the rotary axis to correct"),
     parameters::dataSet(3),
     parameters::length(4, "S_SETV",
-                       "way towards the surface to the measuring height (protection zone); its sign is the "
-                       "measuring direction where S_MD leaves it open"),
+                       "with protection zone: way to the measuring height; its sign, without zone its way from where "
+                       "the probe stands, is the measuring direction where S_MD leaves it open"),
     parameters::angle(5, "S_STA1", "set angle of the edge, or of the plane about the 1st axis"),
     parameters::angle(6, "S_INCA", "set angle of the plane about the 2nd axis"),
     parameters::measuringPath(7),
     parameters::angle(8, "S_TSA", "safe area: a larger deviation of the angle stops the program"),
     parameters::code(9, "S_MA", "units: measuring axis, hundreds: offset axis", 201),
-    parameters::count<2>(10, "S_MD", "measuring direction: 0 by S_SETV, 1 plus, 2 minus"),
+    parameters::count<2>(10, "S_MD", "measuring direction: 1 plus, 2 minus; 0: by S_SETV"),
     parameters::length(11, "S_ID", "edge: distance of the points in the offset axis"),
     parameters::length(12, "S_SETV0", "plane: distance from point 1 to point 2 in the 1st axis"),
     parameters::length(13, "S_SETV1", "not used"),
@@ -110,6 +110,9 @@ public:
     context_.prober().moveTo(home_ + infeedVector());
   }
 
+  /// To DFA in front of the surface at `point`, where the last touch was.
+  void finishAt(const Vector3& point) { context_.prober().moveTo(toucher_.startOf(point, direction_, path_)); }
+
   /// With a protection zone: above where the cycle started.
   void leave() { leave(Vector3::Zero()); }
 
@@ -154,11 +157,10 @@ void measureEdge(Context& context, const std::optional<FrameTarget>& target, Met
       context.digit("S_MA", 2) != 0) {
     context.alarm(61325, fmt::format("S_MA = {}", context.integer("S_MA")));
   }
-  const int way = context.integer("S_MD");
-  if (way < 0 || way > 2 || (way == 0 && context.real("S_SETV") == 0)) {
-    context.alarm(61326, "S_MD is 1 (plus) or 2 (minus), or S_SETV has the sign of the direction");
-  }
-  const double sign = way == 1 || (way == 0 && context.real("S_SETV") > 0) ? 1 : -1;
+  // With a protection zone S_SETV is a way that begins where the probe stands, else the place of the edge.
+  const bool zone = context.digit("S_MVAR", 4) == 1;
+  const double from = zone ? 0 : context.prober().position()[measuring];
+  const double sign = measuringDirection(context, context.real("S_SETV") - from);
   const double distance = context.real("S_ID"), set = context.real("S_STA1");
   if (!(distance > 0)) context.alarm(61319, "S_ID, the distance of the points, must be greater than 0");
   if (std::abs(set) > greatestAngle) context.alarm(61319, "S_STA1 is between -45 and 45 degrees");
@@ -182,6 +184,7 @@ void measureEdge(Context& context, const std::optional<FrameTarget>& target, Met
           ? steps.beside(along * distance)
           : steps.along(first, along * distance, sense * distance * tangent(set), context.real("S_TSA"));
   toucher.finish();
+  steps.finishAt(second);
   context.setWayBack([&] { steps.leave(); });
 
   const double actual = degreesFromRadians(sense * std::atan2(across.dot(second - first), along.dot(second - first)));
@@ -209,7 +212,7 @@ Matrix3 planeOrientation(double aboutFirst, double aboutSecond) {
 void measurePlane(Context& context, const std::optional<FrameTarget>& target, Method method) {
   if (method != Method::Standard)
     context.alarm(61307, "a plane is measured along the tool by the standard method only");
-  if (context.integer("S_RA") != 0) context.alarm(61325, "a plane corrects rotations only: S_RA = 0");
+  if (context.integer("S_RA") != 0) context.alarm(61329, "a plane corrects rotations only: S_RA = 0");
   const double setFirst = context.real("S_STA1"), setSecond = context.real("S_INCA");
   if (std::abs(setFirst) > 60) context.alarm(61319, "S_STA1 of a plane is between -60 and 60 degrees");
   if (std::abs(setSecond) > 30) context.alarm(61319, "S_INCA is between -30 and 30 degrees");

@@ -294,6 +294,13 @@ void outputResults(Control& control, CycleRecord& record, int alarm) {
   if (output.programLog) write(*output.programLog);
 
   const int display = output.display.value_or(static_cast<int>(control.data.number("$SCS_MEA_RESULT_DISPLAY", {}, 0)));
+  if (display != 0 && display != 1 && display != 3 && display != 4) {
+    const std::string text =
+        fmt::format("$SCS_MEA_RESULT_DISPLAY = {}: the result screen knows 0, 1, 3 and 4, and stays off", display);
+    const auto told = [&](const control::EventRecord& event) { return event.text == text; };
+    if (std::ranges::none_of(control.journal.events, told))
+      control.panel.message(control::EventKind::Warning, text, control.channel.seconds());
+  }
   const bool limitsExceeded = alarm >= 61303 && alarm <= 61306;
   const bool waits = display == 3 || (display == 4 && limitsExceeded);
   if (!waits && display != 1 && !control.panel.showAllResults) return;

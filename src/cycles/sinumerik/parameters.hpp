@@ -105,6 +105,13 @@ inline constexpr Choice zeroOffsetKinds[] = {{0, "settable zero offset"},
                                              {9, "active zero offset"}};
 inline constexpr CodeDigit zeroOffsetDigits[] = {
     {1, 2, "number"}, {4, 1, "kind", zeroOffsetKinds}, {5, 1, "part", fineOrCoarse}};
+/// Of cycles that correct rotations: global basic zero offsets have none.
+inline constexpr Choice turnedOffsetKinds[] = {{0, "settable zero offset"},
+                                               {1, "basic zero offset of the channel"},
+                                               {2, "base reference"},
+                                               {9, "active zero offset"}};
+inline constexpr CodeDigit turnedOffsetDigits[] = {
+    {1, 2, "number"}, {4, 1, "kind", turnedOffsetKinds}, {5, 1, "part", fineOrCoarse}};
 
 inline constexpr Choice toolMemories[] = {{0, "wear"},
                                           {1, "additive offset"},
@@ -126,6 +133,10 @@ inline constexpr CodeDigit turnedToolDigits[] = {{1, 3, "D"},
 
 constexpr Parameter zeroOffset(std::uint32_t address) {
   return coded(address, "S_KNUM", "zero offset to correct", zeroOffsetDigits);
+}
+/// Of cycles that correct rotations.
+constexpr Parameter turnedOffset(std::uint32_t address) {
+  return coded(address, "S_KNUM", "zero offset to correct", turnedOffsetDigits);
 }
 /// Of milling cycles, of turning cycles.
 constexpr Parameter toolToCorrect(std::uint32_t address) {
@@ -170,14 +181,15 @@ constexpr Parameter weight(std::uint32_t address) { return code(address, "S_K", 
 constexpr Parameter memories(std::uint32_t address) {
   return code(address, "S_EVNUM", "number of the empirical value plus 10000 times the number of the mean value");
 }
-constexpr Parameter reserved(std::uint32_t address) { return code(address, "S_MCBIT", "reserved"); }
+inline constexpr std::string_view reservedMeaning = "reserved";
+constexpr Parameter reserved(std::uint32_t address) { return code(address, "S_MCBIT", reservedMeaning); }
 constexpr Parameter plane(std::uint32_t address) {
   return count<3>(address, "_DMODE", "plane: 0 as active, 1 G17, 2 G18, 3 G19");
 }
 constexpr Parameter tolerance(std::uint32_t address) {
-  return count<1>(address, "_AMODE", "1: S_TUL and S_TLL are a tolerance");
+  return count<1>(address, "_AMODE", "1: S_TUL and S_TLL are a tolerance; cycles newer than 4.4 have more digits");
 }
-constexpr Parameter alternative(std::uint32_t address) { return code(address, "_AMODE", "reserved"); }
+constexpr Parameter alternative(std::uint32_t address) { return code(address, "_AMODE", reservedMeaning); }
 
 /// The two lists one after the other.
 template <std::size_t A, std::size_t B>

@@ -35,6 +35,10 @@ ProbeCalibration::ProbeCalibration(Context& context) : context_(context), dataSe
 
 double ProbeCalibration::assumedRadius() const {
   const double calibrated = context_.prober().ballRadius();
+  if (bent()) {
+    const double reach = context_.prober().probe().triggerPlus[0];
+    return reach > 0 ? reach : context_.control().tool.radius + calibrated;
+  }
   return calibrated > 0 ? calibrated : context_.control().tool.radius;
 }
 
@@ -58,6 +62,8 @@ void ProbeCalibration::setDeviation(int axis, double value) {
   changes_.push_back({fmt::format("$SNS_MEA_WP_POS_DEV_AX{}", axis + 1), 20 + axis, value, false});
 }
 
+bool ProbeCalibration::bent() const { return context_.control().tool.type == 713; }
+
 double ProbeCalibration::trigger(int axis, double sign) const {
   const std::string name = triggerName(axis, sign);
   const auto found = std::ranges::find(changes_, name, &Change::name);
@@ -71,6 +77,10 @@ void ProbeCalibration::completeAxis(int axis, bool deviation) {
     if (deviation) {
       changes_.push_back({fmt::format("$SNS_MEA_WP_POS_DEV_AX{}", axis + 1), 20 + axis, (plus + minus) / 2, false});
     }
+  } else if (bent()) {
+    // The ball sits at the end of the arm, whose length the tool data have.
+    const double radius = std::abs(plus + minus) - context_.control().tool.radius;
+    if (radius > 0) setBallDiameter(2 * radius);
   } else {
     setBallDiameter(2 * std::abs(plus + minus));
   }
@@ -131,7 +141,8 @@ void ProbeCalibration::store() {
 
   for (const Change& change : changes_) {
     control.write(DataKey(change.name, {dataSet_}), change.value);
-    if (change.name == ballDiameterName && maskBit(control.data, "$SNS_MEA_FUNCTION_MASK", 3)) {
+    // $TC_DP6 of an L is the length of its arm.
+    if (change.name == ballDiameterName && !bent() && maskBit(control.data, "$SNS_MEA_FUNCTION_MASK", 3)) {
       control.write(DataKey("$TC_DP6", {control.tool.number, control.tool.edge}), change.value / 2);
     }
   }

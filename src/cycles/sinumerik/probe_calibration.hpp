@@ -45,7 +45,8 @@ class ProbeCalibration {
 public:
   explicit ProbeCalibration(Context& context);
 
-  /// The radius that start positions are reckoned with: as calibrated before, else as in the tool data.
+  /// The radius that start positions are reckoned with: as calibrated before, else as in the tool data. Of an L-shaped
+  /// probe its reach: arm and ball.
   double assumedRadius() const;
   /// The tool centre point at the signal, mean of S_NMSP touches, with the feed of this calibration (S_VMS, or setting
   /// data). `assumed`: from the tool centre point to the surface.
@@ -71,6 +72,8 @@ public:
 
 private:
   double trigger(int axis, double sign) const;
+  /// An L-shaped probe.
+  bool bent() const;
   void showUnchanged();
   std::string lengthName(int axis) const;
   /// What is calibrated, into SD 54609 and 54610: a digit for each axis of the plane from the units on (1 minus, 2

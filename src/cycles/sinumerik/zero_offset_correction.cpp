@@ -141,6 +141,7 @@ std::optional<FrameTarget> frameTarget(Context& context, GlobalBase globalBase) 
       if (control.frames.settable > 0) {
         target.name = "$P_UIFR";
         target.number = control.frames.settable;
+        target.shown = control.frames.settable;
         return target;
       }
       target.name = "$P_CHBFR";
@@ -148,6 +149,7 @@ std::optional<FrameTarget> frameTarget(Context& context, GlobalBase globalBase) 
       for (const DataKey& key : control.baseFrameKeys()) {
         if (key.name == "$P_CHBFR") target.number = static_cast<int>(parseInteger(key.indices.front()).value_or(0));
       }
+      target.shown = 1001 + *target.number;
       return target;
     }
     default:
@@ -208,7 +210,7 @@ double rotaryEffect(Context& context, std::size_t axis, const Vector3& direction
   const Control& control = context.control();
   const machine::MachineDescription& description = context.channel().description();
   if (axis >= description.axes.size() || description.axes[axis].kind != machine::AxisKind::Rotary) {
-    context.alarm(61325, fmt::format("channel axis {} is not a rotary axis (S_RA)", axis + 1));
+    context.alarm(61329, fmt::format("channel axis {} is not a rotary axis (S_RA)", axis + 1));
   }
   machine::AxisPositions here = context.channel().axes();
   machine::AxisPositions turned = here;
@@ -220,7 +222,7 @@ double rotaryEffect(Context& context, std::size_t axis, const Vector3& direction
       (control.machineFromWorkpiece().linear() * control.workingPlane().xyzFromPlane(direction)).normalized();
   const double effect = degreesFromRadians(perDegree.angle()) * perDegree.axis().dot(about);
   if (std::abs(effect) < 0.999) {
-    context.alarm(61325, fmt::format("axis {} does not turn the workpiece about the axis at right angles to measuring "
+    context.alarm(61329, fmt::format("axis {} does not turn the workpiece about the axis at right angles to measuring "
                                      "and offset axis (S_RA)",
                                      description.axes[axis].name));
   }

@@ -164,11 +164,20 @@ std::vector<ArgumentMistake> argumentMistakes(const Block& block, const CallProg
   }
 
   const auto most = static_cast<std::uint32_t>(cycle.parameters.size());
-  if (call.arguments.count > most) {
+  // Newer versions of the cycles have more arguments; one that is empty or 0 asks for nothing.
+  bool asksForMore = false;
+  for (std::uint32_t place = most; place < call.arguments.count; ++place) {
+    const Given given = reader.at(place);
+    asksForMore = asksForMore || (given.kind != Kind::Absent && given.number != 0 &&
+                                  !(given.kind == Kind::Text && given.text.empty()));
+  }
+  if (asksForMore) {
     found.push_back(
         {reader.columnOf(most),
-         fmt::format("{} takes at most {} arguments, here are {}; the last is argument {}, {} ({})", cycle.name, most,
-                     call.arguments.count, most, cycle.parameters.back().name, cycle.parameters.back().meaning),
+         fmt::format("{} takes at most {} arguments in version 4.4 of the measuring cycles, here are {}; the last is "
+                     "argument {}, {} ({})",
+                     cycle.name, most, call.arguments.count, most, cycle.parameters.back().name,
+                     cycle.parameters.back().meaning),
          advice});
   }
   return found;
