@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cycles/catalogue.hpp"
+#include "cycles/sinumerik/old_form.hpp"
 #include "language/sinumerik/argument_check.hpp"
 #include "language/sinumerik/cursor.hpp"
 #include "language/sinumerik/global_data.hpp"
@@ -64,6 +65,8 @@ private:
   Diagnostics found_;
   std::set<std::string> declared_;
   bool callsHook_ = false;             ///< a measuring cycle calls CUST_MEACYC
+  bool callsPrograms_ = false;         ///< other programs, which may write variables for this one
+  bool oldParameters_ = false;         ///< _MVAR was met: cycles may be called without arguments
   std::map<std::string, Type> types_;  ///< of those whose DEF or PROC line tells it
   std::set<std::string> macros_;
   bool begun_ = false;                         ///< a block was met that is carried out
@@ -141,6 +144,7 @@ void Checker::checkNames() {
     if (variable.space == VariableSpace::R) continue;
     const std::string name(block_.at(variable.name));
     if (variable.space == VariableSpace::User) {
+      oldParameters_ = oldParameters_ || name == "_MVAR";
       const bool defined = options_.globalData != nullptr && options_.globalData->find(name) != nullptr;
       const bool known = declared_.contains(name) || isGlobalUserData(name) || defined ||
                          options_.globalVariables.contains(name) || macros_.contains(name);
@@ -268,6 +272,7 @@ void Checker::checkCall(const CallProgram& call) {
       return report(columnOf(path), fmt::format("the program {} cannot be read: {}", name, why.message), why.advice);
     }
     this->called.push_back(*found);
+    callsPrograms_ = true;
     if (call.from.length != 0) return checkSection(call, **found);
     if (auto* subprogram = dynamic_cast<SinumerikProgram*>(found->get());
         subprogram != nullptr && subprogram->structure().header())
@@ -278,6 +283,9 @@ void Checker::checkCall(const CallProgram& call) {
   if (call.maybeCycle) {
     if (const cycles::CycleDefinition* cycle = cycles::sinumerikCycle(name)) {
       callsHook_ = true;
+      // A subprogram and a program that calls others may find the variables written.
+      const bool oldForm = call.arguments.count == 0 && cycles::sinumerik::hasOldForm(*cycle);
+      if (oldForm && (oldParameters_ || callsPrograms_ || upperCase(program_.file()).ends_with(".SPF"))) return;
       return checkArguments(argumentMistakes(block_, call, *cycle, types_));
     }
     if (name == "CYCLE800" || name == "CYCLE116") return checkArguments(serviceMistakes(block_, call, name, types_));

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "control/alarm.hpp"
 #include "control/sinumerik/text.hpp"
 #include "cycles/catalogue.hpp"
 #include "cycles/sinumerik/context.hpp"
+#include "cycles/sinumerik/old_form.hpp"
 #include "cycles/sinumerik/registry.hpp"
 #include "language/sinumerik/check.hpp"
 #include "language/sinumerik/cursor.hpp"
@@ -67,15 +69,26 @@ void SinumerikHost::runCycle(std::string_view name, WordRange range, Evaluation&
   for (const Word& word : evaluation.words(range)) {
     if (!word.value.present()) continue;
     const cycles::Parameter* parameter = definition.parameter(word.address);
-    if (parameter == nullptr)
-      throw Alarm("14020", fmt::format("{} takes at most {} arguments", name, definition.parameters.size()),
-                  fmt::format("see 'probewright cycles {}'", name));
     const Value value = evaluation.value(word.value);
+    if (parameter == nullptr) {
+      // Newer versions of the cycles have more; what is empty or 0 asks for nothing.
+      if (value == Value(0.0) || value == Value(std::string())) continue;
+      throw Alarm("14020",
+                  fmt::format("{} takes at most {} arguments in version 4.4 of the measuring cycles", name,
+                              definition.parameters.size()),
+                  fmt::format("leave out what newer versions have more; see 'probewright cycles {}'", name));
+    }
     if (const auto* text = std::get_if<std::string>(&value)) {
       arguments.set(word.address, *text);
     } else {
       arguments.set(word.address, std::get<double>(value));
     }
+  }
+  std::optional<cycles::sinumerik::OldFeed> feed;
+  if (range.count == 0 && cycles::sinumerik::hasOldForm(definition) &&
+      cycles::sinumerik::hasOldParameters(control_.data)) {
+    arguments = cycles::sinumerik::argumentsOfOldForm(definition, control_);
+    feed.emplace(control_);
   }
   const bool measures = entry->run != nullptr;
   if (measures) callMachineBuilder(definition.number, Occasion::BeforeMeasuring);

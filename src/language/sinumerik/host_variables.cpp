@@ -7,6 +7,7 @@
 #include "control/alarm.hpp"
 #include "control/sinumerik/measuring_data.hpp"
 #include "control/sinumerik/text.hpp"
+#include "cycles/sinumerik/old_form.hpp"
 #include "language/sinumerik/check.hpp"
 #include "language/sinumerik/functions.hpp"
 #include "language/sinumerik/global_data.hpp"
@@ -212,7 +213,12 @@ bool SinumerikHost::writeGlobal(std::string_view name, std::span<const Value> in
   if (number != nullptr && control::sinumerik::writeGud(control_.data, key, *number)) return true;
   if (!isGlobalUserData(name) && !control_.data.get(key) && control_.data.keys(name).empty()) return false;
   if (number != nullptr) {
-    control_.write(key, *number);
+    // Parameters of a call are no corrections of the control's data.
+    if (cycles::sinumerik::isOldParameter(name)) {
+      control_.data.set(key, *number);
+    } else {
+      control_.write(key, *number);
+    }
   } else {
     control_.data.set(key, std::get<std::string>(value));
   }

@@ -9,15 +9,16 @@ namespace probewright::sinumerik {
 namespace {
 
 constexpr std::string_view globals[] = {
-    "_OVR",     "_OVI",  "_EV",         "_MV",          "_EVMVNUM",    "_WP",       "_TP",      "_TPW",
-    "_KB",      "_CM",   "_CBIT",       "_CHBIT",       "_SPEED",      "_CVAL",     "_MFS",     "_TP_CF",
-    "_MT_COMP", "_TXT",  "_PROTNAME",   "_HEADLINE",    "_PROTFORM",   "_PROTSYM",  "_PROTVAL", "_PMI",
-    "_SP_B",    "_JM_I", "_JM_B",       "_MC_MA",       "_MC_SIMDIFF", "_KNUM",     "_MVAR",    "_PRNUM",
-    "_SETVAL",  "_MA",   "_MD",         "_FA",          "_TSA",        "_VMS",      "_NMSP",    "_TNAME",
-    "_TZL",     "_TMV",  "_TUL",        "_TLL",         "_TDIF",       "_K",        "_EVNUM",   "_CALNUM",
-    "_SETV",    "_ID",   "_INCA",       "_STA1",        "_RA",         "_CPA",      "_FINISH",  "_SEMIFIN",
-    "_ROUGH",   "_OFF",  "_ORI_FINISH", "_ORI_SEMIFIN", "_ORI_ROUGH",  "_CYCLE832", "_CPO",     "_SZA",
-    "_SZO",     "_RF",   "_TENV",       "_DLNUM",       "_CORA",       "_TNUM",     "_TNVL",
+    "_OVR",     "_OVI",     "_EV",         "_MV",          "_EVMVNUM",    "_WP",       "_TP",      "_TPW",
+    "_KB",      "_CM",      "_CBIT",       "_CHBIT",       "_SPEED",      "_CVAL",     "_MFS",     "_TP_CF",
+    "_MT_COMP", "_TXT",     "_PROTNAME",   "_HEADLINE",    "_PROTFORM",   "_PROTSYM",  "_PROTVAL", "_PMI",
+    "_SP_B",    "_JM_I",    "_JM_B",       "_MC_MA",       "_MC_SIMDIFF", "_KNUM",     "_MVAR",    "_PRNUM",
+    "_SETVAL",  "_MA",      "_MD",         "_FA",          "_TSA",        "_VMS",      "_NMSP",    "_TNAME",
+    "_TZL",     "_TMV",     "_TUL",        "_TLL",         "_TDIF",       "_K",        "_EVNUM",   "_CALNUM",
+    "_SETV",    "_ID",      "_INCA",       "_STA1",        "_RA",         "_CPA",      "_FINISH",  "_SEMIFIN",
+    "_ROUGH",   "_OFF",     "_ORI_FINISH", "_ORI_SEMIFIN", "_ORI_ROUGH",  "_CYCLE832", "_CPO",     "_SZA",
+    "_SZO",     "_RF",      "_TENV",       "_DLNUM",       "_CORA",       "_TNUM",     "_TNVL",    "_OVS_TNAME",
+    "_ALM",     "_MT_EC_R", "_MT_EC_L",
 };
 
 }  // namespace
