@@ -107,6 +107,21 @@ Seen steepEdge() {
       {-14, 0, -10});
 }
 
+Seen wrongRotaryAxis() {
+  simulation::Truth truth = perfectWorld();
+  place(truth, simulation::Box({0, -60, -60}, {80, 60, 0}), translation({0, 0, table}));
+  return Provoker(truth).seen("CYCLE998",
+                              {{"S_MVAR", 100105},
+                               {"S_KNUM", 1},
+                               {"S_RA", 2},
+                               {"S_FA", 12},
+                               {"S_TSA", 80},
+                               {"S_MA", 201},
+                               {"S_MD", 1},
+                               {"S_ID", 5}},
+                              {-14, 0, -10});
+}
+
 Seen ballWithoutRadius() {
   Provoker bench;
   bench.set("$TC_DP6", {1, 1}, 0);
@@ -250,6 +265,7 @@ const Row rows[] = {
      [] {
        return edge({{"S_MVAR", 200}, {"S_KNUM1", 2}});
      }},
+    {61329, "rotary axis", wrongRotaryAxis},
     {61330, "rotation", [] { return turned("CYCLE974(2,,,1,40,2,4,1,,1)", "ROT Y10"); }},
     {61331, "angle too large", steepEdge},
     {61332, "position of the tool tip", [] { return turned("CYCLE974(2,,,1,130,2,4,1,,1)"); }},

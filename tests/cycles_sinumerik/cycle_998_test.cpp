@@ -154,12 +154,13 @@ TEST(Cycle998, RefusesWithTheControlsAlarms) {
   EXPECT_EQ(alarm({{"S_MVAR", 205}}), "61307") << "there is no tool correction";
   EXPECT_EQ(alarm({{"S_MVAR", 120105}}), "61307");
   EXPECT_EQ(alarm({{"S_MA", 101}}), "61325");
-  EXPECT_EQ(alarm({{"S_MD", 0}}), "61326");
+  EXPECT_EQ(alarm({{"S_MD", 3}}), "61326");
+  EXPECT_EQ(alarm({{"S_MD", 0}, {"S_SETV", -10}}), "61326") << "the probe stands at the set value";
   EXPECT_EQ(alarm({{"S_ID", 0}}), "61319");
   EXPECT_EQ(alarm({{"S_STA1", 46}}), "61319");
   EXPECT_EQ(alarm({{"S_KNUM", 3001}}), "61322");
   EXPECT_EQ(alarm({{"S_TSA", 1}}), "61303");
-  EXPECT_EQ(alarm({{"S_RA", 1}}), "61325");
+  EXPECT_EQ(alarm({{"S_RA", 1}}), "61329");
   EXPECT_EQ(bench.data("$P_UIFR", {1, "Z", "RT"}), 0) << "an alarm writes nothing";
   EXPECT_EQ(alarm({}), "");
   EXPECT_NEAR(bench.data("$P_UIFR", {1, "Z", "RT"}), 2, 1e-9);

@@ -132,11 +132,11 @@ TEST(EveryCycleRefuses, WrongTargetsAndLimitsBeforeAnythingMoves) {
       {"997 three balls", "61322", 1, {{"S_KNUM", 3001}}},
       {"997 three balls", "61319", 1, {{"S_KNUM", 1}, {"S_SETV7", 5.0 / 3}, {"S_SETV8", 10.0 / 3}}},
       {"998 edge", "61319", 1, {{"S_KNUM", 1}, {"S_EVNUM", 21}}},
-      {"998 edge", "61325", 1, {{"S_KNUM", 1}, {"S_RA", 1}}},
-      {"998 edge", "61325", 1, {{"S_KNUM", 1}, {"S_RA", 9}}},
+      {"998 edge", "61329", 1, {{"S_KNUM", 1}, {"S_RA", 1}}},
+      {"998 edge", "61329", 1, {{"S_KNUM", 1}, {"S_RA", 9}}},
       {"998 edge", "61325", 1, {{"S_MA", 101}}},
       {"998 plane", "61319", 1, {{"S_KNUM", 1}, {"S_EVNUM", 21}}},
-      {"998 plane", "61325", 1, {{"S_KNUM", 1}, {"S_RA", 4}}},
+      {"998 plane", "61329", 1, {{"S_KNUM", 1}, {"S_RA", 4}}},
   };
   const std::vector<Variant> known = everyCall();
   for (const auto& [name, alarm, task, call] : cases) {

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "cycles/catalogue.hpp"
@@ -51,8 +52,7 @@ TEST(SinumerikArguments, MissingOnesAreNamedByPlaceNameAndMeaning) {
       (Messages{std::string("1:18 argument 6 of CYCLE978: ") + path + " is missing",
                 "1:18 warning: argument 7 of CYCLE978: S_TSA (safe area: a larger difference from the set value stops "
                 "the program) is missing: the smallest difference stops the program",
-                "1:18 argument 8 of CYCLE978: S_MA (measuring axis: 1, 2 in the plane, 3 along the tool) is missing",
-                "1:18 argument 9 of CYCLE978: S_MD (measuring direction: 1 plus, 2 minus) is missing"}));
+                "1:18 argument 8 of CYCLE978: S_MA (measuring axis: 1, 2 in the plane, 3 along the tool) is missing"}));
   // Where it should stand, if that place is there.
   EXPECT_EQ(mistakesIn("N10 CYCLE978(0,,,1,20, ,1,1,1) ; (5,5)\n"),
             (Messages{std::string("1:24 argument 6 of CYCLE978: ") + path + " is missing"}));
@@ -102,9 +102,11 @@ TEST(SinumerikArguments, NeitherSignNorKindMayBeWrong) {
   EXPECT_EQ(
       mistakesIn("CYCLE978(200,,1,1,20,5,1,1,1,1,R5)\n"),
       (Messages{"1:32 argument 11 of CYCLE978: S_TNAME (name of the tool to correct) takes a text, not a number"}));
-  EXPECT_EQ(mistakesIn("CYCLE978(0,,,1,20,5,1,1,1.5)\n"),
-            (Messages{"1:25 argument 9 of CYCLE978: S_MD (measuring direction: 1 plus, 2 minus) takes a whole number, "
-                      "not 1.5"}));
+  EXPECT_EQ(
+      mistakesIn("CYCLE978(0,,,1,20,5,1,1,1.5)\n"),
+      (Messages{"1:25 argument 9 of CYCLE978: S_MD (measuring direction: 1 plus, 2 minus; 0: from where the probe "
+                "stands to the set value) takes a whole number, "
+                "not 1.5"}));
 }
 
 TEST(SinumerikArguments, CorrectionsWithoutATargetAreNamed) {
@@ -114,6 +116,62 @@ TEST(SinumerikArguments, CorrectionsWithoutATargetAreNamed) {
   EXPECT_EQ(mistakesIn("CYCLE978(200,,0,1,20,5,1,1,1)\n"),
             (Messages{"1:15 warning: argument 3 of CYCLE978: S_KNUM1 (tool offset to correct) cannot be 0 here: S_MVAR "
                       "asks for a correction, and nothing is corrected"}));
+}
+
+TEST(SinumerikArguments, ValuesThatNoRunTakesAreNamed) {
+  /// The parameters that are refused in a call.
+  const auto refused = [](const std::string& call) {
+    std::string names;
+    for (const std::string& message : mistakesIn(call + "\n")) {
+      if (message.find("warning") != std::string::npos) continue;
+      const std::size_t at = message.find(": ") + 2;
+      names += message.substr(at, message.find(' ', at) - at) + ' ';
+    }
+    return names;
+  };
+  EXPECT_EQ(refused("CYCLE977(3,,,1,40,,,8,4,,,,,3)"), "S_MA ");
+  EXPECT_EQ(refused("CYCLE977(3,,,1,40,,,8,4,,,,,2)"), "");
+  EXPECT_EQ(refused("CYCLE977(201,,1,1,40,,,8,4,,,,,,,\"MILL\",,,,,,,1,21)"), "S_EVNUM ");
+  EXPECT_EQ(refused("CYCLE977(201,,1,1,40,,,8,4,,,,,,,\"MILL\",,,,,,,1,210000)"), "S_EVNUM ");
+  EXPECT_EQ(refused("CYCLE977(201,,1,1,40,,,8,4,,,,,,,\"MILL\",,,,,,,1,200020)"), "");
+  EXPECT_EQ(refused("CYCLE978(100,1,,1,20,5,1,1,1,1,,,,,,,,,21)"), "S_EVNUM ");
+  for (const char* axes : {"101", "1", "211", "104", "401"})
+    EXPECT_EQ(refused(fmt::format("CYCLE998(105,1,,1,,,,8,4,{},1,20)", axes)), "S_MA ") << axes;
+  for (const char* axes : {"201", "102", "301", "203"})
+    EXPECT_EQ(refused(fmt::format("CYCLE998(105,1,,1,,,,8,4,{},1,20)", axes)), "") << axes;
+  EXPECT_EQ(refused("CYCLE998(105,1,,1,,45.5,,8,4,201,1,20)"), "S_STA1 ");
+  EXPECT_EQ(refused("CYCLE998(105,1,,1,,-45,,8,4,201,1,20)"), "");
+  EXPECT_EQ(refused("CYCLE998(106,1,,1,,70,40,8,4,,,,20,,,20)"), "S_STA1 S_INCA ");
+  EXPECT_EQ(refused("CYCLE998(105,3001,,1,,,,8,4,201,1,20)"), "S_KNUM ");
+  EXPECT_EQ(refused("CYCLE961(106,3001,1,10,20,10,,,,,,,,,,,8,4)"), "S_KNUM ");
+  EXPECT_EQ(refused("CYCLE961(106,1,1,10,20,10,,,,,,,,271,,,8,4)"), "S_STA1 ");
+  EXPECT_EQ(refused("CYCLE961(107,1,1,10,20,10,20,,,,,,,,181,,8,4)"), "S_INCA ");
+  EXPECT_EQ(refused("CYCLE979(1,,,1,40,5,2,0,0,361,121)"), "S_STA1 S_INCA ");
+  EXPECT_EQ(refused("CYCLE979(1001,,,1,40,5,2,0,0,360,91)"), "S_INCA ");
+  EXPECT_EQ(refused("CYCLE997(101009,,1,25,8,4,,91)"), "S_INCA ");
+  EXPECT_EQ(refused("CYCLE976(1001,1,40,,3,0,8,4)"), "S_MA ");
+  EXPECT_EQ(refused("CYCLE976(1000,1,0,,3,1,8,4)"), "");
+}
+
+TEST(SinumerikArguments, WhatTheVersionReservesIsNamed) {
+  EXPECT_EQ(
+      mistakesIn("CYCLE997(9,,1,25,8,4,,,,,,,,,,,,,,,1,10)\n"),
+      (Messages{"1:38 warning: argument 22 of CYCLE997: _AMODE = 10 is not observed: version 4.4 of the measuring "
+                "cycles reserves it"}));
+  EXPECT_EQ(mistakesIn("CYCLE997(9,,1,25,8,4,,,,,,,,,,,,,,0,1,0)\n"), Messages{});
+}
+
+TEST(SinumerikArguments, CallsOfTheOldFormTakeVariables) {
+  EXPECT_EQ(mistakesIn("_MVAR=101 _SETVAL=40 _FA=8 _TSA=4 _KNUM=1\n"
+                       "CYCLE977\n"
+                       "CYCLE977()\n"
+                       "IF _OVS_TNAME==\"MILL\"\nM0\nENDIF\n_ALM=0\nM30\n"),
+            Messages{});
+  EXPECT_EQ(mistakesIn("CYCLE978\n_MVAR=100\nM30\n"),
+            (Messages{"1:1 warning: argument 7 of CYCLE978: S_TSA (safe area: a larger difference from the set value "
+                      "stops the program) is missing: the smallest difference stops the program",
+                      "1:1 argument 8 of CYCLE978: S_MA (measuring axis: 1, 2 in the plane, 3 along the tool) is "
+                      "missing"}));
 }
 
 TEST(SinumerikArguments, ThoseOfCycle800And116AreCounted) {
