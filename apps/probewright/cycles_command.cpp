@@ -4,11 +4,15 @@
 #include <cctype>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "base/number_text.hpp"
 #include "commands.hpp"
 #include "console.hpp"
 #include "cycles/catalogue.hpp"
+#include "cycles/sinumerik/cycle_116.hpp"
 
 namespace probewright::app {
 namespace {
@@ -113,6 +117,40 @@ nlohmann::ordered_json namesOf(control::ControlSet controls) {
   return names;
 }
 
+nlohmann::ordered_json toJson(std::span<const cycles::Choice> choices) {
+  auto list = nlohmann::ordered_json::array();
+  for (const cycles::Choice& choice : choices)
+    list.push_back({{"value", choice.value}, {"meaning", choice.meaning}});
+  return list;
+}
+
+/// The decimal digits of a coded number: the place of the last one from the right, from 1, and how many there are.
+nlohmann::ordered_json toJson(std::span<const cycles::CodeDigit> digits) {
+  auto list = nlohmann::ordered_json::array();
+  for (const cycles::CodeDigit& digit : digits) {
+    nlohmann::ordered_json entry = {{"place", digit.place}, {"width", digit.width}, {"meaning", digit.meaning}};
+    if (!digit.choices.empty()) entry["choices"] = toJson(digit.choices);
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+/// What a value can be, by the kind of the parameter.
+void putRange(const Parameter& parameter, nlohmann::ordered_json& entry) {
+  if (parameter.kind == ValueKind::Option) {
+    entry["choices"] = toJson(parameter.choices);
+  } else if (isCode(parameter)) {
+    entry["digits"] = toJson(parameter.digits);
+  } else if (!parameter.digits.empty()) {
+    entry["minimum"] = 0;
+    entry["maximum"] = parameter.digits.front().most;
+  } else if (parameter.kind != ValueKind::Text) {
+    entry["minimum"] = parameter.minimum;
+    entry["maximum"] = parameter.maximum;
+  }
+  entry["text"] = parameter.kind == ValueKind::Text || parameter.kind == ValueKind::NumberOrText;
+}
+
 nlohmann::ordered_json toJson(const CycleDefinition& cycle) {
   nlohmann::ordered_json object = {{"name", cycle.name},
                                    {"number", cycle.number},
@@ -129,20 +167,17 @@ nlohmann::ordered_json toJson(const CycleDefinition& cycle) {
         {"unit", cycles::unitOf(parameter.kind)},
         {"required", parameter.required()},
         {"controls", namesOf({static_cast<std::uint8_t>(parameter.controls.bits & cycle.controls.bits)})}};
-    if (parameter.kind == ValueKind::Option) {
-      entry["choices"] = nlohmann::ordered_json::array();
-      for (const cycles::Choice& choice : parameter.choices)
-        entry["choices"].push_back({{"value", choice.value}, {"meaning", choice.meaning}});
-    } else if (parameter.kind != ValueKind::Text) {
-      entry["minimum"] = parameter.minimum;
-      entry["maximum"] = parameter.maximum;
-    }
+    putRange(parameter, entry);
+    if (parameter.predefinable) entry["predef"] = true;
     if (parameter.standard) entry["default"] = *parameter.standard;
     object["parameters"].push_back(std::move(entry));
   }
   for (const auto& result : cycle.results) {
-    object["results"].push_back(
-        {{"name", result.name}, {"meaning", result.meaning}, {"unit", cycles::unitOf(result.kind)}});
+    nlohmann::ordered_json entry = {
+        {"name", result.name}, {"meaning", result.meaning}, {"unit", cycles::unitOf(result.kind)}};
+    for (int units = 0; result.variants != 0 && units < 10; ++units)
+      if (result.belongsTo(units)) entry["variants"].push_back(units);
+    object["results"].push_back(std::move(entry));
   }
   return object;
 }
@@ -191,7 +226,9 @@ int cycles(const CyclesArguments& arguments) {
   auto list = nlohmann::ordered_json::array();
   std::vector<const CycleDefinition*> seen;
   for (const ControlKind kind : kinds) {
-    for (const CycleDefinition* cycle : cycles::cyclesOf(kind)) {
+    std::vector<const CycleDefinition*> all = cycles::cyclesOf(kind);
+    if (kind == ControlKind::Sinumerik840Dsl) all.insert(all.begin(), &cycles::sinumerik::cycle116Definition);
+    for (const CycleDefinition* cycle : all) {
       if (std::ranges::find(seen, cycle) != seen.end()) continue;
       seen.push_back(cycle);
       const bool wanted = arguments.name.empty() || name == cycle->name || name == std::to_string(cycle->number);

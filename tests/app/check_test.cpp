@@ -159,6 +159,44 @@ TEST(Cycles, AreListedAndExplained) {
   EXPECT_THAT(probewright({"cycles", "TCH421"}).output, StartsWith("421  "));
 }
 
+TEST(Cycles, TellOtherProgramsWhatTheTextTells) {
+  const auto cycle = nlohmann::json::parse(probewright({"cycles", "CYCLE977", "--json"}).output).at(0);
+  const auto parameter = [&cycle](const char* name) {
+    for (const auto& each : cycle["parameters"])
+      if (each["name"] == name) return each;
+    return nlohmann::json();
+  };
+  const auto& variant = parameter("S_MVAR")["digits"];
+  ASSERT_EQ(variant.size(), 4U);
+  EXPECT_EQ(variant[0]["place"], 1);
+  EXPECT_EQ(variant[0]["choices"].size(), 6U);
+  EXPECT_EQ(variant[0]["choices"][2], (nlohmann::json{{"value", 3}, {"meaning", "groove"}}));
+  EXPECT_FALSE(parameter("S_MVAR").contains("maximum"));
+  EXPECT_EQ(parameter("S_KNUM")["digits"][0]["width"], 2);
+  EXPECT_EQ(parameter("S_PRNUM")["minimum"], 0);
+  EXPECT_EQ(parameter("S_PRNUM")["maximum"], 12);
+  EXPECT_EQ(parameter("S_NMSP")["maximum"], 9);
+  EXPECT_EQ(parameter("S_TNAME")["text"], true);
+  EXPECT_EQ(parameter("S_FA")["text"], false);
+  EXPECT_EQ(cycle["results"][0]["variants"], nlohmann::json({1}));
+  const auto rotation = nlohmann::json::parse(probewright({"cycles", "1410", "--json"}).output).at(0);
+  bool predefined = false, text = false;
+  for (const auto& each : rotation["parameters"]) {
+    predefined = predefined || each.contains("predef");
+    text = text || (each["name"] == "Q1100" && each["text"] == true);
+  }
+  EXPECT_TRUE(predefined);
+  EXPECT_TRUE(text);
+}
+
+TEST(Cycles, KnowTheCircleThroughPoints) {
+  const Answer answer = probewright({"cycles", "CYCLE116"});
+  EXPECT_EQ(answer.exit, 0);
+  EXPECT_THAT(answer.output, HasSubstr("_CAL[11] radius"));
+  EXPECT_THAT(probewright({"cycles", "--control", "840Dsl"}).output, HasSubstr("CYCLE116"));
+  EXPECT_EQ(probewright({"cycles", "--control", "TNC640"}).output.find("CYCLE116"), std::string::npos);
+}
+
 TEST(Cycles, AreFoundHoweverTheyAreWritten) {
   for (const char* name : {"CYCLE977", "CYCLE 977", "cycle977", "977"})
     EXPECT_THAT(probewright({"cycles", name}).output, ::testing::StartsWith("CYCLE977  ")) << name;

@@ -2,9 +2,13 @@
 
 #include <span>
 
+#include "cycles/catalogue.hpp"
 #include "geometry/primitives.hpp"
 
 namespace probewright::cycles::sinumerik {
+
+/// Its entry for help and lists. The call takes variables, not values: the language carries it out.
+extern const CycleDefinition cycle116Definition;
 
 /// What CYCLE116 computes.
 struct CircleThroughPoints {
