@@ -188,7 +188,21 @@ TEST(Run, MeasuresTheHousingOfTheExamplesAndCorrectsTheZeroOffset) {
   const Answer answer = probewright({"run", "examples/programs/housing.mpf", "--setup",
                                      "examples/setups/housing-840dsl.toml", "--out", (folder / "out").string()});
   ASSERT_EQ(answer.exit, 0) << answer.errors << answer.output;
-  EXPECT_EQ(complaints(json::parse(textOf(folder / "out/results.json"))), "");
+  const json results = json::parse(textOf(folder / "out/results.json"));
+  EXPECT_EQ(complaints(results), "");
+
+  // The bore that is inspected has its limits in the report, and what it is called.
+  int bores = 0;
+  for (const json& cycle : results.at("cycles")) {
+    if (cycle.at("title") != "Hole 40") continue;
+    for (const json& result : cycle.at("results")) {
+      if (result.at("name") != "_OVR[4]" || result.value("verdict", "") != "good") continue;
+      ++bores;
+      EXPECT_NEAR(result.at("lowerLimit").get<double>(), 40, 1e-9);
+      EXPECT_NEAR(result.at("upperLimit").get<double>(), 40.025, 1e-9);
+    }
+  }
+  EXPECT_EQ(bores, 1);
 
   // The pose of the part in the setup; 0.002 mm as above.
   const std::string frames = textOf(folder / "out/FRAMES.UFR");
