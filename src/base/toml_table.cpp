@@ -68,6 +68,8 @@ const toml::node* TomlReader::find(std::string_view key) {
   return table_->get(key);
 }
 
+bool TomlReader::isTable(std::string_view key) const { return table_->get_as<toml::table>(key) != nullptr; }
+
 std::optional<double> TomlReader::number(std::string_view key, NumberRange range) {
   const toml::node* node = find(key);
   if (!node) return std::nullopt;

@@ -38,6 +38,7 @@ public:
   TomlReader(const toml::table& table, std::string name, std::string file, Diagnostics& diagnostics);
 
   bool has(std::string_view key) const { return table_->contains(key); }
+  bool isTable(std::string_view key) const;
 
   std::optional<double> number(std::string_view key, NumberRange range = {});
   std::optional<long long> integer(std::string_view key, long long minimum, long long maximum);

@@ -100,6 +100,12 @@ private:
   Diagnostics& diagnostics_;
 };
 
+/// CAL_OF1, CAL_OF2: where the ball stands with the spindle at CAL_ANG. A setup that says nothing has it right.
+Vector2 centreOffset(const BelievedTool& tool) {
+  if (!tool.trueTipOffset) return tool.tipOffset;
+  return Eigen::Rotation2Dd(radiansFromDegrees(tool.calibrationAngle)) * tool.tipOffset;
+}
+
 /// `probeRow`: the row of the touch probe table is to be made too.
 void enterTool(hh::Tables& tables, const BelievedTool& tool, bool probeRow, const Setup& setup,
                Diagnostics& diagnostics) {
@@ -112,8 +118,8 @@ void enterTool(hh::Tables& tables, const BelievedTool& tool, bool probeRow, cons
     if (tool.kind == "probe") {
       entry.text("TYP", "TCHP");
       entry.number("TP_NO", tool.probeNumber);
-      entry.number("CAL-OF1", tool.tipOffset.x());
-      entry.number("CAL-OF2", tool.tipOffset.y());
+      entry.number("CAL-OF1", centreOffset(tool).x());
+      entry.number("CAL-OF2", centreOffset(tool).y());
       entry.number("CAL-ANG", tool.calibrationAngle);
     }
     if (tool.kind == "turn") entry.text("TYP", "TURN");
@@ -127,8 +133,8 @@ void enterTool(hh::Tables& tables, const BelievedTool& tool, bool probeRow, cons
   const std::string probe = std::to_string(tool.probeNumber);
   if (tool.kind == "probe" && probeRow) {
     Entry entry(tables.probes, probe, setup, diagnostics);
-    entry.number("CAL_OF1", tool.tipOffset.x());
-    entry.number("CAL_OF2", tool.tipOffset.y());
+    entry.number("CAL_OF1", centreOffset(tool).x());
+    entry.number("CAL_OF2", centreOffset(tool).y());
     entry.number("CAL_ANG", tool.calibrationAngle);
     entry.number("F", tool.feed);
     entry.number("FMAX", tool.rapid);
@@ -182,8 +188,20 @@ hh::Tables heidenhainTables(const Setup& setup, ControlKind kind, Diagnostics& d
       entry.number(angles[i], preset.rotation[static_cast<Eigen::Index>(i)]);
     }
     entry.number("ROT", preset.rotation.z());
-    for (const auto& [axis, angle] : preset.rotary)
-      entry.number(axis, angle);
+    if (!tables.presets.hasColumn("SPA") && !preset.rotation.head<2>().isZero(0)) {
+      diagnostics.push_back({Severity::Error,
+                             {setup.file, 0, 0},
+                             fmt::format("preset {}: the {} keeps one angle of a basic rotation (ROT), that about the "
+                                         "touch probe axis",
+                                         preset.index, control::name(kind)),
+                             {},
+                             "write rotation = [0, 0, ANGLE], or choose the TNC 640",
+                             {}});
+    }
+    for (const auto& [axis, angle] : preset.rotary) {
+      const std::string offset = axis + "_OFFS";
+      entry.number(tables.presets.hasColumn(offset) ? offset : axis, angle);
+    }
   }
   return tables;
 }
@@ -205,8 +223,8 @@ hh::MachineParameters machineParameters(const Setup& setup, ControlKind kind, Di
     parameters.mp6165 = tool.orient;
     parameters.calibratedLength = tool.length;
     parameters.calibratedRadius = tool.radius;
-    parameters.calibratedOffset1 = tool.tipOffset.x();
-    parameters.calibratedOffset2 = tool.tipOffset.y();
+    parameters.calibratedOffset1 = centreOffset(tool).x();
+    parameters.calibratedOffset2 = centreOffset(tool).y();
     parameters.calibratedAngle = tool.calibrationAngle;
     break;
   }

@@ -48,7 +48,8 @@ struct BelievedTool {
 
   // Of a probe, as its control keeps them.
   double axialRadius = 0;      ///< mm; effective ball radius along the stylus
-  Vector2 tipOffset = {0, 0};  ///< mm, of the ball from the spindle axis at spindle angle 0
+  Vector2 tipOffset = {0, 0};  ///< mm, of the ball from the spindle axis at `calibrationAngle`
+  bool trueTipOffset = false;  ///< the setup names no belief: `tipOffset` is the true one, at spindle angle 0
   double starArm = 0;          ///< mm; above 0 a star with balls this far from its middle: `radius` is that of the star
   int probeNumber = 1;         ///< row of the touch probe table, number of the calibration data set
   double feed = 300;           ///< mm/min, of measuring moves

@@ -369,10 +369,20 @@ private:
   void readParameters() {
     auto reader = root_.table("parameters");
     if (!reader) return;
-    for (const std::string& key : reader->keys()) {
-      if (auto parameter = reader->plainValue(key)) {
-        setup_.parameters.emplace(key, SetupParameter{std::move(*parameter), reader->placeOf(key)});
+    const auto read = [this](TomlReader& from, const std::string& key, const std::string& name) {
+      if (auto parameter = from.plainValue(key)) {
+        setup_.parameters.emplace(name, SetupParameter{std::move(*parameter), from.placeOf(key)});
       }
+    };
+    for (const std::string& key : reader->keys()) {
+      if (!reader->isTable(key)) {
+        read(*reader, key, key);
+        continue;
+      }
+      // MP6180.0 = 100 without quotes is a table MP6180 with the key 0.
+      auto parts = reader->table(key);
+      for (const std::string& part : parts->keys())
+        read(*parts, part, key + "." + part);
     }
   }
 

@@ -64,7 +64,9 @@ void readProbe(TomlReader& reader, TrueTool& tool, BelievedTool& believed) {
   believed.length = get("believed_length", tool.length - probe.axialPretravel - delayed, believedLength);
   believed.radius = get("believed_radius", probe.starArm + probe.ballRadius - probe.pretravel - delayed, toolRadius);
   believed.axialRadius = believed.radius - probe.starArm + probe.pretravel - probe.axialPretravel;
-  believed.tipOffset = readVector2(reader, "believed_tip_offset").value_or(probe.tipOffset);
+  const std::optional<Vector2> offset = readVector2(reader, "believed_tip_offset");
+  believed.tipOffset = offset.value_or(probe.tipOffset);
+  believed.trueTipOffset = !offset;
 }
 
 }  // namespace

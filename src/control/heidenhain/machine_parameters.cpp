@@ -16,19 +16,26 @@ constexpr std::array entries = {
     MachineParameterEntry{"maxTouchFeed", "122602", onTNC640, 1, 100000, "mm/min",
                           "upper limit of the probing feed rate F and of Q396 of cycle 441",
                           &MachineParameters::maxTouchFeed},
-    MachineParameterEntry{"chkTiltingAxes", "204601", onTNC640, 0, 1, "",
+    MachineParameterEntry{
+        "overrideForMeasure", "122604", onTNC640, 0, 1, "",
+        "1: the feed potentiometer acts in touch probe cycles; no effect here, where it stands at 100 "
+        "percent",
+        &MachineParameters::overrideForMeasure},
+    MachineParameterEntry{"chkTiltingAxes", "204601, 204600", onTNC640, 0, 1, "",
                           "1: before probing, the rotary axes must stand as the tilted plane asks",
                           &MachineParameters::checkTiltingAxes},
     MachineParameterEntry{"option92", "", onTNC640, 0, 1, "",
                           "1: software option 92, 3D-ToolComp, is enabled: 3-D calibration data of touch probes",
                           &MachineParameters::option92},
-    MachineParameterEntry{"MP6120", "", onITNC530, 1, 3000, "mm/min", "probing feed rate", &MachineParameters::mp6120},
+    MachineParameterEntry{"MP6120", "", onITNC530, 1, 3000, "mm/min", "probing feed rate", &MachineParameters::mp6120,
+                          "probing_feed"},
     MachineParameterEntry{"MP6130", "", onITNC530, 0.001, 99999.9999, "mm", "longest stroke to the touch point",
-                          &MachineParameters::mp6130},
+                          &MachineParameters::mp6130, "maximum_travel"},
     MachineParameterEntry{"MP6140", "", onITNC530, 0.001, 99999.9999, "mm",
-                          "safety clearance in front of the touch point", &MachineParameters::mp6140},
+                          "safety clearance in front of the touch point", &MachineParameters::mp6140,
+                          "set_up_clearance"},
     MachineParameterEntry{"MP6150", "", onITNC530, 1, 300000, "mm/min", "positioning feed rate between touches",
-                          &MachineParameters::mp6150},
+                          &MachineParameters::mp6150, "probing_rapid"},
     MachineParameterEntry{"MP6151", "", onITNC530, 0, 1, "", "1: pre-position at machine rapid traverse",
                           &MachineParameters::mp6151},
     MachineParameterEntry{"MP6160", "", onITNC530, -1, 999, "",
@@ -36,7 +43,11 @@ constexpr std::array entries = {
                           "function, 0 not at all, so that no centre offset is found",
                           &MachineParameters::mp6160},
     MachineParameterEntry{"MP6165", "", onITNC530, 0, 1, "",
-                          "1: turn the probe to the probing direction before each touch", &MachineParameters::mp6165},
+                          "1: turn the probe to the probing direction before each touch", &MachineParameters::mp6165,
+                          "orient"},
+    MachineParameterEntry{"MP6166", "", onITNC530, 0, 1, "",
+                          "1: probing in manual operation takes the basic rotation into account; no effect on cycles",
+                          &MachineParameters::mp6166},
     MachineParameterEntry{"MP6170", "", onITNC530, 1, 3, "", "measurements of one point", &MachineParameters::mp6170},
     MachineParameterEntry{"MP6171", "", onITNC530, 0.002, 0.999, "mm", "confidence range of repeated measurements",
                           &MachineParameters::mp6171},
@@ -72,6 +83,15 @@ constexpr std::array entries = {
                           &MachineParameters::mp6185third},
     MachineParameterEntry{"traverseRange", "", onITNC530, 1, 3, "", "traverse range that the PLC has selected",
                           &MachineParameters::traverseRange},
+    MachineParameterEntry{
+        "MP6360", "", onITNC530, 1, 3000, "mm/min",
+        "probing feed rate of a measuring (scanning) touch probe; no effect on triggering ones, which "
+        "take MP6120",
+        &MachineParameters::mp6360},
+    MachineParameterEntry{"MP6361", "", onITNC530, 1, 300000, "mm/min",
+                          "positioning feed rate of a measuring (scanning) touch probe; no effect on triggering ones, "
+                          "which take MP6150",
+                          &MachineParameters::mp6361},
     MachineParameterEntry{"MP6520", "", onITNC530, 1, 3000, "mm/min",
                           "feed of a stationary tool towards the tool touch probe", &MachineParameters::mp6520},
     MachineParameterEntry{"MP6530", "", onITNC530, 0.001, 99.9999, "mm",
@@ -111,6 +131,10 @@ constexpr std::array entries = {
     MachineParameterEntry{"FCL", "", onITNC530, 0, 3, "",
                           "feature content level that is enabled: cycles 4, 408 and 409 need 3, cycle 441 needs 2",
                           &MachineParameters::featureLevel},
+    MachineParameterEntry{"softwareVersion", "", onITNC530, 1, 8, "",
+                          "xx of the NC software 340 49x-xx; 606 42x counts as 8. From 5 on there are Q423 and Q365 in "
+                          "cycles 412, 413, 421 and 422, Q320 in 416, and Q320 and Q301 in 425",
+                          &MachineParameters::softwareVersion},
     MachineParameterEntry{
         "refuseTransformations", "", onTNC640, 0, 1, "",
         "1: cycles 400 to 499 refuse to run while cycle 7, 8, 10, 11 or 26 is active, which the manual "
@@ -120,6 +144,16 @@ constexpr std::array entries = {
 
 bool sameName(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+bool isNumberOf(const MachineParameterEntry& entry, std::string_view text) {
+  std::string_view rest = entry.number;
+  while (!rest.empty()) {
+    const std::size_t end = rest.find(", ");
+    if (rest.substr(0, end) == text) return true;
+    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 2);
+  }
+  return false;
 }
 
 double defaultOf(const MachineParameterEntry& entry) {
@@ -133,7 +167,7 @@ std::span<const MachineParameterEntry> machineParameterEntries() { return entrie
 
 Result<void> setMachineParameter(MachineParameters& parameters, ControlKind kind, std::string_view name, double value) {
   const auto entry = std::ranges::find_if(entries, [&](const MachineParameterEntry& candidate) {
-    return sameName(candidate.name, name) || (!candidate.number.empty() && candidate.number == name);
+    return sameName(candidate.name, name) || isNumberOf(candidate, name);
   });
   if (entry == entries.end() || !entry->controls.contains(kind)) {
     return fail(fmt::format("the {} has no machine parameter {} here", control::name(kind), name),
@@ -157,8 +191,8 @@ std::string machineParametersPage() {
   std::string page =
       "# Machine parameters\n\nThe parameters of HEIDENHAIN controls that touch probe functions read here. A setup "
       "sets "
-      "them in its table\n`[parameters]`, by name or number. This page is made from the table that drives the "
-      "reading.\n\n"
+      "them in its table\n`[parameters]`, by name or number; `MP6180.0 = 100` may stand with quotes around the name "
+      "or without. This page is made from the table\nthat drives the reading.\n\n"
       "| parameter | number | control | unit | range | default | meaning |\n|---|---|---|---|---|---|---|\n";
   for (const MachineParameterEntry& entry : entries) {
     std::string controls;
@@ -167,7 +201,9 @@ std::string machineParametersPage() {
     }
     page += fmt::format("| `{}` | {} | {} | {} | {} to {} | {} | {} |\n", entry.name, entry.number, controls,
                         entry.unit, formatShortest(entry.minimum), formatShortest(entry.maximum),
-                        formatShortest(defaultOf(entry)), entry.meaning);
+                        entry.toolKey.empty() ? formatShortest(defaultOf(entry))
+                                              : fmt::format("`{}` of the first probe", entry.toolKey),
+                        entry.meaning);
   }
   return page;
 }

@@ -14,6 +14,7 @@ struct MachineParameters {
   // TNC 640
   double maxTouchFeed = 3000;
   bool checkTiltingAxes = false;
+  bool overrideForMeasure = false;
   bool option92 = true;
   // iTNC 530
   double mp6120 = 500;
@@ -24,6 +25,7 @@ struct MachineParameters {
   int mp6160 = -1;
   bool mp6165 = false;
   int mp6170 = 1;
+  bool mp6166 = false;
   double mp6171 = 0.1;
   double mp6180x = 0, mp6180y = 0, mp6180z = 0;
   double mp6181x = 0, mp6181y = 0, mp6181z = 0;
@@ -31,7 +33,10 @@ struct MachineParameters {
   double mp6185 = 5, mp6185second = 5, mp6185third = 5;
   int traverseRange = 1;  ///< the one that the PLC has selected
   bool mp7411 = true;
+  double mp6360 = 500;
+  double mp6361 = 3000;
   int featureLevel = 3;
+  int softwareVersion = 8;
   /// The calibration data of the touch probe that are in no table, in effect with MP7411 = 0.
   double calibratedLength = 0, calibratedRadius = 0;
   double calibratedOffset1 = 0, calibratedOffset2 = 0, calibratedAngle = 0;
@@ -48,12 +53,14 @@ struct MachineParameters {
 /// One parameter as a setup may name it. The table drives reading and documentation.
 struct MachineParameterEntry {
   std::string_view name;    ///< "maxTouchFeed", "MP6120"
-  std::string_view number;  ///< "122602"; empty if the name says it
+  std::string_view number;  ///< "122602", several separated by ", "; empty if the name says it
   ControlSet controls;
   double minimum = 0, maximum = 1;
   std::string_view unit;
   std::string_view meaning;
   std::variant<double MachineParameters::*, bool MachineParameters::*, int MachineParameters::*> member;
+  /// The key of a probe's [[tool]] in the setup whose value counts where there is no entry.
+  std::string_view toolKey = {};
 };
 
 std::span<const MachineParameterEntry> machineParameterEntries();
