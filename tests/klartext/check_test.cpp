@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -56,11 +57,12 @@ TEST(Check, TouchProbeCyclesThatNoControlHas) {
 
 TEST(Check, SteppingAnglesThatTheCycleWouldRefuse) {
   const auto of = [](const std::string& angle) {
-    return checked(framed("1 TCH PROBE 421 HOLE ~\n Q273=+50 ~\n Q274=+50 ~\n Q262=75 ~\n Q325=+0 ~\n Q247=" + angle +
-                          " ~\n Q261=-5 ~\n Q320=0 ~\n Q260=+20 ~\n Q301=1 ~\n Q275=75.12 ~\n Q276=74.95 ~\n"
-                          " Q279=0.1 ~\n Q280=0.1 ~\n Q281=1 ~\n Q309=0 ~\n Q330=0\n"));
+    return checked(framed(
+        "1 TOOL CALL 1 Z\n2 TCH PROBE 421 HOLE ~\n Q273=+50 ~\n Q274=+50 ~\n Q262=75 ~\n Q325=+0 ~\n Q247=" + angle +
+        " ~\n Q261=-5 ~\n Q320=0 ~\n Q260=+20 ~\n Q301=1 ~\n Q275=75.12 ~\n Q276=74.95 ~\n"
+        " Q279=0.1 ~\n Q280=0.1 ~\n Q281=1 ~\n Q309=0 ~\n Q330=0\n"));
   };
-  EXPECT_NE(of("3").find("a.h:7:2: error: Q247"), std::string::npos) << of("3");
+  EXPECT_NE(of("3").find("a.h:8:2: error: Q247"), std::string::npos) << of("3");
   EXPECT_NE(of("-4.9").find("cannot be -4.9"), std::string::npos) << of("-4.9");
   EXPECT_EQ(of("5"), "");
   EXPECT_EQ(of("-5"), "");
@@ -133,6 +135,92 @@ TEST(Check, AMissingContinuationOfACycleIsNamed) {
   EXPECT_THAT(checked(framed("1 TCH PROBE 403 ROT ~\n Q263=+0 ~\n Q264=+0 ~\n Q265=+20 ~\n Q266=+0 ~\n Q272=2 ~\n"
                              " Q267=+1 ~\n Q261=-5 ~\n Q320=0 ~\n Q260=+20 ~\n Q301=0\n Q312=0\n")),
               ::testing::HasSubstr("it stands in line 13, outside of the cycle: end the line before it with ~"));
+}
+
+/// A cycle 412 into row `row` with `more` behind its parameters.
+std::string preset412(const std::string& row, const std::string& more) {
+  return "TCH PROBE 412 PRESET ~\n Q321=+0 ~\n Q322=+0 ~\n Q262=40 ~\n Q325=+0 ~\n Q247=90 ~\n Q261=-5 ~\n Q320=0 ~\n"
+         " Q260=+20 ~\n Q301=1 ~\n Q305=" +
+         row + more + "\n";
+}
+const std::string call = "1 TOOL CALL 1 Z\n";
+
+std::string inspection421(const std::string& largest, const std::string& smallest) {
+  return "TCH PROBE 421 HOLE ~\n Q273=+50 ~\n Q274=+50 ~\n Q262=75 ~\n Q325=+0 ~\n Q247=+60 ~\n Q261=-5 ~\n Q320=0 ~\n"
+         " Q260=+20 ~\n Q301=1 ~\n Q275=" +
+         largest + " ~\n Q276=" + smallest + " ~\n Q279=0.1 ~\n Q280=0.1 ~\n Q281=1 ~\n Q309=0 ~\n Q330=0\n";
+}
+
+TEST(Check, KnowsARowWithoutItsTable) {
+  for (const std::string& more : {std::string(), std::string(" ~\n Q303=-1")}) {
+    const std::string found = checked(framed(call + preset412("5", more)));
+    EXPECT_NE(found.find("error: Q303 = -1 does not say where row 5 is"), std::string::npos) << found;
+    EXPECT_EQ(checked(framed(call + preset412("0", more))), "");
+  }
+  EXPECT_EQ(checked(framed(call + preset412("5", " ~\n Q303=1"))), "");
+  EXPECT_EQ(checked(framed(call + preset412("Q5", " ~\n Q303=-1"))), "") << "the row is computed";
+}
+
+TEST(Check, KnowsLimitsThatNothingKeeps) {
+  EXPECT_NE(checked(framed(call + inspection421("8.022", "8.1"))).find("warning: Q275 (8.022) is less than Q276 (8.1)"),
+            std::string::npos);
+  EXPECT_EQ(checked(framed(call + inspection421("0", "8.1"))), "");
+  EXPECT_EQ(checked(framed(call + inspection421("Q1", "8.1"))), "");
+}
+
+TEST(Check, KnowsRotationsThatGoNowhere) {
+  const auto edge = [](const std::string& first, const std::string& aligns, const std::string& takesOver) {
+    return "TCH PROBE 1410 EDGE ~\n " + first +
+           " ~\n Q1101=0 ~\n Q1102=-5 ~\n Q1103=50 ~\n Q1104=0 ~\n Q1105=-5 ~\n Q372=2 ~\n Q320=0 ~\n Q260=20 ~\n"
+           " Q1125=1 ~\n Q309=0 ~\n Q1126=" +
+           aligns + " ~\n Q1120=0 ~\n Q1121=" + takesOver + "\n";
+  };
+  EXPECT_EQ(checked(framed(call + edge("Q1100=0", "1", "1"))), "");
+  EXPECT_NE(checked(framed(call + edge("Q1100=0", "1", "0"))).find("error: Q1126 aligns rotary axes"),
+            std::string::npos);
+  EXPECT_NE(checked(framed(call + edge("QS1100=\"0@0.1\"", "0", "0"))).find("(@) in 1 of three axes"),
+            std::string::npos);
+}
+
+TEST(Check, KnowsTheStateBeforeACycle) {
+  const std::string cycle = inspection421("0", "0");
+  EXPECT_NE(checked(framed(cycle)).find("warning: no TOOL CALL stands before this cycle"), std::string::npos);
+  EXPECT_EQ(checked(framed("1 CALL PGM TOOLS\n" + cycle)).find("TOOL CALL"), std::string::npos);
+  const std::string shift = "2 CYCL DEF 7.0 SHIFT\n3 CYCL DEF 7.1 X+5\n";
+  EXPECT_NE(checked(framed(call + shift + cycle)).find("cycle 7 is active"), std::string::npos);
+  EXPECT_EQ(checked(framed(call + shift + cycle), control::ControlKind::iTNC530), "") << "it runs there";
+  EXPECT_EQ(checked(framed(call + "2 CYCL DEF 7.0 SHIFT\n3 CYCL DEF 7.1 X+Q5\n" + cycle)), "");
+  const std::string mirror = "2 CYCL DEF 8.0 MIRROR\n3 CYCL DEF 8.1 X\n", ended = "4 CYCL DEF 8.0 M\n5 CYCL DEF 8.1\n";
+  EXPECT_NE(checked(framed(call + mirror + cycle)).find("cycle 8 is active"), std::string::npos);
+  EXPECT_EQ(checked(framed(call + mirror + ended + cycle)), "");
+  EXPECT_EQ(checked(framed(call + "2 LBL 1\n" + mirror + cycle)), "") << "the way is not known";
+  const std::string turn = "2 CYCL DEF 10.0 TURN\n3 CYCL DEF 10.1 ROT+5\n";
+  EXPECT_NE(checked(framed(call + turn + cycle)).find("cycle 10 is active"), std::string::npos);
+  EXPECT_EQ(checked(framed(call + turn + preset412("5", " ~\n Q303=1"))), "") << "presets may be rotated";
+}
+
+/// Results of cycles 0, 3 and 4 go into Q parameters; another letter is not dropped.
+TEST(Check, RefusesResultsInOtherParameters) {
+  for (const char* name : {"QL5", "QR5", "QS5"}) {
+    for (const std::string& block : {fmt::format("TCH PROBE 0.0 REF. PLANE {} Y+\nTCH PROBE 0.1 X+0 Y+0 Z-5\n", name),
+                                     fmt::format("TCH PROBE 3.0 M\nTCH PROBE 3.1 {}\nTCH PROBE 3.2 X ANGLE: +0\n"
+                                                 "TCH PROBE 3.3 DIST +10 F100 MB1 REFERENCE SYSTEM: 0\n",
+                                                 name),
+                                     fmt::format("TCH PROBE 4.0 M\nTCH PROBE 4.1 {}\nTCH PROBE 4.2 IZ-1\n"
+                                                 "TCH PROBE 4.3 ABST+5 F100 MB1 REFERENCE SYSTEM:0\n",
+                                                 name)}) {
+      EXPECT_NE(checked(framed(call + block)).find("the result goes into a Q parameter"), std::string::npos) << block;
+    }
+  }
+}
+
+TEST(Check, KnowsWhatTheOlderControlLacks) {
+  const std::string sphere =
+      "TCH PROBE 460 CALIBRATE ~\n Q407=12 ~\n Q320=0 ~\n Q301=1 ~\n Q423=8 ~\n Q380=0 ~\n"
+      " Q433=0 ~\n Q434=0\n";
+  EXPECT_EQ(checked(framed(call + sphere)), "");
+  EXPECT_NE(checked(framed(call + sphere), control::ControlKind::iTNC530).find("Q423 takes four or three"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "base/number_text.hpp"
 #include "cycles/catalogue.hpp"
+#include "cycles/heidenhain/call_rules.hpp"
 #include "cycles/heidenhain/probe_words.hpp"
 #include "language/klartext/block_extent.hpp"
 #include "language/klartext/lexer.hpp"
@@ -121,8 +122,9 @@ private:
     }
   }
 
-  void reportAt(const Word& word, std::string message, std::string advice) {
-    report(block_.position.line + word.line, word.column, std::move(message), std::move(advice), lineText(word.line));
+  void reportAt(const Word& word, std::string message, std::string advice, Severity severity = Severity::Error) {
+    report(block_.position.line + word.line, word.column, std::move(message), std::move(advice), lineText(word.line),
+           severity);
   }
 
   std::uint32_t columnOf(std::string_view part) const {
@@ -177,6 +179,7 @@ private:
   }
 
   void look(const LabelMark& mark) {
+    plainWay_ = false;
     if (mark.end) return;
     const std::string name(block_.at(mark.label));
     const auto [known, added] = labels_.emplace(name, block_.position.line);
@@ -184,9 +187,16 @@ private:
     reportHere(fmt::format("label {} is defined twice, first in line {}", quoted(name), known->second),
                "give one of the two another number or name");
   }
-  void look(const CallLabel& call) { use(call.label); }
-  void look(const Jump& jump) { use(jump.label); }
+  void look(const CallLabel& call) {
+    plainWay_ = false;
+    use(call.label);
+  }
+  void look(const Jump& jump) {
+    plainWay_ = false;
+    use(jump.label);
+  }
   void look(const CallProgram& call) {
+    plainWay_ = false;
     if (!call.nameValue.present()) called(call.name);
   }
   void look(const Command& command) {
@@ -232,12 +242,108 @@ private:
         std::span<const Word>(block_.words).subspan(call.parameters.first, call.parameters.count);
     for (const Word& word : words)
       checkWord(*cycle, word);
+    checkTogether(*cycle, words);
+    checkState(*cycle);
     for (const cycles::Parameter& parameter : cycle->parameters) {
       const bool needed = parameter.required() && parameter.controls.contains(kind_);
       if (!needed || std::ranges::find(words, parameter.address, &Word::address) != words.end()) continue;
       reportHere(fmt::format("cycle {} lacks {}", cycle->name, nameOf(parameter)),
                  fmt::format("add {} with its value", parameter.name));
       lacking_.emplace_back(found_.size() - 1, parameter.address);
+    }
+  }
+
+  /// What a word says without the program running.
+  std::optional<cycles::Argument> literal(const Word& word) const {
+    cycles::Argument argument;
+    argument.given = true;
+    if (word.value.isLiteral()) {
+      argument.number = word.value.number;
+      return argument;
+    }
+    const Node* node = nodeOf(word);
+    if (node == nullptr || node->operation != Operation::Text) return std::nullopt;
+    argument.isText = true;
+    argument.text = block_.at(node->text);
+    return argument;
+  }
+
+  void checkTogether(const cycles::CycleDefinition& cycle, std::span<const Word> words) {
+    const auto wordOf = [&](std::uint32_t address) { return std::ranges::find(words, address, &Word::address); };
+    const cycles::heidenhain::KnownValue known = [&](std::uint32_t address) -> std::optional<cycles::Argument> {
+      if (const auto word = wordOf(address); word != words.end()) return literal(*word);
+      const cycles::Parameter* parameter = cycle.parameter(address);
+      if (parameter == nullptr || !parameter->standard) return std::nullopt;
+      cycles::Argument standard;
+      standard.number = *parameter->standard;
+      return standard;
+    };
+    for (cycles::heidenhain::CallMistake& mistake : cycles::heidenhain::callMistakes(cycle, kind_, known)) {
+      const auto word = wordOf(mistake.parameter);
+      if (word == words.end()) {
+        reportHere(std::move(mistake.message), std::move(mistake.advice), mistake.severity);
+      } else {
+        reportAt(*word, std::move(mistake.message), std::move(mistake.advice), mistake.severity);
+      }
+    }
+  }
+
+  /// What the blocks before the cycle have left, as far as the way to it is plain.
+  void checkState(const cycles::CycleDefinition& cycle) {
+    if (!plainWay_) return;
+    const bool setsOnly = cycle.number == 404 || cycle.number == 441;
+    if (!toolCalled_ && !setsOnly) {
+      reportHere("no TOOL CALL stands before this cycle",
+                 "call the touch probe first, unless it is in the spindle already or another program calls this one",
+                 Severity::Warning);
+      toolCalled_ = true;
+    }
+    if (kind_ != control::ControlKind::TNC640) return;
+    const auto forbidden = cycles::heidenhain::forbiddenTransformations(cycle.number);
+    for (const auto& [number, active] : transforms_) {
+      if (!active || !(number == 7 ? forbidden.shift : number == 10 ? forbidden.rotation : forbidden.other)) continue;
+      reportHere(fmt::format("cycle {} is refused here: cycle {} is active", cycle.name, number),
+                 fmt::format("end cycle {} before it", number), Severity::Warning);
+    }
+  }
+
+  void look(const ToolCall& call) {
+    if (call.number.present() || call.name.present()) toolCalled_ = true;
+  }
+
+  /// Cycles 7, 8, 10, 11 and 26: active, ended, or unknown because the program computes their values.
+  void look(const Transform& transform) {
+    const std::string_view name = block_.at(transform.name);
+    if (name == "CYCL DEF 247") transforms_.clear();
+    if (!name.starts_with("CYCL DEF ")) {
+      if (name == "TRANS DATUM") transforms_.erase(7);
+      return;
+    }
+    const int number = static_cast<int>(parseInteger(name.substr(9)).value_or(0));
+    if (number != 7 && number != 8 && number != 10 && number != 11 && number != 26) return;
+    const std::span<const Word> words =
+        std::span<const Word>(block_.words).subspan(transform.words.first, transform.words.count);
+    if (number == 8) {
+      transforms_[8] = !words.empty();
+      return;
+    }
+    const double neutral = number == 7 || number == 10 ? 0 : 1;
+    bool active = false;
+    for (const Word& word : words) {
+      const auto value = literal(word);
+      const bool centre = number == 26 && word.address >= 256;
+      if (centre) continue;
+      if (!value || value->isText || word.mode == WordMode::Incremental || word.address == '#') {
+        transforms_.erase(number);
+        return;
+      }
+      active = active || value->number != neutral;
+    }
+    // Cycle 7 keeps the axes that it does not name.
+    if (!active && number == 7 && words.size() < 3) {
+      transforms_.erase(number);
+    } else {
+      transforms_[number] = active;
     }
   }
 
@@ -298,6 +404,9 @@ private:
   std::vector<Use> uses_;
   std::string first_, last_;
   std::uint64_t lastLine_ = 0;
+  std::map<int, bool> transforms_;  ///< by cycle; absent: unknown or never defined
+  bool plainWay_ = true;            ///< no label, jump or call so far: every block above has run once
+  bool toolCalled_ = false;
   bool anyBlock_ = false;
   bool begun_ = false;
   bool ended_ = false;

@@ -118,8 +118,13 @@ bool BlockParser::oldProbePart(Part part) {
   };
   const auto resultParameter = [&]() {
     const std::optional<VariableRef> found = variable();
-    if (found) addWord(result, found->index[0]);
-    return found.has_value();
+    if (!found) return false;
+    if (found->space != VariableSpace::Q) {
+      return error("the result goes into a Q parameter; QL, QR and QS are not possible here",
+                   "write Qn, and copy it afterwards: QR5 = Q5");
+    }
+    addWord(result, found->index[0]);
+    return true;
   };
   const auto probingAxis = [&]() {
     const std::size_t index = axisLetters.find(lexer_.peek());
