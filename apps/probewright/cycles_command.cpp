@@ -71,6 +71,9 @@ void put(fmt::format_string<Values...> layout, Values&&... values) {
   std::fputs(fmt::format(layout, std::forward<Values>(values)...).c_str(), stdout);
 }
 
+/// The NC software of the iTNC 530 that brought a parameter.
+std::string softwareText(const Parameter& parameter) { return fmt::format("340 49x-{:02}", parameter.iTNC530Software); }
+
 void show(const CycleDefinition& cycle) {
   std::size_t width = 8;
   for (const Parameter& parameter : cycle.parameters)
@@ -87,6 +90,7 @@ void show(const CycleDefinition& cycle) {
     control::ControlSet here = parameter.controls;
     here.bits = static_cast<std::uint8_t>(here.bits & cycle.controls.bits);
     if (here.bits != cycle.controls.bits) line += fmt::format("; {} only", controlsText(here));
+    if (parameter.iTNC530Software > 0) line += "; iTNC530 from " + softwareText(parameter) + " on";
     put("  {:<{}} {}\n", "", width, line);
     for (const cycles::Choice& choice : parameter.choices) {
       put("  {:<{}}   {:>3}  {}\n", "", width, choice.value, choice.meaning);
@@ -170,6 +174,7 @@ nlohmann::ordered_json toJson(const CycleDefinition& cycle) {
     putRange(parameter, entry);
     if (parameter.predefinable) entry["predef"] = true;
     if (parameter.standard) entry["default"] = *parameter.standard;
+    if (parameter.iTNC530Software > 0) entry["iTNC530_from"] = softwareText(parameter);
     object["parameters"].push_back(std::move(entry));
   }
   for (const auto& result : cycle.results) {

@@ -57,6 +57,7 @@ struct Parameter {
   std::span<const CodeDigit> digits = {};  ///< of a coded number; digits that are not listed are 0
   ControlSet controls = control::onBothTNC | control::onSinumerik;
   bool predefinable = false;  ///< HEIDENHAIN: may be PREDEF, taken from GLOBAL DEF
+  int iTNC530Software = 0;    ///< xx of the NC software 340 49x-xx that brought it to the iTNC 530; 0: always there
   bool required() const { return !standard && kind != ValueKind::Text; }
 };
 

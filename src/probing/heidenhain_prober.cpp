@@ -14,17 +14,37 @@ using control::Alarm;
 using machine::Feed;
 using machine::MeasureEnd;
 
-Vector3 HeidenhainProber::tipFromBall(const Vector3& ballCentre) const {
-  return plane_.xyzFromPlane(ballCentre) - probe_.ballRadius * channel_.toolAxis();
+double inProgramUnits(const control::Channel& channel, double length, const Vector3& direction) {
+  return length / (channel.spindleFromProgram() * direction).norm();
 }
 
-Vector3 HeidenhainProber::position() const {
-  return plane_.planeFromXyz(channel_.position() + probe_.ballRadius * channel_.toolAxis());
+Vector3 alongTool(const control::Channel& channel, double length) {
+  const Vector3 axis = channel.toolAxis();
+  return inProgramUnits(channel, length, axis) * axis;
 }
+
+double HeidenhainProber::inProgram(double length, const Vector3& direction) const {
+  return inProgramUnits(channel_, length, plane_.xyzFromPlane(direction));
+}
+
+double HeidenhainProber::standOff(double extra) const {
+  const double length = probe_.reach() + probe_.setUp;
+  return std::max(inProgram(length, Vector3::UnitX()), inProgram(length, Vector3::UnitY())) + extra;
+}
+
+Vector3 HeidenhainProber::ballFromTip() const {
+  const Vector3 above = plane_.planeFromXyz(alongTool(channel_, probe_.ballRadius));
+  return probe_.aside || probe_.track ? above : above + tipOffsetNow();
+}
+
+Vector3 HeidenhainProber::positionWithTip(const Vector3& tip) const { return tip + ballFromTip(); }
+
+Vector3 HeidenhainProber::position() const { return positionWithTip(plane_.planeFromXyz(channel_.position())); }
 
 Vector3 HeidenhainProber::prePosition(const PlannedTouch& touch, double extra) const {
-  const Vector3 ball = touch.surface - touch.direction * (probe_.ballRadius + probe_.setUp + extra);
-  if (!probe_.aside) return ball;
+  const Vector3 ball =
+      touch.surface - touch.direction * (inProgram(probe_.ballRadius + probe_.setUp, touch.direction) + extra);
+  if (!probe_.aside && !probe_.track) return ball;
   return ball - tipOffsetAt(orientationFor(touch.direction).value_or(channel_.machine().spindleAngle()));
 }
 
@@ -32,7 +52,9 @@ Feed HeidenhainProber::positioning() const {
   return probe_.prepositionAtMachineRapid ? Feed::rapidTraverse() : Feed::at(probe_.positioningFeed);
 }
 
-void HeidenhainProber::moveTo(const Vector3& ballCentre) { channel_.moveTo(tipFromBall(ballCentre), positioning()); }
+void HeidenhainProber::moveTo(const Vector3& ballCentre) {
+  channel_.moveTo(plane_.xyzFromPlane(ballCentre - ballFromTip()), positioning());
+}
 
 void HeidenhainProber::moveHeightTo(double height) {
   Vector3 target = position();
@@ -40,7 +62,7 @@ void HeidenhainProber::moveHeightTo(double height) {
   moveTo(target);
 }
 
-void HeidenhainProber::moveSouthPoleTo(double height) { moveHeightTo(height + probe_.ballRadius); }
+void HeidenhainProber::moveSouthPoleTo(double height) { moveHeightTo(height + poleDepth()); }
 
 void HeidenhainProber::moveInPlane(const Vector3& ballCentre) {
   Vector3 target = ballCentre;
@@ -49,7 +71,7 @@ void HeidenhainProber::moveInPlane(const Vector3& ballCentre) {
 }
 
 void HeidenhainProber::approach(const Vector3& ballCentre, double clearanceHeight) {
-  const double southPole = position()[2] - probe_.ballRadius;
+  const double southPole = position()[2] - poleDepth();
   if (southPole < clearanceHeight) moveSouthPoleTo(clearanceHeight);
   moveInPlane(ballCentre);
   moveHeightTo(ballCentre[2]);
@@ -87,20 +109,22 @@ double HeidenhainProber::directionalRadius(const Vector3& xyzDirection) const {
 }
 
 EvaluatedTouch HeidenhainProber::touch(const PlannedTouch& planned) {
-  return stroke(planned.direction, probe_.distance, planned.surface);
+  return stroke(planned.direction, inProgram(probe_.distance, planned.direction), planned.surface);
 }
 
 EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distance,
                                         const std::optional<Vector3>& expected) {
-  const Vector3 start = position();
   const Vector3 startTip = channel_.position();
   const Vector3 xyzDirection = plane_.xyzFromPlane(direction);
   if (const std::optional<double> angle = orientationFor(direction)) channel_.orientSpindle(*angle);
+  const Vector3 start = position();
   control::TouchRecord record;
   record.target = plane_.xyzFromPlane(expected.value_or(start + direction * distance));
   record.direction = xyzDirection;
 
-  const double directional = directionalRadius(xyzDirection);
+  const double directional = inProgram(directionalRadius(xyzDirection), direction);
+  const double radius = ballRadius(direction);
+  const Vector3 above = plane_.planeFromXyz(alongTool(channel_, probe_.ballRadius));
   std::vector<Vector3> centres;
   EvaluatedTouch touch;
   const auto finish = [&](std::string outcome) {
@@ -116,8 +140,10 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
         break;
       case MeasureEnd::NoContact:
         finish("no contact");
-        throw Alarm("Touch point inaccessible", fmt::format("The stylus was not deflected within {:.3f} mm", distance),
-                    "check nominal values, preset and DIST of the touch probe table");
+        throw Alarm("Touch point inaccessible",
+                    fmt::format("The stylus was not deflected within {:.3f} mm",
+                                distance * (channel_.spindleFromProgram() * xyzDirection).norm()),
+                    fmt::format("check nominal values, preset and {}", probe_.distanceName));
       case MeasureEnd::DeflectedAtStart:
         finish("deflected");
         throw Alarm("Stylus already in contact", "The stylus is deflected before probing begins",
@@ -137,10 +163,10 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
     }
     const control::Touch latched = channel_.touchFrom(result);
     touch.latched = latched.latched;
-    centres.push_back(plane_.planeFromXyz(latched.tip + probe_.ballRadius * channel_.toolAxis()) + tipOffsetNow());
+    centres.push_back(plane_.planeFromXyz(latched.tip) + above + tipOffsetNow());
     const Vector3 centre = centres.back() + direction * directional;
     record.ballCentre = plane_.xyzFromPlane(centre);
-    record.surface = plane_.xyzFromPlane(centre + direction * probe_.ballRadius);
+    record.surface = plane_.xyzFromPlane(centre + direction * radius);
     record.latched = latched.latched;
     finish("touched");
     channel_.retractTo(startTip, Feed::rapidTraverse());
@@ -149,14 +175,16 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
   for (const Vector3& centre : centres)
     mean += centre / static_cast<double>(centres.size());
   for (const Vector3& centre : centres) {
-    if (centres.size() > 1 && probe_.confidence > 0 && (centre - mean).norm() > probe_.confidence) {
+    const double apart = (channel_.spindleFromProgram() * plane_.xyzFromPlane(centre - mean)).norm();
+    if (centres.size() > 1 && probe_.confidence > 0 && apart > probe_.confidence) {
       throw Alarm("Value beyond tolerance",
                   fmt::format("Repeated measurements of one point differ by more than {:.4f} mm", probe_.confidence),
                   "clean the part, check the probe and MP6171");
     }
   }
   touch.ballCentre = mean + direction * directional;
-  touch.surface = touch.ballCentre + direction * probe_.ballRadius;
+  touch.surface = touch.ballCentre + direction * radius;
+  touch.ballRadius = radius;
   return touch;
 }
 

@@ -26,6 +26,8 @@ struct HeidenhainProbe {
   bool aside = false;     ///< STYLUS = L-TYPE: the ball stands aside by tipOffset, which is turned to the surface
   int repetitions = 1;    ///< iTNC 530, MP6170: measurements of one point
   double confidence = 0;  ///< iTNC 530, MP6171: largest difference between them, mm
+  /// Where the longest stroke is entered, for messages.
+  std::string_view distanceName = "DIST of the touch probe table";
   DirectionalRadius directions;  ///< of a 3-D calibration: what comes on top of the ball radius
 
   /// How far the ball reaches from the spindle axis when it is turned to a surface.
@@ -36,13 +38,23 @@ struct HeidenhainProbe {
 struct EvaluatedTouch {
   Vector3 ballCentre = Vector3::Zero();  ///< tip offset taken into account
   Vector3 surface = Vector3::Zero();     ///< ball centre plus ball radius along the probing direction
+  double ballRadius = 0;                 ///< along the probing direction: mm divided by the active scaling
   machine::AxisPositions latched;
 };
 
-/// Moves the ball in coordinates (main, minor, tool axis) of the active program coordinate system. Positions are of the
-/// ball centre as the control drives it: on the spindle axis, one ball radius above the tool tip; the tip offset is
-/// taken into account only in results, as the controls do. Only pre-positions of a ball that stands aside make room for
-/// it.
+/// What `length` mm are in program coordinates along `direction` (X, Y, Z; unit length): cycles 11 and 26 scale them.
+double inProgramUnits(const control::Channel& channel, double length, const Vector3& direction);
+
+/// The vector in program coordinates X, Y, Z that leads `length` mm along the tool towards the spindle.
+Vector3 alongTool(const control::Channel& channel, double length);
+
+/// Moves the ball in coordinates (main, minor, tool axis) of the active program coordinate system. What program and
+/// cycle give counts in these coordinates; what tables and machine parameters give (ball radius, SET_UP, DIST) is in mm
+/// whatever scaling is active.
+///
+/// Positions are of the ball centre, one ball radius above the tool tip. A probe that the spindle holds still has its
+/// ball where CAL_OF1 and CAL_OF2 say. One that the spindle turns to every touch (TRACK, a ball that stands aside) is
+/// driven by the spindle axis, and its pre-positions make room for the ball as it will stand.
 class HeidenhainProber {
 public:
   HeidenhainProber(control::Channel& channel, const WorkingPlane& plane, const HeidenhainProbe& probe)
@@ -52,8 +64,19 @@ public:
 
   Vector3 position() const;
 
-  /// Ball centre pre-position of a touch: ball radius, SET_UP and `extra` (Q320) in front of the surface. If the ball
-  /// stands aside, the spindle axis stays behind so that the ball gets there once it is turned to the surface.
+  /// The position with the tool tip on the spindle axis at `tip`.
+  Vector3 positionWithTip(const Vector3& tip) const;
+
+  /// What `length` mm are in program coordinates along `direction`.
+  double inProgram(double length, const Vector3& direction) const;
+  double ballRadius(const Vector3& direction) const { return inProgram(probe_.ballRadius, direction); }
+  /// The ball radius along the touch probe axis.
+  double poleDepth() const { return ballRadius(Vector3::UnitZ()); }
+  /// How far the spindle axis stands back from surfaces of the working plane in pre-positions.
+  double standOff(double extra) const;
+
+  /// Pre-position of a touch: ball radius, SET_UP and `extra` (Q320) in front of the surface. If the spindle turns the
+  /// probe, its axis stays behind so that the ball gets there once it is turned to the surface.
   Vector3 prePosition(const PlannedTouch& touch, double extra) const;
 
   /// Straight to the ball centre position at the positioning feed (FMAX of the probe table, or machine rapid).
@@ -77,6 +100,8 @@ public:
 
   /// From wherever the ball is towards `direction`, at most `distance`; stays at the start of the stroke afterwards.
   EvaluatedTouch stroke(const Vector3& direction, double distance, const std::optional<Vector3>& expected = {});
+  /// The same, at most DIST.
+  EvaluatedTouch stroke(const Vector3& direction) { return stroke(direction, inProgram(probe_.distance, direction)); }
 
   /// The spindle angle of a touch along `direction`: nothing if the probe is not turned to it.
   std::optional<double> orientationFor(const Vector3& direction) const;
@@ -85,7 +110,8 @@ public:
   Vector3 tipOffsetNow() const;
 
 private:
-  Vector3 tipFromBall(const Vector3& ballCentre) const;
+  /// From the tool tip to the ball centre that positions count for.
+  Vector3 ballFromTip() const;
   Vector3 tipOffsetAt(double spindleAngle) const;
   double directionalRadius(const Vector3& xyzDirection) const;
   machine::Feed positioning() const;

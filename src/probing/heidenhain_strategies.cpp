@@ -7,11 +7,6 @@ namespace {
 
 Vector3 at(const Vector2& point, double height) { return {point.x(), point.y(), height}; }
 
-/// How far the spindle axis stands back from the surface in pre-positions.
-double standOff(const HeidenhainProber& prober, const Heights& heights) {
-  return prober.probe().reach() + prober.probe().setUp + heights.extraClearance;
-}
-
 /// Touches all of `plan` from one place in the middle, at the measuring height.
 std::vector<EvaluatedTouch> probeFromCentre(HeidenhainProber& prober, const Vector3& centre,
                                             const std::vector<PlannedTouch>& plan, const Heights& heights) {
@@ -28,7 +23,7 @@ std::vector<EvaluatedTouch> probeFromCentre(HeidenhainProber& prober, const Vect
 std::vector<EvaluatedTouch> probeCircle(HeidenhainProber& prober, const CircleTask& task, const Heights& heights) {
   const Vector3 centre = at(task.centre, heights.measuring);
   const auto plan = planCircle(centre, task.diameter, task.startAngle, task.stepAngle, task.count, task.side);
-  if (task.side == Side::Inside && task.diameter / 2 <= standOff(prober, heights)) {
+  if (task.side == Side::Inside && task.diameter / 2 <= prober.standOff(heights.extraClearance)) {
     return probeFromCentre(prober, centre, plan, heights);
   }
   std::vector<EvaluatedTouch> touches;
@@ -58,7 +53,8 @@ std::vector<EvaluatedTouch> probeRectangle(HeidenhainProber& prober, const Recta
                                            const Heights& heights) {
   const Vector3 centre = at(task.centre, heights.measuring);
   const auto plan = planRectangle(centre, task.length1, task.length2, task.side);
-  if (task.side == Side::Inside && std::min(task.length1, task.length2) / 2 <= standOff(prober, heights)) {
+  if (task.side == Side::Inside &&
+      std::min(task.length1, task.length2) / 2 <= prober.standOff(heights.extraClearance)) {
     return probeFromCentre(prober, centre, plan, heights);
   }
   std::vector<EvaluatedTouch> touches;
@@ -90,7 +86,7 @@ std::vector<EvaluatedTouch> probeRectangle(HeidenhainProber& prober, const Recta
 std::vector<EvaluatedTouch> probeWidth(HeidenhainProber& prober, const WidthTask& task, const Heights& heights) {
   const Vector3 centre = at(task.centre, heights.measuring);
   const auto plan = planWidth(centre, task.width, task.axis == 0 ? 0.0 : 90.0, task.side);
-  if (task.side == Side::Inside && task.width / 2 <= standOff(prober, heights)) {
+  if (task.side == Side::Inside && task.width / 2 <= prober.standOff(heights.extraClearance)) {
     return probeFromCentre(prober, centre, plan, heights);
   }
   Heights used = heights;

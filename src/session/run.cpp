@@ -84,6 +84,8 @@ void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>
   control.startSeconds = control.channel.seconds();
   control.wallClockStart = options.wallClock;
   control.activatePreset(activePresetRow(setup));
+  const auto probe = std::ranges::find(setup.tools, "probe", &simulation::BelievedTool::kind);
+  if (probe != setup.tools.end()) control.handProbe = {probe->number, probe->name};
   for (const auto& tool : setup.tools) {
     if (tool.inSpindle) control.callTool(std::to_string(tool.number), 'Z', 0, 0, 0);
   }

@@ -343,8 +343,14 @@ TEST(EveryPage, RefusesATransferToNowhereBeforeAnythingIsTouched) {
       set("Q305=+1.000000", "Q305=+5.000000");
       set("Q303=+1.000000", "Q303=-1.000000");
       const Ran undefined = emptyBench(kind).run(blocks);
-      EXPECT_EQ(undefined.alarm(), "Measured value transfer not defined") << undefined.why();
-      EXPECT_EQ(undefined.touches(), 0U);
+      if (cycle.number == 408 || cycle.number == 409) {
+        // Younger than the choice: their pages do not print -1.
+        EXPECT_NE(undefined.why().find("Q303 (where the measured values go) cannot be -1"), std::string::npos)
+            << undefined.why();
+      } else {
+        EXPECT_EQ(undefined.alarm(), "Measured value transfer not defined") << undefined.why();
+        EXPECT_EQ(undefined.touches(), 0U);
+      }
       set("Q303=-1.000000", "Q303=+0.000000");
       const Ran unselected = emptyBench(kind).run(blocks);
       EXPECT_EQ(unselected.alarm(), "Datum table not selected") << unselected.why();

@@ -160,5 +160,37 @@ TEST(Cycle1411, ReducesTheClearanceInSmallHoles) {
   EXPECT_EQ(tooSmall.alarm(), "Hole too small");
 }
 
+/// A hole with just the room for the set-up clearance: nothing is asked.
+TEST(Cycle1411, AsksNothingWhereTheClearanceJustFits) {
+  Bench bench(ControlKind::TNC640);
+  bench.preset(1, {0, 0, -400});
+  bench.probeOf(110, 3);
+  for (const double x : {-40.0, 40.0})
+    bench.part(simulation::Ring(5, 20, -40), pose({x, 0, -400}));
+  // Ball radius 3 and SET_UP 2 make 5, half of the nominal diameter.
+  const Ran ran = bench.run(probe(1411, {{1100, -40},
+                                         {1101, 0},
+                                         {1102, -8},
+                                         {1116, 10},
+                                         {1103, 40},
+                                         {1104, 0},
+                                         {1105, -8},
+                                         {1117, 10},
+                                         {1115, 0},
+                                         {423, 4},
+                                         {325, 0},
+                                         {1119, 360},
+                                         {320, 0},
+                                         {260, 20},
+                                         {1125, 1},
+                                         {309, 0},
+                                         {1126, 0},
+                                         {1120, 0},
+                                         {1121, 0}}));
+  ASSERT_TRUE(ran.finished()) << ran.why();
+  EXPECT_TRUE(ran.screens().empty());
+  EXPECT_NEAR(ran.q(950), -40, exact);
+}
+
 }  // namespace
 }  // namespace probewright::testing_support

@@ -112,17 +112,19 @@ TEST(Inspection, CorrectsTurningToolsSoThatTheNextPartIsRight) {
     if (cycle == 427) {
       measured = dice.whole(0, 1);
       // A turned face or cylinder that the tip's error has moved.
-      const double nominal = measured == 0 ? 40 : 0;
-      const double actual = nominal + world.missing[measured];
-      world.bench.part(
-          simulation::Box({-40, -40, -40}, measured == 0 ? Vector3(actual, 40, 0) : Vector3(40, 40, actual)),
-          pose({0, 0, -400}));
+      // On either side of the turning axis.
+      const double side = measured == 0 && dice.coin() ? -1 : 1;
+      const double nominal = measured == 0 ? side * 40 : 0;
+      const double actual = nominal + side * world.missing[measured];
+      const Vector3 least(side < 0 ? actual : -40, -40, -40);
+      const Vector3 greatest(measured == 0 && side > 0 ? actual : 40, 40, measured == 0 ? 0 : actual);
+      world.bench.part(simulation::Box(least, greatest), pose({0, 0, -400}));
       text = blocks(with({{263, measured == 0 ? nominal : 0},
                           {264, 0},
                           {261, measured == 0 ? -10 : nominal},
                           {320, 0},
                           {272, measured == 0 ? 1 : 3},
-                          {267, -1},
+                          {267, -side},
                           {260, 30},
                           {281, 0},
                           {288, 0},

@@ -96,8 +96,8 @@ TEST(CycleCalls, FeedsOfCyclesPerRevolutionAndTooth) {
   ASSERT_TRUE(world.control->tables.tools.setNumber("5", "CUT", 4));
   // GLOBAL DEF keeps what a cycle's feed comes to.
   expectFinished(world.run("TOOL CALL 5 Z S1000\nGLOBAL DEF 105 MILLING ~\n Q207=FZ0.1 ~\n Q206=FU0.2\n"));
-  EXPECT_DOUBLE_EQ(world.control->globalDefinitions.at(207), 400);
-  EXPECT_DOUBLE_EQ(world.control->globalDefinitions.at(206), 200);
+  EXPECT_DOUBLE_EQ(world.control->globalDefinitions.at(207).value, 400);
+  EXPECT_DOUBLE_EQ(world.control->globalDefinitions.at(206).value, 200);
 }
 
 }  // namespace

@@ -50,6 +50,14 @@ public:
     return ran;
   }
 
+  /// A program as the control's manual prints it: that of the iTNC 530 begins with TOOL CALL 0, which names no tool but
+  /// the axis of the touch probe that the operator has put in.
+  Ran printed(const std::string& blocks) const {
+    Ran ran = bench.runBare((bench.control == ControlKind::iTNC530 ? "TOOL CALL 0 Z\n" : "TOOL CALL 1 Z\n") + blocks);
+    EXPECT_TRUE(ran.finished()) << ran.why();
+    return ran;
+  }
+
   Bench bench;
 };
 

@@ -53,25 +53,39 @@ TEST_P(PrintedProgram, MeasuresAndLogsAPocket) {
   ASSERT_TRUE(ran.finished()) << ran.why();
   EXPECT_EQ(ran.q(180), 1);
   const std::string log = ran.log("TCHPR423.TXT");
-  const std::string main = "Center in reference axis", minor = "Center in minor axis";
-  const std::string side1 = "Side length in reference axis", side2 = "Side length in minor axis";
-  for (const auto& [label, values] : std::vector<std::pair<std::string, std::vector<std::string>>>{
-           {main, {"50.0000", "50.0905", "0.0905"}},
-           {minor, {"40.0000", "39.9347", "-0.0653"}},
-           {side1, {"90.0000", "90.1200", "0.1200"}},
-           {side2, {"70.0000", "69.9920", "-0.0080"}},
-           {"Maximum limit for center in reference axis", {"50.1500"}},
-           {"Minimum limit for center in reference axis", {"49.8500"}},
-           {"Maximum limit for center in minor axis", {"40.1000"}},
-           {"Minimum limit for center in minor axis", {"39.9000"}},
-           {"Maximum dimension for side length in reference axis", {"90.1500"}},
-           {"Minimum dimension for side length in reference axis", {"89.9500"}},
-           {"Maximum dimension for side length in minor axis", {"70.1000"}},
-           {"Minimum dimension for side length in minor axis", {"69.9000"}},
-           {"Measuring height", {"-5.0000"}}}) {
-    for (const std::string& value : values)
+  // The two manuals word and lay out the log differently.
+  const bool newer = GetParam() == ControlKind::TNC640;
+  struct Printed {
+    std::string newer, older;
+    std::vector<std::string> values;
+  };
+  for (const Printed& line : std::vector<Printed>{
+           {"Center in reference axis", "CENTER IN REF. AXIS", {"50.0000", "50.0905", "0.0905"}},
+           {"Center in minor axis", "CENTER IN MINOR AXIS", {"40.0000", "39.9347", "-0.0653"}},
+           {"Side length in reference axis", "SIDE LENGTH IN REF. AXIS", {"90.0000", "90.1200", "0.1200"}},
+           {"Side length in minor axis", "SIDE LENGTH IN MINOR AXIS", {"70.0000", "69.9920", "-0.0080"}},
+           {"Maximum limit for center in reference axis", "MAX. FOR CENTER IN REF. AXIS", {"50.1500"}},
+           {"Minimum limit for center in reference axis", "MIN. FOR CENTER IN REF. AXIS", {"49.8500"}},
+           {"Maximum limit for center in minor axis", "MAX. FOR CENTER IN MINOR AXIS", {"40.1000"}},
+           {"Minimum limit for center in minor axis", "MIN. FOR CENTER IN MINOR AXIS", {"39.9000"}},
+           {"Maximum dimension for side length in reference axis", "MAX. IN REFERENCE AXIS", {"90.1500"}},
+           {"Minimum dimension for side length in reference axis", "MINIMUM DIMENSION IN REFERENCE AXIS", {"89.9500"}},
+           {"Maximum dimension for side length in minor axis", "MAXIMUM SIDE LENGTH IN MINOR AXIS", {"70.1000"}},
+           {"Minimum dimension for side length in minor axis", "MINIMUM SIDE LENGTH IN MINOR AXIS", {"69.9000"}},
+           {"Measuring height", "MEASURING HEIGHT", {"-5.0000"}}}) {
+    const std::string& label = newer ? line.newer : line.older;
+    for (const std::string& value : line.values)
       EXPECT_TRUE(hasLine(log, label, value)) << label << ' ' << value << '\n' << log;
   }
+  if (newer) return;
+  const std::string stars(18, '*');
+  EXPECT_TRUE(log.starts_with(std::string(104, '-') + "\n" + stars +
+                              " MEASURING LOG FOR PROBING CYCLE 423: RECTANGULAR POCKET MEASURING " + stars +
+                              "*\nDATE: "))
+      << log;
+  for (const char* heading : {"NOML. VALUES:", "GIVEN LIMIT VALUES:", "ACTUAL VALUES:", "DEVIATIONS:",
+                              "FURTHER MEASURING RESULTS:", " END OF MEASURING LOG "})
+    EXPECT_NE(log.find(heading), std::string::npos) << heading;
 }
 
 /// A stud roughed to 81 x 61 mm is measured against 80 x 60, and the finishing size corrected by the deviation: BEAMS.
@@ -129,7 +143,7 @@ TEST_P(PrintedProgram, TurnsTheTableByTwoHoles) {
   const Vector2 first(25.1, 14.9), second(80.05, 35.2);
   part.hole(first, 14);
   part.hole(second, 14);
-  const Ran ran = part.bench.run(probe(
+  const Ran ran = part.printed(probe(
       401, {{268, 25}, {269, 15}, {270, 80}, {271, 35}, {261, -5}, {260, 20}, {307, 0}, {305, 0}, {402, 1}, {337, 1}}));
   ASSERT_TRUE(ran.finished()) << ran.why();
   const auto& machine = part.bench.setup.truth.machine;
@@ -143,24 +157,24 @@ TEST_P(PrintedProgram, PresetsASegment) {
   Part part(GetParam());
   part.bench.believedProbe().maximumTravel = 40;  // the top lies 25 mm below where the program expects it
   part.stud({25.15, 24.9}, 30.02, 0.05);
-  const Ran ran = part.run(413, {{321, 25},
-                                 {322, 25},
-                                 {262, 30},
-                                 {325, 90},
-                                 {247, 45},
-                                 {261, -5},
-                                 {320, 2},
-                                 {260, 10},
-                                 {301, 0},
-                                 {305, 0},
-                                 {331, 0},
-                                 {332, 10},
-                                 {303, 0},
-                                 {381, 1},
-                                 {382, 25},
-                                 {383, 25},
-                                 {384, 25},
-                                 {333, 0}});
+  const Ran ran = part.printed(probe(413, {{321, 25},
+                                           {322, 25},
+                                           {262, 30},
+                                           {325, 90},
+                                           {247, 45},
+                                           {261, -5},
+                                           {320, 2},
+                                           {260, 10},
+                                           {301, 0},
+                                           {305, 0},
+                                           {331, 0},
+                                           {332, 10},
+                                           {303, 0},
+                                           {381, 1},
+                                           {382, 25},
+                                           {383, 25},
+                                           {384, 25},
+                                           {333, 0}}));
   const Vector3 origin = ran.preset().translation() - Vector3(0, 0, tableHeight);
   EXPECT_TRUE(origin.isApprox(Vector3(25.15, 24.9 - 10, 0.05), 1e-6)) << origin.transpose();
 }
@@ -177,26 +191,26 @@ TEST_P(PrintedProgram, PresetsABoltHoleCircleInARow) {
   for (const double angle : {90, 180, 270})
     part.hole(middle + 25.03 * Vector2(std::cos(radians(angle)), std::sin(radians(angle))), 12, top);
   part.box({2, 2, -15}, {13, 13, top});
-  const Ran ran = part.bench.run(
-      probe(417, {{263, 7.5}, {264, 7.5}, {294, 25}, {320, 0}, {260, 50}, {305, 1}, {333, 0}, {303, 1}}) +
-      probe(416, {{273, 35},
-                  {274, 35},
-                  {262, 50},
-                  {291, 90},
-                  {292, 180},
-                  {293, 270},
-                  {261, 15},
-                  {260, 50},
-                  {305, 1},
-                  {331, 0},
-                  {332, 0},
-                  {303, 1},
-                  {381, 0},
-                  {382, 0},
-                  {383, 0},
-                  {384, 0},
-                  {333, 0}}) +
-      "CYCL DEF 247 PRESET ~\n  Q339=+1 ;NUMBER\n");
+  const Ran ran =
+      part.printed(probe(417, {{263, 7.5}, {264, 7.5}, {294, 25}, {320, 0}, {260, 50}, {305, 1}, {333, 0}, {303, 1}}) +
+                   probe(416, {{273, 35},
+                               {274, 35},
+                               {262, 50},
+                               {291, 90},
+                               {292, 180},
+                               {293, 270},
+                               {261, 15},
+                               {260, 50},
+                               {305, 1},
+                               {331, 0},
+                               {332, 0},
+                               {303, 1},
+                               {381, 0},
+                               {382, 0},
+                               {383, 0},
+                               {384, 0},
+                               {333, 0}}) +
+                   "CYCL DEF 247 PRESET ~\n  Q339=+1 ;NUMBER\n");
   ASSERT_TRUE(ran.finished()) << ran.why();
   const Vector3 origin = ran.preset().translation() - Vector3(0, 0, tableHeight);
   EXPECT_TRUE(origin.isApprox(Vector3(middle.x(), middle.y(), top), 1e-6)) << origin.transpose();

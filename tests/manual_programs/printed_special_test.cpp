@@ -109,14 +109,15 @@ TEST_P(PrintedSpecial, Cycle431MeasuresThePlane) {
   }));
 }
 
-TEST_P(PrintedSpecial, Cycle426SaysThatItTurnsThePointsRound) {
+TEST_P(PrintedSpecial, Cycle426TakesThePointsInEitherOrder) {
   part.box({0, 32.4, -40}, {100, 77.36, 0});
-  const auto warned = [&](const Words& words) {
+  for (const Words& words : {printed::cycle426, with(printed::cycle426, {{264, 85}, {266, 25}})}) {
     const Ran ran = runs(probe(426, words));
-    return std::ranges::count(ran.outcome.journal.events, control::EventKind::Warning, &control::EventRecord::kind);
-  };
-  EXPECT_EQ(warned(printed::cycle426), 1);
-  EXPECT_EQ(warned(with(printed::cycle426, {{264, 85}, {266, 25}})), 0);
+    EXPECT_NEAR(ran.q(156), 77.36 - 32.4, exact);
+    EXPECT_EQ(ran.cycle().touches.front().direction.y(), -1);
+    EXPECT_EQ(std::ranges::count(ran.outcome.journal.events, control::EventKind::Warning, &control::EventRecord::kind),
+              0);
+  }
 }
 
 TEST_P(PrintedSpecial, Cycle444MeasuresAPointOfAFace) {

@@ -85,8 +85,11 @@ void Control::callTool(const std::string& row, std::optional<char> axis, double 
   const std::string probe = tables.tools.text(row, "TP_NO");
   next.probeRow = probe == "0" || probe == "-" ? "" : probe;
   if (!tool.called || next.row != tool.row) {
-    channel.changeTool({next.number, next.name});
-    panel.message(EventKind::Tool, fmt::format("Tool {}{}{}", row, next.name.empty() ? "" : " ", next.name),
+    const bool byHand = !isTNC640() && row == "0" && handProbe.number != 0;
+    channel.changeTool(byHand ? handProbe : machine::ToolOrder{next.number, next.name});
+    panel.message(EventKind::Tool,
+                  byHand ? fmt::format("Tool 0: touch probe {} put in by hand, axis {}", handProbe.name, next.axis)
+                         : fmt::format("Tool {}{}{}", row, next.name.empty() ? "" : " ", next.name),
                   channel.seconds());
   }
   tool = std::move(next);
@@ -166,6 +169,14 @@ void Control::activatePreset(int row) {
   applyCoordinates();
 }
 
+void Control::requireWritablePreset(int row) const {
+  const std::string key = std::to_string(row);
+  if (tables.presets.hasRow(key) && !tables.presets.text(key, "LOCKED").empty()) {
+    throw Alarm("Preset locked", fmt::format("Row {} of the preset table is write-protected", row),
+                "unlock the row or use another");
+  }
+}
+
 void Control::writePreset(int row, const PresetChange& change) {
   TypedTable& table = tables.presets;
   const std::string key = std::to_string(row);
@@ -175,10 +186,7 @@ void Control::writePreset(int row, const PresetChange& change) {
     const Result<void> added = table.ensureRow(key);
     if (!added) throw Alarm("Table write error", added.error().message, added.error().advice);
   }
-  if (!table.text(key, "LOCKED").empty()) {
-    throw Alarm("Preset locked", fmt::format("Row {} of the preset table is write-protected", row),
-                "unlock the row or use another");
-  }
+  requireWritablePreset(row);
   const auto toolAxis = static_cast<std::size_t>(coordinates.plane.tool);
   for (std::size_t i = 0; i < 3; ++i) {
     if (change.origin[i]) {

@@ -78,8 +78,12 @@ public:
   std::string programPath;          ///< of the main program, for logs
   double startSeconds = 0;          ///< machine clock when the program began
   std::int64_t wallClockStart = 0;  ///< seconds since 1970 (UTC) that logs show for startSeconds
-  /// Values of GLOBAL DEF by Q number.
-  std::map<int, double> globalDefinitions;
+  /// Values of GLOBAL DEF by Q number, each with the unit of the program that it stands in.
+  struct GlobalDefinition {
+    double value = 0;
+    double unit = 1;
+  };
+  std::map<int, GlobalDefinition> globalDefinitions;
   ProbingOverrides overrides;  ///< reset at the end of the main program
   bool turningMode = false;    ///< FUNCTION MODE TURN
   /// Radius of the ring or pin with which cycle 2 has last calibrated; 0 before.
@@ -97,7 +101,11 @@ public:
   /// table and TOOL CALL are overwritten by them until it ends.
   void setProbing(bool probing);
   /// Measured lengths and radii of probes stand in the tool table, not in the calibration data of MP7411 = 0.
-  bool keepsCalibrationInTable() const { return isTNC640() || parameters.mp7411; }
+  bool keepsCalibrationInTable() const { return isTNC640() || (parameters.mp7411 && !probeByHand()); }
+  /// iTNC 530: TOOL CALL 0 names no tool but the axis of the touch probe, which the operator has put into the spindle.
+  bool probeByHand() const { return !isTNC640() && tool.called && tool.number == 0; }
+  /// Which tool of the machine that probe is.
+  machine::ToolOrder handProbe;
 
   /// Activates a row of the preset table; resets nothing else. Throws Alarm if there is no such row.
   void activatePreset(int row);
@@ -109,6 +117,8 @@ public:
     std::array<std::optional<double>, machine::maximumAxes> rotaryOffset;
   };
   void writePreset(int row, const PresetChange& change);
+  /// Throws Alarm if the row is locked.
+  void requireWritablePreset(int row) const;
   /// Reads a row; nothing if there is none.
   std::optional<ActivePreset> presetRow(int row) const;
 

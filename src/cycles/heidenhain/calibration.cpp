@@ -184,6 +184,12 @@ void logChanges(Context& context, const Rows& rows) { addToHtmlLog(context, {"",
 }  // namespace
 
 HeidenhainProber calibrationProber(Context& context) {
+  const Matrix3 axes = context.channel().spindleFromProgram();
+  if (!axes.colwise().norm().isOnes(1e-9)) {
+    throw Alarm("Coordinate transformation not permitted",
+                "A scaling is active (cycle 11 or 26); standards have their true size only without it",
+                "end the scaling before the calibration");
+  }
   probing::HeidenhainProbe probe = activeProbe(context.control(), Calibrated::NotYet);
   if (!probe.aside) probe.tipOffset.setZero();
   probe.track = probe.aside;
@@ -207,8 +213,8 @@ CalibratedRadius calibrateRadius(Context& context, HeidenhainProber& prober, Cal
                 "check the radius of the standard (Q407)");
   }
   const auto& control = context.control();
-  const bool reverses =
-      context.channel().description().spindleOrients && (control.isTNC640() || control.parameters.mp6160 != 0);
+  const bool reverses = task.centreOffset && context.channel().description().spindleOrients &&
+                        (control.isTNC640() || control.parameters.mp6160 != 0);
   if (reverses) {
     context.channel().orientSpindle(prober.probe().calibrationAngle + 180);
     const metrology::Circle2 reversed = touchCircle(prober, task, fine.centre, task.count);

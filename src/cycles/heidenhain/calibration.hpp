@@ -58,6 +58,7 @@ struct CalibrationTask {
   double travelHeight = 0;     ///< of the ball centre, on the way to a stud or sphere and back
   double extraClearance = 0;
   probing::Between between = probing::Between::AtClearanceHeight;  ///< around a stud or sphere
+  bool centreOffset = true;  ///< false: only the radius is wanted, so the probe is not turned by 180 degrees
 };
 
 /// How a calibration travels between its touches, as Q301 says.

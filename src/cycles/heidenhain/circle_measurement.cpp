@@ -11,6 +11,13 @@
 
 namespace probewright::cycles::heidenhain {
 
+double meanBallRadius(std::span<const EvaluatedTouch> touches) {
+  double sum = 0;
+  for (const EvaluatedTouch& touch : touches)
+    sum += touch.ballRadius;
+  return sum / static_cast<double>(touches.size());
+}
+
 MeasuredCircle measureCircle(Context& context, const CircleParameters& numbers, Side side, probing::Ending ending) {
   using probing::Between;
   using probing::Traverse;
@@ -24,9 +31,13 @@ MeasuredCircle measureCircle(Context& context, const CircleParameters& numbers, 
   task.diameter = context.q(numbers.diameter);
   task.startAngle = context.q(325);
   task.stepAngle = step;
-  task.count = context.option(423);
+  const auto optional = [&](int number, int otherwise) {
+    const bool known = context.arguments().definition().parameter(static_cast<std::uint32_t>(number)) != nullptr;
+    return known ? context.option(number) : otherwise;
+  };
+  task.count = optional(423, 4);
   task.side = side;
-  task.traverse = context.option(365) == 0 ? Traverse::Straight : Traverse::Arc;
+  task.traverse = optional(365, 1) == 0 ? Traverse::Straight : Traverse::Arc;
   const probing::Heights heights{
       .measuring = context.q(261),
       .clearance = context.q(260),
@@ -42,7 +53,7 @@ MeasuredCircle measureCircle(Context& context, const CircleParameters& numbers, 
   if (!fit) throw control::Alarm("Circle not determined", fit.error().message, fit.error().advice);
   MeasuredCircle circle;
   circle.centre = fit->shape.centre;
-  circle.diameter = 2 * (fit->shape.radius + probing::outwards(side) * context.ballRadius());
+  circle.diameter = 2 * (fit->shape.radius + probing::outwards(side) * meanBallRadius(touches));
   return circle;
 }
 
@@ -58,7 +69,7 @@ void presetCircle(Context& context, Side side) {
 
 void inspectCircle(Context& context, Side side, const std::string& title, const std::string& feature, int maximum,
                    int minimum) {
-  context.require({});
+  requireInspection(context);
   const MeasuredCircle circle = measureCircle(context, {273, 274, 262}, side);
   Inspection inspection{
       .title = title,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "probing/heidenhain_strategies.hpp"
@@ -28,7 +30,8 @@ inline constexpr std::array circlePresetResults = {
 };
 
 /// The limits of the diameter have numbers of their own for holes and for studs.
-constexpr auto circleInspection(const Parameter& largestDiameter, const Parameter& smallestDiameter) {
+constexpr auto circleInspection(const Parameter& largestDiameter, const Parameter& smallestDiameter,
+                                const Parameter& tool = monitoredTool) {
   return joined(
       joined(
           std::array{
@@ -40,7 +43,7 @@ constexpr auto circleInspection(const Parameter& largestDiameter, const Paramete
           },
           heightsAndTravel),
       std::array{largestDiameter, smallestDiameter, centreTolerance1, centreTolerance2, measuringLog, toleranceStop,
-                 monitoredTool, pointCount, traverse, reverseTool, inclination});
+                 tool, pointCount, traverse, reverseTool, inclination});
 }
 
 inline constexpr std::array circleInspectionResults = {
@@ -62,13 +65,17 @@ struct MeasuredCircle {
   double diameter = 0;
 };
 
+/// The ball radius in program coordinates. Where cycle 26 scales the axes differently, a circle is an ellipse there:
+/// its diameter and the ball radius are means.
+double meanBallRadius(std::span<const EvaluatedTouch> touches);
+
 /// Which Q parameters hold the nominal circle.
 struct CircleParameters {
   int centre1 = 0, centre2 = 0, diameter = 0;
 };
 
 /// Touches the circle as Q325, Q247, Q261, Q320, Q260, Q301, Q423 and Q365 say and fits it: three touches exactly, four
-/// by least squares. Throws Alarm for a stepping angle below 5 degrees.
+/// by least squares; four where the cycle has no Q423. Throws Alarm for a stepping angle below 5 degrees.
 MeasuredCircle measureCircle(Context& context, const CircleParameters& numbers, Side side,
                              probing::Ending ending = probing::Ending::AtClearanceHeight);
 

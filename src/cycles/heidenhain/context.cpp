@@ -8,6 +8,7 @@
 #include "control/alarm.hpp"
 #include "control/heidenhain/deflection_table.hpp"
 #include "control/heidenhain/probe_table.hpp"
+#include "cycles/heidenhain/call_rules.hpp"
 
 namespace probewright::cycles::heidenhain {
 
@@ -32,6 +33,19 @@ std::string_view meaningOf(const CycleDefinition& definition, std::string_view r
 ValueKind kindOf(const CycleDefinition& definition, std::string_view result) {
   const auto found = std::ranges::find(definition.results, result, &ResultDefinition::name);
   return found == definition.results.end() ? ValueKind::Number : found->kind;
+}
+
+/// Refuses parameters that the iTNC 530 got with a later software.
+void requireSoftware(const Arguments& arguments, int version) {
+  const CycleDefinition& definition = arguments.definition();
+  for (const Parameter& parameter : definition.parameters) {
+    if (parameter.iTNC530Software <= version || !arguments.given(parameter.address)) continue;
+    throw Alarm(
+        "Cycle parameter wrong",
+        fmt::format("{} ({}) of cycle {} came with the NC software 340 49x-{:02}; this control has 340 49x-{:02}",
+                    parameter.name, parameter.meaning, definition.name, parameter.iTNC530Software, version),
+        "take the parameter out of the cycle, or set softwareVersion in [parameters]");
+  }
 }
 
 bool needsReset(const Transformations& active, const Context::Conditions& conditions) {
@@ -113,7 +127,7 @@ void Context::require(const Conditions& conditions) {
                            needsReset(control_.coordinates.workingPlane, conditions);
   if (transformed && control_.isTNC640() && control_.parameters.refuseTransformations) {
     throw Alarm("Coordinate transformation not permitted",
-                "A datum shift, mirror image, rotation or scaling is active (cycle 7, 8, 10, 11 or 26)",
+                fmt::format("A {}", transformationsText(forbiddenTransformations(arguments_.definition().number))),
                 "reset the transformation before the cycle");
   }
   const bool mayDiffer = conditions.mismatchWithTcpmAllowed && control_.channel.holdTip;
@@ -162,6 +176,7 @@ Eigen::Affine3d Context::machineFromProgram() {
 void Context::result(int number, double value, const Compared& compared) {
   const CycleDefinition& definition = arguments_.definition();
   const std::string name = fmt::format("Q{}", number);
+  value += 0.0;  // no -0
   const ValueKind kind = kindOf(definition, name);
   control_.q.setQ(number, kind == ValueKind::Length ? value / control_.mainUnit : value);
   control::ResultRecord record;
@@ -190,6 +205,7 @@ void Context::log(const std::string& name, const std::string& text) {
 void runCycle(Control& control, const Entry& entry, const Arguments& arguments, const SourcePlace& place) {
   const Diagnostics mistakes = check(arguments, control.kind());
   if (!mistakes.empty()) throw Alarm("Cycle parameter wrong", mistakes.front().message, mistakes.front().advice);
+  if (!control.isTNC640()) requireSoftware(arguments, control.parameters.softwareVersion);
   Context context(control, arguments, place);
   try {
     entry.run(context, arguments);
@@ -260,6 +276,7 @@ probing::HeidenhainProbe activeProbe(const Control& control, Calibrated calibrat
     probe.track = parameters.mp6165;
     probe.repetitions = parameters.mp6170;
     probe.confidence = parameters.mp6171;
+    probe.distanceName = "MP6130";
     const auto& tools = control.tables.tools;
     if (control.keepsCalibrationInTable()) {
       probe.tipOffset = {tools.numberOr(tool.row, "CAL-OF1", 0), tools.numberOr(tool.row, "CAL-OF2", 0)};

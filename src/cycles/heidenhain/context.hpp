@@ -65,7 +65,6 @@ public:
 
   /// The prober with the active probe's data. Made on first use.
   probing::HeidenhainProber& prober();
-  double ballRadius() { return prober().probe().ballRadius; }
 
   /// Machine coordinates (REF) from program coordinates, with the rotary axes of the table where they stand now. Linear
   /// axes count alike whether they move the table or the tool.

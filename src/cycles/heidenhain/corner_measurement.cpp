@@ -1,5 +1,7 @@
 #include "cycles/heidenhain/corner_measurement.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "control/alarm.hpp"
@@ -9,6 +11,13 @@
 namespace probewright::cycles::heidenhain {
 
 MeasuredCorner measureCorner(Context& context, const CornerTouches& planned, Side side) {
+  for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
+    if ((planned[i].surface - planned[i + 1].surface).norm() >= 1e-6) continue;
+    throw control::Alarm(
+        "Corner not determined",
+        fmt::format("Two touches of one side are to be made at the same point ({})", i == 0 ? "Q326" : "Q327"),
+        "enlarge the distance");
+  }
   auto& prober = context.prober();
   const double extra = context.q(320);
   std::vector<probing::RoutedTouch> plan = {{planned[0]}, {planned[1]}, {planned[2]}, {planned[3]}};
@@ -30,7 +39,8 @@ MeasuredCorner measureCorner(Context& context, const CornerTouches& planned, Sid
     }
     Vector2 normal = Vector2(-along.y(), along.x()).normalized();
     if (normal.dot(direction.head<2>()) < 0) normal = -normal;
-    return metrology::Line2{a.ballCentre.head<2>() + normal * context.ballRadius(), along.normalized()};
+    return metrology::Line2{a.ballCentre.head<2>() + normal * prober.ballRadius({normal.x(), normal.y(), 0}),
+                            along.normalized()};
   };
   const metrology::Line2 first = sideThrough(touches[0], touches[1], planned[0].direction);
   const metrology::Line2 second = sideThrough(touches[2], touches[3], planned[2].direction);

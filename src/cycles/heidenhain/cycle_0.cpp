@@ -42,7 +42,7 @@ void cycle0(Context& context, const Arguments& arguments) {
   direction[axis] = arguments.number(probe_word::direction);
   const control::WorkingPlane& plane = context.control().coordinates.plane;
   auto& prober = context.prober();
-  const EvaluatedTouch touch = prober.stroke(plane.planeFromXyz(direction), prober.probe().distance);
+  const EvaluatedTouch touch = prober.stroke(plane.planeFromXyz(direction));
 
   const double coordinate = plane.xyzFromPlane(touch.surface)[axis];
   const int number = arguments.integer(probe_word::result);

@@ -38,8 +38,7 @@ void cycle1(Context& context, const Arguments& arguments) {
   direction[axis] = std::cos(angle);
   direction[(axis + 1) % 3] = std::sin(angle);
   auto& prober = context.prober();
-  const EvaluatedTouch touch =
-      prober.stroke(context.control().coordinates.plane.planeFromXyz(direction), prober.probe().distance);
+  const EvaluatedTouch touch = prober.stroke(context.control().coordinates.plane.planeFromXyz(direction));
   storeTouchPosition(context, touch);
 }
 

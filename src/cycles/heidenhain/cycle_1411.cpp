@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "cycles/heidenhain/circle_measurement.hpp"
 #include "cycles/heidenhain/cycles.hpp"
 #include "cycles/heidenhain/object_probing.hpp"
 #include "cycles/heidenhain/rotation_parameters.hpp"
@@ -123,7 +124,7 @@ void cycle1411(Context& context, const Arguments&) {
       centres.push_back(touch.ballCentre);
     const auto fit = metrology::fitCircleInPlane(centres, Vector3::UnitZ());
     if (!fit) throw control::Alarm("Circle not determined", fit.error().message, fit.error().advice);
-    foundDiameters[i] = 2 * (fit->shape.radius + probing::outwards(side) * probing->prober().probe().ballRadius);
+    foundDiameters[i] = 2 * (fit->shape.radius + probing::outwards(side) * meanBallRadius(touches));
     found[i] = measuredPosition(nominal[i], fit->shape.centre, measured);
   }
   if (probing && nominal[1].known()) probing->leave(true, nominal[0].semiAutomatic());

@@ -79,16 +79,15 @@ void cycle2(Context& context, const Arguments&) {
                        .startAngle = 0,
                        .measuringHeight = place.z() - depth,
                        .travelHeight = clearance + prober.probe().ballRadius,
-                       .extraClearance = 0};
+                       .extraClearance = 0,
+                       .centreOffset = false};
   const Vector3 middle(place.x(), place.y(), task.measuringHeight);
   if (prober.position()[2] - prober.probe().ballRadius < clearance) prober.moveSouthPoleTo(clearance);
   if (task.side == Side::Inside) {
     prober.moveInPlane(middle);
     prober.moveTo(middle);
   }
-  CalibratedRadius calibrated = calibrateRadius(context, prober, task);
-  // The cycle finds the radius only; the centre offset stays as it is.
-  calibrated.centreOffset.reset();
+  const CalibratedRadius calibrated = calibrateRadius(context, prober, task);
   prober.moveSouthPoleTo(clearance);
   context.control().calibrationRingRadius = task.standardRadius;
   storeRadius(context, calibrated);

@@ -20,10 +20,11 @@ constexpr std::array parameters3 = joined(
            strokeOfBlock),
     std::array{standard(option(probe_word::errorMode, "ERRORMODE", "deflected stylus", errorChoices), 0)});
 
-constexpr ResultDefinition results3[] = {{"Qn", "ball centre, X"},
-                                         {"Qn+1", "ball centre, Y"},
-                                         {"Qn+2", "ball centre, Z"},
-                                         {"Qn+3", "1: touched, -1: not", ValueKind::Integer}};
+constexpr ResultDefinition results3[] = {
+    {"Qn", "ball centre, X"},
+    {"Qn+1", "ball centre, Y"},
+    {"Qn+2", "ball centre, Z"},
+    {"Qn+3", "1: touched, -1: not, 2: already deflected (iTNC 530, error mode 1)", ValueKind::Integer}};
 
 }  // namespace
 

@@ -39,10 +39,12 @@ const CycleDefinition cycle400Definition = {
 
 void cycle400(Context& context, const Arguments&) {
   context.require({.tiltAllowed = !context.control().isTNC640()});
+  const int row = context.option(305);
+  context.control().requireWritablePreset(row == 0 ? context.control().coordinates.preset.row : row);
   resetBasicRotation(context);
   const MeasuredEdge edge = measureEdge(context);
   const double measured = undirected(degreesFromRadians(std::atan2(edge.along.y(), edge.along.x())));
-  setBasicRotation(context, undirected(measured - context.q(307)), context.option(305));
+  setBasicRotation(context, undirected(measured - context.q(307)), row);
 }
 
 }  // namespace probewright::cycles::heidenhain

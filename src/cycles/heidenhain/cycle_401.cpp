@@ -38,7 +38,7 @@ const CycleDefinition cycle401Definition = {
 
 void cycle401(Context& context, const Arguments&) {
   context.require({.tiltAllowed = !context.control().isTNC640()});
-  if (context.option(402) == 1) requireTable(context, context.control().coordinates.plane.tool);
+  requireCompensation(context);
   resetBasicRotation(context);
   const Vector3 first = measureHoleCentre(context, {context.q(268), context.q(269)}, context.q(261));
   const Vector3 second = measureHoleCentre(context, {context.q(270), context.q(271)}, context.q(261));

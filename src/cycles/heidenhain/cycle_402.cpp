@@ -43,7 +43,7 @@ const CycleDefinition cycle402Definition = {
 
 void cycle402(Context& context, const Arguments&) {
   context.require({.tiltAllowed = !context.control().isTNC640()});
-  if (context.option(402) == 1) requireTable(context, context.control().coordinates.plane.tool);
+  requireCompensation(context);
   resetBasicRotation(context);
   const Vector3 first = measureStudCentre(context, {context.q(268), context.q(269)}, context.q(313), context.q(261));
   const Vector3 second = measureStudCentre(context, {context.q(270), context.q(271)}, context.q(314), context.q(315));

@@ -7,6 +7,7 @@
 #include "cycles/heidenhain/edge_measurement.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/rotary_alignment.hpp"
+#include "cycles/heidenhain/transfer.hpp"
 
 namespace probewright::cycles::heidenhain {
 namespace {
@@ -94,9 +95,16 @@ void cycle403(Context& context, const Arguments&) {
   context.require({.tiltAllowed = false});
   const int axis = compensationAxis(context);
   requireTable(context, axis);
+  const bool directed = context.option(312) == 0;
+  // A named axis is entered in the active preset; the older control knows Q305 for it too.
+  const bool rowGiven = directed || !context.control().isTNC640();
+  if (context.option(337) == 1 && context.option(303) == 0) {
+    requireDatumTable(context, "Q337 = 1 with Q303 = 0 enters", "enter it into the preset table with Q303 = 1");
+  } else if (context.option(337) == 1) {
+    context.control().requireWritablePreset(rowGiven ? context.option(305) : context.control().coordinates.preset.row);
+  }
   const MeasuredEdge edge = measureEdge(context);
   const auto& plane = context.control().coordinates.plane;
-  const bool directed = context.option(312) == 0;
   // Angles count from the main axis; where that is the axis of rotation, from the minor axis.
   const int zero = plane.main == axis ? plane.minor : plane.main;
   double measured = angleAbout(axis, zero, plane.xyzFromPlane(edge.along));
@@ -108,8 +116,7 @@ void cycle403(Context& context, const Arguments&) {
   context.result(150, measured, {.nominal = target});
   const double turn = directed ? normalizedDegrees(target - measured) : undirected(target - measured);
   const std::size_t rotary = turnWorkpiece(context, axis, turn);
-  // A named axis is entered in the active preset; the older control knows Q305 for it too.
-  if (context.option(337) == 1) zeroRotaryAxis(context, rotary, directed || !context.control().isTNC640());
+  if (context.option(337) == 1) zeroRotaryAxis(context, rotary, rowGiven);
 }
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "control/alarm.hpp"
@@ -29,8 +31,6 @@ constexpr Parameter parameters405[] = {
      .kind = ValueKind::Integer,
      .minimum = 0,
      .maximum = 2999},
-    only(pointCount, {}),
-    only(traverse, {}),
 };
 
 constexpr ResultDefinition results405[] = {
@@ -54,6 +54,12 @@ const CycleDefinition cycle405Definition = {
 void cycle405(Context& context, const Arguments&) {
   context.require({.tiltAllowed = !context.control().isTNC640()});
   requireTable(context, 2);
+  const int row = context.option(337);
+  if (row == 0) {
+    context.control().requireWritablePreset(context.control().coordinates.preset.row);
+  } else {
+    requireDatumTable(context, fmt::format("Q337 = {} enters", row), "set the angle of C to zero with Q337 = 0");
+  }
   const MeasuredCircle circle =
       measureCircle(context, {321, 322, 262}, Side::Inside, probing::Ending::AtMeasuringHeight);
   context.prober().moveTo(circle.centre);
@@ -68,7 +74,6 @@ void cycle405(Context& context, const Arguments&) {
   }
   context.result(150, offset);
   const std::size_t axis = turnWorkpiece(context, 2, -offset);
-  const int row = context.option(337);
   if (row == 0) {
     zeroRotaryAxisInPreset(context, axis, false);
   } else {

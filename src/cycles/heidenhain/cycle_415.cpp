@@ -51,7 +51,8 @@ void cycle415(Context& context, const Arguments&) {
   const double inwards2 = corner == 1 || corner == 2 ? 1 : -1;
   const double height = context.q(261);
   auto& prober = context.prober();
-  const double standOff = prober.probe().ballRadius + prober.probe().setUp + context.q(320);
+  const double standOff =
+      prober.inProgram(prober.probe().ballRadius + prober.probe().setUp, Vector3::UnitX()) + context.q(320);
   const Vector3 at(context.q(263), context.q(264), height);
   const Vector3 direction1 = probing::axisDirection(1, -inwards2);
   const Vector3 direction2 = probing::axisDirection(0, -inwards1);

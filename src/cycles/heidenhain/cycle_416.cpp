@@ -9,8 +9,8 @@ namespace {
 
 using namespace parameters;
 
-constexpr std::array parameters416 = joined(joined(boltCircleParameters, centreTransfer),
-                                            std::array{only(standard(setUpClearance, 0), control::onTNC640)});
+constexpr std::array parameters416 =
+    joined(joined(boltCircleParameters, centreTransfer), std::array{later(standard(setUpClearance, 0), 5)});
 
 constexpr ResultDefinition results416[] = {
     {"Q151", "actual centre, main axis"},

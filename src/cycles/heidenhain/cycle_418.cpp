@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/cycles.hpp"
 #include "cycles/heidenhain/hole_measurement.hpp"
@@ -45,13 +47,24 @@ const CycleDefinition cycle418Definition = {
 void cycle418(Context& context, const Arguments&) {
   context.require({.rotationAllowed = true});
   requireTransferTarget(context);
+  for (const auto& [one, other] : {std::pair{268, 316}, {270, 318}}) {
+    const Vector2 along(context.q(other) - context.q(one), context.q(other + 1) - context.q(one + 1));
+    if (along.norm() >= 1e-6) continue;
+    throw control::Alarm("Intersection not determined",
+                         fmt::format("Holes {} lie at the same place", one == 268 ? "1 and 3" : "2 and 4"),
+                         "give four different holes");
+  }
   std::vector<Vector2> centres;
   for (const auto& [main, minor] : {std::pair{268, 269}, {270, 271}, {316, 317}, {318, 319}}) {
     centres.push_back(measureHoleCentre(context, {context.q(main), context.q(minor)}, context.q(261)).head<2>());
   }
   const auto crossing = metrology::intersection(metrology::Line2{centres[0], centres[2] - centres[0]},
                                                 metrology::Line2{centres[1], centres[3] - centres[1]});
-  if (!crossing) throw control::Alarm("Intersection not determined", crossing.error().message, crossing.error().advice);
+  if (!crossing) {
+    throw control::Alarm("Intersection not determined",
+                         "The lines through holes 1 and 3 and through holes 2 and 4 are parallel",
+                         "give the holes in their order around the intersection");
+  }
   context.result(151, crossing->x());
   context.result(152, crossing->y());
   finishPreset(context, {.measured = {crossing->x(), crossing->y(), context.q(261)},

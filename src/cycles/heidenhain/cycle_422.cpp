@@ -6,7 +6,8 @@ namespace {
 
 constexpr std::array parameters422 = parameters::circleInspection(
     parameters::limit(277, "Q277", "largest permissible diameter; 0 with Q278 = 0: not monitored"),
-    parameters::limit(278, "Q278", "smallest permissible diameter"));
+    parameters::limit(278, "Q278", "smallest permissible diameter"),
+    parameters::upTo(parameters::monitoredTool, 32767.9));
 
 }  // namespace
 

@@ -2,6 +2,12 @@
 #include "cycles/heidenhain/rectangle_measurement.hpp"
 
 namespace probewright::cycles::heidenhain {
+namespace {
+
+constexpr std::array parameters423 =
+    parameters::rectangleInspectionWith(parameters::upTo(parameters::monitoredTool, 32767.9));
+
+}  // namespace
 
 const CycleDefinition cycle423Definition = {
     .number = 423,
@@ -11,7 +17,7 @@ const CycleDefinition cycle423Definition = {
     .summary =
         "Measures centre and side lengths of a rectangular pocket and compares them with tolerances; can correct the "
         "tool that made it.",
-    .parameters = parameters::rectangleInspection,
+    .parameters = parameters423,
     .results = parameters::rectangleInspectionResults,
 };
 

@@ -2,6 +2,11 @@
 #include "cycles/heidenhain/rectangle_measurement.hpp"
 
 namespace probewright::cycles::heidenhain {
+namespace {
+
+constexpr std::array parameters424 = parameters::rectangleInspectionWith(parameters::monitoredTool);
+
+}  // namespace
 
 const CycleDefinition cycle424Definition = {
     .number = 424,
@@ -11,7 +16,7 @@ const CycleDefinition cycle424Definition = {
     .summary =
         "Measures centre and side lengths of a rectangular stud and compares them with tolerances; can correct the "
         "tool that made it.",
-    .parameters = parameters::rectangleInspection,
+    .parameters = parameters424,
     .results = parameters::rectangleInspectionResults,
 };
 

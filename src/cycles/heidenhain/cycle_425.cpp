@@ -1,4 +1,5 @@
 #include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/inspection.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/width_inspection.hpp"
 
@@ -20,8 +21,8 @@ constexpr std::array parameters425 = {
     measuringLog,
     toleranceStop,
     monitoredTool,
-    only(standard(setUpClearance, 0), control::onTNC640),
-    only(standard(moveToClearance, 0), control::onTNC640),
+    later(standard(setUpClearance, 0), 5),
+    later(standard(moveToClearance, 0), 5),
 };
 
 }  // namespace
@@ -39,13 +40,13 @@ const CycleDefinition cycle425Definition = {
 };
 
 void cycle425(Context& context, const Arguments&) {
-  context.require({});
+  requireInspection(context);
   const int axis = context.option(272) - 1;
   const int across = 1 - axis;
   auto& prober = context.prober();
   Vector3 start(context.q(328), context.q(329), context.q(261));
   prober.approach(start, context.q(260));
-  const EvaluatedTouch plus = prober.stroke(probing::axisDirection(axis, 1), prober.probe().distance);
+  const EvaluatedTouch plus = prober.stroke(probing::axisDirection(axis, 1));
 
   const double offset = context.q(310);
   if (offset != 0) {

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/inspection.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/width_inspection.hpp"
 #include "probing/heidenhain_strategies.hpp"
@@ -42,16 +43,13 @@ const CycleDefinition cycle426Definition = {
 };
 
 void cycle426(Context& context, const Arguments&) {
-  context.require({});
+  requireInspection(context);
   const int axis = context.option(272) - 1;
   Vector3 plus(context.q(263), context.q(264), context.q(261));
   Vector3 minus(context.q(265), context.q(266), context.q(261));
   // The first stroke goes in the negative direction: it belongs to the face with the larger coordinate. Points given
-  // the other way round would let the probe start inside the ridge.
-  if (plus[axis] < minus[axis]) {
-    std::swap(plus, minus);
-    context.warn("The first point lies on the smaller coordinate; the points are touched in the opposite order");
-  }
+  // the other way round, as in the printed example, would let the probe start inside the ridge.
+  if (plus[axis] < minus[axis]) std::swap(plus, minus);
   const auto touches = probing::probePoints(
       context.prober(), {{{plus, probing::axisDirection(axis, -1)}}, {{minus, probing::axisDirection(axis, 1)}}},
       {.measuring = context.q(261),

@@ -47,7 +47,7 @@ const CycleDefinition cycle427Definition = {
 };
 
 void cycle427(Context& context, const Arguments&) {
-  context.require({});
+  requireInspection(context);
   const int axis = context.option(272) - 1;
   const double sense = context.option(267);
   const PlannedTouch planned{{context.q(263), context.q(264), context.q(261)}, probing::axisDirection(axis, sense)};
@@ -66,10 +66,15 @@ void cycle427(Context& context, const Arguments&) {
   Inspection inspection{
       .title = "Coordinate Measuring", .items = {}, .measured = {}, .further = {{"Measuring height", context.q(261)}}};
   inspection.items = {
-      inspectedDimension(160, 0, "Measured coordinate", "coordinate", nominal, actual, maximum, minimum, side)};
+      inspectedCoordinate(160, "Measured coordinate", "coordinate", nominal, actual, maximum, minimum, side)};
   const double deviation = actual - nominal;
+  // The turning axis is that of the tool axis, through the origin: parts grow away from it on either side.
+  const bool beyond = axis != 2 && (nominal < 0 || (nominal == 0 && sense > 0));
   finishInspection(context, inspection,
-                   {.monitored = deviation, .excess = -sense * deviation, .length = axis == 2, .turned = deviation});
+                   {.monitored = deviation,
+                    .excess = -sense * deviation,
+                    .length = axis == 2,
+                    .turned = beyond ? -deviation : deviation});
 }
 
 }  // namespace probewright::cycles::heidenhain

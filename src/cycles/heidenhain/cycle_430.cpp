@@ -46,7 +46,7 @@ const CycleDefinition cycle430Definition = {
 };
 
 void cycle430(Context& context, const Arguments&) {
-  context.require({});
+  requireInspection(context);
   const MeasuredCircle circle = measureBoltCircle(context);
   Inspection inspection{.title = "Bolt Hole Circle Measuring",
                         .items = {},

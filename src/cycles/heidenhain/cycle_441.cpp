@@ -16,7 +16,7 @@ constexpr Choice interruptChoices[] = {{0, "never"}, {1, "after every inspection
 constexpr Parameter parameters441[] = {
     {.name = "Q396",
      .address = 396,
-     .meaning = "feed rate of the positioning moves",
+     .meaning = "feed rate of the positioning moves, also FMAX or FAUTO",
      .kind = ValueKind::Feed,
      .minimum = 0},
     option(397, "Q397", "pre-positioning", feedChoices),

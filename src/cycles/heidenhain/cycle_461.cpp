@@ -25,7 +25,7 @@ const CycleDefinition cycle461Definition = {
 void cycle461(Context& context, const Arguments&) {
   context.require({.turningModeAllowed = true});
   auto prober = calibrationProber(context);
-  const EvaluatedTouch touch = prober.stroke(probing::axisDirection(2, -1), prober.probe().distance);
+  const EvaluatedTouch touch = prober.stroke(probing::axisDirection(2, -1));
   // The tool reference point stands one tool length above the tip.
   const double tip = touch.ballCentre.z() - prober.probe().ballRadius;
   storeLength(context, activeLength(context) + tip - context.q(434));

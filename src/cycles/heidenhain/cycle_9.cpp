@@ -27,7 +27,7 @@ const CycleDefinition cycle9Definition = {
 void cycle9(Context& context, const Arguments&) {
   context.require({.transformationsAllowed = true});
   auto prober = calibrationProber(context);
-  const EvaluatedTouch touch = prober.stroke(probing::axisDirection(2, -1), prober.probe().distance);
+  const EvaluatedTouch touch = prober.stroke(probing::axisDirection(2, -1));
   Vector3 tip = touch.ballCentre - Vector3(0, 0, prober.probe().ballRadius);
   const auto& plane = context.control().coordinates.plane;
   if (context.option(probe_word::referenceSystem) == 1) {

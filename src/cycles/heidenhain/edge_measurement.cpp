@@ -10,6 +10,11 @@ MeasuredEdge measureEdge(Context& context) {
   const Vector3 direction = probing::axisDirection(context.option(272) - 1, context.option(267));
   const PlannedTouch first{{context.q(263), context.q(264), height}, direction};
   const PlannedTouch second{{context.q(265), context.q(266), height}, direction};
+  const auto requireApart = [](const Vector3& along) {
+    if (along.norm() >= 1e-6) return;
+    throw control::Alarm("Edge not determined", "The two touches coincide", "move the points apart");
+  };
+  requireApart(second.surface - first.surface);
   const auto touches =
       probing::probePoints(context.prober(), {{first}, {second}},
                            {.measuring = height,
@@ -18,9 +23,7 @@ MeasuredEdge measureEdge(Context& context) {
                             .between = context.option(301) == 1 ? probing::Between::AtClearanceHeight
                                                                 : probing::Between::AtMeasuringHeight});
   MeasuredEdge edge{touches[0], touches[1], touches[1].ballCentre - touches[0].ballCentre};
-  if (edge.along.norm() < 1e-6) {
-    throw control::Alarm("Edge not determined", "The two touches coincide", "move the points apart");
-  }
+  requireApart(edge.along);
   return edge;
 }
 

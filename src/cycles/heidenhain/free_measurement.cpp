@@ -42,7 +42,7 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
   const auto result = channel.measureTo(start + direction * distance, machine::Feed::at(context.q(probe_word::feed)));
 
   control::TouchRecord record;
-  const Vector3 toBall = probe.ballRadius * channel.toolAxis();
+  const Vector3 toBall = probing::alongTool(channel, probe.ballRadius);
   record.target = start + toBall + direction * distance;
   record.direction = direction;
   record.seconds = channel.seconds();
@@ -61,7 +61,7 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
         ball += plane.xyzFromPlane(probing::HeidenhainProber(channel, plane, probe).tipOffsetNow());
       }
       record.ballCentre = ball;
-      record.surface = ball + direction * probe.ballRadius;
+      record.surface = ball + direction * probing::inProgramUnits(channel, probe.ballRadius, direction);
       record.latched = touch.latched;
       note("touched");
       status = touched;

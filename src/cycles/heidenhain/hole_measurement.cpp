@@ -12,12 +12,11 @@ namespace probewright::cycles::heidenhain {
 
 Vector3 measureHoleCentre(Context& context, const Vector2& centre, double measuringHeight) {
   auto& prober = context.prober();
-  const double reach = prober.probe().distance;
   Vector3 place(centre.x(), centre.y(), measuringHeight);
   prober.approach(place, context.q(260));
   for (const int axis : {0, 1}) {
-    const EvaluatedTouch plus = prober.stroke(probing::axisDirection(axis, 1), reach);
-    const EvaluatedTouch minus = prober.stroke(probing::axisDirection(axis, -1), reach);
+    const EvaluatedTouch plus = prober.stroke(probing::axisDirection(axis, 1));
+    const EvaluatedTouch minus = prober.stroke(probing::axisDirection(axis, -1));
     place[axis] = (plus.ballCentre[axis] + minus.ballCentre[axis]) / 2;
     if (axis == 0) prober.moveTo(place);
   }
@@ -48,6 +47,22 @@ double angleOf(const Vector3& first, const Vector3& second) {
     throw control::Alarm("Angle not determined", "The two centres coincide", "move the points apart");
   }
   return degreesFromRadians(std::atan2(along.y(), along.x()));
+}
+
+void requireCompensation(Context& context) {
+  const Control& control = context.control();
+  const int active = control.coordinates.preset.row;
+  const int row = context.option(305);
+  if (context.option(402) == 1) {
+    requireTable(context, control.coordinates.plane.tool);
+    const bool zero = context.option(337) == 1;
+    const bool entersRow = zero && control.isTNC640();
+    if (entersRow || zero || control.isTNC640()) control.requireWritablePreset(entersRow ? row : active);
+    if (!control.coordinates.preset.spaceAngles.isZero(0)) control.requireWritablePreset(active);
+  } else {
+    control.requireWritablePreset(row == 0 && !control.isTNC640() ? active : row);
+  }
+  angleOf({context.q(268), context.q(269), 0}, {context.q(270), context.q(271), 0});
 }
 
 void compensateByRotationOrTable(Context& context, double angle) {

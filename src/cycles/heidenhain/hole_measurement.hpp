@@ -16,6 +16,10 @@ Vector3 measureStudCentre(Context& context, const Vector2& centre, double diamet
 /// The angle from the main axis to the line from `first` to `second`, in (-180, 180].
 double angleOf(const Vector3& first, const Vector3& second);
 
+/// Refuses, before anything is touched, what 401 and 402 cannot carry out: no rotary table, a locked row, centres that
+/// coincide.
+void requireCompensation(Context& context);
+
 /// What 401 and 402 do with a misalignment: a basic rotation (Q402 = 0) or an alignment of the rotary table.
 void compensateByRotationOrTable(Context& context, double angle);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/tool_monitoring.hpp"
@@ -34,6 +35,18 @@ Inspected inspectedPosition(int parameter, int deviationParameter, std::string l
   return item;
 }
 
+namespace {
+
+void judge(Inspected& item, Side side) {
+  if (!item.maximum && !item.minimum) return;
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const metrology::Limits limits{item.minimum.value_or(-none), item.maximum.value_or(none)};
+  item.verdict =
+      side == Side::Inside ? metrology::boreVerdict(item.actual, limits) : metrology::studVerdict(item.actual, limits);
+}
+
+}  // namespace
+
 Inspected inspectedDimension(int parameter, int deviationParameter, std::string label, std::string limitLabel,
                              double nominal, double actual, double maximum, double minimum, Side side) {
   Inspected item;
@@ -44,13 +57,20 @@ Inspected inspectedDimension(int parameter, int deviationParameter, std::string 
   item.minimumLabel = "Minimum dimension for " + limitLabel;
   item.nominal = nominal;
   item.actual = actual;
-  if (maximum != 0 || minimum != 0) {
-    item.maximum = maximum;
-    item.minimum = minimum;
-    const metrology::Limits limits{minimum, maximum};
-    item.verdict =
-        side == Side::Inside ? metrology::boreVerdict(actual, limits) : metrology::studVerdict(actual, limits);
-  }
+  if (maximum != 0) item.maximum = maximum;
+  if (minimum != 0) item.minimum = minimum;
+  judge(item, side);
+  return item;
+}
+
+Inspected inspectedCoordinate(int parameter, std::string label, std::string limitLabel, double nominal, double actual,
+                              double maximum, double minimum, Side side) {
+  Inspected item =
+      inspectedDimension(parameter, 0, std::move(label), std::move(limitLabel), nominal, actual, 0, 0, side);
+  if (maximum == 0 && minimum == 0) return item;
+  item.maximum = maximum;
+  item.minimum = minimum;
+  judge(item, side);
   return item;
 }
 
@@ -59,6 +79,11 @@ Verdict verdictOf(const Inspection& inspection) {
   for (const Inspected& item : inspection.items)
     verdict = metrology::worst(verdict, item.verdict);
   return verdict;
+}
+
+void requireInspection(Context& context) {
+  context.require({});
+  requireMonitoredTool(context);
 }
 
 void writeLog(Context& context, const Inspection& inspection) {

@@ -27,10 +27,14 @@ struct Inspected {
 Inspected inspectedPosition(int parameter, int deviationParameter, std::string label, double nominal, double actual,
                             double tolerance);
 
-/// A dimension between `minimum` and `maximum` (both 0: not monitored). Inside: too large is scrap, too small rework;
-/// outside the other way round.
+/// A dimension between `minimum` and `maximum` (0: not monitored on that side). Inside: too large is scrap, too small
+/// rework; outside the other way round.
 Inspected inspectedDimension(int parameter, int deviationParameter, std::string label, std::string limitLabel,
                              double nominal, double actual, double maximum, double minimum, Side side);
+
+/// A coordinate, which may be limited by 0 too: only two zeros switch the monitoring off.
+Inspected inspectedCoordinate(int parameter, std::string label, std::string limitLabel, double nominal, double actual,
+                              double maximum, double minimum, Side side);
 
 /// A line of the log without nominal value; mm or degrees.
 struct LogLine {
@@ -50,6 +54,10 @@ struct Inspection {
 Verdict verdictOf(const Inspection& inspection);
 
 struct ToolMonitoring;
+
+/// Refuses, before anything is touched, what stands against an inspection: active transformations, a tool in Q330 that
+/// the cycle cannot correct.
+void requireInspection(Context& context);
 
 /// Sets the result and status parameters Q180 to Q182, writes the log as Q281 says, monitors and corrects the tool as
 /// Q330 says, and stops as Q309 says. In this order, results first.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <utility>
 
 namespace probewright::cycles::heidenhain {
 namespace {
@@ -19,6 +21,34 @@ constexpr LogFrame english{
     .further = "Further measuring results:",
     .end = "End of measuring log",
 };
+
+constexpr LogFrame capitals{
+    .title = "MEASURING LOG FOR PROBING CYCLE {}: {}",
+    .date = "DATE:",
+    .time = "TIME:",
+    .program = "MEASURING PROGRAM:",
+    .dateForm = "{:%d-%m-%Y}",
+    .nominal = "NOML. VALUES:",
+    .limits = "GIVEN LIMIT VALUES:",
+    .actual = "ACTUAL VALUES:",
+    .deviations = "DEVIATIONS:",
+    .further = "FURTHER MEASURING RESULTS:",
+    .end = "END OF MEASURING LOG",
+};
+
+/// Where the capitals are not those of the usual term.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 10> capitalTerms = {{
+    {"Center in reference axis", "CENTER IN REF. AXIS"},
+    {"Maximum limit for center in reference axis", "MAX. FOR CENTER IN REF. AXIS"},
+    {"Minimum limit for center in reference axis", "MIN. FOR CENTER IN REF. AXIS"},
+    {"Maximum limit for center in minor axis", "MAX. FOR CENTER IN MINOR AXIS"},
+    {"Minimum limit for center in minor axis", "MIN. FOR CENTER IN MINOR AXIS"},
+    {"Side length in reference axis", "SIDE LENGTH IN REF. AXIS"},
+    {"Maximum dimension for side length in reference axis", "MAX. IN REFERENCE AXIS"},
+    {"Minimum dimension for side length in reference axis", "MINIMUM DIMENSION IN REFERENCE AXIS"},
+    {"Maximum dimension for side length in minor axis", "MAXIMUM SIDE LENGTH IN MINOR AXIS"},
+    {"Minimum dimension for side length in minor axis", "MINIMUM SIDE LENGTH IN MINOR AXIS"},
+}};
 
 constexpr LogFrame russian{
     .title = "Протокол измерений цикла {} {}",
@@ -182,6 +212,15 @@ const LogFrame& logFrame(DialogLanguage language) {
       break;
   }
   return english;
+}
+
+const LogFrame& capitalLogFrame() { return capitals; }
+
+std::string capitalTerm(std::string_view term) {
+  const auto found = std::ranges::find(capitalTerms, term, &std::pair<std::string_view, std::string_view>::first);
+  std::string text(found == capitalTerms.end() ? term : found->second);
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
 }
 
 std::string_view translated(std::string_view term, DialogLanguage language) {

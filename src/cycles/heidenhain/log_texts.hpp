@@ -24,6 +24,10 @@ struct LogFrame {
 };
 const LogFrame& logFrame(DialogLanguage language);
 
+/// The log of cycle 423 as the manual of the iTNC 530 prints it in English: in capitals, with terms of its own.
+const LogFrame& capitalLogFrame();
+std::string capitalTerm(std::string_view term);
+
 /// A label, heading or title of a log in another language than English; what has no translation stays English.
 std::string_view translated(std::string_view term, DialogLanguage language);
 

@@ -19,24 +19,35 @@ struct Section {
   std::vector<LogLine> lines;
 };
 
-constexpr std::size_t ruleWidth = 61;
+constexpr std::size_t ruleWidth = 61, capitalRuleWidth = 104, shorterCapitalRule = 100;
+
+/// `text` between stars on a line of `columns`.
+std::string amongStars(const std::string& text, std::size_t columns) {
+  const std::size_t stars = columns - std::min(columns, width(text) + 2);
+  return fmt::format("{} {} {}\n", std::string(stars / 2, '*'), text, std::string(stars - stars / 2, '*'));
+}
 
 }  // namespace
 
 std::string logText(Context& context, const Inspection& inspection) {
   const auto& control = context.control();
   const DialogLanguage language = control.panel.language;
-  const LogFrame& frame = logFrame(language);
+  const bool translates = language == DialogLanguage::Russian || language == DialogLanguage::Swedish;
+  const bool capitals = !control.isTNC640() && context.record().name == "423" && !translates;
+  const LogFrame& frame = capitals ? capitalLogFrame() : logFrame(language);
+  const auto term = [&](std::string_view english) {
+    return capitals ? capitalTerm(english) : std::string(translated(english, language));
+  };
   const std::int64_t now = control.wallClockStart +
                            static_cast<std::int64_t>(std::llround(context.channel().seconds() - control.startSeconds));
   const std::tm time = fmt::gmtime(static_cast<std::time_t>(now));
-  const std::string rule(ruleWidth, '-');
-  const std::string stars(ruleWidth, '*');
+  const std::size_t columns = capitals ? capitalRuleWidth : ruleWidth;
+  const std::string rule(columns, '-'), first(capitals ? shorterCapitalRule : ruleWidth, '-'), stars(columns, '*');
 
-  Section nominal{rule, frame.nominal, {}}, limits{rule, frame.limits, {}}, actual{stars, frame.actual, {}},
+  Section nominal{first, frame.nominal, {}}, limits{first, frame.limits, {}}, actual{stars, frame.actual, {}},
       deviations{rule, frame.deviations, {}}, further{stars, frame.further, {}};
-  const auto add = [language](Section& section, std::string_view label, double value, ValueKind kind) {
-    section.lines.push_back({std::string(translated(label, language)), value, kind});
+  const auto add = [&term](Section& section, std::string_view label, double value, ValueKind kind) {
+    section.lines.push_back({term(label), value, kind});
   };
   for (const Inspected& item : inspection.items) {
     add(nominal, item.label, item.nominal, ValueKind::Length);
@@ -61,12 +72,14 @@ std::string logText(Context& context, const Inspection& inspection) {
   for (const std::string_view label : {frame.date, frame.time, frame.program})
     headWidth = std::max(headWidth, width(label) + 1);
 
-  const std::string title =
-      fmt::format(fmt::runtime(frame.title), context.record().name, translated(inspection.title, language));
-  std::string text = fmt::format("****** {} *****\n\n", title);
-  text += padded(frame.date, headWidth) + fmt::format(fmt::runtime(frame.dateForm), time) + "\n";
-  text += padded(frame.time, headWidth) + fmt::format("{}:{:02}:{:02}\n", time.tm_hour, time.tm_min, time.tm_sec);
-  text += padded(frame.program, headWidth) + control.programPath + "\n";
+  const std::string title = fmt::format(fmt::runtime(frame.title), context.record().name, term(inspection.title));
+  std::string text = capitals ? rule + "\n" + amongStars(title, columns) : fmt::format("****** {} *****\n\n", title);
+  const auto head = [&](std::string_view label) {
+    return capitals ? std::string(label) + " " : padded(label, headWidth);
+  };
+  text += head(frame.date) + fmt::format(fmt::runtime(frame.dateForm), time) + "\n";
+  text += head(frame.time) + fmt::format("{}:{:02}:{:02}\n", time.tm_hour, time.tm_min, time.tm_sec);
+  text += head(frame.program) + control.programPath + "\n";
   const int decimals = control.mainUnit == 1 ? 4 : 5;
   for (const Section* section : {&nominal, &limits, &actual, &deviations, &further}) {
     if (section->lines.empty()) continue;
@@ -76,14 +89,13 @@ std::string logText(Context& context, const Inspection& inspection) {
       const LogLine& line = section->lines[i];
       const double value = line.kind == ValueKind::Length ? line.value / control.mainUnit : line.value;
       const std::string label = padded(i == 0 ? section->title : "", left) + line.label + ":";
-      const std::string number = formatFixed(value, decimals);
+      const std::string number = formatFixed(value, line.kind == ValueKind::Length ? decimals : 4);
       const std::size_t end = indent + labelWidth + valueWidth;
       const std::size_t room = std::max(end - std::min(end, width(label)), number.size() + 1);
       text += fmt::format("{}{:>{}}\n", label, number, room);
     }
   }
-  const std::string edge(20, '*');
-  text += fmt::format("{0} {1} {0}\n", edge, frame.end);
+  text += amongStars(std::string(frame.end), capitals ? columns : width(frame.end) + 42);
   return text;
 }
 

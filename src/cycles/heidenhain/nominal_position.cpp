@@ -112,8 +112,8 @@ Vector3 NominalPosition::at(const Vector3& otherwise) const {
 void requireNominal(const NominalPosition& position, std::size_t axis) {
   if (position.axes[axis].nominal) return;
   throw Alarm("Nominal position not defined",
-              fmt::format("Position {} has no nominal position in the {}, which is measured (Q{})", position.ordinal,
-                          axisNames[axis], position.first + static_cast<int>(axis)),
+              fmt::format("Position {} has no nominal position in the {}, which the cycle needs (Q{})",
+                          position.ordinal, axisNames[axis], position.first + static_cast<int>(axis)),
               "write the nominal position behind the ?");
 }
 

@@ -42,7 +42,7 @@ void ObjectProbing::enter(const Vector3& ballCentre, bool firstOfObject) {
     prober_.approach(ballCentre, clearance_);
   } else if (firstOfObject) {
     // Never through the clearance height: up first only where the target lies above.
-    prober_.approach(ballCentre, ballCentre[2] - prober_.probe().ballRadius);
+    prober_.approach(ballCentre, ballCentre[2] - prober_.poleDepth());
   } else {
     prober_.moveTo(ballCentre);
   }
@@ -115,7 +115,7 @@ void ObjectProbing::moveAlong(const std::string& what, const std::string& waypoi
                 "answer with three coordinates of the tip: main, minor and tool axis; ; between waypoints");
   }
   for (const Vector3& tip : way->tips)
-    prober_.approach(tip + Vector3(0, 0, prober_.probe().ballRadius), tip.z());
+    prober_.approach(prober_.positionWithTip(tip), tip.z());
   if (way->direction != 0) *direction = way->direction;
 }
 
@@ -148,7 +148,7 @@ EvaluatedTouch ObjectProbing::touch(const NominalPosition& nominal, int& directi
                 &direction);
     requireNominal(nominal, static_cast<std::size_t>(std::abs(direction) - 1));
     entered_ = true;
-    const EvaluatedTouch touch = prober_.stroke(along(direction), prober_.probe().distance);
+    const EvaluatedTouch touch = prober_.stroke(along(direction));
     retractByOperator(what);
     return touch;
   }
@@ -172,11 +172,13 @@ std::vector<EvaluatedTouch> ObjectProbing::touchCircle(const NominalPosition& no
     middle = prober_.position();
     above = middle[2];
     // As far below the top of the stud as the ball stands above it.
-    if (side == Side::Outside) middle[2] -= 2 * (probe.setUp + extra_) + probe.ballRadius;
+    if (side == Side::Outside)
+      middle[2] -= 2 * (prober_.inProgram(probe.setUp, Vector3::UnitZ()) + extra_) + prober_.poleDepth();
   }
   double extra = extra_;
-  const double room = diameter / 2 - probe.reach();
-  const bool narrow = side == Side::Inside && room <= probe.setUp + extra;
+  const double setUp = prober_.inProgram(probe.setUp, Vector3::UnitX());
+  const double room = diameter / 2 - prober_.inProgram(probe.reach(), Vector3::UnitX());
+  const bool narrow = side == Side::Inside && room < setUp + extra - 1e-6;
   if (narrow) {
     if (!(room > 0)) {
       throw Alarm("Hole too small",
@@ -188,7 +190,7 @@ std::vector<EvaluatedTouch> ObjectProbing::touchCircle(const NominalPosition& no
         fmt::format("{}: the hole is too small for the set-up clearance\nNominal diameter {:.4f}\nBall radius "
                     "{:.4f}\nPossible set-up clearance {:.4f}\nNC start goes on with it",
                     what, diameter, probe.ballRadius, room));
-    extra = room - probe.setUp;
+    extra = room - setUp;
   }
   const auto plan = probing::planCircle(middle, diameter, diameterAndStart[1], step, count, side);
   std::vector<EvaluatedTouch> touches;

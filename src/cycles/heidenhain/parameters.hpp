@@ -49,12 +49,20 @@ constexpr Parameter only(Parameter parameter, ControlSet controls) {
   return parameter;
 }
 
+/// The same parameter, which came to the iTNC 530 with the NC software 340 49x-`software`.
+constexpr Parameter later(Parameter parameter, int software) {
+  parameter.iTNC530Software = software;
+  return parameter;
+}
+
 inline constexpr Parameter measuringHeight =
     coordinate(261, "Q261", "measuring height: coordinate of the ball centre in the touch probe axis");
 
 inline constexpr Parameter setUpClearance = {.name = "Q320",
                                              .address = 320,
-                                             .meaning = "set-up clearance, added to SET_UP of the touch probe table",
+                                             .meaning =
+                                                 "set-up clearance, added to SET_UP of the touch probe table "
+                                                 "(iTNC 530: MP6140, with tools MP6540)",
                                              .kind = ValueKind::Length,
                                              .minimum = 0,
                                              .predefinable = true};
@@ -77,12 +85,11 @@ inline constexpr Parameter moveToClearance = {.name = "Q301",
 
 inline constexpr Choice pointCountChoices[] = {{4, "four touches"}, {3, "three touches"}};
 inline constexpr Parameter pointCount =
-    only(standard(option(423, "Q423", "number of touches on the circle", pointCountChoices), 4), control::onTNC640);
+    later(standard(option(423, "Q423", "number of touches on the circle", pointCountChoices), 4), 5);
 
 inline constexpr Choice traverseChoices[] = {{0, "straight"}, {1, "on the pitch circle"}};
 inline constexpr Parameter traverse =
-    only(standard(option(365, "Q365", "path between the points at clearance height", traverseChoices), 1),
-         control::onTNC640);
+    later(standard(option(365, "Q365", "path between the points at clearance height", traverseChoices), 1), 5);
 
 inline constexpr Choice axis2Choices[] = {{1, "main axis"}, {2, "minor axis"}};
 inline constexpr Choice axis3Choices[] = {{1, "main axis"}, {2, "minor axis"}, {3, "touch probe axis"}};
@@ -120,6 +127,12 @@ inline constexpr Parameter monitoredTool = {.name = "Q330",
                                             .minimum = 0,
                                             .maximum = 999999.9};
 
+/// Some cycles print a smaller range.
+constexpr Parameter upTo(Parameter parameter, double maximum) {
+  parameter.maximum = maximum;
+  return parameter;
+}
+
 inline constexpr Choice reverseToolChoices[] = {{0, "as in the turning tool table"}, {1, "turned by 180 degrees"}};
 inline constexpr Parameter reverseTool =
     only(standard(option(498, "Q498", "turning tool in Q330: reversed", reverseToolChoices), 0), control::onTNC640);
@@ -147,14 +160,19 @@ constexpr Parameter upTo9999(Parameter parameter) {
 }
 inline constexpr Parameter presetTableRow = upTo9999(tableRow);
 
-inline constexpr Parameter newPreset1 = coordinate(331, "Q331", "coordinate that the feature gets in the main axis");
-inline constexpr Parameter newPreset2 = coordinate(332, "Q332", "coordinate that the feature gets in the minor axis");
+inline constexpr Parameter newPreset1 =
+    standard(coordinate(331, "Q331", "coordinate that the feature gets in the main axis"), 0);
+inline constexpr Parameter newPreset2 =
+    standard(coordinate(332, "Q332", "coordinate that the feature gets in the minor axis"), 0);
 inline constexpr Parameter newPreset3 =
-    coordinate(333, "Q333", "coordinate that the surface gets in the touch probe axis");
+    standard(coordinate(333, "Q333", "coordinate that the surface gets in the touch probe axis"), 0);
 
 inline constexpr Choice transferChoices[] = {
     {-1, "not defined: refused"}, {0, "into the active datum table"}, {1, "into the preset table"}};
 inline constexpr Parameter transfer = option(303, "Q303", "where the measured values go", transferChoices);
+/// The same of cycles that older controls do not have.
+inline constexpr Parameter chosenTransfer =
+    option(303, "Q303", "where the measured values go", std::span(transferChoices).subspan(1));
 
 inline constexpr Choice probeToolAxisChoices[] = {{0, "no"}, {1, "yes"}};
 inline constexpr Parameter probeToolAxis =

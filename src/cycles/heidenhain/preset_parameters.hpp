@@ -19,11 +19,11 @@ constexpr std::array<Parameter, First + Last> joined(const std::array<Parameter,
   return all;
 }
 
+inline constexpr std::array toolAxisPreset = {standard(probeToolAxis, 0), standard(toolAxisPoint1, 0),
+                                              standard(toolAxisPoint2, 0), standard(toolAxisPoint3, 0), newPreset3};
+
 /// Q303 and the preset in the touch probe axis.
-inline constexpr std::array transferAndToolAxis = {
-    standard(transfer, -1),      standard(probeToolAxis, 0),  standard(toolAxisPoint1, 0),
-    standard(toolAxisPoint2, 0), standard(toolAxisPoint3, 0), standard(newPreset3, 0),
-};
+inline constexpr std::array transferAndToolAxis = joined(std::array{standard(transfer, -1)}, toolAxisPreset);
 
 /// Where the measured centre goes: Q305, Q331, Q332, Q303, and the preset in the touch probe axis.
 inline constexpr std::array centreTransfer =

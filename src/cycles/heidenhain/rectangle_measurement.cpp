@@ -57,7 +57,7 @@ void presetRectangle(Context& context, Side side) {
 }
 
 void inspectRectangle(Context& context, Side side, const std::string& title) {
-  context.require({});
+  requireInspection(context);
   const MeasuredRectangle rectangle = measureRectangle(context, {273, 274, 282, 283}, side);
   Inspection inspection{
       .title = title,

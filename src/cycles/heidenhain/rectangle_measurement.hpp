@@ -26,26 +26,28 @@ inline constexpr std::array rectanglePresetResults = {
     ResultDefinition{"Q155", "actual length along the minor axis"},
 };
 
-inline constexpr std::array rectangleInspection =
-    joined(joined(
-               std::array{
-                   coordinate(273, "Q273", "nominal centre in the main axis"),
-                   coordinate(274, "Q274", "nominal centre in the minor axis"),
-                   length(282, "Q282", "nominal length along the main axis"),
-                   length(283, "Q283", "nominal length along the minor axis"),
-               },
-               heightsAndTravel),
-           std::array{
-               limit(284, "Q284", "largest permissible length along the main axis; 0 with Q285 = 0: not monitored"),
-               limit(285, "Q285", "smallest permissible length along the main axis"),
-               limit(286, "Q286", "largest permissible length along the minor axis; 0 with Q287 = 0: not monitored"),
-               limit(287, "Q287", "smallest permissible length along the minor axis"),
-               centreTolerance1,
-               centreTolerance2,
-               measuringLog,
-               toleranceStop,
-               monitoredTool,
-           });
+constexpr auto rectangleInspectionWith(const Parameter& tool) {
+  return joined(
+      joined(
+          std::array{
+              coordinate(273, "Q273", "nominal centre in the main axis"),
+              coordinate(274, "Q274", "nominal centre in the minor axis"),
+              length(282, "Q282", "nominal length along the main axis"),
+              length(283, "Q283", "nominal length along the minor axis"),
+          },
+          heightsAndTravel),
+      std::array{
+          limit(284, "Q284", "largest permissible length along the main axis; 0 with Q285 = 0: not monitored"),
+          limit(285, "Q285", "smallest permissible length along the main axis"),
+          limit(286, "Q286", "largest permissible length along the minor axis; 0 with Q287 = 0: not monitored"),
+          limit(287, "Q287", "smallest permissible length along the minor axis"),
+          centreTolerance1,
+          centreTolerance2,
+          measuringLog,
+          toleranceStop,
+          tool,
+      });
+}
 
 inline constexpr std::array rectangleInspectionResults = {
     ResultDefinition{"Q151", "actual centre, main axis"},
@@ -69,8 +71,9 @@ inline constexpr std::array widthCentre = {
     measuringAxis2,
 };
 inline constexpr std::array widthTransfer = joined(
-    std::array{presetTableRow, coordinate(405, "Q405", "coordinate that the centre line gets in the measured axis")},
-    transferAndToolAxis);
+    std::array{presetTableRow,
+               standard(coordinate(405, "Q405", "coordinate that the centre line gets in the measured axis"), 0)},
+    joined(std::array{standard(chosenTransfer, -1)}, toolAxisPreset));
 
 inline constexpr std::array widthResults = {
     ResultDefinition{"Q166", "actual width"},

@@ -35,6 +35,24 @@ std::size_t requireTable(Context& context, int about) {
     if (description.axes[axis].kind != machine::AxisKind::Rotary) continue;
     if (std::abs(tableTurn(description, position, axis)[about]) >= 0.999) return axis;
   }
+  // An axis that another one has turned aside?
+  machine::AxisPositions atZero = position;
+  std::string standing;
+  for (std::size_t axis = 0; axis < description.axes.size(); ++axis) {
+    if (description.axes[axis].kind != machine::AxisKind::Rotary) continue;
+    if (atZero[axis] != 0)
+      standing +=
+          fmt::format("{}{} at {:.3f}", standing.empty() ? "" : ", ", description.axes[axis].name, atZero[axis]);
+    atZero[axis] = 0;
+  }
+  for (std::size_t axis = 0; axis < description.axes.size(); ++axis) {
+    if (description.axes[axis].kind != machine::AxisKind::Rotary) continue;
+    if (std::abs(tableTurn(description, atZero, axis)[about]) < 0.999) continue;
+    throw Alarm("Rotary axis not available",
+                fmt::format("Axis {} does not turn the workpiece about {} where the rotary axes stand ({} degrees)",
+                            description.axes[axis].name, "XYZ"[about], standing),
+                "position the other rotary axes at zero before the cycle, or use a basic rotation");
+  }
   refuseAxis(fmt::format("The machine has no rotary table that turns the workpiece about {}", "XYZ"[about]));
 }
 

@@ -159,6 +159,9 @@ void requireRotationCycle(Context& context) {
     throw Alarm("Rotary axes cannot be aligned", "Q1126 aligns rotary axes, but Q1121 takes over no rotation",
                 "set Q1121, or Q1126 = 0");
   }
+  if (transfers != 0 || context.option(1120) != 0) {
+    context.control().requireWritablePreset(context.control().coordinates.preset.row);
+  }
   if (context.record().name == "1420") {
     const auto& axes = context.channel().description().axes;
     if (aligns != 0 && std::ranges::count(axes, machine::AxisKind::Rotary, &machine::Axis::kind) < 2) {

@@ -31,12 +31,13 @@ void moveToProgrammedPosition(Context& context) {
     return;
   }
   const control::WorkingPlane& plane = context.control().coordinates.plane;
-  prober.moveTo(plane.planeFromXyz(tip + prober.probe().ballRadius * channel.toolAxis()));
+  prober.moveTo(prober.positionWithTip(plane.planeFromXyz(tip)));
 }
 
 void storeTouchPosition(Context& context, const EvaluatedTouch& touch) {
   control::Channel& channel = context.channel();
-  const Vector3 reference = channel.programFromAxes(touch.latched) + channel.toolVector.norm() * channel.toolAxis();
+  const Vector3 reference =
+      channel.programFromAxes(touch.latched) + probing::alongTool(channel, channel.toolVector.norm());
   for (int i = 0; i < 3; ++i)
     context.result(115 + i, reference[i]);
   int number = 118;

@@ -28,6 +28,35 @@ std::string monitoredToolRow(Context& context) {
 
 namespace {
 
+bool isTurningTool(Context& context, const std::string& row) {
+  auto& control = context.control();
+  return control.isTNC640() && control.tables.tools.text(row, "TYP") == "TURN";
+}
+
+}  // namespace
+
+void requireMonitoredTool(Context& context) {
+  const std::string row = monitoredToolRow(context);
+  if (row.empty() || !isTurningTool(context, row)) return;
+  if (context.arguments().definition().parameter(498) == nullptr) {
+    throw Alarm(
+        "Tool type not permitted",
+        fmt::format("Tool {} is a turning tool; cycle {} monitors mills and drills", row, context.record().name),
+        "use cycle 421, 422 or 427, or set Q330 = 0");
+  }
+  if (!context.given(498) || !context.given(531)) {
+    throw Alarm("Cycle parameter wrong", fmt::format("Tool {} is a turning tool, but Q498 or Q531 is missing", row),
+                "enter how the tool stood when it turned the workpiece");
+  }
+  const auto& table = context.control().tables.turningTools;
+  if (!table || !table->hasRow(row)) {
+    throw Alarm("Tool not defined", fmt::format("TOOLTURN.TRN has no tool {}, which Q330 names", row),
+                "add the tool to TOOLTURN.TRN");
+  }
+}
+
+namespace {
+
 void lockIfBroken(Context& context, const std::string& row, const char* column, double deviation) {
   auto& control = context.control();
   auto& tools = control.tables.tools;
@@ -44,15 +73,7 @@ void lockIfBroken(Context& context, const std::string& row, const char* column, 
 
 void correctTurningTool(Context& context, const std::string& row, const ToolMonitoring& monitoring) {
   auto& control = context.control();
-  if (!context.given(498) || !context.given(531)) {
-    throw Alarm("Cycle parameter wrong", fmt::format("Tool {} is a turning tool, but Q498 or Q531 is missing", row),
-                "enter how the tool stood when it turned the workpiece");
-  }
   auto& table = control.tables.turningTools;
-  if (!table || !table->hasRow(row)) {
-    throw Alarm("Tool not defined", fmt::format("TOOLTURN.TRN has no tool {}, which Q330 names", row),
-                "add the tool to TOOLTURN.TRN");
-  }
   // The tool's axes in (away from the turning axis, along the tool axis of the program).
   const double incidence = radiansFromDegrees(context.q(531));
   const Vector2 z(std::sin(incidence), std::cos(incidence));
@@ -73,13 +94,7 @@ void monitorTool(Context& context, const ToolMonitoring& monitoring) {
   if (row.empty()) return;
   auto& control = context.control();
   auto& tools = control.tables.tools;
-  if (control.isTNC640() && tools.text(row, "TYP") == "TURN") {
-    if (!monitoring.turned) {
-      throw Alarm(
-          "Tool type not permitted",
-          fmt::format("Tool {} is a turning tool; cycle {} monitors mills and drills", row, context.record().name),
-          "use cycle 421, 422 or 427, or set Q330 = 0");
-    }
+  if (isTurningTool(context, row)) {
     lockIfBroken(context, row, "LBREAK", monitoring.monitored);
     correctTurningTool(context, row, monitoring);
     return;

@@ -23,6 +23,10 @@ struct ToolMonitoring {
 /// no such tool.
 std::string monitoredToolRow(Context& context);
 
+/// Refuses, before anything is touched, a tool in Q330 that is in no table, or a turning tool that the cycle cannot
+/// correct: cycles without Q498 and Q531 know none, the others need both.
+void requireMonitoredTool(Context& context);
+
 /// Corrects the tool of Q330 or, if the deviation says that it broke, locks it and throws Alarm. A mill is corrected in
 /// DR or DL; breakage is RBREAK. A turning tool (TYP is TURN) is corrected in DZL and DXL of TOOLTURN.TRN, breakage is
 /// LBREAK of TOOL.T: its tip truly lies where the surface is, so the deviation, turned into the tool's axes by Q531 and

@@ -18,15 +18,43 @@ namespace {
 
 enum class Transformed { Remains, Ends };
 
-/// The basic rotation that makes up for `degrees` seen in the active coordinates. A rotation by cycle 10 that ends when
-/// the preset becomes active is part of it.
-Matrix3 turnedAxes(const Coordinates& coordinates, double degrees, Transformed cycle10) {
-  Vector3 toolAxis = Vector3::Zero();
-  toolAxis[coordinates.plane.tool] = 1;
-  const bool ends = cycle10 == Transformed::Ends && !coordinates.tilt;
-  const double all = ends ? degrees + coordinates.workpiece.rotation : degrees;
-  return rotationFromSpaceAngles(coordinates.preset.spaceAngles) *
-         Eigen::AngleAxisd(radiansFromDegrees(all), toolAxis).toRotationMatrix();
+/// What lies between a preset and the coordinates of the program. Only the tilt goes on where transformations end.
+Eigen::Affine3d presetFromProgram(const Coordinates& coordinates, Transformed transformed) {
+  const bool remains = transformed == Transformed::Remains;
+  Eigen::Affine3d matrix = Eigen::Affine3d::Identity();
+  if (remains) matrix = coordinates.workpiece.matrix(coordinates.plane);
+  if (coordinates.tilt) matrix = matrix * Eigen::Affine3d(*coordinates.tilt);
+  if (coordinates.tilt && remains) matrix = matrix * coordinates.workingPlane.matrix(coordinates.plane);
+  return matrix;
+}
+
+/// The axes in which a line along `along` is to lie along the main axis, as columns; along and square to `normal`.
+Matrix3 axesAlong(const Vector3& along, const Vector3& normal) {
+  Matrix3 axes;
+  axes.col(2) = normal.normalized();
+  axes.col(0) = (along - axes.col(2) * axes.col(2).dot(along)).normalized();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  return axes;
+}
+
+/// The axes of the preset in which a line that lies at `degrees` in the active coordinates lies along their main axis.
+/// Transformations that end when the preset becomes active are part of the rotation. The one angle of the iTNC 530
+/// turns a tilted plane about the axis of the untilted one.
+Matrix3 turnedAxes(Context& context, double degrees, Transformed transformed) {
+  const Coordinates& coordinates = context.control().coordinates;
+  const auto& plane = coordinates.plane;
+  const Vector3 toolAxis = Vector3::Unit(plane.tool);
+  const Matrix3 present = rotationFromSpaceAngles(coordinates.preset.spaceAngles);
+  if (coordinates.tilt && !context.control().isTNC640()) return present * rotation(toolAxis, degrees).linear();
+  const auto lineAxes = [&](Transformed how, double angle) {
+    // Cycles 8 and 10 leave the plane where it is.
+    const bool turns = how == Transformed::Remains && coordinates.tilt;
+    Vector3 normal = coordinates.tilt ? Vector3(*coordinates.tilt * toolAxis) : toolAxis;
+    if (turns) normal = rotation(toolAxis, coordinates.workpiece.rotation).linear() * normal;
+    const Vector3 line = presetFromProgram(coordinates, how).linear() * plane.xyzFromPlane(probing::directionAt(angle));
+    return axesAlong(line, normal);
+  };
+  return present * lineAxes(Transformed::Remains, degrees) * lineAxes(transformed, 0).transpose();
 }
 
 /// Enters the axes of a preset. The iTNC 530 knows one angle, about the tool axis.
@@ -42,11 +70,11 @@ void setAngles(Context& context, const Matrix3& axes, Control::PresetChange& cha
       degreesFromRadians(std::atan2(axes(plane.minor, plane.main), axes(plane.main, plane.main)));
 }
 
-/// What changes in `target` so that `preset.measured` has the wished coordinates once `target` is active. They count
-/// along its axes, tilted as the working plane is or rotated by a cycle 10 that remains, and only those with a wish
-/// move.
+/// What changes in `target` so that `preset.measured` has the wished coordinates once `target` is active. They count in
+/// the coordinates of the program: tilted as the working plane is, and shifted, mirrored, rotated and scaled as far as
+/// that remains. Only those with a wish move.
 Control::PresetChange presetChange(Context& context, const NewPreset& preset, const ActivePreset& target,
-                                   Transformed cycle10) {
+                                   Transformed transformed) {
   const Coordinates& coordinates = context.control().coordinates;
   const auto& plane = coordinates.plane;
   // The feature in machine coordinates does not depend on the preset that it was measured with.
@@ -54,21 +82,20 @@ Control::PresetChange presetChange(Context& context, const NewPreset& preset, co
   Control::PresetChange change;
   Matrix3 axes = rotationFromSpaceAngles(target.spaceAngles);
   if (preset.rotation) {
-    axes = turnedAxes(coordinates, *preset.rotation, cycle10);
+    axes = turnedAxes(context, *preset.rotation, transformed);
     setAngles(context, axes, change);
+    if (!context.control().isTNC640())
+      axes = rotation(Vector3::Unit(plane.tool), *change.spaceAngles[plane.tool]).linear();
   }
-  if (coordinates.tilt) {
-    axes *= *coordinates.tilt;
-  } else if (cycle10 == Transformed::Remains) {
-    axes *= rotation(Vector3::Unit(plane.tool), coordinates.workpiece.rotation).linear();
-  }
-  const Vector3 local = axes.transpose() * (feature - target.origin);
+  Eigen::Affine3d program(presetFromProgram(coordinates, transformed));
+  program = Eigen::Translation3d(target.origin) * axes * program;
+  const Vector3 local = program.inverse() * feature;
   Vector3 wish = local;
   for (std::size_t i = 0; i < 3; ++i) {
     const int axis = i == 0 ? plane.main : i == 1 ? plane.minor : plane.tool;
     if (preset.wish[i]) wish[axis] = *preset.wish[i];
   }
-  const Vector3 shift = axes * (local - wish);
+  const Vector3 shift = program.linear() * (local - wish);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto index = static_cast<Eigen::Index>(i);
     if (shift[index] != 0 || wish[index] != local[index]) change.origin[i] = target.origin[index] + shift[index];
@@ -110,13 +137,8 @@ control::heidenhain::TypedTable& datumTableWithRow(Context& context, int row) {
   return table;
 }
 
-/// Row 0 stands for the preset that is set at once, whatever Q303 says: so the examples of both controls. Only where a
-/// datum table is active does the TNC 640 take its row 0.
-bool setsPresetAtOnce(Context& context) {
-  const Control& control = context.control();
-  return context.option(305) == 0 &&
-         (context.option(303) != 0 || !control.isTNC640() || control.activeDatumTable.empty());
-}
+/// Row 0 stands for the preset that is set at once, whatever Q303 says: so the examples of both controls.
+bool setsPresetAtOnce(Context& context) { return context.option(305) == 0; }
 
 void writeDatumRow(Context& context, int row, const NewPreset& preset) {
   Control& control = context.control();
@@ -127,7 +149,7 @@ void writeDatumRow(Context& context, int row, const NewPreset& preset) {
   if (preset.rotation) {
     // No column of a datum table takes a basic rotation: the active preset does.
     Control::PresetChange change;
-    setAngles(context, turnedAxes(control.coordinates, *preset.rotation, Transformed::Remains), change);
+    setAngles(context, turnedAxes(context, *preset.rotation, Transformed::Remains), change);
     writePresetRow(context, control.coordinates.preset.row, change);
   }
   // Datum shifts count from the preset along its axes, or in the tilted plane.
@@ -147,13 +169,29 @@ void writeDatumRow(Context& context, int row, const NewPreset& preset) {
 }  // namespace
 
 void requireTransferTarget(Context& context) {
-  if (setsPresetAtOnce(context)) return;
+  if (setsPresetAtOnce(context)) {
+    context.control().requireWritablePreset(0);
+    return;
+  }
   if (context.option(303) == -1) {
     throw Alarm("Measured value transfer not defined",
                 "Q303 = -1 comes from a program of an older control, which knew no choice of table",
                 "set Q303 to 0 (datum table) or 1 (preset table)");
   }
-  if (context.option(303) == 0) activeDatumTable(context);
+  if (context.option(303) == 0) {
+    activeDatumTable(context);
+    const bool rotates = context.arguments().definition().parameter(304) != nullptr && context.option(304) == 1;
+    if (rotates) context.control().requireWritablePreset(context.control().coordinates.preset.row);
+  } else {
+    context.control().requireWritablePreset(context.option(305));
+  }
+}
+
+void requireDatumTable(Context& context, std::string_view because, std::string_view wayOut) {
+  const Control& control = context.control();
+  if (control.tables.datums.contains(control.activeDatumTable)) return;
+  throw Alarm("Datum table not selected", fmt::format("No datum table is active for the angle that {}", because),
+              fmt::format("select one with SEL TABLE, or {}", wayOut));
 }
 
 void transferPreset(Context& context, const NewPreset& preset) {

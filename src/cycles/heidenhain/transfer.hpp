@@ -15,10 +15,14 @@ struct NewPreset {
 };
 
 /// Refuses, before anything is touched, a transfer that Q303 and Q305 leave nowhere to go: Q303 = -1 with a row, Q303 =
-/// 0 without an active datum table.
+/// 0 with a row without an active datum table, a row of the preset table that is locked.
 void requireTransferTarget(Context& context);
 
-/// Writes the preset as Q303 and Q305 say: Q305 = 0 with Q303 = 1 or -1 (on the iTNC 530 with any Q303) copies the
+/// Refuses an angle for the datum table when none is active: "`because`" says which parameter asks for it, "`wayOut`"
+/// what else the program can do.
+void requireDatumTable(Context& context, std::string_view because, std::string_view wayOut);
+
+/// Writes the preset as Q303 and Q305 say: Q305 = 0 copies the
 /// active preset to row 0 and activates it, clearing simple transformations; otherwise row Q305 of the preset table
 /// (effective at once if it is the active one) or of the active datum table. The feature reads the wished coordinates
 /// once that row is active, whatever basic rotation the row has; a row that is new takes over the active preset.

@@ -175,7 +175,8 @@ void KlartextHost::command(const Command& command, Evaluation& evaluation) {
     if (!words.empty()) requireGlobalGroup(static_cast<int>(evaluation.number(words[0].value)), words.subspan(1));
     for (std::size_t i = 1; i < words.size(); ++i) {
       const Value value = evaluation.value(words[i].value);
-      if (!isText(value)) control_.globalDefinitions[static_cast<int>(words[i].address)] = std::get<double>(value);
+      if (isText(value)) continue;
+      control_.globalDefinitions[static_cast<int>(words[i].address)] = {std::get<double>(value), control_.unit};
     }
   } else if (name == "TOOL DEF") {
     const Value tool = evaluation.value(first()->value);

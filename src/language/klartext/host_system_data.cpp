@@ -8,6 +8,7 @@
 #include "control/heidenhain/datum_table.hpp"
 #include "control/heidenhain/tool_table.hpp"
 #include "language/klartext/host.hpp"
+#include "probing/heidenhain_prober.hpp"
 
 /// FN 18: data of the control by group (ID), number (NR) and index (IDX), in mm and degrees whatever the unit of the
 /// program. docs/klartext.md lists the groups. Tools and touch probes are in host_tool_data.cpp.
@@ -198,7 +199,7 @@ std::optional<double> KlartextHost::touchData(int number, int index) const {
       return touch->surface[index - 1];
     case 3:
       return channel.programFromAxes(touch->latched)[index - 1] +
-             channel.toolVector.norm() * channel.toolAxis()[index - 1];
+             probing::alongTool(channel, channel.toolVector.norm())[index - 1];
     case 4:
       return touch->ballCentre[index - 1];
     default:

@@ -145,7 +145,9 @@ Value KlartextHost::call(std::string_view name, std::span<const Value> arguments
       throw Alarm("GLOBAL DEF missing", fmt::format("Q{} is PREDEF, but no GLOBAL DEF gives it a value", number),
                   "program GLOBAL DEF before the cycle, or write the value into the cycle");
     }
-    return found->second;
+    // Q301 is a choice; all others are lengths and feeds.
+    const auto& [value, unit] = found->second;
+    return number == 301 || unit == control_.unit ? value : value * unit / control_.unit;
   }
   if (name == "FU") return numberArgument(arguments, 0) * control_.tool.spindleSpeed;
   if (name == "FZ") return numberArgument(arguments, 0) * control_.tool.spindleSpeed * teeth();
