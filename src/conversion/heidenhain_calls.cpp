@@ -302,7 +302,9 @@ private:
     }
     const bool fourTouches = call_.number("Q423") == 4 || !call_.has("Q423");
     for (const cycles::Parameter& parameter : definition->parameters) {
-      if (!parameter.controls.contains(control_)) {
+      // What every iTNC 530 takes, whatever its software.
+      const bool later = control_ == control::ControlKind::iTNC530 && parameter.iTNC530Software > 0;
+      if (later || !parameter.controls.contains(control_)) {
         call_.numbers.erase(std::string(parameter.name));
         continue;
       }
