@@ -50,7 +50,7 @@ void cycle0(Context& context, const Arguments& arguments) {
   control::ResultRecord result;
   result.name = fmt::format("Q{}", number);
   result.meaning = fmt::format("measured coordinate, {}", "XYZ"[axis]);
-  result.value = coordinate;
+  result.value = coordinate + 0.0;  // no -0
   result.unit = "mm";
   context.record().results.push_back(std::move(result));
   storeTouchPosition(context, touch);

@@ -103,7 +103,7 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
     control::ResultRecord value;
     value.name = fmt::format("Q{}", first + i);
     value.meaning = fmt::format("ball centre, {}", "XYZ"[i]);
-    value.value = ball[i];
+    value.value = ball[i] + 0.0;  // no -0
     value.unit = "mm";
     context.record().results.push_back(std::move(value));
   }
