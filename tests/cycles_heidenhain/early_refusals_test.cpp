@@ -113,6 +113,21 @@ TEST(SoftwareVersion, BringsParametersToTheOlderControl) {
   EXPECT_NE(earlier.why().find("340 49x-05"), std::string::npos) << earlier.why();
 }
 
+/// TOOL CALL 0 with an axis is the probe that the operator has put in; without one it empties the spindle.
+TEST(ToolCall0, DefinesTheProbeAxisOfTheOlderControl) {
+  Bench bench = benchOf(ControlKind::iTNC530);
+  bench.part(simulation::Ring(20, 35, -40), pose({0.25, 0, -400}));
+  for (const double mp7411 : {0.0, 1.0}) {
+    bench.setup.parameters["MP7411"] = {mp7411, {}};
+    const Ran ran = bench.runBare("TOOL CALL 0 Z\n" + probe(412, hole));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(ran.q(151), 0.25, 1e-6);
+    EXPECT_NEAR(ran.q(153), 40, 1e-6);
+  }
+  EXPECT_EQ(bench.runBare("TOOL CALL 1 Z\nTOOL CALL 0\n" + probe(412, hole)).alarm(), "Touch probe not ready");
+  EXPECT_FALSE(benchOf(ControlKind::TNC640).runBare("TOOL CALL 0 Z\n" + probe(412, hole)).finished());
+}
+
 /// One angle is all that the preset table of the iTNC 530 keeps.
 TEST(Beliefs, OfTheOlderControlHaveOneAngle) {
   for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {

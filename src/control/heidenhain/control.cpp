@@ -85,7 +85,7 @@ void Control::callTool(const std::string& row, std::optional<char> axis, double 
   const std::string probe = tables.tools.text(row, "TP_NO");
   next.probeRow = probe == "0" || probe == "-" ? "" : probe;
   if (!tool.called || next.row != tool.row) {
-    const bool byHand = !isTNC640() && row == "0" && handProbe.number != 0;
+    const bool byHand = !isTNC640() && row == "0" && axis && handProbe.number != 0;
     channel.changeTool(byHand ? handProbe : machine::ToolOrder{next.number, next.name});
     panel.message(EventKind::Tool,
                   byHand ? fmt::format("Tool 0: touch probe {} put in by hand, axis {}", handProbe.name, next.axis)
