@@ -170,7 +170,11 @@ void ToKlartext::instruction(const Block& block, const Instruction& instruction)
     structured(block, *structure);
   } else if (std::holds_alternative<EndProgram>(instruction)) {
     line("M30");
-  } else if (std::holds_alternative<Return>(instruction)) {
+  } else if (const auto* order = std::get_if<Return>(&instruction)) {
+    if (order->target.present() || order->levels.present()) {
+      throw NotCarriedOver("RET with a destination or a number of levels has no twin in Klartext",
+                           "leave the subprogram with a Q parameter that the caller compares");
+    }
     if (program_.parse(block.next, *std::make_unique<Block>(), result_.mistakes)) {
       throw NotCarriedOver("a return in the middle of a program has no twin in Klartext", "jump to its end");
     }

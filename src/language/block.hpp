@@ -205,7 +205,13 @@ struct CallProgram {
   bool modal = false;       ///< SINUMERIK MCALL: from now on behind each block with a motion; without a name: no more
 };
 
-struct Return {};      ///< M17, RET
+/// M17, RET. SINUMERIK RET("TARGET",1,2): goes on at another place, through several levels.
+struct Return {
+  Operand target{};  ///< text: a label or block number in the program that is gone on with
+  Operand behind{};  ///< not 0: goes on behind the target's block
+  Operand levels{};  ///< programs that are left; absent: one
+  Operand start{};   ///< has a meaning for programs of the ISO dialect only
+};
 struct EndProgram {};  ///< END PGM, M2, M30
 
 /// SINUMERIK structured statements; the interpreter pairs them within their program.

@@ -18,6 +18,8 @@ namespace probewright::language {
 namespace {
 
 constexpr int deepestExpression = 1000;
+/// Joining texts in a loop ends here. Far beyond what a variable of a control takes.
+constexpr std::size_t longestText = 100'000;
 constexpr double degree = std::numbers::pi / 180;
 /// How far rounding may carry an argument out of the domain of a function.
 constexpr double domainSlack = 1e-12;
@@ -95,10 +97,24 @@ double shown(double value) {
 
 }  // namespace
 
+std::string Host::numberText(double value) const { return formatShortest(shown(value)); }
+
+Value Host::valueFor(const VariableRef&, const Operand& operand, Evaluation& evaluation) {
+  return evaluation.value(operand);
+}
+
+std::optional<std::string> Evaluation::shownText(const Operand& operand) {
+  if (operand.node < 0) return std::nullopt;
+  const Node& node = block_.nodes[static_cast<std::size_t>(operand.node)];
+  if (node.operation != Operation::Variable) return std::nullopt;
+  return host_.shownText(block_.variables[node.a], *this);
+}
+
 std::string Evaluation::text(const Operand& operand) {
+  if (auto shown = shownText(operand)) return std::move(*shown);
   Value result = value(operand);
   if (auto* text = std::get_if<std::string>(&result)) return std::move(*text);
-  return formatShortest(shown(std::get<double>(result)));
+  return host_.numberText(std::get<double>(result));
 }
 
 double Evaluation::operand(const Operand& operand) {
@@ -144,6 +160,10 @@ Value Evaluation::evaluate(const Node& node) {
       if (depth_ > deepestExpression) refuse(Refusal::TooComplex, "this expression is nested too deep");
       std::string joined = text(node.left);
       joined += text(node.right);
+      if (joined.size() > longestText) {
+        refuse(Refusal::Overflow, fmt::format("this text becomes longer than {} characters", longestText),
+               "look for a loop that makes a text longer and longer");
+      }
       return joined;
     }
     case Operation::Call:
@@ -252,7 +272,11 @@ double Evaluation::compare(const Node& node) {
   if (isNumeric(node.left) && isNumeric(node.right)) {
     order = ofNumbers(operand(node.left), operand(node.right));
   } else {
-    const Value left = value(node.left), right = value(node.right);
+    Value left = value(node.left), right = value(node.right);
+    if (isText(left) != isText(right)) {
+      if (auto shown = shownText(isText(left) ? node.right : node.left))
+        (isText(left) ? right : left) = std::move(*shown);
+    }
     if (isText(left) != isText(right)) {
       refuse(Refusal::TypeMismatch, "a number and a text cannot be compared",
              "convert the text to a number first, or the number to a text");

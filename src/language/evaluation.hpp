@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,8 +29,10 @@ public:
   /// Never infinite and never NaN.
   double number(const Operand& operand);
   bool truth(const Operand& operand) { return number(operand) != 0; }
-  /// The text, or a number as its shortest decimal text with twelve digits at most.
+  /// The text, or a number as the control shows it.
   std::string text(const Operand& operand);
+  /// The text of a variable whose number shows as a text: Host::shownText. Nothing for every other operand.
+  std::optional<std::string> shownText(const Operand& operand);
   /// The number, or `otherwise` if the operand is absent.
   double numberOr(const Operand& operand, double otherwise) { return operand.present() ? number(operand) : otherwise; }
   std::string_view at(TextRef ref) const { return block_.at(ref); }

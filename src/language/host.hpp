@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -55,6 +57,20 @@ public:
 
   /// Whether a program that was called modally (MCALL) is carried out behind this block.
   virtual bool drivesModalCall(const Block&) const { return false; }
+
+  /// A number as texts show it: twelve significant digits at most, unless the control has its own way.
+  virtual std::string numberText(double value) const;
+
+  /// The text of a variable that holds a number and shows as a text (SINUMERIK CHAR, BOOL, a character of a STRING);
+  /// nothing for others.
+  virtual std::optional<std::string> shownText(const VariableRef&, Evaluation&) { return std::nullopt; }
+
+  /// The value of `operand` for an assignment to `variable`, where its type changes it.
+  virtual Value valueFor(const VariableRef& variable, const Operand& operand, Evaluation& evaluation);
+
+  /// What the last instructions did beyond their blocks, in steps that count against the step limit: elements of
+  /// arrays. Asked once behind every block; the answer is forgotten then.
+  virtual std::uint64_t takeWork() { return 0; }
 
   /// Comparisons take two numbers for equal that differ by no more than this fraction of the larger one. SINUMERIK:
   /// 1e-12.

@@ -30,7 +30,8 @@ struct Breakpoint {
 enum class HaltAnswer { Continue, Step, Stop };
 
 struct InterpreterOptions {
-  /// The run ends after so many blocks, which catches endless loops; 0: never.
+  /// The run ends after so many blocks, which catches endless loops; elements of arrays that the blocks fill count,
+  /// too. 0: never.
   std::uint64_t stepLimit = 50'000'000;
   /// Programs that may be open above each other, the main program included. HEIDENHAIN 20, SINUMERIK 16.
   int programDepth = 20;
@@ -80,6 +81,9 @@ struct RunResult {
 ///   with the block of the label ENDLABEL. If REPEAT stands in front of the section's end, the section ends with
 ///   REPEAT. A jump out of the section ends its repetition.
 /// - END PGM, M2, M30, M17, RET and the end of the file end the program, in a called one they return to the caller.
+///   RET with a target (Return) goes on there instead of at the call: the label is looked for in the program that is
+///   gone on with, first from the call to the end, then from the beginning; passes of the call that are still to come
+///   are dropped. Without a target, but with a number of levels, only the passes of the programs between are dropped.
 /// - MCALL (CallProgram::modal): the arguments are computed once, there; the call follows each block that the host says
 ///   drives it, in front of M0, M1, M17 and M30 of that block, but not inside of the program that is called this way.
 /// - FOR counts up in steps of one and compares with its limit, which is computed anew each time; the variable keeps
@@ -159,6 +163,10 @@ private:
   Flow structured(const Structured& statement, Evaluation& evaluation);
   Flow endFor();
   Flow leaveProgram();
+  Flow returnFrom(const Return& order, Evaluation& evaluation);
+  Frame popProgram();
+  bool isSkipped(const Block& block) const;
+  [[nodiscard]] bool limitReached() const;
 
   ParsedBlock* fetch();
   ParsedBlock& fetchAside(BlockPosition position);
@@ -208,6 +216,7 @@ private:
   int levels_ = 0;                 ///< programs under way
   std::unique_ptr<ModalCall> modal_;
   std::uint64_t blocks_ = 0;
+  std::uint64_t work_ = 0;  ///< Host::takeWork so far
   bool stepping_ = false;
 };
 

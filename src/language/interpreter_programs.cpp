@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -164,22 +165,54 @@ Interpreter::Flow Interpreter::callModally() {
   return Flow::Moved;
 }
 
-Interpreter::Flow Interpreter::leaveProgram() {
+/// Leaves the current program. Its caller goes on, at the call; the main program stays the current one.
+Interpreter::Frame Interpreter::popProgram() {
   while (frames_.back().kind != FrameKind::Program)
     pop();
   const Frame frame = pop();
   Loaded* left = current_;
-  if (frame.caller == nullptr) {
-    host_.leave(*left->program);
-    return Flow::Finished;
+  if (frame.caller != nullptr) {
+    sections_ = frame.sections;
+    --levels_;
+    if (modal_ && modal_->level > levels_) modal_->level = 0;
+    current_ = frame.caller;
+    position_ = frame.call;
+    block_ = nullptr;
   }
-  sections_ = frame.sections;
-  --levels_;
-  if (modal_ && modal_->level > levels_) modal_->level = 0;
-  current_ = frame.caller;
-  position_ = frame.call;
-  block_ = nullptr;
   host_.leave(*left->program);
+  return frame;
+}
+
+Interpreter::Flow Interpreter::returnFrom(const Return& order, Evaluation& evaluation) {
+  if (!order.target.present() && !order.levels.present()) return leaveProgram();
+  std::string target = order.target.present() ? evaluation.text(order.target) : std::string();
+  while (target.ends_with(' ') || target.ends_with(':'))
+    target.pop_back();
+  const bool behind = order.behind.present() && evaluation.truth(order.behind);
+  const double levels = evaluation.numberOr(order.levels, 1);
+  if (!(levels >= 1 && levels < levels_) || levels != std::floor(levels)) {
+    refuse(Refusal::NestingDepth,
+           fmt::format("RET cannot leave {} program levels: {} lie above the main program", levels, levels_ - 1),
+           "write how many programs are left, from 1 on");
+  }
+  for (double left = 1; left < levels; ++left)
+    popProgram();
+  if (target.empty()) return leaveProgram();
+  const Frame frame = popProgram();
+  const auto found = current_->program->findLabel(target, frame.call, JumpDirection::ForwardThenBackward);
+  if (!found) {
+    refuse(Refusal::MissingLabel,
+           fmt::format("there is no label {} in {}, to which RET returns", target, current_->program->name()),
+           "check how the label is written");
+  }
+  goTo(behind ? fetchAside(*found).block.next : *found);
+  return Flow::Moved;
+}
+
+Interpreter::Flow Interpreter::leaveProgram() {
+  Loaded* left = current_;
+  const Frame frame = popProgram();
+  if (frame.caller == nullptr) return Flow::Finished;
   const std::string again = host_.requestedProgram();
   if (frame.remaining < 1 && again.empty()) {
     resume(frame);

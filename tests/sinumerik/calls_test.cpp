@@ -142,7 +142,8 @@ TEST(SinumerikCalls, CalledProgramsAreCheckedToo) {
 
 TEST(SinumerikCalls, AMistakeInDefIsSaidOnce) {
   const auto program = SinumerikProgram::fromText("test.mpf", "DEF REAL WIDTH=1, H, DEPTH[2]\nWIDTH=DEPTH[0]\n");
-  EXPECT_EQ(messagesOf(check(*program, {})), (std::vector<std::string>{"1:19 the name of the variable was expected"}));
+  EXPECT_EQ(messagesOf(check(*program, {})),
+            (std::vector<std::string>{"1:19 H cannot name a variable: names begin with two letters or underscores"}));
 }
 
 TEST(SinumerikCalls, EncryptedProgramsAreNamed) {

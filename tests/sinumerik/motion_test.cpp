@@ -133,7 +133,8 @@ TEST(SinumerikMotion, FunctionsAreChosenByTheirPlaceInTheGroup) {
 
 TEST(SinumerikMotion, AxesThatTheMachineHasNotAreRefusedByNumber) {
   World world("lathe2c");
-  world.run("G0 X80 Y0 Z5\n");
+  world.run("G0 X80 Z5\n");
+  EXPECT_EQ(world.alarm("G0 Y0\n"), "12080") << "also where the axis would not move";
   EXPECT_EQ(world.alarm("G0 Y5\n"), "12080");
   EXPECT_EQ(world.alarm("G91 G1 X1 Y1 F100\n"), "12080");
 }

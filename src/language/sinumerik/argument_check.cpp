@@ -29,9 +29,9 @@ public:
   Reader(const Block& block, const CallProgram& call, const std::map<std::string, Type>& types)
       : block_(block), call_(call), types_(types) {}
 
-  Given at(std::uint32_t place) const {
-    if (place >= call_.arguments.count) return {};
-    const Operand& value = word(place).value;
+  Given at(std::uint32_t place) const { return place >= call_.arguments.count ? Given{} : of(word(place).value); }
+
+  Given of(const Operand& value) const {
     if (!value.present()) return {};
     if (value.isLiteral()) return {Kind::Number, value.number, {}};
     return given(block_.nodes[static_cast<std::size_t>(value.node)]);
@@ -232,6 +232,27 @@ std::vector<ArgumentMistake> serviceMistakes(const Block& block, const CallProgr
            advice);
   }
   return found;
+}
+
+std::string argumentOfWrongType(const Block& block, const Operand& value, Type type,
+                                const std::map<std::string, Type>& types) {
+  static const CallProgram none;
+  const Given given = Reader(block, none, types).of(value);
+  const bool wantsText = type == Type::String || type == Type::Char,
+             wantsNumber = type == Type::Real || type == Type::Int;
+  switch (given.kind) {
+    case Kind::Number:
+      if (type == Type::Axis || type == Type::Frame || (type == Type::String && given.number)) return "a number";
+      return {};
+    case Kind::Text:
+      return wantsNumber || type == Type::Axis || type == Type::Frame ? "a text" : "";
+    case Kind::Axis:
+      return wantsText || wantsNumber || type == Type::Bool || type == Type::Frame ? "the name of an axis" : "";
+    case Kind::Absent:
+    case Kind::Computed:
+      break;
+  }
+  return {};
 }
 
 }  // namespace probewright::sinumerik

@@ -31,4 +31,8 @@ std::vector<ArgumentMistake> argumentMistakes(const language::Block& block, cons
 std::vector<ArgumentMistake> serviceMistakes(const language::Block& block, const language::CallProgram& call,
                                              std::string_view name, const std::map<std::string, Type>& types);
 
+/// What `value` is ("a text"), if a variable of `type` cannot take it; empty if it can, or if only the run knows.
+std::string argumentOfWrongType(const language::Block& block, const language::Operand& value, Type type,
+                                const std::map<std::string, Type>& types);
+
 }  // namespace probewright::sinumerik

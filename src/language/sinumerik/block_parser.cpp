@@ -7,6 +7,16 @@ namespace probewright::sinumerik {
 
 using namespace language;
 
+namespace {
+
+/// AX[v]= and IP[v]= may stand several times in a block.
+bool isComputedAxis(std::uint32_t address) {
+  return address == addressOf("AX[]") || address == addressOf("=AX") || address == addressOf("IP[]") ||
+         address == addressOf("=IP");
+}
+
+}  // namespace
+
 void BlockParser::takeLine(std::string_view line) {
   line_ = line;
   upper_.assign(line);
@@ -89,6 +99,19 @@ bool BlockParser::expect(char c, const char* what) {
   return false;
 }
 
+/// "/" and "/0" to "/9": the level of block skip. False if none stands here.
+bool BlockParser::takeSkip() {
+  if (cursor_.peek() != '/') return false;
+  block_->skippable = true;
+  cursor_.advance();
+  if (isDigit(cursor_.peek())) {
+    block_->skipLevel = static_cast<std::uint8_t>(cursor_.peek() - '0');
+    cursor_.advance();
+  }
+  cursor_.skipBlanks();
+  return true;
+}
+
 void BlockParser::parse(std::string_view line, const SourcePlace& place, Block& block, Diagnostics& diagnostics) {
   block_ = &block;
   diagnostics_ = &diagnostics;
@@ -107,24 +130,14 @@ void BlockParser::parse(std::string_view line, const SourcePlace& place, Block& 
 
   cursor_.skipBlanks();
   if (cursor_.peek() == '%') return;  // the header line of an archive names the program
-  if (cursor_.peek() == '/') {
-    block.skippable = true;
-    cursor_.advance();
-    if (isDigit(cursor_.peek())) cursor_.advance();
-    cursor_.skipBlanks();
-  }
+  takeSkip();
   const std::size_t numberStart = cursor_.offset();
   if ((cursor_.peek() == 'N' || cursor_.peek() == ':') && isDigit(cursor_.peek(1))) {
     cursor_.advance();
     cursor_.digits();
     block.label = upper(cursor_.since(numberStart));
     cursor_.skipBlanks();
-    if (cursor_.peek() == '/') {
-      block.skippable = true;
-      cursor_.advance();
-      if (isDigit(cursor_.peek())) cursor_.advance();
-    }
-    cursor_.skipBlanks();
+    takeSkip();
   }
   if (isNameStart(cursor_.peek())) {
     const std::size_t start = cursor_.offset();
@@ -133,6 +146,9 @@ void BlockParser::parse(std::string_view line, const SourcePlace& place, Block& 
     if (cursor_.peek() == ':' && name.size() > 1 && isNameStart(name[1])) {
       cursor_.advance();
       block.label = upper(start, name.size());
+    } else if (cursor_.peek() == ':') {
+      fail(start, std::string(name) + " cannot be a label: the names of labels begin with two letters or underscores",
+           "Write LA1: or another name.");
     } else {
       cursor_.moveTo(start);
     }
@@ -184,7 +200,7 @@ void BlockParser::finish() {
   for (std::size_t i = 1; i < axisWords_.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const std::uint32_t address = axisWords_[i].address;
-      if (address == axisWords_[j].address && address != addressOf("AX[]") && address != addressOf("=AX")) {
+      if (address == axisWords_[j].address && !isComputedAxis(address)) {
         fail(axisWords_[i].column - 1, "the address " + addressName(address) + " stands twice in this block",
              "Write each address once in a block.");
         return;

@@ -21,7 +21,8 @@ namespace probewright::sinumerik {
 ///    written, then the motion, then M0, M1, M2, M17, M30.
 ///  - A motion function with axis words is one Move; without them it is Modal{"G1"}. Move{Modal} continues group 1.
 ///    Move::variant is "SUPA", "G53" or "G153" where those stand, or the name of a spline; feed F goes into the Move.
-///  - Modal{"F" | "S" | "D" | "H"}: words[0] is the value, its address the whole address ("S", "S1").
+///  - Modal{"F" | "S" | "D" | "H"}: words[0] is the value, its address the whole address ("S", "S1"); S[v]=, H[v]=:
+///    words[1] the computed extension.
 ///  - Settings (SPOS=, LIMS=, POS[X]=, ...): Command{NAME}, words: [0] address 0 the value, [1] address 1 the index.
 ///  - Statements with parentheses (MSG, SETAL, FGROUP, ...) and named G functions: arguments by position.
 ///  - DEF: one Command{"DEF", text: type} per variable; variables[variable] has the dimensions as indices; words:
@@ -30,8 +31,13 @@ namespace probewright::sinumerik {
 ///  - PROC, EXTERN, DEFINE, synchronized actions: Command whose text is the rest of the block in upper case.
 ///  - G4: Command{"G4"}, words F or S. MEAS/MEAW: Command, words[0] address "MEAS" the event, then axis words and F;
 ///    text: "G0" or "G1" if the block says so; MEASA/MEAWA have "MAX" the axis and "MMO" the mode behind the event.
-///  - An axis given by a variable, AX[v]=..: word "AX[]" with the axis followed by word "=AX" with the value.
-///  - M functions with a spindle number, M2=3: number 3, argument the spindle. M=expression: number -1, argument.
+///  - An axis given by a variable, AX[v]=..: word "AX[]" with the axis followed by word "=AX" with the value; IP[v]=..
+///    in the same way.
+///  - POLY's PO[X]=(..): the word X with the end point; PO of angles of the orientation falls away.
+///  - POSP[X]=(end,part,mode): Command, words[0] the end, [1] the axis, then part and mode.
+///  - M functions with a spindle number, M2=3, M[v]=3: number 3, argument the spindle. M=expression: number -1,
+///    argument the expression; M[v]=expression: and words[0] the spindle.
+///  - NAME=CALCDAT(..): Command{"CALCDAT", variable, words by position}.
 class BlockParser {
 public:
   /// Parses `line`. `block` must be clear; position and next are the caller's.
@@ -42,6 +48,7 @@ public:
     std::string name;  ///< upper case
     Type type = Type::Real;
     bool byReference = false;  ///< VAR
+    int length = 200;          ///< of a STRING
     std::vector<int> dimensions;
     double defaultNumber = 0;
     std::string defaultText;
@@ -79,12 +86,17 @@ private:
   void parseAxisWord(std::uint32_t address, std::size_t start);
   void parseModalAddress(char letter, std::size_t start);
   bool parseExtension(std::uint32_t& address);
+  bool parseExtension(std::uint32_t& address, language::Operand& index);
+  bool takeSkip();
+  bool takeNumber(double& value);
   bool parseShortValue(double& value);
   language::Operand parseValue(language::WordMode* mode);
   bool parseDimensionedValue(language::Word& word);
   void parseAxialDiameter(std::string_view name);
   void addMoveWord(std::uint32_t address, std::size_t start);
   void parseMoveWord(std::string_view name, std::size_t start);
+  void parseComputedAxis(std::string_view name, std::size_t start);
+  void parsePolynomial(std::size_t start);
   void parseSetting(std::string_view name, std::size_t start);
   void setMotion(language::MoveKind kind, std::size_t start);
   void setOwner(Owner owner, language::TextRef name, std::size_t start);
@@ -102,6 +114,8 @@ private:
   void parseUserName(std::string_view name, std::size_t start);
   void parseAssignment(std::size_t start);
   void parseFill(std::uint32_t variable);
+  void parseReturn(std::string_view name);
+  void parseAxial(std::string_view name, std::size_t start);
   void parseStatement(Keyword keyword, std::string_view name);
   void pushStructure(language::Structure kind, language::Operand condition = {});
   language::TextRef parseTarget();

@@ -52,12 +52,16 @@ private:
   void checkSection(const CallProgram& call, Program& other);
   void checkNames();
   void checkPriorities();
+  void checkFunctions();
+  void checkEffect(const Command& command, const std::string& name);
+  void tell(const std::string& name, std::string_view how);
   void checkInstruction(const Instruction& instruction);
   void checkTarget(TextRef label, JumpDirection direction);
   void checkCall(const CallProgram& call);
   void checkArguments(const std::vector<ArgumentMistake>& mistakes);
   void checkParameters(const CallProgram& call, const BlockParser::Header& header);
   void checkLabels();
+  void checkType(const CallProgram& call, const BlockParser::Header& header, std::size_t place);
 
   SinumerikProgram& program_;
   const CheckOptions& options_;
@@ -71,7 +75,7 @@ private:
   std::set<std::string> macros_;
   bool begun_ = false;                         ///< a block was met that is carried out
   bool toldOrder_ = false;                     ///< of a DEF behind it
-  std::set<std::string> told_;                 ///< system variables that were reported
+  std::set<std::string> told_;                 ///< system variables and words that were reported
   std::map<std::string, Diagnostic> unknown_;  ///< first use of each name that no DEF came before
 };
 
@@ -223,7 +227,10 @@ void Checker::checkParameters(const CallProgram& call, const BlockParser::Header
   }
   for (std::size_t i = 0; i < header.parameters.size(); ++i) {
     const BlockParser::Parameter& parameter = header.parameters[i];
-    if (!parameter.byReference) continue;
+    if (!parameter.byReference) {
+      checkType(call, header, i);
+      continue;
+    }
     if (i >= call.arguments.count || !words[i].value.present()) {
       report(columnOf(header.name),
              fmt::format("argument {} of {} is missing: the VAR parameter {} needs a variable", i + 1, header.name,
@@ -240,6 +247,19 @@ void Checker::checkParameters(const CallProgram& call, const BlockParser::Header
           fmt::format("argument {} of {}: the VAR parameter {} needs a variable", i + 1, header.name, parameter.name),
           "Write the name of the variable that takes the result.");
   }
+}
+
+/// An argument whose type the parameter cannot take.
+void Checker::checkType(const CallProgram& call, const BlockParser::Header& header, std::size_t place) {
+  if (place >= call.arguments.count) return;
+  const BlockParser::Parameter& parameter = header.parameters[place];
+  const Word& word = block_.words[call.arguments.first + place];
+  const std::string wrong = argumentOfWrongType(block_, word.value, parameter.type, types_);
+  if (wrong.empty()) return;
+  report(word.column,
+         fmt::format("argument {} of {} is {}, and the parameter {} has the type {}", place + 1, header.name, wrong,
+                     parameter.name, typeName(parameter.type)),
+         "Compare the call with the PROC line of the subprogram.");
 }
 
 /// "/_N_WKS_DIR/_N_PART_WPD/_N_SUB_SPF" -> "SUB".
@@ -298,11 +318,15 @@ void Checker::checkCall(const CallProgram& call) {
                     Severity::Warning);
   }
   if (options_.library == nullptr && !call.maybeCycle) return;
+  if (name.empty())
+    return report(column, fmt::format("\"{}\" names a folder, not a program", block_.at(call.name)),
+                  "Write the name of the program: CALL \"NAME\".");
+  // CALL names programs only: a word of the language is never meant.
   std::vector<std::string_view> names;
   for (const cycles::CycleDefinition* cycle : cycles::cyclesOf(controlKind))
-    names.push_back(cycle->name);
+    if (call.maybeCycle) names.push_back(cycle->name);
   for (const KeywordEntry& keyword : keywords())
-    names.push_back(keyword.name);
+    if (call.maybeCycle) names.push_back(keyword.name);
   const std::string_view close = closestName(name, names);
   const std::string message = (call.maybeCycle ? "there is no program and no cycle " : "there is no program ") + name;
   const std::string file = name.find('.') == std::string::npos ? name + ".SPF" : name;
@@ -322,6 +346,7 @@ void Checker::checkInstruction(const Instruction& instruction) {
     checkCall(*call);
   } else if (const auto* command = std::get_if<Command>(&instruction)) {
     const std::string name(block_.at(command->name));
+    checkEffect(*command, name);
     if (keywordOf(name) == Keyword::SynchronizedAction)
       report(columnOf(name), "the synchronized action " + name + " is not carried out", "The run goes on behind it.",
              Severity::Warning);
@@ -331,8 +356,49 @@ void Checker::checkInstruction(const Instruction& instruction) {
              "Write the program in the language of the control.");
   } else if (const auto* modal = std::get_if<Modal>(&instruction)) {
     const std::string name(block_.at(modal->name));
+    const bool ofSpindle = (name == "G25" || name == "G26") && modal->words.count > 0 &&
+                           (block_.words[modal->words.first].address & 0xff) == 'S';
     const std::string_view how = skippedFunction(name);
-    if (!how.empty()) report(columnOf(name), fmt::format("{} {}", name, how), "The run goes on.", Severity::Warning);
+    if (!how.empty() && !ofSpindle) tell(name, how);
+    if (name == "H") tell("the auxiliary function H", "is not carried out");
+    if (name == "G291")
+      report(columnOf(name), "G291: programs of the ISO dialect are not available",
+             "Write the program in the language of the control.");
+  } else if (const auto* function = std::get_if<MachineFunction>(&instruction)) {
+    if (isSkippedMachineFunction(function->number)) tell(fmt::format("M{}", function->number), "is not carried out");
+  } else if (const auto* move = std::get_if<Move>(&instruction)) {
+    for (std::uint32_t i = 0; i < move->words.count; ++i) {
+      const std::string name = addressName(block_.words[move->words.first + i].address);
+      if (const std::string_view how = skippedFunction(name); !how.empty()) tell(name, how);
+    }
+  }
+  if (const auto* order = std::get_if<Return>(&instruction); order != nullptr && order->start.present())
+    tell("the fourth argument of RET", "has a meaning for programs of the ISO dialect only");
+}
+
+/// A word that is not carried out is named once in a program.
+void Checker::tell(const std::string& name, std::string_view how) {
+  if (!told_.insert(name).second) return;
+  report(columnOf(name), fmt::format("{} {}", name, how), "The run goes on; --strict refuses it.", Severity::Warning);
+}
+
+void Checker::checkEffect(const Command& command, const std::string& name) {
+  const std::string_view how = skippedFunction(name);
+  if (how.empty()) return;
+  const Operand first = command.words.count > 0 ? block_.words[command.words.first].value : Operand{};
+  std::optional<double> value;
+  if (first.present()) value = first.isLiteral() ? first.number : 1;
+  if (!saysWhatIs(name, value)) tell(name, how);
+}
+
+/// Functions whose value is not known here.
+void Checker::checkFunctions() {
+  for (const Node& node : block_.nodes) {
+    if (node.operation != Operation::Call || node.function != Function::Host) continue;
+    const std::string name(block_.at(node.text));
+    if (!isUnavailableFunction(name) || !told_.insert(name).second) continue;
+    report(columnOf(name), fmt::format("the function {} is not available here", name),
+           "The run stops with alarm 12340 where its value is needed.", Severity::Warning);
   }
 }
 
@@ -363,11 +429,16 @@ Diagnostics Checker::run() {
   for (BlockPosition at = program_.begin();; at = block_.next) {
     const std::size_t before = found_.size();
     if (!program_.parse(at, block_, found_)) break;
+    if (block_.skippable && options_.skipLevels[block_.skipLevel]) {
+      found_.resize(before);
+      continue;
+    }
     if (found_.size() > before) declareFromBrokenBlock();
     for (const Instruction& instruction : block_.instructions)
       declare(instruction);
     checkNames();
     checkPriorities();
+    checkFunctions();
     for (const Instruction& instruction : block_.instructions)
       checkInstruction(instruction);
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <bitset>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -16,6 +18,8 @@ struct CheckOptions {
   language::ProgramLibrary* library = nullptr;
   /// Names of data that the control has values for, upper case: global user data, system variables.
   std::set<std::string> globalVariables;
+  /// Levels of block skip that are on: such blocks are not read.
+  std::bitset<10> skipLevels = {};
   /// What definition files declare; null: none are known.
   const GlobalUserData* globalData = nullptr;
 };
@@ -35,9 +39,22 @@ bool isSkippedCycle(std::string_view name);
 /// tolerances, hooks of the machine's builder that are empty as delivered.
 bool isCycleWithoutEffect(std::string_view name);
 
-/// What becomes of a G function or switch that is not carried out as on the control ("is not carried out"); empty for
-/// all others.
+/// What becomes of a G function or word that is not carried out as on the control ("is not carried out"); empty for
+/// all others, among them those that say nothing about where the tool goes.
 std::string_view skippedFunction(std::string_view name);
+
+/// True if a word that is not carried out only says what is so anyway: OFFN=0, SETMS(1), GEOAX(). `value` is its value
+/// or first argument; nothing if it has none.
+bool saysWhatIs(std::string_view name, std::optional<double> value);
+
+/// True for M functions that are the machine builder's own: nobody knows what they do.
+bool isSkippedMachineFunction(int number);
+
+/// True if the G function `number` of `group`, G[group]=number, would change where the tool is and is not carried out.
+bool isSkippedGroup(int group, int number);
+
+/// True for functions of expressions that are known by name only: who needs their value gets alarm 12340.
+bool isUnavailableFunction(std::string_view name);
 
 /// True if `name` is one of the control's measuring cycles, whether the catalogue has it or not.
 bool isMeasuringCycle(std::string_view name);

@@ -1,6 +1,7 @@
 #include "language/sinumerik/cursor.hpp"
 
 #include <charconv>
+#include <cstdlib>
 #include <string>
 
 namespace probewright::sinumerik {
@@ -10,6 +11,13 @@ namespace {
 // Powers of ten that a double holds exactly.
 constexpr double exactPowers[] = {1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 constexpr std::ptrdiff_t exactDigits = 15;
+
+double numberFromText(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  // Too large becomes infinite, too small 0: from_chars says for both only that there is no such double.
+  return error == std::errc::result_out_of_range ? std::strtod(text.c_str(), nullptr) : value;
+}
 
 }  // namespace
 
@@ -31,7 +39,7 @@ bool Cursor::number(double& value) {
     // Both are exact, so the one division rounds correctly.
     value = static_cast<double>(mantissa) / exactPowers[fractionDigits];
   } else {
-    std::from_chars(first, p, value, std::chars_format::fixed);
+    value = numberFromText(std::string(first, p));
   }
   at_ = p;
   const bool exponent = end_ - p >= 3 && p[0] == 'E' && p[1] == 'X' &&
@@ -44,8 +52,7 @@ bool Cursor::number(double& value) {
     if (peek() == '-') advance();
     digits();
     text.append("e").append(power, at_);
-    value = 0;
-    std::from_chars(text.data(), text.data() + text.size(), value);
+    value = numberFromText(text);
   }
   return true;
 }

@@ -62,7 +62,8 @@ public:
     return {first, static_cast<std::size_t>(at_ - first)};
   }
 
-  /// Reads an unsigned decimal number, perhaps with the exponent "EX-3". False if none begins here. Correctly rounded.
+  /// Reads an unsigned decimal number, perhaps with the exponent "EX-3". False if none begins here. Correctly rounded;
+  /// infinite if no double is as large.
   bool number(double& value);
 
 private:

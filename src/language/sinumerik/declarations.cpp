@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "language/sinumerik/block_parser.hpp"
 
@@ -41,6 +42,11 @@ void BlockParser::parseDeclaration(std::size_t start) {
     if (!expect('[', "behind STRING: the length of the text")) return;
     length = parseExpression();
     if (failed_ || !expect(']', "behind the length of the text")) return;
+    const bool fits =
+        length.number >= 1 && length.number <= longestString && length.number == std::floor(length.number);
+    if (length.isLiteral() && !fits)
+      return fail(start, "a STRING has 1 to " + std::to_string(longestString) + " characters",
+                  "Write DEF STRING[32] NAME.");
   }
   for (;;) {  // attributes with values
     cursor_.skipBlanks();
@@ -54,15 +60,16 @@ void BlockParser::parseDeclaration(std::size_t start) {
     parseDeclaredVariable(typeText, type, length);
   while (!failed_ && cursor_.take(','));
   if (!failed_) expectEnd("the variables of DEF");
-  (void)start;
 }
 
 void BlockParser::parseDeclaredVariable(TextRef typeText, Type type, Operand length) {
   cursor_.skipBlanks();
   const std::size_t start = cursor_.offset();
   const std::string_view name = cursor_.peekName();
+  if (name.empty()) return fail(start, "the name of the variable was expected", "Write DEF REAL WIDTH.");
   if (name.size() < 2 || !isNameStart(name[1]))
-    return fail(start, "the name of the variable was expected", "Names begin with two letters or underscores.");
+    return fail(start, std::string(name) + " cannot name a variable: names begin with two letters or underscores",
+                "Choose a longer name for the variable.");
   if (name.size() > 31) return fail(start, "the name of a variable has at most 31 characters");
   if (keywordOf(name) != Keyword::None)
     return fail(start, std::string(name) + " is a word of the language and cannot name a variable",
@@ -155,7 +162,12 @@ bool BlockParser::parseHeader(std::string_view text, Header& header, std::string
       if (!typeOf(type, parameter.type)) return refuseWord("the type of a parameter was expected");
       if (parameter.type == Type::String && cursor.take('[')) {
         cursor.skipBlanks();
-        cursor.digits();
+        const std::string_view digits = cursor.digits();
+        if (!digits.empty()) {
+          parameter.length = digits.size() > 6 ? longestString + 1 : std::stoi(std::string(digits));
+          if (parameter.length < 1 || parameter.length > longestString)
+            return refuse("a STRING has 1 to " + std::to_string(longestString) + " characters");
+        }
         if (!cursor.take(']')) return refuse("']' expected behind the length of the text");
       }
       cursor.skipBlanks();
@@ -189,7 +201,7 @@ bool BlockParser::parseHeader(std::string_view text, Header& header, std::string
           if (constant == "TRUE" || constant == "FALSE") {
             cursor.advance(constant.size());
             parameter.defaultNumber = constant == "TRUE" ? 1 : 0;
-          } else if (!cursor.number(parameter.defaultNumber)) {
+          } else if (!cursor.number(parameter.defaultNumber) || std::isinf(parameter.defaultNumber)) {
             return refuse("the default of a parameter is a number or a text");
           }
           if (negative) parameter.defaultNumber = -parameter.defaultNumber;

@@ -11,6 +11,8 @@ using namespace language;
 namespace {
 
 constexpr int deepestNesting = 60;
+/// Operators of one priority in a row: each lies one level deeper when the value is computed.
+constexpr int mostTerms = 500;
 
 /// The binary operator that stands at the cursor; its priority is None if there is none.
 BinaryOperator operatorAt(const Cursor& cursor) {
@@ -53,10 +55,14 @@ Operand BlockParser::parseBinary(Priority lowest) {
     return {};
   }
   Operand left = parseUnary();
-  for (;;) {
+  for (int terms = 1;; ++terms) {
     cursor_.skipBlanks();
     const BinaryOperator op = operatorAt(cursor_);
     if (op.priority == Priority::None || op.priority < lowest || failed_) break;
+    if (terms == mostTerms) {
+      fail(cursor_.offset(), "this expression has too many terms", "Split it into several assignments.");
+      break;
+    }
     cursor_.advance(op.symbol.size());
     const Operand right = parseBinary(above(op.priority));
     if (failed_) break;
@@ -113,7 +119,7 @@ Operand BlockParser::parsePrimary() {
   const char c = cursor_.peek();
   if (isDigit(c) || c == '.') {
     double value = 0;
-    if (cursor_.number(value)) return Operand::of(value);
+    if (takeNumber(value)) return Operand::of(value);
   }
   if (c == '(') {
     cursor_.advance();

@@ -74,7 +74,8 @@ Value subString(const Arguments& arguments) {
   const double from = arguments.number(1);
   if (!(from >= 0) || from > static_cast<double>(text.size())) return std::string();
   const double length = arguments.count() > 2 ? arguments.number(2) : static_cast<double>(text.size());
-  if (!(length > 0)) return std::string();
+  if (length < 0)
+    throw Alarm("14020", fmt::format("SUBSTR cannot take {} characters", length), "count the characters from 0 up");
   return text.substr(static_cast<std::size_t>(from),
                      static_cast<std::size_t>(std::min(length, static_cast<double>(text.size()))));
 }
@@ -177,14 +178,14 @@ std::string formatText(std::string_view format, std::span<const Value> arguments
         part = fmt::format("{:X}", static_cast<std::uint32_t>(static_cast<std::int64_t>(values.number(next))));
         break;
       case 'B':
-        part = fmt::format("{:b}", static_cast<std::uint32_t>(static_cast<std::int64_t>(values.number(next))));
+        part = values.number(next) != 0 ? "TRUE" : "FALSE";
         break;
       case 'C':
         part = std::string(1, values.character(next));
         break;
       case 'S':
       case 'P':
-        part = next < arguments.size() && !language::isText(arguments[next]) ? formatShortest(values.number(next))
+        part = next < arguments.size() && !language::isText(arguments[next]) ? numberText(values.number(next))
                                                                              : values.text(next);
         if (decimals >= 0) part.resize(std::min(part.size(), static_cast<std::size_t>(decimals)));
         break;
@@ -205,6 +206,19 @@ std::string formatText(std::string_view format, std::span<const Value> arguments
   return out;
 }
 
+std::string numberText(double value) {
+  constexpr int digits = 10;
+  if (!std::isfinite(value)) return formatShortest(value);
+  const double size = std::abs(value);
+  // What lies behind the tenth digit, or the tenth decimal place, is noise of computing.
+  const int before = size < 1 ? 0 : static_cast<int>(std::floor(std::log10(size))) + 1;
+  std::string text = formatFixed(value, std::max(digits - before, 0));
+  if (text.find('.') == std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
 int wholeNumber(double value) { return static_cast<int>(std::lround(std::clamp(value, -2e9, 2e9))); }
 
 std::optional<Value> callFunction(std::string_view name, std::span<const Value> values,
@@ -219,7 +233,7 @@ std::optional<Value> callFunction(std::string_view name, std::span<const Value> 
   if (name == "SUBSTR") return subString(arguments);
   if (name == "TOUPPER") return changeCase(arguments.text(0), 'a', 'z', -32);
   if (name == "TOLOWER") return changeCase(arguments.text(0), 'A', 'Z', 32);
-  if (name == "STRING") return language::isText(values[0]) ? values[0] : Value(formatShortest(arguments.number(0)));
+  if (name == "STRING") return language::isText(values[0]) ? values[0] : Value(numberText(arguments.number(0)));
   if (name == "ISNUMBER") return control::sinumerik::parseNumber(trimmed(arguments.text(0))).has_value() ? 1.0 : 0.0;
   if (name == "NUMBER") {
     const auto number = control::sinumerik::parseNumber(trimmed(arguments.text(0)));
@@ -239,6 +253,13 @@ std::optional<Value> callFunction(std::string_view name, std::span<const Value> 
   }
   if (name == "ISVAR") return questions.isVariable(arguments.text(0)) ? 1.0 : 0.0;
   if (name == "ISFILE") return questions.isFile(arguments.text(0)) ? 1.0 : 0.0;
+  if (name == "MODAXVAL") {
+    if (!questions.isAxis(changeCase(arguments.text(0), 'a', 'z', -32)))
+      throw Alarm("14020", fmt::format("MODAXVAL: there is no axis {}", arguments.text(0)));
+    return arguments.number(1) - 360 * std::floor(arguments.number(1) / 360);
+  }
+  // D numbers are those of the cutting edges.
+  if (name == "GETDNO") return arguments.number(1);
   if (name == "GETT") return static_cast<double>(questions.toolNumber(arguments.text(0)));
   if (name == "SPI" || name == "AXTOSPI" || name == "QU") return values.front();
   if (name == "CHAIN") {

@@ -12,6 +12,10 @@
 /// The control's own functions: texts, axes, frames.
 namespace probewright::sinumerik {
 
+/// A number as the control puts it into texts: at most ten digits and ten decimal places, no exponent, no zeros at the
+/// end.
+std::string numberText(double value);
+
 /// The number of an option, a function or a program: rounded, and within int whatever was computed.
 int wholeNumber(double value);
 

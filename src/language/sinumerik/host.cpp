@@ -37,6 +37,7 @@ SinumerikHost::SinumerikHost(Control& control, HostOptions options)
   }
   variables_.global() = options_.globalData;
   state_.gGroup[29] = control.initialFunction(29) == 3 ? 3 : control.diameter ? 2 : 1;
+  motion_.onIgnoredWord = [this](std::string_view word) { skip(word); };
 }
 
 SinumerikHost::~SinumerikHost() {
@@ -67,6 +68,8 @@ std::string SinumerikHost::code(Refusal refusal) const {
   }
   return {};
 }
+
+std::string SinumerikHost::numberText(double value) const { return sinumerik::numberText(value); }
 
 bool SinumerikHost::beginBlock(const Program& program, const Block& block) {
   if (&program != lastProgram_) {
@@ -172,7 +175,7 @@ void SinumerikHost::enter(const Program& program, const CallProgram* call, Evalu
       std::array<int, 3> sizes{};
       for (std::size_t k = 0; k < parameter.dimensions.size() && k < 3; ++k)
         sizes[k] = std::max(parameter.dimensions[k], 1);
-      UserVariable variable(parameter.type, sizes, 200);
+      UserVariable variable(parameter.type, sizes, parameter.length);
       if (!present) {
         if (parameter.byReference && call->from.length == 0)
           throw Alarm("14020",
@@ -181,7 +184,7 @@ void SinumerikHost::enter(const Program& program, const CallProgram* call, Evalu
         if (parameter.type != Type::Frame)
           variable.set(0, text ? Value(parameter.defaultText) : Value(parameter.defaultNumber));
       } else if (!parameter.byReference) {
-        variable.set(0, caller->value(words[i].value));
+        variable.set(0, sinumerik::valueFor(parameter.type, words[i].value, *caller));
       } else {
         const Operand& operand = words[i].value;
         const Node* node = operand.node >= 0 ? &caller->block().nodes[static_cast<std::size_t>(operand.node)] : nullptr;
@@ -193,6 +196,7 @@ void SinumerikHost::enter(const Program& program, const CallProgram* call, Evalu
             source.space == VariableSpace::User && source.indices.empty() ? variables_.find(source.name) : nullptr;
         if (whole != nullptr && whole->isArray()) {
           variable = *whole;
+          work_ += 2 * variable.count();  // in, and out again
         } else {
           variable.set(0, read(source));
         }
@@ -202,7 +206,7 @@ void SinumerikHost::enter(const Program& program, const CallProgram* call, Evalu
     }
   } else if (header != nullptr) {
     for (const BlockParser::Parameter& parameter : header->parameters)
-      parameters.emplace(parameter.name, UserVariable(parameter.type, {}, 200));
+      parameters.emplace(parameter.name, UserVariable(parameter.type, {}, parameter.length));
     if (notice_) {
       const auto tell = [&](std::size_t place, int number) {
         if (header->parameters.size() <= place || header->parameters[place].type != Type::Int) return false;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "control/sinumerik/control.hpp"
@@ -52,6 +53,11 @@ public:
   bool drivesModalCall(const language::Block& block) const override;
   bool beginBlock(const language::Program& program, const language::Block& block) override;
   std::string code(language::Refusal refusal) const override;
+  std::string numberText(double value) const override;
+  std::optional<std::string> shownText(const language::VariableRef& variable, Evaluation& evaluation) override;
+  Value valueFor(const language::VariableRef& variable, const language::Operand& operand,
+                 Evaluation& evaluation) override;
+  std::uint64_t takeWork() override { return std::exchange(work_, 0); }
   double relativeEquality() const override { return 1e-12; }
   void enter(const language::Program& program, const language::CallProgram* call, Evaluation* caller) override;
   void leave(const language::Program& program) override;
@@ -83,7 +89,7 @@ private:
 
   // host_instructions.cpp
   void carryOut(const language::Assign& assign, Evaluation& evaluation);
-  void carryOut(const language::Move& move, Evaluation& evaluation) { motion_.carryOut(move, evaluation); }
+  void carryOut(const language::Move& move, Evaluation& evaluation);
   void carryOut(const language::ToolCall& call, Evaluation& evaluation);
   void carryOut(const language::Modal& modal, Evaluation& evaluation);
   void carryOut(const language::MachineFunction& function, Evaluation& evaluation);
@@ -96,7 +102,7 @@ private:
 
   void carryOutG(int number);
   void carryOutGroup(int group, int number);
-  void carryOutNamedFunction(std::string_view name, const language::Modal& modal, Evaluation& evaluation);
+  void carryOutNamedFunction(std::string_view name);
   void changeTool();
   void alignFrameWithTool(bool withOrigin);
   void raiseAlarm(const language::Command& command, Evaluation& evaluation);
@@ -105,6 +111,9 @@ private:
   void callFromText(const language::CallProgram& call, Evaluation& evaluation);
   bool callAside(std::string_view name);
   void skip(std::string_view what, std::string_view how = "is not carried out");
+  bool skipStatement(const language::Command& command, Evaluation& evaluation);
+  void findTool(const language::Command& command, Evaluation& evaluation);
+  void circleThroughPoints(const language::Command& command, Evaluation& evaluation);
   void runCircle(language::WordRange arguments, Evaluation& evaluation);
   void runCycle(std::string_view name, language::WordRange arguments, Evaluation& evaluation);
   void runSwivel(language::WordRange arguments, Evaluation& evaluation);
@@ -159,6 +168,8 @@ private:
   std::optional<int> edgeAfterChange_;
   std::optional<MeasuringNotice> notice_;  ///< while the call of CUST_MEACYC is being made
   bool builderTellsOccasions_ = false;     ///< the last CUST_MEACYC has a parameter for the occasion
+  bool recording_ = false;                 ///< motions make a table of a contour or a curve: the axes stand
+  std::uint64_t work_ = 0;                 ///< elements of arrays that were filled or copied
   std::set<std::string, std::less<>> skipped_;
   std::set<std::string> deletedFiles_;  ///< what DELETE took from the files that lay there
 };

@@ -32,19 +32,27 @@ std::optional<int> gNumber(std::string_view name) {
 
 void SinumerikHost::carryOut(const Modal& modal, Evaluation& evaluation) {
   const std::string_view name = evaluation.at(modal.name);
-  if (const std::string_view how = skippedFunction(name); !how.empty()) skip(name, how);
-  if (const auto number = gNumber(name)) return carryOutG(*number);
   const auto words = evaluation.words(modal.words);
-  if (name.size() == 1 && words.size() == 1) {
+  // G26 S5000 is a limit of the spindle.
+  const bool ofSpindle = (name == "G25" || name == "G26") &&
+                         std::ranges::all_of(words, [](const Word& word) { return (word.address & 0xff) == 'S'; });
+  if (const std::string_view how = skippedFunction(name); !how.empty() && !ofSpindle) skip(name, how);
+  if (const auto number = gNumber(name)) return carryOutG(*number);
+  if (name.size() == 1 && !words.empty()) {
     const double value = evaluation.number(words[0].value);
     switch (name[0]) {
       case 'F':
         state_.feed = value;
         return;
-      case 'S':
+      case 'S': {
         // S2= and so on are the speeds of other spindles.
-        if (words[0].address == addressOf("S") || words[0].address == addressOf("S1")) state_.spindleSpeed = value;
+        const bool own = words[0].address == addressOf("S") || words[0].address == addressOf("S1");
+        const bool main = words.size() > 1 ? wholeNumber(evaluation.number(words[1].value)) == 1 : own;
+        if (main) state_.spindleSpeed = value;
         return;
+      }
+      case 'H':
+        return skip("the auxiliary function H");
       case 'D': {
         motion_.flush();
         // T and D of the next tool stand in front of M6, in its block or while no tool is in the spindle.
@@ -65,7 +73,7 @@ void SinumerikHost::carryOut(const Modal& modal, Evaluation& evaluation) {
         return;
     }
   }
-  carryOutNamedFunction(name, modal, evaluation);
+  carryOutNamedFunction(name);
 }
 
 void SinumerikHost::carryOutG(int number) {
@@ -90,6 +98,7 @@ void SinumerikHost::carryOutG(int number) {
       static constexpr MoveKind kinds[] = {MoveKind::Rapid, MoveKind::Linear, MoveKind::ArcClockwise,
                                            MoveKind::ArcCounterclockwise};
       state_.group1 = kinds[number];
+      state_.thread = 0;
       groups[1] = number + 1;
       return;
     }
@@ -99,8 +108,14 @@ void SinumerikHost::carryOutG(int number) {
     case 63:
     case 331:
     case 332:
+    case 335:
+    case 336:
       state_.group1 = MoveKind::Linear;
+      state_.thread = number == 63 ? 0 : number;  // G63 has a feed of its own
       return;
+    case 291:
+      throw Alarm("14011", "G291: programs of the ISO dialect are not available",
+                  "write the program in the language of the control");
     case 17:
     case 18:
     case 19:
@@ -203,12 +218,11 @@ void SinumerikHost::carryOutGroup(int group, int number) {
       return;
     default:
       if (group < 1 || group >= static_cast<int>(state_.gGroup.size()) || number < 0) refuse();
+      if (isSkippedGroup(group, number)) skip(fmt::format("G[{}]={}", group, number));
   }
 }
 
-void SinumerikHost::carryOutNamedFunction(std::string_view name, const Modal& modal, Evaluation& evaluation) {
-  (void)modal;
-  (void)evaluation;
+void SinumerikHost::carryOutNamedFunction(std::string_view name) {
   if (name == "DIAMON" || name == "DIAM90" || name == "DIAMOF" || name == "DIAMCYCOF") {
     control_.diameter = name == "DIAMON" || name == "DIAM90";
     state_.gGroup[29] = name == "DIAMON" ? 2 : name == "DIAM90" ? 3 : 1;
@@ -218,6 +232,11 @@ void SinumerikHost::carryOutNamedFunction(std::string_view name, const Modal& mo
     motion_.flush();
     control_.transformation = name == "TRAORI";
     control_.handOverFrames();
+    return;
+  }
+  if (name == "ORIEULER" || name == "ORIRPY" || name == "ORIRPY2") {
+    state_.rpyAngles = name != "ORIEULER";
+    state_.rpyAboutX = name == "ORIRPY2";
     return;
   }
   const bool withOrigin = name == "TOFRAME" || name == "TOFRAMEZ";

@@ -5,6 +5,7 @@
 
 #include "control/alarm.hpp"
 #include "control/sinumerik/text.hpp"
+#include "language/sinumerik/check.hpp"
 #include "language/sinumerik/functions.hpp"
 #include "language/sinumerik/host.hpp"
 #include "language/sinumerik/spindle_speed.hpp"
@@ -30,6 +31,9 @@ void SinumerikHost::carryOut(const ToolCall& call, Evaluation& evaluation) {
   } else {
     number = wholeNumber(std::get<double>(value));
   }
+  if (number < 0) throw Alarm("17190", fmt::format("T{}: a tool has a number from 0 on", number), "correct the number");
+  if (call.index.present() && wholeNumber(evaluation.number(call.index)) != 1)
+    return skip(fmt::format("T{}=", wholeNumber(evaluation.number(call.index))));
   preparedTool_ = number;
   // Turrets (machines without Y) change with T, magazines with M6.
   const bool turret = !control_.channel.description().axisIndex("Y");
@@ -51,6 +55,8 @@ void SinumerikHost::carryOut(const MachineFunction& function, Evaluation& evalua
   bool mainSpindle = true;
   if (number < 0) {
     number = wholeNumber(evaluation.number(function.argument));
+    const auto spindle = evaluation.words(function.words);
+    if (!spindle.empty()) mainSpindle = wholeNumber(evaluation.number(spindle[0].value)) == 1;
   } else if (function.argument.present()) {
     mainSpindle = wholeNumber(evaluation.number(function.argument)) == 1;
   }
@@ -68,6 +74,7 @@ void SinumerikHost::carryOut(const MachineFunction& function, Evaluation& evalua
       if (mainSpindle) control_.channel.orientSpindle(control_.machineData("$SA_M19_SPOS"));
       return;
     default:
+      if (isSkippedMachineFunction(number)) skip(fmt::format("M{}", number));
       return;
   }
 }
@@ -85,12 +92,19 @@ void SinumerikHost::carryOut(const Transform& transform, Evaluation& evaluation)
   if (name == "G110" || name == "G111" || name == "G112") return motion_.setPole(name, transform.words, evaluation);
   std::vector<AxisValue> axes;
   std::optional<double> inPlane;
+  std::string computed;
   for (const Word& word : evaluation.words(transform.words)) {
+    if (word.address == addressOf("AX[]")) {
+      computed = control::sinumerik::upperCase(evaluation.text(word.value));
+      continue;
+    }
+    if (word.address == addressOf("IP[]"))
+      throw Alarm("12080", fmt::format("{} takes axes, and IP is a parameter of arcs", name), "write AX[axis]=value");
     const double value = evaluation.number(word.value);
     if (word.address == addressOf("RPL")) {
       inPlane = value;
     } else {
-      axes.push_back({addressName(word.address), value});
+      axes.push_back({word.address == addressOf("=AX") ? computed : addressName(word.address), value});
     }
   }
   Frame& programmed = control_.frames.programmed;
@@ -135,9 +149,50 @@ void SinumerikHost::skip(std::string_view what, std::string_view how) {
   control_.panel.message(EventKind::Skipped, fmt::format("{} {}", what, how), control_.channel.seconds());
 }
 
+/// True if the statement is one of those that are named or say nothing here.
+bool SinumerikHost::skipStatement(const Command& command, Evaluation& evaluation) {
+  const std::string_view name = evaluation.at(command.name);
+  const KeywordEntry* entry = keywordEntry(name);
+  if (entry == nullptr) return false;
+  if (entry->keyword == Keyword::SynchronizedAction) {
+    skip(fmt::format("the synchronized action {}", name));
+    return true;
+  }
+  // What stands between them makes a table of a contour or a curve; the axes do not move.
+  if (name == "CONTPRON" || name == "CONTDCON" || name == "CTABDEF") recording_ = true;
+  if (name == "EXECUTE" || name == "CTABEND") {
+    recording_ = false;
+    return true;
+  }
+  if (entry->effect == Effect::CarriedOut) return false;
+  if (entry->effect == Effect::Harmless) return true;
+  const auto words = evaluation.words(command.words);
+  std::optional<double> value;
+  if (!words.empty() && words[0].value.present()) {
+    const Value first = evaluation.value(words[0].value);
+    value = isText(first) ? 1 : std::get<double>(first);
+  }
+  if (!saysWhatIs(name, value)) skip(name, skippedFunction(name));
+  return true;
+}
+
+/// GETSELT(NUMBER): the tool that T has selected; GETEXET(NUMBER): the one that D belongs to.
+void SinumerikHost::findTool(const Command& command, Evaluation& evaluation) {
+  const auto words = evaluation.words(command.words);
+  if (words.empty() || !words[0].value.present())
+    throw Alarm("14020", fmt::format("{} needs a variable", evaluation.at(command.name)), "write an INT variable");
+  const int selected = preparedTool_ >= 0 ? preparedTool_ : control_.tool.number;
+  setVariable(words[0].value, static_cast<double>(selected), evaluation);
+}
+
+void SinumerikHost::carryOut(const Move& move, Evaluation& evaluation) {
+  if (!recording_) motion_.carryOut(move, evaluation);
+}
+
 void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
   const std::string_view name = evaluation.at(command.name);
   const auto words = evaluation.words(command.words);
+  if (skipStatement(command, evaluation)) return;
   if (name == "DEF") return declare(command, evaluation);
   if (name == "SET" || name == "REP") return fill(command, evaluation);
   if (name == "MSG") {
@@ -160,8 +215,8 @@ void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
     if (main) control_.channel.orientSpindle(incremental ? control_.channel.spindleAngle() + angle : angle);
     return;
   }
-  if (name == "POS" || name == "POSA") {
-    if (words.size() < 2) throw Alarm("12080", "POS needs the axis in brackets", "write POS[X]=10");
+  if (name == "POS" || name == "POSA" || name == "POSP") {
+    if (words.size() < 2) throw Alarm("12080", fmt::format("{} needs the axis in brackets", name), "write POS[X]=10");
     const std::string axis = control::sinumerik::upperCase(evaluation.text(words[1].value));
     return motion_.position(axis, words[0].mode, evaluation.number(words[0].value));
   }
@@ -179,6 +234,8 @@ void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
   if (name == "READ") return readFile(command, evaluation);
   if (name == "DELETE") return deleteFile(command, evaluation);
   if (name == "EXECSTRING") return executeText(command, evaluation);
+  if (name == "GETSELT" || name == "GETEXET") return findTool(command, evaluation);
+  if (name == "CALCDAT") return circleThroughPoints(command, evaluation);
   if (name == "ISOCALL")
     throw Alarm("14011",
                 fmt::format("ISOCALL {}: programs of the ISO dialect are not available", evaluation.at(command.text)),
@@ -197,11 +254,7 @@ void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
     control_.refreshTool();
     return control_.handOverFrames();
   }
-  if (keywordOf(name) == Keyword::SynchronizedAction) return skip(fmt::format("the synchronized action {}", name));
-  static constexpr std::string_view noticed[] = {"G74",      "PRESETON", "REPOSA", "REPOSL",    "MMC",      "FTOCON",
-                                                 "CONTPRON", "NEWT",     "DELT",   "PRESETONS", "WORKPIECE"};
-  if (name == "WORKPIECE") return;  // the blank of the simulation screen
-  if (std::find(std::begin(noticed), std::end(noticed), name) != std::end(noticed)) return skip(name);
+  if (const std::string_view how = skippedFunction(name); !how.empty()) skip(name, how);  // G74
 }
 
 /// SETAL(number[, text]): 62000 to 63999 and 67000 to 69999 are shown and the program goes on; the others stop it.

@@ -57,7 +57,37 @@ std::optional<FrameComponent> frameComponent(const UserVariable& user, std::stri
   return component;
 }
 
+Value readUser(const UserVariable& user, std::string_view name, std::span<const double> indices) {
+  if (user.isCharacter(indices.size())) return user.character(name, indices);
+  return user.at(user.place(name, indices));
+}
+
+void writeUser(UserVariable& user, std::string_view name, std::span<const double> indices, const Value& value) {
+  if (user.isCharacter(indices.size())) return user.setCharacter(name, indices, value);
+  user.set(user.place(name, indices), value);
+}
+
 }  // namespace
+
+/// CHAR and a character of a STRING show as the character, BOOL as 1 or 0.
+std::optional<std::string> SinumerikHost::shownText(const VariableRef& variable, Evaluation& evaluation) {
+  if (variable.space != VariableSpace::User) return std::nullopt;
+  const UserVariable* user = variables_.find(evaluation.at(variable.name));
+  if (user == nullptr) return std::nullopt;
+  const auto given = static_cast<std::size_t>(
+      std::ranges::count_if(variable.index, [](const Operand& index) { return index.present(); }));
+  const bool truth = user->type() == Type::Bool;
+  if (!truth && user->type() != Type::Char && !user->isCharacter(given)) return std::nullopt;
+  const Value code = read(variable, evaluation);
+  if (truth) return numberText(std::get<double>(code));
+  return std::string(1, static_cast<char>(static_cast<unsigned char>(std::get<double>(code))));
+}
+
+Value SinumerikHost::valueFor(const VariableRef& variable, const Operand& operand, Evaluation& evaluation) {
+  if (variable.space != VariableSpace::User || operand.node < 0) return evaluation.value(operand);
+  const UserVariable* user = variables_.find(evaluation.at(variable.name));
+  return user == nullptr ? evaluation.value(operand) : sinumerik::valueFor(user->type(), operand, evaluation);
+}
 
 double& SinumerikHost::rParameter(double number) {
   if (!(number >= 0 && number < mostRParameters) || number != std::floor(number))
@@ -103,7 +133,7 @@ Value SinumerikHost::read(const VariableRef& variable, Evaluation& evaluation) {
       std::size_t count = 0;
       for (const Operand& index : variable.index)
         if (index.present()) indices[count++] = evaluation.number(index);
-      return user->at(user->place(evaluation.at(variable.name), {indices, count}));
+      return readUser(*user, evaluation.at(variable.name), {indices, count});
     }
   }
   return read(resolve(variable, evaluation));
@@ -117,7 +147,7 @@ void SinumerikHost::write(const VariableRef& variable, const Value& value, Evalu
       std::size_t count = 0;
       for (const Operand& index : variable.index)
         if (index.present()) indices[count++] = evaluation.number(index);
-      return user->set(user->place(evaluation.at(variable.name), {indices, count}), value);
+      return writeUser(*user, evaluation.at(variable.name), {indices, count}, value);
     }
   }
   write(resolve(variable, evaluation), value);
@@ -139,7 +169,7 @@ Value SinumerikHost::read(const ResolvedVariable& variable) {
     std::vector<double> indices;
     for (const Value& index : variable.indices)
       indices.push_back(numberOf(index, "an index"));
-    return user->at(user->place(variable.name, indices));
+    return readUser(*user, variable.name, indices);
   }
   if (auto global = readGlobal(variable.name, variable.indices)) return *global;
   throw Alarm("12550", fmt::format("the name {} is not defined", variable.name),
@@ -170,7 +200,7 @@ void SinumerikHost::write(const ResolvedVariable& variable, const Value& value) 
     std::vector<double> indices;
     for (const Value& index : variable.indices)
       indices.push_back(numberOf(index, "an index"));
-    return user->set(user->place(variable.name, indices), value);
+    return writeUser(*user, variable.name, indices, value);
   }
   if (writeGlobal(variable.name, variable.indices, value)) return;
   throw Alarm("12550", fmt::format("the name {} is not defined", variable.name),
@@ -269,7 +299,9 @@ bool SinumerikHost::isVariableNamed(std::string_view text) {
 
 void SinumerikHost::declare(const Command& command, Evaluation& evaluation) {
   const VariableRef& variable = evaluation.block().variables[static_cast<std::size_t>(command.variable)];
-  variables_.declare(evaluation.at(variable.name), declaredVariable(command, evaluation));
+  UserVariable declared = declaredVariable(command, evaluation);
+  work_ += declared.count() - 1;
+  variables_.declare(evaluation.at(variable.name), std::move(declared));
 }
 
 /// NAME[i]=SET(...) from that element on, NAME[i]=REP(value) to the end of the array, REP(value, count).
@@ -288,6 +320,7 @@ void SinumerikHost::fill(const Command& command, Evaluation& evaluation) {
     for (double i = 0; i < count && i < mostRParameters; ++i) {
       const Word& word = words[repeat ? 0 : static_cast<std::size_t>(i)];
       target.indices.back() = first + i;
+      ++work_;
       if (word.value.present()) write(target, evaluation.value(word.value));
     }
     return;
@@ -299,16 +332,16 @@ void SinumerikHost::fill(const Command& command, Evaluation& evaluation) {
   std::size_t place = user->place(evaluation.at(variable.name), {indices, count});
   if (repeat) {
     if (words.empty()) throw Alarm("14020", "REP needs a value");
-    const Value value = evaluation.value(words[0].value);
+    const Value value = sinumerik::valueFor(user->type(), words[0].value, evaluation);
     const double most = words.size() > 1 ? evaluation.number(words[1].value) : 1e9;
-    for (double i = 0; i < most && place < user->count(); ++i)
+    for (double i = 0; i < most && place < user->count(); ++i, ++work_)
       user->set(place++, value);
     return;
   }
   for (const Word& word : words) {
     if (place >= user->count())
       throw Alarm("17020", fmt::format("SET has more values than {} has elements", evaluation.at(variable.name)));
-    if (word.value.present()) user->set(place, evaluation.value(word.value));
+    if (word.value.present()) user->set(place, sinumerik::valueFor(user->type(), word.value, evaluation));
     ++place;
   }
 }

@@ -26,8 +26,9 @@ enum class Keyword : std::uint8_t {
   Until,
   Goto,  ///< all five forms
   Define,
-  IsoCall,  ///< a program of the ISO dialect is called
-  Declare,  ///< DEF, REDEF
+  IsoCall,   ///< a program of the ISO dialect is called
+  Declare,   ///< DEF
+  Redefine,  ///< REDEF
   Procedure,
   External,
   Call,
@@ -41,6 +42,7 @@ enum class Keyword : std::uint8_t {
   Modal,      ///< a G function with a name: DIAMON, CUT2D, ...; may have arguments: TRAORI(1)
   MoveWord,   ///< CR=, AP=, ...
   Setting,    ///< an address that is assigned to, with an index perhaps: LIMS=, POS[X]=, SPOS=
+  Axial,      ///< FINEA[X], FINEA=X: how an axis ends its block
   Measure,    ///< MEAS, MEAW
   Statement,  ///< NAME or NAME(arguments): MSG, SETAL, STOPRE, FGROUP, ...
   SynchronizedAction,
@@ -50,12 +52,24 @@ enum class Keyword : std::uint8_t {
 /// The kind of `name` (upper case).
 Keyword keywordOf(std::string_view name);
 
-/// All reserved words, sorted; for advice on misspelt ones.
+/// What Probewright does with a word.
+enum class Effect : std::uint8_t {
+  CarriedOut,
+  Harmless,       ///< it says nothing about where the tool goes: dynamics, display, coordination with other channels
+  NotCarriedOut,  ///< it would change where the tool is, or what a program reads: it is named
+  Straight,       ///< the way there is another, the end is right: it is named
+  AsNorm,         ///< KONT: named
+};
+
+/// All reserved words, sorted.
 struct KeywordEntry {
   std::string_view name;
   Keyword keyword;
+  Effect effect = Effect::CarriedOut;
 };
 std::span<const KeywordEntry> keywords();
+/// The entry of `name` (upper case), or null.
+const KeywordEntry* keywordEntry(std::string_view name);
 
 /// A function that expressions know.
 struct FunctionEntry {
@@ -70,6 +84,8 @@ std::span<const FunctionEntry> functions();
 
 /// The types of DEF and of parameters.
 enum class Type : std::uint8_t { Int, Real, Bool, Char, String, Axis, Frame };
+/// Characters that a STRING can hold.
+constexpr int longestString = 400;
 /// True and sets `type` if `name` (upper case) names a type.
 bool typeOf(std::string_view name, Type& type);
 std::string_view typeName(Type type);

@@ -3,6 +3,7 @@
 
 #include "language/sinumerik/check.hpp"
 #include "language/sinumerik/cursor.hpp"
+#include "language/sinumerik/keywords.hpp"
 
 namespace probewright::sinumerik {
 
@@ -58,17 +59,53 @@ std::string_view skippedFunction(std::string_view name) {
     std::string_view name, how;
   };
   constexpr std::string_view no = "is not carried out", straight = "is travelled as straight lines",
-                             norm = "is not carried out: the contour is approached and left as with NORM";
-  static constexpr Skipped skipped[] = {
-      {"TRANSMIT", no},   {"TRACYL", no},      {"TRAANG", no},        {"PAROT", no},         {"TOFRAMEX", no},
-      {"TOFRAMEY", no},   {"TOROTX", no},      {"TOROTY", no},        {"KONT", norm},        {"KONTC", norm},
-      {"KONTT", norm},    {"G147", norm},      {"G148", norm},        {"G247", norm},        {"G248", norm},
-      {"G347", norm},     {"G348", norm},      {"ASPLINE", straight}, {"BSPLINE", straight}, {"CSPLINE", straight},
-      {"POLY", straight}, {"INVCW", straight}, {"INVCCW", straight},  {"G33", straight},     {"G34", straight},
-      {"G35", straight},  {"G331", straight},  {"G332", straight},    {"G63", straight},
+                             norm = "is not carried out: the contour is approached and left as with NORM",
+                             limits = "is not carried out: limits of the working area are not watched";
+  static constexpr Skipped functions[] = {
+      {"G147", norm},     {"G148", norm},     {"G247", norm},     {"G248", norm},    {"G347", norm},
+      {"G348", norm},     {"G33", straight},  {"G34", straight},  {"G35", straight}, {"G331", straight},
+      {"G332", straight}, {"G335", straight}, {"G336", straight}, {"G63", straight}, {"G5", no},
+      {"G7", no},         {"G25", limits},    {"G26", limits},    {"G74", no},       {"G751", no},
+      {"G931", no},       {"G942", no},       {"G952", no},
   };
-  const auto found = std::ranges::find(skipped, name, &Skipped::name);
-  return found == std::end(skipped) ? std::string_view() : found->how;
+  if (const auto found = std::ranges::find(functions, name, &Skipped::name); found != std::end(functions))
+    return found->how;
+  if (name.size() == 4 && name.starts_with("G8")) return no;  // G810 to G829: the machine builder's own
+  const KeywordEntry* word = keywordEntry(name);
+  switch (word == nullptr ? Effect::CarriedOut : word->effect) {
+    case Effect::NotCarriedOut:
+      return no;
+    case Effect::Straight:
+      return straight;
+    case Effect::AsNorm:
+      return norm;
+    case Effect::CarriedOut:
+    case Effect::Harmless:
+      break;
+  }
+  return {};
+}
+
+bool saysWhatIs(std::string_view name, std::optional<double> value) {
+  static constexpr std::string_view offAtZero[] = {"OFFN", "TCARR", "FXS", "CUTMOD", "TOFF"};
+  if (!value) return name == "SETMS" || name == "GEOAX";
+  if (name == "SETMS") return *value == 1;
+  return *value == 0 && std::ranges::find(offAtZero, name) != std::end(offAtZero);
+}
+
+bool isSkippedMachineFunction(int number) {
+  // Ends and stops, spindle, tool change, coolant, gears, spindle as an axis.
+  return number > 9 && number != 17 && number != 19 && number != 30 && (number < 40 || number > 45) && number != 70;
+}
+
+bool isSkippedGroup(int group, int number) {
+  static constexpr int groups[] = {17, 22, 23, 25, 31, 32, 33, 40, 42, 47, 49, 52, 53, 56};
+  return number > 1 && std::ranges::find(groups, group) != std::end(groups);
+}
+
+bool isUnavailableFunction(std::string_view name) {
+  static constexpr std::string_view functions[] = {"CHKDNO", "GETTCOR", "INTERSEC", "MEAFRAME", "GETMDACT"};
+  return std::ranges::find(functions, name) != std::end(functions);
 }
 
 bool isMeasuringCycle(std::string_view name) {

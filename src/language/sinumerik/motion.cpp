@@ -89,7 +89,7 @@ void PathMotion::readAxis(std::uint32_t address, WordMode mode, double value, Wo
     const bool halved = asDiameter && !(incremental && state_.gGroup[29] == 3);
     const double length = value * control_.unit / (halved ? 2 : 1);
     const double from = start()[static_cast<Eigen::Index>(*linear)], to = incremental ? from + length : length;
-    if (!machineAxis(address) && std::abs(to - from) > 1e-6) {
+    if (!machineAxis(address)) {
       throw Alarm("12080", fmt::format("the machine has no axis {}", addressName(address)),
                   "the machine's description names its axes");
     }
@@ -146,6 +146,13 @@ bool PathMotion::readArcWord(std::uint32_t address, WordMode mode, double value,
     case addressOf("ANG"):
       words.angle = value;
       return true;
+    case addressOf("FP"):
+      if (value != 1 && onIgnoredWord) onIgnoredWord(fmt::format("FP={}", value));
+      return true;
+    // Weights and lengths of splines, which are travelled straight.
+    case addressOf("PL"):
+    case addressOf("PW"):
+    case addressOf("SD"):
     // Soft approach and the angle at which a thread begins: the lines around them are travelled without.
     case addressOf("DISR"):
     case addressOf("FAD"):
@@ -156,7 +163,7 @@ bool PathMotion::readArcWord(std::uint32_t address, WordMode mode, double value,
       throw Alarm("12080", fmt::format("contours with {} are not carried out", addressName(address)),
                   "write each straight line into a block of its own, with ANG or with its end point");
     default:
-      return readCornerWord(address, value, words);
+      return readOrientationWord(address, value, words) || readCornerWord(address, value, words);
   }
 }
 
@@ -250,18 +257,31 @@ bool PathMotion::resolveAngle(Words& words, MoveKind kind) {
 
 PathMotion::Words PathMotion::read(WordRange range, Evaluation& evaluation) {
   Words words;
-  std::uint32_t computedAxis = 0;
+  std::uint32_t computed = 0;
   for (const Word& word : evaluation.words(range)) {
-    if (word.address == addressOf("AX[]")) {
-      computedAxis = addressOf(control::sinumerik::upperCase(evaluation.text(word.value)));
-      continue;
-    }
-    const std::uint32_t address = word.address == addressOf("=AX") ? computedAxis : word.address;
+    const std::uint32_t address = axisOf(word, computed, evaluation);
+    if (address == 0) continue;
     const double value = evaluation.number(word.value);
     if (!readArcWord(address, word.mode, value, words)) readAxis(address, word.mode, value, words);
   }
   if (words.polarAngle || words.polarRadius) resolvePolar(words);
+  resolveOrientation(words);
   return words;
+}
+
+/// The address that a word means, with AX[axis]= and IP[axis]= resolved; 0 for the words that name their axis.
+std::uint32_t PathMotion::axisOf(const Word& word, std::uint32_t& computed, Evaluation& evaluation) const {
+  if (word.address == addressOf("=AX") || word.address == addressOf("=IP")) return computed;
+  const bool parameter = word.address == addressOf("IP[]");
+  if (!parameter && word.address != addressOf("AX[]")) return word.address;
+  const std::string axis = control::sinumerik::upperCase(evaluation.text(word.value));
+  computed = addressOf(axis);
+  if (parameter) {
+    const auto linear = linearAxis(computed);
+    if (!linear) throw Alarm("12080", fmt::format("IP[{}]: only X, Y and Z have a parameter of interpolation", axis));
+    computed = 'I' + static_cast<std::uint32_t>(*linear);
+  }
+  return 0;
 }
 
 void PathMotion::resolvePolar(Words& words) const {
@@ -282,12 +302,15 @@ void PathMotion::setPole(std::string_view function, WordRange range, Evaluation&
   const Vector3 from = function == "G112" ? state_.pole : function == "G110" ? start() : Vector3(Vector3::Zero());
   Words words;
   Vector3 pole = from;
+  std::uint32_t computed = 0;
   for (const Word& word : evaluation.words(range)) {
+    const std::uint32_t address = axisOf(word, computed, evaluation);
+    if (address == 0) continue;
     const double value = evaluation.number(word.value);
-    if (const auto axis = linearAxis(word.address)) {
+    if (const auto axis = linearAxis(address)) {
       pole[static_cast<Eigen::Index>(*axis)] = from[static_cast<Eigen::Index>(*axis)] + value * control_.unit;
     } else {
-      readArcWord(word.address, word.mode, value, words);
+      readArcWord(address, word.mode, value, words);
     }
   }
   if (words.polarAngle || words.polarRadius) {
@@ -324,8 +347,13 @@ Feed PathMotion::feed(MoveKind kind, const Vector3& from, const Vector3& to) con
 }
 
 void PathMotion::carryOut(const Move& move, Evaluation& evaluation) {
-  if (move.kind != MoveKind::Modal) state_.group1 = move.kind;
-  if (move.feed.present()) state_.feed = evaluation.number(move.feed);
+  if (move.kind != MoveKind::Modal) {
+    state_.group1 = move.kind;
+    state_.thread = 0;
+  }
+  // G34 and G35: F is how fast the pitch changes.
+  const bool changesPitch = state_.thread == 34 || state_.thread == 35;
+  if (move.feed.present() && !changesPitch) state_.feed = evaluation.number(move.feed);
   if (move.compensation != RadiusCompensation::Unchanged) setCompensation(move.compensation);
   if (move.machineCoordinates) {
     flush();
@@ -344,7 +372,9 @@ void PathMotion::carryOut(const Move& move, Evaluation& evaluation) {
 
 void PathMotion::moveStraight(const Words& words, MoveKind kind) {
   const Vector3 from = start(), to = endOf(words);
-  const Feed speed = feed(kind == MoveKind::Rapid ? MoveKind::Rapid : MoveKind::Linear, from, to);
+  const bool thread = state_.thread != 0 && kind != MoveKind::Rapid;
+  const Feed speed = thread ? Feed::at(threadFeed(words, to - from))
+                            : feed(kind == MoveKind::Rapid ? MoveKind::Rapid : MoveKind::Linear, from, to);
   if ((to - from).norm() > 1e-9) direction_ = (to - from).normalized();
   const std::optional<Corner> corner = cornerOf(words, speed);
   if (words.anyRotary || (!compensator_.active() && !corner && !corners_.holds())) {
@@ -445,9 +475,17 @@ void PathMotion::approachFixedPoint(const Command& command, Evaluation& evaluati
   flush();
   control::Channel& channel = control_.channel;
   AxisPositions target = channel.axes();
+  std::uint32_t computed = 0;
   for (const Word& word : evaluation.words(command.words)) {
-    if (word.address == addressOf("FP") || word.address == addressOf("F")) continue;
-    std::string name = addressName(word.address);
+    if (word.address == addressOf("F")) continue;
+    const std::uint32_t address = axisOf(word, computed, evaluation);
+    if (address == 0) continue;
+    if (address == addressOf("FP")) {
+      Words none;
+      readArcWord(address, word.mode, evaluation.number(word.value), none);
+      continue;
+    }
+    std::string name = addressName(address);
     auto axis = machineAxis(addressOf(name));
     if (!axis && name.size() > 1) axis = machineAxis(addressOf(name.substr(0, name.size() - 1)));  // X1 is X
     if (!axis) throw Alarm("12080", fmt::format("the machine has no axis {}", name));

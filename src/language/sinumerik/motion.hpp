@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,6 +33,10 @@ struct MotionState {
   double speedLimit = 0;              ///< LIMS, rev/min; 0: none
   double speedBefore = 0;             ///< S in front of G96, rev/min
   int spindleDirection = 5;           ///< 3, 4, 5
+  int thread = 0;                     ///< 33, 34, 35, 331, 332: lines whose feed is pitch times speed; 0: none
+  double pitch = 0;                   ///< of the last thread, mm along its axis
+  bool rpyAngles = false;             ///< ORIRPY, ORIRPY2: A2, B2, C2 are RPY angles, not Euler angles
+  bool rpyAboutX = false;             ///< ORIRPY2: they turn about X first
   Vector3 pole = Vector3::Zero();     ///< of polar coordinates, program coordinates
   language::RadiusCompensation compensation = language::RadiusCompensation::Off;
   bool cornerArc = true;                   ///< G450; false: G451
@@ -66,6 +72,9 @@ public:
   void flush();
   void setCompensation(language::RadiusCompensation compensation);
 
+  /// Told of every word of a motion that is not carried out.
+  std::function<void(std::string_view word)> onIgnoredWord;
+
   const Measurement& measurement() const { return measurement_; }
 
   /// 0, 1, 2 for X, Y, Z, nothing for other names.
@@ -84,6 +93,8 @@ private:
     std::array<std::optional<double>, 3> middle;                                 ///< I1, J1, K1
     std::optional<double> radius, opening, polarAngle, polarRadius;
     bool polarAngleIncremental = false, polarRadiusIncremental = false;
+    std::array<std::optional<double>, 3> direction;  ///< A3, B3, C3
+    std::array<std::optional<double>, 3> angles;     ///< A2, B2, C2
     int turns = 0;
     std::optional<double> angle;  ///< ANG, towards the 1st axis of the plane
     std::optional<Corner> corner;
@@ -94,10 +105,14 @@ private:
     }
   };
   Words read(language::WordRange range, Evaluation& evaluation);
+  std::uint32_t axisOf(const language::Word& word, std::uint32_t& computed, Evaluation& evaluation) const;
   void readAxis(std::uint32_t address, language::WordMode mode, double value, Words& words);
   bool readArcWord(std::uint32_t address, language::WordMode mode, double value, Words& words);
   double rotaryTarget(std::size_t axis, language::WordMode mode, double value) const;
   void resolvePolar(Words& words) const;
+  bool readOrientationWord(std::uint32_t address, double value, Words& words);
+  void resolveOrientation(Words& words) const;
+  double threadFeed(const Words& words, const Vector3& way);
 
   Vector3 start() const;
   Vector3 endOf(const Words& words) const;

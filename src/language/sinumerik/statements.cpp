@@ -1,3 +1,5 @@
+#include <iterator>
+
 #include "language/sinumerik/block_parser.hpp"
 
 namespace probewright::sinumerik {
@@ -108,6 +110,7 @@ void BlockParser::parseKeyword(Keyword keyword, std::string_view name, std::size
     case Keyword::Goto:
       return parseJump(name, {});
     case Keyword::Define:
+    case Keyword::Redefine:
     case Keyword::IsoCall:
     case Keyword::SynchronizedAction:
       return parseRest(name);
@@ -124,10 +127,7 @@ void BlockParser::parseKeyword(Keyword keyword, std::string_view name, std::size
     case Keyword::ModalCall:
       return parseModalCall();
     case Keyword::Return:
-      cursor_.skipBlanks();
-      if (cursor_.peek() == '(') parseArguments();
-      after_.emplace_back(language::Return{});
-      return;
+      return parseReturn(name);
     case Keyword::Transform:
       return setOwner(Owner::Transform, upper(name), start);
     case Keyword::Motion:
@@ -147,6 +147,8 @@ void BlockParser::parseKeyword(Keyword keyword, std::string_view name, std::size
       return parseSetting(name, start);
     case Keyword::Measure:
       return parseMeasure(name, start);
+    case Keyword::Axial:
+      return parseAxial(name, start);
     case Keyword::Modal:
     case Keyword::Statement:
       return parseStatement(keyword, name);
@@ -155,6 +157,26 @@ void BlockParser::parseKeyword(Keyword keyword, std::string_view name, std::size
       break;
   }
   fail(start, "no statement begins with " + std::string(name));
+}
+
+/// RET, ENDPROC, RET("TARGET",behind,levels,start).
+void BlockParser::parseReturn(std::string_view name) {
+  language::Return order;
+  cursor_.skipBlanks();
+  if (cursor_.peek() == '(' && name == "RET") {
+    const std::size_t start = cursor_.offset();
+    const WordRange words = parseArguments();
+    if (failed_) return;
+    Operand* const places[] = {&order.target, &order.behind, &order.levels, &order.start};
+    if (words.count > std::size(places))
+      return fail(start, "RET has at most four arguments",
+                  "Write RET(\"TARGET\",1,2): destination, 1 for the block behind it, number of program levels.");
+    for (std::uint32_t i = 0; i < words.count; ++i)
+      *places[i] = block_->words[words.first + i].value;
+    if (order.target.isLiteral())
+      return fail(start, "the destination of RET is a text", "Write it in quotation marks: RET(\"LABEL\").");
+  }
+  after_.emplace_back(order);
 }
 
 void BlockParser::parseIf(std::size_t start) {
@@ -321,12 +343,37 @@ void BlockParser::parseAssignment(std::size_t start) {
   cursor_.advance();
   cursor_.skipBlanks();
   const std::string_view name = cursor_.peekName();
-  if (name == "SET" || name == "REP") return parseFill(assign.variable);
+  if (name == "SET" || name == "REP" || name == "CALCDAT") return parseFill(assign.variable);
   assign.value = parseExpression();
   if (!failed_) block_->instructions.emplace_back(assign);
 }
 
-/// SET(...) and REP(...) fill arrays.
+/// FINEA[X], IPOBRKA[X]=50, also FINEA=X: how an axis ends its block.
+void BlockParser::parseAxial(std::string_view name, std::size_t start) {
+  Word axis, value;
+  value.address = 1;
+  if (cursor_.take('[')) {
+    axis.value = parseExpression();
+    if (failed_ || !expect(']', "behind the axis")) return;
+    if (cursor_.take('=')) value.value = parseExpression();
+  } else if (cursor_.take('(')) {
+    axis.value = parseExpression();
+    if (!failed_ && cursor_.take(',')) value.value = parseExpression();
+    if (!failed_) expect(')', "behind the axis");
+  } else if (cursor_.take('=')) {
+    axis.value = parseExpression();
+  } else {
+    return fail(start, std::string(name) + " needs an axis", "Write " + std::string(name) + "[X].");
+  }
+  if (failed_) return;
+  const auto first = static_cast<std::uint32_t>(block_->words.size());
+  block_->words.push_back(axis);
+  if (value.value.present()) block_->words.push_back(value);
+  block_->instructions.emplace_back(
+      Command{upper(name), {}, -1, {first, static_cast<std::uint32_t>(block_->words.size()) - first}});
+}
+
+/// SET(...) and REP(...) fill arrays; CALCDAT(...) leaves its result in one of its arguments.
 void BlockParser::parseFill(std::uint32_t variable) {
   const std::string_view name = cursor_.name();
   cursor_.skipBlanks();

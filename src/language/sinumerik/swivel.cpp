@@ -177,6 +177,22 @@ std::vector<AxisPositions> solveToolDirection(const machine::MachineDescription&
   return solutions;
 }
 
+std::optional<AxisPositions> nearestToolDirection(const machine::MachineDescription& machine,
+                                                  const AxisPositions& reference, const AxisPositions& now,
+                                                  const Vector3& direction) {
+  constexpr double smallTurn = 20;  // degrees; the other posture is farther away, save near the pole
+  const std::vector<std::size_t> axes = rotaryAxes(machine);
+  const Pose referenceFromTable = machine::baseFromTable(machine, reference);
+  AxisPositions q = now;
+  if (!axes.empty() && refine(machine, referenceFromTable, axes, direction, q) && intoTravel(machine, axes, q)) {
+    const bool near = std::ranges::all_of(
+        axes, [&](std::size_t axis) { return std::abs(normalizedDegrees(q[axis] - now[axis])) < smallTurn; });
+    if (near) return q;
+  }
+  const std::vector<AxisPositions> all = solveToolDirection(machine, reference, now, direction);
+  return all.empty() ? std::nullopt : std::optional(all.front());
+}
+
 void deselectSwivel(Control& control) {
   control.frames.toolOriented = {};
   control.swivelled = false;

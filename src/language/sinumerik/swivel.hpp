@@ -3,6 +3,10 @@
 #include <optional>
 #include <vector>
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "control/sinumerik/control.hpp"
 #include "cycles/catalogue.hpp"
 
@@ -35,5 +39,10 @@ std::optional<Matrix3> swivelRotation(int mode, const Vector3& angles);
 std::vector<control::AxisPositions> solveToolDirection(const machine::MachineDescription& machine,
                                                        const control::AxisPositions& reference,
                                                        const control::AxisPositions& now, const Vector3& direction);
+
+/// The nearest of them; nothing if there is none. Quick where a small turn leads there.
+std::optional<control::AxisPositions> nearestToolDirection(const machine::MachineDescription& machine,
+                                                           const control::AxisPositions& reference,
+                                                           const control::AxisPositions& now, const Vector3& direction);
 
 }  // namespace probewright::sinumerik

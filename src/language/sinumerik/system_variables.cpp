@@ -241,6 +241,7 @@ std::optional<Value> SystemVariables::readState(std::string_view name, std::span
   if (name == "$P_AXN2") return Value(std::string("Y"));
   if (name == "$P_AXN3") return Value(std::string("Z"));
   if (name == "$P_PROG" || name == "$P_PROGPATH") return Value(control_.programPath);
+  if (name == "$P_PATH") return Value(control_.programPath.substr(0, control_.programPath.find_last_of("/\\") + 1));
   if (name == "$AC_TIME" || name == "$AC_TIMER" || name == "$AN_SETUP_TIME" || name == "$AC_OPERATING_TIME")
     return number(control_.channel.seconds());
   if (name == "$MN_SCALING_SYSTEM_IS_METRIC") return number(1);

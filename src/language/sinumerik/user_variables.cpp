@@ -60,6 +60,33 @@ std::size_t UserVariable::place(std::string_view name, std::span<const double> i
   return place;
 }
 
+std::size_t UserVariable::dimensions() const {
+  return static_cast<std::size_t>(std::ranges::count_if(sizes_, [](int size) { return size > 0; }));
+}
+
+double UserVariable::character(std::string_view name, std::span<const double> indices) const {
+  const auto& text = std::get<std::string>(values_[place(name, indices.first(indices.size() - 1))]);
+  const double index = indices.back();
+  if (!(index >= 0 && index < static_cast<double>(text.size())) || index != std::floor(index))
+    throw Alarm("17020", fmt::format("illegal index {} for a character of {}", index, name),
+                fmt::format("its text has {} characters, counted from 0", text.size()));
+  return static_cast<unsigned char>(text[static_cast<std::size_t>(index)]);
+}
+
+void UserVariable::setCharacter(std::string_view name, std::span<const double> indices, const Value& value) {
+  auto& text = std::get<std::string>(values_[place(name, indices.first(indices.size() - 1))]);
+  const double index = indices.back();
+  const double room = std::min<double>(static_cast<double>(text.size()), length_ - 1);
+  if (!(index >= 0 && index <= room) || index != std::floor(index))
+    throw Alarm("17020", fmt::format("illegal index {} for a character of {}", index, name),
+                fmt::format("its text has {} characters of {}, counted from 0", text.size(), length_));
+  UserVariable character(Type::Char, {}, 0);
+  character.set(0, value);
+  const auto place = static_cast<std::size_t>(index);
+  if (place == text.size()) text += ' ';
+  text[place] = static_cast<char>(static_cast<unsigned char>(std::get<double>(character.at(0))));
+}
+
 void UserVariable::set(std::size_t place, const Value& value) {
   Value& target = values_[place];
   const auto* number = std::get_if<double>(&value);
@@ -78,8 +105,7 @@ void UserVariable::set(std::size_t place, const Value& value) {
       target = withinLimits(wholeNumber(*number, -2147483648.0, 2147483647.0));
       return;
     case Type::Bool:
-      if (number == nullptr) throw refuse();
-      target = *number != 0 ? 1.0 : 0.0;
+      target = (number != nullptr ? *number != 0 : !text->empty()) ? 1.0 : 0.0;
       return;
     case Type::Char:
       if (number != nullptr) {
@@ -125,6 +151,13 @@ void UserVariable::limit(double lower, double upper) {
   }
 }
 
+Value valueFor(Type type, const language::Operand& operand, language::Evaluation& evaluation) {
+  if (type == Type::String) {
+    if (auto text = evaluation.shownText(operand)) return std::move(*text);
+  }
+  return evaluation.value(operand);
+}
+
 UserVariable declaredVariable(const language::Command& command, language::Evaluation& evaluation) {
   const language::VariableRef& variable = evaluation.block().variables[static_cast<std::size_t>(command.variable)];
   const std::string_view name = evaluation.at(variable.name);
@@ -143,14 +176,19 @@ UserVariable declaredVariable(const language::Command& command, language::Evalua
   const auto words = evaluation.words(command.words);
   int length = 0;
   for (const language::Word& word : words)
-    if (word.address == language::addressOf("LEN"))
-      length = static_cast<int>(std::clamp(evaluation.number(word.value), 0.0, 1e6));
+    if (word.address == language::addressOf("LEN")) {
+      const double wanted = evaluation.number(word.value);
+      if (!(wanted >= 1 && wanted <= longestString) || wanted != std::floor(wanted))
+        throw Alarm("12200", fmt::format("a STRING cannot have the length {}", wanted),
+                    fmt::format("a STRING has 1 to {} characters", longestString));
+      length = static_cast<int>(wanted);
+    }
   UserVariable declared(type, sizes, length);
   std::size_t place = 0;
   for (const language::Word& word : words) {
     if (word.address == language::addressOf("LEN")) continue;
     if (word.address == language::addressOf("REP")) {
-      const Value value = evaluation.value(word.value);
+      const Value value = valueFor(type, word.value, evaluation);
       for (std::size_t i = 0; i < declared.count(); ++i)
         declared.set(i, value);
       break;
@@ -158,7 +196,7 @@ UserVariable declaredVariable(const language::Command& command, language::Evalua
     if (place >= declared.count())
       throw Alarm("17020", fmt::format("the list of first values of {} is longer than the array", name),
                   "shorten the list or give the array more elements");
-    if (word.value.present()) declared.set(place, evaluation.value(word.value));
+    if (word.value.present()) declared.set(place, valueFor(type, word.value, evaluation));
     ++place;
   }
   return declared;

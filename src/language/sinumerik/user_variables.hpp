@@ -13,7 +13,9 @@
 
 namespace probewright::language {
 class Evaluation;
-}
+struct Operand;
+struct Command;
+}  // namespace probewright::language
 
 namespace probewright::sinumerik {
 
@@ -34,6 +36,15 @@ public:
   /// The place of an element. Throws Alarm 17020, 17030 or 17040 for an index out of range, 12261 for missing indices.
   std::size_t place(std::string_view name, std::span<const double> indices) const;
 
+  /// True if so many indices name a single character of a STRING: one more than it has dimensions.
+  bool isCharacter(std::size_t indices) const { return type_ == Type::String && indices == dimensions() + 1; }
+  /// The code of a character; the last of `indices` counts from 0. Throws what place() throws, and Alarm 17020 behind
+  /// the end of the text.
+  double character(std::string_view name, std::span<const double> indices) const;
+  /// Replaces a character, or writes one behind the last if there is room. `value`: its code or a text of one
+  /// character.
+  void setCharacter(std::string_view name, std::span<const double> indices, const Value& value);
+
   const Value& at(std::size_t place) const { return values_[place]; }
   /// Converts to the variable's type as the control does: REAL to INT rounds, everything but 0 is TRUE. Throws Alarm
   /// 12150 if the type does not fit, 12160 if the value is out of range, 17080 and 17090 if it is beyond its limits.
@@ -44,6 +55,7 @@ public:
 
 private:
   double withinLimits(double value) const;
+  std::size_t dimensions() const;
 
   Type type_ = Type::Real;
   std::array<int, 3> sizes_{};
@@ -51,6 +63,10 @@ private:
   double lower_ = -std::numeric_limits<double>::infinity(), upper_ = std::numeric_limits<double>::infinity();
   std::vector<Value> values_;
 };
+
+/// The value of `operand` for a variable of `type`: for a STRING, CHAR becomes a text of one character, BOOL "1" or
+/// "0".
+Value valueFor(Type type, const language::Operand& operand, language::Evaluation& evaluation);
 
 /// The variable that a DEF declares, with its first values. Throws Alarm 12200 for impossible sizes, 17020 for too many
 /// values, and what set() throws.

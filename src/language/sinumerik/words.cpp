@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
+
 #include "language/sinumerik/block_parser.hpp"
 
 namespace probewright::sinumerik {
@@ -12,6 +15,21 @@ constexpr const char* addressAdvice = "An address is a letter with a value (X10)
 
 /// G functions whose words do not belong to a motion of group 1.
 bool isTransformG(int number) { return (number >= 110 && number <= 112) || number == 58 || number == 59; }
+/// The number behind the letter: 12 of "S12".
+double extensionOf(std::uint32_t address) {
+  double number = 0;
+  for (std::uint32_t digits = address >> 8; digits != 0; digits >>= 8)
+    number = number * 10 + ((digits & 0xff) - '0');
+  return number;
+}
+
+/// G functions of Fanuc controls that the language of the SINUMERIK does not have.
+bool isOfIsoDialect(int number) {
+  const auto within = [number](int first, int last) { return number >= first && number <= last; };
+  return within(20, 24) || within(27, 32) || within(43, 44) || within(49, 52) || within(65, 69) || within(72, 73) ||
+         within(76, 89) || within(98, 99);
+}
+
 bool isCommandG(int number) { return number == 4 || number == 74 || number == 75; }
 
 }  // namespace
@@ -86,6 +104,51 @@ bool BlockParser::parseExtension(std::uint32_t& address) {
   return true;
 }
 
+/// The same for S[SPINU]=: `index` is the extension where only the run knows it, and absent otherwise.
+bool BlockParser::parseExtension(std::uint32_t& address, Operand& index) {
+  if (cursor_.peek() != '[') return parseExtension(address);
+  const std::size_t start = cursor_.offset();
+  cursor_.advance();
+  index = parseExpression();
+  if (failed_ || !expect(']', "behind the extension of the address")) return false;
+  cursor_.skipBlanks();
+  if (cursor_.peek() != '=') {
+    fail(cursor_.offset(), "'=' expected behind the extension of the address", "Write S[1]=500.");
+    return false;
+  }
+  if (!index.isLiteral()) return true;
+  if (!(index.number >= 0 && index.number <= 999) || index.number != std::floor(index.number)) {
+    fail(start, "the extension of an address is a whole number from 0 to 999", addressAdvice);
+    return false;
+  }
+  const std::string digits = fmt::format("{}", index.number);
+  for (std::size_t i = 0; i < digits.size(); ++i)
+    address |= static_cast<std::uint32_t>(static_cast<unsigned char>(digits[i])) << (8 * (i + 1));
+  index = {};
+  return true;
+}
+
+/// A number without a sign. True with a complaint if it is too large, or written as other languages write it.
+bool BlockParser::takeNumber(double& value) {
+  const std::size_t start = cursor_.offset();
+  if (!cursor_.number(value)) return false;
+  if (std::isinf(value)) {
+    fail(start, "this number is too large to compute with", "Numbers reach up to 1.7EX308.");
+  } else if (cursor_.peek() == 'E') {
+    Cursor ahead = cursor_;
+    ahead.advance();
+    const bool sign = ahead.peek() == '-' || ahead.peek() == '+';
+    if (sign) ahead.advance();
+    const std::string_view digits = ahead.digits();
+    ahead.skipBlanks();
+    if (!digits.empty() && ahead.peek() != '=')
+      fail(start, "this number has an exponent as other languages write it",
+           fmt::format("Write EX in front of the exponent: {}EX{}{}.", cursor_.since(start),
+                       sign ? std::string(1, cursor_.peek(1)) : "", digits));
+  }
+  return true;
+}
+
 /// The value written directly behind an address letter. False if there is none.
 bool BlockParser::parseShortValue(double& value) {
   const char sign = cursor_.peek();
@@ -93,7 +156,7 @@ bool BlockParser::parseShortValue(double& value) {
     cursor_.advance();
     cursor_.skipBlanks();
   }
-  if (!cursor_.number(value)) return false;
+  if (!takeNumber(value)) return false;
   if (sign == '-') value = -value;
   return true;
 }
@@ -183,18 +246,22 @@ void BlockParser::parseAxisWord(std::uint32_t address, std::size_t start) {
 
 void BlockParser::parseModalAddress(char letter, std::size_t start) {
   std::uint32_t address = static_cast<unsigned char>(letter);
-  if (!parseExtension(address)) return;
-  Word word;
+  Word word, extension;
+  if (!parseExtension(address, extension.value)) return;
   word.address = address;
   word.column = static_cast<std::uint32_t>(start) + 1;
   word.value = parseValue(nullptr);
   if (failed_) return;
-  if (owner_ == Owner::Command && letter == 'S') {  // G4 S: a dwell in revolutions
+  if (owner_ != Owner::Move && owner_ != Owner::Transform && letter == 'S') {  // G4 S, G25 S: no speed of the spindle
     axisWords_.push_back(word);
     return;
   }
+  const auto first = static_cast<std::uint32_t>(block_->words.size());
   block_->words.push_back(word);
-  block_->instructions.emplace_back(Modal{upper(start, 1), {static_cast<std::uint32_t>(block_->words.size() - 1), 1}});
+  extension.address = 1;
+  if (extension.value.present()) block_->words.push_back(extension);
+  block_->instructions.emplace_back(
+      Modal{upper(start, 1), {first, static_cast<std::uint32_t>(block_->words.size()) - first}});
 }
 
 void BlockParser::setMotion(MoveKind kind, std::size_t start) {
@@ -222,10 +289,13 @@ void BlockParser::parseG(std::size_t start) {
   int number = 0;
   for (const char c : digits)
     number = number < 100000 ? number * 10 + (c - '0') : number;
-  if (digits.empty() || !isGFunction(number)) {
-    return fail(start, digits.empty() ? "the number of the G function is missing"
-                                      : "the control has no function G" + std::string(digits));
-  }
+  if (digits.empty()) return fail(start, "the number of the G function is missing");
+  if (!isGFunction(number))
+    return fail(start, "the control has no function G" + std::string(digits),
+                isOfIsoDialect(number)
+                    ? "It belongs to the ISO dialect and to RS-274 (Fanuc, LinuxCNC), which are not read; "
+                      "write the program in the language of the control, inches and mm as G70 and G71."
+                    : "");
   const bool plain = numberStart == start + 1 && (digits.size() == 1 || digits[0] != '0');
   const TextRef name = plain ? upper(start, digits.size() + 1) : block_->add(fmt::format("G{}", number));
   switch (number) {
@@ -251,6 +321,8 @@ void BlockParser::parseG(std::size_t start) {
     case 63:
     case 331:
     case 332:
+    case 335:
+    case 336:
       setMotion(MoveKind::Modal, start);
       motionName_ = name;
       break;
@@ -280,18 +352,25 @@ void BlockParser::parseM(std::size_t start) {
     return value.isLiteral() && value.number >= 0 && value.number <= highest;
   };
   std::uint32_t address = 'M';
-  if (!parseExtension(address)) return;
+  Operand spindle;
+  if (!parseExtension(address, spindle)) return;
   cursor_.skipBlanks();
   MachineFunction function;
-  if (address != 'M') {
-    double spindle = 0;
-    for (std::uint32_t digits = address >> 8; digits != 0; digits >>= 8)
-      spindle = spindle * 10 + ((digits & 0xff) - '0');
+  if (address != 'M') spindle = Operand::of(extensionOf(address));
+  if (spindle.present()) {
     const Operand value = parseValue(nullptr);
     if (failed_) return;
-    if (!isNumber(value)) return fail(start, "the number of the M function is missing", "Write M2=3.");
-    function.number = static_cast<int>(value.number);
-    function.argument = Operand::of(spindle);
+    if (isNumber(value)) {
+      function.number = static_cast<int>(value.number);
+      function.argument = spindle;
+    } else if (value.isLiteral()) {
+      return fail(start, "an M function has a number from 0 on");
+    } else {
+      function.number = -1;
+      function.argument = value;
+      function.words = {static_cast<std::uint32_t>(block_->words.size()), 1};
+      block_->words.push_back({1, WordMode::Plain, spindle, static_cast<std::uint32_t>(start) + 1, 0});
+    }
   } else if (cursor_.peek() == '=') {
     const Operand value = parseValue(nullptr);
     if (failed_) return;
@@ -328,24 +407,21 @@ void BlockParser::parseM(std::size_t start) {
 
 void BlockParser::parseT(std::size_t start) {
   std::uint32_t address = 'T';
-  if (!parseExtension(address)) return;
-  cursor_.skipBlanks();
   ToolCall call;
+  if (!parseExtension(address, call.index)) return;
+  cursor_.skipBlanks();
   const bool assigned = cursor_.peek() == '=';
   Operand value = parseValue(nullptr);
   if (failed_) return;
   if (!value.isLiteral() && !assigned)
     return fail(start, "the number of the tool is missing", "Write T5 or T=\"NAME\".");
+  if (value.isLiteral() && value.number < 0)
+    return fail(start, "a tool has a number from 0 on", "Write T5 or T=\"NAME\".");
   const bool text = !value.isLiteral() && value.present() &&
                     (block_->nodes[static_cast<std::size_t>(value.node)].operation == Operation::Text ||
                      block_->nodes[static_cast<std::size_t>(value.node)].operation == Operation::Concatenate);
   (text ? call.name : call.number) = value;
-  if (address != 'T') {
-    double spindle = 0;
-    for (std::uint32_t digits = address >> 8; digits != 0; digits >>= 8)
-      spindle = spindle * 10 + ((digits & 0xff) - '0');
-    call.index = Operand::of(spindle);
-  }
+  if (address != 'T') call.index = Operand::of(extensionOf(address));
   block_->instructions.emplace_back(call);
 }
 
@@ -355,18 +431,51 @@ void BlockParser::parseL(std::size_t start) {
   parseProgramCall(upper(start, digits.size() + 1), false);
 }
 
-void BlockParser::parseMoveWord(std::string_view name, std::size_t start) {
-  if (name == "AX") {
-    if (!expect('[', "behind AX")) return;
-    Word axis;
-    axis.address = addressOf("AX[]");
-    axis.column = static_cast<std::uint32_t>(start) + 1;
-    axis.value = parseExpression();
-    if (failed_ || !expect(']', "behind the axis")) return;
-    axisWords_.push_back(axis);
-    addMoveWord(addressOf("=AX"), start);
-    return;
+/// AX[axis]= is the axis, IP[axis]= its parameter of interpolation: I, J or K.
+void BlockParser::parseComputedAxis(std::string_view name, std::size_t start) {
+  if (!expect('[', "behind AX and IP")) return;
+  const bool parameter = name == "IP";
+  Word axis;
+  axis.address = addressOf(parameter ? "IP[]" : "AX[]");
+  axis.column = static_cast<std::uint32_t>(start) + 1;
+  axis.value = parseExpression();
+  if (failed_ || !expect(']', "behind the axis")) return;
+  axisWords_.push_back(axis);
+  addMoveWord(addressOf(parameter ? "=IP" : "=AX"), start);
+}
+
+/// PO[X]=(end,a2,a3...): a polynomial of POLY. Its path is travelled as a straight line, so that the end is what
+/// counts.
+void BlockParser::parsePolynomial(std::size_t start) {
+  if (!expect('[', "behind PO")) return;
+  cursor_.skipBlanks();
+  const std::string_view angle = cursor_.peekName();
+  const bool orientation = angle == "PHI" || angle == "PSI" || angle == "THT";
+  Operand axis;
+  if (orientation) {
+    cursor_.advance(angle.size());
+  } else {
+    axis = parseExpression();
   }
+  if (failed_ || !expect(']', "behind the axis") || !expect('=', "behind PO[axis]")) return;
+  const bool list = cursor_.take('(');
+  const Operand end = parseExpression();
+  while (!failed_ && list && cursor_.take(','))
+    parseExpression();
+  if (failed_ || (list && !expect(')', "behind the coefficients")) || orientation) return;
+  const Node* node = axis.node >= 0 ? &block_->nodes[static_cast<std::size_t>(axis.node)] : nullptr;
+  const auto column = static_cast<std::uint32_t>(start) + 1;
+  if (node != nullptr && node->operation == Operation::AxisName) {
+    axisWords_.push_back({addressOf(block_->at(node->text)), WordMode::Plain, end, column, 0});
+  } else {
+    axisWords_.push_back({addressOf("AX[]"), WordMode::Plain, axis, column, 0});
+    axisWords_.push_back({addressOf("=AX"), WordMode::Plain, end, column, 0});
+  }
+}
+
+void BlockParser::parseMoveWord(std::string_view name, std::size_t start) {
+  if (name == "AX" || name == "IP") return parseComputedAxis(name, start);
+  if (name == "PO") return parsePolynomial(start);
   if (name == "AP" || name == "RP") polar_ = true;
   cursor_.skipBlanks();
   if (cursor_.peek() != '=') {
@@ -384,7 +493,7 @@ void BlockParser::parseSetting(std::string_view name, std::size_t start) {
     if (failed_ || !expect(']', "behind the index")) return;
   } else if (isDigit(cursor_.peek())) {
     double number = 0;
-    cursor_.number(number);
+    takeNumber(number);
     index.value = Operand::of(number);
   }
   cursor_.skipBlanks();
@@ -392,12 +501,26 @@ void BlockParser::parseSetting(std::string_view name, std::size_t start) {
     return fail(start, std::string(name) + " needs a value", "Write " + std::string(name) + "=value.");
   Word value;
   value.column = static_cast<std::uint32_t>(start) + 1;
-  value.value = parseValue(&value.mode);
+  std::array<Word, 2> more;  // POSP[X]=(end,part,mode)
+  std::uint32_t count = 0;
+  if (name == "POSP") {
+    cursor_.advance();
+    if (!expect('(', "before the end position")) return;
+    value.value = parseExpression();
+    while (!failed_ && count < more.size() && cursor_.take(',')) {
+      more[count].address = count + 2;
+      more[count++].value = parseExpression();
+    }
+    if (failed_ || !expect(')', "behind end position, part and mode")) return;
+  } else {
+    value.value = parseValue(&value.mode);
+  }
   if (failed_) return;
   Block& block = *block_;
   const auto first = static_cast<std::uint32_t>(block.words.size());
   block.words.push_back(value);
   if (index.value.present()) block.words.push_back(index);
+  block.words.insert(block.words.end(), more.begin(), more.begin() + count);
   block.instructions.emplace_back(
       Command{upper(name), {}, -1, {first, static_cast<std::uint32_t>(block.words.size()) - first}});
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -56,6 +57,8 @@ private:
   std::string value(const Word& word) const;
   std::string word(const Word& word) const;
   std::string address(std::string_view address, const Operand& value) const;
+  /// S2, S[SPINU]: an address with its extension.
+  std::string extended(std::string_view address, const Operand& extension) const;
   std::string axisWords(WordRange range) const;
   std::string arguments(WordRange range) const;
   std::string target(TextRef label, const Operand& value) const;
@@ -69,7 +72,7 @@ private:
   void statement(const CallLabel&) { refuse("CALL LBL"); }
   void statement(const RepeatSection& section);
   void statement(const CallProgram& call);
-  void statement(const Return&) { add("M17"); }
+  void statement(const Return& order);
   void statement(const EndProgram&) { add("M30"); }
   void statement(const Structured& structured);
   void statement(const Move& move);
@@ -106,6 +109,11 @@ std::string BlockWriter::address(std::string_view address, const Operand& value)
   return fmt::format("{}{}{}", address, direct ? "" : "=", expression(value));
 }
 
+std::string BlockWriter::extended(std::string_view address, const Operand& extension) const {
+  const std::string text = expression(extension);
+  return extension.isLiteral() ? fmt::format("{}{}", address, text) : fmt::format("{}[{}]", address, text);
+}
+
 std::string BlockWriter::word(const Word& word) const {
   const std::string address = addressName(word.address);
   if (word.mode == WordMode::Plain) return this->address(address, word.value);
@@ -115,9 +123,9 @@ std::string BlockWriter::word(const Word& word) const {
 std::string BlockWriter::axisWords(WordRange range) const {
   std::string text;
   for (const Word& each : words(range)) {
-    if (each.address == addressOf("AX[]")) {
-      text += fmt::format(" AX[{}]", expression(each.value));
-    } else if (each.address == addressOf("=AX")) {
+    if (each.address == addressOf("AX[]") || each.address == addressOf("IP[]")) {
+      text += fmt::format(" {}[{}]", each.address == addressOf("AX[]") ? "AX" : "IP", expression(each.value));
+    } else if (each.address == addressOf("=AX") || each.address == addressOf("=IP")) {
       text += fmt::format("={}", value(each));
     } else {
       text += fmt::format(" {}", word(each));
@@ -177,6 +185,21 @@ void BlockWriter::statement(const CallProgram& call) {
   if (call.times.present()) add(address("P", call.times));
 }
 
+void BlockWriter::statement(const Return& order) {
+  if (!order.target.present() && !order.levels.present() && !order.start.present()) return add("M17");
+  const Operand* const given[] = {&order.target, &order.behind, &order.levels, &order.start};
+  std::size_t last = std::size(given);
+  while (!given[last - 1]->present())
+    --last;
+  std::string text = "RET(";
+  for (std::size_t i = 0; i < last; ++i) {
+    if (i > 0) text += ',';
+    text += expression(*given[i]);
+  }
+  text += ")";
+  add(text);
+}
+
 void BlockWriter::statement(const Structured& structured) {
   static constexpr const char* names[] = {"IF",     "ELSE", "ENDIF",   "WHILE",  "ENDWHILE", "FOR",
                                           "ENDFOR", "LOOP", "ENDLOOP", "REPEAT", "UNTIL"};
@@ -233,14 +256,16 @@ void BlockWriter::statement(const Move& move) {
 void BlockWriter::statement(const ToolCall& call) {
   if (call.axis != 0) return refuse("TOOL CALL");
   const bool named = call.name.present();
-  const std::string tool = call.index.present() ? fmt::format("T{}", expression(call.index)) : std::string("T");
+  const std::string tool = call.index.present() ? extended("T", call.index) : std::string("T");
   if (named || call.number.present()) add(address(tool, named ? call.name : call.number));
 }
 
 void BlockWriter::statement(const Modal& modal) {
   const std::string function = name(modal.name);
   const auto given = words(modal.words);
-  const bool isAddress = function.size() == 1 && given.size() == 1;
+  const bool isAddress = function.size() == 1 && !given.empty();
+  if (isAddress && given.size() > 1)
+    return add(fmt::format("{}={}", extended(function, given[1].value), value(given.front())));
   if (isAddress) return add(word(given.front()));
   if (function == "G25" || function == "G26") return add(function + axisWords(modal.words));
   add(function);
@@ -248,8 +273,12 @@ void BlockWriter::statement(const Modal& modal) {
 }
 
 void BlockWriter::statement(const MachineFunction& function) {
-  if (function.number < 0) return add(fmt::format("M={}", expression(function.argument)));
-  if (function.argument.present()) return add(fmt::format("M{}={}", expression(function.argument), function.number));
+  if (function.number < 0) {
+    const std::string address =
+        function.words.count > 0 ? extended("M", words(function.words).front().value) : std::string("M");
+    return add(fmt::format("{}={}", address, expression(function.argument)));
+  }
+  if (function.argument.present()) return add(fmt::format("{}={}", extended("M", function.argument), function.number));
   add(fmt::format("M{}", function.number));
 }
 
@@ -289,7 +318,7 @@ void BlockWriter::statement(const Command& command) {
   const std::string what = name(command.name);
   const auto given = words(command.words);
   if (what == "DEF") return declaration(command);
-  if (command.variable >= 0 && (what == "SET" || what == "REP"))
+  if (command.variable >= 0 && (what == "SET" || what == "REP" || what == "CALCDAT"))
     return add(
         fmt::format("{}={}{}", variable(static_cast<std::uint32_t>(command.variable)), what, arguments(command.words)));
   const Keyword keyword = keywordOf(what);
@@ -297,6 +326,12 @@ void BlockWriter::statement(const Command& command) {
     case Keyword::Setting: {
       std::string text = what;
       if (given.size() > 1) text += fmt::format("[{}]", expression(given[1].value));
+      if (what == "POSP") {
+        std::string list = expression(given.front().value);
+        for (const Word& each : given.subspan(std::min<std::size_t>(given.size(), 2)))
+          list += fmt::format(",{}", expression(each.value));
+        return add(fmt::format("{}=({})", text, list));
+      }
       return add(fmt::format("{}={}", text, value(given.front())));
     }
     case Keyword::Measure: {
@@ -322,9 +357,14 @@ void BlockWriter::statement(const Command& command) {
       add(what);
       if (command.text.length != 0) add(name(command.text) + (given.empty() ? "" : arguments(command.words)));
       return;
+    case Keyword::Axial:
+      add(fmt::format("{}[{}]", what, expression(given.front().value)));
+      if (given.size() > 1) text_ += fmt::format("={}", expression(given[1].value));
+      return;
     case Keyword::Procedure:
     case Keyword::External:
     case Keyword::Define:
+    case Keyword::Redefine:
     case Keyword::IsoCall:
     case Keyword::SynchronizedAction: {
       // Texts keep their own letters: the statement is taken from the source.
