@@ -12,7 +12,7 @@ namespace probewright::app {
 int check(const CheckArguments& arguments) {
   bool errors = false;
   for (const std::filesystem::path& path : arguments.programs) {
-    const Diagnostics found = session::checkProgram(path, arguments.control);
+    const Diagnostics found = session::checkProgram(path, arguments.control, arguments.skipLevels);
     print(found, language::detectEncoding(readFile(path).value_or(std::string())));
     errors = errors || hasErrors(found);
     if (found.empty()) std::fputs(printable(fmt::format("{}: no mistakes found\n", path.string())).c_str(), stdout);

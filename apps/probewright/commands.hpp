@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bitset>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,6 +22,7 @@ struct RunArguments {
   control::OnStop onStop = control::OnStop::Continue;
   std::filesystem::path answers;  ///< empty: no file
   std::uint64_t stepLimit = 50'000'000;
+  std::bitset<10> skipLevels;
   std::optional<std::uint64_t> seed;  ///< instead of the setup's
   bool dryRun = false, programTest = false;
   std::optional<std::uint64_t> searchLine;
@@ -34,6 +36,7 @@ int run(const RunArguments& arguments);
 struct CheckArguments {
   std::vector<std::filesystem::path> programs;
   std::optional<control::ControlKind> control;
+  std::bitset<10> skipLevels;
 };
 int check(const CheckArguments& arguments);
 

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <bitset>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -25,6 +26,28 @@ void addControl(CLI::App& command, std::optional<ControlKind>& control) {
           },
           "The control the program is for, where ending and text don't tell: TNC640, iTNC530, 840Dsl, 828D")
       ->type_name("NAME");
+}
+
+/// The option --skip of run and check: "0,3".
+void addSkip(CLI::App& command, std::bitset<10>& levels) {
+  command
+      .add_option_function<std::string>(
+          "--skip",
+          [&levels](const std::string& text) {
+            const auto wrong = [&] {
+              return CLI::ValidationError("--skip", text + " is not a list of levels from 0 to 9 such as 0,3");
+            };
+            levels.reset();
+            for (std::size_t i = 0; i < text.size(); i += 2) {
+              const bool digit = text[i] >= '0' && text[i] <= '9';
+              const bool separated = i + 1 == text.size() || (text[i + 1] == ',' && i + 2 < text.size());
+              if (!digit || !separated) throw wrong();
+              levels.set(static_cast<std::size_t>(text[i] - '0'));
+            }
+            if (levels.none()) throw wrong();
+          },
+          "Block skip: leave out blocks that begin with / and one of these levels; a / alone has level 0")
+      ->type_name("LEVELS");
 }
 
 /// Reading "-1" into an unsigned number would wrap it around.
@@ -106,7 +129,8 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->type_name("DIR");
   addControl(*run, runArguments.control);
-  run->add_flag("--strict", runArguments.strict, "Refuse machining cycles, which are skipped otherwise");
+  run->add_flag("--strict", runArguments.strict,
+                "Refuse what is skipped otherwise: machining cycles, M functions, words that are not carried out");
   addChoice(*run, "--on-stop", runArguments.onStop,
             {{"continue", OnStop::Continue}, {"abort", OnStop::Abort}, {"ask", OnStop::Ask}},
             "What a programmed stop does")
@@ -118,6 +142,7 @@ int main(int argc, char** argv) {
       ->check(notNegative)
       ->type_name("COUNT")
       ->capture_default_str();
+  addSkip(*run, runArguments.skipLevels);
   run->add_option("--seed", runArguments.seed, "Seed of the random effects, instead of the setup's")
       ->check(notNegative)
       ->type_name("NUMBER");
@@ -153,6 +178,7 @@ int main(int argc, char** argv) {
   CLI::App* check = app.add_subcommand("check", "Read programs without moving anything and name every mistake");
   check->add_option("PROGRAM", checkArguments.programs, "NC programs")->required();
   addControl(*check, checkArguments.control);
+  addSkip(*check, checkArguments.skipLevels);
 
   probewright::app::CyclesArguments cyclesArguments;
   CLI::App* cycles = app.add_subcommand("cycles", "The catalogue of measuring cycles, or one of them in full");

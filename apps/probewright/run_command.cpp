@@ -73,6 +73,7 @@ int run(const RunArguments& arguments) {
   options.onStop = arguments.onStop;
   options.ask = askOnTerminal;
   options.stepLimit = arguments.stepLimit;
+  options.skipLevels = arguments.skipLevels;
   options.mode = arguments.dryRun        ? session::ProgramMode::DryRun
                  : arguments.programTest ? session::ProgramMode::ProgramTest
                                          : session::ProgramMode::Normal;

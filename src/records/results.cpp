@@ -126,6 +126,7 @@ json header(const RunInfo& run, const ReadableText& text) {
                  {"seed", run.seed ? json(*run.seed) : json(nullptr)},
                  {"version", text(run.version)},
                  {"exit", {{"code", static_cast<int>(run.exit)}, {"state", exitName(run.exit)}}}};
+  if (!run.skipLevels.empty()) object["skipLevels"] = run.skipLevels;
   if (!run.startedAt.empty()) object["startedAt"] = text(run.startedAt);
   if (!run.exitText.empty()) object["exit"]["text"] = text(run.exitText);
   return object;

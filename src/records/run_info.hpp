@@ -29,6 +29,7 @@ struct RunInfo {
   std::string partName;
   std::string partPath;                  ///< the CAD file; empty for a part built from the setup
   std::optional<std::uint64_t> seed;     ///< of the random effects; nothing if there were none
+  std::vector<int> skipLevels;           ///< levels of block skip that were on, 0 to 9
   std::string version;                   ///< of Probewright
   std::string startedAt;                 ///< wall clock, ISO 8601 with offset; empty: not recorded
   bool inches = false;                   ///< the main program counts in inches

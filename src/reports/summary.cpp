@@ -258,6 +258,7 @@ std::string summaryText(const control::Journal& journal, const records::RunInfo&
   for (const std::string& part : {run.control, run.machine, run.partName})
     if (!part.empty()) text += (text.empty() ? "" : ", ") + style.line(part);
   text += "\n";
+  if (!run.skipLevels.empty()) text += fmt::format("  blocks skipped: level {}\n", fmt::join(run.skipLevels, ", "));
 
   for (std::size_t i = 0; i < journal.cycles.size(); ++i) {
     const control::CycleRecord& cycle = journal.cycles[i];

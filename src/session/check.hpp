@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bitset>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -17,12 +18,14 @@ namespace probewright::session {
 
 /// Every mistake of a program that can be seen without running it, in the order of its lines; programs that it calls
 /// are looked for beside it, and with SINUMERIK checked too; there also definition files of global user data.
-Diagnostics checkProgram(const std::filesystem::path& path, std::optional<control::ControlKind> control);
+/// `skipLevels`: levels of block skip that are on; such blocks are left out.
+Diagnostics checkProgram(const std::filesystem::path& path, std::optional<control::ControlKind> control,
+                         std::bitset<10> skipLevels = {});
 
 /// The same for a program that is open; it must be one of the language of `kind`. `globalVariables`: names of
 /// data that the control has values for, upper case; `globalData`: what its definition files declare, null if nothing.
 Diagnostics checkProgram(language::Program& program, control::ControlKind kind,
                          std::set<std::string> globalVariables = {},
-                         const sinumerik::GlobalUserData* globalData = nullptr);
+                         const sinumerik::GlobalUserData* globalData = nullptr, std::bitset<10> skipLevels = {});
 
 }  // namespace probewright::session

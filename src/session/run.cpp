@@ -39,6 +39,7 @@ language::InterpreterOptions interpreterOptions(const RunOptions& options, Contr
   language::InterpreterOptions interpreter;
   interpreter.stepLimit = options.stepLimit;
   interpreter.stop = options.stop;
+  interpreter.skipLevels = options.skipLevels;
   interpreter.breakpoints = options.breakpoints;
   interpreter.onProgress = options.progress;
   interpreter.programDepth = control::isHeidenhain(kind) ? 20 : 16;
@@ -358,6 +359,8 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
   outcome.info.control = name(kind);
   outcome.info.setupPath = setup.file;
   outcome.info.seed = setup.truth.seed;
+  for (std::size_t level = 0; level < options.skipLevels.size(); ++level)
+    if (options.skipLevels[level]) outcome.info.skipLevels.push_back(static_cast<int>(level));
   for (const auto& solid : setup.solids) {
     if (solid.role != simulation::SolidRole::Part) continue;
     outcome.info.partName = solid.name;
@@ -377,7 +380,7 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
                                                    ? sinumerik::GlobalUserData()
                                                    : globalUserData(path, setup.tables, outcome.diagnostics);
   useMacros(*program, globalData);
-  const Diagnostics mistakes = checkProgram(*program, kind, namesOfData(setup, kind), &globalData);
+  const Diagnostics mistakes = checkProgram(*program, kind, namesOfData(setup, kind), &globalData, options.skipLevels);
   outcome.diagnostics.insert(outcome.diagnostics.end(), mistakes.begin(), mistakes.end());
   if (hasErrors(outcome.diagnostics)) {
     conclude(outcome);

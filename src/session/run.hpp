@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -42,6 +43,8 @@ struct RunOptions {
   std::uint64_t stepLimit = 50'000'000;
   std::vector<language::Breakpoint> breakpoints;
   std::stop_token stop;
+  /// Levels of block skip that the operator has switched on; HEIDENHAIN controls have level 0 only.
+  std::bitset<10> skipLevels;
   std::int64_t wallClock = 0;  ///< seconds since 1970 (UTC) when the program starts, for logs
   bool recordPath = true;
   /// SINUMERIK only.

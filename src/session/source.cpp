@@ -38,6 +38,21 @@ std::optional<ProgramLanguage> languageOf(const std::filesystem::path& path, std
   return std::nullopt;
 }
 
+/// What a text is that no control here reads, in the words of a message; empty if nothing tells.
+std::string_view foreignLanguage(const std::filesystem::path& path, std::string_view text) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string head(text.substr(0, 20000));
+  // Probing by G38.x, numbered parameters, O words and Fanuc program numbers, comments in parentheses, G21.
+  static const std::regex rs274(
+      R"((^|\n)\s*/?\s*((N\d+\s+)?(G\d+(\.\d)?\s*)*G38\.[2-9]|(N\d+\s+)?#(\d+|<[^>\n]+>)\s*=|O\s*(\d+|<[^>\n]+>)\s*(SUB|CALL|IF|WHILE|REPEAT|\(|\r?\n)|\([^\n)]*\)\s*\r?(\n|$)|[^;*"\n]*\bG21\b[^;*"\n]*(\n|$)))",
+      std::regex::icase);
+  const bool own = languageOf(path, {}).has_value();
+  if (own) return {};
+  if (ending == ".ngc" || std::regex_search(head, rs274)) return "an RS-274 program (LinuxCNC, Fanuc and others)";
+  return {};
+}
+
 std::string_view nameOf(ProgramLanguage language) {
   switch (language) {
     case ProgramLanguage::Klartext:
@@ -59,6 +74,11 @@ Result<ControlKind> controlFor(const std::filesystem::path& path, std::string_vi
                                std::optional<ControlKind> wanted, std::optional<ControlKind> setup) {
   if (text.find_first_not_of(" \t\r\n\x1a\xEF\xBB\xBF") == std::string_view::npos) {
     return fail({path.string(), 0, 0}, "the program is empty", "check that the file was saved and copied whole");
+  }
+  if (const std::string_view foreign = foreignLanguage(path, text); !foreign.empty()) {
+    return fail({path.string(), 0, 0}, fmt::format("this looks like {}, which Probewright does not read", foreign),
+                "Probewright reads programs of HEIDENHAIN (.H, .I) and SINUMERIK (.MPF, .SPF) controls; if this is one "
+                "of them, give it its ending");
   }
   const std::optional<ProgramLanguage> language = languageOf(path, text);
   if (wanted) {

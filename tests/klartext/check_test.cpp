@@ -223,5 +223,14 @@ TEST(Check, KnowsWhatTheOlderControlLacks) {
             std::string::npos);
 }
 
+TEST(Check, NumbersThatNoDoubleHolds) {
+  const std::string nines(400, '9');
+  EXPECT_NE(checked(framed("1 Q1 = " + nines + "\n")).find("a.h:2:8: error: this number is too large"),
+            std::string::npos);
+  EXPECT_NE(checked(framed("1 L X+" + nines + " F100\n")).find("a.h:2:7: error: this number is too large"),
+            std::string::npos);
+  EXPECT_EQ(checked(framed("1 Q1 = 0." + std::string(400, '0') + "1\n")), "");
+}
+
 }  // namespace
 }  // namespace probewright::language::klartext

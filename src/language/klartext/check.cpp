@@ -40,12 +40,18 @@ bool existsOnControls(int number) {
 
 class Checker {
 public:
-  Checker(HeidenhainProgram& program, control::ControlKind kind, ProgramLibrary* library)
-      : program_(program), kind_(kind), library_(library), notes_(kind) {}
+  Checker(HeidenhainProgram& program, control::ControlKind kind, ProgramLibrary* library, bool skips)
+      : program_(program), kind_(kind), library_(library), notes_(kind), skips_(skips) {}
 
   Diagnostics run() {
     BlockPosition position = program_.begin();
-    while (program_.parse(position, block_, found_)) {
+    std::size_t known = 0;  // mistakes in blocks before this one
+    while (known = found_.size(), program_.parse(position, block_, found_)) {
+      if (skips_ && block_.skippable) {
+        found_.resize(known);
+        position = block_.next;
+        continue;
+      }
       nameMissingContinuation();
       for (const Instruction& instruction : block_.instructions)
         std::visit([this](const auto& i) { look(i); }, instruction);
@@ -411,12 +417,13 @@ private:
   bool begun_ = false;
   bool ended_ = false;
   bool behindReported_ = false;
+  bool skips_ = false;
 };
 
 }  // namespace
 
-Diagnostics checkProgram(HeidenhainProgram& program, control::ControlKind kind, ProgramLibrary* library) {
-  return Checker(program, kind, library).run();
+Diagnostics checkProgram(HeidenhainProgram& program, control::ControlKind kind, ProgramLibrary* library, bool skips) {
+  return Checker(program, kind, library, skips).run();
 }
 
 }  // namespace probewright::language::klartext

@@ -10,6 +10,8 @@ namespace probewright::language::klartext {
 /// and in measuring cycles parameters that the cycle of this control does not have, lacks, or cannot take. Warnings for
 /// what can be run but not simulated, and for programs that are called or selected by name and that `library` does not
 /// have; null: they are not looked for.
-Diagnostics checkProgram(HeidenhainProgram& program, control::ControlKind kind, ProgramLibrary* library = nullptr);
+/// Blocks that begin with "/" are left out if `skips`.
+Diagnostics checkProgram(HeidenhainProgram& program, control::ControlKind kind, ProgramLibrary* library = nullptr,
+                         bool skips = false);
 
 }  // namespace probewright::language::klartext

@@ -1,6 +1,8 @@
 #include "language/klartext/lexer.hpp"
 
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 
@@ -104,7 +106,10 @@ std::optional<double> Lexer::number() {
     if (c == ',') c = '.';
   }
   double value = 0;
-  std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
+  // Too small is 0; from_chars says the same of too large.
+  if (problem == std::errc::result_out_of_range) value = std::strtod(text.c_str(), nullptr);
+  if (std::isinf(value) && !tooLarge_) tooLarge_ = static_cast<std::size_t>(start - begin_);
   return value;
 }
 

@@ -65,8 +65,11 @@ public:
   /// Skips the text (upper case) if it comes next, whatever follows.
   bool acceptPrefix(std::string_view text);
 
-  /// An unsigned decimal number, if one comes next. Point or comma separate the decimals. Correctly rounded.
+  /// An unsigned decimal number, if one comes next. Point or comma separate the decimals. Correctly rounded; infinite,
+  /// and noted by tooLarge, if no double is as large.
   std::optional<double> number();
+  /// Where the first number stands that was too large; nothing if there was none.
+  const std::optional<std::size_t>& tooLarge() const { return tooLarge_; }
 
   /// A quoted text, without its quotes, if one comes next. Straight and typographic quotes are known; an empty
   /// optional if there is none or it isn't closed.
@@ -105,6 +108,7 @@ private:
   const char* lineStart_;
   std::uint32_t line_ = 0;
   Comments comments_ = Comments::ToBlockEnd;
+  std::optional<std::size_t> tooLarge_;
 };
 
 /// True if the line (without its end) ends with a continuation sign.

@@ -53,7 +53,13 @@ void BlockParser::parse() {
     block_.skippable = true;
     lexer_.advance();
   }
-  if (!statement()) block_.instructions.clear();
+  if (!statement()) {
+    block_.instructions.clear();
+  } else if (lexer_.tooLarge()) {
+    lexer_.seek(*lexer_.tooLarge());
+    error("this number is too large to compute with", "correct it: numbers reach up to 1.7 * 10^308");
+    block_.instructions.clear();
+  }
 }
 
 bool BlockParser::textCommand(std::string_view name) {
