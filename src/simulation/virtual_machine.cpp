@@ -74,6 +74,15 @@ PathPoint VirtualMachine::pathPoint(const Pose& tableFromSpindle, PathKind kind,
   return {tableFromSpindle * shape_.tip, tableFromSpindle.linear() * shape_.shank, kind, seconds};
 }
 
+namespace {
+
+/// A position in a message; one of hundreds of digits says no more than its size.
+std::string readable(double position) {
+  return std::abs(position) < 1e9 ? fmt::format("{:.4f}", position) : fmt::format("{:.3g}", position);
+}
+
+}  // namespace
+
 std::optional<std::string> VirtualMachine::beyondTravel(const AxisPositions& target) const {
   for (std::size_t i = 0; i < truth_.machine.axes.size(); ++i) {
     const machine::Axis& axis = truth_.machine.axes[i];
@@ -81,11 +90,11 @@ std::optional<std::string> VirtualMachine::beyondTravel(const AxisPositions& tar
     if (!std::isfinite(target[i])) return fmt::format("axis {} is sent to a position that is no number", axis.name);
     if (axis.kind == AxisKind::Rotary && axis.modulo) continue;
     if (target[i] < axis.minimum) {
-      return fmt::format("axis {} would go to {:.4f} {}; its travel begins at {:.4f}", axis.name, target[i], unit,
+      return fmt::format("axis {} would go to {} {}; its travel begins at {:.4f}", axis.name, readable(target[i]), unit,
                          axis.minimum);
     }
     if (target[i] > axis.maximum) {
-      return fmt::format("axis {} would go to {:.4f} {}; its travel ends at {:.4f}", axis.name, target[i], unit,
+      return fmt::format("axis {} would go to {} {}; its travel ends at {:.4f}", axis.name, readable(target[i]), unit,
                          axis.maximum);
     }
   }

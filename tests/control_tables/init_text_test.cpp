@@ -356,5 +356,26 @@ TEST(MeasuringData, OldNamesReachTheNewData) {
   EXPECT_EQ(readGud(store, {"_WP", {"X"}}), std::nullopt);
 }
 
+TEST(InitText, RefusesIndicesThatNoArrayHas) {
+  const auto complaint = [](const std::string& text) {
+    DataStore store;
+    Diagnostics found;
+    InitText::parse(text, "A.INI", store, found);
+    if (found.empty()) return std::string();
+    EXPECT_EQ(found.front().place.file, "A.INI");
+    EXPECT_EQ(found.front().place.line, 2u);
+    return found.front().message;
+  };
+  EXPECT_EQ(complaint("; tools\n$TC_DP3[-1,1]=5\n"), "$TC_DP3 has no element with the index -1");
+  EXPECT_EQ(complaint("; tools\n$TC_DP3[99999999999,1]=5\n"), "$TC_DP3 has no element with the index 99999999999");
+  EXPECT_EQ(complaint("; tools\n$P_UIFR[-1,X,TR]=5\n"), "$P_UIFR has no element with the index -1");
+  EXPECT_EQ(complaint("; tools\nR[10000]=5\n"), "there is no R parameter 10000");
+  std::string list = "; tools\nR[0]=SET(0";
+  for (int i = 1; i <= 10000; ++i)
+    list += ",1";
+  EXPECT_EQ(complaint(list + ")\n"), "there is no R parameter 10000");
+  EXPECT_EQ(complaint("; tools\n$TC_DP3[32000,9]=5 R[9999]=1 $P_UIFR[99,X,TR]=1\n"), "");
+}
+
 }  // namespace
 }  // namespace probewright::control::sinumerik

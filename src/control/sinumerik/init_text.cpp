@@ -229,6 +229,8 @@ private:
         ++at_;
       return;
     }
+    for (const auto& [each, value] : assignment.values)
+      requireIndices(each, assignment.begin);
     if (current_ != wanted_) return;
     if (assignment.form == Form::FrameChain) {
       store_.loadFrame(assignment.frame, frame_);
@@ -237,6 +239,21 @@ private:
         store_.load(each, value);
     }
     text_.assignments_.push_back(std::move(assignment));
+  }
+
+  /// No array has negative indices or so many elements; R parameters end at 9999.
+  void requireIndices(const DataKey& key, std::size_t at) const {
+    constexpr long long mostElements = 999'999, lastParameter = 9999;
+    for (const std::string& index : key.indices) {
+      const bool isNumber = isDigit(index[0]) || index[0] == '-' || index[0] == '+';
+      const auto number = parseInteger(index);
+      if (!isNumber || (number && *number >= 0 && *number <= (key.name == "R" ? lastParameter : mostElements)))
+        continue;
+      if (key.name == "R")
+        fail(at, fmt::format("there is no R parameter {}", index), "R parameters have the numbers 0 to 9999");
+      fail(at, fmt::format("{} has no element with the index {}", key.name, index),
+           "indices are whole numbers from 0 to 999999, axes or TR, FI, RT, SC, MI");
+    }
   }
 
   bool readValue(const DataKey& key, Assignment& assignment) {
