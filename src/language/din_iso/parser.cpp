@@ -27,13 +27,7 @@ void BlockParser::parse() {
       lexer_.advance();
   }
   skipSign();
-  if (!statement()) {
-    block_.instructions.clear();
-  } else if (lexer_.tooLarge()) {
-    lexer_.seek(*lexer_.tooLarge());
-    error("this number is too large to compute with", "correct it: numbers reach up to 1.7 * 10^308");
-    block_.instructions.clear();
-  }
+  if (!statement() || !numbersFit()) block_.instructions.clear();
 }
 
 bool BlockParser::statement() {

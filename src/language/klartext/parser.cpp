@@ -41,6 +41,13 @@ bool BlockParser::expectEnd() {
   return error("the block should end here", "put a comment behind ';' or write a block of its own");
 }
 
+/// False, with a complaint, if the block has a number that no double holds.
+bool BlockParser::numbersFit() {
+  if (!lexer_.tooLarge()) return true;
+  lexer_.seek(*lexer_.tooLarge());
+  return error("this number is too large to compute with", "correct it: numbers reach up to 1.7 * 10^308");
+}
+
 void BlockParser::parse() {
   if (lexer_.peek() == '/') {
     block_.skippable = true;
@@ -53,13 +60,7 @@ void BlockParser::parse() {
     block_.skippable = true;
     lexer_.advance();
   }
-  if (!statement()) {
-    block_.instructions.clear();
-  } else if (lexer_.tooLarge()) {
-    lexer_.seek(*lexer_.tooLarge());
-    error("this number is too large to compute with", "correct it: numbers reach up to 1.7 * 10^308");
-    block_.instructions.clear();
-  }
+  if (!statement() || !numbersFit()) block_.instructions.clear();
 }
 
 bool BlockParser::textCommand(std::string_view name) {

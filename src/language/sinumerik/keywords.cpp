@@ -33,7 +33,10 @@ constexpr auto functionTable = [] {
       {"CMIRROR", Function::Host, 0, many}, {"INVFRAME", Function::Host, 1, 1},    {"MEAFRAME", Function::Host, 3, 3},
       {"GETT", Function::Host, 1, 2},       {"GETMDACT", Function::Host, 0, 1},    {"QU", Function::Host, 1, 1},
       {"GETDNO", Function::Host, 2, 2},     {"CHKDNO", Function::Host, 0, 3},      {"MODAXVAL", Function::Host, 2, 2},
-      {"GETTCOR", Function::Host, 1, many}, {"INTERSEC", Function::Host, 3, many},
+      {"GETTCOR", Function::Host, 1, many}, {"INTERSEC", Function::Host, 3, many}, {"GETACTTD", Function::Host, 1, 2},
+      {"GETTENV", Function::Host, 1, many}, {"SETTCOR", Function::Host, 1, many},  {"LENTOAX", Function::Host, 1, many},
+      {"STRINGIS", Function::Host, 1, 1},   {"CTAB", Function::Host, 2, many},     {"CTABINV", Function::Host, 2, many},
+      {"ADDFRAME", Function::Host, 1, 2},   {"CORRTC", Function::Host, 1, many},   {"ORISOLH", Function::Host, 1, many},
   });
   std::sort(table.begin(), table.end(), [](const auto& l, const auto& r) { return l.name < r.name; });
   return table;

@@ -104,7 +104,9 @@ bool isSkippedGroup(int group, int number) {
 }
 
 bool isUnavailableFunction(std::string_view name) {
-  static constexpr std::string_view functions[] = {"CHKDNO", "GETTCOR", "INTERSEC", "MEAFRAME", "GETMDACT"};
+  static constexpr std::string_view functions[] = {"CHKDNO",   "GETTCOR", "INTERSEC", "MEAFRAME", "GETMDACT",
+                                                   "GETACTTD", "GETTENV", "SETTCOR",  "LENTOAX",  "STRINGIS",
+                                                   "CTAB",     "CTABINV", "ADDFRAME", "CORRTC",   "ORISOLH"};
   return std::ranges::find(functions, name) != std::end(functions);
 }
 
