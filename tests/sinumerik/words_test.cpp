@@ -369,6 +369,44 @@ TEST(SinumerikEffects, WhatSaysNothingAboutTheToolPassesInSilence) {
   }
 }
 
+TEST(SinumerikEffects, EveryWordOfTheTableDoesWhatItsRowSays) {
+  int rows = 0;
+  for (const KeywordEntry& row : keywords()) {
+    std::string block(row.name);
+    switch (row.keyword) {
+      case Keyword::Modal:
+        break;
+      case Keyword::Statement:
+        block += "(2,1)";
+        break;
+      case Keyword::Setting:
+        block += "=1";
+        break;
+      case Keyword::Axial:
+        block += "[X]";
+        break;
+      case Keyword::MoveWord:
+        block = "G1 X1 F100 " + block + "=1";
+        break;
+      case Keyword::Motion:
+        block += " X1 F100";
+        break;
+      default:
+        continue;
+    }
+    if (row.effect == Effect::CarriedOut) continue;
+    ++rows;
+    World world;
+    world.run(block + "\n");
+    const auto named = texts(world, control::EventKind::Skipped);
+    ASSERT_EQ(named.size(), row.effect == Effect::Harmless ? 0u : 1u) << block;
+    if (!named.empty()) {
+      EXPECT_EQ(named[0], std::string(row.name) + " " + std::string(skippedFunction(row.name)));
+    }
+  }
+  EXPECT_GT(rows, 200);
+}
+
 TEST(SinumerikEffects, CheckNamesThemToo) {
   EXPECT_EQ(mistake("M25\nM25\n"), "M25 is not carried out");
   EXPECT_EQ(mistake("OFFN=0.5\n"), "OFFN is not carried out");
