@@ -18,6 +18,37 @@ bool isRotary(const machine::MachineDescription& machine, std::size_t axis) {
   return axis < machine.axes.size() && machine.axes[axis].kind == machine::AxisKind::Rotary;
 }
 
+/// The way of the tip over the table, mm: what rotary axes of head and table move it counts, what the main spindle of a
+/// lathe turns beneath it does not.
+double travelOnTable(const Channel& channel, const AxisPositions& from, const AxisPositions& to) {
+  const machine::MachineDescription& description = channel.description();
+  constexpr double turnPerPiece = 0.25;  // degrees; a chord of it is shorter than its arc by 1e-6 of the length
+  constexpr double mostPieces = 10'000;
+  const auto turns = [&](std::size_t axis) { return isRotary(description, axis) && axis != description.mainSpindle; };
+  double turn = 0;
+  for (std::size_t i = 0; i < description.axes.size(); ++i) {
+    if (turns(i)) turn = std::max(turn, std::abs(to[i] - from[i]));
+  }
+  if (turn == 0) return (channel.machineFromAxes(to) - channel.machineFromAxes(from)).norm();
+  const auto pieces = static_cast<int>(std::clamp(std::ceil(turn / turnPerPiece), 1.0, mostPieces));
+  const auto tip = [&](double fraction) {
+    AxisPositions axes = from;
+    for (std::size_t i = 0; i < description.axes.size(); ++i) {
+      if (turns(i) || !isRotary(description, i)) axes[i] += fraction * (to[i] - from[i]);
+    }
+    return Vector3(machine::baseFromTable(description, axes).inverse() *
+                   (machine::baseFromSpindle(description, axes) * Vector3(-channel.toolVector)));
+  };
+  double length = 0;
+  Vector3 last = tip(0);
+  for (int i = 1; i <= pieces; ++i) {
+    const Vector3 next = tip(static_cast<double>(i) / pieces);
+    length += (next - last).norm();
+    last = next;
+  }
+  return length;
+}
+
 }  // namespace
 
 Channel::Channel(machine::Machine& machine, Journal& journal) : machine_(machine), journal_(journal) {
@@ -144,7 +175,7 @@ void Channel::judge(const machine::MoveResult& result) const {
 }
 
 void Channel::count(const AxisPositions& from, const AxisPositions& to) {
-  const double length = (machineFromAxes(to) - machineFromAxes(from)).norm();
+  const double length = travelOnTable(*this, from, to);
   pathLength_ += length;
   if (CycleRecord* cycle = journal_.open()) cycle->pathLength += length;
 }

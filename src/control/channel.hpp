@@ -121,7 +121,7 @@ public:
   void dwell(double seconds) { machine_.dwell(seconds); }
   double seconds() const { return machine_.seconds(); }
 
-  /// Path of the tip since the channel was made, mm in machine coordinates.
+  /// Path of the tip over the table since the channel was made, mm; rotary axes of head and table count.
   double pathLength() const { return pathLength_; }
 
 private:
