@@ -28,6 +28,7 @@ struct RunArguments {
   std::optional<std::uint64_t> searchLine;
   control::DialogLanguage language = control::DialogLanguage::English;
   bool screens = false;
+  std::string cache;                       ///< folder for imported parts; "off": none; empty: the user's
   std::vector<std::string> measuringLogs;  ///< of a SINUMERIK control; .csv: as a table
   bool quiet = false;
 };

@@ -171,6 +171,11 @@ int main(int argc, char** argv) {
                    ? std::string()
                    : name + " is no file name ending in .txt or .csv";
       });
+  run->add_option(
+         "--cache", runArguments.cache,
+         "Folder that keeps imported STEP and IGES parts for the next run; off: none. Else $PROBEWRIGHT_CACHE, "
+         "or probewright in $XDG_CACHE_HOME or ~/.cache")
+      ->type_name("DIR");
   run->add_flag("--screens", runArguments.screens, "Show the result screens of all cycles, also of those that are off");
   run->add_flag("--quiet", runArguments.quiet, "Print nothing but mistakes");
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <csignal>
+#include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <iostream>
@@ -10,8 +10,10 @@
 
 #include "base/file.hpp"
 #include "base/number_text.hpp"
+#include "cache_folder.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "interruption.hpp"
 #include "output_folder.hpp"
 #include "records/results.hpp"
 #include "reports/report.hpp"
@@ -25,9 +27,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::stop_source interrupted;
+/// What an import does, on standard error: on a terminal in one line, else a line now and then.
+class ImportProgress {
+public:
+  explicit ImportProgress(bool terminal) : terminal_(terminal) {}
 
-extern "C" void onInterrupt(int) { interrupted.request_stop(); }
+  void tell(const std::string& what) {
+    using Clock = std::chrono::steady_clock;
+    if (terminal_) {
+      std::fputs(fmt::format("\r\033[K{} ", printable(what)).c_str(), stderr);
+    } else if (const auto now = Clock::now(); now >= next_) {
+      std::fputs((printable(what) + "\n").c_str(), stderr);
+      next_ = now + std::chrono::seconds(10);
+    }
+  }
+
+private:
+  bool terminal_;
+  std::chrono::steady_clock::time_point next_;
+};
 
 bool askOnTerminal(const std::string& text) {
   std::fputs(fmt::format("\n{}\nContinue? [Y/n] ", printable(text)).c_str(), stdout);
@@ -82,7 +100,9 @@ int run(const RunArguments& arguments) {
   options.showAllResults = arguments.screens;
   options.measuringLogs = arguments.measuringLogs;
   options.wallClock = std::time(nullptr);
-  options.stop = interrupted.get_token();
+  const Interruption interruption;
+  options.stop = interruption.token();
+  options.import.cache = cacheFolder(arguments.cache);
   if (!arguments.answers.empty()) {
     auto read = readFile(arguments.answers).and_then([&](const std::string& text) {
       return session::parseAnswers(text, arguments.answers.string());
@@ -99,7 +119,8 @@ int run(const RunArguments& arguments) {
   if (progress) {
     options.progress = [](std::uint64_t blocks) { std::fputs(fmt::format("\r{} blocks ", blocks).c_str(), stderr); };
   }
-  std::signal(SIGINT, onInterrupt);
+  ImportProgress importProgress(isatty(STDERR_FILENO) != 0);
+  if (!arguments.quiet) options.import.progress = [&](const std::string& what) { importProgress.tell(what); };
 
   session::RunOutcome outcome = session::runProgram(arguments.program, *setup, options);
   if (progress) std::fputs("\r\033[K", stderr);
@@ -109,7 +130,7 @@ int run(const RunArguments& arguments) {
   print(outcome.diagnostics, encoding);
   if (hasErrors(outcome.diagnostics)) {
     removeEarlierRun(arguments.out, setup->tables);
-    return 2;
+    return options.stop.stop_requested() ? 3 : 2;
   }
   print(outcome.result.diagnostics, encoding);
 

@@ -22,6 +22,7 @@
 #include "session/remanent_parameters.hpp"
 #include "session/source.hpp"
 #include "session/standing_machine.hpp"
+#include "simulation/cad_solid.hpp"
 #include "simulation/mesh_solid.hpp"
 
 namespace probewright::session {
@@ -336,9 +337,13 @@ std::set<std::string> namesOfData(const simulation::Setup& setup, ControlKind ki
   return names;
 }
 
-/// A mesh with holes holds no material: the probe may enter where a triangle is missing.
-void warnOfOpenMeshes(RunOutcome& outcome, const simulation::Setup& setup) {
+/// What a part lacks: the probe may enter where a triangle or a face is missing.
+void warnOfParts(RunOutcome& outcome, const simulation::Setup& setup) {
   for (const simulation::PlacedSolid& placed : outcome.machine->truth().solids) {
+    if (const auto* cad = dynamic_cast<const simulation::CadSolid*>(placed.solid.get())) {
+      outcome.diagnostics.insert(outcome.diagnostics.end(), cad->remarks().begin(), cad->remarks().end());
+      continue;
+    }
     const auto* mesh = dynamic_cast<const simulation::MeshSolid*>(placed.solid.get());
     if (mesh == nullptr || mesh->isClosed()) continue;
     outcome.diagnostics.push_back(
@@ -386,14 +391,16 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
     conclude(outcome);
     return outcome;
   }
-  Result<std::unique_ptr<simulation::VirtualMachine>> machine = simulation::buildMachine(setup);
+  simulation::ImportOptions import = options.import;
+  import.stop = options.stop;
+  Result<std::unique_ptr<simulation::VirtualMachine>> machine = simulation::buildMachine(setup, import);
   if (!machine) {
     outcome.diagnostics.push_back(machine.error());
     conclude(outcome);
     return outcome;
   }
   outcome.machine = std::move(*machine);
-  warnOfOpenMeshes(outcome, setup);
+  warnOfParts(outcome, setup);
   outcome.machine->recordPath(options.recordPath);
   outcome.info.machine = outcome.machine->description().name;
   outcome.info.axes = outcome.machine->description().axes;

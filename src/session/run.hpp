@@ -57,6 +57,8 @@ struct RunOptions {
   bool showAllResults = false;             ///< screens of results even where nothing asks for them
   /// Told now and then how many blocks have been carried out.
   std::function<void(std::uint64_t blocks)> progress;
+  /// How files of parts are imported; `stop` above stops that, too.
+  simulation::ImportOptions import;
 };
 
 /// What a run leaves behind.

@@ -11,7 +11,7 @@ namespace probewright::simulation {
 
 namespace {
 
-Result<std::unique_ptr<Solid>> load(const SolidSource& source) {
+Result<std::unique_ptr<Solid>> load(const SolidSource& source, const ImportOptions& import) {
   if (source.file.empty()) return buildSolid(source.recipe);
   std::string ending = source.file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -21,17 +21,17 @@ Result<std::unique_ptr<Solid>> load(const SolidSource& source) {
                 "Name the part's file relative to this file");
   }
   const bool isStep = ending == ".step" || ending == ".stp", isIges = ending == ".iges" || ending == ".igs";
-  auto solid = isStep ? readStep(source.file) : isIges ? readIges(source.file) : readStl(source.file);
+  auto solid = isStep ? readStep(source.file, import) : isIges ? readIges(source.file, import) : readStl(source.file);
   if (!solid && solid.error().place.file.empty()) solid.error().place = source.place;
   return solid;
 }
 
 }  // namespace
 
-Result<std::unique_ptr<VirtualMachine>> buildMachine(const Setup& setup) {
+Result<std::unique_ptr<VirtualMachine>> buildMachine(const Setup& setup, const ImportOptions& import) {
   Truth truth = setup.truth;
   for (const SetupSolid& entry : setup.solids) {
-    auto solid = load(entry.source);
+    auto solid = load(entry.source, import);
     if (!solid) return tl::unexpected(std::move(solid.error()));
     truth.solids.push_back({std::move(*solid), entry.tableFromSolid, entry.name, entry.role});
   }

@@ -22,6 +22,8 @@ namespace probewright::simulation {
 namespace {
 
 constexpr double kAngularDeflection = 0.35;
+/// A part with more triangles is drawn with those that find its faces: others would take about as long to make.
+constexpr std::size_t kMostToCoarsen = 50'000;
 
 template <class Triple>
 void append(std::vector<float>& list, const Triple& p) {
@@ -75,9 +77,12 @@ void appendFace(DrawingMesh& drawing, const TopoDS_Face& face) {
 DrawingMesh CadSolid::drawing(double deflection) const {
   DrawingMesh drawing;
   try {
-    // A copy, because tessellating writes into the shape.
-    const TopoDS_Shape copy = BRepBuilderAPI_Copy(shape(), Standard_False, Standard_False).Shape();
-    BRepMesh_IncrementalMesh mesher(copy, deflection, Standard_False, kAngularDeflection);
+    TopoDS_Shape copy = shape();
+    if (triangleCount() <= kMostToCoarsen && !hasGrids_) {
+      // A copy, because tessellating writes into the shape.
+      copy = BRepBuilderAPI_Copy(shape(), Standard_False, Standard_False).Shape();
+      BRepMesh_IncrementalMesh mesher(copy, deflection, Standard_False, kAngularDeflection);
+    }
     for (TopExp_Explorer faces(copy, TopAbs_FACE); faces.More(); faces.Next()) {
       appendFace(drawing, TopoDS::Face(faces.Current()));
     }

@@ -1,108 +1,399 @@
-#include <APIHeaderSection_MakeHeader.hxx>
-#include <IGESControl_Reader.hxx>
-#include <Interface_CheckIterator.hxx>
-#include <Interface_InterfaceModel.hxx>
-#include <Interface_Static.hxx>
-#include <Message.hxx>
-#include <Message_Messenger.hxx>
-#include <STEPControl_Reader.hxx>
-#include <STEPControl_Writer.hxx>
+#include <fmt/format.h>
+#include <BinTools.hxx>
 #include <Standard_Failure.hxx>
-#include <StepBasic_Product.hxx>
-#include <StepData_Protocol.hxx>
-#include <StepData_StepModel.hxx>
-#include <StepData_StepWriter.hxx>
-#include <TCollection_HAsciiString.hxx>
-#include <TopExp_Explorer.hxx>
-#include <XSControl_WorkSession.hxx>
-#include <mutex>
+#include <Standard_Version.hxx>
+#include <TopoDS_Shape.hxx>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <csignal>
+#include <map>
 #include <sstream>
+#include <vector>
 
 #include "base/file.hpp"
+#include "simulation/cad_model.hpp"
 #include "simulation/cad_solid.hpp"
+#include "simulation/cad_transfer.hpp"
+#include "simulation/import_cache.hpp"
+#include "simulation/imported_part.hpp"
+#include "simulation/step_text.hpp"
 
 namespace probewright::simulation {
 namespace {
 
-/// OpenCASCADE's data exchange keeps its settings and messages in global variables: one at a time, and quietly.
-std::unique_lock<std::mutex> exchange() {
-  static std::mutex mutex;
-  std::unique_lock lock(mutex);
-  Message::DefaultMessenger()->ChangePrinters().Clear();
-  return lock;
+using Clock = std::chrono::steady_clock;
+
+/// To be counted up whenever an import makes something else of the same file.
+constexpr int kCacheVersion = 1;
+constexpr std::size_t kMostNamed = 10;
+constexpr int kMostAttempts = 5;
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::pair<std::string_view, std::string_view> firstWord(std::string_view line) {
+  const std::size_t blank = line.find(' ');
+  if (blank == std::string_view::npos) return {line, {}};
+  return {line.substr(0, blank), line.substr(blank + 1)};
 }
 
-/// The first complaint the reader has about the file, with its line where the reader tells one.
-tl::unexpected<Diagnostic> complaint(const XSControl_Reader& reader, const std::string& file, const char* kind,
-                                     const char* advice) {
-  std::string reason;
-  const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
-  if (!model.IsNull()) {
-    Interface_CheckIterator checks = reader.WS()->ModelCheckList();
-    for (checks.Start(); checks.More() && reason.empty(); checks.Next()) {
-      if (checks.Value()->NbFails() > 0) reason = checks.Value()->CFail(1);
+int numberIn(std::string_view text) {
+  int number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+/// What the entities of a file are called, and where they stand.
+class EntityNames {
+public:
+  EntityNames(CadFormat format, StepText text, std::string_view bytes) : text_(std::move(text)) {
+    if (format != CadFormat::Iges) return;
+    // The directory has two lines an entity; column 73 names the section.
+    for (std::size_t at = 0; at < bytes.size(); ++firstDirectoryLine_) {
+      if (at + 72 < bytes.size() && bytes[at + 72] == 'D') break;
+      at = std::min(bytes.find('\n', at), bytes.size() - 1) + 1;
     }
   }
-  return fail({file, 0, 0}, std::string("the ") + kind + " file cannot be read" + (reason.empty() ? "" : ": " + reason),
-              advice);
-}
 
-bool hasFace(const TopoDS_Shape& shape) { return !shape.IsNull() && TopExp_Explorer(shape, TopAbs_FACE).More(); }
-
-template <class Reader>
-Result<std::unique_ptr<Solid>> transfer(Reader& reader, const std::string& file, const CadOptions& options) {
-  reader.TransferRoots();
-  const TopoDS_Shape shape = reader.NbShapes() > 0 ? reader.OneShape() : TopoDS_Shape();
-  if (!hasFace(shape)) {
-    return fail({file, 0, 0}, "the file holds no body and no face",
-                "export the part as a solid body, not as a drawing, wire frame or empty assembly");
+  std::uint64_t lineOf(std::string_view label) const {
+    if (label.size() < 2) return 0;
+    const auto number = static_cast<std::uint64_t>(std::max(0, numberIn(label.substr(1))));
+    if (label.front() == 'D') return number == 0 ? 0 : firstDirectoryLine_ + number - 1;
+    const auto found = text_.entities.find(number);
+    return found == text_.entities.end() ? 0 : found->second.line;
   }
-  auto solid = cadSolid(shape, options);
-  if (!solid) solid.error().place.file = file;
-  return solid;
-}
 
-template <class Read>
-Result<std::unique_ptr<Solid>> guarded(const std::string& file, const char* kind, const Read& read) {
-  const auto lock = exchange();
-  const std::string message = std::string("the ") + kind + " file cannot be read";
+  /// "#123 ADVANCED_FACE"; "the directory entry D123".
+  std::string nameOf(std::string_view label) const {
+    if (label.starts_with('D')) return fmt::format("the directory entry {}", label);
+    const auto found = text_.entities.find(static_cast<std::uint64_t>(std::max(0, numberIn(label.substr(1)))));
+    if (found == text_.entities.end() || found->second.type.empty()) return std::string(label);
+    return fmt::format("{} {}", label, found->second.type);
+  }
+
+  /// What the text itself shows to be wrong: an entity and why; the label is empty if there is nothing.
+  std::pair<std::string, std::string> wrongInText() const {
+    if (const std::uint64_t circular = circularEntity(text_); circular != 0)
+      return {fmt::format("#{}", circular), "it refers to itself, directly or through others"};
+    if (text_.dangling != 0)
+      return {fmt::format("#{}", text_.dangling), fmt::format("it refers to #{}, which is not there", text_.missing)};
+    return {};
+  }
+
+private:
+  StepText text_;
+  std::uint64_t firstDirectoryLine_ = 1;
+};
+
+class Import {
+public:
+  Import(TransferOrder order, EntityNames names, const ImportOptions& options)
+      : order_(std::move(order)), names_(std::move(names)), options_(options) {}
+
+  Result<ImportedPart> run() {
+    for (attempt_ = 1;; ++attempt_) {
+      begin();
+      ChildEnd end = inChild([&](const ChildVoice& voice) { return transferCad(order_, voice); },
+                             {options_.seconds - secondsSince(start_), options_.bytes},
+                             [&](std::string_view line) { hear(line); }, [&] { return hasEnough(); });
+      if (options_.stop.stop_requested()) return fail(SourcePlace{order_.file, 0, 0}, "the import was interrupted");
+      if (end.how == ChildEnd::How::Finished && failure_.empty() && !nothing_) return partOf(std::move(end.result));
+      if (end.how == ChildEnd::How::Finished) return tl::unexpected(refused());
+      if (!tryOtherwise(end)) return tl::unexpected(complaint(end));
+    }
+  }
+
+private:
+  struct OpenFace {
+    Clock::time_point since;
+  };
+  struct Suspect {
+    std::string label, reason;
+  };
+  struct Grid {
+    int face = 0;
+    std::string cell, kind;
+  };
+
+  const char* kind() const { return order_.format == CadFormat::Step ? "STEP" : "IGES"; }
+
+  void begin() {
+    open_.clear();
+    suspects_.clear();
+    lost_.clear();
+    grids_.clear();
+    failure_.clear();
+    edges_.clear();
+    at_.clear();
+    skin_ = nothing_ = meshing_ = preparing_ = false;
+    faces_ = done_ = 0;
+    lastSign_ = Clock::now();
+  }
+
+  void hear(std::string_view line) {
+    lastSign_ = Clock::now();
+    const auto [word, rest] = firstWord(line);
+    if (word == "stage") {
+      stage_ = rest;
+      meshing_ = stage_.starts_with("meshing");
+      preparing_ = stage_.starts_with("preparing");
+    } else if (word == "begin") {
+      open_[numberIn(rest)] = {Clock::now()};
+    } else if (word == "end") {
+      open_.erase(numberIn(rest));
+      ++done_;
+    } else if (word == "faces") {
+      faces_ = numberIn(rest);
+    } else if (word == "at") {
+      at_ = rest;
+    } else if (word == "lost") {
+      lost_.emplace_back(rest);
+    } else if (word == "suspect") {
+      const auto [label, reason] = firstWord(rest);
+      suspects_.push_back({std::string(label), std::string(reason)});
+    } else if (word == "grid") {
+      const auto [face, more] = firstWord(rest);
+      const auto [cell, surface] = firstWord(more);
+      grids_.push_back({numberIn(face), std::string(cell), std::string(surface)});
+    } else if (word == "open") {
+      edges_ = rest;
+    } else if (word == "failed") {
+      failure_ = rest;
+    } else if (word == "skin") {
+      skin_ = true;
+    } else if (word == "nothing") {
+      nothing_ = true;
+    }
+  }
+
+  bool hasEnough() {
+    tellProgress();
+    if (options_.stop.stop_requested()) return true;
+    if (!meshing_ || order_.gridAll) return false;
+    const bool faceHangs = std::ranges::any_of(
+        open_, [&](const auto& entry) { return secondsSince(entry.second.since) > options_.faceSeconds; });
+    // Before its faces the mesher does all edges, without a word.
+    return faceHangs || (open_.empty() && secondsSince(lastSign_) > 8 * options_.faceSeconds);
+  }
+
+  void tellProgress() {
+    constexpr double patience = 1, pause = 0.25;  // seconds
+    if (!options_.progress || secondsSince(start_) < patience || secondsSince(lastTold_) < pause) return;
+    lastTold_ = Clock::now();
+    const std::string name = std::filesystem::path(order_.file).filename().string();
+    const std::string count = meshing_ && done_ > 0 ? fmt::format(", {} of {}", std::min(done_, faces_), faces_) : "";
+    options_.progress(fmt::format("{}: {}{}", name, stage_, count));
+  }
+
+  /// True if it is worth another try without the faces that the mesher does not get over.
+  bool tryOtherwise(const ChildEnd& end) {
+    const bool hopeless = end.how == ChildEnd::How::NoProcess || end.how == ChildEnd::How::OutOfTime;
+    if (hopeless || !meshing_ || order_.gridAll) return false;
+    const double longest = end.how == ChildEnd::How::Ended ? options_.faceSeconds / 2 : 0;
+    bool found = false;
+    for (const auto& [face, opened] : open_) {
+      if (secondsSince(opened.since) >= longest) found = order_.gridFaces.insert(face).second || found;
+    }
+    if (!found || attempt_ >= kMostAttempts) order_.gridAll = true;
+    return true;
+  }
+
+  Diagnostic mistake(std::uint64_t line, const std::string& reason, std::string advice = {}) const {
+    if (advice.empty())
+      advice = fmt::format("export the part again as {}",
+                           order_.format == CadFormat::Step ? "STEP (AP203, AP214 or AP242)" : "IGES 5.3 or as STEP");
+    return fail({order_.file, line, 0}, fmt::format("the {} file cannot be read: {}", kind(), reason),
+                std::move(advice))
+        .value();
+  }
+
+  /// About an entity that cannot be right.
+  std::optional<Diagnostic> blame() const {
+    if (!suspects_.empty()) {
+      const Suspect& first = suspects_.front();
+      return mistake(names_.lineOf(first.label), fmt::format("{}: {}", names_.nameOf(first.label), first.reason),
+                     "the file is damaged in this entity; export or copy the part again");
+    }
+    if (const auto [label, reason] = names_.wrongInText(); !label.empty()) {
+      return mistake(names_.lineOf(label), fmt::format("{}: {}", names_.nameOf(label), reason),
+                     "the file is damaged in this entity; export or copy the part again");
+    }
+    return std::nullopt;
+  }
+
+  Diagnostic refused() {
+    if (auto blamed = blame()) return *blamed;
+    if (!failure_.empty()) return mistake(0, failure_);
+    return fail({order_.file, 0, 0}, "the file holds no body and no face",
+                "export the part as a solid body, not as a drawing, wire frame or empty assembly")
+        .value();
+  }
+
+  Diagnostic complaint(const ChildEnd& end) {
+    using How = ChildEnd::How;
+    if (end.how == How::NoProcess) {
+      return mistake(0, "no process can be started for it: " + end.result, "close other programs and try again");
+    }
+    if (end.how == How::OutOfTime) {
+      return mistake(0, fmt::format("{} takes longer than {:.0f} s", stage_, options_.seconds),
+                     "simplify the part, or export it as STL");
+    }
+    if (auto blamed = blame()) return *blamed;
+    const bool memory = end.how == How::OutOfMemory;
+    const char* what = memory ? "takes too much memory" : "makes OpenCASCADE crash";
+    const std::string label = preparing_ || meshing_ ? std::string() : culprit();
+    if (label.empty()) {
+      return mistake(0, fmt::format("{} {}", stage_.empty() ? "reading it" : stage_, what),
+                     memory ? "simplify the part, or export it as STL" : "");
+    }
+    return mistake(names_.lineOf(label), fmt::format("{} {}", names_.nameOf(label), what),
+                   "the file is damaged in this entity or in one that it refers to; export or copy the part again");
+  }
+
+  /// The entity that a crash is about: the face if one alone does it, else the body.
+  std::string culprit() {
+    const std::string body = at_;
+    if (body.empty()) return {};
+    at_.clear();
+    const ChildEnd end =
+        inChild([&](const ChildVoice& voice) { return searchFaces(order_, voice); },
+                {std::min(60.0, options_.seconds), options_.bytes}, [&](std::string_view line) { hear(line); },
+                [&] { return options_.stop.stop_requested(); });
+    return end.how == ChildEnd::How::Crashed && !at_.empty() ? at_ : body;
+  }
+
+  void remark(ImportedPart& part, std::uint64_t line, std::string message, std::string advice) const {
+    part.remarks.push_back({Severity::Warning, {{}, line, 0}, std::move(message), {}, std::move(advice), {}});
+  }
+
+  Result<ImportedPart> partOf(std::string brep) const {
+    ImportedPart part;
+    for (const std::string& label : lost_) {
+      if (part.remarks.size() == kMostNamed) {
+        remark(part, 0, fmt::format("{} more faces are missing", lost_.size() - kMostNamed), {});
+        break;
+      }
+      std::string reason;
+      for (const Suspect& suspect : suspects_) {
+        if (suspect.label == label) reason = ": " + suspect.reason;
+      }
+      remark(part, names_.lineOf(label),
+             fmt::format("the face {} cannot be read and is missing{}", names_.nameOf(label), reason),
+             "the probe passes through where it should be; export the part again");
+    }
+    if (!edges_.empty()) {
+      std::vector<std::string> words;
+      std::istringstream stream(edges_);
+      for (std::string word; stream >> word;)
+        words.push_back(word);
+      words.resize(4);
+      remark(part, 0,
+             fmt::format("the surface is not closed: {} edges belong to one face only, one of them near "
+                         "X{} Y{} Z{} of the part",
+                         words[0], words[1], words[2], words[3]),
+             "the probe meets only the faces there are; export the part again as one solid body");
+    } else if (skin_) {
+      remark(part, 0, "the file holds faces, but no solid body",
+             "the probe meets the faces from both sides; export the part as one solid body if it is one");
+    }
+    const bool somethingWrong = !part.remarks.empty() && (!skin_ || !lost_.empty() || !edges_.empty());
+    for (std::size_t i = 0; somethingWrong && i < std::min(suspects_.size(), kMostNamed); ++i) {
+      if (std::ranges::find(lost_, suspects_[i].label) != lost_.end()) continue;
+      remark(part, names_.lineOf(suspects_[i].label),
+             fmt::format("{} cannot be read: {}", names_.nameOf(suspects_[i].label), suspects_[i].reason),
+             "the file is damaged in this entity; export or copy the part again");
+    }
+    for (const Grid& grid : grids_) {
+      if (numberIn(grid.cell) == 0 && grid.cell.starts_with("0.000")) {
+        remark(part, 0, fmt::format("face {} of {} ({}) cannot be meshed and is missing", grid.face, faces_, grid.kind),
+               "the probe passes through where it should be; export the part again");
+        continue;
+      }
+      remark(part, 0,
+             fmt::format("face {} of {} ({}) cannot be meshed{} and gets a grid with cells of up to {} mm", grid.face,
+                         faces_, grid.kind, attempt_ > 1 ? " in time" : "", grid.cell),
+             "balls meet it as exactly as other faces; stylus and body may stop up to a cell outside its border");
+    }
+    part.hasGrids = !grids_.empty();
+    part.brep = std::move(brep);
+    return part;
+  }
+
+  TransferOrder order_;
+  EntityNames names_;
+  const ImportOptions& options_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point lastTold_ = start_, lastSign_ = start_;
+  int attempt_ = 1;
+
+  // What the child has said.
+  std::map<int, OpenFace> open_;
+  std::vector<Suspect> suspects_;
+  std::vector<std::string> lost_;
+  std::vector<Grid> grids_;
+  std::string stage_, failure_, edges_, at_;
+  bool skin_ = false, nothing_ = false, meshing_ = false, preparing_ = false;
+  int faces_ = 0, done_ = 0;
+};
+
+Result<std::unique_ptr<Solid>> solidOf(ImportedPart part, const std::string& file, double deflection) {
+  const auto broken = [&](const char* reason) {
+    return fail({file, 0, 0}, fmt::format("the shape cannot be prepared for contact: {}", reason),
+                "export the part again as solid bodies, or as STL");
+  };
   try {
-    return read();
+    TopoDS_Shape shape;
+    std::istringstream stream(std::move(part.brep));
+    BinTools::Read(shape, stream);
+    if (shape.IsNull()) return broken("it is empty");
+    for (Diagnostic& remark : part.remarks)
+      remark.place.file = file;
+    return std::make_unique<CadSolid>(cadModel(shape, deflection), std::move(part.remarks), part.hasGrids);
   } catch (const Standard_Failure& failure) {
-    return fail({file, 0, 0}, message + ": " + failure.GetMessageString(), "export the part again");
-  } catch (const std::exception& failure) {
-    return fail({file, 0, 0}, message + ": " + failure.what(), "export the part again");
+    return broken(failure.GetMessageString());
+  } catch (const std::runtime_error& failure) {
+    return broken(failure.what());
   }
+}
+
+Result<std::unique_ptr<Solid>> import(TransferOrder order, const ImportOptions& options) {
+  order.deflection = options.deflection;
+  const std::string file = order.file;
+  const ImportCache cache(options.cache);
+  std::string key;
+  if (!options.cache.empty()) {
+    key = ImportCache::keyOf(order.bytes, fmt::format("{} {} {} {}", kCacheVersion, OCC_VERSION_COMPLETE,
+                                                      static_cast<int>(order.format), options.deflection));
+    if (const auto kept = cache.find(key)) {
+      if (auto part = partFromBytes(*kept)) return solidOf(std::move(*part), file, options.deflection);
+    }
+  }
+  StepText text;
+  if (order.format == CadFormat::Step) {
+    Result<StepText> scanned = scanStep(order.bytes, file);
+    if (!scanned) return tl::unexpected(std::move(scanned.error()));
+    text = std::move(*scanned);
+  }
+  EntityNames names(order.format, std::move(text), order.bytes);
+  Result<ImportedPart> part = Import(std::move(order), std::move(names), options).run();
+  if (!part) return tl::unexpected(std::move(part.error()));
+  if (!key.empty()) cache.keep(key, toBytes(*part));
+  return solidOf(std::move(*part), file, options.deflection);
 }
 
 }  // namespace
 
-Result<std::unique_ptr<Solid>> readStep(const std::filesystem::path& path, const CadOptions& options) {
+Result<std::unique_ptr<Solid>> readStep(const std::filesystem::path& path, const ImportOptions& options) {
   Result<std::string> bytes = readFile(path);
   if (!bytes) return tl::unexpected(bytes.error());
-  const std::string file = path.string();
-  const std::size_t start = bytes->find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  if (start == std::string::npos) return fail({file, 0, 0}, "the STEP file is empty", "export the part again");
-  if (bytes->compare(start, 12, "ISO-10303-21") != 0) {
-    return fail({file, 1, 1}, "not a STEP file: it does not begin with ISO-10303-21",
-                "export the part as STEP (AP203, AP214 or AP242), or name an IGES or STL file with its own ending");
-  }
-  if (bytes->find("END-ISO-10303-21") == std::string::npos) {
-    return fail({file, 0, 0}, "the STEP file ends before END-ISO-10303-21",
-                "the file was cut short; copy or export it again");
-  }
-  return guarded(file, "STEP", [&]() -> Result<std::unique_ptr<Solid>> {
-    STEPControl_Reader reader;
-    Interface_Static::SetCVal("xstep.cascade.unit", "MM");
-    std::istringstream stream(std::move(*bytes));
-    if (reader.ReadStream(file.c_str(), stream) != IFSelect_RetDone) {
-      return complaint(reader, file, "STEP", "export the part again as STEP (AP203, AP214 or AP242)");
-    }
-    return transfer(reader, file, options);
-  });
+  TransferOrder order;
+  order.file = path.string();
+  order.bytes = std::move(*bytes);
+  return import(std::move(order), options);
 }
 
-Result<std::unique_ptr<Solid>> readIges(const std::filesystem::path& path, const CadOptions& options) {
+Result<std::unique_ptr<Solid>> readIges(const std::filesystem::path& path, const ImportOptions& options) {
   Result<std::string> bytes = readFile(path);
   if (!bytes) return tl::unexpected(bytes.error());
   const std::string file = path.string();
@@ -114,54 +405,11 @@ Result<std::unique_ptr<Solid>> readIges(const std::filesystem::path& path, const
     return fail({file, 1, 73}, "not an IGES file: the first line has no section letter S in column 73",
                 "export the part as IGES 5.3, or name a STEP or STL file with its own ending");
   }
-  return guarded(file, "IGES", [&]() -> Result<std::unique_ptr<Solid>> {
-    IGESControl_Reader reader;
-    Interface_Static::SetCVal("xstep.cascade.unit", "MM");
-    if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
-      return complaint(reader, file, "IGES", "export the part again as IGES 5.3 or as STEP");
-    }
-    return transfer(reader, file, options);
-  });
-}
-
-Result<void> writeStep(const TopoDS_Shape& shape, const std::filesystem::path& path) {
-  const auto lock = exchange();
-  const auto broken = [&](const std::string& reason) {
-    return fail({path.string(), 0, 0}, "the part cannot be written as STEP" + reason, "write it as STL instead");
-  };
-  std::ostringstream stream;
-  try {
-    STEPControl_Writer writer;
-    Interface_Static::SetCVal("write.step.schema", "AP214IS");
-    Interface_Static::SetCVal("write.step.unit", "MM");
-    if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone) return broken("");
-    const auto text = [](const char* value) { return new TCollection_HAsciiString(value); };
-    // The writer numbers the products of a process; two writings of one part would differ.
-    for (int i = 1; i <= writer.Model()->NbEntities(); ++i) {
-      if (const auto product = Handle(StepBasic_Product)::DownCast(writer.Model()->Value(i))) {
-        product->SetId(text(path.stem().string().c_str()));
-        product->SetName(text(path.stem().string().c_str()));
-      }
-    }
-    APIHeaderSection_MakeHeader header(writer.Model());
-    header.SetName(text(path.filename().string().c_str()));
-    header.SetTimeStamp(text("2000-01-01T00:00:00"));
-    header.SetAuthorValue(1, text("Probewright"));
-    header.SetOrganizationValue(1, text("Probewright"));
-    header.SetOriginatingSystem(text("Probewright"));
-    header.Apply(writer.Model());
-    StepData_StepWriter printer(writer.Model());
-    printer.SendModel(Handle(StepData_Protocol)::DownCast(writer.WS()->Protocol()));
-    if (!printer.Print(stream)) return broken("");
-  } catch (const Standard_Failure& failure) {
-    return broken(std::string(": ") + failure.GetMessageString());
-  }
-  return writeFileAtomically(path, stream.str());
-}
-
-Result<void> writeStep(const Solid& solid, const std::filesystem::path& path) {
-  if (const auto* cad = dynamic_cast<const CadSolid*>(&solid)) return writeStep(cad->shape(), path);
-  return fail({path.string(), 0, 0}, "a solid of triangles cannot be written as STEP", "write it as STL instead");
+  TransferOrder order;
+  order.format = CadFormat::Iges;
+  order.file = file;
+  order.bytes = std::move(*bytes);
+  return import(std::move(order), options);
 }
 
 }  // namespace probewright::simulation

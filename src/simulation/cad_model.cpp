@@ -1,8 +1,6 @@
 #include "simulation/cad_model.hpp"
 
 #include <BRepLib.hxx>
-#include <BRepMesh_IncrementalMesh.hxx>
-#include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <GeomAdaptor_Curve.hxx>
 #include <GeomAdaptor_Surface.hxx>
@@ -21,11 +19,13 @@
 #include <TopoDS_Face.hxx>
 #include <stdexcept>
 
+#include "simulation/face_mesh.hpp"
+
 namespace probewright::simulation {
 namespace {
 
-constexpr double kAngularDeflection = 0.3;
 constexpr double kLeastGrowth = 1e-6;
+constexpr double kFarthest = 1e9;  // mm
 
 template <class Triple>
 Vector3 vector(const Triple& p) {
@@ -259,7 +259,8 @@ bool isClosed(const TopoDS_Shape& solid) {
   return true;
 }
 
-/// The shape with faces cut along the kinks of their surfaces, which OpenCASCADE tessellates for hours.
+}  // namespace
+
 TopoDS_Shape withoutKinks(const TopoDS_Shape& shape) {
   bool kinked = false;
   for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More() && !kinked; faces.Next()) {
@@ -275,15 +276,13 @@ TopoDS_Shape withoutKinks(const TopoDS_Shape& shape) {
   return divide.Result().IsNull() ? shape : divide.Result();
 }
 
-}  // namespace
-
-CadModel cadModel(const TopoDS_Shape& part, double deflection) {
+CadModel cadFaces(const TopoDS_Shape& part, double deflection) {
   CadModel model;
-  const TopoDS_Shape shape = withoutKinks(part);
+  const bool meshed = isMeshed(part, deflection);
+  const TopoDS_Shape shape = meshed ? part : withoutKinks(part);
   model.shape = shape;
   BRepLib::BuildCurves3d(shape);
-  BRepTools::Clean(shape);
-  BRepMesh_IncrementalMesh mesher(shape, deflection, Standard_False, kAngularDeflection);
+  if (!meshed) meshFaces(shape, deflection);
 
   for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next()) {
     const bool closed = isClosed(solids.Current());
@@ -302,16 +301,23 @@ CadModel cadModel(const TopoDS_Shape& part, double deflection) {
     addEdgeElements(model, static_cast<std::uint32_t>(model.edges.size() - 1), deflection);
   }
   if (model.faces.empty()) throw std::runtime_error("the shape has no face that can be touched");
-
-  std::vector<SearchElement> search;
-  search.reserve(model.elements.size());
   for (const CadElement& element : model.elements) {
+    if (!std::isfinite(element.growth)) throw std::runtime_error("a face or edge has points that are no numbers");
     for (const Vector3& corner : element.corners) {
+      if (!(corner.cwiseAbs().maxCoeff() <= kFarthest)) throw std::runtime_error("it reaches further than 1000 km");
       model.bounds.minimum = model.bounds.minimum.cwiseMin(corner);
       model.bounds.maximum = model.bounds.maximum.cwiseMax(corner);
     }
-    search.push_back({element.corners, element.growth});
   }
+  return model;
+}
+
+CadModel cadModel(const TopoDS_Shape& shape, double deflection) {
+  CadModel model = cadFaces(shape, deflection);
+  std::vector<SearchElement> search;
+  search.reserve(model.elements.size());
+  for (const CadElement& element : model.elements)
+    search.push_back({element.corners, element.growth});
   model.tree = SearchTree(search, Elements::NearTriangles);
   std::vector<CadElement> ordered;
   ordered.reserve(model.elements.size());

@@ -52,7 +52,14 @@ struct CadModel {
   bool closed = false;  ///< some of its faces bound solids, so that a point is inside or outside
 };
 
-/// Tessellates and prepares a shape. Throws Standard_Failure or std::runtime_error where that is impossible.
+/// The shape with faces cut along the kinks of their surfaces, which OpenCASCADE tessellates for hours.
+TopoDS_Shape withoutKinks(const TopoDS_Shape& shape);
+
+/// Everything but the tree and the order of the elements: faces, edges, elements. Throws as cadModel() does.
+CadModel cadFaces(const TopoDS_Shape& shape, double deflection);
+
+/// Prepares a shape; tessellates it unless it has triangles that are fine enough. Throws Standard_Failure or
+/// std::runtime_error where that is impossible.
 CadModel cadModel(const TopoDS_Shape& shape, double deflection);
 
 }  // namespace probewright::simulation

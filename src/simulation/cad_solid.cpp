@@ -56,7 +56,8 @@ void meet(const CadModel& model, const CadElement& element, const Way& way, doub
 
 }  // namespace
 
-CadSolid::CadSolid(CadModel model) : model_(std::make_unique<const CadModel>(std::move(model))) {}
+CadSolid::CadSolid(CadModel model, Diagnostics remarks, bool hasGrids)
+    : model_(std::make_unique<const CadModel>(std::move(model))), remarks_(std::move(remarks)), hasGrids_(hasGrids) {}
 CadSolid::~CadSolid() = default;
 
 Bounds CadSolid::bounds() const { return model_->bounds; }

@@ -5,6 +5,7 @@
 
 #include "base/diagnostic.hpp"
 #include "simulation/drawing_mesh.hpp"
+#include "simulation/import_options.hpp"
 #include "simulation/solid.hpp"
 
 class TopoDS_Shape;
@@ -25,7 +26,8 @@ struct CadOptions {
 /// whatever starts there makes contact at fraction 0.
 class CadSolid final : public Solid {
 public:
-  explicit CadSolid(CadModel model);
+  /// `hasGrids`: the mesher cannot do some of the faces; it is not asked again.
+  explicit CadSolid(CadModel model, Diagnostics remarks = {}, bool hasGrids = false);
   ~CadSolid() override;
 
   Bounds bounds() const override;
@@ -37,23 +39,30 @@ public:
                                                   double radius) const override;
 
   const TopoDS_Shape& shape() const;
+  /// Warnings about the file that the solid comes from: what is missing or not as it should be.
+  const Diagnostics& remarks() const { return remarks_; }
   std::size_t faceCount() const;
   std::size_t triangleCount() const;
-  /// `deflection`: how far triangles may leave the surface, mm.
+  /// `deflection`: how far triangles may leave the surface, mm. Large parts, and those that the mesher cannot do, are
+  /// drawn with the triangles they have.
   DrawingMesh drawing(double deflection = 0.05) const;
 
 private:
   bool isInside(const Vector3& point) const;
 
   std::unique_ptr<const CadModel> model_;
+  Diagnostics remarks_;
+  bool hasGrids_ = false;
 };
 
 /// Prepares a shape for contact; fails where it has no face or cannot be tessellated.
 Result<std::unique_ptr<Solid>> cadSolid(const TopoDS_Shape& shape, const CadOptions& options = {});
 
 /// All bodies (or faces, where there are no bodies) of a STEP or IGES file, in mm, in the file's own frame.
-Result<std::unique_ptr<Solid>> readStep(const std::filesystem::path& path, const CadOptions& options = {});
-Result<std::unique_ptr<Solid>> readIges(const std::filesystem::path& path, const CadOptions& options = {});
+/// A file that makes OpenCASCADE crash, hang or take all memory is refused; what a shape that can be used lacks is in
+/// the remarks of the solid.
+Result<std::unique_ptr<Solid>> readStep(const std::filesystem::path& path, const ImportOptions& options = {});
+Result<std::unique_ptr<Solid>> readIges(const std::filesystem::path& path, const ImportOptions& options = {});
 
 /// Writes a solid that came from CAD or a recipe as STEP (AP214, mm). The header's time stamp is fixed, so the same
 /// solid gives the same file. Fails for solids of triangles.

@@ -11,6 +11,7 @@
 
 #include "base/diagnostic.hpp"
 #include "control/control_kind.hpp"
+#include "simulation/import_options.hpp"
 #include "simulation/solid_recipe.hpp"
 #include "simulation/truth.hpp"
 
@@ -98,6 +99,6 @@ std::optional<Setup> parseSetup(std::string_view text, const std::string& file, 
 std::optional<Setup> readSetup(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 /// Loads the solids and puts the machine together.
-Result<std::unique_ptr<VirtualMachine>> buildMachine(const Setup& setup);
+Result<std::unique_ptr<VirtualMachine>> buildMachine(const Setup& setup, const ImportOptions& import = {});
 
 }  // namespace probewright::simulation

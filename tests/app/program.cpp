@@ -40,6 +40,7 @@ Answer probewright(const std::vector<std::string>& words, const std::string& els
     dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
     dup2(open(output.c_str(), flags, 0600), STDOUT_FILENO);
     dup2(open(errors.c_str(), flags, 0600), STDERR_FILENO);
+    setenv("PROBEWRIGHT_CACHE", "off", 1);  // a test leaves nothing in the user's folders
     if (chdir(PROBEWRIGHT_SOURCE_DIR) != 0) _exit(127);
     execv(arguments[0], arguments.data());
     _exit(127);

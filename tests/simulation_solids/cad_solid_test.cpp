@@ -383,7 +383,7 @@ TEST(CadFiles, ReadIges) {
 TEST(CadFiles, SayWhatIsWrongWithABadFile) {
   const ScratchFolder folder;
   const auto message = [&](const auto& read, const std::string& bytes) {
-    const auto solid = read(folder.write("bad.file", bytes), CadOptions{});
+    const auto solid = read(folder.write("bad.file", bytes), ImportOptions{});
     return solid ? std::string("read") : format(solid.error());
   };
   EXPECT_THAT(message(readStep, " \n"), AllOf(HasSubstr("bad.file"), HasSubstr("empty")));

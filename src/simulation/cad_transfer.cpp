@@ -1,0 +1,222 @@
+#include "simulation/cad_transfer.hpp"
+
+#include <fmt/format.h>
+#include <BRepLib.hxx>
+#include <BRep_Tool.hxx>
+#include <BinTools.hxx>
+#include <IGESControl_Reader.hxx>
+#include <IGESGeom_BoundedSurface.hxx>
+#include <IGESGeom_TrimmedSurface.hxx>
+#include <IGESSolid_Face.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_CheckIterator.hxx>
+#include <Interface_InterfaceModel.hxx>
+#include <Interface_ReportEntity.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <OSD_Parallel.hxx>
+#include <STEPControl_Reader.hxx>
+#include <Standard_Failure.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepShape_FaceSurface.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <memory>
+#include <sstream>
+#include <thread>
+
+#include "simulation/cad_model.hpp"
+#include "simulation/face_mesh.hpp"
+
+namespace probewright::simulation {
+namespace {
+
+constexpr int kMostSuspects = 20;
+
+std::string labelOf(const Handle(Interface_InterfaceModel) & model, const Handle(Standard_Transient) & entity) {
+  if (const auto step = Handle(StepData_StepModel)::DownCast(model))
+    return fmt::format("#{}", step->IdentLabel(entity));
+  return fmt::format("D{}", 2 * model->Number(entity) - 1);
+}
+
+bool isFace(const Handle(Standard_Transient) & entity) {
+  return entity->IsKind(STANDARD_TYPE(StepShape_FaceSurface)) || entity->IsKind(STANDARD_TYPE(IGESSolid_Face)) ||
+         entity->IsKind(STANDARD_TYPE(IGESGeom_TrimmedSurface)) ||
+         entity->IsKind(STANDARD_TYPE(IGESGeom_BoundedSurface));
+}
+
+/// Not a colour, a dimension or a note: parts of CAD systems are full of those that OpenCASCADE does not know.
+bool isGeometry(const Handle(Interface_InterfaceModel) & model, int place) {
+  const Handle(Standard_Transient) entity =
+      model->IsErrorEntity(place) ? model->ReportEntity(place)->Concerned() : model->Value(place);
+  if (entity.IsNull()) return false;
+  const std::string_view type = entity->DynamicType()->Name();
+  return type.starts_with("StepGeom_") || type.starts_with("StepShape_") || type.starts_with("IGESGeom_") ||
+         type.starts_with("IGESSolid_");
+}
+
+/// A file read into entities; no shape is built yet.
+std::unique_ptr<XSControl_Reader> load(const TransferOrder& order, const ChildVoice& voice) {
+  Message::DefaultMessenger()->ChangePrinters().Clear();
+  voice.say("stage reading the file");
+  std::unique_ptr<XSControl_Reader> reader;
+  if (order.format == CadFormat::Step)
+    reader = std::make_unique<STEPControl_Reader>();
+  else
+    reader = std::make_unique<IGESControl_Reader>();
+  Interface_Static::SetCVal("xstep.cascade.unit", "MM");
+  IFSelect_ReturnStatus status = IFSelect_RetVoid;
+  if (order.format == CadFormat::Step) {
+    std::istringstream stream(order.bytes);
+    status = static_cast<STEPControl_Reader&>(*reader).ReadStream(order.file.c_str(), stream);
+  } else {
+    status = reader->ReadFile(order.file.c_str());
+  }
+  const Handle(Interface_InterfaceModel) model = reader->WS()->Model();
+  if (!model.IsNull()) {
+    int told = 0;
+    for (int i = 1; i <= model->NbEntities() && told < kMostSuspects; ++i) {
+      if (!model->IsReportEntity(i)) continue;
+      const Handle(Interface_Check) check = model->Check(i, Standard_True);
+      if (check->NbFails() == 0 || !isGeometry(model, i)) continue;
+      voice.say(fmt::format("suspect {} {}", labelOf(model, model->Value(i)), check->CFail(1)));
+      ++told;
+    }
+  }
+  if (status == IFSelect_RetDone) return reader;
+  std::string reason = "it is not what such a file must be";
+  if (!model.IsNull()) {
+    Interface_CheckIterator checks = reader->WS()->ModelCheckList();
+    for (checks.Start(); checks.More(); checks.Next()) {
+      if (checks.Value()->NbFails() == 0) continue;
+      reason = checks.Value()->CFail(1);
+      break;
+    }
+  }
+  voice.say("failed " + reason);
+  return nullptr;
+}
+
+TopoDS_Shape build(XSControl_Reader& reader, const ChildVoice& voice) {
+  voice.say("stage building the part");
+  const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
+  const int roots = reader.NbRootsForTransfer();
+  for (int i = 1; i <= roots; ++i) {
+    voice.say("at " + labelOf(model, reader.RootForTransfer(i)));
+    reader.TransferOneRoot(i);
+  }
+  return reader.NbShapes() > 0 ? reader.OneShape() : TopoDS_Shape();
+}
+
+/// Names the faces of the file that came to nothing.
+void nameLostFaces(const XSControl_Reader& reader, const ChildVoice& voice) {
+  const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
+  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const Handle(Standard_Transient) entity = model->Value(i);
+    const bool broken = model->IsErrorEntity(i);
+    if (!isFace(broken ? model->ReportEntity(i)->Concerned() : entity)) continue;
+    if (broken || TransferBRep::ShapeResult(process, entity).IsNull()) voice.say("lost " + labelOf(model, entity));
+  }
+}
+
+void nameOpenEdges(const TopoDS_Shape& shape, const ChildVoice& voice) {
+  if (!TopExp_Explorer(shape, TopAbs_SOLID).More()) voice.say("skin");
+  int count = 0;
+  gp_Pnt place;
+  for (TopExp_Explorer shells(shape, TopAbs_SHELL); shells.More(); shells.Next()) {
+    TopTools_IndexedDataMapOfShapeListOfShape facesOfEdges;
+    TopExp::MapShapesAndAncestors(shells.Current(), TopAbs_EDGE, TopAbs_FACE, facesOfEdges);
+    for (int i = 1; i <= facesOfEdges.Extent(); ++i) {
+      const TopoDS_Edge& edge = TopoDS::Edge(facesOfEdges.FindKey(i));
+      if (facesOfEdges(i).Extent() != 1 || BRep_Tool::Degenerated(edge)) continue;
+      if (BRep_Tool::IsClosed(edge, TopoDS::Face(facesOfEdges(i).First()))) continue;
+      double first = 0, last = 0;
+      const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+      if (++count == 1 && !curve.IsNull()) place = curve->Value((first + last) / 2);
+    }
+  }
+  if (count > 0) voice.say(fmt::format("open {} {:.3f} {:.3f} {:.3f}", count, place.X(), place.Y(), place.Z()));
+}
+
+void mesh(const TopoDS_Shape& shape, const TransferOrder& order, const ChildVoice& voice) {
+  voice.say(fmt::format("faces {}", faceCount(shape)));
+  voice.say("stage meshing the faces");
+  FaceMeshOptions options;
+  options.left = order.gridFaces;
+  options.leaveAll = order.gridAll;
+  // Threads of its own: those of a library that the parent uses do not exist here.
+  OSD_Parallel::SetUseOcctThreads(true);
+  options.parallel = std::thread::hardware_concurrency() > 1;
+  options.begins = [&](int face) { voice.say(fmt::format("begin {}", face)); };
+  options.ends = [&](int face) { voice.say(fmt::format("end {}", face)); };
+  BRepLib::BuildCurves3d(shape);
+  for (const GridFace& grid : meshFaces(shape, order.deflection, options))
+    voice.say(fmt::format("grid {} {:.3f} {}", grid.face, grid.cell, grid.kind));
+}
+
+template <class Work>
+std::string guarded(const ChildVoice& voice, const Work& work) {
+  try {
+    return work();
+  } catch (const Standard_OutOfMemory&) {
+    throw std::bad_alloc();
+  } catch (const Standard_Failure& failure) {
+    voice.say(fmt::format("failed {}", failure.GetMessageString()));
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& failure) {
+    voice.say(fmt::format("failed {}", failure.what()));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string transferCad(const TransferOrder& order, const ChildVoice& voice) {
+  return guarded(voice, [&]() -> std::string {
+    const auto reader = load(order, voice);
+    if (!reader) return {};
+    TopoDS_Shape shape = build(*reader, voice);
+    if (shape.IsNull() || !TopExp_Explorer(shape, TopAbs_FACE).More()) {
+      voice.say("nothing");
+      return {};
+    }
+    nameLostFaces(*reader, voice);
+    nameOpenEdges(shape, voice);
+    voice.say("stage looking for kinks");
+    shape = withoutKinks(shape);
+    mesh(shape, order, voice);
+    voice.say("stage preparing the faces");
+    // What cannot stand this shall not happen to the parent.
+    cadFaces(shape, order.deflection);
+    std::ostringstream bytes;
+    BinTools::Write(shape, bytes, Standard_True, Standard_False, BinTools_FormatVersion_CURRENT);
+    return std::move(bytes).str();
+  });
+}
+
+std::string searchFaces(const TransferOrder& order, const ChildVoice& voice) {
+  return guarded(voice, [&]() -> std::string {
+    const auto reader = load(order, voice);
+    if (!reader) return {};
+    const Handle(Interface_InterfaceModel) model = reader->WS()->Model();
+    for (int i = 1; i <= model->NbEntities(); ++i) {
+      if (model->IsErrorEntity(i) || !isFace(model->Value(i))) continue;
+      voice.say("at " + labelOf(model, model->Value(i)));
+      reader->TransferEntity(model->Value(i));
+    }
+    return {};
+  });
+}
+
+}  // namespace probewright::simulation

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <TopoDS_Shape.hxx>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+/// Triangles on the faces of a shape, kept in the shape itself.
+namespace probewright::simulation {
+
+struct FaceMeshOptions {
+  bool parallel = false;
+  std::set<int> left;     ///< faces that are not to be tried: they get a grid at once
+  bool leaveAll = false;  ///< every face that is not flat gets a grid at once
+  /// Told when the mesher begins with a face and when it is done with it; from several threads, if `parallel`.
+  std::function<void(int face)> begins, ends;
+};
+
+/// A face that the mesher cannot do.
+struct GridFace {
+  int face = 0;          ///< counted from 1, in the order in which an explorer meets the faces of the shape
+  std::string kind;      ///< "B-spline surface"
+  double deviation = 0;  ///< mm: how far the grid may leave the surface
+  double cell = 0;       ///< mm: how far it may reach over the border of the face
+};
+
+/// The faces of a shape that are different from each other, in the order in which an explorer meets them.
+std::size_t faceCount(const TopoDS_Shape& shape);
+
+/// True if every face has triangles that leave it by at most `deflection`.
+bool isMeshed(const TopoDS_Shape& shape, double deflection);
+
+/// Gives every face triangles that leave it by at most `deflection` (mm), as the mesher of OpenCASCADE makes them.
+/// Faces that it leaves without triangles get a grid of cells over their parameters instead: on the surface, but
+/// reaching over the border by up to a cell. They are returned.
+std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, const FaceMeshOptions& options = {});
+
+}  // namespace probewright::simulation

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <stop_token>
+#include <string>
+
+namespace probewright::simulation {
+
+/// How the file of a part is imported.
+struct ImportOptions {
+  /// How far the triangles that find the faces may be off, mm. Contacts of balls do not depend on it, contacts of
+  /// capsules do; smaller takes longer to load.
+  double deflection = 0.01;
+  /// The folder that keeps what was imported, for the next time; empty: none.
+  std::filesystem::path cache;
+  /// Asked to stop, the import ends at once with a mistake.
+  std::stop_token stop;
+  /// Told now and then what is being done, once an import takes longer than a second.
+  std::function<void(const std::string& what)> progress;
+
+  double seconds = 1800;                          ///< after which an import is given up
+  double faceSeconds = 15;                        ///< after which a face is not meshed any further, but gets a grid
+  std::uint64_t bytes = std::uint64_t{8} << 30U;  ///< of memory that an import may take
+};
+
+}  // namespace probewright::simulation

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/diagnostic.hpp"
+
+/// A part as its import hands it over: from the process that reads the file, and from the cache.
+namespace probewright::simulation {
+
+struct ImportedPart {
+  /// Warnings about what is missing or not as it should be; their places have lines, but no file.
+  Diagnostics remarks;
+  bool hasGrids = false;  ///< the mesher cannot do some of the faces
+  std::string brep;       ///< the shape with its triangles, in OpenCASCADE's binary form
+};
+
+std::string toBytes(const ImportedPart& part);
+/// Nothing if `bytes` are not what toBytes() made, as far as their layout goes.
+std::optional<ImportedPart> partFromBytes(std::string_view bytes);
+
+}  // namespace probewright::simulation

@@ -1,0 +1,210 @@
+#include "simulation/step_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <vector>
+
+namespace probewright::simulation {
+namespace {
+
+/// Lists of lists of points of a complex entity need 5.
+constexpr std::size_t kDeepest = 64;
+
+bool isNameLetter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '!'; }
+
+class Scanner {
+public:
+  Scanner(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+
+  Result<StepText> scan() {
+    while (at_ < text_.size()) {
+      if (auto read = statement(); !read) return tl::unexpected(std::move(read.error()));
+      if (atEnd_) return finish();
+    }
+    return broken("the STEP file ends before END-ISO-10303-21", line_);
+  }
+
+private:
+  tl::unexpected<Diagnostic> broken(const std::string& what, std::uint64_t line) const {
+    return fail({file_, line, 0}, what, "the file is damaged; copy or export it again");
+  }
+
+  /// Goes over blanks and comments.
+  Result<void> skip() {
+    for (; at_ < text_.size(); ++at_) {
+      const char c = text_[at_];
+      if (c == '\n') ++line_;
+      if (c == '/' && text_.substr(at_, 2) == "/*") {
+        const std::size_t end = text_.find("*/", at_ + 2);
+        if (end == std::string_view::npos) return broken("a comment of the STEP file has no end", line_);
+        line_ += static_cast<std::uint64_t>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_),
+                                                       text_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+        at_ = end + 1;
+      } else if (std::isspace(static_cast<unsigned char>(c)) == 0) {
+        break;
+      }
+    }
+    return {};
+  }
+
+  std::uint64_t number() {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+    at_ = static_cast<std::size_t>(end - text_.data());
+    return error == std::errc{} ? value : 0;
+  }
+
+  std::string_view word() {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && isNameLetter(text_[at_]))
+      ++at_;
+    return text_.substr(begin, at_ - begin);
+  }
+
+  Result<void> text() {
+    const std::uint64_t begin = line_;
+    for (++at_; at_ < text_.size(); ++at_) {
+      if (text_[at_] == '\n') ++line_;
+      if (text_[at_] == '\'') {
+        ++at_;
+        return {};
+      }
+    }
+    return broken("a text of the STEP file has no end", begin);
+  }
+
+  /// Up to and with the semicolon.
+  Result<void> statement() {
+    if (auto skipped = skip(); !skipped) return skipped;
+    if (at_ == text_.size()) return {};
+    const std::uint64_t begin = line_;
+    std::uint64_t id = 0;
+    if (text_[at_] == '#') {
+      ++at_;
+      id = number();
+      if (auto skipped = skip(); !skipped) return skipped;
+      if (id != 0 && at_ < text_.size() && text_[at_] == '=') {
+        ++at_;
+        if (auto skipped = skip(); !skipped) return skipped;
+        const auto [place, isNew] = result_.entities.try_emplace(id, StepEntity{begin, word()});
+        if (!isNew) {
+          return broken(fmt::format("the STEP file has two entities #{}, the first in line {}", id, place->second.line),
+                        begin);
+        }
+      } else {
+        return broken("an entity of the STEP file has no number", begin);
+      }
+    } else if (text_.substr(at_).starts_with("END-ISO-10303-21")) {
+      atEnd_ = true;
+      return {};
+    }
+    return arguments(id, begin);
+  }
+
+  Result<void> arguments(std::uint64_t id, std::uint64_t begin) {
+    const std::string name = id == 0 ? "the header" : fmt::format("#{}", id);
+    std::size_t depth = 0;
+    while (at_ < text_.size()) {
+      if (auto skipped = skip(); !skipped) return skipped;
+      if (at_ == text_.size()) break;
+      switch (text_[at_]) {
+        case '\'':
+          if (auto read = text(); !read) return read;
+          continue;
+        case '(':
+          if (++depth > kDeepest) return broken(fmt::format("the brackets of {} are nested too deeply", name), begin);
+          break;
+        case ')':
+          if (depth-- == 0) return broken(fmt::format("{} has a bracket ) too many", name), line_);
+          break;
+        case '#':
+          ++at_;
+          if (const std::uint64_t to = number(); id != 0) result_.references.emplace_back(id, to);
+          continue;
+        case ';':
+          ++at_;
+          if (depth > 0) return broken(fmt::format("{} lacks a closing bracket", name), begin);
+          return {};
+        default:
+          break;
+      }
+      ++at_;
+    }
+    return broken(fmt::format("the STEP file ends within {}", name), begin);
+  }
+
+  Result<StepText> finish() {
+    for (const auto& [from, to] : result_.references) {
+      if (result_.entities.contains(to)) continue;
+      result_.dangling = from;
+      result_.missing = to;
+      break;
+    }
+    return std::move(result_);
+  }
+
+  std::string_view text_;
+  const std::string& file_;
+  std::size_t at_ = 0;
+  std::uint64_t line_ = 1;
+  bool atEnd_ = false;
+  StepText result_;
+};
+
+}  // namespace
+
+std::uint64_t circularEntity(const StepText& text) {
+  // Takes away whatever refers to nothing that is left; what stays refers in circles, or to such a circle.
+  std::map<std::uint64_t, std::size_t> open;  // references that an entity still has
+  std::multimap<std::uint64_t, std::uint64_t> users;
+  for (const auto& [from, to] : text.references) {
+    if (!text.entities.contains(to)) continue;
+    ++open[from];
+    users.emplace(to, from);
+  }
+  std::vector<std::uint64_t> free;
+  for (const auto& [id, entity] : text.entities) {
+    if (!open.contains(id)) free.push_back(id);
+  }
+  while (!free.empty()) {
+    const std::uint64_t id = free.back();
+    free.pop_back();
+    const auto [first, last] = users.equal_range(id);
+    for (auto user = first; user != last; ++user) {
+      if (--open[user->second] > 0) continue;
+      open.erase(user->second);
+      free.push_back(user->second);
+    }
+  }
+  if (open.empty()) return 0;
+  // Following references from anywhere ends in the circle.
+  std::map<std::uint64_t, std::uint64_t> next;
+  for (const auto& [from, to] : text.references) {
+    if (open.contains(from) && open.contains(to)) next.try_emplace(from, to);
+  }
+  std::uint64_t at = next.begin()->first;
+  for (std::size_t step = 0; step < next.size(); ++step)
+    at = next.at(at);
+  return at;
+}
+
+Result<StepText> scanStep(std::string_view bytes, const std::string& file) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  if (bytes.starts_with(mark)) bytes.remove_prefix(mark.size());
+  const std::size_t start = bytes.find_first_not_of(" \t\r\n");
+  if (start == std::string_view::npos) return fail({file, 0, 0}, "the STEP file is empty", "export the part again");
+  if (!bytes.substr(start).starts_with("ISO-10303-21")) {
+    return fail({file, 1, 1}, "not a STEP file: it does not begin with ISO-10303-21",
+                "export the part as STEP (AP203, AP214 or AP242), or name an IGES or STL file with its own ending");
+  }
+  if (bytes.find("END-ISO-10303-21") == std::string_view::npos) {
+    return fail({file, 0, 0}, "the STEP file ends before END-ISO-10303-21",
+                "the file was cut short; copy or export it again");
+  }
+  return Scanner(bytes, file).scan();
+}
+
+}  // namespace probewright::simulation

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/diagnostic.hpp"
+
+/// A STEP file (ISO 10303-21) as text: what can be known of it before anybody builds a shape from it.
+namespace probewright::simulation {
+
+struct StepEntity {
+  std::uint64_t line = 0;
+  std::string_view type;  ///< "ADVANCED_FACE"; empty where several types stand in one entity
+};
+
+struct StepText {
+  std::map<std::uint64_t, StepEntity> entities;  ///< by the number after #
+  /// The first entity that refers to one that is not there: its number, and which one it looks for; 0 if there is none.
+  std::uint64_t dangling = 0;
+  std::uint64_t missing = 0;
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> references;  ///< which entity refers to which, in their order
+};
+
+/// An entity that refers to itself, directly or through others; 0 if there is none.
+std::uint64_t circularEntity(const StepText& text);
+
+/// Reads the entities of a STEP file. Refused: a file that is no STEP file or is cut short, brackets that are nested
+/// deeper than any part needs or never closed, texts without an end, two entities of one number. What stands between
+/// the brackets is not looked at. `bytes` must outlive the result.
+Result<StepText> scanStep(std::string_view bytes, const std::string& file);
+
+}  // namespace probewright::simulation

@@ -1,0 +1,147 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+
+#include "simulation/child_process.hpp"
+#include "simulation/import_cache.hpp"
+#include "simulation/imported_part.hpp"
+#include "simulation/step_text.hpp"
+#include "worlds.hpp"
+
+namespace probewright::simulation {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::ScratchFolder;
+using How = ChildEnd::How;
+
+ChildEnd child(const std::function<std::string(const ChildVoice&)>& work, const ChildLimits& limits = {}) {
+  return inChild(
+      work, limits, [](std::string_view) {}, [] { return false; });
+}
+
+TEST(ChildProcess, HandsItsResultAndItsLinesBack) {
+  std::vector<std::string> lines;
+  const std::string large(3'000'000, 'x');
+  const ChildEnd end = inChild(
+      [&](const ChildVoice& voice) {
+        voice.say("one");
+        voice.say("two\nlines");
+        return large;
+      },
+      {}, [&](std::string_view line) { lines.emplace_back(line); }, [] { return false; });
+  EXPECT_EQ(end.how, How::Finished);
+  EXPECT_EQ(end.result, large);
+  EXPECT_THAT(lines, ElementsAre("one", "two lines"));
+}
+
+TEST(ChildProcess, TellsHowItDied) {
+  const ChildEnd crash = child([](const ChildVoice&) -> std::string {
+    std::raise(SIGSEGV);
+    return {};
+  });
+  EXPECT_EQ(crash.how, How::Crashed);
+  const ChildEnd thrown = child([](const ChildVoice&) -> std::string { throw std::runtime_error("no"); });
+  EXPECT_EQ(thrown.how, How::Crashed);
+  EXPECT_EQ(thrown.signal, 0);
+  const ChildEnd full = child([](const ChildVoice&) -> std::string { throw std::bad_alloc(); });
+  EXPECT_EQ(full.how, How::OutOfMemory);
+}
+
+TEST(ChildProcess, EndsAfterItsTimeOrWhenTheParentHasEnough) {
+  const auto sleeps = [](const ChildVoice&) -> std::string {
+    for (;;)
+      std::this_thread::sleep_for(std::chrono::seconds(1));
+  };
+  EXPECT_EQ(child(sleeps, {0.2}).how, How::OutOfTime);
+  EXPECT_EQ(inChild(
+                sleeps, {}, [](std::string_view) {}, [] { return true; })
+                .how,
+            How::Ended);
+}
+
+std::string step(const std::string& data) {
+  return "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n" + data + "ENDSEC;\nEND-ISO-10303-21;\n";
+}
+
+TEST(StepText, KnowsWhereEachEntityStands) {
+  const std::string bytes =
+      step("#1=CARTESIAN_POINT('a;''(#9',(0.,0.,0.));\n/* #3=X();\n */ #20 = DIRECTION\n('',#1,#7);\n");
+  const auto text = scanStep(bytes, "p.step");
+  ASSERT_TRUE(text) << format(text.error());
+  ASSERT_EQ(text->entities.size(), 2U);
+  EXPECT_EQ(text->entities.at(1).line, 5U);
+  EXPECT_EQ(text->entities.at(1).type, "CARTESIAN_POINT");
+  EXPECT_EQ(text->entities.at(20).line, 7U);
+  EXPECT_EQ(text->dangling, 20U);
+  EXPECT_EQ(text->missing, 7U);
+}
+
+TEST(StepText, FindsAnEntityThatRefersToItself) {
+  const auto circular = [](const std::string& data) {
+    const std::string bytes = step(data);
+    const auto text = scanStep(bytes, "p.step");
+    EXPECT_TRUE(text) << format(text.error());
+    return text ? circularEntity(*text) : 0;
+  };
+  EXPECT_EQ(circular("#1=A(#2,#3);\n#2=B(#3,#3);\n#3=C();\n"), 0U);
+  EXPECT_EQ(circular("#1=A(#2);\n#2=B(#2);\n"), 2U);
+  EXPECT_EQ(circular("#1=A(#2);\n#2=B(#3,#9);\n#3=C(#4,#5);\n#4=D();\n#5=E(#3);\n") % 2, 1U);
+}
+
+TEST(StepText, SaysWhatIsWrongAndWhere) {
+  const auto message = [](const std::string& data) {
+    const std::string bytes = step(data);
+    const auto text = scanStep(bytes, "p.step");
+    return text ? std::string("fine") : format(text.error());
+  };
+  EXPECT_THAT(message("#1=A();\n#1=B();\n"),
+              HasSubstr("p.step:6: error: the STEP file has two entities #1, the first in line 5"));
+  EXPECT_THAT(message("#1=A((1,2);\n"), HasSubstr("p.step:5: error: #1 lacks a closing bracket"));
+  EXPECT_THAT(message("#1=A(1,2));\n"), HasSubstr("p.step:5: error: #1 has a bracket ) too many"));
+  EXPECT_THAT(message("\n#1=A('x);\n"), HasSubstr("p.step:6: error: a text of the STEP file has no end"));
+  EXPECT_THAT(message("#1=A(" + std::string(200'000, '(') + ";\n"), HasSubstr("#1 are nested too deeply"));
+}
+
+TEST(ImportedPart, ComesBackAsItWas) {
+  ImportedPart part;
+  part.remarks.push_back({Severity::Warning, {{}, 17, 0}, "a face is missing", {}, "export it again", {}});
+  part.brep = std::string("any\0bytes", 9);
+  const std::string bytes = toBytes(part);
+  const auto read = partFromBytes(bytes);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->brep, part.brep);
+  ASSERT_EQ(read->remarks.size(), 1U);
+  EXPECT_EQ(read->remarks[0].message, "a face is missing");
+  EXPECT_EQ(read->remarks[0].place.line, 17U);
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_FALSE(partFromBytes(bytes.substr(0, size))) << size;
+  EXPECT_FALSE(partFromBytes(bytes + "x"));
+}
+
+TEST(ImportCache, StaysWithinItsSizeAndDropsTheOldest) {
+  const ScratchFolder folder;
+  const ImportCache cache(folder / "cache", 10'000);
+  const std::string entry(4'000, 'e');
+  for (const char* key : {"a", "b"})
+    cache.keep(key, entry);
+  std::filesystem::last_write_time(folder / "cache" / "a.part",
+                                   std::filesystem::file_time_type::clock::now() - std::chrono::hours(2));
+  std::filesystem::last_write_time(folder / "cache" / "b.part",
+                                   std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+  EXPECT_TRUE(cache.find("a"));  // used now
+  cache.keep("c", entry);
+  EXPECT_TRUE(cache.find("a"));
+  EXPECT_FALSE(cache.find("b"));
+  EXPECT_TRUE(cache.find("c"));
+  cache.keep("huge", std::string(6'000, 'h'));
+  EXPECT_FALSE(cache.find("huge"));
+  EXPECT_FALSE(ImportCache("").find("a"));
+}
+
+}  // namespace
+}  // namespace probewright::simulation
