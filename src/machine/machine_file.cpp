@@ -9,6 +9,7 @@
 #include "base/file.hpp"
 #include "base/toml_table.hpp"
 #include "machine/ready_made.hpp"
+#include "machine/table_body.hpp"
 
 namespace probewright::machine {
 
@@ -85,10 +86,47 @@ std::vector<ChainElement> readChain(TomlReader& file, const char* key, const Mac
   return chain;
 }
 
-}  // namespace
+std::optional<TableBody> readTable(TomlReader& file) {
+  auto reader = file.table("table");
+  if (!reader) return std::nullopt;
+  TableBody body;
+  body.name = reader->text("name").value_or(body.name);
+  reader->require("centre");
+  if (auto centre = reader->numbers("centre", 3)) body.centre = {(*centre)[0], (*centre)[1], (*centre)[2]};
+  if (auto normal = reader->numbers("normal", 3)) {
+    const Vector3 vector((*normal)[0], (*normal)[1], (*normal)[2]);
+    if (vector.norm() < 1e-9) {
+      reader->report("normal", "a direction cannot be [0, 0, 0]");
+    } else {
+      body.normal = vector.normalized();
+    }
+  }
+  constexpr NumberRange lengths{0, 100'000, true};
+  const auto size = reader->numbers("size", 2);
+  const auto diameter = reader->number("diameter", lengths);
+  if (reader->has("size") == reader->has("diameter")) {
+    reader->report("", "a table has a size or a diameter",
+                   "Give length and width of a rectangle, or the diameter of a disc");
+  }
+  if (size) {
+    body.size = {(*size)[0], (*size)[1]};
+    if (!(body.size.minCoeff() > 0 && body.size.maxCoeff() <= lengths.maximum)) {
+      reader->report("size", "lengths must be above 0 and at most 100000");
+    }
+  }
+  body.diameter = diameter.value_or(0);
+  body.thickness = reader->number("thickness", lengths).value_or(body.thickness);
+  reader->finish();
+  return body;
+}
 
-std::optional<MachineDescription> parseMachine(std::string_view text, const std::string& file,
-                                               Diagnostics& diagnostics) {
+/// A machine file as far as it could be read; its mistakes are in `diagnostics`.
+struct MachineFile {
+  MachineDescription description;
+  std::optional<TableBody> table;
+};
+
+std::optional<MachineFile> parseFile(std::string_view text, const std::string& file, Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.size();
   const auto root = parseToml(text, file, diagnostics);
   if (!root) return std::nullopt;
@@ -130,12 +168,13 @@ std::optional<MachineDescription> parseMachine(std::string_view text, const std:
     }
     change->finish();
   }
+  std::optional<TableBody> table = readTable(reader);
   reader.finish();
   if (diagnostics.size() > before) return std::nullopt;
-  return machine;
+  return MachineFile{std::move(machine), std::move(table)};
 }
 
-Result<MachineDescription> readMachine(const std::string& nameOrPath) {
+Result<MachineFile> readFileOf(const std::string& nameOrPath) {
   std::string text;
   const auto ready = std::find_if(readyMade().begin(), readyMade().end(),
                                   [&](const ReadyMade& machine) { return machine.name == nameOrPath; });
@@ -154,14 +193,35 @@ Result<MachineDescription> readMachine(const std::string& nameOrPath) {
     text = std::move(*bytes);
   }
   Diagnostics diagnostics;
-  auto machine = parseMachine(text, nameOrPath, diagnostics);
-  if (machine) return *machine;
+  auto machine = parseFile(text, nameOrPath, diagnostics);
+  if (machine) return std::move(*machine);
   Diagnostic first = diagnostics.front();
   if (diagnostics.size() > 1) {
     first.advice += fmt::format("{}{} more mistake{} in this file", first.advice.empty() ? "" : "; ",
                                 diagnostics.size() - 1, diagnostics.size() == 2 ? "" : "s");
   }
   return tl::unexpected(std::move(first));
+}
+
+}  // namespace
+
+std::optional<MachineDescription> parseMachine(std::string_view text, const std::string& file,
+                                               Diagnostics& diagnostics) {
+  auto machine = parseFile(text, file, diagnostics);
+  if (!machine) return std::nullopt;
+  return std::move(machine->description);
+}
+
+Result<MachineDescription> readMachine(const std::string& nameOrPath) {
+  auto file = readFileOf(nameOrPath);
+  if (!file) return tl::unexpected(std::move(file.error()));
+  return std::move(file->description);
+}
+
+Result<std::optional<TableBody>> readTableBody(const std::string& nameOrPath) {
+  auto file = readFileOf(nameOrPath);
+  if (!file) return tl::unexpected(std::move(file.error()));
+  return std::move(file->table);
 }
 
 std::vector<std::string> readyMadeMachines() {

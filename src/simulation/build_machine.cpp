@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "simulation/analytic_solids.hpp"
 #include "simulation/cad_solid.hpp"
 #include "simulation/mesh_solid.hpp"
 #include "simulation/setup.hpp"
@@ -26,6 +27,20 @@ Result<std::unique_ptr<Solid>> load(const SolidSource& source, const ImportOptio
   return solid;
 }
 
+/// Added last and in analytic form: it stops what runs into it, and stays out of the pictures, which show the part.
+PlacedSolid solidOf(const machine::TableBody& table) {
+  std::shared_ptr<const Solid> solid;
+  if (table.diameter > 0) {
+    solid = std::make_shared<RoundBar>(table.diameter / 2, -table.thickness, 0);
+  } else {
+    const Vector3 half(table.size.x() / 2, table.size.y() / 2, 0);
+    solid = std::make_shared<Box>(Vector3(-half.x(), -half.y(), -table.thickness), half);
+  }
+  Pose pose = translation(table.centre);
+  pose.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), table.normal).toRotationMatrix();
+  return {std::move(solid), pose, table.name, SolidRole::Fixture};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<VirtualMachine>> buildMachine(const Setup& setup, const ImportOptions& import) {
@@ -35,6 +50,7 @@ Result<std::unique_ptr<VirtualMachine>> buildMachine(const Setup& setup, const I
     if (!solid) return tl::unexpected(std::move(solid.error()));
     truth.solids.push_back({std::move(*solid), entry.tableFromSolid, entry.name, entry.role});
   }
+  if (setup.table) truth.solids.push_back(solidOf(*setup.table));
   auto machine = std::make_unique<VirtualMachine>(std::move(truth));
   for (const BelievedTool& tool : setup.tools) {
     if (!tool.inSpindle) continue;

@@ -11,6 +11,7 @@
 
 #include "base/diagnostic.hpp"
 #include "control/control_kind.hpp"
+#include "machine/table_body.hpp"
 #include "simulation/import_options.hpp"
 #include "simulation/solid_recipe.hpp"
 #include "simulation/truth.hpp"
@@ -85,6 +86,7 @@ struct Setup {
   /// Machine, errors, true tools, start, seed. The solids are added by buildMachine().
   Truth truth;
   std::vector<SetupSolid> solids;
+  std::optional<machine::TableBody> table;  ///< of the machine
 
   std::vector<BelievedTool> tools;
   std::vector<BelievedFrame> presets;

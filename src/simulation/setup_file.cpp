@@ -89,6 +89,7 @@ private:
       setup_.truth.machine = *description;
       setup_.truth.start = description->toolChange;
       setup_.truth.errors.axes.resize(description->axes.size());
+      setup_.table = machine::readTableBody(name).value_or(std::nullopt);
       return;
     }
     Diagnostic problem = description.error();
