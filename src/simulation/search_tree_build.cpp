@@ -1,10 +1,13 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 
 #include "simulation/search_tree.hpp"
 
@@ -114,13 +117,18 @@ Vector3 areaVector(const Triangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]);
 SlantedBox smallBox(Range elements) {
   SlantedBox best = boxAlong(heldAxes(Vector3::UnitX(), Vector3::UnitY()), elements);
   Vector3 sum = Vector3::Zero();
+  double areas = 0;
   for (const SearchElement& element : elements) {
     // Neighbours may be wound in opposite senses on an open skin.
     const Vector3 area = areaVector(element.corners);
     sum += area.dot(sum) < 0 ? Vector3(-area) : area;
+    areas += area.norm();
   }
   const double size = sum.norm();
   if (!(size > 0)) return best;
+  // What is bent as a whole has no direction that would be better; trying many elements takes long.
+  constexpr std::size_t many = 256;
+  if (elements.size() > many && size < 0.5 * areas) return best;
   const Vector3 normal = sum / size;
   const Triangle& first = elements[0].corners;
   for (const Vector3& side : {Vector3(Vector3::UnitX()), Vector3(Vector3::UnitY()), Vector3(Vector3::UnitZ()),
@@ -198,20 +206,53 @@ struct SearchTree::Builder {
     }
   }
 
+  /// Where the elements of a node's children begin, and where those of the last one end.
+  struct Places {
+    std::array<std::size_t, 9> begin{};
+  };
+  std::vector<Places> places;
+
+  /// The node and what lies below it, still without boxes.
   std::uint32_t makeNode(const BuildNode& from) {
     if (from.leaf) return makeBlock(from);
     const auto index = static_cast<std::uint32_t>(tree.nodes_.size());
     tree.nodes_.emplace_back();
-    Node node{};
-    std::vector<SlantedBox> boxes;
+    places.emplace_back();
     for (std::uint32_t k = 0; k < from.count; ++k) {
-      const std::size_t first = ordered.size();
-      node.child[k] = makeNode(*from.child[k]);
-      boxes.push_back(smallBox(Range(ordered).subspan(first)));
+      places[index].begin[k] = ordered.size();
+      const std::uint32_t child = makeNode(*from.child[k]);
+      tree.nodes_[index].child[k] = child;
+    }
+    tree.nodes_[index].count = from.count;
+    places[index].begin[from.count] = ordered.size();
+    return index;
+  }
+
+  void makeBoxes(std::size_t index) {
+    Node& node = tree.nodes_[index];
+    const auto count = static_cast<std::size_t>(node.count);
+    std::vector<SlantedBox> boxes;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t first = places[index].begin[k];
+      boxes.push_back(smallBox(Range(ordered).subspan(first, places[index].begin[k + 1] - first)));
     }
     setBoxes(node, boxes);
-    tree.nodes_[index] = node;
-    return index;
+  }
+
+  /// The boxes of all nodes; each is a matter of its own.
+  void makeBoxes() {
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&] {
+      for (std::size_t i = next++; i < tree.nodes_.size(); i = next++)
+        makeBoxes(i);
+    };
+    constexpr std::size_t worthAThread = 5'000;  // elements
+    const std::size_t threads =
+        std::min<std::size_t>(std::thread::hardware_concurrency(), 1 + ordered.size() / worthAThread);
+    std::vector<std::jthread> others;
+    for (std::size_t i = 1; i < threads; ++i)
+      others.emplace_back(work);
+    work();
   }
 };
 
@@ -253,11 +294,12 @@ SearchTree::SearchTree(std::span<const SearchElement> elements, Elements kind, I
     rtcReleaseBVH(arguments.bvh);
     throw std::runtime_error("Embree could not build the search tree");
   }
-  Builder builder{*this, elements, {}};
+  Builder builder{*this, elements, {}, {}};
   builder.ordered.reserve(elements.size());
   order_.reserve(elements.size());
   root_ = builder.makeNode(*root);
   rtcReleaseBVH(arguments.bvh);
+  builder.makeBoxes();
   nodes_.shrink_to_fit();
   lines_.shrink_to_fit();
 }
