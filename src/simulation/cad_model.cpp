@@ -1,5 +1,6 @@
 #include "simulation/cad_model.hpp"
 
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepLib.hxx>
 #include <BRep_Tool.hxx>
 #include <GeomAdaptor_Curve.hxx>
@@ -259,15 +260,26 @@ bool isClosed(const TopoDS_Shape& solid) {
   return true;
 }
 
+/// True if the surface has a kink within the face.
+bool hasKinks(const TopoDS_Face& face) {
+  const BRepAdaptor_Surface surface(face);
+  switch (surface.GetType()) {
+    case GeomAbs_BSplineSurface:
+    case GeomAbs_SurfaceOfRevolution:
+    case GeomAbs_SurfaceOfExtrusion:
+      return surface.NbUIntervals(GeomAbs_C1) > 1 || surface.NbVIntervals(GeomAbs_C1) > 1;
+    default:
+      return false;
+  }
+}
+
 }  // namespace
 
 TopoDS_Shape withoutKinks(const TopoDS_Shape& shape) {
-  bool kinked = false;
-  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More() && !kinked; faces.Next()) {
-    const CadFace face = cadFace(TopoDS::Face(faces.Current()));
-    kinked = !kinksOf(face, true).empty() || !kinksOf(face, false).empty();
-  }
-  if (!kinked) return shape;
+  TopExp_Explorer faces(shape, TopAbs_FACE);
+  while (faces.More() && !hasKinks(TopoDS::Face(faces.Current())))
+    faces.Next();
+  if (!faces.More()) return shape;
   ShapeUpgrade_ShapeDivideContinuity divide(shape);
   divide.SetSurfaceCriterion(GeomAbs_C1);
   divide.SetBoundaryCriterion(GeomAbs_C0);

@@ -78,7 +78,7 @@ std::string mistakeIn(const SolidFeature& f) {
   switch (f.shape) {
     case FeatureShape::Box:
       if (!isLength(f.size.x()) || !isLength(f.size.y()) || !isLength(f.size.z())) return "its size must be positive";
-      if (!cornersFit()) return "its cornerRadius must be at most half its length and width";
+      if (!cornersFit()) return "its corner_radius must be at most half its length and width";
       break;
     case FeatureShape::Cylinder:
       if (!isLength(f.diameter) || !isLength(f.height)) return "its diameter and height must be positive";
@@ -86,7 +86,7 @@ std::string mistakeIn(const SolidFeature& f) {
     case FeatureShape::Cone:
       if (!isLength(f.diameter) || !isLength(f.height)) return "its diameter and height must be positive";
       if (!isLengthOrZero(f.topDiameter) || f.topDiameter == f.diameter) {
-        return "its topDiameter must not be negative nor equal to its diameter";
+        return "its top_diameter must not be negative nor equal to its diameter";
       }
       break;
     case FeatureShape::Sphere:
@@ -94,7 +94,7 @@ std::string mistakeIn(const SolidFeature& f) {
       break;
     case FeatureShape::Torus:
       if (!isLength(f.diameter) || !isLength(f.tubeDiameter) || f.tubeDiameter >= f.diameter) {
-        return "its tubeDiameter must be positive and smaller than its diameter";
+        return "its tube_diameter must be positive and smaller than its diameter";
       }
       break;
     case FeatureShape::Hole:
@@ -102,7 +102,7 @@ std::string mistakeIn(const SolidFeature& f) {
       break;
     case FeatureShape::Pocket:
       if (!isLength(f.size.x()) || !isLength(f.size.y())) return "its size must be positive";
-      if (!cornersFit()) return "its cornerRadius must be at most half its length and width";
+      if (!cornersFit()) return "its corner_radius must be at most half its length and width";
       break;
     case FeatureShape::Slot:
       if (!isLength(f.size.x()) || !isLength(f.size.y())) return "its size must be positive";
@@ -110,7 +110,8 @@ std::string mistakeIn(const SolidFeature& f) {
       break;
     case FeatureShape::Chamfer:
     case FeatureShape::Fillet:
-      if (!isLength(f.edgeSize)) return "its edgeSize must be positive";
+      if (!isLength(f.edgeSize))
+        return f.shape == FeatureShape::Fillet ? "its radius must be positive" : "its width must be positive";
       if (f.edges.empty()) return "it needs a point on each edge it treats";
       break;
   }
@@ -243,7 +244,10 @@ Result<TopoDS_Shape> withTreatedEdges(const TopoDS_Shape& shape, const SolidFeat
   BRepBuilderAPI_MakeShape& make = f.shape == FeatureShape::Fillet ? static_cast<BRepBuilderAPI_MakeShape&>(fillet)
                                                                    : static_cast<BRepBuilderAPI_MakeShape&>(chamfer);
   make.Build();
-  if (!make.IsDone()) return fail("its edges cannot be treated with this edgeSize", "choose a smaller edgeSize");
+  if (!make.IsDone()) {
+    const char* key = f.shape == FeatureShape::Fillet ? "radius" : "width";
+    return fail(fmt::format("its edges cannot be treated with this {}", key), fmt::format("choose a smaller {}", key));
+  }
   return make.Shape();
 }
 

@@ -150,7 +150,7 @@ TEST(Recipe, SaysWhichFeatureIsWrongAndWhy) {
   pocket.cornerRadius = 6;
   pocket.place = {"setup.toml", 12, 1};
   EXPECT_THAT(message({{block(50, 50, 10), pocket}}),
-              HasSubstr("setup.toml:12:1: error: feature 2 (pocket): its cornerRadius"));
+              HasSubstr("setup.toml:12:1: error: feature 2 (pocket): its corner_radius"));
   SolidFeature everything = block(80, 80, 30);
   everything.centre.z() = -20;
   everything.mode = FeatureMode::Cut;
