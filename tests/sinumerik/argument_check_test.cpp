@@ -168,7 +168,8 @@ TEST(SinumerikArguments, CallsOfTheOldFormTakeVariables) {
                        "IF _OVS_TNAME==\"MILL\"\nM0\nENDIF\n_ALM=0\nM30\n"),
             Messages{});
   EXPECT_EQ(mistakesIn("CYCLE978\n_MVAR=100\nM30\n"),
-            (Messages{"1:1 warning: argument 7 of CYCLE978: S_TSA (safe area: a larger difference from the set value "
+            (Messages{std::string("1:1 argument 6 of CYCLE978: ") + path + " is missing",
+                      "1:1 warning: argument 7 of CYCLE978: S_TSA (safe area: a larger difference from the set value "
                       "stops the program) is missing: the smallest difference stops the program",
                       "1:1 argument 8 of CYCLE978: S_MA (measuring axis: 1, 2 in the plane, 3 along the tool) is "
                       "missing"}));

@@ -188,7 +188,7 @@ void Control::write(const DataKey& key, double value) {
   const std::optional<DataValue> before = data.get(key);
   data.set(key, value);
   // What is as it was is no correction.
-  if (before && *before == DataValue(value)) return;
+  if (before && shown(*before) == shown(value)) return;
   const std::string text = key.text();
   const std::size_t bracket = text.find('[');
   journal.write({text.substr(0, bracket), bracket == std::string::npos ? "" : text.substr(bracket),

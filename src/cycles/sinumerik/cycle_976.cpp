@@ -123,6 +123,8 @@ private:
   /// The radius of a ball of an L or star, as it stands in the tool data for touches along the tool.
   double ballAlongTool() const;
   void finishAtEdge(const Vector3& edge, const Vector3& direction);
+  /// The length along the tool that acts as 1 mm along `axis`: more than 1 where the system leans against the tool.
+  double lengthPer(int axis) const { return axis == 2 ? 1 / std::max(0.1, std::abs(prober_.toolAxis().z())) : 1; }
   void takeOver(const Vector3& deviation, double effective1, double effective2);
 
   Context& context_;
@@ -160,7 +162,7 @@ void Calibration976::surface() {
   setpoint[axis] = set;
   const double tcp = calibration_.touch(setpoint, probing::axisDirection(axis, way), path_, reference)[axis];
   if (wantsLength()) {
-    calibration_.correctLength(axis, tcp - (set - way * reference));
+    calibration_.correctLength(axis, (tcp - (set - way * reference)) * lengthPer(axis));
     calibration_.setTrigger(axis, way, way * reference);
   } else {
     calibration_.setTrigger(axis, way, set - tcp);
@@ -307,7 +309,7 @@ void Calibration976::ball() {
   if (set) {
     const double effective = (fine.half1 + fine.half2) / 2 - radius;
     const double reference = prober_.probe().lengthToCentre ? effective : 0;
-    calibration_.correctLength(2, top - (*set + reference));
+    calibration_.correctLength(2, (top - (*set + reference)) * lengthPer(2));
     calibration_.setTrigger(2, -1, -reference);
   }
   context_.result(6, centre.x());

@@ -238,6 +238,7 @@ void measurePlane(Context& context, const std::optional<FrameTarget>& target, Me
     steps.back();
     third = steps.along(first, toThird, riseOf(toThird), context.real("S_TSA"));
   }
+  steps.finishAt(third);
   context.setWayBack([&] { steps.leave(); });
 
   const Vector3 normal = (second - first).cross(third - first).normalized();

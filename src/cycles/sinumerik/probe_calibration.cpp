@@ -72,15 +72,15 @@ double ProbeCalibration::trigger(int axis, double sign) const {
 
 void ProbeCalibration::completeAxis(int axis, bool deviation) {
   const double plus = trigger(axis, 1), minus = trigger(axis, -1);
-  if (plus != 0 && minus != 0) {
+  if (bent()) {
+    // The ball sits at the end of the arm, whose length the tool data have.
+    const double radius = plus - context_.control().tool.radius;
+    if (radius > 0) setBallDiameter(2 * radius);
+  } else if (plus != 0 && minus != 0) {
     setBallDiameter(plus - minus);
     if (deviation) {
       changes_.push_back({fmt::format("$SNS_MEA_WP_POS_DEV_AX{}", axis + 1), 20 + axis, (plus + minus) / 2, false});
     }
-  } else if (bent()) {
-    // The ball sits at the end of the arm, whose length the tool data have.
-    const double radius = std::abs(plus + minus) - context_.control().tool.radius;
-    if (radius > 0) setBallDiameter(2 * radius);
   } else {
     setBallDiameter(2 * std::abs(plus + minus));
   }

@@ -88,7 +88,9 @@ void SinumerikHost::runCycle(std::string_view name, WordRange range, Evaluation&
   if (range.count == 0 && cycles::sinumerik::hasOldForm(definition) &&
       cycles::sinumerik::hasOldParameters(control_.data)) {
     arguments = cycles::sinumerik::argumentsOfOldForm(definition, control_);
-    feed.emplace(control_);
+    const bool ownFeed =
+        std::ranges::find(definition.parameters, "S_VMS", &cycles::Parameter::name) != definition.parameters.end();
+    if (!ownFeed) feed.emplace(control_);
   }
   const bool measures = entry->run != nullptr;
   if (measures) callMachineBuilder(definition.number, Occasion::BeforeMeasuring);
