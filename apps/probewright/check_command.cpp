@@ -2,7 +2,6 @@
 
 #include <cstdio>
 
-#include "base/file.hpp"
 #include "commands.hpp"
 #include "console.hpp"
 #include "session/check.hpp"
@@ -12,8 +11,9 @@ namespace probewright::app {
 int check(const CheckArguments& arguments) {
   bool errors = false;
   for (const std::filesystem::path& path : arguments.programs) {
-    const Diagnostics found = session::checkProgram(path, arguments.control, arguments.skipLevels);
-    print(found, language::detectEncoding(readFile(path).value_or(std::string())));
+    std::string text;
+    const Diagnostics found = session::checkProgram(path, arguments.control, arguments.skipLevels, &text);
+    print(found, language::detectEncoding(text));
     errors = errors || hasErrors(found);
     if (found.empty()) std::fputs(printable(fmt::format("{}: no mistakes found\n", path.string())).c_str(), stdout);
   }

@@ -71,7 +71,7 @@ int convert(const ConvertArguments& arguments) {
                    "leave --control out, or name a control of the language of OUT",
                    {}});
   }
-  const auto program = session::openProgram(arguments.input, *from);
+  const auto program = session::openProgram(arguments.input, *text, *from);
   if (!program) return refuse(program.error());
   const session::Conversion conversion = session::convert(
       **program, *from, *to,
@@ -79,16 +79,7 @@ int convert(const ConvertArguments& arguments) {
   const language::Encoding encoding = language::detectEncoding(*text);
   print(conversion.mistakes, encoding);
   if (hasErrors(conversion.mistakes)) {
-    const auto told = session::languageOf("program", *text);
-    if (told && *told != *from) {
-      print({{Severity::Note,
-              {arguments.input.string(), 0, 0},
-              fmt::format("it was read as {} because of its ending, but looks like {}", session::nameOf(*from),
-                          session::nameOf(*told)),
-              {},
-              "give it the ending of its language: .H for Klartext, .I for DIN/ISO, .MPF or .SPF for a SINUMERIK",
-              {}}});
-    }
+    if (const auto note = session::otherLanguage(arguments.input, *text)) print({*note});
     return 2;
   }
   if (const Result<void> written = writeFileAtomically(arguments.output, conversion.text); !written) {

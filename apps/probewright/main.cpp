@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <bitset>
+#include <cctype>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -99,6 +100,9 @@ std::string unknownWord(const CLI::App& app, int argc, char** argv) {
   for (int i = 2; i < argc; ++i) {
     const std::string word = argv[i];
     if (word == "--") break;
+    if (word.size() > 1 && word.starts_with('-') && !word.starts_with("--") && word != "-h" &&
+        std::isdigit(static_cast<unsigned char>(word[1])) == 0)
+      return first + " has no option " + word + "; if it is the name of a file, write ./" + word;
     if (!word.starts_with("--")) continue;
     const std::string name = word.substr(0, word.find('='));
     if (command->get_option_no_throw(name) == nullptr) {
@@ -143,6 +147,12 @@ int main(int argc, char** argv) {
       ->type_name("COUNT")
       ->capture_default_str();
   addSkip(*run, runArguments.skipLevels);
+  run->add_option("--record-limit", runArguments.recordLimit,
+                  "MB of messages, results and files after which an endless loop is assumed; 0: never")
+      ->check(notNegative)
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 20U))
+      ->type_name("MB")
+      ->capture_default_str();
   run->add_option("--seed", runArguments.seed, "Seed of the random effects, instead of the setup's")
       ->check(notNegative)
       ->type_name("NUMBER");

@@ -1,10 +1,13 @@
 #include "output_folder.hpp"
 
-#include <algorithm>
-#include <nlohmann/json.hpp>
-#include <utility>
+#include <openssl/evp.h>
 
-#include "base/file.hpp"
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
 
 namespace probewright::app {
 
@@ -12,68 +15,208 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* resultsName = "results.json";
-constexpr const char* reportName = "report.html";
+constexpr const char* listTitle = "the files of a Probewright run and their SHA-256";
+constexpr std::uint64_t largestList = std::uint64_t{64} << 20U;
 
-/// A list in a file may hold anything: only plain names of files in the folder itself count.
+class Checksum {
+public:
+  Checksum() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) { EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr); }
+  void add(std::string_view bytes) { EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()); }
+  std::string text() {
+    unsigned char digest[EVP_MAX_MD_SIZE];
+    unsigned int size = 0;
+    EVP_DigestFinal_ex(context_.get(), digest, &size);
+    static constexpr char digits[] = "0123456789abcdef";
+    std::string text;
+    for (unsigned int i = 0; i < size; ++i) {
+      text += digits[digest[i] >> 4U];
+      text += digits[digest[i] & 15U];
+    }
+    return text;
+  }
+
+private:
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+};
+
+using Checksums = std::map<std::string, std::string>;
+
+/// A list may have come from anywhere: only plain names of files in the folder itself count.
 bool isPlainName(const std::string& name) {
-  return !name.empty() && name != "." && name != ".." && name.find_first_of("/\\") == std::string::npos &&
+  return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos &&
          name.find('\0') == std::string::npos;
 }
 
+/// The list of a folder; nothing if there is none that can be read.
+std::optional<Checksums> listIn(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(folder / listName, error))) return std::nullopt;
+  const Result<std::string> text = readFile(folder / listName, largestList);
+  const auto list = nlohmann::json::parse(text.value_or(""), nullptr, false);
+  if (!list.is_object() || list.value("title", nlohmann::json()) != listTitle) return std::nullopt;
+  const auto files = list.find("files");
+  if (files == list.end() || !files->is_object()) return std::nullopt;
+  Checksums checksums;
+  for (const auto& [name, checksum] : files->items()) {
+    if (isPlainName(name) && checksum.is_string()) checksums.emplace(name, checksum.get<std::string>());
+  }
+  return checksums;
+}
+
+bool isUnchanged(const fs::path& file, const std::string& checksum) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(file, error))) return false;
+  const Result<std::string> bytes = readFile(file);
+  if (!bytes) return false;
+  Checksum now;
+  now.add(*bytes);
+  return now.text() == checksum;
+}
+
+/// The entries of the list that are true.
+Checksums trueEntries(const fs::path& folder) {
+  Checksums entries = listIn(folder).value_or(Checksums{});
+  std::erase_if(entries, [&](const auto& entry) { return !isUnchanged(folder / entry.first, entry.second); });
+  return entries;
+}
+
+std::string listText(const Checksums& checksums) {
+  return nlohmann::json{{"title", listTitle}, {"files", checksums}}.dump(2) + "\n";
+}
+
+/// A file in a folder that is one of the set its list names, or the list.
+bool isListed(const fs::path& file) {
+  const std::optional<Checksums> list = listIn(file.parent_path());
+  if (!list) return false;
+  if (file.filename() == listName) return true;
+  const auto entry = list->find(file.filename().string());
+  return entry != list->end() && isUnchanged(file, entry->second);
+}
+
+Result<FolderLock> lock(const fs::path& folder, const std::stop_token& stop) {
+  const auto onWait = [&] { std::fprintf(stderr, "another run writes into %s: waiting for it\n", folder.c_str()); };
+  return FolderLock::take(folder, onWait, isListed, stop);
+}
+
+Diagnostic notOurs(const fs::path& file) {
+  return {Severity::Error,
+          {file.string(), 0, 0},
+          "this file is not one that an earlier run left, or it was changed since: the run does not replace it",
+          {},
+          "move it elsewhere, or name another folder with --out",
+          {}};
+}
+
+bool isThere(const fs::path& path) {
+  std::error_code error;
+  return fs::symlink_status(path, error).type() != fs::file_type::not_found;
+}
+
+/// Replaces the set of `before` by `files` and what is left of `before` without `dropped`.
+Result<void> replaceSet(const FolderLock& lock, const Checksums& before,
+                        const std::vector<std::pair<std::string, Content>>& files,
+                        const std::function<bool(const std::string& name)>& goes, const std::stop_token& stop) {
+  Checksums after;
+  std::set<std::string> dropped;
+  for (const auto& [name, checksum] : before) {
+    const bool replaced = std::ranges::any_of(files, [&](const auto& file) { return file.first == name; });
+    if (!replaced && goes(name)) dropped.insert(name);
+    if (!replaced && !goes(name)) after.emplace(name, checksum);
+  }
+  std::vector<std::pair<std::string, Content>> all;
+  for (const auto& [name, content] : files) {
+    all.emplace_back(name, [&after, &name = name, &content = content](const Sink& sink) {
+      Checksum checksum;
+      content([&](std::string_view bytes) {
+        checksum.add(bytes);
+        sink(bytes);
+      });
+      after[name] = checksum.text();
+    });
+  }
+  if (files.empty() && after.empty()) {
+    dropped.insert(listName);
+  } else {
+    all.emplace_back(listName, [&after](const Sink& sink) { sink(listText(after)); });
+  }
+  return swapFiles(lock, all, dropped, stop);
+}
+
+Result<void> removeWhat(const fs::path& folder, const std::set<FileIdentity>& inputs,
+                        const std::function<bool(const std::string& name)>& mayGo) {
+  const auto goes = [&](const std::string& name) {
+    return mayGo(name) && !inputs.contains(identityOf(folder / name).value_or(FileIdentity{}));
+  };
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return {};
+  const Result<FolderLock> held = lock(folder, {});
+  if (!held) return tl::unexpected(held.error());
+  const Checksums before = trueEntries(folder);
+  if (std::ranges::none_of(before, [&](const auto& entry) { return goes(entry.first); })) return {};
+  return replaceSet(*held, before, {}, goes, {});
+}
+
+bool isVerdict(const std::string& name) { return name == "results.json" || name == "report.html"; }
+
 }  // namespace
 
-std::vector<fs::path> leftByEarlierRun(const fs::path& folder) {
-  std::vector<fs::path> left;
-  const Result<std::string> text = readFile(folder / resultsName);
-  if (!text) return left;
-  const auto results = nlohmann::json::parse(*text, nullptr, false);
-  if (!results.is_object() || results.value("schema", nlohmann::json()) != "probewright results") return left;
-  const auto files = results.find("files");
-  if (files == results.end() || !files->is_array()) return left;
-  for (const auto& file : *files) {
-    if (!file.is_string() || !isPlainName(file.get<std::string>())) continue;
+std::set<std::string> leftByEarlierRun(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& [name, checksum] : trueEntries(folder))
+    names.insert(name);
+  return names;
+}
+
+Result<void> tidyOutput(const fs::path& folder, const std::stop_token& stop) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return {};
+  const Result<FolderLock> held = lock(folder, stop);
+  return held ? Result<void>() : tl::unexpected(held.error());
+}
+
+std::optional<Diagnostic> whyNotWritable(const fs::path& folder, const std::string& name) {
+  const fs::path file = folder / name;
+  std::error_code error;
+  if (!isThere(file) || isListed(file) || isOnItsWay(file)) return std::nullopt;
+  if (!fs::is_directory(fs::symlink_status(file, error))) return notOurs(file);
+  return Diagnostic{Severity::Error,
+                    {file.string(), 0, 0},
+                    "cannot write this file: a folder has its name",
+                    {},
+                    "rename the folder, or name another one with --out",
+                    {}};
+}
+
+Result<void> writeOutput(const Output& output, const std::stop_token& stop) {
+  const Result<FolderLock> held = lock(output.folder, stop);
+  if (!held) return tl::unexpected(held.error());
+  const Checksums before = trueEntries(output.folder);
+  if (isThere(output.folder / listName) && !listIn(output.folder))
+    return tl::unexpected(notOurs(output.folder / listName));
+  for (const auto& [name, content] : output.files) {
+    const fs::path file = output.folder / name;
     std::error_code error;
-    const fs::path path = folder / file.get<std::string>();
-    if (fs::is_regular_file(fs::symlink_status(path, error))) left.push_back(path);
+    if (!isThere(file) || fs::is_directory(fs::symlink_status(file, error))) continue;
+    if (!before.contains(name)) return tl::unexpected(notOurs(file));
+    if (output.inputs.contains(identityOf(file).value_or(FileIdentity{}))) {
+      return fail({file.string(), 0, 0}, "the run has read this file, and does not replace it",
+                  "name another folder with --out");
+    }
   }
-  return left;
+  const auto goes = [&](const std::string& name) {
+    return !output.inputs.contains(identityOf(output.folder / name).value_or(FileIdentity{}));
+  };
+  return replaceSet(*held, before, output.files, goes, stop);
 }
 
-Result<void> writeOutput(const fs::path& folder, const std::map<std::string, std::string>& files) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    return fail({folder.string(), 0, 0}, "the output folder cannot be made: " + error.message(),
-                "name another folder with --out");
-  }
-  const std::vector<fs::path> left = leftByEarlierRun(folder);
-  std::vector<std::pair<fs::path, std::string_view>> all;
-  for (const auto& [name, text] : files)
-    all.emplace_back(folder / name, text);
-  if (Result<void> written = writeFilesTogether(all); !written) return written;
-  for (const fs::path& path : left) {
-    if (!files.contains(path.filename().string())) fs::remove(path, error);
-  }
-  return {};
-}
-
-void removeEarlierVerdict(const fs::path& folder) {
-  std::error_code error;
-  const Result<std::string> results = readFile(folder / resultsName);
-  if (!results || results->find("\"probewright results\"") == std::string::npos) return;
-  for (const char* name : {resultsName, reportName})
-    fs::remove(folder / name, error);
-}
-
-void removeEarlierRun(const fs::path& folder, const fs::path& tables) {
+Result<void> removeEarlierRun(const fs::path& folder, const fs::path& tables, const std::set<FileIdentity>& inputs) {
   std::error_code error;
   const bool begins = !tables.empty() && fs::equivalent(folder, tables, error);
-  if (!begins) {
-    for (const fs::path& path : leftByEarlierRun(folder))
-      fs::remove(path, error);
-  }
-  removeEarlierVerdict(folder);
+  return removeWhat(folder, inputs, [&](const std::string& name) { return !begins || isVerdict(name); });
+}
+
+Result<void> removeEarlierVerdict(const fs::path& folder, const std::set<FileIdentity>& inputs) {
+  return removeWhat(folder, inputs, isVerdict);
 }
 
 }  // namespace probewright::app

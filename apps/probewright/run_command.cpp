@@ -7,6 +7,7 @@
 #include <ctime>
 #include <iostream>
 #include <optional>
+#include <set>
 
 #include "base/file.hpp"
 #include "base/number_text.hpp"
@@ -74,15 +75,42 @@ std::optional<std::string> answerOnTerminal(const control::Question& question) {
 
 }  // namespace
 
+namespace {
+
+/// Says what cannot be removed of an earlier run, and gives the exit code of a mistake in the input.
+int cameToNothing(const Result<void>& removed) {
+  if (!removed) print({removed.error()});
+  return 2;
+}
+
+/// The files that `paths` name, by what makes them the same.
+void noteIdentities(const std::vector<fs::path>& paths, std::set<FileIdentity>& identities) {
+  for (const fs::path& path : paths) {
+    if (const auto identity = identityOf(path)) identities.insert(*identity);
+  }
+}
+
+Content contentOf(const std::string& text) {
+  return [&text](const Sink& sink) { sink(text); };
+}
+
+/// A table or definition file that lies there already, as it is, and is somebody else's: it stays theirs.
+bool standsThere(const fs::path& folder, const std::string& name, const std::string& text) {
+  return whyNotWritable(folder, name) && readFile(folder / name).value_or("") == text;
+}
+
+}  // namespace
+
 int run(const RunArguments& arguments) {
+  std::set<FileIdentity> inputs;
+  noteIdentities({arguments.program, arguments.setup, arguments.answers}, inputs);
   Diagnostics mistakes;
   std::optional<simulation::Setup> setup = simulation::readSetup(arguments.setup, mistakes);
   print(mistakes);
-  if (!setup) {
-    // Which tables the run would have begun from is unknown: those of an earlier run stay.
-    removeEarlierVerdict(arguments.out);
-    return 2;
-  }
+  // Which tables the run would have begun from is unknown: those of an earlier run stay.
+  if (!setup) return cameToNothing(removeEarlierVerdict(arguments.out, inputs));
+  noteIdentities(setup->inputs, inputs);
+  const auto giveUp = [&] { return cameToNothing(removeEarlierRun(arguments.out, setup->tables, inputs)); };
   if (arguments.seed) setup->truth.seed = *arguments.seed;
 
   session::RunOptions options;
@@ -92,6 +120,8 @@ int run(const RunArguments& arguments) {
   options.ask = askOnTerminal;
   options.stepLimit = arguments.stepLimit;
   options.skipLevels = arguments.skipLevels;
+  options.recordLimit = arguments.recordLimit << 20U;
+  options.whyNoFile = [&](const std::string& name) { return whyNotWritable(arguments.out, name); };
   options.mode = arguments.dryRun        ? session::ProgramMode::DryRun
                  : arguments.programTest ? session::ProgramMode::ProgramTest
                                          : session::ProgramMode::Normal;
@@ -103,14 +133,23 @@ int run(const RunArguments& arguments) {
   const Interruption interruption;
   options.stop = interruption.token();
   options.import.cache = cacheFolder(arguments.cache);
+  if (const Result<void> tidied = tidyOutput(arguments.out, options.stop); !tidied) {
+    print({tidied.error()});
+    return 2;
+  }
+  for (const char* name : {"results.json", "report.html"}) {
+    if (const auto why = whyNotWritable(arguments.out, name)) {
+      print({*why});
+      return 2;
+    }
+  }
   if (!arguments.answers.empty()) {
-    auto read = readFile(arguments.answers).and_then([&](const std::string& text) {
+    auto read = readFile(arguments.answers, largestText).and_then([&](const std::string& text) {
       return session::parseAnswers(text, arguments.answers.string());
     });
     if (!read) {
       print({read.error()});
-      removeEarlierRun(arguments.out, setup->tables);
-      return 2;
+      return giveUp();
     }
     options.answers = std::move(*read);
   }
@@ -122,36 +161,43 @@ int run(const RunArguments& arguments) {
   ImportProgress importProgress(isatty(STDERR_FILENO) != 0);
   if (!arguments.quiet) options.import.progress = [&](const std::string& what) { importProgress.tell(what); };
 
-  session::RunOutcome outcome = session::runProgram(arguments.program, *setup, options);
+  const session::RunOutcome outcome = session::runProgram(arguments.program, *setup, options);
   if (progress) std::fputs("\r\033[K", stderr);
   const language::Encoding encoding = outcome.info.programs.empty()
                                           ? language::Encoding::Windows1252
                                           : language::detectEncoding(outcome.info.programs.front().text);
   print(outcome.diagnostics, encoding);
   if (hasErrors(outcome.diagnostics)) {
-    removeEarlierRun(arguments.out, setup->tables);
-    return options.stop.stop_requested() ? 3 : 2;
+    const int exit = giveUp();
+    return options.stop.stop_requested() ? 3 : exit;
   }
   print(outcome.result.diagnostics, encoding);
 
   records::RunInfo info = outcome.info;
   info.version = PROBEWRIGHT_VERSION;
   info.startedAt = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(options.wallClock)));
-  for (const auto& [name, text] : outcome.files)
+  noteIdentities(outcome.inputs, inputs);
+  Output output{arguments.out, {}, std::move(inputs)};
+  for (const auto& [name, text] : outcome.files) {
     info.outputFiles.push_back(name);
-  const std::string results = records::resultsText(outcome.journal, info);
-  const std::string report = reports::reportHtml(outcome.journal, info, session::sceneOf(outcome));
-  std::map<std::string, std::string> files = std::move(outcome.files);
-  files["results.json"] = results;
-  files["report.html"] = report;
-  if (const Result<void> written = writeOutput(arguments.out, files); !written) {
+    if (!standsThere(arguments.out, name, text)) output.files.emplace_back(name, contentOf(text));
+  }
+  const reports::Scene scene = session::sceneOf(outcome);
+  output.files.emplace_back("report.html",
+                            [&](const Sink& sink) { reports::writeReport(sink, outcome.journal, info, scene); });
+  output.files.emplace_back("results.json", [&](const Sink& sink) {
+    records::writeResults(sink, outcome.journal, info, records::Layout::Indented);
+    sink("\n");
+  });
+  // Whoever interrupts the program wants what it has measured; whoever interrupts the writing wants no more of it.
+  const std::stop_token stop = options.stop.stop_requested() ? std::stop_token() : options.stop;
+  if (const Result<void> written = writeOutput(output, stop); !written) {
     print({written.error()});
-    removeEarlierVerdict(arguments.out);
-    return 2;
+    return stop.stop_requested() ? 3 : 2;
   }
   if (!arguments.quiet) {
     const auto colour = isatty(STDOUT_FILENO) != 0 ? reports::Colour::On : reports::Colour::Off;
-    std::fputs(reports::summaryText(outcome.journal, info, colour).c_str(), stdout);
+    std::fputs(reports::summaryText(outcome.journal, info, colour, reports::Cause::Told).c_str(), stdout);
     std::fputs(fmt::format("\nReport: {}\n", (fs::absolute(arguments.out) / "report.html").lexically_normal().string())
                    .c_str(),
                stdout);

@@ -30,8 +30,9 @@ std::string format(const Diagnostic& diagnostic) {
   }
   constexpr const char* names[] = {"note", "warning", "error"};
   text += names[static_cast<int>(diagnostic.severity)];
-  if (!diagnostic.code.empty()) text += fmt::format(" {}", diagnostic.code);
-  text += ": " + diagnostic.message;
+  text += ": ";
+  if (!diagnostic.code.empty()) text += diagnostic.code + ": ";
+  text += diagnostic.message;
   if (!diagnostic.excerpt.empty()) text += "\n    " + diagnostic.excerpt;
   if (!diagnostic.advice.empty()) text += "\n    " + diagnostic.advice;
   return text;

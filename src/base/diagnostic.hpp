@@ -40,7 +40,8 @@ tl::unexpected<Diagnostic> fail(std::string message, std::string advice = {});
 /// True if any of the diagnostics is an error.
 bool hasErrors(const Diagnostics& diagnostics);
 
-/// `file:line:column: error: message`, then the excerpt and the advice on lines of their own, as compilers print it.
+/// `file:line:column: error: code: message`, then the excerpt and the advice on lines of their own, as compilers print
+/// it.
 std::string format(const Diagnostic& diagnostic);
 
 }  // namespace probewright

@@ -1,20 +1,72 @@
 #include "base/file.hpp"
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <utility>
 
 namespace probewright {
 
 namespace {
 
+/// Closes the file at the end of its scope.
+class Descriptor {
+public:
+  explicit Descriptor(int number) : number_(number) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  int number() const { return number_; }
+
+private:
+  int number_;
+};
+
+const char* adviceFor(int reason) {
+  switch (reason) {
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "change its permissions, or name another file or folder";
+    case ENOSPC:
+    case EDQUOT:
+      return "make room on this disk, or name a folder on another one";
+    case EIO:
+      return "the disk or the network reports an error; name a folder on another one";
+    default:
+      return "";
+  }
+}
+
+/// Why a file of this mode cannot be read; nothing if it can.
+std::optional<tl::unexpected<Diagnostic>> whyNotReadable(const std::filesystem::path& path, mode_t mode) {
+  const auto refuse = [&](const char* message) {
+    return fail(SourcePlace{path.string(), 0, 0}, message, "name a file, or a pipe that a program writes into");
+  };
+  if (S_ISDIR(mode)) return refuse("this is a folder, a file was expected");
+  if (S_ISREG(mode) || S_ISFIFO(mode)) return std::nullopt;
+  return refuse("this is a device, a file was expected");
+}
+
+/// Waits until the pipe has something to read, or has ended. False, with errno, if the wait was interrupted.
+bool awaitPipe(int descriptor) {
+  pollfd waited{descriptor, POLLIN, 0};
+  return ::poll(&waited, 1, -1) >= 0;
+}
+
+}  // namespace
+
 tl::unexpected<Diagnostic> failErrno(const std::filesystem::path& path, std::string_view doing) {
-  const std::string reason = std::strerror(errno);
-  return fail(SourcePlace{path.string(), 0, 0}, "cannot " + std::string(doing) + ": " + reason);
+  const int reason = errno;
+  return fail(SourcePlace{path.string(), 0, 0}, fmt::format("cannot {}: {}", doing, std::strerror(reason)),
+              adviceFor(reason));
 }
 
 bool writeAll(int descriptor, std::string_view bytes) {
@@ -27,8 +79,52 @@ bool writeAll(int descriptor, std::string_view bytes) {
   return true;
 }
 
-/// Writes and flushes a neighbour of `path` and returns its name. Creates missing folders.
-Result<std::string> writeAside(const std::filesystem::path& path, std::string_view bytes) {
+Result<std::string> readFile(const std::filesystem::path& path, std::uint64_t most) {
+  // Without O_NONBLOCK a pipe that nobody writes into would hold up the program here for ever.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
+  struct stat status {};
+  if (file.number() < 0) {
+    if (errno != ENXIO) return failErrno(path, "open this file");
+    return fail(SourcePlace{path.string(), 0, 0}, "this is a socket, a file was expected", "name a file");
+  }
+  if (::fstat(file.number(), &status) != 0) return failErrno(path, "read this file");
+  if (auto why = whyNotReadable(path, status.st_mode)) return std::move(*why);
+  const bool pipe = S_ISFIFO(status.st_mode);
+  const auto tooLarge = [&] {
+    return fail(SourcePlace{path.string(), 0, 0}, fmt::format("this file is larger than {} MB", most >> 20U),
+                "check that it is the file that was meant");
+  };
+  std::string bytes;
+  if (!pipe && status.st_size > 0) {
+    if (static_cast<std::uint64_t>(status.st_size) > most) return tooLarge();
+    bytes.reserve(static_cast<std::size_t>(status.st_size));
+  }
+  for (char part[1 << 16];;) {
+    const ssize_t count = ::read(file.number(), part, sizeof part);
+    if (count == 0) break;
+    if (count < 0 && errno == EAGAIN && pipe) {
+      if (!awaitPipe(file.number())) return failErrno(path, "read this pipe");
+      continue;
+    }
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return failErrno(path, "read this file");
+    bytes.append(part, static_cast<std::size_t>(count));
+    if (bytes.size() > most) return tooLarge();
+  }
+  if (pipe && bytes.empty()) {
+    return fail(SourcePlace{path.string(), 0, 0}, "this is a pipe, and nothing writes into it",
+                "name a file, or start the program that writes into the pipe first");
+  }
+  return bytes;
+}
+
+std::optional<FileIdentity> identityOf(const std::filesystem::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return FileIdentity{status.st_dev, status.st_ino};
+}
+
+Result<void> writeFileAtomically(const std::filesystem::path& path, std::string_view bytes) {
   std::error_code error;
   if (path.has_parent_path()) {
     std::filesystem::create_directories(path.parent_path(), error);
@@ -38,54 +134,15 @@ Result<std::string> writeAside(const std::filesystem::path& path, std::string_vi
     return fail(SourcePlace{path.string(), 0, 0}, "cannot write this file: a folder has its name");
   }
   std::string aside = path.string() + ".XXXXXX";
-  const int descriptor = ::mkstemp(aside.data());
-  if (descriptor < 0) return failErrno(path, "write beside this file");
-  const bool written = writeAll(descriptor, bytes) && ::fchmod(descriptor, 0644) == 0 && ::fsync(descriptor) == 0;
-  const int writeError = errno;
-  ::close(descriptor);
-  if (written) return aside;
-  errno = writeError;
+  const Descriptor file(::mkstemp(aside.data()));
+  if (file.number() < 0) return failErrno(path, "write beside this file");
+  if (writeAll(file.number(), bytes) && ::fchmod(file.number(), 0644) == 0 && ::fsync(file.number()) == 0 &&
+      ::rename(aside.c_str(), path.c_str()) == 0) {
+    return {};
+  }
   auto failure = failErrno(path, "write this file");
   ::unlink(aside.c_str());
   return failure;
-}
-
-}  // namespace
-
-Result<std::string> readFile(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    return fail(SourcePlace{path.string(), 0, 0}, "this is a folder, a file was expected");
-  }
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return failErrno(path, "open this file");
-  std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (stream.bad()) return failErrno(path, "read this file");
-  return bytes;
-}
-
-Result<void> writeFileAtomically(const std::filesystem::path& path, std::string_view bytes) {
-  return writeFilesTogether({{path, bytes}});
-}
-
-Result<void> writeFilesTogether(const std::vector<std::pair<std::filesystem::path, std::string_view>>& files) {
-  std::vector<std::string> asides;
-  std::size_t renamed = 0;
-  const auto give = [&](tl::unexpected<Diagnostic> failure) {
-    for (std::size_t i = renamed; i < asides.size(); ++i)
-      ::unlink(asides[i].c_str());
-    return failure;
-  };
-  for (const auto& [path, bytes] : files) {
-    Result<std::string> aside = writeAside(path, bytes);
-    if (!aside) return give(tl::unexpected(std::move(aside.error())));
-    asides.push_back(std::move(*aside));
-  }
-  for (; renamed < asides.size(); ++renamed) {
-    const std::filesystem::path& path = files[renamed].first;
-    if (::rename(asides[renamed].c_str(), path.c_str()) != 0) return give(failErrno(path, "write this file"));
-  }
-  return {};
 }
 
 }  // namespace probewright

@@ -45,4 +45,10 @@ public:
   Cancelled() : std::runtime_error("cancelled") {}
 };
 
+/// What a run leaves behind has reached its limit: see Journal.
+class RecordFull : public std::runtime_error {
+public:
+  RecordFull() : std::runtime_error("the record of the run is full") {}
+};
+
 }  // namespace probewright::control

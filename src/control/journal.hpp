@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/diagnostic.hpp"
+#include "control/event_list.hpp"
 #include "geometry/primitives.hpp"
 #include "machine/description.hpp"
 #include "metrology/verdict.hpp"
@@ -69,29 +71,35 @@ struct CycleRecord {
   double pathLength = 0;  ///< mm travelled by the tool within the cycle
 };
 
-enum class EventKind { Message, Alarm, Stop, Skipped, Tool, Warning };
-
-/// Something the operator would see.
-struct EventRecord {
-  EventKind kind = EventKind::Message;
-  SourcePlace place;
-  std::string code;
-  std::string text;
-  double seconds = 0;
-};
-
 /// The record of one run. Cycles in the order they ran; writes outside cycles (FN 17, CYCL DEF 247...) in `writes`.
+///
+/// A program in an endless loop must not fill the memory of the computer: what is entered through the functions below
+/// counts against `limit`, and the entry that goes beyond it throws RecordFull, once.
 struct Journal {
   std::vector<CycleRecord> cycles;
-  std::vector<EventRecord> events;
-  std::vector<WriteRecord> writes;
+  EventList events;
+  std::deque<WriteRecord> writes;
   bool cycleOpen = false;  ///< the last of `cycles` is running
+
+  std::uint64_t limit = 0;  ///< bytes of memory that a run may leave; 0: any
+  std::uint64_t used = 0;   ///< bytes that count against it
 
   /// The cycle that runs, or null.
   CycleRecord* open() { return cycleOpen ? &cycles.back() : nullptr; }
 
+  /// A cycle begins and is the open one from here on.
+  void begin(CycleRecord record);
+  /// The touch goes to the open cycle; without one it is forgotten.
+  void touch(TouchRecord record);
   /// The change goes to the open cycle, or to `writes`.
-  void write(WriteRecord record) { (cycleOpen ? cycles.back().writes : writes).push_back(std::move(record)); }
+  void write(WriteRecord record);
+  void event(EventRecord record);
+
+  /// Something else that the run leaves grows by so many bytes, a file for instance.
+  void charge(std::uint64_t bytes);
+
+private:
+  bool full_ = false;  ///< RecordFull was thrown
 };
 
 }  // namespace probewright::control

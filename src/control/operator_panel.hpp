@@ -39,19 +39,24 @@ public:
   SourcePlace place;
 
   void message(EventKind kind, std::string text, double seconds, std::string code = {}) {
-    journal_.events.push_back({kind, place, std::move(code), std::move(text), seconds});
+    journal_.event({kind, place, std::move(code), std::move(text), seconds});
   }
 
   /// The program waits here. Throws Cancelled if it is not to go on.
   void stop(const std::string& text, double seconds);
 
+  /// Why the run cannot leave a file of this name: the reason, and the way out; nothing if it can.
+  std::function<std::optional<Diagnostic>(const std::string& name)> whyNoFile;
+
   /// A text file that the control writes beside the program. `name` has no folder. Files are gathered here and written
-  /// by whoever runs the program.
-  void file(const std::string& name, std::string text) { files_[name] = std::move(text); }
-  void appendToFile(const std::string& name, const std::string& text) { files_[name] += text; }
+  /// by whoever runs the program. An Alarm if no file can have that name.
+  void file(const std::string& name, std::string text);
+  void appendToFile(const std::string& name, const std::string& text);
   const std::map<std::string, std::string>& files() const { return files_; }
 
 private:
+  std::string& fileCalled(const std::string& name);
+
   Journal& journal_;
   std::map<std::string, std::string> files_;
 };

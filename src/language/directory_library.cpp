@@ -30,7 +30,11 @@ std::vector<std::string> componentsOf(std::string_view name) {
   while (!name.empty()) {
     const auto separator = name.find_first_of("/\\");
     const std::string_view component = name.substr(0, separator);
-    if (!component.empty() && component != ".") components.push_back(plainName(component));
+    if (component == ".." && !components.empty() && components.back() != "..") {
+      components.pop_back();
+    } else if (!component.empty() && component != ".") {
+      components.push_back(plainName(component));
+    }
     name.remove_prefix(separator == std::string_view::npos ? name.size() : separator + 1);
   }
   return components;
@@ -55,6 +59,14 @@ std::optional<fs::path> entryOf(const fs::path& folder, const std::string& name,
 }
 
 }  // namespace
+
+bool liesWithin(const fs::path& file, const fs::path& folder) {
+  std::error_code error;
+  const fs::path inner = fs::canonical(file, error);
+  if (error) return false;
+  const fs::path outer = fs::canonical(folder.empty() ? fs::path(".") : folder, error);
+  return !error && std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
+}
 
 DirectoryLibrary::DirectoryLibrary(std::vector<std::string> endings, Open open, std::vector<fs::path> folders)
     : endings_(std::move(endings)), open_(std::move(open)), folders_(std::move(folders)) {}
@@ -102,17 +114,9 @@ std::optional<fs::path> DirectoryLibrary::find(std::string_view name, const Prog
 
 /// Below the folder of the first caller, or below one of the further folders.
 bool DirectoryLibrary::isWithinReach(const fs::path& path) const {
-  std::error_code error;
-  const auto whole = [&](const fs::path& each) {
-    return fs::absolute(each.empty() ? fs::path(".") : each, error).lexically_normal();
-  };
-  const fs::path place = whole(path).parent_path();
-  const auto isAbove = [&](const fs::path& folder) {
-    fs::path above = whole(folder);
-    if (!above.has_filename()) above = above.parent_path();
-    return std::mismatch(above.begin(), above.end(), place.begin(), place.end()).first == above.end();
-  };
-  return !root_ || isAbove(*root_) || std::any_of(folders_.begin(), folders_.end(), isAbove);
+  if (!root_ && folders_.empty()) return true;
+  const auto isAbove = [&](const fs::path& folder) { return liesWithin(path, folder); };
+  return (root_ && isAbove(*root_)) || std::any_of(folders_.begin(), folders_.end(), isAbove);
 }
 
 Result<std::shared_ptr<Program>> DirectoryLibrary::open(std::string_view name, const Program* caller) {

@@ -12,14 +12,17 @@
 
 namespace probewright::language {
 
+/// True if the file lies in `folder` or below it, symbolic links followed; empty: the current folder.
+bool liesWithin(const std::filesystem::path& file, const std::filesystem::path& folder);
+
 /// Finds called programs in folders of this machine, as a control finds them on its own disk: capital and small letters
 /// are the same, the ending may be left out.
 ///
 /// Names are taken as programs write them: "SUB", "SUB.H", "PARTS\SUB.H", "TNC:\PARTS\SUB.H", "L100",
 /// "_N_L100_SPF", "/_N_WKS_DIR/_N_RING_WPD/_N_L100_SPF". A path is looked up below the caller's folder and below
 /// each of the further folders; if it is not there, its folders are left out one after the other from the front, so
-/// that programs copied from a control need not keep its folders. ".." leads up, but not out of the folder of the
-/// program that called first.
+/// that programs copied from a control need not keep its folders. Neither ".." nor a symbolic link leads out of the
+/// folder of the program that called first and the further folders.
 class DirectoryLibrary : public ProgramLibrary {
 public:
   /// Opens the program file at a path.

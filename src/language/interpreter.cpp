@@ -103,6 +103,11 @@ RunResult Interpreter::run(std::shared_ptr<Program> main) {
     result.diagnostics = explain(options_.stop.stop_requested()
                                      ? here(Severity::Note, "the run was interrupted at this block")
                                      : here(Severity::Note, "the program stopped here and was not continued"));
+  } catch (const control::RecordFull&) {
+    result.end = RunEnd::RecordLimit;
+    result.diagnostics =
+        explain(here(Severity::Error, "the run was stopped: its messages, results and files have become too much",
+                     "look for an endless loop, or raise the limit with --record-limit"));
   } catch (Broken& broken) {
     result.end = RunEnd::BrokenProgram;
     result.diagnostics = std::move(broken.mistakes);
@@ -124,6 +129,7 @@ void Interpreter::leaveAll() {
       host_.leave(*current_->program);
     } catch (const control::Alarm&) {  // why the run ends is known already
     } catch (const control::Cancelled&) {
+    } catch (const control::RecordFull&) {
     }
     current_ = frames_.back().caller;
   }

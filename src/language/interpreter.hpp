@@ -56,7 +56,8 @@ enum class RunEnd {
   BrokenProgram,  ///< a block that cannot be read
   Cancelled,
   StepLimit,
-  Halted,  ///< at a breakpoint
+  RecordLimit,  ///< control::RecordFull: what the program leaves has become too much
+  Halted,       ///< at a breakpoint
 };
 
 struct RunResult {

@@ -130,7 +130,7 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
   const auto finish = [&](std::string outcome) {
     record.seconds = channel_.seconds();
     record.outcome = std::move(outcome);
-    if (control::CycleRecord* cycle = channel_.journal().open()) cycle->touches.push_back(record);
+    channel_.journal().touch(record);
   };
   for (int i = 0; i < std::max(1, probe_.repetitions); ++i) {
     const machine::MeasureResult result =

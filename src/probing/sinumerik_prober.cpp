@@ -176,7 +176,7 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
   const auto finish = [&](std::string outcome) {
     record.seconds = channel_.seconds();
     record.outcome = std::move(outcome);
-    if (control::CycleRecord* cycle = channel_.journal().open()) cycle->touches.push_back(record);
+    channel_.journal().touch(record);
   };
   const Feed retract = habits_.rapidRetract ? rapidTo(end) : Feed::at(habits_.planeFeed);
   const auto probeOnce = [&](const Vector3& target, double atFeed) -> std::optional<control::Touch> {

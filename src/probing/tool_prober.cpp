@@ -57,7 +57,7 @@ Vector3 ToolProber::stroke(const Vector3& direction) {
   const auto fail = [&](const char* outcome, const std::string& code, const std::string& text, const char* advice) {
     record.seconds = channel_.seconds();
     record.outcome = outcome;
-    if (control::CycleRecord* cycle = channel_.journal().open()) cycle->touches.push_back(record);
+    channel_.journal().touch(record);
     throw Alarm(code, text, advice);
   };
   switch (result.end) {
@@ -91,7 +91,7 @@ Vector3 ToolProber::stroke(const Vector3& direction) {
   record.latched = touch.latched;
   record.seconds = channel_.seconds();
   record.outcome = "touched";
-  if (control::CycleRecord* cycle = channel_.journal().open()) cycle->touches.push_back(record);
+  channel_.journal().touch(record);
   return channel_.machineFromAxes(touch.latched);
 }
 

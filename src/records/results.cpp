@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
 
 #include "cycles/main_results.hpp"
 #include "records/readable_text.hpp"
@@ -201,8 +205,10 @@ TouchCount countTouches(const control::Journal& journal) {
   return count;
 }
 
-json resultsJson(const control::Journal& journal, const RunInfo& run) {
-  const ReadableText text(run);
+namespace {
+
+/// All but the lists that grow with the program.
+json withoutLists(const control::Journal& journal, const RunInfo& run, const ReadableText& text) {
   const TouchCount touches = countTouches(journal);
   return {{"schema", "probewright results"},
           {"schemaVersion", resultsSchemaVersion},
@@ -215,14 +221,110 @@ json resultsJson(const control::Journal& journal, const RunInfo& run) {
             {"failedTouches", touches.failed},
             {"pathLength", number(run.totalPathLength)},
             {"time", number(run.totalSeconds)}}},
-          {"cycles", list(journal.cycles, [&](const auto& record) { return cycle(record, run.axes, text); })},
-          {"writes", list(journal.writes, [&](const auto& w) { return write(w, text); })},
-          {"events", list(journal.events, [&](const auto& e) { return event(e, text); })},
           {"files", list(run.outputFiles, text)}};
 }
 
-std::string resultsText(const control::Journal& journal, const RunInfo& run) {
-  return resultsJson(journal, run).dump(2) + "\n";
+/// Writes one object entry by entry and list element by element, as dump would write the whole.
+class ObjectWriter {
+public:
+  ObjectWriter(const Sink& sink, Layout layout) : sink_(sink), indented_(layout == Layout::Indented) { sink_("{"); }
+
+  void entry(const std::string& key, const json& value) {
+    begin(key);
+    put(value, 1);
+  }
+
+  template <class Records, class Convert>
+  void list(const std::string& key, const Records& records, Convert convert) {
+    begin(key);
+    sink_("[");
+    bool first = true;
+    for (const auto& record : records) {
+      sink_(std::exchange(first, false) ? "" : ",");
+      newLine(2);
+      put(convert(record), 2);
+    }
+    if (!first) newLine(1);
+    sink_("]");
+  }
+
+  void finish() {
+    newLine(0);
+    sink_("}");
+  }
+
+private:
+  void begin(const std::string& key) {
+    sink_(std::exchange(first_, false) ? "" : ",");
+    newLine(1);
+    sink_(json(key).dump() + (indented_ ? ": " : ":"));
+  }
+
+  void newLine(int depth) {
+    if (!indented_) return;
+    sink_("\n");
+    sink_(std::string(static_cast<std::size_t>(2 * depth), ' '));
+  }
+
+  /// Texts in JSON hold no line ends: each of them begins an indented line.
+  void put(const json& value, int depth) {
+    const std::string text = value.dump(indented_ ? 2 : -1);
+    const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
+    std::string_view rest = text;
+    for (std::size_t end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n')) {
+      sink_(rest.substr(0, end + 1));
+      sink_(indent);
+      rest.remove_prefix(end + 1);
+    }
+    sink_(rest);
+  }
+
+  const Sink& sink_;
+  bool indented_;
+  bool first_ = true;
+};
+
+}  // namespace
+
+void writeResults(const Sink& sink, const control::Journal& journal, const RunInfo& run, Layout layout) {
+  const ReadableText text(run);
+  ObjectWriter object(sink, layout);
+  const json rest = withoutLists(journal, run, text);
+  const std::map<std::string, std::function<void(const std::string&)>> lists = {
+      {"cycles",
+       [&](const std::string& key) {
+         object.list(key, journal.cycles, [&](const auto& record) { return cycle(record, run.axes, text); });
+       }},
+      {"events",
+       [&](const std::string& key) {
+         object.list(key, journal.events, [&](const auto& record) { return event(record, text); });
+       }},
+      {"writes",
+       [&](const std::string& key) {
+         object.list(key, journal.writes, [&](const auto& record) { return write(record, text); });
+       }},
+  };
+  std::set<std::string> keys;  // in the order of their names, as JSON libraries write them
+  for (const auto& [key, value] : rest.items())
+    keys.insert(key);
+  for (const auto& [key, writeList] : lists)
+    keys.insert(key);
+  for (const std::string& key : keys) {
+    if (const auto found = lists.find(key); found != lists.end()) {
+      found->second(key);
+    } else {
+      object.entry(key, rest[key]);
+    }
+  }
+  object.finish();
 }
+
+std::string resultsText(const control::Journal& journal, const RunInfo& run) {
+  std::string text;
+  writeResults([&](std::string_view part) { text += part; }, journal, run, Layout::Indented);
+  return text + "\n";
+}
+
+json resultsJson(const control::Journal& journal, const RunInfo& run) { return json::parse(resultsText(journal, run)); }
 
 }  // namespace probewright::records

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/sink.hpp"
 #include "control/journal.hpp"
 #include "records/run_info.hpp"
 
@@ -17,7 +18,13 @@ inline constexpr int resultsSchemaVersion = 1;
 /// that is no number (NaN, infinity) becomes null; texts become UTF-8 (see ReadableText).
 nlohmann::json resultsJson(const control::Journal& journal, const RunInfo& run);
 
-/// The same as the text of `results.json`: indented UTF-8, numbers in the shortest form that reads back as the same
+/// How JSON is laid out.
+enum class Layout { Indented, Compact };
+
+/// The same as text, element by element: a run may leave more than should stand in memory a second time.
+void writeResults(const Sink& sink, const control::Journal& journal, const RunInfo& run, Layout layout);
+
+/// The text of `results.json`: indented UTF-8, numbers in the shortest form that reads back as the same
 /// double, a newline at the end.
 std::string resultsText(const control::Journal& journal, const RunInfo& run);
 

@@ -171,16 +171,13 @@ json programData(const records::ProgramSource& source, const std::set<std::uint6
 }
 
 /// A text inside <script> may hold neither an end tag nor a comment: escape the sign both start with.
-std::string scriptSafe(std::string json) {
-  std::string safe;
-  safe.reserve(json.size() + 64);
-  for (const char c : json) {
-    if (c == '<')
-      safe += "\\u003c";
-    else
-      safe += c;
+void putScriptSafe(const Sink& sink, std::string_view json) {
+  for (std::size_t sign = json.find('<'); sign != std::string_view::npos; sign = json.find('<')) {
+    sink(json.substr(0, sign));
+    sink("\\u003c");
+    json.remove_prefix(sign + 1);
   }
-  return safe;
+  sink(json);
 }
 
 std::string htmlText(std::string_view text) {
@@ -210,8 +207,8 @@ std::string fileName(const std::string& path) { return path.substr(path.find_las
 
 }  // namespace
 
-std::string reportHtml(const control::Journal& journal, const records::RunInfo& run, const Scene& scene,
-                       std::size_t longestProgram) {
+void writeReport(const Sink& sink, const control::Journal& journal, const records::RunInfo& run, const Scene& scene,
+                 std::size_t longestProgram) {
   const records::ReadableText readable(run);
   const auto interest = linesOfInterest(journal);
   json programs = json::array();
@@ -220,9 +217,6 @@ std::string reportHtml(const control::Journal& journal, const records::RunInfo& 
     programs.push_back(
         programData(source, lines == interest.end() ? std::set<std::uint64_t>{} : lines->second, longestProgram));
   }
-  const json data = {{"results", records::resultsJson(journal, run)},
-                     {"programs", std::move(programs)},
-                     {"scene", sceneData(scene, readable)}};
   const std::string title = run.programs.empty() ? "Measuring report" : fileName(readable(run.programs[0].path));
 
   std::string html;
@@ -236,10 +230,25 @@ std::string reportHtml(const control::Journal& journal, const records::RunInfo& 
   html += embeddedReportCss();
   html += "</style>\n</head>\n<body>\n<noscript>This report needs JavaScript switched on.</noscript>\n";
   html += "<div id=\"report\"></div>\n<script type=\"application/json\" id=\"report-data\">";
-  html += scriptSafe(data.dump());
-  html += "</script>\n<script>\n";
+  sink(html);
+  const Sink script = [&](std::string_view part) { putScriptSafe(sink, part); };
+  script("{\"programs\":");
+  script(programs.dump());
+  script(",\"results\":");
+  records::writeResults(script, journal, run, records::Layout::Compact);
+  script(",\"scene\":");
+  script(sceneData(scene, readable).dump());
+  script("}");
+  html = "</script>\n<script>\n";
   html += embeddedReportJs();
   html += "</script>\n</body>\n</html>\n";
+  sink(html);
+}
+
+std::string reportHtml(const control::Journal& journal, const records::RunInfo& run, const Scene& scene,
+                       std::size_t longestProgram) {
+  std::string html;
+  writeReport([&](std::string_view part) { html += part; }, journal, run, scene, longestProgram);
   return html;
 }
 

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "base/sink.hpp"
 #include "control/journal.hpp"
 #include "records/run_info.hpp"
 #include "reports/scene.hpp"
@@ -15,5 +16,9 @@ namespace probewright::reports {
 /// Of a program longer than `longestProgram` lines only the surroundings of cycles and events are shown.
 std::string reportHtml(const control::Journal& journal, const records::RunInfo& run, const Scene& scene,
                        std::size_t longestProgram = 20000);
+
+/// The same piece by piece, for runs that leave more than should stand in memory a second time.
+void writeReport(const Sink& sink, const control::Journal& journal, const records::RunInfo& run, const Scene& scene,
+                 std::size_t longestProgram = 20000);
 
 }  // namespace probewright::reports

@@ -217,7 +217,7 @@ std::string messageOf(const control::EventRecord& event) {
   return event.code.empty() ? event.text : event.code + ": " + event.text;
 }
 
-std::string outcome(const control::Journal& journal, const records::RunInfo& run, const Style& style) {
+std::string outcome(const control::Journal& journal, const records::RunInfo& run, Cause cause, const Style& style) {
   std::size_t toleranced = 0, outside = 0;
   for (const auto& cycle : journal.cycles) {
     for (const auto& result : cycle.results) {
@@ -225,7 +225,7 @@ std::string outcome(const control::Journal& journal, const records::RunInfo& run
       outside += result.verdict == Verdict::Rework || result.verdict == Verdict::Scrap;
     }
   }
-  const std::string why = run.exitText.empty() ? "" : ": " + style.line(run.exitText);
+  const std::string why = run.exitText.empty() || cause == Cause::Told ? "" : ": " + style.line(run.exitText);
   switch (run.exit) {
     case records::ExitState::Stopped:
       return style.paint(Tone::Bad, "STOPPED") + why;
@@ -251,7 +251,7 @@ std::string outcome(const control::Journal& journal, const records::RunInfo& run
 
 }  // namespace
 
-std::string summaryText(const control::Journal& journal, const records::RunInfo& run, Colour colour) {
+std::string summaryText(const control::Journal& journal, const records::RunInfo& run, Colour colour, Cause cause) {
   const Style style{Painter(colour), records::ReadableText(run), run.programs.empty() ? "" : run.programs[0].path,
                     run.inches};
   std::string text = style.line(fileName(style.mainProgram));
@@ -269,11 +269,12 @@ std::string summaryText(const control::Journal& journal, const records::RunInfo&
     text += writeLine(write, style);
   std::size_t alarms = 0;
   std::string where;
-  for (const auto& event : journal.events) {
+  for (std::size_t i = 0; i < journal.events.size(); ++i) {
+    const control::EventRecord event = journal.events[i];
     const bool isAlarm = event.kind == control::EventKind::Alarm;
     alarms += isAlarm;
     // What ended the run is said once, as its outcome.
-    const bool ended = isAlarm && &event == &journal.events.back() && messageOf(event) == run.exitText;
+    const bool ended = isAlarm && i + 1 == journal.events.size() && messageOf(event) == run.exitText;
     if (ended) where = style.place(event.place);
     if (event.kind != control::EventKind::Tool && !ended) text += eventText(event, style);
   }
@@ -281,7 +282,7 @@ std::string summaryText(const control::Journal& journal, const records::RunInfo&
   const records::TouchCount touches = records::countTouches(journal);
   std::string touchText = counted(touches.touched, "touch", "touches");
   if (touches.failed > 0) touchText += " and " + counted(touches.failed, "failed attempt", "failed attempts");
-  text += fmt::format("{}{}\n{}, {}, path {}, time {}, {}\n", outcome(journal, run, style), where,
+  text += fmt::format("{}{}\n{}, {}, path {}, time {}, {}\n", outcome(journal, run, cause, style), where,
                       counted(journal.cycles.size(), "cycle", "cycles"), touchText, distance(run.totalPathLength),
                       duration(run.totalSeconds), alarms == 0 ? "no alarms" : counted(alarms, "alarm", "alarms"));
   return text;

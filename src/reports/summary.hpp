@@ -9,9 +9,13 @@ namespace probewright::reports {
 
 enum class Colour { Off, On };
 
+/// Whether what stopped the run is said at the end, or was told elsewhere already.
+enum class Cause { Shown, Told };
+
 /// The run in a few lines for a terminal: each cycle with its line, its main results (cycles::mainResults), what it
 /// wrote and its verdict; at the end the state of the whole, path, time and alarms. With Colour::On verdicts carry ANSI
 /// colours.
-std::string summaryText(const control::Journal& journal, const records::RunInfo& run, Colour colour = Colour::Off);
+std::string summaryText(const control::Journal& journal, const records::RunInfo& run, Colour colour = Colour::Off,
+                        Cause cause = Cause::Shown);
 
 }  // namespace probewright::reports

@@ -36,13 +36,28 @@ std::string upper(std::string text) {
   return text;
 }
 
-/// The files of the setup's table folder, in alphabetical order.
-std::vector<fs::path> tableFiles(const Setup& setup) {
+/// The files of the setup's table folder, in alphabetical order. What has the name of a table and is none is a mistake.
+std::vector<fs::path> tableFiles(const Setup& setup, Diagnostics& diagnostics) {
   std::vector<fs::path> files;
   if (setup.tables.empty()) return files;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(setup.tables, error)) {
-    if (entry.is_regular_file(error)) files.push_back(entry.path());
+    static constexpr std::array<std::string_view, 12> endings = {".T",    ".TP",  ".PR",  ".TRN", ".TAB", ".D",
+                                                                 ".3DTC", ".INI", ".TOA", ".UFR", ".GUD", ".DEF"};
+    const fs::path& path = entry.path();
+    if (entry.is_regular_file(error)) {
+      files.push_back(path);
+    } else if (std::ranges::find(endings, upper(path.extension().string())) != endings.end()) {
+      const char* what = fs::is_directory(path, error) ? "a folder"
+                         : fs::exists(path, error)     ? "not a file"
+                                                       : "a symbolic link that leads nowhere";
+      diagnostics.push_back({Severity::Error,
+                             {path.string(), 0, 0},
+                             fmt::format("this has the name of a table, but it is {}", what),
+                             {},
+                             "put the table there, or rename it",
+                             {}});
+    }
   }
   std::ranges::sort(files);
   return files;
@@ -147,10 +162,13 @@ void enterTool(hh::Tables& tables, const BelievedTool& tool, bool probeRow, cons
 }  // namespace
 
 hh::Tables heidenhainTables(const Setup& setup, ControlKind kind, Diagnostics& diagnostics) {
-  const std::vector<fs::path> files = tableFiles(setup);
+  const std::vector<fs::path> files = tableFiles(setup, diagnostics);
+  // Row 0 is what the control begins with. A setup that names rows has no others.
+  const std::size_t presetRows = setup.presets.empty() ? 2 : 1;
   hh::Tables tables{tableNamed("TOOL.T", files, hh::toolColumns(), hh::defaultToolTable(kind), diagnostics),
                     tableNamed("TCHPROBE.TP", files, hh::probeColumns(), hh::defaultProbeTable(kind), diagnostics),
-                    tableNamed("PRESET.PR", files, hh::presetColumns(), hh::defaultPresetTable(kind), diagnostics),
+                    tableNamed("PRESET.PR", files, hh::presetColumns(),
+                               hh::defaultPresetTable(kind, hh::TableUnit::Millimetre, presetRows), diagnostics),
                     {},
                     {},
                     {},
@@ -175,11 +193,17 @@ hh::Tables heidenhainTables(const Setup& setup, ControlKind kind, Diagnostics& d
       }
     }
   }
-  const bool hasProbeTable =
-      std::ranges::any_of(files, [](const fs::path& path) { return upper(path.filename().string()) == "TCHPROBE.TP"; });
-  for (const BelievedTool& tool : setup.tools)
-    enterTool(tables, tool, !hasProbeTable, setup, diagnostics);
+  const auto isThere = [&](const char* name) {
+    return std::ranges::any_of(files, [&](const fs::path& path) { return upper(path.filename().string()) == name; });
+  };
+  const bool hasProbeTable = isThere("TCHPROBE.TP"), hasPresetTable = isThere("PRESET.PR");
+  for (const BelievedTool& tool : setup.tools) {
+    const bool probeRow = !hasProbeTable || !tables.probes.hasRow(std::to_string(tool.probeNumber));
+    enterTool(tables, tool, probeRow, setup, diagnostics);
+  }
   for (const BelievedFrame& preset : setup.presets) {
+    // What a file says goes before the setup: a run that sets presets hands them to the next one so.
+    if (hasPresetTable && tables.presets.hasRow(std::to_string(preset.index))) continue;
     Entry entry(tables.presets, std::to_string(preset.index), setup, diagnostics);
     static constexpr std::array<const char*, 3> names = {"X", "Y", "Z"};
     static constexpr std::array<const char*, 3> angles = {"SPA", "SPB", "SPC"};
@@ -349,7 +373,7 @@ SinumerikData sinumerikData(const Setup& setup, Diagnostics& diagnostics, const 
                                          : "\"" + std::get<std::string>(parameter.value) + "\""),
                          setup.file, store, diagnostics);
   }
-  for (const fs::path& path : tableFiles(setup)) {
+  for (const fs::path& path : tableFiles(setup, diagnostics)) {
     const std::string ending = upper(path.extension().string());
     static constexpr std::array<std::string_view, 6> endings = {".INI", ".TOA", ".UFR", ".GUD", ".SEA", ".MD"};
     if (std::ranges::find(endings, ending) == endings.end()) continue;

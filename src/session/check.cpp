@@ -11,20 +11,25 @@
 namespace probewright::session {
 
 Diagnostics checkProgram(const std::filesystem::path& path, std::optional<control::ControlKind> control,
-                         std::bitset<10> skipLevels) {
+                         std::bitset<10> skipLevels, std::string* read) {
   const Result<std::string> text = readFile(path);
   if (!text) return {text.error()};
+  if (read != nullptr) *read = *text;
   const Result<control::ControlKind> kind = controlFor(path, *text, control, std::nullopt);
   if (!kind) return {kind.error()};
-  const Result<std::shared_ptr<language::Program>> program = openProgram(path, languageFor(*kind, path, *text));
+  const Result<std::shared_ptr<language::Program>> program = openProgram(path, *text, languageFor(*kind, path, *text));
   if (!program) return {program.error()};
-  if (control::isHeidenhain(*kind)) return checkProgram(**program, *kind, {}, nullptr, skipLevels);
+  const auto withNote = [&](Diagnostics found) {
+    if (const auto note = otherLanguage(path, *text); note && hasErrors(found)) found.push_back(*note);
+    return found;
+  };
+  if (control::isHeidenhain(*kind)) return withNote(checkProgram(**program, *kind, {}, nullptr, skipLevels));
   Diagnostics found;
   const sinumerik::GlobalUserData globalData = globalUserData(path, {}, found);
   useMacros(**program, globalData);
   const Diagnostics more = checkProgram(**program, *kind, {}, &globalData, skipLevels);
   found.insert(found.end(), more.begin(), more.end());
-  return found;
+  return withNote(std::move(found));
 }
 
 Diagnostics checkProgram(language::Program& program, control::ControlKind kind, std::set<std::string> globalVariables,

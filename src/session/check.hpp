@@ -18,9 +18,10 @@ namespace probewright::session {
 
 /// Every mistake of a program that can be seen without running it, in the order of its lines; programs that it calls
 /// are looked for beside it, and with SINUMERIK checked too; there also definition files of global user data.
-/// `skipLevels`: levels of block skip that are on; such blocks are left out.
+/// `skipLevels`: levels of block skip that are on; such blocks are left out. `read`, if it is not null, gets the text
+/// that was read: a pipe gives it only once.
 Diagnostics checkProgram(const std::filesystem::path& path, std::optional<control::ControlKind> control,
-                         std::bitset<10> skipLevels = {});
+                         std::bitset<10> skipLevels = {}, std::string* read = nullptr);
 
 /// The same for a program that is open; it must be one of the language of `kind`. `globalVariables`: names of
 /// data that the control has values for, upper case; `globalData`: what its definition files declare, null if nothing.

@@ -24,20 +24,27 @@ bool sameName(const std::string& a, const std::string& b) {
 }  // namespace
 
 HostFiles::HostFiles(const fs::path& program, const simulation::Setup& setup)
-    : files_(
-          {""}, [](const fs::path&) { return fail("no program"); }, foldersOf(program, setup)),
+    : folders_(foldersOf(program, setup)),
+      files_(
+          {""}, [](const fs::path&) { return fail("no program"); }, folders_),
       inputs_{program.filename().string(), fs::path(setup.file).filename().string()} {}
 
-Result<std::string> HostFiles::read(const std::string& name) const {
-  constexpr std::uintmax_t largest = 64U << 20U;
+Result<std::string> HostFiles::read(const std::string& name) {
   const auto path = name.find("..") == std::string::npos ? files_.find(name, nullptr) : std::nullopt;
   if (!path) {
     return fail("there is no such file in the folder of the program or among the tables of the setup",
                 "programs read files of their own folder, of the folders in it, and of the setup's tables");
   }
+  return readAt(*path);
+}
+
+Result<std::string> HostFiles::readAt(const fs::path& path) {
   std::error_code error;
-  if (fs::file_size(*path, error) > largest || error) return fail("the file is too large");
-  return readFile(*path);
+  const auto isAbove = [&](const fs::path& folder) { return language::liesWithin(path, folder); };
+  if (!fs::is_regular_file(path, error) || std::ranges::none_of(folders_, isAbove))
+    return fail("there is no such file in the folder of the program or among the tables of the setup");
+  used_.insert(path);
+  return readFile(path, largestText);
 }
 
 bool HostFiles::isInput(const std::string& name) const {

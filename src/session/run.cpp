@@ -75,13 +75,52 @@ void encodeLogs(std::map<std::string, std::string>& files, language::Encoding en
   }
 }
 
+/// The tables that every run of a HEIDENHAIN control leaves.
+std::set<std::string> namesOf(const hh::Tables& tables) {
+  std::set<std::string> names = {"TOOL.T", "TCHPROBE.TP", "PRESET.PR"};
+  for (const auto& [name, table] : tables.datums)
+    names.insert(name);
+  for (const auto& [name, table] : tables.deflections)
+    names.insert(name);
+  for (const auto* table : {&tables.turningTools, &tables.axisShifts}) {
+    if (*table) names.insert((*table)->table().name());
+  }
+  return names;
+}
+
+/// A run must be able to leave its tables: better said before it begins than at its end.
+void refuseForeign(RunOutcome& outcome, const std::set<std::string>& tables, const RunOptions& options) {
+  if (!options.whyNoFile) return;
+  for (const std::string& name : tables) {
+    if (auto why = options.whyNoFile(name)) outcome.diagnostics.push_back(std::move(*why));
+  }
+}
+
+/// What names a program cannot give to its files: those that every run leaves, and whatever the caller refuses.
+std::function<std::optional<Diagnostic>(const std::string&)> fileRule(std::set<std::string> tables,
+                                                                      const RunOptions& options) {
+  return [tables = std::move(tables), &options](const std::string& name) -> std::optional<Diagnostic> {
+    const std::string upper = sin::upperCase(name);
+    if (tables.contains(upper) || upper == "RESULTS.JSON" || upper == "REPORT.HTML" ||
+        upper.starts_with(".PROBEWRIGHT")) {
+      return Diagnostic{Severity::Error,        {}, "it is one of the files that every run leaves", {},
+                        "give it another name", {}};
+    }
+    return options.whyNoFile ? options.whyNoFile(name) : std::nullopt;
+  };
+}
+
 void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>& program, const fs::path& path,
-                   const simulation::Setup& setup, const RunOptions& options) {
+                   const simulation::Setup& setup, HostFiles& host, const RunOptions& options) {
   hh::Tables tables = heidenhainTables(setup, outcome.control, outcome.diagnostics);
   const hh::MachineParameters parameters = machineParameters(setup, outcome.control, outcome.diagnostics);
+  const std::set<std::string> tableNames = namesOf(tables);
+  refuseForeign(outcome, tableNames, options);
   if (hasErrors(outcome.diagnostics)) return;
   hh::Control control(outcome.control, *outcome.machine, std::move(tables), parameters);
   setPanel(control.panel, setup, options);
+  control.panel.whyNoFile = fileRule(tableNames, options);
+  control.journal.limit = options.recordLimit;
   control.programPath = path.string();
   control.startSeconds = control.channel.seconds();
   control.wallClockStart = options.wallClock;
@@ -95,15 +134,14 @@ void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>
 
   readRemanentParameters(setup.tables, control.q, outcome.diagnostics);
   if (hasErrors(outcome.diagnostics)) return;
-  const HostFiles files(path, setup);
   language::klartext::HostOptions hostOptions;
   hostOptions.strict = options.strict;
-  hostOptions.readFile = [&files](const std::string& name) { return files.read(name); };
-  hostOptions.isInput = [&files](const std::string& name) { return files.isInput(name); };
+  hostOptions.readFile = [&host](const std::string& name) { return host.read(name); };
+  hostOptions.isInput = [&host](const std::string& name) { return host.isInput(name); };
   language::klartext::KlartextHost klartext(control, hostOptions);
-  language::din_iso::DinIsoHost host(klartext);
-  const auto library = programLibrary(outcome.control);
-  language::Interpreter interpreter(*library, host, interpreterOptions(options, outcome.control));
+  language::din_iso::DinIsoHost isoHost(klartext);
+  const auto library = programLibrary(outcome.control, {}, nullptr, [&](const fs::path& opened) { host.note(opened); });
+  language::Interpreter interpreter(*library, isoHost, interpreterOptions(options, outcome.control));
   outcome.result = interpreter.run(program);
 
   outcome.files = control.panel.files();
@@ -183,7 +221,7 @@ void addDefinitionFiles(RunOutcome& outcome, const fs::path& tables) {
   std::error_code error;
   for (fs::directory_iterator entry(tables, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (sinumerik::definitionFileName(name).empty()) continue;
+    if (sinumerik::definitionFileName(name).empty() || !entry->is_regular_file(error)) continue;
     if (Result<std::string> text = readFile(entry->path())) outcome.files[name] = std::move(*text);
   }
 }
@@ -213,10 +251,10 @@ bool callAside(language::ProgramLibrary& library, language::Host& host, language
 }
 
 /// The text of the file or program that `program` means by `name`.
-std::optional<std::string> textBeside(const fs::path& path, language::ProgramLibrary& library,
+std::optional<std::string> textBeside(HostFiles& host, language::ProgramLibrary& library,
                                       const language::Program& program, std::string_view name) {
   const std::string plain(name.substr(name.find_last_of("/\\") + 1));
-  fs::path file = path.parent_path() / plain;
+  fs::path file = host.folder() / plain;
   std::error_code error;
   if (plain.empty() || !fs::is_regular_file(file, error)) {
     const auto* folder = dynamic_cast<language::DirectoryLibrary*>(&library);
@@ -224,20 +262,32 @@ std::optional<std::string> textBeside(const fs::path& path, language::ProgramLib
     if (!found) return std::nullopt;
     file = *found;
   }
-  Result<std::string> text = readFile(file);
+  Result<std::string> text = host.readAt(file);
   return text ? std::optional(std::move(*text)) : std::nullopt;
 }
 
+/// The initialization texts that a run of a SINUMERIK control leaves.
+std::set<std::string> namesOf(const SinumerikData& data) {
+  std::set<std::string> names = {"TOOLS.TOA", "FRAMES.UFR", "DATA.INI", "USER.GUD"};
+  for (const SinumerikData::File& file : data.files)
+    names.insert(file.name);
+  return names;
+}
+
 void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>& program, const fs::path& path,
-                  const simulation::Setup& setup, const sinumerik::GlobalUserData& globalData,
+                  const simulation::Setup& setup, const sinumerik::GlobalUserData& globalData, HostFiles& host,
                   const RunOptions& options) {
   SinumerikData data = sinumerikData(setup, outcome.diagnostics, &globalData);
   sinumerik::HostOptions hostOptions;
   hostOptions.globalData = globalData.variables(data.store, outcome.diagnostics);
+  const std::set<std::string> dataNames = namesOf(data);
+  refuseForeign(outcome, dataNames, options);
   if (hasErrors(outcome.diagnostics)) return;
   StandingMachine machine(*outcome.machine);
   sin::Control control(machine, data.store);
   setPanel(control.panel, setup, options);
+  control.panel.whyNoFile = fileRule(dataNames, options);
+  control.journal.limit = options.recordLimit;
   control.programPath = path.string();
   control.wallClockStart = options.wallClock;
   for (const std::string& name : options.measuringLogs)
@@ -259,16 +309,17 @@ void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>&
   hostOptions.searchEnds = [&] {
     if (!control.programTest) goOnMoving(machine, control);
   };
-  const auto library = programLibrary(outcome.control, {}, &globalData);
+  const auto library =
+      programLibrary(outcome.control, {}, &globalData, [&](const fs::path& opened) { host.note(opened); });
   hostOptions.fileExists = [&](std::string_view name) { return library->exists(name, program.get()); };
-  hostOptions.readFile = [&](std::string_view name) { return textBeside(path, *library, *program, name); };
+  hostOptions.readFile = [&](std::string_view name) { return textBeside(host, *library, *program, name); };
   sinumerik::SinumerikHost* running = nullptr;
   hostOptions.callProgram = [&](std::string_view name, const language::Program* caller) {
     return callAside(*library, *running, interpreterOptions(options, outcome.control), name, caller);
   };
-  sinumerik::SinumerikHost host(control, hostOptions);
-  running = &host;
-  language::Interpreter interpreter(*library, host, interpreterOptions(options, outcome.control));
+  sinumerik::SinumerikHost sinumerikHost(control, hostOptions);
+  running = &sinumerikHost;
+  language::Interpreter interpreter(*library, sinumerikHost, interpreterOptions(options, outcome.control));
   outcome.result = interpreter.run(program);
   if (control.blockSearch && outcome.result.end == RunEnd::Finished) {
     outcome.result.end = RunEnd::Alarm;
@@ -321,6 +372,7 @@ void conclude(RunOutcome& outcome) {
     case RunEnd::Alarm:
     case RunEnd::Cancelled:
     case RunEnd::StepLimit:
+    case RunEnd::RecordLimit:
     case RunEnd::Halted:
       outcome.info.exit = ExitState::Stopped;
       break;
@@ -404,17 +456,19 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
   outcome.machine->recordPath(options.recordPath);
   outcome.info.machine = outcome.machine->description().name;
   outcome.info.axes = outcome.machine->description().axes;
+  HostFiles host(path, setup);
   try {
     if (control::isHeidenhain(kind)) {
-      runHeidenhain(outcome, program, path, setup, options);
+      runHeidenhain(outcome, program, path, setup, host, options);
     } else {
-      runSinumerik(outcome, program, path, setup, globalData, options);
+      runSinumerik(outcome, program, path, setup, globalData, host, options);
     }
   } catch (const control::Alarm& alarm) {
     // Before the first block: an active preset or a tool in the spindle that the tables do not have.
     outcome.diagnostics.push_back(
         {Severity::Error, {setup.file, 0, 0}, alarm.text(), {}, alarm.advice(), alarm.code()});
   }
+  outcome.inputs.insert(outcome.inputs.end(), host.used().begin(), host.used().end());
   conclude(outcome);
   return outcome;
 }
@@ -433,9 +487,11 @@ RunOutcome runProgram(const fs::path& path, const simulation::Setup& setup, cons
   if (!text) return refused(text.error());
   const Result<ControlKind> kind = controlFor(path, *text, options.control, setup.control);
   if (!kind) return refused(kind.error());
-  Result<std::shared_ptr<language::Program>> program = openProgram(path, languageFor(*kind, path, *text));
+  Result<std::shared_ptr<language::Program>> program = openProgram(path, *text, languageFor(*kind, path, *text));
   if (!program) return refused(program.error());
   RunOutcome outcome = run(*program, path, *kind, setup, options);
+  if (const auto note = otherLanguage(path, *text); note && hasErrors(outcome.diagnostics))
+    outcome.diagnostics.push_back(*note);
   outcome.info.programs.push_back({path.string(), std::move(*text)});
   return outcome;
 }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "base/diagnostic.hpp"
 #include "control/control_kind.hpp"
@@ -41,6 +42,11 @@ struct RunOptions {
   /// Asked what neither of both answers.
   std::function<std::optional<std::string>(const control::Question& question)> answer;
   std::uint64_t stepLimit = 50'000'000;
+  /// Bytes of memory that events, results, writes and files of a run may take: an endless loop that leaves something
+  /// behind ends there; 0: any.
+  std::uint64_t recordLimit = std::uint64_t{128} << 20U;
+  /// Why the run cannot leave a file of this name, if it cannot.
+  std::function<std::optional<Diagnostic>(const std::string& name)> whyNoFile;
   std::vector<language::Breakpoint> breakpoints;
   std::stop_token stop;
   /// Levels of block skip that the operator has switched on; HEIDENHAIN controls have level 0 only.
@@ -69,6 +75,7 @@ struct RunOutcome {
   language::RunResult result;                           ///< how the interpreter ended
   Diagnostics diagnostics;                              ///< mistakes found before the program could start
   std::map<std::string, std::string> files;             ///< what the control wrote: tables as changed, logs; by name
+  std::vector<std::filesystem::path> inputs;            ///< what the program read and called
   std::unique_ptr<simulation::VirtualMachine> machine;  ///< as it stands at the end; null if it could not be built
   /// Machine coordinates (which are the table's at the start posture) from the workpiece system at the end.
   std::optional<Pose> machineFromWorkpiece;

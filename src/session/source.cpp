@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <regex>
 
+#include "base/file.hpp"
 #include "language/din_iso/program.hpp"
 #include "language/directory_library.hpp"
 #include "language/klartext/program.hpp"
@@ -64,6 +64,18 @@ std::string_view nameOf(ProgramLanguage language) {
   }
 }
 
+std::optional<Diagnostic> otherLanguage(const std::filesystem::path& path, std::string_view text) {
+  const std::optional<ProgramLanguage> readAs = languageOf(path, text), looksLike = languageOf("program", text);
+  if (!readAs || !looksLike || *readAs == *looksLike) return std::nullopt;
+  return Diagnostic{
+      Severity::Note,
+      {path.string(), 0, 0},
+      fmt::format("it was read as {} because of its ending, but looks like {}", nameOf(*readAs), nameOf(*looksLike)),
+      {},
+      "give it the ending of its language: .H for Klartext, .I for DIN/ISO, .MPF or .SPF for a SINUMERIK",
+      {}};
+}
+
 ProgramLanguage languageFor(ControlKind kind, const std::filesystem::path& path, std::string_view text) {
   const std::optional<ProgramLanguage> told = languageOf(path, text);
   if (told && speaks(kind, *told)) return *told;
@@ -95,24 +107,29 @@ Result<ControlKind> controlFor(const std::filesystem::path& path, std::string_vi
   if (setup) {
     if (speaks(*setup, *language)) return *setup;
     return fail({path.string(), 0, 0},
-                fmt::format("this is a {} program, but the setup describes a {}", nameOf(*language), name(*setup)),
-                "use a setup with a control of that language, or name the control with --control");
+                fmt::format("this is a {} program, but the setup's control is {}", nameOf(*language), name(*setup)),
+                *language == ProgramLanguage::Sinumerik
+                    ? "name a setup whose [control] type is 840Dsl or 828D, or has none"
+                    : "name a setup whose [control] type is TNC640 or iTNC530, or has none");
   }
   return *language == ProgramLanguage::Sinumerik ? ControlKind::Sinumerik840Dsl : ControlKind::TNC640;
 }
 
 namespace {
 
-/// Why the file cannot be the text of a program, from its beginning; nothing if it can.
-std::optional<Diagnostic> whyNoText(const std::filesystem::path& path, ProgramLanguage language) {
-  std::string head(4096, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(file.gcount()));
+/// Why this cannot be the text of a program, from its beginning; nothing if it can.
+std::optional<Diagnostic> whyNoText(const std::filesystem::path& path, std::string_view text,
+                                    ProgramLanguage language) {
+  std::string head(text.substr(0, 4096));
   const auto because = [&](std::string message, std::string advice) {
     return Diagnostic{Severity::Error, {path.string(), 0, 0}, std::move(message), {}, std::move(advice), {}};
   };
-  if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF")) return std::nullopt;  // has a message of its own
+  using namespace std::string_view_literals;
+  const bool utf32 = head.starts_with("\xFF\xFE\0\0"sv) || head.starts_with("\0\0\xFE\xFF"sv);
+  if (utf32 || head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF")) {
+    return because(fmt::format("this file is {}, which no control reads", utf32 ? "UTF-32" : "UTF-16"),
+                   "save it as UTF-8 or in the code page of the control");
+  }
   // Zeros behind the text are what some transfers fill the last block with.
   head.erase(head.find_last_not_of('\0') + 1);
   const auto isBinary = [](unsigned char c) {
@@ -131,8 +148,14 @@ std::optional<Diagnostic> whyNoText(const std::filesystem::path& path, ProgramLa
 
 }  // namespace
 
-Result<std::shared_ptr<language::Program>> openProgram(const std::filesystem::path& path, ProgramLanguage language) {
-  if (const auto why = whyNoText(path, language)) return tl::unexpected(*why);
+Result<std::shared_ptr<language::Program>> openProgram(const std::filesystem::path& path, std::string_view text,
+                                                       ProgramLanguage language) {
+  if (const auto why = whyNoText(path, text, language)) return tl::unexpected(*why);
+  // A pipe gives its text once; a long file need not stand in memory a second time.
+  constexpr std::size_t longText = std::size_t{8} << 20U;
+  std::error_code error;
+  if (text.size() <= longText || !std::filesystem::is_regular_file(path, error))
+    return programOf(path.string(), std::string(text), language);
   if (language == ProgramLanguage::Klartext) {
     auto program = language::klartext::KlartextProgram::open(path);
     if (!program) return tl::unexpected(program.error());
@@ -163,14 +186,19 @@ void useMacros(language::Program& program, const sinumerik::GlobalUserData& glob
   if (auto* own = dynamic_cast<sinumerik::SinumerikProgram*>(&program)) own->useMacros(globalData.macros());
 }
 
-std::unique_ptr<language::ProgramLibrary> programLibrary(ControlKind kind, std::vector<std::filesystem::path> folders,
-                                                         const sinumerik::GlobalUserData* globalData) {
+std::unique_ptr<language::ProgramLibrary> programLibrary(ControlKind kind, const std::filesystem::path& main,
+                                                         const sinumerik::GlobalUserData* globalData,
+                                                         std::function<void(const std::filesystem::path&)> onOpen) {
   const bool heidenhain = control::isHeidenhain(kind);
   std::vector<std::string> endings =
       heidenhain ? std::vector<std::string>{".H", ".I"} : std::vector<std::string>{".SPF", ".MPF", ".CPF", ".CYC"};
-  const auto open = [kind, globalData](const std::filesystem::path& path) {
-    auto program = openProgram(path, languageFor(kind, path, {}));
+  const auto open = [kind, globalData, onOpen = std::move(onOpen)](
+                        const std::filesystem::path& path) -> Result<std::shared_ptr<language::Program>> {
+    const Result<std::string> text = readFile(path);
+    if (!text) return tl::unexpected(text.error());
+    auto program = openProgram(path, *text, languageFor(kind, path, {}));
     if (program && globalData != nullptr) useMacros(**program, *globalData);
+    if (onOpen) onOpen(path);
     return program;
   };
   return std::make_unique<language::DirectoryLibrary>(std::move(endings), open, std::move(folders));

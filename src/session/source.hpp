@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -20,6 +21,9 @@ enum class ProgramLanguage { Klartext, DinIso, Sinumerik };
 /// The language of a program by its ending (.H; .I; .MPF, .SPF, .ARC), otherwise by its text; nothing if neither tells.
 std::optional<ProgramLanguage> languageOf(const std::filesystem::path& path, std::string_view text);
 
+/// A note for a program with mistakes whose text looks like another language than the one of its ending.
+std::optional<Diagnostic> otherLanguage(const std::filesystem::path& path, std::string_view text);
+
 /// True if the control runs programs of that language; a HEIDENHAIN control runs two.
 constexpr bool speaks(control::ControlKind kind, ProgramLanguage language) {
   return control::isHeidenhain(kind) == (language != ProgramLanguage::Sinumerik);
@@ -36,7 +40,9 @@ Result<control::ControlKind> controlFor(const std::filesystem::path& path, std::
                                         std::optional<control::ControlKind> wanted,
                                         std::optional<control::ControlKind> setup);
 
-Result<std::shared_ptr<language::Program>> openProgram(const std::filesystem::path& path, ProgramLanguage language);
+/// The program in the file at `path`, whose whole text is `text`.
+Result<std::shared_ptr<language::Program>> openProgram(const std::filesystem::path& path, std::string_view text,
+                                                       ProgramLanguage language);
 
 /// A program in memory; `name` names it in messages.
 std::shared_ptr<language::Program> programOf(std::string name, std::string text, ProgramLanguage language);
@@ -45,9 +51,10 @@ std::shared_ptr<language::Program> programOf(std::string name, std::string text,
 void useMacros(language::Program& program, const sinumerik::GlobalUserData& globalData);
 
 /// Where programs of that control look for others: the caller's folder, then `folders`. SINUMERIK programs know the
-/// macros of `globalData`, which must outlive the library.
+/// macros of `globalData`, which must outlive the library. `onOpen` is told each file.
 std::unique_ptr<language::ProgramLibrary> programLibrary(control::ControlKind kind,
                                                          std::vector<std::filesystem::path> folders = {},
-                                                         const sinumerik::GlobalUserData* globalData = nullptr);
+                                                         const sinumerik::GlobalUserData* globalData = nullptr,
+                                                         std::function<void(const std::filesystem::path&)> onOpen = {});
 
 }  // namespace probewright::session

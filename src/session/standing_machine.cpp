@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace probewright::session {
 
 using machine::AxisPositions;
@@ -20,8 +22,10 @@ MoveResult StandingMachine::countTo(const AxisPositions& target) {
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const machine::Axis& axis = axes[i];
     if (axis.modulo || (target[i] >= axis.minimum - 1e-9 && target[i] <= axis.maximum + 1e-9)) continue;
-    return {machine::MoveEnd::AxisLimit, fmt::format("axis {}: {:.3f} lies outside its travel {} to {}", axis.name,
-                                                     target[i], axis.minimum, axis.maximum)};
+    return {machine::MoveEnd::AxisLimit,
+            fmt::format("axis {}: {} lies outside its travel {} to {}", axis.name,
+                        std::abs(target[i]) < 1e9 ? fmt::format("{:.3f}", target[i]) : fmt::format("{:.3g}", target[i]),
+                        axis.minimum, axis.maximum)};
   }
   at_ = target;
   return {};

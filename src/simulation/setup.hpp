@@ -80,6 +80,7 @@ struct SetupParameter {
 
 struct Setup {
   std::string file;
+  std::vector<std::filesystem::path> inputs;  ///< the files it was read from and those it names, but not the tables
   std::optional<control::ControlKind> control;
   std::filesystem::path tables;  ///< folder with the control's own table files; empty if none
 

@@ -1,7 +1,11 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <openssl/evp.h>
+
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "app/block_world.hpp"
 #include "app/program.hpp"
@@ -9,6 +13,7 @@
 namespace probewright::app::testing {
 namespace {
 
+using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 using ::testing::Not;
@@ -17,6 +22,18 @@ const std::string program = "examples/programs/housing.h";
 const std::string setup = "examples/setups/housing-tnc640.toml";
 
 const std::string loggedProgram = blockProgram("+0", "+0", 1);
+
+/// SHA-256 in hexadecimal digits.
+std::string checksumOf(const std::string& path) {
+  const std::string bytes = textOf(path);
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned int size = 0;
+  EVP_Digest(bytes.data(), bytes.size(), digest, &size, EVP_sha256(), nullptr);
+  std::string text;
+  for (unsigned int i = 0; i < size; ++i)
+    text += fmt::format("{:02x}", digest[i]);
+  return text;
+}
 
 TEST(OutputFolder, HoldsNoFileThatTheProgramHasDeleted) {
   const Folder folder;
@@ -51,8 +68,8 @@ TEST(OutputFolder, LeavesNothingOfAnEarlierRun) {
 
   // Another program in the same folder: the log of the first is gone, and what somebody put there is not.
   ASSERT_EQ(run("b.h", "0 BEGIN PGM B MM\n1 END PGM B MM\n").exit, 0);
-  EXPECT_THAT(namesIn(folder / "out"),
-              ::testing::ElementsAre("PRESET.PR", "TCHPROBE.TP", "TOOL.T", "mine.txt", "report.html", "results.json"));
+  EXPECT_THAT(namesIn(folder / "out"), ::testing::ElementsAre(".probewright.json", "PRESET.PR", "TCHPROBE.TP", "TOOL.T",
+                                                              "mine.txt", "report.html", "results.json"));
 
   // A program that cannot be read: no result may look like its own.
   ASSERT_EQ(run("c.h", "0 BEGIN PGM C MM\n1 FOO\n2 END PGM C MM\n").exit, 2);
@@ -71,22 +88,166 @@ TEST(OutputFolder, KeepsTheTablesItBeginsFromWhenAProgramIsWrong) {
   EXPECT_THAT(namesIn(folder / "out"), Not(::testing::Contains("results.json")));
 }
 
-TEST(OutputFolder, RemovesOnlyPlainFilesThatItsResultsList) {
+TEST(OutputFolder, KeepsWhatAListNamesThatCameFromElsewhere) {
   const Folder folder;
   const std::string world = folder.file("block.toml", blockSetup());
   std::filesystem::create_directory(folder / "out");
   folder.file("outside.txt", "kept");
-  folder.file("out/results.json",
-              R"({"schema": "probewright results", "files": ["../outside.txt", ".", "", 7, "LOG.TXT"]})");
-  folder.file("out/LOG.TXT", "old");
+  folder.file("out/thesis.txt", "mine");
+  const std::string path = folder.file("out/a.h", loggedProgram);
+  const std::string names = R"("../outside.txt", ".", "", 7, "thesis.txt", "a.h")";
+  folder.file("out/results.json", R"({"schema": "probewright results", "files": [)" + names + "]}");
+  const std::string checksum(64, '0');
+  folder.file("out/.probewright.json",
+              R"({"title": "the files of a Probewright run and their SHA-256", "files": {"../outside.txt": ")" +
+                  checksum + R"(", "thesis.txt": ")" + checksum + R"(", "a.h": 7}})");
+  const auto before = namesIn(folder / "out");
   const std::string out = (folder / "out").string();
-  ASSERT_EQ(probewright({"run", folder.file("a.h", loggedProgram), "--setup", world, "--out", out}).exit, 0);
-  EXPECT_EQ(textOf(folder / "outside.txt"), "kept");
-  EXPECT_THAT(namesIn(folder / "out"), Not(::testing::Contains("LOG.TXT")));
-  // Somebody else's file of that name.
-  folder.file("out/results.json", R"({"files": ["TOOL.T"]})");
+  // results.json is somebody else's: nothing is written over it.
+  const Answer answer = probewright({"run", path, "--setup", world, "--out", out});
+  EXPECT_EQ(answer.exit, 2);
+  EXPECT_THAT(answer.errors, HasSubstr("out/results.json: error: this file is not one that an earlier run left"));
+  EXPECT_EQ(namesIn(folder / "out"), before);
+  // Nor does a program with a mistake take anything along.
   ASSERT_EQ(probewright({"run", folder.file("b.h", "nothing\n"), "--setup", world, "--out", out}).exit, 2);
-  EXPECT_THAT(namesIn(folder / "out"), IsSupersetOf({"TOOL.T", "results.json"}));
+  EXPECT_EQ(namesIn(folder / "out"), before);
+  EXPECT_EQ(textOf(folder / "outside.txt"), "kept");
+  EXPECT_EQ(textOf(folder / "out/thesis.txt"), "mine");
+}
+
+TEST(OutputFolder, KeepsTheInputsOfTheRunEvenIfTheListNamesThem) {
+  // The very folder that everything lies in, and a list with the right checksum of program and setup.
+  const Folder folder;
+  const std::string world = folder.file("block.toml", blockSetup());
+  const std::string path = folder.file("a.h", loggedProgram);
+  ASSERT_EQ(probewright({"run", path, "--setup", world, "--out", (folder / "").string()}).exit, 0);
+  EXPECT_EQ(textOf(path), loggedProgram);
+  json list = json::parse(textOf(folder / ".probewright.json"));
+  list["files"]["a.h"] = checksumOf(path);
+  list["files"]["block.toml"] = checksumOf(world);
+  folder.file(".probewright.json", list.dump());
+  const Answer answer = probewright({"run", path, "--setup", world, "--out", (folder / "").string()});
+  EXPECT_EQ(answer.exit, 0) << answer.errors;
+  EXPECT_EQ(textOf(path), loggedProgram);
+  EXPECT_EQ(textOf(world), blockSetup());
+}
+
+TEST(OutputFolder, KeepsAFileThatWasChangedSince) {
+  const Folder folder;
+  const std::string world = folder.file("block.toml", blockSetup());
+  const std::string out = (folder / "out").string();
+  const auto run = [&](const std::string& text) {
+    return probewright({"run", folder.file("a.h", text), "--setup", world, "--out", out});
+  };
+  ASSERT_EQ(run(loggedProgram).exit, 0);
+  folder.file("out/TCHPR427.TXT", "with my notes");
+  // A program that leaves no log removes none that is no longer its own.
+  ASSERT_EQ(run("0 BEGIN PGM A MM\n1 END PGM A MM\n").exit, 0);
+  EXPECT_EQ(textOf(folder / "out/TCHPR427.TXT"), "with my notes");
+  // One that leaves a log of this name is stopped where it does.
+  const Answer answer = run(loggedProgram);
+  EXPECT_EQ(answer.exit, 3);
+  EXPECT_THAT(answer.errors, HasSubstr("a.h:4:"));
+  EXPECT_THAT(answer.errors, HasSubstr("The file \"TCHPR427.TXT\" cannot be written"));
+  EXPECT_EQ(textOf(folder / "out/TCHPR427.TXT"), "with my notes");
+  // And the tables stand for all of them: nothing begins that could not be written at its end.
+  folder.file("out/PRESET.PR", "mine");
+  const Answer refused = run(loggedProgram);
+  EXPECT_EQ(refused.exit, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("out/PRESET.PR: error: this file is not one that an earlier run left"));
+  EXPECT_EQ(textOf(folder / "out/PRESET.PR"), "mine");
+}
+
+TEST(OutputFolder, KeepsTheTablesOfTheUser) {
+  const Folder folder;
+  const std::string begin = folder.file("begin.toml", blockSetup());
+  const std::string made = (folder / "made").string();
+  ASSERT_EQ(probewright({"run", folder.file("a.h", loggedProgram), "--setup", begin, "--out", made}).exit, 0);
+  std::filesystem::create_directory(folder / "T");
+  for (const char* name : {"TOOL.T", "PRESET.PR", "TCHPROBE.TP"})
+    std::filesystem::copy(folder / "made" / name, folder / "T" / name);
+  const std::string begun = folder.file(
+      "with.toml", "[control]\ntype = \"TNC640\"\ntables = \"T\"\n" + blockSetup().substr(blockSetup().find("[part]")));
+  const std::string table = textOf(folder / "T/PRESET.PR");
+  const std::string tables = (folder / "T").string();
+  const auto before = namesIn(folder / "T");
+  EXPECT_EQ(probewright({"run", folder.file("a.h", loggedProgram), "--setup", begun, "--out", tables}).exit, 2);
+  EXPECT_EQ(probewright({"run", folder.file("b.h", "nothing\n"), "--setup", begin, "--out", tables}).exit, 2);
+  EXPECT_EQ(namesIn(folder / "T"), before);
+  EXPECT_EQ(textOf(folder / "T/PRESET.PR"), table);
+}
+
+TEST(OutputFolder, KeepsTheDefinitionFilesOfTheUser) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "T");
+  folder.file("T/UGUD.DEF", "DEF NCK REAL _MINE\nM17\n");
+  const std::string world = folder.file("s.toml", "[control]\ntype = \"840Dsl\"\ntables = \"T\"\n");
+  const std::string tables = (folder / "T").string();
+  const std::string first = folder.file("a.mpf", "_MINE=3\nM30\n");
+  const Answer answer = probewright({"run", first, "--setup", world, "--out", tables});
+  EXPECT_EQ(answer.exit, 0) << answer.errors;
+  EXPECT_EQ(probewright({"run", folder.file("b.mpf", "FOO BAR\n"), "--setup", world, "--out", tables}).exit, 2);
+  const std::string other = folder.file("t.toml", "[control]\ntype = \"TNC640\"\n");
+  EXPECT_EQ(
+      probewright({"run", folder.file("c.h", "0 BEGIN PGM C MM\n1 END PGM C MM\n"), "--setup", other, "--out", tables})
+          .exit,
+      0);
+  EXPECT_EQ(textOf(folder / "T/UGUD.DEF"), "DEF NCK REAL _MINE\nM17\n");
+}
+
+struct Target {
+  std::string name, reason;
+};
+
+TEST(OutputFolder, LetsNoProgramWriteOverOtherFiles) {
+  // By FN 16 and by WRITE: the run's own files, the program, the setup, what is no name of a file.
+  const std::vector<Target> targets = {{"PRESET.PR", "The run writes"},
+                                       {"report.html", "The run writes"},
+                                       {"Results.JSON", "The run writes"},
+                                       {"p.h", "is read by this run"},
+                                       {"s.toml", "is read by this run"},
+                                       {"mine.txt", "not one that an earlier run left"},
+                                       {"..", ""},
+                                       {std::string(300, 'X'), ""}};
+  for (const auto& [name, reason] : targets) {
+    const Folder folder;
+    const std::string world = folder.file("s.toml", blockSetup());
+    folder.file("M.A", "\"X\";\n");
+    folder.file("mine.txt", "mine");
+    const std::string text = "0 BEGIN PGM P MM\n1 FN 16: F-PRINT M.A / " + name + "\n2 END PGM P MM\n";
+    const std::string path = folder.file("p.h", text);
+    const Answer answer = probewright({"run", path, "--setup", world, "--out", (folder / "").string()});
+    EXPECT_EQ(answer.exit, 3) << name << answer.errors;
+    EXPECT_THAT(answer.errors, HasSubstr("p.h:2:")) << name;
+    if (!reason.empty()) {
+      EXPECT_THAT(answer.errors, HasSubstr(reason)) << name;
+    }
+    EXPECT_EQ(textOf(folder / "mine.txt"), "mine");
+    EXPECT_EQ(textOf(path), text);
+    EXPECT_EQ(textOf(world), blockSetup());
+  }
+  const Folder folder;
+  const std::string world = folder.file("s.toml", "[control]\ntype = \"840Dsl\"\n");
+  const std::string text = "DEF INT E\nWRITE(E,\"p.mpf\",\"X\")\nM30\n";
+  const std::string path = folder.file("p.mpf", text);
+  const Answer answer = probewright({"run", path, "--setup", world, "--out", (folder / "").string()});
+  EXPECT_EQ(answer.exit, 3) << answer.errors;
+  EXPECT_THAT(answer.errors, HasSubstr("p.mpf:2:"));
+  EXPECT_EQ(textOf(path), text);
+}
+
+TEST(OutputFolder, SaysWhatIsWrongWithItsName) {
+  const Folder folder;
+  const std::string world = folder.file("block.toml", blockSetup()), path = folder.file("a.h", loggedProgram);
+  std::filesystem::create_symlink("nowhere", folder / "link");
+  const auto errors = [&](const std::string& out) {
+    const Answer answer = probewright({"run", path, "--setup", world, "--out", out});
+    EXPECT_EQ(answer.exit, 2);
+    return answer.errors;
+  };
+  EXPECT_THAT(errors((folder / "link").string()), HasSubstr("a symbolic link that leads nowhere"));
+  EXPECT_THAT(errors(""), HasSubstr("its name is empty"));
+  EXPECT_THAT(errors(path), HasSubstr("--out"));
 }
 
 TEST(OutputFolder, WritesAllFilesOrNone) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <chrono>
 #include <fstream>
 
 #include "language/made_program.hpp"
@@ -87,6 +88,35 @@ TEST_F(DirectoryLibraryTest, UnderstandsPathsOfControls) {
   EXPECT_EQ(find(h, "rings/ring"), "parts/rings/Ring.h");
   EXPECT_EQ(find(h, "..\\parts\\sub"), "parts/SUB.H");
   EXPECT_EQ(find(h, "/_N_WKS_DIR/_N_RING_WPD/_N_L100_SPF"), "common/Ring.WPD/L100.SPF");
+}
+
+TEST_F(DirectoryLibraryTest, FindsNothingOutsideOfItsRoot) {
+  touch("parts/sub/IN.SPF");
+  touch("OUT.SPF");
+  fs::create_symlink(root_ / "OUT.SPF", root_ / "parts/LINK.SPF");
+  fs::create_directory_symlink(root_, root_ / "parts/up");
+  const auto open = [](const fs::path& path) {
+    return Result<std::shared_ptr<Program>>(std::make_shared<NamedProgram>(path.string()));
+  };
+  const DirectoryLibrary within({".SPF"}, open);
+  EXPECT_EQ(find(within, "sub/IN"), "parts/sub/IN.SPF");
+  EXPECT_EQ(find(within, "sub/../sub/IN"), "parts/sub/IN.SPF");
+  for (const char* name : {"../OUT", "sub/../../OUT", "LINK", "up/OUT", "..\\OUT"})
+    EXPECT_EQ(find(within, name), "") << name;
+}
+
+TEST_F(DirectoryLibraryTest, GivesUpOnPathsWithoutEnd) {
+  touch("parts/L1.SPF");
+  const DirectoryLibrary spf = library({".SPF"});
+  std::string up, down;
+  for (int i = 0; i < 20'000; ++i) {
+    up += "../";
+    down += "x/../";
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(find(spf, up + "L1"), "");
+  EXPECT_EQ(find(spf, down + "L1"), "parts/L1.SPF");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
 }
 
 TEST_F(DirectoryLibraryTest, NeverTakesAFolderForAProgram) {

@@ -156,7 +156,7 @@ TEST(Jumps, WithoutLabelAreAnAlarmOrLeftOut) {
   EXPECT_EQ(result.end, RunEnd::Alarm);
   EXPECT_EQ(
       format(result.diagnostics.at(0)),
-      "MAIN.prg:2:1: error 14080: there is no label NOWHERE in this program\n    block 2\n    check how the label is "
+      "MAIN.prg:2:1: error: 14080: there is no label NOWHERE in this program\n    block 2\n    check how the label is "
       "written");
   Make silent;
   silent.add(Jump{silent.block.add("NOWHERE"), {}, {}, JumpDirection::Any, true});
@@ -355,7 +355,7 @@ TEST(Ends, AlarmComesWithPlaceAndCalls) {
   const RunResult result = bench.run({Make(), Make(), Make().callProgram("SUB")});
   EXPECT_EQ(result.end, RunEnd::Alarm);
   EXPECT_EQ(text(result),
-            "SUB.prg:4:1: error 4711: the axis is stuck\n    block 4\n    free it\n"
+            "SUB.prg:4:1: error: 4711: the axis is stuck\n    block 4\n    free it\n"
             "SUB.prg:2: note: the subprogram was called here\n"
             "MAIN.prg:3: note: program SUB was called here\n");
   EXPECT_EQ(bench.host.protocol, "<MAIN <SUB SUB> MAIN> ") << "every level is left";

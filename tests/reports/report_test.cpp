@@ -130,7 +130,11 @@ TEST(Report, LetsNoTextBecomeMarkup) {
   const std::string evil = "</script><script>alert(1)</script><!-- <img src=x onerror=alert(2)> & \" ' \\ \xE2\x80\xA8";
   auto journal = sample::journal();
   journal.cycles[0].title = evil;
-  journal.events[1].text = evil;
+  const auto changed = [&](control::EventRecord event) {
+    event.text = evil;
+    return event;
+  };
+  journal.events = {journal.events[0], changed(journal.events[1])};
   journal.cycles[1].writes[0].after = evil;
   auto run = sample::runInfo();
   run.programs = {{"a/</title><script>x.H", evil + "\n" + evil}};

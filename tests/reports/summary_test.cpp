@@ -17,6 +17,16 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
+/// The second event of `journal`, another one.
+template <class Change>
+void changeEvent(control::Journal& journal, Change change) {
+  std::vector<control::EventRecord> events(journal.events.begin(), journal.events.end());
+  change(events.at(1));
+  journal.events.clear();
+  for (const auto& event : events)
+    journal.events.push_back(event);
+}
+
 TEST(Summary, TellsEachCycleWithItsLineResultsAndChanges) {
   const std::string text = summaryText(sample::journal(), sample::runInfo());
   EXPECT_THAT(text, StartsWith("BEARING_BLOCK.H, TNC640, 3-axis mill, Bearing block\n"));
@@ -62,6 +72,12 @@ TEST(Summary, NamesTheAlarmOnce) {
   EXPECT_EQ(text.find("no contact"), text.rfind("no contact"));
 }
 
+TEST(Summary, LeavesOutTheReasonThatWasTold) {
+  const std::string text = summaryText(sample::alarmJournal(), sample::alarmRunInfo(), Colour::Off, Cause::Told);
+  EXPECT_THAT(text, HasSubstr("\nSTOPPED  (line 27)\n"));
+  EXPECT_THAT(text, Not(HasSubstr("no contact")));
+}
+
 TEST(Summary, NamesAnAlarmThatDidNotEndTheRun) {
   auto journal = sample::journal();
   journal.events.push_back({control::EventKind::Alarm, {}, "65000", "a message of the program", 1});
@@ -87,23 +103,27 @@ TEST(Summary, ColoursVerdictsOnRequest) {
 
 TEST(Summary, KeepsControlCharactersFromTheTerminal) {
   auto journal = sample::journal();
-  journal.events[1].text = "beep\x07\x1b[2Jgone\nnext \xC2\x9B";
+  changeEvent(journal, [](auto& event) { event.text = "beep\x07\x1b[2Jgone\nnext \xC2\x9B"; });
   EXPECT_THAT(summaryText(journal, sample::runInfo()), HasSubstr("beep  [2Jgone next    (line 60)\n"));
 }
 
 TEST(Summary, ReadsOldTextsOfAProgramInAscii) {
   auto journal = sample::journal();
-  journal.events[1].text =
-      "Gr\xF6\xDF"
-      "e 1.23";
+  changeEvent(journal, [](auto& event) {
+    event.text =
+        "Gr\xF6\xDF"
+        "e 1.23";
+  });
   EXPECT_THAT(summaryText(journal, sample::runInfo()), HasSubstr("Gr\xC3\xB6\xC3\x9F"
                                                                  "e 1.23  (line 60)\n"));
 }
 
 TEST(Summary, ShowsOfAStopItsFirstLine) {
   auto journal = sample::journal();
-  journal.events[1].kind = control::EventKind::Stop;
-  journal.events[1].text = "Measuring log 424\nSide length";
+  changeEvent(journal, [](auto& event) {
+    event.kind = control::EventKind::Stop;
+    event.text = "Measuring log 424\nSide length";
+  });
   EXPECT_THAT(summaryText(journal, sample::runInfo()), HasSubstr("Measuring log 424 ...  (line 60)\n"));
 }
 

@@ -82,4 +82,8 @@ export function length(mm: number | null): string {
 
 export const count = (n: number, one: string, many = one + "s") => `${n} ${n === 1 ? one : many}`;
 
+/** Touches of a number of measuring moves: those that came to none are named as such, here and on the terminal. */
+export const touchCount = (touched: number, moves: number) =>
+  [count(touched, "touch", "touches"), ...(moves > touched ? [count(moves - touched, "failed attempt")] : [])].join(" and ");
+
 export const fileName = (path: string) => path.slice(Math.max(path.lastIndexOf("/"), path.lastIndexOf("\\")) + 1);

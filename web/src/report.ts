@@ -71,6 +71,9 @@ function header(report: Report, switchTheme: () => void): HTMLElement {
       { class: "facts-line" },
       fact(String(totals.cycles), totals.cycles === 1 ? "cycle" : "cycles"),
       fact(String(totals.touches), totals.touches === 1 ? "touch" : "touches"),
+      ...(totals.failedTouches > 0
+        ? [fact(String(totals.failedTouches), totals.failedTouches === 1 ? "failed attempt" : "failed attempts")]
+        : []),
       fact(length(totals.pathLength), "path"),
       fact(duration(totals.time), "time"),
       fact(String(changes), changes === 1 ? "correction" : "corrections"),

@@ -1,7 +1,7 @@
 // The tables: cycles with their results, parameters and touches; changes; messages.
 
 import { type Cycle, type Report, type ResultValue, type Write, touchDeviation, type Triple } from "./data";
-import { type Child, count, duration, fileName, fixed, h, icon, length, quantity } from "./dom";
+import { type Child, count, touchCount, duration, fileName, fixed, h, icon, length, quantity } from "./dom";
 import type { Selector } from "./selection";
 import { badge, cycleState, verdictState } from "./verdict";
 
@@ -173,7 +173,7 @@ function cycleBody(cycle: Cycle, index: number, selector: Selector): HTMLElement
       },
     },
     [
-      count(cycle.touches.length, "touch", "touches"),
+      touchCount(cycle.touches.filter((touch) => touch.outcome === "touched").length, cycle.touches.length),
       count(cycle.parameters.length, "parameter"),
       ...(further.length > 0 ? [count(further.length, "further result")] : []),
     ].join(", "),

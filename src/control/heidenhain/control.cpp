@@ -57,15 +57,35 @@ void Control::writeText(TypedTable& table, const std::string& row, const std::st
   note(table, row, column, before);
 }
 
+namespace {
+
+/// "it has 1 PROBE, 2, 3 MILL D12": the first of them.
+std::string toolsOf(const TypedTable& tools) {
+  constexpr std::size_t most = 8;
+  std::string list;
+  std::size_t count = 0;
+  for (const std::string& row : tools.table().keys()) {
+    if (row == "0") continue;
+    if (++count > most) return list + " ...";
+    const std::string name = tools.text(row, "NAME");
+    list += (list.empty() ? "it has " : ", ") + row + (name.empty() ? "" : " " + name);
+  }
+  return list.empty() ? "it has none" : list;
+}
+
+}  // namespace
+
 std::string Control::toolRowNamed(const std::string& name) const {
   if (const auto row = findToolNamed(tables.tools, name)) return *row;
-  throw Alarm("Tool not defined", fmt::format("TOOL.T has no tool named {}", name), "add the tool or correct its name");
+  throw Alarm("Tool not defined", fmt::format("TOOL.T has no tool named {}", name),
+              "add the tool or correct its name; " + toolsOf(tables.tools));
 }
 
 void Control::callTool(const std::string& row, std::optional<char> axis, double deltaLength, double deltaRadius,
                        double deltaRadius2) {
   if (row != "0" && !tables.tools.hasRow(row)) {
-    throw Alarm("Tool not defined", fmt::format("TOOL.T has no tool {}", row), "add the tool or correct its number");
+    throw Alarm("Tool not defined", fmt::format("TOOL.T has no tool {}", row),
+                "add the tool or correct its number; " + toolsOf(tables.tools));
   }
   if (tables.tools.text(row, "TL") == "L") {
     throw Alarm("Tool locked", fmt::format("Tool {} is locked in TOOL.T (column TL)", row),

@@ -66,8 +66,8 @@ bool usesRot(const TypedTable& table) { return table.hasColumn("ROT") && !table.
 
 std::span<const ColumnSpec> presetColumns() { return columns; }
 
-TypedTable defaultPresetTable(ControlKind kind, TableUnit unit) {
-  return TypedTable::create("PRESET.PR", unit, columns, kind, 2);
+TypedTable defaultPresetTable(ControlKind kind, TableUnit unit, std::size_t rows) {
+  return TypedTable::create("PRESET.PR", unit, columns, kind, rows);
 }
 
 std::optional<Preset> findPreset(const TypedTable& table, int number) {

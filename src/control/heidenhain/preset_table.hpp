@@ -23,7 +23,7 @@ struct Preset {
 };
 
 /// A preset table with rows 0 and 1, all zero.
-TypedTable defaultPresetTable(ControlKind kind, TableUnit unit = TableUnit::Millimetre);
+TypedTable defaultPresetTable(ControlKind kind, TableUnit unit = TableUnit::Millimetre, std::size_t rows = 2);
 
 std::optional<Preset> findPreset(const TypedTable& table, int number);
 

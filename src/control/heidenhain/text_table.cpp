@@ -414,12 +414,9 @@ Result<void> TextTable::setCell(std::string_view row, std::string_view column, s
   text = trimmed(text);
   const std::size_t line = rowLines_[*rowIndex];
   if (auto checked = checkCell(line, *columnIndex, text); !checked) return checked;
-  std::string before(trimmedCell(line, *columnIndex));
-  if (before == text) return {};
+  if (trimmedCell(line, *columnIndex) == text) return {};
   writeCell(line, *columnIndex, text);
   noteShape(line, *columnIndex);
-  changes_.push_back(
-      {std::string(trimmedCell(line, keyColumn_)), std::string(column), std::move(before), std::string(text)});
   return {};
 }
 
@@ -483,7 +480,6 @@ Result<void> TextTable::addRow(std::string_view key) {
   rowOfKey_.emplace(normalizedKey(key), at);
   writeCell(line, keyColumn_, key);
   noteShape(line, keyColumn_);
-  changes_.push_back({std::string(key), columns_[keyColumn_].name, {}, std::string(key)});
   return {};
 }
 

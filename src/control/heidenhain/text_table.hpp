@@ -31,13 +31,6 @@ struct TableColumn {
   std::size_t end = toLineEnd;  ///< where the next column starts
 };
 
-/// One cell that was changed, as its text stood without surrounding blanks.
-struct CellChange {
-  std::string row;  ///< the key of the row
-  std::string column;
-  std::string before, after;
-};
-
 /// How a number is written where the column shows no example.
 struct NumberStyle {
   int decimals = 4;
@@ -99,9 +92,6 @@ public:
   /// Writes the file whole or not at all.
   Result<void> save(const std::filesystem::path& path) const;
 
-  const std::vector<CellChange>& changes() const { return changes_; }
-  void clearChanges() { changes_.clear(); }
-
 private:
   struct Field {
     std::size_t begin, end;  ///< bytes in the line
@@ -138,7 +128,6 @@ private:
   std::size_t headerLine_ = 0;
   std::vector<std::size_t> rowLines_;                      ///< rows in the order of the file
   std::unordered_map<std::string, std::size_t> rowOfKey_;  ///< normalized key -> index into rowLines_
-  std::vector<CellChange> changes_;
 };
 
 }  // namespace probewright::control::heidenhain

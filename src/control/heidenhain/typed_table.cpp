@@ -40,7 +40,6 @@ TypedTable TypedTable::create(std::string_view name, TableUnit unit, std::span<c
   for (std::size_t row = 0; row < rows; ++row) {
     if (auto added = table.ensureRow(std::to_string(row)); !added) throw std::logic_error(added.error().message);
   }
-  table.table_.clearChanges();
   return table;
 }
 

@@ -101,14 +101,6 @@ std::string DataStore::text(std::string_view name, std::initializer_list<DataInd
   return text ? *text : std::string();
 }
 
-void DataStore::set(const DataKey& key, DataValue value) {
-  const auto before = get(key);
-  if (!before || *before != value) {
-    changes_.push_back({key.text(), before ? valueText(*before) : std::string(), valueText(value)});
-  }
-  values_.insert_or_assign(key, std::move(value));
-}
-
 void DataStore::setDefault(std::string_view name, DataValue value) {
   defaults_.insert_or_assign(upperCase(name), std::move(value));
 }

@@ -52,11 +52,6 @@ struct DataKey {
   std::string text() const;
 };
 
-struct DataChange {
-  std::string name;  ///< "$P_UIFR[1,X,TR]"
-  std::string before, after;
-};
-
 /// Values by name and indices. What has no value has the default of its name; what has no default has none.
 ///
 /// A frame is held component by component: $P_UIFR[1,X,TR]; components without a value are neutral (SC: 1, others: 0).
@@ -73,13 +68,13 @@ public:
   std::string text(std::string_view name, std::initializer_list<DataIndex> indices) const;
   bool isSet(const DataKey& key) const { return values_.contains(key); }
 
-  /// Sets a value and remembers the change if it is one.
-  void set(const DataKey& key, DataValue value);
+  /// Sets a value.
+  void set(const DataKey& key, DataValue value) { values_.insert_or_assign(key, std::move(value)); }
   void set(std::string_view name, std::initializer_list<DataIndex> indices, DataValue value) {
     set(DataKey(name, indices), std::move(value));
   }
-  /// Sets a value that was read, not changed.
-  void load(const DataKey& key, DataValue value) { values_.insert_or_assign(key, std::move(value)); }
+  /// The same, for values that are read from files.
+  void load(const DataKey& key, DataValue value) { set(key, std::move(value)); }
   void setDefault(std::string_view name, DataValue value);
 
   /// The frame `name`[indices]: frame("$P_UIFR", {1}).
@@ -94,13 +89,9 @@ public:
   std::vector<DataKey> keys() const;
   std::vector<DataKey> keys(std::string_view name) const;
 
-  const std::vector<DataChange>& changes() const { return changes_; }
-  void clearChanges() { changes_.clear(); }
-
 private:
   std::map<DataKey, DataValue> values_;
   std::unordered_map<std::string, DataValue> defaults_;
-  std::vector<DataChange> changes_;
 };
 
 /// True for the names of frames in data management: $P_UIFR, $P_CHBFR, $P_NCBFR, the system frames and their active

@@ -90,8 +90,7 @@ Context::Context(Control& control, const Arguments& arguments, SourcePlace place
   }
   record.startSeconds = control.channel.seconds();
   record_ = control.journal.cycles.size();
-  control.journal.cycles.push_back(std::move(record));
-  control.journal.cycleOpen = true;
+  control.journal.begin(std::move(record));
 }
 
 Context::~Context() {

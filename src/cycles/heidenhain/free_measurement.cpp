@@ -48,7 +48,7 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
   record.seconds = channel.seconds();
   const auto note = [&](std::string outcome) {
     record.outcome = std::move(outcome);
-    context.record().touches.push_back(record);
+    channel.journal().touch(record);
   };
   double status = notTouched;
   Vector3 ball = channel.position() + toBall;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/utc.hpp"
 #include "cycles/heidenhain/log_texts.hpp"
 
 namespace probewright::cycles::heidenhain {
@@ -39,9 +40,7 @@ std::string row(const char* cell, const std::vector<std::string>& cells, DialogL
 std::string sectionHead(Context& context) {
   const auto& control = context.control();
   const DialogLanguage language = control.panel.language;
-  const std::int64_t now = control.wallClockStart +
-                           static_cast<std::int64_t>(std::llround(context.channel().seconds() - control.startSeconds));
-  const std::tm time = fmt::gmtime(static_cast<std::time_t>(now));
+  const std::tm time = utcTime(control.wallClockStart, context.channel().seconds() - control.startSeconds);
   std::string text =
       fmt::format("<h2>{} {}</h2>\n<p>", context.record().name, translated(context.record().title, language));
   text += fmt::format(fmt::runtime(logFrame(language).dateForm), time);

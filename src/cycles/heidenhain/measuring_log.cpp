@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "base/number_text.hpp"
+#include "base/utc.hpp"
 #include "cycles/heidenhain/inspection.hpp"
 #include "cycles/heidenhain/log_texts.hpp"
 
@@ -38,9 +39,7 @@ std::string logText(Context& context, const Inspection& inspection) {
   const auto term = [&](std::string_view english) {
     return capitals ? capitalTerm(english) : std::string(translated(english, language));
   };
-  const std::int64_t now = control.wallClockStart +
-                           static_cast<std::int64_t>(std::llround(context.channel().seconds() - control.startSeconds));
-  const std::tm time = fmt::gmtime(static_cast<std::time_t>(now));
+  const std::tm time = utcTime(control.wallClockStart, context.channel().seconds() - control.startSeconds);
   const std::size_t columns = capitals ? capitalRuleWidth : ruleWidth;
   const std::string rule(columns, '-'), first(capitals ? shorterCapitalRule : ruleWidth, '-'), stars(columns, '*');
 

@@ -99,8 +99,7 @@ Context::Context(Control& control, const Arguments& arguments, SourcePlace place
   }
   record.startSeconds = control.channel.seconds();
   record_ = control.journal.cycles.size();
-  control.journal.cycles.push_back(std::move(record));
-  control.journal.cycleOpen = true;
+  control.journal.begin(std::move(record));
   start_ = control.channel.position();
   repetitionsLeft_ = maskBit(control.data, "$SNS_MEA_FUNCTION_MASK", 0) ? mostRepetitions : 0;
   clearResults();

@@ -9,6 +9,7 @@
 #include <ctime>
 
 #include "base/number_text.hpp"
+#include "base/utc.hpp"
 
 namespace probewright::cycles::sinumerik {
 namespace {
@@ -147,9 +148,7 @@ std::string correctedTool(const Control& control, const CycleRecord& record) {
   return line;
 }
 
-std::tm clock(const Control& control, double seconds) {
-  return fmt::gmtime(static_cast<std::time_t>(control.wallClockStart + std::llround(seconds)));
-}
+std::tm clock(const Control& control, double seconds) { return utcTime(control.wallClockStart, seconds); }
 
 std::string probeText(const CycleRecord& record) {
   const ResultRecord* probe = resultNamed(record, "_OVI[5]");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "base/utc.hpp"
 #include "control/alarm.hpp"
 #include "language/klartext/host.hpp"
 #include "language/klartext/lexer.hpp"
@@ -44,9 +45,7 @@ std::optional<std::string> dateText(int format, double seconds) {
   if (format < 0 || format >= static_cast<int>(dateFormats.size())) return std::nullopt;
   const char* pattern = dateFormats[static_cast<std::size_t>(format)];
   if (pattern == nullptr) return std::nullopt;
-  const auto now = static_cast<std::time_t>(seconds);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
+  const std::tm parts = utcTime(0, std::floor(seconds));
   std::array<char, 64> text{};
   const std::size_t length = std::strftime(text.data(), text.size(), pattern, &parts);
   return std::string(text.data(), length);

@@ -189,8 +189,7 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
     record.place = evaluation.place();
     record.place.column = language::columnOf(record.name, evaluation.at(evaluation.block().source));
     record.startSeconds = channel.seconds();
-    journal.cycles.push_back(std::move(record));
-    journal.cycleOpen = true;
+    journal.begin(std::move(record));
   }
   const machine::MeasureResult result = channel.measureTo(to, speed);
   control::CycleRecord& record = journal.cycles.back();
@@ -230,7 +229,7 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
   }
   touch.latched = measurement_.latched;
   touch.ballCentre = touch.surface = measurement_.tip;
-  record.touches.push_back(touch);
+  journal.touch(touch);
   if (measurement_.triggered) {
     for (std::size_t i = 0; i < 3; ++i) {
       if (!words.target.linear[i]) continue;

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "base/number_text.hpp"
+#include "base/utc.hpp"
 #include "control/alarm.hpp"
 #include "control/sinumerik/former_names.hpp"
 #include "control/sinumerik/text.hpp"
@@ -250,9 +251,7 @@ std::optional<Value> SystemVariables::readState(std::string_view name, std::span
     const double seconds = std::floor(control_.channel.seconds() + 1e-9);
     if (name == "$A_MSECOND")
       return number(std::floor(1000 * std::max(0.0, control_.channel.seconds() - seconds) + 1e-6));
-    const auto now = static_cast<std::time_t>(control_.wallClockStart + static_cast<std::int64_t>(seconds));
-    std::tm parts{};
-    ::gmtime_r(&now, &parts);
+    const std::tm parts = utcTime(control_.wallClockStart, seconds);
     if (name == "$A_YEAR") return number(parts.tm_year + 1900);
     if (name == "$A_MONTH") return number(parts.tm_mon + 1);
     if (name == "$A_DAY") return number(parts.tm_mday);

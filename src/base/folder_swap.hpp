@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/diagnostic.hpp"
+#include "base/sink.hpp"
+
+/// Files that belong together, in a folder that also holds files of others: the old set is replaced by the new one in a
+/// single step of the file system. docs/output-folder.md says how.
+namespace probewright {
+
+/// One that works on the set of files of a folder; others wait.
+class FolderLock {
+public:
+  /// Makes the folder if it is missing, waits until nobody else works on it and, if somebody was killed at it, clears
+  /// up: afterwards the folder holds the set before or the one after. `onWait` is told if there is a wait. `isOurs`:
+  /// whether a file in a folder belongs to the set.
+  static Result<FolderLock> take(const std::filesystem::path& folder, const std::function<void()>& onWait,
+                                 const std::function<bool(const std::filesystem::path& file)>& isOurs,
+                                 const std::stop_token& stop = {});
+
+  FolderLock(FolderLock&& other) noexcept;
+  FolderLock& operator=(FolderLock&&) = delete;
+  ~FolderLock();
+
+  /// The folder, its own name and not a symbolic link to it.
+  const std::filesystem::path& folder() const { return folder_; }
+  int descriptor() const { return descriptor_; }
+
+private:
+  FolderLock(std::filesystem::path folder, int descriptor);
+
+  std::filesystem::path folder_;
+  int descriptor_;
+};
+
+/// True for a file that another process is replacing just now.
+bool isOnItsWay(const std::filesystem::path& file);
+
+/// Writes `files`, in their order, by their names in the folder, and removes `dropped`. Whoever looks, and whatever
+/// ends this, sees all of that or nothing of it; everything else in the folder stays as it is. Fails without a trace if
+/// something cannot be written or `stop` is asked for.
+Result<void> swapFiles(const FolderLock& lock, const std::vector<std::pair<std::string, Content>>& files,
+                       const std::set<std::string>& dropped, std::stop_token stop = {});
+
+}  // namespace probewright

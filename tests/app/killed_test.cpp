@@ -1,0 +1,215 @@
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include "app/program.hpp"
+
+/// A run that ends in the middle of writing: killed, or refused by the disk, at each call that changes a file.
+namespace probewright::app::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AnyOf;
+using ::testing::ElementsAre;
+using ::testing::Eq;
+using ::testing::IsEmpty;
+
+using Texts = std::map<std::string, std::string>;
+
+const Texts older = {{"PRESET.PR", "old preset"}, {"LOG.TXT", "old log"}, {"results.json", "old"}};
+const Texts newer = {{"PRESET.PR", "new preset"}, {"NEW.TXT", "new log"}, {"results.json", "new"}};
+
+struct Fault {
+  long at = 0;  ///< the number of the call; 0: none
+  std::string how = "kill";
+};
+
+/// The exit code of the writer; -1 if it was killed.
+int writeSet(const fs::path& folder, const Texts& files, const Fault& fault = {}, const fs::path& count = {}) {
+  std::vector<std::string> words = {PROBEWRIGHT_FOLDER_WRITER, folder.string()};
+  for (const auto& [name, text] : files)
+    words.push_back(name + "=" + text);
+  std::vector<char*> arguments;
+  for (std::string& word : words)
+    arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const pid_t child = fork();
+  if (child == 0) {
+    dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
+    setenv("LD_PRELOAD", PROBEWRIGHT_FAILING_CALLS, 1);
+    setenv("FAIL_AT", std::to_string(fault.at).c_str(), 1);
+    setenv("FAIL_HOW", fault.how.c_str(), 1);
+    if (!count.empty()) setenv("FAIL_COUNT", count.c_str(), 1);
+    if (chdir("/") != 0) _exit(127);
+    execv(arguments[0], arguments.data());
+    _exit(127);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// What somebody who opens the files of the folder by their names finds.
+Texts filesIn(const fs::path& folder) {
+  Texts texts;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.front() != '.' && entry.is_regular_file()) texts.emplace(name, textOf(entry.path()));
+  }
+  return texts;
+}
+
+Texts with(Texts texts, const std::string& name, const std::string& text) {
+  texts.emplace(name, text);
+  return texts;
+}
+
+/// A folder with the old set and a user's file; a subfolder, which rules out exchanging the folder, if asked for.
+class World {
+public:
+  explicit World(bool subfolder) {
+    static const Folder first;
+    if (!fs::exists(first / "out")) {
+      EXPECT_EQ(writeSet(first / "out", older), 0);
+      first.file("out/mine.txt", "mine");
+    }
+    fs::copy(first / "out", out(), fs::copy_options::recursive);
+    if (subfolder) {
+      fs::create_directory(out() / "sub");
+      folder_.file("out/sub/deep.txt", "deep");
+    }
+    inode_ = inodeOf(out() / "mine.txt");
+  }
+
+  fs::path out() const { return folder_ / "out"; }
+  fs::path count() const { return folder_ / "count"; }
+  std::vector<std::string> neighbours() const {
+    std::vector<std::string> names = namesIn(folder_ / "");
+    std::erase(names, "count");
+    return names;
+  }
+  bool keptTheUsersFile() const { return inodeOf(out() / "mine.txt") == inode_; }
+
+  static ino_t inodeOf(const fs::path& path) {
+    struct stat status {};
+    return ::stat(path.c_str(), &status) == 0 ? status.st_ino : 0;
+  }
+
+private:
+  Folder folder_;
+  ino_t inode_ = 0;
+};
+
+class Killed : public ::testing::TestWithParam<bool> {
+protected:
+  void SetUp() override {
+    if (!PROBEWRIGHT_OPTIMIZED) GTEST_SKIP() << "sanitizers and preloaded libraries do not go together";
+  }
+};
+
+TEST_P(Killed, LeavesTheOldSetOrTheNewOneAtEachCall) {
+  const Texts before = with(older, "mine.txt", "mine"), after = with(newer, "mine.txt", "mine");
+  const std::vector<std::string> names =
+      GetParam()
+          ? std::vector<std::string>{".probewright.json", "NEW.TXT", "PRESET.PR", "mine.txt", "results.json", "sub"}
+          : std::vector<std::string>{".probewright.json", "NEW.TXT", "PRESET.PR", "mine.txt", "results.json"};
+  long calls = 1000;
+  int old = 0, changed = 0;
+  for (long at = 1; at <= calls; ++at) {
+    const World world(GetParam());
+    const int end = writeSet(world.out(), newer, {at, "kill"}, world.count());
+    if (end != -1) {  // fewer calls than this
+      calls = std::stol(textOf(world.count()));
+      ASSERT_EQ(end, 0);
+      ASSERT_EQ(at, calls + 1);
+      break;
+    }
+    const Texts found = filesIn(world.out());
+    ASSERT_THAT(found, AnyOf(Eq(before), Eq(after))) << "killed in front of call " << at;
+    ++(found == before ? old : changed);
+    ASSERT_TRUE(world.keptTheUsersFile()) << at;
+    // The next run clears up.
+    ASSERT_EQ(writeSet(world.out(), newer), 0) << at;
+    ASSERT_EQ(filesIn(world.out()), after) << at;
+    ASSERT_EQ(namesIn(world.out()), names) << at;
+    ASSERT_THAT(world.neighbours(), ElementsAre("out")) << at;
+    ASSERT_TRUE(world.keptTheUsersFile()) << at;
+    if (GetParam()) {
+      ASSERT_EQ(textOf(world.out() / "sub/deep.txt"), "deep");
+    }
+  }
+  EXPECT_GT(old, 10);
+  EXPECT_GT(changed, 3);
+}
+
+TEST_P(Killed, LeavesTheOldSetOrTheNewOneWhereADiskFails) {
+  const Texts before = with(older, "mine.txt", "mine"), after = with(newer, "mine.txt", "mine");
+  long calls = 1000;
+  for (long at = 1; at <= calls; ++at) {
+    const World world(GetParam());
+    const int end = writeSet(world.out(), newer, {at, std::to_string(at % 2 == 0 ? EIO : ENOSPC)}, world.count());
+    calls = std::stol(textOf(world.count()));
+    ASSERT_THAT(end, AnyOf(0, 2)) << at;
+    // A failure behind the step itself leaves the new set, which may still have to be tidied.
+    ASSERT_THAT(filesIn(world.out()), AnyOf(Eq(before), Eq(after))) << "call " << at << " failed";
+    if (end == 0) {
+      ASSERT_EQ(filesIn(world.out()), after) << at;
+    }
+    ASSERT_EQ(writeSet(world.out(), newer), 0) << at;
+    ASSERT_EQ(filesIn(world.out()), after) << at;
+    ASSERT_THAT(world.neighbours(), ElementsAre("out")) << at;
+    ASSERT_TRUE(world.keptTheUsersFile()) << at;
+  }
+}
+
+TEST_P(Killed, RemovesASetInOneStepToo) {
+  const Texts before = with(older, "mine.txt", "mine"), after = {{"mine.txt", "mine"}};
+  for (long at = 1; at < 1000; ++at) {
+    const World world(GetParam());
+    const int end = writeSet(world.out(), {}, {at, "kill"});
+    ASSERT_THAT(filesIn(world.out()), AnyOf(Eq(before), Eq(after))) << "killed in front of call " << at;
+    if (end == 0) return;
+    ASSERT_EQ(writeSet(world.out(), newer), 0) << at;
+    ASSERT_THAT(world.neighbours(), ElementsAre("out")) << at;
+  }
+  FAIL() << "no end";
+}
+
+TEST_P(Killed, GoesOnToWriteWhereSomebodyWaits) {
+  // Many at once: each leaves a whole set, and the last one's stays.
+  const World world(GetParam());
+  std::vector<pid_t> children;
+  for (int i = 0; i < 8; ++i) {
+    const pid_t child = fork();
+    if (child == 0) {
+      const std::string tag = std::to_string(i);
+      _exit(writeSet(world.out(), {{"A" + tag, tag}, {"both", tag}, {"results.json", tag}}));
+    }
+    children.push_back(child);
+  }
+  for (const pid_t child : children) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 0);
+  }
+  const Texts found = filesIn(world.out());
+  ASSERT_TRUE(found.contains("results.json"));
+  const std::string tag = found.at("results.json");
+  EXPECT_EQ(found, (Texts{{"A" + tag, tag}, {"both", tag}, {"results.json", tag}, {"mine.txt", "mine"}}));
+  EXPECT_TRUE(world.keptTheUsersFile());
+  EXPECT_THAT(world.neighbours(), ElementsAre("out"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Folders, Killed, ::testing::Bool(),
+                         [](const auto& which) { return which.param ? "WithASubfolder" : "OfFilesOnly"; });
+
+}  // namespace
+}  // namespace probewright::app::testing
