@@ -33,7 +33,41 @@ std::string describe(const NumberRange& range) {
 
 }  // namespace
 
+namespace {
+
+/// Where a name in `text` has more parts than the parser can take (a.b.c...), as an offset; the parser nests them.
+std::optional<std::size_t> deepestName(std::string_view text) {
+  constexpr int mostParts = 100;
+  int points = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {  // texts may hold any number of them
+      const bool threefold = text.substr(i, 3) == std::string(3, c);
+      const std::string close(threefold ? 3 : 1, c);
+      std::size_t end = i + close.size();
+      while (end < text.size() && text.substr(end, close.size()) != close && (threefold || text[end] != '\n'))
+        end += c == '"' && text[end] == '\\' ? 2 : 1;
+      i = std::min(end + close.size(), text.size()) - 1;
+    } else if (c == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    } else if (c == '.') {
+      if (++points == mostParts) return i;
+    } else if (std::string_view("\n=,{}[]").find(c) != std::string_view::npos) {
+      points = 0;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::optional<toml::table> parseToml(std::string_view text, const std::string& file, Diagnostics& diagnostics) {
+  if (const auto deep = deepestName(text)) {
+    const auto line =
+        static_cast<std::uint64_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(*deep), '\n'));
+    diagnostics.push_back({Severity::Error, {file, line + 1, 1}, "this name has more than 100 parts", {}, {}, {}});
+    return std::nullopt;
+  }
   try {
     return toml::parse(text, std::string_view(file));
   } catch (const toml::parse_error& error) {
@@ -112,18 +146,20 @@ std::optional<std::string> TomlReader::text(std::string_view key) {
   return std::nullopt;
 }
 
-std::optional<std::size_t> TomlReader::choice(std::string_view key, const std::vector<std::string>& choices) {
+std::optional<std::size_t> TomlReader::choice(std::string_view key, const std::vector<std::string>& choices,
+                                              const std::map<std::string, std::string>& otherNames) {
   const auto value = text(key);
   if (!value) return std::nullopt;
   const auto found = std::find(choices.begin(), choices.end(), *value);
   if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
-  const auto near = nearestName(*value, choices);
+  const auto other = otherNames.find(*value);
+  const auto near = other != otherNames.end() ? std::optional(other->second) : nearestName(*value, choices);
   report(key, fmt::format("\"{}\" is no {}; it must be one of {}", *value, key, fmt::join(choices, ", ")),
          near ? fmt::format("Did you mean \"{}\"?", *near) : "");
   return std::nullopt;
 }
 
-std::optional<std::vector<double>> TomlReader::numbers(std::string_view key, std::size_t size) {
+std::optional<std::vector<double>> TomlReader::numbers(std::string_view key, std::size_t size, NumberRange range) {
   const toml::node* node = find(key);
   if (!node) return std::nullopt;
   const std::string expected =
@@ -139,6 +175,10 @@ std::optional<std::vector<double>> TomlReader::numbers(std::string_view key, std
     const auto value = element.is_number() ? element.value<double>() : std::nullopt;
     if (!value || !std::isfinite(*value)) {
       wrongType(key, expected);
+      return std::nullopt;
+    }
+    if (!within(*value, range)) {
+      wrongType(key, fmt::format("a list of numbers, each {}", describe(range)));
       return std::nullopt;
     }
     values.push_back(*value);

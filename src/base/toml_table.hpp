@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -25,6 +26,8 @@ struct NumberRange {
   bool exclusiveMinimum = false;  ///< the minimum itself is not allowed
   static constexpr NumberRange positive() { return {0, std::numeric_limits<double>::infinity(), true}; }
   static constexpr NumberRange notNegative() { return {0, std::numeric_limits<double>::infinity(), false}; }
+  /// From -limit to limit.
+  static constexpr NumberRange within(double limit) { return {-limit, limit, false}; }
 };
 
 /// The table that `text` writes; nothing after a syntax error, which is then in `diagnostics`.
@@ -44,10 +47,12 @@ public:
   std::optional<long long> integer(std::string_view key, long long minimum, long long maximum);
   std::optional<bool> boolean(std::string_view key);
   std::optional<std::string> text(std::string_view key);
-  /// One of `choices`; the index of the one that is written.
-  std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& choices);
-  /// An array of numbers, of exactly `size` if that is not 0.
-  std::optional<std::vector<double>> numbers(std::string_view key, std::size_t size = 0);
+  /// One of `choices`; the index of the one that is written. `otherNames`: what people write instead, and the choice
+  /// that they mean, for the message.
+  std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& choices,
+                                    const std::map<std::string, std::string>& otherNames = {});
+  /// An array of numbers, each in `range`, of exactly `size` if that is not 0.
+  std::optional<std::vector<double>> numbers(std::string_view key, std::size_t size = 0, NumberRange range = {});
   /// A list of points, each a list of three numbers.
   std::optional<std::vector<std::array<double, 3>>> points(std::string_view key);
   /// A number, a text, or true and false as 1 and 0.

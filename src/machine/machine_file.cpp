@@ -15,6 +15,9 @@ namespace probewright::machine {
 
 namespace {
 
+/// mm or degrees; no machine is larger.
+constexpr NumberRange anyPlace = NumberRange::within(1e6);
+
 Axis readAxis(TomlReader& reader, const std::vector<Axis>& before) {
   Axis axis;
   if (auto name = reader.requiredText("name")) {
@@ -36,14 +39,14 @@ Axis readAxis(TomlReader& reader, const std::vector<Axis>& before) {
     reader.require("minimum");
     reader.require("maximum");
   }
-  axis.minimum = reader.number("minimum").value_or(axis.modulo ? 0 : axis.minimum);
-  axis.maximum = reader.number("maximum").value_or(axis.modulo ? 360 : axis.maximum);
+  axis.minimum = reader.number("minimum", anyPlace).value_or(axis.modulo ? 0 : axis.minimum);
+  axis.maximum = reader.number("maximum", anyPlace).value_or(axis.modulo ? 360 : axis.maximum);
   if (!(axis.minimum < axis.maximum)) {
     reader.report("minimum", fmt::format("the travel of axis {} ends before it begins", axis.name),
                   "minimum must be less than maximum");
   }
-  axis.rapid = reader.number("rapid", NumberRange::positive()).value_or(axis.rapid);
-  axis.acceleration = reader.number("acceleration", NumberRange::positive()).value_or(axis.acceleration);
+  axis.rapid = reader.number("rapid", {1, 1e6}).value_or(axis.rapid);
+  axis.acceleration = reader.number("acceleration", {1, 1e6}).value_or(axis.acceleration);
   reader.finish();
   return axis;
 }
@@ -64,7 +67,7 @@ std::vector<ChainElement> readChain(TomlReader& file, const char* key, const Mac
       }
     }
     reader.require("direction");
-    if (auto direction = reader.numbers("direction", 3)) {
+    if (auto direction = reader.numbers("direction", 3, anyPlace)) {
       const Vector3 vector((*direction)[0], (*direction)[1], (*direction)[2]);
       if (vector.norm() < 1e-9) {
         reader.report("direction", "a direction cannot be [0, 0, 0]");
@@ -72,7 +75,7 @@ std::vector<ChainElement> readChain(TomlReader& file, const char* key, const Mac
         element.direction = vector.normalized();
       }
     }
-    if (auto point = reader.numbers("point", 3)) {
+    if (auto point = reader.numbers("point", 3, anyPlace)) {
       element.point = {(*point)[0], (*point)[1], (*point)[2]};
       if (element.axis && machine.axes[*element.axis].kind == AxisKind::Linear) {
         reader.report("point",
@@ -92,8 +95,8 @@ std::optional<TableBody> readTable(TomlReader& file) {
   TableBody body;
   body.name = reader->text("name").value_or(body.name);
   reader->require("centre");
-  if (auto centre = reader->numbers("centre", 3)) body.centre = {(*centre)[0], (*centre)[1], (*centre)[2]};
-  if (auto normal = reader->numbers("normal", 3)) {
+  if (auto centre = reader->numbers("centre", 3, anyPlace)) body.centre = {(*centre)[0], (*centre)[1], (*centre)[2]};
+  if (auto normal = reader->numbers("normal", 3, anyPlace)) {
     const Vector3 vector((*normal)[0], (*normal)[1], (*normal)[2]);
     if (vector.norm() < 1e-9) {
       reader->report("normal", "a direction cannot be [0, 0, 0]");
@@ -134,8 +137,7 @@ std::optional<MachineFile> parseFile(std::string_view text, const std::string& f
   MachineDescription machine;
   machine.name = reader.requiredText("name").value_or("");
   machine.spindleOrients = reader.boolean("spindle_orients").value_or(true);
-  machine.toolChangeSeconds =
-      reader.number("tool_change_seconds", NumberRange::notNegative()).value_or(machine.toolChangeSeconds);
+  machine.toolChangeSeconds = reader.number("tool_change_seconds", {0, 1e6}).value_or(machine.toolChangeSeconds);
   reader.require("axis");
   for (TomlReader& axis : reader.tables("axis")) {
     if (machine.axes.size() == maximumAxes) {
@@ -163,7 +165,7 @@ std::optional<MachineFile> parseFile(std::string_view text, const std::string& f
   if (auto change = reader.table("tool_change")) {
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
       const Axis& axis = machine.axes[i];
-      const NumberRange range = axis.modulo ? NumberRange{} : NumberRange{axis.minimum, axis.maximum};
+      const NumberRange range = axis.modulo ? anyPlace : NumberRange{axis.minimum, axis.maximum};
       machine.toolChange[i] = change->number(axis.name, range).value_or(0);
     }
     change->finish();
@@ -174,33 +176,24 @@ std::optional<MachineFile> parseFile(std::string_view text, const std::string& f
   return MachineFile{std::move(machine), std::move(table)};
 }
 
-Result<MachineFile> readFileOf(const std::string& nameOrPath) {
-  std::string text;
+std::optional<MachineFile> readFileOf(const std::string& nameOrPath, Diagnostics& diagnostics) {
   const auto ready = std::find_if(readyMade().begin(), readyMade().end(),
                                   [&](const ReadyMade& machine) { return machine.name == nameOrPath; });
-  if (ready != readyMade().end()) {
-    text = ready->toml;
-  } else {
-    std::error_code ignored;
-    auto bytes = std::filesystem::is_regular_file(nameOrPath, ignored) ? readFile(nameOrPath) : fail("no file");
-    if (!bytes) {
-      const auto near = nearestName(nameOrPath, readyMadeMachines());
-      return fail({nameOrPath},
-                  fmt::format("there is neither a ready-made machine nor a file called \"{}\"", nameOrPath),
-                  near ? fmt::format("Did you mean \"{}\"?", *near)
-                       : fmt::format("Ready-made machines: {}", fmt::join(readyMadeMachines(), ", ")));
-    }
-    text = std::move(*bytes);
+  if (ready != readyMade().end()) return parseFile(ready->toml, nameOrPath, diagnostics);
+  std::error_code ignored;
+  if (!std::filesystem::exists(nameOrPath, ignored)) {
+    const auto near = nearestName(nameOrPath, readyMadeMachines());
+    diagnostics.push_back(
+        fail(fmt::format("there is neither a ready-made machine nor a file called \"{}\"", nameOrPath),
+             near ? fmt::format("Did you mean \"{}\"?", *near)
+                  : fmt::format("Ready-made machines: {}", fmt::join(readyMadeMachines(), ", ")))
+            .value());
+    return std::nullopt;
   }
-  Diagnostics diagnostics;
-  auto machine = parseFile(text, nameOrPath, diagnostics);
-  if (machine) return std::move(*machine);
-  Diagnostic first = diagnostics.front();
-  if (diagnostics.size() > 1) {
-    first.advice += fmt::format("{}{} more mistake{} in this file", first.advice.empty() ? "" : "; ",
-                                diagnostics.size() - 1, diagnostics.size() == 2 ? "" : "s");
-  }
-  return tl::unexpected(std::move(first));
+  const Result<std::string> text = readFile(nameOrPath, largestText);
+  if (text) return parseFile(*text, nameOrPath, diagnostics);
+  diagnostics.push_back(text.error());
+  return std::nullopt;
 }
 
 }  // namespace
@@ -212,16 +205,24 @@ std::optional<MachineDescription> parseMachine(std::string_view text, const std:
   return std::move(machine->description);
 }
 
+std::optional<MachineDescription> readMachine(const std::string& nameOrPath, Diagnostics& diagnostics) {
+  auto machine = readFileOf(nameOrPath, diagnostics);
+  if (!machine) return std::nullopt;
+  return std::move(machine->description);
+}
+
 Result<MachineDescription> readMachine(const std::string& nameOrPath) {
-  auto file = readFileOf(nameOrPath);
-  if (!file) return tl::unexpected(std::move(file.error()));
-  return std::move(file->description);
+  Diagnostics diagnostics;
+  auto machine = readMachine(nameOrPath, diagnostics);
+  if (!machine) return tl::unexpected(diagnostics.front());
+  return std::move(*machine);
 }
 
 Result<std::optional<TableBody>> readTableBody(const std::string& nameOrPath) {
-  auto file = readFileOf(nameOrPath);
-  if (!file) return tl::unexpected(std::move(file.error()));
-  return std::move(file->table);
+  Diagnostics diagnostics;
+  auto machine = readFileOf(nameOrPath, diagnostics);
+  if (!machine) return tl::unexpected(diagnostics.front());
+  return std::move(machine->table);
 }
 
 std::vector<std::string> readyMadeMachines() {

@@ -16,8 +16,10 @@ namespace probewright::machine {
 std::optional<MachineDescription> parseMachine(std::string_view text, const std::string& file,
                                                Diagnostics& diagnostics);
 
-/// The ready-made machine called `nameOrPath` or the one in that file. The first mistake, if the file has any; its
-/// advice tells how many more there are.
+/// The ready-made machine called `nameOrPath` or the one in that file. Mistakes go to `diagnostics`; one without a
+/// place is not of the file: there is no such machine.
+std::optional<MachineDescription> readMachine(const std::string& nameOrPath, Diagnostics& diagnostics);
+/// The same; the first mistake, if there are any.
 Result<MachineDescription> readMachine(const std::string& nameOrPath);
 
 /// The names of the ready-made machines: "mill3", "mill4-table", "mill5-table-table", "mill5-head-table",

@@ -18,7 +18,9 @@ Result<std::unique_ptr<Solid>> load(const SolidSource& source, const ImportOptio
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(source.file, ignored)) {
-    return fail(source.place, fmt::format("there is no file \"{}\"", source.file.string()),
+    const bool isThere = std::filesystem::exists(source.file, ignored);
+    const char* what = isThere ? "\"{}\" is a folder or a device, a file was expected" : "there is no file \"{}\"";
+    return fail(source.place, fmt::format(fmt::runtime(what), source.file.string()),
                 "Name the part's file relative to this file");
   }
   const bool isStep = ending == ".step" || ending == ".stp", isIges = ending == ".iges" || ending == ".igs";

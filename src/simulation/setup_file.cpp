@@ -17,15 +17,17 @@ using machine::AxisKind;
 
 namespace {
 
-constexpr NumberRange anyNumber{};
-constexpr NumberRange positive = NumberRange::positive();
+constexpr NumberRange anyNumber = NumberRange::within(1e6);
+constexpr NumberRange positive = anyLength;
 constexpr double effectivelyEndless = 1e6;
+constexpr std::size_t mostCoefficients = 10;
 
 class SetupReader {
 public:
   SetupReader(const toml::table& root, const std::string& file, Diagnostics& diagnostics)
       : root_(root, "", file, diagnostics), folder_(std::filesystem::path(file).parent_path()) {
     setup_.file = file;
+    setup_.inputs.emplace_back(file);
   }
 
   Setup read() {
@@ -84,18 +86,26 @@ private:
   }
 
   void loadMachine(const std::string& name, TomlReader& reader, std::string_view key) {
-    auto description = machine::readMachine(name);
+    Diagnostics mistakes;
+    const auto description = machine::readMachine(name, mistakes);
     if (description) {
+      setup_.inputs.emplace_back(name);
       setup_.truth.machine = *description;
       setup_.truth.start = description->toolChange;
       setup_.truth.errors.axes.resize(description->axes.size());
       setup_.table = machine::readTableBody(name).value_or(std::nullopt);
       return;
     }
-    Diagnostic problem = description.error();
-    // A machine that cannot be found is a mistake of this file, one that cannot be read of its own.
-    if (problem.place.line == 0) problem.place = reader.placeOf(key);
-    reader.diagnostics().push_back(std::move(problem));
+    for (Diagnostic& mistake : mistakes) {
+      // A machine that cannot be found is a mistake of this file, one that cannot be read of its own.
+      if (mistake.place.file.empty()) {
+        mistake.place = reader.placeOf(key);
+        std::error_code error;
+        if (key == "name" && std::filesystem::is_regular_file(resolve(name), error))
+          mistake.advice = fmt::format("Write file = \"{}\" if you mean this file", name);
+      }
+      reader.diagnostics().push_back(std::move(mistake));
+    }
   }
 
   void readStart(TomlReader& reader) {
@@ -142,6 +152,7 @@ private:
     solid.source.recipe = readRecipe(reader);
     if (auto file = reader.text("file")) {
       solid.source.file = resolve(*file);
+      setup_.inputs.push_back(solid.source.file);
       std::string ending = solid.source.file.extension().string();
       std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
       static const std::vector<std::string> known = {".step", ".stp", ".iges", ".igs", ".stl"};
@@ -190,8 +201,7 @@ private:
     }
     if (auto reader = root_.table("gauge_block")) {
       reader->require("size");
-      const Vector3 size = readVector(*reader, "size").value_or(Vector3(10, 10, 10));
-      if (size.minCoeff() <= 0) reader->report("size", "the lengths of a gauge block must be above 0");
+      const Vector3 size = readVector(*reader, "size", anyLength).value_or(Vector3(10, 10, 10));
       placeGauge(gaugeBlock(size.x(), size.y(), size.z()), *reader, "gauge block", SolidRole::GaugeBlock);
     }
     readToolProbe();
@@ -206,8 +216,7 @@ private:
                      "Write diameter = 40 for a disc, size = [25, 25] for a cuboid");
     }
     contact.diameter = reader->number("diameter", positive).value_or(contact.diameter);
-    if (const auto size = readVector2(*reader, "size")) {
-      if (size->minCoeff() <= 0) reader->report("size", "the lengths of a contact must be above 0");
+    if (const auto size = readVector2(*reader, "size", anyLength)) {
       contact.length = size->x();
       contact.width = size->y();
     }
@@ -234,7 +243,7 @@ private:
 
   void readFrame(TomlReader& reader, BelievedFrame frame, std::vector<BelievedFrame>& frames, const char* idKey) {
     frame.origin = readVector(reader, "origin").value_or(Vector3::Zero());
-    frame.rotation = readVector(reader, "rotation").value_or(Vector3::Zero());
+    frame.rotation = readVector(reader, "rotation", anyAngle).value_or(Vector3::Zero());
     if (auto rotary = reader.table("rotary")) {
       for (const std::string& key : rotary->keys()) {
         axisNamed(*rotary, key, key, AxisKind::Rotary);
@@ -306,7 +315,9 @@ private:
           deviation.direction = direction->normalized();
         }
       }
-      deviation.polynomial = entry.numbers("polynomial").value_or(std::vector<double>{});
+      deviation.polynomial = entry.numbers("polynomial", 0, NumberRange::within(10)).value_or(std::vector<double>{});
+      if (deviation.polynomial.size() > mostCoefficients)
+        entry.report("polynomial", fmt::format("\"polynomial\" has at most {} coefficients", mostCoefficients));
       deviation.amplitude = entry.number("amplitude", {-10, 10}).value_or(0);
       deviation.wavelength = entry.number("wavelength", {0.1, effectivelyEndless}).value_or(100);
       deviation.phase = entry.number("phase", anyNumber).value_or(0);
@@ -350,12 +361,12 @@ private:
         RotaryAxisError error;
         error.axis = axis.value_or(0);
         error.position = readVector(*entry, "position").value_or(Vector3::Zero());
-        error.orientation = readVector(*entry, "orientation").value_or(Vector3::Zero());
+        error.orientation = readVector(*entry, "orientation", NumberRange::within(10)).value_or(Vector3::Zero());
         entry->finish();
         if (axis) errors.rotaryAxes.push_back(error);
       }
     }
-    if (auto tilt = readVector(*reader, "spindle_tilt")) errors.spindleTilt = *tilt;
+    if (auto tilt = readVector(*reader, "spindle_tilt", NumberRange::within(10))) errors.spindleTilt = *tilt;
     for (TomlReader& entry : reader->tables("thermal")) {
       ThermalDrift drift;
       entry.require("amount");
@@ -412,7 +423,7 @@ std::optional<Setup> parseSetup(std::string_view text, const std::string& file, 
 }
 
 std::optional<Setup> readSetup(const std::filesystem::path& path, Diagnostics& diagnostics) {
-  auto text = readFile(path);
+  auto text = readFile(path, largestText);
   if (!text) {
     diagnostics.push_back(std::move(text.error()));
     return std::nullopt;

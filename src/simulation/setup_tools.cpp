@@ -10,9 +10,10 @@
 namespace probewright::simulation {
 namespace {
 
-constexpr NumberRange anyNumber{};
-constexpr NumberRange positive = NumberRange::positive();
-constexpr NumberRange notNegative = NumberRange::notNegative();
+constexpr NumberRange anyNumber = NumberRange::within(1e6);
+constexpr NumberRange positive = anyLength;
+constexpr NumberRange notNegative = anyLengthOrNone;
+constexpr NumberRange anyFeed{0.01, 1e6};
 /// What the columns of tool tables hold, mm.
 constexpr double longestTool = 9999;
 constexpr NumberRange toolLength{0, longestTool, true};
@@ -54,8 +55,8 @@ void readProbe(TomlReader& reader, TrueTool& tool, BelievedTool& believed) {
   }
 
   believed.probeNumber = static_cast<int>(reader.integer("probe_number", 0, 99).value_or(1));
-  believed.feed = get("probing_feed", believed.feed, positive);
-  believed.rapid = get("probing_rapid", believed.rapid, positive);
+  believed.feed = get("probing_feed", believed.feed, anyFeed);
+  believed.rapid = get("probing_rapid", believed.rapid, anyFeed);
   believed.maximumTravel = get("maximum_travel", believed.maximumTravel, positive);
   believed.setUpClearance = get("set_up_clearance", believed.setUpClearance, notNegative);
   believed.calibrationAngle = get("calibration_angle", 0, {-360, 360});

@@ -193,7 +193,10 @@ Result<TriangleMesh> readStlMesh(const std::filesystem::path& path) {
         fmt::format("the binary STL file has {} bytes where its count of triangles needs {}", bytes->size(), expected),
         "the file was cut short or is not an STL file; export or copy it again");
   } else {
-    return fail({file, 0, 0}, "not an STL file: it neither begins with \"solid\" nor has the size its header tells",
+    std::string message = "not an STL file: it neither begins with \"solid\" nor has the size its header tells";
+    if (bytes->size() >= kHeaderSize)
+      message += fmt::format(": {} bytes for its count of triangles, and it has {}", expected, bytes->size());
+    return fail({file, 0, 0}, std::move(message),
                 "export the part as STL, or name a STEP or IGES file with its own ending");
   }
   if (mesh && mesh->triangles.empty()) {

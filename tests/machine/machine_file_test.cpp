@@ -134,9 +134,25 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"direction = [2, 0, 0]", "direction = [0, 0, 0]", "a direction cannot be [0, 0, 0]"},
         Mistake{"axis = \"X\"", "axis = \"Y\"", "small.toml:8:8: error: there is no axis called Y"},
         Mistake{"maximum = 100\n", "", "small.toml:2:1: error: \"maximum\" is missing in [[axis]]"},
-        Mistake{"maximum = 100", "maximum = nan", "\"maximum\" in [[axis]] must be a finite number"},
+        Mistake{"maximum = 100", "maximum = nan",
+                "\"maximum\" in [[axis]] must be at least -1000000 and at most 1000000"},
         Mistake{"maximum = 100", "maximum = 1 2", "small.toml:6:13: error: this is no valid TOML"},
-        Mistake{"maximum = 100", "maximum = 100\nacceleration = 0", "\"acceleration\" in [[axis]] must be above 0"}));
+        Mistake{"maximum = 100", "maximum = 100\nacceleration = 0",
+                "\"acceleration\" in [[axis]] must be at least 1 and at most 1000000"}));
+
+TEST(ReadMachine, NamesEveryMistakeOfAFile) {
+  Diagnostics found;
+  const std::string text =
+      "name = \"m\"\n[[axis]]\nname = \"X\"\nkind = \"linear\"\nmin = -400\nmax = 400\nrapid = 1e-300\n";
+  EXPECT_FALSE(parseMachine(text, "m.toml", found));
+  std::string all;
+  for (const Diagnostic& each : found)
+    all += format(each) + "\n";
+  EXPECT_THAT(all, HasSubstr("m.toml:5:1: error: unknown key \"min\" in [[axis]]\n    Did you mean \"minimum\"?"))
+      << all;
+  EXPECT_THAT(all, HasSubstr("m.toml:6:1: error: unknown key \"max\" in [[axis]]")) << all;
+  EXPECT_THAT(all, HasSubstr("\"rapid\" in [[axis]] must be at least 1 and at most 1000000")) << all;
+}
 
 TEST(ReadMachine, SuggestsTheNearestName) {
   const auto machine = readMachine("mill4");

@@ -174,6 +174,7 @@ TEST(IdealMachine, RefusesTargetsBeyondTheTravelWithoutMoving) {
   const auto result = machine.move(positions({500.001, 0, -10}), Feed::rapidTraverse());
   EXPECT_EQ(result.end, MoveEnd::AxisLimit);
   EXPECT_EQ(result.detail, "axis X would go to 500.0010 mm; its travel ends at 500.0000");
+  EXPECT_LT(machine.move(positions({1e300, 0, -10}), Feed::rapidTraverse()).detail.size(), 80U) << "no 300 digits";
   EXPECT_EQ(machine.position(), AxisPositions{});
   EXPECT_EQ(machine.seconds(), 0);
   EXPECT_EQ(machine.move(positions({0, 0, std::nan("")}), Feed::rapidTraverse()).end, MoveEnd::AxisLimit);

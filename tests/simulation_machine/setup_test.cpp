@@ -327,24 +327,28 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"[[part.feature]]\nshape = \"bax\"", "s.toml:2:9: error: \"bax\" is no shape"},
         Mistake{"[[part.feature]]\nshape = \"bax\"", "Did you mean \"box\"?"},
         Mistake{"[[part.feature]]\nshape = \"box\"\nsize = [1, 2]", "\"size\" in [[part.feature]] must be a list of 3"},
-        Mistake{"[[part.feature]]\nshape = \"box\"\nsize = [1, 2, -3]", "s.toml:3:8: error: lengths must be above 0"},
+        Mistake{"[[part.feature]]\nshape = \"box\"\nsize = [1, 2, -3]",
+                "s.toml:3:8: error: \"size\" in [[part.feature]] must be a list of numbers, each at least 0.001 and at "
+                "most"},
         Mistake{"[[part.feature]]\nshape = \"sphere\"\ndiameter = 5\ndepth = 3",
                 "s.toml:4:1: error: unknown key \"depth\" in [[part.feature]]"},
         Mistake{"[[part.feature]]\nshape = \"fillet\"\nradius = 5\nedges = [1]",
                 "s.toml:4:9: error: \"edges\" in [[part.feature]] must be a list of points"},
         Mistake{"[[fixture]]\n[[fixture.feature]]\nshape = \"hole\"\ndiameter = 5\n[[fixture.feature.pattern]]\n"
                 "kind = \"linear\"\ncount = 0\nspacing = [1, 0, 0]",
-                "s.toml:7:9: error: \"count\" in [[fixture.feature.pattern]] must be a whole number from 1 to 10000"},
+                "s.toml:7:9: error: \"count\" in [[fixture.feature.pattern]] must be a whole number from 1 to 1000"},
         Mistake{"[part]\nfile = \"a.dwg\"", "s.toml:2:8: error: \"a.dwg\" is no kind of part file"},
         Mistake{"[part]\nfile = \"a.stl\"\npose = { x = \"1\" }", "\"x\" in [part.pose] must be a number"},
         Mistake{"[part]\nfile = \"a.stl\"\npose = { alpha = 1 }", "unknown key \"alpha\" in [part.pose]"},
         Mistake{"[fixture]\nfile = \"a.stl\"", "\"fixture\" must be a list of tables, each written [[fixture]]"},
         Mistake{"[ring]\n", "\"diameter\" is missing in [ring]"},
         Mistake{"[ring]\ndiameter = 50\nouter_diameter = 40", "the ring is not larger than its bore"},
-        Mistake{"[sphere]\ndiameter = -25", "s.toml:2:12: error: \"diameter\" in [sphere] must be above 0"},
+        Mistake{"[sphere]\ndiameter = -25",
+                "s.toml:2:12: error: \"diameter\" in [sphere] must be at least 0.001 and at most 100000"},
         Mistake{"[sphere]\ndiameter = 25\nstem_diameter = 30", "the stem is not thinner"},
         Mistake{"[gauge_block]\nsize = [1, 2]", "\"size\" in [gauge_block] must be a list of 3 numbers"},
-        Mistake{"[gauge_block]\nsize = [1, 2, 0]", "the lengths of a gauge block must be above 0"},
+        Mistake{"[gauge_block]\nsize = [1, 2, 0]",
+                "\"size\" in [gauge_block] must be a list of numbers, each at least 0.001"},
         Mistake{"[[tool]]\nnumber = 1\nkind = \"prob\"\nlength = 1\nball_radius = 0.1", "Did you mean \"probe\"?"},
         Mistake{"[[tool]]\nnumber = 1\nkind = \"mill\"\nlength = 50", "\"radius\" is missing in [[tool]]"},
         Mistake{"[[tool]]\nnumber = 1\nkind = \"mill\"\nlength = 50\nradius = 5\nball_radius = 3",
@@ -381,7 +385,67 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"[errors.rotary.C]\nposition = [0, 0, 0]",
                 "the machine has no rotary axis called C\n    It has no rotary axis"},
         Mistake{"[[errors.thermal]]\ntime_constant = 100", "\"amount\" is missing in [[errors.thermal]]"},
+        Mistake{"[[part.feature]]\nshape = \"bore\"", "\"bore\" is no shape; it must be one of box"},
+        Mistake{"[[part.feature]]\nshape = \"bore\"", "Did you mean \"hole\"?"},
+        Mistake{"[[part.feature]]\nshape = \"boss\"", "Did you mean \"cylinder\"?"},
+        Mistake{"[[part.feature]]\nshape = \"groove\"", "Did you mean \"slot\"?"},
+        Mistake{"[[part.feature]]\nshape = \"box\"\nsize = [1e9, 1, 1]", "each at least 0.001 and at most 100000"},
+        Mistake{"[[part.feature]]\nshape = \"box\"\nsize = [1e-9, 1, 1]", "each at least 0.001 and at most 100000"},
+        Mistake{"[[part.feature]]\nshape = \"box\"\nsize = [10, 8, 1]\ncorner_radius = 4.1",
+                "s.toml:4:17: error: \"corner_radius\" must be at most half"},
+        Mistake{"[[part.feature]]\nshape = \"torus\"\ndiameter = 10\ntube_diameter = 10",
+                "\"tube_diameter\" must be smaller than \"diameter\""},
+        Mistake{"[[part.feature]]\nshape = \"cone\"\ndiameter = 10\ntop_diameter = 10\nheight = 5",
+                "\"top_diameter\" is equal to \"diameter\"\n    Write shape = \"cylinder\""},
+        Mistake{"[[part.feature]]\nshape = \"slot\"\nsize = [10, 20]", "a slot is at most as wide as it is long"},
+        Mistake{"[[part.feature]]\nshape = \"fillet\"\nradius = 2\nedges = []",
+                "s.toml:4:9: error: \"edges\" needs a point on each edge"},
+        Mistake{"[part]\nfeature = []", "s.toml:2:11: error: there is no feature in it"},
+        Mistake{"[[part.feature]]\nshape = \"hole\"\ndiameter = 5\n[[part.feature.pattern]]\nkind = \"linear\"\n"
+                "count = 40\nspacing = [9, 0, 0]\n[[part.feature.pattern]]\nkind = \"linear\"\ncount = 40\n"
+                "spacing = [0, 9, 0]",
+                "s.toml:10:9: error: the patterns of this feature make more than 1000 copies"},
+        Mistake{"[[errors.axis.X.deviation]]\npolynomial = [0, 1e300, 1e300]",
+                "must be a list of numbers, each at least -10 and at most 10"},
+        Mistake{"[[errors.axis.X.deviation]]\npolynomial = [0,0,0,0,0,0,0,0,0,0,0]", "has at most 10 coefficients"},
+        Mistake{"[part]\nfile = \"a.stl\"\npose = { x = 1e300 }", "\"x\" in [part.pose] must be at least -100000"},
+        Mistake{"[[preset]]\nrow = 1\norigin = [1e300, 0, 0]", "each at least -100000 and at most 100000"},
         Mistake{"[parameters]\nMP1 = [1]", "\"MP1\" in [parameters] must be a number, a text, true or false"}));
+
+TEST(Setup, RefusesNamesOfTooManyParts) {
+  // The parser nests each part of a name: a hundred thousand of them are more than its stack holds.
+  std::string parts = "a";
+  for (int i = 0; i < 100'000; ++i)
+    parts += ".a";
+  for (const std::string& text : {"[" + parts + "]\n", parts + " = 1\n", "x = { " + parts + " = 1 }\n"}) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(parseSetup(text, "s.toml", diagnostics));
+    ASSERT_THAT(diagnostics, SizeIs(1));
+    EXPECT_EQ(format(diagnostics[0]), "s.toml:1:1: error: this name has more than 100 parts");
+  }
+  // Points in texts and comments are none of a name.
+  const std::string points(1000, '.');
+  EXPECT_TRUE(read("# " + points + "\n[part]\nname = \"" + points + "\\\"" + points + "\" # " + points +
+                   "\nfile =  + points +  \n")
+                  .solids.empty());
+}
+
+TEST_F(SetupOnDisk, NamesEveryMistakeOfAMachineFile) {
+  std::ofstream(folder / "m.toml")
+      << "name = \"m\"\n[[axis]]\nname = \"X\"\nkind = \"linear\"\nmin = -400\nmaximum = 400\n";
+  Diagnostics diagnostics;
+  EXPECT_FALSE(readSetup(write("[machine]\nfile = \"m.toml\"\n"), diagnostics));
+  std::string all;
+  for (const Diagnostic& each : diagnostics)
+    all += format(each) + "\n";
+  EXPECT_THAT(all, HasSubstr("m.toml:2:1: error: \"minimum\" is missing"));
+  EXPECT_THAT(all, HasSubstr("m.toml:5:1: error: unknown key \"min\" in [[axis]]"));
+  EXPECT_THAT(all, HasSubstr("axis X moves nothing"));
+  // The file is there, but under the key of another thing.
+  diagnostics.clear();
+  EXPECT_FALSE(readSetup(write("[machine]\nname = \"m.toml\"\n"), diagnostics));
+  EXPECT_THAT(format(diagnostics.at(0)), HasSubstr("Write file = \"m.toml\" if you mean this file"));
+}
 
 TEST(Setup, KnowsEveryKeyOfAProbe) {
   Diagnostics diagnostics;
