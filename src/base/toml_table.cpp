@@ -271,11 +271,24 @@ std::vector<std::string> TomlReader::keys() const {
   return names;
 }
 
+namespace {
+
+/// The known key that somebody meant: the only one that begins so (min, accel), or the most similar one.
+std::optional<std::string> meantKey(std::string_view word, const std::vector<std::string>& known) {
+  constexpr std::size_t shortestBeginning = 3;
+  const auto begun = [&](const std::string& name) { return name.starts_with(word); };
+  if (word.size() >= shortestBeginning && std::ranges::count_if(known, begun) == 1)
+    return *std::ranges::find_if(known, begun);
+  return nearestName(word, known);
+}
+
+}  // namespace
+
 void TomlReader::finish() {
   for (const auto& [key, value] : *table_) {
     if (asked_.contains(key.str())) continue;
     const std::vector<std::string> known(asked_.begin(), asked_.end());
-    const auto near = nearestName(key.str(), known);
+    const auto near = meantKey(key.str(), known);
     diagnostics_->push_back(
         {Severity::Error,
          placeIn(file_, key.source()),

@@ -150,7 +150,8 @@ TEST(ReadMachine, NamesEveryMistakeOfAFile) {
     all += format(each) + "\n";
   EXPECT_THAT(all, HasSubstr("m.toml:5:1: error: unknown key \"min\" in [[axis]]\n    Did you mean \"minimum\"?"))
       << all;
-  EXPECT_THAT(all, HasSubstr("m.toml:6:1: error: unknown key \"max\" in [[axis]]")) << all;
+  EXPECT_THAT(all, HasSubstr("m.toml:6:1: error: unknown key \"max\" in [[axis]]\n    Did you mean \"maximum\"?"))
+      << all;
   EXPECT_THAT(all, HasSubstr("\"rapid\" in [[axis]] must be at least 1 and at most 1000000")) << all;
 }
 

@@ -425,9 +425,10 @@ TEST(Setup, RefusesNamesOfTooManyParts) {
   }
   // Points in texts and comments are none of a name.
   const std::string points(1000, '.');
-  EXPECT_TRUE(read("# " + points + "\n[part]\nname = \"" + points + "\\\"" + points + "\" # " + points +
-                   "\nfile =  + points +  \n")
-                  .solids.empty());
+  const auto setup = read("# " + points + "\n[answers]\na = \"" + points + "\\\"" + points + "\" # " + points +
+                          "\nb = '''" + points + "'''\n");
+  EXPECT_EQ(setup.answers.at("a"), points + "\"" + points);
+  EXPECT_EQ(setup.answers.at("b"), points);
 }
 
 TEST_F(SetupOnDisk, NamesEveryMistakeOfAMachineFile) {
