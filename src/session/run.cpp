@@ -77,7 +77,7 @@ void encodeLogs(std::map<std::string, std::string>& files, language::Encoding en
 
 /// The tables that every run of a HEIDENHAIN control leaves.
 std::set<std::string> namesOf(const hh::Tables& tables) {
-  std::set<std::string> names = {"TOOL.T", "TCHPROBE.TP", "PRESET.PR"};
+  std::set<std::string> names = {"TOOL.T", "TCHPROBE.TP", "PRESET.PR", "QR.TXT"};
   for (const auto& [name, table] : tables.datums)
     names.insert(name);
   for (const auto& [name, table] : tables.deflections)

@@ -151,11 +151,9 @@ std::optional<Diagnostic> whyNoText(const std::filesystem::path& path, std::stri
 Result<std::shared_ptr<language::Program>> openProgram(const std::filesystem::path& path, std::string_view text,
                                                        ProgramLanguage language) {
   if (const auto why = whyNoText(path, text, language)) return tl::unexpected(*why);
-  // A pipe gives its text once; a long file need not stand in memory a second time.
-  constexpr std::size_t longText = std::size_t{8} << 20U;
+  // A pipe gives its text only once.
   std::error_code error;
-  if (text.size() <= longText || !std::filesystem::is_regular_file(path, error))
-    return programOf(path.string(), std::string(text), language);
+  if (!std::filesystem::is_regular_file(path, error)) return programOf(path.string(), std::string(text), language);
   if (language == ProgramLanguage::Klartext) {
     auto program = language::klartext::KlartextProgram::open(path);
     if (!program) return tl::unexpected(program.error());
@@ -186,7 +184,7 @@ void useMacros(language::Program& program, const sinumerik::GlobalUserData& glob
   if (auto* own = dynamic_cast<sinumerik::SinumerikProgram*>(&program)) own->useMacros(globalData.macros());
 }
 
-std::unique_ptr<language::ProgramLibrary> programLibrary(ControlKind kind, const std::filesystem::path& main,
+std::unique_ptr<language::ProgramLibrary> programLibrary(ControlKind kind, std::vector<std::filesystem::path> folders,
                                                          const sinumerik::GlobalUserData* globalData,
                                                          std::function<void(const std::filesystem::path&)> onOpen) {
   const bool heidenhain = control::isHeidenhain(kind);

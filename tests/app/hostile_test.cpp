@@ -99,8 +99,9 @@ TEST(Hostile, RefusesWhatIsNoFile) {
   EXPECT_THAT(message, HasSubstr("T/TOOL.T: error: this has the name of a table, but it is a folder"));
   EXPECT_THAT(message, HasSubstr("T/PRESET.PR: error: this has the name of a table, but it is a symbolic link"));
   // What a program names as a mask.
+  folder.file("secret.a", "\"SECRET\";\n");
   for (const std::string& mask :
-       std::vector<std::string>{"/dev/zero", "/proc/self/environ", "/etc/passwd", "../p.h", pipe}) {
+       std::vector<std::string>{"/dev/zero", "/proc/self/environ", "/etc/passwd", "../secret.a", pipe}) {
     std::filesystem::create_directories(folder / "sub");
     const std::string text = "0 BEGIN PGM P MM\n1 FN 16: F-PRINT " + mask + " / L.TXT\n2 END PGM P MM\n";
     const Answer answer = probewright({"run", folder.file("sub/p.h", text), "--setup", world, "--out", out});
@@ -158,7 +159,7 @@ const std::vector<Loop> loops = {
      "0 BEGIN PGM P MM\n1 LBL 1\n2 FN 1: Q1 = +Q1 + +1\n3 FN 17: SYSWRITE ID990 NR4 IDX1 = +Q1\n"
      "4 FN 9: IF +1 EQU +1 GOTO LBL 1\n5 END PGM P MM\n"},
     {"msg.mpf", "WHILE TRUE\nMSG(\"WAITING\")\nENDWHILE\nM30\n"},
-    {"write.mpf", "DEF INT E\nWHILE TRUE\nWRITE(E,\"LOG\",\"SOMETHING\")\nENDWHILE\nM30\n"},
+    {"write.mpf", "DEF INT ERR\nWHILE TRUE\nWRITE(ERR,\"LOG\",\"SOMETHING\")\nENDWHILE\nM30\n"},
     {"setal.mpf", "WHILE TRUE\nSETAL(62000)\nENDWHILE\nM30\n"},
     {"tool.mpf", "WHILE TRUE\nR1=R1+1\n$TC_DP3[9,1]=R1\nENDWHILE\nM30\n"},
     {"frame.mpf", "WHILE TRUE\nR1=R1+1\n$P_UIFR[1,X,TR]=R1\nENDWHILE\nM30\n"},

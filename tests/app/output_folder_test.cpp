@@ -228,7 +228,7 @@ TEST(OutputFolder, LetsNoProgramWriteOverOtherFiles) {
   }
   const Folder folder;
   const std::string world = folder.file("s.toml", "[control]\ntype = \"840Dsl\"\n");
-  const std::string text = "DEF INT E\nWRITE(E,\"p.mpf\",\"X\")\nM30\n";
+  const std::string text = "DEF INT ERR\nWRITE(ERR,\"p.mpf\",\"X\")\nM30\n";
   const std::string path = folder.file("p.mpf", text);
   const Answer answer = probewright({"run", path, "--setup", world, "--out", (folder / "").string()});
   EXPECT_EQ(answer.exit, 3) << answer.errors;
