@@ -13,7 +13,7 @@ namespace probewright::simulation {
 namespace {
 
 Result<std::unique_ptr<Solid>> load(const SolidSource& source, const ImportOptions& import) {
-  if (source.file.empty()) return buildSolid(source.recipe);
+  if (source.file.empty()) return buildSolid(source.recipe, {}, import.stop);
   std::string ending = source.file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
   std::error_code ignored;

@@ -22,6 +22,8 @@
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
+#include <Message_ProgressIndicator.hxx>
+#include <Message_ProgressScope.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
@@ -251,7 +253,18 @@ Result<TopoDS_Shape> withTreatedEdges(const TopoDS_Shape& shape, const SolidFeat
   return make.Shape();
 }
 
-Result<TopoDS_Shape> withBody(const TopoDS_Shape& shape, const SolidFeature& f) {
+/// Lets a long operation of the kernel end early.
+class Interruptible final : public Message_ProgressIndicator {
+public:
+  explicit Interruptible(std::stop_token stop) : stop_(std::move(stop)) {}
+  Standard_Boolean UserBreak() override { return stop_.stop_requested(); }
+  void Show(const Message_ProgressScope&, const Standard_Boolean) override {}
+
+private:
+  std::stop_token stop_;
+};
+
+Result<TopoDS_Shape> withBody(const TopoDS_Shape& shape, const SolidFeature& f, const std::stop_token& stop) {
   const TopoDS_Shape body = bodyOf(f, shape.IsNull() ? 1 : 2 * (diagonalOf(shape) + f.centre.norm()));
   TopTools_ListOfShape tools;
   for (const Pose& pose : posesOf(f))
@@ -270,7 +283,9 @@ Result<TopoDS_Shape> withBody(const TopoDS_Shape& shape, const SolidFeature& f) 
   BRepAlgoAPI_BooleanOperation& operation = cuts(f) ? static_cast<BRepAlgoAPI_BooleanOperation&>(cut) : fuse;
   operation.SetArguments(arguments);
   operation.SetTools(tools);
-  operation.Build();
+  const Handle(Message_ProgressIndicator) progress = new Interruptible(stop);
+  operation.Build(progress->Start());
+  if (stop.stop_requested()) return fail("the part was being built when the run was interrupted");
   if (!operation.IsDone() || operation.HasErrors()) {
     return fail("it cannot be joined with the part", "move it a little so that its faces do not just touch");
   }
@@ -294,7 +309,7 @@ std::string_view nameOf(FeatureShape shape) {
   return {};
 }
 
-Result<TopoDS_Shape> buildShape(const SolidRecipe& recipe) {
+Result<TopoDS_Shape> buildShape(const SolidRecipe& recipe, const std::stop_token& stop) {
   if (recipe.features.empty()) return fail("the part has no features", "begin with a body, for instance a box");
   TopoDS_Shape shape;
   for (std::size_t i = 0; i < recipe.features.size(); ++i) {
@@ -307,11 +322,13 @@ Result<TopoDS_Shape> buildShape(const SolidRecipe& recipe) {
       return refuse("the first feature must add a body", "begin with a box, cylinder, cone, sphere or torus");
     }
     try {
-      Result<TopoDS_Shape> next = treatsEdges(f) ? withTreatedEdges(shape, f) : withBody(shape, f);
+      Result<TopoDS_Shape> next = treatsEdges(f) ? withTreatedEdges(shape, f) : withBody(shape, f, stop);
       if (!next) return refuse(next.error().message, next.error().advice);
       shape = *next;
     } catch (const Standard_Failure& failure) {
-      return refuse(fmt::format("it cannot be made: {}", failure.GetMessageString()), "change its size or place");
+      const std::string_view why = failure.GetMessageString();
+      return refuse(why.empty() ? "it cannot be made" : fmt::format("it cannot be made: {}", why),
+                    "change its size or place");
     }
   }
   try {
@@ -325,8 +342,9 @@ Result<TopoDS_Shape> buildShape(const SolidRecipe& recipe) {
   return shape;
 }
 
-Result<std::unique_ptr<Solid>> buildSolid(const SolidRecipe& recipe, const CadOptions& options) {
-  const Result<TopoDS_Shape> shape = buildShape(recipe);
+Result<std::unique_ptr<Solid>> buildSolid(const SolidRecipe& recipe, const CadOptions& options,
+                                          const std::stop_token& stop) {
+  const Result<TopoDS_Shape> shape = buildShape(recipe, stop);
   if (!shape) return tl::unexpected(shape.error());
   return cadSolid(*shape, options);
 }

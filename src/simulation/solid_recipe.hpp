@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string_view>
 #include <vector>
 
@@ -60,8 +61,9 @@ std::string_view nameOf(FeatureShape shape);
 
 /// Builds the part. Refused: sizes that are not positive, corners that do not fit, edges that are not there, features
 /// that leave nothing or break the part; the diagnostic names the feature by its place, number and shape.
-Result<std::unique_ptr<Solid>> buildSolid(const SolidRecipe& recipe, const CadOptions& options = {});
-Result<TopoDS_Shape> buildShape(const SolidRecipe& recipe);
+Result<std::unique_ptr<Solid>> buildSolid(const SolidRecipe& recipe, const CadOptions& options = {},
+                                          const std::stop_token& stop = {});
+Result<TopoDS_Shape> buildShape(const SolidRecipe& recipe, const std::stop_token& stop = {});
 
 /// A ring whose bore has its axis on Z, from the top face at Z0 down to -height.
 SolidRecipe ringGauge(double boreDiameter, double outerDiameter, double height);
