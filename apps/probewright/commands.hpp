@@ -54,6 +54,7 @@ struct ConvertArguments {
   std::filesystem::path output;                 ///< its ending names the language
   std::optional<control::ControlKind> control;  ///< to write for
   std::filesystem::path setup;  ///< whose tables have definition files and values of global user data; empty: none
+  bool force = false;           ///< an existing `output` is overwritten
 };
 /// Here 1 means that something could not be carried over; it stands as a comment in the output.
 int convert(const ConvertArguments& arguments);

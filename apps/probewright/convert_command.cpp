@@ -1,12 +1,44 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+#include <system_error>
+
 #include "base/file.hpp"
 #include "commands.hpp"
 #include "console.hpp"
 #include "session/convert.hpp"
+#include "session/job.hpp"
 #include "simulation/setup.hpp"
 
 namespace probewright::app {
+
+namespace {
+
+/// Why OUT must not be written; empty if nothing speaks against it. Files are told apart by what they are, not by their
+/// names: a link to IN is IN.
+std::optional<Diagnostic> objectionTo(const ConvertArguments& arguments) {
+  const auto objection = [&](std::string message, std::string advice) {
+    return Diagnostic{
+        Severity::Error, {arguments.output.string(), 0, 0}, std::move(message), {}, std::move(advice), {}};
+  };
+  std::error_code none;
+  const auto same = [&](const std::filesystem::path& other) {
+    return !other.empty() && std::filesystem::equivalent(arguments.output, other, none) && !none;
+  };
+  if (same(arguments.input)) return objection("OUT is the program itself", "give OUT another name");
+  if (same(arguments.setup)) return objection("OUT is the setup", "give OUT another name");
+  const auto there = std::filesystem::symlink_status(arguments.output, none);
+  if (std::filesystem::is_directory(arguments.output, none)) {
+    return objection("OUT is a folder", "give the name of a file");
+  }
+  if (std::filesystem::exists(there) && !arguments.force) {
+    return objection("the file exists already", "give OUT another name, or overwrite it with --force");
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 int convert(const ConvertArguments& arguments) {
   const auto refuse = [](const Diagnostic& why) {
@@ -49,6 +81,7 @@ int convert(const ConvertArguments& arguments) {
                    "name a file with the ending of another language: .H, .I or .MPF",
                    {}});
   }
+  if (const auto objection = objectionTo(arguments)) return refuse(*objection);
   Diagnostics found;
   std::optional<simulation::Setup> setup;
   if (!arguments.setup.empty()) {
@@ -73,20 +106,28 @@ int convert(const ConvertArguments& arguments) {
   }
   const auto program = session::openProgram(arguments.input, *text, *from);
   if (!program) return refuse(program.error());
+  const language::Encoding encoding = language::detectEncoding(*text);
+  const Diagnostics mistakes = session::mistakesOf(**program, arguments.input, *from, setup ? &*setup : nullptr);
+  if (hasErrors(mistakes)) {
+    print(mistakes, encoding);
+    if (const auto note = session::otherLanguage(arguments.input, *text)) print({*note});
+    return 2;
+  }
+  const conversion::Job job = session::jobOf(arguments.input, *from);
   const session::Conversion conversion = session::convert(
       **program, *from, *to,
-      {.globalData = &globalData, .control = arguments.control.value_or(control::ControlKind::TNC640)});
-  const language::Encoding encoding = language::detectEncoding(*text);
-  print(conversion.mistakes, encoding);
+      {.globalData = &globalData, .control = arguments.control.value_or(control::ControlKind::TNC640), .job = &job});
   if (hasErrors(conversion.mistakes)) {
-    if (const auto note = session::otherLanguage(arguments.input, *text)) print({*note});
+    print(conversion.mistakes, encoding);
     return 2;
   }
   if (const Result<void> written = writeFileAtomically(arguments.output, conversion.text); !written) {
     return refuse(written.error());
   }
   print(conversion.notCarriedOver, encoding);
-  return conversion.notCarriedOver.empty() ? 0 : 1;
+  const bool doubtful = std::ranges::any_of(conversion.notCarriedOver,
+                                            [](const Diagnostic& each) { return each.severity != Severity::Note; });
+  return doubtful ? 1 : 0;
 }
 
 }  // namespace probewright::app

@@ -214,11 +214,11 @@ int main(int argc, char** argv) {
                    "files (UGUD.DEF...) and values (*.INI, *.GUD) of global user data; without it, definition files "
                    "beside IN count")
       ->type_name("FILE");
+  convert->add_flag("--force", convertArguments.force, "Overwrite OUT if it exists");
   convert->footer(
       "Exit codes: 0 everything carried over, 1 something was not or is doubtful: it is named, and what the other "
-      "language cannot say stands as a comment in OUT; 2 a mistake in the input, nothing written. docs/conversion.md "
-      "says "
-      "which measuring cycle becomes which.");
+      "language cannot say stands as a comment in OUT; 2 a mistake in the input, or OUT exists: nothing written. "
+      "docs/conversion.md says which measuring cycle becomes which.");
 
   try {
     app.parse(argc, argv);

@@ -5,6 +5,7 @@
 
 #include "base/diagnostic.hpp"
 #include "control/control_kind.hpp"
+#include "conversion/job.hpp"
 #include "language/klartext/heidenhain_program.hpp"
 #include "language/sinumerik/program.hpp"
 #include "language/sinumerik/user_variables.hpp"
@@ -25,13 +26,14 @@ struct Conversion {
   std::vector<language::BlockPosition> origins;
 };
 
-Conversion toSinumerik(language::klartext::HeidenhainProgram& program);
+/// `job`: of the program; null if nothing is known of others.
+Conversion toSinumerik(language::klartext::HeidenhainProgram& program, const Job* job = nullptr);
 
 /// Global user data of a SINUMERIK with their values, by name in capitals.
 using GlobalData = sinumerik::UserVariables::Scope;
 /// `globalData`: what the program may use without defining it; null if nothing is known of its control. `control`: the
 /// HEIDENHAIN control to write for.
 Conversion toKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData = nullptr,
-                      control::ControlKind control = control::ControlKind::TNC640);
+                      control::ControlKind control = control::ControlKind::TNC640, const Job* job = nullptr);
 
 }  // namespace probewright::conversion

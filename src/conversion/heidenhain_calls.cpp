@@ -119,6 +119,9 @@ private:
   void extraClearance() {
     Quantity extra = task_.path - assumedSetUp * task_.millimetre;
     if (extra.isNumber() && extra.number() < 0) extra = 0;
+    if (!extra.isNumber()) {  // only the running program knows whether it is less than 0
+      extra = extra / 2 + Quantity::of(fmt::format("ABS ({})", expressionText(extra / 2, true)));
+    }
     set(320, extra);
   }
 

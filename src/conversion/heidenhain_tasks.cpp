@@ -45,9 +45,9 @@ public:
       case 417:
         return {presetSurface(surface(294, 2, -1))};
       case 419:
-        return {presetSurface(surface(261, option(272) - 1, option(267)))};
+        return {presetSurface(surface(261, axisOf(272, 3), option(267)))};
       case 427:
-        return inspection(surface(261, option(272) - 1, option(267)), {{288, 289}});
+        return inspection(surface(261, axisOf(272, 3), option(267)), {{288, 289}});
       case 431:
         return {plane()};
       case 1410:
@@ -76,6 +76,12 @@ private:
   static std::string nameOf(int number) { return fmt::format("Q{}", number); }
   Quantity q(int number) const { return call_.number(nameOf(number)); }
   int option(int number) const { return call_.integer(nameOf(number)); }
+  /// The axis that a parameter names, from 0.
+  int axisOf(int number, int most) const {
+    const int code = std::abs(option(number));
+    if (code < 1 || code > most) throw NotCarriedOver(fmt::format("Q{} = {} names no axis", number, option(number)));
+    return code - 1;
+  }
   bool asked(int number) const { return call_.has(nameOf(number)) && !(q(number) == 0); }
 
   /// Heights and way of approach, which nearly all cycles have.
@@ -117,7 +123,7 @@ private:
     task.place[0] = q(first);
     task.place[1] = q(second);
     task.size[0] = q(311);
-    task.axis = option(272) - 1;
+    task.axis = axisOf(272, 2);
     return task;
   }
 
@@ -172,7 +178,7 @@ private:
     MeasuringTask task = begun(Feature::Edge);
     task.place = {q(263), q(264), q(261)};
     task.further = {{q(265), q(266), q(261)}};
-    task.axis = option(272) - 1;
+    task.axis = axisOf(272, 3);
     task.sign = option(267);
     task.along = task.axis == 2 ? 0 : 1 - task.axis;
     const Quantity dx = task.further[0][0] - task.place[0], dy = task.further[0][1] - task.place[1];
@@ -297,7 +303,7 @@ private:
     MeasuringTask task = begun(Feature::Edge);
     task.place = position(1100);
     task.further = {position(1103)};
-    task.axis = std::abs(option(372)) - 1;
+    task.axis = axisOf(372, 3);
     task.sign = option(372) < 0 ? -1 : 1;
     if (task.axis == 2) throw NotCarriedOver("Q372: touches along the tool axis are not converted");
     task.along = 1 - task.axis;
@@ -315,6 +321,7 @@ private:
     if (option(372) != -3) throw NotCarriedOver("Q372: a plane is measured from above only");
     task.place = position(1100);
     task.further = {position(1103), position(1106)};
+    task.clearanceBetween = option(1125) > 0;
     task.correction = rotationCorrection();
     task.active = true;
     return task;
@@ -324,6 +331,7 @@ private:
     MeasuringTask task = begun(Feature::Plane);
     task.place = {q(263), q(264), q(294)};
     task.further = {{q(265), q(266), q(295)}, {q(296), q(297), q(298)}};
+    task.clearanceBetween = true;
     log(task);
     return task;
   }

@@ -130,14 +130,15 @@ void ToSinumerik::holePattern(const Block& block, const MeasuringTask& given, co
     const int number = std::stoi(name.substr(1));
     if (usedQ_.contains(number)) set(parameter(number), sinumerikText(found.at(meaning)));
   }
-  if (heidenhainCycle == "430") judgePattern(pattern, centre, diameter);
+  if (heidenhainCycle == "430") judgePattern(block, pattern, centre, diameter);
   if (pattern.correction == Correction::Origin) {
     forgetPosition();
     shiftOrigin(block, pattern, {Quantity::of(centre[0]), Quantity::of(centre[1]), {}}, true);
   }
 }
 
-void ToSinumerik::judgePattern(const MeasuringTask& pattern, const Centre& centre, const std::string& diameter) {
+void ToSinumerik::judgePattern(const Block& block, const MeasuringTask& pattern, const Centre& centre,
+                               const std::string& diameter) {
   std::vector<std::string> scrap;  // no tool puts a circle of holes right
   if (pattern.limits[0]) {
     const Quantity deviation = Quantity::of(diameter) - pattern.size[0];
@@ -149,7 +150,13 @@ void ToSinumerik::judgePattern(const MeasuringTask& pattern, const Centre& centr
     scrap.push_back(fmt::format("(ABS({})>{})", sinumerikText(Quantity::of(centre[i]) - pattern.place[i]),
                                 sinumerikText(pattern.centreTolerance[i])));
   }
-  decide({}, scrap, pattern.stops);
+  const bool flags = usedQ_.contains(180) || usedQ_.contains(181) || usedQ_.contains(182);
+  const bool tells = !scrap.empty() && !pattern.stops && !flags;
+  if (tells) {
+    out_.list(block, "these limits: a message tells when they are exceeded; no SINUMERIK cycle judges three holes",
+              "compare in the program that reads the results");
+  }
+  decide({}, scrap, pattern.stops, tells);
 }
 
 }  // namespace probewright::conversion

@@ -34,6 +34,13 @@ bool isParameter(std::string_view text) {
 std::string KlartextFormulas::define(std::string_view name, bool text) {
   const auto found = names_.find(name);
   if (found != names_.end()) return found->second;
+  if (local_ && !text && !name.starts_with("measuring block")) {
+    constexpr int localParameters = 500;
+    if (nextLocal_ == localParameters) {
+      throw NotCarriedOver("the program defines more variables than there are QL parameters");
+    }
+    return names_.emplace(name, fmt::format("QL{}", nextLocal_++)).first->second;
+  }
   const std::string number = text ? fmt::format("QS{}", nextText_++) : fmt::format("Q{}", nextNumber_++);
   if (nextNumber_ > firstResult || nextText_ > firstResult) {
     throw NotCarriedOver("the program defines more variables than there are free Q parameters");
@@ -51,6 +58,9 @@ std::string KlartextFormulas::variable(const Block& block, const VariableRef& va
         throw NotCarriedOver("an R parameter whose number is computed has no twin in Klartext");
       }
       if (index < 100) return fmt::format("Q{}", index);
+      if (shared_ && index >= firstShared) {
+        return index < sharedQR ? fmt::format("Q{}", index - sharedQ) : fmt::format("QR{}", index - sharedQR);
+      }
       if (index < 500) return fmt::format("Q{}", index + 1100);
       throw NotCarriedOver(fmt::format("R{} has no twin: R0 to R499 have", index));
     case VariableSpace::User: {

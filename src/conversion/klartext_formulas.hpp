@@ -29,6 +29,11 @@ public:
   /// From here on the program counts in inches; FN 18 answers in millimetres.
   void countInches() { inch_ = true; }
 
+  /// The program is one of several that call each other: its own variables are QL parameters.
+  void keepLocal() { local_ = true; }
+  /// It was converted from a HEIDENHAIN program that shares parameters with others, see sharedParametersRemark.
+  void knowSharedParameters() { shared_ = true; }
+
   std::string variable(const language::Block& block, const language::VariableRef& variable);
   std::string formula(const language::Block& block, const language::Operand& operand);
   Quantity quantity(const language::Block& block, const language::Operand& operand);
@@ -72,6 +77,8 @@ private:
   std::string readLength(const std::string& datum);
 
   bool inch_ = false;
+  bool local_ = false, shared_ = false;
+  int nextLocal_ = 0;
   const GlobalData* globalData_;
   std::vector<std::string> globalValues_;
   std::map<std::string, std::string, std::less<>> names_;

@@ -11,15 +11,11 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-void Output::list(const language::Block& block, std::string message, std::string advice) {
+void Output::list(const language::Block& block, std::string message, std::string advice, Severity severity) {
   std::string_view line = block.at(block.source);
   line = trimmed(line.substr(0, line.find('\n')));
-  listed_.push_back({Severity::Warning,
-                     {file_, block.position.line, 1},
-                     std::move(message),
-                     std::string(line),
-                     std::move(advice),
-                     {}});
+  listed_.push_back(
+      {severity, {file_, block.position.line, 1}, std::move(message), std::string(line), std::move(advice), {}});
 }
 
 void Output::lose(const language::Block& block, const std::string& what) {

@@ -27,7 +27,8 @@ public:
   }
 
   /// Lists what of a block is lost or holds only under a condition.
-  void list(const language::Block& block, std::string message, std::string advice = {});
+  void list(const language::Block& block, std::string message, std::string advice = {},
+            Severity severity = Severity::Warning);
   /// Lists it and leaves it as a comment where it happened.
   void lose(const language::Block& block, const std::string& what);
   /// The block stays as a comment.

@@ -42,8 +42,7 @@ void ToSinumerik::plane(const Block& block, const Transform& transform) {
     const auto found = std::ranges::find(words, addressOf(address), &Word::address);
     return found == words.end() ? nullptr : &*found;
   };
-  const bool shifted = std::ranges::any_of(shift_, [](const auto& each) { return each && !(*each == 0); });
-  if (shifted || !(rotation_ == 0)) {
+  if (!frame_.isNone()) {
     throw NotCarriedOver("CYCLE800 takes shift and rotation of the program back",
                          "tilt in front of them, or give the shift to CYCLE800");
   }
@@ -87,8 +86,7 @@ void ToKlartext::swivel(const Block& block, const CallProgram& call) {
   }
   const std::string positioning = argument(13) == 0 ? " STAY" : " TURN FMAX";
   forgetPosition();
-  shift_ = {};
-  rotated_ = false;
+  frame_ = {};
   const bool level = argument(7) == 0 && argument(8) == 0 && argument(9) == 0;
   if (level) return line(fmt::format("PLANE RESET{}", positioning));
   if (argument(2).number() != 0) throw NotCarriedOver("planes that continue from the last one are not converted");

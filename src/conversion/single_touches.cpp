@@ -158,6 +158,7 @@ void ToKlartext::measuringBlock(const Block& block, const Command& command) {
     }
     const auto index = planeIndex(word.address);
     if (!index) throw NotCarriedOver(fmt::format("{} in a measuring block has no twin in Klartext", name));
+    rely(block, incrementalDoubtful_ && word.mode == WordMode::Plain, "G90 or G91");
     const bool incremental = word.mode == WordMode::Incremental || (word.mode == WordMode::Plain && incremental_);
     const Quantity value = quantity(block, word.value);
     const auto i = static_cast<std::size_t>(std::ranges::find(axisNames, name) - axisNames.begin());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "conversion/sinumerik_formulas.hpp"
 #include "conversion/sinumerik_tasks.hpp"
 
 /// Measuring tasks written as measuring cycles of a SINUMERIK.
@@ -92,20 +93,83 @@ private:
   void begin(const std::string& cycle, int variant) {
     const bool corrects = task_.correction == Correction::Origin;
     // Of a rectangle SINUMERIK cycles take the mean of both sides, touch probe cycles the first one.
-    const bool correctsTool = task_.tool && !isRectangular(task_.feature);
-    begin(cycle, variant + (correctsTool ? 200 : 0), corrects);
+    // With a tolerance they correct from its middle, touch probe cycles from the nominal size.
+    const bool fromMiddle = task_.limits[0] && !aboutNominal() && task_.feature != Feature::Surface;
+    const bool correctsTool = task_.tool && !isRectangular(task_.feature) && !fromMiddle;
+    passage_.correctsTool = correctsTool;
+    const auto limits = corrects || correctsTool ? std::nullopt : commonLimits();
+    begin(cycle, variant + (correctsTool || limits ? 200 : 0), corrects);
     if (corrects) passage_.rest = Rest::ShiftFromPlace;
     if (correctsTool) correctTool();
+    if (!limits) return;
+    // The task of a tool correction without a tool: the cycle compares with the tolerance, and corrects nothing.
+    set("S_KNUM1", 0);
+    set("S_TUL", limits->upper);
+    set("S_TLL", limits->lower);
+    set("_AMODE", 1);
+    passage_.judges = true;
+    passage_.middle = (limits->upper + limits->lower) / 2;
+  }
+
+  /// The limits, if the cycle can compare with them: it has one pair for all sizes.
+  std::optional<Limits> commonLimits() const {
+    if (!task_.limits[0]) return std::nullopt;
+    Limits limits = *task_.limits[0];
+    if (isRectangular(task_.feature)) {
+      const auto& second = task_.limits[1];
+      if (!second || !(second->upper == limits.upper) || !(second->lower == limits.lower)) return std::nullopt;
+    }
+    if (!(limits.upper - limits.lower).isNumber()) return std::nullopt;
+    if ((limits.upper - limits.lower).number() < 0) {
+      if (task_.feature != Feature::Surface) return std::nullopt;
+      std::swap(limits.upper, limits.lower);  // in which direction there is material follows from the touch
+    }
+    // The cycle looks for the surface about the middle of the tolerance.
+    constexpr double besidePath = 0.1;
+    const Quantity middle = (limits.upper + limits.lower) / 2;
+    const bool near =
+        middle.isNumber() && task_.path.isNumber() && std::abs(middle.number()) <= besidePath * task_.path.number();
+    if (!near) return std::nullopt;
+    return limits;
+  }
+
+  /// HEIDENHAIN cycles know none: as large as the reach, or as the whole feature.
+  Quantity safeArea() const {
+    if (pathInside() == task_.path || !task_.size[0].isNumber() || !task_.path.isNumber()) return task_.path * 2;
+    return std::max({task_.path.number() * 2, task_.size[0].number(), task_.size[1].number()});
+  }
+
+  /// S_FA, shortened where the way to the place in front of a wall would lead beyond the middle.
+  Quantity pathInside() const {
+    if (!isInside(task_.feature)) return task_.path;
+    constexpr double largestBall = 12;
+    Quantity width = task_.size[0];
+    if (isRectangular(task_.feature) && width.isNumber() && task_.size[1].isNumber()) {
+      width = std::min(width.number(), task_.size[1].number());
+    }
+    const Quantity room = width / 2 - task_.path;
+    const bool wide = room.isNumber() && room.number() > largestBall / 2 * task_.millimetre;
+    if (wide) return task_.path;
+    Quantity path =
+        Quantity::of(fmt::format("MINVAL({},{})", sinumerikText(task_.path), sinumerikText(width / 2 - ballRadius_)));
+    if (isRectangular(task_.feature) && !(width == task_.size[1]) && !width.isNumber()) {
+      path = Quantity::of(
+          fmt::format("MINVAL({},{})", sinumerikText(path), sinumerikText(task_.size[1] / 2 - ballRadius_)));
+    }
+    return path;
+  }
+
+  bool aboutNominal() const {
+    const auto& [upper, lower] = *task_.limits[0];
+    return upper == -lower && upper.isNumber() && upper.number() > 0;
   }
 
   /// In the wear of its first edge, by the whole difference.
   void correctTool() {
     set("S_KNUM1", 1);
     passage_.call.texts["S_TNAME"] = task_.tool->tool;
-    if (!task_.limits[0]) return;
+    if (!task_.limits[0] || !aboutNominal()) return;  // a tolerance would move the set value to its middle
     const auto& [upper, lower] = *task_.limits[0];
-    const bool aboutSetValue = upper == -lower && upper.isNumber() && upper.number() > 0;
-    if (!aboutSetValue) return;  // a tolerance would move the set value to its middle
     set("S_TUL", upper);
     set("S_TLL", lower);
     set("_AMODE", 1);
@@ -127,7 +191,8 @@ private:
     }
     set("S_STA1", isRound(task_.feature) ? task_.angle : Quantity());
     if (isWidth(task_.feature)) set("S_MA", task_.axis + 1);
-    set("S_TSA", task_.path * 2);
+    set("S_FA", pathInside());
+    set("S_TSA", safeArea());
   }
 
   void cycle978() {
@@ -160,8 +225,10 @@ private:
     set("S_CPO", task_.place[1]);
     set("S_STA1", task_.angle);
     set("S_INCA", task_.step);
-    set("S_TSA", task_.path * 2);
-    const Quantity back = task_.path + ballRadius_;
+    set("S_TSA", safeArea());
+    const Quantity path = pathInside();
+    set("S_FA", path);
+    const Quantity back = path + ballRadius_;
     const Quantity radius = task_.size[0] / 2 + back * (inside ? -1 : 1);
     start(0) = task_.place[0] + radius * std::cos(angle);
     start(1) = task_.place[1] + radius * std::sin(angle);
@@ -237,6 +304,13 @@ private:
     set("S_SETV2", apart(1, 0));
     set("S_SETV3", apart(1, 1));
     start(2) = first[2] + task_.path;
+    if (!task_.clearanceBetween) return;
+    // With a protection zone the probe goes up between the points to where the cycle began.
+    const Quantity down = task_.clearance - start(2);
+    if (down.isNumber() && down.number() <= 0) return;  // it is there already
+    set("S_MVAR", passage_.call.number("S_MVAR") + 1000);
+    set("S_SETV", down);
+    start(2) = task_.clearance;
   }
 
   void corner() {

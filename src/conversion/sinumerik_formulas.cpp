@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "conversion/call.hpp"
@@ -21,6 +22,8 @@ using language::VariableSpace;
 
 namespace {
 
+constexpr int firstSettableCode = 54;
+constexpr int furtherSettableCodes = 505;
 constexpr int firstControlParameter = 100;
 constexpr int toolRadius = 108;
 constexpr int toolLength = 114;
@@ -59,6 +62,18 @@ std::string addressWord(std::string_view address, const Quantity& value) {
   return fmt::format("{}{}{}", address, direct ? "" : "=", sinumerikText(value));
 }
 
+std::optional<int> settableOf(std::string_view code) {
+  if (code.size() < 3 || code.front() != 'G') return std::nullopt;
+  int number = 0;
+  for (const char c : code.substr(1)) {
+    if (std::isdigit(static_cast<unsigned char>(c)) == 0) return std::nullopt;
+    number = number * 10 + (c - '0');
+  }
+  if (number >= firstSettableCode && number <= 57) return number - 53;
+  if (number >= furtherSettableCodes && number <= 599) return number - 500;
+  return number == 500 ? std::optional(0) : std::nullopt;
+}
+
 std::string SinumerikFormulas::variable(const VariableRef& variable) {
   const int number = static_cast<int>(variable.index[0].number);
   const bool indirect = !variable.index[0].isLiteral();
@@ -74,12 +89,14 @@ std::string SinumerikFormulas::variable(const VariableRef& variable) {
         throw NotCarriedOver(fmt::format("the control itself fills Q{}", number),
                              "take the value from a system variable of the SINUMERIK by hand");
       }
+      if (shared_) return fmt::format("R{}", number + sharedQ);
       name = fmt::format("_Q{}", number);
       break;
     case VariableSpace::QL:
       name = fmt::format("_QL{}", number);
       break;
     case VariableSpace::QR:
+      if (shared_) return fmt::format("R{}", number + sharedQR);
       name = fmt::format("_QR{}", number);
       break;
     case VariableSpace::QS:

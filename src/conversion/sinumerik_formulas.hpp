@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -15,12 +16,18 @@ inline const Quantity sinumerikBallRadius = Quantity::of("$P_TOOLR");
 /// The same as the last calibration has found it.
 inline const Quantity calibratedBallRadius = Quantity::of("$SNS_MEA_WP_BALL_DIAM[0]", 0.5);
 
+/// Of programs that share their parameters: Qn from Q100 on is R(n+400), QRn is R(n+2400).
+inline constexpr int sharedQ = 400, sharedQR = 2400, firstShared = 500;
+inline constexpr std::string_view sharedParametersRemark = "; R500 AND ON: Q100 AND ON, R2400 AND ON: QR0 AND ON";
+
 /// Q0 to Q99 are R0 to R99; other parameters become variables of their own, _Q150, _QL1, _QS3, which have to be
 /// declared.
 class SinumerikFormulas {
 public:
   /// From here on the program counts in inches.
   void countInches() { inch_ = true; }
+  /// Q and QR parameters are those of several programs: R parameters have them all.
+  void shareParameters() { shared_ = true; }
   /// Throws NotCarriedOver for parameters that only the HEIDENHAIN control fills.
   std::string variable(const language::VariableRef& variable);
   /// All of these throw NotCarriedOver for functions without a twin.
@@ -36,6 +43,7 @@ private:
   std::string call(const language::Block& block, const language::Node& node);
 
   bool inch_ = false;
+  bool shared_ = false;
   std::set<std::string> declared_;
 };
 
@@ -50,5 +58,8 @@ std::string addressWord(std::string_view address, const Quantity& value);
 
 /// "G54" for 1 to "G599" for 99. Row 0 of a preset table has the last one.
 std::string settableCode(int number);
+
+/// The number of the settable zero offset that a G function selects: 1 for G54; 0 for G500.
+std::optional<int> settableOf(std::string_view code);
 
 }  // namespace probewright::conversion

@@ -87,6 +87,12 @@ private:
     if (call_.cycle != "CYCLE961" && call_.digit("S_MVAR", 5) != 0) {
       losses_.push_back("S_MVAR: the probe measures as it was calibrated, without turning the spindle");
     }
+    const double leastPath = assumedSetUp * call_.millimetre;
+    if (task.path.isNumber() && task.path.number() < leastPath - 1e-6) {
+      losses_.push_back(fmt::format(
+          "S_FA: the touch begins SET_UP of the touch probe table in front of the surface; {} is taken for it",
+          numberText(leastPath)));
+    }
     if (number("S_NMSP").number() > 1) losses_.push_back("S_NMSP: each point is measured once");
     return task;
   }
@@ -159,6 +165,7 @@ private:
     task.angle = number("S_STA1");
     task.step = 90;
     if (isWidth(task.feature)) task.axis = call_.integer("S_MA") - 1;
+    if (task.axis < 0 || task.axis > 1) throw NotCarriedOver("S_MA of CYCLE977 is 1 or 2");
     if (!isRound(task.feature) && !(task.angle == 0)) {
       throw NotCarriedOver("S_STA1: HEIDENHAIN cycles measure this feature along the axes only",
                            "turn the coordinate system in front of the cycle");
@@ -243,7 +250,7 @@ private:
 
   MeasuringTask plane() {
     MeasuringTask task = begun(Feature::Plane);
-    if (call_.digit("S_MVAR", 4) == 1) losses_.push_back("S_MVAR: no protection zone");
+    task.clearanceBetween = call_.digit("S_MVAR", 4) == 1;
     task.place[2] = start_[2] - task.path - wayDown("S_SETV");
     task.sign = -1;
     if (task.correction == Correction::Origin) task.correction = Correction::Rotation;

@@ -16,22 +16,6 @@ using namespace language;
 
 namespace {
 
-constexpr int firstSettableCode = 54;
-constexpr int furtherSettableCodes = 505;
-
-/// The number of the settable zero offset that a G function selects: 1 for G54; 0 for G500.
-std::optional<int> settableOf(std::string_view code) {
-  if (code.size() < 3 || code.front() != 'G') return std::nullopt;
-  int number = 0;
-  for (const char c : code.substr(1)) {
-    if (std::isdigit(static_cast<unsigned char>(c)) == 0) return std::nullopt;
-    number = number * 10 + (c - '0');
-  }
-  if (number >= firstSettableCode && number <= 57) return number - 53;
-  if (number >= furtherSettableCodes && number <= 599) return number - 500;
-  return number == 500 ? std::optional(0) : std::nullopt;
-}
-
 std::string_view commentOf(std::string_view source) {
   bool inText = false;
   for (std::size_t i = 0; i < source.size(); ++i) {
@@ -43,8 +27,16 @@ std::string_view commentOf(std::string_view source) {
 
 }  // namespace
 
-ToKlartext::ToKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData, control::ControlKind control)
-    : program_(program), control_(control), out_(program.file()), formulas_(globalData) {}
+ToKlartext::ToKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData, control::ControlKind control,
+                       const Job* job)
+    : program_(program),
+      control_(control),
+      job_(job == nullptr ? Job() : *job),
+      out_(program.file()),
+      formulas_(globalData),
+      graph_(program) {
+  if (job_.shares) formulas_.keepLocal();
+}
 
 std::string ToKlartext::axis(std::size_t index) const {
   static constexpr const char* names[] = {"X", "Y", "Z"};
@@ -59,31 +51,27 @@ std::optional<std::size_t> ToKlartext::planeIndex(std::uint32_t address) const {
 }
 
 void ToKlartext::survey() {
-  wantedAfter_.emplace_back();
+  usedResults_ = job_.results;
   Block block;
   for (BlockPosition at = program_.begin(); program_.parse(at, block, result_.mistakes); at = block.next) {
+    if (block.at(block.source).find(sharedParametersRemark) != std::string_view::npos) formulas_.knowSharedParameters();
     for (const VariableRef& variable : block.variables) {
       const bool result = variable.space == VariableSpace::User && block.at(variable.name) == "_OVR";
       if (!result || !variable.index[0].isLiteral()) continue;
       usedResults_.insert(static_cast<int>(variable.index[0].number));
-      wantedAfter_.back().insert(static_cast<int>(variable.index[0].number));
     }
     for (const Instruction& instruction : block.instructions) {
-      if (const auto* jump = std::get_if<Jump>(&instruction)) targets_.insert(std::string(block.at(jump->label)));
-      if (const auto* section = std::get_if<RepeatSection>(&instruction)) {
-        targets_.insert(std::string(block.at(section->from)));
-        if (section->to.length != 0) {
-          targets_.insert(std::string(block.at(section->to)));
-          sections_.insert(std::string(block.at(section->to)));
-        }
-      }
-      const auto* called = std::get_if<CallProgram>(&instruction);
-      const auto* cycle = called == nullptr ? nullptr : cycles::sinumerikCycle(block.at(called->name));
-      if (cycle != nullptr && cycle->number != 150) wantedAfter_.emplace_back();
       const auto* function = std::get_if<MachineFunction>(&instruction);
       changesTool_ = changesTool_ || (function != nullptr && function->number == 6);
       const auto* modal = std::get_if<Modal>(&instruction);
       const std::string_view name = modal == nullptr ? std::string_view() : block.at(modal->name);
+      const auto* transform = std::get_if<Transform>(&instruction);
+      const bool shifts = transform != nullptr && block.at(transform->name).ends_with("TRANS");
+      for (std::uint32_t i = 0; shifts && i < transform->words.count; ++i) {
+        const std::string letter = addressName(block.words[transform->words.first + i].address);
+        if (letter.size() == 1 && letter[0] >= 'X' && letter[0] <= 'Z')
+          shiftsEver_[static_cast<std::size_t>(letter[0] - 'X')] = true;
+      }
       if (name == "G70" || name == "G700") millimetre_ = 1 / millimetresOfInch;
     }
   }
@@ -92,12 +80,15 @@ void ToKlartext::survey() {
 Conversion ToKlartext::run() {
   survey();
   if (hasErrors(result_.mistakes)) return std::move(result_);
+  surveyFlow();
+  surveyModes();
   if (millimetre_ != 1) formulas_.countInches();
   Diagnostics ignored;
   Block block;
   for (BlockPosition at = program_.begin(); program_.parse(at, block, ignored); at = block.next)
     write(block);
   out_.insert(0, formulas_.globalValues());
+  if (sectionsByNumber_) out_.insert(0, {fmt::format("{} = 0", formulas_.define("section under way", false))});
   result_.text = numbered();
   result_.notCarriedOver = std::move(out_.listed());
   return std::move(result_);
@@ -124,31 +115,33 @@ void ToKlartext::line(std::string text) {
 void ToKlartext::write(const Block& block) {
   const std::string_view source = block.at(block.source);
   const std::string_view remark = trimmed(commentOf(source));
-  const std::size_t before = out_.size();
   if (trimmed(source).starts_with('%')) return;
+  if (const auto found = labels_.find(block.position.offset); found != labels_.end()) label(found->second);
+  adopt(block);
+  const std::size_t before = out_.size();
+  const Frame frame = frame_;
   try {
-    const std::string name(block.at(block.label));
-    if (!name.empty() && targets_.contains(name)) label(name);
-    const std::size_t first = out_.size();
     statements(block);
     if (block.instructions.empty() && remark.empty()) {
       if (trimmed(source).empty()) line(";");
     } else if (!remark.empty()) {
-      const bool fits = out_.size() == first + 1 && !out_.at(first).starts_with(';');
+      const bool fits = out_.size() == before + 1 && !out_.at(before).starts_with(';');
       if (fits) {
-        out_.at(first) += fmt::format(" {}", remark);
+        out_.at(before) += fmt::format(" {}", remark);
       } else {
-        out_.insert(first, {std::string(remark)});
+        out_.insert(before, {std::string(remark)});
       }
     }
     for (std::size_t i = before; block.skippable && i < out_.size(); ++i)
       if (i == before || !out_.at(i - 1).ends_with('~')) out_.at(i) = fmt::format("/{}", out_.at(i));
-    if (!name.empty() && sections_.contains(name)) line("LBL 0");
   } catch (const NotCarriedOver& reason) {
     out_.shorten(before);
     formulas_.takePrelude();
+    forgetPosition();  // it may have been read in what is dropped
+    frame_ = frame;
     out_.keepAsComment(block, reason.what(), reason.advice());
   }
+  endSections(block);
 }
 
 void ToKlartext::statements(const Block& block) {
@@ -205,6 +198,9 @@ void ToKlartext::toolCall(const Block& block, const ToolCall& call) {
 
 void ToKlartext::changeTool() {
   if (pendingTool_.empty()) return;
+  if (axisDoubtful_)
+    throw NotCarriedOver("the tool axis depends on the way that leads to this block",
+                         "program G17, G18 or G19 in front of it");
   line(fmt::format("TOOL CALL {} {}", pendingTool_, toolAxis_));
   tool_ = std::exchange(pendingTool_, {});
   forgetPosition();
@@ -221,8 +217,17 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
     if (row == 0 && std::exchange(copiesToRow0_, false)) return;
     // On the iTNC 530 row 0 is the preset set by hand; the active one stays selected.
     if (row == 0 && hasRowZero_ && control_ == control::ControlKind::iTNC530) return;
+    // Cycle 247 takes the frames of the program back, which stay on a SINUMERIK.
+    readFrame();
+    if (!frame_.rotation) {
+      throw NotCarriedOver(
+          "cycle 247 takes a rotation back, and which one is in effect is known only when the program runs",
+          "program ROT in front of this block");
+    }
     line("CYCL DEF 247 PRESETTING ~");
     out_.line(fmt::format("    Q339=+{} ;PRESET NUMBER", row));
+    if (std::ranges::any_of(frame_.shift, [](const Quantity& each) { return !(each == 0); })) writeShift(frame_.shift);
+    if (!(*frame_.rotation == 0)) writeRotation(*frame_.rotation);
     return;
   }
   if ((name == "G71" || name == "G710") && millimetre_ != 1) {
@@ -238,16 +243,20 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
   if (std::ranges::find(silent, name) != silent.end()) return;
   if (name == "G90" || name == "G91") {
     incremental_ = name == "G91";
+    incrementalDoubtful_ = false;
   } else if (name == "G17" || name == "G18" || name == "G19") {
     const char before = std::exchange(toolAxis_, name == "G17" ? 'Z' : name == "G18" ? 'Y' : 'X');
-    if (toolAxis_ != before && !tool_.empty()) line(fmt::format("TOOL CALL {} {}", tool_, toolAxis_));
+    const bool changes = toolAxis_ != before || std::exchange(axisDoubtful_, false);
+    if (changes && !tool_.empty()) line(fmt::format("TOOL CALL {} {}", tool_, toolAxis_));
     forgetPosition();
   } else if (name == "G0" || name == "G1" || name == "G2" || name == "G3") {
+    motionDoubtful_ = false;
     motion_ = name == "G0"   ? MoveKind::Rapid
               : name == "G1" ? MoveKind::Linear
               : name == "G2" ? MoveKind::ArcClockwise
                              : MoveKind::ArcCounterclockwise;
   } else if (name == "G40" || name == "G41" || name == "G42") {
+    compensationDoubtful_ = false;
     compensation_ = name == "G40" ? "R0" : name == "G41" ? "RL" : "RR";
   } else if (name == "G95") {
     line("M136");
@@ -286,52 +295,6 @@ void ToKlartext::machineFunction(const Block&, const MachineFunction& function) 
       throw NotCarriedOver(fmt::format("M{} means something else on a HEIDENHAIN control, or nothing", function.number),
                            "see the machine's own list of M functions");
   }
-}
-
-void ToKlartext::transform(const Block& block, const Transform& transform) {
-  const std::string_view name = block.at(transform.name);
-  const auto words = std::span<const Word>(block.words).subspan(transform.words.first, transform.words.count);
-  const bool adds = name == "ATRANS" || name == "AROT";
-  if (name == "TRANS" || name == "ATRANS") {
-    if (adds && rotated_) throw NotCarriedOver("a shift along turned axes has no twin in Klartext");
-    std::array<std::optional<Quantity>, 3> shift = adds ? shift_ : std::array<std::optional<Quantity>, 3>{};
-    for (const Word& word : words) {
-      const auto index = planeIndex(word.address);
-      if (!index) throw NotCarriedOver("shifts of rotary axes are not converted");
-      shift[*index] = shift[*index].value_or(0) + quantity(block, word.value);
-    }
-    if (rotated_) {
-      line("CYCL DEF 10.0 ROTATION");
-      out_.line("CYCL DEF 10.1 ROT+0");
-      rotated_ = false;
-    }
-    std::vector<std::string> parts;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!shift[i] && !shift_[i]) continue;
-      parts.push_back(
-          fmt::format("CYCL DEF 7.{} {}{}", parts.size() + 1, axis(i), formulas_.value(shift[i].value_or(0))));
-    }
-    shift_ = shift;
-    if (!parts.empty()) {
-      line("CYCL DEF 7.0 DATUM SHIFT");
-      for (const std::string& part : parts)
-        out_.line(part);
-    }
-  } else if (name == "ROT" || name == "AROT") {
-    const bool plain =
-        words.size() == 1 && (words[0].address == addressOf(axis(2)) || words[0].address == addressOf("RPL"));
-    if (!plain && !words.empty()) throw NotCarriedOver("rotations out of the working plane are not converted");
-    if (!adds && std::ranges::any_of(shift_, [](const auto& each) { return each.has_value(); })) {
-      throw NotCarriedOver("ROT takes a shift back that Klartext would keep", "write TRANS in front of it, or AROT");
-    }
-    const std::string angle = words.empty() ? "+0" : formulas_.value(quantity(block, words[0].value));
-    line("CYCL DEF 10.0 ROTATION");
-    out_.line(fmt::format("CYCL DEF 10.1 {}ROT{}", adds && rotated_ ? "I" : "", angle));
-    rotated_ = !words.empty();
-  } else {
-    throw NotCarriedOver(fmt::format("{} has no twin in Klartext", name), "write it by hand");
-  }
-  forgetPosition();
 }
 
 void ToKlartext::blank(const Block& block, const Command& command) {
@@ -380,9 +343,9 @@ void ToKlartext::command(const Block& block, const Command& command) {
   throw NotCarriedOver(fmt::format("{} has no twin in Klartext", name), "write it by hand");
 }
 
-Conversion toKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData,
-                      control::ControlKind control) {
-  return ToKlartext(program, globalData, control).run();
+Conversion toKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData, control::ControlKind control,
+                      const Job* job) {
+  return ToKlartext(program, globalData, control, job).run();
 }
 
 }  // namespace probewright::conversion

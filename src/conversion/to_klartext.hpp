@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -8,6 +9,8 @@
 #include <vector>
 
 #include "conversion/call.hpp"
+#include "conversion/conversion.hpp"
+#include "conversion/flow_graph.hpp"
 #include "conversion/klartext_formulas.hpp"
 #include "conversion/output.hpp"
 
@@ -17,7 +20,8 @@ namespace probewright::conversion {
 class ToKlartext {
 public:
   /// `globalData`: global user data with their values; null if none are known.
-  ToKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData, control::ControlKind control);
+  ToKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData, control::ControlKind control,
+             const Job* job);
   Conversion run();
 
 private:
@@ -30,10 +34,52 @@ private:
   void changeTool();
   void modal(const language::Block& block, const language::Modal& modal);
   void machineFunction(const language::Block& block, const language::MachineFunction& function);
-  void transform(const language::Block& block, const language::Transform& transform);
   void command(const language::Block& block, const language::Command& command);
   void blank(const language::Block& block, const language::Command& command);
   std::string numbered() const;
+
+  // to_klartext_modes.cpp
+  /// What is in effect and stays so until a block changes it; empty where it depends on the way that led there.
+  struct Modes {
+    std::optional<char> toolAxis = 'Z';
+    std::optional<bool> incremental = false;
+    std::optional<language::MoveKind> motion = language::MoveKind::Rapid;
+    std::optional<std::string> compensation = "R0";
+    std::optional<std::array<double, 3>> shift = std::array<double, 3>{};  ///< X, Y, Z
+    std::optional<double> rotation = 0;
+    std::optional<int> row;
+    std::optional<MeasuringTask::Log> log = MeasuringTask::Log::None;
+    bool operator==(const Modes&) const = default;
+  };
+  /// Follows all ways through the program; where several meet, `entries_` has what all of them agree on.
+  void surveyModes();
+  bool isNeutral(const language::Block& block) const;
+  /// `next`: the blocks that may follow each block; `measures`: the block is a measuring cycle; `read`: n of the
+  /// _OVR[n] that a block names.
+  void surveyResults(const std::vector<std::vector<std::size_t>>& next, const std::vector<bool>& measures,
+                     const std::map<std::size_t, std::set<int>>& read);
+  static std::optional<MeasuringTask::Log> logOf(const language::Block& block, const language::CallProgram& call);
+  static bool logs(const language::Block& block);
+  void follow(const language::Block& block, Modes& modes) const;
+  void followTransform(const language::Block& block, const language::Transform& transform, Modes& modes) const;
+  static bool agree(Modes& with, const Modes& other);
+  /// Takes over what all ways to this block agree on.
+  void adopt(const language::Block& block);
+  /// Lists, once a block, that it relies on something that depends on the way.
+  void rely(const language::Block& block, bool doubtful, const char* on);
+
+  // to_klartext_frames.cpp
+  void transform(const language::Block& block, const language::Transform& transform);
+  void writeShift(const std::array<Quantity, 3>& shift);
+  void writeRotation(const Quantity& angle);
+  Quantity frozen(const Quantity& quantity, const std::string& name);
+  /// Lets the program read the shift where only it knows it.
+  void readFrame();
+  /// Touch probe cycles permit neither shift nor rotation: takes them back and counts the task without them. False if
+  /// there are none.
+  bool leaveFrame(MeasuringTask& task);
+  /// Sets them again; results count in them. `task`: as it was before.
+  void comeBackToFrame(const MeasuringTask& task, Results& results);
 
   // to_klartext_variables.cpp
   void assign(const language::Block& block, const language::Assign& assign);
@@ -52,6 +98,17 @@ private:
   void goTo(const std::string& label);
   std::string comparable(const language::Block& block, const language::Operand& operand);
   void label(const std::string& name);
+  void surveyFlow();
+  /// A name for a label that the program does not have yet.
+  std::string unusedLabel(std::string_view name);
+  std::string labelAt(const language::BlockPosition& position) const;
+  /// `times` rounds through what `body` writes.
+  enum class Rounds { Written, Counted };  ///< a few may be written one by one, or all are counted
+  void repeated(const Quantity& times, Rounds rounds, const std::function<void()>& body);
+  /// Where the section of a repetition goes back to.
+  std::string backFrom(std::size_t repetition);
+  /// What ends the sections whose last block is this one.
+  void endSections(const language::Block& block);
 
   // planes.cpp
   void swivel(const language::Block& block, const language::CallProgram& call);
@@ -73,9 +130,37 @@ private:
   std::string writeTask(const MeasuringTask& task);
   /// A corner that is measured only, which no touch probe cycle does: four times cycle 427.
   Results cornerByTouches(const MeasuringTask& corner);
+  /// What the touch probe cycle has measured, as the SINUMERIK cycle counts it; `left`: where it leaves its results.
+  std::optional<Quantity> measured(const MeasuringTask& task, const Results& left, Meaning meaning) const;
+  /// n of the _OVR[n] that the program may read before another cycle measures.
+  std::set<int> wantedAfter(const language::Block& block) const;
   void copyResults(const language::Block& block, const Results& left, const MeasuringTask& task);
   /// Corrects the tool by FN 17, if that depends on conditions or on both sides of a rectangle.
   void correctTool(const MeasuringTask& task, const Results& results);
+
+  // to_klartext_safe_area.cpp
+  /// S_TSA: what may deviate how far before the program stops.
+  struct SafeArea {
+    struct Watched {
+      Meaning meaning;
+      Quantity set;  ///< what counts is the difference from it
+    };
+    std::vector<Watched> watched;
+    Quantity limit;
+  };
+  /// A preset in front of a cycle that may correct it.
+  struct PresetBefore {
+    std::optional<Quantity> row;        ///< empty: none is corrected, or it cannot be restored
+    std::array<std::string, 7> values;  ///< parameters, by the index of FN 18 ID507
+  };
+  std::optional<SafeArea> safeArea(const Call& call, const MeasuringTask& task) const;
+  void rememberPreset(const MeasuringTask& task);
+  /// Stops the program if a deviation is too large, with the preset as it was.
+  void monitor(const language::Block& block, const SafeArea& safe, const MeasuringTask& task, const Results& results);
+  void restorePreset(const MeasuringTask& task);
+  /// A deviation that shows only in how the preset has changed.
+  std::optional<Quantity> deviationOfPreset(const MeasuringTask& task, Meaning meaning);
+
   /// To where the SINUMERIK cycle leaves the probe.
   void goBack(const MeasuringTask& task, std::array<std::optional<Quantity>, 3> end);
 
@@ -90,35 +175,53 @@ private:
 
   sinumerik::SinumerikProgram& program_;
   control::ControlKind control_;
+  Job job_;
   Output out_;
   KlartextFormulas formulas_;
   Quantity ballRadius_ = klartextBallRadius;
   Conversion result_;
 
   // What the whole program tells.
-  std::set<std::string> targets_;           ///< labels that jumps and repetitions name
-  std::set<std::string> sections_;          ///< labels that end a repeated section
-  std::set<int> usedResults_;               ///< n of _OVR[n]
-  std::vector<std::set<int>> wantedAfter_;  ///< those read behind the n-th measuring cycle; 0: before any
-  bool changesTool_ = false;                ///< by M6
-  double millimetre_ = 1;                   ///< in the unit of the program
+  FlowGraph graph_;
+  std::map<std::uint64_t, std::string> labels_;  ///< by the block's offset, where jumps and repetitions lead to
+  std::set<std::string> usedLabels_;
+  std::map<std::uint64_t, std::vector<std::size_t>> sectionEnds_;  ///< by the offset of the last block: repetitions
+  /// Sections that overlap are no subprograms: each repetition notes in a parameter that its section is under way.
+  bool sectionsByNumber_ = false;
+  std::map<std::size_t, std::string> backLabels_;
+  std::set<int> usedResults_;                           ///< n of _OVR[n]
+  std::map<std::uint64_t, std::set<int>> wantedAfter_;  ///< by the offset of each measuring cycle
+  bool changesTool_ = false;                            ///< by M6
+  double millimetre_ = 1;                               ///< in the unit of the program
+
+  std::map<std::uint64_t, Modes> entries_;  ///< by the offset of blocks that several ways lead to
+  std::array<bool, 3> shiftsEver_{};        ///< X, Y, Z
 
   // Where the text has come to.
+  struct Frame {
+    bool known = true;  ///< the shift
+    std::array<Quantity, 3> shift{};
+    std::optional<Quantity> rotation = Quantity();
+  };
+  Frame frame_;
+  bool incrementalDoubtful_ = false, motionDoubtful_ = false, compensationDoubtful_ = false, axisDoubtful_ = false,
+       logDoubtful_ = false;
+  PresetBefore before_;
+  bool relied_ = false;  ///< listed for this block
   char toolAxis_ = 'Z';
   std::array<std::optional<Quantity>, 3> position_;  ///< of the tip: main, minor, tool axis
   language::MoveKind motion_ = language::MoveKind::Rapid;
   bool incremental_ = false;
   std::string compensation_ = "R0";
   std::string pendingTool_, tool_;  ///< to be changed to, in the spindle
-  std::array<std::optional<Quantity>, 3> shift_;
-  bool rotated_ = false;
   std::optional<int> activeRow_;
-  bool hasRowZero_ = false;      ///< the last zero offset is a copy of another
-  bool rowZeroIsDue_ = false;    ///< so it was, but no cycle has done it yet
-  bool copiesToRow0_ = false;    ///< the active zero offset was copied to the last one
+  bool hasRowZero_ = false;    ///< the last zero offset is a copy of another
+  bool rowZeroIsDue_ = false;  ///< so it was, but no cycle has done it yet
+  bool copiesToRow0_ = false;  ///< the active zero offset was copied to the last one
+  /// A cycle has left the probe elsewhere than the original one: along the main, minor and tool axis.
+  std::array<bool, 3> beside_{};
   bool besideMeasured_ = false;  ///< a measuring block has left the probe elsewhere than the original one
   bool unturned_ = false;        ///< the zero offset has lost its rotation, as for cycle 400
-  std::size_t cycleNumber_ = 0;
   MeasuringTask::Log log_ = MeasuringTask::Log::None;  ///< as CYCLE150 has said
 
   struct Open {
@@ -130,7 +233,6 @@ private:
   };
   std::vector<Open> open_;
   std::set<std::string> changedGlobals_;
-  int nextLabel_ = 1;
 };
 
 }  // namespace probewright::conversion

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "conversion/heidenhain_tasks.hpp"
+#include "conversion/parameter_texts.hpp"
 #include "conversion/sinumerik_formulas.hpp"
 #include "conversion/sinumerik_tasks.hpp"
 #include "conversion/to_klartext.hpp"
@@ -30,25 +31,54 @@ Place ToKlartext::here() {
   return place;
 }
 
-void ToKlartext::copyResults(const Block& block, const Results& left, const MeasuringTask& task) {
-  std::set<int> missing = wantedAfter_[cycleNumber_];
-  const auto deviationOf = [&](Meaning meaning) -> std::optional<std::pair<Meaning, Quantity>> {
-    const auto axis = static_cast<std::size_t>(task.axis);
-    switch (meaning) {
-      case Meaning::Centre1Deviation:
-        return std::pair(Meaning::Centre1, task.place[0]);
-      case Meaning::Centre2Deviation:
-        return std::pair(Meaning::Centre2, task.place[1]);
-      case Meaning::Size1Deviation:
-        return std::pair(Meaning::Size1, task.size[0]);
-      case Meaning::Size2Deviation:
-        return std::pair(Meaning::Size2, task.size[1]);
-      case Meaning::CoordinateDeviation:
-        return std::pair(Meaning::Coordinate, task.place[axis]);
-      default:
-        return std::nullopt;
-    }
+std::optional<Quantity> ToKlartext::measured(const MeasuringTask& task, const Results& left, Meaning meaning) const {
+  const auto found = left.find(meaning);
+  const auto differenceTo = [&](Meaning actual, const Quantity& set) -> std::optional<Quantity> {
+    const auto result = left.find(actual);
+    return result == left.end() ? std::nullopt : std::optional(Quantity::of(result->second) - set);
   };
+  // Angles of touch probe cycles count from the main axis, those of CYCLE998 from the axis along the edge.
+  const auto edgeAngle = [&]() -> std::optional<std::string> {
+    const auto angle = left.find(Meaning::Angle);
+    if (angle == left.end()) return std::nullopt;
+    // Cycle 1410 counts from the first point to the second, that is along the positive axis.
+    if (task.axis == 0 && angle->second == "Q964") return "Q964 - 90";
+    if (task.axis == 0 && angle->second == "Q150") return "Q150 - 90 * SGN Q150";
+    return angle->second;
+  };
+  const bool spaceAngle = found != left.end() && (found->second == "Q961" || found->second == "Q962");
+  if (spaceAngle && toolAxis_ != 'Z') return std::nullopt;
+  if (meaning == Meaning::Angle && task.feature == Feature::Edge) {
+    const auto angle = edgeAngle();
+    return angle ? std::optional(Quantity::of(*angle)) : std::nullopt;
+  }
+  if (meaning == Meaning::Angle && found != left.end() && found->second == "Q158") {
+    return Quantity::of("ATAN (TAN Q158 * COS Q159)");
+  }
+  if (found != left.end()) return Quantity::of(found->second);
+  switch (meaning) {
+    case Meaning::Centre1Deviation:
+      return differenceTo(Meaning::Centre1, task.place[0]);
+    case Meaning::Centre2Deviation:
+      return differenceTo(Meaning::Centre2, task.place[1]);
+    case Meaning::Size1Deviation:
+      return differenceTo(Meaning::Size1, task.size[0]);
+    case Meaning::Size2Deviation:
+      return differenceTo(Meaning::Size2, task.size[1]);
+    case Meaning::CoordinateDeviation:
+      return differenceTo(Meaning::Coordinate, task.place[static_cast<std::size_t>(task.axis)]);
+    case Meaning::AngleDeviation: {
+      const auto angle = task.feature == Feature::Edge ? edgeAngle() : std::nullopt;
+      if (!angle) return std::nullopt;
+      return Quantity::of(*angle) - sinumerikEdgeAngle(task, task.angle);
+    }
+    default:
+      return std::nullopt;
+  }
+}
+
+void ToKlartext::copyResults(const Block& block, const Results& left, const MeasuringTask& task) {
+  std::set<int> missing = wantedAfter(block);
   const Results results = sinumerikResults(task);
   std::vector<std::pair<Meaning, std::string>> wanted(results.begin(), results.end());
   if (task.feature == Feature::Surface) {  // the same once more, by axis
@@ -58,31 +88,10 @@ void ToKlartext::copyResults(const Block& block, const Results& left, const Meas
   for (const auto& [meaning, name] : wanted) {
     const int index = std::stoi(name.substr(name.find('[') + 1));
     if (!usedResults_.contains(index)) continue;
-    const auto found = left.find(meaning);
-    const auto deviation = deviationOf(meaning);
-    const bool spaceAngle = found != left.end() && (found->second == "Q961" || found->second == "Q962");
-    if (spaceAngle && toolAxis_ != 'Z') continue;
-    std::string formula;
-    if (found != left.end() && found->second == "Q964") {
-      // From the first point to the second, that is along the positive axis.
-      formula = task.axis == 0 ? "Q964 - 90" : "Q964";
-    } else if (found != left.end() && task.feature == Feature::Edge && task.axis == 0 && found->second == "Q150") {
-      formula = fmt::format("{0} - 90 * SGN {0}", found->second);
-    } else if (found != left.end() && found->second == "Q158") {
-      formula = "ATAN (TAN Q158 * COS Q159)";
-    } else if (found != left.end()) {
-      formula = found->second;
-    } else if (deviation && left.contains(deviation->first)) {
-      formula = expressionText(Quantity::of(left.at(deviation->first)) - deviation->second, true);
-    } else if (meaning == Meaning::AngleDeviation && left.contains(Meaning::Angle)) {
-      const std::string angle = left.at(Meaning::Angle);
-      formula = task.axis == 0 ? fmt::format("{0} - 90 * SGN {0}", angle) : angle;
-      formula = fmt::format("{} - ({})", formula, expressionText(sinumerikEdgeAngle(task, task.angle), true));
-    } else {
-      continue;
-    }
+    const std::optional<Quantity> value = measured(task, left, meaning);
+    if (!value) continue;
     missing.erase(index);
-    line(fmt::format("Q{} = {}", 1700 + index, formula));
+    line(fmt::format("Q{} = {}", 1700 + index, expressionText(*value, true)));
   }
   for (const int index : missing)
     out_.lose(block, fmt::format("_OVR[{}]: the touch probe cycle has no such result", index));
@@ -95,7 +104,7 @@ std::string ToKlartext::writeTask(const MeasuringTask& task) {
   for (const cycles::Parameter& parameter : definition->parameters) {
     const std::string text = call.text(parameter.name);
     if (!call.has(parameter.name) && text.empty()) continue;
-    const std::string_view meaning = parameter.meaning.substr(0, parameter.meaning.find_first_of(":;,"));
+    const std::string_view meaning = parameterText(std::stoi(call.cycle), static_cast<int>(parameter.address));
     lines.push_back(fmt::format(
         "    {}={} ;{} ~", parameter.name,
         text.empty() ? formulas_.value(call.number(parameter.name)) : fmt::format("\"{}\"", text), meaning));
@@ -170,7 +179,7 @@ void ToKlartext::correctTool(const MeasuringTask& task, const Results& results) 
     const auto found = results.find(meaning);
     return found != results.end() ? Quantity::of(found->second) : Quantity::of(results.at(actual)) - set;
   };
-  const std::string past = fmt::format("TOOL_{}", nextLabel_++);
+  const std::string past = unusedLabel("TOOL");
   const std::string amount = formulas_.define("deviation of the tool", false);
   const auto passIf = [&](const Quantity& value, int function, const char* comparison, const Quantity& limit) {
     if (limit == 0) return;
@@ -224,7 +233,8 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
     call.numbers[std::string(parameter->name)] = quantity(block, word.value);
   }
   if (call.cycle == "CYCLE150") return measuringLog(block, call);
-  ++cycleNumber_;
+  rely(block, axisDoubtful_, "the tool axis (G17, G18, G19)");
+  rely(block, logDoubtful_, "the measuring log (CYCLE150)");
   Losses losses;
   const bool calibrates = call.cycle == "CYCLE976";
   const Place start = calibrates ? Place{} : here();
@@ -242,12 +252,36 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
     task.row = 0;
     rowZeroIsDue_ = false;
   }
+  const MeasuringTask framed = task;
+  const bool leaves = leaveFrame(task);
+  const std::optional<SafeArea> safe = safeArea(call, framed);
+  before_ = {};
+  if (safe) rememberPreset(task);
   const bool measuresCorner = isCorner(task.feature) && task.correction == Correction::None;
   const bool measuresBefore = task.feature == Feature::Surface && task.correction != Correction::None &&
-                              task.axis != 2 && !wantedAfter_[cycleNumber_].empty();
+                              task.axis != 2 && !wantedAfter(block).empty();
   // Cycles with Q330 correct always, and by the first side of a rectangle.
   const bool correctsLater =
-      task.tool && (isRectangular(task.feature) || !(task.tool->least == 0) || !(task.tool->most == 0));
+      task.tool && (isRectangular(task.feature) || !(task.tool->least == 0) || !(task.tool->most == 0) || safe);
+  const bool restorable = task.correction == Correction::None || before_.row;
+  const Quantity offset = call.number("S_KNUM");
+  if (task.correction != Correction::None && offset.isNumber() && offset.number() < 10000) {
+    line("; S_KNUM: THE FINE OFFSET, WHICH PRESETS DO NOT HAVE APART");
+  }
+  const bool elder = control_ == control::ControlKind::iTNC530;
+  if (safe && !restorable && elder) {
+    out_.list(block, "S_TSA: the iTNC530 cannot put the preset back when the safe area is found to be exceeded",
+              "measure first, and correct in a second call");
+  }
+  const bool measuresFirst = safe && !restorable && !elder;
+  if (measuresFirst) {
+    line("; THE SAFE AREA FIRST");
+    MeasuringTask inspection = task;
+    inspection.correction = Correction::None;
+    const Results found =
+        isCorner(task.feature) ? cornerByTouches(inspection) : heidenhainResults(writeTask(inspection), inspection);
+    monitor(block, *safe, inspection, found);
+  }
   Results results;
   if (measuresCorner) {
     results = cornerByTouches(task);
@@ -263,11 +297,13 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
     }
     results.merge(heidenhainResults(writeTask(task), task));
   }
-  copyResults(block, results, task);
-  if (correctsLater) correctTool(task, results);
+  if (leaves) comeBackToFrame(framed, results);
+  copyResults(block, results, framed);
+  if (safe && !measuresFirst) monitor(block, *safe, framed, results);
+  if (correctsLater) correctTool(framed, results);
   for (const std::string& loss : losses)
     out_.lose(block, loss);
-  if (!calibrates) goBack(task, sinumerikEnd(call, task, start, ballRadius_, results));
+  if (!calibrates) goBack(framed, sinumerikEnd(call, framed, start, ballRadius_, results));
   if (task.feature == Feature::ProbeInRing || task.feature == Feature::ProbeOnBall) {
     // Q108 knows the new radius from the next tool call on.
     const std::string radius = formulas_.define("ball radius", false);
@@ -279,6 +315,7 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
 
 void ToKlartext::goBack(const MeasuringTask& task, std::array<std::optional<Quantity>, 3> end) {
   forgetPosition();
+  const bool heightKnown = end[2].has_value();
   const bool moved = task.correction != Correction::None;
   if (moved) {
     // In the corrected coordinates the feature lies where it should; other places are not known.
@@ -298,6 +335,7 @@ void ToKlartext::goBack(const MeasuringTask& task, std::array<std::optional<Quan
   if (!back.empty()) line(fmt::format("L{} {} FMAX", back, compensation_));
   for (std::size_t i = 0; i < 3; ++i)
     if (end[i] && end[i]->isNumber()) position_[i] = end[i];
+  beside_ = {!end[0], !end[1], !heightKnown};
 }
 
 }  // namespace probewright::conversion

@@ -6,6 +6,7 @@
 
 #include "conversion/to_klartext.hpp"
 #include "cycles/catalogue.hpp"
+#include "language/sinumerik/check.hpp"
 
 /// Jumps, loops and calls of SINUMERIK programs in Klartext.
 namespace probewright::conversion {
@@ -69,7 +70,7 @@ void ToKlartext::jumpIf(const Block& block, const Operand& condition, bool wante
         jumpIf(block, node->right, wanted, label);
         return;
       }
-      const std::string past = fmt::format("AND_{}", nextLabel_++);
+      const std::string past = unusedLabel("AND");
       jumpIf(block, node->left, !wanted, past);
       jumpIf(block, node->right, wanted, label);
       line(fmt::format("LBL \"{}\"", past));
@@ -104,26 +105,127 @@ void ToKlartext::jumpIf(const Block& block, const Operand& condition, bool wante
   }
 }
 
+std::string ToKlartext::unusedLabel(std::string_view name) {
+  std::string unused(name);
+  for (int i = 2; !usedLabels_.insert(unused).second; ++i)
+    unused = fmt::format("{}_{}", name, i);
+  return unused;
+}
+
+void ToKlartext::surveyFlow() {
+  const std::vector<FlowBlock>& blocks = graph_.blocks();
+  Block block;
+  Diagnostics ignored;
+  const auto name = [&](std::size_t place) {
+    if (labels_.contains(blocks[place].position.offset)) return;
+    program_.parse(blocks[place].position, block, ignored);
+    const std::string_view own = block.at(block.label);
+    labels_.emplace(blocks[place].position.offset, unusedLabel(own.empty() ? "START" : own));
+  };
+  // A label may stand in a SINUMERIK program more than once: each place gets a name of its own.
+  for (const FlowBlock& each : blocks) {
+    program_.parse(each.position, block, ignored);
+    const bool jumps = std::ranges::any_of(block.instructions, [](const Instruction& instruction) {
+      const auto* jump = std::get_if<Jump>(&instruction);
+      return jump != nullptr && jump->direction != JumpDirection::ProgramStart;
+    });
+    const std::vector<std::size_t> targets = each.jumps;
+    if (jumps) std::ranges::for_each(targets, name);
+    if (each.section) name(each.section->first);
+  }
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    if (!blocks[i].section || blocks[i].section->second == i) continue;
+    const auto [first, last] = *blocks[i].section;
+    sectionEnds_[blocks[last].position.offset].push_back(i);
+    bool stretch = graph_.isClosed(first, last);
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+      // Its LBL 0 would end this one too early.
+      if (!blocks[k].section || blocks[k].section->second == k) continue;
+      stretch = stretch && (blocks[k].section->second < first || blocks[k].section->second >= last);
+    }
+    sectionsByNumber_ = sectionsByNumber_ || !stretch;
+  }
+}
+
+std::string ToKlartext::labelAt(const BlockPosition& position) const {
+  const auto found = labels_.find(position.offset);
+  if (found == labels_.end()) throw NotCarriedOver("the label of this block is not known");
+  return found->second;
+}
+
 void ToKlartext::jump(const Block& block, const Jump& jump) {
   if (jump.direction == JumpDirection::ProgramStart || jump.label.length == 0) {
     throw NotCarriedOver("jumps to the program's start or to computed labels have no twin in Klartext");
   }
-  const std::string target(block.at(jump.label));
+  const auto found = program_.findLabel(block.at(jump.label), block.position, jump.direction);
+  if (!found && jump.ignoreMissing) return;
+  if (!found) throw NotCarriedOver(fmt::format("there is no label {}", block.at(jump.label)));
+  const std::string target = labelAt(*found);
   if (!jump.condition.present()) return goTo(target);
   jumpIf(block, jump.condition, true, target);
 }
 
-void ToKlartext::repeat(const Block& block, const RepeatSection& section) {
-  const std::string from(block.at(section.from));
-  const Quantity times = section.times.present() ? quantity(block, section.times) : Quantity(1);
-  if (section.onlyBlock) throw NotCarriedOver("REPEATB has no twin in Klartext", "write REPEAT with two labels");
-  if (section.to.length == 0) {
-    return line(fmt::format("CALL LBL \"{}\" REP{}", from, formulas_.unsignedValue(times)));
+void ToKlartext::repeated(const Quantity& times, Rounds rounds, const std::function<void()>& body) {
+  constexpr double fewRounds = 3;
+  if (rounds == Rounds::Written && times.isNumber() && times.number() <= fewRounds) {
+    for (int i = 0; i < static_cast<int>(times.number()); ++i)
+      body();
+    return;
   }
-  if (!times.isNumber()) throw NotCarriedOver("how often the section is repeated is known only when the program runs");
-  for (int i = 0; i < static_cast<int>(times.number()); ++i)
-    line(fmt::format("CALL LBL \"{}\"", from));
+  const std::string begin = unusedLabel("AGAIN"), end = unusedLabel("ENDAGAIN");
+  const std::string count = formulas_.define(begin, false);
+  line(fmt::format("{} = {}", count, expressionText(times, true)));
+  label(begin);
+  line(fmt::format("FN 12: IF +{} LT +1 GOTO LBL \"{}\"", count, end));
+  line(fmt::format("{0} = {0} - 1", count));
+  body();
+  goTo(begin);
+  label(end);
+}
+
+void ToKlartext::repeat(const Block& block, const RepeatSection& section) {
+  const auto own = graph_.at(block.position);
+  const auto stretch = own ? graph_.blocks()[*own].section : std::nullopt;
+  if (!stretch) throw NotCarriedOver("the section to repeat is not known");
+  const std::string from = labelAt(graph_.blocks()[stretch->first].position);
+  const Quantity times = section.times.present() ? quantity(block, section.times) : Quantity(1);
+  if (!graph_.isClosed(stretch->first, stretch->second)) {
+    out_.list(block,
+              "jumps leave the repeated section: a SINUMERIK ends its repetition then, and the section here does not",
+              "let the jumps lead to the end of the section");
+  }
+  if (stretch->second == *own) {
+    line(fmt::format("CALL LBL \"{}\" REP{}", from, formulas_.unsignedValue(times)));
+  } else if (!sectionsByNumber_) {
+    repeated(times, Rounds::Written, [&] { line(fmt::format("CALL LBL \"{}\"", from)); });
+  } else {
+    const std::string current = formulas_.define("section under way", false);
+    const std::string before = formulas_.define(fmt::format("section before {}", *own), false);
+    repeated(times, Rounds::Counted, [&] {
+      line(fmt::format("{} = {}", before, current));
+      line(fmt::format("{} = {}", current, *own + 1));
+      goTo(from);
+      label(backFrom(*own));
+      line(fmt::format("{} = {}", current, before));
+    });
+  }
   forgetPosition();
+  activeRow_.reset();
+}
+
+std::string ToKlartext::backFrom(std::size_t repetition) {
+  auto& label = backLabels_[repetition];
+  if (label.empty()) label = unusedLabel(fmt::format("BACK_{}", repetition));
+  return label;
+}
+
+void ToKlartext::endSections(const Block& block) {
+  const auto found = sectionEnds_.find(block.position.offset);
+  if (found == sectionEnds_.end()) return;
+  if (!sectionsByNumber_) return line("LBL 0");
+  const std::string current = formulas_.define("section under way", false);
+  for (const std::size_t each : found->second)
+    line(fmt::format("FN 9: IF +{} EQU +{} GOTO LBL \"{}\"", current, each + 1, backFrom(each)));
 }
 
 void ToKlartext::call(const Block& block, const CallProgram& call) {
@@ -134,6 +236,10 @@ void ToKlartext::call(const Block& block, const CallProgram& call) {
   if (block.at(call.name) == "CYCLE800") return swivel(block, call);
   if (call.name.length == 0) throw NotCarriedOver("a program whose name is computed has no twin in Klartext");
   const std::string name(block.at(call.name));
+  if (sinumerik::isMeasuringCycle(name) || sinumerik::isSkippedCycle(name) || sinumerik::isCycleWithoutEffect(name)) {
+    throw NotCarriedOver(fmt::format("{} has no twin on a HEIDENHAIN control", name),
+                         "docs/conversion.md lists the cycles that both controls have");
+  }
   const bool hasArguments =
       std::ranges::any_of(std::span<const Word>(block.words).subspan(call.arguments.first, call.arguments.count),
                           [](const Word& word) { return word.value.present(); });
@@ -142,10 +248,14 @@ void ToKlartext::call(const Block& block, const CallProgram& call) {
                          "hand values over in Q parameters");
   }
   const Quantity times = call.times.present() ? quantity(block, call.times) : Quantity(1);
-  if (!times.isNumber()) throw NotCarriedOver("how often the program is called is known only when it runs");
-  for (int i = 0; i < static_cast<int>(times.number()); ++i)
-    line(fmt::format("CALL PGM {}", name));
-  out_.list(block, fmt::format("program {} is called as it stands", name), "convert it too");
+  repeated(times, Rounds::Written, [&] { line(fmt::format("CALL PGM {}", name)); });
+  out_.list(block, fmt::format("program {} is called as it stands", name), "convert it too",
+            job_.programs.contains(name) ? Severity::Note : Severity::Warning);
+  if (!frame_.known || std::ranges::any_of(frame_.shift, [](const Quantity& each) { return !(each == 0); }) ||
+      !frame_.rotation || !(*frame_.rotation == 0)) {
+    out_.list(block, fmt::format("{} is called with a frame: touch probe cycles in it permit none", name),
+              "take the frame back in front of the call if it measures");
+  }
   forgetPosition();
 }
 
@@ -168,7 +278,7 @@ void ToKlartext::structured(const Block& block, const Structured& structured) {
 }
 
 void ToKlartext::carryOver(const Block& block, const Structured& structured) {
-  const auto named = [this](const char* what) { return fmt::format("{}_{}", what, nextLabel_++); };
+  const auto named = [this](const char* what) { return unusedLabel(what); };
   Open* top = open_.empty() ? nullptr : &open_.back();
   switch (structured.kind) {
     case Structure::If: {

@@ -27,6 +27,7 @@ const Word* find(std::span<const Word> words, std::string_view address) {
 
 std::string ToKlartext::coordinate(const Block& block, const Word& word) {
   const Quantity value = quantity(block, word.value);
+  rely(block, incrementalDoubtful_ && word.mode == WordMode::Plain, "G90 or G91");
   const bool incremental = word.mode == WordMode::Incremental || (word.mode == WordMode::Plain && incremental_);
   if (std::exchange(besideMeasured_, besideMeasured_ && incremental) && incremental) {
     out_.list(block, "this counts from where the probe was touched, but the stylus has been retracted",
@@ -34,7 +35,12 @@ std::string ToKlartext::coordinate(const Block& block, const Word& word) {
   }
   if (const auto index = planeIndex(word.address)) {
     auto& now = position_[*index];
+    if (incremental && beside_[*index]) {
+      out_.list(block, "this counts from where the measuring cycle has left the probe, which is elsewhere here",
+                "give the coordinate as an absolute one");
+    }
     if (!incremental) {
+      beside_[*index] = false;
       now = value;
     } else if (now) {
       now = *now + value;
@@ -50,7 +56,13 @@ void ToKlartext::move(const Block& block, const Move& move) {
                     : move.compensation == RadiusCompensation::Left ? "RL"
                                                                     : "RR";
   }
-  if (move.kind != MoveKind::Modal) motion_ = move.kind;
+  if (move.compensation != RadiusCompensation::Unchanged) compensationDoubtful_ = false;
+  if (move.kind != MoveKind::Modal) {
+    motion_ = move.kind;
+    motionDoubtful_ = false;
+  }
+  rely(block, motionDoubtful_ && !words.empty(), "the path function (G0, G1, G2, G3)");
+  rely(block, compensationDoubtful_ && !words.empty(), "the radius compensation (G40, G41, G42)");
   const std::string_view variant = block.at(move.variant);
   const bool onMachine = variant == "SUPA" || variant == "G53" || variant == "G153";
   if (!onMachine && !variant.empty()) throw NotCarriedOver(fmt::format("{} has no twin in Klartext", variant));
@@ -60,6 +72,16 @@ void ToKlartext::move(const Block& block, const Move& move) {
     if (!isAxis(word.address) && std::ranges::find(known, address) == known.end()) {
       throw NotCarriedOver(fmt::format("{} in a motion block has no twin in Klartext", address));
     }
+  }
+  const auto given = [&](std::size_t index) { return find(words, axis(index)) != nullptr; };
+  const bool path = motion_ != MoveKind::Rapid && motion_ != MoveKind::Linear;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!beside_[i] || (given(i) && !path) || (!given(1 - i) && !path) || words.empty()) continue;
+    out_.list(
+        block,
+        "this block moves in the plane from where the measuring cycle has left the probe, which is elsewhere here",
+        "give both coordinates");
+    break;
   }
   std::string ending;
   if (move.feed.present()) ending = fmt::format(" F{}", formulas_.unsignedValue(quantity(block, move.feed)));
@@ -79,6 +101,7 @@ void ToKlartext::move(const Block& block, const Move& move) {
         if (!suppressed) out_.list(block, "M91 counts without the length of the tool", "write D0 in this block");
         forgetPosition();
       }
+      if (rapid && !ending.empty()) line(fmt::format("L {}{}", compensation_, ending));  // for the next path
       line(fmt::format("{} {}{}{}", text, compensation_, rapid ? " FMAX" : ending, onMachine ? " M91" : ""));
       break;
     }

@@ -16,32 +16,10 @@ namespace probewright::conversion {
 using namespace language;
 using klartext::FramePart;
 
-namespace {
-
-std::string upperCase(std::string_view text) {
-  std::string upper(text);
-  std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return upper;
+ToSinumerik::ToSinumerik(klartext::HeidenhainProgram& program, const Job* job)
+    : program_(program), job_(job == nullptr ? Job() : *job), out_(program.file()), graph_(program) {
+  if (job_.shares) formulas_.shareParameters();
 }
-
-/// Letters, digits and underscores of the text; everything else becomes an underscore.
-std::string identifierFrom(std::string_view text) {
-  std::string name = upperCase(text);
-  for (char& c : name)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  return name;
-}
-
-std::string withoutEnding(std::string_view path) {
-  path = trimmed(path);
-  if (const std::size_t slash = path.find_last_of("/\\:"); slash != std::string_view::npos)
-    path.remove_prefix(slash + 1);
-  return std::string(path.substr(0, path.rfind('.')));
-}
-
-}  // namespace
-
-ToSinumerik::ToSinumerik(klartext::HeidenhainProgram& program) : program_(program), out_(program.file()) {}
 
 std::string ToSinumerik::axis(std::size_t index) const {
   static constexpr const char* names[] = {"X", "Y", "Z"};
@@ -56,6 +34,7 @@ std::optional<std::size_t> ToSinumerik::planeIndex(std::uint32_t address) const 
 }
 
 void ToSinumerik::survey() {
+  usedQ_ = job_.parameters;
   Block block;
   for (BlockPosition at = program_.begin(); program_.parse(at, block, result_.mistakes); at = block.next) {
     for (const VariableRef& variable : block.variables) {
@@ -63,6 +42,7 @@ void ToSinumerik::survey() {
       usedQ_.insert(static_cast<int>(variable.index[0].number));
     }
     for (const Instruction& instruction : block.instructions) {
+      callsTools_ = callsTools_ || std::holds_alternative<ToolCall>(instruction);
       if (const auto* call = std::get_if<CallLabel>(&instruction); call != nullptr && !call->repeats.present())
         calledLabels_.insert(std::string(block.at(call->label)));
       if (const auto* move = std::get_if<Move>(&instruction)) {
@@ -91,6 +71,8 @@ void ToSinumerik::surveyCentre(const Block& block, const Move& move) {
 Conversion ToSinumerik::run() {
   survey();
   if (!hasErrors(result_.mistakes)) {
+    surveyFlow();
+    surveyModes();
     if (program_.unit() == klartext::Unit::Inch) {
       millimetre_ = 1 / millimetresOfInch;
       ballRadius_ = ballRadius_ * millimetre_;
@@ -116,7 +98,11 @@ std::vector<std::string> ToSinumerik::head() const {
     const bool text = name.starts_with("_QS");
     lines.push_back(fmt::format("DEF {} {}", text ? "STRING[254]" : "REAL", name));
   }
-  lines.push_back(fmt::format("G17 G90 G40 {} G94", program_.unit() == klartext::Unit::Inch ? "G700" : "G710"));
+  lines.insert(lines.end(), callStack_.begin(), callStack_.end());
+  if (job_.shares) lines.insert(lines.begin() + 1, std::string(sharedParametersRemark));
+  const bool ofCaller = job_.called && !callsTools_;
+  lines.push_back(fmt::format("{}G90 G40 {} G94", ofCaller ? "" : "G17 ",
+                              program_.unit() == klartext::Unit::Inch ? "G700" : "G710"));
   return lines;
 }
 
@@ -124,7 +110,20 @@ void ToSinumerik::write(const Block& block) {
   const FramePart part = program_.framePart(block);
   if (part == FramePart::Begin || part == FramePart::End) return;
   if (block.instructions.empty()) return comment(block);
+  adopt(block);
   const std::size_t before = out_.size();
+  const Frame frame = frame_;
+  const auto sharesText = [this](const VariableRef& variable) {
+    return variable.space == VariableSpace::QS && variable.index[0].isLiteral() &&
+           job_.texts.contains(static_cast<int>(variable.index[0].number));
+  };
+  if (!sharesText_ && std::ranges::any_of(block.variables, sharesText)) {
+    sharesText_ = true;
+    out_.list(
+        block,
+        "QS parameters are variables of this program alone: the programs that it calls or that call it have their own",
+        "declare them as global user data, in a definition file");
+  }
   try {
     for (const Instruction& each : block.instructions)
       instruction(block, each);
@@ -150,6 +149,7 @@ void ToSinumerik::write(const Block& block) {
       out_.at(i) = fmt::format("/{}", out_.at(i));
   } catch (const NotCarriedOver& reason) {
     out_.shorten(before);
+    frame_ = frame;
     lastMove_ = std::min(lastMove_, before);
     out_.keepAsComment(block, reason.what(), reason.advice());
   }
@@ -164,7 +164,14 @@ void ToSinumerik::comment(const Block& block) {
     const bool quoted = said.size() > 1 && said.front() == '"' && said.find('"', 1) == said.size() - 1;
     if (quoted) return out_.line(fmt::format("MSG({})", said));
   }
-  out_.line(fmt::format("{}{}", text.front() == ';' ? "" : "; ", text.substr(0, text.find('\n'))));
+  std::string_view rest = text;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    std::string_view line = trimmed(rest.substr(0, end));
+    if (line.ends_with('~')) line = trimmed(line.substr(0, line.size() - 1));
+    if (!line.empty()) out_.line(fmt::format("{}{}", line.front() == ';' ? "" : "; ", line));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
 }
 
 void ToSinumerik::instruction(const Block& block, const Instruction& instruction) {
@@ -194,7 +201,7 @@ void ToSinumerik::instruction(const Block& block, const Instruction& instruction
   } else if (const auto* tool = std::get_if<ToolCall>(&instruction)) {
     toolCall(block, *tool);
   } else if (const auto* function = std::get_if<MachineFunction>(&instruction)) {
-    machineFunction(*function);
+    machineFunction(block, *function);
   } else if (const auto* change = std::get_if<Transform>(&instruction)) {
     transform(block, *change);
   } else if (const auto* measure = std::get_if<CycleCall>(&instruction)) {
@@ -206,66 +213,6 @@ void ToSinumerik::instruction(const Block& block, const Instruction& instruction
   }
 }
 
-std::string ToSinumerik::labelName(std::string_view label) {
-  const auto found = labelNames_.find(label);
-  if (found != labelNames_.end()) return found->second;
-  std::string name = fmt::format("LBL_{}", identifierFrom(label).substr(0, 20));
-  const auto taken = [&] {
-    return std::ranges::any_of(labelNames_, [&](const auto& entry) { return entry.second == name; });
-  };
-  while (taken())
-    name += '_';
-  labelNames_.emplace(label, name);
-  return name;
-}
-
-void ToSinumerik::jump(const Block& block, const Jump& jump) {
-  if (jump.label.length == 0) throw NotCarriedOver("a computed label has no twin on a SINUMERIK");
-  const std::string target = labelName(block.at(jump.label));
-  if (!jump.condition.present()) return out_.line(fmt::format("GOTO {}", target));
-  out_.line(fmt::format("IF {} GOTO {}", formulas_.formula(block, jump.condition), target));
-}
-
-void ToSinumerik::mark(const Block& block, const LabelMark& mark) {
-  forgetPosition();
-  activeRow_.reset();
-  if (!oneCentre_) centre_ = {};
-  if (mark.end) {
-    for (const std::string& label : openLabels_)
-      if (calledLabels_.contains(label)) out_.line(fmt::format("{}_END:", labelName(label)));
-    openLabels_.clear();
-    return;
-  }
-  openLabels_.emplace_back(block.at(mark.label));
-  out_.line(labelName(block.at(mark.label)) + ":");
-}
-
-void ToSinumerik::callLabel(const Block& block, const CallLabel& call) {
-  if (call.label.length == 0) throw NotCarriedOver("a computed label has no twin on a SINUMERIK");
-  const std::string name = labelName(block.at(call.label));
-  if (call.repeats.present()) {
-    const Quantity times = quantity(block, call.repeats);
-    out_.line(fmt::format("REPEAT {} P{}{}", name, times.isNumber() ? "" : "=", sinumerikText(times)));
-  } else {
-    out_.line(fmt::format("REPEAT {0} {0}_END", name));
-  }
-  forgetPosition();
-  activeRow_.reset();
-  if (!oneCentre_) centre_ = {};
-}
-
-void ToSinumerik::callProgram(const Block& block, const CallProgram& call) {
-  if (call.name.length == 0) throw NotCarriedOver("a program whose name is computed has no twin on a SINUMERIK");
-  const std::string name = withoutEnding(block.at(call.name));
-  if (name.size() < 2 || identifierFrom(name) != upperCase(name) || std::isdigit(static_cast<unsigned char>(name[0])))
-    throw NotCarriedOver(fmt::format("{} is no name of a SINUMERIK program", name),
-                         "names begin with two letters or an underscore and have letters, digits and underscores");
-  out_.line(upperCase(name));
-  out_.list(block, fmt::format("program {} is called as it stands", upperCase(name)),
-            "convert it too; it must be an .SPF");
-  forgetPosition();
-}
-
 void ToSinumerik::toolCall(const Block& block, const ToolCall& call) {
   for (const auto& [operand, name] :
        {std::pair(&call.deltaLength, "DL"), std::pair(&call.deltaRadius, "DR"), std::pair(&call.deltaRadius2, "DR2")}) {
@@ -275,6 +222,7 @@ void ToSinumerik::toolCall(const Block& block, const ToolCall& call) {
   if (call.index.present()) out_.lose(block, "the step index of the tool");
   if (call.axis != 0) {
     toolAxis_ = call.axis;
+    axisDoubtful_ = false;
     if (toolAxis_ != 'X' && toolAxis_ != 'Y' && toolAxis_ != 'Z')
       throw NotCarriedOver("tool axes other than X, Y and Z have no twin on a SINUMERIK");
   }
@@ -299,7 +247,7 @@ void ToSinumerik::toolCall(const Block& block, const ToolCall& call) {
   forgetPosition();
 }
 
-void ToSinumerik::machineFunction(const MachineFunction& function) {
+void ToSinumerik::machineFunction(const Block& block, const MachineFunction& function) {
   switch (function.number) {
     case 3:
     case 4:
@@ -316,7 +264,8 @@ void ToSinumerik::machineFunction(const MachineFunction& function) {
       return out_.line("M4 M8");
     case 126:
     case 127:
-      return;  // rotary axes with modulo take the way that the programmed position has anyway
+      return out_.lose(block, fmt::format("M{}: rotary axes of a SINUMERIK take the way that each position asks for",
+                                          function.number));
     case 128:
       return out_.line("TRAORI");
     case 129:
@@ -329,52 +278,6 @@ void ToSinumerik::machineFunction(const MachineFunction& function) {
       throw NotCarriedOver(fmt::format("M{} means something else on a SINUMERIK, or nothing", function.number),
                            "see the machine's own list of M functions");
   }
-}
-
-void ToSinumerik::transform(const Block& block, const Transform& transform) {
-  const std::string_view name = block.at(transform.name);
-  const auto words = std::span<const Word>(block.words).subspan(transform.words.first, transform.words.count);
-  if (name == "CYCL DEF 247") {
-    const Quantity row = words.empty() ? Quantity() : quantity(block, words.front().value);
-    if (!row.isNumber()) throw NotCarriedOver("the row of the preset table is known only when the program runs");
-    const int number = static_cast<int>(row.number());
-    if (number < 0 || number > 99) throw NotCarriedOver("settable zero offsets go from 1 (G54) to 99 (G599)");
-    out_.line(settableCode(number));
-    activeRow_ = number == 0 ? 99 : number;
-    forgetPosition();
-    return;
-  }
-  if (name.starts_with("PLANE ")) return plane(block, transform);
-  const bool shifts = name == "CYCL DEF 7" || name == "TRANS DATUM AXIS";
-  const bool rotates = name == "CYCL DEF 10" || name == "TRANS ROTATION" || name == "TRANS ROTATION RESET";
-  if (shifts) {
-    for (const Word& word : words) {
-      const auto index = planeIndex(word.address);
-      if (!index) throw NotCarriedOver("datum tables and shifts of rotary axes have no twin on a SINUMERIK");
-      const Quantity value = quantity(block, word.value);
-      const Quantity old = shift_[*index].value_or(0);
-      shift_[*index] = word.mode == WordMode::Incremental ? old + value : value;
-    }
-  } else if (name == "TRANS DATUM RESET") {
-    shift_ = {};
-  } else if (rotates) {
-    if (words.empty()) {
-      rotation_ = 0;
-    } else {
-      const Quantity angle = quantity(block, words.front().value);
-      rotation_ = words.front().mode == WordMode::Incremental ? rotation_ + angle : angle;
-    }
-  } else {
-    throw NotCarriedOver(fmt::format("{} has no twin on a SINUMERIK", name), "write frames by hand");
-  }
-  // The frames of both act together: shift, then rotation.
-  std::string words_;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (shift_[i] && !(*shift_[i] == 0)) words_ += fmt::format(" {}", addressWord(axis(i), *shift_[i]));
-  }
-  out_.line(fmt::format("TRANS{}", words_));
-  if (!(rotation_ == 0)) out_.line(fmt::format("AROT {}", addressWord(axis(2), rotation_)));
-  forgetPosition();
 }
 
 void ToSinumerik::blank(std::string_view text) {
@@ -453,6 +356,6 @@ void ToSinumerik::command(const Block& block, const Command& command) {
   throw NotCarriedOver(fmt::format("{} has no twin on a SINUMERIK", name), "write it by hand");
 }
 
-Conversion toSinumerik(klartext::HeidenhainProgram& program) { return ToSinumerik(program).run(); }
+Conversion toSinumerik(klartext::HeidenhainProgram& program, const Job* job) { return ToSinumerik(program, job).run(); }
 
 }  // namespace probewright::conversion

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "conversion/call.hpp"
+#include "conversion/conversion.hpp"
+#include "conversion/flow_graph.hpp"
 #include "conversion/output.hpp"
 #include "conversion/sinumerik_formulas.hpp"
 #include "conversion/sinumerik_tasks.hpp"
@@ -21,7 +23,7 @@ std::string callText(const Call& call);
 
 class ToSinumerik {
 public:
-  explicit ToSinumerik(language::klartext::HeidenhainProgram& program);
+  ToSinumerik(language::klartext::HeidenhainProgram& program, const Job* job);
   Conversion run();
 
 private:
@@ -32,18 +34,46 @@ private:
   std::vector<std::string> head() const;
   void comment(const language::Block& block);
   void instruction(const language::Block& block, const language::Instruction& instruction);
-  void jump(const language::Block& block, const language::Jump& jump);
-  void mark(const language::Block& block, const language::LabelMark& mark);
-  void callLabel(const language::Block& block, const language::CallLabel& call);
-  void callProgram(const language::Block& block, const language::CallProgram& call);
   void toolCall(const language::Block& block, const language::ToolCall& call);
-  void machineFunction(const language::MachineFunction& function);
-  void transform(const language::Block& block, const language::Transform& transform);
+  void machineFunction(const language::Block& block, const language::MachineFunction& function);
   void command(const language::Block& block, const language::Command& command);
   /// $TC_DPx of what FN 17 and FN 18 know as number `number` of ID 50, in the tool's first edge.
   std::string toolDatum(const Quantity& number, const Quantity& tool) const;
   void blank(std::string_view text);
+
+  // to_sinumerik_flow.cpp
+  void surveyFlow();
+  void jump(const language::Block& block, const language::Jump& jump);
+  void mark(const language::Block& block, const language::LabelMark& mark);
+  void callLabel(const language::Block& block, const language::CallLabel& call);
+  void callProgram(const language::Block& block, const language::CallProgram& call);
+  /// LBL 0 of a program that keeps its own stack of calls.
+  void goBack();
   std::string labelName(std::string_view label);
+
+  // to_sinumerik_frames.cpp
+  struct Frame {
+    bool known = true;  ///< the shift
+    std::array<Quantity, 3> shift{};
+    std::optional<Quantity> rotation = Quantity();
+    bool isNone() const;
+  };
+  void transform(const language::Block& block, const language::Transform& transform);
+  void writeFrame(const Frame& frame);
+  /// What is in effect and stays so until a block changes it; empty where it depends on the way that led there.
+  struct Modes {
+    std::optional<char> toolAxis = 'Z';
+    std::optional<std::array<double, 3>> shift = std::array<double, 3>{};  ///< X, Y, Z
+    std::optional<double> rotation = 0;
+    std::optional<int> row;
+    bool operator==(const Modes&) const = default;
+  };
+  void surveyModes();
+  static void follow(const language::Block& block, Modes& modes);
+  static bool agree(Modes& with, const Modes& other);
+  /// Takes over what all ways to this block agree on.
+  void adopt(const language::Block& block);
+  void requireAxis() const;
 
   // planes.cpp
   void plane(const language::Block& block, const language::Transform& transform);
@@ -63,7 +93,8 @@ private:
   Centre holeByStrokes(int number, const Place& place, const Quantity& clearance);
   Centre spigotCentre(int number, const MeasuringTask& pair);
   void turnByPair(const MeasuringTask& pair, const std::vector<Centre>& centres);
-  void judgePattern(const MeasuringTask& pattern, const Centre& centre, const std::string& diameter);
+  void judgePattern(const language::Block& block, const MeasuringTask& pattern, const Centre& centre,
+                    const std::string& diameter);
 
   // to_sinumerik_moves.cpp
   void move(const language::Block& block, const language::Move& move);
@@ -79,13 +110,16 @@ private:
   void cycle(const language::Block& block, const language::CycleCall& call);
   void task(const language::Block& block, const MeasuringTask& task, const std::string& heidenhainCycle);
   void approach(const Place& start, const Quantity& clearance);
-  /// By the first side of a rectangle.
-  void correctTool(const MeasuringTask& task);
+  /// By the first size, where the cycle does not do it.
+  void correctTool(const MeasuringTask& task, const SinumerikPassage& passage);
   /// Shifts the origin so that what lies at `now` gets the coordinates of the wish; `measured`: in the coordinates that
   /// are in effect.
   void shiftOrigin(const language::Block& block, const MeasuringTask& task, const Place& now, bool measured);
   void shiftToWish(const language::Block& block, const MeasuringTask& task, SinumerikPassage::Rest rest);
-  void copyResults(const language::Block& block, const std::string& heidenhainCycle, const MeasuringTask& task);
+  /// Where the cycle of the passage leaves what it measures, counted as a HEIDENHAIN control does.
+  static Results resultsOf(const MeasuringTask& task, const SinumerikPassage& passage);
+  void copyResults(const language::Block& block, const std::string& heidenhainCycle, const MeasuringTask& task,
+                   const SinumerikPassage& passage);
   void planeByTouches(const language::Block& block, const MeasuringTask& plane);
   void takeRotationOut(const MeasuringTask& task);
   /// The rotation of a zero offset about the tool axis; without `row` of the one in effect.
@@ -99,9 +133,9 @@ private:
                     const std::function<std::string(const std::string&)>& value);
   /// Selects the zero offset `row` again if it is in effect.
   void selectIfActive(const Quantity& row);
-  void judge(const MeasuringTask& task);
-  /// Sets Q180 to Q182 by conditions and stops, if that is asked for.
-  void decide(const std::vector<std::string>& rework, const std::vector<std::string>& scrap, bool stops);
+  void judge(const language::Block& block, const MeasuringTask& task, const SinumerikPassage& passage);
+  /// Sets Q180 to Q182 by conditions, and stops or tells, if that is asked for.
+  void decide(const std::vector<std::string>& rework, const std::vector<std::string>& scrap, bool stops, bool tells);
   std::string parameter(int number);
   /// Results of the cycle that the program reads, but for the status.
   std::set<int> readResults(const std::string& heidenhainCycle) const;
@@ -117,8 +151,10 @@ private:
   void forgetPosition() { position_ = {}; }
 
   language::klartext::HeidenhainProgram& program_;
+  Job job_;
   Output out_;
   SinumerikFormulas formulas_;
+  FlowGraph graph_;
   double millimetre_ = 1;  ///< in the unit of the program
   Quantity ballRadius_ = sinumerikBallRadius;
   Conversion result_;
@@ -128,6 +164,15 @@ private:
   std::map<std::string, std::string, std::less<>> labelNames_;
   std::set<int> usedQ_;
   bool compensates_ = false;
+  bool callsTools_ = false;
+  bool sharesText_ = false;  ///< it is listed that texts are not shared
+  /// Subprograms that return early, or that jumps lead into or out of, are no sections: the program keeps a stack of
+  /// its calls.
+  bool keepsStack_ = false;
+  std::map<std::uint64_t, std::size_t> returnsOf_;  ///< number of each call, by the block's offset
+  std::map<std::uint64_t, std::size_t> countsOf_;   ///< count of each repetition, the same
+  std::vector<std::string> callStack_;              ///< its definitions
+  std::map<std::uint64_t, Modes> entries_;          ///< by the offset of blocks that several ways lead to
 
   // Where the text has come to.
   char toolAxis_ = 'Z';
@@ -139,8 +184,8 @@ private:
   int arcDirection_ = 0;
   std::vector<std::string> openLabels_;
   std::map<int, Quantity> global_;  ///< GLOBAL DEF values by Q number
-  std::array<std::optional<Quantity>, 3> shift_;
-  Quantity rotation_ = 0;
+  Frame frame_;
+  bool axisDoubtful_ = false;
   std::optional<int> activeRow_;
   bool ended_ = false;
   std::vector<std::string> blank_;  ///< X, Y, Z of BLK FORM 0.1

@@ -17,6 +17,8 @@ using namespace language;
 
 namespace {
 
+constexpr int exceededMessage = 67000;  ///< of SETAL: shown, and the program goes on
+
 /// True if CYCLE998 measures the plane: its second point lies along the main axis, the third beyond both.
 bool alongMainAxis(const MeasuringTask& plane) {
   const auto apart = [&](std::size_t point, std::size_t axis) {
@@ -67,14 +69,24 @@ Call ToSinumerik::callOf(const Block& block, const CycleCall& cycle) {
 
 void ToSinumerik::globalDefinition(const Block& block, const Command& command) {
   const auto words = std::span<const Word>(block.words).subspan(command.words.first, command.words.count);
-  for (const Word& word : words.subspan(1))
-    global_[static_cast<int>(word.address)] = quantity(block, word.value);
+  for (const Word& word : words.subspan(1)) {
+    const Quantity value = quantity(block, word.value);
+    const auto [global, isNew] = global_.try_emplace(static_cast<int>(word.address), value);
+    if (!isNew && graph_.branches() && !(global->second == value)) {
+      out_.list(
+          block,
+          fmt::format("Q{} = PREDEF takes this value in all cycles below, whatever way leads to them", word.address),
+          "write the value in the cycles");
+    }
+    global->second = value;
+  }
 }
 
 void ToSinumerik::cycle(const Block& block, const CycleCall& cycle) {
   if (block.at(cycle.name) != "TCH PROBE") {
     throw NotCarriedOver(fmt::format("cycle {} is no measuring cycle", cycle.number), "write it by hand");
   }
+  requireAxis();
   const cycles::CycleDefinition* definition = cycles::heidenhainCycle(cycle.number);
   const Call call = callOf(block, cycle);
   if (cycle.number == 404) return basicRotation(call);
@@ -132,10 +144,10 @@ void ToSinumerik::task(const Block& block, const MeasuringTask& given, const std
   // What else a cycle sets on the way, as the preset in the tool axis, leaves no results.
   const bool incidental = task.feature == Feature::Surface && heidenhainCycle.starts_with("41") &&
                           heidenhainCycle != "417" && heidenhainCycle != "419";
-  if (!incidental) copyResults(block, heidenhainCycle, task);
+  if (!incidental) copyResults(block, heidenhainCycle, task, passage);
   const int number = std::stoi(heidenhainCycle);
-  if (task.tool && isRectangular(task.feature)) correctTool(task);
-  if (number >= 421 && number <= 427) judge(task);
+  if (task.tool && !passage.correctsTool) correctTool(task, passage);
+  if (number >= 421 && number <= 427) judge(block, task, passage);
   if (passage.start) out_.line(fmt::format("G0 {}", addressWord(axis(2), task.clearance)));
   shiftToWish(block, task, passage.rest);
   if (task.correction == Correction::RotaryAxis) {
@@ -152,13 +164,14 @@ void ToSinumerik::task(const Block& block, const MeasuringTask& given, const std
   besidePath_ = true;
 }
 
-void ToSinumerik::correctTool(const MeasuringTask& task) {
+void ToSinumerik::correctTool(const MeasuringTask& task, const SinumerikPassage& passage) {
   const std::string& tool = task.tool->tool;
   const bool number = std::ranges::all_of(tool, [](unsigned char c) { return std::isdigit(c) != 0; });
   const std::string wear = fmt::format("$TC_DP15[{},1]", number ? tool : fmt::format("GETT(\"{}\",1)", tool));
   // Tool data count in millimetres.
-  out_.line(fmt::format("{0}={0}{1}{2}", wear, isInside(task.feature) ? "+" : "-",
-                        sinumerikText(Quantity::of("_OVR[16]", 0.5 / millimetre_))));
+  out_.line(fmt::format(
+      "{0}={0}{1}{2}", wear, isInside(task.feature) ? "+" : "-",
+      sinumerikText(Quantity::of(resultsOf(task, passage).at(Meaning::Size1Deviation), 0.5 / millimetre_))));
 }
 
 void ToSinumerik::shiftToWish(const Block& block, const MeasuringTask& task, SinumerikPassage::Rest rest) {
@@ -320,10 +333,26 @@ std::string ToSinumerik::parameter(int number) {
   return formulas_.variable(variable);
 }
 
-void ToSinumerik::copyResults(const Block& block, const std::string& heidenhainCycle, const MeasuringTask& task) {
+Results ToSinumerik::resultsOf(const MeasuringTask& task, const SinumerikPassage& passage) {
+  Results results = sinumerikResults(task);
+  if (passage.middle == 0) return results;
+  // The cycle counts deviations from the middle of the tolerance.
+  const auto fromNominal = [&](Meaning deviation, Meaning actual, const Quantity& nominal) {
+    if (results.contains(deviation)) {
+      results[deviation] = fmt::format("({})", sinumerikText(Quantity::of(results.at(actual)) - nominal));
+    }
+  };
+  fromNominal(Meaning::Size1Deviation, Meaning::Size1, task.size[0]);
+  fromNominal(Meaning::Size2Deviation, Meaning::Size2, task.size[1]);
+  fromNominal(Meaning::CoordinateDeviation, Meaning::Coordinate, task.place[static_cast<std::size_t>(task.axis)]);
+  return results;
+}
+
+void ToSinumerik::copyResults(const Block& block, const std::string& heidenhainCycle, const MeasuringTask& task,
+                              const SinumerikPassage& passage) {
   if (heidenhainCycle == "403") return;
   std::set<int> missing = readResults(heidenhainCycle);
-  const Results left = sinumerikResults(task);
+  const Results left = resultsOf(task, passage);
   for (const auto& [meaning, name] : heidenhainResults(heidenhainCycle, task)) {
     const int number = std::stoi(name.substr(1));
     const auto found = left.find(meaning);
@@ -359,10 +388,21 @@ void ToSinumerik::copyResults(const Block& block, const std::string& heidenhainC
     out_.lose(block, fmt::format("Q{}: the SINUMERIK cycle has no such result", number));
 }
 
-void ToSinumerik::judge(const MeasuringTask& task) {
+void ToSinumerik::judge(const Block& block, const MeasuringTask& task, const SinumerikPassage& passage) {
   const bool flags = usedQ_.contains(180) || usedQ_.contains(181) || usedQ_.contains(182);
-  if (!flags && !task.stops) return;
-  const Results results = sinumerikResults(task);
+  // What the cycle itself does not judge the program does: as a message, or as the stop that is asked for.
+  const bool byTool = passage.correctsTool && passage.call.number("_AMODE") == 1;
+  const bool ofSize = (task.limits[0] || task.limits[1]) && !passage.judges && !byTool;
+  const bool centre = !(task.centreTolerance[0] == 0) || !(task.centreTolerance[1] == 0);
+  const bool tells = (ofSize || centre) && !task.stops && !flags;
+  if (!flags && !task.stops && !tells) return;
+  if (tells) {
+    out_.list(block,
+              fmt::format("{}: message {} tells when they are exceeded, but the cycle's own verdict and log do not",
+                          ofSize ? "these limits" : "Q279, Q280", exceededMessage),
+              "compare in the program that reads the results");
+  }
+  const Results results = resultsOf(task, passage);
   std::vector<std::string> rework, scrap;
   const auto compare = [&](Meaning meaning, const char* sign, const Quantity& limit) {
     return fmt::format("({}{}{})", results.at(meaning), sign, sinumerikText(limit));
@@ -387,10 +427,11 @@ void ToSinumerik::judge(const MeasuringTask& task) {
     if (task.centreTolerance[i] == 0) continue;
     scrap.push_back(fmt::format("(ABS({})>{})", results.at(centres[i]), sinumerikText(task.centreTolerance[i])));
   }
-  decide(rework, scrap, task.stops);
+  decide(rework, scrap, task.stops, tells);
 }
 
-void ToSinumerik::decide(const std::vector<std::string>& rework, const std::vector<std::string>& scrap, bool stops) {
+void ToSinumerik::decide(const std::vector<std::string>& rework, const std::vector<std::string>& scrap, bool stops,
+                         bool tells) {
   const auto either = [](const std::vector<std::string>& conditions) {
     return fmt::format("{}", fmt::join(conditions, " OR "));
   };
@@ -416,6 +457,11 @@ void ToSinumerik::decide(const std::vector<std::string>& rework, const std::vect
   if (stops && !exceeded.empty()) {
     out_.line(fmt::format("IF {}", either(exceeded)));
     out_.line("  SETAL(65000) ; tolerance exceeded");
+    out_.line("ENDIF");
+  }
+  if (tells && !exceeded.empty()) {
+    out_.line(fmt::format("IF {}", either(exceeded)));
+    out_.line(fmt::format("  SETAL({},\"tolerance exceeded\")", exceededMessage));
     out_.line("ENDIF");
   }
 }

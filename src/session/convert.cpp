@@ -3,15 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 #include "language/din_iso/block_extent.hpp"
 #include "language/din_iso/modal_state.hpp"
 #include "language/din_iso/writer.hpp"
 #include "language/klartext/block_extent.hpp"
+#include "language/klartext/check.hpp"
 #include "language/klartext/heidenhain_program.hpp"
 #include "language/klartext/lexer.hpp"
 #include "language/klartext/writer.hpp"
+#include "language/sinumerik/check.hpp"
 #include "session/beliefs.hpp"
+#include "session/check.hpp"
 #include "session/global_data.hpp"
 #include "simulation/setup.hpp"
 
@@ -323,10 +328,50 @@ void placeInOriginal(Diagnostic& message, language::Program& program, const std:
   message.excerpt = trimmed(source.substr(0, source.find('\n')));
 }
 
+/// Checks what was written as its control would: a mistake in it is named.
+void readBack(Conversion& conversion, const language::Program& original, ProgramLanguage language,
+              control::ControlKind control) {
+  if (hasErrors(conversion.mistakes)) return;
+  const auto written = programOf(original.file(), conversion.text, language);
+  const Diagnostics mistakes =
+      language == ProgramLanguage::Sinumerik
+          ? sinumerik::check(dynamic_cast<sinumerik::SinumerikProgram&>(*written))
+          : language::klartext::checkProgram(dynamic_cast<HeidenhainProgram&>(*written), control);
+  for (const Diagnostic& each : mistakes) {
+    if (each.severity != Severity::Error) continue;
+    conversion.notCarriedOver.push_back({Severity::Warning,
+                                         {original.file(), 0, 0},
+                                         fmt::format("line {} of the program that was written is refused by the {}: {}",
+                                                     each.place.line, control::name(control), each.message),
+                                         each.excerpt,
+                                         each.advice,
+                                         {}});
+  }
+}
+
 }  // namespace
 
 bool convertible(ProgramLanguage from, ProgramLanguage to) {
   return from != ProgramLanguage::Sinumerik || to != ProgramLanguage::Sinumerik;
+}
+
+Diagnostics mistakesOf(language::Program& program, const std::filesystem::path& path, ProgramLanguage language,
+                       const simulation::Setup* setup) {
+  using control::ControlKind;
+  if (language != ProgramLanguage::Sinumerik) {
+    Diagnostics mistakes = checkProgram(program, ControlKind::TNC640);
+    const bool elder = hasErrors(mistakes) && !hasErrors(checkProgram(program, ControlKind::iTNC530));
+    return elder ? Diagnostics() : mistakes;
+  }
+  Diagnostics ignored;  // globalDataFor names them
+  const auto declared = globalUserData(path, setup == nullptr ? std::filesystem::path() : setup->tables, ignored);
+  useMacros(program, declared);
+  std::set<std::string> names;
+  if (setup != nullptr) {
+    for (const control::sinumerik::DataKey& key : sinumerikData(*setup, ignored).store.keys())
+      names.insert(key.name);
+  }
+  return checkProgram(program, ControlKind::Sinumerik840Dsl, std::move(names), &declared);
 }
 
 conversion::GlobalData globalDataFor(const std::filesystem::path& path, const simulation::Setup* setup,
@@ -344,7 +389,7 @@ Conversion convert(language::Program& program, ProgramLanguage from, ProgramLang
     Conversion begun = convert(program, first, second, options);
     if (hasErrors(begun.mistakes)) return begun;
     const auto halfway = programOf(program.file(), begun.text, second);
-    Conversion ended = convert(*halfway, second, last);
+    Conversion ended = convert(*halfway, second, last, options);
     for (Diagnostic& each : ended.notCarriedOver) {
       placeInOriginal(each, program, begun.origins);
       begun.notCarriedOver.push_back(std::move(each));
@@ -352,10 +397,14 @@ Conversion convert(language::Program& program, ProgramLanguage from, ProgramLang
     ended.notCarriedOver = std::move(begun.notCarriedOver);
     return ended;
   };
-  if (from == ProgramLanguage::Sinumerik && to == ProgramLanguage::Klartext)
-    return conversion::toKlartext(dynamic_cast<sinumerik::SinumerikProgram&>(program), options.globalData,
-                                  options.control);
-  if (from == ProgramLanguage::Klartext) return conversion::toSinumerik(dynamic_cast<HeidenhainProgram&>(program));
+  if (from == ProgramLanguage::Sinumerik && to == ProgramLanguage::Klartext) {
+    Conversion conversion = conversion::toKlartext(dynamic_cast<sinumerik::SinumerikProgram&>(program),
+                                                   options.globalData, options.control, options.job);
+    readBack(conversion, program, to, options.control);
+    return conversion;
+  }
+  if (from == ProgramLanguage::Klartext)
+    return conversion::toSinumerik(dynamic_cast<HeidenhainProgram&>(program), options.job);
   return between(from, ProgramLanguage::Klartext, to);
 }
 

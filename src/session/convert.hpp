@@ -20,6 +20,8 @@ struct ConvertOptions {
   const conversion::GlobalData* globalData = nullptr;
   /// The HEIDENHAIN control to write for.
   control::ControlKind control = control::ControlKind::TNC640;
+  /// The programs that call each other with this one (session::jobOf); null if none are known.
+  const conversion::Job* job = nullptr;
 };
 
 /// The program, which is one of the language `from`, in the language `to`. What the blocks do is kept, and their
@@ -28,6 +30,11 @@ struct ConvertOptions {
 /// too.
 Conversion convert(language::Program& program, ProgramLanguage from, ProgramLanguage to,
                    const ConvertOptions& options = {});
+
+/// The mistakes of a program that is to be converted, as checkProgram finds them; a HEIDENHAIN program may be one for
+/// either control. `path`: where the program lies; `setup`: of its control, null if none is known.
+Diagnostics mistakesOf(language::Program& program, const std::filesystem::path& path, ProgramLanguage language,
+                       const simulation::Setup* setup = nullptr);
 
 /// The global user data of the control that a SINUMERIK program `path` is for: what definition files beside it declare
 /// and, with a setup, those in its folder of tables, with the values that initialization texts there have for them.

@@ -50,16 +50,16 @@ TEST(Convert, KnowsTheGlobalDataOfTheSetup) {
       "part.mpf", "G17 G90 G710\nT1 M6 D1\nG54\nG0 Z=_SAFE[1]\nG0 X=_SAFE[0] Y=_SIDE\n_SIDE=_SIDE+1\nMSG(_WHO)\nM30\n");
   const std::string twin = (folder / "part.h").string();
   const Answer alone = probewright({"convert", program, twin});
-  EXPECT_EQ(alone.exit, 1);
-  EXPECT_THAT(alone.errors, HasSubstr("_SAFE[1] is not defined in this program"));
-  EXPECT_THAT(alone.errors, HasSubstr("--setup"));
+  EXPECT_EQ(alone.exit, 2);
+  EXPECT_THAT(alone.errors, HasSubstr("nothing of the name _SAFE is declared"));
+  EXPECT_FALSE(std::filesystem::exists(twin));
 
   std::filesystem::create_directory(folder / "tables");
   folder.file("tables/UGUD.DEF",
               "DEF NCK REAL _SAFE[2]=SET(10,20)\nDEF CHAN REAL _SIDE=4\nDEF NCK STRING[20] _WHO\nM17\n");
   folder.file("tables/VALUES.INI", "_SAFE[1]=150\n_WHO=\"TONI\"\nM17\n");
   const std::string setup = folder.file("setup.toml", "control = { type = \"840Dsl\", tables = \"tables\" }\n");
-  const Answer answer = probewright({"convert", program, twin, "--setup", setup});
+  const Answer answer = probewright({"convert", program, twin, "--force", "--setup", setup});
   EXPECT_EQ(answer.exit, 1);
   EXPECT_THAT(answer.errors, HasSubstr("part.mpf:6:1: warning: _SIDE is global user data"));
   EXPECT_THAT(answer.errors, Not(HasSubstr("_SAFE")));
@@ -70,7 +70,7 @@ TEST(Convert, KnowsTheGlobalDataOfTheSetup) {
 
   // Definition files beside the program need no setup.
   folder.file("GUD4.DEF", "DEF NCK REAL _SAFE[2]\nDEF NCK REAL _SIDE\nDEF NCK STRING[9] _WHO\nM17\n");
-  EXPECT_THAT(probewright({"convert", program, twin}).errors, Not(HasSubstr("_SAFE")));
+  EXPECT_THAT(probewright({"convert", program, twin, "--force"}).errors, Not(HasSubstr("_SAFE")));
   EXPECT_EQ(probewright({"convert", program, twin, "--setup", (folder / "none.toml").string()}).exit, 2);
 }
 
@@ -104,6 +104,74 @@ TEST(Convert, WritesNothingIfTheProgramIsWrong) {
   EXPECT_FALSE(std::filesystem::exists(folder / "part.i"));
   EXPECT_EQ(probewright({"convert", klartext, (folder / "part.xyz").string()}).exit, 2);
   EXPECT_EQ(probewright({"convert", klartext, (folder / "part.mpf").string()}).exit, 2);
+}
+
+TEST(Convert, FindsTheMistakesThatCheckFinds) {
+  const Folder folder;
+  const std::string out = (folder / "out.mpf").string();
+  for (const int cycle : {400, 403, 408, 412, 414, 416, 420, 421, 427, 431, 461, 1410}) {
+    const std::string program = folder.file("bare.h", "0 BEGIN PGM BARE MM\n1 TOOL CALL 1 Z\n2 TCH PROBE " +
+                                                          std::to_string(cycle) + " X\n3 END PGM BARE MM\n");
+    const Answer answer = probewright({"convert", program, out});
+    EXPECT_EQ(answer.exit, 2) << cycle << answer.errors;
+    EXPECT_THAT(answer.errors, HasSubstr("bare.h:3:"));
+    EXPECT_FALSE(std::filesystem::exists(out)) << cycle;
+    EXPECT_EQ(probewright({"convert", program, (folder / "out.i").string()}).exit, 2) << cycle;
+  }
+  const std::string text =
+      folder.file("text.mpf", "T1 M6 D1\nCYCLE979(1,,,1,40,4,2,0,0,10,100,1,1,\"\",,0,,0,0,,,,,1,,1,1,1,1,1)\nM30\n");
+  EXPECT_EQ(probewright({"convert", text, (folder / "out.h").string()}).exit, 2);
+}
+
+TEST(Convert, LeavesFilesAlone) {
+  const Folder folder;
+  const std::string text = "0 BEGIN PGM PART MM\n1 L Z+100 R0 FMAX\n2 END PGM PART MM\n";
+  const std::string program = folder.file("part.h", text);
+  std::filesystem::create_symlink("part.h", folder / "link.i");
+  std::filesystem::create_hard_link(folder / "part.h", folder / "twin.mpf");
+  for (const char* out : {"part.h", "link.i", "twin.mpf"}) {
+    for (const bool force : {false, true}) {
+      std::vector<std::string> words = {"convert", program, (folder / out).string()};
+      if (force) words.emplace_back("--force");
+      EXPECT_EQ(probewright(words).exit, 2) << out;
+    }
+  }
+  EXPECT_EQ(textOf(program), text);
+  const std::string out = folder.file("old.mpf", "KEEP\n");
+  const Answer refused = probewright({"convert", program, out});
+  EXPECT_EQ(refused.exit, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("--force"));
+  EXPECT_EQ(textOf(out), "KEEP\n");
+  EXPECT_EQ(probewright({"convert", program, out, "--force"}).exit, 0);
+  EXPECT_THAT(textOf(out), HasSubstr("G0 Z100"));
+}
+
+/// Parameters that programs share are shared by the programs that are written.
+TEST(Convert, KeepsParametersOfAJobShared) {
+  const Folder folder;
+  const std::string setup = "[machine]\nname = \"mill3\"\n";
+  const std::string heidenhain = folder.file("h.toml", "control = { type = \"TNC640\" }\n" + setup);
+  const std::string sinumerik = folder.file("s.toml", "control = { type = \"840Dsl\" }\n" + setup);
+  const std::string main = folder.file(
+      "first.h",
+      "0 BEGIN PGM FIRST MM\n1 Q150 = 3\n2 Q1650 = 4\n3 QR7 = 1\n4 CALL PGM SECOND\n5 FN 10: IF +Q150 NE +8 GOTO LBL "
+      "1\n"
+      "6 FN 9: IF +QR7 EQU +2 GOTO LBL 2\n7 LBL 1\n8 FN 14: ERROR = 12\n9 LBL 2\n10 M30\n11 END PGM FIRST MM\n");
+  const std::string sub = folder.file(
+      "second.h", "0 BEGIN PGM SECOND MM\n1 Q150 = Q150 + 1 + Q1650\n2 QR7 = QR7 + 1\n3 END PGM SECOND MM\n");
+  ASSERT_EQ(probewright({"run", main, "--setup", heidenhain, "--out", (folder / "o1").string()}).exit, 0);
+  EXPECT_EQ(probewright({"convert", main, (folder / "FIRST.MPF").string()}).exit, 0);
+  EXPECT_EQ(probewright({"convert", sub, (folder / "SECOND.SPF").string()}).exit, 0);
+  const Answer there =
+      probewright({"run", (folder / "FIRST.MPF").string(), "--setup", sinumerik, "--out", (folder / "o2").string()});
+  EXPECT_EQ(there.exit, 0) << there.output << there.errors;
+  // And back, in a folder of their own.
+  std::filesystem::create_directory(folder / "back");
+  EXPECT_EQ(probewright({"convert", (folder / "FIRST.MPF").string(), (folder / "back/FIRST.H").string()}).exit, 0);
+  EXPECT_EQ(probewright({"convert", (folder / "SECOND.SPF").string(), (folder / "back/SECOND.H").string()}).exit, 0);
+  const Answer back = probewright(
+      {"run", (folder / "back/FIRST.H").string(), "--setup", heidenhain, "--out", (folder / "o3").string()});
+  EXPECT_EQ(back.exit, 0) << back.output << back.errors;
 }
 
 }  // namespace

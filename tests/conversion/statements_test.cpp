@@ -148,7 +148,7 @@ TEST(ConvertStatements, StructuresOfLostConditionsAreLostToTheirEnd) {
         toKlartext(std::string("IF R1>3\n") + structure + "WHILE R2<3\nR2=R2+1\nENDWHILE\nENDIF\nG0 X9\nM30\n");
     EXPECT_FALSE(lost.notCarriedOver.empty()) << structure;
     EXPECT_THAT(lost.text, HasSubstr("NOT CARRIED OVER")) << structure;
-    EXPECT_THAT(lost.text, HasSubstr("LBL \"ENDWHILE_")) << structure << lost.text;
+    EXPECT_THAT(lost.text, HasSubstr("LBL \"ENDWHILE")) << structure << lost.text;
     EXPECT_THAT(lost.text, HasSubstr("X+9")) << structure << lost.text;
   }
 }

@@ -69,7 +69,7 @@ inline Twin run(const std::string& text, ProgramLanguage language, const Planted
   Twin twin;
   twin.text = text;
   twin.language = language;
-  twin.finished = outcome.diagnostics.empty() && outcome.result.end == language::RunEnd::Finished;
+  twin.finished = !hasErrors(outcome.diagnostics) && outcome.result.end == language::RunEnd::Finished;
   if (!outcome.diagnostics.empty()) {
     twin.why = format(outcome.diagnostics.front());
   } else if (!outcome.result.diagnostics.empty()) {

@@ -1,6 +1,7 @@
 #include "language/sinumerik/argument_check.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <array>
 #include <optional>
@@ -133,6 +134,9 @@ std::vector<ArgumentMistake> argumentMistakes(const Block& block, const CallProg
                      fmt::format("argument {} of {}: {}", parameter.address + 1, cycle.name, what), advice, severity});
   };
 
+  const auto mode = std::ranges::find(cycle.parameters, "_AMODE", &cycles::Parameter::name);
+  const bool compares =
+      mode != cycle.parameters.end() && static_cast<long>(reader.at(mode->address).number.value_or(0)) % 10 == 1;
   // What the other arguments have to say depends on the measuring variant.
   std::optional<int> variant;
   for (const cycles::Parameter& parameter : cycle.parameters) {
@@ -158,6 +162,8 @@ std::vector<ArgumentMistake> argumentMistakes(const Block& block, const CallProg
     argument.number = given.number.value_or(0);
     if (!argument.given && parameter.required()) {
       report(parameter, fmt::format("{} ({}) is missing", parameter.name, parameter.meaning), Severity::Error);
+    } else if (parameter.name == "S_KNUM1" && argument.given && argument.number == 0 && compares) {
+      continue;  // judged by the tolerance, and meant to correct nothing
     } else if (const auto lacks = cycles::sinumerik::requirementComplaint(cycle, parameter, argument, variant)) {
       report(parameter, lacks->text, lacks->refused ? Severity::Error : Severity::Warning);
     }

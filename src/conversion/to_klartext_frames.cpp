@@ -1,0 +1,161 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "conversion/to_klartext.hpp"
+
+/// Frames of SINUMERIK programs in Klartext, and what they do to the coordinates of touch probe cycles.
+namespace probewright::conversion {
+
+using namespace language;
+
+namespace {
+
+/// The coordinates of a place, turned by the angle about the tool axis.
+void turn(Place& place, double degrees) {
+  const double c = std::cos(degrees * std::numbers::pi / 180), s = std::sin(degrees * std::numbers::pi / 180);
+  const Quantity main = place[0], minor = place[1];
+  place[0] = main * c - minor * s;
+  place[1] = main * s + minor * c;
+}
+
+}  // namespace
+
+void ToKlartext::writeShift(const std::array<Quantity, 3>& shift) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (shiftsEver_[static_cast<std::size_t>(axis(i)[0] - 'X')])
+      parts.push_back(fmt::format("CYCL DEF 7.{} {}{}", parts.size() + 1, axis(i), formulas_.value(shift[i])));
+  if (parts.empty()) return;
+  line("CYCL DEF 7.0 DATUM SHIFT");
+  for (const std::string& part : parts)
+    out_.line(part);
+}
+
+void ToKlartext::writeRotation(const Quantity& angle) {
+  const std::string text = formulas_.value(angle);
+  line("CYCL DEF 10.0 ROTATION");
+  out_.line(fmt::format("CYCL DEF 10.1 ROT{}", text));
+}
+
+/// A quantity that keeps its value when variables change.
+Quantity ToKlartext::frozen(const Quantity& quantity, const std::string& name) {
+  if (quantity.isNumber()) return quantity;
+  const std::string own = formulas_.define(name, false);
+  line(fmt::format("{} = {}", own, expressionText(quantity, true)));
+  return Quantity::of(own);
+}
+
+void ToKlartext::transform(const Block& block, const Transform& transform) {
+  const std::string_view name = block.at(transform.name);
+  const auto words = std::span<const Word>(block.words).subspan(transform.words.first, transform.words.count);
+  const bool adds = name == "ATRANS" || name == "AROT";
+  const bool shifts = name == "TRANS" || name == "ATRANS", turns = name == "ROT" || name == "AROT";
+  if (!shifts && !turns) throw NotCarriedOver(fmt::format("{} has no twin in Klartext", name), "write it by hand");
+  if (adds && (!frame_.known || !frame_.rotation)) {
+    throw NotCarriedOver("which frame this one is added to is known only when the program runs",
+                         "write it as TRANS or ROT, or put both into one part of the program");
+  }
+  const bool turned = !frame_.rotation || !(*frame_.rotation == 0);
+  std::array<Quantity, 3> shift = adds ? frame_.shift : std::array<Quantity, 3>{};
+  Quantity angle = adds ? *frame_.rotation : Quantity();
+  if (shifts) {
+    if (adds && turned) throw NotCarriedOver("a shift along turned axes has no twin in Klartext");
+    for (const Word& word : words) {
+      const auto index = planeIndex(word.address);
+      if (!index) throw NotCarriedOver("shifts of rotary axes are not converted");
+      shift[*index] = frozen(shift[*index] + quantity(block, word.value), fmt::format("shift {}", axis(*index)));
+    }
+  } else {
+    const bool plain =
+        words.size() == 1 && (words[0].address == addressOf(axis(2)) || words[0].address == addressOf("RPL"));
+    if (!plain && !words.empty()) throw NotCarriedOver("rotations out of the working plane are not converted");
+    if (!words.empty()) angle = frozen(angle + quantity(block, words[0].value), "rotation of the frame");
+  }
+  const bool moved = !frame_.known || !(shift == frame_.shift);
+  // TRANS and ROT take back what the other has set.
+  if (turned && !turns) writeRotation(0);
+  if (moved) writeShift(shift);
+  if (turns) writeRotation(angle);
+  frame_ = {.known = true, .shift = shift, .rotation = angle};
+  forgetPosition();
+}
+
+void ToKlartext::readFrame() {
+  if (frame_.known) return;
+  for (std::size_t i = 0; i < 3; ++i) {
+    frame_.shift[i] = Quantity();
+    if (!shiftsEver_[static_cast<std::size_t>(axis(i)[0] - 'X')]) continue;
+    const std::string own = formulas_.define(fmt::format("shift {}", axis(i)), false);
+    line(fmt::format("FN 18: SYSREAD {} = ID220 NR2 IDX{}", own, axis(i)[0] - 'X' + 1));
+    if (millimetre_ != 1) line(fmt::format("{0} = {0} / 25.4", own));
+    frame_.shift[i] = Quantity::of(own);
+  }
+  frame_.known = true;
+}
+
+bool ToKlartext::leaveFrame(MeasuringTask& task) {
+  if (!frame_.rotation) {
+    throw NotCarriedOver("whether the coordinate system is turned here is known only when the program runs",
+                         "touch probe cycles permit no rotation: take it back with ROT in front of the cycle");
+  }
+  readFrame();
+  const bool shifted = std::ranges::any_of(frame_.shift, [](const Quantity& each) { return !(each == 0); });
+  const bool turned = !(*frame_.rotation == 0);
+  if (!shifted && !turned) return false;
+  const bool calibrates = task.feature == Feature::ProbeInRing || task.feature == Feature::ProbeOnBall ||
+                          task.feature == Feature::ProbeLength;
+  if (turned && (!isRound(task.feature) || !frame_.rotation->isNumber() || task.correction != Correction::None)) {
+    throw NotCarriedOver("touch probe cycles permit no rotation by the program, and this feature lies along its axes",
+                         "take the rotation back with ROT, and turn the zero offset instead");
+  }
+  if (calibrates && turned) throw NotCarriedOver("touch probe cycles permit no rotation by the program");
+  const double degrees = frame_.rotation->number();
+  const auto leave = [&](Place& place) {
+    if (turned) turn(place, degrees);
+    for (std::size_t i = 0; i < 3; ++i)
+      place[i] = place[i] + frame_.shift[i];
+  };
+  leave(task.place);
+  for (Place& place : task.further)
+    leave(place);
+  if (task.feature == Feature::Surface) {
+    task.size[0] = task.size[0] + frame_.shift[static_cast<std::size_t>(task.axis)];
+  }
+  task.clearance = task.clearance + frame_.shift[2];
+  for (std::size_t i = 0; i < 3; ++i)
+    if (task.wish[i]) *task.wish[i] = *task.wish[i] + frame_.shift[i];
+  if (isRound(task.feature)) task.angle = task.angle + degrees;
+  if (turned) writeRotation(0);
+  if (shifted) writeShift({});
+  return true;
+}
+
+void ToKlartext::comeBackToFrame(const MeasuringTask& task, Results& results) {
+  const bool shifted = std::ranges::any_of(frame_.shift, [](const Quantity& each) { return !(each == 0); });
+  if (shifted) writeShift(frame_.shift);
+  if (!(*frame_.rotation == 0)) writeRotation(*frame_.rotation);
+  const auto found = [&](Meaning meaning) -> std::optional<Quantity> {
+    const auto result = results.find(meaning);
+    return result == results.end() ? std::nullopt : std::optional(Quantity::of(result->second));
+  };
+  const auto put = [&](Meaning meaning, const Quantity& value) {
+    results[meaning] = fmt::format("({})", expressionText(value, true));
+  };
+  if (const auto coordinate = found(Meaning::Coordinate)) {
+    put(Meaning::Coordinate, *coordinate - frame_.shift[static_cast<std::size_t>(task.axis)]);
+  }
+  const auto main = found(Meaning::Centre1), minor = found(Meaning::Centre2);
+  if (!main || !minor) return;
+  Place centre = {*main - frame_.shift[0], *minor - frame_.shift[1], {}};
+  turn(centre, -frame_.rotation->number());
+  put(Meaning::Centre1, centre[0]);
+  put(Meaning::Centre2, centre[1]);
+  // Deviations count along the axes, too.
+  results.erase(Meaning::Centre1Deviation);
+  results.erase(Meaning::Centre2Deviation);
+}
+
+}  // namespace probewright::conversion

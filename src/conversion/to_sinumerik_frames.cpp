@@ -1,0 +1,217 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "conversion/modes.hpp"
+#include "conversion/to_sinumerik.hpp"
+
+/// Frames of HEIDENHAIN programs in the language of a SINUMERIK, on every way through the program.
+namespace probewright::conversion {
+
+using namespace language;
+
+namespace {
+
+bool isShift(std::string_view name) { return name == "CYCL DEF 7" || name == "TRANS DATUM AXIS"; }
+bool isRotation(std::string_view name) {
+  return name == "CYCL DEF 10" || name == "TRANS ROTATION" || name == "TRANS ROTATION RESET";
+}
+
+std::optional<std::size_t> letterOf(std::uint32_t address) {
+  return address >= 'X' && address <= 'Z' ? std::optional<std::size_t>(address - 'X') : std::nullopt;
+}
+
+}  // namespace
+
+bool ToSinumerik::Frame::isNone() const {
+  return known && rotation && *rotation == 0 &&
+         std::ranges::all_of(shift, [](const Quantity& each) { return each == 0; });
+}
+
+void ToSinumerik::writeFrame(const Frame& frame) {
+  // The frames of both act together: shift, then rotation.
+  std::string words;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!(frame.shift[i] == 0)) words += fmt::format(" {}", addressWord(axis(i), frame.shift[i]));
+  out_.line(fmt::format("TRANS{}", words));
+  if (!(*frame.rotation == 0)) out_.line(fmt::format("AROT {}", addressWord(axis(2), *frame.rotation)));
+}
+
+void ToSinumerik::transform(const Block& block, const Transform& transform) {
+  const std::string_view name = block.at(transform.name);
+  const auto words = std::span<const Word>(block.words).subspan(transform.words.first, transform.words.count);
+  if (name == "CYCL DEF 247") {
+    const Quantity row = words.empty() ? Quantity() : quantity(block, words.front().value);
+    if (!row.isNumber()) throw NotCarriedOver("the row of the preset table is known only when the program runs");
+    const int number = static_cast<int>(row.number());
+    if (number < 0 || number > 99) throw NotCarriedOver("settable zero offsets go from 1 (G54) to 99 (G599)");
+    out_.line(settableCode(number));
+    // Cycle 247 takes the frames of the program back.
+    if (!frame_.isNone()) out_.line("TRANS");
+    frame_ = {};
+    activeRow_ = number == 0 ? 99 : number;
+    forgetPosition();
+    return;
+  }
+  requireAxis();
+  if (name.starts_with("PLANE ")) return plane(block, transform);
+  Frame frame = frame_;
+  const auto frozen = [&](const Quantity& value, const std::string& what) {
+    if (value.isNumber()) return value;
+    const std::string own = formulas_.declare(fmt::format("_FRAME_{}", what));
+    out_.line(fmt::format("{}={}", own, sinumerikText(value)));
+    return Quantity::of(own);
+  };
+  if (isShift(name)) {
+    std::array<bool, 3> given{};
+    for (const Word& word : words) {
+      const auto index = planeIndex(word.address);
+      if (!index) throw NotCarriedOver("datum tables and shifts of rotary axes have no twin on a SINUMERIK");
+      const bool incremental = word.mode == WordMode::Incremental;
+      given[*index] = !incremental;
+      const Quantity value = quantity(block, word.value);
+      frame.shift[*index] = frozen(incremental ? frame.shift[*index] + value : value, axis(*index));
+    }
+    if (words.empty()) throw NotCarriedOver("datum tables have no twin on a SINUMERIK");
+    frame.known = frame.known || std::ranges::all_of(given, [](bool each) { return each; });
+  } else if (name == "TRANS DATUM RESET") {
+    frame.known = true;
+    frame.shift = {};
+  } else if (isRotation(name)) {
+    if (words.empty()) {
+      frame.rotation = 0;
+    } else {
+      const Quantity angle = quantity(block, words.front().value);
+      const bool incremental = words.front().mode == WordMode::Incremental;
+      if (!incremental) {
+        frame.rotation = frozen(angle, "ANGLE");
+      } else if (frame.rotation) {
+        frame.rotation = frozen(*frame.rotation + angle, "ANGLE");
+      }
+    }
+  } else {
+    throw NotCarriedOver(fmt::format("{} has no twin on a SINUMERIK", name), "write frames by hand");
+  }
+  if (!frame.known || !frame.rotation) {
+    throw NotCarriedOver("which shift and rotation are in effect here is known only when the program runs",
+                         "reset both in front of this block, or give shifts for X, Y and Z");
+  }
+  writeFrame(frame);
+  frame_ = frame;
+  forgetPosition();
+}
+
+void ToSinumerik::follow(const Block& block, Modes& modes) {
+  for (const Instruction& instruction : block.instructions) {
+    if (const auto* tool = std::get_if<ToolCall>(&instruction); tool != nullptr && tool->axis != 0) {
+      modes.toolAxis = tool->axis;
+    }
+    if (const auto* cycle = std::get_if<CycleCall>(&instruction)) {
+      constexpr std::uint32_t numberInTable = 305;
+      for (std::uint32_t i = 0; i < cycle->parameters.count; ++i) {
+        const Word& word = block.words[cycle->parameters.first + i];
+        const auto row = literalOf(block, word.value);
+        if (word.address == numberInTable && !(row && *row != 0)) {
+          modes.row = row ? std::optional(99) : std::nullopt;  // row 0 is in effect then
+        }
+      }
+    }
+    const auto* transform = std::get_if<Transform>(&instruction);
+    if (transform == nullptr) continue;
+    const std::string_view name = block.at(transform->name);
+    const auto words = std::span<const Word>(block.words).subspan(transform->words.first, transform->words.count);
+    const auto first = words.empty() ? std::optional<double>() : literalOf(block, words.front().value);
+    if (name == "CYCL DEF 247") {
+      modes.shift = std::array<double, 3>{};
+      modes.rotation = 0;
+      modes.row = first ? std::optional(*first == 0 ? 99 : static_cast<int>(*first)) : std::nullopt;
+    } else if (isShift(name)) {
+      std::array<bool, 3> given{};
+      std::array<double, 3> absolute{};
+      for (const Word& word : words) {
+        const auto letter = letterOf(word.address);
+        const auto value = literalOf(block, word.value);
+        const bool incremental = word.mode == WordMode::Incremental;
+        if (!letter || !value) {
+          modes.shift.reset();
+          return;
+        }
+        if (modes.shift) (*modes.shift)[*letter] = incremental ? (*modes.shift)[*letter] + *value : *value;
+        given[*letter] = !incremental;
+        absolute[*letter] = *value;
+      }
+      if (std::ranges::all_of(given, [](bool each) { return each; })) modes.shift = absolute;
+    } else if (name == "TRANS DATUM RESET") {
+      modes.shift = std::array<double, 3>{};
+    } else if (isRotation(name)) {
+      const bool incremental = !words.empty() && words.front().mode == WordMode::Incremental;
+      if (words.empty()) {
+        modes.rotation = 0;
+      } else if (!first || (incremental && !modes.rotation)) {
+        modes.rotation.reset();
+      } else {
+        modes.rotation = incremental ? *modes.rotation + *first : *first;
+      }
+    }
+  }
+}
+
+bool ToSinumerik::agree(Modes& with, const Modes& other) {
+  const Modes before = with;
+  const auto meet = [](auto& one, const auto& two) {
+    if (one != two) one.reset();
+  };
+  meet(with.toolAxis, other.toolAxis);
+  meet(with.shift, other.shift);
+  meet(with.rotation, other.rotation);
+  meet(with.row, other.row);
+  return !(with == before);
+}
+
+void ToSinumerik::surveyModes() {
+  if (!graph_.branches()) return;
+  Block block;
+  Diagnostics ignored;
+  std::vector<bool> neutral(graph_.blocks().size());
+  for (std::size_t i = 0; i < neutral.size(); ++i) {
+    program_.parse(graph_.blocks()[i].position, block, ignored);
+    Modes modes;
+    modes.toolAxis = 'U';  // values that no block sets
+    modes.shift = std::array<double, 3>{0.0123456789, 0.0123456789, 0.0123456789};
+    modes.rotation = 0.0123456789;
+    modes.row = -1;
+    const Modes before = modes;
+    follow(block, modes);
+    neutral[i] = modes == before;
+  }
+  const auto followBlock = [&](std::size_t place, Modes& modes) {
+    if (neutral[place]) return;
+    program_.parse(graph_.blocks()[place].position, block, ignored);
+    follow(block, modes);
+  };
+  entries_ = modesWhereWaysMeet<Modes>(graph_, followers(graph_, neutral), followBlock, agree);
+}
+
+void ToSinumerik::adopt(const Block& block) {
+  const auto found = entries_.find(block.position.offset);
+  if (found == entries_.end()) return;
+  const Modes& modes = found->second;
+  axisDoubtful_ = !modes.toolAxis;
+  if (modes.toolAxis && (*modes.toolAxis == 'X' || *modes.toolAxis == 'Y' || *modes.toolAxis == 'Z')) {
+    toolAxis_ = *modes.toolAxis;
+  }
+  frame_.known = modes.shift.has_value();
+  frame_.rotation = modes.rotation ? std::optional(Quantity(*modes.rotation)) : std::nullopt;
+  for (std::size_t i = 0; i < 3; ++i)
+    frame_.shift[i] = modes.shift ? (*modes.shift)[static_cast<std::size_t>(axis(i)[0] - 'X')] : 0;
+  activeRow_ = modes.row;
+}
+
+void ToSinumerik::requireAxis() const {
+  if (axisDoubtful_) {
+    throw NotCarriedOver("the tool axis depends on the way that leads to this block",
+                         "call the tool with its axis in front of it");
+  }
+}
+
+}  // namespace probewright::conversion

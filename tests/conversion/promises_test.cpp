@@ -1,0 +1,322 @@
+#include <gmock/gmock.h>
+
+#include "conversion/parameter_texts.hpp"
+#include "conversion/twins.hpp"
+#include "session/check.hpp"
+
+/// Exit code 0 means that nothing was lost: what is hard to carry over is carried over, or named.
+namespace probewright::testing_support {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+PlantedPart plainTable() {
+  PlantedPart part;
+  part.bench.preset(1, {10, 20, -300});
+  return part;
+}
+
+/// A block with a hole about its origin, where the program expects it but for `off`.
+PlantedPart blockWithHole(double diameter, const Vector3& off = Vector3::Zero()) {
+  PlantedPart part{Bench(ControlKind::TNC640, "mill3")};
+  part.machineFromPreset = pose({20, -10, -400}, {0, 0, 0});
+  part.bench.preset(1, {20, -10, -400}, 0);
+  part.bench.believedProbe().maximumTravel = 20;
+  part.bench.probeOf(100, 2);
+  part.machineFromPart = part.machineFromPreset * pose(off, {0, 0, 0});
+  part.bench.part(simulation::Ring(diameter / 2, diameter / 2 + 40, -30), part.machineFromPart);
+  return part;
+}
+
+std::string inspectHole(double nominal, double upper, double lower) {
+  return probe(421, {{273, 0},
+                     {274, 0},
+                     {262, nominal},
+                     {325, 0},
+                     {247, 90},
+                     {261, -8},
+                     {320, 1},
+                     {260, 30},
+                     {301, 0},
+                     {275, upper},
+                     {276, lower},
+                     {279, 0},
+                     {280, 0},
+                     {281, 0},
+                     {309, 0},
+                     {330, 0},
+                     {423, 4},
+                     {365, 1}});
+}
+
+std::string sinumerikProgram(const std::string& blocks) {
+  return "G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\n" + blocks + "M30\n";
+}
+
+control::Verdict verdictOf(const Twin& twin) {
+  control::Verdict verdict = control::Verdict::None;
+  for (const control::CycleRecord& cycle : twin.journal.cycles)
+    verdict = std::max(verdict, cycle.verdict);
+  return verdict;
+}
+
+TEST(ConvertPromises, SubprogramsReturnEarly) {
+  const PlantedPart part = plainTable();
+  for (const char* blocks :
+       {// Two LBL 0, and a jump over the first one.
+        "Q3 = 1\nCALL LBL 1\nQ3 = 2\nCALL LBL 1\nL X+Q1 Y+Q2 R0 FMAX M30\n"
+        "LBL 1\nFN 9: IF +Q3 EQU +1 GOTO LBL 10\nQ1 = Q1 + 1\nLBL 0\nLBL 10\nQ2 = Q2 + 5\nLBL 0\n",
+        // A jump out, and back from there.
+        "CALL LBL \"AB\"\nL X+Q1 Y+Q2 R0 FMAX M30\nLBL \"AB\"\nQ1 = Q1 + 1\nFN 12: IF +Q1 LT +5 GOTO LBL \"AC\"\n"
+        "Q2 = Q2 + 7\nLBL 0\nLBL \"AC\"\nQ2 = Q2 + 1\nFN 9: IF +0 EQU +0 GOTO LBL \"AB\"\n",
+        // A repetition that is left counts on when it is met again.
+        "LBL 2\nQ1 = Q1 + 1\nFN 9: IF +Q1 EQU +2 GOTO LBL 3\nCALL LBL 2 REP 3\nLBL 3\nQ2 = Q2 + 1\n"
+        "FN 12: IF +Q2 LT +3 GOTO LBL 2\nL X+Q1 Y+Q2 R0 FMAX M30\n"}) {
+    const Twin original = runKlartext(klartextProgram("Q1 = 0\nQ2 = 0\n" + std::string(blocks)), part);
+    const Twin there = runConverted(original, part);
+    ASSERT_TRUE(ranWhole(original));
+    ASSERT_TRUE(ranWhole(there));
+    EXPECT_TRUE(sameEnd(original, there));
+  }
+}
+
+TEST(ConvertPromises, LabelsThatStandTwiceGetNamesOfTheirOwn) {
+  const PlantedPart part = plainTable();
+  const std::string blocks =
+      "R1=0\nR2=0\nAGAIN: R1=R1+1\nIF R1<3 GOTOB AGAIN\nGOTOF AGAIN\nR2=50\nAGAIN: R2=R2+1\nIF R2<4 GOTOB AGAIN\n"
+      "G0 X=R1 Y=R2\n";
+  const Twin original = runSinumerik(sinumerikProgram(blocks), part);
+  const Twin there = runConverted(original, part);
+  ASSERT_TRUE(ranWhole(original));
+  ASSERT_TRUE(ranWhole(there));
+  EXPECT_TRUE(sameEnd(original, there));
+  EXPECT_THAT(there.text, HasSubstr("LBL \"AGAIN_2\""));
+}
+
+TEST(ConvertPromises, OverlappingSectionsComeBack) {
+  const PlantedPart part = plainTable();
+  const std::string blocks =
+      "R1=0\nR2=0\nBEGINA: R1=R1+1\nBEGINB: R2=R2+1\nENDB: R1=R1+10\nENDA: R2=R2+100\n"
+      "REPEAT BEGINA ENDA P=2\nREPEAT BEGINB ENDB P=5\nR9=R9+1\nG0 X=R1/10 Y=R2/10\n";
+  const Twin original = runSinumerik(sinumerikProgram(blocks), part);
+  const Twin there = runConverted(original, part);
+  ASSERT_TRUE(ranWhole(original));
+  ASSERT_TRUE(ranWhole(there));
+  EXPECT_TRUE(sameEnd(original, there));
+}
+
+/// What a way sets that not all ways set is named where it counts.
+TEST(ConvertPromises, NamesWhatDependsOnTheWay) {
+  const session::Conversion doubtful = toKlartext(sinumerikProgram("IF R1==1\nG91\nENDIF\nG0 X5\nG90\nG0 X7\n"));
+  ASSERT_EQ(doubtful.notCarriedOver.size(), 1U) << doubtful.text;
+  EXPECT_THAT(doubtful.notCarriedOver[0].message, HasSubstr("G90 or G91"));
+  EXPECT_EQ(doubtful.notCarriedOver[0].place.line, 8U);
+  const session::Conversion agreed = toKlartext(sinumerikProgram("IF R1==1\nG91\nELSE\nG91\nENDIF\nG0 X5\n"));
+  EXPECT_TRUE(agreed.notCarriedOver.empty()) << format(agreed.notCarriedOver.front());
+  EXPECT_THAT(agreed.text, HasSubstr("L IX+5"));
+  const session::Conversion shifted = toSinumerik(
+      klartextProgram("LBL 1\nCYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 IX+10\nL X+0 R0 FMAX\nCALL LBL 1 REP 2\n"));
+  ASSERT_EQ(shifted.notCarriedOver.size(), 1U) << shifted.text;
+  EXPECT_THAT(shifted.notCarriedOver[0].message, HasSubstr("which shift"));
+}
+
+TEST(ConvertPromises, CountsShiftsIntoTouchProbeCycles) {
+  const PlantedPart part = blockWithHole(40, {0.3, -0.2, 0});
+  for (const char* frame : {"TRANS X-30 Y12\n", "R1=-30\nTRANS X=R1 Y12 Z3\nR1=7\n", "TRANS X-30 Y12\nAROT Z20\n"}) {
+    SCOPED_TRACE(frame);
+    const bool turned = std::string_view(frame).find("AROT") != std::string_view::npos;
+    // The hole lies at 0, 0 of the zero offset.
+    const double c = std::cos(radians(20)), s = std::sin(radians(20));
+    const Vector2 place = turned ? Vector2(30 * c - 12 * s, -30 * s - 12 * c) : Vector2(30, -12);
+    const double z = std::string_view(frame).find("Z3") != std::string_view::npos ? -13 : -10;
+    const std::string blocks = std::string(frame) +
+                               fmt::format("G0 X{:.9f} Y{:.9f}\nG0 Z{}\n", place.x(), place.y(), z) +
+                               sinumerikCall("CYCLE977", {{"S_MVAR", turned ? 1 : 101},
+                                                          {"S_KNUM", turned ? 0 : 10001},
+                                                          {"S_PRNUM", 1},
+                                                          {"S_SETV", 40},
+                                                          {"S_FA", 4},
+                                                          {"S_TSA", 8},
+                                                          {"S_NMSP", 1}}) +
+                               "R5=_OVR[5]\nR6=_OVR[6]\nG0 Z50\nG0 X=R5 Y=R6\n";
+    const Twin original = runSinumerik(sinumerikProgram(blocks), part);
+    const Twin there = runConverted(original, part);
+    ASSERT_TRUE(ranWhole(original));
+    ASSERT_TRUE(ranWhole(there));
+    EXPECT_TRUE(sameEnd(original, there));
+    EXPECT_TRUE(sameOrigin(original, there));
+  }
+  // A pocket along turned axes has no touch probe cycle.
+  const session::Conversion pocket = toKlartext(sinumerikProgram(
+      "ROT Z5\n" +
+      sinumerikCall("CYCLE977", {{"S_MVAR", 5}, {"S_SETV0", 30}, {"S_SETV1", 20}, {"S_FA", 4}, {"S_TSA", 8}})));
+  ASSERT_EQ(pocket.notCarriedOver.size(), 1U) << pocket.text;
+  EXPECT_THAT(pocket.notCarriedOver[0].message, HasSubstr("permit no rotation"));
+}
+
+TEST(ConvertPromises, PresetsKeepTheFramesOfTheOtherControl) {
+  PlantedPart part = plainTable();
+  part.bench.preset(2, {-30, 5, -280}, 0);
+  const Twin original = runSinumerik(sinumerikProgram("TRANS X11 Y3\nG55\nG0 X1 Y2\n"), part);
+  const Twin there = runConverted(original, part);
+  ASSERT_TRUE(ranWhole(there));
+  EXPECT_TRUE(sameEnd(original, there));
+  const Twin klartext = runKlartext(
+      klartextProgram(
+          "CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+11\nCYCL DEF 247 PRESET ~\n  Q339=+2\nL X+1 Y+2 R0 FMAX\n"),
+      part);
+  const Twin sinumerik = runConverted(klartext, part);
+  ASSERT_TRUE(ranWhole(sinumerik));
+  EXPECT_TRUE(sameEnd(klartext, sinumerik));
+}
+
+/// Beyond S_TSA nothing stays corrected, and both programs stop.
+TEST(ConvertPromises, MonitorsTheSafeArea) {
+  for (const int task : {1, 101}) {
+    for (const double off : {0.31, 0.05}) {
+      SCOPED_TRACE(fmt::format("{} {}", task, off));
+      const PlantedPart part = blockWithHole(40.02, {off, -off / 2, 0});
+      const double safe = task == 101 ? 0.2 : 0.01;  // of the centre, or of the diameter
+      const Twin original =
+          runSinumerik(sinumerikProgram("G0 X0 Y0\nG0 Z-10\n" +
+                                        sinumerikCall("CYCLE977", {{"S_MVAR", task},
+                                                                   {"S_KNUM", task == 101 ? 10001 : 0},
+                                                                   {"S_PRNUM", 1},
+                                                                   {"S_SETV", 40},
+                                                                   {"S_FA", 4},
+                                                                   {"S_TSA", safe},
+                                                                   {"S_NMSP", 1}}) +
+                                        "G0 Z50\nX7\n"),
+                       part);
+      const bool exceeded = task == 1 || off > safe;
+      const Twin there = runConverted(original, part);
+      EXPECT_TRUE(there.lost.empty()) << format(there.lost.front());
+      EXPECT_EQ(original.finished, !exceeded) << original.why;
+      EXPECT_EQ(there.finished, !exceeded) << there.why << there.text;
+      EXPECT_TRUE(sameOrigin(original, there));
+      if (exceeded) {
+        EXPECT_THAT(there.why, HasSubstr("FN 14"));
+      }
+    }
+  }
+}
+
+TEST(ConvertPromises, JudgesByLimitsThatNobodyReads) {
+  for (const double size : {40.05, 40.005, 39.9}) {
+    const PlantedPart part = blockWithHole(size);
+    const Twin original = runKlartext(klartextProgram(inspectHole(40, 40.02, 39.99)), part);
+    const Twin there = runConverted(original, part);
+    ASSERT_TRUE(ranWhole(original));
+    ASSERT_TRUE(ranWhole(there));
+    EXPECT_EQ(verdictOf(original), size > 40.02   ? control::Verdict::Scrap
+                                   : size < 39.99 ? control::Verdict::Rework
+                                                  : control::Verdict::Good);
+    EXPECT_EQ(verdictOf(there), verdictOf(original)) << there.text;
+    const Twin back = runConverted(there, part);
+    ASSERT_TRUE(ranWhole(back));
+    EXPECT_EQ(verdictOf(back), verdictOf(original)) << back.text;
+  }
+  // Limits that the cycle cannot judge by are named.
+  const std::string pocket = probe(423, {{273, 0},
+                                         {274, 0},
+                                         {282, 30},
+                                         {283, 20},
+                                         {261, -8},
+                                         {320, 1},
+                                         {260, 30},
+                                         {301, 0},
+                                         {284, 30.1},
+                                         {285, 29.9},
+                                         {286, 20.3},
+                                         {287, 19.9},
+                                         {279, 0},
+                                         {280, 0},
+                                         {281, 0},
+                                         {309, 0},
+                                         {330, 0}});
+  const session::Conversion there = toSinumerik(klartextProgram(pocket));
+  ASSERT_EQ(there.notCarriedOver.size(), 1U) << there.text;
+  EXPECT_THAT(there.notCarriedOver[0].message, HasSubstr("limits"));
+  EXPECT_THAT(there.text, HasSubstr("SETAL(67000"));
+}
+
+TEST(ConvertPromises, MeasuresSmallHolesFromTheirMiddle) {
+  const PlantedPart part = blockWithHole(8.03, {0.3, 0.2, 0});
+  const Twin original = runKlartext(klartextProgram(inspectHole(8, 0, 0) + "L X+Q151 Y+Q152 R0 FMAX\n"), part);
+  const Twin there = runConverted(original, part);
+  ASSERT_TRUE(ranWhole(original));
+  ASSERT_TRUE(ranWhole(there));
+  EXPECT_TRUE(sameEnd(original, there));
+}
+
+/// A spigot stands between the points of a plane: both programs go over it.
+TEST(ConvertPromises, GoesUpBetweenThePointsOfAPlane) {
+  PlantedPart part{Bench(ControlKind::TNC640, "mill3")};
+  part.machineFromPreset = pose({20, -10, -400}, {0, 0, 0});
+  part.bench.preset(1, {20, -10, -400}, 0);
+  part.bench.believedProbe().maximumTravel = 20;
+  part.bench.probeOf(100, 2);
+  part.machineFromPart = part.machineFromPreset * pose({0, 0, 0}, {0.2, 0.1, 0});
+  part.bench.part(simulation::Box({-60, -40, -20}, {60, 60, 0}), part.machineFromPart);
+  part.bench.part(simulation::RoundBar(6, 0, 15), part.machineFromPart * pose({0, -30, 0}, {0, 0, 0}));
+  const std::string plane = probe(431, {{263, -50},
+                                        {264, -30},
+                                        {294, 0},
+                                        {265, 50},
+                                        {266, -30},
+                                        {295, 0},
+                                        {296, -50},
+                                        {297, 50},
+                                        {298, 0},
+                                        {320, 3},
+                                        {260, 30},
+                                        {281, 0}});
+  const Twin original = runKlartext(klartextProgram(plane + "L X+Q158 Y+Q159 R0 FMAX\n"), part);
+  const Twin there = runConverted(original, part);
+  ASSERT_TRUE(ranWhole(original));
+  ASSERT_TRUE(ranWhole(there));
+  EXPECT_TRUE(sameEnd(original, there));
+}
+
+TEST(ConvertPromises, WritesTheParameterTextsOfTheControl) {
+  const session::Conversion there = toKlartext(sinumerikProgram(
+      "G0 X0 Y0\nG0 Z5\n" +
+      sinumerikCall(
+          "CYCLE978",
+          {{"S_MVAR", 100}, {"S_KNUM", 10001}, {"S_SETV", 0}, {"S_FA", 4}, {"S_TSA", 8}, {"S_MA", 3}, {"S_MD", 2}})));
+  EXPECT_THAT(there.text, HasSubstr("Q263=+0 ;1ST POINT 1ST AXIS ~\n"));
+  EXPECT_THAT(there.text, HasSubstr("Q264=+0 ;1ST POINT 2ND AXIS ~\n"));
+  EXPECT_THAT(there.text, HasSubstr("Q294=+0 ;1ST POINT 3RD AXIS ~\n"));
+  for (const int cycle : {400, 404, 408, 409, 410, 411, 412, 413, 414, 415, 417, 419,  420,
+                          421, 422, 423, 424, 425, 426, 427, 431, 460, 461, 462, 1410, 1420}) {
+    for (const cycles::Parameter& parameter : cycles::heidenhainCycle(cycle)->parameters) {
+      const auto text = conversion::parameterText(cycle, static_cast<int>(parameter.address));
+      EXPECT_NE(text, "PARAMETER") << cycle << " " << parameter.name;
+    }
+  }
+}
+
+TEST(ConvertPromises, KeepsCommentsOfSeveralLines) {
+  const session::Conversion there = toSinumerik(klartextProgram("; FIRST ~\n  SECOND ~\n  THIRD\nL X+1 R0 FMAX\n"));
+  EXPECT_THAT(there.text, HasSubstr("; FIRST\n; SECOND\n; THIRD\n")) << there.text;
+}
+
+TEST(ConvertPromises, NamesWhatItDrops) {
+  const session::Conversion shortest = toSinumerik(klartextProgram("L X+1 R0 FMAX M126\n"));
+  ASSERT_EQ(shortest.notCarriedOver.size(), 1U);
+  EXPECT_THAT(shortest.notCarriedOver[0].message, HasSubstr("M126"));
+  EXPECT_THAT(shortest.text, HasSubstr("G0 X1\n"));
+  for (const char* call : {"CYCLE971()", "CYCLE982()", "CYCLE996()", "CYCLE116()", "CYCLE982", "CYCLE832()"}) {
+    const session::Conversion there = toKlartext(sinumerikProgram(std::string(call) + "\n"));
+    ASSERT_EQ(there.notCarriedOver.size(), 1U) << there.text;
+    EXPECT_THAT(there.text, HasSubstr(fmt::format("; NOT CARRIED OVER: {}", call)));
+    EXPECT_THAT(there.text, Not(HasSubstr("CALL PGM")));
+  }
+  const session::Conversion fine = toKlartext(sinumerikProgram(
+      sinumerikCall("CYCLE977", {{"S_MVAR", 101}, {"S_KNUM", 1}, {"S_SETV", 40}, {"S_FA", 4}, {"S_TSA", 8}})));
+  EXPECT_THAT(fine.text, HasSubstr("; S_KNUM: THE FINE OFFSET"));
+}
+
+}  // namespace
+}  // namespace probewright::testing_support
