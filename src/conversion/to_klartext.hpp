@@ -147,6 +147,7 @@ private:
     };
     std::vector<Watched> watched;
     Quantity limit;
+    Quantity turn;  ///< of the directions that deviations of a centre count along
   };
   /// A preset in front of a cycle that may correct it.
   struct PresetBefore {
@@ -157,6 +158,9 @@ private:
   void rememberPreset(const MeasuringTask& task);
   /// Stops the program if a deviation is too large, with the preset as it was.
   void monitor(const language::Block& block, const SafeArea& safe, const MeasuringTask& task, const Results& results);
+  /// The deviation of a centre along directions turned by `angle`.
+  std::optional<Quantity> alongTurned(const MeasuringTask& task, const Results& results, Meaning meaning,
+                                      const Quantity& angle) const;
   void restorePreset(const MeasuringTask& task);
   /// A deviation that shows only in how the preset has changed.
   std::optional<Quantity> deviationOfPreset(const MeasuringTask& task, Meaning meaning);

@@ -26,6 +26,7 @@ std::optional<ToKlartext::SafeArea> ToKlartext::safeArea(const Call& call, const
   SafeArea safe;
   safe.limit = limit;
   const bool zeroOffset = call.digit("S_MVAR", 3) == 1;
+  if (call.cycle == "CYCLE977" && isRound(task.feature)) safe.turn = task.angle;
   // What lies further off than S_FA is not found at all, nor is a wall beyond the opposite one.
   const auto watch = [&](Meaning meaning, double reach) {
     const bool tooFar = limit.isNumber() && path.isNumber() && limit.number() >= reach * path.number();
@@ -104,6 +105,16 @@ std::optional<Quantity> ToKlartext::deviationOfPreset(const MeasuringTask& task,
                                      : fmt::format("(({1}) * COS {2} - ({0}) * SIN {2})", x, y, turn));
 }
 
+std::optional<Quantity> ToKlartext::alongTurned(const MeasuringTask& task, const Results& results, Meaning meaning,
+                                                const Quantity& angle) const {
+  const auto main = measured(task, results, Meaning::Centre1Deviation);
+  const auto minor = measured(task, results, Meaning::Centre2Deviation);
+  if (!main || !minor || !angle.isNumber()) return std::nullopt;
+  const double c = std::cos(angle.number() * std::numbers::pi / 180);
+  const double s = std::sin(angle.number() * std::numbers::pi / 180);
+  return meaning == Meaning::Centre1Deviation ? *main * c + *minor * s : *minor * c - *main * s;
+}
+
 void ToKlartext::monitor(const Block& block, const SafeArea& safe, const MeasuringTask& task, const Results& results) {
   const std::string largest = formulas_.define("largest deviation", false);
   const std::string each = formulas_.define("deviation", false);
@@ -111,6 +122,8 @@ void ToKlartext::monitor(const Block& block, const SafeArea& safe, const Measuri
   for (const auto& [meaning, set] : safe.watched) {
     std::optional<Quantity> deviation = measured(task, results, meaning);
     if (!deviation) deviation = deviationOfPreset(task, meaning);
+    const bool ofCentre = meaning == Meaning::Centre1Deviation || meaning == Meaning::Centre2Deviation;
+    if (deviation && ofCentre && !(safe.turn == 0)) deviation = alongTurned(task, results, meaning, safe.turn);
     if (!deviation) {
       out_.list(block, "S_TSA: what the touch probe cycle measures here is not compared with the safe area",
                 "compare it by hand");

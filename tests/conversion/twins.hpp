@@ -70,7 +70,7 @@ inline Twin run(const std::string& text, ProgramLanguage language, const Planted
   twin.text = text;
   twin.language = language;
   twin.finished = !hasErrors(outcome.diagnostics) && outcome.result.end == language::RunEnd::Finished;
-  if (!outcome.diagnostics.empty()) {
+  if (hasErrors(outcome.diagnostics)) {
     twin.why = format(outcome.diagnostics.front());
   } else if (!outcome.result.diagnostics.empty()) {
     twin.why = format(outcome.result.diagnostics.front());
