@@ -1,8 +1,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <BRepBndLib.hxx>
+#include <Bnd_Box.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
 
@@ -28,7 +33,7 @@ void judge(const NamedShape& named, std::mt19937_64& random, int ways) {
 
 TEST(ContactOracle, FacesInAnyRangeOfTheirParametersAreMetWhereTheyAre) {
   std::mt19937_64 random(101);
-  for (int i = 0; i < 2 * campaignFactor(); ++i) {
+  for (int i = 0; i < campaignFactor(); ++i) {
     for (const NamedShape& face : singleFaces(random))
       judge(face, random, 40);
   }
@@ -42,7 +47,7 @@ TEST(ContactOracle, BodiesAreMetWhateverOtherSystemsMakeOfThem) {
       const std::vector<NamedShape> kinds = disguises(all[k], random);
       // One after the other here, all in a campaign.
       for (std::size_t j = 0; j < kinds.size(); ++j) {
-        if (campaignFactor() > 1 || j == k % kinds.size() || j == 0) judge(kinds[j], random, 40);
+        if (campaignFactor() > 1 || j == k % kinds.size()) judge(kinds[j], random, 40);
       }
     }
   }
@@ -58,9 +63,11 @@ Result<std::unique_ptr<Solid>> throughFile(const TopoDS_Shape& shape, const std:
     if (!writer.Write((folder / "part.igs").c_str())) return fail("not written");
     return readIges(folder / "part.igs");
   }
-  STEPControl_Writer writer;
+  Message::DefaultMessenger()->ChangePrinters().Clear();
+  STEPControl_Controller::Init();
   Interface_Static::SetCVal("write.step.schema", schema.c_str());
   Interface_Static::SetCVal("write.step.unit", unit.c_str());
+  STEPControl_Writer writer;
   writer.Transfer(shape, STEPControl_AsIs);
   writer.Write((folder / "part.step").c_str());
   Interface_Static::SetCVal("write.step.schema", "AP214IS");
@@ -71,7 +78,7 @@ Result<std::unique_ptr<Solid>> throughFile(const TopoDS_Shape& shape, const std:
 TEST(ContactOracle, FilesOfAnyFormatAndUnitAreMetWhereTheirShapesAre) {
   std::mt19937_64 random(103);
   const std::vector<std::pair<std::string, std::string>> formats{
-      {"AP203", "MM"},      {"AP203", "INCH"},  {"AP214IS", "M"},     {"AP214IS", "INCH"},
+      {"AP203", "MM"},      {"AP203", "INCH"},  {"AP214IS", "CM"},    {"AP214IS", "INCH"},
       {"AP242DIS", "INCH"}, {"AP242DIS", "MM"}, {"IGES faces", "MM"}, {"IGES bodies", "INCH"}};
   const ScratchFolder folder;
   for (int i = 0; i < campaignFactor(); ++i) {
@@ -79,7 +86,7 @@ TEST(ContactOracle, FilesOfAnyFormatAndUnitAreMetWhereTheirShapesAre) {
     for (std::size_t k = 0; k < all.size(); ++k) {
       const auto kinds = disguises(all[k], random);
       for (std::size_t j = 0; j < formats.size(); ++j) {
-        if (campaignFactor() == 1 && j != k % formats.size()) continue;
+        if (campaignFactor() == 1 && 2 * j != k) continue;
         const auto& [schema, unit] = formats[j];
         const NamedShape& written = kinds[random() % kinds.size()];
         const std::string name = written.name + " through " + schema + " in " + unit;
@@ -87,6 +94,10 @@ TEST(ContactOracle, FilesOfAnyFormatAndUnitAreMetWhereTheirShapesAre) {
         ASSERT_TRUE(solid) << name << ": " << format(solid.error());
         // The reader mends shapes; what it made of them is judged, and that it is about the same.
         const auto& read = dynamic_cast<const CadSolid&>(**solid);
+        Bnd_Box box;
+        BRepBndLib::AddOptimal(written.shape, box, Standard_False, Standard_False);
+        const double size = box.CornerMin().Distance(box.CornerMax());
+        EXPECT_NEAR((read.bounds().maximum - read.bounds().minimum).norm(), size, 0.05 * size) << name;
         EXPECT_GT(expectTrueContacts(name, read.shape(), read, random, 40), 4) << name;
       }
     }

@@ -45,7 +45,7 @@ double distanceOfCylinder(const Vector3& base, const Vector3& axis, double radiu
 TEST(CylinderSweep, MeetsATriangleWhereTheNearestPointsMeet) {
   std::mt19937_64 random(31);
   int contacts = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 150; ++i) {
     const Triangle t{randomPoint(random, 20), randomPoint(random, 20), randomPoint(random, 20)};
     const double radius = uniform(random, 0.5, 15);
     Vector3 axis = uniform(random, 1, 40) * randomDirection(random);
@@ -70,7 +70,7 @@ TEST(CylinderSweep, MeetsATriangleWhereTheNearestPointsMeet) {
     if (when <= 1e-3) continue;
     ASSERT_GT(distanceOfCylinder(way.at(when - 1e-3), axis, radius, t), 0) << i;
   }
-  EXPECT_GT(contacts, 100);
+  EXPECT_GT(contacts, 40);
 }
 
 /// A thin pin under a wide body stops it where the body's flat end meets the pin's top, at any place under it.

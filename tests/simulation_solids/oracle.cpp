@@ -113,6 +113,9 @@ Oracle::Oracle(const TopoDS_Shape& shape) : shape_(BRepBuilderAPI_Copy(shape).Sh
   }
   faces_ = std::move(faces);
   tolerance_ = 2 * std::max(deviation, deflection);
+  // Edges and surfaces of a shape meet to within its tolerance only: which of them is met decides about as much.
+  constexpr double kPromised = 1e-6, kMostDoubt = 1e-5;
+  precision_ = kPromised + std::min(kMostDoubt, BRep_Tool::MaxTolerance(shape_, TopAbs_EDGE));
   closed_ = isClosed(mesh) && !mesh.triangles.empty();
   for (const Vector3& place : places_) {
     bounds_.minimum = bounds_.minimum.cwiseMin(place);
@@ -144,12 +147,12 @@ std::string Oracle::objectionTo(const std::optional<BallContact>& contact, const
   const auto late = radius > tolerance_ ? mesh_->firstContact(from, to, radius - tolerance_) : std::nullopt;
   // A tessellation can be worse than it looks; then the other means decides, too.
   const auto isThere = [&](const BallContact& met) {
-    return met.fraction == 0 || exactDistance(met.ballCentre, radius) < radius - 1e-6;
+    return met.fraction == 0 || exactDistance(met.ballCentre, radius) < radius - precision_;
   };
-  const auto isTouched = [&] { return std::abs(exactDistance(contact->ballCentre, radius) - radius) <= 1e-6; };
+  const auto isTouched = [&] { return std::abs(exactDistance(contact->ballCentre, radius) - radius) <= precision_; };
   if (!contact) {
     for (const double share : {0.13, 0.31, 0.52, 0.77, 1.0}) {
-      if (exactly && exactDistance(from + share * (to - from), radius) < radius - 1e-6) return "passes the shape";
+      if (exactly && exactDistance(from + share * (to - from), radius) < radius - precision_) return "passes the shape";
     }
     return late && isThere(*late) ? fmt::format("passes what is in the way after {:.4f} mm", late->fraction * length)
                                   : "";
@@ -165,16 +168,17 @@ std::string Oracle::objectionTo(const std::optional<BallContact>& contact, const
     // Some places on the way up to there.
     for (const double share : {0.31, 0.77, 0.97}) {
       const double distance = exactDistance(from + share * contact->fraction * (to - from), radius);
-      if (distance < radius - 1e-6) return fmt::format("stops after {:.4f} mm, past a part of the shape", travelled);
+      if (distance < radius - precision_)
+        return fmt::format("stops after {:.4f} mm, past a part of the shape", travelled);
     }
   }
-  if (std::abs((contact->touchPoint - contact->ballCentre).norm() - radius) > 1e-6)
+  if (std::abs((contact->touchPoint - contact->ballCentre).norm() - radius) > precision_)
     return fmt::format("touches {:.7f} mm away from its centre", (contact->touchPoint - contact->ballCentre).norm());
   if (!exactly) return "";
   const double distance = exactDistance(contact->ballCentre, radius);
-  if (std::abs(distance - radius) <= 1e-6) return "";
+  if (std::abs(distance - radius) <= precision_) return "";
   // OpenCASCADE misses places of some wrapped surfaces: then the point that was touched must be on the surface.
-  if (distance > radius && exactDistance(contact->touchPoint, 0) < 1e-6) return "";
+  if (distance > radius && exactDistance(contact->touchPoint, 0) < precision_) return "";
   return fmt::format("stops {:.7f} mm from the shape, {:.7f} mm too far", distance, distance - radius);
 }
 

@@ -40,6 +40,7 @@ private:
   struct Face;
   std::shared_ptr<const std::vector<Face>> faces_;
   double tolerance_ = 0;
+  double precision_ = 1e-6;  ///< of exact distances
   bool closed_ = false;
 };
 
