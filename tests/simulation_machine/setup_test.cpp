@@ -1,5 +1,6 @@
 #include "simulation/setup.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -253,12 +254,14 @@ in_spindle = true
 }
 
 TEST_F(SetupOnDisk, MissingPartIsReportedWhereItIsNamed) {
-  Diagnostics diagnostics;
-  const auto setup = readSetup(write("[part]\nfile = \"housing.stl\"\n"), diagnostics);
-  ASSERT_TRUE(setup);
-  const auto machine = buildMachine(*setup);
-  ASSERT_FALSE(machine);
-  EXPECT_THAT(format(machine.error()), HasSubstr("setup.toml:2:8: error: there is no file"));
+  for (const auto& [file, reason] : {std::pair("housing.stl", "there is no file"), {"../", "is a folder"}}) {
+    Diagnostics diagnostics;
+    const auto setup = readSetup(write(fmt::format("[part]\nfile = \"{}\"\n", file)), diagnostics);
+    ASSERT_TRUE(setup);
+    const auto machine = buildMachine(*setup);
+    ASSERT_FALSE(machine);
+    EXPECT_THAT(format(machine.error()), ::testing::AllOf(HasSubstr("setup.toml:2:8: error: "), HasSubstr(reason)));
+  }
 }
 
 TEST_F(SetupOnDisk, PartInTheWayAtTheStartIsRefused) {
