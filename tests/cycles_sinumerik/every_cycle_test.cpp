@@ -175,9 +175,15 @@ TEST(EveryCycle, EndsWhereTheManualSays) {
     } else if (name.starts_with("961 any")) {
       end = Vector3(valueOf(call, "S_SETV4"), valueOf(call, "S_SETV5") + valueOf(call, "S_SETV3"), variant.start.z());
     } else if (name == "998 edge") {
+      // The ball's centre at the touch lies its radius from the face.
       end.y() += valueOf(call, "S_ID");
+      const Vector3 normal = part.linear().col(0);
+      end.x() = (normal.dot(middle) - 2 - normal.y() * end.y()) / normal.x() - path;
     } else if (name == "998 plane") {
       end += Vector3(valueOf(call, "S_SETV2"), valueOf(call, "S_SETV3"), 0);
+      const Vector3 normal = part.linear().col(2);
+      const double along = normal.x() * end.x() + normal.y() * end.y();
+      end.z() = (normal.dot(middle) + 2 - along) / normal.z() - 2 + path;
     }
     const Vector3 here = bench.control.channel.position();
     for (int axis = 0; axis < 3; ++axis)

@@ -26,7 +26,7 @@ TEST(ProbeKinds, EachCycleTakesTheKindsThatCanDoItsWork) {
       {"CYCLE977", {{"S_MVAR", 3}, {"S_SETV", 40}, {"S_MA", 1}}, {710, 712, 580}},
       {"CYCLE978", {{"S_SETV", 20}, {"S_MA", 1}, {"S_MD", 1}}, {710, 712, 713, 580}},
       {"CYCLE979", {{"S_MVAR", 1}, {"S_SETV", 40}, {"S_INCA", 90}}, {710, 712, 580}},
-      {"CYCLE976", {{"S_MVAR", 1}, {"S_SETV", 40}}, {710, 712, 713, 714, 580}},
+      {"CYCLE976", {{"S_MVAR", 1001}, {"S_SETV", 40}, {"S_MA", 1}, {"S_MD", 0}}, {710, 712, 713, 714, 580}},
       {"CYCLE998", {{"S_MVAR", 100005}, {"S_MA", 201}, {"S_MD", 1}, {"S_ID", 2}, {"S_SETV", 20}}, {710, 712, 580}},
       {"CYCLE961", {{"S_MVAR", 5}, {"S_SETV1", 9}, {"S_SETV2", 5}}, {710, 712, 580}},
       {"CYCLE961", {{"S_MVAR", 7}, {"S_SETV1", 9}, {"S_SETV2", 5}, {"S_SETV3", 9}, {"S_INCA", 90}}, {710, 580}},

@@ -37,13 +37,7 @@ Control::Control(machine::Machine& machine, DataStore store)
   const int units = initialFunction(13);
   unit = units == 1 || units == 3 ? millimetresPerInch : 1;
   diameter = initialFunction(29) == 2 || initialFunction(29) == 3;
-  // What a channel begins with can be read, whether a file of the control says it or not.
   data.setDefault("$MC_TOOL_CHANGE_MODE", channel.description().axisIndex("Y") ? 1.0 : 0.0);
-  const std::pair<int, int> begins[] = {{6, plane - 16}, {13, unit == 1 ? 2 : 1}, {29, diameter ? 2 : 1}};
-  for (const auto& [group, number] : begins) {
-    const DataKey key("$MC_GCODE_RESET_VALUES", {group - 1});
-    if (!data.isSet(key)) data.load(key, static_cast<double>(number));
-  }
   applyFrames();
 }
 

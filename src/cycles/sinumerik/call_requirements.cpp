@@ -87,6 +87,7 @@ constexpr Requirement requirements[] = {
     {0, "S_TSA", Need::SafeArea},
     {0, "S_KNUM", Need::Correction, hundreds<1>},
     {0, "S_KNUM1", Need::Correction, hundreds<2>},
+    {961, "S_SETV2", Need::NotZero, cornerOfAnyAngle},
     {961, "S_INCA", Need::NotZero, cornerOfAnyAngle},
     {973, "S_MA", Need::NotZero, units<0, 1, 3>},
     {973, "S_CALNUM", Need::NotZero, units<2, 3>},
@@ -153,7 +154,8 @@ std::string outside(const Requirement& requirement, double value) {
 
 std::optional<CallComplaint> requirementComplaint(const CycleDefinition& cycle, const Parameter& parameter,
                                                   const Argument& argument, std::optional<int> variant) {
-  if (parameter.meaning == parameters::reservedMeaning && argument.given && argument.number != 0) {
+  if (parameter.name == "_AMODE" && parameter.meaning == parameters::reservedMeaning && argument.given &&
+      argument.number != 0) {
     return CallComplaint{fmt::format("{} = {} is not observed: version 4.4 of the measuring cycles reserves it",
                                      parameter.name, formatShortest(argument.number)),
                          false};

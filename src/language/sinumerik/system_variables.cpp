@@ -265,6 +265,13 @@ Value SystemVariables::datum(std::string_view name, std::span<const Value> indic
   const DataKey key = dataKey(name, indices);
   if (const auto value = control_.data.get(key)) return fromDatum(*value);
   if (name == "$TC_TP2" || name == "$TC_CARR34") return std::string();
+  // What a channel begins with where no file of the control says it: the plane, G71, DIAMOF.
+  if (name == "$MC_GCODE_RESET_VALUES" && indices.size() == 1) {
+    const int group = integerAt(indices, 0) + 1;
+    if (group == 6) return control_.channel.description().axisIndex("Y") ? 1.0 : 2.0;
+    if (group == 13) return 2.0;
+    if (group == 29) return 1.0;
+  }
   if (const auto former = control::sinumerik::readFormer(control_.data, key)) return *former;
   // Tool data of an existing edge have the neutral value 0; everything else is worth a word.
   const bool ofEdge = name.starts_with("$TC_DP") && indices.size() == 2;
