@@ -187,13 +187,11 @@ Result<TriangleMesh> readStlMesh(const std::filesystem::path& path) {
     mesh = readBinary(*bytes, file);
   } else if (isWord(Words(*bytes).next(), "solid")) {
     mesh = readAscii(*bytes, file);
-  } else if (bytes->size() >= kHeaderSize) {
+  } else if (bytes->size() >= kHeaderSize && bytes->size() < expected) {
     return fail(
         {file, 0, 0},
         fmt::format("the binary STL file has {} bytes where its count of triangles needs {}", bytes->size(), expected),
-        bytes->size() < expected
-            ? "the file was cut short or is not an STL file; export or copy it again"
-            : "something follows the last triangle, or it is not an STL file; export or copy it again");
+        "the file was cut short or is not an STL file; export or copy it again");
   } else {
     std::string message = "not an STL file: it neither begins with \"solid\" nor has the size its header tells";
     if (bytes->size() >= kHeaderSize)
