@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/file.hpp"
@@ -56,13 +58,22 @@ Found lookInto(language::Program& program) {
   return found;
 }
 
+/// What the program in that file shares with others; nothing if it cannot be read.
+std::optional<Found> lookInto(const fs::path& path, ProgramLanguage language) {
+  const Result<std::string> text = readFile(path);
+  if (!text) return std::nullopt;
+  const auto program = openProgram(path, *text, language);
+  if (!program) return std::nullopt;
+  return lookInto(**program);
+}
+
 }  // namespace
 
 conversion::Job jobOf(const fs::path& path, ProgramLanguage language) {
   const std::string own = plainName(path.filename().string());
   const bool sinumerik = language == ProgramLanguage::Sinumerik;
   std::map<std::string, Found> programs;
-  if (const auto program = openProgram(path, language)) programs.emplace(own, lookInto(**program));
+  if (auto found = lookInto(path, language)) programs.emplace(own, std::move(*found));
   std::error_code none;
   int opened = 0;
   const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
@@ -73,7 +84,7 @@ conversion::Job jobOf(const fs::path& path, ProgramLanguage language) {
     if (!other || (*other == ProgramLanguage::Sinumerik) != sinumerik || programs.contains(name)) continue;
     if (!each->is_regular_file(none) || each->file_size(none) > longestProgram) continue;
     ++opened;
-    if (const auto program = openProgram(each->path(), *other)) programs.emplace(name, lookInto(**program));
+    if (auto found = lookInto(each->path(), *other)) programs.emplace(name, std::move(*found));
   }
   // Those that calls lead to or come from, step by step.
   conversion::Job job;
