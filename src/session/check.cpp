@@ -33,11 +33,11 @@ Diagnostics checkProgram(const std::filesystem::path& path, std::optional<contro
 }
 
 Diagnostics checkProgram(language::Program& program, control::ControlKind kind, std::set<std::string> globalVariables,
-                         const sinumerik::GlobalUserData* globalData, std::bitset<10> skipLevels) {
+                         const sinumerik::GlobalUserData* globalData, std::bitset<10> skipLevels, bool foresees) {
   const auto library = programLibrary(kind, {}, globalData);
   if (control::isHeidenhain(kind)) {
     return language::klartext::checkProgram(static_cast<language::klartext::HeidenhainProgram&>(program), kind,
-                                            library.get(), skipLevels[0]);
+                                            library.get(), skipLevels[0], foresees);
   }
   return sinumerik::check(static_cast<sinumerik::SinumerikProgram&>(program),
                           {.library = library.get(),

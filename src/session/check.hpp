@@ -25,8 +25,10 @@ Diagnostics checkProgram(const std::filesystem::path& path, std::optional<contro
 
 /// The same for a program that is open; it must be one of the language of `kind`. `globalVariables`: names of
 /// data that the control has values for, upper case; `globalData`: what its definition files declare, null if nothing.
+/// `foresees`: HEIDENHAIN, also what a run would refuse when it gets there.
 Diagnostics checkProgram(language::Program& program, control::ControlKind kind,
                          std::set<std::string> globalVariables = {},
-                         const sinumerik::GlobalUserData* globalData = nullptr, std::bitset<10> skipLevels = {});
+                         const sinumerik::GlobalUserData* globalData = nullptr, std::bitset<10> skipLevels = {},
+                         bool foresees = true);
 
 }  // namespace probewright::session

@@ -437,7 +437,8 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
                                                    ? sinumerik::GlobalUserData()
                                                    : globalUserData(path, setup.tables, outcome.diagnostics);
   useMacros(*program, globalData);
-  const Diagnostics mistakes = checkProgram(*program, kind, namesOfData(setup, kind), &globalData, options.skipLevels);
+  const Diagnostics mistakes =
+      checkProgram(*program, kind, namesOfData(setup, kind), &globalData, options.skipLevels, false);
   outcome.diagnostics.insert(outcome.diagnostics.end(), mistakes.begin(), mistakes.end());
   if (hasErrors(outcome.diagnostics)) {
     conclude(outcome);

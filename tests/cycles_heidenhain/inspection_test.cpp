@@ -159,8 +159,12 @@ void expectRectangle(int cycle, bool inside) {
     const double left = (inside ? -1 : 1) * (found.length.x() - nominal.x()) / 2;
     EXPECT_NEAR(ran.cell("TOOL.T", "5", "DR"), -left, 6e-5);
     const auto log = readLog(ran.log(fmt::format("TCHPR{}.TXT", cycle)));
-    EXPECT_NEAR(log.at("Actual values:Side length in reference axis"), found.length.x(), 0.6e-4);
-    EXPECT_NEAR(log.at("Deviations:Side length in minor axis"), found.length.y() - nominal.y(), 0.6e-4);
+    const bool capitals = cycle == 423 && part.bench.control == ControlKind::iTNC530;
+    EXPECT_NEAR(
+        log.at(capitals ? "ACTUAL VALUES:SIDE LENGTH IN REF. AXIS" : "Actual values:Side length in reference axis"),
+        found.length.x(), 0.6e-4);
+    EXPECT_NEAR(log.at(capitals ? "DEVIATIONS:SIDE LENGTH IN MINOR AXIS" : "Deviations:Side length in minor axis"),
+                found.length.y() - nominal.y(), 0.6e-4);
   }
 }
 

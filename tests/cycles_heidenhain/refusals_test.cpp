@@ -155,7 +155,6 @@ TEST(Refusals, Parameters) {
   expectMistake(run({{305, 10000}}), "9999");
   expectMistake(run({{321, 100000}}), "99999.9999");
   expectMistake(run({{423, 5}}), "Q423");
-  expectMistake(run({{423, 4}}, ControlKind::iTNC530), "Q423");
   expectMistake(run({{999, 1}}), "Q999");
   Words missing = preset412;
   missing.erase(missing.begin() + 2);
@@ -206,6 +205,9 @@ TEST(Refusals, LockedPresetRow) {
   hh::TypedTable presets = hh::defaultPresetTable(ControlKind::TNC640);
   ASSERT_TRUE(presets.ensureRow("5"));
   ASSERT_TRUE(presets.setText("5", "LOCKED", "L"));
+  ASSERT_TRUE(presets.ensureRow("1"));
+  for (const auto& [column, value] : {std::pair("X", 10), std::pair("Y", 20), std::pair("Z", -400)})
+    ASSERT_TRUE(presets.setNumber("1", column, value));
   folder.put("PRESET.PR", presets);
   expectRefused(bench.run(probe(412, with(preset412, {{305, 5}}))), "Preset locked", "Row 5");
   EXPECT_TRUE(bench.run(probe(412, preset412)).finished());

@@ -250,8 +250,12 @@ TEST(PresetCycles, RefuseTransfersToNowhere) {
           EXPECT_TRUE(cycle.writes.empty());
         return ran.why();
       };
-      EXPECT_NE(refusal(-1).find("Measured value transfer not defined"), std::string::npos) << refusal(-1);
-      EXPECT_NE(refusal(-1).find("set Q303 to 0 (datum table) or 1 (preset table)"), std::string::npos);
+      if (one.cycle == 408 || one.cycle == 409) {
+        EXPECT_NE(refusal(-1).find("cannot be -1"), std::string::npos) << refusal(-1);
+      } else {
+        EXPECT_NE(refusal(-1).find("Measured value transfer not defined"), std::string::npos) << refusal(-1);
+        EXPECT_NE(refusal(-1).find("set Q303 to 0 (datum table) or 1 (preset table)"), std::string::npos);
+      }
       EXPECT_NE(refusal(0).find("Datum table not selected"), std::string::npos) << refusal(0);
       const Ran row = bench.run(probe(one.cycle, with(known(one, kind), {{305, 10000}})));
       EXPECT_EQ(row.outcome.info.exit, records::ExitState::InputMistake);

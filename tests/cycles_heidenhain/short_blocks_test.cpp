@@ -10,7 +10,8 @@ namespace {
 /// What parameters that are left out stand for.
 double standardOf(int cycle, int parameter) {
   static const std::map<int, double> values = {{305, 0}, {402, 0}, {337, 0}, {380, 0}, {381, 0}, {382, 0},
-                                               {383, 0}, {384, 0}, {333, 0}, {320, 0}, {423, 4}, {365, 1}};
+                                               {383, 0}, {384, 0}, {333, 0}, {320, 0}, {423, 4}, {365, 1},
+                                               {331, 0}, {332, 0}, {405, 0}, {301, 0}};
   if (parameter == 303) return cycle == 403 ? 1 : -1;
   return values.at(parameter);
 }

@@ -284,10 +284,8 @@ TEST(ToolAxis, MeasuresPlanesAlongXAndY) {
     EXPECT_LT((turned.col(world.plane.main) - world.plane.xyzFromPlane(along.normalized())).norm(), 1e-8);
     // The ball meets a slanting plane beside its south pole.
     const double ball = world.bench.believedProbe().radius, tilt = 1 / n.z() - 1;
-    const Vector2 tip = world.tip;
     for (std::size_t i = 0; i < (world.bench.control == ControlKind::TNC640 ? 3U : 1U); ++i) {
-      // The spindle axis is over the place, the ball aside by its tip offset.
-      EXPECT_NEAR(ran.q(173 + static_cast<int>(i)), heightAt(places[i] + tip) + ball * tilt, exact) << i;
+      EXPECT_NEAR(ran.q(173 + static_cast<int>(i)), heightAt(places[i]) + ball * tilt, exact) << i;
     }
   }
 }

@@ -160,7 +160,9 @@ TEST(Inspection, KnowsTurningToolsByIndexAndWhatTheyNeed) {
   const Words words = with(circleWords(421, 50), {{498, 0}, {531, 0}});
   // 0.2 mm too large: without a row in TOOLTURN.TRN nothing can be corrected; tool 7.1 has one and no LBREAK.
   EXPECT_EQ(world.bench.run(probe(421, with(words, {{330, 7.1}}))).why(), "");
+  folder.put("TOOLTURN.TRN", turningTable(world));
   const Ran broken = world.bench.run(probe(421, words));
+  folder.put("TOOLTURN.TRN", turningTable(world, "7.1"));
   EXPECT_EQ(broken.alarm(), "Tool breakage");
   EXPECT_NE(broken.why().find("LBREAK"), std::string::npos) << broken.why();
   EXPECT_EQ(broken.table("TOOL.T").text("7", "TL"), "L");

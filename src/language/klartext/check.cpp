@@ -40,8 +40,8 @@ bool existsOnControls(int number) {
 
 class Checker {
 public:
-  Checker(HeidenhainProgram& program, control::ControlKind kind, ProgramLibrary* library, bool skips)
-      : program_(program), kind_(kind), library_(library), notes_(kind), skips_(skips) {}
+  Checker(HeidenhainProgram& program, control::ControlKind kind, ProgramLibrary* library, bool skips, bool foresees)
+      : program_(program), kind_(kind), library_(library), notes_(kind), skips_(skips), foresees_(foresees) {}
 
   Diagnostics run() {
     BlockPosition position = program_.begin();
@@ -248,8 +248,10 @@ private:
         std::span<const Word>(block_.words).subspan(call.parameters.first, call.parameters.count);
     for (const Word& word : words)
       checkWord(*cycle, word);
-    checkTogether(*cycle, words);
-    checkState(*cycle);
+    if (foresees_) {
+      checkTogether(*cycle, words);
+      checkState(*cycle);
+    }
     for (const cycles::Parameter& parameter : cycle->parameters) {
       const bool needed = parameter.required() && parameter.controls.contains(kind_);
       if (!needed || std::ranges::find(words, parameter.address, &Word::address) != words.end()) continue;
@@ -418,12 +420,14 @@ private:
   bool ended_ = false;
   bool behindReported_ = false;
   bool skips_ = false;
+  bool foresees_ = true;
 };
 
 }  // namespace
 
-Diagnostics checkProgram(HeidenhainProgram& program, control::ControlKind kind, ProgramLibrary* library, bool skips) {
-  return Checker(program, kind, library, skips).run();
+Diagnostics checkProgram(HeidenhainProgram& program, control::ControlKind kind, ProgramLibrary* library, bool skips,
+                         bool foresees) {
+  return Checker(program, kind, library, skips, foresees).run();
 }
 
 }  // namespace probewright::language::klartext
