@@ -64,7 +64,8 @@ inline std::map<std::string, double> readLog(const std::string& text) {
     std::string line = text.substr(start, end - start);
     start = end + 1;
     for (const char* title :
-         {"Nominal values:", "Given limit values:", "Actual values:", "Deviations:", "Further measuring results:"}) {
+         {"Nominal values:", "Given limit values:", "Actual values:", "Deviations:", "Further measuring results:",
+          "NOML. VALUES:", "GIVEN LIMIT VALUES:", "ACTUAL VALUES:", "DEVIATIONS:", "FURTHER MEASURING RESULTS:"}) {
       if (line.rfind(title, 0) != 0) continue;
       section = title;
       line = line.substr(section.size());
