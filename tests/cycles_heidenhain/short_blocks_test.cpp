@@ -34,7 +34,7 @@ TEST(ShortBlocks, MeanWhatTheManualsSay) {
         if (parameter.required()) {
           required.emplace_back(number, given == words.end() ? 0 : given->second);
           full.push_back(required.back());
-        } else {
+        } else if (number != 303 || one.cycle > 409) {  // 408 and 409 do not print -1
           full.emplace_back(number, standardOf(one.cycle, number));
         }
       }
