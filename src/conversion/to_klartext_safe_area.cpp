@@ -125,7 +125,9 @@ void ToKlartext::monitor(const Block& block, const SafeArea& safe, const Measuri
     const bool ofCentre = meaning == Meaning::Centre1Deviation || meaning == Meaning::Centre2Deviation;
     if (deviation && ofCentre && !(safe.turn == 0)) deviation = alongTurned(task, results, meaning, safe.turn);
     if (!deviation) {
-      out_.list(block, "S_TSA: what the touch probe cycle measures here is not compared with the safe area",
+      out_.list(block,
+                fmt::format("S_TSA: what the touch probe cycle measures here is not compared with the safe area{}",
+                            control_ == control::ControlKind::iTNC530 ? " on the iTNC530" : ""),
                 "compare it by hand");
       continue;
     }

@@ -148,6 +148,11 @@ std::optional<BallContact> DistanceSolid::firstCylinderContact(const Vector3& fr
         near = closest(place);
         if (settled) break;
       }
+      // A point of the solid's surface within the cylinder: as deep as it lies there.
+      const Vector3 arm = near.point - base;
+      const double along = arm.dot(up);
+      const double depth = std::min({along, height - along, radius - (arm - along * up).norm()});
+      if (depth > 0) near.distance = std::min(near.distance, -depth);
       if (near.distance < best.distance) best = near;
     };
     for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0})

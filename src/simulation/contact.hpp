@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "simulation/search_tree.hpp"
@@ -31,8 +32,8 @@ inline bool meetsFront(const Way& way, const Meeting& meeting) {
 
 /// True if `point` lies within the closed surfaces that the triangles make: the rays from there leave them more or less
 /// often than they enter them. That holds whichever way the surfaces are turned, and where bodies overlap. A ray that
-/// passes an edge too closely to tell is replaced by another. `bounds(place)` tells which elements of the tree are
-/// triangles of such surfaces.
+/// passes an edge too closely to tell is replaced by another; of three rays the majority decides. `bounds(place)` tells
+/// which elements of the tree are triangles of such surfaces.
 template <class BoundsSolid>
 bool isWithin(const SearchTree& tree, const Vector3& point, const BoundsSolid& bounds) {
   const Bounds& box = tree.bounds();
@@ -45,12 +46,14 @@ bool isWithin(const SearchTree& tree, const Vector3& point, const BoundsSolid& b
   Mover ray;
   ray.way.start = point;
   ray.way.length = (box.maximum - box.minimum).norm();
+  // Boxes that the ray only grazes are looked into as well: the tree rounds to single precision.
+  ray.radius = 1e-5 * ray.way.length;
+  int votes = 0, inside = 0;
   for (const Vector3& direction : kDirections) {
     ray.way.direction = direction.normalized();
     int crossings = 0;
     bool clear = true;
-    const Meeting none;
-    tree.search(ray, none, [&](std::uint32_t place, const Triangle& t) {
+    tree.visitAll(ray, [&](std::uint32_t place, const Triangle& t) {
       if (!clear || !bounds(place)) return;
       const Vector3 e1 = t[1] - t[0];
       const Vector3 e2 = t[2] - t[0];
@@ -73,9 +76,11 @@ bool isWithin(const SearchTree& tree, const Vector3& point, const BoundsSolid& b
       }
       crossings += determinant < 0 ? 1 : -1;
     });
-    if (clear) return crossings != 0;
+    if (!clear) continue;
+    inside += crossings != 0 ? 1 : 0;
+    if (++votes == 3) break;
   }
-  return false;
+  return 2 * inside > votes;
 }
 
 }  // namespace probewright::simulation

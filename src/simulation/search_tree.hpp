@@ -69,6 +69,16 @@ public:
                          }});
   }
 
+  /// Calls `visit(place, triangle)` for every element along the whole way, in any order; a meeting hides none behind
+  /// it.
+  template <class Visit>
+  void visitAll(const Mover& mover, const Visit& visit) const {
+    const Meeting none;
+    search(mover, none, {&visit, false, [](const void* to, std::uint32_t place, const Triangle& triangle) {
+                           (*static_cast<const Visit*>(to))(place, triangle);
+                         }});
+  }
+
 private:
   static constexpr std::size_t kWidth = 8;
   using Lane = std::array<float, kWidth>;

@@ -166,7 +166,7 @@ TEST(Cycles, TellOtherProgramsWhatTheTextTells) {
       if (each["name"] == name) return each;
     return nlohmann::json();
   };
-  const auto& variant = parameter("S_MVAR")["digits"];
+  const auto variant = parameter("S_MVAR")["digits"];
   ASSERT_EQ(variant.size(), 4U);
   EXPECT_EQ(variant[0]["place"], 1);
   EXPECT_EQ(variant[0]["choices"].size(), 6U);

@@ -254,7 +254,8 @@ in_spindle = true
 }
 
 TEST_F(SetupOnDisk, MissingPartIsReportedWhereItIsNamed) {
-  for (const auto& [file, reason] : {std::pair("housing.stl", "there is no file"), {"../", "is a folder"}}) {
+  std::filesystem::create_directories(folder / "folder.stl");
+  for (const auto& [file, reason] : {std::pair("housing.stl", "there is no file"), {"folder.stl", "is a folder"}}) {
     Diagnostics diagnostics;
     const auto setup = readSetup(write(fmt::format("[part]\nfile = \"{}\"\n", file)), diagnostics);
     ASSERT_TRUE(setup);
