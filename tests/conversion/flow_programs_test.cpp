@@ -208,23 +208,22 @@ private:
 TEST(ConvertFlow, RunsHeidenhainProgramsThroughTheSameTouches) {
   const int programs = setting("PROBEWRIGHT_PROGRAMS", 60);
   Dice dice(static_cast<unsigned>(setting("PROBEWRIGHT_SEED", 4001)));
-  int named = 0;
-  for (int i = 0; i < programs; ++i) {
+  // A conversion that names something promises nothing: others take its place.
+  int compared = 0;
+  for (int i = 0; compared < programs && i < 5 * programs; ++i) {
     SCOPED_TRACE(fmt::format("program {}", i));
     const World world(dice);
     const Twin original = runKlartext(KlartextFlow(dice, world).program(), world.part);
     const Twin there = runConverted(original, world.part);
-    if (!there.lost.empty()) {
-      ++named;
-      continue;
-    }
+    if (!there.lost.empty()) continue;
+    ++compared;
     ASSERT_TRUE(runsTheSame(original, there));
     const Twin back = runConverted(there, world.part);
     if (back.lost.empty()) {
       ASSERT_TRUE(runsTheSame(original, back));
     }
   }
-  EXPECT_LE(named, programs / 4) << "too many programs are named, too few compared";
+  EXPECT_EQ(compared, programs) << "too many programs are named, too few compared";
 }
 
 // ---- SINUMERIK ----
