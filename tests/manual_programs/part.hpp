@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "manual_programs/record.hpp"
 #include "support/heidenhain_bench.hpp"
 
 /// Parts for the printed examples: features by their program coordinates, the preset at the origin.
@@ -58,7 +59,7 @@ public:
     return ran;
   }
 
-  Bench bench;
+  RecordedBench bench;
 };
 
 }  // namespace probewright::testing_support
