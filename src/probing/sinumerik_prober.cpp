@@ -59,16 +59,21 @@ Feed SinumerikProber::rapidTo(const Vector3& tcp) const {
   if (habits_.rapidPercent <= 0 || habits_.rapidPercent >= 100) return Feed::rapidTraverse();
   const machine::AxisPositions from = channel_.axes();
   const machine::AxisPositions to = channel_.axesFromProgram(plane_.xyzFromPlane(tcp), from);
-  const auto& axes = channel_.description().axes;
+  // Each linear axis and its share of the way.
+  const auto eachShare = [&](auto&& visit) {
+    std::size_t index = 0;
+    for (const machine::Axis& axis : channel_.description().axes) {
+      if (axis.kind == machine::AxisKind::Linear) visit(axis, std::abs(to[index] - from[index]));
+      ++index;
+    }
+  };
   double way = 0;
-  for (std::size_t i = 0; i < axes.size(); ++i)
-    if (axes[i].kind == machine::AxisKind::Linear) way += (to[i] - from[i]) * (to[i] - from[i]);
+  eachShare([&](const machine::Axis&, double share) { way += share * share; });
   way = std::sqrt(way);
   double speed = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    const double share = std::abs(to[i] - from[i]);
-    if (axes[i].kind == machine::AxisKind::Linear && share > 0) speed = std::min(speed, axes[i].rapid * way / share);
-  }
+  eachShare([&](const machine::Axis& axis, double share) {
+    if (share > 0) speed = std::min(speed, axis.rapid * way / share);
+  });
   return std::isfinite(speed) ? Feed::at(speed * habits_.rapidPercent / 100) : Feed::rapidTraverse();
 }
 

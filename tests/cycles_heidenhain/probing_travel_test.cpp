@@ -31,6 +31,51 @@ std::string predefined(std::string block) {
          block;
 }
 
+/// The clearance height counts for the ball's lowest point: while that is below it, the probe rises first, even with
+/// its centre above; and what stands in the way between is passed over.
+TEST(ClearanceHeight, IsThatOfTheBallsLowestPoint) {
+  constexpr double height = 30, radius = 3;
+  for (const double start : {height - 0.5, height - 2 * radius + 0.5, height + 0.5}) {
+    Bench bench;
+    bench.probeOf(110, radius);
+    bench.preset(1, {0, 0, -400});
+    bench.part(simulation::Box({-50, -20, -30}, {-40, 20, height - 0.4}), pose({0, 0, -400}));
+    bench.part(simulation::Box({0, -20, -30}, {40, 20, 10}), pose({0, 0, -400}));
+    const bool below = start < height;
+    session::RunOptions options;
+    options.control = bench.control;
+    const std::string way =
+        fmt::format("TOOL CALL 1 Z\nL X{} Y+0 R0 FMAX\nL Z{:+.3f} R0 FMAX\n", below ? -70 : -45, start);
+    const Ran ran(session::runText("BENCH.H",
+                                   "BEGIN PGM BENCH MM\n" + way +
+                                       probe(427, {{263, 0},
+                                                   {264, 0},
+                                                   {261, 5},
+                                                   {320, 1},
+                                                   {272, 1},
+                                                   {267, 1},
+                                                   {260, height},
+                                                   {281, 0},
+                                                   {288, 0},
+                                                   {289, 0},
+                                                   {309, 0},
+                                                   {330, 0}}) +
+                                       "END PGM BENCH MM\n",
+                                   bench.setup, options));
+    ASSERT_TRUE(ran.finished()) << start << ran.why();
+    EXPECT_NEAR(ran.q(160), 0, 1e-6);
+    double highest = -1e9;  // of the ball's lowest point, between its start and the measuring height
+    bool begun = false;
+    for (const auto& point : ran.outcome.machine->path().points) {
+      const double lowest = point.tip.z() + 400 - radius;
+      begun = begun || std::abs(lowest - start) < 1e-6;
+      if (begun) highest = std::max(highest, lowest);
+      if (begun && lowest < 10) break;
+    }
+    EXPECT_NEAR(highest, std::max(height, start), 1e-6);
+  }
+}
+
 Travel travelOf(const Case& one, ControlKind kind, const Words& words, const std::string& startHeight,
                 bool globally = false) {
   Bench bench(kind, one.cycle == 403 || one.cycle == 405 ? "mill5-table-table" : "mill3");

@@ -152,6 +152,21 @@ TEST(Host, InchProgramsMoveInInches) {
   EXPECT_DOUBLE_EQ(world.machine->steps[0].feed.perMinute, 254);
 }
 
+/// Angles are degrees whatever the unit, and M126 leads an axis that turns without end the short way.
+TEST(Host, RotaryAxesTurnByDegreesInInchProgramsToo) {
+  World world("mill5-table-table");
+  const std::size_t a = *world.machine->description().axisIndex("A"), c = *world.machine->description().axisIndex("C");
+  expectFinished(world.run("0 BEGIN PGM A INCH\nL A+10 C+350 F100\nL IA+5\nM126\nL A-10 C+10\nM127\nL C+20\n"));
+  const auto& steps = world.machine->steps;
+  ASSERT_EQ(steps.size(), 4u);
+  EXPECT_EQ(steps[0].axes[a], 10);
+  EXPECT_EQ(steps[0].axes[c], 350);
+  EXPECT_EQ(steps[1].axes[a], 15);
+  EXPECT_EQ(steps[2].axes[a], -10);
+  EXPECT_EQ(steps[2].axes[c], 370);
+  EXPECT_EQ(steps[3].axes[c], 20);
+}
+
 TEST(Host, PolarCoordinatesAndArcs) {
   World world;
   expectFinished(world.run("L X+10 Y+0 R0 F100\nCC X+0 Y+0\nLP PR+20 PA+90\nCP PA+180 DR+\nCR X+0 Y+20 R+20 DR-"));

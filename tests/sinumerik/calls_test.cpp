@@ -90,6 +90,18 @@ TEST(SinumerikCalls, SectionsOfThisAndOfOtherPrograms) {
   EXPECT_EQ(world.alarm("CALL \"PARTS\" BLOCK NONE TO LAST\n"), "14080");
 }
 
+/// A semicolon within a text is text; behind the PROC line it begins a comment, whatever stands there.
+TEST(SinumerikCalls, HeadersMayHoldSemicolonsInTextsAndBeforeComments) {
+  World world;
+  world.texts.add(
+      "NOTE", "proc note(string[20] text=\"a;B\", real width=3) ; says \"so (1;2\nR11=STRLEN(TEXT)\nR12=WIDTH\nRET\n");
+  world.run("NOTE\nR1=R11 R2=R12\nNOTE(\"xyzuv\",7)\n");
+  EXPECT_EQ(world.r(1), 3);
+  EXPECT_EQ(world.r(2), 3);
+  EXPECT_EQ(world.r(11), 5);
+  EXPECT_EQ(world.r(12), 7);
+}
+
 std::vector<std::string> messagesOf(const Diagnostics& found) {
   std::vector<std::string> messages;
   for (const Diagnostic& each : found)

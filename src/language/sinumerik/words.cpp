@@ -531,7 +531,6 @@ void BlockParser::parseMeasure(std::string_view name, std::size_t start) {
   const TextRef ref = upper(name);
   Word event;
   event.address = addressOf("MEAS");
-  event.column = static_cast<std::uint32_t>(start) + 1;
   cursor_.skipBlanks();
   if (name.size() == 5) {
     Word axis, mode;
