@@ -1,11 +1,12 @@
 #include "language/sinumerik/swivel.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
-#include <fmt/format.h>
-
+#include "machine/rotary_solver.hpp"
 #include "sinumerik/world.hpp"
 
 /// CYCLE800 on machines of every build: the tool stands square to the plane, and the plane lies where it was asked for.
@@ -36,13 +37,53 @@ TEST(Swivel, TheToolStandsSquareToThePlane) {
       const double a = angle(random), b = angle(random);
       world.run(fmt::format("T2 M6\nG54\nCYCLE800(0,\"\",0,57,10,20,30,{},{},0,0,0,0,-1)\n", a, b));
       // Square: the tool axis is the plane's own Z.
-      EXPECT_LT((world.control.channel.toolAxis() - Vector3::UnitZ()).norm(), 1e-7) << name << " A" << a << " B" << b;
+      EXPECT_LT((world.control.channel.toolAxis() - Vector3::UnitZ()).norm(), 1e-9) << name << " A" << a << " B" << b;
       // The frame is the settable one, then the reference point, then the rotation.
       const Eigen::Affine3d expected = control::sinumerik::transform(world.control.data.frame("$P_UIFR", {1})) *
                                        Eigen::Translation3d(10, 20, 30) *
                                        Eigen::Affine3d(rotation(Vector3::UnitX(), a) * rotation(Vector3::UnitY(), b));
       EXPECT_LT((world.control.machineFromWorkpiece().matrix() - expected.matrix()).norm(), 1e-9) << name;
     }
+  }
+}
+
+/// Two rotary axes point the tool in a direction in two ways. That of which the direction was made is one; the other
+/// mirrors the tilting axis about the position where both meet.
+TEST(Swivel, BothPosturesOfADirectionAreFound) {
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> tilt(1, 85), turn(-179, 179);
+  for (const char* name : {"mill5-table-table", "mill5-head-table", "mill5-head-head"}) {
+    const machine::MachineDescription machine = *machine::readMachine(name);
+    const std::size_t tilting = machine::tiltingAxis(machine, Vector3::UnitZ())->axis;
+    const std::size_t turning = *machine.axisIndex("C");
+    for (int i = 0; i < 100; ++i) {
+      machine::AxisPositions planted, reference, now;
+      planted[tilting] = tilt(random) * (i % 2 == 0 ? 1 : -1);
+      planted[turning] = turn(random);
+      reference[turning] = turn(random);
+      now[turning] = turn(random);
+      const Vector3 direction = machine::toolOrientation(machine, reference, planted) * Vector3::UnitZ();
+      const auto found = toolPostures(machine, reference, now, direction);
+      ASSERT_EQ(found.size(), 2u) << name << direction.transpose();
+      const std::size_t same = found[0][tilting] * planted[tilting] > 0 ? 0 : 1;
+      EXPECT_NEAR(found[same][tilting], planted[tilting], 1e-9) << name;
+      EXPECT_NEAR(normalizedDegrees(found[same][turning] - planted[turning]), 0, 1e-9) << name;
+      EXPECT_NEAR(found[1 - same][tilting], -planted[tilting], 1e-9) << name;
+      EXPECT_NEAR(std::abs(normalizedDegrees(found[1 - same][turning] - planted[turning])), 180, 1e-9) << name;
+    }
+  }
+}
+
+/// Along the axis that turns the workpiece or the head there is one posture, and that axis need not move.
+TEST(Swivel, AnAxisThatDoesNotMatterStaysWhereItIs) {
+  for (const char* name : {"mill5-table-table", "mill5-head-table", "mill5-head-head"}) {
+    const machine::MachineDescription machine = *machine::readMachine(name);
+    machine::AxisPositions now;
+    now[*machine.axisIndex("C")] = 77;
+    const auto found = toolPostures(machine, {}, now, Vector3::UnitZ());
+    ASSERT_EQ(found.size(), 1u) << name;
+    for (std::size_t axis = 0; axis < machine.axes.size(); ++axis)
+      EXPECT_EQ(found[0][axis], now[axis]) << name;
   }
 }
 
@@ -55,7 +96,7 @@ TEST(Swivel, DirectionPicksThePosture) {
   while (description.axes[tilting].kind != machine::AxisKind::Rotary)
     ++tilting;
   const double a = smaller.machine.position()[tilting], b = larger.machine.position()[tilting];
-  EXPECT_NEAR(std::abs(a), 20, 1e-5);
+  EXPECT_NEAR(std::abs(a), 20, 1e-9);
   EXPECT_LT(a, b);
 }
 

@@ -26,8 +26,8 @@ TEST(ToolOrientation, VectorsPointTheTool) {
       const Vector3 target(place(random), place(random), 60 + place(random) / 4);
       world.run(fmt::format("G1 X{} Y{} Z{} A3={} B3={} C3={} F1000\n", target.x(), target.y(), target.z(),
                             direction.x(), direction.y(), direction.z()));
-      EXPECT_LT((toolAxis(world) - direction.normalized()).norm(), 1e-6) << name << " " << direction.transpose();
-      EXPECT_LT((world.control.channel.position() - target).norm(), 1e-6) << name;
+      EXPECT_LT((toolAxis(world) - direction.normalized()).norm(), 1e-9) << name << " " << direction.transpose();
+      EXPECT_LT((world.control.channel.position() - target).norm(), 1e-9) << name;
     }
   }
 }
@@ -41,14 +41,14 @@ TEST(ToolOrientation, AnglesPointTheTool) {
     World world(name);
     world.control.data.load({"$P_UIFR", {1, "Z", "TR"}}, -300.0);
     world.run("T1 M6 D1\nG54\nG0 X0 Y0 Z100\nTRAORI\nG1 X5 A2=20 B2=15 F1000\n");
-    EXPECT_LT((toolAxis(world) - euler).norm(), 1e-6) << name;
+    EXPECT_LT((toolAxis(world) - euler).norm(), 1e-9) << name;
     world.run("ORIRPY\nG1 X6 A2=20 B2=15 C2=35\n");
-    EXPECT_LT((toolAxis(world) - rpy).norm(), 1e-6) << name;
+    EXPECT_LT((toolAxis(world) - rpy).norm(), 1e-9) << name;
     world.run("ORIRPY2\nG1 X7 A2=20 B2=15\n");
-    EXPECT_LT((toolAxis(world) - rpy2).norm(), 1e-6) << name;
+    EXPECT_LT((toolAxis(world) - rpy2).norm(), 1e-9) << name;
     world.run("ORIEULER\nG1 A2=20 B2=15\n");
-    EXPECT_LT((toolAxis(world) - euler).norm(), 1e-6) << name;
-    EXPECT_LT((world.control.channel.position() - Vector3(7, 0, 100)).norm(), 1e-6) << name;
+    EXPECT_LT((toolAxis(world) - euler).norm(), 1e-9) << name;
+    EXPECT_LT((world.control.channel.position() - Vector3(7, 0, 100)).norm(), 1e-9) << name;
   }
 }
 
@@ -56,7 +56,7 @@ TEST(ToolOrientation, TheVectorCountsInTheProgramsOwnCoordinates) {
   World world("mill5-table-table");
   world.control.data.load({"$P_UIFR", {1, "Z", "TR"}}, -300.0);
   world.run("T1 M6 D1\nG54\nG0 X0 Y0 Z100\nTRAORI\nROT Z30\nG1 X1 A3=0.3 B3=0 C3=1 F1000\n");
-  EXPECT_LT((toolAxis(world) - Vector3(0.3, 0, 1).normalized()).norm(), 1e-6);
+  EXPECT_LT((toolAxis(world) - Vector3(0.3, 0, 1).normalized()).norm(), 1e-9);
 }
 
 TEST(ToolOrientation, RefusalsAreTheControls) {
@@ -83,7 +83,7 @@ TEST(ToolOrientation, LeadAndTiltAreNamed) {
   EXPECT_EQ(named,
             (std::vector<std::string>{"LEAD is not carried out", "TILT is not carried out", "A5 is not carried out",
                                       "B5 is not carried out", "C5 is not carried out"}));
-  EXPECT_LT((toolAxis(world) - Vector3(0.1, 0, 1).normalized()).norm(), 1e-6);
+  EXPECT_LT((toolAxis(world) - Vector3(0.1, 0, 1).normalized()).norm(), 1e-9);
 }
 
 }  // namespace

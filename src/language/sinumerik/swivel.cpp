@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "machine/rotary_solver.hpp"
 
 namespace probewright::sinumerik {
 
@@ -17,8 +17,6 @@ using control::sinumerik::Frame;
 
 namespace {
 
-constexpr double directionTolerance = 1e-9;
-
 Vector3 unitAxis(int code) { return code >= 1 && code <= 3 ? Vector3(Vector3::Unit(code - 1)) : Vector3::Zero(); }
 
 std::vector<std::size_t> rotaryAxes(const machine::MachineDescription& machine) {
@@ -28,53 +26,17 @@ std::vector<std::size_t> rotaryAxes(const machine::MachineDescription& machine) 
   return found;
 }
 
-/// The tool axis in the table's frame as it lies at `reference`.
-Vector3 toolDirection(const machine::MachineDescription& machine, const Pose& referenceFromTable,
-                      const AxisPositions& q) {
-  return referenceFromTable.linear() * machine::baseFromTable(machine, q).linear().transpose() *
-         machine::baseFromSpindle(machine, q).linear() * Vector3::UnitZ();
-}
-
-/// Gauss-Newton from `q` over `axes`, with a little damping where an axis has no effect.
-bool refine(const machine::MachineDescription& machine, const Pose& referenceFromTable,
-            const std::vector<std::size_t>& axes, const Vector3& direction, AxisPositions& q) {
-  constexpr double difference = 1e-4;
-  for (int iteration = 0; iteration < 60; ++iteration) {
-    const Vector3 error = direction - toolDirection(machine, referenceFromTable, q);
-    if (error.norm() < directionTolerance) return true;
-    Eigen::Matrix<double, 3, Eigen::Dynamic> slope(3, static_cast<Eigen::Index>(axes.size()));
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-      AxisPositions more = q, less = q;
-      more[axes[i]] += difference;
-      less[axes[i]] -= difference;
-      slope.col(static_cast<Eigen::Index>(i)) =
-          (toolDirection(machine, referenceFromTable, more) - toolDirection(machine, referenceFromTable, less)) /
-          (2 * radiansFromDegrees(difference));
-    }
-    Eigen::MatrixXd normal = slope.transpose() * slope;
-    normal.diagonal().array() += 1e-12 + 1e-3 * error.squaredNorm();
-    const Eigen::VectorXd step = normal.ldlt().solve(slope.transpose() * error);
-    for (std::size_t i = 0; i < axes.size(); ++i)
-      q[axes[i]] += std::clamp(degreesFromRadians(step[static_cast<Eigen::Index>(i)]), -30.0, 30.0);
-  }
-  return false;
-}
-
-/// Brings each angle into the travel of its axis if a whole number of turns does that.
-bool intoTravel(const machine::MachineDescription& machine, const std::vector<std::size_t>& axes, AxisPositions& q) {
-  for (const std::size_t axis : axes) {
-    double angle = normalizedDegrees(q[axis]);
-    const double rounded = std::round(angle * 1e6) / 1e6;
-    if (std::abs(angle - rounded) < 1e-7) angle = rounded == 0 ? 0 : rounded;
-    const machine::Axis& description = machine.axes[axis];
-    if (!description.modulo) {
-      if (angle > description.maximum + 1e-9) angle -= 360;
-      if (angle < description.minimum - 1e-9) angle += 360;
-      if (angle > description.maximum + 1e-9 || angle < description.minimum - 1e-9) return false;
-    }
-    q[axis] = angle;
-  }
-  return true;
+/// The angle between -180 and 180 degrees, or a whole turn off where the travel of the axis asks for that; nothing if
+/// it cannot be reached. What rounding left of a round number goes.
+std::optional<double> intoTravel(const machine::Axis& axis, double degrees) {
+  double angle = normalizedDegrees(degrees);
+  const double rounded = std::round(angle * 1e6) / 1e6;
+  if (std::abs(angle - rounded) < 1e-11) angle = rounded == 0 ? 0 : rounded;
+  if (axis.modulo) return angle;
+  if (angle > axis.maximum + 1e-9) angle -= 360;
+  if (angle < axis.minimum - 1e-9) angle += 360;
+  if (angle > axis.maximum + 1e-9 || angle < axis.minimum - 1e-9) return std::nullopt;
+  return angle;
 }
 
 void retract(Control& control, const SwivelCall& call) {
@@ -131,66 +93,33 @@ std::optional<Matrix3> swivelRotation(int mode, const Vector3& angles) {
   return result;
 }
 
-std::vector<AxisPositions> solveToolDirection(const machine::MachineDescription& machine,
-                                              const AxisPositions& reference, const AxisPositions& now,
-                                              const Vector3& direction) {
+std::vector<AxisPositions> toolPostures(const machine::MachineDescription& machine, const AxisPositions& reference,
+                                        const AxisPositions& now, const Vector3& direction) {
   const std::vector<std::size_t> axes = rotaryAxes(machine);
-  const Pose referenceFromTable = machine::baseFromTable(machine, reference);
-  std::vector<AxisPositions> solutions;
-  const auto distance = [&](const AxisPositions& q) {
+  const auto free = machine::freeRotaryAxis(machine, direction, reference);
+  std::vector<AxisPositions> postures;
+  for (AxisPositions posture : machine::solveRotaryAxes(machine, direction, Vector3::UnitZ(), reference, now)) {
+    if (free) posture[*free] = now[*free];
+    const bool reachable = std::ranges::all_of(axes, [&](std::size_t axis) {
+      const auto angle = intoTravel(machine.axes[axis], posture[axis]);
+      if (angle) posture[axis] = *angle;
+      return angle.has_value();
+    });
+    const bool known = std::ranges::any_of(postures, [&](const AxisPositions& other) {
+      return std::ranges::all_of(
+          axes, [&](std::size_t axis) { return std::abs(normalizedDegrees(posture[axis] - other[axis])) < 1e-7; });
+    });
+    if (reachable && !known) postures.push_back(posture);
+  }
+  const auto turn = [&](const AxisPositions& posture) {
     double sum = 0;
     for (const std::size_t axis : axes)
-      sum += std::abs(normalizedDegrees(q[axis] - now[axis]));
+      sum += std::abs(normalizedDegrees(posture[axis] - now[axis]));
     return sum;
   };
-  const auto attempt = [&](AxisPositions q) {
-    if (!refine(machine, referenceFromTable, axes, direction, q) || !intoTravel(machine, axes, q)) return;
-    const bool known = std::any_of(solutions.begin(), solutions.end(), [&](const AxisPositions& other) {
-      return std::all_of(axes.begin(), axes.end(),
-                         [&](std::size_t axis) { return std::abs(normalizedDegrees(q[axis] - other[axis])) < 1e-5; });
-    });
-    if (!known) solutions.push_back(q);
-  };
-  attempt(now);
-  AxisPositions zero = now;
-  for (const std::size_t axis : axes)
-    zero[axis] = reference[axis];
-  attempt(zero);
-  if (axes.size() == 1) {
-    for (double angle = -180; angle < 180; angle += 40) {
-      AxisPositions q = zero;
-      q[axes[0]] = angle + 7;
-      attempt(q);
-    }
-  } else if (axes.size() >= 2) {
-    for (double first = -180; first < 180; first += 60) {
-      for (double second = -180; second < 180; second += 60) {
-        AxisPositions q = zero;
-        q[axes[0]] = first + 7;
-        q[axes[1]] = second + 11;
-        attempt(q);
-      }
-    }
-  }
-  std::stable_sort(solutions.begin(), solutions.end(),
-                   [&](const AxisPositions& a, const AxisPositions& b) { return distance(a) < distance(b) - 1e-6; });
-  return solutions;
-}
-
-std::optional<AxisPositions> nearestToolDirection(const machine::MachineDescription& machine,
-                                                  const AxisPositions& reference, const AxisPositions& now,
-                                                  const Vector3& direction) {
-  constexpr double smallTurn = 20;  // degrees; the other posture is farther away, save near the pole
-  const std::vector<std::size_t> axes = rotaryAxes(machine);
-  const Pose referenceFromTable = machine::baseFromTable(machine, reference);
-  AxisPositions q = now;
-  if (!axes.empty() && refine(machine, referenceFromTable, axes, direction, q) && intoTravel(machine, axes, q)) {
-    const bool near = std::ranges::all_of(
-        axes, [&](std::size_t axis) { return std::abs(normalizedDegrees(q[axis] - now[axis])) < smallTurn; });
-    if (near) return q;
-  }
-  const std::vector<AxisPositions> all = solveToolDirection(machine, reference, now, direction);
-  return all.empty() ? std::nullopt : std::optional(all.front());
+  std::ranges::stable_sort(postures,
+                           [&](const AxisPositions& a, const AxisPositions& b) { return turn(a) < turn(b) - 1e-6; });
+  return postures;
 }
 
 void deselectSwivel(Control& control) {
@@ -240,7 +169,7 @@ void swivel(Control& control, const SwivelCall& call) {
 
   if (rotation) {
     const Vector3 normal = (control.machineFromWorkpiece().linear() * Vector3::UnitZ()).normalized();
-    std::vector<AxisPositions> solutions = solveToolDirection(machine, channel.rotaryOffset, channel.axes(), normal);
+    std::vector<AxisPositions> solutions = toolPostures(machine, channel.rotaryOffset, channel.axes(), normal);
     if (solutions.empty() && !axes.empty())
       throw Alarm("62201", "the rotary axes cannot take this plane within their travels",
                   "check the angles of CYCLE800 and the travels of the rotary axes");

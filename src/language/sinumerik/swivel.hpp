@@ -1,9 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
-
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,14 +32,10 @@ void deselectSwivel(control::sinumerik::Control& control);
 std::optional<Matrix3> swivelRotation(int mode, const Vector3& angles);
 
 /// Machine angles of the rotary axes (indexed by axis, others as in `now`) that turn the tool axis into `direction`,
-/// a unit vector in the table's frame as it lies at `reference`. All solutions within the travels, nearest first.
-std::vector<control::AxisPositions> solveToolDirection(const machine::MachineDescription& machine,
-                                                       const control::AxisPositions& reference,
-                                                       const control::AxisPositions& now, const Vector3& direction);
-
-/// The nearest of them; nothing if there is none. Quick where a small turn leads there.
-std::optional<control::AxisPositions> nearestToolDirection(const machine::MachineDescription& machine,
-                                                           const control::AxisPositions& reference,
-                                                           const control::AxisPositions& now, const Vector3& direction);
+/// a unit vector in the table's frame as it lies at `reference`: all of machine::solveRotaryAxes, as exact as they are,
+/// the one with the least turning first. An axis that does not matter stays where it is.
+std::vector<control::AxisPositions> toolPostures(const machine::MachineDescription& machine,
+                                                 const control::AxisPositions& reference,
+                                                 const control::AxisPositions& now, const Vector3& direction);
 
 }  // namespace probewright::sinumerik

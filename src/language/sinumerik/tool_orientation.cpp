@@ -74,17 +74,18 @@ void PathMotion::resolveOrientation(Words& words) const {
   const machine::MachineDescription& machine = channel.description();
   const AxisPositions now = channel.axes();
   const Vector3 wanted = (control_.machineFromWorkpiece().linear() * direction).normalized();
-  const auto posture = nearestToolDirection(machine, channel.rotaryOffset, now, wanted);
-  if (!posture)
+  const std::vector<AxisPositions> postures = toolPostures(machine, channel.rotaryOffset, now, wanted);
+  if (postures.empty())
     throw Alarm("14112", "the rotary axes cannot point the tool in this direction within their travels",
                 "check A3, B3, C3 or A2, B2, C2, and the travels of the rotary axes");
+  const AxisPositions& posture = postures.front();
   for (std::size_t axis = 0; axis < machine.axes.size(); ++axis) {
     const machine::Axis& description = machine.axes[axis];
     if (description.kind != machine::AxisKind::Rotary) continue;
     // The shortest way, if the travel has room for it.
-    const double near = now[axis] + normalizedDegrees((*posture)[axis] - now[axis]);
+    const double near = now[axis] + normalizedDegrees(posture[axis] - now[axis]);
     const bool inside = description.modulo || (near >= description.minimum && near <= description.maximum);
-    words.target.rotary[axis] = (inside ? near : (*posture)[axis]) - channel.rotaryOffset[axis];
+    words.target.rotary[axis] = (inside ? near : posture[axis]) - channel.rotaryOffset[axis];
     words.anyRotary = true;
   }
 }
