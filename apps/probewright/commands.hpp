@@ -55,6 +55,7 @@ struct ConvertArguments {
   std::optional<control::ControlKind> control;  ///< to write for
   std::filesystem::path setup;  ///< whose tables have definition files and values of global user data; empty: none
   bool force = false;           ///< an existing `output` is overwritten
+  double setUp = 2, dist = 10;  ///< SET_UP and DIST of the touch probe table, mm
 };
 /// Here 1 means that something could not be carried over; it stands as a comment in the output.
 int convert(const ConvertArguments& arguments);

@@ -114,9 +114,12 @@ int convert(const ConvertArguments& arguments) {
     return 2;
   }
   const conversion::Job job = session::jobOf(arguments.input, *from);
-  const session::Conversion conversion = session::convert(
-      **program, *from, *to,
-      {.globalData = &globalData, .control = arguments.control.value_or(control::ControlKind::TNC640), .job = &job});
+  const session::Conversion conversion =
+      session::convert(**program, *from, *to,
+                       {.globalData = &globalData,
+                        .control = arguments.control.value_or(control::ControlKind::TNC640),
+                        .job = &job,
+                        .probe = {.setUp = arguments.setUp, .travel = arguments.dist}});
   if (hasErrors(conversion.mistakes)) {
     print(conversion.mistakes, encoding);
     return 2;

@@ -214,6 +214,18 @@ int main(int argc, char** argv) {
                    "files (UGUD.DEF...) and values (*.INI, *.GUD) of global user data; without it, definition files "
                    "beside IN count")
       ->type_name("FILE");
+  convert
+      ->add_option("--set-up", convertArguments.setUp,
+                   "SET_UP of the HEIDENHAIN touch probe table (MP6140), mm: no program tells it")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->type_name("MM")
+      ->capture_default_str();
+  convert
+      ->add_option("--dist", convertArguments.dist,
+                   "DIST of that table (MP6130), mm: how far a touch looks for the surface")
+      ->check(CLI::Range(0.001, 10000.0))
+      ->type_name("MM")
+      ->capture_default_str();
   convert->add_flag("--force", convertArguments.force, "Overwrite OUT if it exists");
   convert->footer(
       "Exit codes: 0 everything carried over, 1 something was not or is doubtful: it is named, and what the other "

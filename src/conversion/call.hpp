@@ -22,12 +22,19 @@ private:
   std::string advice_;
 };
 
+/// What the touch probe table of a HEIDENHAIN control has for the probe, mm: no program tells it.
+struct TouchProbe {
+  double setUp = 2;    ///< SET_UP, on the iTNC 530 MP6140
+  double travel = 10;  ///< DIST, on the iTNC 530 MP6130
+};
+
 /// A call: the cycle ("412", "CYCLE977") and its parameters by name ("Q321", "S_FA").
 struct Call {
   std::string cycle;
   std::map<std::string, Quantity, std::less<>> numbers;
   std::map<std::string, std::string, std::less<>> texts;
   double millimetre = 1;  ///< in the unit of the program
+  TouchProbe probe;
 
   bool has(std::string_view name) const { return numbers.contains(name); }
   /// 0 if the parameter is not given.
@@ -46,8 +53,5 @@ using Results = std::map<Meaning, std::string>;
 using Losses = std::vector<std::string>;
 
 inline constexpr double millimetresOfInch = 25.4;
-
-/// SET_UP of the touch probe table that conversions reckon with, mm: the table is not part of a program.
-inline constexpr double assumedSetUp = 2;
 
 }  // namespace probewright::conversion

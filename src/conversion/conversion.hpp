@@ -5,6 +5,7 @@
 
 #include "base/diagnostic.hpp"
 #include "control/control_kind.hpp"
+#include "conversion/call.hpp"
 #include "conversion/job.hpp"
 #include "language/klartext/heidenhain_program.hpp"
 #include "language/sinumerik/program.hpp"
@@ -26,14 +27,16 @@ struct Conversion {
   std::vector<language::BlockPosition> origins;
 };
 
-/// `job`: of the program; null if nothing is known of others.
-Conversion toSinumerik(language::klartext::HeidenhainProgram& program, const Job* job = nullptr);
+/// `job`: of the program; null if nothing is known of others. `probe`: of the HEIDENHAIN control.
+Conversion toSinumerik(language::klartext::HeidenhainProgram& program, const Job* job = nullptr,
+                       const TouchProbe& probe = {});
 
 /// Global user data of a SINUMERIK with their values, by name in capitals.
 using GlobalData = sinumerik::UserVariables::Scope;
 /// `globalData`: what the program may use without defining it; null if nothing is known of its control. `control`: the
 /// HEIDENHAIN control to write for.
 Conversion toKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData = nullptr,
-                      control::ControlKind control = control::ControlKind::TNC640, const Job* job = nullptr);
+                      control::ControlKind control = control::ControlKind::TNC640, const Job* job = nullptr,
+                      const TouchProbe& probe = {});
 
 }  // namespace probewright::conversion

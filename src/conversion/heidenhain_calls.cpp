@@ -15,7 +15,8 @@ namespace {
 
 class Writer {
 public:
-  Writer(const MeasuringTask& task, control::ControlKind control) : task_(task), control_(control) {}
+  Writer(const MeasuringTask& task, control::ControlKind control, double setUp)
+      : task_(task), control_(control), setUp_(setUp) {}
 
   Call call() {
     switch (task_.feature) {
@@ -117,7 +118,7 @@ private:
   }
 
   void extraClearance() {
-    Quantity extra = task_.path - assumedSetUp * task_.millimetre;
+    Quantity extra = task_.path - setUp_ * task_.millimetre;
     if (extra.isNumber() && extra.number() < 0) extra = 0;
     if (!extra.isNumber()) {  // only the running program knows whether it is less than 0
       extra = extra / 2 + Quantity::of(fmt::format("ABS ({})", expressionText(extra / 2, true)));
@@ -325,11 +326,14 @@ private:
 
   const MeasuringTask& task_;
   control::ControlKind control_;
+  double setUp_;  ///< SET_UP, mm
   Call call_;
 };
 
 }  // namespace
 
-Call heidenhainCall(const MeasuringTask& task, control::ControlKind control) { return Writer(task, control).call(); }
+Call heidenhainCall(const MeasuringTask& task, control::ControlKind control, const TouchProbe& probe) {
+  return Writer(task, control, probe.setUp).call();
+}
 
 }  // namespace probewright::conversion

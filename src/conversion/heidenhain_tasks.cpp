@@ -89,7 +89,8 @@ private:
     MeasuringTask task;
     task.feature = feature;
     task.millimetre = call_.millimetre;
-    task.path = q(320) + assumedSetUp * call_.millimetre;
+    task.path = q(320) + call_.probe.setUp * call_.millimetre;
+    task.beyond = Quantity(call_.probe.travel * call_.millimetre) - task.path;
     task.clearance = q(260);
     task.place[2] = q(261);
     task.clearanceBetween = call_.has("Q301") && option(301) == 1;
@@ -341,7 +342,7 @@ private:
     task.feature = feature;
     task.millimetre = call_.millimetre;
     const double lengthPath = 5 * call_.millimetre;  // cycle 461 has no set-up clearance
-    task.path = feature == Feature::ProbeLength ? Quantity(lengthPath) : q(320) + assumedSetUp * call_.millimetre;
+    task.path = feature == Feature::ProbeLength ? Quantity(lengthPath) : q(320) + call_.probe.setUp * call_.millimetre;
     task.size[0] = q(407) * 2;
     task.place[2] = q(434);
     task.angle = q(380);

@@ -29,7 +29,7 @@ std::vector<MeasuringTask> heidenhainTasks(const Call& call, const Quantity& bal
 
 /// A call that carries out the task, with all parameters that the cycle has on that control; throws NotCarriedOver if
 /// there is none.
-Call heidenhainCall(const MeasuringTask& task, control::ControlKind control);
+Call heidenhainCall(const MeasuringTask& task, control::ControlKind control, const TouchProbe& probe = {});
 
 /// Where that cycle leaves its results.
 Results heidenhainResults(const std::string& cycle, const MeasuringTask& task);

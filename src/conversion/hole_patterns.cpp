@@ -42,7 +42,7 @@ ToSinumerik::Centre ToSinumerik::holeByStrokes(int number, const Place& place, c
   return centre;
 }
 
-ToSinumerik::Centre ToSinumerik::spigotCentre(int number, const MeasuringTask& pair) {
+ToSinumerik::Centre ToSinumerik::spigotCentre(const Block& block, int number, const MeasuringTask& pair) {
   MeasuringTask spigot = pair;
   spigot.feature = Feature::Spigot;
   spigot.correction = Correction::None;
@@ -53,6 +53,7 @@ ToSinumerik::Centre ToSinumerik::spigotCentre(int number, const MeasuringTask& p
   spigot.angle = 0;
   Losses losses;
   const SinumerikPassage passage = sinumerikPassage(spigot, ballRadius_, losses);
+  requireReach(block, spigot, passage);
   approach(*passage.start, pair.clearance);
   out_.line(callText(passage.call));
   Centre centre;
@@ -84,7 +85,7 @@ void ToSinumerik::holePattern(const Block& block, const MeasuringTask& given, co
   if (pattern.feature != Feature::BoltCircle) places.insert(places.begin(), pattern.place);
   for (const Place& place : places) {
     const int number = static_cast<int>(centres.size()) + 1;
-    centres.push_back(pattern.feature == Feature::SpigotPair ? spigotCentre(number, pattern)
+    centres.push_back(pattern.feature == Feature::SpigotPair ? spigotCentre(block, number, pattern)
                                                              : holeByStrokes(number, place, pattern.clearance));
   }
   besidePath_ = true;
@@ -150,8 +151,7 @@ void ToSinumerik::judgePattern(const Block& block, const MeasuringTask& pattern,
     scrap.push_back(fmt::format("(ABS({})>{})", sinumerikText(Quantity::of(centre[i]) - pattern.place[i]),
                                 sinumerikText(pattern.centreTolerance[i])));
   }
-  const bool flags = usedQ_.contains(180) || usedQ_.contains(181) || usedQ_.contains(182);
-  const bool tells = !scrap.empty() && !pattern.stops && !flags;
+  const bool tells = !scrap.empty() && !pattern.stops;
   if (tells) {
     out_.list(block, "these limits: a message tells when they are exceeded; no SINUMERIK cycle judges three holes",
               "compare in the program that reads the results");

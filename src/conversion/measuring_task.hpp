@@ -103,6 +103,7 @@ struct MeasuringTask {
   bool calibratesLength = false;  ///< of the probe, along with the ball on a calibration sphere
 
   Quantity path;                  ///< from where a touch begins to the expected surface
+  Quantity beyond;                ///< as far past that place a touch looks for the surface
   Quantity clearance;             ///< height of the tip that is free everywhere
   bool clearanceBetween = false;  ///< go to that height between touches
 

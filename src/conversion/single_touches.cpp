@@ -18,9 +18,6 @@ namespace probe_word = cycles::heidenhain::probe_word;
 
 namespace {
 
-/// Cycle 0 measures as far as the touch probe table says; conversions reckon with twice this path, mm.
-constexpr double halfStroke = 10;
-
 std::string wordName(std::uint32_t address) { return fmt::format("Q{}", address); }
 
 constexpr std::array<const char*, 3> axisNames = {"X", "Y", "Z"};
@@ -48,7 +45,7 @@ void ToSinumerik::singleTouch(const Block& block, const CycleCall& cycle, const 
     touch.feature = Feature::Surface;
     touch.axis = static_cast<int>(*axis);
     touch.sign = call.integer(wordName(probe_word::direction)) < 0 ? -1 : 1;
-    touch.path = halfStroke * millimetre_;
+    touch.path = touch.beyond = probe_.travel / 2 * millimetre_;
     touch.millimetre = millimetre_;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto index = planeIndex(addressOf(axisNames[i]));

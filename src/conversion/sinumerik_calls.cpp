@@ -12,8 +12,7 @@ namespace probewright::conversion {
 
 namespace {
 
-constexpr double safeAngle = 5;         ///< degrees that an edge may be off
-constexpr double safeCornerAngle = 10;  ///< degrees that a corner's edge may be off
+constexpr double leastSafeAngle = 5, mostSafeAngle = 45;  ///< degrees that an edge or a plane may be off
 
 /// S_MVAR of CYCLE977, units.
 int units977(Feature feature) {
@@ -23,7 +22,14 @@ int units977(Feature feature) {
 class Writer {
 public:
   Writer(const MeasuringTask& task, const Quantity& ballRadius, Losses& losses)
-      : task_(task), ballRadius_(ballRadius), losses_(losses) {}
+      : task_(task), ballRadius_(ballRadius), losses_(losses), path_(task.path) {
+    // Where a longer way to the place is free: the original program has come that way.
+    const bool free = isInside(task.feature) || (task.feature == Feature::Surface && task.axis == 2) ||
+                      task.feature == Feature::Plane || isCorner(task.feature);
+    const bool begins = task.feature == Feature::Edge;  // both touches from where the original ones begin
+    if (free) path_ = larger(task.path, task.beyond);
+    passage_.looksFarEnough = free || begins || !farther(task.beyond, task.path);
+  }
 
   SinumerikPassage passage() {
     switch (task_.feature) {
@@ -69,6 +75,23 @@ public:
 private:
   using Rest = SinumerikPassage::Rest;
 
+  static Quantity larger(const Quantity& one, const Quantity& other) {
+    if (other == 0) return one;
+    if (one.isNumber() && other.isNumber()) return std::max(one.number(), other.number());
+    return Quantity::of(fmt::format("MAXVAL({},{})", sinumerikText(one), sinumerikText(other)));
+  }
+  static bool farther(const Quantity& one, const Quantity& other) {
+    const Quantity difference = one - other;
+    return !difference.isNumber() || difference.number() > 1e-9;
+  }
+  /// What lies at the end of the path on one side and at its beginning on the other is off by that angle at most.
+  double safeAngle(double distance) const {
+    const Quantity reach = task_.path + task_.beyond;
+    if (!reach.isNumber()) return mostSafeAngle;
+    const double angle = std::ceil(std::atan2(reach.number(), distance) * 180 / std::numbers::pi);
+    return std::clamp(angle, leastSafeAngle, mostSafeAngle);
+  }
+
   void set(const std::string& name, const Quantity& value) { passage_.call.numbers[name] = value; }
   Quantity& start(std::size_t i) { return (*passage_.start)[i]; }
   /// Height of the tip when the ball's centre is at the measuring height.
@@ -86,7 +109,7 @@ private:
     start(2) = tip();
     set("S_MVAR", variant + (corrects ? 100 : 0));
     set("S_PRNUM", 1);
-    set("S_FA", task_.path);
+    set("S_FA", path_);
     set("S_NMSP", 1);
     if (corrects) set("S_KNUM", task_.active ? Quantity(19000) : task_.row + 10000);
   }
@@ -109,6 +132,9 @@ private:
     set("_AMODE", 1);
     passage_.judges = true;
     passage_.middle = (limits->upper + limits->lower) / 2;
+    if (!passage_.middle.isNumber() || !path_.isNumber()) return;
+    path_ = path_ + std::abs(passage_.middle.number());  // it looks about the middle
+    set("S_FA", path_);
   }
 
   /// The limits, if the cycle can compare with them: it has one pair for all sizes.
@@ -135,23 +161,23 @@ private:
 
   /// HEIDENHAIN cycles know none: as large as the reach, or as the whole feature.
   Quantity safeArea() const {
-    if (pathInside() == task_.path || !task_.size[0].isNumber() || !task_.path.isNumber()) return task_.path * 2;
-    return std::max({task_.path.number() * 2, task_.size[0].number(), task_.size[1].number()});
+    if (pathInside() == path_ || !task_.size[0].isNumber() || !path_.isNumber()) return path_ * 2;
+    return std::max({path_.number() * 2, task_.size[0].number(), task_.size[1].number()});
   }
 
   /// S_FA, shortened where the way to the place in front of a wall would lead beyond the middle.
   Quantity pathInside() const {
-    if (!isInside(task_.feature)) return task_.path;
+    if (!isInside(task_.feature)) return path_;
     constexpr double largestBall = 12;
     Quantity width = task_.size[0];
     if (isRectangular(task_.feature) && width.isNumber() && task_.size[1].isNumber()) {
       width = std::min(width.number(), task_.size[1].number());
     }
-    const Quantity room = width / 2 - task_.path;
+    const Quantity room = width / 2 - path_;
     const bool wide = room.isNumber() && room.number() > largestBall / 2 * task_.millimetre;
-    if (wide) return task_.path;
+    if (wide) return path_;
     Quantity path =
-        Quantity::of(fmt::format("MINVAL({},{})", sinumerikText(task_.path), sinumerikText(width / 2 - ballRadius_)));
+        Quantity::of(fmt::format("MINVAL({},{})", sinumerikText(path_), sinumerikText(width / 2 - ballRadius_)));
     if (isRectangular(task_.feature) && !(width == task_.size[1]) && !width.isNumber()) {
       path = Quantity::of(
           fmt::format("MINVAL({},{})", sinumerikText(path), sinumerikText(task_.size[1] / 2 - ballRadius_)));
@@ -202,12 +228,12 @@ private:
       if (task_.sign > 0) throw NotCarriedOver("a touch from below is not converted");
       start(2) = task_.clearance;
     } else {
-      start(axis) = task_.place[axis] - (task_.path + ballRadius_) * task_.sign;
+      start(axis) = task_.place[axis] - (path_ + ballRadius_) * task_.sign;
     }
     set("S_SETV", task_.place[axis]);
     set("S_MA", task_.axis + 1);
     set("S_MD", task_.sign > 0 ? 1 : 2);
-    set("S_TSA", task_.path * 2);
+    set("S_TSA", path_ * 2);
   }
 
   void cycle979() {
@@ -255,13 +281,10 @@ private:
     const double expected = std::atan2(rise, distance) * 180 / std::numbers::pi * (against ? -1 : 1);
     const bool rotates = task_.correction == Correction::Rotation || task_.correction == Correction::RotaryAxis;
     const Quantity set_ = rotates ? sinumerikEdgeAngle(task_, task_.angle) : Quantity(expected);
-    Quantity path = task_.path;
-    if (!(set_ == expected)) {
-      // The second point counts from the first one's height, not from the set angle.
-      set("S_MVAR", passage_.call.number("S_MVAR") + 100000);
-      path = path + std::abs(rise);
-      set("S_FA", path);
-    }
+    // Both touches begin at the same height, whatever the set angle, and reach as far as those of the touch probe.
+    set("S_MVAR", passage_.call.number("S_MVAR") + 100000);
+    const Quantity path = task_.path + std::abs(rise);
+    set("S_FA", larger(task_.path, (task_.path + task_.beyond) / 2) + std::abs(rise));
     if (set_.isNumber() && std::abs(set_.number()) > 45) {
       throw NotCarriedOver("CYCLE998 aligns edges by at most 45 degrees");
     }
@@ -275,7 +298,7 @@ private:
     }
     set("S_RA", 0);
     set("S_STA1", set_);
-    set("S_TSA", safeAngle);
+    set("S_TSA", safeAngle(distance));
     set("S_MA", static_cast<double>((along + 1) * 100 + axis + 1));
     set("S_MD", task_.sign > 0 ? 1 : 2);
     set("S_ID", distance);
@@ -299,11 +322,16 @@ private:
     constexpr double degrees = 180 / std::numbers::pi;
     set("S_STA1", std::asin(rise2 / length) * degrees);
     set("S_INCA", -std::atan(rise1) * degrees);
-    set("S_TSA", safeAngle);
+    set("S_TSA", safeAngle(std::min(apart(0, 0), apart(1, 1))));
     set("S_SETV0", apart(0, 0));
     set("S_SETV2", apart(1, 0));
     set("S_SETV3", apart(1, 1));
-    start(2) = first[2] + task_.path;
+    // All touches begin at the same height.
+    const double highest = std::max({0.0, apart(0, 2), apart(1, 2)}),
+                 lowest = std::min({0.0, apart(0, 2), apart(1, 2)});
+    set("S_MVAR", passage_.call.number("S_MVAR") + 100000);
+    set("S_FA", path_ + (highest - lowest));
+    start(2) = first[2] + path_ + (highest - lowest);
     if (!task_.clearanceBetween) return;
     // With a protection zone the probe goes up between the points to where the cycle began.
     const Quantity down = task_.clearance - start(2);
@@ -335,7 +363,10 @@ private:
     }
     set("S_SETV8", task_.wish[0].value_or(0));
     set("S_SETV9", task_.wish[1].value_or(0));
-    set("S_TSA", safeCornerAngle);
+    const auto length = [&](std::size_t from, std::size_t to, std::size_t axis) {
+      return std::abs((starts[to][axis] - starts[from][axis]).number());
+    };
+    set("S_TSA", safeAngle(std::min(length(0, 1, 0), length(2, 3, 1))));
     start(0) = starts[0][0];
     start(1) = starts[0][1];
     if (task_.clearanceBetween) {
@@ -374,6 +405,7 @@ private:
   const MeasuringTask& task_;
   Quantity ballRadius_;
   Losses& losses_;
+  Quantity path_;  ///< S_FA: as far in front of the place as behind it
   SinumerikPassage passage_;
 };
 

@@ -82,12 +82,12 @@ private:
     task.place = start_;
     task.place[2] = start_[2] + ballRadius_;
     task.clearance = start_[2];
-    task.path = number("S_FA");
+    task.path = task.beyond = number("S_FA");
     correction(task);
     if (call_.cycle != "CYCLE961" && call_.digit("S_MVAR", 5) != 0) {
       losses_.push_back("S_MVAR: the probe measures as it was calibrated, without turning the spindle");
     }
-    const double leastPath = assumedSetUp * call_.millimetre;
+    const double leastPath = call_.probe.setUp * call_.millimetre;
     if (task.path.isNumber() && task.path.number() < leastPath - 1e-6) {
       losses_.push_back(fmt::format(
           "S_FA: the touch begins SET_UP of the touch probe table in front of the surface; {} is taken for it",
@@ -212,6 +212,15 @@ private:
 
   MeasuringTask cycle998() { return call_.digit("S_MVAR", 1) == 6 ? plane() : edge(); }
 
+  /// CYCLE998 looks for further points about the first one, and farther by what the safe area permits.
+  void lookFarther(MeasuringTask& task, double distance) const {
+    if (call_.digit("S_MVAR", 6) == 1) return;  // from the start position of the first one
+    constexpr double mostAngle = 45;
+    const double farther = distance * std::tan(radians(std::min(std::abs(known("S_TSA")), mostAngle)));
+    task.path = task.path + farther;
+    task.beyond = task.beyond + farther;
+  }
+
   MeasuringTask edge() {
     MeasuringTask task = begun(Feature::Edge);
     if (call_.digit("S_MVAR", 4) == 1) losses_.push_back("S_MVAR: no protection zone");
@@ -239,6 +248,7 @@ private:
       const double slope = std::tan(radians(known("S_STA1"))) * (against ? -1 : 1);
       task.further[0][axis] = task.further[0][axis] + number("S_ID") * slope;
     }
+    lookFarther(task, known("S_ID"));
     task.angle = task.axis == 0 ? set + 90 : set;
     if (task.correction == Correction::Origin) {
       const bool rotary = !(number("S_RA") == 0);
@@ -268,6 +278,7 @@ private:
         point[2] = point[2] - (point[0] - task.place[0]) * (nx / nz) - (point[1] - task.place[1]) * (ny / nz);
       }
     }
+    lookFarther(task, std::max(known("S_SETV0"), std::hypot(known("S_SETV2"), known("S_SETV3"))));
     return task;
   }
 
@@ -322,6 +333,8 @@ private:
     for (const double each : apart)
       if (std::abs(each) > parallel) nearest = std::min(nearest == 0 ? std::abs(each) : nearest, std::abs(each));
     task.path = std::min(std::max(known("S_FA"), leastCornerPath * call_.millimetre), nearest / 2);
+    const double asked = known("S_FA");
+    task.beyond = Quantity(2 * (rightAngled ? asked : std::max(asked, leastCornerPath * call_.millimetre))) - task.path;
     const Quantity height = task.place[2] - wayDown("S_ID");
     task.clearanceBetween = call_.digit("S_MVAR", 4) == 1;
     const Quantity edge1 = pole2 + (task.path + ballRadius_) * task.sign;

@@ -32,9 +32,10 @@ struct SinumerikPassage {
   std::optional<Place> start;  ///< empty: from where the probe is
   Call call;
   Rest rest = Rest::Nothing;
-  bool correctsTool = false;  ///< the cycle itself corrects the tool of the task
-  bool judges = false;        ///< the cycle compares with the limits of the task
-  Quantity middle;            ///< of these limits: the cycle's set value lies that far from the nominal one
+  bool correctsTool = false;   ///< the cycle itself corrects the tool of the task
+  bool looksFarEnough = true;  ///< for the surface: as far as the task asks
+  bool judges = false;         ///< the cycle compares with the limits of the task
+  Quantity middle;             ///< of these limits: the cycle's set value lies that far from the nominal one
 };
 SinumerikPassage sinumerikPassage(const MeasuringTask& task, const Quantity& ballRadius, Losses& losses);
 

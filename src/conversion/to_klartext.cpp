@@ -28,13 +28,14 @@ std::string_view commentOf(std::string_view source) {
 }  // namespace
 
 ToKlartext::ToKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData, control::ControlKind control,
-                       const Job* job)
+                       const Job* job, const TouchProbe& probe)
     : program_(program),
       control_(control),
       job_(job == nullptr ? Job() : *job),
       out_(program.file()),
       formulas_(globalData),
-      graph_(program) {
+      graph_(program),
+      probe_(probe) {
   if (job_.shares) formulas_.keepLocal();
 }
 
@@ -120,6 +121,11 @@ void ToKlartext::write(const Block& block) {
   adopt(block);
   const std::size_t before = out_.size();
   const Frame frame = frame_;
+  if (block.skippable && block.skipLevel != 0 && skipLevels_.insert(block.skipLevel).second) {
+    out_.list(block,
+              fmt::format("block skip /{}: a HEIDENHAIN control has one switch for all blocks with /", block.skipLevel),
+              "use / alone");
+  }
   try {
     statements(block);
     if (block.instructions.empty() && remark.empty()) {
@@ -320,6 +326,11 @@ void ToKlartext::command(const Block& block, const Command& command) {
   }
   if (name == "SETAL" && !words.empty() && words[0].value.isLiteral()) {
     const int number = static_cast<int>(words[0].value.number);
+    const bool goesOn = (number >= 62000 && number < 64000) || number >= 67000;
+    if (goesOn) {
+      throw NotCarriedOver(fmt::format("SETAL({}) is shown and the program goes on; FN 14 stops it", number),
+                           "write a comment or FN 16");
+    }
     return line(fmt::format("FN 14: ERROR = {}", number >= 65000 ? number - 64000 : number));
   }
   if (name == "WORKPIECE") return blank(block, command);
@@ -344,8 +355,8 @@ void ToKlartext::command(const Block& block, const Command& command) {
 }
 
 Conversion toKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData, control::ControlKind control,
-                      const Job* job) {
-  return ToKlartext(program, globalData, control, job).run();
+                      const Job* job, const TouchProbe& probe) {
+  return ToKlartext(program, globalData, control, job, probe).run();
 }
 
 }  // namespace probewright::conversion

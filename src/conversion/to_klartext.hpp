@@ -21,7 +21,7 @@ class ToKlartext {
 public:
   /// `globalData`: global user data with their values; null if none are known.
   ToKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData, control::ControlKind control,
-             const Job* job);
+             const Job* job, const TouchProbe& probe);
   Conversion run();
 
 private:
@@ -126,6 +126,8 @@ private:
   /// CYCLE150: whether the cycles that follow write a log.
   void measuringLog(const language::Block& block, const Call& call);
   Place here();
+  /// Lists it if the probe does not look for the surface as far as the SINUMERIK cycle does.
+  void requireReach(const language::Block& block, const MeasuringTask& task);
   /// Writes the touch probe cycle that carries out the task; its number.
   std::string writeTask(const MeasuringTask& task);
   /// A corner that is measured only, which no touch probe cycle does: four times cycle 427.
@@ -197,6 +199,7 @@ private:
   std::map<std::uint64_t, std::set<int>> wantedAfter_;  ///< by the offset of each measuring cycle
   bool changesTool_ = false;                            ///< by M6
   double millimetre_ = 1;                               ///< in the unit of the program
+  TouchProbe probe_;
 
   std::map<std::uint64_t, Modes> entries_;  ///< by the offset of blocks that several ways lead to
   std::array<bool, 3> shiftsEver_{};        ///< X, Y, Z
@@ -237,6 +240,8 @@ private:
   };
   std::vector<Open> open_;
   std::set<std::string> changedGlobals_;
+  std::set<std::uint8_t> skipLevels_;  ///< listed
+  double listedReach_ = 0;             ///< the longest that is listed
 };
 
 }  // namespace probewright::conversion

@@ -97,8 +97,30 @@ void ToKlartext::copyResults(const Block& block, const Results& left, const Meas
     out_.lose(block, fmt::format("_OVR[{}]: the touch probe cycle has no such result", index));
 }
 
+void ToKlartext::requireReach(const Block& block, const MeasuringTask& task) {
+  Quantity reach = task.path + task.beyond;
+  if (isInside(task.feature) && !isCorner(task.feature)) {  // at most from one wall to the other
+    const Quantity across = isRectangular(task.feature) && task.size[1].isNumber() && task.size[0].isNumber()
+                                ? Quantity(std::max(task.size[0].number(), task.size[1].number()))
+                                : task.size[0];
+    if (across.isNumber() && (!reach.isNumber() || across.number() < reach.number())) reach = across;
+  }
+  if (!reach.isNumber()) {
+    out_.list(block, "how far this cycle looks for the surface is known only when the program runs",
+              "make sure that DIST of the touch probe table is at least twice S_FA");
+    return;
+  }
+  const double length = reach.number() / millimetre_;
+  if (length <= std::max(probe_.travel, listedReach_) + 1e-6) return;
+  listedReach_ = length;
+  out_.list(block,
+            fmt::format("this cycle looks for the surface along {} mm, a touch probe with DIST = {} along that only",
+                        numberText(std::ceil(length * 1000 - 1e-3) / 1000), numberText(probe_.travel)),
+            "enter as much as DIST in the touch probe table, and tell it by --dist");
+}
+
 std::string ToKlartext::writeTask(const MeasuringTask& task) {
-  const Call call = heidenhainCall(task, control_);
+  const Call call = heidenhainCall(task, control_, probe_);
   const cycles::CycleDefinition* definition = cycles::heidenhainCycle(std::stoi(call.cycle));
   std::vector<std::string> lines = {fmt::format("TCH PROBE {} {} ~", call.cycle, definition->title)};
   for (const cycles::Parameter& parameter : definition->parameters) {
@@ -219,6 +241,7 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   Call call;
   call.cycle = definition->name;
   call.millimetre = millimetre_;
+  call.probe = probe_;
   for (const Word& word : std::span<const Word>(block.words).subspan(called.arguments.first, called.arguments.count)) {
     const cycles::Parameter* parameter = definition->parameter(word.address);
     if (parameter == nullptr || !word.value.present()) continue;
@@ -239,6 +262,7 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   const bool calibrates = call.cycle == "CYCLE976";
   const Place start = calibrates ? Place{} : here();
   MeasuringTask task = sinumerikTask(call, start, ballRadius_, losses);
+  requireReach(block, task);
   const bool turns = task.correction == Correction::Rotation || task.correction == Correction::RotaryAxis;
   if (turns && activeRow_ && task.row == *activeRow_) task.active = true;
   task.fromUnturned = std::exchange(unturned_, false) && turns;
@@ -267,6 +291,8 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   const Quantity offset = call.number("S_KNUM");
   if (task.correction != Correction::None && offset.isNumber() && offset.number() < 10000) {
     line("; S_KNUM: THE FINE OFFSET, WHICH PRESETS DO NOT HAVE APART");
+    out_.list(block, "S_KNUM: the fine offset is corrected, the preset has none apart from its coordinates",
+              "write S_KNUM = 10001 and on where fine and coarse offset need not be told apart", Severity::Note);
   }
   const bool elder = control_ == control::ControlKind::iTNC530;
   if (safe && !restorable && elder) {

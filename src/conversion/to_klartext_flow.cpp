@@ -194,6 +194,8 @@ void ToKlartext::repeat(const Block& block, const RepeatSection& section) {
               "jumps leave the repeated section: a SINUMERIK ends its repetition then, and the section here does not",
               "let the jumps lead to the end of the section");
   }
+  const bool never = times.isNumber() && times.number() < 1;  // REP 0 calls the label as a subprogram
+  if (never && stretch->second == *own) return;
   if (stretch->second == *own) {
     line(fmt::format("CALL LBL \"{}\" REP{}", from, formulas_.unsignedValue(times)));
   } else if (!sectionsByNumber_) {

@@ -16,8 +16,8 @@ namespace probewright::conversion {
 using namespace language;
 using klartext::FramePart;
 
-ToSinumerik::ToSinumerik(klartext::HeidenhainProgram& program, const Job* job)
-    : program_(program), job_(job == nullptr ? Job() : *job), out_(program.file()), graph_(program) {
+ToSinumerik::ToSinumerik(klartext::HeidenhainProgram& program, const Job* job, const TouchProbe& probe)
+    : program_(program), job_(job == nullptr ? Job() : *job), out_(program.file()), graph_(program), probe_(probe) {
   if (job_.shares) formulas_.shareParameters();
 }
 
@@ -356,6 +356,8 @@ void ToSinumerik::command(const Block& block, const Command& command) {
   throw NotCarriedOver(fmt::format("{} has no twin on a SINUMERIK", name), "write it by hand");
 }
 
-Conversion toSinumerik(klartext::HeidenhainProgram& program, const Job* job) { return ToSinumerik(program, job).run(); }
+Conversion toSinumerik(klartext::HeidenhainProgram& program, const Job* job, const TouchProbe& probe) {
+  return ToSinumerik(program, job, probe).run();
+}
 
 }  // namespace probewright::conversion

@@ -23,7 +23,7 @@ std::string callText(const Call& call);
 
 class ToSinumerik {
 public:
-  ToSinumerik(language::klartext::HeidenhainProgram& program, const Job* job);
+  ToSinumerik(language::klartext::HeidenhainProgram& program, const Job* job, const TouchProbe& probe);
   Conversion run();
 
 private:
@@ -91,7 +91,7 @@ private:
   using Centre = std::array<std::string, 2>;
   void holePattern(const language::Block& block, const MeasuringTask& pattern, const std::string& heidenhainCycle);
   Centre holeByStrokes(int number, const Place& place, const Quantity& clearance);
-  Centre spigotCentre(int number, const MeasuringTask& pair);
+  Centre spigotCentre(const language::Block& block, int number, const MeasuringTask& pair);
   void turnByPair(const MeasuringTask& pair, const std::vector<Centre>& centres);
   void judgePattern(const language::Block& block, const MeasuringTask& pattern, const Centre& centre,
                     const std::string& diameter);
@@ -109,6 +109,8 @@ private:
   // to_sinumerik_cycles.cpp
   void cycle(const language::Block& block, const language::CycleCall& call);
   void task(const language::Block& block, const MeasuringTask& task, const std::string& heidenhainCycle);
+  /// Lists, once, that the SINUMERIK cycle does not look for the surface as far as the touch probe does.
+  void requireReach(const language::Block& block, const MeasuringTask& task, const SinumerikPassage& passage);
   void approach(const Place& start, const Quantity& clearance);
   /// By the first size, where the cycle does not do it.
   void correctTool(const MeasuringTask& task, const SinumerikPassage& passage);
@@ -156,6 +158,7 @@ private:
   SinumerikFormulas formulas_;
   FlowGraph graph_;
   double millimetre_ = 1;  ///< in the unit of the program
+  TouchProbe probe_;
   Quantity ballRadius_ = sinumerikBallRadius;
   Conversion result_;
 
@@ -188,6 +191,7 @@ private:
   bool axisDoubtful_ = false;
   std::optional<int> activeRow_;
   bool ended_ = false;
+  bool listedReach_ = false;
   std::vector<std::string> blank_;  ///< X, Y, Z of BLK FORM 0.1
   std::size_t lastMove_ = 0;        ///< line of the last motion, plus 1
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 #include <vector>
 
 #include "conversion/heidenhain_tasks.hpp"
@@ -47,6 +48,7 @@ Call ToSinumerik::callOf(const Block& block, const CycleCall& cycle) {
   Call call;
   call.cycle = std::to_string(cycle.number);
   call.millimetre = millimetre_;
+  call.probe = probe_;
   for (const Word& word : std::span<const Word>(block.words).subspan(cycle.parameters.first, cycle.parameters.count)) {
     const std::string name = fmt::format("Q{}", word.address);
     if (word.value.node >= 0) {
@@ -115,6 +117,18 @@ void ToSinumerik::cycle(const Block& block, const CycleCall& cycle) {
     out_.lose(block, loss);
 }
 
+void ToSinumerik::requireReach(const Block& block, const MeasuringTask& task, const SinumerikPassage& passage) {
+  if (passage.looksFarEnough || std::exchange(listedReach_, true)) return;
+  const Quantity enough = (task.path + task.beyond) / 2 - Quantity(probe_.setUp * millimetre_);
+  out_.list(block,
+            fmt::format("a touch probe with DIST = {} looks for the surface farther behind its place than in front of "
+                        "it, CYCLE977 to CYCLE979 as far as S_FA only",
+                        numberText(probe_.travel)),
+            enough.isNumber() ? fmt::format("program Q320 = {} if there is room, or tell by --dist what DIST is",
+                                            numberText(enough.number()))
+                              : std::string("tell by --dist what DIST is"));
+}
+
 void ToSinumerik::approach(const Place& start, const Quantity& clearance) {
   std::optional<Quantity> height = position_[2];
   const bool high = height && height->isNumber() && clearance.isNumber() && height->number() >= clearance.number();
@@ -138,6 +152,7 @@ void ToSinumerik::task(const Block& block, const MeasuringTask& given, const std
   }
   Losses losses;
   const SinumerikPassage passage = sinumerikPassage(task, ballRadius_, losses);
+  requireReach(block, task, passage);
   if (task.fromUnturned) takeRotationOut(task);
   if (passage.start) approach(*passage.start, task.clearance);
   out_.line(callText(passage.call));
@@ -394,7 +409,7 @@ void ToSinumerik::judge(const Block& block, const MeasuringTask& task, const Sin
   const bool byTool = passage.correctsTool && passage.call.number("_AMODE") == 1;
   const bool ofSize = (task.limits[0] || task.limits[1]) && !passage.judges && !byTool;
   const bool centre = !(task.centreTolerance[0] == 0) || !(task.centreTolerance[1] == 0);
-  const bool tells = (ofSize || centre) && !task.stops && !flags;
+  const bool tells = (ofSize || centre) && !task.stops;
   if (!flags && !task.stops && !tells) return;
   if (tells) {
     out_.list(block,

@@ -399,12 +399,12 @@ Conversion convert(language::Program& program, ProgramLanguage from, ProgramLang
   };
   if (from == ProgramLanguage::Sinumerik && to == ProgramLanguage::Klartext) {
     Conversion conversion = conversion::toKlartext(dynamic_cast<sinumerik::SinumerikProgram&>(program),
-                                                   options.globalData, options.control, options.job);
+                                                   options.globalData, options.control, options.job, options.probe);
     readBack(conversion, program, to, options.control);
     return conversion;
   }
   if (from == ProgramLanguage::Klartext)
-    return conversion::toSinumerik(dynamic_cast<HeidenhainProgram&>(program), options.job);
+    return conversion::toSinumerik(dynamic_cast<HeidenhainProgram&>(program), options.job, options.probe);
   return between(from, ProgramLanguage::Klartext, to);
 }
 

@@ -22,6 +22,8 @@ struct ConvertOptions {
   control::ControlKind control = control::ControlKind::TNC640;
   /// The programs that call each other with this one (session::jobOf); null if none are known.
   const conversion::Job* job = nullptr;
+  /// SET_UP and DIST of the HEIDENHAIN control.
+  conversion::TouchProbe probe = {};
 };
 
 /// The program, which is one of the language `from`, in the language `to`. What the blocks do is kept, and their

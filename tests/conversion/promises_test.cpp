@@ -318,5 +318,63 @@ TEST(ConvertPromises, NamesWhatItDrops) {
   EXPECT_THAT(fine.text, HasSubstr("; S_KNUM: THE FINE OFFSET"));
 }
 
+/// REP 0 of a HEIDENHAIN control calls a subprogram, P=0 of a SINUMERIK repeats nothing.
+TEST(ConvertPromises, RepeatsNothingNoTimes) {
+  const PlantedPart part = plainTable();
+  for (const char* times : {"0", "-1", "R2", "1", "3"}) {
+    SCOPED_TRACE(times);
+    const Twin original = runSinumerik(
+        sinumerikProgram(fmt::format("R1=0\nR2=0\nPART: R1=R1+1\nREPEAT PART P={}\nG0 X=R1 Y0\n", times)), part);
+    const Twin there = runConverted(original, part);
+    ASSERT_TRUE(ranWhole(original));
+    ASSERT_TRUE(ranWhole(there));
+    EXPECT_TRUE(sameEnd(original, there));
+  }
+  const std::string blocks =
+      "Q1 = 0\nFN 9: IF +0 EQU +0 GOTO LBL 2\nLBL 1\nQ1 = Q1 + 1\nLBL 0\nLBL 2\nCALL LBL 1 REP 0\n";
+  const Twin klartext = runKlartext(klartextProgram(blocks + "L X+Q1 Y+0 R0 FMAX\n"), part);
+  const Twin sinumerik = runConverted(klartext, part);
+  ASSERT_TRUE(ranWhole(klartext));
+  ASSERT_TRUE(ranWhole(sinumerik));
+  EXPECT_TRUE(sameEnd(klartext, sinumerik));
+}
+
+TEST(ConvertPromises, NamesWhatHasNoTwinOfItsOwn) {
+  const session::Conversion skip = toKlartext(sinumerikProgram("/G0 X1\n/1 G0 X2\n/1 G0 X3\n/7 G0 X4\n"));
+  ASSERT_EQ(skip.notCarriedOver.size(), 2U);  // each level once
+  EXPECT_THAT(skip.notCarriedOver[0].message, HasSubstr("/1"));
+  EXPECT_EQ(skip.notCarriedOver[0].place.line, 6U);
+  EXPECT_THAT(skip.notCarriedOver[1].message, HasSubstr("/7"));
+  // A message that is shown only does not become an error that stops.
+  const session::Conversion shown = toKlartext(sinumerikProgram("SETAL(67001)\nSETAL(65001)\n"));
+  ASSERT_EQ(shown.notCarriedOver.size(), 1U) << shown.text;
+  EXPECT_THAT(shown.notCarriedOver[0].message, HasSubstr("goes on"));
+  EXPECT_THAT(shown.text, HasSubstr("FN 14: ERROR = 1001"));
+  EXPECT_THAT(shown.text, Not(HasSubstr("ERROR = 3001")));
+  // Fine offset and preset are one: a note says so.
+  const session::Conversion fine = toKlartext(sinumerikProgram(
+      sinumerikCall("CYCLE977", {{"S_MVAR", 101}, {"S_KNUM", 1}, {"S_SETV", 40}, {"S_FA", 4}, {"S_TSA", 8}})));
+  ASSERT_EQ(fine.notCarriedOver.size(), 1U) << fine.text;
+  EXPECT_EQ(fine.notCarriedOver[0].severity, Severity::Note);
+  EXPECT_THAT(fine.notCarriedOver[0].message, HasSubstr("fine offset"));
+}
+
+/// Whether the program reads the status or not, the verdict of uneven limits is listed.
+TEST(ConvertPromises, NamesVerdictsThatTheCycleDoesNotTell) {
+  for (const char* read : {"", "Q1 = Q180\n"}) {
+    for (const int tolerance : {279, 280, 275}) {
+      std::string block = inspectHole(40, 40.9, tolerance == 275 ? 40.6 : 39.1);
+      if (tolerance != 275) {
+        const std::string name = fmt::format("Q{}=+0", tolerance);
+        block.replace(block.find(name), name.size(), fmt::format("Q{}=+1", tolerance));
+      }
+      const session::Conversion there = toSinumerik(klartextProgram(block + read));
+      ASSERT_EQ(there.notCarriedOver.size(), 1U) << there.text;
+      EXPECT_THAT(there.notCarriedOver[0].message, HasSubstr("verdict"));
+      EXPECT_THAT(there.text, HasSubstr("SETAL(67000"));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace probewright::testing_support

@@ -48,7 +48,7 @@ TEST(ConvertSingleTouch, MeasuresWithCycle0) {
         face.part);
     ASSERT_TRUE(ranWhole(original));
 
-    const Twin there = runConverted(original, face.part);
+    const Twin there = runConverted(original, face.part, {.setUp = 2, .travel = 20});
     ASSERT_TRUE(ranWhole(there));
     EXPECT_TRUE(sameResults(original, there, {{"Q10", "_OVR[4]"}}));
     EXPECT_TRUE(sameEnd(original, there));
