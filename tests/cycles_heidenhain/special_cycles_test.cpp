@@ -255,6 +255,23 @@ TEST(Cycle3, JudgesADeflectedStylus) {
   }
 }
 
+/// A stylus that stands against the part stops the program, unless M141 takes it away: in its own block only.
+TEST(M141, LeadsADeflectedStylusAwayInItsBlock) {
+  for (const ControlKind control : {ControlKind::TNC640, ControlKind::iTNC530}) {
+    Bench bench(control);
+    bench.preset(1, {0, 0, -400}, 0);
+    bench.part(simulation::HalfSpace({Vector3(0, 0, -400), Vector3::UnitZ()}));
+    const std::string touched =
+        "L Z+5 R0 FMAX\nTCH PROBE 4.0 M\nTCH PROBE 4.1 Q30\nTCH PROBE 4.2 IZ-1\n"
+        "TCH PROBE 4.3 ABST+9 F100 MB0 REFERENCE SYSTEM:0\n";
+    EXPECT_EQ(bench.run(touched + "L IZ+2 F500\n").alarm(), "Touch probe deflected");
+    const Ran away = bench.run(touched + "L IZ+2 F500 M141\nL IX+1 F500\nFN 18: SYSREAD Q40 = ID270 NR1 IDX3\n");
+    ASSERT_TRUE(away.finished()) << away.why();
+    EXPECT_NEAR(away.q(40), 2, 0.01);
+    EXPECT_EQ(bench.run("L Z+5 R0 FMAX\nL Z+4 F500 M141\nL Z-4 F500\n").alarm(), "Touch probe deflected");
+  }
+}
+
 TEST(Cycle4, NeedsADirection) {
   Bench bench;
   bench.preset(1, {0, 0, -400}, 0);

@@ -20,7 +20,7 @@ TEST(CycleCalls, MachiningCyclesAreSkippedOrRefused) {
   World world;
   expectFinished(world.run(program));
   EXPECT_EQ(std::ranges::count(world.control->journal.events, control::EventKind::Skipped, &control::EventRecord::kind),
-            2);
+            1);
   world.options.strict = true;
   EXPECT_EQ(world.run(program).end, RunEnd::Alarm);
 }

@@ -33,6 +33,39 @@ void turnPreset(World& world, double degrees) {
   world.control->activatePreset(0);
 }
 
+/// MB is a length of the program and follows its scaling; the way leads from the workpiece to the spindle, mirrored or
+/// not.
+TEST(MFunctions, M140RetractsAlongTheToolUnderScalingAndMirrorImages) {
+  struct Case {
+    const char* before;
+    double way;
+  };
+  for (const Case& each : {Case{"", 20},
+                           {"CYCL DEF 11.0 SCALING\nCYCL DEF 11.1 SCL0.5\n", 10},
+                           {"CYCL DEF 26.0 SCALING\nCYCL DEF 26.1 X0.5\n", 20},
+                           {"CYCL DEF 26.0 SCALING\nCYCL DEF 26.1 Z0.5\n", 10},
+                           {"CYCL DEF 8.0 MIRROR IMAGE\nCYCL DEF 8.1 X Y\n", 20},
+                           {"TRANS MIRROR AXIS X Y Z\n", 20},
+                           {"CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+35\n", 20}}) {
+    World world;
+    expectFinished(
+        world.run("TOOL CALL 1 Z\nL X+10 Y+20 Z-30 R0 FMAX\n" + std::string(each.before) + "L M140 MB20 F500\n"));
+    EXPECT_TRUE(near(tipOf(world), {10, 20, -30 + each.way})) << each.before << tipOf(world).transpose();
+    EXPECT_EQ(world.machine->steps.back().feed.perMinute, 500);
+  }
+  // In the tilted plane along its normal; the machine's limit ends MB MAX.
+  World tilted("mill5-head-head");
+  expectFinished(
+      tilted.run("TOOL CALL 1 Z\nPLANE SPATIAL SPA+30 SPB+0 SPC+0 TURN FMAX\nL X+0 Y+0 Z-50 R0 FMAX\n"
+                 "CYCL DEF 26.0 SCALING\nCYCL DEF 26.1 Y0.5\nM140 MB40 FMAX\n"));
+  const double tilt = radiansFromDegrees(30);
+  EXPECT_TRUE(near(tipOf(tilted), -10 * Vector3(0, -std::sin(tilt), std::cos(tilt)), 1e-6))
+      << tipOf(tilted).transpose();
+  World highest;
+  expectFinished(highest.run("TOOL CALL 1 Z\nTRANS MIRROR AXIS X Y Z\nL Z+150 R0 FMAX\nM140 MB MAX\n"));
+  EXPECT_NEAR(highest.machine->steps.back().axes[2], highest.machine->description().axes[2].maximum, 1e-5);
+}
+
 TEST(MFunctions, M143EndsTheBasicRotation) {
   for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
     World world("mill3", kind);

@@ -3,7 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "klartext/expectations.hpp"
 #include "klartext/host_world.hpp"
+#include "language/din_iso/program.hpp"
+#include "language/klartext/check.hpp"
 
 namespace probewright::language::klartext::testing {
 namespace {
@@ -133,6 +136,39 @@ TEST(Mistakes, OfFunctionsAndFormulas) {
               {"Q1 = \"A\"", "Wrong data type: A Q parameter takes a number, not a text"},
               {"QS1 = 5", "Wrong data type: QS1 takes a text, not a number"},
               {"Q1 = TONUMB( SRC_\"abc\" )", "String is no number: TONUMB cannot read \"abc\" as a number"}});
+}
+
+/// What is refused in a run is refused by the check, with a place, in both languages.
+TEST(Mistakes, OfFormulasWithTooManyTerms) {
+  const auto repeated = [](const std::string& text, int count) {
+    std::string all;
+    for (int i = 0; i < count; ++i)
+      all += text;
+    return all;
+  };
+  const std::string nested = "(1" + repeated(" + 1", 300) + ")" + repeated(" + 1", 300);
+  for (const std::string& formula : {"Q1 = 1" + repeated(" + 1", 600), "Q1 = 1" + repeated(" * 1 - 1", 300000),
+                                     "QS1 = \"\"" + repeated(" || \"\"", 600), "Q1 = " + nested}) {
+    KlartextProgram program("a.h", "BEGIN PGM A MM\n1 " + formula + "\nEND PGM A MM\n");
+    const Diagnostics found = checkProgram(program, control::ControlKind::TNC640);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].message, "a formula of this block has too many terms");
+    EXPECT_EQ(found[0].advice, "compute it in several blocks");
+    EXPECT_EQ(found[0].place.line, 2U);
+    EXPECT_EQ(World().run("1 " + formula + "\n").end, RunEnd::BrokenProgram);
+    din_iso::DinIsoProgram iso("a.i", "%A G71 *\nN10 " + formula + " *\nN99999999 %A G71 *\n");
+    EXPECT_EQ(checkProgram(iso, control::ControlKind::TNC640).size(), 1U);
+  }
+  World world;
+  expectFinished(world.run("Q1 = 1" + repeated(" + 1", 490) + "\nQS1 = \"a\"" + repeated(" || \"b\"", 200) + "\n"));
+  EXPECT_EQ(world.q(1), 491);
+}
+
+TEST(Mistakes, LabelIsWrittenLbl) {
+  KlartextProgram program("a.h", "BEGIN PGM A MM\nLABEL 5\nEND PGM A MM\n");
+  const Diagnostics found = checkProgram(program, control::ControlKind::TNC640);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].advice, "Did you mean LBL?");
 }
 
 TEST(Mistakes, OfPlanesAndTransformations) {

@@ -98,6 +98,14 @@ TEST(Statements, Fn15OfTheOlderControlPrintsValues) {
   EXPECT_EQ(world.control->panel.files().at("%FN15RUN.A"), "+20  -12,5  HOLE\n+0,3333  +0\n");
 }
 
+TEST(Statements, Fn15NamesWhatItCannotPrint) {
+  World world("mill3", control::ControlKind::iTNC530);
+  const RunResult refused = world.run("FN 15: PRINT TNC:\\DIR\\MASK.A\n");
+  ASSERT_EQ(refused.end, RunEnd::Alarm);
+  EXPECT_EQ(refused.diagnostics.front().code, "FN 15: value wrong");
+  EXPECT_EQ(refused.diagnostics.front().message, "TNC:\\DIR\\MASK.A is neither a number nor a Q parameter");
+}
+
 TEST(Statements, SystemDataOfTheOlderControl) {
   World world("mill5-head-table", ControlKind::iTNC530);
   expectFinished(

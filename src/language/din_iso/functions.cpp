@@ -55,6 +55,9 @@ bool BlockParser::function() {
       return expectEnd();
     }
     case 15:
+      parameterAddress(1);
+      lexer_.acceptKeyword("PRINT");
+      return textCommand("FN15");
     case 19:
     case 20:
     case 29:

@@ -27,7 +27,7 @@ void BlockParser::parse() {
       lexer_.advance();
   }
   skipSign();
-  if (!statement() || !numbersFit()) block_.instructions.clear();
+  if (!statement() || !numbersFit() || !formulasFit()) block_.instructions.clear();
 }
 
 bool BlockParser::statement() {

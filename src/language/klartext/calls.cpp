@@ -98,6 +98,9 @@ bool BlockParser::selection() {
     return error("PGM, CYCLE, TABLE, PATTERN, CONTOUR or CORR-TABLE is expected behind SEL");
   }
   Command command;
+  for (const std::string_view system : {"TCS", "WPL"}) {
+    if (name == "SEL CORR-TABLE" && lexer_.acceptKeyword(system)) name.append(" ").append(system);
+  }
   const std::size_t first = block_.words.size();
   if (const std::optional<std::string_view> text = lexer_.quoted()) {
     command.text = ref(*text);

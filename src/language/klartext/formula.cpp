@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "language/klartext/parser.hpp"
 
@@ -37,6 +39,30 @@ constexpr std::array<std::string_view, 8> stringFunctions = {"TOCHAR", "SUBSTR",
                                                              "INSTR",  "STRLEN", "STRCOMP", "CFGREAD"};
 
 }  // namespace
+
+/// False, with a complaint, if a formula has more terms one in the other than an evaluation goes down. Operands stand
+/// before the operation that takes them.
+bool BlockParser::formulasFit() {
+  constexpr int deepest = 500;
+  if (block_.nodes.size() <= static_cast<std::size_t>(deepest)) return true;
+  std::vector<int> depths(block_.nodes.size(), 1);
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    const Node& node = block_.nodes[i];
+    const auto take = [&](const Operand& operand) {
+      if (operand.node >= 0) depths[i] = std::max(depths[i], depths[static_cast<std::size_t>(operand.node)] + 1);
+    };
+    take(node.left);
+    take(node.right);
+    if (node.operation == Operation::Call) {
+      for (std::uint32_t k = 0; k < node.b; ++k)
+        take(block_.operands[node.a + k]);
+    }
+    if (depths[i] <= deepest) continue;
+    lexer_.seek(0);
+    return error("a formula of this block has too many terms", "compute it in several blocks");
+  }
+  return true;
+}
 
 bool BlockParser::assignment() {
   const std::optional<std::uint32_t> variable = variableIndex();

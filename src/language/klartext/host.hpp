@@ -119,6 +119,7 @@ private:
 
   // host_tools.cpp
   void callTool(const ToolCall& call, Evaluation& evaluation);
+  void defineTool(const Command& command, Evaluation& evaluation);
   void publishTool();
 
   // host_transforms.cpp

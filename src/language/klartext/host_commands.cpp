@@ -7,6 +7,7 @@
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
+#include "language/klartext/excerpt.hpp"
 #include "language/klartext/host.hpp"
 #include "language/klartext/lexer.hpp"
 
@@ -14,6 +15,7 @@
 namespace probewright::language::klartext {
 
 using control::Alarm;
+using namespace std::string_view_literals;
 
 void KlartextHost::leaveOut(const std::string& what) {
   if (options_.strict) {
@@ -57,7 +59,7 @@ void KlartextHost::message(std::string text) {
 }
 
 /// FUNCTION blocks other than TCPM. Feed, spindle, collision monitoring, counters and lift off leave alone where the
-/// tool is.
+/// tool is. MODE MILL is what a run has anyway; all other modes change coordinates or kinematics.
 void KlartextHost::functionBlock(std::string_view text, Evaluation& evaluation) {
   static constexpr std::array<std::string_view, 8> harmless = {"FEED", "S-PULSE", "SPINDLE", "AFC",
                                                                "DCM",  "LIFTOFF", "COUNT",   "ACC"};
@@ -65,7 +67,15 @@ void KlartextHost::functionBlock(std::string_view text, Evaluation& evaluation) 
     return text.size() >= word.size() && std::ranges::equal(text.substr(0, word.size()), word, {}, upper);
   };
   if (begins("MODE")) {
-    control_.turningMode = text.find("TURN") != std::string_view::npos;
+    std::string_view mode = text.substr(4);
+    while (!mode.empty() && isBlank(mode.front()))
+      mode.remove_prefix(1);
+    while (!mode.empty() && isBlank(mode.back()))
+      mode.remove_suffix(1);
+    const auto is = [&](std::string_view name) { return std::ranges::equal(mode, name, {}, upper); };
+    control_.turningMode =
+        is("TURN") || (mode.size() > 4 && std::ranges::equal(mode.substr(0, 4), "TURN"sv, {}, upper));
+    if (!is("MILL")) leaveOut(fmt::format("FUNCTION MODE {}", mode));
   } else if (begins("DWELL TIME")) {
     contour_.flush();
     std::string_view time = text.substr(10);
@@ -112,6 +122,10 @@ void KlartextHost::print(std::string_view text, Evaluation& evaluation) {
       item.remove_suffix(1);
     if (item.empty()) continue;
     const auto number = parseDecimal(item.starts_with('+') ? item.substr(1) : item);
+    if (!number && upper(item.front()) != 'Q' && !item.starts_with("+Q")) {
+      throw Alarm("FN 15: value wrong", fmt::format("{} is neither a number nor a Q parameter", excerptOf(item)),
+                  "write FN 15: PRINT Q5/Q6");
+    }
     const Value value = number ? Value(*number) : readNamed(item, evaluation);
     line.append(line.empty() ? "" : "  ");
     line += isText(value) ? std::get<std::string>(value) : numberText(std::get<double>(value));
@@ -179,8 +193,7 @@ void KlartextHost::command(const Command& command, Evaluation& evaluation) {
       control_.globalDefinitions[static_cast<int>(words[i].address)] = {std::get<double>(value), control_.unit};
     }
   } else if (name == "TOOL DEF") {
-    const Value tool = evaluation.value(first()->value);
-    if (!isText(tool)) preparedTool_ = std::floor(std::get<double>(tool));
+    defineTool(command, evaluation);
   } else if (name == "SEL PGM") {
     selectedProgram_ = command.words.count > 0 ? evaluation.text(first()->value) : std::string(text);
   } else if (name == "SEL TABLE") {
@@ -193,8 +206,8 @@ void KlartextHost::command(const Command& command, Evaluation& evaluation) {
     functionBlock(text, evaluation);
   } else if (name.starts_with("TABDATA")) {
     tableData(command, evaluation);
-  } else if (name == "SQL" || name == "FUNCTION RESET" || name == "SEL CORR-TABLE") {
-    leaveOut(fmt::format("{} {}", name, text));
+  } else if (name == "SQL" || name == "FUNCTION RESET" || name.starts_with("SEL CORR-TABLE")) {
+    leaveOut(text.empty() ? std::string(name) : fmt::format("{} {}", name, text));
   } else if (name == "FN37") {
     leaveOut("FN 37: EXPORT");
   } else if (name == "ERROR") {

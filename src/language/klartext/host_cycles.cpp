@@ -20,6 +20,12 @@ namespace {
 /// Cycles of CYCL DEF that act where they stand; all others wait for CYCL CALL, M99 or M89.
 constexpr std::array actingAtOnce = {14, 20, 220, 221, 224, 225, 238, 239, 270, 291, 292, 800, 801, 880, 892};
 
+/// Cycles of the machine tool builder: only he knows when and how they act.
+bool isOfBuilder(int number) { return (number >= 300 && number < 400) || (number >= 500 && number < 600); }
+
+/// Touch probe cycles that measure tools.
+bool measuresTools(int number) { return (number >= 30 && number <= 33) || (number >= 480 && number <= 485); }
+
 }  // namespace
 
 void KlartextHost::cycle(const CycleCall& call, Evaluation& evaluation) {
@@ -31,6 +37,7 @@ void KlartextHost::cycle(const CycleCall& call, Evaluation& evaluation) {
     skip(call.number);
     return;
   }
+  if (isOfBuilder(call.number)) skip(call.number);
   defineCycle(call.number);
 }
 
@@ -68,6 +75,11 @@ void KlartextHost::moveToCallPosition(const Command& command, Evaluation& evalua
 
 void KlartextHost::measure(const CycleCall& call, Evaluation& evaluation) {
   const cycles::heidenhain::Entry* entry = cycles::heidenhain::findEntry(call.number);
+  if (entry == nullptr && (measuresTools(call.number) || isOfBuilder(call.number))) {
+    leaveOut(fmt::format("Touch probe cycle {}, {},", call.number,
+                         measuresTools(call.number) ? "which measures tools" : "which is of the machine tool builder"));
+    return;
+  }
   if (entry == nullptr) {
     throw Alarm("Cycle not available", fmt::format("Touch probe cycle {} is not available", call.number),
                 "list the available cycles with: probewright cycles");
@@ -126,8 +138,7 @@ void KlartextHost::skip(int number) {
     throw Alarm("Cycle not available", fmt::format("Cycle {} is not simulated", number),
                 "run without --strict to skip machining cycles");
   }
-  control_.panel.message(control::EventKind::Skipped, fmt::format("Cycle {} is not simulated and was skipped", number),
-                         control_.channel.seconds());
+  leaveOut(fmt::format("Cycle {}", number));
 }
 
 }  // namespace probewright::language::klartext

@@ -33,6 +33,9 @@ void KlartextHost::guideTool(const Modal& modal, Evaluation& evaluation) {
   const bool on = evaluation.at(modal.name) == "FUNCTION TCPM";
   setHoldTip(on);
   if (!on) return;
+  if (const Word* path = find(modal.words, "PATH", evaluation); path != nullptr && path->value.number == 0) {
+    leaveOut("PATHCTRL VECTOR, which guides the tool direction between the ends of a block,");
+  }
   const Word* axis = find(modal.words, "AXIS", evaluation);
   const Word* point = find(modal.words, "REFP", evaluation);
   spaceAngles_ = axis != nullptr && axis->value.number == 0;

@@ -290,7 +290,9 @@ void KlartextHost::systemWrite(const Command& command, Evaluation& evaluation) {
       break;
     }
     case 990:
-      break;  // switches of the probe's input and monitoring have no counterpart here
+      // NR 6 chooses the input of the probe, of which there is one here; 0 of NR 1 is the approach that it has anyway.
+      if (number != 6 && !(number == 1 && value == 0)) leaveOut(fmt::format("FN 17: SYSWRITE ID990 NR{}", number));
+      break;
     default:
       refuse();
   }

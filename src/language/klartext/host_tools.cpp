@@ -6,7 +6,7 @@
 #include "control/heidenhain/tool_table.hpp"
 #include "language/klartext/host.hpp"
 
-/// TOOL CALL.
+/// TOOL CALL and TOOL DEF.
 namespace probewright::language::klartext {
 
 void KlartextHost::callTool(const ToolCall& call, Evaluation& evaluation) {
@@ -46,6 +46,30 @@ void KlartextHost::callTool(const ToolCall& call, Evaluation& evaluation) {
   }
   if (call.feed.present()) control_.tool.feed = length(call.feed, evaluation);
   publishTool();
+}
+
+/// TOOL DEF names the tool that comes next. The dimensions that older programs give it are those of TOOL.T here.
+void KlartextHost::defineTool(const Command& command, Evaluation& evaluation) {
+  const Word* named = find(command.words, "T", evaluation);
+  const Value tool = evaluation.value(named->value);
+  std::string row;
+  if (isText(tool)) {
+    row = control_.toolRowNamed(std::get<std::string>(tool));
+  } else {
+    const double number = std::get<double>(tool);
+    preparedTool_ = std::floor(number);
+    row = control::heidenhain::toolKey(static_cast<int>(std::floor(number)),
+                                       static_cast<int>(std::round((number - std::floor(number)) * 10)));
+  }
+  const auto& tools = control_.tables.tools;
+  for (const std::string_view column : {"L", "R"}) {
+    const Word* given = find(command.words, column, evaluation);
+    if (given == nullptr) continue;
+    const double value = length(given->value, evaluation);
+    constexpr double shown = 1e-4;  // the digits of the table
+    if (tools.hasRow(row) && std::abs(tools.numberOr(row, column, 0) - value) <= shown) continue;
+    leaveOut("TOOL DEF with a length or radius other than that in TOOL.T");
+  }
 }
 
 /// Q108 tool radius, Q109 tool axis, Q110 spindle, Q113 unit of the main program, Q114 tool length.

@@ -60,7 +60,7 @@ void BlockParser::parse() {
     block_.skippable = true;
     lexer_.advance();
   }
-  if (!statement() || !numbersFit()) block_.instructions.clear();
+  if (!statement() || !numbersFit() || !formulasFit()) block_.instructions.clear();
 }
 
 bool BlockParser::textCommand(std::string_view name) {
@@ -78,6 +78,7 @@ bool BlockParser::statement() {
       return true;  // empty, comment, structure
     case 'L':
       if (lexer_.acceptPrefix("LBL")) return label();
+      if (lexer_.acceptKeyword("LABEL")) return error("this is no block of the Klartext language", "Did you mean LBL?");
       lexer_.advance();
       if (second == 'P' && !isLetter(lexer_.here(1))) {
         lexer_.advance();

@@ -34,6 +34,7 @@ protected:
   bool textCommand(std::string_view name);
   bool expect(char wanted, std::string_view after);
   bool numbersFit();
+  bool formulasFit();
   bool error(std::string message, std::string advice = {});
   TextRef ref(std::string_view part) const;
   TextRef constant(std::string_view text) { return block_.add(text); }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ public:
 
 private:
   void look(const Block& block, const LabelMark& mark);
+  void look(const Block& block, const CallLabel& call);
+  void look(const Block& block, const Jump& jump);
   void look(const Block& block, const Command& command);
   void look(const Block& block, const CycleCall& call);
   void look(const Block& block, const Transform& transform);
@@ -30,6 +33,7 @@ private:
   void look(const Block& block, const Move& move);
   template <class Other>
   void look(const Block&, const Other&) {}
+  void label(const Block& block, TextRef label);
   void systemDatum(const Block& block, const Command& command);
   void endContour();
   void note(Severity severity, std::string message, std::string advice) {
@@ -37,7 +41,8 @@ private:
   }
 
   control::ControlKind kind_;
-  std::string corner_;  ///< RND or CHF that waits for the element behind it
+  std::map<std::string, bool, std::less<>> quoted_;  ///< labels of digits only, and how they stood first
+  std::string corner_;                               ///< RND or CHF that waits for the element behind it
   std::vector<Note> notes_;
 };
 
