@@ -9,9 +9,13 @@ namespace probewright::simulation {
 /// A face with closed forms, whole.
 void meetAnalyticFace(const CadFace& face, const Way& way, double radius, Meeting& best);
 
-/// A face of any shape, near one triangle of its tessellation; `coarse` is the meeting with the grown triangle.
-void meetFaceNear(const CadFace& face, const CadElement& triangle, const Meeting& coarse, const Way& way, double radius,
+/// A face of any shape, near one triangle of its tessellation; `coarse` is the meeting with the grown triangle. False
+/// if that is not enough to tell where the ball meets it; then it takes a closer look.
+bool meetFaceNear(const CadFace& face, const CadElement& triangle, const Meeting& coarse, const Way& way, double radius,
                   Meeting& best);
+
+/// The closer look: slow, and the faster the more is known already of other faces and edges.
+void meetFaceClosely(const CadFace& face, const CadElement& triangle, const Way& way, double radius, Meeting& best);
 
 /// A straight or round edge with its ends, whole.
 void meetSimpleEdge(const CadEdge& edge, const Way& way, double radius, Meeting& best);

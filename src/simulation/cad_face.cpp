@@ -6,6 +6,7 @@
 #include <Geom2d_Curve.hxx>
 #include <Geom2d_Line.hxx>
 #include <Geom2d_TrimmedCurve.hxx>
+#include <Geom_Circle.hxx>
 #include <Geom_OffsetSurface.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
 #include <Geom_SurfaceOfLinearExtrusion.hxx>
@@ -17,6 +18,7 @@
 #include <TopoDS_Wire.hxx>
 #include <gp_Cone.hxx>
 #include <gp_Cylinder.hxx>
+#include <gp_Lin.hxx>
 #include <gp_Pln.hxx>
 #include <gp_Sphere.hxx>
 #include <gp_Torus.hxx>
@@ -105,9 +107,14 @@ std::vector<Vector2> borderPoints(const TopoDS_Edge& edge, const TopoDS_Face& fa
   const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
   std::vector<Vector2> points;
   if (curve.IsNull()) return points;
+  // Splines go on beyond their ends, but not as anybody meant them to.
+  Vector2 low, high;
+  surface.Bounds(low.x(), high.x(), low.y(), high.y());
   const auto at = [&](double t) {
     const gp_Pnt2d p = curve->Value(t);
-    return Vector2(p.X(), p.Y());
+    const double u = surface.IsUPeriodic() ? p.X() : std::clamp(p.X(), low.x(), high.x());
+    const double v = surface.IsVPeriodic() ? p.Y() : std::clamp(p.Y(), low.y(), high.y());
+    return Vector2(u, v);
   };
   Handle(Geom2d_Curve) plain = curve;
   if (const auto trimmed = Handle(Geom2d_TrimmedCurve)::DownCast(plain)) plain = trimmed->BasisCurve();
@@ -221,6 +228,20 @@ Handle(Geom_Surface) surfaceWithoutLimits(const Handle(Geom_Surface) & surface) 
     return new Geom_SurfaceOfRevolution(curveWithoutLimits(revolution->BasisCurve()), revolution->Axis());
   }
   return surface;
+}
+
+bool meetsItsAxis(const CadFace& face) {
+  constexpr double kNearly = 1e-6;
+  for (const AnalyticSurface& sheet : face.forms) {
+    if (sheet.kind == AnalyticSurface::Kind::Torus) return sheet.tubeRadius > std::abs(sheet.radius) * (1 - kNearly);
+  }
+  const auto revolution = Handle(Geom_SurfaceOfRevolution)::DownCast(face.surface);
+  if (revolution.IsNull()) return false;
+  const auto circle = Handle(Geom_Circle)::DownCast(revolution->BasisCurve());
+  if (circle.IsNull()) return false;
+  const double arm = gp_Lin(revolution->Axis()).Distance(circle->Location());
+  // One that is turned about its own diameter makes a sphere.
+  return arm > kNearly * circle->Radius() && circle->Radius() > arm * (1 - kNearly);
 }
 
 CadFace cadFace(const TopoDS_Face& face) {

@@ -36,6 +36,9 @@ CadFace cadFace(const TopoDS_Face& face);
 /// so does it tell its periods.
 Handle(Geom_Surface) surfaceWithoutLimits(const Handle(Geom_Surface) & surface);
 
+/// True for a face of a lemon, apple, spindle or horn torus: a circle turned about an axis that it meets.
+bool meetsItsAxis(const CadFace& face);
+
 /// Appends the parameters of a curve's points so that chords stay within a tolerance. `deviates(a, b)` tells whether
 /// the chord between two parameters does not.
 template <class Deviates>

@@ -26,7 +26,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// To be counted up whenever an import makes something else of the same file.
-constexpr int kCacheVersion = 1;
+constexpr int kCacheVersion = 2;
 constexpr std::size_t kMostNamed = 10;
 constexpr int kMostAttempts = 5;
 
@@ -337,7 +337,26 @@ private:
   int faces_ = 0, done_ = 0;
 };
 
-Result<std::unique_ptr<Solid>> solidOf(ImportedPart part, const std::string& file, double deflection) {
+/// About faces that STEP does not tell unmistakably: of a circle that meets its axis OpenCASCADE may turn the other
+/// arc.
+void warnOfDoubtfulArcs(const CadModel& model, Diagnostics& remarks) {
+  const auto doubtful = std::ranges::count_if(model.faces, meetsItsAxis);
+  if (doubtful == 0) return;
+  const Vector3 size = model.bounds.maximum - model.bounds.minimum;
+  remarks.push_back({Severity::Warning,
+                     {},
+                     fmt::format("{} of {} faces are circles turned about an axis that they meet (lemon, apple, horn "
+                                 "torus): such faces are sometimes read with the wrong part of the circle",
+                                 doubtful, model.faces.size()),
+                     {},
+                     fmt::format("compare the size of the part, {:.3f} x {:.3f} x {:.3f} mm, with that in the CAD "
+                                 "system; if it is wrong, export as IGES",
+                                 size.x(), size.y(), size.z()),
+                     {}});
+}
+
+Result<std::unique_ptr<Solid>> solidOf(ImportedPart part, CadFormat format, const std::string& file,
+                                       double deflection) {
   const auto broken = [&](const char* reason) {
     return fail({file, 0, 0}, fmt::format("the shape cannot be prepared for contact: {}", reason),
                 "export the part again as solid bodies, or as STL");
@@ -347,9 +366,11 @@ Result<std::unique_ptr<Solid>> solidOf(ImportedPart part, const std::string& fil
     std::istringstream stream(std::move(part.brep));
     BinTools::Read(shape, stream);
     if (shape.IsNull()) return broken("it is empty");
+    CadModel model = cadModel(shape, deflection);
+    if (format == CadFormat::Step) warnOfDoubtfulArcs(model, part.remarks);
     for (Diagnostic& remark : part.remarks)
       remark.place.file = file;
-    return std::make_unique<CadSolid>(cadModel(shape, deflection), std::move(part.remarks), part.hasGrids);
+    return std::make_unique<CadSolid>(std::move(model), std::move(part.remarks), part.hasGrids);
   } catch (const Standard_Failure& failure) {
     return broken(failure.GetMessageString());
   } catch (const std::runtime_error& failure) {
@@ -360,13 +381,14 @@ Result<std::unique_ptr<Solid>> solidOf(ImportedPart part, const std::string& fil
 Result<std::unique_ptr<Solid>> import(TransferOrder order, const ImportOptions& options) {
   order.deflection = options.deflection;
   const std::string file = order.file;
+  const CadFormat format = order.format;
   const ImportCache cache(options.cache);
   std::string key;
   if (!options.cache.empty()) {
     key = ImportCache::keyOf(order.bytes, fmt::format("{} {} {} {}", kCacheVersion, OCC_VERSION_COMPLETE,
                                                       static_cast<int>(order.format), options.deflection));
     if (const auto kept = cache.find(key)) {
-      if (auto part = partFromBytes(*kept)) return solidOf(std::move(*part), file, options.deflection);
+      if (auto part = partFromBytes(*kept)) return solidOf(std::move(*part), format, file, options.deflection);
     }
   }
   StepText text;
@@ -379,7 +401,7 @@ Result<std::unique_ptr<Solid>> import(TransferOrder order, const ImportOptions& 
   Result<ImportedPart> part = Import(std::move(order), std::move(names), options).run();
   if (!part) return tl::unexpected(std::move(part.error()));
   if (!key.empty()) cache.keep(key, toBytes(*part));
-  return solidOf(std::move(*part), file, options.deflection);
+  return solidOf(std::move(*part), format, file, options.deflection);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <gp_Pnt.hxx>
 #include <gp_Vec.hxx>
@@ -103,18 +104,44 @@ public:
   FaceSearch(const CadFace& face, const Way& way, double radius, Meeting& best)
       : face_(face), surface_(*face.surface), way_(way), radius_(radius), best_(best) {}
 
-  /// Looks near one triangle; `coarse` is the meeting with the grown triangle.
-  void near(const CadElement& triangle, const Meeting& coarse) {
-    if (settles(triangle, coarse, true) || best_.when < 0) return;
-    // The iterations went astray: smaller triangles around, until they settle or are as good as the surface.
-    const CadElement wide = widened(triangle);
-    for (const CadElement& part : quarters(wide))
-      divide(part, 1);
+  /// Looks near one triangle; `coarse` is the meeting with the grown triangle. False if it cannot tell.
+  bool near(const CadElement& triangle, const Meeting& coarse) {
+    return settles(triangle, coarse, true) || best_.when < 0;
+  }
+
+  /// Looks again where the iterations went astray: at smaller triangles around, those first that would be met first,
+  /// until they settle or are as good as the surface.
+  void closely(const CadElement& triangle) {
+    for (const CadElement& part : quarters(widened(triangle)))
+      consider(part, 1);
+    for (int looked = 0; !open_.empty() && best_.when >= 0; ++looked) {
+      std::pop_heap(open_.begin(), open_.end(), later);
+      const Part next = std::move(open_.back());
+      open_.pop_back();
+      if (next.coarse.when > best_.when - kSame) return;
+      if (settles(next.element, next.coarse, false)) continue;
+      if (next.depth < kDeepest && next.element.growth > kFlat && looked < kMostParts) {
+        for (const CadElement& quarter : quarters(next.element))
+          consider(quarter, next.depth + 1);
+      } else {
+        meetFlat(next);
+      }
+    }
   }
 
 private:
-  static constexpr int kDeepest = 8;
-  static constexpr int kMostParts = 300;
+  static constexpr int kDeepest = 16;
+  static constexpr int kMostParts = 2000;
+  static constexpr double kFlat = 1e-8;  ///< mm: a triangle that leaves the surface by less is as good as the surface
+  static constexpr double kSame = 1e-7;  ///< mm: contacts nearer to each other are the same
+
+  /// A piece of the surface that may be met, and where at the earliest.
+  struct Part {
+    Meeting coarse;
+    CadElement element;
+    int depth = 0;
+  };
+  static bool later(const Part& a, const Part& b) { return a.coarse.when > b.coarse.when; }
 
   CadElement element(const std::array<Vector2, 3>& parameters) const {
     CadElement e;
@@ -151,21 +178,21 @@ private:
     return {element({a, ab, ca}), element({ab, b, bc}), element({ca, bc, c}), element({ab, bc, ca})};
   }
 
-  void divide(const CadElement& part, int depth) {
-    Meeting coarse;
-    coarse.when = best_.when;
-    if (best_.when < 0 || !sweepTriangle(way_, radius_ + part.growth, part.corners, coarse)) return;
-    if (coarse.when > best_.when - 1e-7 || settles(part, coarse, false)) return;
-    if (depth < kDeepest && part.growth > 1e-8 && ++parts_ < kMostParts) {
-      for (const CadElement& quarter : quarters(part))
-        divide(quarter, depth + 1);
-      return;
-    }
-    // As a last resort the triangle itself, unless what is known already is the same within its precision.
-    const Vector2 at = parametersOf(part, coarse.point);
+  void consider(const CadElement& element, int depth) {
+    Part part{{}, element, depth};
+    part.coarse.when = best_.when;
+    if (!sweepTriangle(way_, radius_ + element.growth, element.corners, part.coarse)) return;
+    if (part.coarse.when > best_.when - kSame) return;
+    open_.push_back(std::move(part));
+    std::push_heap(open_.begin(), open_.end(), later);
+  }
+
+  /// As a last resort the triangle itself, unless what is known already is the same within its precision.
+  void meetFlat(const Part& part) {
+    const Vector2 at = parametersOf(part.element, part.coarse.point);
     Meeting flat;
-    flat.when = best_.when - 4 * part.growth;
-    if (face_.domain.contains(at) && sweepTriangle(way_, radius_, part.corners, flat)) meet(flat.when, at);
+    flat.when = best_.when - 4 * part.element.growth;
+    if (face_.domain.contains(at) && sweepTriangle(way_, radius_, part.element.corners, flat)) meet(flat.when, at);
   }
 
   void meet(double when, const Vector2& at) {
@@ -242,7 +269,7 @@ private:
   const Way& way_;
   double radius_;
   Meeting& best_;
-  int parts_ = 0;
+  std::vector<Part> open_;
 };
 
 /// One search for the contact of a ball with a curved edge.
@@ -372,9 +399,13 @@ private:
 
 }  // namespace
 
-void meetFaceNear(const CadFace& face, const CadElement& triangle, const Meeting& coarse, const Way& way, double radius,
+bool meetFaceNear(const CadFace& face, const CadElement& triangle, const Meeting& coarse, const Way& way, double radius,
                   Meeting& best) {
-  FaceSearch(face, way, radius, best).near(triangle, coarse);
+  return FaceSearch(face, way, radius, best).near(triangle, coarse);
+}
+
+void meetFaceClosely(const CadFace& face, const CadElement& triangle, const Way& way, double radius, Meeting& best) {
+  FaceSearch(face, way, radius, best).closely(triangle);
 }
 
 void meetEdgeNear(const CadEdge& edge, const TrimmedDomain* within, const CadElement& chord, const Meeting& coarse,

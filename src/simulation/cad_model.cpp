@@ -20,6 +20,7 @@
 #include <TopoDS_Face.hxx>
 #include <stdexcept>
 
+#include "simulation/face_grid.hpp"
 #include "simulation/face_mesh.hpp"
 
 namespace probewright::simulation {
@@ -55,50 +56,39 @@ double deviationOf(const CadElement& element, const Geom_Surface& surface) {
   return deviation;
 }
 
+/// How far the corners of a triangle lie from where its parameters are on a plane: the mesher may have mixed them up.
+double deviationOf(const CadElement& element, const AnalyticSurface& plane) {
+  double deviation = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector2& uv = element.parameters[k];
+    const Vector3 place = plane.origin + plane.axes * Vector3(uv.x(), uv.y(), 0);
+    deviation = std::max(deviation, (place - element.corners[k]).norm());
+  }
+  return deviation;
+}
+
 double areaInParameters(const CadElement& element) {
   const Vector2 a = element.parameters[1] - element.parameters[0];
   const Vector2 b = element.parameters[2] - element.parameters[0];
   return std::abs(a.x() * b.y() - a.y() * b.x()) / 2;
 }
 
-/// A grid over the box about the face's domain, for a face that cannot be tessellated. It finds contacts of balls as
-/// well as a tessellation does; contacts of anything else err by a cell at the borders.
+/// A grid over the face, for a mesh that leaves a part of it open. It finds contacts of balls as well as a mesh does;
+/// contacts of anything else err by a cell at the borders.
 void addGridElements(CadModel& model, std::uint32_t owner, double deflection) {
   const CadFace& exact = model.faces[owner];
-  Vector2 low = exact.domain.low();
-  Vector2 high = exact.domain.high();
-  if (exact.domain.isEverywhere()) exact.surface->Bounds(low.x(), high.x(), low.y(), high.y());
-  if (!(std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()) < 1e9)) return;
-  std::vector<CadElement> elements;
-  for (int cells = 8; cells <= 64; cells *= 2) {
-    elements.clear();
-    double largest = 0;
-    const auto add = [&](const std::array<Vector2, 3>& corners) {
-      CadElement element;
-      element.owner = owner;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t from = exact.reversed ? 2 - k : k;
-        element.parameters[k] = low + (high - low).cwiseProduct(corners[from]);
-        element.corners[k] = vector(exact.surface->Value(element.parameters[k].x(), element.parameters[k].y()));
-      }
-      const Vector2 middle = (element.parameters[0] + element.parameters[1] + element.parameters[2]) / 3;
-      element.onFace = exact.domain.contains(middle);
-      const double deviation = deviationOf(element, *exact.surface);
-      largest = std::max(largest, deviation);
-      element.growth = kLeastGrowth + 1.5 * deviation;
-      elements.push_back(element);
-    };
-    const double step = 1.0 / cells;
-    for (int i = 0; i < cells; ++i) {
-      for (int j = 0; j < cells; ++j) {
-        const Vector2 a(i * step, j * step), b(a.x() + step, a.y()), c(a.x(), a.y() + step), d(b.x(), c.y());
-        add({a, b, d});
-        add({a, d, c});
-      }
+  const FaceGrid grid(exact, deflection);
+  for (const FaceGrid::Parameters& cell : grid.triangles()) {
+    CadElement element;
+    element.owner = owner;
+    for (std::size_t k = 0; k < 3; ++k) {
+      element.parameters[k] = cell[exact.reversed ? 2 - k : k];
+      element.corners[k] = vector(exact.surface->Value(element.parameters[k].x(), element.parameters[k].y()));
     }
-    if (largest <= deflection) break;
+    element.onFace = exact.domain.contains((cell[0] + cell[1] + cell[2]) / 3);
+    element.growth = kLeastGrowth + 1.5 * deviationOf(element, *exact.surface);
+    model.elements.push_back(element);
   }
-  model.elements.insert(model.elements.end(), elements.begin(), elements.end());
 }
 
 void addFaceElements(CadModel& model, const TopoDS_Face& face, std::uint32_t owner, double deflection) {
@@ -128,7 +118,8 @@ void addFaceElements(CadModel& model, const TopoDS_Face& face, std::uint32_t own
       const gp_Pnt2d uv = mesh->UVNode(nodes[k]);
       element.parameters[k] = {uv.X(), uv.Y()};
     }
-    const double deviation = flat ? 0 : deviationOf(element, *exact.surface);
+    const double deviation =
+        flat ? deviationOf(element, exact.forms.sheets.front()) : deviationOf(element, *exact.surface);
     area += areaInParameters(element);
     // Between a bent border and its chord no triangle lies.
     element.growth = kLeastGrowth + 1.5 * std::max(deviation, straight ? 0.0 : 1.5 * deflection);
@@ -302,11 +293,13 @@ CadModel cadFaces(const TopoDS_Shape& part, double deflection) {
     addFaces(model, TopExp_Explorer(solids.Current(), TopAbs_FACE), closed, deflection);
   }
   addFaces(model, TopExp_Explorer(shape, TopAbs_FACE, TopAbs_SOLID), false, deflection);
+  // Lines that belong to no face are drawn in the file, axes for instance, but nothing that could be touched.
   TopTools_IndexedMapOfShape edges;
-  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next())
+    TopExp::MapShapes(faces.Current(), TopAbs_EDGE, edges);
   for (int i = 1; i <= edges.Extent(); ++i) {
     const TopoDS_Edge& edge = TopoDS::Edge(edges(i));
-    if (BRep_Tool::Degenerated(edge)) continue;
+    if (BRep_Tool::Degenerated(edge) || edge.Orientation() == TopAbs_EXTERNAL) continue;
     CadEdge exact = cadEdge(edge);
     if (exact.curve.IsNull()) continue;
     model.edges.push_back(std::move(exact));

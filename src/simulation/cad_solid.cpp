@@ -33,8 +33,14 @@ private:
   std::size_t count_ = 0;
 };
 
+/// A triangle near which it is not clear where a free-form face is met.
+struct OpenQuestion {
+  const CadElement* triangle;
+  double soonest;  ///< no meeting there is earlier
+};
+
 void meet(const CadModel& model, const CadElement& element, const Way& way, double radius, Memory& memory,
-          Meeting& best) {
+          std::vector<OpenQuestion>& open, Meeting& best) {
   Meeting coarse;
   coarse.when = best.when;
   const bool isFace = element.kind == CadElement::Kind::Face;
@@ -44,8 +50,11 @@ void meet(const CadModel& model, const CadElement& element, const Way& way, doub
   if (!near) return;
   if (isFace) {
     const CadFace& face = model.faces[element.owner];
-    if (face.forms.count == 0) return meetFaceNear(face, element, coarse, way, radius, best);
-    if (!memory.knows(element)) meetAnalyticFace(face, way, radius, best);
+    if (face.forms.count > 0) {
+      if (!memory.knows(element)) meetAnalyticFace(face, way, radius, best);
+    } else if (!meetFaceNear(face, element, coarse, way, radius, best)) {
+      open.push_back({&element, coarse.when});
+    }
   } else {
     const CadEdge& edge = model.edges[element.owner];
     const TrimmedDomain* within = edge.within ? &model.faces[*edge.within].domain : nullptr;
@@ -81,9 +90,16 @@ std::optional<BallContact> CadSolid::firstContact(const Vector3& from, const Vec
   const Mover mover{wayBetween(from, to), radius};
   Meeting best;
   Memory memory;
+  std::vector<OpenQuestion> open;
   model_->tree.search(mover, best, [&](std::uint32_t place, const Triangle&) {
-    meet(*model_, model_->elements[place], mover.way, radius, memory, best);
+    meet(*model_, model_->elements[place], mover.way, radius, memory, open, best);
   });
+  // Only now, because borders and neighbours answer most of them.
+  std::sort(open.begin(), open.end(), [](const auto& a, const auto& b) { return a.soonest < b.soonest; });
+  for (const OpenQuestion& question : open) {
+    if (question.soonest < best.when)
+      meetFaceClosely(model_->faces[question.triangle->owner], *question.triangle, mover.way, radius, best);
+  }
   if (!(best.when < 0) && !meetsFront(mover.way, best) && isInside(from)) return contactWithin(mover.way, radius);
   return ballContact(mover.way, best);
 }

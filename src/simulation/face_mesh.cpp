@@ -6,28 +6,24 @@
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepMesh_MeshAlgoFactory.hxx>
 #include <BRepTools.hxx>
-#include <BRepTopAdaptor_FClass2d.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
-#include <Geom_Surface.hxx>
 #include <IMeshData_Face.hxx>
 #include <Poly_Triangulation.hxx>
-#include <Precision.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
-#include <algorithm>
-#include <cmath>
 #include <map>
+#include <stdexcept>
+
+#include "simulation/face_grid.hpp"
 
 namespace probewright::simulation {
 namespace {
 
 /// Ball and shaft meet what lies within the deflection of a face; the angle only keeps small curves recognizable.
 constexpr double kAngle = 0.5;
-constexpr int kMostCells = 10'000;
-constexpr int kMostCellsAcross = 400;
 
 /// The faces by what they share with their instances elsewhere in the shape, counted from 1.
 using FaceNumbers = std::map<const TopoDS_TShape*, int>;
@@ -102,107 +98,21 @@ private:
   const FaceMeshOptions& options_;
 };
 
-/// Cells over the parameters of a face, each halved along u or v until it is true to the surface.
-class Grid {
-public:
-  Grid(const TopoDS_Face& face, double deflection) : face_(face), surface_(BRep_Tool::Surface(face, location_)) {
-    BRepTools::UVBounds(face, u0_, u1_, v0_, v1_);
-    for (double* bound : {&u0_, &v0_})
-      *bound = std::max(*bound, -kFarthest);
-    for (double* bound : {&u1_, &v1_})
-      *bound = std::min(*bound, kFarthest);
-    refine(deflection);
+/// A grid as triangles of the face, in the face's own frame; none where the face has no extent.
+Handle(Poly_Triangulation) triangulation(const CadFace& face, const FaceGrid& grid) {
+  const auto count = static_cast<int>(grid.triangles().size());
+  if (count == 0) return {};
+  const Handle(Poly_Triangulation) mesh = new Poly_Triangulation(3 * count, count, Standard_True);
+  int node = 0;
+  for (int i = 0; i < count; ++i) {
+    for (const Vector2& uv : grid.triangles()[static_cast<std::size_t>(i)]) {
+      mesh->SetNode(++node, face.surface->Value(uv.x(), uv.y()));
+      mesh->SetUVNode(node, {uv.x(), uv.y()});
+    }
+    mesh->SetTriangle(i + 1, {node - 2, node - 1, node});
   }
-
-  Handle(Poly_Triangulation) triangles() {
-    const BRepTopAdaptor_FClass2d domain(face_, Precision::PConfusion());
-    std::vector<std::pair<int, int>> inside;
-    for (int i = 0; i < columns_; ++i) {
-      for (int j = 0; j < rows_; ++j) {
-        if (touches(domain, i, j)) inside.emplace_back(i, j);
-      }
-    }
-    if (inside.empty()) return {};
-    const Handle(Poly_Triangulation) mesh =
-        new Poly_Triangulation((columns_ + 1) * (rows_ + 1), 2 * static_cast<int>(inside.size()), Standard_True);
-    for (int i = 0; i <= columns_; ++i) {
-      for (int j = 0; j <= rows_; ++j) {
-        mesh->SetNode(node(i, j), at(i, j));
-        mesh->SetUVNode(node(i, j), {u(i), v(j)});
-      }
-    }
-    int next = 0;
-    for (const auto& [i, j] : inside) {
-      mesh->SetTriangle(++next, {node(i, j), node(i + 1, j), node(i + 1, j + 1)});
-      mesh->SetTriangle(++next, {node(i, j), node(i + 1, j + 1), node(i, j + 1)});
-    }
-    return mesh;
-  }
-
-  double deviation() const { return std::max(deviationAlong(true), deviationAlong(false)); }
-
-  double largestCell() const {
-    double largest = 0;
-    for (int i = 0; i < columns_; ++i) {
-      for (int j = 0; j < rows_; ++j)
-        largest = std::max(largest, at(i, j).Distance(at(i + 1, j + 1)));
-    }
-    return largest;
-  }
-
-private:
-  static constexpr double kFarthest = 1e5;
-
-  double u(double i) const { return u0_ + (u1_ - u0_) * i / columns_; }
-  double v(double j) const { return v0_ + (v1_ - v0_) * j / rows_; }
-  gp_Pnt at(double i, double j) const { return surface_->Value(u(i), v(j)); }
-  int node(int i, int j) const { return 1 + i * (rows_ + 1) + j; }
-
-  /// How far the surface leaves the middle of the cells' sides along u, or v.
-  double deviationAlong(bool alongU) const {
-    double largest = 0;
-    for (int i = 0; i < columns_; ++i) {
-      for (int j = 0; j < rows_; ++j) {
-        const gp_Pnt middle = alongU ? at(i + 0.5, j) : at(i, j + 0.5);
-        const gp_XYZ chord = (at(i, j).XYZ() + (alongU ? at(i + 1, j) : at(i, j + 1)).XYZ()) / 2;
-        largest = std::max(largest, (middle.XYZ() - chord).Modulus());
-      }
-    }
-    return largest;
-  }
-
-  void refine(double deflection) {
-    while (2 * columns_ * rows_ <= kMostCells) {
-      const double alongU = deviationAlong(true), alongV = deviationAlong(false);
-      const bool halveU =
-          alongU > deflection && 2 * columns_ <= kMostCellsAcross && (alongU >= alongV || rows_ > columns_);
-      const bool halveV = alongV > deflection && 2 * rows_ <= kMostCellsAcross;
-      if (halveU) {
-        columns_ *= 2;
-      } else if (halveV) {
-        rows_ *= 2;
-      } else if (alongU > deflection && 2 * columns_ <= kMostCellsAcross) {
-        columns_ *= 2;
-      } else {
-        break;
-      }
-    }
-  }
-
-  bool touches(const BRepTopAdaptor_FClass2d& domain, int i, int j) const {
-    for (const auto& [di, dj] : {std::pair(0.5, 0.5), {0.02, 0.02}, {0.98, 0.02}, {0.98, 0.98}, {0.02, 0.98}}) {
-      if (domain.Perform({u(i + di), v(j + dj)}) != TopAbs_OUT) return true;
-    }
-    return false;
-  }
-
-  TopoDS_Face face_;
-  TopLoc_Location location_;
-  Handle(Geom_Surface) surface_;
-  double u0_ = 0, u1_ = 1, v0_ = 0, v1_ = 1;
-  int columns_ = 16;
-  int rows_ = 16;
-};
+  return mesh;
+}
 
 bool hasTriangles(const TopoDS_Face& face) {
   TopLoc_Location location;
@@ -249,15 +159,17 @@ std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, co
     }
     GridFace found{number, kindOf(face), 0, 0};
     try {
-      Grid grid(face, deflection);
-      const Handle(Poly_Triangulation) mesh = grid.triangles();
+      const CadFace exact = cadFace(TopoDS::Face(face.Located(TopLoc_Location())));
+      const FaceGrid grid(exact, deflection);
+      const Handle(Poly_Triangulation) mesh = triangulation(exact, grid);
       if (!mesh.IsNull()) {
         mesh->Deflection(deflection);
         BRep_Builder().UpdateFace(face, mesh);
         found.deviation = grid.deviation();
         found.cell = grid.largestCell();
       }
-    } catch (const Standard_Failure&) {  // the face stays without triangles, which its entry tells
+    } catch (const Standard_Failure&) {    // the face stays without triangles, which its entry tells
+    } catch (const std::runtime_error&) {  // the same
     }
     grids.push_back(std::move(found));
   }

@@ -10,6 +10,22 @@ double wrapped(double value, double low, double period) {
   return period > 0 ? value + period * std::ceil((low - value) / period) : value;
 }
 
+/// True if the segment has a point in the box.
+bool meets(const TrimmedDomain::Segment& s, const Vector2& low, const Vector2& high) {
+  double enters = 0, leaves = 1;
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    const double way = s.to[k] - s.from[k];
+    if (way == 0) {
+      if (s.from[k] < low[k] || s.from[k] > high[k]) return false;
+      continue;
+    }
+    const double a = (low[k] - s.from[k]) / way, b = (high[k] - s.from[k]) / way;
+    enters = std::max(enters, std::min(a, b));
+    leaves = std::min(leaves, std::max(a, b));
+  }
+  return enters <= leaves;
+}
+
 }  // namespace
 
 TrimmedDomain::TrimmedDomain(std::vector<Segment> border, double periodU, double periodV)
@@ -69,6 +85,27 @@ bool TrimmedDomain::contains(const Vector2& parameters) const {
       inside ^= containsPlain({firstU + i * periodU_, firstV + j * periodV_});
   }
   return inside;
+}
+
+bool TrimmedDomain::crosses(const Vector2& low, const Vector2& high) const {
+  return std::any_of(border_.begin(), border_.end(), [&](const Segment& s) { return meets(s, low, high); });
+}
+
+bool TrimmedDomain::reaches(const Vector2& low, const Vector2& high) const {
+  if (border_.empty() || contains((low + high) / 2)) return true;
+  const auto images = [](double from, double to, double first, double last, double period) {
+    std::vector<double> shifts;
+    if (period <= 0) return std::vector<double>{0};
+    for (double n = std::ceil((first - to) / period); from + n * period <= last; ++n)
+      shifts.push_back(n * period);
+    return shifts;
+  };
+  for (const double u : images(low.x(), high.x(), low_.x(), high_.x(), periodU_)) {
+    for (const double v : images(low.y(), high.y(), low_.y(), high_.y(), periodV_)) {
+      if (crosses(low + Vector2(u, v), high + Vector2(u, v))) return true;
+    }
+  }
+  return false;
 }
 
 double TrimmedDomain::area() const {

@@ -23,6 +23,8 @@ public:
   TrimmedDomain(std::vector<Segment> border, double periodU, double periodV);
 
   bool contains(const Vector2& parameters) const;
+  /// True if some point of a box, taken modulo the periods, lies within; also if the box only touches a polygon.
+  bool reaches(const Vector2& low, const Vector2& high) const;
   bool isEverywhere() const { return border_.empty(); }
 
   /// The corners of the box about the polygons.
@@ -33,6 +35,7 @@ public:
 
 private:
   bool containsPlain(const Vector2& p) const;
+  bool crosses(const Vector2& low, const Vector2& high) const;
 
   std::vector<Segment> border_;
   std::vector<std::vector<std::uint32_t>> bands_;  ///< the segments that cross each band of equal height in v

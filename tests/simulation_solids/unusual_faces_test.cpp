@@ -1,0 +1,206 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepLib.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeRevol.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRep_Builder.hxx>
+#include <GC_MakeArcOfCircle.hxx>
+#include <Geom2d_Line.hxx>
+#include <GeomAPI_PointsToBSplineSurface.hxx>
+#include <Geom_BSplineSurface.hxx>
+#include <Geom_Circle.hxx>
+#include <Geom_SurfaceOfRevolution.hxx>
+#include <Geom_TrimmedCurve.hxx>
+#include <TColgp_Array2OfPnt.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Face.hxx>
+
+#include "simulation/cad_solid.hpp"
+#include "simulation/face_mesh.hpp"
+#include "worlds.hpp"
+
+/// What files hold besides plain bodies: lines, slim faces, circles turned about an axis that they meet.
+namespace probewright::simulation {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::ScratchFolder;
+using testing::uniform;
+
+TopoDS_Shape blockWithLines() {
+  BRep_Builder builder;
+  TopoDS_Compound all;
+  builder.MakeCompound(all);
+  builder.Add(all, BRepPrimAPI_MakeBox(gp_Pnt(-20, -15, 0), gp_Pnt(20, 15, 10)).Shape());
+  builder.Add(all, BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, -40), gp_Pnt(0, 0, 40)).Edge());
+  builder.Add(all, BRepBuilderAPI_MakeEdge(gp_Circ(gp_Ax2(gp_Pnt(0, 0, 25), gp::DZ()), 12)).Edge());
+  return all;
+}
+
+void expectLinesAreFree(const Solid& solid) {
+  EXPECT_FALSE(solid.firstContact({-50, 0, 30}, {50, 0, 30}, 2)) << "through the axis";
+  EXPECT_FALSE(solid.firstContact({12, 0, 40}, {12, 0, 15}, 2)) << "through the circle";
+  const auto contact = solid.firstContact({12, 0, 40}, {12, 0, 5}, 2);
+  ASSERT_TRUE(contact);
+  EXPECT_NEAR(contact->ballCentre.z(), 12, 1e-9) << "the block's top";
+}
+
+TEST(LooseLines, AreNothingToTouch) {
+  const auto solid = cadSolid(blockWithLines());
+  ASSERT_TRUE(solid) << format(solid.error());
+  expectLinesAreFree(**solid);
+}
+
+TEST(LooseLines, OfAFileAreNothingToTouch) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(writeStep(blockWithLines(), folder / "part.step"));
+  const auto solid = readStep(folder / "part.step");
+  ASSERT_TRUE(solid) << format(solid.error());
+  expectLinesAreFree(**solid);
+}
+
+/// A wavy sheet of 100 x 100 mm over x and y, as a spline over parameters 0 to 1.
+Handle(Geom_BSplineSurface) sheet() {
+  TColgp_Array2OfPnt points(1, 6, 1, 6);
+  for (int i = 1; i <= 6; ++i) {
+    for (int j = 1; j <= 6; ++j)
+      points(i, j) = gp_Pnt(20 * i - 20, 20 * j - 20, 2 * std::sin(1.1 * i) * std::cos(0.9 * j));
+  }
+  return GeomAPI_PointsToBSplineSurface(points, 3, 3, GeomAbs_C2, 1e-6).Surface();
+}
+
+/// The part of a surface within a polygon of its parameters.
+TopoDS_Face within(const Handle(Geom_Surface) & surface, const std::vector<Vector2>& corners) {
+  BRepBuilderAPI_MakeWire wire;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector2 from = corners[i], way = corners[(i + 1) % corners.size()] - from;
+    wire.Add(BRepBuilderAPI_MakeEdge(new Geom2d_Line(gp_Pnt2d(from.x(), from.y()), gp_Dir2d(way.x(), way.y())), surface,
+                                     0, way.norm()));
+  }
+  const TopoDS_Face face = BRepBuilderAPI_MakeFace(surface, wire.Wire(), Standard_True);
+  BRepLib::BuildCurves3d(face);
+  return face;
+}
+
+/// A square with a tail that is slimmer than a cell of the grid and slanted to it.
+TEST(FaceGrid, LeavesOutNoSlimPartOfAFace) {
+  const Handle(Geom_BSplineSurface) surface = sheet();
+  double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
+  surface->Bounds(u0, u1, v0, v1);
+  const auto at = [&](double a, double b) { return Vector2(u0 + a * (u1 - u0), v0 + b * (v1 - v0)); };
+  const TopoDS_Face tailed = within(surface, {at(0.1, 0.1), at(0.4, 0.1), at(0.4, 0.2), at(0.9, 0.61), at(0.9, 0.618),
+                                              at(0.4, 0.208), at(0.4, 0.4), at(0.1, 0.4)});
+  FaceMeshOptions options;
+  options.leaveAll = true;
+  constexpr double kCoarse = 0.5;
+  ASSERT_EQ(meshFaces(tailed, kCoarse, options).size(), 1U);
+  const auto solid = cadSolid(tailed, {kCoarse});
+  ASSERT_TRUE(solid) << format(solid.error());
+  std::mt19937_64 random(11);
+  for (int i = 0; i < 300; ++i) {
+    const double along = uniform(random, 0.01, 0.99);
+    const Vector2 uv = at(0.4 + along * 0.5, 0.204 + along * 0.41);
+    const gp_Pnt p = surface->Value(uv.x(), uv.y());
+    EXPECT_TRUE((*solid)->firstContact({p.X(), p.Y(), 50}, {p.X(), p.Y(), -50}, 0.1)) << along;
+  }
+}
+
+/// A ball that comes to the border of a free-form face stops where it touches the border, not where it touches a
+/// triangle of the face near by.
+TEST(FreeFormFaces, AreMetExactlyAtTheirBorders) {
+  // Revolved, a circle of radius 6 about (14, 0, 3) makes a torus; OpenCASCADE keeps it as a surface of revolution.
+  const Handle(Geom_Curve) arc = new Geom_TrimmedCurve(new Geom_Circle(gp_Ax2(gp_Pnt(14, 0, 3), gp::DY()), 6), 5.5, 9);
+  const Handle(Geom_Surface) surface = new Geom_SurfaceOfRevolution(arc, gp::OZ());
+  struct Way {
+    double u0, u1;
+    Vector3 from, to;
+    double radius;
+  };
+  const std::vector<Way> ways{{12.917240749028991,
+                               14.921869366351153,
+                               {27.57558854188223, -17.194863261803935, 1.8869521680004262},
+                               {-3.0372697742628212, 9.7277399313015387, 6.790519344778164},
+                               3.6180950573900259},
+                              {-0.081443549811620386,
+                               0.80162059586708567,
+                               {15.593013158831514, -16.096752512494678, 7.9879642426746722},
+                               {15.593013158831514, 24.417196492574913, 7.9879642426746722},
+                               0.81810253116546761},
+                              {-13.078618587012373,
+                               -10.230999823606764,
+                               {3.1264268393513648, 5.1572444286054884, -43.079001957981738},
+                               {3.1264268393513648, 5.1572444286054884, 25.067908532239475},
+                               5.1613731104368892},
+                              {6.0871092689427186,
+                               8.6035374300437262,
+                               {17.447896606833414, -38.118802000280624, 6.142303333220954},
+                               {17.447896606833414, 38.540311905950986, 6.142303333220954},
+                               1.4257584344368954},
+                              {12.944380546872139,
+                               13.595315250247403,
+                               {0.73415644931864676, 28.960820098653617, 7.4654809885831757},
+                               {19.811419692907066, -17.507764545781672, 10.599567576581046},
+                               1.7541978391665938},
+                              {-4.4785722391748273,
+                               0.7164171768379175,
+                               {21.042420369317064, 21.242640505116345, 52.027561346652703},
+                               {-9.1522223864564936, -9.3088987126906417, -4.434963983325126},
+                               6.9515812291509098}};
+  for (const Way& way : ways) {
+    const auto solid = cadSolid(BRepBuilderAPI_MakeFace(surface, way.u0, way.u1, 5.5, 9, 1e-7).Shape());
+    ASSERT_TRUE(solid);
+    const auto contact = (*solid)->firstContact(way.from, way.to, way.radius);
+    ASSERT_TRUE(contact);
+    EXPECT_NEAR((contact->touchPoint - contact->ballCentre).norm(), way.radius, 1e-7) << way.from.transpose();
+    // It is the border that it touches: an end of the range of u, or the circle of an end of the arc.
+    const Vector3& p = contact->touchPoint;
+    const auto turnsFrom = [&](double u) {
+      return std::abs(std::remainder(std::atan2(p.y(), p.x()) - u, 2 * std::numbers::pi));
+    };
+    const auto ringFrom = [&](double v) {
+      const gp_Pnt end = arc->Value(v);
+      return std::hypot(std::hypot(p.x(), p.y()) - std::hypot(end.X(), end.Y()), p.z() - end.Z());
+    };
+    EXPECT_LT(std::min({turnsFrom(way.u0), turnsFrom(way.u1), ringFrom(5.5), ringFrom(9)}), 1e-7);
+  }
+}
+
+/// An arc from (0, 0, -10) over (sag, 0, 0) to (0, 0, 10), turned about the line between its ends.
+TopoDS_Shape turnedChord(double sag) {
+  BRepBuilderAPI_MakeWire wire(
+      BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(gp_Pnt(0, 0, -10), gp_Pnt(sag, 0, 0), gp_Pnt(0, 0, 10)).Value()),
+      BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 10), gp_Pnt(0, 0, -10)));
+  return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp::OZ()).Shape();
+}
+
+TEST(LemonsAndApples, OfStepFilesAreNamedBecauseReadersMixThemUp) {
+  const ScratchFolder folder;
+  const auto remarksOn = [&](const TopoDS_Shape& shape) {
+    EXPECT_TRUE(writeStep(shape, folder / "part.step"));
+    ImportOptions options;
+    options.faceSeconds = 0.5;  // the mesher takes long for some of them
+    const auto solid = readStep(folder / "part.step", options);
+    EXPECT_TRUE(solid);
+    std::string all;
+    for (const Diagnostic& remark : dynamic_cast<const CadSolid&>(**solid).remarks())
+      all += format(remark) + "\n";
+    return all;
+  };
+  EXPECT_THAT(remarksOn(turnedChord(4.5)), HasSubstr("1 of 1 faces are circles turned about an axis that they meet"));
+  EXPECT_THAT(remarksOn(turnedChord(4.5)), HasSubstr("compare the size of the part"));
+  EXPECT_THAT(remarksOn(turnedChord(15)), HasSubstr("circles turned about an axis that they meet"));
+  EXPECT_THAT(remarksOn(BRepPrimAPI_MakeTorus(10, 10).Shape()), HasSubstr("horn torus"));
+  EXPECT_EQ(remarksOn(BRepPrimAPI_MakeTorus(10, 5).Shape()), "");
+  EXPECT_EQ(remarksOn(BRepPrimAPI_MakeSphere(10).Shape()), "");
+}
+
+}  // namespace
+}  // namespace probewright::simulation
