@@ -131,7 +131,7 @@ public:
 
 private:
   static constexpr int kDeepest = 16;
-  static constexpr int kMostParts = 2000;
+  static constexpr int kMostParts = 20000;
   static constexpr double kFlat = 1e-8;  ///< mm: a triangle that leaves the surface by less is as good as the surface
   static constexpr double kSame = 1e-7;  ///< mm: contacts nearer to each other are the same
 
