@@ -92,7 +92,7 @@ Result<std::string> readFile(const std::filesystem::path& path, std::uint64_t mo
   const bool pipe = S_ISFIFO(status.st_mode);
   const auto tooLarge = [&] {
     return fail(SourcePlace{path.string(), 0, 0}, fmt::format("this file is larger than {} MB", most >> 20U),
-                "check that it is the file that was meant");
+                "check that this is the right file");
   };
   std::string bytes;
   if (!pipe && status.st_size > 0) {

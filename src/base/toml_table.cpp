@@ -73,9 +73,9 @@ std::optional<toml::table> parseToml(std::string_view text, const std::string& f
   } catch (const toml::parse_error& error) {
     diagnostics.push_back({Severity::Error,
                            placeIn(file, error.source()),
-                           fmt::format("this is no valid TOML: {}", error.description()),
+                           fmt::format("this is not valid TOML: {}", error.description()),
                            {},
-                           "A value is written as key = value, a text in double quotes, a number with a point",
+                           "Write key = value: texts in double quotes, numbers with a decimal point",
                            {}});
     return std::nullopt;
   }
@@ -154,7 +154,7 @@ std::optional<std::size_t> TomlReader::choice(std::string_view key, const std::v
   if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
   const auto other = otherNames.find(*value);
   const auto near = other != otherNames.end() ? std::optional(other->second) : nearestName(*value, choices);
-  report(key, fmt::format("\"{}\" is no {}; it must be one of {}", *value, key, fmt::join(choices, ", ")),
+  report(key, fmt::format("\"{}\" cannot be \"{}\"; it must be one of {}", key, *value, fmt::join(choices, ", ")),
          near ? fmt::format("Did you mean \"{}\"?", *near) : "");
   return std::nullopt;
 }

@@ -209,8 +209,7 @@ private:
     }
     if (task_.correction == Correction::RotaryAxis) {
       if (!task_.active) {
-        throw NotCarriedOver("cycle 1410 corrects the active preset only",
-                             "select the zero offset in front of the cycle");
+        throw NotCarriedOver("cycle 1410 corrects the active preset only", "select the zero offset before the cycle");
       }
       return alignment("1410", task_.axis + 1);
     }
@@ -246,7 +245,7 @@ private:
   void plane() {
     if (task_.correction != Correction::None) {
       if (!task_.active) {
-        throw NotCarriedOver("cycle 1420 turns the active preset only", "select the zero offset in front of the cycle");
+        throw NotCarriedOver("cycle 1420 turns the active preset only", "select the zero offset before the cycle");
       }
       return alignment("1420", 3);
     }

@@ -106,7 +106,7 @@ std::string KlartextFormulas::userVariable(const Block& block, const VariableRef
   const sinumerik::UserVariable& datum = globalData_->at(name);
   const bool inRange = datum.isArray() && !indices.empty() && indices[0] >= 0;
   if (datum.isArray() ? !inRange : !indices.empty()) {
-    throw NotCarriedOver(fmt::format("{} is no element of {}", element, name));
+    throw NotCarriedOver(fmt::format("{} is not an element of {}", element, name));
   }
   try {
     const language::Value& value = datum.at(datum.isArray() ? datum.place(name, indices) : 0);
@@ -160,7 +160,7 @@ std::string KlartextFormulas::toolDatum(const Block& block, const VariableRef& v
   const auto found = std::ranges::find(names, block.at(variable.name));
   if (found == names.end()) return {};
   if (!variable.index[1].isLiteral() || variable.index[1].number != 1) {
-    throw NotCarriedOver("only the first edge of a tool stands in the tool table");
+    throw NotCarriedOver("the tool table holds only the first edge of a tool");
   }
   // L, R, R2, DL, DR, DR2.
   return fmt::format("ID50 NR{} IDX{}", found - names.begin() + 1, unsignedValue(quantity(block, variable.index[0])));

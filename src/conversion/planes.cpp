@@ -43,8 +43,8 @@ void ToSinumerik::plane(const Block& block, const Transform& transform) {
     return found == words.end() ? nullptr : &*found;
   };
   if (!frame_.isNone()) {
-    throw NotCarriedOver("CYCLE800 takes shift and rotation of the program back",
-                         "tilt in front of them, or give the shift to CYCLE800");
+    throw NotCarriedOver("CYCLE800 cancels shift and rotation of the program",
+                         "tilt before them, or give the shift to CYCLE800");
   }
   const int direction = find("STAY") != nullptr ? 0 : 1;
   if (name == "PLANE RESET") {

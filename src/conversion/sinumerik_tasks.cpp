@@ -168,7 +168,7 @@ private:
     if (task.axis < 0 || task.axis > 1) throw NotCarriedOver("S_MA of CYCLE977 is 1 or 2");
     if (!isRound(task.feature) && !(task.angle == 0)) {
       throw NotCarriedOver("S_STA1: HEIDENHAIN cycles measure this feature along the axes only",
-                           "turn the coordinate system in front of the cycle");
+                           "turn the coordinate system before the cycle");
     }
     for (std::size_t i = 0; i < 2; ++i) {
       if (isWidth(task.feature) && i != static_cast<std::size_t>(task.axis)) continue;
@@ -315,7 +315,7 @@ private:
     if (std::abs(distance(starts[0][1], starts[1][1])) > parallel ||
         std::abs(distance(starts[2][0], starts[3][0])) > parallel) {
       throw NotCarriedOver("HEIDENHAIN cycles measure corners whose edges run along the axes",
-                           "turn the coordinate system in front of the cycle");
+                           "turn the coordinate system before the cycle");
     }
     if (distance(starts[0][0], starts[1][0]) < 0) {
       throw NotCarriedOver("the first edge becomes the negative main axis, which HEIDENHAIN cycles do not do",

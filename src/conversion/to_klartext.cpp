@@ -205,8 +205,8 @@ void ToKlartext::toolCall(const Block& block, const ToolCall& call) {
 void ToKlartext::changeTool() {
   if (pendingTool_.empty()) return;
   if (axisDoubtful_)
-    throw NotCarriedOver("the tool axis depends on the way that leads to this block",
-                         "program G17, G18 or G19 in front of it");
+    throw NotCarriedOver("the tool axis depends on the path that leads to this block",
+                         "program G17, G18 or G19 before it");
   line(fmt::format("TOOL CALL {} {}", pendingTool_, toolAxis_));
   tool_ = std::exchange(pendingTool_, {});
   forgetPosition();
@@ -216,7 +216,7 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
   const std::string_view name = block.at(modal.name);
   const auto words = std::span<const Word>(block.words).subspan(modal.words.first, modal.words.count);
   if (const auto settable = settableOf(name)) {
-    if (*settable == 0) throw NotCarriedOver("G500 takes all settable zero offsets back; a preset is always in effect");
+    if (*settable == 0) throw NotCarriedOver("G500 cancels all settable zero offsets; a preset is always in effect");
     const int row = *settable == 99 ? 0 : *settable;
     activeRow_ = *settable;
     forgetPosition();
@@ -227,8 +227,8 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
     readFrame();
     if (!frame_.rotation) {
       throw NotCarriedOver(
-          "cycle 247 takes a rotation back, and which one is in effect is known only when the program runs",
-          "program ROT in front of this block");
+          "cycle 247 cancels a rotation, and which one is in effect is known only when the program runs",
+          "program ROT before this block");
     }
     line("CYCL DEF 247 PRESETTING ~");
     out_.line(fmt::format("    Q339=+{} ;PRESET NUMBER", row));
@@ -349,7 +349,7 @@ void ToKlartext::command(const Block& block, const Command& command) {
     if (block.at(command.text).find("REAL") == std::string_view::npos &&
         block.at(command.text).find("INT") == std::string_view::npos)
       return;
-    throw NotCarriedOver("parameters of subprograms have no twin in Klartext", "hand values over in Q parameters");
+    throw NotCarriedOver("parameters of subprograms have no twin in Klartext", "pass values in Q parameters");
   }
   throw NotCarriedOver(fmt::format("{} has no twin in Klartext", name), "write it by hand");
 }

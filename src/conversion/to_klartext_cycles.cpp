@@ -189,7 +189,7 @@ void ToKlartext::measuringLog(const Block& block, const Call& call) {
          : screen % 10 == 1 && screen / 10 % 10 == 3 ? MeasuringTask::Log::Screen
                                                      : MeasuringTask::Log::None;
   if (file % 10 == 2) {
-    out_.lose(block, "S_PROT: the log of a measurement is asked for in its cycle (Q281), not behind it");
+    out_.lose(block, "S_PROT: the log of a measurement is asked for in its cycle (Q281), not after it");
   } else if (file % 10 == 1 && !call.text("S_PATH").starts_with("TCHPR")) {
     out_.list(block, "the logs have the names of their cycles: TCHPR421.TXT",
               "only cycles 420 to 427, 430 and 431 write logs; each writes its file anew");

@@ -247,7 +247,7 @@ void ToKlartext::call(const Block& block, const CallProgram& call) {
                           [](const Word& word) { return word.value.present(); });
   if (hasArguments) {
     throw NotCarriedOver(fmt::format("{} is called with arguments, which programs in Klartext do not take", name),
-                         "hand values over in Q parameters");
+                         "pass values in Q parameters");
   }
   const Quantity times = call.times.present() ? quantity(block, call.times) : Quantity(1);
   repeated(times, Rounds::Written, [&] { line(fmt::format("CALL PGM {}", name)); });
@@ -256,7 +256,7 @@ void ToKlartext::call(const Block& block, const CallProgram& call) {
   if (!frame_.known || std::ranges::any_of(frame_.shift, [](const Quantity& each) { return !(each == 0); }) ||
       !frame_.rotation || !(*frame_.rotation == 0)) {
     out_.list(block, fmt::format("{} is called with a frame: touch probe cycles in it permit none", name),
-              "take the frame back in front of the call if it measures");
+              "cancel the frame before the call if it measures");
   }
   forgetPosition();
 }

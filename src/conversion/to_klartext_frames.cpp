@@ -99,7 +99,7 @@ void ToKlartext::readFrame() {
 bool ToKlartext::leaveFrame(MeasuringTask& task) {
   if (!frame_.rotation) {
     throw NotCarriedOver("whether the coordinate system is turned here is known only when the program runs",
-                         "touch probe cycles permit no rotation: take it back with ROT in front of the cycle");
+                         "touch probe cycles permit no rotation: cancel it with ROT before the cycle");
   }
   readFrame();
   const bool shifted = std::ranges::any_of(frame_.shift, [](const Quantity& each) { return !(each == 0); });
@@ -109,7 +109,7 @@ bool ToKlartext::leaveFrame(MeasuringTask& task) {
                           task.feature == Feature::ProbeLength;
   if (turned && (!isRound(task.feature) || !frame_.rotation->isNumber() || task.correction != Correction::None)) {
     throw NotCarriedOver("touch probe cycles permit no rotation by the program, and this feature lies along its axes",
-                         "take the rotation back with ROT, and turn the zero offset instead");
+                         "cancel the rotation with ROT, and turn the zero offset instead");
   }
   if (calibrates && turned) throw NotCarriedOver("touch probe cycles permit no rotation by the program");
   const double degrees = frame_.rotation->number();

@@ -219,8 +219,8 @@ void ToKlartext::adopt(const Block& block) {
 
 void ToKlartext::rely(const Block& block, bool doubtful, const char* on) {
   if (!doubtful || std::exchange(relied_, true)) return;
-  out_.list(block, fmt::format("{} depends here on the way that leads to this block", on),
-            "program it in this block, or on every way that leads here");
+  out_.list(block, fmt::format("{} depends here on the path that leads to this block", on),
+            "program it in this block, or on every path that leads here");
 }
 
 }  // namespace probewright::conversion

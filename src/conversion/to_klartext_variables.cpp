@@ -31,7 +31,7 @@ void ToKlartext::assign(const Block& block, const Assign& assign) {
   const std::string own(variable.space == VariableSpace::User ? block.at(variable.name) : std::string_view());
   if (formulas_.isGlobal(own) && changedGlobals_.insert(own).second) {
     out_.list(block, fmt::format("{} is global user data: other programs do not see what it is set to here", own),
-              "use a QR parameter if they shall");
+              "use a QR parameter if they should");
   }
   for (auto& coordinate : position_)
     if (coordinate && !coordinate->isNumber()) coordinate.reset();
@@ -59,7 +59,7 @@ void ToKlartext::assignFrameComponent(const Block& block, const Assign& assign) 
     const bool inEffect = active || (activeRow_ && number == *activeRow_);
     if (!ofTables && !inEffect) {
       throw NotCarriedOver("cycle 404 of the iTNC530 turns the active preset only",
-                           "select the zero offset in front of this block");
+                           "select the zero offset before this block");
     }
     unturned_ = value == 0;
     if (row == 0) rowZeroIsDue_ = false;
@@ -74,8 +74,7 @@ void ToKlartext::assignFrameComponent(const Block& block, const Assign& assign) 
     throw NotCarriedOver(fmt::format("$P_UIFR[..,{},{}] cannot be written in Klartext", word(1), word(2)));
   }
   if (control_ == control::ControlKind::iTNC530) {
-    throw NotCarriedOver("the iTNC530 has no PRESET CORR",
-                         "let the measuring cycle in front correct the offset itself");
+    throw NotCarriedOver("the iTNC530 has no PRESET CORR", "let the measuring cycle before it correct the offset");
   }
   // A preset moves by an amount, and only while it is in effect.
   const Quantity present = active ? quantity(block, variable.index[0]) : row;

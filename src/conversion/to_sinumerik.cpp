@@ -264,8 +264,9 @@ void ToSinumerik::machineFunction(const Block& block, const MachineFunction& fun
       return out_.line("M4 M8");
     case 126:
     case 127:
-      return out_.lose(block, fmt::format("M{}: rotary axes of a SINUMERIK take the way that each position asks for",
-                                          function.number));
+      return out_.lose(block,
+                       fmt::format("M{}: rotary axes of a SINUMERIK move in the direction that each position programs",
+                                   function.number));
     case 128:
       return out_.line("TRAORI");
     case 129:

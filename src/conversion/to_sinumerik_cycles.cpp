@@ -77,7 +77,7 @@ void ToSinumerik::globalDefinition(const Block& block, const Command& command) {
     if (!isNew && graph_.branches() && !(global->second == value)) {
       out_.list(
           block,
-          fmt::format("Q{} = PREDEF takes this value in all cycles below, whatever way leads to them", word.address),
+          fmt::format("Q{} = PREDEF takes this value in all cycles below, whichever path leads to them", word.address),
           "write the value in the cycles");
     }
     global->second = value;
@@ -86,7 +86,7 @@ void ToSinumerik::globalDefinition(const Block& block, const Command& command) {
 
 void ToSinumerik::cycle(const Block& block, const CycleCall& cycle) {
   if (block.at(cycle.name) != "TCH PROBE") {
-    throw NotCarriedOver(fmt::format("cycle {} is no measuring cycle", cycle.number), "write it by hand");
+    throw NotCarriedOver(fmt::format("cycle {} is not a measuring cycle", cycle.number), "write it by hand");
   }
   requireAxis();
   const cycles::CycleDefinition* definition = cycles::heidenhainCycle(cycle.number);
@@ -209,7 +209,7 @@ void ToSinumerik::shiftOrigin(const Block& block, const MeasuringTask& task, con
   const bool isActive = task.active || (activeRow_ && task.row == *activeRow_);
   if (measured && !isActive) {
     out_.list(block, "the origin is shifted as if its zero offset were the one in effect",
-              "select the preset with cycle 247 in front of this cycle");
+              "select the preset with cycle 247 before this cycle");
   }
   const std::string row = task.active ? "$P_UIFRNUM" : sinumerikText(task.row);
   const auto component = [&](std::size_t i) { return fmt::format("$P_UIFR[{},{},TR]", row, axis(i)); };
@@ -249,7 +249,7 @@ void ToSinumerik::selectIfActive(const Quantity& row) {
 void ToSinumerik::takeRotationOut(const MeasuringTask& task) {
   if (activeRow_ && !task.active && !(task.row == *activeRow_)) {
     throw NotCarriedOver("the cycle takes the rotation of the active preset out, but corrects another one",
-                         "select the preset with cycle 247 in front of this cycle");
+                         "select the preset with cycle 247 before this cycle");
   }
   setRotation(task.active ? std::nullopt : std::optional(task.row), 0);
 }

@@ -132,7 +132,7 @@ void ToSinumerik::callProgram(const Block& block, const CallProgram& call) {
   if (call.name.length == 0) throw NotCarriedOver("a program whose name is computed has no twin on a SINUMERIK");
   const std::string name = withoutEnding(block.at(call.name));
   if (name.size() < 2 || identifierFrom(name) != upperCase(name) || std::isdigit(static_cast<unsigned char>(name[0])))
-    throw NotCarriedOver(fmt::format("{} is no name of a SINUMERIK program", name),
+    throw NotCarriedOver(fmt::format("{} is not a valid name of a SINUMERIK program", name),
                          "names begin with two letters or an underscore and have letters, digits and underscores");
   out_.line(upperCase(name));
   out_.list(block, fmt::format("program {} is called as it stands", upperCase(name)),

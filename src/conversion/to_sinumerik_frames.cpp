@@ -94,7 +94,7 @@ void ToSinumerik::transform(const Block& block, const Transform& transform) {
   }
   if (!frame.known || !frame.rotation) {
     throw NotCarriedOver("which shift and rotation are in effect here is known only when the program runs",
-                         "reset both in front of this block, or give shifts for X, Y and Z");
+                         "reset both before this block, or give shifts for X, Y and Z");
   }
   writeFrame(frame);
   frame_ = frame;
@@ -209,8 +209,8 @@ void ToSinumerik::adopt(const Block& block) {
 
 void ToSinumerik::requireAxis() const {
   if (axisDoubtful_) {
-    throw NotCarriedOver("the tool axis depends on the way that leads to this block",
-                         "call the tool with its axis in front of it");
+    throw NotCarriedOver("the tool axis depends on the path that leads to this block",
+                         "call the tool with its axis before it");
   }
 }
 

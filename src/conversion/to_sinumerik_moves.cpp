@@ -68,7 +68,7 @@ std::string ToSinumerik::axisWords(const Block& block, const Move& move) {
 }
 
 void ToSinumerik::wherePolar(const Block& block, const Move& move, Place& target) {
-  if (!centre_[0] || !centre_[1]) throw NotCarriedOver("the pole (CC) is not known here", "program CC in front of it");
+  if (!centre_[0] || !centre_[1]) throw NotCarriedOver("the pole (CC) is not known here", "program CC before it");
   const auto words = wordsOf(block, move.words);
   const Word* radius = find(words, "PR");
   const Word* angle = find(words, "PA");
@@ -100,7 +100,7 @@ void ToSinumerik::setCentre(const Block& block, const Move& move) {
 
 std::string ToSinumerik::centreWords() const {
   if (!centre_[0] || !centre_[1]) {
-    throw NotCarriedOver("the circle centre (CC) is not known here", "program CC with both coordinates in front of it");
+    throw NotCarriedOver("the circle centre (CC) is not known here", "program CC with both coordinates before it");
   }
   static constexpr const char* letters[] = {"I", "J", "K"};
   std::string text;
@@ -133,7 +133,7 @@ void ToSinumerik::move(const Block& block, const Move& move) {
   if (move.kind == MoveKind::SetCentre) return setCentre(block, move);
   if (move.machineCoordinates || move.machineReference2) return moveOnMachine(block, move);
   if (move.kind == MoveKind::Rounding || move.kind == MoveKind::Chamfer) {
-    if (lastMove_ == 0) throw NotCarriedOver("there is no path in front of this corner");
+    if (lastMove_ == 0) throw NotCarriedOver("there is no path before this corner");
     out_.at(lastMove_ - 1) += cornerWord(block, move);
     return;
   }

@@ -196,7 +196,7 @@ std::string codeComplaint(const Parameter& parameter, const Argument& argument) 
   for (int place = 1; place <= 8; ++place) {
     const int found = digitOf(value, {.place = place});
     if (found != 0 && !listed.at(static_cast<std::size_t>(place - 1))) {
-      return wrong(fmt::format("its {} mean nothing and must be 0, not {}", placeName(place), found));
+      return wrong(fmt::format("its {} have no meaning and must be 0, not {}", placeName(place), found));
     }
   }
   return {};

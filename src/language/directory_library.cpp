@@ -130,7 +130,7 @@ Result<std::shared_ptr<Program>> DirectoryLibrary::open(std::string_view name, c
   constexpr std::size_t longestQuote = 80;
   const std::string quoted = std::string(name.substr(0, longestQuote)) + (name.size() > longestQuote ? "..." : "");
   return fail("there is no program " + quoted,
-              "looked in " + where + " for a file of this name with one of the endings " + endings);
+              "looked in " + where + " for a file of this name with one of the extensions " + endings);
 }
 
 bool DirectoryLibrary::exists(std::string_view name, const Program* caller) { return find(name, caller).has_value(); }

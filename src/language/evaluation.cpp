@@ -310,7 +310,7 @@ double Evaluation::callNumber(const Node& node) {
   };
   const auto domain = [&](const char* what, double x) {
     refuse(Refusal::Domain, fmt::format("{} of {} does not exist", what, formatShortest(x)),
-           "check how this value comes about, in the blocks before this one");
+           "check where this value comes from, in the blocks before this one");
   };
   const double x = argument(0);
   switch (node.function) {

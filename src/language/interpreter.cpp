@@ -156,7 +156,7 @@ RunResult Interpreter::runLoop() {
                 blocks_};
       }
       if ((stepping_ || !current_->breakpointLines.empty()) && halt(block) == Flow::Finished) {
-        return {RunEnd::Halted, explain(here(Severity::Note, "the run was halted in front of this block")), blocks_};
+        return {RunEnd::Halted, explain(here(Severity::Note, "the run was halted before this block")), blocks_};
       }
       ++blocks_;
       if (blocks_ % 4096 == 0 && options_.onProgress) options_.onProgress(blocks_);

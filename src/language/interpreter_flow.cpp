@@ -16,8 +16,8 @@ BlockPosition Interpreter::label(TextRef literal, const Operand& computed, JumpD
   const std::string_view name = same ? evaluation.at(literal) : std::string_view(text);
   const auto found = current_->program->findLabel(name, block_->block.position, direction);
   if (!found) {
-    const char* where = direction == JumpDirection::Forward    ? " behind this block"
-                        : direction == JumpDirection::Backward ? " in front of this block"
+    const char* where = direction == JumpDirection::Forward    ? " after this block"
+                        : direction == JumpDirection::Backward ? " before this block"
                                                                : " in this program";
     refuse(Refusal::MissingLabel, fmt::format("there is no label {}{}", name.empty() ? "\"\"" : name, where),
            "check how the label is written");
@@ -120,7 +120,7 @@ std::uint64_t Interpreter::sectionEnd(const RepeatSection& repeat, BlockPosition
   if (!behind && (end || name == "ENDLABEL")) return own;
   refuse(Refusal::MissingLabel,
          fmt::format("the section that begins with label {} has no end label {}", evaluation.at(repeat.from), name),
-         "the end label belongs behind the first label");
+         "the end label must come after the first label");
 }
 
 // ---- structured statements ----

@@ -193,7 +193,7 @@ Interpreter::Flow Interpreter::returnFrom(const Return& order, Evaluation& evalu
   if (!(levels >= 1 && levels < levels_) || levels != std::floor(levels)) {
     refuse(Refusal::NestingDepth,
            fmt::format("RET cannot leave {} program levels: {} lie above the main program", levels, levels_ - 1),
-           "write how many programs are left, from 1 on");
+           "write how many program levels to leave, 1 or more");
   }
   for (double left = 1; left < levels; ++left)
     popProgram();

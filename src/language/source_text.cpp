@@ -85,7 +85,7 @@ Result<SourceText> SourceText::open(const std::filesystem::path& path) {
   SourceText source(path.string(), std::move(storage));
   const std::string_view head = source.bytes(0, 2);
   if (head == "\xff\xfe" || head == "\xfe\xff") {
-    return fail(SourcePlace{source.file_, 1, 1}, "this file is UTF-16, which no control reads",
+    return fail(SourcePlace{source.file_, 1, 1}, "this file is UTF-16, which no control can read",
                 "save it as UTF-8 or in the code page of the control");
   }
   return source;

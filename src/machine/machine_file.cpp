@@ -23,7 +23,8 @@ Axis readAxis(TomlReader& reader, const std::vector<Axis>& before) {
   if (auto name = reader.requiredText("name")) {
     axis.name = *name;
     if (name->empty() || !std::all_of(name->begin(), name->end(), [](unsigned char c) { return std::isalnum(c); })) {
-      reader.report("name", fmt::format("\"{}\" is no name of an axis", *name), "Axes have names such as X, B or C1");
+      reader.report("name", fmt::format("\"{}\" is not a valid name of an axis", *name),
+                    "Axes have names such as X, B or C1");
     } else if (std::any_of(before.begin(), before.end(), [&](const Axis& other) { return other.name == *name; })) {
       reader.report("name", fmt::format("there are two axes called {}", *name), "Give each axis a name of its own");
     }
@@ -61,7 +62,7 @@ std::vector<ChainElement> readChain(TomlReader& file, const char* key, const Mac
       if (!element.axis) {
         reader.report("axis", fmt::format("there is no axis called {}", *name), "Declare it under [[axis]] first");
       } else if (used[*element.axis]) {
-        reader.report("axis", fmt::format("axis {} stands in the chains twice", *name));
+        reader.report("axis", fmt::format("axis {} appears twice in the chains", *name));
       } else {
         used[*element.axis] = true;
       }

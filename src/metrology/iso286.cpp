@@ -97,7 +97,7 @@ struct Class {
 };
 
 tl::unexpected<Diagnostic> unknown(std::string_view toleranceClass) {
-  return fail(fmt::format("'{}' is no tolerance class of ISO 286", toleranceClass),
+  return fail(fmt::format("'{}' is not a tolerance class of ISO 286", toleranceClass),
               "write a letter and a grade, such as H7 for a hole or g6 for a shaft");
 }
 

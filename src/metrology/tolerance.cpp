@@ -38,7 +38,7 @@ public:
       if (auto wrong = readActual(dimension)) return tl::unexpected(*wrong);
     }
     skipBlanks();
-    if (!atEnd()) return wrongHere("unexpected text behind the dimension");
+    if (!atEnd()) return wrongHere("unexpected text after the dimension");
     if (!dimension.unknownPosition && !dimension.nominal) return wrongHere("a nominal dimension was expected");
     return dimension;
   }
@@ -97,7 +97,7 @@ private:
     if (atEnd() || peek() == '@') return std::nullopt;
     if (takePlusMinus()) {
       const auto half = takeNumber();
-      if (!half || *half < 0) return wrongHere("a tolerance without sign was expected behind plus-minus").value();
+      if (!half || *half < 0) return wrongHere("a tolerance without sign was expected after plus-minus").value();
       dimension.tolerance = Tolerance{-*half, *half};
       return std::nullopt;
     }
@@ -144,11 +144,11 @@ private:
         ++position_;
       dimension.actualParameter = std::string(text_.substr(start, position_ - start));
       dimension.actualParameter[0] = 'Q';
-      if (dimension.actualParameter.size() == 1) return wrongHere("a parameter number was expected behind Q").value();
+      if (dimension.actualParameter.size() == 1) return wrongHere("a parameter number was expected after Q").value();
       return std::nullopt;
     }
     dimension.actual = takeNumber();
-    if (!dimension.actual) return wrongHere("an actual value or a Q parameter was expected behind '@'").value();
+    if (!dimension.actual) return wrongHere("an actual value or a Q parameter was expected after '@'").value();
     return std::nullopt;
   }
 
@@ -234,7 +234,7 @@ Result<Tolerance> generalTolerance(double nominal, std::string_view toleranceCla
   const std::string_view classes = "fmcv";
   const auto column = toleranceClass.size() == 1 ? classes.find(toleranceClass[0]) : std::string_view::npos;
   if (column == std::string_view::npos) {
-    return fail(fmt::format("'{}' is no tolerance class", toleranceClass),
+    return fail(fmt::format("'{}' is not a tolerance class", toleranceClass),
                 "write an ISO 286 class with its grade such as H7 or g6, or an ISO 2768-1 class: f, m, c, v");
   }
   const double size = std::abs(nominal);

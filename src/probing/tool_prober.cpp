@@ -75,7 +75,7 @@ Vector3 ToolProber::stroke(const Vector3& direction) {
     case MeasureEnd::NotReady:
       fail("not ready", "Touch probe not ready",
            result.detail.empty() ? "The machine has no tool touch probe" : result.detail,
-           "connect the tool touch probe, and call a tool that is no touch probe");
+           "connect the tool touch probe, and call a tool that is not a touch probe");
       break;
     case MeasureEnd::AxisLimit:
       fail("limit", channel_.alarms.limit, result.detail, "");

@@ -25,11 +25,11 @@ Result<std::map<std::string, std::string>> parseAnswers(std::string_view text, c
     const std::size_t equals = line.find('=');
     const std::string name(trimmed(line.substr(0, equals)));
     if (equals == std::string_view::npos || name.empty()) {
-      return fail({file, number, 1}, fmt::format("'{}' is no answer", line.substr(0, 60)), "write NAME = VALUE");
+      return fail({file, number, 1}, fmt::format("'{}' is not an answer", line.substr(0, 60)), "write NAME = VALUE");
     }
     if (!answers.emplace(name, trimmed(line.substr(equals + 1))).second) {
       return fail({file, number, 1}, fmt::format("'{}' is answered twice", name.substr(0, 60)),
-                  "leave one of the two lines");
+                  "remove one of the two lines");
     }
   }
   return answers;

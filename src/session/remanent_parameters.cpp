@@ -34,7 +34,7 @@ void readRemanentParameters(const std::filesystem::path& tables, QParameters& q,
     if (!index || !value || *index < 0 || *index >= QParameters::remanentCount) {
       diagnostics.push_back({Severity::Error,
                              {path.string(), number, 1},
-                             "this is no QR parameter with its value",
+                             "this is not a QR parameter with its value",
                              line,
                              "write lines such as QR5 = 12.5, with numbers from QR0 to QR499",
                              {}});

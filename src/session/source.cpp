@@ -70,9 +70,10 @@ std::optional<Diagnostic> otherLanguage(const std::filesystem::path& path, std::
   return Diagnostic{
       Severity::Note,
       {path.string(), 0, 0},
-      fmt::format("it was read as {} because of its ending, but looks like {}", nameOf(*readAs), nameOf(*looksLike)),
+      fmt::format("it was read as {} because of its file extension, but looks like {}", nameOf(*readAs),
+                  nameOf(*looksLike)),
       {},
-      "give it the ending of its language: .H for Klartext, .I for DIN/ISO, .MPF or .SPF for a SINUMERIK",
+      "give it the extension of its language: .H for Klartext, .I for DIN/ISO, .MPF or .SPF for a SINUMERIK",
       {}};
 }
 
@@ -90,7 +91,7 @@ Result<ControlKind> controlFor(const std::filesystem::path& path, std::string_vi
   if (const std::string_view foreign = foreignLanguage(path, text); !foreign.empty()) {
     return fail({path.string(), 0, 0}, fmt::format("this looks like {}, which Probewright does not read", foreign),
                 "Probewright reads programs of HEIDENHAIN (.H, .I) and SINUMERIK (.MPF, .SPF) controls; if this is one "
-                "of them, give it its ending");
+                "of them, give it the extension of its language");
   }
   const std::optional<ProgramLanguage> language = languageOf(path, text);
   if (wanted) {
@@ -101,7 +102,8 @@ Result<ControlKind> controlFor(const std::filesystem::path& path, std::string_vi
   }
   if (!language) {
     if (setup) return *setup;
-    return fail({path.string(), 0, 0}, "neither the ending nor the text tells which control this program is for",
+    return fail({path.string(), 0, 0},
+                "neither the file extension nor the text shows which control this program is for",
                 "name it with --control TNC640, iTNC530 or 840Dsl");
   }
   if (setup) {
@@ -127,7 +129,7 @@ std::optional<Diagnostic> whyNoText(const std::filesystem::path& path, std::stri
   using namespace std::string_view_literals;
   const bool utf32 = head.starts_with("\xFF\xFE\0\0"sv) || head.starts_with("\0\0\xFE\xFF"sv);
   if (utf32 || head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF")) {
-    return because(fmt::format("this file is {}, which no control reads", utf32 ? "UTF-32" : "UTF-16"),
+    return because(fmt::format("this file is {}, which no control can read", utf32 ? "UTF-32" : "UTF-16"),
                    "save it as UTF-8 or in the code page of the control");
   }
   // Zeros behind the text are what some transfers fill the last block with.
@@ -136,11 +138,11 @@ std::optional<Diagnostic> whyNoText(const std::filesystem::path& path, std::stri
     return (c < 0x20 && c != '\t' && c != '\n' && c != '\f' && c != '\r' && c != 0x1A) || c == 0x7F;
   };
   if (language != ProgramLanguage::Sinumerik && std::ranges::any_of(head, isBinary)) {
-    return because("this is no text: it contains control characters",
-                   "name a program as text, as an editor shows it and the control sends it out");
+    return because("this is not a text file: it contains control characters",
+                   "give the program as plain text, as an editor shows it");
   }
   if (head.find('\n') == std::string::npos && std::ranges::count(head, '\r') > 1) {
-    return because("the lines of this file end with CR alone, which no control reads",
+    return because("the lines of this file end with CR alone, which no control can read",
                    "save it with LF or CR LF at the end of each line");
   }
   return std::nullopt;

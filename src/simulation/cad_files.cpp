@@ -425,7 +425,7 @@ Result<std::unique_ptr<Solid>> readIges(const std::filesystem::path& path, const
   // Column 73 of every line names its section; the first line belongs to the start section.
   if (bytes->size() < 80 || (bytes->at(72) != 'S' && bytes->at(72) != 'C')) {
     return fail({file, 1, 73}, "not an IGES file: the first line has no section letter S in column 73",
-                "export the part as IGES 5.3, or name a STEP or STL file with its own ending");
+                "export the part as IGES 5.3, or name a STEP or STL file with its own extension");
   }
   TransferOrder order;
   order.format = CadFormat::Iges;

@@ -307,7 +307,8 @@ CadModel cadFaces(const TopoDS_Shape& part, double deflection) {
   }
   if (model.faces.empty()) throw std::runtime_error("the shape has no face that can be touched");
   for (const CadElement& element : model.elements) {
-    if (!std::isfinite(element.growth)) throw std::runtime_error("a face or edge has points that are no numbers");
+    if (!std::isfinite(element.growth))
+      throw std::runtime_error("a face or edge has points whose coordinates are not numbers");
     for (const Vector3& corner : element.corners) {
       if (!(corner.cwiseAbs().maxCoeff() <= kFarthest)) throw std::runtime_error("it reaches further than 1000 km");
       model.bounds.minimum = model.bounds.minimum.cwiseMin(corner);

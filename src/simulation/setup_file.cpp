@@ -74,7 +74,7 @@ private:
       const bool hasName = reader->has("name"), hasFile = reader->has("file");
       const auto ready = reader->text("name");
       const auto file = reader->text("file");
-      if (hasName && hasFile) reader->report("file", "[machine] has a name and a file", "Remove one of them");
+      if (hasName && hasFile) reader->report("file", "[machine] has both a name and a file", "Remove one of them");
       if (ready) name = *ready;
       if (file) name = resolve(*file).string();
       loadMachine(name, *reader, hasFile ? "file" : "name");
@@ -146,7 +146,7 @@ private:
     solid.name = reader.text("name").value_or(std::move(defaultName));
     solid.source.place = reader.placeOf("file");
     if (reader.has("file") == reader.has("feature")) {
-      reader.report("file", fmt::format("{} needs a file or features, one of both", reader.name()),
+      reader.report("file", fmt::format("{} needs either a file or features", reader.name()),
                     fmt::format("Write file = \"housing.step\" or describe the shape under {}", featureTable));
     }
     solid.source.recipe = readRecipe(reader);
@@ -157,7 +157,7 @@ private:
       std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
       static const std::vector<std::string> known = {".step", ".stp", ".iges", ".igs", ".stl"};
       if (std::find(known.begin(), known.end(), ending) == known.end()) {
-        reader.report("file", fmt::format("\"{}\" is no kind of part file that can be read", *file),
+        reader.report("file", fmt::format("\"{}\" is not a part file that can be read", *file),
                       "Files end in .step, .stp, .iges, .igs or .stl");
       }
     }
@@ -188,14 +188,14 @@ private:
       const double bore = reader->requiredNumber("diameter", positive).value_or(50);
       const double outer = reader->number("outer_diameter", positive).value_or(bore + 40);
       const double height = reader->number("height", positive).value_or(20);
-      if (outer <= bore) reader->report("outer_diameter", "the ring is not larger than its bore");
+      if (outer <= bore) reader->report("outer_diameter", "the ring must be larger than its bore");
       placeGauge(ringGauge(bore, outer, height), *reader, "ring", SolidRole::Ring);
     }
     if (auto reader = root_.table("sphere")) {
       const double diameter = reader->requiredNumber("diameter", positive).value_or(25);
       const double stem = reader->number("stem_diameter", positive).value_or(diameter / 3);
       const double length = reader->number("stem_length", positive).value_or(2 * diameter);
-      if (stem >= diameter) reader->report("stem_diameter", "the stem is not thinner than the sphere");
+      if (stem >= diameter) reader->report("stem_diameter", "the stem must be thinner than the sphere");
       if (length <= diameter / 2) reader->report("stem_length", "the stem ends within the sphere");
       placeGauge(referenceSphere(diameter, stem, length), *reader, "sphere", SolidRole::Sphere);
     }
@@ -212,7 +212,7 @@ private:
     if (!reader) return;
     ToolProbeContact contact;
     if (reader->has("diameter") == reader->has("size")) {
-      reader->report("diameter", "the contact of a tool touch probe needs a diameter or a size, one of both",
+      reader->report("diameter", "the contact of a tool touch probe needs either a diameter or a size",
                      "Write diameter = 40 for a disc, size = [25, 25] for a cuboid");
     }
     contact.diameter = reader->number("diameter", positive).value_or(contact.diameter);
@@ -224,7 +224,7 @@ private:
     contact.stemDiameter = reader->number("stem_diameter", positive).value_or(contact.stemDiameter);
     contact.stemLength = reader->number("stem_length", positive).value_or(contact.stemLength);
     const double across = contact.length > 0 ? std::min(contact.length, contact.width) : contact.diameter;
-    if (contact.stemDiameter >= across) reader->report("stem_diameter", "the stem is not thinner than the contact");
+    if (contact.stemDiameter >= across) reader->report("stem_diameter", "the stem must be thinner than the contact");
     placeGauge(toolProbeContact(contact), *reader, "tool touch probe", SolidRole::ToolProbe);
   }
 
@@ -252,7 +252,7 @@ private:
     }
     frame.active = reader.boolean("active").value_or(false);
     for (const BelievedFrame& other : frames) {
-      if (other.index == frame.index) reader.report(idKey, fmt::format("this {} stands here twice", idKey));
+      if (other.index == frame.index) reader.report(idKey, fmt::format("this {} appears here twice", idKey));
       if (other.active && frame.active) reader.report("active", "only one can be active");
     }
     reader.finish();
@@ -281,7 +281,7 @@ private:
         frame.name = *name;
         const auto index = zeroOffsetIndex(*name);
         if (!index) {
-          reader.report("name", fmt::format("\"{}\" is no settable zero offset", *name),
+          reader.report("name", fmt::format("\"{}\" is not a settable zero offset", *name),
                         "They are called G54 to G57 and G505 to G599");
         }
         frame.index = index.value_or(1);

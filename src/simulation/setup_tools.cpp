@@ -40,17 +40,17 @@ void readProbe(TomlReader& reader, TrueTool& tool, BelievedTool& believed) {
   probe.switchedOn = reader.boolean("switched_on").value_or(true);
   probe.serial = reader.text("serial").value_or("");
   if (probe.stylusRadius >= probe.ballRadius) {
-    reader.report("stylus_radius", "the stylus is not thinner than its ball");
+    reader.report("stylus_radius", "the stylus must be thinner than its ball");
   }
   probe.starArm = believed.starArm = get("star_arm", 0, notNegative);
   if (probe.starArm > 0 && probe.starArm < 1.5 * probe.ballRadius) {
-    reader.report("star_arm", "the balls of the star run into each other",
+    reader.report("star_arm", "the balls of the star overlap",
                   "Make star_arm, from the middle of the star to the centre of each ball, at least 1.5 ball_radius");
   }
   if (tool.length <= 2 * probe.ballRadius) {
     reader.report("length", "the probe is shorter than its ball");
   } else if (probe.stylusLength >= tool.length) {
-    reader.report("stylus_length", "the stylus is not shorter than the whole probe",
+    reader.report("stylus_length", "the stylus must be shorter than the whole probe",
                   "length is that from the spindle nose to the tip, stylus_length that of the stylus alone");
   }
 

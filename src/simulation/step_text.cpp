@@ -198,7 +198,7 @@ Result<StepText> scanStep(std::string_view bytes, const std::string& file) {
   if (start == std::string_view::npos) return fail({file, 0, 0}, "the STEP file is empty", "export the part again");
   if (!bytes.substr(start).starts_with("ISO-10303-21")) {
     return fail({file, 1, 1}, "not a STEP file: it does not begin with ISO-10303-21",
-                "export the part as STEP (AP203, AP214 or AP242), or name an IGES or STL file with its own ending");
+                "export the part as STEP (AP203, AP214 or AP242), or name an IGES or STL file with its own extension");
   }
   if (bytes.find("END-ISO-10303-21") == std::string_view::npos) {
     return fail({file, 0, 0}, "the STEP file ends before END-ISO-10303-21",

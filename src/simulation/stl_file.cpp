@@ -73,7 +73,7 @@ Result<TriangleMesh> readBinary(std::string_view bytes, const std::string& file)
     for (std::size_t k = 0; k < 9; ++k) {
       const float value = littleEndian<float>(facet + 4 * k);
       if (!std::isfinite(value) || std::abs(value) > 1e7F) {
-        return fail({file, 0, 0}, fmt::format("triangle {} of {} has a coordinate that is no length", i + 1, count),
+        return fail({file, 0, 0}, fmt::format("triangle {} of {} has a coordinate that is not a length", i + 1, count),
                     "export the part again from the CAD system, in mm");
       }
       points[k / 3][static_cast<Eigen::Index>(k % 3)] = static_cast<double>(value);
@@ -193,11 +193,12 @@ Result<TriangleMesh> readStlMesh(const std::filesystem::path& path) {
         fmt::format("the binary STL file has {} bytes where its count of triangles needs {}", bytes->size(), expected),
         "the file was cut short or is not an STL file; export or copy it again");
   } else {
-    std::string message = "not an STL file: it neither begins with \"solid\" nor has the size its header tells";
+    std::string message =
+        "not an STL file: it does not begin with \"solid\", and its size does not fit its count of triangles";
     if (bytes->size() >= kHeaderSize)
-      message += fmt::format(": {} bytes for its count of triangles, and it has {}", expected, bytes->size());
+      message += fmt::format(" ({} bytes expected, it has {})", expected, bytes->size());
     return fail({file, 0, 0}, std::move(message),
-                "export the part as STL, or name a STEP or IGES file with its own ending");
+                "export the part as STL, or name a STEP or IGES file with its own extension");
   }
   if (mesh && mesh->triangles.empty()) {
     return fail({file, 0, 0}, "the STL file holds no triangle with an area", "export the part again as a solid body");

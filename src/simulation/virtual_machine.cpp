@@ -87,7 +87,7 @@ std::optional<std::string> VirtualMachine::beyondTravel(const AxisPositions& tar
   for (std::size_t i = 0; i < truth_.machine.axes.size(); ++i) {
     const machine::Axis& axis = truth_.machine.axes[i];
     const char* unit = axis.kind == AxisKind::Linear ? "mm" : "degrees";
-    if (!std::isfinite(target[i])) return fmt::format("axis {} is sent to a position that is no number", axis.name);
+    if (!std::isfinite(target[i])) return fmt::format("the target position of axis {} is not a number", axis.name);
     if (axis.kind == AxisKind::Rotary && axis.modulo) continue;
     if (target[i] < axis.minimum) {
       return fmt::format("axis {} would go to {} {}; its travel begins at {:.4f}", axis.name, readable(target[i]), unit,
@@ -374,7 +374,7 @@ MoveResult VirtualMachine::retract(const AxisPositions& target, Feed feed) {
       const double depth =
           (deflection_->point - centre(1)).dot(deflection_->normal) + shape_.balls[deflection_->ball].radius;
       if (depth > 2 * mostOvertravel * shape_.balls[deflection_->ball].radius) {
-        return {MoveEnd::Collision, "the stylus would be pressed beyond its deflection: " + describe(*deflection_)};
+        return {MoveEnd::Collision, "the stylus would be deflected too far: " + describe(*deflection_)};
       }
       advance(motion, Stop{}, PathKind::Retract);
       return {};
@@ -396,7 +396,7 @@ MoveResult VirtualMachine::settle() {
 MoveResult VirtualMachine::orientSpindle(double degrees) {
   if (cancelled_) return {MoveEnd::Cancelled, cancelledText};
   if (!truth_.machine.spindleOrients) return {MoveEnd::AxisLimit, "the spindle of this machine cannot be oriented"};
-  if (!std::isfinite(degrees)) return {MoveEnd::AxisLimit, "the spindle is sent to an angle that is no number"};
+  if (!std::isfinite(degrees)) return {MoveEnd::AxisLimit, "the target angle of the spindle is not a number"};
   continuous_.stop();
   clock_ += orientationSeconds;
   spindleDegrees_ = degrees;

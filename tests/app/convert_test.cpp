@@ -51,7 +51,7 @@ TEST(Convert, KnowsTheGlobalDataOfTheSetup) {
   const std::string twin = (folder / "part.h").string();
   const Answer alone = probewright({"convert", program, twin});
   EXPECT_EQ(alone.exit, 2);
-  EXPECT_THAT(alone.errors, HasSubstr("nothing of the name _SAFE is declared"));
+  EXPECT_THAT(alone.errors, HasSubstr("_SAFE is not declared"));
   EXPECT_FALSE(std::filesystem::exists(twin));
 
   std::filesystem::create_directory(folder / "tables");
@@ -79,10 +79,11 @@ TEST(Convert, SaysWhyAFileIsNoProgramOfItsLanguage) {
   const std::string out = (folder / "out.mpf").string();
   EXPECT_THAT(probewright({"convert", folder.file("empty.h", "\n"), out}).errors, HasSubstr("the program is empty"));
   EXPECT_THAT(probewright({"convert", folder.file("noise.h", std::string("\x01\x02\x03\nL X+1\n")), out}).errors,
-              HasSubstr("this is no text"));
+              HasSubstr("this is not a text file"));
   const Answer mixed = probewright({"convert", folder.file("sinumerik.h", "G17 G90\nT1 M6\nR1=5\nM30\n"), out});
   EXPECT_EQ(mixed.exit, 2);
-  EXPECT_THAT(mixed.errors, HasSubstr("it was read as Klartext because of its ending, but looks like SINUMERIK"));
+  EXPECT_THAT(mixed.errors,
+              HasSubstr("it was read as Klartext because of its file extension, but looks like SINUMERIK"));
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 

@@ -358,7 +358,7 @@ TEST(Run, PrintsNoControlCharactersOfAProgram) {
   };
   const Answer binary = run(std::string("BEGIN PGM A MM\n\x01\x02\x1B[2J\0\x7F\nEND PGM A MM\n", 37));
   EXPECT_EQ(binary.exit, 2);
-  EXPECT_THAT(binary.errors, HasSubstr("a.h: error: this is no text"));
+  EXPECT_THAT(binary.errors, HasSubstr("a.h: error: this is not a text file"));
   EXPECT_EQ(messages(binary.errors), 1U) << binary.errors;
   const Answer oldMac = run("BEGIN PGM A MM\rL X+1\rEND PGM A MM\r");
   EXPECT_EQ(oldMac.exit, 2);
@@ -441,7 +441,7 @@ TEST(Run, CallsTheMachineBuildersProgramOnEveryOccasion) {
   const Answer around = run("");
   ASSERT_EQ(around.exit, 0) << around.errors;
   EXPECT_THAT(around.output, HasSubstr("told 977 0 at 1 deviation 0"));
-  EXPECT_THAT(around.output, HasSubstr("told 977 1 at 2 deviation 40.0")) << "behind the cycle it reads the results";
+  EXPECT_THAT(around.output, HasSubstr("told 977 1 at 2 deviation 40.0")) << "after the cycle it reads the results";
   EXPECT_EQ(calls(around.output, "told 977 2"), 0U);
   const Answer turning = run("$SCS_MEA_FUNCTION_MASK=$SCS_MEA_FUNCTION_MASK B_OR 64\n");
   ASSERT_EQ(turning.exit, 0) << turning.errors;

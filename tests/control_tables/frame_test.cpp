@@ -189,7 +189,7 @@ TEST(Frame, RefusesWhatNoFrameCanHold) {
   EXPECT_THAT(error("CTRANS", {{"X", 1}, {"x", 2}}), HasSubstr("names axis X twice"));
   EXPECT_THAT(error("CROT", {{"C", 1}}), HasSubstr("not about C"));
   EXPECT_THAT(error("CSCALE", {{"X", 0}}), HasSubstr("cannot take this value"));
-  EXPECT_THAT(error("CSPIN", {}), HasSubstr("no frame function"));
+  EXPECT_THAT(error("CSPIN", {}), HasSubstr("not a frame function"));
   EXPECT_THAT(error("CROTS", {{"X", 90}, {"Y", 90}}), HasSubstr("no plane"));
 }
 

@@ -197,10 +197,10 @@ TEST(InitText, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(firstError("$TC_DP3[1,1] 5"), HasSubstr("'=' expected"));
   EXPECT_THAT(firstError("R1=12,5"), HasSubstr("kept but not used"));
   EXPECT_THAT(firstError("R1='H10'R2=5"), HasSubstr("kept but not used"));
-  EXPECT_THAT(firstError("R1=1.2.3"), HasSubstr("\"1.2.3\" is no number"));
-  EXPECT_THAT(firstError("R1=" + std::string(400, '9')), HasSubstr("is no number"));
-  EXPECT_THAT(firstError("R1=1EX999"), HasSubstr("is no number"));
-  EXPECT_THAT(firstError("R1='HXY'"), HasSubstr("is no number"));
+  EXPECT_THAT(firstError("R1=1.2.3"), HasSubstr("\"1.2.3\" is not a number"));
+  EXPECT_THAT(firstError("R1=" + std::string(400, '9')), HasSubstr("is not a number"));
+  EXPECT_THAT(firstError("R1=1EX999"), HasSubstr("is not a number"));
+  EXPECT_THAT(firstError("R1='HXY'"), HasSubstr("is not a number"));
   EXPECT_THAT(firstError("$TC_TP2[1]=\"abc"), HasSubstr("the string is not closed"));
   EXPECT_THAT(firstError("$P_UIFR[1]=CTRANS(X,1"), HasSubstr("',' or ')' expected"));
   EXPECT_THAT(firstError("$P_UIFR[1]=CTRANS(X)"), HasSubstr("',' expected"));
@@ -208,7 +208,7 @@ TEST(InitText, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(firstError("$P_UIFR[1]=CSCALE(X,2):CROT(Z,9)"), HasSubstr("shear"));
   EXPECT_THAT(firstError("CHANDATA(x)"), HasSubstr("the number of a channel"));
   const Read result = read("R1=1.2.3\nR2=5\n");
-  EXPECT_EQ(result.store.number("R", {2}), 5) << "the lines behind a mistake are read";
+  EXPECT_EQ(result.store.number("R", {2}), 5) << "the lines after a mistake are read";
 }
 
 TEST(InitText, NumbersSurvive) {

@@ -19,7 +19,7 @@ const std::string plainTable =
     "5     MILL_D10    -12.2500    +5.0000           \n"
     "5.1   MILL_D10    +14.0000    +5.0010\n"
     "[END]\n"
-    "text behind the end\n";
+    "text after the end\n";
 
 TextTable read(const std::string& text, Diagnostics* found = nullptr) {
   Diagnostics diagnostics;
@@ -139,7 +139,7 @@ TEST(TextTable, InsertsRowsInOrder) {
   EXPECT_FALSE(table.addRow("3.0")) << "3.0 is 3";
   EXPECT_FALSE(table.addRow("12345678"));
   EXPECT_FALSE(table.addRow("4 4"));
-  EXPECT_TRUE(table.bytes().ends_with("[END]\ntext behind the end\n"));
+  EXPECT_TRUE(table.bytes().ends_with("[END]\ntext after the end\n"));
   Diagnostics diagnostics;
   const TextTable again = read(table.bytes(), &diagnostics);
   EXPECT_TRUE(diagnostics.empty());

@@ -143,7 +143,7 @@ TEST(EveryInspection, FollowsShiftRotationAndMirrorOnTheITNC530) {
        {std::tuple(shift, shifted, 1), std::tuple(shift + turn, turned, 1), std::tuple(shift + mirror, shifted, -1)}) {
     const auto parts = inspectedParts(bench, at, side);
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      SCOPED_TRACE(fmt::format("cycle {} behind {}", parts[i].cycle, before));
+      SCOPED_TRACE(fmt::format("cycle {} after {}", parts[i].cycle, before));
       const std::string block = probe(parts[i].cycle, parts[i].words);
       expectSame(parts[i].bench.run(before + block), references[i].bench.run(block));
       Bench newer = parts[i].bench;

@@ -156,7 +156,7 @@ TEST(Patterns, LeaveProbingCyclesAlone) {
     EXPECT_EQ(nowhere.alarm(), "Pattern not defined") << nowhere.why();
     const Ran mistake = plate.bench.run("PATTERN DEF BOW1 (X+1)\n");
     EXPECT_EQ(mistake.outcome.info.exit, records::ExitState::InputMistake);
-    EXPECT_THAT(mistake.why(), HasSubstr("'BOW' is no element"));
+    EXPECT_THAT(mistake.why(), HasSubstr("'BOW' is not an element"));
   }
 }
 

@@ -162,7 +162,7 @@ TEST(RotationCycles, RefuseAnswersThatAreNoPositions) {
       Bench bench = refusingBench();
       bench.answer = [answer](const std::string&) -> std::optional<std::string> { return answer; };
       expectRefused(bench.run(asking(cycle)), "Position of the probe wrong",
-                    fmt::format("'{}' is no position for {}", answer, cycle.asks));
+                    fmt::format("'{}' is not a position for {}", answer, cycle.asks));
     }
   }
 }
@@ -281,7 +281,7 @@ TEST(RotationCycles, RefuseAlignmentWithoutAxes) {
     }
   }
   expectRefused(refusingBench().run(probe(1420, with(planeWords, {{1126, 1}, {1121, 1}}))),
-                "Rotary axes cannot be aligned", "less than two rotary axes");
+                "Rotary axes cannot be aligned", "fewer than two rotary axes");
 }
 
 TEST(RotationCycles, RefuseRotaryAxesThatDoNotMatchTheTilt) {

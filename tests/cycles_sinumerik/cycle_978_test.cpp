@@ -301,7 +301,7 @@ TEST(Cycle978, RefusesWithTheControlsAlarms) {
   EXPECT_EQ(alarm({{"S_FA", 0}}), "61308");
   EXPECT_EQ(alarm({{"S_MA", 4}}), "61325");
   EXPECT_EQ(alarm({{"S_MD", 3}}), "61326");
-  EXPECT_EQ(alarm({{"S_MD", 0}, {"S_SETV", -12}}), "61326") << "the probe stands at the set value";
+  EXPECT_EQ(alarm({{"S_MD", 0}, {"S_SETV", -12}}), "61326") << "the probe is already at the set value";
   EXPECT_EQ(alarm({{"S_PRNUM", 13}}), "61313");
   EXPECT_EQ(alarm({{"S_PRNUM", 2}}), "61341");
   EXPECT_EQ(alarm({{"S_SETV", 1.5}}), "61303");

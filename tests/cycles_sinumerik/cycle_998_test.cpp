@@ -155,7 +155,7 @@ TEST(Cycle998, RefusesWithTheControlsAlarms) {
   EXPECT_EQ(alarm({{"S_MVAR", 120105}}), "61307");
   EXPECT_EQ(alarm({{"S_MA", 101}}), "61325");
   EXPECT_EQ(alarm({{"S_MD", 3}}), "61326");
-  EXPECT_EQ(alarm({{"S_MD", 0}, {"S_SETV", -10}}), "61326") << "the probe stands at the set value";
+  EXPECT_EQ(alarm({{"S_MD", 0}, {"S_SETV", -10}}), "61326") << "the probe is already at the set value";
   EXPECT_EQ(alarm({{"S_ID", 0}}), "61319");
   EXPECT_EQ(alarm({{"S_STA1", 46}}), "61319");
   EXPECT_EQ(alarm({{"S_KNUM", 3001}}), "61322");

@@ -185,15 +185,15 @@ TEST(DinIso, MistakesNamePlaceAndReason) {
   EXPECT_EQ(resolvedText("N10 G00 G01 X+5 *"), "1:9: a block has one path function only");
   EXPECT_EQ(resolvedText("N10 G20 X+5 *"), "1:5: the tool axis of G20 is not available");
   EXPECT_EQ(resolvedText("\nN10 HELLO *"), "2:6: a number or a Q parameter is expected for the angle H");
-  EXPECT_EQ(resolvedText("N10 *\nN20 O1234 *"), "2:5: this is no word of the DIN/ISO language");
-  EXPECT_EQ(resolvedText("%A *\n"), "1:4: G71 (mm) or G70 (inch) is expected behind the name of the program");
+  EXPECT_EQ(resolvedText("N10 *\nN20 O1234 *"), "2:5: this is not a word of the DIN/ISO language");
+  EXPECT_EQ(resolvedText("%A *\n"), "1:4: G71 (mm) or G70 (inch) is expected after the name of the program");
   EXPECT_THAT(resolvedText("%A G71 *\nN10 %\"\" *\n"),
-              ::testing::HasSubstr("the name of a program is expected behind %"));
+              ::testing::HasSubstr("the name of a program is expected after %"));
   EXPECT_EQ(resolvedText("G421 Q273=+1 Q273=+2 *"), "1:22: Q273 is given twice in this cycle");
   EXPECT_EQ(resolvedText("D09 P01 +Q1 P02 +2 *"), "1:20: P03 with the label to jump to is expected here");
   EXPECT_EQ(resolvedText("G25 X+5 R3 *"), "1:12: G25 takes no X");
-  EXPECT_EQ(resolvedText("G98 *"), "1:5: L with the number or name of the label is expected behind G98");
-  EXPECT_EQ(resolvedText("G54 G73 X+5 *"), "1:8: G54 and G73 cannot stand in one block");
+  EXPECT_EQ(resolvedText("G98 *"), "1:5: L with the number or name of the label is expected after G98");
+  EXPECT_EQ(resolvedText("G54 G73 X+5 *"), "1:8: G54 and G73 cannot be in one block");
 }
 
 TEST(DinIso, OldMachiningCyclesKeepTheirParameters) {

@@ -40,7 +40,7 @@ TEST(Check, EveryMistakeOfAFileIsReported) {
             "a.h:6:3: error: label 7 is defined twice, first in line 5\n"
             "    5 LBL 7\n"
             "    give one of the two another number or name\n"
-            "a.h:7:3: error: this is no block of the Klartext language\n"
+            "a.h:7:3: error: this is not a block of the Klartext language\n"
             "    6 QQ\n"
             "    begin the block with a path function (L, CC, C...), TOOL CALL, CYCL DEF, TCH PROBE, FN, Q or M; begin "
             "comments with ';'\n");
@@ -85,8 +85,8 @@ TEST(Check, TheFrameOfAProgram) {
   EXPECT_EQ(checked("0 BEGIN PGM A\n1 END PGM A MM\n"),
             "a.h:1:14: error: MM or INCH is expected at the end of BEGIN PGM\n    0 BEGIN PGM A\n");
   EXPECT_EQ(checked(framed("") + "10 L X+1 FMAX\n"),
-            "a.h:3:4: warning: this block stands behind END PGM and is never reached\n    10 L X+1 FMAX\n"
-            "    move it in front of END PGM\n");
+            "a.h:3:4: warning: this block comes after END PGM and is never reached\n    10 L X+1 FMAX\n"
+            "    move it before END PGM\n");
 }
 
 TEST(Check, ParametersOfMeasuringCyclesByTheCatalogue) {
@@ -138,7 +138,7 @@ TEST(Check, WhatTheControlDoesNotHave) {
 TEST(Check, AMissingContinuationOfACycleIsNamed) {
   EXPECT_THAT(checked(framed("1 TCH PROBE 403 ROT ~\n Q263=+0 ~\n Q264=+0 ~\n Q265=+20 ~\n Q266=+0 ~\n Q272=2 ~\n"
                              " Q267=+1 ~\n Q261=-5 ~\n Q320=0 ~\n Q260=+20 ~\n Q301=0\n Q312=0\n")),
-              ::testing::HasSubstr("it stands in line 13, outside of the cycle: end the line before it with ~"));
+              ::testing::HasSubstr("it is in line 13, outside the cycle: end the line before it with ~"));
 }
 
 /// A cycle 412 into row `row` with `more` behind its parameters.
@@ -188,7 +188,7 @@ TEST(Check, KnowsRotationsThatGoNowhere) {
 
 TEST(Check, KnowsTheStateBeforeACycle) {
   const std::string cycle = inspection421("0", "0");
-  EXPECT_NE(checked(framed(cycle)).find("warning: no TOOL CALL stands before this cycle"), std::string::npos);
+  EXPECT_NE(checked(framed(cycle)).find("warning: there is no TOOL CALL before this cycle"), std::string::npos);
   EXPECT_EQ(checked(framed("1 CALL PGM TOOLS\n" + cycle)).find("TOOL CALL"), std::string::npos);
   const std::string shift = "2 CYCL DEF 7.0 SHIFT\n3 CYCL DEF 7.1 X+5\n";
   EXPECT_NE(checked(framed(call + shift + cycle)).find("cycle 7 is active"), std::string::npos);

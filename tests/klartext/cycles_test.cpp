@@ -98,11 +98,11 @@ TEST(Cycles, Mistakes) {
   EXPECT_EQ(irOf("TCH PROBE 1 X ~\n Q1=2"), "1:12: touch probe cycle 1 is written in parts");
   EXPECT_EQ(irOf("CYCL DEF 7 X ~\n Q1=2"), "1:11: cycle 7 is written in parts");
   EXPECT_EQ(irOf("TCH PROBE 3.0 M\nTCH PROBE 3.1 Q1\nTCH PROBE 3.3 DIST 5 F100 MB1"),
-            "3:14: the parts of a touch probe cycle must follow each other from 0 on");
-  EXPECT_EQ(irOf("TCH PROBE ABC"), "1:11: the number of the touch probe cycle is expected behind TCH PROBE");
+            "3:14: the parts of a touch probe cycle must follow each other, beginning with 0");
+  EXPECT_EQ(irOf("TCH PROBE ABC"), "1:11: the number of the touch probe cycle is expected after TCH PROBE");
   EXPECT_EQ(irOf("TCH PROBE 411 X ~\n Q321="),
             "2:7: a number, a parameter, a function or a parenthesis is expected in this formula");
-  EXPECT_EQ(irOf("HELLO"), "1:1: this is no block of the Klartext language");
+  EXPECT_EQ(irOf("HELLO"), "1:1: this is not a block of the Klartext language");
 }
 
 }  // namespace

@@ -191,7 +191,7 @@ TEST(MFunctions, M30InACalledProgramIsNamed) {
   expectFinished(world.run("CALL PGM SUB.H\nCALL PGM SUB.H\nQ2 = Q1\n"));
   EXPECT_EQ(world.q(2), 5);
   EXPECT_THAT(world.told(EventKind::Warning),
-              ElementsAre("M2 or M30 stands in a called program: it ends this program, and the calling one goes on"));
+              ElementsAre("M2 or M30 in a called program ends only that program; the calling program continues"));
 }
 
 }  // namespace

@@ -39,13 +39,13 @@ TEST(Mistakes, OfPathBlocks) {
        {"L X+1e5 FMAX", "3:6: an axis, R0/RL/RR, F or M is expected here"},
        {"APPR LT X+5", "3:12: LEN with the length of the line is expected in this block"},
        {"APPR XX", "3:6: LT, LN, CT, LCT or one of their polar forms PLT, PLN, PCT, PLCT is expected"},
-       {"CR X+5 Y+5 R10 DR", "3:18: + or - is expected behind DR"},
+       {"CR X+5 Y+5 R10 DR", "3:18: + or - is expected after DR"},
        {"C X+5 Y+5 DR+ F100", "Circle centre missing: There is no circle centre"},
-       {"CT X+5 F100", "Tangential arc not permitted: There is no contour element in front of CT"},
+       {"CT X+5 F100", "Tangential arc not permitted: There is no contour element before CT"},
        {"LP PR+10 PA+45 FMAX", "Pole missing: There is no pole for polar coordinates"},
-       {"M140", "3:5: MB with the way back is expected behind M140"},
-       {"M140 MB-5", "Retraction not permitted: M140 MB goes back along the tool axis: its way cannot be negative"},
-       {"HELLO", "3:1: this is no block of the Klartext language"}});
+       {"M140", "3:5: MB with the retraction distance is expected after M140"},
+       {"M140 MB-5", "Retraction not permitted: M140 MB retracts along the tool axis: its distance cannot be negative"},
+       {"HELLO", "3:1: this is not a block of the Klartext language"}});
 }
 
 TEST(Mistakes, OfParameterNumbers) {
@@ -63,7 +63,7 @@ TEST(Mistakes, OfFeedsAndTimes) {
               {"L X+1 F0.5 M136",
                "Spindle speed missing: With M136 the feed rate counts per revolution, but the "
                "spindle has no speed"},
-              {"L X+1 FMAXX", "3:11: this is no feed rate"},
+              {"L X+1 FMAXX", "3:11: this is not a feed rate"},
               {"L X+1 FMAXM3", "nothing"},
               {"Q1 = 10 ^ 9\nCYCL DEF 9.0 DWELL TIME\nCYCL DEF 9.1 DWELL Q1",
                "Dwell time wrong: A dwell time of 1000000000 s is not possible"},
@@ -95,7 +95,7 @@ TEST(Mistakes, OfToolsAndCalls) {
               {"TOOL CALL \"NONE\" Z", "Tool not defined: TOOL.T has no tool named NONE"},
               {"TOOL CALL 5 Q", "3:13: the tool axis, S, F, DL, DR, DR2 or M is expected here"},
               {"TOOL CALL 5 Z S-5", "Spindle speed wrong: A spindle speed of -5 is not possible"},
-              {"TOOL DEF", "3:9: a tool number or name is expected behind TOOL DEF"},
+              {"TOOL DEF", "3:9: a tool number or name is expected after TOOL DEF"},
               {"LBL \"A", "3:5: a label number, a label name in quotation marks or a QS parameter is expected"},
               {"CALL LBL 7", "Label not found: there is no label 7 in this program"},
               {"CALL LBL QS4", "Label not found: there is no label \"\" in this program"},
@@ -118,24 +118,24 @@ TEST(Mistakes, OfCyclesInParts) {
         "4:8: cycle 247 takes Q339 with the row of the preset table and nothing else"},
        {"CYCL DEF 247 PRESET ~\nQ339=+77", "Preset not defined: The preset table has no row 77"},
        {"TCH PROBE 0.0 REF Q5 X-", "3:24: part 0.1 of this touch probe cycle is missing"},
-       {"TCH PROBE 0.0 REF Q5 X\nTCH PROBE 0.1 X+5", "3:23: the probing direction + or - is expected behind the axis"},
+       {"TCH PROBE 0.0 REF Q5 X\nTCH PROBE 0.1 X+5", "3:23: the probing direction + or - is expected after the axis"},
        {"TCH PROBE 17 X", "3:13: touch probe cycle 17 is written in parts"},
        {"CYCL DEF 200 X ~\nQ200=2 ~\nQ200=3", "5:7: Q200 is given twice in this cycle"}});
 }
 
 TEST(Mistakes, OfFunctionsAndFormulas) {
-  expectSaid({{"FN 99: Q1 = 2", "3:6: a number from 0 to 38 is expected behind FN"},
+  expectSaid({{"FN 99: Q1 = 2", "3:6: a number from 0 to 38 is expected after FN"},
               {"FN 1: Q1 = +1 - +2", "3:15: + is expected between the two values"},
               {"FN 4: Q1 = +1 DIV +0", "Division by zero: the divisor is 0"},
               {"FN 5: Q1 = SQRT -4", "Argument out of range: the square root of -4 does not exist"},
-              {"FN 9: IF +1 EQU +1 LBL 3", "3:20: GOTO LBL is expected behind the condition"},
-              {"FN 14: ERROR", "3:13: '=' is expected behind ERROR"},
+              {"FN 9: IF +1 EQU +1 LBL 3", "3:20: GOTO LBL is expected after the condition"},
+              {"FN 14: ERROR", "3:13: '=' is expected after ERROR"},
               {"FN 26: TABOPEN", "Table missing: FN 26 names no table"},
               {"FN 27: TABWRITE 5/\"A\" = Q1", "Table missing: No table is open for FN 27"},
-              {"Q1 = (3", "3:8: ')' is expected behind the expression in parentheses"},
+              {"Q1 = (3", "3:8: ')' is expected after the expression in parentheses"},
               {"Q1 = \"A\"", "Wrong data type: A Q parameter takes a number, not a text"},
               {"QS1 = 5", "Wrong data type: QS1 takes a text, not a number"},
-              {"Q1 = TONUMB( SRC_\"abc\" )", "String is no number: TONUMB cannot read \"abc\" as a number"}});
+              {"Q1 = TONUMB( SRC_\"abc\" )", "String is not a number: TONUMB cannot read \"abc\" as a number"}});
 }
 
 /// What is refused in a run is refused by the check, with a place, in both languages.
@@ -175,11 +175,11 @@ TEST(Mistakes, OfPlanesAndTransformations) {
   expectSaid({{"PLANE SPATIAL TURN FMAX", "3:24: the values that define the plane are missing"},
               {"PLANE SPATIAL SPAX TURN", "3:18: a number or a Q parameter is expected for SPA"},
               {"PLANE VECTOR BX0 NZ1 STAY", "Plane definition wrong: the base vector has no length"},
-              {"TRANS DATUM", "3:12: AXIS, TABLE or RESET is expected behind TRANS DATUM"},
+              {"TRANS DATUM", "3:12: AXIS, TABLE or RESET is expected after TRANS DATUM"},
               {"TRANS DATUM AXIS", "3:17: an axis with its shift is expected here"},
               {"TRANS DATUM TABLE TABLINE 5", "Datum table missing: No datum table is selected"},
-              {"PRESET SELECT 5", "3:15: '#' is expected behind PRESET SELECT"},
-              {"FUNCTION MODE X", "3:15: MILL, TURN, GRIND or SET is expected behind FUNCTION MODE"},
+              {"PRESET SELECT 5", "3:15: '#' is expected after PRESET SELECT"},
+              {"FUNCTION MODE X", "3:15: MILL, TURN, GRIND or SET is expected after FUNCTION MODE"},
               {"FUNCTION TCPM F TCP AXIS POS",
                "Function not available: M128 and FUNCTION TCPM need a machine with rotary axes"}});
 }

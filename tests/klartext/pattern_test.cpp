@@ -59,10 +59,10 @@ TEST(Pattern, NamesWhatIsWrong) {
     return found ? std::string() : found.error().message;
   };
   EXPECT_EQ(reason(""), "PATTERN DEF names no points");
-  EXPECT_EQ(reason("BOW1 (X+1)"), "'BOW' is no element of PATTERN DEF");
-  EXPECT_EQ(reason("POS1 X+1"), "( is expected behind POS");
+  EXPECT_EQ(reason("BOW1 (X+1)"), "'BOW' is not an element of PATTERN DEF");
+  EXPECT_EQ(reason("POS1 X+1"), "( is expected after POS");
   EXPECT_EQ(reason("POS1 (X+1 W+2)"), "POS does not take 'W'");
-  EXPECT_EQ(reason("POS1 (X+ Y+2)"), "a number is expected behind X of POS");
+  EXPECT_EQ(reason("POS1 (X+ Y+2)"), "a number is expected after X of POS");
   EXPECT_EQ(reason("POS1 (X+1 Y+2"), "POS does not take ''");
   EXPECT_EQ(reason("ROW1 (X+1 Y+2 NUM3)"), "ROW lacks D");
   EXPECT_EQ(reason("ROW1 (X+1 Y+2 D5 NUM0)"), "NUM of ROW must be from 1 to 10000");

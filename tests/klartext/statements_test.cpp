@@ -266,7 +266,7 @@ TEST(Statements, MasksThatAreWrongAreQuotedInShort) {
             "FN 16: mask wrong: the format line \"A %F\", Q1, Q2 has more parameters than %");
   EXPECT_EQ(said("\"A\"\n\"B\";\n"), "FN 16: mask wrong: the format line \"A\" does not end with ;");
   EXPECT_EQ(said(std::string(500, 'X') + "\n"),
-            "FN 16: mask wrong: " + std::string(80, 'X') + "... is no format line and no keyword");
+            "FN 16: mask wrong: " + std::string(80, 'X') + "... is neither a format line nor a keyword");
   EXPECT_EQ(said("\"A %F\",\n  Q1;\n"), "no alarm");
 }
 

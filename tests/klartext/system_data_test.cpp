@@ -230,9 +230,9 @@ TEST(Protocols, MistakesOfMasks) {
     return messageOf(world.run("Q1 = 1\nFN 16: F-PRINT M.A / R.TXT\n"));
   };
   EXPECT_THAT(mistake("\"%F\";\n"), HasSubstr("more % than parameters"));
-  EXPECT_THAT(mistake("\"%Z\",Q1;\n"), HasSubstr("%Z is no format"));
-  EXPECT_THAT(mistake("\"%F\",X1;\n"), HasSubstr("X1 is no Q parameter"));
-  EXPECT_THAT(mistake("M_WRONG\n"), HasSubstr("M_WRONG is no format line"));
+  EXPECT_THAT(mistake("\"%Z\",Q1;\n"), HasSubstr("%Z is not a format"));
+  EXPECT_THAT(mistake("\"%F\",X1;\n"), HasSubstr("X1 is not a Q parameter"));
+  EXPECT_THAT(mistake("M_WRONG\n"), HasSubstr("M_WRONG is neither a format line"));
   EXPECT_THAT(mistake("M_APPEND_MAX\n"), HasSubstr("kilobytes"));
   EXPECT_THAT(messageOf(world.run("FN 16: F-PRINT M.A\n")), HasSubstr("separated by /"));
 }

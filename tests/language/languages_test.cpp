@@ -177,7 +177,7 @@ TEST(SinumerikRun, MissingDestinationsHaveTheControlsNumber) {
   Control control;
   const RunResult result = control.sinumerik("R1=1\nGOTOF NOWHERE\nM30\n");
   EXPECT_EQ(result.end, RunEnd::Alarm);
-  EXPECT_THAT(explained(result), HasSubstr("MAIN.MPF:2:1: error: 14080: there is no label NOWHERE behind this block"));
+  EXPECT_THAT(explained(result), HasSubstr("MAIN.MPF:2:1: error: 14080: there is no label NOWHERE after this block"));
 }
 
 TEST(BadPrograms, AreMessagesNotEndlessLoopsOrOverflows) {

@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"maximum = 100", "maximum = \"100\"",
                 "small.toml:6:11: error: \"maximum\" in [[axis]] must be a number"},
         Mistake{"kind = \"linear\"", "kind = \"linera\"",
-                "small.toml:4:8: error: \"linera\" is no kind; it must be one of linear, rotary\n    Did you "
+                "small.toml:4:8: error: \"kind\" cannot be \"linera\"; it must be one of linear, rotary\n    Did you "
                 "mean \"linear\"?"},
         Mistake{"direction = [2, 0, 0]", "direction = [2, 0]",
                 "small.toml:9:13: error: \"direction\" in [[spindle_chain]] must be a list of 3 numbers"},
@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"maximum = 100\n", "", "small.toml:2:1: error: \"maximum\" is missing in [[axis]]"},
         Mistake{"maximum = 100", "maximum = nan",
                 "\"maximum\" in [[axis]] must be at least -1000000 and at most 1000000"},
-        Mistake{"maximum = 100", "maximum = 1 2", "small.toml:6:13: error: this is no valid TOML"},
+        Mistake{"maximum = 100", "maximum = 1 2", "small.toml:6:13: error: this is not valid TOML"},
         Mistake{"maximum = 100", "maximum = 100\nacceleration = 0",
                 "\"acceleration\" in [[axis]] must be at least 1 and at most 1000000"}));
 

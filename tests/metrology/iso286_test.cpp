@@ -178,13 +178,13 @@ TEST(Grades, FineOnes) {
 }
 
 TEST(Refusals, NameWhatIsWrong) {
-  EXPECT_EQ(isoTolerance(10, "Hh7").error().message, "'Hh7' is no tolerance class of ISO 286");
-  EXPECT_EQ(isoTolerance(10, "q7").error().message, "'q7' is no tolerance class of ISO 286");
-  EXPECT_EQ(isoTolerance(10, "H").error().message, "'H' is no tolerance class of ISO 286");
-  EXPECT_EQ(isoTolerance(10, "7").error().message, "'7' is no tolerance class of ISO 286");
-  EXPECT_EQ(isoTolerance(10, "H19").error().message, "'H19' is no tolerance class of ISO 286");
-  EXPECT_EQ(isoTolerance(10, "H07").error().message, "'H07' is no tolerance class of ISO 286");
-  EXPECT_EQ(isoTolerance(10, "").error().message, "'' is no tolerance class of ISO 286");
+  EXPECT_EQ(isoTolerance(10, "Hh7").error().message, "'Hh7' is not a tolerance class of ISO 286");
+  EXPECT_EQ(isoTolerance(10, "q7").error().message, "'q7' is not a tolerance class of ISO 286");
+  EXPECT_EQ(isoTolerance(10, "H").error().message, "'H' is not a tolerance class of ISO 286");
+  EXPECT_EQ(isoTolerance(10, "7").error().message, "'7' is not a tolerance class of ISO 286");
+  EXPECT_EQ(isoTolerance(10, "H19").error().message, "'H19' is not a tolerance class of ISO 286");
+  EXPECT_EQ(isoTolerance(10, "H07").error().message, "'H07' is not a tolerance class of ISO 286");
+  EXPECT_EQ(isoTolerance(10, "").error().message, "'' is not a tolerance class of ISO 286");
   EXPECT_EQ(isoTolerance(20, "t6").error().message, "ISO 286 defines no class t6 for 20 mm");
   EXPECT_EQ(isoTolerance(60, "fg6").error().message, "ISO 286 defines no class fg6 for 60 mm");
   EXPECT_EQ(isoTolerance(0.8, "a11").error().message, "ISO 286 defines no class a11 for 0.8 mm");

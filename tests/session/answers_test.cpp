@@ -21,8 +21,9 @@ TEST(Answers, AreReadByQuestion) {
 
 TEST(Answers, NameLineAndReasonOfAMistake) {
   const auto mistake = [](std::string_view text) { return format(parseAnswers(text, "A.TXT").error()); };
-  EXPECT_THAT(mistake("Q5 = 1\nno answer at all\n"), HasSubstr("A.TXT:2:1: error: 'no answer at all' is no answer"));
-  EXPECT_THAT(mistake("\n\n = 5"), HasSubstr("A.TXT:3:1: error: '= 5' is no answer"));
+  EXPECT_THAT(mistake("Q5 = 1\nno answer at all\n"),
+              HasSubstr("A.TXT:2:1: error: 'no answer at all' is not an answer"));
+  EXPECT_THAT(mistake("\n\n = 5"), HasSubstr("A.TXT:3:1: error: '= 5' is not an answer"));
   EXPECT_THAT(mistake("Q5 = 1\nQ6 = 2\nQ5 = 3\n"), HasSubstr("A.TXT:3:1: error: 'Q5' is answered twice"));
 }
 

@@ -104,7 +104,7 @@ TEST(ProgramFiles, RemanentParametersGoOnInTheNextRun) {
   folders.setup.tables = folders.path / "tables";
   const RunOutcome wrong = folders.run("1 Q1 = 1\n");
   EXPECT_EQ(wrong.info.exit, ExitState::InputMistake);
-  EXPECT_THAT(wrong.info.exitText, HasSubstr("this is no QR parameter with its value"));
+  EXPECT_THAT(wrong.info.exitText, HasSubstr("this is not a QR parameter with its value"));
 }
 
 TEST(ProgramFiles, AProgramInInchesSaysSo) {

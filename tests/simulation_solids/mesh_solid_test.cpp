@@ -242,7 +242,7 @@ TEST(Stl, SaysWhatIsWrongWithABadFile) {
   // One triangle by its count, and seven bytes more than that takes.
   std::string longer(84 + 50 + 7, '\0');
   longer[80] = 1;
-  EXPECT_THAT(message(longer), HasSubstr("134 bytes for its count of triangles, and it has 141"));
+  EXPECT_THAT(message(longer), HasSubstr("134 bytes expected, it has 141"));
   EXPECT_THAT(message("solid x\nendsolid x\n"), HasSubstr("no triangle"));
   EXPECT_THAT(message("solid x\nfacet normal 0 0 1\nouter loop\nvertex 1 2 x3\n"),
               ::testing::AllOf(HasSubstr("bad.stl:4"), HasSubstr("a coordinate in mm"), HasSubstr("x3")));

@@ -102,11 +102,10 @@ TEST(SinumerikArguments, NeitherSignNorKindMayBeWrong) {
   EXPECT_EQ(
       mistakesIn("CYCLE978(200,,1,1,20,5,1,1,1,1,R5)\n"),
       (Messages{"1:32 argument 11 of CYCLE978: S_TNAME (name of the tool to correct) takes a text, not a number"}));
-  EXPECT_EQ(
-      mistakesIn("CYCLE978(0,,,1,20,5,1,1,1.5)\n"),
-      (Messages{"1:25 argument 9 of CYCLE978: S_MD (measuring direction: 1 plus, 2 minus; 0: from where the probe "
-                "stands to the set value) takes a whole number, "
-                "not 1.5"}));
+  EXPECT_EQ(mistakesIn("CYCLE978(0,,,1,20,5,1,1,1.5)\n"),
+            (Messages{"1:25 argument 9 of CYCLE978: S_MD (measuring direction: 1 plus, 2 minus; 0: from the present "
+                      "position of the probe towards the set value) takes a whole number, "
+                      "not 1.5"}));
 }
 
 TEST(SinumerikArguments, CorrectionsWithoutATargetAreNamed) {
@@ -176,12 +175,12 @@ TEST(SinumerikArguments, CallsOfTheOldFormTakeVariables) {
 }
 
 TEST(SinumerikArguments, ThoseOfCycle800And116AreCounted) {
-  EXPECT_EQ(mistakesIn("CYCLE800(1,TABLE,100000)\n"), (Messages{"1:12 nothing of the name TABLE is declared"}));
+  EXPECT_EQ(mistakesIn("CYCLE800(1,TABLE,100000)\n"), (Messages{"1:12 TABLE is not declared"}));
   EXPECT_EQ(mistakesIn("CYCLE800(1,5,100000,\"57\")\n"),
             (Messages{"1:12 argument 2 of CYCLE800: _TC (name of the swivel data set) takes a text",
                       "1:21 argument 4 of CYCLE800: _MODE (kind and order of the angles) takes a number"}));
   EXPECT_EQ(mistakesIn("CYCLE800(1,\"\",0,57,0,0,0,0,0,0,0,0,0,-1,100,1,2)\n"),
-            (Messages{"1:47 CYCLE800 takes at most 16 arguments, here are 17"}));
+            (Messages{"1:47 CYCLE800 takes at most 16 arguments, but 17 are given"}));
   EXPECT_EQ(mistakesIn("CYCLE116()\n").size(), 1u);
 }
 

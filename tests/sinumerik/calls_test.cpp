@@ -126,9 +126,9 @@ TEST(SinumerikCalls, CheckNamesWhatIsWrongWithACall) {
             (std::vector<std::string>{
                 "1:1 argument 2 of SUB is missing: the VAR parameter RESULT needs a variable",
                 "2:7 argument 2 of SUB: the VAR parameter RESULT needs a variable",
-                "3:10 SUB has 2 parameters, here are 3 arguments",
+                "3:10 SUB has 2 parameters, but the call has 3 arguments",
                 "4:24 the program SUB has no section from BB to AA",
-                "5:14 TO expected behind the first label",
+                "5:14 TO expected after the first label",
                 "6:7 there is no program and no cycle NOTHING",
                 "7:7 there is no program GONE",
                 "8:1 there is no program and no cycle CYCLE9777",

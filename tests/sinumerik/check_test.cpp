@@ -41,9 +41,9 @@ TEST(SinumerikCheck, KnowsWhatEachDigitOfACycleParameterCanBe) {
   EXPECT_EQ(complaint("CYCLE977(108,,,1,40)"),
             "argument 1 of CYCLE977: S_MVAR (measuring variant) cannot be 108: its units (feature) can be 1 (hole), 2 "
             "(circular spigot), 3 (groove), 4 (rib), 5 (rectangular pocket), 6 (rectangular spigot); not 8");
-  EXPECT_EQ(
-      complaint("CYCLE977(171,,,1,40)"),
-      "argument 1 of CYCLE977: S_MVAR (measuring variant) cannot be 171: its tens mean nothing and must be 0, not 7");
+  EXPECT_EQ(complaint("CYCLE977(171,,,1,40)"),
+            "argument 1 of CYCLE977: S_MVAR (measuring variant) cannot be 171: its tens have no meaning and must be 0, "
+            "not 7");
   EXPECT_EQ(complaint("CYCLE977(-101,,,1,40)"),
             "argument 1 of CYCLE977: S_MVAR (measuring variant) cannot be -101: a coded number is not negative");
   EXPECT_EQ(complaint("CYCLE978(100,14001,,1,0)"),
@@ -73,20 +73,20 @@ TEST(SinumerikCheck, NamesAllMistakesInTheOrderOfTheProgram) {
     messages.push_back(std::to_string(diagnostic.place.line) + ":" + std::to_string(diagnostic.place.column) + " " +
                        diagnostic.message);
   EXPECT_EQ(messages, (std::vector<std::string>{
-                          "2:1 nothing of the name DEPHT is declared",
-                          "3:8 the address X stands twice in this block",
-                          "4:10 nothing of the name NOWHERE is declared",
+                          "2:1 DEPHT is not declared",
+                          "3:8 the address X appears twice in this block",
+                          "4:10 NOWHERE is not declared",
                           "5:1 IF is not closed by ENDIF",
                           "7:7 the destination AB_2 is missing",
-                          "8:1 the label AB_1 stands also in line 4",
+                          "8:1 the label AB_1 is also defined in line 4",
                           "8:10 the control has no system variable $XYZ",
-                          "9:1 this DEF stands behind the first block that is carried out",
+                          "9:1 this DEF comes after the first block that is executed",
                           "9:9 the variable DEPTH is declared twice",
                       }));
   EXPECT_EQ(found[0].advice, "Did you mean DEPTH?");
   EXPECT_EQ(found[4].advice, "Did you mean AB_1?");
   EXPECT_EQ(format(found[1]),
-            "test.mpf:3:8: error: the address X stands twice in this block\n    G0 X10 X20\n"
+            "test.mpf:3:8: error: the address X appears twice in this block\n    G0 X10 X20\n"
             "    Write each address once in a block.");
 }
 
@@ -180,7 +180,7 @@ TEST(SinumerikCheck, NamesOfDataThatTheControlHasAreRight) {
 
 TEST(SinumerikCheck, DefinitionsStandAtTheBeginning) {
   EXPECT_EQ(told("G0 X1\nDEF REAL XX1\nDEF REAL XX2\nXX1=XX2\nM30"),
-            "2:1 this DEF stands behind the first block that is carried out\n");
+            "2:1 this DEF comes after the first block that is executed\n");
   EXPECT_EQ(told("; remark\nPROC MAIN(REAL AA_1)\nEXTERN SUB_1(REAL)\nN10 DEF REAL XX1\nDEFINE QUICK AS G0\n"
                  "DEF INT XX2\nXX1=XX2\nM30"),
             "");

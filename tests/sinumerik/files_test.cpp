@@ -99,13 +99,13 @@ TEST(SinumerikFiles, ATextIsCarriedOutAsABlock) {
   world.run(
       "DEF STRING[60] LINE\nDEF REAL MINE\nLINE=\"R1=5 MINE=7\"\nEXECSTRING(LINE)\nR2=MINE\n"
       "LINE=\"G0 X\"<<R1*2<<\" Y3\"\nEXECSTRING(LINE)\nR3=$AA_IW[X]\nEXECSTRING(\"HELPER\")\nR4=R7\n"
-      "LINE=\"R5=SIN(90)\"\nEXECSTRING(LINE<<\"+1\")\nMSG(\"behind\")\n");
+      "LINE=\"R5=SIN(90)\"\nEXECSTRING(LINE<<\"+1\")\nMSG(\"after\")\n");
   EXPECT_EQ(world.r(1), 5);
   EXPECT_EQ(world.r(2), 7);
   EXPECT_EQ(world.r(3), 10);
   EXPECT_EQ(world.r(4), 5);
   EXPECT_EQ(world.r(5), 2);
-  EXPECT_EQ(world.messages(), "behind|");
+  EXPECT_EQ(world.messages(), "after|");
 }
 
 TEST(SinumerikFiles, ATextThatIsNoBlockIsRefused) {

@@ -25,7 +25,7 @@ DEF NCK CHAR _KIND="A"
 DEF NCK AXIS _WHICH=(X)
 DEF NCK FRAME _PLACE
 M17
-what stands behind is not read
+what stands after is not read
 )";
 
 GlobalUserData definitionsOf(const std::string& text, Diagnostics& mistakes) {

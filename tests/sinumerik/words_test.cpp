@@ -112,11 +112,11 @@ TEST(SinumerikWords, ExtensionsOfAddressesMayBeComputed) {
   world.run("T2=1 M6\nR3=$P_TOOLNO\n");
   EXPECT_EQ(world.r(3), 2) << "T2= is the tool of another spindle";
   EXPECT_EQ(mistake("S[1000]=5\n"), "the extension of an address is a whole number from 0 to 999");
-  EXPECT_EQ(mistake("S[1]\n"), "'=' expected behind the extension of the address");
+  EXPECT_EQ(mistake("S[1]\n"), "'=' expected after the extension of the address");
 }
 
 TEST(SinumerikWords, ToolsHaveNumbersFromZeroOn) {
-  EXPECT_EQ(mistake("T-1\n"), "a tool has a number from 0 on");
+  EXPECT_EQ(mistake("T-1\n"), "the number of a tool is 0 or more");
   World world;
   EXPECT_EQ(world.alarm("R1=-1\nT=R1\n"), "17190");
 }
@@ -203,7 +203,7 @@ TEST(SinumerikTexts, SingleCharactersAreReadAndWritten) {
   EXPECT_EQ(shown(text, "SS[0]"), "A");
   EXPECT_EQ(shown(text, "\"<\"<<SS[5]<<\">\""), "<n>");
   EXPECT_EQ(shown("DEF STRING[20] SA[2]=SET(\"abc\",\"xyz\")\nSA[1,0]=SA[0,2]\n", "SA[1]"), "cyz");
-  EXPECT_EQ(shown("DEF STRING[5] SS=\"ab\"\nSS[2]=\"c\"\n", "SS"), "abc") << "one more behind the last";
+  EXPECT_EQ(shown("DEF STRING[5] SS=\"ab\"\nSS[2]=\"c\"\n", "SS"), "abc") << "one more after the last";
   World world;
   world.run(text + "IF SS[0]==\"A\"\nR1=1\nENDIF\nR2=SS[0]\nIF SS[1]<>\"A\"\nR3=1\nENDIF\n");
   EXPECT_EQ(world.r(1), 1);

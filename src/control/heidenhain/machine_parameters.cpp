@@ -18,11 +18,10 @@ constexpr std::array entries = {
                           &MachineParameters::maxTouchFeed},
     MachineParameterEntry{
         "overrideForMeasure", "122604", onTNC640, 0, 1, "",
-        "1: the feed potentiometer acts in touch probe cycles; no effect here, where it stands at 100 "
-        "percent",
+        "1: the feed potentiometer acts in touch probe cycles; no effect here: it is always at 100 percent",
         &MachineParameters::overrideForMeasure},
     MachineParameterEntry{"chkTiltingAxes", "204601, 204600", onTNC640, 0, 1, "",
-                          "1: before probing, the rotary axes must stand as the tilted plane asks",
+                          "1: before probing, the rotary axes must be where the tilted plane needs them",
                           &MachineParameters::checkTiltingAxes},
     MachineParameterEntry{"option92", "", onTNC640, 0, 1, "",
                           "1: software option 92, 3D-ToolComp, is enabled: 3-D calibration data of touch probes",

@@ -16,7 +16,7 @@ constexpr std::array columns = {
     ColumnSpec{"CAL_ANG", "", 10, Angle, 4, "spindle angle when calibrating and probing", false, false, "0"},
     ColumnSpec{"F", "", 9, Feed, 0, "probing feed", false, false, "300"},
     ColumnSpec{"FMAX", "", 9, Feed, 0, "feed of positioning between points", false, false, "2000"},
-    ColumnSpec{"DIST", "", 12, Length, 4, "longest way to a touch", false, false, "10"},
+    ColumnSpec{"DIST", "", 12, Length, 4, "longest path to the touch point", false, false, "10"},
     ColumnSpec{"SET_UP", "", 12, Length, 4, "set-up clearance, added to that of the cycle", false, false, "2"},
     ColumnSpec{"F_PREPOS", "", 14, Text, 0, "FMAX_PROBE or FMAX_MACHINE", false, false, "FMAX_PROBE"},
     ColumnSpec{"TRACK", "", 7, Text, 0, "ON: orient the spindle to the probing direction", false, false, "OFF"},

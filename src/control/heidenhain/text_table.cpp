@@ -107,7 +107,7 @@ Result<TextTable> TextTable::parse(std::string_view bytes, std::string file, Dia
   if (firstWords.size() < 2 || firstWords[0] != "BEGIN") {
     Diagnostic error{Severity::Error, {table.file_, line + 1, 1}, {}, excerptOf(first), {}, {}};
     error.message = "a table begins with a line such as \"BEGIN TOOL.T MM\"";
-    error.advice = "add the line, or check that this is the file you meant";
+    error.advice = "add the line, or check that this is the right file";
     return tl::unexpected(error);
   }
   const auto unit = std::find_if(firstWords.begin() + 1, firstWords.end(),
@@ -165,7 +165,7 @@ void TextTable::readHeader(std::size_t line, Diagnostics& diagnostics) {
     if (!seen.insert(word).second) {
       diagnostics.push_back({Severity::Warning,
                              {file_, line + 1, static_cast<std::uint32_t>(byte + 1)},
-                             fmt::format("column {} comes twice; the first one counts", excerptOf(word)),
+                             fmt::format("column {} appears twice; the first one counts", excerptOf(word)),
                              {},
                              {},
                              {}});
@@ -203,7 +203,7 @@ void TextTable::readRows(std::size_t first, Diagnostics& diagnostics) {
     if (!rowOfKey_.try_emplace(normalizedKey(key), rowLines_.size()).second) {
       diagnostics.push_back({Severity::Warning,
                              {file_, line + 1, 1},
-                             fmt::format("row {} comes twice; the first one counts", excerptOf(key)),
+                             fmt::format("row {} appears twice; the first one counts", excerptOf(key)),
                              excerptOf(content),
                              "remove one of the two rows",
                              {}});
@@ -350,7 +350,7 @@ Result<void> TextTable::checkCell(std::size_t line, std::size_t column, std::str
   const bool unprintable =
       std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
   if (unprintable || (utf8_ && !isValidUtf8(text))) {
-    return failAt(line, column, fmt::format("this text cannot stand in column {}", place.name),
+    return failAt(line, column, fmt::format("column {} cannot hold this text", place.name),
                   "use one line of printable text in the encoding of the table");
   }
   const std::size_t capacity =

@@ -12,7 +12,7 @@ using enum CellKind;
 
 // name, other name, width, kind, decimals, meaning, only iTNC, only TNC 640, initial
 constexpr std::array columns = {
-    ColumnSpec{"T", "", 8, Number, 0, "tool number, with its step behind a point"},
+    ColumnSpec{"T", "", 8, Number, 0, "tool number, with its step after a point"},
     ColumnSpec{"NAME", "", 33, Text, 0, "tool name"},
     ColumnSpec{"L", "", 13, Length, 4, "tool length", false, false, "0"},
     ColumnSpec{"R", "", 13, Length, 4, "tool radius", false, false, "0"},

@@ -228,7 +228,8 @@ Result<Frame> frameFunction(std::string_view function, std::span<const AxisValue
   const auto* const found =
       std::find_if(functions.begin(), functions.end(), [&](const auto& entry) { return entry.first == upper; });
   if (found == functions.end()) {
-    return fail(fmt::format("{} is no frame function", upper), "known are CTRANS, CFINE, CROT, CROTS, CSCALE, CMIRROR");
+    return fail(fmt::format("{} is not a frame function", upper),
+                "known are CTRANS, CFINE, CROT, CROTS, CSCALE, CMIRROR");
   }
   const FramePart part = found->second;
   Frame frame;

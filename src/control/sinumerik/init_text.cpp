@@ -208,7 +208,7 @@ private:
       indices.emplace_back(content_.substr(begin, at_ - begin));
       skipBlanks();
     } while (peek() == ',');
-    if (peek() != ']') fail(open, "the bracket is not closed", "write ] behind the last index");
+    if (peek() != ']') fail(open, "the bracket is not closed", "write ] after the last index");
     ++at_;
     return indices;
   }
@@ -224,7 +224,8 @@ private:
     const bool known = readValue(key, assignment);
     assignment.end = at_;
     if (!known) {
-      note(assignment.begin, fmt::format("the value of {} is no constant; the line is kept but not used", key.text()));
+      note(assignment.begin,
+           fmt::format("the value of {} is not a constant; the line is kept but not used", key.text()));
       while (!atEnd())
         ++at_;
       return;
@@ -257,7 +258,7 @@ private:
   }
 
   bool readValue(const DataKey& key, Assignment& assignment) {
-    if (atEnd()) fail(at_, "a value is expected behind =", "write a number, a string in quotation marks or a frame");
+    if (atEnd()) fail(at_, "a value is expected after =", "write a number, a string in quotation marks or a frame");
     const std::size_t begin = at_;
     if (isLetter(peek())) {
       const std::string word = upperCase(readWord());
@@ -298,7 +299,7 @@ private:
     const std::size_t begin = at_;
     if (peek() == '"') {
       const std::size_t close = content_.find('"', at_ + 1);
-      if (close == std::string_view::npos) fail(begin, "the string is not closed", "write \" behind it");
+      if (close == std::string_view::npos) fail(begin, "the string is not closed", "write \" after it");
       at_ = close + 1;
       return DataValue(std::string(content_.substr(begin + 1, close - begin - 1)));
     }
@@ -310,7 +311,7 @@ private:
     }
     if (peek() == '\'') {
       const std::size_t close = content_.find('\'', at_ + 1);
-      if (close == std::string_view::npos) fail(begin, "the number is not closed", "write ' behind it");
+      if (close == std::string_view::npos) fail(begin, "the number is not closed", "write ' after it");
       at_ = close + 1;
     } else {
       if (peek() == '-' || peek() == '+') ++at_;
@@ -324,7 +325,7 @@ private:
     const std::string_view text = content_.substr(begin, at_ - begin);
     const auto number = parseNumber(text);
     if (!number) {
-      fail(begin, fmt::format("\"{}\" is no number", printable(text.empty() ? content_.substr(begin, 1) : text)),
+      fail(begin, fmt::format("\"{}\" is not a number", printable(text.empty() ? content_.substr(begin, 1) : text)),
            "write it with a decimal point, such as -12.5 or 1.2EX-3");
     }
     return DataValue(*number);

@@ -80,7 +80,8 @@ Across touchAcross(HeidenhainProber& prober, const CalibrationTask& task, const 
   // In a ring the spindle axis stands in the middle, where there is room for the stylus; beside a stud the ball does.
   const double along = inside ? offset : 0;
   if (!(locus > along)) {
-    throw Alarm("Calibration not possible", "The standard is too small for a stylus whose ball stands so far aside",
+    throw Alarm("Calibration not possible",
+                "The standard is too small for a stylus whose ball is so far from the spindle axis",
                 "use a larger standard");
   }
   const Vector2 across(-towards.y(), towards.x());

@@ -89,7 +89,7 @@ private:
       const auto most = number(largest), least = number(smallest);
       if (!most || !least || *most == 0 || *least <= *most) continue;
       add(largest,
-          fmt::format("Q{} ({}) is less than Q{} ({}): no part can keep these limits", largest, *most, smallest,
+          fmt::format("Q{} ({}) is less than Q{} ({}): no part can meet these limits", largest, *most, smallest,
                       *least),
           "exchange them", Severity::Warning);
     }

@@ -288,9 +288,10 @@ probing::HeidenhainProbe activeProbe(const Control& control, Calibrated calibrat
     return probe;
   }
   if (tool.probeRow.empty()) {
-    throw Alarm("Touch probe not defined",
-                fmt::format("Tool {} is no touch probe: column TP_NO of TOOL.T names no row of TCHPROBE.TP", tool.row),
-                "call the touch probe with TOOL CALL, or enter TP_NO");
+    throw Alarm(
+        "Touch probe not defined",
+        fmt::format("Tool {} is not a touch probe: column TP_NO of TOOL.T names no row of TCHPROBE.TP", tool.row),
+        "call the touch probe with TOOL CALL, or enter TP_NO");
   }
   const auto number = parseInteger(tool.probeRow);
   const auto row = number ? findProbe(control.tables.probes, static_cast<int>(*number)) : std::nullopt;
@@ -310,16 +311,16 @@ probing::HeidenhainProbe activeProbe(const Control& control, Calibrated calibrat
   applyOverrides(probe, control.overrides);
   probe.aside = row->stylus == "L-TYPE";
   if (probe.aside && !(probe.track && control.channel.description().spindleOrients)) {
-    throw Alarm("Spindle orientation required",
-                "The ball of an L-shaped stylus stands aside; only the spindle can turn it to the surface",
-                "set TRACK = ON in TCHPROBE.TP, or STYLUS to SIMPLE");
+    throw Alarm(
+        "Spindle orientation required",
+        "The ball of an L-shaped stylus is beside the spindle axis; only the spindle can turn it to the surface",
+        "set TRACK = ON in TCHPROBE.TP, or STYLUS to SIMPLE");
   }
   if (probe.aside && !(probe.tipOffset.norm() > 0)) {
     throw Alarm("Touch probe not calibrated",
-                fmt::format("CAL_OF1 and CAL_OF2 of touch probe {} do not say where the ball of its L-shaped stylus "
-                            "stands",
+                fmt::format("CAL_OF1 and CAL_OF2 of touch probe {} do not say where the ball of its L-shaped stylus is",
                             tool.probeRow),
-                "enter how far the ball stands from the spindle axis at CAL_ANG; calibrating finds it exactly");
+                "enter how far the ball is from the spindle axis at CAL_ANG; calibrating finds it exactly");
   }
   if (calibrated == Calibrated::Required) probe.directions = directionsOf(control);
   return probe;

@@ -31,7 +31,7 @@ const CycleDefinition cycle2Definition = {
     .title = "CALIBRATE TS",
     .family = CycleFamily::Calibration,
     .summary =
-        "Calibrates the ball radius of the touch probe in a ring or on a pin whose place stands in MP6180.0 to "
+        "Calibrates the ball radius of the touch probe in a ring or on a pin whose position is in MP6180.0 to "
         "MP6180.2 and MP6185.0; in the second and third traverse range in MP6181, MP6185.1 and MP6182, MP6185.2.",
     .parameters = parameters2,
     .results = {},

@@ -34,7 +34,8 @@ const CycleDefinition cycle3Definition = {
     .title = "MEASURING",
     .family = CycleFamily::Special,
     .summary =
-        "Measures from where the probe stands in a direction of a coordinate plane and writes the uncorrected ball "
+        "Measures from the present position of the probe in a direction of a coordinate plane and writes the "
+        "uncorrected ball "
         "centre and a status into four Q parameters.",
     .parameters = parameters3,
     .results = results3,

@@ -28,7 +28,8 @@ const CycleDefinition cycle4Definition = {
     .title = "MEASURING IN 3-D",
     .family = CycleFamily::Special,
     .summary =
-        "Measures from where the probe stands in the direction of a vector and writes the ball centre and a status "
+        "Measures from the present position of the probe in the direction of a vector and writes the ball centre and a "
+        "status "
         "into four Q parameters. On the iTNC 530 a function of feature content level 3.",
     .parameters = parameters4,
     .results = results4,

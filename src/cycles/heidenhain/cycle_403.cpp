@@ -72,7 +72,7 @@ double angleAbout(int axis, int from, const Vector3& along) {
   if (std::hypot(cosine, sine) < 0.1 * along.norm()) {
     throw Alarm(
         "Angle not determined",
-        fmt::format("The touches lie along the axis that {} turns about and say nothing of its angle", "ABC"[axis]),
+        fmt::format("The touches lie along the axis that {} turns about and say nothing about its angle", "ABC"[axis]),
         "choose the other rotary axis (Q312), or other points");
   }
   const double angle = degreesFromRadians(std::atan2(sine, cosine));

@@ -70,7 +70,7 @@ void cycle405(Context& context, const Arguments&) {
   const double target = context.q(322) == 0 ? 90 : inXY({context.q(321), context.q(322), context.q(261)});
   const double offset = normalizedDegrees(inXY(circle.centre) - target);
   if (plane.xyzFromPlane({context.q(321), context.q(322), context.q(261)}).y() < 0) {
-    context.warn("The hole must lie on the positive side of the Y axis: the control reckons with that");
+    context.warn("The hole must lie on the positive side of the Y axis: the control assumes that");
   }
   context.result(150, offset);
   const std::size_t axis = turnWorkpiece(context, 2, -offset);

@@ -58,7 +58,7 @@ std::optional<metrology::Limits> toleranceOf(Context& context) {
   const auto dimension = metrology::parseDimension(fmt::format("0{}{}", isSigned ? "" : "+", text));
   if (!dimension || !dimension->tolerance || dimension->actual || !dimension->actualParameter.empty()) {
     throw control::Alarm("Tolerance wrong",
-                         fmt::format("QS400 = \"{}\" is no tolerance", context.arguments().text(400)),
+                         fmt::format("QS400 = \"{}\" is not a tolerance", context.arguments().text(400)),
                          "write the upper and the lower deviation, such as \"0.4-0.1\"");
   }
   const metrology::Tolerance& tolerance = *dimension->tolerance;

@@ -114,7 +114,7 @@ void requireNominal(const NominalPosition& position, std::size_t axis) {
   throw Alarm("Nominal position not defined",
               fmt::format("Position {} has no nominal position in the {}, which the cycle needs (Q{})",
                           position.ordinal, axisNames[axis], position.first + static_cast<int>(axis)),
-              "write the nominal position behind the ?");
+              "write the nominal position after the ?");
 }
 
 NominalPosition nominalPosition(Context& context, int ordinal, const std::array<bool, 3>& needed) {

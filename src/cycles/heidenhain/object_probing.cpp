@@ -111,7 +111,7 @@ std::optional<ObjectProbing::Way> ObjectProbing::wayOf(const std::string& text, 
 void ObjectProbing::moveAlong(const std::string& what, const std::string& waypoints, int* direction) {
   const std::optional<Way> way = wayOf(waypoints, direction != nullptr);
   if (!way) {
-    throw Alarm("Position of the probe wrong", fmt::format("'{}' is no position for {}", waypoints, what),
+    throw Alarm("Position of the probe wrong", fmt::format("'{}' is not a position for {}", waypoints, what),
                 "answer with three coordinates of the tip: main, minor and tool axis; ; between waypoints");
   }
   for (const Vector3& tip : way->tips)
@@ -124,7 +124,7 @@ void ObjectProbing::askOperator(const std::string& what, const std::string& task
   const auto reply = answer(what, direction != nullptr);
   if (!reply) {
     throw Alarm("Semi-automatic probing without operator",
-                fmt::format("Nobody says where the probe is to stand for {}", what),
+                fmt::format("No answer says where the probe is to be for {}", what),
                 fmt::format("give the answer '{} = MAIN MINOR TOOL', the position of the probe's tip", what));
   }
   moveAlong(what, *reply, direction);

@@ -48,10 +48,12 @@ std::size_t requireTable(Context& context, int about) {
   for (std::size_t axis = 0; axis < description.axes.size(); ++axis) {
     if (description.axes[axis].kind != machine::AxisKind::Rotary) continue;
     if (std::abs(tableTurn(description, atZero, axis)[about]) < 0.999) continue;
-    throw Alarm("Rotary axis not available",
-                fmt::format("Axis {} does not turn the workpiece about {} where the rotary axes stand ({} degrees)",
-                            description.axes[axis].name, "XYZ"[about], standing),
-                "position the other rotary axes at zero before the cycle, or use a basic rotation");
+    throw Alarm(
+        "Rotary axis not available",
+        fmt::format(
+            "Axis {} does not turn the workpiece about {} at the present position of the rotary axes ({} degrees)",
+            description.axes[axis].name, "XYZ"[about], standing),
+        "position the other rotary axes at zero before the cycle, or use a basic rotation");
   }
   refuseAxis(fmt::format("The machine has no rotary table that turns the workpiece about {}", "XYZ"[about]));
 }

@@ -165,7 +165,7 @@ void requireRotationCycle(Context& context) {
   if (context.record().name == "1420") {
     const auto& axes = context.channel().description().axes;
     if (aligns != 0 && std::ranges::count(axes, machine::AxisKind::Rotary, &machine::Axis::kind) < 2) {
-      throw Alarm("Rotary axes cannot be aligned", "The machine has less than two rotary axes", "set Q1126 = 0");
+      throw Alarm("Rotary axes cannot be aligned", "The machine has fewer than two rotary axes", "set Q1126 = 0");
     }
   } else if ((aligns != 0 || transfers == 2) && !alignmentAxis(context)) {
     throw Alarm("Rotary axes cannot be aligned",
@@ -274,8 +274,8 @@ void transferSpaceRotation(Context& context, const Matrix3& rotation, std::span<
   const auto solutions =
       machine::solveRotaryAxes(channel.description(), direction, tool, referencePosture(context), now);
   if (solutions.empty()) {
-    throw Alarm("Rotary axes cannot be aligned", "The rotary axes of the machine cannot stand square to this plane",
-                "set Q1126 = 0");
+    throw Alarm("Rotary axes cannot be aligned",
+                "The rotary axes of the machine cannot set the tool square to this plane", "set Q1126 = 0");
   }
   const auto distance = [&](const AxisPositions& solution) {
     double sum = 0;

@@ -15,7 +15,7 @@ struct AlarmEntry {
 constexpr std::array alarms = {
     AlarmEntry{61300, "The measuring cycle cannot be called here", "call it at program level 5 or above and with G40"},
     AlarmEntry{61301, "Probe does not switch", "check setpoint, measuring path DFA and zero offset"},
-    AlarmEntry{61302, "Probe collision", "correct the starting position; the way of the probe must be free"},
+    AlarmEntry{61302, "Probe collision", "correct the starting position; the path of the probe must be clear"},
     AlarmEntry{61303, "Safe area exceeded", "check the setpoint, or enlarge TSA (parameter S_TSA)"},
     AlarmEntry{61304, "Oversize", "check the workpiece and the tool"},
     AlarmEntry{61305, "Undersize", "check the workpiece and the tool"},

@@ -44,8 +44,8 @@ constexpr Parameter parameters961[] = {
     parameters::length(12, "S_SETV9", "set value of the corner in the 2nd axis"),
     parameters::angle(13, "S_STA1", "angle from the 1st axis to the 1st edge"),
     parameters::angle(14, "S_INCA", "angle from the 1st edge to the 2nd"),
-    parameters::length(15, "S_ID",
-                       "way down to the measuring height at each point (protection zone); its sign does not matter"),
+    parameters::length(
+        15, "S_ID", "distance down to the measuring height at each point (protection zone); its sign does not matter"),
     parameters::measuringPath(16),
     parameters::angle(17, "S_TSA", "safe area: a larger deviation of the 1st edge's angle stops the program"),
     parameters::repetitions(18),
@@ -125,7 +125,8 @@ Plan planOf(Context& context) {
     if (std::abs(plan.axisAngle) > 270) context.alarm(61319, "S_STA1 is between -270 and 270 degrees");
     const double opening = rightAngled ? 90 : context.real("S_INCA");
     if (std::abs(opening) > 180) context.alarm(61319, "S_INCA is between -180 and 180 degrees");
-    if (std::abs(std::sin(radiansFromDegrees(opening))) < 0.01) context.alarm(61319, "S_INCA is no angle of a corner");
+    if (std::abs(std::sin(radiansFromDegrees(opening))) < 0.01)
+      context.alarm(61319, "S_INCA is not a possible angle of a corner");
     const Vector2 first = probing::directionAt(plan.axisAngle).head<2>();
     const Vector2 second = probing::directionAt(plan.axisAngle + opening).head<2>();
     const int corner = context.digit("S_MVAR", 5);

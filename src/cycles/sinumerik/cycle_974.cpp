@@ -44,7 +44,7 @@ double touchSign(Context& context, TurnedFeature feature, double start, double s
   const double towards = set > start ? 1 : -1;
   const double expected = feature == TurnedFeature::Inside ? 1 : feature == TurnedFeature::Outside ? -1 : towards;
   if (start == set || towards != expected) {
-    context.alarm(61332, "the probe does not stand in front of the surface, above the turning centre");
+    context.alarm(61332, "the probe is not in front of the surface, above the turning centre");
   }
   return towards;
 }

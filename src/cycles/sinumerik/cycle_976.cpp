@@ -287,7 +287,7 @@ double Calibration976::topOfBall(const Vector3& over, std::optional<double> expe
 void Calibration976::ball() {
   const double radius = context_.real("S_SETV") / 2;
   if (!(radius > 0)) context_.alarm(61319, "S_SETV, the diameter of the ball, must be greater than 0");
-  if (!(radius_ > 0)) context_.alarm(61351, "the radius of the probe's ball must stand in its tool data");
+  if (!(radius_ > 0)) context_.alarm(61351, "the radius of the probe's ball must be in its tool data");
   calibration_.list({0, 1, 2}, ProbeCalibration::Listed::WithDeviationsAndLength);
   const std::optional<double> set = wantsLength() ? std::optional(context_.real("S_SETV0")) : std::nullopt;
   const double down = radius + radius_;

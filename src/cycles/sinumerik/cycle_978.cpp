@@ -19,8 +19,9 @@ constexpr Parameter parameters978[] = {
     parameters::measuringPath(5),
     parameters::safeArea(6),
     parameters::count<3>(7, "S_MA", "measuring axis: 1, 2 in the plane, 3 along the tool"),
-    parameters::count<2>(8, "S_MD",
-                         "measuring direction: 1 plus, 2 minus; 0: from where the probe stands to the set value"),
+    parameters::count<2>(
+        8, "S_MD",
+        "measuring direction: 1 plus, 2 minus; 0: from the present position of the probe towards the set value"),
     parameters::repetitions(9),
     parameters::toolName(10),
     parameters::dlNumber(11),

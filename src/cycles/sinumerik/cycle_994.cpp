@@ -28,7 +28,7 @@ constexpr Parameter parameters994[] = {
     parameters::length(4, "S_SETV", "set value of the diameter"),
     parameters::code(5, "S_MA", "measuring axis 1, 2, 3; hundreds: the axis in which the probe passes by", 1),
     parameters::length(6, "S_SZA", "protection zone in the measuring axis"),
-    parameters::length(7, "S_SZO", "way in the axis in which the probe passes by"),
+    parameters::length(7, "S_SZO", "distance in the axis in which the probe passes by"),
     parameters::measuringPath(8),
     parameters::safeArea(9),
     parameters::repetitions(10),
@@ -54,7 +54,8 @@ int bypassAxis(Context& context, int measuringAxis) {
   int code = context.digit("S_MA", 3);
   if (code == 0) code = context.digit("S_MVAR", 4);
   const int axis = turningAxis(context, code == 0 ? 1 : code);
-  if (axis == measuringAxis) context.alarm(61325, "measuring axis and axis of the way round are the same");
+  if (axis == measuringAxis)
+    context.alarm(61325, "the measuring axis and the axis in which the probe passes by are the same");
   return axis;
 }
 
@@ -187,7 +188,7 @@ void cycle994(Context& context, const Arguments&) {
   const bool inside = feature == TurnedFeature::Inside;
   const double start = context.prober().position()[axis];
   if (inside ? start >= setRadius : start <= setRadius) {
-    context.alarm(61332, "the probe does not stand in front of the surface, above the turning centre");
+    context.alarm(61332, "the probe is not in front of the surface, above the turning centre");
   }
 
   OppositePoints points(context, feature, axis, setRadius, count);

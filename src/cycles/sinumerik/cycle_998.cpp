@@ -24,9 +24,10 @@ constexpr Parameter parameters998[] = {
     parameters::turnedOffset(1),
     parameters::code(2, "S_RA", "0: correct the rotation; otherwise number of the rotary axis to correct"),
     parameters::dataSet(3),
-    parameters::length(4, "S_SETV",
-                       "with protection zone: way to the measuring height; its sign, without zone its way from where "
-                       "the probe stands, is the measuring direction where S_MD leaves it open"),
+    parameters::length(
+        4, "S_SETV",
+        "with protection zone: distance to the measuring height; where S_MD leaves the measuring direction "
+        "open, it is this sign, without protection zone the direction from the probe to this value"),
     parameters::angle(5, "S_STA1", "set angle of the edge, or of the plane about the 1st axis"),
     parameters::angle(6, "S_INCA", "set angle of the plane about the 2nd axis"),
     parameters::measuringPath(7),

@@ -19,7 +19,7 @@ Method methodOf(Context& context) {
 void requireCalibrationFor(Context& context, Method method) {
   if (method != Method::SpindleReversal) return context.requireCalibration();
   if (!(context.prober().ballRadius() > 0)) {
-    context.alarm(61351, "the radius of the ball must stand in the data set or in the tool data of the probe");
+    context.alarm(61351, "the radius of the ball must be in the data set or in the tool data of the probe");
   }
 }
 
@@ -28,7 +28,7 @@ double measuringDirection(Context& context, double toSetValue) {
   if (way < 0 || way > 2) context.alarm(61326, "S_MD is 1 (plus) or 2 (minus)");
   if (way != 0) return way == 1 ? 1 : -1;
   if (std::abs(toSetValue) < 1e-9) {
-    context.alarm(61326, "S_MD leaves the direction open, and the probe stands at the set value already");
+    context.alarm(61326, "S_MD leaves the direction open, and the probe is already at the set value");
   }
   return toSetValue > 0 ? 1 : -1;
 }

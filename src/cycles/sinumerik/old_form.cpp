@@ -125,13 +125,13 @@ int OldCall::zeroOffset() const {
   if (number >= 1051 && number <= 1066) return part + 3000 + number - 1050;
   if (number == 2000) return part + 2000;
   if (number == 9999) return part + 9000;
-  refuse("61321", fmt::format("_KNUM = {} is no zero offset", number));
+  refuse("61321", fmt::format("_KNUM = {} is not a zero offset", number));
 }
 
 int OldCall::toolOffset(bool turning) const {
   const int number = whole("_KNUM");
   if (number < 0 || number > 9999999 || number / 1000 % 10 != 0)
-    refuse("61328", fmt::format("_KNUM = {} is no tool offset", number));
+    refuse("61328", fmt::format("_KNUM = {} is not a tool offset", number));
   if (turning) return number;
   const int edge = number % 1000, inverted = number / 10000 % 10, component = number / 100000 % 10,
             memory = number / 1000000;

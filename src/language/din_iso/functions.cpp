@@ -26,7 +26,7 @@ std::optional<Operand> BlockParser::parameterValue(int number) {
 bool BlockParser::function() {
   lexer_.advance();
   const std::optional<double> written = lexer_.number();
-  if (!written || *written > 38) return error("a number from 0 to 38 is expected behind D");
+  if (!written || *written > 38) return error("a number from 0 to 38 is expected after D");
   const int number = static_cast<int>(*written);
   if (lexer_.accept(':')) return functionBody(number);
   switch (number) {

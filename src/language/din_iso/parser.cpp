@@ -74,7 +74,7 @@ bool BlockParser::percent() {
   }
   CallProgram call;
   if (const std::optional<std::string_view> quoted = lexer_.quoted()) {
-    if (quoted->empty()) return error("the name of a program is expected behind %");
+    if (quoted->empty()) return error("the name of a program is expected after %");
     call.name = ref(*quoted);
     emit(call);
     return expectEnd();
@@ -85,13 +85,13 @@ bool BlockParser::percent() {
     return expectEnd();
   }
   const std::string_view rest = lexer_.restOfLine();
-  if (rest.empty()) return error("the name of a program is expected behind %");
+  if (rest.empty()) return error("the name of a program is expected after %");
   if (!checkPath(rest) || !expectEnd()) return false;
   const std::size_t blank = rest.find_last_of(" \t");
   const std::string_view unit = blank == std::string_view::npos ? std::string_view() : rest.substr(blank + 1);
   const bool inch = unit == "G70" || unit == "g70";
   if (!inch && unit != "G71" && unit != "g71") {
-    if (first_) return error("G71 (mm) or G70 (inch) is expected behind the name of the program");
+    if (first_) return error("G71 (mm) or G70 (inch) is expected after the name of the program");
     call.name = ref(rest);
     emit(call);
     return true;
@@ -127,7 +127,7 @@ bool BlockParser::selectionByPercent() {
       command.text = ref(name);
     }
     if (command.text.length == 0 && block_.words.size() == first) {
-      return error(fmt::format("the name of a file is expected behind %{}", selection.sign));
+      return error(fmt::format("the name of a file is expected after %{}", selection.sign));
     }
     if (!expectEnd()) return false;
     command.name = constant(selection.name);
@@ -139,7 +139,7 @@ bool BlockParser::selectionByPercent() {
   lexer_.advance();
   CallProgram call;
   const std::string_view name = lexer_.restOfLine();
-  if (name.empty()) return error("the name of a program is expected behind %:");
+  if (name.empty()) return error("the name of a program is expected after %:");
   if (!checkPath(name) || !expectEnd()) return false;
   call.name = ref(name);
   emit(call);
@@ -158,7 +158,7 @@ bool BlockParser::labelCall() {
 
 /// Behind G98.
 bool BlockParser::labelDefinition() {
-  if (!lexer_.accept('L')) return error("L with the number or name of the label is expected behind G98");
+  if (!lexer_.accept('L')) return error("L with the number or name of the label is expected after G98");
   LabelMark mark;
   Operand computed;
   if (!labelName(mark.label, computed)) return false;

@@ -94,7 +94,7 @@ bool BlockParser::wordOf(char address) {
   if (axisLetters.find(address) != std::string_view::npos && upper(lexer_.here(1)) == 'Q') {
     return coordinate(address, {&address, 1});
   }
-  return error("this is no word of the DIN/ISO language",
+  return error("this is not a word of the DIN/ISO language",
                "begin the block with G, an axis, I, J, K, T, S, F, M, L, D or Q; begin comments with ';' and end the "
                "block with '*'");
 }
@@ -102,7 +102,7 @@ bool BlockParser::wordOf(char address) {
 bool BlockParser::preparatory() {
   const std::size_t start = lexer_.offset();
   lexer_.advance();
-  if (!isDigit(lexer_.here())) return error("the number of a G function is expected behind G");
+  if (!isDigit(lexer_.here())) return error("the number of a G function is expected after G");
   int number = 0;
   for (; isDigit(lexer_.here()) && number <= 9999; lexer_.advance())
     number = number * 10 + (lexer_.here() - '0');
@@ -170,7 +170,7 @@ bool BlockParser::preparatory() {
 
 bool BlockParser::takeFunction(int number) {
   if (function_ >= 0) {
-    return error(fmt::format("G{} and G{} cannot stand in one block", function_, number),
+    return error(fmt::format("G{} and G{} cannot be in one block", function_, number),
                  "write a block for each of them");
   }
   function_ = number;
@@ -180,7 +180,7 @@ bool BlockParser::takeFunction(int number) {
     parameterAddress(1);
     const std::optional<std::string_view> quoted = lexer_.quoted();
     name_ = quoted ? *quoted : lexer_.restOfLine();
-    if (name_.empty()) return error("the name of a program is expected behind G39 P01");
+    if (name_.empty()) return error("the name of a program is expected after G39 P01");
     if (!checkPath(name_)) return false;
   }
   return true;
@@ -202,7 +202,7 @@ bool BlockParser::coordinate(char address, std::string_view what) {
     added.value = *found;
   }
   if (find({&address, 1}) != nullptr && find({&address, 1})->mode != WordMode::DirectShortest) {
-    return error(fmt::format("{} is given twice in this block", address), "leave one of the two out");
+    return error(fmt::format("{} is given twice in this block", address), "remove one of the two");
   }
   coordinates_[coordinateCount_++] = added;
   return true;
@@ -239,7 +239,7 @@ bool BlockParser::referencePlaneWord(int parameter) {
       parameters_[0].value = variable()->index[0];
     } else {
       const std::optional<double> number = lexer_.number();
-      if (!number) return error("the number of the parameter for the result is expected behind P01");
+      if (!number) return error("the number of the parameter for the result is expected after P01");
       parameters_[0].value = Operand::of(*number);
     }
     parameters_[0].address = 1;
@@ -249,11 +249,11 @@ bool BlockParser::referencePlaneWord(int parameter) {
   probingAxis_ = lexer_.peek();
   if (probingAxis_ == '\0' || axisLetters.find(probingAxis_) == std::string_view::npos) {
     probingAxis_ = 0;
-    return error("the probing axis is expected behind P02");
+    return error("the probing axis is expected after P02");
   }
   lexer_.advance();
   const char sign = lexer_.peek();
-  if (sign != '+' && sign != '-') return error("the probing direction + or - is expected behind the axis");
+  if (sign != '+' && sign != '-') return error("the probing direction + or - is expected after the axis");
   lexer_.advance();
   probingPositive_ = sign == '+';
   return true;
@@ -278,7 +278,7 @@ bool BlockParser::toolWordOrTolerance() {
   toolCalled_ = true;
   if (!toolIdentity(tool_)) return false;
   if (tool_.number.present() || tool_.name.present()) return true;
-  return error("the number or the name of the tool is expected behind T", "write T5 G17 or T\"TASTER\" G17");
+  return error("the number or the name of the tool is expected after T", "write T5 G17 or T\"TASTER\" G17");
 }
 
 bool BlockParser::emitTool() {

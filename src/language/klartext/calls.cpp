@@ -95,7 +95,7 @@ bool BlockParser::selection() {
     name += upper(c);
   if (name != "SEL PGM" && name != "SEL TABLE" && name != "SEL PATTERN" && name != "SEL CONTOUR" &&
       name != "SEL CYCLE" && name != "SEL CORR-TABLE") {
-    return error("PGM, CYCLE, TABLE, PATTERN, CONTOUR or CORR-TABLE is expected behind SEL");
+    return error("PGM, CYCLE, TABLE, PATTERN, CONTOUR or CORR-TABLE is expected after SEL");
   }
   Command command;
   for (const std::string_view system : {"TCS", "WPL"}) {
@@ -137,7 +137,7 @@ bool BlockParser::cycleCall() {
 
 /// PATTERN DEF: the points are computed when the block is carried out; what it may say is known here.
 bool BlockParser::patternDefinition() {
-  if (!lexer_.acceptKeyword("DEF")) return error("DEF is expected behind PATTERN");
+  if (!lexer_.acceptKeyword("DEF")) return error("DEF is expected after PATTERN");
   const std::string_view text = lexer_.restOfBlock();
   const auto points = patternPoints(text, [](std::string_view) { return 1.0; });
   if (!points) return error(points.error().message, points.error().advice);

@@ -218,7 +218,7 @@ std::optional<Element> Contour::cut(Element& first, Element& second, const Corne
     between.sweep = std::atan2(turn, in.dot(out));
   } else {
     if (first.arc || second.arc) {
-      throw Alarm("Chamfer not permitted", "A chamfer CHF stands between two straight lines only");
+      throw Alarm("Chamfer not permitted", "A chamfer CHF is possible between two straight lines only");
     }
     between.from = vertex - in * corner.size;
     between.to = vertex + out * corner.size;

@@ -39,7 +39,7 @@ void BlockParser::skipCycleName() {
 }
 
 bool BlockParser::touchProbe() {
-  if (!isDigit(lexer_.peek())) return error("the number of the touch probe cycle is expected behind TCH PROBE");
+  if (!isDigit(lexer_.peek())) return error("the number of the touch probe cycle is expected after TCH PROBE");
   int number = 0;
   for (; isDigit(lexer_.here()) && number <= highestCycle; lexer_.advance())
     number = number * 10 + (lexer_.here() - '0');
@@ -53,7 +53,7 @@ bool BlockParser::touchProbe() {
 }
 
 bool BlockParser::cycleDefinition() {
-  if (!isDigit(lexer_.peek())) return error("the number of the cycle is expected behind CYCL DEF");
+  if (!isDigit(lexer_.peek())) return error("the number of the cycle is expected after CYCL DEF");
   int number = 0;
   for (; isDigit(lexer_.here()) && number <= highestCycle; lexer_.advance())
     number = number * 10 + (lexer_.here() - '0');
@@ -97,7 +97,7 @@ bool BlockParser::cycleParameters(std::size_t firstWord) {
     const std::uint32_t address = block_.words.back().address;
     for (std::size_t i = firstWord; i + 1 < block_.words.size(); ++i) {
       if (block_.words[i].address != address) continue;
-      return error(fmt::format("Q{} is given twice in this cycle", address), "leave one of the two out");
+      return error(fmt::format("Q{} is given twice in this cycle", address), "remove one of the two");
     }
   }
   return true;
@@ -107,7 +107,7 @@ bool BlockParser::cycleParameter() {
   constexpr int monitoredTool = 330;
   if (!variableFollows()) {
     return error("a parameter Qn = value of the cycle is expected here",
-                 "each parameter stands as Qn=value ;COMMENT, continued by ~");
+                 "write each parameter as Qn=value ;COMMENT, and ~ if another one follows");
   }
   const std::uint32_t column = lexer_.column();
   const std::uint32_t line = lexer_.line();

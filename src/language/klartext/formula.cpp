@@ -238,7 +238,7 @@ std::optional<Operand> BlockParser::stringFunction(std::string_view name) {
       }
     }
     if (i == count) {
-      error(std::string("this is no argument of ").append(name));
+      error(std::string("this is not an argument of ").append(name));
       return std::nullopt;
     }
     const std::optional<Operand> argument = names[i].text ? textOrVariable(names[i].keyword) : value(names[i].keyword);

@@ -7,7 +7,7 @@ namespace probewright::language::klartext {
 
 bool BlockParser::function() {
   const std::optional<double> written = lexer_.number();
-  if (!written || *written > 38) return error("a number from 0 to 38 is expected behind FN");
+  if (!written || *written > 38) return error("a number from 0 to 38 is expected after FN");
   const int number = static_cast<int>(*written);
   lexer_.accept(':');
   return functionBody(number);
@@ -126,7 +126,7 @@ bool BlockParser::functionAssignment(int number) {
 
 /// FN 0: Q5 SET UNDEFINED.
 bool BlockParser::setUndefined(std::uint32_t target) {
-  if (!lexer_.acceptKeyword("UNDEFINED")) return error("UNDEFINED is expected behind SET");
+  if (!lexer_.acceptKeyword("UNDEFINED")) return error("UNDEFINED is expected after SET");
   emit(Command{constant("SET UNDEFINED"), {}, static_cast<std::int32_t>(target), {}});
   return expectEnd();
 }
@@ -139,7 +139,7 @@ bool BlockParser::tableData() {
   for (const std::string_view way : {"TABDATA READ", "TABDATA WRITE", "TABDATA ADD"}) {
     if (name.empty() && lexer_.acceptKeyword(way.substr(8))) name = way;
   }
-  if (name.empty()) return error("READ, WRITE or ADD is expected behind TABDATA");
+  if (name.empty()) return error("READ, WRITE or ADD is expected after TABDATA");
   const bool reads = name == "TABDATA READ";
   if (reads) {
     const std::optional<std::uint32_t> target = variableIndex();
@@ -178,7 +178,7 @@ bool BlockParser::tableData() {
 std::optional<Operand> BlockParser::definedCondition() {
   const bool undefined = lexer_.acceptKeyword("UNDEFINED");
   if (!undefined && !lexer_.acceptKeyword("DEFINED")) {
-    error("DEFINED or UNDEFINED is expected behind IS");
+    error("DEFINED or UNDEFINED is expected after IS");
     return std::nullopt;
   }
   Node node;
@@ -219,8 +219,8 @@ bool BlockParser::functionJump(int number) {
   if (!condition) return false;
   Jump jump;
   jump.condition = *condition;
-  if (!lexer_.acceptPrefix("GOTO")) return error("GOTO LBL is expected behind the condition");
-  if (!lexer_.acceptPrefix("LBL")) return error("LBL is expected behind GOTO");
+  if (!lexer_.acceptPrefix("GOTO")) return error("GOTO LBL is expected after the condition");
+  if (!lexer_.acceptPrefix("LBL")) return error("LBL is expected after GOTO");
   if (!labelName(jump.label, jump.labelValue)) return false;
   emit(jump);
   return expectEnd();
@@ -289,7 +289,7 @@ bool BlockParser::functionPreset() {
   if (!expect('=', "PRESET")) return false;
   const char axis = lexer_.peek();
   if (axis == '\0' || std::string_view("XYZABCUVW").find(axis) == std::string_view::npos) {
-    return error("an axis is expected behind PRESET =");
+    return error("an axis is expected after PRESET =");
   }
   lexer_.advance();
   const std::size_t first = block_.words.size();

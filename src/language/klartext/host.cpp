@@ -71,7 +71,7 @@ void KlartextHost::warnOfEarlyEnd(const Block& block) {
   const HeidenhainProgram* program = levels_.empty() ? nullptr : levels_.back().program;
   if (levels_.size() < 2 || program == nullptr || program->framePart(block) == FramePart::End) return;
   if (leftOut_.insert("M30 of " + levels_.back().file).second) {
-    warn("M2 or M30 stands in a called program: it ends this program, and the calling one goes on");
+    warn("M2 or M30 in a called program ends only that program; the calling program continues");
   }
 }
 

@@ -230,7 +230,7 @@ void KlartextHost::circleThroughPoints(const Command& command, Evaluation& evalu
   const int points = evaluation.at(command.name) == "FN23" ? 3 : 4;
   if (source + 2 * points > control::heidenhain::QParameters::count ||
       result + 3 > control::heidenhain::QParameters::count) {
-    throw Alarm("Parameter number wrong", "CDATA needs more Q parameters than there are behind its first one");
+    throw Alarm("Parameter number wrong", "CDATA needs more Q parameters than there are after its first one");
   }
   Eigen::MatrixXd equations(points, 3);
   Eigen::VectorXd squares(points);

@@ -114,8 +114,8 @@ void KlartextHost::retractAlongTool(const MachineFunction& function, Evaluation&
   if (const Word* back = find(function.words, "MB", evaluation); back != nullptr && back->value.present()) {
     distance = length(back->value, evaluation);
     if (!(*distance >= 0)) {
-      throw Alarm("Retraction not permitted", "M140 MB goes back along the tool axis: its way cannot be negative",
-                  "program a way from 0 on, or MB MAX");
+      throw Alarm("Retraction not permitted", "M140 MB retracts along the tool axis: its distance cannot be negative",
+                  "program a distance of 0 or more, or MB MAX");
     }
   }
   Feed feed = Feed::rapidTraverse();

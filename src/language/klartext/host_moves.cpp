@@ -348,7 +348,7 @@ void KlartextHost::arc(const Move& move, Evaluation& evaluation) {
       element.to = pole + radius * Vector2(std::cos(angle), std::sin(angle));
     }
     if (contour_.direction().isZero(0)) {
-      throw Alarm("Tangential arc not permitted", "There is no contour element in front of CT",
+      throw Alarm("Tangential arc not permitted", "There is no contour element before CT",
                   "program the element that the arc joins");
     }
     Element tangential = tangentialArc(element.from, contour_.direction(), element.to);

@@ -138,7 +138,7 @@ private:
     }
     while (i < text.size() && (upper(text[i]) == 'L' || upper(text[i]) == 'R'))
       ++i;
-    if (i >= text.size()) refuse("a format ends behind its %");
+    if (i >= text.size()) refuse("a format ends after its %");
     const Value value = next();
     std::string written;
     switch (upper(text[i])) {
@@ -160,7 +160,7 @@ private:
         out += padded(std::move(written), width, left);
         return i;
       default:
-        refuse(fmt::format("%{} is no format; %F, %LF, %D, %I and %S are", text[i]));
+        refuse(fmt::format("%{} is not a format; %F, %LF, %D, %I and %S are", text[i]));
     }
     if (plus && written.front() != '-') written.insert(written.begin(), '+');
     if (zeros && !left && written.size() < width) {
@@ -209,7 +209,7 @@ ProtocolResult formatProtocol(std::string_view mask, const std::function<Value(s
                               control::DialogLanguage language) {
   const auto seconds = static_cast<std::time_t>(secondsSince1970);
   std::tm time{};
-  if (gmtime_r(&seconds, &time) == nullptr) refuse("the clock of the machine has left the calendar");
+  if (gmtime_r(&seconds, &time) == nullptr) refuse("the date of the machine's clock is out of range");
   ProtocolResult result;
   bool shown = true;
   bool hideEmpty = false;
@@ -239,7 +239,7 @@ ProtocolResult formatProtocol(std::string_view mask, const std::function<Value(s
     } else if (statement.starts_with("L_")) {
       shown = statement == languageWord(language);
     } else {
-      refuse(fmt::format("{} is no format line and no keyword", excerptOf(statement)));
+      refuse(fmt::format("{} is neither a format line nor a keyword", excerptOf(statement)));
     }
   }
   return result;
@@ -257,7 +257,7 @@ Value KlartextHost::readNamed(std::string_view name, Evaluation& evaluation) {
   if (variable.space != VariableSpace::Q) ++letters;
   const auto number = parseInteger(name.substr(std::min(letters, name.size())));
   if (name.empty() || upper(name[0]) != 'Q' || !number || *number < 0) {
-    refuse(fmt::format("{} is no Q parameter", excerptOf(name)));
+    refuse(fmt::format("{} is not a Q parameter", excerptOf(name)));
   }
   variable.index[0] = Operand::of(static_cast<double>(*number));
   return read(variable, evaluation);
@@ -350,7 +350,7 @@ std::string KlartextHost::protocolFile(const std::string& target) const {
     throw Alarm("FN 16: file wrong", std::move(reason), "write another name after the / of FN 16");
   };
   if (name.empty()) {
-    throw Alarm("FN 16: file missing", "FN 16 has no name of a file behind its /",
+    throw Alarm("FN 16: file missing", "FN 16 has no name of a file after its /",
                 "write FN 16: F-PRINT MASK.A / LOG.TXT");
   }
   if (name == "." || name == "..") refuseName(fmt::format("{} is a folder, not a file", name));

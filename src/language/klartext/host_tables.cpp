@@ -132,7 +132,7 @@ void KlartextHost::tableData(const Command& command, Evaluation& evaluation) {
     } else if (number || cell.empty() || cell == "-") {
       write(target, number ? table.numberOr(row, column, 0) : 0, evaluation);
     } else {
-      throw Alarm("Wrong data type", fmt::format("\"{}\" in column {} is no number", cell, column),
+      throw Alarm("Wrong data type", fmt::format("\"{}\" in column {} is not a number", cell, column),
                   "read it into a QS parameter");
     }
     return;
@@ -194,7 +194,7 @@ void KlartextHost::readTable(const Command& command, Evaluation& evaluation) {
     }
     const std::optional<double> number = parseDecimal(*cell);
     if (!number) {
-      throw Alarm("Wrong data type", fmt::format("\"{}\" in column {} is no number", *cell, columns[i]),
+      throw Alarm("Wrong data type", fmt::format("\"{}\" in column {} is not a number", *cell, columns[i]),
                   "read it into a QS parameter");
     }
     write(behind(first, i), *number, evaluation);

@@ -40,7 +40,7 @@ void KlartextHost::callTool(const ToolCall& call, Evaluation& evaluation) {
     const double speed = evaluation.number(call.spindleSpeed);
     if (!(speed >= 0)) {
       throw control::Alarm("Spindle speed wrong", fmt::format("A spindle speed of {} is not possible", speed),
-                           "program S from 0 on; M4 turns the other way");
+                           "program S of 0 or more; M4 turns the other way");
     }
     control_.tool.spindleSpeed = speed;
   }

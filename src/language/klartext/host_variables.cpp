@@ -165,7 +165,7 @@ Value KlartextHost::call(std::string_view name, std::span<const Value> arguments
   if (name == "TONUMB") {
     const std::string text = trimmed(textArgument(arguments, 0));
     if (const auto number = parseDecimal(text)) return *number;
-    throw Alarm("String is no number", fmt::format("TONUMB cannot read \"{}\" as a number", excerptOf(text)));
+    throw Alarm("String is not a number", fmt::format("TONUMB cannot read \"{}\" as a number", excerptOf(text)));
   }
   // The second argument tells whether the parameter has no text at all.
   if (name == "STRLEN") {
@@ -182,7 +182,7 @@ Value KlartextHost::call(std::string_view name, std::span<const Value> arguments
     const double count = numberArgument(arguments, 2);  // -1: all that follows
     if (count < -1) {
       throw Alarm("Argument out of range", fmt::format("SUBSTR cannot take LEN{} characters", formatShortest(count)),
-                  "give a length from 0 on");
+                  "give a length of 0 or more");
     }
     if (begin >= static_cast<double>(text.size())) return std::string();
     return text.substr(static_cast<std::size_t>(begin),

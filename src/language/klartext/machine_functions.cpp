@@ -34,7 +34,7 @@ bool takesFeed(int number) { return number == 103 || number == 128 || number == 
 bool BlockParser::machineFunction(Move* move) {
   lexer_.advance();
   const std::optional<double> written = lexer_.number();
-  if (!written || *written > 9999) return error("a number from 0 to 9999 is expected behind M");
+  if (!written || *written > 9999) return error("a number from 0 to 9999 is expected after M");
   const int number = static_cast<int>(*written);
   if (move != nullptr && number == 91) {
     move->machineCoordinates = true;
@@ -57,7 +57,7 @@ bool BlockParser::machineFunction(Move* move) {
         return false;
       }
     } else if (number == 140) {
-      return error("MB with the way back is expected behind M140", "write M140 MB MAX or M140 MB50");
+      return error("MB with the retraction distance is expected after M140", "write M140 MB MAX or M140 MB50");
     }
   }
   while (takesAxes(number)) {
@@ -95,7 +95,7 @@ bool BlockParser::machineFunctionBlock() {
       const std::size_t before = block_.words.size();
       if (!feedWord(feedOnly.feed, &feedOnly.rapid, &feedOnly.autoFeed)) return false;
       if (block_.words.size() > before) {  // FU, FZ
-        if (feedOnly.words.count > 0) return error("the feed stands twice in this block");
+        if (feedOnly.words.count > 0) return error("the feed appears twice in this block");
         feedOnly.words = wordsSince(before);
       }
     } else {

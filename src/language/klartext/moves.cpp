@@ -15,7 +15,7 @@ bool BlockParser::feedWord(Operand& feed, bool* rapid, bool* autoFeed) {
       return value("F MAXT").has_value();
     }
     const bool functionFollows = upper(lexer_.here()) == 'M' && isDigit(lexer_.here(1));
-    if (isWordByte(lexer_.here()) && !functionFollows) return error("this is no feed rate", "Did you mean FMAX?");
+    if (isWordByte(lexer_.here()) && !functionFollows) return error("this is not a feed rate", "Did you mean FMAX?");
     *rapid = true;
     return true;
   }
@@ -77,8 +77,7 @@ bool BlockParser::eachOnce(WordRange range) {
     for (std::uint32_t k = 0; k < i; ++k) {
       const Word& other = block_.words[range.first + k];
       if (other.address != word.address || other.mode == WordMode::DirectShortest) continue;
-      return error(fmt::format("{} is given twice in this block", addressName(word.address)),
-                   "leave one of the two out");
+      return error(fmt::format("{} is given twice in this block", addressName(word.address)), "remove one of the two");
     }
   }
   return true;
@@ -88,7 +87,7 @@ bool BlockParser::moveWords(Move& move) {
   const std::size_t first = block_.words.size();
   bool wordsEnded = false;
   const auto axes = [&](WordMode mode) {
-    if (wordsEnded) return error("axes must stand before the M functions that take words of their own");
+    if (wordsEnded) return error("axes must come before M functions that have words of their own");
     return axisWord(mode);
   };
   for (;;) {
@@ -119,13 +118,13 @@ bool BlockParser::moveWords(Move& move) {
         lexer_.advance();
         if (upper(lexer_.here()) == 'P') {
           const char name[2] = {'P', upper(lexer_.here(1))};
-          if (name[1] != 'A' && name[1] != 'R') return error("PA or PR is expected behind I");
+          if (name[1] != 'A' && name[1] != 'R') return error("PA or PR is expected after I");
           lexer_.advance(2);
           if (!word(addressOf({name, 2}), {name, 2}, WordMode::Incremental)) return false;
         } else if (std::string_view("XYZABCUVW").find(lexer_.peek()) != std::string_view::npos && !lexer_.atEnd()) {
           if (!axes(WordMode::Incremental)) return false;
         } else {
-          return error("an axis is expected behind I");
+          return error("an axis is expected after I");
         }
         break;
       case 'P': {
@@ -152,7 +151,7 @@ bool BlockParser::moveWords(Move& move) {
         if (upper(lexer_.here(1)) != 'R') return error("DR+ or DR- is expected");
         lexer_.advance(2);
         const char sign = lexer_.peek();
-        if (sign != '+' && sign != '-') return error("+ or - is expected behind DR");
+        if (sign != '+' && sign != '-') return error("+ or - is expected after DR");
         lexer_.advance();
         addWord(addressOf("DR"), Operand::of(sign == '+' ? 1 : -1));
         break;

@@ -96,7 +96,8 @@ bool BlockParser::oldProbeCycle(int number) {
   lexer_.limitToLine();
   int last = -1;
   while (part.part >= 0) {
-    if (part.part != last + 1) return error("the parts of a touch probe cycle must follow each other from 0 on");
+    if (part.part != last + 1)
+      return error("the parts of a touch probe cycle must follow each other, beginning with 0");
     last = part.part;
     if (!oldProbePart(part)) return false;
     if (!nextPart("TCH", "PROBE", part)) return false;
@@ -155,7 +156,7 @@ bool BlockParser::oldProbePart(Part part) {
       lexer_.seek(start);
       if (!resultParameter() || !probingAxis()) return false;
       const char sign = lexer_.peek();
-      if (sign != '+' && sign != '-') return error("the probing direction + or - is expected behind the axis");
+      if (sign != '+' && sign != '-') return error("the probing direction + or - is expected after the axis");
       lexer_.advance();
       addWord(direction, Operand::of(sign == '+' ? 1 : -1));
       return expectEnd();
@@ -252,7 +253,7 @@ bool BlockParser::oldCycle(int number) {
       lexer_.acceptKeyword("PGM");
       const std::optional<std::string_view> quoted = lexer_.quoted();
       text = quoted ? *quoted : lexer_.restOfLine();
-      if (text.empty()) return error("the name of a program is expected behind CYCL DEF 12.1 PGM");
+      if (text.empty()) return error("the name of a program is expected after CYCL DEF 12.1 PGM");
       if (!checkPath(text)) return false;
     } else if (part.part > 0 && (isTransform(number) || isSetting(number)) && !oldCyclePart(part)) {
       return false;

@@ -33,12 +33,12 @@ bool BlockParser::error(std::string message, std::string advice) {
 
 bool BlockParser::expect(char wanted, std::string_view after) {
   if (lexer_.accept(wanted)) return true;
-  return error(std::string("'") + wanted + "' is expected behind " + std::string(after));
+  return error(std::string("'") + wanted + "' is expected after " + std::string(after));
 }
 
 bool BlockParser::expectEnd() {
   if (lexer_.atEnd()) return true;
-  return error("the block should end here", "put a comment behind ';' or write a block of its own");
+  return error("the block should end here", "put a comment after ';' or write a block of its own");
 }
 
 /// False, with a complaint, if the block has a number that no double holds.
@@ -90,12 +90,12 @@ bool BlockParser::statement() {
       if (lexer_.acceptKeyword("CYCL")) {
         if (lexer_.acceptKeyword("DEF")) return cycleDefinition();
         if (lexer_.acceptKeyword("CALL")) return cycleCall();
-        return error("DEF or CALL is expected behind CYCL");
+        return error("DEF or CALL is expected after CYCL");
       }
       if (lexer_.acceptKeyword("CALL")) {
         if (lexer_.acceptPrefix("LBL")) return callLabel();
         if (lexer_.acceptKeyword("PGM") || lexer_.acceptKeyword("SELECTED PGM")) return callProgram();
-        return error("LBL or PGM is expected behind CALL");
+        return error("LBL or PGM is expected after CALL");
       }
       if (lexer_.acceptKeyword("CC")) return move(MoveKind::SetCentre, false);
       if (lexer_.acceptKeyword("CR")) return arcWithRadius();
@@ -125,13 +125,13 @@ bool BlockParser::statement() {
       break;
     case 'T':
       if (lexer_.acceptKeyword("TCH")) {
-        if (!lexer_.acceptPrefix("PROBE")) return error("PROBE is expected behind TCH");
+        if (!lexer_.acceptPrefix("PROBE")) return error("PROBE is expected after TCH");
         return touchProbe();
       }
       if (lexer_.acceptKeyword("TOOL")) {
         if (lexer_.acceptPrefix("CALL")) return toolCall();
         if (lexer_.acceptPrefix("DEF")) return toolDefinition();
-        return error("CALL or DEF is expected behind TOOL");
+        return error("CALL or DEF is expected after TOOL");
       }
       if (lexer_.acceptKeyword("TRANS")) return transformation();
       if (lexer_.acceptKeyword("TABDATA")) return tableData();
@@ -150,7 +150,7 @@ bool BlockParser::statement() {
           emit(EndProgram{});
           return true;
         }
-        return error("PGM is expected behind END");
+        return error("PGM is expected after END");
       }
       if (lexer_.acceptKeyword("ERROR")) {
         lexer_.accept('=');
@@ -183,12 +183,12 @@ bool BlockParser::statement() {
       break;
     case 'O':
       if (lexer_.acceptKeyword("OPEN")) {
-        return lexer_.acceptKeyword("FILE") ? textCommand("OPEN FILE") : error("FILE is expected behind OPEN");
+        return lexer_.acceptKeyword("FILE") ? textCommand("OPEN FILE") : error("FILE is expected after OPEN");
       }
       break;
     case 'G':
       if (lexer_.acceptKeyword("GLOBAL")) {
-        if (!lexer_.acceptKeyword("DEF")) return error("DEF is expected behind GLOBAL");
+        if (!lexer_.acceptKeyword("DEF")) return error("DEF is expected after GLOBAL");
         return parameterCycle("GLOBAL DEF", -1);
       }
       break;
@@ -201,7 +201,7 @@ bool BlockParser::statement() {
   if (first == 'I' && std::string_view("XYZABCUVW").find(second) != std::string_view::npos) {
     return move(MoveKind::Linear, false);
   }
-  return error("this is no block of the Klartext language", meantKeyword());
+  return error("this is not a block of the Klartext language", meantKeyword());
 }
 
 /// Advice for a block that begins with no keyword: the keyword that is nearly the same, or all kinds of blocks.
@@ -257,7 +257,7 @@ std::string BlockParser::meantKeyword() {
 }
 
 bool BlockParser::beginOrEnd() {
-  if (!lexer_.acceptPrefix("PGM")) return error("PGM is expected behind BEGIN");
+  if (!lexer_.acceptPrefix("PGM")) return error("PGM is expected after BEGIN");
   const std::string_view head = lexer_.restOfLine();
   if (!endsWithWord(head, "MM") && !endsWithWord(head, "INCH"))
     return error("MM or INCH is expected at the end of BEGIN PGM");
@@ -267,7 +267,7 @@ bool BlockParser::beginOrEnd() {
 
 /// BLK FORM is a picture for the control's graphics; the words of the corner points are kept, other forms as text.
 bool BlockParser::blankForm() {
-  if (!lexer_.acceptKeyword("FORM")) return error("FORM is expected behind BLK");
+  if (!lexer_.acceptKeyword("FORM")) return error("FORM is expected after BLK");
   return textCommand("BLK FORM");
 }
 

@@ -90,17 +90,17 @@ private:
     Element element;
     element.name = capitals(take(isLetter));
     const auto form = std::ranges::find(forms(), element.name, &Form::name);
-    if (form == forms().end()) return wrong(fmt::format("'{}' is no element of PATTERN DEF", element.name));
+    if (form == forms().end()) return wrong(fmt::format("'{}' is not an element of PATTERN DEF", element.name));
     take(isDigit);
     skip();
-    if (!rest_.starts_with('(')) return wrong(fmt::format("( is expected behind {}", element.name));
+    if (!rest_.starts_with('(')) return wrong(fmt::format("( is expected after {}", element.name));
     rest_.remove_prefix(1);
     for (skip(); !rest_.starts_with(')'); skip()) {
       const std::string word = capitals(take(isLetter));
       const bool known = std::ranges::count(form->needed, word) + std::ranges::count(form->possible, word) > 0;
       if (!known) return wrong(fmt::format("{} does not take '{}'", element.name, word.empty() ? rest_ : word));
       const auto number = value();
-      if (!number) return wrong(fmt::format("a number is expected behind {} of {}", word, element.name));
+      if (!number) return wrong(fmt::format("a number is expected after {} of {}", word, element.name));
       element.words[word] = *number;
     }
     rest_.remove_prefix(1);
@@ -227,7 +227,7 @@ Result<std::vector<Vector3>> pointTable(std::string_view bytes, const std::strin
       std::ranges::replace(text, ',', '.');
       if (text.empty() || text == "-") continue;
       const auto number = parseDecimal(text);
-      if (!number) return fail(fmt::format("row {} of the point table {}: '{}' is no number", row, file, text));
+      if (!number) return fail(fmt::format("row {} of the point table {}: '{}' is not a number", row, file, text));
       point[axis] = *number * unit;
     }
     points.push_back(point);

@@ -57,7 +57,7 @@ bool BlockParser::plane() {
     if (variant == nullptr && lexer_.acceptKeyword(candidate.keyword)) variant = &candidate;
   }
   if (variant == nullptr) {
-    return error("SPATIAL, PROJECTED, EULER, VECTOR, POINTS, RELATIVE, AXIAL or RESET is expected behind PLANE");
+    return error("SPATIAL, PROJECTED, EULER, VECTOR, POINTS, RELATIVE, AXIAL or RESET is expected after PLANE");
   }
   const std::size_t first = block_.words.size();
   while (!lexer_.atEnd()) {
@@ -158,12 +158,12 @@ bool BlockParser::transformation() {
     } else if (lexer_.acceptKeyword("RESET")) {
       name = "TRANS DATUM RESET";
     } else {
-      return error("AXIS, TABLE or RESET is expected behind TRANS DATUM");
+      return error("AXIS, TABLE or RESET is expected after TRANS DATUM");
     }
   } else if (lexer_.acceptKeyword("MIRROR")) {
     name = lexer_.acceptKeyword("RESET") ? "TRANS MIRROR RESET" : "TRANS MIRROR AXIS";
     if (name == "TRANS MIRROR AXIS") {
-      if (!lexer_.acceptKeyword("AXIS")) return error("AXIS or RESET is expected behind TRANS MIRROR");
+      if (!lexer_.acceptKeyword("AXIS")) return error("AXIS or RESET is expected after TRANS MIRROR");
       if (lexer_.atEnd()) return error("the mirrored axes are expected here", "write TRANS MIRROR AXIS X");
       if (!axisList(false)) return false;
     }
@@ -171,17 +171,17 @@ bool BlockParser::transformation() {
     name = lexer_.acceptKeyword("RESET") ? "TRANS ROTATION RESET" : "TRANS ROTATION";
     if (name == "TRANS ROTATION") {
       const bool incremental = lexer_.accept('I');
-      if (!lexer_.acceptPrefix("ROT")) return error("ROT with an angle or RESET is expected behind TRANS ROTATION");
+      if (!lexer_.acceptPrefix("ROT")) return error("ROT with an angle or RESET is expected after TRANS ROTATION");
       if (!word(addressOf("ROT"), "ROT", incremental ? WordMode::Incremental : WordMode::Plain)) return false;
     }
   } else if (lexer_.acceptKeyword("SCALE")) {
     name = lexer_.acceptKeyword("RESET") ? "TRANS SCALE RESET" : "TRANS SCALE";
     if (name == "TRANS SCALE") {
-      if (!lexer_.acceptPrefix("SCL")) return error("SCL with a factor or RESET is expected behind TRANS SCALE");
+      if (!lexer_.acceptPrefix("SCL")) return error("SCL with a factor or RESET is expected after TRANS SCALE");
       if (!word(addressOf("SCL"), "SCL")) return false;
     }
   } else {
-    return error("DATUM, MIRROR, ROTATION or SCALE is expected behind TRANS");
+    return error("DATUM, MIRROR, ROTATION or SCALE is expected after TRANS");
   }
   transform.words = wordsSince(first);
   transform.name = constant(name);
@@ -216,7 +216,7 @@ bool BlockParser::functionKeyword() {
     if (lexer_.acceptKeyword("MODE")) {
       const bool known = lexer_.acceptKeyword("MILL") || lexer_.acceptKeyword("TURN") ||
                          lexer_.acceptKeyword("GRIND") || lexer_.acceptKeyword("SET");
-      if (!known) return error("MILL, TURN, GRIND or SET is expected behind FUNCTION MODE");
+      if (!known) return error("MILL, TURN, GRIND or SET is expected after FUNCTION MODE");
       lexer_.seek(start);
     }
     return textCommand("FUNCTION");
@@ -230,7 +230,7 @@ bool BlockParser::functionKeyword() {
         addWord(addressOf("F"), Operand::of(tcp ? 1 : 0));
         continue;
       }
-      if (isLetter(lexer_.peek()) && !variableFollows()) return error("TCP, CONT or a feed is expected behind F");
+      if (isLetter(lexer_.peek()) && !variableFollows()) return error("TCP, CONT or a feed is expected after F");
     }
     lexer_.seek(start);
     if (lexer_.peek() == 'F') {  // the feed limit of the compensating movement
@@ -247,7 +247,7 @@ bool BlockParser::functionKeyword() {
       static constexpr std::array<std::string_view, 3> points = {"TIP-TIP", "TIP-CENTER", "CENTER-CENTER"};
       const std::string_view written = lexer_.chunk();
       const auto point = std::ranges::find(points, written);
-      if (point == points.end()) return error("TIP-TIP, TIP-CENTER or CENTER-CENTER is expected behind REFPNT");
+      if (point == points.end()) return error("TIP-TIP, TIP-CENTER or CENTER-CENTER is expected after REFPNT");
       addWord(addressOf("REFP"), Operand::of(static_cast<double>(point - points.begin())));
     } else {
       return error("F TCP, F CONT, AXIS POS, AXIS SPAT, PATHCTRL or REFPNT is expected here");
@@ -273,7 +273,7 @@ bool BlockParser::presetKeyword() {
   };
   const auto keepTransformations = [&]() {
     if (!lexer_.acceptKeyword("KEEP")) return true;
-    if (!lexer_.acceptKeyword("TRANS")) return error("TRANS is expected behind KEEP");
+    if (!lexer_.acceptKeyword("TRANS")) return error("TRANS is expected after KEEP");
     addWord(addressOf("KEEP"), {});
     return true;
   };
@@ -288,7 +288,7 @@ bool BlockParser::presetKeyword() {
     if (!lexer_.acceptKeyword("TO")) return error("TO #row is expected here");
     if (!row("TO", "TO")) return false;
     if (lexer_.acceptKeyword("SELECT")) {
-      if (!lexer_.acceptKeyword("TARGET")) return error("TARGET is expected behind SELECT");
+      if (!lexer_.acceptKeyword("TARGET")) return error("TARGET is expected after SELECT");
       addWord(addressOf("SEL"), {});
       if (!keepTransformations()) return false;
     }
@@ -297,7 +297,7 @@ bool BlockParser::presetKeyword() {
     if (lexer_.atEnd()) return error("an axis with its correction is expected here", "write PRESET CORR X+0.1");
     if (!axisList(true)) return false;
   } else {
-    return error("SELECT, COPY or CORR is expected behind PRESET");
+    return error("SELECT, COPY or CORR is expected after PRESET");
   }
   const WordRange words = wordsSince(first);
   emit(Command{constant(name), {}, -1, words});

@@ -107,7 +107,7 @@ void StatementNotes::look(const Block& block, const Transform& transform) {
            fmt::format("{} has no effect in PLANE AXIAL", option == "TABL"   ? "TABLE ROT"
                                                           : option == "COOR" ? "COORD ROT"
                                                                              : option),
-           "the axis angles say already how the axes stand");
+           "the axis angles already say where the axes are");
     }
   }
 }

@@ -50,8 +50,7 @@ bool BlockParser::toolWord(ToolCall& call) {
     lexer_.advance();
     if (lexer_.accept('(')) {  // S(VC = 120): a cutting speed
       if (!lexer_.acceptPrefix("VC") || !expect('=', "VC") || !value("VC") || !expect(')', "the cutting speed")) {
-        return diagnostics_.empty() ? error("VC = with a cutting speed is expected in the parentheses behind S")
-                                    : false;
+        return diagnostics_.empty() ? error("VC = with a cutting speed is expected in the parentheses after S") : false;
       }
     } else {
       const std::optional<Operand> speed = value("the spindle speed S");
@@ -94,7 +93,7 @@ bool BlockParser::toolCall() {
       if (!machineFunction(nullptr)) return false;
     } else {
       return error("the tool axis, S, F, DL, DR, DR2 or M is expected here",
-                   "a tool name stands in quotation marks: TOOL CALL \"TASTER\" Z");
+                   "write the name of a tool in quotation marks: TOOL CALL \"TASTER\" Z");
     }
   }
   const Instruction instruction = call;
@@ -104,7 +103,7 @@ bool BlockParser::toolCall() {
 
 bool BlockParser::toolDefinition() {
   const std::size_t first = block_.words.size();
-  if (lexer_.atEnd()) return error("a tool number or name is expected behind TOOL DEF");
+  if (lexer_.atEnd()) return error("a tool number or name is expected after TOOL DEF");
   if (const std::optional<std::string_view> name = lexer_.quoted()) {
     addWord(addressOf("T"), textOperand(ref(*name)));
   } else if (!word(addressOf("T"), "the tool number")) {

@@ -180,10 +180,11 @@ std::vector<ArgumentMistake> argumentMistakes(const Block& block, const CallProg
   if (asksForMore) {
     found.push_back(
         {reader.columnOf(most),
-         fmt::format("{} takes at most {} arguments in version 4.4 of the measuring cycles, here are {}; the last is "
-                     "argument {}, {} ({})",
-                     cycle.name, most, call.arguments.count, most, cycle.parameters.back().name,
-                     cycle.parameters.back().meaning),
+         fmt::format(
+             "{} takes at most {} arguments in version 4.4 of the measuring cycles, but {} are given; the last is "
+             "argument {}, {} ({})",
+             cycle.name, most, call.arguments.count, most, cycle.parameters.back().name,
+             cycle.parameters.back().meaning),
          advice});
   }
   return found;
@@ -225,7 +226,7 @@ std::vector<ArgumentMistake> serviceMistakes(const Block& block, const CallProgr
       "Write CYCLE800(_FR,_TC,_ST,_MODE,_X0,_Y0,_Z0,_A,_B,_C,_X1,_Y1,_Z1,_DIR,_FR_I,_DMODE).";
   for (std::uint32_t place = 0; place < call.arguments.count; ++place) {
     if (place == parameters.size()) {
-      report(place, fmt::format("CYCLE800 takes at most {} arguments, here are {}", place, call.arguments.count),
+      report(place, fmt::format("CYCLE800 takes at most {} arguments, but {} are given", place, call.arguments.count),
              advice);
       break;
     }

@@ -172,7 +172,7 @@ void BlockParser::parseStatements() {
     } else {
       const std::string found(1, first);
       if (first == ':' && !block_->instructions.empty())
-        return fail(cursor_.offset(), "what stands before this ':' is no label",
+        return fail(cursor_.offset(), "what comes before this ':' is not a label",
                     "The name of a label begins with two letters or underscores: LA1:.");
       fail(cursor_.offset(), "'" + found + "' cannot begin a statement",
            "Addresses are letters with a value (X10), everything else is written NAME=value or NAME(arguments).");
@@ -201,7 +201,7 @@ void BlockParser::finish() {
     for (std::size_t j = 0; j < i; ++j) {
       const std::uint32_t address = axisWords_[i].address;
       if (address == axisWords_[j].address && !isComputedAxis(address)) {
-        fail(axisWords_[i].column - 1, "the address " + addressName(address) + " stands twice in this block",
+        fail(axisWords_[i].column - 1, "the address " + addressName(address) + " appears twice in this block",
              "Write each address once in a block.");
         return;
       }

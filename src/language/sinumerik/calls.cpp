@@ -55,7 +55,8 @@ void BlockParser::parseCall(std::size_t start) {
   cursor_.skipBlanks();
   if (cursor_.peekName() == "BLOCK") {
     RepeatSection section;
-    if (!isFirstStatement()) return fail(start, "CALL BLOCK stands in a block of its own", "Begin a new line with it.");
+    if (!isFirstStatement())
+      return fail(start, "CALL BLOCK must be in a block of its own", "Begin a new line with it.");
     if (!parseCalledSection(section.from, section.to)) return;
     block_->instructions.emplace_back(section);
     return expectEnd("the section to call");
@@ -85,10 +86,9 @@ bool BlockParser::parseCalledSection(TextRef& from, TextRef& to) {
   from = parseTarget();
   cursor_.skipBlanks();
   if (from.length == 0 || cursor_.peekName() != "TO") {
-    fail(
-        cursor_.offset(),
-        from.length == 0 ? "the first label of the section to call was expected" : "TO expected behind the first label",
-        advice);
+    fail(cursor_.offset(),
+         from.length == 0 ? "the first label of the section to call was expected" : "TO expected after the first label",
+         advice);
     return false;
   }
   cursor_.advance(2);
@@ -129,7 +129,7 @@ void BlockParser::parseRest(std::string_view name) {
   command.name = upper(name);
   command.text = restOfBlock();
   if (command.text.length == 0)
-    return fail(cursor_.offset(), "behind " + std::string(name) + " the statement is missing");
+    return fail(cursor_.offset(), "after " + std::string(name) + " the statement is missing");
   block_->instructions.emplace_back(command);
 }
 

@@ -39,9 +39,9 @@ void BlockParser::parseDeclaration(std::size_t start) {
   }
   Operand length;
   if (type == Type::String) {
-    if (!expect('[', "behind STRING: the length of the text")) return;
+    if (!expect('[', "after STRING: the length of the text")) return;
     length = parseExpression();
-    if (failed_ || !expect(']', "behind the length of the text")) return;
+    if (failed_ || !expect(']', "after the length of the text")) return;
     const bool fits =
         length.number >= 1 && length.number <= longestString && length.number == std::floor(length.number);
     if (length.isLiteral() && !fits)
@@ -105,7 +105,7 @@ void BlockParser::parseDeclaredVariable(TextRef typeText, Type type, Operand len
         const bool omitted = cursor_.peek() == ',' || cursor_.peek() == ')';
         addWord(address, omitted ? Operand{} : parseExpression());
       } while (!failed_ && cursor_.take(','));
-      if (failed_ || !expect(')', "behind the first values")) return;
+      if (failed_ || !expect(')', "after the first values")) return;
     } else {
       addWord("INIT", parseExpression());
       if (failed_) return;
@@ -168,7 +168,7 @@ bool BlockParser::parseHeader(std::string_view text, Header& header, std::string
           if (parameter.length < 1 || parameter.length > longestString)
             return refuse("a STRING has 1 to " + std::to_string(longestString) + " characters");
         }
-        if (!cursor.take(']')) return refuse("']' expected behind the length of the text");
+        if (!cursor.take(']')) return refuse("']' expected after the length of the text");
       }
       cursor.skipBlanks();
       word = cursor.offset();
@@ -184,7 +184,7 @@ bool BlockParser::parseHeader(std::string_view text, Header& header, std::string
             size = size < 100000 ? size * 10 + (c - '0') : size;
           parameter.dimensions.push_back(size);
         } while (cursor.take(','));
-        if (!cursor.take(']')) return refuse("']' expected behind the dimensions");
+        if (!cursor.take(']')) return refuse("']' expected after the dimensions");
       }
       if (cursor.take('=')) {
         cursor.skipBlanks();

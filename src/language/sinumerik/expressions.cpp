@@ -247,7 +247,7 @@ Operand BlockParser::parseFunction(std::string_view name, std::size_t start) {
                                    ? std::to_string(entry->fewestArguments)
                                    : "at least " + std::to_string(entry->fewestArguments);
     fail(start, std::string(name) + " takes " + wanted + " argument" + (entry->fewestArguments == 1 ? "" : "s") +
-                    ", here are " + std::to_string(count));
+                    ", but " + std::to_string(count) + (count == 1 ? " is given" : " are given"));
     return {};
   }
   Node node;
@@ -268,7 +268,7 @@ std::uint32_t BlockParser::parseVariable() {
     cursor_.advance();
     if (cursor_.peek() == '$') cursor_.advance();
     if (cursor_.name().empty()) {
-      fail(start, "the name of a system variable is missing behind $");
+      fail(start, "the name of a system variable is missing after $");
       return 0;
     }
     variable.space = VariableSpace::System;

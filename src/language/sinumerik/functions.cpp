@@ -75,7 +75,7 @@ Value subString(const Arguments& arguments) {
   if (!(from >= 0) || from > static_cast<double>(text.size())) return std::string();
   const double length = arguments.count() > 2 ? arguments.number(2) : static_cast<double>(text.size());
   if (length < 0)
-    throw Alarm("14020", fmt::format("SUBSTR cannot take {} characters", length), "count the characters from 0 up");
+    throw Alarm("14020", fmt::format("SUBSTR cannot take {} characters", length), "characters are counted from 0");
   return text.substr(static_cast<std::size_t>(from),
                      static_cast<std::size_t>(std::min(length, static_cast<double>(text.size()))));
 }
@@ -238,7 +238,7 @@ std::optional<Value> callFunction(std::string_view name, std::span<const Value> 
   if (name == "NUMBER") {
     const auto number = control::sinumerik::parseNumber(trimmed(arguments.text(0)));
     if (!number)
-      throw Alarm("14020", fmt::format("NUMBER: \"{}\" is no number", arguments.text(0)), "ask ISNUMBER first");
+      throw Alarm("14020", fmt::format("NUMBER: \"{}\" is not a number", arguments.text(0)), "ask ISNUMBER first");
     return *number;
   }
   if (name == "AXNAME") {

@@ -122,11 +122,11 @@ public:
         if (what == "DEFINE") continue;
         if (what != "DEF") {
           complain(1, "a definition file holds lines of DEF and DEFINE only",
-                   "write DEF NCK REAL NAME or DEFINE NAME AS text, and M17 behind the last");
+                   "write DEF NCK REAL NAME or DEFINE NAME AS text, and M17 after the last");
           break;
         }
         if (!attributes_.hasScope) {
-          complain(columnOf("DEF"), "NCK or CHAN is missing behind DEF",
+          complain(columnOf("DEF"), "NCK or CHAN is missing after DEF",
                    "write DEF NCK for a variable of the whole control, DEF CHAN for one of the channel");
           break;
         }

@@ -76,7 +76,7 @@ void SinumerikHost::runCycle(std::string_view name, WordRange range, Evaluation&
       throw Alarm("14020",
                   fmt::format("{} takes at most {} arguments in version 4.4 of the measuring cycles", name,
                               definition.parameters.size()),
-                  fmt::format("leave out what newer versions have more; see 'probewright cycles {}'", name));
+                  fmt::format("leave out the arguments that newer versions added; see 'probewright cycles {}'", name));
     }
     if (const auto* text = std::get_if<std::string>(&value)) {
       arguments.set(word.address, *text);

@@ -20,7 +20,7 @@ enum class FileError { None = 0, NotFound = 3, NoSuchLine = 21, ResultTooSmall =
 std::string withoutFolders(std::string file) {
   if (const std::size_t folder = file.find_last_of("/\\"); folder != std::string::npos) file.erase(0, folder + 1);
   if (file.empty() || file == "." || file == "..")
-    throw Alarm("14020", "the name of a file is missing", "name the file behind its folders");
+    throw Alarm("14020", "the name of a file is missing", "name the file after its folders");
   return file;
 }
 

@@ -31,7 +31,8 @@ void SinumerikHost::carryOut(const ToolCall& call, Evaluation& evaluation) {
   } else {
     number = wholeNumber(std::get<double>(value));
   }
-  if (number < 0) throw Alarm("17190", fmt::format("T{}: a tool has a number from 0 on", number), "correct the number");
+  if (number < 0)
+    throw Alarm("17190", fmt::format("T{}: the number of a tool is 0 or more", number), "correct the number");
   if (call.index.present() && wholeNumber(evaluation.number(call.index)) != 1)
     return skip(fmt::format("T{}=", wholeNumber(evaluation.number(call.index))));
   preparedTool_ = number;

@@ -225,7 +225,7 @@ bool PathMotion::resolveAngle(Words& words, MoveKind kind) {
   if (openLine_) {
     Words first = *openLine_;
     openLine_.reset();
-    if (!words.angle || !main || !minor) refuse("the line behind one with ANG alone needs its end point and ANG");
+    if (!words.angle || !main || !minor) refuse("the line after one with ANG alone needs its end point and ANG");
     PathElement one, other;
     one.start = from;
     one.end = from + along(*first.angle);

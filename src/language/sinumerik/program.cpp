@@ -14,7 +14,7 @@ Result<std::shared_ptr<SinumerikProgram>> SinumerikProgram::open(const std::file
   const auto isBinary = [](unsigned char c) { return c < 0x20 && c != '\t' && c != '\r' && c != '\n' && c != 0x1a; };
   if (std::ranges::any_of(head, isBinary))
     return fail({path.string(), 0, 0},
-                "this is no text: an encrypted or compiled program, which only the control reads",
+                "this is not a text file but an encrypted or compiled program, which only the control can read",
                 "put the program's own text (.SPF, .MPF) in its place");
   return std::make_shared<SinumerikProgram>(std::move(*text));
 }

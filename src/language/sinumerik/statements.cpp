@@ -61,7 +61,7 @@ void BlockParser::parseNamed() {
   const Keyword keyword = keywordOf(name);
   if (keyword == Keyword::None) return parseUserName(name, start);
   if (isStructure(keyword) && !isFirstStatement())
-    return fail(start, std::string(name) + " stands in a block of its own", "Begin a new line with it.");
+    return fail(start, std::string(name) + " must be in a block of its own", "Begin a new line with it.");
   parseKeyword(keyword, name, start);
 }
 
@@ -170,7 +170,7 @@ void BlockParser::parseReturn(std::string_view name) {
     Operand* const places[] = {&order.target, &order.behind, &order.levels, &order.start};
     if (words.count > std::size(places))
       return fail(start, "RET has at most four arguments",
-                  "Write RET(\"TARGET\",1,2): destination, 1 for the block behind it, number of program levels.");
+                  "Write RET(\"TARGET\",1,2): destination, 1 for the block after it, number of program levels.");
     for (std::uint32_t i = 0; i < words.count; ++i)
       *places[i] = block_->words[words.first + i].value;
     if (order.target.isLiteral())
@@ -184,7 +184,7 @@ void BlockParser::parseIf(std::size_t start) {
   if (failed_) return;
   cursor_.skipBlanks();
   if (cursor_.atEnd()) {
-    if (!isFirstStatement()) return fail(start, "IF with ELSE or ENDIF stands in a block of its own");
+    if (!isFirstStatement()) return fail(start, "IF with ELSE or ENDIF must be in a block of its own");
     return pushStructure(Structure::If, condition);
   }
   const std::size_t at = cursor_.offset();
@@ -192,7 +192,7 @@ void BlockParser::parseIf(std::size_t start) {
     return fail(at, "the condition of IF ends at '='", "'=' assigns; a comparison is written '=='.");
   const std::string_view name = cursor_.peekName();
   if (keywordOf(name) != Keyword::Goto)
-    return fail(at, "behind the condition of IF stands GOTOF, GOTOB, GOTO, GOTOC, GOTOS or nothing",
+    return fail(at, "after the condition of IF only GOTOF, GOTOB, GOTO, GOTOC or GOTOS may follow",
                 "Write the statement into the next block and close with ENDIF.");
   cursor_.advance(name.size());
   parseJump(name, condition);
@@ -244,7 +244,7 @@ void BlockParser::parseCase() {
   const Operand selector = parseExpression();
   if (failed_) return;
   cursor_.skipBlanks();
-  if (cursor_.peekName() != "OF") return fail(cursor_.offset(), "OF expected behind the selector of CASE");
+  if (cursor_.peekName() != "OF") return fail(cursor_.offset(), "OF expected after the selector of CASE");
   cursor_.advance(2);
   bool any = false;
   for (;;) {
@@ -265,7 +265,7 @@ void BlockParser::parseCase() {
     cursor_.skipBlanks();
     const std::string_view name = cursor_.peekName();
     if (keywordOf(name) != Keyword::Goto)
-      return fail(cursor_.offset(), "behind each case stands GOTOF, GOTOB, GOTO or GOTOC with a destination");
+      return fail(cursor_.offset(), "each case is followed by GOTOF, GOTOB, GOTO or GOTOC with a destination");
     cursor_.advance(name.size());
     parseJump(name, condition);
     any = true;
@@ -279,11 +279,11 @@ void BlockParser::parseFor() {
   Structured loop;
   loop.kind = Structure::For;
   loop.variable = parseVariable();
-  if (failed_ || !expect('=', "behind the variable of FOR")) return;
+  if (failed_ || !expect('=', "after the variable of FOR")) return;
   loop.from = parseExpression();
   if (failed_) return;
   cursor_.skipBlanks();
-  if (cursor_.peekName() != "TO") return fail(cursor_.offset(), "TO expected behind the first value of FOR");
+  if (cursor_.peekName() != "TO") return fail(cursor_.offset(), "TO expected after the first value of FOR");
   cursor_.advance(2);
   loop.to = parseExpression();
   block_->instructions.emplace_back(loop);
@@ -323,10 +323,9 @@ void BlockParser::parseUserName(std::string_view name, std::size_t start) {
     cursor_.moveTo(start);
     return parseAssignment(start);
   }
-  if (next == ':')
-    return fail(start, "the label " + std::string(name) + " does not stand at the beginning of its block");
+  if (next == ':') return fail(start, "the label " + std::string(name) + " is not at the beginning of its block");
   if (!axisWords_.empty() || motionGiven_)
-    return fail(start, "the call of " + std::string(name) + " stands in a block with a motion",
+    return fail(start, "the call of " + std::string(name) + " is in a block with a motion",
                 "Write the call into a block of its own, or check the spelling of " + std::string(name) + ".");
   parseProgramCall(upper(name), true);
 }
@@ -338,8 +337,8 @@ void BlockParser::parseAssignment(std::size_t start) {
   if (failed_) return;
   cursor_.skipBlanks();
   if (cursor_.peek() != '=' || cursor_.peek(1) == '=')
-    return fail(cursor_.offset(), "'=' expected behind the variable",
-                "Write NAME=value; comparisons stand behind IF, WHILE or UNTIL.");
+    return fail(cursor_.offset(), "'=' expected after the variable",
+                "Write NAME=value; comparisons are written after IF, WHILE or UNTIL.");
   cursor_.advance();
   cursor_.skipBlanks();
   const std::string_view name = cursor_.peekName();
@@ -354,12 +353,12 @@ void BlockParser::parseAxial(std::string_view name, std::size_t start) {
   value.address = 1;
   if (cursor_.take('[')) {
     axis.value = parseExpression();
-    if (failed_ || !expect(']', "behind the axis")) return;
+    if (failed_ || !expect(']', "after the axis")) return;
     if (cursor_.take('=')) value.value = parseExpression();
   } else if (cursor_.take('(')) {
     axis.value = parseExpression();
     if (!failed_ && cursor_.take(',')) value.value = parseExpression();
-    if (!failed_) expect(')', "behind the axis");
+    if (!failed_) expect(')', "after the axis");
   } else if (cursor_.take('=')) {
     axis.value = parseExpression();
   } else {
@@ -377,7 +376,7 @@ void BlockParser::parseAxial(std::string_view name, std::size_t start) {
 void BlockParser::parseFill(std::uint32_t variable) {
   const std::string_view name = cursor_.name();
   cursor_.skipBlanks();
-  if (cursor_.peek() != '(') return fail(cursor_.offset(), "'(' expected behind " + std::string(name));
+  if (cursor_.peek() != '(') return fail(cursor_.offset(), "'(' expected after " + std::string(name));
   const WordRange words = parseArguments();
   if (!failed_) block_->instructions.emplace_back(Command{upper(name), {}, static_cast<std::int32_t>(variable), words});
 }
@@ -385,9 +384,9 @@ void BlockParser::parseFill(std::uint32_t variable) {
 /// DIAMONA[X], DIAMOFA[X], DIAM90A[X], DIACYCOFA[X]: as the function of the channel; what they say of other axes, and
 /// DIAMCHANA (as the channel), changes nothing.
 void BlockParser::parseAxialDiameter(std::string_view name) {
-  if (!expect('[', "behind an axial function for diameters")) return;
+  if (!expect('[', "after an axial function for diameters")) return;
   const Operand axis = parseExpression();
-  if (failed_ || !expect(']', "behind the axis")) return;
+  if (failed_ || !expect(']', "after the axis")) return;
   const Node* node = axis.node >= 0 ? &block_->nodes[static_cast<std::size_t>(axis.node)] : nullptr;
   if (node == nullptr || node->operation != Operation::AxisName || block_->at(node->text) != "X") return;
   std::string_view whole = name == "DIACYCOFA" ? "DIAMCYCOF" : name.substr(0, name.size() - 1);

@@ -75,7 +75,7 @@ ProgramStructure::ProgramStructure(const SourceText& text) : file_(text.file()) 
     const SourceLine line = text.line(mark.position.offset);
     complain(mark.position, line.text, std::string(pairing->openingName) + " is not closed by " + pairing->closingName,
              std::string("Write ") + pairing->closingName +
-                 " into a block of its own behind the last block that belongs to it.");
+                 " into a block of its own after the last block that belongs to it.");
   }
   open_.clear();
 }

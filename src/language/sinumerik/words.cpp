@@ -58,7 +58,7 @@ void BlockParser::parseAddress() {
       return parseL(start);
     case 'F':
       feedColumn_ = static_cast<std::uint32_t>(start) + 1;
-      if (feed_.present()) return fail(start, "the feed F stands twice in this block");
+      if (feed_.present()) return fail(start, "the feed F appears twice in this block");
       feed_ = parseValue(nullptr);
       return;
     case 'S':
@@ -68,13 +68,13 @@ void BlockParser::parseAddress() {
     case 'P': {
       auto* call = block_->instructions.empty() ? nullptr : std::get_if<CallProgram>(&block_->instructions.back());
       if (call == nullptr)
-        return fail(start, "P counts how often a subprogram is called, but no call stands before it",
+        return fail(start, "P counts how often a subprogram is called, but there is no call before it",
                     "Write the call first: L100 P3.");
       call->times = parseValue(nullptr);
       return;
     }
     case 'N':
-      return fail(start, "a block number stands only at the beginning of a block", "Begin a new line with N.");
+      return fail(start, "a block number is only allowed at the beginning of a block", "Begin a new line with N.");
     case '_':
       return fail(start, "a name begins with two letters or underscores");
     default: {
@@ -110,10 +110,10 @@ bool BlockParser::parseExtension(std::uint32_t& address, Operand& index) {
   const std::size_t start = cursor_.offset();
   cursor_.advance();
   index = parseExpression();
-  if (failed_ || !expect(']', "behind the extension of the address")) return false;
+  if (failed_ || !expect(']', "after the extension of the address")) return false;
   cursor_.skipBlanks();
   if (cursor_.peek() != '=') {
-    fail(cursor_.offset(), "'=' expected behind the extension of the address", "Write S[1]=500.");
+    fail(cursor_.offset(), "'=' expected after the extension of the address", "Write S[1]=500.");
     return false;
   }
   if (!index.isLiteral()) return true;
@@ -143,7 +143,7 @@ bool BlockParser::takeNumber(double& value) {
     ahead.skipBlanks();
     if (!digits.empty() && ahead.peek() != '=')
       fail(start, "this number has an exponent as other languages write it",
-           fmt::format("Write EX in front of the exponent: {}EX{}{}.", cursor_.since(start),
+           fmt::format("Write EX before the exponent: {}EX{}{}.", cursor_.since(start),
                        sign ? std::string(1, cursor_.peek(1)) : "", digits));
   }
   return true;
@@ -190,9 +190,9 @@ Operand BlockParser::parseValue(WordMode* mode) {
       known = false;
     if (known) {
       cursor_.advance(name.size());
-      if (!expect('(', "behind AC, IC, DC, ACP or ACN")) return {};
+      if (!expect('(', "after AC, IC, DC, ACP or ACN")) return {};
       const Operand value = parseExpression();
-      expect(')', "behind the value");
+      expect(')', "after the value");
       return value;
     }
   }
@@ -217,9 +217,9 @@ bool BlockParser::parseDimensionedValue(Word& word) {
   ahead.advance(name.size());
   cursor_ = ahead;
   word.mode = name[1] == 'A' ? WordMode::Absolute : WordMode::Incremental;
-  if (!expect('(', "behind DAC, DIC, RAC or RIC")) return true;
+  if (!expect('(', "after DAC, DIC, RAC or RIC")) return true;
   const Operand value = parseExpression();
-  if (failed_ || !expect(')', "behind the value")) return true;
+  if (failed_ || !expect(')', "after the value")) return true;
   word.value = value;
   if (word.address != addressOf("X")) return true;
   Node node;
@@ -265,17 +265,16 @@ void BlockParser::parseModalAddress(char letter, std::size_t start) {
 }
 
 void BlockParser::setMotion(MoveKind kind, std::size_t start) {
-  if (motionGiven_)
-    return fail(start, "two motions (G functions of group 1) stand in this block", "Leave one of them.");
+  if (motionGiven_) return fail(start, "this block has two motions (G functions of group 1)", "Remove one of them.");
   motionGiven_ = true;
   motion_ = kind;
 }
 
 void BlockParser::setOwner(Owner owner, TextRef name, std::size_t start) {
   if (owner_ != Owner::Move) {
-    return fail(
-        start, std::string(block_->at(name)) + " cannot stand in one block with " + std::string(block_->at(ownerName_)),
-        "Write each into a block of its own.");
+    return fail(start,
+                std::string(block_->at(name)) + " cannot be in one block with " + std::string(block_->at(ownerName_)),
+                "Write each into a block of its own.");
   }
   owner_ = owner;
   ownerName_ = name;
@@ -364,7 +363,7 @@ void BlockParser::parseM(std::size_t start) {
       function.number = static_cast<int>(value.number);
       function.argument = spindle;
     } else if (value.isLiteral()) {
-      return fail(start, "an M function has a number from 0 on");
+      return fail(start, "the number of an M function is 0 or more");
     } else {
       function.number = -1;
       function.argument = value;
@@ -375,7 +374,7 @@ void BlockParser::parseM(std::size_t start) {
     const Operand value = parseValue(nullptr);
     if (failed_) return;
     if (value.isLiteral()) {
-      if (!isNumber(value)) return fail(start, "an M function has a number from 0 on");
+      if (!isNumber(value)) return fail(start, "the number of an M function is 0 or more");
       function.number = static_cast<int>(value.number);
     } else {
       function.number = -1;
@@ -416,7 +415,7 @@ void BlockParser::parseT(std::size_t start) {
   if (!value.isLiteral() && !assigned)
     return fail(start, "the number of the tool is missing", "Write T5 or T=\"NAME\".");
   if (value.isLiteral() && value.number < 0)
-    return fail(start, "a tool has a number from 0 on", "Write T5 or T=\"NAME\".");
+    return fail(start, "the number of a tool is 0 or more", "Write T5 or T=\"NAME\".");
   const bool text = !value.isLiteral() && value.present() &&
                     (block_->nodes[static_cast<std::size_t>(value.node)].operation == Operation::Text ||
                      block_->nodes[static_cast<std::size_t>(value.node)].operation == Operation::Concatenate);
@@ -433,13 +432,13 @@ void BlockParser::parseL(std::size_t start) {
 
 /// AX[axis]= is the axis, IP[axis]= its parameter of interpolation: I, J or K.
 void BlockParser::parseComputedAxis(std::string_view name, std::size_t start) {
-  if (!expect('[', "behind AX and IP")) return;
+  if (!expect('[', "after AX and IP")) return;
   const bool parameter = name == "IP";
   Word axis;
   axis.address = addressOf(parameter ? "IP[]" : "AX[]");
   axis.column = static_cast<std::uint32_t>(start) + 1;
   axis.value = parseExpression();
-  if (failed_ || !expect(']', "behind the axis")) return;
+  if (failed_ || !expect(']', "after the axis")) return;
   axisWords_.push_back(axis);
   addMoveWord(addressOf(parameter ? "=IP" : "=AX"), start);
 }
@@ -447,7 +446,7 @@ void BlockParser::parseComputedAxis(std::string_view name, std::size_t start) {
 /// PO[X]=(end,a2,a3...): a polynomial of POLY. Its path is travelled as a straight line, so that the end is what
 /// counts.
 void BlockParser::parsePolynomial(std::size_t start) {
-  if (!expect('[', "behind PO")) return;
+  if (!expect('[', "after PO")) return;
   cursor_.skipBlanks();
   const std::string_view angle = cursor_.peekName();
   const bool orientation = angle == "PHI" || angle == "PSI" || angle == "THT";
@@ -457,12 +456,12 @@ void BlockParser::parsePolynomial(std::size_t start) {
   } else {
     axis = parseExpression();
   }
-  if (failed_ || !expect(']', "behind the axis") || !expect('=', "behind PO[axis]")) return;
+  if (failed_ || !expect(']', "after the axis") || !expect('=', "after PO[axis]")) return;
   const bool list = cursor_.take('(');
   const Operand end = parseExpression();
   while (!failed_ && list && cursor_.take(','))
     parseExpression();
-  if (failed_ || (list && !expect(')', "behind the coefficients")) || orientation) return;
+  if (failed_ || (list && !expect(')', "after the coefficients")) || orientation) return;
   const Node* node = axis.node >= 0 ? &block_->nodes[static_cast<std::size_t>(axis.node)] : nullptr;
   const auto column = static_cast<std::uint32_t>(start) + 1;
   if (node != nullptr && node->operation == Operation::AxisName) {
@@ -490,7 +489,7 @@ void BlockParser::parseSetting(std::string_view name, std::size_t start) {
   if (cursor_.take('[')) {
     index.column = static_cast<std::uint32_t>(cursor_.offset()) + 1;
     index.value = parseExpression();
-    if (failed_ || !expect(']', "behind the index")) return;
+    if (failed_ || !expect(']', "after the index")) return;
   } else if (isDigit(cursor_.peek())) {
     double number = 0;
     takeNumber(number);
@@ -511,7 +510,7 @@ void BlockParser::parseSetting(std::string_view name, std::size_t start) {
       more[count].address = count + 2;
       more[count++].value = parseExpression();
     }
-    if (failed_ || !expect(')', "behind end position, part and mode")) return;
+    if (failed_ || !expect(')', "after end position, part and mode")) return;
   } else {
     value.value = parseValue(&value.mode);
   }
@@ -536,17 +535,16 @@ void BlockParser::parseMeasure(std::string_view name, std::size_t start) {
     Word axis, mode;
     axis.address = addressOf("MAX");
     mode.address = addressOf("MMO");
-    if (!expect('[', "behind the axial measuring function")) return;
+    if (!expect('[', "after the axial measuring function")) return;
     axis.value = parseExpression();
-    if (failed_ || !expect(']', "behind the axis") || !expect('=', "behind the axis") ||
-        !expect('(', "before the mode"))
+    if (failed_ || !expect(']', "after the axis") || !expect('=', "after the axis") || !expect('(', "before the mode"))
       return;
     mode.value = parseExpression();
     if (failed_ || !expect(',', "between mode and probe event")) return;
     event.value = parseExpression();
     while (!failed_ && cursor_.take(','))
       parseExpression();
-    if (failed_ || !expect(')', "behind the probe events")) return;
+    if (failed_ || !expect(')', "after the probe events")) return;
     axisWords_.insert(axisWords_.begin(), {event, axis, mode});
   } else {
     if (cursor_.peek() != '=')
