@@ -8,6 +8,7 @@
 
 #include "control/alarm.hpp"
 #include "control/missing_axis.hpp"
+#include "control/stopped_place.hpp"
 
 namespace probewright::control {
 namespace {
@@ -153,10 +154,7 @@ void Channel::judgeTravel(machine::MoveResult result) const {
 }
 
 void Channel::addPlace(std::string& detail) const {
-  const Vector3 tip = position();
-  detail += fmt::format("{} tool tip stopped at X{:+.3f}{} Y{:+.3f} Z{:+.3f} of the active workpiece system",
-                        detail.empty() ? "The" : "; the", tip.x(), description_.mainSpindle ? " (radius)" : "", tip.y(),
-                        tip.z());
+  detail += (detail.empty() ? "The " : "; the ") + stoppedPlace(*this);
 }
 
 void Channel::judge(const machine::MoveResult& result) const {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "control/stopped_place.hpp"
 #include "probing/arc.hpp"
 
 namespace probewright::probing {
@@ -141,8 +142,9 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
       case MeasureEnd::NoContact:
         finish("no contact");
         throw Alarm("Touch point inaccessible",
-                    fmt::format("The stylus was not deflected within {:.3f} mm",
-                                distance * (channel_.spindleFromProgram() * xyzDirection).norm()),
+                    fmt::format("The stylus was not deflected within {:.3f} mm; the {}",
+                                distance * (channel_.spindleFromProgram() * xyzDirection).norm(),
+                                control::stoppedPlace(channel_)),
                     fmt::format("check nominal values, preset and {}", probe_.distanceName));
       case MeasureEnd::DeflectedAtStart:
         finish("deflected");

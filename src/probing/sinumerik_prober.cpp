@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "control/alarm.hpp"
+#include "control/stopped_place.hpp"
 #include "probing/arc.hpp"
 
 namespace probewright::probing {
@@ -211,7 +212,7 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
         case MeasureEnd::Cancelled:
           finish("collision");
           throw Alarm(channel_.alarms.collision, result.detail,
-                      "correct the starting position; the way of the probe must be free");
+                      "correct the starting position; the path of the probe must be clear");
       }
     }
     return std::nullopt;
@@ -237,8 +238,10 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
     }
     const auto touch = probeOnce(end, feed);
     if (!touch) {
-      throw Alarm("61301", fmt::format("Probe does not switch within {:.3f} mm", 2 * path),
-                  "check the setpoint, the measuring path DFA and the zero offset");
+      throw Alarm(
+          "61301",
+          fmt::format("Probe does not switch within {:.3f} mm; the {}", 2 * path, control::stoppedPlace(channel_)),
+          "check the setpoint, the measuring path DFA and the zero offset");
     }
     noteTouch(*touch);
     sum += plane_.planeFromXyz(touch->tip);
