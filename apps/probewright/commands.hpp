@@ -37,6 +37,7 @@ int run(const RunArguments& arguments);
 
 struct CheckArguments {
   std::vector<std::filesystem::path> programs;
+  std::filesystem::path setup;  ///< empty: none
   std::optional<control::ControlKind> control;
   std::bitset<10> skipLevels;
 };

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "terminal.hpp"
+
 namespace probewright::app {
 
 using language::Encoding;
@@ -44,7 +46,7 @@ void print(const Diagnostics& diagnostics, Encoding encoding) {
         --end;
       shown.excerpt = shown.excerpt.substr(0, end) + " ...";
     }
-    std::fputs((format(shown) + "\n").c_str(), stderr);
+    put(format(shown) + "\n", stderr);
   }
 }
 

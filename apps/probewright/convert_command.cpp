@@ -59,16 +59,16 @@ int convert(const ConvertArguments& arguments) {
   if (!from) {
     return refuse({Severity::Error,
                    {arguments.input.string(), 0, 0},
-                   "neither the ending nor the text tells the language of this program",
+                   "neither the file extension nor the text shows the language of this program",
                    {},
-                   "give it an ending: .H, .I, .MPF",
+                   "give it an extension: .H, .I or .MPF",
                    {}});
   }
   const auto to = session::languageOf(arguments.output, {});
   if (!to) {
     return refuse({Severity::Error,
                    {arguments.output.string(), 0, 0},
-                   "the ending does not tell the language to convert to",
+                   "the file extension does not show the language to convert to",
                    {},
                    "end the name with .H for Klartext, .I for DIN/ISO or .MPF for a SINUMERIK",
                    {}});
@@ -78,7 +78,7 @@ int convert(const ConvertArguments& arguments) {
                    {arguments.input.string(), 0, 0},
                    fmt::format("the program is one of {} already", session::nameOf(*from)),
                    {},
-                   "name a file with the ending of another language: .H, .I or .MPF",
+                   "name a file with the extension of another language: .H, .I or .MPF",
                    {}});
   }
   if (const auto objection = objectionTo(arguments)) return refuse(*objection);

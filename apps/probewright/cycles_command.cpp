@@ -13,6 +13,7 @@
 #include "console.hpp"
 #include "cycles/catalogue.hpp"
 #include "cycles/sinumerik/cycle_116.hpp"
+#include "terminal.hpp"
 
 namespace probewright::app {
 namespace {
@@ -67,8 +68,8 @@ std::string variantsText(const cycles::ResultDefinition& result) {
 }
 
 template <class... Values>
-void put(fmt::format_string<Values...> layout, Values&&... values) {
-  std::fputs(fmt::format(layout, std::forward<Values>(values)...).c_str(), stdout);
+void say(fmt::format_string<Values...> layout, Values&&... values) {
+  put(fmt::format(layout, std::forward<Values>(values)...), stdout);
 }
 
 /// The NC software of the iTNC 530 that brought a parameter.
@@ -80,10 +81,10 @@ void show(const CycleDefinition& cycle) {
     width = std::max(width, parameter.name.size());
   for (const auto& result : cycle.results)
     width = std::max(width, result.name.size());
-  put("{}  {}\n", cycle.name, cycle.title);
-  put("{} | {}\n\n{}\n\nParameters\n", cycles::nameOf(cycle.family), controlsText(cycle.controls), cycle.summary);
+  say("{}  {}\n", cycle.name, cycle.title);
+  say("{} | {}\n\n{}\n\nParameters\n", cycles::nameOf(cycle.family), controlsText(cycle.controls), cycle.summary);
   for (const Parameter& parameter : cycle.parameters) {
-    put("  {:<{}} {}\n", parameter.name, width, parameter.meaning);
+    say("  {:<{}} {}\n", parameter.name, width, parameter.meaning);
     std::string line = rangeText(parameter);
     if (parameter.standard) line += fmt::format("; default {}", formatShortest(*parameter.standard));
     if (parameter.predefinable) line += "; PREDEF";
@@ -91,24 +92,24 @@ void show(const CycleDefinition& cycle) {
     here.bits = static_cast<std::uint8_t>(here.bits & cycle.controls.bits);
     if (here.bits != cycle.controls.bits) line += fmt::format("; {} only", controlsText(here));
     if (parameter.iTNC530Software > 0) line += "; iTNC530 from " + softwareText(parameter) + " on";
-    put("  {:<{}} {}\n", "", width, line);
+    say("  {:<{}} {}\n", "", width, line);
     for (const cycles::Choice& choice : parameter.choices) {
-      put("  {:<{}}   {:>3}  {}\n", "", width, choice.value, choice.meaning);
+      say("  {:<{}}   {:>3}  {}\n", "", width, choice.value, choice.meaning);
     }
     for (const cycles::CodeDigit& digit : isCode(parameter) ? parameter.digits : std::span<const cycles::CodeDigit>()) {
       const std::string place = digit.width == 1 ? std::string(cycles::placeName(digit.place))
                                                  : fmt::format("{} to {}", cycles::placeName(digit.place),
                                                                cycles::placeName(digit.place + digit.width - 1));
-      put("  {:<{}}   {}: {}\n", "", width, place, digit.meaning);
+      say("  {:<{}}   {}: {}\n", "", width, place, digit.meaning);
       for (const cycles::Choice& choice : digit.choices)
-        put("  {:<{}}   {:>3}  {}\n", "", width, choice.value, choice.meaning);
+        say("  {:<{}}   {:>3}  {}\n", "", width, choice.value, choice.meaning);
     }
   }
   if (cycle.results.empty()) return;
-  put("\nResults\n");
+  say("\nResults\n");
   for (const auto& result : cycle.results) {
     const std::string_view unit = cycles::unitOf(result.kind);
-    put("  {:<{}} {}{}{}\n", result.name, width, result.meaning, unit.empty() ? "" : fmt::format(", {}", unit),
+    say("  {:<{}} {}{}{}\n", result.name, width, result.meaning, unit.empty() ? "" : fmt::format(", {}", unit),
         variantsText(result));
   }
 }
@@ -242,13 +243,13 @@ int cycles(const CyclesArguments& arguments) {
       if (arguments.asJson) {
         list.push_back(toJson(*cycle));
       } else if (arguments.name.empty()) {
-        put("{}", row(*cycle));
+        say("{}", row(*cycle));
       } else {
         show(*cycle);
       }
     }
   }
-  if (found && arguments.asJson) put("{}\n", list.dump(2));
+  if (found && arguments.asJson) std::fputs((list.dump(2) + "\n").c_str(), stdout);
   if (found) return 0;
   const std::string about = rowsAbout(arguments.name, seen);
   const std::string advice =

@@ -2,6 +2,7 @@
 #include <bitset>
 #include <cctype>
 #include <cstdio>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "guard.hpp"
+#include "terminal.hpp"
 
 namespace {
 
@@ -23,9 +25,11 @@ void addControl(CLI::App& command, std::optional<ControlKind>& control) {
           "--control",
           [&control](const std::string& text) {
             control = probewright::control::controlKindOf(text);
-            if (!control) throw CLI::ValidationError("--control", text + " is none of TNC640, iTNC530, 840Dsl, 828D");
+            if (!control)
+              throw CLI::ValidationError("--control", text + " is not one of TNC640, iTNC530, 840Dsl, 828D");
           },
-          "The control the program is for, where ending and text don't tell: TNC640, iTNC530, 840Dsl, 828D")
+          "The control that the program is for, if file extension and text do not show it: TNC640, iTNC530, 840Dsl, "
+          "828D")
       ->type_name("NAME");
 }
 
@@ -54,7 +58,7 @@ void addSkip(CLI::App& command, std::bitset<10>& levels) {
 /// Reading "-1" into an unsigned number would wrap it around.
 std::string notNegative(const std::string& text) {
   const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-  return digits && text.size() <= 19 ? std::string() : text + " is no whole number from 0 up";
+  return digits && text.size() <= 19 ? std::string() : text + " is not a whole number of 0 or more";
 }
 
 /// An option that takes one of a few words, in any case.
@@ -73,7 +77,7 @@ CLI::Option& addChoice(CLI::App& command, const std::string& name, Value& value,
                       value = choice;
                       return;
                     }
-                    throw CLI::ValidationError(name, text + " is none of " + words);
+                    throw CLI::ValidationError(name, text + " is not one of " + words);
                   },
                   meaning + ": " + words)
               ->type_name("WORD");
@@ -139,8 +143,9 @@ int main(int argc, char** argv) {
             {{"continue", OnStop::Continue}, {"abort", OnStop::Abort}, {"ask", OnStop::Ask}},
             "What a programmed stop does")
       .default_str("continue");
-  run->add_option("--answers", runArguments.answers,
-                  "Answers to what the program asks, one NAME=VALUE a line; they go before [answers] of the setup")
+  run->add_option(
+         "--answers", runArguments.answers,
+         "Answers to what the program asks, one NAME=VALUE a line; they take precedence over [answers] of the setup")
       ->type_name("FILE");
   run->add_option("--step-limit", runArguments.stepLimit, "Blocks after which an endless loop is assumed; 0: never")
       ->check(notNegative)
@@ -157,7 +162,7 @@ int main(int argc, char** argv) {
       ->check(notNegative)
       ->type_name("NUMBER");
   CLI::Option* test = run->add_flag("--program-test", runArguments.programTest,
-                                    "SINUMERIK PRT: the axes stand, measuring cycles are skipped");
+                                    "SINUMERIK PRT: the axes do not move, measuring cycles are skipped");
   run->add_flag("--dry-run", runArguments.dryRun,
                 "SINUMERIK DRY: paths at the dry run feed $SC_DRY_RUN_FEED, measuring cycles are skipped")
       ->excludes(test);
@@ -179,12 +184,12 @@ int main(int argc, char** argv) {
         const bool plain = path.filename() == path && path.has_stem();
         return plain && (path.extension() == ".csv" || path.extension() == ".txt")
                    ? std::string()
-                   : name + " is no file name ending in .txt or .csv";
+                   : name + " is not a file name that ends in .txt or .csv";
       });
   run->add_option(
          "--cache", runArguments.cache,
-         "Folder that keeps imported STEP and IGES parts for the next run; off: none. Else $PROBEWRIGHT_CACHE, "
-         "or probewright in $XDG_CACHE_HOME or ~/.cache")
+         "Folder that keeps imported STEP and IGES parts for the next run; off: none. Default: $PROBEWRIGHT_CACHE, "
+         "else probewright in $XDG_CACHE_HOME or ~/.cache")
       ->type_name("DIR");
   run->add_flag("--screens", runArguments.screens, "Show the result screens of all cycles, also of those that are off");
   run->add_flag("--quiet", runArguments.quiet, "Print nothing but mistakes");
@@ -192,6 +197,10 @@ int main(int argc, char** argv) {
   probewright::app::CheckArguments checkArguments;
   CLI::App* check = app.add_subcommand("check", "Read programs without moving anything and name every mistake");
   check->add_option("PROGRAM", checkArguments.programs, "NC programs")->required();
+  check
+      ->add_option("--setup", checkArguments.setup,
+                   "Also name tools and presets that the control of this setup does not have")
+      ->type_name("FILE");
   addControl(*check, checkArguments.control);
   addSkip(*check, checkArguments.skipLevels);
 
@@ -199,15 +208,16 @@ int main(int argc, char** argv) {
   CLI::App* cycles = app.add_subcommand("cycles", "The catalogue of measuring cycles, or one of them in full");
   cycles->add_option("NAME", cyclesArguments.name, "411, CYCLE977");
   addControl(*cycles, cyclesArguments.control);
-  cycles->add_flag("--json", cyclesArguments.asJson, "Everything the catalogue knows, for other programs");
+  cycles->add_flag("--json", cyclesArguments.asJson, "Everything that the catalogue knows, as JSON for other programs");
 
   probewright::app::ConvertArguments convertArguments;
   CLI::App* convert = app.add_subcommand(
       "convert", "Write a program in another language: Klartext (.H), DIN/ISO (.I), SINUMERIK (.MPF)");
   convert->add_option("IN", convertArguments.input, "The program")->required();
-  convert->add_option("OUT", convertArguments.output, "The file to write; its ending names the language")->required();
+  convert->add_option("OUT", convertArguments.output, "The file to write; its extension names the language")
+      ->required();
   addControl(*convert, convertArguments.control);
-  convert->get_option("--control")->description("The control to write for: TNC640, iTNC530, 840Dsl, 828D; else TNC640");
+  convert->get_option("--control")->description("The control to write for: TNC640 (default), iTNC530, 840Dsl, 828D");
   convert
       ->add_option("--setup", convertArguments.setup,
                    "The setup of the control that a SINUMERIK program is for: its folder of tables has the definition "
@@ -229,7 +239,7 @@ int main(int argc, char** argv) {
   convert->add_flag("--force", convertArguments.force, "Overwrite OUT if it exists");
   convert->footer(
       "Exit codes: 0 everything carried over, 1 something was not or is doubtful: it is named, and what the other "
-      "language cannot say stands as a comment in OUT; 2 a mistake in the input, or OUT exists: nothing written. "
+      "language cannot say is kept as a comment in OUT; 2 a mistake in the input, or OUT exists: nothing written. "
       "docs/conversion.md says which measuring cycle becomes which.");
 
   try {
@@ -239,7 +249,10 @@ int main(int argc, char** argv) {
       std::fputs(("probewright: " + probewright::app::printable(word) + "\n").c_str(), stderr);
       return 2;
     }
-    const bool fine = app.exit(error) == 0;
+    std::ostringstream help, mistake;
+    const bool fine = app.exit(error, help, mistake) == 0;
+    probewright::app::put(help.str(), stdout);
+    probewright::app::put(mistake.str(), stderr);
     return probewright::app::outputArrived() && fine ? 0 : 2;
   }
   const int exit = probewright::app::guarded([&] {

@@ -22,6 +22,7 @@
 #include "session/answers.hpp"
 #include "session/run.hpp"
 #include "session/scene.hpp"
+#include "terminal.hpp"
 
 namespace probewright::app {
 namespace {
@@ -197,7 +198,7 @@ int run(const RunArguments& arguments) {
   }
   if (!arguments.quiet) {
     const auto colour = isatty(STDOUT_FILENO) != 0 ? reports::Colour::On : reports::Colour::Off;
-    std::fputs(reports::summaryText(outcome.journal, info, colour, reports::Cause::Told).c_str(), stdout);
+    put(reports::summaryText(outcome.journal, info, colour, reports::Cause::Told), stdout);
     std::fputs(fmt::format("\nReport: {}\n", (fs::absolute(arguments.out) / "report.html").lexically_normal().string())
                    .c_str(),
                stdout);

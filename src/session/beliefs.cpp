@@ -361,7 +361,7 @@ SinumerikData sinumerikData(const Setup& setup, Diagnostics& diagnostics, const 
     if (!name.starts_with('$')) {
       diagnostics.push_back({Severity::Error,
                              parameter.place,
-                             fmt::format("{} is no machine or setting datum of the 840Dsl", name),
+                             fmt::format("{} is not a machine or setting datum of the 840Dsl", name),
                              {},
                              "their names begin with $ (docs/measuring-data.md)",
                              {}});
@@ -388,6 +388,15 @@ SinumerikData sinumerikData(const Setup& setup, Diagnostics& diagnostics, const 
 int activeZeroOffset(const Setup& setup) {
   const auto active = std::ranges::find(setup.zeroOffsets, true, &BelievedFrame::active);
   return active == setup.zeroOffsets.end() ? 0 : active->index;
+}
+
+std::set<std::string> namesOfData(const simulation::Setup& setup, ControlKind kind) {
+  std::set<std::string> names;
+  if (control::isHeidenhain(kind)) return names;
+  Diagnostics ignored;  // the run names them
+  for (const control::sinumerik::DataKey& key : sinumerikData(setup, ignored).store.keys())
+    names.insert(key.name);
+  return names;
 }
 
 }  // namespace probewright::session

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
+#include <string>
 
 #include "base/diagnostic.hpp"
 #include "control/heidenhain/control.hpp"
@@ -43,6 +45,9 @@ struct SinumerikData {
 /// Lists in them that are longer than a row of their array go on in the next one: `globalData` knows the arrays.
 SinumerikData sinumerikData(const simulation::Setup& setup, Diagnostics& diagnostics,
                             const sinumerik::GlobalUserData* globalData = nullptr);
+
+/// The names of all data that a SINUMERIK control of this setup has values for; none for other controls.
+std::set<std::string> namesOfData(const simulation::Setup& setup, control::ControlKind kind);
 
 /// Number of the settable zero offset that is active at the start: 0 is G500.
 int activeZeroOffset(const simulation::Setup& setup);

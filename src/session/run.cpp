@@ -379,16 +379,6 @@ void conclude(RunOutcome& outcome) {
   }
 }
 
-/// The names of all data that the setup and the files of its table folder give values to.
-std::set<std::string> namesOfData(const simulation::Setup& setup, ControlKind kind) {
-  std::set<std::string> names;
-  if (control::isHeidenhain(kind)) return names;
-  Diagnostics ignored;  // the run names them
-  for (const sin::DataKey& key : sinumerikData(setup, ignored).store.keys())
-    names.insert(key.name);
-  return names;
-}
-
 /// What a part lacks: the probe may enter where a triangle or a face is missing.
 void warnOfParts(RunOutcome& outcome, const simulation::Setup& setup) {
   for (const simulation::PlacedSolid& placed : outcome.machine->truth().solids) {

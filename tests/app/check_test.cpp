@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 #include "app/program.hpp"
 
@@ -113,8 +115,88 @@ TEST(Check, HoldsCallsOfOwnProgramsAgainstTheirHead) {
   const std::string path = folder.file("main.mpf", "DEF REAL OUT_1\nCYCLE977(1,OUT_1)\nCYCLE977(1,2,3)\nM30\n");
   const Answer answer = probewright({"check", path});
   EXPECT_EQ(answer.exit, 2);
-  EXPECT_THAT(answer.errors, HasSubstr(path + ":3:14: error: CYCLE977 has 2 parameters, here are 3 arguments"));
+  EXPECT_THAT(answer.errors, HasSubstr(path + ":3:14: error: CYCLE977 has 2 parameters, but the call has 3 arguments"));
   EXPECT_THAT(answer.errors, Not(HasSubstr(":2:")));
+}
+
+TEST(Check, FindsDivisionsByZero) {
+  const Folder folder;
+  const std::string klartext = folder.file(
+      "a.h",
+      "0 BEGIN PGM A MM\n1 Q1 = 10 / 0\n2 FN 4: Q2 = +5 DIV +0\n3 Q3 = 7 / (2 - 2)\n4 Q4 = 7 / Q9\n5 Q5 = 0 / 4\n"
+      "6 FN 9: IF +1 / 0 EQU +1 GOTO LBL 1\n7 LBL 1\n8 END PGM A MM\n");
+  const std::string sinumerik =
+      folder.file("a.mpf", "R1=10/0\nR2=5 MOD 0\nR3=5 DIV (3*0)\nR4=1/R9\nIF R1/0>1 GOTOF LA1\nX=1/(-0)\nLA1: M30\n");
+  const std::string dinIso = folder.file("a.i", "%A G71 *\nN10 D04 Q1 P01 +5 P02 +0 *\nN99999999 %A G71 *\n");
+  const auto named = [](const std::string& path) {
+    std::set<int> lines;
+    std::istringstream errors(probewright({"check", path}).errors);
+    for (std::string line; std::getline(errors, line);) {
+      if (line.find("warning: this divides by 0") == std::string::npos) continue;
+      lines.insert(std::stoi(line.substr(line.find(path) + path.size() + 1)));
+    }
+    return lines;
+  };
+  EXPECT_EQ(named(sinumerik), (std::set<int>{1, 2, 3, 5, 6}));
+  EXPECT_EQ(named(dinIso), (std::set<int>{2}));
+  const std::set<int> found = named(klartext);
+  EXPECT_TRUE(found.contains(2) && found.contains(3) && found.contains(4)) << probewright({"check", klartext}).errors;
+  EXPECT_FALSE(found.contains(5) || found.contains(6));
+}
+
+TEST(Check, ComparesTheFirstBlockWithTheLast) {
+  const Folder folder;
+  const auto said = [&](const std::string& name, const std::string& text) {
+    const Answer answer = probewright({"check", folder.file(name, text)});
+    EXPECT_EQ(answer.exit, 0) << answer.errors;
+    return answer.errors;
+  };
+  EXPECT_THAT(said("a.h", "0 BEGIN PGM A MM\n1 END PGM B MM\n"),
+              HasSubstr("a.h:2:3: warning: the program begins as A MM and ends as B MM"));
+  EXPECT_THAT(said("a.h", "0 BEGIN PGM A MM\n1 END PGM A INCH\n"), HasSubstr("begins as A MM and ends as A INCH"));
+  EXPECT_THAT(said("a.i", "%A G71 *\nN99999999 %B G71 *\n"), HasSubstr("begins as A G71 and ends as B G71"));
+  EXPECT_EQ(said("a.h", "0  BEGIN  PGM a MM ; one\n1 END PGM A  mm\n"), "");
+  EXPECT_EQ(said("a.i", "%A G71*\nN99999999 %A G71 *\n"), "");
+  EXPECT_EQ(said("a.h", "0 BEGIN PGM END 1 MM\n1 END PGM END 1 MM\n"), "");
+}
+
+TEST(Check, KnowsToolsAndPresetsOfASetup) {
+  const Folder folder;
+  const std::string tool = "[[tool]]\nnumber = 1\nname = \"PROBE\"\nkind = \"probe\"\nlength = 100\nball_radius = 3\n";
+  const std::string tnc = folder.file("tnc.toml", "[control]\ntype = \"TNC640\"\n" + tool + "[[preset]]\nrow = 3\n");
+  const std::string siemens = folder.file("840.toml", "[control]\ntype = \"840Dsl\"\n" + tool);
+  const auto check = [&](const std::string& name, const std::string& text, const std::string& setup) {
+    return probewright({"check", "--setup", setup, folder.file(name, text)});
+  };
+  const Answer klartext = check("a.h",
+                                "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z\n2 TOOL CALL 9 Z\n3 TOOL CALL \"PROBE\" Z\n"
+                                "4 TOOL CALL \"NOTHERE\" Z\n5 TOOL CALL 0 Z\n6 TOOL CALL Q5 Z\n"
+                                "7 CYCL DEF 247 PRESETTING ~\nQ339=+3\n8 CYCL DEF 247 PRESETTING ~\nQ339=+1\n"
+                                "9 PRESET SELECT #7\n10 TCH PROBE 441 FAST PROBING ~\nQ396=+0 ~\nQ397=+0 ~\nQ399=+1 ~\n"
+                                "Q400=+0\n11 END PGM A MM\n",
+                                tnc);
+  EXPECT_EQ(klartext.exit, 2);
+  EXPECT_THAT(klartext.errors, HasSubstr("a.h:3:1: error: the setup has no tool 9\n"));
+  EXPECT_THAT(klartext.errors, HasSubstr("a.h:5:14: error: the setup has no tool NOTHERE\n"));
+  EXPECT_THAT(klartext.errors, HasSubstr("the setup has 1 PROBE"));
+  EXPECT_THAT(klartext.errors, HasSubstr("a.h:10:1: error: the setup has no preset 1\n"));
+  EXPECT_THAT(klartext.errors, HasSubstr("a.h:12:1: error: the setup has no preset 7\n"));
+  EXPECT_THAT(klartext.errors, Not(HasSubstr("no tool 1\n")));
+  EXPECT_THAT(klartext.errors, Not(HasSubstr("no tool 0\n")));
+  EXPECT_THAT(klartext.errors, Not(HasSubstr("no preset 3\n")));
+  const std::string calls = "T1 D1\nM6\nT=\"PROBE\"\nM6\nT8\nM6\nT=\"NOTHERE\"\nM6\nT0\nM6\nT=R1\nM6\nM30\n";
+  const Answer sinumerik = check("a.mpf", calls, siemens);
+  EXPECT_EQ(sinumerik.exit, 2);
+  EXPECT_THAT(sinumerik.errors, HasSubstr("a.mpf:5:1: error: the setup has no tool 8\n"));
+  EXPECT_THAT(sinumerik.errors, HasSubstr("a.mpf:7:4: error: the setup has no tool NOTHERE\n"));
+  EXPECT_THAT(sinumerik.errors, Not(HasSubstr("no tool 1\n")));
+  // A program that makes its tools.
+  EXPECT_EQ(check("b.mpf", "$TC_DP1[8,1]=120\n" + calls, siemens).exit, 0);
+  // The setup's own mistakes, and a setup of the other vendor.
+  EXPECT_THAT(check("a.mpf", calls, folder.file("wrong.toml", "seed = -1\n")).errors,
+              HasSubstr("wrong.toml:1:8: error:"));
+  EXPECT_THAT(check("a.mpf", calls, tnc).errors, HasSubstr("the setup's control is TNC640"));
+  EXPECT_EQ(probewright({"check", folder.file("c.h", "0 BEGIN PGM C MM\n1 TOOL CALL 9 Z\n2 END PGM C MM\n")}).exit, 0);
 }
 
 TEST(Check, StartsInLessThanFiftyMilliseconds) {

@@ -22,10 +22,10 @@ TEST(CommandLine, NamesTheWordItDoesNotKnow) {
   EXPECT_THAT(probewright({"--foo"}).errors, HasSubstr("there is no option --foo"));
   EXPECT_THAT(probewright({"run"}).errors, HasSubstr("PROGRAM is required"));
   for (const auto& [option, value, message] :
-       std::vector<std::array<std::string, 3>>{{"--on-stop", "foo", "foo is none of continue, abort, ask"},
-                                               {"--language", "de", "de is none of en, ru, sv, zh, pl"},
-                                               {"--step-limit", "-1", "-1 is no whole number from 0 up"},
-                                               {"--seed", "x", "x is no whole number"}}) {
+       std::vector<std::array<std::string, 3>>{{"--on-stop", "foo", "foo is not one of continue, abort, ask"},
+                                               {"--language", "de", "de is not one of en, ru, sv, zh, pl"},
+                                               {"--step-limit", "-1", "-1 is not a whole number of 0 or more"},
+                                               {"--seed", "x", "x is not a whole number"}}) {
     const Answer answer = probewright({"run", program, "--setup", setup, option, value});
     EXPECT_EQ(answer.exit, 2) << option;
     EXPECT_THAT(answer.errors, HasSubstr(message));
@@ -40,7 +40,7 @@ TEST(CommandLine, NamesTheWordItDoesNotKnow) {
 TEST(CommandLine, RefusesUnknownWords) {
   const Answer control = probewright({"run", program, "--setup", setup, "--control", "TNC7"});
   EXPECT_EQ(control.exit, 2);
-  EXPECT_THAT(control.errors, HasSubstr("TNC7 is none of TNC640, iTNC530, 840Dsl"));
+  EXPECT_THAT(control.errors, HasSubstr("TNC7 is not one of TNC640, iTNC530, 840Dsl"));
   const Answer other = probewright({"run", program, "--setup", setup, "--control", "840Dsl"});
   EXPECT_EQ(other.exit, 2);
   EXPECT_THAT(other.errors, HasSubstr("this is a Klartext program, which the 840Dsl does not read"));

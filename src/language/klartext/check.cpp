@@ -11,6 +11,7 @@
 #include "cycles/catalogue.hpp"
 #include "cycles/heidenhain/call_rules.hpp"
 #include "cycles/heidenhain/probe_words.hpp"
+#include "language/constant_division.hpp"
 #include "language/klartext/block_extent.hpp"
 #include "language/klartext/lexer.hpp"
 #include "language/klartext/statement_notes.hpp"
@@ -57,6 +58,9 @@ public:
         std::visit([this](const auto& i) { look(i); }, instruction);
       for (StatementNotes::Note& note : notes_.of(block_))
         reportHere(std::move(note.message), std::move(note.advice), note.severity);
+      if (foresees_ && dividesByZero(block_)) {
+        reportHere("this divides by 0: the run stops at this block", "correct the divisor", Severity::Warning);
+      }
       frame();
       position = block_.next;
     }
@@ -122,8 +126,8 @@ private:
       for (const Instruction& instruction : block_.instructions) {
         const auto* assign = std::get_if<Assign>(&instruction);
         if (assign == nullptr || block_.variables[assign->variable].index[0].number != parameter) continue;
-        found_[mistake].advice = fmt::format(
-            "it stands in line {}, outside of the cycle: end the line before it with ~", block_.position.line);
+        found_[mistake].advice =
+            fmt::format("it is in line {}, outside the cycle: end the line before it with ~", block_.position.line);
       }
     }
   }
@@ -145,18 +149,43 @@ private:
     last_ = lineText(0);
     lastLine_ = block_.position.line;
     if (part == FramePart::Begin && anyBlock_) {
-      reportHere(fmt::format("{} stands within the program", program_.frameWords().begin),
+      reportHere(fmt::format("{} is in the middle of the program", program_.frameWords().begin),
                  "a file holds one program; write the other to its own file");
     }
+    if (part == FramePart::Begin && !begun_) name_ = nameInFrame();
     if (part == FramePart::Begin) begun_ = true;
+    if (const std::string name = nameInFrame(); part == FramePart::End && foresees_ && begun_ && name != name_) {
+      reportHere(fmt::format("the program begins as {} and ends as {}", name_, name),
+                 "write the same name and unit in both blocks", Severity::Warning);
+    }
     if (ended_ && !behindReported_) {
       behindReported_ = true;
       const std::string_view end = program_.frameWords().end;
-      reportHere(fmt::format("this block stands behind {} and is never reached", end),
-                 fmt::format("move it in front of {}", end), Severity::Warning);
+      reportHere(fmt::format("this block comes after {} and is never reached", end),
+                 fmt::format("move it before {}", end), Severity::Warning);
     }
     if (part == FramePart::End) ended_ = true;
     anyBlock_ = true;
+  }
+
+  /// "PART MM" of BEGIN PGM PART MM, END PGM PART MM, %PART G71 *; in capitals, without comment.
+  std::string nameInFrame() const {
+    std::string_view text = withoutBlockNumber(block_.at(block_.source));
+    text = text.substr(0, text.find(';'));
+    std::vector<std::string> words(1);
+    for (const char c : text) {
+      if (isBlank(c) || c == '\n' || c == '*') {
+        if (!words.back().empty()) words.emplace_back();
+      } else if (c != '%') {
+        words.back() += upper(c);
+      }
+    }
+    std::string name;
+    for (const std::string& word : words) {
+      const bool frame = word == "BEGIN" || word == "END" || word == "PGM";
+      if (!word.empty() && !(frame && name.empty())) name += (name.empty() ? "" : " ") + word;
+    }
+    return name;
   }
 
   void use(TextRef label) {
@@ -301,7 +330,7 @@ private:
     if (!plainWay_) return;
     const bool setsOnly = cycle.number == 404 || cycle.number == 441;
     if (!toolCalled_ && !setsOnly) {
-      reportHere("no TOOL CALL stands before this cycle",
+      reportHere("there is no TOOL CALL before this cycle",
                  "call the touch probe first, unless it is in the spindle already or another program calls this one",
                  Severity::Warning);
       toolCalled_ = true;
@@ -411,6 +440,7 @@ private:
   std::map<std::string, std::uint64_t> labels_;
   std::vector<Use> uses_;
   std::string first_, last_;
+  std::string name_;  ///< of the first block
   std::uint64_t lastLine_ = 0;
   std::map<int, bool> transforms_;  ///< by cycle; absent: unknown or never defined
   bool plainWay_ = true;            ///< no label, jump or call so far: every block above has run once

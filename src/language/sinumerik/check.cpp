@@ -8,6 +8,7 @@
 
 #include "cycles/catalogue.hpp"
 #include "cycles/sinumerik/old_form.hpp"
+#include "language/constant_division.hpp"
 #include "language/sinumerik/argument_check.hpp"
 #include "language/sinumerik/cursor.hpp"
 #include "language/sinumerik/global_data.hpp"
@@ -108,7 +109,7 @@ void Checker::declare(const Instruction& instruction) {
     std::string name(block_.at(block_.variables[static_cast<std::size_t>(command->variable)].name));
     if (begun_ && !toldOrder_) {
       toldOrder_ = true;
-      report(columnOf("DEF"), "this DEF stands behind the first block that is carried out",
+      report(columnOf("DEF"), "this DEF comes after the first block that is executed",
              "The control refuses it with alarm 14500: put all DEF at the beginning of the program.");
     }
     if (!declared_.insert(name).second)
@@ -153,7 +154,7 @@ void Checker::checkNames() {
       const bool known = declared_.contains(name) || isGlobalUserData(name) || defined ||
                          options_.globalVariables.contains(name) || macros_.contains(name);
       if (known || unknown_.contains(name)) continue;
-      unknown_.emplace(name, complaint(columnOf(name), "nothing of the name " + name + " is declared",
+      unknown_.emplace(name, complaint(columnOf(name), name + " is not declared",
                                        "Declare it at the beginning of the program: DEF REAL " + name +
                                            ", or as global user data in a definition file beside it (UGUD.DEF)."));
       continue;
@@ -199,7 +200,7 @@ void Checker::checkTarget(TextRef label, JumpDirection direction) {
   if (elsewhere) {
     const bool forward = direction == JumpDirection::Forward;
     return report(column,
-                  fmt::format("the destination {} stands only {} this block", name, forward ? "before" : "behind"),
+                  fmt::format("the destination {} exists only {} this block", name, forward ? "before" : "after"),
                   fmt::format("Write {} or GOTO.", forward ? "GOTOB" : "GOTOF"));
   }
   std::vector<std::string_view> labels;
@@ -220,7 +221,7 @@ void Checker::checkParameters(const CallProgram& call, const BlockParser::Header
   const Word* words = block_.words.data() + call.arguments.first;
   if (call.arguments.count > header.parameters.size()) {
     report(words[header.parameters.size()].column,
-           fmt::format("{} has {} parameter{}, here are {} arguments", header.name, header.parameters.size(),
+           fmt::format("{} has {} parameter{}, but the call has {} arguments", header.name, header.parameters.size(),
                        header.parameters.size() == 1 ? "" : "s", call.arguments.count),
            "Compare the call with the PROC line of the subprogram.");
     return;
@@ -278,7 +279,7 @@ void Checker::checkSection(const CallProgram& call, Program& other) {
   if (!last)
     report(columnOf(first ? to : from),
            fmt::format("the program {} has no section from {} to {}", other.name(), from, to),
-           fmt::format("The label {} is missing there, or stands before {}.", first ? to : from, from));
+           fmt::format("The label {} is missing there, or comes before {}.", first ? to : from, from));
 }
 
 void Checker::checkCall(const CallProgram& call) {
@@ -314,7 +315,7 @@ void Checker::checkCall(const CallProgram& call) {
       return report(column, fmt::format("the measuring cycle {} is not available", name),
                     "'probewright cycles --control 840Dsl' lists the cycles that are.");
     if (isSkippedCycle(name))
-      return report(column, name + " is not carried out", "The run goes on behind it; no material is removed.",
+      return report(column, name + " is not carried out", "The run continues after it; no material is removed.",
                     Severity::Warning);
   }
   if (options_.library == nullptr && !call.maybeCycle) return;
@@ -348,7 +349,7 @@ void Checker::checkInstruction(const Instruction& instruction) {
     const std::string name(block_.at(command->name));
     checkEffect(*command, name);
     if (keywordOf(name) == Keyword::SynchronizedAction)
-      report(columnOf(name), "the synchronized action " + name + " is not carried out", "The run goes on behind it.",
+      report(columnOf(name), "the synchronized action " + name + " is not carried out", "The run continues after it.",
              Severity::Warning);
     if (name == "ISOCALL")
       report(columnOf(name),
@@ -379,7 +380,7 @@ void Checker::checkInstruction(const Instruction& instruction) {
 /// A word that is not carried out is named once in a program.
 void Checker::tell(const std::string& name, std::string_view how) {
   if (!told_.insert(name).second) return;
-  report(columnOf(name), fmt::format("{} {}", name, how), "The run goes on; --strict refuses it.", Severity::Warning);
+  report(columnOf(name), fmt::format("{} {}", name, how), "The run continues; --strict refuses it.", Severity::Warning);
 }
 
 void Checker::checkEffect(const Command& command, const std::string& name) {
@@ -410,7 +411,7 @@ void Checker::checkLabels() {
     Diagnostic mistake;
     mistake.severity = Severity::Warning;
     mistake.place = {program_.file(), label.position.line, 1};
-    mistake.message = fmt::format("the label {} stands also in line {}", label.name, known->second);
+    mistake.message = fmt::format("the label {} is also defined in line {}", label.name, known->second);
     mistake.excerpt = std::string(program_.text().line(label.position.offset).text);
     mistake.advice = "Jumps take the nearest in their direction; give each label a name of its own.";
     found_.push_back(std::move(mistake));
@@ -438,6 +439,9 @@ Diagnostics Checker::run() {
       declare(instruction);
     checkNames();
     checkPriorities();
+    if (options_.foresees && dividesByZero(block_)) {
+      report(1, "this divides by 0: the run stops at this block", "Correct the divisor.", Severity::Warning);
+    }
     checkFunctions();
     for (const Instruction& instruction : block_.instructions)
       checkInstruction(instruction);

@@ -22,6 +22,8 @@ struct CheckOptions {
   std::bitset<10> skipLevels = {};
   /// What definition files declare; null: none are known.
   const GlobalUserData* globalData = nullptr;
+  /// Also what a run refuses when it gets there: it says so itself, and may never get there.
+  bool foresees = true;
 };
 
 /// Reads the whole program, and those that it calls by name, without running them and names every mistake: those of
