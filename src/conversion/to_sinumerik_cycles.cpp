@@ -121,7 +121,7 @@ void ToSinumerik::requireReach(const Block& block, const MeasuringTask& task, co
   if (passage.looksFarEnough || std::exchange(listedReach_, true)) return;
   const Quantity enough = (task.path + task.beyond) / 2 - Quantity(probe_.setUp * millimetre_);
   out_.list(block,
-            fmt::format("a touch probe with DIST = {} looks for the surface farther behind its place than in front of "
+            fmt::format("a touch probe with DIST = {} looks for the surface farther beyond its place than before "
                         "it, CYCLE977 to CYCLE979 as far as S_FA only",
                         numberText(probe_.travel)),
             enough.isNumber() ? fmt::format("program Q320 = {} if there is room, or tell by --dist what DIST is",

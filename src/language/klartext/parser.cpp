@@ -78,7 +78,8 @@ bool BlockParser::statement() {
       return true;  // empty, comment, structure
     case 'L':
       if (lexer_.acceptPrefix("LBL")) return label();
-      if (lexer_.acceptKeyword("LABEL")) return error("this is no block of the Klartext language", "Did you mean LBL?");
+      if (lexer_.acceptKeyword("LABEL"))
+        return error("this is not a block of the Klartext language", "Did you mean LBL?");
       lexer_.advance();
       if (second == 'P' && !isLetter(lexer_.here(1))) {
         lexer_.advance();

@@ -45,7 +45,7 @@ void StatementNotes::label(const Block& block, TextRef label) {
   const auto [known, added] = quoted_.emplace(name, isQuoted(block, label));
   if (added || known->second == isQuoted(block, label)) return;
   note(Severity::Warning,
-       fmt::format("label {} stands with and without quotation marks: two labels on the control, one here", name),
+       fmt::format("label {} is written with and without quotation marks: two labels on the control, one here", name),
        "write it the same way everywhere, or give it a name with a letter");
 }
 
