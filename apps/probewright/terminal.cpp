@@ -10,6 +10,7 @@ namespace probewright::app {
 namespace {
 
 constexpr std::size_t furtherIn = 4;
+constexpr std::size_t deep = 12;  ///< a line that begins here is a column already
 constexpr std::size_t fewestColumns = 20;
 
 /// The bytes of the character, or of the colour, that begins here; `columns` grows by what it takes.
@@ -31,7 +32,7 @@ std::size_t indentOf(std::string_view line, std::size_t columns) {
   const std::size_t gap = line.find("  ", text);
   const std::size_t second = gap == std::string_view::npos ? gap : line.find_first_not_of(' ', gap);
   if (second != std::string_view::npos && second <= columns / 2) return second;
-  return std::min(text + furtherIn, columns / 2);
+  return std::min(text >= deep ? text : text + furtherIn, columns / 2);
 }
 
 std::string fittedLine(std::string_view line, std::size_t columns) {
