@@ -172,6 +172,7 @@ private:
   std::string nameInFrame() const {
     std::string_view text = withoutBlockNumber(block_.at(block_.source));
     text = text.substr(0, text.find(';'));
+    if (const std::size_t sign = text.find('%'); sign != std::string_view::npos) text.remove_prefix(sign);
     std::vector<std::string> words(1);
     for (const char c : text) {
       if (isBlank(c) || c == '\n' || c == '*') {
