@@ -152,9 +152,10 @@ private:
       reportHere(fmt::format("{} is in the middle of the program", program_.frameWords().begin),
                  "a file holds one program; write the other to its own file");
     }
-    if (part == FramePart::Begin && !begun_) name_ = nameInFrame();
+    if (part == FramePart::Begin && !begun_ && !block_.instructions.empty()) name_ = nameInFrame();
     if (part == FramePart::Begin) begun_ = true;
-    if (const std::string name = nameInFrame(); part == FramePart::End && foresees_ && begun_ && name != name_) {
+    if (const std::string name = nameInFrame();
+        part == FramePart::End && foresees_ && !name.empty() && !name_.empty() && name != name_) {
       reportHere(fmt::format("the program begins as {} and ends as {}", name_, name),
                  "write the same name and unit in both blocks", Severity::Warning);
     }
@@ -441,7 +442,7 @@ private:
   std::map<std::string, std::uint64_t> labels_;
   std::vector<Use> uses_;
   std::string first_, last_;
-  std::string name_;  ///< of the first block
+  std::string name_;  ///< of the first block, if it can be read
   std::uint64_t lastLine_ = 0;
   std::map<int, bool> transforms_;  ///< by cycle; absent: unknown or never defined
   bool plainWay_ = true;            ///< no label, jump or call so far: every block above has run once
