@@ -43,7 +43,7 @@ language::InterpreterOptions interpreterOptions(const RunOptions& options, Contr
   interpreter.skipLevels = options.skipLevels;
   interpreter.breakpoints = options.breakpoints;
   interpreter.onProgress = options.progress;
-  interpreter.programDepth = control::isHeidenhain(kind) ? 20 : 16;
+  if (!control::isHeidenhain(kind)) interpreter.programDepth = sinumerik::SinumerikHost::programDepth;
   return interpreter;
 }
 
@@ -447,6 +447,8 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
   outcome.machine->recordPath(options.recordPath);
   outcome.info.machine = outcome.machine->description().name;
   outcome.info.axes = outcome.machine->description().axes;
+  // Whoever stops the run stops the machine, too: also within a measuring cycle.
+  const std::stop_callback cancelMachine(options.stop, [machine = outcome.machine.get()] { machine->cancel(); });
   HostFiles host(path, setup);
   try {
     if (control::isHeidenhain(kind)) {

@@ -35,31 +35,9 @@ std::string parameter(const CycleRecord& record, const std::string& name) {
   return found == record.parameters.end() ? std::string() : found->value;
 }
 
-/// The part of a meaning that holds for the variant: some results hold something else for rectangles and planes, which
-/// stands behind a semicolon.
-std::string forVariant(const CycleRecord& record, const std::string& meaning) {
-  const std::string variant = parameter(record, "S_MVAR");
-  const char kind = variant.empty() ? '0' : variant.back();
-  const bool second =
-      (record.name == "CYCLE977" && (kind == '5' || kind == '6')) || (record.name == "CYCLE998" && kind == '6');
-  const std::size_t semicolon = meaning.find(';');
-  std::string text = meaning.substr(0, semicolon);
-  if (second && semicolon != std::string::npos) {
-    const std::size_t colon = meaning.find(": ", semicolon);
-    if (colon != std::string::npos) text = meaning.substr(colon + 2);
-  }
-  // Holes and spigots are 1 and 2, grooves and ribs 3 and 4, rectangles 5 and 6.
-  constexpr std::string_view sizes = "diameter, width, length in the 1st axis";
-  if (record.name == "CYCLE977" && text.ends_with(sizes)) {
-    text.resize(text.size() - sizes.size());
-    text += kind <= '2' ? "diameter" : kind <= '4' ? "width" : "length in the 1st axis";
-  }
-  return text;
-}
-
 /// What a value is the set value, actual value or difference of.
-std::string quantityOf(const CycleRecord& record, const ResultRecord& result) {
-  std::string text = forVariant(record, result.meaning);
+std::string quantityOf(const ResultRecord& result) {
+  std::string text = result.meaning;
   for (const std::string_view front : {"set value", "actual value", "difference", "set", "actual"}) {
     if (!text.starts_with(front)) continue;
     text.erase(0, front.size());
@@ -219,7 +197,7 @@ std::vector<MeasuredRow> measuredRows(const CycleRecord& record) {
     const ResultRecord* difference = ovr(record, i + differenceAt);
     if (!hasFront(actual, "actual")) continue;
     MeasuredRow row;
-    row.label = quantityOf(record, *actual);
+    row.label = quantityOf(*actual);
     row.unit = actual->unit;
     row.measured = actual->value;
     used[static_cast<std::size_t>(i + actualAt)] = true;
@@ -249,7 +227,7 @@ std::vector<MeasuredRow> measuredRows(const CycleRecord& record) {
       continue;
     }
     MeasuredRow row;
-    row.label = forVariant(record, result->meaning);
+    row.label = result->meaning;
     row.unit = result->unit;
     row.measured = result->value;
     rows.push_back(std::move(row));
