@@ -180,6 +180,9 @@ TEST(MFunctions, FunctionBlocksThatMoveNothingAreQuiet) {
                 "FUNCTION DCM OFF\n"));
   EXPECT_THAT(world.told(EventKind::Skipped), IsEmpty());
   EXPECT_EQ(world.machine->seconds(), 2.5);
+  expectFinished(world.run("TOOL CALL 1 Z S120\nM3\nFUNCTION DWELL REV5\nFUNCTION TURNDATA SPIN VCONST:ON VC:100\n"));
+  EXPECT_THAT(world.told(EventKind::Skipped), IsEmpty());
+  EXPECT_EQ(world.machine->seconds(), 5);
   expectFinished(world.run("LBL 1\nFUNCTION PARAXCOMP DISPLAY W\nFUNCTION PARAXCOMP DISPLAY W\n"));
   EXPECT_THAT(world.told(EventKind::Skipped),
               ElementsAre("FUNCTION PARAXCOMP DISPLAY W is not simulated and was skipped"));

@@ -178,6 +178,8 @@ TEST(Mistakes, OfPlanesAndTransformations) {
               {"TRANS DATUM", "3:12: AXIS, TABLE or RESET is expected after TRANS DATUM"},
               {"TRANS DATUM AXIS", "3:17: an axis with its shift is expected here"},
               {"TRANS DATUM TABLE TABLINE 5", "Datum table missing: No datum table is selected"},
+              {"CYCL DEF 26.0 SCALING\nCYCL DEF 26.1 X1 C2", "Axis not permitted: Cycle 26 scales X, Y and Z, not C"},
+              {"TOOL CALL QS5 Z", "Tool not defined: The name of the tool is empty"},
               {"PRESET SELECT 5", "3:15: '#' is expected after PRESET SELECT"},
               {"FUNCTION MODE X", "3:15: MILL, TURN, GRIND or SET is expected after FUNCTION MODE"},
               {"FUNCTION TCPM F TCP AXIS POS",

@@ -35,6 +35,7 @@ constexpr std::array namedCases = {
     Case{"FUNCTION POLARKIN AXES X C MODE:POS POLE:ALLOWED",
          "FUNCTION POLARKIN AXES X C MODE:POS POLE:ALLOWED is not simulated and was skipped"},
     Case{"FUNCTION FACING HEAD POS Z+50", "FUNCTION FACING HEAD POS Z+50 is not simulated and was skipped"},
+    Case{"FUNCTION COUNT REPEAT LBL 11", "FUNCTION COUNT REPEAT LBL 11 is not simulated and was skipped"},
     Case{"FUNCTION TCPM F TCP AXIS POS PATHCTRL VECTOR",
          "PATHCTRL VECTOR, which guides the tool direction between the ends of a block, is not simulated and was "
          "skipped"},
@@ -115,7 +116,8 @@ TEST(NotCarriedOut, IsNoCycleInSilence) {
 TEST(NotCarriedOut, LeavesWhatMovesNothingAlone) {
   World world("mill5-head-table");
   expectFinished(
-      world.run("FUNCTION MODE MILL\nTOOL DEF 5\nTOOL DEF 5 L+50 R+5\nTOOL DEF 1 R+2\nFN 17: SYSWRITE ID990 NR6 = +1\n"
+      world.run("FUNCTION MODE MILL\nFUNCTION PARAXCOMP OFF\nFUNCTION PARAXMODE OFF\nFUNCTION POLARKIN OFF\nTOOL DEF "
+                "5\nTOOL DEF 5 L+50 R+5\nTOOL DEF 1 R+2\nFN 17: SYSWRITE ID990 NR6 = +1\n"
                 "FN 17: SYSWRITE ID990 NR1 = +0\nCYCL DEF 203 DRILLING ~\n  Q200=+2\nFUNCTION TCPM F TCP AXIS POS "
                 "PATHCTRL AXIS\nFUNCTION RESET TCPM\n"));
   EXPECT_THAT(world.told(EventKind::Skipped), IsEmpty());

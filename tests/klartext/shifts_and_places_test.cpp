@@ -77,6 +77,21 @@ TEST(Presets, AreCopiedWholeAndSelected) {
   EXPECT_EQ(world.control->coordinates.preset.row, 4);
 }
 
+TEST(Presets, AreCorrectedInAllThatTheyHold) {
+  World world("mill5-table-table");
+  control::heidenhain::Control::PresetChange change;
+  change.origin = {1, 2, 3};
+  change.spaceAngles[2] = 10;
+  change.rotaryOffset[4] = 20;
+  world.control->writePreset(1, change);
+  expectFinished(world.run("PRESET SELECT #1\nPRESET CORR X+0.5 Z-1 SPC+45 C-4\nL C+0 FMAX\n"));
+  const auto& row = world.control->coordinates.preset;
+  EXPECT_TRUE(near(row.origin, {1.5, 2, 2}));
+  EXPECT_NEAR(row.spaceAngles.z(), 55, 1e-9);
+  EXPECT_NEAR(world.machine->steps.back().axes[4], 16, 1e-9);
+  EXPECT_THAT(messageOf(world.run("PRESET CORR B+1\n")), HasSubstr("no axis B"));
+}
+
 /// Where the alarm of a run stands, and what it quotes.
 std::string placeOf(const RunResult& result) {
   if (result.diagnostics.empty()) return "none";

@@ -77,6 +77,9 @@ std::string toolsOf(const TypedTable& tools) {
 
 std::string Control::toolRowNamed(const std::string& name) const {
   if (const auto row = findToolNamed(tables.tools, name)) return *row;
+  if (name.empty()) {
+    throw Alarm("Tool not defined", "The name of the tool is empty", "give the QS parameter its text before");
+  }
   throw Alarm("Tool not defined", fmt::format("TOOL.T has no tool named {}", name),
               "add the tool or correct its name; " + toolsOf(tables.tools));
 }

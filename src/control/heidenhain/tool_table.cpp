@@ -91,6 +91,7 @@ std::optional<Tool> findTool(const TypedTable& table, std::string_view number) {
 }
 
 std::optional<std::string> findToolNamed(const TypedTable& table, std::string_view name) {
+  if (name.empty()) return std::nullopt;  // tools without a name have none to be found by
   for (const std::string& key : table.table().keys()) {
     if (table.text(key, "NAME") == name) return key;
   }

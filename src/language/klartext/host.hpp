@@ -130,6 +130,8 @@ private:
   void selectDatumTable(const std::string& name);
   void activatePreset(int row, bool keepTransformations);
   int presetRowOf(const Word& word, Evaluation& evaluation) const;
+  void correctPreset(control::heidenhain::ActivePreset& preset, control::heidenhain::Control::PresetChange& change,
+                     WordRange words, Evaluation& evaluation);
   void presetCommand(std::string_view name, const Command& command, Evaluation& evaluation);
 
   // host_planes.cpp

@@ -59,10 +59,11 @@ void KlartextHost::message(std::string text) {
 }
 
 /// FUNCTION blocks other than TCPM. Feed, spindle, collision monitoring, counters and lift off leave alone where the
-/// tool is. MODE MILL is what a run has anyway; all other modes change coordinates or kinematics.
+/// tool is, but COUNT REPEAT jumps. MODE MILL is what a run has anyway; all other modes change coordinates or
+/// kinematics. What was never switched on need not be switched off.
 void KlartextHost::functionBlock(std::string_view text, Evaluation& evaluation) {
-  static constexpr std::array<std::string_view, 8> harmless = {"FEED", "S-PULSE", "SPINDLE", "AFC",
-                                                               "DCM",  "LIFTOFF", "COUNT",   "ACC"};
+  static constexpr std::array<std::string_view, 9> harmless = {"TURNDATA SPIN", "FEED",    "S-PULSE", "SPINDLE", "AFC",
+                                                               "DCM",           "LIFTOFF", "COUNT",   "ACC"};
   const auto begins = [&](std::string_view word) {
     return text.size() >= word.size() && std::ranges::equal(text.substr(0, word.size()), word, {}, upper);
   };
@@ -76,14 +77,21 @@ void KlartextHost::functionBlock(std::string_view text, Evaluation& evaluation) 
     control_.turningMode =
         is("TURN") || (mode.size() > 4 && std::ranges::equal(mode.substr(0, 4), "TURN"sv, {}, upper));
     if (!is("MILL")) leaveOut(fmt::format("FUNCTION MODE {}", mode));
-  } else if (begins("DWELL TIME")) {
+  } else if (begins("DWELL TIME") || begins("DWELL REV")) {
     contour_.flush();
-    std::string_view time = text.substr(10);
+    const bool revolutions = begins("DWELL REV");
+    std::string_view time = text.substr(revolutions ? 9 : 10);
     while (time.starts_with(' '))
       time.remove_prefix(1);
-    const auto seconds = parseDecimal(time);
-    dwell(seconds ? *seconds : numberNamed(time, evaluation));
-  } else if (std::ranges::none_of(harmless, begins)) {
+    const auto written = parseDecimal(time);
+    const double value = written ? *written : numberNamed(time, evaluation);
+    const double speed = control_.tool.spindleSpeed;
+    if (revolutions && !(spindleRuns_ && speed > 0)) {
+      throw Alarm("Dwell time wrong", "FUNCTION DWELL REV counts revolutions, and the spindle stands",
+                  "switch the spindle on before this block, or program FUNCTION DWELL TIME");
+    }
+    dwell(revolutions ? 60 * value / speed : value);
+  } else if (begins("COUNT REPEAT") || (std::ranges::none_of(harmless, begins) && !endsWithWord(text, "OFF"))) {
     leaveOut(fmt::format("FUNCTION {}", text));
   }
 }

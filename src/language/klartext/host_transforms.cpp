@@ -85,6 +85,9 @@ void KlartextHost::transform(const Transform& transform, Evaluation& evaluation)
         current.scale[axis] = factor;
       } else if (address.size() == 3 && address[2] >= 'X' && address[2] <= 'Z') {
         current.scaleCentre[address[2] - 'X'] = length(word.value, evaluation);
+      } else {
+        throw Alarm("Axis not permitted", fmt::format("Cycle 26 scales X, Y and Z, not {}", address),
+                    "take this axis out of the cycle");
       }
     }
   } else if (name == "CYCL DEF 19") {
@@ -189,6 +192,28 @@ int KlartextHost::presetRowOf(const Word& word, Evaluation& evaluation) const {
               "correct the text or name the row by its number");
 }
 
+/// PRESET CORR: what is to be added to origin, space angles and offsets of rotary axes.
+void KlartextHost::correctPreset(control::heidenhain::ActivePreset& preset,
+                                 control::heidenhain::Control::PresetChange& change, WordRange words,
+                                 Evaluation& evaluation) {
+  constexpr std::array<std::string_view, 3> angles = {"SPA", "SPB", "SPC"};
+  for (const Word& word : evaluation.words(words)) {
+    const auto angle = std::ranges::find_if(angles, [&](auto name) { return addressOf(name) == word.address; });
+    if (angle != angles.end()) {
+      preset.spaceAngles[angle - angles.begin()] += evaluation.number(word.value);
+      continue;
+    }
+    if (const int linear = linearAxis(word); linear >= 0) {
+      preset.origin[linear] += length(word.value, evaluation);
+      continue;
+    }
+    const std::size_t axis = axisOf(static_cast<char>(word.address));
+    const bool rotary = control_.channel.description().axes[axis].kind == machine::AxisKind::Rotary;
+    change.rotaryOffset[axis] =
+        preset.rotaryOffset[axis] + (rotary ? evaluation.number(word.value) : length(word.value, evaluation));
+  }
+}
+
 void KlartextHost::presetCommand(std::string_view name, const Command& command, Evaluation& evaluation) {
   settle();
   const auto row = [&](std::string_view address) {
@@ -204,16 +229,13 @@ void KlartextHost::presetCommand(std::string_view name, const Command& command, 
   const int target = name == "PRESET COPY" ? row("TO") : source;
   auto preset = control_.presetRow(source);
   if (!preset) throw Alarm("Preset not defined", fmt::format("The preset table has no row {}", source));
-  for (const Word& word : evaluation.words(command.words)) {
-    const int axis = linearAxis(word);
-    if (axis >= 0) preset->origin[axis] += length(word.value, evaluation);
-  }
   control::heidenhain::Control::PresetChange change;
+  const auto& axes = control_.channel.description().axes;
+  if (name == "PRESET CORR") correctPreset(*preset, change, command.words, evaluation);
   for (std::size_t i = 0; i < 3; ++i) {
     change.origin[i] = preset->origin[static_cast<Eigen::Index>(i)];
     if (control_.isTNC640() || i == 2) change.spaceAngles[i] = preset->spaceAngles[static_cast<Eigen::Index>(i)];
   }
-  const auto& axes = control_.channel.description().axes;
   for (std::size_t i = 0; name == "PRESET COPY" && i < axes.size(); ++i) {
     if (axes[i].kind == machine::AxisKind::Rotary) change.rotaryOffset[i] = preset->rotaryOffset[i];
   }

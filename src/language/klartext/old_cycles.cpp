@@ -67,19 +67,21 @@ bool BlockParser::nextPart(std::string_view first, std::string_view second, Part
 
 bool BlockParser::axisList(bool withValues) {
   while (!lexer_.atEnd()) {
-    const bool incremental = lexer_.peek() == 'I';
-    if (incremental) lexer_.advance();
-    const char axis = lexer_.peek();
-    if (axis == '\0' || axisLetters.find(axis) == std::string_view::npos) {
-      return error("an axis letter is expected here");
-    }
-    lexer_.advance();
-    if (!withValues) {
-      addWord(addressOf({&axis, 1}), {});
-    } else if (!word(addressOf({&axis, 1}), {&axis, 1}, incremental ? WordMode::Incremental : WordMode::Plain)) {
-      return false;
-    }
+    if (!axisWord(withValues)) return false;
   }
+  return true;
+}
+
+bool BlockParser::axisWord(bool withValue) {
+  const bool incremental = lexer_.peek() == 'I';
+  if (incremental) lexer_.advance();
+  const char axis = lexer_.peek();
+  if (axis == '\0' || axisLetters.find(axis) == std::string_view::npos) {
+    return error("an axis letter is expected here");
+  }
+  lexer_.advance();
+  if (withValue) return word(addressOf({&axis, 1}), {&axis, 1}, incremental ? WordMode::Incremental : WordMode::Plain);
+  addWord(addressOf({&axis, 1}), {});
   return true;
 }
 

@@ -141,6 +141,7 @@ protected:
   bool oldCycle(int number);
   bool oldCyclePart(Part part);
   bool axisList(bool withValues);
+  bool axisWord(bool withValue = true);
 
   // plane.cpp
   bool plane();

@@ -34,6 +34,8 @@ constexpr std::array<std::string_view, 24> definitionWords = {
     "SPA", "SPB", "SPC", "PROPR", "PROMIN", "EULPR", "EULNU", "EULROT", "ROT", "BX",  "BY",  "BZ",
     "NX",  "NY",  "NZ",  "P1X",   "P1Y",    "P1Z",   "P2X",   "P2Y",    "P2Z", "P3X", "P3Y", "P3Z"};
 
+constexpr std::array<std::string_view, 3> spaceAngleWords = {"SPA", "SPB", "SPC"};
+
 bool definesPlane(std::uint32_t address) {
   return (address >= 'A' && address <= 'C') ||
          std::ranges::any_of(definitionWords, [address](std::string_view name) { return addressOf(name) == address; });
@@ -295,7 +297,14 @@ bool BlockParser::presetKeyword() {
   } else if (lexer_.acceptKeyword("CORR")) {
     name = "PRESET CORR";
     if (lexer_.atEnd()) return error("an axis with its correction is expected here", "write PRESET CORR X+0.1");
-    if (!axisList(true)) return false;
+    while (!lexer_.atEnd()) {
+      const auto angle = std::ranges::find_if(spaceAngleWords, [&](auto word) { return lexer_.acceptPrefix(word); });
+      if (angle != spaceAngleWords.end()) {
+        if (!word(addressOf(*angle), *angle)) return false;
+      } else if (!axisWord()) {
+        return false;
+      }
+    }
   } else {
     return error("SELECT, COPY or CORR is expected after PRESET");
   }
