@@ -172,6 +172,16 @@ TEST(DinIsoCheck, FindsNothingInAGoodProgram) {
     ADD_FAILURE() << format(diagnostic);
 }
 
+TEST(DinIsoCheck, TheUnitStandsInTheHeadOnly) {
+  EXPECT_TRUE(checked("%A G71 *\nN10 G71 G90 *\nN99999999 %A G71 *\n").empty());
+  EXPECT_TRUE(checked("%A G70 *\nN10 G70 *\nN99999999 %A G70 *\n").empty());
+  const Diagnostics toInch = checked("%A G71 *\nN10 G90 G70 *\nN99999999 %A G71 *\n");
+  ASSERT_EQ(toInch.size(), 1U);
+  EXPECT_EQ(toInch[0].message, "G70 changes the unit in the middle of the program");
+  EXPECT_EQ(toInch[0].place.column, 9U);
+  EXPECT_EQ(checked("%A G70 *\nN10 G71 *\nN99999999 %A G70 *\n").size(), 1U);
+}
+
 TEST(DinIsoCheck, NamesMistakesWithTheirPlace) {
   const Diagnostics found = checked(
       "%A G71 *\nN10 L7 *\nN20 G98 L1 *\nN30 G98 L1 *\nN40 G417 TOP ~\nQ263=+0 ~\nQ264=+0 ~\nQ294=+0 ~\nQ320=-1 ~\n"

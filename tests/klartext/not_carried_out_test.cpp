@@ -82,6 +82,8 @@ TEST(NotCarriedOut, IsNamedInDinIsoToo) {
       Case{"N10 D17 SYSWRITE ID990 NR1 = +1 *", "FN 17: SYSWRITE ID990 NR1 is not simulated and was skipped"},
       Case{"N10 M138 A *", "M138 is not simulated and was skipped"},
       Case{"N10 G203 DRILLING Q200=+2 *\nN20 G79 *", "Cycle 203 is not simulated and was skipped"},
+      Case{"N10 G584 LASER Q350=+1 *",
+           "Touch probe cycle 584, which is of the machine tool builder, is not simulated and was skipped"},
       Case{"N10 G332 TUNING Q240=+1 *", "Cycle 332 is not simulated and was skipped"},
       Case{"N10 G483 MEASURE TOOL Q340=+1 *",
            "Touch probe cycle 483, which measures tools, is not simulated and was skipped"}};

@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view axisLetters = "XYZABCUVW";
 
 bool isTouchProbeCycle(int number) {
-  return (number >= 400 && number < 500) || (number >= 1400 && number < 1500) ||
+  return (number >= 400 && number <= 601) || (number >= 1400 && number < 1500) ||
          cycles::heidenhainCycle(number) != nullptr;
 }
 

@@ -22,8 +22,9 @@ int oldMachiningCycle(int function);
 class BlockParser : private klartext::BlockParser {
 public:
   /// `text`: the block without the sign that ends it. `first`: this is the first statement of the program.
-  BlockParser(std::string_view text, const std::string& file, Block& block, Diagnostics& diagnostics, bool first)
-      : klartext::BlockParser(text, file, block, diagnostics), first_(first) {}
+  BlockParser(std::string_view text, const std::string& file, Block& block, Diagnostics& diagnostics, bool first,
+              bool inch)
+      : klartext::BlockParser(text, file, block, diagnostics), first_(first), inch_(inch) {}
 
   void parse();
 
@@ -81,6 +82,7 @@ private:
   static constexpr std::size_t mostWords = 16;
 
   bool first_;
+  bool inch_;  ///< the unit of the program
   WordMode mode_ = WordMode::Plain;
   int function_ = -1;  ///< G function that decides what the block does
   bool motion_ = false;

@@ -65,7 +65,8 @@ bool DinIsoProgram::parse(BlockPosition position, Block& block, Diagnostics& dia
   block.next = text.next;
   if (block.next.offset == position.offset) return false;
   block.source = block.add(text.whole);
-  BlockParser(text.statement, file(), block, diagnostics, position.offset == first_).parse();
+  BlockParser(text.statement, file(), block, diagnostics, position.offset == first_, unit_ == klartext::Unit::Inch)
+      .parse();
   return true;
 }
 

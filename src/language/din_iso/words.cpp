@@ -147,7 +147,11 @@ bool BlockParser::preparatory() {
     }
     case 70:
     case 71:
-    case 50:  // unit and protection of the program: of its head
+      if ((number == 70) == inch_) return true;
+      lexer_.seek(start);
+      return error(fmt::format("G{} changes the unit in the middle of the program", number),
+                   fmt::format("the unit stands behind the name of the program: %NAME G{}", number));
+    case 50:  // protection of the program
       return true;
     default:
       break;
