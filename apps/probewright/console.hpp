@@ -10,7 +10,7 @@
 namespace probewright::app {
 
 /// The text in UTF-8 and without control characters but the line feed: each is shown as `\xNN`, a tab as a space.
-/// Bytes that are no UTF-8 are read in `encoding`.
+/// Bytes that are not UTF-8 are read in `encoding`.
 std::string printable(std::string_view text, language::Encoding encoding = language::Encoding::Windows1252);
 
 /// Writes messages to standard error, each as `format` gives it.

@@ -5,7 +5,7 @@
 
 namespace probewright::app {
 
-/// Ctrl-C as a stop token, while it lives. The second Ctrl-C ends the program as if nobody watched.
+/// Ctrl-C as a stop token, while it lives. The second Ctrl-C ends the program as it would without this.
 class Interruption {
 public:
   Interruption();

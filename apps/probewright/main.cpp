@@ -84,7 +84,7 @@ CLI::Option& addChoice(CLI::App& command, const std::string& name, Value& value,
 }
 
 /// The unknown word of a command line: an option that the subcommand does not have, or no subcommand at all; empty if
-/// all are known. What else is missing is no help to somebody who mistyped a word.
+/// all are known. A list of what else is missing would not help with a mistyped word.
 std::string unknownWord(const CLI::App& app, int argc, char** argv) {
   if (argc < 2) return {};
   const std::string first = argv[1];

@@ -61,7 +61,7 @@ bool askOnTerminal(const std::string& text) {
   return false;
 }
 
-/// Asks until the answer can be understood or the input ends. Nothing where nobody sits at the terminal.
+/// Asks until the answer can be understood or the input ends. Nothing if there is no terminal.
 std::optional<std::string> answerOnTerminal(const control::Question& question) {
   if (isatty(STDIN_FILENO) == 0) return std::nullopt;
   std::fputs(fmt::format("\n{}: {}\n", printable(question.name), question.wanted).c_str(), stdout);

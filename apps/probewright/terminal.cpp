@@ -41,7 +41,7 @@ std::string fittedLine(std::string_view line, std::size_t columns) {
   std::size_t begin = 0, room = columns;
   while (true) {
     std::size_t width = 0, blank = 0, gap = 0, at = begin;
-    bool word = false;  // blanks before the first word are no place to break
+    bool word = false;  // no break between the blanks before the first word
     for (; at < line.size() && width <= room; at += step(line, at, width)) {
       if (line[at] != ' ') {
         word = true;

@@ -80,7 +80,7 @@ bool writeAll(int descriptor, std::string_view bytes) {
 }
 
 Result<std::string> readFile(const std::filesystem::path& path, std::uint64_t most) {
-  // Without O_NONBLOCK a pipe that nobody writes into would hold up the program here for ever.
+  // Without O_NONBLOCK a pipe that nothing writes into would hold up the program here for ever.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
   struct stat status {};
   if (file.number() < 0) {

@@ -151,7 +151,7 @@ Result<void> writeAside(const Files& files, const fs::path& aside, const fs::pat
 
 // ---- one folder for the other ----
 
-/// True if a process stands in the folder: it would find itself in a folder that is gone.
+/// True if the folder is the working folder of a process: it would find itself in a folder that is gone.
 bool somebodyStandsIn(const fs::path& folder) {
   const auto own = identityOf(folder);
   const auto standsThere = [&](const fs::path& process) { return identityOf(process / "cwd") == own; };
@@ -170,7 +170,7 @@ bool canBeExchanged(const fs::path& folder) {
   return !somebodyStandsIn(folder);
 }
 
-/// What is left of the folder `old`, for which `folder` stands now. Files that somebody put there at the last moment go
+/// What is left of the folder `old`, for which `folder` stands now. Files that were put there at the last moment go
 /// over. Hidden files go last: one of them tells which of the others are ours.
 void clearOld(const fs::path& old, const fs::path& folder, const std::function<bool(const std::string&)>& isOurs) {
   bool cleared = true;

@@ -18,7 +18,7 @@ namespace probewright {
 /// One that works on the set of files of a folder; others wait.
 class FolderLock {
 public:
-  /// Makes the folder if it is missing, waits until nobody else works on it and, if somebody was killed at it, clears
+  /// Makes the folder if it is missing, waits until no other run works on it and, if a run was killed at it, clears
   /// up: afterwards the folder holds the set before or the one after. `onWait` is told if there is a wait. `isOurs`:
   /// whether a file in a folder belongs to the set.
   static Result<FolderLock> take(const std::filesystem::path& folder, const std::function<void()>& onWait,

@@ -273,7 +273,7 @@ std::vector<std::string> TomlReader::keys() const {
 
 namespace {
 
-/// The known key that somebody meant: the only one that begins so (min, accel), or the most similar one.
+/// The known key that was meant: the only one that begins so (min, accel), or the most similar one.
 std::optional<std::string> meantKey(std::string_view word, const std::vector<std::string>& known) {
   constexpr std::size_t shortestBeginning = 3;
   const auto begun = [&](const std::string& name) { return name.starts_with(word); };

@@ -16,7 +16,7 @@
 #include "base/diagnostic.hpp"
 #include "base/nearest_name.hpp"
 
-/// Reading TOML files that people write: every mistake gets its place, and a key nobody asked for is a mistake.
+/// Reading TOML files that people write: every mistake gets its place, and a key that is not asked for is a mistake.
 namespace probewright {
 
 /// What numbers a key may have. Infinite bounds are open.
@@ -33,7 +33,7 @@ struct NumberRange {
 /// The table that `text` writes; nothing after a syntax error, which is then in `diagnostics`.
 std::optional<toml::table> parseToml(std::string_view text, const std::string& file, Diagnostics& diagnostics);
 
-/// A table being read. Ask for each key that may be there, then finish(): what nobody asked for is reported with the
+/// A table being read. Ask for each key that may be there, then finish(): what was not asked for is reported with the
 /// nearest name that was. All functions report mistakes to `diagnostics` and go on.
 class TomlReader {
 public:

@@ -296,7 +296,7 @@ private:
     set(332, task_.wish[1].value_or(0));
   }
 
-  /// Every parameter of the cycle stands in the call, those not set with the value that does nothing.
+  /// Every parameter of the cycle is in the call, those not set with the value that does nothing.
   void fillUp() {
     const cycles::CycleDefinition* definition = cycles::heidenhainCycle(std::stoi(call_.cycle));
     if (!definition->controls.contains(control_)) {

@@ -13,7 +13,7 @@ using namespace language;
 
 namespace {
 
-/// As far as a stroke goes in a hole whose size nobody tells, and how fast; mm, mm/min.
+/// As far as a stroke goes in a hole whose size is not known, and how fast; mm, mm/min.
 constexpr double stroke = 40, strokeFeed = 300;
 
 }  // namespace

@@ -405,7 +405,7 @@ private:
   const MeasuringTask& task_;
   Quantity ballRadius_;
   Losses& losses_;
-  Quantity path_;  ///< S_FA: as far in front of the place as behind it
+  Quantity path_;  ///< S_FA: as far before the place as after it
   SinumerikPassage passage_;
 };
 

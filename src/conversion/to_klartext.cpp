@@ -151,7 +151,7 @@ void ToKlartext::write(const Block& block) {
 }
 
 void ToKlartext::statements(const Block& block) {
-  // A tool change stands in one block with its M6; suppression of the tool length belongs to a motion on the machine.
+  // A tool change is in one block with its M6; suppression of the tool length belongs to a motion on the machine.
   for (const Instruction& each : block.instructions)
     instruction(block, each);
 }

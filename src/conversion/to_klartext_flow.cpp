@@ -122,7 +122,7 @@ void ToKlartext::surveyFlow() {
     const std::string_view own = block.at(block.label);
     labels_.emplace(blocks[place].position.offset, unusedLabel(own.empty() ? "START" : own));
   };
-  // A label may stand in a SINUMERIK program more than once: each place gets a name of its own.
+  // A label may be in a SINUMERIK program more than once: each place gets a name of its own.
   for (const FlowBlock& each : blocks) {
     program_.parse(each.position, block, ignored);
     const bool jumps = std::ranges::any_of(block.instructions, [](const Instruction& instruction) {

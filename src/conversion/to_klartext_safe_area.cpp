@@ -7,7 +7,7 @@
 #include "conversion/sinumerik_formulas.hpp"
 #include "conversion/to_klartext.hpp"
 
-/// The safe area (S_TSA) of SINUMERIK measuring cycles, which touch probe cycles do not have: behind them the program
+/// The safe area (S_TSA) of SINUMERIK measuring cycles, which touch probe cycles do not have: after them the program
 /// compares, and takes back what they have written before it stops.
 namespace probewright::conversion {
 

@@ -29,7 +29,7 @@ public:
   using Open = std::function<Result<std::shared_ptr<Program>>(const std::filesystem::path&)>;
 
   /// `endings`: with their point and in the order of preference, for instance {".SPF", ".MPF"}. `folders` are
-  /// searched behind the folder of the caller.
+  /// searched after the folder of the caller.
   DirectoryLibrary(std::vector<std::string> endings, Open open, std::vector<std::filesystem::path> folders = {});
 
   Result<std::shared_ptr<Program>> open(std::string_view name, const Program* caller) override;

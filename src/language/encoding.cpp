@@ -93,7 +93,7 @@ void readAsWord(std::string_view run, Evidence& evidence) {
   if (run.size() < 2) return;
   const auto letter = [](char c) { return isCyrillic(static_cast<Byte>(c)); };
   if (!std::all_of(run.begin(), run.end(), letter)) return;
-  // All capitals, or small letters behind at most one capital.
+  // All capitals, or small letters after at most one capital.
   const auto small = [](char c) { return static_cast<Byte>(c) >= 0xe0; };
   const auto smallCount = std::count_if(run.begin() + 1, run.end(), small);
   if (smallCount != 0 && smallCount != static_cast<std::ptrdiff_t>(run.size()) - 1) return;

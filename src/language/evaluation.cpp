@@ -86,7 +86,7 @@ double Evaluation::number(const Operand& operand) {
 
 namespace {
 
-/// Twelve significant digits: what lies behind them is noise of computing.
+/// Twelve significant digits: what lies after them is noise of computing.
 double shown(double value) {
   if (value == 0 || value == std::trunc(value)) return value;
   const double digits = 11 - std::floor(std::log10(std::abs(value)));

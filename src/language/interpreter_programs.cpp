@@ -7,7 +7,7 @@
 
 #include "language/interpreter.hpp"
 
-/// Programs that call each other: with arguments, repeatedly, in sections, behind each motion.
+/// Programs that call each other: with arguments, repeatedly, in sections, after each motion.
 namespace probewright::language {
 
 namespace {

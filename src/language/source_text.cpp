@@ -35,7 +35,7 @@ struct SourceText::Storage {
     if (mapping != nullptr) ::munmap(mapping, size);
   }
 
-  /// Lets go of everything in front of `offset`; touching it again only reads it from the page cache again.
+  /// Lets go of everything before `offset`; touching it again only reads it from the page cache again.
   void release(std::uint64_t offset) {
     const std::uint64_t kept = offset & ~((std::uint64_t{1} << 16U) - 1);
     ::madvise(mapping, kept, MADV_DONTNEED);

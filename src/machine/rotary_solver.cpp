@@ -138,7 +138,7 @@ std::vector<AxisPositions> solveRotaryAxes(const MachineDescription& machine, co
     keep(candidate);
     return solutions;
   }
-  // The last two joints turn the tool; what stands in front of them stays as it is.
+  // The last two joints turn the tool; what is before them stays as it is.
   Vector3 target = wanted;
   for (std::size_t i = 0; i + 2 < joints.size(); ++i) {
     target = rotation(joints[i].direction, -joints[i].sign * now[joints[i].axis]).linear() * target;

@@ -23,8 +23,8 @@ Matrix3 toolOrientation(const MachineDescription& machine, const AxisPositions& 
 /// tool about itself; nothing if there is none.
 struct TiltingAxis {
   std::size_t axis = 0;
-  /// Where the tool points as nearly as it can along the positive direction of the rotary axis in front of it, degrees
-  /// in machine coordinates; there the two solutions of a direction lie opposite each other. 0 if it stands alone.
+  /// The angle at which the tool points most nearly along the positive direction of the rotary axis before it, degrees
+  /// in machine coordinates; there the two solutions of a direction lie opposite each other. 0 if it is the only one.
   double symmetry = 0;
 };
 std::optional<TiltingAxis> tiltingAxis(const MachineDescription& machine, const Vector3& toolAxis);

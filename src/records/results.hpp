@@ -15,13 +15,13 @@ namespace probewright::records {
 inline constexpr int resultsSchemaVersion = 1;
 
 /// Everything that a run left behind. Lengths in mm, angles in degrees, times in seconds of the machine clock. A value
-/// that is no number (NaN, infinity) becomes null; texts become UTF-8 (see ReadableText).
+/// that is not a number (NaN, infinity) becomes null; texts become UTF-8 (see ReadableText).
 nlohmann::json resultsJson(const control::Journal& journal, const RunInfo& run);
 
 /// How JSON is laid out.
 enum class Layout { Indented, Compact };
 
-/// The same as text, element by element: a run may leave more than should stand in memory a second time.
+/// The same as text, element by element: a run may leave more than should be in memory a second time.
 void writeResults(const Sink& sink, const control::Journal& journal, const RunInfo& run, Layout layout);
 
 /// The text of `results.json`: indented UTF-8, numbers in the shortest form that reads back as the same

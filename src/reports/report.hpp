@@ -17,7 +17,7 @@ namespace probewright::reports {
 std::string reportHtml(const control::Journal& journal, const records::RunInfo& run, const Scene& scene,
                        std::size_t longestProgram = 20000);
 
-/// The same piece by piece, for runs that leave more than should stand in memory a second time.
+/// The same piece by piece, for runs that leave more than should be in memory a second time.
 void writeReport(const Sink& sink, const control::Journal& journal, const records::RunInfo& run, const Scene& scene,
                  std::size_t longestProgram = 20000);
 

@@ -237,7 +237,7 @@ int activePresetRow(const Setup& setup) {
 
 hh::MachineParameters machineParameters(const Setup& setup, ControlKind kind, Diagnostics& diagnostics) {
   hh::MachineParameters parameters;
-  // On the iTNC 530 the probing values stand in machine parameters, not in a table: the probe in use sets them.
+  // On the iTNC 530 the probing values are in machine parameters, not in a table: the probe in use sets them.
   for (const BelievedTool& tool : setup.tools) {
     if (tool.kind != "probe") continue;
     parameters.mp6120 = tool.feed;

@@ -53,7 +53,7 @@ void forEachLine(std::string_view text, Use use) {
   }
 }
 
-/// What stands in front of the keyword and behind the statement of a DIN/ISO block, blanked, so that comments and names
+/// What comes before the keyword and after the statement of a DIN/ISO block, blanked, so that comments and names
 /// are found where Klartext has them.
 void blankDinIsoSigns(Block& block) {
   const std::string_view source = block.at(block.source);
@@ -73,7 +73,7 @@ bool isAddition(const Block& block, const Instruction& instruction) {
          (command != nullptr && block.at(command->name) == "CYCL CALL");
 }
 
-/// Watches for DIN/ISO blocks whose meaning hangs on what runs before them.
+/// Watches for DIN/ISO blocks whose meaning depends on what runs before them.
 class OrderWatch {
 public:
   explicit OrderWatch(HeidenhainProgram& program) {
@@ -83,7 +83,7 @@ public:
       usesIncremental_ = usesIncremental_ || sets(block, "G91");
   }
 
-  /// What the block takes over from blocks that may not be the ones in front of it; empty if nothing.
+  /// What the block takes over from blocks that may not be the ones before it; empty if nothing.
   std::string look(const Block& block) {
     std::string relied;
     const bool setsMode = sets(block, "G90") || sets(block, "G91");
@@ -285,7 +285,7 @@ private:
     });
   }
 
-  /// Appends the lines of a block with their numbers. Lines behind a `~` have none.
+  /// Appends the lines of a block with their numbers. Lines after a `~` have none.
   void line(const std::string& text, bool mayContinue) {
     bool continued = false;
     forEachLine(text, [&](std::string_view one) {
@@ -313,7 +313,7 @@ private:
   std::uint64_t number_ = 0;
 };
 
-/// Leads a message about a program half way, which nobody has seen, back to the block that its line comes from.
+/// Leads a message about a program half way, which the user has not seen, back to the block that its line comes from.
 void placeInOriginal(Diagnostic& message, language::Program& program, const std::vector<BlockPosition>& origins) {
   const std::uint64_t line = message.place.line;
   message.place.line = message.place.column = 0;

@@ -28,7 +28,7 @@ struct ConvertOptions {
 
 /// The program, which is one of the language `from`, in the language `to`. What the blocks do is kept, and their
 /// comments; layout and block numbers are those of the other language. Between the two languages of a HEIDENHAIN
-/// control a DIN/ISO block behind a label or a call that relies on G90, G91 or a path function in front of it is listed
+/// control a DIN/ISO block after a label or a call that relies on G90, G91 or a path function before it is listed
 /// too.
 Conversion convert(language::Program& program, ProgramLanguage from, ProgramLanguage to,
                    const ConvertOptions& options = {});

@@ -6,7 +6,7 @@
 /// Tools as the SINUMERIK control of a lathe keeps them.
 namespace probewright::session {
 
-/// True for a machine without a Y axis: its tools stand in the X-Z plane, its programs in G18.
+/// True for a machine without a Y axis: its tools are in the X-Z plane, its programs in G18.
 bool isLathe(const machine::MachineDescription& machine);
 
 /// Enters `tool` as edge 1: length 1 in X, length 2 in Z, whatever its type. A probe becomes type 580 with the cutting

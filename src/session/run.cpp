@@ -47,7 +47,7 @@ language::InterpreterOptions interpreterOptions(const RunOptions& options, Contr
   return interpreter;
 }
 
-/// How the control greets the operator with the panel's habits. The panel must not outlive `options` and `setup`.
+/// Sets what the panel shows, asks and stops at. The panel must not outlive `options` and `setup`.
 void setPanel(control::OperatorPanel& panel, const simulation::Setup& setup, const RunOptions& options) {
   panel.onStop = options.onStop;
   panel.ask = options.ask;
@@ -226,7 +226,7 @@ void addDefinitionFiles(RunOutcome& outcome, const fs::path& tables) {
   }
 }
 
-/// Behind a block search the machine catches up: tool, spindle, then straight to where the program stands.
+/// After a block search the machine catches up: tool, spindle, then straight to where the program stands.
 void goOnMoving(StandingMachine& machine, sin::Control& control) {
   const machine::AxisPositions target = machine.position();
   machine.release();

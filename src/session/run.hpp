@@ -37,9 +37,9 @@ struct RunOptions {
   bool strict = false;                          ///< refuse machining cycles that are not simulated
   control::OnStop onStop = control::OnStop::Continue;
   std::function<bool(const std::string& text)> ask;
-  /// What a semi-automatic cycle asks for, by the name of the question; they go before those of the setup.
+  /// What a semi-automatic cycle asks for, by the name of the question; they take precedence over those of the setup.
   std::map<std::string, std::string> answers;
-  /// Asked what neither of both answers.
+  /// Asked what neither the file nor the setup answers.
   std::function<std::optional<std::string>(const control::Question& question)> answer;
   std::uint64_t stepLimit = 50'000'000;
   /// Bytes of memory that events, results, writes and files of a run may take: an endless loop that leaves something
@@ -61,7 +61,7 @@ struct RunOptions {
   control::DialogLanguage language = control::DialogLanguage::English;  ///< of logs and screens
   std::vector<std::string> measuringLogs;  ///< SINUMERIK: logs of all measurements; a table if the name ends in .csv
   bool showAllResults = false;             ///< screens of results even where nothing asks for them
-  /// Told now and then how many blocks have been carried out.
+  /// Told from time to time how many blocks have been carried out.
   std::function<void(std::uint64_t blocks)> progress;
   /// How files of parts are imported; `stop` above stops that, too.
   simulation::ImportOptions import;
@@ -76,7 +76,7 @@ struct RunOutcome {
   Diagnostics diagnostics;                              ///< mistakes found before the program could start
   std::map<std::string, std::string> files;             ///< what the control wrote: tables as changed, logs; by name
   std::vector<std::filesystem::path> inputs;            ///< what the program read and called
-  std::unique_ptr<simulation::VirtualMachine> machine;  ///< as it stands at the end; null if it could not be built
+  std::unique_ptr<simulation::VirtualMachine> machine;  ///< as it is at the end; null if it could not be built
   /// Machine coordinates (which are the table's at the start posture) from the workpiece system at the end.
   std::optional<Pose> machineFromWorkpiece;
   double ballRadius = 0;

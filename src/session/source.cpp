@@ -132,7 +132,7 @@ std::optional<Diagnostic> whyNoText(const std::filesystem::path& path, std::stri
     return because(fmt::format("this file is {}, which no control can read", utf32 ? "UTF-32" : "UTF-16"),
                    "save it as UTF-8 or in the code page of the control");
   }
-  // Zeros behind the text are what some transfers fill the last block with.
+  // Zeros after the text are what some transfers fill the last block with.
   head.erase(head.find_last_not_of('\0') + 1);
   const auto isBinary = [](unsigned char c) {
     return (c < 0x20 && c != '\t' && c != '\n' && c != '\f' && c != '\r' && c != 0x1A) || c == 0x7F;

@@ -197,7 +197,7 @@ std::string transferCad(const TransferOrder& order, const ChildVoice& voice) {
     shape = withoutKinks(shape);
     mesh(shape, order, voice);
     voice.say("stage preparing the faces");
-    // What cannot stand this shall not happen to the parent.
+    // What cannot survive this must not happen in the parent.
     cadFaces(shape, order.deflection);
     std::ostringstream bytes;
     BinTools::Write(shape, bytes, Standard_True, Standard_False, BinTools_FormatVersion_CURRENT);

@@ -13,7 +13,7 @@ enum class CadFormat { Step, Iges };
 struct TransferOrder {
   CadFormat format = CadFormat::Step;
   std::string file;   ///< its path
-  std::string bytes;  ///< what stands in it
+  std::string bytes;  ///< what is in it
   double deflection = 0.01;
   std::set<int> gridFaces;  ///< as FaceMeshOptions::left
   bool gridAll = false;     ///< as FaceMeshOptions::leaveAll

@@ -63,7 +63,7 @@ bool PathRecorder::chordHolds(std::size_t from, std::size_t to, double tolerance
   return true;
 }
 
-/// Leaves out points behind `first` that lie within `tolerance` of the chords that replace them; never the last point.
+/// Leaves out points after `first` that lie within `tolerance` of the chords that replace them; never the last point.
 void PathRecorder::thinOutFrom(std::size_t first, double tolerance) {
   std::vector<PathPoint>& points = record_.points;
   auto touch = std::ranges::upper_bound(record_.touches, first, {}, &PathTouch::pathPoint);

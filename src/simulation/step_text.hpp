@@ -14,7 +14,7 @@ namespace probewright::simulation {
 
 struct StepEntity {
   std::uint64_t line = 0;
-  std::string_view type;  ///< "ADVANCED_FACE"; empty where several types stand in one entity
+  std::string_view type;  ///< "ADVANCED_FACE"; empty where several types are in one entity
 };
 
 struct StepText {
@@ -28,7 +28,7 @@ struct StepText {
 /// An entity that refers to itself, directly or through others; 0 if there is none.
 std::uint64_t circularEntity(const StepText& text);
 
-/// Reads the entities of a STEP file. Refused: a file that is no STEP file or is cut short, brackets that are nested
+/// Reads the entities of a STEP file. Refused: a file that is not a STEP file or is cut short, brackets that are nested
 /// deeper than any part needs or never closed, texts without an end, two entities of one number. What stands between
 /// the brackets is not looked at. `bytes` must outlive the result.
 Result<StepText> scanStep(std::string_view bytes, const std::string& file);

@@ -83,7 +83,7 @@ Result<TriangleMesh> readBinary(std::string_view bytes, const std::string& file)
   return builder.take();
 }
 
-/// The words of an ASCII STL with the line they stand in.
+/// The words of an ASCII STL with the line they are in.
 class Words {
 public:
   explicit Words(std::string_view text) : text_(text) {}

@@ -392,7 +392,7 @@ void TextTable::writeCell(std::size_t line, std::size_t column, std::string_view
   }
   std::string cell(lead, ' ');
   cell += text;
-  // A line that ends within this column needs no blanks behind the entry, except those it already had.
+  // A line that ends within this column needs no blanks after the entry, except those it already had.
   const std::size_t padTo = oldWidth;
   if (lead + size < padTo) cell.append(padTo - lead - size, ' ');
   bytes.replace(old.begin, old.end - old.begin, cell);
@@ -452,7 +452,7 @@ Result<void> TextTable::addRow(std::string_view key) {
     if (!other || *other < *number) break;
     --at;
   }
-  // Behind the row before it, or before the row after it, or behind the header.
+  // After the row before it, or before the row after it, or after the header.
   std::size_t line = headerLine_ + 1;
   if (at > 0) {
     line = rowLines_[at - 1] + 1;

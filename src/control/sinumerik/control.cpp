@@ -181,7 +181,7 @@ void Control::handOverFrames() {
 void Control::write(const DataKey& key, double value) {
   const std::optional<DataValue> before = data.get(key);
   data.set(key, value);
-  // What is as it was is no correction.
+  // What has not changed is not a correction.
   if (before && shown(*before) == shown(value)) return;
   const std::string text = key.text();
   const std::size_t bracket = text.find('[');

@@ -34,7 +34,7 @@ DataKey componentKey(const DataKey& frame, std::string_view axis, FramePart part
   return key;
 }
 
-/// Negative, zero or positive as a stands before, with or behind b: numbers by value, before words.
+/// Negative, zero or positive as a comes before, with or after b: numbers by value, before words.
 int compareIndices(const std::string& a, const std::string& b) {
   const auto numberA = parseInteger(a);
   const auto numberB = parseInteger(b);

@@ -275,7 +275,7 @@ private:
       at_ = begin;
       return false;
     }
-    // An operator behind the constant makes it an expression.
+    // An operator after the constant makes it an expression.
     if (operatorFollows() || (!atEnd() && !isBlank(peek()))) {
       at_ = begin;
       return false;
@@ -425,7 +425,7 @@ private:
     }
   }
 
-  /// "(X,10,Y,5)"; "(X,Y)" for mirroring. Nothing if a value is no constant.
+  /// "(X,10,Y,5)"; "(X,Y)" for mirroring. Nothing if a value is not a constant.
   std::optional<std::vector<AxisValue>> readAxisValues(bool axesOnly) {
     std::vector<AxisValue> values;
     expect('(', "write the axes and values in brackets");

@@ -82,7 +82,7 @@ Result<std::string> InitText::updated(const DataStore& store, const Accepts& acc
   std::erase_if(added, [&](const DataKey& key) { return owner.contains(key) || (accepts && !accepts(key)); });
   const bool windows = !lines.empty() && lines.front().ends_with("\r\n");
   const std::string_view lineEnd = windows ? "\r\n" : "\n";
-  // A byte order mark stays in front of everything, new data included.
+  // A byte order mark stays before everything, new data included.
   constexpr std::string_view mark = "\xEF\xBB\xBF";
   std::string bytes;
   if (!lines.empty() && lines.front().starts_with(mark)) {

@@ -77,7 +77,7 @@ Across touchAcross(HeidenhainProber& prober, const CalibrationTask& task, const 
   const bool inside = task.side == Side::Inside;
   const double offset = prober.probe().tipOffset.norm(), ball = prober.probe().ballRadius;
   const double locus = task.standardRadius - probing::outwards(task.side) * ball;
-  // In a ring the spindle axis stands in the middle, where there is room for the stylus; beside a stud the ball does.
+  // In a ring the spindle axis is in the middle, where there is room for the stylus; beside a stud the ball does.
   const double along = inside ? offset : 0;
   if (!(locus > along)) {
     throw Alarm("Calibration not possible",

@@ -64,7 +64,7 @@ private:
     }
   }
 
-  /// Q1100 to Q1102 and so on: an actual position (@) stands in all three axes or in none.
+  /// Q1100 to Q1102 and so on: an actual position (@) is in all three axes or in none.
   void actualPosition(std::uint32_t first) {
     int given = 0;
     for (std::uint32_t i = 0; i < 3; ++i) {

@@ -33,7 +33,7 @@ std::string_view translated(std::string_view term, DialogLanguage language);
 
 /// The number of characters (code points) of a UTF-8 text: what columns are aligned by.
 std::size_t width(std::string_view utf8);
-/// `text` with blanks behind it up to `columns` characters.
+/// `text` with blanks after it up to `columns` characters.
 std::string padded(std::string_view text, std::size_t columns);
 
 }  // namespace probewright::cycles::heidenhain

@@ -20,7 +20,7 @@ namespace {
 constexpr const char* axisNames[] = {"main axis", "minor axis", "tool axis"};
 constexpr double largest = 99999.9999;
 
-/// The Q parameter that a text names behind "@": only Q1900 to Q1999 may hold actual positions.
+/// The Q parameter that a text names after "@": only Q1900 to Q1999 may hold actual positions.
 double actualFrom(Context& context, int number, const std::string& name) {
   const auto parameter = parseInteger(std::string_view(name).substr(1));
   if (!parameter || *parameter < 1900 || *parameter > 1999) {

@@ -13,7 +13,7 @@ namespace probewright::cycles::heidenhain {
 struct NominalValue {
   std::optional<double> nominal;            ///< absent in "?"
   std::optional<metrology::Limits> limits;  ///< absent: not monitored
-  std::optional<double> actual;             ///< behind "@": known, not to be probed
+  std::optional<double> actual;             ///< after "@": known, not to be probed
   bool semiAutomatic = false;               ///< "?": the operator moves the probe there
   /// What deviations count from: the middle of the tolerance, or the nominal value. Only with `nominal`.
   double middle() const { return limits ? limits->middle() : *nominal; }

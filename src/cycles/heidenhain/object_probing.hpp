@@ -33,7 +33,7 @@ private:
     std::vector<Vector3> tips;
     int direction = 0;
   };
-  /// "main minor tool; main minor tool" in the unit of the program, as the position display shows it. Behind the last
+  /// "main minor tool; main minor tool" in the unit of the program, as the position display shows it. After the last
   /// waypoint a direction may follow, where it can be chosen: "10 20 -5 Y-". Without waypoints the probe stays where it
   /// is. Nothing if the text is something else.
   std::optional<Way> wayOf(const std::string& text, bool choosesDirection) const;

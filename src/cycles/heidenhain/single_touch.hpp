@@ -9,7 +9,7 @@ namespace probewright::cycles::heidenhain {
 /// probe_word::coordinate), from wherever the probe stands.
 void moveToProgrammedPosition(Context& context);
 
-/// Of cycle 0, which chooses its parameter by its first word; cycle 1 leaves those behind the first.
+/// Of cycle 0, which chooses its parameter by its first word; cycle 1 leaves those after the first.
 inline constexpr ResultDefinition singleTouchResults[] = {
     {"Qn", "measured coordinate"},
     {"Q115", "position at the touch, X"},

@@ -25,7 +25,7 @@ struct MeasuredBall {
 };
 
 /// The probe ends over the centre at the safe height. The centre is exact whatever the first touches missed in the
-/// plane; its height is reckoned with the diameter. Without repetition the equator is the expected one: the diameter
+/// plane; its height is computed with the diameter. Without repetition the equator is the expected one: the diameter
 /// found is still exact to the second order of the error in height, since the pole is touched before.
 MeasuredBall measureBall(Context& context, const BallPlan& plan);
 

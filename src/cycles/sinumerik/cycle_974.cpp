@@ -39,7 +39,7 @@ constexpr Parameter parameters974[] = {
 
 constexpr auto results974 = parameters::joined(parameters::coordinateResults, parameters::correctionResults);
 
-/// The sign of the touch. No parameter gives it: the probe stands in front of the surface when the cycle starts.
+/// The sign of the touch. No parameter gives it: the probe is in front of the surface when the cycle starts.
 double touchSign(Context& context, TurnedFeature feature, double start, double set) {
   const double towards = set > start ? 1 : -1;
   const double expected = feature == TurnedFeature::Inside ? 1 : feature == TurnedFeature::Outside ? -1 : towards;

@@ -120,7 +120,7 @@ private:
   double starArm() const;
   /// An L-shaped probe.
   bool isBent() const { return context_.control().tool.type == 713; }
-  /// The radius of a ball of an L or star, as it stands in the tool data for touches along the tool.
+  /// The radius of a ball of an L or star, as it is in the tool data for touches along the tool.
   double ballAlongTool() const;
   void finishAtEdge(const Vector3& edge, const Vector3& direction);
   /// The length along the tool that acts as 1 mm along `axis`: more than 1 where the system leans against the tool.

@@ -45,7 +45,7 @@ class ProbeCalibration {
 public:
   explicit ProbeCalibration(Context& context);
 
-  /// The radius that start positions are reckoned with: as calibrated before, else as in the tool data. Of an L-shaped
+  /// The radius that start positions are computed with: as calibrated before, else as in the tool data. Of an L-shaped
   /// probe its reach: arm and ball.
   double assumedRadius() const;
   /// The tool centre point at the signal, mean of S_NMSP touches, with the feed of this calibration (S_VMS, or setting

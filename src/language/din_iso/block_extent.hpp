@@ -8,17 +8,17 @@ namespace probewright::language::din_iso {
 /// How far a block reaches.
 struct BlockExtent {
   std::size_t length = 0;     ///< bytes of the block without its last line end
-  std::size_t statement = 0;  ///< bytes up to the sign '*' that ends it, without a comment behind that sign
+  std::size_t statement = 0;  ///< bytes up to the sign '*' that ends it, without a comment after that sign
   std::size_t next = 0;       ///< where the next block begins
   std::uint64_t lines = 1;    ///< line ends up to `next`
 };
 
 /// The extent of the block at the beginning of `text`, which reaches to the end of the file. A block is one line; it
-/// goes on behind a `~` at the end of a line, and a cycle with parameters goes on with lines of parameters up to its
+/// goes on after a `~` at the end of a line, and a cycle with parameters goes on with lines of parameters up to its
 /// end sign.
 BlockExtent blockExtent(std::string_view text);
 
-/// The block's first word and all behind it: block number, skip sign and blanks removed.
+/// The block's first word and all after it: block number, skip sign and blanks removed.
 std::string_view withoutBlockNumber(std::string_view text);
 
 }  // namespace probewright::language::din_iso

@@ -2,7 +2,7 @@
 
 #include "language/din_iso/parser.hpp"
 
-/// D00 to D38, the twins of FN 0 to FN 38. "Dnn:" is followed by what stands behind FN nn in Klartext.
+/// D00 to D38, the twins of FN 0 to FN 38. "Dnn:" is followed by what stands after FN nn in Klartext.
 namespace probewright::language::din_iso {
 
 using klartext::isDigit;

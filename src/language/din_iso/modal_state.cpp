@@ -38,7 +38,7 @@ void resolveMode(Word& word, bool incremental) {
 void resolvePath(Move& move, int path, bool incremental, Block& block) {
   move.variant = {};
   move.polar = isPolar(path);
-  // The new words stand together behind all others: an arc has its direction as a word.
+  // The new words stand together after all others: an arc has its direction as a word.
   const std::size_t first = block.words.size();
   bool travels = false;
   for (std::uint32_t i = 0; i < move.words.count; ++i) {

@@ -4,7 +4,7 @@
 
 namespace probewright::language::din_iso {
 
-/// What the blocks in front of a DIN/ISO block have left in force. It follows the order in which blocks are carried
+/// What the blocks before a DIN/ISO block have left in force. It follows the order in which blocks are carried
 /// out: a subprogram inherits it from its caller and hands it back.
 struct ModalState {
   bool incremental = false;  ///< G91
@@ -14,7 +14,7 @@ struct ModalState {
 
   /// Fills what the parser left open (see BlockParser), so that `resolved` says what a Klartext block would say. Its
   /// instructions stand under the numbers they have in `block`; Modal ones that nothing is left to do for stay as they
-  /// are. The state is then that behind the block.
+  /// are. The state is then that after the block.
   void resolve(const Block& block, Block& resolved);
 };
 

@@ -50,7 +50,7 @@ bool BlockParser::statement() {
     default:
       break;
   }
-  // What newer controls added stands in DIN/ISO programs as it stands in Klartext.
+  // What newer controls added is in DIN/ISO programs as it is in Klartext.
   for (const std::string_view keyword :
        {"PLANE", "FUNCTION", "TRANS", "PRESET", "DECLARE", "SQL", "ERROR", "TABDATA", "SEL", "OPEN"}) {
     const std::size_t start = lexer_.offset();
@@ -156,7 +156,7 @@ bool BlockParser::labelCall() {
   return expectEnd();
 }
 
-/// Behind G98.
+/// After G98.
 bool BlockParser::labelDefinition() {
   if (!lexer_.accept('L')) return error("L with the number or name of the label is expected after G98");
   LabelMark mark;

@@ -12,9 +12,9 @@ namespace probewright::language::din_iso {
 /// as address, and its axis, if it has one, shifted left by 8.
 int oldMachiningCycle(int function);
 
-/// Lowers one DIN/ISO block into the instruction set, as far as its own text tells. What only the blocks in front of it
+/// Lowers one DIN/ISO block into the instruction set, as far as its own text tells. What only the blocks before it
 /// tell (G90 or G91, the path function, the tool axis) is left open for ModalState::resolve:
-/// - Modal "G0" "G1" ... "G16", "G17" "G18" "G19", "G90", "G91" for each such function, in front of all else.
+/// - Modal "G0" "G1" ... "G16", "G17" "G18" "G19", "G90", "G91" for each such function, before all else.
 /// - A path is Move with the variant "G". Its radius R and angle H are polar coordinates under a polar path function.
 /// - Words without G90 or G91 in their own block have WordMode::Plain, all others Absolute or Incremental.
 /// Everything else is what Klartext is lowered to. Values, formulas, M functions and cycle parameters are those of

@@ -85,7 +85,7 @@ private:
     return number ? std::string(name) : fmt::format("\"{}\"", name);
   }
 
-  /// Writes G90 or G91 where it changes within the block, and always in front of the block's first coordinate.
+  /// Writes G90 or G91 where it changes within the block, and always before the block's first coordinate.
   void mode(WordMode wanted) {
     const bool incremental = wanted == WordMode::Incremental;
     if (incremental_ == incremental) return;

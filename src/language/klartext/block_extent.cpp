@@ -41,13 +41,13 @@ std::string_view skipDigits(std::string_view& text) {
   return digits;
 }
 
-/// What the first line of a cycle says about the lines behind it.
+/// What the first line of a cycle says about the lines after it.
 struct CycleHead {
   enum class Kind { None, Parts, Parameters };
   Kind kind = Kind::None;
   char keyword = 0;  ///< T: TCH PROBE, C: CYCL DEF
   std::string_view number;
-  std::string_view part;  ///< behind the point
+  std::string_view part;  ///< after the point
   bool numbered = false;  ///< the line has a block number
 };
 

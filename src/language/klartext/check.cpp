@@ -120,7 +120,7 @@ private:
            std::move(advice), lineText(0), severity);
   }
 
-  /// A parameter that a cycle lacks and that stands in the next block: the line in between does not end with ~.
+  /// A parameter that a cycle lacks and that is in the next block: the line in between does not end with ~.
   void nameMissingContinuation() {
     for (const auto& [mistake, parameter] : std::exchange(lacking_, {})) {
       for (const Instruction& instruction : block_.instructions) {

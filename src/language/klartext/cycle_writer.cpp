@@ -36,7 +36,7 @@ std::string_view sourceLine(const Block& block, std::uint32_t line) {
   return text;
 }
 
-/// The name behind the number of a cycle in the block's own text, up to its first parameter.
+/// The name after the number of a cycle in the block's own text, up to its first parameter.
 std::string cycleTitle(const Block& block) {
   Lexer lexer(withoutBlockNumber(sourceLine(block, 0)));
   const bool known = (lexer.acceptPrefix("TCH") && lexer.acceptPrefix("PROBE")) || lexer.acceptPrefix("CYCL DEF") ||
@@ -126,7 +126,7 @@ std::string parameterCycle(const Block& block, std::string_view kind, int number
   return text;
 }
 
-/// The parts of an old-form cycle: each entry is the text behind "TCH PROBE n.k".
+/// The parts of an old-form cycle: each entry is the text after "TCH PROBE n.k".
 std::string inParts(std::string_view kind, int number, const std::vector<std::string>& parts) {
   std::string text;
   for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -16,7 +16,7 @@ std::string writeCommand(const Block& block, const Command& command);
 /// is left out.
 std::string_view commentOfLine(const Block& block, std::uint32_t line);
 
-/// The whole comment of a block that is no cycle, with the lines that continuation signs add.
+/// The whole comment of a block that is not a cycle, with the lines that continuation signs add.
 std::string commentOf(const Block& block);
 
 }  // namespace probewright::language::klartext

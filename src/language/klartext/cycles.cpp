@@ -12,7 +12,7 @@ namespace {
 
 constexpr int highestCycle = 9999;
 
-/// Where the parameters begin in the line of a cycle's name: at a Q, behind a blank, whose number is followed by '='.
+/// Where the parameters begin in the line of a cycle's name: at a Q, after a blank, whose number is followed by '='.
 bool parameterBegins(const Lexer& lexer) {
   if (upper(lexer.here()) != 'Q') return false;
   std::size_t i = 1;
@@ -68,7 +68,7 @@ bool BlockParser::cycleDefinition() {
 
 bool BlockParser::parameterCycle(std::string_view kind, int number) {
   lexer_.setComments(Lexer::Comments::ToLineEnd);
-  if (number < 0) {  // GLOBAL DEF has its number behind it
+  if (number < 0) {  // GLOBAL DEF has its number after it
     const std::optional<double> written = lexer_.number();
     if (!written || *written > highestCycle) return error("the number of the global definition is expected here");
     number = static_cast<int>(*written);

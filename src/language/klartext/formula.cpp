@@ -5,7 +5,7 @@
 #include "language/klartext/parser.hpp"
 
 /// Assignments Q = formula. Precedence, lowest first: || ; + - ; * / % ; ^ ; functions, signs and parentheses.
-/// Operators of one rank are computed from left to right, powers from right to left. Functions take the value behind
+/// Operators of one rank are computed from left to right, powers from right to left. Functions take the value after
 /// them: SIN Q1 + 2 is (SIN Q1) + 2.
 namespace probewright::language::klartext {
 
@@ -136,7 +136,7 @@ std::optional<Operand> BlockParser::power() {
   return binary(Operation::Power, *base, *exponent);
 }
 
-/// A sign belongs to the value behind it: -2 ^ 2 is 4.
+/// A sign belongs to the value after it: -2 ^ 2 is 4.
 std::optional<Operand> BlockParser::signedPrimary() {
   bool negative = false;
   for (char c = lexer_.peek(); c == '+' || c == '-'; c = lexer_.peek()) {

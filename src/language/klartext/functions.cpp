@@ -174,7 +174,7 @@ bool BlockParser::tableData() {
   return expectEnd();
 }
 
-/// IS DEFINED or IS UNDEFINED behind the parameter that was read last.
+/// IS DEFINED or IS UNDEFINED after the parameter that was read last.
 std::optional<Operand> BlockParser::definedCondition() {
   const bool undefined = lexer_.acceptKeyword("UNDEFINED");
   if (!undefined && !lexer_.acceptKeyword("DEFINED")) {

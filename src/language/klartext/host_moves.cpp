@@ -164,7 +164,7 @@ void KlartextHost::move(const Move& move, Evaluation& evaluation) {
       arc(move, evaluation);
       break;
   }
-  bool callsByItself = false;  // M99 in the block: the call comes behind the move
+  bool callsByItself = false;  // M99 in the block: the call comes after the move
   for (const Instruction& instruction : evaluation.block().instructions) {
     if (std::holds_alternative<EndProgram>(instruction)) settle();
     const auto* command = std::get_if<Command>(&instruction);

@@ -15,7 +15,7 @@
 ///   "X = %9.3LF in %S", Q31, QS4;
 /// and keywords. CALL_PATH writes the path of the program, M_CLOSE closes the file, M_APPEND, M_APPEND_MAX20
 /// (kilobytes) and M_TRUNCATE say how it goes on, M_EMPTY_HIDE leaves out lines whose texts are empty until
-/// M_EMPTY_SHOW, L_ENGLISH, L_GERMAN... restrict the lines behind them to one language of the control until L_ALL. %F,
+/// M_EMPTY_SHOW, L_ENGLISH, L_GERMAN... restrict the lines after them to one language of the control until L_ALL. %F,
 /// %LF, %D and %I take numbers, %S texts (%RS raw), %% is a percent sign, \n a new line. DAY, MONTH, STR_MONTH, YEAR2,
 /// YEAR4, HOUR, MIN and SEC stand where parameters may. Lines that begin with * are comments.
 namespace probewright::language::klartext {

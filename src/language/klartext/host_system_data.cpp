@@ -35,7 +35,7 @@ double KlartextHost::machineSeconds() const {
   return static_cast<double>(control_.wallClockStart) + control_.channel.seconds() - control_.startSeconds;
 }
 
-/// -1: it has not run yet, 0: M3, 1: M4, 2: M5 behind M3, 3: M5 behind M4.
+/// -1: it has not run yet, 0: M3, 1: M4, 2: M5 after M3, 3: M5 after M4.
 double KlartextHost::spindleState() const {
   if (!spindleHasRun_) return -1;
   return (clockwise_ ? 0 : 1) + (spindleRuns_ ? 0 : 2);

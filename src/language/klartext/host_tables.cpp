@@ -12,7 +12,7 @@
 #include "language/klartext/lexer.hpp"
 
 /// FN 26 TABOPEN, FN 27 TABWRITE, FN 28 TABREAD: freely definable tables. Several columns take as many parameters, one
-/// behind the other.
+/// after the other.
 namespace probewright::language::klartext {
 
 using control::Alarm;

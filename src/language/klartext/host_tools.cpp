@@ -22,7 +22,7 @@ void KlartextHost::callTool(const ToolCall& call, Evaluation& evaluation) {
   } else if (call.number.present()) {
     const double number = evaluation.number(call.number);
     double index = evaluation.numberOr(call.index, 0);
-    // A tool that a parameter names carries its index behind the point.
+    // A tool that a parameter names carries its index after the point.
     if (!call.index.present()) index = std::round((number - std::floor(number)) * 10);
     row = control::heidenhain::toolKey(static_cast<int>(std::floor(number)), static_cast<int>(index));
   }

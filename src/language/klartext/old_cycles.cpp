@@ -37,7 +37,7 @@ bool isSetting(int cycle) { return cycle == 9 || cycle == 12 || cycle == 13 || c
 
 }  // namespace
 
-/// Goes on to the next part of the cycle; leaves `part` as it is behind the last one.
+/// Goes on to the next part of the cycle; leaves `part` as it is after the last one.
 bool BlockParser::nextPart(std::string_view first, std::string_view second, Part& part) {
   lexer_.liftLimit(block_.source.length);
   for (;;) {

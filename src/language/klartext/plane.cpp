@@ -7,7 +7,7 @@
 /// PLANE, TRANS, FUNCTION and PRESET blocks.
 ///
 /// PLANE becomes Transform "PLANE SPATIAL"... Words: the definition's own (SPA, SPB, SPC, PROP, PROM, ROT, EULP, EULN,
-/// EULR, BX..BZ, NX..NZ, P1X..P3Z, axes), and the positioning behind it: MOVE, TURN or STAY without value, DIST, MB
+/// EULR, BX..BZ, NX..NZ, P1X..P3Z, axes), and the positioning after it: MOVE, TURN or STAY without value, DIST, MB
 /// (absent value: MAX), F, FMAX without value, SEQ, SYM (+1 or -1), TABL or COOR (TABLE ROT, COORD ROT) without
 /// value.
 namespace probewright::language::klartext {

@@ -42,7 +42,7 @@ private:
 
   control::ControlKind kind_;
   std::map<std::string, bool, std::less<>> quoted_;  ///< labels of digits only, and how they stood first
-  std::string corner_;                               ///< RND or CHF that waits for the element behind it
+  std::string corner_;                               ///< RND or CHF that waits for the element after it
   std::vector<Note> notes_;
 };
 

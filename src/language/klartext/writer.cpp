@@ -16,7 +16,7 @@ namespace {
 
 bool isNumberLabel(std::string_view label) { return !label.empty() && std::ranges::all_of(label, isDigit); }
 
-/// Writes the instructions of a block one behind the other: the block's own first, its M functions behind it.
+/// Writes the instructions of a block one after the other: the block's own first, its M functions after it.
 class BlockWriter {
 public:
   explicit BlockWriter(const Block& block) : block_(block) {}
@@ -45,7 +45,7 @@ public:
   }
 
 private:
-  /// True for what gives the block its keyword; M functions, stops, program ends and cycle calls stand behind it.
+  /// True for what gives the block its keyword; M functions, stops, program ends and cycle calls stand after it.
   bool givesKeyword(const Instruction& instruction) const {
     return !std::holds_alternative<MachineFunction>(instruction) && !std::holds_alternative<Stop>(instruction) &&
            !std::holds_alternative<EndProgram>(instruction) && !isPlainCycleCall(instruction);

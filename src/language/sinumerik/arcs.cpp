@@ -162,7 +162,7 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
   const std::string_view motion = evaluation.at(command.text);
   if (motion == "G0") state_.group1 = MoveKind::Rapid;
   if (motion == "G1") state_.group1 = MoveKind::Linear;
-  const bool axial = evaluation.at(command.name).size() == 5;  // MEASA, MEAWA: axis and mode stand behind the event
+  const bool axial = evaluation.at(command.name).size() == 5;  // MEASA, MEAWA: axis and mode stand after the event
   const std::uint32_t skipped = axial ? 3 : 1;
   WordRange axes{command.words.first + skipped, command.words.count - skipped};
   if (!all.empty() && all.back().address == addressOf("F")) {

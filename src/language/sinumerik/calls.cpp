@@ -79,7 +79,7 @@ void BlockParser::parseCall(std::size_t start) {
   block_->instructions.emplace_back(call);
 }
 
-/// BLOCK FROM TO LAST behind CALL.
+/// BLOCK FROM TO LAST after CALL.
 bool BlockParser::parseCalledSection(TextRef& from, TextRef& to) {
   constexpr const char* advice = "Write CALL \"NAME\" BLOCK FIRSTLABEL TO LASTLABEL.";
   cursor_.advance(5);

@@ -75,7 +75,7 @@ private:
   std::map<std::string, Type> types_;  ///< of those whose DEF or PROC line tells it
   std::set<std::string> macros_;
   bool begun_ = false;                         ///< a block was met that is carried out
-  bool toldOrder_ = false;                     ///< of a DEF behind it
+  bool toldOrder_ = false;                     ///< of a DEF after it
   std::set<std::string> told_;                 ///< system variables and words that were reported
   std::map<std::string, Diagnostic> unknown_;  ///< first use of each name that no DEF came before
 };
@@ -143,7 +143,7 @@ void Checker::declareFromBrokenBlock() {
   }
 }
 
-/// Variables that nobody declares, system variables that the control cannot have.
+/// Variables that are not declared, system variables that the control cannot have.
 void Checker::checkNames() {
   for (const VariableRef& variable : block_.variables) {
     if (variable.space == VariableSpace::R) continue;

@@ -10,7 +10,7 @@ using namespace language;
 
 namespace {
 
-/// Words between DEF and the type, or behind it, that say where a variable lives and who may change it.
+/// Words between DEF and the type, or after it, that say where a variable lives and who may change it.
 bool isAttribute(std::string_view name) {
   static constexpr std::string_view attributes[] = {"NCK", "CHAN", "SYN", "SYNR", "SYNW", "SYNRW", "PHU",  "LLI",
                                                     "ULI", "APR",  "APW", "APRP", "APWP", "APRB",  "APWB", "TASK"};

@@ -14,7 +14,7 @@ constexpr int deepestNesting = 60;
 /// Operators of one priority in a row: each lies one level deeper when the value is computed.
 constexpr int mostTerms = 500;
 
-/// The binary operator that stands at the cursor; its priority is None if there is none.
+/// The binary operator that is at the cursor; its priority is None if there is none.
 BinaryOperator operatorAt(const Cursor& cursor) {
   const char c = cursor.peek();
   if (isLetter(c)) {
@@ -327,7 +327,7 @@ void BlockParser::parseIndices(VariableRef& variable) {
     cursor_.skipBlanks();
     // Empty brackets hand over a whole array.
     if (i == 0 && variable.space == VariableSpace::User && cursor_.take(']')) return;
-    // Components of frames are words of their own: behind an axis in frames of the program.
+    // Components of frames are words of their own: after an axis in frames of the program.
     const std::string_view name = cursor_.peekName();
     const Operand before = i > 0 ? variable.index[i - 1] : Operand{};
     const bool behindAxis =

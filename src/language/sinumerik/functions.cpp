@@ -210,7 +210,7 @@ std::string numberText(double value) {
   constexpr int digits = 10;
   if (!std::isfinite(value)) return formatShortest(value);
   const double size = std::abs(value);
-  // What lies behind the tenth digit, or the tenth decimal place, is noise of computing.
+  // What lies after the tenth digit, or the tenth decimal place, is noise of computing.
   const int before = size < 1 ? 0 : static_cast<int>(std::floor(std::log10(size))) + 1;
   std::string text = formatFixed(value, std::max(digits - before, 0));
   if (text.find('.') == std::string::npos) return text;

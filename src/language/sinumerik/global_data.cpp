@@ -82,7 +82,7 @@ Attributes attributesOf(std::string_view line) {
   return attributes;
 }
 
-/// The first word of a line in capitals, behind its block number.
+/// The first word of a line in capitals, after its block number.
 std::string_view firstWord(std::string_view line) {
   Cursor cursor(line);
   cursor.skipBlanks();

@@ -109,7 +109,7 @@ void SinumerikHost::runCycle(std::string_view name, WordRange range, Evaluation&
 
 /// CUST_MEACYC, the machine builder's program around every measuring cycle. It is told the cycle's number by _OVI[2]
 /// and by its first parameter, the occasion by its second, if these are INT. A program without the second cannot tell
-/// the calls apart and is called as the manual says, in front of the cycle; behind the spindle's positioning where bit
+/// the calls apart and is called as the manual says, before the cycle; after the spindle's positioning where bit
 /// 6 of SD 55740 asks for it.
 void SinumerikHost::callMachineBuilder(int cycle, Occasion occasion) {
   // A cycle that CUST_MEACYC itself calls measures without it: it would call itself for ever.

@@ -55,7 +55,7 @@ const std::string* SinumerikHost::writtenFile(const std::string& name) const {
   return nullptr;
 }
 
-/// The text of a file as the program sees it: what lay there, and behind it what was written in this run.
+/// The text of a file as the program sees it: what lay there, and after it what was written in this run.
 std::optional<std::string> SinumerikHost::fileText(const std::string& file) const {
   const std::string name = comparedName(file);
   std::optional<std::string> text;

@@ -55,7 +55,7 @@ void SinumerikHost::carryOut(const Modal& modal, Evaluation& evaluation) {
         return skip("the auxiliary function H");
       case 'D': {
         motion_.flush();
-        // T and D of the next tool stand in front of M6, in its block or while no tool is in the spindle.
+        // T and D of the next tool are before M6, in its block or while no tool is in the spindle.
         const bool changesHere = block_ != nullptr && std::ranges::any_of(block_->instructions, [](const auto& each) {
                                    const auto* function = std::get_if<MachineFunction>(&each);
                                    return function != nullptr && function->number == 6;

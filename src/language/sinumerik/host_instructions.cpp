@@ -320,7 +320,7 @@ void SinumerikHost::executeText(const Command& command, Evaluation& evaluation) 
   }
 }
 
-/// A program beside the caller comes before a cycle of its name, as where the call stands in the program itself.
+/// A program beside the caller comes before a cycle of its name, as where the call is in the program itself.
 void SinumerikHost::callFromText(const CallProgram& call, Evaluation& evaluation) {
   const std::string name(call.nameValue.present() ? evaluation.text(call.nameValue)
                                                   : std::string(evaluation.at(call.name)));

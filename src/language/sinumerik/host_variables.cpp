@@ -243,7 +243,7 @@ bool SinumerikHost::writeGlobal(std::string_view name, std::span<const Value> in
   if (number != nullptr && control::sinumerik::writeGud(control_.data, key, *number)) return true;
   if (!isGlobalUserData(name) && !control_.data.get(key) && control_.data.keys(name).empty()) return false;
   if (number != nullptr) {
-    // Parameters of a call are no corrections of the control's data.
+    // Parameters of a call are not corrections of the control's data.
     if (cycles::sinumerik::isOldParameter(name)) {
       control_.data.set(key, *number);
     } else {

@@ -395,7 +395,7 @@ void PathMotion::append(const PathElement& element, const std::optional<Corner>&
   if (!compensator_.active() && !corners_.holds()) programmed_.reset();
 }
 
-/// Straight to a target. Behind a measuring block the stylus is still deflected: it may leave the surface.
+/// Straight to a target. After a measuring block the stylus is still deflected: it may leave the surface.
 void PathMotion::travel(const control::Target& target, Feed feed) {
   control::Channel& channel = control_.channel;
   const bool turns = std::ranges::any_of(target.rotary, [](const auto& angle) { return angle.has_value(); });

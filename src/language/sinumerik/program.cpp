@@ -102,7 +102,7 @@ std::string_view SinumerikProgram::withoutMacros(std::string_view line) {
   return expanded_;
 }
 
-/// A destination that is no label but a STRING variable is computed.
+/// A destination that is not a label but a STRING variable is computed.
 void SinumerikProgram::resolveTargets(Block& block) {
   for (Instruction& instruction : block.instructions) {
     if (auto* jump = std::get_if<Jump>(&instruction); jump != nullptr && jump->label.length != 0) {

@@ -159,7 +159,7 @@ void BlockParser::parseKeyword(Keyword keyword, std::string_view name, std::size
   fail(start, "no statement begins with " + std::string(name));
 }
 
-/// RET, ENDPROC, RET("TARGET",behind,levels,start).
+/// RET, ENDPROC, RET("TARGET",after,levels,start).
 void BlockParser::parseReturn(std::string_view name) {
   language::Return order;
   cursor_.skipBlanks();
@@ -206,7 +206,7 @@ TextRef BlockParser::parseTarget() {
     cursor_.advance();
     cursor_.digits();
   } else if (isNameStart(cursor_.peek()) && isNameStart(cursor_.peek(1))) {
-    // Programs have labels such as START, which is a statement too; words of the flow are no labels.
+    // Programs have labels such as START, which is a statement too; words of the flow are not labels.
     const Keyword keyword = keywordOf(cursor_.peekName());
     const bool flow =
         isStructure(keyword) || keyword == Keyword::If || keyword == Keyword::Goto || keyword == Keyword::Reserved;
@@ -315,7 +315,7 @@ void BlockParser::parseRepeat(std::string_view name, std::size_t start) {
   expectEnd("REPEAT");
 }
 
-/// A name that is no keyword: a variable that is assigned to, a program or a cycle that is called.
+/// A name that is not a keyword: a variable that is assigned to, a program or a cycle that is called.
 void BlockParser::parseUserName(std::string_view name, std::size_t start) {
   cursor_.skipBlanks();
   const char next = cursor_.peek();

@@ -15,7 +15,7 @@ constexpr const char* addressAdvice = "An address is a letter with a value (X10)
 
 /// G functions whose words do not belong to a motion of group 1.
 bool isTransformG(int number) { return (number >= 110 && number <= 112) || number == 58 || number == 59; }
-/// The number behind the letter: 12 of "S12".
+/// The number after the letter: 12 of "S12".
 double extensionOf(std::uint32_t address) {
   double number = 0;
   for (std::uint32_t digits = address >> 8; digits != 0; digits >>= 8)
@@ -149,7 +149,7 @@ bool BlockParser::takeNumber(double& value) {
   return true;
 }
 
-/// The value written directly behind an address letter. False if there is none.
+/// The value written directly after an address letter. False if there is none.
 bool BlockParser::parseShortValue(double& value) {
   const char sign = cursor_.peek();
   if (sign == '-' || sign == '+') {
@@ -161,7 +161,7 @@ bool BlockParser::parseShortValue(double& value) {
   return true;
 }
 
-/// The value of an address: digits directly behind it, or '=' and an expression. `mode` null: no AC, IC, DC.
+/// The value of an address: digits directly after it, or '=' and an expression. `mode` null: no AC, IC, DC.
 Operand BlockParser::parseValue(WordMode* mode) {
   cursor_.skipBlanks();
   if (cursor_.peek() != '=') {
