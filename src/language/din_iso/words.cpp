@@ -150,7 +150,7 @@ bool BlockParser::preparatory() {
       if ((number == 70) == inch_) return true;
       lexer_.seek(start);
       return error(fmt::format("G{} changes the unit in the middle of the program", number),
-                   fmt::format("the unit stands behind the name of the program: %NAME G{}", number));
+                   fmt::format("the unit comes after the name of the program: %NAME G{}", number));
     case 50:  // protection of the program
       return true;
     default:
