@@ -99,6 +99,28 @@ TEST(MFunctions, M130GoesToCoordinatesThatAreNotTilted) {
   }
 }
 
+/// M91, M92 and M130 act on straight lines: in other blocks they are refused or named, never passed over.
+TEST(MFunctions, OfStraightLinesAreRefusedInOtherBlocks) {
+  const std::string start = "L X+20 Y+0 Z+0 R0 F500\nCC X+0 Y+0\n";
+  for (const char* block : {"C X+0 Y+20 DR+", "CT X+5 Y+5", "CP IPA+90 DR+", "CR X+0 Y+20 R+20 DR+", "CC X+5 Y+5",
+                            "LP PR+10 PA+0", "APPR LT X+40 Y+20 LEN5 RR"}) {
+    for (const char* function : {" M91\n", " M92\n"}) {
+      World world;
+      const RunResult refused = world.run(start + block + function);
+      ASSERT_EQ(refused.end, RunEnd::Alarm) << block << function;
+      EXPECT_EQ(refused.diagnostics.front().message, "M91 and M92 take axes in straight lines only");
+    }
+  }
+  World world("mill5-head-table");
+  expectFinished(world.run(start + "C X+0 Y+20 DR+ M130\nC X-20 Y+0 DR+ M130\n"));
+  EXPECT_THAT(world.told(EventKind::Skipped),
+              ElementsAre("M130 in a block other than a straight line is not simulated and was skipped"));
+  // The same functions in straight lines of both languages' axes.
+  World straight;
+  expectFinished(straight.run("L X+5 R0 FMAX M91\nX+7 R0 FMAX M92\n"));
+  EXPECT_EQ(straight.machine->steps.back().axes[0], 7 + straight.machine->description().toolChange[0]);
+}
+
 TEST(MFunctions, M144CountsTiltedAxesInAndMovesNothingByItself) {
   const std::string moves = "L X+0 Y+0 Z+200 R0 FMAX\nL A+30 R0 FMAX\nL X+5 Y+0 Z+100 R0 FMAX\n";
   World guided("mill5-head-head"), counted("mill5-head-head"), plain("mill5-head-head");

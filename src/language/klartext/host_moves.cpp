@@ -17,6 +17,11 @@ using control::Feed;
 
 namespace {
 
+[[noreturn]] void refuseMachineCoordinates() {
+  throw Alarm("Function not permitted", "M91 and M92 take axes in straight lines only",
+              "go there with L and the coordinates of the axes");
+}
+
 constexpr double endPointTolerance = 0.016;  ///< mm: how far C may end beside its circle
 
 bool isLinearAxis(char letter) { return letter >= 'X' && letter <= 'Z'; }
@@ -140,6 +145,9 @@ Side KlartextHost::sideOf(const Move& move) {
 }
 
 void KlartextHost::move(const Move& move, Evaluation& evaluation) {
+  const bool straightLine = move.kind == MoveKind::Linear || move.kind == MoveKind::Rapid;
+  if (!straightLine && (move.machineCoordinates || move.machineReference2)) refuseMachineCoordinates();
+  if (!straightLine && untiltedPositions_) leaveOut("M130 in a block other than a straight line");
   switch (move.kind) {
     case MoveKind::SetCentre:
       setCentre(move, evaluation);
@@ -510,7 +518,7 @@ void KlartextHost::moveInMachineCoordinates(const Move& move, Evaluation& evalua
   machine::AxisPositions target = control_.channel.axes();
   for (const Word& word : evaluation.words(move.words)) {
     const char letter = axisLetter(word);
-    if (letter == '\0') throw Alarm("Function not permitted", "M91 and M92 take axes in straight lines only");
+    if (letter == '\0') refuseMachineCoordinates();
     const std::size_t axis = axisOf(letter);
     const bool rotary = description.axes[axis].kind == machine::AxisKind::Rotary;
     const double value = rotary ? evaluation.number(word.value) : length(word.value, evaluation);
