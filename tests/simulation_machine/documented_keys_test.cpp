@@ -101,15 +101,20 @@ std::set<std::string> documented(const std::string& heading, const std::string& 
   return keys;
 }
 
-/// The keys that a reader lists where it meets an unknown one.
-std::set<std::string> known(const std::string& text, bool machine = false) {
+/// What the reader of setups, or of machine files, says of a text.
+Diagnostics mistakesOf(const std::string& text, bool machine) {
   Diagnostics mistakes;
   if (machine) {
     machine::parseMachine(text, "m.toml", mistakes);
   } else {
     parseSetup(text, "s.toml", mistakes);
   }
-  for (const Diagnostic& mistake : mistakes) {
+  return mistakes;
+}
+
+/// The keys that a reader lists where it meets an unknown one.
+std::set<std::string> known(const std::string& text, bool machine = false) {
+  for (const Diagnostic& mistake : mistakesOf(text, machine)) {
     const std::string head = "Known keys here: ";
     if (mistake.message.find("zzqqxx") == std::string::npos || !mistake.advice.starts_with(head)) continue;
     std::set<std::string> keys;
@@ -263,13 +268,7 @@ std::optional<Range> rangeOf(const std::string& text) {
 
 /// Is the value refused for itself?
 bool refused(const std::string& text, const std::string& key, bool machine) {
-  Diagnostics mistakes;
-  if (machine) {
-    machine::parseMachine(text, "m.toml", mistakes);
-  } else {
-    parseSetup(text, "s.toml", mistakes);
-  }
-  for (const Diagnostic& mistake : mistakes) {
+  for (const Diagnostic& mistake : mistakesOf(text, machine)) {
     if (mistake.message.find("\"" + key + "\"") != std::string::npos &&
         mistake.message.find("must be") != std::string::npos)
       return true;
