@@ -8,7 +8,7 @@
 /// Texts as wide as the terminal they go to.
 namespace probewright::app {
 
-/// How many columns the terminal behind `stream` has; 0 if it is a file or a pipe, or does not say.
+/// How many columns the terminal of `stream` has; 0 if it is a file or a pipe, or does not say.
 std::size_t columnsOf(std::FILE* stream);
 
 /// The text with each line broken at blanks so that it fits into `columns`; 0 leaves it as it is. A line that goes on

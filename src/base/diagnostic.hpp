@@ -22,7 +22,7 @@ struct Diagnostic {
   Severity severity = Severity::Error;
   SourcePlace place;
   std::string message;  ///< one sentence without a full stop: what is wrong or was expected
-  std::string excerpt;  ///< the offending text as it stands in the file; may be empty
+  std::string excerpt;  ///< the offending text as it is in the file; may be empty
   std::string advice;   ///< the way out; may be empty
   std::string code;     ///< the control's own alarm number or error name where there is one
 };

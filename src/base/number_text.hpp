@@ -14,7 +14,7 @@ std::optional<double> parseDecimal(std::string_view text);
 /// The integer that the whole of `text` writes, with an optional sign, or nothing.
 std::optional<long long> parseInteger(std::string_view text);
 
-/// `value` with exactly `decimals` digits behind the point; never "-0.000".
+/// `value` with exactly `decimals` digits after the point; never "-0.000".
 std::string formatFixed(double value, int decimals);
 
 /// Like formatFixed, with the sign always written as HEIDENHAIN controls do: "+12.500", "+0.000", "-3.000".

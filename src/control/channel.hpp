@@ -128,7 +128,7 @@ private:
   void count(const AxisPositions& from, const AxisPositions& to);
   void judge(const machine::MoveResult& result) const;
   void judgeTravel(machine::MoveResult result) const;
-  /// Adds where the tip stands in program coordinates: the numbers that the person at the control can look at.
+  /// Adds where the tip is in program coordinates: the numbers that the person at the control can look at.
   void addPlace(std::string& detail) const;
 
   machine::Machine& machine_;

@@ -97,7 +97,7 @@ private:
 
   std::uint32_t nameIndex(const std::string& name);
 
-  // Texts lie behind each other in blocks that never move; copies of a list share those that are full.
+  // Texts lie after each other in blocks that never move; copies of a list share those that are full.
   std::vector<std::shared_ptr<std::string>> blocks_;
   std::vector<std::string> names_;  ///< of files, and codes: few, each of many events
   std::unordered_map<std::string, std::uint32_t> nameIndices_;

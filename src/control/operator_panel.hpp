@@ -32,7 +32,7 @@ public:
   bool showAllResults = false;
   /// Asked at a stop when onStop is Ask: shows the text, returns true to go on.
   std::function<bool(const std::string& text)> ask;
-  /// Asked where a semi-automatic cycle is to probe: nothing means that nobody answers.
+  /// Asked where a semi-automatic cycle is to probe: nothing means that there is no answer.
   std::function<std::optional<std::string>(const Question& question)> answer;
 
   /// Where the program stands now; kept up to date by the interpreter's host.

@@ -8,7 +8,7 @@
 
 #include "conversion/measuring_task.hpp"
 
-/// Calls of measuring cycles, as both vendors' readers take and their writers give them.
+/// Calls of measuring cycles, as both vendors' readers take and as their writers give them.
 namespace probewright::conversion {
 
 /// What the other language cannot say. Thrown inside a conversion; the statement then stays as a comment.

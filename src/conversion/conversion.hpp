@@ -18,7 +18,7 @@ namespace probewright::conversion {
 /// A program written in another language.
 struct Conversion {
   std::string text;
-  /// Blocks that cannot be read. With any of them `text` is no program.
+  /// Blocks that cannot be read. With any of them `text` is not a program.
   Diagnostics mistakes;
   /// What the other language cannot say; it stands as a comment in `text`. And blocks that mean what the translation
   /// says only under a condition that the message names.

@@ -53,7 +53,7 @@ public:
         flow(i, to);
       for (const std::size_t to : block.parts)
         flow(i, to);
-      bool back = true;  // the block behind a call follows the call, not the subprogram
+      bool back = true;  // the block after a call follows the call, not the subprogram
       for (const std::size_t first : block.called) {
         flow(i, first);
         const std::vector<std::size_t> reached = reachedFrom(first);

@@ -62,7 +62,7 @@ public:
   /// `toolAxis`: 0 to 2; $AA_MW, which reads them, counts in it to the tip.
   std::string measuringBlock(int toolAxis);
 
-  /// Blocks that must stand in front of what was asked for since the last call.
+  /// Blocks that must come before what was asked for since the last call.
   std::vector<std::string> takePrelude();
 
 private:
@@ -85,7 +85,7 @@ private:
   int nextNumber_ = 1600;
   int nextText_ = 1600;
   int nextHelper_ = 0;
-  std::array<std::string, 4> measured_;  ///< empty in front of the first measuring block
+  std::array<std::string, 4> measured_;  ///< empty before the first measuring block
   std::size_t measuredToolAxis_ = 2;
   std::vector<std::string> prelude_;
 };

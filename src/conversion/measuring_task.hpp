@@ -26,7 +26,7 @@ enum class Feature {
   Plane,              ///< its two angles, by three touches along the tool axis
   InsideCorner,       ///< of two edges, by two touches each
   OutsideCorner,
-  HolePair,       ///< the line through the centres of two holes, whose size nobody tells
+  HolePair,       ///< the line through the centres of two holes, whose size is not known
   SpigotPair,     ///< the same of two spigots
   BoltCircle,     ///< of three such holes
   HoleDiagonals,  ///< where the lines through four such holes cross, 1 and 3, 2 and 4

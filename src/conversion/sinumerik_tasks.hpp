@@ -15,7 +15,7 @@ inline constexpr std::array<Feature, 6> features977 = {Feature::Hole, Feature::S
 /// a task. `ballRadius`: as the written program names it.
 MeasuringTask sinumerikTask(const Call& call, const Place& start, const Quantity& ballRadius, Losses& losses);
 
-/// Where the probe stands behind the cycle, in the coordinates of the call; what is not known is empty.
+/// Where the probe stands after the cycle, in the coordinates of the call; what is not known is empty.
 /// `results`: where the written program has what was measured.
 std::array<std::optional<Quantity>, 3> sinumerikEnd(const Call& call, const MeasuringTask& task, const Place& start,
                                                     const Quantity& ballRadius, const Results& results);

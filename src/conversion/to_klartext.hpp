@@ -151,7 +151,7 @@ private:
     Quantity limit;
     Quantity turn;  ///< of the directions that deviations of a centre count along
   };
-  /// A preset in front of a cycle that may correct it.
+  /// A preset before a cycle that may correct it.
   struct PresetBefore {
     std::optional<Quantity> row;        ///< empty: none is corrected, or it cannot be restored
     std::array<std::string, 7> values;  ///< parameters, by the index of FN 18 ID507
@@ -175,7 +175,7 @@ private:
   Quantity quantity(const language::Block& block, const language::Operand& operand) {
     return formulas_.quantity(block, operand);
   }
-  /// Writes the line behind what its values need.
+  /// Writes the line after what its values need.
   void line(std::string text);
   void forgetPosition() { position_ = {}; }
 
@@ -192,7 +192,7 @@ private:
   std::map<std::uint64_t, std::string> labels_;  ///< by the block's offset, where jumps and repetitions lead to
   std::set<std::string> usedLabels_;
   std::map<std::uint64_t, std::vector<std::size_t>> sectionEnds_;  ///< by the offset of the last block: repetitions
-  /// Sections that overlap are no subprograms: each repetition notes in a parameter that its section is under way.
+  /// Sections that overlap are not subprograms: each repetition notes in a parameter that its section is under way.
   bool sectionsByNumber_ = false;
   std::map<std::size_t, std::string> backLabels_;
   std::set<int> usedResults_;                           ///< n of _OVR[n]

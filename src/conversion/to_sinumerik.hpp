@@ -127,7 +127,7 @@ private:
   /// The rotation of a zero offset about the tool axis; without `row` of the one in effect.
   void setRotation(const std::optional<Quantity>& row, const Quantity& angle);
   void basicRotation(const Call& call);
-  /// Row 0, the preset that a cycle sets at once; its twin is the last settable zero offset, a copy of the active one.
+  /// Row 0, the preset that a cycle sets at once; here the last settable zero offset, a copy of the active one.
   void takeRowZero();
   /// Writes a component of a zero offset, "Z,RT", and selects it again if it is in effect; without `row` that of the
   /// one in effect. `value` makes the new one of the text of the present one.
@@ -169,7 +169,7 @@ private:
   bool compensates_ = false;
   bool callsTools_ = false;
   bool sharesText_ = false;  ///< it is listed that texts are not shared
-  /// Subprograms that return early, or that jumps lead into or out of, are no sections: the program keeps a stack of
+  /// Subprograms that return early, or that jumps lead into or out of, are not sections: the program keeps a stack of
   /// its calls.
   bool keepsStack_ = false;
   std::map<std::uint64_t, std::size_t> returnsOf_;  ///< number of each call, by the block's offset

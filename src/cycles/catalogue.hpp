@@ -10,7 +10,7 @@
 #include "control/control_kind.hpp"
 
 /// The catalogue: what each cycle is called, takes and leaves, as data. One table drives the parsers, the checks, the
-/// help and the documentation. Each cycle's entry stands in the cycle's own file, above the code that runs it.
+/// help and the documentation. Each cycle's entry is in the cycle's own file, above the code that runs it.
 namespace probewright::cycles {
 
 using control::ControlKind;

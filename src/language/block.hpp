@@ -136,7 +136,7 @@ struct Word {
   std::uint32_t address = 0;
   WordMode mode = WordMode::Plain;
   Operand value{};
-  std::uint32_t column = 0;  ///< where it stands in its line, from 1
+  std::uint32_t column = 0;  ///< where it is in its line, from 1
   std::uint32_t line = 0;    ///< lines below the block's first line
 };
 
@@ -202,13 +202,13 @@ struct CallProgram {
   Operand times{};          ///< P; absent: once
   TextRef from{}, to{};     ///< SINUMERIK CALL NAME BLOCK from TO to: only this section of the program
   bool maybeCycle = false;  ///< if no program of that name exists, a measuring cycle of that name is meant
-  bool modal = false;       ///< SINUMERIK MCALL: from now on behind each block with a motion; without a name: no more
+  bool modal = false;       ///< SINUMERIK MCALL: from now on after each block with a motion; without a name: no more
 };
 
 /// M17, RET. SINUMERIK RET("TARGET",1,2): goes on at another place, through several levels.
 struct Return {
   Operand target{};  ///< text: a label or block number in the program that is gone on with
-  Operand behind{};  ///< not 0: goes on behind the target's block
+  Operand behind{};  ///< not 0: goes on after the target's block
   Operand levels{};  ///< programs that are left; absent: one
   Operand start{};   ///< has a meaning for programs of the ISO dialect only
 };

@@ -19,7 +19,7 @@ std::string_view encodingName(Encoding encoding);
 /// comment.
 Encoding detectEncoding(std::string_view bytes);
 
-/// `bytes` as UTF-8. What is no character in `encoding` becomes U+FFFD.
+/// `bytes` as UTF-8. What is not a character in `encoding` becomes U+FFFD.
 std::string toUtf8(std::string_view bytes, Encoding encoding);
 
 /// `text` (UTF-8) in `encoding`. What `encoding` has no character for becomes '?'.

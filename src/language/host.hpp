@@ -44,8 +44,8 @@ public:
   /// Carries out an instruction that is not flow.
   virtual void execute(const Instruction& instruction, Evaluation& evaluation) = 0;
 
-  /// The program that the control calls by itself behind the instruction it has just carried out (HEIDENHAIN cycle 12
-  /// behind CYCL CALL, M99 or M89); empty: none. Asked once behind every instruction, and once more when the program it
+  /// The program that the control calls by itself after the instruction it has just carried out (HEIDENHAIN cycle 12
+  /// after CYCL CALL, M99 or M89); empty: none. Asked once after every instruction, and once more when the program it
   /// has called so is left (patterns of points); the answer is forgotten then.
   virtual std::string requestedProgram() { return {}; }
 
@@ -55,7 +55,7 @@ public:
   /// The control's own number or name of an alarm that evaluation or interpreter raise; empty: none is known.
   virtual std::string code(Refusal) const { return {}; }
 
-  /// Whether a program that was called modally (MCALL) is carried out behind this block.
+  /// Whether a program that was called modally (MCALL) is carried out after this block.
   virtual bool drivesModalCall(const Block&) const { return false; }
 
   /// A number as texts show it: twelve significant digits at most, unless the control has its own way.
@@ -69,7 +69,7 @@ public:
   virtual Value valueFor(const VariableRef& variable, const Operand& operand, Evaluation& evaluation);
 
   /// What the last instructions did beyond their blocks, in steps that count against the step limit: elements of
-  /// arrays. Asked once behind every block; the answer is forgotten then.
+  /// arrays. Asked once after every block; the answer is forgotten then.
   virtual std::uint64_t takeWork() { return 0; }
 
   /// Comparisons take two numbers for equal that differ by no more than this fraction of the larger one. SINUMERIK:

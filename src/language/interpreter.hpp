@@ -22,11 +22,11 @@
 namespace probewright::language {
 
 struct Breakpoint {
-  std::string file;        ///< as Program::file() gives it, or the end of it behind a "/": "RING.H"
+  std::string file;        ///< as Program::file() gives it, or the end of it after a "/": "RING.H"
   std::uint64_t line = 0;  ///< any line of the block
 };
 
-/// What to do with a program that has halted in front of a block.
+/// What to do with a program that has halted before a block.
 enum class HaltAnswer { Continue, Step, Stop };
 
 struct InterpreterOptions {
@@ -37,13 +37,13 @@ struct InterpreterOptions {
   int programDepth = 20;
   /// CALL LBL and REPEAT that may be under way in one program.
   int sectionDepth = 20;
-  /// Asked to stop, the run ends in front of the next block; whatever takes long in the host watches it by itself and
+  /// Asked to stop, the run ends before the next block; steps of the host that take long check it themselves and
   /// throws control::Cancelled.
   std::stop_token stop;
   /// Levels of "/" that are skipped; the plain "/" has level 0.
   std::bitset<10> skipLevels;
   std::vector<Breakpoint> breakpoints;
-  /// Asked in front of a block with a breakpoint and, after the answer Step, of every block. Without it, the run ends
+  /// Asked before a block with a breakpoint and, after the answer Step, of every block. Without it, the run ends
   /// there.
   std::function<HaltAnswer(const Program& program, const Block& block)> onHalt;
   /// Told every 4096 blocks how many have been carried out.
@@ -79,14 +79,14 @@ struct RunResult {
 ///   subprogram's counts begin anew with every call, and a count of 0 or less jumps never. A part that is left by a
 ///   jump goes on counting when its CALL LBL is reached again.
 /// - REPEAT, REPEATB (RepeatSection): the section is looked for backwards, then forwards. Without an end label it ends
-///   with the block of the label ENDLABEL. If REPEAT stands in front of the section's end, the section ends with
+///   with the block of the label ENDLABEL. If REPEAT is before the section's end, the section ends with
 ///   REPEAT. A jump out of the section ends its repetition.
 /// - END PGM, M2, M30, M17, RET and the end of the file end the program, in a called one they return to the caller.
 ///   RET with a target (Return) goes on there instead of at the call: the label is looked for in the program that is
 ///   gone on with, first from the call to the end, then from the beginning; passes of the call that are still to come
 ///   are dropped. Without a target, but with a number of levels, only the passes of the programs between are dropped.
 /// - MCALL (CallProgram::modal): the arguments are computed once, there; the call follows each block that the host says
-///   drives it, in front of M0, M1, M17 and M30 of that block, but not inside of the program that is called this way.
+///   drives it, before M0, M1, M17 and M30 of that block, but not inside of the program that is called this way.
 /// - FOR counts up in steps of one and compares with its limit, which is computed anew each time; the variable keeps
 ///   the first value above the limit.
 class Interpreter {
@@ -94,14 +94,14 @@ public:
   Interpreter(ProgramLibrary& library, Host& host, InterpreterOptions options = {});
 
   /// Runs `main` from its beginning. Alarms and everything else that ends a run come back as the result; Host::leave is
-  /// called for every level that was entered. Exceptions that are no alarms pass through.
+  /// called for every level that was entered. Exceptions that are not alarms pass through.
   RunResult run(std::shared_ptr<Program> main);
 
 private:
   /// A program that was opened in this run.
   struct Loaded {
     std::shared_ptr<Program> program;
-    std::uint64_t frontier = 0;  ///< blocks in front of this offset were reached before
+    std::uint64_t frontier = 0;  ///< blocks before this offset were reached before
     std::uint32_t id = 0;
     std::vector<std::uint64_t> breakpointLines;
   };
@@ -133,9 +133,9 @@ private:
     FrameKind kind = FrameKind::Program;
     Loaded* caller = nullptr;  ///< null: the main program
     BlockPosition call{};      ///< the block with the call
-    BlockPosition next{};      ///< the one behind it
+    BlockPosition next{};      ///< the one after it
     std::uint32_t instruction = 0;
-    bool more = false;               ///< the block has instructions behind the call
+    bool more = false;               ///< the block has instructions after the call
     double remaining = 0;            ///< passes that are still to come
     BlockPosition first{};           ///< Section
     std::uint64_t last = noSection;  ///< Section, or Program of which a section was called: offset of its last block

@@ -15,7 +15,7 @@ struct SourceLine {
   std::string_view text;   ///< without the line end (LF, CR LF)
   std::uint64_t next = 0;  ///< the offset of the following line
   explicit operator bool() const { return exists; }
-  bool exists = false;  ///< false: the offset was at or behind the end
+  bool exists = false;  ///< false: the offset was at or after the end
 };
 
 /// The bytes of a program file, given out line by line. Views stay valid as long as the SourceText (also after it was
@@ -23,7 +23,7 @@ struct SourceLine {
 /// so memory stays flat however long the program is. A mapped file must not be cut short by others while it runs;
 /// editors and DNC software that write a new file and rename it are harmless.
 ///
-/// A byte order mark of UTF-8 and a DOS end-of-file mark (0x1A) at the very end are no part of any line.
+/// A byte order mark of UTF-8 and a DOS end-of-file mark (0x1A) at the very end are not part of any line.
 class SourceText {
 public:
   /// The file at `path`. Fails if it cannot be read or is UTF-16.
@@ -38,7 +38,7 @@ public:
   const std::string& file() const { return file_; }
   /// The offset of the first line.
   std::uint64_t begin() const { return begin_; }
-  /// The offset behind the last line.
+  /// The offset after the last line.
   std::uint64_t end() const { return end_; }
 
   /// The line that starts at `offset`.

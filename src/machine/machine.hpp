@@ -23,7 +23,7 @@ struct Feed {
 enum class MoveEnd {
   Reached,      ///< the target
   ProbeSignal,  ///< the probe was deflected where no contact was expected; the axes stopped
-  Collision,    ///< something other than the stylus tip touched, or the tool is no probe; the axes stopped
+  Collision,    ///< something other than the stylus tip touched, or the tool is not a probe; the axes stopped
   AxisLimit,    ///< the target lies outside the travel; nothing moved
   Cancelled,    ///< the user asked to stop
 };

@@ -61,7 +61,7 @@ struct DimensionText {
   std::optional<Tolerance> tolerance;  ///< absent where nothing is to be monitored
   std::string toleranceClass;          ///< "H7", "m" where the text names one
   std::optional<double> actual;        ///< "@10.0123": known, not to be probed
-  std::string actualParameter;         ///< "Q1900" where the actual value stands in a parameter
+  std::string actualParameter;         ///< "Q1900" where the actual value is in a parameter
 
   /// Absent without tolerance, or where both limits are the same, which monitors nothing.
   std::optional<Limits> limits() const;

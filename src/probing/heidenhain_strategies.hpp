@@ -63,7 +63,7 @@ struct WidthTask {
 /// probe rises to the clearance height.
 std::vector<EvaluatedTouch> probeWidth(HeidenhainProber& prober, const WidthTask& task, const Heights& heights);
 
-/// A touch and a place in the plane that the way to it leads over when it leads along the measuring height.
+/// A touch, and the point in the plane through which the path to it leads along the measuring height.
 struct RoutedTouch {
   PlannedTouch touch;
   std::optional<Vector2> via = std::nullopt;

@@ -38,7 +38,7 @@ struct SinumerikHabits {
   bool oneAttempt = false;                       ///< SD 55740 bit 3
   bool fastApproach = false;                     ///< SD 55740 bit 4
   bool rapidRetract = false;                     ///< SD 55740 bit 5
-  std::function<void()> spindlePositioned = {};  ///< called behind each positioning of the spindle
+  std::function<void()> spindlePositioned = {};  ///< called after each positioning of the spindle
 };
 
 /// One measured point.

@@ -17,7 +17,7 @@ struct ImportOptions {
   std::filesystem::path cache;
   /// Asked to stop, the import ends at once with a mistake.
   std::stop_token stop;
-  /// Told now and then what is being done, once an import takes longer than a second.
+  /// Told from time to time what is being done, once an import takes longer than a second.
   std::function<void(const std::string& what)> progress;
 
   double seconds = 1800;                          ///< after which an import is given up

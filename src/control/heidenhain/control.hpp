@@ -42,7 +42,7 @@ struct ActiveTool {
   double deltaLength = 0, deltaRadius = 0, deltaRadius2 = 0;  ///< of the TOOL CALL block
   double spindleSpeed = 0;
   double feed = 0;       ///< mm/min, for FAUTO
-  std::string probeRow;  ///< row of the touch probe table (TP_NO); empty if the tool is no touch probe
+  std::string probeRow;  ///< row of the touch probe table (TP_NO); empty if the tool is not a touch probe
   bool called = false;   ///< a TOOL CALL has been carried out
 };
 
@@ -78,7 +78,7 @@ public:
   std::string programPath;          ///< of the main program, for logs
   double startSeconds = 0;          ///< machine clock when the program began
   std::int64_t wallClockStart = 0;  ///< seconds since 1970 (UTC) that logs show for startSeconds
-  /// Values of GLOBAL DEF by Q number, each with the unit of the program that it stands in.
+  /// Values of GLOBAL DEF by Q number, each with the unit of the program that it is in.
   struct GlobalDefinition {
     double value = 0;
     double unit = 1;
@@ -100,7 +100,7 @@ public:
   /// A touch probe cycle begins or ends to measure. With the calibration data of MP7411 = 0, length and radius of tool
   /// table and TOOL CALL are overwritten by them until it ends.
   void setProbing(bool probing);
-  /// Measured lengths and radii of probes stand in the tool table, not in the calibration data of MP7411 = 0.
+  /// Measured lengths and radii of probes are in the tool table, not in the calibration data of MP7411 = 0.
   bool keepsCalibrationInTable() const { return isTNC640() || (parameters.mp7411 && !probeByHand()); }
   /// iTNC 530: TOOL CALL 0 names no tool but the axis of the touch probe, which the operator has put into the spindle.
   bool probeByHand() const { return !isTNC640() && tool.called && tool.number == 0; }

@@ -63,7 +63,7 @@ struct Coordinates {
   Eigen::Affine3d machineFromProgram() const;
 };
 
-/// The rotation of space angles: about the fixed axes X, then Y, then Z would be A, B, C of PLANE SPATIAL seen from
+/// The rotation by space angles: about the fixed axes X, then Y, then Z, as A, B, C of PLANE SPATIAL are seen from
 /// the machine; equal to turning about Z, then the new Y, then the new X.
 Matrix3 rotationFromSpaceAngles(const Vector3& degrees);
 /// The space angles of a rotation, B within [-90, 90]; A = 0 where B is +-90.

@@ -19,7 +19,7 @@ public:
 
   static bool exists(long number) { return number >= 0 && number < count; }
 
-  /// Numbers in the unit of the program (Q113: 0 = mm, 1 = inch). A parameter that nobody has set is undefined and
+  /// Numbers in the unit of the program (Q113: 0 = mm, 1 = inch). A parameter that was never set is undefined and
   /// reads as 0, or as an empty text.
   double q(int number) const { return q_[index(number)].value_or(0); }
   void setQ(int number, double value) { q_[index(number)] = value; }

@@ -81,7 +81,7 @@ public:
   /// shows one. Error if it isn't finite or doesn't fit.
   Result<void> setNumber(std::string_view row, std::string_view column, double value, const NumberStyle& style = {});
 
-  /// Inserts an empty row behind the last row with a smaller key. Error if the row exists or the key doesn't fit.
+  /// Inserts an empty row after the last row with a smaller key. Error if the row exists or the key doesn't fit.
   Result<void> addRow(std::string_view key);
 
   /// How numbers of this column are written.

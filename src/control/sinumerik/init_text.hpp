@@ -23,7 +23,7 @@
 namespace probewright::control::sinumerik {
 
 /// An initialization text as it was read. Nothing of it is lost: comments, block numbers, spacing, and everything that
-/// isn't understood stand in the text written back.
+/// isn't understood are in the text written back.
 class InitText {
 public:
   /// Reads the values of `channel` into `store`. Values are numbers (decimal, with exponent EX, 'H..' or 'B..'), TRUE,

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 /// The words of cycle blocks that have no Q number: touch probe cycles 0 to 4, 9 and 30 to 33 in their old block form
-/// (TCH PROBE n.0, n.1, ...). They stand in CycleCall::parameters under these addresses, above all Q numbers. Lengths
+/// (TCH PROBE n.0, n.1, ...). They are in CycleCall::parameters under these addresses, above all Q numbers. Lengths
 /// in mm as programmed, angles in degrees.
 namespace probewright::cycles::heidenhain::probe_word {
 

@@ -33,7 +33,7 @@ struct Compared {
 class Context {
 public:
   /// Opens the cycle's record, clears _OVR and _OVI, and selects the plane that _DMODE asks for. `spindlePositioned`
-  /// is called behind each positioning of the spindle, where bit 6 of SD 55740 asks for it.
+  /// is called after each positioning of the spindle, where bit 6 of SD 55740 asks for it.
   Context(Control& control, const Arguments& arguments, SourcePlace place,
           const std::function<void()>& spindlePositioned = {});
   /// Closes the record and restores the plane (PROC ... SAVE).
@@ -97,7 +97,7 @@ public:
   /// corrected yet.
   void repeatIfAsked(int number, const std::string& detail);
   /// How the probe gets clear of the workpiece before a repetition; then it goes straight to where the cycle started.
-  /// Called by repeatIfAsked, or never.
+  /// Called by repeatIfAsked, if the measurement is repeated.
   void setWayBack(std::function<void()> way) { wayBack_ = std::move(way); }
   /// Ready for the repetition.
   void beginAgain();

@@ -101,9 +101,9 @@ Compared comparedSurface(Context& context, Task task, double set, double actual,
 /// The empirical value that S_EVNUM selects; 0 without. Alarm 61319 for a number beyond 20.
 double empiricalValue(Context& context);
 
-/// Decides and makes the tool correction, with all of S_TZL, S_TDIF, S_TUL, S_TLL, S_TMV, S_K, S_EVNUM: with several
-/// dimensions (a rectangle) by the mean of their differences, with limits checked for each. Messages 61304, 61305;
-/// alarm 61306. Fills the results of tool correction. S_TSA has been checked before.
+/// Decides whether the tool is corrected, and corrects it, by S_TZL, S_TDIF, S_TUL, S_TLL, S_TMV, S_K, S_EVNUM: with
+/// several dimensions (a rectangle) by the mean of their differences, with limits checked for each. Messages 61304,
+/// 61305; alarm 61306. Fills the results of tool correction. S_TSA has been checked before.
 void correctTool(Context& context, std::span<const Dimension> dimensions, const ToolInfluence& influence);
 
 }  // namespace probewright::cycles::sinumerik

@@ -20,7 +20,7 @@ Method methodOf(Context& context);
 void requireCalibrationFor(Context& context, Method method);
 
 /// The measuring direction, +1 or -1: S_MD = 1 or 2. Where S_MD is 0 or left out, it leads from where the probe stands
-/// to the set value, which is `toSetValue` away along the measuring axis. Alarm 61326 if that is no way.
+/// to the set value, which is `toSetValue` away along the measuring axis. Alarm 61326 if that is 0.
 double measuringDirection(Context& context, double toSetValue);
 
 /// Touches points with one method, S_NMSP times each.

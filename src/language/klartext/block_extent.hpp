@@ -15,7 +15,7 @@ struct BlockExtent {
 /// The extent of the block at the beginning of `text`, which reaches to the end of the file.
 BlockExtent blockExtent(std::string_view text);
 
-/// The block's first word and all behind it: block number, skip sign and blanks removed.
+/// The block's first word and all after it: block number, skip sign and blanks removed.
 std::string_view withoutBlockNumber(std::string_view text);
 
 }  // namespace probewright::language::klartext

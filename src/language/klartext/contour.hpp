@@ -59,7 +59,7 @@ struct Approach {
 };
 
 /// Takes elements in their order and hands on what the tool centre does. Elements wait here as long as what follows
-/// them decides where they end: in front of a rounding, and while radius compensation is on. Throws Alarm where the
+/// them decides where they end: before a rounding, and while radius compensation is on. Throws Alarm where the
 /// geometry is impossible; alarms, also those of the moves, name the block of the element that was under way.
 class Contour {
 public:
@@ -77,7 +77,7 @@ public:
   void chamfer(double length, std::optional<control::Feed> feed, const BlockPlace& block);
   /// Begins a contour at `from`, where the tool stands; its direction comes with the next element.
   void approach(const Vector2& from, double heightFrom, const Approach& approach);
-  /// Leaves the contour behind the last element.
+  /// Leaves the contour after the last element.
   void depart(const Approach& departure);
 
   /// Carries out everything that waits; compensation stays on.
@@ -122,7 +122,7 @@ private:
   std::function<void(const Element&)> run_;
   std::function<double()> radius_;
   std::optional<Element> last_;      ///< waits for a rounding
-  std::optional<Corner> corner_;     ///< waits for the element behind it
+  std::optional<Corner> corner_;     ///< waits for the element after it
   std::optional<Waiting> previous_;  ///< waits for the corner with the next element
   std::optional<Approach> approach_;
   bool compensated_ = false;

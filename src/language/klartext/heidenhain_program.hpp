@@ -30,7 +30,7 @@ class HeidenhainProgram : public Program {
 public:
   /// The unit of the program's head; millimetres where there is none.
   virtual Unit unit() const = 0;
-  /// True if the block at `position`, or the first behind comments there, rounds or chamfers the corner in front of it.
+  /// True if the block at `position`, or the first after comments there, rounds or chamfers the corner before it.
   virtual bool cornerFollows(BlockPosition position) const = 0;
   /// A block of this program.
   virtual FramePart framePart(const Block& block) const = 0;

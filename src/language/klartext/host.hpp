@@ -245,7 +245,7 @@ private:
   std::string selectedProgram_;
   std::optional<int> machiningCycle_;
   std::string cycleProgram_;      ///< of cycle 12
-  std::string requestedProgram_;  ///< to be called behind this instruction
+  std::string requestedProgram_;  ///< to be called after this instruction
   bool cycleAtEachMove_ = false;  ///< M89
   std::vector<Vector3> pattern_;  ///< of PATTERN DEF or SEL PATTERN, mm
   std::map<std::string, bool> protocolOpen_;

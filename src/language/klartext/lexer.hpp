@@ -26,7 +26,7 @@ constexpr bool isLetter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && 
 constexpr bool isWordByte(char c) { return isLetter(c) || (static_cast<unsigned char>(c) & 0x80U) != 0; }
 
 /// A cursor over the text of a block. Blanks, tabs, line ends after a continuation `~` and, in cycle definitions, the
-/// comments behind the parameters separate words and are skipped. Keywords are met in either case. The text must
+/// comments after the parameters separate words and are skipped. Keywords are met in either case. The text must
 /// outlive the lexer; places are byte offsets into it.
 class Lexer {
 public:
@@ -39,7 +39,7 @@ public:
 
   void setComments(Comments comments) { comments_ = comments; }
 
-  /// The next character that is no separator, in upper case, or 0 at the end of the block.
+  /// The next character that is not a separator, in upper case, or 0 at the end of the block.
   char peek() {
     if (p_<end_&& static_cast<unsigned char>(*p_)> ' ' && *p_ != ';' && *p_ != '~') return upper(*p_);
     skipSeparators();
@@ -87,13 +87,13 @@ public:
   std::size_t offsetOf(std::string_view part) const { return static_cast<std::size_t>(part.data() - begin_); }
   std::string_view text() const { return {begin_, static_cast<std::size_t>(end_ - begin_)}; }
 
-  /// Column (from 1) and line within the block (from 0) of the place the cursor stands at.
+  /// Column (from 1) and line within the block (from 0) of the place the cursor is at.
   std::uint32_t column() const { return static_cast<std::uint32_t>(p_ - lineStart_) + 1; }
   std::uint32_t line() const { return line_; }
 
   /// Goes to the beginning of the next line; false if there is none.
   bool nextLine();
-  /// Limits the lexer to the line the cursor stands in, or lifts the limit.
+  /// Limits the lexer to the line the cursor is in, or lifts the limit.
   void limitToLine();
   void liftLimit(std::size_t size) { end_ = begin_ + size; }
 

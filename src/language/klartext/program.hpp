@@ -55,7 +55,7 @@ private:
   std::unordered_map<std::string, std::vector<BlockPosition>> labels_;
 };
 
-/// The label that a LBL block's text behind LBL names, as findLabel knows it: leading zeros of numbers removed.
+/// The label that a LBL block's text after LBL names, as findLabel knows it: leading zeros of numbers removed.
 std::string_view canonicalLabel(std::string_view label);
 
 }  // namespace probewright::language::klartext

@@ -17,7 +17,7 @@ namespace probewright::sinumerik {
 /// allocates only while its buffers grow.
 ///
 /// How statements are lowered (the host and the writer rely on it):
-///  - Instructions stand in the order in which the control carries them out: assignments and modal functions as
+///  - Instructions are in the order in which the control carries them out: assignments and modal functions as
 ///    written, then the motion, then M0, M1, M2, M17, M30.
 ///  - A motion function with axis words is one Move; without them it is Modal{"G1"}. Move{Modal} continues group 1.
 ///    Move::variant is "SUPA", "G53" or "G153" where those stand, or the name of a spline; feed F goes into the Move.
@@ -30,7 +30,7 @@ namespace probewright::sinumerik {
 ///  - NAME[..]=SET(..) and REP(..): Command{"SET" | "REP", variable, words by position}.
 ///  - PROC, EXTERN, DEFINE, synchronized actions: Command whose text is the rest of the block in upper case.
 ///  - G4: Command{"G4"}, words F or S. MEAS/MEAW: Command, words[0] address "MEAS" the event, then axis words and F;
-///    text: "G0" or "G1" if the block says so; MEASA/MEAWA have "MAX" the axis and "MMO" the mode behind the event.
+///    text: "G0" or "G1" if the block says so; MEASA/MEAWA have "MAX" the axis and "MMO" the mode after the event.
 ///  - An axis given by a variable, AX[v]=..: word "AX[]" with the axis followed by word "=AX" with the value; IP[v]=..
 ///    in the same way.
 ///  - POLY's PO[X]=(..): the word X with the end point; PO of angles of the orientation falls away.

@@ -27,14 +27,14 @@ struct CheckOptions {
 };
 
 /// Reads the whole program, and those that it calls by name, without running them and names every mistake: those of
-/// single blocks, structured statements that are not closed, missing and doubled labels, names that nobody declares,
+/// single blocks, structured statements that are not closed, missing and doubled labels, names that are not declared,
 /// programs that do not exist, and arguments of measuring cycles that the catalogue refuses.
 Diagnostics check(SinumerikProgram& program, const CheckOptions& options = {});
 
 /// True if the measuring cycles or the control declare this global variable (upper case, without indices).
 bool isGlobalUserData(std::string_view name);
 
-/// True if `name` is a machining or service cycle of the control that the house reads but does not carry out.
+/// True if `name` is a machining or service cycle of the control that Probewright reads but does not carry out.
 bool isSkippedCycle(std::string_view name);
 
 /// True for cycles that change nothing that measuring depends on: groups of the editor, settings of dynamics and
@@ -49,7 +49,7 @@ std::string_view skippedFunction(std::string_view name);
 /// or first argument; nothing if it has none.
 bool saysWhatIs(std::string_view name, std::optional<double> value);
 
-/// True for M functions that are the machine builder's own: nobody knows what they do.
+/// True for M functions that are the machine builder's own: what they do is not known.
 bool isSkippedMachineFunction(int number);
 
 /// True if the G function `number` of `group`, G[group]=number, would change where the tool is and is not carried out.

@@ -19,7 +19,7 @@ struct Corner {
   std::optional<control::Feed> feed;  ///< FRC, FRCM; without it that of the next element
 };
 
-/// Rounds and chamfers the corners of a path in the working plane. Elements go in as they are programmed; one behind
+/// Rounds and chamfers the corners of a path in the working plane. Elements go in as they are programmed; one after
 /// which something is to be inserted waits for the next one. A chamfer lies symmetrically to the corner. What is too
 /// large for the elements beside it becomes as large as they permit, as on the control. The corner stays as it is if
 /// one of the elements does not lie in the plane, or if they go over into each other.

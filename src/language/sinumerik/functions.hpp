@@ -40,7 +40,7 @@ std::string formatText(std::string_view format, std::span<const Value> arguments
 
 /// Frames travel through expressions as the text that writes them: "CTRANS(X,10):CROT(Z,30)".
 Value frameValue(const control::sinumerik::Frame& frame);
-/// Throws Alarm 12150 if `value` is no frame.
+/// Throws Alarm 12150 if `value` is not a frame.
 control::sinumerik::Frame frameOf(const Value& value);
 
 }  // namespace probewright::sinumerik

@@ -31,7 +31,7 @@ struct MotionState {
   double spindleSpeed = 0;            ///< S: rev/min; m/min with constant cutting speed
   bool constantCuttingSpeed = false;  ///< G96, G961, G962
   double speedLimit = 0;              ///< LIMS, rev/min; 0: none
-  double speedBefore = 0;             ///< S in front of G96, rev/min
+  double speedBefore = 0;             ///< S before G96, rev/min
   int spindleDirection = 5;           ///< 3, 4, 5
   int thread = 0;                     ///< 33, 34, 35, 331, 332: lines whose feed is pitch times speed; 0: none
   double pitch = 0;                   ///< of the last thread, mm along its axis

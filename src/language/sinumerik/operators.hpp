@@ -32,7 +32,7 @@ struct BinaryOperator {
   Priority priority = Priority::None;
 };
 
-/// Node::b of an operation that stands in parentheses; calls need b for themselves.
+/// Node::b of an operation that is in parentheses; calls need b for themselves.
 inline constexpr std::uint32_t inParentheses = 1;
 
 /// All binary operators but ':'; longer symbols before their beginnings.

@@ -38,10 +38,10 @@ public:
 
   /// True if so many indices name a single character of a STRING: one more than it has dimensions.
   bool isCharacter(std::size_t indices) const { return type_ == Type::String && indices == dimensions() + 1; }
-  /// The code of a character; the last of `indices` counts from 0. Throws what place() throws, and Alarm 17020 behind
+  /// The code of a character; the last of `indices` counts from 0. Throws what place() throws, and Alarm 17020 after
   /// the end of the text.
   double character(std::string_view name, std::span<const double> indices) const;
-  /// Replaces a character, or writes one behind the last if there is room. `value`: its code or a text of one
+  /// Replaces a character, or writes one after the last if there is room. `value`: its code or a text of one
   /// character.
   void setCharacter(std::string_view name, std::span<const double> indices, const Value& value);
 
