@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -183,6 +184,45 @@ Interpreter::Frame Interpreter::popProgram() {
   return frame;
 }
 
+namespace {
+
+bool isPartOfName(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+/// True if `text` stands in `line` in front of its comment, not as a part of a longer name. Small letters count as
+/// capital ones; `text` has capital ones.
+bool standsIn(std::string_view line, std::string_view text) {
+  std::string upper(line);
+  std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  bool inText = false;
+  for (std::size_t i = 0; i < upper.size(); ++i) {
+    if (upper[i] == '"') inText = !inText;
+    if (upper[i] == ';' && !inText) upper.resize(i);
+  }
+  for (std::size_t at = upper.find(text); at != std::string::npos; at = upper.find(text, at + 1)) {
+    const std::size_t end = at + text.size();
+    const bool begins = at == 0 || !isPartOfName(upper[at - 1]) || !isPartOfName(text.front());
+    const bool ends = end == upper.size() || !isPartOfName(upper[end]) || !isPartOfName(text.back());
+    if (begins && ends) return true;
+  }
+  return false;
+}
+
+/// The next block behind `from` with this text in it; if there is none, the first of the program.
+std::optional<BlockPosition> findText(Program& program, BlockPosition from, std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::optional<BlockPosition> first;
+  Block block;
+  Diagnostics mistakes;
+  for (BlockPosition at = program.begin(); program.parse(at, block, mistakes); at = block.next) {
+    if ((first && at.offset <= from.offset) || !standsIn(block.at(block.source), text)) continue;
+    if (at.offset > from.offset) return at;
+    if (at.offset != from.offset) first = at;
+  }
+  return first;
+}
+
+}  // namespace
+
 Interpreter::Flow Interpreter::returnFrom(const Return& order, Evaluation& evaluation) {
   if (!order.target.present() && !order.levels.present()) return leaveProgram();
   std::string target = order.target.present() ? evaluation.text(order.target) : std::string();
@@ -199,11 +239,13 @@ Interpreter::Flow Interpreter::returnFrom(const Return& order, Evaluation& evalu
     popProgram();
   if (target.empty()) return leaveProgram();
   const Frame frame = popProgram();
-  const auto found = current_->program->findLabel(target, frame.call, JumpDirection::ForwardThenBackward);
+  auto found = current_->program->findLabel(target, frame.call, JumpDirection::ForwardThenBackward);
+  if (!found) found = findText(*current_->program, frame.call, target);
   if (!found) {
     refuse(Refusal::MissingLabel,
-           fmt::format("there is no label {} in {}, to which RET returns", target, current_->program->name()),
-           "check how the label is written");
+           fmt::format("there is no label, no block number and no text {} in {}, to which RET returns", target,
+                       current_->program->name()),
+           "check how the destination is written");
   }
   goTo(behind ? fetchAside(*found).block.next : *found);
   return Flow::Moved;

@@ -56,6 +56,19 @@ TEST(SinumerikReturn, GoesOnWhereItsArgumentsSay) {
   EXPECT_EQ(afterReturn("RET(\"TGT1\",,1)"), 1110);
 }
 
+TEST(SinumerikReturn, FindsTheBlockWithATextInIt) {
+  for (const auto& [ret, value] : std::vector<std::pair<std::string, double>>{
+           {"RET(\"PART_NO\")", 1101}, {"RET(\"write_log\")", 1001}, {"RET(\"WRITE_LOG\",1)", 1}}) {
+    World world;
+    world.texts.add("SUBR", ret + "\n");
+    world.texts.add("WRITE_LOG", "R1=R1+1000\n");
+    world.run(
+        "DEF REAL PART_NO, WRITE_LOG_2\nR1=1 ; WRITE_LOG\nSUBR\nR1=R1+10 WRITE_LOG_2=3\nR1=R1+100 PART_NO=5\n"
+        "WRITE_LOG\nM30\n");
+    EXPECT_EQ(world.r(1), value) << ret;
+  }
+}
+
 TEST(SinumerikReturn, LeavesSeveralLevels) {
   World world;
   world.texts.add("INNER", "R1=R1+1\nRET(,,2)\n");
