@@ -111,6 +111,20 @@ std::vector<Post> posts() {
        "WRITE(_ERR,\"LOG_1\",_LINE)\nIF (_ERR<>0) OR (_DEV>100)\nSETAL(65001,\"bad\")\nENDIF\nEND_1: G0 Z60\nM30\n",
        {},
        {0, 0, 60}},
+      {"steps of a shop floor program",
+       "mill3",
+       "N10 G54\nN15 G17 G90\nE_HEAD(100,\"BLANK\",0,1,1,50)\nE_LAB_A_FACE: ;#SM Z:2\nE_MI_PL(\"MILL\",0,1,2,0)\n"
+       "E_PO_CIR(\"MILL\",1,,20)\nE_LAB_E_FACE:\nCYCLE61(50,0,2,-1,0,0,100,80,1,5,30,0.1,800,31,0,1,10)\n"
+       "G0 X7 Y8\nZ9\nE_END(0,1,0)\nM30 ;#SM\n",
+       {"E_HEAD is not carried out", "E_MI_PL is not carried out", "E_PO_CIR is not carried out",
+        "CYCLE61 is not carried out", "E_END is not carried out"},
+       {7, 8, 9}},
+      {"without blanks",
+       "mill3",
+       "N10G0G90G54G17X10Y20Z60\nN20T1D1M6\nN30G1X=R1Y=R2F500\nN40M3S1000\nIF(R1==0)GOTOF "
+       "A_1\nM0\nA_1:G4F.2\nX10Y=20Z=R3+60\nM30\n",
+       {},
+       {10, 20, 60}},
       {"synchronized actions",
        "mill3",
        "ID=1 WHENEVER $AA_IW[Z]<10 DO $AC_OVR=50\nG0 X4 Y5 Z6\nCANCEL(1)\nM30\n",

@@ -351,6 +351,26 @@ TEST(SinumerikEffects, WhatIsNotCarriedOutIsNamedOnceAndRefusedUnderStrict) {
       {"G75 FP=2 X1=0", "FP=2"},
       {"ID=1 WHENEVER $AA_IW[X]>5 DO $AC_OVR=50", "the synchronized action ID"},
       {"T2=1", "T2="},
+      {"G461", "G461"},
+      {"DISC=50", "DISC"},
+      {"GFRAME3", "GFRAME3"},
+      {"WALCS2", "WALCS2"},
+      {"MEAC[X]=(1,2,-1)", "MEAC"},
+      {"CPDEF=(X)", "CPDEF"},
+      {"CPLON[X]=Y", "CPLON"},
+      {"CPLPOS[X,Y]=5", "CPLPOS"},
+      {"FOCON[X]", "FOCON"},
+      {"TOFFON(Z,1)", "TOFFON"},
+      {"G1 X1 F100 MOVT=IC(5)", "MOVT"},
+      {"G1 X1 F100 STAT='B010'", "STAT"},
+      {"G1 X1 F100 A7=1", "A7"},
+      {"G1 X1 F100 THETA=5", "THETA"},
+      {"TRAORI(2)", "TRAORI with another transformation"},
+      {"TRAORI(1,1,0,0)", "TRAORI with another direction"},
+      {"$P_EXTFRAME=CTRANS(X,3)", "$P_EXTFRAME"},
+      {"$P_CYCFRAME[X,TR]=3", "$P_CYCFRAME"},
+      {"$P_TRAFR=CTRANS(X,3)", "$P_TRAFR"},
+      {"$P_GFR[1]=CTRANS(X,3)", "$P_GFR"},
   };
   for (const auto& [block, name] : words) {
     World world;
@@ -358,6 +378,11 @@ TEST(SinumerikEffects, WhatIsNotCarriedOutIsNamedOnceAndRefusedUnderStrict) {
     const auto named = texts(world, control::EventKind::Skipped);
     ASSERT_EQ(named.size(), 1u) << block;
     EXPECT_TRUE(named[0].starts_with(name)) << block << ": " << named[0];
+    const auto checked = SinumerikProgram::fromText("test.mpf", block);
+    const Diagnostics told = check(*checked);
+    ASSERT_EQ(told.size(), 1u) << block;
+    EXPECT_EQ(told[0].severity, Severity::Warning) << block;
+    EXPECT_TRUE(told[0].message.starts_with(name)) << block << ": " << told[0].message;
     NotingMachine machine("mill3");
     control::sinumerik::Control control(machine, World::data());
     SinumerikHost strict(control, {.strict = true});
@@ -368,13 +393,53 @@ TEST(SinumerikEffects, WhatIsNotCarriedOutIsNamedOnceAndRefusedUnderStrict) {
 }
 
 TEST(SinumerikEffects, WhatSaysNothingAboutTheToolPassesInSilence) {
-  for (const char* block : {"M8",          "M9",        "M7",          "M41",          "SOFT",          "FFWON",
-                            "COMPCAD",     "CTOL=0.01", "SETMS",       "SETMS(1)",     "GEOAX()",       "OFFN=0",
-                            "TCARR=0",     "CUTMOD=0",  "FINEA[X]",    "COARSEA=X",    "IPOBRKA[X]=50", "SCPARA[X]=1",
-                            "POLF[Z]=100", "TOWSTD",    "CP",          "G64",          "G60",           "G641 ADIS=0.1",
-                            "G601",        "DYNFINISH", "FGROUP(X,Y)", "WAITM(1,1,2)", "CDOF",          "NORM",
-                            "G[10]=2",     "RTLION",    "UPATH",       "ORIAXES",      "STOLF=0.1",     "G75 FP=1 X1=0",
-                            "ENDPROC"}) {
+  for (const char* block : {"M8",
+                            "M9",
+                            "M7",
+                            "M41",
+                            "SOFT",
+                            "FFWON",
+                            "COMPCAD",
+                            "CTOL=0.01",
+                            "SETMS",
+                            "SETMS(1)",
+                            "GEOAX()",
+                            "OFFN=0",
+                            "TCARR=0",
+                            "CUTMOD=0",
+                            "FINEA[X]",
+                            "COARSEA=X",
+                            "IPOBRKA[X]=50",
+                            "SCPARA[X]=1",
+                            "POLF[Z]=100",
+                            "TOWSTD",
+                            "CP",
+                            "G64",
+                            "G60",
+                            "G641 ADIS=0.1",
+                            "G601",
+                            "DYNFINISH",
+                            "FGROUP(X,Y)",
+                            "WAITM(1,1,2)",
+                            "CDOF",
+                            "NORM",
+                            "G[10]=2",
+                            "RTLION",
+                            "UPATH",
+                            "ORIAXES",
+                            "STOLF=0.1",
+                            "G75 FP=1 X1=0",
+                            "ENDPROC",
+                            "TRAORI(1)",
+                            "DISC=0",
+                            "SCC[X]",
+                            "BNAT EAUTO",
+                            "FENDNORM",
+                            "LFOF",
+                            "WALCS0",
+                            "CPLNUM[X,Y]=2",
+                            "G460",
+                            "ADISPOSA=(X,50)"}) {
     World world;
     world.run(std::string(block) + "\n");
     EXPECT_TRUE(texts(world, control::EventKind::Skipped).empty()) << block;

@@ -97,6 +97,7 @@ private:
   void parseMoveWord(std::string_view name, std::size_t start);
   void parseComputedAxis(std::string_view name, std::size_t start);
   void parsePolynomial(std::size_t start);
+  bool beginsList() const;
   void parseSetting(std::string_view name, std::size_t start);
   void setMotion(language::MoveKind kind, std::size_t start);
   void setOwner(Owner owner, language::TextRef name, std::size_t start);

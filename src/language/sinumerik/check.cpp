@@ -161,7 +161,7 @@ void Checker::checkNames() {
     }
     const std::string bare = name.starts_with("$$") ? name.substr(1) : name;
     const SystemName known = options_.globalVariables.contains(bare) ? SystemName::Simulated : systemName(bare);
-    if (known == SystemName::Simulated || !told_.insert(bare).second) continue;
+    if (known == SystemName::Simulated || isFrameWithoutEffect(bare) || !told_.insert(bare).second) continue;
     if (known == SystemName::Elsewhere) {
       report(columnOf(name), name + " has no meaning here",
              "It reads as 0 unless a value is given; nothing follows it.", Severity::Warning);
@@ -351,6 +351,18 @@ void Checker::checkInstruction(const Instruction& instruction) {
     if (keywordOf(name) == Keyword::SynchronizedAction)
       report(columnOf(name), "the synchronized action " + name + " is not carried out", "The run continues after it.",
              Severity::Warning);
+    if (name == "G" && command->words.count == 2) {
+      const Operand& number = block_.words[command->words.first].value;
+      const Operand& group = block_.words[command->words.first + 1].value;
+      const bool known = number.isLiteral() && group.isLiteral();
+      if (known && isSkippedGroup(static_cast<int>(group.number), static_cast<int>(number.number)))
+        tell(fmt::format("G[{}]={}", group.number, number.number), "is not carried out");
+    }
+    for (std::uint32_t i = 0; name == "G75" && i < command->words.count; ++i) {
+      const Word& word = block_.words[command->words.first + i];
+      if (word.address == addressOf("FP") && word.value.isLiteral() && word.value.number != 1)
+        tell(fmt::format("FP={}", word.value.number), "is not carried out");
+    }
     if (name == "ISOCALL")
       report(columnOf(name),
              fmt::format("ISOCALL {}: programs of the ISO dialect are not available", block_.at(command->text)),
@@ -361,16 +373,31 @@ void Checker::checkInstruction(const Instruction& instruction) {
                            (block_.words[modal->words.first].address & 0xff) == 'S';
     const std::string_view how = skippedFunction(name);
     if (!how.empty() && !ofSpindle) tell(name, how);
+    if (name == "TRAORI") {
+      std::vector<std::optional<double>> arguments;
+      for (std::uint32_t i = 0; i < modal->words.count; ++i) {
+        const Operand& value = block_.words[modal->words.first + i].value;
+        arguments.push_back(value.present() && value.isLiteral() ? std::optional(value.number) : std::nullopt);
+      }
+      if (const std::string_view what = skippedTransformation(arguments); !what.empty())
+        tell(std::string(what), "is not carried out");
+    }
     if (name == "H") tell("the auxiliary function H", "is not carried out");
     if (name == "G291")
       report(columnOf(name), "G291: programs of the ISO dialect are not available",
              "Write the program in the language of the control.");
+  } else if (const auto* tool = std::get_if<ToolCall>(&instruction)) {
+    if (tool->index.isLiteral() && tool->index.present() && tool->index.number != 1)
+      tell(fmt::format("T{}=", tool->index.number), "is not carried out");
+  } else if (const auto* assign = std::get_if<Assign>(&instruction)) {
+    const std::string name(block_.at(block_.variables[assign->variable].name));
+    if (isFrameWithoutEffect(name)) tell(name, "is not carried out");
   } else if (const auto* function = std::get_if<MachineFunction>(&instruction)) {
     if (isSkippedMachineFunction(function->number)) tell(fmt::format("M{}", function->number), "is not carried out");
   } else if (const auto* move = std::get_if<Move>(&instruction)) {
     for (std::uint32_t i = 0; i < move->words.count; ++i) {
-      const std::string name = addressName(block_.words[move->words.first + i].address);
-      if (const std::string_view how = skippedFunction(name); !how.empty()) tell(name, how);
+      const std::string_view name = skippedMoveWord(block_.words[move->words.first + i].address);
+      if (!name.empty()) tell(std::string(name), "is not carried out");
     }
   }
   if (const auto* order = std::get_if<Return>(&instruction); order != nullptr && order->start.present())

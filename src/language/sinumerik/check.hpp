@@ -3,6 +3,7 @@
 #include <bitset>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 
 #include "base/diagnostic.hpp"
@@ -44,6 +45,16 @@ bool isCycleWithoutEffect(std::string_view name);
 /// What becomes of a G function or word that is not carried out as on the control ("is not carried out"); empty for
 /// all others, among them those that say nothing about where the tool goes.
 std::string_view skippedFunction(std::string_view name);
+
+/// The word of a motion that has this address and is named, LEAD or A4; empty for all others.
+std::string_view skippedMoveWord(std::uint32_t address);
+
+/// What is unusual in TRAORI(number, x, y, z) and is not carried out: another transformation than the first, and a
+/// direction of the tool that is not its Z axis. `arguments` are those that are known. Empty if nothing is.
+std::string_view skippedTransformation(std::span<const std::optional<double>> arguments);
+
+/// True for frames of the control that a program can write and that nothing here moves by.
+bool isFrameWithoutEffect(std::string_view name);
 
 /// True if a word that is not carried out only says what is so anyway: OFFN=0, SETMS(1), GEOAX(). `value` is its value
 /// or first argument; nothing if it has none.

@@ -37,6 +37,12 @@ void SinumerikHost::carryOut(const Modal& modal, Evaluation& evaluation) {
   const bool ofSpindle = (name == "G25" || name == "G26") &&
                          std::ranges::all_of(words, [](const Word& word) { return (word.address & 0xff) == 'S'; });
   if (const std::string_view how = skippedFunction(name); !how.empty() && !ofSpindle) skip(name, how);
+  if (name == "TRAORI") {
+    std::vector<std::optional<double>> arguments;
+    for (const Word& word : words)
+      arguments.push_back(word.value.present() ? std::optional(evaluation.number(word.value)) : std::nullopt);
+    if (const std::string_view what = skippedTransformation(arguments); !what.empty()) skip(what);
+  }
   if (const auto number = gNumber(name)) return carryOutG(*number);
   if (name.size() == 1 && !words.empty()) {
     const double value = evaluation.number(words[0].value);

@@ -187,6 +187,7 @@ void SinumerikHost::write(const ResolvedVariable& variable, const Value& value) 
     case VariableSpace::System:
       if (variable.name == "$R" && !variable.indices.empty())
         return write({VariableSpace::R, {}, variable.indices}, value);
+      if (isFrameWithoutEffect(variable.name)) skip(variable.name);
       return system_.write(variable.name, variable.indices, value);
     default:
       break;

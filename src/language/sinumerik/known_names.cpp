@@ -28,10 +28,24 @@ bool isGlobalUserData(std::string_view name) {
   return name.starts_with("E_MESS") || std::find(std::begin(globals), std::end(globals), name) != std::end(globals);
 }
 
+namespace {
+
+/// Steps of ShopMill and ShopTurn programs: E_HEAD, E_PO_CIR, F_ROUGH.
+bool isShopStep(std::string_view name) {
+  static constexpr std::string_view kinds[] = {"HEAD", "END", "DR",  "PS",   "PO",   "PI",    "SL",     "MI",
+                                               "SW",   "CP",  "CON", "TH",   "EN",   "FR",    "ZO",     "ST",
+                                               "TR",   "SP",  "SR",  "GROV", "THRD", "DRILL", "CUTOFF", "ROUGH"};
+  if (!name.starts_with("E_") && !name.starts_with("F_")) return false;
+  const std::string_view rest = name.substr(2);
+  return std::ranges::find(kinds, rest.substr(0, rest.find('_'))) != std::end(kinds);
+}
+
+}  // namespace
+
 bool isSkippedCycle(std::string_view name) {
+  if (isShopStep(name)) return true;
   static constexpr std::string_view machining[] = {
-      "HOLES1", "HOLES2",   "POCKET1",  "POCKET2", "POCKET3", "POCKET4", "SLOT1",
-      "SLOT2",  "LONGHOLE", "TOOLCARR", "E_HEAD",  "E_END",   "F_HEAD",  "F_END",
+      "HOLES1", "HOLES2", "POCKET1", "POCKET2", "POCKET3", "POCKET4", "SLOT1", "SLOT2", "LONGHOLE", "TOOLCARR",
   };
   if (std::find(std::begin(machining), std::end(machining), name) != std::end(machining)) return true;
   if (!name.starts_with("CYCLE") || name.size() < 7 || name.size() > 9) return false;
@@ -62,11 +76,11 @@ std::string_view skippedFunction(std::string_view name) {
                              norm = "is not carried out: the contour is approached and left as with NORM",
                              limits = "is not carried out: limits of the working area are not watched";
   static constexpr Skipped functions[] = {
-      {"G147", norm},     {"G148", norm},     {"G247", norm},     {"G248", norm},    {"G347", norm},
-      {"G348", norm},     {"G33", straight},  {"G34", straight},  {"G35", straight}, {"G331", straight},
-      {"G332", straight}, {"G335", straight}, {"G336", straight}, {"G63", straight}, {"G5", no},
-      {"G7", no},         {"G25", limits},    {"G26", limits},    {"G74", no},       {"G751", no},
-      {"G931", no},       {"G942", no},       {"G952", no},
+      {"G147", norm},    {"G148", norm},     {"G247", norm},     {"G248", norm},     {"G347", norm},
+      {"G348", norm},    {"G461", no},       {"G462", no},       {"G33", straight},  {"G34", straight},
+      {"G35", straight}, {"G331", straight}, {"G332", straight}, {"G335", straight}, {"G336", straight},
+      {"G63", straight}, {"G5", no},         {"G7", no},         {"G25", limits},    {"G26", limits},
+      {"G74", no},       {"G751", no},       {"G931", no},       {"G942", no},       {"G952", no},
   };
   if (const auto found = std::ranges::find(functions, name, &Skipped::name); found != std::end(functions))
     return found->how;
@@ -86,8 +100,35 @@ std::string_view skippedFunction(std::string_view name) {
   return {};
 }
 
+std::string_view skippedMoveWord(std::uint32_t address) {
+  static constexpr std::string_view vectors[] = {"A4", "B4", "C4", "A5", "B5", "C5",
+                                                 "A6", "B6", "C6", "A7", "B7", "C7"};
+  const auto has = [address](std::string_view name) { return language::addressOf(name) == address; };
+  if (const auto found = std::ranges::find_if(vectors, has); found != std::end(vectors)) return *found;
+  for (const KeywordEntry& each : keywords())
+    if (each.keyword == Keyword::MoveWord && each.effect == Effect::NotCarriedOut && has(each.name)) return each.name;
+  return {};
+}
+
+std::string_view skippedTransformation(std::span<const std::optional<double>> arguments) {
+  const auto at = [&](std::size_t place) {
+    return place < arguments.size() && arguments[place] ? *arguments[place] : 0;
+  };
+  if (at(0) != 0 && at(0) != 1) return "TRAORI with another transformation than the first";
+  if (at(1) != 0 || at(2) != 0 || at(3) < 0) return "TRAORI with another direction of the tool than its Z axis";
+  return {};
+}
+
+bool isFrameWithoutEffect(std::string_view name) {
+  static constexpr std::string_view names[] = {
+      "$P_EXTFRAME",  "$P_TRAFRAME",  "$P_CYCFRAME", "$P_GFRAME", "$P_ISO1FRAME", "$P_ISO2FRAME", "$P_ISO3FRAME",
+      "$P_ISO4FRAME", "$P_EXTSFRAME", "$P_EXTFR",    "$P_TOOLFR", "$P_PARTFR",    "$P_TRAFR",     "$P_WPFR",
+      "$P_CYCFR",     "$P_GFR",       "$P_ISO1FR",   "$P_ISO2FR", "$P_ISO3FR",    "$P_ISO4FR"};
+  return std::ranges::find(names, name) != std::end(names);
+}
+
 bool saysWhatIs(std::string_view name, std::optional<double> value) {
-  static constexpr std::string_view offAtZero[] = {"OFFN", "TCARR", "FXS", "CUTMOD", "TOFF"};
+  static constexpr std::string_view offAtZero[] = {"OFFN", "TCARR", "FXS", "CUTMOD", "TOFF", "DISC"};
   if (!value) return name == "SETMS" || name == "GEOAX";
   if (name == "SETMS") return *value == 1;
   return *value == 0 && std::ranges::find(offAtZero, name) != std::end(offAtZero);
@@ -104,9 +145,10 @@ bool isSkippedGroup(int group, int number) {
 }
 
 bool isUnavailableFunction(std::string_view name) {
-  static constexpr std::string_view functions[] = {"CHKDNO",   "GETTCOR", "INTERSEC", "MEAFRAME", "GETMDACT",
-                                                   "GETACTTD", "GETTENV", "SETTCOR",  "LENTOAX",  "STRINGIS",
-                                                   "CTAB",     "CTABINV", "ADDFRAME", "CORRTC",   "ORISOLH"};
+  static constexpr std::string_view functions[] = {
+      "CHKDNO",    "GETTCOR",   "INTERSEC",  "MEAFRAME", "GETMDACT", "GETACTTD", "GETTENV",   "SETTCOR",   "LENTOAX",
+      "STRINGIS",  "CTAB",      "CTABINV",   "ADDFRAME", "CORRTC",   "ORISOLH",  "GETVARTYP", "GETVARPHU", "GETVARAP",
+      "GETVARLIM", "GETVARDFT", "NAMETOINT", "COLLPAIR", "AXTOINT",  "INTTOAX",  "AXCTSWEC",  "TOOLGNT"};
   return std::ranges::find(functions, name) != std::end(functions);
 }
 

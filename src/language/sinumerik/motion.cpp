@@ -155,6 +155,7 @@ bool PathMotion::readArcWord(std::uint32_t address, WordMode mode, double value,
     case addressOf("SD"):
     // Soft approach and the angle at which a thread begins: the lines around them are travelled without.
     case addressOf("DISR"):
+    case addressOf("DISPR"):
     case addressOf("FAD"):
     case addressOf("SF"):
       return true;

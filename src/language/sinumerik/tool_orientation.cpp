@@ -5,6 +5,7 @@
 #include <string>
 
 #include "control/alarm.hpp"
+#include "language/sinumerik/check.hpp"
 #include "language/sinumerik/motion.hpp"
 #include "language/sinumerik/spindle_speed.hpp"
 #include "language/sinumerik/swivel.hpp"
@@ -16,13 +17,9 @@ using namespace language;
 using control::Alarm;
 
 bool PathMotion::readOrientationWord(std::uint32_t address, double value, Words& words) {
-  static constexpr std::string_view ignored[] = {"A4", "B4", "C4", "A5", "B5",   "C5",   "A6",   "B6",
-                                                 "C6", "A7", "B7", "C7", "LEAD", "TILT", "THETA"};
   if (machineAxis(address)) return false;
-  const auto known =
-      std::ranges::find_if(ignored, [address](std::string_view each) { return addressOf(each) == address; });
-  if (known != std::end(ignored)) {
-    if (onIgnoredWord) onIgnoredWord(*known);
+  if (const std::string_view skipped = skippedMoveWord(address); !skipped.empty()) {
+    if (onIgnoredWord) onIgnoredWord(skipped);
     return true;
   }
   const std::string name = addressName(address);
