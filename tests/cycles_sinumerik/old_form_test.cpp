@@ -169,15 +169,15 @@ TEST(OldForm, SaysWhatItCannotCarryOut) {
     const char* code;
     const char* text;
   } rows[] = {
-      {"CYCLE994", "_MVAR=1 _SETVAL=40 _FA=6 _TSA=2", "61307", "_MVAR = 1"},
-      {"CYCLE979", "_MVAR=3 _SETVAL=40 _FA=6 _TSA=2", "61307", "_MVAR = 3"},
-      {"CYCLE973", "_MVAR=13 _FA=6 _TSA=2", "61307", "_MVAR = 13"},
+      {"CYCLE994", "_MVAR=1 _SETVAL=40 _FA=6 _TSA=2", "61307", "_SZA and _SZO"},
+      {"CYCLE979", "_MVAR=3 _SETVAL=40 _FA=6 _TSA=2", "61307", "CYCLE977 with S_STA1"},
+      {"CYCLE973", "_MVAR=13 _FA=6 _TSA=2", "61307", "S_CALNUM"},
       {"CYCLE976", "_MVAR=10101 _SETVAL=40 _FA=6 _TSA=2", "61307", "_MVAR = 10101"},
       {"CYCLE977", "_MVAR=201 _SETVAL=40 _FA=6 _TSA=2", "61307", "_MVAR = 201"},
       {"CYCLE977", "_MVAR=101 _SETVAL=40 _FA=6 _TSA=2 _KNUM=1099", "61321", "_KNUM = 1099"},
       {"CYCLE977", "_MVAR=1 _SETVAL=40 _FA=6 _TSA=2 _KNUM=1001 _TNUM=7", "61328", "_KNUM = 1001"},
       {"CYCLE977", "_MVAR=1 _SETVAL=40 _FA=6 _TSA=2 _TENV=\"ENV1\"", "61319", "_TENV"},
-      {"CYCLE961", "_MVAR=105 _SETV[0]=80 _SETV[1]=80 _SETV[4]=2 _FA=6 _TSA=2", "61319", "_SETV[4]"},
+      {"CYCLE961", "_MVAR=105 _SETV[0]=80 _SETV[1]=80 _SETV[4]=2 _FA=6 _TSA=2", "61319", "_SETV[2] and _SETV[3]"},
       {"CYCLE977", "_MVAR=1 _SETVAL=40 _TSA=2", "61308", "DFA"},
   };
   for (const auto& [cycle, assigned, code, text] : rows) {

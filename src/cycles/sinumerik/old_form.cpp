@@ -62,8 +62,9 @@ private:
         code, fmt::format("{} without arguments takes the variables of older measuring cycles: {}", cycle_.name, what),
         fmt::format("write the call with arguments: 'probewright cycles {}'", cycle_.name));
   }
-  [[noreturn]] void refuseVariant() const {
-    refuse("61307", fmt::format("_MVAR = {} is not carried out in this form", variant_));
+  [[noreturn]] void refuseVariant(std::string_view why = {}) const {
+    refuse("61307",
+           fmt::format("_MVAR = {} is not carried out in this form{}{}", variant_, why.empty() ? "" : ": ", why));
   }
   /// Refuses digits of _MVAR from `place` on.
   void nothingFrom(int place) const {
@@ -174,7 +175,11 @@ int OldCall::corner() {
   }
   if (digit(2) != 0) refuseVariant();
   if (whole("_SETV", 0) > 1 || element(4) > 1)
-    refuse("61319", "_SETV[4] above 1: the set place of the corner is S_SETV8, S_SETV9 now");
+    refuse(
+        "61319",
+        fmt::format("_SETV[4] = {} lays the required corner beside the measured one, by _SETV[2] and _SETV[3]; the set "
+                    "place of the measured corner is S_SETV8, S_SETV9 now",
+                    element(4)));
   const Vector3 pole = control_.workingPlane().planeFromXyz(control_.channel.position()) / control_.unit;
   put("S_SETV0", element(0) / 2);
   put("S_SETV1", element(0));
@@ -227,7 +232,8 @@ Arguments OldCall::read() {
       variant = corner() + task(false);
       break;
     case 973:
-      if (variant_ != 0) refuseVariant();
+      if (variant_ != 0)
+        refuseVariant("only 0, calibration on a surface, is; the groove that _CALNUM names is S_CALNUM now");
       put("S_MD", whole("_MD"));
       variant = 1100;
       break;
@@ -250,6 +256,8 @@ Arguments OldCall::read() {
       break;
     case 979:
       nothingFrom(5);
+      if (digit(2) == 0 && (digit(1) == 3 || digit(1) == 4))
+        refuseVariant("grooves and ribs at an angle are measured by CYCLE977 with S_STA1 now");
       if (digit(2) != 0 || digit(1) < 1 || digit(1) > 2) refuseVariant();
       put("S_CPA", number("_CPA"));
       put("S_CPO", number("_CPO"));
@@ -269,6 +277,8 @@ Arguments OldCall::read() {
       if (digit(1) == 6) put("S_SETV", 0.0);
       variant = digit(1) + task(false) + digit(4) * 10000 + digit(6) * 100000;
       break;
+    case 994:
+      refuseVariant("its _SZA and _SZO count in the axes of the plane, S_SZA and S_SZO in measuring and passing axis");
     default:
       refuseVariant();
   }
