@@ -2,6 +2,7 @@
 #include <set>
 
 #include "cycles/catalogue.hpp"
+#include "language/sinumerik/check.hpp"
 #include "support/lathe_bench.hpp"
 
 /// Every digit of S_MVAR in the cycles for lathes: each value that the catalogue lists runs and does something else
@@ -195,6 +196,68 @@ TEST(TurningDigits, MeanTheSameInInches) {
       EXPECT_EQ(metric.writes[i].table + metric.writes[i].entry, inches.writes[i].table + inches.writes[i].entry);
       EXPECT_NEAR(std::stod(metric.writes[i].after), std::stod(inches.writes[i].after), 1e-7);
     }
+  }
+}
+
+// ---- arguments left out ----
+
+std::vector<std::string> argumentsOf(const std::string& call) {
+  std::vector<std::string> arguments(1);
+  for (const char c : call.substr(call.find('(') + 1)) {
+    if (c == ')') break;
+    if (c == ',') {
+      arguments.emplace_back();
+    } else {
+      arguments.back() += c;
+    }
+  }
+  return arguments;
+}
+
+/// True if the alarm is about the call, not about what the probe met or what the machine has.
+bool isOfTheCall(const Diagnostics& diagnostics) {
+  if (diagnostics.empty()) return false;
+  const std::string& code = diagnostics.front().code;
+  if (code == "61334") return diagnostics.front().message.find("S_SZO must be") != std::string::npos;
+  static constexpr const char* met[] = {"61301", "61302", "61303", "61331", "61332", "61343", "10720"};
+  return std::ranges::find(met, code) == std::end(met);
+}
+
+/// What `check` lets pass a run does not refuse for its call, and the other way round.
+void expectAgreement(const Value& value, const std::vector<std::string>& arguments) {
+  const std::string before = std::string(value.call).substr(0, std::string_view(value.call).find("CYCLE"));
+  const std::string call = fmt::format("{}({})", value.cycle, fmt::join(arguments, ","));
+  SCOPED_TRACE(call);
+  const auto program = sinumerik::SinumerikProgram::fromText("TEST.MPF", call + "\nM30\n");
+  const bool passes = std::ranges::none_of(sinumerik::check(*program),
+                                           [](const Diagnostic& each) { return each.severity == Severity::Error; });
+  const Scene scene = sceneOf(value.scene);
+  LatheBench bench(scene.setup);
+  scene.data(bench);
+  const language::RunResult result =
+      bench.tryRun("DIAMON\n" + (std::string_view(value.scene) == "thirdAxis" ? "" : std::string("G0 X300\n")) +
+                   scene.way + before + call);
+  EXPECT_EQ(passes, !isOfTheCall(result.diagnostics))
+      << (result.diagnostics.empty() ? "" : result.diagnostics.front().message);
+}
+
+TEST(TurningLeftOut, EachArgumentOfEachCall) {
+  for (const Value& value : values) {
+    const std::vector<std::string> whole = argumentsOf(value.call);
+    for (std::size_t i = 1; i < whole.size(); ++i) {
+      if (whole[i].empty()) continue;
+      std::vector<std::string> call = whole;
+      call[i].clear();
+      expectAgreement(value, call);
+    }
+  }
+}
+
+TEST(TurningLeftOut, TheEndOfEachCall) {
+  for (const Value& value : values) {
+    const std::vector<std::string> whole = argumentsOf(value.call);
+    for (std::size_t count = 1; count < whole.size(); ++count)
+      expectAgreement(value, {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(count)});
   }
 }
 
