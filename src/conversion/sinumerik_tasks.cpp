@@ -154,6 +154,8 @@ private:
   }
 
   MeasuringTask cycle977() {
+    if (call_.digit("_AMODE", 2) == 1)
+      throw NotCarriedOver("_AMODE of CYCLE977 names another set position of the centre than the start");
     MeasuringTask task = begun(feature977(call_.digit("S_MVAR", 1)));
     const bool zone = call_.digit("S_MVAR", 4) == 1;
     if (zone || !isInside(task.feature)) {

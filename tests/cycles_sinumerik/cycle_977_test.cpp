@@ -59,6 +59,53 @@ TEST(Cycle977, TheStartPositionIsTheSetCentre) {
       << "the probe is in the centre";
 }
 
+/// The form of versions newer than 4.4: the tens of _AMODE, and two arguments behind it.
+TEST(Cycle977, PutsTheCentreWhereTheCallSays) {
+  Planter plant(9773);
+  for (int world = 0; world < 40; ++world) {
+    const int feature = 1 + world % 4, axis = 1 + world / 4 % 2;
+    const bool oneAxis = feature > 2;
+    const double size = plant.number(20, 40), angle = plant.number(-180, 180);
+    const Vector2 set(plant.number(-40, 40), plant.number(-40, 40)), error(plant.number(-1, 1), plant.number(-1, 1));
+    // The frame believes the centre at `set`; in truth it lies `error` beside it.
+    const Pose believed = translation(Vector3(0, 0, table)) * rotation(Vector3::UnitZ(), angle);
+    const Pose part = believed * translation(Vector3(set.x() + error.x(), set.y() + error.y(), 0));
+    simulation::Truth truth = perfectWorld();
+    const Vector3 half = axis == 1 ? Vector3(size / 2, 60, 0) : Vector3(60, size / 2, 0);
+    if (feature == 1) place(truth, simulation::Ring(size / 2, 60, -60), part);
+    if (feature == 2) place(truth, simulation::RoundBar(size / 2, -60, 0), part);
+    if (feature == 3) {
+      const Vector3 across = axis == 1 ? Vector3::UnitX() : Vector3::UnitY();
+      place(truth, simulation::Box(Vector3(-20, -20, -60), Vector3(20, 20, 0)),
+            part * translation(across * (size / 2 + 20)), "plus");
+      place(truth, simulation::Box(Vector3(-20, -20, -60), Vector3(20, 20, 0)),
+            part * translation(-across * (size / 2 + 20)), "minus");
+    }
+    if (feature == 4) place(truth, simulation::Box(-half - Vector3(0, 0, 60), half), part);
+    SinumerikBench bench(truth);
+    plantFrame(bench, "$P_UIFR", 1, {0, 0, table}, {0, 0, angle});
+    const Vector2 off(plant.number(-0.4, 0.4), plant.number(-0.4, 0.4));
+    bench.start({set.x() + off.x(), set.y() + off.y(), feature % 2 == 1 ? -10.0 : 10.0});
+    const double first = oneAxis ? set[axis - 1] : set.x();
+    bench.run("CYCLE977", {{"S_MVAR", 100.0 + feature},
+                           {"S_KNUM", 10001},
+                           {"S_SETV", size},
+                           {"S_FA", 5},
+                           {"S_TSA", 3},
+                           {"S_ID", -20},
+                           {"S_MA", static_cast<double>(axis)},
+                           {"_AMODE", world % 2 == 0 ? 10 : 11},
+                           {"S_POS1", first},
+                           {"S_POS2", oneAxis ? 0 : set.y()}});
+    EXPECT_NEAR(bench.ovr(4), size, 1e-9) << world;
+    const Vector3 found = inWorkpiece(bench, part.translation());
+    EXPECT_NEAR(!oneAxis || axis == 1 ? found.x() - set.x() : 0, 0, 1e-9) << world;
+    EXPECT_NEAR(!oneAxis || axis == 2 ? found.y() - set.y() : 0, 0, 1e-9) << world;
+    EXPECT_NEAR(bench.ovr(oneAxis ? axis : 1), first, 1e-9);
+    EXPECT_NEAR(bench.ovr(oneAxis ? 16 + axis : 17), oneAxis ? error[axis - 1] : error.x(), 1e-9);
+  }
+}
+
 TEST(Cycle977, MeasuresSpigotsOverTheTop) {
   Planter plant(9772);
   for (int world = 0; world < 20; ++world) {

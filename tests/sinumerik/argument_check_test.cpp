@@ -160,6 +160,25 @@ TEST(SinumerikArguments, WhatTheVersionReservesIsNamed) {
   EXPECT_EQ(mistakesIn("CYCLE997(9,,1,25,8,4,,,,,,,,,,,,,,0,1,0)\n"), Messages{});
 }
 
+TEST(SinumerikArguments, DigitsAndArgumentsOfNewerVersionsAreNamedSo) {
+  EXPECT_EQ(mistakesIn("CYCLE977(101,10001,,1,32,,,7,5,0,-6,,,,1,\"\",,0,1.01,1.01,-1.01,0.34,1,0,,1,11,-3,15)\n"),
+            Messages{});
+  const std::string note =
+      "; such digits belong to versions of the measuring cycles newer than 4.4, and what they mean is not published";
+  EXPECT_EQ(
+      mistakesIn("CYCLE978(0,,,1,20,5,1,1,1,1,,,,,,,,,,,1,11)\n"),
+      (Messages{"1:41 argument 22 of CYCLE978: _AMODE (1: S_TUL and S_TLL are a tolerance) cannot be 11: its tens "
+                "mean nothing and must be 0, not 1" +
+                note}));
+  EXPECT_EQ(mistakesIn("CYCLE978(0,,,1,20,5,1,1,1,1,,,,,,,,,,,101)\n"),
+            (Messages{"1:39 argument 21 of CYCLE978: _DMODE (plane: 0 as active, 1 G17, 2 G18, 3 G19) cannot be 101: "
+                      "its hundreds mean nothing and must be 0, not 1" +
+                      note}));
+  const Messages more = mistakesIn("CYCLE978(0,,,1,20,5,1,1,1,1,,,,,,,,,,,1,1,5)\n");
+  ASSERT_EQ(more.size(), 1u);
+  EXPECT_NE(more[0].find("newer than 4.4"), std::string::npos) << more[0];
+}
+
 TEST(SinumerikArguments, CallsOfTheOldFormTakeVariables) {
   EXPECT_EQ(mistakesIn("_MVAR=101 _SETVAL=40 _FA=8 _TSA=4 _KNUM=1\n"
                        "CYCLE977\n"

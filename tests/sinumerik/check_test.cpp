@@ -130,7 +130,7 @@ TEST(SinumerikCheck, ArgumentsOfMeasuringCyclesAreHeldAgainstTheCatalogue) {
   EXPECT_TRUE(tooMany);
   // Places that newer versions of the cycles have more ask for nothing while they are empty or 0.
   const std::string known = "CYCLE977(1,,,1,40,,,10,5,,,,,,,,,,,,,,,,,,1";
-  for (const char* more : {",,,", ",0,0", ",\"\",,0"})
+  for (const char* more : {",,,", ",0,0", ",,,\"\",,0"})
     EXPECT_TRUE(checkText(known + more + ")\n").empty()) << more;
   EXPECT_EQ(checkText(known + ",,2)\n").size(), 1u);
   const Diagnostics text = checkText("CYCLE977(\"hole\",,,1,40,,,10,5)\n");

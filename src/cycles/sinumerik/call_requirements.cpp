@@ -152,6 +152,11 @@ std::string outside(const Requirement& requirement, double value) {
 
 }  // namespace
 
+std::string_view versionNote(const Parameter& parameter, double value) {
+  if (value < 10 || (parameter.name != "_AMODE" && parameter.name != "_DMODE")) return {};
+  return "; such digits belong to versions of the measuring cycles newer than 4.4, and what they mean is not published";
+}
+
 std::optional<CallComplaint> requirementComplaint(const CycleDefinition& cycle, const Parameter& parameter,
                                                   const Argument& argument, std::optional<int> variant) {
   if (parameter.name == "_AMODE" && parameter.meaning == parameters::reservedMeaning && argument.given &&

@@ -11,6 +11,7 @@
 #include "control/alarm.hpp"
 #include "control/missing_axis.hpp"
 #include "control/sinumerik/measuring_data.hpp"
+#include "cycles/sinumerik/call_requirements.hpp"
 #include "cycles/sinumerik/measuring_log.hpp"
 
 namespace probewright::cycles::sinumerik {
@@ -333,7 +334,8 @@ void requireArguments(Context& context) {
     const Argument& argument = context.arguments().values()[i];
     if (!argument.given) continue;
     const std::string complaint = codeComplaint(parameters[i], argument);
-    if (!complaint.empty()) context.alarm(variant ? 61307 : 61319, complaint);
+    if (!complaint.empty())
+      context.alarm(variant ? 61307 : 61319, complaint + std::string(versionNote(parameters[i], argument.number)));
   }
   if (context.has("S_FA") && !(context.real("S_FA") > 0)) context.alarm(61308);
 }

@@ -17,6 +17,11 @@ constexpr CodeDigit variant977[] = {{1, 1, "feature", features977},
                                     {4, 1, "protection zone", parameters::protectionZone},
                                     {5, 1, "method", parameters::method}};
 
+/// The tens are of versions newer than 4.4; they and the two arguments that belong to them are known from the calls
+/// that programs have. Their names are not published.
+constexpr Choice centres977[] = {{0, "centre where the cycle starts"}, {1, "centre at S_POS1, S_POS2"}};
+constexpr CodeDigit mode977[] = {{1, 1, "tolerance", parameters::withTolerance}, {2, 1, "set position", centres977}};
+
 constexpr Parameter parameters977[] = {
     parameters::variant(variant977),
     parameters::zeroOffset(1),
@@ -44,7 +49,9 @@ constexpr Parameter parameters977[] = {
     parameters::memories(23),
     parameters::reserved(24),
     parameters::plane(25),
-    parameters::tolerance(26),
+    parameters::coded(26, "_AMODE", "alternative mode", mode977),
+    parameters::length(27, "S_POS1", "set position of the centre, 1st axis or measuring axis, with _AMODE = 10 and 11"),
+    parameters::length(28, "S_POS2", "set position of the centre, 2nd axis, with _AMODE = 10 and 11"),
 };
 
 /// The measuring variants by the units of S_MVAR.
@@ -181,8 +188,8 @@ const CycleDefinition cycle977Definition = {
     .family = CycleFamily::Inspection,
     .summary =
         "Measures size and centre of a hole, spigot, groove, rib, rectangular pocket or spigot by touches across "
-        "the axes of the plane, and corrects the zero offset so that the centre lies where the cycle started, or "
-        "the tool.",
+        "the axes of the plane, and corrects the zero offset so that the centre lies where the cycle started "
+        "or where the call says, or the tool.",
     .parameters = parameters977,
     .results = results977,
     .controls = control::onSinumerik,
@@ -204,8 +211,13 @@ void cycle977(Context& context, const Arguments&) {
   const int axis = oneAxis ? context.measuringAxis(2) : 0;
   const auto target = task == Task::ZeroOffset ? frameTarget(context, GlobalBase::Allowed) : std::nullopt;
 
-  // Where the probe stands is the set position of the centre.
+  // Where the probe stands is the set position of the centre, unless the call names another.
   const Vector3 start = context.prober().position();
+  Vector3 setCentre = start;
+  if (context.digit("_AMODE", 2) == 1) {
+    setCentre[oneAxis ? axis : 0] = context.real("S_POS1");
+    if (!oneAxis) setCentre.y() = context.real("S_POS2");
+  }
   const Vector3 first = probing::directionAt(context.real("S_STA1") + (axis == 1 ? 90 : 0));
   const Vector3 second = probing::directionAt(context.real("S_STA1") + 90);
   const double set1 = setValueOf(context, task, context.real(isRectangle(feature) ? "S_SETV0" : "S_SETV"));
@@ -241,20 +253,20 @@ void cycle977(Context& context, const Arguments&) {
   if (isRectangle(feature)) {
     report(element++, set2, pair2.size, comparedSize(context, task, set2, pair2.size, side));
   }
-  report(element++, start.x(), centre.x(), {.nominal = start.x()});
-  report(element, start.y(), centre.y(), {.nominal = start.y()});
+  report(element++, setCentre.x(), centre.x(), {.nominal = setCentre.x()});
+  report(element, setCentre.y(), centre.y(), {.nominal = setCentre.y()});
   context.noteCall();
 
   context.checkSafeArea(size1 - set1);
   if (isRectangle(feature)) context.checkSafeArea(pair2.size - set2);
   if (task == Task::ZeroOffset) {
-    context.checkSafeArea(first.dot(centre - start));
-    if (!oneAxis) context.checkSafeArea(second.dot(centre - start));
+    context.checkSafeArea(first.dot(centre - setCentre));
+    if (!oneAxis) context.checkSafeArea(second.dot(centre - setCentre));
   }
 
   if (target) {
     const Vector3 directions[] = {first, second};
-    correctTranslation(context, *target, machinePoint(context, centre), start,
+    correctTranslation(context, *target, machinePoint(context, centre), setCentre,
                        std::span(directions).first(oneAxis ? 1 : 2));
     context.result(28, context.real("S_TSA"));
   }

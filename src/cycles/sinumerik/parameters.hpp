@@ -97,6 +97,7 @@ inline constexpr Choice measureOrCorrect[] = {
 inline constexpr Choice protectionZone[] = {{0, "without protection zone"}, {1, "with protection zone"}};
 inline constexpr Choice method[] = {
     {0, "probe as calibrated"}, {1, "with spindle reversal"}, {2, "probe aligned with each touch"}};
+inline constexpr Choice withTolerance[] = {{0, "no tolerance"}, {1, "S_TUL and S_TLL are a tolerance"}};
 inline constexpr Choice fineOrCoarse[] = {{0, "fine"}, {1, "coarse"}};
 inline constexpr Choice zeroOffsetKinds[] = {{0, "settable zero offset"},
                                              {1, "basic zero offset of the channel"},
@@ -187,7 +188,7 @@ constexpr Parameter plane(std::uint32_t address) {
   return count<3>(address, "_DMODE", "plane: 0 as active, 1 G17, 2 G18, 3 G19");
 }
 constexpr Parameter tolerance(std::uint32_t address) {
-  return count<1>(address, "_AMODE", "1: S_TUL and S_TLL are a tolerance; cycles newer than 4.4 have more digits");
+  return count<1>(address, "_AMODE", "1: S_TUL and S_TLL are a tolerance");
 }
 constexpr Parameter alternative(std::uint32_t address) { return code(address, "_AMODE", reservedMeaning); }
 

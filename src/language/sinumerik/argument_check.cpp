@@ -117,7 +117,10 @@ std::string wrongValue(const cycles::Parameter& parameter, const Given& given) {
   argument.number = given.number.value_or(parameter.standard.value_or(0));
   argument.text = given.text;
   std::string wrong = cycles::complaint(parameter, argument);
-  if (wrong.empty() && given.number) wrong = cycles::codeComplaint(parameter, argument);
+  if (wrong.empty() && given.number) {
+    wrong = cycles::codeComplaint(parameter, argument);
+    if (!wrong.empty()) wrong += cycles::sinumerik::versionNote(parameter, argument.number);
+  }
   return wrong;
 }
 
@@ -180,11 +183,10 @@ std::vector<ArgumentMistake> argumentMistakes(const Block& block, const CallProg
   if (asksForMore) {
     found.push_back(
         {reader.columnOf(most),
-         fmt::format(
-             "{} takes at most {} arguments in version 4.4 of the measuring cycles, but {} are given; the last is "
-             "argument {}, {} ({})",
-             cycle.name, most, call.arguments.count, most, cycle.parameters.back().name,
-             cycle.parameters.back().meaning),
+         fmt::format("{} takes at most {} arguments, but {} are given: those after argument {}, {} ({}), belong to a "
+                     "version of the measuring cycles newer than 4.4, and what they mean is not published",
+                     cycle.name, most, call.arguments.count, most, cycle.parameters.back().name,
+                     cycle.parameters.back().meaning),
          advice});
   }
   return found;

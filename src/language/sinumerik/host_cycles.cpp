@@ -74,8 +74,9 @@ void SinumerikHost::runCycle(std::string_view name, WordRange range, Evaluation&
       // Newer versions of the cycles have more; what is empty or 0 asks for nothing.
       if (value == Value(0.0) || value == Value(std::string())) continue;
       throw Alarm("14020",
-                  fmt::format("{} takes at most {} arguments in version 4.4 of the measuring cycles", name,
-                              definition.parameters.size()),
+                  fmt::format("{} takes at most {} arguments: more belong to a version of the measuring cycles newer "
+                              "than 4.4",
+                              name, definition.parameters.size()),
                   fmt::format("leave out the arguments that newer versions added; see 'probewright cycles {}'", name));
     }
     if (const auto* text = std::get_if<std::string>(&value)) {
