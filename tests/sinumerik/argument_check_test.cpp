@@ -163,6 +163,9 @@ TEST(SinumerikArguments, WhatTheVersionReservesIsNamed) {
 TEST(SinumerikArguments, DigitsAndArgumentsOfNewerVersionsAreNamedSo) {
   EXPECT_EQ(mistakesIn("CYCLE977(101,10001,,1,32,,,7,5,0,-6,,,,1,\"\",,0,1.01,1.01,-1.01,0.34,1,0,,1,11,-3,15)\n"),
             Messages{});
+  EXPECT_EQ(
+      mistakesIn("CYCLE977(101,10001,,1,32,,,7,5,0,-6,,,,1,\"\",,0,1.01,1.01,-1.01,0.34,1,0,,1,1,-3,15)\n"),
+      (Messages{"1:78 warning: argument 28 of CYCLE977: S_POS1 = -3 is not observed: the tens of _AMODE are not 1"}));
   const std::string note =
       "; such digits belong to versions of the measuring cycles newer than 4.4, and what they mean is not published";
   EXPECT_EQ(
@@ -177,6 +180,47 @@ TEST(SinumerikArguments, DigitsAndArgumentsOfNewerVersionsAreNamedSo) {
   const Messages more = mistakesIn("CYCLE978(0,,,1,20,5,1,1,1,1,,,,,,,,,,,1,1,5)\n");
   ASSERT_EQ(more.size(), 1u);
   EXPECT_NE(more[0].find("newer than 4.4"), std::string::npos) << more[0];
+}
+
+TEST(SinumerikArguments, WhatCannotGoTogetherIsNamed) {
+  /// The mistakes, without warnings.
+  const auto mistakes = [](const std::string& call) {
+    Messages found = mistakesIn(call + "\n");
+    std::erase_if(found, [](const std::string& each) { return each.find("warning") != std::string::npos; });
+    for (std::string& each : found)
+      each.erase(0, each.find(": ") + 2);
+    return found;
+  };
+  const std::string bore = "CYCLE977(201,,{},1,40,,,8,4,0,,,,,1,{},,0,1,{},{},,{},{},,1,{})";
+  const auto tool = [&](const char* target, const char* name, const char* upper, const char* lower, const char* weight,
+                        const char* memories, const char* mode) {
+    return mistakes(fmt::format(fmt::runtime(bore), target, name, upper, lower, weight, memories, mode));
+  };
+  EXPECT_EQ(tool("1", "\"MILL\"", "0.1", "0.2", "", "", "1"), (Messages{"S_TUL = 0.1 is smaller than S_TLL = 0.2"}));
+  EXPECT_EQ(tool("1", "\"MILL\"", "0.1", "0.2", "", "", "0"), Messages{}) << "no tolerance";
+  EXPECT_EQ(tool("1", "\"MILL\"", "", "0.2", "", "", "1"), (Messages{"S_TUL = 0 is smaller than S_TLL = 0.2"}));
+  EXPECT_EQ(tool("0", "\"MILL\"", "0.1", "0.2", "", "", "1"), Messages{}) << "corrects nothing";
+  EXPECT_EQ(tool("1", "\"MILL\"", "R1", "0.2", "", "", "1"), Messages{}) << "only the run knows it";
+  const Messages weight = {"S_K = 0: the weighting factor of mean value 2 must be greater than 0"};
+  EXPECT_EQ(tool("1", "\"MILL\"", "1", "0", "0", "20001", "1"), weight);
+  EXPECT_EQ(tool("1", "\"MILL\"", "1", "0", "", "20001", "1"), weight);
+  EXPECT_EQ(tool("1", "\"MILL\"", "1", "0", "0", "1", "1"), Messages{}) << "no mean value";
+  EXPECT_EQ(tool("1", "\"MILL\"", "1", "0", "2", "20001", "1"), Messages{});
+  const std::string line = "the set centres of the three balls (S_SETV0 to S_SETV8) lie on one line";
+  EXPECT_EQ(mistakes("CYCLE997(10119,10001,1,25,8,5,,,0,0,10,50,0,10,100,0,10,,1,,1)"), (Messages{line}));
+  EXPECT_EQ(mistakes("CYCLE997(10119,10001,1,25,8,5,,,0,0,10,50,0,10,0,0,10,,1,,1)"), (Messages{line}));
+  EXPECT_EQ(mistakes("CYCLE997(10119,10001,1,25,8,5,,,0,0,10,50,0,10,50,40,10,,1,,1)"), Messages{});
+  EXPECT_EQ(mistakes("CYCLE961(117,1,1,5,5,5,5,10,0,20,0,,,,,,10,5)"),
+            (Messages{"points 1 and 2 (S_SETV0 to S_SETV3) coincide"}));
+  EXPECT_EQ(mistakes("CYCLE961(117,1,1,0,0,9,0,10,5,20,5,,,,,,10,5)"),
+            (Messages{"the points of the two edges (S_SETV0 to S_SETV7) do not enclose an angle"}));
+  EXPECT_EQ(mistakes("CYCLE977(1101,1,,1,40,,,8,4,0,-10,50)"),
+            (Messages{"S_SZA = 50: the protection zone leaves no room within the set size 40"}));
+  EXPECT_EQ(mistakes("CYCLE977(1106,1,,1,,40,30,8,4,0,-10,60,30)"),
+            (Messages{"S_SZO = 30: the protection zone leaves no room around the set size 30"}));
+  EXPECT_EQ(mistakesIn("CYCLE977(201,,1,1,40,,,8,4,0,,,,,1,\"\")\n"),
+            (Messages{"1:36 warning: argument 16 of CYCLE977: S_TNAME names no tool to correct, which only machines "
+                      "with unique D numbers can do with"}));
 }
 
 TEST(SinumerikArguments, CallsOfTheOldFormTakeVariables) {

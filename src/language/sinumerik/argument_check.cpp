@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "cycles/sinumerik/call_combinations.hpp"
 #include "cycles/sinumerik/call_requirements.hpp"
 #include "language/sinumerik/cursor.hpp"
 
@@ -23,6 +24,7 @@ struct Given {
   Kind kind = Kind::Absent;
   std::optional<double> number;  ///< written as a number
   std::string text;              ///< written as a text
+  bool isWritten = false;        ///< the text stands in the call
 };
 
 class Reader {
@@ -49,7 +51,7 @@ private:
   Given given(const Node& node) const {
     switch (node.operation) {
       case Operation::Text:
-        return {Kind::Text, std::nullopt, std::string(block_.at(node.text))};
+        return {Kind::Text, std::nullopt, std::string(block_.at(node.text)), true};
       case Operation::Concatenate:
         return {Kind::Text, std::nullopt, {}};
       case Operation::AxisName:
@@ -170,6 +172,24 @@ std::vector<ArgumentMistake> argumentMistakes(const Block& block, const CallProg
     } else if (const auto lacks = cycles::sinumerik::requirementComplaint(cycle, parameter, argument, variant)) {
       report(parameter, lacks->text, lacks->refused ? Severity::Error : Severity::Warning);
     }
+  }
+
+  const bool mistaken =
+      std::ranges::any_of(found, [](const ArgumentMistake& each) { return each.severity == Severity::Error; });
+  if (variant && !mistaken) {
+    const auto known = [&](std::string_view name) {
+      cycles::sinumerik::KnownArgument argument;
+      const auto parameter = std::ranges::find(cycle.parameters, name, &cycles::Parameter::name);
+      if (parameter == cycle.parameters.end()) return argument;
+      const Given given = reader.at(parameter->address);
+      argument.given = given.kind != Kind::Absent;
+      argument.number = argument.given ? given.number : std::optional(parameter->standard.value_or(0));
+      if (given.isWritten) argument.text = given.text;
+      return argument;
+    };
+    for (const auto& [name, complaint] : cycles::sinumerik::combinationComplaints(cycle, *variant, known))
+      report(*std::ranges::find(cycle.parameters, name, &cycles::Parameter::name), complaint.text,
+             complaint.refused ? Severity::Error : Severity::Warning);
   }
 
   const auto most = static_cast<std::uint32_t>(cycle.parameters.size());
