@@ -188,7 +188,7 @@ namespace {
 
 bool isPartOfName(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-/// True if `text` stands in `line` in front of its comment, not as a part of a longer name. Small letters count as
+/// True if `text` stands in `line` before its comment, not as a part of a longer name. Small letters count as
 /// capital ones; `text` has capital ones.
 bool standsIn(std::string_view line, std::string_view text) {
   std::string upper(line);
@@ -207,7 +207,7 @@ bool standsIn(std::string_view line, std::string_view text) {
   return false;
 }
 
-/// The next block behind `from` with this text in it; if there is none, the first of the program.
+/// The next block after `from` with this text in it; if there is none, the first of the program.
 std::optional<BlockPosition> findText(Program& program, BlockPosition from, std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   std::optional<BlockPosition> first;

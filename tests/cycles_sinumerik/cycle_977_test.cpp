@@ -59,7 +59,7 @@ TEST(Cycle977, TheStartPositionIsTheSetCentre) {
       << "the probe is in the centre";
 }
 
-/// The form of versions newer than 4.4: the tens of _AMODE, and two arguments behind it.
+/// The form of versions newer than 4.4: the tens of _AMODE, and two more arguments.
 TEST(Cycle977, PutsTheCentreWhereTheCallSays) {
   Planter plant(9773);
   for (int world = 0; world < 40; ++world) {

@@ -13,7 +13,7 @@ struct CallComplaint {
   bool refused = true;  ///< false: the cycle runs, though hardly as meant
 };
 
-/// What to say behind a complaint of digits that version 4.4 of the measuring cycles does not have; empty if they are
+/// What to add to a complaint of digits that version 4.4 of the measuring cycles does not have; empty if they are
 /// none of those that newer versions added.
 std::string_view versionNote(const Parameter& parameter, double value);
 
