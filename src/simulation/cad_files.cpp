@@ -25,8 +25,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// To be counted up whenever an import makes something else of the same file.
-constexpr int kCacheVersion = 2;
+/// To be counted up whenever an import makes something else of the same file, also if only its layout in memory
+/// changes.
+constexpr int kCacheVersion = 3;
 constexpr std::size_t kMostNamed = 10;
 constexpr int kMostAttempts = 5;
 
@@ -98,7 +99,7 @@ public:
                              {options_.seconds - secondsSince(start_), options_.bytes},
                              [&](std::string_view line) { hear(line); }, [&] { return hasEnough(); });
       if (options_.stop.stop_requested()) return fail(SourcePlace{order_.file, 0, 0}, "the import was interrupted");
-      if (end.how == ChildEnd::How::Finished && failure_.empty() && !nothing_) return partOf(std::move(end.result));
+      if (end.how == ChildEnd::How::Finished && failure_.empty() && !nothing_) return partOf(transferred(end.result));
       if (end.how == ChildEnd::How::Finished) return tl::unexpected(refused());
       if (!tryOtherwise(end)) return tl::unexpected(complaint(end));
     }
@@ -267,7 +268,7 @@ private:
     part.remarks.push_back({Severity::Warning, {{}, line, 0}, std::move(message), {}, std::move(advice), {}});
   }
 
-  Result<ImportedPart> partOf(std::string brep) const {
+  Result<ImportedPart> partOf(Transferred result) const {
     ImportedPart part;
     for (const std::string& label : lost_) {
       if (part.remarks.size() == kMostNamed) {
@@ -316,7 +317,8 @@ private:
              "balls meet it as exactly as other faces; stylus and body may stop up to a cell outside its border");
     }
     part.hasGrids = !grids_.empty();
-    part.brep = std::move(brep);
+    part.brep = std::move(result.brep);
+    part.elements = std::move(result.elements);
     return part;
   }
 
@@ -366,7 +368,7 @@ Result<std::unique_ptr<Solid>> solidOf(ImportedPart part, CadFormat format, cons
     std::istringstream stream(std::move(part.brep));
     BinTools::Read(shape, stream);
     if (shape.IsNull()) return broken("it is empty");
-    CadModel model = cadModel(shape, deflection);
+    CadModel model = cadModel(shape, deflection, part.elements);
     if (format == CadFormat::Step) warnOfDoubtfulArcs(model, part.remarks);
     for (Diagnostic& remark : part.remarks)
       remark.place.file = file;

@@ -18,10 +18,13 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <algorithm>
 #include <stdexcept>
 
+#include "simulation/cad_refinement.hpp"
 #include "simulation/face_grid.hpp"
 #include "simulation/face_mesh.hpp"
+#include "simulation/memory_text.hpp"
 
 namespace probewright::simulation {
 namespace {
@@ -39,21 +42,6 @@ Matrix3 axesOf(const Position& position) {
   Matrix3 axes;
   axes << vector(position.XDirection()), vector(position.YDirection()), vector(position.Direction());
   return axes;
-}
-
-/// How far the surface leaves the element, sampled.
-double deviationOf(const CadElement& element, const Geom_Surface& surface) {
-  double deviation = 0;
-  const auto probe = [&](double a, double b, double c) {
-    const Vector2 uv = a * element.parameters[0] + b * element.parameters[1] + c * element.parameters[2];
-    const Vector3 chord = a * element.corners[0] + b * element.corners[1] + c * element.corners[2];
-    deviation = std::max(deviation, (vector(surface.Value(uv.x(), uv.y())) - chord).norm());
-  };
-  probe(0.5, 0.5, 0);
-  probe(0, 0.5, 0.5);
-  probe(0.5, 0, 0.5);
-  probe(1.0 / 3, 1.0 / 3, 1.0 / 3);
-  return deviation;
 }
 
 /// How far the corners of a triangle lie from where its parameters are on a plane: the mesher may have mixed them up.
@@ -215,7 +203,7 @@ std::vector<double> kinksOf(const CadFace& face, bool acrossU) {
 }
 
 /// The kinks within a face, as edges: there no point of the surface has a normal along which a ball could touch it.
-void addRidges(CadModel& model, std::uint32_t owner, double deflection) {
+void addRidges(CadModel& model, std::uint32_t owner) {
   for (const bool acrossU : {true, false}) {
     for (const double at : kinksOf(model.faces[owner], acrossU)) {
       const CadFace& face = model.faces[owner];
@@ -227,22 +215,14 @@ void addRidges(CadModel& model, std::uint32_t owner, double deflection) {
       ridge.acrossU = acrossU;
       ridge.kinkAt = at;
       model.edges.push_back(std::move(ridge));
-      addEdgeElements(model, static_cast<std::uint32_t>(model.edges.size() - 1), deflection);
     }
   }
 }
 
-/// Reads all faces. Those of closed solids tell inside from outside, whatever loose faces the file has besides.
-void addFaces(CadModel& model, TopExp_Explorer faces, bool boundsSolid, double deflection) {
-  for (; faces.More(); faces.Next()) {
-    const TopoDS_Face& face = TopoDS::Face(faces.Current());
-    model.faces.push_back(cadFace(face));
-    model.faces.back().boundsSolid = boundsSolid;
-    const auto owner = static_cast<std::uint32_t>(model.faces.size() - 1);
-    addFaceElements(model, face, owner, deflection);
-    addRidges(model, owner, deflection);
-  }
-}
+struct Faces {
+  std::vector<TopoDS_Face> faces;
+  std::vector<bool> boundSolid;  ///< those of closed solids tell inside from outside, whatever loose faces there are
+};
 
 bool isClosed(const TopoDS_Shape& solid) {
   for (TopExp_Explorer shells(solid, TopAbs_SHELL); shells.More(); shells.Next()) {
@@ -266,6 +246,23 @@ bool hasKinks(const TopoDS_Face& face) {
 
 }  // namespace
 
+double deviationOf(const CadElement& element, const Geom_Surface& surface) {
+  double deviation = 0;
+  const auto probe = [&](double a, double b, double c) {
+    const Vector2 uv = a * element.parameters[0] + b * element.parameters[1] + c * element.parameters[2];
+    const Vector3 chord = a * element.corners[0] + b * element.corners[1] + c * element.corners[2];
+    deviation = std::max(deviation, (vector(surface.Value(uv.x(), uv.y())) - chord).norm());
+  };
+  probe(0.5, 0.5, 0);
+  probe(0, 0.5, 0.5);
+  probe(0.5, 0, 0.5);
+  probe(1.0 / 3, 1.0 / 3, 1.0 / 3);
+  probe(2.0 / 3, 1.0 / 6, 1.0 / 6);
+  probe(1.0 / 6, 2.0 / 3, 1.0 / 6);
+  probe(1.0 / 6, 1.0 / 6, 2.0 / 3);
+  return deviation;
+}
+
 TopoDS_Shape withoutKinks(const TopoDS_Shape& shape) {
   TopExp_Explorer faces(shape, TopAbs_FACE);
   while (faces.More() && !hasKinks(TopoDS::Face(faces.Current())))
@@ -279,47 +276,94 @@ TopoDS_Shape withoutKinks(const TopoDS_Shape& shape) {
   return divide.Result().IsNull() ? shape : divide.Result();
 }
 
-CadModel cadFaces(const TopoDS_Shape& part, double deflection) {
-  CadModel model;
-  const bool meshed = isMeshed(part, deflection);
-  const TopoDS_Shape shape = meshed ? part : withoutKinks(part);
-  model.shape = shape;
-  BRepLib::BuildCurves3d(shape);
-  if (!meshed) meshFaces(shape, deflection);
+namespace {
 
-  for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next()) {
-    const bool closed = isClosed(solids.Current());
-    model.closed = model.closed || closed;
-    addFaces(model, TopExp_Explorer(solids.Current(), TopAbs_FACE), closed, deflection);
+Faces facesOf(const TopoDS_Shape& shape) {
+  Faces found;
+  const auto add = [&](TopExp_Explorer faces, bool boundSolid) {
+    for (; faces.More(); faces.Next()) {
+      found.faces.push_back(TopoDS::Face(faces.Current()));
+      found.boundSolid.push_back(boundSolid);
+    }
+  };
+  for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next())
+    add(TopExp_Explorer(solids.Current(), TopAbs_FACE), isClosed(solids.Current()));
+  add(TopExp_Explorer(shape, TopAbs_FACE, TopAbs_SOLID), false);
+  return found;
+}
+
+/// The exact faces and edges of a shape.
+CadModel exactModel(const TopoDS_Shape& shape, const Faces& faces, double deflection) {
+  CadModel model;
+  model.shape = shape;
+  model.deflection = deflection;
+  for (std::size_t i = 0; i < faces.faces.size(); ++i) {
+    model.faces.push_back(cadFace(faces.faces[i]));
+    model.faces.back().boundsSolid = faces.boundSolid[i];
+    model.closed = model.closed || faces.boundSolid[i];
+    addRidges(model, static_cast<std::uint32_t>(i));
   }
-  addFaces(model, TopExp_Explorer(shape, TopAbs_FACE, TopAbs_SOLID), false, deflection);
   // Lines that belong to no face are drawn in the file, axes for instance, but nothing that could be touched.
   TopTools_IndexedMapOfShape edges;
-  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next())
-    TopExp::MapShapes(faces.Current(), TopAbs_EDGE, edges);
+  for (TopExp_Explorer every(shape, TopAbs_FACE); every.More(); every.Next())
+    TopExp::MapShapes(every.Current(), TopAbs_EDGE, edges);
   for (int i = 1; i <= edges.Extent(); ++i) {
     const TopoDS_Edge& edge = TopoDS::Edge(edges(i));
     if (BRep_Tool::Degenerated(edge) || edge.Orientation() == TopAbs_EXTERNAL) continue;
     CadEdge exact = cadEdge(edge);
-    if (exact.curve.IsNull()) continue;
-    model.edges.push_back(std::move(exact));
-    addEdgeElements(model, static_cast<std::uint32_t>(model.edges.size() - 1), deflection);
+    if (!exact.curve.IsNull()) model.edges.push_back(std::move(exact));
   }
   if (model.faces.empty()) throw std::runtime_error("the shape has no face that can be touched");
+  return model;
+}
+
+/// A box about the shape, to within its deflection.
+Bounds boundsOf(const CadModel& model) {
+  Bounds corners;
+  const auto add = [](Bounds& bounds, const Triangle& triangle) {
+    for (const Vector3& corner : triangle) {
+      bounds.minimum = bounds.minimum.cwiseMin(corner);
+      bounds.maximum = bounds.maximum.cwiseMax(corner);
+    }
+  };
+  for (const CadElement& element : model.elements)
+    add(corners, element.corners);
+  // The surface may reach further than the corners of its triangles.
+  Bounds bounds = corners;
+  const auto reachesFurther = [&](const Triangle& triangle, double growth) {
+    return std::ranges::any_of(triangle, [&](const Vector3& corner) {
+      return (corner.array() - growth < corners.minimum.array()).any() ||
+             (corner.array() + growth > corners.maximum.array()).any();
+    });
+  };
+  for (const CadElement& element : model.elements) {
+    if (element.isTriangle())
+      visitFinely(model, element, reachesFurther, [&](const Triangle& triangle) { add(bounds, triangle); });
+  }
+  return bounds;
+}
+
+}  // namespace
+
+CadModel cadModel(const TopoDS_Shape& part, double deflection) {
+  const bool meshed = isMeshed(part, deflection);
+  const TopoDS_Shape shape = meshed ? part : withoutKinks(part);
+  BRepLib::BuildCurves3d(shape);
+  if (!meshed) meshFaces(shape, deflection);
+  const Faces faces = facesOf(shape);
+  CadModel model = exactModel(shape, faces, deflection);
+  for (std::size_t i = 0; i < faces.faces.size(); ++i)
+    addFaceElements(model, faces.faces[i], static_cast<std::uint32_t>(i), deflection);
+  for (std::size_t i = 0; i < model.edges.size(); ++i)
+    addEdgeElements(model, static_cast<std::uint32_t>(i), deflection);
   for (const CadElement& element : model.elements) {
     if (!std::isfinite(element.growth))
       throw std::runtime_error("a face or edge has points whose coordinates are not numbers");
     for (const Vector3& corner : element.corners) {
       if (!(corner.cwiseAbs().maxCoeff() <= kFarthest)) throw std::runtime_error("it reaches further than 1000 km");
-      model.bounds.minimum = model.bounds.minimum.cwiseMin(corner);
-      model.bounds.maximum = model.bounds.maximum.cwiseMax(corner);
     }
   }
-  return model;
-}
-
-CadModel cadModel(const TopoDS_Shape& shape, double deflection) {
-  CadModel model = cadFaces(shape, deflection);
+  model.bounds = boundsOf(model);
   std::vector<SearchElement> search;
   search.reserve(model.elements.size());
   for (const CadElement& element : model.elements)
@@ -330,6 +374,52 @@ CadModel cadModel(const TopoDS_Shape& shape, double deflection) {
   for (const std::uint32_t i : model.tree.order())
     ordered.push_back(model.elements[i]);
   model.elements = std::move(ordered);
+  return model;
+}
+
+namespace {
+
+/// Numbers that tell one face or edge from another, in their order.
+std::vector<double> marksOf(const CadModel& model) {
+  std::vector<double> marks{static_cast<double>(model.faces.size())};
+  for (const CadFace& face : model.faces)
+    marks.insert(marks.end(), {face.domain.low().x(), face.domain.high().x(), face.domain.low().y()});
+  for (const CadEdge& edge : model.edges)
+    marks.insert(marks.end(), {edge.first, edge.start.x(), edge.start.y(), edge.start.z()});
+  return marks;
+}
+
+/// Equal to within what writing and reading a shape does to the matrices of its instances.
+bool agree(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::ranges::equal(a, b, [](double x, double y) { return std::abs(x - y) <= 1e-8 * (1 + std::abs(x)); });
+}
+
+}  // namespace
+
+std::string elementsOf(const CadModel& model) {
+  std::string bytes;
+  append(bytes, marksOf(model));
+  append(bytes, model.bounds);
+  append(bytes, model.elements);
+  model.tree.appendTo(bytes);
+  return bytes;
+}
+
+CadModel cadModel(const TopoDS_Shape& shape, double deflection, std::string_view bytes) {
+  BRepLib::BuildCurves3d(shape);
+  CadModel model = exactModel(shape, facesOf(shape), deflection);
+  const auto refuse = [] { return std::runtime_error("its elements are not those of the shape"); };
+  std::vector<double> marks;
+  if (!take(bytes, marks) || !agree(marks, marksOf(model)) || !take(bytes, model.bounds) ||
+      !take(bytes, model.elements))
+    throw refuse();
+  for (const CadElement& element : model.elements) {
+    if (element.owner >= (element.kind == CadElement::Kind::Face ? model.faces.size() : model.edges.size()))
+      throw refuse();
+  }
+  std::optional<SearchTree> tree = SearchTree::takeFrom(bytes, model.elements.size());
+  if (!tree || !bytes.empty()) throw refuse();
+  model.tree = std::move(*tree);
   return model;
 }
 

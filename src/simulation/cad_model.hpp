@@ -3,6 +3,8 @@
 #include <Geom_Curve.hxx>
 #include <TopoDS_Shape.hxx>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "simulation/cad_face.hpp"
@@ -37,7 +39,8 @@ struct CadElement {
   double growth = 0;                  ///< the exact shape lies within this distance
   std::uint32_t owner = 0;            ///< index of the face or edge
   Kind kind = Kind::Face;
-  bool onFace = true;  ///< stands for a part of the face; else it only helps to find the face
+  bool onFace = true;                  ///< stands for a part of the face; else it only helps to find the face
+  std::array<std::uint8_t, 2> rest{};  ///< so that no byte of an element is without a value
 
   bool isTriangle() const { return kind == Kind::Face && onFace; }
 };
@@ -48,18 +51,26 @@ struct CadModel {
   std::vector<CadEdge> edges;
   std::vector<CadElement> elements;  ///< in the order of the tree
   SearchTree tree;
-  Bounds bounds;        ///< of the exact shape, to within the deflection
-  bool closed = false;  ///< some of its faces bound solids, so that a point is inside or outside
+  Bounds bounds;             ///< of the exact shape, to within the deflection
+  bool closed = false;       ///< some of its faces bound solids, so that a point is inside or outside
+  double deflection = 0.01;  ///< mm: how far triangles may leave a face where bodies other than balls meet it
 };
+
+/// How far the surface leaves the triangle of an element, sampled.
+double deviationOf(const CadElement& element, const Geom_Surface& surface);
 
 /// The shape with faces cut along the kinks of their surfaces, which OpenCASCADE tessellates for hours.
 TopoDS_Shape withoutKinks(const TopoDS_Shape& shape);
 
-/// Everything but the tree and the order of the elements: faces, edges, elements. Throws as cadModel() does.
-CadModel cadFaces(const TopoDS_Shape& shape, double deflection);
-
 /// Prepares a shape; tessellates it unless it has triangles that are fine enough. Throws Standard_Failure or
 /// std::runtime_error where that is impossible.
 CadModel cadModel(const TopoDS_Shape& shape, double deflection);
+
+/// The part of a model that takes long to make: elements and tree, as they lie in memory.
+std::string elementsOf(const CadModel& model);
+
+/// The model of a shape that has triangles, with what elementsOf() gave for it in a process of the same program. Throws
+/// as the other one does, also where the bytes are not of this shape.
+CadModel cadModel(const TopoDS_Shape& shape, double deflection, std::string_view elements);
 
 }  // namespace probewright::simulation

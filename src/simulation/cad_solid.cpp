@@ -8,6 +8,7 @@
 
 #include "simulation/cad_contact.hpp"
 #include "simulation/cad_model.hpp"
+#include "simulation/cad_refinement.hpp"
 #include "simulation/contact.hpp"
 
 namespace probewright::simulation {
@@ -80,9 +81,16 @@ std::size_t CadSolid::triangleCount() const {
 }
 
 bool CadSolid::isInside(const Vector3& point) const {
-  return model_->closed && isWithin(model_->tree, point, [&](std::uint32_t place) {
+  return model_->closed && isWithin(model_->tree, point, [&](std::uint32_t place, const Triangle&, const auto& cross) {
            const CadElement& element = model_->elements[place];
-           return element.isTriangle() && model_->faces[element.owner].boundsSolid;
+           if (!element.isTriangle() || !model_->faces[element.owner].boundsSolid) return;
+           // Far away it does not matter which side of a triangle the surface lies on.
+           const auto isNear = [&](const Triangle& t, double growth) {
+             const bool near = (closestOnTriangle(point, t) - point).norm() <= growth;
+             if (!near) cross(t);
+             return near;
+           };
+           visitFinely(*model_, element, isNear, cross);
          });
 }
 
@@ -112,8 +120,16 @@ std::optional<BallContact> CadSolid::firstCapsuleContact(const Vector3& from, co
   const Vector3 part = axis / static_cast<double>(parts);
   for (std::size_t i = 0; i < parts; ++i) {
     const Mover mover{{way.start + static_cast<double>(i) * part, way.direction, way.length}, radius, part};
-    model_->tree.search(mover, best, [&](std::uint32_t place, const Triangle& t) {
-      if (model_->elements[place].isTriangle()) sweepCapsule(mover.way, radius, part, t, best);
+    model_->tree.search(mover, best, [&](std::uint32_t place, const Triangle&) {
+      if (!model_->elements[place].isTriangle()) return;
+      visitFinely(
+          *model_, model_->elements[place],
+          [&](const Triangle& t, double growth) {
+            Meeting coarse;
+            coarse.when = best.when;
+            return sweepCapsule(mover.way, radius + growth, part, t, coarse);
+          },
+          [&](const Triangle& t) { sweepCapsule(mover.way, radius, part, t, best); });
     });
   }
   if (!(best.when < 0) && isInside(from)) return contactWithin(way, radius);
@@ -123,11 +139,24 @@ std::optional<BallContact> CadSolid::firstCapsuleContact(const Vector3& from, co
 std::optional<BallContact> CadSolid::firstCylinderContact(const Vector3& from, const Vector3& to, const Vector3& axis,
                                                           double radius) const {
   const Mover mover{wayBetween(from, to), 0, axis, radius};
+  const double height = axis.norm();
   Meeting best;
-  model_->tree.search(mover, best, [&](std::uint32_t place, const Triangle& t) {
-    if (model_->elements[place].isTriangle()) sweepCylinder(mover.way, radius, axis, t, best);
+  model_->tree.search(mover, best, [&](std::uint32_t place, const Triangle&) {
+    if (!model_->elements[place].isTriangle()) return;
+    visitFinely(
+        *model_, model_->elements[place],
+        [&](const Triangle& t, double growth) {
+          const Vector3 more = axis * (growth / height);
+          const Way way{mover.way.start - more, mover.way.direction, mover.way.length};
+          Meeting coarse;
+          coarse.when = best.when;
+          return sweepCylinder(way, radius + growth, axis + 2 * more, t, coarse);
+        },
+        [&](const Triangle& t) { sweepCylinder(mover.way, radius, axis, t, best); });
   });
-  if (!(best.when < 0) && isInside(from)) return contactWithin(mover.way, radius);
+  // Not from an end, which may lie as near to a surface as it likes.
+  const Vector3 within = from + axis * std::min(0.5, radius / height);
+  if (!(best.when < 0) && isInside(within)) return contactWithin(mover.way, radius);
   return cylinderContact(mover.way, axis, radius, best);
 }
 

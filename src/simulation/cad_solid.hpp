@@ -15,13 +15,14 @@ namespace probewright::simulation {
 struct CadModel;
 
 struct CadOptions {
-  /// How far the triangles that find the faces may be off, mm. Contacts of balls do not depend on it, contacts of
-  /// capsules and cylinders do; smaller takes longer to load.
+  /// How far triangles may leave the faces, mm, where capsules and cylinders meet them. Contacts of balls do not depend
+  /// on it; smaller takes longer to load.
   double deflection = 0.01;
 };
 
 /// A solid from CAD: planes, cylinders, cones, spheres and tori in closed form, free-form faces and edges by iteration.
-/// Contacts of balls are exact on the surface to 1e-6 mm, contacts of capsules and cylinders on its tessellation.
+/// Contacts of balls are exact on the surface to 1e-6 mm; those of capsules and cylinders are found on triangles that
+/// leave it by at most the deflection.
 /// Loose faces and open bodies are skins that can be touched from both sides; a closed body knows its inside, and
 /// whatever starts there makes contact at fraction 0.
 class CadSolid final : public Solid {

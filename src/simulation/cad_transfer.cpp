@@ -32,10 +32,12 @@
 #include <XSControl_WorkSession.hxx>
 #include <memory>
 #include <sstream>
+#include <system_error>
 #include <thread>
 
 #include "simulation/cad_model.hpp"
 #include "simulation/face_mesh.hpp"
+#include "simulation/memory_text.hpp"
 
 namespace probewright::simulation {
 namespace {
@@ -174,6 +176,10 @@ std::string guarded(const ChildVoice& voice, const Work& work) {
     voice.say(fmt::format("failed {}", failure.GetMessageString()));
   } catch (const std::bad_alloc&) {
     throw;
+  } catch (const std::system_error& failure) {
+    // No memory for the stack of a thread.
+    if (failure.code() == std::errc::resource_unavailable_try_again) throw std::bad_alloc();
+    voice.say(fmt::format("failed {}", failure.what()));
   } catch (const std::exception& failure) {
     voice.say(fmt::format("failed {}", failure.what()));
   }
@@ -198,11 +204,20 @@ std::string transferCad(const TransferOrder& order, const ChildVoice& voice) {
     mesh(shape, order, voice);
     voice.say("stage preparing the faces");
     // What cannot survive this must not happen in the parent.
-    cadFaces(shape, order.deflection);
-    std::ostringstream bytes;
-    BinTools::Write(shape, bytes, Standard_True, Standard_False, BinTools_FormatVersion_CURRENT);
-    return std::move(bytes).str();
+    const std::string elements = elementsOf(cadModel(shape, order.deflection));
+    std::ostringstream brep;
+    BinTools::Write(shape, brep, Standard_True, Standard_False, BinTools_FormatVersion_CURRENT);
+    std::string bytes;
+    append(bytes, brep.view().size());
+    bytes += brep.view();
+    return bytes += elements;
   });
+}
+
+Transferred transferred(std::string_view bytes) {
+  std::size_t size = 0;
+  if (!take(bytes, size) || size > bytes.size()) return {};
+  return {std::string(bytes.substr(0, size)), std::string(bytes.substr(size))};
 }
 
 std::string searchFaces(const TransferOrder& order, const ChildVoice& voice) {

@@ -2,6 +2,7 @@
 
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "simulation/child_process.hpp"
 
@@ -19,8 +20,8 @@ struct TransferOrder {
   bool gridAll = false;     ///< as FaceMeshOptions::leaveAll
 };
 
-/// Reads the file, builds the shape, gives it triangles. Returns the shape in OpenCASCADE's binary form, or nothing if
-/// there is none. Meanwhile says, a line each:
+/// Reads the file, builds the shape, gives it triangles and prepares it for contact. Returns what transferred() reads,
+/// or nothing if there is no shape. Meanwhile says, a line each:
 ///   stage TEXT           what it does now
 ///   failed TEXT          why there is no shape
 ///   nothing              there is neither a body nor a face
@@ -33,6 +34,12 @@ struct TransferOrder {
 ///   open N X Y Z         N edges of bodies and skins belong to one face only, one of them at X Y Z
 ///   skin                 there are faces, but no body
 std::string transferCad(const TransferOrder& order, const ChildVoice& voice);
+
+struct Transferred {
+  std::string brep, elements;  ///< as in ImportedPart
+};
+/// What transferCad() returned; both empty if it is not that.
+Transferred transferred(std::string_view bytes);
 
 /// Builds the faces of a file one by one, and says "at LABEL" before each: the last one is what a crash is about.
 std::string searchFaces(const TransferOrder& order, const ChildVoice& voice);

@@ -50,18 +50,14 @@ private:
   int number_;
 };
 
-/// Bytes of address space that this process has.
-std::uint64_t addressSpace() {
-  std::uint64_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
-
 void limitMemory(std::uint64_t bytes) {
 #ifdef PROBEWRIGHT_ADDRESS_SANITIZER
   static_cast<void>(bytes);  // the sanitizer's own tables take far more address space than memory
 #else
-  const rlimit limit{addressSpace() + bytes, addressSpace() + bytes};
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;  // the address space that this process has already
+  const std::uint64_t most = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + bytes;
+  const rlimit limit{most, most};
   setrlimit(RLIMIT_AS, &limit);
 #endif
 }

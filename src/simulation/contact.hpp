@@ -32,10 +32,10 @@ inline bool meetsFront(const Way& way, const Meeting& meeting) {
 
 /// True if `point` lies within the closed surfaces that the triangles make: the rays from there leave them more or less
 /// often than they enter them. That holds whichever way the surfaces are turned, and where bodies overlap. A ray that
-/// passes an edge too closely to tell is replaced by another; of three rays the majority decides. `bounds(place)` tells
-/// which elements of the tree are triangles of such surfaces.
-template <class BoundsSolid>
-bool isWithin(const SearchTree& tree, const Vector3& point, const BoundsSolid& bounds) {
+/// passes an edge too closely to tell is replaced by another; of three rays the majority decides. `surface(place,
+/// triangle, cross)` calls `cross` with the triangles of such surfaces that an element of the tree stands for.
+template <class Surface>
+bool isWithin(const SearchTree& tree, const Vector3& point, const Surface& surface) {
   const Bounds& box = tree.bounds();
   if ((point - box.minimum).minCoeff() <= 0 || (box.maximum - point).minCoeff() <= 0) return false;
   // Directions that edges of real parts do not have.
@@ -53,8 +53,8 @@ bool isWithin(const SearchTree& tree, const Vector3& point, const BoundsSolid& b
     ray.way.direction = direction.normalized();
     int crossings = 0;
     bool clear = true;
-    tree.visitAll(ray, [&](std::uint32_t place, const Triangle& t) {
-      if (!clear || !bounds(place)) return;
+    const auto cross = [&](const Triangle& t) {
+      if (!clear) return;
       const Vector3 e1 = t[1] - t[0];
       const Vector3 e2 = t[2] - t[0];
       const Vector3 p = ray.way.direction.cross(e2);
@@ -75,7 +75,8 @@ bool isWithin(const SearchTree& tree, const Vector3& point, const BoundsSolid& b
         return;
       }
       crossings += determinant < 0 ? 1 : -1;
-    });
+    };
+    tree.visitAll(ray, [&](std::uint32_t place, const Triangle& t) { surface(place, t, cross); });
     if (!clear) continue;
     inside += crossings != 0 ? 1 : 0;
     if (++votes == 3) break;

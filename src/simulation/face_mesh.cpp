@@ -22,8 +22,10 @@
 namespace probewright::simulation {
 namespace {
 
-/// Ball and shaft meet what lies within the deflection of a face; the angle only keeps small curves recognizable.
+/// The angle only keeps small curves recognizable.
 constexpr double kAngle = 0.5;
+/// Triangles only help to find a face, so its inside need not be meshed as finely as its edges.
+constexpr double kInterior = 10;
 
 /// The faces by what they share with their instances elsewhere in the shape, counted from 1.
 using FaceNumbers = std::map<const TopoDS_TShape*, int>;
@@ -142,6 +144,7 @@ std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, co
   mesher.SetShape(shape);
   IMeshTools_Parameters& parameters = mesher.ChangeParameters();
   parameters.Deflection = deflection;
+  parameters.DeflectionInterior = kInterior * deflection;
   parameters.Angle = kAngle;
   parameters.InParallel = options.parallel;
   mesher.Perform(context);

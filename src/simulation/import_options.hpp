@@ -10,8 +10,7 @@ namespace probewright::simulation {
 
 /// How the file of a part is imported.
 struct ImportOptions {
-  /// How far the triangles that find the faces may be off, mm. Contacts of balls do not depend on it, contacts of
-  /// capsules do; smaller takes longer to load.
+  /// As CadOptions::deflection.
   double deflection = 0.01;
   /// The folder that keeps what was imported, for the next time; empty: none.
   std::filesystem::path cache;

@@ -5,7 +5,7 @@
 namespace probewright::simulation {
 namespace {
 
-constexpr std::string_view kTitle = "Probewright part 1\n";
+constexpr std::string_view kTitle = "Probewright part 2\n";
 
 void put(std::string& bytes, std::uint64_t number) {
   for (int i = 0; i < 8; ++i)
@@ -60,6 +60,7 @@ std::string toBytes(const ImportedPart& part) {
   }
   put(bytes, std::uint64_t{part.hasGrids ? 1U : 0U});
   put(bytes, part.brep);
+  put(bytes, part.elements);
   return bytes;
 }
 
@@ -76,10 +77,11 @@ std::optional<ImportedPart> partFromBytes(std::string_view bytes) {
     part.remarks.push_back({Severity::Warning, {{}, *line, 0}, std::move(*message), {}, std::move(*advice), {}});
   }
   const auto grids = reader.number();
-  auto brep = reader.text();
-  if (!grids || *grids > 1 || !brep || !reader.atEnd()) return std::nullopt;
+  auto brep = reader.text(), elements = reader.text();
+  if (!grids || *grids > 1 || !brep || !elements || !reader.atEnd()) return std::nullopt;
   part.hasGrids = *grids == 1;
   part.brep = std::move(*brep);
+  part.elements = std::move(*elements);
   return part;
 }
 

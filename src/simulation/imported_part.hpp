@@ -14,6 +14,7 @@ struct ImportedPart {
   Diagnostics remarks;
   bool hasGrids = false;  ///< the mesher cannot do some of the faces
   std::string brep;       ///< the shape with its triangles, in OpenCASCADE's binary form
+  std::string elements;   ///< what elementsOf() makes of it
 };
 
 std::string toBytes(const ImportedPart& part);

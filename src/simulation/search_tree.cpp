@@ -213,7 +213,7 @@ struct SearchTree::Walks {
 
 void SearchTree::search(const Mover& mover, const Meeting& best, const Visitor& visitor) const {
   Walker walker;
-  if (order_.empty() || !enter(mover, walker)) return;
+  if (lines_.empty() || !enter(mover, walker)) return;
 #if defined(PROBEWRIGHT_HAS_WIDE)
   if (instructions_ == Instructions::Wide) return Walks::Wide::walk(*this, walker, best, visitor);
 #endif

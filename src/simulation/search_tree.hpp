@@ -3,7 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "simulation/solid.hpp"
@@ -55,6 +58,12 @@ public:
   SearchTree() = default;
   /// Throws std::runtime_error if Embree cannot allocate its memory.
   SearchTree(std::span<const SearchElement> elements, Elements kind, Instructions instructions = bestInstructions());
+
+  /// The tree as it lies in memory, for a process that runs the same program on the same kind of processor.
+  void appendTo(std::string& bytes) const;
+  /// Takes a tree over `elements` elements, but without their order, from the beginning of `bytes` and removes it
+  /// there. Nothing if these are not the bytes of one.
+  static std::optional<SearchTree> takeFrom(std::string_view& bytes, std::size_t elements);
 
   /// The elements' indices in the order in which the tree stores them.
   const std::vector<std::uint32_t>& order() const { return order_; }
@@ -128,6 +137,7 @@ private:
 
   void search(const Mover& mover, const Meeting& best, const Visitor& visitor) const;
   bool enter(const Mover& mover, Walker& walker) const;
+  bool isWhole(std::size_t elements) const;
 
   const Block& block(std::uint32_t child) const { return *reinterpret_cast<const Block*>(&lines_[child & ~kLeaf]); }
 

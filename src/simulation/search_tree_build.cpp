@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "simulation/memory_text.hpp"
 #include "simulation/search_tree.hpp"
 
 namespace probewright::simulation {
@@ -302,6 +303,55 @@ SearchTree::SearchTree(std::span<const SearchElement> elements, Elements kind, I
   builder.makeBoxes();
   nodes_.shrink_to_fit();
   lines_.shrink_to_fit();
+}
+
+void SearchTree::appendTo(std::string& bytes) const {
+  append(bytes, nodes_);
+  append(bytes, lines_);
+  append(bytes, root_);
+  append(bytes, exactTriangles_);
+  append(bytes, bounds_);
+  append(bytes, centre_);
+}
+
+std::optional<SearchTree> SearchTree::takeFrom(std::string_view& bytes, std::size_t elements) {
+  SearchTree tree;
+  tree.instructions_ = bestInstructions();
+  char exact = 0;
+  if (!take(bytes, tree.nodes_) || !take(bytes, tree.lines_) || !take(bytes, tree.root_) || !take(bytes, exact) ||
+      !take(bytes, tree.bounds_) || !take(bytes, tree.centre_) || !tree.isWhole(elements))
+    return std::nullopt;
+  tree.exactTriangles_ = exact != 0;
+  return tree;
+}
+
+/// True if no search can leave what there is.
+bool SearchTree::isWhole(std::size_t elements) const {
+  const auto leads = [&](std::uint32_t child) {
+    if ((child & kLeaf) == 0) return child < nodes_.size();
+    const std::size_t first = child & ~kLeaf;
+    if (first >= lines_.size()) return false;
+    const Block& found = block(child);
+    if (found.count > kWidth || found.firstPlace > elements || found.count > elements - found.firstPlace) return false;
+    const std::size_t size = sizeof(Block) + found.cornerCount * sizeof(Vector3) + sizeof(double);
+    if (size > (lines_.size() - first) * sizeof(Line)) return false;
+    for (const auto& corners : found.at) {
+      for (std::size_t k = 0; k < found.count; ++k) {
+        if (corners[k] >= found.cornerCount) return false;
+      }
+    }
+    return true;
+  };
+  if (elements == 0) return nodes_.empty() && lines_.empty();
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    if (node.count > kWidth) return false;
+    for (std::size_t k = 0; k < node.count; ++k) {
+      // A node lies before those below it, so no way leads round in a circle.
+      if (!leads(node.child[k]) || ((node.child[k] & kLeaf) == 0 && node.child[k] <= i)) return false;
+    }
+  }
+  return leads(root_);
 }
 
 }  // namespace probewright::simulation
