@@ -248,12 +248,50 @@ Result<Way> exchangeFolders(const FolderLock& lock, const Files& files, const st
 /// folder of the old set or that of the new one: turning it changes all of them at once.
 struct WorkFolder {
   explicit WorkFolder(const fs::path& where)
-      : folder(where), work(where / workName), older(work / "old"), newer(work / "new"), current(work / "current") {}
+      : folder(where),
+        work(where / workName),
+        older(work / "old"),
+        newer(work / "new"),
+        current(work / "current"),
+        decided(work / "decided") {}
 
   fs::path linkTo(const std::string& name) const { return fs::path(workName) / "current" / name; }
 
-  /// Makes plain files of what are links, and removes what leads nowhere and this folder.
+  /// Decides that the files of `newer` take their places and `dropped` go: from now on the next run does what this one
+  /// does not come to do.
+  bool decide(const Files& files, const std::set<std::string>& dropped) const {
+    const fs::path aside = work / "deciding";
+    FileWriter list(aside);
+    for (const auto& [name, content] : files)
+      list.add(fmt::format("+{}\n", name));
+    for (const std::string& name : dropped)
+      list.add(fmt::format("-{}\n", name));
+    return list.finish() && flushFolder(newer) && move(aside, decided) && flushFolder(work);
+  }
+
+  /// Does what is decided, one file after the other; false, with errno, if that is not possible now.
+  bool carryOut() const {
+    Result<std::string> list = readFile(decided);
+    if (!list) return false;
+    for (std::string_view rest = *list; !rest.empty();) {
+      const std::size_t end = std::min(rest.find('\n'), rest.size() - 1);
+      const std::string_view line = rest.substr(0, end);
+      rest.remove_prefix(end + 1);
+      if (line.size() < 2 || line.find('/') != std::string_view::npos) continue;
+      const std::string name(line.substr(1));
+      if (line.front() == '-') {
+        takeAway(folder / name);
+      } else if (isThere(newer / name) && !move(newer / name, folder / name)) {
+        return false;
+      }
+    }
+    return flushFolder(folder) && takeAway(decided);
+  }
+
+  /// Makes plain files of what are links, and removes what leads nowhere and this folder. What is decided is done.
   void finish() const {
+    if (isThere(decided) && !carryOut()) return;
+    takeAway(work / "deciding");
     std::error_code error;
     const fs::path target = fs::read_symlink(current, error);
     if (!error) {
@@ -275,7 +313,7 @@ struct WorkFolder {
     removeFolder(work);
   }
 
-  fs::path folder, work, older, newer, current;
+  fs::path folder, work, older, newer, current, decided;
 };
 
 bool turnTo(const WorkFolder& at, const char* target) {
@@ -283,13 +321,17 @@ bool turnTo(const WorkFolder& at, const char* target) {
   return ::symlink(target, turned.c_str()) == 0 && flushFolder(at.work) && move(turned, at.current);
 }
 
-/// The last resort of file systems without links: one file after the other.
+/// The last resort of file systems without links: one file after the other, after a decision that the next run carries
+/// out if this one is killed.
 Result<void> moveOneByOne(const WorkFolder& at, const Files& files, const std::set<std::string>& dropped) {
-  for (const auto& [name, content] : files) {
-    if (!move(at.newer / name, at.folder / name)) return failErrno(at.folder / name, "write this file");
+  const auto failed = [&] { return failErrno(at.folder, "write into this folder"); };
+  if (!at.decide(files, dropped) && !isThere(at.decided)) {
+    auto why = failed();
+    at.finish();
+    return why;
   }
-  for (const std::string& name : dropped)
-    takeAway(at.folder / name);
+  if (!at.carryOut()) return failed();
+  at.finish();
   return {};
 }
 
@@ -314,9 +356,7 @@ Result<void> swapWithin(const FolderLock& lock, const Files& files, const std::s
   linked = linked && flushFolder(at.newer) && flushFolder(at.older) && turnTo(at, "old");
   if (!linked) {
     if (errno == EIO || errno == ENOSPC || errno == EDQUOT) return undo(failErrno(at.folder, "write into this folder"));
-    Result<void> moved = moveOneByOne(at, files, dropped);
-    at.finish();
-    return moved;
+    return moveOneByOne(at, files, dropped);
   }
   for (const std::string& name : names) {
     const fs::path turned = at.work / "turned";
@@ -384,6 +424,35 @@ Result<FolderLock> FolderLock::take(const fs::path& path, const std::function<vo
     clearUp(folder, isOurs);
     return lock;
   }
+}
+
+void FolderReading::Closing::operator()(const int* descriptor) const {
+  ::close(*descriptor);
+  delete descriptor;
+}
+
+FolderReading FolderReading::of(const fs::path& path, const std::stop_token& stop) {
+  FolderReading reading;
+  std::error_code error;
+  if (path.empty() || !fs::is_directory(path, error)) return reading;
+  // What a killed run has decided, but not done.
+  if (isThere(WorkFolder(path).decided))
+    static_cast<void>(FolderLock::take(
+        path, {}, [](const fs::path&) { return false; }, stop));
+  while (!stop.stop_requested()) {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return reading;
+    reading.held_.reset(new int(descriptor));
+    while (::flock(descriptor, LOCK_SH | LOCK_NB) != 0) {
+      if (errno == EINTR) continue;
+      if (errno != EWOULDBLOCK || stop.stop_requested()) return reading;
+      ::usleep(20'000);
+    }
+    struct stat held {};
+    const auto named = identityOf(path);
+    if (named && ::fstat(descriptor, &held) == 0 && *named == FileIdentity{held.st_dev, held.st_ino}) return reading;
+  }
+  return reading;
 }
 
 bool isOnItsWay(const fs::path& file) {

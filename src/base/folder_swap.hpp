@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <set>
 #include <stop_token>
 #include <string>
@@ -38,6 +39,19 @@ private:
 
   std::filesystem::path folder_;
   int descriptor_;
+};
+
+/// As long as one lives, nobody swaps the files of its folder: what is read there belongs together. Waits for whoever
+/// is swapping them now; where a folder is missing or the file system knows no locks, it holds up nobody.
+class FolderReading {
+public:
+  static FolderReading of(const std::filesystem::path& folder, const std::stop_token& stop = {});
+
+private:
+  struct Closing {
+    void operator()(const int* descriptor) const;
+  };
+  std::unique_ptr<const int, Closing> held_;
 };
 
 /// True for a file that another process is replacing just now.

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "base/file.hpp"
+#include "base/folder_swap.hpp"
 #include "control/alarm.hpp"
 #include "control/sinumerik/text.hpp"
 #include "language/din_iso/host.hpp"
@@ -111,7 +113,7 @@ std::function<std::optional<Diagnostic>(const std::string&)> fileRule(std::set<s
 }
 
 void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>& program, const fs::path& path,
-                   const simulation::Setup& setup, HostFiles& host, const RunOptions& options) {
+                   const simulation::Setup& setup, HostFiles& host, const RunOptions& options, FolderReading reading) {
   hh::Tables tables = heidenhainTables(setup, outcome.control, outcome.diagnostics);
   const hh::MachineParameters parameters = machineParameters(setup, outcome.control, outcome.diagnostics);
   const std::set<std::string> tableNames = namesOf(tables);
@@ -133,6 +135,7 @@ void runHeidenhain(RunOutcome& outcome, const std::shared_ptr<language::Program>
   control.applyCoordinates();
 
   readRemanentParameters(setup.tables, control.q, outcome.diagnostics);
+  reading = {};
   if (hasErrors(outcome.diagnostics)) return;
   language::klartext::HostOptions hostOptions;
   hostOptions.strict = options.strict;
@@ -216,14 +219,16 @@ void addDataFiles(RunOutcome& outcome, const SinumerikData& data, const sin::Dat
 
 /// The definition files of the folder of tables, as they are, so that what the run leaves can be the tables of the
 /// next.
-void addDefinitionFiles(RunOutcome& outcome, const fs::path& tables) {
-  if (tables.empty()) return;
+std::map<std::string, std::string> definitionFiles(const fs::path& tables) {
+  std::map<std::string, std::string> files;
+  if (tables.empty()) return files;
   std::error_code error;
   for (fs::directory_iterator entry(tables, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     if (sinumerik::definitionFileName(name).empty() || !entry->is_regular_file(error)) continue;
-    if (Result<std::string> text = readFile(entry->path())) outcome.files[name] = std::move(*text);
+    if (Result<std::string> text = readFile(entry->path())) files[name] = std::move(*text);
   }
+  return files;
 }
 
 /// After a block search the machine catches up: tool, spindle, then straight to where the program stands.
@@ -276,8 +281,10 @@ std::set<std::string> namesOf(const SinumerikData& data) {
 
 void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>& program, const fs::path& path,
                   const simulation::Setup& setup, const sinumerik::GlobalUserData& globalData, HostFiles& host,
-                  const RunOptions& options) {
+                  const RunOptions& options, FolderReading reading) {
   SinumerikData data = sinumerikData(setup, outcome.diagnostics, &globalData);
+  const std::map<std::string, std::string> definitions = definitionFiles(setup.tables);
+  reading = {};
   sinumerik::HostOptions hostOptions;
   hostOptions.globalData = globalData.variables(data.store, outcome.diagnostics);
   const std::set<std::string> dataNames = namesOf(data);
@@ -335,7 +342,8 @@ void runSinumerik(RunOutcome& outcome, const std::shared_ptr<language::Program>&
   outcome.files = control.panel.files();
   std::erase_if(outcome.files, [](const auto& file) { return file.second.empty(); });  // what DELETE left
   addDataFiles(outcome, data, control.data);
-  addDefinitionFiles(outcome, setup.tables);
+  for (const auto& [name, text] : definitions)
+    outcome.files[name] = text;
   const Eigen::Affine3d workpiece = control.machineFromBase() * sin::transform(control.frames.settableFrame);
   outcome.machineFromWorkpiece = Pose(workpiece.matrix());
   outcome.ballRadius = control.tool.radius;
@@ -423,6 +431,8 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
     conclude(outcome);
     return outcome;
   }
+  // Until the control has its data: another run may be about to replace the tables.
+  FolderReading reading = FolderReading::of(setup.tables, options.stop);
   const sinumerik::GlobalUserData globalData = control::isHeidenhain(kind)
                                                    ? sinumerik::GlobalUserData()
                                                    : globalUserData(path, setup.tables, outcome.diagnostics);
@@ -452,9 +462,9 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
   HostFiles host(path, setup);
   try {
     if (control::isHeidenhain(kind)) {
-      runHeidenhain(outcome, program, path, setup, host, options);
+      runHeidenhain(outcome, program, path, setup, host, options, std::move(reading));
     } else {
-      runSinumerik(outcome, program, path, setup, globalData, host, options);
+      runSinumerik(outcome, program, path, setup, globalData, host, options, std::move(reading));
     }
   } catch (const control::Alarm& alarm) {
     // Before the first block: an active preset or a tool in the spindle that the tables do not have.

@@ -1,5 +1,13 @@
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <thread>
 
 #include "app/program.hpp"
 
@@ -62,6 +70,60 @@ TEST(Import, KeepsAPartInTheCacheAndReportsTheSame) {
   // All but the time of day.
   const std::string with = textOf(folder / "out" / "report.html");
   EXPECT_EQ(with.size(), without.size());
+}
+
+/// A part that takes seconds to read: the housing, and points that nothing uses.
+std::string longHousing() {
+  std::string text = housing();
+  std::string points;
+  for (int i = 0; i < 400'000; ++i)
+    points += "#" + std::to_string(1'000'000 + i) + "=CARTESIAN_POINT('',(0.,0.,0.));\n";
+  return text.insert(text.rfind("ENDSEC;"), points);
+}
+
+TEST(Import, EndsAtOnceByCtrlCAndLeavesNothing) {
+  const Folder folder;
+  folder.file("part.step", longHousing());
+  const std::string out = (folder / "out").string(), cache = (folder / "cache").string();
+  std::vector<std::string> words = {PROBEWRIGHT_PROGRAM,
+                                    "run",
+                                    folder.file("p.h", program),
+                                    "--setup",
+                                    folder.file("s.toml", setupWith("part.step")),
+                                    "--out",
+                                    out,
+                                    "--cache",
+                                    cache};
+  std::vector<char*> arguments;
+  for (std::string& word : words)
+    arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const std::string errors = (folder / "errors").string();
+  const pid_t run = fork();
+  if (run == 0) {
+    setpgid(0, 0);
+    dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
+    dup2(open(errors.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+    execv(arguments[0], arguments.data());
+    _exit(127);
+  }
+  // The import has begun as soon as the run has a child.
+  const std::string children = "/proc/" + std::to_string(run) + "/task/" + std::to_string(run) + "/children";
+  for (int i = 0; i < 2000 && textOf(children).empty(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ASSERT_FALSE(textOf(children).empty());
+  const auto begin = std::chrono::steady_clock::now();
+  kill(run, SIGINT);
+  int status = 0;
+  ASSERT_EQ(waitpid(run, &status, 0), run);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 2);
+  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 3) << textOf(errors);
+  EXPECT_THAT(textOf(errors), HasSubstr("interrupted"));
+  EXPECT_EQ(kill(-run, 0), -1) << "its child is still there";
+  if (std::filesystem::exists(out)) {
+    EXPECT_THAT(namesIn(out), ::testing::IsEmpty());
+  }
+  EXPECT_FALSE(std::filesystem::exists(cache));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <map>
 
 #include "app/program.hpp"
+#include "base/folder_swap.hpp"
 
 /// A run that ends in the middle of writing: killed, or refused by the disk, at each call that changes a file.
 namespace probewright::app::testing {
@@ -30,6 +31,7 @@ const Texts newer = {{"PRESET.PR", "new preset"}, {"NEW.TXT", "new log"}, {"resu
 struct Fault {
   long at = 0;  ///< the number of the call; 0: none
   std::string how = "kill";
+  bool withoutLinks = false;  ///< on a file system like that of a memory stick
 };
 
 /// The exit code of the writer; -1 if it was killed.
@@ -47,6 +49,7 @@ int writeSet(const fs::path& folder, const Texts& files, const Fault& fault = {}
     setenv("LD_PRELOAD", PROBEWRIGHT_FAILING_CALLS, 1);
     setenv("FAIL_AT", std::to_string(fault.at).c_str(), 1);
     setenv("FAIL_HOW", fault.how.c_str(), 1);
+    if (fault.withoutLinks) setenv("FAIL_LINKS", "1", 1);
     if (!count.empty()) setenv("FAIL_COUNT", count.c_str(), 1);
     if (chdir("/") != 0) _exit(127);
     execv(arguments[0], arguments.data());
@@ -108,6 +111,13 @@ private:
   ino_t inode_ = 0;
 };
 
+/// What a run finds there as soon as it has the lock.
+Texts nextFinds(const fs::path& folder) {
+  const auto held = FolderLock::take(folder, {}, [](const fs::path&) { return true; });
+  EXPECT_TRUE(held) << format(held.error());
+  return filesIn(folder);
+}
+
 class Killed : public ::testing::TestWithParam<bool> {
 protected:
   void SetUp() override {
@@ -168,6 +178,33 @@ TEST_P(Killed, LeavesTheOldSetOrTheNewOneWhereADiskFails) {
     ASSERT_THAT(world.neighbours(), ElementsAre("out")) << at;
     ASSERT_TRUE(world.keptTheUsersFile()) << at;
   }
+}
+
+TEST_P(Killed, IsWholeAgainAfterTheNextRunWhereThereAreNoLinks) {
+  const Texts before = with(older, "mine.txt", "mine"), after = with(newer, "mine.txt", "mine"),
+              third = {{"THIRD.TXT", "third"}, {"mine.txt", "mine"}};
+  int mixed = 0;
+  for (long at = 1; at < 1000; ++at) {
+    for (const std::string& how : {std::string("kill"), std::to_string(EIO)}) {
+      const World world(GetParam());
+      const int end = writeSet(world.out(), newer, {at, how, true}, world.count());
+      const long calls = end == -1 ? at : std::stol(textOf(world.count()));
+      if (calls < at) {
+        ASSERT_EQ(end, 0);
+        EXPECT_EQ(filesIn(world.out()), after);
+        EXPECT_GT(mixed, 0) << "what the next run mends";
+        return;
+      }
+      const Texts left = filesIn(world.out());
+      mixed += left != before && left != after ? 1 : 0;
+      // The next one takes the lock, which clears up, and fails as soon as it writes.
+      ASSERT_THAT(nextFinds(world.out()), AnyOf(Eq(before), Eq(after))) << "call " << at << ", " << how;
+      ASSERT_EQ(writeSet(world.out(), {{"THIRD.TXT", "third"}}, {0, {}, true}), 0) << at;
+      ASSERT_EQ(filesIn(world.out()), third) << at;
+      ASSERT_TRUE(world.keptTheUsersFile()) << at;
+    }
+  }
+  FAIL() << "no end";
 }
 
 TEST_P(Killed, RemovesASetInOneStepToo) {

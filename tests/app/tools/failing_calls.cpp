@@ -1,6 +1,7 @@
 /// Loaded before a program (LD_PRELOAD), counts its calls that change files and lets one of them fail.
 ///   FAIL_AT=n     the n-th, from 1
 ///   FAIL_HOW=kill the process is killed in front of it; otherwise the number of an error that the call returns
+///   FAIL_LINKS=1  as on a file system that knows neither links nor exchanging: those calls fail with EPERM, uncounted
 ///   FAIL_COUNT=f  the number of calls goes to the file f when the process ends
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -33,6 +34,12 @@ bool fails() {
     ::pause();
   }
   errno = std::atoi(how);
+  return true;
+}
+
+bool refusesLinks() {
+  if (number("FAIL_LINKS") == 0) return false;
+  errno = EPERM;
   return true;
 }
 
@@ -81,15 +88,18 @@ int mkdir(const char* path, mode_t mode) { return fails() ? -1 : real<int(const 
 int rmdir(const char* path) { return fails() ? -1 : real<int(const char*)>("rmdir")(path); }
 int unlink(const char* path) { return fails() ? -1 : real<int(const char*)>("unlink")(path); }
 int symlink(const char* target, const char* path) {
+  if (refusesLinks()) return -1;
   return fails() ? -1 : real<int(const char*, const char*)>("symlink")(target, path);
 }
 int linkat(int from, const char* path, int to, const char* name, int flags) {
+  if (refusesLinks()) return -1;
   return fails() ? -1 : real<int(int, const char*, int, const char*, int)>("linkat")(from, path, to, name, flags);
 }
 int rename(const char* from, const char* to) {
   return fails() ? -1 : real<int(const char*, const char*)>("rename")(from, to);
 }
 int renameat2(int from, const char* path, int to, const char* name, unsigned flags) {
+  if (refusesLinks()) return -1;
   return fails() ? -1
                  : real<int(int, const char*, int, const char*, unsigned)>("renameat2")(from, path, to, name, flags);
 }
