@@ -58,7 +58,7 @@ void touchFromAbove(benchmark::State& state, std::shared_ptr<const Solid> solid,
   for (auto _ : state) {
     const double angle = 0.1 * ++count, x = reach * std::cos(angle), y = reach * std::sin(1.3 * angle);
     machine.move(at(x, y, -284), rapid);
-    const auto result = machine.measure(at(x, y, -340), machine::Feed::at(300));
+    const auto result = machine.measure({at(x, y, -340), machine::Feed::at(300)});
     if (result.end != machine::MeasureEnd::Touched) state.SkipWithError("no contact");
     machine.retract(at(x, y, -284), rapid);
   }

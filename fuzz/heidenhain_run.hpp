@@ -11,38 +11,19 @@
 #include "language/din_iso/host.hpp"
 #include "language/interpreter.hpp"
 #include "language/klartext/host.hpp"
-#include "machine/machine.hpp"
 #include "machine/machine_file.hpp"
+#include "support/willing_machine.hpp"
 
 /// A HEIDENHAIN control with a five-axis machine that reaches everything and touches at every target.
 namespace probewright::fuzzing {
 
-class WillingMachine : public machine::Machine {
+class TouchingMachine : public testing_support::WillingMachine {
 public:
-  explicit WillingMachine(const machine::MachineDescription& description) : description_(description) {}
-  const machine::MachineDescription& description() const override { return description_; }
-  machine::AxisPositions position() const override { return axes_; }
-  machine::MoveResult move(const machine::AxisPositions& target, machine::Feed) override {
-    axes_ = target;
-    return {};
+  using WillingMachine::WillingMachine;
+  machine::MeasureResult measure(const machine::MeasureOrder& order) override {
+    move(order.target, order.feed);
+    return {machine::MeasureEnd::Touched, order.target, {}};
   }
-  machine::MeasureResult measure(const machine::AxisPositions& target, machine::Feed) override {
-    axes_ = target;
-    return {machine::MeasureEnd::Touched, target, {}};
-  }
-  machine::MoveResult retract(const machine::AxisPositions& target, machine::Feed feed) override {
-    return move(target, feed);
-  }
-  bool probeDeflected() const override { return false; }
-  machine::MoveResult orientSpindle(double) override { return {}; }
-  double spindleAngle() const override { return 0; }
-  machine::MoveResult changeTool(const machine::ToolOrder&) override { return {}; }
-  void dwell(double) override {}
-  double seconds() const override { return 0; }
-
-private:
-  const machine::MachineDescription& description_;
-  machine::AxisPositions axes_;
 };
 
 class NoLibrary : public language::ProgramLibrary {
@@ -66,7 +47,7 @@ inline void run(const std::shared_ptr<language::Program>& program, const std::st
     }
     return table;
   }();
-  WillingMachine machine(description);
+  TouchingMachine machine(description);
   hh::Control control(control::ControlKind::TNC640, machine,
                       {tools,
                        hh::defaultProbeTable(control::ControlKind::TNC640),

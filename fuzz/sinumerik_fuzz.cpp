@@ -14,38 +14,25 @@
 #include "language/sinumerik/program.hpp"
 #include "language/sinumerik/writer.hpp"
 #include "machine/machine_file.hpp"
+#include "support/willing_machine.hpp"
 
 namespace {
 
 using namespace probewright;
 
-class WillingMachine : public machine::Machine {
+class TouchingMachine : public testing_support::WillingMachine {
 public:
-  explicit WillingMachine(const machine::MachineDescription& description) : description_(description) {}
-  const machine::MachineDescription& description() const override { return description_; }
-  machine::AxisPositions position() const override { return at_; }
-  machine::MoveResult move(const machine::AxisPositions& target, machine::Feed) override {
+  using WillingMachine::WillingMachine;
+  machine::MoveResult move(const machine::AxisPositions& target, machine::Feed feed) override {
     if (++moves_ > 20000) return {machine::MoveEnd::Cancelled, {}};
-    at_ = target;
-    return {};
+    return WillingMachine::move(target, feed);
   }
-  machine::MeasureResult measure(const machine::AxisPositions& target, machine::Feed feed) override {
-    move(target, feed);
-    return {moves_ % 2 == 0 ? machine::MeasureEnd::Touched : machine::MeasureEnd::NoContact, at_, {}};
+  machine::MeasureResult measure(const machine::MeasureOrder& order) override {
+    move(order.target, order.feed);
+    return {moves_ % 2 == 0 ? machine::MeasureEnd::Touched : machine::MeasureEnd::NoContact, position(), {}};
   }
-  machine::MoveResult retract(const machine::AxisPositions& target, machine::Feed feed) override {
-    return move(target, feed);
-  }
-  bool probeDeflected() const override { return false; }
-  machine::MoveResult orientSpindle(double) override { return {}; }
-  double spindleAngle() const override { return 0; }
-  machine::MoveResult changeTool(const machine::ToolOrder&) override { return {}; }
-  void dwell(double) override {}
-  double seconds() const override { return 0; }
 
 private:
-  const machine::MachineDescription& description_;
-  machine::AxisPositions at_;
   int moves_ = 0;
 };
 
@@ -87,7 +74,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
   }
 
-  WillingMachine machine(description);
+  TouchingMachine machine(description);
   control::sinumerik::DataStore store;
   control::sinumerik::setMeasuringDefaults(store);
   store.load({"$TC_DP1", {1, 1}}, 710.0);

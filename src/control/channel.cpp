@@ -167,6 +167,8 @@ void Channel::judge(const machine::MoveResult& result) const {
       throw Alarm(alarms.collision, result.detail, "check clearance heights, tool lengths and the presets");
     case machine::MoveEnd::AxisLimit:
       throw Alarm(alarms.limit, result.detail, "check the presets and the position of the workpiece in the machine");
+    case machine::MoveEnd::Refused:
+      throw Alarm(alarms.refused, result.detail, "choose a machine that can do it, or take it out of the program");
     case machine::MoveEnd::Cancelled:
       throw Cancelled();
   }
@@ -184,6 +186,30 @@ void Channel::moveAxes(const AxisPositions& target, Feed feed) {
   machine::MoveResult result = machine_.move(target, feed);
   count(start, axes());
   judgeTravel(std::move(result));
+}
+
+/// A path of straight pieces; those that go nowhere are left out.
+void Channel::travel(std::vector<machine::PathPiece> path) {
+  const AxisPositions start = axes();
+  AxisPositions last = start;
+  std::erase_if(path,
+                [&](const machine::PathPiece& piece) { return std::exchange(last, piece.target) == piece.target; });
+  if (path.empty()) return;
+  machine::PathResult result = machine_.moveAlong(path);
+  last = start;
+  for (std::size_t i = 0; i < result.reached; ++i)
+    count(std::exchange(last, path[i].target), path[i].target);
+  if (result.reached < path.size()) count(last, axes());
+  judgeTravel({result.end, std::move(result.detail)});
+}
+
+void Channel::moveAlong(std::span<const Vector3> points, Feed feed) {
+  const AxisPositions start = axes();
+  std::vector<machine::PathPiece> path;
+  path.reserve(points.size());
+  for (const Vector3& point : points)
+    path.push_back({axesFromProgram(point, start), feed});
+  travel(std::move(path));
 }
 
 void Channel::moveTo(const Vector3& point, Feed feed) { moveAxes(axesFromProgram(point, axes()), feed); }
@@ -233,17 +259,19 @@ void Channel::moveTo(const Target& target, Feed feed) {
   const int pieces = std::clamp(
       std::max(static_cast<int>(std::ceil(std::sqrt(sag / pathTolerance))), static_cast<int>(std::ceil(turn / 5))), 1,
       10000);
+  std::vector<machine::PathPiece> path;
+  path.reserve(static_cast<std::size_t>(pieces));
   for (int i = 1; i <= pieces; ++i)
-    moveAxes(i == pieces ? end : at(static_cast<double>(i) / pieces), feed);
+    path.push_back({i == pieces ? end : at(static_cast<double>(i) / pieces), feed});
+  travel(std::move(path));
 }
 
-machine::MeasureResult Channel::measureTo(const Vector3& point, Feed feed, TouchWith part) {
+machine::MeasureResult Channel::measureTo(const Vector3& point, Feed feed, machine::Sensor sensor, TouchWith part) {
   const AxisPositions start = axes();
-  const AxisPositions target = axesFromProgram(point, start);
-  machine::MeasureResult result =
-      part == TouchWith::Shaft ? machine_.measureWithShaft(target, feed) : machine_.measure(target, feed);
+  machine::MeasureResult result = machine_.measure({axesFromProgram(point, start), feed, sensor, part});
   count(start, axes());
   if (result.end == machine::MeasureEnd::Cancelled) throw Cancelled();
+  if (result.end == machine::MeasureEnd::Refused) judge({machine::MoveEnd::Refused, result.detail});
   if (result.end == machine::MeasureEnd::Collision) addPlace(result.detail);
   return result;
 }
@@ -259,8 +287,16 @@ void Channel::retractTo(const Vector3& point, Feed feed) {
   judgeTravel(std::move(result));
 }
 
+void Channel::turnSpindle(machine::Rotation rotation, double speed) { judge(machine_.turnSpindle(rotation, speed)); }
+
 void Channel::orientSpindle(double degrees) {
-  if (!description_.mainSpindle) return judge(machine_.orientSpindle(degrees));
+  if (!description_.mainSpindle) {
+    machine::MoveResult result = machine_.orientSpindle(degrees);
+    if (result.end == machine::MoveEnd::Refused)
+      throw Alarm(alarms.orientation, result.detail, "choose a machine whose spindle can be oriented");
+    return judge(result);
+  }
+  if (spindleRotation() != machine::Rotation::None) turnSpindle(machine::Rotation::None, 0);
   AxisPositions target = axes();
   double& angle = target[*description_.mainSpindle];
   const machine::Axis& axis = description_.axes[*description_.mainSpindle];
@@ -269,9 +305,57 @@ void Channel::orientSpindle(double degrees) {
 }
 
 double Channel::spindleAngle() const {
-  return description_.mainSpindle ? axes()[*description_.mainSpindle] : machine_.spindleAngle();
+  return description_.mainSpindle ? axes()[*description_.mainSpindle] : machine_.spindle().angle;
 }
 
-void Channel::changeTool(const machine::ToolOrder& order) { judge(machine_.changeTool(order)); }
+bool Channel::function(int number) {
+  machine::FunctionResult result = machine_.function(number);
+  switch (result.end) {
+    case machine::FunctionEnd::CarriedOut:
+      return true;
+    case machine::FunctionEnd::Unknown:
+      return false;
+    case machine::FunctionEnd::Refused:
+      throw Alarm(alarms.refused, fmt::format("M{}: {}", number, result.detail), "see what the machine lacks");
+    case machine::FunctionEnd::Cancelled:
+      throw Cancelled();
+  }
+  return false;
+}
+
+std::string askForTool(const machine::ToolOrder& order, const std::string& detail) {
+  return fmt::format("Put in tool {}{}{}{}{}", order.number, order.name.empty() ? "" : " ", order.name,
+                     detail.empty() ? "" : ": ", detail);
+}
+
+void Channel::changeTool(const machine::ToolOrder& order) {
+  using machine::ToolChangeEnd;
+  machine::ToolChangeResult result = machine_.changeTool(order);
+  if (result.end == ToolChangeEnd::ByHand && onToolByHand) {
+    onToolByHand(order, result.detail);
+    result = machine_.changeTool(order);
+  }
+  switch (result.end) {
+    case ToolChangeEnd::Changed:
+      return;
+    case ToolChangeEnd::ByHand:
+      throw Alarm(alarms.refused, "the tool was not put in by hand: " + result.detail,
+                  "put the tool into the spindle before NC start");
+    case ToolChangeEnd::Missing:
+      throw Alarm(alarms.toolMissing, result.detail, "put the tool into the magazine, or call one that it holds");
+    case ToolChangeEnd::Refused:
+      throw Alarm(alarms.refused, "the tool is not changed: " + result.detail, "see what the tool changer lacks");
+    case ToolChangeEnd::ProbeSignal:
+      return judge({machine::MoveEnd::ProbeSignal, result.detail});
+    case ToolChangeEnd::Collision:
+      return judge({machine::MoveEnd::Collision, result.detail});
+    case ToolChangeEnd::Cancelled:
+      throw Cancelled();
+  }
+}
+
+void Channel::dwell(double seconds) {
+  if (machine_.dwell(seconds) == machine::WaitEnd::Cancelled) throw Cancelled();
+}
 
 }  // namespace probewright::control

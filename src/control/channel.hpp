@@ -1,8 +1,11 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "control/journal.hpp"
 #include "geometry/primitives.hpp"
@@ -13,6 +16,7 @@ namespace probewright::control {
 
 using machine::AxisPositions;
 using machine::Feed;
+using machine::TouchWith;
 
 /// How program coordinates follow the axes.
 enum class Following {
@@ -20,15 +24,18 @@ enum class Following {
   Kinematics,  ///< positions are those of the tool tip on the workpiece, wherever the rotary axes stand
 };
 
-/// The part of the stylus that is meant to touch.
-enum class TouchWith { Ball, Shaft };
-
-/// What an alarm of a move is called on the control that runs.
+/// What an alarm is called on the control that runs.
 struct MotionAlarms {
   std::string limit = "Limit switch";
   std::string collision = "Collision";
   std::string probeSignal = "Touch probe deflected";
+  std::string toolMissing = "Tool not in the magazine";
+  std::string orientation = "Spindle orientation not possible";
+  std::string refused = "Machine not ready";  ///< whatever else the machine cannot do
 };
+
+/// What the operator is asked where a tool is put in by hand.
+std::string askForTool(const machine::ToolOrder& order, const std::string& detail);
 
 /// A target: what is absent keeps its place.
 struct Target {
@@ -49,7 +56,8 @@ struct Touch {
 /// coordinates of the tip are the readings of X, Y, Z minus the tool vector. With Following::Kinematics they are the
 /// coordinates of the tip in the table frame as it lies when the rotary axes stand at the reference posture, so a
 /// frame measured there goes on following the workpiece when the table turns.
-/// Every move ends in straight lines of axis space; alarms and cancellation are thrown (Alarm, Cancelled).
+/// Every move ends in straight lines of axis space; what bends becomes a path of them. Alarms are thrown (Alarm), and
+/// so is a stop that reached the machine (Cancelled).
 class Channel {
 public:
   Channel(machine::Machine& machine, Journal& journal);
@@ -108,17 +116,28 @@ public:
   void moveTo(const Target& target, Feed feed);
   /// Straight to axis positions of the machine coordinate system.
   void moveAxes(const AxisPositions& target, Feed feed);
+  /// Through the program points, the rotary axes standing, without a stop between them.
+  void moveAlong(std::span<const Vector3> points, Feed feed);
 
-  /// Towards the program point until the probe signals. The outcome is the caller's to judge.
-  machine::MeasureResult measureTo(const Vector3& point, Feed feed, TouchWith part = TouchWith::Ball);
+  /// Towards the program point until the sensor signals. The outcome is the caller's to judge, but for a stop.
+  machine::MeasureResult measureTo(const Vector3& point, Feed feed, machine::Sensor sensor,
+                                   TouchWith part = TouchWith::Ball);
+  bool deflected(machine::Sensor sensor) const { return machine_.deflected(sensor); }
   Touch touchFrom(const machine::MeasureResult& result) const;
   void retractTo(const Vector3& point, Feed feed);
 
+  /// Lets the main spindle turn, or stand.
+  void turnSpindle(machine::Rotation rotation, double speed);
+  machine::Rotation spindleRotation() const { return machine_.spindle().rotation; }
   /// Turns the main spindle to an angle: the tool, or on lathes the workpiece by the shorter way.
   void orientSpindle(double degrees);
   double spindleAngle() const;
+  /// Hands an M function to the machine. False if the machine does not have it.
+  bool function(int number);
   void changeTool(const machine::ToolOrder& order);
-  void dwell(double seconds) { machine_.dwell(seconds); }
+  /// Called where somebody has to put the tool in: tells them, and comes back when they have.
+  std::function<void(const machine::ToolOrder& order, const std::string& detail)> onToolByHand;
+  void dwell(double seconds);
   double seconds() const { return machine_.seconds(); }
 
   /// Path of the tip over the table since the channel was made, mm; rotary axes of head and table count.
@@ -126,6 +145,7 @@ public:
 
 private:
   void count(const AxisPositions& from, const AxisPositions& to);
+  void travel(std::vector<machine::PathPiece> path);
   void judge(const machine::MoveResult& result) const;
   void judgeTravel(machine::MoveResult result) const;
   /// Adds where the tip is in program coordinates: the numbers that the person at the control can look at.

@@ -46,7 +46,7 @@ Vector3 HeidenhainProber::prePosition(const PlannedTouch& touch, double extra) c
   const Vector3 ball =
       touch.surface - touch.direction * (inProgram(probe_.ballRadius + probe_.setUp, touch.direction) + extra);
   if (!probe_.aside && !probe_.track) return ball;
-  return ball - tipOffsetAt(orientationFor(touch.direction).value_or(channel_.machine().spindleAngle()));
+  return ball - tipOffsetAt(orientationFor(touch.direction).value_or(channel_.machine().spindle().angle));
 }
 
 Feed HeidenhainProber::positioning() const {
@@ -79,8 +79,10 @@ void HeidenhainProber::approach(const Vector3& ballCentre, double clearanceHeigh
 }
 
 void HeidenhainProber::moveOnArc(const Vector3& centre, double angle) {
-  for (const Vector3& point : pointsOnArc(position(), centre, angle))
-    moveTo(point);
+  std::vector<Vector3> points = pointsOnArc(position(), centre, angle);
+  for (Vector3& point : points)
+    point = plane_.xyzFromPlane(point - ballFromTip());
+  channel_.moveAlong(points, positioning());
 }
 
 Vector3 HeidenhainProber::tipOffsetAt(double spindleAngle) const {
@@ -92,7 +94,7 @@ Vector3 HeidenhainProber::tipOffsetAt(double spindleAngle) const {
                              plane_.xyzFromPlane({turned.x(), turned.y(), 0}));
 }
 
-Vector3 HeidenhainProber::tipOffsetNow() const { return tipOffsetAt(channel_.machine().spindleAngle()); }
+Vector3 HeidenhainProber::tipOffsetNow() const { return tipOffsetAt(channel_.machine().spindle().angle); }
 
 std::optional<double> HeidenhainProber::orientationFor(const Vector3& direction) const {
   const Vector3 inSpindle = plane_.planeFromXyz(channel_.spindleFromProgram() * plane_.xyzFromPlane(direction));
@@ -105,7 +107,7 @@ std::optional<double> HeidenhainProber::orientationFor(const Vector3& direction)
 double HeidenhainProber::directionalRadius(const Vector3& xyzDirection) const {
   if (probe_.directions.rings().empty()) return 0;
   const Vector3 inSpindle = plane_.planeFromXyz(channel_.spindleFromProgram() * xyzDirection);
-  const double turn = channel_.machine().spindleAngle() - probe_.calibrationAngle;
+  const double turn = channel_.machine().spindle().angle - probe_.calibrationAngle;
   return probe_.directions.at(rotation(Vector3::UnitZ(), -turn).linear() * inSpindle);
 }
 
@@ -134,8 +136,8 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
     channel_.journal().touch(record);
   };
   for (int i = 0; i < std::max(1, probe_.repetitions); ++i) {
-    const machine::MeasureResult result =
-        channel_.measureTo(startTip + xyzDirection * distance, Feed::at(probe_.probingFeed));
+    const machine::MeasureResult result = channel_.measureTo(startTip + xyzDirection * distance,
+                                                             Feed::at(probe_.probingFeed), machine::Sensor::TouchProbe);
     switch (result.end) {
       case MeasureEnd::Touched:
         break;
@@ -159,7 +161,8 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
         finish("limit");
         throw Alarm(channel_.alarms.limit, result.detail);
       case MeasureEnd::Collision:
-      case MeasureEnd::Cancelled:
+      case MeasureEnd::Cancelled:  // the channel throws it, and what is refused
+      case MeasureEnd::Refused:
         finish("collision");
         throw Alarm(channel_.alarms.collision, result.detail);
     }

@@ -91,9 +91,10 @@ void SinumerikProber::moveHeightTo(double height) {
 }
 
 void SinumerikProber::moveOnArc(const Vector3& centre, double angle) {
-  for (const Vector3& point : pointsOnArc(position(), centre, angle)) {
-    channel_.moveTo(plane_.xyzFromPlane(point), Feed::at(habits_.circleFeed));
-  }
+  std::vector<Vector3> points = pointsOnArc(position(), centre, angle);
+  for (Vector3& point : points)
+    point = plane_.xyzFromPlane(point);
+  channel_.moveAlong(points, Feed::at(habits_.circleFeed));
 }
 
 bool SinumerikProber::mirrored(int axis) const {
@@ -188,7 +189,8 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
   const auto probeOnce = [&](const Vector3& target, double atFeed) -> std::optional<control::Touch> {
     const int attempts = habits_.oneAttempt ? 1 : 5;
     for (int attempt = 0; attempt < attempts; ++attempt) {
-      const machine::MeasureResult result = channel_.measureTo(plane_.xyzFromPlane(target), Feed::at(atFeed), part);
+      const machine::MeasureResult result =
+          channel_.measureTo(plane_.xyzFromPlane(target), Feed::at(atFeed), machine::Sensor::TouchProbe, part);
       switch (result.end) {
         case MeasureEnd::Touched:
           return channel_.touchFrom(result);
@@ -209,7 +211,8 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
           throw Alarm(channel_.alarms.limit, result.detail,
                       "check the zero offset and the position of the workpiece in the machine");
         case MeasureEnd::Collision:
-        case MeasureEnd::Cancelled:
+        case MeasureEnd::Cancelled:  // the channel throws it, and what is refused
+        case MeasureEnd::Refused:
           finish("collision");
           throw Alarm(channel_.alarms.collision, result.detail,
                       "correct the starting position; the path of the probe must be clear");

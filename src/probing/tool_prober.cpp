@@ -53,7 +53,7 @@ Vector3 ToolProber::stroke(const Vector3& direction) {
   control::TouchRecord record;
   record.target = end;
   record.direction = (end - startInProgram).normalized();
-  const machine::MeasureResult result = channel_.measureTo(end, Feed::at(probe_.feed));
+  const machine::MeasureResult result = channel_.measureTo(end, Feed::at(probe_.feed), machine::Sensor::ToolTouchProbe);
   const auto fail = [&](const char* outcome, const std::string& code, const std::string& text, const char* advice) {
     record.seconds = channel_.seconds();
     record.outcome = outcome;
@@ -81,7 +81,8 @@ Vector3 ToolProber::stroke(const Vector3& direction) {
       fail("limit", channel_.alarms.limit, result.detail, "");
       break;
     case MeasureEnd::Collision:
-    case MeasureEnd::Cancelled:
+    case MeasureEnd::Cancelled:  // the channel throws it, and what is refused
+    case MeasureEnd::Refused:
       fail("collision", channel_.alarms.collision, result.detail, "check the clearance height and the tool's data");
       break;
   }

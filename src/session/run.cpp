@@ -231,12 +231,16 @@ std::map<std::string, std::string> definitionFiles(const fs::path& tables) {
   return files;
 }
 
-/// After a block search the machine catches up: tool, spindle, then straight to where the program stands.
+/// After a block search the machine catches up: tool, spindle, M functions, then straight to where the program stands.
 void goOnMoving(StandingMachine& machine, sin::Control& control) {
   const machine::AxisPositions target = machine.position();
+  const StandingOrders orders = machine.orders();
   machine.release();
-  if (machine.orderedTool()) control.channel.changeTool(*machine.orderedTool());
-  if (machine.orderedAngle()) machine.orientSpindle(*machine.orderedAngle());
+  if (orders.tool) control.channel.changeTool(*orders.tool);
+  if (orders.angle) machine.orientSpindle(*orders.angle);
+  if (orders.rotation) control.channel.turnSpindle(orders.rotation->rotation, orders.rotation->speed);
+  for (const int number : orders.functions)
+    control.channel.function(number);
   control.channel.moveAxes(target, machine::Feed::rapidTraverse());
 }
 
@@ -455,10 +459,9 @@ RunOutcome run(const std::shared_ptr<language::Program>& program, const fs::path
   outcome.machine = std::move(*machine);
   warnOfParts(outcome, setup);
   outcome.machine->recordPath(options.recordPath);
+  outcome.machine->stopOn(options.stop);
   outcome.info.machine = outcome.machine->description().name;
   outcome.info.axes = outcome.machine->description().axes;
-  // Whoever stops the run stops the machine, too: also within a measuring cycle.
-  const std::stop_callback cancelMachine(options.stop, [machine = outcome.machine.get()] { machine->cancel(); });
   HostFiles host(path, setup);
   try {
     if (control::isHeidenhain(kind)) {

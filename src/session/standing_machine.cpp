@@ -7,22 +7,41 @@
 namespace probewright::session {
 
 using machine::AxisPositions;
+using machine::MoveEnd;
 using machine::MoveResult;
+using machine::Rotation;
+
+namespace {
+
+constexpr const char* stoppedText = "the run was stopped";
+
+}  // namespace
 
 void StandingMachine::hold() {
   released_ = false;
   at_ = machine_.position();
-  angle_ = machine_.spindleAngle();
-  tool_.reset();
-  orderedAngle_.reset();
+  spindle_ = machine_.spindle();
+  orders_ = {};
 }
 
-MoveResult StandingMachine::countTo(const AxisPositions& target) {
+void StandingMachine::stopOn(std::stop_token stop) {
+  stop_ = stop;
+  machine_.stopOn(std::move(stop));
+}
+
+std::optional<MoveResult> StandingMachine::refusal(machine::Feed feed) const {
+  if (stop_.stop_requested()) return MoveResult{MoveEnd::Cancelled, stoppedText};
+  if (!feed.rapid && !(feed.perMinute > 0)) return MoveResult{MoveEnd::Refused, "the feed is not above 0"};
+  return std::nullopt;
+}
+
+MoveResult StandingMachine::countTo(const AxisPositions& target, machine::Feed feed) {
+  if (auto refused = refusal(feed)) return *std::move(refused);
   const auto& axes = description().axes;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const machine::Axis& axis = axes[i];
     if (axis.modulo || (target[i] >= axis.minimum - 1e-9 && target[i] <= axis.maximum + 1e-9)) continue;
-    return {machine::MoveEnd::AxisLimit,
+    return {MoveEnd::AxisLimit,
             fmt::format("axis {}: {} lies outside its travel {} to {}", axis.name,
                         std::abs(target[i]) < 1e9 ? fmt::format("{:.3f}", target[i]) : fmt::format("{:.3g}", target[i]),
                         axis.minimum, axis.maximum)};
@@ -32,37 +51,87 @@ MoveResult StandingMachine::countTo(const AxisPositions& target) {
 }
 
 MoveResult StandingMachine::move(const AxisPositions& target, machine::Feed feed) {
-  return released_ ? machine_.move(target, feed) : countTo(target);
+  return released_ ? machine_.move(target, feed) : countTo(target, feed);
 }
 
-machine::MeasureResult StandingMachine::measure(const AxisPositions& target, machine::Feed feed) {
-  if (released_) return machine_.measure(target, feed);
-  const MoveResult result = countTo(target);
-  if (result.end == machine::MoveEnd::AxisLimit) return {machine::MeasureEnd::AxisLimit, {}, result.detail};
-  return {machine::MeasureEnd::NoContact, {}, {}};
+machine::PathResult StandingMachine::moveAlong(std::span<const machine::PathPiece> path) {
+  if (released_) return machine_.moveAlong(path);
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    MoveResult piece = countTo(path[i].target, path[i].feed);
+    if (piece.end != MoveEnd::Reached) return {piece.end, i, std::move(piece.detail)};
+  }
+  return {MoveEnd::Reached, path.size(), {}};
+}
+
+machine::MeasureResult StandingMachine::measure(const machine::MeasureOrder& order) {
+  using machine::MeasureEnd;
+  if (released_) return machine_.measure(order);
+  MoveResult result = countTo(order.target, order.feed);
+  const MeasureEnd end = result.end == MoveEnd::AxisLimit   ? MeasureEnd::AxisLimit
+                         : result.end == MoveEnd::Cancelled ? MeasureEnd::Cancelled
+                         : result.end == MoveEnd::Refused   ? MeasureEnd::Refused
+                                                            : MeasureEnd::NoContact;
+  return {end, {}, std::move(result.detail)};
 }
 
 MoveResult StandingMachine::retract(const AxisPositions& target, machine::Feed feed) {
-  return released_ ? machine_.retract(target, feed) : countTo(target);
+  return released_ ? machine_.retract(target, feed) : countTo(target, feed);
+}
+
+MoveResult StandingMachine::turnSpindle(Rotation rotation, double speed) {
+  if (released_) return machine_.turnSpindle(rotation, speed);
+  if (rotation != Rotation::None) {
+    if (stop_.stop_requested()) return {MoveEnd::Cancelled, stoppedText};
+    if (!(speed >= 0 && std::isfinite(speed)))
+      return {MoveEnd::Refused, fmt::format("a spindle speed of {} is not possible", speed)};
+  }
+  spindle_.rotation = rotation;
+  spindle_.speed = rotation == Rotation::None ? 0 : speed;
+  orders_.rotation = spindle_;
+  if (rotation != Rotation::None) orders_.angle.reset();
+  return {};
 }
 
 MoveResult StandingMachine::orientSpindle(double degrees) {
   if (released_) return machine_.orientSpindle(degrees);
-  orderedAngle_ = angle_ = degrees;
+  if (stop_.stop_requested()) return {MoveEnd::Cancelled, stoppedText};
+  if (!std::isfinite(degrees)) return {MoveEnd::Refused, "the spindle is sent to an angle that is not a number"};
+  spindle_ = {Rotation::None, 0, degrees};
+  orders_.angle = degrees;
+  orders_.rotation.reset();
   return {};
 }
 
-MoveResult StandingMachine::changeTool(const machine::ToolOrder& order) {
+machine::FunctionResult StandingMachine::function(int number) {
+  if (released_ || !machine_.hasFunction(number)) return machine_.function(number);
+  if (stop_.stop_requested()) return {machine::FunctionEnd::Cancelled, stoppedText};
+  // M9 ends what M7 and M8 have begun.
+  std::erase_if(orders_.functions, [&](int earlier) {
+    return earlier == number || (number == 9 && (earlier == 7 || earlier == 8)) ||
+           (earlier == 9 && (number == 7 || number == 8));
+  });
+  orders_.functions.push_back(number);
+  return {};
+}
+
+machine::ToolChangeResult StandingMachine::changeTool(const machine::ToolOrder& order) {
   if (released_) return machine_.changeTool(order);
-  tool_ = order;
+  if (stop_.stop_requested()) return {machine::ToolChangeEnd::Cancelled, stoppedText};
+  orders_.tool = order;
+  if (!description().mainSpindle) {
+    spindle_.rotation = Rotation::None;
+    spindle_.speed = 0;
+    orders_.rotation.reset();
+  }
   for (std::size_t i = 0; i < description().axes.size(); ++i) {
     if (description().axes[i].kind == machine::AxisKind::Linear) at_[i] = description().toolChange[i];
   }
   return {};
 }
 
-void StandingMachine::dwell(double seconds) {
-  if (released_) machine_.dwell(seconds);
+machine::WaitEnd StandingMachine::dwell(double seconds) {
+  if (released_) return machine_.dwell(seconds);
+  return stop_.stop_requested() ? machine::WaitEnd::Cancelled : machine::WaitEnd::Over;
 }
 
 }  // namespace probewright::session

@@ -1,10 +1,19 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "machine/machine.hpp"
 
 namespace probewright::session {
+
+/// What a program has ordered while the axes stood.
+struct StandingOrders {
+  std::optional<machine::ToolOrder> tool;
+  std::optional<double> angle;                    ///< the spindle was oriented, and has not turned since
+  std::optional<machine::SpindleState> rotation;  ///< the spindle was turned on or off, and not oriented since
+  std::vector<int> functions;                     ///< M functions, each once, in the order in which they came last
+};
 
 /// A machine whose axes stand while a program runs: program test and block search. Positions are counted as if they
 /// were reached, travels are watched, nothing touches anything and no time passes. Once it is released it is the
@@ -16,36 +25,39 @@ public:
 
   /// From now on the axes stand.
   void hold();
-  /// From now on the machine itself moves. The caller brings it to position() as it was before, with the tool and the
-  /// spindle angle that were ordered last.
+  /// From now on the machine itself moves. The caller brings it to position() as it was before, with what orders()
+  /// says.
   void release() { released_ = true; }
-  const std::optional<machine::ToolOrder>& orderedTool() const { return tool_; }
-  const std::optional<double>& orderedAngle() const { return orderedAngle_; }
+  const StandingOrders& orders() const { return orders_; }
 
   const machine::MachineDescription& description() const override { return machine_.description(); }
+  void stopOn(std::stop_token stop) override;
   machine::AxisPositions position() const override { return released_ ? machine_.position() : at_; }
   machine::MoveResult move(const machine::AxisPositions& target, machine::Feed feed) override;
-  machine::MeasureResult measure(const machine::AxisPositions& target, machine::Feed feed) override;
-  machine::MeasureResult measureWithShaft(const machine::AxisPositions& target, machine::Feed feed) override {
-    return released_ ? machine_.measureWithShaft(target, feed) : measure(target, feed);
-  }
+  machine::PathResult moveAlong(std::span<const machine::PathPiece> path) override;
+  machine::MeasureResult measure(const machine::MeasureOrder& order) override;
   machine::MoveResult retract(const machine::AxisPositions& target, machine::Feed feed) override;
-  bool probeDeflected() const override { return released_ && machine_.probeDeflected(); }
+  bool deflected(machine::Sensor sensor) const override { return released_ && machine_.deflected(sensor); }
+  std::string probeSerial() const override { return released_ ? machine_.probeSerial() : std::string(); }
+  machine::MoveResult turnSpindle(machine::Rotation rotation, double speed) override;
   machine::MoveResult orientSpindle(double degrees) override;
-  double spindleAngle() const override { return released_ ? machine_.spindleAngle() : angle_; }
-  machine::MoveResult changeTool(const machine::ToolOrder& order) override;
-  void dwell(double seconds) override;
+  machine::SpindleState spindle() const override { return released_ ? machine_.spindle() : spindle_; }
+  bool hasFunction(int number) const override { return machine_.hasFunction(number); }
+  machine::FunctionResult function(int number) override;
+  machine::ToolChangeResult changeTool(const machine::ToolOrder& order) override;
+  machine::WaitEnd dwell(double seconds) override;
   double seconds() const override { return machine_.seconds(); }
 
 private:
-  machine::MoveResult countTo(const machine::AxisPositions& target);
+  std::optional<machine::MoveResult> refusal(machine::Feed feed) const;
+  machine::MoveResult countTo(const machine::AxisPositions& target, machine::Feed feed);
 
   machine::Machine& machine_;
+  std::stop_token stop_;
   bool released_ = true;
   machine::AxisPositions at_;
-  double angle_ = 0;
-  std::optional<double> orderedAngle_;
-  std::optional<machine::ToolOrder> tool_;
+  machine::SpindleState spindle_;
+  StandingOrders orders_;
 };
 
 }  // namespace probewright::session

@@ -56,8 +56,8 @@ Result<std::unique_ptr<VirtualMachine>> buildMachine(const Setup& setup, const I
   auto machine = std::make_unique<VirtualMachine>(std::move(truth));
   for (const BelievedTool& tool : setup.tools) {
     if (!tool.inSpindle) continue;
-    const machine::MoveResult result = machine->insertTool({tool.number, {}});
-    if (result.end != machine::MoveEnd::Reached) {
+    const machine::ToolChangeResult result = machine->insertTool({tool.number, {}});
+    if (result.end != machine::ToolChangeEnd::Changed) {
       return fail({setup.file}, fmt::format("the machine cannot start like this: {}", result.detail),
                   "Move the part or give another start position under [machine.start]");
     }

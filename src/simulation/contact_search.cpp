@@ -94,6 +94,7 @@ private:
   /// Searches a stretch that may bend: halves it until its chord is true to the precision, but leaves it at once if
   /// even a tool swollen by the bend would pass.
   std::optional<Touch> bent(const Piece& piece, int depth) const {
+    if (options_.stop != nullptr && options_.stop->stop_requested()) throw SearchStopped{piece.begin};
     const double middle = 0.5 * (piece.begin + piece.end);
     const Pose atMiddle = motion_.tableFromSpindleAt(middle);
     const auto bend = [&](const Vector3& p) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "simulation/motion_profile.hpp"
@@ -55,9 +56,15 @@ struct SearchOptions {
   double precision = 1e-7;    ///< how far the ball's true path may be from the one searched, mm
   bool ignoreShafts = false;  ///< search the ball only
   bool ignoreBall = false;
+  const std::stop_token* stop = nullptr;  ///< ends the search of a way that bends; null: nothing does
 };
 
-/// The first touch between the fractions `begin` and `end` of the motion.
+/// Thrown by a search that was stopped: up to this fraction of the way nothing touches.
+struct SearchStopped {
+  double fraction = 0;
+};
+
+/// The first touch between the fractions `begin` and `end` of the motion. Throws SearchStopped.
 std::optional<Touch> firstTouch(const Motion& motion, double begin, double end, const ToolShape& shape,
                                 const Surroundings& surroundings, const SearchOptions& options);
 

@@ -11,18 +11,21 @@ namespace probewright::simulation {
 using machine::AxisKind;
 using machine::AxisPositions;
 using machine::Feed;
-using machine::MeasureEnd;
-using machine::MeasureResult;
+using machine::FunctionEnd;
+using machine::FunctionResult;
 using machine::MoveEnd;
 using machine::MoveResult;
+using machine::PathPiece;
+using machine::PathResult;
+using machine::Rotation;
+using machine::ToolChangeEnd;
+using machine::ToolChangeResult;
+using machine::WaitEnd;
 
 namespace {
 
-constexpr double measuringPrecision = 1e-7;    // mm
 constexpr double positioningPrecision = 1e-4;  // mm
-constexpr double mostOvertravel = 0.8;         // ball radii
 constexpr double orientationSeconds = 1;
-constexpr const char* cancelledText = "the run was cancelled";
 
 constexpr const char* roleName(SolidRole role) {
   switch (role) {
@@ -133,39 +136,6 @@ std::string VirtualMachine::describe(const Touch& touch) const {
                      solid.name, touch.point.x(), touch.point.y(), touch.point.z());
 }
 
-double VirtualMachine::pretravel(const Motion& motion, const Touch& touch) const {
-  const TrueProbe& probe = tool_->probe;
-  const Matrix3 spindleFromTable = motion.tableFromSpindleAt(touch.fraction).linear().transpose();
-  const Vector3 normal = rotation(Vector3::UnitZ(), -spindleDegrees_).linear() *
-                         (toolFrame(*tool_).transpose() * (spindleFromTable * touch.normal));
-  const double axial = std::pow(normal.z(), 2);
-  const double lobed =
-      probe.lobing == 0
-          ? 0
-          : probe.lobing * std::cos(3 * (std::atan2(normal.y(), normal.x()) - radiansFromDegrees(probe.lobingPhase)));
-  return (1 - axial) * (probe.pretravel + lobed) + axial * probe.axialPretravel;
-}
-
-VirtualMachine::Stop VirtualMachine::stopFor(const Motion& motion, const Touch& touch) {
-  if (touch.shaft) return {touch, std::nullopt, touch.fraction};
-  return signalStop(motion, touch);
-}
-
-VirtualMachine::Stop VirtualMachine::signalStop(const Motion& motion, const Touch& touch) {
-  Stop stop{touch, std::nullopt, touch.fraction};
-  const double length = motion.profile.length();
-  if (length == 0) return stop;
-  const TrueProbe& probe = tool_->probe;
-  const double contact = touch.fraction * length;
-  double signal = contact + pretravel(motion, touch) + motion.profile.speedAt(contact) * probe.signalDelay;
-  if (probe.repeatability > 0) signal += probe.repeatability * gaussian_(noise_);
-  const double braking = motion.profile.brakingDistanceAt(std::clamp(signal, 0.0, length));
-  const double end = std::clamp(signal + braking, contact, contact + mostOvertravel * probe.ballRadius);
-  stop.signal = signal / length;
-  stop.end = std::min(end / length, 1.0);
-  return stop;
-}
-
 void VirtualMachine::advance(const Motion& motion, const Stop& stop, PathKind kind) {
   reading_ = motion.readingAt(stop.end);
   slides_ = motion.slidesAt(stop.end);
@@ -221,111 +191,40 @@ MoveResult VirtualMachine::finish(const Motion& motion, std::optional<Touch> tou
   return {MoveEnd::ProbeSignal, describe(*touch)};
 }
 
+std::optional<MoveResult> VirtualMachine::refusal(Feed feed) const {
+  if (stop_.stop_requested()) return MoveResult{MoveEnd::Cancelled, stoppedText};
+  if (!feed.rapid && !(feed.perMinute > 0)) return MoveResult{MoveEnd::Refused, "the feed is not above 0"};
+  return std::nullopt;
+}
+
+std::string VirtualMachine::stillDeflected() const {
+  return "the stylus is still deflected: " + describe(deflection_ ? *deflection_ : *toolContact_);
+}
+
+void VirtualMachine::standAt(const Motion& motion, double fraction, PathKind kind) {
+  advance(motion, Stop{std::nullopt, std::nullopt, fraction}, kind);
+}
+
 MoveResult VirtualMachine::move(const AxisPositions& target, Feed feed) {
-  if (cancelled_) return {MoveEnd::Cancelled, cancelledText};
-  if (!feed.rapid && !(feed.perMinute > 0)) return {MoveEnd::Cancelled, "the feed is not above 0"};
+  if (auto refused = refusal(feed)) return *std::move(refused);
   if (auto limit = beyondTravel(target)) return {MoveEnd::AxisLimit, *limit};
-  const std::optional<Touch>& deflection = deflection_ ? deflection_ : toolContact_;
-  if (deflection && !(target == reading_))
-    return {MoveEnd::ProbeSignal, "the stylus is still deflected: " + describe(*deflection)};
+  if ((deflection_ || toolContact_) && !(target == reading_)) return {MoveEnd::ProbeSignal, stillDeflected()};
   const Motion motion = motionTo(target, feed);
-  return finish(motion, firstTouch(motion, 0, 1, shape_, surroundings_, {positioningPrecision}),
-                feed.rapid ? PathKind::Rapid : PathKind::Feed);
+  const PathKind kind = feed.rapid ? PathKind::Rapid : PathKind::Feed;
+  try {
+    return finish(motion, firstTouch(motion, 0, 1, shape_, surroundings_, searchOptions(positioningPrecision)), kind);
+  } catch (const SearchStopped& stopped) {
+    standAt(motion, stopped.fraction, kind);
+    return {MoveEnd::Cancelled, stoppedText};
+  }
 }
 
-MeasureResult VirtualMachine::measure(const AxisPositions& target, Feed feed) { return measure(target, feed, false); }
-
-MeasureResult VirtualMachine::measureWithShaft(const AxisPositions& target, Feed feed) {
-  return measure(target, feed, true);
-}
-
-/// Where along the shaft it touches first, and when, as exactly as a ball there would: the search for shafts is
-/// made for collisions. Near the place found the way to contact is a parabola over the shaft.
-Touch VirtualMachine::preciseShaftTouch(const Motion& motion, const Touch& rough) const {
-  const Shaft& shaft = shape_.shafts[*rough.shaft];
-  const double length = shaft.axis.norm();
-  const Vector3 along = shaft.axis / length;
-  ToolShape bead;
-  const auto touchAt = [&](double place) {
-    bead.balls = {Ball{shaft.start + along * place, shaft.radius}};
-    return firstTouch(motion, 0, 1, bead, surroundings_, {measuringPrecision});
-  };
-  const Vector3 inSpindle = motion.tableFromSpindleAt(rough.fraction).inverse() * rough.point;
-  constexpr double apart = 0.25;  // mm
-  double place = std::clamp((inSpindle - shaft.start).dot(along), 0.0, length);
-  for (int i = 0; i < 2; ++i) {
-    const auto below = touchAt(place - apart), here = touchAt(place), above = touchAt(place + apart);
-    if (!below || !here || !above) break;
-    const double bend = below->fraction - 2 * here->fraction + above->fraction;
-    if (bend * motion.profile.length() < 1e-7) break;
-    place = std::clamp(place + apart * std::clamp(0.5 * (below->fraction - above->fraction) / bend, -1.0, 1.0), 0.0,
-                       length);
+PathResult VirtualMachine::moveAlong(std::span<const PathPiece> path) {
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    MoveResult piece = move(path[i].target, path[i].feed);
+    if (piece.end != MoveEnd::Reached) return {piece.end, i, std::move(piece.detail)};
   }
-  Touch precise = touchAt(place).value_or(rough);
-  precise.shaft = rough.shaft;
-  return precise;
-}
-
-MeasureResult VirtualMachine::measure(const AxisPositions& target, Feed feed, bool shaftSignals) {
-  const auto end = [&](MeasureEnd how, std::string detail) { return MeasureResult{how, reading_, std::move(detail)}; };
-  if (cancelled_) return end(MeasureEnd::Cancelled, cancelledText);
-  if (tool_ && tool_->kind == ToolKind::Cutter && hasToolProbe()) return measureTool(target, feed);
-  if (!tool_ || tool_->kind != ToolKind::Probe)
-    return end(MeasureEnd::NotReady, "there is no touch probe in the spindle");
-  if (!tool_->probe.switchedOn) return end(MeasureEnd::NotReady, "the touch probe is switched off");
-  if (!feed.rapid && !(feed.perMinute > 0)) return end(MeasureEnd::Cancelled, "the feed is not above 0");
-  if (deflection_) return end(MeasureEnd::DeflectedAtStart, describe(*deflection_));
-  if (auto limit = beyondTravel(target)) return end(MeasureEnd::AxisLimit, *limit);
-  const Motion motion = motionTo(target, feed);
-  auto touch = firstTouch(motion, 0, 1, shape_, surroundings_, {measuringPrecision});
-  if (!touch) {
-    advance(motion, Stop{}, PathKind::Measure);
-    return end(MeasureEnd::NoContact, "the target was reached without contact");
-  }
-  const bool byShaft = touch->shaft && std::string_view(shape_.shafts[*touch->shaft].part) == shaftName;
-  if (byShaft && shaftSignals) touch = preciseShaftTouch(motion, *touch);
-  if (touch->shaft && !(byShaft && shaftSignals)) {
-    advance(motion, Stop{touch, std::nullopt, touch->fraction}, PathKind::Measure);
-    return end(MeasureEnd::Collision, describe(*touch));
-  }
-  const Stop stop = signalStop(motion, *touch);
-  if (stop.signal && *stop.signal > 1) {
-    // The stylus leans against the surface without a signal: the way back must free it as after a touch.
-    advance(motion, Stop{}, PathKind::Measure);
-    if (!byShaft) deflection_ = touch;
-    return end(MeasureEnd::NoContact, "the target was reached before the stylus was deflected enough for a signal");
-  }
-  advance(motion, stop, PathKind::Measure);
-  if (!byShaft) deflection_ = touch;
-  return {MeasureEnd::Touched, motion.readingAt(stop.signal.value_or(stop.end)), describe(*touch)};
-}
-
-bool VirtualMachine::hasToolProbe() const {
-  return std::ranges::any_of(truth_.solids,
-                             [](const PlacedSolid& solid) { return solid.role == SolidRole::ToolProbe; });
-}
-
-MeasureResult VirtualMachine::measureTool(const AxisPositions& target, Feed feed) {
-  const auto end = [&](MeasureEnd how, std::string detail) { return MeasureResult{how, reading_, std::move(detail)}; };
-  if (!feed.rapid && !(feed.perMinute > 0)) return end(MeasureEnd::Cancelled, "the feed is not above 0");
-  if (toolContact_) return end(MeasureEnd::DeflectedAtStart, describe(*toolContact_));
-  if (auto limit = beyondTravel(target)) return end(MeasureEnd::AxisLimit, *limit);
-  const Motion motion = motionTo(target, feed);
-  const auto touch = firstTouch(motion, 0, 1, shape_, surroundings_, {measuringPrecision});
-  if (!touch) {
-    advance(motion, Stop{}, PathKind::Measure);
-    return end(MeasureEnd::NoContact, "the target was reached without contact");
-  }
-  if (truth_.solids[touch->solid].role != SolidRole::ToolProbe) {
-    advance(motion, Stop{touch, std::nullopt, touch->fraction}, PathKind::Measure);
-    return end(MeasureEnd::Collision, describe(*touch));
-  }
-  const double length = motion.profile.length();
-  const double contact = touch->fraction * length;
-  const double stop = std::min(contact + motion.profile.brakingDistanceAt(contact), length);
-  advance(motion, Stop{touch, touch->fraction, stop / length}, PathKind::Measure);
-  toolContact_ = touch;
-  return {MeasureEnd::Touched, motion.readingAt(touch->fraction), describe(*touch)};
+  return {MoveEnd::Reached, path.size(), {}};
 }
 
 std::optional<double> VirtualMachine::freeFrom(const Motion& motion) const {
@@ -354,12 +253,11 @@ std::optional<double> VirtualMachine::freeFrom(const Motion& motion) const {
 }
 
 MoveResult VirtualMachine::retract(const AxisPositions& target, Feed feed) {
-  if (cancelled_) return {MoveEnd::Cancelled, cancelledText};
-  if (!feed.rapid && !(feed.perMinute > 0)) return {MoveEnd::Cancelled, "the feed is not above 0"};
+  if (auto refused = refusal(feed)) return *std::move(refused);
   if (auto limit = beyondTravel(target)) return {MoveEnd::AxisLimit, *limit};
   const Motion motion = motionTo(target, feed);
   if (motion.profile.length() == 0) return {};
-  SearchOptions options{positioningPrecision};
+  SearchOptions options = searchOptions(positioningPrecision);
   // What a collision left touching may be pulled off.
   options.ignoreShafts = toolContact_ || shaftOverlap(tableFromSpindle(), shape_, surroundings_);
   toolContact_.reset();
@@ -382,26 +280,52 @@ MoveResult VirtualMachine::retract(const AxisPositions& target, Feed feed) {
     deflection_.reset();
     begin = *free;
   }
-  return finish(motion, firstTouch(motion, begin, 1, shape_, surroundings_, options), PathKind::Retract);
+  try {
+    return finish(motion, firstTouch(motion, begin, 1, shape_, surroundings_, options), PathKind::Retract);
+  } catch (const SearchStopped& stopped) {
+    standAt(motion, stopped.fraction, PathKind::Retract);
+    return {MoveEnd::Cancelled, stoppedText};
+  }
 }
 
-MoveResult VirtualMachine::settle() {
+std::optional<Touch> VirtualMachine::overlap() {
   const Pose pose = tableFromSpindle();
   deflection_ = ballOverlap(pose, shape_, surroundings_);
-  if (auto touch = shaftOverlap(pose, shape_, surroundings_)) return {MoveEnd::Collision, describe(*touch)};
-  if (deflection_) return {MoveEnd::ProbeSignal, describe(*deflection_)};
+  auto touch = shaftOverlap(pose, shape_, surroundings_);
+  return touch ? touch : deflection_;
+}
+
+MoveResult VirtualMachine::turnSpindle(Rotation rotation, double speed) {
+  if (rotation == Rotation::None) {
+    spindle_.rotation = rotation;
+    spindle_.speed = 0;
+    return {};
+  }
+  if (stop_.stop_requested()) return {MoveEnd::Cancelled, stoppedText};
+  if (!(speed >= 0 && std::isfinite(speed)))
+    return {MoveEnd::Refused, fmt::format("a spindle speed of {} is not possible", speed)};
+  spindle_.rotation = rotation;
+  spindle_.speed = speed;
   return {};
 }
 
 MoveResult VirtualMachine::orientSpindle(double degrees) {
-  if (cancelled_) return {MoveEnd::Cancelled, cancelledText};
-  if (!truth_.machine.spindleOrients) return {MoveEnd::AxisLimit, "the spindle of this machine cannot be oriented"};
-  if (!std::isfinite(degrees)) return {MoveEnd::AxisLimit, "the target angle of the spindle is not a number"};
+  if (stop_.stop_requested()) return {MoveEnd::Cancelled, stoppedText};
+  if (!truth_.machine.spindleOrients) return {MoveEnd::Refused, "the spindle of this machine cannot be oriented"};
+  if (!std::isfinite(degrees)) return {MoveEnd::Refused, "the target angle of the spindle is not a number"};
   continuous_.stop();
   clock_ += orientationSeconds;
-  spindleDegrees_ = degrees;
+  spindle_ = {Rotation::None, 0, degrees};
   shape_ = shapeOf(tool_, degrees);
-  return settle();
+  const auto touch = overlap();
+  if (!touch) return {};
+  return {touch->shaft ? MoveEnd::Collision : MoveEnd::ProbeSignal, describe(*touch)};
+}
+
+FunctionResult VirtualMachine::function(int number) {
+  if (!hasFunction(number)) return {FunctionEnd::Unknown, fmt::format("this machine has no M{}", number)};
+  if (stop_.stop_requested()) return {FunctionEnd::Cancelled, stoppedText};
+  return {};
 }
 
 std::optional<const TrueTool*> VirtualMachine::findTool(const machine::ToolOrder& order) const {
@@ -413,24 +337,27 @@ std::optional<const TrueTool*> VirtualMachine::findTool(const machine::ToolOrder
   return std::nullopt;
 }
 
-MoveResult VirtualMachine::load(const TrueTool* tool) {
+ToolChangeResult VirtualMachine::load(const TrueTool* tool) {
   tool_ = tool;
-  shape_ = shapeOf(tool_, spindleDegrees_);
+  shape_ = shapeOf(tool_, spindle_.angle);
   if (recording_) path_.add(pathPoint(tableFromSpindle(), PathKind::ToolChange, clock_));
-  return settle();
+  const auto touch = overlap();
+  if (!touch) return {};
+  return {touch->shaft ? ToolChangeEnd::Collision : ToolChangeEnd::ProbeSignal, describe(*touch)};
 }
 
-MoveResult VirtualMachine::insertTool(const machine::ToolOrder& order) {
+ToolChangeResult VirtualMachine::insertTool(const machine::ToolOrder& order) {
   const auto tool = findTool(order);
-  return tool ? load(*tool) : MoveResult{MoveEnd::Collision, missingTool(order)};
+  return tool ? load(*tool) : ToolChangeResult{ToolChangeEnd::Missing, missingTool(order)};
 }
 
-MoveResult VirtualMachine::changeTool(const machine::ToolOrder& order) {
-  if (cancelled_) return {MoveEnd::Cancelled, cancelledText};
+ToolChangeResult VirtualMachine::changeTool(const machine::ToolOrder& order) {
+  if (stop_.stop_requested()) return {ToolChangeEnd::Cancelled, stoppedText};
   const auto tool = findTool(order);
-  if (!tool) return {MoveEnd::Collision, missingTool(order)};
+  if (!tool) return {ToolChangeEnd::Missing, missingTool(order)};
   if (*tool == tool_) return {};
-  if (deflection_) return {MoveEnd::ProbeSignal, "the stylus is still deflected: " + describe(*deflection_)};
+  if (deflection_ || toolContact_) return {ToolChangeEnd::ProbeSignal, stillDeflected()};
+  if (!truth_.machine.mainSpindle) turnSpindle(Rotation::None, 0);
 
   AxisPositions target = reading_;
   const auto& chain = truth_.machine.spindleChain;
@@ -451,9 +378,11 @@ MoveResult VirtualMachine::changeTool(const machine::ToolOrder& order) {
   return load(*tool);
 }
 
-void VirtualMachine::dwell(double seconds) {
+WaitEnd VirtualMachine::dwell(double seconds) {
+  if (stop_.stop_requested()) return WaitEnd::Cancelled;
   continuous_.stop();
   clock_ += std::max(seconds, 0.0);
+  return WaitEnd::Over;
 }
 
 }  // namespace probewright::simulation

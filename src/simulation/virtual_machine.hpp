@@ -1,8 +1,9 @@
 #pragma once
 
-#include <atomic>
 #include <optional>
 #include <random>
+#include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,11 @@ namespace probewright::simulation {
 ///
 /// Motion. Every move is a straight line in axis space from standstill to standstill: acceleration, speed, braking,
 /// each constant along the path and limited by the slowest axis. Path and feed count in mm over the linear axes, in
-/// degrees if only rotary axes move. A target beyond a travel end is refused before anything moves.
+/// degrees if only rotary axes move. A target beyond a travel end is refused before anything moves. Feed moves that
+/// follow each other, in a path or not, take the time of a control that looks ahead; see ContinuousPath.
+///
+/// Stop. Moves are computed, so a stop reaches the machine between two of them, or where the search for contact has got
+/// to: the axes stand on the line at a place up to which nothing touches.
 ///
 /// Contact. The tool is the ball, the shaft and the body of a probe, or a cutter. Where only linear axes without
 /// position-dependent errors move, the ball's path on the table is straight and contact is as accurate as the solid's
@@ -33,36 +38,43 @@ namespace probewright::simulation {
 /// signal, there is none. Pretravel, delay and noise act along the path.
 ///
 /// Tool touch probe. A solid of that role signals at the first touch of a tool without sensor, latched where it
-/// touches; every other solid in the way is a collision.
+/// touches, when it is the sensor that measures; every other solid in the way is a collision.
+///
+/// Spindle. It turns without taking time and without moving what touches: runout and teeth are not simulated. Of M
+/// functions the machine has coolant: 7, 8, 9.
 ///
 /// Errors of the axes act between the readings and the true place of the spindle; see MachineErrors.
 ///
 /// Tool change. The last linear axis of the spindle chain goes to the tool change position first, then the other linear
 /// axes together. Changing to the tool in the spindle does nothing. Not watched for collisions except at its end.
-///
-/// One thread at a time may use a machine; cancel() may come from any.
 class VirtualMachine final : public machine::Machine {
 public:
   explicit VirtualMachine(Truth truth);
 
   const machine::MachineDescription& description() const override { return truth_.machine; }
+  void stopOn(std::stop_token stop) override { stop_ = std::move(stop); }
   machine::AxisPositions position() const override { return reading_; }
   machine::MoveResult move(const machine::AxisPositions& target, machine::Feed feed) override;
-  machine::MeasureResult measure(const machine::AxisPositions& target, machine::Feed feed) override;
-  machine::MeasureResult measureWithShaft(const machine::AxisPositions& target, machine::Feed feed) override;
+  machine::PathResult moveAlong(std::span<const machine::PathPiece> path) override;
+  machine::MeasureResult measure(const machine::MeasureOrder& order) override;
   machine::MoveResult retract(const machine::AxisPositions& target, machine::Feed feed) override;
-  bool probeDeflected() const override { return deflection_ || toolContact_; }
+  bool deflected(machine::Sensor sensor) const override {
+    return (sensor == machine::Sensor::TouchProbe ? deflection_ : toolContact_).has_value();
+  }
   std::string probeSerial() const override {
     return tool_ && tool_->kind == ToolKind::Probe ? tool_->probe.serial : std::string();
   }
+  machine::MoveResult turnSpindle(machine::Rotation rotation, double speed) override;
   machine::MoveResult orientSpindle(double degrees) override;
-  double spindleAngle() const override { return spindleDegrees_; }
-  machine::MoveResult changeTool(const machine::ToolOrder& order) override;
-  void dwell(double seconds) override;
+  machine::SpindleState spindle() const override { return spindle_; }
+  bool hasFunction(int number) const override { return number >= 7 && number <= 9; }
+  machine::FunctionResult function(int number) override;
+  machine::ToolChangeResult changeTool(const machine::ToolOrder& order) override;
+  machine::WaitEnd dwell(double seconds) override;
   double seconds() const override { return clock_; }
 
   /// Puts a tool into the spindle by hand: at once, where the axes stand.
-  machine::MoveResult insertTool(const machine::ToolOrder& order);
+  machine::ToolChangeResult insertTool(const machine::ToolOrder& order);
 
   const Truth& truth() const { return truth_; }
   const PathRecord& path() const { return path_.record(); }
@@ -73,10 +85,10 @@ public:
   Pose tableFromSpindle() const;
   Vector3 tipOnTable() const;
 
-  /// Ends the current wait and every later motion with Cancelled.
-  void cancel() { cancelled_ = true; }
-
 private:
+  static constexpr double mostOvertravel = 0.8;  // ball radii
+  static constexpr const char* stoppedText = "the machine was stopped";
+
   /// The first touch of a motion and how the motion ends because of it, in fractions of its way.
   struct Stop {
     std::optional<Touch> touch;
@@ -87,22 +99,30 @@ private:
   /// Where `tableFromSpindle` puts the tool, as a point of the path.
   PathPoint pathPoint(const Pose& tableFromSpindle, PathKind kind, double seconds) const;
   std::optional<std::string> beyondTravel(const machine::AxisPositions& target) const;
+  /// Why an order is not begun, if it is not: a stop, a feed that is none.
+  std::optional<machine::MoveResult> refusal(machine::Feed feed) const;
+  machine::MeasureResult refusedMeasurement(machine::MoveResult why) const;
   Motion motionTo(const machine::AxisPositions& target, machine::Feed feed) const;
-  machine::MeasureResult measure(const machine::AxisPositions& target, machine::Feed feed, bool shaftSignals);
+  machine::MeasureResult measureWithProbe(const machine::MeasureOrder& order);
   Touch preciseShaftTouch(const Motion& motion, const Touch& touch) const;
   Stop stopFor(const Motion& motion, const Touch& touch);
   Stop signalStop(const Motion& motion, const Touch& touch);
   double pretravel(const Motion& motion, const Touch& touch) const;
   bool hasToolProbe() const;
-  machine::MeasureResult measureTool(const machine::AxisPositions& target, machine::Feed feed);
+  machine::MeasureResult measureTool(const machine::MeasureOrder& order);
   void advance(const Motion& motion, const Stop& stop, PathKind kind);
   machine::MoveResult finish(const Motion& motion, std::optional<Touch> touch, PathKind kind);
   std::optional<double> freeFrom(const Motion& motion) const;
   std::string describe(const Touch& touch) const;
   /// The tool that is ordered, null for none; nothing if the magazine does not hold it.
   std::optional<const TrueTool*> findTool(const machine::ToolOrder& order) const;
-  machine::MoveResult load(const TrueTool* tool);
-  machine::MoveResult settle();
+  machine::ToolChangeResult load(const TrueTool* tool);
+  /// What the tool touches where it stands.
+  std::optional<Touch> overlap();
+  std::string stillDeflected() const;
+  SearchOptions searchOptions(double precision) const { return {.precision = precision, .stop = &stop_}; }
+  /// Ends a motion where a stop has caught it.
+  void standAt(const Motion& motion, double fraction, PathKind kind);
 
   Truth truth_;
   TrueKinematics kinematics_;
@@ -113,11 +133,11 @@ private:
   machine::AxisPositions slides_;
   std::optional<Touch> deflection_;   ///< the touch that deflected the stylus, while it is deflected
   std::optional<Touch> toolContact_;  ///< that of a tool with the tool touch probe, until it is pulled off
-  double spindleDegrees_ = 0;
+  machine::SpindleState spindle_;
   double clock_ = 0;
   std::mt19937_64 noise_;
   std::normal_distribution<double> gaussian_;
-  std::atomic<bool> cancelled_ = false;
+  std::stop_token stop_;
   bool recording_ = true;
   ContinuousPath continuous_;
   PathRecorder path_;

@@ -111,7 +111,7 @@ TEST(TouchProbeTable, SaysHowTheSpindleHoldsTheProbe) {
   world.number("CAL_OF2", 0.1);
   const Ran turned = world.run();
   expectHole(turned);
-  EXPECT_NEAR(turned.outcome.machine->spindleAngle(), 90, exact);
+  EXPECT_NEAR(turned.outcome.machine->spindle().angle, 90, exact);
   // A wrong offset shifts the centre by what is missing.
   world.number("CAL_OF2", 0);
   EXPECT_NEAR(world.run().q(152), -0.1, exact);

@@ -155,7 +155,7 @@ TEST(Cycle978, SpindleReversalNeedsNoCalibratedDeviation) {
   EXPECT_NEAR(measure(0, 2), -0.25 + 0.05, 1e-9);
   EXPECT_NEAR(measure(10000, 1), 0.5, 1e-9);
   EXPECT_NEAR(measure(10000, 2), -0.25, 1e-9);
-  EXPECT_NEAR(bench.machine.spindleAngle(), 0, 1e-12) << "the spindle goes back";
+  EXPECT_NEAR(bench.machine.spindle().angle, 0, 1e-12) << "the spindle goes back";
   // Aligned, the same side of the ball touches in all directions.
   bench.set("$SNS_MEA_WP_TRIG_PLUS_DIR_AX1", {0}, 2.08);
   EXPECT_NEAR(measure(20000, 1), 0.5, 1e-9);
@@ -228,11 +228,11 @@ TEST(Cycle978, TheSpindleFollowsATurnedSystemIfAskedTo) {
   EXPECT_NEAR(measured(), 0.1 - 0.1 * std::cos(radiansFromDegrees(40)), 1e-9);
   bench.set("$SCS_MEA_FUNCTION_MASK", {}, 3);
   EXPECT_NEAR(measured(), 0, 1e-9);
-  EXPECT_NEAR(bench.machine.spindleAngle(), 40, 1e-9);
+  EXPECT_NEAR(bench.machine.spindle().angle, 40, 1e-9);
   // Bit 2 is for spindles that count clockwise. This one does not: the ball goes the wrong way and leads by 0.1 cos 80.
   bench.set("$SCS_MEA_FUNCTION_MASK", {}, 7);
   EXPECT_NEAR(measured(), 0.1 - 0.1 * std::cos(radiansFromDegrees(80)), 1e-9);
-  EXPECT_NEAR(bench.machine.spindleAngle(), -40, 1e-9);
+  EXPECT_NEAR(bench.machine.spindle().angle, -40, 1e-9);
 }
 
 TEST(Cycle978, MeasuresAlongTheToolAsFarAsItIsCalibrated) {

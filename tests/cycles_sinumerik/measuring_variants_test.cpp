@@ -104,7 +104,7 @@ TEST(MeasuringVariants, Cycle977InEveryMethodWithAndWithoutProtectionZone) {
             if (units >= 5) {
               EXPECT_NEAR(bench.ovr(5), inside ? 70 : 30, tolerance);
             }
-            EXPECT_NEAR(bench.machine.spindleAngle(), 0, 1e-9) << "the spindle goes back";
+            EXPECT_NEAR(bench.machine.spindle().angle, 0, 1e-9) << "the spindle goes back";
           }
         }
       }

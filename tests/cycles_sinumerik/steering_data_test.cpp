@@ -316,7 +316,7 @@ TEST(SteeringData, Md51740Bit3LetsTheCorrectionAngleAct) {
   bench.set("$TC_DP10", {1, 1}, 30);
   bench.set("$SNS_MEA_WP_TRIG_PLUS_DIR_AX1", {0}, 2.1);
   EXPECT_NEAR(bench.face(0), 0, 1e-9);
-  EXPECT_NEAR(bench.machine.spindleAngle(), 30, 1e-9);
+  EXPECT_NEAR(bench.machine.spindle().angle, 30, 1e-9);
   setBit(bench, "$MNS_MEA_FUNCTION_MASK", 3, false);
   EXPECT_NEAR(bench.face(0), 0.1 - 0.1 * std::cos(radiansFromDegrees(30)), 1e-9);
 }

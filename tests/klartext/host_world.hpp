@@ -10,57 +10,33 @@
 #include "language/interpreter.hpp"
 #include "language/klartext/host.hpp"
 #include "language/klartext/program.hpp"
-#include "machine/machine.hpp"
+#include "support/willing_machine.hpp"
 
 namespace probewright::language::klartext::testing {
 
 /// A machine that reaches every target and remembers it.
-class TraceMachine : public machine::Machine {
+class TraceMachine : public testing_support::WillingMachine {
 public:
   struct Step {
     machine::AxisPositions axes;
     machine::Feed feed;
   };
-  explicit TraceMachine(machine::MachineDescription description) : description_(std::move(description)) {}
+  using WillingMachine::WillingMachine;
 
-  const machine::MachineDescription& description() const override { return description_; }
-  machine::AxisPositions position() const override { return axes_; }
   machine::MoveResult move(const machine::AxisPositions& target, machine::Feed feed) override {
     if (limitX && target[0] > *limitX) return {beyondLimit, "X ends here"};
-    axes_ = target;
+    at_ = target;
     steps.push_back({target, feed});
     return {};
   }
-  machine::MeasureResult measure(const machine::AxisPositions& target, machine::Feed) override {
-    axes_ = target;
+  machine::MeasureResult measure(const machine::MeasureOrder& order) override {
+    at_ = order.target;
     return {};
   }
-  machine::MoveResult retract(const machine::AxisPositions& target, machine::Feed feed) override {
-    return move(target, feed);
-  }
-  bool probeDeflected() const override { return false; }
-  machine::MoveResult orientSpindle(double degrees) override {
-    angle_ = degrees;
-    return {};
-  }
-  double spindleAngle() const override { return angle_; }
-  machine::MoveResult changeTool(const machine::ToolOrder& order) override {
-    tools.push_back(order);
-    return {};
-  }
-  void dwell(double seconds) override { seconds_ += seconds; }
-  double seconds() const override { return seconds_; }
 
   std::vector<Step> steps;
-  std::vector<machine::ToolOrder> tools;
   std::optional<double> limitX;  ///< moves beyond it are refused
   machine::MoveEnd beyondLimit = machine::MoveEnd::AxisLimit;
-
-private:
-  machine::MachineDescription description_;
-  machine::AxisPositions axes_;
-  double angle_ = 0;
-  double seconds_ = 0;
 };
 
 /// Programs in memory, by name.

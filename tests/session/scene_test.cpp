@@ -29,7 +29,7 @@ simulation::Truth worldWithBlock(const Pose& tableFromBlock) {
 class SceneOfRun : public testing::Test {
 protected:
   SceneOfRun() {
-    EXPECT_EQ(machine_.insertTool({1, "PROBE"}).end, machine::MoveEnd::Reached);
+    EXPECT_EQ(machine_.insertTool({1, "PROBE"}).end, machine::ToolChangeEnd::Changed);
     goTo(0, 0, 150);
   }
 
@@ -46,7 +46,7 @@ protected:
     EXPECT_EQ(machine_.retract(axesFor(x, y, z), Feed::at(2000)).end, machine::MoveEnd::Reached);
   }
   control::TouchRecord probe(double x, double y, double z) {
-    const auto result = machine_.measure(axesFor(x, y, z), Feed::at(300));
+    const auto result = machine_.measure({axesFor(x, y, z), Feed::at(300)});
     control::TouchRecord record;
     record.outcome = result.end == machine::MeasureEnd::Touched ? "touched" : "no contact";
     record.latched = result.latched;
@@ -124,7 +124,7 @@ TEST_F(SceneOfRun, TellsTheShankOnlyWhereItLeansOver) {
 
   auto truth = perfectWorld("mill5-head-table");
   simulation::VirtualMachine swivelling(truth);
-  EXPECT_EQ(swivelling.insertTool({1, "PROBE"}).end, machine::MoveEnd::Reached);
+  EXPECT_EQ(swivelling.insertTool({1, "PROBE"}).end, machine::ToolChangeEnd::Changed);
   EXPECT_EQ(swivelling.move(positions({0, 0, 0, 30, 0}), Feed::rapidTraverse()).end, machine::MoveEnd::Reached);
   const reports::Path path = sceneOf({}, truth, swivelling.path()).path;
   ASSERT_EQ(path.toolAxes.size(), path.points.size());

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <random>
+#include <stop_token>
+#include <thread>
 
 #include "support/virtual_world.hpp"
 
@@ -28,14 +30,14 @@ Truth worldWithFloor(double height = -400) {
 
 TEST(IdealMachine, LatchesWhereTheBallTouchesAPlane) {
   VirtualMachine machine(worldWithFloor());
-  ASSERT_EQ(machine.changeTool({1, ""}).end, MoveEnd::Reached);
+  ASSERT_EQ(machine.changeTool({1, ""}).end, machine::ToolChangeEnd::Changed);
   // The ball's lowest point is 100 mm below the nose: contact at Z -300.
   ASSERT_EQ(machine.move(positions({10, 20, -290}), Feed::rapidTraverse()).end, MoveEnd::Reached);
-  const auto result = machine.measure(positions({10, 20, -310}), Feed::at(300));
+  const auto result = machine.measure({positions({10, 20, -310}), Feed::at(300)});
   ASSERT_EQ(result.end, MeasureEnd::Touched) << result.detail;
   EXPECT_NEAR(result.latched[2], -300, 1e-9);
   EXPECT_EQ(result.latched[0], 10);
-  EXPECT_TRUE(machine.probeDeflected());
+  EXPECT_TRUE(machine.deflected(machine::Sensor::TouchProbe));
   // 5 mm/s, 2500 mm/s^2: the axes stop 0.005 mm further.
   EXPECT_NEAR(machine.position()[2], -300.005, 1e-9);
 }
@@ -54,7 +56,7 @@ TEST(IdealMachine, TouchesAnObliquePlaneFromAnyDirection) {
     const AxisPositions from = positions({target.x() + 20 * uniform(random), target.y() + 20 * uniform(random), -200});
     const AxisPositions to = positions({target.x(), target.y(), target.z()});
     ASSERT_EQ(machine.move(from, Feed::rapidTraverse()).end, MoveEnd::Reached);
-    const auto result = machine.measure(to, Feed::at(600));
+    const auto result = machine.measure({to, Feed::at(600)});
     ASSERT_EQ(result.end, MeasureEnd::Touched);
     const Vector3 centre(result.latched[0], result.latched[1], result.latched[2] - 98);
     EXPECT_NEAR((centre - plane.point).dot(normal), 2, 1e-9);
@@ -68,15 +70,16 @@ TEST(IdealMachine, RetractFreesTheStylusAndWatchesAgainAfterwards) {
   truth.tools[0].probe.bodyRadius = 0;
   truth.start = positions({0, 0, -200});
   VirtualMachine machine(truth);
-  ASSERT_EQ(machine.changeTool({1, ""}).end, MoveEnd::ProbeSignal) << "the tool change position is inside the ceiling";
+  ASSERT_EQ(machine.changeTool({1, ""}).end, machine::ToolChangeEnd::ProbeSignal)
+      << "the tool change position is inside the ceiling";
   ASSERT_EQ(machine.retract(positions({0, 0, -250}), Feed::rapidTraverse()).end, MoveEnd::Reached);
-  ASSERT_FALSE(machine.probeDeflected());
-  ASSERT_EQ(machine.measure(positions({0, 0, -310}), Feed::at(100)).end, MeasureEnd::Touched);
-  EXPECT_EQ(machine.measure(positions({0, 0, -310}), Feed::at(100)).end, MeasureEnd::DeflectedAtStart);
+  ASSERT_FALSE(machine.deflected(machine::Sensor::TouchProbe));
+  ASSERT_EQ(machine.measure({positions({0, 0, -310}), Feed::at(100)}).end, MeasureEnd::Touched);
+  EXPECT_EQ(machine.measure({positions({0, 0, -310}), Feed::at(100)}).end, MeasureEnd::DeflectedAtStart);
   EXPECT_EQ(machine.move(positions({0, 0, -290}), Feed::at(100)).end, MoveEnd::ProbeSignal);
   ASSERT_EQ(machine.retract(positions({0, 0, -290}), Feed::at(100)).end, MoveEnd::Reached);
-  EXPECT_FALSE(machine.probeDeflected());
-  EXPECT_EQ(machine.measure(positions({0, 0, -310}), Feed::at(100)).end, MeasureEnd::Touched);
+  EXPECT_FALSE(machine.deflected(machine::Sensor::TouchProbe));
+  EXPECT_EQ(machine.measure({positions({0, 0, -310}), Feed::at(100)}).end, MeasureEnd::Touched);
   // The ball's top meets the ceiling at Z -280 + 100 - 4.
   const auto up = machine.retract(positions({0, 0, -150}), Feed::at(100));
   EXPECT_EQ(up.end, MoveEnd::ProbeSignal);
@@ -88,11 +91,11 @@ TEST(IdealMachine, RetractIntoTheMaterialIsRefused) {
   VirtualMachine machine(worldWithFloor());
   machine.changeTool({1, ""});
   machine.move(positions({0, 0, -290}), Feed::rapidTraverse());
-  ASSERT_EQ(machine.measure(positions({0, 0, -310}), Feed::at(100)).end, MeasureEnd::Touched);
+  ASSERT_EQ(machine.measure({positions({0, 0, -310}), Feed::at(100)}).end, MeasureEnd::Touched);
   EXPECT_EQ(machine.retract(positions({0, 0, -350}), Feed::at(100)).end, MoveEnd::Collision);
   // Sideways the stylus stays deflected.
   EXPECT_EQ(machine.retract(positions({10, 0, machine.position()[2]}), Feed::at(100)).end, MoveEnd::Reached);
-  EXPECT_TRUE(machine.probeDeflected());
+  EXPECT_TRUE(machine.deflected(machine::Sensor::TouchProbe));
 }
 
 TEST(IdealMachine, ContactWhilePositioningStopsTheAxes) {
@@ -105,7 +108,7 @@ TEST(IdealMachine, ContactWhilePositioningStopsTheAxes) {
   EXPECT_EQ(result.end, MoveEnd::ProbeSignal);
   EXPECT_THAT(result.detail, HasSubstr("stylus tip of tool 1 \"PROBE\" touched the fixture \"vice\""));
   EXPECT_NEAR(machine.position()[0], -22, 0.05);
-  EXPECT_TRUE(machine.probeDeflected());
+  EXPECT_TRUE(machine.deflected(machine::Sensor::TouchProbe));
 }
 
 TEST(IdealMachine, ShaftBodyAndCuttersCollide) {
@@ -121,14 +124,14 @@ TEST(IdealMachine, ShaftBodyAndCuttersCollide) {
     machine.changeTool({1, ""});
     // The ball passes below the top of the vice and touches first, its radius being larger than the shaft's.
     machine.move(positions({-60, 0, -330}), Feed::rapidTraverse());
-    EXPECT_EQ(machine.measure(positions({60, 0, -330}), Feed::at(1000)).end, MeasureEnd::Touched);
+    EXPECT_EQ(machine.measure({positions({60, 0, -330}), Feed::at(1000)}).end, MeasureEnd::Touched);
   }
   {
     VirtualMachine machine(truth);
     machine.changeTool({1, ""});
     // The ball passes below the vice's lower face, the shaft meets its side at x = -20 - 1.
     machine.move(positions({-60, 0, -350}), Feed::rapidTraverse());
-    const auto result = machine.measure(positions({60, 0, -350}), Feed::at(1000));
+    const auto result = machine.measure({positions({60, 0, -350}), Feed::at(1000)});
     EXPECT_EQ(result.end, MeasureEnd::Collision);
     EXPECT_THAT(result.detail, HasSubstr("the stylus of tool 1"));
     EXPECT_NEAR(machine.position()[0], -21, 0.01);
@@ -147,8 +150,8 @@ TEST(IdealMachine, ShaftBodyAndCuttersCollide) {
   }
   {
     VirtualMachine machine(truth);
-    ASSERT_EQ(machine.changeTool({5, ""}).end, MoveEnd::Reached);
-    EXPECT_EQ(machine.measure(positions({0, 0, -350}), Feed::at(100)).end, MeasureEnd::NotReady);
+    ASSERT_EQ(machine.changeTool({5, ""}).end, machine::ToolChangeEnd::Changed);
+    EXPECT_EQ(machine.measure({positions({0, 0, -350}), Feed::at(100)}).end, MeasureEnd::NotReady);
     const auto result = machine.move(positions({0, 0, -350}), Feed::at(1000));
     EXPECT_EQ(result.end, MoveEnd::Collision);
     EXPECT_NEAR(machine.position()[2], -320, 0.01);
@@ -211,9 +214,9 @@ TEST(IdealMachine, RotaryMovesFindContactOnTheirArc) {
   machine.changeTool({1, ""});
   const double x = 50, y = 30;
   ASSERT_EQ(machine.move(positions({x, y, -430, 0, 0}), Feed::rapidTraverse()).end, MoveEnd::Reached);
-  const auto result = machine.measure(positions({x, y, -430, 0, 90}), Feed::at(600));
+  const auto result = machine.measure({positions({x, y, -430, 0, 90}), Feed::at(600)});
   EXPECT_EQ(result.end, MeasureEnd::NoContact) << "C+ turns the tool away from the post as seen from the table";
-  const auto back = machine.measure(positions({x, y, -430, 0, -90}), Feed::at(600));
+  const auto back = machine.measure({positions({x, y, -430, 0, -90}), Feed::at(600)});
   ASSERT_EQ(back.end, MeasureEnd::Touched) << back.detail;
   // On the table the ball turns about Z by C; it meets y = 5 + 2 if its x lies on the face, which it does at
   // sin(angle) = 7 / radius: x = sqrt(3400 - 49) = 57.9.
@@ -228,7 +231,7 @@ TEST(IdealMachine, HeadMovesFindContactOnTheirArc) {
   VirtualMachine machine(truth);
   machine.changeTool({1, ""});
   ASSERT_EQ(machine.move(positions({0, 0, -100, 0, 0}), Feed::rapidTraverse()).end, MoveEnd::Reached);
-  const auto result = machine.measure(positions({0, 0, -100, 60, 0}), Feed::at(600));
+  const auto result = machine.measure({positions({0, 0, -100, 60, 0}), Feed::at(600)});
   ASSERT_EQ(result.end, MeasureEnd::Touched) << result.detail;
   EXPECT_NEAR(result.latched[3], degreesFromRadians(std::asin(98.0 / 248)), 1e-7);
   const double swung = radiansFromDegrees(machine.position()[3]);
@@ -242,11 +245,11 @@ TEST(IdealMachine, LatheProbesTheTurnedDiameterInItsRadius) {
   truth.tools[0].shankDirection = Vector3::UnitX();
   place(truth, RoundBar(25, 0, 120));
   VirtualMachine machine(truth);
-  ASSERT_EQ(machine.changeTool({1, ""}).end, MoveEnd::Reached);
+  ASSERT_EQ(machine.changeTool({1, ""}).end, machine::ToolChangeEnd::Changed);
   ASSERT_EQ(machine.move(positions({300, 60, 0}), Feed::rapidTraverse()).end, MoveEnd::Reached);
   for (const double c : {0.0, 77.0}) {
     ASSERT_EQ(machine.move(positions({150, 60, c}), Feed::rapidTraverse()).end, MoveEnd::Reached);
-    const auto result = machine.measure(positions({100, 60, c}), Feed::at(300));
+    const auto result = machine.measure({positions({100, 60, c}), Feed::at(300)});
     ASSERT_EQ(result.end, MeasureEnd::Touched) << result.detail;
     EXPECT_NEAR(result.latched[0], 125, 1e-9) << "100 mm of probe on a radius of 25 mm";
     ASSERT_EQ(machine.retract(positions({150, 60, c}), Feed::rapidTraverse()).end, MoveEnd::Reached);
@@ -257,7 +260,7 @@ TEST(IdealMachine, RecordsPathAndTouchesOnTheTable) {
   VirtualMachine machine(worldWithFloor());
   machine.changeTool({1, ""});
   machine.move(positions({10, 20, -290}), Feed::rapidTraverse());
-  machine.measure(positions({10, 20, -310}), Feed::at(300));
+  machine.measure({positions({10, 20, -310}), Feed::at(300)});
   machine.retract(positions({10, 20, -290}), Feed::rapidTraverse());
   const PathRecord& path = machine.path();
   ASSERT_GE(path.points.size(), 4u);
@@ -276,21 +279,49 @@ TEST(IdealMachine, ChangesToolsAtTheirPlace) {
   Truth truth = perfectWorld();
   truth.machine.toolChange = positions({100, 50, 0});
   VirtualMachine machine(truth);
-  EXPECT_EQ(machine.measure(positions({0, 0, -10}), Feed::at(100)).end, MeasureEnd::NotReady);
-  EXPECT_EQ(machine.changeTool({1, ""}).end, MoveEnd::Reached);
+  EXPECT_EQ(machine.measure({positions({0, 0, -10}), Feed::at(100)}).end, MeasureEnd::NotReady);
+  EXPECT_EQ(machine.changeTool({1, ""}).end, machine::ToolChangeEnd::Changed);
   EXPECT_EQ(machine.position(), positions({100, 50, 0}));
   machine.move(positions({0, 0, -100}), Feed::rapidTraverse());
-  EXPECT_EQ(machine.changeTool({0, "PROBE"}).end, MoveEnd::Reached) << "it is in the spindle already";
+  EXPECT_EQ(machine.changeTool({0, "PROBE"}).end, machine::ToolChangeEnd::Changed) << "it is in the spindle already";
   EXPECT_EQ(machine.position(), positions({0, 0, -100}));
   const auto missing = machine.changeTool({7, ""});
-  EXPECT_NE(missing.end, MoveEnd::Reached);
+  EXPECT_EQ(missing.end, machine::ToolChangeEnd::Missing);
   EXPECT_THAT(missing.detail, HasSubstr("holds no tool 7"));
 }
 
-TEST(IdealMachine, CancelEndsMotion) {
-  VirtualMachine machine(perfectWorld());
-  machine.cancel();
-  EXPECT_EQ(machine.move(positions({1, 0, 0}), Feed::rapidTraverse()).end, MoveEnd::Cancelled);
+/// Turning a million degrees takes long to search: the stop comes from another thread while that goes on.
+TEST(IdealMachine, StopsOnTheWayWhereTheSearchHasGotTo) {
+  Truth truth = perfectWorld("mill5-table-table");
+  place(truth, Box({-50, -50, -20}, {50, 50, 0}), Pose(Eigen::Translation3d(0, 0, -400)));
+  VirtualMachine machine(truth);
+  ASSERT_EQ(machine.changeTool({1, ""}).end, machine::ToolChangeEnd::Changed);
+  const std::size_t c = *machine.description().axisIndex("C");
+  AxisPositions start = machine.position(), target = start;
+  start[2] = -299.5;
+  start[0] = 30;
+  ASSERT_EQ(machine.move(start, Feed::rapidTraverse()).end, MoveEnd::Reached);
+  target = start;
+  std::stop_source source;
+  machine.stopOn(source.get_token());
+  std::jthread stopper([&] { source.request_stop(); });
+  MoveEnd end = MoveEnd::Reached;
+  double turned = 0;
+  while (end == MoveEnd::Reached) {
+    target[c] += 1e6;
+    const double before = machine.position()[c];
+    end = machine.move(target, Feed::rapidTraverse()).end;
+    turned = machine.position()[c] - before;
+  }
+  EXPECT_EQ(end, MoveEnd::Cancelled);
+  EXPECT_GE(turned, 0);
+  EXPECT_LT(turned, 1e6) << "the axes stand before the target";
+  EXPECT_EQ(machine.position()[2], -299.5);
+  const AxisPositions stood = machine.position();
+  EXPECT_EQ(machine.move(start, Feed::rapidTraverse()).end, MoveEnd::Cancelled);
+  EXPECT_EQ(machine.position(), stood);
+  machine.stopOn({});
+  EXPECT_EQ(machine.move(stood, Feed::rapidTraverse()).end, MoveEnd::Reached);
 }
 
 }  // namespace

@@ -21,9 +21,9 @@ constexpr double ballCentreBelowNose = 98;  // ideal probe: length 100, radius 2
 
 /// Touches once from `from` to `to` with the probe of `truth` and returns what the control is told.
 AxisPositions latched(VirtualMachine& machine, const AxisPositions& from, const AxisPositions& to, double feed = 300) {
-  EXPECT_EQ(machine.changeTool({1, ""}).end, MoveEnd::Reached);
+  EXPECT_EQ(machine.changeTool({1, ""}).end, machine::ToolChangeEnd::Changed);
   EXPECT_EQ(machine.move(from, Feed::rapidTraverse()).end, MoveEnd::Reached);
-  const auto result = machine.measure(to, Feed::at(feed));
+  const auto result = machine.measure({to, Feed::at(feed)});
   EXPECT_EQ(result.end, MeasureEnd::Touched) << result.detail;
   EXPECT_EQ(machine.retract(from, Feed::rapidTraverse()).end, MoveEnd::Reached);
   return result.latched;
@@ -164,7 +164,7 @@ TEST(MachineErrors, DisplacedTurntableMovesThePartOnACircleAboutItsTrueCentre) {
     const Vector3 bar = displaced + rotation(Vector3::UnitZ(), -angle) * (Vector3(100, 0, 0) - displaced);
     machine.move(positions({bar.x() + 20, bar.y(), -300, 0, angle}), Feed::rapidTraverse());
     machine.move(positions({bar.x() + 20, bar.y(), -430, 0, angle}), Feed::rapidTraverse());
-    const auto result = machine.measure(positions({bar.x(), bar.y(), -430, 0, angle}), Feed::at(300));
+    const auto result = machine.measure({positions({bar.x(), bar.y(), -430, 0, angle}), Feed::at(300)});
     ASSERT_EQ(result.end, MeasureEnd::Touched) << result.detail;
     EXPECT_NEAR(result.latched[0], bar.x() + 12, 1e-9) << angle;
   }
@@ -294,10 +294,10 @@ TEST(ProbeErrors, NoSignalBeforeThePretravelIsUsedUp) {
   VirtualMachine machine(truth);
   machine.changeTool({1, ""});
   machine.move(positions({0, 0, -400}), Feed::rapidTraverse());
-  EXPECT_EQ(machine.measure(positions({28.01, 0, -400}), Feed::at(60)).end, MeasureEnd::NoContact);
+  EXPECT_EQ(machine.measure({positions({28.01, 0, -400}), Feed::at(60)}).end, MeasureEnd::NoContact);
   EXPECT_EQ(machine.retract(positions({0, 0, -400}), Feed::at(60)).end, MoveEnd::Reached);
-  EXPECT_FALSE(machine.probeDeflected());
-  EXPECT_EQ(machine.measure(positions({28.03, 0, -400}), Feed::at(60)).end, MeasureEnd::Touched);
+  EXPECT_FALSE(machine.deflected(machine::Sensor::TouchProbe));
+  EXPECT_EQ(machine.measure({positions({28.03, 0, -400}), Feed::at(60)}).end, MeasureEnd::Touched);
 }
 
 TEST(ProbeErrors, SwitchedOffProbeIsNotReady) {
@@ -305,7 +305,7 @@ TEST(ProbeErrors, SwitchedOffProbeIsNotReady) {
   truth.tools[0].probe.switchedOn = false;
   VirtualMachine machine(truth);
   machine.changeTool({1, ""});
-  EXPECT_EQ(machine.measure(positions({40, 0, 0}), Feed::at(60)).end, MeasureEnd::NotReady);
+  EXPECT_EQ(machine.measure({positions({40, 0, 0}), Feed::at(60)}).end, MeasureEnd::NotReady);
 }
 
 }  // namespace

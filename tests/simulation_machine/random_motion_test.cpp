@@ -52,11 +52,11 @@ void moveAtRandom(const std::string& machineName, unsigned seed) {
     return q;
   };
   VirtualMachine machine(truth);
-  ASSERT_EQ(machine.changeTool({1, ""}).end, MoveEnd::Reached);
+  ASSERT_EQ(machine.changeTool({1, ""}).end, machine::ToolChangeEnd::Changed);
   int touched = 0, reached = 0;
   for (int i = 0; i < 100; ++i) {
     const AxisPositions from = machine.position(), to = randomPosition();
-    const auto result = machine.measure(to, Feed::at(6000));
+    const auto result = machine.measure({to, Feed::at(6000)});
     const AxisPositions end = result.end == MeasureEnd::Touched ? result.latched : to;
     constexpr int samples = 400;
     for (int k = 0; k < samples; ++k) {
@@ -66,7 +66,7 @@ void moveAtRandom(const std::string& machineName, unsigned seed) {
       ++touched;
       EXPECT_NEAR(gap(result.latched), 0, 2e-7) << machineName << " move " << i;
       ASSERT_EQ(machine.retract(from, Feed::at(6000)).end, MoveEnd::Reached) << "back the way it came";
-      ASSERT_FALSE(machine.probeDeflected());
+      ASSERT_FALSE(machine.deflected(machine::Sensor::TouchProbe));
     } else {
       ASSERT_EQ(result.end, MeasureEnd::NoContact) << result.detail;
       ++reached;

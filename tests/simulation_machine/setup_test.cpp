@@ -193,14 +193,14 @@ in_spindle = true
   ASSERT_TRUE(machine) << format(machine.error());
   using testing_support::positions;
   (*machine)->move(positions({0, 15, -345}), machine::Feed::rapidTraverse());
-  const auto result = (*machine)->measure(positions({30, 15, -345}), machine::Feed::at(300));
+  const auto result = (*machine)->measure({positions({30, 15, -345}), machine::Feed::at(300)});
   ASSERT_EQ(result.end, machine::MeasureEnd::Touched) << result.detail;
   EXPECT_NEAR(result.latched[0], 18, 1e-9) << "the face x = 20, one ball radius before it";
   const double pressed = (*machine)->position()[0];
   (*machine)->retract(positions({pressed, 16, -345}), machine::Feed::at(300));
-  EXPECT_TRUE((*machine)->probeDeflected()) << "it moved along the face";
+  EXPECT_TRUE((*machine)->deflected(machine::Sensor::TouchProbe)) << "it moved along the face";
   (*machine)->retract(positions({0, 16, -345}), machine::Feed::at(300));
-  EXPECT_FALSE((*machine)->probeDeflected());
+  EXPECT_FALSE((*machine)->deflected(machine::Sensor::TouchProbe));
 }
 
 TEST(Setup, BuildsPartsOfFeaturesAndGauges) {
@@ -238,7 +238,7 @@ in_spindle = true
   const auto touch = [&](std::initializer_list<double> from, std::initializer_list<double> to, std::size_t axis) {
     machine.move(positions({from.begin()[0], from.begin()[1], 0}), machine::Feed::rapidTraverse());
     EXPECT_EQ(machine.move(positions(from), machine::Feed::rapidTraverse()).end, machine::MoveEnd::Reached);
-    const auto result = machine.measure(positions(to), machine::Feed::at(300));
+    const auto result = machine.measure({positions(to), machine::Feed::at(300)});
     EXPECT_EQ(result.end, machine::MeasureEnd::Touched) << result.detail;
     machine.retract(positions(from), machine::Feed::rapidTraverse());
     machine.move(positions({from.begin()[0], from.begin()[1], 0}), machine::Feed::rapidTraverse());

@@ -84,7 +84,7 @@ TEST(TableBody, LetsAPartStandInIt) {
       world("mill3", "[part]\npose = { z = -660 }\n[[part.feature]]\nshape = \"box\"\nsize = [50, 50, 60]\n");
   ASSERT_TRUE(machine);
   EXPECT_EQ(machine->move(positions({0, 0, -380}), Feed::rapidTraverse()).end, MoveEnd::Reached);
-  const auto touch = machine->measure(positions({0, 0, -420}), Feed::at(300));
+  const auto touch = machine->measure({positions({0, 0, -420}), Feed::at(300)});
   EXPECT_EQ(touch.end, machine::MeasureEnd::Touched);
   EXPECT_NEAR(touch.latched[2], -400, 1e-6) << "the top of the part, 60 mm above z = -660";
 }

@@ -11,6 +11,7 @@ namespace {
 using machine::Feed;
 using machine::MeasureEnd;
 using machine::MoveEnd;
+using machine::Sensor;
 using testing_support::positions;
 
 Setup read(const std::string& text, Diagnostics& diagnostics) {
@@ -41,20 +42,21 @@ TEST(ToolProbe, SignalsWhenAToolTouchesIt) {
     const Feed rapid = Feed::rapidTraverse(), slow = Feed::at(300);
     EXPECT_EQ(machine->move(positions({0, 20, -325}), rapid).end, MoveEnd::Reached);
     // The side of the contact lies at x 30, the tool is 6 mm thick.
-    const auto side = machine->measure(positions({40, 20, -325}), slow);
+    const auto side = machine->measure({positions({40, 20, -325}), slow, Sensor::ToolTouchProbe});
     ASSERT_EQ(side.end, MeasureEnd::Touched) << side.detail;
     // Tools meet curved faces of a setup's solids as drawn, by facets.
     const bool curved = std::string_view(contact).starts_with("diameter");
     EXPECT_NEAR(side.latched[0], 24, curved ? 0.01 : 1e-6);
-    EXPECT_TRUE(machine->probeDeflected());
+    EXPECT_TRUE(machine->deflected(Sensor::ToolTouchProbe));
     EXPECT_GE(machine->position()[0], 24);
-    EXPECT_EQ(machine->measure(positions({40, 20, -325}), slow).end, MeasureEnd::DeflectedAtStart);
+    EXPECT_EQ(machine->measure({positions({40, 20, -325}), slow, Sensor::ToolTouchProbe}).end,
+              MeasureEnd::DeflectedAtStart);
     EXPECT_EQ(machine->move(positions({0, 20, -325}), rapid).end, MoveEnd::ProbeSignal);
     EXPECT_EQ(machine->retract(positions({0, 20, -325}), rapid).end, MoveEnd::Reached);
-    EXPECT_FALSE(machine->probeDeflected());
+    EXPECT_FALSE(machine->deflected(Sensor::ToolTouchProbe));
     machine->move(positions({0, 20, -300}), rapid);
     machine->move(positions({50, 20, -300}), rapid);
-    const auto top = machine->measure(positions({50, 20, -330}), slow);
+    const auto top = machine->measure({positions({50, 20, -330}), slow, Sensor::ToolTouchProbe});
     ASSERT_EQ(top.end, MeasureEnd::Touched) << top.detail;
     EXPECT_NEAR(top.latched[2], -320, 1e-6);
     machine->retract(positions({50, 20, -300}), rapid);
@@ -67,13 +69,16 @@ TEST(ToolProbe, SignalsWhenAToolTouchesIt) {
 
 TEST(ToolProbe, IsNotThereUnlessTheSetupHasIt) {
   const auto without = built("[gauge_block]\nsize = [20, 20, 20]\npose = { z = -400 }\n");
-  EXPECT_EQ(without->measure(positions({0, 0, -330}), Feed::at(300)).end, MeasureEnd::NotReady);
+  EXPECT_EQ(without->measure({positions({0, 0, -330}), Feed::at(300), Sensor::ToolTouchProbe}).end,
+            MeasureEnd::NotReady);
   const auto aside = built(
       "[tool_probe]\ndiameter = 40\npose = { x = 200, z = -400 }\n[gauge_block]\nsize = [20, 20, 20]\npose = { z "
       "= -400 }\n");
-  EXPECT_EQ(aside->measure(positions({0, 0, -330}), Feed::at(300)).end, MeasureEnd::Collision);
+  EXPECT_EQ(aside->measure({positions({0, 0, -330}), Feed::at(300), Sensor::ToolTouchProbe}).end,
+            MeasureEnd::Collision);
   const auto missed = built("[tool_probe]\ndiameter = 40\npose = { x = 200, z = -400 }\n");
-  EXPECT_EQ(missed->measure(positions({0, 0, -330}), Feed::at(300)).end, MeasureEnd::NoContact);
+  EXPECT_EQ(missed->measure({positions({0, 0, -330}), Feed::at(300), Sensor::ToolTouchProbe}).end,
+            MeasureEnd::NoContact);
 }
 
 TEST(ToolProbe, NeedsOneShape) {

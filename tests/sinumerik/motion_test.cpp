@@ -322,8 +322,8 @@ TEST(SinumerikMotion, RotaryAxesTurnAsTold) {
 TEST(SinumerikMotion, DwellSpindleAndSwitches) {
   World world;
   world.run("G4 F2.5\nS60 M3\nG4 S3\nSPOS=90\n");
-  EXPECT_NEAR(world.machine.clock, 2.5 + 3, 1e-12);
-  EXPECT_EQ(world.machine.spindle, 90);
+  EXPECT_NEAR(world.machine.seconds(), 2.5 + 3, 1e-12);
+  EXPECT_EQ(world.machine.spindle().angle, 90);
   world.run("DEF INT ERR=5\nWRITE(ERR,\"/_N_WKS_DIR/LOG_MPF\",\"x=\"<<1)\nWRITE(ERR,\"LOG_MPF\",\"y\")\nR1=ERR\nM0\n");
   EXPECT_EQ(world.control.panel.files().at("LOG_MPF"), "x=1\ny\n");
   EXPECT_EQ(world.r(1), 0);

@@ -13,64 +13,44 @@
 #include "language/sinumerik/host.hpp"
 #include "language/sinumerik/program.hpp"
 #include "machine/machine_file.hpp"
+#include "support/willing_machine.hpp"
 
 namespace probewright::sinumerik {
 
 /// A machine that goes wherever it is told, notes it, and whose probe signals at planes.
-class NotingMachine : public machine::Machine {
+class NotingMachine : public testing_support::WillingMachine {
 public:
-  explicit NotingMachine(const std::string& name) : description_(*machine::readMachine(name)) {}
+  explicit NotingMachine(const std::string& name) : WillingMachine(*machine::readMachine(name)) {}
 
   struct Move {
     machine::AxisPositions to;
     machine::Feed feed;
   };
   std::vector<Move> moves;
-  std::vector<machine::ToolOrder> tools;
-  double spindle = 0, clock = 0;
+  std::vector<machine::Sensor> asked;  ///< the sensors of measuring moves
   /// The probe signals where axis `wallAxis` reaches this reading.
   std::size_t wallAxis = 0;
   std::optional<double> wall;
 
-  const machine::MachineDescription& description() const override { return description_; }
-  machine::AxisPositions position() const override { return at_; }
   machine::MoveResult move(const machine::AxisPositions& target, machine::Feed feed) override {
     at_ = target;
     moves.push_back({target, feed});
     return {};
   }
-  machine::MeasureResult measure(const machine::AxisPositions& target, machine::Feed feed) override {
-    const double from = at_[wallAxis], to = target[wallAxis];
+  machine::MeasureResult measure(const machine::MeasureOrder& order) override {
+    asked.push_back(order.sensor);
+    const double from = at_[wallAxis], to = order.target[wallAxis];
     if (!wall || (from - *wall) * (to - *wall) >= 0) {
-      move(target, feed);
+      move(order.target, order.feed);
       return {};
     }
     const double fraction = (*wall - from) / (to - from);
     machine::AxisPositions hit = at_;
     for (std::size_t i = 0; i < machine::maximumAxes; ++i)
-      hit[i] += fraction * (target[i] - at_[i]);
-    move(hit, feed);
+      hit[i] += fraction * (order.target[i] - at_[i]);
+    move(hit, order.feed);
     return {machine::MeasureEnd::Touched, hit, {}};
   }
-  machine::MoveResult retract(const machine::AxisPositions& target, machine::Feed feed) override {
-    return move(target, feed);
-  }
-  bool probeDeflected() const override { return false; }
-  machine::MoveResult orientSpindle(double degrees) override {
-    spindle = degrees;
-    return {};
-  }
-  double spindleAngle() const override { return spindle; }
-  machine::MoveResult changeTool(const machine::ToolOrder& order) override {
-    tools.push_back(order);
-    return {};
-  }
-  void dwell(double seconds) override { clock += seconds; }
-  double seconds() const override { return clock; }
-
-private:
-  machine::MachineDescription description_;
-  machine::AxisPositions at_;
 };
 
 class Texts : public language::ProgramLibrary {

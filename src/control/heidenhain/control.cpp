@@ -33,7 +33,9 @@ ActivePreset aboutToolAxis(ActivePreset preset, const TypedTable& presets, const
 
 Control::Control(ControlKind kind, machine::Machine& machine, Tables tables_, MachineParameters parameters_)
     : panel(journal), channel(machine, journal), tables(std::move(tables_)), parameters(parameters_), kind_(kind) {
-  channel.alarms = {"Limit switch", "Collision", "Touch probe deflected"};
+  channel.onToolByHand = [this](const machine::ToolOrder& order, const std::string& detail) {
+    panel.stop(askForTool(order, detail), channel.seconds());
+  };
   if (presetRow(0)) activatePreset(0);
 }
 

@@ -31,7 +31,10 @@ std::string shown(const DataValue& value) {
 
 Control::Control(machine::Machine& machine, DataStore store)
     : panel(journal), channel(machine, journal), data(std::move(store)) {
-  channel.alarms = {"10720", "61302", "61302"};
+  channel.alarms = {"10720", "61302", "61302", "22066", "22050", "700000"};
+  channel.onToolByHand = [this](const machine::ToolOrder& order, const std::string& detail) {
+    panel.stop(askForTool(order, detail), channel.seconds());
+  };
   const int planes = initialFunction(6);
   plane = planes >= 1 && planes <= 3 ? 16 + planes : channel.description().axisIndex("Y") ? 17 : 18;
   const int units = initialFunction(13);

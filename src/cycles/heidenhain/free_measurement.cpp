@@ -39,7 +39,8 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
   const double distance = std::abs(measurement.distance) * scale;
   const probing::HeidenhainProbe probe = activeProbe(control, Calibrated::NotYet);
   const Vector3 start = channel.position();
-  const auto result = channel.measureTo(start + direction * distance, machine::Feed::at(context.q(probe_word::feed)));
+  const auto result = channel.measureTo(start + direction * distance, machine::Feed::at(context.q(probe_word::feed)),
+                                        machine::Sensor::TouchProbe);
 
   control::TouchRecord record;
   const Vector3 toBall = probing::alongTool(channel, probe.ballRadius);
@@ -88,7 +89,8 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
       note("limit");
       throw Alarm(channel.alarms.limit, result.detail);
     case MeasureEnd::Collision:
-    case MeasureEnd::Cancelled:
+    case MeasureEnd::Cancelled:  // the channel throws it, and what is refused
+    case MeasureEnd::Refused:
       note("collision");
       throw Alarm(channel.alarms.collision, result.detail);
   }

@@ -74,7 +74,7 @@ public:
         start_(prober_.position()),
         path_(context.real("S_FA")),
         radius_(calibration_.assumedRadius()),
-        spindle_(context.channel().machine().spindleAngle()) {
+        spindle_(context.channel().machine().spindle().angle) {
     const double angle = atAngle() ? context.real("S_STA1") : 0;
     first_ = probing::directionAt(angle);
     second_ = probing::directionAt(angle + 90);

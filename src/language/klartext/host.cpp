@@ -125,6 +125,7 @@ void KlartextHost::leave(const Program&) {
   levels_.pop_back();
   if (levels_.empty()) {
     control_.overrides = {};
+    standDown();
   } else {
     publishTool();
     nextPatternPoint();

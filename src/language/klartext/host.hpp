@@ -102,6 +102,9 @@ private:
   void setUndefined(const VariableRef& variable);
   void machineFunction(const MachineFunction& function, Evaluation& evaluation);
   void nameMachineFunction(int number);
+  bool handToMachine(int number);
+  void coolant(int number);
+  void standDown();
   void retractAlongTool(const MachineFunction& function, Evaluation& evaluation);
   void takeTurns(const MachineFunction& function, Evaluation& evaluation);
   void deleteBasicRotation();
@@ -237,7 +240,6 @@ private:
   ReferencePoint referencePoint_ = ReferencePoint::TipTip;
   bool spaceAngles_ = false;              ///< AXIS SPAT: A, B, C are space angles of the tool
   Vector3 toolAngles_ = Vector3::Zero();  ///< as last programmed with AXIS SPAT
-  bool spindleRuns_ = false;
   bool spindleHasRun_ = false;
   double preparedTool_ = 0;  ///< of TOOL DEF
   std::optional<int> lastProbeCycle_;

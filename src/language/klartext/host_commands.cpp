@@ -86,7 +86,8 @@ void KlartextHost::functionBlock(std::string_view text, Evaluation& evaluation) 
     const auto written = parseDecimal(time);
     const double value = written ? *written : numberNamed(time, evaluation);
     const double speed = control_.tool.spindleSpeed;
-    if (revolutions && !(spindleRuns_ && speed > 0)) {
+    const bool turns = control_.channel.spindleRotation() != machine::Rotation::None;
+    if (revolutions && !(turns && speed > 0)) {
       throw Alarm("Dwell time wrong", "FUNCTION DWELL REV counts revolutions, and the spindle stands",
                   "switch the spindle on before this block, or program FUNCTION DWELL TIME");
     }

@@ -13,6 +13,7 @@ namespace probewright::language::klartext {
 
 using control::Alarm;
 using control::Feed;
+using machine::Rotation;
 
 void KlartextHost::machineFunction(const MachineFunction& function, Evaluation& evaluation) {
   switch (function.number) {
@@ -20,19 +21,24 @@ void KlartextHost::machineFunction(const MachineFunction& function, Evaluation& 
     case 13:
     case 4:
     case 14:
-      spindleRuns_ = spindleHasRun_ = true;
+      spindleHasRun_ = true;
       clockwise_ = function.number == 3 || function.number == 13;
+      control_.channel.turnSpindle(clockwise_ ? Rotation::Clockwise : Rotation::CounterClockwise,
+                                   control_.tool.spindleSpeed);
       control_.q.setQ(110, spindleState());
-      if (function.number > 10) control_.q.setQ(111, 1);
+      if (function.number > 10) coolant(8);
       break;
     case 5:
     case 6:
-      spindleRuns_ = false;
+      control_.channel.turnSpindle(Rotation::None, 0);
       control_.q.setQ(110, spindleState());
+      break;
+    case 7:
+      control_.channel.function(7);
       break;
     case 8:
     case 9:
-      control_.q.setQ(111, function.number == 8 ? 1 : 0);
+      coolant(function.number);
       break;
     case 89:
       contour_.flush();
@@ -91,6 +97,25 @@ void KlartextHost::machineFunction(const MachineFunction& function, Evaluation& 
   }
 }
 
+void KlartextHost::coolant(int number) {
+  control_.q.setQ(111, number == 8 ? 1 : 0);
+  control_.channel.function(number);
+}
+
+/// The end of the main program stops spindle and coolant.
+void KlartextHost::standDown() {
+  if (control_.channel.spindleRotation() != Rotation::None) control_.channel.turnSpindle(Rotation::None, 0);
+  if (control_.q.q(111) == 1) control_.channel.function(9);
+}
+
+/// True if the machine has carried out the function.
+bool KlartextHost::handToMachine(int number) {
+  if (!control_.channel.machine().hasFunction(number)) return false;
+  contour_.flush();
+  return control_.channel.function(number);
+}
+
+/// Functions that the control does not carry out itself: the machine may have those that are not the control's own.
 void KlartextHost::nameMachineFunction(int number) {
   switch (effectOf(number, control_.kind())) {
     case FunctionEffect::CarriedOut:
@@ -100,9 +125,11 @@ void KlartextHost::nameMachineFunction(int number) {
       leaveOut(fmt::format("M{}", number));
       break;
     case FunctionEffect::OfBuilder:
+      if (handToMachine(number)) break;
       leaveOut(fmt::format("M{}, which is a function of the machine tool builder,", number));
       break;
     case FunctionEffect::OfOtherOne:
+      if (handToMachine(number)) break;
       leaveOut(fmt::format("M{}, which the {} does not have,", number, control::name(control_.kind())));
       break;
   }

@@ -555,11 +555,14 @@ void KlartextHost::runElement(const Element& element, const control::WorkingPlan
   const double step = radius > channel.pathTolerance ? 2 * std::acos(1 - channel.pathTolerance / radius) : sweep;
   const int pieces = std::clamp(static_cast<int>(std::ceil(sweep / std::max(step, 1e-6))), 1, 100000);
   const Vector2 arm = element.from - element.centre;
+  std::vector<Vector3> points;
+  points.reserve(static_cast<std::size_t>(pieces));
   for (int i = 1; i <= pieces; ++i) {
     const double fraction = static_cast<double>(i) / pieces;
     const Vector2 at = i == pieces ? element.to : Vector2(element.centre + turned(arm, fraction * element.sweep));
-    channel.moveTo(point(at, element.heightFrom + fraction * (element.heightTo - element.heightFrom)), element.feed);
+    points.push_back(point(at, element.heightFrom + fraction * (element.heightTo - element.heightFrom)));
   }
+  channel.moveAlong(points, element.feed);
 }
 
 }  // namespace probewright::language::klartext

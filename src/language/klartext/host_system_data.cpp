@@ -38,7 +38,7 @@ double KlartextHost::machineSeconds() const {
 /// -1: it has not run yet, 0: M3, 1: M4, 2: M5 after M3, 3: M5 after M4.
 double KlartextHost::spindleState() const {
   if (!spindleHasRun_) return -1;
-  return (clockwise_ ? 0 : 1) + (spindleRuns_ ? 0 : 2);
+  return (clockwise_ ? 0 : 1) + (control_.channel.spindleRotation() != machine::Rotation::None ? 0 : 2);
 }
 
 void KlartextHost::systemRead(const Command& command, Evaluation& evaluation) {
@@ -270,7 +270,10 @@ std::optional<double> KlartextHost::probingState(int number, int index) const {
     case 6:
       return 0;
     case 4:
-      return control_.channel.machine().probeDeflected() ? 1 : 0;
+      return control_.channel.deflected(machine::Sensor::TouchProbe) ||
+                     control_.channel.deflected(machine::Sensor::ToolTouchProbe)
+                 ? 1
+                 : 0;
     case 8:
       return control_.channel.spindleAngle();
     case 10: {

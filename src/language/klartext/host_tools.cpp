@@ -43,6 +43,8 @@ void KlartextHost::callTool(const ToolCall& call, Evaluation& evaluation) {
                            "program S of 0 or more; M4 turns the other way");
     }
     control_.tool.spindleSpeed = speed;
+    const machine::Rotation rotation = control_.channel.spindleRotation();
+    if (rotation != machine::Rotation::None) control_.channel.turnSpindle(rotation, speed);
   }
   if (call.feed.present()) control_.tool.feed = length(call.feed, evaluation);
   publishTool();

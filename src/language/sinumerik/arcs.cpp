@@ -172,6 +172,8 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
   const double event = evaluation.number(all.front().value);
   if (event != 1 && event != -1 && event != 2 && event != -2)
     throw Alarm("14020", fmt::format("there is no probe event {}", event), "write 1, -1, 2 or -2");
+  // As delivered the workpiece probe is at the 1st measuring input, the tool probe at the 2nd (MD 51606, 51607).
+  const machine::Sensor sensor = std::abs(event) == 2 ? machine::Sensor::ToolTouchProbe : machine::Sensor::TouchProbe;
   if (state_.group1 != MoveKind::Rapid && state_.group1 != MoveKind::Linear)
     throw Alarm("21610", "a measuring block is a straight line", "write G1 with MEAS");
   const Words words = read(axes, evaluation);
@@ -191,7 +193,7 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
     record.startSeconds = channel.seconds();
     journal.begin(std::move(record));
   }
-  const machine::MeasureResult result = channel.measureTo(to, speed);
+  const machine::MeasureResult result = channel.measureTo(to, speed, sensor);
   control::CycleRecord& record = journal.cycles.back();
   control::TouchRecord touch;
   touch.target = to;
@@ -224,7 +226,8 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
       touch.outcome = "no probe";
       alarm = "21610";
       break;
-    case machine::MeasureEnd::Cancelled:
+    case machine::MeasureEnd::Cancelled:  // the channel throws it, and what is refused
+    case machine::MeasureEnd::Refused:
       break;
   }
   touch.latched = measurement_.latched;

@@ -246,11 +246,21 @@ void SinumerikHost::restore(const SavedState& saved) {
   } else {
     control_.handOverFrames();
   }
+  followSpeed();
 }
 
 void SinumerikHost::leave(const Program&) {
   if (levels_.empty()) return;
-  motion_.flush();
+  try {
+    motion_.flush();
+  } catch (...) {
+    leaveLevel();
+    throw;
+  }
+  leaveLevel();
+}
+
+void SinumerikHost::leaveLevel() {
   Level level = std::move(levels_.back());
   levels_.pop_back();
   if (!levels_.empty()) control_.panel.place = level.call;
@@ -272,6 +282,8 @@ void SinumerikHost::leave(const Program&) {
   if (!levels_.empty()) return;
   storeParameters();
   storeGlobalData();
+  if (control_.channel.spindleRotation() != machine::Rotation::None)
+    control_.channel.turnSpindle(machine::Rotation::None, 0);
 }
 
 }  // namespace probewright::sinumerik

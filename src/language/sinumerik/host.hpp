@@ -103,7 +103,11 @@ private:
   void carryOutG(int number);
   void carryOutGroup(int group, int number);
   void carryOutNamedFunction(std::string_view name);
+  void leaveLevel();
   void changeTool();
+  bool handToMachine(int number);
+  void turnSpindle();
+  void followSpeed();
   void alignFrameWithTool(bool withOrigin);
   void raiseAlarm(const language::Command& command, Evaluation& evaluation);
   void dwell(const language::Command& command, Evaluation& evaluation);

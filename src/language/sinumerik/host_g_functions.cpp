@@ -54,8 +54,9 @@ void SinumerikHost::carryOut(const Modal& modal, Evaluation& evaluation) {
         // S2= and so on are the speeds of other spindles.
         const bool own = words[0].address == addressOf("S") || words[0].address == addressOf("S1");
         const bool main = words.size() > 1 ? wholeNumber(evaluation.number(words[1].value)) == 1 : own;
-        if (main) state_.spindleSpeed = value;
-        return;
+        if (!main) return;
+        state_.spindleSpeed = value;
+        return followSpeed();
       }
       case 'H':
         return skip("the auxiliary function H");
@@ -177,7 +178,7 @@ void SinumerikHost::carryOutG(int number) {
                    : number == 962 ? 11
                    : number == 972 ? 12
                                    : 13;
-      return;
+      return followSpeed();
     case 500:
       groups[8] = 1;
       return settable(0);

@@ -65,8 +65,9 @@ void SinumerikHost::carryOut(const MachineFunction& function, Evaluation& evalua
     case 3:
     case 4:
     case 5:
-      if (mainSpindle) state_.spindleDirection = number;
-      return;
+      if (!mainSpindle) return;
+      state_.spindleDirection = number;
+      return turnSpindle();
     case 6:
       motion_.flush();
       return changeTool();
@@ -75,9 +76,31 @@ void SinumerikHost::carryOut(const MachineFunction& function, Evaluation& evalua
       if (mainSpindle) control_.channel.orientSpindle(control_.machineData("$SA_M19_SPOS"));
       return;
     default:
+      if (mainSpindle && handToMachine(number)) return;
       if (isSkippedMachineFunction(number)) skip(fmt::format("M{}", number));
       return;
   }
+}
+
+/// True if the machine has carried out the M function.
+bool SinumerikHost::handToMachine(int number) {
+  if (!control_.channel.machine().hasFunction(number)) return false;
+  const bool coolant = number >= 7 && number <= 9;  // which does not wait for what tool radius compensation holds back
+  if (!coolant) motion_.flush();
+  return control_.channel.function(number);
+}
+
+/// What M3, M4, M5, S, G96 and LIMS amount to where the tool is.
+void SinumerikHost::turnSpindle() {
+  using machine::Rotation;
+  if (state_.spindleDirection == 5) return control_.channel.turnSpindle(Rotation::None, 0);
+  control_.channel.turnSpindle(state_.spindleDirection == 3 ? Rotation::Clockwise : Rotation::CounterClockwise,
+                               std::max(0.0, spindleSpeedAt(state_, control_.channel.position())));
+}
+
+/// A spindle that turns follows its speed; one that was oriented, or stopped by a tool change, waits for M3 or M4.
+void SinumerikHost::followSpeed() {
+  if (control_.channel.spindleRotation() != machine::Rotation::None) turnSpindle();
 }
 
 void SinumerikHost::carryOut(const Stop& stop, Evaluation&) {
@@ -187,7 +210,9 @@ void SinumerikHost::findTool(const Command& command, Evaluation& evaluation) {
 }
 
 void SinumerikHost::carryOut(const Move& move, Evaluation& evaluation) {
-  if (!recording_) motion_.carryOut(move, evaluation);
+  if (recording_) return;
+  motion_.carryOut(move, evaluation);
+  if (state_.constantCuttingSpeed) followSpeed();
 }
 
 void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
@@ -223,8 +248,9 @@ void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
   }
   if (name == "LIMS") {
     const bool main = words.size() < 2 || wholeNumber(evaluation.number(words[1].value)) == 1;
-    if (main) state_.speedLimit = evaluation.number(words[0].value);
-    return;
+    if (!main) return;
+    state_.speedLimit = evaluation.number(words[0].value);
+    return followSpeed();
   }
   if (name == "FA" && words.size() > 1) {
     state_.axisFeed[control::sinumerik::upperCase(evaluation.text(words[1].value))] = evaluation.number(words[0].value);

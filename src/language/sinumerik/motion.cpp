@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "control/alarm.hpp"
 #include "control/sinumerik/text.hpp"
@@ -396,30 +397,40 @@ void PathMotion::append(const PathElement& element, const std::optional<Corner>&
   if (!compensator_.active() && !corners_.holds()) programmed_.reset();
 }
 
-/// Straight to a target. After a measuring block the stylus is still deflected: it may leave the surface.
+/// After a measuring block the sensor is still deflected: it may leave what it touched.
+bool PathMotion::leavesContact() const {
+  return control_.channel.deflected(machine::Sensor::TouchProbe) ||
+         control_.channel.deflected(machine::Sensor::ToolTouchProbe);
+}
+
 void PathMotion::travel(const control::Target& target, Feed feed) {
   control::Channel& channel = control_.channel;
   const bool turns = std::ranges::any_of(target.rotary, [](const auto& angle) { return angle.has_value(); });
-  if (turns || !channel.machine().probeDeflected()) return channel.moveTo(target, feed);
+  if (turns || !leavesContact()) return channel.moveTo(target, feed);
   Vector3 to = channel.position();
   for (std::size_t i = 0; i < 3; ++i)
     if (target.linear[i]) to[static_cast<Eigen::Index>(i)] = *target.linear[i];
   channel.retractTo(to, feed);
 }
 
-void PathMotion::travel(const Vector3& point, Feed feed) {
-  if (control_.channel.machine().probeDeflected()) return control_.channel.retractTo(point, feed);
-  control_.channel.moveTo(point, feed);
-}
-
 void PathMotion::run(const PathElement& element) {
-  if (!element.isArc) return travel(element.end, element.feed);
-  const double radius = (element.start - element.centre).norm();
-  const double tolerance = std::min(control_.channel.pathTolerance, radius / 2);
-  const double step = radius > 0 ? 2 * std::acos(1 - tolerance / radius) : std::numbers::pi;
-  const int pieces = std::clamp(static_cast<int>(std::ceil(std::abs(element.sweep) / step)), 1, 100000);
-  for (int i = 1; i <= pieces; ++i)
-    travel(i == pieces ? element.end : element.at(static_cast<double>(i) / pieces), element.feed);
+  control::Channel& channel = control_.channel;
+  std::vector<Vector3> points = {element.end};
+  if (element.isArc) {
+    const double radius = (element.start - element.centre).norm();
+    const double tolerance = std::min(channel.pathTolerance, radius / 2);
+    const double step = radius > 0 ? 2 * std::acos(1 - tolerance / radius) : std::numbers::pi;
+    const int pieces = std::clamp(static_cast<int>(std::ceil(std::abs(element.sweep) / step)), 1, 100000);
+    points.clear();
+    points.reserve(static_cast<std::size_t>(pieces));
+    for (int i = 1; i < pieces; ++i)
+      points.push_back(element.at(static_cast<double>(i) / pieces));
+    points.push_back(element.end);
+  }
+  std::span<const Vector3> left = points;
+  for (; !left.empty() && leavesContact(); left = left.subspan(1))
+    channel.retractTo(left.front(), element.feed);
+  channel.moveAlong(left, element.feed);
 }
 
 void PathMotion::flush() {

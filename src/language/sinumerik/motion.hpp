@@ -127,8 +127,8 @@ private:
   std::optional<Corner> cornerOf(const Words& words, control::Feed next) const;
   void append(const PathElement& element, const std::optional<Corner>& corner);
   void run(const PathElement& element);
+  bool leavesContact() const;
   void travel(const control::Target& target, control::Feed feed);
-  void travel(const Vector3& point, control::Feed feed);
   void moveWithoutFrames(const language::Move& move, Evaluation& evaluation);
 
   Control& control_;

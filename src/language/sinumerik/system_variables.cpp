@@ -197,8 +197,11 @@ std::optional<Value> SystemVariables::readFrame(std::string_view name, std::span
 std::optional<Value> SystemVariables::readState(std::string_view name, std::span<const Value> indices) {
   const auto number = [](double value) { return Value(value); };
   if (name == "$AC_MEA") return number(motion_.measurement().triggered ? 1 : 0);
-  if (name == "$A_PROBE")
-    return number(integerAt(indices, 0, 1) == 1 && control_.channel.machine().probeDeflected() ? 1 : 0);
+  if (name == "$A_PROBE") {
+    const int input = integerAt(indices, 0, 1);
+    const machine::Sensor sensor = input == 2 ? machine::Sensor::ToolTouchProbe : machine::Sensor::TouchProbe;
+    return number((input == 1 || input == 2) && control_.channel.deflected(sensor) ? 1 : 0);
+  }
   if (name == "$P_GG") {
     const int group = integerAt(indices, 0);
     if (group < 1 || group >= static_cast<int>(state_.gGroup.size())) throw Alarm("17020", "there is no such G group");

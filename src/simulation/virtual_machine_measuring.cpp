@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "simulation/virtual_machine.hpp"
+
+/// What the virtual machine feels: from the touch of a solid to the signal of a sensor.
+namespace probewright::simulation {
+
+using machine::Feed;
+using machine::MeasureEnd;
+using machine::MeasureOrder;
+using machine::MeasureResult;
+using machine::MoveEnd;
+using machine::MoveResult;
+using machine::Sensor;
+
+namespace {
+
+constexpr double measuringPrecision = 1e-7;  // mm
+
+}  // namespace
+
+double VirtualMachine::pretravel(const Motion& motion, const Touch& touch) const {
+  const TrueProbe& probe = tool_->probe;
+  const Matrix3 spindleFromTable = motion.tableFromSpindleAt(touch.fraction).linear().transpose();
+  const Vector3 normal = rotation(Vector3::UnitZ(), -spindle_.angle).linear() *
+                         (toolFrame(*tool_).transpose() * (spindleFromTable * touch.normal));
+  const double axial = std::pow(normal.z(), 2);
+  const double lobed =
+      probe.lobing == 0
+          ? 0
+          : probe.lobing * std::cos(3 * (std::atan2(normal.y(), normal.x()) - radiansFromDegrees(probe.lobingPhase)));
+  return (1 - axial) * (probe.pretravel + lobed) + axial * probe.axialPretravel;
+}
+
+VirtualMachine::Stop VirtualMachine::stopFor(const Motion& motion, const Touch& touch) {
+  if (touch.shaft) return {touch, std::nullopt, touch.fraction};
+  return signalStop(motion, touch);
+}
+
+VirtualMachine::Stop VirtualMachine::signalStop(const Motion& motion, const Touch& touch) {
+  Stop stop{touch, std::nullopt, touch.fraction};
+  const double length = motion.profile.length();
+  if (length == 0) return stop;
+  const TrueProbe& probe = tool_->probe;
+  const double contact = touch.fraction * length;
+  double signal = contact + pretravel(motion, touch) + motion.profile.speedAt(contact) * probe.signalDelay;
+  if (probe.repeatability > 0) signal += probe.repeatability * gaussian_(noise_);
+  const double braking = motion.profile.brakingDistanceAt(std::clamp(signal, 0.0, length));
+  const double end = std::clamp(signal + braking, contact, contact + mostOvertravel * probe.ballRadius);
+  stop.signal = signal / length;
+  stop.end = std::min(end / length, 1.0);
+  return stop;
+}
+
+MeasureResult VirtualMachine::refusedMeasurement(MoveResult why) const {
+  return {why.end == MoveEnd::Cancelled ? MeasureEnd::Cancelled : MeasureEnd::Refused, reading_, std::move(why.detail)};
+}
+
+/// Where along the shaft it touches first, and when, as exactly as a ball there would: the search for shafts is
+/// made for collisions. Near the place found the way to contact is a parabola over the shaft.
+Touch VirtualMachine::preciseShaftTouch(const Motion& motion, const Touch& rough) const {
+  const Shaft& shaft = shape_.shafts[*rough.shaft];
+  const double length = shaft.axis.norm();
+  const Vector3 along = shaft.axis / length;
+  ToolShape bead;
+  const auto touchAt = [&](double place) {
+    bead.balls = {Ball{shaft.start + along * place, shaft.radius}};
+    return firstTouch(motion, 0, 1, bead, surroundings_, {measuringPrecision});
+  };
+  const Vector3 inSpindle = motion.tableFromSpindleAt(rough.fraction).inverse() * rough.point;
+  constexpr double apart = 0.25;  // mm
+  double place = std::clamp((inSpindle - shaft.start).dot(along), 0.0, length);
+  for (int i = 0; i < 2; ++i) {
+    const auto below = touchAt(place - apart), here = touchAt(place), above = touchAt(place + apart);
+    if (!below || !here || !above) break;
+    const double bend = below->fraction - 2 * here->fraction + above->fraction;
+    if (bend * motion.profile.length() < 1e-7) break;
+    place = std::clamp(place + apart * std::clamp(0.5 * (below->fraction - above->fraction) / bend, -1.0, 1.0), 0.0,
+                       length);
+  }
+  Touch precise = touchAt(place).value_or(rough);
+  precise.shaft = rough.shaft;
+  return precise;
+}
+
+MeasureResult VirtualMachine::measure(const MeasureOrder& order) {
+  return order.sensor == Sensor::ToolTouchProbe ? measureTool(order) : measureWithProbe(order);
+}
+
+MeasureResult VirtualMachine::measureWithProbe(const MeasureOrder& order) {
+  const auto end = [&](MeasureEnd how, std::string detail) { return MeasureResult{how, reading_, std::move(detail)}; };
+  if (stop_.stop_requested()) return end(MeasureEnd::Cancelled, stoppedText);
+  if (!tool_ || tool_->kind != ToolKind::Probe)
+    return end(MeasureEnd::NotReady, "there is no touch probe in the spindle");
+  if (!tool_->probe.switchedOn) return end(MeasureEnd::NotReady, "the touch probe is switched off");
+  if (auto refused = refusal(order.feed)) return refusedMeasurement(*std::move(refused));
+  if (deflection_) return end(MeasureEnd::DeflectedAtStart, describe(*deflection_));
+  if (auto limit = beyondTravel(order.target)) return end(MeasureEnd::AxisLimit, *limit);
+  const Motion motion = motionTo(order.target, order.feed);
+  std::optional<Touch> touch;
+  try {
+    touch = firstTouch(motion, 0, 1, shape_, surroundings_, searchOptions(measuringPrecision));
+  } catch (const SearchStopped& stopped) {
+    standAt(motion, stopped.fraction, PathKind::Measure);
+    return end(MeasureEnd::Cancelled, stoppedText);
+  }
+  const bool shaftSignals = order.part == machine::TouchWith::Shaft;
+  if (!touch) {
+    advance(motion, Stop{}, PathKind::Measure);
+    return end(MeasureEnd::NoContact, "the target was reached without contact");
+  }
+  const bool byShaft = touch->shaft && std::string_view(shape_.shafts[*touch->shaft].part) == shaftName;
+  if (byShaft && shaftSignals) touch = preciseShaftTouch(motion, *touch);
+  if (touch->shaft && !(byShaft && shaftSignals)) {
+    advance(motion, Stop{touch, std::nullopt, touch->fraction}, PathKind::Measure);
+    return end(MeasureEnd::Collision, describe(*touch));
+  }
+  const Stop stop = signalStop(motion, *touch);
+  if (stop.signal && *stop.signal > 1) {
+    // The stylus leans against the surface without a signal: the way back must free it as after a touch.
+    advance(motion, Stop{}, PathKind::Measure);
+    if (!byShaft) deflection_ = touch;
+    return end(MeasureEnd::NoContact, "the target was reached before the stylus was deflected enough for a signal");
+  }
+  advance(motion, stop, PathKind::Measure);
+  if (!byShaft) deflection_ = touch;
+  return {MeasureEnd::Touched, motion.readingAt(stop.signal.value_or(stop.end)), describe(*touch)};
+}
+
+bool VirtualMachine::hasToolProbe() const {
+  return std::ranges::any_of(truth_.solids,
+                             [](const PlacedSolid& solid) { return solid.role == SolidRole::ToolProbe; });
+}
+
+MeasureResult VirtualMachine::measureTool(const MeasureOrder& order) {
+  const auto end = [&](MeasureEnd how, std::string detail) { return MeasureResult{how, reading_, std::move(detail)}; };
+  if (stop_.stop_requested()) return end(MeasureEnd::Cancelled, stoppedText);
+  if (!hasToolProbe()) return end(MeasureEnd::NotReady, "this machine has no tool touch probe");
+  if (!tool_) return end(MeasureEnd::NotReady, "there is no tool in the spindle");
+  if (tool_->kind != ToolKind::Cutter)
+    return end(MeasureEnd::NotReady,
+               "there is a touch probe in the spindle, which the tool touch probe cannot measure");
+  if (auto refused = refusal(order.feed)) return refusedMeasurement(*std::move(refused));
+  if (toolContact_) return end(MeasureEnd::DeflectedAtStart, describe(*toolContact_));
+  if (auto limit = beyondTravel(order.target)) return end(MeasureEnd::AxisLimit, *limit);
+  const Motion motion = motionTo(order.target, order.feed);
+  std::optional<Touch> touch;
+  try {
+    touch = firstTouch(motion, 0, 1, shape_, surroundings_, searchOptions(measuringPrecision));
+  } catch (const SearchStopped& stopped) {
+    standAt(motion, stopped.fraction, PathKind::Measure);
+    return end(MeasureEnd::Cancelled, stoppedText);
+  }
+  if (!touch) {
+    advance(motion, Stop{}, PathKind::Measure);
+    return end(MeasureEnd::NoContact, "the target was reached without contact");
+  }
+  if (truth_.solids[touch->solid].role != SolidRole::ToolProbe) {
+    advance(motion, Stop{touch, std::nullopt, touch->fraction}, PathKind::Measure);
+    return end(MeasureEnd::Collision, describe(*touch));
+  }
+  const double length = motion.profile.length();
+  const double contact = touch->fraction * length;
+  const double stop = std::min(contact + motion.profile.brakingDistanceAt(contact), length);
+  advance(motion, Stop{touch, touch->fraction, stop / length}, PathKind::Measure);
+  toolContact_ = touch;
+  return {MeasureEnd::Touched, motion.readingAt(touch->fraction), describe(*touch)};
+}
+
+}  // namespace probewright::simulation
