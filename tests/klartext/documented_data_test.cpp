@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <regex>
@@ -30,8 +29,7 @@ std::set<int> numbersOf(const std::string& cell) {
 
 /// The documented data: NR by ID; an empty set: any NR.
 std::map<int, std::set<int>> documented() {
-  const auto page = std::filesystem::path(__FILE__).parent_path() / "../../docs/klartext.md";
-  std::ifstream file(page);
+  std::ifstream file(PROBEWRIGHT_SOURCE_DIR "/docs/klartext.md");
   std::map<int, std::set<int>> data;
   bool inside = false;
   for (std::string line; std::getline(file, line);) {
