@@ -1,7 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <set>
 #include <string>
+#include <vector>
+
+#include "language/program.hpp"
 
 namespace probewright::conversion {
 
@@ -13,6 +17,7 @@ struct Job {
   std::set<int> parameters;        ///< n of the Qn that any of them names
   std::set<int> texts;             ///< n of the QSn that another one names
   std::set<int> results;           ///< n of the _OVR[n] that any of them reads
+  std::vector<std::shared_ptr<language::Program>> others;  ///< those of `programs`
 };
 
 }  // namespace probewright::conversion

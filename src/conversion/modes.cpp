@@ -1,5 +1,7 @@
 #include "conversion/modes.hpp"
 
+#include "cycles/catalogue.hpp"
+
 namespace probewright::conversion {
 
 using namespace language;
@@ -12,6 +14,14 @@ std::optional<double> literalOf(const Block& block, const Operand& operand) {
   if (node.operation != Operation::Negate) return std::nullopt;
   const auto value = literalOf(block, node.left);
   return value ? std::optional(-*value) : std::nullopt;
+}
+
+bool callsProgram(const Block& block) {
+  return std::ranges::any_of(block.instructions, [&](const Instruction& instruction) {
+    const auto* call = std::get_if<CallProgram>(&instruction);
+    return call != nullptr && cycles::sinumerikCycle(block.at(call->name)) == nullptr &&
+           block.at(call->name) != "CYCLE800";
+  });
 }
 
 std::vector<std::vector<std::size_t>> followers(const FlowGraph& graph, const std::vector<bool>& neutral) {

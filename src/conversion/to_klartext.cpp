@@ -51,6 +51,16 @@ std::optional<std::size_t> ToKlartext::planeIndex(std::uint32_t address) const {
   return std::nullopt;
 }
 
+void ToKlartext::surveyShift(const Block& block, const Instruction& instruction) {
+  const auto* transform = std::get_if<Transform>(&instruction);
+  const bool shifts = transform != nullptr && block.at(transform->name).ends_with("TRANS");
+  for (std::uint32_t i = 0; shifts && i < transform->words.count; ++i) {
+    const std::string letter = addressName(block.words[transform->words.first + i].address);
+    if (letter.size() == 1 && letter[0] >= 'X' && letter[0] <= 'Z')
+      shiftsEver_[static_cast<std::size_t>(letter[0] - 'X')] = true;
+  }
+}
+
 void ToKlartext::survey() {
   usedResults_ = job_.results;
   Block block;
@@ -66,15 +76,15 @@ void ToKlartext::survey() {
       changesTool_ = changesTool_ || (function != nullptr && function->number == 6);
       const auto* modal = std::get_if<Modal>(&instruction);
       const std::string_view name = modal == nullptr ? std::string_view() : block.at(modal->name);
-      const auto* transform = std::get_if<Transform>(&instruction);
-      const bool shifts = transform != nullptr && block.at(transform->name).ends_with("TRANS");
-      for (std::uint32_t i = 0; shifts && i < transform->words.count; ++i) {
-        const std::string letter = addressName(block.words[transform->words.first + i].address);
-        if (letter.size() == 1 && letter[0] >= 'X' && letter[0] <= 'Z')
-          shiftsEver_[static_cast<std::size_t>(letter[0] - 'X')] = true;
-      }
+      surveyShift(block, instruction);
       if (name == "G70" || name == "G700") millimetre_ = 1 / millimetresOfInch;
     }
+  }
+  Diagnostics ignored;
+  for (const auto& other : job_.others) {
+    for (BlockPosition at = other->begin(); other->parse(at, block, ignored); at = block.next)
+      for (const Instruction& instruction : block.instructions)
+        surveyShift(block, instruction);
   }
 }
 

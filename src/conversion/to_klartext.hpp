@@ -27,6 +27,7 @@ public:
 private:
   // to_klartext.cpp: the program, tools, frames
   void survey();
+  void surveyShift(const language::Block& block, const language::Instruction& instruction);
   void write(const language::Block& block);
   void statements(const language::Block& block);
   void instruction(const language::Block& block, const language::Instruction& instruction);

@@ -66,7 +66,7 @@ void ToKlartext::transform(const Block& block, const Transform& transform) {
     for (const Word& word : words) {
       const auto index = planeIndex(word.address);
       if (!index) throw NotCarriedOver("shifts of rotary axes are not converted");
-      shift[*index] = frozen(shift[*index] + quantity(block, word.value), fmt::format("shift {}", axis(*index)));
+      shift[*index] = shift[*index] + quantity(block, word.value);
     }
   } else {
     const bool plain =
@@ -75,6 +75,8 @@ void ToKlartext::transform(const Block& block, const Transform& transform) {
     if (!words.empty()) angle = frozen(angle + quantity(block, words[0].value), "rotation of the frame");
   }
   const bool moved = !frame_.known || !(shift == frame_.shift);
+  for (std::size_t i = 0; moved && i < 3; ++i)
+    if (!(frame_.known && shift[i] == frame_.shift[i])) shift[i] = frozen(shift[i], fmt::format("shift {}", axis(i)));
   // TRANS and ROT take back what the other has set.
   if (turned && !turns) writeRotation(0);
   if (moved) writeShift(shift);

@@ -121,11 +121,13 @@ void ToKlartext::surveyModes() {
   Block block;
   Diagnostics ignored;
   const std::size_t count = graph_.blocks().size();
-  std::vector<bool> neutral(count), measures(count);
+  std::vector<bool> neutral(count), measures(count), calls(count), doubtful(count);
   std::map<std::size_t, std::set<int>> read;
   for (std::size_t i = 0; i < count; ++i) {
     program_.parse(graph_.blocks()[i].position, block, ignored);
-    neutral[i] = isNeutral(block);
+    calls[i] = !job_.others.empty() && callsProgram(block);
+    neutral[i] = isNeutral(block) && !calls[i];
+    if (calls[i] && i + 1 < count) doubtful[i + 1] = true;
     measures[i] = std::ranges::any_of(block.instructions, [&](const Instruction& instruction) {
       const auto* call = std::get_if<CallProgram>(&instruction);
       const auto* cycle = call == nullptr ? nullptr : cycles::sinumerikCycle(block.at(call->name));
@@ -138,12 +140,23 @@ void ToKlartext::surveyModes() {
   }
   const auto next = followers(graph_, neutral);
   surveyResults(next, measures, read);
+  const auto meet = [&](Modes& modes) {
+    meetOthers(
+        job_, modes, [this](const Block& each, Modes& left) { follow(each, left); }, agree);
+  };
   const auto followBlock = [&](std::size_t place, Modes& modes) {
     if (neutral[place]) return;
     program_.parse(graph_.blocks()[place].position, block, ignored);
     follow(block, modes);
+    if (calls[place]) meet(modes);
   };
-  entries_ = modesWhereWaysMeet<Modes>(graph_, next, followBlock, agree);
+  Modes first;
+  if (job_.called && count > 0) {
+    meet(first);
+    first.row.reset();
+    doubtful[0] = true;
+  }
+  entries_ = modesWhereWaysMeet<Modes>(graph_, next, followBlock, agree, first, doubtful);
 }
 
 bool ToKlartext::isNeutral(const Block& block) const {

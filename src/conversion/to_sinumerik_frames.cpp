@@ -169,10 +169,10 @@ bool ToSinumerik::agree(Modes& with, const Modes& other) {
 }
 
 void ToSinumerik::surveyModes() {
-  if (!graph_.branches()) return;
+  if (!graph_.branches() && job_.others.empty()) return;
   Block block;
   Diagnostics ignored;
-  std::vector<bool> neutral(graph_.blocks().size());
+  std::vector<bool> neutral(graph_.blocks().size()), calls(neutral.size()), doubtful(neutral.size());
   for (std::size_t i = 0; i < neutral.size(); ++i) {
     program_.parse(graph_.blocks()[i].position, block, ignored);
     Modes modes;
@@ -182,14 +182,23 @@ void ToSinumerik::surveyModes() {
     modes.row = -1;
     const Modes before = modes;
     follow(block, modes);
-    neutral[i] = modes == before;
+    calls[i] = !job_.others.empty() && callsProgram(block);
+    neutral[i] = modes == before && !calls[i];
+    if (calls[i] && i + 1 < doubtful.size()) doubtful[i + 1] = true;
   }
   const auto followBlock = [&](std::size_t place, Modes& modes) {
     if (neutral[place]) return;
     program_.parse(graph_.blocks()[place].position, block, ignored);
     follow(block, modes);
+    if (calls[place]) meetOthers(job_, modes, follow, agree);
   };
-  entries_ = modesWhereWaysMeet<Modes>(graph_, followers(graph_, neutral), followBlock, agree);
+  Modes first;
+  if (job_.called && !doubtful.empty()) {
+    meetOthers(job_, first, follow, agree);
+    first.row.reset();
+    doubtful[0] = true;
+  }
+  entries_ = modesWhereWaysMeet<Modes>(graph_, followers(graph_, neutral), followBlock, agree, first, doubtful);
 }
 
 void ToSinumerik::adopt(const Block& block) {

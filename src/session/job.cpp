@@ -34,6 +34,7 @@ std::string plainName(std::string_view path) {
 struct Found {
   std::set<std::string> calls;
   std::set<int> parameters, texts, results;
+  std::shared_ptr<language::Program> program;
 };
 
 Found lookInto(language::Program& program) {
@@ -64,7 +65,9 @@ std::optional<Found> lookInto(const fs::path& path, ProgramLanguage language) {
   if (!text) return std::nullopt;
   const auto program = openProgram(path, *text, language);
   if (!program) return std::nullopt;
-  return lookInto(**program);
+  Found found = lookInto(**program);
+  found.program = *program;
+  return found;
 }
 
 }  // namespace
@@ -107,6 +110,7 @@ conversion::Job jobOf(const fs::path& path, ProgramLanguage language) {
     job.results.insert(found.results.begin(), found.results.end());
     if (name == own) continue;
     job.programs.insert(name);
+    job.others.push_back(found.program);
     job.texts.insert(found.texts.begin(), found.texts.end());
   }
   return job;

@@ -61,16 +61,9 @@ inline simulation::Setup twinSetup(const simulation::Setup& setup) {
   return twin;
 }
 
-inline Twin run(const std::string& text, ProgramLanguage language, const PlantedPart& part) {
-  const bool heidenhain = language == ProgramLanguage::Klartext;
-  session::RunOptions options;
-  options.control = heidenhain ? part.bench.control : ControlKind::Sinumerik840Dsl;
-  options.recordPath = false;
-  session::RunOutcome outcome =
-      session::runText(heidenhain ? "BENCH.H" : "BENCH.MPF", text, twinSetup(part.bench.setup), options);
+/// What a run has left.
+inline Twin twinOf(session::RunOutcome outcome) {
   Twin twin;
-  twin.text = text;
-  twin.language = language;
   twin.finished = !hasErrors(outcome.diagnostics) && outcome.result.end == language::RunEnd::Finished;
   if (hasErrors(outcome.diagnostics)) {
     twin.why = format(outcome.diagnostics.front());
@@ -83,6 +76,18 @@ inline Twin run(const std::string& text, ProgramLanguage language, const Planted
   twin.files = std::move(outcome.files);
   return twin;
 }
+
+inline Twin run(const std::string& text, ProgramLanguage language, const PlantedPart& part) {
+  const bool heidenhain = language == ProgramLanguage::Klartext;
+  session::RunOptions options;
+  options.control = heidenhain ? part.bench.control : ControlKind::Sinumerik840Dsl;
+  options.recordPath = false;
+  Twin twin =
+      twinOf(session::runText(heidenhain ? "BENCH.H" : "BENCH.MPF", text, twinSetup(part.bench.setup), options));
+  twin.text = text;
+  twin.language = language;
+  return twin;
+}
 inline Twin runKlartext(const std::string& text, const PlantedPart& part) {
   return run(text, ProgramLanguage::Klartext, part);
 }
@@ -90,16 +95,19 @@ inline Twin runSinumerik(const std::string& text, const PlantedPart& part) {
   return run(text, ProgramLanguage::Sinumerik, part);
 }
 
+/// Counts for the exit code. How far the surfaces of these worlds are off is known: both probes look far enough for
+/// them.
+inline bool isLoss(const Diagnostic& listed) {
+  return listed.severity != Severity::Note && listed.message.find("looks for the surface") == std::string::npos;
+}
+
 /// The program in the other language, run in the same world.
 inline Twin runConverted(const Twin& twin, const PlantedPart& part, const conversion::TouchProbe& probe = {}) {
   session::Conversion conversion = converted(twin.text, twin.language, part.bench.control, probe);
   Twin other = run(conversion.text, otherLanguage(twin.language), part);
   other.lost = std::move(conversion.mistakes);
-  for (Diagnostic& each : conversion.notCarriedOver) {
-    // How far the surfaces of these worlds are off is known: both probes look far enough for them.
-    const bool ofReach = each.message.find("looks for the surface") != std::string::npos;
-    if (each.severity != Severity::Note && !ofReach) other.lost.push_back(std::move(each));
-  }
+  for (Diagnostic& each : conversion.notCarriedOver)
+    if (isLoss(each)) other.lost.push_back(std::move(each));
   return other;
 }
 
