@@ -9,6 +9,10 @@ using namespace language;
 
 namespace {
 
+bool isOneOf(const std::vector<std::size_t>& places, std::size_t place) {
+  return std::ranges::find(places, place) != places.end();
+}
+
 /// Adds what the instructions of a block do to its flow.
 class Reader {
 public:
@@ -163,6 +167,8 @@ bool FlowGraph::subprogramsAreStretches() const {
     for (const std::size_t first : blocks_[i].called) {
       const auto last = endOf(first);
       if (!last || !isClosed(first, *last)) return false;
+      // A section that repeats itself is no subprogram that calls itself.
+      if (isOneOf(reachedFrom(first), i)) return false;
     }
     for (const std::size_t first : blocks_[i].parts)
       if (first > i || !isClosed(first, i)) return false;

@@ -272,6 +272,7 @@ private:
     const auto axis = static_cast<std::size_t>(task_.axis), along = static_cast<std::size_t>(task_.along);
     Place first = task_.place, second = task_.further.at(0);
     double distance = known(second[along] - first[along], "the distance of the two points is");
+    if (distance == 0) throw NotCarriedOver("the two points lie at the same place along the edge");
     if (distance < 0) {
       std::swap(first, second);
       distance = -distance;

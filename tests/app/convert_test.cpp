@@ -137,6 +137,14 @@ TEST(Convert, LeavesFilesAlone) {
       EXPECT_EQ(probewright(words).exit, 2) << out;
     }
   }
+  // The same file by another way to it.
+  std::filesystem::create_directory(folder / "sub");
+  std::filesystem::create_directory_symlink(".", folder / "again");
+  for (const char* way : {"./part.h", "sub/../part.h", "again/part.h", "sub/../again/./part.h"})
+    EXPECT_EQ(probewright({"convert", program, (folder / way).string(), "--force"}).exit, 2) << way;
+  EXPECT_EQ(probewright({"convert", (folder / "link.i").string(), program, "--force"}).exit, 2);
+  EXPECT_EQ(probewright({"convert", program, (folder / "sub").string(), "--force"}).exit, 2);
+  EXPECT_EQ(probewright({"convert", program, (folder / "nowhere/out.mpf").string()}).exit, 2);
   EXPECT_EQ(textOf(program), text);
   const std::string out = folder.file("old.mpf", "KEEP\n");
   const Answer refused = probewright({"convert", program, out});
@@ -145,6 +153,28 @@ TEST(Convert, LeavesFilesAlone) {
   EXPECT_EQ(textOf(out), "KEEP\n");
   EXPECT_EQ(probewright({"convert", program, out, "--force"}).exit, 0);
   EXPECT_THAT(textOf(out), HasSubstr("G0 Z100"));
+}
+
+/// DIST of the touch probe table decides whether the touches reach as far as those of the original program.
+TEST(Convert, TakesTheTouchProbeTableAsItIsTold) {
+  const Folder folder;
+  const std::string program =
+      folder.file("part.mpf", "G17 G90 G54\nT1 M6 D1\nG0 Z20\nCYCLE978(0,,,1,0,8,9,3,2,1)\nM30\n");
+  const auto convert = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"convert", program, (folder / "out.h").string(), "--force"};
+    words.insert(words.end(), more.begin(), more.end());
+    return probewright(words);
+  };
+  const Answer doubtful = convert({});
+  EXPECT_EQ(doubtful.exit, 1);
+  EXPECT_THAT(doubtful.errors, HasSubstr("part.mpf:4:1: warning: this cycle looks for the surface along 16 mm"));
+  EXPECT_EQ(convert({"--dist", "15.9"}).exit, 1);
+  EXPECT_EQ(convert({"--dist", "16"}).exit, 0);
+  EXPECT_THAT(textOf(folder / "out.h"), HasSubstr("Q320=+6 "));
+  EXPECT_EQ(convert({"--dist", "16", "--set-up", "3"}).exit, 0);
+  EXPECT_THAT(textOf(folder / "out.h"), HasSubstr("Q320=+5 "));
+  EXPECT_EQ(convert({"--dist", "0"}).exit, 2);
+  EXPECT_EQ(convert({"--set-up", "wide"}).exit, 2);
 }
 
 /// Parameters that programs share are shared by the programs that are written.
