@@ -13,6 +13,7 @@
 #include "console.hpp"
 #include "cycles/catalogue.hpp"
 #include "cycles/sinumerik/cycle_116.hpp"
+#include "records/results.hpp"
 #include "terminal.hpp"
 
 namespace probewright::app {
@@ -108,8 +109,8 @@ void show(const CycleDefinition& cycle) {
   if (cycle.results.empty()) return;
   say("\nResults\n");
   for (const auto& result : cycle.results) {
-    const std::string_view unit = cycles::unitOf(result.kind);
-    say("  {:<{}} {}{}{}\n", result.name, width, result.meaning, unit.empty() ? "" : fmt::format(", {}", unit),
+    const std::string_view unit = cycles::unitOf(result.valueKind());
+    say("  {:<{}} {}{}{}\n", result.name, width, result.meaning.whole(), unit.empty() ? "" : fmt::format(", {}", unit),
         variantsText(result));
   }
 }
@@ -180,7 +181,12 @@ nlohmann::ordered_json toJson(const CycleDefinition& cycle) {
   }
   for (const auto& result : cycle.results) {
     nlohmann::ordered_json entry = {
-        {"name", result.name}, {"meaning", result.meaning}, {"unit", cycles::unitOf(result.kind)}};
+        {"name", result.name},
+        {"meaning", result.meaning.whole()},
+        {"unit", cycles::unitOf(result.valueKind())},
+        {"role", control::nameOf(result.kind.role)},
+        {"characteristic", records::characteristicJson(result.kind.of, std::string(result.meaning.label))},
+        {"main", result.kind.rank == control::Rank::Main}};
     for (int units = 0; result.variants != 0 && units < 10; ++units)
       if (result.belongsTo(units)) entry["variants"].push_back(units);
     object["results"].push_back(std::move(entry));

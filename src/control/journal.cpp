@@ -23,7 +23,8 @@ constexpr std::uint64_t touchBytes = 3 * sizeof(TouchRecord);
 std::uint64_t bytesOfResults(const CycleRecord& record) {
   std::uint64_t bytes = 0;
   for (const ResultRecord& result : record.results)
-    bytes += sizeof result + bytesOf(result.name) + bytesOf(result.meaning) + bytesOf(result.unit);
+    bytes +=
+        sizeof result + bytesOf(result.name) + bytesOf(result.meaning) + bytesOf(result.unit) + bytesOf(result.label);
   for (const auto* texts : {&record.logFiles, &record.screens}) {
     for (const std::string& text : *texts)
       bytes += sizeof text + bytesOf(text);

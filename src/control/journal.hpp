@@ -8,6 +8,7 @@
 
 #include "base/diagnostic.hpp"
 #include "control/event_list.hpp"
+#include "control/result_kind.hpp"
 #include "geometry/primitives.hpp"
 #include "machine/description.hpp"
 #include "metrology/verdict.hpp"
@@ -34,7 +35,9 @@ struct ResultRecord {
   std::string name;     ///< "Q151", "_OVR[4]"
   std::string meaning;  ///< "actual value, centre in main axis"
   double value = 0;
-  std::string unit;  ///< "mm", "deg", ""
+  std::string unit;   ///< "mm", "deg", ""
+  std::string label;  ///< of the characteristic alone: "centre in main axis"; may be empty
+  ResultKind kind;
   std::optional<double> nominal, deviation, lowerLimit, upperLimit;
   std::optional<double> uncertainty;  ///< expanded, k = 2
   Verdict verdict = Verdict::None;

@@ -69,6 +69,33 @@ std::string_view nameOf(CycleFamily family) {
   return "";
 }
 
+ValueKind ResultDefinition::valueKind() const {
+  using control::Quantity;
+  switch (kind.of.quantity) {
+    case Quantity::None:
+      return ValueKind::Integer;
+    case Quantity::Angle:
+    case Quantity::Projection:
+      return ValueKind::Angle;
+    case Quantity::Name:
+      return ValueKind::Text;
+    default:
+      return ValueKind::Length;
+  }
+}
+
+void describe(control::ResultRecord& record, const ResultDefinition& definition) {
+  record.meaning = definition.meaning.whole();
+  record.label = definition.meaning.label;
+  record.kind = definition.kind;
+}
+
+const ResultDefinition* CycleDefinition::result(std::string_view resultName, int units) const {
+  const auto found = std::ranges::find_if(
+      results, [&](const ResultDefinition& each) { return each.name == resultName && each.belongsTo(units); });
+  return found == results.end() ? nullptr : &*found;
+}
+
 const Parameter* CycleDefinition::parameter(std::uint32_t address) const {
   const auto found = std::ranges::find(parameters, address, &Parameter::address);
   return found == parameters.end() ? nullptr : &*found;

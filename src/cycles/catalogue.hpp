@@ -8,6 +8,8 @@
 
 #include "base/diagnostic.hpp"
 #include "control/control_kind.hpp"
+#include "control/journal.hpp"
+#include "cycles/result_kinds.hpp"
 
 /// The catalogue: what each cycle is called, takes and leaves, as data. One table drives the parsers, the checks, the
 /// help and the documentation. Each cycle's entry is in the cycle's own file, above the code that runs it.
@@ -61,16 +63,31 @@ struct Parameter {
   bool required() const { return !standard && kind != ValueKind::Text; }
 };
 
+/// The English text of a result: its role and the label of its characteristic, "actual value: " and "diameter of the
+/// hole".
+struct ResultText {
+  std::string_view role;  ///< may be empty
+  std::string_view label;
+  constexpr ResultText(const char* text) : label(text) {}  // NOLINT(google-explicit-constructor): tables
+  constexpr ResultText(std::string_view roleText, std::string_view labelText) : role(roleText), label(labelText) {}
+  std::string whole() const { return std::string(role).append(label); }
+};
+
 /// A value that the cycle leaves behind.
 struct ResultDefinition {
   std::string_view name;  ///< "Q151", "_OVR[4]"
-  std::string_view meaning;
-  ValueKind kind = ValueKind::Length;
+  ResultText meaning = "";
+  control::ResultKind kind = {};
   /// SINUMERIK: bit n stands for the measuring variants with n in the units of S_MVAR, which alone leave this; 0: all.
   /// An index that means one thing here and another there has a line for each.
   std::uint16_t variants = 0;
   bool belongsTo(int units) const { return variants == 0 || (units >= 0 && (variants >> units & 1) != 0); }
+  /// What its quantity is counted in.
+  ValueKind valueKind() const;
 };
+
+/// Gives a value of a cycle the text and the kind of its definition.
+void describe(control::ResultRecord& record, const ResultDefinition& definition);
 
 enum class CycleFamily : std::uint8_t { Misalignment, Preset, Inspection, Special, Calibration, Kinematics, Tool };
 std::string_view nameOf(CycleFamily family);
@@ -86,6 +103,9 @@ struct CycleDefinition {
   ControlSet controls = control::onBothTNC;
 
   const Parameter* parameter(std::uint32_t address) const;
+  /// The result of that name, where several share it that of the measuring variant with `units` in S_MVAR; null if the
+  /// cycle has none.
+  const ResultDefinition* result(std::string_view resultName, int units = -1) const;
 };
 
 /// All cycles of the control, in the order of their numbers.

@@ -51,8 +51,11 @@ json result(const control::ResultRecord& record, bool isMain, const ReadableText
                  {"meaning", text(record.meaning)},
                  {"value", number(record.value)},
                  {"unit", text(record.unit)},
+                 {"role", control::nameOf(record.kind.role)},
                  {"main", isMain},
                  {"verdict", verdictName(record.verdict)}};
+  if (json characteristic = characteristicJson(record.kind.of, text(record.label)); !characteristic.is_null())
+    object["characteristic"] = std::move(characteristic);
   const auto optional = [&](const char* key, const std::optional<double>& value) {
     if (value) object[key] = number(*value);
   };
@@ -137,6 +140,16 @@ json header(const RunInfo& run, const ReadableText& text) {
 }
 
 }  // namespace
+
+json characteristicJson(const control::Characteristic& characteristic, const std::string& label) {
+  if (characteristic.quantity == control::Quantity::None) return nullptr;
+  json object = {{"quantity", control::nameOf(characteristic.quantity)}};
+  if (characteristic.along != control::Along::None) object["along"] = control::nameOf(characteristic.along);
+  if (characteristic.item != 0) object["item"] = characteristic.item;
+  if (characteristic.system != control::System::Workpiece) object["system"] = control::nameOf(characteristic.system);
+  if (!label.empty()) object["label"] = label;
+  return object;
+}
 
 std::string_view eventName(control::EventKind kind) {
   switch (kind) {

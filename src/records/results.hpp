@@ -18,6 +18,10 @@ inline constexpr int resultsSchemaVersion = 1;
 /// that is not a number (NaN, infinity) becomes null; texts become UTF-8 (see ReadableText).
 nlohmann::json resultsJson(const control::Journal& journal, const RunInfo& run);
 
+/// What is measured, as an object: `quantity`, and where they say something `along`, `item`, `system` and `label`. Null
+/// if nothing is.
+nlohmann::json characteristicJson(const control::Characteristic& characteristic, const std::string& label);
+
 /// How JSON is laid out.
 enum class Layout { Indented, Compact };
 

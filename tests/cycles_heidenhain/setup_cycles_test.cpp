@@ -159,7 +159,7 @@ TEST(InchPrograms, SetTheSamePresets) {
       EXPECT_GT((metric.preset().matrix() - pose(origin).matrix()).norm(), 1e-3) << "something was found";
       for (const auto& result : definition.results) {
         const int number = std::stoi(std::string(result.name.substr(1)));
-        const double unit = result.kind == ValueKind::Length ? inch : 1;
+        const double unit = result.valueKind() == ValueKind::Length ? inch : 1;
         EXPECT_NEAR(imperial.q(number) * unit, metric.q(number), exact) << result.name;
       }
     }

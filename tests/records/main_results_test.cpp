@@ -83,7 +83,7 @@ TEST(MainResults, AreNamedForEveryCycleThatLeavesAny) {
       for (const ResultDefinition& result : cycle->results) {
         // "Qn" stands for whatever parameter the program chooses.
         const std::string name = result.name.starts_with("Qn") ? "Q100" : std::string(result.name);
-        record.results.push_back(sample::plain(name, std::string(result.meaning), 1));
+        record.results.push_back(sample::plain(name, result.meaning.whole(), 1));
       }
       const std::vector<bool> isMain = mainResults(record);
       int found = 0;

@@ -24,9 +24,9 @@ inline constexpr std::array circlePreset =
            joined(centreTransfer, std::array{pointCount, traverse}));
 
 inline constexpr std::array circlePresetResults = {
-    ResultDefinition{"Q151", "actual centre, main axis"},
-    ResultDefinition{"Q152", "actual centre, minor axis"},
-    ResultDefinition{"Q153", "actual diameter"},
+    ResultDefinition{"Q151", {"actual ", "centre, main axis"}, result::actual(of::centre1).main()},
+    ResultDefinition{"Q152", {"actual ", "centre, minor axis"}, result::actual(of::centre2).main()},
+    ResultDefinition{"Q153", {"actual ", "diameter"}, result::actual(of::diameter).main()},
 };
 
 /// The limits of the diameter have numbers of their own for holes and for studs.
@@ -47,15 +47,15 @@ constexpr auto circleInspection(const Parameter& largestDiameter, const Paramete
 }
 
 inline constexpr std::array circleInspectionResults = {
-    ResultDefinition{"Q151", "actual centre, main axis"},
-    ResultDefinition{"Q152", "actual centre, minor axis"},
-    ResultDefinition{"Q153", "actual diameter"},
-    ResultDefinition{"Q161", "deviation of the centre, main axis"},
-    ResultDefinition{"Q162", "deviation of the centre, minor axis"},
-    ResultDefinition{"Q163", "deviation of the diameter"},
-    ResultDefinition{"Q180", "1: within tolerance", ValueKind::Integer},
-    ResultDefinition{"Q181", "1: rework", ValueKind::Integer},
-    ResultDefinition{"Q182", "1: scrap", ValueKind::Integer},
+    ResultDefinition{"Q151", {"actual ", "centre, main axis"}, result::actual(of::centre1).main()},
+    ResultDefinition{"Q152", {"actual ", "centre, minor axis"}, result::actual(of::centre2).main()},
+    ResultDefinition{"Q153", {"actual ", "diameter"}, result::actual(of::diameter).main()},
+    ResultDefinition{"Q161", {"deviation of the ", "centre, main axis"}, result::difference(of::centre1)},
+    ResultDefinition{"Q162", {"deviation of the ", "centre, minor axis"}, result::difference(of::centre2)},
+    ResultDefinition{"Q163", {"deviation of the ", "diameter"}, result::difference(of::diameter)},
+    ResultDefinition{"Q180", "1: within tolerance", result::status},
+    ResultDefinition{"Q181", "1: rework", result::status},
+    ResultDefinition{"Q182", "1: scrap", result::status},
 };
 
 }  // namespace parameters

@@ -25,16 +25,6 @@ std::string textOf(const Argument& argument) {
   return argument.isText ? argument.text : formatShortest(argument.number);
 }
 
-std::string_view meaningOf(const CycleDefinition& definition, std::string_view result) {
-  const auto found = std::ranges::find(definition.results, result, &ResultDefinition::name);
-  return found == definition.results.end() ? std::string_view() : found->meaning;
-}
-
-ValueKind kindOf(const CycleDefinition& definition, std::string_view result) {
-  const auto found = std::ranges::find(definition.results, result, &ResultDefinition::name);
-  return found == definition.results.end() ? ValueKind::Number : found->kind;
-}
-
 /// Refuses parameters that the iTNC 530 got with a later software.
 void requireSoftware(const Arguments& arguments, int version) {
   const CycleDefinition& definition = arguments.definition();
@@ -173,14 +163,13 @@ Eigen::Affine3d Context::machineFromProgram() {
 }
 
 void Context::result(int number, double value, const Compared& compared) {
-  const CycleDefinition& definition = arguments_.definition();
-  const std::string name = fmt::format("Q{}", number);
   value += 0.0;  // no -0
-  const ValueKind kind = kindOf(definition, name);
-  control_.q.setQ(number, kind == ValueKind::Length ? value / control_.mainUnit : value);
   control::ResultRecord record;
-  record.name = name;
-  record.meaning = meaningOf(definition, name);
+  record.name = fmt::format("Q{}", number);
+  const ResultDefinition* definition = arguments_.definition().result(record.name);
+  const ValueKind kind = definition == nullptr ? ValueKind::Number : definition->valueKind();
+  control_.q.setQ(number, kind == ValueKind::Length ? value / control_.mainUnit : value);
+  if (definition != nullptr) describe(record, *definition);
   record.value = value;
   record.unit = unitOf(kind);
   record.nominal = compared.nominal;

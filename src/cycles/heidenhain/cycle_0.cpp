@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <array>
+
 #include "cycles/heidenhain/cycles.hpp"
 #include "cycles/heidenhain/old_form_parameters.hpp"
 #include "cycles/heidenhain/single_touch.hpp"
@@ -50,6 +52,9 @@ void cycle0(Context& context, const Arguments& arguments) {
   control::ResultRecord result;
   result.name = fmt::format("Q{}", number);
   result.meaning = fmt::format("measured coordinate, {}", "XYZ"[axis]);
+  result.label = fmt::format("coordinate, {}", "XYZ"[axis]);
+  constexpr std::array along = {of::positionX, of::positionY, of::positionZ};
+  result.kind = result::actual(along[static_cast<std::size_t>(axis)]).main();
   result.value = coordinate + 0.0;  // no -0
   result.unit = "mm";
   context.record().results.push_back(std::move(result));

@@ -21,10 +21,10 @@ constexpr std::array parameters3 = joined(
     std::array{standard(option(probe_word::errorMode, "ERRORMODE", "deflected stylus", errorChoices), 0)});
 
 constexpr ResultDefinition results3[] = {
-    {"Qn", "ball centre, X"},
-    {"Qn+1", "ball centre, Y"},
-    {"Qn+2", "ball centre, Z"},
-    {"Qn+3", "1: touched, -1: not, 2: already deflected (iTNC 530, error mode 1)", ValueKind::Integer}};
+    {"Qn", "ball centre, X", result::actual(of::centreX)},
+    {"Qn+1", "ball centre, Y", result::actual(of::centreY)},
+    {"Qn+2", "ball centre, Z", result::actual(of::centreZ)},
+    {"Qn+3", "1: touched, -1: not, 2: already deflected (iTNC 530, error mode 1)", result::status}};
 
 }  // namespace
 

@@ -15,10 +15,10 @@ constexpr std::array parameters4 = joined(
                standard(coordinate(probe_word::coordinate + 2, "IZ", "probing direction, Z component"), 0)},
     strokeOfBlock);
 
-constexpr ResultDefinition results4[] = {{"Qn", "ball centre, X"},
-                                         {"Qn+1", "ball centre, Y"},
-                                         {"Qn+2", "ball centre, Z"},
-                                         {"Qn+3", "1: touched, -1: not", ValueKind::Integer}};
+constexpr ResultDefinition results4[] = {{"Qn", "ball centre, X", result::actual(of::centreX)},
+                                         {"Qn+1", "ball centre, Y", result::actual(of::centreY)},
+                                         {"Qn+2", "ball centre, Z", result::actual(of::centreZ)},
+                                         {"Qn+3", "1: touched, -1: not", result::status}};
 
 }  // namespace
 

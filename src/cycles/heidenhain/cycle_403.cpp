@@ -38,7 +38,7 @@ constexpr Parameter parameters403[] = {
     standard(angle(380, "Q380", "angle that the edge is aligned to", 0, 360), 0),
 };
 
-constexpr ResultDefinition results403[] = {{"Q150", "measured angle", ValueKind::Angle}};
+constexpr ResultDefinition results403[] = {{"Q150", {"measured ", "angle"}, result::actual(of::angle).main()}};
 
 /// The axis of machine coordinates that the compensating axis turns about: 0, 1, 2 for A, B, C.
 int compensationAxis(Context& context) {

@@ -34,7 +34,7 @@ constexpr Parameter parameters405[] = {
 };
 
 constexpr ResultDefinition results405[] = {
-    {"Q150", "measured angular offset", ValueKind::Angle},
+    {"Q150", {"measured ", "angular offset"}, result::actual(of::angle).main()},
 };
 
 }  // namespace

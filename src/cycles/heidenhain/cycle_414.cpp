@@ -23,8 +23,8 @@ constexpr std::array parameters414 =
            joined(std::array{basicRotation}, centreTransfer));
 
 constexpr ResultDefinition results414[] = {
-    {"Q151", "actual corner, main axis"},
-    {"Q152", "actual corner, minor axis"},
+    {"Q151", {"actual ", "corner, main axis"}, result::actual(of::corner1).main()},
+    {"Q152", {"actual ", "corner, minor axis"}, result::actual(of::corner2).main()},
 };
 
 }  // namespace

@@ -24,8 +24,8 @@ constexpr std::array parameters415 =
            joined(std::array{basicRotation}, centreTransfer));
 
 constexpr ResultDefinition results415[] = {
-    {"Q151", "actual corner, main axis"},
-    {"Q152", "actual corner, minor axis"},
+    {"Q151", {"actual ", "corner, main axis"}, result::actual(of::corner1).main()},
+    {"Q152", {"actual ", "corner, minor axis"}, result::actual(of::corner2).main()},
 };
 
 }  // namespace

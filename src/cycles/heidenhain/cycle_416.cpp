@@ -13,9 +13,9 @@ constexpr std::array parameters416 =
     joined(joined(boltCircleParameters, centreTransfer), std::array{later(standard(setUpClearance, 0), 5)});
 
 constexpr ResultDefinition results416[] = {
-    {"Q151", "actual centre, main axis"},
-    {"Q152", "actual centre, minor axis"},
-    {"Q153", "actual diameter of the bolt hole circle"},
+    {"Q151", {"actual ", "centre, main axis"}, result::actual(of::centre1).main()},
+    {"Q152", {"actual ", "centre, minor axis"}, result::actual(of::centre2).main()},
+    {"Q153", {"actual ", "diameter of the bolt hole circle"}, result::actual(of::diameter).main()},
 };
 
 }  // namespace

@@ -19,7 +19,8 @@ constexpr Parameter parameters417[] = {
     standard(transfer, -1),
 };
 
-constexpr ResultDefinition results417[] = {{"Q160", "actual coordinate of the touched point"}};
+constexpr ResultDefinition results417[] = {
+    {"Q160", {"actual ", "coordinate of the touched point"}, result::actual(of::coordinate).main()}};
 
 }  // namespace
 

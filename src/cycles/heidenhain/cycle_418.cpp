@@ -28,8 +28,8 @@ constexpr std::array parameters418 = joined(
     centreTransfer);
 
 constexpr ResultDefinition results418[] = {
-    {"Q151", "actual intersection, main axis"},
-    {"Q152", "actual intersection, minor axis"},
+    {"Q151", {"actual ", "intersection, main axis"}, result::actual(of::corner1).main()},
+    {"Q152", {"actual ", "intersection, minor axis"}, result::actual(of::corner2).main()},
 };
 
 }  // namespace

@@ -26,7 +26,7 @@ constexpr Parameter parameters420[] = {
 };
 
 constexpr ResultDefinition results420[] = {
-    {"Q150", "measured angle", ValueKind::Angle},
+    {"Q150", {"measured ", "angle"}, result::actual(of::angle).main()},
 };
 
 }  // namespace

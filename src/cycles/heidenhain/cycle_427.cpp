@@ -26,10 +26,10 @@ constexpr Parameter parameters427[] = {
 };
 
 constexpr ResultDefinition results427[] = {
-    {"Q160", "measured coordinate"},
-    {"Q180", "1: within tolerance", ValueKind::Integer},
-    {"Q181", "1: rework", ValueKind::Integer},
-    {"Q182", "1: scrap", ValueKind::Integer},
+    {"Q160", {"measured ", "coordinate"}, result::actual(of::coordinate).main()},
+    {"Q180", "1: within tolerance", result::status},
+    {"Q181", "1: rework", result::status},
+    {"Q182", "1: scrap", result::status},
 };
 
 }  // namespace

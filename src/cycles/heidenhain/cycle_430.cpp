@@ -21,15 +21,15 @@ constexpr std::array parameters430 =
                                  });
 
 constexpr ResultDefinition results430[] = {
-    {"Q151", "actual centre, main axis"},
-    {"Q152", "actual centre, minor axis"},
-    {"Q153", "actual diameter of the bolt hole circle"},
-    {"Q161", "deviation of the centre, main axis"},
-    {"Q162", "deviation of the centre, minor axis"},
-    {"Q163", "deviation of the diameter"},
-    {"Q180", "1: within tolerance", ValueKind::Integer},
-    {"Q181", "1: rework", ValueKind::Integer},
-    {"Q182", "1: scrap", ValueKind::Integer},
+    {"Q151", {"actual ", "centre, main axis"}, result::actual(of::centre1).main()},
+    {"Q152", {"actual ", "centre, minor axis"}, result::actual(of::centre2).main()},
+    {"Q153", {"actual ", "diameter of the bolt hole circle"}, result::actual(of::diameter).main()},
+    {"Q161", {"deviation of the ", "centre, main axis"}, result::difference(of::centre1)},
+    {"Q162", {"deviation of the ", "centre, minor axis"}, result::difference(of::centre2)},
+    {"Q163", {"deviation of the ", "diameter"}, result::difference(of::diameter)},
+    {"Q180", "1: within tolerance", result::status},
+    {"Q181", "1: rework", result::status},
+    {"Q182", "1: scrap", result::status},
 };
 
 }  // namespace

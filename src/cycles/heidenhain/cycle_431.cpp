@@ -27,14 +27,14 @@ constexpr Parameter parameters431[] = {
 };
 
 constexpr ResultDefinition results431[] = {
-    {"Q158", "projection angle of the A axis", ValueKind::Angle},
-    {"Q159", "projection angle of the B axis", ValueKind::Angle},
-    {"Q170", "space angle A", ValueKind::Angle},
-    {"Q171", "space angle B", ValueKind::Angle},
-    {"Q172", "space angle C", ValueKind::Angle},
-    {"Q173", "first touch in the touch probe axis"},
-    {"Q174", "second touch in the touch probe axis (TNC 640)"},
-    {"Q175", "third touch in the touch probe axis (TNC 640)"},
+    {"Q158", "projection angle of the A axis", result::actual(of::projectionA).main()},
+    {"Q159", "projection angle of the B axis", result::actual(of::projectionB).main()},
+    {"Q170", "space angle A", result::actual(of::angleX).main()},
+    {"Q171", "space angle B", result::actual(of::angleY).main()},
+    {"Q172", "space angle C", result::actual(of::angleZ).main()},
+    {"Q173", "first touch in the touch probe axis", result::touched(of::position3.number(1))},
+    {"Q174", "second touch in the touch probe axis (TNC 640)", result::touched(of::position3.number(2))},
+    {"Q175", "third touch in the touch probe axis (TNC 640)", result::touched(of::position3.number(3))},
 };
 
 }  // namespace

@@ -33,9 +33,9 @@ constexpr Parameter parameters440[] = {
 };
 
 constexpr ResultDefinition results440[] = {
-    {"Q185", "deviation from the calibrated value in X"},
-    {"Q186", "deviation from the calibrated value in Y"},
-    {"Q187", "deviation from the calibrated value in Z"},
+    {"Q185", "deviation from the calibrated value in X", result::difference(of::positionX).main()},
+    {"Q186", "deviation from the calibrated value in Y", result::difference(of::positionY).main()},
+    {"Q187", "deviation from the calibrated value in Z", result::difference(of::positionZ).main()},
 };
 
 constexpr const char* axisNames[] = {"X", "Y", "Z"};

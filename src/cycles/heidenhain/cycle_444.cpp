@@ -39,14 +39,15 @@ constexpr Parameter parameters444[] = {
 };
 
 constexpr ResultDefinition results444[] = {
-    {"Q151", "measured position, main axis"},
-    {"Q152", "measured position, minor axis"},
-    {"Q153", "measured position, tool axis"},
-    {"Q161", "deviation, main axis"},
-    {"Q162", "deviation, minor axis"},
-    {"Q163", "deviation, tool axis"},
-    {"Q164", "deviation along the normal: negative undersize, positive oversize"},
-    {"Q183", "workpiece: -1 not monitored, 0 good, 1 rework, 2 scrap", ValueKind::Integer},
+    {"Q151", {"measured ", "position, main axis"}, result::actual(of::position1).main()},
+    {"Q152", {"measured ", "position, minor axis"}, result::actual(of::position2).main()},
+    {"Q153", {"measured ", "position, tool axis"}, result::actual(of::position3).main()},
+    {"Q161", {"deviation, ", "main axis"}, result::difference(of::position1)},
+    {"Q162", {"deviation, ", "minor axis"}, result::difference(of::position2)},
+    {"Q163", {"deviation, ", "tool axis"}, result::difference(of::position3)},
+    {"Q164", "deviation along the normal: negative undersize, positive oversize",
+     result::difference(of::alongNormal).main()},
+    {"Q183", "workpiece: -1 not monitored, 0 good, 1 rework, 2 scrap", result::status},
 };
 
 /// "0.4-0.1", "0.4", "-0.1"; nothing where the text monitors nothing. Throws Alarm for texts that are none.

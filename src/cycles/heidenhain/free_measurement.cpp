@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/probe_words.hpp"
@@ -100,18 +101,23 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
     channel.retractTo(now - direction * back, machine::Feed::rapidTraverse());
   }
   if (measurement.resultInMachine) ball = machineFromProgram * ball;
+  constexpr std::array along = {of::centreX, of::centreY, of::centreZ};
   for (int i = 0; i < 3; ++i) {
     control.q.setQ(first + i, ball[i] / control.mainUnit);
     control::ResultRecord value;
     value.name = fmt::format("Q{}", first + i);
-    value.meaning = fmt::format("ball centre, {}", "XYZ"[i]);
+    value.meaning = value.label = fmt::format("ball centre, {}", "XYZ"[i]);
+    value.kind = result::actual(along[static_cast<std::size_t>(i)]).main();
     value.value = ball[i] + 0.0;  // no -0
     value.unit = "mm";
     context.record().results.push_back(std::move(value));
   }
   control.q.setQ(first + 3, status);
-  context.record().results.push_back(
-      {fmt::format("Q{}", first + 3), "1: touched, -1: not", status, "", {}, {}, {}, {}, {}, {}});
+  control::ResultRecord told;
+  told.name = fmt::format("Q{}", first + 3);
+  told.meaning = "1: touched, -1: not";
+  told.value = status;
+  context.record().results.push_back(std::move(told));
 }
 
 }  // namespace probewright::cycles::heidenhain

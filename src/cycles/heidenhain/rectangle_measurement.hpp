@@ -20,10 +20,10 @@ inline constexpr std::array rectanglePreset =
            centreTransfer);
 
 inline constexpr std::array rectanglePresetResults = {
-    ResultDefinition{"Q151", "actual centre, main axis"},
-    ResultDefinition{"Q152", "actual centre, minor axis"},
-    ResultDefinition{"Q154", "actual length along the main axis"},
-    ResultDefinition{"Q155", "actual length along the minor axis"},
+    ResultDefinition{"Q151", {"actual ", "centre, main axis"}, result::actual(of::centre1).main()},
+    ResultDefinition{"Q152", {"actual ", "centre, minor axis"}, result::actual(of::centre2).main()},
+    ResultDefinition{"Q154", {"actual ", "length along the main axis"}, result::actual(of::length1).main()},
+    ResultDefinition{"Q155", {"actual ", "length along the minor axis"}, result::actual(of::length2).main()},
 };
 
 constexpr auto rectangleInspectionWith(const Parameter& tool) {
@@ -50,17 +50,17 @@ constexpr auto rectangleInspectionWith(const Parameter& tool) {
 }
 
 inline constexpr std::array rectangleInspectionResults = {
-    ResultDefinition{"Q151", "actual centre, main axis"},
-    ResultDefinition{"Q152", "actual centre, minor axis"},
-    ResultDefinition{"Q154", "actual length along the main axis"},
-    ResultDefinition{"Q155", "actual length along the minor axis"},
-    ResultDefinition{"Q161", "deviation of the centre, main axis"},
-    ResultDefinition{"Q162", "deviation of the centre, minor axis"},
-    ResultDefinition{"Q164", "deviation of the length along the main axis"},
-    ResultDefinition{"Q165", "deviation of the length along the minor axis"},
-    ResultDefinition{"Q180", "1: within tolerance", ValueKind::Integer},
-    ResultDefinition{"Q181", "1: rework", ValueKind::Integer},
-    ResultDefinition{"Q182", "1: scrap", ValueKind::Integer},
+    ResultDefinition{"Q151", {"actual ", "centre, main axis"}, result::actual(of::centre1).main()},
+    ResultDefinition{"Q152", {"actual ", "centre, minor axis"}, result::actual(of::centre2).main()},
+    ResultDefinition{"Q154", {"actual ", "length along the main axis"}, result::actual(of::length1).main()},
+    ResultDefinition{"Q155", {"actual ", "length along the minor axis"}, result::actual(of::length2).main()},
+    ResultDefinition{"Q161", {"deviation of the ", "centre, main axis"}, result::difference(of::centre1)},
+    ResultDefinition{"Q162", {"deviation of the ", "centre, minor axis"}, result::difference(of::centre2)},
+    ResultDefinition{"Q164", {"deviation of the ", "length along the main axis"}, result::difference(of::length1)},
+    ResultDefinition{"Q165", {"deviation of the ", "length along the minor axis"}, result::difference(of::length2)},
+    ResultDefinition{"Q180", "1: within tolerance", result::status},
+    ResultDefinition{"Q181", "1: rework", result::status},
+    ResultDefinition{"Q182", "1: scrap", result::status},
 };
 
 /// Cycles 408 and 409; only inside a slot does the probe have a choice of heights between the walls.
@@ -76,8 +76,8 @@ inline constexpr std::array widthTransfer = joined(
     joined(std::array{standard(chosenTransfer, -1)}, toolAxisPreset));
 
 inline constexpr std::array widthResults = {
-    ResultDefinition{"Q166", "actual width"},
-    ResultDefinition{"Q157", "actual position of the centre line"},
+    ResultDefinition{"Q166", {"actual ", "width"}, result::actual(of::width).main()},
+    ResultDefinition{"Q157", {"actual ", "position of the centre line"}, result::actual(of::coordinate).main()},
 };
 
 }  // namespace parameters

@@ -11,12 +11,12 @@ void moveToProgrammedPosition(Context& context);
 
 /// Of cycle 0, which chooses its parameter by its first word; cycle 1 leaves those after the first.
 inline constexpr ResultDefinition singleTouchResults[] = {
-    {"Qn", "measured coordinate"},
-    {"Q115", "position at the touch, X"},
-    {"Q116", "position at the touch, Y"},
-    {"Q117", "position at the touch, Z"},
-    {"Q118", "position at the touch, 4th axis", ValueKind::Angle},
-    {"Q119", "position at the touch, 5th axis", ValueKind::Angle},
+    {"Qn", {"measured ", "coordinate"}, result::actual(of::coordinate).main()},
+    {"Q115", "position at the touch, X", result::touched(of::positionX).fallback()},
+    {"Q116", "position at the touch, Y", result::touched(of::positionY).fallback()},
+    {"Q117", "position at the touch, Z", result::touched(of::positionZ).fallback()},
+    {"Q118", "position at the touch, 4th axis", result::touched(of::position4)},
+    {"Q119", "position at the touch, 5th axis", result::touched(of::position5)},
 };
 
 /// Sets Q115 to Q119: the position at the touch in X, Y, Z and the first two rotary axes, in the active

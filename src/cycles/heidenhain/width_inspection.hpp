@@ -11,12 +11,12 @@ namespace probewright::cycles::heidenhain {
 namespace parameters {
 
 inline constexpr std::array widthInspectionResults = {
-    ResultDefinition{"Q156", "actual width"},
-    ResultDefinition{"Q157", "actual position of the centre line"},
-    ResultDefinition{"Q166", "deviation of the width"},
-    ResultDefinition{"Q180", "1: within tolerance", ValueKind::Integer},
-    ResultDefinition{"Q181", "1: rework", ValueKind::Integer},
-    ResultDefinition{"Q182", "1: scrap", ValueKind::Integer},
+    ResultDefinition{"Q156", {"actual ", "width"}, result::actual(of::width).main()},
+    ResultDefinition{"Q157", {"actual ", "position of the centre line"}, result::actual(of::coordinate).main()},
+    ResultDefinition{"Q166", {"deviation of the ", "width"}, result::difference(of::width)},
+    ResultDefinition{"Q180", "1: within tolerance", result::status},
+    ResultDefinition{"Q181", "1: rework", result::status},
+    ResultDefinition{"Q182", "1: scrap", result::status},
 };
 
 }  // namespace parameters

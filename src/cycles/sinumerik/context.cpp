@@ -35,13 +35,6 @@ const Parameter& required(const Arguments& arguments, std::string_view name) {
   return *parameter;
 }
 
-const ResultDefinition* resultNamed(const CycleDefinition& definition, std::string_view name, int variant) {
-  const auto found = std::ranges::find_if(definition.results, [&](const ResultDefinition& result) {
-    return result.name == name && result.belongsTo(variant);
-  });
-  return found == definition.results.end() ? nullptr : &*found;
-}
-
 /// The measurement is to be made again: bit 0 of SD 54740.
 struct RepeatMeasurement {};
 
@@ -218,13 +211,12 @@ void Context::positionSpindle(double degrees) {
 int Context::repetitions() const { return std::clamp(integer("S_NMSP"), 1, 9); }
 
 void Context::result(int index, double value, const Compared& compared) {
-  const std::string name = fmt::format("_OVR[{}]", index);
-  const ResultDefinition* definition = resultNamed(arguments_.definition(), name, digit("S_MVAR", 1));
-  const ValueKind kind = definition == nullptr ? ValueKind::Length : definition->kind;
-  control_.ovr[static_cast<std::size_t>(index)] = scales(kind) ? value / control_.unit : value;
   control::ResultRecord record;
-  record.name = name;
-  record.meaning = definition == nullptr ? std::string_view() : definition->meaning;
+  record.name = fmt::format("_OVR[{}]", index);
+  const ResultDefinition* definition = arguments_.definition().result(record.name, digit("S_MVAR", 1));
+  const ValueKind kind = definition == nullptr ? ValueKind::Length : definition->valueKind();
+  control_.ovr[static_cast<std::size_t>(index)] = scales(kind) ? value / control_.unit : value;
+  if (definition != nullptr) describe(record, *definition);
   record.value = value;
   record.unit = unitOf(kind);
   record.nominal = compared.nominal;
@@ -237,11 +229,10 @@ void Context::result(int index, double value, const Compared& compared) {
 
 void Context::resultInteger(int index, int value) {
   control_.ovi[static_cast<std::size_t>(index)] = value;
-  const std::string name = fmt::format("_OVI[{}]", index);
-  const ResultDefinition* definition = resultNamed(arguments_.definition(), name, digit("S_MVAR", 1));
   control::ResultRecord record;
-  record.name = name;
-  record.meaning = definition == nullptr ? std::string_view() : definition->meaning;
+  record.name = fmt::format("_OVI[{}]", index);
+  const ResultDefinition* definition = arguments_.definition().result(record.name, digit("S_MVAR", 1));
+  if (definition != nullptr) describe(record, *definition);
   record.value = value;
   this->record().results.push_back(std::move(record));
 }

@@ -21,11 +21,11 @@ constexpr Parameter parameters116[] = {
 };
 
 constexpr ResultDefinition results116[] = {
-    {"_CAL[9]", "centre, 1st axis"},
-    {"_CAL[10]", "centre, 2nd axis"},
-    {"_CAL[11]", "radius"},
-    {"_CAL[12]", "0: computed, 1: not", ValueKind::Integer},
-    {"_MODE", "0, or 61316: no circle, 61317: the points are not three or four", ValueKind::Integer},
+    {"_CAL[9]", "centre, 1st axis", result::actual(of::centre1).main()},
+    {"_CAL[10]", "centre, 2nd axis", result::actual(of::centre2).main()},
+    {"_CAL[11]", "radius", result::actual(of::radius).main()},
+    {"_CAL[12]", "0: computed, 1: not", result::status},
+    {"_MODE", "0, or 61316: no circle, 61317: the points are not three or four", result::status},
 };
 
 }  // namespace

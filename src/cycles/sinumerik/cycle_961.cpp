@@ -55,18 +55,18 @@ constexpr Parameter parameters961[] = {
 };
 
 constexpr ResultDefinition results961[] = {
-    {"_OVR[4]", "angle of the 1st edge to the 1st axis, workpiece coordinates", ValueKind::Angle},
-    {"_OVR[5]", "corner in the 1st axis, workpiece coordinates"},
-    {"_OVR[6]", "corner in the 2nd axis, workpiece coordinates"},
-    {"_OVR[20]", "angle of the 1st edge to the 1st axis, machine coordinates", ValueKind::Angle},
-    {"_OVR[21]", "corner in the 1st axis, machine coordinates"},
-    {"_OVR[22]", "corner in the 2nd axis, machine coordinates"},
-    {"_OVI[0]", "number of the zero offset", ValueKind::Integer},
-    {"_OVI[2]", "number of the cycle", ValueKind::Integer},
-    {"_OVI[3]", "measuring variant", ValueKind::Integer},
-    {"_OVI[5]", "data set of the probe", ValueKind::Integer},
-    {"_OVI[9]", "number of the alarm", ValueKind::Integer},
-    {"_OVI[11]", "1: a zero offset was corrected", ValueKind::Integer},
+    {"_OVR[4]", "angle of the 1st edge to the 1st axis, workpiece coordinates", result::actual(of::angle).main()},
+    {"_OVR[5]", "corner in the 1st axis, workpiece coordinates", result::actual(of::corner1).main()},
+    {"_OVR[6]", "corner in the 2nd axis, workpiece coordinates", result::actual(of::corner2).main()},
+    {"_OVR[20]", "angle of the 1st edge to the 1st axis, machine coordinates", result::actual(of::angle.inMachine())},
+    {"_OVR[21]", "corner in the 1st axis, machine coordinates", result::actual(of::corner1.inMachine())},
+    {"_OVR[22]", "corner in the 2nd axis, machine coordinates", result::actual(of::corner2.inMachine())},
+    {"_OVI[0]", "number of the zero offset", result::setting()},
+    {"_OVI[2]", "number of the cycle", result::status},
+    {"_OVI[3]", "measuring variant", result::setting()},
+    {"_OVI[5]", "data set of the probe", result::setting()},
+    {"_OVI[9]", "number of the alarm", result::status},
+    {"_OVI[11]", "1: a zero offset was corrected", result::status},
 };
 
 /// The least measuring path round corners of any angle, mm.

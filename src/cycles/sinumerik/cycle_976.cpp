@@ -46,10 +46,10 @@ constexpr Parameter parameters976[] = {
     parameters::alternative(13),
 };
 
-constexpr auto results976 =
-    parameters::joined(std::array<ResultDefinition, 2>{{{"_OVR[6]", "centre of ring or ball, 1st axis"},
-                                                        {"_OVR[7]", "centre of ring or ball, 2nd axis"}}},
-                       calibrationResults);
+constexpr auto results976 = parameters::joined(
+    std::array<ResultDefinition, 2>{{{"_OVR[6]", "centre of ring or ball, 1st axis", result::actual(of::centre1)},
+                                     {"_OVR[7]", "centre of ring or ball, 2nd axis", result::actual(of::centre2)}}},
+    calibrationResults);
 
 enum class Body { Surface = 0, RingAboutStart, Ring, Ball, Edge };
 

@@ -38,7 +38,8 @@ constexpr Parameter parameters978[] = {
 };
 
 constexpr auto results978 = parameters::joined(
-    parameters::joined(parameters::coordinateResults, std::array{ResultDefinition{"_OVR[21]", "mean value"}}),
+    parameters::joined(parameters::coordinateResults,
+                       std::array{ResultDefinition{"_OVR[21]", "mean value", result::statistic(of::distance)}}),
     parameters::correctionResults);
 
 }  // namespace

@@ -46,17 +46,18 @@ constexpr Parameter parameters979[] = {
     parameters::tolerance(23),
 };
 
-constexpr auto results979 =
-    parameters::joined(std::array<ResultDefinition, 9>{{{"_OVR[0]", "set value of the diameter"},
-                                                        {"_OVR[1]", "set value of the centre, 1st axis"},
-                                                        {"_OVR[2]", "set value of the centre, 2nd axis"},
-                                                        {"_OVR[4]", "actual value of the diameter"},
-                                                        {"_OVR[5]", "actual value of the centre, 1st axis"},
-                                                        {"_OVR[6]", "actual value of the centre, 2nd axis"},
-                                                        {"_OVR[16]", "difference of the diameter"},
-                                                        {"_OVR[17]", "difference of the centre, 1st axis"},
-                                                        {"_OVR[18]", "difference of the centre, 2nd axis"}}},
-                       parameters::correctionResults);
+constexpr auto results979 = parameters::joined(
+    std::array<ResultDefinition, 9>{
+        {{"_OVR[0]", {"set value of the ", "diameter"}, result::set(of::diameter)},
+         {"_OVR[1]", {"set value of the ", "centre, 1st axis"}, result::set(of::centre1)},
+         {"_OVR[2]", {"set value of the ", "centre, 2nd axis"}, result::set(of::centre2)},
+         {"_OVR[4]", {"actual value of the ", "diameter"}, result::actual(of::diameter).main()},
+         {"_OVR[5]", {"actual value of the ", "centre, 1st axis"}, result::actual(of::centre1).main()},
+         {"_OVR[6]", {"actual value of the ", "centre, 2nd axis"}, result::actual(of::centre2).main()},
+         {"_OVR[16]", {"difference of the ", "diameter"}, result::difference(of::diameter)},
+         {"_OVR[17]", {"difference of the ", "centre, 1st axis"}, result::difference(of::centre1)},
+         {"_OVR[18]", {"difference of the ", "centre, 2nd axis"}, result::difference(of::centre2)}}},
+    parameters::correctionResults);
 
 }  // namespace
 

@@ -16,6 +16,7 @@ namespace {
 
 using control::CycleRecord;
 using control::ResultRecord;
+using control::Role;
 
 constexpr std::size_t leastLabelWidth = 46, valueWidth = 12;
 
@@ -35,24 +36,24 @@ std::string parameter(const CycleRecord& record, const std::string& name) {
   return found == record.parameters.end() ? std::string() : found->value;
 }
 
-/// What a value is the set value, actual value or difference of.
-std::string quantityOf(const ResultRecord& result) {
-  std::string text = result.meaning;
-  for (const std::string_view front : {"set value", "actual value", "difference", "set", "actual"}) {
-    if (!text.starts_with(front)) continue;
-    text.erase(0, front.size());
-    break;
-  }
-  for (const std::string_view joint : {" of the ", " of a ", ": ", ", ", " "}) {
-    if (!text.starts_with(joint)) continue;
-    text.erase(0, joint.size());
-    break;
-  }
-  return text;
+/// The result in _OVR that has this role of the characteristic, or null.
+const ResultRecord* partner(const CycleRecord& record, Role role, const control::Characteristic& of) {
+  const auto found = std::find_if(record.results.rbegin(), record.results.rend(), [&](const ResultRecord& each) {
+    return each.kind.role == role && each.kind.of == of && each.name.starts_with("_OVR");
+  });
+  return found == record.results.rend() ? nullptr : &*found;
 }
 
-bool hasFront(const ResultRecord* result, std::string_view front) {
-  return result != nullptr && result->meaning.starts_with(front);
+/// A value that was measured, beside which its set value and its difference stand.
+bool isMeasured(const ResultRecord& result) {
+  return result.kind.role == Role::Actual || result.kind.role == Role::Touch;
+}
+
+/// True if the value stands in the row of the one that was measured.
+bool standsBeside(const CycleRecord& record, const ResultRecord& result) {
+  if (result.kind.role != Role::Set && result.kind.role != Role::Difference) return false;
+  return partner(record, Role::Actual, result.kind.of) != nullptr ||
+         partner(record, Role::Touch, result.kind.of) != nullptr;
 }
 
 std::string number(const std::optional<double>& value) { return value ? formatFixed(*value, 4) : std::string(); }
@@ -188,48 +189,32 @@ std::string tableEntry(const Control& control, const MeasuringLog& log, const Cy
 }  // namespace
 
 std::vector<MeasuredRow> measuredRows(const CycleRecord& record) {
-  constexpr int count = 32, tripleCount = 4, actualAt = 4, differenceAt = 16;
+  constexpr int count = 32;
   std::vector<MeasuredRow> rows;
-  std::array<bool, count> used{};
-  for (int i = 0; i < tripleCount; ++i) {
-    const ResultRecord* set = ovr(record, i);
-    const ResultRecord* actual = ovr(record, i + actualAt);
-    const ResultRecord* difference = ovr(record, i + differenceAt);
-    if (!hasFront(actual, "actual")) continue;
+  for (int i = 0; i < count; ++i) {
+    const ResultRecord* result = ovr(record, i);
+    if (result == nullptr || standsBeside(record, *result)) continue;
     MeasuredRow row;
-    row.label = quantityOf(*actual);
-    row.unit = actual->unit;
-    row.measured = actual->value;
-    used[static_cast<std::size_t>(i + actualAt)] = true;
-    if (hasFront(set, "set")) {
-      row.setpoint = set->value;
-      used[static_cast<std::size_t>(i)] = true;
+    row.unit = result->unit;
+    row.measured = result->value;
+    if (!isMeasured(*result)) {
+      row.label = result->meaning;
+      rows.push_back(std::move(row));
+      continue;
     }
-    if (hasFront(difference, "difference")) {
-      row.difference = difference->value;
-      used[static_cast<std::size_t>(i + differenceAt)] = true;
-    }
-    for (const ResultRecord* each : {actual, difference}) {
+    row.label = result->label;
+    const ResultRecord* set = partner(record, Role::Set, result->kind.of);
+    const ResultRecord* difference = partner(record, Role::Difference, result->kind.of);
+    if (set != nullptr) row.setpoint = set->value;
+    if (difference != nullptr) row.difference = difference->value;
+    for (const ResultRecord* each : {result, difference}) {
       if (each == nullptr || each->verdict == control::Verdict::None) continue;
       // Limits of a difference count from the set value.
-      const double from = each == actual ? 0 : row.setpoint.value_or(0);
+      const double from = each == result ? 0 : row.setpoint.value_or(0);
       if (each->lowerLimit) row.lower = from + *each->lowerLimit;
       if (each->upperLimit) row.upper = from + *each->upperLimit;
       row.verdict = each->verdict;
     }
-    rows.push_back(std::move(row));
-  }
-  for (int i = 0; i < count; ++i) {
-    const ResultRecord* result = ovr(record, i);
-    if (result == nullptr || used[static_cast<std::size_t>(i)]) continue;
-    if (result->meaning == "its difference" && !rows.empty()) {
-      rows.back().difference = result->value;
-      continue;
-    }
-    MeasuredRow row;
-    row.label = result->meaning;
-    row.unit = result->unit;
-    row.measured = result->value;
     rows.push_back(std::move(row));
   }
   return rows;

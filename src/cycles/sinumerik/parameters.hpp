@@ -206,46 +206,47 @@ constexpr std::array<ResultDefinition, A + B> joined(const std::array<ResultDefi
 
 /// Results of a measurement of one coordinate.
 inline constexpr std::array coordinateResults = {
-    ResultDefinition{"_OVR[0]", "set value, measuring axis"},
-    ResultDefinition{"_OVR[1]", "set value, 1st axis of the plane"},
-    ResultDefinition{"_OVR[2]", "set value, 2nd axis of the plane"},
-    ResultDefinition{"_OVR[3]", "set value, 3rd axis of the plane"},
-    ResultDefinition{"_OVR[4]", "actual value, measuring axis"},
-    ResultDefinition{"_OVR[5]", "actual value, 1st axis of the plane"},
-    ResultDefinition{"_OVR[6]", "actual value, 2nd axis of the plane"},
-    ResultDefinition{"_OVR[7]", "actual value, 3rd axis of the plane"},
-    ResultDefinition{"_OVR[16]", "difference, measuring axis"},
-    ResultDefinition{"_OVR[17]", "difference, 1st axis of the plane"},
-    ResultDefinition{"_OVR[18]", "difference, 2nd axis of the plane"},
-    ResultDefinition{"_OVR[19]", "difference, 3rd axis of the plane"},
+    ResultDefinition{"_OVR[0]", {"set value, ", "measuring axis"}, result::set(of::coordinate)},
+    ResultDefinition{"_OVR[1]", {"set value, ", "1st axis of the plane"}, result::set(of::position1)},
+    ResultDefinition{"_OVR[2]", {"set value, ", "2nd axis of the plane"}, result::set(of::position2)},
+    ResultDefinition{"_OVR[3]", {"set value, ", "3rd axis of the plane"}, result::set(of::position3)},
+    ResultDefinition{"_OVR[4]", {"actual value, ", "measuring axis"}, result::actual(of::coordinate).main()},
+    ResultDefinition{"_OVR[5]", {"actual value, ", "1st axis of the plane"}, result::actual(of::position1)},
+    ResultDefinition{"_OVR[6]", {"actual value, ", "2nd axis of the plane"}, result::actual(of::position2)},
+    ResultDefinition{"_OVR[7]", {"actual value, ", "3rd axis of the plane"}, result::actual(of::position3)},
+    ResultDefinition{"_OVR[16]", {"difference, ", "measuring axis"}, result::difference(of::coordinate)},
+    ResultDefinition{"_OVR[17]", {"difference, ", "1st axis of the plane"}, result::difference(of::position1)},
+    ResultDefinition{"_OVR[18]", {"difference, ", "2nd axis of the plane"}, result::difference(of::position2)},
+    ResultDefinition{"_OVR[19]", {"difference, ", "3rd axis of the plane"}, result::difference(of::position3)},
 };
 
 /// What cycles with tool or zero offset correction leave besides their own results.
 inline constexpr std::array<ResultDefinition, 18> correctionResultsWithoutLimits = {{
-    {"_OVR[20]", "correction value of the tool"},
-    {"_OVR[27]", "zero offset range"},
-    {"_OVR[28]", "safe area"},
-    {"_OVR[29]", "dimensional difference"},
-    {"_OVR[30]", "empirical value"},
-    {"_OVR[31]", "mean value"},
-    {"_OVI[0]", "number of the edge (D) or of the zero offset", ValueKind::Integer},
-    {"_OVI[2]", "number of the cycle", ValueKind::Integer},
-    {"_OVI[3]", "measuring variant", ValueKind::Integer},
-    {"_OVI[4]", "weighting factor", ValueKind::Integer},
-    {"_OVI[5]", "data set of the probe", ValueKind::Integer},
-    {"_OVI[6]", "number of the mean value", ValueKind::Integer},
-    {"_OVI[7]", "number of the empirical value", ValueKind::Integer},
-    {"_OVI[8]", "number of the corrected tool", ValueKind::Integer},
-    {"_OVI[9]", "number of the alarm or message", ValueKind::Integer},
-    {"_OVI[13]", "DL number", ValueKind::Integer},
-    {"_OVI[11]", "1: a zero offset was corrected", ValueKind::Integer},
-    {"_OVS_TNAME", "name of the corrected tool", ValueKind::Text},
+    {"_OVR[20]", "correction value of the tool", result::correction(of::distance)},
+    {"_OVR[27]", "zero offset range", result::setting(of::distance)},
+    {"_OVR[28]", "safe area", result::setting(of::distance)},
+    {"_OVR[29]", "dimensional difference", result::setting(of::distance)},
+    {"_OVR[30]", "empirical value", result::statistic(of::distance)},
+    {"_OVR[31]", "mean value", result::statistic(of::distance)},
+    {"_OVI[0]", "number of the edge (D) or of the zero offset", result::setting()},
+    {"_OVI[2]", "number of the cycle", result::status},
+    {"_OVI[3]", "measuring variant", result::setting()},
+    {"_OVI[4]", "weighting factor", result::setting()},
+    {"_OVI[5]", "data set of the probe", result::setting()},
+    {"_OVI[6]", "number of the mean value", result::setting()},
+    {"_OVI[7]", "number of the empirical value", result::setting()},
+    {"_OVI[8]", "number of the corrected tool", result::setting()},
+    {"_OVI[9]", "number of the alarm or message", result::status},
+    {"_OVI[13]", "DL number", result::setting()},
+    {"_OVI[11]", "1: a zero offset was corrected", result::status},
+    {"_OVS_TNAME", "name of the corrected tool", result::setting(of::name)},
 }};
 
 /// The same with the limits of a tolerance of one dimension.
-inline constexpr auto correctionResults =
-    joined(std::array<ResultDefinition, 2>{{{"_OVR[8]", "upper tolerance limit, from the middle of the tolerance"},
-                                            {"_OVR[12]", "lower tolerance limit, from the middle of the tolerance"}}},
-           correctionResultsWithoutLimits);
+inline constexpr auto correctionResults = joined(
+    std::array<ResultDefinition, 2>{
+        {{"_OVR[8]", "upper tolerance limit, from the middle of the tolerance", result::upperLimit(of::distance)},
+         {"_OVR[12]", "lower tolerance limit, from the middle of the tolerance", result::lowerLimit(of::distance)}}},
+    correctionResultsWithoutLimits);
 
 }  // namespace probewright::cycles::sinumerik::parameters

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -239,6 +240,8 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
       control::ResultRecord found;
       found.name = fmt::format("$AA_MW[{}]", static_cast<char>('X' + static_cast<char>(i)));
       found.meaning = "position at the probe signal, workpiece coordinates";
+      constexpr std::array along = {control::Along::X, control::Along::Y, control::Along::Z};
+      found.kind = {control::Role::Touch, {control::Quantity::Coordinate, along[i]}};
       found.value = measurement_.tip[static_cast<Eigen::Index>(i)];
       found.unit = "mm";
       record.results.push_back(std::move(found));
