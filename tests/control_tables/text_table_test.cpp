@@ -195,9 +195,9 @@ TEST(TextTable, SaysWhatIsWrongWithAFile) {
   EXPECT_THAT(errorOf(std::string_view("BEGIN TOOL.T MM\nT  L\n1\0 2\n", 25)),
               HasSubstr("BAD.T:3: error: this is not"));
   EXPECT_THAT(warningOf("BEGIN TOOL.T\nT  L\n[END]"), HasSubstr("names no unit"));
-  EXPECT_THAT(warningOf("BEGIN TOOL.T MM\nT  L  L\n[END]"), HasSubstr("BAD.T:2:7: warning: column L comes twice"));
+  EXPECT_THAT(warningOf("BEGIN TOOL.T MM\nT  L  L\n[END]"), HasSubstr("BAD.T:2:7: warning: column L appears twice"));
   EXPECT_THAT(warningOf("BEGIN TOOL.T MM\nT  L\n1  2\n1  3\n[END]"),
-              HasSubstr("BAD.T:4:1: warning: row 1 comes twice"));
+              HasSubstr("BAD.T:4:1: warning: row 1 appears twice"));
   EXPECT_THAT(warningOf("BEGIN TOOL.T MM\nT  L\n   3\n[END]"), HasSubstr("no entry in column T"));
   EXPECT_THAT(warningOf("BEGIN TOOL.T MM\nT    L\n1   +12.5\n[END]"),
               HasSubstr("BAD.T:3:6: warning: an entry reaches across the beginning of column L"));

@@ -90,7 +90,7 @@ TEST(ToolProbe, NeedsOneShape) {
   EXPECT_NE(mistake("").find("needs either a diameter or a size"), std::string::npos);
   EXPECT_NE(mistake("diameter = 40\nsize = [30, 30]\n").find("either a diameter or a size"), std::string::npos);
   EXPECT_NE(mistake("size = [30, 0]\n").find("at least 0.001"), std::string::npos);
-  EXPECT_NE(mistake("diameter = 8\nstem_diameter = 9\n").find("not thinner"), std::string::npos);
+  EXPECT_NE(mistake("diameter = 8\nstem_diameter = 9\n").find("must be thinner"), std::string::npos);
   EXPECT_EQ(mistake("diameter = 40\n"), "");
 }
 

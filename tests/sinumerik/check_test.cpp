@@ -93,7 +93,7 @@ TEST(SinumerikCheck, NamesAllMistakesInTheOrderOfTheProgram) {
 TEST(SinumerikCheck, AJumpInTheWrongDirectionIsAMistake) {
   const Diagnostics found = checkText("AB_1: R1=1\nGOTOF AB_1\nM30\n");
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].message, "the destination AB_1 stands only before this block");
+  EXPECT_EQ(found[0].message, "the destination AB_1 exists only before this block");
   EXPECT_EQ(found[0].advice, "Write GOTOB or GOTO.");
 }
 

@@ -206,7 +206,7 @@ TEST(SinumerikParsing, NamesEachMistakeWithPlaceAndWayOut) {
   };
   for (const Case& c : {
            Case{"N10 G999 X1", 5, "no function G999"},
-           Case{"G1 X10 X20", 8, "X stands twice"},
+           Case{"G1 X10 X20", 8, "X appears twice"},
            Case{"G0 G1 X5", 4, "two motions"},
            Case{"IF R1=5 GOTOF A_1", 6, "condition of IF ends at '='"},
            Case{"IF R1==5 R2=3", 10, "after the condition of IF"},
