@@ -171,11 +171,11 @@ TEST(SinumerikArguments, DigitsAndArgumentsOfNewerVersionsAreNamedSo) {
   EXPECT_EQ(
       mistakesIn("CYCLE978(0,,,1,20,5,1,1,1,1,,,,,,,,,,,1,11)\n"),
       (Messages{"1:41 argument 22 of CYCLE978: _AMODE (1: S_TUL and S_TLL are a tolerance) cannot be 11: its tens "
-                "mean nothing and must be 0, not 1" +
+                "have no meaning and must be 0, not 1" +
                 note}));
   EXPECT_EQ(mistakesIn("CYCLE978(0,,,1,20,5,1,1,1,1,,,,,,,,,,,101)\n"),
             (Messages{"1:39 argument 21 of CYCLE978: _DMODE (plane: 0 as active, 1 G17, 2 G18, 3 G19) cannot be 101: "
-                      "its hundreds mean nothing and must be 0, not 1" +
+                      "its hundreds have no meaning and must be 0, not 1" +
                       note}));
   const Messages more = mistakesIn("CYCLE978(0,,,1,20,5,1,1,1,1,,,,,,,,,,,1,1,5)\n");
   ASSERT_EQ(more.size(), 1u);
