@@ -137,7 +137,7 @@ TEST_P(MachineContract, ACollisionStopsAMove) {
   to({-100, 0, -290});
   happens(MoveEnd::Collision, 0.5);
   EXPECT_EQ(to({-100, 0, -310}), MoveEnd::Collision);
-  EXPECT_NEAR(machine.position()[2], -300, 1e-3);
+  EXPECT_NEAR(machine.position()[2], -300, 0.01);
   EXPECT_FALSE(machine.deflected(Sensor::TouchProbe));
   EXPECT_EQ(machine.retract(positions({-100, 0, -200}), Feed::rapidTraverse()).end, MoveEnd::Reached);
 }
@@ -223,7 +223,7 @@ TEST_P(MachineContract, OnlyTheSensorThatIsAskedSignals) {
   meets(0, 24);
   const auto measured = machine.measure({positions({40, 0, -290}), Feed::at(300), Sensor::ToolTouchProbe});
   ASSERT_EQ(measured.end, MeasureEnd::Touched) << measured.detail;
-  EXPECT_NEAR(measured.latched[0], 24, 1e-6);
+  EXPECT_NEAR(measured.latched[0], 24, 0.01) << "a shaft touches to within 0.01 mm";
   EXPECT_TRUE(machine.deflected(Sensor::ToolTouchProbe));
   EXPECT_FALSE(machine.deflected(Sensor::TouchProbe));
   EXPECT_EQ(machine.changeTool({1, ""}).end, ToolChangeEnd::ProbeSignal) << "the tool still leans on it";
