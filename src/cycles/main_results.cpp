@@ -35,8 +35,8 @@ std::vector<bool> mainResults(const CycleRecord& cycle) {
     std::fill_n(isMain.begin(), std::min(isMain.size(), mostOfUnknownCycle), true);
   } else {
     for (const Rank rank : {Rank::Main, Rank::Fallback}) {
-      std::ranges::transform(cycle.results, isMain.begin(),
-                             [&](const ResultRecord& result) { return rankOf(result) == rank; });
+      std::transform(cycle.results.begin(), cycle.results.end(), isMain.begin(),
+                     [&](const ResultRecord& result) { return rankOf(result) == rank; });
       if (std::ranges::find(isMain, true) != isMain.end()) break;
     }
   }
