@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 /// To be counted up whenever an import makes something else of the same file, also if only its layout in memory
 /// changes.
-constexpr int kCacheVersion = 3;
+constexpr int kCacheVersion = 4;
 constexpr std::size_t kMostNamed = 10;
 constexpr int kMostAttempts = 5;
 

@@ -400,7 +400,16 @@ std::string elementsOf(const CadModel& model) {
   std::string bytes;
   append(bytes, marksOf(model));
   append(bytes, model.bounds);
-  append(bytes, model.elements);
+  append(bytes, model.elements.size());
+  // One by one: between the members of an element lie bytes without a value.
+  for (const CadElement& element : model.elements) {
+    append(bytes, element.corners);
+    append(bytes, element.parameters);
+    append(bytes, element.growth);
+    append(bytes, element.owner);
+    append(bytes, element.kind);
+    append(bytes, element.onFace);
+  }
   model.tree.appendTo(bytes);
   return bytes;
 }
@@ -410,11 +419,15 @@ CadModel cadModel(const TopoDS_Shape& shape, double deflection, std::string_view
   CadModel model = exactModel(shape, facesOf(shape), deflection);
   const auto refuse = [] { return std::runtime_error("its elements are not those of the shape"); };
   std::vector<double> marks;
-  if (!take(bytes, marks) || !agree(marks, marksOf(model)) || !take(bytes, model.bounds) ||
-      !take(bytes, model.elements))
+  std::size_t count = 0;
+  if (!take(bytes, marks) || !agree(marks, marksOf(model)) || !take(bytes, model.bounds) || !take(bytes, count) ||
+      count > bytes.size())
     throw refuse();
-  for (const CadElement& element : model.elements) {
-    if (element.owner >= (element.kind == CadElement::Kind::Face ? model.faces.size() : model.edges.size()))
+  model.elements.resize(count);
+  for (CadElement& element : model.elements) {
+    if (!take(bytes, element.corners) || !take(bytes, element.parameters) || !take(bytes, element.growth) ||
+        !take(bytes, element.owner) || !take(bytes, element.kind) || !take(bytes, element.onFace) ||
+        element.owner >= (element.kind == CadElement::Kind::Face ? model.faces.size() : model.edges.size()))
       throw refuse();
   }
   std::optional<SearchTree> tree = SearchTree::takeFrom(bytes, model.elements.size());
