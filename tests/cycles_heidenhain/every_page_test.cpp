@@ -146,8 +146,10 @@ TEST(EveryPage, ReportsThatTheStylusWasNotDeflected) {
         EXPECT_EQ(ran.q(13), -1);
         return;
       }
-      EXPECT_EQ(ran.alarm(), "Touch point inaccessible") << ran.why();
-      EXPECT_NE(ran.why().find("not deflected within"), std::string::npos) << ran.why();
+      // 440 measures with the tool touch probe, which this machine does not have.
+      const bool ready = cycle.number != 440;
+      EXPECT_EQ(ran.alarm(), ready ? "Touch point inaccessible" : "Touch probe not ready") << ran.why();
+      EXPECT_NE(ran.why().find(ready ? "not deflected within" : "no tool touch probe"), std::string::npos) << ran.why();
       ASSERT_FALSE(ran.outcome.journal.cycles.empty());
       EXPECT_EQ(ran.cycle().touches.size(), 1U);
       EXPECT_TRUE(ran.cycle().writes.empty());
