@@ -173,7 +173,7 @@ TEST(ConvertPage, NamesTheMFunctionsThatAreCarriedOver) {
 }
 
 TEST(ConvertPage, NamesTheFunctionsThatAreLeftOut) {
-  const std::string row = rowWith("say how a path is driven");
+  const std::string row = rowWith("say how a path is travelled");
   std::istringstream words(std::regex_replace(row, std::regex(","), " "));
   int functions = 0;
   for (std::string word; words >> word;) {

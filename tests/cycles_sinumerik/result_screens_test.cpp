@@ -85,7 +85,7 @@ std::vector<Variant> variants() {
        {0, 0, -10},
        with(path, {{"S_SETV", 40}}),
        {},
-       {{"effective diameter of the ball [mm]", {"4.0000"}},
+       {{"effective diameter of the ball [mm]", {"4.0000", "0.0000"}},
         {"trigger point, minus direction, 1st axis [mm]", {"-2.0000", "0.0000"}},
         {"trigger point, plus direction, 2nd axis [mm]", {"2.0000", "0.0000"}},
         {"position deviation of the ball, 1st axis [mm]", {"0.0000"}}}},
