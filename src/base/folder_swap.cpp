@@ -280,7 +280,7 @@ struct WorkFolder {
       if (line.size() < 2 || line.find('/') != std::string_view::npos) continue;
       const std::string name(line.substr(1));
       if (line.front() == '-') {
-        takeAway(folder / name);
+        if (!takeAway(folder / name) && errno != ENOENT) return false;
       } else if (isThere(newer / name) && !move(newer / name, folder / name)) {
         return false;
       }
