@@ -83,6 +83,12 @@ bool isGeometry(const Handle(Interface_InterfaceModel) & model, int place) {
          type.starts_with("IGESSolid_");
 }
 
+/// Says why there is no shape, unless there was not enough memory: libraries take that for a mistake in the file.
+void sayFailed(const ChildVoice& voice, std::string_view reason) {
+  if (ranShortOfMemory()) throw std::bad_alloc();
+  voice.say(fmt::format("failed {}", reason));
+}
+
 /// A file read into entities; no shape is built yet.
 std::unique_ptr<XSControl_Reader> load(const TransferOrder& order, const ChildVoice& voice) {
   Message::DefaultMessenger()->ChangePrinters().Clear();
@@ -123,7 +129,7 @@ std::unique_ptr<XSControl_Reader> load(const TransferOrder& order, const ChildVo
       break;
     }
   }
-  voice.say("failed " + reason);
+  sayFailed(voice, reason);
   return nullptr;
 }
 
@@ -192,15 +198,15 @@ std::string guarded(const ChildVoice& voice, const Work& work) {
   } catch (const Standard_OutOfMemory&) {
     throw std::bad_alloc();
   } catch (const Standard_Failure& failure) {
-    voice.say(fmt::format("failed {}", failure.GetMessageString()));
+    sayFailed(voice, failure.GetMessageString());
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::system_error& failure) {
     // No memory for the stack of a thread.
     if (failure.code() == std::errc::resource_unavailable_try_again) throw std::bad_alloc();
-    voice.say(fmt::format("failed {}", failure.what()));
+    sayFailed(voice, failure.what());
   } catch (const std::exception& failure) {
-    voice.say(fmt::format("failed {}", failure.what()));
+    sayFailed(voice, failure.what());
   }
   return {};
 }
@@ -213,6 +219,7 @@ std::string transferCad(const TransferOrder& order, const ChildVoice& voice) {
     if (!reader) return {};
     TopoDS_Shape shape = build(*reader, voice);
     if (shape.IsNull() || !TopExp_Explorer(shape, TopAbs_FACE).More()) {
+      if (ranShortOfMemory()) throw std::bad_alloc();
       voice.say("nothing");
       return {};
     }

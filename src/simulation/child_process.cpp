@@ -50,6 +50,9 @@ private:
   int number_;
 };
 
+/// What limitMemory() has granted; 0: no limit.
+std::uint64_t grantedBytes = 0;
+
 void limitMemory(std::uint64_t bytes) {
 #ifdef PROBEWRIGHT_ADDRESS_SANITIZER
   static_cast<void>(bytes);  // the sanitizer's own tables take far more address space than memory
@@ -58,7 +61,7 @@ void limitMemory(std::uint64_t bytes) {
   std::ifstream("/proc/self/statm") >> pages;  // the address space that this process has already
   const std::uint64_t most = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + bytes;
   const rlimit limit{most, most};
-  setrlimit(RLIMIT_AS, &limit);
+  if (setrlimit(RLIMIT_AS, &limit) == 0) grantedBytes = bytes;
 #endif
 }
 
@@ -135,6 +138,17 @@ ChildEnd::How listen(pid_t child, int voice, const ChildLimits& limits,
 }
 
 }  // namespace
+
+bool ranShortOfMemory() {
+  rlimit limit{};
+  if (grantedBytes == 0 || getrlimit(RLIMIT_AS, &limit) != 0) return false;
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    std::uint64_t kilobytes = 0;
+    if (word == "VmPeak:" && status >> kilobytes) return kilobytes * 1024 + grantedBytes / 4 > limit.rlim_cur;
+  }
+  return false;
+}
 
 void ChildVoice::say(std::string_view line) const {
   std::string text(line.substr(0, 1000));

@@ -39,6 +39,10 @@ struct ChildEnd {
   std::string result;
 };
 
+/// Whether this process, a child, has come near the memory that it may have: what fails then fails for lack of it,
+/// whatever a library says. Not known under an address sanitizer.
+bool ranShortOfMemory();
+
 /// Does `work` in a child process and waits for it. `heard` gets each line that the child says; `enough` is asked about
 /// twenty times a second, and ends the child by saying yes. The child has a copy of everything that its parent has, but
 /// of the threads only the one that calls; its standard output goes nowhere.

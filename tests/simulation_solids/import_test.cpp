@@ -306,8 +306,8 @@ TEST(Import, SaysThatAPartTakesTooMuchMemory) {
   GTEST_SKIP() << "the address sanitizer needs more memory than any limit";
 #endif
   const ScratchFolder folder;
-  folder.write("many.step", manyBlocks(20));
-  ImportOptions options;
+  folder.write("many.step", manyBlocks(60));
+  ImportOptions options = coarse();
   options.bytes = std::uint64_t{8} << 20U;
   const auto solid = readStep(folder / "many.step", options);
   ASSERT_FALSE(solid);
