@@ -1,7 +1,6 @@
 #include "simulation/cad_transfer.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <BRepLib.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
@@ -31,8 +30,6 @@
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
-#include <cstdint>
-#include <fstream>
 #include <memory>
 #include <sstream>
 #include <system_error>
@@ -44,20 +41,6 @@
 
 namespace probewright::simulation {
 namespace {
-
-/// True if this process has come so near to the limit of its address space that allocations fail.
-bool hasReachedItsMemory() {
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return false;
-  constexpr std::uint64_t bytesPerUnit = 1024, nearly = 50;
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    std::uint64_t peak = 0;
-    if (line.starts_with("VmPeak:") && std::istringstream(line.substr(7)) >> peak)
-      return limit.rlim_cur < peak * bytesPerUnit + limit.rlim_cur / nearly;
-  }
-  return false;
-}
 
 constexpr int kMostSuspects = 20;
 
@@ -118,8 +101,6 @@ std::unique_ptr<XSControl_Reader> load(const TransferOrder& order, const ChildVo
     }
   }
   if (status == IFSelect_RetDone) return reader;
-  // A parser that gets no memory gives up as if the file were wrong.
-  if (hasReachedItsMemory()) throw std::bad_alloc();
   std::string reason = "it is not what such a file must be";
   if (!model.IsNull()) {
     Interface_CheckIterator checks = reader->WS()->ModelCheckList();
