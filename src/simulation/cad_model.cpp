@@ -222,6 +222,7 @@ void addRidges(CadModel& model, std::uint32_t owner) {
 struct Faces {
   std::vector<TopoDS_Face> faces;
   std::vector<bool> boundSolid;  ///< those of closed solids tell inside from outside, whatever loose faces there are
+  int closedBodies = 0;
 };
 
 bool isClosed(const TopoDS_Shape& solid) {
@@ -286,8 +287,11 @@ Faces facesOf(const TopoDS_Shape& shape) {
       found.boundSolid.push_back(boundSolid);
     }
   };
-  for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next())
-    add(TopExp_Explorer(solids.Current(), TopAbs_FACE), isClosed(solids.Current()));
+  for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next()) {
+    const bool closed = isClosed(solids.Current());
+    found.closedBodies += closed ? 1 : 0;
+    add(TopExp_Explorer(solids.Current(), TopAbs_FACE), closed);
+  }
   add(TopExp_Explorer(shape, TopAbs_FACE, TopAbs_SOLID), false);
   return found;
 }
@@ -297,10 +301,10 @@ CadModel exactModel(const TopoDS_Shape& shape, const Faces& faces, double deflec
   CadModel model;
   model.shape = shape;
   model.deflection = deflection;
+  model.closedBodies = faces.closedBodies;
   for (std::size_t i = 0; i < faces.faces.size(); ++i) {
     model.faces.push_back(cadFace(faces.faces[i]));
     model.faces.back().boundsSolid = faces.boundSolid[i];
-    model.closed = model.closed || faces.boundSolid[i];
     addRidges(model, static_cast<std::uint32_t>(i));
   }
   // Lines that belong to no face are drawn in the file, axes for instance, but nothing that could be touched.

@@ -52,7 +52,7 @@ struct CadModel {
   std::vector<CadElement> elements;  ///< in the order of the tree
   SearchTree tree;
   Bounds bounds;             ///< of the exact shape, to within the deflection
-  bool closed = false;       ///< some of its faces bound solids, so that a point is inside or outside
+  int closedBodies = 0;      ///< solids, so that a point is inside or outside
   double deflection = 0.01;  ///< mm: how far triangles may leave a face where bodies other than balls meet it
 };
 

@@ -81,7 +81,8 @@ std::size_t CadSolid::triangleCount() const {
 }
 
 bool CadSolid::isInside(const Vector3& point) const {
-  return model_->closed && isWithin(model_->tree, point, [&](std::uint32_t place, const Triangle&, const auto& cross) {
+  return model_->closedBodies > 0 &&
+         isWithin(model_->tree, point, [&](std::uint32_t place, const Triangle&, const auto& cross) {
            const CadElement& element = model_->elements[place];
            if (!element.isTriangle() || !model_->faces[element.owner].boundsSolid) return;
            // Far away it does not matter which side of a triangle the surface lies on.
@@ -108,7 +109,9 @@ std::optional<BallContact> CadSolid::firstContact(const Vector3& from, const Vec
     if (question.soonest < best.when)
       meetFaceClosely(model_->faces[question.triangle->owner], *question.triangle, mover.way, radius, best);
   }
-  if (!(best.when < 0) && !meetsFront(mover.way, best) && isInside(from)) return contactWithin(mover.way, radius);
+  // From within one body the ball may meet another body's front: where both touch, or where they overlap.
+  const bool startsOutside = model_->closedBodies == 1 && meetsFront(mover.way, best);
+  if (!(best.when < 0) && !startsOutside && isInside(from)) return contactWithin(mover.way, radius);
   return ballContact(mover.way, best);
 }
 

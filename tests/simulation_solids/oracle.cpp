@@ -68,7 +68,8 @@ Oracle::Oracle(const TopoDS_Shape& shape) : shape_(BRepBuilderAPI_Copy(shape).Sh
   Bnd_Box all;
   BRepBndLib::Add(shape_, all);
   const double size = all.CornerMin().Distance(all.CornerMax());
-  const double deflection = 2e-4 * size;
+  // Exact distances tell small errors; a campaign brackets them more closely, too.
+  const double deflection = (campaignFactor() > 1 ? 2e-4 : 8e-4) * size;
   const BRepMesh_IncrementalMesh mesher(shape_, deflection, Standard_False, 0.2);
   TriangleMesh mesh;
   Welder welder(mesh);
@@ -117,6 +118,7 @@ Oracle::Oracle(const TopoDS_Shape& shape) : shape_(BRepBuilderAPI_Copy(shape).Sh
   constexpr double kPromised = 1e-6, kMostDoubt = 1e-5;
   precision_ = kPromised + std::min(kMostDoubt, BRep_Tool::MaxTolerance(shape_, TopAbs_EDGE));
   closed_ = isClosed(mesh) && !mesh.triangles.empty();
+  skin_ = !TopExp_Explorer(shape_, TopAbs_SOLID).More();
   for (const Vector3& place : places_) {
     bounds_.minimum = bounds_.minimum.cwiseMin(place);
     bounds_.maximum = bounds_.maximum.cwiseMax(place);
@@ -136,7 +138,11 @@ double Oracle::exactDistance(const Vector3& point, double about) const {
     const BRepExtrema_DistShapeShape distance(vertex, face.face);
     if (distance.IsDone()) nearest = std::min(nearest, distance.Value());
   }
-  return nearest;
+  if (nearest > about - precision_) return nearest;
+  // On some wrapped surfaces OpenCASCADE sees places that do not belong to the face; asked for all at once, it does
+  // not.
+  const BRepExtrema_DistShapeShape whole(vertex, shape_);
+  return whole.IsDone() ? std::max(nearest, whole.Value()) : nearest;
 }
 
 std::string Oracle::objectionTo(const std::optional<BallContact>& contact, const Vector3& from, const Vector3& to,
@@ -147,7 +153,7 @@ std::string Oracle::objectionTo(const std::optional<BallContact>& contact, const
   const auto late = radius > tolerance_ ? mesh_->firstContact(from, to, radius - tolerance_) : std::nullopt;
   // A tessellation can be worse than it looks; then the other means decides, too.
   const auto isThere = [&](const BallContact& met) {
-    return met.fraction == 0 || exactDistance(met.ballCentre, radius) < radius - precision_;
+    return (met.fraction == 0 && !skin_) || exactDistance(met.ballCentre, radius) < radius - precision_;
   };
   const auto isTouched = [&] { return std::abs(exactDistance(contact->ballCentre, radius) - radius) <= precision_; };
   if (!contact) {

@@ -42,6 +42,7 @@ private:
   double tolerance_ = 0;
   double precision_ = 1e-6;  ///< of exact distances
   bool closed_ = false;
+  bool skin_ = false;  ///< faces without a body have no inside, even where they close
 };
 
 /// Sends `count` ways at a solid and names the first few on which it errs. Returns how many ended in a contact.

@@ -67,6 +67,29 @@ TEST(LooseLines, OfAFileAreNothingToTouch) {
   expectLinesAreFree(**solid);
 }
 
+/// From within one of two bodies that touch, through the face that they share: the ball starts in material.
+TEST(BodiesThatTouch, AreMaterialWithinEach) {
+  BRep_Builder builder;
+  for (const bool swapped : {false, true}) {
+    const TopoDS_Shape left = BRepPrimAPI_MakeBox(gp_Pnt(-20, -20, 0), gp_Pnt(0, 20, 40)).Shape();
+    const TopoDS_Shape right = BRepPrimAPI_MakeBox(gp_Pnt(0, -10, 10), gp_Pnt(20, 10, 30)).Shape();
+    TopoDS_Compound both;
+    builder.MakeCompound(both);
+    builder.Add(both, swapped ? right : left);
+    builder.Add(both, swapped ? left : right);
+    const auto solid = cadSolid(both);
+    ASSERT_TRUE(solid) << format(solid.error());
+    for (const double x : {-11.0, 11.0}) {
+      const auto contact = (*solid)->firstContact({x, 1, 21}, {-x, 2, 22}, 3);
+      ASSERT_TRUE(contact);
+      EXPECT_EQ(contact->fraction, 0) << "from x " << x;
+    }
+    const auto outside = (*solid)->firstContact({50, 0, 20}, {0, 0, 20}, 3);
+    ASSERT_TRUE(outside);
+    EXPECT_NEAR(outside->ballCentre.x(), 23, 1e-9);
+  }
+}
+
 /// A wavy sheet of 100 x 100 mm over x and y, as a spline over parameters 0 to 1.
 Handle(Geom_BSplineSurface) sheet() {
   TColgp_Array2OfPnt points(1, 6, 1, 6);

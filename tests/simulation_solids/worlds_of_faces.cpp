@@ -219,12 +219,14 @@ std::vector<NamedShape> bodies(std::mt19937_64& random) {
   return all;
 }
 
-std::vector<NamedShape> disguises(const NamedShape& body, std::mt19937_64& random) {
-  std::vector<NamedShape> all;
-  const auto add = [&](const std::string& how, const auto& make) {
+NamedShape disguised(const NamedShape& body, std::size_t how, std::mt19937_64& random) {
+  NamedShape made = body;
+  std::size_t next = 0;
+  const auto add = [&](const std::string& name, const auto& make) {
+    if (next++ != how) return;
     try {
       const TopoDS_Shape shape = make();
-      if (!shape.IsNull()) all.push_back({body.name + ", " + how, shape});
+      if (!shape.IsNull()) made = {body.name + ", " + name, shape};
     } catch (const Standard_Failure&) {
       // OpenCASCADE cannot make everything of everything.
     }
@@ -276,7 +278,7 @@ std::vector<NamedShape> disguises(const NamedShape& body, std::mt19937_64& rando
     }
     return TopoDS_Shape(three);
   });
-  return all;
+  return made;
 }
 
 TopoDS_Shape beadWasher() {

@@ -20,8 +20,9 @@ std::vector<NamedShape> singleFaces(std::mt19937_64& random);
 std::vector<NamedShape> bodies(std::mt19937_64& random);
 
 /// What other systems make of a body: as B-splines, as surfaces of revolution, split, joined, mirrored, scaled,
-/// several.
-std::vector<NamedShape> disguises(const NamedShape& body, std::mt19937_64& random);
+/// several. The body as it is where OpenCASCADE cannot make that of it.
+constexpr std::size_t kDisguises = 10;
+NamedShape disguised(const NamedShape& body, std::size_t how, std::mt19937_64& random);
 
 /// A washer whose upper outer edge is a bead: a part of a torus with its parameter v from one full period on.
 TopoDS_Shape beadWasher();
