@@ -32,6 +32,7 @@ namespace probewright::simulation {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::ScratchFolder;
 using testing::uniform;
 
@@ -221,8 +222,8 @@ TEST(LemonsAndApples, OfStepFilesAreNamedBecauseReadersMixThemUp) {
   EXPECT_THAT(remarksOn(turnedChord(4.5)), HasSubstr("compare the size of the part"));
   EXPECT_THAT(remarksOn(turnedChord(15)), HasSubstr("circles turned about an axis that they meet"));
   EXPECT_THAT(remarksOn(BRepPrimAPI_MakeTorus(10, 10).Shape()), HasSubstr("horn torus"));
-  EXPECT_EQ(remarksOn(BRepPrimAPI_MakeTorus(10, 5).Shape()), "");
-  EXPECT_EQ(remarksOn(BRepPrimAPI_MakeSphere(10).Shape()), "");
+  EXPECT_THAT(remarksOn(BRepPrimAPI_MakeTorus(10, 5).Shape()), Not(HasSubstr("turned about an axis")));
+  EXPECT_THAT(remarksOn(BRepPrimAPI_MakeSphere(10).Shape()), Not(HasSubstr("turned about an axis")));
 }
 
 }  // namespace
