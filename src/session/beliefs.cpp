@@ -95,10 +95,10 @@ public:
       : table_(table), row_(std::move(row)), setup_(setup), diagnostics_(diagnostics) {
     keep(table_.ensureRow(row_));
   }
-  void number(std::string_view column, double value) {
+  void number(hh::NumberColumn column, double value) {
     if (table_.hasColumn(column)) keep(table_.setNumber(row_, column, value));
   }
-  void text(std::string_view column, std::string_view value) {
+  void text(hh::Column column, std::string_view value) {
     if (table_.hasColumn(column)) keep(table_.setText(row_, column, value));
   }
 
@@ -205,8 +205,8 @@ hh::Tables heidenhainTables(const Setup& setup, ControlKind kind, Diagnostics& d
     // What a file says goes before the setup: a run that sets presets hands them to the next one so.
     if (hasPresetTable && tables.presets.hasRow(std::to_string(preset.index))) continue;
     Entry entry(tables.presets, std::to_string(preset.index), setup, diagnostics);
-    static constexpr std::array<const char*, 3> names = {"X", "Y", "Z"};
-    static constexpr std::array<const char*, 3> angles = {"SPA", "SPB", "SPC"};
+    static constexpr std::array<hh::NumberColumn, 3> names = {"X", "Y", "Z"};
+    static constexpr std::array<hh::NumberColumn, 3> angles = {"SPA", "SPB", "SPC"};
     for (std::size_t i = 0; i < 3; ++i) {
       entry.number(names[i], preset.origin[static_cast<Eigen::Index>(i)]);
       entry.number(angles[i], preset.rotation[static_cast<Eigen::Index>(i)]);
@@ -224,7 +224,8 @@ hh::Tables heidenhainTables(const Setup& setup, ControlKind kind, Diagnostics& d
     }
     for (const auto& [axis, angle] : preset.rotary) {
       const std::string offset = axis + "_OFFS";
-      entry.number(tables.presets.hasColumn(offset) ? offset : axis, angle);
+      const bool hasOffset = tables.presets.hasColumn(hh::Column::named(offset));
+      entry.number(hh::NumberColumn::named(hasOffset ? offset : axis), angle);
     }
   }
   return tables;

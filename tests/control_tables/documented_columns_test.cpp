@@ -54,7 +54,7 @@ TEST(DocumentedColumns, AreThereInTheTables) {
     ASSERT_TRUE(specs.contains(name)) << name;
     std::set<std::string> known;
     for (const ColumnSpec& column : specs.at(name))
-      known.insert(std::string(column.name));
+      known.insert(std::string(column.name()));
     for (const std::string& column : columns)
       EXPECT_TRUE(known.contains(column)) << name << ": " << column;
     EXPECT_GE(columns.size(), 3U) << name;

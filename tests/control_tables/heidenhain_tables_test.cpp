@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <random>
 
@@ -28,23 +29,20 @@ TEST(ToolTable, ReadsToolsAndSteps) {
       "TOOL.T", toolColumns(), diagnostics);
   ASSERT_TRUE(table);
   EXPECT_TRUE(diagnostics.empty());
-  const Tool mill = findTool(*table, "5").value();
-  EXPECT_EQ(mill.name, "MILL_D10");
-  EXPECT_EQ(mill.length, 90.25);
-  EXPECT_EQ(mill.deltaLength, -0.012);
-  EXPECT_NEAR(mill.totalLength(), 90.238, 1e-12);
-  EXPECT_TRUE(mill.locked);
-  EXPECT_EQ(mill.wearLength, 0.05);
-  EXPECT_EQ(mill.breakRadius, 0.1);
-  EXPECT_EQ(mill.radialOffset, 2.5);
-  EXPECT_EQ(mill.teeth, 4);
-  EXPECT_EQ(mill.probe, std::nullopt);
-  const Tool probe = findTool(*table, "1").value();
-  EXPECT_FALSE(probe.locked);
-  EXPECT_EQ(probe.probe, 2);
-  EXPECT_EQ(probe.radialOffset, std::nullopt);
-  EXPECT_EQ(findTool(*table, toolKey(5, 1)).value().radius, 5.001);
-  EXPECT_EQ(findTool(*table, toolKey(7)), std::nullopt);
+  EXPECT_EQ(table->text("5", "NAME"), "MILL_D10");
+  EXPECT_EQ(table->number("5", "L"), 90.25);
+  EXPECT_EQ(table->number("5", "DL"), -0.012);
+  EXPECT_EQ(table->text("5", "TL"), "L");
+  EXPECT_EQ(table->number("5", "LTOL"), 0.05);
+  EXPECT_EQ(table->number("5", "RBREAK"), 0.1);
+  EXPECT_EQ(table->number("5", "R-OFFS"), 2.5);
+  EXPECT_EQ(table->number("5", "CUT"), 4);
+  EXPECT_EQ(table->number("5", "TP_NO"), std::nullopt);
+  EXPECT_EQ(table->text("1", "TL"), "");
+  EXPECT_EQ(table->number("1", "TP_NO"), 2);
+  EXPECT_EQ(table->number("1", "R-OFFS"), std::nullopt);
+  EXPECT_EQ(table->number(toolKey(5, 1), "R"), 5.001);
+  EXPECT_FALSE(table->hasRow(toolKey(7)));
   EXPECT_EQ(findToolNamed(*table, "MILL_D10"), "5");
   EXPECT_EQ(findToolNamed(*table, "mill_d10"), std::nullopt);
   EXPECT_EQ(table->number("5", "CUR.TIME"), 12.25);
@@ -59,7 +57,7 @@ TEST(ToolTable, NamesAnEntryThatIsNoNumber) {
   EXPECT_THAT(format(diagnostics[0]), HasSubstr("TOOL.T:3:4: error: column L takes a number"));
   EXPECT_EQ(diagnostics[0].excerpt, "12,5");
   EXPECT_THAT(format(diagnostics[1]), HasSubstr("TOOL.T:4:4"));
-  EXPECT_EQ(findTool(*table, "1").value().length, 0.0);
+  EXPECT_EQ(table->number("1", "L"), std::nullopt);
 }
 
 TEST(ToolTable, InchTablesConvertAtTheBorder) {
@@ -67,7 +65,7 @@ TEST(ToolTable, InchTablesConvertAtTheBorder) {
   auto table = TypedTable::parse("BEGIN TOOL.T INCH\nT  L          ANGLE\n1  +2.00000   +30.000\n[END]\n", "T",
                                  toolColumns(), diagnostics);
   ASSERT_TRUE(table);
-  EXPECT_DOUBLE_EQ(findTool(*table, "1").value().length, 50.8);
+  EXPECT_DOUBLE_EQ(table->numberOr("1", "L", 0), 50.8);
   EXPECT_EQ(table->number("1", "ANGLE"), 30.0);
   ASSERT_TRUE(table->setNumber("1", "L", 25.4 * 1.5));
   EXPECT_EQ(table->text("1", "L"), "+1.50000");
@@ -87,8 +85,8 @@ TEST(ToolTable, NewTablesHaveTheColumnsOfTheirControl) {
   const auto again = TypedTable::parse(tnc.table().bytes(), "TOOL.T", toolColumns(), diagnostics);
   ASSERT_TRUE(again);
   EXPECT_TRUE(diagnostics.empty());
-  EXPECT_EQ(findTool(*again, "3").value().length, 150.1234);
-  EXPECT_EQ(findTool(*again, "3").value().probe, 1);
+  EXPECT_EQ(again->number("3", "L"), 150.1234);
+  EXPECT_EQ(again->number("3", "TP_NO"), 1);
   EXPECT_EQ(again->text("3", "L"), "+150.1234");
   EXPECT_EQ(again->text("3", "DL"), "+0.0000");
 }
@@ -104,46 +102,41 @@ TEST(ProbeTable, DefaultsAndEntries) {
   EXPECT_FALSE(plain.track);
   ASSERT_TRUE(table.setText("1", "F_PREPOS", "FMAX_MACHINE"));
   ASSERT_TRUE(table.setText("1", "TRACK", "ON"));
-  ASSERT_TRUE(table.setText("1", "REACTION", "EMERGSTOP"));
   ASSERT_TRUE(table.setNumber("1", "CAL_OF1", -0.01234));
   const TouchProbe changed = findProbe(table, 1).value();
   EXPECT_TRUE(changed.prepositionAtMachineRapid);
   EXPECT_TRUE(changed.track);
-  EXPECT_TRUE(changed.emergencyStop);
   EXPECT_EQ(changed.centreOffset1, -0.0123);
   EXPECT_EQ(findProbe(table, 5), std::nullopt);
 }
 
-TEST(PresetTable, WritesOnlyWhatDiffers) {
+TEST(PresetTable, TheTNCHasSpatialAnglesAndOffsets) {
   TypedTable table = defaultPresetTable(ControlKind::TNC640);
-  Preset preset;
-  preset.origin = {100.5, -20.25, 300};
-  preset.rotation = {0, 0, 1.2345};
-  preset.offsets[5] = -7.5;
-  ASSERT_TRUE(setPreset(table, 1, preset));
+  ASSERT_TRUE(table.setNumber("1", "SPC", 1.2345));
+  ASSERT_TRUE(table.setNumber("12", "C_OFFS", -7.5));
   EXPECT_EQ(table.text("1", "SPC"), "+1.2345");
-  EXPECT_EQ(table.text("1", "C_OFFS"), "-7.5000");
-  const Preset read = findPreset(table, 1).value();
-  EXPECT_EQ(read.origin, preset.origin);
-  EXPECT_EQ(read.rotation, preset.rotation);
-  EXPECT_EQ(read.offsets, preset.offsets);
-  EXPECT_FALSE(read.locked);
-  ASSERT_TRUE(setPreset(table, 12, preset));
-  EXPECT_EQ(findPreset(table, 12).value().origin, preset.origin);
-  EXPECT_EQ(findPreset(table, 1).value().origin, preset.origin);
+  EXPECT_EQ(table.text("12", "C_OFFS"), "-7.5000");
+  EXPECT_EQ(table.number("12", "SPC"), 0) << "a new row begins with zeros";
+  EXPECT_FALSE(table.hasColumn("ROT"));
 }
 
 TEST(PresetTable, RotationOfTheITNCIsTheColumnRot) {
   TypedTable table = defaultPresetTable(ControlKind::iTNC530);
   EXPECT_FALSE(table.hasColumn("SPC"));
   EXPECT_FALSE(table.hasColumn("C_OFFS"));
-  Preset preset;
-  preset.rotation = {0, 0, -3.5};
-  preset.rotary[2] = 90;
-  ASSERT_TRUE(setPreset(table, 3, preset));
+  ASSERT_TRUE(table.setNumber("3", "ROT", -3.5));
+  ASSERT_TRUE(table.setNumber("3", "C", 90));
   EXPECT_EQ(table.text("3", "ROT"), "-3.5000");
-  EXPECT_EQ(findPreset(table, 3).value().rotation, preset.rotation);
-  EXPECT_EQ(findPreset(table, 3).value().rotary, preset.rotary);
+  EXPECT_EQ(table.number("3", "C"), 90);
+}
+
+/// Names that come from programs are taken as they are; what no table has reads as nothing.
+TEST(TypedTable, ColumnsNamedWhileRunningMayBeMissing) {
+  TypedTable table = defaultPresetTable(ControlKind::TNC640);
+  EXPECT_TRUE(table.hasColumn(Column::named("SPC")));
+  EXPECT_FALSE(table.hasColumn(Column::named("SPD")));
+  EXPECT_EQ(table.number("1", NumberColumn::named("SPD")), std::nullopt);
+  EXPECT_FALSE(table.setNumber("1", NumberColumn::named("SPD"), 1));
 }
 
 TEST(DatumTable, ReadsShiftsByNumber) {
@@ -175,16 +168,21 @@ TEST(TypedTable, ValuesSurviveTheFile) {
   std::mt19937_64 random(7);
   std::uniform_int_distribution<long long> ticks(-999999999, 999999999);
   TypedTable table = defaultPresetTable(ControlKind::TNC640);
-  std::vector<Preset> presets(60);
-  for (std::size_t i = 0; i < presets.size(); ++i) {
-    for (auto& value : presets[i].origin)
-      value = static_cast<double>(ticks(random)) / 1e4;
-    for (auto& value : presets[i].offsets)
-      value = static_cast<double>(ticks(random) / 1000) / 1e4;
-    ASSERT_TRUE(setPreset(table, static_cast<int>(random() % 2 == 0 ? i : 59 - i), presets[i]));
+  constexpr std::array<NumberColumn, 12> columns = {"X",      "Y",      "Z",      "X_OFFS", "Y_OFFS", "Z_OFFS",
+                                                    "A_OFFS", "B_OFFS", "C_OFFS", "U_OFFS", "V_OFFS", "W_OFFS"};
+  std::array<std::array<double, columns.size()>, 60> rows{};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t column = 0; column < columns.size(); ++column) {
+      rows[i][column] = static_cast<double>(ticks(random) / (column < 3 ? 1 : 1000)) / 1e4;
+      // A cell may be written before, and rows may be added in any order.
+      const std::string row = std::to_string(random() % 2 == 0 ? i : rows.size() - 1 - i);
+      ASSERT_TRUE(table.setNumber(row, columns[column], rows[i][column]));
+    }
   }
-  for (std::size_t i = 0; i < presets.size(); ++i)
-    ASSERT_TRUE(setPreset(table, static_cast<int>(i), presets[i]));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t column = 0; column < columns.size(); ++column)
+      ASSERT_TRUE(table.setNumber(std::to_string(i), columns[column], rows[i][column]));
+  }
   const auto path = std::filesystem::temp_directory_path() / "probewright_tables_test" / "PRESET.PR";
   ASSERT_TRUE(table.table().save(path));
   Diagnostics diagnostics;
@@ -192,9 +190,9 @@ TEST(TypedTable, ValuesSurviveTheFile) {
   std::filesystem::remove_all(path.parent_path());
   ASSERT_TRUE(again);
   EXPECT_TRUE(diagnostics.empty());
-  for (std::size_t i = 0; i < presets.size(); ++i) {
-    EXPECT_EQ(findPreset(*again, static_cast<int>(i)).value().origin, presets[i].origin);
-    EXPECT_EQ(findPreset(*again, static_cast<int>(i)).value().offsets, presets[i].offsets);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t column = 0; column < columns.size(); ++column)
+      EXPECT_EQ(again->number(std::to_string(i), columns[column]), rows[i][column]);
   }
 }
 

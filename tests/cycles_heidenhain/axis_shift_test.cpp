@@ -90,7 +90,8 @@ TEST(Cycle440, WritesWhereItMetTheToolTouchProbe) {
     static constexpr int senses[8][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
     for (int axis = 0; axis < 2; ++axis) {
       const int sense = senses[directions][axis];
-      const std::string column = axis == 0 ? "X" : "Y";
+      using control::heidenhain::NumberColumn;
+      const NumberColumn column = axis == 0 ? NumberColumn("X") : NumberColumn("Y");
       if (sense == 0) {
         EXPECT_EQ(table.text("1", column), "");
         continue;

@@ -39,11 +39,11 @@ struct Bent {
     text("STYLUS", "L-TYPE");
     text("TRACK", "ON");
   }
-  void number(const char* column, double value) {
+  void number(control::heidenhain::NumberColumn column, double value) {
     EXPECT_TRUE(table.setNumber("1", column, value));
     folder.put("TCHPROBE.TP", table);
   }
-  void text(const char* column, const char* value) {
+  void text(control::heidenhain::Column column, const char* value) {
     EXPECT_TRUE(table.setText("1", column, value));
     folder.put("TCHPROBE.TP", table);
   }

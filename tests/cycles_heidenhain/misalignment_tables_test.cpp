@@ -180,7 +180,8 @@ TEST(MisalignmentTables, EnterTheAxisOf403WhereTheManualSays) {
             .run(probe(403, with(edgeWords, {{312, one.axis}, {337, one.zero}, {305, one.row}})) + after + toZero);
     ASSERT_TRUE(ran.finished()) << ran.why();
     EXPECT_NEAR(angleOfC(ran), entered.empty() ? 0 : 2, exact);
-    const std::string column = one.kind == newer ? "C_OFFS" : "C";
+    using control::heidenhain::NumberColumn;
+    const NumberColumn column = one.kind == newer ? NumberColumn("C_OFFS") : NumberColumn("C");
     for (const std::string row : {"0", "1", "5"}) {
       const auto table = ran.table("PRESET.PR");
       const double offset = table.hasRow(row) ? table.numberOr(row, column, 0) : 0;

@@ -45,11 +45,11 @@ public:
   TableWorld() : Holed(ControlKind::TNC640), folder_(bench), table_(hh::defaultProbeTable(ControlKind::TNC640)) {
     number("CAL_OF1", 0.1);
   }
-  void number(const char* column, double value) {
+  void number(hh::NumberColumn column, double value) {
     EXPECT_TRUE(table_.setNumber("1", column, value));
     folder_.put("TCHPROBE.TP", table_);
   }
-  void text(const char* column, const char* value) {
+  void text(hh::Column column, const char* value) {
     EXPECT_TRUE(table_.setText("1", column, value));
     folder_.put("TCHPROBE.TP", table_);
   }

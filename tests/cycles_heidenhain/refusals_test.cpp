@@ -206,8 +206,9 @@ TEST(Refusals, LockedPresetRow) {
   ASSERT_TRUE(presets.ensureRow("5"));
   ASSERT_TRUE(presets.setText("5", "LOCKED", "L"));
   ASSERT_TRUE(presets.ensureRow("1"));
-  for (const auto& [column, value] : {std::pair("X", 10), std::pair("Y", 20), std::pair("Z", -400)})
-    ASSERT_TRUE(presets.setNumber("1", column, value));
+  ASSERT_TRUE(presets.setNumber("1", "X", 10));
+  ASSERT_TRUE(presets.setNumber("1", "Y", 20));
+  ASSERT_TRUE(presets.setNumber("1", "Z", -400));
   folder.put("PRESET.PR", presets);
   expectRefused(bench.run(probe(412, with(preset412, {{305, 5}}))), "Preset locked", "Row 5");
   EXPECT_TRUE(bench.run(probe(412, preset412)).finished());

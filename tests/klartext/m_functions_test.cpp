@@ -78,7 +78,7 @@ TEST(MFunctions, M143EndsTheBasicRotation) {
     // The TNC 640 clears its preset as well.
     const auto& presets = world.control->tables.presets;
     const bool clears = kind == ControlKind::TNC640;
-    EXPECT_EQ(presets.numberOr("0", clears ? "SPC" : "ROT", -1), clears ? 0 : 10);
+    EXPECT_EQ(clears ? presets.numberOr("0", "SPC", -1) : presets.numberOr("0", "ROT", -1), clears ? 0 : 10);
   }
 }
 

@@ -127,7 +127,7 @@ public:
     coverage::writesRead(outcome.control, outcome.journal, [&](const control::WriteRecord& write) {
       return write.table == tableName && write.entry == entry;
     });
-    return parsed(tableName).number(row, column).value_or(std::nan(""));
+    return parsed(tableName).number(row, control::heidenhain::NumberColumn::named(column)).value_or(std::nan(""));
   }
   /// A log file beside the program; empty if there is none.
   std::string log(const std::string& name) const {

@@ -13,8 +13,8 @@
 namespace probewright::control::heidenhain {
 namespace {
 
-constexpr std::array<const char*, 3> linearNames = {"X", "Y", "Z"};
-constexpr std::array<const char*, 3> spaceAngleNames = {"SPA", "SPB", "SPC"};
+constexpr std::array<NumberColumn, 3> linearNames = {"X", "Y", "Z"};
+constexpr std::array<NumberColumn, 3> spaceAngleNames = {"SPA", "SPB", "SPC"};
 
 void check(const Result<void>& done) {
   if (!done) throw Alarm("Table write error", done.error().message, done.error().advice);
@@ -39,21 +39,19 @@ Control::Control(ControlKind kind, machine::Machine& machine, Tables tables_, Ma
   if (presetRow(0)) activatePreset(0);
 }
 
-void Control::note(const TypedTable& table, const std::string& row, const std::string& column,
-                   const std::string& before) {
+void Control::note(const TypedTable& table, const std::string& row, Column column, const std::string& before) {
   const std::string after = table.text(row, column);
   if (after == before) return;
-  journal.write({table.table().name(), fmt::format("row {}, column {}", row, column), before, after});
+  journal.write({table.table().name(), fmt::format("row {}, column {}", row, column.name()), before, after});
 }
 
-void Control::writeNumber(TypedTable& table, const std::string& row, const std::string& column, double value) {
+void Control::writeNumber(TypedTable& table, const std::string& row, NumberColumn column, double value) {
   const std::string before = table.text(row, column);
   check(table.setNumber(row, column, value));
   note(table, row, column, before);
 }
 
-void Control::writeText(TypedTable& table, const std::string& row, const std::string& column,
-                        const std::string& value) {
+void Control::writeText(TypedTable& table, const std::string& row, Column column, const std::string& value) {
   const std::string before = table.text(row, column);
   check(table.setText(row, column, value));
   note(table, row, column, before);
@@ -133,7 +131,7 @@ void Control::meetProbe() {
 }
 
 void Control::refreshTool() {
-  const auto cell = [&](const char* column) { return tables.tools.numberOr(tool.row, column, 0); };
+  const auto cell = [&](NumberColumn column) { return tables.tools.numberOr(tool.row, column, 0); };
   const bool calibrated = probing_ && !keepsCalibrationInTable();
   tool.length = calibrated ? parameters.calibratedLength : cell("L") + cell("DL");
   tool.radius = calibrated ? parameters.calibratedRadius : cell("R") + cell("DR");
@@ -177,8 +175,10 @@ std::optional<ActivePreset> Control::presetRow(int row) const {
   for (std::size_t i = 0; i < description.axes.size(); ++i) {
     const machine::Axis& axis = description.axes[i];
     if (axis.kind != machine::AxisKind::Rotary) continue;
-    if (table.hasColumn(axis.name)) preset.rotaryOffset[i] = table.numberOr(key, axis.name, 0);
-    const std::string offset = axis.name + "_OFFS";
+    const NumberColumn position = NumberColumn::named(axis.name);
+    if (table.hasColumn(position)) preset.rotaryOffset[i] = table.numberOr(key, position, 0);
+    const std::string offsetName = axis.name + "_OFFS";
+    const NumberColumn offset = NumberColumn::named(offsetName);
     if (table.hasColumn(offset)) preset.rotaryOffset[i] += table.numberOr(key, offset, 0);
   }
   return preset;
@@ -225,7 +225,7 @@ void Control::writePreset(int row, const PresetChange& change) {
       } else if (i == toolAxis && table.hasColumn("ROT")) {
         writeNumber(table, key, "ROT", *change.spaceAngles[i]);
       } else {
-        throw Alarm("Table write error", fmt::format("The preset table has no column {}", spaceAngleNames[i]));
+        throw Alarm("Table write error", fmt::format("The preset table has no column {}", spaceAngleNames[i].name()));
       }
     }
   }
@@ -233,13 +233,13 @@ void Control::writePreset(int row, const PresetChange& change) {
   for (std::size_t i = 0; i < description.axes.size(); ++i) {
     if (!change.rotaryOffset[i]) continue;
     preset.rotaryOffset[i] = *change.rotaryOffset[i];
-    const std::string offset = description.axes[i].name + "_OFFS";
+    const std::string offsetName = description.axes[i].name + "_OFFS";
+    const NumberColumn position = NumberColumn::named(description.axes[i].name);
+    const NumberColumn offset = NumberColumn::named(offsetName);
     const bool hasOffset = table.hasColumn(offset);
     double written = *change.rotaryOffset[i];
-    if (hasOffset && table.hasColumn(description.axes[i].name)) {
-      written -= table.numberOr(key, description.axes[i].name, 0);
-    }
-    writeNumber(table, key, hasOffset ? offset : description.axes[i].name, written);
+    if (hasOffset && table.hasColumn(position)) written -= table.numberOr(key, position, 0);
+    writeNumber(table, key, hasOffset ? offset : position, written);
   }
   exactPresets_[row] = preset;
   if (row == coordinates.preset.row) {

@@ -126,8 +126,8 @@ public:
   void applyCoordinates();
 
   /// Write a cell (numbers in mm, degrees, mm/min) and record what changed. Throw Alarm if the table refuses it.
-  void writeNumber(TypedTable& table, const std::string& row, const std::string& column, double value);
-  void writeText(TypedTable& table, const std::string& row, const std::string& column, const std::string& value);
+  void writeNumber(TypedTable& table, const std::string& row, NumberColumn column, double value);
+  void writeText(TypedTable& table, const std::string& row, Column column, const std::string& value);
   /// Changes one of the calibration data of MP7411 = 0 and records it as the entry `name`.
   void writeCalibration(double MachineParameters::*member, const std::string& name, double value);
 
@@ -135,7 +135,7 @@ private:
   /// Takes over what the touch probe in the spindle tells: its serial number into the touch probe table, and what the
   /// table says of collisions.
   void meetProbe();
-  void note(const TypedTable& table, const std::string& row, const std::string& column, const std::string& before);
+  void note(const TypedTable& table, const std::string& row, Column column, const std::string& before);
 
   ControlKind kind_;
   bool probing_ = false;

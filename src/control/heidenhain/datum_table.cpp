@@ -31,7 +31,7 @@ TypedTable defaultDatumTable(ControlKind kind, std::string_view name, TableUnit 
 std::optional<Datum> findDatum(const TypedTable& table, int number) {
   const std::string row = std::to_string(number);
   if (!table.hasRow(row)) return std::nullopt;
-  constexpr std::array<std::string_view, 9> names = {"X", "Y", "Z", "A", "B", "C", "U", "V", "W"};
+  constexpr std::array<NumberColumn, 9> names = {"X", "Y", "Z", "A", "B", "C", "U", "V", "W"};
   std::array<double, 9> values = {};
   for (std::size_t i = 0; i < names.size(); ++i)
     values[i] = table.numberOr(row, names[i], 0.0);

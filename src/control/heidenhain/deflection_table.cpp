@@ -26,8 +26,10 @@ Result<TypedTable> deflectionTable(const std::string& name, const std::vector<De
   TypedTable table = TypedTable::create(name, TableUnit::Millimetre, columns, ControlKind::TNC640, 0);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string key = std::to_string(i);
-    const std::pair<std::string_view, double> cells[] = {
-        {"ANGLE-V", rows[i].polar}, {"ANGLE-H", rows[i].azimuth}, {"DR", rows[i].deviation}};
+    const struct {
+      NumberColumn column;
+      double value;
+    } cells[] = {{"ANGLE-V", rows[i].polar}, {"ANGLE-H", rows[i].azimuth}, {"DR", rows[i].deviation}};
     for (const auto& [column, value] : cells) {
       if (const Result<void> set = table.setNumber(key, column, value); !set) return tl::unexpected(set.error());
     }

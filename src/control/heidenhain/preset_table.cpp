@@ -1,6 +1,6 @@
 #include "control/heidenhain/preset_table.hpp"
 
-#include <string>
+#include <array>
 
 namespace probewright::control::heidenhain {
 
@@ -38,58 +38,12 @@ constexpr std::array columns = {
     ColumnSpec{"LOCKED", "", 17, Text, 0, "any entry: the row is write-protected", false, true},
 };
 
-constexpr std::array<std::string_view, 3> originColumns = {"X", "Y", "Z"};
-constexpr std::array<std::string_view, 3> rotationColumns = {"SPA", "SPB", "SPC"};
-constexpr std::array<std::string_view, 3> rotaryColumns = {"A", "B", "C"};
-constexpr std::array<std::string_view, 3> parallelColumns = {"U", "V", "W"};
-constexpr std::array<std::string_view, 9> offsetColumns = {"X_OFFS", "Y_OFFS", "Z_OFFS", "A_OFFS", "B_OFFS",
-                                                           "C_OFFS", "U_OFFS", "V_OFFS", "W_OFFS"};
-
-/// Calls visit(column, value) for each number of the preset.
-template <class AnyPreset, class Visit>
-void forEachNumber(AnyPreset& preset, bool hasRot, Visit visit) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    visit(originColumns[i], preset.origin[axis]);
-    if (!hasRot) visit(rotationColumns[i], preset.rotation[axis]);
-    visit(rotaryColumns[i], preset.rotary[i]);
-    visit(parallelColumns[i], preset.parallel[i]);
-  }
-  if (hasRot) visit("ROT", preset.rotation[2]);
-  for (std::size_t i = 0; i < offsetColumns.size(); ++i)
-    visit(offsetColumns[i], preset.offsets[i]);
-}
-
-bool usesRot(const TypedTable& table) { return table.hasColumn("ROT") && !table.hasColumn("SPC"); }
-
 }  // namespace
 
 std::span<const ColumnSpec> presetColumns() { return columns; }
 
 TypedTable defaultPresetTable(ControlKind kind, TableUnit unit, std::size_t rows) {
   return TypedTable::create("PRESET.PR", unit, columns, kind, rows);
-}
-
-std::optional<Preset> findPreset(const TypedTable& table, int number) {
-  const std::string row = std::to_string(number);
-  if (!table.hasRow(row)) return std::nullopt;
-  Preset preset;
-  forEachNumber(preset, usesRot(table),
-                [&](std::string_view column, double& value) { value = table.numberOr(row, column, 0.0); });
-  preset.comment = table.text(row, "DOC");
-  preset.locked = !table.text(row, "LOCKED").empty();
-  return preset;
-}
-
-Result<void> setPreset(TypedTable& table, int number, const Preset& preset) {
-  const std::string row = std::to_string(number);
-  Result<void> result = table.ensureRow(row);
-  forEachNumber(preset, usesRot(table), [&](std::string_view column, const double& value) {
-    if (!result || !table.hasColumn(column)) return;
-    if (table.numberOr(row, column, 0.0) == value) return;
-    result = table.setNumber(row, column, value);
-  });
-  return result;
 }
 
 }  // namespace probewright::control::heidenhain

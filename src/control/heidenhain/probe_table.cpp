@@ -48,7 +48,6 @@ std::optional<TouchProbe> findProbe(const TypedTable& table, int number) {
   probe.setUpClearance = table.numberOr(row, "SET_UP", probe.setUpClearance);
   probe.prepositionAtMachineRapid = table.text(row, "F_PREPOS") == "FMAX_MACHINE";
   probe.track = table.text(row, "TRACK") == "ON";
-  probe.emergencyStop = table.text(row, "REACTION") == "EMERGSTOP";
   probe.serial = table.text(row, "SERIAL");
   probe.stylus = table.text(row, "STYLUS");
   return probe;

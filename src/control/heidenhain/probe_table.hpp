@@ -18,7 +18,6 @@ struct TouchProbe {
   double setUpClearance = 2;                    ///< SET_UP
   bool prepositionAtMachineRapid = false;       ///< F_PREPOS = FMAX_MACHINE
   bool track = false;                           ///< TRACK = ON: the spindle is oriented to the probing direction
-  bool emergencyStop = false;                   ///< REACTION = EMERGSTOP
   std::string serial;
   std::string stylus;  ///< STYLUS: "SIMPLE", "L-TYPE"
 };

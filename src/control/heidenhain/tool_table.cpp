@@ -56,40 +56,6 @@ TypedTable defaultToolTable(ControlKind kind, TableUnit unit) {
   return TypedTable::create("TOOL.T", unit, columns, kind, 1);
 }
 
-std::optional<Tool> findTool(const TypedTable& table, std::string_view number) {
-  if (!table.hasRow(number)) return std::nullopt;
-  const auto value = [&](std::string_view column) { return table.numberOr(number, column, 0.0); };
-  const auto count = [&](std::string_view column) -> std::optional<int> {
-    const auto entry = table.number(number, column);
-    if (!entry || !(*entry >= 0 && *entry < 1e9)) return std::nullopt;
-    return static_cast<int>(*entry);
-  };
-  Tool tool;
-  tool.number = number;
-  tool.name = table.text(number, "NAME");
-  tool.length = value("L");
-  tool.radius = value("R");
-  tool.radius2 = value("R2");
-  tool.deltaLength = value("DL");
-  tool.deltaRadius = value("DR");
-  tool.deltaRadius2 = value("DR2");
-  tool.locked = table.text(number, "TL") == "L";
-  tool.replacement = table.text(number, "RT");
-  tool.type = table.text(number, "TYP");
-  tool.teeth = count("CUT").value_or(0);
-  tool.wearLength = value("LTOL");
-  tool.wearRadius = value("RTOL");
-  tool.breakLength = value("LBREAK");
-  tool.breakRadius = value("RBREAK");
-  tool.radialOffset = table.number(number, "R-OFFS");
-  tool.axialOffset = value("L-OFFS");
-  tool.probe = count("TP_NO");
-  tool.centreOffset1 = value("CAL-OF1");
-  tool.centreOffset2 = value("CAL-OF2");
-  tool.calibrationAngle = value("CAL-ANG");
-  return tool;
-}
-
 std::optional<std::string> findToolNamed(const TypedTable& table, std::string_view name) {
   if (name.empty()) return std::nullopt;  // tools without a name have none to be found by
   for (const std::string& key : table.table().keys()) {

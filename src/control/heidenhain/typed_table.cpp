@@ -34,7 +34,7 @@ TypedTable TypedTable::create(std::string_view name, TableUnit unit, std::span<c
                               ControlKind kind, std::size_t rows) {
   std::vector<TextTable::NewColumn> header;
   for (const ColumnSpec& column : columns) {
-    if (isOn(column, kind)) header.push_back({column.name, std::max(column.width, column.name.size() + 1)});
+    if (isOn(column, kind)) header.push_back({column.name(), std::max(column.width, column.name().size() + 1)});
   }
   TypedTable table(TextTable::create(name, unit, header), columns);
   for (std::size_t row = 0; row < rows; ++row) {
@@ -46,10 +46,10 @@ TypedTable TypedTable::create(std::string_view name, TableUnit unit, std::span<c
 Diagnostics TypedTable::check() const {
   Diagnostics diagnostics;
   const ColumnSpec& key = columns_.front();
-  if (table_.keyColumn().name != key.name && table_.keyColumn().name != key.otherName) {
+  if (table_.keyColumn().name != key.name() && table_.keyColumn().name != key.otherName) {
     diagnostics.push_back({Severity::Error,
                            {table_.file(), 0, 0},
-                           fmt::format("the table has no column {}; rows cannot be found", key.name),
+                           fmt::format("the table has no column {}; rows cannot be found", key.name()),
                            {},
                            "check that this is the right kind of table",
                            {}});
@@ -58,11 +58,11 @@ Diagnostics TypedTable::check() const {
   for (const std::string& row : table_.keys()) {
     for (const ColumnSpec& column : columns_) {
       if (column.kind == CellKind::Text) continue;
-      const auto entry = table_.cell(row, nameInFile(column.name));
+      const auto entry = table_.cell(row, nameInFile(column.name()));
       if (!entry || entry->empty() || parseDecimal(*entry)) continue;
       diagnostics.push_back({Severity::Error,
-                             table_.place(row, nameInFile(column.name)),
-                             fmt::format("column {} takes a number", nameInFile(column.name)),
+                             table_.place(row, nameInFile(column.name())),
+                             fmt::format("column {} takes a number", nameInFile(column.name())),
                              entry->substr(0, 60),
                              "write a number with a decimal point, or leave the entry empty",
                              {}});
@@ -73,7 +73,7 @@ Diagnostics TypedTable::check() const {
 
 const ColumnSpec* TypedTable::find(std::string_view column) const {
   const auto found = std::find_if(columns_.begin(), columns_.end(), [column](const ColumnSpec& spec) {
-    return spec.name == column || (!spec.otherName.empty() && spec.otherName == column);
+    return spec.name() == column || (!spec.otherName.empty() && spec.otherName == column);
   });
   return found == columns_.end() ? nullptr : &*found;
 }
@@ -82,7 +82,7 @@ std::string_view TypedTable::nameInFile(std::string_view column) const {
   if (table_.hasColumn(column)) return column;
   const ColumnSpec* spec = find(column);
   if (spec == nullptr) return column;
-  return table_.hasColumn(spec->name) || spec->otherName.empty() ? spec->name : spec->otherName;
+  return table_.hasColumn(spec->name()) || spec->otherName.empty() ? spec->name() : spec->otherName;
 }
 
 double TypedTable::millimetresPerUnit(const ColumnSpec* spec) const {
@@ -90,43 +90,44 @@ double TypedTable::millimetresPerUnit(const ColumnSpec* spec) const {
   return length && table_.unit() == TableUnit::Inch ? millimetresPerInch : 1.0;
 }
 
-std::optional<double> TypedTable::number(std::string_view row, std::string_view column) const {
-  const auto entry = table_.cell(row, nameInFile(column));
+std::optional<double> TypedTable::number(std::string_view row, NumberColumn column) const {
+  const auto entry = table_.cell(row, nameInFile(column.name()));
   if (!entry) return std::nullopt;
   const auto value = parseDecimal(*entry);
   if (!value) return std::nullopt;
-  return *value * millimetresPerUnit(find(column));
+  return *value * millimetresPerUnit(find(column.name()));
 }
 
-std::string TypedTable::text(std::string_view row, std::string_view column) const {
-  return table_.cell(row, nameInFile(column)).value_or(std::string());
+std::string TypedTable::text(std::string_view row, Column column) const {
+  return table_.cell(row, nameInFile(column.name())).value_or(std::string());
 }
 
-Result<void> TypedTable::setNumber(std::string_view row, std::string_view column, double value) {
+Result<void> TypedTable::setNumber(std::string_view row, NumberColumn column, double value) {
   if (auto added = ensureRow(row); !added) return added;
-  const ColumnSpec* spec = find(column);
+  const ColumnSpec* spec = find(column.name());
   NumberStyle style;
   if (spec != nullptr) {
     const bool signedKind = spec->kind == CellKind::Length || spec->kind == CellKind::Angle;
     style = {spec->decimals, signedKind};
     if (spec->kind == CellKind::Length && table_.unit() == TableUnit::Inch) ++style.decimals;
   }
-  return table_.setNumber(row, nameInFile(column), value / millimetresPerUnit(spec), style);
+  return table_.setNumber(row, nameInFile(column.name()), value / millimetresPerUnit(spec), style);
 }
 
-Result<void> TypedTable::setText(std::string_view row, std::string_view column, std::string_view value) {
+Result<void> TypedTable::setText(std::string_view row, Column column, std::string_view value) {
   if (auto added = ensureRow(row); !added) return added;
-  return table_.setCell(row, nameInFile(column), value);
+  return table_.setCell(row, nameInFile(column.name()), value);
 }
 
 Result<void> TypedTable::ensureRow(std::string_view row) {
   if (table_.hasRow(row)) return {};
   if (auto added = table_.addRow(row); !added) return added;
   for (const ColumnSpec& column : columns_) {
-    if (column.initial.empty() || !hasColumn(column.name)) continue;
+    if (column.initial.empty() || !hasColumn(column.column)) continue;
     const auto initial = parseDecimal(column.initial);
-    auto set = initial && column.kind != CellKind::Text ? setNumber(row, column.name, *initial)
-                                                        : table_.setCell(row, nameInFile(column.name), column.initial);
+    auto set = initial && column.kind != CellKind::Text
+                   ? setNumber(row, NumberColumn::named(column.name()), *initial)
+                   : table_.setCell(row, nameInFile(column.name()), column.initial);
     if (!set) return set;
   }
   return {};

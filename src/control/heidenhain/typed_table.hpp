@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "control/control_kind.hpp"
+#include "control/heidenhain/columns.hpp"
 #include "control/heidenhain/text_table.hpp"
 
 /// Tables whose columns are known: numbers with units in place of text.
@@ -23,7 +24,7 @@ enum class CellKind {
 /// One known column. `decimals` is what the control shows in a millimetre table; lengths in an inch table have one
 /// more.
 struct ColumnSpec {
-  std::string_view name;
+  Column column;
   std::string_view otherName;  ///< the name on other versions of the control; may be empty
   std::size_t width = 0;       ///< in tables created here, with the separating blank
   CellKind kind = CellKind::Text;
@@ -32,6 +33,8 @@ struct ColumnSpec {
   bool onlyITNC = false;          ///< in tables created here: left out on the TNC 640
   bool onlyTNC640 = false;        ///< in tables created here: left out on the iTNC 530
   std::string_view initial = {};  ///< text of a new row
+
+  constexpr std::string_view name() const { return column.name(); }
 };
 
 /// A text table and what its columns mean. Columns may be named by either of their names; unknown columns stay
@@ -53,19 +56,19 @@ public:
   TextTable& table() { return table_; }
 
   bool hasRow(std::string_view row) const { return table_.hasRow(row); }
-  bool hasColumn(std::string_view column) const { return table_.hasColumn(nameInFile(column)); }
+  bool hasColumn(Column column) const { return table_.hasColumn(nameInFile(column.name())); }
 
   /// The number in mm, degrees, mm/min; nothing if the row, the column or the entry is missing.
-  std::optional<double> number(std::string_view row, std::string_view column) const;
-  double numberOr(std::string_view row, std::string_view column, double fallback) const {
+  std::optional<double> number(std::string_view row, NumberColumn column) const;
+  double numberOr(std::string_view row, NumberColumn column, double fallback) const {
     return number(row, column).value_or(fallback);
   }
   /// The text of the cell; empty if there is none.
-  std::string text(std::string_view row, std::string_view column) const;
+  std::string text(std::string_view row, Column column) const;
 
   /// Writes a number given in mm, degrees, mm/min. A missing row is added. Errors as TextTable::setNumber.
-  Result<void> setNumber(std::string_view row, std::string_view column, double value);
-  Result<void> setText(std::string_view row, std::string_view column, std::string_view value);
+  Result<void> setNumber(std::string_view row, NumberColumn column, double value);
+  Result<void> setText(std::string_view row, Column column, std::string_view value);
 
   /// Adds a row with the initial entries of its columns; does nothing if it exists.
   Result<void> ensureRow(std::string_view row);

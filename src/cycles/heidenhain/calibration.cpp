@@ -48,8 +48,8 @@ metrology::Circle2 touchCircle(HeidenhainProber& prober, const CalibrationTask& 
 
 using Rows = std::vector<std::vector<std::string>>;
 
-std::vector<std::string> row(const char* name, double before, double after) {
-  return {name, formatFixed(before, 4), formatFixed(after, 4)};
+std::vector<std::string> row(std::string_view name, double before, double after) {
+  return {std::string(name), formatFixed(before, 4), formatFixed(after, 4)};
 }
 
 /// An offset of the ball in the program's axes as one along the axes of the spindle, where it belongs.
@@ -258,10 +258,12 @@ void storeRadius(Context& context, const CalibratedRadius& calibrated) {
     const bool inProbeTable = control.isTNC640();
     auto& table = inProbeTable ? control.tables.probes : tools;
     const std::string& key = inProbeTable ? control.tool.probeRow : tool;
-    const char* names[] = {inProbeTable ? "CAL_OF1" : "CAL-OF1", inProbeTable ? "CAL_OF2" : "CAL-OF2"};
-    for (int i = 0; i < 2; ++i) {
-      rows.push_back(row(names[i], table.numberOr(key, names[i], 0), offset[i]));
-      control.writeNumber(table, key, names[i], offset[i]);
+    using Names = std::array<control::heidenhain::NumberColumn, 2>;
+    const Names names = inProbeTable ? Names{"CAL_OF1", "CAL_OF2"} : Names{"CAL-OF1", "CAL-OF2"};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double value = offset[static_cast<Eigen::Index>(i)];
+      rows.push_back(row(names[i].name(), table.numberOr(key, names[i], 0), value));
+      control.writeNumber(table, key, names[i], value);
     }
   }
   control.refreshTool();

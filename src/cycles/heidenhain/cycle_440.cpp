@@ -14,6 +14,7 @@ namespace {
 
 using namespace parameters;
 using control::Alarm;
+using control::heidenhain::NumberColumn;
 
 constexpr Choice modeChoices[] = {{0, "calibrate"}, {1, "measure"}};
 constexpr Choice directionChoices[] = {{0, "main axis +"},
@@ -38,7 +39,7 @@ constexpr ResultDefinition results440[] = {
     {"Q187", "deviation from the calibrated value in Z", result::difference(of::positionZ).main()},
 };
 
-constexpr const char* axisNames[] = {"X", "Y", "Z"};
+constexpr NumberColumn axisNames[] = {"X", "Y", "Z"};
 
 /// Senses of probing along the main and the minor axis; 0: not probed.
 std::array<int, 2> sensesOf(int directions) {
@@ -85,12 +86,12 @@ void checkLimits(Context& context, const Vector3& deviation) {
   const auto& control = context.control();
   const int toolAxis = control.coordinates.plane.tool;
   for (int axis = 0; axis < 3; ++axis) {
-    const char* column = axis == toolAxis ? "LTOL" : "RTOL";
+    const NumberColumn column = axis == toolAxis ? NumberColumn("LTOL") : NumberColumn("RTOL");
     const double limit = control.tables.tools.numberOr(control.tool.row, column, 0);
     if (limit > 0 && std::abs(deviation[axis]) > limit) {
       throw Alarm("Axis shift too large",
-                  fmt::format("Axis {} has shifted by {:+.4f} mm; {} of tool {} permits {:.4f} mm", axisNames[axis],
-                              deviation[axis], column, control.tool.row, limit),
+                  fmt::format("Axis {} has shifted by {:+.4f} mm; {} of tool {} permits {:.4f} mm",
+                              axisNames[axis].name(), deviation[axis], column.name(), control.tool.row, limit),
                   "let the machine reach its temperature, or calibrate again");
     }
   }

@@ -10,6 +10,7 @@
 namespace probewright::cycles::heidenhain {
 
 using control::Alarm;
+using control::heidenhain::NumberColumn;
 
 std::string monitoredToolRow(Context& context) {
   const Argument& argument = context.arguments().at(330);
@@ -57,7 +58,7 @@ void requireMonitoredTool(Context& context) {
 
 namespace {
 
-void lockIfBroken(Context& context, const std::string& row, const char* column, double deviation) {
+void lockIfBroken(Context& context, const std::string& row, NumberColumn column, double deviation) {
   auto& control = context.control();
   auto& tools = control.tables.tools;
   const double breakage = tools.numberOr(row, column, 0);
@@ -67,7 +68,7 @@ void lockIfBroken(Context& context, const std::string& row, const char* column, 
       "Tool breakage",
       fmt::format(
           "The deviation {:.4f} mm exceeds the breakage tolerance {:.4f} mm ({}) of tool {}; the tool is locked",
-          deviation, breakage, column, row),
+          deviation, breakage, column.name(), row),
       "check the tool, then release it in TOOL.T (column TL)");
 }
 
@@ -79,7 +80,7 @@ void correctTurningTool(Context& context, const std::string& row, const ToolMoni
   const Vector2 z(std::sin(incidence), std::cos(incidence));
   const Vector2 x = (context.option(498) == 1 ? -1 : 1) * Vector2(std::cos(incidence), -std::sin(incidence));
   const Vector2 shift = monitoring.length ? Vector2(0, *monitoring.turned) : Vector2(*monitoring.turned, 0);
-  const auto add = [&](const char* column, double value) {
+  const auto add = [&](NumberColumn column, double value) {
     if (std::abs(value) < 5e-7) return;
     control.writeNumber(*table, row, column, table->numberOr(row, column, 0) + value);
   };
@@ -101,7 +102,7 @@ void monitorTool(Context& context, const ToolMonitoring& monitoring) {
   }
   lockIfBroken(context, row, "RBREAK", monitoring.monitored);
   if (!monitoring.correct) return;
-  const std::string column = monitoring.length ? "DL" : "DR";
+  const NumberColumn column = monitoring.length ? NumberColumn("DL") : NumberColumn("DR");
   control.writeNumber(tools, row, column, tools.numberOr(row, column, 0) - monitoring.excess);
 }
 

@@ -11,6 +11,7 @@ namespace probewright::cycles::heidenhain {
 using control::Alarm;
 using control::heidenhain::ActivePreset;
 using control::heidenhain::Coordinates;
+using control::heidenhain::NumberColumn;
 using control::heidenhain::rotationFromSpaceAngles;
 using control::heidenhain::spaceAnglesFromRotation;
 
@@ -157,7 +158,7 @@ void writeDatumRow(Context& context, int row, const NewPreset& preset) {
   Eigen::Affine3d shifted(coordinates.machineFromPreset().matrix());
   if (coordinates.tilt) shifted = shifted * coordinates.workpiece.matrix(plane) * Eigen::Affine3d(*coordinates.tilt);
   const Vector3 feature = shifted.inverse() * inMachine;
-  const std::array<const char*, 3> names = {"X", "Y", "Z"};
+  constexpr std::array<NumberColumn, 3> names = {"X", "Y", "Z"};
   for (std::size_t i = 0; i < 3; ++i) {
     const int axis = i == 0 ? plane.main : i == 1 ? plane.minor : plane.tool;
     if (preset.wish[i]) {
@@ -231,13 +232,14 @@ void copyActivePresetTo0(Context& context, Control::PresetChange change) {
 void writeDatumAngle(Context& context, std::size_t axis, double degrees) {
   const int row = context.option(305);
   auto& table = datumTableWithRow(context, row);
-  context.control().writeNumber(table, std::to_string(row), context.channel().description().axes[axis].name, degrees);
+  const auto column = NumberColumn::named(context.channel().description().axes[axis].name);
+  context.control().writeNumber(table, std::to_string(row), column, degrees);
 }
 
 void addDatumAngle(Context& context, std::size_t axis, int row, double degrees) {
   auto& table = datumTableWithRow(context, row);
   const std::string key = std::to_string(row);
-  const std::string& column = context.channel().description().axes[axis].name;
+  const auto column = NumberColumn::named(context.channel().description().axes[axis].name);
   context.control().writeNumber(table, key, column, table.numberOr(key, column, 0) + degrees);
 }
 

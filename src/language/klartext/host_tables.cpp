@@ -16,6 +16,7 @@
 namespace probewright::language::klartext {
 
 using control::Alarm;
+using control::heidenhain::NumberColumn;
 using control::heidenhain::TextTable;
 
 namespace {
@@ -115,12 +116,13 @@ void KlartextHost::tableData(const Command& command, Evaluation& evaluation) {
   if (kind != "TOOL" && kind != "PRESET") {
     throw Alarm("Table missing", fmt::format("TABDATA knows no table {}", excerptOf(kind)), "name TOOL or PRESET");
   }
-  const std::string column = evaluation.text(find(command.words, "COL", evaluation)->value);
+  const std::string columnName = evaluation.text(find(command.words, "COL", evaluation)->value);
+  const auto column = NumberColumn::named(columnName);
   const std::string row = evaluation.text(find(command.words, "KEY", evaluation)->value);
   if (!table.hasRow(row) || !table.hasColumn(column)) {
     throw Alarm("Table entry missing",
                 fmt::format("{} has no {}", table.table().name(),
-                            table.hasRow(row) ? fmt::format("column {}", column) : fmt::format("row {}", row)),
+                            table.hasRow(row) ? fmt::format("column {}", columnName) : fmt::format("row {}", row)),
                 "correct COLUMN or KEY");
   }
   if (name == "TABDATA READ") {
@@ -132,7 +134,7 @@ void KlartextHost::tableData(const Command& command, Evaluation& evaluation) {
     } else if (number || cell.empty() || cell == "-") {
       write(target, number ? table.numberOr(row, column, 0) : 0, evaluation);
     } else {
-      throw Alarm("Wrong data type", fmt::format("\"{}\" in column {} is not a number", cell, column),
+      throw Alarm("Wrong data type", fmt::format("\"{}\" in column {} is not a number", cell, columnName),
                   "read it into a QS parameter");
     }
     return;
@@ -144,12 +146,12 @@ void KlartextHost::tableData(const Command& command, Evaluation& evaluation) {
     return;
   }
   const double before = name == "TABDATA ADD" ? table.numberOr(row, column, 0) : 0;
-  writeTableNumber(kind == "TOOL", row, column, before + std::get<double>(value));
+  writeTableNumber(kind == "TOOL", row, columnName, before + std::get<double>(value));
 }
 
 void KlartextHost::writeTableNumber(bool tool, const std::string& row, const std::string& column, double value) {
   if (tool) {
-    control_.writeNumber(control_.tables.tools, row, column, value);
+    control_.writeNumber(control_.tables.tools, row, NumberColumn::named(column), value);
     if (row != control_.tool.row) return;
     control_.refreshTool();
     placeControlledPoint();
@@ -169,7 +171,7 @@ void KlartextHost::writeTableNumber(bool tool, const std::string& row, const std
                      (axis && column.ends_with("_OFFS") &&
                       control_.channel.description().axes[*axis].kind == machine::AxisKind::Rotary);
   if (!known) {
-    control_.writeNumber(control_.tables.presets, row, column, value);
+    control_.writeNumber(control_.tables.presets, row, NumberColumn::named(column), value);
     return;
   }
   const auto number = parseInteger(row);

@@ -14,6 +14,8 @@
 namespace probewright::language::klartext {
 
 using control::Alarm;
+using control::heidenhain::Column;
+using control::heidenhain::NumberColumn;
 
 namespace {
 
@@ -22,7 +24,7 @@ constexpr std::string_view axisNames = "XYZABCUVW";
 /// Columns of TOOL.T by the number of FN 18 ID 50 and ID 950.
 struct ToolColumn {
   int number;
-  std::string_view column;
+  NumberColumn column;
 };
 constexpr std::array<ToolColumn, 25> toolColumns = {
     {{1, "L"},        {2, "R"},       {3, "R2"},       {4, "DL"},        {5, "DR"},
@@ -42,9 +44,9 @@ double probeType(std::string_view name) {
 /// The type of a tool by its number, as far as measuring programs know them; empty for any other.
 std::string_view toolTypeOf(double number) { return number == 0 ? "MILL" : number == 21 ? "TCHP" : std::string_view(); }
 
-std::string_view columnOf(int number) {
+std::optional<NumberColumn> columnOf(int number) {
   const auto column = std::ranges::find(toolColumns, number, &ToolColumn::number);
-  return column == toolColumns.end() ? std::string_view() : column->column;
+  return column == toolColumns.end() ? std::nullopt : std::optional(column->column);
 }
 
 }  // namespace
@@ -57,8 +59,8 @@ std::string KlartextHost::toolRowOf(double index) const {
 
 std::optional<double> KlartextHost::toolData(int number, const std::string& row) const {
   const auto& tools = control_.tables.tools;
-  if (!tools.hasRow(row)) return row == "0" && !columnOf(number).empty() ? std::optional<double>(0) : std::nullopt;
-  const auto text = [&](std::string_view column) { return tools.hasColumn(column) ? tools.text(row, column) : ""; };
+  if (!tools.hasRow(row)) return row == "0" && columnOf(number) ? std::optional<double>(0) : std::nullopt;
+  const auto text = [&](Column column) { return tools.hasColumn(column) ? tools.text(row, column) : ""; };
   switch (number) {
     case 7:
       return text("TL") == "L" ? 1 : 0;
@@ -71,7 +73,7 @@ std::optional<double> KlartextHost::toolData(int number, const std::string& row)
     case 26: {
       if (!control_.isTNC640()) break;
       // The newer control keeps them in the touch probe table.
-      constexpr std::array columns = {"CAL_OF1", "CAL_OF2", "CAL_ANG"};
+      constexpr std::array<NumberColumn, 3> columns = {"CAL_OF1", "CAL_OF2", "CAL_ANG"};
       const auto& probes = control_.tables.probes;
       const std::string probe = text("TP_NO");
       return probes.hasRow(probe) ? probes.numberOr(probe, columns[static_cast<std::size_t>(number - 24)], 0) : 0;
@@ -90,9 +92,9 @@ std::optional<double> KlartextHost::toolData(int number, const std::string& row)
     default:
       break;
   }
-  const std::string_view column = columnOf(number);
-  if (column.empty()) return std::nullopt;
-  return tools.hasColumn(column) ? tools.numberOr(row, column, 0) : 0;
+  const auto column = columnOf(number);
+  if (!column) return std::nullopt;
+  return tools.hasColumn(*column) ? tools.numberOr(row, *column, 0) : 0;
 }
 
 /// ID 60: what the last TOOL CALL said.
@@ -128,7 +130,7 @@ std::optional<double> KlartextHost::toolCompensation(int number, double index) c
   const control::heidenhain::ActiveTool& tool = control_.tool;
   const auto& tools = control_.tables.tools;
   if (number == 6) return toolData(1, index <= 0 ? tool.row : toolRowOf(index));
-  const auto sized = [&](double withTable, std::string_view delta, double ofCall) {
+  const auto sized = [&](double withTable, NumberColumn delta, double ofCall) {
     if (index < 2) return withTable - (tools.hasRow(tool.row) ? tools.numberOr(tool.row, delta, 0) : 0);
     return index < 3 ? withTable : withTable + ofCall;
   };
@@ -148,21 +150,21 @@ std::optional<double> KlartextHost::probeData(int number, int index) const {
   const auto& probes = control_.tables.probes;
   const std::string& row = control_.tool.probeRow;
   const bool known = !row.empty() && probes.hasRow(row);
-  const auto cell = [&](std::string_view column) { return known ? probes.numberOr(row, column, 0) : 0; };
+  const auto cell = [&](NumberColumn column) { return known ? probes.numberOr(row, column, 0) : 0; };
   const auto& parameters = control_.parameters;
   const bool inTable = control_.keepsCalibrationInTable();
   const double length = inTable ? control_.tool.length + control_.tool.deltaLength : parameters.calibratedLength;
   const double radius = inTable ? control_.tool.radius : parameters.calibratedRadius;
   // The iTNC 530 keeps its calibration in the tool table, or beside all tables.
   const auto calibrated = [&](std::string name) {
-    if (control_.isTNC640()) return cell(name);
+    if (control_.isTNC640()) return cell(NumberColumn::named(name));
     if (!inTable) {
       return name == "CAL_OF1"   ? parameters.calibratedOffset1
              : name == "CAL_OF2" ? parameters.calibratedOffset2
                                  : parameters.calibratedAngle;
     }
     std::ranges::replace(name, '_', '-');
-    return control_.tables.tools.numberOr(control_.tool.row, name, 0);
+    return control_.tables.tools.numberOr(control_.tool.row, NumberColumn::named(name), 0);
   };
   switch (number) {
     case 10:
@@ -197,9 +199,9 @@ std::optional<double> KlartextHost::probeData(int number, int index) const {
       return calibrated("CAL_ANG");
     case 55:
       if (index == 3) return known && probes.text(row, "F_PREPOS") == "FMAX_MACHINE" ? 1 : 0;
-      return cell(index == 2 ? "F" : "FMAX");
+      return cell(index == 2 ? NumberColumn("F") : NumberColumn("FMAX"));
     case 56:
-      return cell(index == 2 ? "SET_UP" : "DIST");
+      return cell(index == 2 ? NumberColumn("SET_UP") : NumberColumn("DIST"));
     case 57:
       return index == 2 ? control_.channel.spindleAngle() : (control_.channel.description().spindleOrients ? 1 : 0);
     default:
@@ -227,11 +229,11 @@ void KlartextHost::systemWrite(const Command& command, Evaluation& evaluation) {
     case 950: {
       const bool rowZero = index == 0 && !control_.isTNC640() && find(command.words, "IDX", evaluation) != nullptr;
       const std::string row = id == 950 || (index <= 0 && !rowZero) ? control_.tool.row : toolRowOf(index);
-      const std::string_view column = columnOf(number);
+      const auto column = columnOf(number);
       const std::string_view type = number == 36 ? toolTypeOf(value) : std::string_view();
-      if ((column.empty() && type.empty()) || !control_.tables.tools.hasRow(row)) refuse();
+      if ((!column && type.empty()) || !control_.tables.tools.hasRow(row)) refuse();
       if (type.empty()) {
-        control_.writeNumber(control_.tables.tools, row, std::string(column), value);
+        control_.writeNumber(control_.tables.tools, row, *column, value);
       } else if (control_.tables.tools.hasColumn("TYP")) {
         control_.writeText(control_.tables.tools, row, "TYP", std::string(type));
       } else {
@@ -248,7 +250,7 @@ void KlartextHost::systemWrite(const Command& command, Evaluation& evaluation) {
       const auto table = control_.tables.datums.find(control_.activeDatumTable);
       if (table == control_.tables.datums.end() || whole < 1 || whole > 9) refuse();
       control_.writeNumber(table->second, std::to_string(number),
-                           std::string(axisNames.substr(static_cast<std::size_t>(whole - 1), 1)), value);
+                           NumberColumn::named(axisNames.substr(static_cast<std::size_t>(whole - 1), 1)), value);
       break;
     }
     case 503: {  // as the table shows them: machine coordinates

@@ -64,8 +64,9 @@ void KlartextHost::defineTool(const Command& command, Evaluation& evaluation) {
                                        static_cast<int>(std::round((number - std::floor(number)) * 10)));
   }
   const auto& tools = control_.tables.tools;
-  for (const std::string_view column : {"L", "R"}) {
-    const Word* given = find(command.words, column, evaluation);
+  using control::heidenhain::NumberColumn;
+  for (const NumberColumn column : {NumberColumn("L"), NumberColumn("R")}) {
+    const Word* given = find(command.words, column.name(), evaluation);
     if (given == nullptr) continue;
     const double value = length(given->value, evaluation);
     constexpr double shown = 1e-4;  // the digits of the table
