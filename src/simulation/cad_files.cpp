@@ -82,6 +82,15 @@ public:
     return {};
   }
 
+  /// True if the file holds triangles in place of exact surfaces, as AP242 can.
+  bool holdsOnlyTriangles() const {
+    const auto any = [&](auto test) {
+      return std::ranges::any_of(text_.entities, [&](const auto& entity) { return test(entity.second.type); });
+    };
+    const bool triangles = any([](std::string_view type) { return type.ends_with("TRIANGULATED_FACE"); });
+    return triangles && !any([](std::string_view type) { return type == "ADVANCED_FACE" || type == "FACE_SURFACE"; });
+  }
+
 private:
   StepText text_;
   std::uint64_t firstDirectoryLine_ = 1;
@@ -211,6 +220,10 @@ private:
 
   /// About an entity that cannot be right.
   std::optional<Diagnostic> blame() const {
+    if (names_.holdsOnlyTriangles()) {
+      return mistake(0, "it holds triangles only (a tessellated model of AP242), no exact surfaces",
+                     "export the part with exact geometry (B-rep), or as STL");
+    }
     if (!suspects_.empty()) {
       const Suspect& first = suspects_.front();
       return mistake(names_.lineOf(first.label), fmt::format("{}: {}", names_.nameOf(first.label), first.reason),

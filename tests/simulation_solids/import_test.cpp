@@ -152,6 +152,20 @@ TEST(Import, NamesTheEntityThatMakesTheKernelCrash) {
   EXPECT_GT(solid.error().place.line, 0U);
 }
 
+TEST(Import, NamesFilesThatHoldOnlyTriangles) {
+  const ScratchFolder folder;
+  std::string text = stepOf(block());
+  // What is left of the block when its faces are triangles, as tessellated models have them.
+  for (const std::string type : {"ADVANCED_FACE", "MANIFOLD_SOLID_BREP"}) {
+    for (std::size_t at = 0; (at = text.find(type + "(", at)) != std::string::npos;)
+      text.replace(at, type.size(), type == "ADVANCED_FACE" ? "COMPLEX_TRIANGULATED_FACE" : "TESSELLATED_SOLID");
+  }
+  const auto solid = readStep(folder.write("mesh.step", text), coarse());
+  ASSERT_FALSE(solid);
+  EXPECT_THAT(format(solid.error()),
+              AllOf(HasSubstr("mesh.step: error:"), HasSubstr("triangles only"), HasSubstr("STL")));
+}
+
 TEST(Import, RefusesBracketsWithoutEndInTheirLine) {
   const ScratchFolder folder;
   const std::string good = stepOf(block());
