@@ -292,14 +292,6 @@ PlantedPart planeWithSpigot() {
   return part;
 }
 
-std::vector<Vector3> touchesOf(const Twin& twin) {
-  std::vector<Vector3> found;
-  for (const control::CycleRecord& cycle : twin.journal.cycles)
-    for (const control::TouchRecord& touch : cycle.touches)
-      if (touch.outcome == "touched") found.emplace_back(touch.latched[0], touch.latched[1], touch.latched[2]);
-  return found;
-}
-
 TEST(ConvertPromises, GoesUpBetweenThePointsOfAnAlignedPlane) {
   for (const int mode : {0, 1, 2}) {
     SCOPED_TRACE(mode);

@@ -156,14 +156,6 @@ PlantedPart worldOf(const Feature& feature, double off, double travel) {
   return part;
 }
 
-std::vector<Vector3> touchesOf(const Twin& twin) {
-  std::vector<Vector3> found;
-  for (const control::CycleRecord& cycle : twin.journal.cycles)
-    for (const control::TouchRecord& touch : cycle.touches)
-      if (touch.outcome == "touched") found.emplace_back(touch.latched[0], touch.latched[1], touch.latched[2]);
-  return found;
-}
-
 /// Runs both, and tells whether something of the reach was listed.
 bool compare(const Twin& original, ProgramLanguage to, const PlantedPart& part, double travel) {
   session::Conversion there =

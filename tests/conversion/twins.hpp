@@ -52,6 +52,15 @@ struct Twin {
   }
 };
 
+/// The positions of X, Y and Z that were latched, in their order.
+inline std::vector<Vector3> touchesOf(const Twin& twin) {
+  std::vector<Vector3> found;
+  for (const control::CycleRecord& cycle : twin.journal.cycles)
+    for (const control::TouchRecord& touch : cycle.touches)
+      if (touch.outcome == "touched") found.emplace_back(touch.latched[0], touch.latched[1], touch.latched[2]);
+  return found;
+}
+
 /// The setup with the zero offsets that are the twins of its presets.
 inline simulation::Setup twinSetup(const simulation::Setup& setup) {
   simulation::Setup twin = setup;
