@@ -27,7 +27,6 @@ public:
     machine::Feed feed;
   };
   std::vector<Move> moves;
-  std::vector<machine::Sensor> asked;  ///< the sensors of measuring moves
   /// The probe signals where axis `wallAxis` reaches this reading.
   std::size_t wallAxis = 0;
   std::optional<double> wall;
@@ -38,7 +37,6 @@ public:
     return {};
   }
   machine::MeasureResult measure(const machine::MeasureOrder& order) override {
-    asked.push_back(order.sensor);
     const double from = at_[wallAxis], to = order.target[wallAxis];
     if (!wall || (from - *wall) * (to - *wall) >= 0) {
       move(order.target, order.feed);
