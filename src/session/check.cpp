@@ -52,12 +52,13 @@ Diagnostics checkProgram(language::Program& program, control::ControlKind kind, 
     return language::klartext::checkProgram(static_cast<language::klartext::HeidenhainProgram&>(program), kind,
                                             library.get(), skipLevels[0], foresees);
   }
-  return sinumerik::check(static_cast<sinumerik::SinumerikProgram&>(program),
-                          {.library = library.get(),
-                           .globalVariables = std::move(globalVariables),
-                           .skipLevels = skipLevels,
-                           .globalData = globalData,
-                           .foresees = foresees});
+  return sinumerik::check(
+      static_cast<sinumerik::SinumerikProgram&>(program),
+      {.library = library.get(),
+       .globalVariables = std::move(globalVariables),
+       .skipLevels = skipLevels,
+       .globalData = globalData != nullptr ? globalData->declarations() : std::vector<sinumerik::DeclaredDatum>(),
+       .foresees = foresees});
 }
 
 }  // namespace probewright::session

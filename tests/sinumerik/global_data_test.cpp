@@ -212,7 +212,7 @@ TEST(GlobalData, CheckKnowsTheNames) {
   const auto messages = [&](const std::string& text) {
     const auto program = SinumerikProgram::fromText("T.MPF", text);
     CheckOptions options;
-    options.globalData = &data;
+    options.globalData = data.declarations();
     std::string all;
     for (const Diagnostic& each : check(*program, options))
       all += each.message + "|" + each.advice + "\n";

@@ -11,7 +11,6 @@
 #include "language/constant_division.hpp"
 #include "language/sinumerik/argument_check.hpp"
 #include "language/sinumerik/cursor.hpp"
-#include "language/sinumerik/global_data.hpp"
 #include "language/sinumerik/keywords.hpp"
 #include "language/sinumerik/known_system_variables.hpp"
 #include "language/sinumerik/operators.hpp"
@@ -150,7 +149,8 @@ void Checker::checkNames() {
     const std::string name(block_.at(variable.name));
     if (variable.space == VariableSpace::User) {
       oldParameters_ = oldParameters_ || name == "_MVAR";
-      const bool defined = options_.globalData != nullptr && options_.globalData->find(name) != nullptr;
+      const bool defined =
+          std::ranges::find(options_.globalData, name, &DeclaredDatum::name) != options_.globalData.end();
       const bool known = declared_.contains(name) || isGlobalUserData(name) || defined ||
                          options_.globalVariables.contains(name) || macros_.contains(name);
       if (known || unknown_.contains(name)) continue;
@@ -446,9 +446,8 @@ void Checker::checkLabels() {
 }
 
 Diagnostics Checker::run() {
-  if (options_.globalData != nullptr)
-    for (const GlobalDatum& datum : options_.globalData->data())
-      types_.emplace(datum.name, datum.variable.type());
+  for (const DeclaredDatum& datum : options_.globalData)
+    types_.emplace(datum.name, datum.type);
   if (const auto& header = program_.structure().header())
     for (const BlockParser::Parameter& parameter : header->parameters) {
       declared_.insert(parameter.name);
@@ -479,9 +478,8 @@ Diagnostics Checker::run() {
   }
   for (auto& [name, mistake] : unknown_) {
     std::vector<std::string_view> names(declared_.begin(), declared_.end());
-    if (options_.globalData != nullptr)
-      for (const GlobalDatum& datum : options_.globalData->data())
-        names.push_back(datum.name);
+    for (const DeclaredDatum& datum : options_.globalData)
+      names.push_back(datum.name);
     const std::string_view close = closestName(name, names);
     if (declared_.contains(name)) {
       mistake.message = name + " is used before its DEF";

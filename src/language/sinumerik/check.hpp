@@ -5,6 +5,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/diagnostic.hpp"
 #include "language/program.hpp"
@@ -12,7 +13,11 @@
 
 namespace probewright::sinumerik {
 
-class GlobalUserData;
+/// A global variable that a definition file declares.
+struct DeclaredDatum {
+  std::string name;  ///< in capitals
+  Type type = Type::Real;
+};
 
 struct CheckOptions {
   /// Where called programs are looked for; null: calls of other programs are not checked.
@@ -21,8 +26,8 @@ struct CheckOptions {
   std::set<std::string> globalVariables;
   /// Levels of block skip that are on: such blocks are not read.
   std::bitset<10> skipLevels = {};
-  /// What definition files declare; null: none are known.
-  const GlobalUserData* globalData = nullptr;
+  /// What definition files declare, in their order.
+  std::vector<DeclaredDatum> globalData;
   /// Also what a run refuses when it gets there: it says so itself, and may never get there.
   bool foresees = true;
 };

@@ -233,6 +233,13 @@ void GlobalUserData::read(const std::string& file, std::string text, Diagnostics
     macros_.insert_or_assign(name, macro);
 }
 
+std::vector<DeclaredDatum> GlobalUserData::declarations() const {
+  std::vector<DeclaredDatum> all;
+  for (const GlobalDatum& datum : data_)
+    all.push_back({datum.name, datum.variable.type()});
+  return all;
+}
+
 std::vector<int> GlobalUserData::sizesOf(std::string_view name) const {
   const GlobalDatum* datum = find(name);
   std::vector<int> sizes;

@@ -6,6 +6,7 @@
 
 #include "base/diagnostic.hpp"
 #include "control/sinumerik/data_store.hpp"
+#include "language/sinumerik/check.hpp"
 #include "language/sinumerik/program.hpp"
 #include "language/sinumerik/user_variables.hpp"
 
@@ -38,6 +39,8 @@ public:
   void read(const std::string& file, std::string text, Diagnostics& diagnostics);
 
   const std::vector<GlobalDatum>& data() const { return data_; }
+  /// Their names and types, for the check of programs.
+  std::vector<DeclaredDatum> declarations() const;
   /// The datum called `name` (upper case), or null.
   const GlobalDatum* find(std::string_view name) const;
 
