@@ -19,8 +19,8 @@
 #include <fstream>
 #include <string>
 
-#include "language/evaluation.hpp"
-#include "language/interpreter.hpp"
+#include "execution/evaluation.hpp"
+#include "execution/interpreter.hpp"
 #include "language/klartext/program.hpp"
 #include "language/sinumerik/program.hpp"
 

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "control/sinumerik/init_text.hpp"
-#include "language/sinumerik/global_data.hpp"
+#include "execution/sinumerik/global_data.hpp"
 
 using namespace probewright;
 

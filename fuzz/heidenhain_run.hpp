@@ -8,9 +8,9 @@
 #include "control/heidenhain/preset_table.hpp"
 #include "control/heidenhain/probe_table.hpp"
 #include "control/heidenhain/tool_table.hpp"
-#include "language/din_iso/host.hpp"
-#include "language/interpreter.hpp"
-#include "language/klartext/host.hpp"
+#include "execution/din_iso/host.hpp"
+#include "execution/interpreter.hpp"
+#include "execution/klartext/host.hpp"
 #include "machine/machine_file.hpp"
 #include "support/willing_machine.hpp"
 

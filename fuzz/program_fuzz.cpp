@@ -6,9 +6,9 @@
 #include <map>
 #include <string>
 
+#include "execution/evaluation.hpp"
+#include "execution/interpreter.hpp"
 #include "language/encoding.hpp"
-#include "language/evaluation.hpp"
-#include "language/interpreter.hpp"
 #include "language/klartext/program.hpp"
 #include "language/sinumerik/program.hpp"
 

@@ -8,9 +8,9 @@
 
 #include "control/sinumerik/control.hpp"
 #include "control/sinumerik/measuring_data.hpp"
-#include "language/interpreter.hpp"
+#include "execution/interpreter.hpp"
+#include "execution/sinumerik/host.hpp"
 #include "language/sinumerik/check.hpp"
-#include "language/sinumerik/host.hpp"
 #include "language/sinumerik/program.hpp"
 #include "language/sinumerik/writer.hpp"
 #include "machine/machine_file.hpp"

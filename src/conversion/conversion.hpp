@@ -7,9 +7,9 @@
 #include "control/control_kind.hpp"
 #include "conversion/call.hpp"
 #include "conversion/job.hpp"
+#include "execution/sinumerik/user_variables.hpp"
 #include "language/klartext/heidenhain_program.hpp"
 #include "language/sinumerik/program.hpp"
-#include "language/sinumerik/user_variables.hpp"
 
 /// Programs of one vendor in the language of the other. What is measured, corrected and driven is kept;
 /// docs/conversion.md says which cycle becomes which, and what differs.

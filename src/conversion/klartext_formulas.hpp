@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "conversion/quantity.hpp"
+#include "execution/sinumerik/user_variables.hpp"
 #include "language/block.hpp"
-#include "language/sinumerik/user_variables.hpp"
 
 /// Expressions and variables of a SINUMERIK program as Klartext writes them.
 namespace probewright::conversion {

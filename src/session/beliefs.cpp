@@ -16,7 +16,7 @@
 #include "control/heidenhain/tool_table.hpp"
 #include "control/heidenhain/turning_tool_table.hpp"
 #include "control/sinumerik/measuring_data.hpp"
-#include "language/sinumerik/global_data.hpp"
+#include "execution/sinumerik/global_data.hpp"
 #include "session/lathe_beliefs.hpp"
 
 namespace probewright::session {

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "base/diagnostic.hpp"
-#include "language/sinumerik/global_data.hpp"
+#include "execution/sinumerik/global_data.hpp"
 
 namespace probewright::session {
 

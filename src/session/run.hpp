@@ -16,7 +16,7 @@
 #include "control/heidenhain/q_parameters.hpp"
 #include "control/journal.hpp"
 #include "control/operator_panel.hpp"
-#include "language/interpreter.hpp"
+#include "execution/interpreter.hpp"
 #include "records/run_info.hpp"
 #include "simulation/setup.hpp"
 #include "simulation/virtual_machine.hpp"

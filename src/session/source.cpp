@@ -7,10 +7,10 @@
 #include <regex>
 
 #include "base/file.hpp"
+#include "execution/sinumerik/global_data.hpp"
 #include "language/din_iso/program.hpp"
 #include "language/directory_library.hpp"
 #include "language/klartext/program.hpp"
-#include "language/sinumerik/global_data.hpp"
 #include "language/sinumerik/program.hpp"
 
 namespace probewright::session {

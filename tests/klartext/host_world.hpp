@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "control/heidenhain/control.hpp"
-#include "language/interpreter.hpp"
-#include "language/klartext/host.hpp"
+#include "execution/interpreter.hpp"
+#include "execution/klartext/host.hpp"
 #include "language/klartext/program.hpp"
 #include "support/willing_machine.hpp"
 

@@ -4,9 +4,9 @@
 
 #include <array>
 
+#include "execution/din_iso/host.hpp"
 #include "klartext/expectations.hpp"
 #include "klartext/host_world.hpp"
-#include "language/din_iso/host.hpp"
 #include "language/din_iso/program.hpp"
 
 /// What changes where the tool is and is not carried out is named once in a run, and refused under --strict.

@@ -3,9 +3,9 @@
 
 #include <array>
 
+#include "execution/din_iso/host.hpp"
 #include "klartext/expectations.hpp"
 #include "klartext/host_world.hpp"
-#include "language/din_iso/host.hpp"
 #include "language/din_iso/program.hpp"
 #include "language/klartext/check.hpp"
 

@@ -1,4 +1,4 @@
-#include "language/evaluation.hpp"
+#include "execution/evaluation.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

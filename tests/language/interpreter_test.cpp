@@ -1,4 +1,4 @@
-#include "language/interpreter.hpp"
+#include "execution/interpreter.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "execution/interpreter.hpp"
 #include "language/directory_library.hpp"
-#include "language/interpreter.hpp"
 #include "language/klartext/program.hpp"
 #include "language/made_program.hpp"
 #include "language/sinumerik/program.hpp"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "control/alarm.hpp"
-#include "language/evaluation.hpp"
-#include "language/host.hpp"
+#include "execution/evaluation.hpp"
+#include "execution/host.hpp"
 #include "language/program.hpp"
 
 /// Programs made of blocks by hand, and a host that writes down what it is told.

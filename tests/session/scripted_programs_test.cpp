@@ -9,9 +9,9 @@
 #include <stop_token>
 #include <thread>
 
-#include "language/interpreter.hpp"
-#include "language/klartext/host.hpp"
-#include "language/sinumerik/host.hpp"
+#include "execution/interpreter.hpp"
+#include "execution/klartext/host.hpp"
+#include "execution/sinumerik/host.hpp"
 #include "machine/machine_file.hpp"
 #include "session/beliefs.hpp"
 #include "session/source.hpp"

@@ -1,4 +1,4 @@
-#include "language/sinumerik/global_data.hpp"
+#include "execution/sinumerik/global_data.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "language/sinumerik/swivel.hpp"
+#include "execution/sinumerik/swivel.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

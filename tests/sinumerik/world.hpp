@@ -9,8 +9,8 @@
 
 #include "control/sinumerik/control.hpp"
 #include "control/sinumerik/measuring_data.hpp"
-#include "language/interpreter.hpp"
-#include "language/sinumerik/host.hpp"
+#include "execution/interpreter.hpp"
+#include "execution/sinumerik/host.hpp"
 #include "language/sinumerik/program.hpp"
 #include "machine/machine_file.hpp"
 #include "support/willing_machine.hpp"

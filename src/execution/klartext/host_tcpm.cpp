@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <cmath>
+
+#include "control/alarm.hpp"
+#include "execution/klartext/host.hpp"
+#include "machine/rotary_solver.hpp"
+
+/// FUNCTION TCPM: which point of the tool follows the program while rotary axes turn, and what A, B, C mean.
+///
+/// The tip is the lowest point of the tool on its axis, the centre lies R2 with its oversizes above it: the middle of a
+/// ball, or of the rounding of a toroid. With TIP-TIP programmed coordinates are those of the tip, which stays still on
+/// the workpiece while rotary axes turn; with CENTER-CENTER both are the centre. With TIP-CENTER coordinates are those
+/// of the tip, but the tool turns about its centre: that point runs straight, or stays where a block moves rotary axes
+/// only.
+namespace probewright::language::klartext {
+
+using control::Alarm;
+
+namespace {
+
+double centreAboveTip(const control::heidenhain::ActiveTool& tool) { return tool.radius2 + tool.deltaRadius2; }
+
+/// The tool vector of a point that lies `distance` above the tip.
+Vector3 shortened(const control::heidenhain::Control& control, double distance) {
+  Vector3 vector = control.channel.toolVector;
+  vector[control.coordinates.plane.tool] -= distance;
+  return vector;
+}
+
+}  // namespace
+
+void KlartextHost::guideTool(const Modal& modal, Evaluation& evaluation) {
+  const bool on = evaluation.at(modal.name) == "FUNCTION TCPM";
+  setHoldTip(on);
+  if (!on) return;
+  if (const Word* path = find(modal.words, "PATH", evaluation); path != nullptr && path->value.number == 0) {
+    leaveOut("PATHCTRL VECTOR, which guides the tool direction between the ends of a block,");
+  }
+  const Word* axis = find(modal.words, "AXIS", evaluation);
+  const Word* point = find(modal.words, "REFP", evaluation);
+  spaceAngles_ = axis != nullptr && axis->value.number == 0;
+  toolAngles_.setZero();
+  if (point != nullptr) referencePoint_ = static_cast<ReferencePoint>(std::lround(point->value.number));
+  placeControlledPoint();
+}
+
+/// Hands the point that programmed coordinates name to the channel. To be called after every change of the tool.
+void KlartextHost::placeControlledPoint() {
+  const control::heidenhain::ActiveTool& tool = control_.tool;
+  control_.channel.toolVector.setZero();
+  control_.channel.toolVector[control_.coordinates.plane.tool] =
+      tool.length + tool.deltaLength - (referencePoint_ == ReferencePoint::CentreCentre ? centreAboveTip(tool) : 0);
+}
+
+/// AXIS SPAT: A, B, C are space angles of the tool in the active coordinate system; those that the block leaves out
+/// keep their value.
+void KlartextHost::turnToSpaceAngles(WordRange words, RotaryTarget& rotary, Evaluation& evaluation) {
+  bool given = false;
+  for (const Word& word : evaluation.words(words)) {
+    if (word.address < 'A' || word.address > 'C') continue;
+    double& angle = toolAngles_[static_cast<Eigen::Index>(word.address - 'A')];
+    const double value = evaluation.number(word.value);
+    angle = word.mode == WordMode::Incremental ? angle + value : value;
+    given = true;
+  }
+  if (!given) return;
+  Vector3 toolAxis = Vector3::Zero();
+  toolAxis[control_.coordinates.plane.tool] = 1;
+  turnTo(control::heidenhain::rotationFromSpaceAngles(toolAngles_) * toolAxis, rotary);
+}
+
+/// LN with TX, TY, TZ: where the tool points from its tip, while M128 or FUNCTION TCPM is on.
+void KlartextHost::turnToVector(WordRange words, RotaryTarget& rotary, Evaluation& evaluation) {
+  Vector3 direction = Vector3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const char name[2] = {'T', "XYZ"[i]};
+    if (const Word* word = find(words, {name, 2}, evaluation)) direction[i] = evaluation.number(word->value);
+  }
+  if (direction.norm() < 1e-9) {
+    throw Alarm("Tool direction wrong", "TX, TY and TZ of LN are all 0", "program the direction of the tool axis");
+  }
+  turnTo(direction, rotary);
+}
+
+/// The rotary axes go the shortest way to where the tool points in this direction of the active coordinate system.
+void KlartextHost::turnTo(const Vector3& inProgram, RotaryTarget& rotary) const {
+  const control::Channel& channel = control_.channel;
+  const machine::MachineDescription& description = channel.description();
+  const machine::AxisPositions& reference = control_.coordinates.preset.rotaryOffset;
+  const machine::AxisPositions now = channel.axes();
+  Vector3 toolAxis = Vector3::Zero();
+  toolAxis[control_.coordinates.plane.tool] = 1;
+  const Vector3 direction = (channel.frame().linear() * inProgram).normalized();
+  std::vector<machine::AxisPositions> solutions =
+      machine::solveRotaryAxes(description, direction, toolAxis, reference, now);
+  if (solutions.empty()) {
+    throw Alarm("Entered angle not permitted", "The rotary axes of the machine cannot point the tool in this direction",
+                "choose other angles, or a machine whose rotary axes reach them");
+  }
+  const std::optional<std::size_t> free = machine::freeRotaryAxis(description, direction, reference);
+  const auto distance = [&](machine::AxisPositions& solution) {
+    double sum = 0;
+    for (std::size_t i = 0; i < description.axes.size(); ++i) {
+      if (description.axes[i].kind != machine::AxisKind::Rotary) continue;
+      if (free == i) solution[i] = now[i];
+      if (description.axes[i].modulo) solution[i] = now[i] + std::remainder(solution[i] - now[i], 360.0);
+      sum += std::abs(solution[i] - now[i]);
+    }
+    return sum;
+  };
+  const machine::AxisPositions target =
+      *std::ranges::min_element(solutions, {}, [&](machine::AxisPositions& solution) { return distance(solution); });
+  for (std::size_t i = 0; i < description.axes.size(); ++i) {
+    if (description.axes[i].kind == machine::AxisKind::Rotary) rotary[i] = target[i] - channel.rotaryOffset[i];
+  }
+}
+
+/// A move with rotary axes. With TIP-CENTER the channel guides the centre: the target is that of the tip, and what it
+/// leaves out keeps the centre's place.
+void KlartextHost::moveTurning(const control::Target& target, control::Feed feed) {
+  control::Channel& channel = control_.channel;
+  const machine::AxisPositions start = channel.axes();
+  machine::AxisPositions end = start;
+  for (std::size_t i = 0; i < channel.description().axes.size(); ++i) {
+    if (target.rotary[i]) end[i] = *target.rotary[i] + channel.rotaryOffset[i];
+  }
+  if (referencePoint_ != ReferencePoint::TipCentre || end == start) {
+    channel.moveTo(target, feed);
+    return;
+  }
+  const Vector3 toTip = channel.toolVector;
+  const Vector3 toCentre = shortened(control_, centreAboveTip(control_.tool));
+  const Vector3 tipAtEnd = channel.programFromAxes(end);
+  channel.toolVector = toCentre;
+  const Vector3 tipToCentre = channel.programFromAxes(end) - tipAtEnd;
+  const Vector3 centre = channel.position();
+  control::Target guided = target;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    guided.linear[i] = target.linear[i] ? *target.linear[i] + tipToCentre[at] : centre[at];
+  }
+  try {
+    channel.moveTo(guided, feed);
+  } catch (...) {
+    channel.toolVector = toTip;
+    throw;
+  }
+  channel.toolVector = toTip;
+}
+
+}  // namespace probewright::language::klartext

@@ -1,0 +1,280 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <span>
+
+#include "control/alarm.hpp"
+#include "execution/sinumerik/functions.hpp"
+#include "execution/sinumerik/host.hpp"
+#include "execution/sinumerik/spindle_speed.hpp"
+#include "language/sinumerik/check.hpp"
+
+/// G functions, by number, by their place in a group, and by name.
+namespace probewright::sinumerik {
+
+using namespace language;
+using control::Alarm;
+using control::sinumerik::Frame;
+
+namespace {
+
+std::optional<int> gNumber(std::string_view name) {
+  int number = 0;
+  if (name.size() < 2 || name[0] != 'G') return std::nullopt;
+  const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), number);
+  if (error != std::errc() || end != name.data() + name.size()) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+void SinumerikHost::carryOut(const Modal& modal, Evaluation& evaluation) {
+  const std::string_view name = evaluation.at(modal.name);
+  const auto words = evaluation.words(modal.words);
+  // G26 S5000 is a limit of the spindle.
+  const bool ofSpindle = (name == "G25" || name == "G26") &&
+                         std::ranges::all_of(words, [](const Word& word) { return (word.address & 0xff) == 'S'; });
+  if (const std::string_view how = skippedFunction(name); !how.empty() && !ofSpindle) skip(name, how);
+  if (name == "TRAORI") {
+    std::vector<std::optional<double>> arguments;
+    for (const Word& word : words)
+      arguments.push_back(word.value.present() ? std::optional(evaluation.number(word.value)) : std::nullopt);
+    if (const std::string_view what = skippedTransformation(arguments); !what.empty()) skip(what);
+  }
+  if (const auto number = gNumber(name)) return carryOutG(*number);
+  if (name.size() == 1 && !words.empty()) {
+    const double value = evaluation.number(words[0].value);
+    switch (name[0]) {
+      case 'F':
+        state_.feed = value;
+        return;
+      case 'S': {
+        // S2= and so on are the speeds of other spindles.
+        const bool own = words[0].address == addressOf("S") || words[0].address == addressOf("S1");
+        const bool main = words.size() > 1 ? wholeNumber(evaluation.number(words[1].value)) == 1 : own;
+        if (!main) return;
+        state_.spindleSpeed = value;
+        return followSpeed();
+      }
+      case 'H':
+        return skip("the auxiliary function H");
+      case 'D': {
+        motion_.flush();
+        // T and D of the next tool are before M6, in its block or while no tool is in the spindle.
+        const bool changesHere = block_ != nullptr && std::ranges::any_of(block_->instructions, [](const auto& each) {
+                                   const auto* function = std::get_if<MachineFunction>(&each);
+                                   return function != nullptr && function->number == 6;
+                                 });
+        const bool noToolYet = control_.tool.number == 0 && preparedTool_ > 0 && wholeNumber(value) > 0;
+        if (preparedTool_ >= 0 && (changesHere || noToolYet)) {
+          edgeAfterChange_ = wholeNumber(value);
+          return;
+        }
+        control_.selectEdge(wholeNumber(value));
+        control_.handOverFrames();
+        return;
+      }
+      default:
+        return;
+    }
+  }
+  carryOutNamedFunction(name);
+}
+
+void SinumerikHost::carryOutG(int number) {
+  auto& groups = state_.gGroup;
+  const auto settable = [&](int frame) {
+    motion_.flush();
+    control_.activateSettable(frame);
+  };
+  if (number >= 54 && number <= 57) {
+    groups[8] = number - 52;
+    return settable(number - 53);
+  }
+  if (number >= 505 && number <= 599) {
+    groups[8] = number - 499;
+    return settable(number - 500);
+  }
+  switch (number) {
+    case 0:
+    case 1:
+    case 2:
+    case 3: {
+      static constexpr MoveKind kinds[] = {MoveKind::Rapid, MoveKind::Linear, MoveKind::ArcClockwise,
+                                           MoveKind::ArcCounterclockwise};
+      state_.group1 = kinds[number];
+      state_.thread = 0;
+      groups[1] = number + 1;
+      return;
+    }
+    case 33:
+    case 34:
+    case 35:
+    case 63:
+    case 331:
+    case 332:
+    case 335:
+    case 336:
+      state_.group1 = MoveKind::Linear;
+      state_.thread = number == 63 ? 0 : number;  // G63 has a feed of its own
+      return;
+    case 291:
+      throw Alarm("14011", "G291: programs of the ISO dialect are not available",
+                  "write the program in the language of the control");
+    case 17:
+    case 18:
+    case 19:
+      groups[6] = number - 16;
+      motion_.flush();
+      control_.plane = number;
+      return control_.handOverFrames();
+    case 40:
+      return motion_.setCompensation(RadiusCompensation::Off);
+    case 41:
+      return motion_.setCompensation(RadiusCompensation::Left);
+    case 42:
+      return motion_.setCompensation(RadiusCompensation::Right);
+    case 450:
+    case 451:
+      state_.cornerArc = number == 450;
+      groups[18] = number - 449;
+      return;
+    case 70:
+    case 700:
+    case 71:
+    case 710: {
+      const bool inch = number == 70 || number == 700;
+      control_.unit = inch ? 25.4 : 1;
+      state_.feedInInch = number == 700;
+      groups[13] = number == 70 ? 1 : number == 71 ? 2 : number == 700 ? 3 : 4;
+      return;
+    }
+    case 90:
+    case 91:
+      state_.incremental = number == 91;
+      groups[14] = number - 89;
+      return;
+    case 93:
+    case 94:
+    case 95:
+    case 96:
+    case 97:
+    case 961:
+    case 962:
+    case 971:
+    case 972:
+    case 973:
+      motion_.flush();
+      setFeedType(state_, number, control_.channel.position(),
+                  block_ != nullptr && std::ranges::any_of(block_->instructions, [this](const Instruction& each) {
+                    const auto* modal = std::get_if<Modal>(&each);
+                    return modal != nullptr && block_->at(modal->name) == "S";
+                  }));
+      groups[15] = number < 100    ? number - 92
+                   : number == 961 ? 7
+                   : number == 971 ? 8
+                   : number == 962 ? 11
+                   : number == 972 ? 12
+                                   : 13;
+      return followSpeed();
+    case 500:
+      groups[8] = 1;
+      return settable(0);
+    default:
+      return;
+  }
+}
+
+/// G[group]=number: the function that has this place in its group.
+void SinumerikHost::carryOutGroup(int group, int number) {
+  const auto refuse = [&] {
+    throw Alarm("12470", fmt::format("G[{}]={}: the group has no such function", group, number),
+                "numbers count from 1 in the order of the list of G functions");
+  };
+  const auto choose = [&](std::span<const int> functions) {
+    if (number < 1 || number > static_cast<int>(functions.size())) refuse();
+    carryOutG(functions[static_cast<std::size_t>(number - 1)]);
+  };
+  static constexpr int motions[] = {0, 1, 2, 3}, planes[] = {17, 18, 19}, compensations[] = {40, 41, 42},
+                       units[] = {70, 71, 700, 710}, dimensions[] = {90, 91},
+                       feeds[] = {93, 94, 95, 96, 97, 931, 961, 971, 942, 952, 962, 972, 973}, corners[] = {450, 451};
+  switch (group) {
+    case 1:
+      return choose(motions);
+    case 6:
+      return choose(planes);
+    case 7:
+      return choose(compensations);
+    case 8:
+      if (number < 1 || number > 100) refuse();
+      return carryOutG(number == 1 ? 500 : number <= 5 ? 52 + number : 499 + number);
+    case 13:
+      return choose(units);
+    case 14:
+      return choose(dimensions);
+    case 15:
+      return choose(feeds);
+    case 18:
+      return choose(corners);
+    case 29:
+      if (number < 1 || number > 4) refuse();
+      control_.diameter = number == 2 || number == 3;
+      state_.gGroup[29] = number;
+      return;
+    default:
+      if (group < 1 || group >= static_cast<int>(state_.gGroup.size()) || number < 0) refuse();
+      if (isSkippedGroup(group, number)) skip(fmt::format("G[{}]={}", group, number));
+  }
+}
+
+void SinumerikHost::carryOutNamedFunction(std::string_view name) {
+  if (name == "DIAMON" || name == "DIAM90" || name == "DIAMOF" || name == "DIAMCYCOF") {
+    control_.diameter = name == "DIAMON" || name == "DIAM90";
+    state_.gGroup[29] = name == "DIAMON" ? 2 : name == "DIAM90" ? 3 : 1;
+    return;
+  }
+  if (name == "TRAORI" || name == "TRAFOOF") {
+    motion_.flush();
+    control_.transformation = name == "TRAORI";
+    control_.handOverFrames();
+    return;
+  }
+  if (name == "ORIEULER" || name == "ORIRPY" || name == "ORIRPY2") {
+    state_.rpyAngles = name != "ORIEULER";
+    state_.rpyAboutX = name == "ORIRPY2";
+    return;
+  }
+  const bool withOrigin = name == "TOFRAME" || name == "TOFRAMEZ";
+  if (withOrigin || name == "TOROT" || name == "TOROTZ") {
+    motion_.flush();
+    return alignFrameWithTool(withOrigin);
+  }
+  if (name == "TOROTOF") {
+    motion_.flush();
+    control_.frames.toolOriented = {};
+    return control_.handOverFrames();
+  }
+}
+
+/// TOROT: Z of the program lies along the tool, turned the shortest way; TOFRAME: and the tool tip is its origin.
+void SinumerikHost::alignFrameWithTool(bool withOrigin) {
+  Frame& frame = control_.frames.toolOriented;
+  const Eigen::Affine3d program = control_.machineFromWorkpiece();
+  const Vector3 along = program.linear() * control_.channel.toolAxis();
+  const Vector3 tip = program * control_.channel.position();
+  const Eigen::Affine3d outer =
+      control_.machineFromBase() * control::sinumerik::transform(control_.frames.settableFrame);
+  const Vector3 direction = (outer.linear().inverse() * along).normalized();
+  Eigen::Affine3d turned = Eigen::Affine3d::Identity();
+  turned.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), direction).toRotationMatrix();
+  if (withOrigin) turned.translation() = outer.inverse() * tip;
+  const auto aligned = control::sinumerik::frameFromTransform(turned);
+  if (!aligned) throw Alarm("18314", aligned.error().message, aligned.error().advice);
+  frame = *aligned;
+  if (withOrigin) control_.frames.programmed = {};
+  control_.handOverFrames();
+}
+
+}  // namespace probewright::sinumerik

@@ -1,0 +1,374 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/alarm.hpp"
+#include "control/sinumerik/text.hpp"
+#include "execution/sinumerik/functions.hpp"
+#include "execution/sinumerik/host.hpp"
+#include "execution/sinumerik/spindle_speed.hpp"
+#include "language/sinumerik/check.hpp"
+
+/// What SINUMERIK blocks order besides motions and G functions: tools, M functions, frames, messages.
+namespace probewright::sinumerik {
+
+using namespace language;
+using control::Alarm;
+using control::EventKind;
+using control::sinumerik::AxisValue;
+using control::sinumerik::Frame;
+
+// ---- tools ----
+
+void SinumerikHost::carryOut(const ToolCall& call, Evaluation& evaluation) {
+  motion_.flush();
+  int number = 0;
+  const Operand& operand = call.name.present() ? call.name : call.number;
+  const Value value = evaluation.value(operand);
+  if (const auto* text = std::get_if<std::string>(&value)) {
+    number = text->empty() || *text == "0" ? 0 : control_.toolNumbered(*text);
+  } else {
+    number = wholeNumber(std::get<double>(value));
+  }
+  if (number < 0)
+    throw Alarm("17190", fmt::format("T{}: the number of a tool is 0 or more", number), "correct the number");
+  if (call.index.present() && wholeNumber(evaluation.number(call.index)) != 1)
+    return skip(fmt::format("T{}=", wholeNumber(evaluation.number(call.index))));
+  preparedTool_ = number;
+  // Turrets (machines without Y) change with T, magazines with M6.
+  const bool turret = !control_.channel.description().axisIndex("Y");
+  const bool changesWithM6 = control_.machineData("$MC_TOOL_CHANGE_MODE", turret ? 0 : 1) != 0;
+  if (!changesWithM6) changeTool();
+}
+
+void SinumerikHost::changeTool() {
+  if (preparedTool_ < 0) return;
+  control_.loadTool(preparedTool_);
+  preparedTool_ = -1;
+  if (edgeAfterChange_) control_.selectEdge(*edgeAfterChange_);
+  edgeAfterChange_.reset();
+  control_.handOverFrames();
+}
+
+void SinumerikHost::carryOut(const MachineFunction& function, Evaluation& evaluation) {
+  int number = function.number;
+  bool mainSpindle = true;
+  if (number < 0) {
+    number = wholeNumber(evaluation.number(function.argument));
+    const auto spindle = evaluation.words(function.words);
+    if (!spindle.empty()) mainSpindle = wholeNumber(evaluation.number(spindle[0].value)) == 1;
+  } else if (function.argument.present()) {
+    mainSpindle = wholeNumber(evaluation.number(function.argument)) == 1;
+  }
+  switch (number) {
+    case 3:
+    case 4:
+    case 5:
+      if (!mainSpindle) return;
+      state_.spindleDirection = number;
+      return turnSpindle();
+    case 6:
+      motion_.flush();
+      return changeTool();
+    case 19:
+      motion_.flush();
+      if (mainSpindle) control_.channel.orientSpindle(control_.machineData("$SA_M19_SPOS"));
+      return;
+    default:
+      if (mainSpindle && handToMachine(number)) return;
+      if (isSkippedMachineFunction(number)) skip(fmt::format("M{}", number));
+      return;
+  }
+}
+
+/// True if the machine has carried out the M function.
+bool SinumerikHost::handToMachine(int number) {
+  if (!control_.channel.machine().hasFunction(number)) return false;
+  const bool coolant = number >= 7 && number <= 9;  // which does not wait for what tool radius compensation holds back
+  if (!coolant) motion_.flush();
+  return control_.channel.function(number);
+}
+
+/// What M3, M4, M5, S, G96 and LIMS amount to where the tool is.
+void SinumerikHost::turnSpindle() {
+  using machine::Rotation;
+  if (state_.spindleDirection == 5) return control_.channel.turnSpindle(Rotation::None, 0);
+  control_.channel.turnSpindle(state_.spindleDirection == 3 ? Rotation::Clockwise : Rotation::CounterClockwise,
+                               std::max(0.0, spindleSpeedAt(state_, control_.channel.position())));
+}
+
+/// A spindle that turns follows its speed; one that was oriented, or stopped by a tool change, waits for M3 or M4.
+void SinumerikHost::followSpeed() {
+  if (control_.channel.spindleRotation() != machine::Rotation::None) turnSpindle();
+}
+
+void SinumerikHost::carryOut(const Stop& stop, Evaluation&) {
+  motion_.flush();
+  control_.panel.stop(stop.optional ? "M1" : "M0", control_.channel.seconds());
+}
+
+// ---- frames ----
+
+void SinumerikHost::carryOut(const Transform& transform, Evaluation& evaluation) {
+  motion_.flush();
+  const std::string_view name = evaluation.at(transform.name);
+  if (name == "G110" || name == "G111" || name == "G112") return motion_.setPole(name, transform.words, evaluation);
+  std::vector<AxisValue> axes;
+  std::optional<double> inPlane;
+  std::string computed;
+  for (const Word& word : evaluation.words(transform.words)) {
+    if (word.address == addressOf("AX[]")) {
+      computed = control::sinumerik::upperCase(evaluation.text(word.value));
+      continue;
+    }
+    if (word.address == addressOf("IP[]"))
+      throw Alarm("12080", fmt::format("{} takes axes, and IP is a parameter of arcs", name), "write AX[axis]=value");
+    const double value = evaluation.number(word.value);
+    if (word.address == addressOf("RPL")) {
+      inPlane = value;
+    } else {
+      axes.push_back({word.address == addressOf("=AX") ? computed : addressName(word.address), value});
+    }
+  }
+  Frame& programmed = control_.frames.programmed;
+  const auto scaleLengths = [&] {
+    for (AxisValue& axis : axes)
+      if (control::sinumerik::geometryAxisOf(axis.axis)) axis.value *= control_.unit;
+  };
+  if (name == "G58" || name == "G59") {
+    scaleLengths();
+    for (const AxisValue& axis : axes)
+      programmed.set(axis.axis,
+                     name == "G58" ? control::sinumerik::FramePart::Translation : control::sinumerik::FramePart::Fine,
+                     axis.value);
+    return control_.handOverFrames();
+  }
+  const bool additive = name.front() == 'A';
+  const std::string_view kind = additive ? name.substr(1) : name;
+  const char* function = kind == "TRANS"    ? "CTRANS"
+                         : kind == "ROT"    ? "CROT"
+                         : kind == "SCALE"  ? "CSCALE"
+                         : kind == "MIRROR" ? "CMIRROR"
+                                            : "CROTS";
+  if (kind == "TRANS") scaleLengths();
+  if (inPlane) axes.assign(1, {control_.plane == 18 ? "Y" : control_.plane == 19 ? "X" : "Z", *inPlane});
+  const auto frame = control::sinumerik::frameFunction(function, axes);
+  if (!frame) throw Alarm("14020", fmt::format("{}: {}", name, frame.error().message), frame.error().advice);
+  if (additive) {
+    const auto chained = control::sinumerik::chain(programmed, *frame);
+    if (!chained) throw Alarm("18314", chained.error().message, chained.error().advice);
+    programmed = *chained;
+  } else {
+    programmed = *frame;
+  }
+  control_.handOverFrames();
+}
+
+// ---- commands ----
+
+void SinumerikHost::skip(std::string_view what, std::string_view how) {
+  if (options_.strict) throw Alarm("12550", fmt::format("{} {}", what, how), "run without --strict to skip it");
+  if (!skipped_.insert(std::string(what)).second) return;
+  control_.panel.message(EventKind::Skipped, fmt::format("{} {}", what, how), control_.channel.seconds());
+}
+
+/// True if the statement is one of those that are named or say nothing here.
+bool SinumerikHost::skipStatement(const Command& command, Evaluation& evaluation) {
+  const std::string_view name = evaluation.at(command.name);
+  const KeywordEntry* entry = keywordEntry(name);
+  if (entry == nullptr) return false;
+  if (entry->keyword == Keyword::SynchronizedAction) {
+    skip(fmt::format("the synchronized action {}", name));
+    return true;
+  }
+  // What stands between them makes a table of a contour or a curve; the axes do not move.
+  if (name == "CONTPRON" || name == "CONTDCON" || name == "CTABDEF") recording_ = true;
+  if (name == "EXECUTE" || name == "CTABEND") {
+    recording_ = false;
+    return true;
+  }
+  if (entry->effect == Effect::CarriedOut) return false;
+  if (entry->effect == Effect::Harmless) return true;
+  const auto words = evaluation.words(command.words);
+  std::optional<double> value;
+  if (!words.empty() && words[0].value.present()) {
+    const Value first = evaluation.value(words[0].value);
+    value = isText(first) ? 1 : std::get<double>(first);
+  }
+  if (!saysWhatIs(name, value)) skip(name, skippedFunction(name));
+  return true;
+}
+
+/// GETSELT(NUMBER): the tool that T has selected; GETEXET(NUMBER): the one that D belongs to.
+void SinumerikHost::findTool(const Command& command, Evaluation& evaluation) {
+  const auto words = evaluation.words(command.words);
+  if (words.empty() || !words[0].value.present())
+    throw Alarm("14020", fmt::format("{} needs a variable", evaluation.at(command.name)), "write an INT variable");
+  const int selected = preparedTool_ >= 0 ? preparedTool_ : control_.tool.number;
+  setVariable(words[0].value, static_cast<double>(selected), evaluation);
+}
+
+void SinumerikHost::carryOut(const Move& move, Evaluation& evaluation) {
+  if (recording_) return;
+  motion_.carryOut(move, evaluation);
+  if (state_.constantCuttingSpeed) followSpeed();
+}
+
+void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
+  const std::string_view name = evaluation.at(command.name);
+  const auto words = evaluation.words(command.words);
+  if (skipStatement(command, evaluation)) return;
+  if (name == "DEF") return declare(command, evaluation);
+  if (name == "SET" || name == "REP") return fill(command, evaluation);
+  if (name == "MSG") {
+    const std::string text = words.empty() || !words[0].value.present() ? "" : evaluation.text(words[0].value);
+    if (!text.empty()) control_.panel.message(EventKind::Message, text, control_.channel.seconds());
+    return;
+  }
+  if (name == "STOPRE") return motion_.flush();
+  if (name == "G" && words.size() == 2)
+    return carryOutGroup(wholeNumber(evaluation.number(words[1].value)),
+                         wholeNumber(evaluation.number(words[0].value)));
+  if (name == "SETAL") return raiseAlarm(command, evaluation);
+  if (name == "G4") return dwell(command, evaluation);
+  if (name.starts_with("MEAS") || name.starts_with("MEAW")) return motion_.measure(command, evaluation);
+  if (name == "SPOS" || name == "SPOSA") {
+    motion_.flush();
+    const bool main = words.size() < 2 || wholeNumber(evaluation.number(words[1].value)) == 1;
+    const double angle = evaluation.number(words[0].value);
+    const bool incremental = words[0].mode == WordMode::Incremental;
+    if (main) control_.channel.orientSpindle(incremental ? control_.channel.spindleAngle() + angle : angle);
+    return;
+  }
+  if (name == "POS" || name == "POSA" || name == "POSP") {
+    if (words.size() < 2) throw Alarm("12080", fmt::format("{} needs the axis in brackets", name), "write POS[X]=10");
+    const std::string axis = control::sinumerik::upperCase(evaluation.text(words[1].value));
+    return motion_.position(axis, words[0].mode, evaluation.number(words[0].value));
+  }
+  if (name == "LIMS") {
+    const bool main = words.size() < 2 || wholeNumber(evaluation.number(words[1].value)) == 1;
+    if (!main) return;
+    state_.speedLimit = evaluation.number(words[0].value);
+    return followSpeed();
+  }
+  if (name == "FA" && words.size() > 1) {
+    state_.axisFeed[control::sinumerik::upperCase(evaluation.text(words[1].value))] = evaluation.number(words[0].value);
+    return;
+  }
+  if (name == "G75") return motion_.approachFixedPoint(command, evaluation);
+  if (name == "WRITE") return writeFile(command, evaluation);
+  if (name == "READ") return readFile(command, evaluation);
+  if (name == "DELETE") return deleteFile(command, evaluation);
+  if (name == "EXECSTRING") return executeText(command, evaluation);
+  if (name == "GETSELT" || name == "GETEXET") return findTool(command, evaluation);
+  if (name == "CALCDAT") return circleThroughPoints(command, evaluation);
+  if (name == "ISOCALL")
+    throw Alarm("14011",
+                fmt::format("ISOCALL {}: programs of the ISO dialect are not available", evaluation.at(command.text)),
+                "write the program in the language of the control");
+  if (name == "TOFFL" || name == "TOFFR") {
+    const bool length = name == "TOFFL";
+    if (words.size() > 1 && wholeNumber(evaluation.number(words[1].value)) != 1) return skip("TOFFL[2], TOFFL[3]");
+    motion_.flush();
+    (length ? control_.tool.programmedLength : control_.tool.programmedRadius) =
+        evaluation.number(words[0].value) * control_.unit;
+    return control_.handOverFrames();
+  }
+  if (name == "DL") {
+    motion_.flush();
+    control_.tool.dl = wholeNumber(evaluation.number(words[0].value));
+    control_.refreshTool();
+    return control_.handOverFrames();
+  }
+  if (const std::string_view how = skippedFunction(name); !how.empty()) skip(name, how);  // G74
+}
+
+/// SETAL(number[, text]): 62000 to 63999 and 67000 to 69999 are shown and the program goes on; the others stop it.
+void SinumerikHost::raiseAlarm(const Command& command, Evaluation& evaluation) {
+  motion_.flush();
+  const auto words = evaluation.words(command.words);
+  if (words.empty() || !words[0].value.present()) throw Alarm("14020", "SETAL needs the number of an alarm");
+  const int number = wholeNumber(evaluation.number(words[0].value));
+  if (number < 60000 || number > 69999)
+    throw Alarm("14020", fmt::format("SETAL({}): alarms of programs have the numbers 60000 to 69999", number));
+  const std::string given = words.size() > 1 && words[1].value.present() ? evaluation.text(words[1].value) : "";
+  const std::string text = given.empty() ? "alarm of the program" : given;
+  const bool goesOn = (number >= 62000 && number < 64000) || number >= 67000;
+  if (!goesOn) throw Alarm(std::to_string(number), text);
+  control_.panel.message(EventKind::Warning, text, control_.channel.seconds(), std::to_string(number));
+}
+
+void SinumerikHost::dwell(const Command& command, Evaluation& evaluation) {
+  motion_.flush();
+  for (const Word& word : evaluation.words(command.words)) {
+    const double value = evaluation.number(word.value);
+    if (!(value >= 0)) throw Alarm("14020", "G4 cannot wait for a negative time");
+    if (word.address == addressOf("F")) control_.channel.dwell(value);
+    const double speed = spindleSpeedAt(state_, control_.channel.position());
+    if (word.address == addressOf("S") && speed > 0) control_.channel.dwell(value / speed * 60);
+  }
+}
+
+/// EXECSTRING(text): carries the text out as a block of the program.
+void SinumerikHost::executeText(const Command& command, Evaluation& evaluation) {
+  const auto words = evaluation.words(command.words);
+  if (words.empty() || !words[0].value.present())
+    throw Alarm("14020", "EXECSTRING needs the text of a block", "write EXECSTRING(\"R1=5\")");
+  const std::string text = evaluation.text(words[0].value);
+  const auto refuse = [&](const std::string& why, const std::string& advice) {
+    throw Alarm("12080", fmt::format("EXECSTRING(\"{}\"): {}", text, why), advice);
+  };
+  BlockParser parser;
+  Block block;
+  block.position = evaluation.block().position;
+  Diagnostics mistakes;
+  parser.parse(text, evaluation.place(), block, mistakes);
+  if (!mistakes.empty()) refuse(mistakes.front().message, mistakes.front().advice);
+  Evaluation inner(evaluation.program(), block, *this);
+  for (const Instruction& instruction : block.instructions) {
+    const auto* statement = std::get_if<Command>(&instruction);
+    const std::string_view name = statement == nullptr ? std::string_view() : block.at(statement->name);
+    const bool belongsToProgram = name == "DEF" || name == "DEFINE" || name == "PROC" || name == "EXTERN";
+    const auto* call = std::get_if<CallProgram>(&instruction);
+    const bool flow = std::holds_alternative<Jump>(instruction) || std::holds_alternative<RepeatSection>(instruction) ||
+                      std::holds_alternative<Return>(instruction) || std::holds_alternative<EndProgram>(instruction) ||
+                      std::holds_alternative<Structured>(instruction) ||
+                      (call != nullptr && (call->modal || call->from.length != 0));
+    if (flow || belongsToProgram || name == "EXECSTRING")
+      refuse("jumps, loops, definitions and ends of programs cannot be carried out from a text",
+             "write the block into the program");
+    if (call != nullptr) {
+      callFromText(*call, inner);
+    } else {
+      execute(instruction, inner);
+    }
+  }
+}
+
+/// A program beside the caller comes before a cycle of its name, as where the call is in the program itself.
+void SinumerikHost::callFromText(const CallProgram& call, Evaluation& evaluation) {
+  const std::string name(call.nameValue.present() ? evaluation.text(call.nameValue)
+                                                  : std::string(evaluation.at(call.name)));
+  if (!options_.callProgram || !options_.fileExists || !options_.fileExists(name)) return carryOut(call, evaluation);
+  if (call.arguments.count != 0)
+    throw Alarm("12080", fmt::format("EXECSTRING calls the program {} with arguments, which is not available", name),
+                "write the call into the program");
+  motion_.flush();
+  callAside(name);
+}
+
+/// Runs a program that no block calls and comes back to the block that is under way; false if there is none.
+bool SinumerikHost::callAside(std::string_view name) {
+  const Block* const block = block_;
+  const SourcePlace place = control_.panel.place;
+  const bool called = options_.callProgram(name, levels_.back().program);
+  block_ = block;
+  control_.panel.place = place;
+  if (!called) return false;
+  lastProgram_ = levels_.back().program;
+  motion_.flush();
+  return true;
+}
+
+}  // namespace probewright::sinumerik

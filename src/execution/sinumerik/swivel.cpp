@@ -1,0 +1,195 @@
+#include "execution/sinumerik/swivel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/alarm.hpp"
+#include "machine/rotary_solver.hpp"
+
+namespace probewright::sinumerik {
+
+using control::Alarm;
+using control::AxisPositions;
+using control::sinumerik::Control;
+using control::sinumerik::Frame;
+
+namespace {
+
+Vector3 unitAxis(int code) { return code >= 1 && code <= 3 ? Vector3(Vector3::Unit(code - 1)) : Vector3::Zero(); }
+
+std::vector<std::size_t> rotaryAxes(const machine::MachineDescription& machine) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < machine.axes.size(); ++i)
+    if (machine.axes[i].kind == machine::AxisKind::Rotary) found.push_back(i);
+  return found;
+}
+
+/// The angle between -180 and 180 degrees, or a whole turn off where the travel of the axis asks for that; nothing if
+/// it cannot be reached. What rounding left of a round number goes.
+std::optional<double> intoTravel(const machine::Axis& axis, double degrees) {
+  double angle = normalizedDegrees(degrees);
+  const double rounded = std::round(angle * 1e6) / 1e6;
+  if (std::abs(angle - rounded) < 1e-11) angle = rounded == 0 ? 0 : rounded;
+  if (axis.modulo) return angle;
+  if (angle > axis.maximum + 1e-9) angle -= 360;
+  if (angle < axis.minimum - 1e-9) angle += 360;
+  if (angle > axis.maximum + 1e-9 || angle < axis.minimum - 1e-9) return std::nullopt;
+  return angle;
+}
+
+void retract(Control& control, const SwivelCall& call) {
+  control::Channel& channel = control.channel;
+  const machine::MachineDescription& machine = channel.description();
+  AxisPositions target = channel.axes();
+  const auto z = machine.axisIndex("Z");
+  switch (call.retract) {
+    case 1:
+    case 2:
+    case 4:
+      if (z) {
+        target[*z] = machine.axes[*z].maximum;
+        channel.moveAxes(target, control::Feed::rapidTraverse());
+      }
+      if (call.retract == 2) {
+        for (const char* name : {"X", "Y"})
+          if (const auto axis = machine.axisIndex(name)) target[*axis] = machine.toolChange[*axis];
+        channel.moveAxes(target, control::Feed::rapidTraverse());
+      }
+      return;
+    case 5:
+      if (call.retraction > 0)
+        channel.moveTo(Vector3(channel.position() + call.retraction * channel.toolAxis()),
+                       control::Feed::rapidTraverse());
+      return;
+    default:
+      return;
+  }
+}
+
+}  // namespace
+
+std::optional<Matrix3> swivelRotation(int mode, const Vector3& angles) {
+  const int kind = mode >> 6 & 3;
+  if (kind == 3) return std::nullopt;
+  if (kind == 1)  // solid angle: turned about Z by _A, then tilted about the new Y by _B
+    return (rotation(Vector3::UnitZ(), angles[0]) * rotation(Vector3::UnitY(), angles[1])).linear();
+  Matrix3 result = Matrix3::Identity();
+  if (kind == 2) {
+    // Projection angles: _A and _B are the slopes of the new plane's traces in the planes YZ and ZX.
+    const double a = radiansFromDegrees(angles[0]), b = radiansFromDegrees(angles[1]);
+    const Vector3 traceX(std::cos(b), 0, -std::sin(b)), traceY(0, std::cos(a), std::sin(a));
+    const Vector3 normal = traceX.cross(traceY).normalized();
+    result.col(0) = traceX;
+    result.col(1) = normal.cross(traceX);
+    result.col(2) = normal;
+    return Matrix3(result * rotation(Vector3::UnitZ(), angles[2]).linear());
+  }
+  for (int i = 0; i < 3; ++i) {
+    const Vector3 axis = unitAxis(mode >> (2 * i) & 3);
+    if (!axis.isZero()) result = result * rotation(axis, angles[i]).linear();
+  }
+  return result;
+}
+
+std::vector<AxisPositions> toolPostures(const machine::MachineDescription& machine, const AxisPositions& reference,
+                                        const AxisPositions& now, const Vector3& direction) {
+  const std::vector<std::size_t> axes = rotaryAxes(machine);
+  const auto free = machine::freeRotaryAxis(machine, direction, reference);
+  std::vector<AxisPositions> postures;
+  for (AxisPositions posture : machine::solveRotaryAxes(machine, direction, Vector3::UnitZ(), reference, now)) {
+    if (free) posture[*free] = now[*free];
+    const bool reachable = std::ranges::all_of(axes, [&](std::size_t axis) {
+      const auto angle = intoTravel(machine.axes[axis], posture[axis]);
+      if (angle) posture[axis] = *angle;
+      return angle.has_value();
+    });
+    const bool known = std::ranges::any_of(postures, [&](const AxisPositions& other) {
+      return std::ranges::all_of(
+          axes, [&](std::size_t axis) { return std::abs(normalizedDegrees(posture[axis] - other[axis])) < 1e-7; });
+    });
+    if (reachable && !known) postures.push_back(posture);
+  }
+  const auto turn = [&](const AxisPositions& posture) {
+    double sum = 0;
+    for (const std::size_t axis : axes)
+      sum += std::abs(normalizedDegrees(posture[axis] - now[axis]));
+    return sum;
+  };
+  std::ranges::stable_sort(postures,
+                           [&](const AxisPositions& a, const AxisPositions& b) { return turn(a) < turn(b) - 1e-6; });
+  return postures;
+}
+
+void deselectSwivel(Control& control) {
+  control.frames.toolOriented = {};
+  control.swivelled = false;
+  control.handOverFrames();
+}
+
+void swivel(Control& control, const SwivelCall& call) {
+  control::Channel& channel = control.channel;
+  const machine::MachineDescription& machine = channel.description();
+  if (call.dataSet == "0") {
+    retract(control, call);
+    return deselectSwivel(control);
+  }
+  const std::vector<std::size_t> axes = rotaryAxes(machine);
+  const auto rotation = swivelRotation(call.mode, call.angles);
+  if (axes.empty() && (!rotation || !rotation->isIdentity(1e-12)))
+    throw Alarm("62181", "the machine has no rotary axis to swivel with", "choose a machine with rotary axes");
+  retract(control, call);
+
+  const bool additive = call.state % 10 == 1;
+  const Frame before = additive ? control.frames.toolOriented : Frame{};
+  AxisPositions target = channel.axes();
+  Matrix3 turn = Matrix3::Identity();
+  control.swivelled = true;
+  if (rotation) {
+    turn = *rotation;
+  } else {
+    // The angles are those of the first and second rotary axis; the plane follows from them.
+    for (std::size_t i = 0; i < axes.size() && i < 3; ++i)
+      target[axes[i]] = call.angles[static_cast<Eigen::Index>(i)] + channel.rotaryOffset[axes[i]];
+    const Pose referenceFromTable = machine::baseFromTable(machine, channel.rotaryOffset);
+    const Eigen::Affine3d outer =
+        control.machineFromBase() * control::sinumerik::transform(control.frames.settableFrame);
+    turn = outer.linear().inverse() * referenceFromTable.linear() *
+           machine::baseFromTable(machine, target).linear().transpose() *
+           machine::baseFromSpindle(machine, target).linear();
+  }
+  Eigen::Affine3d plane = control::sinumerik::transform(before);
+  plane = plane * Eigen::Translation3d(call.reference) * Eigen::Affine3d(turn) * Eigen::Translation3d(call.shift);
+  const auto frame = control::sinumerik::frameFromTransform(plane);
+  if (!frame) throw Alarm("62201", frame.error().message, frame.error().advice);
+  control.frames.toolOriented = *frame;
+  control.frames.programmed = {};
+  control.handOverFrames();
+
+  if (rotation) {
+    const Vector3 normal = (control.machineFromWorkpiece().linear() * Vector3::UnitZ()).normalized();
+    std::vector<AxisPositions> solutions = toolPostures(machine, channel.rotaryOffset, channel.axes(), normal);
+    if (solutions.empty() && !axes.empty())
+      throw Alarm("62201", "the rotary axes cannot take this plane within their travels",
+                  "check the angles of CYCLE800 and the travels of the rotary axes");
+    // _DIR picks between the two postures by the axis that tilts: the first whose value differs between them.
+    if (solutions.size() > 1 && call.direction != 0) {
+      for (const std::size_t axis : axes) {
+        const double a = solutions[0][axis], b = solutions[1][axis];
+        if (std::abs(std::abs(a) - std::abs(b)) > 1e-4 || std::abs(a - b) < 1e-4) continue;
+        const bool larger = call.direction > 0;
+        if ((b > a) == larger) std::swap(solutions[0], solutions[1]);
+        break;
+      }
+    }
+    if (!solutions.empty()) target = solutions.front();
+  }
+  if (call.direction == 0 || axes.empty()) return;
+  AxisPositions end = channel.axes();
+  for (const std::size_t axis : axes)
+    end[axis] = target[axis];
+  channel.moveAxes(end, control::Feed::rapidTraverse());
+}
+
+}  // namespace probewright::sinumerik
