@@ -32,6 +32,29 @@ if(PROBEWRIGHT_COVERAGE)
   target_link_options(probewright_options INTERFACE --coverage)
 endif()
 
+# Headers that nearly every file needs are compiled once; reading them anew takes more than half of a whole build. Each
+# file still includes what it uses: a build with PROBEWRIGHT_PRECOMPILE=OFF shows what was forgotten.
+option(PROBEWRIGHT_PRECOMPILE "Compile common headers of libraries once" ON)
+function(probewright_precompile target kind)
+  if(NOT PROBEWRIGHT_PRECOMPILE)
+    return()
+  endif()
+  if(NOT TARGET probewright_precompiled_${kind})
+    set(empty ${PROJECT_BINARY_DIR}/precompiled_${kind}.cpp)
+    file(CONFIGURE OUTPUT ${empty} CONTENT "")
+    add_library(probewright_precompiled_${kind} OBJECT ${empty})
+    target_link_libraries(probewright_precompiled_${kind} PRIVATE probewright_options ${ARGN})
+    set(headers <algorithm> <array> <cmath> <filesystem> <functional> <map> <memory> <numbers> <optional> <ranges> <span>
+                <string> <string_view> <variant> <vector> <Eigen/Geometry> <fmt/format.h>)
+    if(kind STREQUAL "tests")
+      list(APPEND headers <gmock/gmock.h> <gtest/gtest.h> <random>)
+      target_compile_options(probewright_precompiled_${kind} PRIVATE ${PROBEWRIGHT_TEST_OPTIONS})
+    endif()
+    target_precompile_headers(probewright_precompiled_${kind} PRIVATE ${headers})
+  endif()
+  target_precompile_headers(${target} REUSE_FROM probewright_precompiled_${kind})
+endfunction()
+
 # probewright_library(NAME [LINK targets...]): a static library of all .cpp files below the calling folder.
 function(probewright_library name)
   cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
@@ -39,11 +62,15 @@ function(probewright_library name)
   if(sources)
     add_library(probewright_${name} STATIC ${sources})
     target_link_libraries(probewright_${name} PUBLIC probewright_options ${ARG_LINK})
+    probewright_precompile(probewright_${name} sources)
   else()
     add_library(probewright_${name} INTERFACE)
     target_link_libraries(probewright_${name} INTERFACE probewright_options ${ARG_LINK})
   endif()
 endfunction()
+
+# What takes time in a test is the house; optimizing the tests themselves costs a third of their build.
+set(PROBEWRIGHT_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 
 # probewright_test(NAME [LINK targets...]): one test program of all *_test.cpp files in the calling folder.
 function(probewright_test name)
@@ -52,10 +79,8 @@ function(probewright_test name)
   add_executable(${name}_test ${sources})
   target_include_directories(${name}_test PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(${name}_test PRIVATE ${ARG_LINK} GTest::gtest_main GTest::gmock)
-  if(CMAKE_BUILD_TYPE STREQUAL "Release")
-    # What takes time in a test is the house; optimizing the tests themselves costs a third of their build.
-    target_compile_options(${name}_test PRIVATE -O1)
-  endif()
+  target_compile_options(${name}_test PRIVATE ${PROBEWRIGHT_TEST_OPTIONS})
+  probewright_precompile(${name}_test tests GTest::gtest GTest::gmock)
   set(properties TIMEOUT 600)
   if(PROBEWRIGHT_SANITIZE)
     set(suppressions ${PROJECT_SOURCE_DIR}/cmake/leak_suppressions.txt)
