@@ -19,8 +19,9 @@ get_target_property(eigen_include Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
 target_include_directories(probewright_options SYSTEM INTERFACE ${eigen_include})
 target_link_libraries(probewright_options INTERFACE fmt::fmt)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # GCC 12 reports false positives of these two inside inlined Eigen and std code.
-  target_compile_options(probewright_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds)
+  # GCC 12 reports false positives of these inside inlined Eigen and std code.
+  target_compile_options(probewright_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow
+                                                       -Wno-stringop-overread -Wno-restrict)
 endif()
 if(PROBEWRIGHT_SANITIZE)
   target_compile_options(probewright_options INTERFACE -fsanitize=${PROBEWRIGHT_SANITIZE} -fno-omit-frame-pointer

@@ -27,7 +27,7 @@ struct CheckOptions {
   /// Levels of block skip that are on: such blocks are not read.
   std::bitset<10> skipLevels = {};
   /// What definition files declare, in their order.
-  std::vector<DeclaredDatum> globalData;
+  std::vector<DeclaredDatum> globalData = {};
   /// Also what a run refuses when it gets there: it says so itself, and may never get there.
   bool foresees = true;
 };
