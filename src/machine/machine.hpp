@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -89,6 +90,8 @@ struct MeasureResult {
   MeasureEnd end = MeasureEnd::NoContact;
   AxisPositions latched;  ///< axis positions when the signal came, as the control's measuring systems read them
   std::string detail;
+  /// degrees, of the spindle when the signal came, as orientSpindle() counts; nothing if the machine does not say
+  std::optional<double> spindleAngle = std::nullopt;
 };
 
 /// How the main spindle turns: seen along the tool from the spindle nose towards the workpiece (ISO 841: M3, M4).

@@ -195,6 +195,12 @@ Surroundings::Surroundings(const std::vector<PlacedSolid>& solids) {
   }
 }
 
+Surroundings::Surroundings(const std::vector<PlacedSolid>& solids, bool (*wanted)(const PlacedSolid&))
+    : Surroundings(solids) {
+  for (std::size_t i = 0; i < solids.size(); ++i)
+    if (!wanted(solids[i])) items_[i].bounds = Bounds{};
+}
+
 std::optional<Touch> firstTouch(const Motion& motion, double begin, double end, const ToolShape& shape,
                                 const Surroundings& surroundings, const SearchOptions& options) {
   return Search(motion, shape, surroundings, options).between(begin, end);

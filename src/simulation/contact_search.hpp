@@ -28,6 +28,8 @@ struct Motion {
 class Surroundings {
 public:
   explicit Surroundings(const std::vector<PlacedSolid>& solids);
+  /// With the same numbers, but nothing touches those that `wanted` says no to.
+  Surroundings(const std::vector<PlacedSolid>& solids, bool (*wanted)(const PlacedSolid&));
 
   struct Item {
     const Solid* solid;

@@ -27,6 +27,14 @@ double MotionProfile::secondsAt(double travelled) const {
   return speed_ / (2 * acceleration_) + inside / speed_;
 }
 
+double MotionProfile::travelledAt(double seconds) const {
+  if (length_ <= 0 || seconds >= duration()) return length_;
+  const double ramp = speed_ / acceleration_, left = duration() - seconds;
+  if (seconds < ramp) return 0.5 * acceleration_ * seconds * seconds;
+  if (left < ramp) return length_ - 0.5 * acceleration_ * left * left;
+  return speed_ * (seconds - 0.5 * ramp);
+}
+
 double MotionProfile::brakingDistanceAt(double travelled) const {
   const double speed = speedAt(travelled);
   return speed * speed / (2 * acceleration_);

@@ -15,6 +15,7 @@ public:
   double duration() const;                           ///< seconds
   double speedAt(double travelled) const;            ///< per second
   double secondsAt(double travelled) const;          ///< since the start
+  double travelledAt(double seconds) const;          ///< since the start; the length from the end on
   double brakingDistanceAt(double travelled) const;  ///< from the speed there to standstill
 
 private:

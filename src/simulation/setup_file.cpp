@@ -9,6 +9,7 @@
 #include "machine/machine_file.hpp"
 #include "simulation/setup.hpp"
 #include "simulation/setup_solids.hpp"
+#include "simulation/setup_tool_probe.hpp"
 #include "simulation/setup_tools.hpp"
 
 namespace probewright::simulation {
@@ -204,28 +205,27 @@ private:
       const Vector3 size = readVector(*reader, "size", anyLength).value_or(Vector3(10, 10, 10));
       placeGauge(gaugeBlock(size.x(), size.y(), size.z()), *reader, "gauge block", SolidRole::GaugeBlock);
     }
-    readToolProbe();
+    readToolProbes();
   }
 
-  void readToolProbe() {
-    auto reader = root_.table("tool_probe");
-    if (!reader) return;
-    ToolProbeContact contact;
-    if (reader->has("diameter") == reader->has("size")) {
-      reader->report("diameter", "the contact of a tool touch probe needs either a diameter or a size",
-                     "Write diameter = 40 for a disc, size = [25, 25] for a cuboid");
+  /// One table, or several.
+  void readToolProbes() {
+    if (root_.isTable("tool_probe")) {
+      if (auto reader = root_.table("tool_probe")) addToolProbe(*reader);
+      return;
     }
-    contact.diameter = reader->number("diameter", positive).value_or(contact.diameter);
-    if (const auto size = readVector2(*reader, "size", anyLength)) {
-      contact.length = size->x();
-      contact.width = size->y();
+    for (TomlReader& reader : root_.tables("tool_probe"))
+      addToolProbe(reader);
+  }
+
+  void addToolProbe(TomlReader& reader) {
+    SetupToolProbe read = readToolProbe(reader);
+    for (const TrueToolProbe& other : setup_.truth.toolProbes) {
+      if (other.name == read.probe.name)
+        reader.report("name", fmt::format("there are two tool touch probes called \"{}\"", other.name));
     }
-    contact.thickness = reader->number("thickness", positive).value_or(contact.thickness);
-    contact.stemDiameter = reader->number("stem_diameter", positive).value_or(contact.stemDiameter);
-    contact.stemLength = reader->number("stem_length", positive).value_or(contact.stemLength);
-    const double across = contact.length > 0 ? std::min(contact.length, contact.width) : contact.diameter;
-    if (contact.stemDiameter >= across) reader->report("stem_diameter", "the stem must be thinner than the contact");
-    placeGauge(toolProbeContact(contact), *reader, "tool touch probe", SolidRole::ToolProbe);
+    placeGauge(std::move(read.recipe), reader, read.probe.name, SolidRole::ToolProbe);
+    setup_.truth.toolProbes.push_back(std::move(read.probe));
   }
 
   /// "G54" to "G57" as 1 to 4, "G505" to "G599" as 5 to 99.

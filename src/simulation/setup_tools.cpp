@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "simulation/setup_solids.hpp"
@@ -70,6 +71,96 @@ void readProbe(TomlReader& reader, TrueTool& tool, BelievedTool& believed) {
   believed.trueTipOffset = !offset;
 }
 
+/// [[tool.cutter.tooth]]: the teeth that differ from the drawing.
+void readTeeth(TomlReader& reader, TrueTool& tool) {
+  TrueCutter& cutter = tool.cutter;
+  constexpr int mostTeeth = 99;
+  const int count = static_cast<int>(reader.integer("teeth", 0, mostTeeth).value_or(0));
+  const double first = reader.number("first_tooth", {-360, 360}).value_or(0);
+  cutter.teeth.resize(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i)
+    cutter.teeth[static_cast<std::size_t>(i)].angle = first + 360.0 * i / count;
+  std::vector<bool> seen(cutter.teeth.size());
+  for (TomlReader& entry : reader.tables("tooth")) {
+    entry.require("number");
+    const int number = static_cast<int>(entry.integer("number", 1, mostTeeth).value_or(1));
+    TrueTooth other;
+    const bool known = number <= count;
+    if (!known) {
+      entry.report("number", fmt::format("there is no tooth {}; \"teeth\" says {}", number, count),
+                   "Write how many teeth the tool has under [tool.cutter]");
+    } else if (seen[static_cast<std::size_t>(number) - 1]) {
+      entry.report("number", fmt::format("tooth {} appears here twice", number));
+    }
+    if (known) seen[static_cast<std::size_t>(number) - 1] = true;
+    TrueTooth& tooth = known ? cutter.teeth[static_cast<std::size_t>(number) - 1] : other;
+    tooth.angle = entry.number("angle", {-360, 360}).value_or(tooth.angle);
+    tooth.radial = entry.number("radial", {-10, 10}).value_or(0);
+    tooth.axial = entry.number("axial", {-10, 10}).value_or(0);
+    tooth.radialWear = entry.number("radial_wear", {0, 10}).value_or(0);
+    tooth.axialWear = entry.number("axial_wear", {0, 10}).value_or(0);
+    tooth.broken = entry.number("broken", anyLengthOrNone).value_or(0);
+    if (tool.radius + tooth.radial - tooth.radialWear < cutter.cornerRadius)
+      entry.report("radial", "the run-out and the wear of this tooth leave less than the corner radius of the tool");
+    entry.finish();
+  }
+}
+
+/// [tool.cutter.insert] of a turning tool.
+void readInsert(TomlReader& reader, TrueCutter& cutter) {
+  TrueInsert insert;
+  insert.noseRadius = reader.requiredNumber("nose_radius", anyLengthOrNone).value_or(insert.noseRadius);
+  insert.wear = reader.number("wear", {0, 10}).value_or(0);
+  insert.edgeLength = reader.number("edge_length", anyLength).value_or(insert.edgeLength);
+  insert.orientation = reader.number("orientation", anyAngle).value_or(0);
+  const auto normals = reader.numbers("edge_normals", 2, anyAngle);
+  if (normals) {
+    insert.firstNormal = (*normals)[0];
+    insert.secondNormal = (*normals)[1];
+    const double between = std::abs(std::remainder(insert.secondNormal - insert.firstNormal, 360));
+    if (between < 1 || between > 179)
+      reader.report("edge_normals", "the normals of the two edges are 1 to 179 degrees apart");
+  }
+  if (insert.wear > 0 && insert.wear >= insert.noseRadius)
+    reader.report("wear", "the wear leaves nothing of the nose radius");
+  reader.finish();
+  cutter.insert = insert;
+}
+
+/// [tool.cutter]: what of the tool cuts.
+void readCutter(TomlReader& reader, TrueTool& tool, bool turning) {
+  TrueCutter& cutter = tool.cutter;
+  const auto get = [&](const char* key, NumberRange range) { return reader.number(key, range).value_or(0); };
+  cutter.cornerRadius = get("corner_radius", notNegative);
+  if (cutter.cornerRadius > tool.radius)
+    reader.report("corner_radius", "the corner radius is larger than the radius of the tool",
+                  "The radius of the tool makes a ball");
+  cutter.pointAngle = reader.number("point_angle", {1, 180}).value_or(180);
+  if (cutter.pointAngle < 180 && cutter.cornerRadius > 0)
+    reader.report("point_angle", "a tool has either a point angle or a corner radius");
+  cutter.helix = get("helix", {-85, 85});
+  cutter.cutLength = get("cutting_length", notNegative);
+  cutter.shankRadius = get("shank_radius", notNegative);
+  cutter.holderRadius = get("holder_radius", notNegative);
+  cutter.holderLength = get("holder_length", notNegative);
+  if (cutter.holderLength >= tool.length) reader.report("holder_length", "the holder is longer than the whole tool");
+  if ((cutter.holderLength > 0) != (cutter.holderRadius > 0))
+    reader.report("holder_radius", "a holder needs both holder_radius and holder_length");
+  cutter.eccentricity = readVector2(reader, "eccentricity", NumberRange::within(1000)).value_or(Vector2::Zero());
+  static const std::vector<std::string> directions = {"M3", "M4", "none"};
+  const std::size_t direction = reader.choice("cutting_direction", directions).value_or(0);
+  cutter.cutting = direction == 0   ? machine::Rotation::Clockwise
+                   : direction == 1 ? machine::Rotation::CounterClockwise
+                                    : machine::Rotation::None;
+  readTeeth(reader, tool);
+  if (auto insert = reader.table("insert")) {
+    if (!turning) reader.report("insert", "only tools of kind \"turn\" have an insert");
+    if (!cutter.teeth.empty()) reader.report("teeth", "a tool with an insert has no teeth");
+    readInsert(*insert, cutter);
+  }
+  reader.finish();
+}
+
 }  // namespace
 
 void readTools(TomlReader& root, Setup& setup) {
@@ -100,6 +191,7 @@ void readTools(TomlReader& root, Setup& setup) {
       readProbe(reader, tool, believed);
     } else {
       tool.radius = reader.requiredNumber("radius", toolRadius).value_or(5);
+      if (auto cutter = reader.table("cutter")) readCutter(*cutter, tool, believed.kind == "turn");
       believed.length = reader.number("believed_length", believedLength).value_or(tool.length);
       believed.radius = reader.number("believed_radius", toolRadius).value_or(tool.radius);
     }

@@ -13,6 +13,27 @@ void addCylinder(ToolShape& shape, const Vector3& base, const Vector3& up, doubl
   if (length > 0) shape.shafts.push_back({base, up * length, radius, part, Ends::Flat});
 }
 
+/// The cylinder about all edges, the shank and the holder.
+void addCutter(ToolShape& shape, const TrueTool& tool, double spindleDegrees) {
+  const TrueCutter& cutter = tool.cutter;
+  const Vector3& up = shape.shank;
+  double radius = tool.radius, longer = 0;
+  for (const TrueTooth& tooth : cutter.teeth) {
+    radius = std::max(radius, tool.radius + tooth.radial);
+    longer = std::max(longer, tooth.axial);
+  }
+  if (!(radius > 0)) return;
+  const Vector3 aside = toolFrame(tool) * rotation(Vector3::UnitZ(), spindleDegrees).linear() *
+                        Vector3(offsetOf(cutter).x(), offsetOf(cutter).y(), 0);
+  const double body = tool.length - cutter.holderLength;
+  const double edges = cutter.cutLength > 0 ? std::min(cutter.cutLength, body) : body;
+  addCylinder(shape, shape.tip + aside - longer * up, up, edges + longer, radius, cutterName);
+  const double shank = cutter.shankRadius > 0 ? cutter.shankRadius : tool.radius;
+  addCylinder(shape, shape.tip + aside + edges * up, up, body - edges, shank, "shank");
+  if (cutter.holderRadius > 0)
+    addCylinder(shape, shape.tip + body * up, up, cutter.holderLength, cutter.holderRadius, "holder");
+}
+
 }  // namespace
 
 Matrix3 toolFrame(const TrueTool& tool) {
@@ -36,7 +57,7 @@ ToolShape shapeOf(const TrueTool* tool, double spindleDegrees) {
   shape.shank = up;
   if (tool->kind == ToolKind::Cutter) {
     shape.tip = tip;
-    if (tool->radius > 0) addCylinder(shape, tip, up, tool->length, tool->radius, "tool");
+    addCutter(shape, *tool, spindleDegrees);
     return shape;
   }
   const TrueProbe& probe = tool->probe;

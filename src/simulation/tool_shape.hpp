@@ -26,6 +26,8 @@ struct Shaft {
 
 /// The part that a stylus is called.
 inline constexpr const char* shaftName = "stylus";
+/// The part of a cutter that its edges are in.
+inline constexpr const char* cutterName = "tool";
 
 struct ToolShape {
   std::vector<Ball> balls;  ///< none of a cutter

@@ -7,7 +7,9 @@
 
 #include "geometry/primitives.hpp"
 #include "machine/description.hpp"
+#include "simulation/cutter.hpp"
 #include "simulation/solid.hpp"
+#include "simulation/tool_touch_probe.hpp"
 
 /// What is true in a virtual world: where things really are and how far the machine is from its builder's drawing.
 /// Plain data; a VirtualMachine is built from it and no control ever sees it.
@@ -113,7 +115,8 @@ struct TrueTool {
   double length = 100;
   Vector3 mount = Vector3::Zero();            ///< from the spindle nose to where `length` begins, spindle frame
   Vector3 shankDirection = Vector3::UnitZ();  ///< from the tip to the holder, spindle frame; unit
-  double radius = 5;                          ///< of a cutter, a cylinder
+  double radius = 5;                          ///< of a cutter, without the run-out of its teeth
+  TrueCutter cutter;                          ///< if kind is Cutter
   TrueProbe probe;                            ///< if kind is Probe
 };
 
@@ -121,6 +124,8 @@ struct Truth {
   machine::MachineDescription machine;  ///< as its builder describes it
   MachineErrors errors;
   std::vector<PlacedSolid> solids;
+  /// Each has a solid of the same name and of role ToolProbe in `solids`, which is drawn and stops what runs into it.
+  std::vector<TrueToolProbe> toolProbes;
   std::vector<TrueTool> tools;  ///< found by name where a program names one, else by number; 0 is the empty spindle
   machine::AxisPositions start;
   std::uint64_t seed = 1;

@@ -60,14 +60,28 @@ std::uint64_t streamSeed(std::uint64_t seed, std::string_view name) {
   return hash;
 }
 
+namespace {
+
+bool isToolProbe(const PlacedSolid& solid) { return solid.role == SolidRole::ToolProbe; }
+
+}  // namespace
+
 VirtualMachine::VirtualMachine(Truth truth)
     : truth_(std::move(truth)),
       kinematics_(truth_.machine, truth_.errors),
       surroundings_(truth_.solids),
+      withoutToolProbes_(truth_.solids, [](const PlacedSolid& solid) { return !isToolProbe(solid); }),
+      toolProbesOnly_(truth_.solids, isToolProbe),
       reading_(truth_.start),
       slides_(truth_.start),
       noise_(streamSeed(truth_.seed, "probe")),
-      path_(pathPoint(tableFromSpindle(), PathKind::Start, 0)) {}
+      path_(pathPoint(tableFromSpindle(), PathKind::Start, 0)) {
+  for (const TrueToolProbe& probe : truth_.toolProbes) {
+    const auto drawn = std::ranges::find_if(
+        truth_.solids, [&](const PlacedSolid& solid) { return isToolProbe(solid) && solid.name == probe.name; });
+    solidOfToolProbe_.push_back(static_cast<std::size_t>(drawn - truth_.solids.begin()));
+  }
+}
 
 Pose VirtualMachine::tableFromSpindle() const { return kinematics_.tableFromSpindle(slides_, clock_); }
 
@@ -126,9 +140,13 @@ Motion VirtualMachine::motionTo(const AxisPositions& target, Feed feed) const {
   return motion;
 }
 
+const char* VirtualMachine::partOf(const Touch& touch) const {
+  return *touch.shaft < shape_.shafts.size() ? shape_.shafts[*touch.shaft].part : cutterName;
+}
+
 std::string VirtualMachine::describe(const Touch& touch) const {
   const PlacedSolid& solid = truth_.solids[touch.solid];
-  const char* part = touch.shaft ? shape_.shafts[*touch.shaft].part : "stylus tip";
+  const char* part = touch.shaft ? partOf(touch) : "stylus tip";
   const std::string tool = tool_->name.empty() ? fmt::format("tool {}", tool_->number)
                                                : fmt::format("tool {} \"{}\"", tool_->number, tool_->name);
   const std::string what = part == std::string_view("tool") ? tool : fmt::format("the {} of {}", part, tool);
@@ -170,7 +188,7 @@ void VirtualMachine::advance(const Motion& motion, const Stop& stop, PathKind ki
   PathTouch touch;
   touch.kind = kind;
   touch.solid = truth_.solids[stop.touch->solid].name;
-  touch.part = stop.touch->shaft ? shape_.shafts[*stop.touch->shaft].part : "ball";
+  touch.part = stop.touch->shaft ? partOf(*stop.touch) : "ball";
   touch.point = stop.touch->point;
   touch.normal = stop.touch->normal;
   touch.ballCentre = stop.touch->ballCentre;
@@ -299,6 +317,7 @@ MoveResult VirtualMachine::turnSpindle(Rotation rotation, double speed) {
   if (rotation == Rotation::None) {
     spindle_.rotation = rotation;
     spindle_.speed = 0;
+    spin_ = {spindleDegrees(), clock_, 0};
     return {};
   }
   if (stop_.stop_requested()) return {MoveEnd::Cancelled, stoppedText};
@@ -306,6 +325,9 @@ MoveResult VirtualMachine::turnSpindle(Rotation rotation, double speed) {
     return {MoveEnd::Refused, fmt::format("a spindle speed of {} is not possible", speed)};
   spindle_.rotation = rotation;
   spindle_.speed = speed;
+  // Clockwise as seen from the spindle nose is against the angles about the tool. On a lathe the workpiece turns.
+  const double turned = truth_.machine.mainSpindle ? 0 : (rotation == Rotation::Clockwise ? -6.0 : 6.0) * speed;
+  spin_ = {spindleDegrees(), clock_, turned};
   return {};
 }
 
@@ -316,6 +338,7 @@ MoveResult VirtualMachine::orientSpindle(double degrees) {
   continuous_.stop();
   clock_ += orientationSeconds;
   spindle_ = {Rotation::None, 0, degrees};
+  spin_ = {truth_.machine.mainSpindle ? 0 : degrees, clock_, 0};
   shape_ = shapeOf(tool_, degrees);
   const auto touch = overlap();
   if (!touch) return {};
@@ -340,6 +363,8 @@ std::optional<const TrueTool*> VirtualMachine::findTool(const machine::ToolOrder
 ToolChangeResult VirtualMachine::load(const TrueTool* tool) {
   tool_ = tool;
   shape_ = shapeOf(tool_, spindle_.angle);
+  edges_.reset();
+  if (tool_ != nullptr && tool_->kind == ToolKind::Cutter) edges_.emplace(*tool_);
   if (recording_) path_.add(pathPoint(tableFromSpindle(), PathKind::ToolChange, clock_));
   const auto touch = overlap();
   if (!touch) return {};

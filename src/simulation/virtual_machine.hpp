@@ -10,6 +10,7 @@
 #include "machine/machine.hpp"
 #include "simulation/contact_search.hpp"
 #include "simulation/continuous_path.hpp"
+#include "simulation/edge_contact.hpp"
 #include "simulation/path_record.hpp"
 #include "simulation/tool_shape.hpp"
 #include "simulation/true_kinematics.hpp"
@@ -37,11 +38,13 @@ namespace probewright::simulation {
 /// and stop, at most 0.8 ball radii beyond the contact, and never beyond the target. If the target comes before the
 /// signal, there is none. Pretravel, delay and noise act along the path.
 ///
-/// Tool touch probe. A solid of that role signals at the first touch of a tool without sensor, latched where it
-/// touches, when it is the sensor that measures; every other solid in the way is a collision.
+/// Tool touch probe. When it is the sensor that measures, it signals at the first touch of an edge of the cutter; see
+/// CuttingEdges. The axes travel on as with a touch probe's signal. The contact does not give way in every direction,
+/// and an edge that turns as it cuts damages it: collisions, as is every other solid in the way and the shank. To
+/// moves that do not measure, a cutter is the cylinder about all of its edges.
 ///
-/// Spindle. It turns without taking time and without moving what touches: runout and teeth are not simulated. Of M
-/// functions the machine has coolant: 7, 8, 9.
+/// Spindle. It turns without taking time; the edges of a cutter turn with it, other tools touch as they were oriented.
+/// Stopped, it stands where it is. Of M functions the machine has coolant: 7, 8, 9.
 ///
 /// Errors of the axes act between the readings and the true place of the spindle; see MachineErrors.
 ///
@@ -108,12 +111,24 @@ private:
   Stop stopFor(const Motion& motion, const Touch& touch);
   Stop signalStop(const Motion& motion, const Touch& touch);
   double pretravel(const Motion& motion, const Touch& touch) const;
-  bool hasToolProbe() const;
   machine::MeasureResult measureTool(const machine::MeasureOrder& order);
+  /// What the cutter runs into with anything but its edges, the tool touch probes aside, on a measuring motion.
+  std::optional<Touch> obstacle(const Motion& motion) const;
+  /// The first touch of a tool touch probe.
+  struct ProbeTouch {
+    std::size_t probe = 0;
+    EdgeContact contact;
+    Touch touch;
+  };
+  std::optional<ProbeTouch> toolProbeTouch(const Motion& motion) const;
+  machine::MeasureResult signalOfTool(const Motion& motion, const ProbeTouch& touched);
+  /// The spindle as it turns the tool in it now.
+  double spindleDegrees() const { return spin_.at(clock_); }
   void advance(const Motion& motion, const Stop& stop, PathKind kind);
   machine::MoveResult finish(const Motion& motion, std::optional<Touch> touch, PathKind kind);
   std::optional<double> freeFrom(const Motion& motion) const;
   std::string describe(const Touch& touch) const;
+  const char* partOf(const Touch& touch) const;
   /// The tool that is ordered, null for none; nothing if the magazine does not hold it.
   std::optional<const TrueTool*> findTool(const machine::ToolOrder& order) const;
   machine::ToolChangeResult load(const TrueTool* tool);
@@ -127,13 +142,17 @@ private:
   Truth truth_;
   TrueKinematics kinematics_;
   Surroundings surroundings_;
+  Surroundings withoutToolProbes_, toolProbesOnly_;
+  std::vector<std::size_t> solidOfToolProbe_;  ///< which of the solids draws each of the tool touch probes
   const TrueTool* tool_ = nullptr;
   ToolShape shape_;
+  std::optional<CuttingEdges> edges_;  ///< of a cutter
   machine::AxisPositions reading_;
   machine::AxisPositions slides_;
   std::optional<Touch> deflection_;   ///< the touch that deflected the stylus, while it is deflected
   std::optional<Touch> toolContact_;  ///< that of a tool with the tool touch probe, until it is pulled off
   machine::SpindleState spindle_;
+  Spin spin_;
   double clock_ = 0;
   std::mt19937_64 noise_;
   std::normal_distribution<double> gaussian_;

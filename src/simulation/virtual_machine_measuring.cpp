@@ -129,44 +129,4 @@ MeasureResult VirtualMachine::measureWithProbe(const MeasureOrder& order) {
   return {MeasureEnd::Touched, motion.readingAt(stop.signal.value_or(stop.end)), describe(*touch)};
 }
 
-bool VirtualMachine::hasToolProbe() const {
-  return std::ranges::any_of(truth_.solids,
-                             [](const PlacedSolid& solid) { return solid.role == SolidRole::ToolProbe; });
-}
-
-MeasureResult VirtualMachine::measureTool(const MeasureOrder& order) {
-  const auto end = [&](MeasureEnd how, std::string detail) { return MeasureResult{how, reading_, std::move(detail)}; };
-  if (stop_.stop_requested()) return end(MeasureEnd::Cancelled, stoppedText);
-  if (!hasToolProbe()) return end(MeasureEnd::NotReady, "this machine has no tool touch probe");
-  if (!tool_) return end(MeasureEnd::NotReady, "there is no tool in the spindle");
-  if (tool_->kind != ToolKind::Cutter)
-    return end(MeasureEnd::NotReady,
-               "there is a touch probe in the spindle, which the tool touch probe cannot measure");
-  if (auto refused = refusal(order.feed)) return refusedMeasurement(*std::move(refused));
-  if (toolContact_) return end(MeasureEnd::DeflectedAtStart, describe(*toolContact_));
-  if (auto limit = beyondTravel(order.target)) return end(MeasureEnd::AxisLimit, *limit);
-  const Motion motion = motionTo(order.target, order.feed);
-  std::optional<Touch> touch;
-  try {
-    touch = firstTouch(motion, 0, 1, shape_, surroundings_, searchOptions(measuringPrecision));
-  } catch (const SearchStopped& stopped) {
-    standAt(motion, stopped.fraction, PathKind::Measure);
-    return end(MeasureEnd::Cancelled, stoppedText);
-  }
-  if (!touch) {
-    advance(motion, Stop{}, PathKind::Measure);
-    return end(MeasureEnd::NoContact, "the target was reached without contact");
-  }
-  if (truth_.solids[touch->solid].role != SolidRole::ToolProbe) {
-    advance(motion, Stop{touch, std::nullopt, touch->fraction}, PathKind::Measure);
-    return end(MeasureEnd::Collision, describe(*touch));
-  }
-  const double length = motion.profile.length();
-  const double contact = touch->fraction * length;
-  const double stop = std::min(contact + motion.profile.brakingDistanceAt(contact), length);
-  advance(motion, Stop{touch, touch->fraction, stop / length}, PathKind::Measure);
-  toolContact_ = touch;
-  return {MeasureEnd::Touched, motion.readingAt(touch->fraction), describe(*touch)};
-}
-
 }  // namespace probewright::simulation

@@ -45,11 +45,9 @@ Shifting shifting(Dice& dice) {
   const double half = written(dice.between(12, 20));
   world.disc = dice.coin();
   if (world.disc) {
-    place(bench.setup.truth, simulation::RoundBar(half, -10, 0), pose(world.contact), "TT",
-          simulation::SolidRole::ToolProbe);
+    placeToolProbe(bench.setup.truth, simulation::RoundBar(half, -10, 0), pose(world.contact));
   } else {
-    place(bench.setup.truth, simulation::Box({-half, -half, -10}, {half, half, 0}), pose(world.contact), "TT",
-          simulation::SolidRole::ToolProbe);
+    placeToolProbe(bench.setup.truth, simulation::Box({-half, -half, -10}, {half, half, 0}), pose(world.contact));
   }
   bench.part(simulation::Box({0, -20, -40}, {40, 20, 0}), pose({0, 0, -420}));
   // The control knows place and size a little wrong.

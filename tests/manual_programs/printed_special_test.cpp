@@ -142,8 +142,7 @@ TEST_P(PrintedSpecial, Cycle440MeasuresTheShiftThatCalibratingDidNotSee) {
   pin.radius = 6;
   part.bench.setup.truth.tools.push_back(pin);
   part.bench.knows(9, "PIN", 70, 6);
-  place(part.bench.setup.truth, simulation::Box({-20, -20, -10}, {20, 20, 0}), pose({100, 50, -460}), "TT",
-        simulation::SolidRole::ToolProbe);
+  placeToolProbe(part.bench.setup.truth, simulation::Box({-20, -20, -10}, {20, 20, 0}), pose({100, 50, -460}));
   for (const auto& [name, value] :
        {std::pair("MP6580.0", 100.0), std::pair("MP6580.1", 50.0), std::pair("MP6580.2", -460.0)})
     part.bench.setup.parameters[name] = {value, {}};

@@ -40,8 +40,7 @@ std::unique_ptr<machine::Machine> virtualMachine() {
   mill.radius = 6;
   truth.tools.push_back(mill);
   place(truth, simulation::HalfSpace({Vector3(0, 0, -400), Vector3::UnitZ()}));
-  place(truth, simulation::Box({30, -20, -400}, {70, 20, -360}), Pose::Identity(), "tool probe",
-        simulation::SolidRole::ToolProbe);
+  testing_support::placeToolProbe(truth, simulation::Box({30, -20, -400}, {70, 20, -360}));
   return std::make_unique<simulation::VirtualMachine>(std::move(truth));
 }
 

@@ -169,6 +169,20 @@ TEST(DocumentedKeys, OfTools) {
   EXPECT_TRUE(ofMills.contains("radius") && !ofProbes.contains("radius"));
 }
 
+TEST(DocumentedKeys, OfCutters) {
+  const auto listed = [](const std::string& head) {
+    std::set<std::string> keys;
+    for (const Row& row : rows())
+      if (row.heading == "`[tool.cutter]`" && row.cells.contains("key of `" + head + "`"))
+        keys.insert(row.keys.begin(), row.keys.end());
+    return keys;
+  };
+  const std::string cutter = mill + "[tool.cutter]\nteeth = 2\n";
+  EXPECT_EQ(known(cutter + z), listed("[tool.cutter]"));
+  EXPECT_EQ(known(cutter + "[[tool.cutter.tooth]]\nnumber = 1\n" + z), listed("[[tool.cutter.tooth]]"));
+  EXPECT_EQ(known(mill + "[tool.cutter.insert]\nnose_radius = 1\n" + z), listed("[tool.cutter.insert]"));
+}
+
 TEST(DocumentedKeys, OfFeatures) {
   const std::map<std::string, std::string> examples = {{"box", "size = [9, 9, 9]"},
                                                        {"cylinder", "diameter = 9\nheight = 9"},

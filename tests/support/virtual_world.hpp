@@ -51,4 +51,20 @@ void place(simulation::Truth& truth, SolidType solid, const Pose& tableFromSolid
   truth.solids.push_back({std::make_shared<SolidType>(std::move(solid)), tableFromSolid, name, role});
 }
 
+/// A tool touch probe whose contact is `solid`.
+template <class SolidType>
+simulation::TrueToolProbe& placeToolProbe(simulation::Truth& truth, SolidType solid,
+                                          const Pose& tableFromContact = Pose::Identity(),
+                                          const std::string& name = "TT") {
+  simulation::TrueToolProbe probe;
+  probe.name = name;
+  auto contact = std::make_shared<SolidType>(std::move(solid));
+  probe.contact = contact;
+  probe.cuboid = std::is_same_v<SolidType, simulation::Box>;
+  probe.tableFromContact = tableFromContact;
+  truth.solids.push_back({contact, tableFromContact, name, simulation::SolidRole::ToolProbe});
+  truth.toolProbes.push_back(probe);
+  return truth.toolProbes.back();
+}
+
 }  // namespace probewright::testing_support
