@@ -119,7 +119,7 @@ Result<void> replaceSet(const FolderLock& lock, const Checksums& before,
   Checksums after;
   std::set<std::string> dropped;
   for (const auto& [name, checksum] : before) {
-    const bool replaced = std::ranges::any_of(files, [&](const auto& file) { return file.first == name; });
+    const bool replaced = std::ranges::any_of(files, [&name = name](const auto& file) { return file.first == name; });
     if (!replaced && goes(name)) dropped.insert(name);
     if (!replaced && !goes(name)) after.emplace(name, checksum);
   }

@@ -86,7 +86,7 @@ Control::PresetChange presetChange(Context& context, const NewPreset& preset, co
     axes = turnedAxes(context, *preset.rotation, transformed);
     setAngles(context, axes, change);
     if (!context.control().isTNC640())
-      axes = rotation(Vector3::Unit(plane.tool), *change.spaceAngles[plane.tool]).linear();
+      axes = rotation(Vector3::Unit(plane.tool), *change.spaceAngles[static_cast<std::size_t>(plane.tool)]).linear();
   }
   Eigen::Affine3d program(presetFromProgram(coordinates, transformed));
   program = Eigen::Translation3d(target.origin) * axes * program;
