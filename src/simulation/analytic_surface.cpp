@@ -33,56 +33,89 @@ Roots circleDistanceRoots(const Vector3& localStart, const Vector3& localDirecti
   return roots;
 }
 
-SurfaceFoot AnalyticSurface::foot(const Vector3& p) const {
-  const Vector3 q = axes.transpose() * (p - origin);
-  const double rho = std::hypot(q.x(), q.y());
-  const Vector3 outward = rho > 0 ? Vector3(q.x() / rho, q.y() / rho, 0) : Vector3::UnitX();
-  // The formula of the far sheet counts its azimuth from the other side of the axis.
-  const double azimuth = farSheet ? std::atan2(-outward.y(), -outward.x()) : std::atan2(outward.y(), outward.x());
-  SurfaceFoot foot;
-  foot.exists = true;
-  Vector3 normal;
+struct AnalyticSurface::Local {
+  Vector3 place;                      ///< of the point
+  double rho = 0;                     ///< its distance from the axis
+  Vector3 outward = Vector3::Zero();  ///< unit, from the axis to it
+  double signedDistance = 0;
+  Vector3 normal = Vector3::UnitZ();
+};
+
+AnalyticSurface::Local AnalyticSurface::inOwnFrame(const Vector3& p) const {
+  Local local;
+  local.place = axes.transpose() * (p - origin);
+  const Vector3& q = local.place;
+  if (kind == Kind::Plane) {
+    local.signedDistance = q.z();
+    return local;
+  }
+  local.rho = std::sqrt(q.x() * q.x() + q.y() * q.y());
+  local.outward = local.rho > 0 ? Vector3(q.x() / local.rho, q.y() / local.rho, 0) : Vector3::UnitX();
   switch (kind) {
     case Kind::Plane:
-      normal = Vector3::UnitZ();
-      foot.signedDistance = q.z();
-      foot.parameters = {q.x(), q.y()};
       break;
     case Kind::Cylinder:
-      normal = outward;
-      foot.signedDistance = rho - radius;
-      foot.parameters = {azimuth, q.z()};
+      local.normal = local.outward;
+      local.signedDistance = local.rho - radius;
       break;
-    case Kind::Cone: {
-      normal = coneCosine * outward - coneSine * Vector3::UnitZ();
-      foot.signedDistance = (rho - radius) * coneCosine - q.z() * coneSine;
-      const double along = (rho - radius) * coneSine + q.z() * coneCosine;
-      foot.exists = radius + along * coneSine >= 0;
-      foot.parameters = {azimuth, along};
+    case Kind::Cone:
+      local.normal = coneCosine * local.outward - coneSine * Vector3::UnitZ();
+      local.signedDistance = (local.rho - radius) * coneCosine - q.z() * coneSine;
       break;
-    }
     case Kind::Sphere: {
       const double distance = q.norm();
-      normal = distance > 0 ? Vector3(q / distance) : Vector3::UnitX();
-      foot.signedDistance = distance - radius;
-      foot.parameters = {azimuth, std::atan2(q.z(), rho)};
+      local.normal = distance > 0 ? Vector3(q / distance) : Vector3::UnitX();
+      local.signedDistance = distance - radius;
       break;
     }
     case Kind::Torus: {
-      const Vector3 arm = q - radius * outward;
+      const Vector3 arm = q - radius * local.outward;
       const double distance = arm.norm();
-      normal = distance > 0 ? Vector3(arm / distance) : outward;
-      foot.signedDistance = distance - tubeRadius;
-      foot.exists = radius + tubeRadius * normal.dot(outward) >= 0;
-      foot.parameters = {azimuth, std::atan2(q.z(), farSheet ? radius - rho : rho - radius)};
-      if (farSheet) {
-        normal = -normal;
-        foot.signedDistance = -foot.signedDistance;
-      }
+      const double side = farSheet ? -1 : 1;
+      local.normal = side * (distance > 0 ? Vector3(arm / distance) : local.outward);
+      local.signedDistance = side * (distance - tubeRadius);
       break;
     }
   }
-  foot.normal = axes * normal;
+  return local;
+}
+
+SurfaceHeight AnalyticSurface::height(const Vector3& p) const {
+  const Local local = inOwnFrame(p);
+  return {local.signedDistance, axes * local.normal};
+}
+
+SurfaceFoot AnalyticSurface::foot(const Vector3& p) const {
+  const Local local = inOwnFrame(p);
+  const Vector3& q = local.place;
+  // The formula of the far sheet counts its azimuth from the other side of the axis.
+  const double side = farSheet ? -1 : 1;
+  const auto azimuth = [&] { return std::atan2(side * local.outward.y(), side * local.outward.x()); };
+  SurfaceFoot foot;
+  foot.exists = true;
+  switch (kind) {
+    case Kind::Plane:
+      foot.parameters = {q.x(), q.y()};
+      break;
+    case Kind::Cylinder:
+      foot.parameters = {azimuth(), q.z()};
+      break;
+    case Kind::Cone: {
+      const double along = (local.rho - radius) * coneSine + q.z() * coneCosine;
+      foot.exists = radius + along * coneSine >= 0;
+      foot.parameters = {azimuth(), along};
+      break;
+    }
+    case Kind::Sphere:
+      foot.parameters = {azimuth(), std::atan2(q.z(), local.rho)};
+      break;
+    case Kind::Torus:
+      foot.exists = radius + tubeRadius * side * local.normal.dot(local.outward) >= 0;
+      foot.parameters = {azimuth(), std::atan2(q.z(), side * (local.rho - radius))};
+      break;
+  }
+  foot.signedDistance = local.signedDistance;
+  foot.normal = axes * local.normal;
   foot.point = p - foot.signedDistance * foot.normal;
   return foot;
 }

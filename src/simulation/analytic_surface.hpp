@@ -15,6 +15,12 @@ struct SurfaceFoot {
   bool exists = false;
 };
 
+/// How far a point stands from a surface, as in SurfaceFoot.
+struct SurfaceHeight {
+  double signedDistance = 0;
+  Vector3 normal = Vector3::Zero();
+};
+
 /// A plane, cylinder, cone, sphere or torus without borders. Of a cone it is one nappe, of a torus that meets itself
 /// one of its two sheets.
 struct AnalyticSurface {
@@ -38,6 +44,8 @@ struct AnalyticSurface {
 
   /// The nearest point of the surface; on the axis of a round surface one of many.
   SurfaceFoot foot(const Vector3& p) const;
+  /// A part of foot(), sooner: without the angles of the parameters.
+  SurfaceHeight height(const Vector3& p) const;
 
   /// The distances along the way, ascending, at which a ball touches the surface from either side. Up to eight.
   struct Touches {
@@ -45,6 +53,10 @@ struct AnalyticSurface {
     std::size_t count = 0;
   };
   Touches touches(const Way& way, double radius) const;
+
+private:
+  struct Local;
+  Local inOwnFrame(const Vector3& p) const;
 };
 
 /// True if the ball goes on into the surface after a touch, before it touches again at `next`: the gap may come back to

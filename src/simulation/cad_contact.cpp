@@ -63,17 +63,18 @@ void meetCircle(const CadEdge& edge, const Way& way, double radius, Meeting& bes
 void meetSheet(const CadFace& face, const AnalyticSurface& surface, const Way& way, double radius, Meeting& best) {
   const double side = (face.reversed ? -1 : 1) * (surface.axes.determinant() < 0 ? -1 : 1);
   const auto gapAndSlope = [&](double when) {
-    const SurfaceFoot foot = surface.foot(way.at(when));
-    const double sign = foot.signedDistance < 0 ? -1 : 1;
-    return std::pair(std::abs(foot.signedDistance) - radius, sign * foot.normal.dot(way.direction));
+    const auto [distance, normal] = surface.height(way.at(when));
+    const double sign = distance < 0 ? -1 : 1;
+    return std::pair(std::abs(distance) - radius, sign * normal.dot(way.direction));
   };
   const auto meet = [&](double when, const SurfaceFoot& foot) { keep(best, when, foot.point, side * foot.normal); };
-  const SurfaceFoot atStart = surface.foot(way.start);
-  const double gapAtStart = std::abs(atStart.signedDistance) - radius;
-  if (gapAtStart < -kTouchTolerance && atStart.exists && gapAtStart < best.when &&
-      face.domain.contains(atStart.parameters)) {
-    meet(gapAtStart, atStart);
-    return;
+  const double gapAtStart = gapAndSlope(0).first;
+  if (gapAtStart < -kTouchTolerance && gapAtStart < best.when) {
+    const SurfaceFoot atStart = surface.foot(way.start);
+    if (atStart.exists && face.domain.contains(atStart.parameters)) {
+      meet(gapAtStart, atStart);
+      return;
+    }
   }
   AnalyticSurface::Touches found = surface.touches(way, radius);
   // Those of the other sheet fall out.

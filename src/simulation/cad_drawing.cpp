@@ -21,6 +21,7 @@
 namespace probewright::simulation {
 namespace {
 
+constexpr double kDeflection = 0.05;  // mm: how far a drawing may leave the surface
 constexpr double kAngularDeflection = 0.35;
 /// A part with more triangles is drawn with those that find its faces: others would take about as long to make.
 constexpr std::size_t kMostToCoarsen = 50'000;
@@ -72,28 +73,42 @@ void appendFace(DrawingMesh& drawing, const TopoDS_Face& face) {
   }
 }
 
+/// A shape of as few triangles as a view needs.
+TopoDS_Shape coarsened(const TopoDS_Shape& shape) {
+  // A copy, because tessellating writes into the shape.
+  const TopoDS_Shape copy = BRepBuilderAPI_Copy(shape, Standard_False, Standard_False).Shape();
+  BRepMesh_IncrementalMesh mesher(copy, kDeflection, Standard_False, kAngularDeflection);
+  return copy;
+}
+
+std::size_t triangleCount(const TopoDS_Shape& shape) {
+  std::size_t count = 0;
+  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
+    TopLoc_Location location;
+    const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(TopoDS::Face(faces.Current()), location);
+    if (!mesh.IsNull()) count += static_cast<std::size_t>(mesh->NbTriangles());
+  }
+  return count;
+}
+
 }  // namespace
 
-DrawingMesh CadSolid::drawing(double deflection) const {
+DrawingMesh drawingOf(const TopoDS_Shape& shape, DrawnWith triangles) {
   DrawingMesh drawing;
   try {
-    TopoDS_Shape copy = shape();
-    if (triangleCount() <= kMostToCoarsen && !hasGrids_) {
-      // A copy, because tessellating writes into the shape.
-      copy = BRepBuilderAPI_Copy(shape(), Standard_False, Standard_False).Shape();
-      BRepMesh_IncrementalMesh mesher(copy, deflection, Standard_False, kAngularDeflection);
-    }
-    for (TopExp_Explorer faces(copy, TopAbs_FACE); faces.More(); faces.Next()) {
+    const bool coarsen = triangles == DrawnWith::FewTriangles && triangleCount(shape) <= kMostToCoarsen;
+    const TopoDS_Shape drawn = coarsen ? coarsened(shape) : shape;
+    for (TopExp_Explorer faces(drawn, TopAbs_FACE); faces.More(); faces.Next()) {
       appendFace(drawing, TopoDS::Face(faces.Current()));
     }
     TopTools_IndexedDataMapOfShapeListOfShape facesOfEdges;
-    TopExp::MapShapesAndAncestors(copy, TopAbs_EDGE, TopAbs_FACE, facesOfEdges);
+    TopExp::MapShapesAndAncestors(drawn, TopAbs_EDGE, TopAbs_FACE, facesOfEdges);
     for (int i = 1; i <= facesOfEdges.Extent(); ++i) {
       const TopoDS_Edge& edge = TopoDS::Edge(facesOfEdges.FindKey(i));
       const TopTools_ListOfShape& faces = facesOfEdges(i);
       const bool seam = faces.Extent() > 1 && faces.First().IsSame(faces.Last());
       if (seam || BRep_Tool::Degenerated(edge)) continue;
-      const GCPnts_TangentialDeflection points(BRepAdaptor_Curve(edge), kAngularDeflection, deflection);
+      const GCPnts_TangentialDeflection points(BRepAdaptor_Curve(edge), kAngularDeflection, kDeflection);
       std::vector<float> line;
       for (int k = 1; k <= points.NbPoints(); ++k)
         append(line, points.Value(k));
@@ -103,6 +118,10 @@ DrawingMesh CadSolid::drawing(double deflection) const {
     // A shape that could be prepared for contact can be drawn; what is there so far is drawn in any case.
   }
   return drawing;
+}
+
+DrawingMesh CadSolid::drawing() const {
+  return drawing_.empty() ? drawingOf(shape(), DrawnWith::FewTriangles) : drawingFromBytes(drawing_);
 }
 
 }  // namespace probewright::simulation

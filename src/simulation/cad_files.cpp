@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 /// To be counted up whenever an import makes something else of the same file, also if only its layout in memory
 /// changes.
-constexpr int kCacheVersion = 4;
+constexpr int kCacheVersion = 5;
 constexpr std::size_t kMostNamed = 10;
 constexpr int kMostAttempts = 5;
 
@@ -329,9 +329,9 @@ private:
                          faces_, grid.kind, attempt_ > 1 ? " in time" : "", grid.cell),
              "balls meet it as exactly as other faces; stylus and body may stop up to a cell outside its border");
     }
-    part.hasGrids = !grids_.empty();
     part.brep = std::move(result.brep);
     part.elements = std::move(result.elements);
+    part.drawing = std::move(result.drawing);
     return part;
   }
 
@@ -385,7 +385,7 @@ Result<std::unique_ptr<Solid>> solidOf(ImportedPart part, CadFormat format, cons
     if (format == CadFormat::Step) warnOfDoubtfulArcs(model, part.remarks);
     for (Diagnostic& remark : part.remarks)
       remark.place.file = file;
-    return std::make_unique<CadSolid>(std::move(model), std::move(part.remarks), part.hasGrids);
+    return std::make_unique<CadSolid>(std::move(model), std::move(part.remarks), std::move(part.drawing));
   } catch (const Standard_Failure& failure) {
     return broken(failure.GetMessageString());
   } catch (const std::runtime_error& failure) {
@@ -395,13 +395,15 @@ Result<std::unique_ptr<Solid>> solidOf(ImportedPart part, CadFormat format, cons
 
 Result<std::unique_ptr<Solid>> import(TransferOrder order, const ImportOptions& options) {
   order.deflection = options.deflection;
+  order.facePoints = options.facePoints;
   const std::string file = order.file;
   const CadFormat format = order.format;
   const ImportCache cache(options.cache);
   std::string key;
   if (!options.cache.empty()) {
-    key = ImportCache::keyOf(order.bytes, fmt::format("{} {} {} {}", kCacheVersion, OCC_VERSION_COMPLETE,
-                                                      static_cast<int>(order.format), options.deflection));
+    key = ImportCache::keyOf(
+        order.bytes, fmt::format("{} {} {} {} {}", kCacheVersion, OCC_VERSION_COMPLETE, static_cast<int>(order.format),
+                                 options.deflection, options.facePoints));
     if (const auto kept = cache.find(key)) {
       if (auto part = partFromBytes(*kept)) return solidOf(std::move(*part), format, file, options.deflection);
     }

@@ -25,12 +25,14 @@
 #include "simulation/face_grid.hpp"
 #include "simulation/face_mesh.hpp"
 #include "simulation/memory_text.hpp"
+#include "simulation/parallel.hpp"
 
 namespace probewright::simulation {
 namespace {
 
 constexpr double kLeastGrowth = 1e-6;
-constexpr double kFarthest = 1e9;  // mm
+constexpr double kFarthest = 1e9;          // mm
+constexpr std::size_t kWorthAThread = 20;  // faces
 
 template <class Triple>
 Vector3 vector(const Triple& p) {
@@ -63,8 +65,8 @@ double areaInParameters(const CadElement& element) {
 
 /// A grid over the face, for a mesh that leaves a part of it open. It finds contacts of balls as well as a mesh does;
 /// contacts of anything else err by a cell at the borders.
-void addGridElements(CadModel& model, std::uint32_t owner, double deflection) {
-  const CadFace& exact = model.faces[owner];
+std::vector<CadElement> gridElements(const CadFace& exact, std::uint32_t owner, double deflection) {
+  std::vector<CadElement> elements;
   const FaceGrid grid(exact, deflection);
   for (const FaceGrid::Parameters& cell : grid.triangles()) {
     CadElement element;
@@ -75,16 +77,17 @@ void addGridElements(CadModel& model, std::uint32_t owner, double deflection) {
     }
     element.onFace = exact.domain.contains((cell[0] + cell[1] + cell[2]) / 3);
     element.growth = kLeastGrowth + 1.5 * deviationOf(element, *exact.surface);
-    model.elements.push_back(element);
+    elements.push_back(element);
   }
+  return elements;
 }
 
-void addFaceElements(CadModel& model, const TopoDS_Face& face, std::uint32_t owner, double deflection) {
+std::vector<CadElement> faceElements(const CadFace& exact, const TopoDS_Face& face, std::uint32_t owner,
+                                     double deflection) {
   TopLoc_Location location;
   const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, location);
-  if (mesh.IsNull() || !mesh->HasUVNodes()) return addGridElements(model, owner, deflection);
-  const CadFace& exact = model.faces[owner];
-  const std::size_t firstElement = model.elements.size();
+  if (mesh.IsNull() || !mesh->HasUVNodes()) return gridElements(exact, owner, deflection);
+  std::vector<CadElement> elements;
   double area = 0;
   const gp_Trsf transform = location.Transformation();
   const bool flat = exact.forms.isPlane();
@@ -111,14 +114,12 @@ void addFaceElements(CadModel& model, const TopoDS_Face& face, std::uint32_t own
     area += areaInParameters(element);
     // Between a bent border and its chord no triangle lies.
     element.growth = kLeastGrowth + 1.5 * std::max(deviation, straight ? 0.0 : 1.5 * deflection);
-    model.elements.push_back(element);
+    elements.push_back(element);
   }
   // Triangles that leave a part of the face open would hide it.
   constexpr double kLeastCover = 0.9;
-  if (area < kLeastCover * exact.domain.area()) {
-    model.elements.resize(firstElement);
-    addGridElements(model, owner, deflection);
-  }
+  if (area < kLeastCover * exact.domain.area()) return gridElements(exact, owner, deflection);
+  return elements;
 }
 
 CadEdge cadEdge(const TopoDS_Edge& edge) {
@@ -302,11 +303,13 @@ CadModel exactModel(const TopoDS_Shape& shape, const Faces& faces, double deflec
   model.shape = shape;
   model.deflection = deflection;
   model.closedBodies = faces.closedBodies;
-  for (std::size_t i = 0; i < faces.faces.size(); ++i) {
-    model.faces.push_back(cadFace(faces.faces[i]));
-    model.faces.back().boundsSolid = faces.boundSolid[i];
+  model.faces.resize(faces.faces.size());
+  inParallel(faces.faces.size(), kWorthAThread, [&](std::size_t i) {
+    model.faces[i] = cadFace(faces.faces[i]);
+    model.faces[i].boundsSolid = faces.boundSolid[i];
+  });
+  for (std::size_t i = 0; i < faces.faces.size(); ++i)
     addRidges(model, static_cast<std::uint32_t>(i));
-  }
   // Lines that belong to no face are drawn in the file, axes for instance, but nothing that could be touched.
   TopTools_IndexedMapOfShape edges;
   for (TopExp_Explorer every(shape, TopAbs_FACE); every.More(); every.Next())
@@ -356,8 +359,12 @@ CadModel cadModel(const TopoDS_Shape& part, double deflection) {
   if (!meshed) meshFaces(shape, deflection);
   const Faces faces = facesOf(shape);
   CadModel model = exactModel(shape, faces, deflection);
-  for (std::size_t i = 0; i < faces.faces.size(); ++i)
-    addFaceElements(model, faces.faces[i], static_cast<std::uint32_t>(i), deflection);
+  std::vector<std::vector<CadElement>> ofFaces(faces.faces.size());
+  inParallel(ofFaces.size(), kWorthAThread, [&](std::size_t i) {
+    ofFaces[i] = faceElements(model.faces[i], faces.faces[i], static_cast<std::uint32_t>(i), deflection);
+  });
+  for (const std::vector<CadElement>& elements : ofFaces)
+    model.elements.insert(model.elements.end(), elements.begin(), elements.end());
   for (std::size_t i = 0; i < model.edges.size(); ++i)
     addEdgeElements(model, static_cast<std::uint32_t>(i), deflection);
   for (const CadElement& element : model.elements) {

@@ -66,8 +66,10 @@ void meet(const CadModel& model, const CadElement& element, const Way& way, doub
 
 }  // namespace
 
-CadSolid::CadSolid(CadModel model, Diagnostics remarks, bool hasGrids)
-    : model_(std::make_unique<const CadModel>(std::move(model))), remarks_(std::move(remarks)), hasGrids_(hasGrids) {}
+CadSolid::CadSolid(CadModel model, Diagnostics remarks, std::string drawing)
+    : model_(std::make_unique<const CadModel>(std::move(model))),
+      remarks_(std::move(remarks)),
+      drawing_(std::move(drawing)) {}
 CadSolid::~CadSolid() = default;
 
 Bounds CadSolid::bounds() const { return model_->bounds; }
@@ -82,7 +84,7 @@ std::size_t CadSolid::triangleCount() const {
 
 bool CadSolid::isInside(const Vector3& point) const {
   return model_->closedBodies > 0 &&
-         isWithin(model_->tree, point, [&](std::uint32_t place, const Triangle&, const auto& cross) {
+         isWithin(model_->tree, point, Rays::Majority, [&](std::uint32_t place, const Triangle&, const auto& cross) {
            const CadElement& element = model_->elements[place];
            if (!element.isTriangle() || !model_->faces[element.owner].boundsSolid) return;
            // Far away it does not matter which side of a triangle the surface lies on.

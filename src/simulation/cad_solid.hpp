@@ -27,8 +27,8 @@ struct CadOptions {
 /// whatever starts there makes contact at fraction 0.
 class CadSolid final : public Solid {
 public:
-  /// `hasGrids`: the mesher cannot do some of the faces; it is not asked again.
-  explicit CadSolid(CadModel model, Diagnostics remarks = {}, bool hasGrids = false);
+  /// `drawing`: its drawing as bytes, if there is one already.
+  explicit CadSolid(CadModel model, Diagnostics remarks = {}, std::string drawing = {});
   ~CadSolid() override;
 
   Bounds bounds() const override;
@@ -44,16 +44,14 @@ public:
   const Diagnostics& remarks() const { return remarks_; }
   std::size_t faceCount() const;
   std::size_t triangleCount() const;
-  /// `deflection`: how far triangles may leave the surface, mm. Large parts, and those that the mesher cannot do, are
-  /// drawn with the triangles they have.
-  DrawingMesh drawing(double deflection = 0.05) const;
+  DrawingMesh drawing() const;
 
 private:
   bool isInside(const Vector3& point) const;
 
   std::unique_ptr<const CadModel> model_;
   Diagnostics remarks_;
-  bool hasGrids_ = false;
+  std::string drawing_;
 };
 
 /// Prepares a shape for contact; fails where it has no face or cannot be tessellated.

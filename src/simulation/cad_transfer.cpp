@@ -30,12 +30,14 @@
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <future>
 #include <memory>
 #include <sstream>
 #include <system_error>
 #include <thread>
 
 #include "simulation/cad_model.hpp"
+#include "simulation/drawing_mesh.hpp"
 #include "simulation/face_mesh.hpp"
 #include "simulation/memory_text.hpp"
 
@@ -156,20 +158,24 @@ void nameOpenEdges(const TopoDS_Shape& shape, const ChildVoice& voice) {
   if (count > 0) voice.say(fmt::format("open {} {:.3f} {:.3f} {:.3f}", count, place.X(), place.Y(), place.Z()));
 }
 
-void mesh(const TopoDS_Shape& shape, const TransferOrder& order, const ChildVoice& voice) {
+/// Returns whether the mesher could do every face.
+bool mesh(const TopoDS_Shape& shape, const TransferOrder& order, const ChildVoice& voice) {
   voice.say(fmt::format("faces {}", faceCount(shape)));
   voice.say("stage meshing the faces");
   FaceMeshOptions options;
   options.left = order.gridFaces;
   options.leaveAll = order.gridAll;
+  options.mostPoints = order.facePoints;
   // Threads of its own: those of a library that the parent uses do not exist here.
   OSD_Parallel::SetUseOcctThreads(true);
   options.parallel = std::thread::hardware_concurrency() > 1;
   options.begins = [&](int face) { voice.say(fmt::format("begin {}", face)); };
   options.ends = [&](int face) { voice.say(fmt::format("end {}", face)); };
   BRepLib::BuildCurves3d(shape);
-  for (const GridFace& grid : meshFaces(shape, order.deflection, options))
+  const std::vector<GridFace> grids = meshFaces(shape, order.deflection, options);
+  for (const GridFace& grid : grids)
     voice.say(fmt::format("grid {} {:.3f} {}", grid.face, grid.cell, grid.kind));
+  return grids.empty();
 }
 
 template <class Work>
@@ -208,23 +214,33 @@ std::string transferCad(const TransferOrder& order, const ChildVoice& voice) {
     nameOpenEdges(shape, voice);
     voice.say("stage looking for kinks");
     shape = withoutKinks(shape);
-    mesh(shape, order, voice);
+    const DrawnWith triangles = mesh(shape, order, voice) ? DrawnWith::FewTriangles : DrawnWith::ItsTriangles;
     voice.say("stage preparing the faces");
-    // What cannot survive this must not happen in the parent.
+    // What cannot survive this must not happen in the parent. Both only read the shape.
+    std::future<std::string> drawing =
+        std::async(std::launch::async, [&] { return toBytes(drawingOf(shape, triangles)); });
     const std::string elements = elementsOf(cadModel(shape, order.deflection));
     std::ostringstream brep;
-    BinTools::Write(shape, brep, Standard_True, Standard_False, BinTools_FormatVersion_CURRENT);
+    BinTools::Write(shape, brep, Standard_False, Standard_False, BinTools_FormatVersion_CURRENT);
     std::string bytes;
-    append(bytes, brep.view().size());
-    bytes += brep.view();
-    return bytes += elements;
+    for (const std::string_view piece : {brep.view(), std::string_view(elements)}) {
+      append(bytes, piece.size());
+      bytes += piece;
+    }
+    return bytes += drawing.get();
   });
 }
 
 Transferred transferred(std::string_view bytes) {
-  std::size_t size = 0;
-  if (!take(bytes, size) || size > bytes.size()) return {};
-  return {std::string(bytes.substr(0, size)), std::string(bytes.substr(size))};
+  Transferred result;
+  for (std::string* piece : {&result.brep, &result.elements}) {
+    std::size_t size = 0;
+    if (!take(bytes, size) || size > bytes.size()) return {};
+    *piece = bytes.substr(0, size);
+    bytes.remove_prefix(size);
+  }
+  result.drawing = bytes;
+  return result;
 }
 
 std::string searchFaces(const TransferOrder& order, const ChildVoice& voice) {

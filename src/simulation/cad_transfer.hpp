@@ -16,6 +16,7 @@ struct TransferOrder {
   std::string file;   ///< its path
   std::string bytes;  ///< what is in it
   double deflection = 0.01;
+  int facePoints = 0;       ///< as FaceMeshOptions::mostPoints
   std::set<int> gridFaces;  ///< as FaceMeshOptions::left
   bool gridAll = false;     ///< as FaceMeshOptions::leaveAll
 };
@@ -36,9 +37,9 @@ struct TransferOrder {
 std::string transferCad(const TransferOrder& order, const ChildVoice& voice);
 
 struct Transferred {
-  std::string brep, elements;  ///< as in ImportedPart
+  std::string brep, elements, drawing;  ///< as in ImportedPart
 };
-/// What transferCad() returned; both empty if it is not that.
+/// What transferCad() returned; all empty if it is not that.
 Transferred transferred(std::string_view bytes);
 
 /// Builds the faces of a file one by one, and says "at LABEL" before each: the last one is what a crash is about.

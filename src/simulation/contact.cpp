@@ -68,4 +68,27 @@ std::size_t capsuleParts(const Vector3& axis, double radius) {
   return static_cast<std::size_t>(std::clamp(std::ceil(extent.maxCoeff() / (4 * radius)), 1.0, 16.0));
 }
 
+std::array<Vector3, 6> waysOut(const Bounds& box, const Vector3& point) {
+  static const Vector3 kAlongZ = Vector3(0.1234567, 0.0841593, 0.9412357).normalized();
+  static const Vector3 kAcross(0.0318282, -0.0271828, 0.0164321);
+  struct Exit {
+    double distance;
+    Vector3 direction;
+  };
+  std::array<Exit, 6> exits;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    Vector3 direction;
+    for (Eigen::Index k = 0; k < 3; ++k)
+      direction[(axis + 1 + k) % 3] = kAlongZ[k] + static_cast<double>(axis) * kAcross[k];
+    direction.normalize();
+    const auto place = 2 * static_cast<std::size_t>(axis);
+    exits[place] = {box.maximum[axis] - point[axis], direction};
+    exits[place + 1] = {point[axis] - box.minimum[axis], -direction};
+  }
+  std::ranges::sort(exits, {}, &Exit::distance);
+  std::array<Vector3, 6> directions;
+  std::ranges::transform(exits, directions.begin(), &Exit::direction);
+  return directions;
+}
+
 }  // namespace probewright::simulation

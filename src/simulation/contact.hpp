@@ -30,27 +30,32 @@ inline bool meetsFront(const Way& way, const Meeting& meeting) {
   return meeting.found() && meeting.normal.dot(way.at(meeting.when) - meeting.point) > 0;
 }
 
+/// How rays decide whether a point lies within.
+enum class Rays : std::uint8_t {
+  One,       ///< the surfaces have no gap: one ray tells
+  Majority,  ///< of three: tessellations may leave a part of a surface open
+};
+
+/// Directions out of a box from a point in it, the shortest way first. None is that of edges of real parts.
+std::array<Vector3, 6> waysOut(const Bounds& box, const Vector3& point);
+
 /// True if `point` lies within the closed surfaces that the triangles make: the rays from there leave them more or less
 /// often than they enter them. That holds whichever way the surfaces are turned, and where bodies overlap. A ray that
-/// passes an edge too closely to tell is replaced by another; of three rays the majority decides. `surface(place,
-/// triangle, cross)` calls `cross` with the triangles of such surfaces that an element of the tree stands for.
+/// passes an edge too closely to tell is replaced by another. `surface(place, triangle, cross)` calls `cross` with the
+/// triangles of such surfaces that an element of the tree stands for.
 template <class Surface>
-bool isWithin(const SearchTree& tree, const Vector3& point, const Surface& surface) {
+bool isWithin(const SearchTree& tree, const Vector3& point, Rays rays, const Surface& surface) {
   const Bounds& box = tree.bounds();
   if ((point - box.minimum).minCoeff() <= 0 || (box.maximum - point).minCoeff() <= 0) return false;
-  // Directions that edges of real parts do not have.
-  static const std::array<Vector3, 5> kDirections{
-      Vector3(0.1234567, 0.3141593, 0.9412357), Vector3(-0.7390851, 0.2718282, 0.6164321),
-      Vector3(0.3819660, -0.8451542, 0.3740041), Vector3(-0.2360680, -0.4142136, -0.8790213),
-      Vector3(0.8660114, 0.1415927, -0.4795328)};
   Mover ray;
   ray.way.start = point;
   ray.way.length = (box.maximum - box.minimum).norm();
   // Boxes that the ray only grazes are looked into as well: the tree rounds to single precision.
   ray.radius = 1e-5 * ray.way.length;
-  int votes = 0, inside = 0;
-  for (const Vector3& direction : kDirections) {
-    ray.way.direction = direction.normalized();
+  const int enough = rays == Rays::One ? 1 : 2;
+  int inside = 0, outside = 0;
+  for (const Vector3& direction : waysOut(box, point)) {
+    ray.way.direction = direction;
     int crossings = 0;
     bool clear = true;
     const auto cross = [&](const Triangle& t) {
@@ -77,11 +82,10 @@ bool isWithin(const SearchTree& tree, const Vector3& point, const Surface& surfa
       crossings += determinant < 0 ? 1 : -1;
     };
     tree.visitAll(ray, [&](std::uint32_t place, const Triangle& t) { surface(place, t, cross); });
-    if (!clear) continue;
-    inside += crossings != 0 ? 1 : 0;
-    if (++votes == 3) break;
+    if (clear) ++(crossings != 0 ? inside : outside);
+    if (std::max(inside, outside) == enough) break;
   }
-  return 2 * inside > votes;
+  return inside > outside;
 }
 
 }  // namespace probewright::simulation

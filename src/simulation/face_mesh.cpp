@@ -9,12 +9,14 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <IMeshData_Face.hxx>
+#include <Message_ProgressIndicator.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 #include <map>
+#include <mutex>
 #include <stdexcept>
 
 #include "simulation/face_grid.hpp"
@@ -63,19 +65,50 @@ const char* kindOf(const TopoDS_Face& face) {
 
 bool isFlat(const TopoDS_Face& face) { return BRepAdaptor_Surface(face, Standard_False).GetType() == GeomAbs_Plane; }
 
+/// Ends the mesher's work on a face after so many points: it asks before each whether to go on.
+class PointLimit : public Message_ProgressIndicator {
+public:
+  explicit PointLimit(int most) : left_(most) {}
+  bool isReached() const { return left_ < 0; }
+
+protected:
+  Standard_Boolean UserBreak() override { return left_ < 0 || --left_ < 0; }
+  void Show(const Message_ProgressScope&, const Standard_Boolean) override {}
+
+private:
+  int left_;
+};
+
+/// The faces that the mesher gave up, noted by several threads.
+class GivenUp {
+public:
+  void add(int face) {
+    const std::scoped_lock lock(mutex_);
+    faces_.insert(face);
+  }
+  bool contains(int face) const { return faces_.contains(face); }
+
+private:
+  std::mutex mutex_;
+  std::set<int> faces_;
+};
+
 /// The mesher's own way with a face, watched; or none, for a face that is to be left.
 class WatchedAlgo : public IMeshTools_MeshAlgo {
 public:
-  WatchedAlgo(Handle(IMeshTools_MeshAlgo) algo, const FaceNumbers& numbers, const FaceMeshOptions& options)
-      : algo_(std::move(algo)), numbers_(numbers), options_(options) {}
+  WatchedAlgo(Handle(IMeshTools_MeshAlgo) algo, const FaceNumbers& numbers, const FaceMeshOptions& options,
+              GivenUp& givenUp)
+      : algo_(std::move(algo)), numbers_(numbers), options_(options), givenUp_(givenUp) {}
 
   void Perform(const IMeshData::IFaceHandle& face, const IMeshTools_Parameters& parameters,
-               const Message_ProgressRange& range) override {
+               const Message_ProgressRange&) override {
     const auto found = numbers_.find(face->GetFace().TShape().get());
     const int number = found == numbers_.end() ? 0 : found->second;
     if (options_.left.contains(number) || (options_.leaveAll && !isFlat(face->GetFace()))) return;
     if (options_.begins) options_.begins(number);
-    algo_->Perform(face, parameters, range);
+    const Handle(PointLimit) limit = new PointLimit(options_.mostPoints);
+    algo_->Perform(face, parameters, limit->Start());
+    if (limit->isReached()) givenUp_.add(number);
     if (options_.ends) options_.ends(number);
   }
 
@@ -83,21 +116,24 @@ private:
   Handle(IMeshTools_MeshAlgo) algo_;
   const FaceNumbers& numbers_;
   const FaceMeshOptions& options_;
+  GivenUp& givenUp_;
 };
 
 class WatchedAlgos : public BRepMesh_MeshAlgoFactory {
 public:
-  WatchedAlgos(const FaceNumbers& numbers, const FaceMeshOptions& options) : numbers_(numbers), options_(options) {}
+  WatchedAlgos(const FaceNumbers& numbers, const FaceMeshOptions& options, GivenUp& givenUp)
+      : numbers_(numbers), options_(options), givenUp_(givenUp) {}
 
   Handle(IMeshTools_MeshAlgo)
       GetAlgo(const GeomAbs_SurfaceType type, const IMeshTools_Parameters& parameters) const override {
     const Handle(IMeshTools_MeshAlgo) algo = BRepMesh_MeshAlgoFactory::GetAlgo(type, parameters);
-    return algo.IsNull() ? algo : new WatchedAlgo(algo, numbers_, options_);
+    return algo.IsNull() ? algo : new WatchedAlgo(algo, numbers_, options_, givenUp_);
   }
 
 private:
   const FaceNumbers& numbers_;
   const FaceMeshOptions& options_;
+  GivenUp& givenUp_;
 };
 
 /// A grid as triangles of the face, in the face's own frame; none where the face has no extent.
@@ -137,9 +173,10 @@ bool isMeshed(const TopoDS_Shape& shape, double deflection) {
 
 std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, const FaceMeshOptions& options) {
   const FaceNumbers numbers = numbered(shape);
+  GivenUp givenUp;
   BRepTools::Clean(shape);
   const Handle(BRepMesh_Context) context = new BRepMesh_Context();
-  context->SetFaceDiscret(new BRepMesh_FaceDiscret(new WatchedAlgos(numbers, options)));
+  context->SetFaceDiscret(new BRepMesh_FaceDiscret(new WatchedAlgos(numbers, options, givenUp)));
   BRepMesh_IncrementalMesh mesher;
   mesher.SetShape(shape);
   IMeshTools_Parameters& parameters = mesher.ChangeParameters();
@@ -155,7 +192,7 @@ std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, co
     const TopoDS_Face face = TopoDS::Face(faces.Current().Oriented(TopAbs_FORWARD));
     const int number = numbers.at(face.TShape().get());
     if (!seen.insert(number).second) continue;
-    if (hasTriangles(face)) {
+    if (hasTriangles(face) && !givenUp.contains(number)) {
       TopLoc_Location location;
       BRep_Tool::Triangulation(face, location)->Deflection(deflection);
       continue;

@@ -6,13 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "simulation/mesh_limits.hpp"
+
 /// Triangles on the faces of a shape, kept in the shape itself.
 namespace probewright::simulation {
 
 struct FaceMeshOptions {
   bool parallel = false;
-  std::set<int> left;     ///< faces that are not to be tried: they get a grid at once
-  bool leaveAll = false;  ///< every face that is not flat gets a grid at once
+  std::set<int> left;                ///< faces that are not to be tried: they get a grid at once
+  bool leaveAll = false;             ///< every face that is not flat gets a grid at once
+  int mostPoints = kMostMeshPoints;  ///< after which the mesher gives a face up
   /// Told when the mesher begins with a face and when it is done with it; from several threads, if `parallel`.
   std::function<void(int face)> begins, ends;
 };
@@ -32,9 +35,9 @@ std::size_t faceCount(const TopoDS_Shape& shape);
 bool isMeshed(const TopoDS_Shape& shape, double deflection);
 
 /// Gives every face triangles, as the mesher of OpenCASCADE makes them: along its edges they leave it by about
-/// `deflection` (mm), within it by up to about ten times as much (on some free forms even more). Faces that it leaves
-/// without triangles get a grid of cells over their parameters instead: on the surface, but reaching over the border by
-/// up to a cell. They are returned.
+/// `deflection` (mm), within it by up to about ten times as much (on some free forms even more). Faces that it gives up
+/// or leaves without triangles get a grid of cells over their parameters instead: on the surface, but reaching over the
+/// border by up to a cell. They are returned.
 std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, const FaceMeshOptions& options = {});
 
 }  // namespace probewright::simulation

@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kDigestSize = 64;
+constexpr std::size_t kDigestSize = 32;
 constexpr const char* kEnding = ".part";
 
 std::string digest(std::initializer_list<std::string_view> pieces) {
   const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
   std::array<unsigned char, kDigestSize> bytes{};
-  EVP_DigestInit_ex(context.get(), EVP_blake2b512(), nullptr);
+  EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr);
   for (const std::string_view piece : pieces)
     EVP_DigestUpdate(context.get(), piece.data(), piece.size());
   EVP_DigestFinal_ex(context.get(), bytes.data(), nullptr);

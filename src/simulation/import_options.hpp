@@ -6,6 +6,8 @@
 #include <stop_token>
 #include <string>
 
+#include "simulation/mesh_limits.hpp"
+
 namespace probewright::simulation {
 
 /// How the file of a part is imported.
@@ -20,7 +22,8 @@ struct ImportOptions {
   std::function<void(const std::string& what)> progress;
 
   double seconds = 1800;                          ///< after which an import is given up
-  double faceSeconds = 15;                        ///< after which a face is not meshed any further, but gets a grid
+  int facePoints = kMostMeshPoints;               ///< after which a face is not meshed any further, but gets a grid
+  double faceSeconds = 30;                        ///< the same, for the rare face that makes no points all that time
   std::uint64_t bytes = std::uint64_t{8} << 30U;  ///< of memory that an import may take
 };
 

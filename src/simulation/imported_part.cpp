@@ -5,7 +5,7 @@
 namespace probewright::simulation {
 namespace {
 
-constexpr std::string_view kTitle = "Probewright part 2\n";
+constexpr std::string_view kTitle = "Probewright part 3\n";
 
 void put(std::string& bytes, std::uint64_t number) {
   for (int i = 0; i < 8; ++i)
@@ -58,9 +58,10 @@ std::string toBytes(const ImportedPart& part) {
     put(bytes, remark.message);
     put(bytes, remark.advice);
   }
-  put(bytes, std::uint64_t{part.hasGrids ? 1U : 0U});
+  bytes.reserve(bytes.size() + part.brep.size() + part.elements.size() + part.drawing.size() + 24);
   put(bytes, part.brep);
   put(bytes, part.elements);
+  put(bytes, part.drawing);
   return bytes;
 }
 
@@ -76,12 +77,11 @@ std::optional<ImportedPart> partFromBytes(std::string_view bytes) {
     if (!line || !message || !advice) return std::nullopt;
     part.remarks.push_back({Severity::Warning, {{}, *line, 0}, std::move(*message), {}, std::move(*advice), {}});
   }
-  const auto grids = reader.number();
-  auto brep = reader.text(), elements = reader.text();
-  if (!grids || *grids > 1 || !brep || !elements || !reader.atEnd()) return std::nullopt;
-  part.hasGrids = *grids == 1;
+  auto brep = reader.text(), elements = reader.text(), drawing = reader.text();
+  if (!brep || !elements || !drawing || !reader.atEnd()) return std::nullopt;
   part.brep = std::move(*brep);
   part.elements = std::move(*elements);
+  part.drawing = std::move(*drawing);
   return part;
 }
 

@@ -12,9 +12,9 @@ namespace probewright::simulation {
 struct ImportedPart {
   /// Warnings about what is missing or not as it should be; their places have lines, but no file.
   Diagnostics remarks;
-  bool hasGrids = false;  ///< the mesher cannot do some of the faces
-  std::string brep;       ///< the shape with its triangles, in OpenCASCADE's binary form
-  std::string elements;   ///< what elementsOf() makes of it
+  std::string brep;      ///< the shape, in OpenCASCADE's binary form
+  std::string elements;  ///< what elementsOf() makes of it
+  std::string drawing;   ///< its drawing as bytes
 };
 
 std::string toBytes(const ImportedPart& part);

@@ -68,7 +68,8 @@ MeshSolid::MeshSolid(TriangleMesh mesh, Instructions instructions) : mesh_(std::
 }
 
 bool MeshSolid::isInside(const Vector3& point) const {
-  return closed_ && isWithin(tree_, point, [](std::uint32_t, const Triangle& t, const auto& cross) { cross(t); });
+  return closed_ &&
+         isWithin(tree_, point, Rays::One, [](std::uint32_t, const Triangle& t, const auto& cross) { cross(t); });
 }
 
 std::optional<BallContact> MeshSolid::firstContact(const Vector3& from, const Vector3& to, double radius) const {

@@ -70,7 +70,7 @@ bool SearchTree::enter(const Mover& mover, Walker& w) const {
     w.direction[i] = static_cast<float>(direction[a]);
     w.halfAxis[i] = static_cast<float>(mover.axis[a] / 2);
   }
-  const Vector3 up = mover.axis.normalized();
+  const Vector3 up = w.isBall ? mover.axis : mover.axis.normalized();
   for (std::size_t i = 0; i < 3; ++i)
     w.up[i] = static_cast<float>(up[static_cast<Eigen::Index>(i)]);
   w.disc = static_cast<float>(mover.disc * (1 + 1e-6));
@@ -132,6 +132,8 @@ struct SearchTree::Walks {
         result[k] = std::sqrt(x[k]);
       return result;
     }
+    /// 1 / x or a little less, of positive numbers.
+    PROBEWRIGHT_INLINE Lanes inverseAtMost(const Lanes& x) { return 1 / x; }
     PROBEWRIGHT_INLINE Lanes grid(const Grid& numbers) {
       Lanes result;
       for (std::size_t k = 0; k < kWidth; ++k)
@@ -172,6 +174,9 @@ struct SearchTree::Walks {
     PROBEWRIGHT_INLINE Lanes most(const Lanes& x, const Lanes& y) { return _mm256_max_ps(x, y); }
     PROBEWRIGHT_INLINE Lanes size(const Lanes& x) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0F), x); }
     PROBEWRIGHT_INLINE Lanes root(const Lanes& x) { return _mm256_sqrt_ps(x); }
+    PROBEWRIGHT_INLINE Lanes inverseAtMost(const Lanes& x) {
+      return _mm256_rcp_ps(x) * every(1 - 5e-4F);  // right to 1 in 2,700
+    }
     PROBEWRIGHT_INLINE Lanes grid(const Grid& numbers) {
       const __m128i shorts = _mm_loadu_si128(reinterpret_cast<const __m128i*>(numbers.data()));
       return _mm256_cvtepi32_ps(_mm256_cvtepi16_epi32(shorts));

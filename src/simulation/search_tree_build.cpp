@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
-#include <thread>
 
 #include "simulation/memory_text.hpp"
+#include "simulation/parallel.hpp"
 #include "simulation/search_tree.hpp"
 
 namespace probewright::simulation {
@@ -242,18 +241,7 @@ struct SearchTree::Builder {
 
   /// The boxes of all nodes; each is a matter of its own.
   void makeBoxes() {
-    std::atomic<std::size_t> next = 0;
-    const auto work = [&] {
-      for (std::size_t i = next++; i < tree.nodes_.size(); i = next++)
-        makeBoxes(i);
-    };
-    constexpr std::size_t worthAThread = 5'000;  // elements
-    const std::size_t threads =
-        std::min<std::size_t>(std::thread::hardware_concurrency(), 1 + ordered.size() / worthAThread);
-    std::vector<std::jthread> others;
-    for (std::size_t i = 1; i < threads; ++i)
-      others.emplace_back(work);
-    work();
+    inParallel(tree.nodes_.size(), 200, [&](std::size_t i) { makeBoxes(i); });
   }
 };
 

@@ -246,6 +246,26 @@ TEST(Import, GivesAFaceThatTakesTooLongAGridAndNamesIt) {
   }
 }
 
+TEST(Import, GivesAFaceThatNeedsTooManyPointsAGridOnEveryMachine) {
+  const ScratchFolder folder;
+  const Handle(Geom_BSplineSurface) surface = wideSurface();
+  folder.write("wide.step", stepOf(BRepBuilderAPI_MakeFace(surface, 1e-6).Shape()));
+  ImportOptions options;
+  options.facePoints = 2000;
+  const auto solid = readStep(folder / "wide.step", options);
+  ASSERT_TRUE(solid) << format(solid.error());
+  EXPECT_THAT(allOf(remarksOf(**solid)),
+              AllOf(HasSubstr("face 1 of 1 (B-spline surface)"), HasSubstr("grid"), Not(HasSubstr("in time"))));
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 5; ++i) {
+    const Vector3 from = randomPoint(random, 800) + Vector3(0, 0, 1000);
+    const auto contact = (*solid)->firstContact(from, {from.x(), from.y(), -1000}, 5);
+    ASSERT_TRUE(contact) << from.transpose();
+    const Vector3& c = contact->ballCentre;
+    EXPECT_NEAR(GeomAPI_ProjectPointOnSurf(gp_Pnt(c.x(), c.y(), c.z()), surface).LowerDistance(), 5, 1e-6);
+  }
+}
+
 TEST(Import, ObeysAStopAtOnce) {
   const ScratchFolder folder;
   folder.write("wide.step", stepOf(BRepBuilderAPI_MakeFace(wideSurface(), 1e-6).Shape()));
