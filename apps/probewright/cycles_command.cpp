@@ -219,13 +219,41 @@ std::string row(const CycleDefinition& cycle) {
                      controlsText(cycle.controls));
 }
 
-/// The rows of the cycles whose title has the text that somebody asked for.
+/// Words that people use for what the titles and summaries call otherwise.
+std::string catalogueWord(const std::string& word) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 12> others = {{{"bore", "hole"},
+                                                                                     {"boss", "stud"},
+                                                                                     {"pin", "stud"},
+                                                                                     {"island", "stud"},
+                                                                                     {"spigot", "stud"},
+                                                                                     {"datum", "preset"},
+                                                                                     {"zero offset", "preset"},
+                                                                                     {"side", "edge"},
+                                                                                     {"sphere", "ball"},
+                                                                                     {"web", "ridge"},
+                                                                                     {"slot", "groove"},
+                                                                                     {"skew", "misalignment"}}};
+  const auto* found = std::ranges::find(others, word, [](const auto& pair) { return std::string(pair.first); });
+  return found == others.end() ? std::string() : std::string(found->second);
+}
+
+/// The rows of the cycles that somebody may have asked for by a word of their title or summary, titles first.
 std::string rowsAbout(std::string_view text, const std::vector<const CycleDefinition*>& known) {
-  std::string rows;
+  const std::string word = lowerCase(text), other = catalogueWord(word);
+  if (word.size() < 2) return {};
+  const auto has = [&](std::string_view where) {
+    const std::string lower = lowerCase(where);
+    return lower.find(word) != std::string::npos || (!other.empty() && lower.find(other) != std::string::npos);
+  };
+  std::string titles, summaries;
   for (const CycleDefinition* cycle : known) {
-    if (lowerCase(cycle->title).find(lowerCase(text)) != std::string::npos) rows += row(*cycle);
+    if (has(cycle->title)) {
+      titles += row(*cycle);
+    } else if (has(cycle->summary)) {
+      summaries += row(*cycle);
+    }
   }
-  return rows;
+  return titles + summaries;
 }
 
 }  // namespace
@@ -259,7 +287,7 @@ int cycles(const CyclesArguments& arguments) {
   if (found) return 0;
   const std::string about = rowsAbout(arguments.name, seen);
   const std::string advice =
-      about.empty() ? "`probewright cycles` lists them all\n" : "these have it in their title:\n";
+      about.empty() ? "`probewright cycles` lists them all\n" : "these have it in their title or summary:\n";
   std::fputs(fmt::format("probewright: there is no cycle {}; {}{}", printable(arguments.name), advice, about).c_str(),
              stderr);
   return 2;

@@ -185,6 +185,7 @@ void Channel::moveAxes(const AxisPositions& target, Feed feed) {
   if (start == target) return;
   machine::MoveResult result = machine_.move(target, feed);
   count(start, axes());
+  if (result.end == machine::MoveEnd::AxisLimit) result.detail = beyondTravel(*this, result.detail, target);
   judgeTravel(std::move(result));
 }
 
@@ -200,6 +201,8 @@ void Channel::travel(std::vector<machine::PathPiece> path) {
   for (std::size_t i = 0; i < result.reached; ++i)
     count(std::exchange(last, path[i].target), path[i].target);
   if (result.reached < path.size()) count(last, axes());
+  if (result.end == machine::MoveEnd::AxisLimit && result.reached < path.size())
+    result.detail = beyondTravel(*this, result.detail, path[result.reached].target);
   judgeTravel({result.end, std::move(result.detail)});
 }
 
@@ -268,11 +271,13 @@ void Channel::moveTo(const Target& target, Feed feed) {
 
 machine::MeasureResult Channel::measureTo(const Vector3& point, Feed feed, machine::Sensor sensor, TouchWith part) {
   const AxisPositions start = axes();
-  machine::MeasureResult result = machine_.measure({axesFromProgram(point, start), feed, sensor, part});
+  const AxisPositions target = axesFromProgram(point, start);
+  machine::MeasureResult result = machine_.measure({target, feed, sensor, part});
   count(start, axes());
   if (result.end == machine::MeasureEnd::Cancelled) throw Cancelled();
   if (result.end == machine::MeasureEnd::Refused) judge({machine::MoveEnd::Refused, result.detail});
   if (result.end == machine::MeasureEnd::Collision) addPlace(result.detail);
+  if (result.end == machine::MeasureEnd::AxisLimit) result.detail = beyondTravel(*this, result.detail, target);
   return result;
 }
 
@@ -282,8 +287,10 @@ Touch Channel::touchFrom(const machine::MeasureResult& result) const {
 
 void Channel::retractTo(const Vector3& point, Feed feed) {
   const AxisPositions start = axes();
-  machine::MoveResult result = machine_.retract(axesFromProgram(point, start), feed);
+  const AxisPositions target = axesFromProgram(point, start);
+  machine::MoveResult result = machine_.retract(target, feed);
   count(start, axes());
+  if (result.end == machine::MoveEnd::AxisLimit) result.detail = beyondTravel(*this, result.detail, target);
   judgeTravel(std::move(result));
 }
 

@@ -2,18 +2,43 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
 
 #include "control/channel.hpp"
 
+/// Places in messages as the person at the control can look at them: in the active workpiece system.
 namespace probewright::control {
 
-/// "tool tip stopped at X+1.000 Y+2.000 Z+3.000 of the active workpiece system": the numbers that the person at the
-/// control can look at.
+/// "X+1.000 Y+2.000 Z+3.000 of the active workpiece system".
+inline std::string workpiecePlace(const Channel& channel, const Vector3& tip) {
+  // A number of hundreds of digits says no more than its size.
+  const auto number = [](double value) {
+    return std::abs(value) < 1e9 ? fmt::format("{:+.3f}", value) : fmt::format("{:+.3g}", value);
+  };
+  return fmt::format("X{}{} Y{} Z{} of the active workpiece system", number(tip.x()),
+                     channel.description().mainSpindle ? " (radius)" : "", number(tip.y()), number(tip.z()));
+}
+
+/// "tool tip stopped at X+1.000 Y+2.000 Z+3.000 of the active workpiece system".
 inline std::string stoppedPlace(const Channel& channel) {
-  const Vector3 tip = channel.position();
-  return fmt::format("tool tip stopped at X{:+.3f}{} Y{:+.3f} Z{:+.3f} of the active workpiece system", tip.x(),
-                     channel.description().mainSpindle ? " (radius)" : "", tip.y(), tip.z());
+  return "tool tip stopped at " + workpiecePlace(channel, channel.position());
+}
+
+/// "The stylus is deflected before probing begins: ...; the tool tip is at X+1.000 ...": `detail` is what the machine
+/// says.
+inline std::string deflectedAtStart(const Channel& channel, const std::string& what, const std::string& detail) {
+  return fmt::format("{}{}{}; the tool tip is at {}", what, detail.empty() ? "" : ": ", detail,
+                     workpiecePlace(channel, channel.position()));
+}
+
+/// What a machine says of a target beyond its travel, and where the tool tip would have gone.
+inline std::string beyondTravel(const Channel& channel, const std::string& detail,
+                                const machine::AxisPositions& target) {
+  const Vector3 tip = channel.programFromAxes(target);
+  if (!tip.allFinite()) return detail;
+  return fmt::format("{}; the tool tip would go to {}", detail.empty() ? "The target is beyond the travel" : detail,
+                     workpiecePlace(channel, tip));
 }
 
 }  // namespace probewright::control

@@ -150,7 +150,8 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
                     fmt::format("check nominal values, preset and {}", probe_.distanceName));
       case MeasureEnd::DeflectedAtStart:
         finish("deflected");
-        throw Alarm("Stylus already in contact", "The stylus is deflected before probing begins",
+        throw Alarm("Stylus already in contact",
+                    control::deflectedAtStart(channel_, "The stylus is deflected before probing begins", result.detail),
                     "increase the set-up clearance or correct the nominal position");
       case MeasureEnd::NotReady:
         finish("not ready");
@@ -159,7 +160,8 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
                     "call the touch probe with TOOL CALL before the cycle");
       case MeasureEnd::AxisLimit:
         finish("limit");
-        throw Alarm(channel_.alarms.limit, result.detail);
+        throw Alarm(channel_.alarms.limit, result.detail,
+                    "check nominal values, preset and the position of the workpiece in the machine");
       case MeasureEnd::Collision:
       case MeasureEnd::Cancelled:  // the channel throws it, and what is refused
       case MeasureEnd::Refused:

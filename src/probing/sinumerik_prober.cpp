@@ -200,8 +200,11 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
           break;
         case MeasureEnd::DeflectedAtStart:
           finish("deflected");
-          throw Alarm("61302", "Probe collision: the probe is deflected before the measuring move begins",
-                      "move the probe clear of the workpiece or correct the start position");
+          throw Alarm(
+              "61302",
+              control::deflectedAtStart(
+                  channel_, "Probe collision: the probe is deflected before the measuring move begins", result.detail),
+              "move the probe clear of the workpiece or correct the start position");
         case MeasureEnd::NotReady:
           finish("not ready");
           throw Alarm("61309", result.detail.empty() ? "There is no workpiece probe in the spindle" : result.detail,

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "control/alarm.hpp"
+#include "control/stopped_place.hpp"
 
 namespace probewright::probing {
 
@@ -65,12 +66,15 @@ Vector3 ToolProber::stroke(const Vector3& direction) {
       break;
     case MeasureEnd::NoContact:
       fail("no contact", "Touch point inaccessible",
-           fmt::format("The tool touch probe was not deflected within {:.3f} mm", probe_.reach),
+           fmt::format("The tool touch probe was not deflected within {:.3f} mm; the {}", probe_.reach,
+                       control::stoppedPlace(channel_)),
            "check the position of the tool touch probe (MP6580) and the tool's length and radius");
       break;
     case MeasureEnd::DeflectedAtStart:
-      fail("deflected", "Stylus already in contact", "The tool touch probe is deflected before probing begins",
-           "check the length of the tool and MP6540");
+      fail(
+          "deflected", "Stylus already in contact",
+          control::deflectedAtStart(channel_, "The tool touch probe is deflected before probing begins", result.detail),
+          "check the length of the tool and MP6540");
       break;
     case MeasureEnd::NotReady:
       fail("not ready", "Touch probe not ready",
@@ -78,7 +82,7 @@ Vector3 ToolProber::stroke(const Vector3& direction) {
            "connect the tool touch probe, and call a tool that is not a touch probe");
       break;
     case MeasureEnd::AxisLimit:
-      fail("limit", channel_.alarms.limit, result.detail, "");
+      fail("limit", channel_.alarms.limit, result.detail, "check the position of the tool touch probe (MP6580)");
       break;
     case MeasureEnd::Collision:
     case MeasureEnd::Cancelled:  // the channel throws it, and what is refused

@@ -234,11 +234,16 @@ TEST(Cycles, AreListedAndExplained) {
   EXPECT_EQ(none.errors, "probewright: there is no cycle 4711; `probewright cycles` lists them all\n");
   const Answer word = probewright({"cycles", "Hole"});
   EXPECT_EQ(word.exit, 2);
-  EXPECT_THAT(word.errors, HasSubstr("there is no cycle Hole; these have it in their title:\n"));
+  EXPECT_THAT(word.errors, HasSubstr("there is no cycle Hole; these have it in their title or summary:\n"));
   EXPECT_THAT(word.errors, HasSubstr("\n421 "));
   EXPECT_THAT(word.errors, HasSubstr("\nCYCLE977 "));
   EXPECT_THAT(word.errors, Not(HasSubstr("\n420 ")));
   EXPECT_THAT(probewright({"cycles", "TCH421"}).output, StartsWith("421  "));
+  // Of the summary, and by other words for the same.
+  EXPECT_THAT(probewright({"cycles", "pocket"}).errors, HasSubstr("\n423 "));
+  EXPECT_THAT(probewright({"cycles", "bore"}).errors, HasSubstr("\n412 "));
+  EXPECT_THAT(probewright({"cycles", "boss"}).errors, HasSubstr("\n413 "));
+  EXPECT_THAT(probewright({"cycles", "q"}).errors, HasSubstr("lists them all"));
 }
 
 TEST(Cycles, TellOtherProgramsWhatTheTextTells) {

@@ -116,6 +116,61 @@ ball_radius = 3
           "the active workpiece system"));
 }
 
+/// What is sent beyond the travel never gets there: the place that was meant counts, as the program counts.
+TEST(Messages, TellWhereTheToolWouldGoBeyondTheTravel) {
+  const Folder folder;
+  const std::string world =
+      "[[tool]]\nnumber = 1\nname = \"PROBE\"\nkind = \"probe\"\nlength = 150\nball_radius = 3\n[part]\n"
+      "pose = { z = -500 }\n[[part.feature]]\nshape = \"box\"\nsize = [80, 60, 20]\n";
+  const std::string preset = "[[preset]]\nrow = 1\norigin = [7, 5, -480]\nrotation = [0, 0, 90]\nactive = true\n";
+  const auto said = [&](const std::string& name, const std::string& text, const std::string& setup) {
+    const Answer answer =
+        probewright({"run", folder.file(name, text), "--setup", setup, "--out", (folder / "out").string()});
+    EXPECT_EQ(answer.exit, 3) << answer.errors;
+    return answer.errors;
+  };
+  const auto klartext = [](const std::string& blocks) {
+    return "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z\n2 L Z+50 R0 FMAX\n" + blocks + "9 END PGM A MM\n";
+  };
+  const std::string tnc = folder.file("tnc.toml", "[control]\ntype = \"TNC640\"\n" + world + preset);
+  const std::string itnc = folder.file("itnc.toml", "[control]\ntype = \"iTNC530\"\n" + world + preset);
+  for (const std::string& setup : {tnc, itnc}) {
+    // The preset is turned by 90 degrees: Y of the program is -X of the machine.
+    EXPECT_THAT(said("a.h", klartext("3 L X+20 Y-900 R0 FMAX\n"), setup),
+                HasSubstr("axis X would go to 907.0000 mm; its travel ends at 500.0000; the tool tip would go to "
+                          "X+20.000 Y-900.000 Z+50.000 of the active workpiece system"));
+    // Cut up into pieces, it is the first one beyond the travel.
+    EXPECT_THAT(
+        said("b.h", klartext("3 CC X+0 Y+0\n4 L X+450 Y+0 R0 F9999\n5 C X+450 Y+0 DR+ F9999\n"), setup),
+        ::testing::ContainsRegex("the tool tip would go to X[-+][0-9.]+ Y[-+][0-9.]+ Z\\+50\\.000 of the active"));
+  }
+  const std::string siemens = folder.file("840.toml", "[control]\ntype = \"840Dsl\"\n" + world +
+                                                          "[[zero_offset]]\nname = \"G54\"\norigin = [7, 5, -480]\n");
+  EXPECT_THAT(said("a.mpf", "G54 G17 G90\nT1 D1\nM6\nG0 Z50\nX900 Y10\nM30\n", siemens),
+              HasSubstr("the tool tip would go to X+900.000 Y+10.000 Z+50.000 of the active workpiece system"));
+}
+
+/// A probe that is deflected before it measures: what it touches, and where the tip is.
+TEST(Messages, TellWhatADeflectedProbeTouches) {
+  const Folder folder;
+  const std::string world =
+      "[machine]\nstart = { X = 27, Y = 5, Z = -327 }\n[[tool]]\nnumber = 1\nname = \"PROBE\"\nkind = \"probe\"\n"
+      "length = 150\nball_radius = 3\nin_spindle = true\n[part]\nname = \"block\"\npose = { z = -500 }\n"
+      "[[part.feature]]\nshape = \"box\"\nsize = [80, 60, 25]\n";
+  const std::string tnc = folder.file("tnc.toml", "[control]\ntype = \"TNC640\"\n" + world +
+                                                      "[[preset]]\nrow = 1\norigin = [7, 5, -480]\nactive = true\n");
+  const Answer answer = probewright(
+      {"run",
+       folder.file("a.h",
+                   "0 BEGIN PGM A MM\n1 TCH PROBE 3.0 MEASURING\n2 TCH PROBE 3.1 Q1\n3 TCH PROBE 3.2 X ANGLE: +0\n"
+                   "4 TCH PROBE 3.3 DIST +10 F100 MB 1 REFERENCE SYSTEM: 0\n5 TCH PROBE 3.4 ERRORMODE0\n"
+                   "6 END PGM A MM\n"),
+       "--setup", tnc, "--out", (folder / "out").string()});
+  EXPECT_EQ(answer.exit, 3);
+  EXPECT_THAT(answer.errors, HasSubstr("touched the part \"block\""));
+  EXPECT_THAT(answer.errors, HasSubstr("the tool tip is at X+20.000 Y+0.000 Z+3.000 of the active workpiece system"));
+}
+
 /// Whatever kind of input a mistake is in: file:line:column: error: text.
 TEST(Messages, HaveOneFormForEveryKindOfInput) {
   const Folder folder;

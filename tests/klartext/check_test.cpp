@@ -102,6 +102,43 @@ TEST(Check, ParametersOfMeasuringCyclesByTheCatalogue) {
   EXPECT_NE(checked(framed("1 TCH PROBE 599 X ~\n Q1=1\n")).find("warning: touch probe cycle 599"), std::string::npos);
 }
 
+/// A ~ too many, as deleting the last parameter of a cycle leaves it, hides neither this cycle nor what follows it.
+TEST(Check, NamesACycleThatIsLeftOpen) {
+  const std::string cycle =
+      "1 TCH PROBE 417 TOP ~\n Q263=+0 ~\n Q264=+0 ~\n Q294=+0 ~\n Q320=-1 ~\n Q260=+50 ~\n Q305=+1 ~\n"
+      " Q333=+0 ~\n Q303=+1 ~ \n";
+  for (const std::string following :
+       {"2 TCH PROBE 417 TOP ~\n Q320=-2\n", "2 L X+ZZ FMAX\n", "2 CYCL DEF 999 NONE ~\n Q1=2\n", "2 TOL CALL\n"}) {
+    const std::string found = checked(framed(cycle + following));
+    if (following.starts_with("2 TOL")) continue;  // not known as a block: taken for a parameter
+    EXPECT_NE(found.find("a.h:10:10: error: this line ends with ~, but nothing of the block follows\n"),
+              std::string::npos)
+        << found;
+    EXPECT_NE(found.find("a.h:6:2: error: Q320"), std::string::npos) << found;
+    EXPECT_EQ(found.find("lacks Q303"), std::string::npos) << found;
+    EXPECT_NE(found.find("a.h:11:"), std::string::npos) << found;
+  }
+  EXPECT_EQ(checked(framed("1 Q1 = 5 ~\n + 3\n2 ; a comment ~\n that goes on\n")), "");
+}
+
+TEST(Check, AsksWhetherANearlyKnownWordWasMeant) {
+  const auto advice = [](const std::string& block) {
+    const std::string all = checked(framed("1 " + block + "\n"));
+    const std::size_t at = all.find("Did you mean ");
+    return at == std::string::npos ? all : all.substr(at + 13, all.find('?', at) - at - 13);
+  };
+  EXPECT_EQ(advice("PLANE SPATAIL SPA+0 SPB+0 SPC+0 STAY"), "SPATIAL");
+  EXPECT_EQ(advice("PLANE VEKTOR BX+1"), "VECTOR");
+  EXPECT_EQ(advice("TRANS DATM AXIS X+1"), "DATUM");
+  EXPECT_EQ(advice("TRANS DATUM AXSI X+1"), "AXIS");
+  EXPECT_EQ(advice("FUNCTION MODE TURNN"), "TURN");
+  EXPECT_EQ(advice("PRESET SELCT #1"), "SELECT");
+  EXPECT_EQ(advice("SEL TABEL \"A.D\""), "TABLE");
+  EXPECT_EQ(advice("TOOL CALLL 1 Z"), "CALL") << "the word goes on";
+  EXPECT_EQ(advice("TCH PROB 412"), "PROBE");
+  EXPECT_EQ(advice("L X+1 RO FMAX"), "R0, with a zero");
+}
+
 TEST(Check, WhatTheControlDoesNotHave) {
   const auto mistakes = [](const std::string& blocks, control::ControlKind kind) {
     const std::string all = checked(framed(blocks), kind);
@@ -123,6 +160,14 @@ TEST(Check, WhatTheControlDoesNotHave) {
   EXPECT_EQ(mistakes("1 CYCL DEF 200 DRILLING ~\n Q200=1\n", newer), "");
   EXPECT_EQ(mistakes("1 FN 15: PRINT 5\n", newer), "a.h:2:3: warning: the TNC 640 has no FN 15");
   EXPECT_EQ(mistakes("1 FN 15: PRINT 5\n", older), "");
+  EXPECT_EQ(mistakes("1 FN 15: PRINT +5/Q5/-1.5/QS2\n", older), "");
+  EXPECT_EQ(mistakes("1 FN 15: PRINT Q5/L\n", older),
+            "a.h:2:3: warning: L is neither a number nor a Q parameter: the run stops at this block");
+  EXPECT_EQ(mistakes("1 GLOBAL DEF 120 PROBING ~\n Q320=+0 ~\n Q260=+50 ~\n Q301=+1\n", newer), "");
+  EXPECT_EQ(mistakes("1 GLOBAL DEF 120 PROBING ~\n Q320=+0 ~\n Q99=+4\n", newer),
+            "a.h:2:3: warning: GLOBAL DEF 120 has no parameter Q99: the run stops at this block");
+  EXPECT_EQ(mistakes("1 GLOBAL DEF 119 PROBING ~\n Q320=+0\n", newer),
+            "a.h:2:3: warning: there is no group 119 of global definitions: the run stops at this block");
   EXPECT_EQ(mistakes("1 FN 22: X\n", newer), "a.h:2:3: warning: the control has no FN 22");
   EXPECT_EQ(mistakes("1 FN 18: SYSREAD Q1 = ID503 NR1 IDX1\n", newer),
             "a.h:2:3: warning: FN 18 cannot read ID503 NR1 here: the run stops at this block");

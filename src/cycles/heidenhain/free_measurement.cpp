@@ -6,6 +6,7 @@
 #include <array>
 
 #include "control/alarm.hpp"
+#include "control/stopped_place.hpp"
 #include "cycles/heidenhain/probe_words.hpp"
 
 namespace probewright::cycles::heidenhain {
@@ -75,7 +76,8 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
     case MeasureEnd::DeflectedAtStart:
       note("deflected");
       if (measurement.alarmIfDeflected) {
-        throw Alarm("Stylus already in contact", "The stylus is deflected before probing begins",
+        throw Alarm("Stylus already in contact",
+                    control::deflectedAtStart(channel, "The stylus is deflected before probing begins", result.detail),
                     "move the probe away, or set the error mode to 1");
       }
       // The older control tells this state from a missing touch.
@@ -88,7 +90,7 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
                   "call the touch probe with TOOL CALL before the cycle");
     case MeasureEnd::AxisLimit:
       note("limit");
-      throw Alarm(channel.alarms.limit, result.detail);
+      throw Alarm(channel.alarms.limit, result.detail, "shorten DIST, or begin the measurement elsewhere");
     case MeasureEnd::Collision:
     case MeasureEnd::Cancelled:  // the channel throws it, and what is refused
     case MeasureEnd::Refused:

@@ -9,6 +9,7 @@
 #include "control/alarm.hpp"
 #include "execution/klartext/excerpt.hpp"
 #include "execution/klartext/host.hpp"
+#include "language/klartext/global_groups.hpp"
 #include "language/klartext/lexer.hpp"
 
 /// FN functions and all blocks that are neither motion nor transformation nor cycle.
@@ -29,30 +30,6 @@ void KlartextHost::leaveOut(const std::string& what) {
 void KlartextHost::warn(std::string text) {
   control_.panel.message(control::EventKind::Warning, std::move(text), control_.channel.seconds());
 }
-
-namespace {
-
-/// Refuses groups of GLOBAL DEF that do not exist, and parameters that 100 GENERAL and 120 PROBING do not have. The
-/// groups of machining cycles may hold what they like.
-void requireGlobalGroup(int group, std::span<const Word> words) {
-  static constexpr std::array<int, 6> groups = {100, 105, 110, 111, 120, 125};
-  if (std::ranges::find(groups, group) == groups.end()) {
-    throw Alarm("GLOBAL DEF wrong", fmt::format("There is no group {} of global definitions", group),
-                "the groups are 100, 105, 110, 111, 120 and 125");
-  }
-  static constexpr std::array<std::uint32_t, 4> general = {200, 204, 253, 208};
-  static constexpr std::array<std::uint32_t, 3> probing = {320, 260, 301};
-  const std::span<const std::uint32_t> known = group == 100   ? std::span<const std::uint32_t>(general)
-                                               : group == 120 ? std::span<const std::uint32_t>(probing)
-                                                              : std::span<const std::uint32_t>();
-  for (const Word& word : words) {
-    if (known.empty() || std::ranges::find(known, word.address) != known.end()) continue;
-    throw Alarm("GLOBAL DEF wrong", fmt::format("GLOBAL DEF {} has no parameter Q{}", group, word.address),
-                group == 120 ? "it has Q320, Q260 and Q301" : "it has Q200, Q204, Q253 and Q208");
-  }
-}
-
-}  // namespace
 
 void KlartextHost::message(std::string text) {
   control_.panel.message(control::EventKind::Message, std::move(text), control_.channel.seconds());
@@ -195,7 +172,11 @@ void KlartextHost::command(const Command& command, Evaluation& evaluation) {
     callCycle(command, evaluation);
   } else if (name == "GLOBAL DEF") {
     const std::span<const Word> words = evaluation.words(command.words);
-    if (!words.empty()) requireGlobalGroup(static_cast<int>(evaluation.number(words[0].value)), words.subspan(1));
+    if (!words.empty()) {
+      const int group = static_cast<int>(evaluation.number(words[0].value));
+      if (auto mistake = mistakeInGlobalDefinition(group, words.subspan(1)))
+        throw Alarm("GLOBAL DEF wrong", std::move(mistake->message), std::move(mistake->advice));
+    }
     for (std::size_t i = 1; i < words.size(); ++i) {
       const Value value = evaluation.value(words[i].value);
       if (isText(value)) continue;

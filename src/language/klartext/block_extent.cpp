@@ -1,5 +1,8 @@
 #include "language/klartext/block_extent.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "language/klartext/lexer.hpp"
 
 namespace probewright::language::klartext {
@@ -125,7 +128,23 @@ bool isContinued(std::string_view text, const Line& line) {
   return following.empty() || !isDigit(following.front());
 }
 
+/// True for a line that cannot be the next parameter of a cycle: it begins a block of its own.
+bool beginsBlock(std::string_view line) {
+  const std::string_view text = withoutBlockNumber(line);
+  constexpr std::array<std::string_view, 13> keywords = {"TCH",  "CYCL",  "TOOL", "CALL",     "LBL",   "FN",    "END",
+                                                         "STOP", "PLANE", "L",    "FUNCTION", "TRANS", "GLOBAL"};
+  return std::ranges::any_of(keywords, [&](std::string_view keyword) {
+    std::string_view rest = text;
+    return skipWord(rest, keyword) && (rest.empty() || !isLetter(rest.front())) && rest.find('=') > rest.find(' ');
+  });
+}
+
 }  // namespace
+
+bool endsOpen(std::string_view block) {
+  const std::string_view line = block.substr(block.rfind('\n') + 1);
+  return endsWithContinuation(line) && !mayBeHalfCharacter(line);
+}
 
 std::string_view withoutBlockNumber(std::string_view text) {
   skipBlanks(text);
@@ -144,18 +163,21 @@ BlockExtent blockExtent(std::string_view text) {
   Line line = lineAt(text, 0);
   const std::string_view first = line.text;
 
+  const CycleHead head = cycleHead(first);
+  const bool parameters = head.kind == CycleHead::Kind::Parameters;
   const auto takeContinued = [&]() {
     for (;;) {
       ++extent.lines;
       if (!isContinued(text, line) || line.next >= text.size()) break;
-      line = lineAt(text, line.next);
+      const Line following = lineAt(text, line.next);
+      if (parameters && beginsBlock(following.text)) break;
+      line = following;
     }
     extent.length = static_cast<std::size_t>(line.text.data() - text.data()) + line.text.size();
     extent.next = line.next;
   };
   takeContinued();
 
-  const CycleHead head = cycleHead(first);
   if (head.kind == CycleHead::Kind::None) return extent;
   const bool parts = head.kind == CycleHead::Kind::Parts;
   if (!parts && extent.lines > 1) return extent;

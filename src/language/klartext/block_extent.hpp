@@ -15,6 +15,9 @@ struct BlockExtent {
 /// The extent of the block at the beginning of `text`, which reaches to the end of the file.
 BlockExtent blockExtent(std::string_view text);
 
+/// True if `block` ends with a `~` after which nothing of it follows.
+bool endsOpen(std::string_view block);
+
 /// The block's first word and all after it: block number, skip sign and blanks removed.
 std::string_view withoutBlockNumber(std::string_view text);
 

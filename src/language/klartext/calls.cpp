@@ -1,3 +1,4 @@
+#include "language/klartext/meant_word.hpp"
 #include "language/klartext/parser.hpp"
 #include "language/klartext/pattern.hpp"
 #include "language/klartext/program.hpp"
@@ -95,7 +96,9 @@ bool BlockParser::selection() {
     name += upper(c);
   if (name != "SEL PGM" && name != "SEL TABLE" && name != "SEL PATTERN" && name != "SEL CONTOUR" &&
       name != "SEL CYCLE" && name != "SEL CORR-TABLE") {
-    return error("PGM, CYCLE, TABLE, PATTERN, CONTOUR or CORR-TABLE is expected after SEL");
+    lexer_.seek(start);
+    return error("PGM, CYCLE, TABLE, PATTERN, CONTOUR or CORR-TABLE is expected after SEL",
+                 meantWord(lexer_, {"PGM", "CYCLE", "TABLE", "PATTERN", "CONTOUR", "CORR-TABLE"}));
   }
   Command command;
   for (const std::string_view system : {"TCS", "WPL"}) {

@@ -54,6 +54,7 @@ public:
         continue;
       }
       nameMissingContinuation();
+      if (endsOpen(block_.at(block_.source))) nameOpenEnd();
       for (const Instruction& instruction : block_.instructions)
         std::visit([this](const auto& i) { look(i); }, instruction);
       for (StatementNotes::Note& note : notes_.of(block_))
@@ -130,6 +131,14 @@ private:
             fmt::format("it is in line {}, outside the cycle: end the line before it with ~", block_.position.line);
       }
     }
+  }
+
+  void nameOpenEnd() {
+    const std::string_view text = block_.at(block_.source);
+    const auto below = static_cast<std::uint32_t>(std::ranges::count(text, '\n'));
+    const std::string line = lineText(below);
+    report(block_.position.line + below, static_cast<std::uint32_t>(line.size()),
+           "this line ends with ~, but nothing of the block follows", "take the ~ away, or add what is missing", line);
   }
 
   void reportAt(const Word& word, std::string message, std::string advice, Severity severity = Severity::Error) {

@@ -54,6 +54,8 @@ bool BlockParser::radiusWord(Move& move) {
                                    : RadiusCompensation::Right;
     return true;
   }
+  if (c == 'O' && wordEnds)
+    return error("R with the letter O is not a radius compensation", "Did you mean R0, with a zero?");
   const char sign = lexer_.peek();
   if (sign == '+' || sign == '-') {
     // R+ and R- of single axis blocks stand without a number.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/nearest_name.hpp"
+#include "language/klartext/meant_word.hpp"
 
 namespace probewright::language::klartext {
 
@@ -91,12 +92,12 @@ bool BlockParser::statement() {
       if (lexer_.acceptKeyword("CYCL")) {
         if (lexer_.acceptKeyword("DEF")) return cycleDefinition();
         if (lexer_.acceptKeyword("CALL")) return cycleCall();
-        return error("DEF or CALL is expected after CYCL");
+        return error("DEF or CALL is expected after CYCL", meantWord(lexer_, {"DEF", "CALL"}));
       }
       if (lexer_.acceptKeyword("CALL")) {
         if (lexer_.acceptPrefix("LBL")) return callLabel();
         if (lexer_.acceptKeyword("PGM") || lexer_.acceptKeyword("SELECTED PGM")) return callProgram();
-        return error("LBL or PGM is expected after CALL");
+        return error("LBL or PGM is expected after CALL", meantWord(lexer_, {"LBL", "PGM"}));
       }
       if (lexer_.acceptKeyword("CC")) return move(MoveKind::SetCentre, false);
       if (lexer_.acceptKeyword("CR")) return arcWithRadius();
@@ -126,13 +127,13 @@ bool BlockParser::statement() {
       break;
     case 'T':
       if (lexer_.acceptKeyword("TCH")) {
-        if (!lexer_.acceptPrefix("PROBE")) return error("PROBE is expected after TCH");
+        if (!lexer_.acceptPrefix("PROBE")) return error("PROBE is expected after TCH", meantWord(lexer_, {"PROBE"}));
         return touchProbe();
       }
       if (lexer_.acceptKeyword("TOOL")) {
         if (lexer_.acceptPrefix("CALL")) return toolCall();
         if (lexer_.acceptPrefix("DEF")) return toolDefinition();
-        return error("CALL or DEF is expected after TOOL");
+        return error("CALL or DEF is expected after TOOL", meantWord(lexer_, {"CALL", "DEF"}));
       }
       if (lexer_.acceptKeyword("TRANS")) return transformation();
       if (lexer_.acceptKeyword("TABDATA")) return tableData();

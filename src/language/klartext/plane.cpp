@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "language/klartext/meant_word.hpp"
 #include "language/klartext/parser.hpp"
 
 /// PLANE, TRANS, FUNCTION and PRESET blocks.
@@ -59,7 +60,9 @@ bool BlockParser::plane() {
     if (variant == nullptr && lexer_.acceptKeyword(candidate.keyword)) variant = &candidate;
   }
   if (variant == nullptr) {
-    return error("SPATIAL, PROJECTED, EULER, VECTOR, POINTS, RELATIVE, AXIAL or RESET is expected after PLANE");
+    return error(
+        "SPATIAL, PROJECTED, EULER, VECTOR, POINTS, RELATIVE, AXIAL or RESET is expected after PLANE",
+        meantWord(lexer_, {"SPATIAL", "PROJECTED", "EULER", "VECTOR", "POINTS", "RELATIVE", "AXIAL", "RESET"}));
   }
   const std::size_t first = block_.words.size();
   while (!lexer_.atEnd()) {
@@ -160,7 +163,7 @@ bool BlockParser::transformation() {
     } else if (lexer_.acceptKeyword("RESET")) {
       name = "TRANS DATUM RESET";
     } else {
-      return error("AXIS, TABLE or RESET is expected after TRANS DATUM");
+      return error("AXIS, TABLE or RESET is expected after TRANS DATUM", meantWord(lexer_, {"AXIS", "TABLE", "RESET"}));
     }
   } else if (lexer_.acceptKeyword("MIRROR")) {
     name = lexer_.acceptKeyword("RESET") ? "TRANS MIRROR RESET" : "TRANS MIRROR AXIS";
@@ -183,7 +186,8 @@ bool BlockParser::transformation() {
       if (!word(addressOf("SCL"), "SCL")) return false;
     }
   } else {
-    return error("DATUM, MIRROR, ROTATION or SCALE is expected after TRANS");
+    return error("DATUM, MIRROR, ROTATION or SCALE is expected after TRANS",
+                 meantWord(lexer_, {"DATUM", "MIRROR", "ROTATION", "SCALE"}));
   }
   transform.words = wordsSince(first);
   transform.name = constant(name);
@@ -218,7 +222,10 @@ bool BlockParser::functionKeyword() {
     if (lexer_.acceptKeyword("MODE")) {
       const bool known = lexer_.acceptKeyword("MILL") || lexer_.acceptKeyword("TURN") ||
                          lexer_.acceptKeyword("GRIND") || lexer_.acceptKeyword("SET");
-      if (!known) return error("MILL, TURN, GRIND or SET is expected after FUNCTION MODE");
+      if (!known) {
+        return error("MILL, TURN, GRIND or SET is expected after FUNCTION MODE",
+                     meantWord(lexer_, {"MILL", "TURN", "GRIND", "SET"}));
+      }
       lexer_.seek(start);
     }
     return textCommand("FUNCTION");
@@ -306,7 +313,7 @@ bool BlockParser::presetKeyword() {
       }
     }
   } else {
-    return error("SELECT, COPY or CORR is expected after PRESET");
+    return error("SELECT, COPY or CORR is expected after PRESET", meantWord(lexer_, {"SELECT", "COPY", "CORR"}));
   }
   const WordRange words = wordsSince(first);
   emit(Command{constant(name), {}, -1, words});

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/number_text.hpp"
+#include "language/klartext/global_groups.hpp"
 #include "language/klartext/lexer.hpp"
 #include "language/klartext/system_data_numbers.hpp"
 
@@ -79,12 +80,39 @@ void StatementNotes::systemDatum(const Block& block, const Command& command) {
        "use another system datum, or set the parameter to a fixed value");
 }
 
+void StatementNotes::globalDefinition(const Block& block, const Command& command) {
+  const std::span<const Word> words = wordsOf(block, command.words);
+  if (words.empty()) return;
+  auto mistake = mistakeInGlobalDefinition(static_cast<int>(words.front().value.number), words.subspan(1));
+  if (mistake) note(Severity::Warning, mistake->message + ": the run stops at this block", std::move(mistake->advice));
+}
+
+/// Values of FN 15: PRINT are numbers and parameters, separated by /.
+void StatementNotes::printed(std::string_view text) {
+  while (!text.empty()) {
+    std::string_view item = text.substr(0, text.find('/'));
+    text.remove_prefix(std::min(item.size() + 1, text.size()));
+    while (!item.empty() && isBlank(item.front()))
+      item.remove_prefix(1);
+    while (!item.empty() && isBlank(item.back()))
+      item.remove_suffix(1);
+    if (item.starts_with('+')) item.remove_prefix(1);
+    if (item.empty() || upper(item.front()) == 'Q' || parseDecimal(item)) continue;
+    note(Severity::Warning,
+         fmt::format("{} is neither a number nor a Q parameter: the run stops at this block", item.substr(0, 40)),
+         "write FN 15: PRINT Q5/Q6");
+  }
+}
+
 void StatementNotes::look(const Block& block, const Command& command) {
   const std::string_view name = block.at(command.name);
   if (name == "FN17" || name == "FN18") systemDatum(block, command);
   if (name == "FN15" && kind_ == control::ControlKind::TNC640) {
     note(Severity::Warning, "the TNC 640 has no FN 15", "write texts and values with FN 16: F-PRINT");
+  } else if (name == "FN15") {
+    printed(block.at(command.text));
   }
+  if (name == "GLOBAL DEF") globalDefinition(block, command);
   if (name == "FN21" || name == "FN22") {
     note(Severity::Warning, fmt::format("the control has no FN {}", name.substr(2)), "take the block out");
   }

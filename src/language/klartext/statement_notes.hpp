@@ -35,6 +35,8 @@ private:
   void look(const Block&, const Other&) {}
   void label(const Block& block, TextRef label);
   void systemDatum(const Block& block, const Command& command);
+  void globalDefinition(const Block& block, const Command& command);
+  void printed(std::string_view text);
   void endContour();
   void note(Severity severity, std::string message, std::string advice) {
     notes_.push_back({severity, std::move(message), std::move(advice)});
