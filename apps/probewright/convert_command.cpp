@@ -16,23 +16,25 @@ namespace probewright::app {
 namespace {
 
 /// Why OUT must not be written; empty if nothing speaks against it. Files are told apart by what they are, not by their
-/// names: a link to IN is IN.
+/// names: a link to IN is IN, and so is `new/../IN`, although the folder `new` is made only when OUT is written.
 std::optional<Diagnostic> objectionTo(const ConvertArguments& arguments) {
   const auto objection = [&](std::string message, std::string advice) {
     return Diagnostic{
         Severity::Error, {arguments.output.string(), 0, 0}, std::move(message), {}, std::move(advice), {}};
   };
   std::error_code none;
+  std::filesystem::path output = std::filesystem::weakly_canonical(arguments.output, none);
+  if (none || output.empty()) output = arguments.output;
   const auto same = [&](const std::filesystem::path& other) {
-    return !other.empty() && std::filesystem::equivalent(arguments.output, other, none) && !none;
+    return !other.empty() && std::filesystem::equivalent(output, other, none) && !none;
   };
   if (same(arguments.input)) return objection("OUT is the program itself", "give OUT another name");
   if (same(arguments.setup)) return objection("OUT is the setup", "give OUT another name");
   const auto there = std::filesystem::symlink_status(arguments.output, none);
-  if (std::filesystem::is_directory(arguments.output, none)) {
+  if (std::filesystem::is_directory(output, none)) {
     return objection("OUT is a folder", "give the name of a file");
   }
-  if (std::filesystem::exists(there) && !arguments.force) {
+  if ((std::filesystem::exists(there) || std::filesystem::exists(output, none)) && !arguments.force) {
     return objection("the file exists already", "give OUT another name, or overwrite it with --force");
   }
   return std::nullopt;

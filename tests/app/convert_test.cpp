@@ -140,7 +140,7 @@ TEST(Convert, LeavesFilesAlone) {
   // The same file by another way to it.
   std::filesystem::create_directory(folder / "sub");
   std::filesystem::create_directory_symlink(".", folder / "again");
-  for (const char* way : {"./part.h", "sub/../part.h", "again/part.h", "sub/../again/./part.h"})
+  for (const char* way : {"./part.h", "sub/../part.h", "again/part.h", "sub/../again/./part.h", "made/../part.h"})
     EXPECT_EQ(probewright({"convert", program, (folder / way).string(), "--force"}).exit, 2) << way;
   EXPECT_EQ(probewright({"convert", (folder / "link.i").string(), program, "--force"}).exit, 2);
   EXPECT_EQ(probewright({"convert", program, (folder / "sub").string(), "--force"}).exit, 2);
@@ -149,6 +149,8 @@ TEST(Convert, LeavesFilesAlone) {
   const Answer refused = probewright({"convert", program, out});
   EXPECT_EQ(refused.exit, 2);
   EXPECT_THAT(refused.errors, HasSubstr("--force"));
+  // A folder that is made only when OUT is written hides nothing.
+  EXPECT_EQ(probewright({"convert", program, (folder / "made/../old.mpf").string()}).exit, 2);
   EXPECT_EQ(textOf(out), "KEEP\n");
   EXPECT_EQ(probewright({"convert", program, out, "--force"}).exit, 0);
   EXPECT_THAT(textOf(out), HasSubstr("G0 Z100"));
