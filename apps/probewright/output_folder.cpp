@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 namespace probewright::app {
 
@@ -63,14 +65,16 @@ std::optional<Checksums> listIn(const fs::path& folder) {
   return checksums;
 }
 
+/// Read piece by piece: the report of a long run is larger than what is wanted of memory.
 bool isUnchanged(const fs::path& file, const std::string& checksum) {
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(file, error))) return false;
-  const Result<std::string> bytes = readFile(file);
-  if (!bytes) return false;
+  std::ifstream stream(file, std::ios::binary);
   Checksum now;
-  now.add(*bytes);
-  return now.text() == checksum;
+  std::vector<char> piece(std::size_t{1} << 20U);
+  while (stream.read(piece.data(), static_cast<std::streamsize>(piece.size())), stream.gcount() > 0)
+    now.add({piece.data(), static_cast<std::size_t>(stream.gcount())});
+  return stream.eof() && now.text() == checksum;
 }
 
 /// The entries of the list that are true.

@@ -46,6 +46,32 @@ TEST(OutputFolder, HoldsNoFileThatTheProgramHasDeleted) {
   EXPECT_THAT(namesIn(folder / "out"), Not(::testing::Contains("NOTE")));
 }
 
+/// Whether a report of an earlier run is still the one that it left is asked without holding it in memory.
+TEST(OutputFolder, ChecksLargeFilesPieceByPiece) {
+  const Folder folder;
+  const std::filesystem::path out = folder / "out", report = out / "report.html";
+  std::filesystem::create_directory(out);
+  folder.file("out/report.html", "");
+  std::filesystem::resize_file(report, std::uintmax_t{120} << 20U);  // zeros
+  const auto list = [&](const std::string& checksum) {
+    folder.file("out/.probewright.json", json{{"title", "the files of a Probewright run and their SHA-256"},
+                                              {"files", {{"report.html", checksum}}}}
+                                             .dump());
+  };
+  const std::vector<std::string> words = {
+      "run", folder.file("a.mpf", "M30\n"), "--setup", "examples/setups/housing-840dsl.toml", "--out", out.string()};
+  list("5c4fb902a2d45300919e27920c96fa090d0a3e42f7ee8e778ca852a30a2905b3");
+  const Answer other = probewright(words);
+  EXPECT_EQ(other.exit, 2);
+  EXPECT_EQ(std::filesystem::file_size(report), std::uintmax_t{120} << 20U);
+  list("5c4fb902a2d45300919e27920c96fa090d0a3e42f7ee8e778ca852a30a2905b2");
+  const Answer same = probewright(words);
+  EXPECT_EQ(same.exit, 0) << same.errors;
+  EXPECT_LT(std::filesystem::file_size(report), std::uintmax_t{10} << 20U);
+  EXPECT_LT(same.peakMegabytes, 110);
+  EXPECT_LT(other.peakMegabytes, 110);
+}
+
 TEST(OutputFolder, RefusesAFolderItCannotWriteTo) {
   const Folder folder;
   const std::string file = folder.file("file", "kept");
