@@ -398,9 +398,6 @@ private:
       if (isCorner(task.feature)) throw NotCarriedOver("Q381: the preset in the touch probe axis", "set it with 417");
       target(surface);
       surface.wish[2] = q(333);
-      // The point of touch counts from the origin that was in effect before the cycle.
-      for (std::size_t i = 0; i < 2; ++i)
-        if (task.wish[i]) surface.place[i] = surface.place[i] + (*task.wish[i] - task.place[i]);
       tasks.push_back(surface);
     }
     return tasks;

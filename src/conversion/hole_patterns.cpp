@@ -72,7 +72,7 @@ void ToSinumerik::turnByPair(const MeasuringTask& pair, const std::vector<Centre
   setRotation(pair.active ? std::nullopt : std::optional(pair.row), Quantity::of(angle) - pair.angle);
 }
 
-void ToSinumerik::holePattern(const Block& block, const MeasuringTask& given, const std::string& heidenhainCycle) {
+Place ToSinumerik::holePattern(const Block& block, const MeasuringTask& given, const std::string& heidenhainCycle) {
   MeasuringTask pattern = given;
   if (pattern.correction != Correction::None && pattern.row == 0) {
     takeRowZero();
@@ -89,7 +89,10 @@ void ToSinumerik::holePattern(const Block& block, const MeasuringTask& given, co
                                                              : holeByStrokes(number, place, pattern.clearance));
   }
   besidePath_ = true;
-  if (pattern.correction == Correction::Rotation) return turnByPair(pattern, centres);
+  if (pattern.correction == Correction::Rotation) {
+    turnByPair(pattern, centres);
+    return {};
+  }
 
   const auto own = [this](const char* what) { return formulas_.declare(fmt::format("_HOLES_{}", what)); };
   const Centre centre = {own("1"), own("2")};
@@ -132,10 +135,12 @@ void ToSinumerik::holePattern(const Block& block, const MeasuringTask& given, co
     if (usedQ_.contains(number)) set(parameter(number), sinumerikText(found.at(meaning)));
   }
   if (heidenhainCycle == "430") judgePattern(block, pattern, centre, diameter);
+  const Place middle = {Quantity::of(centre[0]), Quantity::of(centre[1]), {}};
   if (pattern.correction == Correction::Origin) {
     forgetPosition();
-    shiftOrigin(block, pattern, {Quantity::of(centre[0]), Quantity::of(centre[1]), {}}, true);
+    shiftOrigin(block, pattern, middle, true);
   }
+  return middle;
 }
 
 void ToSinumerik::judgePattern(const Block& block, const MeasuringTask& pattern, const Centre& centre,

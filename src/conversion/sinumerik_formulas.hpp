@@ -62,4 +62,8 @@ std::string settableCode(int number);
 /// The number of the settable zero offset that a G function selects: 1 for G54; 0 for G500.
 std::optional<int> settableOf(std::string_view code);
 
+/// Selects the settable zero offset that is in effect again: the function of group 8 by its number, 1 is G500, 2 is
+/// G54.
+inline constexpr std::string_view selectedAgain = "G[8]=$P_UIFRNUM+1";
+
 }  // namespace probewright::conversion

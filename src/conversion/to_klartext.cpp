@@ -242,8 +242,7 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
     }
     line("CYCL DEF 247 PRESETTING ~");
     out_.line(fmt::format("    Q339=+{} ;PRESET NUMBER", row));
-    if (std::ranges::any_of(frame_.shift, [](const Quantity& each) { return !(each == 0); })) writeShift(frame_.shift);
-    if (!(*frame_.rotation == 0)) writeRotation(*frame_.rotation);
+    restoreFrame();
     return;
   }
   if ((name == "G71" || name == "G710") && millimetre_ != 1) {
@@ -355,6 +354,8 @@ void ToKlartext::command(const Block& block, const Command& command) {
     line("CYCL DEF 13.0 ORIENTATION");
     return out_.line(fmt::format("CYCL DEF 13.1 ANGLE {}", angle));
   }
+  // What a preset is set to acts at once.
+  if (name == "G" && trimmed(block.at(block.source)) == selectedAgain) return;
   if (name == "PROC") {
     if (block.at(command.text).find("REAL") == std::string_view::npos &&
         block.at(command.text).find("INT") == std::string_view::npos)

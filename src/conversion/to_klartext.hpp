@@ -76,8 +76,14 @@ private:
   Quantity frozen(const Quantity& quantity, const std::string& name);
   /// Lets the program read the shift where only it knows it.
   void readFrame();
-  /// Touch probe cycles permit neither shift nor rotation: takes them back and counts the task without them. False if
-  /// there are none.
+  /// Touch probe cycles permit neither shift nor rotation: refuses a rotation that only the running program knows.
+  void requireFrame();
+  /// Takes shift and rotation back.
+  void cancelFrame();
+  /// Sets them again.
+  void restoreFrame();
+  bool isShifted() const;
+  /// Takes shift and rotation back and counts the task without them. False if there are none.
   bool leaveFrame(MeasuringTask& task);
   /// Sets them again; results count in them. `task`: as it was before.
   void comeBackToFrame(const MeasuringTask& task, Results& results);
@@ -85,6 +91,8 @@ private:
   // to_klartext_variables.cpp
   void assign(const language::Block& block, const language::Assign& assign);
   /// A component of $P_UIFR: a translation or the rotation about the tool axis.
+  /// True if a zero offset is selected below the block before anything moves, or nothing does.
+  bool selectsBeforeItMoves(const language::Block& block);
   void assignFrameComponent(const language::Block& block, const language::Assign& assign);
   void define(const language::Block& block, const language::Command& command);
 

@@ -98,15 +98,33 @@ void ToKlartext::readFrame() {
   frame_.known = true;
 }
 
-bool ToKlartext::leaveFrame(MeasuringTask& task) {
+void ToKlartext::requireFrame() {
   if (!frame_.rotation) {
     throw NotCarriedOver("whether the coordinate system is turned here is known only when the program runs",
                          "touch probe cycles permit no rotation: cancel it with ROT before the cycle");
   }
   readFrame();
-  const bool shifted = std::ranges::any_of(frame_.shift, [](const Quantity& each) { return !(each == 0); });
+}
+
+void ToKlartext::cancelFrame() {
+  requireFrame();
+  if (!(*frame_.rotation == 0)) writeRotation(0);
+  if (isShifted()) writeShift({});
+}
+
+void ToKlartext::restoreFrame() {
+  if (isShifted()) writeShift(frame_.shift);
+  if (!(*frame_.rotation == 0)) writeRotation(*frame_.rotation);
+}
+
+bool ToKlartext::isShifted() const {
+  return std::ranges::any_of(frame_.shift, [](const Quantity& each) { return !(each == 0); });
+}
+
+bool ToKlartext::leaveFrame(MeasuringTask& task) {
+  requireFrame();
   const bool turned = !(*frame_.rotation == 0);
-  if (!shifted && !turned) return false;
+  if (!isShifted() && !turned) return false;
   const bool calibrates = task.feature == Feature::ProbeInRing || task.feature == Feature::ProbeOnBall ||
                           task.feature == Feature::ProbeLength;
   if (turned && (!isRound(task.feature) || !frame_.rotation->isNumber() || task.correction != Correction::None)) {
@@ -130,15 +148,12 @@ bool ToKlartext::leaveFrame(MeasuringTask& task) {
   for (std::size_t i = 0; i < 3; ++i)
     if (task.wish[i]) *task.wish[i] = *task.wish[i] + frame_.shift[i];
   if (isRound(task.feature)) task.angle = task.angle + degrees;
-  if (turned) writeRotation(0);
-  if (shifted) writeShift({});
+  cancelFrame();
   return true;
 }
 
 void ToKlartext::comeBackToFrame(const MeasuringTask& task, Results& results) {
-  const bool shifted = std::ranges::any_of(frame_.shift, [](const Quantity& each) { return !(each == 0); });
-  if (shifted) writeShift(frame_.shift);
-  if (!(*frame_.rotation == 0)) writeRotation(*frame_.rotation);
+  restoreFrame();
   const auto found = [&](Meaning meaning) -> std::optional<Quantity> {
     const auto result = results.find(meaning);
     return result == results.end() ? std::nullopt : std::optional(Quantity::of(result->second));

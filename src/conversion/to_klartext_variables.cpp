@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "conversion/sinumerik_formulas.hpp"
 #include "conversion/to_klartext.hpp"
 
 /// Assignments and definitions of SINUMERIK programs in Klartext.
@@ -54,9 +56,13 @@ void ToKlartext::assignFrameComponent(const Block& block, const Assign& assign) 
   }
   const Quantity value = quantity(block, assign.value);
   forgetPosition();
+  const bool inEffect = active || (activeRow_ && number == *activeRow_);
+  if ((inEffect || !activeRow_ || !number.isNumber()) && !selectsBeforeItMoves(block)) {
+    out_.list(block, "what a zero offset is set to acts when it is selected the next time, a preset acts at once",
+              "select the zero offset again after this block (G54)");
+  }
   if (word(2) == "RT" && word(1) == axis(2)) {
     const bool ofTables = control_ != control::ControlKind::iTNC530;
-    const bool inEffect = active || (activeRow_ && number == *activeRow_);
     if (!ofTables && !inEffect) {
       throw NotCarriedOver("cycle 404 of the iTNC530 turns the active preset only",
                            "select the zero offset before this block");
@@ -64,9 +70,11 @@ void ToKlartext::assignFrameComponent(const Block& block, const Assign& assign) 
     unturned_ = value == 0;
     if (row == 0) rowZeroIsDue_ = false;
     const std::string angle = formulas_.value(value), rowText = formulas_.value(row);
+    cancelFrame();  // touch probe cycles permit none
     line("TCH PROBE 404 SET BASIC ROTATION ~");
     out_.line(fmt::format("    Q307={} ;PRESET ROTATION ANG.{}", angle, ofTables ? " ~" : ""));
     if (ofTables) out_.line(fmt::format("    Q305={} ;NUMBER IN TABLE", rowText));
+    restoreFrame();
     return;
   }
   const std::size_t place = word(1).size() == 1 ? std::string_view("XYZ").find(word(1)[0]) : std::string_view::npos;
@@ -80,14 +88,38 @@ void ToKlartext::assignFrameComponent(const Block& block, const Assign& assign) 
   const Quantity present = active ? quantity(block, variable.index[0]) : row;
   const Quantity shift = value - Quantity::of(formulas_.presetDatum(present, static_cast<int>(place) + 1));
   const std::string amount = formulas_.value(shift);
-  const bool selected = active || (activeRow_ && number == *activeRow_);
   const std::string before = formulas_.define("preset in effect", false);
-  if (!selected) {
+  if (!inEffect) {
     line(fmt::format("FN 18: SYSREAD {} = ID530 NR1", before));
     out_.line(fmt::format("PRESET SELECT #{} KEEP TRANS", formulas_.unsignedValue(row)));
   }
   line(fmt::format("PRESET CORR {}{}", word(1), amount));
-  if (!selected) line(fmt::format("PRESET SELECT #{} KEEP TRANS", before));
+  if (!inEffect) line(fmt::format("PRESET SELECT #{} KEEP TRANS", before));
+}
+
+bool ToKlartext::selectsBeforeItMoves(const Block& block) {
+  const std::optional<std::size_t> own = graph_.at(block.position);
+  if (!own) return false;
+  const auto isSilent = [](const Block& next, const Instruction& instruction) {
+    const auto* command = std::get_if<Command>(&instruction);
+    static constexpr std::string_view silent[] = {"MSG", "STOPRE", "DEF", "WORKPIECE"};
+    return std::holds_alternative<Assign>(instruction) || std::holds_alternative<Modal>(instruction) ||
+           std::holds_alternative<MachineFunction>(instruction) ||
+           (command != nullptr && std::ranges::find(silent, next.at(command->name)) != std::end(silent));
+  };
+  Block next;
+  Diagnostics ignored;
+  for (std::size_t i = *own + 1; i < graph_.blocks().size(); ++i) {
+    program_.parse(graph_.blocks()[i].position, next, ignored);
+    if (trimmed(next.at(next.source)) == selectedAgain) return true;
+    for (const Instruction& instruction : next.instructions) {
+      const auto* modal = std::get_if<Modal>(&instruction);
+      if (modal != nullptr && settableOf(next.at(modal->name))) return true;
+      if (std::holds_alternative<EndProgram>(instruction)) return true;
+      if (!isSilent(next, instruction)) return false;
+    }
+  }
+  return !job_.called;
 }
 
 void ToKlartext::define(const Block& block, const Command& command) {

@@ -89,7 +89,8 @@ private:
   // hole_patterns.cpp
   /// Two variables of the converter's own: where a centre was found.
   using Centre = std::array<std::string, 2>;
-  void holePattern(const language::Block& block, const MeasuringTask& pattern, const std::string& heidenhainCycle);
+  /// Returns where the running program finds the centre, in coordinates from before the correction.
+  Place holePattern(const language::Block& block, const MeasuringTask& pattern, const std::string& heidenhainCycle);
   Centre holeByStrokes(int number, const Place& place, const Quantity& clearance);
   Centre spigotCentre(const language::Block& block, int number, const MeasuringTask& pair);
   void turnByPair(const MeasuringTask& pair, const std::vector<Centre>& centres);
@@ -108,7 +109,12 @@ private:
 
   // to_sinumerik_cycles.cpp
   void cycle(const language::Block& block, const language::CycleCall& call);
-  void task(const language::Block& block, const MeasuringTask& task, const std::string& heidenhainCycle);
+  /// Returns where the running program finds the feature, in coordinates from before the correction.
+  Place task(const language::Block& block, const MeasuringTask& task, const std::string& heidenhainCycle);
+  /// The point of Q382, Q383 counts from the origin that was in effect before `preset` has moved it.
+  void countFromNewOrigin(const MeasuringTask& preset, const Place& found, MeasuringTask& touch);
+  /// Lists a frame of the program that the cycle does not run under on its own control.
+  void listForbiddenFrame(const language::Block& block, int cycle);
   /// Lists, once, that the SINUMERIK cycle does not look for the surface as far as the touch probe does.
   void requireReach(const language::Block& block, const MeasuringTask& task, const SinumerikPassage& passage);
   void approach(const Place& start, const Quantity& clearance);
@@ -133,8 +139,8 @@ private:
   /// one in effect. `value` makes the new one of the text of the present one.
   void setComponent(const std::optional<Quantity>& row, const std::string& component,
                     const std::function<std::string(const std::string&)>& value);
-  /// Selects the zero offset `row` again if it is in effect.
-  void selectIfActive(const Quantity& row);
+  /// Selects the zero offset that is in effect again, so that what was written to it acts.
+  void selectAgain();
   void judge(const language::Block& block, const MeasuringTask& task, const SinumerikPassage& passage);
   /// Sets Q180 to Q182 by conditions, and stops or tells, if that is asked for.
   void decide(const std::vector<std::string>& rework, const std::vector<std::string>& scrap, bool stops, bool tells);

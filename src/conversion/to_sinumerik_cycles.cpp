@@ -9,6 +9,7 @@
 #include "conversion/sinumerik_tasks.hpp"
 #include "conversion/to_sinumerik.hpp"
 #include "cycles/catalogue.hpp"
+#include "cycles/heidenhain/call_rules.hpp"
 #include "geometry/primitives.hpp"
 
 /// Touch probe cycles of HEIDENHAIN programs as measuring cycles of a SINUMERIK.
@@ -91,6 +92,7 @@ void ToSinumerik::cycle(const Block& block, const CycleCall& cycle) {
   requireAxis();
   const cycles::CycleDefinition* definition = cycles::heidenhainCycle(cycle.number);
   const Call call = callOf(block, cycle);
+  listForbiddenFrame(block, cycle.number);
   if (cycle.number == 404) return basicRotation(call);
   if (cycle.number == 403) return alignRotaryAxis(block, call);
   if (cycle.number == 0 || cycle.number == 3 || cycle.number == 4) return singleTouch(block, cycle, call);
@@ -101,20 +103,36 @@ void ToSinumerik::cycle(const Block& block, const CycleCall& cycle) {
   const MeasuringTask::Log log = tasks.front().log;
   if (log == MeasuringTask::Log::File) out_.line(fmt::format("CYCLE150(0,1,\"TCHPR{}\")", call.cycle));
   if (log == MeasuringTask::Log::Screen) out_.line("CYCLE150(31,0)");
-  for (const MeasuringTask& each : tasks) {
+  Place found;
+  for (MeasuringTask each : tasks) {
+    if (each.feature == Feature::Surface && tasks.front().feature != Feature::Surface) {
+      countFromNewOrigin(tasks.front(), found, each);
+    }
     const Feature what = each.feature;
     if (what == Feature::HolePair || what == Feature::SpigotPair || what == Feature::BoltCircle ||
         what == Feature::HoleDiagonals) {
-      holePattern(block, each, call.cycle);
+      found = holePattern(block, each, call.cycle);
     } else if (call.cycle == "431" && !alongMainAxis(each)) {
       planeByTouches(block, each);
     } else {
-      task(block, each, call.cycle);
+      found = task(block, each, call.cycle);
     }
   }
   if (log != MeasuringTask::Log::None) out_.line("CYCLE150(0,0)");
   for (const std::string& loss : losses)
     out_.lose(block, loss);
+}
+
+void ToSinumerik::listForbiddenFrame(const Block& block, int cycle) {
+  const cycles::heidenhain::ForbiddenTransformations forbidden = cycles::heidenhain::forbiddenTransformations(cycle);
+  const bool shifted = std::ranges::any_of(frame_.shift, [](const Quantity& each) { return !(each == 0); });
+  const bool turned = frame_.rotation && !(*frame_.rotation == 0);
+  if (!frame_.known || !((forbidden.shift && shifted) || (forbidden.rotation && turned))) return;
+  out_.list(block,
+            fmt::format("a {} by the program is in effect here, with which a TNC 640 stops at cycle {}; the SINUMERIK "
+                        "measures",
+                        forbidden.shift && shifted ? "datum shift" : "rotation", cycle),
+            "reset it before the cycle");
 }
 
 void ToSinumerik::requireReach(const Block& block, const MeasuringTask& task, const SinumerikPassage& passage) {
@@ -143,7 +161,7 @@ void ToSinumerik::approach(const Place& start, const Quantity& clearance) {
   if (!height || !(*height == start[2])) out_.line(fmt::format("G0 {}", addressWord(axis(2), start[2])));
 }
 
-void ToSinumerik::task(const Block& block, const MeasuringTask& given, const std::string& heidenhainCycle) {
+Place ToSinumerik::task(const Block& block, const MeasuringTask& given, const std::string& heidenhainCycle) {
   MeasuringTask task = given;
   const bool corrects = task.correction != Correction::None;
   if (corrects && !task.active && task.row == 0) {
@@ -177,6 +195,32 @@ void ToSinumerik::task(const Block& block, const MeasuringTask& given, const std
   }
   if (!corrects && passage.start) position_[2] = task.clearance;
   besidePath_ = true;
+  Place found = task.place;
+  for (const auto& [meaning, name] : sinumerikResults(task)) {
+    if (meaning == Meaning::Centre1) found[0] = Quantity::of(name);
+    if (meaning == Meaning::Centre2) found[1] = Quantity::of(name);
+    if (meaning == Meaning::Coordinate) found[static_cast<std::size_t>(task.axis)] = Quantity::of(name);
+  }
+  return found;
+}
+
+void ToSinumerik::countFromNewOrigin(const MeasuringTask& preset, const Place& found, MeasuringTask& touch) {
+  const bool known = preset.active || preset.row == 0 || (activeRow_ && preset.row.isNumber());
+  if (known && !preset.active && !(preset.row == 0) && !(preset.row == *activeRow_)) return;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!preset.wish[i]) continue;
+    const Quantity moved = touch.place[i] + *preset.wish[i] - found[i];
+    if (known) {
+      touch.place[i] = moved;
+      continue;
+    }
+    const std::string own = formulas_.declare(fmt::format("_TOUCH_{}", axis(i)));
+    out_.line(fmt::format("{}={}", own, sinumerikText(touch.place[i])));
+    out_.line(fmt::format("IF $P_UIFRNUM=={}", sinumerikText(preset.row)));
+    out_.line(fmt::format("  {}={}", own, sinumerikText(moved)));
+    out_.line("ENDIF");
+    touch.place[i] = Quantity::of(own);
+  }
 }
 
 void ToSinumerik::correctTool(const MeasuringTask& task, const SinumerikPassage& passage) {
@@ -230,21 +274,12 @@ void ToSinumerik::shiftOrigin(const Block& block, const MeasuringTask& task, con
   }
   if (task.row.isNumber() && activeRow_ && task.row == *activeRow_) {
     out_.line(settableCode(*activeRow_));
-    return;
+  } else if (task.active || !activeRow_ || !task.row.isNumber()) {
+    selectAgain();
   }
-  selectIfActive(task.active ? Quantity::of(row) : task.row);
 }
 
-void ToSinumerik::selectIfActive(const Quantity& row) {
-  // Zero offsets are selected by name: one that only the running program knows is taken for one of the first four.
-  const bool known = row.isNumber();
-  const int first = known ? static_cast<int>(row.number()) : 1, last = known ? first : 4;
-  for (int number = first; number <= last; ++number) {
-    out_.line(fmt::format("IF $P_UIFRNUM=={}", number));
-    out_.line(fmt::format("  {}", settableCode(number)));
-    out_.line("ENDIF");
-  }
-}
+void ToSinumerik::selectAgain() { out_.line(std::string(selectedAgain)); }
 
 void ToSinumerik::takeRotationOut(const MeasuringTask& task) {
   if (activeRow_ && !task.active && !(task.row == *activeRow_)) {
@@ -268,12 +303,12 @@ void ToSinumerik::setComponent(const std::optional<Quantity>& row, const std::st
   if (activeRow_ && (!row || *row == *activeRow_)) {
     write(std::to_string(*activeRow_));
     out_.line(settableCode(*activeRow_));
-  } else if (row && row->isNumber()) {
+  } else if (row) {
     write(sinumerikText(*row));
-    selectIfActive(*row);
+    if (!activeRow_ || !row->isNumber()) selectAgain();
   } else {
     write("$P_UIFRNUM");
-    selectIfActive(Quantity::of("$P_UIFRNUM"));
+    selectAgain();
   }
 }
 

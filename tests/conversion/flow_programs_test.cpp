@@ -48,6 +48,180 @@ TEST(ConvertFlow, RunsSinumerikProgramsThroughTheSameTouches) {
   EXPECT_EQ(compared, programs) << "too many programs are named, too few compared";
 }
 
+// ---- origins that a cycle moves before it touches once more ----
+
+/// Cycle 412 or 413 with Q381 = 1: the point in the touch probe axis counts from the origin before the cycle.
+std::string presetWithToolAxis(const World& world, int cycle, int row, double wish) {
+  const Vector3& n = world.nominal();
+  const bool hole = cycle == 412;
+  return probe(cycle, {{321, n.x() + (hole ? 0.2 : 60)},
+                       {322, n.y() + (hole ? 45 : 60.3)},
+                       {262, hole ? world.hole : world.pin},
+                       {325, 0},
+                       {247, 90},
+                       {261, n.z() - 6},
+                       {320, 3},
+                       {260, n.z() + 30},
+                       {301, 1},
+                       {305, row},
+                       {331, wish},
+                       {332, wish + 7},
+                       {303, 1},
+                       {381, 1},
+                       {382, n.x() - 20},
+                       {383, n.y() - 30},
+                       {384, n.z()},
+                       {333, n.z()},
+                       {423, 4},
+                       {365, 1}});
+}
+
+TEST(ConvertFlow, TouchesForTheToolAxisWhereTheOriginBeforeTheCycleSays) {
+  Dice dice(4010);
+  for (const int cycle : {412, 413}) {
+    for (const std::string select :
+         {"", "CYCL DEF 247 PRESET ~\n    Q339=+1\n", "CYCL DEF 247 PRESET ~\n    Q339=+2\n"}) {
+      for (const int row : {0, 1, 2}) {
+        SCOPED_TRACE(fmt::format("{} {} {}", cycle, row, select));
+        World world(dice);
+        const Pose& origin = world.part.machineFromPreset;
+        world.part.bench.preset(2, origin.translation());
+        const Twin original = runKlartext(
+            klartextProgram(select + presetWithToolAxis(world, cycle, row, dice.between(-3, 3)) + "L Z+60 R0 FMAX\n"),
+            world.part);
+        const Twin there = runConverted(original, world.part);
+        ASSERT_TRUE(ranWhole(original));
+        ASSERT_TRUE(ranWhole(there));
+        ASSERT_EQ(original.journal.cycles.size(), 1U);
+        ASSERT_EQ(there.journal.cycles.size(), 2U) << there.text;
+        const control::TouchRecord& last = original.journal.cycles[0].touches.back();
+        const control::TouchRecord& same = there.journal.cycles[1].touches.back();
+        for (std::size_t i = 0; i < 3; ++i)
+          EXPECT_NEAR(last.latched[i], same.latched[i], 2e-4) << there.text;  // the hole leans
+      }
+    }
+  }
+}
+
+// ---- zero offsets in effect that only the running program knows ----
+
+TEST(ConvertFlow, ActsAtOnceWhateverOffsetIsInEffect) {
+  const PlantedPart part = [] {
+    PlantedPart plain;
+    plain.bench.preset(1, {10, 20, -300});
+    plain.bench.preset(6, {30, -20, -300});
+    return plain;
+  }();
+  // Two ways lead to the cycle, with row 1 and with row 6 in effect.
+  for (const int way : {0, 1}) {
+    const Twin original = runKlartext(
+        klartextProgram(fmt::format("Q1 = {}\nCYCL DEF 247 PRESET ~\n    Q339=+1\nFN 9: IF +Q1 EQU +0 GOTO LBL 1\n"
+                                    "CYCL DEF 247 PRESET ~\n    Q339=+6\nLBL 1\n"
+                                    "TCH PROBE 404 BASIC ROTATION ~\n    Q307=+12 ~\n    Q305=-1\n"
+                                    "L X+50 Y+0 R0 FMAX\n",
+                                    way)),
+        part);
+    const Twin there = runConverted(original, part);
+    ASSERT_TRUE(ranWhole(original));
+    ASSERT_TRUE(ranWhole(there));
+    EXPECT_TRUE(sameEnd(original, there));
+    const Twin back = runConverted(there, part);
+    EXPECT_TRUE(back.lost.empty()) << back.text;
+    EXPECT_TRUE(sameEnd(original, back));
+  }
+}
+
+/// Touch probe cycle 404 permits no shift and no rotation by the program.
+TEST(ConvertFlow, TurnsOffsetsUnderAFrameOfTheProgram) {
+  PlantedPart part;
+  part.bench.preset(1, {10, 20, -300});
+  part.bench.preset(2, {30, -20, -300});
+  for (const char* frame : {"TRANS X5 Y-2\n", "R1=4\nTRANS X=R1\n", "TRANS X5\nAROT Z20\n"}) {
+    for (const char* turn : {"$P_UIFR[1,Z,RT]=3\nG54\n", "$P_UIFR[2,Z,RT]=3\n", "$P_UIFR[2,Z,RT]=3\nG55\n"}) {
+      const std::string program =
+          fmt::format("G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\n{}{}G0 X50 Y0\nM30\n", frame, turn);
+      const Twin original = runSinumerik(program, part);
+      const Twin there = runConverted(original, part);
+      ASSERT_TRUE(ranWhole(original));
+      ASSERT_TRUE(ranWhole(there));
+      EXPECT_TRUE(sameEnd(original, there));
+      EXPECT_TRUE(sameOrigin(original, there));
+    }
+  }
+}
+
+/// What is written to the zero offset in effect acts on a SINUMERIK when it is selected the next time.
+TEST(ConvertFlow, NamesOffsetsThatActLater) {
+  PlantedPart part;
+  part.bench.preset(1, {10, 20, -300});
+  part.bench.preset(2, {30, -20, -300});
+  const auto twinOf = [&](const std::string& blocks) {
+    return runConverted(runSinumerik("G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\n" + blocks + "M30\n", part), part);
+  };
+  for (const char* write : {"$P_UIFR[1,X,TR]=25\n", "$P_UIFR[1,Z,RT]=3\n", "$P_UIFR[$P_UIFRNUM,Y,TR]=7\n"}) {
+    const std::string assignment = write;
+    for (const char* later :
+         {"G0 X50 Y0\n", "R1=1\nCYCLE978(0,,,1,0,5,8,3,2,1)\nG54\n", "GOTOF LAB\nG54\nLAB:\nG0 X50\n"}) {
+      const Twin there = twinOf(assignment + later);
+      ASSERT_FALSE(there.lost.empty()) << there.text;
+      EXPECT_NE(there.lost[0].message.find("acts when it is selected"), std::string::npos) << there.lost[0].message;
+    }
+    for (const char* before : {"G54\n", "STOPRE\nMSG(\"set\")\nG54 G0 X3\n", "G[8]=$P_UIFRNUM+1\n", "G54\nG55\n"}) {
+      const std::string program = "G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\n" + assignment + before + "G0 X50 Y0\nM30\n";
+      const Twin original = runSinumerik(program, part);
+      const Twin there = runConverted(original, part);
+      EXPECT_TRUE(there.lost.empty()) << there.text;
+      EXPECT_TRUE(sameEnd(original, there));
+    }
+  }
+  // Another row than the one in effect changes nothing here.
+  EXPECT_TRUE(twinOf("$P_UIFR[2,X,TR]=25\nG0 X50 Y0\n").lost.empty());
+}
+
+/// A row that only the running program knows is that row, not the one in effect.
+TEST(ConvertFlow, SetsTheRotationOfARowThatAParameterNames) {
+  PlantedPart part;
+  part.bench.preset(1, {10, 20, -300});
+  part.bench.preset(2, {30, -20, -300});
+  const Twin original =
+      runKlartext(klartextProgram("CYCL DEF 247 PRESET ~\n    Q339=+1\nQ5 = 2\n"
+                                  "TCH PROBE 404 BASIC ROTATION ~\n    Q307=+12 ~\n    Q305=+Q5\nL X+50 Y+0 R0 FMAX\n"),
+                  part);
+  const Twin there = runConverted(original, part);
+  ASSERT_TRUE(ranWhole(original));
+  ASSERT_TRUE(ranWhole(there));
+  EXPECT_TRUE(sameEnd(original, there));
+}
+
+TEST(ConvertFlow, NamesFramesThatTheCycleDoesNotRunUnder) {
+  const auto named = [](const std::string& frame, int cycle) {
+    const std::string call =
+        cycle == 417 ? probe(417, {{263, 0}, {264, 0}, {294, 0}, {320, 3}, {260, 30}, {305, 1}, {333, 0}, {303, 1}})
+                     : probe(427, {{263, 0},
+                                   {264, 0},
+                                   {261, 0},
+                                   {320, 3},
+                                   {272, 3},
+                                   {267, -1},
+                                   {260, 30},
+                                   {281, 0},
+                                   {288, 0},
+                                   {289, 0},
+                                   {309, 0},
+                                   {330, 0}});
+    return converted(klartextProgram("CYCL DEF 247 PRESET ~\n    Q339=+1\n" + frame + call), ProgramLanguage::Klartext)
+        .notCarriedOver;
+  };
+  const std::string shift = "CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+5\n",
+                    turn = "CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+5\n";
+  for (const int cycle : {417, 427}) {
+    EXPECT_TRUE(named("", cycle).empty());
+    ASSERT_EQ(named(shift, cycle).size(), 1U);
+    EXPECT_NE(named(shift, cycle)[0].message.find("datum shift"), std::string::npos);
+    EXPECT_EQ(named(turn, cycle).size(), cycle == 427 ? 1U : 0U);
+  }
+}
+
 // ---- damaged programs ----
 
 /// The program with a few lines or signs lost, doubled or exchanged.

@@ -276,6 +276,7 @@ TEST(Cycle977, CorrectsTheToolThatMadeTheHole) {
   EXPECT_NEAR(bench.data("$TC_DP15", {7, 2}), 0.0175, 1e-9);
   measure(averaging);
   EXPECT_EQ(bench.data("$SCS_MEA_AVERAGE_VALUE", {4}), 0);
+  EXPECT_NEAR(bench.ovr(31), 0.1 / 3, 1e-9) << "the mean that has just corrected";
   EXPECT_NEAR(bench.data("$TC_DP15", {7, 2}), 0.0175 + 0.1 / 3 / 2, 1e-9);
 }
 

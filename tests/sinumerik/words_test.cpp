@@ -350,7 +350,13 @@ TEST(SinumerikEffects, WhatIsNotCarriedOutIsNamedOnceAndRefusedUnderStrict) {
       {"G[25]=2", "G[25]=2"},
       {"G75 FP=2 X1=0", "FP=2"},
       {"ID=1 WHENEVER $AA_IW[X]>5 DO $AC_OVR=50", "the synchronized action ID"},
+      {"SETINT(1) PRIO=1 LIFTOUT", "the interrupt SETINT"},
       {"T2=1", "T2="},
+      {"OS[X]=1", "OS"},
+      {"OSP1[X]=10", "OSP1"},
+      {"DELTC(1,2)", "DELTC"},
+      {"POSM(1,2)", "POSM"},
+      {"G1 X1 F100 TOFFLR=0.1", "TOFFLR"},
       {"G461", "G461"},
       {"DISC=50", "DISC"},
       {"GFRAME3", "GFRAME3"},
@@ -403,6 +409,13 @@ TEST(SinumerikEffects, WhatSaysNothingAboutTheToolPassesInSilence) {
                             "CTOL=0.01",
                             "SETMS",
                             "SETMS(1)",
+                            "DELAYFSTON",
+                            "DELAYFSTOF",
+                            "CLGON",
+                            "CTOLG0=0.01",
+                            "G1 X1 F100 F7=200 F6=50 ST=1 SR=0.5",
+                            "FMA[2,X]=100",
+                            "WAITC(X,1)",
                             "GEOAX()",
                             "OFFN=0",
                             "TCARR=0",
@@ -490,6 +503,8 @@ TEST(SinumerikEffects, CheckNamesThemToo) {
   EXPECT_EQ(mistake("OFFN=0.5\n"), "OFFN is not carried out");
   EXPECT_EQ(mistake("TRAORI\nG1 X1 LEAD=3 F5\n"), "LEAD is not carried out");
   EXPECT_EQ(mistake("DEF BOOL OK_1\nOK_1=CHKDNO(1)\n"), "the function CHKDNO is not available here");
+  EXPECT_EQ(mistake("R1=SETDNO(1,1,3)\n"), "the function SETDNO is not available here");
+  EXPECT_EQ(mistake("POS[C]=CAC(5)\n"), "the function CAC is not available here");
   EXPECT_EQ(mistake("G291\n"), "G291: programs of the ISO dialect are not available");
   EXPECT_EQ(World().alarm("G291\nG28 U0\n"), "14011");
 }

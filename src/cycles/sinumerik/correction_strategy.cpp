@@ -29,7 +29,7 @@ CorrectionDecision decideCorrection(double difference, const CorrectionBands& ba
   double candidate = difference;
   if (mean && !large) {
     candidate = mean->old - (mean->old - difference) / mean->weight;
-    decision.mean = candidate;
+    decision.mean = decision.formed = candidate;
   }
   if (large || exceeds(candidate, bands.zeroOffsetRange)) {
     decision.correction = candidate;

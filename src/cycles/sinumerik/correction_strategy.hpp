@@ -24,9 +24,10 @@ struct CorrectionDecision {
   enum class Size { Within, Over, Under };
   double correction = 0;  ///< to be corrected; 0: nothing
   bool corrects = false;
-  std::optional<double> mean;  ///< what the memory of the mean holds from now on
-  Size size = Size::Within;    ///< against the tolerance
-  bool toolWornOut = false;    ///< the dimensional difference is exceeded
+  std::optional<double> mean;    ///< what the memory of the mean holds from now on
+  std::optional<double> formed;  ///< the mean with this difference in it; none where the whole difference counts
+  Size size = Size::Within;      ///< against the tolerance
+  bool toolWornOut = false;      ///< the dimensional difference is exceeded
 };
 
 /// `difference`: actual minus set value, empirical value taken off. The mean is

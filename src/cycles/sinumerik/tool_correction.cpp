@@ -335,7 +335,7 @@ void correctTool(Context& context, std::span<const Dimension> dimensions, const 
   context.result(28, context.real("S_TSA"));
   context.result(29, bands.dimensionalDifference);
   context.result(30, empirical);
-  context.result(31, decision.mean.value_or(0));
+  context.result(31, decision.formed.value_or(decision.mean.value_or(0)));
   context.resultInteger(0, target->edge);
   context.resultInteger(4, context.integer("S_K"));
   context.resultInteger(6, memory);

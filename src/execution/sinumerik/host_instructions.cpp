@@ -179,7 +179,7 @@ bool SinumerikHost::skipStatement(const Command& command, Evaluation& evaluation
   const KeywordEntry* entry = keywordEntry(name);
   if (entry == nullptr) return false;
   if (entry->keyword == Keyword::SynchronizedAction) {
-    skip(fmt::format("the synchronized action {}", name));
+    skip(fmt::format("the {} {}", name == "SETINT" ? "interrupt" : "synchronized action", name));
     return true;
   }
   // What stands between them makes a table of a contour or a curve; the axes do not move.

@@ -349,8 +349,9 @@ void Checker::checkInstruction(const Instruction& instruction) {
     const std::string name(block_.at(command->name));
     checkEffect(*command, name);
     if (keywordOf(name) == Keyword::SynchronizedAction)
-      report(columnOf(name), "the synchronized action " + name + " is not carried out", "The run continues after it.",
-             Severity::Warning);
+      report(columnOf(name),
+             (name == "SETINT" ? "the interrupt " : "the synchronized action ") + name + " is not carried out",
+             "The run continues after it.", Severity::Warning);
     if (name == "G" && command->words.count == 2) {
       const Operand& number = block_.words[command->words.first].value;
       const Operand& group = block_.words[command->words.first + 1].value;

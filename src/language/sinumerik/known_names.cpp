@@ -146,9 +146,11 @@ bool isSkippedGroup(int group, int number) {
 
 bool isUnavailableFunction(std::string_view name) {
   static constexpr std::string_view functions[] = {
-      "CHKDNO",    "GETTCOR",   "INTERSEC",  "MEAFRAME", "GETMDACT", "GETACTTD", "GETTENV",   "SETTCOR",   "LENTOAX",
-      "STRINGIS",  "CTAB",      "CTABINV",   "ADDFRAME", "CORRTC",   "ORISOLH",  "GETVARTYP", "GETVARPHU", "GETVARAP",
-      "GETVARLIM", "GETVARDFT", "NAMETOINT", "COLLPAIR", "AXTOINT",  "INTTOAX",  "AXCTSWEC",  "TOOLGNT"};
+      "CHKDNO",    "GETTCOR",  "INTERSEC",  "MEAFRAME",  "GETMDACT",  "GETACTTD", "GETTENV",    "SETTCOR",
+      "LENTOAX",   "STRINGIS", "CTAB",      "CTABINV",   "ADDFRAME",  "CORRTC",   "ORISOLH",    "GETVARTYP",
+      "GETVARPHU", "GETVARAP", "GETVARLIM", "GETVARDFT", "NAMETOINT", "COLLPAIR", "AXTOINT",    "INTTOAX",
+      "AXCTSWEC",  "TOOLGNT",  "SETDNO",    "MEASURE",   "CALCPOSI",  "CHKDM",    "CTABEXISTS", "CTABNO",
+      "AXTOCHAN",  "SETTA",    "CAC",       "CIC",       "CDC",       "CACP",     "CACN"};
   return std::ranges::find(functions, name) != std::end(functions);
 }
 

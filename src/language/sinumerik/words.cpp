@@ -55,11 +55,20 @@ void BlockParser::parseAddress() {
       return parseT(start);
     case 'L':
       return parseL(start);
-    case 'F':
+    case 'F': {
+      Cursor ahead = cursor_;
+      ahead.digits();
+      ahead.skipBlanks();
+      if (isDigit(cursor_.peek()) && ahead.peek() == '=') {  // F2= to F7=: feeds that inputs switch to
+        cursor_ = ahead;
+        parseValue(nullptr);
+        return;
+      }
       feedColumn_ = static_cast<std::uint32_t>(start) + 1;
       if (feed_.present()) return fail(start, "the feed F appears twice in this block");
       feed_ = parseValue(nullptr);
       return;
+    }
     case 'S':
     case 'D':
     case 'H':
