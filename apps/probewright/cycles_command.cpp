@@ -12,7 +12,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "cycles/catalogue.hpp"
-#include "cycles/sinumerik/cycle_116.hpp"
+#include "cycles/sinumerik/circle_through_points.hpp"
 #include "records/results.hpp"
 #include "terminal.hpp"
 

@@ -104,12 +104,12 @@ const Parameter* CycleDefinition::parameter(std::uint32_t address) const {
 std::vector<const CycleDefinition*> cyclesOf(ControlKind kind) {
   std::vector<const CycleDefinition*> found;
   if (control::isHeidenhain(kind)) {
-    for (const heidenhain::Entry& entry : heidenhain::entries()) {
-      if (entry.definition->controls.contains(kind)) found.push_back(entry.definition);
+    for (const heidenhain::Entry* entry : heidenhain::entries()) {
+      if (entry->definition.controls.contains(kind)) found.push_back(&entry->definition);
     }
   } else {
-    for (const sinumerik::Entry& entry : sinumerik::entries())
-      found.push_back(entry.definition);
+    for (const sinumerik::Entry* entry : sinumerik::entries())
+      found.push_back(&entry->definition);
   }
   std::ranges::sort(found, {}, &CycleDefinition::number);
   return found;
@@ -117,12 +117,12 @@ std::vector<const CycleDefinition*> cyclesOf(ControlKind kind) {
 
 const CycleDefinition* heidenhainCycle(int number) {
   const heidenhain::Entry* entry = heidenhain::findEntry(number);
-  return entry == nullptr ? nullptr : entry->definition;
+  return entry == nullptr ? nullptr : &entry->definition;
 }
 
 const CycleDefinition* sinumerikCycle(std::string_view name) {
   const sinumerik::Entry* entry = sinumerik::findEntry(name);
-  return entry == nullptr ? nullptr : entry->definition;
+  return entry == nullptr ? nullptr : &entry->definition;
 }
 
 Arguments::Arguments(const CycleDefinition& definition) : definition_(&definition) {

@@ -71,10 +71,10 @@ Bench emptyBench(ControlKind kind) {
 /// Runs `check` for each cycle of the control.
 template <class Check>
 void forEveryCycle(ControlKind kind, const Check& check) {
-  for (const auto& entry : cycles::heidenhain::entries()) {
-    if (!entry.definition->controls.contains(kind)) continue;
-    SCOPED_TRACE(fmt::format("cycle {} on the {}", entry.definition->name, control::name(kind)));
-    check(*entry.definition, block(*entry.definition, kind));
+  for (const auto* entry : cycles::heidenhain::entries()) {
+    if (!entry->definition.controls.contains(kind)) continue;
+    SCOPED_TRACE(fmt::format("cycle {} on the {}", entry->definition.name, control::name(kind)));
+    check(entry->definition, block(entry->definition, kind));
   }
 }
 
@@ -171,7 +171,7 @@ TEST(EveryPage, ChecksThatRotaryAxesAgreeWithTheTilt) {
 
 TEST(EveryPage, KeepsTheOldMisalignmentCyclesOutOfTiltedPlanes) {
   for (const int number : {400, 401, 402, 403, 405}) {
-    const CycleDefinition& cycle = *cycles::heidenhain::findEntry(number)->definition;
+    const CycleDefinition& cycle = cycles::heidenhain::findEntry(number)->definition;
     SCOPED_TRACE(number);
     const Ran ran = emptyBench(newer).run("PLANE SPATIAL SPA+0 SPB+10 SPC+0 STAY\n" + block(cycle, newer));
     EXPECT_EQ(ran.alarm(), "Tilted working plane not permitted") << ran.why();
@@ -180,17 +180,17 @@ TEST(EveryPage, KeepsTheOldMisalignmentCyclesOutOfTiltedPlanes) {
   for (const int number : {400, 401, 402, 405}) {
     SCOPED_TRACE(number);
     const Ran ran = emptyBench(older).run("PLANE SPATIAL SPA+0 SPB+10 SPC+0 STAY\n" +
-                                          block(*cycles::heidenhain::findEntry(number)->definition, older));
+                                          block(cycles::heidenhain::findEntry(number)->definition, older));
     EXPECT_EQ(ran.alarm(), "Touch point inaccessible") << ran.why();
   }
   const Ran old = emptyBench(older).run("PLANE SPATIAL SPA+0 SPB+10 SPC+0 STAY\n" +
-                                        block(*cycles::heidenhain::findEntry(403)->definition, older));
+                                        block(cycles::heidenhain::findEntry(403)->definition, older));
   EXPECT_EQ(old.alarm(), "Tilted working plane not permitted") << old.why();
 }
 
 TEST(EveryPage, RefusesGeometriesThatDetermineNothing) {
   const auto changed = [](int number, const Words& changes) {
-    const CycleDefinition& cycle = *cycles::heidenhain::findEntry(number)->definition;
+    const CycleDefinition& cycle = cycles::heidenhain::findEntry(number)->definition;
     Words words;
     for (const Parameter& parameter : cycle.parameters) {
       if (parameter.controls.contains(newer)) words.emplace_back(parameter.address, sensible(parameter));
@@ -229,8 +229,8 @@ TEST(EveryPage, RefusesEveryParameterOutsideItsRange) {
   std::size_t refused = 0;
   for (const ControlKind kind : {newer, older}) {
     const Bench bench = emptyBench(kind);
-    for (const auto& entry : cycles::heidenhain::entries()) {
-      const CycleDefinition& cycle = *entry.definition;
+    for (const auto* entry : cycles::heidenhain::entries()) {
+      const CycleDefinition& cycle = entry->definition;
       if (cycle.number < 400 || !cycle.controls.contains(kind)) continue;
       Words words;
       for (const Parameter& parameter : cycle.parameters) {

@@ -133,7 +133,7 @@ Words inInches(const cycles::CycleDefinition& cycle, Words words) {
 
 /// The words that the cycle knows on this control.
 Words known(const Case& one, ControlKind kind) {
-  const auto& definition = *cycles::heidenhain::findEntry(one.cycle)->definition;
+  const auto& definition = cycles::heidenhain::findEntry(one.cycle)->definition;
   Words words = one.words;
   std::erase_if(words, [&](const auto& word) {
     const auto* parameter = definition.parameter(static_cast<std::uint32_t>(word.first));
@@ -146,7 +146,7 @@ TEST(InchPrograms, SetTheSamePresets) {
   for (const Case& one : cases()) {
     for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
       SCOPED_TRACE(fmt::format("cycle {}, {}", one.cycle, control::name(kind)));
-      const auto& definition = *cycles::heidenhain::findEntry(one.cycle)->definition;
+      const auto& definition = cycles::heidenhain::findEntry(one.cycle)->definition;
       const Words words = known(one, kind);
       Bench bench(kind);
       bench.preset(1, origin);
@@ -176,7 +176,7 @@ TEST(InchPrograms, LeaveResultsInTheUnitOfTheMainProgram) {
       ring(bench, 50.9, 25.1, 15.4);
       const TableFolder folder(bench);
       bench.program = (bench.setup.tables / "BENCH.H").string();
-      const auto& definition = *cycles::heidenhain::findEntry(421)->definition;
+      const auto& definition = cycles::heidenhain::findEntry(421)->definition;
       const Words inspect = with(height, {{273, 50.8},
                                           {274, 25.4},
                                           {262, 30.48},

@@ -22,7 +22,7 @@ TEST(ShortBlocks, MeanWhatTheManualsSay) {
     for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
       if (one.newerOnly && kind != ControlKind::TNC640) continue;
       SCOPED_TRACE(fmt::format("cycle {} on the {}", one.cycle, control::name(kind)));
-      const cycles::CycleDefinition& cycle = *cycles::heidenhain::findEntry(one.cycle)->definition;
+      const cycles::CycleDefinition& cycle = cycles::heidenhain::findEntry(one.cycle)->definition;
       // Without Q303 only row 0 can be meant.
       Words words = one.words;
       if (one.cycle >= 408) words = with(words, {{305, 0}});

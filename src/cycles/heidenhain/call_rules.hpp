@@ -3,9 +3,10 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "cycles/catalogue.hpp"
+#include "cycles/heidenhain/registry.hpp"
 
 /// What does not go together in one call, as far as its values are known before the program runs.
 namespace probewright::cycles::heidenhain {
@@ -19,6 +20,33 @@ struct CallMistake {
   std::string message, advice;
 };
 
+/// What a cycle's own rules look at and complain to (Entry::rules).
+class CallRules {
+public:
+  CallRules(const CycleDefinition& cycle, ControlKind kind, const KnownValue& known)
+      : cycle_(cycle), kind_(kind), known_(known) {}
+
+  ControlKind kind() const { return kind_; }
+  bool has(std::uint32_t address) const { return cycle_.parameter(address) != nullptr; }
+  std::optional<Argument> value(std::uint32_t address) const;
+  /// Its number, where it is known and one.
+  std::optional<double> number(std::uint32_t address) const;
+
+  void add(std::uint32_t parameter, std::string message, std::string advice, Severity severity = Severity::Error);
+  /// A lower limit above the upper one means something in this cycle.
+  void allowCrossedLimits() { crossedLimits_ = true; }
+
+  bool crossedLimitsAllowed() const { return crossedLimits_; }
+  std::vector<CallMistake> take() { return std::move(mistakes_); }
+
+private:
+  const CycleDefinition& cycle_;
+  ControlKind kind_;
+  const KnownValue& known_;
+  bool crossedLimits_ = false;
+  std::vector<CallMistake> mistakes_;
+};
+
 /// Errors are what a run refuses before it touches anything; limits that nothing can keep are warnings.
 std::vector<CallMistake> callMistakes(const CycleDefinition& cycle, ControlKind kind, const KnownValue& known);
 
@@ -28,7 +56,7 @@ struct ForbiddenTransformations {
   bool rotation = false;  ///< cycle 10
   bool other = false;     ///< cycles 8, 11 and 26
 };
-ForbiddenTransformations forbiddenTransformations(int cycle);
+ForbiddenTransformations forbiddenTransformations(const Conditions& conditions);
 
 /// "datum shift, mirror image or scaling is active (cycle 7, 8, 11 or 26)".
 std::string transformationsText(const ForbiddenTransformations& forbidden);

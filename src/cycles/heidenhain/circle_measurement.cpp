@@ -58,7 +58,6 @@ MeasuredCircle measureCircle(Context& context, const CircleParameters& numbers, 
 }
 
 void presetCircle(Context& context, Side side) {
-  context.require({.rotationAllowed = true});
   requireTransferTarget(context);
   const MeasuredCircle circle = measureCircle(context, {321, 322, 262}, side);
   context.result(151, circle.centre.x(), {.nominal = context.q(321)});
@@ -69,7 +68,7 @@ void presetCircle(Context& context, Side side) {
 
 void inspectCircle(Context& context, Side side, const std::string& title, const std::string& feature, int maximum,
                    int minimum) {
-  requireInspection(context);
+  requireMonitoredTool(context);
   const MeasuredCircle circle = measureCircle(context, {273, 274, 262}, side);
   Inspection inspection{
       .title = title,

@@ -38,15 +38,10 @@ void requireSoftware(const Arguments& arguments, int version) {
   }
 }
 
-bool needsReset(const Transformations& active, const Context::Conditions& conditions) {
-  if (conditions.transformationsAllowed) return false;
-  Transformations rest = active;
-  if (conditions.shiftAndRotationAllowed) {
-    rest.shift.setZero();
-    rest.rotation = 0;
-  }
-  if (conditions.rotationAllowed) rest.rotation = 0;
-  return rest.active();
+bool forbids(const ForbiddenTransformations& forbidden, Transformations active) {
+  if (!forbidden.shift) active.shift.setZero();
+  if (!forbidden.rotation) active.rotation = 0;
+  return forbidden.other && active.active();
 }
 
 }  // namespace
@@ -64,8 +59,8 @@ bool rotaryAxesMatchTilt(const Control& control) {
   return inProgram.cross(toolAxis).norm() < radiansFromDegrees(0.01);
 }
 
-Context::Context(Control& control, const Arguments& arguments, SourcePlace place)
-    : control_(control), arguments_(arguments) {
+Context::Context(Control& control, const Entry& entry, const Arguments& arguments, SourcePlace place)
+    : control_(control), entry_(entry), arguments_(arguments) {
   const CycleDefinition& definition = arguments.definition();
   control::CycleRecord record;
   record.name = definition.name;
@@ -96,7 +91,8 @@ double Context::q(int number) const {
   return scaled && given(number) ? value * control_.unit : value;
 }
 
-void Context::require(const Conditions& conditions) {
+void Context::requireConditions() {
+  const Conditions& conditions = entry_.conditions;
   const int level = control_.parameters.featureLevel;
   if (!control_.isTNC640() && level < conditions.featureLevel) {
     throw Alarm("Function not enabled",
@@ -104,32 +100,33 @@ void Context::require(const Conditions& conditions) {
                             conditions.featureLevel, level),
                 "enable the feature content level, or measure with another cycle");
   }
-  if (control_.turningMode && !conditions.turningModeAllowed) {
+  if (control_.turningMode && !conditions.turningMode) {
     throw Alarm("Function not permitted", "The cycle runs in milling mode only",
                 "program FUNCTION MODE MILL before it");
   }
-  if (!control_.tool.called && conditions.probes) {
+  const bool probes = conditions.uses != Uses::Nothing;
+  if (!control_.tool.called && probes) {
     throw Alarm("Touch probe axis not defined", "No tool has been called before the cycle",
                 "program TOOL CALL with the touch probe and its axis");
   }
-  const bool transformed = needsReset(control_.coordinates.workpiece, conditions) ||
-                           needsReset(control_.coordinates.workingPlane, conditions);
+  const ForbiddenTransformations forbidden = forbiddenTransformations(conditions);
+  const bool transformed =
+      forbids(forbidden, control_.coordinates.workpiece) || forbids(forbidden, control_.coordinates.workingPlane);
   if (transformed && control_.isTNC640() && control_.parameters.refuseTransformations) {
-    throw Alarm("Coordinate transformation not permitted",
-                fmt::format("A {}", transformationsText(forbiddenTransformations(arguments_.definition().number))),
+    throw Alarm("Coordinate transformation not permitted", fmt::format("A {}", transformationsText(forbidden)),
                 "reset the transformation before the cycle");
   }
-  const bool mayDiffer = conditions.mismatchWithTcpmAllowed && control_.channel.holdTip;
-  if (control_.parameters.checkTiltingAxes && conditions.probes && !mayDiffer && !rotaryAxesMatchTilt(control_)) {
+  const bool mayDiffer = conditions.mismatchWithTcpm && control_.channel.holdTip;
+  if (control_.parameters.checkTiltingAxes && probes && !mayDiffer && !rotaryAxesMatchTilt(control_)) {
     throw Alarm("Rotary axes and tilt do not match",
                 "The positions of the rotary axes do not agree with the tilt of the working plane (chkTiltingAxes)",
                 "move the rotary axes to the tilt, or correct PLANE");
   }
-  if (control_.coordinates.tilt && !conditions.tiltAllowed) {
+  if (control_.coordinates.tilt && !conditions.tilted.contains(control_.kind())) {
     throw Alarm("Tilted working plane not permitted", "The cycle does not run in a tilted working plane",
                 "reset PLANE or cycle 19 before the cycle");
   }
-  if (conditions.probes && !conditions.measuresTool) control_.setProbing(true);
+  if (conditions.uses == Uses::TouchProbe) control_.setProbing(true);
 }
 
 probing::HeidenhainProber& Context::prober() {
@@ -194,8 +191,9 @@ void runCycle(Control& control, const Entry& entry, const Arguments& arguments, 
   const Diagnostics mistakes = check(arguments, control.kind());
   if (!mistakes.empty()) throw Alarm("Cycle parameter wrong", mistakes.front().message, mistakes.front().advice);
   if (!control.isTNC640()) requireSoftware(arguments, control.parameters.softwareVersion);
-  Context context(control, arguments, place);
+  Context context(control, entry, arguments, place);
   try {
+    context.requireConditions();
     entry.run(context, arguments);
   } catch (const Alarm& alarm) {
     context.record().alarm = alarm.code().empty() ? alarm.text() : alarm.code() + ": " + alarm.text();

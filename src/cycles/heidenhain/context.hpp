@@ -32,7 +32,7 @@ struct Compared {
 class Context {
 public:
   /// Opens the cycle's record in the journal.
-  Context(Control& control, const Arguments& arguments, SourcePlace place);
+  Context(Control& control, const Entry& entry, const Arguments& arguments, SourcePlace place);
   /// Closes it.
   ~Context();
   Context(const Context&) = delete;
@@ -40,6 +40,7 @@ public:
 
   Control& control() { return control_; }
   control::Channel& channel() { return control_.channel; }
+  const Entry& entry() const { return entry_; }
   const Arguments& arguments() const { return arguments_; }
   control::CycleRecord& record() { return control_.journal.cycles[record_]; }
 
@@ -48,20 +49,9 @@ public:
   bool given(int number) const { return arguments_.given(static_cast<std::uint32_t>(number)); }
   int option(int number) const { return arguments_.integer(static_cast<std::uint32_t>(number)); }
 
-  /// Refuses to run without a touch probe, with transformations that the cycle does not allow, in turning mode.
-  struct Conditions {
-    bool transformationsAllowed = false;   ///< cycles 7, 8, 10, 11, 26 may be active
-    bool shiftAndRotationAllowed = false;  ///< cycles 7 and 10 may be active
-    bool rotationAllowed = false;          ///< cycle 10 may be active
-    bool tiltAllowed = true;
-    bool turningModeAllowed = false;
-    bool probes = true;                    ///< false: it only sets values, without a tool and wherever axes stand
-    bool mismatchWithTcpmAllowed = false;  ///< with TCPM, rotary axes need not agree with the tilt
-    int featureLevel = 0;                  ///< FCL of the iTNC 530 that the cycle belongs to
-    bool measuresTool = false;             ///< with the tool touch probe: the tool has its own length and radius
-  };
-  /// If all is well and the cycle probes, the data of the touch probe come into effect.
-  void require(const Conditions& conditions);
+  /// Refuses to run where the entry's conditions are not met. If all is well and the cycle probes, the data of the
+  /// touch probe come into effect. runCycle() calls it before the cycle.
+  void requireConditions();
 
   /// The prober with the active probe's data. Made on first use.
   probing::HeidenhainProber& prober();
@@ -88,13 +78,14 @@ public:
 
 private:
   Control& control_;
+  const Entry& entry_;
   const Arguments& arguments_;
   std::size_t record_ = 0;
   std::optional<probing::HeidenhainProber> prober_;
 };
 
-/// Runs cycle `entry` with `arguments` at `place`: checks the arguments, opens the record, runs, closes. An alarm is
-/// noted in the record and thrown on.
+/// Runs cycle `entry` with `arguments` at `place`: checks the arguments and conditions, opens the record, runs, closes.
+/// An alarm is noted in the record and thrown on.
 void runCycle(Control& control, const Entry& entry, const Arguments& arguments, const SourcePlace& place);
 
 /// The probe stands square to the working plane: the rotary axes as the tilt (or its absence) asks.

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/old_form_parameters.hpp"
 #include "cycles/heidenhain/single_touch.hpp"
 
@@ -23,9 +23,7 @@ constexpr Parameter parameters0[] = {
     prePosition("0.1 C", 5),
 };
 
-}  // namespace
-
-const CycleDefinition cycle0Definition = {
+constexpr CycleDefinition definition = {
     .number = 0,
     .name = "0",
     .title = "REF. PLANE",
@@ -35,8 +33,7 @@ const CycleDefinition cycle0Definition = {
     .results = singleTouchResults,
 };
 
-void cycle0(Context& context, const Arguments& arguments) {
-  context.require({.transformationsAllowed = true});
+void run(Context& context, const Arguments& arguments) {
   moveToProgrammedPosition(context);
 
   const int axis = arguments.integer(probe_word::axis);
@@ -60,5 +57,9 @@ void cycle0(Context& context, const Arguments& arguments) {
   context.record().results.push_back(std::move(result));
   storeTouchPosition(context, touch);
 }
+
+}  // namespace
+
+extern const Entry cycle0 = {.definition = definition, .conditions = {.under = Transformed::Any}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <span>
 
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/old_form_parameters.hpp"
 #include "cycles/heidenhain/single_touch.hpp"
 
@@ -15,9 +15,7 @@ constexpr Parameter parameters1[] = {
     prePosition("1.2 Z", 2), prePosition("1.2 A", 3),   prePosition("1.2 B", 4), prePosition("1.2 C", 5),
 };
 
-}  // namespace
-
-const CycleDefinition cycle1Definition = {
+constexpr CycleDefinition definition = {
     .number = 1,
     .name = "1",
     .title = "POLAR DATUM PLANE",
@@ -27,8 +25,7 @@ const CycleDefinition cycle1Definition = {
     .results = std::span(singleTouchResults).subspan(1),
 };
 
-void cycle1(Context& context, const Arguments& arguments) {
-  context.require({.transformationsAllowed = true});
+void run(Context& context, const Arguments& arguments) {
   moveToProgrammedPosition(context);
 
   // The angle turns from the probing axis to the next one in the order X, Y, Z, X.
@@ -41,5 +38,9 @@ void cycle1(Context& context, const Arguments& arguments) {
   const EvaluatedTouch touch = prober.stroke(context.control().coordinates.plane.planeFromXyz(direction));
   storeTouchPosition(context, touch);
 }
+
+}  // namespace
+
+extern const Entry cycle1 = {.definition = definition, .conditions = {.under = Transformed::Any}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,7 +1,7 @@
 #include <cstdlib>
 
 #include "control/alarm.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/object_probing.hpp"
 #include "cycles/heidenhain/rotation_parameters.hpp"
 #include "cycles/heidenhain/rotation_transfer.hpp"
@@ -41,9 +41,11 @@ void requireRotation(Context& context, int direction) {
                        "probe along the main or minor axis (Q372), or set Q1121 = 0");
 }
 
-}  // namespace
+constexpr LogTerm logTerms[] = {
+    {"PROBING ON EDGE", "IZMERENIE GRANI", "AVKAENNING KANT"},
+};
 
-const CycleDefinition cycle1410Definition = {
+constexpr CycleDefinition definition = {
     .number = 1410,
     .name = "1410",
     .title = "PROBING ON EDGE",
@@ -56,8 +58,9 @@ const CycleDefinition cycle1410Definition = {
     .controls = control::onTNC640,
 };
 
-void cycle1410(Context& context, const Arguments&) {
+void run(Context& context, const Arguments&) {
   requireRotationCycle(context);
+  requireAlignmentAxis(context);
   const int direction = context.option(372);
   requireRotation(context, direction);
   const std::array nominal = {nominalPosition(context, 1, axisOf(direction)),
@@ -74,7 +77,7 @@ void cycle1410(Context& context, const Arguments&) {
                          : Vector3(Vector3::Zero());
     if (!nominal[i].known()) {
       const bool first = !probing;
-      if (!probing) probing.emplace(context);
+      if (!probing) probing.emplace(context, "point");
       actual = probing->touch(nominal[i], directions[i], first).surface;
       requireRotation(context, directions[i]);
       endsByHand = nominal[i].semiAutomatic();
@@ -94,5 +97,12 @@ void cycle1410(Context& context, const Arguments&) {
   findings.finish();
   transferPlaneRotation(context, rotation, found[0], found[1]);
 }
+
+}  // namespace
+
+extern const Entry cycle1410 = {.definition = definition,
+                                .conditions = {.under = Transformed::ByShiftOrRotation, .mismatchWithTcpm = true},
+                                .logTerms = logTerms,
+                                .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -2,7 +2,7 @@
 
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/circle_measurement.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/object_probing.hpp"
 #include "cycles/heidenhain/rotation_parameters.hpp"
 #include "cycles/heidenhain/rotation_transfer.hpp"
@@ -83,9 +83,11 @@ NominalValue diameterOf(Context& context, int parameter) {
   return diameter;
 }
 
-}  // namespace
+constexpr LogTerm logTerms[] = {
+    {"PROBING TWO CIRCLES", "IZMERENIJE DVUH OKRUZHNOSTEY", "AVKAENNING TVAA CIRKLAR"},
+};
 
-const CycleDefinition cycle1411Definition = {
+constexpr CycleDefinition definition = {
     .number = 1411,
     .name = "1411",
     .title = "PROBING TWO CIRCLES",
@@ -98,8 +100,9 @@ const CycleDefinition cycle1411Definition = {
     .controls = control::onTNC640,
 };
 
-void cycle1411(Context& context, const Arguments&) {
+void run(Context& context, const Arguments&) {
   requireRotationCycle(context);
+  requireAlignmentAxis(context);
   constexpr std::array<bool, 3> measured = {true, true, false};
   const std::array nominal = {nominalPosition(context, 1, measured), nominalPosition(context, 2, measured)};
   const std::array diameters = {diameterOf(context, 1116), diameterOf(context, 1117)};
@@ -114,7 +117,7 @@ void cycle1411(Context& context, const Arguments&) {
           nominal[i], {*nominal[i].axes[0].actual, *nominal[i].axes[1].actual, *nominal[i].axes[2].actual}, measured);
       continue;
     }
-    if (!probing) probing.emplace(context);
+    if (!probing) probing.emplace(context, "object");
     const Side side = sideOf(context.option(1115), i);
     const auto touches =
         probing->touchCircle(nominal[i], {*diameters[i].nominal, context.q(325)}, step, context.option(423), side);
@@ -145,5 +148,12 @@ void cycle1411(Context& context, const Arguments&) {
   findings.finish();
   transferPlaneRotation(context, rotation, found[0], found[1]);
 }
+
+}  // namespace
+
+extern const Entry cycle1411 = {.definition = definition,
+                                .conditions = {.under = Transformed::ByShiftOrRotation, .mismatchWithTcpm = true},
+                                .logTerms = logTerms,
+                                .run = run};
 
 }  // namespace probewright::cycles::heidenhain

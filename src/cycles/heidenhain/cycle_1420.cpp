@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "control/alarm.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/object_probing.hpp"
 #include "cycles/heidenhain/rotation_parameters.hpp"
 #include "cycles/heidenhain/rotation_transfer.hpp"
@@ -107,9 +107,14 @@ Vector3 spaceAnglesOfNormal(const control::WorkingPlane& plane, const Vector3& n
   return control::heidenhain::spaceAnglesFromRotation(xyz);
 }
 
-}  // namespace
+constexpr LogTerm logTerms[] = {
+    {"PROBING IN PLANE", "IZMERENIE PLOSKOSTI", "AVKAENNING PLAN"},
+    {"Measured space angle SPA", "Измеренный пространственный угол SPA", "Uppmätt rymdvinkel SPA"},
+    {"Measured space angle SPB", "Измеренный пространственный угол SPB", "Uppmätt rymdvinkel SPB"},
+    {"Measured space angle SPC", "Измеренный пространственный угол SPC", "Uppmätt rymdvinkel SPC"},
+};
 
-const CycleDefinition cycle1420Definition = {
+constexpr CycleDefinition definition = {
     .number = 1420,
     .name = "1420",
     .title = "PROBING IN PLANE",
@@ -122,8 +127,13 @@ const CycleDefinition cycle1420Definition = {
     .controls = control::onTNC640,
 };
 
-void cycle1420(Context& context, const Arguments&) {
+void run(Context& context, const Arguments&) {
   requireRotationCycle(context);
+  const auto& axes = context.channel().description().axes;
+  if (context.option(1126) != 0 && std::ranges::count(axes, machine::AxisKind::Rotary, &machine::Axis::kind) < 2) {
+    throw control::Alarm("Rotary axes cannot be aligned", "The machine has fewer than two rotary axes",
+                         "set Q1126 = 0");
+  }
   const int direction = context.option(372);
   const int axis = std::abs(direction) - 1;
   constexpr std::array<bool, 3> needed = {true, true, true};
@@ -156,7 +166,7 @@ void cycle1420(Context& context, const Arguments&) {
       actual = {*nominal[i].axes[0].actual, *nominal[i].axes[1].actual, *nominal[i].axes[2].actual};
     } else {
       const bool first = !probing;
-      if (!probing) probing.emplace(context);
+      if (!probing) probing.emplace(context, "point");
       actual = probing->touch(nominal[i], directions[i], first).surface;
       endsByHand = nominal[i].semiAutomatic();
     }
@@ -181,5 +191,12 @@ void cycle1420(Context& context, const Arguments&) {
   findings.finish();
   transferSpaceRotation(context, axesOfNormal(normal, facing) * axesOfNormal(nominalNormal, facing).transpose(), found);
 }
+
+}  // namespace
+
+extern const Entry cycle1420 = {.definition = definition,
+                                .conditions = {.under = Transformed::ByShiftOrRotation, .mismatchWithTcpm = true},
+                                .logTerms = logTerms,
+                                .run = run};
 
 }  // namespace probewright::cycles::heidenhain

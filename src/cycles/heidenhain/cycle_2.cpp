@@ -2,7 +2,7 @@
 
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/calibration.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/parameters.hpp"
 #include "cycles/heidenhain/probe_words.hpp"
 
@@ -23,9 +23,7 @@ constexpr Parameter parameters2[] = {
     option(probe_word::outside, "DIRECTION", "side of the touches", sideChoices),
 };
 
-}  // namespace
-
-const CycleDefinition cycle2Definition = {
+constexpr CycleDefinition definition = {
     .number = 2,
     .name = "2",
     .title = "CALIBRATE TS",
@@ -37,8 +35,6 @@ const CycleDefinition cycle2Definition = {
     .results = {},
     .controls = control::onITNC530,
 };
-
-namespace {
 
 /// Where the ring or pin of the traverse range in force stands, machine coordinates.
 struct Standard {
@@ -56,10 +52,7 @@ Standard standardOf(const control::heidenhain::MachineParameters& mp) {
   }
 }
 
-}  // namespace
-
-void cycle2(Context& context, const Arguments&) {
-  context.require({.transformationsAllowed = true, .tiltAllowed = false});
+void run(Context& context, const Arguments&) {
   const auto& parameters = context.control().parameters;
   const auto [centre, depth] = standardOf(parameters);
   if (centre.isZero(0)) {
@@ -92,5 +85,10 @@ void cycle2(Context& context, const Arguments&) {
   context.control().calibrationRingRadius = task.standardRadius;
   storeRadius(context, calibrated);
 }
+
+}  // namespace
+
+extern const Entry cycle2 = {
+    .definition = definition, .conditions = {.under = Transformed::Any, .tilted = {}}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

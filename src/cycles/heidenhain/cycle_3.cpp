@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/free_measurement.hpp"
 #include "cycles/heidenhain/free_measurement_parameters.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
@@ -26,9 +26,7 @@ constexpr ResultDefinition results3[] = {
     {"Qn+2", "ball centre, Z", result::actual(of::centreZ)},
     {"Qn+3", "1: touched, -1: not, 2: already deflected (iTNC 530, error mode 1)", result::status}};
 
-}  // namespace
-
-const CycleDefinition cycle3Definition = {
+constexpr CycleDefinition definition = {
     .number = 3,
     .name = "3",
     .title = "MEASURING",
@@ -41,8 +39,7 @@ const CycleDefinition cycle3Definition = {
     .results = results3,
 };
 
-void cycle3(Context& context, const Arguments&) {
-  context.require({.transformationsAllowed = true, .turningModeAllowed = true});
+void run(Context& context, const Arguments&) {
   const int axis = context.option(probe_word::axis);
   const double turn = radiansFromDegrees(context.q(probe_word::angle));
   // X counts towards Y, Y towards Z, Z towards X.
@@ -57,5 +54,10 @@ void cycle3(Context& context, const Arguments&) {
                           .withTipOffset = false,
                           .alarmIfDeflected = context.option(probe_word::errorMode) == 0});
 }
+
+}  // namespace
+
+extern const Entry cycle3 = {
+    .definition = definition, .conditions = {.under = Transformed::Any, .turningMode = true}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

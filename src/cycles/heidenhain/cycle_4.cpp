@@ -1,5 +1,5 @@
 #include "control/alarm.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/free_measurement.hpp"
 #include "cycles/heidenhain/free_measurement_parameters.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
@@ -20,9 +20,7 @@ constexpr ResultDefinition results4[] = {{"Qn", "ball centre, X", result::actual
                                          {"Qn+2", "ball centre, Z", result::actual(of::centreZ)},
                                          {"Qn+3", "1: touched, -1: not", result::status}};
 
-}  // namespace
-
-const CycleDefinition cycle4Definition = {
+constexpr CycleDefinition definition = {
     .number = 4,
     .name = "4",
     .title = "MEASURING IN 3-D",
@@ -35,8 +33,7 @@ const CycleDefinition cycle4Definition = {
     .results = results4,
 };
 
-void cycle4(Context& context, const Arguments&) {
-  context.require({.transformationsAllowed = true, .turningModeAllowed = true, .featureLevel = 3});
+void run(Context& context, const Arguments&) {
   measureFreely(context, {.direction = {context.q(probe_word::coordinate), context.q(probe_word::coordinate + 1),
                                         context.q(probe_word::coordinate + 2)},
                           .distance = context.q(probe_word::distance),
@@ -45,5 +42,11 @@ void cycle4(Context& context, const Arguments&) {
                           .withTipOffset = context.control().isTNC640(),
                           .alarmIfDeflected = true});
 }
+
+}  // namespace
+
+extern const Entry cycle4 = {.definition = definition,
+                             .conditions = {.under = Transformed::Any, .turningMode = true, .featureLevel = 3},
+                             .run = run};
 
 }  // namespace probewright::cycles::heidenhain

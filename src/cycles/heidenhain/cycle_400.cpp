@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/edge_measurement.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/transfer.hpp"
@@ -25,9 +25,7 @@ constexpr Parameter parameters400[] = {
     standard(tableRow, 0),
 };
 
-}  // namespace
-
-const CycleDefinition cycle400Definition = {
+constexpr CycleDefinition definition = {
     .number = 400,
     .name = "400",
     .title = "BASIC ROTATION",
@@ -37,8 +35,7 @@ const CycleDefinition cycle400Definition = {
     .results = {},
 };
 
-void cycle400(Context& context, const Arguments&) {
-  context.require({.tiltAllowed = !context.control().isTNC640()});
+void run(Context& context, const Arguments&) {
   const int row = context.option(305);
   context.control().requireWritablePreset(row == 0 ? context.control().coordinates.preset.row : row);
   resetBasicRotation(context);
@@ -46,5 +43,9 @@ void cycle400(Context& context, const Arguments&) {
   const double measured = undirected(degreesFromRadians(std::atan2(edge.along.y(), edge.along.x())));
   setBasicRotation(context, undirected(measured - context.q(307)), row);
 }
+
+}  // namespace
+
+extern const Entry cycle400 = {.definition = definition, .conditions = {.tilted = control::onITNC530}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

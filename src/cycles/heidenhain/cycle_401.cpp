@@ -1,4 +1,4 @@
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/hole_measurement.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/rotary_alignment.hpp"
@@ -22,9 +22,7 @@ constexpr Parameter parameters401[] = {
     setToZero,
 };
 
-}  // namespace
-
-const CycleDefinition cycle401Definition = {
+constexpr CycleDefinition definition = {
     .number = 401,
     .name = "401",
     .title = "ROT OF 2 HOLES",
@@ -36,13 +34,16 @@ const CycleDefinition cycle401Definition = {
     .results = {},
 };
 
-void cycle401(Context& context, const Arguments&) {
-  context.require({.tiltAllowed = !context.control().isTNC640()});
+void run(Context& context, const Arguments&) {
   requireCompensation(context);
   resetBasicRotation(context);
   const Vector3 first = measureHoleCentre(context, {context.q(268), context.q(269)}, context.q(261));
   const Vector3 second = measureHoleCentre(context, {context.q(270), context.q(271)}, context.q(261));
   compensateByRotationOrTable(context, angleOf(first, second));
 }
+
+}  // namespace
+
+extern const Entry cycle401 = {.definition = definition, .conditions = {.tilted = control::onITNC530}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,4 +1,4 @@
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/hole_measurement.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/rotary_alignment.hpp"
@@ -27,9 +27,7 @@ constexpr Parameter parameters402[] = {
     setToZero,
 };
 
-}  // namespace
-
-const CycleDefinition cycle402Definition = {
+constexpr CycleDefinition definition = {
     .number = 402,
     .name = "402",
     .title = "ROT OF 2 STUDS",
@@ -41,13 +39,16 @@ const CycleDefinition cycle402Definition = {
     .results = {},
 };
 
-void cycle402(Context& context, const Arguments&) {
-  context.require({.tiltAllowed = !context.control().isTNC640()});
+void run(Context& context, const Arguments&) {
   requireCompensation(context);
   resetBasicRotation(context);
   const Vector3 first = measureStudCentre(context, {context.q(268), context.q(269)}, context.q(313), context.q(261));
   const Vector3 second = measureStudCentre(context, {context.q(270), context.q(271)}, context.q(314), context.q(315));
   compensateByRotationOrTable(context, angleOf(first, second));
 }
+
+}  // namespace
+
+extern const Entry cycle402 = {.definition = definition, .conditions = {.tilted = control::onITNC530}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -3,7 +3,8 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/call_rules.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/edge_measurement.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/rotary_alignment.hpp"
@@ -79,9 +80,7 @@ double angleAbout(int axis, int from, const Vector3& along) {
   return from == (axis + 1) % 3 ? angle : normalizedDegrees(angle - 90);
 }
 
-}  // namespace
-
-const CycleDefinition cycle403Definition = {
+constexpr CycleDefinition definition = {
     .number = 403,
     .name = "403",
     .title = "ROT IN ROTARY AXIS",
@@ -91,8 +90,13 @@ const CycleDefinition cycle403Definition = {
     .results = results403,
 };
 
-void cycle403(Context& context, const Arguments&) {
-  context.require({.tiltAllowed = false});
+void rules(CallRules& call) {
+  if (call.kind() != ControlKind::iTNC530 || call.number(312) != 0) return;
+  call.add(312, "the iTNC 530 does not find the rotary axis itself (Q312 = 0)",
+           "name the axis: Q312 = 4 (A), 5 (B) or 6 (C)");
+}
+
+void run(Context& context, const Arguments&) {
   const int axis = compensationAxis(context);
   requireTable(context, axis);
   const bool directed = context.option(312) == 0;
@@ -118,5 +122,9 @@ void cycle403(Context& context, const Arguments&) {
   const std::size_t rotary = turnWorkpiece(context, axis, turn);
   if (context.option(337) == 1) zeroRotaryAxis(context, rotary, rowGiven);
 }
+
+}  // namespace
+
+extern const Entry cycle403 = {.definition = definition, .conditions = {.tilted = {}}, .rules = rules, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,4 +1,4 @@
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/transfer.hpp"
 
@@ -19,9 +19,7 @@ constexpr Parameter presetRow = only({.name = "Q305",
 
 constexpr Parameter parameters404[] = {angle(307, "Q307", "angle that the basic rotation is set to"), presetRow};
 
-}  // namespace
-
-const CycleDefinition cycle404Definition = {
+constexpr CycleDefinition definition = {
     .number = 404,
     .name = "404",
     .title = "SET BASIC ROTATION",
@@ -31,11 +29,14 @@ const CycleDefinition cycle404Definition = {
     .results = {},
 };
 
-void cycle404(Context& context, const Arguments&) {
-  context.require({.probes = false});
+void run(Context& context, const Arguments&) {
   const int row = context.option(305);
   if (row == 0) copyActivePresetTo0(context, {});
   setBasicRotation(context, context.q(307), row > 0 ? row : 0);
 }
+
+}  // namespace
+
+extern const Entry cycle404 = {.definition = definition, .conditions = {.uses = Uses::Nothing}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -4,7 +4,7 @@
 
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/circle_measurement.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/hole_measurement.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/rotary_alignment.hpp"
@@ -37,9 +37,7 @@ constexpr ResultDefinition results405[] = {
     {"Q150", {"measured ", "angular offset"}, result::actual(of::angle).main()},
 };
 
-}  // namespace
-
-const CycleDefinition cycle405Definition = {
+constexpr CycleDefinition definition = {
     .number = 405,
     .name = "405",
     .title = "ROT IN C AXIS",
@@ -51,8 +49,7 @@ const CycleDefinition cycle405Definition = {
     .results = results405,
 };
 
-void cycle405(Context& context, const Arguments&) {
-  context.require({.tiltAllowed = !context.control().isTNC640()});
+void run(Context& context, const Arguments&) {
   requireTable(context, 2);
   const int row = context.option(337);
   if (row == 0) {
@@ -80,5 +77,9 @@ void cycle405(Context& context, const Arguments&) {
     addDatumAngle(context, axis, row, offset);
   }
 }
+
+}  // namespace
+
+extern const Entry cycle405 = {.definition = definition, .conditions = {.tilted = control::onITNC530}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,4 +1,4 @@
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/rectangle_measurement.hpp"
 
 namespace probewright::cycles::heidenhain {
@@ -7,9 +7,7 @@ namespace {
 constexpr std::array parameters408 = parameters::joined(
     parameters::joined(parameters::widthCentre, parameters::heightsAndTravel), parameters::widthTransfer);
 
-}  // namespace
-
-const CycleDefinition cycle408Definition = {
+constexpr CycleDefinition definition = {
     .number = 408,
     .name = "408",
     .title = "SLOT CENTER REF PT",
@@ -21,6 +19,11 @@ const CycleDefinition cycle408Definition = {
     .results = parameters::widthResults,
 };
 
-void cycle408(Context& context, const Arguments&) { presetWidth(context, Side::Inside); }
+void run(Context& context, const Arguments&) { presetWidth(context, Side::Inside); }
+
+}  // namespace
+
+extern const Entry cycle408 = {
+    .definition = definition, .conditions = {.under = Transformed::ByRotation, .featureLevel = 3}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

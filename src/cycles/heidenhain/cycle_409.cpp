@@ -1,4 +1,4 @@
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/rectangle_measurement.hpp"
 
 namespace probewright::cycles::heidenhain {
@@ -7,9 +7,7 @@ namespace {
 constexpr std::array parameters409 =
     parameters::joined(parameters::joined(parameters::widthCentre, parameters::heights), parameters::widthTransfer);
 
-}  // namespace
-
-const CycleDefinition cycle409Definition = {
+constexpr CycleDefinition definition = {
     .number = 409,
     .name = "409",
     .title = "RIDGE CENTER REF PT",
@@ -21,6 +19,11 @@ const CycleDefinition cycle409Definition = {
     .results = parameters::widthResults,
 };
 
-void cycle409(Context& context, const Arguments&) { presetWidth(context, Side::Outside); }
+void run(Context& context, const Arguments&) { presetWidth(context, Side::Outside); }
+
+}  // namespace
+
+extern const Entry cycle409 = {
+    .definition = definition, .conditions = {.under = Transformed::ByRotation, .featureLevel = 3}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

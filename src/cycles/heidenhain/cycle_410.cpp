@@ -1,9 +1,11 @@
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/rectangle_measurement.hpp"
 
 namespace probewright::cycles::heidenhain {
 
-const CycleDefinition cycle410Definition = {
+namespace {
+
+constexpr CycleDefinition definition = {
     .number = 410,
     .name = "410",
     .title = "PRESET INSIDE RECTAN.",
@@ -13,6 +15,10 @@ const CycleDefinition cycle410Definition = {
     .results = parameters::rectanglePresetResults,
 };
 
-void cycle410(Context& context, const Arguments&) { presetRectangle(context, Side::Inside); }
+void run(Context& context, const Arguments&) { presetRectangle(context, Side::Inside); }
+
+}  // namespace
+
+extern const Entry cycle410 = {.definition = definition, .conditions = {.under = Transformed::ByRotation}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,9 +1,11 @@
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/rectangle_measurement.hpp"
 
 namespace probewright::cycles::heidenhain {
 
-const CycleDefinition cycle411Definition = {
+namespace {
+
+constexpr CycleDefinition definition = {
     .number = 411,
     .name = "411",
     .title = "PRESET OUTS. RECTAN.",
@@ -13,6 +15,10 @@ const CycleDefinition cycle411Definition = {
     .results = parameters::rectanglePresetResults,
 };
 
-void cycle411(Context& context, const Arguments&) { presetRectangle(context, Side::Outside); }
+void run(Context& context, const Arguments&) { presetRectangle(context, Side::Outside); }
+
+}  // namespace
+
+extern const Entry cycle411 = {.definition = definition, .conditions = {.under = Transformed::ByRotation}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

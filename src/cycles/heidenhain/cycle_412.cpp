@@ -1,9 +1,11 @@
 #include "cycles/heidenhain/circle_measurement.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 
 namespace probewright::cycles::heidenhain {
 
-const CycleDefinition cycle412Definition = {
+namespace {
+
+constexpr CycleDefinition definition = {
     .number = 412,
     .name = "412",
     .title = "PRESET INSIDE CIRCLE",
@@ -13,6 +15,10 @@ const CycleDefinition cycle412Definition = {
     .results = parameters::circlePresetResults,
 };
 
-void cycle412(Context& context, const Arguments&) { presetCircle(context, Side::Inside); }
+void run(Context& context, const Arguments&) { presetCircle(context, Side::Inside); }
+
+}  // namespace
+
+extern const Entry cycle412 = {.definition = definition, .conditions = {.under = Transformed::ByRotation}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

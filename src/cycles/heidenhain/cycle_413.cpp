@@ -1,9 +1,11 @@
 #include "cycles/heidenhain/circle_measurement.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 
 namespace probewright::cycles::heidenhain {
 
-const CycleDefinition cycle413Definition = {
+namespace {
+
+constexpr CycleDefinition definition = {
     .number = 413,
     .name = "413",
     .title = "PRESET OUTS. CIRCLE",
@@ -13,6 +15,10 @@ const CycleDefinition cycle413Definition = {
     .results = parameters::circlePresetResults,
 };
 
-void cycle413(Context& context, const Arguments&) { presetCircle(context, Side::Outside); }
+void run(Context& context, const Arguments&) { presetCircle(context, Side::Outside); }
+
+}  // namespace
+
+extern const Entry cycle413 = {.definition = definition, .conditions = {.under = Transformed::ByRotation}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

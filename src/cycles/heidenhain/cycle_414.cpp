@@ -1,6 +1,6 @@
 #include "control/alarm.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/corner_measurement.hpp"
-#include "cycles/heidenhain/cycles.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/transfer.hpp"
 
@@ -27,9 +27,7 @@ constexpr ResultDefinition results414[] = {
     {"Q152", {"actual ", "corner, minor axis"}, result::actual(of::corner2).main()},
 };
 
-}  // namespace
-
-const CycleDefinition cycle414Definition = {
+constexpr CycleDefinition definition = {
     .number = 414,
     .name = "414",
     .title = "PRESET OUTSIDE CORNER",
@@ -41,8 +39,7 @@ const CycleDefinition cycle414Definition = {
     .results = results414,
 };
 
-void cycle414(Context& context, const Arguments&) {
-  context.require({.rotationAllowed = true});
+void run(Context& context, const Arguments&) {
   requireTransferTarget(context);
   const double height = context.q(261);
   // The third point tells on which sides of the corner the material lies.
@@ -66,5 +63,9 @@ void cycle414(Context& context, const Arguments&) {
   };
   presetCorner(context, measureCorner(context, touches, Side::Outside));
 }
+
+}  // namespace
+
+extern const Entry cycle414 = {.definition = definition, .conditions = {.under = Transformed::ByRotation}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,5 +1,5 @@
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/corner_measurement.hpp"
-#include "cycles/heidenhain/cycles.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/transfer.hpp"
 
@@ -28,9 +28,7 @@ constexpr ResultDefinition results415[] = {
     {"Q152", {"actual ", "corner, minor axis"}, result::actual(of::corner2).main()},
 };
 
-}  // namespace
-
-const CycleDefinition cycle415Definition = {
+constexpr CycleDefinition definition = {
     .number = 415,
     .name = "415",
     .title = "PRESET INSIDE CORNER",
@@ -42,8 +40,7 @@ const CycleDefinition cycle415Definition = {
     .results = results415,
 };
 
-void cycle415(Context& context, const Arguments&) {
-  context.require({.rotationAllowed = true});
+void run(Context& context, const Arguments&) {
   requireTransferTarget(context);
   const int corner = context.option(308);
   // Away from the corner into the pocket.
@@ -64,5 +61,9 @@ void cycle415(Context& context, const Arguments&) {
   };
   presetCorner(context, measureCorner(context, touches, Side::Inside));
 }
+
+}  // namespace
+
+extern const Entry cycle415 = {.definition = definition, .conditions = {.under = Transformed::ByRotation}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,6 +1,6 @@
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/bolt_circle_measurement.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/transfer.hpp"
 
@@ -18,9 +18,7 @@ constexpr ResultDefinition results416[] = {
     {"Q153", {"actual ", "diameter of the bolt hole circle"}, result::actual(of::diameter).main()},
 };
 
-}  // namespace
-
-const CycleDefinition cycle416Definition = {
+constexpr CycleDefinition definition = {
     .number = 416,
     .name = "416",
     .title = "PRESET CIRCLE CENTER",
@@ -30,8 +28,7 @@ const CycleDefinition cycle416Definition = {
     .results = results416,
 };
 
-void cycle416(Context& context, const Arguments&) {
-  context.require({.rotationAllowed = true});
+void run(Context& context, const Arguments&) {
   requireTransferTarget(context);
   const MeasuredCircle circle = measureBoltCircle(context);
   context.result(151, circle.centre.x(), {.nominal = context.q(273)});
@@ -39,5 +36,9 @@ void cycle416(Context& context, const Arguments&) {
   context.result(153, circle.diameter, {.nominal = context.q(262)});
   finishPreset(context, {.measured = circle.centre, .wish = {context.q(331), context.q(332)}, .rotation = {}});
 }
+
+}  // namespace
+
+extern const Entry cycle416 = {.definition = definition, .conditions = {.under = Transformed::ByRotation}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,4 +1,4 @@
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/transfer.hpp"
 #include "probing/heidenhain_strategies.hpp"
@@ -22,9 +22,7 @@ constexpr Parameter parameters417[] = {
 constexpr ResultDefinition results417[] = {
     {"Q160", {"actual ", "coordinate of the touched point"}, result::actual(of::coordinate).main()}};
 
-}  // namespace
-
-const CycleDefinition cycle417Definition = {
+constexpr CycleDefinition definition = {
     .number = 417,
     .name = "417",
     .title = "PRESET IN TS AXIS",
@@ -34,8 +32,7 @@ const CycleDefinition cycle417Definition = {
     .results = results417,
 };
 
-void cycle417(Context& context, const Arguments&) {
-  context.require({.rotationAllowed = true});
+void run(Context& context, const Arguments&) {
   requireTransferTarget(context);
   const PlannedTouch planned{{context.q(263), context.q(264), context.q(294)}, probing::axisDirection(2, -1)};
   auto& prober = context.prober();
@@ -48,5 +45,9 @@ void cycle417(Context& context, const Arguments&) {
   preset.wish[2] = context.q(333);
   transferPreset(context, preset);
 }
+
+}  // namespace
+
+extern const Entry cycle417 = {.definition = definition, .conditions = {.under = Transformed::ByRotation}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "control/alarm.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/hole_measurement.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/transfer.hpp"
@@ -32,9 +32,7 @@ constexpr ResultDefinition results418[] = {
     {"Q152", {"actual ", "intersection, minor axis"}, result::actual(of::corner2).main()},
 };
 
-}  // namespace
-
-const CycleDefinition cycle418Definition = {
+constexpr CycleDefinition definition = {
     .number = 418,
     .name = "418",
     .title = "PRESET FROM 4 HOLES",
@@ -44,8 +42,7 @@ const CycleDefinition cycle418Definition = {
     .results = results418,
 };
 
-void cycle418(Context& context, const Arguments&) {
-  context.require({.rotationAllowed = true});
+void run(Context& context, const Arguments&) {
   requireTransferTarget(context);
   for (const auto& [one, other] : {std::pair{268, 316}, {270, 318}}) {
     const Vector2 along(context.q(other) - context.q(one), context.q(other + 1) - context.q(one + 1));
@@ -71,5 +68,9 @@ void cycle418(Context& context, const Arguments&) {
                          .wish = {context.q(331), context.q(332)},
                          .rotation = {}});
 }
+
+}  // namespace
+
+extern const Entry cycle418 = {.definition = definition, .conditions = {.under = Transformed::ByRotation}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,4 +1,4 @@
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/transfer.hpp"
 #include "probing/heidenhain_strategies.hpp"
@@ -21,9 +21,7 @@ constexpr Parameter parameters419[] = {
     standard(transfer, -1),
 };
 
-}  // namespace
-
-const CycleDefinition cycle419Definition = {
+constexpr CycleDefinition definition = {
     .number = 419,
     .name = "419",
     .title = "PRESET IN ONE AXIS",
@@ -33,8 +31,7 @@ const CycleDefinition cycle419Definition = {
     .results = {},
 };
 
-void cycle419(Context& context, const Arguments&) {
-  context.require({.rotationAllowed = true});
+void run(Context& context, const Arguments&) {
   requireTransferTarget(context);
   const int axis = context.option(272) - 1;
   const PlannedTouch planned{{context.q(263), context.q(264), context.q(261)},
@@ -48,5 +45,9 @@ void cycle419(Context& context, const Arguments&) {
   preset.wish[static_cast<std::size_t>(axis)] = context.q(333);
   transferPreset(context, preset);
 }
+
+}  // namespace
+
+extern const Entry cycle419 = {.definition = definition, .conditions = {.under = Transformed::ByRotation}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/edge_measurement.hpp"
 #include "cycles/heidenhain/inspection.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
@@ -29,9 +29,11 @@ constexpr ResultDefinition results420[] = {
     {"Q150", {"measured ", "angle"}, result::actual(of::angle).main()},
 };
 
-}  // namespace
+constexpr LogTerm logTerms[] = {
+    {"Angle Measuring", "Измерение угла", "Mätning vinkel"},
+};
 
-const CycleDefinition cycle420Definition = {
+constexpr CycleDefinition definition = {
     .number = 420,
     .name = "420",
     .title = "MEASURE ANGLE",
@@ -41,8 +43,7 @@ const CycleDefinition cycle420Definition = {
     .results = results420,
 };
 
-void cycle420(Context& context, const Arguments&) {
-  context.require({});
+void run(Context& context, const Arguments&) {
   const bool sameMain = std::abs(context.q(263) - context.q(265)) <= 1e-4;
   const bool sameMinor = std::abs(context.q(264) - context.q(266)) <= 1e-4;
   // The older control takes all other points for those of a B axis.
@@ -68,5 +69,9 @@ void cycle420(Context& context, const Arguments&) {
                      .measured = {{"Measured angle", measured, ValueKind::Angle}},
                      .further = {{"Measuring height", context.q(261)}}});
 }
+
+}  // namespace
+
+extern const Entry cycle420 = {.definition = definition, .logTerms = logTerms, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,5 +1,5 @@
 #include "cycles/heidenhain/circle_measurement.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 
 namespace probewright::cycles::heidenhain {
 namespace {
@@ -8,9 +8,11 @@ constexpr std::array parameters421 = parameters::circleInspection(
     parameters::limit(275, "Q275", "largest permissible diameter; 0 with Q276 = 0: not monitored"),
     parameters::limit(276, "Q276", "smallest permissible diameter"));
 
-}  // namespace
+constexpr LogTerm logTerms[] = {
+    {"Hole Measuring", "Измерение отверстия", "Mätning av hål"},
+};
 
-const CycleDefinition cycle421Definition = {
+constexpr CycleDefinition definition = {
     .number = 421,
     .name = "421",
     .title = "MEASURE HOLE",
@@ -22,8 +24,12 @@ const CycleDefinition cycle421Definition = {
     .results = parameters::circleInspectionResults,
 };
 
-void cycle421(Context& context, const Arguments&) {
+void run(Context& context, const Arguments&) {
   inspectCircle(context, Side::Inside, "Hole Measuring", "hole", 275, 276);
 }
+
+}  // namespace
+
+extern const Entry cycle421 = {.definition = definition, .logTerms = logTerms, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

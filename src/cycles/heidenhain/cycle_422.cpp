@@ -1,5 +1,5 @@
 #include "cycles/heidenhain/circle_measurement.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 
 namespace probewright::cycles::heidenhain {
 namespace {
@@ -9,9 +9,11 @@ constexpr std::array parameters422 = parameters::circleInspection(
     parameters::limit(278, "Q278", "smallest permissible diameter"),
     parameters::upTo(parameters::monitoredTool, 32767.9));
 
-}  // namespace
+constexpr LogTerm logTerms[] = {
+    {"Circular Stud Measuring", "Измерение окружности снаружи", "Mätning utvändig cirkel"},
+};
 
-const CycleDefinition cycle422Definition = {
+constexpr CycleDefinition definition = {
     .number = 422,
     .name = "422",
     .title = "MEAS. CIRCLE OUTSIDE",
@@ -23,8 +25,12 @@ const CycleDefinition cycle422Definition = {
     .results = parameters::circleInspectionResults,
 };
 
-void cycle422(Context& context, const Arguments&) {
+void run(Context& context, const Arguments&) {
   inspectCircle(context, Side::Outside, "Circular Stud Measuring", "stud", 277, 278);
 }
+
+}  // namespace
+
+extern const Entry cycle422 = {.definition = definition, .logTerms = logTerms, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,4 +1,4 @@
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/rectangle_measurement.hpp"
 
 namespace probewright::cycles::heidenhain {
@@ -6,9 +6,11 @@ namespace {
 
 constexpr std::array parameters424 = parameters::rectangleInspectionWith(parameters::monitoredTool);
 
-}  // namespace
+constexpr LogTerm logTerms[] = {
+    {"Rectangular Stud Measuring", "Измерение прямоугольника снаружи", "Mätning utvändig rektangel"},
+};
 
-const CycleDefinition cycle424Definition = {
+constexpr CycleDefinition definition = {
     .number = 424,
     .name = "424",
     .title = "MEAS. RECTAN. OUTS.",
@@ -20,8 +22,10 @@ const CycleDefinition cycle424Definition = {
     .results = parameters::rectangleInspectionResults,
 };
 
-void cycle424(Context& context, const Arguments&) {
-  inspectRectangle(context, Side::Outside, "Rectangular Stud Measuring");
-}
+void run(Context& context, const Arguments&) { inspectRectangle(context, Side::Outside, "Rectangular Stud Measuring"); }
+
+}  // namespace
+
+extern const Entry cycle424 = {.definition = definition, .logTerms = logTerms, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,6 +1,7 @@
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/inspection.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
+#include "cycles/heidenhain/tool_monitoring.hpp"
 #include "cycles/heidenhain/width_inspection.hpp"
 
 namespace probewright::cycles::heidenhain {
@@ -25,9 +26,11 @@ constexpr std::array parameters425 = {
     later(standard(moveToClearance, 0), 5),
 };
 
-}  // namespace
+constexpr LogTerm logTerms[] = {
+    {"Slot Width Measuring", "Измерение ширины внутри", "Mätning invändig bredd"},
+};
 
-const CycleDefinition cycle425Definition = {
+constexpr CycleDefinition definition = {
     .number = 425,
     .name = "425",
     .title = "MEASURE INSIDE WIDTH",
@@ -39,8 +42,8 @@ const CycleDefinition cycle425Definition = {
     .results = parameters::widthInspectionResults,
 };
 
-void cycle425(Context& context, const Arguments&) {
-  requireInspection(context);
+void run(Context& context, const Arguments&) {
+  requireMonitoredTool(context);
   const int axis = context.option(272) - 1;
   const int across = 1 - axis;
   auto& prober = context.prober();
@@ -65,5 +68,9 @@ void cycle425(Context& context, const Arguments&) {
   prober.moveSouthPoleTo(context.q(260));
   finishWidthInspection(context, plus.surface[axis], minus.surface[axis], Side::Inside, "Slot Width Measuring");
 }
+
+}  // namespace
+
+extern const Entry cycle425 = {.definition = definition, .logTerms = logTerms, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

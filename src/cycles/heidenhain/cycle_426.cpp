@@ -1,8 +1,9 @@
 #include <utility>
 
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/inspection.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
+#include "cycles/heidenhain/tool_monitoring.hpp"
 #include "cycles/heidenhain/width_inspection.hpp"
 #include "probing/heidenhain_strategies.hpp"
 
@@ -28,9 +29,11 @@ constexpr std::array parameters426 = {
     monitoredTool,
 };
 
-}  // namespace
+constexpr LogTerm logTerms[] = {
+    {"Ridge Width Measuring", "Измерение ребра снаружи", "Mätning kam utvändigt"},
+};
 
-const CycleDefinition cycle426Definition = {
+constexpr CycleDefinition definition = {
     .number = 426,
     .name = "426",
     .title = "MEASURE RIDGE WIDTH",
@@ -42,8 +45,8 @@ const CycleDefinition cycle426Definition = {
     .results = parameters::widthInspectionResults,
 };
 
-void cycle426(Context& context, const Arguments&) {
-  requireInspection(context);
+void run(Context& context, const Arguments&) {
+  requireMonitoredTool(context);
   const int axis = context.option(272) - 1;
   Vector3 plus(context.q(263), context.q(264), context.q(261));
   Vector3 minus(context.q(265), context.q(266), context.q(261));
@@ -59,5 +62,9 @@ void cycle426(Context& context, const Arguments&) {
   finishWidthInspection(context, touches[0].surface[axis], touches[1].surface[axis], Side::Outside,
                         "Ridge Width Measuring");
 }
+
+}  // namespace
+
+extern const Entry cycle426 = {.definition = definition, .logTerms = logTerms, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

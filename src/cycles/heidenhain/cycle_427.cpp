@@ -1,4 +1,5 @@
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/call_rules.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/inspection.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/tool_monitoring.hpp"
@@ -32,9 +33,14 @@ constexpr ResultDefinition results427[] = {
     {"Q182", "1: scrap", result::status},
 };
 
-}  // namespace
+constexpr LogTerm logTerms[] = {
+    {"Coordinate Measuring", "Измерить координату", "Mätning koordinater"},
+    {"Measured coordinate", "Измеренная координата", "Uppmätt koordinat"},
+    {"Maximum dimension for coordinate", "Максимальный размер координаты", "Största mått koordinat"},
+    {"Minimum dimension for coordinate", "Наименьший размер координаты", "Minsta mått koordinat"},
+};
 
-const CycleDefinition cycle427Definition = {
+constexpr CycleDefinition definition = {
     .number = 427,
     .name = "427",
     .title = "MEASURE COORDINATE",
@@ -46,8 +52,13 @@ const CycleDefinition cycle427Definition = {
     .results = results427,
 };
 
-void cycle427(Context& context, const Arguments&) {
-  requireInspection(context);
+void rules(CallRules& call) {
+  // Exchanged limits are those of a recess.
+  call.allowCrossedLimits();
+}
+
+void run(Context& context, const Arguments&) {
+  requireMonitoredTool(context);
   const int axis = context.option(272) - 1;
   const double sense = context.option(267);
   const PlannedTouch planned{{context.q(263), context.q(264), context.q(261)}, probing::axisDirection(axis, sense)};
@@ -76,5 +87,9 @@ void cycle427(Context& context, const Arguments&) {
                     .length = axis == 2,
                     .turned = beyond ? -deviation : deviation});
 }
+
+}  // namespace
+
+extern const Entry cycle427 = {.definition = definition, .logTerms = logTerms, .rules = rules, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

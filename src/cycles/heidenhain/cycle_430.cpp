@@ -1,5 +1,5 @@
 #include "cycles/heidenhain/bolt_circle_measurement.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/inspection.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "cycles/heidenhain/tool_monitoring.hpp"
@@ -32,9 +32,13 @@ constexpr ResultDefinition results430[] = {
     {"Q182", "1: scrap", result::status},
 };
 
-}  // namespace
+constexpr LogTerm logTerms[] = {
+    {"Bolt Hole Circle Measuring", "Измерение образующей окружности", "Mätning hålcirkel"},
+    {"Maximum dimension for bolt hole circle", "Максимальный размер образующей окружности", "Största mått hålcirkel"},
+    {"Minimum dimension for bolt hole circle", "Наименьший размер образующей окружности", "Minsta mått hålcirkel"},
+};
 
-const CycleDefinition cycle430Definition = {
+constexpr CycleDefinition definition = {
     .number = 430,
     .name = "430",
     .title = "MEAS. BOLT HOLE CIRC",
@@ -45,8 +49,8 @@ const CycleDefinition cycle430Definition = {
     .results = results430,
 };
 
-void cycle430(Context& context, const Arguments&) {
-  requireInspection(context);
+void run(Context& context, const Arguments&) {
+  requireMonitoredTool(context);
   const MeasuredCircle circle = measureBoltCircle(context);
   Inspection inspection{.title = "Bolt Hole Circle Measuring",
                         .items = {},
@@ -63,5 +67,9 @@ void cycle430(Context& context, const Arguments&) {
   }
   finishInspection(context, inspection, {.monitored = circle.diameter - context.q(262), .correct = false});
 }
+
+}  // namespace
+
+extern const Entry cycle430 = {.definition = definition, .logTerms = logTerms, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/inspection.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
 #include "probing/heidenhain_strategies.hpp"
@@ -37,9 +37,19 @@ constexpr ResultDefinition results431[] = {
     {"Q175", "third touch in the touch probe axis (TNC 640)", result::touched(of::position3.number(3))},
 };
 
-}  // namespace
+constexpr LogTerm logTerms[] = {
+    {"Plane Measuring", "Измерить плоскость", "Mätning plan"},
+    {"Projection angle A axis", "Угол проекции оси A", "Projektionsvinkel A-axel"},
+    {"Projection angle B axis", "Угол проекции оси B", "Projektionsvinkel B-axel"},
+    {"Space angle A", "Пространственный угол A", "Rymdvinkel A"},
+    {"Space angle B", "Пространственный угол B", "Rymdvinkel B"},
+    {"Space angle C", "Пространственный угол C", "Rymdvinkel C"},
+    {"1st measured value", "1-е измеренное значение", "1:a mätvärde"},
+    {"2nd measured value", "2-е измеренное значение", "2:a mätvärde"},
+    {"3rd measured value", "3-е измеренное значение", "3:e mätvärde"},
+};
 
-const CycleDefinition cycle431Definition = {
+constexpr CycleDefinition definition = {
     .number = 431,
     .name = "431",
     .title = "MEASURE PLANE",
@@ -51,8 +61,7 @@ const CycleDefinition cycle431Definition = {
     .results = results431,
 };
 
-void cycle431(Context& context, const Arguments&) {
-  context.require({});
+void run(Context& context, const Arguments&) {
   const Vector3 down = probing::axisDirection(2, -1);
   const PlannedTouch first{{context.q(263), context.q(264), context.q(294)}, down};
   const PlannedTouch second{{context.q(265), context.q(266), context.q(295)}, down};
@@ -112,5 +121,9 @@ void cycle431(Context& context, const Arguments&) {
                                   {"3rd measured value", touches[2].surface.z()}},
                      .further = {}});
 }
+
+}  // namespace
+
+extern const Entry cycle431 = {.definition = definition, .logTerms = logTerms, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -5,7 +5,6 @@
 #include "control/alarm.hpp"
 #include "control/heidenhain/tool_table.hpp"
 #include "cycles/heidenhain/context.hpp"
-#include "cycles/heidenhain/cycles.hpp"
 #include "cycles/heidenhain/parameters.hpp"
 #include "probing/tool_prober.hpp"
 
@@ -97,9 +96,7 @@ void checkLimits(Context& context, const Vector3& deviation) {
   }
 }
 
-}  // namespace
-
-const CycleDefinition cycle440Definition = {
+constexpr CycleDefinition definition = {
     .number = 440,
     .name = "440",
     .title = "MEASURE AXIS SHIFT",
@@ -112,8 +109,7 @@ const CycleDefinition cycle440Definition = {
     .controls = control::onITNC530,
 };
 
-void cycle440(Context& context, const Arguments&) {
-  context.require({.measuresTool = true});
+void run(Context& context, const Arguments&) {
   auto& control = context.control();
   for (int i = 0; i < 3; ++i)
     control.q.setQ(185 + i, 0);
@@ -173,5 +169,9 @@ void cycle440(Context& context, const Arguments&) {
     context.result(185 + i, deviation[i]);
   checkLimits(context, deviation);
 }
+
+}  // namespace
+
+extern const Entry cycle440 = {.definition = definition, .conditions = {.uses = Uses::ToolTouchProbe}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

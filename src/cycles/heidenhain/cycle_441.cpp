@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include "cycles/heidenhain/context.hpp"
-#include "cycles/heidenhain/cycles.hpp"
 #include "cycles/heidenhain/parameters.hpp"
 
 namespace probewright::cycles::heidenhain {
@@ -24,9 +23,7 @@ constexpr Parameter parameters441[] = {
     option(400, "Q400", "interrupt and show the results", interruptChoices),
 };
 
-}  // namespace
-
-const CycleDefinition cycle441Definition = {
+constexpr CycleDefinition definition = {
     .number = 441,
     .name = "441",
     .title = "FAST PROBING",
@@ -39,8 +36,7 @@ const CycleDefinition cycle441Definition = {
 
 };
 
-void cycle441(Context& context, const Arguments&) {
-  context.require({.transformationsAllowed = true, .probes = false, .featureLevel = 2});
+void run(Context& context, const Arguments&) {
   auto& overrides = context.control().overrides;
   const Control& control = context.control();
   double feed = context.q(396);
@@ -58,5 +54,11 @@ void cycle441(Context& context, const Arguments&) {
   }
   overrides.interrupt = context.option(400) == 1;
 }
+
+}  // namespace
+
+extern const Entry cycle441 = {.definition = definition,
+                               .conditions = {.uses = Uses::Nothing, .under = Transformed::Any, .featureLevel = 2},
+                               .run = run};
 
 }  // namespace probewright::cycles::heidenhain

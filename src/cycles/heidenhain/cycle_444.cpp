@@ -4,7 +4,7 @@
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/html_log.hpp"
 #include "cycles/heidenhain/parameters.hpp"
 #include "metrology/tolerance.hpp"
@@ -81,9 +81,12 @@ Verdict verdictOf(double deviation, const metrology::Limits& limits) {
   return Verdict::Good;
 }
 
-}  // namespace
+constexpr LogTerm logTerms[] = {
+    {"PROBING IN 3-D", "IZMERENIYE V 3D", "AVKAENNING 3D"},
+    {"Along the normal", "По нормали", "Längs normalen"},
+};
 
-const CycleDefinition cycle444Definition = {
+constexpr CycleDefinition definition = {
     .number = 444,
     .name = "444",
     .title = "PROBING IN 3-D",
@@ -96,8 +99,7 @@ const CycleDefinition cycle444Definition = {
     .controls = control::onTNC640,
 };
 
-void cycle444(Context& context, const Arguments&) {
-  context.require({.shiftAndRotationAllowed = true, .mismatchWithTcpmAllowed = true});
+void run(Context& context, const Arguments&) {
   const Vector3 given(context.q(581), context.q(582), context.q(583));
   if (!(given.norm() > 1e-9)) {
     throw control::Alarm("Surface normal wrong", "The normal vector Q581, Q582, Q583 has no length",
@@ -155,5 +157,12 @@ void cycle444(Context& context, const Arguments&) {
                              decimals));
   }
 }
+
+}  // namespace
+
+extern const Entry cycle444 = {.definition = definition,
+                               .conditions = {.under = Transformed::ByShiftOrRotation, .mismatchWithTcpm = true},
+                               .logTerms = logTerms,
+                               .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -4,7 +4,8 @@
 
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/calibration.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/call_rules.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/directional_calibration.hpp"
 #include "cycles/heidenhain/parameters.hpp"
 #include "metrology/elements.hpp"
@@ -99,9 +100,11 @@ CalibratedRadius calibrateFromEquator(Context& context, probing::HeidenhainProbe
   return calibrateRadius(context, prober, task);
 }
 
-}  // namespace
+constexpr LogTerm logTerms[] = {
+    {"CALIBRATION OF TS ON A SPHERE", "KALIBROVKA TS NA SHARIKE", "TS KALIBRERING MOT KULA"},
+};
 
-const CycleDefinition cycle460Definition = {
+constexpr CycleDefinition definition = {
     .number = 460,
     .name = "460",
     .title = "CALIBRATION OF TS ON A SPHERE",
@@ -114,8 +117,12 @@ const CycleDefinition cycle460Definition = {
 
 };
 
-void cycle460(Context& context, const Arguments&) {
-  context.require({.turningModeAllowed = true});
+void rules(CallRules& call) {
+  if (call.kind() != ControlKind::iTNC530 || call.number(423).value_or(4) <= 4) return;
+  call.add(423, "Q423 takes four or three touches on the iTNC 530", "enter 4 or 3");
+}
+
+void run(Context& context, const Arguments&) {
   const bool directional = context.given(455) && context.option(455) > 0;
   if (directional) requireDirectionalCalibration(context);
   if (!context.control().isTNC640() && context.option(423) > 4) {
@@ -166,5 +173,10 @@ void cycle460(Context& context, const Arguments&) {
   prober.moveHeightTo(start.z());
   prober.moveInPlane(start);
 }
+
+}  // namespace
+
+extern const Entry cycle460 = {
+    .definition = definition, .conditions = {.turningMode = true}, .logTerms = logTerms, .rules = rules, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

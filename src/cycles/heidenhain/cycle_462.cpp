@@ -1,5 +1,5 @@
 #include "cycles/heidenhain/calibration.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/parameters.hpp"
 
 namespace probewright::cycles::heidenhain {
@@ -14,9 +14,11 @@ constexpr Parameter parameters462[] = {
     calibrationStartAngle,
 };
 
-}  // namespace
+constexpr LogTerm logTerms[] = {
+    {"CALIBRATION OF A TS IN A RING", "KALIBROVKA TS V KOLZE", "TS KALIBRERING MOT RING"},
+};
 
-const CycleDefinition cycle462Definition = {
+constexpr CycleDefinition definition = {
     .number = 462,
     .name = "462",
     .title = "CALIBRATION OF A TS IN A RING",
@@ -29,8 +31,7 @@ const CycleDefinition cycle462Definition = {
     .controls = control::onTNC640,
 };
 
-void cycle462(Context& context, const Arguments&) {
-  context.require({.turningModeAllowed = true});
+void run(Context& context, const Arguments&) {
   auto prober = calibrationProber(context);
   const Vector3 start = prober.position();
   storeRadius(context, calibrateRadius(context, prober,
@@ -43,5 +44,10 @@ void cycle462(Context& context, const Arguments&) {
                                         .travelHeight = start.z(),
                                         .extraClearance = context.q(320)}));
 }
+
+}  // namespace
+
+extern const Entry cycle462 = {
+    .definition = definition, .conditions = {.turningMode = true}, .logTerms = logTerms, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -1,5 +1,5 @@
 #include "cycles/heidenhain/calibration.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/parameters.hpp"
 
 namespace probewright::cycles::heidenhain {
@@ -15,9 +15,11 @@ constexpr Parameter parameters463[] = {
     calibrationStartAngle,
 };
 
-}  // namespace
+constexpr LogTerm logTerms[] = {
+    {"TS CALIBRATION ON STUD", "KALIBROVKA TS NA ZAPFE", "TS KALIBRERING MOT TAPP"},
+};
 
-const CycleDefinition cycle463Definition = {
+constexpr CycleDefinition definition = {
     .number = 463,
     .name = "463",
     .title = "TS CALIBRATION ON STUD",
@@ -30,8 +32,7 @@ const CycleDefinition cycle463Definition = {
     .controls = control::onTNC640,
 };
 
-void cycle463(Context& context, const Arguments&) {
-  context.require({.turningModeAllowed = true});
+void run(Context& context, const Arguments&) {
   auto prober = calibrationProber(context);
   const Vector3 start = prober.position();
   // As far below the top of the stud as the probe stands above it.
@@ -47,5 +48,10 @@ void cycle463(Context& context, const Arguments&) {
                                         .extraClearance = context.q(320),
                                         .between = betweenTouches(context)}));
 }
+
+}  // namespace
+
+extern const Entry cycle463 = {
+    .definition = definition, .conditions = {.turningMode = true}, .logTerms = logTerms, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

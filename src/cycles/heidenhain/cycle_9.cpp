@@ -1,5 +1,5 @@
 #include "cycles/heidenhain/calibration.hpp"
-#include "cycles/heidenhain/cycles.hpp"
+#include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/free_measurement_parameters.hpp"
 
 namespace probewright::cycles::heidenhain {
@@ -11,9 +11,7 @@ constexpr Parameter parameters9[] = {
     coordinate(probe_word::datum, "DATUM", "exact height of the touched surface in the touch probe axis"),
     referenceSystem};
 
-}  // namespace
-
-const CycleDefinition cycle9Definition = {
+constexpr CycleDefinition definition = {
     .number = 9,
     .name = "9",
     .title = "CALIBRATE TS LENGTH",
@@ -24,8 +22,7 @@ const CycleDefinition cycle9Definition = {
     .controls = control::onITNC530,
 };
 
-void cycle9(Context& context, const Arguments&) {
-  context.require({.transformationsAllowed = true});
+void run(Context& context, const Arguments&) {
   auto prober = calibrationProber(context);
   const EvaluatedTouch touch = prober.stroke(probing::axisDirection(2, -1));
   Vector3 tip = touch.ballCentre - Vector3(0, 0, prober.probe().ballRadius);
@@ -35,5 +32,9 @@ void cycle9(Context& context, const Arguments&) {
   }
   storeLength(context, activeLength(context) + tip.z() - context.q(probe_word::datum));
 }
+
+}  // namespace
+
+extern const Entry cycle9 = {.definition = definition, .conditions = {.under = Transformed::Any}, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -26,12 +26,14 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-std::string row(const char* cell, const std::vector<std::string>& cells, DialogLanguage language) {
+std::string row(Context& context, const char* cell, const std::vector<std::string>& cells) {
+  const DialogLanguage language = context.control().panel.language;
   std::string text = "<tr>";
   for (const std::string& content : cells) {
     const char* colour = content == "good" ? "green" : content == "rework" ? "orange" : content == "scrap" ? "red" : "";
     const std::string style = *colour == 0 ? std::string() : fmt::format(" style=\"color:{}\"", colour);
-    text += fmt::format("<{0}{1}>{2}</{0}>", cell, style, escaped(std::string(translated(content, language))));
+    text += fmt::format("<{0}{1}>{2}</{0}>", cell, style,
+                        escaped(std::string(translated(content, language, context.entry().logTerms))));
   }
   return text + "</tr>\n";
 }
@@ -41,8 +43,8 @@ std::string sectionHead(Context& context) {
   const auto& control = context.control();
   const DialogLanguage language = control.panel.language;
   const std::tm time = utcTime(control.wallClockStart, context.channel().seconds() - control.startSeconds);
-  std::string text =
-      fmt::format("<h2>{} {}</h2>\n<p>", context.record().name, translated(context.record().title, language));
+  std::string text = fmt::format("<h2>{} {}</h2>\n<p>", context.record().name,
+                                 translated(context.record().title, language, context.entry().logTerms));
   text += fmt::format(fmt::runtime(logFrame(language).dateForm), time);
   text +=
       fmt::format(" {}:{:02}:{:02}, {}, {} {} {}", time.tm_hour, time.tm_min, time.tm_sec, escaped(control.programPath),
@@ -70,9 +72,9 @@ void addToHtmlLog(Context& context, const std::vector<std::string>& heading,
                          : found->second.substr(0, found->second.rfind("</body>"));
   if (std::ranges::count(context.record().logFiles, file) == 0) text += sectionHead(context);
   text += "<table>\n";
-  text += row("th", heading, language);
+  text += row(context, "th", heading);
   for (const auto& cells : rows)
-    text += row("td", cells, language);
+    text += row(context, "td", cells);
   text += "</table>\n</body></html>\n";
   context.log(file, text);
 }

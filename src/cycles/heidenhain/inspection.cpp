@@ -81,11 +81,6 @@ Verdict verdictOf(const Inspection& inspection) {
   return verdict;
 }
 
-void requireInspection(Context& context) {
-  context.require({});
-  requireMonitoredTool(context);
-}
-
 void writeLog(Context& context, const Inspection& inspection) {
   const int log = context.option(281);
   if (log == 1) context.log(fmt::format("TCHPR{}.TXT", context.record().name), logText(context, inspection));

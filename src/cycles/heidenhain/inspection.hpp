@@ -55,10 +55,6 @@ Verdict verdictOf(const Inspection& inspection);
 
 struct ToolMonitoring;
 
-/// Refuses, before anything is touched, what stands against an inspection: active transformations, a tool in Q330 that
-/// the cycle cannot correct.
-void requireInspection(Context& context);
-
 /// Sets the result and status parameters Q180 to Q182, writes the log as Q281 says, monitors and corrects the tool as
 /// Q330 says, and stops as Q309 says. In this order, results first.
 void finishInspection(Context& context, const Inspection& inspection, const ToolMonitoring& tool);

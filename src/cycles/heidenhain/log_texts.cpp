@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <utility>
 
 namespace probewright::cycles::heidenhain {
 namespace {
@@ -36,20 +35,6 @@ constexpr LogFrame capitals{
     .end = "END OF MEASURING LOG",
 };
 
-/// Where the capitals are not those of the usual term.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 10> capitalTerms = {{
-    {"Center in reference axis", "CENTER IN REF. AXIS"},
-    {"Maximum limit for center in reference axis", "MAX. FOR CENTER IN REF. AXIS"},
-    {"Minimum limit for center in reference axis", "MIN. FOR CENTER IN REF. AXIS"},
-    {"Maximum limit for center in minor axis", "MAX. FOR CENTER IN MINOR AXIS"},
-    {"Minimum limit for center in minor axis", "MIN. FOR CENTER IN MINOR AXIS"},
-    {"Side length in reference axis", "SIDE LENGTH IN REF. AXIS"},
-    {"Maximum dimension for side length in reference axis", "MAX. IN REFERENCE AXIS"},
-    {"Minimum dimension for side length in reference axis", "MINIMUM DIMENSION IN REFERENCE AXIS"},
-    {"Maximum dimension for side length in minor axis", "MAXIMUM SIDE LENGTH IN MINOR AXIS"},
-    {"Minimum dimension for side length in minor axis", "MINIMUM SIDE LENGTH IN MINOR AXIS"},
-}};
-
 constexpr LogFrame russian{
     .title = "Протокол измерений цикла {} {}",
     .date = "Дата:",
@@ -78,124 +63,83 @@ constexpr LogFrame swedish{
     .end = "Mätprotokoll slut",
 };
 
-struct Term {
-  std::string_view english, russian, swedish;
-};
-
 constexpr std::array terms = {
-    // Titles of cycles 420 to 431.
-    Term{"Angle Measuring", "Измерение угла", "Mätning vinkel"},
-    Term{"Hole Measuring", "Измерение отверстия", "Mätning av hål"},
-    Term{"Circular Stud Measuring", "Измерение окружности снаружи", "Mätning utvändig cirkel"},
-    Term{"Rectangular Pocket Measuring", "Измерение прямоугольника внутри", "Mätning invändig rektangel"},
-    Term{"Rectangular Stud Measuring", "Измерение прямоугольника снаружи", "Mätning utvändig rektangel"},
-    Term{"Slot Width Measuring", "Измерение ширины внутри", "Mätning invändig bredd"},
-    Term{"Ridge Width Measuring", "Измерение ребра снаружи", "Mätning kam utvändigt"},
-    Term{"Coordinate Measuring", "Измерить координату", "Mätning koordinater"},
-    Term{"Bolt Hole Circle Measuring", "Измерение образующей окружности", "Mätning hålcirkel"},
-    Term{"Plane Measuring", "Измерить плоскость", "Mätning plan"},
-    // Lines of their logs.
-    Term{"Center in reference axis", "Центр главной оси", "Centrum huvudaxel"},
-    Term{"Center in minor axis", "Центр вспомогательной оси", "Centrum komplementaxel"},
-    Term{"Maximum limit for center in reference axis", "Максимальный размер центра главной оси",
-         "Största mått centrum huvudaxel"},
-    Term{"Minimum limit for center in reference axis", "Наименьший размер центра главной оси",
-         "Minsta mått centrum huvudaxel"},
-    Term{"Maximum limit for center in minor axis", "Максимальный размер центра вспомогательной оси",
-         "Största mått centrum komplementaxel"},
-    Term{"Minimum limit for center in minor axis", "Наименьший размер центра вспомогательной оси",
-         "Minsta mått centrum komplementaxel"},
-    Term{"Diameter", "Диаметр", "Diameter"},
-    Term{"Maximum dimension for hole", "Максимальный размер отверстия", "Största mått hål"},
-    Term{"Minimum dimension for hole", "Наименьший размер отверстия", "Minsta mått hål"},
-    Term{"Maximum dimension for stud", "Максимальный размер острова", "Största mått tapp"},
-    Term{"Minimum dimension for stud", "Наименьший размер острова", "Minsta mått tapp"},
-    Term{"Maximum dimension for bolt hole circle", "Максимальный размер образующей окружности",
-         "Största mått hålcirkel"},
-    Term{"Minimum dimension for bolt hole circle", "Наименьший размер образующей окружности", "Minsta mått hålcirkel"},
-    Term{"Side length in reference axis", "Длина стороны главной оси", "Sidlängd huvudaxel"},
-    Term{"Side length in minor axis", "Длина стороны вспомогательной оси", "Sidlängd komplementaxel"},
-    Term{"Maximum dimension for side length in reference axis", "Максимальный размер длины стороны главной оси",
-         "Största mått sidlängd huvudaxel"},
-    Term{"Minimum dimension for side length in reference axis", "Наименьший размер длины стороны главной оси",
-         "Minsta mått sidlängd huvudaxel"},
-    Term{"Maximum dimension for side length in minor axis", "Максимальный размер длины стороны вспомогательной оси",
-         "Största mått sidlängd komplementaxel"},
-    Term{"Minimum dimension for side length in minor axis", "Наименьший размер длины стороны вспомогательной оси",
-         "Minsta mått sidlängd komplementaxel"},
-    Term{"Length", "Длина", "Längd"},
-    Term{"Maximum dimension for length", "Максимальный размер длины", "Största mått längd"},
-    Term{"Minimum dimension for length", "Наименьший размер длины", "Minsta mått längd"},
-    Term{"Position of center line", "Положение центральной оси", "Läge centrumpunkt"},
-    Term{"Measured coordinate", "Измеренная координата", "Uppmätt koordinat"},
-    Term{"Maximum dimension for coordinate", "Максимальный размер координаты", "Största mått koordinat"},
-    Term{"Minimum dimension for coordinate", "Наименьший размер координаты", "Minsta mått koordinat"},
-    Term{"Measured angle", "Измеренный угол", "Uppmätt vinkel"},
-    Term{"Projection angle A axis", "Угол проекции оси A", "Projektionsvinkel A-axel"},
-    Term{"Projection angle B axis", "Угол проекции оси B", "Projektionsvinkel B-axel"},
-    Term{"Space angle A", "Пространственный угол A", "Rymdvinkel A"},
-    Term{"Space angle B", "Пространственный угол B", "Rymdvinkel B"},
-    Term{"Space angle C", "Пространственный угол C", "Rymdvinkel C"},
-    Term{"1st measured value", "1-е измеренное значение", "1:a mätvärde"},
-    Term{"2nd measured value", "2-е измеренное значение", "2:a mätvärde"},
-    Term{"3rd measured value", "3-е измеренное значение", "3:e mätvärde"},
-    Term{"Measuring height", "Высота измерения", "Mäthöjd"},
-    // Titles, headings and lines of the logs in HTML.
-    Term{"CALIBRATION OF TS ON A SPHERE", "KALIBROVKA TS NA SHARIKE", "TS KALIBRERING MOT KULA"},
-    Term{"TS CALIBRATION OF TOOL LENGTH", "KALIBROVKA DLINI TS", "TS KALIBRERING LAENGD"},
-    Term{"CALIBRATION OF A TS IN A RING", "KALIBROVKA TS V KOLZE", "TS KALIBRERING MOT RING"},
-    Term{"TS CALIBRATION ON STUD", "KALIBROVKA TS NA ZAPFE", "TS KALIBRERING MOT TAPP"},
-    Term{"PROBING IN 3-D", "IZMERENIYE V 3D", "AVKAENNING 3D"},
-    Term{"PROBING ON EDGE", "IZMERENIE GRANI", "AVKAENNING KANT"},
-    Term{"PROBING TWO CIRCLES", "IZMERENIJE DVUH OKRUZHNOSTEY", "AVKAENNING TVAA CIRKLAR"},
-    Term{"PROBING IN PLANE", "IZMERENIE PLOSKOSTI", "AVKAENNING PLAN"},
-    Term{"Touch probe log", "Протокол измерительного щупа", "Avkännarprotokoll"},
-    Term{"tool", "инструмент", "verktyg"},
-    Term{"touch probe", "контактный щуп", "avkännarsystem"},
-    Term{"Before", "До", "Före"},
-    Term{"After", "После", "Efter"},
-    Term{"Radius of the standard", "Радиус калибра", "Normalens radie"},
-    Term{"Reference point for length", "Точка привязки для длины", "Utgångspunkt för längd"},
-    Term{"Number of touches", "Количество касаний", "Antal avkänningar"},
-    Term{"Ball radius", "Радиус наконечника", "Mätkulans radie"},
-    Term{"Coarse measurement", "Грубое измерение", "Grovmätning"},
-    Term{"Fine measurement", "Точное измерение", "Finmätning"},
-    Term{"Reversal measurement", "Измерение с поворотом на 180°", "Omslagsmätning"},
-    Term{"Measurement with angle tracking", "Измерение с отслеживанием угла", "Mätning med vinkelföljning"},
-    Term{"3-D calibration", "3D-калибровка", "3D-kalibrering"},
-    Term{"Largest deviation", "Наибольшее отклонение", "Största avvikelse"},
-    Term{"Probing direction", "Направление измерения", "Avkänningsriktning"},
-    Term{"Nominal", "Заданное значение", "Börvärde"},
-    Term{"Lower limit", "Наименьший размер", "Minsta mått"},
-    Term{"Upper limit", "Максимальный размер", "Största mått"},
-    Term{"Actual", "Фактическое значение", "Ärvärde"},
-    Term{"Deviation", "Отклонение", "Avvikelse"},
-    Term{"Status", "Состояние", "Status"},
-    Term{"good", "годен", "godkänd"},
-    Term{"rework", "доработка", "efterbearbetning"},
-    Term{"scrap", "брак", "skrot"},
-    Term{"Main axis", "Главная ось", "Huvudaxel"},
-    Term{"Minor axis", "Вспомогательная ось", "Komplementaxel"},
-    Term{"Tool axis", "Ось инструмента", "Verktygsaxel"},
-    Term{"Along the normal", "По нормали", "Längs normalen"},
-    Term{"Position 1, main axis", "Позиция 1, главная ось", "Position 1, huvudaxel"},
-    Term{"Position 1, minor axis", "Позиция 1, вспомогательная ось", "Position 1, komplementaxel"},
-    Term{"Position 1, tool axis", "Позиция 1, ось инструмента", "Position 1, verktygsaxel"},
-    Term{"Position 2, main axis", "Позиция 2, главная ось", "Position 2, huvudaxel"},
-    Term{"Position 2, minor axis", "Позиция 2, вспомогательная ось", "Position 2, komplementaxel"},
-    Term{"Position 2, tool axis", "Позиция 2, ось инструмента", "Position 2, verktygsaxel"},
-    Term{"Position 3, main axis", "Позиция 3, главная ось", "Position 3, huvudaxel"},
-    Term{"Position 3, minor axis", "Позиция 3, вспомогательная ось", "Position 3, komplementaxel"},
-    Term{"Position 3, tool axis", "Позиция 3, ось инструмента", "Position 3, verktygsaxel"},
-    Term{"Diameter 1", "Диаметр 1", "Diameter 1"},
-    Term{"Diameter 2", "Диаметр 2", "Diameter 2"},
-    Term{"Measured angle of the rotary table", "Измеренный угол поворотного стола", "Uppmätt vinkel rundbord"},
-    Term{"Deviation of the angle", "Отклонение угла", "Avvikelse vinkel"},
-    Term{"Deviation of the angle of the rotary table", "Отклонение угла поворотного стола",
-         "Avvikelse vinkel rundbord"},
-    Term{"Measured space angle SPA", "Измеренный пространственный угол SPA", "Uppmätt rymdvinkel SPA"},
-    Term{"Measured space angle SPB", "Измеренный пространственный угол SPB", "Uppmätt rymdvinkel SPB"},
-    Term{"Measured space angle SPC", "Измеренный пространственный угол SPC", "Uppmätt rymdvinkel SPC"},
+    // Lines of the logs of cycles 420 to 431.
+    LogTerm{"Center in reference axis", "Центр главной оси", "Centrum huvudaxel"},
+    LogTerm{"Center in minor axis", "Центр вспомогательной оси", "Centrum komplementaxel"},
+    LogTerm{"Maximum limit for center in reference axis", "Максимальный размер центра главной оси",
+            "Största mått centrum huvudaxel"},
+    LogTerm{"Minimum limit for center in reference axis", "Наименьший размер центра главной оси",
+            "Minsta mått centrum huvudaxel"},
+    LogTerm{"Maximum limit for center in minor axis", "Максимальный размер центра вспомогательной оси",
+            "Största mått centrum komplementaxel"},
+    LogTerm{"Minimum limit for center in minor axis", "Наименьший размер центра вспомогательной оси",
+            "Minsta mått centrum komplementaxel"},
+    LogTerm{"Diameter", "Диаметр", "Diameter"},
+    LogTerm{"Maximum dimension for hole", "Максимальный размер отверстия", "Största mått hål"},
+    LogTerm{"Minimum dimension for hole", "Наименьший размер отверстия", "Minsta mått hål"},
+    LogTerm{"Maximum dimension for stud", "Максимальный размер острова", "Största mått tapp"},
+    LogTerm{"Minimum dimension for stud", "Наименьший размер острова", "Minsta mått tapp"},
+    LogTerm{"Side length in reference axis", "Длина стороны главной оси", "Sidlängd huvudaxel"},
+    LogTerm{"Side length in minor axis", "Длина стороны вспомогательной оси", "Sidlängd komplementaxel"},
+    LogTerm{"Maximum dimension for side length in reference axis", "Максимальный размер длины стороны главной оси",
+            "Största mått sidlängd huvudaxel"},
+    LogTerm{"Minimum dimension for side length in reference axis", "Наименьший размер длины стороны главной оси",
+            "Minsta mått sidlängd huvudaxel"},
+    LogTerm{"Maximum dimension for side length in minor axis", "Максимальный размер длины стороны вспомогательной оси",
+            "Största mått sidlängd komplementaxel"},
+    LogTerm{"Minimum dimension for side length in minor axis", "Наименьший размер длины стороны вспомогательной оси",
+            "Minsta mått sidlängd komplementaxel"},
+    LogTerm{"Length", "Длина", "Längd"},
+    LogTerm{"Maximum dimension for length", "Максимальный размер длины", "Största mått längd"},
+    LogTerm{"Minimum dimension for length", "Наименьший размер длины", "Minsta mått längd"},
+    LogTerm{"Position of center line", "Положение центральной оси", "Läge centrumpunkt"},
+    LogTerm{"Measured angle", "Измеренный угол", "Uppmätt vinkel"},
+    LogTerm{"Measuring height", "Высота измерения", "Mäthöjd"},
+    // Headings and lines of the logs in HTML.
+    LogTerm{"Touch probe log", "Протокол измерительного щупа", "Avkännarprotokoll"},
+    LogTerm{"tool", "инструмент", "verktyg"},
+    LogTerm{"touch probe", "контактный щуп", "avkännarsystem"},
+    LogTerm{"Before", "До", "Före"},
+    LogTerm{"After", "После", "Efter"},
+    LogTerm{"Radius of the standard", "Радиус калибра", "Normalens radie"},
+    LogTerm{"Reference point for length", "Точка привязки для длины", "Utgångspunkt för längd"},
+    LogTerm{"Number of touches", "Количество касаний", "Antal avkänningar"},
+    LogTerm{"Ball radius", "Радиус наконечника", "Mätkulans radie"},
+    LogTerm{"Coarse measurement", "Грубое измерение", "Grovmätning"},
+    LogTerm{"Fine measurement", "Точное измерение", "Finmätning"},
+    LogTerm{"Reversal measurement", "Измерение с поворотом на 180°", "Omslagsmätning"},
+    LogTerm{"Measurement with angle tracking", "Измерение с отслеживанием угла", "Mätning med vinkelföljning"},
+    LogTerm{"3-D calibration", "3D-калибровка", "3D-kalibrering"},
+    LogTerm{"Largest deviation", "Наибольшее отклонение", "Största avvikelse"},
+    LogTerm{"Probing direction", "Направление измерения", "Avkänningsriktning"},
+    LogTerm{"Nominal", "Заданное значение", "Börvärde"},
+    LogTerm{"Lower limit", "Наименьший размер", "Minsta mått"},
+    LogTerm{"Upper limit", "Максимальный размер", "Största mått"},
+    LogTerm{"Actual", "Фактическое значение", "Ärvärde"},
+    LogTerm{"Deviation", "Отклонение", "Avvikelse"},
+    LogTerm{"Status", "Состояние", "Status"},
+    LogTerm{"good", "годен", "godkänd"},
+    LogTerm{"rework", "доработка", "efterbearbetning"},
+    LogTerm{"scrap", "брак", "skrot"},
+    LogTerm{"Main axis", "Главная ось", "Huvudaxel"},
+    LogTerm{"Minor axis", "Вспомогательная ось", "Komplementaxel"},
+    LogTerm{"Tool axis", "Ось инструмента", "Verktygsaxel"},
+    LogTerm{"Position 1, main axis", "Позиция 1, главная ось", "Position 1, huvudaxel"},
+    LogTerm{"Position 1, minor axis", "Позиция 1, вспомогательная ось", "Position 1, komplementaxel"},
+    LogTerm{"Position 1, tool axis", "Позиция 1, ось инструмента", "Position 1, verktygsaxel"},
+    LogTerm{"Position 2, main axis", "Позиция 2, главная ось", "Position 2, huvudaxel"},
+    LogTerm{"Position 2, minor axis", "Позиция 2, вспомогательная ось", "Position 2, komplementaxel"},
+    LogTerm{"Position 2, tool axis", "Позиция 2, ось инструмента", "Position 2, verktygsaxel"},
+    LogTerm{"Position 3, main axis", "Позиция 3, главная ось", "Position 3, huvudaxel"},
+    LogTerm{"Position 3, minor axis", "Позиция 3, вспомогательная ось", "Position 3, komplementaxel"},
+    LogTerm{"Position 3, tool axis", "Позиция 3, ось инструмента", "Position 3, verktygsaxel"},
+    LogTerm{"Diameter 1", "Диаметр 1", "Diameter 1"},
+    LogTerm{"Diameter 2", "Диаметр 2", "Diameter 2"},
+    LogTerm{"Measured angle of the rotary table", "Измеренный угол поворотного стола", "Uppmätt vinkel rundbord"},
+    LogTerm{"Deviation of the angle", "Отклонение угла", "Avvikelse vinkel"},
+    LogTerm{"Deviation of the angle of the rotary table", "Отклонение угла поворотного стола",
+            "Avvikelse vinkel rundbord"},
 };
 
 }  // namespace
@@ -216,18 +160,20 @@ const LogFrame& logFrame(DialogLanguage language) {
 
 const LogFrame& capitalLogFrame() { return capitals; }
 
-std::string capitalTerm(std::string_view term) {
-  const auto found = std::ranges::find(capitalTerms, term, &std::pair<std::string_view, std::string_view>::first);
-  std::string text(found == capitalTerms.end() ? term : found->second);
+std::string capitalTerm(std::string_view term, std::span<const CapitalTerm> own) {
+  const auto found = std::ranges::find(own, term, &CapitalTerm::usual);
+  std::string text(found == own.end() ? term : found->capitals);
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return text;
 }
 
-std::string_view translated(std::string_view term, DialogLanguage language) {
+std::string_view translated(std::string_view term, DialogLanguage language, std::span<const LogTerm> own) {
   if (language != DialogLanguage::Russian && language != DialogLanguage::Swedish) return term;
-  const auto found = std::ranges::find(terms, term, &Term::english);
-  if (found == terms.end()) return term;
-  return language == DialogLanguage::Russian ? found->russian : found->swedish;
+  for (const std::span<const LogTerm> words : {own, std::span<const LogTerm>(terms)}) {
+    const auto found = std::ranges::find(words, term, &LogTerm::english);
+    if (found != words.end()) return language == DialogLanguage::Russian ? found->russian : found->swedish;
+  }
+  return term;
 }
 
 std::size_t width(std::string_view utf8) {

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "control/dialog_language.hpp"
+#include "cycles/heidenhain/registry.hpp"
 
-/// The words of the logs of HEIDENHAIN cycles in the conversational languages: this is the one place for them.
+/// The words of the logs of HEIDENHAIN cycles in the conversational languages: those that several cycles have; the
+/// words of one cycle are in its file (Entry::logTerms).
 ///
 /// English, Russian and Swedish logs are worded as the manuals of these languages print the log of cycle 421; what is
 /// not printed there (the other cycles) takes the terms that the manuals use for the same parameters. The Chinese
@@ -26,10 +29,11 @@ const LogFrame& logFrame(DialogLanguage language);
 
 /// The log of cycle 423 as the manual of the iTNC 530 prints it in English: in capitals, with terms of its own.
 const LogFrame& capitalLogFrame();
-std::string capitalTerm(std::string_view term);
+std::string capitalTerm(std::string_view term, std::span<const CapitalTerm> own);
 
-/// A label, heading or title of a log in another language than English; what has no translation stays English.
-std::string_view translated(std::string_view term, DialogLanguage language);
+/// A label, heading or title of a log in another language than English, by the cycle's own words or the common ones;
+/// what has no translation stays English.
+std::string_view translated(std::string_view term, DialogLanguage language, std::span<const LogTerm> own = {});
 
 /// The number of characters (code points) of a UTF-8 text: what columns are aligned by.
 std::size_t width(std::string_view utf8);

@@ -34,10 +34,12 @@ std::string logText(Context& context, const Inspection& inspection) {
   const auto& control = context.control();
   const DialogLanguage language = control.panel.language;
   const bool translates = language == DialogLanguage::Russian || language == DialogLanguage::Swedish;
-  const bool capitals = !control.isTNC640() && context.record().name == "423" && !translates;
+  const bool capitals = !control.isTNC640() && !context.entry().capitalTerms.empty() && !translates;
   const LogFrame& frame = capitals ? capitalLogFrame() : logFrame(language);
   const auto term = [&](std::string_view english) {
-    return capitals ? capitalTerm(english) : std::string(translated(english, language));
+    const Entry& entry = context.entry();
+    return capitals ? capitalTerm(english, entry.capitalTerms)
+                    : std::string(translated(english, language, entry.logTerms));
   };
   const std::tm time = utcTime(control.wallClockStart, context.channel().seconds() - control.startSeconds);
   const std::size_t columns = capitals ? capitalRuleWidth : ruleWidth;

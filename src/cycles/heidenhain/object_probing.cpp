@@ -28,8 +28,9 @@ probing::HeidenhainProber proberFor(Context& context) {
 
 }  // namespace
 
-ObjectProbing::ObjectProbing(Context& context)
+ObjectProbing::ObjectProbing(Context& context, std::string_view called)
     : context_(context),
+      called_(called),
       prober_(proberFor(context)),
       mode_(context.option(1125)),
       clearance_(context.q(260)),
@@ -53,9 +54,8 @@ std::string ObjectProbing::question(int ordinal) const {
   const auto& cycles = context_.control().journal.cycles;
   const std::string& name = context_.record().name;
   const auto calls = std::ranges::count(cycles, name, &control::CycleRecord::name);
-  const char* what = name == "1411" ? "object" : "point";
-  return calls <= 1 ? fmt::format("{} {} {}", name, what, ordinal)
-                    : fmt::format("{} call {} {} {}", name, calls, what, ordinal);
+  return calls <= 1 ? fmt::format("{} {} {}", name, called_, ordinal)
+                    : fmt::format("{} call {} {} {}", name, calls, called_, ordinal);
 }
 
 std::optional<std::string> ObjectProbing::answer(const std::string& what, bool choosesDirection) {

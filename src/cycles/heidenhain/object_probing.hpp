@@ -7,8 +7,9 @@ namespace probewright::cycles::heidenhain {
 
 class ObjectProbing {
 public:
-  /// Pre-positions at FMAX of the probe table, with Q1125 = 2 at 2000 mm/min.
-  explicit ObjectProbing(Context& context);
+  /// Pre-positions at FMAX of the probe table, with Q1125 = 2 at 2000 mm/min. `called`: what questions to the operator
+  /// call what is probed, "point" or "object".
+  ObjectProbing(Context& context, std::string_view called);
 
   probing::HeidenhainProber& prober() { return prober_; }
 
@@ -45,6 +46,7 @@ private:
   std::string question(int ordinal) const;
 
   Context& context_;
+  std::string_view called_;
   probing::HeidenhainProber prober_;
   int mode_ = 0;
   double clearance_ = 0, extra_ = 0;

@@ -46,7 +46,6 @@ MeasuredWidth measureWidth(Context& context, const Vector2& centre, double width
 }
 
 void presetRectangle(Context& context, Side side) {
-  context.require({.rotationAllowed = true});
   requireTransferTarget(context);
   const MeasuredRectangle rectangle = measureRectangle(context, {321, 322, 323, 324}, side);
   context.result(151, rectangle.centre.x(), {.nominal = context.q(321)});
@@ -57,7 +56,7 @@ void presetRectangle(Context& context, Side side) {
 }
 
 void inspectRectangle(Context& context, Side side, const std::string& title) {
-  requireInspection(context);
+  requireMonitoredTool(context);
   const MeasuredRectangle rectangle = measureRectangle(context, {273, 274, 282, 283}, side);
   Inspection inspection{
       .title = title,
@@ -77,7 +76,6 @@ void inspectRectangle(Context& context, Side side, const std::string& title) {
 }
 
 void presetWidth(Context& context, Side side) {
-  context.require({.rotationAllowed = true, .featureLevel = 3});
   requireTransferTarget(context);
   const int axis = context.option(272) - 1;
   const Vector2 centre(context.q(321), context.q(322));

@@ -152,7 +152,6 @@ Pose workpieceTurn(Context& context, std::size_t axis, double degrees) {
 }  // namespace
 
 void requireRotationCycle(Context& context) {
-  context.require({.shiftAndRotationAllowed = true, .mismatchWithTcpmAllowed = true});
   const int aligns = context.option(1126);
   const int transfers = context.option(1121);
   if (aligns != 0 && transfers == 0) {
@@ -162,16 +161,14 @@ void requireRotationCycle(Context& context) {
   if (transfers != 0 || context.option(1120) != 0) {
     context.control().requireWritablePreset(context.control().coordinates.preset.row);
   }
-  if (context.record().name == "1420") {
-    const auto& axes = context.channel().description().axes;
-    if (aligns != 0 && std::ranges::count(axes, machine::AxisKind::Rotary, &machine::Axis::kind) < 2) {
-      throw Alarm("Rotary axes cannot be aligned", "The machine has fewer than two rotary axes", "set Q1126 = 0");
-    }
-  } else if ((aligns != 0 || transfers == 2) && !alignmentAxis(context)) {
-    throw Alarm("Rotary axes cannot be aligned",
-                "The rotary axis of the table that is nearest to the workpiece does not turn about the tool axis",
-                "use a basic rotation (Q1121 = 1) and Q1126 = 0");
-  }
+}
+
+void requireAlignmentAxis(Context& context) {
+  if (context.option(1126) == 0 && context.option(1121) != 2) return;
+  if (alignmentAxis(context)) return;
+  throw Alarm("Rotary axes cannot be aligned",
+              "The rotary axis of the table that is nearest to the workpiece does not turn about the tool axis",
+              "use a basic rotation (Q1121 = 1) and Q1126 = 0");
 }
 
 std::optional<TableAxis> alignmentAxis(Context& context) {

@@ -5,9 +5,11 @@
 /// What cycles 1410, 1411 and 1420 do with position and rotation: Q1120, Q1121, Q1126. The active preset takes it.
 namespace probewright::cycles::heidenhain {
 
-/// Refuses what cannot be done before the probe moves: transformations that are not allowed, Q1126 without Q1121,
-/// rotary axes that do not align what is measured.
+/// Refuses what cannot be done before the probe moves: Q1126 without Q1121, a preset that must not be written.
 void requireRotationCycle(Context& context);
+
+/// Refuses to turn the table where its axis does not align what is measured in the working plane (1410, 1411).
+void requireAlignmentAxis(Context& context);
 
 /// The rotary axis of the table that is nearest to the workpiece.
 struct TableAxis {

@@ -42,10 +42,9 @@ struct RepeatMeasurement {};
 constexpr int mostRepetitions = 4;
 
 /// What is measured, where S_MVAR tells it, with its set size: "Hole 40". Else the cycle's title.
-std::string titleOf(const Arguments& arguments) {
+std::string titleOf(const Entry& entry, const Arguments& arguments) {
   const CycleDefinition& definition = arguments.definition();
-  static constexpr int named[] = {961, 974, 977, 979, 994, 997};
-  if (std::ranges::find(named, definition.number) == std::end(named)) return std::string(definition.title);
+  if (!entry.title.byFeature) return std::string(definition.title);
   const Parameter& variant = definition.parameters.front();
   const CodeDigit& feature = variant.digits.front();
   const int units = std::abs(arguments.integer(variant.address)) % 10;
@@ -53,17 +52,12 @@ std::string titleOf(const Arguments& arguments) {
   if (choice == feature.choices.end()) return std::string(definition.title);
   std::string title(choice->meaning);
   title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
-  const auto append = [&](std::string_view name, const char* between) {
-    const Parameter* size = parameterNamed(definition, name);
-    if (size == nullptr || !(arguments.number(size->address) > 0)) return;
-    title += between + formatShortest(std::round(arguments.number(size->address) * 1e4) / 1e4);
-  };
-  const bool rectangle = definition.number == 977 && units >= 5;
-  if (rectangle) {
-    append("S_SETV0", " ");
-    append("S_SETV1", " x ");
-  } else if (definition.number != 974 || units != 0) {
-    append("S_SETV", " ");
+  const char* between = " ";
+  for (const TitleSize& size : entry.title.sizes) {
+    if (size.variants != 0 && (size.variants >> units & 1) == 0) continue;
+    const double value = arguments.number(required(arguments, size.parameter).address);
+    if (value > 0) title += between + formatShortest(std::round(value * 1e4) / 1e4);
+    between = " x ";
   }
   return title;
 }
@@ -72,14 +66,14 @@ bool scales(ValueKind kind) { return kind == ValueKind::Length || kind == ValueK
 
 }  // namespace
 
-Context::Context(Control& control, const Arguments& arguments, SourcePlace place,
+Context::Context(Control& control, const Entry& entry, const Arguments& arguments, SourcePlace place,
                  const std::function<void()>& spindlePositioned)
     : control_(control), arguments_(arguments), planeBefore_(control.plane) {
   if (maskBit(control.data, "$SCS_MEA_FUNCTION_MASK", 6)) spindlePositioned_ = spindlePositioned;
   const CycleDefinition& definition = arguments.definition();
   control::CycleRecord record;
   record.name = definition.name;
-  record.title = titleOf(arguments);
+  record.title = titleOf(entry, arguments);
   record.place = std::move(place);
   for (std::size_t i = 0; i < definition.parameters.size(); ++i) {
     const Argument& value = arguments.values()[i];
@@ -347,7 +341,7 @@ void runCycle(Control& control, const Entry& entry, const Arguments& arguments, 
               const std::function<void()>& spindlePositioned) {
   if (control.dryRun || control.programTest || control.blockSearch) {
     control.panel.message(EventKind::Skipped,
-                          fmt::format("{} is skipped in {}", entry.definition->name,
+                          fmt::format("{} is skipped in {}", entry.definition.name,
                                       control.dryRun        ? "dry run"
                                       : control.programTest ? "program test"
                                                             : "block search"),
@@ -357,7 +351,7 @@ void runCycle(Control& control, const Entry& entry, const Arguments& arguments, 
   const Diagnostics mistakes = check(arguments, control::ControlKind::Sinumerik840Dsl);
   if (!mistakes.empty()) throw Alarm("12150", mistakes.front().message, mistakes.front().advice);
   if (entry.set != nullptr) return entry.set(control, arguments);
-  Context context(control, arguments, place, spindlePositioned);
+  Context context(control, entry, arguments, place, spindlePositioned);
   const auto output = [&] {
     context.record().endSeconds = control.channel.seconds();
     outputResults(control, context.record(), control.ovi[9]);

@@ -34,7 +34,7 @@ class Context {
 public:
   /// Opens the cycle's record, clears _OVR and _OVI, and selects the plane that _DMODE asks for. `spindlePositioned`
   /// is called after each positioning of the spindle, where bit 6 of SD 55740 asks for it.
-  Context(Control& control, const Arguments& arguments, SourcePlace place,
+  Context(Control& control, const Entry& entry, const Arguments& arguments, SourcePlace place,
           const std::function<void()>& spindlePositioned = {});
   /// Closes the record and restores the plane (PROC ... SAVE).
   ~Context();

@@ -65,6 +65,9 @@ Vector3 machinePoint(Context& context, const Vector3& point);
 
 // ---- tool ----
 
+/// True if S_KNUM1 of this cycle has its digits as the turning cycles have them: D numbers of three digits.
+bool codesTurnedTool(const CycleDefinition& cycle);
+
 /// Which way a too large result points to a wrong tool. In `size` results (diameters, widths) the tool sees half.
 struct ToolInfluence {
   double radius = 0;           ///< correction of the radius for a difference of +1

@@ -4,7 +4,7 @@
 
 #include "control/alarm.hpp"
 #include "control/sinumerik/control.hpp"
-#include "cycles/sinumerik/cycles.hpp"
+#include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/measuring_log.hpp"
 #include "cycles/sinumerik/parameters.hpp"
 
@@ -63,9 +63,7 @@ int entriesIn(const std::string& log, MeasuringLog::Form form) {
   return entries;
 }
 
-}  // namespace
-
-const CycleDefinition cycle150Definition{
+constexpr CycleDefinition definition = {
     .number = 150,
     .name = "CYCLE150",
     .title = "Result screen and measuring log",
@@ -78,7 +76,7 @@ const CycleDefinition cycle150Definition{
     .controls = control::onSinumerik,
 };
 
-void setMeasuringLog(Control& control, const Arguments& arguments) {
+void set(Control& control, const Arguments& arguments) {
   for (std::size_t i = 0; i < 2; ++i) {
     const std::string mistake = codeComplaint(parameters150[i], arguments.values()[i]);
     if (!mistake.empty()) throw control::Alarm("12150", mistake, "see 'probewright cycles CYCLE150'");
@@ -111,5 +109,9 @@ void setMeasuringLog(Control& control, const Arguments& arguments) {
   }
   output.programLog.reset();
 }
+
+}  // namespace
+
+extern const Entry cycle150 = {.definition = definition, .set = set};
 
 }  // namespace probewright::cycles::sinumerik

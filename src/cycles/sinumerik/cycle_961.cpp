@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cycles/sinumerik/call_combinations.hpp"
+#include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/corrections.hpp"
-#include "cycles/sinumerik/cycles.hpp"
 #include "cycles/sinumerik/measuring_method.hpp"
+#include "cycles/sinumerik/old_call.hpp"
 #include "cycles/sinumerik/parameters.hpp"
 #include "metrology/elements.hpp"
 
@@ -153,9 +155,69 @@ Plan planOf(Context& context) {
   return plan;
 }
 
-}  // namespace
+/// Points by distances from the pole.
+constexpr bool byDistances(int code) { return variant::digit(code, 2) == 0; }
+constexpr bool cornerOfAnyAngle(int code) { return variant::units<7, 8>(code) && byDistances(code); }
 
-const CycleDefinition cycle961Definition = {
+constexpr Requirement requirements[] = {
+    {"S_SETV2", Need::NotZero, cornerOfAnyAngle},
+    {"S_INCA", Need::NotZero, cornerOfAnyAngle},
+    {"S_STA1", Need::Within, byDistances, -270, 270},
+    {"S_INCA", Need::Within, cornerOfAnyAngle, -180, 180},
+};
+
+void combinations(CallCombinations& call) {
+  if (call.digit(2) != 1) return;
+  double value[8] = {};
+  const int count = call.digit(1) <= 6 ? 6 : 8;
+  for (int i = 0; i < count; ++i) {
+    const auto coordinate = call.number(fmt::format("S_SETV{}", i));
+    if (!coordinate) return;
+    value[i] = *coordinate;
+  }
+  const Vector2 first(value[2] - value[0], value[3] - value[1]);
+  if (first.norm() < 1e-6) return call.refuse("S_SETV3", "points 1 and 2 (S_SETV0 to S_SETV3) coincide");
+  if (count == 6) return;
+  const Vector2 second(value[6] - value[4], value[7] - value[5]);
+  const double cross = first.x() * second.y() - first.y() * second.x();
+  if (second.norm() < 1e-6 || std::abs(cross) < 0.01 * first.norm() * second.norm())
+    call.refuse("S_SETV7", "the points of the two edges (S_SETV0 to S_SETV7) do not enclose an angle");
+}
+
+/// 105 to 108 by distances from where the probe stands, 117 and 118 by coordinates of four points.
+int oldCorner(OldCall& call) {
+  const int units = call.digit(1);
+  call.nothingFrom(4);
+  if (units < 5 || units > 8) call.refuseVariant();
+  call.put("S_ID", 0.0);
+  if (call.digit(2) == 1) {
+    if (units < 7) call.refuseVariant();
+    call.setValues(8);
+    return 10 + units;
+  }
+  if (call.digit(2) != 0) call.refuseVariant();
+  if (call.whole("_SETV", 0) > 1 || call.element(4) > 1)
+    call.refuse(
+        "61319",
+        fmt::format("_SETV[4] = {} lays the required corner beside the measured one, by _SETV[2] and _SETV[3]; the set "
+                    "place of the measured corner is S_SETV8, S_SETV9 now",
+                    call.element(4)));
+  const Vector3 pole =
+      call.control().workingPlane().planeFromXyz(call.control().channel.position()) / call.control().unit;
+  call.put("S_SETV0", call.element(0) / 2);
+  call.put("S_SETV1", call.element(0));
+  call.put("S_SETV2", call.element(1) / 2);
+  call.put("S_SETV3", call.element(1));
+  call.put("S_SETV4", pole.x());
+  call.put("S_SETV5", pole.y());
+  const double height = call.number("_ID");
+  call.put("S_ID", height);
+  return units + (height != 0 ? 1000 : 0);
+}
+
+int oldForm(OldCall& call) { return oldCorner(call) + call.task(OldCall::Corrects::ZeroOffsetOnly); }
+
+constexpr CycleDefinition definition = {
     .number = 961,
     .name = "CYCLE961",
     .title = "Right-angled corner, any corner",
@@ -168,7 +230,7 @@ const CycleDefinition cycle961Definition = {
     .controls = control::onSinumerik,
 };
 
-void cycle961(Context& context, const Arguments&) {
+void run(Context& context, const Arguments&) {
   const int units = context.digit("S_MVAR", 1);
   if (units == 7 || units == 8) {
     context.requireProbe({710, 580});
@@ -242,5 +304,14 @@ void cycle961(Context& context, const Arguments&) {
     correctTranslation(context, *target, onMachine, {context.real("S_SETV8"), context.real("S_SETV9"), 0}, directions);
   }
 }
+
+}  // namespace
+
+extern const Entry cycle961 = {.definition = definition,
+                               .title = {.byFeature = true},
+                               .requirements = requirements,
+                               .combinations = combinations,
+                               .oldForm = oldForm,
+                               .run = run};
 
 }  // namespace probewright::cycles::sinumerik

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
-#include "cycles/sinumerik/cycles.hpp"
+#include "cycles/sinumerik/context.hpp"
+#include "cycles/sinumerik/old_call.hpp"
 #include "cycles/sinumerik/parameters.hpp"
 #include "cycles/sinumerik/probe_calibration.hpp"
 #include "cycles/sinumerik/turning.hpp"
@@ -181,9 +182,23 @@ void calibrateInGroove(Context& context, ProbeCalibration& calibration, const Va
   calibrateOneWay(context, calibration, variant, groove.wallsAxis, sign, sign > 0 ? groove.plus : groove.minus);
 }
 
-}  // namespace
+constexpr Requirement requirements[] = {
+    {"S_MA", Need::NotZero, variant::units<0, 1, 3>},
+    {"S_CALNUM", Need::NotZero, variant::units<2, 3>},
+};
 
-const CycleDefinition cycle973Definition = {
+int oldForm(OldCall& call) {
+  if (call.variant() != 0)
+    call.refuseVariant("only 0, calibration on a surface, is; the groove that _CALNUM names is S_CALNUM now");
+  call.put("S_MD", call.whole("_MD"));
+  return 1100;
+}
+
+constexpr AlarmText alarms[] = {
+    {61333, "Check the calibration body number", "S_CALNUM is 1 to 3"},
+};
+
+constexpr CycleDefinition definition = {
     .number = 973,
     .name = "CYCLE973",
     .title = "Calibrate the workpiece probe of a lathe",
@@ -196,7 +211,7 @@ const CycleDefinition cycle973Definition = {
     .controls = control::onSinumerik,
 };
 
-void cycle973(Context& context, const Arguments&) {
+void run(Context& context, const Arguments&) {
   requireTurningProbe(context);
   const Variant variant = variantOf(context);
   if (!(context.real("S_FA") > 0)) context.alarm(61308);
@@ -223,5 +238,10 @@ void cycle973(Context& context, const Arguments&) {
   calibrateOneWay(context, calibration, variant, axis, signOf(context), surface);
   calibration.store();
 }
+
+}  // namespace
+
+extern const Entry cycle973 = {
+    .definition = definition, .requirements = requirements, .oldForm = oldForm, .alarms = alarms, .run = run};
 
 }  // namespace probewright::cycles::sinumerik

@@ -1,6 +1,7 @@
 #include <cmath>
 
-#include "cycles/sinumerik/cycles.hpp"
+#include "cycles/sinumerik/context.hpp"
+#include "cycles/sinumerik/old_call.hpp"
 #include "cycles/sinumerik/parameters.hpp"
 #include "cycles/sinumerik/turning.hpp"
 
@@ -49,9 +50,28 @@ double touchSign(Context& context, TurnedFeature feature, double start, double s
   return towards;
 }
 
-}  // namespace
+constexpr Requirement requirements[] = {
+    {"S_MA", Need::NotZero},
+};
 
-const CycleDefinition cycle974Definition = {
+/// A face, or a diameter inside or outside, as the probe stands.
+int oldForm(OldCall& call) {
+  call.nothingFrom(5);
+  if (call.digit(2) != 0 || call.digit(1) != 0 || call.digit(4) > 1) call.refuseVariant();
+  int feature = 0;
+  const control::WorkingPlane plane = call.control().workingPlane();
+  const int axis = call.whole("_MA");
+  if (axis >= 1 && axis <= 3 && plane.xyzFromPlane(Vector3::Unit(axis - 1)).x() != 0)
+    feature = (call.control().diameter ? 2 : 1) * std::abs(call.control().channel.position().x()) >=
+                      std::abs(call.number("_SETVAL")) * call.control().unit
+                  ? 2
+                  : 1;
+  return feature + call.task(OldCall::Corrects::AlsoTools) + call.digit(4) * 10000;
+}
+
+constexpr TitleSize titleSizes[] = {{"S_SETV", 0b110}};
+
+constexpr CycleDefinition definition = {
     .number = 974,
     .name = "CYCLE974",
     .title = "Turned part: front edge, inside diameter, outside diameter",
@@ -64,7 +84,7 @@ const CycleDefinition cycle974Definition = {
     .controls = control::onSinumerik,
 };
 
-void cycle974(Context& context, const Arguments&) {
+void run(Context& context, const Arguments&) {
   requireTurningProbe(context);
   requireUnturned(context);
   const int units = context.digit("S_MVAR", 1);
@@ -113,5 +133,13 @@ void cycle974(Context& context, const Arguments&) {
     context.result(28, context.real("S_TSA"));
   }
 }
+
+}  // namespace
+
+extern const Entry cycle974 = {.definition = definition,
+                               .title = {.byFeature = true, .sizes = titleSizes},
+                               .requirements = requirements,
+                               .oldForm = oldForm,
+                               .run = run};
 
 }  // namespace probewright::cycles::sinumerik

@@ -7,7 +7,8 @@
 
 #include "control/sinumerik/measuring_data.hpp"
 #include "control/sinumerik/tool_data.hpp"
-#include "cycles/sinumerik/cycles.hpp"
+#include "cycles/sinumerik/context.hpp"
+#include "cycles/sinumerik/old_call.hpp"
 #include "cycles/sinumerik/parameters.hpp"
 #include "cycles/sinumerik/probe_calibration.hpp"
 
@@ -360,9 +361,33 @@ void Calibration976::edge() {
   calibration_.completeAxis(axis, wantsDeviation());
 }
 
-}  // namespace
+constexpr bool alongOneAxis(int code) {
+  return variant::digit(code, 1) == 4 || (variant::digit(code, 1) == 1 && variant::digit(code, 4) > 0);
+}
 
-const CycleDefinition cycle976Definition = {
+constexpr Requirement requirements[] = {
+    {"S_SETV", Need::Positive, variant::units<1, 2, 3>},
+    {"S_MA", Need::NotZero, variant::units<0, 4>},
+    {"S_MA", Need::Within, alongOneAxis, 1, 2},
+};
+
+/// A surface, or a ring whose centre is known (1) or not (8).
+int oldForm(OldCall& call) {
+  const int task = call.variant() % 100;
+  call.put("S_MD", call.whole("_MD"));
+  if (call.digit(3) != 0) call.refuseVariant();
+  if (task == 0) {
+    call.nothingFrom(6);
+    if (call.digit(4) != 0 || call.digit(5) > 1) call.refuseVariant();
+    return 1000 + (call.digit(5) == 1 ? 1000000 : 0);
+  }
+  call.nothingFrom(7);
+  if ((task != 1 && task != 8) || call.digit(5) != 0 || call.digit(6) > 1) call.refuseVariant();
+  if (task == 8 && call.digit(4) != 0) call.refuseVariant();
+  return (task == 1 ? 1 : 2) + call.digit(4) * 1000 + call.digit(6) * 100000;
+}
+
+constexpr CycleDefinition definition = {
     .number = 976,
     .name = "CYCLE976",
     .title = "Calibrate workpiece probe: length, ring, ball, edge",
@@ -375,7 +400,7 @@ const CycleDefinition cycle976Definition = {
     .controls = control::onSinumerik,
 };
 
-void cycle976(Context& context, const Arguments&) {
+void run(Context& context, const Arguments&) {
   const int units = context.digit("S_MVAR", 1);
   if (units > 4 || context.digit("S_MVAR", 2) != 0 || context.digit("S_MVAR", 3) != 0 ||
       context.digit("S_MVAR", 4) > 2 || context.digit("S_MVAR", 5) > 1 || context.digit("S_MVAR", 6) > 1 ||
@@ -398,25 +423,29 @@ void cycle976(Context& context, const Arguments&) {
       context.requireProbe({710, 712, 580});
       break;
   }
-  Calibration976 run(context);
+  Calibration976 calibration(context);
   switch (body) {
     case Body::Surface:
-      run.surface();
+      calibration.surface();
       break;
     case Body::RingAboutStart:
-      run.ring(true);
+      calibration.ring(true);
       break;
     case Body::Ring:
-      run.ring(false);
+      calibration.ring(false);
       break;
     case Body::Ball:
-      run.ball();
+      calibration.ball();
       break;
     case Body::Edge:
-      run.edge();
+      calibration.edge();
       break;
   }
-  run.store();
+  calibration.store();
 }
+
+}  // namespace
+
+extern const Entry cycle976 = {.definition = definition, .requirements = requirements, .oldForm = oldForm, .run = run};
 
 }  // namespace probewright::cycles::sinumerik

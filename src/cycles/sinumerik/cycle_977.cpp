@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "cycles/sinumerik/call_combinations.hpp"
+#include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/corrections.hpp"
-#include "cycles/sinumerik/cycles.hpp"
 #include "cycles/sinumerik/measuring_method.hpp"
+#include "cycles/sinumerik/old_call.hpp"
 #include "cycles/sinumerik/parameters.hpp"
 
 namespace probewright::cycles::sinumerik {
@@ -207,9 +209,52 @@ private:
   bool zone_;
 };
 
-}  // namespace
+constexpr Requirement requirements[] = {
+    {"S_SETV", Need::Positive, variant::units<1, 2, 3, 4>}, {"S_SETV0", Need::Positive, variant::units<5, 6>},
+    {"S_SETV1", Need::Positive, variant::units<5, 6>},      {"S_MA", Need::NotZero, variant::units<3, 4>},
+    {"S_MA", Need::Within, variant::units<3, 4>, 1, 2},
+};
 
-const CycleDefinition cycle977Definition = {
+/// The ball must fit between zone and wall; its size is known to the run only.
+void zones(CallCombinations& call) {
+  const int feature = call.digit(1);
+  const bool inside = feature == 1 || feature == 3 || feature == 5;
+  const auto check = [&](std::string_view size, std::string_view zone) {
+    const auto set = call.number(size), width = call.number(zone);
+    if (!set || !width || *width <= 0) return;
+    if (inside ? *width < *set : *width > *set) return;
+    call.refuse(zone, fmt::format("{} = {}: the protection zone leaves no room {} the set size {}", zone,
+                                  formatShortest(*width), inside ? "within" : "around", formatShortest(*set)));
+  };
+  if (feature <= 4) return check("S_SETV", "S_SZA");
+  check("S_SETV0", "S_SZA");
+  check("S_SETV1", "S_SZO");
+}
+
+void setPosition(CallCombinations& call) {
+  const auto mode = call.number("_AMODE");
+  if (!mode || variant::digit(static_cast<int>(std::abs(*mode)), 2) == 1) return;
+  for (const std::string_view name : {"S_POS1", "S_POS2"})
+    if (const auto value = call.number(name); value && *value != 0)
+      return call.warn(
+          name, fmt::format("{} = {} is not observed: the tens of _AMODE are not 1", name, formatShortest(*value)));
+}
+
+void combinations(CallCombinations& call) {
+  if (call.digit(4) == 1) zones(call);
+  setPosition(call);
+}
+
+int oldForm(OldCall& call) {
+  call.nothingFrom(5);
+  if (call.digit(2) != 0 || call.digit(4) > 1) call.refuseVariant();
+  call.setValues(2);
+  return call.digit(1) + call.task(OldCall::Corrects::AlsoTools) + call.digit(4) * 1000;
+}
+
+constexpr TitleSize titleSizes[] = {{"S_SETV", 0b1'1110}, {"S_SETV0", 0b110'0000}, {"S_SETV1", 0b110'0000}};
+
+constexpr CycleDefinition definition = {
     .number = 977,
     .name = "CYCLE977",
     .title = "Hole, spigot, groove, rib, rectangle",
@@ -223,7 +268,7 @@ const CycleDefinition cycle977Definition = {
     .controls = control::onSinumerik,
 };
 
-void cycle977(Context& context, const Arguments&) {
+void run(Context& context, const Arguments&) {
   const int units = context.digit("S_MVAR", 1);
   if (units < 1 || units > 6 || context.digit("S_MVAR", 4) > 1) context.alarm(61307);
   const auto feature = static_cast<Feature>(units);
@@ -304,5 +349,14 @@ void cycle977(Context& context, const Arguments&) {
     correctTool(context, std::span(dimensions).first(isRectangle(feature) ? 2 : 1), influenceOnSize(side, axis));
   }
 }
+
+}  // namespace
+
+extern const Entry cycle977 = {.definition = definition,
+                               .title = {.byFeature = true, .sizes = titleSizes},
+                               .requirements = requirements,
+                               .combinations = combinations,
+                               .oldForm = oldForm,
+                               .run = run};
 
 }  // namespace probewright::cycles::sinumerik

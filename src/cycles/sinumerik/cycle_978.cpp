@@ -1,6 +1,7 @@
+#include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/corrections.hpp"
-#include "cycles/sinumerik/cycles.hpp"
 #include "cycles/sinumerik/measuring_method.hpp"
+#include "cycles/sinumerik/old_call.hpp"
 #include "cycles/sinumerik/parameters.hpp"
 
 namespace probewright::cycles::sinumerik {
@@ -42,9 +43,17 @@ constexpr auto results978 = parameters::joined(
                        std::array{ResultDefinition{"_OVR[21]", "mean value", result::statistic(of::distance)}}),
     parameters::correctionResults);
 
-}  // namespace
+constexpr Requirement requirements[] = {
+    {"S_MA", Need::NotZero},
+};
 
-const CycleDefinition cycle978Definition = {
+int oldForm(OldCall& call) {
+  call.nothingFrom(5);
+  if (call.digit(2) != 0 || call.digit(1) != 0 || call.digit(4) > 1) call.refuseVariant();
+  return call.task(OldCall::Corrects::AlsoTools) + call.digit(4) * 10000;
+}
+
+constexpr CycleDefinition definition = {
     .number = 978,
     .name = "CYCLE978",
     .title = "Edge distance: set edge",
@@ -55,7 +64,7 @@ const CycleDefinition cycle978Definition = {
     .controls = control::onSinumerik,
 };
 
-void cycle978(Context& context, const Arguments&) {
+void run(Context& context, const Arguments&) {
   context.requireProbe({710, 712, 713, 580});
   if (context.digit("S_MVAR", 1) != 0) context.alarm(61307);
   const Task task = taskOf(context);
@@ -100,5 +109,9 @@ void cycle978(Context& context, const Arguments&) {
     context.result(21, context.control().ovr[31] * context.control().unit);
   }
 }
+
+}  // namespace
+
+extern const Entry cycle978 = {.definition = definition, .requirements = requirements, .oldForm = oldForm, .run = run};
 
 }  // namespace probewright::cycles::sinumerik

@@ -3,9 +3,10 @@
 #include <cmath>
 #include <vector>
 
+#include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/corrections.hpp"
-#include "cycles/sinumerik/cycles.hpp"
 #include "cycles/sinumerik/measuring_method.hpp"
+#include "cycles/sinumerik/old_call.hpp"
 #include "cycles/sinumerik/parameters.hpp"
 #include "metrology/fits.hpp"
 
@@ -59,9 +60,27 @@ constexpr auto results979 = parameters::joined(
          {"_OVR[18]", {"difference of the ", "centre, 2nd axis"}, result::difference(of::centre2)}}},
     parameters::correctionResults);
 
-}  // namespace
+constexpr Requirement requirements[] = {
+    {"S_SETV", Need::Positive},
+    {"S_INCA", Need::NotZero},
+    {"S_STA1", Need::Within, nullptr, -360, 360},
+    {"S_INCA", Need::Within, variant::has<4, 0>, -120, 120},
+    {"S_INCA", Need::Within, variant::has<4, 1>, -90, 90},
+};
 
-const CycleDefinition cycle979Definition = {
+int oldForm(OldCall& call) {
+  call.nothingFrom(5);
+  if (call.digit(2) == 0 && (call.digit(1) == 3 || call.digit(1) == 4))
+    call.refuseVariant("grooves and ribs at an angle are measured by CYCLE977 with S_STA1 now");
+  if (call.digit(2) != 0 || call.digit(1) < 1 || call.digit(1) > 2) call.refuseVariant();
+  call.put("S_CPA", call.number("_CPA"));
+  call.put("S_CPO", call.number("_CPO"));
+  return call.digit(1) + call.task(OldCall::Corrects::AlsoTools) + call.digit(4) * 1000;
+}
+
+constexpr TitleSize titleSizes[] = {{"S_SETV"}};
+
+constexpr CycleDefinition definition = {
     .number = 979,
     .name = "CYCLE979",
     .title = "Circle segment inside, outside",
@@ -74,7 +93,7 @@ const CycleDefinition cycle979Definition = {
     .controls = control::onSinumerik,
 };
 
-void cycle979(Context& context, const Arguments&) {
+void run(Context& context, const Arguments&) {
   context.requireProbe({710, 712, 580});
   const int units = context.digit("S_MVAR", 1);
   if (units < 1 || units > 2 || context.digit("S_MVAR", 4) > 1) context.alarm(61307);
@@ -137,5 +156,13 @@ void cycle979(Context& context, const Arguments&) {
     correctTool(context, dimensions, influenceOnSize(side));
   }
 }
+
+}  // namespace
+
+extern const Entry cycle979 = {.definition = definition,
+                               .title = {.byFeature = true, .sizes = titleSizes},
+                               .requirements = requirements,
+                               .oldForm = oldForm,
+                               .run = run};
 
 }  // namespace probewright::cycles::sinumerik

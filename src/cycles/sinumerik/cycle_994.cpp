@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "control/sinumerik/measuring_data.hpp"
-#include "cycles/sinumerik/cycles.hpp"
+#include "cycles/sinumerik/context.hpp"
+#include "cycles/sinumerik/old_call.hpp"
 #include "cycles/sinumerik/parameters.hpp"
 #include "cycles/sinumerik/turning.hpp"
 
@@ -153,9 +154,19 @@ private:
   double path_ = 0;
 };
 
-}  // namespace
+constexpr Requirement requirements[] = {
+    {"S_SETV", Need::Positive},
+    {"S_MA", Need::NotZero},
+    {"S_SZO", Need::Positive, variant::units<2>},
+};
 
-const CycleDefinition cycle994Definition = {
+int oldForm(OldCall& call) {
+  call.refuseVariant("its _SZA and _SZO count in the axes of the plane, S_SZA and S_SZO in measuring and passing axis");
+}
+
+constexpr TitleSize titleSizes[] = {{"S_SETV"}};
+
+constexpr CycleDefinition definition = {
     .number = 994,
     .name = "CYCLE994",
     .title = "Turned part: diameter by two points",
@@ -168,7 +179,7 @@ const CycleDefinition cycle994Definition = {
     .controls = control::onSinumerik,
 };
 
-void cycle994(Context& context, const Arguments&) {
+void run(Context& context, const Arguments&) {
   requireTurningProbe(context);
   requireUnturned(context);
   const int units = context.digit("S_MVAR", 1);
@@ -199,5 +210,13 @@ void cycle994(Context& context, const Arguments&) {
   context.setWayBack([&] { points.cross(-1); });
   concludeTurned(context, task, feature, {.axis = axis, .count = count, .set = set, .actual = actual}, inside ? 1 : -1);
 }
+
+}  // namespace
+
+extern const Entry cycle994 = {.definition = definition,
+                               .title = {.byFeature = true, .sizes = titleSizes},
+                               .requirements = requirements,
+                               .oldForm = oldForm,
+                               .run = run};
 
 }  // namespace probewright::cycles::sinumerik

@@ -5,7 +5,8 @@
 
 #include "control/sinumerik/measuring_data.hpp"
 #include "cycles/sinumerik/ball_measurement.hpp"
-#include "cycles/sinumerik/cycles.hpp"
+#include "cycles/sinumerik/call_combinations.hpp"
+#include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/parameters.hpp"
 #include "metrology/fits.hpp"
 #include "metrology/tolerance.hpp"
@@ -159,9 +160,18 @@ void reportAxis(Context& context, const Vector2& deviation, double distance) {
   }
 }
 
-}  // namespace
+constexpr Requirement requirements[] = {
+    {"S_SETV", Need::Positive},
+    {"S_DZ", Need::Positive},
+};
 
-const CycleDefinition cycle995Definition = {
+void combinations(CallCombinations& call) {
+  const auto upper = call.number("S_TUL");
+  if (call.asymmetric() && upper && *upper < 0)
+    call.refuse("S_TUL", fmt::format("S_TUL = {} is smaller than 0", formatShortest(*upper)));
+}
+
+constexpr CycleDefinition definition = {
     .number = 995,
     .name = "CYCLE995",
     .title = "Angular deviation of the spindle",
@@ -174,7 +184,7 @@ const CycleDefinition cycle995Definition = {
     .controls = control::onSinumerik,
 };
 
-void cycle995(Context& context, const Arguments&) {
+void run(Context& context, const Arguments&) {
   context.requireProbe({710, 580});
   context.requireCalibration();
   const int variant = context.integer("S_MVAR");
@@ -228,5 +238,10 @@ void cycle995(Context& context, const Arguments&) {
   prober.moveHeightTo(ball.centre.z() + start.z() - plan.centre.z());
   reportAxis(context, deviation, distance);
 }
+
+}  // namespace
+
+extern const Entry cycle995 = {
+    .definition = definition, .requirements = requirements, .combinations = combinations, .run = run};
 
 }  // namespace probewright::cycles::sinumerik

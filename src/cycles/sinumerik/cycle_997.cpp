@@ -6,8 +6,10 @@
 
 #include "control/alarm.hpp"
 #include "cycles/sinumerik/ball_measurement.hpp"
+#include "cycles/sinumerik/call_combinations.hpp"
+#include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/corrections.hpp"
-#include "cycles/sinumerik/cycles.hpp"
+#include "cycles/sinumerik/old_call.hpp"
 #include "cycles/sinumerik/parameters.hpp"
 
 namespace probewright::cycles::sinumerik {
@@ -127,9 +129,51 @@ void correctByTriangle(Context& context, const FrameTarget& target, const Triang
   correctTranslation(context, target, onMachine, setMiddle, directions);
 }
 
-}  // namespace
+constexpr bool roundTheEquator(int code) { return variant::digit(code, 4) > 0; }
+constexpr bool threeRound(int code) { return roundTheEquator(code) && variant::digit(code, 6) == 0; }
+constexpr bool fourRound(int code) { return roundTheEquator(code) && variant::digit(code, 6) == 1; }
 
-const CycleDefinition cycle997Definition = {
+constexpr Requirement requirements[] = {
+    {"S_SETV", Need::Positive},
+    {"S_INCA", Need::NotZero, roundTheEquator},
+    {"S_STA1", Need::Within, roundTheEquator, -360, 360},
+    {"S_INCA", Need::Within, threeRound, -120, 120},
+    {"S_INCA", Need::Within, fourRound, -90, 90},
+};
+
+std::optional<Vector3> ball(const CallCombinations& call, int first) {
+  Vector3 centre;
+  for (int i = 0; i < 3; ++i) {
+    const auto coordinate = call.number(fmt::format("S_SETV{}", first + i));
+    if (!coordinate) return std::nullopt;
+    centre[i] = *coordinate;
+  }
+  return centre;
+}
+
+void combinations(CallCombinations& call) {
+  if (call.digit(5) != 1 || call.digit(3) != 1) return;
+  const auto one = ball(call, 0), two = ball(call, 3), three = ball(call, 6);
+  if (!one || !two || !three) return;
+  if ((*two - *one).cross(*three - *one).norm() < 1e-6)
+    call.refuse("S_SETV8", "the set centres of the three balls (S_SETV0 to S_SETV8) lie on one line");
+}
+
+int oldForm(OldCall& call) {
+  call.nothingFrom(7);
+  call.setValues(9);
+  if (call.control().data.isSet(DataKey("_TNVL", {}))) call.put("S_TNVL", call.number("_TNVL"));
+  return call.variant() - call.digit(3) * 100 + call.task(OldCall::Corrects::ZeroOffsetOnly);
+}
+
+constexpr TitleSize titleSizes[] = {{"S_SETV"}};
+
+constexpr AlarmText alarms[] = {
+    {61414, "The triangle of the three balls is distorted more than allowed",
+     "check the set centres of the balls, or enlarge S_TNVL"},
+};
+
+constexpr CycleDefinition definition = {
     .number = 997,
     .name = "CYCLE997",
     .title = "Ball, three balls",
@@ -142,7 +186,7 @@ const CycleDefinition cycle997Definition = {
     .controls = control::onSinumerik,
 };
 
-void cycle997(Context& context, const Arguments&) {
+void run(Context& context, const Arguments&) {
   context.requireProbe({710, 580});
   context.requireCalibration();
   const auto digit = [&context](int place) { return context.digit("S_MVAR", place); };
@@ -212,5 +256,15 @@ void cycle997(Context& context, const Arguments&) {
     correctTranslation(context, *target, machinePoint(context, actual[0]), set[0], directions);
   }
 }
+
+}  // namespace
+
+extern const Entry cycle997 = {.definition = definition,
+                               .title = {.byFeature = true, .sizes = titleSizes},
+                               .requirements = requirements,
+                               .combinations = combinations,
+                               .oldForm = oldForm,
+                               .alarms = alarms,
+                               .run = run};
 
 }  // namespace probewright::cycles::sinumerik

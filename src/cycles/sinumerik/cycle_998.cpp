@@ -2,9 +2,10 @@
 
 #include <cmath>
 
+#include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/corrections.hpp"
-#include "cycles/sinumerik/cycles.hpp"
 #include "cycles/sinumerik/measuring_method.hpp"
+#include "cycles/sinumerik/old_call.hpp"
 #include "cycles/sinumerik/parameters.hpp"
 
 namespace probewright::cycles::sinumerik {
@@ -273,9 +274,23 @@ void measurePlane(Context& context, const std::optional<FrameTarget>& target, Me
   }
 }
 
-}  // namespace
+constexpr Requirement requirements[] = {
+    {"S_ID", Need::Positive, variant::units<5>},          {"S_SETV0", Need::Positive, variant::units<6>},
+    {"S_SETV3", Need::Positive, variant::units<6>},       {"S_STA1", Need::Within, variant::units<5>, -45, 45},
+    {"S_STA1", Need::Within, variant::units<6>, -60, 60}, {"S_INCA", Need::Within, variant::units<6>, -30, 30},
+    {"S_MA", Need::TwoAxes, variant::units<5>},
+};
 
-const CycleDefinition cycle998Definition = {
+int oldForm(OldCall& call) {
+  call.nothingFrom(7);
+  if (call.digit(2) != 0 || call.digit(4) > 1 || call.digit(5) != 0 || call.digit(6) > 1) call.refuseVariant();
+  call.setValues(4);
+  call.put("S_RA", call.whole("_RA"));
+  if (call.digit(1) == 6) call.put("S_SETV", 0.0);
+  return call.digit(1) + call.task(OldCall::Corrects::ZeroOffsetOnly) + call.digit(4) * 10000 + call.digit(6) * 100000;
+}
+
+constexpr CycleDefinition definition = {
     .number = 998,
     .name = "CYCLE998",
     .title = "Align edge, align plane",
@@ -288,7 +303,7 @@ const CycleDefinition cycle998Definition = {
     .controls = control::onSinumerik,
 };
 
-void cycle998(Context& context, const Arguments&) {
+void run(Context& context, const Arguments&) {
   context.requireProbe({710, 712, 580});
   const int units = context.digit("S_MVAR", 1);
   if ((units != 5 && units != 6) || context.digit("S_MVAR", 4) > 1 || context.digit("S_MVAR", 6) > 1) {
@@ -304,5 +319,9 @@ void cycle998(Context& context, const Arguments&) {
     measurePlane(context, target, method);
   }
 }
+
+}  // namespace
+
+extern const Entry cycle998 = {.definition = definition, .requirements = requirements, .oldForm = oldForm, .run = run};
 
 }  // namespace probewright::cycles::sinumerik

@@ -8,6 +8,7 @@
 #include "control/sinumerik/tool_data.hpp"
 #include "cycles/sinumerik/correction_strategy.hpp"
 #include "cycles/sinumerik/corrections.hpp"
+#include "cycles/sinumerik/parameters.hpp"
 #include "metrology/tolerance.hpp"
 
 namespace probewright::cycles::sinumerik {
@@ -26,11 +27,6 @@ struct ToolTarget {
   Memory memory = Memory::Wear;
   bool inverted = false;
 };
-
-bool codedAsTurning(const Context& context) {
-  const int number = context.arguments().definition().number;
-  return number == 974 || number == 994;
-}
 
 /// The tool that alone has edge `edge`, where D numbers are given once on the whole machine.
 std::optional<int> ownerOf(const Control& control, int edge) {
@@ -68,7 +64,7 @@ std::optional<ToolTarget> toolTarget(Context& context) {
   if (code < 0) context.alarm(61328, fmt::format("S_KNUM1 = {}", code));
   ToolTarget target;
   const int component = context.digit("S_KNUM1", 6);
-  if (codedAsTurning(context)) {
+  if (codesTurnedTool(context.arguments().definition())) {
     target.edge = code % 1000;
     target.inverted = context.digit("S_KNUM1", 5) == 1;
     if (component > 3) context.alarm(61314, fmt::format("sixth digit of S_KNUM1 = {}", code));
@@ -203,6 +199,11 @@ int meanMemory(Context& context) {
 }
 
 }  // namespace
+
+bool codesTurnedTool(const CycleDefinition& cycle) {
+  const auto found = std::ranges::find(cycle.parameters, "S_KNUM1", &Parameter::name);
+  return found != cycle.parameters.end() && found->digits.data() == parameters::turnedToolDigits;
+}
 
 Task taskOf(Context& context) {
   const int digit = context.digit("S_MVAR", 3);

@@ -84,9 +84,9 @@ void KlartextHost::measure(const CycleCall& call, Evaluation& evaluation) {
     throw Alarm("Cycle not available", fmt::format("Touch probe cycle {} is not available", call.number),
                 "list the available cycles with: probewright cycles");
   }
-  cycles::Arguments arguments(*entry->definition);
+  cycles::Arguments arguments(entry->definition);
   for (const Word& word : evaluation.words(call.parameters)) {
-    const cycles::Parameter* parameter = entry->definition->parameter(word.address);
+    const cycles::Parameter* parameter = entry->definition.parameter(word.address);
     if (parameter == nullptr) {
       const bool named = word.address < cycles::heidenhain::probe_word::result;
       throw Alarm("Cycle parameter wrong",

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "control/alarm.hpp"
-#include "cycles/sinumerik/cycle_116.hpp"
+#include "cycles/sinumerik/circle_through_points.hpp"
 #include "execution/sinumerik/host.hpp"
 
 /// CYCLE116(_CAL[], _MODE): the circle through points, computed in the caller's own variables.

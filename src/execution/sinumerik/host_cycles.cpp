@@ -64,7 +64,7 @@ void SinumerikHost::runCycle(std::string_view name, WordRange range, Evaluation&
     throw Alarm("14011", fmt::format("there is no program and no cycle {}", name),
                 fmt::format("put {}.SPF beside the program, or check the spelling", name));
   }
-  const cycles::CycleDefinition& definition = *entry->definition;
+  const cycles::CycleDefinition& definition = entry->definition;
   cycles::Arguments arguments(definition);
   for (const Word& word : evaluation.words(range)) {
     if (!word.value.present()) continue;

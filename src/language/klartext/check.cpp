@@ -339,15 +339,15 @@ private:
   /// What the blocks before the cycle have left, as far as the way to it is plain.
   void checkState(const cycles::CycleDefinition& cycle) {
     if (!plainWay_) return;
-    const bool setsOnly = cycle.number == 404 || cycle.number == 441;
-    if (!toolCalled_ && !setsOnly) {
+    const auto& conditions = cycles::heidenhain::findEntry(cycle.number)->conditions;
+    if (!toolCalled_ && conditions.uses != cycles::heidenhain::Uses::Nothing) {
       reportHere("there is no TOOL CALL before this cycle",
                  "call the touch probe first, unless it is in the spindle already or another program calls this one",
                  Severity::Warning);
       toolCalled_ = true;
     }
     if (kind_ != control::ControlKind::TNC640) return;
-    const auto forbidden = cycles::heidenhain::forbiddenTransformations(cycle.number);
+    const auto forbidden = cycles::heidenhain::forbiddenTransformations(conditions);
     for (const auto& [number, active] : transforms_) {
       if (!active || !(number == 7 ? forbidden.shift : number == 10 ? forbidden.rotation : forbidden.other)) continue;
       reportHere(fmt::format("cycle {} is refused here: cycle {} is active", cycle.name, number),

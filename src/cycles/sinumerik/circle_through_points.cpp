@@ -1,4 +1,4 @@
-#include "cycles/sinumerik/cycle_116.hpp"
+#include "cycles/sinumerik/circle_through_points.hpp"
 
 #include "metrology/elements.hpp"
 #include "metrology/fits.hpp"
