@@ -17,11 +17,11 @@ using control::heidenhain::spaceAnglesFromRotation;
 
 namespace {
 
-enum class Transformed { Remains, Ends };
+enum class Transformation { Remains, Ends };
 
 /// What lies between a preset and the coordinates of the program. Only the tilt goes on where transformations end.
-Eigen::Affine3d presetFromProgram(const Coordinates& coordinates, Transformed transformed) {
-  const bool remains = transformed == Transformed::Remains;
+Eigen::Affine3d presetFromProgram(const Coordinates& coordinates, Transformation transformed) {
+  const bool remains = transformed == Transformation::Remains;
   Eigen::Affine3d matrix = Eigen::Affine3d::Identity();
   if (remains) matrix = coordinates.workpiece.matrix(coordinates.plane);
   if (coordinates.tilt) matrix = matrix * Eigen::Affine3d(*coordinates.tilt);
@@ -41,21 +41,21 @@ Matrix3 axesAlong(const Vector3& along, const Vector3& normal) {
 /// The axes of the preset in which a line that lies at `degrees` in the active coordinates lies along their main axis.
 /// Transformations that end when the preset becomes active are part of the rotation. The one angle of the iTNC 530
 /// turns a tilted plane about the axis of the untilted one.
-Matrix3 turnedAxes(Context& context, double degrees, Transformed transformed) {
+Matrix3 turnedAxes(Context& context, double degrees, Transformation transformed) {
   const Coordinates& coordinates = context.control().coordinates;
   const auto& plane = coordinates.plane;
   const Vector3 toolAxis = Vector3::Unit(plane.tool);
   const Matrix3 present = rotationFromSpaceAngles(coordinates.preset.spaceAngles);
   if (coordinates.tilt && !context.control().isTNC640()) return present * rotation(toolAxis, degrees).linear();
-  const auto lineAxes = [&](Transformed how, double angle) {
+  const auto lineAxes = [&](Transformation how, double angle) {
     // Cycles 8 and 10 leave the plane where it is.
-    const bool turns = how == Transformed::Remains && coordinates.tilt;
+    const bool turns = how == Transformation::Remains && coordinates.tilt;
     Vector3 normal = coordinates.tilt ? Vector3(*coordinates.tilt * toolAxis) : toolAxis;
     if (turns) normal = rotation(toolAxis, coordinates.workpiece.rotation).linear() * normal;
     const Vector3 line = presetFromProgram(coordinates, how).linear() * plane.xyzFromPlane(probing::directionAt(angle));
     return axesAlong(line, normal);
   };
-  return present * lineAxes(Transformed::Remains, degrees) * lineAxes(transformed, 0).transpose();
+  return present * lineAxes(Transformation::Remains, degrees) * lineAxes(transformed, 0).transpose();
 }
 
 /// Enters the axes of a preset. The iTNC 530 knows one angle, about the tool axis.
@@ -75,7 +75,7 @@ void setAngles(Context& context, const Matrix3& axes, Control::PresetChange& cha
 /// the coordinates of the program: tilted as the working plane is, and shifted, mirrored, rotated and scaled as far as
 /// that remains. Only those with a wish move.
 Control::PresetChange presetChange(Context& context, const NewPreset& preset, const ActivePreset& target,
-                                   Transformed transformed) {
+                                   Transformation transformed) {
   const Coordinates& coordinates = context.control().coordinates;
   const auto& plane = coordinates.plane;
   // The feature in machine coordinates does not depend on the preset that it was measured with.
@@ -150,7 +150,7 @@ void writeDatumRow(Context& context, int row, const NewPreset& preset) {
   if (preset.rotation) {
     // No column of a datum table takes a basic rotation: the active preset does.
     Control::PresetChange change;
-    setAngles(context, turnedAxes(context, *preset.rotation, Transformed::Remains), change);
+    setAngles(context, turnedAxes(context, *preset.rotation, Transformation::Remains), change);
     writePresetRow(context, control.coordinates.preset.row, change);
   }
   // Datum shifts count from the preset along its axes, or in the tilted plane.
@@ -200,7 +200,7 @@ void transferPreset(Context& context, const NewPreset& preset) {
   const int target = context.option(303);
   const int row = context.option(305);
   if (setsPresetAtOnce(context)) {
-    copyActivePresetTo0(context, presetChange(context, preset, control.coordinates.preset, Transformed::Ends));
+    copyActivePresetTo0(context, presetChange(context, preset, control.coordinates.preset, Transformation::Ends));
     return;
   }
   if (target == 0) {
@@ -210,7 +210,7 @@ void transferPreset(Context& context, const NewPreset& preset) {
   const bool isActive = row == control.coordinates.preset.row;
   const auto present = isActive ? control.coordinates.preset : control.presetRow(row);
   Control::PresetChange change = presetChange(context, preset, present.value_or(control.coordinates.preset),
-                                              isActive ? Transformed::Remains : Transformed::Ends);
+                                              isActive ? Transformation::Remains : Transformation::Ends);
   writePresetRow(context, row, change);
 }
 

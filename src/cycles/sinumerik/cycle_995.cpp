@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/number_text.hpp"
 #include "control/sinumerik/measuring_data.hpp"
 #include "cycles/sinumerik/ball_measurement.hpp"
 #include "cycles/sinumerik/call_combinations.hpp"

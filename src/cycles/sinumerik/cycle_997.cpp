@@ -162,7 +162,7 @@ void combinations(CallCombinations& call) {
 int oldForm(OldCall& call) {
   call.nothingFrom(7);
   call.setValues(9);
-  if (call.control().data.isSet(DataKey("_TNVL", {}))) call.put("S_TNVL", call.number("_TNVL"));
+  if (call.control().data.isSet(OldCall::DataKey("_TNVL", {}))) call.put("S_TNVL", call.number("_TNVL"));
   return call.variant() - call.digit(3) * 100 + call.task(OldCall::Corrects::ZeroOffsetOnly);
 }
 
