@@ -16,6 +16,12 @@ std::uint64_t bytesOf(const WriteRecord& record) {
   return sizeof record + bytesOf(record.table) + bytesOf(record.entry) + bytesOf(record.before) + bytesOf(record.after);
 }
 
+std::uint64_t bytesOf(const FitRecord& record) {
+  return sizeof record + record.touches.size() * sizeof(std::size_t) +
+         record.members.size() * sizeof(std::string_view) +
+         (record.residuals.size() + record.cofactors.size()) * sizeof(double);
+}
+
 /// A touch is kept twice: as the control knows it, and in the path as it truly was.
 constexpr std::uint64_t touchBytes = 3 * sizeof(TouchRecord);
 
@@ -51,10 +57,17 @@ void Journal::begin(CycleRecord record) {
   cycleOpen = true;
 }
 
-void Journal::touch(TouchRecord record) {
-  if (!cycleOpen) return;
+std::size_t Journal::touch(TouchRecord record) {
+  if (!cycleOpen) return 0;
   charge(touchBytes);
   cycles.back().touches.push_back(std::move(record));
+  return cycles.back().touches.size() - 1;
+}
+
+void Journal::fit(FitRecord record) {
+  if (!cycleOpen) return;
+  charge(bytesOf(record));
+  cycles.back().fits.push_back(std::move(record));
 }
 
 void Journal::write(WriteRecord record) {

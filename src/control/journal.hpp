@@ -28,6 +28,19 @@ struct TouchRecord {
   std::string outcome;                   ///< "touched", "no contact", "deflected", "collision"
 };
 
+/// A line, circle, plane or sphere that a cycle laid through what it touched, by least squares. Coordinates count along
+/// main axis, minor axis and tool axis of the working plane, in the program's coordinate system; mm.
+struct FitRecord {
+  std::string shape;                 ///< "line", "circle", "plane", "sphere"
+  std::vector<std::size_t> touches;  ///< of each point the place of its (last) touch in the cycle's record
+  std::vector<double> residuals;     ///< of each point its distance from the shape; positive outside, or on the left
+  double formDeviation = 0;          ///< greatest less least residual
+  int degreesOfFreedom = 0;          ///< points less freedoms of the shape; 0: it passes through every point
+  std::vector<std::string_view> members;  ///< what `cofactors` counts: "centre.main", "radius"
+  /// The members' covariance, row by row, where a point has the standard deviation 1 mm along the surface normal.
+  std::vector<double> cofactors;
+};
+
 using metrology::Verdict;
 
 /// A value that a cycle leaves in the control, under the control's own name.
@@ -64,6 +77,7 @@ struct CycleRecord {
   SourcePlace place;
   std::vector<ParameterRecord> parameters;
   std::vector<TouchRecord> touches;
+  std::vector<FitRecord> fits;
   std::vector<ResultRecord> results;
   std::vector<WriteRecord> writes;
   std::vector<std::string> logFiles;
@@ -92,8 +106,10 @@ struct Journal {
 
   /// A cycle begins and is the open one from here on.
   void begin(CycleRecord record);
-  /// The touch goes to the open cycle; without one it is forgotten.
-  void touch(TouchRecord record);
+  /// The touch goes to the open cycle; without one it is forgotten. Returns its place among the cycle's touches.
+  std::size_t touch(TouchRecord record);
+  /// The same of a fit.
+  void fit(FitRecord record);
   /// The change goes to the open cycle, or to `writes`.
   void write(WriteRecord record);
   void event(EventRecord record);

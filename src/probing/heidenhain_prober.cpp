@@ -133,7 +133,7 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
   const auto finish = [&](std::string outcome) {
     record.seconds = channel_.seconds();
     record.outcome = std::move(outcome);
-    channel_.journal().touch(record);
+    touch.record = channel_.journal().touch(record);
   };
   for (int i = 0; i < std::max(1, probe_.repetitions); ++i) {
     const machine::MeasureResult result = channel_.measureTo(startTip + xyzDirection * distance,

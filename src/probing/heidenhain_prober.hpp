@@ -40,6 +40,7 @@ struct EvaluatedTouch {
   Vector3 surface = Vector3::Zero();     ///< ball centre plus ball radius along the probing direction
   double ballRadius = 0;                 ///< along the probing direction: mm divided by the active scaling
   machine::AxisPositions latched;
+  std::size_t record = 0;  ///< place of the (last) touch in the cycle's record
 };
 
 /// What `length` mm are in program coordinates along `direction` (X, Y, Z; unit length): cycles 11 and 26 scale them.

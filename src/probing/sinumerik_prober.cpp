@@ -180,10 +180,11 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
   control::TouchRecord record;
   record.target = plane_.xyzFromPlane(setpoint);
   record.direction = plane_.xyzFromPlane(direction);
+  MeasuredPoint point;
   const auto finish = [&](std::string outcome) {
     record.seconds = channel_.seconds();
     record.outcome = std::move(outcome);
-    channel_.journal().touch(record);
+    point.record = channel_.journal().touch(record);
   };
   const Feed retract = habits_.rapidRetract ? rapidTo(end) : Feed::at(habits_.planeFeed);
   const auto probeOnce = [&](const Vector3& target, double atFeed) -> std::optional<control::Touch> {
@@ -231,7 +232,6 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
     finish("touched");
   };
   Vector3 sum = Vector3::Zero();
-  MeasuredPoint point;
   for (int i = 0; i < std::max(1, count); ++i) {
     if (habits_.fastApproach && path > 1) {
       // A first quick touch, back off, then the one that counts.

@@ -49,6 +49,7 @@ struct MeasuredPoint {
   Vector3 surface = Vector3::Zero();  ///< the point on the surface, by trigger points
   double difference = 0;              ///< surface - setpoint along the positive axis or direction
   machine::AxisPositions latched;     ///< of the last measurement
+  std::size_t record = 0;             ///< the place of its touch in the cycle's record
 };
 
 /// A direction of the plane as the spindle sees it as it stands now, wherever frames and rotary axes have turned the

@@ -83,6 +83,25 @@ json list(const Records& records, Convert convert) {
   return array;
 }
 
+json fit(const control::FitRecord& record) {
+  json cofactors = json::array();
+  const std::size_t size = record.members.size();
+  for (std::size_t row = 0; row < size; ++row) {
+    json line = json::array();
+    for (std::size_t column = 0; column < size; ++column)
+      line.push_back(number(record.cofactors[row * size + column]));
+    cofactors.push_back(std::move(line));
+  }
+  json object = {{"shape", record.shape},
+                 {"touches", record.touches},
+                 {"residuals", list(record.residuals, number)},
+                 {"formDeviation", number(record.formDeviation)},
+                 {"degreesOfFreedom", record.degreesOfFreedom},
+                 {"members", record.members},
+                 {"cofactors", std::move(cofactors)}};
+  return object;
+}
+
 json write(const control::WriteRecord& record, const ReadableText& text) {
   return {{"table", text(record.table)},
           {"entry", text(record.entry)},
@@ -111,6 +130,7 @@ json cycle(const control::CycleRecord& record, const std::vector<machine::Axis>&
                  {"start", number(record.startSeconds)},
                  {"end", number(record.endSeconds)},
                  {"pathLength", number(record.pathLength)}};
+  if (!record.fits.empty()) object["fits"] = list(record.fits, fit);
   if (!record.alarm.empty()) object["alarm"] = text(record.alarm);
   return object;
 }

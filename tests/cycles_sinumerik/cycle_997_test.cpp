@@ -44,6 +44,25 @@ TEST(Cycle997, BringsABallToItsSetPosition) {
   }
 }
 
+TEST(Cycle997, LeavesTheFitOfTheEquatorAndOfTheWholeBall) {
+  simulation::Truth truth = perfectWorld();
+  place(truth, simulation::SolidSphere(Vector3::Zero(), 15), translation({0, 0, table}));
+  SinumerikBench bench(truth);
+  plantFrame(bench, "$P_UIFR", 1, {0, 0, table}, {0, 0, 0});
+  bench.start({0, 0, 25});
+  bench.run("CYCLE997",
+            {{"S_MVAR", 9}, {"S_SETV", 30}, {"S_FA", 4}, {"S_TSA", 2}, {"S_SETV0", 0}, {"S_SETV1", 0}, {"S_SETV2", 0}});
+  const auto& fits = bench.control.journal.cycles.back().fits;
+  ASSERT_EQ(fits.size(), 2U);
+  EXPECT_EQ(fits[0].shape, "circle");
+  EXPECT_EQ(fits[1].shape, "sphere");
+  const std::size_t equator = fits[0].touches.size();
+  // The pole comes after the equator; each touch of a perfect ball lies on it.
+  ASSERT_EQ(fits[1].touches.size(), equator + 1);
+  EXPECT_EQ(fits[1].degreesOfFreedom, static_cast<int>(equator) - 3);
+  EXPECT_NEAR(fits[1].formDeviation, 0, 1e-9);
+}
+
 TEST(Cycle997, LaysTheWorkpieceSystemOnThreeBalls) {
   Planter plant(9973);
   for (int world = 0; world < 20; ++world) {

@@ -7,6 +7,7 @@
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
+#include "cycles/fit_records.hpp"
 #include "cycles/heidenhain/html_log.hpp"
 #include "metrology/fits.hpp"
 
@@ -19,8 +20,8 @@ using probing::HeidenhainProber;
 namespace {
 
 /// The circle of ball centres through touches at `count` angles, each from its pre-position.
-metrology::Circle2 touchCircle(HeidenhainProber& prober, const CalibrationTask& task, const Vector2& centre,
-                               int count) {
+metrology::Circle2 touchCircle(Context& context, HeidenhainProber& prober, const CalibrationTask& task,
+                               const Vector2& centre, int count) {
   const double step = 360.0 / count;
   const Vector3 middle(centre.x(), centre.y(), task.measuringHeight);
   const auto plan = probing::planCircle(middle, 2 * task.standardRadius, task.startAngle, step, count, task.side);
@@ -28,6 +29,7 @@ metrology::Circle2 touchCircle(HeidenhainProber& prober, const CalibrationTask& 
                           task.standardRadius <= prober.probe().reach() + prober.probe().setUp + task.extraClearance;
   const bool around = task.side == Side::Outside && task.between == probing::Between::AtMeasuringHeight;
   std::vector<Vector2> centres;
+  std::vector<std::size_t> places;
   for (const PlannedTouch& planned : plan) {
     const Vector3 start = fromCentre ? middle : prober.prePosition(planned, task.extraClearance);
     if (around && !centres.empty()) {
@@ -37,12 +39,15 @@ metrology::Circle2 touchCircle(HeidenhainProber& prober, const CalibrationTask& 
       prober.moveInPlane(start);
     }
     prober.moveTo(start);
-    centres.push_back(prober.touch(planned).ballCentre.head<2>());
+    const EvaluatedTouch touch = prober.touch(planned);
+    centres.push_back(touch.ballCentre.head<2>());
+    places.push_back(touch.record);
   }
   if (task.side == Side::Outside) prober.moveHeightTo(task.travelHeight);
   prober.moveInPlane(middle);
-  const auto fit = metrology::fitCircle(centres);
+  const auto fit = metrology::fitCircle(centres, withCofactors);
   if (!fit) throw Alarm("Calibration not possible", fit.error().message, fit.error().advice);
+  context.channel().journal().fit(recordOf(*fit, std::move(places)));
   return fit->shape;
 }
 
@@ -126,7 +131,7 @@ CalibratedRadius calibrateAside(Context& context, HeidenhainProber& prober, cons
     now.travelHeight += probe.ballRadius - prober.probe().ballRadius;
     HeidenhainProber tracking(context.channel(), context.control().coordinates.plane, probe);
     const int count = pass == 0 ? 4 : task.count;
-    const metrology::Circle2 circle = touchCircle(tracking, now, centre, count);
+    const metrology::Circle2 circle = touchCircle(context, tracking, now, centre, count);
     centre = circle.centre;
     const double offset = probe.tipOffset.norm();
     const double a = task.side == Side::Inside ? circle.radius - offset : circle.radius + offset;
@@ -201,8 +206,8 @@ HeidenhainProber calibrationProber(Context& context) {
 
 CalibratedRadius calibrateRadius(Context& context, HeidenhainProber& prober, CalibrationTask task) {
   if (prober.probe().aside) return calibrateAside(context, prober, task);
-  const metrology::Circle2 coarse = touchCircle(prober, task, task.centre, 4);
-  const metrology::Circle2 fine = touchCircle(prober, task, coarse.centre, task.count);
+  const metrology::Circle2 coarse = touchCircle(context, prober, task, task.centre, 4);
+  const metrology::Circle2 fine = touchCircle(context, prober, task, coarse.centre, task.count);
   CalibratedRadius calibrated{.standardRadius = task.standardRadius};
   note(calibrated, task, "Coarse measurement", 4, coarse);
   note(calibrated, task, "Fine measurement", task.count, fine);
@@ -218,7 +223,7 @@ CalibratedRadius calibrateRadius(Context& context, HeidenhainProber& prober, Cal
                         (control.isTNC640() || control.parameters.mp6160 != 0);
   if (reverses) {
     context.channel().orientSpindle(prober.probe().calibrationAngle + 180);
-    const metrology::Circle2 reversed = touchCircle(prober, task, fine.centre, task.count);
+    const metrology::Circle2 reversed = touchCircle(context, prober, task, fine.centre, task.count);
     context.channel().orientSpindle(prober.probe().calibrationAngle);
     note(calibrated, task, "Reversal measurement", task.count, reversed);
     calibrated.centreOffset = (reversed.centre - fine.centre) / 2;
@@ -228,7 +233,7 @@ CalibratedRadius calibrateRadius(Context& context, HeidenhainProber& prober, Cal
       turned.directions = {};
       turned.tipOffset = inSpindle(context, *calibrated.centreOffset);
       HeidenhainProber turning(context.channel(), control.coordinates.plane, turned);
-      const metrology::Circle2 circle = touchCircle(turning, task, calibrated.centre.head<2>(), task.count);
+      const metrology::Circle2 circle = touchCircle(context, turning, task, calibrated.centre.head<2>(), task.count);
       calibrated.radius = probing::outwards(task.side) * (task.standardRadius - circle.radius);
       note(calibrated, task, "Measurement with angle tracking", task.count, circle);
       context.channel().orientSpindle(prober.probe().calibrationAngle);

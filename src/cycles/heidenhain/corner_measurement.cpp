@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "cycles/fit_records.hpp"
 #include "cycles/heidenhain/transfer.hpp"
 #include "probing/heidenhain_strategies.hpp"
 
@@ -37,6 +38,8 @@ MeasuredCorner measureCorner(Context& context, const CornerTouches& planned, Sid
     if (along.norm() < 1e-6) {
       throw control::Alarm("Corner not determined", "Two touches of one side coincide", "enlarge Q326 and Q327");
     }
+    noteLine(context.channel().journal(), std::array<Vector2, 2>{a.ballCentre.head<2>(), b.ballCentre.head<2>()},
+             {a.record, b.record});
     Vector2 normal = Vector2(-along.y(), along.x()).normalized();
     if (normal.dot(direction.head<2>()) < 0) normal = -normal;
     return metrology::Line2{a.ballCentre.head<2>() + normal * prober.ballRadius({normal.x(), normal.y(), 0}),

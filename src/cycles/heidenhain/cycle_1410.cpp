@@ -1,6 +1,7 @@
 #include <cstdlib>
 
 #include "control/alarm.hpp"
+#include "cycles/fit_records.hpp"
 #include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/object_probing.hpp"
 #include "cycles/heidenhain/rotation_parameters.hpp"
@@ -69,6 +70,7 @@ void run(Context& context, const Arguments&) {
   // The operator may choose other directions than Q372.
   std::array<int, 2> directions = {direction, direction};
   std::array<MeasuredPosition, 2> found;
+  std::vector<EvaluatedTouch> touched;
   std::optional<ObjectProbing> probing;
   bool endsByHand = false;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -78,13 +80,19 @@ void run(Context& context, const Arguments&) {
     if (!nominal[i].known()) {
       const bool first = !probing;
       if (!probing) probing.emplace(context, "point");
-      actual = probing->touch(nominal[i], directions[i], first).surface;
+      const EvaluatedTouch touch = probing->touch(nominal[i], directions[i], first);
+      actual = touch.surface;
+      touched.push_back(touch);
       requireRotation(context, directions[i]);
       endsByHand = nominal[i].semiAutomatic();
     }
     found[i] = measuredPosition(nominal[i], actual, axisOf(directions[i]));
   }
   if (probing) probing->leave(true, endsByHand);
+  if (touched.size() == 2) {
+    noteLine(context.channel().journal(),
+             std::array<Vector2, 2>{touched[0].surface.head<2>(), touched[1].surface.head<2>()}, placesOf(touched));
+  }
 
   const PlaneRotation rotation = planeRotation(context, found[0], found[1]);
   RotationFindings findings(context);

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "cycles/fit_records.hpp"
 #include "cycles/heidenhain/circle_measurement.hpp"
 #include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/object_probing.hpp"
@@ -125,8 +126,9 @@ void run(Context& context, const Arguments&) {
     std::vector<Vector3> centres;
     for (const EvaluatedTouch& touch : touches)
       centres.push_back(touch.ballCentre);
-    const auto fit = metrology::fitCircleInPlane(centres, Vector3::UnitZ());
+    const auto fit = metrology::fitCircleInPlane(centres, Vector3::UnitZ(), withCofactors);
     if (!fit) throw control::Alarm("Circle not determined", fit.error().message, fit.error().advice);
+    context.channel().journal().fit(recordOf(*fit, placesOf(touches)));
     foundDiameters[i] = 2 * (fit->shape.radius + probing::outwards(side) * meanBallRadius(touches));
     found[i] = measuredPosition(nominal[i], fit->shape.centre, measured);
   }

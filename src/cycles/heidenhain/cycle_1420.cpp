@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "control/alarm.hpp"
+#include "cycles/fit_records.hpp"
 #include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/object_probing.hpp"
 #include "cycles/heidenhain/rotation_parameters.hpp"
@@ -158,6 +159,7 @@ void run(Context& context, const Arguments&) {
   // The operator may choose other directions than Q372.
   std::array<int, 3> directions = {direction, direction, direction};
   std::array<MeasuredPosition, 3> found;
+  std::vector<EvaluatedTouch> touched;
   std::optional<ObjectProbing> probing;
   bool endsByHand = false;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -167,12 +169,18 @@ void run(Context& context, const Arguments&) {
     } else {
       const bool first = !probing;
       if (!probing) probing.emplace(context, "point");
-      actual = probing->touch(nominal[i], directions[i], first).surface;
+      const EvaluatedTouch touch = probing->touch(nominal[i], directions[i], first);
+      actual = touch.surface;
+      touched.push_back(touch);
       endsByHand = nominal[i].semiAutomatic();
     }
     found[i] = measuredPosition(nominal[i], actual, axisOf(directions[i]));
   }
   if (probing) probing->leave(true, endsByHand);
+  if (touched.size() == 3) {
+    notePlane(context.channel().journal(), std::array{touched[0].surface, touched[1].surface, touched[2].surface},
+              placesOf(touched));
+  }
 
   const Vector3 normal = normalOf(found[0].actual, found[1].actual, found[2].actual, nominalNormal);
   // Space angles count in the workpiece coordinate system, about its X, Y and Z.

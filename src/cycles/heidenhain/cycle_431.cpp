@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "cycles/fit_records.hpp"
 #include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/inspection.hpp"
 #include "cycles/heidenhain/preset_parameters.hpp"
@@ -74,6 +75,7 @@ void run(Context& context, const Arguments&) {
   const Vector3& p1 = touches[0].ballCentre;
   const Vector3& p2 = touches[1].ballCentre;
   const Vector3& p3 = touches[2].ballCentre;
+  notePlane(context.channel().journal(), std::array{p1, p2, p3}, placesOf(touches));
   const Vector3 main = p2 - p1;
   const Vector3 cross = main.cross(p3 - p1);
   if (cross.norm() < 1e-6 * main.norm() * (p3 - p1).norm() || main.norm() < 1e-6) {

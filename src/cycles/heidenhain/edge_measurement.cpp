@@ -1,6 +1,7 @@
 #include "cycles/heidenhain/edge_measurement.hpp"
 
 #include "control/alarm.hpp"
+#include "cycles/fit_records.hpp"
 #include "probing/heidenhain_strategies.hpp"
 
 namespace probewright::cycles::heidenhain {
@@ -24,6 +25,11 @@ MeasuredEdge measureEdge(Context& context) {
                                                                 : probing::Between::AtMeasuringHeight});
   MeasuredEdge edge{touches[0], touches[1], touches[1].ballCentre - touches[0].ballCentre};
   requireApart(edge.along);
+  if (context.option(272) != 3) {
+    noteLine(context.channel().journal(),
+             std::array<Vector2, 2>{touches[0].ballCentre.head<2>(), touches[1].ballCentre.head<2>()},
+             placesOf(touches));
+  }
   return edge;
 }
 

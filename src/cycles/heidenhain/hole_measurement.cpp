@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "cycles/fit_records.hpp"
 #include "cycles/heidenhain/rotary_alignment.hpp"
 #include "cycles/heidenhain/transfer.hpp"
 #include "metrology/fits.hpp"
@@ -36,8 +37,9 @@ Vector3 measureStudCentre(Context& context, const Vector2& centre, double diamet
   std::vector<Vector3> centres;
   for (const EvaluatedTouch& touch : touches)
     centres.push_back(touch.ballCentre);
-  const auto fit = metrology::fitCircleInPlane(centres, Vector3::UnitZ());
+  const auto fit = metrology::fitCircleInPlane(centres, Vector3::UnitZ(), withCofactors);
   if (!fit) throw control::Alarm("Circle not determined", fit.error().message, fit.error().advice);
+  context.channel().journal().fit(recordOf(*fit, placesOf(touches)));
   return fit->shape.centre;
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "cycles/fit_records.hpp"
 #include "metrology/fits.hpp"
 
 namespace probewright::cycles::sinumerik {
@@ -20,57 +21,64 @@ public:
     // Along the axes: minus 1st axis first, then on to plus, by way of minus 2nd.
     const double first = plan_.round ? plan_.startAngle : 180, step = plan_.round ? plan_.step : 90;
     std::vector<Vector2> centres;
+    points_.clear();
     for (const probing::PlannedTouch& touch :
          probing::planCircle(about, plan_.diameter, first, step, plan_.points, Side::Outside)) {
       if (plan_.round && !centres.empty()) prober_.moveOnArc(about, step);
-      centres.push_back((this->touch(touch) - touch.direction * prober_.ballRadius()).head<2>());
+      points_.push_back(this->touch(touch));
+      centres.push_back((points_.back().surface - touch.direction * prober_.ballRadius()).head<2>());
       if (!plan_.round) prober_.moveHeightTo(plan_.safeHeight);
     }
     prober_.moveHeightTo(plan_.safeHeight);
-    const auto fit = metrology::fitCircle(centres);
+    const auto fit = metrology::fitCircle(centres, withCofactors);
     if (!fit) context_.alarm(61316, fit.error().message);
+    context_.channel().journal().fit(recordOf(*fit, placesOf(points_)));
     return fit->shape.centre;
   }
 
   /// Height of the pole.
   double pole(const Vector2& over, double expected) {
     prober_.moveInPlane({over.x(), over.y(), 0});
-    const double height =
-        prober_.measure({over.x(), over.y(), expected}, -Vector3::UnitZ(), plan_.path, context_.repetitions())
-            .surface.z();
+    points_.push_back(
+        prober_.measure({over.x(), over.y(), expected}, -Vector3::UnitZ(), plan_.path, context_.repetitions()));
     prober_.moveHeightTo(plan_.safeHeight);
-    return height;
+    return points_.back().surface.z();
   }
 
   /// The diameter by a touch on the minus side of the 1st axis.
   double diameter(const Vector3& centre) {
-    const Vector3 surface =
-        touch({.surface = centre - Vector3::UnitX() * plan_.diameter / 2, .direction = Vector3::UnitX()});
+    points_.push_back(
+        touch({.surface = centre - Vector3::UnitX() * plan_.diameter / 2, .direction = Vector3::UnitX()}));
     prober_.moveHeightTo(plan_.safeHeight);
-    return 2 * (centre.x() - surface.x());
+    return 2 * (centre.x() - points_.back().surface.x());
   }
 
   void finish(const Vector3& over) {
+    std::vector<Vector3> surface;
+    for (const MeasuredPoint& point : points_)
+      surface.push_back(point.surface);
+    noteSphere(context_.channel().journal(), surface, placesOf(points_));
     toucher_.finish();
     prober_.moveInPlane(over);
   }
 
 private:
   /// `planned` at the height of the ball's centre; down to it from the safe height first.
-  Vector3 touch(const probing::PlannedTouch& planned) {
+  MeasuredPoint touch(const probing::PlannedTouch& planned) {
     Vector3 setpoint = planned.surface;
     if (!prober_.probe().lengthToCentre) setpoint.z() -= prober_.ballRadius() * prober_.toolAxis().z();
     if (prober_.position().z() > setpoint.z() + 1e-6) {
       prober_.moveInPlane(toucher_.startOf(setpoint, planned.direction, plan_.path));
       prober_.moveHeightTo(setpoint.z());
     }
-    return toucher_.measure(setpoint, planned.direction, plan_.path).surface;
+    return toucher_.measure(setpoint, planned.direction, plan_.path);
   }
 
   Context& context_;
   const BallPlan& plan_;
   probing::SinumerikProber& prober_;
   Toucher toucher_;
+  std::vector<MeasuredPoint> points_;  ///< of the last round: equator, pole, then the one for the diameter
 };
 
 }  // namespace

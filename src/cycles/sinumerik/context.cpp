@@ -104,6 +104,7 @@ void Context::clearResults() {
   control_.ovi.fill(0);
   correctedTool({});
   record().results.clear();
+  record().fits.clear();
   record().verdict = Verdict::None;
 }
 

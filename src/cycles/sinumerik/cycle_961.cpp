@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "cycles/fit_records.hpp"
 #include "cycles/sinumerik/call_combinations.hpp"
 #include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/corrections.hpp"
@@ -256,6 +258,7 @@ void run(Context& context, const Arguments&) {
   const Vector2 into1 = alongAxis(side * squareTo(plan.edge1, plan.edge2));
   const Vector2 into2 = alongAxis(side * squareTo(plan.edge2, plan.edge1));
   Vector2 centre[4];
+  std::size_t places[4];
   for (int i = 0; i < plan.points; ++i) {
     const Vector2& place = plan.point[i];
     // Without leave to pass over the corner, the way to the second edge leads round it.
@@ -265,13 +268,19 @@ void run(Context& context, const Arguments&) {
     const Vector2 into = i < 2 ? into1 : into2;
     const Vector3 direction(into.x(), into.y(), 0);
     const Vector3 setpoint = prober.position() - toucher.startOf(Vector3::Zero(), direction, path);
-    centre[i] = (toucher.measure(setpoint, direction, path).surface - direction * prober.ballRadius()).head<2>();
+    const MeasuredPoint point = toucher.measure(setpoint, direction, path);
+    centre[i] = (point.surface - direction * prober.ballRadius()).head<2>();
+    places[i] = point.record;
     if (zone) prober.moveHeightTo(start.z());
   }
   if (plan.points == 3) {
     if (!zone) prober.moveInPlane({plan.pole.x(), plan.pole.y(), 0});
     prober.moveInPlane(start);
   }
+
+  for (int i = 0; i + 1 < plan.points; i += 2)
+    noteLine(context.channel().journal(), std::span(centre).subspan(static_cast<std::size_t>(i), 2),
+             {places[i], places[i + 1]});
 
   // The ball's centres run beside the edges, one radius away.
   const double radius = prober.ballRadius();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "cycles/fit_records.hpp"
 #include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/corrections.hpp"
 #include "cycles/sinumerik/measuring_method.hpp"
@@ -117,17 +118,20 @@ void run(Context& context, const Arguments&) {
   const double path = context.real("S_FA");
   Toucher toucher(context, method);
   std::vector<Vector2> ballCentres;
+  std::vector<std::size_t> places;
   for (const probing::PlannedTouch& touch :
        probing::planCircle(setCentre, set, context.real("S_STA1"), step, count, side)) {
     if (!ballCentres.empty()) prober.moveOnArc(setCentre, step);
-    const Vector3 surface = toucher.measure(touch.surface, touch.direction, path).surface;
-    ballCentres.push_back((surface - touch.direction * prober.ballRadius()).head<2>());
+    const MeasuredPoint point = toucher.measure(touch.surface, touch.direction, path);
+    ballCentres.push_back((point.surface - touch.direction * prober.ballRadius()).head<2>());
+    places.push_back(point.record);
   }
   toucher.finish();
   context.setWayBack([&] { prober.moveOnArc(setCentre, -step * (count - 1)); });
 
-  const auto fit = metrology::fitCircle(ballCentres);
+  const auto fit = metrology::fitCircle(ballCentres, withCofactors);
   if (!fit) context.alarm(61316, fit.error().message);
+  context.channel().journal().fit(recordOf(*fit, std::move(places)));
   const Vector3 centre(fit->shape.centre.x(), fit->shape.centre.y(), setCentre.z());
   const double diameter = 2 * (fit->shape.radius + outwards(side) * prober.ballRadius());
 

@@ -5,6 +5,7 @@
 
 #include "base/number_text.hpp"
 #include "control/sinumerik/measuring_data.hpp"
+#include "cycles/fit_records.hpp"
 #include "cycles/sinumerik/ball_measurement.hpp"
 #include "cycles/sinumerik/call_combinations.hpp"
 #include "cycles/sinumerik/context.hpp"
@@ -98,6 +99,7 @@ Vector2 centreOfShaft(Context& context, const MeasuredBall& ball, double safeHei
   Vector3 about = ball.centre;
   about.z() -= lowered + (prober.probe().lengthToCentre ? 0 : prober.ballRadius());
   std::vector<Vector2> tips;
+  std::vector<std::size_t> places;
   for (const probing::PlannedTouch& touch :
        probing::planCircle(about, ball.diameter, context.real("S_STA1"), step, points, Side::Outside)) {
     if (tips.empty()) {
@@ -110,11 +112,13 @@ Vector2 centreOfShaft(Context& context, const MeasuredBall& ball, double safeHei
     const MeasuredPoint point = prober.measureUncompensated(touch.surface, touch.direction, path, context.repetitions(),
                                                             assumed, prober.probe().feed, control::TouchWith::Shaft);
     tips.push_back(point.tcp.head<2>());
+    places.push_back(point.record);
   }
   context.positionSpindle(spindle);
   prober.moveHeightTo(safeHeight);
-  const auto fit = metrology::fitCircle(tips);
+  const auto fit = metrology::fitCircle(tips, withCofactors);
   if (!fit) context.alarm(61316, fit.error().message);
+  context.channel().journal().fit(recordOf(*fit, std::move(places)));
   return fit->shape.centre;
 }
 

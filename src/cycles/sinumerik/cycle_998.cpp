@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
+#include "cycles/fit_records.hpp"
 #include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/corrections.hpp"
 #include "cycles/sinumerik/measuring_method.hpp"
@@ -103,7 +106,7 @@ public:
     Vector3 setpoint = point + offset + axis * rise;
     const double path = path_ + offset.norm() * tangent(std::min(std::abs(uncertain), greatestAngle));
     leave(offset);
-    return toucher_.measure(setpoint, direction_, path).surface;
+    return noted(toucher_.measure(setpoint, direction_, path));
   }
 
   /// Back to the start position of the first point.
@@ -118,7 +121,15 @@ public:
   /// With a protection zone: above where the cycle started.
   void leave() { leave(Vector3::Zero()); }
 
+  /// What was touched, each point with the place of its touch in the record.
+  const std::vector<std::size_t>& places() const { return places_; }
+
 private:
+  Vector3 noted(const MeasuredPoint& point) {
+    places_.push_back(point.record);
+    return point.surface;
+  }
+
   Vector3 infeedVector() const { return direction_ * infeed_; }
 
   /// With a protection zone: back to the start height and over to the next place.
@@ -133,7 +144,7 @@ private:
   Vector3 touchFrom(const Vector3& offset) {
     if (!offset.isZero()) leave(offset);
     const Vector3 place = home_ + infeedVector() + offset;
-    return toucher_.measure(place - toucher_.startOf(Vector3::Zero(), direction_, path_), direction_, path_).surface;
+    return noted(toucher_.measure(place - toucher_.startOf(Vector3::Zero(), direction_, path_), direction_, path_));
   }
 
   Context& context_;
@@ -142,6 +153,7 @@ private:
   double path_;
   bool zone_;
   double infeed_;
+  std::vector<std::size_t> places_;
 };
 
 void correctAngle(Context& context, const FrameTarget& target, const Vector3& about, double angle) {
@@ -185,6 +197,9 @@ void measureEdge(Context& context, const std::optional<FrameTarget>& target, Met
       context.digit("S_MVAR", 6) == 1
           ? steps.beside(along * distance)
           : steps.along(first, along * distance, sense * distance * tangent(set), context.real("S_TSA"));
+  if (measuring != 2 && offset != 2) {
+    noteLine(context.channel().journal(), std::array<Vector2, 2>{first.head<2>(), second.head<2>()}, steps.places());
+  }
   toucher.finish();
   steps.finishAt(second);
   context.setWayBack([&] { steps.leave(); });
@@ -240,6 +255,7 @@ void measurePlane(Context& context, const std::optional<FrameTarget>& target, Me
     steps.back();
     third = steps.along(first, toThird, riseOf(toThird), context.real("S_TSA"));
   }
+  notePlane(context.channel().journal(), std::array{first, second, third}, steps.places());
   steps.finishAt(third);
   context.setWayBack([&] { steps.leave(); });
 
