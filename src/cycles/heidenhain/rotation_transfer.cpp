@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "control/scoped.hpp"
 #include "machine/rotary_solver.hpp"
 
 namespace probewright::cycles::heidenhain {
@@ -42,8 +43,11 @@ AxisPositions referencePosture(Context& context) {
   return reference;
 }
 
-/// Positions rotary axes; `keepTip`: the linear axes hold the tip where it is on the workpiece.
-void positionRotaryAxes(Context& context, const AxisPositions& target, bool keepTip) {
+/// What the linear axes do meanwhile.
+enum class LinearAxes { Stand, HoldTip };
+
+/// Positions rotary axes; the linear axes may hold the tip where it is on the workpiece.
+void positionRotaryAxes(Context& context, const AxisPositions& target, LinearAxes linear) {
   auto& control = context.control();
   auto& channel = control.channel;
   const MachineDescription& machine = channel.description();
@@ -51,17 +55,12 @@ void positionRotaryAxes(Context& context, const AxisPositions& target, bool keep
   for (std::size_t i = 0; i < machine.axes.size(); ++i) {
     if (machine.axes[i].kind == machine::AxisKind::Rotary) turned.rotary[i] = target[i] - channel.rotaryOffset[i];
   }
-  const bool held = channel.holdTip;
-  channel.holdTip = keepTip;
-  if (keepTip) channel.setFollowing(Following::Kinematics, channel.rotaryOffset);
-  const auto feed = machine::Feed::at(activeProbe(control).positioningFeed);
-  try {
-    channel.moveTo(turned, feed);
-  } catch (...) {
-    channel.holdTip = held;
-    throw;
+  const bool holds = linear == LinearAxes::HoldTip;
+  if (holds) channel.setFollowing(Following::Kinematics, channel.rotaryOffset);
+  {
+    const control::Scoped mode(channel.holdTip, holds);
+    channel.moveTo(turned, machine::Feed::at(activeProbe(control).positioningFeed));
   }
-  channel.holdTip = held;
   control.applyCoordinates();
 }
 
@@ -245,7 +244,7 @@ void transferPlaneRotation(Context& context, const PlaneRotation& rotation, cons
   control.writePreset(control.coordinates.preset.row, change);
   if (aligns == 0) return;
   if (transfer == 1) followRotaryAxes(context);
-  positionRotaryAxes(context, target, aligns == 1);
+  positionRotaryAxes(context, target, aligns == 1 ? LinearAxes::HoldTip : LinearAxes::Stand);
 }
 
 void transferSpaceRotation(Context& context, const Matrix3& rotation, std::span<const MeasuredPosition, 3> points) {
@@ -280,7 +279,8 @@ void transferSpaceRotation(Context& context, const Matrix3& rotation, std::span<
       sum += std::abs(solution[i] - now[i]);
     return sum;
   };
-  positionRotaryAxes(context, *std::ranges::min_element(solutions, {}, distance), context.option(1126) == 1);
+  positionRotaryAxes(context, *std::ranges::min_element(solutions, {}, distance),
+                     context.option(1126) == 1 ? LinearAxes::HoldTip : LinearAxes::Stand);
 }
 
 }  // namespace probewright::cycles::heidenhain

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "control/scoped.hpp"
 #include "execution/klartext/host.hpp"
 #include "machine/rotary_solver.hpp"
 
@@ -246,25 +247,14 @@ void KlartextHost::positionRotaryAxes(const machine::AxisPositions& target, Word
   for (std::size_t i = 0; i < description.axes.size(); ++i) {
     if (description.axes[i].kind == machine::AxisKind::Rotary) turned.rotary[i] = target[i] - channel.rotaryOffset[i];
   }
-  const bool held = channel.holdTip;
-  const Vector3 toolVector = channel.toolVector;
-  channel.holdTip = isMove;
+  const control::Scoped held(channel.holdTip, isMove);
+  const control::Scoped guided(channel.toolVector, channel.toolVector);
   control_.applyCoordinates();
   if (const Word* distance = find(words, "DIST", evaluation); isMove && distance != nullptr) {
     // The point that stays on the workpiece lies that far above the tip.
-    channel.toolVector -= toolVector.normalized() * length(distance->value, evaluation);
+    channel.toolVector -= channel.toolVector.normalized() * length(distance->value, evaluation);
   }
-  const auto restore = [&] {
-    channel.holdTip = held;
-    channel.toolVector = toolVector;
-  };
-  try {
-    channel.moveTo(turned, feed);
-  } catch (...) {
-    restore();
-    throw;
-  }
-  restore();
+  channel.moveTo(turned, feed);
 }
 
 }  // namespace probewright::language::klartext

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "control/scoped.hpp"
 #include "execution/klartext/host.hpp"
 #include "machine/rotary_solver.hpp"
 
@@ -128,24 +129,16 @@ void KlartextHost::moveTurning(const control::Target& target, control::Feed feed
     channel.moveTo(target, feed);
     return;
   }
-  const Vector3 toTip = channel.toolVector;
-  const Vector3 toCentre = shortened(control_, centreAboveTip(control_.tool));
   const Vector3 tipAtEnd = channel.programFromAxes(end);
-  channel.toolVector = toCentre;
+  const control::Scoped guided(channel.toolVector, shortened(control_, centreAboveTip(control_.tool)));
   const Vector3 tipToCentre = channel.programFromAxes(end) - tipAtEnd;
   const Vector3 centre = channel.position();
-  control::Target guided = target;
+  control::Target ofCentre = target;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    guided.linear[i] = target.linear[i] ? *target.linear[i] + tipToCentre[at] : centre[at];
+    ofCentre.linear[i] = target.linear[i] ? *target.linear[i] + tipToCentre[at] : centre[at];
   }
-  try {
-    channel.moveTo(guided, feed);
-  } catch (...) {
-    channel.toolVector = toTip;
-    throw;
-  }
-  channel.toolVector = toTip;
+  channel.moveTo(ofCentre, feed);
 }
 
 }  // namespace probewright::language::klartext
