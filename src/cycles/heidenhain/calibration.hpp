@@ -61,11 +61,6 @@ struct CalibrationTask {
   bool centreOffset = true;  ///< false: only the radius is wanted, so the probe is not turned by 180 degrees
 };
 
-/// How a calibration travels between its touches, as Q301 says.
-inline probing::Between betweenTouches(const Context& context) {
-  return context.option(301) == 1 ? probing::Between::AtClearanceHeight : probing::Between::AtMeasuringHeight;
-}
-
 /// The prober for calibrating: without tip offset, turned to CAL_ANG where the spindle can be oriented, with the
 /// radius of the tool table as a first guess. Only a stylus whose ball stands aside is turned to every touch, with the
 /// offset of the touch probe table as a first guess.

@@ -40,12 +40,11 @@ MeasuredCircle measureCircle(Context& context, const CircleParameters& numbers, 
   task.count = optional(423, 4);
   task.side = side;
   task.traverse = optional(365, 1) == 0 ? Traverse::Straight : Traverse::Arc;
-  const probing::Heights heights{
-      .measuring = context.q(261),
-      .clearance = context.q(260),
-      .extraClearance = context.q(320),
-      .between = context.option(301) == 1 ? Between::AtClearanceHeight : Between::AtMeasuringHeight,
-      .ending = ending};
+  const probing::Heights heights{.measuring = context.q(261),
+                                 .clearance = context.q(260),
+                                 .extraClearance = context.q(320),
+                                 .between = betweenOf(context),
+                                 .ending = ending};
   const auto touches = probing::probeCircle(context.prober(), task, heights);
 
   std::vector<Vector3> centres;

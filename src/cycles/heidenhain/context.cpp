@@ -138,6 +138,10 @@ probing::HeidenhainProber& Context::prober() {
   return *prober_;
 }
 
+probing::Between betweenOf(const Context& context) {
+  return context.option(301) == 1 ? probing::Between::AtClearanceHeight : probing::Between::AtMeasuringHeight;
+}
+
 void orientToCalibration(control::Channel& channel, const probing::HeidenhainProbe& probe) {
   const machine::MachineDescription& machine = channel.description();
   if (!machine.spindleOrients || machine.mainSpindle || probe.track) return;

@@ -8,6 +8,7 @@
 #include "cycles/catalogue.hpp"
 #include "cycles/heidenhain/registry.hpp"
 #include "probing/heidenhain_prober.hpp"
+#include "probing/heidenhain_strategies.hpp"
 
 /// What HEIDENHAIN cycles are written with.
 ///
@@ -96,6 +97,9 @@ enum class Calibrated { Required, NotYet };
 /// The probe as tables, machine parameters and cycle 441 describe it. Throws Alarm if the active tool is none, or is
 /// not calibrated although it must be.
 probing::HeidenhainProbe activeProbe(const Control& control, Calibrated calibrated = Calibrated::Required);
+
+/// How the probe travels between points, as Q301 says.
+probing::Between betweenOf(const Context& context);
 
 /// Turns the spindle to CAL_ANG where it can be oriented, unless the probe is turned to every touch anyway.
 void orientToCalibration(control::Channel& channel, const probing::HeidenhainProbe& probe);

@@ -25,13 +25,11 @@ MeasuredCorner measureCorner(Context& context, const CornerTouches& planned, Sid
   if (side == Side::Outside) {
     plan[2].via = Vector2(prober.prePosition(planned[2], extra).x(), prober.prePosition(planned[1], extra).y());
   }
-  const auto touches =
-      probing::probePoints(prober, plan,
-                           {.measuring = context.q(261),
-                            .clearance = context.q(260),
-                            .extraClearance = extra,
-                            .between = context.option(301) == 1 ? probing::Between::AtClearanceHeight
-                                                                : probing::Between::AtMeasuringHeight});
+  const auto touches = probing::probePoints(prober, plan,
+                                            {.measuring = context.q(261),
+                                             .clearance = context.q(260),
+                                             .extraClearance = extra,
+                                             .between = betweenOf(context)});
 
   const auto sideThrough = [&](const EvaluatedTouch& a, const EvaluatedTouch& b, const Vector3& direction) {
     const Vector2 along = (b.ballCentre - a.ballCentre).head<2>();

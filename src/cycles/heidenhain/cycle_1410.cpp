@@ -72,23 +72,20 @@ void run(Context& context, const Arguments&) {
   std::array<MeasuredPosition, 2> found;
   std::vector<EvaluatedTouch> touched;
   std::optional<ObjectProbing> probing;
-  bool endsByHand = false;
   for (std::size_t i = 0; i < 2; ++i) {
     Vector3 actual = nominal[i].known()
                          ? Vector3(*nominal[i].axes[0].actual, *nominal[i].axes[1].actual, *nominal[i].axes[2].actual)
                          : Vector3(Vector3::Zero());
     if (!nominal[i].known()) {
-      const bool first = !probing;
       if (!probing) probing.emplace(context, "point");
-      const EvaluatedTouch touch = probing->touch(nominal[i], directions[i], first);
+      const EvaluatedTouch touch = probing->touch(nominal[i], directions[i]);
       actual = touch.surface;
       touched.push_back(touch);
       requireRotation(context, directions[i]);
-      endsByHand = nominal[i].semiAutomatic();
     }
     found[i] = measuredPosition(nominal[i], actual, axisOf(directions[i]));
   }
-  if (probing) probing->leave(true, endsByHand);
+  if (probing) probing->leaveLastObject();
   if (touched.size() == 2) {
     noteLine(context.channel().journal(),
              std::array<Vector2, 2>{touched[0].surface.head<2>(), touched[1].surface.head<2>()}, placesOf(touched));

@@ -122,7 +122,11 @@ void run(Context& context, const Arguments&) {
     const Side side = sideOf(context.option(1115), i);
     const auto touches =
         probing->touchCircle(nominal[i], {*diameters[i].nominal, context.q(325)}, step, context.option(423), side);
-    probing->leave(i == 1, nominal[i].semiAutomatic());
+    if (i == 0) {
+      probing->leaveObject();
+    } else {
+      probing->leaveLastObject();
+    }
     std::vector<Vector3> centres;
     for (const EvaluatedTouch& touch : touches)
       centres.push_back(touch.ballCentre);
@@ -132,7 +136,7 @@ void run(Context& context, const Arguments&) {
     foundDiameters[i] = 2 * (fit->shape.radius + probing::outwards(side) * meanBallRadius(touches));
     found[i] = measuredPosition(nominal[i], fit->shape.centre, measured);
   }
-  if (probing && nominal[1].known()) probing->leave(true, nominal[0].semiAutomatic());
+  if (probing && nominal[1].known()) probing->leaveLastObject();
 
   const PlaneRotation rotation = planeRotation(context, found[0], found[1]);
   RotationFindings findings(context);

@@ -84,10 +84,13 @@ Matrix3 axesOfNormal(const Vector3& normal, int axis) {
   }
 }
 
+/// Where a plane faces: the tool axis, or to the side as a wall does.
+enum class Faces { Tool, Sideways };
+
 /// Angles about main, minor and tool axis (of the unturned system, in this order) that bring the tool axis to `normal`.
 /// The third is 0; for walls across the minor axis, where the second would say nothing, the second is.
-Vector3 anglesOfNormal(const Vector3& n, bool wall) {
-  if (wall && std::abs(n.y()) > std::abs(n.x())) {
+Vector3 anglesOfNormal(const Vector3& n, Faces faces) {
+  if (faces == Faces::Sideways && std::abs(n.y()) > std::abs(n.x())) {
     const double side = n.y() < 0 ? 1 : -1;
     return {std::atan2(side * std::hypot(n.x(), n.y()), n.z()), 0, std::atan2(side * n.x(), -side * n.y())};
   }
@@ -95,8 +98,8 @@ Vector3 anglesOfNormal(const Vector3& n, bool wall) {
 }
 
 /// The same as space angles about X, Y and Z in degrees.
-Vector3 spaceAnglesOfNormal(const control::WorkingPlane& plane, const Vector3& normal, bool wall) {
-  const Vector3 angles = anglesOfNormal(normal, wall);
+Vector3 spaceAnglesOfNormal(const control::WorkingPlane& plane, const Vector3& normal, Faces faces) {
+  const Vector3 angles = anglesOfNormal(normal, faces);
   // Read off as they are: a matrix would not tell a wall that leans over from one turned round.
   if (plane.tool == 2) return angles.unaryExpr([](double angle) { return degreesFromRadians(angle); });
   const Matrix3 axes = turned(angles.z(), 2) * turned(angles.y(), 1) * turned(angles.x(), 0);
@@ -161,22 +164,19 @@ void run(Context& context, const Arguments&) {
   std::array<MeasuredPosition, 3> found;
   std::vector<EvaluatedTouch> touched;
   std::optional<ObjectProbing> probing;
-  bool endsByHand = false;
   for (std::size_t i = 0; i < 3; ++i) {
     Vector3 actual = Vector3::Zero();
     if (nominal[i].known()) {
       actual = {*nominal[i].axes[0].actual, *nominal[i].axes[1].actual, *nominal[i].axes[2].actual};
     } else {
-      const bool first = !probing;
       if (!probing) probing.emplace(context, "point");
-      const EvaluatedTouch touch = probing->touch(nominal[i], directions[i], first);
+      const EvaluatedTouch touch = probing->touch(nominal[i], directions[i]);
       actual = touch.surface;
       touched.push_back(touch);
-      endsByHand = nominal[i].semiAutomatic();
     }
     found[i] = measuredPosition(nominal[i], actual, axisOf(directions[i]));
   }
-  if (probing) probing->leave(true, endsByHand);
+  if (probing) probing->leaveLastObject();
   if (touched.size() == 3) {
     notePlane(context.channel().journal(), std::array{touched[0].surface, touched[1].surface, touched[2].surface},
               placesOf(touched));
@@ -188,7 +188,7 @@ void run(Context& context, const Arguments&) {
   const auto& plane = coordinates.plane;
   const Vector3 inWorkpiece = plane.planeFromXyz(coordinates.machineFromPreset().linear().transpose() *
                                                  context.channel().frame().linear() * plane.xyzFromPlane(normal));
-  const Vector3 space = spaceAnglesOfNormal(plane, inWorkpiece, facing != 2);
+  const Vector3 space = spaceAnglesOfNormal(plane, inWorkpiece, facing == 2 ? Faces::Tool : Faces::Sideways);
 
   RotationFindings findings(context);
   for (std::size_t i = 0; i < 3; ++i)

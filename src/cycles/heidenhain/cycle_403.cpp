@@ -101,11 +101,12 @@ void run(Context& context, const Arguments&) {
   requireTable(context, axis);
   const bool directed = context.option(312) == 0;
   // A named axis is entered in the active preset; the older control knows Q305 for it too.
-  const bool rowGiven = directed || !context.control().isTNC640();
+  const PresetRow row = directed || !context.control().isTNC640() ? PresetRow::OfQ305 : PresetRow::Active;
   if (context.option(337) == 1 && context.option(303) == 0) {
     requireDatumTable(context, "Q337 = 1 with Q303 = 0 enters", "enter it into the preset table with Q303 = 1");
   } else if (context.option(337) == 1) {
-    context.control().requireWritablePreset(rowGiven ? context.option(305) : context.control().coordinates.preset.row);
+    context.control().requireWritablePreset(row == PresetRow::OfQ305 ? context.option(305)
+                                                                     : context.control().coordinates.preset.row);
   }
   const MeasuredEdge edge = measureEdge(context);
   const auto& plane = context.control().coordinates.plane;
@@ -120,7 +121,7 @@ void run(Context& context, const Arguments&) {
   context.result(150, measured, {.nominal = target});
   const double turn = directed ? normalizedDegrees(target - measured) : undirected(target - measured);
   const std::size_t rotary = turnWorkpiece(context, axis, turn);
-  if (context.option(337) == 1) zeroRotaryAxis(context, rotary, rowGiven);
+  if (context.option(337) == 1) zeroRotaryAxis(context, rotary, row);
 }
 
 }  // namespace

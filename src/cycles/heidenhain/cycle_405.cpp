@@ -72,7 +72,7 @@ void run(Context& context, const Arguments&) {
   context.result(150, offset);
   const std::size_t axis = turnWorkpiece(context, 2, -offset);
   if (row == 0) {
-    zeroRotaryAxisInPreset(context, axis, false);
+    zeroRotaryAxisInPreset(context, axis, PresetRow::Active);
   } else {
     addDatumAngle(context, axis, row, offset);
   }

@@ -143,7 +143,7 @@ void run(Context& context, const Arguments&) {
                        .startAngle = context.q(380),
                        .travelHeight = start.z(),
                        .extraClearance = context.q(320),
-                       .between = betweenTouches(context)};
+                       .between = betweenOf(context)};
   // The older control begins at the pole; so does a ball that stands aside, which cannot be met at any height.
   const bool fromPole = !context.control().isTNC640() || prober.probe().aside;
   if (prober.probe().aside) prober.moveInPlane(start - prober.tipOffsetNow());

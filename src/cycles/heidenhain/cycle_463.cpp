@@ -46,7 +46,7 @@ void run(Context& context, const Arguments&) {
                                         .measuringHeight = touchHeight,
                                         .travelHeight = start.z(),
                                         .extraClearance = context.q(320),
-                                        .between = betweenTouches(context)}));
+                                        .between = betweenOf(context)}));
 }
 
 }  // namespace

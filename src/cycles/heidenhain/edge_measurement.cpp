@@ -16,13 +16,11 @@ MeasuredEdge measureEdge(Context& context) {
     throw control::Alarm("Edge not determined", "The two touches coincide", "move the points apart");
   };
   requireApart(second.surface - first.surface);
-  const auto touches =
-      probing::probePoints(context.prober(), {{first}, {second}},
-                           {.measuring = height,
-                            .clearance = context.q(260),
-                            .extraClearance = context.q(320),
-                            .between = context.option(301) == 1 ? probing::Between::AtClearanceHeight
-                                                                : probing::Between::AtMeasuringHeight});
+  const auto touches = probing::probePoints(context.prober(), {{first}, {second}},
+                                            {.measuring = height,
+                                             .clearance = context.q(260),
+                                             .extraClearance = context.q(320),
+                                             .between = betweenOf(context)});
   MeasuredEdge edge{touches[0], touches[1], touches[1].ballCentre - touches[0].ballCentre};
   requireApart(edge.along);
   if (context.option(272) != 3) {

@@ -27,13 +27,11 @@ Vector3 measureHoleCentre(Context& context, const Vector2& centre, double measur
 
 Vector3 measureStudCentre(Context& context, const Vector2& centre, double diameter, double measuringHeight) {
   const probing::CircleTask task{.centre = centre, .diameter = diameter, .side = Side::Outside};
-  const auto touches =
-      probing::probeCircle(context.prober(), task,
-                           {.measuring = measuringHeight,
-                            .clearance = context.q(260),
-                            .extraClearance = context.q(320),
-                            .between = context.option(301) == 1 ? probing::Between::AtClearanceHeight
-                                                                : probing::Between::AtMeasuringHeight});
+  const auto touches = probing::probeCircle(context.prober(), task,
+                                            {.measuring = measuringHeight,
+                                             .clearance = context.q(260),
+                                             .extraClearance = context.q(320),
+                                             .between = betweenOf(context)});
   std::vector<Vector3> centres;
   for (const EvaluatedTouch& touch : touches)
     centres.push_back(touch.ballCentre);

@@ -36,7 +36,8 @@ ObjectProbing::ObjectProbing(Context& context, std::string_view called)
       clearance_(context.q(260)),
       extra_(context.q(320)) {}
 
-void ObjectProbing::enter(const Vector3& ballCentre, bool firstOfObject) {
+void ObjectProbing::enter(const Vector3& ballCentre, Point point) {
+  const bool firstOfObject = point == Point::FirstOfObject;
   const bool viaClearance = mode_ == clearancePerPoint || (firstOfObject && mode_ > clearancePerCycle) ||
                             (!entered_ && mode_ == clearancePerCycle);
   if (viaClearance) {
@@ -58,14 +59,13 @@ std::string ObjectProbing::question(int ordinal) const {
                     : fmt::format("{} call {} {} {}", name, calls, called_, ordinal);
 }
 
-std::optional<std::string> ObjectProbing::answer(const std::string& what, bool choosesDirection) {
+std::optional<std::string> ObjectProbing::answer(const std::string& what, Asked asked) {
   const auto& panel = context_.control().panel;
   if (!panel.answer) return std::nullopt;
   std::string wanted = "tip of the probe in main, minor and tool axis, as 10 20 50; 10 20 -5";
-  if (choosesDirection) wanted += " Y- (with another probing direction)";
+  if (asked == Asked::WayAndDirection) wanted += " Y- (with another probing direction)";
   wanted += "; nothing: it stays";
-  return panel.answer(
-      {what, wanted, [&](const std::string& text) { return wayOf(text, choosesDirection).has_value(); }});
+  return panel.answer({what, wanted, [&](const std::string& text) { return wayOf(text, asked).has_value(); }});
 }
 
 int ObjectProbing::directionFrom(const std::string& word) const {
@@ -81,7 +81,7 @@ std::string ObjectProbing::nameOf(int direction) const {
   return {"XYZ"[axis], direction < 0 ? '-' : '+'};
 }
 
-std::optional<ObjectProbing::Way> ObjectProbing::wayOf(const std::string& text, bool choosesDirection) const {
+std::optional<ObjectProbing::Way> ObjectProbing::wayOf(const std::string& text, Asked asked) const {
   Way way;
   std::istringstream all(text);
   std::string one;
@@ -97,7 +97,7 @@ std::optional<ObjectProbing::Way> ObjectProbing::wayOf(const std::string& text, 
         if (!number) return std::nullopt;
         tip[count] = *number * context_.control().unit;
       } else {
-        way.direction = choosesDirection ? directionFrom(word) : 0;
+        way.direction = asked == Asked::WayAndDirection ? directionFrom(word) : 0;
         if (way.direction == 0) return std::nullopt;
       }
     }
@@ -109,7 +109,7 @@ std::optional<ObjectProbing::Way> ObjectProbing::wayOf(const std::string& text, 
 }
 
 void ObjectProbing::moveAlong(const std::string& what, const std::string& waypoints, int* direction) {
-  const std::optional<Way> way = wayOf(waypoints, direction != nullptr);
+  const std::optional<Way> way = wayOf(waypoints, direction == nullptr ? Asked::Way : Asked::WayAndDirection);
   if (!way) {
     throw Alarm("Position of the probe wrong", fmt::format("'{}' is not a position for {}", waypoints, what),
                 "answer with three coordinates of the tip: main, minor and tool axis; ; between waypoints");
@@ -121,7 +121,7 @@ void ObjectProbing::moveAlong(const std::string& what, const std::string& waypoi
 
 void ObjectProbing::askOperator(const std::string& what, const std::string& task, int* direction) {
   context_.stop(fmt::format("{}: {}, then NC start", what, task));
-  const auto reply = answer(what, direction != nullptr);
+  const auto reply = answer(what, direction == nullptr ? Asked::Way : Asked::WayAndDirection);
   if (!reply) {
     throw Alarm("Semi-automatic probing without operator",
                 fmt::format("No answer says where the probe is to be for {}", what),
@@ -137,12 +137,13 @@ void ObjectProbing::retractByOperator(const std::string& what) {
                   "then NC start",
                   what));
   const std::string away = what + " away";
-  if (const auto reply = answer(away, false)) moveAlong(away, *reply);
+  if (const auto reply = answer(away, Asked::Way)) moveAlong(away, *reply);
 }
 
-EvaluatedTouch ObjectProbing::touch(const NominalPosition& nominal, int& direction, bool firstOfObject) {
+EvaluatedTouch ObjectProbing::touch(const NominalPosition& nominal, int& direction) {
   const auto along = [](int signedAxis) { return probing::axisDirection(std::abs(signedAxis) - 1, signedAxis); };
-  if (nominal.semiAutomatic()) {
+  byHand_ = nominal.semiAutomatic();
+  if (byHand_) {
     const std::string what = question(nominal.ordinal);
     askOperator(what, fmt::format("move the probe in front of the point, probing direction {}", nameOf(direction)),
                 &direction);
@@ -153,7 +154,7 @@ EvaluatedTouch ObjectProbing::touch(const NominalPosition& nominal, int& directi
     return touch;
   }
   const PlannedTouch planned{nominal.at(Vector3::Zero()), along(direction)};
-  enter(prober_.prePosition(planned, extra_), firstOfObject);
+  enter(prober_.prePosition(planned, extra_), entered_ ? Point::Further : Point::FirstOfObject);
   return prober_.touch(planned);
 }
 
@@ -163,9 +164,9 @@ std::vector<EvaluatedTouch> ObjectProbing::touchCircle(const NominalPosition& no
   const double diameter = diameterAndStart[0];
   const std::string what = question(nominal.ordinal);
   Vector3 middle = nominal.at(Vector3::Zero());
-  const bool byHand = nominal.semiAutomatic();
+  byHand_ = nominal.semiAutomatic();
   double above = 0;
-  if (byHand) {
+  if (byHand_) {
     askOperator(what, side == Side::Inside ? "move the ball into the middle of the hole at the measuring height"
                                            : "move the ball above the middle of the stud");
     entered_ = true;
@@ -196,26 +197,30 @@ std::vector<EvaluatedTouch> ObjectProbing::touchCircle(const NominalPosition& no
   std::vector<EvaluatedTouch> touches;
   for (std::size_t i = 0; i < plan.size(); ++i) {
     const Vector3 start = narrow ? middle : prober_.prePosition(plan[i], extra);
-    if (i == 0 && byHand) {
+    if (i == 0 && byHand_) {
       prober_.moveInPlane(start);
       prober_.moveTo(start);
-    } else if (i == 0 || (mode_ == clearancePerPoint && !byHand)) {
-      enter(start, i == 0);
+    } else if (i == 0 || (mode_ == clearancePerPoint && !byHand_)) {
+      enter(start, i == 0 ? Point::FirstOfObject : Point::Further);
     } else if (!narrow) {
       prober_.moveOnArc(middle, step);
     }
     touches.push_back(prober_.touch(plan[i]));
   }
-  if (byHand) {
+  if (byHand_) {
     if (side == Side::Outside) prober_.moveHeightTo(above);
     retractByOperator(what);
   }
   return touches;
 }
 
-void ObjectProbing::leave(bool last, bool semiAutomatic) {
-  if (semiAutomatic || !entered_ || mode_ == clearanceNever) return;
-  if (last || mode_ > clearancePerCycle) prober_.moveSouthPoleTo(clearance_);
+void ObjectProbing::leaveObject() {
+  if (mode_ > clearancePerCycle) leaveLastObject();
+}
+
+void ObjectProbing::leaveLastObject() {
+  if (byHand_ || !entered_ || mode_ == clearanceNever) return;
+  prober_.moveSouthPoleTo(clearance_);
 }
 
 }  // namespace probewright::cycles::heidenhain

@@ -13,19 +13,23 @@ public:
 
   probing::HeidenhainProber& prober() { return prober_; }
 
-  /// Touches the point of an edge or plane whose position is not known beforehand. The first and the last point of the
-  /// object enter and leave it as Q1125 says; of a position with "?" the operator says where the touch begins, and may
-  /// choose another direction. `direction`: 1, 2, 3 along main, minor, tool axis, or negative, as in Q372.
-  EvaluatedTouch touch(const NominalPosition& nominal, int& direction, bool firstOfObject);
+  /// Touches the point of an edge or plane whose position is not known beforehand. All such points of a call belong to
+  /// one object, which is entered and left as Q1125 says. Of a position with "?" the operator says where the touch
+  /// begins, and may choose another direction. `direction`: 1, 2, 3 along main, minor, tool axis, or negative, as in
+  /// Q372.
+  EvaluatedTouch touch(const NominalPosition& nominal, int& direction);
   /// The ball centres on a circle at `count` angles `step` apart. With "?" the operator brings the ball to the middle
   /// of the object at the measuring height (hole) or centred above it by the set-up clearance (stud).
   std::vector<EvaluatedTouch> touchCircle(const NominalPosition& nominal, const Vector2& diameterAndStart, double step,
                                           int count, Side side);
-  /// The object is done; `last`: so is the cycle.
-  void leave(bool last, bool semiAutomatic);
+  /// The object is done, others follow.
+  void leaveObject();
+  /// The last one is. After "?" the operator has retracted already.
+  void leaveLastObject();
 
 private:
-  void enter(const Vector3& ballCentre, bool firstOfObject);
+  enum class Point { FirstOfObject, Further };
+  void enter(const Vector3& ballCentre, Point point);
   void askOperator(const std::string& what, const std::string& task, int* direction = nullptr);
   /// Where the operator retracts to by hand, if he says so.
   void retractByOperator(const std::string& what);
@@ -34,11 +38,13 @@ private:
     std::vector<Vector3> tips;
     int direction = 0;
   };
+  /// What the operator may say.
+  enum class Asked { Way, WayAndDirection };
   /// "main minor tool; main minor tool" in the unit of the program, as the position display shows it. After the last
   /// waypoint a direction may follow, where it can be chosen: "10 20 -5 Y-". Without waypoints the probe stays where it
   /// is. Nothing if the text is something else.
-  std::optional<Way> wayOf(const std::string& text, bool choosesDirection) const;
-  std::optional<std::string> answer(const std::string& what, bool choosesDirection);
+  std::optional<Way> wayOf(const std::string& text, Asked asked) const;
+  std::optional<std::string> answer(const std::string& what, Asked asked);
   void moveAlong(const std::string& what, const std::string& waypoints, int* direction = nullptr);
   /// "Y-" as Q372 counts, 0 if it is none; and the other way round.
   int directionFrom(const std::string& word) const;
@@ -50,7 +56,7 @@ private:
   probing::HeidenhainProber prober_;
   int mode_ = 0;
   double clearance_ = 0, extra_ = 0;
-  bool entered_ = false;
+  bool entered_ = false, byHand_ = false;
 };
 
 }  // namespace probewright::cycles::heidenhain

@@ -8,11 +8,11 @@
 namespace probewright::cycles::heidenhain {
 namespace {
 
-probing::Heights heightsOf(const Context& context, bool betweenAtClearance) {
+probing::Heights heightsOf(const Context& context, probing::Between between) {
   return {.measuring = context.q(261),
           .clearance = context.q(260),
           .extraClearance = context.given(320) ? context.q(320) : 0,
-          .between = betweenAtClearance ? probing::Between::AtClearanceHeight : probing::Between::AtMeasuringHeight};
+          .between = between};
 }
 
 }  // namespace
@@ -23,7 +23,7 @@ MeasuredRectangle measureRectangle(Context& context, const RectangleParameters& 
   task.length1 = context.q(numbers.length1);
   task.length2 = context.q(numbers.length2);
   task.side = side;
-  const auto touches = probing::probeRectangle(context.prober(), task, heightsOf(context, context.option(301) == 1));
+  const auto touches = probing::probeRectangle(context.prober(), task, heightsOf(context, betweenOf(context)));
 
   const Vector3& plus1 = touches[0].surface;
   const Vector3& plus2 = touches[1].surface;
@@ -37,9 +37,9 @@ MeasuredRectangle measureRectangle(Context& context, const RectangleParameters& 
 }
 
 MeasuredWidth measureWidth(Context& context, const Vector2& centre, double width, int axis, Side side,
-                           bool betweenAtClearance) {
+                           probing::Between between) {
   const probing::WidthTask task{.centre = centre, .width = width, .axis = axis, .side = side};
-  const auto touches = probing::probeWidth(context.prober(), task, heightsOf(context, betweenAtClearance));
+  const auto touches = probing::probeWidth(context.prober(), task, heightsOf(context, between));
   const double plus = touches[0].surface[axis];
   const double minus = touches[1].surface[axis];
   return {(plus + minus) / 2, plus - minus, context.q(261)};
@@ -79,8 +79,8 @@ void presetWidth(Context& context, Side side) {
   requireTransferTarget(context);
   const int axis = context.option(272) - 1;
   const Vector2 centre(context.q(321), context.q(322));
-  const bool atClearance = side == Side::Outside || context.option(301) == 1;
-  const MeasuredWidth measured = measureWidth(context, centre, context.q(311), axis, side, atClearance);
+  const probing::Between between = side == Side::Outside ? probing::Between::AtClearanceHeight : betweenOf(context);
+  const MeasuredWidth measured = measureWidth(context, centre, context.q(311), axis, side, between);
   context.result(166, measured.width, {.nominal = context.q(311)});
   context.result(157, measured.centre, {.nominal = centre[axis]});
   NewPreset preset;

@@ -104,7 +104,7 @@ struct MeasuredWidth {
   double height = 0;  ///< measuring height
 };
 MeasuredWidth measureWidth(Context& context, const Vector2& centre, double width, int axis, Side side,
-                           bool betweenAtClearance);
+                           probing::Between between);
 
 /// Cycles 410 and 411: measures, leaves the results and sets the preset to the centre.
 void presetRectangle(Context& context, Side side);

@@ -84,7 +84,7 @@ void enterAlignment(Context& context, std::size_t axis, double turned) {
   Control& control = context.control();
   const bool zero = context.option(337) == 1;
   if (zero) {
-    zeroRotaryAxisInPreset(context, axis, control.isTNC640());
+    zeroRotaryAxisInPreset(context, axis, control.isTNC640() ? PresetRow::OfQ305 : PresetRow::Active);
   } else if (control.isTNC640()) {
     Control::PresetChange change;
     change.rotaryOffset[axis] = control.coordinates.preset.rotaryOffset[axis] + turned;
@@ -94,26 +94,26 @@ void enterAlignment(Context& context, std::size_t axis, double turned) {
   if (!control.coordinates.preset.spaceAngles.isZero(0)) setBasicRotation(context, 0, 0);
 }
 
-void zeroRotaryAxis(Context& context, std::size_t axis, bool rowGiven) {
+void zeroRotaryAxis(Context& context, std::size_t axis, PresetRow row) {
   Control& control = context.control();
   const double position = context.channel().axes()[axis];
   if (context.option(303) == 0) {
     writeDatumAngle(context, axis, position - control.coordinates.preset.rotaryOffset[axis]);
     return;
   }
-  zeroRotaryAxisInPreset(context, axis, rowGiven);
+  zeroRotaryAxisInPreset(context, axis, row);
 }
 
-void zeroRotaryAxisInPreset(Context& context, std::size_t axis, bool rowGiven) {
+void zeroRotaryAxisInPreset(Context& context, std::size_t axis, PresetRow row) {
   Control& control = context.control();
   Control::PresetChange change;
   change.rotaryOffset[axis] = context.channel().axes()[axis];
-  const int row = rowGiven ? context.option(305) : control.coordinates.preset.row;
-  if (rowGiven && row == 0) {
+  const int number = row == PresetRow::OfQ305 ? context.option(305) : control.coordinates.preset.row;
+  if (row == PresetRow::OfQ305 && number == 0) {
     copyActivePresetTo0(context, change);
     return;
   }
-  writePresetRow(context, row, change);
+  writePresetRow(context, number, change);
 }
 
 }  // namespace probewright::cycles::heidenhain

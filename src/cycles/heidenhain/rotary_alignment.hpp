@@ -22,12 +22,15 @@ int firstTableTurn(Context& context);
 /// iTNC 530 sets it to zero in the active preset, or enters nothing.
 void enterAlignment(Context& context, std::size_t axis, double turned);
 
-/// Sets the angle of the rotary axis to zero where it stands: in the preset table or the active datum table as Q303
-/// says; in row Q305 if `rowGiven` (row 0 takes over the active preset and becomes active), else in the active row.
-void zeroRotaryAxis(Context& context, std::size_t axis, bool rowGiven);
+/// Which row of the preset table takes an angle: that of Q305, where row 0 takes over the active preset and becomes
+/// active, or the active one.
+enum class PresetRow { OfQ305, Active };
 
-/// The same in the preset table only: in row Q305 if `rowGiven` (row 0 takes over the active preset and becomes
-/// active), else in the active row.
-void zeroRotaryAxisInPreset(Context& context, std::size_t axis, bool rowGiven);
+/// Sets the angle of the rotary axis to zero where it stands: in the preset table or the active datum table as Q303
+/// says.
+void zeroRotaryAxis(Context& context, std::size_t axis, PresetRow row);
+
+/// The same in the preset table only.
+void zeroRotaryAxisInPreset(Context& context, std::size_t axis, PresetRow row);
 
 }  // namespace probewright::cycles::heidenhain

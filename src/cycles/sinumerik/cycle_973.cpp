@@ -143,7 +143,7 @@ void calibrateOneWay(Context& context, ProbeCalibration& calibration, const Vari
     return;
   }
   calibration.setTrigger(axis, sign, found);
-  if (!variant.length) calibration.completeAxis(axis, false);
+  if (!variant.length) calibration.completeAxis(axis, ProbeCalibration::Deviation::Kept);
 }
 
 /// Both directions of the axis across the groove. The groove's width is exact, its place only if the deviation is asked
@@ -233,7 +233,7 @@ void run(Context& context, const Arguments&) {
     });
     return calibration.store();
   }
-  const int axis = turningAxis(context, context.integer("S_MA"), false);
+  const int axis = turningAxis(context, context.integer("S_MA"), ThirdAxis::AsItIs);
   const double surface = context.real("S_SETV") / countOf(context, axis);
   calibrateOneWay(context, calibration, variant, axis, signOf(context), surface);
   calibration.store();

@@ -82,7 +82,8 @@ public:
   }
 
   void surface();
-  void ring(bool centreKnown);
+  enum class Centre { Known, Unknown };
+  void ring(Centre centre);
   void ball();
   void edge();
   void store() {
@@ -98,6 +99,9 @@ private:
     return units >= 1 && units <= 3 && context_.digit("S_MVAR", 6) == 1;
   }
   bool wantsDeviation() const { return context_.digit("S_MVAR", 5) == 0; }
+  ProbeCalibration::Deviation deviation() const {
+    return wantsDeviation() ? ProbeCalibration::Deviation::Measured : ProbeCalibration::Deviation::Kept;
+  }
   bool wantsLength() const { return context_.digit("S_MVAR", 7) == 1; }
   /// A probe that is turned into each direction has no deviation across; others show theirs when turned round.
   bool canReverse() const {
@@ -201,7 +205,8 @@ Crosswise Calibration976::acrossRing(const Vector3& from, double radius) {
   return result;
 }
 
-void Calibration976::ring(bool centreKnown) {
+void Calibration976::ring(Centre centre) {
+  const bool centreKnown = centre == Centre::Known;
   const double radius = context_.real("S_SETV") / 2;
   if (!(radius > 0)) context_.alarm(61319, "S_SETV, the diameter of the ring, must be greater than 0");
   calibration_.list({0, 1}, ProbeCalibration::Listed::WithDeviations);
@@ -214,7 +219,7 @@ void Calibration976::ring(bool centreKnown) {
     if (isBent() && along.x() < 1 - 1e-9) context_.alarm(61309, bentAdvice);
     const Vector3 tcp = touch(start_ + along * radius, along);
     calibration_.setTrigger(axis, way, way * (radius - along.dot(tcp - start_)));
-    calibration_.completeAxis(axis, wantsDeviation());
+    calibration_.completeAxis(axis, deviation());
     prober_.moveInPlane(start_);
     return;
   }
@@ -225,7 +230,7 @@ void Calibration976::ring(bool centreKnown) {
     const double lower = along.dot(touch(start_ - along * radius, -along) - start_);
     calibration_.setTrigger(axis, 1, radius - upper);
     calibration_.setTrigger(axis, -1, -radius - lower);
-    calibration_.completeAxis(axis, wantsDeviation());
+    calibration_.completeAxis(axis, deviation());
     prober_.moveInPlane(start_);
     return;
   }
@@ -358,7 +363,7 @@ void Calibration976::edge() {
   } else {
     context_.alarm(61307, "thousands of S_MVAR: 1 one direction, 2 two directions");
   }
-  calibration_.completeAxis(axis, wantsDeviation());
+  calibration_.completeAxis(axis, deviation());
 }
 
 constexpr bool alongOneAxis(int code) {
@@ -429,10 +434,10 @@ void run(Context& context, const Arguments&) {
       calibration.surface();
       break;
     case Body::RingAboutStart:
-      calibration.ring(true);
+      calibration.ring(Calibration976::Centre::Known);
       break;
     case Body::Ring:
-      calibration.ring(false);
+      calibration.ring(Calibration976::Centre::Unknown);
       break;
     case Body::Ball:
       calibration.ball();

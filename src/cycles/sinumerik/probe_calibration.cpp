@@ -70,7 +70,7 @@ double ProbeCalibration::trigger(int axis, double sign) const {
   return found != changes_.end() ? found->value : context_.control().data.number(name, {dataSet_});
 }
 
-void ProbeCalibration::completeAxis(int axis, bool deviation) {
+void ProbeCalibration::completeAxis(int axis, Deviation deviation) {
   const double plus = trigger(axis, 1), minus = trigger(axis, -1);
   if (bent()) {
     // The ball sits at the end of the arm, whose length the tool data have.
@@ -78,7 +78,7 @@ void ProbeCalibration::completeAxis(int axis, bool deviation) {
     if (radius > 0) setBallDiameter(2 * radius);
   } else if (plus != 0 && minus != 0) {
     setBallDiameter(plus - minus);
-    if (deviation) {
+    if (deviation == Deviation::Measured) {
       changes_.push_back({fmt::format("$SNS_MEA_WP_POS_DEV_AX{}", axis + 1), 20 + axis, (plus + minus) / 2, false});
     }
   } else {

@@ -56,8 +56,9 @@ public:
   void setTrigger(int axis, double sign, double value);
   void setBallDiameter(double value);
   void setDeviation(int axis, double value);
+  enum class Deviation { Measured, Kept };
   /// Ball diameter and, if wanted, deviation from both trigger points of one axis; from one where the other is unknown.
-  void completeAxis(int axis, bool deviation);
+  void completeAxis(int axis, Deviation deviation);
   /// Adds to the geometry of the tool length that acts in an axis of the plane.
   void correctLength(int axis, double amount);
 

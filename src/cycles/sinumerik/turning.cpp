@@ -35,13 +35,13 @@ void requireUnturned(Context& context) {
   }
 }
 
-int turningAxis(Context& context, int code, bool needsRelease) {
+int turningAxis(Context& context, int code, ThirdAxis third) {
   if (code < 1 || code > 3) context.alarm(61325, fmt::format("axis {} of S_MA: 1 to 3 are possible", code));
   const auto plane = context.control().workingPlane();
   const int axis = code == 1 ? plane.main : code == 2 ? plane.minor : plane.tool;
   const char* name = axisNames[static_cast<std::size_t>(axis)];
   if (!context.channel().description().axisIndex(name)) context.alarm(61336, fmt::format("axis {}", name));
-  if (code == 3 && needsRelease && !maskBit(context.control().data, "$MCS_MEA_FUNCTION_MASK", 1)) {
+  if (code == 3 && third == ThirdAxis::Released && !maskBit(context.control().data, "$MCS_MEA_FUNCTION_MASK", 1)) {
     context.alarm(61336, fmt::format("bit 1 of MD 52740 does not release axis {} for turning", name));
   }
   return code - 1;

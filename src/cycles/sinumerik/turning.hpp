@@ -14,9 +14,12 @@ void requireTurningProbe(Context& context);
 /// Refuses to measure in a workpiece system that is turned against the axes: alarm 61330.
 void requireUnturned(Context& context);
 
+/// Whether bit 1 of MD 52740 must let a cycle use the 3rd axis of the plane.
+enum class ThirdAxis { Released, AsItIs };
+
 /// Axis `code` (1, 2, 3) as an index. Alarm 61325 for another number; 61336 for the 3rd axis of the plane unless the
-/// machine has it and, with `needsRelease`, MD 52740 bit 1 lets turning cycles use it.
-int turningAxis(Context& context, int code, bool needsRelease = true);
+/// machine has it and may use it.
+int turningAxis(Context& context, int code, ThirdAxis third = ThirdAxis::Released);
 
 /// Refuses to measure in a direction in which data set S_PRNUM has no trigger point (61341), unless the machine data
 /// say not to watch it.
