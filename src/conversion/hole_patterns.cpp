@@ -132,7 +132,8 @@ Place ToSinumerik::holePattern(const Block& block, const MeasuringTask& given, c
   };
   for (const auto& [meaning, name] : heidenhainResults(heidenhainCycle, pattern)) {
     const int number = std::stoi(name.substr(1));
-    if (usedQ_.contains(number)) set(parameter(number), sinumerikText(found.at(meaning)));
+    const auto value = found.find(meaning);
+    if (usedQ_.contains(number) && value != found.end()) set(parameter(number), sinumerikText(value->second));
   }
   if (heidenhainCycle == "430") judgePattern(block, pattern, centre, diameter);
   const Place middle = {Quantity::of(centre[0]), Quantity::of(centre[1]), {}};

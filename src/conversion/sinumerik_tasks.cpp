@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+
+#include "conversion/meanings.hpp"
 
 /// Measuring cycles of a SINUMERIK read as measuring tasks.
 namespace probewright::conversion {
@@ -416,44 +419,54 @@ std::array<std::optional<Quantity>, 3> sinumerikEnd(const Call& call, const Meas
   return end;
 }
 
-Results sinumerikResults(const MeasuringTask& task) {
-  if (isRound(task.feature)) {
-    return {{Meaning::Size1, "_OVR[4]"},
-            {Meaning::Centre1, "_OVR[5]"},
-            {Meaning::Centre2, "_OVR[6]"},
-            {Meaning::Size1Deviation, "_OVR[16]"},
-            {Meaning::Centre1Deviation, "_OVR[17]"},
-            {Meaning::Centre2Deviation, "_OVR[18]"}};
-  }
-  if (isRectangular(task.feature)) {
-    return {{Meaning::Size1, "_OVR[4]"},
-            {Meaning::Size2, "_OVR[5]"},
-            {Meaning::Centre1, "_OVR[6]"},
-            {Meaning::Centre2, "_OVR[7]"},
-            {Meaning::Size1Deviation, "_OVR[16]"},
-            {Meaning::Size2Deviation, "_OVR[17]"},
-            {Meaning::Centre1Deviation, "_OVR[18]"},
-            {Meaning::Centre2Deviation, "_OVR[19]"}};
-  }
-  if (isWidth(task.feature)) {
-    return {{Meaning::Size1, "_OVR[4]"},
-            {Meaning::Coordinate, fmt::format("_OVR[{}]", 5 + task.axis)},
-            {Meaning::Size1Deviation, "_OVR[16]"},
-            {Meaning::CoordinateDeviation, fmt::format("_OVR[{}]", 17 + task.axis)}};
-  }
-  switch (task.feature) {
+namespace {
+
+/// The cycle that measures a feature, and the units of its S_MVAR.
+struct Measurement {
+  const char* cycle;
+  int units;
+};
+
+std::optional<Measurement> measurementOf(Feature feature) {
+  const auto among977 = std::ranges::find(features977, feature);
+  if (among977 != features977.end())
+    return Measurement{"CYCLE977", 1 + static_cast<int>(among977 - features977.begin())};
+  switch (feature) {
+    case Feature::HoleSegment:
+      return Measurement{"CYCLE979", 1};
+    case Feature::SpigotSegment:
+      return Measurement{"CYCLE979", 2};
     case Feature::Surface:
-      return {{Meaning::Coordinate, "_OVR[4]"}, {Meaning::CoordinateDeviation, "_OVR[16]"}};
+      return Measurement{"CYCLE978", 0};
     case Feature::Edge:
-      return {{Meaning::Angle, "_OVR[4]"}, {Meaning::AngleDeviation, "_OVR[16]"}};
+      return Measurement{"CYCLE998", 5};
     case Feature::Plane:
-      return {{Meaning::Angle, "_OVR[4]"}, {Meaning::Angle2, "_OVR[5]"}};
+      return Measurement{"CYCLE998", 6};
     case Feature::InsideCorner:
+      return Measurement{"CYCLE961", 7};
     case Feature::OutsideCorner:
-      return {{Meaning::Angle, "_OVR[4]"}, {Meaning::Centre1, "_OVR[5]"}, {Meaning::Centre2, "_OVR[6]"}};
+      return Measurement{"CYCLE961", 8};
     default:
-      return {};
+      return std::nullopt;
   }
+}
+
+}  // namespace
+
+Results sinumerikResults(const MeasuringTask& task) {
+  const auto measurement = measurementOf(task.feature);
+  if (!measurement) return {};
+  Results results = resultsOf(*cycles::sinumerikCycle(measurement->cycle), measurement->units);
+  if (isWidth(task.feature)) {
+    // Of the centre only the coordinate across groove or rib is measured.
+    const bool first = task.axis == 0;
+    results[Meaning::Coordinate] = results.at(first ? Meaning::Centre1 : Meaning::Centre2);
+    results[Meaning::CoordinateDeviation] = results.at(first ? Meaning::Centre1Deviation : Meaning::Centre2Deviation);
+    for (const Meaning centre :
+         {Meaning::Centre1, Meaning::Centre2, Meaning::Centre1Deviation, Meaning::Centre2Deviation})
+      results.erase(centre);
+  }
+  return results;
 }
 
 Quantity sinumerikEdgeAngle(const MeasuringTask& task, const Quantity& angle) {

@@ -178,9 +178,9 @@ Place ToSinumerik::task(const Block& block, const MeasuringTask& given, const st
   const bool incidental = task.feature == Feature::Surface && heidenhainCycle.starts_with("41") &&
                           heidenhainCycle != "417" && heidenhainCycle != "419";
   if (!incidental) copyResults(block, heidenhainCycle, task, passage);
-  const int number = std::stoi(heidenhainCycle);
   if (task.tool && !passage.correctsTool) correctTool(task, passage);
-  if (number >= 421 && number <= 427) judge(block, task, passage);
+  const cycles::CycleDefinition& cycle = *cycles::heidenhainCycle(std::stoi(heidenhainCycle));
+  if (cycle.family == cycles::CycleFamily::Inspection && cycle.parameter(309) != nullptr) judge(block, task, passage);
   if (passage.start) out_.line(fmt::format("G0 {}", addressWord(axis(2), task.clearance)));
   shiftToWish(block, task, passage.rest);
   if (task.correction == Correction::RotaryAxis) {
