@@ -71,8 +71,7 @@ Result<Line2Fit> fitLine(std::span<const Vector2> points, const FitOptions& opti
 /// Line through at least 2 points in space; runs from the first point towards the last. Two equations a point.
 Result<LineFit> fitLine(std::span<const Vector3> points, const FitOptions& options = {});
 
-/// Plane through at least 3 points, reported at their centroid. The greatest component of its normal is positive; see
-/// `oriented` for another side.
+/// Plane through at least 3 points, reported at their centroid. The greatest component of its normal is positive.
 Result<PlaneFit> fitPlane(std::span<const Vector3> points, const FitOptions& options = {});
 
 /// Circle through at least 3 points of a plane. Method: Taubin's algebraic fit as the start, then Levenberg-Marquardt

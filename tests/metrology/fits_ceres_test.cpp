@@ -11,6 +11,10 @@
 namespace probewright::metrology {
 namespace {
 
+double distance(const Vector3& point, const Line& line) {
+  return (point - line.point).cross(line.direction.normalized()).norm();
+}
+
 constexpr double agreement = 1e-9;
 
 ceres::Solver::Options strictOptions() {

@@ -11,6 +11,14 @@
 namespace probewright::metrology {
 namespace {
 
+double distance(const Vector3& point, const Line& line) {
+  return (point - line.point).cross(line.direction.normalized()).norm();
+}
+
+double distance(const Vector3& point, const Plane& plane) {
+  return (point - plane.point).dot(plane.normal.normalized());
+}
+
 class World {
 public:
   explicit World(std::uint64_t seed) : random_(seed) {}

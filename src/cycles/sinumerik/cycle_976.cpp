@@ -83,7 +83,7 @@ public:
 
   void surface();
   enum class Centre { Known, Unknown };
-  void ring(Centre centre);
+  void ring(Centre ofRing);
   void ball();
   void edge();
   void store() {
@@ -205,8 +205,8 @@ Crosswise Calibration976::acrossRing(const Vector3& from, double radius) {
   return result;
 }
 
-void Calibration976::ring(Centre centre) {
-  const bool centreKnown = centre == Centre::Known;
+void Calibration976::ring(Centre ofRing) {
+  const bool centreKnown = ofRing == Centre::Known;
   const double radius = context_.real("S_SETV") / 2;
   if (!(radius > 0)) context_.alarm(61319, "S_SETV, the diameter of the ring, must be greater than 0");
   calibration_.list({0, 1}, ProbeCalibration::Listed::WithDeviations);
