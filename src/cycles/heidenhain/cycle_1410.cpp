@@ -15,25 +15,15 @@ using namespace parameters;
 constexpr std::array parameters1410 =
     joined(joined(joined(position1, position2), std::array{signedDirection}), joined(travelAndReaction, transferOf2));
 
-constexpr ResultDefinition results1410[] = {
-    {"Q950", "first measured position, main axis", result::actual(of::position1.number(1))},
-    {"Q951", "first measured position, minor axis", result::actual(of::position2.number(1))},
-    {"Q952", "first measured position, tool axis", result::actual(of::position3.number(1))},
-    {"Q953", "second measured position, main axis", result::actual(of::position1.number(2))},
-    {"Q954", "second measured position, minor axis", result::actual(of::position2.number(2))},
-    {"Q955", "second measured position, tool axis", result::actual(of::position3.number(2))},
-    {"Q964", {"measured ", "angle in the working plane"}, result::actual(of::angle).main()},
-    {"Q965", "the same as an angle of the rotary table", result::actual(of::tableAngle)},
-    {"Q980", {"deviation of the ", "first position, main axis"}, result::difference(of::position1.number(1))},
-    {"Q981", {"deviation of the ", "first position, minor axis"}, result::difference(of::position2.number(1))},
-    {"Q982", {"deviation of the ", "first position, tool axis"}, result::difference(of::position3.number(1))},
-    {"Q983", {"deviation of the ", "second position, main axis"}, result::difference(of::position1.number(2))},
-    {"Q984", {"deviation of the ", "second position, minor axis"}, result::difference(of::position2.number(2))},
-    {"Q985", {"deviation of the ", "second position, tool axis"}, result::difference(of::position3.number(2))},
-    {"Q994", {"deviation of the ", "angle"}, result::difference(of::angle).main()},
-    {"Q995", "the same as an angle of the rotary table", result::difference(of::tableAngle)},
-    {"Q183", "workpiece: -1 not monitored, 0 good, 1 rework, 2 scrap", result::status},
-};
+constexpr std::array results1410 = joined(
+    firstTwoPositions,
+    std::array{ResultDefinition{"Q964", {"measured ", "angle in the working plane"}, result::actual(of::angle).main()},
+               ResultDefinition{"Q965", "the same as an angle of the rotary table", result::actual(of::tableAngle)}},
+    deviationsOfFirstTwo,
+    std::array{
+        ResultDefinition{"Q994", {"deviation of the ", "angle"}, result::difference(of::angle).main()},
+        ResultDefinition{"Q995", "the same as an angle of the rotary table", result::difference(of::tableAngle)}},
+    verdictOfRotation);
 
 void requireRotation(Context& context, int direction) {
   if (std::abs(direction) != 3 || context.option(1121) == 0) return;

@@ -30,30 +30,25 @@ constexpr std::array parameters1420 =
     joined(joined(joined(position1, position2), joined(position3, std::array{signedDirection})),
            joined(travelAndReaction, transferOf3));
 
-constexpr ResultDefinition results1420[] = {
-    {"Q950", "first measured position, main axis", result::actual(of::position1.number(1))},
-    {"Q951", "first measured position, minor axis", result::actual(of::position2.number(1))},
-    {"Q952", "first measured position, tool axis", result::actual(of::position3.number(1))},
-    {"Q953", "second measured position, main axis", result::actual(of::position1.number(2))},
-    {"Q954", "second measured position, minor axis", result::actual(of::position2.number(2))},
-    {"Q955", "second measured position, tool axis", result::actual(of::position3.number(2))},
-    {"Q956", "third measured position, main axis", result::actual(of::position1.number(3))},
-    {"Q957", "third measured position, minor axis", result::actual(of::position2.number(3))},
-    {"Q958", "third measured position, tool axis", result::actual(of::position3.number(3))},
-    {"Q961", {"measured ", "space angle SPA in the workpiece coordinate system"}, result::actual(of::angleX).main()},
-    {"Q962", {"measured ", "space angle SPB"}, result::actual(of::angleY).main()},
-    {"Q963", {"measured ", "space angle SPC"}, result::actual(of::angleZ).main()},
-    {"Q980", {"deviation of the ", "first position, main axis"}, result::difference(of::position1.number(1))},
-    {"Q981", {"deviation of the ", "first position, minor axis"}, result::difference(of::position2.number(1))},
-    {"Q982", {"deviation of the ", "first position, tool axis"}, result::difference(of::position3.number(1))},
-    {"Q983", {"deviation of the ", "second position, main axis"}, result::difference(of::position1.number(2))},
-    {"Q984", {"deviation of the ", "second position, minor axis"}, result::difference(of::position2.number(2))},
-    {"Q985", {"deviation of the ", "second position, tool axis"}, result::difference(of::position3.number(2))},
-    {"Q986", {"deviation of the ", "third position, main axis"}, result::difference(of::position1.number(3))},
-    {"Q987", {"deviation of the ", "third position, minor axis"}, result::difference(of::position2.number(3))},
-    {"Q988", {"deviation of the ", "third position, tool axis"}, result::difference(of::position3.number(3))},
-    {"Q183", "workpiece: -1 not monitored, 0 good, 1 rework, 2 scrap", result::status},
-};
+constexpr std::array results1420 = joined(
+    firstTwoPositions,
+    std::array{ResultDefinition{"Q956", "third measured position, main axis", result::actual(of::position1.number(3))},
+               ResultDefinition{"Q957", "third measured position, minor axis", result::actual(of::position2.number(3))},
+               ResultDefinition{"Q958", "third measured position, tool axis", result::actual(of::position3.number(3))},
+               ResultDefinition{"Q961",
+                                {"measured ", "space angle SPA in the workpiece coordinate system"},
+                                result::actual(of::angleX).main()},
+               ResultDefinition{"Q962", {"measured ", "space angle SPB"}, result::actual(of::angleY).main()},
+               ResultDefinition{"Q963", {"measured ", "space angle SPC"}, result::actual(of::angleZ).main()}},
+    deviationsOfFirstTwo,
+    std::array{
+        ResultDefinition{
+            "Q986", {"deviation of the ", "third position, main axis"}, result::difference(of::position1.number(3))},
+        ResultDefinition{
+            "Q987", {"deviation of the ", "third position, minor axis"}, result::difference(of::position2.number(3))},
+        ResultDefinition{
+            "Q988", {"deviation of the ", "third position, tool axis"}, result::difference(of::position3.number(3))}},
+    verdictOfRotation);
 
 /// The normal of the plane through three points, on the side of `towards`.
 Vector3 normalOf(const Vector3& p1, const Vector3& p2, const Vector3& p3, const Vector3& towards) {

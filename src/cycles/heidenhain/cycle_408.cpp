@@ -4,8 +4,8 @@
 namespace probewright::cycles::heidenhain {
 namespace {
 
-constexpr std::array parameters408 = parameters::joined(
-    parameters::joined(parameters::widthCentre, parameters::heightsAndTravel), parameters::widthTransfer);
+constexpr std::array parameters408 =
+    joined(joined(parameters::widthCentre, parameters::heightsAndTravel), parameters::widthTransfer);
 
 constexpr CycleDefinition definition = {
     .number = 408,

@@ -5,7 +5,7 @@ namespace probewright::cycles::heidenhain {
 namespace {
 
 constexpr std::array parameters409 =
-    parameters::joined(parameters::joined(parameters::widthCentre, parameters::heights), parameters::widthTransfer);
+    joined(joined(parameters::widthCentre, parameters::heights), parameters::widthTransfer);
 
 constexpr CycleDefinition definition = {
     .number = 409,

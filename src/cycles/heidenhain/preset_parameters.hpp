@@ -3,21 +3,11 @@
 #include <array>
 
 #include "cycles/heidenhain/parameters.hpp"
+#include "cycles/joined.hpp"
 
 /// The parameters at the end of most presetting cycles, in the order in which the control writes them. Programs of
 /// older controls end with Q332: they know no Q303, which counts as -1, and set no preset in the touch probe axis.
 namespace probewright::cycles::heidenhain::parameters {
-
-template <std::size_t First, std::size_t Last>
-constexpr std::array<Parameter, First + Last> joined(const std::array<Parameter, First>& first,
-                                                     const std::array<Parameter, Last>& last) {
-  std::array<Parameter, First + Last> all{};
-  for (std::size_t i = 0; i < First; ++i)
-    all[i] = first[i];
-  for (std::size_t i = 0; i < Last; ++i)
-    all[First + i] = last[i];
-  return all;
-}
 
 inline constexpr std::array toolAxisPreset = {standard(probeToolAxis, 0), standard(toolAxisPoint1, 0),
                                               standard(toolAxisPoint2, 0), standard(toolAxisPoint3, 0), newPreset3};

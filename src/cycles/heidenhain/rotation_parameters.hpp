@@ -67,4 +67,31 @@ inline constexpr std::array transferOf2 = {
     option(1121, "Q1121", "take over the rotation", rotationOf2Choices),
 };
 
+/// What 1410 and 1420 leave of the first two positions.
+inline constexpr std::array firstTwoPositions = {
+    ResultDefinition{"Q950", "first measured position, main axis", result::actual(of::position1.number(1))},
+    ResultDefinition{"Q951", "first measured position, minor axis", result::actual(of::position2.number(1))},
+    ResultDefinition{"Q952", "first measured position, tool axis", result::actual(of::position3.number(1))},
+    ResultDefinition{"Q953", "second measured position, main axis", result::actual(of::position1.number(2))},
+    ResultDefinition{"Q954", "second measured position, minor axis", result::actual(of::position2.number(2))},
+    ResultDefinition{"Q955", "second measured position, tool axis", result::actual(of::position3.number(2))},
+};
+inline constexpr std::array deviationsOfFirstTwo = {
+    ResultDefinition{
+        "Q980", {"deviation of the ", "first position, main axis"}, result::difference(of::position1.number(1))},
+    ResultDefinition{
+        "Q981", {"deviation of the ", "first position, minor axis"}, result::difference(of::position2.number(1))},
+    ResultDefinition{
+        "Q982", {"deviation of the ", "first position, tool axis"}, result::difference(of::position3.number(1))},
+    ResultDefinition{
+        "Q983", {"deviation of the ", "second position, main axis"}, result::difference(of::position1.number(2))},
+    ResultDefinition{
+        "Q984", {"deviation of the ", "second position, minor axis"}, result::difference(of::position2.number(2))},
+    ResultDefinition{
+        "Q985", {"deviation of the ", "second position, tool axis"}, result::difference(of::position3.number(2))},
+};
+inline constexpr std::array verdictOfRotation = {
+    ResultDefinition{"Q183", "workpiece: -1 not monitored, 0 good, 1 rework, 2 scrap", result::status},
+};
+
 }  // namespace probewright::cycles::heidenhain::parameters

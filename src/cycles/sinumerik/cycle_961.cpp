@@ -58,20 +58,22 @@ constexpr Parameter parameters961[] = {
     parameters::alternative(21),
 };
 
-constexpr ResultDefinition results961[] = {
-    {"_OVR[4]", "angle of the 1st edge to the 1st axis, workpiece coordinates", result::actual(of::angle).main()},
-    {"_OVR[5]", "corner in the 1st axis, workpiece coordinates", result::actual(of::corner1).main()},
-    {"_OVR[6]", "corner in the 2nd axis, workpiece coordinates", result::actual(of::corner2).main()},
-    {"_OVR[20]", "angle of the 1st edge to the 1st axis, machine coordinates", result::actual(of::angle.inMachine())},
-    {"_OVR[21]", "corner in the 1st axis, machine coordinates", result::actual(of::corner1.inMachine())},
-    {"_OVR[22]", "corner in the 2nd axis, machine coordinates", result::actual(of::corner2.inMachine())},
-    {"_OVI[0]", "number of the zero offset", result::setting()},
-    {"_OVI[2]", "number of the cycle", result::status},
-    {"_OVI[3]", "measuring variant", result::setting()},
-    {"_OVI[5]", "data set of the probe", result::setting()},
-    {"_OVI[9]", "number of the alarm", result::status},
-    {"_OVI[11]", "1: a zero offset was corrected", result::status},
-};
+constexpr std::array results961 = joined(
+    std::array{
+        ResultDefinition{"_OVR[4]", "angle of the 1st edge to the 1st axis, workpiece coordinates",
+                         result::actual(of::angle).main()},
+        ResultDefinition{"_OVR[5]", "corner in the 1st axis, workpiece coordinates",
+                         result::actual(of::corner1).main()},
+        ResultDefinition{"_OVR[6]", "corner in the 2nd axis, workpiece coordinates",
+                         result::actual(of::corner2).main()},
+        ResultDefinition{"_OVR[20]", "angle of the 1st edge to the 1st axis, machine coordinates",
+                         result::actual(of::angle.inMachine())},
+        ResultDefinition{"_OVR[21]", "corner in the 1st axis, machine coordinates",
+                         result::actual(of::corner1.inMachine())},
+        ResultDefinition{"_OVR[22]", "corner in the 2nd axis, machine coordinates",
+                         result::actual(of::corner2.inMachine())},
+    },
+    parameters::zeroOffsetCall, parameters::zeroOffsetOutcome);
 
 /// The least measuring path round corners of any angle, mm.
 constexpr double leastPath = 20;

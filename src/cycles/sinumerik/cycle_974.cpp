@@ -38,7 +38,7 @@ constexpr Parameter parameters974[] = {
     parameters::tolerance(21),
 };
 
-constexpr auto results974 = parameters::joined(parameters::coordinateResults, parameters::correctionResults);
+constexpr auto results974 = joined(parameters::coordinateResults, parameters::correctionResults);
 
 /// The sign of the touch. No parameter gives it: the probe is in front of the surface when the cycle starts.
 double touchSign(Context& context, TurnedFeature feature, double start, double set) {

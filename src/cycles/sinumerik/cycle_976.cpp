@@ -47,7 +47,7 @@ constexpr Parameter parameters976[] = {
     parameters::alternative(13),
 };
 
-constexpr auto results976 = parameters::joined(
+constexpr auto results976 = joined(
     std::array<ResultDefinition, 2>{{{"_OVR[6]", "centre of ring or ball, 1st axis", result::actual(of::centre1)},
                                      {"_OVR[7]", "centre of ring or ball, 2nd axis", result::actual(of::centre2)}}},
     calibrationResults);

@@ -62,7 +62,7 @@ constexpr std::uint16_t hole = 1 << 1, spigot = 1 << 2, groove = 1 << 3, rib = 1
 constexpr std::uint16_t centred = hole | spigot | groove | rib;
 constexpr ValueKind mm = ValueKind::Length;
 
-constexpr auto results977 = parameters::joined(
+constexpr auto results977 = joined(
     std::array<ResultDefinition, 38>{{
         {"_OVR[0]", {"set value: ", "diameter of the hole"}, result::set(of::diameter), hole},
         {"_OVR[0]", {"set value: ", "diameter of the spigot"}, result::set(of::diameter), spigot},

@@ -38,10 +38,10 @@ constexpr Parameter parameters978[] = {
     parameters::tolerance(21),
 };
 
-constexpr auto results978 = parameters::joined(
-    parameters::joined(parameters::coordinateResults,
-                       std::array{ResultDefinition{"_OVR[21]", "mean value", result::statistic(of::distance)}}),
-    parameters::correctionResults);
+constexpr auto results978 =
+    joined(joined(parameters::coordinateResults,
+                  std::array{ResultDefinition{"_OVR[21]", "mean value", result::statistic(of::distance)}}),
+           parameters::correctionResults);
 
 constexpr Requirement requirements[] = {
     {"S_MA", Need::NotZero},

@@ -48,7 +48,7 @@ constexpr Parameter parameters979[] = {
     parameters::tolerance(23),
 };
 
-constexpr auto results979 = parameters::joined(
+constexpr auto results979 = joined(
     std::array<ResultDefinition, 9>{
         {{"_OVR[0]", {"set value of the ", "diameter"}, result::set(of::diameter)},
          {"_OVR[1]", {"set value of the ", "centre, 1st axis"}, result::set(of::centre1)},

@@ -47,7 +47,7 @@ constexpr Parameter parameters994[] = {
     parameters::tolerance(22),
 };
 
-constexpr auto results994 = parameters::joined(parameters::coordinateResults, parameters::correctionResults);
+constexpr auto results994 = joined(parameters::coordinateResults, parameters::correctionResults);
 
 /// The index of the axis in which the probe passes by the workpiece or the zone: the hundreds of S_MA, else the
 /// thousands of S_MVAR, else the 1st axis.

@@ -52,30 +52,37 @@ constexpr Parameter parameters998[] = {
 /// The measuring variants by the units of S_MVAR.
 constexpr std::uint16_t edge = 1 << 5, face = 1 << 6;
 
-constexpr ResultDefinition results998[] = {
-    {"_OVR[0]", {"set ", "angle of the edge"}, result::set(of::angle), edge},
-    {"_OVR[0]", {"set ", "angle of the plane about the 1st axis"}, result::set(of::angle1), face},
-    {"_OVR[1]", {"set ", "angle of the plane about the 2nd axis"}, result::set(of::angle2), face},
-    {"_OVR[4]", {"actual ", "angle of the edge"}, result::actual(of::angle).main(), edge},
-    {"_OVR[4]", {"actual ", "angle of the plane about the 1st axis"}, result::actual(of::angle1).main(), face},
-    {"_OVR[5]", {"actual ", "angle of the plane about the 2nd axis"}, result::actual(of::angle2).main(), face},
-    {"_OVR[16]", {"difference of the ", "angle of the edge"}, result::difference(of::angle), edge},
-    {"_OVR[16]", {"difference of the ", "plane's angle about the 1st axis"}, result::difference(of::angle1), face},
-    {"_OVR[17]", {"difference of the ", "plane's angle about the 2nd axis"}, result::difference(of::angle2), face},
-    {"_OVR[20]", "correction angle", result::correction(of::angle)},
-    {"_OVR[21]", "correction angle of the plane about the 1st axis", result::correction(of::angle1), face},
-    {"_OVR[22]", "correction angle of the plane about the 2nd axis", result::correction(of::angle2), face},
-    {"_OVR[23]", "correction angle of the plane about the 3rd axis", result::correction(of::angle), face},
-    {"_OVR[28]", "safe area", result::setting(of::angle)},
-    {"_OVR[30]", "empirical value", result::statistic(of::angle)},
-    {"_OVI[0]", "number of the zero offset", result::setting()},
-    {"_OVI[2]", "number of the cycle", result::status},
-    {"_OVI[3]", "measuring variant", result::setting()},
-    {"_OVI[5]", "data set of the probe", result::setting()},
-    {"_OVI[7]", "number of the empirical value", result::setting()},
-    {"_OVI[9]", "number of the alarm", result::status},
-    {"_OVI[11]", "1: a zero offset was corrected", result::status},
-};
+constexpr std::array results998 = joined(
+    std::array{
+        ResultDefinition{"_OVR[0]", {"set ", "angle of the plane about the 1st axis"}, result::set(of::angle1), face},
+        ResultDefinition{"_OVR[1]", {"set ", "angle of the plane about the 2nd axis"}, result::set(of::angle2), face},
+        ResultDefinition{
+            "_OVR[4]", {"actual ", "angle of the plane about the 1st axis"}, result::actual(of::angle1).main(), face},
+        ResultDefinition{
+            "_OVR[5]", {"actual ", "angle of the plane about the 2nd axis"}, result::actual(of::angle2).main(), face},
+        ResultDefinition{"_OVR[16]",
+                         {"difference of the ", "plane's angle about the 1st axis"},
+                         result::difference(of::angle1),
+                         face},
+        ResultDefinition{"_OVR[17]",
+                         {"difference of the ", "plane's angle about the 2nd axis"},
+                         result::difference(of::angle2),
+                         face},
+        ResultDefinition{"_OVR[20]", "correction angle", result::correction(of::angle)},
+        ResultDefinition{"_OVR[21]", "correction angle of the plane about the 1st axis", result::correction(of::angle1),
+                         face},
+        ResultDefinition{"_OVR[22]", "correction angle of the plane about the 2nd axis", result::correction(of::angle2),
+                         face},
+        ResultDefinition{"_OVR[23]", "correction angle of the plane about the 3rd axis", result::correction(of::angle),
+                         face},
+        ResultDefinition{"_OVR[28]", "safe area", result::setting(of::angle)},
+        ResultDefinition{"_OVR[30]", "empirical value", result::statistic(of::angle)},
+    },
+    parameters::zeroOffsetCall,
+    std::array{
+        ResultDefinition{"_OVI[7]", "number of the empirical value", result::setting()},
+    },
+    parameters::zeroOffsetOutcome);
 
 constexpr double greatestAngle = 45;
 

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "cycles/catalogue.hpp"
+#include "cycles/joined.hpp"
 
 /// Call parameters and results that many SINUMERIK cycles share. Addresses are positions in the call, from 0. What a
 /// call leaves out has the parameter's standard value, most often 0 or empty; the cycle refuses what it cannot do with
@@ -192,17 +193,17 @@ constexpr Parameter tolerance(std::uint32_t address) {
 }
 constexpr Parameter alternative(std::uint32_t address) { return code(address, "_AMODE", reservedMeaning); }
 
-/// The two lists one after the other.
-template <std::size_t A, std::size_t B>
-constexpr std::array<ResultDefinition, A + B> joined(const std::array<ResultDefinition, A>& first,
-                                                     const std::array<ResultDefinition, B>& second) {
-  std::array<ResultDefinition, A + B> all = {};
-  for (std::size_t i = 0; i < A; ++i)
-    all[i] = first[i];
-  for (std::size_t i = 0; i < B; ++i)
-    all[A + i] = second[i];
-  return all;
-}
+/// What calls that measure for a zero offset leave of themselves; between the two what else the cycle has.
+inline constexpr std::array zeroOffsetCall = {
+    ResultDefinition{"_OVI[0]", "number of the zero offset", result::setting()},
+    ResultDefinition{"_OVI[2]", "number of the cycle", result::status},
+    ResultDefinition{"_OVI[3]", "measuring variant", result::setting()},
+    ResultDefinition{"_OVI[5]", "data set of the probe", result::setting()},
+};
+inline constexpr std::array zeroOffsetOutcome = {
+    ResultDefinition{"_OVI[9]", "number of the alarm", result::status},
+    ResultDefinition{"_OVI[11]", "1: a zero offset was corrected", result::status},
+};
 
 /// Results of a measurement of one coordinate.
 inline constexpr std::array coordinateResults = {
