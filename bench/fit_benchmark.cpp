@@ -29,18 +29,17 @@ std::vector<Vector2> circlePoints(int count) {
   return points;
 }
 
-/// Rings at five heights; on a cylinder of the same radius, or, pulled in, on a sphere.
-std::vector<Vector3> ringPoints(int count, bool sphere) {
+/// Rings of a sphere at five heights.
+std::vector<Vector3> spherePoints(int count) {
   std::mt19937_64 random(2);
   std::normal_distribution<double> error(0, noise);
   std::vector<Vector3> points;
   for (int i = 0; i < count; ++i) {
     const double angle = 2 * std::numbers::pi * i * 5 / count;
     const double height = 10.0 * (i % 5) - 20;
-    const double across = sphere ? std::sqrt(radius * radius - height * height) : radius;
+    const double across = std::sqrt(radius * radius - height * height);
     const Vector3 ideal(across * std::cos(angle), across * std::sin(angle), height);
-    const Vector3 outward = sphere ? Vector3(ideal / radius) : Vector3(ideal.x() / radius, ideal.y() / radius, 0);
-    points.push_back(centre + ideal + error(random) * outward);
+    points.push_back(centre + ideal * (1 + error(random) / radius));
   }
   return points;
 }
@@ -61,17 +60,6 @@ struct SphereDistance {
   template <class T>
   bool operator()(const T* p, T* residual) const {
     residual[0] = (point.cast<T>() - Eigen::Map<const Eigen::Matrix<T, 3, 1>>(p)).norm() - p[3];
-    return true;
-  }
-};
-
-struct CylinderDistance {
-  Vector3 point;
-  template <class T>
-  bool operator()(const T* p, T* residual) const {
-    using Vector = Eigen::Matrix<T, 3, 1>;
-    const Vector along = Vector(p[2], p[3], T(1)).normalized();
-    residual[0] = (point.cast<T>() - Vector(p[0], p[1], T(centre.z()))).cross(along).norm() - p[4];
     return true;
   }
 };
@@ -103,30 +91,14 @@ void circleCeres(benchmark::State& state) {
   }
 }
 void sphere(benchmark::State& state) {
-  const auto points = ringPoints(static_cast<int>(state.range(0)), true);
+  const auto points = spherePoints(static_cast<int>(state.range(0)));
   for (auto _ : state)
     benchmark::DoNotOptimize(fitSphere(points)->shape.radius);
 }
 void sphereCeres(benchmark::State& state) {
-  const auto points = ringPoints(static_cast<int>(state.range(0)), true);
+  const auto points = spherePoints(static_cast<int>(state.range(0)));
   for (auto _ : state) {
     benchmark::DoNotOptimize(solveWithCeres<SphereDistance, 4>(points, {centre.x(), centre.y(), centre.z(), radius}));
-  }
-}
-void cylinder(benchmark::State& state) {
-  const auto points = ringPoints(static_cast<int>(state.range(0)), false);
-  for (auto _ : state)
-    benchmark::DoNotOptimize(fitCylinder(points, Vector3::UnitZ())->shape.radius);
-}
-void cylinderOfUnknownDirection(benchmark::State& state) {
-  const auto points = ringPoints(static_cast<int>(state.range(0)), false);
-  for (auto _ : state)
-    benchmark::DoNotOptimize(fitCylinder(points)->shape.radius);
-}
-void cylinderCeres(benchmark::State& state) {
-  const auto points = ringPoints(static_cast<int>(state.range(0)), false);
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(solveWithCeres<CylinderDistance, 5>(points, {centre.x(), centre.y(), 0, 0, radius}));
   }
 }
 
@@ -134,9 +106,6 @@ BENCHMARK(circle)->Arg(4)->Arg(16)->Arg(1000);
 BENCHMARK(circleCeres)->Arg(4)->Arg(16)->Arg(1000);
 BENCHMARK(sphere)->Arg(10)->Arg(1000);
 BENCHMARK(sphereCeres)->Arg(10)->Arg(1000);
-BENCHMARK(cylinder)->Arg(20)->Arg(1000);
-BENCHMARK(cylinderOfUnknownDirection)->Arg(20)->Arg(1000);
-BENCHMARK(cylinderCeres)->Arg(20)->Arg(1000);
 
 }  // namespace
 }  // namespace probewright::metrology

@@ -25,7 +25,7 @@ namespace probewright::metrology {
 ///
 /// `covariance` is that of the shape's members in their order of declaration, world axes: Circle2 (x, y, radius),
 /// Line2 (point, direction), Line (point, direction), Plane (point, normal), Circle (centre, normal, radius), Sphere
-/// (centre, radius), Cylinder (point, direction, radius). It comes from the Jacobian J of the distances at the minimum:
+/// (centre, radius). It comes from the Jacobian J of the distances at the minimum:
 /// s^2 (J^T J)^-1, carried over to the members; where a shape has fewer freedoms than members (a plane cannot move
 /// within itself) it is singular, as it must be, and ready for `propagate` of uncertainty.hpp.
 template <class Shape, int Members>
@@ -34,8 +34,9 @@ struct Fit {
   /// Orthogonal distance of each point, in the order given: positive outside a round shape, on the normal's side of a
   /// plane, left of a Line2. Distances from a Line in space have no sign.
   std::vector<double> residuals;
-  /// Greatest minus least residual (straightness, flatness, roundness, cylindricity about the least-squares feature);
-  /// for a Line in space twice the greatest distance: the diameter of the coaxial cylinder that holds all points.
+  /// Greatest minus least residual (straightness, flatness, roundness about the least-squares feature);
+  /// for a Line in space twice the greatest distance: the diameter of the narrowest bore about it that holds all
+  /// points.
   double formDeviation = 0;
   double rms = 0;            ///< root of the mean squared distance
   int degreesOfFreedom = 0;  ///< equations minus freedoms of the shape
@@ -50,7 +51,6 @@ using Circle2Fit = Fit<Circle2, 3>;
 using LineFit = Fit<Line, 6>;
 using PlaneFit = Fit<Plane, 6>;
 using SphereFit = Fit<Sphere, 4>;
-using CylinderFit = Fit<Cylinder, 7>;
 
 /// A circle in space has residuals in its plane (`residuals`, radial) and out of it.
 struct CircleFit : Fit<Circle, 7> {
@@ -91,13 +91,5 @@ Result<CircleFit> fitCircle(std::span<const Vector3> points, const FitOptions& o
 
 /// Sphere through at least 4 points.
 Result<SphereFit> fitSphere(std::span<const Vector3> points, const FitOptions& options = {});
-
-/// Cylinder through at least 6 points, reported at the height of their centroid. The greatest component of its
-/// direction is positive. The axis is searched over all directions.
-Result<CylinderFit> fitCylinder(std::span<const Vector3> points, const FitOptions& options = {});
-
-/// Cylinder through at least 5 points whose axis runs roughly along `axis` (within about 20 degrees), as a drawing or a
-/// program tells; the direction found points the way `axis` does.
-Result<CylinderFit> fitCylinder(std::span<const Vector3> points, const Vector3& axis, const FitOptions& options = {});
 
 }  // namespace probewright::metrology

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-/// The algebraic fit that circles, spheres and cylinders start from.
+/// The algebraic fit that circles and spheres start from.
 namespace probewright::metrology {
 
 template <int D>

@@ -69,18 +69,6 @@ struct SphereDistance {
 };
 
 /// Axis through `origin` + p0 u + p1 v along axis + p2 u + p3 v: four parameters and the radius, no constraint.
-struct CylinderDistance {
-  Vector3 point, origin, axis, u, v;
-  template <class T>
-  bool operator()(const T* p, T* residual) const {
-    using Vector = Eigen::Matrix<T, 3, 1>;
-    const Vector foot = origin.cast<T>() + u.cast<T>() * p[0] + v.cast<T>() * p[1];
-    const Vector along = (axis.cast<T>() + u.cast<T>() * p[2] + v.cast<T>() * p[3]).normalized();
-    residual[0] = (point.cast<T>() - foot).cross(along).norm() - p[4];
-    return true;
-  }
-};
-
 struct PlaneDistance {
   Vector3 point, origin, normal, u, v;
   template <class T>
@@ -173,39 +161,6 @@ TEST(AgainstCeres, Sphere) {
     ASSERT_TRUE(fit) << fit.error().message;
     EXPECT_LT((fit->shape.centre - Vector3(p[0], p[1], p[2])).norm() / radius, agreement) << "seed " << seed;
     EXPECT_LT(std::abs(fit->shape.radius - p[3]) / radius, agreement) << "seed " << seed;
-  }
-}
-
-TEST(AgainstCeres, Cylinder) {
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    World world(seed);
-    const Vector3 origin = world.place();
-    const Vector3 axis = world.direction();
-    const Vector3 u = axis.unitOrthogonal();
-    const Vector3 v = axis.cross(u);
-    const double radius = world.between(3, 80);
-    const double length = world.between(0.3, 6) * radius;
-    std::vector<Vector3> points;
-    double p[5] = {0, 0, 0, 0, radius};
-    ceres::Problem problem;
-    const int count = world.count(8, 40);
-    for (int i = 0; i < count; ++i) {
-      const double angle = world.between(0, 2 * std::numbers::pi);
-      const double r = radius + world.noise(0.002);
-      points.push_back(origin + axis * world.between(-0.5, 0.5) * length +
-                       r * (u * std::cos(angle) + v * std::sin(angle)));
-      problem.AddResidualBlock(cost<CylinderDistance, 1, 5>({points.back(), origin, axis, u, v}), nullptr, p);
-    }
-    solve(problem);
-    const Vector3 along = (axis + u * p[2] + v * p[3]).normalized();
-    const Vector3 foot = origin + u * p[0] + v * p[1];
-    for (const auto& fit : {fitCylinder(points), fitCylinder(points, axis)}) {
-      ASSERT_TRUE(fit) << fit.error().message;
-      const double size = std::max(radius, length);
-      EXPECT_LT(fit->shape.direction.cross(along).norm(), agreement) << "seed " << seed;
-      EXPECT_LT(distance(fit->shape.point, Line{foot, along}) / size, agreement) << "seed " << seed;
-      EXPECT_LT(std::abs(fit->shape.radius - p[4]) / radius, agreement) << "seed " << seed;
-    }
   }
 }
 

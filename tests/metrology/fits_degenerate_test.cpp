@@ -24,8 +24,6 @@ TEST(TooFewPoints, AreCountedInTheMessage) {
   EXPECT_EQ(reason(fitPlane(Points3{{0, 0, 0}, {1, 0, 0}})), "a plane needs at least 3 points, 2 were given");
   EXPECT_EQ(reason(fitSphere(Points3{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})),
             "a sphere needs at least 4 points, 3 were given");
-  EXPECT_EQ(reason(fitCylinder(Points3(5, Vector3::Zero()))),
-            "a cylinder of unknown direction needs at least 6 points, 5 were given");
   EXPECT_EQ(reason(fitLine(std::span<const Vector3>())), "a line needs at least 2 points, 0 were given");
 }
 
@@ -35,8 +33,7 @@ TEST(CoincidentPoints, DetermineNothing) {
   for (const std::string& text :
        {reason(fitLine(std::span<const Vector2>(flat))), reason(fitLine(std::span<const Vector3>(same))),
         reason(fitPlane(same)), reason(fitCircle(std::span<const Vector2>(flat))),
-        reason(fitCircle(std::span<const Vector3>(same))), reason(fitSphere(same)), reason(fitCylinder(same)),
-        reason(fitCylinder(same, Vector3::UnitZ()))}) {
+        reason(fitCircle(std::span<const Vector3>(same))), reason(fitSphere(same))}) {
     EXPECT_EQ(text, "all points coincide");
   }
 }
@@ -60,19 +57,17 @@ TEST(CollinearPoints, GiveNoCircleAndNoPlane) {
             "the points lie on one straight line, so no circle is determined");
   EXPECT_EQ(reason(fitPlane(space)), "the points lie on one straight line, so no plane is determined");
   EXPECT_EQ(reason(fitSphere(space)), "the points lie on one plane, so no sphere is determined");
-  EXPECT_FALSE(fitCylinder(space));
 }
 
 TEST(CollinearPoints, AlsoWithTwoPointsProbedTwice) {
   EXPECT_FALSE(fitCircle(std::span<const Vector2>(Points2{{0, 0}, {10, 3}, {0, 0}, {10, 3}})));
 }
 
-TEST(CoplanarPoints, GiveNoSphereAndNoCylinder) {
+TEST(CoplanarPoints, GiveNoSphere) {
   Points3 ring;
   for (int i = 0; i < 8; ++i)
     ring.emplace_back(10 * std::cos(0.785 * i), 10 * std::sin(0.785 * i), 4);
   EXPECT_EQ(reason(fitSphere(ring)), "the points lie on one plane, so no sphere is determined");
-  EXPECT_EQ(reason(fitCylinder(ring, Vector3::UnitZ())), "the points lie in one plane, so no cylinder is determined");
 }
 
 TEST(PointsWithoutDirection, GiveNoLine) {
@@ -81,12 +76,6 @@ TEST(PointsWithoutDirection, GiveNoLine) {
             "the points have no preferred direction, so no line fits them best");
   const Points3 cube = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
   EXPECT_EQ(reason(fitPlane(cube)), "the points have no preferred plane, so no plane fits them best");
-}
-
-TEST(CylinderAxis, MustBeADirection) {
-  const Points3 points = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 5}, {0, 1, 5}, {-1, 0, 5}};
-  EXPECT_FALSE(fitCylinder(points, Vector3::Zero()));
-  EXPECT_TRUE(fitCylinder(points, Vector3::UnitZ()));
 }
 
 TEST(Extremes, NeverHang) {
