@@ -75,7 +75,6 @@ CadSolid::~CadSolid() = default;
 Bounds CadSolid::bounds() const { return model_->bounds; }
 Bounds CadSolid::reach() const { return model_->tree.bounds(); }
 const TopoDS_Shape& CadSolid::shape() const { return model_->shape; }
-std::size_t CadSolid::faceCount() const { return model_->faces.size(); }
 
 std::size_t CadSolid::triangleCount() const {
   return static_cast<std::size_t>(std::count_if(model_->elements.begin(), model_->elements.end(),

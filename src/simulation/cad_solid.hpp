@@ -42,7 +42,6 @@ public:
   const TopoDS_Shape& shape() const;
   /// Warnings about the file that the solid comes from: what is missing or not as it should be.
   const Diagnostics& remarks() const { return remarks_; }
-  std::size_t faceCount() const;
   std::size_t triangleCount() const;
   DrawingMesh drawing() const;
 

@@ -206,26 +206,4 @@ Result<TriangleMesh> readStlMesh(const std::filesystem::path& path) {
   return mesh;
 }
 
-Result<void> writeStl(const TriangleMesh& mesh, const std::filesystem::path& path) {
-  std::string bytes(kHeaderSize + kFacetSize * mesh.triangles.size(), '\0');
-  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
-  std::memcpy(bytes.data() + 80, &count, sizeof count);
-  char* facet = bytes.data() + kHeaderSize;
-  for (const auto& corners : mesh.triangles) {
-    const Vector3& a = mesh.corners[corners[0]];
-    const Vector3& b = mesh.corners[corners[1]];
-    const Vector3& c = mesh.corners[corners[2]];
-    const Vector3 normal = (b - a).cross(c - a).normalized();
-    std::array<float, 12> values;
-    std::size_t at = 0;
-    for (const Vector3* v : {&normal, &a, &b, &c}) {
-      for (Eigen::Index k = 0; k < 3; ++k)
-        values[at++] = static_cast<float>((*v)[k]);
-    }
-    std::memcpy(facet, values.data(), sizeof values);
-    facet += kFacetSize;
-  }
-  return writeFileAtomically(path, bytes);
-}
-
 }  // namespace probewright::simulation

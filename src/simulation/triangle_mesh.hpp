@@ -21,7 +21,4 @@ struct TriangleMesh {
 /// none.
 Result<TriangleMesh> readStlMesh(const std::filesystem::path& path);
 
-/// Writes a binary STL file.
-Result<void> writeStl(const TriangleMesh& mesh, const std::filesystem::path& path);
-
 }  // namespace probewright::simulation

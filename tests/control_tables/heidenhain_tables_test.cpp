@@ -2,10 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <filesystem>
 #include <random>
 
-#include "base/file.hpp"
 #include "control/heidenhain/datum_table.hpp"
 #include "control/heidenhain/preset_table.hpp"
 #include "control/heidenhain/probe_table.hpp"
@@ -183,11 +181,8 @@ TEST(TypedTable, ValuesSurviveTheFile) {
     for (std::size_t column = 0; column < columns.size(); ++column)
       ASSERT_TRUE(table.setNumber(std::to_string(i), columns[column], rows[i][column]));
   }
-  const auto path = std::filesystem::temp_directory_path() / "probewright_tables_test" / "PRESET.PR";
-  ASSERT_TRUE(table.table().save(path));
   Diagnostics diagnostics;
-  const auto again = TypedTable::parse(readFile(path).value(), "PRESET.PR", presetColumns(), diagnostics);
-  std::filesystem::remove_all(path.parent_path());
+  const auto again = TypedTable::parse(table.table().bytes(), "PRESET.PR", presetColumns(), diagnostics);
   ASSERT_TRUE(again);
   EXPECT_TRUE(diagnostics.empty());
   for (std::size_t i = 0; i < rows.size(); ++i) {

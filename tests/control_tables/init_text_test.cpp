@@ -221,10 +221,7 @@ TEST(InitText, NumbersSurvive) {
     values.push_back(i % 2 == 0 ? mantissa * std::pow(10.0, exponent) : mantissa * 100);
     result.store.set("R", {i}, values.back());
   }
-  const auto path = std::filesystem::temp_directory_path() / "probewright_init_test.ini";
-  ASSERT_TRUE(result.text.save(path, result.store));
-  const Read again = read(readFile(path).value());
-  std::filesystem::remove(path);
+  const Read again = read(result.text.updated(result.store).value());
   EXPECT_THAT(again.diagnostics, IsEmpty());
   for (int i = 0; i < 2000; ++i)
     EXPECT_EQ(again.store.number("R", {i}), values[static_cast<std::size_t>(i)]);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <set>
 
-#include "base/file.hpp"
 #include "base/number_text.hpp"
 
 namespace probewright::control::heidenhain {
@@ -489,7 +488,5 @@ std::string TextTable::bytes() const {
     bytes += line;
   return bytes;
 }
-
-Result<void> TextTable::save(const std::filesystem::path& path) const { return writeFileAtomically(path, bytes()); }
 
 }  // namespace probewright::control::heidenhain

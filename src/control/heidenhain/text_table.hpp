@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -88,9 +87,6 @@ public:
   NumberStyle numberStyle(std::string_view column, const NumberStyle& fallback) const;
 
   std::string bytes() const;
-
-  /// Writes the file whole or not at all.
-  Result<void> save(const std::filesystem::path& path) const;
 
 private:
   struct Field {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <set>
@@ -49,9 +48,6 @@ public:
   /// that a control can keep tool data, frames and setting data in files of their own.
   using Accepts = std::function<bool(const DataKey&)>;
   Result<std::string> updated(const DataStore& store, const Accepts& accepts = {}) const;
-
-  /// Writes updated(store) whole or not at all.
-  Result<void> save(const std::filesystem::path& path, const DataStore& store, const Accepts& accepts = {}) const;
 
 private:
   enum class Form { Single, List, FrameChain };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "base/file.hpp"
 #include "control/sinumerik/init_text.hpp"
 #include "control/sinumerik/text.hpp"
 
@@ -100,12 +99,6 @@ Result<std::string> InitText::updated(const DataStore& store, const Accepts& acc
     if (line < lines.size()) bytes += lines[line];
   }
   return bytes;
-}
-
-Result<void> InitText::save(const std::filesystem::path& path, const DataStore& store, const Accepts& accepts) const {
-  auto bytes = updated(store, accepts);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return writeFileAtomically(path, *bytes);
 }
 
 }  // namespace probewright::control::sinumerik

@@ -228,7 +228,6 @@ private:
   bool untiltedPositions_ = false;  ///< M130, in this block
   bool ignoreProbe_ = false;        ///< M141, in this block
   std::set<std::string> leftOut_;   ///< named already
-  bool feedIsAuto_ = false;
   Side side_ = Side::Off;
   Vector3 pole_ = Vector3::Zero();
   bool poleSet_ = false;
