@@ -12,7 +12,8 @@
 #include "control/heidenhain/tool_table.hpp"
 #include "control/heidenhain/turning_tool_table.hpp"
 #include "session/answers.hpp"
-#include "session/beliefs.hpp"
+#include "session/heidenhain/beliefs.hpp"
+#include "session/sinumerik/beliefs.hpp"
 
 using namespace probewright;
 using namespace probewright::control::heidenhain;
@@ -88,16 +89,16 @@ void answers(std::string_view text) {
 
 void parameters(std::string_view text) {
   Diagnostics diagnostics;
-  const auto setup = simulation::parseSetup(text, "setup.toml", diagnostics);
+  const auto setup = setup::parseSetup(text, "setup.toml", diagnostics);
   if (!setup) return;
   for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
     Diagnostics mistakes;
-    const MachineParameters read = session::machineParameters(*setup, kind, mistakes);
+    const MachineParameters read = session::machineParameters(setup->beliefs, kind, mistakes);
     requireTexts(mistakes);
     require(read.mp6160 >= -1 && read.maxTouchFeed >= 0);
   }
   Diagnostics mistakes;
-  session::sinumerikData(*setup, mistakes);
+  session::sinumerikData(setup->beliefs, mistakes);
   requireTexts(mistakes);
 }
 

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "machine/machine_file.hpp"
-#include "simulation/setup.hpp"
+#include "setup/setup.hpp"
 #include "simulation/virtual_machine.hpp"
 
 using namespace probewright;
@@ -17,12 +17,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!holds) std::abort();
   };
   Diagnostics diagnostics;
-  const auto setup = simulation::parseSetup(bytes, "setup.toml", diagnostics);
+  const auto setup = setup::parseSetup(bytes, "setup.toml", diagnostics);
   require(setup.has_value() == diagnostics.empty());
   for (const Diagnostic& diagnostic : diagnostics)
     require(!format(diagnostic).empty());
   simulation::Truth truth;
-  if (setup) truth = setup->truth;
+  if (setup) truth = setup->world.truth;
 
   diagnostics.clear();
   const auto machine = machine::parseMachine(bytes, "machine.toml", diagnostics);

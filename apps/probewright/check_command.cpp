@@ -5,23 +5,23 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "session/check.hpp"
-#include "simulation/setup.hpp"
+#include "setup/setup.hpp"
 
 namespace probewright::app {
 
 int check(const CheckArguments& arguments) {
   bool errors = false;
-  std::optional<simulation::Setup> setup;
+  std::optional<setup::Setup> setup;
   if (!arguments.setup.empty()) {
     Diagnostics mistakes;
-    setup = simulation::readSetup(arguments.setup, mistakes);
+    setup = setup::readSetup(arguments.setup, mistakes);
     print(mistakes);
     if (!setup) return 2;
   }
   for (const std::filesystem::path& path : arguments.programs) {
     std::string text;
     const Diagnostics found =
-        session::checkProgram(path, arguments.control, arguments.skipLevels, &text, setup ? &*setup : nullptr);
+        session::checkProgram(path, arguments.control, arguments.skipLevels, &text, setup ? &setup->beliefs : nullptr);
     print(found, language::detectEncoding(text));
     errors = errors || hasErrors(found);
     if (found.empty()) std::fputs(printable(fmt::format("{}: no mistakes found\n", path.string())).c_str(), stdout);

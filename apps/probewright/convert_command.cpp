@@ -9,7 +9,7 @@
 #include "console.hpp"
 #include "session/convert.hpp"
 #include "session/job.hpp"
-#include "simulation/setup.hpp"
+#include "setup/setup.hpp"
 
 namespace probewright::app {
 
@@ -43,6 +43,7 @@ std::optional<Diagnostic> objectionTo(const ConvertArguments& arguments) {
 }  // namespace
 
 int convert(const ConvertArguments& arguments) {
+  const session::ControlFamilies& families = session::knownFamilies();
   const auto refuse = [](const Diagnostic& why) {
     print({why});
     return 2;
@@ -78,16 +79,16 @@ int convert(const ConvertArguments& arguments) {
   if (!session::convertible(*from, *to)) {
     return refuse({Severity::Error,
                    {arguments.input.string(), 0, 0},
-                   fmt::format("the program is one of {} already", session::nameOf(*from)),
+                   fmt::format("the program is one of {} already", families.entry(*from).name),
                    {},
                    "name a file with the extension of another language: .H, .I or .MPF",
                    {}});
   }
   if (const auto objection = objectionTo(arguments)) return refuse(*objection);
   Diagnostics found;
-  std::optional<simulation::Setup> setup;
+  std::optional<setup::Setup> setup;
   if (!arguments.setup.empty()) {
-    setup = simulation::readSetup(arguments.setup, found);
+    setup = setup::readSetup(arguments.setup, found);
     if (!setup) {
       print(found);
       return 2;
@@ -95,13 +96,13 @@ int convert(const ConvertArguments& arguments) {
   }
   conversion::GlobalData globalData;
   if (*from == session::ProgramLanguage::Sinumerik)
-    globalData = session::globalDataFor(arguments.input, setup ? &*setup : nullptr, found);
+    globalData = session::globalDataFor(arguments.input, setup ? &setup->beliefs : nullptr, found);
   print(found);
   if (hasErrors(found)) return 2;
-  if (arguments.control && (*to == session::ProgramLanguage::Sinumerik) == control::isHeidenhain(*arguments.control)) {
+  if (arguments.control && !families.speaks(*arguments.control, *to)) {
     return refuse({Severity::Error,
                    {arguments.output.string(), 0, 0},
-                   fmt::format("the {} does not read {}", control::name(*arguments.control), session::nameOf(*to)),
+                   fmt::format("the {} does not read {}", control::name(*arguments.control), families.entry(*to).name),
                    {},
                    "leave --control out, or name a control of the language of OUT",
                    {}});
@@ -109,7 +110,8 @@ int convert(const ConvertArguments& arguments) {
   const auto program = session::openProgram(arguments.input, *text, *from);
   if (!program) return refuse(program.error());
   const language::Encoding encoding = language::detectEncoding(*text);
-  const Diagnostics mistakes = session::mistakesOf(**program, arguments.input, *from, setup ? &*setup : nullptr);
+  const Diagnostics mistakes =
+      session::mistakesOf(**program, arguments.input, *from, setup ? &setup->beliefs : nullptr);
   if (hasErrors(mistakes)) {
     print(mistakes, encoding);
     if (const auto note = session::otherLanguage(arguments.input, *text)) print({*note});

@@ -14,6 +14,7 @@
 #include "cycles/catalogue.hpp"
 #include "cycles/sinumerik/circle_through_points.hpp"
 #include "records/results.hpp"
+#include "session/control_family.hpp"
 #include "terminal.hpp"
 
 namespace probewright::app {
@@ -266,8 +267,7 @@ int cycles(const CyclesArguments& arguments) {
   auto list = nlohmann::ordered_json::array();
   std::vector<const CycleDefinition*> seen;
   for (const ControlKind kind : kinds) {
-    std::vector<const CycleDefinition*> all = cycles::cyclesOf(kind);
-    if (kind == ControlKind::Sinumerik840Dsl) all.insert(all.begin(), &cycles::sinumerik::cycle116Definition);
+    const std::vector<const CycleDefinition*> all = session::knownFamilies().of(kind).cycles(kind);
     for (const CycleDefinition* cycle : all) {
       if (std::ranges::find(seen, cycle) != seen.end()) continue;
       seen.push_back(cycle);

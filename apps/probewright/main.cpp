@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <bitset>
 #include <cctype>
@@ -10,6 +13,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "guard.hpp"
+#include "session/control_family.hpp"
 #include "terminal.hpp"
 
 namespace {
@@ -20,16 +24,16 @@ using probewright::control::OnStop;
 
 /// The option --control of all subcommands.
 void addControl(CLI::App& command, std::optional<ControlKind>& control) {
+  const auto& families = probewright::session::knownFamilies();
+  const std::string names = fmt::format("{}", fmt::join(families.controlNames(), ", "));
   command
       .add_option_function<std::string>(
           "--control",
-          [&control](const std::string& text) {
-            control = probewright::control::controlKindOf(text);
-            if (!control)
-              throw CLI::ValidationError("--control", text + " is not one of TNC640, iTNC530, 840Dsl, 828D");
+          [&control, &families, names](const std::string& text) {
+            control = families.controlNamed(text);
+            if (!control) throw CLI::ValidationError("--control", text + " is not one of " + names);
           },
-          "The control that the program is for, if file extension and text do not show it: TNC640, iTNC530, 840Dsl, "
-          "828D")
+          "The control that the program is for, if file extension and text do not show it: " + names)
       ->type_name("NAME");
 }
 

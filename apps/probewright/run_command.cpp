@@ -20,8 +20,8 @@
 #include "reports/report.hpp"
 #include "reports/summary.hpp"
 #include "session/answers.hpp"
-#include "session/run.hpp"
-#include "session/scene.hpp"
+#include "setup/scene.hpp"
+#include "setup/simulated_run.hpp"
 #include "terminal.hpp"
 
 namespace probewright::app {
@@ -106,13 +106,13 @@ int run(const RunArguments& arguments) {
   std::set<FileIdentity> inputs;
   noteIdentities({arguments.program, arguments.setup, arguments.answers}, inputs);
   Diagnostics mistakes;
-  std::optional<simulation::Setup> setup = simulation::readSetup(arguments.setup, mistakes);
+  std::optional<setup::Setup> setup = setup::readSetup(arguments.setup, mistakes);
   print(mistakes);
   // Which tables the run would have begun from is unknown: those of an earlier run stay.
   if (!setup) return cameToNothing(removeEarlierVerdict(arguments.out, inputs));
   noteIdentities(setup->inputs, inputs);
-  const auto giveUp = [&] { return cameToNothing(removeEarlierRun(arguments.out, setup->tables, inputs)); };
-  if (arguments.seed) setup->truth.seed = *arguments.seed;
+  const auto giveUp = [&] { return cameToNothing(removeEarlierRun(arguments.out, setup->beliefs.tables, inputs)); };
+  if (arguments.seed) setup->world.truth.seed = *arguments.seed;
 
   session::RunOptions options;
   options.control = arguments.control;
@@ -133,7 +133,8 @@ int run(const RunArguments& arguments) {
   options.wallClock = std::time(nullptr);
   const Interruption interruption;
   options.stop = interruption.token();
-  options.import.cache = cacheFolder(arguments.cache);
+  setup::MachineOptions machine;
+  machine.import.cache = cacheFolder(arguments.cache);
   if (const Result<void> tidied = tidyOutput(arguments.out, options.stop); !tidied) {
     print({tidied.error()});
     return 2;
@@ -160,9 +161,10 @@ int run(const RunArguments& arguments) {
     options.progress = [](std::uint64_t blocks) { std::fputs(fmt::format("\r{} blocks ", blocks).c_str(), stderr); };
   }
   ImportProgress importProgress(isatty(STDERR_FILENO) != 0);
-  if (!arguments.quiet) options.import.progress = [&](const std::string& what) { importProgress.tell(what); };
+  if (!arguments.quiet) machine.import.progress = [&](const std::string& what) { importProgress.tell(what); };
 
-  const session::RunOutcome outcome = session::runProgram(arguments.program, *setup, options);
+  const setup::SimulatedRun simulated = setup::runProgram(arguments.program, *setup, options, machine);
+  const session::RunOutcome& outcome = simulated.outcome;
   if (progress) std::fputs("\r\033[K", stderr);
   const language::Encoding encoding = outcome.info.programs.empty()
                                           ? language::Encoding::Windows1252
@@ -183,7 +185,7 @@ int run(const RunArguments& arguments) {
     info.outputFiles.push_back(name);
     if (!standsThere(arguments.out, name, text)) output.files.emplace_back(name, contentOf(text));
   }
-  const reports::Scene scene = session::sceneOf(outcome);
+  const reports::Scene scene = setup::sceneOf(simulated);
   output.files.emplace_back("report.html",
                             [&](const Sink& sink) { reports::writeReport(sink, outcome.journal, info, scene); });
   output.files.emplace_back("results.json", [&](const Sink& sink) {

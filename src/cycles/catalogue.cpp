@@ -103,14 +103,13 @@ const Parameter* CycleDefinition::parameter(std::uint32_t address) const {
 
 std::vector<const CycleDefinition*> cyclesOf(ControlKind kind) {
   std::vector<const CycleDefinition*> found;
-  if (control::isHeidenhain(kind)) {
-    for (const heidenhain::Entry* entry : heidenhain::entries()) {
+  const auto add = [&](const auto& entries) {
+    for (const auto& entry : entries) {
       if (entry->definition.controls.contains(kind)) found.push_back(&entry->definition);
     }
-  } else {
-    for (const sinumerik::Entry* entry : sinumerik::entries())
-      found.push_back(&entry->definition);
-  }
+  };
+  add(heidenhain::entries());
+  add(sinumerik::entries());
   std::ranges::sort(found, {}, &CycleDefinition::number);
   return found;
 }

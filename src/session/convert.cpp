@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "control/beliefs.hpp"
 #include "language/din_iso/block_extent.hpp"
 #include "language/din_iso/modal_state.hpp"
 #include "language/din_iso/writer.hpp"
@@ -15,10 +16,10 @@
 #include "language/klartext/lexer.hpp"
 #include "language/klartext/writer.hpp"
 #include "language/sinumerik/check.hpp"
-#include "session/beliefs.hpp"
 #include "session/check.hpp"
-#include "session/global_data.hpp"
-#include "simulation/setup.hpp"
+#include "session/sinumerik/beliefs.hpp"
+#include "session/sinumerik/family_parts.hpp"
+#include "session/sinumerik/global_data.hpp"
 
 namespace probewright::session {
 
@@ -356,7 +357,7 @@ bool convertible(ProgramLanguage from, ProgramLanguage to) {
 }
 
 Diagnostics mistakesOf(language::Program& program, const std::filesystem::path& path, ProgramLanguage language,
-                       const simulation::Setup* setup) {
+                       const control::Beliefs* beliefs) {
   using control::ControlKind;
   if (language != ProgramLanguage::Sinumerik) {
     Diagnostics mistakes = checkProgram(program, ControlKind::TNC640);
@@ -364,21 +365,17 @@ Diagnostics mistakesOf(language::Program& program, const std::filesystem::path& 
     return elder ? Diagnostics() : mistakes;
   }
   Diagnostics ignored;  // globalDataFor names them
-  const auto declared = globalUserData(path, setup == nullptr ? std::filesystem::path() : setup->tables, ignored);
-  useMacros(program, declared);
-  std::set<std::string> names;
-  if (setup != nullptr) {
-    for (const control::sinumerik::DataKey& key : sinumerikData(*setup, ignored).store.keys())
-      names.insert(key.name);
-  }
-  return checkProgram(program, ControlKind::Sinumerik840Dsl, std::move(names), &declared);
+  const auto declared = globalUserData(path, beliefs == nullptr ? std::filesystem::path() : beliefs->tables, ignored);
+  return checkSinumerik({.program = program, .control = ControlKind::Sinumerik840Dsl, .path = path, .beliefs = beliefs},
+                        declared);
 }
 
-conversion::GlobalData globalDataFor(const std::filesystem::path& path, const simulation::Setup* setup,
+conversion::GlobalData globalDataFor(const std::filesystem::path& path, const control::Beliefs* beliefs,
                                      Diagnostics& diagnostics) {
-  const auto declared = globalUserData(path, setup == nullptr ? std::filesystem::path() : setup->tables, diagnostics);
-  if (setup == nullptr) return declared.variables({}, diagnostics);
-  return declared.variables(sinumerikData(*setup, diagnostics).store, diagnostics);
+  const auto declared =
+      globalUserData(path, beliefs == nullptr ? std::filesystem::path() : beliefs->tables, diagnostics);
+  if (beliefs == nullptr) return declared.variables({}, diagnostics);
+  return declared.variables(sinumerikData(*beliefs, diagnostics).store, diagnostics);
 }
 
 Conversion convert(language::Program& program, ProgramLanguage from, ProgramLanguage to,

@@ -11,9 +11,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<fs::path> foldersOf(const fs::path& program, const simulation::Setup& setup) {
+std::vector<fs::path> foldersOf(const fs::path& program, const control::Beliefs& beliefs) {
   std::vector<fs::path> folders{program.has_parent_path() ? program.parent_path() : fs::path(".")};
-  if (!setup.tables.empty()) folders.push_back(setup.tables);
+  if (!beliefs.tables.empty()) folders.push_back(beliefs.tables);
   return folders;
 }
 
@@ -23,11 +23,11 @@ bool sameName(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-HostFiles::HostFiles(const fs::path& program, const simulation::Setup& setup)
-    : folders_(foldersOf(program, setup)),
+HostFiles::HostFiles(const fs::path& program, const control::Beliefs& beliefs)
+    : folders_(foldersOf(program, beliefs)),
       files_(
           {""}, [](const fs::path&) { return fail("no program"); }, folders_),
-      inputs_{program.filename().string(), fs::path(setup.file).filename().string()} {}
+      inputs_{program.filename().string(), fs::path(beliefs.file).filename().string()} {}
 
 Result<std::string> HostFiles::read(const std::string& name) {
   const auto path = name.find("..") == std::string::npos ? files_.find(name, nullptr) : std::nullopt;

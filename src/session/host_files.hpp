@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/diagnostic.hpp"
+#include "control/beliefs.hpp"
 #include "language/directory_library.hpp"
-#include "simulation/setup.hpp"
 
 namespace probewright::session {
 
@@ -15,7 +15,7 @@ namespace probewright::session {
 /// tables. Names are taken as on the control: capital and small letters are the same, folders may be left out.
 class HostFiles {
 public:
-  HostFiles(const std::filesystem::path& program, const simulation::Setup& setup);
+  HostFiles(const std::filesystem::path& program, const control::Beliefs& beliefs);
 
   Result<std::string> read(const std::string& name);
   /// The file at `path`, which must be one of those.

@@ -74,7 +74,7 @@ std::optional<Found> lookInto(const fs::path& path, ProgramLanguage language) {
 
 conversion::Job jobOf(const fs::path& path, ProgramLanguage language) {
   const std::string own = plainName(path.filename().string());
-  const bool sinumerik = language == ProgramLanguage::Sinumerik;
+  const ControlFamily& family = knownFamilies().of(language);
   std::map<std::string, Found> programs;
   if (auto found = lookInto(path, language)) programs.emplace(own, std::move(*found));
   std::error_code none;
@@ -84,7 +84,7 @@ conversion::Job jobOf(const fs::path& path, ProgramLanguage language) {
        each.increment(none)) {
     const auto other = languageOf(each->path(), {});
     const std::string name = plainName(each->path().filename().string());
-    if (!other || (*other == ProgramLanguage::Sinumerik) != sinumerik || programs.contains(name)) continue;
+    if (!other || &knownFamilies().of(*other) != &family || programs.contains(name)) continue;
     if (!each->is_regular_file(none) || each->file_size(none) > longestProgram) continue;
     ++opened;
     if (auto found = lookInto(each->path(), *other)) programs.emplace(name, std::move(*found));

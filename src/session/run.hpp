@@ -9,22 +9,26 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/diagnostic.hpp"
+#include "control/beliefs.hpp"
 #include "control/control_kind.hpp"
-#include "control/heidenhain/q_parameters.hpp"
 #include "control/journal.hpp"
 #include "control/operator_panel.hpp"
 #include "execution/interpreter.hpp"
+#include "machine/machine.hpp"
 #include "records/run_info.hpp"
-#include "simulation/setup.hpp"
-#include "simulation/virtual_machine.hpp"
 
-/// A program, a world and a control put together: what the command line does, and what tests of cycles go through.
+/// A program on a control that has beliefs and a machine. What the machine is, and what is true of it, is not known
+/// here.
 namespace probewright::session {
 
-/// The program influences of a SINUMERIK control's operating area.
+class ControlFamilies;
+class HostFiles;
+
+/// Program influences of the operating area, of families that have them.
 enum class ProgramMode {
   Normal,
   DryRun,       ///< DRY: paths at the dry run feed; measuring cycles are skipped
@@ -34,6 +38,7 @@ enum class ProgramMode {
 /// How a run is to go on; the defaults are those of the command line.
 struct RunOptions {
   std::optional<control::ControlKind> control;  ///< without it: the setup's, or what the program tells
+  const ControlFamilies* families = nullptr;    ///< that the control is one of; null: knownFamilies()
   bool strict = false;                          ///< refuse machining cycles that are not simulated
   control::OnStop onStop = control::OnStop::Continue;
   std::function<bool(const std::string& text)> ask;
@@ -52,44 +57,63 @@ struct RunOptions {
   /// Levels of block skip that the operator has switched on; HEIDENHAIN controls have level 0 only.
   std::bitset<10> skipLevels;
   std::int64_t wallClock = 0;  ///< seconds since 1970 (UTC) when the program starts, for logs
-  bool recordPath = true;
-  /// SINUMERIK only.
   ProgramMode mode = ProgramMode::Normal;
-  /// SINUMERIK only: block search with calculation. The axes stand and measuring cycles are skipped up to this line of
-  /// the main program; there they go straight to where the program stands, and the program goes on.
+  /// Of families with program modes: block search with calculation. The axes stand and measuring cycles are skipped up
+  /// to this line of the main program; there they go straight to where the program stands, and the program goes on.
   std::optional<std::uint64_t> searchLine;
   control::DialogLanguage language = control::DialogLanguage::English;  ///< of logs and screens
   std::vector<std::string> measuringLogs;  ///< SINUMERIK: logs of all measurements; a table if the name ends in .csv
   bool showAllResults = false;             ///< screens of results even where nothing asks for them
   /// Told from time to time how many blocks have been carried out.
   std::function<void(std::uint64_t blocks)> progress;
-  /// How files of parts are imported; `stop` above stops that, too.
-  simulation::ImportOptions import;
 };
 
-/// What a run leaves behind.
+/// What a run leaves behind of program and control.
 struct RunOutcome {
   control::ControlKind control = control::ControlKind::TNC640;
   control::Journal journal;
-  records::RunInfo info;                                ///< without version and output files
-  language::RunResult result;                           ///< how the interpreter ended
-  Diagnostics diagnostics;                              ///< mistakes found before the program could start
-  std::map<std::string, std::string> files;             ///< what the control wrote: tables as changed, logs; by name
-  std::vector<std::filesystem::path> inputs;            ///< what the program read and called
-  std::unique_ptr<simulation::VirtualMachine> machine;  ///< as it is at the end; null if it could not be built
+  records::RunInfo info;       ///< without version, output files, and what only the builder of the machine knows
+  language::RunResult result;  ///< how the interpreter ended
+  Diagnostics diagnostics;     ///< mistakes found before the program could start
+  std::map<std::string, std::string> files;   ///< what the control wrote: tables as changed, logs; by name
+  std::vector<std::filesystem::path> inputs;  ///< what the program read and called
   /// Machine coordinates (which are the table's at the start posture) from the workpiece system at the end.
   std::optional<Pose> machineFromWorkpiece;
   double ballRadius = 0;
-  /// The Q parameters of a HEIDENHAIN control at the end.
-  std::optional<control::heidenhain::QParameters> qParameters;
+  /// The number that a variable of the control has at the end, by the name that programs write: "Q151", "R5". NaN for
+  /// names of nothing. Null if the program did not begin.
+  std::function<double(std::string_view name)> variable;
 };
 
-/// Reads the program, builds the machine of the setup and the control's beliefs, runs. Everything that can go wrong is
-/// in the outcome; info.exit says what kind of end it was.
-RunOutcome runProgram(const std::filesystem::path& program, const simulation::Setup& setup, const RunOptions& options);
+/// A program that is opened and read through for mistakes, for the control that it is for. It runs once, as long as
+/// beliefs and options live.
+struct PreparedProgram {
+  const control::Beliefs* beliefs = nullptr;
+  const RunOptions* options = nullptr;
+  std::filesystem::path path;  ///< of a program in memory its name
+  std::string text;
+  std::optional<control::ControlKind> control;  ///< nothing if it could not be opened
+  Diagnostics diagnostics;                      ///< with errors it does not run
+  std::optional<Diagnostic> note;               ///< what a reader of its mistakes should know
+  std::function<void(machine::Machine& machine, HostFiles& files, RunOutcome& outcome)> runOn;
+};
 
+PreparedProgram prepareProgram(const std::filesystem::path& program, const control::Beliefs& beliefs,
+                               const RunOptions& options);
 /// The same with a program in memory; `name` names it in messages, programs that it calls are looked for in its folder.
-RunOutcome runText(const std::string& name, std::string text, const simulation::Setup& setup,
-                   const RunOptions& options);
+PreparedProgram prepareText(const std::string& name, std::string text, const control::Beliefs& beliefs,
+                            const RunOptions& options);
+
+/// Runs it. Everything that can go wrong is in the outcome; info.exit says what kind of end it was.
+RunOutcome run(PreparedProgram prepared, machine::Machine& machine);
+
+/// The outcome of a program that does not run because of its diagnostics: before there is a machine.
+RunOutcome notRun(PreparedProgram prepared);
+
+/// Both steps, for a machine that is there already.
+RunOutcome run(const std::filesystem::path& program, const control::Beliefs& beliefs, machine::Machine& machine,
+               const RunOptions& options);
+RunOutcome runText(const std::string& name, std::string text, const control::Beliefs& beliefs,
+                   machine::Machine& machine, const RunOptions& options);
 
 }  // namespace probewright::session

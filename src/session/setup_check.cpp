@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,45 +10,28 @@
 #include <variant>
 
 #include "base/number_text.hpp"
-#include "control/heidenhain/tool_table.hpp"
-#include "control/sinumerik/tool_data.hpp"
 #include "language/block.hpp"
-#include "session/beliefs.hpp"
 
 namespace probewright::session {
 
 namespace {
 
 using namespace language;
-using control::ControlKind;
 
-/// Q330 of the inspection cycles: the tool to monitor and correct.
-constexpr std::uint32_t monitoredTool = 330;
 constexpr std::uint32_t presetRow = 339;
 
-/// A tool or row as the text names it.
-struct Named {
-  std::string name;  ///< empty: by its number
-  double number = 0;
-  std::string shown() const { return name.empty() ? formatShortest(number) : name; }
-};
-
-/// What the control has.
-struct Known {
-  std::function<bool(const Named&)> tool, preset;
-  std::string tools, presets;  ///< for the way out: "the setup has 1 PROBE, 2"
-};
+std::string shown(const NamedItem& item) { return item.name.empty() ? formatShortest(item.number) : item.name; }
 
 class SetupChecker {
 public:
-  SetupChecker(Program& program, ControlKind kind, const Known& known, std::bitset<10> skipLevels)
-      : program_(program), kind_(kind), known_(known), skipLevels_(skipLevels) {}
+  SetupChecker(Program& program, const Inventory& inventory, std::bitset<10> skipLevels)
+      : program_(program), inventory_(inventory), skipLevels_(skipLevels) {}
 
   Diagnostics run() {
     Diagnostics unread;  // mistakes of blocks are told by others
     BlockPosition position = program_.begin();
     while (program_.parse(position, block_, unread)) {
-      if (!(block_.skippable && skipLevels_[isHeidenhain(kind_) ? 0 : block_.skipLevel])) {
+      if (!(block_.skippable && skipLevels_[block_.skipLevel])) {
         for (const Instruction& instruction : block_.instructions)
           std::visit([this](const auto& i) { look(i); }, instruction);
       }
@@ -64,16 +45,16 @@ public:
   }
 
 private:
-  std::optional<Named> named(const Operand& operand) const {
+  std::optional<NamedItem> named(const Operand& operand) const {
     if (!operand.present()) return std::nullopt;
-    if (operand.isLiteral()) return Named{{}, operand.number};
+    if (operand.isLiteral()) return NamedItem{{}, operand.number};
     const Node& node = block_.nodes[static_cast<std::size_t>(operand.node)];
     if (node.operation != Operation::Text) return std::nullopt;
-    return Named{std::string(block_.at(node.text)), 0};
+    return NamedItem{std::string(block_.at(node.text)), 0};
   }
 
   /// At the name in the text of the block, or at its beginning.
-  void report(const Named& named, std::string message, std::string advice, std::string code) {
+  void report(const NamedItem& named, std::string message, std::string advice, std::string code) {
     const std::string_view source = block_.at(block_.source);
     const std::size_t at = named.name.empty() ? std::string_view::npos : source.find(named.name);
     const std::string_view before = source.substr(0, at == std::string_view::npos ? 0 : at);
@@ -90,21 +71,21 @@ private:
          std::move(code)});
   }
 
-  void needTool(const Named& tool) {
-    if (known_.tool(tool)) return;
-    report(tool, fmt::format("the setup has no tool {}", tool.shown()),
-           "add the tool or correct its name; " + known_.tools, "tool");
+  void needTool(const NamedItem& tool) {
+    if (inventory_.hasTool(tool)) return;
+    report(tool, fmt::format("the setup has no tool {}", shown(tool)),
+           "add the tool or correct its name; " + inventory_.tools, "tool");
   }
-  void needPreset(const Named& row) {
-    if (known_.preset(row)) return;
-    report(row, fmt::format("the setup has no preset {}", row.shown()), "add the row or correct it; " + known_.presets,
-           "preset");
+  void needPreset(const NamedItem& row) {
+    if (inventory_.hasPreset(row)) return;
+    report(row, fmt::format("the setup has no preset {}", shown(row)),
+           "add the row or correct it; " + inventory_.presets, "preset");
   }
 
   void look(const ToolCall& call) {
     auto tool = named(call.name.present() ? call.name : call.number);
     if (!tool) return;
-    if (const auto step = named(call.index); isHeidenhain(kind_) && step && tool->name.empty())
+    if (const auto step = named(call.index); inventory_.toolSteps && step && tool->name.empty())
       tool->number += step->number / (step->number < 10 ? 10 : 100);
     needTool(*tool);
   }
@@ -123,9 +104,9 @@ private:
     }
   }
   void look(const CycleCall& call) {
-    if (!isHeidenhain(kind_) || block_.at(call.name) != "TCH PROBE") return;
+    if (inventory_.monitoredTool == 0 || block_.at(call.name) != inventory_.cycleWord) return;
     for (const Word& word : wordsOf(call.parameters)) {
-      if (word.address != monitoredTool) continue;
+      if (word.address != inventory_.monitoredTool) continue;
       const auto tool = named(word.value);
       if (tool && (!tool->name.empty() || tool->number != 0)) needTool(*tool);
     }
@@ -142,87 +123,17 @@ private:
   }
 
   Program& program_;
-  ControlKind kind_;
-  const Known& known_;
+  const Inventory& inventory_;
   std::bitset<10> skipLevels_;
   Block block_;
   Diagnostics found_;
   bool makesTools_ = false;
 };
 
-/// "the setup has 1 PROBE, 2": the first of them.
-class Listing {
-public:
-  void add(const std::string& number, const std::string& name) {
-    constexpr std::size_t most = 8;
-    if (++count_ > most + 1) return;
-    list_ += count_ > most ? " ..." : (list_.empty() ? "" : ", ") + number + (name.empty() ? "" : " " + name);
-  }
-  std::string text() const { return list_.empty() ? "the setup has none" : "the setup has " + list_; }
-
-private:
-  std::string list_;
-  std::size_t count_ = 0;
-};
-
-Diagnostics checkHeidenhain(Program& program, ControlKind kind, const simulation::Setup& setup,
-                            std::bitset<10> skipLevels) {
-  Diagnostics found;
-  const control::heidenhain::Tables tables = heidenhainTables(setup, kind, found);
-  Listing tools, presets;
-  for (const std::string& row : tables.tools.table().keys()) {
-    if (row != "0") tools.add(row, tables.tools.text(row, "NAME"));
-  }
-  const auto documented = [&](const std::string& row) {
-    return tables.presets.hasColumn("DOC") ? tables.presets.text(row, "DOC") : std::string();
-  };
-  for (const std::string& row : tables.presets.table().keys())
-    presets.add(row, documented(row));
-  Known known;
-  known.tools = tools.text();
-  known.presets = presets.text();
-  known.tool = [&](const Named& tool) {
-    if (!tool.name.empty()) return control::heidenhain::findToolNamed(tables.tools, tool.name).has_value();
-    return tool.number == 0 || tables.tools.hasRow(formatShortest(tool.number));
-  };
-  known.preset = [&](const Named& row) {
-    if (row.name.empty()) return tables.presets.hasRow(formatShortest(row.number));
-    for (const std::string& key : tables.presets.table().keys()) {
-      if (documented(key) == row.name) return true;
-    }
-    return false;
-  };
-  const Diagnostics more = SetupChecker(program, kind, known, skipLevels).run();
-  found.insert(found.end(), more.begin(), more.end());
-  return found;
-}
-
-Diagnostics checkSinumerik(Program& program, ControlKind kind, const simulation::Setup& setup,
-                           std::bitset<10> skipLevels) {
-  Diagnostics found;
-  const SinumerikData data = sinumerikData(setup, found);
-  Known known;
-  Listing tools;
-  for (const simulation::BelievedTool& tool : setup.tools)
-    tools.add(std::to_string(tool.number), tool.name);
-  known.tools = tools.text();
-  known.tool = [&](const Named& tool) {
-    using namespace control::sinumerik;
-    if (!tool.name.empty()) return tool.name == "0" || toolNamed(data.store, tool.name).has_value();
-    return tool.number == 0 || toolEdge(data.store, static_cast<int>(std::lround(tool.number)), 1).has_value();
-  };
-  known.preset = [](const Named&) { return true; };
-  const Diagnostics more = SetupChecker(program, kind, known, skipLevels).run();
-  found.insert(found.end(), more.begin(), more.end());
-  return found;
-}
-
 }  // namespace
 
-Diagnostics checkAgainstSetup(Program& program, ControlKind kind, const simulation::Setup& setup,
-                              std::bitset<10> skipLevels) {
-  return isHeidenhain(kind) ? checkHeidenhain(program, kind, setup, skipLevels)
-                            : checkSinumerik(program, kind, setup, skipLevels);
+Diagnostics checkAgainstSetup(Program& program, const Inventory& inventory, std::bitset<10> skipLevels) {
+  return SetupChecker(program, inventory, skipLevels).run();
 }
 
 }  // namespace probewright::session

@@ -1,18 +1,32 @@
 #pragma once
 
 #include <bitset>
+#include <cstddef>
+#include <string>
 
 #include "base/diagnostic.hpp"
-#include "control/control_kind.hpp"
 #include "language/program.hpp"
-#include "simulation/setup.hpp"
+#include "session/control_family.hpp"
 
 namespace probewright::session {
 
-/// What a program names and the control of this setup does not have: tools that are called or corrected, rows of the
-/// preset table that are activated. Only what the text says; names and numbers that the run computes are left to it.
-/// Mistakes in the tables that the setup names are told too.
-Diagnostics checkAgainstSetup(language::Program& program, control::ControlKind kind, const simulation::Setup& setup,
-                              std::bitset<10> skipLevels = {});
+/// What a program names and the control does not have: tools that are called or corrected, rows of the preset table
+/// that are activated. Only what the text says; names and numbers that the run computes are left to it.
+Diagnostics checkAgainstSetup(language::Program& program, const Inventory& inventory, std::bitset<10> skipLevels = {});
+
+/// "the setup has 1 PROBE, 2": the first of them.
+class Listing {
+public:
+  void add(const std::string& number, const std::string& name) {
+    constexpr std::size_t most = 8;
+    if (++count_ > most + 1) return;
+    list_ += count_ > most ? " ..." : (list_.empty() ? "" : ", ") + number + (name.empty() ? "" : " " + name);
+  }
+  std::string text() const { return list_.empty() ? "the setup has none" : "the setup has " + list_; }
+
+private:
+  std::string list_;
+  std::size_t count_ = 0;
+};
 
 }  // namespace probewright::session

@@ -1,127 +1,164 @@
 #include "session/source.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <regex>
+#include <utility>
 
 #include "base/file.hpp"
-#include "execution/sinumerik/global_data.hpp"
-#include "language/din_iso/program.hpp"
 #include "language/directory_library.hpp"
-#include "language/klartext/program.hpp"
-#include "language/sinumerik/program.hpp"
+#include "session/table_files.hpp"
 
 namespace probewright::session {
 
 using control::ControlKind;
 
-std::optional<ProgramLanguage> languageOf(const std::filesystem::path& path, std::string_view text) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".h") return ProgramLanguage::Klartext;
-  if (ending == ".i") return ProgramLanguage::DinIso;
-  if (ending == ".mpf" || ending == ".spf" || ending == ".arc") return ProgramLanguage::Sinumerik;
+namespace {
+
+/// "TNC640, iTNC530 or 840Dsl".
+template <class Names>
+std::string anyOf(const Names& names) {
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    list += fmt::format("{}{}", i == 0 ? "" : i + 1 < names.size() ? ", " : " or ", names[i]);
+  return list;
+}
+
+bool has(const std::vector<std::string_view>& endings, std::string_view ending) {
+  return std::ranges::find(endings, ending) != endings.end();
+}
+
+/// Calls `use` for each language, those of a family together.
+template <class Use>
+void forEachLanguage(const ControlFamilies& families, Use use) {
+  for (const ControlFamily& family : families.all()) {
+    for (const LanguageEntry& entry : family.languages)
+      use(entry);
+  }
+}
+
+/// "HEIDENHAIN (.H, .I) and SINUMERIK (.MPF, .SPF)".
+std::string familiesAndEndings(const ControlFamilies& families) {
+  std::string list;
+  for (const ControlFamily& family : families.all()) {
+    std::vector<std::string_view> endings;
+    for (const LanguageEntry& entry : family.languages)
+      endings.insert(endings.end(), entry.endings.begin(), entry.endings.end());
+    const bool last = &family == &families.all().back();
+    list += fmt::format("{}{} ({})", list.empty() ? "" : last ? " and " : ", ", family.name, fmt::join(endings, ", "));
+  }
+  return list;
+}
+
+}  // namespace
+
+std::optional<ProgramLanguage> languageOf(const std::filesystem::path& path, std::string_view text,
+                                          const ControlFamilies& families) {
+  const std::string ending = upper(path.extension().string());
   const std::string head(text.substr(0, 20000));
-  static const std::regex klartext(
-      R"((^|\n)\s*(\d+\s+)?(BEGIN PGM|TCH PROBE|TOOL CALL|CYCL DEF|L [XYZ][+-]|FN ?\d+ ?:))");
-  // Blocks that end with '*', and words that SINUMERIK has not.
-  static const std::regex dinIso(
-      R"((^|\n)\s*(%\S[^\n]* G7[01]\s*\*|(N\d+\s+)?(G98 ?L|D(0\d|1\d) ?Q|G[^\n;]*\*\s*(\n|$))))", std::regex::icase);
-  static const std::regex sinumerik(
-      R"((^|\n)\s*(%_N_|(N\d+\s+)?(CYCLE\d+\s*\(|G\d+\s|PROC\s|DEF\s|R\d+\s*=|M30|M17|T="|;\$PATH)))",
-      std::regex::icase);
-  if (std::regex_search(head, klartext)) return ProgramLanguage::Klartext;
-  if (std::regex_search(head, dinIso)) return ProgramLanguage::DinIso;
-  if (std::regex_search(head, sinumerik)) return ProgramLanguage::Sinumerik;
-  return std::nullopt;
+  std::optional<ProgramLanguage> byEnding, byText;
+  forEachLanguage(families, [&](const LanguageEntry& entry) {
+    if (!byEnding && (has(entry.endings, ending) || has(entry.archiveEndings, ending))) byEnding = entry.language;
+  });
+  if (byEnding) return byEnding;
+  forEachLanguage(families, [&](const LanguageEntry& entry) {
+    if (!byText && entry.looksLike(head)) byText = entry.language;
+  });
+  return byText;
 }
 
 /// What a text is that no control here reads, in the words of a message; empty if nothing tells.
-std::string_view foreignLanguage(const std::filesystem::path& path, std::string_view text) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+std::string_view foreignLanguage(const std::filesystem::path& path, std::string_view text,
+                                 const ControlFamilies& families) {
   const std::string head(text.substr(0, 20000));
   // Probing by G38.x, numbered parameters, O words and Fanuc program numbers, comments in parentheses, G21.
   static const std::regex rs274(
       R"((^|\n)\s*/?\s*((N\d+\s+)?(G\d+(\.\d)?\s*)*G38\.[2-9]|(N\d+\s+)?#(\d+|<[^>\n]+>)\s*=|O\s*(\d+|<[^>\n]+>)\s*(SUB|CALL|IF|WHILE|REPEAT|\(|\r?\n)|\([^\n)]*\)\s*\r?(\n|$)|[^;*"\n]*\bG21\b[^;*"\n]*(\n|$)))",
       std::regex::icase);
-  const bool own = languageOf(path, {}).has_value();
+  const bool own = languageOf(path, {}, families).has_value();
   if (own) return {};
-  if (ending == ".ngc" || std::regex_search(head, rs274)) return "an RS-274 program (LinuxCNC, Fanuc and others)";
+  if (upper(path.extension().string()) == ".NGC" || std::regex_search(head, rs274))
+    return "an RS-274 program (LinuxCNC, Fanuc and others)";
   return {};
 }
 
-std::string_view nameOf(ProgramLanguage language) {
-  switch (language) {
-    case ProgramLanguage::Klartext:
-      return "Klartext";
-    case ProgramLanguage::DinIso:
-      return "DIN/ISO";
-    default:
-      return "SINUMERIK";
-  }
-}
-
-std::optional<Diagnostic> otherLanguage(const std::filesystem::path& path, std::string_view text) {
-  const std::optional<ProgramLanguage> readAs = languageOf(path, text), looksLike = languageOf("program", text);
+std::optional<Diagnostic> otherLanguage(const std::filesystem::path& path, std::string_view text,
+                                        const ControlFamilies& families) {
+  const std::optional<ProgramLanguage> readAs = languageOf(path, text, families);
+  const std::optional<ProgramLanguage> looksLike = languageOf("program", text, families);
   if (!readAs || !looksLike || *readAs == *looksLike) return std::nullopt;
-  return Diagnostic{
-      Severity::Note,
-      {path.string(), 0, 0},
-      fmt::format("it was read as {} because of its file extension, but looks like {}", nameOf(*readAs),
-                  nameOf(*looksLike)),
-      {},
-      "give it the extension of its language: .H for Klartext, .I for DIN/ISO, .MPF or .SPF for a SINUMERIK",
-      {}};
+  std::vector<std::string> endings;
+  forEachLanguage(families, [&](const LanguageEntry& entry) {
+    endings.push_back(fmt::format("{} for {}", anyOf(entry.endings), entry.whose));
+  });
+  return Diagnostic{Severity::Note,
+                    {path.string(), 0, 0},
+                    fmt::format("it was read as {} because of its file extension, but looks like {}",
+                                families.entry(*readAs).name, families.entry(*looksLike).name),
+                    {},
+                    fmt::format("give it the extension of its language: {}", fmt::join(endings, ", ")),
+                    {}};
 }
 
-ProgramLanguage languageFor(ControlKind kind, const std::filesystem::path& path, std::string_view text) {
-  const std::optional<ProgramLanguage> told = languageOf(path, text);
-  if (told && speaks(kind, *told)) return *told;
-  return control::isHeidenhain(kind) ? ProgramLanguage::Klartext : ProgramLanguage::Sinumerik;
+ProgramLanguage languageFor(ControlKind kind, const std::filesystem::path& path, std::string_view text,
+                            const ControlFamilies& families) {
+  const std::optional<ProgramLanguage> told = languageOf(path, text, families);
+  return told && families.speaks(kind, *told) ? *told : families.of(kind).languages.front().language;
 }
 
 Result<ControlKind> controlFor(const std::filesystem::path& path, std::string_view text,
-                               std::optional<ControlKind> wanted, std::optional<ControlKind> setup) {
+                               std::optional<ControlKind> wanted, std::optional<ControlKind> believed,
+                               const ControlFamilies& families) {
   if (text.find_first_not_of(" \t\r\n\x1a\xEF\xBB\xBF") == std::string_view::npos) {
     return fail({path.string(), 0, 0}, "the program is empty", "check that the file was saved and copied whole");
   }
-  if (const std::string_view foreign = foreignLanguage(path, text); !foreign.empty()) {
+  if (const std::string_view foreign = foreignLanguage(path, text, families); !foreign.empty()) {
     return fail({path.string(), 0, 0}, fmt::format("this looks like {}, which Probewright does not read", foreign),
-                "Probewright reads programs of HEIDENHAIN (.H, .I) and SINUMERIK (.MPF, .SPF) controls; if this is one "
-                "of them, give it the extension of its language");
+                fmt::format("Probewright reads programs of {} controls; if this is one of them, give it the extension "
+                            "of its language",
+                            familiesAndEndings(families)));
   }
-  const std::optional<ProgramLanguage> language = languageOf(path, text);
+  const std::optional<ProgramLanguage> language = languageOf(path, text, families);
   if (wanted) {
-    if (!language || speaks(*wanted, *language)) return *wanted;
+    if (!language || families.speaks(*wanted, *language)) return *wanted;
     return fail({path.string(), 0, 0},
-                fmt::format("this is a {} program, which the {} does not read", nameOf(*language), name(*wanted)),
+                fmt::format("this is a {} program, which the {} does not read", families.entry(*language).name,
+                            families.model(*wanted).name),
                 "name a control of that language with --control, or leave it out");
   }
   if (!language) {
-    if (setup) return *setup;
+    if (believed) return *believed;
+    std::vector<std::string_view> names;
+    for (const ControlFamily& family : families.all()) {
+      for (const ControlModel& model : family.controls)
+        names.push_back(model.name);
+    }
     return fail({path.string(), 0, 0},
                 "neither the file extension nor the text shows which control this program is for",
-                "name it with --control TNC640, iTNC530 or 840Dsl");
+                fmt::format("name it with --control {}", anyOf(names)));
   }
-  if (setup) {
-    if (speaks(*setup, *language)) return *setup;
+  if (believed) {
+    if (families.speaks(*believed, *language)) return *believed;
+    std::vector<std::string_view> names;
+    for (const ControlModel& model : families.of(*language).controls) {
+      names.push_back(model.name);
+      names.insert(names.end(), model.alsoCalled.begin(), model.alsoCalled.end());
+    }
     return fail({path.string(), 0, 0},
-                fmt::format("this is a {} program, but the setup's control is {}", nameOf(*language), name(*setup)),
-                *language == ProgramLanguage::Sinumerik
-                    ? "name a setup whose [control] type is 840Dsl or 828D, or has none"
-                    : "name a setup whose [control] type is TNC640 or iTNC530, or has none");
+                fmt::format("this is a {} program, but the setup's control is {}", families.entry(*language).name,
+                            families.model(*believed).name),
+                fmt::format("name a setup whose [control] type is {}, or has none", anyOf(names)));
   }
-  return *language == ProgramLanguage::Sinumerik ? ControlKind::Sinumerik840Dsl : ControlKind::TNC640;
+  return families.of(*language).controls.front().kind;
 }
 
 namespace {
 
 /// Why this cannot be the text of a program, from its beginning; nothing if it can.
 std::optional<Diagnostic> whyNoText(const std::filesystem::path& path, std::string_view text,
-                                    ProgramLanguage language) {
+                                    const LanguageEntry& language) {
   std::string head(text.substr(0, 4096));
   const auto because = [&](std::string message, std::string advice) {
     return Diagnostic{Severity::Error, {path.string(), 0, 0}, std::move(message), {}, std::move(advice), {}};
@@ -137,7 +174,7 @@ std::optional<Diagnostic> whyNoText(const std::filesystem::path& path, std::stri
   const auto isBinary = [](unsigned char c) {
     return (c < 0x20 && c != '\t' && c != '\n' && c != '\f' && c != '\r' && c != 0x1A) || c == 0x7F;
   };
-  if (language != ProgramLanguage::Sinumerik && std::ranges::any_of(head, isBinary)) {
+  if (!language.holdsControlCharacters && std::ranges::any_of(head, isBinary)) {
     return because("this is not a text file: it contains control characters",
                    "give the program as plain text, as an editor shows it");
   }
@@ -148,60 +185,42 @@ std::optional<Diagnostic> whyNoText(const std::filesystem::path& path, std::stri
   return std::nullopt;
 }
 
+Result<std::shared_ptr<language::Program>> openAs(const LanguageEntry& entry, const std::filesystem::path& path,
+                                                  std::string_view text) {
+  if (const auto why = whyNoText(path, text, entry)) return tl::unexpected(*why);
+  // A pipe gives its text only once.
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return entry.fromText(path.string(), std::string(text));
+  return entry.open(path);
+}
+
 }  // namespace
 
 Result<std::shared_ptr<language::Program>> openProgram(const std::filesystem::path& path, std::string_view text,
-                                                       ProgramLanguage language) {
-  if (const auto why = whyNoText(path, text, language)) return tl::unexpected(*why);
-  // A pipe gives its text only once.
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return programOf(path.string(), std::string(text), language);
-  if (language == ProgramLanguage::Klartext) {
-    auto program = language::klartext::KlartextProgram::open(path);
-    if (!program) return tl::unexpected(program.error());
-    return std::shared_ptr<language::Program>(std::move(*program));
-  }
-  if (language == ProgramLanguage::DinIso) {
-    auto program = language::din_iso::DinIsoProgram::open(path);
-    if (!program) return tl::unexpected(program.error());
-    return std::shared_ptr<language::Program>(std::move(*program));
-  }
-  auto program = sinumerik::SinumerikProgram::open(path);
-  if (!program) return tl::unexpected(program.error());
-  return std::shared_ptr<language::Program>(std::move(*program));
+                                                       ProgramLanguage language, const ControlFamilies& families) {
+  return openAs(families.entry(language), path, text);
 }
 
-std::shared_ptr<language::Program> programOf(std::string name, std::string text, ProgramLanguage language) {
-  switch (language) {
-    case ProgramLanguage::Klartext:
-      return std::make_shared<language::klartext::KlartextProgram>(std::move(name), std::move(text));
-    case ProgramLanguage::DinIso:
-      return std::make_shared<language::din_iso::DinIsoProgram>(std::move(name), std::move(text));
-    default:
-      return sinumerik::SinumerikProgram::fromText(std::move(name), std::move(text));
-  }
+std::shared_ptr<language::Program> programOf(std::string name, std::string text, ProgramLanguage language,
+                                             const ControlFamilies& families) {
+  return families.entry(language).fromText(std::move(name), std::move(text));
 }
 
-void useMacros(language::Program& program, const sinumerik::GlobalUserData& globalData) {
-  if (auto* own = dynamic_cast<sinumerik::SinumerikProgram*>(&program)) own->useMacros(globalData.macros());
-}
-
-std::unique_ptr<language::ProgramLibrary> programLibrary(ControlKind kind, std::vector<std::filesystem::path> folders,
-                                                         const sinumerik::GlobalUserData* globalData,
-                                                         std::function<void(const std::filesystem::path&)> onOpen) {
-  const bool heidenhain = control::isHeidenhain(kind);
-  std::vector<std::string> endings =
-      heidenhain ? std::vector<std::string>{".H", ".I"} : std::vector<std::string>{".SPF", ".MPF", ".CPF", ".CYC"};
-  const auto open = [kind, globalData, onOpen = std::move(onOpen)](
+std::unique_ptr<language::ProgramLibrary> programLibrary(const ControlFamily& family, OnOpen onOpen) {
+  const auto open = [&family, onOpen = std::move(onOpen)](
                         const std::filesystem::path& path) -> Result<std::shared_ptr<language::Program>> {
     const Result<std::string> text = readFile(path);
     if (!text) return tl::unexpected(text.error());
-    auto program = openProgram(path, *text, languageFor(kind, path, {}));
-    if (program && globalData != nullptr) useMacros(**program, *globalData);
-    if (onOpen) onOpen(path);
+    const std::string ending = upper(path.extension().string());
+    const LanguageEntry* entry = &family.languages.front();
+    for (const LanguageEntry& each : family.languages) {
+      if (has(each.endings, ending) || has(each.archiveEndings, ending)) entry = &each;
+    }
+    auto program = openAs(*entry, path, *text);
+    if (onOpen) onOpen(program ? program->get() : nullptr, path);
     return program;
   };
-  return std::make_unique<language::DirectoryLibrary>(std::move(endings), open, std::move(folders));
+  return std::make_unique<language::DirectoryLibrary>(family.calledEndings, open);
 }
 
 }  // namespace probewright::session

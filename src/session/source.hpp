@@ -4,57 +4,50 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "base/diagnostic.hpp"
 #include "control/control_kind.hpp"
 #include "language/program.hpp"
-
-namespace probewright::sinumerik {
-class GlobalUserData;
-}
+#include "session/control_family.hpp"
 
 /// Program files, whatever their language.
 namespace probewright::session {
 
-enum class ProgramLanguage { Klartext, DinIso, Sinumerik };
-
 /// The language of a program by its ending (.H; .I; .MPF, .SPF, .ARC), otherwise by its text; nothing if neither tells.
-std::optional<ProgramLanguage> languageOf(const std::filesystem::path& path, std::string_view text);
+std::optional<ProgramLanguage> languageOf(const std::filesystem::path& path, std::string_view text,
+                                          const ControlFamilies& families = knownFamilies());
 
 /// A note for a program with mistakes whose text looks like another language than the one of its ending.
-std::optional<Diagnostic> otherLanguage(const std::filesystem::path& path, std::string_view text);
+std::optional<Diagnostic> otherLanguage(const std::filesystem::path& path, std::string_view text,
+                                        const ControlFamilies& families = knownFamilies());
 
-/// True if the control runs programs of that language; a HEIDENHAIN control runs two.
-constexpr bool speaks(control::ControlKind kind, ProgramLanguage language) {
-  return control::isHeidenhain(kind) == (language != ProgramLanguage::Sinumerik);
-}
+/// The language to read a program in that is for `kind`: the one it tells, otherwise the first one of the family.
+ProgramLanguage languageFor(control::ControlKind kind, const std::filesystem::path& path, std::string_view text,
+                            const ControlFamilies& families = knownFamilies());
 
-/// The language to read a program in that is for `kind`: the one it tells, otherwise the control's first one.
-ProgramLanguage languageFor(control::ControlKind kind, const std::filesystem::path& path, std::string_view text);
-
-std::string_view nameOf(ProgramLanguage language);
-
-/// The control that a program is for: `wanted`, else `setup`, as long as it speaks the program's language; else the
-/// language's own (TNC640, 840Dsl). Fails if they contradict each other or nothing tells.
+/// The control that a program is for: `wanted`, else `believed`, as long as it speaks the program's language; else the
+/// first one of the language's family (TNC640, 840Dsl). Fails if they contradict each other or nothing tells.
 Result<control::ControlKind> controlFor(const std::filesystem::path& path, std::string_view text,
                                         std::optional<control::ControlKind> wanted,
-                                        std::optional<control::ControlKind> setup);
+                                        std::optional<control::ControlKind> believed,
+                                        const ControlFamilies& families = knownFamilies());
 
 /// The program in the file at `path`, whose whole text is `text`.
 Result<std::shared_ptr<language::Program>> openProgram(const std::filesystem::path& path, std::string_view text,
-                                                       ProgramLanguage language);
+                                                       ProgramLanguage language,
+                                                       const ControlFamilies& families = knownFamilies());
 
 /// A program in memory; `name` names it in messages.
-std::shared_ptr<language::Program> programOf(std::string name, std::string text, ProgramLanguage language);
+std::shared_ptr<language::Program> programOf(std::string name, std::string text, ProgramLanguage language,
+                                             const ControlFamilies& families = knownFamilies());
 
-/// Tells a SINUMERIK program the macros of definition files; nothing for other programs.
-void useMacros(language::Program& program, const sinumerik::GlobalUserData& globalData);
+/// Told each file that a program calls; `program` is null if it cannot be read.
+using OnOpen = std::function<void(language::Program* program, const std::filesystem::path& path)>;
 
-/// Where programs of that control look for others: the caller's folder, then `folders`. SINUMERIK programs know the
-/// macros of `globalData`, which must outlive the library. `onOpen` is told each file.
-std::unique_ptr<language::ProgramLibrary> programLibrary(control::ControlKind kind,
-                                                         std::vector<std::filesystem::path> folders = {},
-                                                         const sinumerik::GlobalUserData* globalData = nullptr,
-                                                         std::function<void(const std::filesystem::path&)> onOpen = {});
+/// Where programs of a control look for others: in the caller's folder. `family` must outlive the library.
+std::unique_ptr<language::ProgramLibrary> programLibrary(const ControlFamily& family, OnOpen onOpen = {});
 
 }  // namespace probewright::session

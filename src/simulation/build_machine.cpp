@@ -5,8 +5,8 @@
 #include "simulation/analytic_solids.hpp"
 #include "simulation/cad_solid.hpp"
 #include "simulation/mesh_solid.hpp"
-#include "simulation/setup.hpp"
 #include "simulation/virtual_machine.hpp"
+#include "simulation/world.hpp"
 
 namespace probewright::simulation {
 
@@ -45,20 +45,19 @@ PlacedSolid solidOf(const machine::TableBody& table) {
 
 }  // namespace
 
-Result<std::unique_ptr<VirtualMachine>> buildMachine(const Setup& setup, const ImportOptions& import) {
-  Truth truth = setup.truth;
-  for (const SetupSolid& entry : setup.solids) {
+Result<std::unique_ptr<VirtualMachine>> buildMachine(const World& world, const ImportOptions& import) {
+  Truth truth = world.truth;
+  for (const WorldSolid& entry : world.solids) {
     auto solid = load(entry.source, import);
     if (!solid) return tl::unexpected(std::move(solid.error()));
     truth.solids.push_back({std::move(*solid), entry.tableFromSolid, entry.name, entry.role});
   }
-  if (setup.table) truth.solids.push_back(solidOf(*setup.table));
+  if (world.table) truth.solids.push_back(solidOf(*world.table));
   auto machine = std::make_unique<VirtualMachine>(std::move(truth));
-  for (const BelievedTool& tool : setup.tools) {
-    if (!tool.inSpindle) continue;
-    const machine::ToolChangeResult result = machine->insertTool({tool.number, {}});
+  if (world.toolInSpindle) {
+    const machine::ToolChangeResult result = machine->insertTool({*world.toolInSpindle, {}});
     if (result.end != machine::ToolChangeEnd::Changed) {
-      return fail({setup.file}, fmt::format("the machine cannot start like this: {}", result.detail),
+      return fail({world.file}, fmt::format("the machine cannot start like this: {}", result.detail),
                   "Move the part or give another start position under [machine.start]");
     }
   }

@@ -44,8 +44,7 @@ void put(const JobFolder& folder, const Files& files) {
 Twin runFile(const fs::path& path, const Files& files, ProgramLanguage language, const PlantedPart& part) {
   session::RunOptions options;
   options.control = language == ProgramLanguage::Sinumerik ? ControlKind::Sinumerik840Dsl : part.bench.control;
-  options.recordPath = false;
-  Twin twin = twinOf(session::runProgram(path, twinSetup(part.bench.setup), options));
+  Twin twin = twinOf(setup::runProgram(path, twinSetup(part.bench.setup), options, {.recordPath = false}));
   for (const auto& [name, text] : files)
     twin.text += text;
   twin.language = language;

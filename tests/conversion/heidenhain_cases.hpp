@@ -54,7 +54,7 @@ inline Words limits(Dice& dice, int maximum, double nominal) {
 /// Drives by the status: 1, 2 or 4 mm up.
 inline const std::string driveByStatus = "Q62 = Q180 + 2 * Q181 + 4 * Q182\nL IZ+Q62 R0 FMAX\n";
 
-inline double ballOf(const PlantedPart& part) { return part.bench.setup.tools.front().radius; }
+inline double ballOf(const PlantedPart& part) { return part.bench.setup.beliefs.tools.front().radius; }
 
 inline std::vector<Counterpart> circleResults() {
   return {{"Q151", "_OVR[5]"}, {"Q152", "_OVR[6]"}, {"Q153", "_OVR[4]"}};

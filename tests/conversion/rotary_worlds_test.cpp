@@ -87,7 +87,7 @@ TEST(ConvertTiltedPlane, MeasuresHolesInSwivelledPlanes) {
       const Matrix3 before = pose(Vector3::Zero(), hole.angles).linear();
       Pose turned = Pose::Identity();
       turned.linear() = turn * before.transpose();
-      hole.part.bench.setup.truth.solids.back().tableFromSolid =
+      hole.part.bench.setup.world.truth.solids.back().tableFromSolid =
           hole.part.machineFromPreset * turned * hole.part.machineFromPreset.inverse() * hole.part.machineFromPart;
       angles = fmt::format("{:.3f},{:.3f},{:.3f}", hole.angles.x(), hole.angles.y(), hole.angles.z());
     }

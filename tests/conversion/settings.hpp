@@ -50,13 +50,13 @@ inline void turn(PlantedPart& part, char toolAxis) {
   for (int i = 0; i < 3; ++i)
     turn.linear().col(i) = Vector3::Unit((main + i) % 3);
   turn.translation() = toolAxis == 'X' ? Vector3(150, 0, -300) : Vector3(0, 250, -300);
-  for (simulation::PlacedSolid& placed : part.bench.setup.truth.solids)
+  for (simulation::PlacedSolid& placed : part.bench.setup.world.truth.solids)
     placed.tableFromSolid = turn * placed.tableFromSolid;
-  for (simulation::BelievedFrame& frame : part.bench.setup.presets) {
+  for (control::BelievedFrame& frame : part.bench.setup.beliefs.presets) {
     frame.origin = turn * frame.origin;
     frame.rotation = turn.linear() * frame.rotation;
   }
-  part.bench.setup.truth.tools.front().shankDirection = turn.linear() * Vector3::UnitZ();
+  part.bench.setup.world.truth.tools.front().shankDirection = turn.linear() * Vector3::UnitZ();
 }
 
 }  // namespace probewright::testing_support

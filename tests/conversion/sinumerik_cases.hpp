@@ -69,7 +69,7 @@ inline Named with(Named first, const Named& second) {
 inline const Named always = {{"S_PRNUM", 1}, {"S_NMSP", 1}};
 inline const std::vector<Counterpart> circleResults = {{"Q151", "_OVR[5]"}, {"Q152", "_OVR[6]"}, {"Q153", "_OVR[4]"}};
 
-inline double ballOf(const PlantedPart& part) { return part.bench.setup.tools.front().radius; }
+inline double ballOf(const PlantedPart& part) { return part.bench.setup.beliefs.tools.front().radius; }
 
 inline void layRound(PlantedPart& part, bool hole, double diameter) {
   if (hole) {
@@ -176,7 +176,7 @@ inline std::string surface978(Dice& dice, PlantedPart& part, int axis) {
 inline std::string edge998(Dice& dice, PlantedPart& part, int axis, int along) {
   const bool corrects = axis < 2 && dice.coin();
   if (corrects) {  // cycle 400 counts its points from unturned axes
-    part.bench.setup.presets.front().rotation.setZero();
+    part.bench.setup.beliefs.presets.front().rotation.setZero();
     part.machineFromPreset = pose(part.machineFromPreset.translation());
     part.machineFromPart = part.machineFromPreset * pose(part.nominal + dice.within(1), {0, 0, part.skew});
   }

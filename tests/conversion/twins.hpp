@@ -5,8 +5,8 @@
 #include "cycles/catalogue.hpp"
 #include "cycles_heidenhain/worlds.hpp"
 #include "session/convert.hpp"
-#include "session/run.hpp"
 #include "session/source.hpp"
+#include "setup/simulated_run.hpp"
 
 /// Programs and their conversions in the same worlds.
 namespace probewright::testing_support {
@@ -62,16 +62,17 @@ inline std::vector<Vector3> touchesOf(const Twin& twin) {
 }
 
 /// The setup with the zero offsets that are the twins of its presets.
-inline simulation::Setup twinSetup(const simulation::Setup& setup) {
-  simulation::Setup twin = setup;
-  twin.zeroOffsets = setup.presets;
-  for (simulation::BelievedFrame& frame : twin.zeroOffsets)
+inline setup::Setup twinSetup(const setup::Setup& setup) {
+  setup::Setup twin = setup;
+  twin.beliefs.zeroOffsets = setup.beliefs.presets;
+  for (control::BelievedFrame& frame : twin.beliefs.zeroOffsets)
     if (frame.index == 0) frame.index = 99;
   return twin;
 }
 
 /// What a run has left.
-inline Twin twinOf(session::RunOutcome outcome) {
+inline Twin twinOf(setup::SimulatedRun run) {
+  session::RunOutcome& outcome = run.outcome;
   Twin twin;
   twin.finished = !hasErrors(outcome.diagnostics) && outcome.result.end == language::RunEnd::Finished;
   if (hasErrors(outcome.diagnostics)) {
@@ -80,7 +81,7 @@ inline Twin twinOf(session::RunOutcome outcome) {
     twin.why = format(outcome.result.diagnostics.front());
   }
   twin.machineFromWorkpiece = outcome.machineFromWorkpiece.value_or(Pose::Identity());
-  if (outcome.machine) twin.axes = outcome.machine->position();
+  if (run.machine) twin.axes = run.machine->position();
   twin.journal = std::move(outcome.journal);
   twin.files = std::move(outcome.files);
   return twin;
@@ -90,9 +91,8 @@ inline Twin run(const std::string& text, ProgramLanguage language, const Planted
   const bool heidenhain = language == ProgramLanguage::Klartext;
   session::RunOptions options;
   options.control = heidenhain ? part.bench.control : ControlKind::Sinumerik840Dsl;
-  options.recordPath = false;
-  Twin twin =
-      twinOf(session::runText(heidenhain ? "BENCH.H" : "BENCH.MPF", text, twinSetup(part.bench.setup), options));
+  Twin twin = twinOf(setup::runText(heidenhain ? "BENCH.H" : "BENCH.MPF", text, twinSetup(part.bench.setup), options,
+                                    {.recordPath = false}));
   twin.text = text;
   twin.language = language;
   return twin;

@@ -16,7 +16,7 @@ struct Across {
 
   Across(ControlKind kind, char toolAxis, const std::string& machine = "mill3")
       : bench(kind, machine), axis(toolAxis), plane(control::WorkingPlane::ofToolAxis(toolAxis)) {
-    simulation::TrueTool& tool = bench.setup.truth.tools.front();
+    simulation::TrueTool& tool = bench.setup.world.truth.tools.front();
     tool.shankDirection = Vector3::Zero();
     tool.shankDirection[plane.tool] = 1;
     tip = {0.08, -0.05};

@@ -20,7 +20,7 @@ struct Shifting {
     return bench.runBare(before + probe(440, {{363, mode}, {364, directions}, {320, 1}, {260, 20}}) + after);
   }
   void shift(const Vector3& amount) {
-    auto& errors = bench.setup.truth.errors;
+    auto& errors = bench.setup.world.truth.errors;
     errors.axes.resize(3);
     for (std::size_t i = 0; i < 3; ++i)
       errors.axes[i].offset = amount[static_cast<Eigen::Index>(i)];
@@ -40,22 +40,22 @@ Shifting shifting(Dice& dice) {
   pin.kind = simulation::ToolKind::Cutter;
   pin.length = length;
   pin.radius = world.radius;
-  bench.setup.truth.tools.push_back(pin);
+  bench.setup.world.truth.tools.push_back(pin);
   world.contact = {written(dice.between(120, 160)), written(dice.between(-80, -60)), written(dice.between(-480, -460))};
   const double half = written(dice.between(12, 20));
   world.disc = dice.coin();
   if (world.disc) {
-    placeToolProbe(bench.setup.truth, simulation::RoundBar(half, -10, 0), pose(world.contact));
+    placeToolProbe(bench.setup.world.truth, simulation::RoundBar(half, -10, 0), pose(world.contact));
   } else {
-    placeToolProbe(bench.setup.truth, simulation::Box({-half, -half, -10}, {half, half, 0}), pose(world.contact));
+    placeToolProbe(bench.setup.world.truth, simulation::Box({-half, -half, -10}, {half, half, 0}), pose(world.contact));
   }
   bench.part(simulation::Box({0, -20, -40}, {40, 20, 0}), pose({0, 0, -420}));
   // The control knows place and size a little wrong.
   const Vector3 roughly = world.contact + dice.within(world.disc ? 0.05 : 0.5);
   const char* names[] = {"MP6580.0", "MP6580.1", "MP6580.2"};
   for (int i = 0; i < 3; ++i)
-    bench.setup.parameters[names[i]] = {roughly[i], {}};
-  bench.setup.parameters["MP6531"] = {2 * half, {}};
+    bench.setup.beliefs.parameters[names[i]] = {roughly[i], {}};
+  bench.setup.beliefs.parameters["MP6531"] = {2 * half, {}};
   return world;
 }
 
@@ -84,7 +84,7 @@ TEST(Cycle440, WritesWhereItMetTheToolTouchProbe) {
     // The tip stands on the upper edge, the flank beside it.
     constexpr double flank = 1e-5;  // how far a tool enters a solid of the bench before they count as touching
     EXPECT_NEAR(*table.number("1", "Z"), world.contact.z(), flank);
-    const double half = std::get<double>(world.bench.setup.parameters.at("MP6531").value) / 2;
+    const double half = std::get<double>(world.bench.setup.beliefs.parameters.at("MP6531").value) / 2;
     static constexpr int senses[8][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
     for (int axis = 0; axis < 2; ++axis) {
       const int sense = senses[directions][axis];
@@ -122,10 +122,10 @@ TEST(Cycle440, IsWrongByTheGeometryOfTheMachineOnly) {
     SCOPED_TRACE(fmt::format("world {}", at));
     Shifting world = shifting(dice);
     if (world.disc) continue;
-    auto& believed = world.bench.setup.tools.back();
+    auto& believed = world.bench.setup.beliefs.tools.back();
     believed.length += written(dice.between(-0.5, 0.5), 4);
     believed.radius += written(dice.between(-0.5, 0.5), 4);
-    auto& errors = world.bench.setup.truth.errors;
+    auto& errors = world.bench.setup.world.truth.errors;
     errors.axes.resize(3);
     for (auto& axis : errors.axes)
       axis.scale = dice.between(-1e-3, 1e-3);
@@ -184,7 +184,7 @@ TEST(Cycle440, FindsAnyShiftOfTheAxes) {
     for (int i = 0; i < 3; ++i)
       EXPECT_EQ(calibrated.q(185 + i), 0);
     // The tip stands above the contact again.
-    EXPECT_GE(calibrated.outcome.machine->tipOnTable().z(), -400 - exact);
+    EXPECT_GE(calibrated.machine->tipOnTable().z(), -400 - exact);
     const TableFolder folder(world.bench);
     folder.put("AXSHIFT.TAB", calibrated.outcome.files.at("AXSHIFT.TAB"));
     const Vector3 shift = dice.within(0.3);
@@ -249,7 +249,7 @@ TEST(Cycle440, RefusesAndStops) {
 
   control::heidenhain::TypedTable tools = control::heidenhain::defaultToolTable(ControlKind::iTNC530);
   ASSERT_TRUE(tools.setText("9", "NAME", "PIN"));
-  ASSERT_TRUE(tools.setNumber("9", "L", world.bench.setup.tools.back().length));
+  ASSERT_TRUE(tools.setNumber("9", "L", world.bench.setup.beliefs.tools.back().length));
   ASSERT_TRUE(tools.setNumber("9", "R", world.radius));
   ASSERT_TRUE(tools.setNumber("9", "LTOL", 0.05));
   ASSERT_TRUE(tools.setNumber("9", "RTOL", 0.1));
@@ -267,13 +267,13 @@ TEST(Cycle440, RefusesAndStops) {
   EXPECT_NE(radius.why().find("RTOL"), std::string::npos) << radius.why();
 
   Shifting gone = shifting(dice);
-  gone.bench.setup.truth.solids.clear();
+  gone.bench.setup.world.truth.solids.clear();
   EXPECT_EQ(gone.run(0, 4).alarm(), "Touch probe not ready");
   Shifting away = shifting(dice);
-  away.bench.setup.truth.solids.front().tableFromSolid.translation().z() -= 100;
+  away.bench.setup.world.truth.solids.front().tableFromSolid.translation().z() -= 100;
   EXPECT_EQ(away.run(0, 4).alarm(), "Touch point inaccessible");
   Shifting unset = shifting(dice);
-  unset.bench.setup.parameters.clear();
+  unset.bench.setup.beliefs.parameters.clear();
   EXPECT_EQ(unset.run(0, 4).alarm(), "Tool touch probe not calibrated");
   Bench newer(ControlKind::TNC640);
   EXPECT_FALSE(newer.run(probe(440, {{363, 0}, {364, 0}, {320, 0}, {260, 20}})).finished());
@@ -285,20 +285,20 @@ TEST(Cycle440, UsesFeedsDepthAndOffsetsOfTheTables) {
   const Ran plain = world.run(0, 0);
   ASSERT_TRUE(plain.finished()) << plain.why();
   const auto seconds = [](const Ran& ran) { return ran.cycle().endSeconds - ran.cycle().startSeconds; };
-  world.bench.setup.parameters["MP6520"] = {30.0, {}};
+  world.bench.setup.beliefs.parameters["MP6520"] = {30.0, {}};
   const Ran slow = world.run(0, 0);
   EXPECT_GT(seconds(slow), seconds(plain) + 10);
-  world.bench.setup.parameters["MP6550"] = {100.0, {}};
+  world.bench.setup.beliefs.parameters["MP6550"] = {100.0, {}};
   EXPECT_GT(seconds(world.run(0, 0)), seconds(slow) + 60);
   // The top is touched beside the middle by R-OFFS, the side MP6530 plus L-OFFS below the upper edge.
   const auto tip = [&](const Ran& ran, std::size_t touch) {
     const auto& latched = ran.cycle().touches[touch].latched;
-    return Vector3(latched[0], latched[1], latched[2] - world.bench.setup.tools.back().length);
+    return Vector3(latched[0], latched[1], latched[2] - world.bench.setup.beliefs.tools.back().length);
   };
   const double depth = tip(plain, 0).z() - tip(plain, 1).z();
   control::heidenhain::TypedTable tools = control::heidenhain::defaultToolTable(ControlKind::iTNC530);
   ASSERT_TRUE(tools.setText("9", "NAME", "PIN"));
-  ASSERT_TRUE(tools.setNumber("9", "L", world.bench.setup.tools.back().length));
+  ASSERT_TRUE(tools.setNumber("9", "L", world.bench.setup.beliefs.tools.back().length));
   ASSERT_TRUE(tools.setNumber("9", "R", world.radius));
   ASSERT_TRUE(tools.setNumber("9", "R-OFFS", 1.5));
   ASSERT_TRUE(tools.setNumber("9", "L-OFFS", 2));
@@ -314,10 +314,10 @@ TEST(Cycle440, UsesFeedsDepthAndOffsetsOfTheTables) {
 TEST(Cycle440, WarnsOfAnotherTool) {
   Dice dice(4407);
   Shifting world = shifting(dice);
-  simulation::TrueTool other = world.bench.setup.truth.tools.back();
+  simulation::TrueTool other = world.bench.setup.world.truth.tools.back();
   other.number = 8;
   other.name = "OTHER";
-  world.bench.setup.truth.tools.push_back(other);
+  world.bench.setup.world.truth.tools.push_back(other);
   world.bench.knows(8, "OTHER", other.length, other.radius);
   const Words calibrate = {{363, 0}, {364, 4}, {320, 1}, {260, 20}}, measure = with(calibrate, {{363, 1}});
   const auto warnings = [&](int tool) {
@@ -338,7 +338,7 @@ TEST(Cycle440, WarnsOfAnotherTool) {
 /// Place and size of the contact come from [tool_probe] of the setup.
 TEST(Cycle440, KnowsTheToolTouchProbeOfTheSetup) {
   Diagnostics diagnostics;
-  const auto setup = simulation::parseSetup(R"(
+  const auto setup = setup::parseSetup(R"(
 [control]
 type = "iTNC530"
 [tool_probe]
@@ -359,7 +359,7 @@ kind = "probe"
 length = 100
 ball_radius = 2
 )",
-                                            "setup.toml", diagnostics);
+                                       "setup.toml", diagnostics);
   ASSERT_TRUE(setup) << format(diagnostics.front());
   Shifting world{};
   world.bench.setup = *setup;

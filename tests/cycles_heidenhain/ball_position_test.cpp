@@ -1,5 +1,5 @@
 #include "cycles_heidenhain/worlds.hpp"
-#include "session/beliefs.hpp"
+#include "session/heidenhain/beliefs.hpp"
 
 /// A straight stylus whose ball is known to stand beside the spindle axis: the ball goes to the programmed point.
 namespace probewright::testing_support {
@@ -121,7 +121,7 @@ TEST(BallPosition, IsTrueWhereTheSetupNamesNoBelief) {
         "[[preset]]\nrow = 1\norigin = [0, 0, -400]\nactive = true\n",
         angle);
     Diagnostics diagnostics;
-    const auto setup = simulation::parseSetup(text, "s.toml", diagnostics);
+    const auto setup = setup::parseSetup(text, "s.toml", diagnostics);
     ASSERT_TRUE(setup) << (diagnostics.empty() ? "" : format(diagnostics.front()));
     const auto tables = session::heidenhainTables(*setup, ControlKind::TNC640, diagnostics);
     // Turned to CAL_ANG, the ball that stands at (0.3, -0.2) of the spindle stands there in the machine's axes.

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double exact = 1e-6;
 
-void set(Bench& bench, const std::string& name, double value) { bench.setup.parameters[name] = {value, {}}; }
+void set(Bench& bench, const std::string& name, double value) { bench.setup.beliefs.parameters[name] = {value, {}}; }
 
 /// Two probes of different length and ball, both known to the tool table as they are; a hole of known size, the preset
 /// in the middle of its upper edge.
@@ -28,13 +28,13 @@ struct TwoProbes {
     simulation::TrueTool other = idealProbe(length[1], ball[1]);
     other.number = 2;
     other.name = "OTHER";
-    bench.setup.truth.tools.push_back(other);
-    simulation::BelievedTool believed = bench.believedProbe();
+    bench.setup.world.truth.tools.push_back(other);
+    control::BelievedTool believed = bench.believedProbe();
     believed.number = 2;
     believed.name = "OTHER";
     believed.length = length[1];
     believed.radius = ball[1];
-    bench.setup.tools.push_back(believed);
+    bench.setup.beliefs.tools.push_back(believed);
     origin = Vector3(written(dice.between(-80, 80)), written(dice.between(-60, 60)), -400);
     bench.preset(1, origin);
     diameter = dice.between(30, 40);
@@ -112,7 +112,7 @@ TEST(MP7411, ChoosesBetweenTheToolTableAndTheOneSetOfCalibrationData) {
 TEST(MP7411, TheOneSetKnowsItsCentreOffsetAndItsEmptyRadius) {
   Dice dice(74112);
   TwoProbes world(dice);
-  world.bench.setup.truth.tools[1].probe.tipOffset = {0.11, -0.07};
+  world.bench.setup.world.truth.tools[1].probe.tipOffset = {0.11, -0.07};
   for (const bool known : {false, true}) {
     SCOPED_TRACE(known);
     set(world.bench, "MP7411", 0);
@@ -139,7 +139,7 @@ TEST(MP7411, Cycle460CalibratesTheOneSetWithItsCentreOffset) {
     SCOPED_TRACE(at);
     TwoProbes world(dice);
     const Vector2 tip(written(dice.between(-0.2, 0.2), 4), written(dice.between(-0.2, 0.2), 4));
-    world.bench.setup.truth.tools[1].probe.tipOffset = tip;
+    world.bench.setup.world.truth.tools[1].probe.tipOffset = tip;
     set(world.bench, "MP7411", 0);
     const double radius = 12.5, height = 6;
     const Vector3 place = world.origin + Vector3(120 + dice.between(-0.4, 0.4), dice.between(-0.4, 0.4), height);
@@ -200,7 +200,7 @@ TEST(Cycle2, TakesTheStandardOfTheTraverseRange) {
     ASSERT_TRUE(ran.finished()) << ran.why();
     EXPECT_NEAR(ran.cell("TOOL.T", "1", "R"), ball, exact);
     for (const char axis : {'0', '1', '2'})
-      bench.setup.parameters.erase(fmt::format("MP618{}.{}", range, axis));
+      bench.setup.beliefs.parameters.erase(fmt::format("MP618{}.{}", range, axis));
     const Ran missing = bench.run(calibrate);
     EXPECT_EQ(missing.alarm(), "Calibration workpiece not defined");
     EXPECT_NE(missing.why().find(fmt::format("MP618{}.0", range)), std::string::npos) << missing.why();

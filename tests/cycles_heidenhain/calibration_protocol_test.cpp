@@ -135,7 +135,7 @@ TEST(Calibrations, FindNoCentreOffsetWithoutAReversal) {
   for (const std::string& cycle : {ring, stud, ball}) {
     Bench bench = standards();
     bench.believedProbe().tipOffset = {0, 0};
-    bench.setup.truth.machine.spindleOrients = false;
+    bench.setup.world.truth.machine.spindleOrients = false;
     const Ran ran = bench.run(cycle);
     ASSERT_TRUE(ran.finished()) << ran.why();
     EXPECT_NEAR(ran.cell("TOOL.T", "1", "R"), 2, 1e-6);
@@ -192,7 +192,7 @@ TEST(Cycle460, SearchesTheEquatorAsItsControlDoes) {
         EXPECT_NEAR(ran.cell("TOOL.T", "1", "R"), 2, 1e-6);
         EXPECT_NEAR(ran.cell("TOOL.T", "1", "L"), withLength ? 100 : 100.2, 1e-6);
         // The ball is back where the program brought it with the wrong length.
-        EXPECT_LT((ran.outcome.machine->tipOnTable() - Vector3(0.04, -0.03, -400 + 14 + 0.2 + 2)).norm(), 1e-6);
+        EXPECT_LT((ran.machine->tipOnTable() - Vector3(0.04, -0.03, -400 + 14 + 0.2 + 2)).norm(), 1e-6);
       }
     }
   }

@@ -226,10 +226,10 @@ TEST(Cycle2, CalibratesAtThePlaceOfTheMachineParameters) {
     }
     const Hole hole = layHole(dice, world);
     const Vector3 roughly = world.machineFromPreset * world.place;
-    world.bench.setup.parameters["MP6180.0"] = {roughly.x(), {}};
-    world.bench.setup.parameters["MP6180.1"] = {roughly.y(), {}};
-    world.bench.setup.parameters["MP6180.2"] = {roughly.z(), {}};
-    world.bench.setup.parameters["MP6185.0"] = {9.0, {}};
+    world.bench.setup.beliefs.parameters["MP6180.0"] = {roughly.x(), {}};
+    world.bench.setup.beliefs.parameters["MP6180.1"] = {roughly.y(), {}};
+    world.bench.setup.beliefs.parameters["MP6180.2"] = {roughly.z(), {}};
+    world.bench.setup.beliefs.parameters["MP6185.0"] = {9.0, {}};
     const Ran ran = world.bench.run(fmt::format("TCH PROBE 2.0 CALIBRATE TS\nTCH PROBE 2.1 HEIGHT: +30 R {:+.4f} "
                                                 "DIRECTION: {}\n",
                                                 radius, outside ? 1 : 0) +
@@ -337,7 +337,7 @@ TEST(Cycle441, TurnsTheProbeOfTheITNC530OnlyWhereMP6165AllowsIt) {
   world.bench.trueProbe().tipOffset = {0.1, 0};
   const Hole hole = layHole(dice, world);
   const auto run = [&](double allowed, int track) {
-    world.bench.setup.parameters["MP6165"] = {allowed, {}};
+    world.bench.setup.beliefs.parameters["MP6165"] = {allowed, {}};
     return world.bench.run(
         fmt::format("TCH PROBE 441 FAST PROBING ~\n Q396=3000 ~\n Q397=0 ~\n Q399={} ~\n Q400=0\n", track) +
         hole.cycle);

@@ -48,7 +48,7 @@ TEST(Cycle414, TurnsTheActivePresetWhereADatumTableTakesTheCorner) {
     EXPECT_TRUE(ran.preset().isApprox(pose(origin, {0, 0, 14}), 1e-10));
     EXPECT_NEAR(ran.cell("PRESET.PR", "1", kind == ControlKind::TNC640 ? "SPC" : "ROT"), 14, 6e-5);
     // With the shift of the row the corner reads 1, -2: there the probe stands now.
-    const auto stands = ran.outcome.machine->position();
+    const auto stands = ran.machine->position();
     EXPECT_NEAR(stands[0], world.lying.translation().x(), 1e-4);
     EXPECT_NEAR(stands[1], world.lying.translation().y(), 1e-4);
   }

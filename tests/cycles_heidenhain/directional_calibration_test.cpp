@@ -132,11 +132,11 @@ TEST(Cycle460, LeavesATableThatLaterRunsBelieve) {
   ASSERT_TRUE(again.finished()) << again.why();
   EXPECT_NEAR(again.q(164), world.deviation, 2 * interpolated);
 
-  world.bench.setup.parameters["option92"] = {0.0, {}};
+  world.bench.setup.beliefs.parameters["option92"] = {0.0, {}};
   EXPECT_EQ(world.run(5).alarm(), "Option 92 not enabled");
   // Without the option the data have no effect.
   EXPECT_GT(std::abs(world.bench.run(world.measure).q(164) - later.q(164)), 1e-4);
-  world.bench.setup.parameters.clear();
+  world.bench.setup.beliefs.parameters.clear();
 
   rows[3].azimuth += 1;
   folder.put("T1.3DTC", *control::heidenhain::deflectionTable("T1.3DTC", rows));

@@ -1,7 +1,7 @@
 #include "control/heidenhain/turning_tool_table.hpp"
 #include "cycles_heidenhain/table_folder.hpp"
 #include "cycles_heidenhain/worlds.hpp"
-#include "session/beliefs.hpp"
+#include "session/heidenhain/beliefs.hpp"
 
 /// What a cycle cannot carry out is refused before anything is touched.
 namespace probewright::testing_support {
@@ -64,7 +64,7 @@ TEST(EarlyRefusals, OfLockedRowsAndMissingDatumTables) {
   ASSERT_TRUE(presets.setNumber("1", "Z", -400));
   ASSERT_TRUE(presets.setText("1", "LOCKED", "1"));
   folder.put("PRESET.PR", presets);
-  bench.setup.presets.clear();
+  bench.setup.beliefs.presets.clear();
   const std::string active = "CYCL DEF 247 PRESET ~\n  Q339=1 ;NUMBER\n";
   expectUntouched(bench.run(active + probe(412, hole)), "Preset locked", "Row 1");
   expectUntouched(bench.run(active + probe(400, {{263, -20},
@@ -107,7 +107,7 @@ TEST(SoftwareVersion, BringsParametersToTheOlderControl) {
   ASSERT_TRUE(later.finished()) << later.why();
   EXPECT_EQ(later.touches(), 3U);
   EXPECT_NEAR(later.q(151), 0.25, 1e-6);
-  bench.setup.parameters["softwareVersion"] = {3.0, {}};
+  bench.setup.beliefs.parameters["softwareVersion"] = {3.0, {}};
   const Ran earlier = bench.run(block);
   EXPECT_EQ(earlier.alarm(), "Cycle parameter wrong");
   EXPECT_NE(earlier.why().find("340 49x-05"), std::string::npos) << earlier.why();
@@ -118,7 +118,7 @@ TEST(ToolCall0, DefinesTheProbeAxisOfTheOlderControl) {
   Bench bench = benchOf(ControlKind::iTNC530);
   bench.part(simulation::Ring(20, 35, -40), pose({0.25, 0, -400}));
   for (const double mp7411 : {0.0, 1.0}) {
-    bench.setup.parameters["MP7411"] = {mp7411, {}};
+    bench.setup.beliefs.parameters["MP7411"] = {mp7411, {}};
     const Ran ran = bench.runBare("TOOL CALL 0 Z\n" + probe(412, hole));
     ASSERT_TRUE(ran.finished()) << ran.why();
     EXPECT_NEAR(ran.q(151), 0.25, 1e-6);
@@ -132,7 +132,7 @@ TEST(ToolCall0, DefinesTheProbeAxisOfTheOlderControl) {
 TEST(Beliefs, OfTheOlderControlHaveOneAngle) {
   for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
     Bench bench = benchOf(kind);
-    bench.setup.presets.front().rotation = {1, 2, 3};
+    bench.setup.beliefs.presets.front().rotation = {1, 2, 3};
     Diagnostics diagnostics;
     session::heidenhainTables(bench.setup, kind, diagnostics);
     EXPECT_EQ(hasErrors(diagnostics), kind == ControlKind::iTNC530);
@@ -145,7 +145,7 @@ TEST(Beliefs, OfTheOlderControlHaveOneAngle) {
 /// `rotary` of a preset is the offset of the axis: the one column that cycles change.
 TEST(Beliefs, EnterTheOffsetOfARotaryAxisWhereCyclesDo) {
   Bench bench = benchOf(ControlKind::TNC640, "mill5-table-table");
-  bench.setup.presets.front().rotary["C"] = 10;
+  bench.setup.beliefs.presets.front().rotary["C"] = 10;
   Diagnostics diagnostics;
   const auto tables = session::heidenhainTables(bench.setup, ControlKind::TNC640, diagnostics);
   EXPECT_EQ(tables.presets.numberOr("1", "C_OFFS", 0), 10);
@@ -156,10 +156,10 @@ TEST(Beliefs, EnterTheOffsetOfARotaryAxisWhereCyclesDo) {
 TEST(Beliefs, ReadParametersWithADot) {
   for (const char* name : {"MP6180.0", "\"MP6180.0\""}) {
     Diagnostics diagnostics;
-    const auto setup = simulation::parseSetup(fmt::format("[control]\ntype = \"iTNC530\"\n[parameters]\n{} = 123.5\n"
-                                                          "MP6360 = 250\nMP6361 = 2500\nMP6166 = 1\n",
-                                                          name),
-                                              "s.toml", diagnostics);
+    const auto setup = setup::parseSetup(fmt::format("[control]\ntype = \"iTNC530\"\n[parameters]\n{} = 123.5\n"
+                                                     "MP6360 = 250\nMP6361 = 2500\nMP6166 = 1\n",
+                                                     name),
+                                         "s.toml", diagnostics);
     ASSERT_TRUE(setup) << format(diagnostics.front());
     const auto parameters = session::machineParameters(*setup, ControlKind::iTNC530, diagnostics);
     EXPECT_TRUE(diagnostics.empty());

@@ -111,7 +111,7 @@ TEST(EveryInspection, AnswersInTheUnitOfTheMainProgram) {
         SCOPED_TRACE(fmt::format("{} cycle {} called by a program in {}", control::name(kind), part.cycle,
                                  inchMain ? "inches" : "mm"));
         const TableFolder folder(part.bench);
-        part.bench.program = (part.bench.setup.tables / "MAIN.H").string();
+        part.bench.program = (part.bench.setup.beliefs.tables / "MAIN.H").string();
         const std::string unit = inchMain ? "MM" : "INCH";
         const std::string block = inchMain ? probe(part.cycle, with(part.words, {{281, 1}})) : inInches(part);
         folder.put("SUB.H", "BEGIN PGM SUB " + unit + "\n" + block + "Q50 = Q113\nEND PGM SUB " + unit + "\n");

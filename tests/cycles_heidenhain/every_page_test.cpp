@@ -59,11 +59,11 @@ std::string block(const CycleDefinition& cycle, ControlKind kind) {
 Bench emptyBench(ControlKind kind) {
   Bench bench(kind, "mill5-table-table");
   bench.preset(1, {0, 0, -450});
-  bench.setup.parameters.clear();
+  bench.setup.beliefs.parameters.clear();
   if (kind == ControlKind::iTNC530) {
     for (const char* name : {"MP6180.0", "MP6180.1", "MP6180.2"})
-      bench.setup.parameters[name] = {-300.0, {}};
-    bench.setup.parameters["MP6580.2"] = {-450.0, {}};
+      bench.setup.beliefs.parameters[name] = {-300.0, {}};
+    bench.setup.beliefs.parameters["MP6580.2"] = {-450.0, {}};
   }
   return bench;
 }
@@ -160,7 +160,7 @@ TEST(EveryPage, ReportsThatTheStylusWasNotDeflected) {
 TEST(EveryPage, ChecksThatRotaryAxesAgreeWithTheTilt) {
   const std::set<int> still = {404, 441};
   Bench bench = emptyBench(newer);
-  bench.setup.parameters["chkTiltingAxes"] = {1.0, {}};
+  bench.setup.beliefs.parameters["chkTiltingAxes"] = {1.0, {}};
   forEveryCycle(newer, [&](const CycleDefinition& cycle, const std::string& blocks) {
     if (still.contains(cycle.number)) return;
     const Ran ran = bench.run("PLANE SPATIAL SPA+0 SPB+10 SPC+0 STAY\n" + blocks);

@@ -35,11 +35,11 @@ struct Travel {
 Travel travelOf(const Bench& bench, const std::string& before, const std::string& block) {
   session::RunOptions options;
   options.control = bench.control;
-  const Ran ran(session::runText(
-      "BENCH.H", "BEGIN PGM BENCH MM\nTOOL CALL 1 Z\n" + before + block + "END PGM BENCH MM\n", bench.setup, options));
+  const Ran ran(setup::runText("BENCH.H", "BEGIN PGM BENCH MM\nTOOL CALL 1 Z\n" + before + block + "END PGM BENCH MM\n",
+                               bench.setup, options));
   EXPECT_TRUE(ran.finished()) << ran.why();
   Travel travel;
-  const auto& path = ran.outcome.machine->path();
+  const auto& path = ran.machine->path();
   const Vector3 origin(0, 0, -400);
   bool begun = false, behindStroke = false;
   double highest = -1e9;

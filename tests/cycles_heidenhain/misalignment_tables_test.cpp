@@ -30,7 +30,7 @@ const Words holes = {{268, -40}, {269, 0}, {270, 40}, {271, 0}, {261, -8},
                      {260, 20},  {307, 0}, {402, 1},  {337, 1}, {305, 0}};
 
 /// C as it stands at the end. The workpiece turns against the count of C.
-double angleOfC(const Ran& ran) { return ran.outcome.machine->position()[c]; }
+double angleOfC(const Ran& ran) { return ran.machine->position()[c]; }
 
 TEST(MisalignmentTables, SetTheAxisToZeroInRow0AndActivateIt) {
   const Ran ran = twoHoles(newer).run(probe(401, holes) + toZero);
@@ -210,7 +210,7 @@ TEST(MisalignmentTables, SetTheBasicRotationOf404InEveryRow) {
     }
   }
   // It deletes a rotation, also one of three angles.
-  bench.setup.presets.back().rotation = {2, -3, 5};
+  bench.setup.beliefs.presets.back().rotation = {2, -3, 5};
   const Ran none = bench.run(probe(404, {{307, 0}}));
   ASSERT_TRUE(none.finished()) << none.why();
   for (const char* column : {"SPA", "SPB", "SPC"})
@@ -220,13 +220,13 @@ TEST(MisalignmentTables, SetTheBasicRotationOf404InEveryRow) {
 /// 400 to 402 measure in the unturned system, whatever three angles the preset had, and leave one about the tool axis.
 TEST(MisalignmentTables, ReplaceARotationOfThreeAngles) {
   Bench straight = edge(newer, 0);
-  straight.setup.presets.front().rotation = {1, -2, 5};
+  straight.setup.beliefs.presets.front().rotation = {1, -2, 5};
   Words words = edgeWords;
   std::erase_if(words, [](const auto& word) {
     return word.first == 312 || word.first == 337 || word.first == 303 || word.first == 380;
   });
   Bench pair = twoHoles(newer);
-  pair.setup.presets.front().rotation = {1, -2, 5};
+  pair.setup.beliefs.presets.front().rotation = {1, -2, 5};
   const Ran along = straight.run(probe(400, with(words, {{307, 0}, {305, 0}})));
   const Ran between = pair.run(probe(401, with(holes, {{402, 0}, {337, 0}, {305, 1}})));
   for (const auto& [ran, angle] : {std::pair(&along, 2.0), std::pair(&between, 4.0)}) {

@@ -168,7 +168,7 @@ PlantedPart onTable(Dice& dice, ControlKind control, double lies, const Vector3&
   part.bench.preset(1, preset);
   part.machineFromPreset = pose(preset);
   // Only the truth knows the table; the part's pose is wanted in the base frame with C at its start.
-  auto& truth = part.bench.setup.truth;
+  auto& truth = part.bench.setup.world.truth;
   truth.start[4] = startC;
   const Pose machineFromPart = pose(Vector3(dice.between(-60, 60), dice.between(-60, 60), -400), {0, 0, lies});
   part.machineFromPart = machineFromPart;
@@ -177,15 +177,14 @@ PlantedPart onTable(Dice& dice, ControlKind control, double lies, const Vector3&
 
 /// The pose on the table that looks like `machineFromPart` with the table as it starts.
 Pose onTableOf(const PlantedPart& part) {
-  const auto& truth = part.bench.setup.truth;
+  const auto& truth = part.bench.setup.world.truth;
   return machine::baseFromTable(truth.machine, truth.start).inverse() * part.machineFromPart;
 }
 
 /// The direction of the part's X axis in machine coordinates with the table as it stands at the end of the run.
 double finalAngle(const PlantedPart& part, const Pose& tableFromPart, const Ran& ran) {
-  const auto& truth = part.bench.setup.truth;
-  const Vector3 x =
-      (machine::baseFromTable(truth.machine, ran.outcome.machine->position()) * tableFromPart).linear().col(0);
+  const auto& truth = part.bench.setup.world.truth;
+  const Vector3 x = (machine::baseFromTable(truth.machine, ran.machine->position()) * tableFromPart).linear().col(0);
   return degrees(std::atan2(x.y(), x.x()));
 }
 
@@ -228,7 +227,7 @@ TEST(Cycle403, TurnsTheTableUntilTheEdgeIsAligned) {
       const double turned = finalAngle(part, tableFromPart, ran) - angleIn(Pose::Identity(), part.machineFromPart);
       EXPECT_NEAR(std::remainder(edge.angle + turned - target, 360), 0, exact);
     }
-    const double c = ran.outcome.machine->position()[4];
+    const double c = ran.machine->position()[4];
     const std::string column = control == ControlKind::TNC640 ? "C_OFFS" : "C";
     // Q305 counts for the axis that the cycle finds, on the iTNC 530 for any.
     const std::string entered = !automatic && control == ControlKind::TNC640 ? "1" : row == 0 ? "0" : "5";
@@ -271,12 +270,12 @@ TEST(Cycles401And402, TurnTheTableUntilTwoFeaturesAreAligned) {
     const Ran ran = part.bench.run(probe(holes ? 401 : 402, words));
     ASSERT_TRUE(ran.finished()) << ran.why();
     EXPECT_NEAR(std::remainder(finalAngle(part, tableFromPart, ran) - reference, 360), 0, exact);
-    const double c = ran.outcome.machine->position()[4];
+    const double c = ran.machine->position()[4];
     const std::string column = control == ControlKind::TNC640 ? "C_OFFS" : "C";
     if (control == ControlKind::TNC640) {
       // Zero where the axis stands, or the offset with which it shows what it showed before.
       const std::string entered = !zero ? "1" : row == 0 ? "0" : "5";
-      const double before = part.bench.setup.truth.start[4];
+      const double before = part.bench.setup.world.truth.start[4];
       EXPECT_NEAR(std::remainder(ran.cell("PRESET.PR", entered, column) - (zero ? c : c - before), 360), 0, 6e-5);
     } else {
       EXPECT_NEAR(ran.cell("PRESET.PR", "1", column), zero ? c : 0, 6e-5);
@@ -325,16 +324,15 @@ TEST(Cycle405, TurnsTheTableUntilTheHoleLiesWhereItShould) {
     const double target = toY ? 90 : degrees(std::atan2(nominal.y(), nominal.x()));
     const double offset = std::remainder(direction - target, 360);
     EXPECT_NEAR(ran.q(150), offset, exact);
-    const auto& truth = part.bench.setup.truth;
-    const Vector3 now =
-        (machine::baseFromTable(truth.machine, ran.outcome.machine->position()) * tableFromPart).translation();
+    const auto& truth = part.bench.setup.world.truth;
+    const Vector3 now = (machine::baseFromTable(truth.machine, ran.machine->position()) * tableFromPart).translation();
     EXPECT_NEAR(degrees(std::atan2(now.y(), now.x())), target, exact);
     // The probe has left the hole above its centre, not above the last touch.
-    const auto stands = ran.outcome.machine->position();
+    const auto stands = ran.machine->position();
     EXPECT_NEAR(std::hypot(stands[0] - at(direction).x(), stands[1] - at(direction).y()), 0, exact);
     const std::string column = control == ControlKind::TNC640 ? "C_OFFS" : "C";
     if (row == 0) {
-      EXPECT_NEAR(ran.cell("PRESET.PR", "1", column), ran.outcome.machine->position()[4], 6e-5);
+      EXPECT_NEAR(ran.cell("PRESET.PR", "1", column), ran.machine->position()[4], 6e-5);
       EXPECT_EQ(ran.cell("ZERO.D", "3", "C"), 1.5);
     } else {
       EXPECT_NEAR(ran.cell("ZERO.D", "3", "C"), 1.5 + offset, 6e-5);

@@ -42,7 +42,7 @@ TEST(Cycle0, MeasuresACoordinateAlongAnyAxis) {
     for (int i = 0; i < 3; ++i)
       EXPECT_NEAR(ran.q(115 + i) * unit, spindle[i], i == axis ? exact : 2e-4);
     // Back at the pre-position.
-    const auto axes = ran.outcome.machine->position();
+    const auto axes = ran.machine->position();
     const Vector3 tip = ran.seen(Vector3(axes[0], axes[1], axes[2] - length));
     EXPECT_NEAR((tip - start).norm(), 0, 4e-4);
     EXPECT_EQ(ran.touches(), 1U);
@@ -97,14 +97,14 @@ TEST(Cycle1, KnowsThreePlanes) {
 TEST(Cycle0, NamesTheRotaryAxesToo) {
   Bench bench(ControlKind::TNC640, "mill5-table-table");
   bench.preset(1, {0, 0, -400});
-  bench.setup.presets.back().rotary["C"] = 10;
+  bench.setup.beliefs.presets.back().rotary["C"] = 10;
   bench.part(simulation::HalfSpace(Plane{{0, 0, -400}, Vector3::UnitZ()}));
   const Ran ran = bench.run("TCH PROBE 0.0 REF. PLANE Q7 Z-\nTCH PROBE 0.1 X+0 Y+0 Z+5 C+25\n");
   ASSERT_TRUE(ran.finished()) << ran.why();
   EXPECT_NEAR(ran.q(7), 0, exact);
   EXPECT_NEAR(ran.q(118), 0, exact);
   EXPECT_NEAR(ran.q(119), 25, exact);
-  EXPECT_NEAR(ran.outcome.machine->position()[4], 35, exact);
+  EXPECT_NEAR(ran.machine->position()[4], 35, exact);
 }
 
 }  // namespace

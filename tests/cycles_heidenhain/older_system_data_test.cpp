@@ -27,8 +27,8 @@ TEST(OlderSystemData, ReadsTablesInTheMachineAndInTheProgram) {
     const double rotation = written(dice.between(-60, 60)), otherRotation = written(dice.between(-60, 60));
     bench.preset(1, origin, rotation);
     bench.preset(4, other, otherRotation, false);
-    bench.setup.presets[0].rotary["C"] = 10;
-    bench.setup.presets[1].rotary["C"] = 25;
+    bench.setup.beliefs.presets[0].rotary["C"] = 10;
+    bench.setup.beliefs.presets[1].rotary["C"] = 25;
     const Vector3 datum(written(dice.between(-50, 50)), written(dice.between(-50, 50)), written(dice.between(-5, 5)));
     hh::TypedTable zero = hh::defaultDatumTable(ControlKind::iTNC530, "ZERO.D");
     ASSERT_TRUE(zero.ensureRow("3"));
@@ -71,10 +71,10 @@ TEST(OlderSystemData, ReadsTablesInTheMachineAndInTheProgram) {
 TEST(OlderSystemData, KnowsTheToolTouchProbeAndNoCalibrationYet) {
   Bench bench(ControlKind::iTNC530);
   bench.preset(1, {0, 0, -400});
-  bench.setup.parameters["MP6580.0"] = {12.5, {}};
-  bench.setup.parameters["MP6580.1"] = {-30.25, {}};
-  bench.setup.parameters["MP6580.2"] = {-410.5, {}};
-  bench.setup.parameters["MP6531"] = {38.0, {}};
+  bench.setup.beliefs.parameters["MP6580.0"] = {12.5, {}};
+  bench.setup.beliefs.parameters["MP6580.1"] = {-30.25, {}};
+  bench.setup.beliefs.parameters["MP6580.2"] = {-410.5, {}};
+  bench.setup.beliefs.parameters["MP6531"] = {38.0, {}};
   const Ran ran = bench.run(read(1, 350, 20, 1) + read(2, 350, 20, 2) + read(3, 350, 20, 3) + read(4, 350, 21, 0) +
                             read(5, 350, 13, 0));
   ASSERT_TRUE(ran.finished()) << ran.why();

@@ -19,7 +19,7 @@ const Words hole = {{273, 0}, {274, 0}, {262, 14}, {325, 0}, {247, 90}, {261, -6
 struct Plate {
   explicit Plate(ControlKind kind) : bench(kind), folder(bench) {
     bench.preset(1, {0, 0, -400});
-    bench.program = (bench.setup.tables / "BENCH.H").string();
+    bench.program = (bench.setup.beliefs.tables / "BENCH.H").string();
   }
   void holes(const std::vector<Vector2>& places) {
     for (const Vector2& place : places)
@@ -65,8 +65,8 @@ TEST(Patterns, ShiftTheDatumForTheProgramOfCycle12) {
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_LT((circle[i] + places[i] - lying[i]).norm(), exact) << i;
   // Behind the call the datum is what it was.
-  EXPECT_NEAR(ran.outcome.machine->position()[0], 5, exact);
-  EXPECT_NEAR(ran.outcome.machine->position()[1], 6, exact);
+  EXPECT_NEAR(ran.machine->position()[0], 5, exact);
+  EXPECT_NEAR(ran.machine->position()[1], 6, exact);
 }
 
 /// The rotation cycles of the TNC 640 allow a datum shift; cycles 400 to 499 do not, unless the machine permits it.
@@ -106,8 +106,8 @@ TEST(Patterns, FollowARotationAndEachOther) {
   ASSERT_EQ(places.size(), 4U);
   for (const Vector2& place : places)
     EXPECT_LT(place.norm(), exact);
-  EXPECT_NEAR(ran.outcome.machine->position()[0], 100, exact);
-  EXPECT_NEAR(ran.outcome.machine->position()[1], 23, exact);
+  EXPECT_NEAR(ran.machine->position()[0], 100, exact);
+  EXPECT_NEAR(ran.machine->position()[1], 23, exact);
 }
 
 TEST(Patterns, ComeFromPointTables) {

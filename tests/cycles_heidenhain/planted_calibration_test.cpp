@@ -63,8 +63,8 @@ Calibrated calibrated(Dice& dice, Kind kind, int count) {
       } else {
         bench.part(simulation::RoundBar(world.standard, -30, 0), pose(place));
       }
-      bench.setup.parameters["MP6180.2"] = {-400.0, {}};
-      bench.setup.parameters["MP6185.0"] = {8.0, {}};
+      bench.setup.beliefs.parameters["MP6180.2"] = {-400.0, {}};
+      bench.setup.beliefs.parameters["MP6185.0"] = {8.0, {}};
       world.cycle = fmt::format("TCH PROBE 2.0 CALIBRATE TS\nTCH PROBE 2.1 HEIGHT: +40 R {:+.4f} DIRECTION: {}\n",
                                 world.standard, kind == Kind::OldPin ? 1 : 0);
       break;
@@ -130,9 +130,9 @@ TEST(PlantedCalibration, TakesTheScalesIntoTheRadius) {
     SCOPED_TRACE(fmt::format("world {}", at));
     Calibrated world = calibrated(dice, kind, dice.whole(3, 8));
     const double scale = dice.between(-1e-3, 1e-3);
-    world.bench.setup.truth.errors.axes.resize(3);
+    world.bench.setup.world.truth.errors.axes.resize(3);
     for (int axis = 0; axis < 2; ++axis)
-      world.bench.setup.truth.errors.axes[static_cast<std::size_t>(axis)].scale = scale;
+      world.bench.setup.world.truth.errors.axes[static_cast<std::size_t>(axis)].scale = scale;
     const Ran ran = world.bench.run(world.cycle);
     ASSERT_TRUE(ran.finished()) << ran.why();
     const bool inside = kind == Kind::Ring || kind == Kind::OldRing;
@@ -176,7 +176,7 @@ TEST(PlantedCalibration, ScattersLessWithMoreTouches) {
     world.bench.trueProbe().repeatability = sigma;
     double sum = 0;
     for (int at = 0; at < runs; ++at) {
-      world.bench.setup.truth.seed = static_cast<std::uint64_t>(at + 1);
+      world.bench.setup.world.truth.seed = static_cast<std::uint64_t>(at + 1);
       const Ran ran = world.bench.run(world.cycle);
       ASSERT_TRUE(ran.finished()) << ran.why();
       sum += std::pow(ran.cell("TOOL.T", "1", "R") - world.ball, 2);

@@ -99,8 +99,8 @@ TEST(PlantedErrors, AScaleErrorShrinksWhatIsMeasuredButNotTheBall) {
     PlantedPart part{bench};
     part.machineFromPart = pose({100, 50, -400});
     layPocket(part, {80, 60});
-    part.bench.setup.truth.errors.axes.resize(3);
-    part.bench.setup.truth.errors.axes[0].scale = scale;
+    part.bench.setup.world.truth.errors.axes.resize(3);
+    part.bench.setup.world.truth.errors.axes[0].scale = scale;
     const Ran ran = part.bench.run(probe(423, {{273, 100},
                                                {274, 50},
                                                {282, 80},
@@ -129,13 +129,13 @@ TEST(PlantedErrors, RepeatedMeasurementsMustAgree) {
   Bench bench = circleBench(true, 40);
   bench.control = ControlKind::iTNC530;
   bench.trueProbe().repeatability = 0.02;
-  bench.setup.parameters["MP6170"] = {3.0, {}};
-  bench.setup.parameters["MP6171"] = {0.002, {}};
+  bench.setup.beliefs.parameters["MP6170"] = {3.0, {}};
+  bench.setup.beliefs.parameters["MP6171"] = {0.002, {}};
   const Words words = {{273, 50}, {274, 40}, {262, 40}, {325, 0}, {247, 90}, {261, -8}, {320, 0}, {260, 20},
                        {301, 0},  {275, 0},  {276, 0},  {279, 0}, {280, 0},  {281, 0},  {309, 0}, {330, 0}};
   const Ran scattered = bench.run(probe(421, words));
   EXPECT_EQ(scattered.alarm(), "Value beyond tolerance") << scattered.why();
-  bench.setup.parameters["MP6171"] = {0.5, {}};
+  bench.setup.beliefs.parameters["MP6171"] = {0.5, {}};
   const Ran ran = bench.run(probe(421, words));
   EXPECT_TRUE(ran.finished()) << ran.why();
   EXPECT_EQ(ran.touches(), 12U) << "every point three times";

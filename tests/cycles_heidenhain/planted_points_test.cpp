@@ -71,7 +71,7 @@ TEST(Cycle420, IsWrongByTheGeometryOfTheMachineOnly) {
     normal[along] = dice.between(-0.4, 0.4);
     if (axis == 2) normal[1 - along] = dice.between(-0.2, 0.2);
     Wall world = wall(dice, controlOf(at / 3), normal);
-    plantGeometry(dice, world.bench.setup.truth);
+    plantGeometry(dice, world.bench.setup.world.truth);
     plantProbe(dice, world.bench);
 
     // The scales move the face by up to half a millimetre.
@@ -86,7 +86,7 @@ TEST(Cycle420, IsWrongByTheGeometryOfTheMachineOnly) {
     ASSERT_TRUE(ran.finished()) << ran.why();
     const Matrix3 preset = world.machineFromPreset.linear();
     const Vector3 n =
-        preset.transpose() * trueFromDisplayed(world.bench.setup.truth).transpose() * preset * world.normal;
+        preset.transpose() * trueFromDisplayed(world.bench.setup.world.truth).transpose() * preset * world.normal;
     double expected = degrees(std::atan2(n.x(), -n.y()));
     if (axis == 2) expected = along == 1 ? degrees(std::atan(-n.y() / n.z())) : degrees(std::atan(n.x() / n.z()));
     EXPECT_NEAR(asLine(ran.q(150) - expected), 0, 1e-5);
@@ -103,7 +103,7 @@ TEST(Cycle420, ScattersWithTheSignal) {
   Wall world = wall(dice, ControlKind::TNC640, -Vector3::UnitY());
   world.bench.trueProbe().repeatability = sigma;
   for (int at = 0; at < runs; ++at) {
-    world.bench.setup.truth.seed = static_cast<std::uint64_t>(at + 1);
+    world.bench.setup.world.truth.seed = static_cast<std::uint64_t>(at + 1);
     const Ran ran = world.bench.run(probe(420, {{263, world.point.x() - 10},
                                                 {264, world.point.y()},
                                                 {265, world.point.x() + 10},
@@ -131,7 +131,7 @@ TEST(Cycle444, IsWrongByWhatTheControlDoesNotKnowOfTheProbe) {
     const double deviation = dice.between(-0.3, 0.3);
     const Vector3 nominal = world.point - world.normal * deviation;
     plantProbe(dice, world.bench);
-    const auto& truth = world.bench.setup.truth.tools.front();
+    const auto& truth = world.bench.setup.world.truth.tools.front();
     const auto& believed = world.bench.believedProbe();
     const Ran ran = world.bench.run(probe(444,
                                           {{263, nominal.x()},
@@ -167,7 +167,7 @@ TEST(Cycle444, IsWrongByTheGeometryOfTheMachine) {
   for (int at = 0; at < 60; ++at) {
     SCOPED_TRACE(fmt::format("world {}", at));
     Wall world = wall(dice, ControlKind::TNC640, anyNormal(dice));
-    plantGeometry(dice, world.bench.setup.truth);
+    plantGeometry(dice, world.bench.setup.world.truth);
     const Ran ran = world.bench.run(probe(444,
                                           {{263, world.point.x()},
                                            {264, world.point.y()},
@@ -182,9 +182,9 @@ TEST(Cycle444, IsWrongByTheGeometryOfTheMachine) {
     ASSERT_TRUE(ran.finished()) << ran.why();
     EXPECT_EQ(ran.q(183), -1);
     // The axes display q where the tool reference point truly stands at M q; the stylus hangs below it.
-    const Matrix3 m = trueFromDisplayed(world.bench.setup.truth), preset = world.machineFromPreset.linear();
+    const Matrix3 m = trueFromDisplayed(world.bench.setup.world.truth), preset = world.machineFromPreset.linear();
     const Vector3 n = preset * world.normal, place = world.machineFromPreset * world.point;
-    const auto& tool = world.bench.setup.truth.tools.front();
+    const auto& tool = world.bench.setup.world.truth.tools.front();
     const Vector3 hanging(0, 0, -(tool.length - tool.probe.ballRadius)), tip = preset * world.tip;
     // Ball centres in touch: n . (M q + hanging + tip - place) = R, along q = q0 + t n.
     const Vector3 start = place + n * tool.probe.ballRadius - hanging - tip;
@@ -205,7 +205,7 @@ TEST(Cycle444, TouchesWithALeaningStylusUnderTcpm) {
     const Vector3 origin(written(dice.between(-20, 20)), written(dice.between(-20, 20)), -430);
     bench.preset(1, origin);
     bench.believedProbe().maximumTravel = 40;
-    bench.setup.parameters["chkTiltingAxes"] = {1.0, {}};
+    bench.setup.beliefs.parameters["chkTiltingAxes"] = {1.0, {}};
     const Vector3 normal = Vector3(dice.between(-0.5, 0.5), dice.between(-0.5, 0.5), 1).normalized();
     Pose face = pose(origin);
     face.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), normal).toRotationMatrix();

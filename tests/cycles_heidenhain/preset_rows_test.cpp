@@ -102,7 +102,7 @@ TEST(PresetRows, ReadAsWishedWithARotationByCycle10) {
     ASSERT_TRUE(ran.finished()) << ran.why();
     const Vector3 along = pose(Vector3::Zero(), {0, 0, row == 0 ? 5.0 : 35.0}).linear().col(0);
     const Vector3 expected = world.hole + 10 * along;
-    const auto stands = ran.outcome.machine->position();
+    const auto stands = ran.machine->position();
     EXPECT_NEAR(stands[0], expected.x(), 1e-3);
     EXPECT_NEAR(stands[1], expected.y(), 1e-3);
   }
@@ -143,7 +143,7 @@ TEST(PresetRows, OfADatumTableShiftWithCycle7) {
         world.run(select + world.block(0, row) + fmt::format("CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 #{}\n", row) +
                   "L X+7 Y-2 Z+30 R0 FMAX\n");
     ASSERT_TRUE(shifted.finished()) << shifted.why();
-    const auto stands = shifted.outcome.machine->position();
+    const auto stands = shifted.machine->position();
     EXPECT_NEAR(stands[0], world.hole.x(), 1e-3);
     EXPECT_NEAR(stands[1], world.hole.y(), 1e-3);
   }

@@ -21,7 +21,7 @@ struct PartInPlane : TiltedPlace {
 struct PartInRotation : PartInPlane {
   explicit PartInRotation(Dice& dice) : PartInPlane(dice, ControlKind::TNC640) {
     const Vector3 angles(written(dice.between(-3, 3)), written(dice.between(-3, 3)), written(dice.between(-40, 40)));
-    bench.setup.presets.front().rotation = angles;
+    bench.setup.beliefs.presets.front().rotation = angles;
     tilt = Matrix3::Identity();
     preset = input = pose(preset.translation(), angles);
     part = input * pose(dice.within(0.5));
@@ -156,7 +156,7 @@ TEST(TiltedPlane, ShiftsItsDatumByATable) {
       // The tip stands where the feature was: along the axes that were set, seen in the plane.
       const Vector3 feature = place.part * one.feature;
       const Vector3 seen = place.inPlane(place.preset, feature);
-      const auto& machine = *ran.outcome.machine;
+      const auto& machine = *ran.machine;
       const Vector3 tip =
           place.inPlane(place.preset, machine.tipOnTable() - 2 * machine.tableFromSpindle().linear().col(2));
       if (one.wishes[0]) {

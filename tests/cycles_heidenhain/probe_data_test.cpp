@@ -76,9 +76,9 @@ TEST(TouchProbeTable, SaysHowFastTheProbeMoves) {
   const double fast = seconds(world.run());
   // Four strokes of 2 mm at a tenth of the time.
   EXPECT_NEAR(slow - fast, 4 * 2 / (60.0 / 60) * 0.9, 0.5);
-  world.bench.setup.parameters["maxTouchFeed"] = {60.0, {}};
+  world.bench.setup.beliefs.parameters["maxTouchFeed"] = {60.0, {}};
   EXPECT_NEAR(seconds(world.run()), slow, exact);
-  world.bench.setup.parameters.clear();
+  world.bench.setup.beliefs.parameters.clear();
 
   world.number("FMAX", 200);
   const double crawling = seconds(world.run());
@@ -111,7 +111,7 @@ TEST(TouchProbeTable, SaysHowTheSpindleHoldsTheProbe) {
   world.number("CAL_OF2", 0.1);
   const Ran turned = world.run();
   expectHole(turned);
-  EXPECT_NEAR(turned.outcome.machine->spindle().angle, 90, exact);
+  EXPECT_NEAR(turned.machine->spindle().angle, 90, exact);
   // A wrong offset shifts the centre by what is missing.
   world.number("CAL_OF2", 0);
   EXPECT_NEAR(world.run().q(152), -0.1, exact);
@@ -158,7 +158,7 @@ TEST(TouchProbeTable, AsksForACalibrationWithTheSameTracking) {
 
 TEST(TouchProbeTable, SaysHowTheMachineStopsAtACollision) {
   TableWorld world;
-  place(world.bench.setup.truth, simulation::Box({-60, 24, 0}, {60, 40, 70}), pose({0, 0, -400}), "clamp",
+  place(world.bench.setup.world.truth, simulation::Box({-60, 24, 0}, {60, 40, 70}), pose({0, 0, -400}), "clamp",
         simulation::SolidRole::Fixture);
   const Words far = {{273, 0}, {274, 14}};
   const Ran stopped = world.run(far);
@@ -186,7 +186,7 @@ TEST(TouchProbeTable, TakesTheSerialNumberOfTheProbe) {
 
 TEST(MachineParameters, StandForTheTouchProbeTableOnTheITNC530) {
   Holed world(ControlKind::iTNC530);
-  auto& parameters = world.bench.setup.parameters;
+  auto& parameters = world.bench.setup.beliefs.parameters;
   expectHole(world.run());
   const double plain = seconds(world.run());
   parameters["MP6120"] = {30.0, {}};
@@ -214,7 +214,7 @@ TEST(MachineParameters, StandForTheTouchProbeTableOnTheITNC530) {
 
 TEST(MachineParameters, MeasureEveryPointSeveralTimesOnTheITNC530) {
   Holed world(ControlKind::iTNC530);
-  auto& parameters = world.bench.setup.parameters;
+  auto& parameters = world.bench.setup.beliefs.parameters;
   world.bench.trueProbe().repeatability = 0.004;
   const double once = seconds(world.run());
   // The scatter of the diameter over many seeds, with one and with three measurements of each point.
@@ -222,7 +222,7 @@ TEST(MachineParameters, MeasureEveryPointSeveralTimesOnTheITNC530) {
     double sum = 0;
     constexpr int seeds = 60;
     for (int seed = 0; seed < seeds; ++seed) {
-      world.bench.setup.truth.seed = static_cast<std::uint64_t>(seed);
+      world.bench.setup.world.truth.seed = static_cast<std::uint64_t>(seed);
       sum += std::pow(world.run().q(153) - diameter, 2);
     }
     return std::sqrt(sum / seeds);
@@ -248,7 +248,7 @@ TEST(MachineParameters, CalibrateWithoutTurningTheProbe) {
   const Ran turned = world.bench.run(calibrate);
   ASSERT_TRUE(turned.finished()) << turned.why();
   EXPECT_NEAR(turned.cell("TOOL.T", "1", "CAL-OF1"), 0.1, exact);
-  world.bench.setup.parameters["MP6160"] = {0.0, {}};
+  world.bench.setup.beliefs.parameters["MP6160"] = {0.0, {}};
   const Ran fixed = world.bench.run(calibrate);
   ASSERT_TRUE(fixed.finished()) << fixed.why();
   EXPECT_NEAR(fixed.cell("TOOL.T", "1", "CAL-OF1"), 0, exact);

@@ -46,27 +46,27 @@ TEST(ClearanceHeight, IsThatOfTheBallsLowestPoint) {
     options.control = bench.control;
     const std::string way =
         fmt::format("TOOL CALL 1 Z\nL X{} Y+0 R0 FMAX\nL Z{:+.3f} R0 FMAX\n", below ? -70 : -45, start);
-    const Ran ran(session::runText("BENCH.H",
-                                   "BEGIN PGM BENCH MM\n" + way +
-                                       probe(427, {{263, 0},
-                                                   {264, 0},
-                                                   {261, 5},
-                                                   {320, 1},
-                                                   {272, 1},
-                                                   {267, 1},
-                                                   {260, height},
-                                                   {281, 0},
-                                                   {288, 0},
-                                                   {289, 0},
-                                                   {309, 0},
-                                                   {330, 0}}) +
-                                       "END PGM BENCH MM\n",
-                                   bench.setup, options));
+    const Ran ran(setup::runText("BENCH.H",
+                                 "BEGIN PGM BENCH MM\n" + way +
+                                     probe(427, {{263, 0},
+                                                 {264, 0},
+                                                 {261, 5},
+                                                 {320, 1},
+                                                 {272, 1},
+                                                 {267, 1},
+                                                 {260, height},
+                                                 {281, 0},
+                                                 {288, 0},
+                                                 {289, 0},
+                                                 {309, 0},
+                                                 {330, 0}}) +
+                                     "END PGM BENCH MM\n",
+                                 bench.setup, options));
     ASSERT_TRUE(ran.finished()) << start << ran.why();
     EXPECT_NEAR(ran.q(160), 0, 1e-6);
     double highest = -1e9;  // of the ball's lowest point, between its start and the measuring height
     bool begun = false;
-    for (const auto& point : ran.outcome.machine->path().points) {
+    for (const auto& point : ran.machine->path().points) {
       const double lowest = point.tip.z() + 400 - radius;
       begun = begun || std::abs(lowest - start) < 1e-6;
       if (begun) highest = std::max(highest, lowest);
@@ -84,14 +84,14 @@ Travel travelOf(const Case& one, ControlKind kind, const Words& words, const std
   session::RunOptions options;
   options.control = kind;
   const std::string cycle = probe(one.cycle, words);
-  const Ran ran(session::runText("BENCH.H",
-                                 "BEGIN PGM BENCH MM\nTOOL CALL 1 Z\nL X-90 Y-90 R0 FMAX\nL Z" + startHeight +
-                                     " R0 FMAX\n" + (globally ? predefined(cycle) : cycle) + "END PGM BENCH MM\n",
-                                 bench.setup, options));
+  const Ran ran(setup::runText("BENCH.H",
+                               "BEGIN PGM BENCH MM\nTOOL CALL 1 Z\nL X-90 Y-90 R0 FMAX\nL Z" + startHeight +
+                                   " R0 FMAX\n" + (globally ? predefined(cycle) : cycle) + "END PGM BENCH MM\n",
+                               bench.setup, options));
   EXPECT_TRUE(ran.finished()) << ran.why();
   Travel travel;
   if (!ran.finished()) return travel;
-  const auto& path = ran.outcome.machine->path();
+  const auto& path = ran.machine->path();
   const auto at = [&](std::size_t i) { return Vector3(path.points[i].tip + Vector3(0, 0, 400)); };
   // Where the program has left the probe: X-90 Y-90 at the height asked for.
   std::size_t from = 0;

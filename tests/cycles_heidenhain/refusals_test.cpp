@@ -22,7 +22,7 @@ Bench holeBench(ControlKind kind = ControlKind::TNC640, const std::string& machi
   mill.kind = simulation::ToolKind::Cutter;
   mill.length = 50;
   mill.radius = 8;
-  bench.setup.truth.tools.push_back(mill);
+  bench.setup.world.truth.tools.push_back(mill);
   return bench;
 }
 
@@ -51,7 +51,7 @@ TEST(Refusals, TheHoleIsFoundWhenNothingIsWrong) {
 
 TEST(Refusals, NothingToTouch) {
   Bench bench = holeBench();
-  bench.setup.truth.solids.clear();
+  bench.setup.world.truth.solids.clear();
   const Ran ran = bench.run(probe(412, preset412));
   expectRefused(ran, "Touch point inaccessible", "20.000 mm");
   EXPECT_EQ(ran.cycle().touches.back().outcome, "no contact");
@@ -217,7 +217,7 @@ TEST(Refusals, LockedPresetRow) {
 TEST(DatumTable, TakesTheFeatureSeenFromThePreset) {
   for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
     Bench bench = holeBench(kind);
-    bench.setup.presets.front().rotation = {0, 0, 30};
+    bench.setup.beliefs.presets.front().rotation = {0, 0, 30};
     const TableFolder folder(bench);
     folder.put("ZERO.D", hh::defaultDatumTable(kind, "ZERO.D"));
     const Vector3 seen = pose({10, 20, -400}, {0, 0, 30}).inverse() * Vector3(60, 60, -400);

@@ -92,8 +92,8 @@ TEST(Cycle1411, AlignsTheRotaryTable) {
     EXPECT_NEAR(once.q(994), turned, exact);
     // C turns the workpiece against its own count.
     EXPECT_NEAR(once.q(995), -turned, exact);
-    const std::size_t axis = *once.outcome.machine->description().axisIndex("C");
-    EXPECT_NEAR(std::remainder(once.outcome.machine->position()[axis] - turned, 360), 0, exact);
+    const std::size_t axis = *once.machine->description().axisIndex("C");
+    EXPECT_NEAR(std::remainder(once.machine->position()[axis] - turned, 360), 0, exact);
     if (rotation == 2) {
       EXPECT_NEAR(once.cell("PRESET.PR", "1", "C_OFFS"), turned, 1e-4);
     }

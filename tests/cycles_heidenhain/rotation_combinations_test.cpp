@@ -98,7 +98,7 @@ TEST(RotationCycles, KnowEveryCombinationOnFiveAxes) {
       const Block world = block(machine, 1.5, Vector3::Zero());
       const Ran still = run(world, cycle, 0, 1, 0);
       ASSERT_TRUE(still.finished()) << still.why();
-      const auto& axes = still.outcome.machine->description();
+      const auto& axes = still.machine->description();
       const std::size_t c = *axes.axisIndex("C");
       for (int rotation = 0; rotation <= 2; ++rotation) {
         for (int alignment = 0; alignment <= 2; ++alignment) {
@@ -112,8 +112,8 @@ TEST(RotationCycles, KnowEveryCombinationOnFiveAxes) {
             }
             ASSERT_TRUE(ran.finished()) << ran.why();
             EXPECT_NEAR(ran.q(994), 1.5, exact);
-            const auto end = ran.outcome.machine->position();
-            const auto before = still.outcome.machine->position();
+            const auto end = ran.machine->position();
+            const auto before = still.machine->position();
             EXPECT_NEAR(ran.cell("PRESET.PR", "1", "C_OFFS"), rotation == 2 ? 1.5 : 0, 1e-4);
             EXPECT_NEAR(end[c], alignment == 0 ? 0 : 1.5, exact);
             if (alignment == 2) {
@@ -121,7 +121,7 @@ TEST(RotationCycles, KnowEveryCombinationOnFiveAxes) {
                 EXPECT_NEAR(end[*axes.axisIndex(axis)], before[*axes.axisIndex(axis)], exact);
             }
             if (alignment == 1) {
-              EXPECT_LT((ran.outcome.machine->tipOnTable() - still.outcome.machine->tipOnTable()).norm(), exact);
+              EXPECT_LT((ran.machine->tipOnTable() - still.machine->tipOnTable()).norm(), exact);
             }
             if (rotation == 1 && alignment == 0) {
               EXPECT_NEAR(ran.cell("PRESET.PR", "1", "SPC"), 1.5, 1e-4);
@@ -138,13 +138,13 @@ TEST(RotationCycles, KnowEveryCombinationOnFiveAxes) {
       EXPECT_EQ(run(leaning, 1420, 0, 0, alignment).finished(), alignment == 0);
       const Ran ran = run(leaning, 1420, 0, 1, alignment);
       ASSERT_TRUE(ran.finished()) << ran.why();
-      const Vector3 tool = ran.outcome.machine->tableFromSpindle().linear().col(2);
+      const Vector3 tool = ran.machine->tableFromSpindle().linear().col(2);
       const Vector3 normal = leaning.machineFromPart.linear().col(2);
       EXPECT_NEAR(tool.dot(alignment == 0 ? Vector3(Vector3::UnitZ()) : normal), 1, 1e-9);
       if (alignment == 1) {
         // What stays is the south pole of the ball.
-        const Vector3 before = still.outcome.machine->tipOnTable() - 2 * Vector3::UnitZ();
-        EXPECT_LT((ran.outcome.machine->tipOnTable() - 2 * tool - before).norm(), 1e-3);
+        const Vector3 before = still.machine->tipOnTable() - 2 * Vector3::UnitZ();
+        EXPECT_LT((ran.machine->tipOnTable() - 2 * tool - before).norm(), 1e-3);
       }
     }
   }
@@ -213,7 +213,7 @@ TEST(RotationCycles, RotateInTheWorkpieceSystemWhereThePlaneIsInconsistent) {
         fmt::format("L Z+0 R0 FMAX M91\nPLANE SPATIAL SPA{:+.3f} SPB{:+.3f} SPC+0 STAY\n", angles.x(), angles.y());
     const std::string tcpm = "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS\n";
 
-    bench.setup.parameters["chkTiltingAxes"] = {1.0, {}};
+    bench.setup.beliefs.parameters["chkTiltingAxes"] = {1.0, {}};
     EXPECT_EQ(bench.run(plane + probe(1410, words)).alarm(), "Rotary axes and tilt do not match");
     const Ran ran = bench.run(plane + tcpm + probe(1410, words));
     ASSERT_TRUE(ran.finished()) << ran.why();
@@ -222,7 +222,7 @@ TEST(RotationCycles, RotateInTheWorkpieceSystemWhereThePlaneIsInconsistent) {
     EXPECT_LT((ran.preset().linear() - pose(Vector3::Zero(), {0, 0, rotation + skew}).linear()).norm(), 1e-6);
 
     // Without the check the plane counts as consistent: the rotation is one of the input system.
-    bench.setup.parameters["chkTiltingAxes"] = {0.0, {}};
+    bench.setup.beliefs.parameters["chkTiltingAxes"] = {0.0, {}};
     const Ran unchecked = bench.run(plane + tcpm + probe(1410, words));
     ASSERT_TRUE(unchecked.finished()) << unchecked.why();
     const Vector3 outward = tilt.transpose() * pose(Vector3::Zero(), {0, 0, skew}).linear() * Vector3(0, -1, 0);

@@ -155,8 +155,8 @@ TEST(Cycle1420, ComputesAWallFromActualPositions) {
 
 /// Where the tool points in the table as it lies when all rotary axes stand at 0.
 Vector3 toolOnTable(const Ran& ran) {
-  const auto& machine = ran.outcome.machine->description();
-  return machine::toolOrientation(machine, {}, ran.outcome.machine->position()).col(2);
+  const auto& machine = ran.machine->description();
+  return machine::toolOrientation(machine, {}, ran.machine->position()).col(2);
 }
 
 TEST(Cycle1420, StandsTheToolSquareToThePlane) {

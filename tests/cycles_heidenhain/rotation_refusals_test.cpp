@@ -68,7 +68,7 @@ TEST(RotationCycles, MeasureTheEdgeThatTheRefusalsSpoil) {
   for (const RotationCycle& cycle : rotationCycles) {
     Bench bench = refusingBench();
     if (cycle.number == 1411) {
-      bench.setup.truth.solids.clear();
+      bench.setup.world.truth.solids.clear();
       for (const double x : {-30.0, 30.0})
         bench.part(simulation::Ring(10, 15, -40), pose({x, 0, -400}));
     }
@@ -248,7 +248,7 @@ TEST(RotationCycles, LeaveTheProbeWhereTheOperatorHasIt) {
       ASSERT_TRUE(ran.finished()) << ran.why();
       EXPECT_EQ(ran.touches(), 1U);
       // The spindle nose stands above the tip by the length of the probe.
-      const auto stands = ran.outcome.machine->position();
+      const auto stands = ran.machine->position();
       EXPECT_NEAR(stands[2], -400 + 100 + (number == 1410 ? -8 : 6), exact);
     }
   }
@@ -286,7 +286,7 @@ TEST(RotationCycles, RefuseAlignmentWithoutAxes) {
 
 TEST(RotationCycles, RefuseRotaryAxesThatDoNotMatchTheTilt) {
   Bench bench = refusingBench("mill5-table-table");
-  bench.setup.parameters["chkTiltingAxes"] = {1.0, {}};
+  bench.setup.beliefs.parameters["chkTiltingAxes"] = {1.0, {}};
   EXPECT_TRUE(bench.run(probe(1420, planeWords)).finished());
   const std::string tilt = "PLANE SPATIAL SPA+0 SPB+10 SPC+0 STAY\n";
   expectRefused(bench.run(tilt + probe(1420, planeWords)), "Rotary axes and tilt do not match", "chkTiltingAxes");

@@ -16,12 +16,12 @@ struct Travel {
 Travel travelOf(const Bench& bench, const std::string& block) {
   session::RunOptions options;
   options.control = ControlKind::TNC640;
-  const Ran ran(session::runText(
+  const Ran ran(setup::runText(
       "BENCH.H",
       "BEGIN PGM BENCH MM\nTOOL CALL 1 Z\nL X+0 Y-60 R0 FMAX\nL Z+5 R0 FMAX\n" + block + "END PGM BENCH MM\n",
       bench.setup, options));
   EXPECT_TRUE(ran.finished()) << ran.why();
-  const auto& path = ran.outcome.machine->path();
+  const auto& path = ran.machine->path();
   Travel travel;
   const auto& touches = path.touches;
   std::size_t next = 0;

@@ -13,7 +13,7 @@ Bench scaledBench(ControlKind kind) {
   bench.believedProbe().maximumTravel = 12;
   bench.part(simulation::Ring(15, 25, -40), pose({50, 40, -400}));
   bench.part(simulation::Box({-60, -30, -40}, {10, 0, 0}), pose({0, 0, -400}));
-  if (kind == ControlKind::TNC640) bench.setup.parameters["refuseTransformations"] = {0.0, {}};
+  if (kind == ControlKind::TNC640) bench.setup.beliefs.parameters["refuseTransformations"] = {0.0, {}};
   return bench;
 }
 
@@ -58,7 +58,7 @@ TEST(Scaling, LeavesFeaturesScaledWithTheBall) {
       ASSERT_TRUE(single.finished()) << single.why();
       EXPECT_NEAR(single.q(5), -30 / s, exact);
       // The reference point of the tool, whose length is not taken into account.
-      EXPECT_NEAR(single.q(117), (-8 + bench.setup.tools.front().length) / s, exact);
+      EXPECT_NEAR(single.q(117), (-8 + bench.setup.beliefs.tools.front().length) / s, exact);
     }
   }
 }
@@ -80,7 +80,7 @@ TEST(Scaling, CountsInTheAxisThatCycle26Scales) {
 TEST(Scaling, GivesTheBallCentreOfCycles3And4) {
   for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
     Bench bench = scaledBench(kind);
-    bench.setup.parameters.erase("refuseTransformations");
+    bench.setup.beliefs.parameters.erase("refuseTransformations");
     const double ball = bench.believedProbe().radius;
     const std::string before = "CYCL DEF 11.0 SCALING\nCYCL DEF 11.1 SCL 2\nL X-10 Y-7.5 R0 FMAX\nL Z+4 R0 FMAX\n";
     for (const char* cycle : {"TCH PROBE 3.0 MEASURING\nTCH PROBE 3.1 Q10\nTCH PROBE 3.2 Z ANGLE: +180\n"

@@ -175,7 +175,7 @@ TEST(InchPrograms, LeaveResultsInTheUnitOfTheMainProgram) {
       bench.preset(1, origin);
       ring(bench, 50.9, 25.1, 15.4);
       const TableFolder folder(bench);
-      bench.program = (bench.setup.tables / "BENCH.H").string();
+      bench.program = (bench.setup.beliefs.tables / "BENCH.H").string();
       const auto& definition = cycles::heidenhain::findEntry(421)->definition;
       const Words inspect = with(height, {{273, 50.8},
                                           {274, 25.4},

@@ -30,8 +30,7 @@ Bench shop(ControlKind control, const std::string& machine = "mill3") {
 Ran runWhole(const Bench& bench, const std::string& file, const std::string& text) {
   session::RunOptions options;
   options.control = bench.control;
-  options.recordPath = false;
-  return {session::runText(file, text, bench.setup, options)};
+  return {setup::runText(file, text, bench.setup, options, {.recordPath = false})};
 }
 
 void expectNothingSkipped(const Ran& ran) {

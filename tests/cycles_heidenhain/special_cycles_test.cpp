@@ -166,7 +166,7 @@ TEST(Cycle4, MeasuresAlongAnyVector) {
     EXPECT_EQ(ran.q(first + 3), 1);
     // Back by MB, at most to the start.
     const double stays = std::max(0.0, (met - ball).norm() - back);
-    const auto axes = ran.outcome.machine->position();
+    const auto axes = ran.machine->position();
     const Vector3 nose(axes[0], axes[1], axes[2]);
     const Vector3 spindle = world.machineFromPreset * (ball + direction * stays) +
                             Vector3(0, 0, world.bench.believedProbe().length - world.ball);

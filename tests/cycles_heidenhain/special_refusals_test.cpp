@@ -30,7 +30,7 @@ Bench standards(ControlKind kind = newer) {
   mill.kind = simulation::ToolKind::Cutter;
   mill.length = 100;
   mill.radius = 8;
-  bench.setup.truth.tools.push_back(mill);
+  bench.setup.world.truth.tools.push_back(mill);
   return bench;
 }
 
@@ -251,7 +251,7 @@ TEST(MonitoredTool, IsFoundHoweverItIsWritten) {
 TEST(SingleTouches, AnswerInTheUnitOfTheMainProgram) {
   Bench bench = standards();
   const TableFolder folder(bench);
-  bench.program = (bench.setup.tables / "MAIN.H").string();
+  bench.program = (bench.setup.beliefs.tables / "MAIN.H").string();
   const std::string go = "L Z+3 R0 FMAX\nL X+0 Y+3.149606 R0 FMAX\nL Z+0.5 R0 FMAX\n";
   const std::string touches =
       go + "TCH PROBE 0.0 REF. PLANE Q1 Z-\nTCH PROBE 0.1 X+0 Y+3.149606 Z+0.5\n" +
@@ -291,7 +291,7 @@ TEST(MonitoredTool, IsNotCalledOnceLocked) {
 TEST(Cycle441, IsLimitedByTheMachineParameter) {
   const auto seconds = [](ControlKind kind, const std::string& feed, double limit, int warned) {
     Bench bench = standards(kind);
-    if (kind == newer) bench.setup.parameters["maxTouchFeed"] = {limit, {}};
+    if (kind == newer) bench.setup.beliefs.parameters["maxTouchFeed"] = {limit, {}};
     const Ran ran =
         bench.run(fmt::format("TCH PROBE 441 FAST PROBING ~\n Q396={} ~\n Q397=0 ~\n Q399=0 ~\n Q400=0\n", feed) +
                   probe(427, {{263, 70},

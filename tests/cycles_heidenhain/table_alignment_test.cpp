@@ -9,8 +9,8 @@ constexpr double exact = 1e-6;
 
 /// How the table has turned its workpiece in the course of the run.
 Matrix3 tableTurn(const Bench& bench, const Ran& ran) {
-  const auto& truth = bench.setup.truth;
-  return machine::baseFromTable(truth.machine, ran.outcome.machine->position()).linear() *
+  const auto& truth = bench.setup.world.truth;
+  return machine::baseFromTable(truth.machine, ran.machine->position()).linear() *
          machine::baseFromTable(truth.machine, truth.start).linear().transpose();
 }
 
@@ -44,8 +44,7 @@ TEST(Cycle403, LevelsAFaceWithTheAAxis) {
     EXPECT_NEAR(normal.z(), 1, 1e-8);
     if (!zero) continue;
     const bool newer = kind == ControlKind::TNC640;
-    EXPECT_NEAR(ran.cell("PRESET.PR", newer ? "1" : "6", newer ? "A_OFFS" : "A"), ran.outcome.machine->position()[3],
-                6e-5);
+    EXPECT_NEAR(ran.cell("PRESET.PR", newer ? "1" : "6", newer ? "A_OFFS" : "A"), ran.machine->position()[3], 6e-5);
   }
 }
 
@@ -120,7 +119,7 @@ TEST(Cycle405, TurnsCUnderAHorizontalProbe) {
     Across world(controlOf(at), 'Y', "mill5-table-table");
     // The face lies 100 mm from the axis of C, which goes through the preset; the hole a little beside the Y axis.
     world.origin = {0, 0, -300};
-    world.bench.setup.presets.front().origin = world.origin;
+    world.bench.setup.beliefs.presets.front().origin = world.origin;
     const double aside = dice.between(-3, 3), up = dice.between(-0.3, 0.3), drawn = dice.coin() ? 0 : 5;
     const Vector3 centre(up, drawn + aside, 100);
     world.part(simulation::Ring(12, 20, -30), pose(centre));

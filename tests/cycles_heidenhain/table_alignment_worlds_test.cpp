@@ -9,11 +9,11 @@ namespace {
 
 constexpr double exact = 1e-6;
 
-const machine::MachineDescription& believed(const Bench& bench) { return bench.setup.truth.machine; }
+const machine::MachineDescription& believed(const Bench& bench) { return bench.setup.world.truth.machine; }
 
 /// How the table of a perfect machine has turned its workpiece from where all axes read `from`.
 Matrix3 tableTurn(const Bench& bench, const Ran& ran, const machine::AxisPositions& from) {
-  return machine::baseFromTable(believed(bench), ran.outcome.machine->position()).linear() *
+  return machine::baseFromTable(believed(bench), ran.machine->position()).linear() *
          machine::baseFromTable(believed(bench), from).linear().transpose();
 }
 
@@ -70,7 +70,7 @@ TEST(Cycle403, LevelsAFaceWithAnyTableWhereverItStands) {
     EXPECT_NEAR(ran.q(150), lies, exact);
     EXPECT_NEAR((tableTurn(bench, ran, turned) * table.normal(lies) - Vector3::UnitZ()).norm(), 0, 1e-8);
     // The short way, not once round.
-    const double reads = ran.outcome.machine->position()[table.index(bench)];
+    const double reads = ran.machine->position()[table.index(bench)];
     EXPECT_NEAR(std::abs(std::remainder(reads - stands, 360)), std::abs(lies), exact);
     if (!zero) continue;
     const std::string row = newer && !automatic ? "1" : "6";
@@ -89,7 +89,7 @@ TEST(Cycle403, LeavesWhatTheErrorsOfTheMachineMakeOfIt) {
     bench.believedProbe().maximumTravel = 40;
     const double lies = dice.between(-6, 6);
     bench.part(simulation::HalfSpace({Vector3(0, 0, -400), table.normal(lies)}));
-    auto& errors = bench.setup.truth.errors;
+    auto& errors = bench.setup.world.truth.errors;
     errors.axes.resize(believed(bench).axes.size());
     // The axis across travels further than it reads, the rotary axis turns further and lies elsewhere, and the probe
     // signals late and is believed to be shorter: nothing of the last two changes an angle.
@@ -104,7 +104,7 @@ TEST(Cycle403, LeavesWhatTheErrorsOfTheMachineMakeOfIt) {
     ASSERT_TRUE(ran.finished()) << ran.why();
     const double found = degrees(std::atan(std::tan(radians(lies)) * (1 + scale)));
     EXPECT_NEAR(ran.q(150), found, 1e-5);
-    const double turned = std::remainder(ran.outcome.machine->position()[table.index(bench)], 360);
+    const double turned = std::remainder(ran.machine->position()[table.index(bench)], 360);
     EXPECT_NEAR(std::abs(turned), std::abs(found), 1e-5);
     // The face has truly turned by more than the axis reads.
     const double left = lies - found * (1 + rotaryScale);
@@ -130,7 +130,7 @@ TEST(ToolAxis, AlignsTheTableByAAndB) {
     Across world(kind, b ? 'Y' : 'X', b ? "mill4-table" : "mill5-table-table");
     if (!b && cycle > 1000) {
       // They take the axis of the table that is nearest to the workpiece: here A carries it.
-      machine::MachineDescription& machine = world.bench.setup.truth.machine;
+      machine::MachineDescription& machine = world.bench.setup.world.truth.machine;
       const std::size_t c = *machine.axisIndex("C");
       ASSERT_EQ(c + 1, machine.axes.size());
       machine.axes.pop_back();
@@ -195,7 +195,7 @@ TEST(ToolAxis, AlignsTheTableByAAndB) {
     ASSERT_TRUE(ran.finished()) << ran.why();
     const Matrix3 axes = world.machineFromPlane().linear();
     const Matrix3 now =
-        axes.transpose() * tableTurn(world.bench, ran, world.bench.setup.truth.start) * axes * lying.linear();
+        axes.transpose() * tableTurn(world.bench, ran, world.bench.setup.world.truth.start) * axes * lying.linear();
     EXPECT_LT((now - Matrix3::Identity()).norm(), 1e-8);
   }
 }
@@ -206,7 +206,7 @@ TEST(Cycle1420, LevelsAFaceWithBAndCInTheTable) {
   for (int at = 0; at < 20; ++at) {
     SCOPED_TRACE(at);
     Bench bench(ControlKind::TNC640, "mill5-table-table");
-    machine::MachineDescription& trunnion = bench.setup.truth.machine;
+    machine::MachineDescription& trunnion = bench.setup.world.truth.machine;
     const std::size_t a = *trunnion.axisIndex("A");
     trunnion.axes[a].name = "B";
     for (machine::ChainElement& element : trunnion.tableChain) {
@@ -225,9 +225,9 @@ TEST(Cycle1420, LevelsAFaceWithBAndCInTheTable) {
     ASSERT_TRUE(ran.finished()) << ran.why();
     EXPECT_NEAR(ran.q(961), degrees(std::asin(-normal.y())), exact);
     EXPECT_NEAR(ran.q(962), degrees(std::atan2(normal.x(), normal.z())), exact);
-    const Vector3 tool = machine::toolOrientation(trunnion, {}, ran.outcome.machine->position()).col(2);
+    const Vector3 tool = machine::toolOrientation(trunnion, {}, ran.machine->position()).col(2);
     EXPECT_NEAR((tool - normal).norm(), 0, 1e-8);
-    EXPECT_GT(std::abs(ran.outcome.machine->position()[a]), 0.01);
+    EXPECT_GT(std::abs(ran.machine->position()[a]), 0.01);
   }
 }
 
@@ -244,7 +244,7 @@ TEST(Cycle405, LeavesWhatTheErrorsOfTheMachineMakeOfIt) {
     const double off = dice.between(-1.5, 1.5), from = 80;
     const Vector2 place = from * Vector2(std::cos(radians(90 + off)), std::sin(radians(90 + off)));
     bench.part(simulation::Ring(12, 20, -30), pose({place.x(), place.y(), -400}));
-    auto& errors = bench.setup.truth.errors;
+    auto& errors = bench.setup.world.truth.errors;
     errors.axes.resize(believed(bench).axes.size());
     const std::size_t c = *believed(bench).axisIndex("C");
     const double scale = dice.between(-3e-3, 3e-3);

@@ -16,7 +16,7 @@ public:
     std::string name = (std::filesystem::temp_directory_path() / "probewright-tables-XXXXXX").string();
     EXPECT_NE(::mkdtemp(name.data()), nullptr);
     path_ = name;
-    bench.setup.tables = path_;
+    bench.setup.beliefs.tables = path_;
   }
   ~TableFolder() { std::filesystem::remove_all(path_); }
   TableFolder(const TableFolder&) = delete;

@@ -127,7 +127,7 @@ TEST(TiltedPlane, TouchesSinglePoints) {
                                   "TCH PROBE 3.0 M\nTCH PROBE 3.1 Q10\nTCH PROBE 3.2 X ANGLE: +0\n"
                                   "TCH PROBE 3.3 DIST +30 F100 MB50 REFERENCE SYSTEM: 1\n");
     EXPECT_EQ(machine.q(13), 1);
-    const auto& description = world.bench.setup.truth.machine;
+    const auto& description = world.bench.setup.world.truth.machine;
     const auto& touch = machine.cycle().touches.back();
     machine::AxisPositions turned = touch.latched;
     for (std::size_t i = 0; i < description.axes.size(); ++i) {

@@ -168,10 +168,10 @@ TEST(Cycle405, MeasuresInAnyTiltedPlaneOfTheITNC530) {
     ASSERT_TRUE(ran.finished()) << ran.why();
     const double measured = degrees(std::atan2(centre.y(), centre.x())) - target;
     EXPECT_NEAR(std::remainder(ran.q(150) - measured, 360), 0, 1e-6);
-    machine::AxisPositions before = ran.outcome.machine->position();
-    before[*bench.setup.truth.machine.axisIndex("C")] = ran.q(40);
-    const Matrix3 turn = machine::baseFromTable(bench.setup.truth.machine, ran.outcome.machine->position()).linear() *
-                         machine::baseFromTable(bench.setup.truth.machine, before).linear().transpose();
+    machine::AxisPositions before = ran.machine->position();
+    before[*bench.setup.world.truth.machine.axisIndex("C")] = ran.q(40);
+    const Matrix3 turn = machine::baseFromTable(bench.setup.world.truth.machine, ran.machine->position()).linear() *
+                         machine::baseFromTable(bench.setup.world.truth.machine, before).linear().transpose();
     EXPECT_LT((turn - pose(Vector3::Zero(), {0, 0, -measured}).linear()).norm(), 1e-8);
     if (!flat || toAxis) continue;
     const Ran again = bench.run(plane + probe(405, words) + probe(405, words));

@@ -64,7 +64,7 @@ TEST(Transfer, OfTheBasicRotationTurnsTheTiltedPlane) {
     bench.believedProbe().maximumTravel = 40;
     bench.believedProbe().setUpClearance = 8;
     const double a = written(dice.between(-20, 20)), b = written(dice.between(-20, 20));
-    const double rotation = bench.setup.presets.front().rotation.z();
+    const double rotation = bench.setup.beliefs.presets.front().rotation.z();
     const Pose input = pose({0, 0, -500}, {0, 0, rotation}) * pose(Vector3::Zero(), {a, b, 0});
     const double skew = dice.between(-4, 4);
     bench.part(simulation::Box({-50, -40, -30}, {50, 40, 0}), input * pose(Vector3::Zero(), {0, 0, skew}));
@@ -115,7 +115,7 @@ TEST(GlobalDefinitions, KeepTheirUnitInOtherPrograms) {
     bench.preset(1, {0, 0, -400});
     bench.part(simulation::Box({-30, -30, -40}, {30, 30, 0}), pose({0, 0, -400}));
     const TableFolder folder(bench);
-    bench.program = (bench.setup.tables / "MAIN.H").string();
+    bench.program = (bench.setup.beliefs.tables / "MAIN.H").string();
     const std::string unit = inchMain ? "MM" : "INCH";
     folder.put("SUB.H", "BEGIN PGM SUB " + unit +
                             "\nTCH PROBE 417 PRESET ~\n  Q263=+0 ~\n  Q264=+0 ~\n  Q294=+0 ~\n  Q320=PREDEF ~\n"
@@ -129,7 +129,7 @@ TEST(GlobalDefinitions, KeepTheirUnitInOtherPrograms) {
                   inchMain ? "INCH" : "MM");
     ASSERT_TRUE(ran.finished()) << ran.why();
     // The probe ends at the clearance height and touched from SET_UP + Q320 above.
-    EXPECT_NEAR(ran.outcome.machine->position()[2], -400 + 50.8 + bench.setup.tools.front().length, 1e-5);
+    EXPECT_NEAR(ran.machine->position()[2], -400 + 50.8 + bench.setup.beliefs.tools.front().length, 1e-5);
   }
 }
 

@@ -174,7 +174,7 @@ TEST(Inspection, KnowsTurningToolsByIndexAndWhatTheyNeed) {
   EXPECT_EQ(unsaid.alarm(), "Cycle parameter wrong");
   EXPECT_NE(unsaid.why().find("Q531"), std::string::npos) << unsaid.why();
   // Cycles without Q498 know mills and drills only.
-  world.bench.setup.truth.solids.clear();
+  world.bench.setup.world.truth.solids.clear();
   world.bench.part(simulation::Box({-30, 10, -20}, {30, 30, 0}), pose({0, 0, -400}));
   world.bench.part(simulation::Box({-30, -30, -20}, {30, -10, 0}), pose({0, 0, -400}));
   const Ran slot = world.bench.run(probe(425, {{328, 0},

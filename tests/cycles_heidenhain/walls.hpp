@@ -21,7 +21,7 @@ inline void layWall(Wall& world, const Vector3& normal) {
   Pose presetFromBlock = Pose::Identity();
   presetFromBlock.translation() = world.point;
   presetFromBlock.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), normal).toRotationMatrix();
-  world.bench.setup.truth.solids.clear();
+  world.bench.setup.world.truth.solids.clear();
   world.bench.part(simulation::Box({-25, -25, -20}, {25, 25, 0}), world.machineFromPreset * presetFromBlock);
 }
 

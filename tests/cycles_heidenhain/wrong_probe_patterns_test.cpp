@@ -10,7 +10,7 @@ constexpr double exact = 1e-6;
 
 /// The scale of X too long by `scale`.
 void stretchX(WrongProbe& wrong, double scale) {
-  auto& truth = wrong.bench.setup.truth;
+  auto& truth = wrong.bench.setup.world.truth;
   truth.errors.axes.resize(truth.machine.axes.size());
   truth.errors.axes[*truth.machine.axisIndex("X")].scale = scale;
 }
@@ -113,7 +113,7 @@ TEST(WrongProbe, MovesThePositionsOfTheRotationCycles) {
     EXPECT_NEAR(block.moved(top).z(), -block.lateAlong, exact);
 
     WrongProbe circles = block;
-    circles.bench.setup.truth.solids.clear();
+    circles.bench.setup.world.truth.solids.clear();
     circles.bench.part(simulation::Ring(8, 16, -40), pose(block.origin));
     circles.bench.part(simulation::RoundBar(10, -40, 0), pose(block.origin + Vector3(70, 0, 0)));
     const Words two = {{1100, 0},  {1101, 0},  {1102, -8}, {1116, 16}, {1103, 70}, {1104, 0},

@@ -137,8 +137,8 @@ TEST(WrongProbe, LeavesTheAngleOfATableButAScaleErrorDoesNot) {
     WrongProbe wrong(dice, "mill5-head-table");
     const double skew = dice.between(-5, 5), scale = world % 2 == 0 ? 0 : dice.between(-1e-3, 1e-3);
     wrong.bench.part(simulation::Box({0, 0, -40}, {80, 60, 0}), pose(wrong.origin, {0, 0, skew}));
-    wrong.bench.setup.truth.errors.axes.resize(wrong.bench.setup.truth.machine.axes.size());
-    wrong.bench.setup.truth.errors.axes[*wrong.bench.setup.truth.machine.axisIndex("X")].scale = scale;
+    wrong.bench.setup.world.truth.errors.axes.resize(wrong.bench.setup.world.truth.machine.axes.size());
+    wrong.bench.setup.world.truth.errors.axes[*wrong.bench.setup.world.truth.machine.axisIndex("X")].scale = scale;
     const double t = std::tan(radians(skew));
     const Ran ran = wrong.run(403, with(heights, {{263, 10},
                                                   {264, written(10 * t)},

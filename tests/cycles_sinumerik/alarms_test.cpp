@@ -89,8 +89,8 @@ Seen corrected(const NamedNumbers& call) { return hole("CYCLE977", with({{"S_MVA
 
 /// By CYCLE974 and 973 at a bar on a lathe.
 Seen turned(const std::string& call, const std::string& before = {}, int position = 8) {
-  simulation::Setup setup = latheSetup({});
-  place(setup.truth, simulation::RoundBar(20, -150, 0), translation({0, 0, 150}));
+  setup::Setup setup = latheSetup({});
+  place(setup.world.truth, simulation::RoundBar(20, -150, 0), translation({0, 0, 150}));
   LatheBench bench(setup);
   plantFrame(bench, "$P_UIFR", 1, 0, 150);
   bench.set("$TC_DP2", {1, 1}, position);

@@ -31,17 +31,18 @@ const std::vector<Variant>& variants() {
   return all;
 }
 
-simulation::Setup setupOf(const Variant& variant) {
+setup::Setup setupOf(const Variant& variant) {
   LatheProbe probe;
   probe.position = variant.position;
   if (variant.position == 7) probe.mount = {-80, 0, 0};
-  simulation::Setup setup = latheSetup(probe);
+  setup::Setup setup = latheSetup(probe);
   const bool inside = variant.units == 1;
   const double out = variant.units == 0 ? 0.04 : 0;
   if (inside) {
-    place(setup.truth, simulation::Ring(30.04, 50, -100), translation({0, 0, face}));
+    place(setup.world.truth, simulation::Ring(30.04, 50, -100), translation({0, 0, face}));
   } else {
-    place(setup.truth, simulation::RoundBar(variant.units == 0 ? 30 : 20.04, -100, 0), translation({0, 0, face + out}));
+    place(setup.world.truth, simulation::RoundBar(variant.units == 0 ? 30 : 20.04, -100, 0),
+          translation({0, 0, face + out}));
   }
   return setup;
 }

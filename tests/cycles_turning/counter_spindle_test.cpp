@@ -8,8 +8,8 @@ namespace {
 using namespace testing_support;
 
 /// A bar that the counter-spindle holds: its face at Z `face` looks towards the main spindle.
-void counterBar(simulation::Setup& setup, double radius, double face) {
-  place(setup.truth, simulation::RoundBar(radius, 0, 100), translation({0, 0, face}));
+void counterBar(setup::Setup& setup, double radius, double face) {
+  place(setup.world.truth, simulation::RoundBar(radius, 0, 100), translation({0, 0, face}));
 }
 
 LatheProbe probeTowards(Planter& plant, int position) {
@@ -28,7 +28,7 @@ TEST(ToolPositions, EachPointsWhereItsNumberSays) {
   Planter plant(5678);
   for (int world = 0; world < 40; ++world) {
     const int position = 5 + world % 4;
-    simulation::Setup setup = latheSetup(probeTowards(plant, position));
+    setup::Setup setup = latheSetup(probeTowards(plant, position));
     const double error = plant.number(-0.8, 0.8);
     std::string way, calibrate, measure;
     switch (position) {
@@ -39,19 +39,19 @@ TEST(ToolPositions, EachPointsWhereItsNumberSays) {
         measure = "CYCLE974(0,,,1,0,1,6,4,,1,\"\",,0,0,0,0,0,1,0,,2,0)";
         break;
       case 6:  // to +X, against the wall of a bore
-        place(setup.truth, simulation::Box({40 + error, -30, -80}, {70, 30, 0}), translation({0, 0, 300}));
+        place(setup.world.truth, simulation::Box({40 + error, -30, -80}, {70, 30, 0}), translation({0, 0, 300}));
         way = "G0 Z40\nG0 X50\nG0 Z-10\n";
         calibrate = fmt::format("CYCLE973(1100,1,,{:.12f},2,0,6,4,200,1,,2,0)\n", 80 + 2 * error);
         measure = "CYCLE974(1,,,1,80,2,6,4,,1,\"\",,0,0,0,0,0,1,0,,2,0)";
         break;
       case 7:  // to -Z, against a face
-        place(setup.truth, simulation::RoundBar(30, -100, 0), translation({0, 0, 300 + error}));
+        place(setup.world.truth, simulation::RoundBar(30, -100, 0), translation({0, 0, 300 + error}));
         way = "G0 Z60\nG0 X40\nG0 Z15\n";
         calibrate = fmt::format("CYCLE973(1100,1,,{:.12f},1,1,6,4,200,1,,2,0)\n", error);
         measure = "CYCLE974(0,,,1,0,1,6,4,,1,\"\",,0,0,0,0,0,1,0,,2,0)";
         break;
       default:  // to -X, on an outside diameter
-        place(setup.truth, simulation::RoundBar(40 + error, -100, 0), translation({0, 0, 300}));
+        place(setup.world.truth, simulation::RoundBar(40 + error, -100, 0), translation({0, 0, 300}));
         way = "G0 X140\nG0 Z-10\n";
         calibrate = fmt::format("CYCLE973(1100,1,,{:.12f},2,1,6,4,200,1,,2,0)\n", 80 + 2 * error);
         measure = "CYCLE974(2,,,1,80,2,6,4,,1,\"\",,0,0,0,0,0,1,0,,2,0)";
@@ -62,7 +62,7 @@ TEST(ToolPositions, EachPointsWhereItsNumberSays) {
     bench.run("DIAMON\nG0 X300\n" + way + calibrate + measure);
     const double set = position % 2 == 0 ? 80 : 0;
     EXPECT_NEAR(bench.ovr(4), set + (set > 0 ? 2 : 1) * error, 1e-8) << position;
-    const double radius = setup.truth.tools[0].probe.ballRadius - setup.truth.tools[0].probe.axialPretravel;
+    const double radius = setup.world.truth.tools[0].probe.ballRadius - setup.world.truth.tools[0].probe.axialPretravel;
     const bool plus = position < 7;
     const std::string name =
         fmt::format("$SNS_MEA_WP_TRIG_{}_DIR_AX{}", plus ? "PLUS" : "MINUS", position % 2 == 0 ? 2 : 1);
@@ -73,7 +73,7 @@ TEST(ToolPositions, EachPointsWhereItsNumberSays) {
 TEST(CounterSpindle, MeasuresInTheMirroredSystem) {
   Planter plant(4711);
   for (int world = 0; world < 40; ++world) {
-    simulation::Setup setup = latheSetup(probeTowards(plant, 5));
+    setup::Setup setup = latheSetup(probeTowards(plant, 5));
     const double error = plant.number(-0.8, 0.8), set = plant.number(-1, 1);
     counterBar(setup, 30, 300 - error);  // 0.x too long, seen from the mirrored system
     LatheBench bench(setup);
@@ -97,7 +97,7 @@ TEST(CounterSpindle, Cycle978SetsTheFaceInTheMirroredSystem) {
   Planter plant(4712);
   constexpr const char* targets[] = {"1", "10001", "9000", "1001", "11001", "3001", "13001"};
   for (int world = 0; world < 42; ++world) {
-    simulation::Setup setup = latheSetup(probeTowards(plant, 5));
+    setup::Setup setup = latheSetup(probeTowards(plant, 5));
     const double error = plant.number(-0.8, 0.8), set = plant.number(-1, 1);
     counterBar(setup, 30, 300 - error);
     LatheBench bench(setup);
@@ -118,11 +118,11 @@ TEST(CounterSpindle, CorrectsTheToolTheOtherWayRound) {
     LatheProbe probe;
     probe.position = mirrored ? 5 : 7;
     probe.mount = {-75, 0, 0};
-    simulation::Setup setup = latheSetup(probe);
+    setup::Setup setup = latheSetup(probe);
     if (mirrored) {
       counterBar(setup, 30, 300 - 0.04);
     } else {
-      place(setup.truth, simulation::RoundBar(30, -100, 0), translation({0, 0, 300.04}));
+      place(setup.world.truth, simulation::RoundBar(30, -100, 0), translation({0, 0, 300.04}));
     }
     LatheBench bench(setup);
     plantFrame(bench, "$P_UIFR", 1, 0, 300);
@@ -143,7 +143,7 @@ TEST(CounterSpindle, MeasuresDiametersByOneAndByTwoPoints) {
   for (int world = 0; world < 30; ++world) {
     LatheProbe probe = probeTowards(plant, 5);
     probe.mount = {plant.number(-90, -80), 0, 0};
-    simulation::Setup setup = latheSetup(probe);
+    setup::Setup setup = latheSetup(probe);
     const double radius = plant.number(15, 22), wrong = plant.number(-0.3, 0.3);
     counterBar(setup, radius, 300);
     LatheBench bench(setup);
@@ -169,7 +169,7 @@ TEST(CounterSpindle, CalibratesInTheDirectionsOfTheMachine) {
   probe.position = 5;
   probe.mount = {-75, 0, 0};
   probe.axialPretravel = 0.015;
-  simulation::Setup setup = latheSetup(probe);
+  setup::Setup setup = latheSetup(probe);
   counterBar(setup, 30, 300);
   LatheBench bench(setup);
   plantFrame(bench, "$P_UIFR", 1, 0, 300);
@@ -185,8 +185,8 @@ TEST(CounterSpindle, CalibratesInTheDirectionsOfTheMachine) {
 TEST(ToolData, Md20360CountsLengthsOfTheTransverseAxisAsDiameters) {
   for (const int mask : {0, 1, 2, 3}) {
     LatheProbe probe;
-    simulation::Setup setup = latheSetup(probe);
-    place(setup.truth, simulation::RoundBar(20.03, -100, 0), translation({0, 0, 150}));
+    setup::Setup setup = latheSetup(probe);
+    place(setup.world.truth, simulation::RoundBar(20.03, -100, 0), translation({0, 0, 150}));
     LatheBench bench(setup);
     bench.set("$MC_TOOL_PARAMETER_DEF_MASK", {}, mask);
     plantFrame(bench, "$P_UIFR", 1, 0, 150);

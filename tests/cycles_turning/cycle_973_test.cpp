@@ -33,8 +33,8 @@ TEST(Cycle973, FindsTheTriggerPointOnASurface) {
     const LatheProbe probe = somePeculiarProbe(plant, world % 2 == 0 ? 7 : 8);
     const int axis = 1 + world / 2 % 2;
     const bool radius = world % 4 < 2, diameters = world % 3 != 0;
-    simulation::Setup setup = latheSetup(probe);
-    place(setup.truth, simulation::RoundBar(30, -100, 0), translation({0, 0, 200}));
+    setup::Setup setup = latheSetup(probe);
+    place(setup.world.truth, simulation::RoundBar(30, -100, 0), translation({0, 0, 200}));
     LatheBench bench(setup);
     plantFrame(bench, "$P_UIFR", 1, 0, 190);
     const std::string way = axis == 1 ? "G0 X20\nG0 Z20" : "G0 X160\nG0 Z2";
@@ -63,8 +63,8 @@ TEST(Cycle973, FindsTheLengthOfTheProbe) {
   for (int world = 0; world < 120; ++world) {
     const LatheProbe probe = somePeculiarProbe(plant, world % 2 == 0 ? 7 : 8);
     const int axis = 1 + world / 2 % 2;
-    simulation::Setup setup = latheSetup(probe);
-    place(setup.truth, simulation::RoundBar(30, -100, 0), translation({0, 0, 200}));
+    setup::Setup setup = latheSetup(probe);
+    place(setup.world.truth, simulation::RoundBar(30, -100, 0), translation({0, 0, 200}));
     LatheBench bench(setup);
     plantFrame(bench, "$P_UIFR", 1, 0, 200);
     const std::string length = axis == 1 ? "$TC_DP4" : "$TC_DP3";
@@ -104,11 +104,11 @@ Groove someGroove(Planter& plant, int position) {
 }
 
 /// Puts the groove on the machine as three boxes, open to +X or to +Z.
-void placeGroove(simulation::Setup& setup, const Groove& groove) {
+void placeGroove(setup::Setup& setup, const Groove& groove) {
   const auto box = [&](double fromBase, double toBase, double fromWall, double toWall) {
     const bool acrossZ = groove.position == 8;
-    place(setup.truth, acrossZ ? simulation::Box({fromBase, -20, fromWall}, {toBase, 20, toWall})
-                               : simulation::Box({fromWall, -20, fromBase}, {toWall, 20, toBase}));
+    place(setup.world.truth, acrossZ ? simulation::Box({fromBase, -20, fromWall}, {toBase, 20, toWall})
+                                     : simulation::Box({fromWall, -20, fromBase}, {toWall, 20, toBase}));
   };
   box(groove.base - 10, groove.base, groove.minus - 10, groove.plus + 10);
   box(groove.base, groove.upper, groove.minus - 10, groove.minus);
@@ -139,7 +139,7 @@ TEST(Cycle973, RepeatsFromOutsideTheGroove) {
   for (const int position : {7, 8}) {
     Planter plant(97340 + position);
     const Groove groove = someGroove(plant, position);
-    simulation::Setup setup = latheSetup(somePeculiarProbe(plant, position));
+    setup::Setup setup = latheSetup(somePeculiarProbe(plant, position));
     placeGroove(setup, groove);
     LatheBench bench(setup);
     plantFrame(bench, "$P_UIFR", 1, 0, 60);
@@ -161,7 +161,7 @@ TEST(Cycle973, CalibratesInTheGrooveInBothDirections) {
     const int position = 7 + world % 2;
     const LatheProbe probe = somePeculiarProbe(plant, position);
     const Groove groove = someGroove(plant, position);
-    simulation::Setup setup = latheSetup(probe);
+    setup::Setup setup = latheSetup(probe);
     placeGroove(setup, groove);
     LatheBench bench(setup);
     const double zero = plant.number(50, 80);
@@ -199,7 +199,7 @@ TEST(Cycle973, CalibratesOneWallOrTheBaseOfTheGroove) {
     const int position = 7 + world % 2;
     const LatheProbe probe = somePeculiarProbe(plant, position);
     const Groove groove = someGroove(plant, position);
-    simulation::Setup setup = latheSetup(probe);
+    setup::Setup setup = latheSetup(probe);
     placeGroove(setup, groove);
     LatheBench bench(setup);
     plantFrame(bench, "$P_UIFR", 1, 0, 60);
@@ -232,7 +232,7 @@ TEST(Cycle973, CalibratesOneWallOrTheBaseOfTheGroove) {
 
 TEST(Cycle973, RefusesWhatItCannotDo) {
   const Groove groove;
-  simulation::Setup setup = latheSetup({});
+  setup::Setup setup = latheSetup({});
   placeGroove(setup, groove);
   LatheBench bench(setup);
   plantFrame(bench, "$P_UIFR", 1, 0, 60);

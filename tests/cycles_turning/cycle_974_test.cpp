@@ -6,13 +6,13 @@ namespace {
 using namespace testing_support;
 
 /// A bar in the chuck, its face at Z `face` of the machine, its axis beside the turning axis.
-void chuckBar(simulation::Setup& setup, double radius, double face, const Vector2& axis = Vector2::Zero()) {
-  place(setup.truth, simulation::RoundBar(radius, -face, 0), translation({axis.x(), axis.y(), face}));
+void chuckBar(setup::Setup& setup, double radius, double face, const Vector2& axis = Vector2::Zero()) {
+  place(setup.world.truth, simulation::RoundBar(radius, -face, 0), translation({axis.x(), axis.y(), face}));
 }
 
 /// A bush in the chuck, bored right through.
-void chuckBush(simulation::Setup& setup, double bore, double face, const Vector2& axis = Vector2::Zero()) {
-  place(setup.truth, simulation::Ring(bore, bore + 15, -face), translation({axis.x(), axis.y(), face}));
+void chuckBush(setup::Setup& setup, double bore, double face, const Vector2& axis = Vector2::Zero()) {
+  place(setup.world.truth, simulation::Ring(bore, bore + 15, -face), translation({axis.x(), axis.y(), face}));
 }
 
 /// A probe with lengths and trigger points of its own.
@@ -32,7 +32,7 @@ TEST(Cycle974, FindsTheFrontEdgeAndMovesTheZeroOffsetOntoIt) {
   Planter plant(9741);
   for (int world = 0; world < 120; ++world) {
     const int position = world % 2 == 0 ? 7 : 8;
-    simulation::Setup setup = latheSetup(somePeculiarProbe(plant, position));
+    setup::Setup setup = latheSetup(somePeculiarProbe(plant, position));
     const double face = plant.number(100, 200), error = plant.number(-1.5, 1.5), set = plant.number(-2, 2);
     chuckBar(setup, 30, face);
     LatheBench bench(setup);
@@ -55,8 +55,9 @@ TEST(Cycle974, FindsTheFrontEdgeAndMovesTheZeroOffsetOntoIt) {
     EXPECT_NEAR(onFace.z(), set, 1e-8);
     EXPECT_NEAR(onFace.x(), 20, 1e-9) << "X was not measured";
     // The probe ends the measuring path in front of the set position.
-    const double radius = setup.truth.tools[0].probe.ballRadius;
-    const double q = position == 7 ? setup.truth.tools[0].probe.axialPretravel : setup.truth.tools[0].probe.pretravel;
+    const double radius = setup.world.truth.tools[0].probe.ballRadius;
+    const double q =
+        position == 7 ? setup.world.truth.tools[0].probe.axialPretravel : setup.world.truth.tools[0].probe.pretravel;
     const double end = bench.control.channel.machineFromAxes(bench.machine.position()).z();
     EXPECT_NEAR(end, face - error + set + 4 + radius - q, 1e-6);
   }
@@ -66,7 +67,7 @@ TEST(Cycle974, MeasuresDiametersAtOnePoint) {
   Planter plant(9742);
   for (int world = 0; world < 200; ++world) {
     const bool inside = world % 2 == 0, diameters = world % 3 != 0, correct = world % 5 == 0;
-    simulation::Setup setup = latheSetup(somePeculiarProbe(plant, inside ? 7 : 8));
+    setup::Setup setup = latheSetup(somePeculiarProbe(plant, inside ? 7 : 8));
     const double face = plant.number(100, 200), radius = plant.number(30, 45), error = plant.number(-0.8, 0.8);
     if (inside) chuckBush(setup, radius, face);
     if (!inside) chuckBar(setup, radius, face);
@@ -97,7 +98,7 @@ TEST(Cycle974, ReversalIsFreeOfTheEccentricityOfTheClamping) {
   for (int world = 0; world < 120; ++world) {
     const bool inside = world % 2 == 0;
     LatheProbe probe = somePeculiarProbe(plant, 7);
-    simulation::Setup setup = latheSetup(probe);
+    setup::Setup setup = latheSetup(probe);
     const double face = 150, radius = plant.number(30, 45), alpha = plant.number(0, 360);
     const Vector2 axis(plant.number(-0.5, 0.5), plant.number(-0.5, 0.5));
     if (inside) chuckBush(setup, radius, face, axis);
@@ -121,7 +122,7 @@ TEST(Cycle974, CorrectsTheTurningToolThatMadeThePart) {
   for (int world = 0; world < 160; ++world) {
     const int units = world % 3;  // face, inside, outside
     const bool diameters = world % 2 == 0;
-    simulation::Setup setup = latheSetup(somePeculiarProbe(plant, units == 2 ? 8 : 7));
+    setup::Setup setup = latheSetup(somePeculiarProbe(plant, units == 2 ? 8 : 7));
     const double face = 150, radius = plant.number(30, 45);
     if (units == 1) chuckBush(setup, radius, face);
     if (units != 1) chuckBar(setup, radius, face);
@@ -160,7 +161,7 @@ TEST(Cycle974, CorrectsTheTurningToolThatMadeThePart) {
 }
 
 TEST(Cycle974, TakesEmpiricalValueMeanAndToleranceOnTheDiameter) {
-  simulation::Setup setup = latheSetup({});
+  setup::Setup setup = latheSetup({});
   chuckBar(setup, 20.03, 150);
   LatheBench bench(setup);
   plantFrame(bench, "$P_UIFR", 1, 0, 150);
@@ -201,9 +202,9 @@ TEST(Cycle974, AThirdAxisIsMeasuredForX) {
     probe.position = 7;
     probe.length = plant.number(90, 110);
     probe.mount = {plant.number(-60, -40), 0, 0};
-    simulation::Setup setup = latheSetup(probe, "mill3");
+    setup::Setup setup = latheSetup(probe, "mill3");
     const double radius = plant.number(20, 30), error = plant.number(-0.5, 0.5);
-    place(setup.truth, simulation::RoundBar(radius, -80, 0), translation({50, 0, -350}));
+    place(setup.world.truth, simulation::RoundBar(radius, -80, 0), translation({50, 0, -350}));
     LatheBench bench(setup);
     // What a mill's beliefs are not: a probe of a lathe with lengths across and along.
     bench.set("$TC_DP1", {1, 1}, 580);
@@ -231,7 +232,7 @@ TEST(Cycle974, AThirdAxisIsMeasuredForX) {
 }
 
 TEST(Cycle974, RefusesWhatItCannotDo) {
-  simulation::Setup setup = latheSetup({});
+  setup::Setup setup = latheSetup({});
   chuckBar(setup, 20, 150);
   LatheBench bench(setup);
   plantFrame(bench, "$P_UIFR", 1, 0, 150);
@@ -276,8 +277,8 @@ TEST(Cycle974, RefusesWhatItCannotDo) {
 
 TEST(Lathe, NamesTheAxisThatATurnedFrameAsksFor) {
   // The lathe has X and Z. A frame turned about Z asks for Y as well.
-  simulation::Setup setup = latheSetup({});
-  place(setup.truth, simulation::RoundBar(40, -100, 0), translation({0, 0, 200}));
+  setup::Setup setup = latheSetup({});
+  place(setup.world.truth, simulation::RoundBar(40, -100, 0), translation({0, 0, 200}));
   LatheBench bench(setup);
   plantFrame(bench, "$P_UIFR", 1, 0, 200);
   const std::string beside = "ROT\nDIAMOF\nG0 X60\nG0 Z-10\n";

@@ -23,10 +23,10 @@ TEST(Cycle994, MeasuresOutsideByTwoPointsRoundTheFace) {
   Planter plant(9941);
   for (int world = 0; world < 150; ++world) {
     const LatheProbe probe = longProbe(plant);
-    simulation::Setup setup = latheSetup(probe);
+    setup::Setup setup = latheSetup(probe);
     const double radius = plant.number(15, 25), error = plant.number(-0.5, 0.5), zero = plant.number(-0.4, 0.4);
     const Vector2 axis(plant.number(-0.3, 0.3), plant.number(-0.3, 0.3));
-    place(setup.truth, simulation::RoundBar(radius, -100, 0), translation({axis.x(), axis.y(), face}));
+    place(setup.world.truth, simulation::RoundBar(radius, -100, 0), translation({axis.x(), axis.y(), face}));
     LatheBench bench(setup);
     plantFrame(bench, "$P_UIFR", 1, zero, face);
     const bool diameters = world % 3 != 0, zone = world % 2 == 0;
@@ -57,13 +57,13 @@ TEST(Cycle994, MeasuresInsideStraightThroughOrRoundACore) {
   Planter plant(9942);
   for (int world = 0; world < 150; ++world) {
     const LatheProbe probe = longProbe(plant);
-    simulation::Setup setup = latheSetup(probe);
+    setup::Setup setup = latheSetup(probe);
     const double radius = plant.number(30, 36), error = plant.number(-0.5, 0.5);
     const Vector2 axis(plant.number(-0.3, 0.3), plant.number(-0.3, 0.3));
-    place(setup.truth, simulation::Ring(radius, 50, -100), translation({axis.x(), axis.y(), face}));
+    place(setup.world.truth, simulation::Ring(radius, 50, -100), translation({axis.x(), axis.y(), face}));
     const bool core = world % 2 == 0;
     // The core ends a little in front of the face: straight through the centre the stylus would meet it.
-    if (core) place(setup.truth, simulation::RoundBar(10, -100, 4), translation({0, 0, face}), "core");
+    if (core) place(setup.world.truth, simulation::RoundBar(10, -100, 4), translation({0, 0, face}), "core");
     LatheBench bench(setup);
     plantFrame(bench, "$P_UIFR", 1, 0, face);
     const double ball = probe.ballRadius;
@@ -81,11 +81,11 @@ TEST(Cycle994, CorrectsTheTool) {
   Planter plant(9943);
   for (int world = 0; world < 100; ++world) {
     const LatheProbe probe = longProbe(plant);
-    simulation::Setup setup = latheSetup(probe);
+    setup::Setup setup = latheSetup(probe);
     const bool inside = world % 2 == 0;
     const double radius = plant.number(25, 35), wrong = plant.number(-0.2, 0.2);
-    if (inside) place(setup.truth, simulation::Ring(radius, 50, -100), translation({0, 0, face}));
-    if (!inside) place(setup.truth, simulation::RoundBar(radius, -100, 0), translation({0, 0, face}));
+    if (inside) place(setup.world.truth, simulation::Ring(radius, 50, -100), translation({0, 0, face}));
+    if (!inside) place(setup.world.truth, simulation::RoundBar(radius, -100, 0), translation({0, 0, face}));
     LatheBench bench(setup);
     plantFrame(bench, "$P_UIFR", 1, 0, face);
     const int code = world % 3 == 0 ? 1 : world % 3 == 1 ? 4100001 : 4110001;
@@ -104,8 +104,8 @@ TEST(Cycle994, MeasuresOutsideWithoutCalibrationIfTheMachineAllows) {
   LatheProbe probe;
   probe.position = 7;
   probe.mount = {-80, 0, 0};
-  simulation::Setup setup = latheSetup(probe);
-  place(setup.truth, simulation::RoundBar(20, -100, 0), translation({0, 0, face}));
+  setup::Setup setup = latheSetup(probe);
+  place(setup.world.truth, simulation::RoundBar(20, -100, 0), translation({0, 0, face}));
   LatheBench bench(setup);
   plantFrame(bench, "$P_UIFR", 1, 0, face);
   const std::string program =
@@ -123,8 +123,8 @@ TEST(Cycle994, PassesByAndMeasuresInAThirdAxis) {
     LatheProbe probe;
     probe.position = 7;
     probe.mount = {-50, 0, 0};
-    simulation::Setup setup = latheSetup(probe, "mill3");
-    place(setup.truth, simulation::RoundBar(18, -80, 0), translation({50, 0, -350}));
+    setup::Setup setup = latheSetup(probe, "mill3");
+    place(setup.world.truth, simulation::RoundBar(18, -80, 0), translation({50, 0, -350}));
     LatheBench bench(setup);
     bench.set("$TC_DP1", {1, 1}, 580);
     bench.set("$TC_DP2", {1, 1}, 7);
@@ -152,9 +152,9 @@ TEST(Cycle994, TheZoneMakesTheWayRoundWiderByItsMeasure) {
   Planter plant(9945);
   for (int world = 0; world < 40; ++world) {
     const LatheProbe probe = longProbe(plant);
-    simulation::Setup setup = latheSetup(probe);
+    setup::Setup setup = latheSetup(probe);
     const double radius = plant.number(15, 20), zone = radius + plant.number(8, 14), way = plant.number(24, 30);
-    place(setup.truth, simulation::RoundBar(radius, -100, 0), translation({0, 0, face}));
+    place(setup.world.truth, simulation::RoundBar(radius, -100, 0), translation({0, 0, face}));
     LatheBench bench(setup);
     plantFrame(bench, "$P_UIFR", 1, 0, face);
     const auto travelled = [&](int mvar, double size) {
@@ -183,9 +183,9 @@ TEST(Cycle994, MeasuresAlongTheBedAndPassesByInAThirdAxis) {
       LatheProbe probe;
       probe.position = 8;
       probe.mount = {0, 0, -50};
-      simulation::Setup setup = latheSetup(probe, "mill3");
+      setup::Setup setup = latheSetup(probe, "mill3");
       const double half = plant.number(15, 20), shift = plant.number(-0.3, 0.3);
-      place(setup.truth, simulation::Box({-30, -10, -half}, {20, 10, half}), translation({50, 0, -350 + shift}));
+      place(setup.world.truth, simulation::Box({-30, -10, -half}, {20, 10, half}), translation({50, 0, -350 + shift}));
       LatheBench bench(setup);
       bench.set("$TC_DP1", {1, 1}, 580);
       bench.set("$TC_DP2", {1, 1}, 8);
@@ -209,8 +209,8 @@ TEST(Cycle994, RefusesWhatItCannotDo) {
   LatheProbe probe;
   probe.position = 7;
   probe.mount = {-80, 0, 0};
-  simulation::Setup setup = latheSetup(probe);
-  place(setup.truth, simulation::RoundBar(20, -100, 0), translation({0, 0, face}));
+  setup::Setup setup = latheSetup(probe);
+  place(setup.world.truth, simulation::RoundBar(20, -100, 0), translation({0, 0, face}));
   LatheBench bench(setup);
   plantFrame(bench, "$P_UIFR", 1, 0, face);
   const auto call = [](const std::string& arguments) {

@@ -16,7 +16,7 @@ constexpr double face = 200;
 
 /// A lathe with a part and the probe in front of it.
 struct Scene {
-  simulation::Setup setup;
+  setup::Setup setup;
   std::string way;
   std::function<void(LatheBench&)> data = [](LatheBench&) {};
 };
@@ -36,7 +36,7 @@ Scene sceneOf(std::string_view name) {
     probe.position = 7;
     probe.mount = {-50, 0, 0};
     Scene scene{latheSetup(probe, "mill3"), "G0 Z60\n"};
-    place(scene.setup.truth, simulation::RoundBar(18, -80, 0), translation({50, 0, -350}));
+    place(scene.setup.world.truth, simulation::RoundBar(18, -80, 0), translation({50, 0, -350}));
     scene.data = [](LatheBench& bench) {
       bench.set("$TC_DP1", {1, 1}, 580);
       bench.set("$TC_DP2", {1, 1}, 7);
@@ -51,7 +51,7 @@ Scene sceneOf(std::string_view name) {
   }
   const bool under = name == "face" || name == "bore" || name == "round";
   Scene scene{latheSetup(probeAt(under ? 7 : 8)), ""};
-  simulation::Truth& truth = scene.setup.truth;
+  simulation::Truth& truth = scene.setup.world.truth;
   if (name == "face") {
     place(truth, simulation::RoundBar(40, -100, 0), translation({0, 0, face + 0.25}));
     scene.way = "G0 Z40\nG0 X40\nG0 Z12\n";

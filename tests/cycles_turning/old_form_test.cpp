@@ -13,12 +13,12 @@ TEST(TurningOldForm, MeasuresFaceAndDiametersAsTheCallWithArguments) {
     LatheProbe probe;
     probe.position = feature == 2 ? 8 : 7;
     if (feature == 1) probe.mount = {-50, 0, 0};
-    simulation::Setup setup = latheSetup(probe);
+    setup::Setup setup = latheSetup(probe);
     const double face = 150, error = plant.number(-0.8, 0.8), radius = 40 + plant.number(-0.5, 0.5);
     if (feature == 1) {
-      place(setup.truth, simulation::Ring(radius, radius + 15, -face), translation({0, 0, face}));
+      place(setup.world.truth, simulation::Ring(radius, radius + 15, -face), translation({0, 0, face}));
     } else {
-      place(setup.truth, simulation::RoundBar(radius, -face, 0), translation({0, 0, face}));
+      place(setup.world.truth, simulation::RoundBar(radius, -face, 0), translation({0, 0, face}));
     }
     const std::string way = feature == 0   ? "G0 X40\nG0 Z8\n"
                             : feature == 1 ? "G0 X60\nG0 Z20\nG0 Z-12\n"
@@ -44,8 +44,8 @@ TEST(TurningOldForm, CalibratesOnASurface) {
   LatheProbe probe;
   probe.position = 7;
   probe.axialPretravel = 0.012;
-  simulation::Setup setup = latheSetup(probe);
-  place(setup.truth, simulation::RoundBar(30, -100, 0), translation({0, 0, 200}));
+  setup::Setup setup = latheSetup(probe);
+  place(setup.world.truth, simulation::RoundBar(30, -100, 0), translation({0, 0, 200}));
   LatheBench bench(setup);
   plantFrame(bench, "$P_UIFR", 1, 0, 190);
   bench.run("G0 X20\nG0 Z20\n_MVAR=0 _PRNUM=2 _SETVAL=10 _MA=1 _MD=1 _FA=5 _TSA=4\nCYCLE973");

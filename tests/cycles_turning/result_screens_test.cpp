@@ -122,8 +122,8 @@ TEST(TurningScreens, HaveWhatTheControlShowsInEveryVariant) {
     LatheProbe probe;
     probe.position = variant.position;
     if (probe.position != 8) probe.mount = {-75, 0, 0};
-    simulation::Setup setup = latheSetup(probe);
-    variant.part(setup.truth);
+    setup::Setup setup = latheSetup(probe);
+    variant.part(setup.world.truth);
     LatheBench bench(setup);
     enterGroove(bench);
     plantFrame(bench, "$P_UIFR", 1, 0, face);

@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "session/check.hpp"
-#include "session/run.hpp"
 #include "session/source.hpp"
+#include "setup/simulated_run.hpp"
 #include "simulation/analytic_solids.hpp"
 #include "support/heidenhain_bench.hpp"
 
@@ -28,7 +28,7 @@ Bench ringWorld() {
 Ran run(const Bench& bench, const std::string& name, const std::string& text) {
   session::RunOptions options;
   options.control = bench.control;
-  return {session::runText(name, text, bench.setup, options)};
+  return {setup::runText(name, text, bench.setup, options)};
 }
 
 /// The same ways and the same touches, to the last bit.
@@ -89,7 +89,7 @@ TEST(DinIsoRun, ASubprogramFollowsTheModalFunctionsOfItsCaller) {
   const auto end = [&](const std::string& calls) {
     const Ran ran = run(bench, "A.I", head + calls + tail);
     EXPECT_EQ(ran.why(), "");
-    return ran.outcome.machine->position()[0] - 30;
+    return ran.machine->position()[0] - 30;
   };
   EXPECT_NEAR(end("L1 *\nL1 *\n"), 5, 1e-9);
   EXPECT_NEAR(end("G91 *\nL1 *\nL1 *\nL1 *\n"), 15, 1e-9);
@@ -103,7 +103,7 @@ TEST(DinIsoRun, ACallWithoutRepeatsIsASubprogram) {
   for (const char* call : {"L1,0 *\n", "L1 *\n"}) {
     const Ran ran = run(bench, "A.I", head + call + tail);
     EXPECT_EQ(ran.why(), "") << call;
-    EXPECT_NEAR(ran.outcome.machine->position()[0] - 30, 10, 1e-9) << call;
+    EXPECT_NEAR(ran.machine->position()[0] - 30, 10, 1e-9) << call;
   }
 }
 
@@ -125,7 +125,7 @@ TEST(DinIsoRun, WordsBeforeAModeKeepTheModeBefore) {
                         std::string("%A G71 *\nT1 G17 *\nG247 Q339=+1 *\nG00 G90 Z+50 *\nX+20 Y+0 *\n") + each.block +
                             "N99999999 %A G71 *\n");
     EXPECT_EQ(ran.why(), "") << each.block;
-    const auto at = ran.outcome.machine->position();
+    const auto at = ran.machine->position();
     EXPECT_NEAR(at[0] - 30, each.end.x(), 1e-9) << each.block;
     EXPECT_NEAR(at[1] + 12, each.end.y(), 1e-9) << each.block;
     const Ran before =
@@ -138,7 +138,7 @@ TEST(DinIsoRun, InchProgramsAreConverted) {
   const Bench bench = ringWorld();
   const Ran ran = run(bench, "A.I", "%A G70 *\nT1 G17 *\nG247 Q339=+1 *\nG00 G90 Z+2 *\nX+1 Y+0 *\nN9 %A G70 *\n");
   EXPECT_EQ(ran.why(), "");
-  EXPECT_NEAR(ran.outcome.machine->position()[0], 30 + 25.4, 1e-9);
+  EXPECT_NEAR(ran.machine->position()[0], 30 + 25.4, 1e-9);
 }
 
 TEST(DinIsoRun, CornersAreRoundedAsInKlartext) {

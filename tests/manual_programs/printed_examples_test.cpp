@@ -93,8 +93,8 @@ TEST_P(Printed, Cycle402TurnsByTheLineThroughTwoStuds) {
 
 /// Where a machine place that was fixed to the table at the start of the run is at its end.
 Vector3 afterTurning(const Part& part, const Ran& ran, const Vector3& place) {
-  const auto& truth = part.bench.setup.truth;
-  return machine::baseFromTable(truth.machine, ran.outcome.machine->position()) *
+  const auto& truth = part.bench.setup.world.truth;
+  return machine::baseFromTable(truth.machine, ran.machine->position()) *
          (machine::baseFromTable(truth.machine, truth.start).inverse() * place);
 }
 double directionOf(const Vector3& place) { return degrees(std::atan2(place.y(), place.x())); }
@@ -113,7 +113,7 @@ TEST_P(Printed, Cycle403TurnsTheEdgeParallelToY) {
 }
 
 TEST_P(Printed, Cycle404TakesTheBasicRotationBack) {
-  part.bench.setup.presets.front().rotation = {0, 0, 3.5};
+  part.bench.setup.beliefs.presets.front().rotation = {0, 0, 3.5};
   const Ran ran = part.run(404, isTNC640() ? Words{{307, 0}, {305, -1}} : Words{{307, 0}});
   EXPECT_TRUE(ran.preset().isApprox(pose({0, 0, tableHeight}), 1e-12));
   EXPECT_EQ(ran.cell("PRESET.PR", "1", isTNC640() ? "SPC" : "ROT"), 0);
@@ -127,7 +127,7 @@ TEST_P(Printed, Cycle405BringsTheHoleToItsDirection) {
   const Vector3 found(centre.x(), centre.y(), tableHeight);
   EXPECT_NEAR(ran.q(150), directionOf(found) - 45, 1e-7);
   EXPECT_NEAR(directionOf(afterTurning(turning, ran, found)), 45, 1e-7);
-  EXPECT_NEAR(ran.cell("PRESET.PR", "1", isTNC640() ? "C_OFFS" : "C"), ran.outcome.machine->position()[4], digit);
+  EXPECT_NEAR(ran.cell("PRESET.PR", "1", isTNC640() ? "C_OFFS" : "C"), ran.machine->position()[4], digit);
 }
 
 TEST_P(Printed, Cycle408CentresTheSlotAndSetsTheTop) {

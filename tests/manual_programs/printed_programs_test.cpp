@@ -97,7 +97,7 @@ TEST_P(PrintedProgram, ReworksAStudByWhatWasMeasured) {
     simulation::TrueTool mill = idealProbe(60, 10);
     mill.number = number;
     mill.name = name;
-    part.bench.setup.truth.tools.push_back(mill);
+    part.bench.setup.world.truth.tools.push_back(mill);
   }
   const Ran ran = part.bench.runBare(
       "TOOL CALL 69 Z\nL Z+100 R0 FMAX\nFN 0: Q1 = +81\nFN 0: Q2 = +61\nCALL LBL 1\nL Z+100 R0 FMAX\n"
@@ -146,9 +146,9 @@ TEST_P(PrintedProgram, TurnsTheTableByTwoHoles) {
   const Ran ran = part.printed(probe(
       401, {{268, 25}, {269, 15}, {270, 80}, {271, 35}, {261, -5}, {260, 20}, {307, 0}, {305, 0}, {402, 1}, {337, 1}}));
   ASSERT_TRUE(ran.finished()) << ran.why();
-  const auto& machine = part.bench.setup.truth.machine;
+  const auto& machine = part.bench.setup.world.truth.machine;
   const Vector3 along(second.x() - first.x(), second.y() - first.y(), 0);
-  const Vector3 turned = machine::baseFromTable(machine, ran.outcome.machine->position()).linear() * along.normalized();
+  const Vector3 turned = machine::baseFromTable(machine, ran.machine->position()).linear() * along.normalized();
   EXPECT_NEAR(std::abs(degrees(std::atan2(turned.y(), turned.x()))), 0, 1e-6);
 }
 
@@ -184,7 +184,7 @@ TEST_P(PrintedProgram, PresetsASegment) {
 /// the top.
 TEST_P(PrintedProgram, PresetsABoltHoleCircleInARow) {
   Part part(GetParam());
-  for (auto& preset : part.bench.setup.presets)
+  for (auto& preset : part.bench.setup.beliefs.presets)
     preset.index = 2;
   const double top = 25.1;
   const Vector2 middle(35.2, 34.85);

@@ -112,7 +112,7 @@ TEST(PrintedTolerances, Cycle1411StopsAtScrap) {
   ASSERT_EQ(ran.screens().size(), 1U);
   EXPECT_THAT(ran.screens().front(), HasSubstr("scrap"));
   EXPECT_THAT(ran.screens().front(), HasSubstr("Diameter 2: nominal 10.0000, actual 9.5200"));
-  part.bench.setup.truth.solids.pop_back();
+  part.bench.setup.world.truth.solids.pop_back();
   part.hole({75, 50}, 9.4);
   const Ran good = part.bench.run(probe(1411, rest, texts));
   EXPECT_EQ(good.q(183), 0);

@@ -68,8 +68,8 @@ TEST_P(PrintedSpecial, Cycle4GoesAlongItsVector) {
   EXPECT_NEAR(ran.q(3), 0.4 + 2, exact);
   EXPECT_EQ(ran.q(4), 1);
   // The retraction of 50 mm ends where the stroke began.
-  EXPECT_NEAR(ran.outcome.machine->position()[0], 20, exact);
-  EXPECT_NEAR(ran.outcome.machine->position()[2], 25 + 110 + tableHeight, exact);
+  EXPECT_NEAR(ran.machine->position()[0], 20, exact);
+  EXPECT_NEAR(ran.machine->position()[2], 25 + 110 + tableHeight, exact);
 }
 
 /// Printed is a clearance height of 5 mm, below the third point at 12 mm: on the plane of the example the probe runs
@@ -140,12 +140,12 @@ TEST_P(PrintedSpecial, Cycle440MeasuresTheShiftThatCalibratingDidNotSee) {
   pin.name = "PIN";
   pin.kind = simulation::ToolKind::Cutter;
   pin.radius = 6;
-  part.bench.setup.truth.tools.push_back(pin);
+  part.bench.setup.world.truth.tools.push_back(pin);
   part.bench.knows(9, "PIN", 70, 6);
-  placeToolProbe(part.bench.setup.truth, simulation::Box({-20, -20, -10}, {20, 20, 0}), pose({100, 50, -460}));
+  placeToolProbe(part.bench.setup.world.truth, simulation::Box({-20, -20, -10}, {20, 20, 0}), pose({100, 50, -460}));
   for (const auto& [name, value] :
        {std::pair("MP6580.0", 100.0), std::pair("MP6580.1", 50.0), std::pair("MP6580.2", -460.0)})
-    part.bench.setup.parameters[name] = {value, {}};
+    part.bench.setup.beliefs.parameters[name] = {value, {}};
   const Words words = {{363, 1}, {364, 0}, {320, 2}, {260, 50}};
   const std::string tool = "TOOL CALL 9 Z\n";
   EXPECT_EQ(part.bench.runBare(tool + probe(440, words)).alarm(), "Axis shift not calibrated");
@@ -214,7 +214,7 @@ TEST_P(PrintedCalibration, Cycles2And9) {
   part.hole({60.1, 19.9}, 2 * 25.003);
   for (const auto& [name, value] :
        {std::pair("MP6180.0", 60.0), std::pair("MP6180.1", 20.0), std::pair("MP6180.2", tableHeight)})
-    part.bench.setup.parameters[name] = {value, {}};
+    part.bench.setup.beliefs.parameters[name] = {value, {}};
   expect(runs("5 TCH PROBE 2.0 CALIBRATE TS\n6 TCH PROBE 2.1 HEIGHT: +50 R +25.003 DIRECTION: 0\n"), true, false);
   // Printed is Y+356, beyond the travel of the machine here.
   part.box({-260, 180, 0}, {-210, 280, 50});

@@ -13,7 +13,8 @@
 #include "execution/klartext/host.hpp"
 #include "execution/sinumerik/host.hpp"
 #include "machine/machine_file.hpp"
-#include "session/beliefs.hpp"
+#include "session/heidenhain/beliefs.hpp"
+#include "session/sinumerik/beliefs.hpp"
 #include "session/source.hpp"
 #include "support/scripted_machine.hpp"
 
@@ -32,29 +33,28 @@ using testing_support::ScriptedMachine;
 
 /// Probe T1 (length 100, ball radius 2), cutter T2, and T5 that the control has in its table only. The workpiece lies
 /// at Z-400: with the probe in the spindle the axis Z reads 300 less than the program has.
-simulation::Setup beliefs(ControlKind kind) {
-  simulation::Setup setup;
-  setup.control = kind;
-  setup.truth.machine = *machine::readMachine("mill3");
+control::Beliefs beliefsOf(ControlKind kind) {
+  control::Beliefs beliefs;
+  beliefs.control = kind;
   const auto add = [&](int number, const char* name, const char* toolKind, double length, double radius) {
-    simulation::BelievedTool tool;
+    control::BelievedTool tool;
     tool.number = number;
     tool.name = name;
     tool.kind = toolKind;
     tool.length = length;
     tool.radius = tool.axialRadius = radius;
-    setup.tools.push_back(tool);
+    beliefs.tools.push_back(tool);
   };
   add(1, "PROBE", "probe", 100, 2);
   add(2, "MILL", "mill", 80, 5);
   add(5, "DRILL", "drill", 120, 4);
-  simulation::BelievedFrame frame;
+  control::BelievedFrame frame;
   frame.index = 1;
   frame.name = kind == ControlKind::TNC640 ? "" : "G54";
   frame.origin = {0, 0, -400};
   frame.active = true;
-  (kind == ControlKind::TNC640 ? setup.presets : setup.zeroOffsets).push_back(frame);
-  return setup;
+  (kind == ControlKind::TNC640 ? beliefs.presets : beliefs.zeroOffsets).push_back(frame);
+  return beliefs;
 }
 
 class NoOtherPrograms : public language::ProgramLibrary {
@@ -91,12 +91,12 @@ struct Klartext {
     return runOn(machine, host, "MAIN.H", "BEGIN PGM MAIN MM\n" + blocks + "END PGM MAIN MM\n", ControlKind::TNC640,
                  stop);
   }
-  simulation::Setup setup = beliefs(ControlKind::TNC640);
+  control::Beliefs beliefs = beliefsOf(ControlKind::TNC640);
   Diagnostics diagnostics;
-  ScriptedMachine machine{setup.truth.machine};
+  ScriptedMachine machine{*machine::readMachine("mill3")};
   control::heidenhain::Control control{ControlKind::TNC640, machine,
-                                       heidenhainTables(setup, ControlKind::TNC640, diagnostics),
-                                       machineParameters(setup, ControlKind::TNC640, diagnostics)};
+                                       heidenhainTables(beliefs, ControlKind::TNC640, diagnostics),
+                                       machineParameters(beliefs, ControlKind::TNC640, diagnostics)};
 };
 
 struct Sinumerik {
@@ -109,10 +109,10 @@ struct Sinumerik {
     return runOn(machine, host, "MAIN.MPF", "G17 G54 G90\n" + blocks + "M30\n", ControlKind::Sinumerik840Dsl, stop);
   }
   double r(int number) { return control.data.number("R", {number}, -1e99); }
-  simulation::Setup setup = beliefs(ControlKind::Sinumerik840Dsl);
+  control::Beliefs beliefs = beliefsOf(ControlKind::Sinumerik840Dsl);
   Diagnostics diagnostics;
-  ScriptedMachine machine{setup.truth.machine};
-  control::sinumerik::Control control{machine, sinumerikData(setup, diagnostics).store};
+  ScriptedMachine machine{*machine::readMachine("mill3")};
+  control::sinumerik::Control control{machine, sinumerikData(beliefs, diagnostics).store};
 };
 
 std::string why(const RunResult& result) {

@@ -6,8 +6,8 @@
 #include <array>
 
 #include "machine/machine_file.hpp"
+#include "support/axis_positions.hpp"
 #include "support/scripted_machine.hpp"
-#include "support/virtual_world.hpp"
 
 /// What program test and block search see of the machine.
 namespace probewright::session {

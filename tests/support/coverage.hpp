@@ -58,7 +58,7 @@ inline void noteRun(ControlKind control, const Journal& journal, std::size_t fir
 inline bool leaves(ControlKind control, const CycleRecord& cycle, std::string_view result) {
   const auto named = [&](const auto& each) { return each.name == result; };
   if (std::ranges::any_of(cycle.results, named)) return true;
-  const cycles::CycleDefinition* definition = control::isHeidenhain(control)
+  const cycles::CycleDefinition* definition = control::onBothTNC.contains(control)
                                                   ? cycles::heidenhainCycle(std::atoi(cycle.name.c_str()))
                                                   : cycles::sinumerikCycle(cycle.name);
   return definition != nullptr && std::ranges::any_of(definition->results, named);
@@ -111,7 +111,7 @@ inline void refusalRead(ControlKind control, const Journal& journal, const Sourc
     ++last;
   const std::string number(text.substr(digits, last - digits));
   if (number.empty()) return;
-  note(control, control::isHeidenhain(control) ? number : std::string(word) + number, "refusals");
+  note(control, control::onBothTNC.contains(control) ? number : std::string(word) + number, "refusals");
 }
 
 /// A program was checked as a whole: its calls (numbers behind `word`) are read, if nothing is wrong with it.
@@ -120,7 +120,7 @@ inline void noteRead(ControlKind control, std::string_view text, const Diagnosti
   for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
     const int number = std::atoi(std::string(text.substr(at + word.size(), 8)).c_str());
     const std::string name =
-        control::isHeidenhain(control) ? std::to_string(number) : fmt::format("{}{}", word, number);
+        control::onBothTNC.contains(control) ? std::to_string(number) : fmt::format("{}{}", word, number);
     note(control, name, "parsed");
   }
 }

@@ -17,7 +17,7 @@
 #include "control/heidenhain/preset_table.hpp"
 #include "control/heidenhain/probe_table.hpp"
 #include "control/heidenhain/tool_table.hpp"
-#include "session/run.hpp"
+#include "setup/simulated_run.hpp"
 #include "support/coverage.hpp"
 #include "support/virtual_world.hpp"
 
@@ -86,9 +86,12 @@ inline std::string probe(int number, const Words& words, const std::string& more
 /// How a run went, with what tests ask of it.
 class Ran {
 public:
-  Ran(session::RunOutcome run) : outcome(std::move(run)) { coverage::noteRun(outcome.control, outcome.journal); }
+  Ran(setup::SimulatedRun run) : outcome(std::move(run.outcome)), machine(std::move(run.machine)) {
+    coverage::noteRun(outcome.control, outcome.journal);
+  }
 
   session::RunOutcome outcome;
+  std::unique_ptr<simulation::VirtualMachine> machine;  ///< as it is at the end
 
   bool finished() const { return outcome.diagnostics.empty() && outcome.result.end == language::RunEnd::Finished; }
   /// What stopped the run; empty if nothing did.
@@ -107,7 +110,7 @@ public:
   /// Parameter Qn as it stands at the end, in the unit of the program.
   double q(int number) const {
     coverage::resultRead(outcome.control, outcome.journal, fmt::format("Q{}", number));
-    return outcome.qParameters ? outcome.qParameters->q(number) : std::nan("");
+    return outcome.variable ? outcome.variable(fmt::format("Q{}", number)) : std::nan("");
   }
   /// Machine coordinates from the workpiece system at the end.
   Pose preset() const {
@@ -173,52 +176,52 @@ private:
 /// A perfect machine of the given kind with a perfect probe, known to the control as it is. Nothing on the table.
 struct Bench {
   explicit Bench(ControlKind kind = ControlKind::TNC640, const std::string& machine = "mill3") : control(kind) {
-    setup.file = "bench.toml";
-    setup.truth = perfectWorld(machine);
-    simulation::BelievedTool tool;
+    setup.world.file = setup.beliefs.file = "bench.toml";
+    setup.world.truth = perfectWorld(machine);
+    control::BelievedTool tool;
     tool.number = 1;
     tool.name = "PROBE";
     tool.kind = "probe";
-    tool.length = setup.truth.tools.front().length;
-    tool.radius = setup.truth.tools.front().probe.ballRadius;
+    tool.length = setup.world.truth.tools.front().length;
+    tool.radius = setup.world.truth.tools.front().probe.ballRadius;
     tool.maximumTravel = 20;
-    setup.tools.push_back(tool);
+    setup.beliefs.tools.push_back(tool);
   }
 
-  simulation::BelievedTool& believedProbe() { return setup.tools.front(); }
-  simulation::TrueProbe& trueProbe() { return setup.truth.tools.front().probe; }
+  control::BelievedTool& believedProbe() { return setup.beliefs.tools.front(); }
+  simulation::TrueProbe& trueProbe() { return setup.world.truth.tools.front().probe; }
 
   /// Ball radius and length of the probe, true and believed.
   void probeOf(double length, double ballRadius) {
-    setup.truth.tools.front() = idealProbe(length, ballRadius);
+    setup.world.truth.tools.front() = idealProbe(length, ballRadius);
     believedProbe().length = length;
     believedProbe().radius = ballRadius;
   }
 
   /// A row of the preset table: origin in machine coordinates, basic rotation about the tool axis.
   void preset(int row, const Vector3& origin, double rotation = 0, bool active = true) {
-    simulation::BelievedFrame frame;
+    control::BelievedFrame frame;
     frame.index = row;
     frame.origin = origin;
     frame.rotation = {0, 0, rotation};
     frame.active = active;
-    setup.presets.push_back(frame);
+    setup.beliefs.presets.push_back(frame);
   }
 
   template <class SolidType>
   void part(SolidType solid, const Pose& tableFromSolid = Pose::Identity()) {
-    place(setup.truth, std::move(solid), tableFromSolid);
+    place(setup.world.truth, std::move(solid), tableFromSolid);
   }
 
   /// Another tool that the control knows.
   void knows(int number, const std::string& name, double length, double radius) {
-    simulation::BelievedTool tool;
+    control::BelievedTool tool;
     tool.number = number;
     tool.name = name;
     tool.kind = "mill";
     tool.length = length;
     tool.radius = radius;
-    setup.tools.push_back(tool);
+    setup.beliefs.tools.push_back(tool);
   }
 
   /// Runs the blocks as they are; `unit` MM or INCH.
@@ -226,20 +229,19 @@ struct Bench {
     session::RunOptions options;
     options.control = control;
     options.wallClock = wallClock;
-    options.recordPath = false;
     options.onStop = onStop;
     if (answer) options.answer = [this](const control::Question& question) { return answer(question.name); };
     options.language = language;
     options.showAllResults = showAllResults;
     std::string text = "BEGIN PGM BENCH " + unit + "\n" + blocks + "END PGM BENCH " + unit + "\n";
-    return {session::runText(program, std::move(text), setup, options)};
+    return {setup::runText(program, std::move(text), setup, options, {.recordPath = false})};
   }
   /// Runs the blocks behind TOOL CALL of the probe.
   Ran run(const std::string& blocks, const std::string& unit = "MM") const {
     return runBare("TOOL CALL 1 Z\n" + blocks, unit);
   }
 
-  simulation::Setup setup;
+  setup::Setup setup;
   ControlKind control;
   std::int64_t wallClock = 0;
   std::string program = "BENCH.H";

@@ -2,7 +2,9 @@
 
 #include <string>
 
-#include "session/beliefs.hpp"
+#include "session/sinumerik/beliefs.hpp"
+#include "setup/calibrated_beliefs.hpp"
+#include "setup/setup.hpp"
 #include "support/sinumerik_bench.hpp"
 
 /// A SINUMERIK lathe with a probe in its turret, and programs that measure on it.
@@ -18,17 +20,18 @@ struct LatheProbe {
   double axialPretravel = 0;  ///< along it
 };
 
-inline simulation::Setup latheSetup(const LatheProbe& probe, const std::string& machine = "lathe2c") {
-  simulation::Setup setup;
-  setup.truth = perfectWorld(machine);
-  simulation::TrueTool& tool = setup.truth.tools.front();
+inline setup::Setup latheSetup(const LatheProbe& probe, const std::string& machine = "lathe2c") {
+  setup::Setup setup;
+  setup.world.truth = perfectWorld(machine);
+  setup.beliefs.technology = setup::believedTechnology(setup.world.truth.machine);
+  simulation::TrueTool& tool = setup.world.truth.tools.front();
   tool = idealProbe(probe.length, probe.ballRadius);
   tool.shankDirection = probe.position % 2 == 0 ? Vector3::UnitX() : Vector3::UnitZ();
   if (probe.position < 7) tool.shankDirection = -tool.shankDirection;
   tool.mount = probe.mount;
   tool.probe.pretravel = probe.pretravel;
   tool.probe.axialPretravel = probe.axialPretravel;
-  simulation::BelievedTool believed;
+  control::BelievedTool believed;
   believed.number = 1;
   believed.name = tool.name;
   believed.kind = "probe";
@@ -37,13 +40,13 @@ inline simulation::Setup latheSetup(const LatheProbe& probe, const std::string& 
   believed.axialRadius = probe.ballRadius - probe.axialPretravel;
   believed.mount = probe.mount;
   believed.shankDirection = tool.shankDirection;
-  setup.tools.push_back(believed);
+  setup.beliefs.tools.push_back(believed);
   return setup;
 }
 
 class LatheBench {
 public:
-  explicit LatheBench(const simulation::Setup& setup) : machine(setup.truth), control(machine, beliefs(setup)) {
+  explicit LatheBench(const setup::Setup& setup) : machine(setup.world.truth), control(machine, beliefs(setup)) {
     set("$TC_TP2", {2}, 0);
     control.data.set("$TC_TP2", {2}, std::string("FINISH"));
     set("$TC_DP1", {2, 1}, 500);
@@ -118,9 +121,9 @@ private:
     bool exists(std::string_view, const language::Program*) override { return false; }
   };
 
-  static control::sinumerik::DataStore beliefs(const simulation::Setup& setup) {
+  static control::sinumerik::DataStore beliefs(const setup::Setup& setup) {
     Diagnostics diagnostics;
-    session::SinumerikData data = session::sinumerikData(setup, diagnostics);
+    session::SinumerikData data = session::sinumerikData(setup.beliefs, diagnostics);
     EXPECT_TRUE(diagnostics.empty());
     return data.store;
   }

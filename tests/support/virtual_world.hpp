@@ -8,16 +8,10 @@
 #include "machine/machine_file.hpp"
 #include "simulation/analytic_solids.hpp"
 #include "simulation/virtual_machine.hpp"
+#include "support/axis_positions.hpp"
 
 /// Worlds in one line, for tests that need a machine with something on its table.
 namespace probewright::testing_support {
-
-/// Axis positions in the order of the machine's axes.
-inline machine::AxisPositions positions(std::initializer_list<double> values) {
-  machine::AxisPositions result;
-  std::copy(values.begin(), values.end(), result.values.begin());
-  return result;
-}
 
 /// A perfect probe, tool 1 "PROBE": length 100, ball radius 2, thin stylus of 60 mm, body of radius 20.
 inline simulation::TrueTool idealProbe(double length = 100, double ballRadius = 2) {

@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "base/folder_swap.hpp"
+#include "base/number_text.hpp"
+#include "execution/din_iso/host.hpp"
+#include "execution/klartext/host.hpp"
+#include "language/encoding.hpp"
+#include "session/heidenhain/beliefs.hpp"
+#include "session/heidenhain/family_parts.hpp"
+#include "session/heidenhain/remanent_parameters.hpp"
+#include "session/run_parts.hpp"
+#include "session/source.hpp"
+
+namespace probewright::session {
+
+namespace fs = std::filesystem;
+namespace hh = control::heidenhain;
+using control::ControlKind;
+
+namespace {
+
+/// What the control writes text files in: the TNC 640 in UTF-8, the iTNC 530 in the 8-bit character set of its
+/// language.
+language::Encoding textFileEncoding(ControlKind kind, control::DialogLanguage language) {
+  if (kind != ControlKind::iTNC530) return language::Encoding::Utf8;
+  return language == control::DialogLanguage::Russian ? language::Encoding::Windows1251
+                                                      : language::Encoding::Windows1252;
+}
+
+void encodeLogs(std::map<std::string, std::string>& files, language::Encoding encoding) {
+  for (auto& [name, text] : files) {
+    if (name.starts_with("TCHPR") && name.ends_with(".TXT")) text = language::fromUtf8(text, encoding);
+  }
+}
+
+/// The tables that every run of a HEIDENHAIN control leaves.
+std::set<std::string> namesOf(const hh::Tables& tables) {
+  std::set<std::string> names = {"TOOL.T", "TCHPROBE.TP", "PRESET.PR", "QR.TXT"};
+  for (const auto& [name, table] : tables.datums)
+    names.insert(name);
+  for (const auto& [name, table] : tables.deflections)
+    names.insert(name);
+  for (const auto* table : {&tables.turningTools, &tables.axisShifts}) {
+    if (*table) names.insert((*table)->table().name());
+  }
+  return names;
+}
+
+void run(const RunRequest& request, FolderReading reading, machine::Machine& machine, HostFiles& host,
+         RunOutcome& outcome) {
+  const RunOptions& options = request.options;
+  const control::Beliefs& beliefs = request.beliefs;
+  hh::Tables tables = heidenhainTables(beliefs, request.control, outcome.diagnostics);
+  const hh::MachineParameters parameters = machineParameters(beliefs, request.control, outcome.diagnostics);
+  const std::set<std::string> tableNames = namesOf(tables);
+  refuseForeign(outcome.diagnostics, tableNames, options);
+  if (hasErrors(outcome.diagnostics)) return;
+  hh::Control control(request.control, machine, std::move(tables), parameters);
+  setPanel(control.panel, request, tableNames);
+  control.journal.limit = options.recordLimit;
+  control.programPath = request.path.string();
+  control.startSeconds = control.channel.seconds();
+  control.wallClockStart = options.wallClock;
+  control.activatePreset(activePresetRow(beliefs));
+  const auto probe = std::ranges::find(beliefs.tools, "probe", &control::BelievedTool::kind);
+  if (probe != beliefs.tools.end()) control.handProbe = {probe->number, probe->name};
+  for (const auto& tool : beliefs.tools) {
+    if (tool.inSpindle) control.callTool(std::to_string(tool.number), 'Z', 0, 0, 0);
+  }
+  control.applyCoordinates();
+
+  readRemanentParameters(beliefs.tables, control.q, outcome.diagnostics);
+  reading = {};
+  if (hasErrors(outcome.diagnostics)) return;
+  language::klartext::HostOptions hostOptions;
+  hostOptions.strict = options.strict;
+  hostOptions.readFile = [&host](const std::string& name) { return host.read(name); };
+  hostOptions.isInput = [&host](const std::string& name) { return host.isInput(name); };
+  language::klartext::KlartextHost klartext(control, hostOptions);
+  language::din_iso::DinIsoHost isoHost(klartext);
+  const ControlFamily family = heidenhainFamily();
+  const auto library = programLibrary(family, [&](language::Program*, const fs::path& opened) { host.note(opened); });
+  language::Interpreter interpreter(*library, isoHost, interpreterOptions(options));
+  outcome.result = interpreter.run(request.program);
+
+  outcome.files = control.panel.files();
+  encodeLogs(outcome.files, textFileEncoding(request.control, options.language));
+  outcome.files["TOOL.T"] = control.tables.tools.table().bytes();
+  outcome.files["TCHPROBE.TP"] = control.tables.probes.table().bytes();
+  outcome.files["PRESET.PR"] = control.tables.presets.table().bytes();
+  for (const auto& [name, table] : control.tables.datums)
+    outcome.files[name] = table.table().bytes();
+  for (const auto& [name, table] : control.tables.deflections)
+    outcome.files[name] = table.table().bytes();
+  if (std::string remanent = remanentParametersText(control.q); !remanent.empty())
+    outcome.files[remanentFile] = std::move(remanent);
+  // Tables that few machines have come out if there is anything in them.
+  for (const auto* table : {&control.tables.turningTools, &control.tables.axisShifts}) {
+    if (*table && !(*table)->table().keys().empty())
+      outcome.files[(*table)->table().name()] = (*table)->table().bytes();
+  }
+  outcome.machineFromWorkpiece = control.coordinates.machineFromPreset();
+  outcome.ballRadius = control.tool.radius;
+  outcome.variable = [q = control.q](std::string_view name) {
+    const auto number = name.starts_with('Q') ? parseInteger(name.substr(1)) : std::nullopt;
+    return number && hh::QParameters::exists(*number) ? q.q(static_cast<int>(*number)) : std::nan("");
+  };
+  outcome.info.inches = control.mainUnit != 1;
+  takeRecords(control, outcome);
+}
+
+}  // namespace
+
+RunOn prepareHeidenhain(const RunRequest& request, Diagnostics& diagnostics) {
+  // Until the control has its data: another run may be about to replace the tables.
+  const auto reading = std::make_shared<FolderReading>(FolderReading::of(request.beliefs.tables, request.options.stop));
+  const Diagnostics mistakes = checkHeidenhain({.program = *request.program,
+                                                .control = request.control,
+                                                .path = request.path,
+                                                .beliefs = &request.beliefs,
+                                                .skipLevels = request.options.skipLevels,
+                                                .foresees = false});
+  diagnostics.insert(diagnostics.end(), mistakes.begin(), mistakes.end());
+  return [request, reading](machine::Machine& machine, HostFiles& host, RunOutcome& outcome) {
+    run(request, std::move(*reading), machine, host, outcome);
+  };
+}
+
+}  // namespace probewright::session

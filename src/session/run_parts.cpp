@@ -1,0 +1,58 @@
+#include "session/run_parts.hpp"
+
+#include "control/sinumerik/text.hpp"
+
+namespace probewright::session {
+
+namespace {
+
+/// What names a program cannot give to its files.
+std::function<std::optional<Diagnostic>(const std::string&)> fileRule(std::set<std::string> tables,
+                                                                      const RunOptions& options) {
+  return [tables = std::move(tables), &options](const std::string& name) -> std::optional<Diagnostic> {
+    const std::string upper = control::sinumerik::upperCase(name);
+    if (tables.contains(upper) || upper == "RESULTS.JSON" || upper == "REPORT.HTML" ||
+        upper.starts_with(".PROBEWRIGHT")) {
+      return Diagnostic{Severity::Error,        {}, "it is one of the files that every run leaves", {},
+                        "give it another name", {}};
+    }
+    return options.whyNoFile ? options.whyNoFile(name) : std::nullopt;
+  };
+}
+
+}  // namespace
+
+language::InterpreterOptions interpreterOptions(const RunOptions& options) {
+  language::InterpreterOptions interpreter;
+  interpreter.stepLimit = options.stepLimit;
+  interpreter.stop = options.stop;
+  interpreter.skipLevels = options.skipLevels;
+  interpreter.breakpoints = options.breakpoints;
+  interpreter.onProgress = options.progress;
+  return interpreter;
+}
+
+void setPanel(control::OperatorPanel& panel, const RunRequest& request, std::set<std::string> tables) {
+  const control::Beliefs& beliefs = request.beliefs;
+  const RunOptions& options = request.options;
+  panel.onStop = options.onStop;
+  panel.ask = options.ask;
+  panel.answer = [&](const control::Question& question) -> std::optional<std::string> {
+    for (const auto* known : {&options.answers, &beliefs.answers}) {
+      if (const auto found = known->find(question.name); found != known->end()) return found->second;
+    }
+    return options.answer ? options.answer(question) : std::nullopt;
+  };
+  panel.language = options.language;
+  panel.showAllResults = options.showAllResults;
+  panel.whyNoFile = fileRule(std::move(tables), options);
+}
+
+void refuseForeign(Diagnostics& diagnostics, const std::set<std::string>& tables, const RunOptions& options) {
+  if (!options.whyNoFile) return;
+  for (const std::string& name : tables) {
+    if (auto why = options.whyNoFile(name)) diagnostics.push_back(std::move(*why));
+  }
+}
+
+}  // namespace probewright::session

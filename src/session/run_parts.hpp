@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "base/diagnostic.hpp"
+#include "control/operator_panel.hpp"
+#include "execution/interpreter.hpp"
+#include "session/control_family.hpp"
+#include "session/host_files.hpp"
+#include "session/run.hpp"
+
+/// What the runs of all control families are made of.
+namespace probewright::session {
+
+/// The limits that `options` set to the interpreter; what belongs to the control alone, its family adds.
+language::InterpreterOptions interpreterOptions(const RunOptions& options);
+
+/// Sets what the panel shows, asks and stops at, and what names a program cannot give to its files: those of `tables`,
+/// which every run leaves, and whatever the caller refuses. The panel must not outlive the request's beliefs and
+/// options.
+void setPanel(control::OperatorPanel& panel, const RunRequest& request, std::set<std::string> tables);
+
+/// A run must be able to leave its tables: better said before it begins than at its end.
+void refuseForeign(Diagnostics& diagnostics, const std::set<std::string>& tables, const RunOptions& options);
+
+/// Takes over how far the tool went in which time, and the journal. The last that is done with a control.
+template <class Control>
+void takeRecords(Control& control, RunOutcome& outcome) {
+  outcome.info.totalPathLength = control.channel.pathLength();
+  outcome.info.totalSeconds = control.channel.seconds();
+  outcome.journal = std::move(control.journal);
+}
+
+}  // namespace probewright::session

@@ -1,0 +1,125 @@
+#include "session/sinumerik/family.hpp"
+
+#include <cmath>
+#include <memory>
+#include <regex>
+#include <set>
+#include <utility>
+
+#include "control/sinumerik/tool_data.hpp"
+#include "cycles/sinumerik/cycle_116.hpp"
+#include "execution/sinumerik/global_data.hpp"
+#include "language/sinumerik/check.hpp"
+#include "language/sinumerik/program.hpp"
+#include "session/setup_check.hpp"
+#include "session/sinumerik/beliefs.hpp"
+#include "session/sinumerik/family_parts.hpp"
+#include "session/sinumerik/global_data.hpp"
+#include "session/source.hpp"
+
+namespace probewright::session {
+
+using control::ControlKind;
+using language::Program;
+
+void useMacros(Program& program, const sinumerik::GlobalUserData& globalData) {
+  if (auto* own = dynamic_cast<sinumerik::SinumerikProgram*>(&program)) own->useMacros(globalData.macros());
+}
+
+Diagnostics checkSinumerik(const CheckRequest& request, const sinumerik::GlobalUserData& globalData) {
+  useMacros(request.program, globalData);
+  const ControlFamily family = sinumerikFamily();
+  const auto library = programLibrary(family, [&](Program* opened, const std::filesystem::path&) {
+    if (opened != nullptr) useMacros(*opened, globalData);
+  });
+  return sinumerik::check(
+      static_cast<sinumerik::SinumerikProgram&>(request.program),
+      {.library = library.get(),
+       .globalVariables = request.beliefs != nullptr ? namesOfData(*request.beliefs) : std::set<std::string>(),
+       .skipLevels = request.skipLevels,
+       .globalData = globalData.declarations(),
+       .foresees = request.foresees});
+}
+
+namespace {
+
+bool looksLikeSinumerik(const std::string& head) {
+  static const std::regex pattern(
+      R"((^|\n)\s*(%_N_|(N\d+\s+)?(CYCLE\d+\s*\(|G\d+\s|PROC\s|DEF\s|R\d+\s*=|M30|M17|T="|;\$PATH)))",
+      std::regex::icase);
+  return std::regex_search(head, pattern);
+}
+
+Result<std::shared_ptr<Program>> open(const std::filesystem::path& path) {
+  auto program = sinumerik::SinumerikProgram::open(path);
+  if (!program) return tl::unexpected(program.error());
+  return std::shared_ptr<Program>(std::move(*program));
+}
+
+std::shared_ptr<Program> fromText(std::string name, std::string text) {
+  return sinumerik::SinumerikProgram::fromText(std::move(name), std::move(text));
+}
+
+Diagnostics check(const CheckRequest& request) {
+  if (request.path.empty()) return checkSinumerik(request, {});
+  Diagnostics found;
+  const sinumerik::GlobalUserData globalData = globalUserData(
+      request.path, request.beliefs != nullptr ? request.beliefs->tables : std::filesystem::path(), found);
+  const Diagnostics more = checkSinumerik(request, globalData);
+  found.insert(found.end(), more.begin(), more.end());
+  return found;
+}
+
+/// The measuring cycles, and the one that computes with their results.
+std::vector<const cycles::CycleDefinition*> cyclesOf(ControlKind kind) {
+  std::vector<const cycles::CycleDefinition*> all = cycles::cyclesOf(kind);
+  all.insert(all.begin(), &cycles::sinumerik::cycle116Definition);
+  return all;
+}
+
+Inventory inventoryOf(const control::Beliefs& beliefs, ControlKind, Diagnostics& diagnostics) {
+  const auto data = std::make_shared<const SinumerikData>(sinumerikData(beliefs, diagnostics));
+  Listing tools;
+  for (const control::BelievedTool& tool : beliefs.tools)
+    tools.add(std::to_string(tool.number), tool.name);
+  Inventory inventory;
+  inventory.tools = tools.text();
+  inventory.hasTool = [data](const NamedItem& tool) {
+    using namespace control::sinumerik;
+    if (!tool.name.empty()) return tool.name == "0" || toolNamed(data->store, tool.name).has_value();
+    return tool.number == 0 || toolEdge(data->store, static_cast<int>(std::lround(tool.number)), 1).has_value();
+  };
+  inventory.hasPreset = [](const NamedItem&) { return true; };
+  return inventory;
+}
+
+}  // namespace
+
+ControlFamily sinumerikFamily() {
+  ControlFamily family;
+  family.name = "SINUMERIK";
+  family.controls = {{.kind = ControlKind::Sinumerik840Dsl,
+                      .name = name(ControlKind::Sinumerik840Dsl),
+                      .alsoCalled = {"828D"},  // measures as the 840D sl does
+                      .alsoUnderstood = {"840d", "sinumerik"}}};
+  family.languages = {{.language = ProgramLanguage::Sinumerik,
+                       .name = "SINUMERIK",
+                       .whose = "a SINUMERIK",
+                       .endings = {".MPF", ".SPF"},
+                       .archiveEndings = {".ARC"},
+                       .looksLike = looksLikeSinumerik,
+                       .holdsControlCharacters = true,
+                       .open = open,
+                       .fromText = fromText}};
+  family.calledEndings = {".SPF", ".MPF", ".CPF", ".CYC"};
+  family.dialogLanguages = {control::allDialogLanguages.begin(), control::allDialogLanguages.end()};
+  family.hasZeroOffsets = true;
+  family.hasProgramModes = true;
+  family.cycles = cyclesOf;
+  family.check = check;
+  family.inventory = inventoryOf;
+  family.prepare = prepareSinumerik;
+  return family;
+}
+
+}  // namespace probewright::session

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "session/sinumerik/family.hpp"
+
+namespace probewright::sinumerik {
+class GlobalUserData;
+}
+
+/// The parts of the family's entry that are more than a line.
+namespace probewright::session {
+
+/// `globalData`: what definition files declare.
+Diagnostics checkSinumerik(const CheckRequest& request, const sinumerik::GlobalUserData& globalData);
+RunOn prepareSinumerik(const RunRequest& request, Diagnostics& diagnostics);
+
+/// Tells a SINUMERIK program the macros of definition files.
+void useMacros(language::Program& program, const sinumerik::GlobalUserData& globalData);
+
+}  // namespace probewright::session

@@ -1,0 +1,55 @@
+#include "session/sinumerik/lathe_beliefs.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace probewright::session {
+
+using control::sinumerik::DataKey;
+using control::sinumerik::DataStore;
+
+namespace {
+
+/// The cutting edge position of a tool whose tip points along `direction`.
+int positionOf(const Vector3& direction) {
+  if (std::abs(direction.z()) > std::abs(direction.x())) return direction.z() > 0 ? 5 : 7;
+  return direction.x() > 0 ? 6 : 8;
+}
+
+}  // namespace
+
+void enterLatheTool(DataStore& store, const control::BelievedTool& tool) {
+  const bool probe = tool.kind == "probe";
+  const auto dp = [&](int parameter, double value) {
+    store.load(DataKey(fmt::format("$TC_DP{}", parameter), {tool.number, 1}), value);
+  };
+  // A turning tool's usual position is behind the centre, cutting towards the chuck.
+  const int position = probe ? positionOf(-tool.shankDirection) : tool.kind == "turn" ? 3 : 0;
+  const double length = probe ? tool.length - tool.axialRadius : tool.length;
+  const Vector3 reference = length * tool.shankDirection - tool.mount;
+  dp(1, probe ? 580 : tool.kind == "turn" ? 500 : tool.kind == "drill" ? 200 : 120);
+  if (position != 0) dp(2, position);
+  dp(3, reference.x());
+  dp(4, reference.z());
+  dp(6, tool.radius);
+  if (!probe) return;
+  const auto calibration = [&](std::string_view name, double value) {
+    store.load(DataKey(fmt::format("$SNS_MEA_WP_{}", name), {tool.probeNumber - 1}), value);
+  };
+  calibration("BALL_DIAM", 2 * tool.radius);
+  static constexpr std::array<int, 3> axes = {2, 0, 1};
+  for (int place = 1; place <= 3; ++place) {
+    const int axis = axes[static_cast<std::size_t>(place - 1)];
+    const double along = tool.shankDirection[axis] * tool.shankDirection[axis];
+    const double radius = tool.radius + along * (tool.axialRadius - tool.radius);
+    const double offset = axis == 0 ? tool.tipOffset.x() : 0;
+    calibration(fmt::format("TRIG_MINUS_DIR_AX{}", place), offset - radius);
+    calibration(fmt::format("TRIG_PLUS_DIR_AX{}", place), offset + radius);
+    if (place <= 2) calibration(fmt::format("POS_DEV_AX{}", place), offset);
+  }
+  calibration("FEED", tool.feed);
+}
+
+}  // namespace probewright::session

@@ -1,0 +1,55 @@
+#include "session/table_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "base/file.hpp"
+
+namespace probewright::session {
+
+namespace fs = std::filesystem;
+
+std::string upper(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+std::vector<fs::path> tableFiles(const fs::path& folder, Diagnostics& diagnostics) {
+  std::vector<fs::path> files;
+  if (folder.empty()) return files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    static constexpr std::array<std::string_view, 12> endings = {".T",    ".TP",  ".PR",  ".TRN", ".TAB", ".D",
+                                                                 ".3DTC", ".INI", ".TOA", ".UFR", ".GUD", ".DEF"};
+    const fs::path& path = entry.path();
+    if (entry.is_regular_file(error)) {
+      files.push_back(path);
+    } else if (std::ranges::find(endings, upper(path.extension().string())) != endings.end()) {
+      const char* what = fs::is_directory(path, error) ? "a folder"
+                         : fs::exists(path, error)     ? "not a file"
+                                                       : "a symbolic link that leads nowhere";
+      diagnostics.push_back({Severity::Error,
+                             {path.string(), 0, 0},
+                             fmt::format("this has the name of a table, but it is {}", what),
+                             {},
+                             "put the table there, or rename it",
+                             {}});
+    }
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+std::optional<std::string> contents(const fs::path& path, Diagnostics& diagnostics) {
+  Result<std::string> text = readFile(path);
+  if (!text) {
+    diagnostics.push_back(text.error());
+    return std::nullopt;
+  }
+  return std::move(*text);
+}
+
+}  // namespace probewright::session

@@ -1,0 +1,49 @@
+#include "base/file.hpp"
+#include "base/toml_table.hpp"
+#include "setup/belief_file.hpp"
+#include "setup/calibrated_beliefs.hpp"
+#include "setup/setup.hpp"
+#include "setup/tool_keys.hpp"
+#include "setup/world_file.hpp"
+
+namespace probewright::setup {
+
+std::optional<Setup> parseSetup(std::string_view text, const std::string& file, Diagnostics& diagnostics,
+                                const session::ControlFamilies& families) {
+  const std::size_t before = diagnostics.size();
+  const auto table = parseToml(text, file, diagnostics);
+  if (!table) return std::nullopt;
+  TomlReader root(*table, "", file, diagnostics);
+  Setup setup;
+  setup.world.file = setup.beliefs.file = file;
+  setup.inputs.emplace_back(file);
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  WorldReader world(root, folder, setup.world, setup.inputs);
+  BeliefReader beliefs(root, folder, setup.world.truth.machine, setup.beliefs, families);
+  world.readMachine();
+  beliefs.readControl();
+  world.readSeed();
+  world.readSolids();
+  readTools(root, setup.world, setup.beliefs);
+  beliefs.readFrames();
+  world.readErrors();
+  beliefs.readParameters();
+  beliefs.readAnswers();
+  root.finish();
+  if (diagnostics.size() > before) return std::nullopt;
+  setup.beliefs.technology = believedTechnology(setup.world.truth.machine);
+  setup.beliefs.toolProbe = believedToolProbe(setup.world);
+  return setup;
+}
+
+std::optional<Setup> readSetup(const std::filesystem::path& path, Diagnostics& diagnostics,
+                               const session::ControlFamilies& families) {
+  auto text = readFile(path, largestText);
+  if (!text) {
+    diagnostics.push_back(std::move(text.error()));
+    return std::nullopt;
+  }
+  return parseSetup(*text, path.string(), diagnostics, families);
+}
+
+}  // namespace probewright::setup

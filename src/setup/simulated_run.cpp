@@ -1,0 +1,70 @@
+#include "setup/simulated_run.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "simulation/cad_solid.hpp"
+#include "simulation/mesh_solid.hpp"
+
+namespace probewright::setup {
+
+namespace {
+
+/// What a part lacks: the probe may enter where a triangle or a face is missing.
+void warnOfParts(const simulation::Truth& truth, const std::string& file, Diagnostics& diagnostics) {
+  for (const simulation::PlacedSolid& placed : truth.solids) {
+    if (const auto* cad = dynamic_cast<const simulation::CadSolid*>(placed.solid.get())) {
+      diagnostics.insert(diagnostics.end(), cad->remarks().begin(), cad->remarks().end());
+      continue;
+    }
+    const auto* mesh = dynamic_cast<const simulation::MeshSolid*>(placed.solid.get());
+    if (mesh == nullptr || mesh->isClosed()) continue;
+    diagnostics.push_back({Severity::Warning,
+                           {file, 0, 0},
+                           fmt::format("the surface of \"{}\" is not closed: triangles are missing", placed.name),
+                           {},
+                           "the probe meets only the triangles there are; export the part again as one solid body",
+                           {}});
+  }
+}
+
+SimulatedRun runPrepared(session::PreparedProgram prepared, const Setup& setup, const MachineOptions& options) {
+  SimulatedRun run;
+  if (!hasErrors(prepared.diagnostics)) {
+    simulation::ImportOptions import = options.import;
+    import.stop = prepared.options->stop;
+    auto machine = simulation::buildMachine(setup.world, import);
+    if (machine) {
+      run.machine = std::move(*machine);
+      run.machine->recordPath(options.recordPath);
+      warnOfParts(run.machine->truth(), setup.world.file, prepared.diagnostics);
+    } else {
+      prepared.diagnostics.push_back(machine.error());
+    }
+  }
+  run.outcome = run.machine ? session::run(std::move(prepared), *run.machine) : session::notRun(std::move(prepared));
+  records::RunInfo& info = run.outcome.info;
+  info.setupPath = setup.world.file;
+  info.seed = setup.world.truth.seed;
+  for (const simulation::WorldSolid& solid : setup.world.solids) {
+    if (solid.role != simulation::SolidRole::Part) continue;
+    info.partName = solid.name;
+    info.partPath = solid.source.file.string();
+  }
+  return run;
+}
+
+}  // namespace
+
+SimulatedRun runProgram(const std::filesystem::path& program, const Setup& setup, const session::RunOptions& options,
+                        const MachineOptions& machine) {
+  return runPrepared(session::prepareProgram(program, setup.beliefs, options), setup, machine);
+}
+
+SimulatedRun runText(const std::string& name, std::string text, const Setup& setup, const session::RunOptions& options,
+                     const MachineOptions& machine) {
+  return runPrepared(session::prepareText(name, std::move(text), setup.beliefs, options), setup, machine);
+}
+
+}  // namespace probewright::setup

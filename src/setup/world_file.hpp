@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/toml_table.hpp"
+#include "simulation/world.hpp"
+
+/// The true half of a setup file.
+namespace probewright::setup {
+
+/// Reads what is true, section by section, into `world`; the machine comes first. Relative paths count from `folder`;
+/// the files that the setup names are added to `inputs`.
+class WorldReader {
+public:
+  WorldReader(TomlReader& root, std::filesystem::path folder, simulation::World& world,
+              std::vector<std::filesystem::path>& inputs)
+      : root_(root), folder_(std::move(folder)), world_(world), inputs_(inputs) {}
+
+  void readMachine();
+  void readSeed();
+  /// [part], [[fixture]], [ring], [sphere], [gauge_block] and [tool_probe].
+  void readSolids();
+  void readErrors();
+
+private:
+  std::filesystem::path resolve(const std::string& path) const {
+    return std::filesystem::path(path).is_absolute() ? std::filesystem::path(path) : folder_ / path;
+  }
+  const machine::MachineDescription& machine() const { return world_.truth.machine; }
+  void loadMachine(const std::string& name, TomlReader& reader, std::string_view key);
+  void readStart(TomlReader& reader);
+  void readSolid(TomlReader& reader, simulation::SolidRole role, std::string defaultName, const char* featureTable);
+  void placeGauge(simulation::SolidRecipe recipe, TomlReader& reader, std::string name, simulation::SolidRole role);
+  void readGauges();
+  void readToolProbes();  ///< one table, or several
+  void addToolProbe(TomlReader& reader);
+  Vector3 travelDirection(std::size_t axis) const;
+  void readAxisErrors(TomlReader& reader, std::size_t axis);
+
+  TomlReader& root_;
+  std::filesystem::path folder_;
+  simulation::World& world_;
+  std::vector<std::filesystem::path>& inputs_;
+};
+
+}  // namespace probewright::setup

@@ -1,0 +1,117 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "machine/machine_file.hpp"
+#include "session/run.hpp"
+#include "support/scripted_machine.hpp"
+
+/// Whole runs through the session on a machine that is no simulation: this program links none.
+namespace probewright::session {
+namespace {
+
+using control::ControlKind;
+using testing::HasSubstr;
+using testing_support::ScriptedMachine;
+
+/// Probe T1 (length 100, ball radius 2) in the spindle; the workpiece lies at Z-400: the axis Z reads 300 less than the
+/// program has.
+control::Beliefs probeAbove(ControlKind kind) {
+  control::Beliefs beliefs;
+  beliefs.file = "beliefs.toml";
+  beliefs.control = kind;
+  control::BelievedTool tool;
+  tool.number = 1;
+  tool.name = "PROBE";
+  tool.kind = "probe";
+  tool.length = 100;
+  tool.radius = tool.axialRadius = 2;
+  tool.inSpindle = true;
+  beliefs.tools.push_back(tool);
+  control::BelievedFrame frame;
+  frame.index = 1;
+  frame.origin = {0, 0, -400};
+  frame.active = true;
+  (kind == ControlKind::TNC640 ? beliefs.presets : beliefs.zeroOffsets).push_back(frame);
+  return beliefs;
+}
+
+/// A machine whose changer has put the probe in, and whose ball in a bore of 40 mm about (x, y) signals on its ways out
+/// from the origin, in the order of `ways`: the axis, and the sign of its way.
+ScriptedMachine boreMachine(double x, double y, const std::vector<std::pair<std::size_t, int>>& ways) {
+  ScriptedMachine machine(*machine::readMachine("mill3"));
+  machine.changeTool({1, "PROBE"});
+  const double reach = 20 - 2;
+  for (const auto& [axis, sign] : ways) {
+    const double along = std::sqrt(reach * reach - (axis == 0 ? y * y : x * x));
+    machine.signals.push_back(ScriptedMachine::Signal{axis, (axis == 0 ? x : y) + sign * along});
+  }
+  return machine;
+}
+
+TEST(WholeRun, OfKlartextLeavesTablesAndResults) {
+  ScriptedMachine machine = boreMachine(0.3, -0.2, {{0, 1}, {1, 1}, {0, -1}, {1, -1}});
+  const control::Beliefs beliefs = probeAbove(ControlKind::TNC640);
+  const std::string program =
+      "BEGIN PGM BORE MM\n"
+      "TOOL CALL 1 Z\n"
+      "L X+0 Y+0 Z+20 R0 FMAX\n"
+      "TCH PROBE 412 PRESET INSIDE CIRCLE ~\n"
+      "Q321=+0 Q322=+0 Q262=+40 Q325=+0 Q247=+90 Q261=-5 Q320=+2 Q260=+20 Q301=+0 Q305=+3 Q331=+0 Q332=+0 Q303=+1 ~\n"
+      "Q381=+0 Q382=+0 Q383=+0 Q384=+0 Q333=+0 Q423=+4 Q365=+1\n"
+      "END PGM BORE MM\n";
+  const RunOutcome outcome = runText("BORE.H", program, beliefs, machine, {});
+  ASSERT_EQ(outcome.info.exit, records::ExitState::Good) << outcome.info.exitText;
+  EXPECT_NEAR(outcome.variable("Q151"), 0.3, 1e-9);
+  EXPECT_NEAR(outcome.variable("Q152"), -0.2, 1e-9);
+  EXPECT_NEAR(outcome.variable("Q153"), 40, 1e-9);
+  EXPECT_THAT(outcome.files.at("PRESET.PR"), HasSubstr("0.3"));
+  EXPECT_THAT(outcome.files.at("TOOL.T"), HasSubstr("PROBE"));
+  EXPECT_EQ(outcome.info.machine, machine.description().name);
+  EXPECT_EQ(outcome.info.seed, std::nullopt) << "only the builder of a machine knows of random effects";
+  EXPECT_EQ(outcome.machineFromWorkpiece->translation(), Vector3(0, 0, -400));
+}
+
+TEST(WholeRun, OfASinumerikLeavesDataAndResults) {
+  ScriptedMachine machine = boreMachine(0.3, -0.2, {{0, -1}, {0, 1}, {1, -1}, {1, 1}});
+  const control::Beliefs beliefs = probeAbove(ControlKind::Sinumerik840Dsl);
+  const std::string program =
+      "G17 G54 G90\nT1 D1\nG0 X0 Y0 Z-5\n"
+      "CYCLE977(101,10001,,1,40,,,8,4,0,,,,1,1,\"\",,0,,0,0,,,,,1,)\n"
+      "R5=_OVR[4]\n"
+      "M30\n";
+  const RunOutcome outcome = runText("BORE.MPF", program, beliefs, machine, {});
+  ASSERT_EQ(outcome.info.exit, records::ExitState::Good) << outcome.info.exitText;
+  ASSERT_EQ(outcome.journal.cycles.size(), 1u);
+  EXPECT_EQ(outcome.journal.cycles[0].touches.size(), 4u);
+  EXPECT_NEAR(outcome.variable("R5"), 40, 1e-3);
+  EXPECT_TRUE(std::isnan(outcome.variable("R6")));
+  EXPECT_THAT(outcome.files.at("FRAMES.UFR"), HasSubstr("$P_UIFR[1]"));
+  EXPECT_THAT(outcome.files.at("TOOLS.TOA"), HasSubstr("PROBE"));
+}
+
+TEST(WholeRun, WithMistakesMovesNothing) {
+  ScriptedMachine machine(*machine::readMachine("mill3"));
+  const control::Beliefs beliefs = probeAbove(ControlKind::TNC640);
+  const std::string program = "BEGIN PGM WRONG MM\nL X+10 FMAX\nLL Y+3\nEND PGM WRONG MM\n";
+  const RunOutcome outcome = runText("WRONG.H", program, beliefs, machine, {});
+  EXPECT_EQ(outcome.info.exit, records::ExitState::InputMistake);
+  ASSERT_FALSE(outcome.diagnostics.empty());
+  EXPECT_EQ(outcome.diagnostics.front().place.line, 3u);
+  EXPECT_TRUE(machine.lines.empty());
+}
+
+TEST(WholeRun, EndsWithAnAlarmThatNamesTheMachinesReason) {
+  ScriptedMachine machine = boreMachine(0, 0, {});
+  machine.events[0] = {machine::MoveEnd::Collision, 0.5};
+  const control::Beliefs beliefs = probeAbove(ControlKind::TNC640);
+  const RunOutcome outcome =
+      runText("HIT.H", "BEGIN PGM HIT MM\nTOOL CALL 1 Z\nL X+10 R0 FMAX\nEND PGM HIT MM\n", beliefs, machine, {});
+  EXPECT_EQ(outcome.info.exit, records::ExitState::Stopped);
+  EXPECT_THAT(outcome.info.exitText, HasSubstr("as the script has it"));
+}
+
+}  // namespace
+}  // namespace probewright::session
