@@ -10,6 +10,7 @@
 #include "conversion/to_sinumerik.hpp"
 #include "cycles/catalogue.hpp"
 #include "cycles/heidenhain/call_rules.hpp"
+#include "cycles/heidenhain/registry.hpp"
 #include "geometry/primitives.hpp"
 
 /// Touch probe cycles of HEIDENHAIN programs as measuring cycles of a SINUMERIK.
@@ -124,7 +125,9 @@ void ToSinumerik::cycle(const Block& block, const CycleCall& cycle) {
 }
 
 void ToSinumerik::listForbiddenFrame(const Block& block, int cycle) {
-  const cycles::heidenhain::ForbiddenTransformations forbidden = cycles::heidenhain::forbiddenTransformations(cycle);
+  const cycles::heidenhain::Entry* entry = cycles::heidenhain::findEntry(cycle);
+  if (entry == nullptr) return;
+  const auto forbidden = cycles::heidenhain::forbiddenTransformations(entry->conditions);
   const bool shifted = std::ranges::any_of(frame_.shift, [](const Quantity& each) { return !(each == 0); });
   const bool turned = frame_.rotation && !(*frame_.rotation == 0);
   if (!frame_.known || !((forbidden.shift && shifted) || (forbidden.rotation && turned))) return;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "control/sinumerik/tool_data.hpp"
-#include "cycles/sinumerik/cycle_116.hpp"
+#include "cycles/sinumerik/circle_through_points.hpp"
 #include "execution/sinumerik/global_data.hpp"
 #include "language/sinumerik/check.hpp"
 #include "language/sinumerik/program.hpp"
