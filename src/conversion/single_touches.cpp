@@ -147,6 +147,10 @@ void ToKlartext::measuringBlock(const Block& block, const Command& command) {
   const auto words = std::span<const Word>(block.words).subspan(command.words.first, command.words.count);
   std::array<Quantity, 3> way;
   std::optional<Quantity> feed;
+  if (!(quantity(block, words[0].value) == 1)) {
+    throw NotCarriedOver("TCH PROBE 4 waits for the touch probe in the spindle to be deflected, as MEAS=1 does",
+                         "write it by hand");
+  }
   for (const Word& word : words.subspan(1)) {
     const std::string name = addressName(word.address);
     if (name == "F") {

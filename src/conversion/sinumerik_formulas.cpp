@@ -28,6 +28,7 @@ constexpr int firstControlParameter = 100;
 constexpr int toolRadius = 108;
 constexpr int toolLength = 114;
 constexpr int firstResult = 115;
+constexpr int firstSpaceAngle = 120, lastSpaceAngle = 122;  ///< of the tilted working plane
 
 /// "SIN"; empty if there is no such function of one argument.
 std::string_view functionName(Function function) {
@@ -85,7 +86,7 @@ std::string SinumerikFormulas::variable(const VariableRef& variable) {
       // Tool data count in millimetres.
       if (number == toolRadius) return inch_ ? "($P_TOOLR/25.4)" : "$P_TOOLR";
       if (number == toolLength) return inch_ ? "($P_TOOLL[1]/25.4)" : "$P_TOOLL[1]";
-      if (number < firstResult) {
+      if (number < firstResult || (number >= firstSpaceAngle && number <= lastSpaceAngle)) {
         throw NotCarriedOver(fmt::format("the control itself fills Q{}", number),
                              "take the value from a system variable of the SINUMERIK by hand");
       }

@@ -63,6 +63,7 @@ void ToKlartext::surveyShift(const Block& block, const Instruction& instruction)
 
 void ToKlartext::survey() {
   usedResults_ = job_.results;
+  bool moved = false;
   Block block;
   for (BlockPosition at = program_.begin(); program_.parse(at, block, result_.mistakes); at = block.next) {
     if (block.at(block.source).find(sharedParametersRemark) != std::string_view::npos) formulas_.knowSharedParameters();
@@ -77,7 +78,11 @@ void ToKlartext::survey() {
       const auto* modal = std::get_if<Modal>(&instruction);
       const std::string_view name = modal == nullptr ? std::string_view() : block.at(modal->name);
       surveyShift(block, instruction);
-      if (name == "G70" || name == "G700") millimetre_ = 1 / millimetresOfInch;
+      moved = moved || std::holds_alternative<Move>(instruction) || std::holds_alternative<CallProgram>(instruction);
+      if (name == "G70" || name == "G700") {
+        millimetre_ = 1 / millimetresOfInch;
+        movesBeforeUnit_ = movesBeforeUnit_ || moved;
+      }
     }
   }
   Diagnostics ignored;
@@ -218,6 +223,7 @@ void ToKlartext::changeTool() {
     throw NotCarriedOver("the tool axis depends on the path that leads to this block",
                          "program G17, G18 or G19 before it");
   line(fmt::format("TOOL CALL {} {}", pendingTool_, toolAxis_));
+  withoutLength_ = false;
   tool_ = std::exchange(pendingTool_, {});
   forgetPosition();
 }
@@ -253,6 +259,10 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
     out_.list(block, "G70 leaves feeds and system variables in millimetres; in an INCH program they are inches",
               "use G700, or convert the feeds by hand");
   }
+  if ((name == "G70" || name == "G700") && std::exchange(movesBeforeUnit_, false)) {
+    out_.list(block, "what moves above this block counts as the control begins, in an INCH program in inches",
+              "select inches at the beginning of the program");
+  }
   static constexpr std::array<std::string_view, 12> silent = {"G60", "G64",    "G71", "G710",  "G70", "G700",
                                                               "G94", "DIAMOF", "CFC", "CFTCP", "G9",  "G601"};
   if (std::ranges::find(silent, name) != silent.end()) return;
@@ -285,6 +295,7 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
     line(fmt::format("TOOL CALL S{}", formulas_.unsignedValue(quantity(block, words[0].value))));
   } else if (name == "D" && words.size() == 1) {
     const Quantity edge = quantity(block, words[0].value);
+    withoutLength_ = edge.isNumber() ? std::optional(edge == 0) : std::nullopt;
     if (!(edge == 1 || edge == 0)) out_.lose(block, fmt::format("D{}", sinumerikText(edge)));
   } else {
     throw NotCarriedOver(fmt::format("{} has no twin in Klartext", name), "write it by hand");

@@ -50,6 +50,7 @@ private:
     std::optional<double> rotation = 0;
     std::optional<int> row;
     std::optional<MeasuringTask::Log> log = MeasuringTask::Log::None;
+    std::optional<bool> withoutLength = false;  ///< D0 is in effect
     bool operator==(const Modes&) const = default;
   };
   /// Follows all ways through the program; where several meet, `entries_` has what all of them agree on.
@@ -128,6 +129,8 @@ private:
   // to_klartext_moves.cpp
   void move(const language::Block& block, const language::Move& move);
   void arc(const language::Block& block, const language::Move& move, bool clockwise);
+  /// D1 and the like stand in the block.
+  bool callsEdge(const language::Block& block);
   std::string coordinate(const language::Block& block, const language::Word& word);
 
   // to_klartext_cycles.cpp
@@ -197,6 +200,8 @@ private:
   Conversion result_;
 
   // What the whole program tells.
+  std::optional<bool> withoutLength_ = false;  ///< D0 is in effect; empty: that depends on the way
+  bool movesBeforeUnit_ = false;               ///< something moves before the block that selects inches
   FlowGraph graph_;
   std::map<std::uint64_t, std::string> labels_;  ///< by the block's offset, where jumps and repetitions lead to
   std::set<std::string> usedLabels_;

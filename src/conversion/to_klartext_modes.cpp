@@ -81,6 +81,10 @@ void ToKlartext::follow(const Block& block, Modes& modes) const {
         modes.compensation = name == "G40" ? "R0" : name == "G41" ? "RL" : "RR";
       }
       if (const auto row = settableOf(name)) modes.row = *row;
+      if (name == "D" && modal->words.count == 1) {
+        const auto edge = literalOf(block, block.words[modal->words.first].value);
+        modes.withoutLength = edge ? std::optional(*edge == 0) : std::nullopt;
+      }
     } else if (const auto* move = std::get_if<Move>(&instruction)) {
       if (move->kind != MoveKind::Modal) modes.motion = move->kind;
       if (move->compensation != RadiusCompensation::Unchanged) {
@@ -88,6 +92,8 @@ void ToKlartext::follow(const Block& block, Modes& modes) const {
                              : move->compensation == RadiusCompensation::Left ? "RL"
                                                                               : "RR";
       }
+    } else if (const auto* function = std::get_if<MachineFunction>(&instruction)) {
+      if (function->number == 6) modes.withoutLength = false;
     } else if (const auto* transform = std::get_if<Transform>(&instruction)) {
       followTransform(block, *transform, modes);
     } else if (const auto* call = std::get_if<CallProgram>(&instruction)) {
@@ -114,6 +120,7 @@ bool ToKlartext::agree(Modes& with, const Modes& other) {
   meet(with.rotation, other.rotation);
   meet(with.row, other.row);
   meet(with.log, other.log);
+  meet(with.withoutLength, other.withoutLength);
   return !(with == before);
 }
 
@@ -168,7 +175,7 @@ bool ToKlartext::isNeutral(const Block& block) const {
   modes.rotation = 0.0123456789;
   modes.row = -1;
   for (const bool incremental : {false, true}) {
-    modes.incremental = incremental;
+    modes.incremental = modes.withoutLength = incremental;
     Modes left = modes;
     follow(block, left);
     if (!(left == modes)) return false;
@@ -222,6 +229,7 @@ void ToKlartext::adopt(const Block& block) {
   take(compensation_, compensationDoubtful_, modes.compensation);
   take(log_, logDoubtful_, modes.log);
   activeRow_ = modes.row;
+  withoutLength_ = modes.withoutLength;
   frame_ = {.known = modes.shift.has_value(),
             .shift = {},
             .rotation = modes.rotation ? std::optional(Quantity(*modes.rotation)) : std::nullopt};

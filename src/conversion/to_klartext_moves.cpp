@@ -49,6 +49,14 @@ std::string ToKlartext::coordinate(const Block& block, const Word& word) {
   return fmt::format(" {}{}{}", incremental ? "I" : "", addressName(word.address), formulas_.value(value));
 }
 
+bool ToKlartext::callsEdge(const Block& block) {
+  return std::ranges::any_of(block.instructions, [&](const Instruction& instruction) {
+    const auto* modal = std::get_if<Modal>(&instruction);
+    return modal != nullptr && block.at(modal->name) == "D" &&
+           !(quantity(block, block.words[modal->words.first].value) == 0);
+  });
+}
+
 void ToKlartext::move(const Block& block, const Move& move) {
   const auto words = std::span<const Word>(block.words).subspan(move.words.first, move.words.count);
   if (move.compensation != RadiusCompensation::Unchanged) {
@@ -74,6 +82,10 @@ void ToKlartext::move(const Block& block, const Move& move) {
     }
   }
   const auto given = [&](std::size_t index) { return find(words, axis(index)) != nullptr; };
+  if (!onMachine && given(2) && withoutLength_ != std::optional(false) && !callsEdge(block)) {
+    out_.list(block, "with D0 heights count without the length of the tool, on a HEIDENHAIN control always with it",
+              "program D1 before this block");
+  }
   const bool path = motion_ != MoveKind::Rapid && motion_ != MoveKind::Linear;
   for (std::size_t i = 0; i < 2; ++i) {
     if (!beside_[i] || (given(i) && !path) || (!given(1 - i) && !path) || words.empty()) continue;

@@ -103,6 +103,8 @@ private:
   void moveOnMachine(const language::Block& block, const language::Move& move);
   std::string axisWords(const language::Block& block, const language::Move& move);
   std::string centreWords() const;
+  /// Loses words of a path block that a SINUMERIK does not have.
+  void loseWords(const language::Block& block, const language::Move& move);
   std::string feedWord(const language::Block& block, const language::Move& move);
   std::string cornerWord(const language::Block& block, const language::Move& move);
   void wherePolar(const language::Block& block, const language::Move& move, Place& target);

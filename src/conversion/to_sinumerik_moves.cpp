@@ -42,6 +42,20 @@ std::string ToSinumerik::feedWord(const Block& block, const Move& move) {
   return fmt::format(" {}", addressWord("F", quantity(block, move.feed)));
 }
 
+void ToSinumerik::loseWords(const Block& block, const Move& move) {
+  if (move.autoFeed) out_.lose(block, "FAUTO: the feed that the tool was called with");
+  for (const Word& word : wordsOf(block, move.words)) {
+    const std::string name = addressName(word.address);
+    if (name == "FU" || name == "FZ" || name == "FT") {
+      out_.lose(block, fmt::format("{}: a feed per revolution, per tooth or as a time", name));
+    } else if (name.size() == 2 && (name[0] == 'N' || name[0] == 'T') && isAxis(static_cast<std::uint32_t>(name[1]))) {
+      out_.lose(block, fmt::format("{}: a vector of the surface or the tool", name));
+    } else if (name == "R" && word.mode == WordMode::DirectShortest) {
+      out_.lose(block, "R+, R-: radius compensation along the axes");
+    }
+  }
+}
+
 std::string ToSinumerik::axisWords(const Block& block, const Move& move) {
   std::string text;
   for (const Word& word : wordsOf(block, move.words)) {
@@ -114,7 +128,9 @@ std::string ToSinumerik::centreWords() const {
 std::string ToSinumerik::cornerWord(const Block& block, const Move& move) {
   const Word* size = find(wordsOf(block, move.words), "R");
   const Quantity value = size == nullptr ? Quantity() : quantity(block, size->value);
-  return fmt::format(" {}={}", move.kind == MoveKind::Rounding ? "RND" : "CHR", sinumerikText(value));
+  const std::string feed =
+      move.feed.present() ? fmt::format(" FRC={}", sinumerikText(quantity(block, move.feed))) : std::string();
+  return fmt::format(" {}={}{}", move.kind == MoveKind::Rounding ? "RND" : "CHR", sinumerikText(value), feed);
 }
 
 void ToSinumerik::moveOnMachine(const Block& block, const Move& move) {
@@ -131,6 +147,7 @@ void ToSinumerik::moveOnMachine(const Block& block, const Move& move) {
 
 void ToSinumerik::move(const Block& block, const Move& move) {
   if (move.kind == MoveKind::SetCentre) return setCentre(block, move);
+  loseWords(block, move);
   if (move.machineCoordinates || move.machineReference2) return moveOnMachine(block, move);
   if (move.kind == MoveKind::Rounding || move.kind == MoveKind::Chamfer) {
     if (lastMove_ == 0) throw NotCarriedOver("there is no path before this corner");

@@ -460,5 +460,45 @@ TEST(ConvertPromises, NamesVerdictsThatTheCycleDoesNotTell) {
   }
 }
 
+/// Words that the other control does not have, or that mean something else there, are named.
+TEST(ConvertPromises, NamesWordsThatWouldLeadElsewhere) {
+  const auto toKlartext = [](const std::string& text) {
+    return converted(text, ProgramLanguage::Sinumerik).notCarriedOver;
+  };
+  // D0 takes the length of the tool out of every height that follows.
+  EXPECT_TRUE(toKlartext(sinumerikProgram("SUPA G0 Z0 D0\nG0 X5 Y5\nD1\nG0 Z60\n")).empty());
+  EXPECT_TRUE(toKlartext(sinumerikProgram("SUPA G0 Z0 D0\nG0 Z60 D1\n")).empty());
+  EXPECT_TRUE(toKlartext(sinumerikProgram("SUPA G0 Z0 D0\nT1 M6\nG0 Z60\n")).empty());
+  for (const char* blocks : {"SUPA G0 Z0 D0\nG0 X5 Y5\nG0 Z60\n", "D0\nG0 Z60\n", "IF R1>2\nD0\nENDIF\nG0 Z60\n"}) {
+    const Diagnostics named = toKlartext(sinumerikProgram(blocks));
+    ASSERT_EQ(named.size(), 1U) << blocks;
+    EXPECT_THAT(named[0].message, HasSubstr("D0"));
+  }
+  // MEAS=2 waits for the other probe.
+  EXPECT_TRUE(toKlartext(sinumerikProgram("G0 X0 Y0\nMEAS=1 G1 X5 F100\nG0 X0\n")).empty());
+  const Diagnostics other = toKlartext(sinumerikProgram("G0 X0 Y0\nMEAS=2 G1 X5 F100\nG0 X0 Y0\n"));
+  ASSERT_FALSE(other.empty());
+  EXPECT_THAT(other[0].message, HasSubstr("MEAS=1"));
+  // The whole Klartext program is in inches.
+  EXPECT_TRUE(toKlartext("G17 G90 G700\nT1 M6 D1\nG54\nG0 Z4\nM30\n").empty());
+  const Diagnostics late = toKlartext("G17 G90\nT1 M6 D1\nG54\nG0 Z100\nG700\nG0 Z3\nM30\n");
+  ASSERT_EQ(late.size(), 1U);
+  EXPECT_THAT(late[0].message, HasSubstr("INCH"));
+}
+
+TEST(ConvertPromises, NamesWordsOfPathsThatASinumerikDoesNotHave) {
+  for (const char* block : {"L X+5 FU0.2", "L X+5 FZ0.1", "L X+5 FAUTO", "LN X+5 Y+5 NX0 NY0 NZ1", "L X+5 R+"}) {
+    const session::Conversion there = toSinumerik(klartextProgram("L X+0 Y+0 R0 F500\n" + std::string(block) + "\n"));
+    EXPECT_FALSE(there.notCarriedOver.empty()) << block;
+  }
+  const session::Conversion corner =
+      toSinumerik(klartextProgram("L X+0 Y+0 R0 F500\nL X+20\nRND R3 F200\nL Y+20\nCHF 2 F150\nL X+0\n"));
+  EXPECT_TRUE(corner.notCarriedOver.empty());
+  EXPECT_THAT(corner.text, HasSubstr("RND=3 FRC=200"));
+  EXPECT_THAT(corner.text, HasSubstr("CHR=2 FRC=150"));
+  // The angles of a tilted plane are the control's own.
+  EXPECT_FALSE(toSinumerik(klartextProgram("Q1 = Q120\n")).notCarriedOver.empty());
+}
+
 }  // namespace
 }  // namespace probewright::testing_support
