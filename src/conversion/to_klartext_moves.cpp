@@ -76,7 +76,7 @@ void ToKlartext::move(const Block& block, const Move& move) {
   if (!onMachine && !variant.empty()) throw NotCarriedOver(fmt::format("{} has no twin in Klartext", variant));
   for (const Word& word : words) {
     const std::string address = addressName(word.address);
-    static constexpr std::array<std::string_view, 6> known = {"I", "J", "K", "CR", "RND", "CHR"};
+    static constexpr std::array<std::string_view, 7> known = {"I", "J", "K", "CR", "RND", "CHR", "FRC"};
     if (!isAxis(word.address) && std::ranges::find(known, address) == known.end()) {
       throw NotCarriedOver(fmt::format("{} in a motion block has no twin in Klartext", address));
     }
@@ -131,11 +131,14 @@ void ToKlartext::move(const Block& block, const Move& move) {
     default:
       throw NotCarriedOver("this path function has no twin in Klartext", "write lines and arcs");
   }
+  const Word* cornerFeed = find(words, "FRC");
+  const std::string slow =
+      cornerFeed == nullptr ? "" : fmt::format(" F{}", formulas_.unsignedValue(quantity(block, cornerFeed->value)));
   if (const Word* round = find(words, "RND")) {
-    line(fmt::format("RND R{}", formulas_.unsignedValue(quantity(block, round->value))));
+    line(fmt::format("RND R{}{}", formulas_.unsignedValue(quantity(block, round->value)), slow));
   }
   if (const Word* chamfer = find(words, "CHR")) {
-    line(fmt::format("CHF {}", formulas_.unsignedValue(quantity(block, chamfer->value))));
+    line(fmt::format("CHF {}{}", formulas_.unsignedValue(quantity(block, chamfer->value)), slow));
   }
 }
 

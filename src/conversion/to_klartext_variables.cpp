@@ -107,14 +107,19 @@ bool ToKlartext::selectsBeforeItMoves(const Block& block) {
            std::holds_alternative<MachineFunction>(instruction) ||
            (command != nullptr && std::ranges::find(silent, next.at(command->name)) != std::end(silent));
   };
+  const auto selects = [](const Block& each, const Instruction& instruction) {
+    const auto* modal = std::get_if<Modal>(&instruction);
+    return modal != nullptr && settableOf(each.at(modal->name));
+  };
+  if (std::ranges::any_of(block.instructions, [&](const Instruction& each) { return selects(block, each); }))
+    return true;
   Block next;
   Diagnostics ignored;
   for (std::size_t i = *own + 1; i < graph_.blocks().size(); ++i) {
     program_.parse(graph_.blocks()[i].position, next, ignored);
     if (trimmed(next.at(next.source)) == selectedAgain) return true;
     for (const Instruction& instruction : next.instructions) {
-      const auto* modal = std::get_if<Modal>(&instruction);
-      if (modal != nullptr && settableOf(next.at(modal->name))) return true;
+      if (selects(next, instruction)) return true;
       if (std::holds_alternative<EndProgram>(instruction)) return true;
       if (!isSilent(next, instruction)) return false;
     }

@@ -475,7 +475,7 @@ TEST(ConvertPromises, NamesWordsThatWouldLeadElsewhere) {
     EXPECT_THAT(named[0].message, HasSubstr("D0"));
   }
   // MEAS=2 waits for the other probe.
-  EXPECT_TRUE(toKlartext(sinumerikProgram("G0 X0 Y0\nMEAS=1 G1 X5 F100\nG0 X0\n")).empty());
+  EXPECT_TRUE(toKlartext(sinumerikProgram("G0 X0 Y0\nMEAS=1 G1 X5 F100\nG0 X0 Y0\n")).empty());
   const Diagnostics other = toKlartext(sinumerikProgram("G0 X0 Y0\nMEAS=2 G1 X5 F100\nG0 X0 Y0\n"));
   ASSERT_FALSE(other.empty());
   EXPECT_THAT(other[0].message, HasSubstr("MEAS=1"));
@@ -496,6 +496,10 @@ TEST(ConvertPromises, NamesWordsOfPathsThatASinumerikDoesNotHave) {
   EXPECT_TRUE(corner.notCarriedOver.empty());
   EXPECT_THAT(corner.text, HasSubstr("RND=3 FRC=200"));
   EXPECT_THAT(corner.text, HasSubstr("CHR=2 FRC=150"));
+  const session::Conversion back = converted(corner.text, ProgramLanguage::Sinumerik);
+  EXPECT_TRUE(back.notCarriedOver.empty());
+  EXPECT_THAT(back.text, HasSubstr("RND R3 F200"));
+  EXPECT_THAT(back.text, HasSubstr("CHF 2 F150"));
   // The angles of a tilted plane are the control's own.
   EXPECT_FALSE(toSinumerik(klartextProgram("Q1 = Q120\n")).notCarriedOver.empty());
 }
