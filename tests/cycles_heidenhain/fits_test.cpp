@@ -66,7 +66,7 @@ TEST(FitRecord, TellsTheFormOfAHoleThatIsNotRound) {
 TEST(FitRecord, CountsRepeatedTouchesOnce) {
   Bench bench(ControlKind::iTNC530);
   bench.preset(1, {0, 0, -400});
-  bench.setup.parameters["MP6170"] = {3.0, {}};
+  bench.setup.beliefs.parameters["MP6170"] = {3.0, {}};
   bench.part(simulation::Ring(15, 40, -30), pose({0, 0, -400}));
   const Ran ran = bench.run(probe(412, {{321, 0},
                                         {322, 0},
