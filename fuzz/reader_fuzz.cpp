@@ -14,6 +14,7 @@
 #include "session/answers.hpp"
 #include "session/heidenhain/beliefs.hpp"
 #include "session/sinumerik/beliefs.hpp"
+#include "setup/setup.hpp"
 
 using namespace probewright;
 using namespace probewright::control::heidenhain;
@@ -89,16 +90,16 @@ void answers(std::string_view text) {
 
 void parameters(std::string_view text) {
   Diagnostics diagnostics;
-  const auto setup = setup::parseSetup(text, "setup.toml", diagnostics);
-  if (!setup) return;
+  const auto read = probewright::setup::parseSetup(text, "setup.toml", diagnostics);
+  if (!read) return;
   for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
     Diagnostics mistakes;
-    const MachineParameters read = session::machineParameters(setup->beliefs, kind, mistakes);
+    const MachineParameters values = session::machineParameters(read->beliefs, kind, mistakes);
     requireTexts(mistakes);
-    require(read.mp6160 >= -1 && read.maxTouchFeed >= 0);
+    require(values.mp6160 >= -1 && values.maxTouchFeed >= 0);
   }
   Diagnostics mistakes;
-  session::sinumerikData(setup->beliefs, mistakes);
+  session::sinumerikData(read->beliefs, mistakes);
   requireTexts(mistakes);
 }
 
