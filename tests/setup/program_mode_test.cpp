@@ -186,6 +186,7 @@ TEST(Lathe, BeginsWithG18AndDiameters) {
   setup::Setup setup;
   setup.beliefs.control = control::ControlKind::Sinumerik840Dsl;
   setup.world.truth = perfectWorld("lathe2c");
+  setup.beliefs.technology = control::Technology::Turning;
   const char* program = "G0 X100 Z300\nR1=$AA_IM[X] R2=$P_GG[6] R3=$P_GG[29]\nM30\n";
   const std::string radii = runText("A.MPF", program, setup, {}).outcome.files.at("DATA.INI");
   EXPECT_NE(radii.find("R1=50\n"), std::string::npos) << radii;
