@@ -134,7 +134,6 @@ TEST(Check, AsksWhetherANearlyKnownWordWasMeant) {
   EXPECT_EQ(advice("FUNCTION MODE TURNN"), "TURN");
   EXPECT_EQ(advice("PRESET SELCT #1"), "SELECT");
   EXPECT_EQ(advice("SEL TABEL \"A.D\""), "TABLE");
-  EXPECT_EQ(advice("TOOL CALLL 1 Z"), "CALL") << "the word goes on";
   EXPECT_EQ(advice("TCH PROB 412"), "PROBE");
   EXPECT_EQ(advice("L X+1 RO FMAX"), "R0, with a zero");
 }
