@@ -54,12 +54,15 @@ constexpr std::uint16_t edge = 1 << 5, face = 1 << 6;
 
 constexpr std::array results998 = joined(
     std::array{
+        ResultDefinition{"_OVR[0]", {"set ", "angle of the edge"}, result::set(of::angle), edge},
         ResultDefinition{"_OVR[0]", {"set ", "angle of the plane about the 1st axis"}, result::set(of::angle1), face},
         ResultDefinition{"_OVR[1]", {"set ", "angle of the plane about the 2nd axis"}, result::set(of::angle2), face},
+        ResultDefinition{"_OVR[4]", {"actual ", "angle of the edge"}, result::actual(of::angle).main(), edge},
         ResultDefinition{
             "_OVR[4]", {"actual ", "angle of the plane about the 1st axis"}, result::actual(of::angle1).main(), face},
         ResultDefinition{
             "_OVR[5]", {"actual ", "angle of the plane about the 2nd axis"}, result::actual(of::angle2).main(), face},
+        ResultDefinition{"_OVR[16]", {"difference of the ", "angle of the edge"}, result::difference(of::angle), edge},
         ResultDefinition{"_OVR[16]",
                          {"difference of the ", "plane's angle about the 1st axis"},
                          result::difference(of::angle1),
