@@ -2,17 +2,15 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 namespace probewright::control {
 
-/// The controls that programs are written for. SINUMERIK 828D runs the same measuring cycles as the 840D sl.
+/// The controls that programs are written for; session/control_family.hpp says of which family they are. SINUMERIK 828D
+/// runs the same measuring cycles as the 840D sl.
 enum class ControlKind : std::uint8_t { TNC640, iTNC530, Sinumerik840Dsl };
 
 inline constexpr std::array allControlKinds = {ControlKind::TNC640, ControlKind::iTNC530, ControlKind::Sinumerik840Dsl};
-
-constexpr bool isHeidenhain(ControlKind kind) { return kind != ControlKind::Sinumerik840Dsl; }
 
 /// "TNC640", "iTNC530", "840Dsl".
 constexpr std::string_view name(ControlKind kind) {
@@ -26,9 +24,6 @@ constexpr std::string_view name(ControlKind kind) {
   }
   return "840Dsl";
 }
-
-/// The control called `text` (case, blanks and hyphens do not matter; "828D" is the 840Dsl), or nothing.
-std::optional<ControlKind> controlKindOf(std::string_view text);
 
 /// A set of controls.
 struct ControlSet {
