@@ -56,6 +56,9 @@ struct BelievedFrame {
 struct BelievedToolProbe {
   Vector3 centre = Vector3::Zero();  ///< mm, machine coordinates, of the upper face of its contact
   double width = 0;                  ///< mm, of the contact in X: its diameter or edge; 0: nobody knows
+  double widthY = 0;                 ///< mm, in Y
+  double pretravel = 0;              ///< mm, by which calibrating has found it lower and narrower
+  bool cuboid = false;
 };
 
 /// A machine parameter or setting datum, passed on to the control as it is written.

@@ -47,7 +47,7 @@ void ToolProber::approach(const Vector3& target) {
   moveTo(target);
 }
 
-Vector3 ToolProber::stroke(const Vector3& direction) {
+ToolTouch ToolProber::stroke(const Vector3& direction) {
   const Vector3 start = tip();
   const Vector3 startInProgram = channel_.position();
   const Vector3 end = channel_.frame().inverse() * Vector3(start + probe_.reach * direction);
@@ -68,7 +68,7 @@ Vector3 ToolProber::stroke(const Vector3& direction) {
       fail("no contact", "Touch point inaccessible",
            fmt::format("The tool touch probe was not deflected within {:.3f} mm; the {}", probe_.reach,
                        control::stoppedPlace(channel_)),
-           "check the position of the tool touch probe (MP6580) and the tool's length and radius");
+           "check the position of the tool touch probe (centerPos, MP6580) and the tool's length and radius");
       break;
     case MeasureEnd::DeflectedAtStart:
       fail(
@@ -97,20 +97,27 @@ Vector3 ToolProber::stroke(const Vector3& direction) {
   record.seconds = channel_.seconds();
   record.outcome = "touched";
   channel_.journal().touch(record);
-  return channel_.machineFromAxes(touch.latched);
+  return {channel_.machineFromAxes(touch.latched), result.spindleAngle};
 }
 
-Vector3 ToolProber::touchTop(const Vector2& offset) {
+ToolTouch ToolProber::touchTop(const Vector2& offset) {
   approach(probe_.place + inPlane(0, offset.x()) + inPlane(1, offset.y()) + inPlane(2, probe_.clearance));
   return stroke(inPlane(2, -1));
 }
 
-Vector3 ToolProber::touchSide(int axis, int sense, double toolRadius, double depth) {
-  const double away = probe_.size / 2 + toolRadius + probe_.clearance;
-  approach(probe_.place + inPlane(axis, -sense * away) + inPlane(2, -depth));
-  const Vector3 touched = stroke(inPlane(axis, sense));
+ToolTouch ToolProber::touchSide(int axis, int sense, double toolRadius, double depth, double aside) {
+  const double away = (axis == 0 ? probe_.size : probe_.size2) / 2 + toolRadius + probe_.clearance;
+  approach(probe_.place + inPlane(axis, -sense * away) + inPlane(1 - axis, aside) + inPlane(2, -depth));
+  const ToolTouch touched = stroke(inPlane(axis, sense));
   rise();
   return touched;
+}
+
+void ToolProber::centre() {
+  rise();
+  Vector3 above = probe_.place;
+  above[plane_.tool] = std::max(tip()[plane_.tool], height_);
+  moveTo(above);
 }
 
 }  // namespace probewright::probing

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "control/channel.hpp"
 #include "control/working_plane.hpp"
 
@@ -11,7 +13,8 @@ using control::WorkingPlane;
 /// The tool touch probe as the control knows it. Machine coordinates (X, Y, Z), mm and mm/min.
 struct ToolTouchProbe {
   Vector3 place = Vector3::Zero();  ///< middle of the upper edge of its contact
-  double size = 40;                 ///< diameter or edge length of the contact
+  double size = 40;                 ///< diameter or edge length of the contact, along the main axis
+  double size2 = 40;                ///< the same along the minor axis
   double depth = 5;                 ///< of the tool's lower end below the upper edge in radial probing
   double clearance = 5;             ///< about the contact
   double reach = 50;                ///< longest stroke
@@ -19,8 +22,14 @@ struct ToolTouchProbe {
   double rapid = 2000;              ///< near the contact
 };
 
+/// The tip of a tool when the tool touch probe signalled, machine coordinates.
+struct ToolTouch {
+  Vector3 tip = Vector3::Zero();
+  std::optional<double> spindleAngle;  ///< degrees then, where the machine says it
+};
+
 /// Leads the tip of a tool to the contact and back. Positions are the tip's in machine coordinates; main, minor and
-/// tool axis are those of the working plane. Touches are made with a stationary spindle.
+/// tool axis are those of the working plane. The spindle stands or turns as the caller has ordered.
 class ToolProber {
 public:
   /// `clearanceHeight`: machine coordinate along the tool axis between the touches; it is raised to the clearance above
@@ -31,16 +40,22 @@ public:
   void rise();
   /// From above onto the contact, the tool's axis beside its middle by `offset` in the plane. Returns the tip at the
   /// signal; the tool is back at the clearance in front of the contact. Throws Alarm.
-  Vector3 touchTop(const Vector2& offset);
+  ToolTouch touchTop(const Vector2& offset);
   /// Against the side of the contact along main (0) or minor axis (1) in the direction `sense` (+1, -1), the tool's
-  /// lower end `depth` below the upper edge, starting `toolRadius` and the clearance in front of it. Ends at the
-  /// clearance height.
-  Vector3 touchSide(int axis, int sense, double toolRadius, double depth);
+  /// lower end `depth` below the upper edge, starting `toolRadius` and the clearance in front of it and `aside` along
+  /// the other axis from the middle. Ends at the clearance height.
+  ToolTouch touchSide(int axis, int sense, double toolRadius, double depth, double aside = 0);
+  /// To the clearance height above the middle of the contact.
+  void centre();
+  /// mm/min, of the touches that follow.
+  void setFeed(double feed) { probe_.feed = feed; }
+  /// Where the middle of the upper edge is taken to be from now on.
+  void setPlace(const Vector3& place) { probe_.place = place; }
 
 private:
   void moveTo(const Vector3& tip);
   void approach(const Vector3& tip);
-  Vector3 stroke(const Vector3& direction);
+  ToolTouch stroke(const Vector3& direction);
   Vector3 tip() const;
   Vector3 inPlane(int axis, double value) const;
 

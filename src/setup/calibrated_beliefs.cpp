@@ -25,17 +25,16 @@ void believeShape(control::BelievedTool& believed, const simulation::TrueProbe& 
 }
 
 std::optional<control::BelievedToolProbe> believedToolProbe(const simulation::World& world) {
-  std::optional<control::BelievedToolProbe> believed;
-  for (const simulation::WorldSolid& solid : world.solids) {
-    if (solid.role != simulation::SolidRole::ToolProbe) continue;
-    believed.emplace();
-    believed->centre =
-        (machine::baseFromTable(world.truth.machine, world.truth.start) * solid.tableFromSolid) * Vector3::Zero();
-    if (!solid.source.recipe.features.empty()) {
-      const simulation::SolidFeature& plate = solid.source.recipe.features.front();
-      believed->width = plate.diameter > 0 ? plate.diameter : plate.size.x();
-    }
-  }
+  if (world.truth.toolProbes.empty()) return std::nullopt;
+  const simulation::TrueToolProbe& probe = world.truth.toolProbes.front();
+  const simulation::Bounds bounds = probe.contact->bounds();
+  control::BelievedToolProbe believed;
+  believed.centre =
+      (machine::baseFromTable(world.truth.machine, world.truth.start) * probe.tableFromContact) * Vector3::Zero();
+  believed.width = bounds.maximum.x() - bounds.minimum.x();
+  believed.widthY = bounds.maximum.y() - bounds.minimum.y();
+  believed.pretravel = probe.pretravel;
+  believed.cuboid = probe.cuboid;
   return believed;
 }
 

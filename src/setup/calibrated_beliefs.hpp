@@ -18,7 +18,7 @@ void believeAsCalibrated(control::BelievedTool& believed, const simulation::True
 /// stylus is made.
 void believeShape(control::BelievedTool& believed, const simulation::TrueProbe& probe);
 
-/// The tool touch probe as it was fitted at the start posture; nothing if the world has none.
+/// The first tool touch probe as it was fitted at the start posture, and calibrated; nothing if the world has none.
 std::optional<control::BelievedToolProbe> believedToolProbe(const simulation::World& world);
 
 /// A machine without an axis Y is a lathe.

@@ -134,7 +134,9 @@ double leastShare(const Value& value, int samples, double slack) {
     double high = static_cast<double>(std::min(i + 1, samples)) / samples;
     double a = high - golden * (high - low), b = low + golden * (high - low);
     double atA = value(a), atB = value(b);
-    for (int step = 0; step < 50; ++step) {
+    int settled = 0;
+    for (int step = 0; step < 50 && settled < 3; ++step) {
+      settled = std::abs(atA - atB) < 1e-12 ? settled + 1 : 0;
       if (atA < atB) {
         high = b;
         b = a;
@@ -157,8 +159,24 @@ double leastShare(const Value& value, int samples, double slack) {
   return share;
 }
 
-/// The point of a piece that comes nearest.
+/// At most as far as a turned piece is from the solid: by the distance of its axis.
+double leastGapOf(const EdgePiece& piece, const Pose& solidFromCutter, const DistanceSolid& solid) {
+  constexpr int samples = 4;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= samples; ++i) {
+    const Vector2 place = piece.meridian(static_cast<double>(i) / samples);
+    const double axis = solid.closest(solidFromCutter * Vector3(0, 0, place.y())).distance;
+    least = std::min(least, axis - std::abs(place.x()));
+  }
+  return least - std::numbers::sqrt2 * 0.5 * piece.length() / samples;
+}
+
+/// The point of a piece that comes nearest; far away, a gap that is not wider than the true one.
 EdgeDistance nearestOf(const EdgePiece& piece, const Pose& solidFromCutter, const DistanceSolid& solid) {
+  constexpr double far = 0.2;  // mm
+  if (piece.turned) {
+    if (const double gap = leastGapOf(piece, solidFromCutter, solid); gap > far) return {.gap = gap};
+  }
   const auto gapAt = [&](double share, double about) {
     return solid.closest(solidFromCutter * piece.at(share, about)).distance;
   };

@@ -54,8 +54,6 @@ constexpr std::array namedCases = {
     Case{"CYCL DEF 1.0 PECKING\nCYCL DEF 1.1 SET UP2\nCYCL DEF 1.2 DEPTH-5\nCYCL DEF 1.3 PECKG2\nCYCL DEF 1.4 DWELL0\n"
          "CYCL DEF 1.5 F100\nCYCL CALL",
          "Cycle 1 is not simulated and was skipped"},
-    Case{"TCH PROBE 481 CAL. TOOL LENGTH ~\n  Q340=+1",
-         "Touch probe cycle 481, which measures tools, is not simulated and was skipped"},
     Case{"TCH PROBE 584 LASER ~\n  Q350=+1",
          "Touch probe cycle 584, which is of the machine tool builder, is not simulated and was skipped"},
 };
@@ -84,9 +82,7 @@ TEST(NotCarriedOut, IsNamedInDinIsoToo) {
       Case{"N10 G203 DRILLING Q200=+2 *\nN20 G79 *", "Cycle 203 is not simulated and was skipped"},
       Case{"N10 G584 LASER Q350=+1 *",
            "Touch probe cycle 584, which is of the machine tool builder, is not simulated and was skipped"},
-      Case{"N10 G332 TUNING Q240=+1 *", "Cycle 332 is not simulated and was skipped"},
-      Case{"N10 G483 MEASURE TOOL Q340=+1 *",
-           "Touch probe cycle 483, which measures tools, is not simulated and was skipped"}};
+      Case{"N10 G332 TUNING Q240=+1 *", "Cycle 332 is not simulated and was skipped"}};
   for (const Case& each : cases) {
     World world("mill5-head-table");
     const auto program = std::make_shared<din_iso::DinIsoProgram>(

@@ -46,6 +46,19 @@ struct MachineParameters {
   double mp6540 = 5;
   double mp6550 = 2000;
   double mp6580x = 0, mp6580y = 0, mp6580z = 0;
+  // tool touch probe, both: MP6505, MP6507, MP6510, MP6570, MP6572 and their names on the TNC 640
+  int probingDirRadial = 0;
+  int probingFeedCalc = 0;
+  double measureTolerance1 = 0.005;
+  double maxPeriphSpeedMeas = 30;
+  double maxSpeed = 1000;
+  bool stopOnCheck = true;
+  int probingCapability = 0;
+  /// Calibration data of the tool touch probe: middle of the upper edge of its contact, machine coordinates, and half
+  /// its effective width along main and minor axis.
+  double contactX = 0, contactY = 0, contactZ = 0;
+  double contactRadius1 = 0, contactRadius2 = 0;
+  bool rectangularContact = false;
   // both: habits of Probewright where the manuals only warn
   bool refuseTransformations = true;
 };

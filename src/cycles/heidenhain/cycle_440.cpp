@@ -56,6 +56,7 @@ probing::ToolTouchProbe toolTouchProbe(Context& context) {
   }
   return {.place = place,
           .size = parameters.mp6531,
+          .size2 = parameters.mp6531,
           .depth = parameters.mp6530,
           .clearance = parameters.mp6540 + context.q(320),
           .reach = parameters.mp6130,
@@ -147,14 +148,14 @@ void run(Context& context, const Arguments&) {
   const double depth = contact.depth + tools.numberOr(control.tool.row, "L-OFFS", 0);
 
   Places places;
-  places[static_cast<std::size_t>(plane.tool)] = prober.touchTop({aside, 0})[plane.tool];
+  places[static_cast<std::size_t>(plane.tool)] = prober.touchTop({aside, 0}).tip[plane.tool];
   prober.rise();
   const std::array<int, 2> senses = sensesOf(directions);
   for (int i = 0; i < 2; ++i) {
     const int sense = senses[static_cast<std::size_t>(i)];
     if (sense == 0) continue;
     const int axis = i == 0 ? plane.main : plane.minor;
-    places[static_cast<std::size_t>(axis)] = prober.touchSide(i, sense, radius, depth)[axis];
+    places[static_cast<std::size_t>(axis)] = prober.touchSide(i, sense, radius, depth).tip[axis];
   }
   if (!measuring) {
     storeCalibration(context, places);

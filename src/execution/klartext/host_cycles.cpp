@@ -23,9 +23,6 @@ constexpr std::array actingAtOnce = {14, 20, 220, 221, 224, 225, 238, 239, 270, 
 /// Cycles of the machine tool builder: only he knows when and how they act.
 bool isOfBuilder(int number) { return (number >= 300 && number < 400) || (number >= 500 && number < 600); }
 
-/// Touch probe cycles that measure tools.
-bool measuresTools(int number) { return (number >= 30 && number <= 33) || (number >= 480 && number <= 485); }
-
 }  // namespace
 
 void KlartextHost::cycle(const CycleCall& call, Evaluation& evaluation) {
@@ -75,9 +72,8 @@ void KlartextHost::moveToCallPosition(const Command& command, Evaluation& evalua
 
 void KlartextHost::measure(const CycleCall& call, Evaluation& evaluation) {
   const cycles::heidenhain::Entry* entry = cycles::heidenhain::findEntry(call.number);
-  if (entry == nullptr && (measuresTools(call.number) || isOfBuilder(call.number))) {
-    leaveOut(fmt::format("Touch probe cycle {}, {},", call.number,
-                         measuresTools(call.number) ? "which measures tools" : "which is of the machine tool builder"));
+  if (entry == nullptr && isOfBuilder(call.number)) {
+    leaveOut(fmt::format("Touch probe cycle {}, which is of the machine tool builder,", call.number));
     return;
   }
   if (entry == nullptr) {

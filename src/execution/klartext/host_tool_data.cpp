@@ -182,10 +182,12 @@ std::optional<double> KlartextHost::probeData(int number, int index) const {
                                calibrated("CAL_ANG"));
     case 20:
       if (control_.isTNC640() || index < 1 || index > 3) return std::nullopt;
-      return std::array{parameters.mp6580x, parameters.mp6580y,
-                        parameters.mp6580z}[static_cast<std::size_t>(index - 1)];
+      return (parameters.contactRadius1 > 0 ? std::array{parameters.contactX, parameters.contactY, parameters.contactZ}
+                                            : std::array{parameters.mp6580x, parameters.mp6580y,
+                                                         parameters.mp6580z})[static_cast<std::size_t>(index - 1)];
     case 21:
-      return control_.isTNC640() ? std::nullopt : std::optional<double>(parameters.mp6531 / 2);
+      if (control_.isTNC640()) return std::nullopt;
+      return parameters.contactRadius1 > 0 ? parameters.contactRadius1 : parameters.mp6531 / 2;
     case 50:
       if (index == 2) return row.empty() ? -1 : std::stod(row);
       return probeType(known ? probes.text(row, "TYPE") : "");

@@ -207,10 +207,17 @@ hh::MachineParameters machineParameters(const Beliefs& beliefs, ControlKind kind
     break;
   }
   if (beliefs.toolProbe) {
-    parameters.mp6580x = beliefs.toolProbe->centre.x();
-    parameters.mp6580y = beliefs.toolProbe->centre.y();
-    parameters.mp6580z = beliefs.toolProbe->centre.z();
-    if (beliefs.toolProbe->width > 0) parameters.mp6531 = beliefs.toolProbe->width;
+    const control::BelievedToolProbe& probe = *beliefs.toolProbe;
+    parameters.mp6580x = parameters.contactX = probe.centre.x();
+    parameters.mp6580y = parameters.contactY = probe.centre.y();
+    parameters.mp6580z = probe.centre.z();
+    parameters.contactZ = probe.centre.z() - probe.pretravel;
+    if (probe.width > 0) {
+      parameters.mp6531 = probe.width;
+      parameters.contactRadius1 = probe.width / 2 - probe.pretravel;
+      parameters.contactRadius2 = probe.widthY / 2 - probe.pretravel;
+    }
+    parameters.rectangularContact = probe.cuboid;
   }
   for (const auto& [name, parameter] : beliefs.parameters) {
     const double* number = std::get_if<double>(&parameter.value);

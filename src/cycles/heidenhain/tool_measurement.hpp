@@ -1,0 +1,92 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cycles/heidenhain/context.hpp"
+#include "probing/tool_prober.hpp"
+
+/// How cycles 480 to 484, and 30 to 33, measure with the tool touch probe TT.
+namespace probewright::cycles::heidenhain {
+
+inline constexpr Conditions toolConditions = {
+    .uses = Uses::ToolTouchProbe, .under = Transformed::ByShiftOrRotation, .tilted = control::onITNC530};
+
+/// Spindle speed (rpm) and probing feed (mm/min) for a rotating tool of `radius` (mm), from the permissible speed of
+/// its circumference and the permissible measuring error.
+struct ToolProbingSpeeds {
+  double spindle = 0;
+  double feed = 0;
+};
+ToolProbingSpeeds toolProbingSpeeds(const control::heidenhain::MachineParameters& parameters, double radius);
+
+/// The tool touch probe as parameters and calibration say. Throws Alarm if the parameters do not say where it is.
+enum class Contact { AsFitted, Calibrated };
+probing::ToolTouchProbe toolTouchProbe(const Control& control, Contact contact);
+
+/// What is asked of cycles 481 to 483 and 31 to 33.
+struct ToolRequest {
+  int mode = 0;  ///< 0 measure, 1 check, 2 compare
+  double clearanceHeight = 0;
+  bool teeth = false;
+  std::optional<int> status;  ///< number of the Q parameter that receives the status
+};
+ToolRequest newRequest(Context& context);
+ToolRequest oldRequest(Context& context);
+
+/// Status of a deviation: 0 within the tolerances, 1 worn, 2 broken; a tolerance of 0 is none.
+int toolStatus(double deviation, double wear, double breakage);
+
+/// Refuses what cannot be measured: no tool, a touch probe, a turning tool.
+void requireMeasurable(Context& context);
+
+enum class ToolDimensions { Length, Radius, Both };
+
+/// All of cycles 481 to 483.
+void measureTool(Context& context, const ToolRequest& request, ToolDimensions dimensions);
+
+/// A length or radius as measured: with a rotating or stationary tool, or tooth by tooth.
+struct ToolDimension {
+  std::optional<double> whole;
+  std::vector<double> teeth;
+  /// What counts: the longest, largest.
+  double value() const;
+};
+
+class ToolMeasurement {
+public:
+  ToolMeasurement(Context& context, const ToolRequest& request);
+
+  void measureLength();
+  void measureRadius();
+  /// Back to the clearance height, the spindle stands; tables, Q parameters, status, screen. Throws Alarm where the
+  /// control stops the program.
+  void finish();
+
+private:
+  void turn();
+  void stand();
+  void orientTo(double tooth);
+  probing::ToolTouch side();
+  double lengthAt(const probing::ToolTouch& touch) const;
+  double radiusAt(const probing::ToolTouch& touch) const;
+  double toothLengthOffset() const;
+  void findTeeth(const probing::ToolTouch& touch);
+  int enter(const ToolDimension& dimension, bool length);
+  void show(const ToolDimension& dimension, bool length);
+  double column(control::heidenhain::NumberColumn name) const;
+
+  Context& context_;
+  ToolRequest request_;
+  control::Channel& channel_;
+  probing::ToolTouchProbe probe_;
+  probing::ToolProber prober_;
+  int axis_ = 0, sense_ = 1;  ///< of radial probing
+  int teeth_ = 0;
+  double radius_ = 0;
+  std::optional<double> firstTooth_;  ///< spindle angle with which a tooth points to the contact
+  std::optional<ToolDimension> length_, measuredRadius_;
+  std::string screen_;
+};
+
+}  // namespace probewright::cycles::heidenhain

@@ -1,0 +1,143 @@
+#include <gmock/gmock.h>
+
+#include "cycles_heidenhain/tool_worlds.hpp"
+
+/// Cycles 480, 30 and 484: where the tool touch probe is found, and what mistakes in the calibration do to the tools.
+namespace probewright::testing_support {
+namespace {
+
+using testing::HasSubstr;
+
+/// A calibrating pin whose axis is not that of the spindle.
+struct Calibrating {
+  Calibrating(ControlKind kind, Dice& dice) : world(kind) {
+    world.contact = {written(dice.between(80, 160)), written(dice.between(-80, 0)), written(dice.between(-480, -460))};
+    dice.coin() ? world.disc(written(dice.between(20, 40)))
+                : world.cuboid(written(dice.between(16, 30)), written(dice.between(16, 30)));
+    pin.length = written(dice.between(60, 90));
+    pin.radius = written(dice.between(5, 9));
+    pin.cutter.eccentricity = {dice.between(-0.03, 0.03), dice.between(-0.03, 0.03)};
+  }
+  void believePlace(const Vector3& place) {
+    const char* tnc640[] = {"centerPos.0", "centerPos.1", "centerPos.2"};
+    const char* iTNC530[] = {"MP6580.0", "MP6580.1", "MP6580.2"};
+    for (int i = 0; i < 3; ++i)
+      world.parameter(tnc640[i], iTNC530[i], place[i]);
+  }
+  std::string cycle(int form) const {
+    if (form == 0) return probe(480, {{260, 60}});
+    if (form == 1) return "TCH PROBE 30.0 CALIBRATE TT\nTCH PROBE 30.1 HEIGHT: +60\n";
+    // Above the tool touch probe, about in its middle; coordinates of the workpiece.
+    const std::string there = fmt::format("L X{:+.3f} Y{:+.3f} R0 FMAX\nL Z{:+.3f} R0 FMAX\n", world.contact.x() + 0.4,
+                                          world.contact.y() - 0.6, world.contact.z() + 420 + 6);
+    return there + (world.bench.control == ControlKind::TNC640 ? probe(484, {{536, 1}}) : "TCH PROBE 484 CALIBRATE\n");
+  }
+
+  ToolWorld world;
+  simulation::TrueTool pin;
+};
+
+/// What a run has found: middle of the upper edge, half widths.
+std::array<double, 5> found(const Ran& ran) {
+  coverage::writesRead(ran.outcome.control, ran.outcome.journal,
+                       [](const control::WriteRecord& write) { return write.entry.starts_with("TT "); });
+  std::array<double, 5> values;
+  values.fill(std::nan(""));
+  constexpr const char* names[] = {"TT centre, X", "TT centre, Y", "TT centre, Z", "TT radius, main axis",
+                                   "TT radius, minor axis"};
+  for (const auto& cycle : ran.outcome.journal.cycles)
+    for (const auto& write : cycle.writes)
+      for (std::size_t i = 0; i < 5; ++i)
+        if (write.entry == names[i]) values[i] = std::stod(write.after);
+  return values;
+}
+
+TEST(ToolProbeCalibration, FindsPlaceAndWidthWithAPinThatRunsOut) {
+  Dice dice(4801);
+  for (int at = 0; at < 12; ++at) {
+    SCOPED_TRACE(fmt::format("world {}", at));
+    Calibrating calibrating(controlOf(at), dice);
+    calibrating.world.toolProbe().pretravel = at % 3 == 0 ? 0.004 : 0;
+    calibrating.world.add(calibrating.pin, 9, calibrating.pin.length, calibrating.pin.radius);
+    const int form = at / 2 % 3;
+    if (form < 2) calibrating.believePlace(calibrating.world.contact + dice.within(2));
+    for (const char* wrong : {"calibratedContactX", "calibratedContactY", "calibratedContactZ",
+                              "calibratedContactRadius1", "calibratedContactRadius2"})
+      calibrating.world.bench.setup.beliefs.parameters[wrong] = {7.0, {}};
+    const Ran ran = calibrating.world.run(calibrating.cycle(form), 9);
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    const auto values = found(ran);
+    const double early = calibrating.world.toolProbe().pretravel;
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(values[static_cast<std::size_t>(i)], calibrating.world.contact[i] - (i == 2 ? early : 0), 2e-6) << i;
+    EXPECT_NEAR(values[3], calibrating.world.half1 - early, 2e-6);
+    EXPECT_NEAR(values[4], calibrating.world.half2 - early, 2e-6);
+    const auto& aside = calibrating.pin.cutter.eccentricity;
+    EXPECT_THAT(ran.cycle().screens.back(),
+                HasSubstr(fmt::format("RUN-OUT OF THE TOOL {:+.3f}", aside.x()).substr(0, 24)));
+  }
+}
+
+/// What the pin is thicker and longer than TOOL.T says makes the contact wider and higher, and tools thinner and
+/// shorter by as much.
+TEST(ToolProbeCalibration, HandsTheMistakesOfThePinOnToTheTools) {
+  Dice dice(4802);
+  for (int at = 0; at < 4; ++at) {
+    SCOPED_TRACE(fmt::format("world {}", at));
+    Calibrating calibrating(controlOf(at), dice);
+    const double thicker = written(dice.between(-0.1, 0.1)), longer = written(dice.between(-0.1, 0.1));
+    calibrating.world.add(calibrating.pin, 9, calibrating.pin.length - longer, calibrating.pin.radius - thicker);
+    simulation::TrueTool mill;
+    mill.length = 75.25;
+    mill.radius = 6.125;
+    mill.cutter.teeth.resize(2);
+    mill.cutter.teeth[1].angle = 180;
+    calibrating.world.add(mill, 12, 75.25, 6.125);
+    calibrating.world.parameter("measureTolerance1", "MP6510", 0.001);
+    const Ran ran =
+        calibrating.world.run(calibrating.cycle(at / 2 % 2) + "TOOL CALL 12 Z\n" + toolCycle(483, 1, false, false), 9);
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(found(ran)[3], calibrating.world.half1 + thicker, 2e-6);
+    EXPECT_NEAR(ran.q(115), -longer, 0.0011);
+    EXPECT_NEAR(ran.q(116), -thicker, 0.0011);
+  }
+}
+
+/// A tilted top is met off its middle: by the run-out of the edge that touches first.
+TEST(ToolProbeCalibration, ATiltedContactMakesWideToolsLonger) {
+  ToolWorld world;
+  world.contact = {120, -60, -470};
+  const double tilt = 0.2;
+  placeToolProbe(world.bench.setup.world.truth, simulation::Box({-15, -15, -12}, {15, 15, 0}),
+                 pose(world.contact, {0, tilt, 0}));
+  world.half1 = world.half2 = 15;
+  simulation::TrueTool mill;
+  mill.length = 80;
+  mill.radius = 10;
+  mill.cutter.teeth.resize(1);
+  world.add(mill, 12, 80, 10);
+  world.parameter("measureTolerance1", "", 0.001);
+  world.parameter("calibratedContactX", "", world.contact.x());
+  TableFolder folder(world.bench);
+  enter(folder, world, {{"R-OFFS", "0.0001"}, {"CUT", "1"}});
+  const Ran ran = world.run(toolCycle(481, 1, false, false));
+  ASSERT_TRUE(ran.finished()) << ran.why();
+  // The top rises by tan(tilt) to -X: the tooth meets it there, a radius from the middle.
+  EXPECT_NEAR(ran.q(115), 10 * std::tan(radians(tilt)), 0.0015);
+}
+
+TEST(ToolProbeCalibration, StopsForTheOperatorWhere484IsToldTo) {
+  Dice dice(4803);
+  Calibrating calibrating(ControlKind::TNC640, dice);
+  calibrating.world.add(calibrating.pin, 9, calibrating.pin.length, calibrating.pin.radius);
+  std::string program = calibrating.cycle(2);
+  program.replace(program.find("Q536=+1"), 7, "Q536=+0");
+  calibrating.world.parameter("calibratedContactX", "", 7);
+  const Ran ran = calibrating.world.run(program, 9);
+  ASSERT_TRUE(ran.finished()) << ran.why();
+  EXPECT_THAT(ran.screens().front(), HasSubstr("Position the calibrating tool"));
+  EXPECT_NEAR(found(ran)[0], calibrating.world.contact.x(), 2e-6);
+}
+
+}  // namespace
+}  // namespace probewright::testing_support
