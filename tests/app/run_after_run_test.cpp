@@ -1,6 +1,13 @@
+#include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
+#include <future>
+#include <thread>
 
 #include "app/block_world.hpp"
 #include "app/program.hpp"
@@ -92,6 +99,64 @@ active = true
   const Answer answer = probewright({"run", read, "--setup", next, "--out", (folder / "two").string()});
   EXPECT_EQ(answer.exit, 0) << answer.errors;
   EXPECT_EQ(probewright({"run", read, "--setup", first, "--out", (folder / "three").string()}).exit, 3);
+}
+
+/// Held as a run holds a folder while it writes or reads there.
+class Held {
+public:
+  Held(const std::filesystem::path& folder, int how)
+      : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    EXPECT_EQ(::flock(descriptor_, how), 0);
+  }
+  ~Held() { ::close(descriptor_); }
+  Held(const Held&) = delete;
+  Held& operator=(const Held&) = delete;
+
+private:
+  int descriptor_;
+};
+
+TEST(RunAfterRun, WaitsForTablesThatAnotherRunReplaces) {
+  using namespace std::chrono_literals;
+  const Folder folder;
+  std::filesystem::create_directory(folder / "T");
+  const auto presets = [&](const std::string& x) {
+    folder.file("T/PRESET.PR", "BEGIN PRESET.PR MM\nNO     X              Y              Z\n1      " + x +
+                                   "        +0.0000        +0.0000\n[END]\n");
+  };
+  const std::string program = folder.file(
+      "a.h",
+      "0 BEGIN PGM A MM\n1 FN 18: SYSREAD Q1 = ID507 NR1 IDX1\n2 FN 38: SEND / \"X IS %F\" / +Q1\n3 END PGM A MM\n");
+  const auto begin = [&](const std::string& out) {
+    const std::string world =
+        folder.file("s.toml", "[control]\ntype = \"TNC640\"\ntables = \"T\"\n[[preset]]\nrow = 1\nactive = true\n");
+    return std::async(std::launch::async, [=, path = (folder / out).string()] {
+      return probewright({"run", program, "--setup", world, "--out", path});
+    });
+  };
+  presets("+1.0000");
+  std::future<Answer> reader;
+  {
+    const Held writer(folder / "T", LOCK_EX);
+    reader = begin("out");
+    EXPECT_EQ(reader.wait_for(500ms), std::future_status::timeout);
+    presets("+7.0000");
+  }
+  const Answer read = reader.get();
+  EXPECT_EQ(read.exit, 0) << read.errors;
+  EXPECT_THAT(read.output, ::testing::HasSubstr("X IS 7.000"));
+  // Who reads holds off who writes, but not other readers.
+  const auto written = std::filesystem::last_write_time(folder / "out/results.json");
+  std::future<Answer> replacing;
+  {
+    const Held other(folder / "out", LOCK_SH), same(folder / "T", LOCK_SH);
+    replacing = begin("out");
+    EXPECT_EQ(replacing.wait_for(500ms), std::future_status::timeout);
+    EXPECT_EQ(std::filesystem::last_write_time(folder / "out/results.json"), written);
+  }
+  const Answer replaced = replacing.get();
+  EXPECT_EQ(replaced.exit, 0) << replaced.errors;
+  EXPECT_NE(std::filesystem::last_write_time(folder / "out/results.json"), written);
 }
 
 }  // namespace
