@@ -29,7 +29,8 @@ std::optional<std::string> nearestName(std::string_view word, const std::vector<
   std::size_t bestDistance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& name : names) {
     const std::size_t distance = editDistance(word, name);
-    if (distance < bestDistance) {
+    const bool nothingInCommon = distance >= std::max(word.size(), name.size());
+    if (distance < bestDistance && !nothingInCommon) {
       bestDistance = distance;
       best = name;
     }

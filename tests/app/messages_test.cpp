@@ -41,6 +41,10 @@ active = true
   EXPECT_EQ(run("p.h", block("CYCL DEF 247 PRESETTING ~\nQ339=+3"), rowThree).exit, 0);
   EXPECT_THAT(run("p.h", block("TOOL CALL 9 Z"), rowThree).errors, HasSubstr("it has 1 PROBE"));
   EXPECT_THAT(run("p.h", block("TOOL CALL \"NOTHERE\" Z"), rowThree).errors, HasSubstr("it has 1 PROBE"));
+  // A letter is like no other letter.
+  const Answer letter = run("p.h", block("L X+1 FMAX"), rowThree + "[part]\npose = { d = 1 }\n");
+  EXPECT_THAT(letter.errors, HasSubstr("Known keys here: a, b, c, x, y, z"));
+  EXPECT_THAT(letter.errors, Not(HasSubstr("Did you mean")));
   EXPECT_THAT(run("p.mpf", "M30\n", rowThree).errors, HasSubstr("name a setup whose [control] type is 840Dsl"));
   // Klartext under the ending of the other language.
   const Answer other = run("p.mpf", block("L X+1 FMAX"), "");
