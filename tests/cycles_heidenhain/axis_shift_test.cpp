@@ -268,9 +268,11 @@ TEST(Cycle440, RefusesAndStops) {
 
   Shifting gone = shifting(dice);
   gone.bench.setup.world.truth.solids.clear();
+  gone.bench.setup.world.truth.toolProbes.clear();
   EXPECT_EQ(gone.run(0, 4).alarm(), "Touch probe not ready");
   Shifting away = shifting(dice);
   away.bench.setup.world.truth.solids.front().tableFromSolid.translation().z() -= 100;
+  away.bench.setup.world.truth.toolProbes.front().tableFromContact.translation().z() -= 100;
   EXPECT_EQ(away.run(0, 4).alarm(), "Touch point inaccessible");
   Shifting unset = shifting(dice);
   unset.bench.setup.beliefs.parameters.clear();
