@@ -76,11 +76,15 @@ VirtualMachine::VirtualMachine(Truth truth)
       slides_(truth_.start),
       noise_(streamSeed(truth_.seed, "probe")),
       path_(pathPoint(tableFromSpindle(), PathKind::Start, 0)) {
-  for (const TrueToolProbe& probe : truth_.toolProbes) {
+  const auto solidOf = [&](const TrueToolProbe& probe) {
     const auto drawn = std::ranges::find_if(
         truth_.solids, [&](const PlacedSolid& solid) { return isToolProbe(solid) && solid.name == probe.name; });
-    solidOfToolProbe_.push_back(static_cast<std::size_t>(drawn - truth_.solids.begin()));
-  }
+    return static_cast<std::size_t>(drawn - truth_.solids.begin());
+  };
+  // One without a solid is not there.
+  std::erase_if(truth_.toolProbes, [&](const TrueToolProbe& probe) { return solidOf(probe) == truth_.solids.size(); });
+  for (const TrueToolProbe& probe : truth_.toolProbes)
+    solidOfToolProbe_.push_back(solidOf(probe));
 }
 
 Pose VirtualMachine::tableFromSpindle() const { return kinematics_.tableFromSpindle(slides_, clock_); }
