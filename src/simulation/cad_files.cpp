@@ -104,9 +104,10 @@ public:
   Result<ImportedPart> run() {
     for (attempt_ = 1;; ++attempt_) {
       begin();
-      ChildEnd end = inChild([&](const ChildVoice& voice) { return transferCad(order_, voice); },
-                             {options_.seconds - secondsSince(start_), options_.bytes},
-                             [&](std::string_view line) { hear(line); }, [&] { return hasEnough(); });
+      ChildEnd end =
+          inChild([&](const ChildVoice& voice) { return transferCad(order_, voice); },
+                  {options_.seconds - secondsSince(start_), options_.bytes}, [&](std::string_view line) { hear(line); },
+                  [&](double processorSeconds) { return hasEnough(processorSeconds); });
       if (options_.stop.stop_requested()) return fail(SourcePlace{order_.file, 0, 0}, "the import was interrupted");
       if (end.how == ChildEnd::How::Finished && failure_.empty() && !nothing_) return partOf(transferred(end.result));
       if (end.how == ChildEnd::How::Finished) return tl::unexpected(refused());
@@ -115,9 +116,6 @@ public:
   }
 
 private:
-  struct OpenFace {
-    Clock::time_point since;
-  };
   struct Suspect {
     std::string label, reason;
   };
@@ -138,18 +136,18 @@ private:
     at_.clear();
     skin_ = nothing_ = meshing_ = preparing_ = false;
     faces_ = done_ = 0;
-    lastSign_ = Clock::now();
+    used_ = usedAtLastSign_ = 0;
   }
 
   void hear(std::string_view line) {
-    lastSign_ = Clock::now();
+    usedAtLastSign_ = used_;
     const auto [word, rest] = firstWord(line);
     if (word == "stage") {
       stage_ = rest;
       meshing_ = stage_.starts_with("meshing");
       preparing_ = stage_.starts_with("preparing");
     } else if (word == "begin") {
-      open_[numberIn(rest)] = {Clock::now()};
+      open_[numberIn(rest)] = used_;
     } else if (word == "end") {
       open_.erase(numberIn(rest));
       ++done_;
@@ -177,14 +175,15 @@ private:
     }
   }
 
-  bool hasEnough() {
+  bool hasEnough(double processorSeconds) {
+    used_ = std::max(used_, processorSeconds);
     tellProgress();
     if (options_.stop.stop_requested()) return true;
     if (!meshing_ || order_.gridAll) return false;
-    const bool faceHangs = std::ranges::any_of(
-        open_, [&](const auto& entry) { return secondsSince(entry.second.since) > options_.faceSeconds; });
+    const bool faceHangs =
+        std::ranges::any_of(open_, [&](const auto& entry) { return used_ - entry.second > options_.faceSeconds; });
     // Before its faces the mesher does all edges, without a word.
-    return faceHangs || (open_.empty() && secondsSince(lastSign_) > 8 * options_.faceSeconds);
+    return faceHangs || (open_.empty() && used_ - usedAtLastSign_ > 8 * options_.faceSeconds);
   }
 
   void tellProgress() {
@@ -202,8 +201,8 @@ private:
     if (hopeless || !meshing_ || order_.gridAll) return false;
     const double longest = end.how == ChildEnd::How::Ended ? options_.faceSeconds / 2 : 0;
     bool found = false;
-    for (const auto& [face, opened] : open_) {
-      if (secondsSince(opened.since) >= longest) found = order_.gridFaces.insert(face).second || found;
+    for (const auto& [face, begun] : open_) {
+      if (used_ - begun >= longest) found = order_.gridFaces.insert(face).second || found;
     }
     if (!found || attempt_ >= kMostAttempts) order_.gridAll = true;
     return true;
@@ -273,7 +272,7 @@ private:
     const ChildEnd end =
         inChild([&](const ChildVoice& voice) { return searchFaces(order_, voice); },
                 {std::min(60.0, options_.seconds), options_.bytes}, [&](std::string_view line) { hear(line); },
-                [&] { return options_.stop.stop_requested(); });
+                [&](double) { return options_.stop.stop_requested(); });
     return end.how == ChildEnd::How::Crashed && !at_.empty() ? at_ : body;
   }
 
@@ -339,11 +338,12 @@ private:
   EntityNames names_;
   const ImportOptions& options_;
   Clock::time_point start_ = Clock::now();
-  Clock::time_point lastTold_ = start_, lastSign_ = start_;
+  Clock::time_point lastTold_ = start_;
   int attempt_ = 1;
 
   // What the child has said.
-  std::map<int, OpenFace> open_;
+  std::map<int, double> open_;            ///< the faces it is at, and what of the processor it had used when it began
+  double used_ = 0, usedAtLastSign_ = 0;  ///< seconds of the processor
   std::vector<Suspect> suspects_;
   std::vector<std::string> lost_;
   std::vector<Grid> grids_;

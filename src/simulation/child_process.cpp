@@ -14,6 +14,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <new>
 
@@ -115,9 +116,17 @@ private:
   std::string pending_;
 };
 
+/// The processor's time that a process has used; 0 if it is not there any more.
+double processorSecondsOf(pid_t process) {
+  clockid_t clock = 0;
+  timespec time{};
+  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 /// Listens until the child closes its end; how it ended if that was by the parent's will.
 ChildEnd::How listen(pid_t child, int voice, const ChildLimits& limits,
-                     const std::function<void(std::string_view)>& heard, const std::function<bool()>& enough) {
+                     const std::function<void(std::string_view)>& heard, const std::function<bool(double)>& enough) {
   using Clock = std::chrono::steady_clock;
   const auto end =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.seconds));
@@ -131,7 +140,7 @@ ChildEnd::How listen(pid_t child, int voice, const ChildLimits& limits,
       if (count > 0) lines.add({buffer.data(), static_cast<std::size_t>(count)});
     }
     const bool late = Clock::now() > end;
-    if (!late && !enough()) continue;
+    if (!late && !enough(processorSecondsOf(child))) continue;
     kill(child, SIGKILL);
     return late ? ChildEnd::How::OutOfTime : ChildEnd::How::Ended;
   }
@@ -159,7 +168,8 @@ void ChildVoice::say(std::string_view line) const {
 }
 
 ChildEnd inChild(const std::function<std::string(const ChildVoice&)>& work, const ChildLimits& limits,
-                 const std::function<void(std::string_view line)>& heard, const std::function<bool()>& enough) {
+                 const std::function<void(std::string_view line)>& heard,
+                 const std::function<bool(double processorSeconds)>& enough) {
   ChildEnd end;
   end.how = ChildEnd::How::NoProcess;
   std::array<int, 2> ends{-1, -1};

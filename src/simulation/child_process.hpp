@@ -44,9 +44,11 @@ struct ChildEnd {
 bool ranShortOfMemory();
 
 /// Does `work` in a child process and waits for it. `heard` gets each line that the child says; `enough` is asked about
-/// twenty times a second, and ends the child by saying yes. The child has a copy of everything that its parent has, but
+/// twenty times a second, told how many seconds of the processor the child has used, and ends the child by saying yes.
+/// The child has a copy of everything that its parent has, but
 /// of the threads only the one that calls; its standard output goes nowhere.
 ChildEnd inChild(const std::function<std::string(const ChildVoice&)>& work, const ChildLimits& limits,
-                 const std::function<void(std::string_view line)>& heard, const std::function<bool()>& enough);
+                 const std::function<void(std::string_view line)>& heard,
+                 const std::function<bool(double processorSeconds)>& enough);
 
 }  // namespace probewright::simulation

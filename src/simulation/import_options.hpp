@@ -21,9 +21,9 @@ struct ImportOptions {
   /// Told from time to time what is being done, once an import takes longer than a second.
   std::function<void(const std::string& what)> progress;
 
-  double seconds = 1800;                          ///< after which an import is given up
-  int facePoints = kMostMeshPoints;               ///< after which a face is not meshed any further, but gets a grid
-  double faceSeconds = 30;                        ///< the same, for the rare face that makes no points all that time
+  double seconds = 1800;             ///< after which an import is given up
+  int facePoints = kMostMeshPoints;  ///< after which a face is not meshed any further, but gets a grid
+  double faceSeconds = 30;           ///< of the processor: the same, for the rare face that makes no points
   std::uint64_t bytes = std::uint64_t{8} << 30U;  ///< of memory that an import may take
 };
 

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <thread>
@@ -21,7 +22,7 @@ using How = ChildEnd::How;
 
 ChildEnd child(const std::function<std::string(const ChildVoice&)>& work, const ChildLimits& limits = {}) {
   return inChild(
-      work, limits, [](std::string_view) {}, [] { return false; });
+      work, limits, [](std::string_view) {}, [](double) { return false; });
 }
 
 TEST(ChildProcess, HandsItsResultAndItsLinesBack) {
@@ -33,7 +34,7 @@ TEST(ChildProcess, HandsItsResultAndItsLinesBack) {
         voice.say("two\nlines");
         return large;
       },
-      {}, [&](std::string_view line) { lines.emplace_back(line); }, [] { return false; });
+      {}, [&](std::string_view line) { lines.emplace_back(line); }, [](double) { return false; });
   EXPECT_EQ(end.how, How::Finished);
   EXPECT_EQ(end.result, large);
   EXPECT_THAT(lines, ElementsAre("one", "two lines"));
@@ -59,9 +60,35 @@ TEST(ChildProcess, EndsAfterItsTimeOrWhenTheParentHasEnough) {
   };
   EXPECT_EQ(child(sleeps, {0.2}).how, How::OutOfTime);
   EXPECT_EQ(inChild(
-                sleeps, {}, [](std::string_view) {}, [] { return true; })
+                sleeps, {}, [](std::string_view) {}, [](double) { return true; })
                 .how,
             How::Ended);
+}
+
+TEST(ChildProcess, CountsTheProcessorsTimeAndNotThatOfTheClock) {
+  double used = 0;
+  const auto note = [&](double seconds) {
+    used = std::max(used, seconds);
+    return seconds > 0.2;
+  };
+  const auto sleeps = [](const ChildVoice&) -> std::string {
+    std::this_thread::sleep_for(std::chrono::milliseconds(600));
+    return {};
+  };
+  EXPECT_EQ(inChild(
+                sleeps, {}, [](std::string_view) {}, note)
+                .how,
+            How::Finished);
+  EXPECT_LT(used, 0.2);
+  const auto works = [](const ChildVoice&) -> std::string {
+    for (std::atomic<unsigned> i = 0;;)
+      ++i;
+  };
+  EXPECT_EQ(inChild(
+                works, {}, [](std::string_view) {}, note)
+                .how,
+            How::Ended);
+  EXPECT_GT(used, 0.2);
 }
 
 std::string step(const std::string& data) {
