@@ -84,8 +84,11 @@ TEST(ConvertFlow, TouchesForTheToolAxisWhereTheOriginBeforeTheCycleSays) {
       for (const int row : {0, 1, 2}) {
         SCOPED_TRACE(fmt::format("{} {} {}", cycle, row, select));
         World world(dice);
-        const Pose& origin = world.part.machineFromPreset;
-        world.part.bench.preset(2, origin.translation());
+        control::BelievedFrame copy = world.part.bench.setup.beliefs.presets.front();
+        copy.index = 2;
+        copy.active = false;
+        world.part.bench.setup.beliefs.presets.push_back(copy);
+        world.part.bench.believedProbe().maximumTravel = 10;
         const Twin original = runKlartext(
             klartextProgram(select + presetWithToolAxis(world, cycle, row, dice.between(-3, 3)) + "L Z+60 R0 FMAX\n"),
             world.part);

@@ -159,6 +159,10 @@ bool PathMotion::readArcWord(std::uint32_t address, WordMode mode, double value,
     case addressOf("DISPR"):
     case addressOf("FAD"):
     case addressOf("SF"):
+    // The angle of involutes, and what inputs switch to.
+    case addressOf("PSI"):
+    case addressOf("SR"):
+    case addressOf("ST"):
       return true;
     case addressOf("ANG1"):
     case addressOf("ANG2"):
