@@ -14,6 +14,7 @@ namespace probewright::session {
 namespace {
 
 using control::ControlKind;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing_support::ScriptedMachine;
 
@@ -93,7 +94,8 @@ TEST(WholeRun, OfASinumerikLeavesDataAndResults) {
   EXPECT_EQ(outcome.journal.cycles[0].touches.size(), 4u);
   EXPECT_NEAR(outcome.variable("R5"), 40, 0.003) << "the chord along X is 0.0022 mm shorter than the diameter";
   EXPECT_TRUE(std::isnan(outcome.variable("R6")));
-  EXPECT_THAT(outcome.files.at("FRAMES.UFR"), HasSubstr("$P_UIFR[1]"));
+  EXPECT_THAT(outcome.files.at("FRAMES.UFR"),
+              AllOf(HasSubstr("$P_UIFR[1,X,TR]=0.3"), HasSubstr("$P_UIFR[1,Y,TR]=-0.1999")));
   EXPECT_THAT(outcome.files.at("TOOLS.TOA"), HasSubstr("PROBE"));
 }
 
