@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 /// To be counted up whenever an import makes something else of the same file, also if only its layout in memory
 /// changes.
-constexpr int kCacheVersion = 5;
+constexpr int kCacheVersion = 6;
 constexpr std::size_t kMostNamed = 10;
 constexpr int kMostAttempts = 5;
 
@@ -109,7 +109,8 @@ public:
                   {options_.seconds - secondsSince(start_), options_.bytes}, [&](std::string_view line) { hear(line); },
                   [&](double processorSeconds) { return hasEnough(processorSeconds); });
       if (options_.stop.stop_requested()) return fail(SourcePlace{order_.file, 0, 0}, "the import was interrupted");
-      if (end.how == ChildEnd::How::Finished && failure_.empty() && !nothing_) return partOf(transferred(end.result));
+      if (end.how == ChildEnd::How::Finished && failure_.empty() && unable_.label.empty() && !nothing_)
+        return partOf(transferred(end.result));
       if (end.how == ChildEnd::How::Finished) return tl::unexpected(refused());
       if (!tryOtherwise(end)) return tl::unexpected(complaint(end));
     }
@@ -118,6 +119,9 @@ public:
 private:
   struct Suspect {
     std::string label, reason;
+  };
+  struct Gap {
+    std::string label, size;
   };
   struct Grid {
     int face = 0;
@@ -131,6 +135,9 @@ private:
     suspects_.clear();
     lost_.clear();
     grids_.clear();
+    gaps_.clear();
+    unable_ = {};
+    scale_.clear();
     failure_.clear();
     edges_.clear();
     at_.clear();
@@ -164,6 +171,14 @@ private:
       const auto [face, more] = firstWord(rest);
       const auto [cell, surface] = firstWord(more);
       grids_.push_back({numberIn(face), std::string(cell), std::string(surface)});
+    } else if (word == "gap") {
+      const auto [label, size] = firstWord(rest);
+      gaps_.push_back({std::string(label), std::string(size)});
+    } else if (word == "scaled") {
+      scale_ = rest;
+    } else if (word == "unable") {
+      const auto [label, reason] = firstWord(rest);
+      unable_ = {std::string(label), std::string(reason)};
     } else if (word == "open") {
       edges_ = rest;
     } else if (word == "failed") {
@@ -236,6 +251,12 @@ private:
   }
 
   Diagnostic refused() {
+    if (!unable_.label.empty()) {
+      const std::size_t end = unable_.reason.find('|');
+      return mistake(names_.lineOf(unable_.label),
+                     fmt::format("{}: {}", names_.nameOf(unable_.label), unable_.reason.substr(0, end)),
+                     unable_.reason.substr(std::min(end, unable_.reason.size() - 1) + 1));
+    }
     if (auto blamed = blame()) return *blamed;
     if (!failure_.empty()) return mistake(0, failure_);
     return fail({order_.file, 0, 0}, "the file holds no body and no face",
@@ -310,6 +331,22 @@ private:
       remark(part, 0, "the file holds faces, but no solid body",
              "the probe meets the faces from both sides; export the part as one solid body if it is one");
     }
+    for (std::size_t i = 0; i < gaps_.size(); ++i) {
+      if (i == kMostNamed) {
+        remark(part, 0, fmt::format("{} more faces do not fit their edges", gaps_.size() - kMostNamed), {});
+        break;
+      }
+      remark(part, names_.lineOf(gaps_[i].label),
+             fmt::format("the face {} does not fit its edges: {}", names_.nameOf(gaps_[i].label),
+                         gaps_[i].size == "inf"
+                             ? "they have no place on its surface"
+                             : "they, their corners and its surface are up to " + gaps_[i].size + " mm apart"),
+             "contacts there may be wrong by as much; compare the part with that in the CAD system, export it again");
+    }
+    if (!scale_.empty()) {
+      remark(part, 0, fmt::format("the model is drawn {} times its true size; the part has its true size", scale_),
+             "compare the size of the part with that in the CAD system, or export it in a scale of 1");
+    }
     const bool somethingWrong = !part.remarks.empty() && (!skin_ || !lost_.empty() || !edges_.empty());
     for (std::size_t i = 0; somethingWrong && i < std::min(suspects_.size(), kMostNamed); ++i) {
       if (std::ranges::find(lost_, suspects_[i].label) != lost_.end()) continue;
@@ -347,6 +384,9 @@ private:
   std::vector<Suspect> suspects_;
   std::vector<std::string> lost_;
   std::vector<Grid> grids_;
+  std::vector<Gap> gaps_;
+  Suspect unable_;
+  std::string scale_;
   std::string stage_, failure_, edges_, at_;
   bool skin_ = false, nothing_ = false, meshing_ = false, preparing_ = false;
   int faces_ = 0, done_ = 0;

@@ -1,9 +1,13 @@
 #include "simulation/cad_transfer.hpp"
 
 #include <fmt/format.h>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepLib.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Geom_Curve.hxx>
+#include <Geom_Surface.hxx>
 #include <IGESControl_Reader.hxx>
 #include <IGESGeom_BoundedSurface.hxx>
 #include <IGESGeom_TrimmedSurface.hxx>
@@ -26,16 +30,21 @@
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <TransferBRep.hxx>
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <cmath>
 #include <future>
+#include <limits>
 #include <memory>
 #include <sstream>
 #include <system_error>
 #include <thread>
 
+#include "simulation/cad_corrections.hpp"
 #include "simulation/cad_model.hpp"
 #include "simulation/drawing_mesh.hpp"
 #include "simulation/face_mesh.hpp"
@@ -102,6 +111,22 @@ std::unique_ptr<XSControl_Reader> load(const TransferOrder& order, const ChildVo
       ++told;
     }
   }
+  if (status == IFSelect_RetDone) {
+    if (const auto placement = misreadPlacement(model); !placement.IsNull()) {
+      voice.say(
+          fmt::format("unable {} it mirrors or scales a part, which cannot be read|export mirrored and scaled parts "
+                      "as bodies of their own, not as instances",
+                      labelOf(model, placement)));
+      return nullptr;
+    }
+    if (const auto offset = unreadableOffset(model); !offset.IsNull()) {
+      voice.say(
+          fmt::format("unable {} it is the offset of a cone, which cannot be read|export the part with the cone "
+                      "itself instead of its offset",
+                      labelOf(model, offset)));
+      return nullptr;
+    }
+  }
   if (status == IFSelect_RetDone) return reader;
   std::string reason = "it is not what such a file must be";
   if (!model.IsNull()) {
@@ -119,6 +144,8 @@ std::unique_ptr<XSControl_Reader> load(const TransferOrder& order, const ChildVo
 TopoDS_Shape build(XSControl_Reader& reader, const ChildVoice& voice) {
   voice.say("stage building the part");
   const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
+  takePlainOffsets(model);
+  turnOffsets(reader);
   const int roots = reader.NbRootsForTransfer();
   for (int i = 1; i <= roots; ++i) {
     voice.say("at " + labelOf(model, reader.RootForTransfer(i)));
@@ -136,6 +163,50 @@ void nameLostFaces(const XSControl_Reader& reader, const ChildVoice& voice) {
     const bool broken = model->IsErrorEntity(i);
     if (!isFace(broken ? model->ReportEntity(i)->Concerned() : entity)) continue;
     if (broken || TransferBRep::ShapeResult(process, entity).IsNull()) voice.say("lost " + labelOf(model, entity));
+  }
+}
+
+constexpr double kNowhere = std::numeric_limits<double>::infinity();
+
+/// By how much the edges of a face leave its surface, or its vertices its edges; kNowhere if an edge has no place on
+/// it.
+double gapsOf(const TopoDS_Face& face) {
+  double gap = 0;
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
+    const TopoDS_Edge& edge = TopoDS::Edge(edges.Current());
+    double first = 0, last = 0, from = 0, to = 0;
+    const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+    if (curve.IsNull() || surface.IsNull() || BRep_Tool::Degenerated(edge)) continue;
+    const Handle(Geom2d_Curve) onSurface = BRep_Tool::CurveOnSurface(edge, face, from, to);
+    constexpr int kPlaces = 6;
+    if (onSurface.IsNull()) return kNowhere;
+    for (int k = 0; k <= kPlaces; ++k) {
+      const double share = static_cast<double>(k) / kPlaces;
+      const gp_Pnt2d uv = onSurface->Value(from + share * (to - from));
+      gap = std::max(gap, curve->Value(first + share * (last - first)).Distance(surface->Value(uv.X(), uv.Y())));
+    }
+    const TopoDS_Edge forward = TopoDS::Edge(edge.Oriented(TopAbs_FORWARD));
+    for (const bool atStart : {true, false}) {
+      const TopoDS_Vertex vertex = atStart ? TopExp::FirstVertex(forward) : TopExp::LastVertex(forward);
+      if (!vertex.IsNull()) gap = std::max(gap, BRep_Tool::Pnt(vertex).Distance(curve->Value(atStart ? first : last)));
+    }
+  }
+  return gap;
+}
+
+/// Names the faces that do not fit together: one wrong digit in a file does that.
+void nameGaps(const XSControl_Reader& reader, const ChildVoice& voice) {
+  constexpr double kWorthNaming = 0.01;  // mm
+  const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
+  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    if (model->IsErrorEntity(i) || !isFace(model->Value(i))) continue;
+    double gap = 0;
+    for (TopExp_Explorer faces(TransferBRep::ShapeResult(process, model->Value(i)), TopAbs_FACE); faces.More();
+         faces.Next())
+      gap = std::max(gap, gapsOf(TopoDS::Face(faces.Current())));
+    if (!(gap <= kWorthNaming)) voice.say(fmt::format("gap {} {:.3f}", labelOf(model, model->Value(i)), gap));
   }
 }
 
@@ -211,6 +282,13 @@ std::string transferCad(const TransferOrder& order, const ChildVoice& voice) {
       return {};
     }
     nameLostFaces(*reader, voice);
+    nameGaps(*reader, voice);
+    if (const double scale = scaleOf(reader->WS()->Model()); scale != 1) {
+      voice.say(fmt::format("scaled {:.9g}", scale));
+      gp_Trsf enlarge;
+      enlarge.SetScale(gp::Origin(), 1 / scale);
+      shape = BRepBuilderAPI_Transform(shape, enlarge, Standard_True).Shape();
+    }
     nameOpenEdges(shape, voice);
     voice.say("stage looking for kinks");
     shape = withoutKinks(shape);

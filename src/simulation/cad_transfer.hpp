@@ -27,12 +27,15 @@ struct TransferOrder {
 ///   failed TEXT          why there is no shape
 ///   nothing              there is neither a body nor a face
 ///   suspect LABEL TEXT   an entity that OpenCASCADE does not read as it stands; LABEL is #123 in STEP, D123 in IGES
+///   unable LABEL TEXT    an entity that OpenCASCADE would build wrongly; there is no shape
 ///   at LABEL             the entity that it builds now
 ///   lost LABEL           a face that the shape does not have
 ///   faces N              how many faces the shape has
 ///   begin N, end N       the mesher's way with a face
 ///   grid N CELL KIND     a face that has a grid instead of a mesh, with its largest cell; 0: not even that
 ///   open N X Y Z         N edges of bodies and skins belong to one face only, one of them at X Y Z
+///   gap LABEL MM         a face whose edges leave its surface, or whose vertices its edges, by so much
+///   scaled FACTOR        lengths of the model are so many times the true ones; the shape has the true ones
 ///   skin                 there are faces, but no body
 std::string transferCad(const TransferOrder& order, const ChildVoice& voice);
 

@@ -158,6 +158,12 @@ bool hasTriangles(const TopoDS_Face& face) {
   return !mesh.IsNull() && mesh->HasUVNodes() && mesh->NbTriangles() > 0;
 }
 
+/// True for borders that OpenCASCADE got wrong: they run to and fro, and no place lies within.
+bool enclosesNothing(const TrimmedDomain& domain) {
+  constexpr double kLeastShare = 1e-9;  // of the box about the border
+  return !domain.isEverywhere() && domain.area() <= kLeastShare * (domain.high() - domain.low()).prod();
+}
+
 }  // namespace
 
 std::size_t faceCount(const TopoDS_Shape& shape) { return numbered(shape).size(); }
@@ -202,7 +208,7 @@ std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, co
       const CadFace exact = cadFace(TopoDS::Face(face.Located(TopLoc_Location())));
       const FaceGrid grid(exact, deflection);
       const Handle(Poly_Triangulation) mesh = triangulation(exact, grid);
-      if (!mesh.IsNull()) {
+      if (!mesh.IsNull() && !enclosesNothing(exact.domain)) {
         mesh->Deflection(deflection);
         BRep_Builder().UpdateFace(face, mesh);
         found.deviation = grid.deviation();

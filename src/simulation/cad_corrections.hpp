@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Interface_InterfaceModel.hxx>
+#include <Standard_Transient.hxx>
+
+class XSControl_Reader;
+
+/// Entities of files that OpenCASCADE takes for something else than the standards mean.
+namespace probewright::simulation {
+
+/// A placement that mirrors or scales, of STEP; null if there is none. OpenCASCADE takes a scale for its inverse and a
+/// mirror for a rotation.
+Handle(Standard_Transient) misreadPlacement(const Handle(Interface_InterfaceModel) & model);
+
+/// A face of STEP on the offset of a cone; null if there is none. OpenCASCADE loses its edges, and the probe would
+/// pass.
+Handle(Standard_Transient) unreadableOffset(const Handle(Interface_InterfaceModel) & model);
+
+/// Gives faces of STEP that lie on the offset of a plane, cylinder, sphere or torus the plane, cylinder, sphere or
+/// torus itself: OpenCASCADE does not find their edges on the offset.
+void takePlainOffsets(const Handle(Interface_InterfaceModel) & model);
+
+/// Offset surfaces of IGES lie to the side of a vector at the middle of their basis; OpenCASCADE offsets along the
+/// normal. Nothing may have been built yet.
+void turnOffsets(XSControl_Reader& reader);
+
+/// Lengths of an IGES model over the true ones, which OpenCASCADE does not look at; 1 for other files.
+double scaleOf(const Handle(Interface_InterfaceModel) & model);
+
+}  // namespace probewright::simulation

@@ -1,0 +1,466 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "meant.hpp"
+#include "oracle.hpp"
+#include "simulation/cad_solid.hpp"
+#include "written_step.hpp"
+
+/// Parts as files write them that OpenCASCADE did not write, met where the closed form of what they mean says.
+namespace probewright::simulation {
+namespace {
+
+using namespace testing;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+/// A turned part with a bore, a cone, a plane, a rounding, a throat and a spherical shoulder.
+Meridian bush() {
+  return {{{6, 0},
+           {18, 0},
+           {22, 6},                        // chamfer below
+           {22, 14, true, 20, 14, true},   // cylinder, then a rounding of 2
+           {20, 16},                       // plane
+           {15, 16, true, 15, 19, false},  // throat of 3
+           {12, 19},                       // neck
+           {12, 24, true, 0, 15, true},    // ball of 15 about the axis
+           {std::sqrt(225 - 169), 28},     // plane on top
+           {6, 28}}};
+}
+
+/// A spindle: cone below from its apex, ball on top.
+Meridian spindle() { return {{{0, -20}, {14, 0}, {14, 5, true, 0, 5, true}, {0, 19}}}; }
+
+Meridian ring() { return {{{26, 3, true, 20, 3, true}}}; }
+Meridian ball() { return {{{0, -11, true, 0, 0, true}, {0, 11}}}; }
+Meridian cap() { return {{{0, 4, false}, {9, 4, true, 0, 4, true}, {0, 13}}}; }
+
+struct NamedMeridian {
+  std::string name;
+  Meridian meridian;
+};
+std::vector<NamedMeridian> meridians() {
+  return {{"bush", bush()}, {"spindle", spindle()}, {"ring", ring()}, {"ball", ball()}, {"cap", cap()}};
+}
+
+/// Reads a file and sends balls at it.
+void expectRead(const std::string& name, const std::string& text, const Distance& distance, double size,
+                const Vector3& middle, std::mt19937_64& random, int ways) {
+  const ScratchFolder folder;
+  const auto solid = readStep(folder.write("part.step", text));
+  ASSERT_TRUE(solid) << name << ": " << format(solid.error());
+  expectAsMeant(name, **solid, distance, size, middle, random, ways);
+}
+
+int solidOf(StepFile& file, const std::vector<int>& faces) {
+  return file.add(
+      fmt::format("MANIFOLD_SOLID_BREP('',#{})", file.add(fmt::format("CLOSED_SHELL('',({}))", listOf(faces)))));
+}
+
+Distance distanceOf(const Meridian& meridian, const Pose& pose) {
+  const Pose back = pose.inverse();
+  return [meridian, back](const Vector3& p) { return meridian.distance(back * p); };
+}
+
+TEST(WrittenParts, OfAnyDialectAreMetWhereTheyAre) {
+  std::mt19937_64 random(201);
+  const auto how = [&](Dialect::Surfaces surfaces, Dialect::Loops loops) {
+    Dialect dialect;
+    dialect.surfaces = surfaces;
+    dialect.loops = loops;
+    dialect.sectors = 2 + static_cast<int>(random() % 3);
+    dialect.seamAt = uniform(random, -7, 7);
+    dialect.axesDown = random() % 2 == 0;
+    dialect.loopsReversed = random() % 2 == 0;
+    dialect.edgesReversed = random() % 2 == 0;
+    dialect.firstEdge = static_cast<int>(random() % 4);
+    return dialect;
+  };
+  int k = 0;
+  for (int round = 0; round < campaignFactor(); ++round) {
+    for (const auto& [body, meridian] : meridians()) {
+      for (const auto surfaces : {Dialect::Surfaces::Own, Dialect::Surfaces::Revolution, Dialect::Surfaces::Offset,
+                                  Dialect::Surfaces::Splines}) {
+        for (const auto loops : {Dialect::Loops::Seam, Dialect::Loops::TwoCircles, Dialect::Loops::Sectors}) {
+          const Dialect dialect = how(surfaces, loops);
+          // Cones as offsets are refused; cones of revolution that end at their apex and closed splines on axes are not
+          // yet read rightly.
+          const bool apex = body == "spindle" && surfaces == Dialect::Surfaces::Revolution;
+          const bool coneOffset = (body == "spindle" || body == "bush") && surfaces == Dialect::Surfaces::Offset;
+          const bool splines = (body == "bush" || body == "cap") && surfaces == Dialect::Surfaces::Splines;
+          if (apex || coneOffset || splines || (body == "cap" && surfaces == Dialect::Surfaces::Offset)) continue;
+          const std::array lengths{1.0, 25.4, 1000.0};
+          const bool poles = body != "bush" && body != "ring";  // corners at a pole are not read rightly in metres
+          StepFile file({lengths[static_cast<std::size_t>(k++ % (poles ? 2 : 3))], random() % 2 == 0});
+          const Pose pose = randomPose(random, 60);
+          const std::vector<int> faces = revolvedFaces(file, meridian, pose, dialect);
+          const std::string name = fmt::format(
+              "{} surfaces {} loops {}/{} seam {:.2f} down {} loops {} edges {} first {} unit {} degrees {}", body,
+              static_cast<int>(surfaces), static_cast<int>(loops), dialect.sectors, dialect.seamAt, dialect.axesDown,
+              dialect.loopsReversed, dialect.edgesReversed, dialect.firstEdge, file.units().length,
+              file.units().degrees);
+          expectRead(name, file.withItems({solidOf(file, faces)}), distanceOf(meridian, pose), 50, pose.translation(),
+                     random, 30);
+        }
+      }
+    }
+  }
+}
+
+Dialect sectors(int count) {
+  Dialect dialect;
+  dialect.loops = Dialect::Loops::Sectors;
+  dialect.sectors = count;
+  dialect.seamAt = 0.3;
+  return dialect;
+}
+
+TEST(WrittenParts, OfSeveralOpenSkinsAreMetWhereTheyAre) {
+  std::mt19937_64 random(202);
+  const Pose pose = randomPose(random, 40);
+  StepFile file({25.4, true});
+  const std::vector<int> faces = revolvedFaces(file, bush(), pose, sectors(3));
+  std::vector<int> models;
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::vector<int> some;
+    for (std::size_t i = k; i < faces.size(); i += 3)
+      some.push_back(faces[i]);
+    const int shell = file.add(fmt::format("OPEN_SHELL('',({}))", listOf(some)));
+    models.push_back(file.add(fmt::format("SHELL_BASED_SURFACE_MODEL('',(#{}))", shell)));
+  }
+  file.represent(file.product("skins"), models, "MANIFOLD_SURFACE_SHAPE_REPRESENTATION");
+  expectRead("skins", file.text(), distanceOf(bush(), pose), 50, pose.translation(), random, 60);
+}
+
+TEST(WrittenParts, WithVoidsAreMetInsideAndOutside) {
+  std::mt19937_64 random(203);
+  const Pose pose = randomPose(random, 40);
+  const Meridian outer{{{0, -20}, {30, -20}, {30, 20}, {0, 20}}};
+  for (const auto loops : {Dialect::Loops::Seam, Dialect::Loops::TwoCircles, Dialect::Loops::Sectors}) {
+    StepFile file;
+    Dialect dialect = sectors(2);
+    dialect.loops = loops;
+    const auto shell = [&](const std::vector<int>& faces) {
+      return file.add(fmt::format("CLOSED_SHELL('',({}))", listOf(faces)));
+    };
+    const int outside = shell(revolvedFaces(file, outer, pose, dialect));
+    const int hollow = shell(revolvedFaces(file, ball(), pose, dialect));
+    const int inside = file.add(fmt::format("ORIENTED_CLOSED_SHELL('',*,#{},.F.)", hollow));
+    const std::string text = file.withItems({file.add(fmt::format("BREP_WITH_VOIDS('',#{},(#{}))", outside, inside))});
+    expectRead("outside", text, nearestOf({distanceOf(outer, pose), distanceOf(ball(), pose)}), 50, pose.translation(),
+               random, 20);
+    const ScratchFolder folder;
+    const auto solid = readStep(folder.write("part.step", text));
+    ASSERT_TRUE(solid) << format(solid.error());
+    for (int i = 0; i < 20; ++i) {
+      const Vector3 from = pose * randomPoint(random, 4), to = from + 60 * randomDirection(random);
+      const auto contact = (*solid)->firstContact(from, to, 2);
+      ASSERT_TRUE(contact);
+      EXPECT_GT(contact->fraction, 0) << "the void is free";
+      EXPECT_NEAR((contact->ballCentre - pose.translation()).norm(), 9, 1e-6);
+    }
+    const Vector3 within = pose * Vector3(20, 3, 2);
+    const auto contact = (*solid)->firstContact(within, pose * Vector3(50, 3, 2), 2);
+    ASSERT_TRUE(contact);
+    EXPECT_EQ(contact->fraction, 0) << "between both shells is material";
+  }
+}
+
+TEST(WrittenParts, OfFlatFacetsAreMetWhereTheyAre) {
+  std::mt19937_64 random(204);
+  const Vector3 size(50, 30, 20);
+  {
+    const Pose pose = randomPose(random, 40);
+    StepFile file({1000, false});
+    std::vector<int> points;
+    for (int i = 0; i < 8; ++i)
+      points.push_back(
+          file.point(pose * Vector3(i % 2 == 0 ? -25 : 25, i / 2 % 2 == 0 ? -15 : 15, i / 4 == 0 ? -10 : 10)));
+    const std::array<std::array<std::size_t, 4>, 6> corners{
+        {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+    const std::array<Vector3, 6> normals{-Vector3::UnitZ(), Vector3::UnitZ(),  -Vector3::UnitY(),
+                                         Vector3::UnitY(),  -Vector3::UnitX(), Vector3::UnitX()};
+    std::vector<int> faces;
+    for (std::size_t f = 0; f < 6; ++f) {
+      std::vector<int> loop;
+      for (const std::size_t c : corners[f])
+        loop.push_back(points[c]);
+      const int bound = file.add(
+          fmt::format("FACE_OUTER_BOUND('',#{},.T.)", file.add(fmt::format("POLY_LOOP('',({}))", listOf(loop)))));
+      const Vector3& n = normals[f];
+      const int axes =
+          file.axes(pose * (n.cwiseProduct(size) / 2), pose.linear() * n, pose.linear() * Vector3(n.y(), n.z(), n.x()));
+      faces.push_back(
+          file.add(fmt::format("FACE_SURFACE('',(#{}),#{},.T.)", bound, file.add(fmt::format("PLANE('',#{})", axes)))));
+    }
+    const int shell = file.add(fmt::format("CLOSED_SHELL('',({}))", listOf(faces)));
+    expectRead("facets", file.withItems({file.add(fmt::format("FACETED_BREP('',#{})", shell))}),
+               distanceOfBlock(size, pose), 50, pose.translation(), random, 40);
+  }
+}
+
+TEST(WrittenParts, WithLooseLinesAndPointsAreMetWhereTheirBodiesAre) {
+  std::mt19937_64 random(205);
+  const Pose pose = randomPose(random, 40);
+  StepFile file;
+  const int body = solidOf(file, revolvedFaces(file, spindle(), pose, {}));
+  const int vector = file.add(fmt::format("VECTOR('',#{},1.)", file.direction(Vector3::UnitX())));
+  const int line = file.add(fmt::format("LINE('',#{},#{})", file.point(pose.translation()), vector));
+  const int trimmed =
+      file.add(fmt::format("TRIMMED_CURVE('',#{},(PARAMETER_VALUE(-80.)),(PARAMETER_VALUE(80.)),.T.,"
+                           ".PARAMETER.)",
+                           line));
+  const int set = file.add(fmt::format("GEOMETRIC_CURVE_SET('',(#{},#{}))", trimmed, file.point({0, 0, 50})));
+  const int definition = file.product("part");
+  file.represent(definition, {body, set, file.axes(Vector3::Zero(), Vector3::UnitZ(), Vector3::UnitX())});
+  expectRead("lines", file.text(), distanceOf(spindle(), pose), 50, pose.translation(), random, 40);
+}
+
+/// A body as an instance of a representation, moved by an operator.
+std::string mapped(const Pose& own, const Pose& target, double scale, bool mirrored) {
+  StepFile file({mirrored ? 25.4 : 1.0, true});
+  const int body = solidOf(file, revolvedFaces(file, bush(), own, {}));
+  const int origin = file.axes(Vector3::Zero(), Vector3::UnitZ(), Vector3::UnitX());
+  const int shape = file.add(fmt::format("SHAPE_REPRESENTATION('',(#{},#{}),#{})", origin, body, file.context()));
+  const int map = file.add(fmt::format("REPRESENTATION_MAP(#{},#{})", origin, shape));
+  const int x = file.direction(target.linear().col(0)), y = file.direction(target.linear().col(1));
+  const int z = file.direction((mirrored ? -1 : 1) * target.linear().col(2));
+  const int place = file.point(target.translation());
+  const int transform = file.add(
+      fmt::format("CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',#{},#{},#{},{:.3f},#{})", x, y, place, scale, z));
+  return file.withItems({file.add(fmt::format("MAPPED_ITEM('',#{},#{})", map, transform))});
+}
+
+TEST(WrittenParts, MappedAreMetWhereTheyAre) {
+  std::mt19937_64 random(206);
+  const Pose own = randomPose(random, 20), target = randomPose(random, 60);
+  expectRead("mapped", mapped(own, target, 1, false), distanceOf(bush(), target * own), 50, target * own.translation(),
+             random, 30);
+}
+
+TEST(WrittenParts, MappedScaledOrMirroredAreRefusedRatherThanPutElsewhere) {
+  const ScratchFolder folder;
+  for (const auto& [scale, mirrored] : {std::pair(2.0, false), std::pair(0.5, true), std::pair(1.0, true)}) {
+    const auto solid =
+        readStep(folder.write("part.step", mapped(Pose::Identity(), translation({10, 0, 0}), scale, mirrored)));
+    ASSERT_FALSE(solid);
+    EXPECT_GT(solid.error().place.line, 0U);
+    EXPECT_THAT(format(solid.error()), AllOf(HasSubstr("CARTESIAN_TRANSFORMATION_OPERATOR_3D: it mirrors or scales"),
+                                             HasSubstr("bodies of their own")));
+  }
+}
+
+TEST(WrittenParts, WithOffsetsOfConesAreRefused) {
+  const ScratchFolder folder;
+  StepFile file;
+  Dialect dialect;
+  dialect.surfaces = Dialect::Surfaces::Offset;
+  const std::string text = file.withItems({solidOf(file, revolvedFaces(file, spindle(), Pose::Identity(), dialect))});
+  const auto solid = readStep(folder.write("part.step", text));
+  ASSERT_FALSE(solid);
+  EXPECT_GT(solid.error().place.line, 0U);
+  EXPECT_THAT(format(solid.error()), HasSubstr("OFFSET_SURFACE: it is the offset of a cone"));
+}
+
+TEST(DamagedParts, WhoseFacesDoNotFitTheirEdgesAreNamed) {
+  StepFile file;
+  const std::string good = file.withItems({solidOf(file, revolvedFaces(file, bush(), Pose::Identity(), {}))});
+  const auto changed = [&](const std::string& type, const std::string& from, const std::string& to) {
+    std::string bad = good;
+    const std::size_t at = bad.find(from, bad.find(type));
+    EXPECT_LT(at, bad.find(';', bad.find(type))) << type;
+    return bad.replace(at, from.size(), to);
+  };
+  const auto remarksOn = [](const std::string& text) {
+    const ScratchFolder folder;
+    const auto solid = readStep(folder.write("part.step", text));
+    EXPECT_TRUE(solid) << format(solid.error());
+    std::string all;
+    for (const Diagnostic& remark : dynamic_cast<const CadSolid&>(**solid).remarks())
+      all += format(remark) + "\n";
+    return all;
+  };
+  EXPECT_EQ(remarksOn(good), "");
+  const std::string misfit = "ADVANCED_FACE does not fit its edges: they, their corners and its surface are up to ";
+  EXPECT_THAT(remarksOn(changed("=CYLINDRICAL_SURFACE", ",22.)", ",21.)")), HasSubstr(misfit + "1.000 mm"));
+  EXPECT_THAT(remarksOn(changed("=CYLINDRICAL_SURFACE", ",22.)", ",22.04)")), HasSubstr(misfit + "0.040 mm"));
+  EXPECT_THAT(remarksOn(changed("=TOROIDAL_SURFACE", ",20.,2.)", ",20.,2.5)")), HasSubstr(misfit + "0.500 mm"));
+}
+
+TEST(WrittenParts, OfNestedAssembliesInSeveralUnitsAreMetWhereTheyAre) {
+  std::mt19937_64 random(207);
+  for (int round = 0; round < 4; ++round) {
+    StepFile file({round % 2 == 0 ? 25.4 : 1.0, round % 2 == 0});
+    // A part, two of it in a group, two groups and a part in the whole; the part has units of its own.
+    const Pose own = randomPose(random, 10);
+    const int part = file.product("part");
+    const int partOrigin = file.axes(Vector3::Zero(), Vector3::UnitZ(), Vector3::UnitX());
+    const int body = solidOf(file, revolvedFaces(file, cap(), own, {}));
+    const int partShape = file.represent(part, {partOrigin, body}, "ADVANCED_BREP_SHAPE_REPRESENTATION");
+    file.use({round < 2 ? 1000.0 : 1.0, round % 2 == 1});
+    const int group = file.product("group"), whole = file.product("whole");
+    const std::array<Pose, 5> poses{randomPose(random, 30), randomPose(random, 30), randomPose(random, 90),
+                                    randomPose(random, 90), randomPose(random, 90)};
+    std::array<int, 5> places{};
+    for (std::size_t i = 0; i < 5; ++i)
+      places[i] = file.axes(poses[i]);
+    const int origin = file.axes(Vector3::Zero(), Vector3::UnitZ(), Vector3::UnitX());
+    const int groupShape = file.represent(group, {origin, places[0], places[1]});
+    const int wholeShape = file.represent(whole, {origin, places[2], places[3], places[4]});
+    const auto use = [&](int assembly, int assemblyShape, int component, int shape, int componentOrigin, int place) {
+      const int occurrence =
+          file.add(fmt::format("NEXT_ASSEMBLY_USAGE_OCCURRENCE('{0}','','',#{1},#{2},$)", place, assembly, component));
+      const int definition = file.add(fmt::format("PRODUCT_DEFINITION_SHAPE('','',#{})", occurrence));
+      const int transform = file.add(fmt::format("ITEM_DEFINED_TRANSFORMATION('','',#{},#{})", componentOrigin, place));
+      const int relation = file.add(
+          fmt::format("(REPRESENTATION_RELATIONSHIP('','',#{},#{})REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#{})"
+                      "SHAPE_REPRESENTATION_RELATIONSHIP())",
+                      shape, assemblyShape, transform));
+      file.add(fmt::format("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(#{},#{})", relation, definition));
+    };
+    use(group, groupShape, part, partShape, partOrigin, places[0]);
+    use(group, groupShape, part, partShape, partOrigin, places[1]);
+    use(whole, wholeShape, group, groupShape, origin, places[2]);
+    use(whole, wholeShape, group, groupShape, origin, places[3]);
+    use(whole, wholeShape, part, partShape, partOrigin, places[4]);
+    std::vector<Distance> all{distanceOf(cap(), poses[4] * own)};
+    for (const std::size_t g : {2, 3}) {
+      for (const std::size_t p : {0, 1})
+        all.push_back(distanceOf(cap(), poses[g] * poses[p] * own));
+    }
+    expectRead(fmt::format("assembly {}", round), file.text(), nearestOf(all), 160, Vector3::Zero(), random, 120);
+  }
+}
+
+TEST(WrittenParts, OfTrimmedSurfacesWithoutFacesAreMetWhereTheyAre) {
+  std::mt19937_64 random(208);
+  for (int round = 0; round < 6; ++round) {
+    const Pose pose = randomPose(random, 40);
+    StepFile file({round % 2 == 0 ? 1.0 : 25.4, round % 3 == 0});
+    const double u0 = 2 * std::numbers::pi * (round - 2) + uniform(random, -3, 3), u1 = u0 + uniform(random, 0.5, 6);
+    const int cylinder = file.add(fmt::format("CYLINDRICAL_SURFACE('',#{},{})", file.axes(pose), file.length(12)));
+    const int trimmed = file.add(fmt::format("RECTANGULAR_TRIMMED_SURFACE('',#{},{},{},{},{},.T.,.T.)", cylinder,
+                                             file.angle(u0), file.angle(u1), file.length(-5), file.length(20)));
+    const int set = file.add(fmt::format("GEOMETRIC_SET('',(#{}))", trimmed));
+    file.represent(file.product("skin"), {set}, "GEOMETRICALLY_BOUNDED_SURFACE_SHAPE_REPRESENTATION");
+    expectRead(fmt::format("trimmed {}", round), file.text(), distanceOfShell(12, -5, 20, u0, u1, pose), 40,
+               pose * Vector3(0, 0, 7), random, 40);
+  }
+}
+
+TEST(WrittenParts, OfSplinesInEveryFormAreMetWhereTheyAre) {
+  std::mt19937_64 random(209);
+  for (const std::string form : {"UNIFORM", "QUASI_UNIFORM", "KNOTS"}) {
+    const Pose pose = randomPose(random, 40);
+    StepFile file({25.4, false});
+    std::string points;
+    for (int i = 0; i < 6; ++i) {
+      std::string row;
+      for (int j = 0; j < 5; ++j)
+        row += fmt::format("{}#{}", row.empty() ? "" : ",", file.point(pose * Vector3(8.0 * i, 6.0 * j, 4)));
+      points += fmt::format("{}({})", points.empty() ? "" : ",", row);
+    }
+    const std::string type = form == "KNOTS" ? "B_SPLINE_SURFACE_WITH_KNOTS" : form + "_SURFACE";
+    const std::string knots = form == "KNOTS" ? ",(1,1,1,1,1,1,1,1,1,1),(1,1,1,1,1,1,1,1,1),(-3.,-2.,-1.,0.,1.,2.,3.,"
+                                                "4.,5.,6.),(-3.,-2.,-1.,0.,1.,2.,3.,4.,5.),.UNIFORM_KNOTS."
+                                              : "";
+    const int surface = file.add(fmt::format("{}('',3,3,({}),.UNSPECIFIED.,.F.,.F.,.F.{})", type, points, knots));
+    // Poles in equal distances make a plane; a cubic spline with knots at its ends covers all of it, a uniform one goes
+    // from the second pole to the last but one.
+    const bool clamped = form == "QUASI_UNIFORM";
+    const Vector3 low = clamped ? Vector3(0, 0, 4) : Vector3(8, 6, 4);
+    const Vector3 high = clamped ? Vector3(40, 24, 4) : Vector3(32, 18, 4);
+    const int set = file.add(fmt::format("GEOMETRIC_SET('',(#{}))", surface));
+    file.represent(file.product("skin"), {set}, "GEOMETRICALLY_BOUNDED_SURFACE_SHAPE_REPRESENTATION");
+    expectRead(form, file.text(), distanceOfBlock(high - low, pose * translation((low + high) / 2)), 40,
+               pose * Vector3(15, 10, 5), random, 60);
+  }
+}
+
+/// A stadium: 30 between the centres, ends of radius 9, 12 high; its sides are extruded curves.
+Distance distanceOfStadium(const Pose& pose) {
+  const Pose back = pose.inverse();
+  return [back](const Vector3& p) {
+    const Vector3 q = back * p;
+    const double across = std::hypot(std::max(0.0, std::abs(q.x()) - 15), q.y()) - 9;
+    const double along = std::abs(q.z() - 6) - 6;
+    if (across <= 0 && along <= 0) return std::min(-across, -along);
+    return std::hypot(std::max(0.0, across), std::max(0.0, along));
+  };
+}
+
+TEST(WrittenParts, OfExtrudedCurvesAreMetWhereTheyAre) {
+  std::mt19937_64 random(210);
+  for (int round = 0; round < 8; ++round) {
+    const bool down = round % 2 == 1, trimmedCurves = round / 2 % 2 == 1, polylines = round / 4 == 1;
+    const Pose pose = randomPose(random, 40);
+    StepFile file({round % 3 == 0 ? 1.0 : 25.4, round % 2 == 0});
+    const auto at = [&](double x, double y, double z) { return Vector3(pose * Vector3(x, y, z)); };
+    const Vector3 z = pose.linear().col(2), x = pose.linear().col(0);
+    const std::array<Vector2, 4> corners{Vector2(15, -9), Vector2(15, 9), Vector2(-15, 9), Vector2(-15, -9)};
+    std::array<std::array<int, 4>, 2> vertices{}, rings{};
+    std::array<int, 4> posts{};
+    const auto curve = [&](std::size_t side, double height) {
+      const Vector2 a = corners[side], b = corners[(side + 1) % 4];
+      if (side % 2 == 0) {
+        const int axes = file.axes(at(side == 0 ? 15 : -15, 0, height), z, x);
+        const int circle = file.add(fmt::format("CIRCLE('',#{},{})", axes, file.length(9)));
+        if (!trimmedCurves) return circle;
+        const double from = (side == 0 ? -0.5 : 0.5) * std::numbers::pi;
+        return file.add(fmt::format("TRIMMED_CURVE('',#{},(PARAMETER_VALUE({})),(PARAMETER_VALUE({})),.T.,.PARAMETER.)",
+                                    circle, file.angle(from), file.angle(from + std::numbers::pi)));
+      }
+      if (polylines)
+        return file.add(fmt::format("POLYLINE('',(#{},#{}))", file.point(at(a.x(), a.y(), height)),
+                                    file.point(at(b.x(), b.y(), height))));
+      const Vector3 way = (at(b.x(), b.y(), 0) - at(a.x(), a.y(), 0)).normalized();
+      const int vector = file.add(fmt::format("VECTOR('',#{},2.5)", file.direction(way)));
+      return file.add(fmt::format("LINE('',#{},#{})", file.point(at(a.x(), a.y(), height)), vector));
+    };
+    const auto edge = [&](int from, int to, int along) {
+      return file.add(fmt::format("EDGE_CURVE('',#{},#{},#{},.T.)", from, to, along));
+    };
+    for (std::size_t level = 0; level < 2; ++level) {
+      for (std::size_t i = 0; i < 4; ++i)
+        vertices[level][i] = file.vertex(at(corners[i].x(), corners[i].y(), level == 0 ? 0 : 12));
+      for (std::size_t i = 0; i < 4; ++i)
+        rings[level][i] = edge(vertices[level][i], vertices[level][(i + 1) % 4], curve(i, level == 0 ? 0 : 12));
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      const int vector = file.add(fmt::format("VECTOR('',#{},1.)", file.direction(z)));
+      const int line =
+          file.add(fmt::format("LINE('',#{},#{})", file.point(at(corners[i].x(), corners[i].y(), 5)), vector));
+      posts[i] = edge(vertices[0][i], vertices[1][i], line);
+    }
+    const auto bound = [&](const std::vector<std::pair<int, bool>>& uses) {
+      std::vector<int> oriented;
+      for (const auto& [used, forwards] : uses)
+        oriented.push_back(file.add(fmt::format("ORIENTED_EDGE('',*,*,#{},{})", used, forwards ? ".T." : ".F.")));
+      return file.add(
+          fmt::format("FACE_OUTER_BOUND('',#{},.T.)", file.add(fmt::format("EDGE_LOOP('',({}))", listOf(oriented)))));
+    };
+    std::vector<int> faces;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const int vector =
+          file.add(fmt::format("VECTOR('',#{},{})", file.direction(down ? Vector3(-z) : z), file.length(3.7)));
+      // The normal is that of the curve's direction times the vector.
+      const int surface = file.add(fmt::format("SURFACE_OF_LINEAR_EXTRUSION('',#{},#{})", curve(i, 4), vector));
+      const int loop =
+          bound({{rings[0][i], true}, {posts[(i + 1) % 4], true}, {rings[1][i], false}, {posts[i], false}});
+      faces.push_back(file.add(fmt::format("ADVANCED_FACE('',(#{}),#{},{})", loop, surface, down ? ".F." : ".T.")));
+    }
+    for (std::size_t level = 0; level < 2; ++level) {
+      std::vector<std::pair<int, bool>> uses;
+      for (std::size_t i = 0; i < 4; ++i)
+        uses.emplace_back(rings[level][level == 0 ? 3 - i : i], level == 1);
+      const int plane = file.add(
+          fmt::format("PLANE('',#{})", file.axes(at(3, 4, level == 0 ? 0 : 12), level == 0 ? Vector3(-z) : z, x)));
+      faces.push_back(file.add(fmt::format("ADVANCED_FACE('',(#{}),#{},.T.)", bound(uses), plane)));
+    }
+    expectRead(fmt::format("extruded {}", round), file.withItems({solidOf(file, faces)}), distanceOfStadium(pose), 50,
+               at(0, 0, 6), random, 30);
+  }
+}
+
+}  // namespace
+}  // namespace probewright::simulation
