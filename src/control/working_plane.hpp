@@ -17,6 +17,12 @@ struct WorkingPlane {
     xyz[tool] = p[2];
     return xyz;
   }
+  /// The plane of G17, G18 or G19 (any other number: G17).
+  static constexpr WorkingPlane ofG(int number) {
+    return number == 18 ? WorkingPlane{2, 0, 1} : number == 19 ? WorkingPlane{1, 2, 0} : WorkingPlane{0, 1, 2};
+  }
+  /// The 1st, 2nd or 3rd axis, counted from 0.
+  constexpr int axis(int place) const { return place == 0 ? main : place == 1 ? minor : tool; }
   /// The plane square to a tool along `axis`: 'X', 'Y', 'Z', or 'U', 'V', 'W' for the parallel axes.
   static constexpr WorkingPlane ofToolAxis(char axis) {
     switch (axis) {

@@ -276,14 +276,14 @@ TEST(ToolData, AddsUpLengthsAndRadius) {
 
 TEST(ToolData, LengthsActAsThePlaneSays) {
   ToolEdge mill{.type = 120, .length = {1, 2, 3}};
-  EXPECT_EQ(toolVector(WorkingPlane::G17, mill), Vector3(3, 2, 1));
-  EXPECT_EQ(toolVector(WorkingPlane::G18, mill), Vector3(2, 1, 3));
-  EXPECT_EQ(toolVector(WorkingPlane::G19, mill), Vector3(1, 3, 2));
+  EXPECT_EQ(toolVector(WorkingPlane::ofG(17), mill), Vector3(3, 2, 1));
+  EXPECT_EQ(toolVector(WorkingPlane::ofG(18), mill), Vector3(2, 1, 3));
+  EXPECT_EQ(toolVector(WorkingPlane::ofG(19), mill), Vector3(1, 3, 2));
   ToolEdge turning{.type = 500, .length = {1, 2, 3}};
-  EXPECT_EQ(toolVector(WorkingPlane::G18, turning), Vector3(1, 3, 2));
-  EXPECT_EQ(toolVector(WorkingPlane::G17, turning), Vector3(2, 1, 3));
-  EXPECT_EQ(toolVector(WorkingPlane::G19, turning), Vector3(3, 2, 1));
-  EXPECT_EQ(toolVector(WorkingPlane::G18, mill, true), Vector3(1, 3, 2));
+  EXPECT_EQ(toolVector(WorkingPlane::ofG(18), turning), Vector3(1, 3, 2));
+  EXPECT_EQ(toolVector(WorkingPlane::ofG(17), turning), Vector3(2, 1, 3));
+  EXPECT_EQ(toolVector(WorkingPlane::ofG(19), turning), Vector3(3, 2, 1));
+  EXPECT_EQ(toolVector(WorkingPlane::ofG(18), mill, true), Vector3(1, 3, 2));
 }
 
 TEST(MeasuringData, TableIsOrderedAndDefaultsAgreeWithTheMasks) {

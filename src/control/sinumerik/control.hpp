@@ -72,9 +72,7 @@ public:
   std::array<double, 32> ovr{};  ///< _OVR
   std::array<int, 20> ovi{};     ///< _OVI
 
-  control::WorkingPlane workingPlane() const {
-    return control::WorkingPlane::ofToolAxis(plane == 18 ? 'Y' : plane == 19 ? 'X' : 'Z');
-  }
+  control::WorkingPlane workingPlane() const { return control::WorkingPlane::ofG(plane); }
 
   /// Loads tool `number`; 0 empties the spindle. Throws Alarm 17190 if it has no data. D1 becomes active.
   void loadTool(int number);

@@ -30,18 +30,6 @@ constexpr int lastParameter = 25;
 
 }  // namespace
 
-std::array<int, 3> planeAxes(WorkingPlane plane) {
-  switch (plane) {
-    case WorkingPlane::G18:
-      return {2, 0, 1};
-    case WorkingPlane::G19:
-      return {1, 2, 0};
-    case WorkingPlane::G17:
-      break;
-  }
-  return {0, 1, 2};
-}
-
 std::array<double, 3> ToolEdge::totalLength() const {
   std::array<double, 3> total = {};
   for (std::size_t i = 0; i < 3; ++i)
@@ -122,15 +110,14 @@ std::optional<int> toolNamed(const DataStore& store, std::string_view name) {
 std::string toolName(const DataStore& store, int tool) { return store.text("$TC_TP2", {tool}); }
 
 std::array<int, 3> lengthAxes(WorkingPlane plane, const ToolEdge& edge, bool asTurning) {
-  const auto [first, second, third] = planeAxes(plane);
-  if (asTurning || edge.isTurning()) return {second, first, third};
-  return {third, second, first};
+  if (asTurning || edge.isTurning()) return {plane.minor, plane.main, plane.tool};
+  return {plane.tool, plane.minor, plane.main};
 }
 
 WorkingPlane planeOfLengths(const DataStore& store, int activePlane) {
   const auto constant = static_cast<int>(store.number("$SC_TOOL_LENGTH_CONST", {}));
   const int plane = constant >= 17 && constant <= 19 ? constant : activePlane;
-  return plane == 18 ? WorkingPlane::G18 : plane == 19 ? WorkingPlane::G19 : WorkingPlane::G17;
+  return WorkingPlane::ofG(plane);
 }
 
 Vector3 toolVector(WorkingPlane plane, const ToolEdge& edge, bool asTurning) {

@@ -7,16 +7,11 @@
 #include <vector>
 
 #include "control/sinumerik/data_store.hpp"
+#include "control/working_plane.hpp"
 
 /// Tool data of SINUMERIK controls: cutting edges $TC_DP1..25[t,d], additive and setup offsets $TC_SCP.., $TC_ECP..,
 /// names $TC_TP2[t]. Lengths in mm, angles in degrees.
 namespace probewright::control::sinumerik {
-
-enum class WorkingPlane { G17, G18, G19 };
-
-/// The geometry axes (0, 1, 2 for X, Y, Z) of the 1st, 2nd and 3rd axis of a plane: G17: X, Y, Z; G18: Z, X, Y; G19: Y,
-/// Z, X.
-std::array<int, 3> planeAxes(WorkingPlane plane);
 
 /// One cutting edge.
 struct ToolEdge {

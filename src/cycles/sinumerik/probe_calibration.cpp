@@ -20,12 +20,6 @@ std::string triggerName(int axis, double sign) {
   return fmt::format("$SNS_MEA_WP_TRIG_{}_DIR_AX{}", sign < 0 ? "MINUS" : "PLUS", axis + 1);
 }
 
-control::sinumerik::WorkingPlane planeOf(const Control& control) {
-  return control.plane == 18   ? control::sinumerik::WorkingPlane::G18
-         : control.plane == 19 ? control::sinumerik::WorkingPlane::G19
-                               : control::sinumerik::WorkingPlane::G17;
-}
-
 }  // namespace
 
 ProbeCalibration::ProbeCalibration(Context& context) : context_(context), dataSet_(context.dataSet()) {
@@ -116,7 +110,7 @@ std::string ProbeCalibration::lengthName(int axis) const {
   const auto edge = toolEdge(control.data, control.tool.number, control.tool.edge);
   const auto axes =
       lengthAxes(planeOfLengths(control.data, control.plane), edge.value_or(control::sinumerik::ToolEdge{}));
-  const int geometryAxis = planeAxes(planeOf(control))[static_cast<std::size_t>(axis)];
+  const int geometryAxis = control.workingPlane().axis(axis);
   return fmt::format("$TC_DP{}", 3 + (std::ranges::find(axes, geometryAxis) - axes.begin()));
 }
 

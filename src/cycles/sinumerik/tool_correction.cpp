@@ -132,15 +132,12 @@ Corrected correctedBy(const Context& context, const ToolTarget& target, const To
                       const ToolInfluence& influence) {
   if (target.component == Component::Radius) return {3, 1};
   const int plane = context.control().plane;
-  const auto working = plane == 18   ? control::sinumerik::WorkingPlane::G18
-                       : plane == 19 ? control::sinumerik::WorkingPlane::G19
-                                     : control::sinumerik::WorkingPlane::G17;
   const auto lengths = lengthAxes(planeOfLengths(context.control().data, plane), edge);
   if (maskBit(context.control().data, "$MNS_MEA_FUNCTION_MASK", 2) && influence.surface && carrierIsTurned(context))
     return onTurnedCarrier(context, target, edge, influence, lengths);
   if (target.component != Component::FromAxis) return {static_cast<int>(target.component) - 1, 1};
   if (!edge.isTurning()) return {influence.radiusFromAxis ? 3 : 0, 1};
-  const int axis = planeAxes(working)[static_cast<std::size_t>(influence.measuringAxis)];
+  const int axis = control::WorkingPlane::ofG(plane).axis(static_cast<int>(influence.measuringAxis));
   return {static_cast<int>(std::ranges::find(lengths, axis) - lengths.begin()), 1};
 }
 
