@@ -27,6 +27,7 @@
 namespace {
 
 using namespace probewright;
+using namespace probewright::execution;
 using namespace probewright::language;
 namespace fs = std::filesystem;
 
@@ -173,8 +174,8 @@ private:
 };
 
 std::shared_ptr<Program> open(Dialect dialect, Kind kind) {
-  if (dialect == Dialect::Klartext) return klartext::KlartextProgram::open(file(dialect, kind)).value();
-  return sinumerik::SinumerikProgram::open(file(dialect, kind)).value();
+  if (dialect == Dialect::Klartext) return language::klartext::KlartextProgram::open(file(dialect, kind)).value();
+  return language::sinumerik::SinumerikProgram::open(file(dialect, kind)).value();
 }
 
 void interpret(benchmark::State& state, Dialect dialect, Kind kind, bool written) {

@@ -24,7 +24,8 @@ void convertOnce(const std::string& text, ProgramLanguage from, ProgramLanguage 
   const auto program = session::programOf(name, text, from);
   const ControlKind reads = from == ProgramLanguage::Sinumerik ? ControlKind::Sinumerik840Dsl : ControlKind::TNC640;
   if (hasErrors(session::checkProgram(*program, reads))) return;
-  const session::Conversion written = session::convert(*program, from, to, {.globalData = nullptr, .control = control});
+  const conversion::Conversion written =
+      conversion::convert(*program, from, to, {.globalData = nullptr, .control = control});
   if (hasErrors(written.mistakes)) return;
   for (const Diagnostic& each : written.notCarriedOver)
     if (each.message.empty()) std::abort();

@@ -283,16 +283,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   for (int calls = input.ConsumeIntegralInRange<int>(1, 3); calls > 0; --calls)
     source += calls == 1 && input.ConsumeBool() ? anyCall(input) : nearlySoundCall(input, lathe);
 
-  const auto program = sinumerik::SinumerikProgram::fromText("fuzz.mpf", source);
-  sinumerik::check(*program, {});
+  const auto program = language::sinumerik::SinumerikProgram::fromText("fuzz.mpf", source);
+  language::sinumerik::check(*program, {});
   simulation::VirtualMachine machine(worlds[lathe ? 1 : 0]);
   machine.recordPath(false);
   control::sinumerik::Control control(machine, stores[lathe ? 1 : 0]);
   control.channel.pathTolerance = 0.1;
-  sinumerik::SinumerikHost host(control);
+  execution::sinumerik::SinumerikHost host(control);
   NoLibrary library;
-  language::InterpreterOptions options;
+  execution::InterpreterOptions options;
   options.stepLimit = 200;
-  language::Interpreter(library, host, options).run(program);
+  execution::Interpreter(library, host, options).run(program);
   return 0;
 }

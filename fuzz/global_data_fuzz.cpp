@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   const std::size_t cut = bytes.find("\n%%\n");
   Diagnostics mistakes;
-  sinumerik::GlobalUserData definitions;
+  execution::sinumerik::GlobalUserData definitions;
   definitions.read("UGUD.DEF", std::string(bytes.substr(0, cut)), mistakes);
   for (const Diagnostic& each : mistakes)
     require(!format(each).empty() && each.place.line > 0);
@@ -33,11 +33,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     control::sinumerik::InitText::parse(bytes.substr(cut + 4), "U.GUD", store, mistakes);
   const auto variables = definitions.variables(store, mistakes);
   require(variables.size() == definitions.data().size());
-  for (const sinumerik::GlobalDatum& datum : definitions.data()) {
+  for (const execution::sinumerik::GlobalDatum& datum : definitions.data()) {
     require(definitions.find(datum.name) != nullptr && datum.place.line > 0);
     require(variables.at(datum.name).count() == datum.variable.count() && datum.variable.count() <= 65536);
     for (std::size_t place = 0; place < datum.variable.count(); ++place) {
-      sinumerik::UserVariable copy = variables.at(datum.name);
+      execution::sinumerik::UserVariable copy = variables.at(datum.name);
       copy.set(place, copy.at(place));
       if (place > 8) break;
     }

@@ -57,14 +57,14 @@ inline void run(const std::shared_ptr<language::Program>& program, const std::st
                        {},
                        {}});
   control.channel.pathTolerance = 1;
-  language::klartext::HostOptions hostOptions;
+  execution::klartext::HostOptions hostOptions;
   hostOptions.readFile = [&](const std::string&) -> Result<std::string> { return fileText; };
-  language::klartext::KlartextHost klartext(control, hostOptions);
-  language::din_iso::DinIsoHost host(klartext);
+  execution::klartext::KlartextHost klartext(control, hostOptions);
+  execution::din_iso::DinIsoHost host(klartext);
   NoLibrary library;
-  language::InterpreterOptions options;
+  execution::InterpreterOptions options;
   options.stepLimit = 300;
-  language::Interpreter(library, host, options).run(program);
+  execution::Interpreter(library, host, options).run(program);
 }
 
 }  // namespace probewright::fuzzing

@@ -15,6 +15,7 @@
 namespace {
 
 using namespace probewright;
+using namespace probewright::execution;
 using namespace probewright::language;
 
 /// Every call finds the program itself, so that calls and arguments are reached.
@@ -72,9 +73,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   toUtf8(text, detectEncoding(text));
   std::shared_ptr<Program> program;
   if (data[0] % 2 == 0) {
-    program = std::make_shared<klartext::KlartextProgram>("fuzz.h", std::move(text));
+    program = std::make_shared<language::klartext::KlartextProgram>("fuzz.h", std::move(text));
   } else {
-    program = sinumerik::SinumerikProgram::fromText("fuzz.mpf", std::move(text));
+    program = language::sinumerik::SinumerikProgram::fromText("fuzz.mpf", std::move(text));
   }
 
   // All blocks, also behind a mistake.

@@ -52,9 +52,9 @@ private:
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const machine::MachineDescription description = *machine::readMachine("mill5-table-table");
   const std::string text(reinterpret_cast<const char*>(data), size);
-  const auto program = sinumerik::SinumerikProgram::fromText("fuzz.mpf", text);
+  const auto program = language::sinumerik::SinumerikProgram::fromText("fuzz.mpf", text);
   OnlyMain library(program);
-  sinumerik::check(*program, {&library, {}});
+  language::sinumerik::check(*program, {&library, {}});
 
   language::Block block, second;
   Diagnostics mistakes;
@@ -62,12 +62,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const bool readable = mistakes.empty();
     mistakes.clear();
     if (!readable) continue;
-    const auto once = sinumerik::writeBlock(block);
+    const auto once = language::sinumerik::writeBlock(block);
     if (!once || once->empty()) continue;
     // As in a program: a line that ends with 0x1A would otherwise end with the mark of the file's end.
-    const auto again = sinumerik::SinumerikProgram::fromText("again.mpf", *once + "\n");
+    const auto again = language::sinumerik::SinumerikProgram::fromText("again.mpf", *once + "\n");
     again->parse(again->begin(), second, mistakes);
-    const auto twice = sinumerik::writeBlock(second);
+    const auto twice = language::sinumerik::writeBlock(second);
     if (!mistakes.empty() || !twice || *once != *twice) {
       std::cerr << "written: " << *once << "\nread and written again: " << twice.value_or("") << '\n';
       std::abort();
@@ -81,9 +81,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   store.load({"$TC_DP3", {1, 1}}, 100.0);
   store.load({"$TC_DP6", {1, 1}}, 3.0);
   control::sinumerik::Control control(machine, store);
-  sinumerik::SinumerikHost host(control);
-  language::InterpreterOptions options;
+  execution::sinumerik::SinumerikHost host(control);
+  execution::InterpreterOptions options;
   options.stepLimit = 500;
-  language::Interpreter(library, host, options).run(program);
+  execution::Interpreter(library, host, options).run(program);
   return 0;
 }

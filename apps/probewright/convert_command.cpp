@@ -76,7 +76,7 @@ int convert(const ConvertArguments& arguments) {
                    "end the name with .H for Klartext, .I for DIN/ISO or .MPF for a SINUMERIK",
                    {}});
   }
-  if (!session::convertible(*from, *to)) {
+  if (!conversion::convertible(*from, *to)) {
     return refuse({Severity::Error,
                    {arguments.input.string(), 0, 0},
                    fmt::format("the program is one of {} already", families.entry(*from).name),
@@ -118,12 +118,12 @@ int convert(const ConvertArguments& arguments) {
     return 2;
   }
   const conversion::Job job = session::jobOf(arguments.input, *from);
-  const session::Conversion conversion =
-      session::convert(**program, *from, *to,
-                       {.globalData = &globalData,
-                        .control = arguments.control.value_or(control::ControlKind::TNC640),
-                        .job = &job,
-                        .probe = {.setUp = arguments.setUp, .travel = arguments.dist}});
+  const conversion::Conversion conversion =
+      conversion::convert(**program, *from, *to,
+                          {.globalData = &globalData,
+                           .control = arguments.control.value_or(control::ControlKind::TNC640),
+                           .job = &job,
+                           .probe = {.setUp = arguments.setUp, .travel = arguments.dist}});
   if (hasErrors(conversion.mistakes)) {
     print(conversion.mistakes, encoding);
     return 2;

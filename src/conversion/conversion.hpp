@@ -32,10 +32,10 @@ Conversion toSinumerik(language::klartext::HeidenhainProgram& program, const Job
                        const TouchProbe& probe = {});
 
 /// Global user data of a SINUMERIK with their values, by name in capitals.
-using GlobalData = sinumerik::UserVariables::Scope;
+using GlobalData = execution::sinumerik::UserVariables::Scope;
 /// `globalData`: what the program may use without defining it; null if nothing is known of its control. `control`: the
 /// HEIDENHAIN control to write for.
-Conversion toKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData = nullptr,
+Conversion toKlartext(language::sinumerik::SinumerikProgram& program, const GlobalData* globalData = nullptr,
                       control::ControlKind control = control::ControlKind::TNC640, const Job* job = nullptr,
                       const TouchProbe& probe = {});
 

@@ -103,7 +103,7 @@ std::string KlartextFormulas::userVariable(const Block& block, const VariableRef
         "define it in the program, use an R parameter, or name with --setup the setup whose definition "
         "files declare it");
   }
-  const sinumerik::UserVariable& datum = globalData_->at(name);
+  const execution::sinumerik::UserVariable& datum = globalData_->at(name);
   const bool inRange = datum.isArray() && !indices.empty() && indices[0] >= 0;
   if (datum.isArray() ? !inRange : !indices.empty()) {
     throw NotCarriedOver(fmt::format("{} is not an element of {}", element, name));

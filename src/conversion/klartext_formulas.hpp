@@ -21,7 +21,7 @@ inline const Quantity klartextBallRadius = Quantity::of("Q108");
 /// into `prelude`.
 class KlartextFormulas {
 public:
-  using GlobalData = sinumerik::UserVariables::Scope;
+  using GlobalData = execution::sinumerik::UserVariables::Scope;
 
   /// `globalData`: global user data with their values, null if none are known; must outlive the formulas.
   explicit KlartextFormulas(const GlobalData* globalData) : globalData_(globalData) {}

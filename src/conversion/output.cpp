@@ -2,18 +2,13 @@
 
 #include <algorithm>
 
-namespace probewright::conversion {
+#include "base/text.hpp"
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
+namespace probewright::conversion {
 
 void Output::list(const language::Block& block, std::string message, std::string advice, Severity severity) {
   std::string_view line = block.at(block.source);
-  line = trimmed(line.substr(0, line.find('\n')));
+  line = trimmed(line.substr(0, line.find('\n')), lineBlanks);
   listed_.push_back(
       {severity, {file_, block.position.line, 1}, std::move(message), std::string(line), std::move(advice), {}});
 }
@@ -25,10 +20,10 @@ void Output::lose(const language::Block& block, const std::string& what) {
 
 void Output::keepAsComment(const language::Block& block, const std::string& message, const std::string& advice) {
   list(block, message, advice);
-  std::string_view rest = trimmed(block.at(block.source));
+  std::string_view rest = trimmed(block.at(block.source), lineBlanks);
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
-    line("; NOT CARRIED OVER: " + std::string(trimmed(rest.substr(0, end))));
+    line("; NOT CARRIED OVER: " + std::string(trimmed(rest.substr(0, end), lineBlanks)));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
 }

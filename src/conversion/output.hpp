@@ -4,14 +4,12 @@
 #include <string_view>
 #include <vector>
 
+#include "base/text.hpp"
 #include "conversion/conversion.hpp"
 #include "language/block.hpp"
 
 /// The lines of a program that is being written.
 namespace probewright::conversion {
-
-/// The text without blanks at its ends.
-std::string_view trimmed(std::string_view text);
 
 class Output {
 public:

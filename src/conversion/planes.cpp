@@ -6,6 +6,7 @@
 
 #include "conversion/to_klartext.hpp"
 #include "conversion/to_sinumerik.hpp"
+#include "language/klartext/commands.hpp"
 
 /// Tilted planes: PLANE SPATIAL and CYCLE800.
 namespace probewright::conversion {
@@ -36,7 +37,8 @@ std::array<double, 3> spaceAngles(double x, double y, double z) {
 }  // namespace
 
 void ToSinumerik::plane(const Block& block, const Transform& transform) {
-  const std::string_view name = block.at(transform.name);
+  const klartext::TransformKind kind = klartext::kindOf(block, transform);
+  const std::string_view name = nameOf(kind);
   const auto words = std::span<const Word>(block.words).subspan(transform.words.first, transform.words.count);
   const auto find = [&](std::string_view address) {
     const auto found = std::ranges::find(words, addressOf(address), &Word::address);
@@ -47,11 +49,11 @@ void ToSinumerik::plane(const Block& block, const Transform& transform) {
                          "tilt before them, or give the shift to CYCLE800");
   }
   const int direction = find("STAY") != nullptr ? 0 : 1;
-  if (name == "PLANE RESET") {
+  if (kind == klartext::TransformKind::PlaneReset) {
     // Where the plane is level the table may stand anywhere; PLANE RESET turns it home.
     if (direction != 0) out_.line(fmt::format("CYCLE800(0,\"\",0,{},0,0,0,0,0,0,0,0,0,1)", modeRotaryAxes));
     out_.line("CYCLE800()");
-  } else if (name == "PLANE SPATIAL") {
+  } else if (kind == klartext::TransformKind::PlaneSpatial) {
     for (const Word& word : words)
       if (word.mode == WordMode::Incremental) throw NotCarriedOver("incremental angles of planes are not converted");
     const auto angle = [&](std::string_view address) {

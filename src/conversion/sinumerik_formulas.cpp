@@ -33,7 +33,7 @@ constexpr int firstSpaceAngle = 120, lastSpaceAngle = 122;  ///< of the tilted w
 /// "SIN"; empty if there is no such function of one argument.
 std::string_view functionName(Function function) {
   if (function == Function::Integer) function = Function::Truncate;  // INT leaves the decimals off, too
-  for (const sinumerik::FunctionEntry& each : sinumerik::functions())
+  for (const language::sinumerik::FunctionEntry& each : language::sinumerik::functions())
     if (each.function == function && function != Function::Host && each.mostArguments == 1) return each.name;
   return {};
 }
@@ -138,7 +138,7 @@ std::string SinumerikFormulas::formula(const Block& block, const Operand& operan
     default:
       break;
   }
-  const sinumerik::BinaryOperator* sign = sinumerik::operatorOf(node.operation);
+  const language::sinumerik::BinaryOperator* sign = language::sinumerik::operatorOf(node.operation);
   if (sign == nullptr) throw NotCarriedOver("this condition has no twin on a SINUMERIK");
   const char* blank = sign->symbol.front() >= 'A' ? " " : "";
   // Sums are computed from left to right anyway.

@@ -27,8 +27,8 @@ std::string_view commentOf(std::string_view source) {
 
 }  // namespace
 
-ToKlartext::ToKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData, control::ControlKind control,
-                       const Job* job, const TouchProbe& probe)
+ToKlartext::ToKlartext(language::sinumerik::SinumerikProgram& program, const GlobalData* globalData,
+                       control::ControlKind control, const Job* job, const TouchProbe& probe)
     : program_(program),
       control_(control),
       job_(job == nullptr ? Job() : *job),
@@ -130,8 +130,8 @@ void ToKlartext::line(std::string text) {
 
 void ToKlartext::write(const Block& block) {
   const std::string_view source = block.at(block.source);
-  const std::string_view remark = trimmed(commentOf(source));
-  if (trimmed(source).starts_with('%')) return;
+  const std::string_view remark = trimmed(commentOf(source), lineBlanks);
+  if (trimmed(source, lineBlanks).starts_with('%')) return;
   if (const auto found = labels_.find(block.position.offset); found != labels_.end()) label(found->second);
   adopt(block);
   const std::size_t before = out_.size();
@@ -144,7 +144,7 @@ void ToKlartext::write(const Block& block) {
   try {
     statements(block);
     if (block.instructions.empty() && remark.empty()) {
-      if (trimmed(source).empty()) line(";");
+      if (trimmed(source, lineBlanks).empty()) line(";");
     } else if (!remark.empty()) {
       const bool fits = out_.size() == before + 1 && !out_.at(before).starts_with(';');
       if (fits) {
@@ -366,7 +366,7 @@ void ToKlartext::command(const Block& block, const Command& command) {
     return out_.line(fmt::format("CYCL DEF 13.1 ANGLE {}", angle));
   }
   // What a preset is set to acts at once.
-  if (name == "G" && trimmed(block.at(block.source)) == selectedAgain) return;
+  if (name == "G" && trimmed(block.at(block.source), lineBlanks) == selectedAgain) return;
   if (name == "PROC") {
     if (block.at(command.text).find("REAL") == std::string_view::npos &&
         block.at(command.text).find("INT") == std::string_view::npos)
@@ -376,8 +376,8 @@ void ToKlartext::command(const Block& block, const Command& command) {
   throw NotCarriedOver(fmt::format("{} has no twin in Klartext", name), "write it by hand");
 }
 
-Conversion toKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData, control::ControlKind control,
-                      const Job* job, const TouchProbe& probe) {
+Conversion toKlartext(language::sinumerik::SinumerikProgram& program, const GlobalData* globalData,
+                      control::ControlKind control, const Job* job, const TouchProbe& probe) {
   return ToKlartext(program, globalData, control, job, probe).run();
 }
 

@@ -20,7 +20,7 @@ namespace probewright::conversion {
 class ToKlartext {
 public:
   /// `globalData`: global user data with their values; null if none are known.
-  ToKlartext(sinumerik::SinumerikProgram& program, const GlobalData* globalData, control::ControlKind control,
+  ToKlartext(language::sinumerik::SinumerikProgram& program, const GlobalData* globalData, control::ControlKind control,
              const Job* job, const TouchProbe& probe);
   Conversion run();
 
@@ -191,7 +191,7 @@ private:
   void line(std::string text);
   void forgetPosition() { position_ = {}; }
 
-  sinumerik::SinumerikProgram& program_;
+  language::sinumerik::SinumerikProgram& program_;
   control::ControlKind control_;
   Job job_;
   Output out_;

@@ -16,7 +16,7 @@ void ToKlartext::assign(const Block& block, const Assign& assign) {
   const bool frame = variable.space == VariableSpace::System && block.at(variable.name) == "$P_UIFR";
   if (frame && variable.index[2].present()) return assignFrameComponent(block, assign);
   // A HEIDENHAIN cycle with Q305 = 0 copies the active preset to row 0 and selects it by itself.
-  if (frame && trimmed(block.at(block.source)).starts_with("$P_UIFR[99]=$P_UIFR[$P_UIFRNUM]")) {
+  if (frame && trimmed(block.at(block.source), lineBlanks).starts_with("$P_UIFR[99]=$P_UIFR[$P_UIFRNUM]")) {
     copiesToRow0_ = rowZeroIsDue_ = hasRowZero_ = true;
     return;
   }
@@ -117,7 +117,7 @@ bool ToKlartext::selectsBeforeItMoves(const Block& block) {
   Diagnostics ignored;
   for (std::size_t i = *own + 1; i < graph_.blocks().size(); ++i) {
     program_.parse(graph_.blocks()[i].position, next, ignored);
-    if (trimmed(next.at(next.source)) == selectedAgain) return true;
+    if (trimmed(next.at(next.source), lineBlanks) == selectedAgain) return true;
     for (const Instruction& instruction : next.instructions) {
       if (selects(next, instruction)) return true;
       if (std::holds_alternative<EndProgram>(instruction)) return true;

@@ -9,6 +9,7 @@
 
 #include "base/number_text.hpp"
 #include "language/klartext/block_extent.hpp"
+#include "language/klartext/commands.hpp"
 #include "language/klartext/cycle_writer.hpp"
 
 namespace probewright::conversion {
@@ -134,7 +135,7 @@ void ToSinumerik::write(const Block& block) {
       std::istringstream lines(remark.substr(more + 3));
       for (std::string line; std::getline(lines, line);) {
         if (line.ends_with(" ~")) line.resize(line.size() - 2);
-        out_.line(fmt::format("; {}", trimmed(line)));
+        out_.line(fmt::format("; {}", trimmed(line, lineBlanks)));
       }
       remark.resize(more);
     }
@@ -156,19 +157,19 @@ void ToSinumerik::write(const Block& block) {
 }
 
 void ToSinumerik::comment(const Block& block) {
-  const std::string_view text = trimmed(klartext::withoutBlockNumber(block.at(block.source)));
+  const std::string_view text = trimmed(klartext::withoutBlockNumber(block.at(block.source)), lineBlanks);
   if (text.empty()) return out_.line("");
   constexpr std::string_view message = "; MSG: ";
   if (text.starts_with(message)) {
-    const std::string_view said = trimmed(text.substr(message.size()));
+    const std::string_view said = trimmed(text.substr(message.size()), lineBlanks);
     const bool quoted = said.size() > 1 && said.front() == '"' && said.find('"', 1) == said.size() - 1;
     if (quoted) return out_.line(fmt::format("MSG({})", said));
   }
   std::string_view rest = text;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
-    std::string_view line = trimmed(rest.substr(0, end));
-    if (line.ends_with('~')) line = trimmed(line.substr(0, line.size() - 1));
+    std::string_view line = trimmed(rest.substr(0, end), lineBlanks);
+    if (line.ends_with('~')) line = trimmed(line.substr(0, line.size() - 1), lineBlanks);
     if (!line.empty()) out_.line(fmt::format("{}{}", line.front() == ';' ? "" : "; ", line));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
@@ -318,31 +319,32 @@ std::string ToSinumerik::toolDatum(const Quantity& number, const Quantity& tool)
 }
 
 void ToSinumerik::command(const Block& block, const Command& command) {
-  const std::string_view name = block.at(command.name);
+  const klartext::CommandKind kind = klartext::kindOf(block, command);
+  const std::string_view name = nameOf(kind);
   const auto words = std::span<const Word>(block.words).subspan(command.words.first, command.words.count);
-  if (name == "GLOBAL DEF") return globalDefinition(block, command);
-  if (name == "BLK FORM") return blank(block.at(command.text));
-  if (name == "FN14") {
+  if (kind == klartext::CommandKind::GlobalDefinition) return globalDefinition(block, command);
+  if (kind == klartext::CommandKind::BlankForm) return blank(block.at(command.text));
+  if (kind == klartext::CommandKind::Fn14) {
     const Quantity number = words.empty() ? Quantity() : quantity(block, words.front().value);
     if (!number.isNumber()) throw NotCarriedOver("the number of the error is known only when the program runs");
     const int error = static_cast<int>(number.number());
     return out_.line(fmt::format("SETAL({})", error >= 1000 && error < 6000 ? error + 64000 : error + 65000));
   }
-  if (name == "CYCL DEF 9" && !words.empty()) {
+  if (kind == klartext::CommandKind::DwellTime && !words.empty()) {
     return out_.line(fmt::format("G4 {}", addressWord("F", quantity(block, words.front().value))));
   }
-  if (name == "CYCL DEF 13" && !words.empty()) {
+  if (kind == klartext::CommandKind::SpindleOrientation && !words.empty()) {
     return out_.line(fmt::format("SPOS={}", sinumerikText(quantity(block, words.front().value))));
   }
   const auto wordOr = [&](std::string_view address, double otherwise) {
     const auto found = std::ranges::find(words, addressOf(address), &Word::address);
     return found == words.end() ? Quantity(otherwise) : quantity(block, found->value);
   };
-  if (name == "FN17" && wordOr("ID", 0) == 50) {
+  if (kind == klartext::CommandKind::Fn17 && wordOr("ID", 0) == 50) {
     return out_.line(
         fmt::format("{}={}", toolDatum(wordOr("NR", 0), wordOr("IDX", 0)), sinumerikText(wordOr("VAL", 0))));
   }
-  if (name == "FN18" && command.variable >= 0) {
+  if (kind == klartext::CommandKind::Fn18 && command.variable >= 0) {
     const Quantity id = wordOr("ID", 0), index = wordOr("IDX", 0);
     const std::string target = formulas_.variable(block.variables[static_cast<std::size_t>(command.variable)]);
     const bool position = id == 270 && index.isNumber() && index.number() >= 1 && index.number() <= 3;

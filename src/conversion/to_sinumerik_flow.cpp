@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/text.hpp"
 #include "conversion/to_sinumerik.hpp"
 
 /// Labels, jumps, subprograms and calls of HEIDENHAIN programs in the language of a SINUMERIK.
@@ -14,12 +15,6 @@ namespace {
 
 constexpr int deepestCall = 21;  ///< levels: no subprogram, and the 20 that may be nested
 
-std::string upperCase(std::string_view text) {
-  std::string upper(text);
-  std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return upper;
-}
-
 /// Letters, digits and underscores of the text; everything else becomes an underscore.
 std::string identifierFrom(std::string_view text) {
   std::string name = upperCase(text);
@@ -29,7 +24,7 @@ std::string identifierFrom(std::string_view text) {
 }
 
 std::string withoutEnding(std::string_view path) {
-  path = trimmed(path);
+  path = trimmed(path, lineBlanks);
   if (const std::size_t slash = path.find_last_of("/\\:"); slash != std::string_view::npos)
     path.remove_prefix(slash + 1);
   return std::string(path.substr(0, path.rfind('.')));

@@ -4,17 +4,20 @@
 
 #include "conversion/modes.hpp"
 #include "conversion/to_sinumerik.hpp"
+#include "language/klartext/commands.hpp"
 
 /// Frames of HEIDENHAIN programs in the language of a SINUMERIK, on every way through the program.
 namespace probewright::conversion {
 
 using namespace language;
+using klartext::TransformKind;
 
 namespace {
 
-bool isShift(std::string_view name) { return name == "CYCL DEF 7" || name == "TRANS DATUM AXIS"; }
-bool isRotation(std::string_view name) {
-  return name == "CYCL DEF 10" || name == "TRANS ROTATION" || name == "TRANS ROTATION RESET";
+bool isShift(TransformKind kind) { return kind == TransformKind::DatumShift || kind == TransformKind::TransDatumAxis; }
+bool isRotation(TransformKind kind) {
+  return kind == TransformKind::Rotation || kind == TransformKind::TransRotation ||
+         kind == TransformKind::TransRotationReset;
 }
 
 std::optional<std::size_t> letterOf(std::uint32_t address) {
@@ -38,9 +41,9 @@ void ToSinumerik::writeFrame(const Frame& frame) {
 }
 
 void ToSinumerik::transform(const Block& block, const Transform& transform) {
-  const std::string_view name = block.at(transform.name);
+  const TransformKind kind = klartext::kindOf(block, transform);
   const auto words = std::span<const Word>(block.words).subspan(transform.words.first, transform.words.count);
-  if (name == "CYCL DEF 247") {
+  if (kind == TransformKind::PresetByCycle) {
     const Quantity row = words.empty() ? Quantity() : quantity(block, words.front().value);
     if (!row.isNumber()) throw NotCarriedOver("the row of the preset table is known only when the program runs");
     const int number = static_cast<int>(row.number());
@@ -54,7 +57,7 @@ void ToSinumerik::transform(const Block& block, const Transform& transform) {
     return;
   }
   requireAxis();
-  if (name.starts_with("PLANE ")) return plane(block, transform);
+  if (isPlane(kind)) return plane(block, transform);
   Frame frame = frame_;
   const auto frozen = [&](const Quantity& value, const std::string& what) {
     if (value.isNumber()) return value;
@@ -62,7 +65,7 @@ void ToSinumerik::transform(const Block& block, const Transform& transform) {
     out_.line(fmt::format("{}={}", own, sinumerikText(value)));
     return Quantity::of(own);
   };
-  if (isShift(name)) {
+  if (isShift(kind)) {
     std::array<bool, 3> given{};
     for (const Word& word : words) {
       const auto index = planeIndex(word.address);
@@ -74,10 +77,10 @@ void ToSinumerik::transform(const Block& block, const Transform& transform) {
     }
     if (words.empty()) throw NotCarriedOver("datum tables have no twin on a SINUMERIK");
     frame.known = frame.known || std::ranges::all_of(given, [](bool each) { return each; });
-  } else if (name == "TRANS DATUM RESET") {
+  } else if (kind == TransformKind::TransDatumReset) {
     frame.known = true;
     frame.shift = {};
-  } else if (isRotation(name)) {
+  } else if (isRotation(kind)) {
     if (words.empty()) {
       frame.rotation = 0;
     } else {
@@ -90,7 +93,7 @@ void ToSinumerik::transform(const Block& block, const Transform& transform) {
       }
     }
   } else {
-    throw NotCarriedOver(fmt::format("{} has no twin on a SINUMERIK", name), "write frames by hand");
+    throw NotCarriedOver(fmt::format("{} has no twin on a SINUMERIK", nameOf(kind)), "write frames by hand");
   }
   if (!frame.known || !frame.rotation) {
     throw NotCarriedOver("which shift and rotation are in effect here is known only when the program runs",
@@ -118,14 +121,14 @@ void ToSinumerik::follow(const Block& block, Modes& modes) {
     }
     const auto* transform = std::get_if<Transform>(&instruction);
     if (transform == nullptr) continue;
-    const std::string_view name = block.at(transform->name);
+    const TransformKind kind = klartext::kindOf(block, *transform);
     const auto words = std::span<const Word>(block.words).subspan(transform->words.first, transform->words.count);
     const auto first = words.empty() ? std::optional<double>() : literalOf(block, words.front().value);
-    if (name == "CYCL DEF 247") {
+    if (kind == TransformKind::PresetByCycle) {
       modes.shift = std::array<double, 3>{};
       modes.rotation = 0;
       modes.row = first ? std::optional(*first == 0 ? 99 : static_cast<int>(*first)) : std::nullopt;
-    } else if (isShift(name)) {
+    } else if (isShift(kind)) {
       std::array<bool, 3> given{};
       std::array<double, 3> absolute{};
       for (const Word& word : words) {
@@ -141,9 +144,9 @@ void ToSinumerik::follow(const Block& block, Modes& modes) {
         absolute[*letter] = *value;
       }
       if (std::ranges::all_of(given, [](bool each) { return each; })) modes.shift = absolute;
-    } else if (name == "TRANS DATUM RESET") {
+    } else if (kind == TransformKind::TransDatumReset) {
       modes.shift = std::array<double, 3>{};
-    } else if (isRotation(name)) {
+    } else if (isRotation(kind)) {
       const bool incremental = !words.empty() && words.front().mode == WordMode::Incremental;
       if (words.empty()) {
         modes.rotation = 0;

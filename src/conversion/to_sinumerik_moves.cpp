@@ -198,7 +198,7 @@ void ToSinumerik::move(const Block& block, const Move& move) {
   const std::string feed = feedWord(block, move);
   if (words.empty()) {  // a change of compensation or feed alone
     const std::string rest = compensation + (feed.empty() ? "" : feed.substr(1));
-    if (!rest.empty()) out_.line(std::string(trimmed(rest)));
+    if (!rest.empty()) out_.line(std::string(trimmed(rest, lineBlanks)));
     return;
   }
   if (besidePath_) {

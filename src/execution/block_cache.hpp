@@ -5,9 +5,10 @@
 #include <memory>
 #include <vector>
 
+#include "execution/names.hpp"
 #include "language/block.hpp"
 
-namespace probewright::language {
+namespace probewright::execution {
 
 /// A block with what was found out about it once.
 struct ParsedBlock {
@@ -63,4 +64,4 @@ private:
   std::vector<Set> sets_ = std::vector<Set>(std::size_t{1} << setBits);
 };
 
-}  // namespace probewright::language
+}  // namespace probewright::execution

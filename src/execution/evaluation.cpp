@@ -13,7 +13,7 @@
 #include "control/alarm.hpp"
 #include "language/word_column.hpp"
 
-namespace probewright::language {
+namespace probewright::execution {
 
 namespace {
 
@@ -398,4 +398,4 @@ Value Evaluation::callHost(const Node& node) {
   return evaluateInto(many);
 }
 
-}  // namespace probewright::language
+}  // namespace probewright::execution

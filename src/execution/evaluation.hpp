@@ -7,10 +7,11 @@
 #include <string_view>
 
 #include "execution/host.hpp"
+#include "execution/names.hpp"
 #include "language/block.hpp"
 #include "language/value.hpp"
 
-namespace probewright::language {
+namespace probewright::execution {
 
 /// Computes the operands of one block. Throws control::Alarm for what a control refuses (division by zero, a text where
 /// a number is needed, a function outside its domain); the interpreter adds the block as place. Numbers are IEEE
@@ -61,4 +62,4 @@ private:
   int depth_ = 0;
 };
 
-}  // namespace probewright::language
+}  // namespace probewright::execution

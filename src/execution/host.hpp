@@ -5,12 +5,14 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
+#include "execution/names.hpp"
 #include "language/block.hpp"
 #include "language/program.hpp"
 #include "language/value.hpp"
 
-namespace probewright::language {
+namespace probewright::execution {
 
 class Evaluation;
 
@@ -27,6 +29,14 @@ enum class Refusal {
   NestingDepth,  ///< subprograms or programs call each other too deep
   Structure,     ///< a structured statement without its counterpart
 };
+
+/// What the interpreter carries out by itself. Hosts visit all other instructions, each of them; SINUMERIK hosts also
+/// assignments of EXECSTRING, and calls of cycles.
+template <class T>
+constexpr bool isFlow =
+    std::is_same_v<T, Assign> || std::is_same_v<T, Jump> || std::is_same_v<T, LabelMark> ||
+    std::is_same_v<T, CallLabel> || std::is_same_v<T, RepeatSection> || std::is_same_v<T, CallProgram> ||
+    std::is_same_v<T, Return> || std::is_same_v<T, EndProgram> || std::is_same_v<T, Structured>;
 
 /// What the interpreter needs of a control: its variables, its own functions, and everything that is not flow. One
 /// implementation per language; it throws control::Alarm where the control would raise one.
@@ -81,4 +91,4 @@ public:
   virtual void leave(const Program& program) = 0;
 };
 
-}  // namespace probewright::language
+}  // namespace probewright::execution

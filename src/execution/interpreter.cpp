@@ -7,7 +7,7 @@
 
 #include "language/word_column.hpp"
 
-namespace probewright::language {
+namespace probewright::execution {
 
 namespace {
 
@@ -353,4 +353,4 @@ Diagnostics Interpreter::explain(Diagnostic cause) const {
   return diagnostics;
 }
 
-}  // namespace probewright::language
+}  // namespace probewright::execution

@@ -17,9 +17,10 @@
 #include "execution/block_cache.hpp"
 #include "execution/evaluation.hpp"
 #include "execution/host.hpp"
+#include "execution/names.hpp"
 #include "language/program.hpp"
 
-namespace probewright::language {
+namespace probewright::execution {
 
 struct Breakpoint {
   std::string file;        ///< as Program::file() gives it, or the end of it after a "/": "RING.H"
@@ -221,4 +222,4 @@ private:
   bool stepping_ = false;
 };
 
-}  // namespace probewright::language
+}  // namespace probewright::execution

@@ -5,7 +5,7 @@
 #include "execution/interpreter.hpp"
 
 /// Where a program goes on: jumps, subprograms, repeated sections, structured statements.
-namespace probewright::language {
+namespace probewright::execution {
 
 BlockPosition Interpreter::label(TextRef literal, const Operand& computed, JumpDirection direction,
                                  Evaluation& evaluation) {
@@ -195,4 +195,4 @@ Interpreter::Flow Interpreter::endFor() {
   return Flow::Moved;
 }
 
-}  // namespace probewright::language
+}  // namespace probewright::execution

@@ -9,7 +9,7 @@
 #include "execution/interpreter.hpp"
 
 /// Programs that call each other: with arguments, repeatedly, in sections, after each motion.
-namespace probewright::language {
+namespace probewright::execution {
 
 namespace {
 
@@ -272,4 +272,4 @@ Interpreter::Flow Interpreter::leaveProgram() {
   return Flow::Moved;
 }
 
-}  // namespace probewright::language
+}  // namespace probewright::execution

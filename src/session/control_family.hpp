@@ -17,6 +17,7 @@
 #include "control/dialog_language.hpp"
 #include "cycles/catalogue.hpp"
 #include "language/program.hpp"
+#include "language/program_language.hpp"
 #include "machine/machine.hpp"
 
 /// Everything that makes one vendor's controls different from another's, as one entry of a table. Whatever a family is
@@ -27,7 +28,7 @@ class HostFiles;
 struct RunOptions;
 struct RunOutcome;
 
-enum class ProgramLanguage : std::uint8_t { Klartext, DinIso, Sinumerik };
+using language::ProgramLanguage;
 
 /// A language that programs are written in.
 struct LanguageEntry {

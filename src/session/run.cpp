@@ -15,7 +15,7 @@ namespace probewright::session {
 
 namespace fs = std::filesystem;
 using control::ControlKind;
-using language::RunEnd;
+using execution::RunEnd;
 using records::ExitState;
 
 namespace {

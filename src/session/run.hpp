@@ -52,7 +52,7 @@ struct RunOptions {
   std::uint64_t recordLimit = std::uint64_t{128} << 20U;
   /// Why the run cannot leave a file of this name, if it cannot.
   std::function<std::optional<Diagnostic>(const std::string& name)> whyNoFile;
-  std::vector<language::Breakpoint> breakpoints;
+  std::vector<execution::Breakpoint> breakpoints;
   std::stop_token stop;
   /// Levels of block skip that the operator has switched on; HEIDENHAIN controls have level 0 only.
   std::bitset<10> skipLevels;
@@ -72,9 +72,9 @@ struct RunOptions {
 struct RunOutcome {
   control::ControlKind control = control::ControlKind::TNC640;
   control::Journal journal;
-  records::RunInfo info;       ///< without version, output files, and what only the builder of the machine knows
-  language::RunResult result;  ///< how the interpreter ended
-  Diagnostics diagnostics;     ///< mistakes found before the program could start
+  records::RunInfo info;        ///< without version, output files, and what only the builder of the machine knows
+  execution::RunResult result;  ///< how the interpreter ended
+  Diagnostics diagnostics;      ///< mistakes found before the program could start
   std::map<std::string, std::string> files;   ///< what the control wrote: tables as changed, logs; by name
   std::vector<std::filesystem::path> inputs;  ///< what the program read and called
   /// Machine coordinates (which are the table's at the start posture) from the workpiece system at the end.

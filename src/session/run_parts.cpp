@@ -22,8 +22,8 @@ std::function<std::optional<Diagnostic>(const std::string&)> fileRule(std::set<s
 
 }  // namespace
 
-language::InterpreterOptions interpreterOptions(const RunOptions& options) {
-  language::InterpreterOptions interpreter;
+execution::InterpreterOptions interpreterOptions(const RunOptions& options) {
+  execution::InterpreterOptions interpreter;
   interpreter.stepLimit = options.stepLimit;
   interpreter.stop = options.stop;
   interpreter.skipLevels = options.skipLevels;

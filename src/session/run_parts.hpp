@@ -18,7 +18,7 @@
 namespace probewright::session {
 
 /// The limits that `options` set to the interpreter; what belongs to the control alone, its family adds.
-language::InterpreterOptions interpreterOptions(const RunOptions& options);
+execution::InterpreterOptions interpreterOptions(const RunOptions& options);
 
 /// Sets what the panel shows, asks and stops at, and what names a program cannot give to its files: those of `tables`,
 /// which every run leaves, and whatever the caller refuses. The panel must not outlive the request's beliefs and

@@ -11,6 +11,7 @@
 
 #include "base/number_text.hpp"
 #include "language/block.hpp"
+#include "language/klartext/commands.hpp"
 
 namespace probewright::session {
 
@@ -90,14 +91,14 @@ private:
     needTool(*tool);
   }
   void look(const Transform& transform) {
-    if (block_.at(transform.name) != "CYCL DEF 247") return;
+    if (block_.at(transform.name) != klartext::nameOf(klartext::TransformKind::PresetByCycle)) return;
     for (const Word& word : wordsOf(transform.words)) {
       if (word.address != presetRow) continue;
       if (const auto row = named(word.value)) needPreset(*row);
     }
   }
   void look(const Command& command) {
-    if (block_.at(command.name) != "PRESET SELECT") return;
+    if (block_.at(command.name) != klartext::nameOf(klartext::CommandKind::PresetSelect)) return;
     for (const Word& word : wordsOf(command.words)) {
       if (word.address != '#') continue;
       if (const auto row = named(word.value)) needPreset(*row);

@@ -59,7 +59,7 @@ bool accepted(const std::string& text, ProgramLanguage from) {
   const auto program = session::programOf(name, text, from);
   if (hasErrors(session::mistakesOf(*program, name, from))) return false;
   for (const ControlKind control : {ControlKind::TNC640, ControlKind::iTNC530}) {
-    const session::Conversion there = converted(text, from, control);
+    const conversion::Conversion there = converted(text, from, control);
     EXPECT_FALSE(hasErrors(there.mistakes)) << text;
     const auto written = session::programOf("OUT", there.text, otherLanguage(from));
     const Diagnostics mistakes = session::checkProgram(*written, sinumerik ? control : ControlKind::Sinumerik840Dsl);
@@ -114,7 +114,7 @@ TEST(ConvertCalls, AllSinumerikCasesPassTheCheckOfTheElderControl) {
     for (int world = 0; world < 8; ++world) {
       PlantedPart part = plant(dice, ControlKind::iTNC530, each.misplaced, each.skewed);
       const std::string text = "G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\n" + each.blocks(dice, part) + "M30\n";
-      const session::Conversion there = converted(text, ProgramLanguage::Sinumerik, ControlKind::iTNC530);
+      const conversion::Conversion there = converted(text, ProgramLanguage::Sinumerik, ControlKind::iTNC530);
       const auto written = session::programOf("OUT.H", there.text, ProgramLanguage::Klartext);
       const Diagnostics mistakes = session::checkProgram(*written, ControlKind::iTNC530);
       EXPECT_FALSE(hasErrors(mistakes)) << format(mistakes.front()) << there.text;
@@ -166,7 +166,7 @@ TEST(ConvertPage, NamesTheMFunctionsThatAreCarriedOver) {
       const ProgramLanguage from = heidenhain ? ProgramLanguage::Klartext : ProgramLanguage::Sinumerik;
       const auto program = session::programOf("BENCH.H", text, from);
       if (hasErrors(session::mistakesOf(*program, "BENCH.H", from))) continue;
-      const session::Conversion there = converted(text, from);
+      const conversion::Conversion there = converted(text, from);
       EXPECT_EQ(there.notCarriedOver.empty(), carried.contains(number)) << there.text;
     }
   }
@@ -180,7 +180,7 @@ TEST(ConvertPage, NamesTheFunctionsThatAreLeftOut) {
     if (word == "say") break;
     if (word == "and") continue;
     ++functions;
-    const session::Conversion there = toKlartext("G17 G90\n" + word + "\nG0 X1\nM30\n");
+    const conversion::Conversion there = toKlartext("G17 G90\n" + word + "\nG0 X1\nM30\n");
     EXPECT_TRUE(there.notCarriedOver.empty()) << word;
   }
   EXPECT_GT(functions, 5);
@@ -204,7 +204,7 @@ TEST(ConvertPage, NamesAllTouchProbeCycles) {
     EXPECT_TRUE(named || lostCycles.contains(cycle->number));
     if (cycle->number < 400 || named) continue;
     const std::string call = klartextProgram(klartextCall(*cycle));
-    const session::Conversion there = toSinumerik(call);
+    const conversion::Conversion there = toSinumerik(call);
     EXPECT_FALSE(there.notCarriedOver.empty()) << there.text;
     EXPECT_NE(there.text.find("; NOT CARRIED OVER: TCH PROBE"), std::string::npos) << there.text;
   }
@@ -214,27 +214,27 @@ TEST(ConvertPage, TellsTheRowsOfPresetsAndErrors) {
   rowWith("| row 1 to 4 of the preset table, Q339, Q305 | G54 to G57, S_KNUM = 10001 to 10004 |");
   rowWith("| row 5 to 99 | G505 to G599, S_KNUM = 10005 to 10099 |");
   for (int row = 0; row <= 99; ++row) {
-    const session::Conversion there =
+    const conversion::Conversion there =
         toSinumerik(klartextProgram(fmt::format("CYCL DEF 247 PRESET ~\n  Q339=+{}\n", row)));
     const std::string code = row == 0 ? "G599" : row < 5 ? fmt::format("G{}", 53 + row) : fmt::format("G{}", 500 + row);
     EXPECT_NE(there.text.find("\n" + code + "\n"), std::string::npos) << there.text;
     EXPECT_TRUE(there.notCarriedOver.empty());
-    const session::Conversion back = toKlartext("G17 G90\n" + code + "\nG0 X1\nM30\n");
+    const conversion::Conversion back = toKlartext("G17 G90\n" + code + "\nG0 X1\nM30\n");
     EXPECT_NE(back.text.find(fmt::format("Q339=+{} ", row == 99 ? 0 : row)), std::string::npos) << back.text;
   }
   rowWith("SETAL: 1000 is 65000");
   for (const int error : {0, 17, 299, 1000, 1303, 1999}) {
     const int alarm = error < 1000 ? error + 65000 : error + 64000;
-    const session::Conversion there = toSinumerik(klartextProgram(fmt::format("FN 14: ERROR = {}\n", error)));
+    const conversion::Conversion there = toSinumerik(klartextProgram(fmt::format("FN 14: ERROR = {}\n", error)));
     EXPECT_NE(there.text.find(fmt::format("SETAL({})", alarm)), std::string::npos) << there.text;
   }
   rowWith("| `ID50 NR1` to `NR6`: L, R, R2, DL, DR, DR2 | `$TC_DP3`, `6`, `7`, `12`, `15`, `16` of the first edge |");
   const int data[] = {3, 6, 7, 12, 15, 16};
   for (int number = 1; number <= 6; ++number) {
-    const session::Conversion there =
+    const conversion::Conversion there =
         toSinumerik(klartextProgram(fmt::format("FN 18: SYSREAD Q1 = ID50 NR{} IDX5\n", number)));
     EXPECT_NE(there.text.find(fmt::format("R1=$TC_DP{}[5,1]", data[number - 1])), std::string::npos) << there.text;
-    const session::Conversion back = toKlartext(fmt::format("G17 G90\nR1=$TC_DP{}[5,1]\nM30\n", data[number - 1]));
+    const conversion::Conversion back = toKlartext(fmt::format("G17 G90\nR1=$TC_DP{}[5,1]\nM30\n", data[number - 1]));
     EXPECT_NE(back.text.find(fmt::format("ID50 NR{} IDX5", number)), std::string::npos) << back.text;
   }
 }

@@ -67,7 +67,8 @@ std::optional<Files> converted(const JobFolder& folder, const Files& files, Prog
     const Diagnostics mistakes = session::mistakesOf(**program, path, from);
     EXPECT_FALSE(hasErrors(mistakes)) << format(mistakes.front()) << text;
     const conversion::Job job = session::jobOf(path, from);
-    const session::Conversion conversion = session::convert(**program, from, to, {.globalData = &data, .job = &job});
+    const conversion::Conversion conversion =
+        conversion::convert(**program, from, to, {.globalData = &data, .job = &job});
     EXPECT_FALSE(hasErrors(conversion.mistakes)) << text;
     for (const Diagnostic& each : conversion.notCarriedOver)
       if (isLoss(each)) return std::nullopt;

@@ -259,7 +259,8 @@ TEST(ConvertFlow, SurvivesDamagedPrograms) {
     const ControlKind control = heidenhain ? ControlKind::TNC640 : ControlKind::Sinumerik840Dsl;
     if (hasErrors(session::checkProgram(*program, control))) continue;
     ++accepted;
-    const session::Conversion there = converted(text, from, dice.coin() ? ControlKind::TNC640 : ControlKind::iTNC530);
+    const conversion::Conversion there =
+        converted(text, from, dice.coin() ? ControlKind::TNC640 : ControlKind::iTNC530);
     EXPECT_TRUE(there.mistakes.empty() || !hasErrors(there.mistakes)) << text;
     for (const Diagnostic& each : there.notCarriedOver)
       EXPECT_FALSE(each.message.empty()) << text;

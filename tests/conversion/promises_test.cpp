@@ -108,14 +108,14 @@ TEST(ConvertPromises, OverlappingSectionsComeBack) {
 
 /// What a way sets that not all ways set is named where it counts.
 TEST(ConvertPromises, NamesWhatDependsOnTheWay) {
-  const session::Conversion doubtful = toKlartext(sinumerikProgram("IF R1==1\nG91\nENDIF\nG0 X5\nG90\nG0 X7\n"));
+  const conversion::Conversion doubtful = toKlartext(sinumerikProgram("IF R1==1\nG91\nENDIF\nG0 X5\nG90\nG0 X7\n"));
   ASSERT_EQ(doubtful.notCarriedOver.size(), 1U) << doubtful.text;
   EXPECT_THAT(doubtful.notCarriedOver[0].message, HasSubstr("G90 or G91"));
   EXPECT_EQ(doubtful.notCarriedOver[0].place.line, 8U);
-  const session::Conversion agreed = toKlartext(sinumerikProgram("IF R1==1\nG91\nELSE\nG91\nENDIF\nG0 X5\n"));
+  const conversion::Conversion agreed = toKlartext(sinumerikProgram("IF R1==1\nG91\nELSE\nG91\nENDIF\nG0 X5\n"));
   EXPECT_TRUE(agreed.notCarriedOver.empty()) << format(agreed.notCarriedOver.front());
   EXPECT_THAT(agreed.text, HasSubstr("L IX+5"));
-  const session::Conversion shifted = toSinumerik(
+  const conversion::Conversion shifted = toSinumerik(
       klartextProgram("LBL 1\nCYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 IX+10\nL X+0 R0 FMAX\nCALL LBL 1 REP 2\n"));
   ASSERT_EQ(shifted.notCarriedOver.size(), 1U) << shifted.text;
   EXPECT_THAT(shifted.notCarriedOver[0].message, HasSubstr("which shift"));
@@ -148,7 +148,7 @@ TEST(ConvertPromises, CountsShiftsIntoTouchProbeCycles) {
     EXPECT_TRUE(sameOrigin(original, there));
   }
   // A pocket along turned axes has no touch probe cycle.
-  const session::Conversion pocket = toKlartext(sinumerikProgram(
+  const conversion::Conversion pocket = toKlartext(sinumerikProgram(
       "ROT Z5\n" +
       sinumerikCall("CYCLE977", {{"S_MVAR", 5}, {"S_SETV0", 30}, {"S_SETV1", 20}, {"S_FA", 4}, {"S_TSA", 8}})));
   ASSERT_EQ(pocket.notCarriedOver.size(), 1U) << pocket.text;
@@ -235,7 +235,7 @@ TEST(ConvertPromises, JudgesByLimitsThatNobodyReads) {
                                          {281, 0},
                                          {309, 0},
                                          {330, 0}});
-  const session::Conversion there = toSinumerik(klartextProgram(pocket));
+  const conversion::Conversion there = toSinumerik(klartextProgram(pocket));
   ASSERT_EQ(there.notCarriedOver.size(), 1U) << there.text;
   EXPECT_THAT(there.notCarriedOver[0].message, HasSubstr("limits"));
   EXPECT_THAT(there.text, HasSubstr("SETAL(67000"));
@@ -364,7 +364,7 @@ TEST(ConvertPromises, MeasuresAlignedPlanesTwiceForTheSafeArea) {
 }
 
 TEST(ConvertPromises, WritesTheParameterTextsOfTheControl) {
-  const session::Conversion there = toKlartext(sinumerikProgram(
+  const conversion::Conversion there = toKlartext(sinumerikProgram(
       "G0 X0 Y0\nG0 Z5\n" +
       sinumerikCall(
           "CYCLE978",
@@ -382,22 +382,22 @@ TEST(ConvertPromises, WritesTheParameterTextsOfTheControl) {
 }
 
 TEST(ConvertPromises, KeepsCommentsOfSeveralLines) {
-  const session::Conversion there = toSinumerik(klartextProgram("; FIRST ~\n  SECOND ~\n  THIRD\nL X+1 R0 FMAX\n"));
+  const conversion::Conversion there = toSinumerik(klartextProgram("; FIRST ~\n  SECOND ~\n  THIRD\nL X+1 R0 FMAX\n"));
   EXPECT_THAT(there.text, HasSubstr("; FIRST\n; SECOND\n; THIRD\n")) << there.text;
 }
 
 TEST(ConvertPromises, NamesWhatItDrops) {
-  const session::Conversion shortest = toSinumerik(klartextProgram("L X+1 R0 FMAX M126\n"));
+  const conversion::Conversion shortest = toSinumerik(klartextProgram("L X+1 R0 FMAX M126\n"));
   ASSERT_EQ(shortest.notCarriedOver.size(), 1U);
   EXPECT_THAT(shortest.notCarriedOver[0].message, HasSubstr("M126"));
   EXPECT_THAT(shortest.text, HasSubstr("G0 X1\n"));
   for (const char* call : {"CYCLE971()", "CYCLE982()", "CYCLE996()", "CYCLE116()", "CYCLE982", "CYCLE832()"}) {
-    const session::Conversion there = toKlartext(sinumerikProgram(std::string(call) + "\n"));
+    const conversion::Conversion there = toKlartext(sinumerikProgram(std::string(call) + "\n"));
     ASSERT_EQ(there.notCarriedOver.size(), 1U) << there.text;
     EXPECT_THAT(there.text, HasSubstr(fmt::format("; NOT CARRIED OVER: {}", call)));
     EXPECT_THAT(there.text, Not(HasSubstr("CALL PGM")));
   }
-  const session::Conversion fine = toKlartext(sinumerikProgram(
+  const conversion::Conversion fine = toKlartext(sinumerikProgram(
       sinumerikCall("CYCLE977", {{"S_MVAR", 101}, {"S_KNUM", 1}, {"S_SETV", 40}, {"S_FA", 4}, {"S_TSA", 8}})));
   EXPECT_THAT(fine.text, HasSubstr("; S_KNUM: THE FINE OFFSET"));
 }
@@ -424,19 +424,19 @@ TEST(ConvertPromises, RepeatsNothingNoTimes) {
 }
 
 TEST(ConvertPromises, NamesWhatHasNoTwinOfItsOwn) {
-  const session::Conversion skip = toKlartext(sinumerikProgram("/G0 X1\n/1 G0 X2\n/1 G0 X3\n/7 G0 X4\n"));
+  const conversion::Conversion skip = toKlartext(sinumerikProgram("/G0 X1\n/1 G0 X2\n/1 G0 X3\n/7 G0 X4\n"));
   ASSERT_EQ(skip.notCarriedOver.size(), 2U);  // each level once
   EXPECT_THAT(skip.notCarriedOver[0].message, HasSubstr("/1"));
   EXPECT_EQ(skip.notCarriedOver[0].place.line, 6U);
   EXPECT_THAT(skip.notCarriedOver[1].message, HasSubstr("/7"));
   // A message that is shown only does not become an error that stops.
-  const session::Conversion shown = toKlartext(sinumerikProgram("SETAL(67001)\nSETAL(65001)\n"));
+  const conversion::Conversion shown = toKlartext(sinumerikProgram("SETAL(67001)\nSETAL(65001)\n"));
   ASSERT_EQ(shown.notCarriedOver.size(), 1U) << shown.text;
   EXPECT_THAT(shown.notCarriedOver[0].message, HasSubstr("goes on"));
   EXPECT_THAT(shown.text, HasSubstr("FN 14: ERROR = 1001"));
   EXPECT_THAT(shown.text, Not(HasSubstr("ERROR = 3001")));
   // Fine offset and preset are one: a note says so.
-  const session::Conversion fine = toKlartext(sinumerikProgram(
+  const conversion::Conversion fine = toKlartext(sinumerikProgram(
       sinumerikCall("CYCLE977", {{"S_MVAR", 101}, {"S_KNUM", 1}, {"S_SETV", 40}, {"S_FA", 4}, {"S_TSA", 8}})));
   ASSERT_EQ(fine.notCarriedOver.size(), 1U) << fine.text;
   EXPECT_EQ(fine.notCarriedOver[0].severity, Severity::Note);
@@ -452,7 +452,7 @@ TEST(ConvertPromises, NamesVerdictsThatTheCycleDoesNotTell) {
         const std::string name = fmt::format("Q{}=+0", tolerance);
         block.replace(block.find(name), name.size(), fmt::format("Q{}=+1", tolerance));
       }
-      const session::Conversion there = toSinumerik(klartextProgram(block + read));
+      const conversion::Conversion there = toSinumerik(klartextProgram(block + read));
       ASSERT_EQ(there.notCarriedOver.size(), 1U) << there.text;
       EXPECT_THAT(there.notCarriedOver[0].message, HasSubstr("verdict"));
       EXPECT_THAT(there.text, HasSubstr("SETAL(67000"));
@@ -488,15 +488,16 @@ TEST(ConvertPromises, NamesWordsThatWouldLeadElsewhere) {
 
 TEST(ConvertPromises, NamesWordsOfPathsThatASinumerikDoesNotHave) {
   for (const char* block : {"L X+5 FU0.2", "L X+5 FZ0.1", "L X+5 FAUTO", "LN X+5 Y+5 NX0 NY0 NZ1", "L X+5 R+"}) {
-    const session::Conversion there = toSinumerik(klartextProgram("L X+0 Y+0 R0 F500\n" + std::string(block) + "\n"));
+    const conversion::Conversion there =
+        toSinumerik(klartextProgram("L X+0 Y+0 R0 F500\n" + std::string(block) + "\n"));
     EXPECT_FALSE(there.notCarriedOver.empty()) << block;
   }
-  const session::Conversion corner =
+  const conversion::Conversion corner =
       toSinumerik(klartextProgram("L X+0 Y+0 R0 F500\nL X+20\nRND R3 F200\nL Y+20\nCHF 2 F150\nL X+0\n"));
   EXPECT_TRUE(corner.notCarriedOver.empty());
   EXPECT_THAT(corner.text, HasSubstr("RND=3 FRC=200"));
   EXPECT_THAT(corner.text, HasSubstr("CHR=2 FRC=150"));
-  const session::Conversion back = converted(corner.text, ProgramLanguage::Sinumerik);
+  const conversion::Conversion back = converted(corner.text, ProgramLanguage::Sinumerik);
   EXPECT_TRUE(back.notCarriedOver.empty());
   EXPECT_THAT(back.text, HasSubstr("RND R3 F200"));
   EXPECT_THAT(back.text, HasSubstr("CHF 2 F150"));

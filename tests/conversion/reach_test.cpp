@@ -158,7 +158,7 @@ PlantedPart worldOf(const Feature& feature, double off, double travel) {
 
 /// Runs both, and tells whether something of the reach was listed.
 bool compare(const Twin& original, ProgramLanguage to, const PlantedPart& part, double travel) {
-  session::Conversion there =
+  conversion::Conversion there =
       converted(original.text, original.language, ControlKind::TNC640, {.setUp = 2, .travel = travel});
   EXPECT_FALSE(hasErrors(there.mistakes));
   bool listed = false;

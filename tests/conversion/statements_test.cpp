@@ -65,7 +65,7 @@ TEST(ConvertMotion, ComputesWithSignsAndPowers) {
 TEST(ConvertMotion, KeepsArraysByNumber) {
   EXPECT_TRUE(drivesTheSameFromSinumerik("AA[1]=AA[0]+AA[2]\nBB[1,0]=7\nG0 X=AA[1] Y=BB[1,0]+BB[0,1]+CC[3]\n",
                                          "DEF REAL AA[3]=SET(3,,5)\nDEF INT BB[2,2]=REP(2)\nDEF REAL CC[4]\n"));
-  const session::Conversion lost = toKlartext("DEF REAL AA[3]\nDEF INT II=1\nAA[II]=5\nM30\n");
+  const conversion::Conversion lost = toKlartext("DEF REAL AA[3]\nDEF INT II=1\nAA[II]=5\nM30\n");
   ASSERT_EQ(lost.notCarriedOver.size(), 1U);
   EXPECT_THAT(lost.text, HasSubstr("; NOT CARRIED OVER: AA[II]=5\n"));
 }
@@ -144,7 +144,7 @@ TEST(ConvertStatements, StructuresOfLostConditionsAreLostToTheirEnd) {
        {"IF _GONE>1\nG0 X1\nELSE\nG0 X2\nENDIF\n", "WHILE _GONE<4\nG0 X1\nENDWHILE\n", "REPEAT\nG0 X1\nUNTIL _GONE\n",
         "FOR _GONE=1 TO 3\nG0 X1\nENDFOR\n", "LOOP\nIF NOT _GONE\nG0 X1\nENDIF\nENDLOOP\n"}) {
     // Around and within structures that are carried over.
-    const session::Conversion lost =
+    const conversion::Conversion lost =
         toKlartext(std::string("IF R1>3\n") + structure + "WHILE R2<3\nR2=R2+1\nENDWHILE\nENDIF\nG0 X9\nM30\n");
     EXPECT_FALSE(lost.notCarriedOver.empty()) << structure;
     EXPECT_THAT(lost.text, HasSubstr("NOT CARRIED OVER")) << structure;
@@ -154,12 +154,12 @@ TEST(ConvertStatements, StructuresOfLostConditionsAreLostToTheirEnd) {
 }
 
 TEST(ConvertStatements, NamesWhatIsLost) {
-  const session::Conversion there =
+  const conversion::Conversion there =
       toSinumerik(klartextProgram("APPR LT X+1 Y+1 LEN5 RL F100\nFN 16: F-PRINT A.A/B\n"));
   ASSERT_EQ(there.notCarriedOver.size(), 2U);
   EXPECT_EQ(there.notCarriedOver[0].place.line, 4U);
   EXPECT_THAT(there.text, HasSubstr("; NOT CARRIED OVER: APPR LT X+1 Y+1 LEN5 RL F100\n"));
-  const session::Conversion back = toKlartext("G500\nG0 X1\nPOLY\n$TC_DP1[1,1]=3\n");
+  const conversion::Conversion back = toKlartext("G500\nG0 X1\nPOLY\n$TC_DP1[1,1]=3\n");
   EXPECT_EQ(back.notCarriedOver.size(), 3U);
   EXPECT_THAT(back.text, HasSubstr("; NOT CARRIED OVER: G500"));
 }

@@ -20,15 +20,19 @@ inline ProgramLanguage otherLanguage(ProgramLanguage language) {
 }
 
 /// `control`: to write for, if it is to be a HEIDENHAIN control.
-inline session::Conversion converted(const std::string& text, ProgramLanguage from,
-                                     ControlKind control = ControlKind::TNC640,
-                                     const conversion::TouchProbe& probe = {}) {
+inline conversion::Conversion converted(const std::string& text, ProgramLanguage from,
+                                        ControlKind control = ControlKind::TNC640,
+                                        const conversion::TouchProbe& probe = {}) {
   const auto program = session::programOf(from == ProgramLanguage::Sinumerik ? "BENCH.MPF" : "BENCH.H", text, from);
-  return session::convert(*program, from, otherLanguage(from),
-                          {.globalData = nullptr, .control = control, .probe = probe});
+  return conversion::convert(*program, from, otherLanguage(from),
+                             {.globalData = nullptr, .control = control, .probe = probe});
 }
-inline session::Conversion toSinumerik(const std::string& text) { return converted(text, ProgramLanguage::Klartext); }
-inline session::Conversion toKlartext(const std::string& text) { return converted(text, ProgramLanguage::Sinumerik); }
+inline conversion::Conversion toSinumerik(const std::string& text) {
+  return converted(text, ProgramLanguage::Klartext);
+}
+inline conversion::Conversion toKlartext(const std::string& text) {
+  return converted(text, ProgramLanguage::Sinumerik);
+}
 
 /// A program with its run: what was measured on the way, what the control believes at the end, where the probe stands.
 struct Twin {
@@ -74,7 +78,7 @@ inline setup::Setup twinSetup(const setup::Setup& setup) {
 inline Twin twinOf(setup::SimulatedRun run) {
   session::RunOutcome& outcome = run.outcome;
   Twin twin;
-  twin.finished = !hasErrors(outcome.diagnostics) && outcome.result.end == language::RunEnd::Finished;
+  twin.finished = !hasErrors(outcome.diagnostics) && outcome.result.end == execution::RunEnd::Finished;
   if (hasErrors(outcome.diagnostics)) {
     twin.why = format(outcome.diagnostics.front());
   } else if (!outcome.result.diagnostics.empty()) {
@@ -112,7 +116,7 @@ inline bool isLoss(const Diagnostic& listed) {
 
 /// The program in the other language, run in the same world.
 inline Twin runConverted(const Twin& twin, const PlantedPart& part, const conversion::TouchProbe& probe = {}) {
-  session::Conversion conversion = converted(twin.text, twin.language, part.bench.control, probe);
+  conversion::Conversion conversion = converted(twin.text, twin.language, part.bench.control, probe);
   Twin other = run(conversion.text, otherLanguage(twin.language), part);
   other.lost = std::move(conversion.mistakes);
   for (Diagnostic& each : conversion.notCarriedOver)

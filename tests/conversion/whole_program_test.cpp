@@ -112,7 +112,7 @@ TEST(ConvertWithoutTwin, KeepsHeidenhainCyclesAsComments) {
     }
     if (cycle == 1) call = "TCH PROBE 1.0 POLAR PRESET\nTCH PROBE 1.1 X ANGLE:+30\nTCH PROBE 1.2 X+5 Y+0 Z-5";
     if (cycle == 2) call = "TCH PROBE 2.0 CALIBRATE TS\nTCH PROBE 2.1 HEIGHT:+50 R+25.003 MEASUREMENT LOG:0";
-    const session::Conversion there = toSinumerik(klartextProgram(call + "\nL X+7 R0 FMAX\n"));
+    const conversion::Conversion there = toSinumerik(klartextProgram(call + "\nL X+7 R0 FMAX\n"));
     ASSERT_TRUE(there.mistakes.empty()) << cycle << ": " << format(there.mistakes.front());
     ASSERT_EQ(there.notCarriedOver.size(), 1U) << cycle << "\n" << there.text;
     EXPECT_EQ(there.notCarriedOver[0].place.line, 4U) << cycle;
@@ -125,7 +125,7 @@ TEST(ConvertWithoutTwin, KeepsSinumerikCyclesAsComments) {
   for (const char* call :
        {"CYCLE995(0,,1)", "CYCLE997(9,,1,20,8,5)", "CYCLE973(1)", "CYCLE974(1)", "CYCLE994(1)", "CYCLE971(1)",
         "CYCLE982(1)", "CYCLE996(10)", "CYCLE961(105,10001,1,20,5,5,10,20,30,0,0,0,90)", "CYCLE976(4,,1,20,5,5,1,1)"}) {
-    const session::Conversion there = toKlartext(fmt::format("G17 G90 G710\nT1 M6 D1\n{}\nG0 X7\nM30\n", call));
+    const conversion::Conversion there = toKlartext(fmt::format("G17 G90 G710\nT1 M6 D1\n{}\nG0 X7\nM30\n", call));
     ASSERT_TRUE(there.mistakes.empty()) << call << ": " << format(there.mistakes.front());
     ASSERT_EQ(there.notCarriedOver.size(), 1U) << call << "\n" << there.text;
     EXPECT_EQ(there.notCarriedOver[0].place.line, 3U) << call;

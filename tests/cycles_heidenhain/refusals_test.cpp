@@ -278,7 +278,7 @@ TEST(Inspection, WritesTheLogBeforeItWaits) {
     bench.onStop = control::OnStop::Abort;
     const std::string wait = "TCH PROBE 441 FAST PROBING ~\n Q396=3000 ~\n Q397=0 ~\n Q399=0 ~\n Q400=1\n";
     const Ran ran = bench.run(wait + probe(421, with(inspect421, {{281, 1}})));
-    EXPECT_EQ(ran.outcome.result.end, language::RunEnd::Cancelled);
+    EXPECT_EQ(ran.outcome.result.end, execution::RunEnd::Cancelled);
     EXPECT_NE(ran.log("TCHPR421.TXT").find("30.0000"), std::string::npos);
     ASSERT_EQ(ran.screens().size(), 1U);
     EXPECT_EQ(ran.screens().front(), ran.log("TCHPR421.TXT"));
@@ -296,7 +296,7 @@ TEST(Inspection, ShowsTheLogAndWaits) {
   }));
   Bench aborted = holeBench();
   aborted.onStop = control::OnStop::Abort;
-  EXPECT_EQ(aborted.run(probe(421, words)).outcome.result.end, language::RunEnd::Cancelled);
+  EXPECT_EQ(aborted.run(probe(421, words)).outcome.result.end, execution::RunEnd::Cancelled);
 }
 
 TEST(Inspection, LocksABrokenTool) {

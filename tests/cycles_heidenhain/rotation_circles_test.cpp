@@ -153,7 +153,7 @@ TEST(Cycle1411, ReducesTheClearanceInSmallHoles) {
   // Cancelled at the first of them: nothing has been touched.
   bench.onStop = control::OnStop::Abort;
   const Ran cancelled = bench.run(probe(1411, words));
-  EXPECT_EQ(cancelled.outcome.result.end, language::RunEnd::Cancelled);
+  EXPECT_EQ(cancelled.outcome.result.end, execution::RunEnd::Cancelled);
   EXPECT_EQ(cancelled.touches(), 0U);
   bench.onStop = control::OnStop::Continue;
   const Ran tooSmall = bench.run(probe(1411, with(words, {{1117, 3}})));

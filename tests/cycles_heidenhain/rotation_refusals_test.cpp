@@ -199,7 +199,7 @@ TEST(RotationCycles, StopWhereTheOperatorGivesUpOrStandsWrong) {
     expectRefused(bench.run(asking(cycle)), "Touch point inaccessible", "not deflected within");
     bench.onStop = control::OnStop::Abort;
     const Ran cancelled = bench.run(asking(cycle));
-    EXPECT_EQ(cancelled.outcome.result.end, language::RunEnd::Cancelled);
+    EXPECT_EQ(cancelled.outcome.result.end, execution::RunEnd::Cancelled);
     EXPECT_EQ(cancelled.touches(), 0U);
   }
 }
@@ -394,7 +394,7 @@ TEST(RotationCycles, StopOnlyIfTheOperatorGoesOn) {
   std::erase_if(rest, [](const auto& word) { return word.first == 1101; });
   const std::string tolerance = " ~\n  QS1101=\"-50.5+-0.1\" ;X";
   const Ran stopped = bench.run(probe(1410, with(rest, {{309, 1}, {1120, 1}}), tolerance));
-  EXPECT_EQ(stopped.outcome.result.end, language::RunEnd::Cancelled);
+  EXPECT_EQ(stopped.outcome.result.end, execution::RunEnd::Cancelled);
   EXPECT_EQ(stopped.q(183), 2);
   EXPECT_NEAR(stopped.cell("PRESET.PR", "1", "Y"), 0, exact);
   bench.onStop = control::OnStop::Continue;

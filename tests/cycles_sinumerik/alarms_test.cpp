@@ -27,7 +27,7 @@ struct Seen {
 
 /// The alarm that a program ends with; otherwise the first message with a number.
 template <class Bench>
-Seen seenBy(const Bench& bench, const language::RunResult& result) {
+Seen seenBy(const Bench& bench, const execution::RunResult& result) {
   if (!result.diagnostics.empty()) {
     const Diagnostic& first = result.diagnostics.front();
     EXPECT_NE(bench.control.journal.cycles.back().alarm.find(first.code), std::string::npos) << format(first);
@@ -316,7 +316,7 @@ TEST(Alarms, OfACallTooDeep) {
       const std::string text =
           level < depth_ ? fmt::format("L{}\nM17\n", level + 1) : "CYCLE978(0,,,1,0,6,2,1,1,1)\nM17\n";
       return std::shared_ptr<language::Program>(
-          sinumerik::SinumerikProgram::fromText(fmt::format("{}.SPF", name), text));
+          language::sinumerik::SinumerikProgram::fromText(fmt::format("{}.SPF", name), text));
     }
     bool exists(std::string_view name, const language::Program*) override {
       return name.size() == 2 && (name[0] == 'L' || name[0] == 'l') && name[1] >= '1' && name[1] <= '9';
@@ -329,12 +329,12 @@ TEST(Alarms, OfACallTooDeep) {
   for (const int depth : {4, 5}) {
     Provoker bench;
     Nest nest(depth);
-    language::InterpreterOptions options;
-    options.programDepth = sinumerik::SinumerikHost::programDepth;
-    sinumerik::SinumerikHost host(bench.control);
-    const language::RunResult result = language::Interpreter(nest, host, options)
-                                           .run(sinumerik::SinumerikProgram::fromText(
-                                               "DEEP.MPF", "G17 G90 G71 G54\nT1 D1 M6\nG0 X-30 Y30\nZ-10\nL1\nM30\n"));
+    execution::InterpreterOptions options;
+    options.programDepth = execution::sinumerik::SinumerikHost::programDepth;
+    execution::sinumerik::SinumerikHost host(bench.control);
+    const execution::RunResult result = execution::Interpreter(nest, host, options)
+                                            .run(language::sinumerik::SinumerikProgram::fromText(
+                                                "DEEP.MPF", "G17 G90 G71 G54\nT1 D1 M6\nG0 X-30 Y30\nZ-10\nL1\nM30\n"));
     if (depth == 4) {
       EXPECT_TRUE(result.diagnostics.empty()) << format(result.diagnostics.front());
     } else {

@@ -89,7 +89,7 @@ TEST(Cycle997, LaysTheWorkpieceSystemOnThreeBalls) {
     EXPECT_NEAR(bench.ovr(20), 20, 1e-6);
     if (world > 0) continue;
     bench.start({0, 0, 30});
-    const language::RunResult distorted = bench.tryRun("CYCLE997", with(call, {{"S_SETV3", 90.5}}));
+    const execution::RunResult distorted = bench.tryRun("CYCLE997", with(call, {{"S_SETV3", 90.5}}));
     ASSERT_FALSE(distorted.diagnostics.empty());
     EXPECT_NE(distorted.diagnostics[0].message.find("triangle"), std::string::npos);
     EXPECT_EQ(distorted.diagnostics[0].code, "61414");

@@ -136,7 +136,7 @@ TEST(LShapedProbes, CalibrateInARingInTheOneDirectionThatTheyReach) {
         NamedNumbers{{"S_MVAR", 1001}, {"S_MA", 2}, {"S_MD", 0}},
         NamedNumbers{{"S_MVAR", 1001}, {"S_MA", 1}, {"S_MD", 1}}}) {
     bench.start({0, 0, -10});
-    const language::RunResult result = bench.tryRun("CYCLE976", with(call, other));
+    const execution::RunResult result = bench.tryRun("CYCLE976", with(call, other));
     ASSERT_FALSE(result.diagnostics.empty());
     EXPECT_EQ(result.diagnostics[0].code, "61309");
     EXPECT_NE(result.diagnostics[0].message.find("S_MVAR = 1001"), std::string::npos);

@@ -22,8 +22,9 @@ std::string callText(const char* name, const NamedNumbers& numbers, std::size_t 
 }
 
 bool passesCheck(const std::string& call) {
-  return std::ranges::none_of(sinumerik::check(*sinumerik::SinumerikProgram::fromText("TEST.MPF", call + "\nM30\n")),
-                              [](const Diagnostic& each) { return each.severity == Severity::Error; });
+  return std::ranges::none_of(
+      language::sinumerik::check(*language::sinumerik::SinumerikProgram::fromText("TEST.MPF", call + "\nM30\n")),
+      [](const Diagnostic& each) { return each.severity == Severity::Error; });
 }
 
 /// True if the alarm is about the call, not about what the probe met.
@@ -45,7 +46,7 @@ void expectAgreement(const Variant& variant, const NamedNumbers& call, std::size
   for (const auto& [name, value] : call)
     for (const cycles::Parameter& each : definition->parameters)
       if (each.name == name && each.address < count) given.emplace_back(name, value);
-  const language::RunResult result = bench.tryRun(variant.cycle, given);
+  const execution::RunResult result = bench.tryRun(variant.cycle, given);
   const std::string code = result.diagnostics.empty() ? std::string() : result.diagnostics.front().code;
   EXPECT_EQ(passesCheck(text), !isOfTheCall(code)) << code;
 }

@@ -185,7 +185,7 @@ TEST(OldForm, SaysWhatItCannotCarryOut) {
     SinumerikBench bench(truth);
     plantFrame(bench, "$P_UIFR", 1, origin);
     bench.start({0, 0, -10});
-    const language::RunResult result = bench.tryRun(cycle, {}, {}, std::string(assigned) + "\n");
+    const execution::RunResult result = bench.tryRun(cycle, {}, {}, std::string(assigned) + "\n");
     ASSERT_FALSE(result.diagnostics.empty());
     EXPECT_EQ(result.diagnostics[0].code, code);
     EXPECT_NE(result.diagnostics[0].message.find(text), std::string::npos) << result.diagnostics[0].message;

@@ -182,7 +182,7 @@ TEST(ProbeKinds, AStarHasNoBallForThePoleOfACalibrationBall) {
   plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
   believeInStar(bench);
   bench.start({0, 0, 8});
-  const language::RunResult result =
+  const execution::RunResult result =
       bench.tryRun("CYCLE976", {{"S_MVAR", 1000003}, {"S_SETV", 30}, {"S_SETV0", 0}, {"S_FA", 5}, {"S_TSA", 3}});
   ASSERT_FALSE(result.diagnostics.empty());
   EXPECT_EQ(result.diagnostics.front().code, "61302") << format(result.diagnostics.front());
@@ -239,7 +239,7 @@ TEST(ProbeKinds, AStarPassesBetweenWhatOneWideBallWouldMeet) {
       bench.set((std::string("$SNS_MEA_WP_TRIG_PLUS_DIR_AX") + axis).c_str(), {0}, 11.5);
       bench.set((std::string("$SNS_MEA_WP_TRIG_MINUS_DIR_AX") + axis).c_str(), {0}, -11.5);
     }
-    const language::RunResult result =
+    const execution::RunResult result =
         bench.tryRun("CYCLE977", {{"S_MVAR", 1}, {"S_SETV", 40}, {"S_FA", 4}, {"S_TSA", 2}}, {},
                      fmt::format("SPOS={}\nG0 X0 Y0\nZ-20\n", angle));
     if (angle == 0) {

@@ -162,7 +162,7 @@ TEST(RandomCalls, EndWellOrWithAnAlarm) {
         written += fmt::format("{}={} ", name, value);
       SCOPED_TRACE(std::string(cycle) + " " + written);
       bench.start(start);
-      const language::RunResult result = bench.tryRun(cycle, call, {{"S_TNAME", "MILL"}});
+      const execution::RunResult result = bench.tryRun(cycle, call, {{"S_TNAME", "MILL"}});
       if (result.diagnostics.empty()) {
         ++well;
         for (const double value : bench.control.ovr)

@@ -51,7 +51,7 @@ TEST(EveryCycleRefuses, WhatTheOthersRefuse) {
       if (std::string_view(variant.cycle) == "CYCLE976") bench.set("$SNS_MEA_WP_TRIG_PLUS_DIR_AX1", {0}, 2.1);
       if (wrong.data) wrong.data(bench);
       bench.start(variant.start);
-      const language::RunResult result =
+      const execution::RunResult result =
           bench.tryRun(variant.cycle, with(with(variant.call, {{"S_KNUM", variant.corrects() ? 1 : 0}}), wrong.call),
                        {}, wrong.before);
       ASSERT_FALSE(result.diagnostics.empty());

@@ -228,13 +228,13 @@ void expectAgreement(const Value& value, const std::vector<std::string>& argumen
   const std::string before = std::string(value.call).substr(0, std::string_view(value.call).find("CYCLE"));
   const std::string call = fmt::format("{}({})", value.cycle, fmt::join(arguments, ","));
   SCOPED_TRACE(call);
-  const auto program = sinumerik::SinumerikProgram::fromText("TEST.MPF", call + "\nM30\n");
-  const bool passes = std::ranges::none_of(sinumerik::check(*program),
+  const auto program = language::sinumerik::SinumerikProgram::fromText("TEST.MPF", call + "\nM30\n");
+  const bool passes = std::ranges::none_of(language::sinumerik::check(*program),
                                            [](const Diagnostic& each) { return each.severity == Severity::Error; });
   const Scene scene = sceneOf(value.scene);
   LatheBench bench(scene.setup);
   scene.data(bench);
-  const language::RunResult result =
+  const execution::RunResult result =
       bench.tryRun("DIAMON\n" + (std::string_view(value.scene) == "thirdAxis" ? "" : std::string("G0 X300\n")) +
                    scene.way + before + call);
   EXPECT_EQ(passes, !isOfTheCall(result.diagnostics))

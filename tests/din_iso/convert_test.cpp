@@ -12,14 +12,14 @@
 namespace probewright::language::din_iso::testing {
 namespace {
 
+using conversion::Conversion;
 using klartext::testing::irOf;
-using session::Conversion;
 using session::ProgramLanguage;
 using ::testing::HasSubstr;
 
 Conversion converted(const std::string& text, ProgramLanguage from, ProgramLanguage to) {
   const auto program = session::programOf("part", text, from);
-  return session::convert(*program, from, to);
+  return conversion::convert(*program, from, to);
 }
 Conversion toDinIso(const std::string& text) {
   return converted(text, ProgramLanguage::Klartext, ProgramLanguage::DinIso);

@@ -249,6 +249,22 @@ TEST(Check, KnowsTheStateBeforeACycle) {
   EXPECT_EQ(checked(framed(call + turn + preset412("5", " ~\n Q303=1"))), "") << "presets may be rotated";
 }
 
+/// TRANS changes what the cycles 7, 8, 10 and 11 have set: what they said no longer holds.
+TEST(Check, KnowsThatTransChangesWhatCyclesHaveSet) {
+  const std::string cycle = inspection421("0", "0");
+  const std::string shift = "2 CYCL DEF 7.0 SHIFT\n3 CYCL DEF 7.1 X+5\n";
+  const std::string mirror = "2 CYCL DEF 8.0 MIRROR\n3 CYCL DEF 8.1 X\n";
+  const std::string turn = "2 CYCL DEF 10.0 TURN\n3 CYCL DEF 10.1 ROT+5\n";
+  const std::string scale = "2 CYCL DEF 11.0 SCALE\n3 CYCL DEF 11.1 SCL0.5\n";
+  for (const auto& [set, reset] :
+       {std::pair(shift, "4 TRANS DATUM RESET\n"), std::pair(shift, "4 TRANS DATUM AXIS X+0 Y+0 Z+0\n"),
+        std::pair(mirror, "4 TRANS MIRROR RESET\n"), std::pair(turn, "4 TRANS ROTATION RESET\n"),
+        std::pair(scale, "4 TRANS SCALE RESET\n")}) {
+    EXPECT_NE(checked(framed(call + set + cycle)).find("is active"), std::string::npos) << set;
+    EXPECT_EQ(checked(framed(call + set + reset + cycle)), "") << set << reset;
+  }
+}
+
 /// Results of cycles 0, 3 and 4 go into Q parameters; another letter is not dropped.
 TEST(Check, RefusesResultsInOtherParameters) {
   for (const char* name : {"QL5", "QR5", "QS5"}) {

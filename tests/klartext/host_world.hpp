@@ -14,6 +14,9 @@
 
 namespace probewright::language::klartext::testing {
 
+using namespace execution;
+using namespace execution::klartext;
+
 /// A machine that reaches every target and remembers it.
 class TraceMachine : public testing_support::WillingMachine {
 public:

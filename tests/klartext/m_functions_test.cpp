@@ -8,6 +8,9 @@
 #include "klartext/host_world.hpp"
 
 namespace probewright::language::klartext::testing {
+
+using namespace execution;
+using namespace execution::klartext;
 namespace {
 
 using control::ControlKind;

@@ -11,6 +11,9 @@
 
 /// What changes where the tool is and is not carried out is named once in a run, and refused under --strict.
 namespace probewright::language::klartext::testing {
+
+using namespace execution;
+using namespace execution::klartext;
 namespace {
 
 using control::ControlKind;
@@ -88,7 +91,7 @@ TEST(NotCarriedOut, IsNamedInDinIsoToo) {
     const auto program = std::make_shared<din_iso::DinIsoProgram>(
         "main.i", fmt::format("%A G71 *\n{0}\n{0}\nN99999999 %A G71 *\n", each.blocks));
     KlartextHost klartext(*world.control, world.options);
-    din_iso::DinIsoHost host(klartext);
+    execution::din_iso::DinIsoHost host(klartext);
     expectFinished(Interpreter(world.library, host).run(program));
     EXPECT_THAT(world.told(EventKind::Skipped), ElementsAre(each.named));
   }

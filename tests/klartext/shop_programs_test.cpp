@@ -11,6 +11,9 @@
 
 /// Programs as CAM systems and setters write them: they pass the check and run to their end.
 namespace probewright::language::klartext::testing {
+
+using namespace execution;
+using namespace execution::klartext;
 namespace {
 
 using control::ControlKind;
@@ -324,7 +327,7 @@ N99999999 %POLAR G71 *
     for (const Diagnostic& diagnostic : checkProgram(*program, ControlKind::TNC640))
       EXPECT_NE(diagnostic.severity, Severity::Error) << format(diagnostic);
     KlartextHost klartext(*world.control, world.options);
-    din_iso::DinIsoHost host(klartext);
+    execution::din_iso::DinIsoHost host(klartext);
     expectFinished(Interpreter(world.library, host).run(program));
     const Vector3 tip = world.control->channel.machineFromAxes(world.control->channel.axes());
     EXPECT_TRUE(near(tip, each.end, 1e-6)) << each.text;

@@ -14,6 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using execution::MadeProgram;
+
 /// A program that knows its path only.
 class NamedProgram : public MadeProgram {
 public:

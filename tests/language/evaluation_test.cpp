@@ -11,7 +11,7 @@
 
 #include "language/made_program.hpp"
 
-namespace probewright::language {
+namespace probewright::execution {
 namespace {
 
 using ::testing::HasSubstr;
@@ -274,4 +274,4 @@ TEST_F(EvaluationTest, RandomExpressionsAgreeWithTheCompiler) {
 }
 
 }  // namespace
-}  // namespace probewright::language
+}  // namespace probewright::execution

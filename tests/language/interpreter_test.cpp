@@ -5,7 +5,7 @@
 
 #include "language/made_program.hpp"
 
-namespace probewright::language {
+namespace probewright::execution {
 namespace {
 
 using ::testing::HasSubstr;
@@ -475,4 +475,4 @@ TEST(Effort, LoopsLargerThanTheCacheStayCorrect) {
 }
 
 }  // namespace
-}  // namespace probewright::language
+}  // namespace probewright::execution

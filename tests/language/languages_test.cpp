@@ -8,7 +8,7 @@
 #include "language/sinumerik/program.hpp"
 
 /// Whole programs of both languages through the interpreter: that front ends and interpreter mean the same.
-namespace probewright::language {
+namespace probewright::execution {
 namespace {
 
 using ::testing::HasSubstr;
@@ -34,7 +34,7 @@ struct Control {
     return Interpreter(texts, host, options).run(std::make_shared<klartext::KlartextProgram>("MAIN.H", text));
   }
   RunResult sinumerik(const std::string& text) {
-    return Interpreter(texts, host, options).run(sinumerik::SinumerikProgram::fromText("MAIN.MPF", text));
+    return Interpreter(texts, host, options).run(language::sinumerik::SinumerikProgram::fromText("MAIN.MPF", text));
   }
 };
 
@@ -165,7 +165,7 @@ M2
 
 TEST(SinumerikRun, SubprogramsRepeatAndCyclesAreLeftToTheControl) {
   Control control;
-  control.texts.programs["L100"] = sinumerik::SinumerikProgram::fromText("L100.SPF", "R1=R1+1\nM17\nR1=99\n");
+  control.texts.programs["L100"] = language::sinumerik::SinumerikProgram::fromText("L100.SPF", "R1=R1+1\nM17\nR1=99\n");
   const RunResult result = control.sinumerik("L100 P3\nCYCLE978(200,,1)\nM30\n");
   EXPECT_EQ(explained(result), "");
   EXPECT_EQ(control.host.q(1), 3);
@@ -190,4 +190,4 @@ TEST(BadPrograms, AreMessagesNotEndlessLoopsOrOverflows) {
 }
 
 }  // namespace
-}  // namespace probewright::language
+}  // namespace probewright::execution

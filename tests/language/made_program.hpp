@@ -11,7 +11,7 @@
 #include "language/program.hpp"
 
 /// Programs made of blocks by hand, and a host that writes down what it is told.
-namespace probewright::language {
+namespace probewright::execution {
 
 /// Builds one block: expressions first, then the instructions that use them.
 class Make {
@@ -235,4 +235,4 @@ public:
   std::vector<std::uint64_t> leftOut;
 };
 
-}  // namespace probewright::language
+}  // namespace probewright::execution

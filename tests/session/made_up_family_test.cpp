@@ -137,21 +137,21 @@ void cycleTouch(PocketControl& control, const Vector3& target) {
 
 // ---- what the control does with instructions ----
 
-class PocketHost : public language::Host {
+class PocketHost : public execution::Host {
 public:
   explicit PocketHost(PocketControl& control) : control_(control) {}
-  language::Value read(const language::VariableRef&, language::Evaluation&) override { return {}; }
-  void write(const language::VariableRef&, const language::Value&, language::Evaluation&) override {}
-  bool isDefined(const language::VariableRef&, language::Evaluation&) override { return false; }
+  language::Value read(const language::VariableRef&, execution::Evaluation&) override { return {}; }
+  void write(const language::VariableRef&, const language::Value&, execution::Evaluation&) override {}
+  bool isDefined(const language::VariableRef&, execution::Evaluation&) override { return false; }
   language::Value call(std::string_view, std::span<const language::Value>) override { return {}; }
   bool beginBlock(const language::Program& program, const Block& block) override {
     control_.panel.place = {program.file(), block.position.line, 1};
     return true;
   }
-  void enter(const language::Program&, const language::CallProgram*, language::Evaluation*) override {}
+  void enter(const language::Program&, const language::CallProgram*, execution::Evaluation*) override {}
   void leave(const language::Program&) override {}
 
-  void execute(const language::Instruction& instruction, language::Evaluation& evaluation) override {
+  void execute(const language::Instruction& instruction, execution::Evaluation& evaluation) override {
     if (const auto* move = std::get_if<language::Move>(&instruction))
       control_.channel.moveTo(target(move->words, evaluation), machine::Feed::rapidTraverse());
     if (const auto* cycle = std::get_if<language::CycleCall>(&instruction))
@@ -159,7 +159,7 @@ public:
   }
 
 private:
-  Vector3 target(language::WordRange words, language::Evaluation& evaluation) {
+  Vector3 target(language::WordRange words, execution::Evaluation& evaluation) {
     Vector3 point = control_.channel.position();
     for (const language::Word& word : evaluation.words(words))
       point[static_cast<Eigen::Index>(word.address - 'X')] = evaluation.number(word.value);
@@ -190,7 +190,7 @@ void runPocket(const RunRequest& request, machine::Machine& machine, RunOutcome&
   PocketHost host(control);
   const ControlFamily family = pocketFamily();
   const auto library = programLibrary(family);
-  outcome.result = language::Interpreter(*library, host, interpreterOptions(request.options)).run(request.program);
+  outcome.result = execution::Interpreter(*library, host, interpreterOptions(request.options)).run(request.program);
   outcome.files = control.panel.files();
   outcome.files["POCKET.TAB"] = fmt::format("WALL {}\n", formatShortest(control.lastWall));
   takeRecords(control, outcome);

@@ -24,8 +24,8 @@ namespace {
 
 using control::ControlKind;
 using control::EventKind;
-using language::RunEnd;
-using language::RunResult;
+using execution::RunEnd;
+using execution::RunResult;
 using machine::MoveEnd;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -66,13 +66,13 @@ public:
 };
 
 /// What both controls are run by.
-RunResult runOn(ScriptedMachine& machine, language::Host& host, const char* name, const std::string& text,
+RunResult runOn(ScriptedMachine& machine, execution::Host& host, const char* name, const std::string& text,
                 ControlKind kind, const std::stop_token& stop) {
   machine.stopOn(stop);
   NoOtherPrograms library;
-  language::InterpreterOptions options;
+  execution::InterpreterOptions options;
   options.stop = stop;
-  return language::Interpreter(library, host, options).run(programOf(name, text, languageFor(kind, name, text)));
+  return execution::Interpreter(library, host, options).run(programOf(name, text, languageFor(kind, name, text)));
 }
 
 template <class Control>
@@ -87,7 +87,7 @@ std::vector<std::string> told(const Control& control, EventKind kind) {
 struct Klartext {
   Klartext() { control.activatePreset(1); }
   RunResult run(const std::string& blocks, const std::stop_token& stop = {}) {
-    language::klartext::KlartextHost host(control, {});
+    execution::klartext::KlartextHost host(control, {});
     return runOn(machine, host, "MAIN.H", "BEGIN PGM MAIN MM\n" + blocks + "END PGM MAIN MM\n", ControlKind::TNC640,
                  stop);
   }
@@ -105,7 +105,7 @@ struct Sinumerik {
     control.applyFrames();
   }
   RunResult run(const std::string& blocks, const std::stop_token& stop = {}) {
-    sinumerik::SinumerikHost host(control);
+    execution::sinumerik::SinumerikHost host(control);
     return runOn(machine, host, "MAIN.MPF", "G17 G54 G90\n" + blocks + "M30\n", ControlKind::Sinumerik840Dsl, stop);
   }
   double r(int number) { return control.data.number("R", {number}, -1e99); }

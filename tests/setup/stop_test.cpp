@@ -38,13 +38,13 @@ session::RunOutcome runEdge(bool stops) {
 
 TEST(Stop, EndsAMeasuringCycleAtItsNextMove) {
   const session::RunOutcome whole = runEdge(false);
-  ASSERT_EQ(whole.result.end, language::RunEnd::Finished);
+  ASSERT_EQ(whole.result.end, execution::RunEnd::Finished);
   ASSERT_EQ(whole.journal.cycles.size(), 1u);
   const std::size_t touches = whole.journal.cycles[0].touches.size();
   EXPECT_EQ(touches, 2u);
 
   const session::RunOutcome stopped = runEdge(true);
-  EXPECT_EQ(stopped.result.end, language::RunEnd::Cancelled);
+  EXPECT_EQ(stopped.result.end, execution::RunEnd::Cancelled);
   EXPECT_EQ(stopped.info.exit, records::ExitState::Stopped);
   for (const control::CycleRecord& cycle : stopped.journal.cycles)
     EXPECT_LT(cycle.touches.size(), touches);

@@ -3,7 +3,7 @@
 #include "sinumerik/world.hpp"
 
 /// Frames of data management and the active ones: which of them a program changes, and when that acts.
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 namespace {
 
 TEST(SinumerikActiveFrames, DataActWhenTheyAreActivated) {
@@ -139,4 +139,4 @@ TEST(SinumerikActiveFrames, DiametersInAbsoluteAndIncrementalPositions) {
 }
 
 }  // namespace
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

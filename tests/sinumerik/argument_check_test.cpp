@@ -4,7 +4,7 @@
 #include "cycles/catalogue.hpp"
 #include "language/sinumerik/check.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 namespace {
 
 /// "5:12 message" of each mistake in a program.
@@ -248,4 +248,4 @@ TEST(SinumerikArguments, ThoseOfCycle800And116AreCounted) {
 }
 
 }  // namespace
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

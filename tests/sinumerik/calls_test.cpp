@@ -7,7 +7,7 @@
 #include "sinumerik/world.hpp"
 
 /// Calls in all their forms: modal ones, sections of programs, programs that nobody can read.
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 namespace {
 
 TEST(SinumerikCalls, ModalCallsFollowEachMotion) {
@@ -59,8 +59,8 @@ TEST(SinumerikCalls, AModalCallComesBeforeTheEndOfItsBlock) {
 TEST(SinumerikCalls, AMeasuringCycleIsCalledModally) {
   World world;
   // Without a probe the cycle refuses; what counts is that it is reached at the motion.
-  const language::RunResult result = world.tryRun("MCALL CYCLE978(0,,,1,10,,5,1,2,1,\"\",,0)\nR1=1\nG0 X10\nR1=2\n");
-  EXPECT_EQ(result.end, language::RunEnd::Alarm);
+  const execution::RunResult result = world.tryRun("MCALL CYCLE978(0,,,1,10,,5,1,2,1,\"\",,0)\nR1=1\nG0 X10\nR1=2\n");
+  EXPECT_EQ(result.end, execution::RunEnd::Alarm);
   ASSERT_FALSE(result.diagnostics.empty());
   EXPECT_EQ(result.diagnostics.front().place.line, 3u);
   EXPECT_EQ(world.r(1), 1);
@@ -146,7 +146,7 @@ TEST(SinumerikCalls, CalledProgramsAreCheckedToo) {
   EXPECT_EQ(places, (std::vector<std::string>{"test.mpf:3", "OUTER.SPF:4", "INNER.SPF:1"}));
   World world;
   world.texts.add("INNER", "PROC INNER(REAL K1)\nRET\n");
-  const language::RunResult result = world.tryRun("INNER(1)\n");
+  const execution::RunResult result = world.tryRun("INNER(1)\n");
   ASSERT_FALSE(result.diagnostics.empty());
   EXPECT_EQ(result.diagnostics.front().code, "14020");
   EXPECT_NE(result.diagnostics.front().message.find("PROC line of INNER"), std::string::npos);
@@ -169,4 +169,4 @@ TEST(SinumerikCalls, EncryptedProgramsAreNamed) {
 }
 
 }  // namespace
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

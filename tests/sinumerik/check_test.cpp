@@ -4,7 +4,7 @@
 
 #include "cycles/catalogue.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 namespace {
 
 Diagnostics checkText(const std::string& text) {
@@ -199,4 +199,4 @@ TEST(SinumerikCheck, LengthsBelowZeroAreMistakes) {
 }
 
 }  // namespace
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

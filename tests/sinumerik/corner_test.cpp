@@ -6,7 +6,7 @@
 #include "sinumerik/world.hpp"
 
 /// Roundings and chamfers between the blocks of a contour, held against closed forms.
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 namespace {
 
 /// The ends of the moves of `program`, which begins at the origin at rest.
@@ -176,4 +176,4 @@ TEST(SinumerikCorner, LinesGivenByTheirAngle) {
 }
 
 }  // namespace
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

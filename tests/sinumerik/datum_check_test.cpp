@@ -2,11 +2,11 @@
 
 #include "sinumerik/world.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 namespace {
 
 std::string codeOf(const std::string& block) {
-  const language::RunResult result = World().tryRun(block + "\nM30");
+  const execution::RunResult result = World().tryRun(block + "\nM30");
   return result.diagnostics.empty() ? "" : result.diagnostics.front().code;
 }
 
@@ -42,4 +42,4 @@ TEST(DatumCheck, WhatTheControlHasIsTaken) {
 }
 
 }  // namespace
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -2,7 +2,7 @@
 #include "sinumerik/world.hpp"
 
 /// Files that programs write, read and delete, and blocks that they put together: WRITE, READ, DELETE, EXECSTRING.
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 namespace {
 
 /// A world with the file LIST.MPF of three lines beside the program, and programs that can be called from texts.
@@ -16,19 +16,19 @@ struct FileWorld : World {
     options.fileExists = [this](std::string_view name) { return texts.exists(name, nullptr) || name == "LIST.MPF"; };
     options.callProgram = [this](std::string_view name, const language::Program* caller) {
       if (!texts.exists(name, caller)) return false;
-      return language::Interpreter(texts, *own, {}).run(*texts.open(name, caller)).end == language::RunEnd::Finished;
+      return execution::Interpreter(texts, *own, {}).run(*texts.open(name, caller)).end == execution::RunEnd::Finished;
     };
     own.emplace(control, options);
   }
-  language::RunResult tryRun(const std::string& text) {
-    return language::Interpreter(texts, *own, {}).run(SinumerikProgram::fromText("MAIN.MPF", text));
+  execution::RunResult tryRun(const std::string& text) {
+    return execution::Interpreter(texts, *own, {}).run(SinumerikProgram::fromText("MAIN.MPF", text));
   }
   void run(const std::string& text) {
     for (const Diagnostic& diagnostic : tryRun(text).diagnostics)
       ADD_FAILURE() << format(diagnostic);
   }
   std::string alarm(const std::string& text) {
-    const language::RunResult result = tryRun(text);
+    const execution::RunResult result = tryRun(text);
     if (result.diagnostics.empty()) return {};
     EXPECT_FALSE(result.diagnostics.front().advice.empty()) << format(result.diagnostics.front());
     return result.diagnostics.front().code;
@@ -112,8 +112,8 @@ TEST(SinumerikFiles, ATextThatIsNoBlockIsRefused) {
   FileWorld world;
   for (const char* text : {"X1=", "DEF REAL A", "GOTOF GOAL", "IF R1==1", "M30", "R1=5 EXECSTRING(\"\"R2=1\"\")"}) {
     SCOPED_TRACE(text);
-    const language::RunResult result = world.tryRun("EXECSTRING(\"" + std::string(text) + "\")\nGOAL:\n");
-    EXPECT_NE(result.end, language::RunEnd::Finished);
+    const execution::RunResult result = world.tryRun("EXECSTRING(\"" + std::string(text) + "\")\nGOAL:\n");
+    EXPECT_NE(result.end, execution::RunEnd::Finished);
   }
   EXPECT_EQ(world.alarm("EXECSTRING(\"GOTOF GOAL\")\nGOAL:\n"), "12080");
   EXPECT_EQ(world.alarm("DEF STRING[30] TXT=\"EXECSTRING(TXT)\"\nEXECSTRING(TXT)\n"), "12080") << "not without end";
@@ -131,4 +131,4 @@ TEST(SinumerikFiles, ProgramsOfTheIsoDialectAreNamedWithTheirPlace) {
 }
 
 }  // namespace
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

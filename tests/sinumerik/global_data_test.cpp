@@ -8,7 +8,10 @@
 #include "language/sinumerik/check.hpp"
 #include "sinumerik/world.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
+
+using namespace execution;
+using namespace execution::sinumerik;
 namespace {
 
 constexpr const char* definitions = R"(%_N_UGUD_DEF
@@ -55,12 +58,12 @@ struct GlobalWorld {
     control.emplace(machine, store);
     host.emplace(*control, options);
   }
-  language::RunResult run(const std::string& text) {
+  execution::RunResult run(const std::string& text) {
     Texts library;
-    return language::Interpreter(library, *host, {}).run(SinumerikProgram::fromText("MAIN.MPF", text));
+    return execution::Interpreter(library, *host, {}).run(SinumerikProgram::fromText("MAIN.MPF", text));
   }
   std::string codeOf(const std::string& text) {
-    const language::RunResult result = run(text);
+    const execution::RunResult result = run(text);
     return result.diagnostics.empty() ? "" : result.diagnostics.front().code;
   }
   double r(int number) { return control->data.number("R", {number}); }
@@ -145,9 +148,9 @@ TEST(GlobalData, IsSharedByPrograms) {
   Texts library;
   library.add("COUNTUP", "PROC COUNTUP(VAR INT WHAT)\n_COUNT=_COUNT+10\nWHAT=WHAT+1\nM17");
   library.add("OWN", "PROC OWN\nDEF INT _COUNT=100\n_COUNT=_COUNT+1\nM17");
-  const auto result = language::Interpreter(library, *world.host, {})
+  const auto result = execution::Interpreter(library, *world.host, {})
                           .run(SinumerikProgram::fromText("MAIN.MPF", "COUNTUP(_PART)\nOWN\nR1=_COUNT\nR2=_PART\nM30"));
-  EXPECT_EQ(result.end, language::RunEnd::Finished);
+  EXPECT_EQ(result.end, execution::RunEnd::Finished);
   EXPECT_EQ(world.r(1), 13) << "a variable of the program's own hides the global one";
   EXPECT_EQ(world.r(2), 2);
 }
@@ -234,4 +237,4 @@ TEST(GlobalData, FilesAreKnownByTheirNames) {
 }
 
 }  // namespace
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

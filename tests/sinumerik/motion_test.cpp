@@ -6,7 +6,7 @@
 #include "sinumerik/world.hpp"
 
 /// Where the axes go, held against the geometry that the blocks describe.
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 namespace {
 
 Vector3 tipOf(World& world, std::size_t move) {
@@ -330,4 +330,4 @@ TEST(SinumerikMotion, DwellSpindleAndSwitches) {
 }
 
 }  // namespace
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

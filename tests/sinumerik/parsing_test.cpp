@@ -6,7 +6,7 @@
 #include "language/sinumerik/program.hpp"
 #include "sinumerik/samples.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 namespace {
 
 using namespace language;
@@ -312,4 +312,4 @@ TEST(SinumerikStructure, ReadsTheHeaderOfASubprogram) {
 }
 
 }  // namespace
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

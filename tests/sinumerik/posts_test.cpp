@@ -5,7 +5,7 @@
 
 /// Whole programs as CAM posts and setters write them: they are read without a mistake, run to their end, name what
 /// they skip, and leave the tool where they say.
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 namespace {
 
 struct Post {
@@ -178,4 +178,4 @@ TEST(Posts, WordsOfOtherDialectsAreExplained) {
 }
 
 }  // namespace
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 /// One block of every kind that probing programs contain.
 inline constexpr const char* sampleBlocks[] = {
@@ -163,4 +163,4 @@ inline constexpr const char* sampleBlocks[] = {
     "G1 X1 RND=2",
     "A3=1 B3=0 C3=0"};
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

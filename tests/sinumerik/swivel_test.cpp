@@ -10,7 +10,10 @@
 #include "sinumerik/world.hpp"
 
 /// CYCLE800 on machines of every build: the tool stands square to the plane, and the plane lies where it was asked for.
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
+
+using namespace execution;
+using namespace execution::sinumerik;
 namespace {
 
 TEST(Swivel, AnglesTurnAboutTheAxesInTheOrderOfTheMode) {
@@ -119,4 +122,4 @@ TEST(Swivel, AxesAreSetDirectly) {
 }
 
 }  // namespace
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

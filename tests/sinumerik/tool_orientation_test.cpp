@@ -6,7 +6,7 @@
 #include "sinumerik/world.hpp"
 
 /// A3, B3, C3 and A2, B2, C2 under TRAORI: the tool points where the words say, and its tip goes where X, Y, Z say.
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 namespace {
 
 constexpr const char* machines[] = {"mill5-table-table", "mill5-head-table", "mill5-head-head"};
@@ -87,4 +87,4 @@ TEST(ToolOrientation, LeadAndTiltAreNamed) {
 }
 
 }  // namespace
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -9,7 +9,7 @@
 #include "sinumerik/world.hpp"
 
 /// Expressions, variables, flow: what programs compute, held against C++ and closed forms.
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 namespace {
 
 TEST(SinumerikValues, ExpressionsAreWorthWhatTheLanguageSays) {
@@ -210,8 +210,8 @@ TEST(SinumerikFlow, MachiningCyclesAreNotedOnceAndRefusedIfStrict) {
   EXPECT_EQ(world.control.journal.events[2].code, "62100");
   SinumerikHost strict(world.control, {.strict = true, .fileExists = {}});
   const auto result =
-      language::Interpreter(world.texts, strict).run(SinumerikProgram::fromText("M.MPF", "CYCLE81(10,0,2,-5)\n"));
-  EXPECT_EQ(result.end, language::RunEnd::Alarm);
+      execution::Interpreter(world.texts, strict).run(SinumerikProgram::fromText("M.MPF", "CYCLE81(10,0,2,-5)\n"));
+  EXPECT_EQ(result.end, execution::RunEnd::Alarm);
 }
 
 TEST(SinumerikVariables, SystemVariablesShowAndChangeTheControl) {
@@ -257,4 +257,4 @@ TEST(SinumerikValues, FramesOfTheProgramHaveComponents) {
 }
 
 }  // namespace
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -7,7 +7,7 @@
 #include "sinumerik/world.hpp"
 
 /// Words of the language as posts and setters write them: what they do, and that nothing is ignored without a word.
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 namespace {
 
 Vector3 tip(World& world) { return world.control.channel.position(); }
@@ -393,8 +393,8 @@ TEST(SinumerikEffects, WhatIsNotCarriedOutIsNamedOnceAndRefusedUnderStrict) {
     control::sinumerik::Control control(machine, World::data());
     SinumerikHost strict(control, {.strict = true});
     Texts none;
-    const auto result = language::Interpreter(none, strict).run(SinumerikProgram::fromText("MAIN.MPF", block));
-    EXPECT_EQ(result.end, language::RunEnd::Alarm) << block;
+    const auto result = execution::Interpreter(none, strict).run(SinumerikProgram::fromText("MAIN.MPF", block));
+    EXPECT_EQ(result.end, execution::RunEnd::Alarm) << block;
   }
 }
 
@@ -553,20 +553,20 @@ TEST(SinumerikSystemVariables, TheClockHasMilliseconds) {
 
 TEST(SinumerikSteps, ElementsOfArraysCount) {
   World world;
-  const language::RunResult result = world.tryRun("DEF REAL ARR[30000]\nLOOP\nARR[0]=REP(5)\nENDLOOP\n");
-  EXPECT_EQ(result.end, language::RunEnd::StepLimit);
+  const execution::RunResult result = world.tryRun("DEF REAL ARR[30000]\nLOOP\nARR[0]=REP(5)\nENDLOOP\n");
+  EXPECT_EQ(result.end, execution::RunEnd::StepLimit);
   EXPECT_LT(result.blocks, 20u) << "100000 steps are over after the fourth filling";
   EXPECT_NE(result.diagnostics.front().advice.find("--step-limit"), std::string::npos);
 }
 
 TEST(SinumerikBlockSkip, GoesByTheLevelBehindTheSlash) {
   World world;
-  language::InterpreterOptions options;
+  execution::InterpreterOptions options;
   options.skipLevels.set(0).set(5);
   const auto run = [&](const std::string& text) {
     const auto result =
-        language::Interpreter(world.texts, world.host, options).run(SinumerikProgram::fromText("MAIN.MPF", text));
-    EXPECT_EQ(result.end, language::RunEnd::Finished);
+        execution::Interpreter(world.texts, world.host, options).run(SinumerikProgram::fromText("MAIN.MPF", text));
+    EXPECT_EQ(result.end, execution::RunEnd::Finished);
   };
   run("R1=1 R2=1 R3=1 R4=1 R5=1\n/ R1=2\n/0 R2=2\n/5R3=2\n/3 R4=2\nN10 /5 R5=2\n/5 this is no block (\n");
   EXPECT_EQ(world.r(1), 1);
@@ -582,4 +582,4 @@ TEST(SinumerikBlockSkip, GoesByTheLevelBehindTheSlash) {
 }
 
 }  // namespace
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

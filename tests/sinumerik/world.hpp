@@ -15,7 +15,10 @@
 #include "machine/machine_file.hpp"
 #include "support/willing_machine.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
+
+using namespace execution;
+using namespace execution::sinumerik;
 
 /// A machine that goes wherever it is told, notes it, and whose probe signals at planes.
 class NotingMachine : public testing_support::WillingMachine {
@@ -87,22 +90,22 @@ struct World {
     return store;
   }
 
-  language::RunResult tryRun(const std::string& text) {
-    language::InterpreterOptions options;
+  execution::RunResult tryRun(const std::string& text) {
+    execution::InterpreterOptions options;
     options.stepLimit = 100000;
     options.programDepth = SinumerikHost::programDepth;
-    return language::Interpreter(texts, host, options).run(SinumerikProgram::fromText("MAIN.MPF", text));
+    return execution::Interpreter(texts, host, options).run(SinumerikProgram::fromText("MAIN.MPF", text));
   }
   /// Runs to the end; every alarm is a failure.
   void run(const std::string& text) {
-    const language::RunResult result = tryRun(text);
+    const execution::RunResult result = tryRun(text);
     for (const Diagnostic& diagnostic : result.diagnostics)
       ADD_FAILURE() << format(diagnostic);
   }
   /// The number of the alarm that the program ends with.
   std::string alarm(const std::string& text) {
-    const language::RunResult result = tryRun(text);
-    EXPECT_EQ(result.end, language::RunEnd::Alarm) << text;
+    const execution::RunResult result = tryRun(text);
+    EXPECT_EQ(result.end, execution::RunEnd::Alarm) << text;
     return result.diagnostics.empty() ? "" : result.diagnostics.front().code;
   }
   double r(int number) { return control.data.number("R", {number}, -1e99); }
@@ -118,4 +121,4 @@ struct World {
   Texts texts;
 };
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -7,7 +7,7 @@
 #include "language/sinumerik/writer.hpp"
 #include "sinumerik/samples.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 namespace {
 
 using namespace language;
@@ -202,4 +202,4 @@ TEST(SinumerikWriter, RefusesWhatOnlyOtherLanguagesHave) {
 }
 
 }  // namespace
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -93,7 +93,7 @@ public:
   session::RunOutcome outcome;
   std::unique_ptr<simulation::VirtualMachine> machine;  ///< as it is at the end
 
-  bool finished() const { return outcome.diagnostics.empty() && outcome.result.end == language::RunEnd::Finished; }
+  bool finished() const { return outcome.diagnostics.empty() && outcome.result.end == execution::RunEnd::Finished; }
   /// What stopped the run; empty if nothing did.
   std::string why() const {
     const Diagnostics& diagnostics = outcome.diagnostics.empty() ? outcome.result.diagnostics : outcome.diagnostics;
@@ -103,8 +103,8 @@ public:
   }
   /// The short text of the alarm that stopped the run.
   std::string alarm() const {
-    if (outcome.result.end == language::RunEnd::Alarm) noteRefusal(outcome.result.diagnostics.front().place);
-    return outcome.result.end == language::RunEnd::Alarm ? outcome.result.diagnostics.front().code : std::string();
+    if (outcome.result.end == execution::RunEnd::Alarm) noteRefusal(outcome.result.diagnostics.front().place);
+    return outcome.result.end == execution::RunEnd::Alarm ? outcome.result.diagnostics.front().code : std::string();
   }
   const control::CycleRecord& cycle() const { return outcome.journal.cycles.back(); }
   /// Parameter Qn as it stands at the end, in the unit of the program.

@@ -57,15 +57,15 @@ public:
   }
 
   /// Runs "G18 G90 G71 G54, T1 D1, `program`".
-  language::RunResult tryRun(const std::string& program) {
+  execution::RunResult tryRun(const std::string& program) {
     const std::string text = "G18 G90 G71 G54\nT1 D1 M6\n" + program + "\n";
-    language::InterpreterOptions options;
-    options.programDepth = sinumerik::SinumerikHost::programDepth;
+    execution::InterpreterOptions options;
+    options.programDepth = execution::sinumerik::SinumerikHost::programDepth;
     NoPrograms library;
-    sinumerik::SinumerikHost host(control);
+    execution::sinumerik::SinumerikHost host(control);
     const std::size_t firstRecord = control.journal.cycles.size();
-    language::RunResult result =
-        language::Interpreter(library, host, options).run(sinumerik::SinumerikProgram::fromText("TURN.MPF", text));
+    execution::RunResult result = execution::Interpreter(library, host, options)
+                                      .run(language::sinumerik::SinumerikProgram::fromText("TURN.MPF", text));
     coverage::noteRun(controlKind, control.journal, firstRecord);
     return result;
   }
@@ -77,7 +77,7 @@ public:
 
   /// The code of the alarm that the program ends with; empty if it ends well. An alarm must say what to do.
   std::string alarmOf(const std::string& program) {
-    const language::RunResult result = tryRun(program);
+    const execution::RunResult result = tryRun(program);
     if (result.diagnostics.empty()) return {};
     coverage::refusalRead(controlKind, control.journal, {"TURN.MPF", ~std::uint64_t{0}, 1}, program, "CYCLE");
     EXPECT_FALSE(result.diagnostics.front().advice.empty()) << format(result.diagnostics.front());

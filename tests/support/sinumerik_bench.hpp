@@ -46,8 +46,8 @@ public:
 
   /// Runs a program with one call of a cycle; arguments by name, texts as given. `before` is program text in front of
   /// the call.
-  language::RunResult tryRun(const char* name, const NamedNumbers& numbers, const NamedTexts& texts = {},
-                             const std::string& before = {}) {
+  execution::RunResult tryRun(const char* name, const NamedNumbers& numbers, const NamedTexts& texts = {},
+                              const std::string& before = {}) {
     std::string text = fmt::format("{} G90 G71 DIAMOF {}\nT1 D1 M6\n", plane, gCodeOf(settable_));
     if (approach_) {
       const Vector3 above = *approach_ + Vector3(0, 0, clearance);
@@ -60,13 +60,13 @@ public:
     approach_.reset();
     opensLogs_ = opensLogs_ || std::string_view(name) == "CYCLE150";
     text += before + callOf(name, numbers, texts) + "\n";
-    language::InterpreterOptions options;
-    options.programDepth = sinumerik::SinumerikHost::programDepth;
+    execution::InterpreterOptions options;
+    options.programDepth = execution::sinumerik::SinumerikHost::programDepth;
     NoPrograms library;
-    sinumerik::SinumerikHost host(control, hostOptions);
+    execution::sinumerik::SinumerikHost host(control, hostOptions);
     const std::size_t firstRecord = control.journal.cycles.size();
-    language::RunResult result =
-        language::Interpreter(library, host, options).run(sinumerik::SinumerikProgram::fromText("TEST.MPF", text));
+    execution::RunResult result = execution::Interpreter(library, host, options)
+                                      .run(language::sinumerik::SinumerikProgram::fromText("TEST.MPF", text));
     coverage::noteRun(controlKind, control.journal, firstRecord);
     if (result.diagnostics.empty()) {
       coverage::note(controlKind, name, "parsed");
@@ -77,14 +77,14 @@ public:
 
   void run(const char* name, const NamedNumbers& numbers, const NamedTexts& texts = {},
            const std::string& before = {}) {
-    const language::RunResult result = tryRun(name, numbers, texts, before);
+    const execution::RunResult result = tryRun(name, numbers, texts, before);
     for (const Diagnostic& diagnostic : result.diagnostics)
       ADD_FAILURE() << format(diagnostic);
   }
 
   /// The code of the alarm that the call ends with; empty if it ends well. An alarm must say what to do.
   std::string alarmOf(const char* name, const NamedNumbers& numbers, const NamedTexts& texts = {}) {
-    const language::RunResult result = tryRun(name, numbers, texts);
+    const execution::RunResult result = tryRun(name, numbers, texts);
     if (result.diagnostics.empty()) return {};
     const Diagnostic& first = result.diagnostics.front();
     coverage::note(controlKind, name, "refusals");
@@ -136,7 +136,7 @@ public:
   simulation::VirtualMachine machine;
   control::sinumerik::Control control;
   std::string plane = "G17";  ///< in effect when the cycle is called
-  sinumerik::HostOptions hostOptions;
+  execution::sinumerik::HostOptions hostOptions;
 
 private:
   static constexpr double clearance = 60;

@@ -4,17 +4,12 @@
 #include <string>
 #include <string_view>
 
+#include "base/text.hpp"
+
 /// Letters and numbers as SINUMERIK texts have them.
 namespace probewright::control::sinumerik {
 
-/// Names do not tell capitals from small letters; only the letters of ASCII change.
-inline std::string upperCase(std::string_view text) {
-  std::string upper(text);
-  for (char& c : upper) {
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  }
-  return upper;
-}
+using probewright::upperCase;
 
 /// The shortest decimal text without exponent that reads back as the same finite double; "0" for both zeros.
 inline std::string numberText(double value) {

@@ -241,7 +241,7 @@ void correctRotaryAxis(Context& context, const FrameTarget& target, std::size_t 
   const double effect = rotaryEffect(context, axis, direction);
   const bool fine = !target.coarse && hasFineOffset(control, axis);
   const FramePart part = fine ? FramePart::Fine : FramePart::Translation;
-  const std::string name = control::sinumerik::upperCase(context.channel().description().axes[axis].name);
+  const std::string name = upperCase(context.channel().description().axes[axis].name);
   const double old = control.data.frame(keyOf(target)).get(name, part);
   writeComponent(context, target, name, part, old - angle / effect);
   noteCorrection(context, target);

@@ -3,7 +3,7 @@
 #include "execution/evaluation.hpp"
 #include "language/din_iso/program.hpp"
 
-namespace probewright::language::din_iso {
+namespace probewright::execution::din_iso {
 
 Value DinIsoHost::read(const VariableRef& variable, Evaluation& evaluation) {
   return klartext_.read(variable, evaluation);
@@ -59,4 +59,4 @@ void DinIsoHost::leave(const Program& program) {
   klartext_.leave(program);
 }
 
-}  // namespace probewright::language::din_iso
+}  // namespace probewright::execution::din_iso

@@ -1,9 +1,10 @@
 #pragma once
 
 #include "execution/host.hpp"
+#include "execution/names.hpp"
 #include "language/din_iso/modal_state.hpp"
 
-namespace probewright::language::din_iso {
+namespace probewright::execution::din_iso {
 
 /// Carries out DIN/ISO programs, and the Klartext programs they call or are called by, on the host of Klartext: blocks
 /// are completed by the modal functions in force and handed on.
@@ -35,4 +36,4 @@ private:
   int depth_ = 0;
 };
 
-}  // namespace probewright::language::din_iso
+}  // namespace probewright::execution::din_iso

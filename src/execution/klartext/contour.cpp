@@ -4,85 +4,50 @@
 #include <numbers>
 
 #include "control/alarm.hpp"
+#include "execution/motion/plane_curve.hpp"
 #include "language/klartext/heidenhain_program.hpp"
 
-namespace probewright::language::klartext {
+namespace probewright::execution::klartext {
 
 using control::Alarm;
 using control::Feed;
+using motion::cross;
+using motion::left;
+using motion::PlaneCurve;
+using motion::turned;
 
 namespace {
 
 constexpr double tangentTolerance = 1e-9;
 constexpr double lengthTolerance = 1e-9;
 
-Vector2 left(const Vector2& direction) { return {-direction.y(), direction.x()}; }
-double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
 double angleOf(const Vector2& v) { return std::atan2(v.y(), v.x()); }
 double normalized(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 double sign(Side side) { return static_cast<double>(static_cast<int>(side)); }
-
-Vector2 turned(const Vector2& v, double angle) {
-  return {v.x() * std::cos(angle) - v.y() * std::sin(angle), v.x() * std::sin(angle) + v.y() * std::cos(angle)};
-}
 
 Vector2 unit(const Vector2& v) {
   const double length = v.norm();
   return length < lengthTolerance ? Vector2(Vector2::Zero()) : Vector2(v / length);
 }
 
-/// The curve beside an element: a line, or a circle of the given radius.
-struct Curve {
-  bool circle = false;
-  Vector2 point = Vector2::Zero();  ///< on the line, or the centre
-  Vector2 direction = Vector2::UnitX();
-  double radius = 0;
-};
-
-Curve beside(const Element& element, double distanceToLeft) {
+/// The curve beside an element.
+PlaneCurve beside(const Element& element, double distanceToLeft) {
   if (!element.arc) {
     const Vector2 direction = element.startDirection();
-    return {false, element.from + distanceToLeft * left(direction), direction, 0};
+    return PlaneCurve::line(element.from + distanceToLeft * left(direction), direction);
   }
   const double radius = element.radius() - (element.sweep > 0 ? distanceToLeft : -distanceToLeft);
   if (radius < -lengthTolerance) {
     throw Alarm("Tool radius too large", "The tool radius is larger than the inside radius of the contour",
                 "use a smaller tool or a larger radius");
   }
-  return {true, element.centre, Vector2::UnitX(), std::max(radius, 0.0)};
+  return PlaneCurve::circleAbout(element.centre, std::max(radius, 0.0));
 }
 
-/// The intersection nearest to `near`, or nothing.
-std::optional<Vector2> intersection(const Curve& a, const Curve& b, const Vector2& near) {
-  if (!a.circle && !b.circle) {
-    const double determinant = cross(a.direction, b.direction);
-    if (std::abs(determinant) < tangentTolerance) return std::nullopt;
-    return a.point + a.direction * (cross(b.point - a.point, b.direction) / determinant);
-  }
-  Vector2 middle;
-  Vector2 along;
-  double half = 0;
-  if (a.circle != b.circle) {
-    const Curve& line = a.circle ? b : a;
-    const Curve& circle = a.circle ? a : b;
-    const double foot = line.direction.dot(circle.point - line.point);
-    middle = line.point + foot * line.direction;
-    along = line.direction;
-    half = circle.radius * circle.radius - (middle - circle.point).squaredNorm();
-  } else {
-    const Vector2 between = b.point - a.point;
-    const double distance = between.norm();
-    if (distance < lengthTolerance) return std::nullopt;
-    const double foot = (distance * distance + a.radius * a.radius - b.radius * b.radius) / (2 * distance);
-    middle = a.point + between * (foot / distance);
-    along = left(between / distance);
-    half = a.radius * a.radius - foot * foot;
-  }
-  if (half < -1e-6) return std::nullopt;
-  half = std::sqrt(std::max(half, 0.0));
-  const Vector2 first = middle + half * along;
-  const Vector2 second = middle - half * along;
-  return (first - near).squaredNorm() <= (second - near).squaredNorm() ? first : second;
+/// The intersection nearest to `place`, or nothing. Curves that touch but for rounding cross.
+std::optional<Vector2> intersection(const PlaneCurve& a, const PlaneCurve& b, const Vector2& place) {
+  constexpr double slack = 1e-6;
+  return motion::nearest(motion::intersections(a, b, slack), place);
 }
 
 /// The element from `from` to `to` on the same line or circle.
@@ -297,7 +262,7 @@ void Contour::join(const Element& next) {
     return;
   }
   if (turn * offset > 0) {
-    const Curve besideFirst = beside(first, offset);
+    const PlaneCurve besideFirst = beside(first, offset);
     current_ = next.block;
     const std::optional<Vector2> corner = intersection(besideFirst, beside(next, offset), vertex);
     if (!corner) {
@@ -496,4 +461,4 @@ void Contour::discard() {
   lastSide_ = Side::Off;
 }
 
-}  // namespace probewright::language::klartext
+}  // namespace probewright::execution::klartext

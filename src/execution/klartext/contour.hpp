@@ -4,14 +4,14 @@
 #include <optional>
 
 #include "control/channel.hpp"
+#include "execution/names.hpp"
 #include "geometry/primitives.hpp"
 #include "language/block.hpp"
+#include "language/klartext/heidenhain_program.hpp"
 
 /// The contour that path functions describe: roundings and chamfers between its elements, and the path of the tool
 /// centre beside it.
-namespace probewright::language::klartext {
-
-class HeidenhainProgram;
+namespace probewright::execution::klartext {
 
 /// The block that a piece of a contour comes from: alarms name it, however late the piece is carried out.
 struct BlockPlace {
@@ -135,4 +135,4 @@ private:
   BlockPlace current_;  ///< of what is under way
 };
 
-}  // namespace probewright::language::klartext
+}  // namespace probewright::execution::klartext

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace probewright::language::klartext {
+namespace probewright::execution::klartext {
 
 /// What messages quote of a text from a program or a file: one line, shortened.
 inline std::string excerptOf(std::string_view text) {
@@ -12,4 +12,4 @@ inline std::string excerptOf(std::string_view text) {
   return text.size() <= longest ? std::string(text) : std::string(text.substr(0, longest)) + "...";
 }
 
-}  // namespace probewright::language::klartext
+}  // namespace probewright::execution::klartext

@@ -1,11 +1,13 @@
 #include "execution/klartext/host.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <type_traits>
 
 #include "control/alarm.hpp"
 #include "language/word_column.hpp"
 
-namespace probewright::language::klartext {
+namespace probewright::execution::klartext {
 
 using control::Alarm;
 
@@ -17,61 +19,93 @@ constexpr std::size_t localCount = 500;
 
 KlartextHost::KlartextHost(control::heidenhain::Control& control, HostOptions options)
     : control_(control),
-      options_(std::move(options)),
-      contour_([this](const Element& element) { runElement(element, control_.coordinates.plane); },
-               [this]() { return control_.channel.toolRadius; }) {}
+      run_(control, std::move(options)),
+      parameters_(run_),
+      spindle_(run_),
+      guidance_(run_),
+      tools_(run_, guidance_, spindle_),
+      motion_(run_, guidance_, tools_),
+      tilting_(run_, motion_),
+      coordinateChanges_(run_, tilting_),
+      cycles_(run_, motion_, guidance_, parameters_),
+      machineFunctions_(run_, motion_, guidance_, spindle_, cycles_),
+      systemData_(run_, parameters_, tools_, spindle_, motion_, cycles_),
+      protocol_(run_, parameters_),
+      tables_(run_, parameters_, tools_) {}
 
 void KlartextHost::execute(const Instruction& instruction, Evaluation& evaluation) {
   try {
-    if (const auto* motion = std::get_if<Move>(&instruction)) {
-      move(*motion, evaluation);
-    } else if (const auto* function = std::get_if<MachineFunction>(&instruction)) {
-      machineFunction(*function, evaluation);
-    } else if (const auto* called = std::get_if<ToolCall>(&instruction)) {
-      settle();
-      callTool(*called, evaluation);
-    } else if (const auto* change = std::get_if<Transform>(&instruction)) {
-      settle();
-      transform(*change, evaluation);
-    } else if (const auto* measuring = std::get_if<CycleCall>(&instruction)) {
-      settle();
-      cycle(*measuring, evaluation);
-    } else if (const auto* other = std::get_if<Command>(&instruction)) {
-      command(*other, evaluation);
-    } else if (const auto* modal = std::get_if<Modal>(&instruction)) {
-      contour_.flush();
-      guideTool(*modal, evaluation);
-    } else if (std::holds_alternative<Stop>(instruction)) {
-      contour_.flush();
-      const bool optional = std::get<Stop>(instruction).optional;
-      if (!optional) control_.panel.stop("Program stop", control_.channel.seconds());
-    }
+    std::visit(
+        [&](const auto& each) {
+          if constexpr (isFlow<std::remove_cvref_t<decltype(each)>>) {
+            throw std::logic_error("flow is the interpreter's");
+          } else {
+            carryOut(each, evaluation);
+          }
+        },
+        instruction);
   } catch (...) {
-    contour_.discard();
+    motion_.discard();
     throw;
   }
 }
 
+void KlartextHost::carryOut(const Move& move, Evaluation& evaluation) {
+  motion_.carryOut(move, evaluation);
+  const bool prepares =
+      move.kind == MoveKind::SetCentre || move.kind == MoveKind::Rounding || move.kind == MoveKind::Chamfer;
+  if (!prepares) cycles_.afterMove(move, evaluation);
+}
+
+void KlartextHost::carryOut(const ToolCall& call, Evaluation& evaluation) {
+  motion_.settle();
+  tools_.callTool(call, evaluation);
+}
+
+void KlartextHost::carryOut(const Modal& modal, Evaluation& evaluation) {
+  motion_.flush();
+  guidance_.switchBy(modal, evaluation);
+}
+
+void KlartextHost::carryOut(const MachineFunction& function, Evaluation& evaluation) {
+  machineFunctions_.carryOut(function, evaluation);
+}
+
+void KlartextHost::carryOut(const Transform& transform, Evaluation& evaluation) {
+  motion_.settle();
+  coordinateChanges_.carryOut(transform, evaluation);
+}
+
+void KlartextHost::carryOut(const CycleCall& call, Evaluation& evaluation) {
+  motion_.settle();
+  cycles_.carryOut(call, evaluation);
+}
+
+void KlartextHost::carryOut(const Stop& stop, Evaluation&) {
+  motion_.flush();
+  if (!stop.optional) control_.panel.stop("Program stop", control_.channel.seconds());
+}
+
 bool KlartextHost::beginBlock(const Program& program, const Block& block) {
-  untiltedPositions_ = ignoreProbe_ = false;
+  motion_.modes.untiltedPositions = motion_.modes.ignoreProbe = false;
   SourcePlace& place = control_.panel.place;
   place.line = block.position.line;
   place.column = columnOfFirstWord(block.at(block.source));
-  if (levels_.empty() || levels_.back().file != place.file) place.file = program.file();
+  if (run_.levels.empty() || run_.levels.back().file != place.file) place.file = program.file();
   // The end of a program has no instruction for the host, but motion that waits must come to its end.
   const bool ends = std::ranges::any_of(
       block.instructions, [](const Instruction& each) { return std::holds_alternative<EndProgram>(each); });
-  if (ends && block.instructions.size() == 1) settle();
+  if (ends && block.instructions.size() == 1) motion_.settle();
   if (ends) warnOfEarlyEnd(block);
   return true;
 }
 
 /// Controls warn of M2 and M30 in called programs.
 void KlartextHost::warnOfEarlyEnd(const Block& block) {
-  const HeidenhainProgram* program = levels_.empty() ? nullptr : levels_.back().program;
-  if (levels_.size() < 2 || program == nullptr || program->framePart(block) == FramePart::End) return;
-  if (leftOut_.insert("M30 of " + levels_.back().file).second) {
-    warn("M2 or M30 in a called program ends only that program; the calling program continues");
+  const HeidenhainProgram* program = run_.levels.empty() ? nullptr : run_.levels.back().program;
+  if (run_.levels.size() < 2 || program == nullptr || program->framePart(block) == FramePart::End) return;
+  if (run_.firstTime("M30 of " + run_.levels.back().file)) {
+    run_.warn("M2 or M30 in a called program ends only that program; the calling program continues");
   }
 }
 
@@ -107,35 +141,29 @@ void KlartextHost::enter(const Program& program, const CallProgram*, Evaluation*
   level.file = program.file();
   level.outerUnit = control_.unit;
   level.local.assign(localCount, std::nullopt);
-  if (levels_.empty()) {
+  if (run_.levels.empty()) {
     control_.programPath = program.file();
     control_.startSeconds = control_.channel.seconds();
     control_.applyCoordinates();
   }
   if (level.program != nullptr) control_.unit = level.program->unit() == Unit::Inch ? 25.4 : 1;
-  if (levels_.empty()) control_.mainUnit = control_.unit;
-  levels_.push_back(std::move(level));
-  publishTool();
+  if (run_.levels.empty()) control_.mainUnit = control_.unit;
+  run_.levels.push_back(std::move(level));
+  tools_.publishTool();
 }
 
 void KlartextHost::leave(const Program&) {
-  contour_.discard();
-  if (levels_.empty()) return;
-  control_.unit = levels_.back().outerUnit;
-  levels_.pop_back();
-  if (levels_.empty()) {
+  motion_.discard();
+  if (run_.levels.empty()) return;
+  control_.unit = run_.levels.back().outerUnit;
+  run_.levels.pop_back();
+  if (run_.levels.empty()) {
     control_.overrides = {};
-    standDown();
+    spindle_.standDown();
   } else {
-    publishTool();
-    nextPatternPoint();
+    tools_.publishTool();
+    cycles_.nextPatternPoint();
   }
 }
 
-void KlartextHost::settle() {
-  contour_.flush();
-  contour_.discard();
-  side_ = Side::Off;
-}
-
-}  // namespace probewright::language::klartext
+}  // namespace probewright::execution::klartext

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace probewright::language::klartext {
+namespace probewright::execution::klartext {
 
 using control::ControlKind;
 
@@ -37,4 +37,4 @@ FunctionEffect effectOf(int mFunction, ControlKind kind) {
   return FunctionEffect::OfBuilder;
 }
 
-}  // namespace probewright::language::klartext
+}  // namespace probewright::execution::klartext

@@ -2,7 +2,7 @@
 
 #include "control/control_kind.hpp"
 
-namespace probewright::language::klartext {
+namespace probewright::execution::klartext {
 
 /// What a run makes of an M function.
 enum class FunctionEffect {
@@ -15,4 +15,4 @@ enum class FunctionEffect {
 
 FunctionEffect effectOf(int mFunction, control::ControlKind kind);
 
-}  // namespace probewright::language::klartext
+}  // namespace probewright::execution::klartext

@@ -10,9 +10,8 @@
 #include "language/word_column.hpp"
 
 /// Arcs as the SINUMERIK language writes them: G2, G3, CIP, CT.
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
-using namespace language;
 using control::Alarm;
 using control::Feed;
 
@@ -259,4 +258,4 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
   if (measurement_.triggered && evaluation.at(command.name).starts_with("MEAW")) channel.retractTo(to, speed);
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -9,9 +9,8 @@
 #include "execution/sinumerik/host.hpp"
 
 /// CYCLE116(_CAL[], _MODE): the circle through points, computed in the caller's own variables.
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
-using namespace language;
 using control::Alarm;
 
 namespace {
@@ -53,4 +52,4 @@ void SinumerikHost::runCircle(WordRange range, Evaluation& evaluation) {
   mode->set(0, static_cast<double>(circle.error));
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 namespace {
 
@@ -175,4 +175,4 @@ void CornerMaker::flush() {
   output_(element);
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -5,7 +5,7 @@
 
 #include "execution/sinumerik/path_element.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 /// What is inserted between a path element and the next one: CHF, CHR, RND, RNDM.
 struct Corner {
@@ -40,4 +40,4 @@ private:
   Corner corner_;
 };
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -7,10 +7,9 @@
 #include "control/alarm.hpp"
 #include "control/sinumerik/measuring_data.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 using control::Alarm;
-using language::Value;
 
 namespace {
 
@@ -74,4 +73,4 @@ void requireDatum(std::string_view name, std::span<const Value> indices, const V
   requireNumber(name, value);
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

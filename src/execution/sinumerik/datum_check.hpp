@@ -4,9 +4,10 @@
 #include <string_view>
 
 #include "control/sinumerik/data_store.hpp"
+#include "execution/names.hpp"
 #include "language/value.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 /// Refuses indices that the control has no datum for, and values of the wrong kind: of tool data, frames of data
 /// management and data of the measuring cycles. `value`: what is to be written; null if the datum is read. Throws Alarm
@@ -14,4 +15,4 @@ namespace probewright::sinumerik {
 void requireDatum(std::string_view name, std::span<const language::Value> indices, const language::Value* value,
                   const control::sinumerik::DataStore& data);
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

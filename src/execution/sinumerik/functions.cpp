@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 #include "control/alarm.hpp"
 #include "control/sinumerik/init_text.hpp"
+#include "execution/format_field.hpp"
 #include "language/sinumerik/cursor.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 using control::Alarm;
 using control::sinumerik::AxisValue;
@@ -58,14 +60,6 @@ double placeOf(std::size_t found) { return found == std::string::npos ? -1 : sta
 std::string changeCase(std::string text, char first, char last, int shift) {
   for (char& c : text)
     if (c >= first && c <= last) c = static_cast<char>(c + shift);
-  return text;
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && isBlank(text.front()))
-    text.remove_prefix(1);
-  while (!text.empty() && isBlank(text.back()))
-    text.remove_suffix(1);
   return text;
 }
 
@@ -139,6 +133,7 @@ std::string formatText(std::string_view format, std::span<const Value> arguments
   std::string out;
   std::size_t next = 0;
   const Arguments values("SPRINT", arguments);
+  constexpr FormatLimits limits = {.flags = "0", .width = 200, .decimals = 17};
   for (std::size_t i = 0; i < format.size(); ++i) {
     if (format[i] != '%') {
       out += format[i];
@@ -149,16 +144,8 @@ std::string formatText(std::string_view format, std::span<const Value> arguments
       ++i;
       continue;
     }
-    int width = 0, decimals = -1;
-    ++i;
-    bool zeros = i < format.size() && format[i] == '0';
-    for (; i < format.size() && isDigit(format[i]); ++i)
-      width = std::min(width * 10 + (format[i] - '0'), 200);
-    if (i < format.size() && format[i] == '.') {
-      decimals = 0;
-      for (++i; i < format.size() && isDigit(format[i]); ++i)
-        decimals = std::min(decimals * 10 + (format[i] - '0'), 17);
-    }
+    const FormatField field = readField(format, ++i, limits);
+    const int decimals = field.decimals ? static_cast<int>(*field.decimals) : 6;
     const char kind = i < format.size() ? static_cast<char>(format[i] & ~32) : '\0';
     std::string part;
     switch (kind) {
@@ -166,13 +153,13 @@ std::string formatText(std::string_view format, std::span<const Value> arguments
         part = fmt::format("{:.0f}", std::floor(values.number(next) + 0.5));
         break;
       case 'F':
-        part = formatFixed(values.number(next), decimals < 0 ? 6 : decimals);
+        part = formatFixed(values.number(next), decimals);
         break;
       case 'E':
-        part = fmt::format("{:.{}E}", values.number(next), decimals < 0 ? 6 : decimals);
+        part = fmt::format("{:.{}E}", values.number(next), decimals);
         break;
       case 'G':
-        part = fmt::format("{:.{}G}", values.number(next), decimals < 0 ? 6 : decimals);
+        part = fmt::format("{:.{}G}", values.number(next), decimals);
         break;
       case 'X':
         part = fmt::format("{:X}", static_cast<std::uint32_t>(static_cast<std::int64_t>(values.number(next))));
@@ -187,7 +174,7 @@ std::string formatText(std::string_view format, std::span<const Value> arguments
       case 'P':
         part = next < arguments.size() && !language::isText(arguments[next]) ? numberText(values.number(next))
                                                                              : values.text(next);
-        if (decimals >= 0) part.resize(std::min(part.size(), static_cast<std::size_t>(decimals)));
+        if (field.decimals) part.resize(std::min(part.size(), *field.decimals));
         break;
       default:
         throw Alarm("14020",
@@ -195,13 +182,7 @@ std::string formatText(std::string_view format, std::span<const Value> arguments
                     "use %d, %f, %e, %g, %s, %x, %b or %c");
     }
     ++next;
-    if (static_cast<int>(part.size()) < width) {
-      const std::size_t fill = static_cast<std::size_t>(width) - part.size();
-      zeros = zeros && kind != 'S' && kind != 'C';
-      const std::size_t sign = zeros && part.front() == '-' ? 1 : 0;
-      part.insert(sign, fill, zeros ? '0' : ' ');
-    }
-    out += part;
+    out += filled(std::move(part), field, kind != 'S' && kind != 'C');
   }
   return out;
 }
@@ -279,4 +260,4 @@ std::optional<Value> callFunction(std::string_view name, std::span<const Value> 
   return std::nullopt;
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -7,10 +7,11 @@
 #include <string_view>
 
 #include "control/sinumerik/frame.hpp"
+#include "execution/names.hpp"
 #include "language/value.hpp"
 
 /// The control's own functions: texts, axes, frames.
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 /// A number as the control puts it into texts: at most ten digits and ten decimal places, no exponent, no zeros at the
 /// end.
@@ -18,8 +19,6 @@ std::string numberText(double value);
 
 /// The number of an option, a function or a program: rounded, and within int whatever was computed.
 int wholeNumber(double value);
-
-using language::Value;
 
 /// What functions ask the control.
 struct FunctionQuestions {
@@ -43,4 +42,4 @@ Value frameValue(const control::sinumerik::Frame& frame);
 /// Throws Alarm 12150 if `value` is not a frame.
 control::sinumerik::Frame frameOf(const Value& value);
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

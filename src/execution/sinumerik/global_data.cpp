@@ -16,9 +16,8 @@
 #include "language/sinumerik/cursor.hpp"
 #include "language/sinumerik/program.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
-using namespace language;
 using control::Alarm;
 using control::sinumerik::Control;
 using control::sinumerik::DataKey;
@@ -105,7 +104,7 @@ public:
     for (BlockPosition at = program_->begin();; at = block_.next) {
       const SourceLine line = program_->text().line(at.offset);
       if (!line) return;
-      upper_ = control::sinumerik::upperCase(line.text);
+      upper_ = upperCase(line.text);
       // What REDEF changes of a variable, its rights and limits at the panel, has no meaning here.
       if (firstWord(upper_) == "REDEF") {
         block_.next = {line.next, at.line + 1};
@@ -289,7 +288,7 @@ UserVariables::Scope GlobalUserData::variables(const DataStore& store, Diagnosti
 }
 
 std::string definitionFileName(std::string_view fileName) {
-  std::string name = control::sinumerik::upperCase(fileName);
+  std::string name = upperCase(fileName);
   if (name.starts_with("_N_")) name.erase(0, 3);
   if (!name.ends_with(".DEF") && !name.ends_with("_DEF")) return {};
   name.resize(name.size() - 4);
@@ -323,4 +322,4 @@ void storeChanges(const UserVariables::Scope& before, const UserVariables::Scope
   }
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

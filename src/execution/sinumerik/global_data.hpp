@@ -6,6 +6,7 @@
 
 #include "base/diagnostic.hpp"
 #include "control/sinumerik/data_store.hpp"
+#include "execution/names.hpp"
 #include "execution/sinumerik/user_variables.hpp"
 #include "language/sinumerik/check.hpp"
 #include "language/sinumerik/program.hpp"
@@ -21,7 +22,7 @@ namespace probewright::control::sinumerik {
 class Control;
 }
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 struct GlobalDatum {
   std::string name;       ///< in capitals
@@ -65,4 +66,4 @@ std::string definitionFileName(std::string_view fileName);
 void storeChanges(const UserVariables::Scope& before, const UserVariables::Scope& now,
                   control::sinumerik::Control& control);
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

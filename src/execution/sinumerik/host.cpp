@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <type_traits>
 
 #include "control/alarm.hpp"
 #include "control/missing_axis.hpp"
@@ -11,9 +13,8 @@
 #include "language/sinumerik/program.hpp"
 #include "language/word_column.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
-using namespace language;
 using control::Alarm;
 
 SinumerikHost::SinumerikHost(Control& control, HostOptions options)
@@ -101,7 +102,17 @@ bool SinumerikHost::drivesModalCall(const Block& block) const {
 
 void SinumerikHost::execute(const Instruction& instruction, Evaluation& evaluation) {
   try {
-    std::visit([&](const auto& each) { carryOut(each, evaluation); }, instruction);
+    std::visit(
+        [&](const auto& each) {
+          using Kind = std::remove_cvref_t<decltype(each)>;
+          constexpr bool ofHost = std::is_same_v<Kind, Assign> || std::is_same_v<Kind, CallProgram> || !isFlow<Kind>;
+          if constexpr (ofHost) {
+            carryOut(each, evaluation);
+          } else {
+            throw std::logic_error("flow is the interpreter's");
+          }
+        },
+        instruction);
   } catch (const control::MissingAxis& alarm) {
     // A frame has turned the programmed axes.
     throw Alarm("18310", alarm.text(), alarm.advice());
@@ -286,4 +297,4 @@ void SinumerikHost::leaveLevel() {
     control_.channel.turnSpindle(machine::Rotation::None, 0);
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -10,12 +10,13 @@
 
 #include "control/sinumerik/control.hpp"
 #include "execution/host.hpp"
+#include "execution/names.hpp"
 #include "execution/sinumerik/motion.hpp"
 #include "execution/sinumerik/system_variables.hpp"
 #include "execution/sinumerik/user_variables.hpp"
 #include "language/sinumerik/block_parser.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 struct HostOptions {
   /// Cycles that are read but not carried out end the run with an alarm instead of being noted as skipped.
@@ -38,7 +39,7 @@ struct HostOptions {
 
 /// Carries out the instructions of SINUMERIK programs on a control: its variables, motions, tools, frames and cycles.
 /// Throws control::Alarm with the control's numbers.
-class SinumerikHost : public language::Host {
+class SinumerikHost : public Host {
 public:
   explicit SinumerikHost(Control& control, HostOptions options = {});
   ~SinumerikHost() override;
@@ -52,7 +53,7 @@ public:
   void execute(const language::Instruction& instruction, Evaluation& evaluation) override;
   bool drivesModalCall(const language::Block& block) const override;
   bool beginBlock(const language::Program& program, const language::Block& block) override;
-  std::string code(language::Refusal refusal) const override;
+  std::string code(Refusal refusal) const override;
   std::string numberText(double value) const override;
   std::optional<std::string> shownText(const language::VariableRef& variable, Evaluation& evaluation) override;
   Value valueFor(const language::VariableRef& variable, const language::Operand& operand,
@@ -97,8 +98,8 @@ private:
   void carryOut(const language::Command& command, Evaluation& evaluation);
   void carryOut(const language::CallProgram& call, Evaluation& evaluation);
   void carryOut(const language::Stop& stop, Evaluation& evaluation);
-  template <class Other>
-  void carryOut(const Other&, Evaluation&) {}
+  /// SINUMERIK programs call cycles as programs.
+  void carryOut(const language::CycleCall&, Evaluation&) {}
 
   void carryOutG(int number);
   void carryOutGroup(int group, int number);
@@ -115,7 +116,7 @@ private:
   void callFromText(const language::CallProgram& call, Evaluation& evaluation);
   bool callAside(std::string_view name);
   void skip(std::string_view what, std::string_view how = "is not carried out");
-  bool skipStatement(const language::Command& command, Evaluation& evaluation);
+  void leaveOut(const language::Command& command, Evaluation& evaluation);
   void findTool(const language::Command& command, Evaluation& evaluation);
   void circleThroughPoints(const language::Command& command, Evaluation& evaluation);
   void runCircle(language::WordRange arguments, Evaluation& evaluation);
@@ -178,4 +179,4 @@ private:
   std::set<std::string> deletedFiles_;  ///< what DELETE took from the files that lay there
 };
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -5,9 +5,8 @@
 #include "metrology/fits.hpp"
 
 /// CALCDAT: the circle through points, as programs compute it from what they have measured.
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
-using namespace language;
 using control::Alarm;
 
 /// CALCDAT(POINTS, COUNT, RESULT): POINTS[n,2] has abscissa and ordinate of 3 or 4 points, RESULT[3] gets the centre
@@ -48,4 +47,4 @@ void SinumerikHost::circleThroughPoints(const Command& command, Evaluation& eval
   if (!fit) throw Alarm("14051", "CALCDAT: no circle leads through these points", fit.error().message);
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -18,9 +18,8 @@
 #include "language/word_column.hpp"
 
 /// Calls of cycles: what their arguments are and where they go.
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
-using namespace language;
 using control::Alarm;
 
 namespace {
@@ -46,8 +45,8 @@ std::string namedArguments(const cycles::CycleDefinition& definition, const Alar
 /// The interpreter found no program of this name.
 void SinumerikHost::carryOut(const CallProgram& call, Evaluation& evaluation) {
   motion_.flush();
-  const std::string name = control::sinumerik::upperCase(
-      call.nameValue.present() ? evaluation.text(call.nameValue) : std::string(evaluation.at(call.name)));
+  const std::string name =
+      upperCase(call.nameValue.present() ? evaluation.text(call.nameValue) : std::string(evaluation.at(call.name)));
   runCycle(name, call.arguments, evaluation);
 }
 
@@ -175,4 +174,4 @@ void SinumerikHost::runSwivel(WordRange range, Evaluation& evaluation) {
   swivel(control_, call);
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -7,9 +7,8 @@
 #include "execution/sinumerik/host.hpp"
 
 /// Files that programs write, read and delete: WRITE, READ, DELETE, ISFILE.
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
-using namespace language;
 using control::Alarm;
 
 namespace {
@@ -26,7 +25,7 @@ std::string withoutFolders(std::string file) {
 
 /// The name by which files are compared: "PROT", "prot.mpf" and "/_N_WKS_DIR/_N_PROT_MPF" are one.
 std::string comparedName(std::string file) {
-  std::string name = control::sinumerik::upperCase(withoutFolders(std::move(file)));
+  std::string name = upperCase(withoutFolders(std::move(file)));
   const bool archived = name.starts_with("_N_");
   if (archived) name.erase(0, 3);
   const std::size_t end = archived ? name.rfind('_') : std::string::npos;
@@ -153,4 +152,4 @@ void SinumerikHost::deleteFile(const Command& command, Evaluation& evaluation) {
   setVariable(words[0].value, static_cast<double>(there ? FileError::None : FileError::NotFound), evaluation);
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -12,9 +12,8 @@
 #include "language/sinumerik/check.hpp"
 
 /// G functions, by number, by their place in a group, and by name.
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
-using namespace language;
 using control::Alarm;
 using control::sinumerik::Frame;
 
@@ -277,4 +276,4 @@ void SinumerikHost::alignFrameWithTool(bool withOrigin) {
   control_.handOverFrames();
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

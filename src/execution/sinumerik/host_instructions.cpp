@@ -9,11 +9,11 @@
 #include "execution/sinumerik/host.hpp"
 #include "execution/sinumerik/spindle_speed.hpp"
 #include "language/sinumerik/check.hpp"
+#include "language/sinumerik/commands.hpp"
 
 /// What SINUMERIK blocks order besides motions and G functions: tools, M functions, frames, messages.
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
-using namespace language;
 using control::Alarm;
 using control::EventKind;
 using control::sinumerik::AxisValue;
@@ -119,7 +119,7 @@ void SinumerikHost::carryOut(const Transform& transform, Evaluation& evaluation)
   std::string computed;
   for (const Word& word : evaluation.words(transform.words)) {
     if (word.address == addressOf("AX[]")) {
-      computed = control::sinumerik::upperCase(evaluation.text(word.value));
+      computed = upperCase(evaluation.text(word.value));
       continue;
     }
     if (word.address == addressOf("IP[]"))
@@ -173,31 +173,23 @@ void SinumerikHost::skip(std::string_view what, std::string_view how) {
   control_.panel.message(EventKind::Skipped, fmt::format("{} {}", what, how), control_.channel.seconds());
 }
 
-/// True if the statement is one of those that are named or say nothing here.
-bool SinumerikHost::skipStatement(const Command& command, Evaluation& evaluation) {
+/// Words that say nothing about where the tool goes, and those that do and are not carried out, which are named.
+void SinumerikHost::leaveOut(const Command& command, Evaluation& evaluation) {
   const std::string_view name = evaluation.at(command.name);
   const KeywordEntry* entry = keywordEntry(name);
-  if (entry == nullptr) return false;
-  if (entry->keyword == Keyword::SynchronizedAction) {
-    skip(fmt::format("the {} {}", name == "SETINT" ? "interrupt" : "synchronized action", name));
-    return true;
+  if (entry != nullptr && entry->effect == Effect::Harmless) return;
+  const std::string_view how = skippedFunction(name);
+  if (entry == nullptr || entry->effect == Effect::CarriedOut) {
+    if (!how.empty()) skip(name, how);  // G74
+    return;
   }
-  // What stands between them makes a table of a contour or a curve; the axes do not move.
-  if (name == "CONTPRON" || name == "CONTDCON" || name == "CTABDEF") recording_ = true;
-  if (name == "EXECUTE" || name == "CTABEND") {
-    recording_ = false;
-    return true;
-  }
-  if (entry->effect == Effect::CarriedOut) return false;
-  if (entry->effect == Effect::Harmless) return true;
   const auto words = evaluation.words(command.words);
   std::optional<double> value;
   if (!words.empty() && words[0].value.present()) {
     const Value first = evaluation.value(words[0].value);
     value = isText(first) ? 1 : std::get<double>(first);
   }
-  if (!saysWhatIs(name, value)) skip(name, skippedFunction(name));
-  return true;
+  if (!saysWhatIs(name, value)) skip(name, how);
 }
 
 /// GETSELT(NUMBER): the tool that T has selected; GETEXET(NUMBER): the one that D belongs to.
@@ -218,70 +210,98 @@ void SinumerikHost::carryOut(const Move& move, Evaluation& evaluation) {
 void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
   const std::string_view name = evaluation.at(command.name);
   const auto words = evaluation.words(command.words);
-  if (skipStatement(command, evaluation)) return;
-  if (name == "DEF") return declare(command, evaluation);
-  if (name == "SET" || name == "REP") return fill(command, evaluation);
-  if (name == "MSG") {
-    const std::string text = words.empty() || !words[0].value.present() ? "" : evaluation.text(words[0].value);
-    if (!text.empty()) control_.panel.message(EventKind::Message, text, control_.channel.seconds());
-    return;
+  /// Of what has the number of a spindle in brackets: the main spindle is meant.
+  const auto ofMainSpindle = [&] { return words.size() < 2 || wholeNumber(evaluation.number(words[1].value)) == 1; };
+  const CommandKind kind = commandKind(name);
+  switch (kind) {
+    case CommandKind::Declare:
+      return declare(command, evaluation);
+    case CommandKind::Define:
+      return;
+    case CommandKind::Fill:
+      return fill(command, evaluation);
+    case CommandKind::Message: {
+      const std::string text = words.empty() || !words[0].value.present() ? "" : evaluation.text(words[0].value);
+      if (!text.empty()) control_.panel.message(EventKind::Message, text, control_.channel.seconds());
+      return;
+    }
+    case CommandKind::StopPreprocessing:
+      return motion_.flush();
+    case CommandKind::GroupFunction:
+      if (words.size() != 2) return;
+      return carryOutGroup(wholeNumber(evaluation.number(words[1].value)),
+                           wholeNumber(evaluation.number(words[0].value)));
+    case CommandKind::RaiseAlarm:
+      return raiseAlarm(command, evaluation);
+    case CommandKind::Dwell:
+      return dwell(command, evaluation);
+    case CommandKind::FixedPoint:
+      return motion_.approachFixedPoint(command, evaluation);
+    case CommandKind::Measure:
+      return motion_.measure(command, evaluation);
+    case CommandKind::OrientSpindle: {
+      motion_.flush();
+      const bool main = ofMainSpindle();
+      const double angle = evaluation.number(words[0].value);
+      const bool incremental = words[0].mode == WordMode::Incremental;
+      if (main) control_.channel.orientSpindle(incremental ? control_.channel.spindleAngle() + angle : angle);
+      return;
+    }
+    case CommandKind::PositionAxis: {
+      if (words.size() < 2) throw Alarm("12080", fmt::format("{} needs the axis in brackets", name), "write POS[X]=10");
+      const std::string axis = upperCase(evaluation.text(words[1].value));
+      return motion_.position(axis, words[0].mode, evaluation.number(words[0].value));
+    }
+    case CommandKind::SpeedLimit:
+      if (!ofMainSpindle()) return;
+      state_.speedLimit = evaluation.number(words[0].value);
+      return followSpeed();
+    case CommandKind::AxisFeed:
+      if (words.size() > 1)
+        state_.axisFeed[upperCase(evaluation.text(words[1].value))] = evaluation.number(words[0].value);
+      return;
+    case CommandKind::WriteFile:
+      return writeFile(command, evaluation);
+    case CommandKind::ReadFile:
+      return readFile(command, evaluation);
+    case CommandKind::DeleteFile:
+      return deleteFile(command, evaluation);
+    case CommandKind::ExecuteText:
+      return executeText(command, evaluation);
+    case CommandKind::FindTool:
+      return findTool(command, evaluation);
+    case CommandKind::CircleThroughPoints:
+      return circleThroughPoints(command, evaluation);
+    case CommandKind::CallIsoProgram:
+      throw Alarm("14011",
+                  fmt::format("ISOCALL {}: programs of the ISO dialect are not available", evaluation.at(command.text)),
+                  "write the program in the language of the control");
+    case CommandKind::ToolLengthOffset:
+    case CommandKind::ToolRadiusOffset: {
+      if (words.size() > 1 && wholeNumber(evaluation.number(words[1].value)) != 1) return skip("TOFFL[2], TOFFL[3]");
+      motion_.flush();
+      control::sinumerik::ActiveTool& tool = control_.tool;
+      (kind == CommandKind::ToolLengthOffset ? tool.programmedLength : tool.programmedRadius) =
+          evaluation.number(words[0].value) * control_.unit;
+      return control_.handOverFrames();
+    }
+    case CommandKind::OffsetNumber:
+      motion_.flush();
+      control_.tool.dl = wholeNumber(evaluation.number(words[0].value));
+      control_.refreshTool();
+      return control_.handOverFrames();
+    case CommandKind::BeginRecording:
+      recording_ = true;
+      return leaveOut(command, evaluation);
+    case CommandKind::EndRecording:
+      recording_ = false;
+      return;
+    case CommandKind::SynchronizedAction:
+      return skip(fmt::format("the {} {}", name == "SETINT" ? "interrupt" : "synchronized action", name));
+    case CommandKind::ReferencePoint:
+    case CommandKind::Other:
+      return leaveOut(command, evaluation);
   }
-  if (name == "STOPRE") return motion_.flush();
-  if (name == "G" && words.size() == 2)
-    return carryOutGroup(wholeNumber(evaluation.number(words[1].value)),
-                         wholeNumber(evaluation.number(words[0].value)));
-  if (name == "SETAL") return raiseAlarm(command, evaluation);
-  if (name == "G4") return dwell(command, evaluation);
-  if (name.starts_with("MEAS") || name.starts_with("MEAW")) return motion_.measure(command, evaluation);
-  if (name == "SPOS" || name == "SPOSA") {
-    motion_.flush();
-    const bool main = words.size() < 2 || wholeNumber(evaluation.number(words[1].value)) == 1;
-    const double angle = evaluation.number(words[0].value);
-    const bool incremental = words[0].mode == WordMode::Incremental;
-    if (main) control_.channel.orientSpindle(incremental ? control_.channel.spindleAngle() + angle : angle);
-    return;
-  }
-  if (name == "POS" || name == "POSA" || name == "POSP") {
-    if (words.size() < 2) throw Alarm("12080", fmt::format("{} needs the axis in brackets", name), "write POS[X]=10");
-    const std::string axis = control::sinumerik::upperCase(evaluation.text(words[1].value));
-    return motion_.position(axis, words[0].mode, evaluation.number(words[0].value));
-  }
-  if (name == "LIMS") {
-    const bool main = words.size() < 2 || wholeNumber(evaluation.number(words[1].value)) == 1;
-    if (!main) return;
-    state_.speedLimit = evaluation.number(words[0].value);
-    return followSpeed();
-  }
-  if (name == "FA" && words.size() > 1) {
-    state_.axisFeed[control::sinumerik::upperCase(evaluation.text(words[1].value))] = evaluation.number(words[0].value);
-    return;
-  }
-  if (name == "G75") return motion_.approachFixedPoint(command, evaluation);
-  if (name == "WRITE") return writeFile(command, evaluation);
-  if (name == "READ") return readFile(command, evaluation);
-  if (name == "DELETE") return deleteFile(command, evaluation);
-  if (name == "EXECSTRING") return executeText(command, evaluation);
-  if (name == "GETSELT" || name == "GETEXET") return findTool(command, evaluation);
-  if (name == "CALCDAT") return circleThroughPoints(command, evaluation);
-  if (name == "ISOCALL")
-    throw Alarm("14011",
-                fmt::format("ISOCALL {}: programs of the ISO dialect are not available", evaluation.at(command.text)),
-                "write the program in the language of the control");
-  if (name == "TOFFL" || name == "TOFFR") {
-    const bool length = name == "TOFFL";
-    if (words.size() > 1 && wholeNumber(evaluation.number(words[1].value)) != 1) return skip("TOFFL[2], TOFFL[3]");
-    motion_.flush();
-    (length ? control_.tool.programmedLength : control_.tool.programmedRadius) =
-        evaluation.number(words[0].value) * control_.unit;
-    return control_.handOverFrames();
-  }
-  if (name == "DL") {
-    motion_.flush();
-    control_.tool.dl = wholeNumber(evaluation.number(words[0].value));
-    control_.refreshTool();
-    return control_.handOverFrames();
-  }
-  if (const std::string_view how = skippedFunction(name); !how.empty()) skip(name, how);  // G74
 }
 
 /// SETAL(number[, text]): 62000 to 63999 and 67000 to 69999 are shown and the program goes on; the others stop it.
@@ -371,4 +391,4 @@ bool SinumerikHost::callAside(std::string_view name) {
   return true;
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

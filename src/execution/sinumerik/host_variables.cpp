@@ -14,9 +14,8 @@
 #include "language/sinumerik/check.hpp"
 
 /// Variables of SINUMERIK programs: R parameters, user variables, global user data, system variables.
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
-using namespace language;
 using control::Alarm;
 using control::sinumerik::DataKey;
 
@@ -46,7 +45,7 @@ std::optional<FrameComponent> frameComponent(const UserVariable& user, std::stri
     if (word == nullptr)
       throw Alarm("17020", fmt::format("{}: a component of a frame is named by axis and kind", name),
                   "write for instance [X,TR]");
-    return control::sinumerik::upperCase(*word);
+    return upperCase(*word);
   };
   FrameComponent component;
   if (own == 1) component.place = user.place(name, std::array{numberOf(indices[0], "an index")});
@@ -262,7 +261,7 @@ bool SinumerikHost::isDefined(const VariableRef& variable, Evaluation& evaluatio
 
 /// ISVAR("NAME"), ISVAR("NAME[1]"), ISVAR("$TC_DP1[1,1]"), ISVAR("R5").
 bool SinumerikHost::isVariableNamed(std::string_view text) {
-  std::string name = control::sinumerik::upperCase(text.substr(0, text.find('[')));
+  std::string name = upperCase(text.substr(0, text.find('[')));
   std::vector<Value> indices;
   if (const std::size_t open = text.find('['); open != std::string_view::npos) {
     Cursor cursor(text.substr(open + 1));
@@ -272,7 +271,7 @@ bool SinumerikHost::isVariableNamed(std::string_view text) {
       if (cursor.number(number)) {
         indices.emplace_back(number);
       } else {
-        const std::string word = control::sinumerik::upperCase(cursor.name());
+        const std::string word = upperCase(cursor.name());
         if (word.empty()) break;
         indices.emplace_back(word);
       }
@@ -347,4 +346,4 @@ void SinumerikHost::fill(const Command& command, Evaluation& evaluation) {
   }
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -9,11 +9,11 @@
 
 #include "control/alarm.hpp"
 #include "control/sinumerik/text.hpp"
+#include "execution/motion/plane_curve.hpp"
 #include "execution/sinumerik/spindle_speed.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
-using namespace language;
 using control::Alarm;
 using control::Feed;
 
@@ -35,7 +35,7 @@ PathMotion::PathMotion(Control& control, MotionState& state)
           [this](const PathElement& element) { compensator_.active() ? compensator_.add(element) : run(element); }),
       compensator_([this](const PathElement& element) { run(element); }) {
   for (const machine::Axis& axis : control.channel.description().axes)
-    axisCodes_.push_back(addressOf(control::sinumerik::upperCase(axis.name)));
+    axisCodes_.push_back(addressOf(upperCase(axis.name)));
 }
 
 std::optional<std::size_t> PathMotion::linearAxis(std::uint32_t address) {
@@ -280,7 +280,7 @@ std::uint32_t PathMotion::axisOf(const Word& word, std::uint32_t& computed, Eval
   if (word.address == addressOf("=AX") || word.address == addressOf("=IP")) return computed;
   const bool parameter = word.address == addressOf("IP[]");
   if (!parameter && word.address != addressOf("AX[]")) return word.address;
-  const std::string axis = control::sinumerik::upperCase(evaluation.text(word.value));
+  const std::string axis = upperCase(evaluation.text(word.value));
   computed = addressOf(axis);
   if (parameter) {
     const auto linear = linearAxis(computed);
@@ -422,9 +422,7 @@ void PathMotion::run(const PathElement& element) {
   std::vector<Vector3> points = {element.end};
   if (element.isArc) {
     const double radius = (element.start - element.centre).norm();
-    const double tolerance = std::min(channel.pathTolerance, radius / 2);
-    const double step = radius > 0 ? 2 * std::acos(1 - tolerance / radius) : std::numbers::pi;
-    const int pieces = std::clamp(static_cast<int>(std::ceil(std::abs(element.sweep) / step)), 1, 100000);
+    const int pieces = motion::piecesOfArc(radius, element.sweep, channel.pathTolerance);
     points.clear();
     points.reserve(static_cast<std::size_t>(pieces));
     for (int i = 1; i < pieces; ++i)
@@ -510,4 +508,4 @@ void PathMotion::approachFixedPoint(const Command& command, Evaluation& evaluati
   channel.moveAxes(target, Feed::rapidTraverse());
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -11,15 +11,15 @@
 
 #include "control/sinumerik/control.hpp"
 #include "execution/evaluation.hpp"
+#include "execution/names.hpp"
 #include "execution/sinumerik/corner.hpp"
 #include "execution/sinumerik/radius_compensation.hpp"
 #include "language/block.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 using control::AxisPositions;
 using control::sinumerik::Control;
-using language::Evaluation;
 
 /// The modal state of a channel as far as motions need it.
 struct MotionState {
@@ -142,4 +142,4 @@ private:
   std::optional<Words> openLine_;      ///< a line with ANG alone: it ends where the line of the next block begins
 };
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -2,7 +2,9 @@
 
 #include <cmath>
 
-namespace probewright::sinumerik {
+#include "execution/motion/plane_curve.hpp"
+
+namespace probewright::execution::sinumerik {
 
 namespace {
 
@@ -50,42 +52,20 @@ PathElement PathElement::between(double first, double last) const {
 std::vector<Vector3> intersections(const PathElement& first, const PathElement& second,
                                    const control::WorkingPlane& plane) {
   const auto flat = [&](const Vector3& p) { return Vector2(p[plane.main], p[plane.minor]); };
-  const auto cross = [](const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); };
+  const auto curve = [&](const PathElement& element) {
+    const Vector2 start = flat(element.start);
+    if (!element.isArc) return motion::PlaneCurve::line(start, (flat(element.end) - start).normalized());
+    const Vector2 centre = flat(element.centre);
+    return motion::PlaneCurve::circleAbout(centre, (start - centre).norm());
+  };
   std::vector<Vector3> points;
-  const auto keep = [&](const Vector2& point) {
+  for (const Vector2& point : motion::intersections(curve(first), curve(second))) {
     Vector3 found = first.end;
     found[plane.main] = point.x();
     found[plane.minor] = point.y();
     points.push_back(found);
-  };
-  const auto lineCircle = [&](const PathElement& line, const PathElement& arc) {
-    const Vector2 p = flat(line.start), d = (flat(line.end) - p).normalized(), c = flat(arc.centre);
-    const double radius = (flat(arc.start) - c).norm();
-    const double along = d.dot(c - p), across = cross(d, c - p);
-    if (std::abs(across) > radius) return;
-    const double half = std::sqrt(radius * radius - across * across);
-    keep(p + (along - half) * d);
-    keep(p + (along + half) * d);
-  };
-  if (!first.isArc && !second.isArc) {
-    const Vector2 p = flat(first.start), d = flat(first.end) - p, q = flat(second.start), e = flat(second.end) - q;
-    const double denominator = cross(d, e);
-    if (std::abs(denominator) >= 1e-12) keep(p + cross(q - p, e) / denominator * d);
-  } else if (!first.isArc) {
-    lineCircle(first, second);
-  } else if (!second.isArc) {
-    lineCircle(second, first);
-  } else {
-    const Vector2 a = flat(first.centre), b = flat(second.centre);
-    const double ra = (flat(first.start) - a).norm(), rb = (flat(second.start) - b).norm(), distance = (b - a).norm();
-    if (distance < 1e-12 || distance > ra + rb || distance < std::abs(ra - rb)) return points;
-    const double along = (distance * distance + ra * ra - rb * rb) / (2 * distance);
-    const double half = std::sqrt(std::max(0.0, ra * ra - along * along));
-    const Vector2 d = (b - a) / distance, n(-d.y(), d.x());
-    keep(a + along * d + half * n);
-    keep(a + along * d - half * n);
   }
   return points;
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

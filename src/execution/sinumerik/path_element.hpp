@@ -5,7 +5,7 @@
 #include "control/channel.hpp"
 #include "control/working_plane.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 /// A straight line or an arc in program coordinates, mm. An arc turns about `centre` around the unit vector `axis` by
 /// `sweep` radians, counterclockwise positive, and at the same time moves along the axis to the height of `end`.
@@ -35,4 +35,4 @@ inline constexpr double tangential = 1e-6;
 std::vector<Vector3> intersections(const PathElement& first, const PathElement& second,
                                    const control::WorkingPlane& plane);
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

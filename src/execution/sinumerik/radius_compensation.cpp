@@ -7,7 +7,7 @@
 
 #include "control/alarm.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 namespace {
 
@@ -152,4 +152,4 @@ void RadiusCompensator::flush() {
   }
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

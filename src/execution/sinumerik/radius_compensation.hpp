@@ -5,7 +5,7 @@
 
 #include "execution/sinumerik/path_element.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 /// Tool radius compensation in the working plane (G41, G42, G40 with NORM; corners G450 and G451). Elements go in as
 /// they are programmed; what the tool centre travels comes out, one element later, because a corner needs both sides.
@@ -44,4 +44,4 @@ private:
   bool positionKnown_ = false;
 };
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 namespace {
 
@@ -42,4 +42,4 @@ void setFeedType(MotionState& state, int function, const Vector3& tip, bool bloc
   if (constantCut || freezes || function == 973) state.constantCuttingSpeed = constantCut;
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -3,7 +3,7 @@
 #include "execution/sinumerik/motion.hpp"
 #include "geometry/primitives.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 /// The speed of the main spindle in revolutions a minute while the tool is at `tip` (program coordinates). With
 /// constant cutting speed (G96, G961, G962) it follows from S in m/min and the diameter in X, up to LIMS.
@@ -13,4 +13,4 @@ double spindleSpeedAt(const MotionState& state, const Vector3& tip);
 /// `tip`, except G973, which goes back to what S said before, and blocks that have an S of their own.
 void setFeedType(MotionState& state, int function, const Vector3& tip, bool blockHasSpeed);
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -6,9 +6,10 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "execution/motion/tilted_plane.hpp"
 #include "machine/rotary_solver.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 using control::Alarm;
 using control::AxisPositions;
@@ -75,17 +76,9 @@ std::optional<Matrix3> swivelRotation(int mode, const Vector3& angles) {
   if (kind == 3) return std::nullopt;
   if (kind == 1)  // solid angle: turned about Z by _A, then tilted about the new Y by _B
     return (rotation(Vector3::UnitZ(), angles[0]) * rotation(Vector3::UnitY(), angles[1])).linear();
+  if (kind == 2)  // projection angles: _A and _B are the slopes of the new plane's traces in the planes YZ and ZX
+    return Matrix3(motion::planeOfProjections(angles[1], angles[0]) * rotation(Vector3::UnitZ(), angles[2]).linear());
   Matrix3 result = Matrix3::Identity();
-  if (kind == 2) {
-    // Projection angles: _A and _B are the slopes of the new plane's traces in the planes YZ and ZX.
-    const double a = radiansFromDegrees(angles[0]), b = radiansFromDegrees(angles[1]);
-    const Vector3 traceX(std::cos(b), 0, -std::sin(b)), traceY(0, std::cos(a), std::sin(a));
-    const Vector3 normal = traceX.cross(traceY).normalized();
-    result.col(0) = traceX;
-    result.col(1) = normal.cross(traceX);
-    result.col(2) = normal;
-    return Matrix3(result * rotation(Vector3::UnitZ(), angles[2]).linear());
-  }
   for (int i = 0; i < 3; ++i) {
     const Vector3 axis = unitAxis(mode >> (2 * i) & 3);
     if (!axis.isZero()) result = result * rotation(axis, angles[i]).linear();
@@ -192,4 +185,4 @@ void swivel(Control& control, const SwivelCall& call) {
   channel.moveAxes(end, control::Feed::rapidTraverse());
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -8,7 +8,7 @@
 #include "cycles/catalogue.hpp"
 
 /// CYCLE800: the working plane is swivelled, the rotary axes follow.
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 /// The arguments of CYCLE800 by position.
 struct SwivelCall {
@@ -38,4 +38,4 @@ std::vector<control::AxisPositions> toolPostures(const machine::MachineDescripti
                                                  const control::AxisPositions& reference,
                                                  const control::AxisPositions& now, const Vector3& direction);
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

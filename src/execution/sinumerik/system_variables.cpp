@@ -17,7 +17,7 @@
 #include "execution/sinumerik/datum_check.hpp"
 #include "execution/sinumerik/functions.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 using control::Alarm;
 using control::sinumerik::DataIndex;
@@ -36,7 +36,7 @@ int integerAt(std::span<const Value> indices, std::size_t place, int otherwise =
 
 std::string axisAt(std::span<const Value> indices, std::size_t place, std::string_view name) {
   if (place < indices.size()) {
-    if (const auto* text = std::get_if<std::string>(&indices[place])) return control::sinumerik::upperCase(*text);
+    if (const auto* text = std::get_if<std::string>(&indices[place])) return upperCase(*text);
   }
   throw Alarm("17020", fmt::format("{} needs the name of an axis as index", name), "write for instance [X]");
 }
@@ -371,4 +371,4 @@ void SystemVariables::write(std::string_view name, std::span<const Value> indice
                           control::sinumerik::valueText(DataValue(text))});
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -7,12 +7,11 @@
 #include <string_view>
 
 #include "control/sinumerik/control.hpp"
+#include "execution/names.hpp"
 #include "execution/sinumerik/motion.hpp"
 #include "language/value.hpp"
 
-namespace probewright::sinumerik {
-
-using language::Value;
+namespace probewright::execution::sinumerik {
 
 /// The $ variables of a channel: what the control knows, under the control's names.
 ///
@@ -49,4 +48,4 @@ private:
 /// The key of a datum of the store.
 control::sinumerik::DataKey dataKey(std::string_view name, std::span<const Value> indices);
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

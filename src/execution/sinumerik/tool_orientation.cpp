@@ -11,9 +11,8 @@
 #include "language/sinumerik/check.hpp"
 
 /// Words that motions have besides axes and arcs: the direction of the tool under TRAORI, the pitch of threads.
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
-using namespace language;
 using control::Alarm;
 
 bool PathMotion::readOrientationWord(std::uint32_t address, double value, Words& words) {
@@ -104,4 +103,4 @@ double PathMotion::threadFeed(const Words& words, const Vector3& way) {
   return state_.pitch * share * speed;
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

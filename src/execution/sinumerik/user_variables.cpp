@@ -8,7 +8,7 @@
 #include "control/alarm.hpp"
 #include "execution/evaluation.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 
 using control::Alarm;
 
@@ -151,14 +151,14 @@ void UserVariable::limit(double lower, double upper) {
   }
 }
 
-Value valueFor(Type type, const language::Operand& operand, language::Evaluation& evaluation) {
+Value valueFor(Type type, const language::Operand& operand, Evaluation& evaluation) {
   if (type == Type::String) {
     if (auto text = evaluation.shownText(operand)) return std::move(*text);
   }
   return evaluation.value(operand);
 }
 
-UserVariable declaredVariable(const language::Command& command, language::Evaluation& evaluation) {
+UserVariable declaredVariable(const language::Command& command, Evaluation& evaluation) {
   const language::VariableRef& variable = evaluation.block().variables[static_cast<std::size_t>(command.variable)];
   const std::string_view name = evaluation.at(variable.name);
   Type type = Type::Real;
@@ -223,4 +223,4 @@ UserVariable* UserVariables::find(std::string_view name) {
   return found == global_.end() ? nullptr : &found->second;
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -8,18 +8,20 @@
 #include <unordered_map>
 #include <vector>
 
+#include "execution/names.hpp"
 #include "language/sinumerik/keywords.hpp"
 #include "language/value.hpp"
 
 namespace probewright::language {
-class Evaluation;
 struct Operand;
 struct Command;
 }  // namespace probewright::language
 
-namespace probewright::sinumerik {
+namespace probewright::execution {
+class Evaluation;
+}
 
-using language::Value;
+namespace probewright::execution::sinumerik {
 
 /// One variable of DEF or one parameter of a program: a single value or an array of up to three dimensions.
 class UserVariable {
@@ -66,11 +68,11 @@ private:
 
 /// The value of `operand` for a variable of `type`: for a STRING, CHAR becomes a text of one character, BOOL "1" or
 /// "0".
-Value valueFor(Type type, const language::Operand& operand, language::Evaluation& evaluation);
+Value valueFor(Type type, const language::Operand& operand, Evaluation& evaluation);
 
 /// The variable that a DEF declares, with its first values. Throws Alarm 12200 for impossible sizes, 17020 for too many
 /// values, and what set() throws.
-UserVariable declaredVariable(const language::Command& command, language::Evaluation& evaluation);
+UserVariable declaredVariable(const language::Command& command, Evaluation& evaluation);
 
 /// The user variables of all program levels. A level sees its own variables and the global ones.
 class UserVariables {
@@ -95,4 +97,4 @@ private:
   std::string key_;
 };
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::execution::sinumerik

@@ -4,14 +4,10 @@
 
 namespace probewright::language::din_iso {
 
-using klartext::isBlank;
-using klartext::isDigit;
-using klartext::upper;
-
 namespace {
 
 void skipBlanks(std::string_view& text) {
-  while (!text.empty() && isBlank(text.front()))
+  while (!text.empty() && isBlankOrReturn(text.front()))
     text.remove_prefix(1);
 }
 
@@ -21,8 +17,7 @@ void skipDigits(std::string_view& text) {
 }
 
 std::string_view trimmedRight(std::string_view text) {
-  while (!text.empty() && isBlank(text.back()))
-    text.remove_suffix(1);
+  text = trimmedAtEnd(text, blanksAndReturn);
   return text;
 }
 

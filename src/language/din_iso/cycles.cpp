@@ -88,7 +88,7 @@ bool BlockParser::emitWithFunctions(const Instruction& instruction) {
 bool BlockParser::emitFunction() {
   switch (function_) {
     case 4:
-      return onlyTakes("F") && setting("CYCL DEF 9", "T", move_.feed, "G04 F1.5");
+      return onlyTakes("F") && setting(CommandKind::DwellTime, "T", move_.feed, "G04 F1.5");
     case 24:
       return corner(MoveKind::Chamfer);
     case 25:
@@ -96,7 +96,7 @@ bool BlockParser::emitFunction() {
     case 27:
       return corner(MoveKind::Rounding);
     case 28:
-      return transform("CYCL DEF 8", axisLetters);
+      return transform(TransformKind::Mirror, axisLetters);
     case 29: {
       if (!onlyTakes({})) return false;
       Move centre;
@@ -107,18 +107,19 @@ bool BlockParser::emitFunction() {
     case 31:
       return blankForm();
     case 36:
-      return onlyTakes("S") && setting("CYCL DEF 13", "ANG", tool_.spindleSpeed, "G36 S90");
+      return onlyTakes("S") && setting(CommandKind::SpindleOrientation, "ANG", tool_.spindleSpeed, "G36 S90");
     case 38:
       return onlyTakes({}) && emitWithFunctions(Stop{});
     case 39:
-      return onlyTakes({}) && emitWithFunctions(Command{constant("CYCL DEF 12"), ref(name_), -1, {}});
+      return onlyTakes({}) &&
+             emitWithFunctions(Command{constant(nameOf(CommandKind::ProgramCall)), ref(name_), -1, {}});
     case 51:
     case 99:
       return toolDefinition();
     case 53:
       return datumFromTable();
     case 54:
-      return transform("CYCL DEF 7", axisLetters);
+      return transform(TransformKind::DatumShift, axisLetters);
     case 55:
       return referencePlane();
     case 62:
@@ -128,12 +129,12 @@ bool BlockParser::emitFunction() {
              [this]() {
                const std::size_t first = block_.words.size();
                addWord(addressOf("SCL"), move_.feed);
-               return emitWithFunctions(Transform{constant("CYCL DEF 11"), wordsSince(first), {}});
+               return emitWithFunctions(Transform{constant(nameOf(TransformKind::Scaling)), wordsSince(first), {}});
              }();
     case 73:
       return rotation();
     case 79:
-      return onlyTakes({}) && emitWithFunctions(Command{constant("CYCL CALL"), {}, -1, {}});
+      return onlyTakes({}) && emitWithFunctions(Command{constant(nameOf(CommandKind::CycleCall)), {}, -1, {}});
     default: {
       const int machining = oldMachiningCycle(function_);
       return machining != 0 ? oldMachining(machining) : tilt();
@@ -165,22 +166,22 @@ bool BlockParser::corner(MoveKind kind) {
 }
 
 /// A setting with one value, which may not be left out.
-bool BlockParser::setting(std::string_view name, std::string_view address, Operand value, std::string_view example) {
+bool BlockParser::setting(CommandKind kind, std::string_view address, Operand value, std::string_view example) {
   if (!value.present()) {
     return error(fmt::format("the value of G{} is missing", function_), fmt::format("write {}", example));
   }
   const std::size_t first = block_.words.size();
   addWord(addressOf(address), value);
-  return emitWithFunctions(Command{constant(name), {}, -1, wordsSince(first)});
+  return emitWithFunctions(Command{constant(nameOf(kind)), {}, -1, wordsSince(first)});
 }
 
-bool BlockParser::transform(std::string_view name, std::string_view addresses) {
+bool BlockParser::transform(TransformKind kind, std::string_view addresses) {
   if (!onlyTakes(addresses)) return false;
   if (function_ == 54 && coordinateCount_ == 0) return error("an axis with its shift is missing", "write G54 X+10");
   const std::size_t first = block_.words.size();
   block_.words.insert(block_.words.end(), coordinates_.begin(),
                       coordinates_.begin() + static_cast<std::ptrdiff_t>(coordinateCount_));
-  return emitWithFunctions(Transform{constant(name), wordsSince(first), {}});
+  return emitWithFunctions(Transform{constant(nameOf(kind)), wordsSince(first), {}});
 }
 
 bool BlockParser::datumFromTable() {
@@ -189,7 +190,7 @@ bool BlockParser::datumFromTable() {
   if (row == nullptr) return error("the row of the datum table is missing", "write G53 P01 12");
   const std::size_t first = block_.words.size();
   addWord(addressOf("#"), row->value);
-  return emitWithFunctions(Transform{constant("CYCL DEF 7"), wordsSince(first), {}});
+  return emitWithFunctions(Transform{constant(nameOf(TransformKind::DatumShift)), wordsSince(first), {}});
 }
 
 bool BlockParser::rotation() {
@@ -198,7 +199,7 @@ bool BlockParser::rotation() {
   if (angle == nullptr) return error("the angle of rotation H is missing", "write G73 G90 H+30");
   const std::size_t first = block_.words.size();
   addWord(addressOf("ROT"), angle->value, angle->mode);
-  return emitWithFunctions(Transform{constant("CYCL DEF 10"), wordsSince(first), {}});
+  return emitWithFunctions(Transform{constant(nameOf(TransformKind::Rotation)), wordsSince(first), {}});
 }
 
 /// G80 A+0 B+30 C+0 F500 S10; without words tilting ends.
@@ -209,7 +210,7 @@ bool BlockParser::tilt() {
     addWord(coordinates_[i].address, coordinates_[i].value, coordinates_[i].mode);
   if (move_.feed.present()) addWord(addressOf("F"), move_.feed);
   if (tool_.spindleSpeed.present()) addWord(addressOf("DIST"), tool_.spindleSpeed);
-  return emitWithFunctions(Transform{constant("CYCL DEF 19"), wordsSince(first), {}});
+  return emitWithFunctions(Transform{constant(nameOf(TransformKind::Tilting)), wordsSince(first), {}});
 }
 
 /// G55 P01 5 P02 X- P03 +5 P04 +0 P05 -5: result, axis and direction, X, Y, Z; the axes may stand as they are instead
@@ -247,7 +248,7 @@ bool BlockParser::tolerance() {
   if (const Word* rotary = parameter(2); rotary != nullptr && parameter(1) != nullptr && length_.present()) {
     addWord(addressOf("TA"), rotary->value);
   }
-  return emitWithFunctions(Command{constant("CYCL DEF 32"), {}, -1, wordsSince(first)});
+  return emitWithFunctions(Command{constant(nameOf(CommandKind::Tolerance)), {}, -1, wordsSince(first)});
 }
 
 /// G99 T5 L+0 R+5 and G51 T5.
@@ -258,7 +259,7 @@ bool BlockParser::toolDefinition() {
   addWord(addressOf("T"), tool_.name.present() ? tool_.name : tool_.number);
   if (length_.present()) addWord(addressOf("L"), length_);
   if (const Word* radius = find("R")) addWord(addressOf("R"), radius->value);
-  return emitWithFunctions(Command{constant("TOOL DEF"), {}, -1, wordsSince(first)});
+  return emitWithFunctions(Command{constant(nameOf(CommandKind::ToolDefinition)), {}, -1, wordsSince(first)});
 }
 
 /// The picture for the control's graphics, in the words of Klartext.
@@ -270,7 +271,7 @@ bool BlockParser::blankForm() {
     text += fmt::format(" {}{}{}", corner.mode == WordMode::Incremental ? "I" : "", addressName(corner.address),
                         klartext::writeValue(block_, corner.value));
   }
-  return emitWithFunctions(Command{constant("BLK FORM"), constant(text), -1, {}});
+  return emitWithFunctions(Command{constant(nameOf(CommandKind::BlankForm)), constant(text), -1, {}});
 }
 
 /// Gnnn NAME Q200=... up to the end of the block.

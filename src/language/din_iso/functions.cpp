@@ -5,8 +5,6 @@
 /// D00 to D38, the twins of FN 0 to FN 38. "Dnn:" is followed by what stands after FN nn in Klartext.
 namespace probewright::language::din_iso {
 
-using klartext::isDigit;
-
 bool BlockParser::parameterAddress(int number) {
   const bool matches = lexer_.peek() == 'P' && isDigit(lexer_.here(1)) && isDigit(lexer_.here(2)) &&
                        (lexer_.here(1) - '0') * 10 + (lexer_.here(2) - '0') == number;
@@ -51,18 +49,18 @@ bool BlockParser::function() {
       const std::optional<Operand> message = parameterValue(1);
       if (!message) return false;
       addWord(0, *message);
-      emit(Command{constant("FN14"), {}, -1, wordsSince(first)});
+      emit(Command{constant(nameOf(CommandKind::Fn14)), {}, -1, wordsSince(first)});
       return expectEnd();
     }
     case 15:
       parameterAddress(1);
       lexer_.acceptKeyword("PRINT");
-      return textCommand("FN15");
+      return textCommand(CommandKind::Fn15);
     case 19:
     case 20:
     case 29:
       parameterAddress(1);
-      return textCommand(fmt::format("FN{}", number));
+      return textCommand(klartext::functionCommand(number));
     case 18:
       return systemRead();
     default:
@@ -125,7 +123,7 @@ bool BlockParser::systemRead() {
   const std::size_t first = block_.words.size();
   if (!systemDatum()) return false;
   command.words = wordsSince(first);
-  command.name = constant("FN18");
+  command.name = constant(nameOf(CommandKind::Fn18));
   emit(command);
   return expectEnd();
 }

@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "language/klartext/commands.hpp"
+
 namespace probewright::language::din_iso {
 
 namespace {
@@ -115,8 +117,8 @@ void ModalState::resolve(const Block& block, Block& resolved) {
           resolveMode(resolved.words[move->words.first + i], before);
       }
     } else if (const auto* transform = std::get_if<Transform>(&instruction)) {
-      const std::string_view name = resolved.at(transform->name);
-      if (name != "CYCL DEF 7" && name != "CYCL DEF 10") continue;
+      const klartext::TransformKind kind = klartext::kindOf(resolved, *transform);
+      if (kind != klartext::TransformKind::DatumShift && kind != klartext::TransformKind::Rotation) continue;
       for (std::uint32_t i = 0; i < transform->words.count; ++i) {
         Word& word = resolved.words[transform->words.first + i];
         if (word.address != addressOf("#")) resolveMode(word, before);

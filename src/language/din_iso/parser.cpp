@@ -9,11 +9,6 @@
 /// The kinds of blocks: program head and end, calls, labels; all that consists of words is in words.cpp.
 namespace probewright::language::din_iso {
 
-using klartext::isBlank;
-using klartext::isDigit;
-using klartext::isLetter;
-using klartext::upper;
-
 void BlockParser::parse() {
   const auto skipSign = [this]() {
     if (lexer_.peek() != '/') return;
@@ -101,9 +96,9 @@ bool BlockParser::percent() {
     return true;
   }
   std::string_view name = rest.substr(0, blank);
-  while (!name.empty() && isBlank(name.back()))
-    name.remove_suffix(1);
-  emit(Command{constant("BEGIN PGM"), constant(fmt::format("{} {}", name, inch ? "INCH" : "MM")), -1, {}});
+  name = trimmedAtEnd(name, blanksAndReturn);
+  emit(Command{
+      constant(nameOf(CommandKind::BeginProgram)), constant(fmt::format("{} {}", name, inch ? "INCH" : "MM")), -1, {}});
   return true;
 }
 

@@ -7,6 +7,10 @@
 
 namespace probewright::language::din_iso {
 
+using klartext::CommandKind;
+using klartext::nameOf;
+using klartext::TransformKind;
+
 /// The number in Klartext of the machining cycle that an old G function with parameters P01, P02... defines; 0: it
 /// defines none. Such a block becomes a CycleCall with the name "G83", whose words have the number of their parameter
 /// as address, and its axis, if it has one, shifted left by 8.
@@ -59,8 +63,8 @@ private:
   const Word* parameter(std::uint32_t number) const;
   bool emitWithFunctions(const Instruction& instruction);
   bool corner(MoveKind kind);
-  bool setting(std::string_view name, std::string_view address, Operand value, std::string_view example);
-  bool transform(std::string_view name, std::string_view addresses);
+  bool setting(CommandKind kind, std::string_view address, Operand value, std::string_view example);
+  bool transform(TransformKind kind, std::string_view addresses);
   bool datumFromTable();
   bool rotation();
   bool tilt();

@@ -78,7 +78,7 @@ bool DinIsoProgram::cornerFollows(BlockPosition position) const {
     if (!statement.empty() && statement.front() != ';' && statement.front() != '*') {
       Lexer lexer(statement);
       for (const std::string_view corner : {"G24", "G25", "G26", "G27"}) {
-        if (lexer.acceptPrefix(corner)) return !klartext::isDigit(lexer.here());
+        if (lexer.acceptPrefix(corner)) return !isDigit(lexer.here());
       }
       return false;
     }

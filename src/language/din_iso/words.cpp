@@ -8,9 +8,6 @@
 /// anywhere in the block.
 namespace probewright::language::din_iso {
 
-using klartext::isDigit;
-using klartext::upper;
-
 namespace {
 
 constexpr std::string_view axisLetters = "XYZABCUVW";
@@ -88,7 +85,7 @@ bool BlockParser::wordOf(char address) {
     default:
       break;
   }
-  if (axisLetters.find(address) != std::string_view::npos && !klartext::isLetter(upper(lexer_.here(1)))) {
+  if (axisLetters.find(address) != std::string_view::npos && !isLetter(upper(lexer_.here(1)))) {
     return coordinate(address, {&address, 1});
   }
   if (axisLetters.find(address) != std::string_view::npos && upper(lexer_.here(1)) == 'Q') {

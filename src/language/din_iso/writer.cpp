@@ -7,6 +7,7 @@
 #include <span>
 
 #include "cycles/heidenhain/probe_words.hpp"
+#include "language/klartext/commands.hpp"
 #include "language/klartext/cycle_writer.hpp"
 #include "language/klartext/formula_writer.hpp"
 #include "language/klartext/lexer.hpp"
@@ -14,7 +15,9 @@
 
 namespace probewright::language::din_iso {
 
-using klartext::isDigit;
+using klartext::CommandKind;
+using klartext::nameOf;
+using klartext::TransformKind;
 using klartext::writeFormula;
 using klartext::writeValue;
 using klartext::writeVariable;
@@ -57,7 +60,7 @@ private:
   bool isMain(const Instruction& instruction) const {
     const auto* command = std::get_if<Command>(&instruction);
     const bool plainCall = command != nullptr && command->words.count == 0 && command->text.length == 0 &&
-                           at(command->name) == "CYCL CALL";
+                           klartext::kindOf(block_, *command) == CommandKind::CycleCall;
     return !std::holds_alternative<MachineFunction>(instruction) && !std::holds_alternative<Stop>(instruction) &&
            !std::holds_alternative<EndProgram>(instruction) && !plainCall;
   }
@@ -307,22 +310,23 @@ private:
   }
 
   void add(const Transform& transform) {
-    const std::string_view name = at(transform.name);
+    const TransformKind kind = klartext::kindOf(block_, transform);
+    const std::string_view name = nameOf(kind);
     const std::span<const Word> words = wordsOf(transform.words);
-    if (name.starts_with("PLANE") || name.starts_with("TRANS"))
-      return word(klartext::writeTransform(block_, transform));
-    if (name == "CYCL DEF 247") return parameterCycle(klartext::writeTransform(block_, transform), "CYCL DEF ");
-    if (name == "CYCL DEF 7") return datumShift(words);
-    if (name == "CYCL DEF 8") {
+    if (isPlane(kind) || isTrans(kind)) return word(klartext::writeTransform(block_, transform));
+    if (kind == TransformKind::PresetByCycle)
+      return parameterCycle(klartext::writeTransform(block_, transform), "CYCL DEF ");
+    if (kind == TransformKind::DatumShift) return datumShift(words);
+    if (kind == TransformKind::Mirror) {
       word("G28");
       for (const Word& w : words)
         word(addressName(w.address));
-    } else if (name == "CYCL DEF 10" && words.size() == 1) {
+    } else if (kind == TransformKind::Rotation && words.size() == 1) {
       word("G73");
       coordinate("H", words[0]);
-    } else if (name == "CYCL DEF 11" && words.size() == 1) {
+    } else if (kind == TransformKind::Scaling && words.size() == 1) {
       word(fmt::format("G72 F{}", unsignedValue(words[0].value)));
-    } else if (name == "CYCL DEF 19") {
+    } else if (kind == TransformKind::Tilting) {
       word("G80");
       for (const Word& w : words) {
         if (w.mode == WordMode::Incremental) return refuse("incremental angles of cycle 19 have no twin in DIN/ISO");
@@ -345,21 +349,22 @@ private:
   }
 
   void add(const Command& command) {
-    const std::string_view name = at(command.name);
+    const CommandKind kind = klartext::kindOf(block_, command);
+    const std::string_view name = nameOf(kind);
     const std::string_view text = at(command.text);
     const std::span<const Word> words = wordsOf(command.words);
-    if (name == "BLK FORM") return blankForm(text);
-    if (name == "FN14") return word(fmt::format("D14 P01 {}", value(words[0].value)));
-    if (name == "FN16") return word(fmt::format("D16 P01 F-PRINT {}", text));
-    if (name == "SET UNDEFINED") {
+    if (kind == CommandKind::BlankForm) return blankForm(text);
+    if (kind == CommandKind::Fn14) return word(fmt::format("D14 P01 {}", value(words[0].value)));
+    if (kind == CommandKind::Fn16) return word(fmt::format("D16 P01 F-PRINT {}", text));
+    if (kind == CommandKind::SetUndefined) {
       return word(fmt::format("D00 {} SET UNDEFINED",
                               writeVariable(block_.variables[static_cast<std::size_t>(command.variable)])));
     }
-    if (name.starts_with("FN")) {
+    if (isFunction(kind)) {
       const std::string written = klartext::writeCommand(block_, command);  // "FN 18: ..."
       return word(fmt::format("D{}", written.substr(3)));
     }
-    if (name == "TOOL DEF") {
+    if (kind == CommandKind::ToolDefinition) {
       const std::string tool =
           words[0].value.isLiteral() ? unsignedValue(words[0].value) : writeFormula(block_, words[0].value);
       word(fmt::format("{} T{}", words.size() > 1 ? "G99" : "G51", tool));
@@ -371,28 +376,32 @@ private:
       if (words.empty()) return refuse(fmt::format("{} without its value has no twin in DIN/ISO", name));
       word(fmt::format("{}{}", form, unsignedValue(words[0].value)));
     };
-    if (name == "CYCL DEF 9") return setting("G04 F");
-    if (name == "CYCL DEF 13") return setting("G36 S");
-    if (name == "CYCL DEF 12") return word(fmt::format("G39 P01 {}", klartext::writePath(text)));
-    if (name == "CYCL DEF 32") {
+    if (kind == CommandKind::DwellTime) return setting("G04 F");
+    if (kind == CommandKind::SpindleOrientation) return setting("G36 S");
+    if (kind == CommandKind::ProgramCall) return word(fmt::format("G39 P01 {}", klartext::writePath(text)));
+    if (kind == CommandKind::Tolerance) {
       word("G62");
       constexpr std::string_view forms[] = {"T", "P01 ", "P02 "};
       for (std::size_t i = 0; i < words.size() && i < 3; ++i)
         word(fmt::format("{}{}", forms[i], unsignedValue(words[i].value)));
       return;
     }
-    if (name == "SEL PGM" || name == "SEL TABLE" || name == "SEL PATTERN" || name == "SEL CONTOUR") {
-      const std::string_view sign = name == "SEL PGM"       ? "PGM"
-                                    : name == "SEL TABLE"   ? "TAB"
-                                    : name == "SEL PATTERN" ? "PAT"
-                                                            : "CNT";
+    if (kind == CommandKind::SelectProgram || kind == CommandKind::SelectTable || kind == CommandKind::SelectPattern ||
+        kind == CommandKind::SelectContour) {
+      const std::string_view sign = kind == CommandKind::SelectProgram   ? "PGM"
+                                    : kind == CommandKind::SelectTable   ? "TAB"
+                                    : kind == CommandKind::SelectPattern ? "PAT"
+                                                                         : "CNT";
       word(words.empty() ? fmt::format("%:{}: \"{}\"", sign, text)
                          : fmt::format("%:{}: {}", sign, writeFormula(block_, words[0].value)));
       return;
     }
-    const bool sameInBoth = name.starts_with("PRESET") || name.starts_with("FUNCTION") || name == "SQL" ||
-                            name == "DECLARE" || name == "ERROR" || name.starts_with("TABDATA") ||
-                            name == "OPEN FILE" || name == "SEL CYCLE";
+    const bool sameInBoth =
+        kind == CommandKind::PresetSelect || kind == CommandKind::PresetCopy || kind == CommandKind::PresetCorrection ||
+        kind == CommandKind::Function || kind == CommandKind::FunctionReset || kind == CommandKind::Sql ||
+        kind == CommandKind::Declare || kind == CommandKind::Error || kind == CommandKind::TabdataRead ||
+        kind == CommandKind::TabdataWrite || kind == CommandKind::TabdataAdd || kind == CommandKind::OpenFile ||
+        kind == CommandKind::SelectCycle;
     if (!sameInBoth) return refuse(fmt::format("{} has no twin in DIN/ISO", name));
     word(klartext::writeCommand(block_, command));
   }

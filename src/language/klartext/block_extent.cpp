@@ -21,7 +21,7 @@ Line lineAt(std::string_view text, std::size_t offset) {
 }
 
 void skipBlanks(std::string_view& text) {
-  while (!text.empty() && isBlank(text.front()))
+  while (!text.empty() && isBlankOrReturn(text.front()))
     text.remove_prefix(1);
 }
 
@@ -111,8 +111,7 @@ bool isUtf8(std::string_view text) {
 
 /// In double-byte encodings '~' can be the second byte of a character at the end of a comment.
 bool mayBeHalfCharacter(std::string_view line) {
-  while (!line.empty() && isBlank(line.back()))
-    line.remove_suffix(1);
+  line = trimmedAtEnd(line, blanksAndReturn);
   line.remove_suffix(1);
   std::size_t high = 0;
   while (high < line.size() && (static_cast<unsigned char>(line[line.size() - 1 - high]) & 0x80U) != 0)

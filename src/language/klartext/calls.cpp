@@ -132,7 +132,7 @@ bool BlockParser::cycleCall() {
   if (!moveWords(words)) return false;
   if (words.feed.present()) addWord(addressOf("F"), words.feed);
   command.words = wordsSince(first);
-  command.name = constant("CYCL CALL");
+  command.name = constant(nameOf(CommandKind::CycleCall));
   const Instruction instruction = command;
   emitWithMachineFunctions(&instruction);
   return true;
@@ -144,7 +144,7 @@ bool BlockParser::patternDefinition() {
   const std::string_view text = lexer_.restOfBlock();
   const auto points = patternPoints(text, [](std::string_view) { return 1.0; });
   if (!points) return error(points.error().message, points.error().advice);
-  emit(Command{constant("PATTERN DEF"), ref(text), -1, {}});
+  emit(Command{constant(nameOf(CommandKind::PatternDefinition)), ref(text), -1, {}});
   return true;
 }
 

@@ -13,6 +13,7 @@
 #include "cycles/heidenhain/probe_words.hpp"
 #include "language/constant_division.hpp"
 #include "language/klartext/block_extent.hpp"
+#include "language/klartext/commands.hpp"
 #include "language/klartext/lexer.hpp"
 #include "language/klartext/statement_notes.hpp"
 #include "metrology/tolerance.hpp"
@@ -105,8 +106,7 @@ private:
     for (; below > 0; --below)
       text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
     text = text.substr(0, text.find('\n'));
-    while (!text.empty() && isBlank(text.back()))
-      text.remove_suffix(1);
+    text = trimmedAtEnd(text, blanksAndReturn);
     return std::string(text);
   }
 
@@ -185,7 +185,7 @@ private:
     if (const std::size_t sign = text.find('%'); sign != std::string_view::npos) text.remove_prefix(sign);
     std::vector<std::string> words(1);
     for (const char c : text) {
-      if (isBlank(c) || c == '\n' || c == '*') {
+      if (isBlankOrReturn(c) || c == '\n' || c == '*') {
         if (!words.back().empty()) words.emplace_back();
       } else if (c != '%') {
         words.back() += upper(c);
@@ -246,10 +246,11 @@ private:
     if (!call.nameValue.present()) called(call.name);
   }
   void look(const Command& command) {
-    if (block_.at(command.name) == "ERROR") {
+    const CommandKind kind = kindOf(block_, command);
+    if (kind == CommandKind::Error) {
       reportHere("the control marked this block as wrong", "correct the block and take ERROR = away");
-    } else if (const auto name = block_.at(command.name);
-               ((name == "SEL PGM" || name == "SEL CYCLE") && command.words.count == 0) || name == "CYCL DEF 12") {
+    } else if (const bool selects = kind == CommandKind::SelectProgram || kind == CommandKind::SelectCycle;
+               (selects && command.words.count == 0) || kind == CommandKind::ProgramCall) {
       called(command.text);
     }
   }
@@ -361,14 +362,56 @@ private:
 
   /// Cycles 7, 8, 10, 11 and 26: active, ended, or unknown because the program computes their values.
   void look(const Transform& transform) {
-    const std::string_view name = block_.at(transform.name);
-    if (name == "CYCL DEF 247") transforms_.clear();
-    if (!name.starts_with("CYCL DEF ")) {
-      if (name == "TRANS DATUM") transforms_.erase(7);
-      return;
+    int number = 0;
+    switch (kindOf(block_, transform)) {
+      case TransformKind::DatumShift:
+        number = 7;
+        break;
+      case TransformKind::Mirror:
+        number = 8;
+        break;
+      case TransformKind::Rotation:
+        number = 10;
+        break;
+      case TransformKind::Scaling:
+        number = 11;
+        break;
+      case TransformKind::AxisScaling:
+        number = 26;
+        break;
+      case TransformKind::PresetByCycle:
+        transforms_.clear();
+        return;
+      // TRANS changes what the cycle of the same name has set.
+      case TransformKind::TransDatumAxis:
+      case TransformKind::TransDatumTable:
+      case TransformKind::TransDatumReset:
+        transforms_.erase(7);
+        return;
+      case TransformKind::TransMirror:
+      case TransformKind::TransMirrorReset:
+        transforms_.erase(8);
+        return;
+      case TransformKind::TransRotation:
+      case TransformKind::TransRotationReset:
+        transforms_.erase(10);
+        return;
+      case TransformKind::TransScale:
+      case TransformKind::TransScaleReset:
+        transforms_.erase(11);
+        transforms_.erase(26);
+        return;
+      case TransformKind::Tilting:
+      case TransformKind::PlaneSpatial:
+      case TransformKind::PlaneProjected:
+      case TransformKind::PlaneEuler:
+      case TransformKind::PlaneVector:
+      case TransformKind::PlanePoints:
+      case TransformKind::PlaneRelative:
+      case TransformKind::PlaneAxial:
+      case TransformKind::PlaneReset:
+        return;
     }
-    const int number = static_cast<int>(parseInteger(name.substr(9)).value_or(0));
-    if (number != 7 && number != 8 && number != 10 && number != 11 && number != 26) return;
     const std::span<const Word> words =
         std::span<const Word>(block_.words).subspan(transform.words.first, transform.words.count);
     if (number == 8) {

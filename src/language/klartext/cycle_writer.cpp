@@ -9,6 +9,7 @@
 
 #include "cycles/heidenhain/probe_words.hpp"
 #include "language/klartext/block_extent.hpp"
+#include "language/klartext/commands.hpp"
 #include "language/klartext/formula_writer.hpp"
 #include "language/klartext/lexer.hpp"
 
@@ -31,7 +32,7 @@ std::string_view sourceLine(const Block& block, std::uint32_t line) {
     text.remove_prefix(end + 1);
   }
   text = text.substr(0, text.find('\n'));
-  while (!text.empty() && (isBlank(text.back()) || text.back() == '~'))
+  while (!text.empty() && (isBlankOrReturn(text.back()) || text.back() == '~'))
     text.remove_suffix(1);
   return text;
 }
@@ -50,14 +51,13 @@ std::string cycleTitle(const Block& block) {
   std::string_view title = lexer.restOfLine();
   // Parameters in the first line are written below it.
   for (std::size_t i = 0; i + 1 < title.size(); ++i) {
-    const bool begins = title[i] == 'Q' && (i == 0 || isBlank(title[i - 1]));
+    const bool begins = title[i] == 'Q' && (i == 0 || isBlankOrReturn(title[i - 1]));
     if (!begins) continue;
     const std::size_t end = title.find_first_not_of("QSLR0123456789 \t", i);
     const bool parameter = end != std::string_view::npos && title[end] == '=';
     if (parameter) title = title.substr(0, i);
   }
-  while (!title.empty() && isBlank(title.back()))
-    title.remove_suffix(1);
+  title = trimmedAtEnd(title, blanksAndReturn);
   return std::string(title);
 }
 
@@ -316,8 +316,7 @@ std::string writeCycle(const Block& block, const CycleCall& call) {
     for (std::string_view rest = block.at(block.source); !rest.empty();) {
       const std::size_t end = std::min(rest.find('\n'), rest.size());
       std::string_view line = withoutBlockNumber(rest.substr(0, end));
-      while (!line.empty() && isBlank(line.back()))
-        line.remove_suffix(1);
+      line = trimmedAtEnd(line, blanksAndReturn);
       text += fmt::format("{}{}", text.empty() ? "" : "\n", line);
       rest.remove_prefix(std::min(end + 1, rest.size()));
     }
@@ -327,10 +326,11 @@ std::string writeCycle(const Block& block, const CycleCall& call) {
 }
 
 std::string writeTransform(const Block& block, const Transform& transform) {
-  const std::string_view name = block.at(transform.name);
+  const TransformKind kind = kindOf(block, transform);
+  const std::string_view name = nameOf(kind);
   const std::span<const Word> words = wordsOf(block, transform.words);
-  if (name.starts_with("PLANE")) return std::string(name) + planeWords(block, words);
-  if (name.starts_with("TRANS")) {
+  if (isPlane(kind)) return std::string(name) + planeWords(block, words);
+  if (isTrans(kind)) {
     std::string text(name);
     if (transform.option.length > 0) text += fmt::format(" \"{}\"", block.at(transform.option));
     for (const Word& word : words) {
@@ -339,7 +339,7 @@ std::string writeTransform(const Block& block, const Transform& transform) {
     }
     return text;
   }
-  if (name == "CYCL DEF 247") return parameterCycle(block, "CYCL DEF", 247, words);
+  if (kind == TransformKind::PresetByCycle) return parameterCycle(block, "CYCL DEF", 247, words);
   const int number = std::stoi(std::string(name.substr(name.rfind(' ') + 1)));
   std::vector<std::string> parts = {titleOfParts(block, number)};
   if (number == 7) {
@@ -353,7 +353,8 @@ std::string writeTransform(const Block& block, const Transform& transform) {
 }
 
 std::string writeCommand(const Block& block, const Command& command) {
-  const std::string_view name = block.at(command.name);
+  const CommandKind kind = kindOf(block, command);
+  const std::string_view name = nameOf(kind);
   const std::string_view text = block.at(command.text);
   const std::span<const Word> words = wordsOf(block, command.words);
   const auto value = [&](std::size_t i) {
@@ -361,9 +362,9 @@ std::string writeCommand(const Block& block, const Command& command) {
   };
   const std::string variable =
       command.variable < 0 ? std::string() : writeVariable(block.variables[static_cast<std::size_t>(command.variable)]);
-  if (name == "FN14") return fmt::format("FN 14: ERROR = {}", value(0));
-  if (name == "FN17" || name == "FN18") {
-    const bool writes = name == "FN17";
+  if (kind == CommandKind::Fn14) return fmt::format("FN 14: ERROR = {}", value(0));
+  if (kind == CommandKind::Fn17 || kind == CommandKind::Fn18) {
+    const bool writes = kind == CommandKind::Fn17;
     std::string out = writes ? std::string("FN 17: SYSWRITE") : fmt::format("FN 18: SYSREAD {} =", variable);
     for (const Word& word : words) {
       const bool isValue = word.address == addressOf("VAL");
@@ -372,28 +373,28 @@ std::string writeCommand(const Block& block, const Command& command) {
     }
     return out;
   }
-  if (name == "FN23" || name == "FN24") {
+  if (kind == CommandKind::Fn23 || kind == CommandKind::Fn24) {
     return fmt::format("FN {}: {} = CDATA Q{}", name.substr(2), variable, writeNumber(words[0].value.number));
   }
-  if (name == "FN25") {
+  if (kind == CommandKind::Fn25) {
     return fmt::format("FN 25: PRESET = {}/{}/{}", addressName(words[0].address), value(0), value(1));
   }
-  if (name == "FN27") {
+  if (kind == CommandKind::Fn27) {
     return fmt::format("FN 27: TABWRITE {}/\"{}\" = {}", value(0), text, variable.empty() ? value(1) : variable);
   }
-  if (name == "FN28") return fmt::format("FN 28: TABREAD {} = {}/\"{}\"", variable, value(0), text);
-  if (name == "GLOBAL DEF") {
+  if (kind == CommandKind::Fn28) return fmt::format("FN 28: TABREAD {} = {}/\"{}\"", variable, value(0), text);
+  if (kind == CommandKind::GlobalDefinition) {
     return parameterCycle(block, "GLOBAL DEF", static_cast<int>(words[0].value.number), words.subspan(1));
   }
-  if (name == "CYCL DEF 12")
+  if (kind == CommandKind::ProgramCall)
     return inParts("CYCL DEF", 12, {titleOfParts(block, 12), fmt::format("PGM {}", writePath(text))});
-  if (name == "CYCL DEF 9") {
+  if (kind == CommandKind::DwellTime) {
     return inParts("CYCL DEF", 9, {titleOfParts(block, 9), words.empty() ? "" : fmt::format("DWELL {}", value(0))});
   }
-  if (name == "CYCL DEF 13") {
+  if (kind == CommandKind::SpindleOrientation) {
     return inParts("CYCL DEF", 13, {titleOfParts(block, 13), words.empty() ? "" : fmt::format("ANGLE {}", value(0))});
   }
-  if (name == "CYCL DEF 32") {
+  if (kind == CommandKind::Tolerance) {
     std::vector<std::string> parts = {titleOfParts(block, 32), words.empty() ? "" : fmt::format("T{}", value(0))};
     if (words.size() > 1) {
       parts.push_back(fmt::format("HSC-MODE:{}", writeNumber(words[1].value.number)));
@@ -401,27 +402,27 @@ std::string writeCommand(const Block& block, const Command& command) {
     }
     return inParts("CYCL DEF", 32, parts);
   }
-  if (name == "TOOL DEF") {
+  if (kind == CommandKind::ToolDefinition) {
     const std::string tool = unsignedValue(block, words[0].value);
     return words.size() > 1 ? fmt::format("TOOL DEF {} {}", tool, plainWords(block, words.subspan(1)))
                             : fmt::format("TOOL DEF {}", tool);
   }
-  if (name == "CYCL CALL") return fmt::format("CYCL CALL {} {}", text, plainWords(block, words));
-  if (name == "PRESET SELECT" || name == "PRESET COPY") return presetText(block, name, words);
-  if (name == "PRESET CORR") return fmt::format("PRESET CORR {}", plainWords(block, words));
+  if (kind == CommandKind::CycleCall) return fmt::format("CYCL CALL {} {}", text, plainWords(block, words));
+  if (kind == CommandKind::PresetSelect || kind == CommandKind::PresetCopy) return presetText(block, name, words);
+  if (kind == CommandKind::PresetCorrection) return fmt::format("PRESET CORR {}", plainWords(block, words));
   if (name.starts_with("SEL ")) {
     return words.empty() ? fmt::format("{} \"{}\"", name, text)
                          : fmt::format("{} {}", name, writeFormula(block, words[0].value));
   }
-  if (name == "SET UNDEFINED") return fmt::format("FN 0: {} SET UNDEFINED", variable);
+  if (kind == CommandKind::SetUndefined) return fmt::format("FN 0: {} SET UNDEFINED", variable);
   if (name.starts_with("TABDATA")) {
     const std::string target = variable.empty() ? std::string() : fmt::format("{} = ", variable);
     const std::string entry = words.size() > 2 ? fmt::format(" = {}", value(2)) : std::string();
     return fmt::format("{} {}{} COLUMN {} KEY {}{}", name, target, text, writeFormula(block, words[0].value),
                        writeFormula(block, words[1].value), entry);
   }
-  if (name == "ERROR") return fmt::format("ERROR = {}", text);
-  if (name.starts_with("FN")) {
+  if (kind == CommandKind::Error) return fmt::format("ERROR = {}", text);
+  if (isFunction(kind)) {
     const std::string_view number = name.substr(2);
     const std::string_view keyword = number == "15"                     ? "PRINT "
                                      : number == "16"                   ? "F-PRINT "

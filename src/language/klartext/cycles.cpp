@@ -17,12 +17,12 @@ bool parameterBegins(const Lexer& lexer) {
   if (upper(lexer.here()) != 'Q') return false;
   std::size_t i = 1;
   if (std::string_view("SLR").find(upper(lexer.here(i))) != std::string_view::npos) ++i;
-  while (isBlank(lexer.here(i)))
+  while (isBlankOrReturn(lexer.here(i)))
     ++i;
   if (!isDigit(lexer.here(i))) return false;
   while (isDigit(lexer.here(i)))
     ++i;
-  while (isBlank(lexer.here(i)))
+  while (isBlankOrReturn(lexer.here(i)))
     ++i;
   return lexer.here(i) == '=';
 }
@@ -33,7 +33,7 @@ void BlockParser::skipCycleName() {
   bool behindBlank = true;
   for (char c = lexer_.here(); c != '\0' && c != '\n' && c != ';'; c = lexer_.here()) {
     if (behindBlank && parameterBegins(lexer_)) return;
-    behindBlank = isBlank(c);
+    behindBlank = isBlankOrReturn(c);
     lexer_.advance();
   }
 }
@@ -79,12 +79,12 @@ bool BlockParser::parameterCycle(std::string_view kind, int number) {
   if (!cycleParameters(first)) return false;
   const WordRange words = wordsSince(first);
   if (kind == "GLOBAL DEF") {
-    emit(Command{constant(kind), {}, -1, words});
+    emit(Command{constant(nameOf(CommandKind::GlobalDefinition)), {}, -1, words});
   } else if (kind == "CYCL DEF" && number == 247) {
     if (words.count != 1 || block_.words[first].address != 339) {
       return error("cycle 247 takes Q339 with the row of the preset table and nothing else", "write Q339=+1");
     }
-    emit(Transform{constant("CYCL DEF 247"), words, {}});
+    emit(Transform{constant(nameOf(TransformKind::PresetByCycle)), words, {}});
   } else {
     emit(CycleCall{number, constant(kind), words});
   }

@@ -127,7 +127,7 @@ bool BlockParser::functionAssignment(int number) {
 /// FN 0: Q5 SET UNDEFINED.
 bool BlockParser::setUndefined(std::uint32_t target) {
   if (!lexer_.acceptKeyword("UNDEFINED")) return error("UNDEFINED is expected after SET");
-  emit(Command{constant("SET UNDEFINED"), {}, static_cast<std::int32_t>(target), {}});
+  emit(Command{constant(nameOf(CommandKind::SetUndefined)), {}, static_cast<std::int32_t>(target), {}});
   return expectEnd();
 }
 
@@ -135,12 +135,12 @@ bool BlockParser::setUndefined(std::uint32_t target) {
 /// table as text; words COL, KEY, VAL.
 bool BlockParser::tableData() {
   Command command;
-  std::string_view name;
-  for (const std::string_view way : {"TABDATA READ", "TABDATA WRITE", "TABDATA ADD"}) {
-    if (name.empty() && lexer_.acceptKeyword(way.substr(8))) name = way;
+  std::optional<CommandKind> kind;
+  for (const CommandKind way : {CommandKind::TabdataRead, CommandKind::TabdataWrite, CommandKind::TabdataAdd}) {
+    if (!kind && lexer_.acceptKeyword(nameOf(way).substr(8))) kind = way;
   }
-  if (name.empty()) return error("READ, WRITE or ADD is expected after TABDATA");
-  const bool reads = name == "TABDATA READ";
+  if (!kind) return error("READ, WRITE or ADD is expected after TABDATA");
+  const bool reads = kind == CommandKind::TabdataRead;
   if (reads) {
     const std::optional<std::uint32_t> target = variableIndex();
     if (!target || !expect('=', "the parameter")) return false;
@@ -168,7 +168,7 @@ bool BlockParser::tableData() {
     if (!written) return false;
     addWord(addressOf("VAL"), *written);
   }
-  command.name = constant(name);
+  command.name = constant(nameOf(*kind));
   command.words = wordsSince(first);
   emit(command);
   return expectEnd();
@@ -261,7 +261,7 @@ bool BlockParser::functionSystemData(int number) {
     addWord(addressOf("VAL"), *written);
   }
   command.words = wordsSince(first);
-  command.name = constant(number == 17 ? "FN17" : "FN18");
+  command.name = constant(nameOf(number == 17 ? CommandKind::Fn17 : CommandKind::Fn18));
   emit(command);
   return expectEnd();
 }
@@ -278,7 +278,7 @@ bool BlockParser::functionCircle(int number) {
   const std::size_t first = block_.words.size();
   addWord(0, source->index[0]);
   command.words = wordsSince(first);
-  command.name = constant(number == 23 ? "FN23" : "FN24");
+  command.name = constant(nameOf(number == 23 ? CommandKind::Fn23 : CommandKind::Fn24));
   emit(command);
   return expectEnd();
 }
@@ -295,7 +295,7 @@ bool BlockParser::functionPreset() {
   const std::size_t first = block_.words.size();
   if (!expect('/', "the axis") || !word(addressOf({&axis, 1}), "the coordinate")) return false;
   if (!expect('/', "the coordinate") || !word(addressOf("VAL"), "the new value")) return false;
-  emit(Command{constant("FN25"), {}, -1, wordsSince(first)});
+  emit(Command{constant(nameOf(CommandKind::Fn25)), {}, -1, wordsSince(first)});
   return expectEnd();
 }
 
@@ -327,7 +327,7 @@ bool BlockParser::functionTable(int number) {
   }
   if (variable) command.variable = static_cast<std::int32_t>(*variable);
   command.words = wordsSince(first);
-  command.name = constant(number == 27 ? "FN27" : "FN28");
+  command.name = constant(nameOf(number == 27 ? CommandKind::Fn27 : CommandKind::Fn28));
   emit(command);
   return expectEnd();
 }
@@ -339,7 +339,7 @@ bool BlockParser::functionText(int number) {
     if (!lexer_.acceptPrefix("ERROR")) return error("ERROR = with the number of the message is expected here");
     if (!expect('=', "ERROR")) return false;
     if (!word(0, "the number of the message")) return false;
-    emit(Command{constant("FN14"), {}, -1, wordsSince(first)});
+    emit(Command{constant(nameOf(CommandKind::Fn14)), {}, -1, wordsSince(first)});
     return expectEnd();
   }
   struct Keyword {
@@ -360,8 +360,7 @@ bool BlockParser::functionText(int number) {
       return error(std::string(keyword.text) + " is expected here");
     }
   }
-  const std::string name = fmt::format("FN{}", number);
-  return textCommand(name);
+  return textCommand(functionCommand(number));
 }
 
 }  // namespace probewright::language::klartext

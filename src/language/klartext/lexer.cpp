@@ -23,22 +23,21 @@ std::size_t typographicQuote(std::string_view text) {
 }  // namespace
 
 bool endsWithContinuation(std::string_view line) {
-  while (!line.empty() && isBlank(line.back()))
-    line.remove_suffix(1);
+  line = trimmedAtEnd(line, blanksAndReturn);
   return !line.empty() && line.back() == '~';
 }
 
 void Lexer::skipSeparators() {
   while (p_ < end_) {
     const char c = *p_;
-    if (isBlank(c)) {
+    if (isBlankOrReturn(c)) {
       ++p_;
     } else if (c == '\n') {
       lineStart_ = ++p_;
       ++line_;
     } else if (c == '~') {
       const char* q = p_ + 1;
-      while (q < end_ && isBlank(*q))
+      while (q < end_ && isBlankOrReturn(*q))
         ++q;
       if (q < end_ && *q != '\n') return;
       p_ = q;
@@ -149,7 +148,7 @@ std::string_view Lexer::restUntil(const char* stop) {
     }
   }
   p_ += rest.size();
-  while (!rest.empty() && (isBlank(rest.back()) || rest.back() == '~'))
+  while (!rest.empty() && (isBlankOrReturn(rest.back()) || rest.back() == '~'))
     rest.remove_suffix(1);
   return rest;
 }
@@ -157,7 +156,7 @@ std::string_view Lexer::restUntil(const char* stop) {
 std::string_view Lexer::chunk() {
   if (peek() == '\0') return {};
   const char* start = p_;
-  while (p_ < end_ && !isBlank(*p_) && *p_ != '\n' && *p_ != ';')
+  while (p_ < end_ && !isBlankOrReturn(*p_) && *p_ != '\n' && *p_ != ';')
     ++p_;
   return {start, static_cast<std::size_t>(p_ - start)};
 }

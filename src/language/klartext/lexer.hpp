@@ -5,11 +5,10 @@
 #include <optional>
 #include <string_view>
 
+#include "base/text.hpp"
+
 /// The characters of one Klartext block, read from left to right without copying.
 namespace probewright::language::klartext {
-
-/// The letter in upper case; every other byte unchanged, whatever the encoding.
-constexpr char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; }
 
 /// True if `text` ends with the capitals `word` in either case.
 constexpr bool endsWithWord(std::string_view text, std::string_view word) {
@@ -19,9 +18,6 @@ constexpr bool endsWithWord(std::string_view text, std::string_view word) {
   }
   return true;
 }
-constexpr bool isDigit(char c) { return c >= '0' && c <= '9'; }
-constexpr bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-constexpr bool isLetter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 /// Bytes of words in any language: ASCII letters and everything beyond ASCII.
 constexpr bool isWordByte(char c) { return isLetter(c) || (static_cast<unsigned char>(c) & 0x80U) != 0; }
 

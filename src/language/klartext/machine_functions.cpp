@@ -125,7 +125,7 @@ void BlockParser::emitWithMachineFunctions(const Instruction* instruction) {
         emit(EndProgram{});
         break;
       case 99:
-        emit(Command{constant("CYCL CALL"), {}, -1, {}});
+        emit(Command{constant(nameOf(CommandKind::CycleCall)), {}, -1, {}});
         break;
       default:
         emit(function);

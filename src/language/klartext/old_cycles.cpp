@@ -150,7 +150,7 @@ bool BlockParser::oldProbePart(Part part) {
       lexer_.peek();
       std::size_t start = std::string_view::npos;
       for (std::size_t at = lexer_.offset(); lexer_.here() != '\0' && lexer_.here() != ';'; at = lexer_.offset()) {
-        const bool behindBlank = at == 0 || isBlank(lexer_.text()[at - 1]);
+        const bool behindBlank = at == 0 || isBlankOrReturn(lexer_.text()[at - 1]);
         if (behindBlank && variableFollows()) start = at;
         if (lexer_.offset() == at) lexer_.advance();
       }

@@ -25,8 +25,7 @@ bool BlockParser::error(std::string message, std::string advice) {
   const std::size_t before = at == 0 ? std::string_view::npos : text.rfind('\n', at - 1);
   const std::size_t start = before == std::string_view::npos ? 0 : before + 1;
   std::string_view line = text.substr(start, std::min(text.find('\n', start), text.size()) - start);
-  while (!line.empty() && isBlank(line.back()))
-    line.remove_suffix(1);
+  line = trimmedAtEnd(line, blanksAndReturn);
   diagnostic.excerpt = line;
   diagnostics_.push_back(std::move(diagnostic));
   return false;
@@ -64,8 +63,8 @@ void BlockParser::parse() {
   if (!statement() || !numbersFit() || !formulasFit()) block_.instructions.clear();
 }
 
-bool BlockParser::textCommand(std::string_view name) {
-  emit(Command{constant(name), ref(lexer_.restOfBlock()), -1, {}});
+bool BlockParser::textCommand(CommandKind kind) {
+  emit(Command{constant(nameOf(kind)), ref(lexer_.restOfBlock()), -1, {}});
   return true;
 }
 
@@ -105,7 +104,7 @@ bool BlockParser::statement() {
       if (lexer_.acceptKeyword("CT")) return move(MoveKind::ArcTangential, false);
       if (lexer_.acceptKeyword("CP")) return arc(true);
       if (lexer_.acceptKeyword("CHF")) return move(MoveKind::Chamfer, false);
-      if (lexer_.acceptKeyword("CONTOUR")) return textCommand("CONTOUR");
+      if (lexer_.acceptKeyword("CONTOUR")) return textCommand(CommandKind::Contour);
       if (single && (second == '+' || second == '-' || isDigit(second))) return move(MoveKind::Linear, false);
       if (single) {
         lexer_.advance();
@@ -118,8 +117,10 @@ bool BlockParser::statement() {
     case 'F':
       if (second == 'N' && !isLetter(lexer_.here(2))) return lexer_.advance(2), function();
       if (lexer_.acceptKeyword("FUNCTION")) return functionKeyword();
-      for (const std::string_view name : {"FLT", "FCT", "FPOL", "FSELECT", "FL", "FC"}) {
-        if (lexer_.acceptKeyword(name)) return textCommand(name);
+      for (const CommandKind kind :
+           {CommandKind::FreeLineTangential, CommandKind::FreeArcTangential, CommandKind::FreePole,
+            CommandKind::FreeSelection, CommandKind::FreeLine, CommandKind::FreeArc}) {
+        if (lexer_.acceptKeyword(nameOf(kind))) return textCommand(kind);
       }
       if (!isLetter(second) || lexer_.acceptKeyword("FMAX") || lexer_.acceptKeyword("FAUTO")) {
         return machineFunctionBlock();
@@ -139,8 +140,8 @@ bool BlockParser::statement() {
       if (lexer_.acceptKeyword("TABDATA")) return tableData();
       break;
     case 'M':
-      if (isDigit(second) || isBlank(second)) return machineFunctionBlock();
-      if (lexer_.acceptKeyword("MONITORING")) return textCommand("MONITORING");
+      if (isDigit(second) || isBlankOrReturn(second)) return machineFunctionBlock();
+      if (lexer_.acceptKeyword("MONITORING")) return textCommand(CommandKind::Monitoring);
       break;
     case 'B':
       if (lexer_.acceptKeyword("BEGIN")) return beginOrEnd();
@@ -156,7 +157,7 @@ bool BlockParser::statement() {
       }
       if (lexer_.acceptKeyword("ERROR")) {
         lexer_.accept('=');
-        return textCommand("ERROR");
+        return textCommand(CommandKind::Error);
       }
       break;
     case 'R':
@@ -169,7 +170,7 @@ bool BlockParser::statement() {
       if (lexer_.acceptKeyword("DEP")) return approachOrDepart(MoveKind::Depart);
       if (lexer_.acceptKeyword("DECLARE")) {
         if (lexer_.acceptKeyword("STRING")) return assignment();
-        return textCommand("DECLARE");
+        return textCommand(CommandKind::Declare);
       }
       break;
     case 'P':
@@ -180,12 +181,12 @@ bool BlockParser::statement() {
     case 'S':
       if (lexer_.acceptKeyword("STOP")) return stop();
       if (lexer_.acceptKeyword("SEL")) return selection();
-      if (lexer_.acceptKeyword("SQL")) return textCommand("SQL");
-      if (lexer_.acceptKeyword("SECTION")) return textCommand("SECTION");
+      if (lexer_.acceptKeyword("SQL")) return textCommand(CommandKind::Sql);
+      if (lexer_.acceptKeyword("SECTION")) return textCommand(CommandKind::Section);
       break;
     case 'O':
       if (lexer_.acceptKeyword("OPEN")) {
-        return lexer_.acceptKeyword("FILE") ? textCommand("OPEN FILE") : error("FILE is expected after OPEN");
+        return lexer_.acceptKeyword("FILE") ? textCommand(CommandKind::OpenFile) : error("FILE is expected after OPEN");
       }
       break;
     case 'G':
@@ -245,9 +246,9 @@ std::string BlockParser::meantKeyword() {
   std::size_t words = 1;
   for (std::size_t i = 0; i < 30; ++i) {
     const char c = lexer_.here(i);
-    if (isBlank(c) && (written.empty() || written.back() == ' ' || ++words > 2)) break;
-    if (!isLetter(c) && !isBlank(c)) break;
-    written += isBlank(c) ? ' ' : upper(c);
+    if (isBlankOrReturn(c) && (written.empty() || written.back() == ' ' || ++words > 2)) break;
+    if (!isLetter(c) && !isBlankOrReturn(c)) break;
+    written += isBlankOrReturn(c) ? ' ' : upper(c);
   }
   while (written.ends_with(' '))
     written.pop_back();
@@ -263,14 +264,14 @@ bool BlockParser::beginOrEnd() {
   const std::string_view head = lexer_.restOfLine();
   if (!endsWithWord(head, "MM") && !endsWithWord(head, "INCH"))
     return error("MM or INCH is expected at the end of BEGIN PGM");
-  emit(Command{constant("BEGIN PGM"), ref(head), -1, {}});
+  emit(Command{constant(nameOf(CommandKind::BeginProgram)), ref(head), -1, {}});
   return true;
 }
 
 /// BLK FORM is a picture for the control's graphics; the words of the corner points are kept, other forms as text.
 bool BlockParser::blankForm() {
   if (!lexer_.acceptKeyword("FORM")) return error("FORM is expected after BLK");
-  return textCommand("BLK FORM");
+  return textCommand(CommandKind::BlankForm);
 }
 
 bool BlockParser::stop() {

@@ -7,6 +7,7 @@
 
 #include "base/diagnostic.hpp"
 #include "language/block.hpp"
+#include "language/klartext/commands.hpp"
 #include "language/klartext/lexer.hpp"
 
 namespace probewright::language::klartext {
@@ -31,7 +32,7 @@ protected:
   bool beginOrEnd();
   bool blankForm();
   bool stop();
-  bool textCommand(std::string_view name);
+  bool textCommand(CommandKind kind);
   bool expect(char wanted, std::string_view after);
   bool numbersFit();
   bool formulasFit();

@@ -214,7 +214,7 @@ bool BlockParser::functionKeyword() {
       emit(Modal{constant("FUNCTION RESET TCPM"), {}});
       return expectEnd();
     }
-    emit(Command{constant("FUNCTION RESET"), ref(lexer_.restOfBlock()), -1, {}});
+    emit(Command{constant(nameOf(CommandKind::FunctionReset)), ref(lexer_.restOfBlock()), -1, {}});
     return true;
   }
   if (!lexer_.acceptKeyword("TCPM")) {
@@ -228,7 +228,7 @@ bool BlockParser::functionKeyword() {
       }
       lexer_.seek(start);
     }
-    return textCommand("FUNCTION");
+    return textCommand(CommandKind::Function);
   }
   const std::size_t first = block_.words.size();
   while (!lexer_.atEnd()) {
@@ -272,7 +272,7 @@ bool BlockParser::functionKeyword() {
 /// text.
 bool BlockParser::presetKeyword() {
   const std::size_t first = block_.words.size();
-  std::string_view name;
+  CommandKind kind = CommandKind::PresetSelect;
   const auto row = [&](std::string_view address, std::string_view behind) {
     if (const std::optional<std::string_view> text = lexer_.quoted()) {
       addWord(addressOf(address), textOperand(ref(*text)));
@@ -287,13 +287,13 @@ bool BlockParser::presetKeyword() {
     return true;
   };
   if (lexer_.acceptKeyword("SELECT")) {
-    name = "PRESET SELECT";
-    if (!row("#", name) || !keepTransformations()) return false;
+    kind = CommandKind::PresetSelect;
+    if (!row("#", nameOf(kind)) || !keepTransformations()) return false;
     lexer_.acceptKeyword("WP");
     if (!keepTransformations()) return false;
   } else if (lexer_.acceptKeyword("COPY")) {
-    name = "PRESET COPY";
-    if (!row("#", name)) return false;
+    kind = CommandKind::PresetCopy;
+    if (!row("#", nameOf(kind))) return false;
     if (!lexer_.acceptKeyword("TO")) return error("TO #row is expected here");
     if (!row("TO", "TO")) return false;
     if (lexer_.acceptKeyword("SELECT")) {
@@ -302,7 +302,7 @@ bool BlockParser::presetKeyword() {
       if (!keepTransformations()) return false;
     }
   } else if (lexer_.acceptKeyword("CORR")) {
-    name = "PRESET CORR";
+    kind = CommandKind::PresetCorrection;
     if (lexer_.atEnd()) return error("an axis with its correction is expected here", "write PRESET CORR X+0.1");
     while (!lexer_.atEnd()) {
       const auto angle = std::ranges::find_if(spaceAngleWords, [&](auto word) { return lexer_.acceptPrefix(word); });
@@ -316,7 +316,7 @@ bool BlockParser::presetKeyword() {
     return error("SELECT, COPY or CORR is expected after PRESET", meantWord(lexer_, {"SELECT", "COPY", "CORR"}));
   }
   const WordRange words = wordsSince(first);
-  emit(Command{constant(name), {}, -1, words});
+  emit(Command{constant(nameOf(kind)), {}, -1, words});
   return expectEnd();
 }
 

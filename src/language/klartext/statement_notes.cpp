@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/number_text.hpp"
+#include "language/klartext/commands.hpp"
 #include "language/klartext/global_groups.hpp"
 #include "language/klartext/lexer.hpp"
 #include "language/klartext/system_data_numbers.hpp"
@@ -66,7 +67,7 @@ void StatementNotes::look(const Block& block, const LabelMark& mark) {
 }
 
 void StatementNotes::systemDatum(const Block& block, const Command& command) {
-  const bool reads = block.at(command.name) == "FN18";
+  const bool reads = kindOf(block, command) == CommandKind::Fn18;
   int id = 0, number = 0;
   for (const Word& word : wordsOf(block, command.words)) {
     if (word.address != addressOf("ID") && word.address != addressOf("NR")) continue;
@@ -92,10 +93,7 @@ void StatementNotes::printed(std::string_view text) {
   while (!text.empty()) {
     std::string_view item = text.substr(0, text.find('/'));
     text.remove_prefix(std::min(item.size() + 1, text.size()));
-    while (!item.empty() && isBlank(item.front()))
-      item.remove_prefix(1);
-    while (!item.empty() && isBlank(item.back()))
-      item.remove_suffix(1);
+    item = trimmed(item, blanksAndReturn);
     if (item.starts_with('+')) item.remove_prefix(1);
     if (item.empty() || upper(item.front()) == 'Q' || parseDecimal(item)) continue;
     note(Severity::Warning,
@@ -105,18 +103,20 @@ void StatementNotes::printed(std::string_view text) {
 }
 
 void StatementNotes::look(const Block& block, const Command& command) {
-  const std::string_view name = block.at(command.name);
-  if (name == "FN17" || name == "FN18") systemDatum(block, command);
-  if (name == "FN15" && kind_ == control::ControlKind::TNC640) {
+  const CommandKind kind = kindOf(block, command);
+  if (kind == CommandKind::Fn17 || kind == CommandKind::Fn18) systemDatum(block, command);
+  if (kind == CommandKind::Fn15 && kind_ == control::ControlKind::TNC640) {
     note(Severity::Warning, "the TNC 640 has no FN 15", "write texts and values with FN 16: F-PRINT");
-  } else if (name == "FN15") {
+  } else if (kind == CommandKind::Fn15) {
     printed(block.at(command.text));
   }
-  if (name == "GLOBAL DEF") globalDefinition(block, command);
-  if (name == "FN21" || name == "FN22") {
-    note(Severity::Warning, fmt::format("the control has no FN {}", name.substr(2)), "take the block out");
+  if (kind == CommandKind::GlobalDefinition) globalDefinition(block, command);
+  if (kind == CommandKind::Fn21 || kind == CommandKind::Fn22) {
+    note(Severity::Warning, fmt::format("the control has no FN {}", nameOf(kind).substr(2)), "take the block out");
   }
-  if (name == "CYCL CALL" || name == "PATTERN DEF" || name.starts_with("CYCL DEF")) endContour();
+  if (kind == CommandKind::CycleCall || kind == CommandKind::PatternDefinition || kind == CommandKind::DwellTime ||
+      kind == CommandKind::ProgramCall || kind == CommandKind::SpindleOrientation || kind == CommandKind::Tolerance)
+    endContour();
 }
 
 void StatementNotes::look(const Block& block, const CycleCall& call) {
@@ -127,7 +127,7 @@ void StatementNotes::look(const Block& block, const CycleCall& call) {
 
 void StatementNotes::look(const Block& block, const Transform& transform) {
   endContour();
-  if (block.at(transform.name) != "PLANE AXIAL") return;
+  if (kindOf(block, transform) != TransformKind::PlaneAxial) return;
   for (const Word& word : wordsOf(block, transform.words)) {
     for (const std::string_view option : {"SEQ", "SYM", "TABL", "COOR"}) {
       if (word.address != addressOf(option)) continue;

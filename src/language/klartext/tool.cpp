@@ -115,7 +115,7 @@ bool BlockParser::toolDefinition() {
     lexer_.advance();
     if (!word(addressOf({&c, 1}), "the tool dimension")) return false;
   }
-  emit(Command{constant("TOOL DEF"), {}, -1, wordsSince(first)});
+  emit(Command{constant(nameOf(CommandKind::ToolDefinition)), {}, -1, wordsSince(first)});
   return true;
 }
 

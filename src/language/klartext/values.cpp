@@ -60,7 +60,7 @@ bool BlockParser::variableFollows() {
   std::size_t i = 1;
   const char kind = upper(lexer_.here(i));
   if (kind == 'L' || kind == 'R' || kind == 'S') ++i;
-  while (isBlank(lexer_.here(i)))
+  while (isBlankOrReturn(lexer_.here(i)))
     ++i;
   return isDigit(lexer_.here(i));
 }
@@ -175,7 +175,7 @@ std::optional<Operand> BlockParser::valueBehindWords(std::string_view what) {
     if (isDigit(c) || decimal || sign || (!insideWord && variableFollows())) return value(what);
     insideWord = isWordByte(c);
     lexer_.advance();
-    if (isBlank(lexer_.here())) insideWord = false;
+    if (isBlankOrReturn(lexer_.here())) insideWord = false;
   }
   error(std::string("a number or a Q parameter is expected for ").append(what));
   return std::nullopt;

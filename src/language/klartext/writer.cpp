@@ -6,6 +6,7 @@
 #include <span>
 
 #include "language/klartext/block_extent.hpp"
+#include "language/klartext/commands.hpp"
 #include "language/klartext/cycle_writer.hpp"
 #include "language/klartext/formula_writer.hpp"
 #include "language/klartext/lexer.hpp"
@@ -54,7 +55,7 @@ private:
   bool isPlainCycleCall(const Instruction& instruction) const {
     const auto* command = std::get_if<Command>(&instruction);
     return command != nullptr && command->words.count == 0 && command->text.length == 0 &&
-           at(command->name) == "CYCL CALL";
+           kindOf(block_, *command) == CommandKind::CycleCall;
   }
 
   void word(std::string_view text) {
@@ -252,7 +253,7 @@ std::string writeBlock(const Block& block) {
   std::string text;
   if (block.instructions.empty() || lexer.acceptKeyword("END")) {
     text = source;  // comments, structure, the end of the program
-    while (!text.empty() && (isBlank(text.back()) || text.back() == '\n'))
+    while (!text.empty() && (isBlankOrReturn(text.back()) || text.back() == '\n'))
       text.pop_back();
     return block.skippable ? fmt::format("/{}", text) : text;
   }

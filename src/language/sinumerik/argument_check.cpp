@@ -11,7 +11,7 @@
 #include "cycles/sinumerik/call_requirements.hpp"
 #include "language/sinumerik/cursor.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 using namespace language;
 
@@ -284,4 +284,4 @@ std::string argumentOfWrongType(const Block& block, const Operand& value, Type t
   return {};
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

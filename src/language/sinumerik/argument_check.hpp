@@ -10,7 +10,7 @@
 #include "language/block.hpp"
 #include "language/sinumerik/keywords.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 /// What is wrong with one argument of a call.
 struct ArgumentMistake {
@@ -35,4 +35,4 @@ std::vector<ArgumentMistake> serviceMistakes(const language::Block& block, const
 std::string argumentOfWrongType(const language::Block& block, const language::Operand& value, Type type,
                                 const std::map<std::string, Type>& types);
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 using namespace language;
 
@@ -79,8 +79,7 @@ void BlockParser::fail(std::size_t offset, std::string message, std::string advi
 TextRef BlockParser::restOfBlock() {
   cursor_.skipBlanks();
   std::string_view rest = cursor_.rest();
-  while (!rest.empty() && isBlank(rest.back()))
-    rest.remove_suffix(1);
+  rest = trimmedAtEnd(rest);
   const TextRef ref = upper(rest);
   cursor_.moveToEnd();
   return ref;
@@ -237,4 +236,4 @@ void BlockParser::finish() {
   block.instructions.insert(block.instructions.end(), after_.begin(), after_.end());
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

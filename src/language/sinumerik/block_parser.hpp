@@ -11,7 +11,7 @@
 #include "language/sinumerik/keywords.hpp"
 #include "language/sinumerik/operators.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 /// Parses blocks of the SINUMERIK language into the instruction set. One object parses any number of blocks and
 /// allocates only while its buffers grow.
@@ -173,4 +173,4 @@ private:
   std::uint32_t feedColumn_ = 0;
 };
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -2,7 +2,7 @@
 
 #include "language/sinumerik/block_parser.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 using namespace language;
 
@@ -133,4 +133,4 @@ void BlockParser::parseRest(std::string_view name) {
   block_->instructions.emplace_back(command);
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -6,8 +6,9 @@
 #include <map>
 #include <vector>
 
+#include "base/text.hpp"
 #include "cycles/catalogue.hpp"
-#include "cycles/sinumerik/old_form.hpp"
+#include "cycles/sinumerik/old_parameters.hpp"
 #include "language/constant_division.hpp"
 #include "language/sinumerik/argument_check.hpp"
 #include "language/sinumerik/cursor.hpp"
@@ -16,20 +17,13 @@
 #include "language/sinumerik/operators.hpp"
 #include "language/sinumerik/writer.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 using namespace language;
 
 namespace {
 
 constexpr control::ControlKind controlKind = control::ControlKind::Sinumerik840Dsl;
-
-std::string upperCase(std::string_view text) {
-  std::string upper(text);
-  for (char& c : upper)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
-  return upper;
-}
 
 class Checker {
 public:
@@ -519,4 +513,4 @@ Diagnostics check(SinumerikProgram& program, const CheckOptions& options) {
   return found;
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -11,7 +11,7 @@
 #include "language/program.hpp"
 #include "language/sinumerik/program.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 /// A global variable that a definition file declares.
 struct DeclaredDatum {
@@ -77,4 +77,4 @@ bool isUnavailableFunction(std::string_view name);
 /// True if `name` is one of the control's measuring cycles, whether the catalogue has it or not.
 bool isMeasuringCycle(std::string_view name);
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 namespace {
 
@@ -57,4 +57,4 @@ bool Cursor::number(double& value) {
   return true;
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -3,14 +3,12 @@
 #include <cstdint>
 #include <string_view>
 
-namespace probewright::sinumerik {
+#include "base/text.hpp"
 
-constexpr bool isDigit(char c) { return c >= '0' && c <= '9'; }
-/// Upper case only: a cursor walks over text in upper case.
-constexpr bool isLetter(char c) { return c >= 'A' && c <= 'Z'; }
-constexpr bool isNameStart(char c) { return isLetter(c) || c == '_'; }
-constexpr bool isNamePart(char c) { return isLetter(c) || c == '_' || isDigit(c); }
-constexpr bool isBlank(char c) { return c == ' ' || c == '\t'; }
+namespace probewright::language::sinumerik {
+
+constexpr bool isNameStart(char c) { return isCapital(c) || c == '_'; }
+constexpr bool isNamePart(char c) { return isCapital(c) || c == '_' || isDigit(c); }
 
 /// Walks over one block in upper case without its comment. Reading past the end yields '\0'.
 class Cursor {
@@ -72,4 +70,4 @@ private:
   const char* end_ = nullptr;
 };
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -4,7 +4,7 @@
 
 #include "language/sinumerik/block_parser.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 using namespace language;
 
@@ -227,4 +227,4 @@ bool BlockParser::parseHeader(std::string_view text, Header& header, std::string
   }
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

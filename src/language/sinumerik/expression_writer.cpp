@@ -7,7 +7,7 @@
 #include "language/sinumerik/operators.hpp"
 #include "language/sinumerik/writer.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 using namespace language;
 
@@ -103,4 +103,4 @@ std::string writeExpression(const Block& block, const Operand& operand) {
   return writeOperand(block, operand, Priority::Comparison);
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

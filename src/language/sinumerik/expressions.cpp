@@ -4,7 +4,7 @@
 
 #include "language/sinumerik/block_parser.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 using namespace language;
 
@@ -17,7 +17,7 @@ constexpr int mostTerms = 500;
 /// The binary operator that is at the cursor; its priority is None if there is none.
 BinaryOperator operatorAt(const Cursor& cursor) {
   const char c = cursor.peek();
-  if (isLetter(c)) {
+  if (isCapital(c)) {
     if (c != 'D' && c != 'M' && c != 'B' && c != 'A' && c != 'X' && c != 'O') return {};
     const std::string_view name = cursor.peekName();
     for (const BinaryOperator& entry : binaryOperators())
@@ -350,4 +350,4 @@ void BlockParser::parseIndices(VariableRef& variable) {
   }
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

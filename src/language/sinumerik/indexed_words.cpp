@@ -3,7 +3,7 @@
 #include "language/sinumerik/block_parser.hpp"
 
 /// Words with an index, a list or an axis that is computed: AX[v]=, PO[X]=(...), POSP[X]=(...), MEASA[X]=(...).
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 using namespace language;
 
@@ -157,4 +157,4 @@ void BlockParser::parseMeasure(std::string_view name, std::size_t start) {
   setOwner(Owner::Command, ref, start);
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -5,7 +5,7 @@
 #include "language/sinumerik/keywords.hpp"
 
 /// Every word of the language that has a meaning of its own.
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 namespace {
 
@@ -256,4 +256,4 @@ Keyword keywordOf(std::string_view name) {
 
 std::span<const KeywordEntry> keywords() { return keywordTable(); }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

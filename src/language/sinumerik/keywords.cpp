@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 namespace {
 
@@ -132,4 +132,4 @@ std::string_view closestName(std::string_view name, std::span<const std::string_
   return best;
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

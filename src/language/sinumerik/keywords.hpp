@@ -7,7 +7,7 @@
 #include "language/block.hpp"
 
 /// The reserved words of the language and what kind of statement each begins.
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 enum class Keyword : std::uint8_t {
   None,  ///< not reserved: a variable, a label, a program
@@ -101,4 +101,4 @@ bool isGFunction(int number);
 /// The name among `candidates` that differs from `name` by at most two typing mistakes; empty if there is none.
 std::string_view closestName(std::string_view name, std::span<const std::string_view> candidates);
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -5,7 +5,7 @@
 #include "language/sinumerik/cursor.hpp"
 #include "language/sinumerik/keywords.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 namespace {
 
@@ -162,4 +162,4 @@ bool isMeasuringCycle(std::string_view name) {
   return std::find(std::begin(measuring), std::end(measuring), name) != std::end(measuring);
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

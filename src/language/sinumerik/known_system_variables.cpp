@@ -12,7 +12,7 @@
 
 /// The names of the 840D sl's system variables (software 4.7 to 4.95) in the families that measuring programs use.
 /// Families of machine data are too large and depend on options: there every name may exist.
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 namespace {
 
 constexpr std::string_view programSimulated =
@@ -226,4 +226,4 @@ std::string meantSystemName(std::string_view name) {
   return {};
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

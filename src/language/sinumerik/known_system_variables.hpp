@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 /// What is known of the name of a system variable.
 enum class SystemName {
@@ -18,4 +18,4 @@ SystemName systemName(std::string_view name);
 /// The name that is most likely meant by one that is missing; empty if none is close.
 std::string meantSystemName(std::string_view name);
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 using language::Operation;
 
@@ -41,4 +41,4 @@ const BinaryOperator* operatorOf(Operation operation) {
   return found == std::end(table) ? nullptr : found;
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -7,7 +7,7 @@
 
 /// The operators of expressions in the language's own order of priority: arithmetic binds tightest, then bits, then
 /// logic, then the concatenation of texts, and comparison last.
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 enum class Priority : int {
   None,
@@ -41,4 +41,4 @@ std::span<const BinaryOperator> binaryOperators();
 /// The binary operator that writes `operation`, or null.
 const BinaryOperator* operatorOf(language::Operation operation);
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

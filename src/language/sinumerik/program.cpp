@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 using namespace language;
 
@@ -135,4 +135,4 @@ std::optional<BlockPosition> SinumerikProgram::counterpart(BlockPosition positio
   return structure().counterpart(position);
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

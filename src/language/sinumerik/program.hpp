@@ -11,7 +11,7 @@
 #include "language/sinumerik/structure.hpp"
 #include "language/source_text.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 /// Macros by their names in capitals: what DEFINE NAME AS text defines.
 using Macros = std::map<std::string, std::string, std::less<>>;
@@ -61,4 +61,4 @@ private:
   std::unique_ptr<ProgramStructure> structure_;
 };
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

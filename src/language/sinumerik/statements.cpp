@@ -2,7 +2,7 @@
 
 #include "language/sinumerik/block_parser.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 using namespace language;
 
@@ -415,4 +415,4 @@ void BlockParser::parseStatement(Keyword keyword, std::string_view name) {
   }
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 using namespace language;
 
@@ -290,4 +290,4 @@ std::optional<BlockPosition> ProgramStructure::find(const SourceText& text, std:
   return BlockPosition{text.begin(), 1};
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

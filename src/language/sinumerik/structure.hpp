@@ -10,7 +10,7 @@
 #include "language/sinumerik/block_parser.hpp"
 #include "language/source_text.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 /// What jumps and structured statements of one program need to know, found in one pass over its text. Block numbers
 /// are not kept: a program may have millions; those that jumps name are looked for when they are needed.
@@ -65,4 +65,4 @@ private:
   std::string upper_;
 };
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

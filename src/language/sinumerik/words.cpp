@@ -4,7 +4,7 @@
 
 #include "language/sinumerik/block_parser.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 using namespace language;
 
@@ -438,4 +438,4 @@ void BlockParser::parseL(std::size_t start) {
   parseProgramCall(upper(start, digits.size() + 1), false);
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

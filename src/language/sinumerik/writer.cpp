@@ -10,7 +10,7 @@
 #include "language/sinumerik/keywords.hpp"
 #include "language/sinumerik/program.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 using namespace language;
 
@@ -445,4 +445,4 @@ Result<std::string> writeProgram(SinumerikProgram& program) {
   return text;
 }
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

@@ -5,7 +5,7 @@
 #include "base/diagnostic.hpp"
 #include "language/block.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::language::sinumerik {
 
 class SinumerikProgram;
 
@@ -26,4 +26,4 @@ std::string writeVariable(const language::Block& block, const language::Variable
 /// The number as the language writes it: shortest decimal that reads back as the same double, with EX as exponent.
 std::string writeNumber(double value);
 
-}  // namespace probewright::sinumerik
+}  // namespace probewright::language::sinumerik

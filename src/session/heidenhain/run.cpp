@@ -75,15 +75,15 @@ void run(const RunRequest& request, FolderReading reading, machine::Machine& mac
   readRemanentParameters(beliefs.tables, control.q, outcome.diagnostics);
   reading = {};
   if (hasErrors(outcome.diagnostics)) return;
-  language::klartext::HostOptions hostOptions;
+  execution::klartext::HostOptions hostOptions;
   hostOptions.strict = options.strict;
   hostOptions.readFile = [&host](const std::string& name) { return host.read(name); };
   hostOptions.isInput = [&host](const std::string& name) { return host.isInput(name); };
-  language::klartext::KlartextHost klartext(control, hostOptions);
-  language::din_iso::DinIsoHost isoHost(klartext);
+  execution::klartext::KlartextHost klartext(control, hostOptions);
+  execution::din_iso::DinIsoHost isoHost(klartext);
   const ControlFamily family = heidenhainFamily();
   const auto library = programLibrary(family, [&](language::Program*, const fs::path& opened) { host.note(opened); });
-  language::Interpreter interpreter(*library, isoHost, interpreterOptions(options));
+  execution::Interpreter interpreter(*library, isoHost, interpreterOptions(options));
   outcome.result = interpreter.run(request.program);
 
   outcome.files = control.panel.files();

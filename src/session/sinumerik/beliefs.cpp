@@ -20,7 +20,7 @@ using control::BelievedFrame;
 using control::BelievedTool;
 
 SinumerikData sinumerikData(const Beliefs& beliefs, Diagnostics& diagnostics,
-                            const sinumerik::GlobalUserData* globalData) {
+                            const execution::sinumerik::GlobalUserData* globalData) {
   sin::InitText::ArraySizes sizes;
   if (globalData != nullptr) sizes = [globalData](std::string_view name) { return globalData->sizesOf(name); };
   SinumerikData data;

@@ -9,7 +9,7 @@
 #include "control/sinumerik/data_store.hpp"
 #include "control/sinumerik/init_text.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 class GlobalUserData;
 }
 
@@ -28,7 +28,7 @@ struct SinumerikData {
 };
 /// Lists in them that are longer than a row of their array go on in the next one: `globalData` knows the arrays.
 SinumerikData sinumerikData(const control::Beliefs& beliefs, Diagnostics& diagnostics,
-                            const sinumerik::GlobalUserData* globalData = nullptr);
+                            const execution::sinumerik::GlobalUserData* globalData = nullptr);
 
 /// The names of all data that the control has values for.
 std::set<std::string> namesOfData(const control::Beliefs& beliefs);

@@ -22,18 +22,18 @@ namespace probewright::session {
 using control::ControlKind;
 using language::Program;
 
-void useMacros(Program& program, const sinumerik::GlobalUserData& globalData) {
-  if (auto* own = dynamic_cast<sinumerik::SinumerikProgram*>(&program)) own->useMacros(globalData.macros());
+void useMacros(Program& program, const execution::sinumerik::GlobalUserData& globalData) {
+  if (auto* own = dynamic_cast<language::sinumerik::SinumerikProgram*>(&program)) own->useMacros(globalData.macros());
 }
 
-Diagnostics checkSinumerik(const CheckRequest& request, const sinumerik::GlobalUserData& globalData) {
+Diagnostics checkSinumerik(const CheckRequest& request, const execution::sinumerik::GlobalUserData& globalData) {
   useMacros(request.program, globalData);
   const ControlFamily family = sinumerikFamily();
   const auto library = programLibrary(family, [&](Program* opened, const std::filesystem::path&) {
     if (opened != nullptr) useMacros(*opened, globalData);
   });
-  return sinumerik::check(
-      static_cast<sinumerik::SinumerikProgram&>(request.program),
+  return language::sinumerik::check(
+      static_cast<language::sinumerik::SinumerikProgram&>(request.program),
       {.library = library.get(),
        .globalVariables = request.beliefs != nullptr ? namesOfData(*request.beliefs) : std::set<std::string>(),
        .skipLevels = request.skipLevels,
@@ -51,19 +51,19 @@ bool looksLikeSinumerik(const std::string& head) {
 }
 
 Result<std::shared_ptr<Program>> open(const std::filesystem::path& path) {
-  auto program = sinumerik::SinumerikProgram::open(path);
+  auto program = language::sinumerik::SinumerikProgram::open(path);
   if (!program) return tl::unexpected(program.error());
   return std::shared_ptr<Program>(std::move(*program));
 }
 
 std::shared_ptr<Program> fromText(std::string name, std::string text) {
-  return sinumerik::SinumerikProgram::fromText(std::move(name), std::move(text));
+  return language::sinumerik::SinumerikProgram::fromText(std::move(name), std::move(text));
 }
 
 Diagnostics check(const CheckRequest& request) {
   if (request.path.empty()) return checkSinumerik(request, {});
   Diagnostics found;
-  const sinumerik::GlobalUserData globalData = globalUserData(
+  const execution::sinumerik::GlobalUserData globalData = globalUserData(
       request.path, request.beliefs != nullptr ? request.beliefs->tables : std::filesystem::path(), found);
   const Diagnostics more = checkSinumerik(request, globalData);
   found.insert(found.end(), more.begin(), more.end());

@@ -2,7 +2,7 @@
 
 #include "session/sinumerik/family.hpp"
 
-namespace probewright::sinumerik {
+namespace probewright::execution::sinumerik {
 class GlobalUserData;
 }
 
@@ -10,10 +10,10 @@ class GlobalUserData;
 namespace probewright::session {
 
 /// `globalData`: what definition files declare.
-Diagnostics checkSinumerik(const CheckRequest& request, const sinumerik::GlobalUserData& globalData);
+Diagnostics checkSinumerik(const CheckRequest& request, const execution::sinumerik::GlobalUserData& globalData);
 RunOn prepareSinumerik(const RunRequest& request, Diagnostics& diagnostics);
 
 /// Tells a SINUMERIK program the macros of definition files.
-void useMacros(language::Program& program, const sinumerik::GlobalUserData& globalData);
+void useMacros(language::Program& program, const execution::sinumerik::GlobalUserData& globalData);
 
 }  // namespace probewright::session

@@ -10,8 +10,9 @@ namespace probewright::session {
 
 namespace fs = std::filesystem;
 
-sinumerik::GlobalUserData globalUserData(const fs::path& program, const fs::path& tables, Diagnostics& diagnostics) {
-  sinumerik::GlobalUserData data;
+execution::sinumerik::GlobalUserData globalUserData(const fs::path& program, const fs::path& tables,
+                                                    Diagnostics& diagnostics) {
+  execution::sinumerik::GlobalUserData data;
   std::set<std::string> read;
   const fs::path beside = program.parent_path();
   for (const fs::path& folder : {tables, beside.empty() ? fs::path(".") : beside}) {
@@ -19,7 +20,7 @@ sinumerik::GlobalUserData globalUserData(const fs::path& program, const fs::path
     std::vector<std::pair<std::string, fs::path>> files;
     std::error_code error;
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-      std::string name = sinumerik::definitionFileName(entry->path().filename().string());
+      std::string name = execution::sinumerik::definitionFileName(entry->path().filename().string());
       if (!name.empty() && entry->is_regular_file()) files.emplace_back(std::move(name), entry->path());
     }
     std::ranges::sort(files);

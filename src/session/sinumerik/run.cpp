@@ -22,13 +22,13 @@ namespace probewright::session {
 
 namespace fs = std::filesystem;
 namespace sin = control::sinumerik;
-using language::RunEnd;
+using execution::RunEnd;
 
 namespace {
 
-language::InterpreterOptions interpreterOptionsOf(const RunOptions& options) {
-  language::InterpreterOptions interpreter = interpreterOptions(options);
-  interpreter.programDepth = sinumerik::SinumerikHost::programDepth;
+execution::InterpreterOptions interpreterOptionsOf(const RunOptions& options) {
+  execution::InterpreterOptions interpreter = interpreterOptions(options);
+  interpreter.programDepth = execution::sinumerik::SinumerikHost::programDepth;
   return interpreter;
 }
 
@@ -85,7 +85,7 @@ std::map<std::string, std::string> definitionFiles(const fs::path& tables) {
   std::error_code error;
   for (fs::directory_iterator entry(tables, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (sinumerik::definitionFileName(name).empty() || !entry->is_regular_file(error)) continue;
+    if (execution::sinumerik::definitionFileName(name).empty() || !entry->is_regular_file(error)) continue;
     if (Result<std::string> text = readFile(entry->path())) files[name] = std::move(*text);
   }
   return files;
@@ -104,13 +104,13 @@ void goOnMoving(StandingMachine& machine, sin::Control& control) {
   control.channel.moveAxes(target, machine::Feed::rapidTraverse());
 }
 
-/// Runs the program `name`, if there is one; see sinumerik::HostOptions::callProgram.
-bool callAside(language::ProgramLibrary& library, language::Host& host, language::InterpreterOptions options,
+/// Runs the program `name`, if there is one; see execution::sinumerik::HostOptions::callProgram.
+bool callAside(language::ProgramLibrary& library, execution::Host& host, execution::InterpreterOptions options,
                std::string_view name, const language::Program* caller) {
   if (!library.exists(name, caller)) return false;
   const auto opened = library.open(name, caller);
   if (!opened) throw control::Alarm("14011", opened.error().message, opened.error().advice);
-  const language::RunResult result = language::Interpreter(library, host, std::move(options)).run(*opened);
+  const execution::RunResult result = execution::Interpreter(library, host, std::move(options)).run(*opened);
   if (result.end == RunEnd::Finished) return true;
   if (result.end == RunEnd::Cancelled || result.end == RunEnd::Halted) throw control::Cancelled();
   const Diagnostic& why = result.diagnostics.front();
@@ -152,7 +152,7 @@ std::map<std::string, double, std::less<>> arithmeticParameters(const sin::DataS
   return values;
 }
 
-void run(const RunRequest& request, const sinumerik::GlobalUserData& globalData, FolderReading reading,
+void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& globalData, FolderReading reading,
          machine::Machine& trueMachine, HostFiles& host, RunOutcome& outcome) {
   const RunOptions& options = request.options;
   const control::Beliefs& beliefs = request.beliefs;
@@ -160,7 +160,7 @@ void run(const RunRequest& request, const sinumerik::GlobalUserData& globalData,
   SinumerikData data = sinumerikData(beliefs, outcome.diagnostics, &globalData);
   const std::map<std::string, std::string> definitions = definitionFiles(beliefs.tables);
   reading = {};
-  sinumerik::HostOptions hostOptions;
+  execution::sinumerik::HostOptions hostOptions;
   hostOptions.globalData = globalData.variables(data.store, outcome.diagnostics);
   const std::set<std::string> dataNames = namesOf(data);
   refuseForeign(outcome.diagnostics, dataNames, options);
@@ -197,13 +197,13 @@ void run(const RunRequest& request, const sinumerik::GlobalUserData& globalData,
   });
   hostOptions.fileExists = [&](std::string_view name) { return library->exists(name, program.get()); };
   hostOptions.readFile = [&](std::string_view name) { return textBeside(host, *library, *program, name); };
-  sinumerik::SinumerikHost* running = nullptr;
+  execution::sinumerik::SinumerikHost* running = nullptr;
   hostOptions.callProgram = [&](std::string_view name, const language::Program* caller) {
     return callAside(*library, *running, interpreterOptionsOf(options), name, caller);
   };
-  sinumerik::SinumerikHost sinumerikHost(control, hostOptions);
+  execution::sinumerik::SinumerikHost sinumerikHost(control, hostOptions);
   running = &sinumerikHost;
-  language::Interpreter interpreter(*library, sinumerikHost, interpreterOptionsOf(options));
+  execution::Interpreter interpreter(*library, sinumerikHost, interpreterOptionsOf(options));
   outcome.result = interpreter.run(program);
   if (control.blockSearch && outcome.result.end == RunEnd::Finished) {
     outcome.result.end = RunEnd::Alarm;
@@ -236,7 +236,7 @@ void run(const RunRequest& request, const sinumerik::GlobalUserData& globalData,
 RunOn prepareSinumerik(const RunRequest& request, Diagnostics& diagnostics) {
   // Until the control has its data: another run may be about to replace the tables.
   const auto reading = std::make_shared<FolderReading>(FolderReading::of(request.beliefs.tables, request.options.stop));
-  const auto globalData = std::make_shared<const sinumerik::GlobalUserData>(
+  const auto globalData = std::make_shared<const execution::sinumerik::GlobalUserData>(
       globalUserData(request.path, request.beliefs.tables, diagnostics));
   const Diagnostics mistakes = checkSinumerik({.program = *request.program,
                                                .control = request.control,

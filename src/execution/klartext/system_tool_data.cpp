@@ -7,11 +7,11 @@
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
 #include "control/heidenhain/tool_table.hpp"
-#include "execution/klartext/host.hpp"
+#include "execution/klartext/system_data.hpp"
 
 /// FN 17 and FN 18, in mm and degrees whatever the unit of the program: tools and touch probes, and what programs may
 /// write.
-namespace probewright::language::klartext {
+namespace probewright::execution::klartext {
 
 using control::Alarm;
 using control::heidenhain::Column;
@@ -52,12 +52,12 @@ std::optional<NumberColumn> columnOf(int number) {
 }  // namespace
 
 /// The row of TOOL.T that an index names: 5 or, with its step, 5.1.
-std::string KlartextHost::toolRowOf(double index) const {
+std::string SystemData::toolRowOf(double index) const {
   return control::heidenhain::toolKey(static_cast<int>(std::floor(index)),
                                       static_cast<int>(std::lround((index - std::floor(index)) * 10)));
 }
 
-std::optional<double> KlartextHost::toolData(int number, const std::string& row) const {
+std::optional<double> SystemData::toolData(int number, const std::string& row) const {
   const auto& tools = control_.tables.tools;
   if (!tools.hasRow(row)) return row == "0" && columnOf(number) ? std::optional<double>(0) : std::nullopt;
   const auto text = [&](Column column) { return tools.hasColumn(column) ? tools.text(row, column) : ""; };
@@ -98,7 +98,7 @@ std::optional<double> KlartextHost::toolData(int number, const std::string& row)
 }
 
 /// ID 60: what the last TOOL CALL said.
-std::optional<double> KlartextHost::toolCallData(int number) const {
+std::optional<double> SystemData::toolCallData(int number) const {
   const control::heidenhain::ActiveTool& tool = control_.tool;
   switch (number) {
     case 1:
@@ -126,7 +126,7 @@ std::optional<double> KlartextHost::toolCallData(int number) const {
 
 /// ID 200: index 1 without oversizes, 2 with those of the table, 3 also with those of TOOL CALL. NR 6: length of a
 /// tool.
-std::optional<double> KlartextHost::toolCompensation(int number, double index) const {
+std::optional<double> SystemData::toolCompensation(int number, double index) const {
   const control::heidenhain::ActiveTool& tool = control_.tool;
   const auto& tools = control_.tables.tools;
   if (number == 6) return toolData(1, index <= 0 ? tool.row : toolRowOf(index));
@@ -146,7 +146,7 @@ std::optional<double> KlartextHost::toolCompensation(int number, double index) c
   }
 }
 
-std::optional<double> KlartextHost::probeData(int number, int index) const {
+std::optional<double> SystemData::probeData(int number, int index) const {
   const auto& probes = control_.tables.probes;
   const std::string& row = control_.tool.probeRow;
   const bool known = !row.empty() && probes.hasRow(row);
@@ -211,7 +211,7 @@ std::optional<double> KlartextHost::probeData(int number, int index) const {
   }
 }
 
-void KlartextHost::systemWrite(const Command& command, Evaluation& evaluation) {
+void SystemData::write(const Command& command, Evaluation& evaluation) {
   const auto wordOr = [&](std::string_view address, double otherwise) {
     const Word* word = find(command.words, address, evaluation);
     return word == nullptr ? otherwise : evaluation.number(word->value);
@@ -239,13 +239,12 @@ void KlartextHost::systemWrite(const Command& command, Evaluation& evaluation) {
       } else if (control_.tables.tools.hasColumn("TYP")) {
         control_.writeText(control_.tables.tools, row, "TYP", std::string(type));
       } else {
-        leaveOut("The type of a tool, for which TOOL.T has no column TYP,");
+        run_.leaveOut("The type of a tool, for which TOOL.T has no column TYP,");
       }
       if (row == control_.tool.row) {
-        control_.refreshTool();
-        placeControlledPoint();
+        tools_.refresh();
       }
-      publishTool();
+      tools_.publishTool();
       break;
     }
     case 500: {
@@ -295,11 +294,11 @@ void KlartextHost::systemWrite(const Command& command, Evaluation& evaluation) {
     }
     case 990:
       // NR 6 chooses the input of the probe, of which there is one here; 0 of NR 1 is the approach that it has anyway.
-      if (number != 6 && !(number == 1 && value == 0)) leaveOut(fmt::format("FN 17: SYSWRITE ID990 NR{}", number));
+      if (number != 6 && !(number == 1 && value == 0)) run_.leaveOut(fmt::format("FN 17: SYSWRITE ID990 NR{}", number));
       break;
     default:
       refuse();
   }
 }
 
-}  // namespace probewright::language::klartext
+}  // namespace probewright::execution::klartext

@@ -7,12 +7,11 @@
 #include "control/alarm.hpp"
 #include "control/heidenhain/datum_table.hpp"
 #include "control/heidenhain/tool_table.hpp"
-#include "execution/klartext/host.hpp"
+#include "execution/klartext/system_data.hpp"
 #include "probing/heidenhain_prober.hpp"
 
-/// FN 18: data of the control by group (ID), number (NR) and index (IDX), in mm and degrees whatever the unit of the
-/// program. docs/klartext.md lists the groups. Tools and touch probes are in host_tool_data.cpp.
-namespace probewright::language::klartext {
+/// FN 18. Tools and touch probes are in system_tool_data.cpp.
+namespace probewright::execution::klartext {
 
 using control::Alarm;
 
@@ -31,17 +30,7 @@ const control::TouchRecord* lastTouch(const control::Journal& journal) {
 
 }  // namespace
 
-double KlartextHost::machineSeconds() const {
-  return static_cast<double>(control_.wallClockStart) + control_.channel.seconds() - control_.startSeconds;
-}
-
-/// -1: it has not run yet, 0: M3, 1: M4, 2: M5 after M3, 3: M5 after M4.
-double KlartextHost::spindleState() const {
-  if (!spindleHasRun_) return -1;
-  return (clockwise_ ? 0 : 1) + (control_.channel.spindleRotation() != machine::Rotation::None ? 0 : 2);
-}
-
-void KlartextHost::systemRead(const Command& command, Evaluation& evaluation) {
+void SystemData::read(const Command& command, Evaluation& evaluation) {
   const auto wordOr = [&](std::string_view address, double otherwise) {
     const Word* word = find(command.words, address, evaluation);
     return word == nullptr ? otherwise : evaluation.number(word->value);
@@ -52,23 +41,23 @@ void KlartextHost::systemRead(const Command& command, Evaluation& evaluation) {
   // On the iTNC 530 IDX 0 of ID 50 is tool 0; without IDX it is the active tool.
   const bool rowZero =
       id == 50 && index == 0 && !control_.isTNC640() && find(command.words, "IDX", evaluation) != nullptr;
-  const std::optional<double> value = rowZero ? toolData(number, "0") : systemData(id, number, index, evaluation);
+  const std::optional<double> value = rowZero ? toolData(number, "0") : systemData(id, number, index);
   if (!value) {
     throw Alarm("System datum not available",
                 fmt::format("FN 18 cannot read ID{} NR{} IDX{} on this control", id, number, index),
                 "read another datum, or set the parameter to a fixed value");
   }
   const VariableRef& target = evaluation.block().variables[static_cast<std::size_t>(command.variable)];
-  write(target, *value, evaluation);
+  parameters_.write(target, *value);
 }
 
-std::optional<double> KlartextHost::systemData(int id, int number, double index, Evaluation& evaluation) {
+std::optional<double> SystemData::systemData(int id, int number, double index) const {
   const int whole = static_cast<int>(std::lround(index));
   switch (id) {
     case 10:
       return programData(number, whole);
     case 15:
-      return parameterData(number, whole, evaluation);
+      return parameterData(number, whole);
     case 20:
       return stateData(number);
     case 25:
@@ -86,7 +75,7 @@ std::optional<double> KlartextHost::systemData(int id, int number, double index,
       return probeData(number, whole);
     case 320:
       if (number == 3) return control_.channel.seconds() - control_.startSeconds;
-      return number == 1 ? std::optional<double>(std::floor(machineSeconds())) : std::nullopt;
+      return number == 1 ? std::optional<double>(std::floor(run_.machineSeconds())) : std::nullopt;
     case 360:
       return touchData(number, whole);
     case 500:
@@ -118,24 +107,24 @@ std::optional<double> KlartextHost::systemData(int id, int number, double index,
 }
 
 /// ID 10: programs, cycles, files.
-std::optional<double> KlartextHost::programData(int number, int index) const {
+std::optional<double> SystemData::programData(int number, int index) const {
   const auto unitOf = [&](std::size_t level) -> double {
-    const HeidenhainProgram* program = levels_[level].program;
+    const HeidenhainProgram* program = run_.levels[level].program;
     return program != nullptr && program->unit() == Unit::Inch ? 1 : 0;
   };
   switch (number) {
     case 3:
-      return machiningCycle_.value_or(-1);
+      return cycles_.machiningCycle().value_or(-1);
     case 6:
-      return lastProbeCycle_.value_or(-1);
+      return cycles_.lastProbeCycle().value_or(-1);
     case 7:
-      return levels_.size() > 1 ? 0 : -1;
+      return run_.levels.size() > 1 ? 0 : -1;
     case 8:
-      if (index == 1) return levels_.size() > 1 ? unitOf(levels_.size() - 2) : -1;
-      return index == 2 ? std::optional<double>(unitOf(levels_.size() - 1)) : std::nullopt;
+      if (index == 1) return run_.levels.size() > 1 ? unitOf(run_.levels.size() - 2) : -1;
+      return index == 2 ? std::optional<double>(unitOf(run_.levels.size() - 1)) : std::nullopt;
     case 110:
       if (!control::heidenhain::QParameters::exists(index)) return std::nullopt;
-      return readHostFile(control_.q.qs(index)) ? 1 : 0;
+      return run_.readHostFile(control_.q.qs(index)) ? 1 : 0;
     case 111:
       return 0;
     default:
@@ -144,33 +133,33 @@ std::optional<double> KlartextHost::programData(int number, int index) const {
 }
 
 /// ID 15: the value of a parameter whose number is computed.
-std::optional<double> KlartextHost::parameterData(int number, int index, Evaluation& evaluation) {
+std::optional<double> SystemData::parameterData(int number, int index) const {
   if (number < 11 || number > 13 || index < 0) return std::nullopt;
   constexpr std::array spaces = {VariableSpace::Q, VariableSpace::QL, VariableSpace::QR};
   VariableRef variable;
   variable.space = spaces[static_cast<std::size_t>(number - 11)];
   variable.index[0] = Operand::of(index);
-  return std::get<double>(read(variable, evaluation));
+  return std::get<double>(parameters_.read(variable));
 }
 
 /// ID 20: the state of the machine.
-std::optional<double> KlartextHost::stateData(int number) const {
+std::optional<double> SystemData::stateData(int number) const {
   const control::heidenhain::ActiveTool& tool = control_.tool;
   switch (number) {
     case 1:
       return tool.number;
     case 2:
-      return preparedTool_;
+      return tools_.prepared();
     case 3:
       return control_.q.q(109);
     case 4:
       return tool.spindleSpeed;
     case 5:
-      return spindleState();
+      return spindle_.state();
     case 8:
       return control_.q.q(111);
     case 9:
-      return feed_;
+      return motion_.feed();
     case 10:
       return 0;
     case 11:
@@ -182,7 +171,7 @@ std::optional<double> KlartextHost::stateData(int number) const {
 
 /// ID 360: what the last touch found. 1: surface, 2: axis positions, 3: spindle position in program coordinates, as in
 /// Q115 to Q117, 4: ball centre, 10: spindle angle, 11: 0 touched, -1 not reached, -2 deflected at the start.
-std::optional<double> KlartextHost::touchData(int number, int index) const {
+std::optional<double> SystemData::touchData(int number, int index) const {
   if (number == 10) return control_.channel.spindleAngle();
   const control::TouchRecord* touch = lastTouch(control_.journal);
   if (touch == nullptr) return std::nullopt;
@@ -208,7 +197,7 @@ std::optional<double> KlartextHost::touchData(int number, int index) const {
 }
 
 /// ID 500 to 508, 530: datum and preset tables. 501 to 504 are those of the iTNC 530.
-std::optional<double> KlartextHost::tableData(int id, int number, int index) const {
+std::optional<double> SystemData::tableData(int id, int number, int index) const {
   const bool isAxis = index >= 1 && index <= 9;
   const auto place = static_cast<std::size_t>(index - 1);
   const bool olderControl = !control_.isTNC640();
@@ -263,7 +252,7 @@ std::optional<double> KlartextHost::tableData(int id, int number, int index) con
 }
 
 /// ID 990: touch probe and spindle; NR 10 finds a tool by its name.
-std::optional<double> KlartextHost::probingState(int number, int index) const {
+std::optional<double> SystemData::probingState(int number, int index) const {
   switch (number) {
     case 1:
     case 2:
@@ -287,7 +276,7 @@ std::optional<double> KlartextHost::probingState(int number, int index) const {
 }
 
 /// Coordinate systems, positions and limits. Axes are numbered X Y Z A B C U V W from 1.
-std::optional<double> KlartextHost::coordinateData(int id, int number, int index) const {
+std::optional<double> SystemData::coordinateData(int id, int number, int index) const {
   const control::heidenhain::Coordinates& coordinates = control_.coordinates;
   const control::heidenhain::Transformations& current = coordinates.current();
   const machine::MachineDescription& description = control_.channel.description();
@@ -348,7 +337,7 @@ std::optional<double> KlartextHost::coordinateData(int id, int number, int index
     case 280:
       return number == 1 ? std::optional<double>(control_.channel.holdTip ? active : 0) : std::nullopt;
     case 310:
-      if (number == 126) return shortestPath_ ? active : 0;
+      if (number == 126) return motion_.modes.shortestPath ? active : 0;
       if (number == 128) return control_.channel.holdTip ? active : 0;
       if (number == 144) return coordinates.tiltedAxesInPosition ? active : 0;
       return number == 116 ? std::optional<double>(0) : std::nullopt;
@@ -357,4 +346,4 @@ std::optional<double> KlartextHost::coordinateData(int id, int number, int index
   }
 }
 
-}  // namespace probewright::language::klartext
+}  // namespace probewright::execution::klartext

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "control/alarm.hpp"
 #include "control/scoped.hpp"
-#include "execution/klartext/host.hpp"
+#include "execution/klartext/tilting.hpp"
+#include "execution/motion/tilted_plane.hpp"
 #include "machine/rotary_solver.hpp"
 
-/// PLANE and cycle 19: tilting the working plane.
-namespace probewright::language::klartext {
+namespace probewright::execution::klartext {
 
 using control::Alarm;
 using control::heidenhain::rotationFromSpaceAngles;
@@ -18,24 +19,13 @@ namespace {
 
 Matrix3 about(const Vector3& axis, double degrees) { return rotation(axis, degrees).linear(); }
 
-/// The axes of a plane with the normal `normal`, its first axis as near to `along` as possible.
-Matrix3 axesOf(const Vector3& along, const Vector3& normal) {
-  const Vector3 z = normal.normalized();
-  const Vector3 x = (along - z * z.dot(along)).normalized();
-  Matrix3 axes;
-  axes.col(0) = x;
-  axes.col(1) = z.cross(x);
-  axes.col(2) = z;
-  return axes;
-}
-
 [[noreturn]] void refuse(std::string text) {
   throw Alarm("Plane definition wrong", std::move(text), "check the values of the PLANE block");
 }
 
 }  // namespace
 
-void KlartextHost::plane(std::string_view name, WordRange words, Evaluation& evaluation) {
+void Tilting::plane(TransformKind kind, WordRange words, Evaluation& evaluation) {
   const auto value = [&](std::string_view address) {
     const Word* word = find(words, address, evaluation);
     return word == nullptr ? 0.0 : evaluation.number(word->value);
@@ -48,65 +38,69 @@ void KlartextHost::plane(std::string_view name, WordRange words, Evaluation& eva
     if (v.norm() < 1e-9) refuse(fmt::format("{} has no length", what));
     return v;
   };
-  if (name == "PLANE RESET") {
-    tilt(std::nullopt, words, evaluation);
-    return;
-  }
-  Matrix3 axes = Matrix3::Identity();
-  if (name == "PLANE SPATIAL") {
-    axes = rotationFromSpaceAngles({value("SPA"), value("SPB"), value("SPC")});
-  } else if (name == "PLANE PROJECTED") {
-    const double first = radiansFromDegrees(value("PROP"));
-    const double second = radiansFromDegrees(value("PROM"));
-    const Vector3 inZx(std::cos(first), 0, -std::sin(first));
-    const Vector3 inYz(0, std::cos(second), std::sin(second));
-    axes = axesOf(inZx, inZx.cross(inYz)) * about(Vector3::UnitZ(), value("ROT"));
-  } else if (name == "PLANE EULER") {
-    axes = about(Vector3::UnitZ(), value("EULP")) * about(Vector3::UnitX(), value("EULN")) *
-           about(Vector3::UnitZ(), value("EULR"));
-  } else if (name == "PLANE VECTOR") {
-    const Vector3 base = checked(vector("B"), "the base vector");
-    const Vector3 normal = checked(vector("N"), "the normal vector");
-    checked(base.normalized().cross(normal.normalized()), "the base vector square to the normal vector");
-    axes = axesOf(base, normal);
-  } else if (name == "PLANE POINTS") {
-    const Vector3 p1 = vector("P1");
-    const Vector3 along = checked(vector("P2") - p1, "the line from point 1 to point 2");
-    const Vector3 normal = along.cross(vector("P3") - p1);
-    axes = axesOf(along, checked(normal, "the triangle of the three points"));
-  } else if (name == "PLANE RELATIVE") {
-    axes = control_.coordinates.tilt.value_or(Matrix3::Identity()) *
-           rotationFromSpaceAngles({value("SPA"), value("SPB"), value("SPC")});
-  } else if (name == "PLANE AXIAL") {
-    machine::AxisPositions target = control_.channel.axes();
-    const machine::AxisPositions& reference = control_.coordinates.preset.rotaryOffset;
-    for (const Word& word : evaluation.words(words)) {
-      if (word.address < 'A' || word.address > 'C') continue;
-      const std::size_t axis = axisOf(static_cast<char>(word.address));
-      const double angle = evaluation.number(word.value);
-      target[axis] =
-          word.mode == WordMode::Incremental ? target[axis] + angle : angle + control_.channel.rotaryOffset[axis];
+  const auto spaceAngles = [&] { return rotationFromSpaceAngles({value("SPA"), value("SPB"), value("SPC")}); };
+  switch (kind) {
+    case TransformKind::PlaneReset:
+      return tilt(std::nullopt, words, evaluation);
+    case TransformKind::PlaneSpatial:
+      return tilt(spaceAngles(), words, evaluation);
+    case TransformKind::PlaneProjected:
+      return tilt(motion::planeOfProjections(value("PROP"), value("PROM")) * about(Vector3::UnitZ(), value("ROT")),
+                  words, evaluation);
+    case TransformKind::PlaneEuler:
+      return tilt(about(Vector3::UnitZ(), value("EULP")) * about(Vector3::UnitX(), value("EULN")) *
+                      about(Vector3::UnitZ(), value("EULR")),
+                  words, evaluation);
+    case TransformKind::PlaneVector: {
+      const Vector3 base = checked(vector("B"), "the base vector");
+      const Vector3 normal = checked(vector("N"), "the normal vector");
+      checked(base.normalized().cross(normal.normalized()), "the base vector square to the normal vector");
+      return tilt(motion::planeAlong(base, normal), words, evaluation);
     }
-    // As the workpiece system sees it, with basic rotation, rotation and mirror image.
-    const Matrix3 workpiece = machineFromWorkpiece();
-    axes = workpiece.transpose() * toolOrientation(control_.channel.description(), reference, target) * workpiece;
-    control_.coordinates.tilt = axes;
-    control_.coordinates.tiltIsAxial = true;
-    control_.coordinates.workingPlane = {};
-    positionRotaryAxes(target, words, evaluation);
-    control_.applyCoordinates();
-    return;
+    case TransformKind::PlanePoints: {
+      const Vector3 p1 = vector("P1");
+      const Vector3 along = checked(vector("P2") - p1, "the line from point 1 to point 2");
+      const Vector3 normal = along.cross(vector("P3") - p1);
+      return tilt(motion::planeAlong(along, checked(normal, "the triangle of the three points")), words, evaluation);
+    }
+    case TransformKind::PlaneRelative:
+      return tilt(control_.coordinates.tilt.value_or(Matrix3::Identity()) * spaceAngles(), words, evaluation);
+    case TransformKind::PlaneAxial:
+      return turnAxes(words, evaluation);
+    default:
+      throw std::logic_error("not a form of PLANE");
   }
-  tilt(axes, words, evaluation);
+}
+
+/// PLANE AXIAL: the plane is where the rotary axes are to be.
+void Tilting::turnAxes(WordRange words, Evaluation& evaluation) {
+  machine::AxisPositions target = control_.channel.axes();
+  const machine::AxisPositions& reference = control_.coordinates.preset.rotaryOffset;
+  for (const Word& word : evaluation.words(words)) {
+    if (word.address < 'A' || word.address > 'C') continue;
+    const std::size_t axis = run_.axisOf(static_cast<char>(word.address));
+    const double angle = evaluation.number(word.value);
+    target[axis] =
+        word.mode == WordMode::Incremental ? target[axis] + angle : angle + control_.channel.rotaryOffset[axis];
+  }
+  // As the workpiece system sees it, with basic rotation, rotation and mirror image.
+  const Matrix3 workpiece = machineFromWorkpiece();
+  const Matrix3 axes =
+      workpiece.transpose() * toolOrientation(control_.channel.description(), reference, target) * workpiece;
+  control_.coordinates.tilt = axes;
+  control_.coordinates.tiltIsAxial = true;
+  control_.coordinates.workingPlane = {};
+  positionRotaryAxes(target, words, evaluation);
+  control_.applyCoordinates();
 }
 
 /// Directions of the workpiece system: preset with basic rotation, then rotation and mirror image before the tilt.
-Matrix3 KlartextHost::machineFromWorkpiece() const {
+Matrix3 Tilting::machineFromWorkpiece() const {
   const control::heidenhain::Coordinates& coordinates = control_.coordinates;
   return coordinates.machineFromPreset().linear() * coordinates.workpiece.directions(coordinates.plane);
 }
 
-void KlartextHost::tiltByCycle19(WordRange words, Evaluation& evaluation) {
+void Tilting::tiltByCycle19(WordRange words, Evaluation& evaluation) {
   Vector3 angles = Vector3::Zero();
   bool given = false;
   for (const Word& word : evaluation.words(words)) {
@@ -124,8 +118,8 @@ void KlartextHost::tiltByCycle19(WordRange words, Evaluation& evaluation) {
 }
 
 /// The solutions on the side that SEQ (of the rest position) or SYM (of the point of symmetry) asks for.
-void KlartextHost::keepWantedSide(std::vector<machine::AxisPositions>& solutions, const Vector3& toolAxis,
-                                  WordRange words, Evaluation& evaluation) const {
+void Tilting::keepWantedSide(std::vector<machine::AxisPositions>& solutions, const Vector3& toolAxis, WordRange words,
+                             Evaluation& evaluation) const {
   const machine::MachineDescription& description = control_.channel.description();
   const std::optional<machine::TiltingAxis> tilting = tiltingAxis(description, toolAxis);
   if (!tilting) return;
@@ -147,8 +141,8 @@ void KlartextHost::keepWantedSide(std::vector<machine::AxisPositions>& solutions
 
 /// COORD ROT, which is the standard, leaves a free rotary axis at 0. TABLE ROT turns it until the plane lies along the
 /// machine's axes if the plane is turned about the tool axis only, and otherwise leaves it where it stands.
-void KlartextHost::placeFreeAxis(const Matrix3& machineFromPlane, const Vector3& toolAxis, bool onlyTurned,
-                                 machine::AxisPositions& target, WordRange words, Evaluation& evaluation) const {
+void Tilting::placeFreeAxis(const Matrix3& machineFromPlane, const Vector3& toolAxis, bool onlyTurned,
+                            machine::AxisPositions& target, WordRange words, Evaluation& evaluation) const {
   const machine::MachineDescription& description = control_.channel.description();
   const machine::AxisPositions& reference = control_.coordinates.preset.rotaryOffset;
   const std::optional<std::size_t> axis = freeRotaryAxis(description, machineFromPlane * toolAxis, reference);
@@ -172,7 +166,7 @@ void KlartextHost::placeFreeAxis(const Matrix3& machineFromPlane, const Vector3&
 }
 
 /// Tilts the working plane, or ends the tilt, and positions the rotary axes as the block asks for.
-void KlartextHost::tilt(const std::optional<Matrix3>& wanted, WordRange words, Evaluation& evaluation) {
+void Tilting::tilt(const std::optional<Matrix3>& wanted, WordRange words, Evaluation& evaluation) {
   const machine::MachineDescription& description = control_.channel.description();
   control::heidenhain::Coordinates& coordinates = control_.coordinates;
   const machine::AxisPositions& reference = coordinates.preset.rotaryOffset;
@@ -216,7 +210,7 @@ void KlartextHost::tilt(const std::optional<Matrix3>& wanted, WordRange words, E
   control_.applyCoordinates();
 }
 
-void KlartextHost::publishRotaryAxes(const machine::AxisPositions& target) {
+void Tilting::publishRotaryAxes(const machine::AxisPositions& target) {
   const machine::MachineDescription& description = control_.channel.description();
   for (int i = 0; i < 3; ++i) {
     const char name = static_cast<char>('A' + i);
@@ -227,7 +221,7 @@ void KlartextHost::publishRotaryAxes(const machine::AxisPositions& target) {
 
 /// MOVE keeps the tip, or the point DIST above it, on the workpiece, TURN moves the rotary axes alone, STAY (and cycle
 /// 19 without F) moves nothing.
-void KlartextHost::positionRotaryAxes(const machine::AxisPositions& target, WordRange words, Evaluation& evaluation) {
+void Tilting::positionRotaryAxes(const machine::AxisPositions& target, WordRange words, Evaluation& evaluation) {
   publishRotaryAxes(target);
   const bool isMove = find(words, "MOVE", evaluation) != nullptr;
   const bool isTurn = find(words, "TURN", evaluation) != nullptr;
@@ -235,11 +229,11 @@ void KlartextHost::positionRotaryAxes(const machine::AxisPositions& target, Word
   const Word* feedWord = find(words, "F", evaluation);
   if (stays || (!isMove && !isTurn && feedWord == nullptr)) return;
   control::Feed feed = control::Feed::rapidTraverse();
-  if (feedWord != nullptr) feed = checkedFeed(length(feedWord->value, evaluation));
+  if (feedWord != nullptr) feed = checkedFeed(run_.length(feedWord->value, evaluation));
   if (const Word* back = find(words, "MB", evaluation)) {
     std::optional<double> distance;
-    if (back->value.present()) distance = length(back->value, evaluation);
-    retract(distance, feed);
+    if (back->value.present()) distance = run_.length(back->value, evaluation);
+    motion_.retract(distance, feed);
   }
   control::Channel& channel = control_.channel;
   const machine::MachineDescription& description = channel.description();
@@ -252,9 +246,9 @@ void KlartextHost::positionRotaryAxes(const machine::AxisPositions& target, Word
   control_.applyCoordinates();
   if (const Word* distance = find(words, "DIST", evaluation); isMove && distance != nullptr) {
     // The point that stays on the workpiece lies that far above the tip.
-    channel.toolVector -= channel.toolVector.normalized() * length(distance->value, evaluation);
+    channel.toolVector -= channel.toolVector.normalized() * run_.length(distance->value, evaluation);
   }
   channel.moveTo(turned, feed);
 }
 
-}  // namespace probewright::language::klartext
+}  // namespace probewright::execution::klartext

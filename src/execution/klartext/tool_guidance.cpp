@@ -3,17 +3,10 @@
 
 #include "control/alarm.hpp"
 #include "control/scoped.hpp"
-#include "execution/klartext/host.hpp"
+#include "execution/klartext/tool_guidance.hpp"
 #include "machine/rotary_solver.hpp"
 
-/// FUNCTION TCPM: which point of the tool follows the program while rotary axes turn, and what A, B, C mean.
-///
-/// The tip is the lowest point of the tool on its axis, the centre lies R2 with its oversizes above it: the middle of a
-/// ball, or of the rounding of a toroid. With TIP-TIP programmed coordinates are those of the tip, which stays still on
-/// the workpiece while rotary axes turn; with CENTER-CENTER both are the centre. With TIP-CENTER coordinates are those
-/// of the tip, but the tool turns about its centre: that point runs straight, or stays where a block moves rotary axes
-/// only.
-namespace probewright::language::klartext {
+namespace probewright::execution::klartext {
 
 using control::Alarm;
 
@@ -30,12 +23,12 @@ Vector3 shortened(const control::heidenhain::Control& control, double distance) 
 
 }  // namespace
 
-void KlartextHost::guideTool(const Modal& modal, Evaluation& evaluation) {
+void ToolGuidance::switchBy(const Modal& modal, Evaluation& evaluation) {
   const bool on = evaluation.at(modal.name) == "FUNCTION TCPM";
   setHoldTip(on);
   if (!on) return;
   if (const Word* path = find(modal.words, "PATH", evaluation); path != nullptr && path->value.number == 0) {
-    leaveOut("PATHCTRL VECTOR, which guides the tool direction between the ends of a block,");
+    run_.leaveOut("PATHCTRL VECTOR, which guides the tool direction between the ends of a block,");
   }
   const Word* axis = find(modal.words, "AXIS", evaluation);
   const Word* point = find(modal.words, "REFP", evaluation);
@@ -45,8 +38,7 @@ void KlartextHost::guideTool(const Modal& modal, Evaluation& evaluation) {
   placeControlledPoint();
 }
 
-/// Hands the point that programmed coordinates name to the channel. To be called after every change of the tool.
-void KlartextHost::placeControlledPoint() {
+void ToolGuidance::placeControlledPoint() {
   const control::heidenhain::ActiveTool& tool = control_.tool;
   control_.channel.toolVector.setZero();
   control_.channel.toolVector[control_.coordinates.plane.tool] =
@@ -55,7 +47,7 @@ void KlartextHost::placeControlledPoint() {
 
 /// AXIS SPAT: A, B, C are space angles of the tool in the active coordinate system; those that the block leaves out
 /// keep their value.
-void KlartextHost::turnToSpaceAngles(WordRange words, RotaryTarget& rotary, Evaluation& evaluation) {
+void ToolGuidance::turnToSpaceAngles(WordRange words, RotaryTarget& rotary, Evaluation& evaluation) {
   bool given = false;
   for (const Word& word : evaluation.words(words)) {
     if (word.address < 'A' || word.address > 'C') continue;
@@ -71,7 +63,7 @@ void KlartextHost::turnToSpaceAngles(WordRange words, RotaryTarget& rotary, Eval
 }
 
 /// LN with TX, TY, TZ: where the tool points from its tip, while M128 or FUNCTION TCPM is on.
-void KlartextHost::turnToVector(WordRange words, RotaryTarget& rotary, Evaluation& evaluation) {
+void ToolGuidance::turnToVector(WordRange words, RotaryTarget& rotary, Evaluation& evaluation) {
   Vector3 direction = Vector3::Zero();
   for (int i = 0; i < 3; ++i) {
     const char name[2] = {'T', "XYZ"[i]};
@@ -84,7 +76,7 @@ void KlartextHost::turnToVector(WordRange words, RotaryTarget& rotary, Evaluatio
 }
 
 /// The rotary axes go the shortest way to where the tool points in this direction of the active coordinate system.
-void KlartextHost::turnTo(const Vector3& inProgram, RotaryTarget& rotary) const {
+void ToolGuidance::turnTo(const Vector3& inProgram, RotaryTarget& rotary) const {
   const control::Channel& channel = control_.channel;
   const machine::MachineDescription& description = channel.description();
   const machine::AxisPositions& reference = control_.coordinates.preset.rotaryOffset;
@@ -118,7 +110,7 @@ void KlartextHost::turnTo(const Vector3& inProgram, RotaryTarget& rotary) const 
 
 /// A move with rotary axes. With TIP-CENTER the channel guides the centre: the target is that of the tip, and what it
 /// leaves out keeps the centre's place.
-void KlartextHost::moveTurning(const control::Target& target, control::Feed feed) {
+void ToolGuidance::moveTurning(const control::Target& target, control::Feed feed) {
   control::Channel& channel = control_.channel;
   const machine::AxisPositions start = channel.axes();
   machine::AxisPositions end = start;
@@ -141,4 +133,21 @@ void KlartextHost::moveTurning(const control::Target& target, control::Feed feed
   channel.moveTo(ofCentre, feed);
 }
 
-}  // namespace probewright::language::klartext
+void ToolGuidance::setHoldTip(bool hold) {
+  if (hold) {
+    const auto& axes = control_.channel.description().axes;
+    const bool turns =
+        std::ranges::any_of(axes, [](const machine::Axis& axis) { return axis.kind == machine::AxisKind::Rotary; });
+    if (!turns) {
+      throw Alarm("Function not available", "M128 and FUNCTION TCPM need a machine with rotary axes",
+                  "take the function out or choose a machine that has them");
+    }
+  }
+  control_.channel.holdTip = hold;
+  referencePoint_ = ReferencePoint::TipTip;
+  spaceAngles_ = false;
+  placeControlledPoint();
+  control_.applyCoordinates();
+}
+
+}  // namespace probewright::execution::klartext

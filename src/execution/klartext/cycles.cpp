@@ -7,10 +7,11 @@
 #include "cycles/heidenhain/context.hpp"
 #include "cycles/heidenhain/probe_words.hpp"
 #include "cycles/heidenhain/registry.hpp"
-#include "execution/klartext/host.hpp"
+#include "execution/klartext/cycles.hpp"
+#include "language/klartext/commands.hpp"
 
-/// Touch probe cycles run; cycle 12 calls its program; all other machining cycles are named as skipped.
-namespace probewright::language::klartext {
+/// Patterns of points are in cycle_patterns.cpp.
+namespace probewright::execution::klartext {
 
 using control::Alarm;
 using control::Feed;
@@ -25,7 +26,7 @@ bool isOfBuilder(int number) { return (number >= 300 && number < 400) || (number
 
 }  // namespace
 
-void KlartextHost::cycle(const CycleCall& call, Evaluation& evaluation) {
+void Cycles::carryOut(const CycleCall& call, Evaluation& evaluation) {
   if (evaluation.at(call.name) == "TCH PROBE") {
     measure(call, evaluation);
     return;
@@ -39,13 +40,35 @@ void KlartextHost::cycle(const CycleCall& call, Evaluation& evaluation) {
 }
 
 /// A new cycle ends M89.
-void KlartextHost::defineCycle(int number) {
+void Cycles::defineCycle(int number) {
   machiningCycle_ = number;
   cycleAtEachMove_ = false;
 }
 
-/// CYCL CALL, CYCL CALL POS at a position, and M99, which ends M89.
-void KlartextHost::callCycle(const Command& command, Evaluation& evaluation) {
+void Cycles::defineProgramCycle(std::string program) {
+  defineCycle(12);
+  run_.cycleProgram = std::move(program);
+}
+
+void Cycles::callAtEachMove() {
+  cycleAtEachMove_ = true;
+  callMachiningCycle();
+}
+
+void Cycles::afterMove(const Move& move, Evaluation& evaluation) {
+  if (!cycleAtEachMove_ || !Motion::travels(move, evaluation)) return;
+  // M99 in the block: the call comes after the move by itself.
+  const Block& block = evaluation.block();
+  const bool callsByItself = std::ranges::any_of(block.instructions, [&](const Instruction& each) {
+    const auto* command = std::get_if<Command>(&each);
+    return command != nullptr && kindOf(block, *command) == CommandKind::CycleCall;
+  });
+  if (callsByItself) return;
+  motion_.flush();
+  callMachiningCycle();
+}
+
+void Cycles::callCycle(const Command& command, Evaluation& evaluation) {
   cycleAtEachMove_ = false;
   if (evaluation.at(command.text) == "PAT" && machiningCycle_ == 12) {
     callAtPattern();
@@ -56,24 +79,22 @@ void KlartextHost::callCycle(const Command& command, Evaluation& evaluation) {
 }
 
 /// In the plane at the greater of the two heights; cycles that are skipped stay above.
-void KlartextHost::moveToCallPosition(const Command& command, Evaluation& evaluation) {
-  Move way;
-  way.words = command.words;
+void Cycles::moveToCallPosition(const Command& command, Evaluation& evaluation) {
   const Word* feedWord = find(command.words, "F", evaluation);
-  const Feed feed = feedWord == nullptr ? Feed::rapidTraverse() : checkedFeed(length(feedWord->value, evaluation));
+  const Feed feed = feedWord == nullptr ? Feed::rapidTraverse() : checkedFeed(run_.length(feedWord->value, evaluation));
   const control::WorkingPlane& plane = control_.coordinates.plane;
   const Vector3 from = plane.planeFromXyz(control_.channel.position());
-  const Vector3 to = plane.planeFromXyz(pointOf(way, evaluation, control_.channel.position()));
+  const Vector3 to = plane.planeFromXyz(motion_.pointOf(command.words, evaluation, control_.channel.position()));
   const double above = std::max(from.z(), to.z());
   control_.channel.moveTo(plane.xyzFromPlane({from.x(), from.y(), above}), feed);
   control_.channel.moveTo(plane.xyzFromPlane({to.x(), to.y(), above}), feed);
   if (machiningCycle_ == 12) control_.channel.moveTo(plane.xyzFromPlane(to), feed);
 }
 
-void KlartextHost::measure(const CycleCall& call, Evaluation& evaluation) {
+void Cycles::measure(const CycleCall& call, Evaluation& evaluation) {
   const cycles::heidenhain::Entry* entry = cycles::heidenhain::findEntry(call.number);
   if (entry == nullptr && isOfBuilder(call.number)) {
-    leaveOut(fmt::format("Touch probe cycle {}, which is of the machine tool builder,", call.number));
+    run_.leaveOut(fmt::format("Touch probe cycle {}, which is of the machine tool builder,", call.number));
     return;
   }
   if (entry == nullptr) {
@@ -108,33 +129,28 @@ void KlartextHost::measure(const CycleCall& call, Evaluation& evaluation) {
     }
   }
   lastProbeCycle_ = call.number;
-  // Cycles place the tip, whatever FUNCTION TCPM says.
-  const ReferencePoint point = std::exchange(referencePoint_, ReferencePoint::TipTip);
-  placeControlledPoint();
-  cycles::heidenhain::runCycle(control_, *entry, arguments, evaluation.place());
-  referencePoint_ = point;
-  placeControlledPoint();
+  guidance_.withTip([&] { cycles::heidenhain::runCycle(control_, *entry, arguments, evaluation.place()); });
   control_.applyCoordinates();
 }
 
-void KlartextHost::callMachiningCycle() {
+void Cycles::callMachiningCycle() {
   if (!machiningCycle_) {
     throw Alarm("Cycle not defined", "CYCL CALL, M99 or M89 finds no cycle defined",
                 "program CYCL DEF with the cycle before it");
   }
   if (machiningCycle_ == 12) {
-    requestedProgram_ = cycleProgram_;
+    requestedProgram_ = run_.cycleProgram;
     return;
   }
   skip(*machiningCycle_);
 }
 
-void KlartextHost::skip(int number) {
-  if (options_.strict) {
+void Cycles::skip(int number) {
+  if (run_.options.strict) {
     throw Alarm("Cycle not available", fmt::format("Cycle {} is not simulated", number),
                 "run without --strict to skip machining cycles");
   }
-  leaveOut(fmt::format("Cycle {}", number));
+  run_.leaveOut(fmt::format("Cycle {}", number));
 }
 
-}  // namespace probewright::language::klartext
+}  // namespace probewright::execution::klartext

@@ -1,17 +1,17 @@
 #include <fmt/format.h>
 
 #include "control/alarm.hpp"
+#include "execution/klartext/cycles.hpp"
 #include "execution/klartext/excerpt.hpp"
-#include "execution/klartext/host.hpp"
 #include "language/klartext/pattern.hpp"
 
 /// Patterns of points: PATTERN DEF, SEL PATTERN, and cycle 12 called at each of them.
-namespace probewright::language::klartext {
+namespace probewright::execution::klartext {
 
 using control::Alarm;
 
-void KlartextHost::definePattern(std::string_view text, Evaluation& evaluation) {
-  const auto value = [&](std::string_view name) { return numberNamed(name, evaluation); };
+void Cycles::definePattern(std::string_view text) {
+  const auto value = [&](std::string_view name) { return parameters_.numberNamed(name); };
   auto points = patternPoints(text, value);
   if (!points) throw Alarm("Pattern wrong", points.error().message, points.error().advice);
   for (Vector3& point : *points)
@@ -19,8 +19,8 @@ void KlartextHost::definePattern(std::string_view text, Evaluation& evaluation) 
   pattern_ = std::move(*points);
 }
 
-void KlartextHost::selectPattern(const std::string& path) {
-  const Result<std::string> bytes = readHostFile(path);
+void Cycles::selectPattern(const std::string& path) {
+  const Result<std::string> bytes = run_.readHostFile(path);
   if (!bytes) {
     throw Alarm("Table missing",
                 fmt::format("The point table {} cannot be read: {}", excerptOf(path), bytes.error().message),
@@ -31,18 +31,18 @@ void KlartextHost::selectPattern(const std::string& path) {
   pattern_ = std::move(*points);
 }
 
-void KlartextHost::callAtPattern() {
+void Cycles::callAtPattern() {
   if (pattern_.empty()) {
     throw Alarm("Pattern not defined", "CYCL CALL PAT finds no pattern of points",
                 "program PATTERN DEF or SEL PATTERN before it");
   }
-  levels_.back().pattern = PatternRun{pattern_, 0, control_.coordinates.current().shift, cycleProgram_};
+  run_.levels.back().pattern = PatternRun{pattern_, 0, control_.coordinates.current().shift, run_.cycleProgram};
   nextPatternPoint();
 }
 
 /// The points count as an additional datum shift for the program that cycle 12 calls.
-void KlartextHost::nextPatternPoint() {
-  auto& run = levels_.back().pattern;
+void Cycles::nextPatternPoint() {
+  auto& run = run_.levels.back().pattern;
   if (!run) return;
   auto& transformations = control_.coordinates.current();
   transformations.shift = run->shift;
@@ -56,4 +56,4 @@ void KlartextHost::nextPatternPoint() {
   control_.applyCoordinates();
 }
 
-}  // namespace probewright::language::klartext
+}  // namespace probewright::execution::klartext

@@ -7,11 +7,12 @@
 
 #include "base/utc.hpp"
 #include "control/alarm.hpp"
-#include "execution/klartext/host.hpp"
+#include "execution/klartext/protocol_mask.hpp"
+#include "execution/klartext/system_texts.hpp"
 #include "language/klartext/lexer.hpp"
 
 /// SYSSTR and CFGREAD: data of the control as texts.
-namespace probewright::language::klartext {
+namespace probewright::execution::klartext {
 
 using control::Alarm;
 
@@ -57,35 +58,35 @@ bool sameWord(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-/// Nothing the control has: an alarm. docs/klartext.md lists what it has.
-Value KlartextHost::systemText(int id, int number, int index) const {
-  const auto& tables = control_.tables;
+Value systemText(const RunContext& run, int id, int number, int index) {
+  const control::heidenhain::Control& control = run.control;
+  const auto& tables = control.tables;
   switch (id) {
     case 10010:
-      if (number == 1) return control_.programPath;
-      if (number == 2 && !levels_.empty()) return levels_.back().file;
-      if (number == 3) return cycleProgram_;
-      if (number == 10) return selectedProgram_;
+      if (number == 1) return control.programPath;
+      if (number == 2 && !run.levels.empty()) return run.levels.back().file;
+      if (number == 3) return run.cycleProgram;
+      if (number == 10) return run.selectedProgram;
       break;
     case 10060:
-      if (number == 1) return control_.tool.name;
+      if (number == 1) return control.tool.name;
       break;
     case 10290:
-      if (number == 10) return control_.channel.description().name;
+      if (number == 10) return control.channel.description().name;
       break;
     case 10321:
-      if (const auto text = dateText(number, machineSeconds())) return *text;
+      if (const auto text = dateText(number, run.machineSeconds())) return *text;
       break;
     case 10350: {
-      const std::string& row = control_.tool.probeRow;
+      const std::string& row = control.tool.probeRow;
       if (number == 50) return row.empty() ? std::string() : tables.probes.text(row, "TYPE");
       break;
     }
     case 10630:
-      if (number == 10) return std::string(control::name(control_.kind()));
+      if (number == 10) return std::string(control::name(control.kind()));
       break;
     case 10950: {
-      const std::string row = index > 0 ? std::to_string(index) : control_.tool.row;
+      const std::string row = index > 0 ? std::to_string(index) : control.tool.row;
       if (number == 1) return tables.tools.text(row, "NAME");
       if (number == 2) return tables.tools.text(row, "DOC");
       break;
@@ -97,22 +98,21 @@ Value KlartextHost::systemText(int id, int number, int index) const {
               "assign a fixed text to the parameter");
 }
 
-/// CFGREAD: language and unit of the control, the axes it shows, and the parameters of docs/machine-parameters.md by
-/// their names.
-Value KlartextHost::configuration(const std::string& object, const std::string& attribute, int index) const {
-  if (sameWord(attribute, "ncLanguage")) return std::string(languageWord(control_.panel.language).substr(2));
+Value configuration(const RunContext& run, const std::string& object, const std::string& attribute, int index) {
+  const control::heidenhain::Control& control = run.control;
+  if (sameWord(attribute, "ncLanguage")) return std::string(languageWord(control.panel.language).substr(2));
   if (sameWord(attribute, "unitOfMeasure")) return std::string("metric");
   if (sameWord(attribute, "axisDisplayOrder")) {
-    const auto& axes = control_.channel.description().axes;
+    const auto& axes = control.channel.description().axes;
     if (index < 0) return static_cast<double>(axes.size());
     if (index < static_cast<int>(axes.size())) return axes[static_cast<std::size_t>(index)].name;
   }
   for (const auto& entry : control::heidenhain::machineParameterEntries()) {
-    if (!entry.controls.contains(control_.kind()) || !sameWord(attribute, entry.name)) continue;
+    if (!entry.controls.contains(control.kind()) || !sameWord(attribute, entry.name)) continue;
     return std::visit(
         [&](auto member) -> Value {
-          using Type = std::remove_cvref_t<decltype(control_.parameters.*member)>;
-          const auto value = control_.parameters.*member;
+          using Type = std::remove_cvref_t<decltype(control.parameters.*member)>;
+          const auto value = control.parameters.*member;
           if constexpr (std::is_same_v<Type, bool>) return std::string(value ? "TRUE" : "FALSE");
           return static_cast<double>(value);
         },
@@ -123,4 +123,4 @@ Value KlartextHost::configuration(const std::string& object, const std::string& 
               "assign a fixed value to the parameter");
 }
 
-}  // namespace probewright::language::klartext
+}  // namespace probewright::execution::klartext

@@ -8,12 +8,12 @@
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
 #include "execution/klartext/excerpt.hpp"
-#include "execution/klartext/host.hpp"
+#include "execution/klartext/tables.hpp"
+#include "language/klartext/commands.hpp"
 #include "language/klartext/lexer.hpp"
 
-/// FN 26 TABOPEN, FN 27 TABWRITE, FN 28 TABREAD: freely definable tables. Several columns take as many parameters, one
-/// after the other.
-namespace probewright::language::klartext {
+/// Several columns take as many parameters, one after the other.
+namespace probewright::execution::klartext {
 
 using control::Alarm;
 using control::heidenhain::NumberColumn;
@@ -26,10 +26,7 @@ std::vector<std::string> columnsOf(std::string_view text) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find(','), text.size());
     std::string_view name = text.substr(0, end);
-    while (!name.empty() && isBlank(name.front()))
-      name.remove_prefix(1);
-    while (!name.empty() && isBlank(name.back()))
-      name.remove_suffix(1);
+    name = trimmed(name, blanksAndReturn);
     columns.emplace_back(name);
     text.remove_prefix(std::min(end + 1, text.size()));
   }
@@ -48,26 +45,9 @@ VariableRef behind(VariableRef variable, std::size_t count) {
 
 }  // namespace
 
-std::string fileNameOf(std::string_view path) {
-  const std::size_t separator = path.find_last_of("/\\:");
-  return std::string(separator == std::string_view::npos ? path : path.substr(separator + 1));
-}
-
-Result<std::string> KlartextHost::readHostFile(std::string_view path) const {
-  std::string name(path);
-  std::erase(name, '"');
-  if (!options_.readFile) return fail(fmt::format("the file {} does not exist", excerptOf(name)));
-  Result<std::string> bytes = options_.readFile(name);
-  if (!bytes && fileNameOf(name) != name) {
-    Result<std::string> byName = options_.readFile(fileNameOf(name));
-    if (byName) return byName;
-  }
-  return bytes;
-}
-
-void KlartextHost::openTable(std::string_view path) {
+void Tables::open(std::string_view path) {
   if (path.empty()) throw Alarm("Table missing", "FN 26 names no table", "write FN 26: TABOPEN TABLE.TAB");
-  const Result<std::string> bytes = readHostFile(path);
+  const Result<std::string> bytes = run_.readHostFile(path);
   if (!bytes) {
     throw Alarm("Table missing", fmt::format("The table {} cannot be read: {}", excerptOf(path), bytes.error().message),
                 "put the table beside the program");
@@ -78,7 +58,7 @@ void KlartextHost::openTable(std::string_view path) {
   table_ = std::move(*table);
 }
 
-void KlartextHost::writeTable(const Command& command, Evaluation& evaluation) {
+void Tables::write(const Command& command, Evaluation& evaluation) {
   if (!table_) throw Alarm("Table missing", "No table is open for FN 27", "program FN 26: TABOPEN before it");
   const std::span<const Word> words = evaluation.words(command.words);
   const std::string row = std::to_string(std::lround(evaluation.number(words[0].value)));
@@ -88,7 +68,7 @@ void KlartextHost::writeTable(const Command& command, Evaluation& evaluation) {
     Value value;
     if (command.variable >= 0) {
       const VariableRef& first = evaluation.block().variables[static_cast<std::size_t>(command.variable)];
-      value = read(behind(first, i), evaluation);
+      value = parameters_.read(behind(first, i));
     } else {
       value = evaluation.value(words[1].value);
     }
@@ -103,13 +83,12 @@ void KlartextHost::writeTable(const Command& command, Evaluation& evaluation) {
 
 /// TABDATA READ, WRITE, ADD: an entry of the tool table or of the preset table, in the unit of the table's numbers: mm
 /// and degrees. A preset in force changes at once.
-void KlartextHost::tableData(const Command& command, Evaluation& evaluation) {
-  settle();
-  const std::string_view name = evaluation.at(command.name);
+void Tables::tableData(const Command& command, Evaluation& evaluation) {
+  const CommandKind way = kindOf(evaluation.block(), command);
   std::string kind(evaluation.at(command.text));
   std::ranges::transform(kind, kind.begin(), upper);
   if (kind.starts_with("CORR")) {
-    leaveOut(fmt::format("{} of the correction table {}", name, kind));
+    run_.leaveOut(fmt::format("{} of the correction table {}", nameOf(way), kind));
     return;
   }
   auto& table = kind == "TOOL" ? control_.tables.tools : control_.tables.presets;
@@ -125,14 +104,14 @@ void KlartextHost::tableData(const Command& command, Evaluation& evaluation) {
                             table.hasRow(row) ? fmt::format("column {}", columnName) : fmt::format("row {}", row)),
                 "correct COLUMN or KEY");
   }
-  if (name == "TABDATA READ") {
+  if (way == CommandKind::TabdataRead) {
     const VariableRef& target = evaluation.block().variables[static_cast<std::size_t>(command.variable)];
     const std::string cell = table.text(row, column);
     const auto number = parseDecimal(cell);
     if (target.space == VariableSpace::QS) {
-      write(target, cell, evaluation);
+      parameters_.write(target, cell);
     } else if (number || cell.empty() || cell == "-") {
-      write(target, number ? table.numberOr(row, column, 0) : 0, evaluation);
+      parameters_.write(target, number ? table.numberOr(row, column, 0) : 0);
     } else {
       throw Alarm("Wrong data type", fmt::format("\"{}\" in column {} is not a number", cell, columnName),
                   "read it into a QS parameter");
@@ -141,22 +120,21 @@ void KlartextHost::tableData(const Command& command, Evaluation& evaluation) {
   }
   const Value value = evaluation.value(find(command.words, "VAL", evaluation)->value);
   if (isText(value)) {
-    if (name == "TABDATA ADD") throw Alarm("Wrong data type", "TABDATA ADD adds numbers, not texts");
+    if (way == CommandKind::TabdataAdd) throw Alarm("Wrong data type", "TABDATA ADD adds numbers, not texts");
     control_.writeText(table, row, column, std::get<std::string>(value));
     return;
   }
-  const double before = name == "TABDATA ADD" ? table.numberOr(row, column, 0) : 0;
-  writeTableNumber(kind == "TOOL", row, columnName, before + std::get<double>(value));
+  const double before = way == CommandKind::TabdataAdd ? table.numberOr(row, column, 0) : 0;
+  writeNumber(kind == "TOOL", row, columnName, before + std::get<double>(value));
 }
 
-void KlartextHost::writeTableNumber(bool tool, const std::string& row, const std::string& column, double value) {
+void Tables::writeNumber(bool tool, const std::string& row, const std::string& column, double value) {
   if (tool) {
     control_.writeNumber(control_.tables.tools, row, NumberColumn::named(column), value);
     if (row != control_.tool.row) return;
-    control_.refreshTool();
-    placeControlledPoint();
+    tools_.refresh();
     control_.applyCoordinates();
-    publishTool();
+    tools_.publishTool();
     return;
   }
   control::heidenhain::Control::PresetChange change;
@@ -178,7 +156,7 @@ void KlartextHost::writeTableNumber(bool tool, const std::string& row, const std
   if (number) control_.writePreset(static_cast<int>(*number), change);
 }
 
-void KlartextHost::readTable(const Command& command, Evaluation& evaluation) {
+void Tables::read(const Command& command, Evaluation& evaluation) {
   if (!table_) throw Alarm("Table missing", "No table is open for FN 28", "program FN 26: TABOPEN before it");
   const std::string row = std::to_string(std::lround(evaluation.number(evaluation.words(command.words)[0].value)));
   const VariableRef& first = evaluation.block().variables[static_cast<std::size_t>(command.variable)];
@@ -191,7 +169,7 @@ void KlartextHost::readTable(const Command& command, Evaluation& evaluation) {
                   "correct the row or the name of the column");
     }
     if (first.space == VariableSpace::QS) {
-      write(behind(first, i), *cell, evaluation);
+      parameters_.write(behind(first, i), *cell);
       continue;
     }
     const std::optional<double> number = parseDecimal(*cell);
@@ -199,8 +177,8 @@ void KlartextHost::readTable(const Command& command, Evaluation& evaluation) {
       throw Alarm("Wrong data type", fmt::format("\"{}\" in column {} is not a number", *cell, columns[i]),
                   "read it into a QS parameter");
     }
-    write(behind(first, i), *number, evaluation);
+    parameters_.write(behind(first, i), *number);
   }
 }
 
-}  // namespace probewright::language::klartext
+}  // namespace probewright::execution::klartext

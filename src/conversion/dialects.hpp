@@ -1,0 +1,13 @@
+#pragma once
+
+#include "conversion/conversion.hpp"
+#include "language/program_language.hpp"
+
+namespace probewright::conversion {
+
+/// A program of a HEIDENHAIN control in the other of its two languages, or anew in its own. A DIN/ISO block after a
+/// label or a call that relies on G90, G91 or a path function before it is listed.
+Conversion betweenDialects(language::klartext::HeidenhainProgram& program, language::ProgramLanguage from,
+                           language::ProgramLanguage to);
+
+}  // namespace probewright::conversion

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <optional>
+
+#include "execution/klartext/contour.hpp"
+#include "execution/klartext/tool_guidance.hpp"
+#include "execution/klartext/tools.hpp"
+
+namespace probewright::execution::klartext {
+
+/// What M functions say about the path.
+struct PathModes {
+  bool feedPerRevolution = false;  ///< M136
+  bool shortestPath = false;       ///< M126
+  bool untiltedPositions = false;  ///< M130, in this block
+  bool ignoreProbe = false;        ///< M141, in this block
+};
+
+/// Throws Alarm for a feed slower than any control takes: it would never arrive.
+control::Feed checkedFeed(double millimetresPerMinute);
+
+/// Path functions: straight lines, arcs, corners, approach and departure, polar coordinates, positions of the machine.
+/// Program coordinates and feeds are in the unit of the program.
+class Motion {
+public:
+  Motion(RunContext& run, ToolGuidance& guidance, Tools& tools);
+
+  void carryOut(const Move& move, Evaluation& evaluation);
+
+  /// Carries out all motion that waits; radius compensation stays.
+  void flush() { contour_.flush(); }
+  /// Forgets all motion that waits.
+  void discard() { contour_.discard(); }
+  /// Ends all motion that waits; compensation ends too.
+  void settle();
+
+  /// Away from the workpiece along the tool axis, by a distance or to the limit of travel.
+  void retract(std::optional<double> distance, control::Feed feed);
+  /// The end point that axis words X, Y, Z give.
+  Vector3 pointOf(WordRange words, Evaluation& evaluation, const Vector3& from) const;
+  /// True if the block moves an axis; a feed or a radius compensation alone does not.
+  static bool travels(const Move& move, Evaluation& evaluation);
+
+  PathModes modes;
+  /// mm/min, or with M136 mm per revolution; 0: none programmed yet.
+  double feed() const { return feed_; }
+
+private:
+  void straight(const Move& move, Evaluation& evaluation);
+  void arc(const Move& move, Evaluation& evaluation);
+  void corner(const Move& move, Evaluation& evaluation);
+  void approachOrDepart(const Move& move, Evaluation& evaluation);
+  void setCentre(const Move& move, Evaluation& evaluation);
+  void moveInMachineCoordinates(const Move& move, Evaluation& evaluation);
+  void runElement(const Element& element, const control::WorkingPlane& plane);
+  void addElement(Element element, const Move& move, Evaluation& evaluation);
+  Vector3 programmedPosition() const;
+  control::Feed feedOf(const Move& move, Evaluation& evaluation);
+  control::Feed feedFor(double programmed) const;
+  void namePathWords(const Move& move, Evaluation& evaluation);
+  Vector3 untiltedTarget(const Move& move, Evaluation& evaluation, const Vector3& from) const;
+  void straightTo(const Vector3& to, control::Feed feed);
+  BlockPlace placeOf(Evaluation& evaluation) const;
+  bool cornerFollows(Evaluation& evaluation) const;
+  Side sideOf(const Move& move);
+
+  RunContext& run_;
+  control::heidenhain::Control& control_;
+  ToolGuidance& guidance_;
+  Tools& tools_;
+  Contour contour_;
+  double feed_ = 0;
+  Side side_ = Side::Off;
+  Vector3 pole_ = Vector3::Zero();
+  bool poleSet_ = false;
+  std::optional<control::WorkingPlane> polePlane_;  ///< of CC, if it is not that of the tool axis
+  int arcDirection_ = 0;
+};
+
+}  // namespace probewright::execution::klartext
