@@ -104,9 +104,14 @@ TEST(Commands, TheParserMakesNoOthers) {
   std::size_t seen = 0;
   for (BlockPosition at = program.begin(); program.parse(at, block, mistakes); at = block.next) {
     for (const Instruction& instruction : block.instructions) {
-      if (const auto* command = std::get_if<Command>(&instruction)) EXPECT_NO_THROW(kindOf(block, *command)), ++seen;
-      if (const auto* transform = std::get_if<Transform>(&instruction))
-        EXPECT_NO_THROW(kindOf(block, *transform)), ++seen;
+      if (const auto* command = std::get_if<Command>(&instruction)) {
+        EXPECT_NO_THROW(kindOf(block, *command));
+        ++seen;
+      }
+      if (const auto* transform = std::get_if<Transform>(&instruction)) {
+        EXPECT_NO_THROW(kindOf(block, *transform));
+        ++seen;
+      }
     }
   }
   EXPECT_GE(seen, 60U);
