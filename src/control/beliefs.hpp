@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -23,6 +24,7 @@ struct BelievedTool {
   std::string kind;   ///< "probe", "mill", "drill", "turn"
   double length = 0;  ///< mm; of a probe its effective length: to the ball's lowest point, less the axial pretravel
   double radius = 0;  ///< mm; of a probe its effective ball radius: less the pretravel and the signal delay at `feed`
+  int teeth = 0;      ///< cutting edges; 0: nobody knows
   bool inSpindle = false;
   Vector3 mount = Vector3::Zero();            ///< mm, from the spindle nose to where `length` begins, spindle frame
   Vector3 shankDirection = Vector3::UnitZ();  ///< unit, from the tip to the holder, spindle frame
@@ -52,13 +54,16 @@ struct BelievedFrame {
   bool active = false;
 };
 
-/// The tool touch probe as it was fitted.
+/// A tool touch probe as it was fitted.
 struct BelievedToolProbe {
   Vector3 centre = Vector3::Zero();  ///< mm, machine coordinates, of the upper face of its contact
   double width = 0;                  ///< mm, of the contact in X: its diameter or edge; 0: nobody knows
   double widthY = 0;                 ///< mm, in Y
   double pretravel = 0;              ///< mm, by which calibrating has found it lower and narrower
   bool cuboid = false;
+  Vector3 least = Vector3::Zero(), most = Vector3::Zero();  ///< mm, machine coordinates, where its contact ends
+  /// Whether it signals when a tool pushes it towards +X, -X, +Y, -Y, +Z, -Z of the machine.
+  std::array<bool, 6> gives = {true, true, true, true, false, true};
 };
 
 /// A machine parameter or setting datum, passed on to the control as it is written.
@@ -78,7 +83,7 @@ struct Beliefs {
   std::vector<BelievedTool> tools;
   std::vector<BelievedFrame> presets;
   std::vector<BelievedFrame> zeroOffsets;
-  std::optional<BelievedToolProbe> toolProbe;
+  std::vector<BelievedToolProbe> toolProbes;  ///< controls that know one only know the first
   std::map<std::string, BelievedParameter> parameters;
   std::map<std::string, std::string> answers;  ///< of the operator, by the name of the question
 };

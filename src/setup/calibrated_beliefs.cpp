@@ -1,5 +1,7 @@
 #include "setup/calibrated_beliefs.hpp"
 
+#include <algorithm>
+
 #include "machine/description.hpp"
 
 namespace probewright::setup {
@@ -9,6 +11,7 @@ void believeAsCalibrated(control::BelievedTool& believed, const simulation::True
   believed.shankDirection = tool.shankDirection;
   believed.length = tool.length;
   believed.radius = tool.radius;
+  believed.teeth = static_cast<int>(tool.cutter.teeth.size());
   if (tool.kind != simulation::ToolKind::Probe) return;
   const simulation::TrueProbe& probe = tool.probe;
   const double delayed = probe.signalDelay * believed.feed / 60;
@@ -24,18 +27,45 @@ void believeShape(control::BelievedTool& believed, const simulation::TrueProbe& 
   believed.lShaped = believed.tipOffset.norm() > 2 * (probe.ballRadius + probe.stylusRadius);
 }
 
-std::optional<control::BelievedToolProbe> believedToolProbe(const simulation::World& world) {
-  if (world.truth.toolProbes.empty()) return std::nullopt;
-  const simulation::TrueToolProbe& probe = world.truth.toolProbes.front();
+namespace {
+
+/// Where a contact ends and where it gives way, along the axes of the machine; how it is tilted, nobody has measured.
+void believeSides(control::BelievedToolProbe& believed, const simulation::TrueToolProbe& probe,
+                  const Matrix3& machineFromContact) {
   const simulation::Bounds bounds = probe.contact->bounds();
-  control::BelievedToolProbe believed;
-  believed.centre =
-      (machine::baseFromTable(world.truth.machine, world.truth.start) * probe.tableFromContact) * Vector3::Zero();
-  believed.width = bounds.maximum.x() - bounds.minimum.x();
-  believed.widthY = bounds.maximum.y() - bounds.minimum.y();
-  believed.pretravel = probe.pretravel;
-  believed.cuboid = probe.cuboid;
-  return believed;
+  Vector3 least = bounds.minimum, most = bounds.maximum;
+  least.z() = std::max(least.z(), most.z() - believed.width);  // what is below the contact carries it
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::Index own = 0;
+    machineFromContact.row(axis).cwiseAbs().maxCoeff(&own);
+    const bool along = machineFromContact(axis, own) > 0;
+    believed.least[axis] = believed.centre[axis] + (along ? least[own] : -most[own]);
+    believed.most[axis] = believed.centre[axis] + (along ? most[own] : -least[own]);
+    for (const bool plus : {true, false}) {
+      believed.gives[static_cast<std::size_t>(2 * axis + (plus ? 0 : 1))] =
+          probe.gives[static_cast<std::size_t>(2 * own + (plus == along ? 0 : 1))];
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<control::BelievedToolProbe> believedToolProbes(const simulation::World& world) {
+  std::vector<control::BelievedToolProbe> all;
+  for (const simulation::TrueToolProbe& probe : world.truth.toolProbes) {
+    const simulation::Bounds bounds = probe.contact->bounds();
+    const Pose machineFromContact =
+        machine::baseFromTable(world.truth.machine, world.truth.start) * probe.tableFromContact;
+    control::BelievedToolProbe believed;
+    believed.centre = machineFromContact * Vector3::Zero();
+    believed.width = bounds.maximum.x() - bounds.minimum.x();
+    believed.widthY = bounds.maximum.y() - bounds.minimum.y();
+    believed.pretravel = probe.pretravel;
+    believed.cuboid = probe.cuboid;
+    believeSides(believed, probe, machineFromContact.linear());
+    all.push_back(believed);
+  }
+  return all;
 }
 
 control::Technology believedTechnology(const machine::MachineDescription& machine) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include "control/beliefs.hpp"
 #include "simulation/world.hpp"
@@ -18,8 +18,8 @@ void believeAsCalibrated(control::BelievedTool& believed, const simulation::True
 /// stylus is made.
 void believeShape(control::BelievedTool& believed, const simulation::TrueProbe& probe);
 
-/// The first tool touch probe as it was fitted at the start posture, and calibrated; nothing if the world has none.
-std::optional<control::BelievedToolProbe> believedToolProbe(const simulation::World& world);
+/// The tool touch probes as they were fitted at the start posture, and calibrated.
+std::vector<control::BelievedToolProbe> believedToolProbes(const simulation::World& world);
 
 /// A machine without an axis Y is a lathe.
 control::Technology believedTechnology(const machine::MachineDescription& machine);

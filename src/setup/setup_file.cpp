@@ -32,7 +32,7 @@ std::optional<Setup> parseSetup(std::string_view text, const std::string& file, 
   root.finish();
   if (diagnostics.size() > before) return std::nullopt;
   setup.beliefs.technology = believedTechnology(setup.world.truth.machine);
-  setup.beliefs.toolProbe = believedToolProbe(setup.world);
+  setup.beliefs.toolProbes = believedToolProbes(setup.world);
   return setup;
 }
 

@@ -43,7 +43,7 @@ struct ToolWorld {
   }
   Ran bare(const std::string& blocks) const {
     Bench run = bench;
-    run.setup.beliefs.toolProbe = setup::believedToolProbe(bench.setup.world);
+    run.setup.beliefs.toolProbes = setup::believedToolProbes(bench.setup.world);
     return run.runBare(blocks);
   }
 

@@ -69,8 +69,8 @@ public:
   bool dryRun = false, programTest = false, blockSearch = false;
   std::string programPath;
   std::int64_t wallClockStart = 0;
-  std::array<double, 32> ovr{};  ///< _OVR
-  std::array<int, 20> ovi{};     ///< _OVI
+  std::array<double, 500> ovr{};  ///< _OVR
+  std::array<int, 20> ovi{};      ///< _OVI
 
   control::WorkingPlane workingPlane() const { return control::WorkingPlane::ofG(plane); }
 

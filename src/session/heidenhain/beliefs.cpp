@@ -206,8 +206,8 @@ hh::MachineParameters machineParameters(const Beliefs& beliefs, ControlKind kind
     parameters.calibratedAngle = tool.calibrationAngle;
     break;
   }
-  if (beliefs.toolProbe) {
-    const control::BelievedToolProbe& probe = *beliefs.toolProbe;
+  if (!beliefs.toolProbes.empty()) {
+    const control::BelievedToolProbe& probe = beliefs.toolProbes.front();
     parameters.mp6580x = parameters.contactX = probe.centre.x();
     parameters.mp6580y = parameters.contactY = probe.centre.y();
     parameters.mp6580z = probe.centre.z();

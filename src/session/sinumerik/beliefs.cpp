@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "control/sinumerik/measuring_data.hpp"
+#include "cycles/sinumerik/tool_probe_data.hpp"
 #include "execution/sinumerik/global_data.hpp"
 #include "session/sinumerik/lathe_beliefs.hpp"
 #include "session/table_files.hpp"
@@ -51,6 +52,7 @@ SinumerikData sinumerikData(const Beliefs& beliefs, Diagnostics& diagnostics,
     // The length of stars and Ls ends at the equator of their balls.
     dp(3, star || bent ? tool.length - tool.axialRadius : tool.length);
     dp(6, bent ? tool.tipOffset.norm() : tool.radius);
+    if (tool.teeth > 0) store.load(sin::DataKey("$TC_DPNT", {t, 1}), 1.0 * tool.teeth);
     if (star || bent) dp(7, tool.axialRadius);
     if (!probe) continue;
     const int n = tool.probeNumber - 1;
@@ -75,6 +77,10 @@ SinumerikData sinumerikData(const Beliefs& beliefs, Diagnostics& diagnostics,
     calibration("$SNS_MEA_WP_POS_DEV_AX1", tool.tipOffset.x());
     calibration("$SNS_MEA_WP_POS_DEV_AX2", tool.tipOffset.y());
   }
+  const auto active = std::ranges::find(beliefs.zeroOffsets, true, &BelievedFrame::active);
+  cycles::sinumerik::enterToolProbes(store, beliefs.toolProbes,
+                                     active == beliefs.zeroOffsets.end() ? nullptr : &*active,
+                                     control::WorkingPlane::ofG(lathe ? 18 : 17));
   for (const BelievedFrame& offset : beliefs.zeroOffsets) {
     sin::Frame frame;
     for (std::size_t i = 0; i < 3; ++i) {
