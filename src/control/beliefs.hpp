@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/diagnostic.hpp"
+#include "control/believed_kinematics.hpp"
 #include "control/control_kind.hpp"
 #include "geometry/primitives.hpp"
 
@@ -80,6 +81,7 @@ struct Beliefs {
   std::optional<ControlKind> control;  ///< nothing: what the program is for
   std::filesystem::path tables;        ///< folder with the control's own table files, which go first; empty if none
   Technology technology = Technology::Milling;
+  BelievedKinematics kinematics;
   std::vector<BelievedTool> tools;
   std::vector<BelievedFrame> presets;
   std::vector<BelievedFrame> zeroOffsets;

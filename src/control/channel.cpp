@@ -78,16 +78,16 @@ void Channel::setFollowing(Following following, const AxisPositions& reference) 
 }
 
 Vector3 Channel::machineFromAxes(const AxisPositions& axes) const {
+  const Vector3 deviation = tipDeviation ? tipDeviation(axes) : Vector3::Zero();
   if (following_ == Following::Kinematics) {
-    const Pose tableFromSpindle =
-        machine::baseFromTable(description_, axes).inverse() * machine::baseFromSpindle(description_, axes);
-    return referenceFromTable_ * (tableFromSpindle * Vector3(-toolVector));
+    const Vector3 tip = machine::baseFromSpindle(description_, axes) * Vector3(-toolVector) + deviation;
+    return referenceFromTable_ * (machine::baseFromTable(description_, axes).inverse() * tip);
   }
   Vector3 reference = Vector3::Zero();
   for (std::size_t i = 0; i < 3; ++i) {
     if (linearAxis_[i]) reference[static_cast<Eigen::Index>(i)] = axes[*linearAxis_[i]];
   }
-  return reference - toolVector;
+  return reference - toolVector + deviation;
 }
 
 Vector3 Channel::programFromAxes(const AxisPositions& axes) const {
@@ -97,7 +97,7 @@ Vector3 Channel::programFromAxes(const AxisPositions& axes) const {
 AxisPositions Channel::axesFromMachine(const Vector3& tip, const AxisPositions& rotary) const {
   AxisPositions axes = rotary;
   if (following_ == Following::LinearAxes) {
-    const Vector3 reference = tip + toolVector;
+    const Vector3 reference = tip + toolVector - (tipDeviation ? tipDeviation(rotary) : Vector3::Zero());
     for (std::size_t i = 0; i < 3; ++i) {
       if (linearAxis_[i]) {
         axes[*linearAxis_[i]] = reference[static_cast<Eigen::Index>(i)];

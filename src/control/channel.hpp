@@ -86,6 +86,9 @@ public:
 
   /// The believed machine: descriptions of kinematics that cycles correct. Starts as the machine's own.
   void setDescription(const machine::MachineDescription& believed);
+  /// How much further the tip is than the axes tell, as far as the control knows: machine axes X, Y, Z, mm, by the
+  /// positions of the rotary axes. Linear axes must not matter. Empty: nowhere.
+  std::function<Vector3(const AxisPositions& axes)> tipDeviation;
 
   // ---- the tool ----
 

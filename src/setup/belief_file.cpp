@@ -44,7 +44,33 @@ void BeliefReader::readControl() {
                      "Name the folder that holds the control's table files, relative to this file");
     }
   }
+  readKinematics(*reader);
   reader->finish();
+}
+
+/// [control.kinematics.C]: where the control believes the axis of rotation of C.
+void BeliefReader::readKinematics(TomlReader& control) {
+  auto kinematics = control.table("kinematics");
+  if (!kinematics) return;
+  for (const std::string& key : kinematics->keys()) {
+    auto reader = kinematics->table(key);
+    const auto axis = axisNamed(*kinematics, key, key, machine_, machine::AxisKind::Rotary);
+    if (!reader) continue;
+    control::BelievedRotaryAxis belief;
+    belief.point = readVector(*reader, "point");
+    if (const auto direction = readVector(*reader, "direction")) {
+      if (direction->norm() < 1e-9) {
+        reader->report("direction", "a direction cannot be [0, 0, 0]");
+      } else {
+        belief.direction = direction->normalized();
+      }
+    }
+    belief.position = readVector(*reader, "position").value_or(Vector3::Zero());
+    belief.orientation = readVector(*reader, "orientation", NumberRange::within(10)).value_or(Vector3::Zero());
+    belief.hirthGrid = reader->number("hirth_grid", {0.001, 180}).value_or(0);
+    reader->finish();
+    if (axis) beliefs_.kinematics.insert_or_assign(key, belief);
+  }
 }
 
 void BeliefReader::readFrame(TomlReader& reader, BelievedFrame frame, std::vector<BelievedFrame>& frames,

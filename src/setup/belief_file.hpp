@@ -26,6 +26,7 @@ public:
   void readAnswers();
 
 private:
+  void readKinematics(TomlReader& control);
   void readFrame(TomlReader& reader, control::BelievedFrame frame, std::vector<control::BelievedFrame>& frames,
                  const char* idKey);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/rotary_correction.hpp"
+
 namespace probewright::simulation {
 
 using machine::AxisKind;
@@ -11,11 +13,6 @@ using machine::ChainElement;
 using machine::MachineDescription;
 
 namespace {
-
-Pose rotationVector(const Vector3& degrees) {
-  const double angle = degrees.norm();
-  return angle > 0 ? rotation(degrees / angle, angle) : Pose::Identity();
-}
 
 double deviationAt(const Deviation& deviation, double position) {
   double value = 0;
@@ -62,17 +59,15 @@ MachineDescription trueDescription(const MachineDescription& machine, const Mach
       element.direction = (element.direction + sign * drift).normalized();
     });
   }
-  for (const RotaryAxisError& error : errors.rotaryAxes) {
-    changeElements(truth, error.axis, [&](ChainElement& element, double) {
-      element.point += error.position;
-      element.direction = (rotationVector(error.orientation) * element.direction).normalized();
-    });
-  }
+  for (const RotaryAxisError& error : errors.rotaryAxes)
+    machine::correct(truth, {error.axis, error.position, error.orientation});
   return truth;
 }
 
 TrueKinematics::TrueKinematics(const MachineDescription& nominal, const MachineErrors& errors)
-    : machine_(trueDescription(nominal, errors)), errors_(errors), spindleTilt_(rotationVector(errors.spindleTilt)) {
+    : machine_(trueDescription(nominal, errors)),
+      errors_(errors),
+      spindleTilt_(machine::rotationVector(errors.spindleTilt)) {
   errors_.axes.resize(std::max(errors_.axes.size(), machine_.axes.size()));
 }
 

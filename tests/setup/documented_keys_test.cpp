@@ -148,6 +148,8 @@ TEST(DocumentedKeys, OfEverySection) {
   EXPECT_EQ(known(z), top);
   EXPECT_EQ(known("[machine]\n" + z), documented("`[machine]`"));
   EXPECT_EQ(known("[control]\n" + z), documented("`[control]`"));
+  EXPECT_EQ(known("[machine]\nname = \"mill5-table-table\"\n[control.kinematics.C]\n" + z),
+            documented("`[control.kinematics.C]`"));
   EXPECT_EQ(known("[part]\nfile = \"a.stl\"\n" + z), documented("`[part]` and `[[fixture]]`"));
   EXPECT_EQ(known("[[fixture]]\nfile = \"a.stl\"\n" + z), documented("`[part]` and `[[fixture]]`"));
   EXPECT_EQ(known("[part]\nfile = \"a.stl\"\n[part.pose]\n" + z), documented("`pose`"));

@@ -8,6 +8,7 @@
 
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
+#include "control/heidenhain/kinematics.hpp"
 #include "control/heidenhain/tool_table.hpp"
 
 namespace probewright::control::heidenhain {
@@ -32,7 +33,12 @@ ActivePreset aboutToolAxis(ActivePreset preset, const TypedTable& presets, const
 }  // namespace
 
 Control::Control(ControlKind kind, machine::Machine& machine, Tables tables_, MachineParameters parameters_)
-    : panel(journal), channel(machine, journal), tables(std::move(tables_)), parameters(parameters_), kind_(kind) {
+    : panel(journal),
+      channel(machine, journal),
+      tables(std::move(tables_)),
+      parameters(parameters_),
+      kinematics(std::make_shared<Kinematics>(machine.description())),
+      kind_(kind) {
   channel.onToolByHand = [this](const machine::ToolOrder& order, const std::string& detail) {
     panel.stop(askForTool(order, detail), channel.seconds());
   };
@@ -246,6 +252,14 @@ void Control::writePreset(int row, const PresetChange& change) {
     coordinates.preset = preset;
     applyCoordinates();
   }
+}
+
+void Control::applyKinematics() {
+  channel.setDescription(kinematics->description());
+  const Vector3 base = kinematics->data().base;
+  channel.tipDeviation = nullptr;
+  if (!base.isZero(0)) channel.tipDeviation = [base](const machine::AxisPositions&) { return base; };
+  applyCoordinates();
 }
 
 void Control::applyCoordinates() {

@@ -54,6 +54,8 @@ struct ProbingOverrides {
   std::optional<bool> interrupt;          ///< Q400
 };
 
+class Kinematics;
+
 class Control {
 public:
   Control(ControlKind kind, machine::Machine& machine, Tables tables, MachineParameters parameters = {});
@@ -70,6 +72,7 @@ public:
   MachineParameters parameters;
   QParameters q;
   Coordinates coordinates;
+  std::shared_ptr<Kinematics> kinematics;  ///< the active one; never null
   ActiveTool tool;
   /// Preset origins carry more digits here than their table can show.
   std::string activeDatumTable;     ///< key of Tables::datums; empty: none selected
@@ -124,6 +127,9 @@ public:
 
   /// Hands the coordinate chain to the channel. To be called after any change of `coordinates` or the tool.
   void applyCoordinates();
+
+  /// Hands the active kinematics to the channel. To be called after any change of it.
+  void applyKinematics();
 
   /// Write a cell (numbers in mm, degrees, mm/min) and record what changed. Throw Alarm if the table refuses it.
   void writeNumber(TypedTable& table, const std::string& row, NumberColumn column, double value);

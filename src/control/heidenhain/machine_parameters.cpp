@@ -195,6 +195,30 @@ constexpr std::array entries = {
                           "xx of the NC software 340 49x-xx; 606 42x counts as 8. From 5 on there are Q423 and Q365 in "
                           "cycles 412, 413, 421 and 422, Q320 in 416, and Q320 and Q301 in 425",
                           &MachineParameters::softwareVersion},
+    MachineParameterEntry{"maxModification", "204801", onTNC640, 0.001, 1, "mm",
+                          "change of the kinematics beyond which cycles 451 and 452 ask for NC start",
+                          &MachineParameters::maxModification},
+    MachineParameterEntry{"MP6600", "", onITNC530, 0.001, 1, "mm", "the same", &MachineParameters::maxModification},
+    MachineParameterEntry{"maxDevCalBall", "204802", onTNC640, 0.001, 0.1, "mm",
+                          "how far the measured radius of the calibration sphere may be from Q407",
+                          &MachineParameters::maxDevCalBall},
+    MachineParameterEntry{"MP6601", "", onITNC530, 0.001, 0.1, "mm", "the same", &MachineParameters::maxDevCalBall},
+    MachineParameterEntry{"mStrobeRotAxPos", "204803", onTNC640, -1, 999, "",
+                          "M function of the builder that positions the rotary axes in cycles 451 to 453, which give "
+                          "it the angles in Q120 to Q122; -1: the cycles position them",
+                          &MachineParameters::strobeRotaryAxes},
+    MachineParameterEntry{"MP6602", "", onITNC530, -1, 999, "", "the same in cycles 451 and 452",
+                          &MachineParameters::strobeRotaryAxes},
+    MachineParameterEntry{"option48", "", onBothTNC, 0, 1, "",
+                          "1: software option 48, KinematicsOpt, is enabled: cycles 450 to 453",
+                          &MachineParameters::option48},
+    MachineParameterEntry{"option52", "", onBothTNC, 0, 1, "",
+                          "1: software option 52, KinematicsComp, is enabled: Q406 = 2 and 3 of cycle 451, cycle 453",
+                          &MachineParameters::option52},
+    MachineParameterEntry{
+        "toolCentreOption", "", onBothTNC, 0, 1, "",
+        "1: the software option with TCPM is enabled (M128), which Q408 = 0 of cycles 451 to 453 needs",
+        &MachineParameters::toolCentreOption},
     MachineParameterEntry{
         "refuseTransformations", "", onTNC640, 0, 1, "",
         "1: cycles 400 to 499 refuse to run while cycle 7, 8, 10, 11 or 26 is active, which the manual "

@@ -59,6 +59,11 @@ struct MachineParameters {
   double contactX = 0, contactY = 0, contactZ = 0;
   double contactRadius1 = 0, contactRadius2 = 0;
   bool rectangularContact = false;
+  // kinematics, both: MP6600 to MP6602 and their names on the TNC 640
+  double maxModification = 0.05;
+  double maxDevCalBall = 0.02;
+  int strobeRotaryAxes = -1;
+  bool option48 = true, option52 = true, toolCentreOption = true;
   // both: habits of Probewright where the manuals only warn
   bool refuseTransformations = true;
 };

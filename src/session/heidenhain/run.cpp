@@ -5,6 +5,7 @@
 
 #include "base/folder_swap.hpp"
 #include "base/number_text.hpp"
+#include "control/heidenhain/kinematics.hpp"
 #include "execution/din_iso/host.hpp"
 #include "execution/klartext/host.hpp"
 #include "language/encoding.hpp"
@@ -64,6 +65,8 @@ void run(const RunRequest& request, FolderReading reading, machine::Machine& mac
   control.programPath = request.path.string();
   control.startSeconds = control.channel.seconds();
   control.wallClockStart = options.wallClock;
+  control.kinematics->set({control::believedCorrections(machine.description(), beliefs.kinematics), Vector3::Zero()});
+  control.applyKinematics();
   control.activatePreset(activePresetRow(beliefs));
   const auto probe = std::ranges::find(beliefs.tools, "probe", &control::BelievedTool::kind);
   if (probe != beliefs.tools.end()) control.handProbe = {probe->number, probe->name};
