@@ -1,21 +1,30 @@
 #include "simulation/cad_corrections.hpp"
 
 #include <BRepAdaptor_Surface.hxx>
+#include <IGESBasic_SingularSubfigure.hxx>
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <IGESGeom_OffsetSurface.hxx>
+#include <STEPControl_Reader.hxx>
 #include <StepGeom_Axis2Placement3d.hxx>
 #include <StepGeom_CartesianPoint.hxx>
 #include <StepGeom_CartesianTransformationOperator3d.hxx>
 #include <StepGeom_ConicalSurface.hxx>
 #include <StepGeom_CylindricalSurface.hxx>
 #include <StepGeom_Direction.hxx>
+#include <StepGeom_Line.hxx>
 #include <StepGeom_OffsetSurface.hxx>
 #include <StepGeom_Plane.hxx>
 #include <StepGeom_SphericalSurface.hxx>
+#include <StepGeom_SurfaceOfRevolution.hxx>
 #include <StepGeom_ToroidalSurface.hxx>
+#include <StepGeom_TrimmedCurve.hxx>
+#include <StepShape_FaceBound.hxx>
 #include <StepShape_FaceSurface.hxx>
+#include <StepShape_Loop.hxx>
+#include <StepShape_VertexLoop.hxx>
 #include <TColStd_HArray1OfReal.hxx>
+#include <TColStd_SequenceOfAsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -36,6 +45,12 @@ bool scalesOrMirrors(const StepGeom_CartesianTransformationOperator3d& placement
   if (placement.HasScale() && std::abs(placement.Scale() - 1) > 1e-9) return true;
   const gp_Vec x = vectorOf(placement.Axis1(), gp_Vec(1, 0, 0)), y = vectorOf(placement.Axis2(), gp_Vec(0, 1, 0));
   return x.Crossed(y).Dot(vectorOf(placement.Axis3(), x.Crossed(y))) < 0;
+}
+
+bool isLine(Handle(StepGeom_Curve) curve) {
+  while (const auto trimmed = Handle(StepGeom_TrimmedCurve)::DownCast(curve))
+    curve = trimmed->BasisCurve();
+  return !curve.IsNull() && curve->IsKind(STANDARD_TYPE(StepGeom_Line));
 }
 
 Handle(TCollection_HAsciiString) noName() { return new TCollection_HAsciiString(""); }
@@ -91,6 +106,9 @@ Handle(Standard_Transient) misreadPlacement(const Handle(Interface_InterfaceMode
     const auto placement = Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(model->Value(i));
     if (!placement.IsNull() && !model->IsErrorEntity(i) && scalesOrMirrors(*placement))
       return Handle(Standard_Transient)(placement.get());
+    const auto instance = Handle(IGESBasic_SingularSubfigure)::DownCast(model->Value(i));
+    if (!instance.IsNull() && !model->IsErrorEntity(i) && std::abs(instance->ScaleFactor() - 1) > 1e-9)
+      return Handle(Standard_Transient)(instance.get());
   }
   return nullptr;
 }
@@ -104,6 +122,32 @@ Handle(Standard_Transient) unreadableOffset(const Handle(Interface_InterfaceMode
       return Handle(Standard_Transient)(offset.get());
   }
   return nullptr;
+}
+
+Handle(Standard_Transient) unreadableApex(const Handle(Interface_InterfaceModel) & model) {
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto face = Handle(StepShape_FaceSurface)::DownCast(model->Value(i));
+    if (face.IsNull() || model->IsErrorEntity(i) || face->FaceGeometry().IsNull()) continue;
+    const auto turned = Handle(StepGeom_SurfaceOfRevolution)::DownCast(face->FaceGeometry());
+    if (turned.IsNull() || !isLine(turned->SweptCurve())) continue;
+    for (int k = 1; k <= face->NbBounds(); ++k) {
+      const Handle(StepShape_FaceBound) bound = face->BoundsValue(k);
+      if (!bound.IsNull() && !bound->Bound().IsNull() && bound->Bound()->IsKind(STANDARD_TYPE(StepShape_VertexLoop)))
+        return Handle(Standard_Transient)(face.get());
+    }
+  }
+  return nullptr;
+}
+
+bool isInMetres(STEPControl_Reader& reader) {
+  TColStd_SequenceOfAsciiString lengths, angles, solidAngles;
+  reader.FileUnits(lengths, angles, solidAngles);
+  for (const TCollection_AsciiString& unit : lengths) {
+    TCollection_AsciiString name = unit;
+    name.LowerCase();
+    if (name == "metre" || name == "meter" || name == "m") return true;
+  }
+  return false;
 }
 
 void takePlainOffsets(const Handle(Interface_InterfaceModel) & model) {

@@ -3,18 +3,27 @@
 #include <Interface_InterfaceModel.hxx>
 #include <Standard_Transient.hxx>
 
+class STEPControl_Reader;
 class XSControl_Reader;
 
 /// Entities of files that OpenCASCADE takes for something else than the standards mean.
 namespace probewright::simulation {
 
-/// A placement that mirrors or scales, of STEP; null if there is none. OpenCASCADE takes a scale for its inverse and a
-/// mirror for a rotation.
+/// A placement that mirrors or scales, of STEP, or that scales, of IGES; null if there is none. OpenCASCADE takes a
+/// scale for its inverse or none and a mirror for a rotation.
 Handle(Standard_Transient) misreadPlacement(const Handle(Interface_InterfaceModel) & model);
 
 /// A face of STEP on the offset of a cone; null if there is none. OpenCASCADE loses its edges, and the probe would
 /// pass.
 Handle(Standard_Transient) unreadableOffset(const Handle(Interface_InterfaceModel) & model);
+
+/// A face of STEP on a surface of revolution that is bounded by a single vertex; null if there is none. OpenCASCADE
+/// takes it for unbounded there.
+Handle(Standard_Transient) unreadableApex(const Handle(Interface_InterfaceModel) & model);
+
+/// Whether lengths of a STEP file are metres. OpenCASCADE then loses the borders of some faces whose edges meet at the
+/// pole of a ball or that are parts of closed surfaces.
+bool isInMetres(STEPControl_Reader& reader);
 
 /// Gives faces of STEP that lie on the offset of a plane, cylinder, sphere or torus the plane, cylinder, sphere or
 /// torus itself: OpenCASCADE does not find their edges on the offset.

@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 /// To be counted up whenever an import makes something else of the same file, also if only its layout in memory
 /// changes.
-constexpr int kCacheVersion = 6;
+constexpr int kCacheVersion = 7;
 constexpr std::size_t kMostNamed = 10;
 constexpr int kMostAttempts = 5;
 
@@ -138,6 +138,7 @@ private:
     gaps_.clear();
     unable_ = {};
     scale_.clear();
+    metres_ = false;
     failure_.clear();
     edges_.clear();
     at_.clear();
@@ -176,6 +177,8 @@ private:
       gaps_.push_back({std::string(label), std::string(size)});
     } else if (word == "scaled") {
       scale_ = rest;
+    } else if (word == "metres") {
+      metres_ = true;
     } else if (word == "unable") {
       const auto [label, reason] = firstWord(rest);
       unable_ = {std::string(label), std::string(reason)};
@@ -354,6 +357,12 @@ private:
              fmt::format("{} cannot be read: {}", names_.nameOf(suspects_[i].label), suspects_[i].reason),
              "the file is damaged in this entity; export or copy the part again");
     }
+    if (metres_) {
+      remark(part, 0,
+             "the file is in metres; faces with a corner at the pole of a ball and parts of closed surfaces are "
+             "sometimes read wrongly from such files",
+             "export the part in millimetres or inches");
+    }
     for (const Grid& grid : grids_) {
       if (numberIn(grid.cell) == 0 && grid.cell.starts_with("0.000")) {
         remark(part, 0, fmt::format("face {} of {} ({}) cannot be meshed and is missing", grid.face, faces_, grid.kind),
@@ -388,7 +397,7 @@ private:
   Suspect unable_;
   std::string scale_;
   std::string stage_, failure_, edges_, at_;
-  bool skin_ = false, nothing_ = false, meshing_ = false, preparing_ = false;
+  bool metres_ = false, skin_ = false, nothing_ = false, meshing_ = false, preparing_ = false;
   int faces_ = 0, done_ = 0;
 };
 

@@ -126,6 +126,13 @@ std::unique_ptr<XSControl_Reader> load(const TransferOrder& order, const ChildVo
                       labelOf(model, offset)));
       return nullptr;
     }
+    if (const auto tip = unreadableApex(model); !tip.IsNull()) {
+      voice.say(
+          fmt::format("unable {} it is a cone as surface of revolution that ends at its apex without an edge, which "
+                      "cannot be read|export the part with conical surfaces instead of surfaces of revolution",
+                      labelOf(model, tip)));
+      return nullptr;
+    }
   }
   if (status == IFSelect_RetDone) return reader;
   std::string reason = "it is not what such a file must be";
@@ -283,6 +290,7 @@ std::string transferCad(const TransferOrder& order, const ChildVoice& voice) {
     }
     nameLostFaces(*reader, voice);
     nameGaps(*reader, voice);
+    if (order.format == CadFormat::Step && isInMetres(static_cast<STEPControl_Reader&>(*reader))) voice.say("metres");
     if (const double scale = scaleOf(reader->WS()->Model()); scale != 1) {
       voice.say(fmt::format("scaled {:.9g}", scale));
       gp_Trsf enlarge;

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "meant.hpp"
@@ -198,6 +199,24 @@ TEST(WrittenIges, MovedMirroredAndInstancedSurfacesAreMetWhereTheyAre) {
     place.translation() = move.translation();
     expectRead("mirrored", file, through(place, 1, own), 40, place * (own * Vector3(0, 0, 7)), random, 40);
   }
+}
+
+TEST(WrittenIges, InstancesAtAnotherSizeAreRefused) {
+  std::mt19937_64 random(306);
+  const auto instanced = [](double scale) {
+    IgesFile file({2, 1});
+    const int patch = cylinderPatch(file, Pose::Identity(), 12, -5, 20, 0.3, 3, "00010000");
+    const int part = file.add(308, fmt::format("0,4HPART,1,{}", patch), 0, 0, "00010200");
+    file.add(408, fmt::format("{},{},{}", part, file.point({30, -10, 5}), igesNumber(scale)));
+    return file;
+  };
+  const Pose moved = translation({30, -10, 5});
+  expectRead("instance", instanced(1), distanceOfShell(12, -5, 20, 0.3, 3, moved), 40, moved * Vector3(0, 0, 7), random,
+             40);
+  const ScratchFolder folder;
+  const auto solid = readIges(folder.write("part.igs", instanced(1.5).text()));
+  ASSERT_FALSE(solid);
+  EXPECT_THAT(format(solid.error()), ::testing::HasSubstr("it mirrors or scales a part, which cannot be read"));
 }
 
 }  // namespace

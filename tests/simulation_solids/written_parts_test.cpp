@@ -262,6 +262,34 @@ TEST(WrittenParts, WithOffsetsOfConesAreRefused) {
   EXPECT_THAT(format(solid.error()), HasSubstr("OFFSET_SURFACE: it is the offset of a cone"));
 }
 
+TEST(WrittenParts, WithConesOfRevolutionThatEndAtTheirApexAreRefused) {
+  const ScratchFolder folder;
+  StepFile file;
+  Dialect dialect;
+  dialect.surfaces = Dialect::Surfaces::Revolution;
+  dialect.loops = Dialect::Loops::TwoCircles;
+  const std::string text = file.withItems({solidOf(file, revolvedFaces(file, spindle(), Pose::Identity(), dialect))});
+  const auto solid = readStep(folder.write("part.step", text));
+  ASSERT_FALSE(solid);
+  EXPECT_GT(solid.error().place.line, 0U);
+  EXPECT_THAT(format(solid.error()), HasSubstr("ADVANCED_FACE: it is a cone as surface of revolution that ends at its "
+                                               "apex without an edge"));
+}
+
+TEST(WrittenParts, InMetresAreReadWithAWarning) {
+  const ScratchFolder folder;
+  for (const double length : {1.0, 25.4, 1000.0}) {
+    StepFile file({length, false});
+    const std::string text = file.withItems({solidOf(file, revolvedFaces(file, bush(), Pose::Identity(), {}))});
+    const auto solid = readStep(folder.write("part.step", text));
+    ASSERT_TRUE(solid) << format(solid.error());
+    const Diagnostics& remarks = dynamic_cast<const CadSolid&>(**solid).remarks();
+    ASSERT_EQ(remarks.size(), length == 1000 ? 1U : 0U);
+    for (const Diagnostic& remark : remarks)
+      EXPECT_THAT(format(remark), HasSubstr("warning: the file is in metres"));
+  }
+}
+
 TEST(DamagedParts, WhoseFacesDoNotFitTheirEdgesAreNamed) {
   StepFile file;
   const std::string good = file.withItems({solidOf(file, revolvedFaces(file, bush(), Pose::Identity(), {}))});
