@@ -61,4 +61,13 @@ struct ConvertArguments {
 /// Here 1 means that something could not be carried over; it stands as a comment in the output.
 int convert(const ConvertArguments& arguments);
 
+struct FeelArguments {
+  std::filesystem::path setup;
+  std::string segment = "/probewright-feel";  ///< of shared memory
+  std::string cache;                          ///< as of RunArguments
+  bool quiet = false;
+};
+/// Answers LinuxCNC's HAL component probewright_feel until that leaves.
+int feel(const FeelArguments& arguments);
+
 }  // namespace probewright::app

@@ -246,6 +246,16 @@ int main(int argc, char** argv) {
       "language cannot say is kept as a comment in OUT; 2 a mistake in the input, or OUT exists: nothing written. "
       "docs/conversion.md says which measuring cycle becomes which.");
 
+  probewright::app::FeelArguments feelArguments;
+  CLI::App* feel = app.add_subcommand(
+      "feel", "Give a simulated LinuxCNC machine a probe that feels the part of a setup (see docs/linuxcnc.md)");
+  feel->add_option("SETUP", feelArguments.setup, "The world to feel; only its truth counts")->required();
+  feel->add_option("--segment", feelArguments.segment, "Shared memory that the HAL component has made")
+      ->type_name("NAME")
+      ->capture_default_str();
+  feel->add_option("--cache", feelArguments.cache, "As for run")->type_name("DIR");
+  feel->add_flag("--quiet", feelArguments.quiet, "Print nothing but mistakes");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -263,6 +273,7 @@ int main(int argc, char** argv) {
     if (run->parsed()) return probewright::app::run(runArguments);
     if (check->parsed()) return probewright::app::check(checkArguments);
     if (convert->parsed()) return probewright::app::convert(convertArguments);
+    if (feel->parsed()) return probewright::app::feel(feelArguments);
     return probewright::app::cycles(cyclesArguments);
   });
   // Whoever asked for an answer must learn that it did not come; an alarm or an error says more.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "simulation/probe_signal.hpp"
 #include "simulation/virtual_machine.hpp"
 
 /// What the virtual machine feels: from the touch of a solid to the signal of a sensor.
@@ -22,16 +23,8 @@ constexpr double measuringPrecision = 1e-7;  // mm
 }  // namespace
 
 double VirtualMachine::pretravel(const Motion& motion, const Touch& touch) const {
-  const TrueProbe& probe = tool_->probe;
   const Matrix3 spindleFromTable = motion.tableFromSpindleAt(touch.fraction).linear().transpose();
-  const Vector3 normal = rotation(Vector3::UnitZ(), -spindle_.angle).linear() *
-                         (toolFrame(*tool_).transpose() * (spindleFromTable * touch.normal));
-  const double axial = std::pow(normal.z(), 2);
-  const double lobed =
-      probe.lobing == 0
-          ? 0
-          : probe.lobing * std::cos(3 * (std::atan2(normal.y(), normal.x()) - radiansFromDegrees(probe.lobingPhase)));
-  return (1 - axial) * (probe.pretravel + lobed) + axial * probe.axialPretravel;
+  return pretravelOf(*tool_, spindle_.angle, spindleFromTable * touch.normal);
 }
 
 VirtualMachine::Stop VirtualMachine::stopFor(const Motion& motion, const Touch& touch) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "simulation/probe_signal.hpp"
 #include "simulation/virtual_machine.hpp"
 
 /// What tool touch probes feel of the tools.
@@ -17,13 +18,6 @@ using machine::Rotation;
 namespace {
 
 constexpr double obstaclePrecision = 1e-4;  // mm
-
-/// The direction in which the contact is pushed, in its frame: mainly along this axis.
-Push pushOf(const Vector3& direction) {
-  Eigen::Index axis = 0;
-  direction.cwiseAbs().maxCoeff(&axis);
-  return static_cast<Push>(2 * axis + (direction[axis] < 0 ? 1 : 0));
-}
 
 constexpr std::array<const char*, 6> pushNames = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
 

@@ -1,0 +1,109 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/linuxcnc_session.hpp"
+
+/// Programs in plain G-code on a real LinuxCNC whose probe feels a virtual part.
+namespace probewright::testing {
+namespace {
+
+/// The example's mill with another part and another display.
+class Feeling : public ::testing::Test {
+protected:
+  Feeling() : session_(PROBEWRIGHT_SOURCE_DIR, PROBEWRIGHT_BUILD_DIR) {
+    const std::filesystem::path example = std::filesystem::path(PROBEWRIGHT_SOURCE_DIR) / "examples/linuxcnc/mill3";
+    for (const auto& file : std::filesystem::directory_iterator(example))
+      std::filesystem::copy(file, session_.outside() / file.path().filename());
+    std::ifstream text(example / "mill3.ini");
+    std::string ini((std::istreambuf_iterator<char>(text)), {});
+    const auto replace = [&](const std::string& what, const std::string& by) {
+      const std::size_t at = ini.find(what);
+      ASSERT_NE(at, std::string::npos) << what;
+      ini.replace(at, what.size(), by);
+    };
+    replace("DISPLAY = axis", "DISPLAY = ./display.py");
+    replace("HALFILE = probewright_feel.tcl",
+            "HALFILE = " + (session_.source() / "linuxcnc/feel/probewright_feel.tcl").string());
+    replace("SETUP = practice.toml",
+            "SETUP = practice.toml\nPROGRAM = " + (session_.build() / "apps/probewright/probewright").string());
+    session_.write("test.ini", ini);
+  }
+
+  void SetUp() override {
+    if (!session_.needModule("linuxcnc/feel/probewright_feel.so"))
+      GTEST_SKIP() << "only root can lend LinuxCNC a module that is not installed";
+  }
+
+  std::string run(const std::string& display) {
+    session_.display(display);
+    return session_.run("test.ini");
+  }
+
+  LinuxCncSession session_;
+};
+
+constexpr double period = 0.001;       // s
+constexpr double feed = 300.0 / 60.0;  // mm/s
+constexpr double bound = feed * period + 1e-4;
+
+/// A probe of ball radius 2.5 without errors, 100 mm long, over a block whose faces are known.
+constexpr const char* exactWorld = R"(
+[part]
+name = "block"
+pose = { x = 10.25, y = -4.5, z = -280.125 }
+[[part.feature]]
+shape = "box"
+size = [60, 40, 30]
+[[tool]]
+number = 1
+name = "P"
+kind = "probe"
+length = 100
+ball_radius = 2.5
+stylus_radius = 1
+stylus_length = 40
+body_radius = 20
+body_length = 60
+in_spindle = true
+)";
+
+TEST_F(Feeling, ProbesTheTopAndTheSidesOfABlockWhereTheyAre) {
+  session_.write("practice.toml", exactWorld);
+  session_.write("p.ngc", R"(
+G21 G90 G49 G10 L2 P1 X0 Y0 Z0
+G0 X40 Y0 Z-149
+G38.2 Z-152 F300
+(PRINT,desk: top #5063)
+G0 Z-149
+G0 X44.5
+G0 Z-155
+G38.2 X41 F300
+(PRINT,desk: side #5061)
+G0 X46 Y-29
+G0 X40
+G38.3 Y-25 F300
+(PRINT,desk: front #5062 #5070)
+G0 Y-29
+M2
+)");
+  const std::string output = run("desk.ready()\ndesk.run('p.ngc')\n");
+  // Faces: top z = -250.125; x from -19.75 to 40.25; y from -24.5 to 15.5. The tip is 100 mm below the nose.
+  const auto top = session_.told(output, "top"), side = session_.told(output, "side"),
+             front = session_.told(output, "front");
+  ASSERT_EQ(top.size(), 1U) << output;
+  ASSERT_EQ(side.size(), 1U) << output;
+  ASSERT_EQ(front.size(), 2U) << output;
+  EXPECT_NEAR(top[0], -150.125, bound);
+  EXPECT_NEAR(side[0], 42.75, bound);
+  EXPECT_NEAR(front[0], -27.0, bound);
+  EXPECT_EQ(front[1], 1) << "the probe said that it had tripped";
+  // Never before the contact.
+  EXPECT_LE(top[0], -150.125 + 1e-6);
+  EXPECT_LE(side[0], 42.75 + 1e-6);
+  EXPECT_GE(front[0], -27.0 - 1e-6);
+}
+
+}  // namespace
+}  // namespace probewright::testing

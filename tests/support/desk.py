@@ -1,0 +1,95 @@
+"""What tests do at a real LinuxCNC: a display without a screen. LinuxCNC starts the test's script as its [DISPLAY]; that
+uses Desk, and whatever it prints is read by the test. When the script ends, LinuxCNC ends."""
+
+import sys
+import time
+
+import linuxcnc
+
+
+class Desk:
+    def __init__(self):
+        self.command = linuxcnc.command()
+        self.status = linuxcnc.stat()
+        self.errors = linuxcnc.error_channel()
+        self.messages = []
+        self.status.poll()
+
+    def tell(self, *words):
+        print("desk:", *words, flush=True)
+
+    def listen(self):
+        while True:
+            message = self.errors.poll()
+            if not message:
+                return
+            self.messages.append(message[1])
+            self.tell("message", message[1].replace("\n", " "))
+
+    def until(self, what, condition, seconds=20.0):
+        """Waits for a condition of the status; says so and ends the session if it does not come."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            self.status.poll()
+            self.listen()
+            if condition(self.status):
+                return
+            time.sleep(0.004)
+        self.tell("waited in vain for", what)
+        sys.exit(1)
+
+    def switch_on(self):
+        self.command.state(linuxcnc.STATE_ESTOP_RESET)
+        self.until("the end of the emergency stop", lambda s: s.task_state != linuxcnc.STATE_ESTOP)
+        end = time.monotonic() + 20
+        while self.status.task_state != linuxcnc.STATE_ON:
+            self.command.state(linuxcnc.STATE_ON)
+            self.command.wait_complete(1)
+            time.sleep(0.05)
+            self.status.poll()
+            if time.monotonic() > end:
+                self.tell("the machine cannot be switched on")
+                sys.exit(1)
+        self.listen()
+
+    def home(self):
+        self.command.mode(linuxcnc.MODE_MANUAL)
+        self.command.wait_complete()
+        self.command.teleop_enable(0)
+        self.command.wait_complete()
+        self.command.home(-1)
+        self.until("homing", lambda s: all(s.homed[: s.joints]))
+
+    def ready(self):
+        self.switch_on()
+        self.home()
+
+    def run(self, program, seconds=60.0):
+        """Runs a program to its end, however that comes."""
+        self.command.mode(linuxcnc.MODE_AUTO)
+        self.command.wait_complete()
+        self.command.program_open(program)
+        self.command.wait_complete()
+        self.command.auto(linuxcnc.AUTO_RUN, 0)
+        try:
+            self.until_quiet("start", lambda s: s.interp_state != linuxcnc.INTERP_IDLE, 1.0)
+        except TimeoutError:
+            pass  # it was shorter than a look
+        self.until("the end of " + program, lambda s: s.interp_state == linuxcnc.INTERP_IDLE and s.inpos, seconds)
+
+    def until_quiet(self, what, condition, seconds):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            self.status.poll()
+            self.listen()
+            if condition(self.status):
+                return
+            time.sleep(0.002)
+        raise TimeoutError(what)
+
+    def mdi(self, block, seconds=30.0):
+        self.command.mode(linuxcnc.MODE_MDI)
+        self.command.wait_complete()
+        self.command.mdi(block)
+        self.command.wait_complete(seconds)
+        self.until(block, lambda s: s.interp_state == linuxcnc.INTERP_IDLE and s.inpos, seconds)
