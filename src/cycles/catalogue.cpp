@@ -90,9 +90,25 @@ void describe(control::ResultRecord& record, const ResultDefinition& definition)
   record.kind = definition.kind;
 }
 
+namespace {
+
+/// "_OVR[100..199]" stands for all elements from 100 to 199.
+bool standsFor(std::string_view defined, std::string_view name) {
+  const std::size_t dots = defined.find("..");
+  if (dots == std::string_view::npos) return defined == name;
+  const std::size_t bracket = defined.find('[') + 1;
+  if (!name.starts_with(defined.substr(0, bracket)) || !name.ends_with(']')) return false;
+  const auto number = [](std::string_view text) { return parseInteger(text).value_or(-1); };
+  const auto element = number(name.substr(bracket, name.size() - bracket - 1));
+  return element >= number(defined.substr(bracket, dots - bracket)) &&
+         element <= number(defined.substr(dots + 2, defined.size() - dots - 3));
+}
+
+}  // namespace
+
 const ResultDefinition* CycleDefinition::result(std::string_view resultName, int units) const {
   const auto found = std::ranges::find_if(
-      results, [&](const ResultDefinition& each) { return each.name == resultName && each.belongsTo(units); });
+      results, [&](const ResultDefinition& each) { return standsFor(each.name, resultName) && each.belongsTo(units); });
   return found == results.end() ? nullptr : &*found;
 }
 

@@ -7,14 +7,13 @@
 #include <limits>
 
 #include "control/alarm.hpp"
-#include "control/stopped_place.hpp"
 #include "probing/arc.hpp"
+#include "probing/sinumerik_stroke.hpp"
 
 namespace probewright::probing {
 
 using control::Alarm;
 using machine::Feed;
-using machine::MeasureEnd;
 
 namespace {
 
@@ -187,42 +186,15 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
     point.record = channel_.journal().touch(record);
   };
   const Feed retract = habits_.rapidRetract ? rapidTo(end) : Feed::at(habits_.planeFeed);
-  const auto probeOnce = [&](const Vector3& target, double atFeed) -> std::optional<control::Touch> {
-    const int attempts = habits_.oneAttempt ? 1 : 5;
-    for (int attempt = 0; attempt < attempts; ++attempt) {
-      const machine::MeasureResult result =
-          channel_.measureTo(plane_.xyzFromPlane(target), Feed::at(atFeed), machine::Sensor::TouchProbe, part);
-      switch (result.end) {
-        case MeasureEnd::Touched:
-          return channel_.touchFrom(result);
-        case MeasureEnd::NoContact:
-          finish("no contact");
-          channel_.retractTo(plane_.xyzFromPlane(start), retract);
-          break;
-        case MeasureEnd::DeflectedAtStart:
-          finish("deflected");
-          throw Alarm(
-              "61302",
-              control::deflectedAtStart(
-                  channel_, "Probe collision: the probe is deflected before the measuring move begins", result.detail),
-              "move the probe clear of the workpiece or correct the start position");
-        case MeasureEnd::NotReady:
-          finish("not ready");
-          throw Alarm("61309", result.detail.empty() ? "There is no workpiece probe in the spindle" : result.detail,
-                      "load a probe of type 710, 712, 713, 714 or 580 before the cycle");
-        case MeasureEnd::AxisLimit:
-          finish("limit");
-          throw Alarm(channel_.alarms.limit, result.detail,
-                      "check the zero offset and the position of the workpiece in the machine");
-        case MeasureEnd::Collision:
-        case MeasureEnd::Cancelled:  // the channel throws it, and what is refused
-        case MeasureEnd::Refused:
-          finish("collision");
-          throw Alarm(channel_.alarms.collision, result.detail,
-                      "correct the starting position; the path of the probe must be clear");
-      }
-    }
-    return std::nullopt;
+  const auto probeOnce = [&](double atFeed) {
+    return carryOut(channel_,
+                    {.start = plane_.xyzFromPlane(start),
+                     .end = plane_.xyzFromPlane(end),
+                     .feed = atFeed,
+                     .retract = retract,
+                     .part = part,
+                     .attempts = habits_.oneAttempt ? 1 : 5},
+                    finish);
   };
 
   const auto noteTouch = [&](const control::Touch& touch) {
@@ -235,23 +207,18 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
   for (int i = 0; i < std::max(1, count); ++i) {
     if (habits_.fastApproach && path > 1) {
       // A first quick touch, back off, then the one that counts.
-      const auto quick = probeOnce(end, habits_.fastFeed);
+      const auto quick = probeOnce(habits_.fastFeed);
       if (quick) {
-        noteTouch(*quick);
-        const Vector3 back = plane_.planeFromXyz(quick->tip) - direction * std::min(2.0, path);
+        noteTouch(quick->touch);
+        const Vector3 back = plane_.planeFromXyz(quick->touch.tip) - direction * std::min(2.0, path);
         channel_.retractTo(plane_.xyzFromPlane(back), retract);
       }
     }
-    const auto touch = probeOnce(end, feed);
-    if (!touch) {
-      throw Alarm(
-          "61301",
-          fmt::format("Probe does not switch within {:.3f} mm; the {}", 2 * path, control::stoppedPlace(channel_)),
-          "check the setpoint, the measuring path DFA and the zero offset");
-    }
-    noteTouch(*touch);
-    sum += plane_.planeFromXyz(touch->tip);
-    point.latched = touch->latched;
+    const auto touch = probeOnce(feed);
+    if (!touch) refuseUntouched(channel_, path);
+    noteTouch(touch->touch);
+    sum += plane_.planeFromXyz(touch->touch.tip);
+    point.latched = touch->touch.latched;
     channel_.retractTo(plane_.xyzFromPlane(start), retract);
   }
   point.tcp = sum / std::max(1, count) + upright;

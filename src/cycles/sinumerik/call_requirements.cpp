@@ -99,6 +99,8 @@ std::optional<CallComplaint> requirementComplaint(const CycleDefinition& cycle, 
   for (const std::span<const Requirement> list : {std::span<const Requirement>(requirements), own}) {
     for (const Requirement& each : list) {
       if (each.parameter != parameter.name) continue;
+      // S_KNUM of a tool that is measured says where its correction goes, not what is corrected.
+      if (each.need == Need::Correction && cycle.family == CycleFamily::Tool) continue;
       if (each.asks != nullptr && (!variant || !each.asks(*variant))) continue;
       if (auto complaint = complaintOf(each, parameter, argument)) return complaint;
     }

@@ -89,7 +89,7 @@ Context::Context(Control& control, const Entry& entry, const Arguments& argument
   record_ = control.journal.cycles.size();
   control.journal.begin(std::move(record));
   start_ = control.channel.position();
-  repetitionsLeft_ = maskBit(control.data, "$SNS_MEA_FUNCTION_MASK", 0) ? mostRepetitions : 0;
+  repetitionsLeft_ = habit(0) ? mostRepetitions : 0;
   clearResults();
   const int plane = has("_DMODE") ? digit("_DMODE", 1) : 0;
   if (plane >= 1 && plane <= 3 && control.plane != 16 + plane) {
@@ -97,6 +97,14 @@ Context::Context(Control& control, const Entry& entry, const Arguments& argument
     control.handOverFrames();
   }
   resultInteger(2, definition.number);
+}
+
+Measures Context::measures() const {
+  return arguments_.definition().family == CycleFamily::Tool ? Measures::Tools : Measures::Workpieces;
+}
+
+bool Context::habit(int bit) const {
+  return maskBit(control_.data, "$SNS_MEA_FUNCTION_MASK", bit + (measures() == Measures::Tools ? 16 : 0));
 }
 
 void Context::clearResults() {
@@ -146,19 +154,29 @@ int Context::dataSet() const {
   return number - 1;
 }
 
+namespace {
+
+[[noreturn]] void refuse(int number) {
+  throw Alarm(std::to_string(number), std::string(alarmText(number)), std::string(alarmAdvice(number)));
+}
+
+}  // namespace
+
 void Context::requireProbe(std::initializer_list<int> types) const {
-  const auto refuse = [](int number) {
-    throw Alarm(std::to_string(number), std::string(alarmText(number)), std::string(alarmAdvice(number)));
-  };
   if (control_.level > 5) refuse(61300);
   if (control_.tool.edge == 0) refuse(61311);
   if (std::ranges::find(types, control_.tool.type) == types.end()) refuse(61309);
-  // A mirrored system belongs to a counter-spindle.
   const bool mayMirror = control_.tool.type == 580 || control_.channel.description().mainSpindle;
+  requireReady(mayMirror ? Mirrored::Allowed : Mirrored::Refused);
+}
+
+void Context::requireReady(Mirrored mirrored) const {
+  if (control_.level > 5) refuse(61300);
+  if (control_.tool.edge == 0) refuse(61311);
   for (const auto* frame : {&control_.frames.base, &control_.frames.settableFrame, &control_.frames.programmed}) {
     for (const auto& axis : frame->geometry) {
       if (axis.scale != 1) refuse(61310);
-      if (axis.mirror && !mayMirror) {
+      if (axis.mirror && mirrored == Mirrored::Refused) {
         throw Alarm("61310", "Mirroring is active: it is allowed for counter-spindles of lathes only",
                     "cancel MIRROR, or the mirroring of the zero offset, before the measuring cycle");
       }
@@ -167,7 +185,7 @@ void Context::requireProbe(std::initializer_list<int> types) const {
   if (control_.radiusCompensation) {
     throw Alarm("61300", "Tool radius compensation is active", "program G40 before the measuring cycle");
   }
-  const probing::SinumerikHabits habits = habitsOf(control_);
+  const probing::SinumerikHabits habits = habitsOf(control_, measures());
   if (habits.monitorCollisions && (habits.planeFeed <= 0 || habits.infeedFeed <= 0)) refuse(61338);
 }
 
@@ -191,7 +209,7 @@ void Context::noteCall() {
 
 probing::SinumerikProber& Context::prober() {
   if (!prober_) {
-    probing::SinumerikHabits habits = habitsOf(control_);
+    probing::SinumerikHabits habits = habitsOf(control_, measures());
     habits.spindlePositioned = spindlePositioned_;
     prober_.emplace(control_.channel, control_.workingPlane(), probeOfDataSet(control_, dataSet()), std::move(habits));
   }
@@ -254,7 +272,7 @@ void Context::repeatIfAsked(int number, const std::string& detail) {
   if (repetitionsLeft_ == 0) return;
   --repetitionsLeft_;
   const std::string text = fmt::format("{}: {}; the measurement is repeated", alarmText(number), detail);
-  const bool stops = maskBit(control_.data, "$SNS_MEA_FUNCTION_MASK", 1);
+  const bool stops = habit(1);
   control_.panel.message(EventKind::Warning, text, control_.channel.seconds(), stops ? std::to_string(number) : "");
   if (stops) control_.panel.stop(text, control_.channel.seconds());
   if (wayBack_) wayBack_();
@@ -290,7 +308,7 @@ void Context::warn(int number, const std::string& detail) {
 }
 
 void Context::stopOutOfTolerance(const std::string& text) {
-  if (maskBit(control_.data, "$SNS_MEA_FUNCTION_MASK", 2)) control_.panel.stop(text, control_.channel.seconds());
+  if (habit(2)) control_.panel.stop(text, control_.channel.seconds());
 }
 
 namespace {
@@ -401,7 +419,7 @@ probing::SinumerikProbe probeOfDataSet(const Control& control, int index) {
   return probe;
 }
 
-probing::SinumerikHabits habitsOf(const Control& control) {
+probing::SinumerikHabits habitsOf(const Control& control, Measures what) {
   probing::SinumerikHabits habits;
   habits.planeFeed = control.machineData("$SCS_MEA_FEED_PLANE_VALUE", habits.planeFeed);
   habits.infeedFeed = control.machineData("$SCS_MEA_FEED_FEEDAX_VALUE", habits.infeedFeed);
@@ -409,11 +427,13 @@ probing::SinumerikHabits habitsOf(const Control& control) {
   habits.circleFeed = circleFeed > 0 ? circleFeed : habits.planeFeed;
   habits.fastFeed = control.machineData("$SCS_MEA_FEED_FAST_MEASURE", habits.fastFeed);
   habits.rapidPercent = control.machineData("$SCS_MEA_FEED_RAPID_IN_PERCENT", habits.rapidPercent);
-  const auto mask = static_cast<long>(control.machineData("$SCS_MEA_FUNCTION_MASK", 1));
-  habits.monitorCollisions = (mask & 1) != 0;
-  habits.oneAttempt = (mask >> 3 & 1) != 0;
-  habits.fastApproach = (mask >> 4 & 1) != 0;
-  habits.rapidRetract = (mask >> 5 & 1) != 0;
+  const auto bit = [&](int workpieces, int tools) {
+    return maskBit(control.data, "$SCS_MEA_FUNCTION_MASK", what == Measures::Tools ? tools : workpieces);
+  };
+  habits.monitorCollisions = bit(0, 16);
+  habits.oneAttempt = bit(3, 17);
+  habits.fastApproach = bit(4, 18);
+  habits.rapidRetract = bit(5, 19);
   return habits;
 }
 

@@ -30,6 +30,9 @@ struct Compared {
   Verdict verdict = Verdict::None;
 };
 
+/// Workpiece and tool measurement have bits of their own in SD 54740 and SD 55740: from bit 0, from bit 16 on.
+enum class Measures { Workpieces, Tools };
+
 class Context {
 public:
   /// Opens the cycle's record, clears _OVR and _OVI, and selects the plane that _DMODE asks for. `spindlePositioned`
@@ -59,9 +62,12 @@ public:
   /// The probe number as an index, S_PRNUM - 1; 0 or left out counts as 1. Alarm 61313 outside 1 to 12.
   int dataSet() const;
 
-  /// Refuses to run without a probe of one of `types` (61309), without a tool offset (61311), with radius compensation
-  /// on (61303), with a scale factor (61310), or called too deep.
+  /// Refuses to run without a probe of one of `types` (61309), and what requireReady() refuses.
   void requireProbe(std::initializer_list<int> types) const;
+  /// Refuses to run without a tool offset (61311), with radius compensation on (61300), with a scale factor (61310), or
+  /// called too deep (61300). Mirrored systems belong to counter-spindles.
+  enum class Mirrored { Refused, Allowed };
+  void requireReady(Mirrored mirrored) const;
 
   /// Refuses to measure with a data set that was never calibrated (61341), unless the machine data say not to watch it.
   void requireCalibration() const;
@@ -92,9 +98,9 @@ public:
   /// Alarm 61303 if `difference` exceeds the safe area, `factor` times S_TSA.
   void checkSafeArea(double difference, double factor = 1);
 
-  /// Where the machine repeats measurements (bit 0 of SD 54740), drops what was measured and begins the cycle again, at
-  /// most four times; with bit 1 only after a message with the alarm's number and NC start. Nothing may have been
-  /// corrected yet.
+  /// Where the machine repeats measurements (bit 0 of SD 54740, for tools 16), drops what was measured and begins the
+  /// cycle again, at most four times; with bit 1, for tools 17, only after a message with the alarm's number and NC
+  /// start. Nothing may have been corrected yet.
   void repeatIfAsked(int number, const std::string& detail);
   /// How the probe gets clear of the workpiece before a repetition; then it goes straight to where the cycle started.
   /// Called by repeatIfAsked, if the measurement is repeated.
@@ -106,11 +112,16 @@ public:
   [[noreturn]] void alarm(int number, const std::string& detail = {});
   /// A message that lets the program go on: oversize, undersize. Sets _OVI[9].
   void warn(int number, const std::string& detail = {});
-  /// Waits for NC start where the machine stops for exceeded tolerances (bit 2 of SD 54740).
+  /// Waits for NC start where the machine stops for exceeded tolerances (bit 2 of SD 54740, for tools 18).
   void stopOutOfTolerance(const std::string& text);
+
+  /// Tools where the cycle is of that family.
+  Measures measures() const;
 
 private:
   void clearResults();
+  /// A bit of SD 54740 that workpiece and tool measurement both have.
+  bool habit(int bit) const;
 
   Control& control_;
   const Arguments& arguments_;
@@ -132,7 +143,7 @@ void runCycle(Control& control, const Entry& entry, const Arguments& arguments, 
 
 /// Calibration data set `index` (from 0) with what the active tool says.
 probing::SinumerikProbe probeOfDataSet(const Control& control, int index);
-probing::SinumerikHabits habitsOf(const Control& control);
+probing::SinumerikHabits habitsOf(const Control& control, Measures what = Measures::Workpieces);
 
 /// The control's text for an alarm of the measuring cycles: "Safe area exceeded". Empty for an unknown number.
 std::string_view alarmText(int number);

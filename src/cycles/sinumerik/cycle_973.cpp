@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "cycles/sinumerik/context.hpp"
+#include "cycles/sinumerik/machine_coordinates.hpp"
 #include "cycles/sinumerik/old_call.hpp"
 #include "cycles/sinumerik/parameters.hpp"
 #include "cycles/sinumerik/probe_calibration.hpp"
@@ -101,25 +102,6 @@ Groove grooveOf(Context& context) {
   }
   return groove;
 }
-
-/// Machine coordinates while it lives.
-class MachineCoordinates {
-public:
-  explicit MachineCoordinates(Control& control) : control_(control), before_(control.frames.suppressed) {
-    control_.frames.suppressed = true;
-    control_.handOverFrames();
-  }
-  ~MachineCoordinates() {
-    control_.frames.suppressed = before_;
-    control_.handOverFrames();
-  }
-  MachineCoordinates(const MachineCoordinates&) = delete;
-  MachineCoordinates& operator=(const MachineCoordinates&) = delete;
-
-private:
-  Control& control_;
-  bool before_;
-};
 
 /// Touches `surface`: the trigger point, from the TCP at the signal to the surface, with sign.
 double triggerAt(Context& context, ProbeCalibration& calibration, int axis, double sign, double surface) {

@@ -189,7 +189,10 @@ std::string tableEntry(const Control& control, const MeasuringLog& log, const Cy
 }  // namespace
 
 std::vector<MeasuredRow> measuredRows(const CycleRecord& record) {
-  constexpr int count = 32;
+  // Only single cutting edges have elements from 100 on.
+  const bool edges =
+      std::ranges::any_of(record.results, [](const ResultRecord& each) { return each.kind.of.item > 0; });
+  const int count = edges ? 500 : 32;
   std::vector<MeasuredRow> rows;
   for (int i = 0; i < count; ++i) {
     const ResultRecord* result = ovr(record, i);

@@ -1,0 +1,464 @@
+#include <numbers>
+
+#include "control/sinumerik/measuring_data.hpp"
+#include "cycles/sinumerik/turning_touches.hpp"
+#include "sinumerik_tools/tool_bench.hpp"
+
+/// CYCLE971 measures mills and drills: planted lengths, radii, run-out and breakage are found, and the tool is
+/// corrected as the call says.
+namespace probewright {
+namespace {
+
+using namespace testing_support;
+
+const NamedNumbers usual = {{"S_PRNUM", 1}, {"S_FA", 3}, {"S_TSA", 2}};
+/// The last touch follows the tool by this much in a turn, with the setting data as delivered.
+constexpr double accuracy = 0.005;
+
+/// A mill whose teeth run out, in the magazine as tool 2; the control believes that it is a little different.
+simulation::TrueTool& plantMill(ToolBench& bench, Planter& plant, double radius, int teeth) {
+  simulation::TrueTool& mill = bench.add(2, plant.number(60, 110), radius, teeth);
+  mill.cutter.helix = plant.coin() ? 0 : plant.number(-30, 30);
+  const double first = plant.number(-180, 180);
+  for (int i = 0; i < teeth; ++i) {
+    simulation::TrueTooth& tooth = mill.cutter.teeth[static_cast<std::size_t>(i)];
+    tooth.angle = first + 360.0 * i / teeth;
+    tooth.radial = plant.number(-0.03, 0.03);
+    tooth.axial = plant.number(-0.03, 0.03);
+  }
+  bench.believed(2).length += plant.number(-0.5, 0.5);
+  bench.believed(2).radius += plant.number(-0.3, 0.3);
+  return mill;
+}
+
+double largest(const simulation::TrueTool& tool, double simulation::TrueTooth::*what) {
+  double most = -1e9;
+  for (const auto& tooth : tool.cutter.teeth)
+    most = std::max(most, tooth.*what);
+  return most;
+}
+
+TEST(MeasureMilledTool, TurningItsLongestAndWidestToothCount) {
+  Planter plant(9721);
+  for (int world = 0; world < 5; ++world) {
+    SCOPED_TRACE(world);
+    ToolBench bench;
+    world % 2 == 0 ? bench.disc(plant.number(10, 30)) : bench.cuboid(20, 30);
+    bench.probe().pretravel = plant.coin() ? 0.004 : 0;
+    bench.setup.beliefs.toolProbes = setup::believedToolProbes(bench.setup.world);
+    const simulation::TrueTool& mill = plantMill(bench, plant, plant.number(4, 16), plant.whole(2, 5));
+    const double length = mill.length + largest(mill, &simulation::TrueTooth::axial);
+    const double radius = mill.radius + largest(mill, &simulation::TrueTooth::radial);
+    const bool alongX = plant.coin();
+
+    const ToolRun long_ = bench.measure(beside, with(usual, {{"S_MVAR", 2}, {"S_MA", 3}}));
+    EXPECT_LE(long_.ovr(8), length + 1e-6);
+    EXPECT_GE(long_.ovr(8), length - accuracy - 1e-6);
+    EXPECT_NEAR(long_.ovr(9), long_.ovr(8) - bench.believed(2).length, 1e-9);
+    EXPECT_NEAR(long_.written("$TC_DP3[2,1]"), long_.ovr(8), 1e-6);
+    EXPECT_EQ(long_.ovi(0), 1);
+    EXPECT_EQ(long_.ovi(8), 2);
+
+    const ToolRun wide =
+        bench.measure(beside, with(usual, {{"S_MVAR", 2}, {"S_MA", alongX ? 1 : 2}, {"S_MD", world % 3}}));
+    EXPECT_LE(wide.ovr(10), radius + 1e-6);
+    EXPECT_GE(wide.ovr(10), radius - accuracy - 1e-6);
+    EXPECT_NEAR(wide.ovr(11), wide.ovr(10) - bench.believed(2).radius, 1e-9);
+    EXPECT_NEAR(wide.written("$TC_DP6[2,1]"), wide.ovr(10), 1e-6);
+  }
+}
+
+TEST(MeasureMilledTool, StandingTheToothThatStandsThereCounts) {
+  Planter plant(9722);
+  for (int world = 0; world < 8; ++world) {
+    SCOPED_TRACE(world);
+    ToolBench bench;
+    bench.cuboid(8, 8);
+    simulation::TrueTool& mill = plantMill(bench, plant, plant.number(8, 16), 4);
+    mill.cutter.helix = 0;
+    // The teeth stand along the axes when the spindle does at 0.
+    for (int i = 0; i < 4; ++i)
+      mill.cutter.teeth[static_cast<std::size_t>(i)].angle = 90.0 * i;
+    bench.believed(2).radius = mill.radius;
+    // The tool comes from the minus side of X: its tooth at +X touches.
+    const int quarter = plant.whole(0, 3);
+    const auto& tooth = mill.cutter.teeth[static_cast<std::size_t>((4 - quarter) % 4)];
+    const std::string spos = fmt::format("SPOS={}\n", 90 * quarter);
+    const ToolRun left =
+        bench.run(2, beside,
+                  spos + ToolBench::call(with(usual, {{"S_MVAR", 1}, {"S_MA", 103}})) + spos + "G0 Z=$AA_IM[Z]\n" +
+                      ToolBench::call(with(usual, {{"S_MVAR", 1}, {"S_MA", 1}, {"S_MD", 1}})));
+    ASSERT_EQ(left.code(), "");
+    EXPECT_NEAR(left.written("$TC_DP3[2,1]"), mill.length + tooth.axial, 1e-5);
+    EXPECT_NEAR(left.written("$TC_DP6[2,1]"), mill.radius + tooth.radial, 1e-5);
+  }
+}
+
+TEST(MeasureMilledTool, EachEdgeInItsOrder) {
+  Planter plant(9723);
+  for (int world = 0; world < 8; ++world) {
+    SCOPED_TRACE(world);
+    ToolBench bench;
+    // The contact is small enough to feel one edge alone.
+    world % 2 == 0 ? bench.disc(8) : bench.cuboid(8, 10);
+    const int teeth = plant.whole(2, 5);
+    simulation::TrueTool& mill = plantMill(bench, plant, plant.number(9, 16), teeth);
+    // One edge stands out clearly, so that it is the first to touch.
+    const int widest = plant.whole(0, teeth - 1);
+    mill.cutter.teeth[static_cast<std::size_t>(widest)].radial = 0.05;
+    for (const bool length : {true, false}) {
+      const ToolRun left =
+          bench.measure(beside, with(usual, {{"S_MVAR", 102}, {"S_MA", length ? 103 : 1}, {"S_MD", 0}}));
+      const auto value = [&](int edge) {
+        const auto& tooth = mill.cutter.teeth[static_cast<std::size_t>((widest + teeth - edge) % teeth)];
+        return length ? mill.length + tooth.axial : mill.radius + tooth.radial;
+      };
+      double most = 0, least = 1e9;
+      for (int edge = 0; edge < teeth; ++edge) {
+        most = std::max(most, value(edge));
+        least = std::min(least, value(edge));
+        EXPECT_NEAR(left.ovr((length ? 300 : 100) + edge), value(edge), 2e-5) << edge;
+        EXPECT_NEAR(left.ovr((length ? 400 : 200) + edge),
+                    value(edge) - (length ? bench.believed(2).length : bench.believed(2).radius), 2e-5);
+      }
+      EXPECT_NEAR(left.ovr(length ? 8 : 10), most, 2e-5);
+      EXPECT_NEAR(left.ovr(length ? 12 : 14), least, 2e-5);
+      EXPECT_NEAR(left.written(length ? "$TC_DP3[2,1]" : "$TC_DP6[2,1]"), most, 2e-5);
+      EXPECT_TRUE(std::isnan(left.ovr((length ? 300 : 100) + teeth)));
+    }
+  }
+}
+
+TEST(MeasureMilledTool, NeighbouringEdgesOverAWideContactAreNamed) {
+  ToolBench bench;
+  bench.disc(30);
+  auto& mill = bench.add(2, 80, 6, 2);
+  mill.cutter.teeth[1].axial = -0.1;
+  const ToolRun left = bench.measure({-45, 3, 25}, with(usual, {{"S_MVAR", 102}, {"S_MA", 103}}));
+  EXPECT_TRUE(left.told("longest of those"));
+  EXPECT_NEAR(left.ovr(300), 80, 1e-5);
+  EXPECT_NEAR(left.ovr(301), 80, 1e-5) << "both edges are above the disc";
+}
+
+TEST(MeasureMilledTool, DrillsAndBallsTouchWithTheirHighestPoint) {
+  ToolBench bench;
+  bench.disc(20);
+  auto& drill = bench.add(2, 90, 5, 2);
+  drill.cutter.pointAngle = 118;
+  bench.believed(2).kind = "drill";
+  bench.believed(2).length = 90.4;
+  EXPECT_NEAR(bench.measure(above, with(usual, {{"S_MVAR", 1}, {"S_MA", 3}})).written("$TC_DP3[2,1]"), 90, 1e-5);
+
+  // A ball of radius 8: 2 mm above its end it is sqrt(8^2 - 6^2) wide, DZ = 6 lower it is 8.
+  ToolBench ball;
+  ball.cuboid(20, 20);
+  ball.add(2, 90, 8).cutter.cornerRadius = 8;
+  const double low = std::sqrt(8 * 8 - 6 * 6);
+  EXPECT_NEAR(ball.measure(beside, with(usual, {{"S_MVAR", 1}, {"S_MA", 1}, {"S_TSA", 4}, {"S_FA", 4}})).ovr(10), low,
+              1e-5);
+  EXPECT_NEAR(ball.measure(beside, with(usual, {{"S_MVAR", 1}, {"S_MA", 1}, {"S_ID", 6}})).ovr(10), 8, 1e-5);
+}
+
+TEST(MeasureMilledTool, AProbeCalibratedWithAWrongToolMakesWrongTools) {
+  ToolBench bench;
+  bench.cuboid(20, 20);
+  bench.add(9, 80, 5);
+  bench.believed(9).length = 80.03;
+  bench.believed(9).radius = 5.02;
+  bench.add(2, 95, 6);
+  const std::string start = fmt::format("G0 Z{:.6f}\n", bench.contact.z() + 40);
+  const ToolRun left = bench.run(9, above,
+                                 ToolBench::call(with(usual, {{"S_MVAR", 100000}})) + start + "T2 D1 M6\n" +
+                                     fmt::format("G0 X{:.6f} Y{:.6f}\nG0 Z{:.6f}\n", bench.contact.x() - 45,
+                                                 bench.contact.y(), bench.contact.z() + 25) +
+                                     ToolBench::call(with(usual, {{"S_MVAR", 1}, {"S_MA", 1}})) +
+                                     fmt::format("G0 Z{:.6f}\n", bench.contact.z() + 25) +
+                                     ToolBench::call(with(usual, {{"S_MVAR", 1}, {"S_MA", 3}})));
+  ASSERT_EQ(left.code(), "");
+  EXPECT_NEAR(left.written("$TC_DP6[2,1]"), 6.02, 1e-5);
+  EXPECT_NEAR(left.written("$TC_DP3[2,1]"), 95.03, 1e-5);
+}
+
+TEST(MeasureMilledTool, GeometryOrWear) {
+  ToolBench bench;
+  bench.disc(20);
+  bench.add(2, 80.2, 6);
+  bench.believed(2).length = 80;
+  bench.datum("$TC_DP12[2,1]", 0.05);
+  bench.datum("$SCS_MEA_EMPIRIC_VALUE[3]", 0.02);
+  const NamedNumbers length = with(usual, {{"S_MVAR", 1}, {"S_MA", 3}});
+  const ToolRun first = bench.measure(above, length);
+  EXPECT_NEAR(first.ovr(8), 80.2, 1e-6);
+  EXPECT_NEAR(first.ovr(9), 0.15, 1e-6) << "geometry and wear are what the tool was believed to be";
+  EXPECT_NEAR(first.written("$TC_DP3[2,1]"), 80.2, 1e-6);
+  EXPECT_EQ(first.written("$TC_DP12[2,1]"), 0);
+  const ToolRun check = bench.measure(above, with(length, {{"S_KNUM", 1}}));
+  EXPECT_NEAR(check.written("$TC_DP12[2,1]"), 0.2, 1e-6);
+  EXPECT_TRUE(std::isnan(check.written("$TC_DP3[2,1]")));
+  const ToolRun experienced = bench.measure(above, with(length, {{"S_KNUM", 1}, {"S_EVNUM", 4}}));
+  EXPECT_NEAR(experienced.written("$TC_DP12[2,1]"), 0.18, 1e-6);
+  EXPECT_EQ(experienced.ovr(30), 0.02);
+  EXPECT_EQ(experienced.ovi(7), 4);
+}
+
+TEST(MeasureMilledTool, LimitsDecideWhatIsCorrected) {
+  ToolBench bench;
+  bench.disc(20);
+  bench.add(2, 80.2, 6);
+  bench.believed(2).length = 80;
+  const NamedNumbers length = with(usual, {{"S_MVAR", 1}, {"S_MA", 3}});
+  const auto corrected = [&](const NamedNumbers& more) {
+    const ToolRun left = bench.run(2, above, ToolBench::call(with(length, more)));
+    return std::pair(!std::isnan(left.written("$TC_DP3[2,1]")), left.code() + left.messages());
+  };
+  EXPECT_EQ(corrected({{"S_TZL", 0.19}, {"S_TDIF", 0.21}}), std::pair(true, std::string()));
+  EXPECT_EQ(corrected({{"S_TZL", 0.21}}), std::pair(false, std::string()));
+  EXPECT_EQ(corrected({{"S_TDIF", 0.19}}), std::pair(false, std::string("61306 ")));
+  EXPECT_EQ(corrected({{"S_TSA", 0.19}}).second.substr(0, 5), "61303");
+  EXPECT_FALSE(corrected({{"S_TSA", 0.19}}).first);
+  const ToolRun shown = bench.measure(above, with(length, {{"S_TZL", 0.01}, {"S_TDIF", 0.5}}));
+  EXPECT_EQ(shown.ovr(27), 0.01);
+  EXPECT_EQ(shown.ovr(28), 2);
+  EXPECT_EQ(shown.ovr(29), 0.5);
+}
+
+TEST(MeasureMilledTool, MeasuresAgainWhereTheMachineDoes) {
+  ToolBench bench;
+  bench.disc(20);
+  bench.add(2, 80.2, 6);
+  bench.believed(2).length = 80;
+  bench.datum("$SNS_MEA_FUNCTION_MASK", 65536 + 262144);  // bits 16 and 18
+  const ToolRun left = bench.run(2, above, ToolBench::call(with(usual, {{"S_MVAR", 1}, {"S_MA", 3}, {"S_TDIF", 0.1}})));
+  EXPECT_EQ(left.code(), "");
+  EXPECT_EQ(left.cycle().touches.size(), 5U) << "once, and four times more";
+  EXPECT_TRUE(left.told("permissible dimensional difference"));
+  // The bits of workpiece measurement do nothing here.
+  bench.datum("$SNS_MEA_FUNCTION_MASK", 1);
+  EXPECT_EQ(bench.run(2, above, ToolBench::call(with(usual, {{"S_MVAR", 1}, {"S_MA", 3}, {"S_TDIF", 0.1}})))
+                .cycle()
+                .touches.size(),
+            1U);
+}
+
+TEST(MeasureMilledTool, ABrokenEdgeIsNamedAndTheLongestCounts) {
+  ToolBench bench;
+  bench.disc(8);
+  auto& mill = bench.add(2, 80.05, 12, 4);
+  mill.cutter.teeth[2].axialWear = 0.8;
+  mill.cutter.teeth[1].radial = 0.02;
+  bench.believed(2).length = 80;
+  const NamedNumbers edges = with(usual, {{"S_MVAR", 102}, {"S_MA", 103}});
+  const ToolRun worn = bench.measure(beside, with(edges, {{"S_TDIF", 0.3}}));
+  EXPECT_NE(worn.messages().find("61306"), std::string::npos);
+  EXPECT_TRUE(worn.told("of edge 4")) << "the first is the one that stands out, the others follow";
+  EXPECT_NEAR(worn.written("$TC_DP3[2,1]"), 80.05, 1e-5);
+  EXPECT_NEAR(worn.ovr(13), -0.75, 1e-5);
+  const ToolRun unsafe = bench.run(2, beside, ToolBench::call(with(edges, {{"S_TSA", 0.5}})));
+  EXPECT_EQ(unsafe.code(), "61303");
+  EXPECT_NEAR(unsafe.written("$TC_DP3[2,1]"), 80.05, 1e-5);
+}
+
+TEST(MeasureMilledTool, InWorkpieceCoordinates) {
+  ToolBench bench;
+  bench.disc(20);
+  bench.zeroOffset({100, 10, -430});
+  bench.add(2, 80.2, 6.1);
+  bench.believed(2).length = 80;
+  bench.believed(2).radius = 6;
+  const auto place = [&](double x, double z) {
+    return fmt::format("G0 X{:.6f} Y{:.6f}\nG0 Z{:.6f}\n", bench.contact.x() - 100 + x, bench.contact.y() - 10,
+                       bench.contact.z() + 430 + z);
+  };
+  const ToolRun left = bench.program("G17 G90 G71 G54\nT2 D1 M6\n" + place(-40, 25) +
+                                     ToolBench::call(with(usual, {{"S_MVAR", 11}, {"S_MA", 3}})) + place(-40, 25) +
+                                     ToolBench::call(with(usual, {{"S_MVAR", 11}, {"S_MA", 1}})) + "M30\n");
+  ASSERT_EQ(left.code(), "");
+  EXPECT_NEAR(left.written("$TC_DP3[2,1]"), 80.2, 1e-5);
+  EXPECT_NEAR(left.written("$TC_DP6[2,1]"), 6.1, 1e-5);
+}
+
+TEST(MeasureMilledTool, SpeedsAndFeedsByTheFormula) {
+  control::sinumerik::DataStore data;
+  control::sinumerik::setMeasuringDefaults(data);
+  const auto set = [&](const char* name, double value) { data.set(name, {0}, value); };
+  set("$SNS_MEA_CM_MAX_PERI_SPEED", 30);
+  set("$SNS_MEA_CM_MAX_REVOLUTIONS", 2000);
+  set("$SNS_MEA_CM_MAX_FEEDRATE", 40);
+  set("$SNS_MEA_CM_MIN_FEEDRATE", 3);
+  set("$SNS_MEA_CM_MEASURING_ACCURACY", 0.01);
+  set("$SNS_MEA_CM_FEEDFACTOR_1", 3);
+  const auto touches = [&](double radius) { return cycles::sinumerik::turningTouches(data, radius); };
+  // 30 m/min on the circumference of a radius of 10 mm.
+  const double speed = 30000 / (2 * std::numbers::pi * 10);
+  auto all = touches(10);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_NEAR(all[0].speed, speed, 1e-9);
+  EXPECT_NEAR(all[0].feed, 3 * speed * 0.01, 1e-9);
+  EXPECT_NEAR(all[1].speed, speed / 2, 1e-9);
+  EXPECT_NEAR(all[1].feed, 3, 1e-9) << "half of 4.77 is below the smallest feed";
+  data.set("$SNS_MEA_FUNCTION_MASK", {}, 524288.0);  // bit 19
+  EXPECT_NEAR(touches(10)[1].speed, speed, 1e-9);
+  EXPECT_NEAR(touches(10)[1].feed, speed * 0.01, 1e-9);
+  EXPECT_NEAR(touches(1)[1].speed, 2000, 1e-9);
+  EXPECT_NEAR(touches(1)[0].feed, 40, 1e-9) << "the largest feed";
+  EXPECT_NEAR(touches(100)[1].feed, 3, 1e-9) << "the smallest feed";
+  set("$SNS_MEA_CM_FEEDFACTOR_2", 2);
+  all = touches(10);
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_NEAR(all[1].feed, 2 * speed * 0.01, 1e-9);
+  set("$SNS_MEA_CM_FEEDFACTOR_1", 0);
+  EXPECT_EQ(touches(10).size(), 1U);
+  set("$SNS_MEA_CM_MAX_PERI_SPEED", 0);
+  set("$SNS_MEA_CM_MAX_REVOLUTIONS", 0);
+  EXPECT_TRUE(touches(10).empty());
+}
+
+TEST(MeasureMilledTool, SpeedsAndFeedsOfTheCall) {
+  ToolBench bench;
+  bench.disc(20);
+  bench.add(2, 80, 6, 3);
+  bench.datum("$SNS_MEA_FUNCTION_MASK_TOOL", 32);  // bit 5
+  const NamedNumbers radius = with(usual, {{"S_MVAR", 2}, {"S_MA", 1}, {"S_F1", 20}, {"S_S1", 1000}});
+  const auto touches = [&](const NamedNumbers& more) {
+    return bench.measure(beside, with(radius, more)).cycle().touches.size();
+  };
+  EXPECT_EQ(touches({}), 1U);
+  EXPECT_EQ(touches({{"S_F2", 10}, {"S_S2", 1000}}), 2U);
+  EXPECT_EQ(touches({{"S_F2", 10}, {"S_S2", 1000}, {"S_F3", 5}, {"S_S3", 800}}), 3U);
+  EXPECT_EQ(touches({{"S_F3", 5}, {"S_S3", 800}}), 1U) << "S_S2 = 0: once only";
+  // 20 mm/min at 1000 rev/min follow the edge by 0.02 / 3 at most.
+  EXPECT_NEAR(bench.measure(beside, radius).ovr(10), 6, 0.0067);
+  EXPECT_EQ(bench.alarmOf(beside, with(radius, {{"S_S2", 1000}})), "61350");
+  bench.datum("$SNS_MEA_FUNCTION_MASK_TOOL", 0);
+  bench.datum("$SNS_MEA_CM_MEASURING_ACCURACY[0]", 0);
+  bench.datum("$SNS_MEA_CM_MIN_FEEDRATE[0]", 0);
+  EXPECT_EQ(bench.alarmOf(beside, radius), "61350");
+}
+
+TEST(MeasureMilledTool, TheSpindleTurnsAsItTurnedBefore) {
+  ToolBench bench;
+  bench.disc(20);
+  bench.add(2, 80, 6, 3);
+  const std::string call = ToolBench::call(with(usual, {{"S_MVAR", 2}, {"S_MA", 1}}));
+  EXPECT_EQ(bench.run(2, beside, call).code(), "") << "SD 54674: against the cutting direction";
+  EXPECT_EQ(bench.run(2, beside, "S500 M4\n" + call).code(), "");
+  EXPECT_EQ(bench.run(2, beside, "S500 M3\n" + call).code(), "61302") << "it cuts into the contact";
+  bench.datum("$SNS_MEA_CM_SPIND_ROT_DIR[0]", 3);
+  EXPECT_EQ(bench.run(2, beside, call).code(), "61302");
+  EXPECT_EQ(bench.run(2, beside, "S500 M4\n" + call).code(), "");
+}
+
+TEST(MeasureMilledTool, Refuses) {
+  ToolBench bench;
+  bench.disc(20);
+  bench.add(2, 80, 6, 3);
+  bench.add(9, 80, 5);
+  const NamedNumbers radius = with(usual, {{"S_MVAR", 1}, {"S_MA", 1}});
+  const auto alarm = [&](const NamedNumbers& call, const std::string& before = {}) {
+    return bench.alarmOf(beside, with(radius, call), 2, before);
+  };
+  EXPECT_EQ(alarm({}), "");
+  EXPECT_EQ(alarm({}, "G41\n"), "61300");
+  EXPECT_EQ(alarm({}, "D0\n"), "61311");
+  EXPECT_EQ(alarm({}, "SCALE X2\n"), "61310");
+  EXPECT_EQ(alarm({}, "MIRROR X0\n"), "61310");
+  EXPECT_EQ(alarm({{"S_PRNUM", 3}}), "61341");
+  const auto computed = [&](const std::string& arguments, const std::string& before = {}) {
+    return bench.run(2, beside, before + "CYCLE971(" + arguments + ")\n").code();
+  };
+  EXPECT_EQ(computed("R1,,1,1,,,3,2", "R1=101\n"), "61307");
+  EXPECT_EQ(computed("R1,,1,1,,,3,2", "R1=100001\n"), "61307");
+  EXPECT_EQ(computed("R1,,1,1,,,3,2", "R1=3\n"), "61307");
+  EXPECT_EQ(computed("R1,,1,1,,,3,2", "R1=1000001\n"), "61307");
+  EXPECT_EQ(computed("1,,R1,1,,,3,2", "R1=7\n"), "61313");
+  EXPECT_EQ(computed("1,,1,R1,,,3,2", "R1=4\n"), "61325");
+  EXPECT_EQ(computed("1,,1,R1,,,3,2", "R1=101\n"), "61325");
+  EXPECT_EQ(computed("1,,1,1,R1,,3,2", "R1=3\n"), "61326");
+  EXPECT_EQ(computed("1,,1,3,R1,,3,2", "R1=1\n"), "61326");
+  EXPECT_EQ(computed("1,,1,1,,,R1,2", "R1=0\n"), "61308");
+  EXPECT_EQ(computed("1,,1,1,,,3,2,,,,,,,,,,,R1", "R1=21\n"), "61319");
+  EXPECT_EQ(alarm({{"S_MVAR", 102}}), "");
+  bench.believed(2).teeth = 0;
+  EXPECT_EQ(alarm({{"S_MVAR", 102}}), "61319");
+  bench.datum("$TC_DP1[2,1]", 500);
+  EXPECT_EQ(alarm({}), "61314");
+  bench.datum("$TC_DP1[2,1]", 120);
+  bench.datum("$TC_DP6[2,1]", 0);
+  EXPECT_EQ(alarm({}), "61351");
+  EXPECT_EQ(alarm({{"S_MVAR", 2}, {"S_MA", 3}}), "61351");
+  bench.datum("$TC_DP6[2,1]", 6);
+  bench.datum("$SCS_MEA_FEED_PLANE_VALUE", 0);
+  EXPECT_EQ(alarm({}), "61338");
+  bench.datum("$SCS_MEA_FEED_PLANE_VALUE", 1000);
+  bench.probe().switchedOn = false;
+  EXPECT_EQ(alarm({}), "61309");
+  bench.probe().switchedOn = true;
+  bench.misplace({0, 0, 30});
+  EXPECT_EQ(alarm({{"S_MA", 3}}), "61301");
+}
+
+TEST(MeasureMilledTool, CheckNamesWhatDoesNotFitTogether) {
+  ToolBench bench;
+  bench.disc(20);
+  bench.add(2, 80, 6, 3);
+  const auto complaint = [&](const NamedNumbers& call) {
+    const ToolRun left = bench.run(2, beside, ToolBench::call(with(usual, call)));
+    EXPECT_TRUE(left.journal().cycles.empty()) << "nothing has run";
+    return left.run.outcome.diagnostics.empty() ? std::string() : left.run.outcome.diagnostics.front().message;
+  };
+  const auto names = [&](const NamedNumbers& call, const std::string& what) {
+    const std::string said = complaint(call);
+    EXPECT_NE(said.find(what), std::string::npos) << said;
+  };
+  names({{"S_MVAR", 101}, {"S_MA", 1}}, "spindle turning only");
+  names({{"S_MVAR", 100001}, {"S_MA", 1}}, "is a calibration");
+  names({{"S_MVAR", 1000002}, {"S_MA", 1}}, "reversed");
+  names({{"S_MVAR", 1}}, "S_MA");
+  names({{"S_MVAR", 1}, {"S_MA", 101}}, "offset axis");
+  names({{"S_MVAR", 1}, {"S_MA", 3}, {"S_MD", 1}}, "from above");
+  names({{"S_MVAR", 1}, {"S_MA", 5}}, "S_MA");
+  names({{"S_MVAR", 1}, {"S_MA", 1}, {"S_EVNUM", 21}}, "S_EVNUM");
+}
+
+TEST(MeasureMilledTool, TheOldFormTakesItsVariables) {
+  ToolBench bench;
+  bench.disc(20);
+  bench.add(9, 80, 5);
+  bench.add(2, 80.2, 6);
+  bench.believed(2).length = 80;
+  const ToolRun left =
+      bench.run(2, above,
+                "_MVAR=1 _PRNUM=1 _MA=3 _ID=0 _FA=3 _TSA=2 _TZL=0.01 _TDIF=0.5 _NMSP=2 _EVNUM=0 _VMS=0\n"
+                "CYCLE971\n");
+  ASSERT_EQ(left.code(), "");
+  EXPECT_NEAR(left.written("$TC_DP3[2,1]"), 80.2, 1e-5);
+  EXPECT_EQ(left.ovr(29), 0.5);
+  const ToolRun wear = bench.run(2, above, "_CHBIT[3]=1\n_MVAR=1 _MA=3 _FA=3 _TSA=2\nCYCLE971\n");
+  EXPECT_NEAR(wear.written("$TC_DP12[2,1]"), 0.2, 1e-5);
+  const ToolRun calibrated = bench.run(9, above, "_MVAR=100000 _PRNUM=1 _FA=3 _TSA=2\nCYCLE971\n");
+  ASSERT_EQ(calibrated.code(), "");
+  EXPECT_NEAR(calibrated.ovr(16), bench.contact.z(), 1e-5);
+  EXPECT_EQ(bench.run(2, above, "_MVAR=102 _MA=3 _FA=3 _TSA=2\nCYCLE971\n").code(), "61307");
+}
+
+TEST(MeasureMilledTool, LogAndScreenShowTheEdges) {
+  ToolBench bench;
+  bench.disc(8);
+  auto& mill = bench.add(2, 80, 12, 3);
+  mill.cutter.teeth[1].axial = -0.2;
+  mill.cutter.teeth[0].radial = 0.02;
+  const ToolRun left = bench.run(
+      2, beside, "CYCLE150(31,1,\"TOOLS\")\n" + ToolBench::call(with(usual, {{"S_MVAR", 102}, {"S_MA", 103}})));
+  ASSERT_EQ(left.code(), "");
+  coverage::logRead(control::ControlKind::Sinumerik840Dsl, left.journal(), "TOOLS.TXT");
+  std::string all;
+  for (const auto& [name, text] : left.run.outcome.files)
+    all += text;
+  for (const auto& screen : left.cycle().screens)
+    all += screen;
+  EXPECT_NE(all.find("length 1, edge 3"), std::string::npos) << all;
+  EXPECT_NE(all.find("79.8000"), std::string::npos) << all;
+}
+
+}  // namespace
+}  // namespace probewright
