@@ -16,6 +16,8 @@ namespace probewright::app {
 struct RunArguments {
   std::filesystem::path program;
   std::filesystem::path setup;
+  std::string
+      machine;  ///< the adapter of a real machine, see adapter::connect; empty: the virtual machine of the setup
   std::filesystem::path out = "probewright-out";
   std::optional<control::ControlKind> control;
   bool strict = false;

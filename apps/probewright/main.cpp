@@ -132,11 +132,19 @@ int main(int argc, char** argv) {
       "4 an error inside Probewright.");
 
   probewright::app::RunArguments runArguments;
-  CLI::App* run = app.add_subcommand("run", "Run a program on the virtual machine of a setup");
+  CLI::App* run = app.add_subcommand("run", "Run a program on the virtual machine of a setup, or on a real one");
   run->add_option("PROGRAM", runArguments.program, "NC program: .H, .I, .MPF, .SPF")->required();
   run->add_option("--setup", runArguments.setup, "The world to run in (see docs/setup-format.md)")
       ->required()
       ->type_name("FILE");
+  CLI::Option* machine =
+      run->add_option("--machine", runArguments.machine,
+                      "Run on a real machine: linuxcnc, the command of another machine adapter, or the path of its "
+                      "socket (see docs/machine-adapters.md); of the setup only what the control believes counts")
+          ->type_name("ADAPTER")
+          ->check([](const std::string& text) {
+            return text.find_first_not_of(' ') == std::string::npos ? "--machine names no adapter" : "";
+          });
   run->add_option("--out", runArguments.out, "Folder for tables, logs, results.json and report.html")
       ->capture_default_str()
       ->type_name("DIR");
@@ -164,7 +172,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   run->add_option("--seed", runArguments.seed, "Seed of the random effects, instead of the setup's")
       ->check(notNegative)
-      ->type_name("NUMBER");
+      ->type_name("NUMBER")
+      ->excludes(machine);
   CLI::Option* test = run->add_flag("--program-test", runArguments.programTest,
                                     "SINUMERIK PRT: the axes do not move, measuring cycles are skipped");
   run->add_flag("--dry-run", runArguments.dryRun,
@@ -194,7 +203,8 @@ int main(int argc, char** argv) {
          "--cache", runArguments.cache,
          "Folder that keeps imported STEP and IGES parts for the next run; off: none. Default: $PROBEWRIGHT_CACHE, "
          "else probewright in $XDG_CACHE_HOME or ~/.cache")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->excludes(machine);
   run->add_flag("--screens", runArguments.screens, "Show the result screens of all cycles, also of those that are off");
   run->add_flag("--quiet", runArguments.quiet, "Print nothing but mistakes");
 

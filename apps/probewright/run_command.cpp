@@ -15,6 +15,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "interruption.hpp"
+#include "machine_run.hpp"
 #include "output_folder.hpp"
 #include "records/results.hpp"
 #include "reports/report.hpp"
@@ -163,8 +164,20 @@ int run(const RunArguments& arguments) {
   ImportProgress importProgress(isatty(STDERR_FILENO) != 0);
   if (!arguments.quiet) machine.import.progress = [&](const std::string& what) { importProgress.tell(what); };
 
-  const setup::SimulatedRun simulated = setup::runProgram(arguments.program, *setup, options, machine);
-  const session::RunOutcome& outcome = simulated.outcome;
+  std::optional<MachineRun> ran;
+  if (arguments.machine.empty()) {
+    setup::SimulatedRun simulated = setup::runProgram(arguments.program, *setup, options, machine);
+    reports::Scene scene = setup::sceneOf(simulated);
+    ran = MachineRun{std::move(simulated.outcome), std::move(scene)};
+  } else {
+    Result<MachineRun> real = runOnMachine(arguments.machine, arguments.program, *setup, options);
+    if (!real) {
+      print({real.error()});
+      return giveUp();
+    }
+    ran = std::move(*real);
+  }
+  const session::RunOutcome& outcome = ran->outcome;
   if (progress) std::fputs("\r\033[K", stderr);
   const language::Encoding encoding = outcome.info.programs.empty()
                                           ? language::Encoding::Windows1252
@@ -185,9 +198,8 @@ int run(const RunArguments& arguments) {
     info.outputFiles.push_back(name);
     if (!standsThere(arguments.out, name, text)) output.files.emplace_back(name, contentOf(text));
   }
-  const reports::Scene scene = setup::sceneOf(simulated);
   output.files.emplace_back("report.html",
-                            [&](const Sink& sink) { reports::writeReport(sink, outcome.journal, info, scene); });
+                            [&](const Sink& sink) { reports::writeReport(sink, outcome.journal, info, ran->scene); });
   output.files.emplace_back("results.json", [&](const Sink& sink) {
     records::writeResults(sink, outcome.journal, info, records::Layout::Indented);
     sink("\n");

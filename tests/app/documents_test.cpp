@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -221,6 +222,14 @@ TEST(Documents, ShowCodeThatIsTaken) {
                        "4 END PGM MASK MM\n"),
            klartextSetup);
       EXPECT_THAT(textOf(folder / "out" / "OUT.TXT"), HasSubstr("RESULT OF BORE\nX =     1.500\n"));
+    } else if (block.text.starts_with("-> {")) {
+      // Lines of the protocol of machine adapters.
+      std::istringstream lines(block.text);
+      for (std::string line; std::getline(lines, line);) {
+        const auto json = nlohmann::json::parse(line.substr(3), nullptr, false);
+        EXPECT_TRUE(json.is_object() && (json.contains("id") || json.contains("alive"))) << line;
+      }
+      ++taken;
     } else if (block.text.starts_with("CYCLE150")) {
       ++taken;  // a PROC line with the names of its arguments
     } else if (block.page == "code-overview.md" || block.text.starts_with("./") || block.text.starts_with("$ ")) {

@@ -7,12 +7,15 @@
 #include <stop_token>
 #include <thread>
 
+#include "adapter/remote_machine.hpp"
 #include "support/scripted_machine.hpp"
+#include "support/served_machine.hpp"
 #include "support/virtual_world.hpp"
 
-/// What machine.hpp promises, of every machine: the virtual one, and one that answers from a script. A world in words
-/// of the machine: tool 1 is a touch probe, tool 2 a cutter. The probe signals at Z-300 on its way down. The side of
-/// the tool touch probe signals at X24 for the cutter that comes at Z-290 along X. There is no tool 7.
+/// What machine.hpp promises, of every machine: the virtual one, here and at the other end of a socket, one that
+/// answers from a script, and the example of a machine adapter. A world in words of the machine: tool 1 is a touch
+/// probe, tool 2 a cutter. The probe signals at Z-300 on its way down. The side of the tool touch probe signals at X24
+/// for the cutter that comes at Z-290 along X. There is no tool 7.
 namespace probewright {
 namespace {
 
@@ -46,6 +49,20 @@ std::unique_ptr<machine::Machine> virtualMachine() {
 
 std::unique_ptr<machine::Machine> scriptedMachine() {
   return std::make_unique<ScriptedMachine>(*machine::readMachine("mill3"));
+}
+
+/// At the other end of a socket: the virtual machine, and the example of an adapter in another language.
+std::unique_ptr<machine::Machine> remote(Result<adapter::Connection> connection) {
+  if (!connection) throw std::runtime_error(format(connection.error()));
+  auto machine = adapter::RemoteMachine::greet(std::move(*connection));
+  if (!machine) throw std::runtime_error(format(machine.error()));
+  return std::move(*machine);
+}
+
+std::unique_ptr<machine::Machine> servedMachine() { return remote(testing_support::served(virtualMachine())); }
+
+std::unique_ptr<machine::Machine> exampleAdapter() {
+  return remote(adapter::connect("python3 " PROBEWRIGHT_EXAMPLES "/adapters/plane.py"));
 }
 
 struct Maker {
@@ -371,7 +388,8 @@ TEST_P(MachineContract, AStopFromAnotherThreadEndsThePathThatIsUnderWay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, MachineContract,
-                         testing::Values(Maker{"Virtual", virtualMachine}, Maker{"Scripted", scriptedMachine}),
+                         testing::Values(Maker{"Virtual", virtualMachine}, Maker{"Scripted", scriptedMachine},
+                                         Maker{"Served", servedMachine}, Maker{"ExampleAdapter", exampleAdapter}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "adapter/connection.hpp"
+#include "adapter/protocol.hpp"
+#include "base/diagnostic.hpp"
+#include "machine/machine.hpp"
+
+namespace probewright::adapter {
+
+/// How long an adapter may say nothing while it works.
+struct Patience {
+  std::chrono::milliseconds silence{10'000};
+};
+
+/// A machine that an adapter plays: another program at the other end of a socket. Every order is one line there and one
+/// back (docs/machine-adapters.md).
+///
+/// When the connection is lost, or the adapter does not keep to the protocol, or says that the machine has failed, the
+/// order is Refused and says so; what only tells then tells what was last known. An adapter whose connection is lost
+/// stops the axes by itself.
+class RemoteMachine final : public machine::Machine {
+public:
+  /// Greets the adapter and learns what machine it plays.
+  static Result<std::unique_ptr<RemoteMachine>> greet(Connection connection, Patience patience = {});
+  ~RemoteMachine() override;
+
+  /// What the adapter calls itself: "LinuxCNC 2.9".
+  const std::string& adapterName() const { return adapterName_; }
+  /// Why the machine could not go on, if that has happened: an emergency stop, a lost connection.
+  const std::optional<std::string>& failure() const { return failure_; }
+
+  const machine::MachineDescription& description() const override { return description_; }
+  void stopOn(std::stop_token stop) override { stop_ = std::move(stop); }
+  machine::AxisPositions position() const override;
+  machine::MoveResult move(const machine::AxisPositions& target, machine::Feed feed) override;
+  machine::PathResult moveAlong(std::span<const machine::PathPiece> path) override;
+  machine::MeasureResult measure(const machine::MeasureOrder& order) override;
+  machine::MoveResult retract(const machine::AxisPositions& target, machine::Feed feed) override;
+  bool deflected(machine::Sensor sensor) const override;
+  std::string probeSerial() const override;
+  machine::MoveResult turnSpindle(machine::Rotation rotation, double speed) override;
+  machine::MoveResult orientSpindle(double degrees) override;
+  machine::SpindleState spindle() const override;
+  bool hasFunction(int number) const override { return functions_.contains(number); }
+  machine::FunctionResult function(int number) override;
+  machine::ToolChangeResult changeTool(const machine::ToolOrder& order) override;
+  machine::WaitEnd dwell(double seconds) override;
+  double seconds() const override;
+
+private:
+  struct Answer;
+  RemoteMachine(Connection connection, Patience patience);
+
+  Answer ask(Json order) const;
+  /// What `read` makes of the answer; nothing, and a failure, if there is none or it is not as the protocol says.
+  template <class Value>
+  std::optional<Value> tells(Json order, const std::function<Value(const Json& answer)>& read) const;
+  Answer lose(std::string why) const;
+  Answer exchange(Json order) const;
+  /// Why a move is not even sent.
+  std::optional<machine::MoveResult> refusal(const machine::AxisPositions& target, machine::Feed feed) const;
+  machine::MoveResult travel(const char* order, const machine::AxisPositions& target, machine::Feed feed);
+  machine::MoveResult moved(Json order);
+
+  std::shared_ptr<void> peer_;  ///< ends after the stream
+  mutable LineStream stream_;
+  Patience patience_;
+  std::string adapterName_;
+  machine::MachineDescription description_;
+  std::set<int> functions_;
+  std::stop_token stop_;
+  int wake_ = -1;  ///< an event that ends a wait when a stop is asked for
+  mutable std::uint64_t lastOrder_ = 0;
+  mutable bool lost_ = false;
+  mutable std::optional<std::string> failure_;
+  mutable machine::AxisPositions at_;
+  mutable std::chrono::steady_clock::time_point toldAt_;  ///< when `at_` was
+  mutable machine::SpindleState spindle_;
+  mutable double seconds_ = 0;
+};
+
+}  // namespace probewright::adapter

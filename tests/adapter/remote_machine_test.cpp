@@ -1,0 +1,294 @@
+#include "adapter/remote_machine.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <functional>
+#include <thread>
+
+#include "support/axis_positions.hpp"
+#include "support/served_machine.hpp"
+
+/// What the engine makes of adapters that break, lie or fall silent. The promises of a machine that works are tested in
+/// tests/setup/machine_contract_test.cpp.
+namespace probewright::adapter {
+namespace {
+
+using machine::Feed;
+using machine::FunctionEnd;
+using machine::MeasureEnd;
+using machine::MoveEnd;
+using machine::Sensor;
+using machine::ToolChangeEnd;
+using testing::HasSubstr;
+using testing_support::positions;
+using testing_support::streamPair;
+
+const char* const greeting =
+    R"("protocol":1,"adapter":"test","machine":{"name":"m","axes":[{"name":"X","kind":"linear"},{"name":"Y","kind":"linear"},{"name":"Z","kind":"linear"}]},"position":[0,0,0],"functions":[8])";
+
+/// An adapter that answers each order with the next of its lines; `$` in it stands for the order's number. A line "hang
+/// up" ends it; without further lines it says nothing.
+class Adapter {
+public:
+  explicit Adapter(std::vector<std::string> answers) {
+    auto [engine, own] = streamPair();
+    engine_ = std::make_unique<LineStream>(std::move(engine));
+    thread_ = std::jthread([this, answers = std::move(answers), stream = std::move(own)]() mutable {
+      std::string line;
+      std::size_t next = 0;
+      while (true) {
+        const LineStream::Got got = stream.receive(line, std::chrono::milliseconds(5000));
+        if (got != LineStream::Got::Line) return;
+        const Json order = parseLine(line);
+        heard.push_back(text(order, "do"));
+        if (next == answers.size()) continue;
+        std::string answer = answers[next++];
+        if (answer == "hang up") return;
+        for (std::size_t at = 0; (at = answer.find('$', at)) != std::string::npos;)
+          answer.replace(at, 1, std::to_string(order.value("id", 0)));
+        if (!stream.send(answer)) return;
+      }
+    });
+  }
+
+  Result<std::unique_ptr<RemoteMachine>> greet(Patience patience = {}) {
+    return RemoteMachine::greet({nullptr, std::move(*engine_)}, patience);
+  }
+
+  std::vector<std::string> heard;  ///< read it after end()
+  void end() { thread_.join(); }
+
+private:
+  std::unique_ptr<LineStream> engine_;
+  std::jthread thread_;
+};
+
+std::vector<std::string> after(std::vector<std::string> answers) {
+  answers.insert(answers.begin(), R"({"id":$,)" + std::string(greeting) + "}");
+  return answers;
+}
+
+TEST(RemoteMachine, LearnsTheMachineFromItsAdapter) {
+  Adapter adapter(after({}));
+  const auto machine = adapter.greet();
+  ASSERT_TRUE(machine) << format(machine.error());
+  EXPECT_EQ((*machine)->adapterName(), "test");
+  EXPECT_EQ((*machine)->description().name, "m");
+  EXPECT_EQ((*machine)->description().axes.size(), 3u);
+  EXPECT_TRUE((*machine)->hasFunction(8));
+  EXPECT_FALSE((*machine)->hasFunction(9));
+  // Without chains the linear axes carry the tool.
+  const Pose spindle = machine::baseFromSpindle((*machine)->description(), positions({1, 2, 3}));
+  EXPECT_EQ(spindle.translation(), Vector3(1, 2, 3));
+}
+
+TEST(RemoteMachine, RefusesAdaptersThatGreetWrongly) {
+  const std::string axes = R"([{"name":"X","kind":"linear"}])";
+  const std::vector<std::pair<std::string, std::string>> greetings = {
+      {"{}", "\"id\" is missing"},
+      {R"({"id":$})", "\"protocol\" is missing"},
+      {R"({"id":$,"protocol":2,"adapter":"a"})", "speaks version 2 of the protocol, this program version 1"},
+      {R"({"id":$,"end":"failed","detail":"emergency stop"})", "the machine is not ready: emergency stop"},
+      {R"({"id":$,"protocol":1,"adapter":"a","position":[0]})", "\"machine\" is missing"},
+      {R"({"id":$,"protocol":1,"adapter":"a","machine":{"name":"m","axes":[]},"position":[]})", "1 to 9 axes"},
+      {R"({"id":$,"protocol":1,"adapter":"a","machine":{"name":"m","axes":)" + axes + R"(},"position":[0,0]})",
+       "1 numbers"},
+      {R"({"id":$,"protocol":1,"adapter":"a","machine":{"name":"m","axes":[{"name":"X","kind":"round"}]},"position":[0]})",
+       "\"round\" is not a word"},
+      {R"({"id":$,"protocol":1,"adapter":"a","machine":{"name":"m","axes":)" + axes +
+           R"(,"tableChain":[{"axis":"Q"}]},"position":[0]})",
+       "there is no axis Q"},
+      {R"({"id":$,"protocol":1,"adapter":"a","machine":{"name":"m","axes":)" + axes +
+           R"(,"spindleChain":[{"axis":"X","direction":[2,0,0]}]},"position":[0]})",
+       "has not the length 1"},
+      {R"({"id":$,"protocol":1,"adapter":"a","machine":{"name":"m","axes":)" + axes +
+           R"(},"functions":["8"],"position":[0]})",
+       "list of whole numbers"},
+      {"hang up", "the connection to the machine adapter is lost"},
+      {"not JSON", "not a JSON object"},
+  };
+  for (const auto& [line, message] : greetings) {
+    Adapter adapter({line});
+    const auto machine = adapter.greet();
+    ASSERT_FALSE(machine) << line;
+    EXPECT_THAT(machine.error().message, HasSubstr(message)) << line;
+    EXPECT_FALSE(machine.error().advice.empty()) << line;
+  }
+}
+
+/// Every kind of order, and whether it was refused.
+struct Order {
+  const char* name;
+  std::function<bool(machine::Machine& machine, std::string& detail)> refused;
+};
+template <class Outcome, class End>
+bool refusedWith(const Outcome& result, End end, std::string& detail) {
+  detail = result.detail;
+  return result.end == end;
+}
+std::vector<Order> orders() {
+  const auto target = positions({1, 0, 0});
+  const Feed feed = Feed::at(100);
+  return {
+      {"move", [=](auto& m, auto& d) { return refusedWith(m.move(target, feed), MoveEnd::Refused, d); }},
+      {"retract", [=](auto& m, auto& d) { return refusedWith(m.retract(target, feed), MoveEnd::Refused, d); }},
+      {"path",
+       [=](auto& m, auto& d) {
+         const std::vector<machine::PathPiece> path = {{target, feed}};
+         return refusedWith(m.moveAlong(path), MoveEnd::Refused, d);
+       }},
+      {"measure",
+       [=](auto& m, auto& d) {
+         return refusedWith(m.measure({target, feed}), MeasureEnd::Refused, d);
+       }},
+      {"turnSpindle",
+       [=](auto& m, auto& d) {
+         return refusedWith(m.turnSpindle(machine::Rotation::Clockwise, 100), MoveEnd::Refused, d);
+       }},
+      {"orientSpindle", [=](auto& m, auto& d) { return refusedWith(m.orientSpindle(90), MoveEnd::Refused, d); }},
+      {"function", [=](auto& m, auto& d) { return refusedWith(m.function(8), FunctionEnd::Refused, d); }},
+      {"changeTool",
+       [=](auto& m, auto& d) {
+         return refusedWith(m.changeTool({1, ""}), ToolChangeEnd::Refused, d);
+       }},
+  };
+}
+
+TEST(RemoteMachine, SaysWhyEachOrderIsRefusedWhenTheMachineFails) {
+  for (const Order& order : orders()) {
+    Adapter adapter(after({R"({"id":$,"end":"failed","detail":"emergency stop","position":[0,0,-7]})"}));
+    auto machine = adapter.greet();
+    ASSERT_TRUE(machine);
+    std::string detail;
+    EXPECT_TRUE(order.refused(**machine, detail)) << order.name;
+    EXPECT_EQ(detail, "emergency stop") << order.name;
+    EXPECT_EQ((*machine)->failure(), "emergency stop") << order.name;
+    EXPECT_EQ((*machine)->position(), positions({0, 0, -7})) << order.name;
+  }
+}
+
+TEST(RemoteMachine, EveryOrderIsRefusedOnceTheConnectionIsLost) {
+  for (const Order& first : orders()) {
+    Adapter adapter(after({R"({"alive":$})", "hang up"}));
+    auto machine = adapter.greet(Patience{std::chrono::milliseconds(200)});
+    ASSERT_TRUE(machine);
+    (*machine)->deflected(Sensor::TouchProbe);  // gets no answer
+    std::string detail;
+    EXPECT_TRUE(first.refused(**machine, detail)) << first.name;
+    EXPECT_THAT(detail, HasSubstr("adapter")) << first.name;
+    for (const Order& then : orders()) {
+      EXPECT_TRUE(then.refused(**machine, detail)) << first.name << ", then " << then.name;
+      EXPECT_EQ(detail, *(*machine)->failure());
+    }
+    EXPECT_EQ((*machine)->position(), positions({0, 0, 0}));
+    EXPECT_FALSE((*machine)->deflected(Sensor::TouchProbe));
+  }
+}
+
+TEST(RemoteMachine, AnswersThatAreNotOfTheProtocolEndTheConnection) {
+  const std::vector<std::string> answers = {"",
+                                            "[]",
+                                            "{",
+                                            R"({"id":0,"end":"reached"})",
+                                            R"({"id":"$","end":"reached"})",
+                                            R"({"id":$})",
+                                            R"({"id":$,"end":"somehow"})",
+                                            R"({"id":$,"end":7})",
+                                            R"({"id":$,"end":"reached","position":[1,2]})",
+                                            R"({"id":$,"end":"reached","position":[1,2,"3"]})",
+                                            R"({"id":$,"end":"reached","position":[1,2,null]})",
+                                            R"({"id":$,"end":"failed","detail":[]})",
+                                            R"({"id":$,"end":"reached","detail":5})",
+                                            "\xff\xfe"};
+  for (const std::string& answer : answers) {
+    Adapter adapter(after({answer}));
+    auto machine = adapter.greet();
+    ASSERT_TRUE(machine);
+    const auto moved = (*machine)->move(positions({1, 0, 0}), Feed::rapidTraverse());
+    EXPECT_EQ(moved.end, MoveEnd::Refused) << answer;
+    EXPECT_THAT(moved.detail, HasSubstr("does not keep to the protocol")) << answer;
+  }
+  Adapter adapter(after({R"({"id":$,"end":"touched"})"}));
+  auto machine = adapter.greet();
+  ASSERT_TRUE(machine);
+  EXPECT_EQ((*machine)->measure({positions({1, 0, 0}), Feed::at(1)}).end, MeasureEnd::Refused)
+      << "a touch without a position";
+  Adapter further(after({R"({"id":$,"end":"reached","reached":2})"}));
+  machine = further.greet();
+  ASSERT_TRUE(machine);
+  const std::vector<machine::PathPiece> path = {{positions({1, 0, 0}), Feed::at(1)}};
+  EXPECT_EQ((*machine)->moveAlong(path).end, MoveEnd::Refused) << "further than the path goes";
+}
+
+TEST(RemoteMachine, WaitsAsLongAsTheAdapterIsAlive) {
+  auto [engine, own] = streamPair();
+  std::jthread adapter([stream = std::move(own)]() mutable {
+    std::string line;
+    stream.receive(line, std::chrono::seconds(5));
+    stream.send(R"({"id":1,)" + std::string(greeting) + "}");
+    stream.receive(line, std::chrono::seconds(5));
+    for (int i = 0; i < 6; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      stream.send(R"({"alive":2})");
+    }
+    stream.send(R"({"id":2,"end":"reached","position":[1,0,0]})");
+    stream.receive(line, std::chrono::seconds(5));  // the next order gets no sign of life
+    stream.receive(line, std::chrono::seconds(5));
+  });
+  auto machine = RemoteMachine::greet({nullptr, std::move(engine)}, Patience{std::chrono::milliseconds(400)});
+  ASSERT_TRUE(machine);
+  EXPECT_EQ((*machine)->move(positions({1, 0, 0}), Feed::at(100)).end, MoveEnd::Reached);
+  const auto moved = (*machine)->move(positions({2, 0, 0}), Feed::at(100));
+  EXPECT_EQ(moved.end, MoveEnd::Refused);
+  EXPECT_EQ(moved.detail, "the machine adapter has said nothing for 0.4 s");
+}
+
+TEST(RemoteMachine, HandsAStopToTheAdapterAndWaitsForTheAxesToStand) {
+  auto [engine, own] = streamPair();
+  std::stop_source source;
+  std::string stop;
+  std::jthread adapter([&, stream = std::move(own)]() mutable {
+    std::string line;
+    stream.receive(line, std::chrono::seconds(5));
+    stream.send(R"({"id":1,)" + std::string(greeting) + "}");
+    stream.receive(line, std::chrono::seconds(5));
+    source.request_stop();
+    stream.receive(stop, std::chrono::seconds(5));
+    stream.send(R"({"id":2,"end":"cancelled","position":[0.5,0,0]})");
+    stream.receive(line, std::chrono::seconds(5));
+    stream.send(R"({"id":3,"end":"reached"})");
+  });
+  auto machine = RemoteMachine::greet({nullptr, std::move(engine)});
+  ASSERT_TRUE(machine);
+  (*machine)->stopOn(source.get_token());
+  EXPECT_EQ((*machine)->move(positions({1, 0, 0}), Feed::at(100)).end, MoveEnd::Cancelled);
+  EXPECT_EQ((*machine)->position(), positions({0.5, 0, 0}));
+  EXPECT_EQ((*machine)->move(positions({2, 0, 0}), Feed::at(100)).end, MoveEnd::Cancelled);
+  EXPECT_EQ((*machine)->turnSpindle(machine::Rotation::None, 0).end, MoveEnd::Reached);
+  adapter.join();
+  EXPECT_EQ(Json::parse(stop), (Json{{"do", "stop"}, {"order", 2}}));
+}
+
+TEST(Connection, NamesWhatCannotBeReached) {
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {"fd:1000", "fd:1000 is no open socket"},
+      {"fd:x", "fd:x is no open socket"},
+      {"no-such-program-anywhere", "cannot be started: No such file"},
+      {"  ", "has no name"},
+  };
+  for (const auto& [where, message] : wrong) {
+    const auto connection = connect(where);
+    ASSERT_FALSE(connection) << where;
+    EXPECT_THAT(connection.error().message, HasSubstr(message));
+  }
+  auto connection = connect("true");
+  ASSERT_TRUE(connection);
+  const auto machine = RemoteMachine::greet(std::move(*connection));
+  ASSERT_FALSE(machine);
+  EXPECT_THAT(machine.error().message, HasSubstr("the connection to the machine adapter is lost"));
+}
+
+}  // namespace
+}  // namespace probewright::adapter
