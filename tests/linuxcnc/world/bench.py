@@ -1,0 +1,53 @@
+"""What the tests of runs on LinuxCNC do at the desk: start the program under test, wait for what it does, disturb it."""
+
+import os
+import signal
+import subprocess
+
+from desk import *
+
+PROGRAM = "probewright"  # its path, which the test sets
+
+
+def hal(pin, value):
+    subprocess.run(["halcmd", "setp", pin, str(value)], check=True)
+
+
+def world(x, y, radius, top):
+    """Where the bore is, the distance at which the ball touches its wall, and the height at which the tip does."""
+    for pin, value in (("dx.in1", -x), ("dy.in1", -y), ("outside.in0", radius), ("below.in1", top)):
+        hal(pin, value)
+
+
+def start(program, out="out", setup="setup.toml", machine="linuxcnc"):
+    words = [PROGRAM, "run", program, "--setup", setup, "--out", out, "--quiet", "--machine", machine]
+    return subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+
+def ended(desk, name, run, seconds=60):
+    """Waits for the end of a run and tells its exit code and its mistakes: `desk: NAME CODE TEXT`."""
+    try:
+        errors = run.communicate(timeout=seconds)[1]
+    except subprocess.TimeoutExpired:
+        run.kill()
+        desk.tell(name, "does not end")
+        return
+    desk.tell(name, run.returncode, " | ".join(errors.split("\n")))
+
+
+def probing(desk):
+    desk.until("a measuring move", lambda s: s.motion_type == 5 and s.current_vel > 0)
+
+
+def moving(desk):
+    desk.until("a move", lambda s: s.current_vel > 0)
+
+
+def still(desk):
+    desk.until("the axes to stand", lambda s: s.inpos and s.current_vel == 0)
+
+
+def adapter():
+    """The process of the machine adapter."""
+    found = subprocess.run(["pgrep", "-f", "probewright-linuxcnc"], capture_output=True, text=True).stdout.split()
+    return int(found[0])
