@@ -168,7 +168,8 @@ void Channel::judge(const machine::MoveResult& result) const {
     case machine::MoveEnd::AxisLimit:
       throw Alarm(alarms.limit, result.detail, "check the presets and the position of the workpiece in the machine");
     case machine::MoveEnd::Refused:
-      throw Alarm(alarms.refused, result.detail, "see what the machine lacks; what it never can, take out of the program");
+      throw Alarm(alarms.refused, result.detail,
+                  "see what the machine lacks; what it never can, take out of the program");
     case machine::MoveEnd::Cancelled:
       throw Cancelled();
   }
