@@ -21,6 +21,7 @@ void StandingMachine::hold() {
   released_ = false;
   at_ = machine_.position();
   spindle_ = machine_.spindle();
+  if (drivesTools()) driven_ = toolSpindle_->toolSpindle();
   orders_ = {};
 }
 
@@ -78,13 +79,22 @@ MoveResult StandingMachine::retract(const AxisPositions& target, machine::Feed f
   return released_ ? machine_.retract(target, feed) : countTo(target, feed);
 }
 
+std::optional<MoveResult> StandingMachine::refusedTurn(Rotation rotation, double speed) const {
+  if (rotation == Rotation::None) return std::nullopt;
+  if (stop_.stop_requested()) return MoveResult{MoveEnd::Cancelled, stoppedText};
+  if (speed >= 0 && std::isfinite(speed)) return std::nullopt;
+  return MoveResult{MoveEnd::Refused, fmt::format("a spindle speed of {} is not possible", speed)};
+}
+
+std::optional<MoveResult> StandingMachine::refusedAngle(double degrees) const {
+  if (stop_.stop_requested()) return MoveResult{MoveEnd::Cancelled, stoppedText};
+  if (std::isfinite(degrees)) return std::nullopt;
+  return MoveResult{MoveEnd::Refused, "the spindle is sent to an angle that is not a number"};
+}
+
 MoveResult StandingMachine::turnSpindle(Rotation rotation, double speed) {
   if (released_) return machine_.turnSpindle(rotation, speed);
-  if (rotation != Rotation::None) {
-    if (stop_.stop_requested()) return {MoveEnd::Cancelled, stoppedText};
-    if (!(speed >= 0 && std::isfinite(speed)))
-      return {MoveEnd::Refused, fmt::format("a spindle speed of {} is not possible", speed)};
-  }
+  if (auto refused = refusedTurn(rotation, speed)) return *std::move(refused);
   spindle_.rotation = rotation;
   spindle_.speed = rotation == Rotation::None ? 0 : speed;
   orders_.rotation = spindle_;
@@ -94,11 +104,29 @@ MoveResult StandingMachine::turnSpindle(Rotation rotation, double speed) {
 
 MoveResult StandingMachine::orientSpindle(double degrees) {
   if (released_) return machine_.orientSpindle(degrees);
-  if (stop_.stop_requested()) return {MoveEnd::Cancelled, stoppedText};
-  if (!std::isfinite(degrees)) return {MoveEnd::Refused, "the spindle is sent to an angle that is not a number"};
+  if (auto refused = refusedAngle(degrees)) return *std::move(refused);
   spindle_ = {Rotation::None, 0, degrees};
   orders_.angle = degrees;
   orders_.rotation.reset();
+  return {};
+}
+
+MoveResult StandingMachine::turnTool(Rotation rotation, double speed) {
+  if (released_) return toolSpindle_->turnTool(rotation, speed);
+  if (auto refused = refusedTurn(rotation, speed)) return *std::move(refused);
+  driven_.rotation = rotation;
+  driven_.speed = rotation == Rotation::None ? 0 : speed;
+  orders_.toolRotation = driven_;
+  if (rotation != Rotation::None) orders_.toolAngle.reset();
+  return {};
+}
+
+MoveResult StandingMachine::orientTool(double degrees) {
+  if (released_) return toolSpindle_->orientTool(degrees);
+  if (auto refused = refusedAngle(degrees)) return *std::move(refused);
+  driven_ = {Rotation::None, 0, degrees};
+  orders_.toolAngle = degrees;
+  orders_.toolRotation.reset();
   return {};
 }
 

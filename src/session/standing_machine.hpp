@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "machine/machine.hpp"
+#include "machine/tool_spindle.hpp"
 
 namespace probewright::session {
 
@@ -12,16 +13,19 @@ struct StandingOrders {
   std::optional<machine::ToolOrder> tool;
   std::optional<double> angle;                    ///< the spindle was oriented, and has not turned since
   std::optional<machine::SpindleState> rotation;  ///< the spindle was turned on or off, and not oriented since
-  std::vector<int> functions;                     ///< M functions, each once, in the order in which they came last
+  std::optional<double> toolAngle;                ///< the same of the spindle of driven tools
+  std::optional<machine::SpindleState> toolRotation;
+  std::vector<int> functions;  ///< M functions, each once, in the order in which they came last
 };
 
 /// A machine whose axes stand while a program runs: program test and block search. Positions are counted as if they
 /// were reached, travels are watched, nothing touches anything and no time passes. Once it is released it is the
 /// machine.
-class StandingMachine : public machine::Machine {
+class StandingMachine : public machine::Machine, public machine::ToolSpindle {
 public:
   /// Begins released.
-  explicit StandingMachine(machine::Machine& machine) : machine_(machine) {}
+  explicit StandingMachine(machine::Machine& machine)
+      : machine_(machine), toolSpindle_(dynamic_cast<machine::ToolSpindle*>(&machine)) {}
 
   /// From now on the axes stand.
   void hold();
@@ -42,6 +46,10 @@ public:
   machine::MoveResult turnSpindle(machine::Rotation rotation, double speed) override;
   machine::MoveResult orientSpindle(double degrees) override;
   machine::SpindleState spindle() const override { return released_ ? machine_.spindle() : spindle_; }
+  bool drivesTools() const override { return toolSpindle_ != nullptr && toolSpindle_->drivesTools(); }
+  machine::MoveResult turnTool(machine::Rotation rotation, double speed) override;
+  machine::MoveResult orientTool(double degrees) override;
+  machine::SpindleState toolSpindle() const override { return released_ ? toolSpindle_->toolSpindle() : driven_; }
   bool hasFunction(int number) const override { return machine_.hasFunction(number); }
   machine::FunctionResult function(int number) override;
   machine::ToolChangeResult changeTool(const machine::ToolOrder& order) override;
@@ -52,11 +60,15 @@ private:
   std::optional<machine::MoveResult> refusal(machine::Feed feed) const;
   machine::MoveResult countTo(const machine::AxisPositions& target, machine::Feed feed);
 
+  std::optional<machine::MoveResult> refusedTurn(machine::Rotation rotation, double speed) const;
+  std::optional<machine::MoveResult> refusedAngle(double degrees) const;
+
   machine::Machine& machine_;
+  machine::ToolSpindle* toolSpindle_;
   std::stop_token stop_;
   bool released_ = true;
   machine::AxisPositions at_;
-  machine::SpindleState spindle_;
+  machine::SpindleState spindle_, driven_;
   StandingOrders orders_;
 };
 

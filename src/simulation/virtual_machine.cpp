@@ -63,14 +63,16 @@ std::uint64_t streamSeed(std::uint64_t seed, std::string_view name) {
 namespace {
 
 bool isToolProbe(const PlacedSolid& solid) { return solid.role == SolidRole::ToolProbe; }
+bool isNoToolProbe(const PlacedSolid& solid) { return !isToolProbe(solid); }
+bool isAnything(const PlacedSolid&) { return true; }
 
 }  // namespace
 
 VirtualMachine::VirtualMachine(Truth truth)
     : truth_(std::move(truth)),
       kinematics_(truth_.machine, truth_.errors),
-      surroundings_(truth_.solids),
-      withoutToolProbes_(truth_.solids, [](const PlacedSolid& solid) { return !isToolProbe(solid); }),
+      surroundings_(truth_.solids, truth_.machine.mainSpindle ? isNoToolProbe : isAnything),
+      withoutToolProbes_(truth_.solids, isNoToolProbe),
       toolProbesOnly_(truth_.solids, isToolProbe),
       reading_(truth_.start),
       slides_(truth_.start),
@@ -88,6 +90,38 @@ VirtualMachine::VirtualMachine(Truth truth)
 }
 
 Pose VirtualMachine::tableFromSpindle() const { return kinematics_.tableFromSpindle(slides_, clock_); }
+
+Motion VirtualMachine::onBed(const Motion& motion) const {
+  Motion seen = motion;
+  const std::size_t turns = *truth_.machine.mainSpindle;
+  seen.from[turns] = seen.to[turns] = seen.slidesAtStart[turns] = 0;
+  return seen;
+}
+
+Pose VirtualMachine::bedFromSpindle() const {
+  AxisPositions slides = slides_;
+  slides[*truth_.machine.mainSpindle] = 0;
+  return kinematics_.tableFromSpindle(slides, clock_);
+}
+
+std::optional<Touch> VirtualMachine::firstTouchOf(const Motion& motion, double begin,
+                                                  const SearchOptions& options) const {
+  auto first = firstTouch(motion, begin, 1, shape_, surroundings_, options);
+  if (!probesOnBed()) return first;
+  auto onProbe = firstTouch(onBed(motion), begin, 1, shape_, toolProbesOnly_, options);
+  return onProbe && (!first || onProbe->fraction < first->fraction) ? onProbe : first;
+}
+
+std::optional<Touch> VirtualMachine::ballTouchAt(const Motion& motion, double fraction) const {
+  auto touch = ballOverlap(motion.tableFromSpindleAt(fraction), shape_, surroundings_);
+  if (touch || !probesOnBed()) return touch;
+  return ballOverlap(onBed(motion).tableFromSpindleAt(fraction), shape_, toolProbesOnly_);
+}
+
+std::optional<Touch> VirtualMachine::shaftTouch() const {
+  auto touch = shaftOverlap(tableFromSpindle(), shape_, surroundings_);
+  return touch || !probesOnBed() ? touch : shaftOverlap(bedFromSpindle(), shape_, toolProbesOnly_);
+}
 
 Vector3 VirtualMachine::tipOnTable() const { return tableFromSpindle() * shape_.tip; }
 
@@ -234,7 +268,7 @@ MoveResult VirtualMachine::move(const AxisPositions& target, Feed feed) {
   const Motion motion = motionTo(target, feed);
   const PathKind kind = feed.rapid ? PathKind::Rapid : PathKind::Feed;
   try {
-    return finish(motion, firstTouch(motion, 0, 1, shape_, surroundings_, searchOptions(positioningPrecision)), kind);
+    return finish(motion, firstTouchOf(motion, 0, searchOptions(positioningPrecision)), kind);
   } catch (const SearchStopped& stopped) {
     standAt(motion, stopped.fraction, kind);
     return {MoveEnd::Cancelled, stoppedText};
@@ -249,17 +283,21 @@ PathResult VirtualMachine::moveAlong(std::span<const PathPiece> path) {
   return {MoveEnd::Reached, path.size(), {}};
 }
 
+/// In the frame of what deflects the stylus.
+Motion VirtualMachine::seenFromTouched(const Motion& motion) const {
+  return probesOnBed() && isToolProbe(truth_.solids[deflection_->solid]) ? onBed(motion) : motion;
+}
+
 std::optional<double> VirtualMachine::freeFrom(const Motion& motion) const {
   constexpr double clear = 1e-6;        // mm off the surface
   constexpr double firstStep = 0.002;   // mm
   constexpr double longestStep = 0.25;  // mm
   const double length = motion.profile.length();
-  const auto overlaps = [&](double fraction) {
-    return ballOverlap(motion.tableFromSpindleAt(fraction), shape_, surroundings_).has_value();
-  };
+  const auto overlaps = [&](double fraction) { return ballTouchAt(motion, fraction).has_value(); };
   // On a flat surface the ball is free where it has left the plane of contact.
+  const Motion seen = seenFromTouched(motion);
   const auto gap = [&](double fraction) {
-    const Vector3 centre = motion.tableFromSpindleAt(fraction) * shape_.balls[deflection_->ball].centre;
+    const Vector3 centre = seen.tableFromSpindleAt(fraction) * shape_.balls[deflection_->ball].centre;
     return (centre - deflection_->point).dot(deflection_->normal) - shape_.balls[deflection_->ball].radius;
   };
   const double atStart = gap(0), atEnd = gap(1);
@@ -281,15 +319,16 @@ MoveResult VirtualMachine::retract(const AxisPositions& target, Feed feed) {
   if (motion.profile.length() == 0) return {};
   SearchOptions options = searchOptions(positioningPrecision);
   // What a collision left touching may be pulled off.
-  options.ignoreShafts = toolContact_ || shaftOverlap(tableFromSpindle(), shape_, surroundings_);
+  options.ignoreShafts = toolContact_ || shaftTouch();
   toolContact_.reset();
   double begin = 0;
   if (deflection_) {
     const auto free = freeFrom(motion);
-    if (!free || (*free == 1 && ballOverlap(motion.tableFromSpindleAt(1), shape_, surroundings_))) {
+    if (!free || (*free == 1 && ballTouchAt(motion, 1))) {
       // Pressing on instead of leaving: the stylus gives way as far as it can.
+      const Motion seen = seenFromTouched(motion);
       const auto centre = [&](double f) {
-        return Vector3(motion.tableFromSpindleAt(f) * shape_.balls[deflection_->ball].centre);
+        return Vector3(seen.tableFromSpindleAt(f) * shape_.balls[deflection_->ball].centre);
       };
       const double depth =
           (deflection_->point - centre(1)).dot(deflection_->normal) + shape_.balls[deflection_->ball].radius;
@@ -303,7 +342,7 @@ MoveResult VirtualMachine::retract(const AxisPositions& target, Feed feed) {
     begin = *free;
   }
   try {
-    return finish(motion, firstTouch(motion, begin, 1, shape_, surroundings_, options), PathKind::Retract);
+    return finish(motion, firstTouchOf(motion, begin, options), PathKind::Retract);
   } catch (const SearchStopped& stopped) {
     standAt(motion, stopped.fraction, PathKind::Retract);
     return {MoveEnd::Cancelled, stoppedText};
@@ -311,43 +350,49 @@ MoveResult VirtualMachine::retract(const AxisPositions& target, Feed feed) {
 }
 
 std::optional<Touch> VirtualMachine::overlap() {
-  const Pose pose = tableFromSpindle();
-  deflection_ = ballOverlap(pose, shape_, surroundings_);
-  auto touch = shaftOverlap(pose, shape_, surroundings_);
+  deflection_ = ballOverlap(tableFromSpindle(), shape_, surroundings_);
+  if (!deflection_ && probesOnBed()) deflection_ = ballOverlap(bedFromSpindle(), shape_, toolProbesOnly_);
+  auto touch = shaftTouch();
   return touch ? touch : deflection_;
 }
 
-MoveResult VirtualMachine::turnSpindle(Rotation rotation, double speed) {
+MoveResult VirtualMachine::turn(machine::SpindleState& spindle, Rotation rotation, double speed) {
+  const bool turnsTool = &spindle == &carrying();
   if (rotation == Rotation::None) {
-    spindle_.rotation = rotation;
-    spindle_.speed = 0;
-    spin_ = {spindleDegrees(), clock_, 0};
+    spindle.rotation = rotation;
+    spindle.speed = 0;
+    if (turnsTool) spin_ = {spindleDegrees(), clock_, 0};
     return {};
   }
   if (stop_.stop_requested()) return {MoveEnd::Cancelled, stoppedText};
   if (!(speed >= 0 && std::isfinite(speed)))
     return {MoveEnd::Refused, fmt::format("a spindle speed of {} is not possible", speed)};
-  spindle_.rotation = rotation;
-  spindle_.speed = speed;
-  // Clockwise as seen from the spindle nose is against the angles about the tool. On a lathe the workpiece turns.
-  const double turned = truth_.machine.mainSpindle ? 0 : (rotation == Rotation::Clockwise ? -6.0 : 6.0) * speed;
-  spin_ = {spindleDegrees(), clock_, turned};
+  spindle.rotation = rotation;
+  spindle.speed = speed;
+  // Clockwise as seen from the spindle nose is against the angles about the tool.
+  if (turnsTool) spin_ = {spindleDegrees(), clock_, (rotation == Rotation::Clockwise ? -6.0 : 6.0) * speed};
   return {};
 }
 
-MoveResult VirtualMachine::orientSpindle(double degrees) {
+MoveResult VirtualMachine::orient(machine::SpindleState& spindle, double degrees) {
   if (stop_.stop_requested()) return {MoveEnd::Cancelled, stoppedText};
   if (!truth_.machine.spindleOrients) return {MoveEnd::Refused, "the spindle of this machine cannot be oriented"};
   if (!std::isfinite(degrees)) return {MoveEnd::Refused, "the target angle of the spindle is not a number"};
   continuous_.stop();
   clock_ += orientationSeconds;
-  spindle_ = {Rotation::None, 0, degrees};
-  spin_ = {truth_.machine.mainSpindle ? 0 : degrees, clock_, 0};
+  spindle = {Rotation::None, 0, degrees};
+  if (&spindle != &carrying()) return {};
+  spin_ = {degrees, clock_, 0};
   shape_ = shapeOf(tool_, degrees);
   const auto touch = overlap();
   if (!touch) return {};
   return {touch->shaft ? MoveEnd::Collision : MoveEnd::ProbeSignal, describe(*touch)};
 }
+
+MoveResult VirtualMachine::turnSpindle(Rotation rotation, double speed) { return turn(spindle_, rotation, speed); }
+MoveResult VirtualMachine::orientSpindle(double degrees) { return orient(spindle_, degrees); }
+MoveResult VirtualMachine::turnTool(Rotation rotation, double speed) { return turn(driven_, rotation, speed); }
+MoveResult VirtualMachine::orientTool(double degrees) { return orient(driven_, degrees); }
 
 FunctionResult VirtualMachine::function(int number) {
   if (!hasFunction(number)) return {FunctionEnd::Unknown, fmt::format("this machine has no M{}", number)};
@@ -366,7 +411,7 @@ std::optional<const TrueTool*> VirtualMachine::findTool(const machine::ToolOrder
 
 ToolChangeResult VirtualMachine::load(const TrueTool* tool) {
   tool_ = tool;
-  shape_ = shapeOf(tool_, spindle_.angle);
+  shape_ = shapeOf(tool_, carrying().angle);
   edges_.reset();
   if (tool_ != nullptr && tool_->kind == ToolKind::Cutter) edges_.emplace(*tool_);
   if (recording_) path_.add(pathPoint(tableFromSpindle(), PathKind::ToolChange, clock_));
@@ -386,7 +431,7 @@ ToolChangeResult VirtualMachine::changeTool(const machine::ToolOrder& order) {
   if (!tool) return {ToolChangeEnd::Missing, missingTool(order)};
   if (*tool == tool_) return {};
   if (deflection_ || toolContact_) return {ToolChangeEnd::ProbeSignal, stillDeflected()};
-  if (!truth_.machine.mainSpindle) turnSpindle(Rotation::None, 0);
+  turn(carrying(), Rotation::None, 0);
 
   AxisPositions target = reading_;
   const auto& chain = truth_.machine.spindleChain;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "machine/machine.hpp"
+#include "machine/tool_spindle.hpp"
 #include "simulation/contact_search.hpp"
 #include "simulation/continuous_path.hpp"
 #include "simulation/edge_contact.hpp"
@@ -46,11 +47,15 @@ namespace probewright::simulation {
 /// Spindle. It turns without taking time; the edges of a cutter turn with it, other tools touch as they were oriented.
 /// Stopped, it stands where it is. Of M functions the machine has coolant: 7, 8, 9.
 ///
+/// Lathes, whose main spindle turns the workpiece, drive the tool with a spindle of its own (ToolSpindle). Their tool
+/// touch probes stand on the bed: the main spindle does not carry them along. The table frame of what touched them is
+/// that in which the main spindle stands at 0.
+///
 /// Errors of the axes act between the readings and the true place of the spindle; see MachineErrors.
 ///
 /// Tool change. The last linear axis of the spindle chain goes to the tool change position first, then the other linear
 /// axes together. Changing to the tool in the spindle does nothing. Not watched for collisions except at its end.
-class VirtualMachine final : public machine::Machine {
+class VirtualMachine final : public machine::Machine, public machine::ToolSpindle {
 public:
   explicit VirtualMachine(Truth truth);
 
@@ -70,6 +75,10 @@ public:
   machine::MoveResult turnSpindle(machine::Rotation rotation, double speed) override;
   machine::MoveResult orientSpindle(double degrees) override;
   machine::SpindleState spindle() const override { return spindle_; }
+  bool drivesTools() const override { return truth_.machine.mainSpindle.has_value(); }
+  machine::MoveResult turnTool(machine::Rotation rotation, double speed) override;
+  machine::MoveResult orientTool(double degrees) override;
+  machine::SpindleState toolSpindle() const override { return driven_; }
   bool hasFunction(int number) const override { return number >= 7 && number <= 9; }
   machine::FunctionResult function(int number) override;
   machine::ToolChangeResult changeTool(const machine::ToolOrder& order) override;
@@ -122,6 +131,8 @@ private:
   };
   std::optional<ProbeTouch> toolProbeTouch(const Motion& motion) const;
   machine::MeasureResult signalOfTool(const Motion& motion, const ProbeTouch& touched);
+  machine::MoveResult turn(machine::SpindleState& spindle, machine::Rotation rotation, double speed);
+  machine::MoveResult orient(machine::SpindleState& spindle, double degrees);
   /// The spindle as it turns the tool in it now.
   double spindleDegrees() const { return spin_.at(clock_); }
   void advance(const Motion& motion, const Stop& stop, PathKind kind);
@@ -134,6 +145,20 @@ private:
   machine::ToolChangeResult load(const TrueTool* tool);
   /// What the tool touches where it stands.
   std::optional<Touch> overlap();
+  /// True if the tool touch probes stand on the bed of a lathe.
+  bool probesOnBed() const { return truth_.machine.mainSpindle && !truth_.toolProbes.empty(); }
+  /// The motion as it is seen from the bed of a lathe: the main spindle stands at 0.
+  Motion onBed(const Motion& motion) const;
+  Motion seenFromTouched(const Motion& motion) const;
+  Pose bedFromSpindle() const;
+  /// The first touch of anything, on the table or on the bed.
+  std::optional<Touch> firstTouchOf(const Motion& motion, double begin, const SearchOptions& options) const;
+  /// What the ball overlaps `fraction` of the way.
+  std::optional<Touch> ballTouchAt(const Motion& motion, double fraction) const;
+  std::optional<Touch> shaftTouch() const;
+  /// The spindle that carries the tool.
+  machine::SpindleState& carrying() { return truth_.machine.mainSpindle ? driven_ : spindle_; }
+  const machine::SpindleState& carrying() const { return truth_.machine.mainSpindle ? driven_ : spindle_; }
   std::string stillDeflected() const;
   SearchOptions searchOptions(double precision) const { return {.precision = precision, .stop = &stop_}; }
   /// Ends a motion where a stop has caught it.
@@ -152,7 +177,8 @@ private:
   std::optional<Touch> deflection_;   ///< the touch that deflected the stylus, while it is deflected
   std::optional<Touch> toolContact_;  ///< that of a tool with the tool touch probe, until it is pulled off
   machine::SpindleState spindle_;
-  Spin spin_;
+  machine::SpindleState driven_;  ///< of a lathe: the spindle of driven tools
+  Spin spin_;                     ///< of the tool
   double clock_ = 0;
   std::mt19937_64 noise_;
   std::normal_distribution<double> gaussian_;

@@ -24,7 +24,7 @@ constexpr double measuringPrecision = 1e-7;  // mm
 
 double VirtualMachine::pretravel(const Motion& motion, const Touch& touch) const {
   const Matrix3 spindleFromTable = motion.tableFromSpindleAt(touch.fraction).linear().transpose();
-  return pretravelOf(*tool_, spindle_.angle, spindleFromTable * touch.normal);
+  return pretravelOf(*tool_, carrying().angle, spindleFromTable * touch.normal);
 }
 
 VirtualMachine::Stop VirtualMachine::stopFor(const Motion& motion, const Touch& touch) {
@@ -94,7 +94,7 @@ MeasureResult VirtualMachine::measureWithProbe(const MeasureOrder& order) {
   const Motion motion = motionTo(order.target, order.feed);
   std::optional<Touch> touch;
   try {
-    touch = firstTouch(motion, 0, 1, shape_, surroundings_, searchOptions(measuringPrecision));
+    touch = firstTouchOf(motion, 0, searchOptions(measuringPrecision));
   } catch (const SearchStopped& stopped) {
     standAt(motion, stopped.fraction, PathKind::Measure);
     return end(MeasureEnd::Cancelled, stoppedText);

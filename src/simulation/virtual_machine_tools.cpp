@@ -28,7 +28,7 @@ std::optional<Touch> VirtualMachine::obstacle(const Motion& motion) const {
   auto first = firstTouch(motion, 0, 1, shape_, withoutToolProbes_, options);
   ToolShape carrier = shape_;
   std::erase_if(carrier.shafts, [](const Shaft& shaft) { return std::string_view(shaft.part) == cutterName; });
-  const auto second = firstTouch(motion, 0, 1, carrier, toolProbesOnly_, options);
+  const auto second = firstTouch(probesOnBed() ? onBed(motion) : motion, 0, 1, carrier, toolProbesOnly_, options);
   if (second && (!first || second->fraction < first->fraction)) {
     first = second;
     first->shaft = *second->shaft + (shape_.shafts.size() - carrier.shafts.size());  // that of the edges is the first
@@ -38,10 +38,11 @@ std::optional<Touch> VirtualMachine::obstacle(const Motion& motion) const {
 
 std::optional<VirtualMachine::ProbeTouch> VirtualMachine::toolProbeTouch(const Motion& motion) const {
   std::optional<ProbeTouch> first;
+  const Motion seen = probesOnBed() ? onBed(motion) : motion;
   for (std::size_t i = 0; i < truth_.toolProbes.size(); ++i) {
     const TrueToolProbe& probe = truth_.toolProbes[i];
     const auto contact =
-        firstEdgeContact(motion, *edges_, spin_, *probe.contact, probe.tableFromContact.inverse(), stop_);
+        firstEdgeContact(seen, *edges_, spin_, *probe.contact, probe.tableFromContact.inverse(), stop_);
     if (!contact || (first && first->contact.fraction <= contact->fraction)) continue;
     Touch touch;
     touch.fraction = contact->fraction;
@@ -49,7 +50,7 @@ std::optional<VirtualMachine::ProbeTouch> VirtualMachine::toolProbeTouch(const M
     touch.shaft = 0;
     touch.point = probe.tableFromContact * contact->place;
     touch.normal = probe.tableFromContact.linear() * contact->normal;
-    touch.ballCentre = motion.tableFromSpindleAt(contact->fraction) * shape_.tip;
+    touch.ballCentre = seen.tableFromSpindleAt(contact->fraction) * shape_.tip;
     first = ProbeTouch{i, *contact, touch};
   }
   return first;
@@ -67,7 +68,7 @@ MeasureResult VirtualMachine::signalOfTool(const Motion& motion, const ProbeTouc
     return MeasureResult{MeasureEnd::Collision, reading_, detail + why};
   };
   const bool turns = spin_.degreesPerSecond != 0 && !tool_->cutter.teeth.empty();
-  if (turns && spindle_.rotation == tool_->cutter.cutting)
+  if (turns && carrying().rotation == tool_->cutter.cutting)
     return broken(", which turned in its cutting direction and cut into the contact");
   const Push push = pushOf(-touched.contact.normal);
   if (!probe.gives[static_cast<std::size_t>(push)])

@@ -338,7 +338,7 @@ TEST(SinumerikEffects, WhatIsNotCarriedOutIsNamedOnceAndRefusedUnderStrict) {
       {"ORIMKS", "ORIMKS"},
       {"TRAILON(X,Y,1)", "TRAILON"},
       {"GEOAX(1,X)", "GEOAX"},
-      {"SETMS(2)", "SETMS"},
+      {"SETMS(3)", "SETMS"},
       {"DELDL(1,1)", "DELDL"},
       {"TCA(\"MILL\")", "TCA"},
       {"CALLPATH(\"/_N_WKS_DIR\")", "CALLPATH"},

@@ -109,6 +109,10 @@ private:
   bool handToMachine(int number);
   void turnSpindle();
   void followSpeed();
+  void turnTool(int spindle, int function);
+  void orientSpindle(int spindle, double degrees, bool incremental);
+  void setToolSpeed(int spindle, double speed);
+  void selectMasterSpindle(const language::Command& command, Evaluation& evaluation);
   void alignFrameWithTool(bool withOrigin);
   void raiseAlarm(const language::Command& command, Evaluation& evaluation);
   void dwell(const language::Command& command, Evaluation& evaluation);
@@ -170,6 +174,7 @@ private:
   const language::Program* lastProgram_ = nullptr;
   const language::Block* block_ = nullptr;
   int preparedTool_ = -1;
+  double toolSpeed_ = 0;  ///< S of the spindle that drives tools, rev/min
   std::optional<int> edgeAfterChange_;
   std::optional<MeasuringNotice> notice_;  ///< while the call of CUST_MEACYC is being made
   bool builderTellsOccasions_ = false;     ///< the last CUST_MEACYC has a parameter for the occasion

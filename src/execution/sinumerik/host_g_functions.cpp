@@ -6,6 +6,7 @@
 #include <span>
 
 #include "control/alarm.hpp"
+#include "control/sinumerik/master_spindle.hpp"
 #include "execution/sinumerik/functions.hpp"
 #include "execution/sinumerik/host.hpp"
 #include "execution/sinumerik/spindle_speed.hpp"
@@ -51,9 +52,12 @@ void SinumerikHost::carryOut(const Modal& modal, Evaluation& evaluation) {
         return;
       case 'S': {
         // S2= and so on are the speeds of other spindles.
-        const bool own = words[0].address == addressOf("S") || words[0].address == addressOf("S1");
-        const bool main = words.size() > 1 ? wholeNumber(evaluation.number(words[1].value)) == 1 : own;
-        if (!main) return;
+        const int named = words[0].address == addressOf("S")    ? masterSpindle(control_)
+                          : words[0].address == addressOf("S1") ? control::sinumerik::mainSpindle
+                          : words[0].address == addressOf("S2") ? control::sinumerik::drivenTools
+                                                                : 0;
+        const int spindle = words.size() > 1 ? wholeNumber(evaluation.number(words[1].value)) : named;
+        if (spindle != control::sinumerik::mainSpindle) return setToolSpeed(spindle, value);
         state_.spindleSpeed = value;
         return followSpeed();
       }

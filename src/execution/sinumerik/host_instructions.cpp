@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "control/sinumerik/master_spindle.hpp"
 #include "control/sinumerik/text.hpp"
+#include "control/tool_spindle.hpp"
 #include "execution/sinumerik/functions.hpp"
 #include "execution/sinumerik/host.hpp"
 #include "execution/sinumerik/spindle_speed.hpp"
@@ -53,33 +55,63 @@ void SinumerikHost::changeTool() {
 
 void SinumerikHost::carryOut(const MachineFunction& function, Evaluation& evaluation) {
   int number = function.number;
-  bool mainSpindle = true;
+  int spindle = masterSpindle(control_);
   if (number < 0) {
     number = wholeNumber(evaluation.number(function.argument));
-    const auto spindle = evaluation.words(function.words);
-    if (!spindle.empty()) mainSpindle = wholeNumber(evaluation.number(spindle[0].value)) == 1;
+    const auto index = evaluation.words(function.words);
+    if (!index.empty()) spindle = wholeNumber(evaluation.number(index[0].value));
   } else if (function.argument.present()) {
-    mainSpindle = wholeNumber(evaluation.number(function.argument)) == 1;
+    spindle = wholeNumber(evaluation.number(function.argument));
   }
+  const bool main = spindle == control::sinumerik::mainSpindle;
   switch (number) {
     case 3:
     case 4:
     case 5:
-      if (!mainSpindle) return;
+      if (!main) return turnTool(spindle, number);
       state_.spindleDirection = number;
       return turnSpindle();
     case 6:
       motion_.flush();
       return changeTool();
     case 19:
-      motion_.flush();
-      if (mainSpindle) control_.channel.orientSpindle(control_.machineData("$SA_M19_SPOS"));
-      return;
+      return orientSpindle(spindle, control_.machineData("$SA_M19_SPOS"), false);
     default:
-      if (mainSpindle && handToMachine(number)) return;
+      if (main && handToMachine(number)) return;
       if (isSkippedMachineFunction(number)) skip(fmt::format("M{}", number));
       return;
   }
+}
+
+/// M3, M4 and M5 of the spindle that drives tools; nothing of a spindle that the machine does not have.
+void SinumerikHost::turnTool(int spindle, int function) {
+  using machine::Rotation;
+  auto* driven = control::toolSpindleOf(control_.channel);
+  if (driven == nullptr || spindle != control::sinumerik::drivenTools) return;
+  motion_.flush();
+  const Rotation rotation = function == 5   ? Rotation::None
+                            : function == 3 ? Rotation::Clockwise
+                                            : Rotation::CounterClockwise;
+  control::turnTool(control_.channel, *driven, rotation, std::max(0.0, toolSpeed_));
+}
+
+/// SPOS, M19.
+void SinumerikHost::orientSpindle(int spindle, double degrees, bool incremental) {
+  motion_.flush();
+  if (spindle == control::sinumerik::mainSpindle)
+    return control_.channel.orientSpindle(incremental ? control_.channel.spindleAngle() + degrees : degrees);
+  auto* driven = control::toolSpindleOf(control_.channel);
+  if (driven == nullptr || spindle != control::sinumerik::drivenTools) return;
+  control::orientTool(control_.channel, *driven, incremental ? driven->toolSpindle().angle + degrees : degrees);
+}
+
+/// S of the spindle that drives tools: one that turns follows it.
+void SinumerikHost::setToolSpeed(int spindle, double speed) {
+  if (spindle != control::sinumerik::drivenTools) return;
+  toolSpeed_ = speed;
+  auto* driven = control::toolSpindleOf(control_.channel);
+  if (driven != nullptr && driven->toolSpindle().rotation != machine::Rotation::None)
+    control::turnTool(control_.channel, *driven, driven->toolSpindle().rotation, std::max(0.0, speed));
 }
 
 /// True if the machine has carried out the M function.
@@ -176,6 +208,7 @@ void SinumerikHost::skip(std::string_view what, std::string_view how) {
 /// Words that say nothing about where the tool goes, and those that do and are not carried out, which are named.
 void SinumerikHost::leaveOut(const Command& command, Evaluation& evaluation) {
   const std::string_view name = evaluation.at(command.name);
+  if (name == "SETMS") return selectMasterSpindle(command, evaluation);
   const KeywordEntry* entry = keywordEntry(name);
   if (entry != nullptr && entry->effect == Effect::Harmless) return;
   const std::string_view how = skippedFunction(name);
@@ -190,6 +223,18 @@ void SinumerikHost::leaveOut(const Command& command, Evaluation& evaluation) {
     value = isText(first) ? 1 : std::get<double>(first);
   }
   if (!saysWhatIs(name, value)) skip(name, how);
+}
+
+/// SETMS(2), SETMS: the spindle that M3, S and SPOS mean from now on.
+void SinumerikHost::selectMasterSpindle(const Command& command, Evaluation& evaluation) {
+  const auto words = evaluation.words(command.words);
+  const bool named = !words.empty() && words[0].value.present();
+  const int number = named ? wholeNumber(evaluation.number(words[0].value)) : control::sinumerik::mainSpindle;
+  const bool drives = number == control::sinumerik::drivenTools && control::toolSpindleOf(control_.channel) != nullptr;
+  if (number != control::sinumerik::mainSpindle && !drives)
+    return skip("SETMS", "names a spindle that this machine does not have");
+  motion_.flush();
+  control::sinumerik::setMasterSpindle(control_, number);
 }
 
 /// GETSELT(NUMBER): the tool that T has selected; GETEXET(NUMBER): the one that D belongs to.
@@ -210,8 +255,10 @@ void SinumerikHost::carryOut(const Move& move, Evaluation& evaluation) {
 void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
   const std::string_view name = evaluation.at(command.name);
   const auto words = evaluation.words(command.words);
-  /// Of what has the number of a spindle in brackets: the main spindle is meant.
-  const auto ofMainSpindle = [&] { return words.size() < 2 || wholeNumber(evaluation.number(words[1].value)) == 1; };
+  /// Of what may have the number of a spindle in brackets.
+  const auto spindle = [&] {
+    return words.size() < 2 ? masterSpindle(control_) : wholeNumber(evaluation.number(words[1].value));
+  };
   const CommandKind kind = commandKind(name);
   switch (kind) {
     case CommandKind::Declare:
@@ -239,21 +286,15 @@ void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
       return motion_.approachFixedPoint(command, evaluation);
     case CommandKind::Measure:
       return motion_.measure(command, evaluation);
-    case CommandKind::OrientSpindle: {
-      motion_.flush();
-      const bool main = ofMainSpindle();
-      const double angle = evaluation.number(words[0].value);
-      const bool incremental = words[0].mode == WordMode::Incremental;
-      if (main) control_.channel.orientSpindle(incremental ? control_.channel.spindleAngle() + angle : angle);
-      return;
-    }
+    case CommandKind::OrientSpindle:
+      return orientSpindle(spindle(), evaluation.number(words[0].value), words[0].mode == WordMode::Incremental);
     case CommandKind::PositionAxis: {
       if (words.size() < 2) throw Alarm("12080", fmt::format("{} needs the axis in brackets", name), "write POS[X]=10");
       const std::string axis = upperCase(evaluation.text(words[1].value));
       return motion_.position(axis, words[0].mode, evaluation.number(words[0].value));
     }
     case CommandKind::SpeedLimit:
-      if (!ofMainSpindle()) return;
+      if (spindle() != control::sinumerik::mainSpindle) return;
       state_.speedLimit = evaluation.number(words[0].value);
       return followSpeed();
     case CommandKind::AxisFeed:

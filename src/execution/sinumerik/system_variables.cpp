@@ -12,6 +12,7 @@
 #include "base/utc.hpp"
 #include "control/alarm.hpp"
 #include "control/sinumerik/former_names.hpp"
+#include "control/sinumerik/master_spindle.hpp"
 #include "control/sinumerik/text.hpp"
 #include "control/sinumerik/tool_data.hpp"
 #include "execution/sinumerik/datum_check.hpp"
@@ -225,7 +226,8 @@ std::optional<Value> SystemVariables::readState(std::string_view name, std::span
   if (name == "$P_F") return number(state_.feed);
   if (name == "$P_S") return number(state_.spindleSpeed);
   if (name == "$P_SDIR") return number(state_.spindleDirection);
-  if (name == "$P_MSNUM" || name == "$P_CHANNO" || name == "$AC_PROG") return number(1);
+  if (name == "$P_MSNUM") return number(masterSpindle(control_));
+  if (name == "$P_CHANNO" || name == "$AC_PROG") return number(1);
   if (name == "$AC_STAT") return number(2);  // a program is running
   if (name == "$P_D") return number(control_.tool.edge);
   if (name == "$MC_MM_NUM_USER_FRAMES") return number(control_.machineData(name, 100));

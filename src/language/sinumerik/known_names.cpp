@@ -130,7 +130,8 @@ bool isFrameWithoutEffect(std::string_view name) {
 bool saysWhatIs(std::string_view name, std::optional<double> value) {
   static constexpr std::string_view offAtZero[] = {"OFFN", "TCARR", "FXS", "CUTMOD", "TOFF", "DISC"};
   if (!value) return name == "SETMS" || name == "GEOAX";
-  if (name == "SETMS") return *value == 1;
+  // On lathes spindle 2 drives the tools in the turret.
+  if (name == "SETMS") return *value == 1 || *value == 2;
   return *value == 0 && std::ranges::find(offAtZero, name) != std::end(offAtZero);
 }
 

@@ -99,6 +99,8 @@ void goOnMoving(StandingMachine& machine, sin::Control& control) {
   if (orders.tool) control.channel.changeTool(*orders.tool);
   if (orders.angle) machine.orientSpindle(*orders.angle);
   if (orders.rotation) control.channel.turnSpindle(orders.rotation->rotation, orders.rotation->speed);
+  if (orders.toolAngle) machine.orientTool(*orders.toolAngle);
+  if (orders.toolRotation) machine.turnTool(orders.toolRotation->rotation, orders.toolRotation->speed);
   for (const int number : orders.functions)
     control.channel.function(number);
   control.channel.moveAxes(target, machine::Feed::rapidTraverse());
