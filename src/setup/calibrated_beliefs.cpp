@@ -1,10 +1,29 @@
 #include "setup/calibrated_beliefs.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "machine/description.hpp"
+#include "simulation/tool_shape.hpp"
 
 namespace probewright::setup {
+
+namespace {
+
+/// The cutting edge position of an insert that lies in the plane of Z and X: where its nose points.
+int cuttingEdgeOf(const simulation::TrueTool& tool) {
+  const simulation::TrueInsert& insert = *tool.cutter.insert;
+  const double half = std::remainder(insert.secondNormal - insert.firstNormal, 360) / 2;
+  const double middle = radiansFromDegrees(insert.firstNormal + half);
+  const Vector3 pointing = simulation::toolFrame(tool) * rotation(Vector3::UnitZ(), insert.orientation).linear() *
+                           Vector3(std::cos(middle), 0, std::sin(middle));
+  const auto sign = [](double value) { return std::abs(value) < 1e-6 ? 1 : value < 0 ? 0 : 2; };
+  // By Z, then by X.
+  static constexpr int positions[3][3] = {{3, 7, 2}, {8, 0, 6}, {4, 5, 1}};
+  return positions[sign(pointing.z())][sign(pointing.x())];
+}
+
+}  // namespace
 
 void believeAsCalibrated(control::BelievedTool& believed, const simulation::TrueTool& tool) {
   believed.mount = tool.mount;
@@ -12,6 +31,7 @@ void believeAsCalibrated(control::BelievedTool& believed, const simulation::True
   believed.length = tool.length;
   believed.radius = tool.radius;
   believed.teeth = static_cast<int>(tool.cutter.teeth.size());
+  if (tool.cutter.insert) believed.cuttingEdge = cuttingEdgeOf(tool);
   if (tool.kind != simulation::ToolKind::Probe) return;
   const simulation::TrueProbe& probe = tool.probe;
   const double delayed = probe.signalDelay * believed.feed / 60;
@@ -52,10 +72,12 @@ void believeSides(control::BelievedToolProbe& believed, const simulation::TrueTo
 
 std::vector<control::BelievedToolProbe> believedToolProbes(const simulation::World& world) {
   std::vector<control::BelievedToolProbe> all;
+  // On lathes they stand on the bed: the main spindle does not turn them.
+  machine::AxisPositions standing = world.truth.start;
+  if (world.truth.machine.mainSpindle) standing[*world.truth.machine.mainSpindle] = 0;
   for (const simulation::TrueToolProbe& probe : world.truth.toolProbes) {
     const simulation::Bounds bounds = probe.contact->bounds();
-    const Pose machineFromContact =
-        machine::baseFromTable(world.truth.machine, world.truth.start) * probe.tableFromContact;
+    const Pose machineFromContact = machine::baseFromTable(world.truth.machine, standing) * probe.tableFromContact;
     control::BelievedToolProbe believed;
     believed.centre = machineFromContact * Vector3::Zero();
     believed.width = bounds.maximum.x() - bounds.minimum.x();

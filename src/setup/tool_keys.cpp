@@ -181,7 +181,7 @@ void readCutter(TomlReader& reader, TrueTool& tool, bool turning) {
 }  // namespace
 
 void readTools(TomlReader& root, simulation::World& world, control::Beliefs& beliefs) {
-  static const std::vector<std::string> kinds = {"probe", "mill", "drill", "turn"};
+  static const std::vector<std::string> kinds = {"probe", "mill", "drill", "turn", "calibration"};
   for (TomlReader& reader : root.tables("tool")) {
     TrueTool tool;
     BelievedTool believed;
@@ -211,6 +211,9 @@ void readTools(TomlReader& root, simulation::World& world, control::Beliefs& bel
       believeAsCalibrated(believed, tool);
       believed.length = reader.number("believed_length", believedLength).value_or(believed.length);
       believed.radius = reader.number("believed_radius", toolRadius).value_or(believed.radius);
+      if (believed.kind == "turn")
+        believed.cuttingEdge =
+            static_cast<int>(reader.integer("cutting_edge_position", 1, 9).value_or(believed.cuttingEdge));
     }
     for (const BelievedTool& other : beliefs.tools) {
       if (other.number == tool.number) {

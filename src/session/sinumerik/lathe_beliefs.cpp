@@ -18,6 +18,15 @@ int positionOf(const Vector3& direction) {
   return direction.x() > 0 ? 6 : 8;
 }
 
+/// From the middle of the end of a calibrating tool to the corner that its lengths count from: the end of its ball, or
+/// of the disc or pin in its place, towards -X and -Z (cutting edge position 3).
+Vector3 cornerOf(const control::BelievedTool& tool) {
+  Vector3 corner = Vector3::Zero();
+  for (const int axis : {0, 2})
+    if (std::abs(tool.shankDirection[axis]) < 0.5) corner[axis] = -tool.radius;
+  return corner;
+}
+
 }  // namespace
 
 void enterLatheTool(DataStore& store, const control::BelievedTool& tool) {
@@ -26,10 +35,15 @@ void enterLatheTool(DataStore& store, const control::BelievedTool& tool) {
     store.load(DataKey(fmt::format("$TC_DP{}", parameter), {tool.number, 1}), value);
   };
   // A turning tool's usual position is behind the centre, cutting towards the chuck.
-  const int position = probe ? positionOf(-tool.shankDirection) : tool.kind == "turn" ? 3 : 0;
+  const bool calibrates = tool.kind == "calibration", turning = tool.kind == "turn";
+  const int usual = calibrates || turning ? 3 : 0;
+  const int position = probe                              ? positionOf(-tool.shankDirection)
+                       : turning && tool.cuttingEdge != 0 ? tool.cuttingEdge
+                                                          : usual;
   const double length = probe ? tool.length - tool.axialRadius : tool.length;
-  const Vector3 reference = length * tool.shankDirection - tool.mount;
-  dp(1, probe ? 580 : tool.kind == "turn" ? 500 : tool.kind == "drill" ? 200 : 120);
+  Vector3 reference = length * tool.shankDirection - tool.mount;
+  if (calibrates) reference -= cornerOf(tool);
+  dp(1, probe || calibrates ? 580 : turning ? 500 : tool.kind == "drill" ? 200 : 120);
   if (position != 0) dp(2, position);
   dp(3, reference.x());
   dp(4, reference.z());
