@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/sinumerik/length_type.hpp"
 #include "control/sinumerik/measuring_data.hpp"
 #include "control/sinumerik/tool_data.hpp"
 
@@ -108,8 +109,8 @@ void ProbeCalibration::showUnchanged() {
 std::string ProbeCalibration::lengthName(int axis) const {
   const Control& control = context_.control();
   const auto edge = toolEdge(control.data, control.tool.number, control.tool.edge);
-  const auto axes =
-      lengthAxes(planeOfLengths(control.data, control.plane), edge.value_or(control::sinumerik::ToolEdge{}));
+  const auto axes = lengthAxes(planeOfLengths(control.data, control.plane),
+                               edge.value_or(control::sinumerik::ToolEdge{}), lengthsAsTurning(control));
   const int geometryAxis = control.workingPlane().axis(axis);
   return fmt::format("$TC_DP{}", 3 + (std::ranges::find(axes, geometryAxis) - axes.begin()));
 }
