@@ -333,6 +333,7 @@ class Klartext:
 SIGNATURES = {
     961: "MVAR KNUM PRNUM SETV0 SETV1 SETV2 SETV3 SETV4 SETV5 SETV6 SETV7 SETV8 SETV9 STA1 INCA ID FA TSA NMSP MCBIT _DMODE _AMODE",
     973: "MVAR PRNUM CALNUM SETV MA MD FA TSA VMS NMSP MCBIT _DMODE _AMODE",
+    982: "MVAR KNUM PRNUM MA MD ID FA TSA VMS STA1 CORA TZL TDIF NMSP EVNUM MCBIT _DMODE _AMODE",
     974: "MVAR KNUM KNUM1 PRNUM SETV MA FA TSA STA1 NMSP TNAME DLNUM TZL TDIF TUL TLL TMV K EVNUM MCBIT _DMODE _AMODE",
     976: "MVAR PRNUM SETV SETV0 MA MD FA TSA VMS STA1 NMSP MCBIT _DMODE _AMODE",
     977: "MVAR KNUM KNUM1 PRNUM SETV SETV0 SETV1 FA TSA STA1 ID SZA SZO MA NMSP TNAME DLNUM TZL TDIF TUL TLL TMV K EVNUM MCBIT _DMODE "
@@ -512,7 +513,53 @@ active = true
     text += f"G0 X{small + 16}\nZ-30\n" + call(974, MVAR=2 + task + reversal, PRNUM=1, SETV=small, MA=2, FA=8, TSA=1, STA1=0, NMSP=1,
                                                **(correct if task else {}))
     text += "G0 Z-12\n" + call(994, MVAR=2, PRNUM=1, SETV=small, MA=102, SZO=20, FA=8, TSA=1, NMSP=dice.choice((1, 2)), TNAME="")
-    return setup, text + "G0 Z50\nX120\nM30\n"
+    setup, tools = measured_tools(dice, setup)
+    return setup, text + "G0 Z50\nX120\n" + tools + "M30\n"
+
+
+def measured_tools(dice, setup):
+    """A tool touch probe on the bed of a lathe, and the finishing tool and a mill that are measured with it."""
+    wrong = lambda: round(dice.uniform(-0.2, 0.2), 4)
+    x, z = 120, 420
+    setup += f"""[tool_probe]
+size = [20, 20]
+thickness = 20
+stem_diameter = 6
+pose = {{ x = {x + wrong()}, y = 10, z = {z + wrong()}, a = -90 }}
+pretravel = {dice.uniform(0, 0.008):.4f}
+repeatability = {dice.uniform(0, 0.0004):.5f}
+[[tool]]
+number = 9
+name = "PIN"
+kind = "calibration"
+length = 70
+radius = {dice.randint(3, 6)}
+shank_direction = [0, 1, 0]
+mount = [-65, 63, -25]
+[[tool]]
+number = 7
+name = "SLOT"
+kind = "mill"
+length = {45 + wrong()}
+radius = {6 + wrong()}
+shank_direction = [0, 0, 1]
+mount = [-60, 0, -40]
+believed_length = 45
+believed_radius = 6
+"""
+    common = dict(PRNUM=1, FA=6, TSA=2, NMSP=dice.choice((1, 2)))
+    text = "G500 DIAMOF G94\n"
+    for tool, ways in (("PIN", (0,)), ("FINISH", (1, 2)), ("SLOT", (1, 2002, 2001))):
+        way = dice.choice(ways)
+        text += f'T="{tool}" D1\nG0 Z{z + 60}\nG0 X{x + 45}\n'
+        words = dict(common) if way == 0 else dict(common, KNUM=dice.choice((0, 1)), TZL=0.001, TDIF=1)
+        if way not in (2, 2002):
+            words["MA"] = 2 if way == 2001 else dice.choice((1, 2))
+        text += call(982, MVAR=way, **words)
+        if tool == "PIN":
+            text += f"G0 Z{z + 60}\nG0 X{x + 45}\n" + call(982, MVAR=0, **dict(words, MA=3 - words["MA"]))
+        text += f"G0 Z{z + 60}\n"
+    return setup, text
 
 
 def case(number):

@@ -22,10 +22,10 @@ namespace probewright::control {
 struct BelievedTool {
   int number = 0;
   std::string name;
-  std::string kind;   ///< "probe", "mill", "drill", "turn", "calibration"
-  double length = 0;  ///< mm; of a probe its effective length: to the ball's lowest point, less the axial pretravel
-  double radius = 0;  ///< mm; of a probe its effective ball radius: less the pretravel and the signal delay at `feed`
-  int teeth = 0;      ///< cutting edges; 0: nobody knows
+  std::string kind;     ///< "probe", "mill", "drill", "turn", "calibration"
+  double length = 0;    ///< mm; of a probe its effective length: to the ball's lowest point, less the axial pretravel
+  double radius = 0;    ///< mm; of a probe its effective ball radius: less the pretravel and the signal delay at `feed`
+  int teeth = 0;        ///< cutting edges; 0: nobody knows
   int cuttingEdge = 0;  ///< 1 to 9, where the tip of a turning tool points, as SINUMERIK counts; 0: nobody knows
   bool inSpindle = false;
   Vector3 mount = Vector3::Zero();            ///< mm, from the spindle nose to where `length` begins, spindle frame

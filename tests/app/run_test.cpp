@@ -159,6 +159,20 @@ TEST(Run, CorrectsTheToolThatTurnedAShaft) {
   EXPECT_NEAR(writtenBy(folder, 1)["$TC_DP12 [3,1]"], -(40.014 - 39.9875) / 2, 0.001);
 }
 
+TEST(Run, MeasuresTheToolsOfALathe) {
+  const Folder folder;
+  const Answer answer = probewright({"run", "examples/programs/tools-lathe.mpf", "--setup",
+                                     "examples/setups/tools-lathe.toml", "--out", (folder / "out").string()});
+  ASSERT_EQ(answer.exit, 0) << answer.errors;
+  // The contact is 0.12 and 0.08 mm aside; each side signals 0.004 mm late.
+  EXPECT_NEAR(writtenBy(folder, 0)["$SNS_MEA_TP_TRIG_MINUS_DIR_AX1 [0]"], 260.076, 0.001);
+  EXPECT_NEAR(writtenBy(folder, 3)["$SNS_MEA_TP_TRIG_PLUS_DIR_AX2 [0]"], 140.124, 0.001);
+  EXPECT_NEAR(writtenBy(folder, 4)["$TC_DP3 [3,1]"], 80.043, 0.001);
+  std::map<std::string, double> mill = writtenBy(folder, 5);
+  EXPECT_NEAR(mill["$TC_DP4 [7,1]"], 85.02, 0.001);
+  EXPECT_NEAR(mill["$TC_DP6 [7,1]"], (5.988 + 5.998) / 2, 0.001);
+}
+
 TEST(Run, PutsAPresetIntoTheBoreOnAnITNC530) {
   const Folder folder;
   const Answer answer = probewright({"run", "examples/programs/bore-itnc530.h", "--setup",

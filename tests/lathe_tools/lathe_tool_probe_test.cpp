@@ -58,28 +58,35 @@ TEST(LatheToolProbe, FeelsTheToothThatTheToolSpindleHasTurnedToIt) {
 TEST(LatheToolProbe, IsDamagedByAToolThatTurnsAsItCuts) {
   setup::Setup setup = toolSetup();
   add(setup, rotatedTool(5, false, {60, 90}, 8, 2), "mill");
-  for (const int direction : {3, 4}) {
+  for (const Rotation direction : {Rotation::Clockwise, Rotation::CounterClockwise}) {
     LatheBench bench(setup);
-    bench.run(measuring(5, {440, 125}, fmt::format("S2=600 M2={}\nG0 Z400", direction)));
-    EXPECT_EQ(bench.machine.toolSpindle().speed, 600);
+    bench.run(measuring(5, {440, 125}, "G0 Z400"));
+    bench.machine.turnTool(direction, 600);
     EXPECT_EQ(bench.machine.spindle().rotation, Rotation::None);
-    EXPECT_EQ(measure(bench, {30, 0, 0}).end, direction == 3 ? MeasureEnd::Collision : MeasureEnd::Touched);
+    EXPECT_EQ(measure(bench, {30, 0, 0}).end,
+              direction == Rotation::Clockwise ? MeasureEnd::Collision : MeasureEnd::Touched);
   }
 }
 
-TEST(LatheToolProbe, MasterSpindleIsWhatMAndSAndSposMean) {
+TEST(LatheToolProbe, MasterSpindleIsWhatSposMeans) {
   setup::Setup setup = toolSetup();
   add(setup, rotatedTool(5, false, {60, 90}, 8, 2), "mill");
   LatheBench bench(setup);
-  bench.run("T5 D1\nSETMS(2)\nS700 M4\nR1=$P_MSNUM\nSETMS\nR2=$P_MSNUM\nS300 M3");
-  EXPECT_EQ(bench.machine.toolSpindle().rotation, Rotation::CounterClockwise);
-  EXPECT_EQ(bench.machine.toolSpindle().speed, 700);
-  EXPECT_EQ(bench.machine.spindle().rotation, Rotation::Clockwise);
-  EXPECT_EQ(bench.machine.spindle().speed, 300);
+  bench.run("T5 D1\nSETMS(2)\nSPOS=30\nR1=$P_MSNUM\nSETMS\nSPOS=50\nR2=$P_MSNUM");
+  EXPECT_EQ(bench.machine.toolSpindle().angle, 30);
+  EXPECT_NEAR(bench.machine.position()[2], 50, 1e-9);
   EXPECT_EQ(bench.data("R", {1}), 2);
   EXPECT_EQ(bench.data("R", {2}), 1);
-  bench.run("T5 D1\nM2=5\nSPOS[2]=30\nSPOS[2]=IC(15)");
+  bench.run("T5 D1\nS2=500 M2=3\nSPOS[2]=30\nSPOS[2]=IC(15)");
   EXPECT_EQ(bench.machine.toolSpindle().angle, 45);
+  EXPECT_EQ(bench.machine.toolSpindle().rotation, Rotation::None);
+}
+
+TEST(LatheToolProbe, EndOfTheProgramStopsTheTool) {
+  setup::Setup setup = toolSetup();
+  add(setup, rotatedTool(5, false, {60, 90}, 8, 2), "mill");
+  LatheBench bench(setup);
+  bench.run("T5 D1\nS2=500 M2=3\nM30");
   EXPECT_EQ(bench.machine.toolSpindle().rotation, Rotation::None);
 }
 

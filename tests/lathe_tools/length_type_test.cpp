@@ -14,8 +14,7 @@ constexpr double table = -350;
 SinumerikBench benchOverASurface(double probeLength) {
   simulation::Truth truth = perfectWorld();
   truth.tools[0].length = probeLength;
-  place(truth, simulation::Box({-50, -50, -40}, {50, 50, 0}),
-        translation({0, 0, table}));
+  place(truth, simulation::Box({-50, -50, -40}, {50, 50, 0}), translation({0, 0, table}));
   SinumerikBench bench(truth);
   plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
   bench.set("$SC_TOOL_LENGTH_TYPE", {}, 2);
@@ -27,12 +26,7 @@ SinumerikBench benchOverASurface(double probeLength) {
 TEST(LengthType, ACalibratedProbeIsCorrectedInTheLengthThatActsAlongIt) {
   SinumerikBench bench = benchOverASurface(100.35);
   bench.start({0, 0, 12});
-  bench.run("CYCLE976", {{"S_MVAR", 1001000},
-                         {"S_SETV", 0},
-                         {"S_MA", 3},
-                         {"S_MD", 1},
-                         {"S_FA", 10},
-                         {"S_TSA", 3}});
+  bench.run("CYCLE976", {{"S_MVAR", 1001000}, {"S_SETV", 0}, {"S_MA", 3}, {"S_MD", 1}, {"S_FA", 10}, {"S_TSA", 3}});
   EXPECT_NEAR(bench.data("$TC_DP5", {1, 1}), 100.35, 1e-9);
   EXPECT_EQ(bench.data("$TC_DP3", {1, 1}), 0);
 }
@@ -61,5 +55,5 @@ TEST(LengthType, AMillIsCorrectedInTheLengthThatActsAcrossTheSurface) {
   EXPECT_EQ(bench.data("$TC_DP12", {7, 1}), 0);
 }
 
-} // namespace
-} // namespace probewright
+}  // namespace
+}  // namespace probewright

@@ -9,6 +9,7 @@
 
 #include "control/alarm.hpp"
 #include "control/missing_axis.hpp"
+#include "control/tool_spindle.hpp"
 #include "execution/sinumerik/functions.hpp"
 #include "language/sinumerik/program.hpp"
 #include "language/word_column.hpp"
@@ -295,6 +296,9 @@ void SinumerikHost::leaveLevel() {
   storeGlobalData();
   if (control_.channel.spindleRotation() != machine::Rotation::None)
     control_.channel.turnSpindle(machine::Rotation::None, 0);
+  auto* driven = control::toolSpindleOf(control_.channel);
+  if (driven != nullptr && driven->toolSpindle().rotation != machine::Rotation::None)
+    control::turnTool(control_.channel, *driven, machine::Rotation::None, 0);
 }
 
 }  // namespace probewright::execution::sinumerik

@@ -1,0 +1,132 @@
+#include "lathe_tools/tool_bench.hpp"
+
+/// CYCLE982 refuses what it cannot measure, before anything moves or is
+/// written.
+namespace probewright {
+namespace {
+
+using namespace testing_support;
+
+struct Wrong {
+  const char* what;
+  const char* alarm;
+  std::string call;
+  int tool = 5;  ///< 5 a turning tool with cutting edge position 3, 6 an axial
+                 ///< mill, 7 a drill, 8 a turning tool with 8
+  std::string before = {};
+  std::function<void(LatheBench&)> data = {};
+};
+
+LatheBench benchWithTools() {
+  setup::Setup setup = toolSetup();
+  add(setup, turningTool(5, 3, {80, 40}, 0.8), "turn");
+  add(setup, rotatedTool(6, false, {60, 90}, 8), "mill");
+  add(setup, rotatedTool(7, false, {60, 90}, 5), "drill");
+  add(setup, turningTool(8, 8, {80, 40}, 0.8), "turn");
+  return LatheBench(setup);
+}
+
+TEST(Cycle982Refuses, WhatItCannotMeasure) {
+  const auto datum = [](const char* name, std::vector<control::sinumerik::DataIndex> indices, double value) {
+    return [=](LatheBench& bench) {
+      bench.control.data.set(control::sinumerik::DataKey(name, std::span(indices)), value);
+    };
+  };
+  const Wrong wrongs[] = {
+      {"radius compensation", "61300", "CYCLE982(2,0,1,,,,5,1)", 5, "G41\n"},
+      {"a safe area that is too small", "61303", "CYCLE982(2,0,1,,,,5,0.1)", 5, {}, datum("$TC_DP3", {5, 1}, 80.2)},
+      {"task 3", "61307", "CYCLE982(R1,0,1,1,,,5,1)", 5, "R1=3\n"},
+      {"reversal of a turning tool", "61307", "CYCLE982(101,0,1,1,,,5,1)"},
+      {"the radius of a turning tool", "61307", "CYCLE982(1001,0,1,1,,,5,1)"},
+      {"a start angle for a turning tool", "61307", "CYCLE982(1000001,0,1,1,,,5,1)"},
+      {"a radial turning tool", "61307", "CYCLE982(10001,0,1,1,,,5,1)"},
+      {"a complete drill", "61307", "CYCLE982(2,0,1,,,,5,1)", 7},
+      {"the radius of a drill", "61307", "CYCLE982(1001,0,1,2,,,5,1)", 7},
+      {"the radius alone, completely", "61307", "CYCLE982(1002,0,1,,,,5,1)", 6},
+      {"the rear side along an axis", "61307", "CYCLE982(3001,0,1,1,,,5,1)", 6},
+      {"a complete incremental measurement", "61307", "CYCLE982(100002,0,1,,,,5,1)"},
+      {"an incremental radius", "61307", "CYCLE982(101001,0,1,2,2,,5,1)", 6},
+      {"reversal when calibrating", "61307", "CYCLE982(100,,1,1,,,5,1)"},
+      {"no measuring path", "61308", "CYCLE982(2,0,1,,,,0,1)"},
+      {"a scale factor", "61310", "CYCLE982(2,0,1,,,,5,1)", 5, "SCALE Z2\n"},
+      {"no offset", "61311", "CYCLE982(2,0,1,,,,5,1)", 5, "D0\n"},
+      {"data field 7", "61313", "CYCLE982(2,0,7,,,,5,1)"},
+      {"a grinding tool", "61314", "CYCLE982(2,0,1,,,,5,1)", 5, {}, datum("$TC_DP1", {5, 1}, 400)},
+      {"calibrating with a mill", "61314", "CYCLE982(0,,1,1,,,5,1)", 6},
+      {"a mill with its lengths as on mills",
+       "61314",
+       "CYCLE982(2,0,1,,,,5,1)",
+       6,
+       {},
+       datum("$SC_TOOL_LENGTH_TYPE", {}, 0)},
+      {"cutting edge position 9", "61315", "CYCLE982(2,0,1,,,,5,1)", 5, {}, datum("$TC_DP2", {5, 1}, 9)},
+      {"calibrating with position 8", "61315", "CYCLE982(0,,1,2,,,5,1)", 8},
+      {"empirical value 21", "61319", "CYCLE982(2,0,1,,,,5,1,,,,,,1,21)"},
+      {"ten measurements", "61319", "CYCLE982(2,0,1,,,,5,1,,,,,,10)"},
+      {"no measuring axis", "61325", "CYCLE982(1,0,1,,,,5,1)"},
+      {"axis 3", "61325", "CYCLE982(1,0,1,3,,,5,1)"},
+      {"the radius along the tool", "61325", "CYCLE982(1001,0,1,1,,,5,1)", 6},
+      {"direction 3", "61326", "CYCLE982(1,0,1,1,3,,5,1)"},
+      {"the tip points the other way", "61326", "CYCLE982(1,0,1,1,1,,5,1)", 6},
+      {"a turned workpiece system", "61330", "CYCLE982(12,0,1,,,,5,1)", 5, "ROT RPL=3\n"},
+      {"against where the tip points", "61332", "CYCLE982(1,0,1,1,1,,5,1)"},
+      {"an axis along which the tip does not point", "61332", "CYCLE982(1,0,1,1,,,5,1)", 8},
+      {"no positioning feed", "61338", "CYCLE982(2,0,1,,,,5,1)", 5, {}, datum("$SCS_MEA_FEED_PLANE_VALUE", {}, 0)},
+      {"an empty data field", "61341", "CYCLE982(2,0,3,,,,5,1)"},
+      {"no radius for the side", "61351", "CYCLE982(1,0,1,2,,,5,1)", 7, {}, datum("$TC_DP6", {7, 1}, 0)},
+      {"a spindle that does not turn the tool", "61372", "CYCLE982(1000002,0,1,,,,5,1)", 6},
+  };
+  for (const Wrong& wrong : wrongs) {
+    SCOPED_TRACE(wrong.what);
+    LatheBench bench = benchWithTools();
+    if (wrong.data) wrong.data(bench);
+    const Vector2 start = wrong.tool == 8 ? Vector2(404, 190) : Vector2(445, 190);
+    EXPECT_EQ(bench.alarmOf(measuring(wrong.tool, start, wrong.before + wrong.call)), wrong.alarm);
+    EXPECT_TRUE(bench.control.journal.cycles.back().writes.empty());
+    EXPECT_EQ(bench.ovi(9), std::stoi(wrong.alarm));
+    if (std::string_view(wrong.alarm) != "61303") {
+      EXPECT_TRUE(bench.control.journal.cycles.back().touches.empty());
+    }
+  }
+}
+
+TEST(Cycle982Refuses, AWayThroughTheContact) {
+  LatheBench bench = benchWithTools();
+  // Below the contact, with a tool that touches from above.
+  EXPECT_EQ(bench.alarmOf("DIAMOF\nT8 D1\nG0 Z460 X120\nG0 X110\nG0 "
+                          "Z404\nCYCLE982(1,0,1,2,2,,5,1)"),
+            "61332");
+}
+
+TEST(Cycle982Refuses, WhenNothingIsTouched) {
+  setup::Setup setup = toolSetup();
+  add(setup, turningTool(5, 3, {80, 40}, 0.8), "turn");
+  LatheBench bench(setup);
+  bench.set(triggerName(1, -1), {0}, 425);
+  EXPECT_EQ(bench.alarmOf(measuring(5, startOf(3), "CYCLE982(1,0,1,1,,,5,20)")), "61301");
+  EXPECT_EQ(bench.control.journal.cycles.back().touches.size(), 5u) << "attempts";
+  bench.set("$SCS_MEA_FUNCTION_MASK", {}, (1 << 17) + (1 << 16) + 1);
+  EXPECT_EQ(bench.alarmOf(measuring(5, startOf(3), "CYCLE982(1,0,1,1,,,5,20)")), "61301");
+  EXPECT_EQ(bench.control.journal.cycles.back().touches.size(), 1u) << "one attempt";
+}
+
+TEST(Cycle982Refuses, WithoutAToolTouchProbe) {
+  setup::Setup setup = latheSetup({});
+  add(setup, turningTool(5, 3, {80, 40}, 0.8), "turn");
+  LatheBench bench(setup);
+  for (int axis = 1; axis <= 2; ++axis)
+    for (const double direction : {-1.0, 1.0})
+      bench.set(triggerName(axis, direction), {0}, (axis == 1 ? 400 : 150) - 10 * direction);
+  EXPECT_EQ(bench.alarmOf(measuring(5, startOf(3), "CYCLE982(2,0,1,,,,5,1)")), "61309");
+}
+
+TEST(Cycle982Refuses, ACollisionOnTheWay) {
+  LatheBench bench = benchWithTools();
+  // The control believes the probe 30 mm nearer to the chuck.
+  for (const double direction : {-1.0, 1.0})
+    bench.set(triggerName(1, direction), {0}, 370 - 10 * direction);
+  EXPECT_EQ(bench.alarmOf(measuring(5, {445, 155}, "CYCLE982(2,0,1,,,,5,40)")), "61302");
+}
+
+}  // namespace
+}  // namespace probewright
