@@ -122,6 +122,18 @@ Seen wrongRotaryAxis() {
                               {-14, 0, -10});
 }
 
+/// A mill whose rear side is to be measured on a swivelled tool carrier of a lathe.
+Seen rearSideOnACarrier() {
+  setup::Setup setup = latheSetup({});
+  machine::MachineDescription& machine = setup.world.truth.machine;
+  machine.axes.push_back({.name = "B", .kind = machine::AxisKind::Rotary, .minimum = -120, .maximum = 120});
+  machine.spindleChain.push_back({.axis = machine.axes.size() - 1, .direction = Vector3::UnitY()});
+  LatheBench bench(setup);
+  bench.set("$TC_DP1", {1, 1}, 120);
+  bench.set("$MNS_MEA_FUNCTION_MASK", {}, (1 << 16) + 11);
+  return seenBy(bench, bench.tryRun("G0 B90\nCYCLE982(13002,0,1,,,,5,1)"));
+}
+
 Seen ballWithoutRadius() {
   Provoker bench;
   bench.set("$TC_DP6", {1, 1}, 0);
@@ -174,6 +186,7 @@ Seen distortedTriangle() {
 }
 
 const Row rows[] = {
+    {61037, "measuring variant", rearSideOnACarrier},
     {61300, "tool radius compensation", [] { return edge({}, "G41\n"); }},
     {61301, "probe does not switch",
      [] {
