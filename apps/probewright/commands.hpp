@@ -8,6 +8,7 @@
 
 #include "control/control_kind.hpp"
 #include "control/operator_panel.hpp"
+#include "exchange/formats.hpp"
 
 /// The subcommands of probewright. Each prints what there is to say and returns the exit code: 0 fine, 1 measured and
 /// out of tolerance, 2 a mistake in the input, 3 an alarm or a stop while running, 4 internal.
@@ -31,8 +32,9 @@ struct RunArguments {
   std::optional<std::uint64_t> searchLine;
   control::DialogLanguage language = control::DialogLanguage::English;
   bool screens = false;
-  std::string cache;                       ///< folder for imported parts; "off": none; empty: the user's
-  std::vector<std::string> measuringLogs;  ///< of a SINUMERIK control; .csv: as a table
+  std::string cache;                             ///< folder for imported parts; "off": none; empty: the user's
+  std::vector<std::string> measuringLogs;        ///< of a SINUMERIK control; .csv: as a table
+  std::vector<const exchange::Format*> exports;  ///< files for other programs, beside results.json
   bool quiet = false;
 };
 int run(const RunArguments& arguments);

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <bitset>
 #include <cctype>
 #include <cstdio>
@@ -57,6 +58,30 @@ void addSkip(CLI::App& command, std::bitset<10>& levels) {
           },
           "Block skip: leave out blocks that begin with / and one of these levels; a / alone has level 0")
       ->type_name("LEVELS");
+}
+
+/// The option --export of run: "csv,qif".
+void addExport(CLI::App& command, std::vector<const probewright::exchange::Format*>& exports) {
+  std::vector<std::string_view> names;
+  std::string files;
+  for (const auto& format : probewright::exchange::formats()) {
+    names.push_back(format.name);
+    files += fmt::format("{}{}: {}", files.empty() ? "" : "; ", format.name, format.about);
+  }
+  const std::string known = fmt::format("{}", fmt::join(names, ", "));
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--export",
+          [&exports, known](const std::vector<std::string>& words) {
+            for (const std::string& word : words) {
+              const auto* format = probewright::exchange::formatNamed(word);
+              if (format == nullptr) throw CLI::ValidationError("--export", word + " is not one of " + known);
+              if (std::find(exports.begin(), exports.end(), format) == exports.end()) exports.push_back(format);
+            }
+          },
+          "Files for other programs, into the folder of --out; several with commas. " + files)
+      ->type_name("FORMATS")
+      ->delimiter(',');
 }
 
 /// Reading "-1" into an unsigned number would wrap it around.
@@ -205,6 +230,7 @@ int main(int argc, char** argv) {
          "else probewright in $XDG_CACHE_HOME or ~/.cache")
       ->type_name("DIR")
       ->excludes(machine);
+  addExport(*run, runArguments.exports);
   run->add_flag("--screens", runArguments.screens, "Show the result screens of all cycles, also of those that are off");
   run->add_flag("--quiet", runArguments.quiet, "Print nothing but mistakes");
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -14,6 +15,7 @@
 #include "cache_folder.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "exchange/inspection.hpp"
 #include "interruption.hpp"
 #include "machine_run.hpp"
 #include "output_folder.hpp"
@@ -101,6 +103,25 @@ bool standsThere(const fs::path& folder, const std::string& name, const std::str
   return whyNotWritable(folder, name) && readFile(folder / name).value_or("") == text;
 }
 
+/// What other programs read goes into the same set of files. A name that the program has left already stays its own.
+Result<void> addExports(Output& output, const std::vector<const exchange::Format*>& formats,
+                        const control::Journal& journal, const records::RunInfo& info) {
+  if (formats.empty()) return {};
+  const exchange::Inspection inspection = exchange::inspectionOf(journal, info);
+  for (const exchange::Format* format : formats) {
+    const auto taken = [&](const auto& file) { return file.first == format->file; };
+    if (std::ranges::any_of(output.files, taken)) {
+      return fail(
+          fmt::format("the program has written a file {}, which --export {} would replace", format->file, format->name),
+          "choose another name in the program, or export another format");
+    }
+    Result<std::string> text = format->write(inspection);
+    if (!text) return tl::unexpected(text.error());
+    output.files.emplace_back(format->file, [text = std::move(*text)](const Sink& sink) { sink(text); });
+  }
+  return {};
+}
+
 }  // namespace
 
 int run(const RunArguments& arguments) {
@@ -140,7 +161,10 @@ int run(const RunArguments& arguments) {
     print({tidied.error()});
     return 2;
   }
-  for (const char* name : {"results.json", "report.html"}) {
+  std::vector<std::string> left = {"results.json", "report.html"};
+  for (const exchange::Format* format : arguments.exports)
+    left.emplace_back(format->file);
+  for (const std::string& name : left) {
     if (const auto why = whyNotWritable(arguments.out, name)) {
       print({*why});
       return 2;
@@ -204,6 +228,10 @@ int run(const RunArguments& arguments) {
     records::writeResults(sink, outcome.journal, info, records::Layout::Indented);
     sink("\n");
   });
+  if (const Result<void> exported = addExports(output, arguments.exports, outcome.journal, info); !exported) {
+    print({exported.error()});
+    return 2;
+  }
   // Whoever interrupts the program wants what it has measured; whoever interrupts the writing wants no more of it.
   const std::stop_token stop = options.stop.stop_requested() ? std::stop_token() : options.stop;
   if (const Result<void> written = writeOutput(output, stop); !written) {

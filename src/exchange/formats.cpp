@@ -1,0 +1,38 @@
+#include "exchange/formats.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace probewright::exchange {
+
+namespace {
+
+template <std::string (*write)(const Inspection&)>
+Result<std::string> always(const Inspection& inspection) {
+  return write(inspection);
+}
+
+constexpr std::array kFormats = {
+    Format{"csv", "inspection.csv", "a table of text, for any program", always<csvText>},
+    Format{"xlsx", "inspection.xlsx", "a workbook for Excel or LibreOffice", xlsxFile},
+    Format{"qif", "inspection.qif", "QIF 3.0 results (ISO 23952)", always<qifText>},
+    Format{"dfq", "inspection.dfq", "AQDEF, for Q-DAS and other statistics programs", always<dfqText>},
+    Format{"junit", "junit.xml", "JUnit XML, for build servers that check programs", always<junitText>},
+};
+
+}  // namespace
+
+std::span<const Format> formats() { return kFormats; }
+
+const Format* formatNamed(std::string_view name) {
+  const auto same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+  };
+  const auto found = std::ranges::find_if(kFormats, [&](const Format& format) {
+    return std::equal(format.name.begin(), format.name.end(), name.begin(), name.end(), same);
+  });
+  return found == kFormats.end() ? nullptr : &*found;
+}
+
+}  // namespace probewright::exchange

@@ -1,0 +1,233 @@
+#include "exchange/formats.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "reader.hpp"
+#include "records/sample_run.hpp"
+
+/// What is exported is read back by programs that are not ours: Python's modules for CSV and XML, openpyxl, libxml2
+/// with the published schemas of QIF.
+namespace probewright::exchange {
+namespace {
+
+using namespace testing;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// The sample run with the kinds of its results, which say what is exported as what.
+control::Journal journal() {
+  using control::Along;
+  using control::Quantity;
+  control::Journal journal = sample::journal();
+  for (control::CycleRecord& cycle : journal.cycles) {
+    for (control::ResultRecord& result : cycle.results) {
+      result.kind.role = control::Role::Actual;
+      const auto holds = [&](const char* word) { return result.meaning.find(word) != std::string::npos; };
+      result.kind.of = {holds("diameter") ? Quantity::Diameter
+                        : holds("length") ? Quantity::Length
+                        : holds("angle")  ? Quantity::Angle
+                                          : Quantity::Centre,
+                        Along::None};
+    }
+  }
+  return journal;
+}
+
+Inspection inspection() { return inspectionOf(journal(), sample::runInfo()); }
+
+/// With characters that mean something to formats.
+Inspection awkward() {
+  records::RunInfo run = sample::runInfo();
+  run.partName = "Lager <\"40\" & 50>, größer";
+  std::string& text = run.programs.front().text;
+  const std::string name = "* - MEASURE";
+  text.replace(text.find(name), name.size(), "* - MEASURE \"A,B\" <&> Bohrung ø");
+  return inspectionOf(journal(), run);
+}
+
+TEST(Inspection, HasARowForEachValueThatAnswersACycle) {
+  const Inspection got = inspection();
+  ASSERT_EQ(got.rows.size(), 10U);
+  const Row& diameter = got.rows[7];
+  EXPECT_EQ(diameter.result, "Q153");
+  EXPECT_EQ(diameter.cycle, 4U);
+  EXPECT_EQ(diameter.program, "BEARING_BLOCK.H");
+  EXPECT_EQ(diameter.line, sample::lineOf("12 TCH PROBE 421"));
+  EXPECT_EQ(diameter.actual, 30.0119);
+  EXPECT_EQ(diameter.upperLimit, 30.021);
+  EXPECT_EQ(got.rows[0].feature, "ALIGN AND SET PRESET");
+  EXPECT_EQ(diameter.feature, "MEASURE");
+  EXPECT_EQ(got.verdict, control::Verdict::Rework);
+}
+
+TEST(Inspection, NamesFeaturesOfSinumerikProgramsByTheirMessages) {
+  control::Journal measured;
+  for (const std::uint64_t line : {1U, 3U, 6U}) {
+    control::CycleRecord cycle = sample::cycle("CYCLE977", "Hole", 0, 1, 1);
+    cycle.place = {"A.MPF", line, 1};
+    cycle.results = {sample::plain("_OVR[4]", "diameter", 30)};
+    measured.cycles.push_back(cycle);
+  }
+  records::RunInfo run = sample::runInfo();
+  run.programs = {{"A.MPF", "CYCLE977()\nN10 MSG(\"BORE A\")\nCYCLE977()\nG0 X1\nmsg()\nCYCLE977()\n"}};
+  const Inspection got = inspectionOf(measured, run);
+  ASSERT_EQ(got.rows.size(), 3U);
+  EXPECT_EQ(got.rows[0].feature, "");
+  EXPECT_EQ(got.rows[1].feature, "BORE A");
+  EXPECT_EQ(got.rows[2].feature, "");
+}
+
+TEST(Inspection, CountsTheTimeOfACycleFromTheStartOfTheRun) {
+  const Inspection got = inspection();
+  EXPECT_EQ(timeOf(got.rows.front(), got.run), "2026-07-07T16:42:28") << "18:42:10 at +02:00 and 17.9 s";
+  records::RunInfo unknown = got.run;
+  unknown.startedAt.clear();
+  EXPECT_EQ(timeOf(got.rows.front(), unknown), "");
+}
+
+TEST(Csv, IsReadBackByPython) {
+  for (const Inspection& each : {inspection(), awkward()}) {
+    const std::string read = python(
+        "import csv, sys\n"
+        "for row in csv.DictReader(open(sys.argv[1], newline=\"\", encoding=\"utf-8\")):\n"
+        "  print(row[\"feature\"], row[\"result\"], float(row[\"actual\"]), row[\"upper limit\"], row[\"verdict\"], "
+        "sep=\"|\")",
+        ScratchFile("a.csv", csvText(each)));
+    std::string expected;
+    for (const Row& row : each.rows)
+      expected += row.feature + "|" + row.result + "|";
+    EXPECT_EQ(std::ranges::count(read, '\n'), 10);
+    EXPECT_THAT(read, HasSubstr(each.rows.back().feature + "|Q155|80.0541|80.03|rework\n"));
+    EXPECT_THAT(read, HasSubstr("|Q150|1.5008123||none\n"));
+  }
+}
+
+TEST(Xlsx, IsReadBackByOpenpyxl) {
+  for (const Inspection& each : {inspection(), awkward()}) {
+    const Result<std::string> file = xlsxFile(each);
+    ASSERT_TRUE(file) << format(file.error());
+    const std::string read = python(
+        "import openpyxl, sys\n"
+        "book = openpyxl.load_workbook(sys.argv[1])\n"
+        "rows = list(book[\"Inspection\"].iter_rows(values_only=True))\n"
+        "head = rows[0]\n"
+        "for row in rows[1:]:\n"
+        "  cell = dict(zip(head, row))\n"
+        "  print(cell[\"Feature\"], cell[\"Result\"], cell[\"Actual\"], cell[\"Upper limit\"], cell[\"Verdict\"], "
+        "sep=\"|\")\n"
+        "print({row[0]: row[1] for row in book[\"Run\"].iter_rows(values_only=True)}[\"Part\"])",
+        ScratchFile("a.xlsx", *file));
+    EXPECT_EQ(std::ranges::count(read, '\n'), 11);
+    EXPECT_THAT(read, HasSubstr(each.rows.back().feature + "|Q155|80.0541|80.03|rework\n"));
+    EXPECT_THAT(read, HasSubstr("|Q150|1.5008123|None|none\n"));
+    EXPECT_THAT(read, HasSubstr(each.run.partName + "\n"));
+  }
+}
+
+std::string validated(const std::string& qif) {
+  const ScratchFile file("a.qif", qif);
+  const Heard heard =
+      hear("'" PROBEWRIGHT_XMLLINT "' --nonet --noout --schema '" PROBEWRIGHT_QIF_SCHEMA "' '" + file.path() + "'");
+  return heard.exit == 0 ? "" : heard.text;
+}
+
+TEST(Qif, FollowsThePublishedSchemas) {
+  EXPECT_EQ(validated(qifText(inspection())), "");
+  EXPECT_EQ(validated(qifText(awkward())), "");
+  EXPECT_EQ(validated(qifText(inspectionOf(sample::alarmJournal(), sample::alarmRunInfo()))), "");
+  EXPECT_EQ(validated(qifText(inspectionOf({}, {}))), "");
+  std::string spoilt = qifText(inspection());
+  spoilt.replace(spoilt.find("DiameterCharacteristicNominal"), 8, "Diametre");
+  EXPECT_NE(validated(spoilt), "") << "the schemas are really asked";
+}
+
+TEST(Qif, TellsWhatWasMeasuredAndItsLimits) {
+  const std::string read = python(
+      "import sys, xml.etree.ElementTree as tree\n"
+      "q = \"{http://qifstandards.org/xsd/qif3}\"\n"
+      "root = tree.parse(sys.argv[1]).getroot()\n"
+      "byId = {node.get(\"id\"): node for node in root.iter() if node.get(\"id\")}\n"
+      "for m in root.iter(q + \"CharacteristicMeasurements\"):\n"
+      "  for each in m:\n"
+      "    item = byId[each.find(q + \"CharacteristicItemId\").text]\n"
+      "    nominal = byId[item.find(q + \"CharacteristicNominalId\").text]\n"
+      "    definition = byId[nominal.find(q + \"CharacteristicDefinitionId\").text]\n"
+      "    tolerance = definition.find(q + \"Tolerance\")\n"
+      "    limits = [] if tolerance is None else [float(tolerance.find(q + n).text) for n in (\"MinValue\", "
+      "\"MaxValue\")]\n"
+      "    target = nominal.find(q + \"TargetValue\")\n"
+      "    print(each.tag[len(q):], float(each.find(q + \"Value\").text), None if target is None else "
+      "float(target.text), limits,\n"
+      "          each.find(q + \"Status\")[0].text, each.find(q + \"TimeStamp\").text)\n"
+      "print(root.find(\".//\" + q + \"InspectionStatusEnum\").text, max(map(int, byId)) == int(root.get(\"idMax\")))",
+      ScratchFile("a.qif", qifText(inspection())));
+  EXPECT_THAT(read,
+              HasSubstr("DiameterCharacteristicMeasurement 30.0119 30.0 [30.0, 30.021] PASS 2026-07-07T16:43:13Z"));
+  EXPECT_THAT(read, HasSubstr("LengthCharacteristicMeasurement 80.0541 80.0 [79.97, 80.03] REWORK"));
+  EXPECT_THAT(read, HasSubstr("UserDefinedAngularCharacteristicMeasurement 1.5008123 None [] NOT_ANALYZED"));
+  EXPECT_THAT(read, HasSubstr("REWORK True\n"));
+}
+
+std::string junitRead(const std::string& xml) {
+  return python(
+      "import sys, xml.etree.ElementTree as tree\n"
+      "suite = tree.parse(sys.argv[1]).getroot()[0]\n"
+      "print(suite.get(\"tests\"), suite.get(\"failures\"), suite.get(\"errors\"), len(suite.findall(\"testcase\")))\n"
+      "for each in suite:\n"
+      "  for what in each:\n"
+      "    print(what.tag, each.get(\"name\"), each.get(\"line\"), what.get(\"message\"))",
+      ScratchFile("junit.xml", xml));
+}
+
+TEST(JUnit, HasAFailureForEachValueOutOfTolerance) {
+  const std::string read = junitRead(junitText(inspection()));
+  EXPECT_THAT(read, HasSubstr("6 1 0 6\n"));
+  EXPECT_THAT(read, HasSubstr("failure 5 424 MEASURE: "));
+  EXPECT_THAT(read, HasSubstr(std::to_string(sample::lineOf("13 TCH PROBE 424")) +
+                              " out of tolerance (rework): Q155 = 80.054100 mm, limits 79.970000 and 80.030000\n"));
+}
+
+TEST(JUnit, HasAnErrorForAnAlarmAndForARunThatStops) {
+  const std::string read = junitRead(junitText(inspectionOf(sample::alarmJournal(), sample::alarmRunInfo())));
+  EXPECT_THAT(read, HasSubstr("2 0 2 2\n"));
+  EXPECT_THAT(read, HasSubstr("error 3 412 ALIGN AND SET PRESET: ends without alarm"));
+  EXPECT_THAT(read, HasSubstr("error the program runs to its end None Touch point inaccessible"));
+  EXPECT_THAT(junitRead(junitText(inspectionOf({}, {}))), HasSubstr("1 0 0 1\n"));
+}
+
+/// The keys of a transfer file, as the format's description says: a line each, "K2101/3 value".
+std::string dfqRead(const std::string& text) {
+  return python(
+      "import re, sys\n"
+      "bytes = open(sys.argv[1], \"rb\").read()\n"
+      "lines = bytes.decode(\"utf-8-sig\").split(\"\\r\\n\")\n"
+      "assert lines.pop() == \"\"\n"
+      "keys = dict(re.fullmatch(r\"(K\\d{4}(?:/\\d+)?) (.+)\", line).groups() for line in lines)\n"
+      "assert len(keys) == len(lines)\n"
+      "for n in range(1, int(keys[\"K0100\"]) + 1):\n"
+      "  get = lambda key: keys.get(key + \"/\" + str(n))\n"
+      "  print(get(\"K2002\"), get(\"K2101\"), get(\"K2110\"), get(\"K2111\"), get(\"K2142\"), get(\"K0001\"), "
+      "get(\"K0004\"))\n"
+      "print(keys[\"K1001\"])",
+      ScratchFile("a.dfq", text));
+}
+
+TEST(Dfq, HasNominalsLimitsAndValues) {
+  const std::string read = dfqRead(dfqText(inspection()));
+  EXPECT_THAT(read, HasSubstr("4 421 MEASURE: actual value, diameter (Q153) 30.0000000 30.0000000 30.0210000 mm "
+                              "30.0119000 07.07.2026/16:43:13\n"));
+  EXPECT_THAT(read, HasSubstr("(Q150) None None None deg 1.5008123 07.07.2026/16:42:28\n"));
+  EXPECT_THAT(read, HasSubstr("Bearing block\n"));
+  EXPECT_THAT(dfqText(inspection()), Not(HasSubstr("\xEF\xBB\xBF"))) << "plain text where that suffices";
+  EXPECT_THAT(dfqRead(dfqText(awkward())), HasSubstr("Lager <\"40\" & 50>, größer\n"));
+}
+
+TEST(Formats, AreFoundByName) {
+  ASSERT_NE(formatNamed("QIF"), nullptr);
+  EXPECT_EQ(formatNamed("QIF")->file, "inspection.qif");
+  EXPECT_EQ(formatNamed("pdf"), nullptr);
+}
+
+}  // namespace
+}  // namespace probewright::exchange
