@@ -11,6 +11,7 @@
 #include "control/heidenhain/axis_shift_table.hpp"
 #include "control/heidenhain/datum_table.hpp"
 #include "control/heidenhain/deflection_table.hpp"
+#include "control/heidenhain/kinematic_tables.hpp"
 #include "control/heidenhain/preset_table.hpp"
 #include "control/heidenhain/probe_table.hpp"
 #include "control/heidenhain/tool_table.hpp"
@@ -47,7 +48,8 @@ TEST(DocumentedColumns, AreThereInTheTables) {
       {"TOOL.T", toolColumns()},       {"TCHPROBE.TP", probeColumns()},
       {"PRESET.PR", presetColumns()},  {"TOOLTURN.TRN", turningToolColumns()},
       {"*.3DTC", deflectionColumns()}, {"AXSHIFT.TAB", axisShiftColumns()},
-      {"*.D", datumColumns()}};
+      {"*.D", datumColumns()},         {"KINEMATIC.TAB", kinematicColumns()},
+      {"*.KCO", gridColumns()},        {"DATA450.KD", savedKinematicColumns()}};
   const auto tables = documented();
   EXPECT_EQ(tables.size(), specs.size());
   for (const auto& [name, columns] : tables) {

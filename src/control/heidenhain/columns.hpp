@@ -12,17 +12,17 @@ namespace probewright::control::heidenhain {
 namespace known_columns {
 
 inline constexpr std::string_view numbers[] = {
-    "NR",      "NO",      "D",         "T",       "DIRECTION", "X",       "Y",        "Z",      "A",      "B",
-    "C",       "U",       "V",         "W",       "X_OFFS",    "Y_OFFS",  "Z_OFFS",   "A_OFFS", "B_OFFS", "C_OFFS",
-    "U_OFFS",  "V_OFFS",  "W_OFFS",    "ROT",     "SPA",       "SPB",     "SPC",      "ACTNO",  "L",      "R",
-    "R2",      "DL",      "DR",        "DR2",     "ZL",        "XL",      "YL",       "DZL",    "DXL",    "DYL",
-    "RS",      "DRS",     "TO",        "ORI",     "TIME1",     "TIME2",   "CUR.TIME", "LCUTS",  "ANGLE",  "T-ANGLE",
-    "CUT",     "LTOL",    "RTOL",      "R-OFFS",  "L-OFFS",    "LBREAK",  "RBREAK",   "NMAX",   "PITCH",  "TP_NO",
-    "CAL-OF1", "CAL-OF2", "CAL-ANG",   "CAL_OF1", "CAL_OF2",   "CAL_ANG", "F",        "FMAX",   "DIST",   "SET_UP",
-    "ANGLE-V", "ANGLE-H", "SPB-INSERT"};
-inline constexpr std::string_view texts[] = {"TOOL",     "NAME",  "TYPE",   "TYP",      "TL",       "RT",
-                                             "DOC",      "PLC",   "DIRECT", "LIFTOFF",  "DR2TABLE", "LOCKED",
-                                             "F_PREPOS", "TRACK", "SERIAL", "REACTION", "STYLUS"};
+    "NR",      "NO",      "D",          "T",       "DIRECTION", "X",       "Y",        "Z",      "A",      "B",
+    "C",       "U",       "V",          "W",       "X_OFFS",    "Y_OFFS",  "Z_OFFS",   "A_OFFS", "B_OFFS", "C_OFFS",
+    "U_OFFS",  "V_OFFS",  "W_OFFS",     "ROT",     "SPA",       "SPB",     "SPC",      "ACTNO",  "L",      "R",
+    "R2",      "DL",      "DR",         "DR2",     "ZL",        "XL",      "YL",       "DZL",    "DXL",    "DYL",
+    "RS",      "DRS",     "TO",         "ORI",     "TIME1",     "TIME2",   "CUR.TIME", "LCUTS",  "ANGLE",  "T-ANGLE",
+    "CUT",     "LTOL",    "RTOL",       "R-OFFS",  "L-OFFS",    "LBREAK",  "RBREAK",   "NMAX",   "PITCH",  "TP_NO",
+    "CAL-OF1", "CAL-OF2", "CAL-ANG",    "CAL_OF1", "CAL_OF2",   "CAL_ANG", "F",        "FMAX",   "DIST",   "SET_UP",
+    "ANGLE-V", "ANGLE-H", "SPB-INSERT", "VALUE",   "CODE",      "DX",      "DY",       "DZ"};
+inline constexpr std::string_view texts[] = {
+    "TOOL",   "NAME",     "TYPE",  "TYP",    "TL",       "RT",     "DOC", "PLC",  "DIRECT", "LIFTOFF", "DR2TABLE",
+    "LOCKED", "F_PREPOS", "TRACK", "SERIAL", "REACTION", "STYLUS", "KEY", "AXIS", "RECORD", "DATE",    "KINEMATIC"};
 constexpr bool isIn(std::span<const std::string_view> names, std::string_view name) {
   return std::ranges::find(names, name) != std::ranges::end(names);
 }

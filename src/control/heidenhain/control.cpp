@@ -258,7 +258,13 @@ void Control::applyKinematics() {
   channel.setDescription(kinematics->description());
   const Vector3 base = kinematics->data().base;
   channel.tipDeviation = nullptr;
-  if (!base.isZero(0)) channel.tipDeviation = [base](const machine::AxisPositions&) { return base; };
+  if (kinematics->grid) {
+    channel.tipDeviation = [base, grid = *kinematics->grid](const machine::AxisPositions& axes) {
+      return Vector3(base + grid.at(axes));
+    };
+  } else if (!base.isZero(0)) {
+    channel.tipDeviation = [base](const machine::AxisPositions&) { return base; };
+  }
   applyCoordinates();
 }
 

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <array>
 
+#include "base/number_text.hpp"
+#include "control/heidenhain/control.hpp"
+#include "control/heidenhain/kinematic_tables.hpp"
+
 namespace probewright::control::heidenhain {
 
 namespace {
@@ -16,7 +20,7 @@ void addVector(std::vector<KinematicEntry>& entries, const char* key, const Vect
     entries.push_back({key, linearNames[i], vector[static_cast<Eigen::Index>(i)]});
 }
 
-Vector3 pointOf(const machine::MachineDescription& machine, std::size_t axis) {
+Vector3 builtPoint(const machine::MachineDescription& machine, std::size_t axis) {
   for (const auto* chain : {&machine.spindleChain, &machine.tableChain}) {
     for (const machine::ChainElement& element : *chain) {
       if (element.axis == axis) return element.point;
@@ -46,7 +50,7 @@ std::vector<KinematicEntry> Kinematics::entries(const KinematicData& data) const
   for (const std::size_t axis : chain()) {
     const auto found = std::ranges::find(data.axes, axis, &machine::RotaryCorrection::axis);
     const machine::RotaryCorrection correction = found == data.axes.end() ? machine::RotaryCorrection{} : *found;
-    const Vector3 point = pointOf(built_, axis) + correction.position;
+    const Vector3 point = builtPoint(built_, axis) + correction.position;
     addVector(entries, "TRANS", point - last);
     addVector(entries, "ROT", correction.orientation);
     entries.push_back({"AXIS", built_.axes[axis].name, correction.zero});
@@ -78,7 +82,7 @@ Result<KinematicData> Kinematics::dataOf(const std::vector<KinematicEntry>& entr
   for (const std::size_t axis : chain()) {
     const auto correction = std::ranges::find(data.axes, axis, &machine::RotaryCorrection::axis);
     point += vector();
-    correction->position = point - pointOf(built_, axis);
+    correction->position = point - builtPoint(built_, axis);
     correction->orientation = vector();
     correction->zero = (entry++)->value;
   }
@@ -86,11 +90,28 @@ Result<KinematicData> Kinematics::dataOf(const std::vector<KinematicEntry>& entr
   return data;
 }
 
+Vector3 Kinematics::pointOf(const KinematicData& data, std::size_t axis) const {
+  const auto found = std::ranges::find(data.axes, axis, &machine::RotaryCorrection::axis);
+  return builtPoint(built_, axis) + (found == data.axes.end() ? Vector3(Vector3::Zero()) : found->position);
+}
+
 std::string Kinematics::identifier() const {
   std::string text;
   for (const std::size_t axis : chain())
     text += built_.axes[axis].name;
   return text.empty() ? "XYZ" : text;
+}
+
+void changeKinematics(Control& control, const KinematicData& data) {
+  Kinematics& kinematics = *control.kinematics;
+  const std::vector<KinematicEntry> before = kinematics.entries(kinematics.data()), after = kinematics.entries(data);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const std::string old = formatFixed(before[i].value, 9), now = formatFixed(after[i].value, 9);
+    if (old != now) control.journal.write({kinematicTableName, fmt::format("row {}, column VALUE", i), old, now});
+  }
+  kinematics.set(data);
+  kinematics.tabled = true;
+  control.applyKinematics();
 }
 
 }  // namespace probewright::control::heidenhain

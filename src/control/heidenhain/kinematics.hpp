@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "control/believed_kinematics.hpp"
+#include "control/heidenhain/compensation_grid.hpp"
 #include "control/heidenhain/typed_table.hpp"
 #include "machine/rotary_correction.hpp"
 
@@ -50,10 +52,25 @@ public:
   Result<KinematicData> dataOf(const std::vector<KinematicEntry>& entries) const;
   /// What identifies the description: axes and transformations, without their values.
   std::string identifier() const;
+  /// The point of the axis that the entries lead to, from the spindle nose with all axes at 0, mm.
+  Vector3 pointOf(const KinematicData& data, std::size_t axis) const;
+
+  /// DATA450.KD, where it exists.
+  std::optional<TypedTable> saved;
+  /// The compensation of cycle 453, *.KCO, where the machine's builder has made one.
+  std::optional<CompensationGrid> grid;
+  std::optional<TypedTable> gridTable;
+  /// The kinematics is of a file, or was changed: it outlives the run.
+  bool tabled = false;
 
 private:
   machine::MachineDescription built_;
   KinematicData data_;
 };
+
+class Control;
+
+/// Puts `data` into effect and notes every entry of KINEMATIC.TAB that changes. Equal values are not written.
+void changeKinematics(Control& control, const KinematicData& data);
 
 }  // namespace probewright::control::heidenhain

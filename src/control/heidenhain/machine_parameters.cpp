@@ -209,6 +209,10 @@ constexpr std::array entries = {
                           &MachineParameters::strobeRotaryAxes},
     MachineParameterEntry{"MP6602", "", onITNC530, -1, 999, "", "the same in cycles 451 and 452",
                           &MachineParameters::strobeRotaryAxes},
+    MachineParameterEntry{"codeNumber", "", onITNC530, 0, 999999, "",
+                          "code number that was last entered under MOD, which cycle 450 saves with the kinematics and "
+                          "asks for before it overwrites them; 0: none",
+                          &MachineParameters::codeNumber},
     MachineParameterEntry{"option48", "", onBothTNC, 0, 1, "",
                           "1: software option 48, KinematicsOpt, is enabled: cycles 450 to 453",
                           &MachineParameters::option48},

@@ -63,6 +63,7 @@ struct MachineParameters {
   double maxModification = 0.05;
   double maxDevCalBall = 0.02;
   int strobeRotaryAxes = -1;
+  int codeNumber = 0;
   bool option48 = true, option52 = true, toolCentreOption = true;
   // both: habits of Probewright where the manuals only warn
   bool refuseTransformations = true;

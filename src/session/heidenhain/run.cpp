@@ -5,12 +5,12 @@
 
 #include "base/folder_swap.hpp"
 #include "base/number_text.hpp"
-#include "control/heidenhain/kinematics.hpp"
 #include "execution/din_iso/host.hpp"
 #include "execution/klartext/host.hpp"
 #include "language/encoding.hpp"
 #include "session/heidenhain/beliefs.hpp"
 #include "session/heidenhain/family_parts.hpp"
+#include "session/heidenhain/kinematic_files.hpp"
 #include "session/heidenhain/remanent_parameters.hpp"
 #include "session/run_parts.hpp"
 #include "session/source.hpp"
@@ -40,6 +40,7 @@ void encodeLogs(std::map<std::string, std::string>& files, language::Encoding en
 /// The tables that every run of a HEIDENHAIN control leaves.
 std::set<std::string> namesOf(const hh::Tables& tables) {
   std::set<std::string> names = {"TOOL.T", "TCHPROBE.TP", "PRESET.PR", "QR.TXT"};
+  names.merge(kinematicFileNames());
   for (const auto& [name, table] : tables.datums)
     names.insert(name);
   for (const auto& [name, table] : tables.deflections)
@@ -65,8 +66,8 @@ void run(const RunRequest& request, FolderReading reading, machine::Machine& mac
   control.programPath = request.path.string();
   control.startSeconds = control.channel.seconds();
   control.wallClockStart = options.wallClock;
-  control.kinematics->set({control::believedCorrections(machine.description(), beliefs.kinematics), Vector3::Zero()});
-  control.applyKinematics();
+  readKinematics(control, beliefs, outcome.diagnostics);
+  if (hasErrors(outcome.diagnostics)) return;
   control.activatePreset(activePresetRow(beliefs));
   const auto probe = std::ranges::find(beliefs.tools, "probe", &control::BelievedTool::kind);
   if (probe != beliefs.tools.end()) control.handProbe = {probe->number, probe->name};
@@ -98,6 +99,7 @@ void run(const RunRequest& request, FolderReading reading, machine::Machine& mac
     outcome.files[name] = table.table().bytes();
   for (const auto& [name, table] : control.tables.deflections)
     outcome.files[name] = table.table().bytes();
+  writeKinematics(control, outcome.files);
   if (std::string remanent = remanentParametersText(control.q); !remanent.empty())
     outcome.files[remanentFile] = std::move(remanent);
   // Tables that few machines have come out if there is anything in them.
