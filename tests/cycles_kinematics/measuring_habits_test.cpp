@@ -103,6 +103,24 @@ TEST(WrongProbe, ScattersTheAxisAsTheCovarianceSays) {
   EXPECT_NEAR(std::sqrt(sum / runs), expected, 0.3 * expected);
 }
 
+/// X drifts towards Z by an angle: the circle becomes an ellipse, which no axis explains. At 0, 90, 180 and 270 degrees
+/// the axis is where it is, and the errors are that angle times the radius at two of three positions.
+TEST(WrongMachine, LeavesWhatSquarenessDoes) {
+  Build build = builds()[3];
+  constexpr double radius = 80, degrees = 0.005;
+  build.sphere = {radius, -380, -700};
+  SphereWorld world(build);
+  const machine::MachineDescription machine = world.built();
+  world.bench.setup.world.truth.errors.squareness.push_back(
+      {*machine.axisIndex("X"), *machine.axisIndex("Z"), degrees});
+  const Ran ran = world.bench.run(probe(451, words451(build, 1)));
+  ASSERT_TRUE(ended(ran)) << ran.why();
+  const double expected = radius * std::tan(radians(degrees)) * std::sqrt(2.0 / 3);
+  EXPECT_NEAR(ran.q(142), expected, 1e-6);
+  EXPECT_NEAR(ran.q(145), expected, 1e-6);
+  EXPECT_LT(apart(machine::corrected(machine, kinematicsOf(ran, machine).axes), machine).place, 1e-6);
+}
+
 /// A block beside the sphere stands where the probe is to lean: it stops, and the kinematics stays.
 TEST(Indexing, StopsAtWhatIsInTheWay) {
   SphereWorld world(builds()[1]);

@@ -188,7 +188,7 @@ void Context::stop(const std::string& text) {
 
 void Context::log(const std::string& name, const std::string& text) {
   control_.panel.file(name, text);
-  record().logFiles.push_back(name);
+  if (std::ranges::find(record().logFiles, name) == record().logFiles.end()) record().logFiles.push_back(name);
 }
 
 void runCycle(Control& control, const Entry& entry, const Arguments& arguments, const SourcePlace& place) {
