@@ -15,10 +15,18 @@ TEST_P(Cycle451, FindsPlantedPlacesAndDirections) {
   Dice dice(4510);
   for (int at = 0; at < 4; ++at) {
     SCOPED_TRACE(at);
-    SphereWorld world(build());
+    Build somewhere = build();
+    // The preset table has four decimals.
+    somewhere.sphere += dice.within(10).unaryExpr([](double value) { return written(value, 4); });
+    SphereWorld world(somewhere, controlOf(at));
     world.plant(dice, 0.2, 0.02);
     const Ran ran = world.bench.run(probe(451, words451(world.build, 2)));
     ASSERT_TRUE(ended(ran)) << ran.why();
+    // The older control measures the positions again once the angles are in effect.
+    std::size_t spheres = 0;
+    for (const auto& [axis, measured] : world.build.axes)
+      spheres += static_cast<std::size_t>(measured.points) + 1;
+    EXPECT_EQ(ran.touches(), 5 * spheres * (world.bench.control == ControlKind::iTNC530 ? 2 : 1));
     const KinematicData found = kinematicsOf(ran, world.built());
     const Apart off = apart(machine::corrected(world.built(), found.axes), world.truth());
     EXPECT_LT(off.place, 1e-6);
@@ -84,6 +92,69 @@ TEST_P(Cycle451, TestTellsWhatOptimisingWouldAttain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Builds, Cycle451, ::testing::Range<std::size_t>(0, 4));
+
+/// The preset has a basic rotation, and an offset of the rotary table: angles of the call count from there.
+TEST(Cycle451Presets, MayBeTurned) {
+  Dice dice(4518);
+  for (const std::size_t build : {0U, 1U}) {
+    SCOPED_TRACE(builds()[build].machine);
+    SphereWorld world(builds()[build]);
+    world.plant(dice, 0.2, 0.02);
+    const std::size_t c = *world.built().axisIndex("C");
+    control::BelievedFrame& preset = world.bench.setup.beliefs.presets.front();
+    preset.rotation = {0, 0, 20};
+    preset.rotary["C"] = 12.5;
+    // With C at 12.5 degrees the sphere is where the preset is.
+    machine::AxisPositions reference;
+    reference[c] = 12.5;
+    world.bench.setup.world.truth.solids.clear();
+    const Vector3 onTable = machine::baseFromTable(world.truth(), reference).inverse() * world.build.sphere;
+    world.plantSphere(onTable);
+    const Ran ran = world.bench.run("L C+0 R0 FMAX\n" + probe(451, words451(world.build, 2)) + "PLANE RESET STAY\n" +
+                                    probe(451, words451(world.build, 0)));
+    ASSERT_TRUE(ended(ran)) << ran.why();
+    const Apart off = apart(machine::corrected(world.built(), kinematicsOf(ran, world.built()).axes), world.truth());
+    EXPECT_LT(off.place, 1e-6);
+    EXPECT_LT(off.direction, 1e-8);
+    EXPECT_LT(ran.q(143), 1e-6);
+  }
+}
+
+/// Lengths of the call are inches, results stay millimetres.
+TEST(Cycle451Units, ResultsAreMillimetresInInchProgramsToo) {
+  Dice dice(4519);
+  SphereWorld world(builds()[1]);
+  world.plant(dice, 0.1, 0);
+  const Ran plain = world.bench.run(probe(451, words451(world.build, 0)));
+  const Words inches = {{407, sphereRadius / 25.4}, {253, 200}};
+  const Ran ran = world.bench.run(probe(451, words451(world.build, 0, inches)), "INCH");
+  ASSERT_TRUE(ended(ran)) << ran.why();
+  EXPECT_NEAR(ran.q(142), plain.q(142), 1e-6);
+  EXPECT_NEAR(ran.q(147), plain.q(147), 1e-6);
+}
+
+/// A setup may name point and direction themselves; what it adds comes on top.
+TEST(BelievedKinematics, AreReadFromTheSetup) {
+  Diagnostics diagnostics;
+  const auto setup = setup::parseSetup(
+      "[machine]\nname = \"mill5-table-table\"\n[control.kinematics.A]\npoint = [0, 1, -549]\n"
+      "direction = [-2, 0, 0.02]\nposition = [0, 0.5, 0]\nhirth_grid = 3\n",
+      "setup.toml", diagnostics);
+  ASSERT_TRUE(setup) << format(diagnostics.front());
+  const machine::MachineDescription built = *machine::readMachine("mill5-table-table");
+  const auto believed = control::believedMachine(built, setup->beliefs.kinematics);
+  EXPECT_LT((believed.tableChain[0].point - Vector3(0, 1.5, -549)).norm(), 1e-12);
+  EXPECT_LT((believed.tableChain[0].direction - Vector3(-2, 0, 0.02).normalized()).norm(), 1e-12);
+  EXPECT_LT((believed.tableChain[1].direction - built.tableChain[1].direction).norm(), 1e-15);
+  EXPECT_EQ(setup->beliefs.kinematics.at("A").hirthGrid, 3);
+  EXPECT_FALSE(setup::parseSetup("[control.kinematics.C]\nposition = [1, 0, 0]\n", "setup.toml", diagnostics));
+  EXPECT_EQ(diagnostics.back().message, "the machine has no rotary axis called C");
+  EXPECT_FALSE(
+      setup::parseSetup("[machine]\nname = \"mill5-table-table\"\n[control.kinematics.C]\n"
+                        "direction = [0, 0, 0]\n",
+                        "setup.toml", diagnostics));
+  EXPECT_EQ(diagnostics.back().message, "a direction cannot be [0, 0, 0]");
+}
 
 /// What the next run computes with.
 TEST(Cycle451Tables, OneRunIsTheStartOfTheNext) {
