@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "check_formats.hpp"
 #include "control/control_kind.hpp"
 #include "control/operator_panel.hpp"
 #include "exchange/formats.hpp"
@@ -44,6 +45,7 @@ struct CheckArguments {
   std::filesystem::path setup;  ///< empty: none
   std::optional<control::ControlKind> control;
   std::bitset<10> skipLevels;
+  CheckFormat format = CheckFormat::Text;
 };
 int check(const CheckArguments& arguments);
 
@@ -51,6 +53,7 @@ struct CyclesArguments {
   std::string name;  ///< empty: all
   std::optional<control::ControlKind> control;
   bool asJson = false;
+  bool asTemplate = false;  ///< a call to paste
 };
 int cycles(const CyclesArguments& arguments);
 

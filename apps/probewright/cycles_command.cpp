@@ -11,6 +11,7 @@
 #include "base/number_text.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "cycle_template.hpp"
 #include "cycles/catalogue.hpp"
 #include "cycles/sinumerik/circle_through_points.hpp"
 #include "records/results.hpp"
@@ -260,6 +261,11 @@ std::string rowsAbout(std::string_view text, const std::vector<const CycleDefini
 }  // namespace
 
 int cycles(const CyclesArguments& arguments) {
+  if (arguments.asTemplate && arguments.name.empty()) {
+    std::fputs("probewright: --template needs the name of a cycle, such as `probewright cycles 421 --template`\n",
+               stderr);
+    return 2;
+  }
   std::vector<ControlKind> kinds(control::allControlKinds.begin(), control::allControlKinds.end());
   if (arguments.control) kinds = {*arguments.control};
   const std::string name = plainName(arguments.name);
@@ -274,7 +280,9 @@ int cycles(const CyclesArguments& arguments) {
       const bool wanted = arguments.name.empty() || name == cycle->name || name == std::to_string(cycle->number);
       if (!wanted) continue;
       found = true;
-      if (arguments.asJson) {
+      if (arguments.asTemplate && !arguments.name.empty()) {
+        say("{}", cycleTemplate(*cycle, kind));
+      } else if (arguments.asJson) {
         list.push_back(toJson(*cycle));
       } else if (arguments.name.empty()) {
         say("{}", row(*cycle));

@@ -19,6 +19,7 @@
 
 namespace {
 
+using probewright::app::CheckFormat;
 using probewright::control::ControlKind;
 using probewright::control::DialogLanguage;
 using probewright::control::OnStop;
@@ -236,7 +237,11 @@ int main(int argc, char** argv) {
 
   probewright::app::CheckArguments checkArguments;
   CLI::App* check = app.add_subcommand("check", "Read programs without moving anything and name every mistake");
-  check->add_option("PROGRAM", checkArguments.programs, "NC programs")->required();
+  check->add_option("PROGRAM", checkArguments.programs, "NC programs; - is standard input")->required();
+  addChoice(*check, "--format", checkArguments.format,
+            {{"text", CheckFormat::Text}, {"json", CheckFormat::Json}, {"sarif", CheckFormat::Sarif}},
+            "How mistakes are told: for people, or as one document on standard output for other programs")
+      .default_str("text");
   check
       ->add_option("--setup", checkArguments.setup,
                    "Also name tools and presets that the control of this setup does not have")
@@ -248,7 +253,10 @@ int main(int argc, char** argv) {
   CLI::App* cycles = app.add_subcommand("cycles", "The catalogue of measuring cycles, or one of them in full");
   cycles->add_option("NAME", cyclesArguments.name, "411, CYCLE977");
   addControl(*cycles, cyclesArguments.control);
-  cycles->add_flag("--json", cyclesArguments.asJson, "Everything that the catalogue knows, as JSON for other programs");
+  CLI::Option* block =
+      cycles->add_flag("--template", cyclesArguments.asTemplate, "A call of the cycle to paste into a program");
+  cycles->add_flag("--json", cyclesArguments.asJson, "Everything that the catalogue knows, as JSON for other programs")
+      ->excludes(block);
 
   probewright::app::ConvertArguments convertArguments;
   CLI::App* convert = app.add_subcommand(
