@@ -20,6 +20,7 @@ struct RunArguments {
   std::filesystem::path setup;
   std::string
       machine;  ///< the adapter of a real machine, see adapter::connect; empty: the virtual machine of the setup
+  std::filesystem::path machineFile;  ///< instead of the setup's machine; empty: none
   std::filesystem::path out = "probewright-out";
   std::optional<control::ControlKind> control;
   bool strict = false;
@@ -70,6 +71,7 @@ int convert(const ConvertArguments& arguments);
 
 struct FeelArguments {
   std::filesystem::path setup;
+  std::filesystem::path machineFile;          ///< instead of the setup's machine; empty: none
   std::string segment = "/probewright-feel";  ///< of shared memory
   std::string cache;                          ///< as of RunArguments
   bool quiet = false;

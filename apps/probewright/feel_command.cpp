@@ -9,7 +9,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "interruption.hpp"
-#include "setup/setup.hpp"
+#include "setup/setup_on_machine.hpp"
 #include "shared_feeling.hpp"
 #include "simulation/feeling_probe.hpp"
 #include "simulation/virtual_machine.hpp"
@@ -64,7 +64,7 @@ struct Answers {
 
 int feel(const FeelArguments& arguments) {
   Diagnostics mistakes;
-  const std::optional<setup::Setup> setup = setup::readSetup(arguments.setup, mistakes);
+  const std::optional<setup::Setup> setup = setup::readSetupOn(arguments.machineFile, arguments.setup, mistakes);
   print(mistakes);
   if (!setup) return 2;
   const Interruption interruption;

@@ -85,6 +85,16 @@ void addExport(CLI::App& command, std::vector<const probewright::exchange::Forma
       ->delimiter(',');
 }
 
+/// The option --machine-ini.
+void addMachineFile(CLI::App& command, std::filesystem::path& file) {
+  command
+      .add_option(
+          "--machine-ini", file,
+          "Simulate this machine instead of the setup's: the .ini file of a LinuxCNC configuration, or a machine "
+          "file (see docs/linuxcnc.md)")
+      ->type_name("FILE");
+}
+
 /// Reading "-1" into an unsigned number would wrap it around.
 std::string notNegative(const std::string& text) {
   const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
@@ -171,6 +181,7 @@ int main(int argc, char** argv) {
           ->check([](const std::string& text) {
             return text.find_first_not_of(' ') == std::string::npos ? "--machine names no adapter" : "";
           });
+  addMachineFile(*run, runArguments.machineFile);
   run->add_option("--out", runArguments.out, "Folder for tables, logs, results.json and report.html")
       ->capture_default_str()
       ->type_name("DIR");
@@ -294,6 +305,7 @@ int main(int argc, char** argv) {
   CLI::App* feel = app.add_subcommand(
       "feel", "Give a simulated LinuxCNC machine a probe that feels the part of a setup (see docs/linuxcnc.md)");
   feel->add_option("SETUP", feelArguments.setup, "The world to feel; only its truth counts")->required();
+  addMachineFile(*feel, feelArguments.machineFile);
   feel->add_option("--segment", feelArguments.segment, "Shared memory that the HAL component has made")
       ->type_name("NAME")
       ->capture_default_str();

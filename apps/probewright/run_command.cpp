@@ -24,6 +24,7 @@
 #include "reports/summary.hpp"
 #include "session/answers.hpp"
 #include "setup/scene.hpp"
+#include "setup/setup_on_machine.hpp"
 #include "setup/simulated_run.hpp"
 #include "terminal.hpp"
 
@@ -126,9 +127,9 @@ Result<void> addExports(Output& output, const std::vector<const exchange::Format
 
 int run(const RunArguments& arguments) {
   std::set<FileIdentity> inputs;
-  noteIdentities({arguments.program, arguments.setup, arguments.answers}, inputs);
+  noteIdentities({arguments.program, arguments.setup, arguments.machineFile, arguments.answers}, inputs);
   Diagnostics mistakes;
-  std::optional<setup::Setup> setup = setup::readSetup(arguments.setup, mistakes);
+  std::optional<setup::Setup> setup = setup::readSetupOn(arguments.machineFile, arguments.setup, mistakes);
   print(mistakes);
   // Which tables the run would have begun from is unknown: those of an earlier run stay.
   if (!setup) return cameToNothing(removeEarlierVerdict(arguments.out, inputs));

@@ -24,13 +24,30 @@ proc probewright_env {name default} {
   return $default
 }
 
-# Which axis each joint is, as trivkins and the kinematics of five axes count them.
+# Which axis each joint is, as the kinematics count them.
 proc probewright_letters {} {
-  foreach word [join $::KINS(KINEMATICS)] {
+  set words [join $::KINS(KINEMATICS)]
+  foreach word $words {
     if {[regexp -nocase {^coordinates=(.+)$} $word whole letters]} { return [string toupper $letters] }
   }
-  if {![info exists ::TRAJ(COORDINATES)]} { return XYZ }
-  return [string toupper [string map {" " ""} [join $::TRAJ(COORDINATES)]]]
+  switch -- [lindex $words 0] {
+    xyzac-trt-kins { return XYZAC }
+    xyzbc-trt-kins { return XYZBC }
+    xyzab_tdr_kins { return XYZAB }
+    5axiskins { return XYZBCW }
+  }
+  return XYZABCUVW
+}
+
+# The letters that the configuration uses, of those that have a joint.
+proc probewright_used {joints} {
+  set wanted $joints
+  if {[info exists ::TRAJ(COORDINATES)]} { set wanted [string toupper [join $::TRAJ(COORDINATES)]] }
+  set used ""
+  foreach letter [split XYZABCUVW ""] {
+    if {[string first $letter $joints] >= 0 && [string first $letter $wanted] >= 0} { append used $letter }
+  }
+  return $used
 }
 
 # Connects an output pin with one of ours, by the signal that it has already if it has one.
@@ -58,10 +75,7 @@ proc probewright_feel {} {
   set setup [probewright_key SETUP ""]
   if {$setup eq ""} { error "probewright_feel: \[PROBEWRIGHT\]SETUP is missing: the setup file with the part to feel" }
   set joints [probewright_key AXES [probewright_letters]]
-  set letters ""
-  foreach letter [split $joints ""] {
-    if {[string first $letter $letters] < 0} { append letters $letter }
-  }
+  set letters [probewright_used $joints]
   set segment /probewright-[pid]
   if {[catch {loadrt probewright_feel segment=$segment axes=$letters} why]} {
     error "probewright_feel: the component cannot be loaded; is probewright_feel.so among the modules of LinuxCNC? $why"
@@ -72,9 +86,11 @@ proc probewright_feel {} {
 
   setp probewright-feel.mm-per-unit [probewright_units]
   foreach letter [split $letters ""] {
-    set joint [string first $letter $joints]
     set axis [string tolower $letter]
-    probewright_from probewright-$axis joint.$joint.pos-cmd probewright-feel.axis-$axis
+    set from joint.[string first $letter $joints].pos-cmd
+    # Motors that pull together move no axis of their own.
+    if {[lindex [join $::KINS(KINEMATICS)] 0] eq "corexykins"} { set from axis.$axis.pos-cmd }
+    probewright_from probewright-$axis $from probewright-feel.axis-$axis
   }
   probewright_from probewright-tool iocontrol.0.tool-number probewright-feel.tool-number
   probewright_from probewright-speed spindle.0.speed-out probewright-feel.spindle-speed

@@ -8,6 +8,7 @@
 
 #include "base/file.hpp"
 #include "base/toml_table.hpp"
+#include "machine/linuxcnc_machine.hpp"
 #include "machine/ready_made.hpp"
 #include "machine/table_body.hpp"
 
@@ -190,6 +191,11 @@ std::optional<MachineFile> readFileOf(const std::string& nameOrPath, Diagnostics
                   : fmt::format("Ready-made machines: {}", fmt::join(readyMadeMachines(), ", ")))
             .value());
     return std::nullopt;
+  }
+  if (std::filesystem::path(nameOrPath).extension() == ".ini") {
+    auto machine = readLinuxCncMachine(nameOrPath, diagnostics);
+    if (!machine) return std::nullopt;
+    return MachineFile{std::move(machine->description), std::nullopt};
   }
   const Result<std::string> text = readFile(nameOrPath, largestText);
   if (text) return parseFile(*text, nameOrPath, diagnostics);

@@ -16,7 +16,8 @@ namespace probewright::machine {
 std::optional<MachineDescription> parseMachine(std::string_view text, const std::string& file,
                                                Diagnostics& diagnostics);
 
-/// The ready-made machine called `nameOrPath` or the one in that file. Mistakes go to `diagnostics`; one without a
+/// The ready-made machine called `nameOrPath` or the one in that file, which is TOML or, if its name ends in .ini, a
+/// LinuxCNC configuration. Mistakes go to `diagnostics`, and warnings of what had to be assumed; a mistake without a
 /// place is not of the file: there is no such machine.
 std::optional<MachineDescription> readMachine(const std::string& nameOrPath, Diagnostics& diagnostics);
 /// The same; the first mistake, if there are any.

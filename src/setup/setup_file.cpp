@@ -1,16 +1,21 @@
+#include <algorithm>
+
 #include "base/file.hpp"
 #include "base/toml_table.hpp"
 #include "setup/belief_file.hpp"
 #include "setup/calibrated_beliefs.hpp"
-#include "setup/setup.hpp"
+#include "setup/setup_on_machine.hpp"
 #include "setup/tool_keys.hpp"
 #include "setup/world_file.hpp"
 
 namespace probewright::setup {
 
-std::optional<Setup> parseSetup(std::string_view text, const std::string& file, Diagnostics& diagnostics,
-                                const session::ControlFamilies& families) {
-  const std::size_t before = diagnostics.size();
+namespace {
+
+std::optional<Setup> parse(std::string_view text, const std::string& file, const std::filesystem::path& machine,
+                           Diagnostics& diagnostics, const session::ControlFamilies& families) {
+  const auto errors = [&] { return std::ranges::count(diagnostics, Severity::Error, &Diagnostic::severity); };
+  const auto before = errors();
   const auto table = parseToml(text, file, diagnostics);
   if (!table) return std::nullopt;
   TomlReader root(*table, "", file, diagnostics);
@@ -20,7 +25,7 @@ std::optional<Setup> parseSetup(std::string_view text, const std::string& file, 
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   WorldReader world(root, folder, setup.world, setup.inputs);
   BeliefReader beliefs(root, folder, setup.world.truth.machine, setup.beliefs, families);
-  world.readMachine();
+  world.readMachine(machine);
   beliefs.readControl();
   world.readSeed();
   world.readSolids();
@@ -30,20 +35,32 @@ std::optional<Setup> parseSetup(std::string_view text, const std::string& file, 
   beliefs.readParameters();
   beliefs.readAnswers();
   root.finish();
-  if (diagnostics.size() > before) return std::nullopt;
+  if (errors() > before) return std::nullopt;
   setup.beliefs.technology = believedTechnology(setup.world.truth.machine);
   setup.beliefs.toolProbes = believedToolProbes(setup.world);
   return setup;
 }
 
+}  // namespace
+
+std::optional<Setup> parseSetup(std::string_view text, const std::string& file, Diagnostics& diagnostics,
+                                const session::ControlFamilies& families) {
+  return parse(text, file, {}, diagnostics, families);
+}
+
 std::optional<Setup> readSetup(const std::filesystem::path& path, Diagnostics& diagnostics,
                                const session::ControlFamilies& families) {
+  return readSetupOn({}, path, diagnostics, families);
+}
+
+std::optional<Setup> readSetupOn(const std::filesystem::path& machine, const std::filesystem::path& path,
+                                 Diagnostics& diagnostics, const session::ControlFamilies& families) {
   auto text = readFile(path, largestText);
   if (!text) {
     diagnostics.push_back(std::move(text.error()));
     return std::nullopt;
   }
-  return parseSetup(*text, path.string(), diagnostics, families);
+  return parse(*text, path.string(), machine, diagnostics, families);
 }
 
 }  // namespace probewright::setup

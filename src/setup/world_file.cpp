@@ -33,7 +33,7 @@ constexpr std::size_t mostCoefficients = 10;
 
 }  // namespace
 
-void WorldReader::readMachine() {
+void WorldReader::readMachine(const std::filesystem::path& instead) {
   std::string name = "mill3";
   if (auto reader = root_.table("machine")) {
     const bool hasName = reader->has("name"), hasFile = reader->has("file");
@@ -42,18 +42,23 @@ void WorldReader::readMachine() {
     if (hasName && hasFile) reader->report("file", "[machine] has both a name and a file", "Remove one of them");
     if (ready) name = *ready;
     if (file) name = resolve(*file).string();
-    loadMachine(name, *reader, hasFile ? "file" : "name");
+    if (instead.empty())
+      loadMachine(name, *reader, hasFile ? "file" : "name");
+    else
+      loadMachine(instead.string(), *reader, "file", false);
     if (auto start = reader->table("start")) readStart(*start);
     reader->finish();
     return;
   }
-  loadMachine(name, root_, "machine");
+  loadMachine(instead.empty() ? name : instead.string(), root_, "machine", instead.empty());
 }
 
-void WorldReader::loadMachine(const std::string& name, TomlReader& reader, std::string_view key) {
+void WorldReader::loadMachine(const std::string& name, TomlReader& reader, std::string_view key, bool ofThisFile) {
   Diagnostics mistakes;
   const auto description = machine::readMachine(name, mistakes);
   if (description) {
+    // What had to be assumed of it.
+    reader.diagnostics().insert(reader.diagnostics().end(), mistakes.begin(), mistakes.end());
     inputs_.emplace_back(name);
     world_.truth.machine = *description;
     world_.truth.start = description->toolChange;
@@ -63,7 +68,7 @@ void WorldReader::loadMachine(const std::string& name, TomlReader& reader, std::
   }
   for (Diagnostic& mistake : mistakes) {
     // A machine that cannot be found is a mistake of this file, one that cannot be read of its own.
-    if (mistake.place.file.empty()) {
+    if (mistake.place.file.empty() && ofThisFile) {
       mistake.place = reader.placeOf(key);
       std::error_code error;
       if (key == "name" && std::filesystem::is_regular_file(resolve(name), error))

@@ -18,7 +18,8 @@ public:
               std::vector<std::filesystem::path>& inputs)
       : root_(root), folder_(std::move(folder)), world_(world), inputs_(inputs) {}
 
-  void readMachine();
+  /// `instead`: a machine file that takes the place of the one that [machine] names; empty: none.
+  void readMachine(const std::filesystem::path& instead);
   void readSeed();
   /// [part], [[fixture]], [ring], [sphere], [gauge_block] and [tool_probe].
   void readSolids();
@@ -29,7 +30,7 @@ private:
     return std::filesystem::path(path).is_absolute() ? std::filesystem::path(path) : folder_ / path;
   }
   const machine::MachineDescription& machine() const { return world_.truth.machine; }
-  void loadMachine(const std::string& name, TomlReader& reader, std::string_view key);
+  void loadMachine(const std::string& name, TomlReader& reader, std::string_view key, bool ofThisFile = true);
   void readStart(TomlReader& reader);
   void readSolid(TomlReader& reader, simulation::SolidRole role, std::string defaultName, const char* featureTable);
   void placeGauge(simulation::SolidRecipe recipe, TomlReader& reader, std::string name, simulation::SolidRole role);

@@ -105,5 +105,50 @@ M2
   EXPECT_GE(front[0], -27.0 - 1e-6);
 }
 
+TEST_F(Feeling, SwitchesTheMachineOffInACollisionAndOnAgain) {
+  session_.write("practice.toml", exactWorld);
+  session_.write("p.ngc", "G21 G90 G49 G10 L2 P1 X0 Y0 Z0\nG0 X80 Y0\nG0 Z-220\nG1 X40 F2000\nM2\n");
+  session_.write("q.ngc", "G0 X70\n(PRINT,desk: away #5420)\nM2\n");
+  // The body (radius 20, its lower end 42.5 mm above the tip's lowest point) meets the block at X60.25.
+  const std::string output = run(R"(
+desk.ready()
+desk.run('p.ngc')
+desk.status.poll()
+desk.tell('stopped', desk.status.joint_position[0], desk.status.task_state == linuxcnc.STATE_ON)
+desk.command.state(linuxcnc.STATE_ESTOP)
+desk.command.wait_complete()
+desk.switch_on()
+desk.run('q.ngc')
+)");
+  const auto stopped = session_.told(output, "stopped"), away = session_.told(output, "away");
+  ASSERT_EQ(stopped.size(), 1U) << output;  // "False" follows
+  EXPECT_NEAR(stopped[0], 60.25, 2000.0 / 60 * 0.002) << output;
+  EXPECT_NE(output.find("False"), std::string::npos) << output;
+  ASSERT_EQ(away.size(), 1U) << output;
+  EXPECT_NEAR(away[0], 70, 1e-6);
+}
+
+TEST_F(Feeling, FeelsAPartFromCad) {
+  // The top of the housing of the examples is its z = 0; at x = 5, y = 45 of the part nothing is cut into it.
+  session_.write("practice.toml", "[part]\nfile = \"" + (session_.source() / "examples/parts/housing.step").string() +
+                                      "\"\npose = { x = -20, y = -20, z = -280 }\n" +
+                                      std::string(exactWorld).substr(std::string(exactWorld).find("[[tool]]")));
+  session_.write("p.ngc", R"(
+G21 G90 G49 G10 L2 P1 X0 Y0 Z0
+G0 X-15 Y25 Z-150
+G38.2 Z-250 F1500
+(PRINT,desk: rough #5063)
+G91 G0 Z1
+G38.2 Z-2 F60
+(PRINT,desk: fine #5063)
+G90 G0 Z-140
+M2
+)");
+  const std::string output = run("desk.ready()\ndesk.run('p.ngc')\n");
+  const auto fine = session_.told(output, "fine");
+  ASSERT_EQ(fine.size(), 1U) << output;
+  EXPECT_NEAR(fine[0], -180, 60.0 / 60 * 0.001 + 1e-4) << output;
+}
+
 }  // namespace
 }  // namespace probewright::testing

@@ -56,6 +56,11 @@ public:
 
   /// Runs LinuxCNC with this configuration until its display ends. What all of it has printed.
   std::string run(const std::string& ini, int seconds = 100) const {
+    return command("linuxcnc -r '" + ini + "'", seconds);
+  }
+
+  /// Runs a command of the shell as LinuxCNC's user, in the folder of the session, which is its home.
+  std::string command(const std::string& words, int seconds = 100) const {
     std::string inner = "cd '" + folder().string() + "' && export HOME='" + folder().string() + "' && ";
     std::string command;
     if (apart_) {
@@ -63,10 +68,10 @@ public:
         command += "mkdir -p '" + to.string() + "' && mount --bind '" + from.string() + "' '" + to.string() + "' && ";
       command = "ip link set lo up && mount -t tmpfs tmpfs /mnt && " + command + modulesCommand() +
                 "mount -t tmpfs tmpfs /dev/shm && mount -t tmpfs tmpfs /tmp && chown -R 65534:65534 '" +
-                folder().string() + "' && " + inner +
-                "exec setpriv --reuid 65534 --regid 65534 --clear-groups linuxcnc -r '" + ini + "'";
+                folder().string() + "' && " + inner + "exec setpriv --reuid 65534 --regid 65534 --clear-groups " +
+                words;
     } else {
-      command = inner + "exec linuxcnc -r '" + ini + "'";
+      command = inner + "exec " + words;
     }
     const std::string script = outside_.string() + ".sh";
     std::ofstream(script) << "#!/bin/sh\n" + command + "\n";
