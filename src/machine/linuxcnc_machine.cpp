@@ -77,8 +77,7 @@ public:
     readChains();
     if (hasErrors(diagnostics_)) return std::nullopt;
     leaveOut();
-    machine_.spindleOrients = std::ranges::any_of(
-        hal_.netted, [](const std::string& pin) { return pin.starts_with("spindle.") && pin.ends_with(".orient"); });
+    readOrientation();
     readToolChange();
     if (hasErrors(diagnostics_)) return std::nullopt;
     LinuxCncMachine result{std::move(machine_), ini_.files()};
@@ -380,6 +379,16 @@ private:
     const Vector3 point = mmPerUnit_ * Vector3(n[3], n[4], n[5]);
     auto& chain = part == "TABLE" ? machine_.tableChain : machine_.spindleChain;
     chain.push_back({axis, direction.normalized(), point});
+  }
+
+  /// What the configuration says of itself, else whether something answers to an order to orient the spindle.
+  void readOrientation() {
+    if (const auto said = ini_.number("PROBEWRIGHT", "SPINDLE_ORIENTS", diagnostics_)) {
+      machine_.spindleOrients = *said != 0;
+      return;
+    }
+    machine_.spindleOrients = std::ranges::any_of(
+        hal_.netted, [](const std::string& pin) { return pin.starts_with("spindle.") && pin.ends_with(".orient"); });
   }
 
   /// Axes that move nothing here are no axes of the machine.
