@@ -77,7 +77,11 @@ bool LinuxCncIni::readInto(const fs::path& path, int depth, std::string& section
         diagnostics.push_back(fail(place, "the files include each other without end").value());
         return false;
       }
+      const std::size_t before = diagnostics.size();
       good = readInto(other, depth + 1, section, diagnostics) && good;
+      // A file that cannot be read at all.
+      if (diagnostics.size() > before && diagnostics.back().place.line == 0)
+        diagnostics.back().advice = fmt::format("{}:{} includes it", place.file, place.line);
       continue;
     }
     if (words.empty() || words.front() == '#' || words.front() == ';') continue;

@@ -9,12 +9,18 @@
 namespace probewright::testing {
 namespace {
 
-std::string start(const std::string& words) {
-  LinuxCncSession session(PROBEWRIGHT_SOURCE_DIR, PROBEWRIGHT_BUILD_DIR);
-  if (!session.needModule("linuxcnc/feel/probewright_feel.so")) return {};
-  return session.command("env PROBEWRIGHT_BUILD='" + session.build().string() + "' '" +
-                         (session.source() / "examples/linuxcnc/start").string() + "' " + words);
-}
+class LinuxCncExamples : public ::testing::Test {
+protected:
+  void SetUp() override {
+    if (!session_.needModule("linuxcnc/feel/probewright_feel.so"))
+      GTEST_SKIP() << "only root can lend LinuxCNC a module that is not installed";
+  }
+  std::string start(const std::string& words) const {
+    return session_.command("env PROBEWRIGHT_BUILD='" + session_.build().string() + "' '" +
+                            (session_.source() / "examples/linuxcnc/start").string() + "' " + words);
+  }
+  LinuxCncSession session_{PROBEWRIGHT_SOURCE_DIR, PROBEWRIGHT_BUILD_DIR};
+};
 
 /// The numbers of the line that begins with `word`.
 std::vector<double> line(const std::string& output, const std::string& word) {
@@ -26,9 +32,8 @@ std::vector<double> line(const std::string& output, const std::string& word) {
 constexpr double bound = 300.0 / 60 * 0.001 + 1e-4;  // mm: a servo period at the probing feed
 constexpr double pretravel = 0.004;
 
-TEST(LinuxCncExamples, FindTheMiddleOfABoreOnTheMill) {
+TEST_F(LinuxCncExamples, FindTheMiddleOfABoreOnTheMill) {
   const std::string output = start("mill3 bore.ngc");
-  if (output.empty()) GTEST_SKIP() << "only root can lend LinuxCNC a module that is not installed";
   const auto bore = line(output, "bore");
   ASSERT_EQ(bore.size(), 4U) << output;
   EXPECT_NEAR(bore[0], 1.7, bound) << output;
@@ -38,9 +43,8 @@ TEST(LinuxCncExamples, FindTheMiddleOfABoreOnTheMill) {
   EXPECT_NEAR(bore[3], -0.9 - 30.01 / 2 + 3 - pretravel, bound);
 }
 
-TEST(LinuxCncExamples, TouchTheSamePlaceUprightAndTilted) {
+TEST_F(LinuxCncExamples, TouchTheSamePlaceUprightAndTilted) {
   const std::string output = start("mill5 tilted.ngc");
-  if (output.empty()) GTEST_SKIP() << "only root can lend LinuxCNC a module that is not installed";
   const auto top = line(output, "top");
   ASSERT_EQ(top.size(), 2U) << output;
   // The top lies at Z-250, the centre of the ball 3 mm above it. Pretravel acts across the stylus only, and along the

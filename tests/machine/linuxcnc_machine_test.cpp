@@ -243,9 +243,9 @@ TEST(LinuxCncSamples, AreReadOrRefusedInWords) {
     const std::string text((std::istreambuf_iterator<char>(stream)), {});
     const std::regex plain("(^|\n)\\s*KINEMATICS\\s*=\\s*trivkins\\s+coordinates=[xX][yY]+[zZ]\\s*(\n|kinstype)");
     if (!std::regex_search(text, plain)) continue;
-    ++mills;
     ASSERT_TRUE(machine) << format(diagnostics.front());
-    for (const char* name : {"X", "Y", "Z"})
+    if (machine->description.axisIndex("Y")) ++mills;  // a lathe may have the kinematics of a mill
+    for (const char* name : {"X", "Z"})
       EXPECT_TRUE(machine->description.axisIndex(name)) << name;
     for (const Axis& axis : machine->description.axes) {
       EXPECT_LT(axis.minimum, axis.maximum);
