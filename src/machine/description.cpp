@@ -7,7 +7,10 @@ namespace {
 Pose chainPose(const std::vector<Axis>& axes, const std::vector<ChainElement>& chain, const AxisPositions& q) {
   Pose pose = Pose::Identity();
   for (const ChainElement& element : chain) {
-    if (!element.axis) continue;
+    if (!element.axis) {  // shifts by its point; only what a control believes has such an offset
+      pose = pose * translation(element.point);
+      continue;
+    }
     const double position = q[*element.axis];
     if (axes[*element.axis].kind == AxisKind::Linear) {
       pose = pose * translation(element.direction * position);

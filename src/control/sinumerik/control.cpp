@@ -8,6 +8,7 @@
 #include "base/number_text.hpp"
 #include "control/alarm.hpp"
 #include "control/sinumerik/text.hpp"
+#include "control/sinumerik/tool_carrier.hpp"
 #include "control/sinumerik/tool_data.hpp"
 
 namespace probewright::control::sinumerik {
@@ -29,8 +30,11 @@ std::string shown(const DataValue& value) {
 
 }  // namespace
 
-Control::Control(machine::Machine& machine, DataStore store)
-    : panel(journal), channel(machine, journal), data(std::move(store)) {
+Control::Control(machine::Machine& machine, DataStore store, std::optional<machine::MachineDescription> told)
+    : panel(journal),
+      channel(machine, journal),
+      data(std::move(store)),
+      told_(told ? std::move(*told) : machine.description()) {
   channel.alarms = {"10720", "61302", "61302", "22066", "22050", "700000"};
   channel.onToolByHand = [this](const machine::ToolOrder& order, const std::string& detail) {
     panel.stop(askForTool(order, detail), channel.seconds());
@@ -41,7 +45,26 @@ Control::Control(machine::Machine& machine, DataStore store)
   unit = units == 1 || units == 3 ? millimetresPerInch : 1;
   diameter = initialFunction(29) == 2 || initialFunction(29) == 3;
   data.setDefault("$MC_TOOL_CHANGE_MODE", channel.description().axisIndex("Y") ? 1.0 : 0.0);
+  channel.setDescription(told_);
+  if (!data.isSet(carrierDatum(23, 1))) {
+    if (const auto commissioned = carrierOf(told_)) loadCarrier(data, 1, *commissioned);
+  }
   applyFrames();
+}
+
+void Control::useKinematics() {
+  const auto record = transformation ? transformationCarrier(data)
+                      : swivelled    ? toolCarrier(data, carrier)
+                                     : std::nullopt;
+  if (!record) return channel.setDescription(told_);
+  const auto described = withCarrier(told_, *record);
+  if (!described)
+    throw Alarm(
+        transformation ? "4342" : "62181",
+        fmt::format("{}: {}", transformation ? "The data of TRAORI" : fmt::format("Swivel data set {}", carrier),
+                    described.error().message),
+        described.error().advice);
+  channel.setDescription(*described);
 }
 
 int Control::initialFunction(int group) const {

@@ -33,6 +33,12 @@ struct ActiveTool {
   bool isTurning() const { return type >= 500 && type < 600; }
 };
 
+/// What CYCLE996 keeps of a rotary axis between its calls, beside _OVR[40] to _OVR[71].
+struct MeasuredRotaryAxis {
+  std::optional<Vector3> tool;  ///< from the ball of the probe to the tool adapter, mm
+  double otherAngle = 0;        ///< degrees from the basic setting: where the other rotary axis stood
+};
+
 /// The frames in effect, from the outside in. Machine from workpiece = base : settable : swivel : programmed.
 struct ActiveFrames {
   int settable = 0;  ///< n of $P_UIFR[n]: 1 = G54; 0 = G500
@@ -47,7 +53,9 @@ struct ActiveFrames {
 
 class Control {
 public:
-  Control(machine::Machine& machine, DataStore data);
+  /// `told`: the machine as it was commissioned on the control; nothing: as it says of itself. Swivel data set 1
+  /// describes it, where `data` have no other.
+  Control(machine::Machine& machine, DataStore data, std::optional<machine::MachineDescription> told = std::nullopt);
   Control(const Control&) = delete;
   Control& operator=(const Control&) = delete;
 
@@ -69,8 +77,11 @@ public:
   bool dryRun = false, programTest = false, blockSearch = false;
   std::string programPath;
   std::int64_t wallClockStart = 0;
-  std::array<double, 500> ovr{};  ///< _OVR
-  std::array<int, 20> ovi{};      ///< _OVI
+  std::array<double, 500> ovr{};  ///< _OVR; the cycles clear all but those that CYCLE996 keeps
+  static constexpr std::size_t firstKept = 32, afterKept = 72;
+  std::array<int, 20> ovi{};  ///< _OVI
+  std::array<MeasuredRotaryAxis, 2> measuredAxes;
+  int carrier = 0;  ///< the swivel data set that CYCLE800 works with; 0: none so far
 
   control::WorkingPlane workingPlane() const { return control::WorkingPlane::ofG(plane); }
 
@@ -106,6 +117,12 @@ public:
   /// Machine coordinates from the coordinates inside which settable frame is entered.
   Eigen::Affine3d machineFromBase() const;
 
+  /// The machine as the control was told when it was set up, whatever its data say since.
+  const machine::MachineDescription& told() const { return told_; }
+  /// Lets coordinates follow the kinematics that counts: TRAORI that of its machine data, CYCLE800 that of its data
+  /// set. To be called when one of them begins or ends. Throws Alarm 4342 or 62181 if the machine is not as they say.
+  void useKinematics();
+
   /// Sets a datum of the store and records the change.
   void write(const DataKey& key, double value);
 
@@ -115,7 +132,8 @@ private:
   /// The edge in effect, in the active plane, with what TOFFL and TOFFR add.
   void applyTool();
 
-  ToolEdge edge_;  ///< as it was read
+  ToolEdge edge_;                     ///< as it was read
+  machine::MachineDescription told_;  ///< the machine as the control was told, without what its data say since
 };
 
 }  // namespace probewright::control::sinumerik

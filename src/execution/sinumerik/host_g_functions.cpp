@@ -241,6 +241,7 @@ void SinumerikHost::carryOutNamedFunction(std::string_view name) {
   if (name == "TRAORI" || name == "TRAFOOF") {
     motion_.flush();
     control_.transformation = name == "TRAORI";
+    control_.useKinematics();
     control_.handOverFrames();
     return;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "control/alarm.hpp"
+#include "control/sinumerik/tool_carrier.hpp"
 #include "execution/motion/tilted_plane.hpp"
 #include "machine/rotary_solver.hpp"
 
@@ -38,6 +39,16 @@ std::optional<double> intoTravel(const machine::Axis& axis, double degrees) {
   if (angle < axis.minimum - 1e-9) angle += 360;
   if (angle > axis.maximum + 1e-9 || angle < axis.minimum - 1e-9) return std::nullopt;
   return angle;
+}
+
+/// The data set that the call names, or else the one that was used last, or the first, counts from here on. Where the
+/// machine builder has given it another name than the program, that is the only one.
+void useDataSet(Control& control, const std::string& name) {
+  const auto named = name.empty() ? std::nullopt : control::sinumerik::carrierNamed(control.data, name);
+  if (named) control.carrier = *named;
+  if (control.carrier == 0 && control::sinumerik::toolCarrier(control.data, 1)) control.carrier = 1;
+  control.swivelled = true;
+  control.useKinematics();
 }
 
 void retract(Control& control, const SwivelCall& call) {
@@ -118,6 +129,7 @@ std::vector<AxisPositions> toolPostures(const machine::MachineDescription& machi
 void deselectSwivel(Control& control) {
   control.frames.toolOriented = {};
   control.swivelled = false;
+  control.useKinematics();
   control.handOverFrames();
 }
 
@@ -135,10 +147,10 @@ void swivel(Control& control, const SwivelCall& call) {
   retract(control, call);
 
   const bool additive = call.state % 10 == 1;
+  useDataSet(control, call.dataSet);
   const Frame before = additive ? control.frames.toolOriented : Frame{};
   AxisPositions target = channel.axes();
   Matrix3 turn = Matrix3::Identity();
-  control.swivelled = true;
   if (rotation) {
     turn = *rotation;
   } else {

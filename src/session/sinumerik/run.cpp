@@ -168,8 +168,7 @@ void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& 
   refuseForeign(outcome.diagnostics, dataNames, options);
   if (hasErrors(outcome.diagnostics)) return;
   StandingMachine machine(trueMachine);
-  sin::Control control(machine, data.store);
-  control.channel.setDescription(control::believedMachine(machine.description(), beliefs.kinematics));
+  sin::Control control(machine, data.store, control::believedMachine(trueMachine.description(), beliefs.kinematics));
   setPanel(control.panel, request, dataNames);
   control.journal.limit = options.recordLimit;
   control.programPath = request.path.string();
