@@ -185,6 +185,10 @@ Seen distortedTriangle() {
   return seen;
 }
 
+Seen kinematicsWithoutMeasurements() {
+  return Provoker(perfectWorld("mill5-head-table")).seen("CYCLE996", {{"S_MVAR", 0}, {"S_TC", 1}}, {0, 0, 0});
+}
+
 const Row rows[] = {
     {61037, "measuring variant", rearSideOnACarrier},
     {61300, "tool radius compensation", [] { return edge({}, "G41\n"); }},
@@ -300,6 +304,7 @@ const Row rows[] = {
     {61351, "length or radius", ballWithoutRadius},
     {61372, "spindle that can be positioned", spindleWithoutPosition},
     {61414, "distorted", distortedTriangle},
+    {61430, "kinematics", kinematicsWithoutMeasurements},
 };
 
 TEST(Alarms, EachOfTheListComesWithNumberTextAndAdvice) {

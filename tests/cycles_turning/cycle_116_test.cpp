@@ -14,6 +14,9 @@ void compute(LatheBench& bench, const std::vector<Vector2>& points, double count
   }
   bench.run("DEF INT _MODE\nDEF REAL _CAL[13]=(" + values + ",0,0,0,0)\nCYCLE116(_CAL[ ], _MODE)\n" +
             "R1=_CAL[9] R2=_CAL[10] R3=_CAL[11] R4=_CAL[12] R5=_MODE");
+  if (testing::Test::HasFailure()) return;
+  for (const char* done : {"parsed", "runs", "results"})
+    coverage::note(control::ControlKind::Sinumerik840Dsl, "CYCLE116", done);
 }
 
 double r(const LatheBench& bench, int number) { return bench.data("R", {number}); }
@@ -21,6 +24,21 @@ double r(const LatheBench& bench, int number) { return bench.data("R", {number})
 TEST(Cycle116, ComputesTheManualsExample) {
   LatheBench bench(latheSetup({}));
   compute(bench, {{0, 10}, {-10, 0}, {0, -10}}, 3);
+  EXPECT_NEAR(r(bench, 1), 0, 1e-9);
+  EXPECT_NEAR(r(bench, 2), 0, 1e-9);
+  EXPECT_NEAR(r(bench, 3), 10, 1e-9);
+  EXPECT_EQ(r(bench, 4), 0);
+  EXPECT_EQ(r(bench, 5), 0);
+}
+
+/// The statements of the example as they are printed, its comments in place.
+TEST(Cycle116, RunsTheManualsProgram) {
+  LatheBench bench(latheSetup({}));
+  bench.run(
+      "DEF INT _MODE\n"
+      "DEF REAL _CAL[13]= (3,0,10,-10,0,0,-10,0,0,0,0,0,0) ;three points\n"
+      "CYCLE116(_CAL[ ], _MODE) ;_CAL[9]=0 _CAL[10]=0 _CAL[11]=10 _CAL[12]=0 _ALM=0\n"
+      "R1=_CAL[9] R2=_CAL[10] R3=_CAL[11] R4=_CAL[12] R5=_MODE\nM0\nSTOPRE\nM30");
   EXPECT_NEAR(r(bench, 1), 0, 1e-9);
   EXPECT_NEAR(r(bench, 2), 0, 1e-9);
   EXPECT_NEAR(r(bench, 3), 10, 1e-9);

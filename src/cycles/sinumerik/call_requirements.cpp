@@ -96,7 +96,9 @@ std::optional<CallComplaint> requirementComplaint(const CycleDefinition& cycle, 
   }
   const Entry* entry = findEntry(cycle.name);
   const auto own = entry == nullptr ? std::span<const Requirement>() : entry->requirements;
-  for (const std::span<const Requirement> list : {std::span<const Requirement>(requirements), own}) {
+  const bool computes = entry != nullptr && entry->computes != nullptr && variant && entry->computes(*variant);
+  const auto common = computes ? std::span<const Requirement>() : std::span<const Requirement>(requirements);
+  for (const std::span<const Requirement> list : {common, own}) {
     for (const Requirement& each : list) {
       if (each.parameter != parameter.name) continue;
       // S_KNUM of a tool that is measured says where its correction goes, not what is corrected.

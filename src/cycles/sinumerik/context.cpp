@@ -108,7 +108,8 @@ bool Context::habit(int bit) const {
 }
 
 void Context::clearResults() {
-  control_.ovr.fill(0);
+  std::fill_n(control_.ovr.begin(), Control::firstKept, 0.0);
+  std::fill(control_.ovr.begin() + Control::afterKept, control_.ovr.end(), 0.0);
   control_.ovi.fill(0);
   correctedTool({});
   record().results.clear();
@@ -329,7 +330,7 @@ void followRotation(Context& context) {
 /// Refuses before anything moves what no variant can do with: no measuring path (61308), and digits that no list of the
 /// manual has, where only the run knows them (S_MVAR = R1): 61307 in S_MVAR, 61319 in S_NMSP, _DMODE and _AMODE. What
 /// selects axes, data sets and targets is asked for where it is used.
-void requireArguments(Context& context) {
+void requireArguments(Context& context, bool computes) {
   const auto& parameters = context.arguments().definition().parameters;
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const std::string_view name = parameters[i].name;
@@ -341,7 +342,7 @@ void requireArguments(Context& context) {
     if (!complaint.empty())
       context.alarm(variant ? 61307 : 61319, complaint + std::string(versionNote(parameters[i], argument.number)));
   }
-  if (context.has("S_FA") && !(context.real("S_FA") > 0)) context.alarm(61308);
+  if (!computes && context.has("S_FA") && !(context.real("S_FA") > 0)) context.alarm(61308);
 }
 
 /// An alarm of a move within a cycle, by the name that the cycles give it.
@@ -376,8 +377,9 @@ void runCycle(Control& control, const Entry& entry, const Arguments& arguments, 
     outputResults(control, context.record(), control.ovi[9]);
   };
   try {
-    requireArguments(context);
-    followRotation(context);
+    const bool computes = entry.computes != nullptr && entry.computes(context.integer("S_MVAR"));
+    requireArguments(context, computes);
+    if (!computes) followRotation(context);
     for (bool done = false; !done;) {
       try {
         entry.run(context, arguments);

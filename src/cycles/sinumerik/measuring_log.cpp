@@ -192,7 +192,7 @@ std::vector<MeasuredRow> measuredRows(const CycleRecord& record) {
   // Only single cutting edges have elements from 100 on.
   const bool edges =
       std::ranges::any_of(record.results, [](const ResultRecord& each) { return each.kind.of.item > 0; });
-  const int count = edges ? 500 : 32;
+  const int count = edges ? 500 : static_cast<int>(Control::afterKept);
   std::vector<MeasuredRow> rows;
   for (int i = 0; i < count; ++i) {
     const ResultRecord* result = ovr(record, i);

@@ -51,6 +51,8 @@ struct Entry {
   int (*oldForm)(OldCall& call) = nullptr;
   /// Alarms that only this cycle raises; those of several cycles are in alarms.cpp.
   std::span<const AlarmText> alarms = {};
+  /// The variants of S_MVAR that only compute: they touch nothing and need no measuring path; null: there are none.
+  bool (*computes)(int variant) = nullptr;
   void (*run)(Context& context, const Arguments& arguments) = nullptr;
   /// A call that changes settings of the control and measures nothing has this instead of `run`.
   void (*set)(control::sinumerik::Control& control, const Arguments& arguments) = nullptr;
