@@ -277,6 +277,99 @@ TEST(MeasureMilledTool, InWorkpieceCoordinates) {
   EXPECT_NEAR(left.written("$TC_DP6[2,1]"), 6.1, 1e-5);
 }
 
+/// A system that is turned about the tool's axis: its sides are where its axes meet the contact.
+TEST(MeasureMilledTool, InATurnedWorkpieceSystem) {
+  Planter plant(9724);
+  for (int world = 0; world < 3; ++world) {
+    SCOPED_TRACE(world);
+    const double angle = plant.number(-170, 170), size = plant.number(10, 20);
+    ToolBench bench;
+    bench.disc(size);
+    bench.zeroOffset({60, -20, -440});
+    bench.setup.beliefs.zeroOffsets.back().rotation = {0, 0, angle};
+    Pose machineFromWorkpiece =
+        translation({60, -20, -440}) * rotation(Vector3::UnitZ(), angle * std::numbers::pi / 180);
+    const Vector3 at = machineFromWorkpiece.inverse() * bench.contact;
+    const auto near = [&](const char* name, double value) {
+      bench.datum(fmt::format("$SNS_MEA_TPW_TRIG_{}[0]", name), value + plant.number(-0.3, 0.3));
+    };
+    near("MINUS_DIR_AX1", at.x() + size / 2);
+    near("PLUS_DIR_AX1", at.x() - size / 2);
+    near("MINUS_DIR_AX2", at.y() + size / 2);
+    near("PLUS_DIR_AX2", at.y() - size / 2);
+    near("MINUS_DIR_AX3", at.z());
+    bench.datum("$SNS_MEA_TPW_EDGE_DISK_SIZE[0]", size);
+    bench.add(9, 80, 5);
+    bench.add(2, 95.3, 7.1);
+    bench.believed(2).length = 95;
+    bench.believed(2).radius = 7;
+    const auto place = [&](double x, double z) {
+      return fmt::format("G0 X{:.6f} Y{:.6f}\nG0 Z{:.6f}\n", at.x() + x, at.y(), at.z() + z);
+    };
+    const ToolRun left = bench.program(
+        "G17 G90 G71 G54\nT9 D1 M6\n" + place(0, 25) + ToolBench::call(with(usual, {{"S_MVAR", 100010}})) +
+        "SUPA G0 Z0 D0\nT2 D1 M6\n" + place(-40, 25) + ToolBench::call(with(usual, {{"S_MVAR", 11}, {"S_MA", 3}})) +
+        place(-40, 25) + ToolBench::call(with(usual, {{"S_MVAR", 11}, {"S_MA", 1}})) + "M30\n");
+    ASSERT_EQ(left.code(), "");
+    EXPECT_NEAR(left.written("$SNS_MEA_TPW_TRIG_PLUS_DIR_AX1[0]"), at.x() - size / 2, 1e-5);
+    EXPECT_NEAR(left.written("$TC_DP3[2,1]"), 95.3, 1e-5);
+    EXPECT_NEAR(left.written("$TC_DP6[2,1]"), 7.1, 1e-5);
+  }
+}
+
+TEST(MeasureMilledTool, ATiltedSystemIsRefused) {
+  ToolBench bench;
+  bench.disc(20);
+  bench.add(2, 95, 6);
+  const std::string call = ToolBench::call(with(usual, {{"S_MVAR", 11}, {"S_MA", 3}}));
+  EXPECT_EQ(bench.run(2, above, "ROT X10\n" + call).code(), "61330");
+  EXPECT_EQ(bench.run(2, above, call).code(), "");
+  // Machine coordinates have no frame.
+  EXPECT_EQ(bench.run(2, above, "ROT X10\n" + ToolBench::call(with(usual, {{"S_MVAR", 1}, {"S_MA", 3}}))).code(), "");
+}
+
+/// A signal that comes late is the same when calibrating and measuring, as long as the feed is.
+TEST(MeasureMilledTool, OneFeedTakesOutTheDelayOfTheSignal) {
+  ToolBench bench;
+  bench.cuboid(20, 20);
+  bench.probe().signalDelay = 0.002;
+  bench.add(9, 80, 5);
+  bench.add(2, 95.1, 6);
+  bench.believed(2).length = 95;
+  const auto measured = [&](double feed) {
+    const ToolRun left = bench.run(9, above,
+                                   ToolBench::call(with(usual, {{"S_MA", 3}, {"S_VMS", 300}})) +
+                                       fmt::format("G0 Z{:.6f}\n", bench.contact.z() + 40) + "T2 D1 M6\n" +
+                                       fmt::format("G0 X{:.6f} Y{:.6f}\nG0 Z{:.6f}\n", bench.contact.x(),
+                                                   bench.contact.y(), bench.contact.z() + 25) +
+                                       ToolBench::call(with(usual, {{"S_MVAR", 1}, {"S_MA", 3}, {"S_VMS", feed}})));
+    EXPECT_EQ(left.code(), "");
+    return left.written("$TC_DP3[2,1]");
+  };
+  EXPECT_NEAR(measured(0), 95.1, 1e-5) << "that of the calibration";
+  EXPECT_NEAR(measured(600), 95.1 - 300.0 / 60 * 0.002, 1e-5);
+}
+
+/// An axis that travels further than it reads is wrong by the difference of the lengths.
+TEST(MeasureMilledTool, AnErrorOfTheScaleCountsOverTheDifferenceToThePin) {
+  ToolBench bench;
+  bench.cuboid(20, 20);
+  bench.setup.world.truth.errors.axes.resize(3);
+  bench.setup.world.truth.errors.axes[2].scale = 1e-4;
+  bench.add(9, 60, 5);
+  bench.add(2, 110, 6);
+  // Where the scale makes the contact appear, it is found by calibrating.
+  const ToolRun left = bench.run(9, above,
+                                 ToolBench::call(with(usual, {{"S_MA", 3}})) +
+                                     fmt::format("G0 Z{:.6f}\n", bench.contact.z() + 60) + "T2 D1 M6\n" +
+                                     fmt::format("G0 X{:.6f} Y{:.6f}\nG0 Z{:.6f}\n", bench.contact.x(),
+                                                 bench.contact.y(), bench.contact.z() + 25) +
+                                     ToolBench::call(with(usual, {{"S_MVAR", 1}, {"S_MA", 3}})));
+  ASSERT_EQ(left.code(), "");
+  // The axis reads the way of 50 mm, by which the spindle stands higher, too small by 50 * 1e-4 / (1 + 1e-4).
+  EXPECT_NEAR(left.written("$TC_DP3[2,1]"), 110 - 50 * 1e-4 / (1 + 1e-4), 2e-6);
+}
+
 TEST(MeasureMilledTool, SpeedsAndFeedsByTheFormula) {
   control::sinumerik::DataStore data;
   control::sinumerik::setMeasuringDefaults(data);
@@ -418,6 +511,11 @@ TEST(MeasureMilledTool, CheckNamesWhatDoesNotFitTogether) {
   names({{"S_MVAR", 1}, {"S_MA", 3}, {"S_MD", 1}}, "from above");
   names({{"S_MVAR", 1}, {"S_MA", 5}}, "S_MA");
   names({{"S_MVAR", 1}, {"S_MA", 1}, {"S_EVNUM", 21}}, "S_EVNUM");
+  // What does nothing is named, and the call runs.
+  const ToolRun idle = bench.run(2, beside, ToolBench::call(with(usual, {{"S_MVAR", 1}, {"S_MA", 1}, {"S_F1", 20}})));
+  EXPECT_EQ(idle.code(), "");
+  EXPECT_TRUE(bench.measure(beside, with(usual, {{"S_MVAR", 2}, {"S_MA", 1}, {"S_F1", 20}, {"S_S1", 900}}))
+                  .told("bit 5 of SD 54762"));
 }
 
 TEST(MeasureMilledTool, TheOldFormTakesItsVariables) {

@@ -174,6 +174,24 @@ const char* contradiction(int task, bool edges, bool complete, bool reverses) {
   return nullptr;
 }
 
+/// Arguments that the variant does nothing with.
+void warnOfUnused(CallCombinations& call, bool above) {
+  const auto unused = [&](std::string_view parameter, const char* why) {
+    const auto value = call.number(parameter);
+    if (value && *value != 0) call.warn(parameter, std::string(parameter) + why);
+  };
+  const int task = call.digit(1);
+  if (task == 0) {
+    if (!above) unused("S_ID", " acts on a calibration of the 3rd axis only");
+    for (const char* name : {"S_KNUM", "S_TZL", "S_TDIF", "S_EVNUM"})
+      unused(name, " does nothing when the tool touch probe is calibrated");
+  }
+  if (task == 0 && call.digit(6) == 1) unused("S_MA", " does nothing with a complete calibration");
+  if (task == 2 && call.digit(3) == 0) unused("S_VMS", " is the feed of a tool that stands");
+  for (const char* name : {"S_F1", "S_S1", "S_F2", "S_S2", "S_F3", "S_S3"})
+    if (task != 2) unused(name, " is of a tool that turns");
+}
+
 void combinations(CallCombinations& call) {
   if (const char* why = contradiction(call.digit(1), call.digit(3) == 1, call.digit(6) == 1, call.digit(7) == 1))
     call.refuse("S_MVAR", std::string("S_MVAR does not fit together: ") + why);
@@ -183,9 +201,7 @@ void combinations(CallCombinations& call) {
     call.refuse("S_MA", "the offset axis cannot be the measuring axis");
   if (above && way && *way == 1) call.refuse("S_MD", "the 3rd axis is touched from above: minus, 2, or 0");
   if (above && call.digit(7) == 1) call.refuse("S_MVAR", "the spindle is reversed for the axes of the plane only");
-  const auto offset = call.number("S_ID");
-  if (call.digit(1) == 0 && offset && *offset != 0 && !above)
-    call.warn("S_ID", "S_ID acts on a calibration of the 3rd axis only");
+  warnOfUnused(call, above);
 }
 
 int oldForm(OldCall& call) {
@@ -216,6 +232,14 @@ constexpr CycleDefinition definition = {
     .controls = control::onSinumerik,
 };
 
+/// The tool is to be parallel to the 3rd axis of the plane, in which it touches from above.
+void requireUprightTool(Context& context) {
+  const control::Channel& channel = context.channel();
+  if (channel.toolVector.isZero(1e-9)) return;
+  const Vector3 axis = context.control().workingPlane().planeFromXyz(channel.toolAxis());
+  if (axis.z() < 1 - 1e-9) context.alarm(61330, "the tool is not parallel to the 3rd axis of the plane");
+}
+
 void run(Context& context, const Arguments&) {
   context.requireReady(Context::Mirrored::Refused);
   const auto digit = [&](int place) { return context.digit("S_MVAR", place); };
@@ -223,7 +247,9 @@ void run(Context& context, const Arguments&) {
   toolProbeIndex(context);
   context.noteCall();
   std::optional<MachineCoordinates> machine;
-  if (systemOf(context) == ProbeSystem::Machine) machine.emplace(context.control());
+  if (systemOf(context) == ProbeSystem::Machine)
+    machine.emplace(context.control(), MachineCoordinates::Transformation::Off);
+  requireUprightTool(context);
   digit(1) == 0 ? calibrateToolProbe(context) : measureMilledTool(context);
 }
 

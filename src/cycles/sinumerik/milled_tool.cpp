@@ -247,6 +247,11 @@ int edgesOf(Context& context) {
 std::vector<TurningTouch> touchesOf(Context& context, double radius) {
   const Control& control = context.control();
   if (!maskBit(control.data, "$SNS_MEA_FUNCTION_MASK_TOOL", 5)) {
+    if (context.real("S_F1") > 0 || context.real("S_S1") > 0) {
+      context.control().panel.message(control::EventKind::Warning,
+                                      "CYCLE971: S_F1, S_S1 and so on do nothing while bit 5 of SD 54762 is not set",
+                                      context.channel().seconds());
+    }
     auto touches = turningTouches(control.data, radius);
     if (touches.empty()) context.alarm(61350, "SD 54670 to SD 54677 leave no speed or no feed");
     return touches;
