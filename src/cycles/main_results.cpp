@@ -27,8 +27,14 @@ std::vector<bool> mainResults(const CycleRecord& cycle) {
   std::vector<bool> isMain(cycle.results.size(), false);
   const CycleDefinition* definition = definitionOf(cycle.name);
   const auto rankOf = [&](const ResultRecord& result) {
-    const auto listed = std::ranges::find(definition->results, result.name, &ResultDefinition::name);
-    if (listed != definition->results.end()) return listed->kind.rank;
+    const auto& results = definition->results;
+    auto listed = std::ranges::find(results, result.name, &ResultDefinition::name);
+    // An index can mean different things in different variants.
+    const auto meant = std::ranges::find_if(results, [&](const ResultDefinition& each) {
+      return each.name == result.name && each.kind.role == result.kind.role && each.kind.of == result.kind.of;
+    });
+    if (meant != results.end()) listed = meant;
+    if (listed != results.end()) return listed->kind.rank;
     return result.name.starts_with("_OV") ? Rank::Aside : Rank::Main;
   };
   if (definition == nullptr) {

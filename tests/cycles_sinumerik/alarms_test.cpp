@@ -6,7 +6,7 @@
 #include "support/lathe_bench.hpp"
 #include "support/sinumerik_bench.hpp"
 
-/// Every alarm and message of the workpiece cycles, provoked once: its number, its text, what to do, and _OVI[9].
+/// Every alarm and message of the cycles, provoked once: its number, its text, what to do, and _OVI[9].
 namespace probewright {
 namespace {
 
@@ -132,6 +132,14 @@ Seen rearSideOnACarrier() {
   bench.set("$TC_DP1", {1, 1}, 120);
   bench.set("$MNS_MEA_FUNCTION_MASK", {}, (1 << 16) + 11);
   return seenBy(bench, bench.tryRun("G0 B90\nCYCLE982(13002,0,1,,,,5,1)"));
+}
+
+Seen turningWithoutSpeed() {
+  Provoker bench;
+  bench.set("$TC_DP1", {1, 1}, 120);
+  bench.set("$SNS_MEA_CM_MEASURING_ACCURACY", {0}, 0);
+  bench.set("$SNS_MEA_CM_MIN_FEEDRATE", {0}, 0);
+  return bench.seen("CYCLE971", {{"S_MVAR", 2}, {"S_MA", 1}, {"S_FA", 5}, {"S_TSA", 3}}, {-30, 30, -10});
 }
 
 Seen ballWithoutRadius() {
@@ -301,6 +309,7 @@ const Row rows[] = {
      [] {
        return edge({{"S_MVAR", 200}, {"S_KNUM1", 1}}, {}, "NONE");
      }},
+    {61350, "speed of the turning spindle", turningWithoutSpeed},
     {61351, "length or radius", ballWithoutRadius},
     {61372, "spindle that can be positioned", spindleWithoutPosition},
     {61414, "distorted", distortedTriangle},

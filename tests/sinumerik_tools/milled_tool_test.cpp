@@ -18,7 +18,7 @@ constexpr double accuracy = 0.005;
 /// A mill whose teeth run out, in the magazine as tool 2; the control believes that it is a little different.
 simulation::TrueTool& plantMill(ToolBench& bench, Planter& plant, double radius, int teeth) {
   simulation::TrueTool& mill = bench.add(2, plant.number(60, 110), radius, teeth);
-  mill.cutter.helix = plant.coin() ? 0 : plant.number(-30, 30);
+  mill.cutter.helix = coin(plant) ? 0 : plant.number(-30, 30);
   const double first = plant.number(-180, 180);
   for (int i = 0; i < teeth; ++i) {
     simulation::TrueTooth& tooth = mill.cutter.teeth[static_cast<std::size_t>(i)];
@@ -44,12 +44,12 @@ TEST(MeasureMilledTool, TurningItsLongestAndWidestToothCount) {
     SCOPED_TRACE(world);
     ToolBench bench;
     world % 2 == 0 ? bench.disc(plant.number(10, 30)) : bench.cuboid(20, 30);
-    bench.probe().pretravel = plant.coin() ? 0.004 : 0;
+    bench.probe().pretravel = coin(plant) ? 0.004 : 0;
     bench.setup.beliefs.toolProbes = setup::believedToolProbes(bench.setup.world);
-    const simulation::TrueTool& mill = plantMill(bench, plant, plant.number(4, 16), plant.whole(2, 5));
+    const simulation::TrueTool& mill = plantMill(bench, plant, plant.number(4, 16), whole(plant, 2, 5));
     const double length = mill.length + largest(mill, &simulation::TrueTooth::axial);
     const double radius = mill.radius + largest(mill, &simulation::TrueTooth::radial);
-    const bool alongX = plant.coin();
+    const bool alongX = coin(plant);
 
     const ToolRun long_ = bench.measure(beside, with(usual, {{"S_MVAR", 2}, {"S_MA", 3}}));
     EXPECT_LE(long_.ovr(8), length + 1e-6);
@@ -81,7 +81,7 @@ TEST(MeasureMilledTool, StandingTheToothThatStandsThereCounts) {
       mill.cutter.teeth[static_cast<std::size_t>(i)].angle = 90.0 * i;
     bench.believed(2).radius = mill.radius;
     // The tool comes from the minus side of X: its tooth at +X touches.
-    const int quarter = plant.whole(0, 3);
+    const int quarter = whole(plant, 0, 3);
     const auto& tooth = mill.cutter.teeth[static_cast<std::size_t>((4 - quarter) % 4)];
     const std::string spos = fmt::format("SPOS={}\n", 90 * quarter);
     const ToolRun left =
@@ -101,10 +101,10 @@ TEST(MeasureMilledTool, EachEdgeInItsOrder) {
     ToolBench bench;
     // The contact is small enough to feel one edge alone.
     world % 2 == 0 ? bench.disc(8) : bench.cuboid(8, 10);
-    const int teeth = plant.whole(2, 5);
+    const int teeth = whole(plant, 2, 5);
     simulation::TrueTool& mill = plantMill(bench, plant, plant.number(9, 16), teeth);
     // One edge stands out clearly, so that it is the first to touch.
-    const int widest = plant.whole(0, teeth - 1);
+    const int widest = whole(plant, 0, teeth - 1);
     mill.cutter.teeth[static_cast<std::size_t>(widest)].radial = 0.05;
     for (const bool length : {true, false}) {
       const ToolRun left =
@@ -287,8 +287,7 @@ TEST(MeasureMilledTool, InATurnedWorkpieceSystem) {
     bench.disc(size);
     bench.zeroOffset({60, -20, -440});
     bench.setup.beliefs.zeroOffsets.back().rotation = {0, 0, angle};
-    Pose machineFromWorkpiece =
-        translation({60, -20, -440}) * rotation(Vector3::UnitZ(), angle * std::numbers::pi / 180);
+    Pose machineFromWorkpiece = translation({60, -20, -440}) * rotation(Vector3::UnitZ(), angle);
     const Vector3 at = machineFromWorkpiece.inverse() * bench.contact;
     const auto near = [&](const char* name, double value) {
       bench.datum(fmt::format("$SNS_MEA_TPW_TRIG_{}[0]", name), value + plant.number(-0.3, 0.3));

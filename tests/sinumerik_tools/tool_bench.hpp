@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,31 +13,17 @@
 #include "setup/calibrated_beliefs.hpp"
 #include "setup/simulated_run.hpp"
 #include "support/coverage.hpp"
+#include "support/sinumerik_bench.hpp"
 #include "support/virtual_world.hpp"
 
 /// A mill with a tool touch probe on its table and a SINUMERIK control: tool 2 "MILL" is measured, tool 9 "PIN" has a
 /// known size. Programs go through the front door.
 namespace probewright::testing_support {
 
-using NamedNumbers = std::vector<std::pair<std::string, double>>;
-
-inline NamedNumbers with(NamedNumbers first, const NamedNumbers& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
+inline int whole(Planter& plant, int least, int greatest) {
+  return std::min(greatest, least + static_cast<int>(plant.number(0, greatest - least + 1)));
 }
-
-class Planter {
-public:
-  explicit Planter(std::uint64_t seed) : stream_(seed) {}
-  double number(double least, double greatest) {
-    return std::uniform_real_distribution<double>(least, greatest)(stream_);
-  }
-  int whole(int least, int greatest) { return std::uniform_int_distribution<int>(least, greatest)(stream_); }
-  bool coin() { return whole(0, 1) == 1; }
-
-private:
-  std::mt19937_64 stream_;
-};
+inline bool coin(Planter& plant) { return plant.number(0, 1) < 0.5; }
 
 /// What a run has left.
 struct ToolRun {

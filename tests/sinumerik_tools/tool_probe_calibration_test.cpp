@@ -26,7 +26,7 @@ TEST(CalibrateToolProbe, CompletelyFindsEachTriggerPoint) {
     SCOPED_TRACE(world);
     ToolBench bench;
     world % 3 == 0 ? bench.cuboid(plant.number(15, 40), plant.number(15, 40)) : bench.disc(plant.number(8, 40));
-    bench.probe().pretravel = plant.coin() ? plant.number(0, 0.01) : 0;
+    bench.probe().pretravel = coin(plant) ? plant.number(0, 0.01) : 0;
     bench.misplace({plant.number(-0.8, 0.8), plant.number(-0.8, 0.8), plant.number(-0.8, 0.8)});
     bench.add(9, plant.number(60, 110), plant.number(3, 12));
     const ToolRun left = bench.measure(above, with(usual, {{"S_MVAR", 100000}, {"S_NMSP", world == 0 ? 2 : 1}}), 9);

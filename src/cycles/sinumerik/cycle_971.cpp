@@ -77,6 +77,7 @@ constexpr of::Characteristic trigger(const of::Characteristic& axis, std::uint8_
 }
 constexpr std::uint8_t minus = 1, plus = 2;
 
+/// Of single edges the item is the edge.
 constexpr ResultDefinition results971[] = {
     {"_OVR[8]",
      {"actual value, ", "trigger point minus, 1st axis"},
@@ -136,18 +137,18 @@ constexpr ResultDefinition results971[] = {
      result::actual(of::radius).main(),
      measuring},
     {"_OVR[11]", {"difference, ", "radius, of single edges the largest"}, result::difference(of::radius), measuring},
-    {"_OVR[12]", "actual value, length of the shortest edge", result::statistic(of::length1), measuring},
-    {"_OVR[13]", "difference, length of the shortest edge", result::statistic(of::distance1), measuring},
-    {"_OVR[14]", "actual value, radius of the smallest edge", result::statistic(of::radius), measuring},
-    {"_OVR[15]", "difference, radius of the smallest edge", result::statistic(of::distance), measuring},
+    {"_OVR[12]", "length of the shortest edge", result::statistic(of::length1), measuring},
+    {"_OVR[13]", "deviation of the length of the shortest edge", result::statistic(of::distance1), measuring},
+    {"_OVR[14]", "radius of the smallest edge", result::statistic(of::radius), measuring},
+    {"_OVR[15]", "deviation of the radius of the smallest edge", result::statistic(of::distance), measuring},
     {"_OVR[27]", "zero offset range", result::setting(of::distance)},
     {"_OVR[28]", "safe area", result::setting(of::distance)},
     {"_OVR[29]", "dimensional difference", result::setting(of::distance), measuring},
     {"_OVR[30]", "empirical value", result::statistic(of::distance), measuring},
-    {"_OVR[100..199]", {"actual value, ", "radius"}, result::actual(of::radius), measuring},
-    {"_OVR[200..299]", {"difference, ", "radius"}, result::difference(of::radius), measuring},
-    {"_OVR[300..399]", {"actual value, ", "length 1"}, result::actual(of::length1), measuring},
-    {"_OVR[400..499]", {"difference, ", "length 1"}, result::difference(of::length1), measuring},
+    {"_OVR[100..199]", {"actual value, ", "radius"}, result::actual(of::radius.number(1)), measuring},
+    {"_OVR[200..299]", {"difference, ", "radius"}, result::difference(of::radius.number(1)), measuring},
+    {"_OVR[300..399]", {"actual value, ", "length 1"}, result::actual(of::length1.number(1)), measuring},
+    {"_OVR[400..499]", {"difference, ", "length 1"}, result::difference(of::length1.number(1)), measuring},
     {"_OVI[0]", "number of the edge (D)", result::setting(), measuring},
     {"_OVI[2]", "number of the cycle", result::status},
     {"_OVI[3]", "measuring variant", result::setting()},
