@@ -233,14 +233,6 @@ constexpr CycleDefinition definition = {
     .controls = control::onSinumerik,
 };
 
-/// The tool is to be parallel to the 3rd axis of the plane, in which it touches from above.
-void requireUprightTool(Context& context) {
-  const control::Channel& channel = context.channel();
-  if (channel.toolVector.isZero(1e-9)) return;
-  const Vector3 axis = context.control().workingPlane().planeFromXyz(channel.toolAxis());
-  if (axis.z() < 1 - 1e-9) context.alarm(61330, "the tool is not parallel to the 3rd axis of the plane");
-}
-
 void run(Context& context, const Arguments&) {
   context.requireReady(Context::Mirrored::Refused);
   const auto digit = [&](int place) { return context.digit("S_MVAR", place); };
@@ -250,7 +242,6 @@ void run(Context& context, const Arguments&) {
   std::optional<MachineCoordinates> machine;
   if (systemOf(context) == ProbeSystem::Machine)
     machine.emplace(context.control(), MachineCoordinates::Transformation::Off);
-  requireUprightTool(context);
   digit(1) == 0 ? calibrateToolProbe(context) : measureMilledTool(context);
 }
 

@@ -291,6 +291,7 @@ Request requestOf(Context& context, const ToolProbeField& field) {
   request.axis = axis - 1;
   request.offsetAxis = offset == 2 ? 1 : 0;
   requireMilledTool(context, request.dimension);
+  requireUprightTool(context);
   if (length && context.integer("S_MD") == 1) context.alarm(61326, "the length is measured from above");
   request.sign = length ? sideOfTool(context, request.offsetAxis, field) : signOfTouch(context, request.axis, field);
   const bool turns = context.digit("S_MVAR", 1) == 2, edges = context.digit("S_MVAR", 3) == 1;

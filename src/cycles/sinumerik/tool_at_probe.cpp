@@ -2,6 +2,13 @@
 
 namespace probewright::cycles::sinumerik {
 
+void requireUprightTool(Context& context) {
+  const control::Channel& channel = context.channel();
+  if (channel.toolVector.isZero(1e-9)) return;
+  const Vector3 axis = context.control().workingPlane().planeFromXyz(channel.toolAxis());
+  if (axis.z() < 1 - 1e-9) context.alarm(61330, "the tool is not parallel to the 3rd axis of the plane");
+}
+
 double signOfTouch(Context& context, int axis, const ToolProbeField& field) {
   const int way = context.integer("S_MD");
   if (way < 0 || way > 2) context.alarm(61326, "S_MD is 0, 1 (plus) or 2 (minus)");

@@ -12,6 +12,9 @@
 /// Coordinates are (1st, 2nd, 3rd axis of the plane) of the machine or of the workpiece, as the units of S_MVAR say.
 namespace probewright::cycles::sinumerik {
 
+/// Refuses a tool that is not parallel to the 3rd axis of the plane, along which it touches from above (61330).
+void requireUprightTool(Context& context);
+
 /// The direction, +1 or -1, in which the tool as it stands touches the side that it is on.
 double sideOfTool(Context& context, int axis, const ToolProbeField& field);
 /// The direction of a touch along an axis of the plane, S_MD: 1 plus, 2 minus, 0 as the tool stands. Else alarm 61326.

@@ -151,6 +151,7 @@ void requireCalibratingTool(Context& context) {
 
 void calibrateToolProbe(Context& context) {
   requireCalibratingTool(context);
+  requireUprightTool(context);
   const ProbeSystem system = systemOf(context);
   const int index = toolProbeIndex(context);
   const ToolProbeField field = toolProbeField(context.control().data, system, index);
