@@ -114,6 +114,19 @@ TEST(Cycle440, WritesWhereItMetTheToolTouchProbe) {
   }
 }
 
+/// The spindle turns afterwards as it did before.
+TEST(Cycle440, LeavesTheSpindleAsItWas) {
+  Dice dice(4407);
+  for (const char* function : {"M3", "M4", "M5"}) {
+    Shifting world = shifting(dice);
+    const Ran ran =
+        world.bench.runBare(fmt::format("TOOL CALL 9 Z S640\n{}\n", function) +
+                            probe(440, {{363, 0}, {364, 4}, {320, 1}, {260, 20}}) + "FN 18: SYSREAD Q1 = ID20 NR5\n");
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_EQ(ran.q(1), function == std::string("M3") ? 0 : function == std::string("M4") ? 1 : 2);
+  }
+}
+
 /// What is wrong at both runs alike drops out: length and radius of the tool, its place, pretravel. Scales and
 /// squareness do not: an axis that displays too little shifts by less.
 TEST(Cycle440, IsWrongByTheGeometryOfTheMachineOnly) {

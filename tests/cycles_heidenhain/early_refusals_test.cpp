@@ -125,7 +125,10 @@ TEST(ToolCall0, DefinesTheProbeAxisOfTheOlderControl) {
     EXPECT_NEAR(ran.q(153), 40, 1e-6);
   }
   EXPECT_EQ(bench.runBare("TOOL CALL 1 Z\nTOOL CALL 0\n" + probe(412, hole)).alarm(), "Touch probe not ready");
-  EXPECT_FALSE(benchOf(ControlKind::TNC640).runBare("TOOL CALL 0 Z\n" + probe(412, hole)).finished());
+  const Ran newer = benchOf(ControlKind::TNC640).runBare("TOOL CALL 0 Z\n" + probe(412, hole));
+  EXPECT_EQ(newer.alarm(), "Touch probe not defined");
+  EXPECT_NE(newer.why().find("TOOL CALL 0 has emptied it"), std::string::npos) << newer.why();
+  EXPECT_EQ(newer.why().find("calibrate"), std::string::npos) << newer.why();
 }
 
 /// One angle is all that the preset table of the iTNC 530 keeps.

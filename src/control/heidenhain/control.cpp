@@ -90,16 +90,41 @@ std::string Control::toolRowNamed(const std::string& name) const {
               "add the tool or correct its name; " + toolsOf(tables.tools));
 }
 
-void Control::callTool(const std::string& row, std::optional<char> axis, double deltaLength, double deltaRadius,
+std::string Control::usableTool(const std::string& called) {
+  std::string row = called;
+  for (std::vector<std::string> locked; tables.tools.text(row, "TL") == "L";) {
+    locked.push_back(row);
+    const std::string replacement = tables.tools.text(row, "RT");
+    if (replacement.empty() || replacement == "0") {
+      throw Alarm("Tool locked",
+                  fmt::format("Tool {} is locked in TOOL.T (column TL) and has no replacement tool (RT)", row),
+                  "release the tool, call another one, or enter its replacement in column RT");
+    }
+    if (!tables.tools.hasRow(replacement)) {
+      throw Alarm("Replacement tool not defined",
+                  fmt::format("Tool {} is locked; TOOL.T has no tool {}, its replacement (RT)", row, replacement),
+                  "add the tool or correct RT; " + toolsOf(tables.tools));
+    }
+    if (std::ranges::find(locked, replacement) != locked.end()) {
+      throw Alarm("Tool locked", fmt::format("Tool {} and all of its replacement tools (RT) are locked", called),
+                  "release one of them");
+    }
+    row = replacement;
+  }
+  if (row != called) {
+    panel.message(EventKind::Warning, fmt::format("Tool {} is locked; tool {} replaces it (column RT)", called, row),
+                  channel.seconds());
+  }
+  return row;
+}
+
+void Control::callTool(const std::string& called, std::optional<char> axis, double deltaLength, double deltaRadius,
                        double deltaRadius2) {
-  if (row != "0" && !tables.tools.hasRow(row)) {
-    throw Alarm("Tool not defined", fmt::format("TOOL.T has no tool {}", row),
+  if (called != "0" && !tables.tools.hasRow(called)) {
+    throw Alarm("Tool not defined", fmt::format("TOOL.T has no tool {}", called),
                 "add the tool or correct its number; " + toolsOf(tables.tools));
   }
-  if (tables.tools.text(row, "TL") == "L") {
-    throw Alarm("Tool locked", fmt::format("Tool {} is locked in TOOL.T (column TL)", row),
-                "release the tool or call its replacement");
-  }
+  const std::string row = usableTool(called);
   ActiveTool next = tool;
   next.row = row;
   next.called = true;

@@ -92,7 +92,7 @@ public:
   /// Radius of the ring or pin with which cycle 2 has last calibrated; 0 before.
   double calibrationRingRadius = 0;
 
-  /// Calls a tool by the key of its row; throws Alarm if TOOL.T has no such row.
+  /// Calls a tool by the key of its row, or its replacement if it is locked; throws Alarm if TOOL.T has no such row.
   void callTool(const std::string& row, std::optional<char> axis, double deltaLength, double deltaRadius,
                 double deltaRadius2);
   /// The key of the row whose NAME is `name`; throws Alarm if there is none.
@@ -138,6 +138,8 @@ public:
   void writeCalibration(double MachineParameters::*member, const std::string& name, double value);
 
 private:
+  /// The row called, or, where it is locked, the first of its replacement tools (RT) that is not. Throws Alarm.
+  std::string usableTool(const std::string& called);
   /// Takes over what the touch probe in the spindle tells: its serial number into the touch probe table, and what the
   /// table says of collisions.
   void meetProbe();

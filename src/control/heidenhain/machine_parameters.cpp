@@ -141,6 +141,51 @@ constexpr std::array entries = {
     MachineParameterEntry{"probingCapability", "122723", onTNC640, 0, 1, "",
                           "1: only lengths are measured, with a stationary spindle; 0: everything",
                           &MachineParameters::probingCapability},
+    MachineParameterEntry{"measureTolerance2", "122716", onTNC640, 0, 0.999, "mm",
+                          "permissible measuring error of a second touch of a rotating tool, which then counts; 0: "
+                          "there is no second touch",
+                          &MachineParameters::measureTolerance2},
+    MachineParameterEntry{"spindleSpeedCalc", "122711", onTNC640, 0, 1, "",
+                          "speed of a rotating tool: 0 Automatic, from maxPeriphSpeedMeas; 1 MinSpindleSpeed, always "
+                          "lowestSpindleSpeed",
+                          &MachineParameters::minimumSpindleSpeed},
+    MachineParameterEntry{"lowestSpindleSpeed", "", onBothTNC, 1, 10000, "rpm",
+                          "lowest speed of the machine's spindle, where spindleSpeedCalc or MP6500 ask for it",
+                          &MachineParameters::lowestSpindleSpeed},
+    MachineParameterEntry{"probingRoutine", "122705", onTNC640, 0, 1, "",
+                          "calibrating the tool touch probe: 0 MultiDirections, 1 SingleDirection, only from the side "
+                          "that probingDirRadial says",
+                          &MachineParameters::singleDirection},
+    MachineParameterEntry{"stopOnMeasurement", "122718", onTNC640, 0, 1, "",
+                          "1: the program stops where a measurement (mode 0) differs from the table by more than the "
+                          "breakage tolerance",
+                          &MachineParameters::stopOnMeasurement},
+    MachineParameterEntry{"adaptToolTable", "122719", onTNC640, 0, 2, "",
+                          "what lengths and radii are entered in the tool table: 0 AdaptOnMeasure, measured ones only; "
+                          "1 AdaptOnBoth, deviations that a check finds too; 2 AdaptNever",
+                          &MachineParameters::adaptToolTable},
+    MachineParameterEntry{
+        "MP6500",
+        "",
+        onITNC530,
+        0,
+        16383,
+        "",
+        "tool measurement, the sum of bits: 1 cycles 480 to 484 and 30 to 33 are enabled; 2 nothing is measured with a "
+        "rotating tool, nor single teeth; 4 no length with a stationary spindle where R-OFFS is 0; 8 no single teeth; "
+        "16 always the lowest spindle speed; 32 no stop where a check finds a broken tool; 64 no stop where a "
+        "measurement differs by more than the breakage tolerance; 256 calibrating touches one side only (MP6505); 512 "
+        "calibrating determines how a cuboid is turned; 2048 a check leaves the tool table; 8192 not in a tilted plane",
+        &MachineParameters::mp6500,
+        {},
+        1 | 2 | 4 | 8 | 16 | 32 | 64 | 256 | 512 | 2048 | 8192},
+    MachineParameterEntry{"detectStylusRot", "114315", onTNC640, 0, 1, "",
+                          "1: calibrating determines how a cuboid is turned about the tool axis, and tool measurement "
+                          "takes it into account",
+                          &MachineParameters::detectStylusRot},
+    MachineParameterEntry{"tippingTolerance", "114319", onTNC640, 0, 5, "degrees",
+                          "calibrating determines how a cuboid is tipped, and warns beyond this angle; 0: it does not",
+                          &MachineParameters::tippingTolerance},
     MachineParameterEntry{"safetyDistToolAx", "114203", onTNC640, 0.001, 99999.9999, "mm",
                           "safety zone about the contact of the tool touch probe", &MachineParameters::mp6540},
     MachineParameterEntry{"centerPos.0", "114201.0", onTNC640, -99999.9999, 99999.9999, "mm",
@@ -171,6 +216,8 @@ constexpr std::array entries = {
                           &MachineParameters::contactRadius1},
     MachineParameterEntry{"calibratedContactRadius2", "", onBothTNC, 0, 99.9999, "mm", "the same along the minor axis",
                           &MachineParameters::contactRadius2},
+    MachineParameterEntry{"calibratedContactAngle", "", onBothTNC, -45, 45, "degrees",
+                          "how its contact, a cuboid, is turned about the tool axis", &MachineParameters::contactAngle},
     MachineParameterEntry{"MP7411", "", onITNC530, 0, 1, "",
                           "length, radius and centre offset with which touch probe cycles measure, and where "
                           "calibrating writes them: 1 the row of the active tool in TOOL.T (several sets), 0 the one "
@@ -269,6 +316,14 @@ Result<void> setMachineParameter(MachineParameters& parameters, ControlKind kind
   const bool whole = !std::holds_alternative<double MachineParameters::*>(entry->member);
   if (whole && value != std::floor(value)) {
     return fail(fmt::format("{} takes a whole number, not {}", entry->name, formatShortest(value)));
+  }
+  if (entry->bits != 0 && (static_cast<int>(value) & ~entry->bits) != 0) {
+    std::string without;
+    for (int bit = 1; bit <= static_cast<int>(entry->maximum); bit *= 2)
+      if ((static_cast<int>(value) & bit & ~entry->bits) != 0)
+        without += fmt::format("{}{}", without.empty() ? "" : ", ", bit);
+    return fail(fmt::format("{} of {} has no meaning here", without, entry->name),
+                "docs/machine-parameters.md lists the bits that have one");
   }
   std::visit([&]<class Value>(Value MachineParameters::*member) { parameters.*member = static_cast<Value>(value); },
              entry->member);

@@ -54,10 +54,21 @@ struct MachineParameters {
   double maxSpeed = 1000;
   bool stopOnCheck = true;
   int probingCapability = 0;
+  double measureTolerance2 = 0;
+  bool minimumSpindleSpeed = false;  ///< spindleSpeedCalc = MinSpindleSpeed
+  double lowestSpindleSpeed = 50;
+  bool singleDirection = false;  ///< probingRoutine = SingleDirection
+  bool stopOnMeasurement = false;
+  int adaptToolTable = 1;
+  bool detectStylusRot = false;
+  double tippingTolerance = 0;
+  /// The iTNC 530 has most of these as bits.
+  int mp6500 = 97;
   /// Calibration data of the tool touch probe: middle of the upper edge of its contact, machine coordinates, and half
   /// its effective width along main and minor axis.
   double contactX = 0, contactY = 0, contactZ = 0;
   double contactRadius1 = 0, contactRadius2 = 0;
+  double contactAngle = 0;  ///< degrees about the tool axis, of a cuboid
   bool rectangularContact = false;
   // kinematics, both: MP6600 to MP6602 and their names on the TNC 640
   double maxModification = 0.05;
@@ -80,6 +91,7 @@ struct MachineParameterEntry {
   std::variant<double MachineParameters::*, bool MachineParameters::*, int MachineParameters::*> member;
   /// The key of a probe's [[tool]] in the setup whose value counts where there is no entry.
   std::string_view toolKey = {};
+  int bits = 0;  ///< of a number made of bits: those that mean something here
 };
 
 std::span<const MachineParameterEntry> machineParameterEntries();

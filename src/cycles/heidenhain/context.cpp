@@ -248,6 +248,10 @@ probing::DirectionalRadius directionsOf(const Control& control) {
 probing::HeidenhainProbe activeProbe(const Control& control, Calibrated calibrated) {
   probing::HeidenhainProbe probe;
   const auto& tool = control.tool;
+  if (control.isTNC640() && tool.number == 0) {
+    throw Alarm("Touch probe not defined", "There is no tool in the spindle: TOOL CALL 0 has emptied it",
+                "call the touch probe, by its number in TOOL.T, with TOOL CALL");
+  }
   probe.ballRadius = tool.radius;
   if (!(tool.radius > 0) && calibrated == Calibrated::Required) {
     throw Alarm("Touch probe not calibrated",

@@ -22,6 +22,6 @@ void run(Context& context, const Arguments&) { measureTool(context, oldRequest(c
 
 }  // namespace
 
-extern const Entry cycle33 = {.definition = definition, .conditions = toolConditions, .run = run};
+extern const Entry cycle33 = {.definition = definition, .conditions = toolConditions, .rules = toolRules, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

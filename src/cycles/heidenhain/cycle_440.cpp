@@ -138,6 +138,7 @@ void run(Context& context, const Arguments&) {
 
   const auto& plane = control.coordinates.plane;
   auto& channel = context.channel();
+  const machine::SpindleState spindle = channel.machine().spindle();
   if (channel.description().spindleOrients) channel.orientSpindle(0);
   Vector3 clearance = channel.position();
   clearance[plane.tool] = context.q(260);
@@ -157,6 +158,8 @@ void run(Context& context, const Arguments&) {
     const int axis = i == 0 ? plane.main : plane.minor;
     places[static_cast<std::size_t>(axis)] = prober.touchSide(i, sense, radius, depth).tip[axis];
   }
+  // As before the cycle, M3 or M4.
+  if (spindle.rotation != machine::Rotation::None) channel.turnSpindle(spindle.rotation, spindle.speed);
   if (!measuring) {
     storeCalibration(context, places);
     return;

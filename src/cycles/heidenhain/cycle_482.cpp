@@ -22,6 +22,6 @@ void run(Context& context, const Arguments&) { measureTool(context, newRequest(c
 
 }  // namespace
 
-extern const Entry cycle482 = {.definition = definition, .conditions = toolConditions, .run = run};
+extern const Entry cycle482 = {.definition = definition, .conditions = toolConditions, .rules = toolRules, .run = run};
 
 }  // namespace probewright::cycles::heidenhain

@@ -140,7 +140,9 @@ Measured measure(Context& context, const TurningTool& tool, double clearanceHeig
     // Tips that point to -X meet the side of the contact at +X.
     const int sense = tool.orientation >= 5 && tool.orientation <= 7 ? 1 : -1;
     const double tipAt = prober.touchSide(0, sense, 0, probe.depth).tip.x();
-    measured.x = tool.x + probe.place.x() - sense * probe.size / 2 - tipAt;
+    // Along the axis a turned face is farther than at right angles to it.
+    const double half = probe.size / 2 / std::cos(radiansFromDegrees(control.parameters.contactAngle));
+    measured.x = tool.x + probe.place.x() - sense * half - tipAt;
   }
   prober.rise();
   return measured;
@@ -178,6 +180,7 @@ void run(Context& context, const Arguments&) {
   TypedTable& table = *control.tables.turningTools;
   const auto& tools = control.tables.tools;
   const int mode = context.option(340);
+  const ToolMeasuringSettings settings = toolMeasuringSettings(control);
   int status = 0;
   const auto enter = [&](std::optional<double> value, NumberColumn nominal, NumberColumn delta, NumberColumn wear,
                          NumberColumn breakage, int result) {
@@ -185,11 +188,11 @@ void run(Context& context, const Arguments&) {
     const double before = table.numberOr(row, nominal, 0) + (mode == 2 ? table.numberOr(row, delta, 0) : 0);
     const double deviation = *value - before;
     status = std::max(status, toolStatus(deviation, tools.numberOr(row, wear, 0), tools.numberOr(row, breakage, 0)));
-    if (mode == 0) {
+    if (mode == 0 && settings.entersMeasured) {
       control.writeNumber(table, row, nominal, *value);
       control.writeNumber(table, row, delta, 0);
     } else if (mode == 1) {
-      control.writeNumber(table, row, delta, deviation);
+      if (settings.entersChecked) control.writeNumber(table, row, delta, deviation);
       context.result(result, deviation, {.nominal = 0.0});
     }
   };
@@ -200,10 +203,15 @@ void run(Context& context, const Arguments&) {
     control.writeText(table, row, "TL", "L");
     control.writeText(control.tables.tools, row, "TL", "L");
   }
-  if (mode != 0 && status == 2 && control.parameters.stopOnCheck) {
+  if (mode != 0 && status == 2 && settings.stopsOnCheck) {
     throw Alarm("Tool breakage",
                 fmt::format("Tool {} is beyond its breakage tolerance (LBREAK, RBREAK); it is locked", row),
                 "change the tool, then release it (column TL)");
+  }
+  if (mode == 0 && status == 2 && settings.stopsOnMeasurement) {
+    throw Alarm("Tool breakage",
+                fmt::format("Tool {} differs from what TOOLTURN.TRN said by more than its breakage tolerance", row),
+                "check the tool and its entries in TOOLTURN.TRN");
   }
 }
 

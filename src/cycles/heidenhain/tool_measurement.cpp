@@ -20,19 +20,21 @@ using machine::Rotation;
 ToolProbingSpeeds toolProbingSpeeds(const MachineParameters& parameters, double radius) {
   // 0.0063: 2 pi / 1000 as the manuals print it.
   const double wanted = radius > 0 ? parameters.maxPeriphSpeedMeas / (radius * 0.0063) : parameters.maxSpeed;
-  const double spindle = std::min(wanted, parameters.maxSpeed);
-  double tolerance = parameters.measureTolerance1;
+  constexpr int lowestSpeedBit = 1 << 4;
+  const bool lowest = parameters.minimumSpindleSpeed || (parameters.mp6500 & lowestSpeedBit) != 0;
+  const double spindle = lowest ? parameters.lowestSpindleSpeed : std::min(wanted, parameters.maxSpeed);
+  double wider = 1;  // than measureTolerance1 and 2
   switch (parameters.probingFeedCalc) {
     case 1:  // in steps of 30 mm; beyond 120 mm it grows no more
-      tolerance *= std::clamp(std::ceil(radius / 30), 1.0, 4.0);
+      wider = std::clamp(std::ceil(radius / 30), 1.0, 4.0);
       break;
     case 2:
-      tolerance *= radius / 5;
+      wider = radius / 5;
       break;
     default:
       break;
   }
-  return {spindle, tolerance * spindle};
+  return {spindle, parameters.measureTolerance1 * wider * spindle, parameters.measureTolerance2 * wider * spindle};
 }
 
 probing::ToolTouchProbe toolTouchProbe(const Control& control, Contact contact) {
@@ -67,13 +69,18 @@ probing::ToolTouchProbe toolTouchProbe(const Control& control, Contact contact) 
   return probe;
 }
 
+ProbingSide probingSide(const MachineParameters& parameters) {
+  return {parameters.probingDirRadial % 2, parameters.probingDirRadial < 2 ? 1 : -1};
+}
+
 namespace {
 
+constexpr const char* noComparison = "The iTNC 530 measures (0) or checks (1) tools; it does not only compare (2)";
+constexpr const char* otherModes = "enter 0 or 1";
+
 ToolRequest permitted(Context& context, ToolRequest request) {
-  if (request.mode == 2 && !context.control().isTNC640()) {
-    throw Alarm("Cycle parameter wrong", "The iTNC 530 measures (0) or checks (1) tools; it does not only compare (2)",
-                "enter 0 or 1");
-  }
+  if (request.mode == 2 && !context.control().isTNC640())
+    throw Alarm("Cycle parameter wrong", noComparison, otherModes);
   return request;
 }
 
@@ -81,6 +88,11 @@ ToolRequest permitted(Context& context, ToolRequest request) {
 
 ToolRequest newRequest(Context& context) {
   return permitted(context, {context.option(340), context.q(260), context.option(341) == 1, 199});
+}
+
+void toolRules(CallRules& call) {
+  const std::uint32_t mode = call.has(340) ? 340 : probe_word::check;
+  if (call.kind() == ControlKind::iTNC530 && call.number(mode) == 2) call.add(mode, noComparison, otherModes);
 }
 
 int toolStatus(double deviation, double wear, double breakage) {
@@ -97,6 +109,7 @@ ToolRequest oldRequest(Context& context) {
 
 void requireMeasurable(Context& context) {
   Control& control = context.control();
+  requireEnabled(control);
   const auto& tools = control.tables.tools;
   const std::string& row = control.tool.row;
   if (row == "0" || !tools.hasRow(row)) {
@@ -121,6 +134,7 @@ ToolMeasurement::ToolMeasurement(Context& context, const ToolRequest& request)
     : context_(context),
       request_(request),
       channel_(context.channel()),
+      settings_(toolMeasuringSettings(context.control())),
       probe_(toolTouchProbe(context.control(), Contact::Calibrated)),
       prober_(channel_, context.control().coordinates.plane, probe_,
               [&] {
@@ -129,14 +143,21 @@ ToolMeasurement::ToolMeasurement(Context& context, const ToolRequest& request)
                 clearance[plane.tool] = request.clearanceHeight;
                 return (context.channel().frame() * clearance)[plane.tool];
               }()),
-      radius_(channel_.toolRadius) {
-  const auto& parameters = context.control().parameters;
-  axis_ = parameters.probingDirRadial % 2;
-  sense_ = parameters.probingDirRadial < 2 ? 1 : -1;
+      radius_(channel_.toolRadius),
+      speeds_(toolProbingSpeeds(context.control().parameters, radius_)) {
+  const ProbingSide probed = probingSide(context.control().parameters);
+  axis_ = probed.axis;
+  sense_ = probed.sense;
   const auto& tools = context.control().tables.tools;
   const std::string& row = context.control().tool.row;
   teeth_ = static_cast<int>(tools.numberOr(row, "CUT", 0));
   const int most = context.control().isTNC640() ? 20 : 99;
+  if (request.teeth && !settings_.teeth) {
+    throw Alarm("Function not enabled",
+                fmt::format("The machine does not measure single teeth ({})",
+                            context.control().isTNC640() ? "probingCapability" : "MP6500"),
+                "measure the whole tool");
+  }
   if (request.teeth && (teeth_ < 1 || teeth_ > most)) {
     throw Alarm(
         "Number of teeth not permitted",
@@ -153,15 +174,14 @@ double ToolMeasurement::column(NumberColumn name) const {
 /// Against its cutting direction, so that the edges do not cut into the contact.
 void ToolMeasurement::turn() {
   const Control& control = context_.control();
-  const ToolProbingSpeeds speeds = toolProbingSpeeds(control.parameters, radius_);
   const bool cutsLeft = control.tables.tools.text(control.tool.row, "DIRECT") == "+";
-  channel_.turnSpindle(cutsLeft ? Rotation::Clockwise : Rotation::CounterClockwise, speeds.spindle);
-  prober_.setFeed(speeds.feed);
+  channel_.turnSpindle(cutsLeft ? Rotation::Clockwise : Rotation::CounterClockwise, speeds_.spindle);
+  turns_ = true;
 }
 
 void ToolMeasurement::stand() {
   if (channel_.spindleRotation() != Rotation::None) channel_.turnSpindle(Rotation::None, 0);
-  prober_.setFeed(probe_.feed);
+  turns_ = false;
 }
 
 double ToolMeasurement::lengthAt(const probing::ToolTouch& touch) const {
@@ -173,11 +193,28 @@ double ToolMeasurement::radiusAt(const probing::ToolTouch& touch) const {
   const auto& plane = context_.control().coordinates.plane;
   const int axis = axis_ == 0 ? plane.main : plane.minor;
   const double half = (axis_ == 0 ? probe_.size : probe_.size2) / 2;
-  return std::abs(touch.tip[axis] - probe_.place[axis]) - half;
+  // Along the axis a turned face is farther than at right angles to it.
+  const double turned = radiansFromDegrees(context_.control().parameters.contactAngle);
+  return std::abs(touch.tip[axis] - probe_.place[axis]) * std::cos(turned) - half;
+}
+
+template <class Touch>
+probing::ToolTouch ToolMeasurement::touched(const Touch& touch) {
+  prober_.setFeed(turns_ ? speeds_.feed : probe_.feed);
+  const probing::ToolTouch first = touch();
+  if (!turns_ || !(speeds_.fineFeed > 0)) return first;
+  prober_.setFeed(speeds_.fineFeed);
+  return touch();
 }
 
 probing::ToolTouch ToolMeasurement::side() {
-  return prober_.touchSide(axis_, sense_, radius_, probe_.depth + column("L-OFFS"));
+  return touched([&] { return prober_.touchSide(axis_, sense_, radius_, probe_.depth + column("L-OFFS")); });
+}
+
+probing::ToolTouch ToolMeasurement::above(double offset) {
+  Vector2 place = Vector2::Zero();
+  place[axis_] = -sense_ * offset;
+  return touched([&] { return prober_.touchTop(place); });
 }
 
 /// The tooth that has touched points to the contact at the angle of the spindle then.
@@ -206,11 +243,6 @@ double ToolMeasurement::toothLengthOffset() const {
 void ToolMeasurement::measureLength() {
   const Control& control = context_.control();
   ToolDimension measured;
-  const auto above = [&](double offset) {
-    Vector2 place = Vector2::Zero();
-    place[axis_] = -sense_ * offset;
-    return prober_.touchTop(place);
-  };
   if (request_.teeth) {
     if (!firstTooth_) {
       turn();
@@ -224,7 +256,13 @@ void ToolMeasurement::measureLength() {
     }
   } else {
     const double offset = control.tables.tools.number(control.tool.row, "R-OFFS").value_or(radius_);
-    const bool stands = offset == 0 || control.parameters.probingCapability == 1;
+    if (offset == 0 && !settings_.standingLength) {
+      throw Alarm("Function not enabled",
+                  fmt::format("R-OFFS of tool {} is 0, but no length is measured with a stationary spindle (MP6500)",
+                              control.tool.row),
+                  "enter R-OFFS, or measure the tool by hand");
+    }
+    const bool stands = offset == 0 || !settings_.rotating;
     stands ? stand() : turn();
     measured.whole = lengthAt(above(offset));
   }
@@ -234,9 +272,12 @@ void ToolMeasurement::measureLength() {
 
 void ToolMeasurement::measureRadius() {
   const Control& control = context_.control();
-  if (control.parameters.probingCapability == 1) {
+  // CUT = 0: round, as with a diamond surface.
+  const bool round = control.tables.tools.number(control.tool.row, "CUT") == 0.0;
+  if (!settings_.rotating && !(round && settings_.standingRadius)) {
     throw Alarm("Function not enabled",
-                "The machine measures lengths with a stationary spindle only (probingCapability)",
+                fmt::format("The machine measures with a stationary spindle only ({})",
+                            control.isTNC640() ? "probingCapability" : "MP6500"),
                 "measure the length with cycle 481");
   }
   if (!(radius_ > 0)) {
@@ -244,8 +285,6 @@ void ToolMeasurement::measureRadius() {
                 "enter the approximate radius in TOOL.T");
   }
   ToolDimension measured;
-  // CUT = 0: round, as with a diamond surface.
-  const bool round = control.tables.tools.number(control.tool.row, "CUT") == 0.0;
   round ? stand() : turn();
   const probing::ToolTouch touch = side();
   measured.whole = radiusAt(touch);
@@ -281,19 +320,35 @@ int ToolMeasurement::enter(const ToolDimension& dimension, bool length) {
   const Entries& entries = length ? lengthEntries : radiusEntries;
   const double value = dimension.value(), nominal = column(entries.nominal);
   const double wear = column(entries.wear), breakage = column(entries.breakage);
-  int status = 0;
+  show(dimension, length);
+  int status = toolStatus(value - nominal, wear, breakage);
+  for (const double tooth : dimension.teeth)
+    status = std::max(status, toolStatus(tooth - nominal, wear, breakage));
   if (request_.mode == 0) {
+    if (!settings_.entersMeasured) return status;
     control.writeNumber(tools, row, entries.nominal, value);
     control.writeNumber(tools, row, entries.delta, 0);
   } else {
-    status = toolStatus(value - nominal, wear, breakage);
-    for (const double tooth : dimension.teeth)
-      status = std::max(status, toolStatus(tooth - nominal, wear, breakage));
     context_.result(entries.result, value - nominal, {.nominal = 0.0});
-    if (request_.mode == 1) control.writeNumber(tools, row, entries.delta, value - nominal);
+    if (request_.mode == 1 && settings_.entersChecked) control.writeNumber(tools, row, entries.delta, value - nominal);
   }
-  show(dimension, length);
   return status;
+}
+
+void ToolMeasurement::stopIfBroken(int status) const {
+  if (status != 2) return;
+  const std::string& row = context_.control().tool.row;
+  if (request_.mode == 1 && settings_.stopsOnCheck) {
+    throw Alarm("Tool breakage",
+                fmt::format("Tool {} is beyond its breakage tolerance (LBREAK, RBREAK); it is locked", row),
+                "change the tool, then release it in TOOL.T (column TL)");
+  }
+  if (request_.mode == 0 && settings_.stopsOnMeasurement) {
+    throw Alarm(
+        "Tool breakage",
+        fmt::format("Tool {} differs from what TOOL.T said by more than its breakage tolerance (LBREAK, RBREAK)", row),
+        "check the tool and its entries in TOOL.T");
+  }
 }
 
 /// The display of tool measurement: * is beyond the wear tolerance, B beyond that of breakage.
@@ -324,19 +379,16 @@ void ToolMeasurement::finish() {
   if (length_) status = std::max(status, enter(*length_, true));
   if (measuredRadius_) status = std::max(status, enter(*measuredRadius_, false));
   context_.record().screens.push_back(screen_);
+  const int told = request_.mode == 0 ? 0 : status;
   if (request_.status == 199) {
-    context_.result(199, status);
+    context_.result(199, told);
   } else if (request_.status) {
-    context_.set(*request_.status, status);
+    context_.set(*request_.status, told);
   }
   const bool locks = request_.mode == 1 && status > 0;
   if (locks) control.writeText(control.tables.tools, row, "TL", "L");
   control.refreshTool();
-  if (request_.mode == 1 && status == 2 && control.isTNC640() && control.parameters.stopOnCheck) {
-    throw Alarm("Tool breakage",
-                fmt::format("Tool {} is beyond its breakage tolerance (LBREAK, RBREAK); it is locked", row),
-                "change the tool, then release it in TOOL.T (column TL)");
-  }
+  stopIfBroken(status);
 }
 
 void measureTool(Context& context, const ToolRequest& request, ToolDimensions dimensions) {

@@ -3,7 +3,9 @@
 #include <optional>
 #include <vector>
 
+#include "cycles/heidenhain/call_rules.hpp"
 #include "cycles/heidenhain/context.hpp"
+#include "cycles/heidenhain/tool_measuring_settings.hpp"
 #include "probing/tool_prober.hpp"
 
 /// How cycles 480 to 484, and 30 to 33, measure with the tool touch probe TT.
@@ -17,12 +19,20 @@ inline constexpr Conditions toolConditions = {
 struct ToolProbingSpeeds {
   double spindle = 0;
   double feed = 0;
+  double fineFeed = 0;  ///< of a second touch; 0: there is none
 };
 ToolProbingSpeeds toolProbingSpeeds(const control::heidenhain::MachineParameters& parameters, double radius);
 
 /// The tool touch probe as parameters and calibration say. Throws Alarm if the parameters do not say where it is.
 enum class Contact { AsFitted, Calibrated };
 probing::ToolTouchProbe toolTouchProbe(const Control& control, Contact contact);
+
+/// The side of the contact that tools are measured at: the axis, main (0) or minor (1), and the direction along it.
+struct ProbingSide {
+  int axis = 0;
+  int sense = 1;
+};
+ProbingSide probingSide(const control::heidenhain::MachineParameters& parameters);
 
 /// What is asked of cycles 481 to 483 and 31 to 33.
 struct ToolRequest {
@@ -33,6 +43,9 @@ struct ToolRequest {
 };
 ToolRequest newRequest(Context& context);
 ToolRequest oldRequest(Context& context);
+
+/// What `check` finds in a call, too: what the iTNC 530 cannot do with the measured value.
+void toolRules(CallRules& call);
 
 /// Status of a deviation: 0 within the tolerances, 1 worn, 2 broken; a tolerance of 0 is none.
 int toolStatus(double deviation, double wear, double breakage);
@@ -68,22 +81,30 @@ private:
   void stand();
   void orientTo(double tooth);
   probing::ToolTouch side();
+  probing::ToolTouch above(double offset);
+  /// Touches, and again more slowly where a second touch of the rotating tool is to count.
+  template <class Touch>
+  probing::ToolTouch touched(const Touch& touch);
   double lengthAt(const probing::ToolTouch& touch) const;
   double radiusAt(const probing::ToolTouch& touch) const;
   double toothLengthOffset() const;
   void findTeeth(const probing::ToolTouch& touch);
   int enter(const ToolDimension& dimension, bool length);
+  void stopIfBroken(int status) const;
   void show(const ToolDimension& dimension, bool length);
   double column(control::heidenhain::NumberColumn name) const;
 
   Context& context_;
   ToolRequest request_;
   control::Channel& channel_;
+  ToolMeasuringSettings settings_;
   probing::ToolTouchProbe probe_;
   probing::ToolProber prober_;
   int axis_ = 0, sense_ = 1;  ///< of radial probing
   int teeth_ = 0;
   double radius_ = 0;
+  ToolProbingSpeeds speeds_;
+  bool turns_ = false;
   std::optional<double> firstTooth_;  ///< spindle angle with which a tooth points to the contact
   std::optional<ToolDimension> length_, measuredRadius_;
   std::string screen_;

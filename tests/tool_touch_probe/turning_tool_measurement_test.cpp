@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "control/heidenhain/turning_tool_table.hpp"
-#include "cycles_heidenhain/tool_worlds.hpp"
+#include "tool_touch_probe/tool_worlds.hpp"
 
 /// Cycle 485: lengths of turning tools, by where their tips point.
 namespace probewright::testing_support {

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "cycles_heidenhain/tool_worlds.hpp"
+#include "tool_touch_probe/tool_worlds.hpp"
 
 /// What cycles 480 to 484 and 30 to 33 refuse, and what stops them.
 namespace probewright::testing_support {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "cycles/heidenhain/tool_measurement.hpp"
-#include "cycles_heidenhain/tool_worlds.hpp"
+#include "tool_touch_probe/tool_worlds.hpp"
 
 /// Cycles 481 to 483 and 31 to 33: tools on the tool touch probe are found as they are planted.
 namespace probewright::testing_support {

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "cycles_heidenhain/tool_worlds.hpp"
+#include "tool_touch_probe/tool_worlds.hpp"
 
 /// Cycles 480, 30 and 484: where the tool touch probe is found, and what mistakes in the calibration do to the tools.
 namespace probewright::testing_support {
@@ -124,6 +124,123 @@ TEST(ToolProbeCalibration, ATiltedContactMakesWideToolsLonger) {
   ASSERT_TRUE(ran.finished()) << ran.why();
   // The top rises by tan(tilt) to -X: the tooth meets it there, a radius from the middle.
   EXPECT_NEAR(ran.q(115), 10 * std::tan(radians(tilt)), 0.0015);
+}
+
+/// A cuboid that is turned about the tool axis and tipped, and an exact pin of 5 mm radius.
+struct Cuboid {
+  Cuboid(ControlKind kind, double turned, double tipped) : world(kind) {
+    world.contact = {120, -60, -470};
+    placeToolProbe(world.bench.setup.world.truth, simulation::Box({-12.5, -10, -12}, {12.5, 10, 0}),
+                   pose(world.contact, {tipped, 0, turned}));
+    simulation::TrueTool pin;
+    pin.length = 70;
+    pin.radius = 5;
+    world.add(pin, 9, 70, 5);
+    world.parameter("detectStylusRot", "MP6500", kind == ControlKind::TNC640 ? 1 : 97 + 512);
+  }
+  Ran calibrated() const { return world.run(probe(480, {{260, 60}}), 9); }
+
+  ToolWorld world;
+};
+
+TEST(ToolProbeCalibration, FindsHowACuboidIsTurnedAndMeasuresToolsAtIt) {
+  Dice dice(4804);
+  for (int at = 0; at < 8; ++at) {
+    SCOPED_TRACE(fmt::format("world {}", at));
+    const double turned = dice.between(-1, 1);
+    Cuboid cuboid(controlOf(at), turned, 0);
+    cuboid.world.parameter("probingDirRadial", "MP6505", at / 2 % 4);
+    cuboid.world.parameter("measureTolerance1", "MP6510", 0.001);
+    simulation::TrueTool mill;
+    mill.length = 75;
+    mill.radius = 30;
+    mill.cutter.teeth.resize(1);
+    cuboid.world.add(mill, 12, 75, 30);
+    TableFolder folder(cuboid.world.bench);
+    const auto radius = [&] {
+      const Ran ran = cuboid.world.run(
+          probe(480, {{260, 60}}) + "TOOL CALL 12 Z\n" + probe(482, {{340, 1}, {260, 60}, {341, 0}}), 9);
+      EXPECT_TRUE(ran.finished()) << ran.why();
+      return ran.q(116);
+    };
+    const Ran ran = cuboid.calibrated();
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    coverage::writesRead(ran.outcome.control, ran.outcome.journal,
+                         [](const control::WriteRecord& write) { return write.entry.starts_with("TT "); });
+    const auto values = found(ran);
+    EXPECT_NEAR(values[3], 12.5, 2e-6);
+    EXPECT_NEAR(values[4], 10, 2e-6);
+    double found = 0;
+    for (const auto& write : ran.cycle().writes)
+      if (write.entry == "TT rotation") found = std::stod(write.after);
+    EXPECT_NEAR(found, turned, 5.1e-5);
+    EXPECT_THAT(ran.cycle().screens.back(), HasSubstr(fmt::format("ROTATION {:+.3f}", turned).substr(0, 15)));
+    EXPECT_NEAR(radius(), 0, 0.0011);
+    // Without it the larger tool is found larger by what the turn costs it beyond the pin.
+    cuboid.world.parameter("detectStylusRot", "MP6500", cuboid.world.bench.control == ControlKind::TNC640 ? 0 : 97);
+    EXPECT_NEAR(radius(), (30 - 5) * (1 / std::cos(radians(turned)) - 1), 0.0011);
+  }
+}
+
+TEST(ToolProbeCalibration, WarnsOfACuboidThatIsTipped) {
+  for (const double tipped : {0.1, -0.4}) {
+    Cuboid cuboid(ControlKind::TNC640, 0.3, tipped);
+    cuboid.world.parameter("tippingTolerance", "", 0.3);
+    const Ran ran = cuboid.calibrated();
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_THAT(ran.cycle().screens.back(), HasSubstr(fmt::format("TIPPING {:.4f}", std::abs(tipped)).substr(0, 12)));
+    const auto& events = ran.outcome.journal.events;
+    const bool warned = std::ranges::any_of(
+        events, [](const control::EventRecord& event) { return event.text.find("contact is tipped by") == 4; });
+    EXPECT_EQ(warned, std::abs(tipped) > 0.3);
+  }
+  // The end of a wide tool covers the whole contact: it cannot feel how that is tipped.
+  Cuboid wide(ControlKind::TNC640, 0, 0.4);
+  wide.world.parameter("tippingTolerance", "", 0.3);
+  wide.world.bench.setup.world.truth.tools.back().radius = wide.world.bench.setup.beliefs.tools.back().radius = 9.8;
+  const Ran ran = wide.calibrated();
+  ASSERT_TRUE(ran.finished()) << ran.why();
+  EXPECT_TRUE(std::ranges::any_of(ran.outcome.journal.events, [](const control::EventRecord& event) {
+    return event.text.find("too wide to determine") != std::string::npos;
+  }));
+}
+
+/// Only the side that tools are measured at is touched, once with the spindle turned: where the middle is does not
+/// matter then.
+TEST(ToolProbeCalibration, TouchesOneSideWhereItIsToldTo) {
+  Dice dice(4805);
+  for (int at = 0; at < 8; ++at) {
+    SCOPED_TRACE(fmt::format("world {}", at));
+    Calibrating calibrating(controlOf(at), dice);
+    calibrating.world.add(calibrating.pin, 9, calibrating.pin.length, calibrating.pin.radius);
+    calibrating.world.cuboid(24, 18);
+    auto& probes = calibrating.world.bench.setup.world.truth;
+    if (probes.toolProbes.size() > 1) {
+      probes.toolProbes.erase(probes.toolProbes.begin());
+      probes.solids.erase(probes.solids.begin());
+    }
+    const int direction = at / 2 % 4;
+    calibrating.world.parameter("probingDirRadial", "MP6505", direction);
+    calibrating.world.parameter("probingRoutine", "MP6500",
+                                calibrating.world.bench.control == ControlKind::TNC640 ? 1 : 97 + 256);
+    const Vector3 wrong = dice.within(1);
+    calibrating.believePlace(calibrating.world.contact + wrong);
+    simulation::TrueTool mill;
+    mill.length = 75.25;
+    mill.radius = 6.125;
+    mill.cutter.teeth.resize(1);
+    calibrating.world.add(mill, 12, 75.25, 6.125);
+    calibrating.world.parameter("measureTolerance1", "MP6510", 0.001);
+    const Ran ran =
+        calibrating.world.run(calibrating.cycle(0) + "TOOL CALL 12 Z\n" + toolCycle(483, 1, false, false), 9);
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_EQ(ran.outcome.journal.cycles.front().touches.size(), 3U);
+    const int axis = direction % 2, sense = direction < 2 ? 1 : -1;
+    const double half = axis == 0 ? calibrating.world.half1 : calibrating.world.half2;
+    EXPECT_NEAR(found(ran)[3 + static_cast<std::size_t>(axis)], half + sense * wrong[axis], 2e-6);
+    EXPECT_NEAR(ran.q(115), 0, 0.0011);
+    EXPECT_NEAR(ran.q(116), 0, 0.0011);
+  }
 }
 
 TEST(ToolProbeCalibration, StopsForTheOperatorWhere484IsToldTo) {
