@@ -28,7 +28,7 @@ struct RunArguments {
   std::filesystem::path answers;  ///< empty: no file
   std::uint64_t stepLimit = 50'000'000;
   std::bitset<10> skipLevels;
-  std::uint64_t recordLimit = 128;    ///< MB
+  std::uint64_t recordLimit = 96;     ///< MB
   std::optional<std::uint64_t> seed;  ///< instead of the setup's
   bool dryRun = false, programTest = false;
   std::optional<std::uint64_t> searchLine;

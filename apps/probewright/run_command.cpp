@@ -11,6 +11,7 @@
 #include <set>
 
 #include "base/file.hpp"
+#include "base/folder_swap.hpp"
 #include "base/number_text.hpp"
 #include "cache_folder.hpp"
 #include "commands.hpp"
@@ -156,6 +157,11 @@ int run(const RunArguments& arguments) {
   options.wallClock = std::time(nullptr);
   const Interruption interruption;
   options.stop = interruption.token();
+  // The run itself waits without a word.
+  const fs::path& tables = setup->beliefs.tables;
+  FolderReading::of(tables, options.stop, [&] {
+    fmt::print(stderr, "another run is replacing the tables in {}: waiting for it\n", tables.string());
+  });
   setup::MachineOptions machine;
   machine.import.cache = cacheFolder(arguments.cache);
   if (const Result<void> tidied = tidyOutput(arguments.out, options.stop); !tidied) {

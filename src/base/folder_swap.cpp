@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 #include "base/file.hpp"
 
@@ -431,8 +433,15 @@ void FolderReading::Closing::operator()(const int* descriptor) const {
   delete descriptor;
 }
 
-FolderReading FolderReading::of(const fs::path& path, const std::stop_token& stop) {
+FolderReading FolderReading::of(const fs::path& path, const std::stop_token& stop,
+                                const std::function<void()>& onWait) {
   FolderReading reading;
+  const auto begin = std::chrono::steady_clock::now();
+  bool told = !onWait;
+  const auto waitedLong = [&] {
+    constexpr auto patience = std::chrono::seconds(2);
+    return !told && std::chrono::steady_clock::now() - begin >= patience && !std::exchange(told, true);
+  };
   std::error_code error;
   if (path.empty() || !fs::is_directory(path, error)) return reading;
   // What a killed run has decided, but not done.
@@ -446,6 +455,7 @@ FolderReading FolderReading::of(const fs::path& path, const std::stop_token& sto
     while (::flock(descriptor, LOCK_SH | LOCK_NB) != 0) {
       if (errno == EINTR) continue;
       if (errno != EWOULDBLOCK || stop.stop_requested()) return reading;
+      if (waitedLong()) onWait();
       ::usleep(20'000);
     }
     struct stat held {};

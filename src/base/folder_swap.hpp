@@ -45,7 +45,9 @@ private:
 /// is swapping them now; where a folder is missing or the file system knows no locks, it holds up nobody.
 class FolderReading {
 public:
-  static FolderReading of(const std::filesystem::path& folder, const std::stop_token& stop = {});
+  /// `onWait` is told once, after a wait of 2 s.
+  static FolderReading of(const std::filesystem::path& folder, const std::stop_token& stop = {},
+                          const std::function<void()>& onWait = {});
 
 private:
   struct Closing {

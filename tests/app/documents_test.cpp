@@ -113,8 +113,8 @@ TEST(Documents, NameTheDefaultsOfOptions) {
     EXPECT_EQ(documented[1], shown[1]) << option;
   }
   EXPECT_THAT(help, HasSubstr("--record-limit"));
-  EXPECT_TRUE(std::regex_search(help, std::regex("--record-limit [^\n]*=128")));
-  EXPECT_THAT(part, HasSubstr("| `--record-limit` | 128 |"));
+  EXPECT_TRUE(std::regex_search(help, std::regex("--record-limit [^\n]*=96")));
+  EXPECT_THAT(part, HasSubstr("| `--record-limit` | 96 |"));
 }
 
 TEST(Documents, NameTheExitCodes) {

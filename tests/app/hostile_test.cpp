@@ -213,6 +213,19 @@ TEST(Hostile, LetsATextGrowToTheLengthOfTheControlOnly) {
   EXPECT_THAT(answer.errors, HasSubstr("QS1 takes at most 255 characters"));
 }
 
+/// The text of a file that grows is kept, copied and written.
+TEST(Hostile, StaysBelowThreeHundredMegabytesAtTheLimit) {
+  if (!PROBEWRIGHT_OPTIMIZED) GTEST_SKIP() << "takes too long";
+  const Folder folder;
+  const std::string world = folder.file("s.toml", "[control]\ntype = \"840Dsl\"\n");
+  const std::string text = "DEF INT ERR\nWHILE TRUE\nWRITE(ERR,\"LOG\",\"SOMETHING\")\nENDWHILE\nM30\n";
+  const Answer answer =
+      probewright({"run", folder.file("p.mpf", text), "--setup", world, "--out", (folder / "out").string(), "--quiet"});
+  EXPECT_EQ(answer.exit, 3) << answer.errors;
+  EXPECT_THAT(answer.errors, HasSubstr("--record-limit"));
+  EXPECT_LT(answer.peakMegabytes, 280);
+}
+
 TEST(Hostile, KeepsAMillionMessagesInLittleMemory) {
   if (!PROBEWRIGHT_OPTIMIZED) GTEST_SKIP() << "takes too long";
   const Folder folder;

@@ -132,6 +132,13 @@ TEST(Check, AsksWhetherANearlyKnownWordWasMeant) {
   EXPECT_EQ(advice("TRANS DATM AXIS X+1"), "DATUM");
   EXPECT_EQ(advice("TRANS DATUM AXSI X+1"), "AXIS");
   EXPECT_EQ(advice("FUNCTION MODE TURNN"), "TURN");
+  EXPECT_EQ(advice("FUNCTION TPCM F TCP AXIS POS PATHCTRL AXIS"), "TCPM");
+  EXPECT_EQ(advice("FUNCTION RESET TCPN"), "TCPM");
+  EXPECT_EQ(advice("FUNCTION MDOE TURN"), "MODE");
+  EXPECT_EQ(advice("FUNCTION DWEL TIME10"), "DWELL");
+  EXPECT_EQ(advice("FUNCTION TCPM F TPC AXIS POS PATHCTRL AXIS"), "TCP");
+  for (const char* known : {"FUNCTION DCM OFF", "FUNCTION COUNT INC", "FUNCTION RESET DWELL", "FUNCTION PARAXCOMP OFF"})
+    EXPECT_EQ(advice(known), "") << known;
   EXPECT_EQ(advice("PRESET SELCT #1"), "SELECT");
   EXPECT_EQ(advice("SEL TABEL \"A.D\""), "TABLE");
   EXPECT_EQ(advice("TCH PROB 412"), "PROBE");
@@ -287,6 +294,21 @@ TEST(Check, KnowsWhatTheOlderControlLacks) {
   EXPECT_EQ(checked(framed(call + sphere)), "");
   EXPECT_NE(checked(framed(call + sphere), control::ControlKind::iTNC530).find("Q423 takes four or three"),
             std::string::npos);
+  // Tools can only be compared on the newer one; what the program computes is not known before.
+  const auto tool = [](const std::string& mode) {
+    return "TCH PROBE 481 TOOL LENGTH ~\n Q340=" + mode + " ~\n Q260=+100 ~\n Q341=0\n";
+  };
+  const std::string old =
+      "TCH PROBE 31.0 LENGTH\nTCH PROBE 31.1 CHECK: 2\nTCH PROBE 31.2 HEIGHT: +120\nTCH PROBE 31.3 PROBING THE TEETH: "
+      "0\n";
+  for (const std::string& blocks : {tool("2"), old}) {
+    EXPECT_EQ(checked(framed(call + blocks)), "");
+    EXPECT_NE(checked(framed(call + blocks), control::ControlKind::iTNC530).find("it does not only compare"),
+              std::string::npos)
+        << blocks;
+  }
+  for (const char* mode : {"0", "1", "Q5"})
+    EXPECT_EQ(checked(framed(call + tool(mode)), control::ControlKind::iTNC530), "");
 }
 
 TEST(Check, NumbersThatNoDoubleHolds) {

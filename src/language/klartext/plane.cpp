@@ -195,6 +195,24 @@ bool BlockParser::transformation() {
   return expectEnd();
 }
 
+namespace {
+
+/// A word after FUNCTION that is not what a control has there but nearly so; functions that are not known here pass.
+std::string meantFunction(Lexer& lexer) {
+  static const std::vector<std::string> functions = {
+      "TCPM", "MODE",    "RESET",     "AFC",       "CORRDATA", "COUNT", "DCM",     "DRESS",   "DWELL",   "FACING",
+      "FEED", "LIFTOFF", "PARAXCOMP", "PARAXMODE", "POLARKIN", "PROG",  "S-PULSE", "SPINDLE", "TURNDATA"};
+  const std::size_t start = (lexer.peek(), lexer.offset());
+  for (const std::string& function : functions) {
+    if (!lexer.acceptKeyword(function)) continue;
+    lexer.seek(start);
+    return {};
+  }
+  return meantWord(lexer, functions);
+}
+
+}  // namespace
+
 /// FUNCTION TCPM becomes Modal "FUNCTION TCPM" with the words F (1 = F TCP, 0 = F CONT), AXIS (1 = AXIS POS, 0 = AXIS
 /// SPAT), PATH (1 = PATHCTRL AXIS, 0 = PATHCTRL VECTOR), REFP (REFPNT 0 = TIP-TIP, 1 = TIP-CENTER, 2 = CENTER-CENTER),
 /// FLIM (the limit of the feed, absent: FMAX);
@@ -214,6 +232,8 @@ bool BlockParser::functionKeyword() {
       emit(Modal{constant("FUNCTION RESET TCPM"), {}});
       return expectEnd();
     }
+    if (std::string meant = meantFunction(lexer_); !meant.empty())
+      return error("this is no function that FUNCTION RESET resets", std::move(meant));
     emit(Command{constant(nameOf(CommandKind::FunctionReset)), ref(lexer_.restOfBlock()), -1, {}});
     return true;
   }
@@ -227,6 +247,8 @@ bool BlockParser::functionKeyword() {
                      meantWord(lexer_, {"MILL", "TURN", "GRIND", "SET"}));
       }
       lexer_.seek(start);
+    } else if (std::string meant = meantFunction(lexer_); !meant.empty()) {
+      return error("this is no word of a FUNCTION block", std::move(meant));
     }
     return textCommand(CommandKind::Function);
   }
@@ -239,7 +261,8 @@ bool BlockParser::functionKeyword() {
         addWord(addressOf("F"), Operand::of(tcp ? 1 : 0));
         continue;
       }
-      if (isLetter(lexer_.peek()) && !variableFollows()) return error("TCP, CONT or a feed is expected after F");
+      if (isLetter(lexer_.peek()) && !variableFollows())
+        return error("TCP, CONT or a feed is expected after F", meantWord(lexer_, {"TCP", "CONT"}));
     }
     lexer_.seek(start);
     if (lexer_.peek() == 'F') {  // the feed limit of the compensating movement

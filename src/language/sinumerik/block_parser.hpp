@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -92,6 +93,7 @@ private:
   bool parseShortValue(double& value);
   language::Operand parseValue(language::WordMode* mode);
   bool parseDimensionedValue(language::Word& word);
+  bool beginsFeedFunction(std::initializer_list<std::string_view> names);
   void parseAxialDiameter(std::string_view name);
   void addMoveWord(std::uint32_t address, std::size_t start);
   void parseMoveWord(std::string_view name, std::size_t start);

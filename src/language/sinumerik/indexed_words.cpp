@@ -57,6 +57,12 @@ void BlockParser::parseMoveWord(std::string_view name, std::size_t start) {
   if (cursor_.peek() != '=') {
     return fail(start, std::string(name) + " needs a value", "Write " + std::string(name) + "=value.");
   }
+  if (name == "FAD" && beginsFeedFunction({"PM", "PR"})) {  // per minute, per revolution
+    const Operand feed = parseExpression();
+    axisWords_.push_back({addressOf(name), WordMode::Plain, feed, static_cast<std::uint32_t>(start) + 1, 0});
+    if (!failed_) expect(')', "after the feed");
+    return;
+  }
   addMoveWord(addressOf(name), start);
 }
 

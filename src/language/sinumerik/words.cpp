@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "language/sinumerik/block_parser.hpp"
@@ -66,6 +67,13 @@ void BlockParser::parseAddress() {
       }
       feedColumn_ = static_cast<std::uint32_t>(start) + 1;
       if (feed_.present()) return fail(start, "the feed F appears twice in this block");
+      if (beginsFeedFunction({"FPO"})) {  // the feed at the block's end, and how it gets there
+        feed_ = parseExpression();
+        for (int i = 0; i < 2 && !failed_ && cursor_.take(','); ++i)
+          parseExpression();
+        if (!failed_) expect(')', "after the feed and its two coefficients");
+        return;
+      }
       feed_ = parseValue(nullptr);
       return;
     }
@@ -213,6 +221,19 @@ void BlockParser::addMoveWord(std::uint32_t address, std::size_t start) {
   word.column = static_cast<std::uint32_t>(start) + 1;
   if (!parseDimensionedValue(word)) word.value = parseValue(&word.mode);
   axisWords_.push_back(word);
+}
+
+/// Goes behind "=NAME(" if the name is one of `names`.
+bool BlockParser::beginsFeedFunction(std::initializer_list<std::string_view> names) {
+  Cursor ahead = cursor_;
+  if (!ahead.take('=')) return false;
+  ahead.skipBlanks();
+  const std::string_view name = ahead.peekName();
+  if (std::ranges::find(names, name) == names.end()) return false;
+  ahead.advance(name.size());
+  if (!ahead.take('(')) return false;
+  cursor_ = ahead;
+  return true;
 }
 
 /// X=DAC(value), DIC, RAC, RIC: a diameter or a radius, whatever DIAMON says. The run computes what to add or take off.
