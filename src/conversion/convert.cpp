@@ -65,7 +65,12 @@ bool convertible(ProgramLanguage from, ProgramLanguage to) {
 Conversion convert(language::Program& program, ProgramLanguage from, ProgramLanguage to,
                    const ConvertOptions& options) {
   const bool vendors = from == ProgramLanguage::Sinumerik || to == ProgramLanguage::Sinumerik;
-  if (!vendors) return betweenDialects(dynamic_cast<HeidenhainProgram&>(program), from, to);
+  if (!vendors) {
+    Conversion conversion = betweenDialects(dynamic_cast<HeidenhainProgram&>(program), from, to);
+    // A program may have parameters that the older control does not know.
+    if (options.control == control::ControlKind::iTNC530) readBack(conversion, program, to, options.control);
+    return conversion;
+  }
   const auto between = [&](ProgramLanguage first, ProgramLanguage second, ProgramLanguage last) {
     Conversion begun = convert(program, first, second, options);
     if (hasErrors(begun.mistakes)) return begun;

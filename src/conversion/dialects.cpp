@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <utility>
 
 #include "base/text.hpp"
+#include "cycles/heidenhain/probe_words.hpp"
 #include "language/din_iso/block_extent.hpp"
 #include "language/din_iso/modal_state.hpp"
 #include "language/din_iso/writer.hpp"
@@ -200,8 +203,45 @@ private:
       comment(block);
       return;
     }
-    for (const Block& single : singles(block))
-      statement(single, original);
+    for (const Block& single : singles(block)) {
+      if (toDinIso_ && isOldToolCycle(single)) {
+        oldToolCycle(single, original);
+      } else {
+        statement(single, original);
+      }
+    }
+  }
+
+  static const language::CycleCall* cycleOf(const Block& block) {
+    return block.instructions.empty() ? nullptr : std::get_if<language::CycleCall>(&block.instructions.front());
+  }
+  static bool isOldToolCycle(const Block& block) {
+    const language::CycleCall* cycle = cycleOf(block);
+    return cycle != nullptr && block.at(cycle->name) == "TCH PROBE" && cycle->number >= 30 && cycle->number <= 33;
+  }
+
+  /// 30 to 33 as G480 to G483, whose status is in Q199.
+  void oldToolCycle(const Block& block, const Block& original) {
+    namespace word = cycles::heidenhain::probe_word;
+    static constexpr std::array<std::pair<std::uint32_t, std::uint32_t>, 3> parameters = {
+        {{word::check, 340}, {word::height, 260}, {word::teeth, 341}}};
+    Block written = block;
+    auto& cycle = std::get<language::CycleCall>(written.instructions.front());
+    cycle.number += 450;
+    std::optional<double> status;
+    std::vector<Word> words;
+    for (std::uint32_t i = 0; i < cycle.parameters.count; ++i) {
+      Word each = written.words[cycle.parameters.first + i];
+      if (each.address == word::result && each.value.isLiteral()) status = each.value.number;
+      const auto known = std::ranges::find(parameters, each.address, &std::pair<std::uint32_t, std::uint32_t>::first);
+      if (known == parameters.end()) continue;
+      each.address = known->second;
+      words.push_back(each);
+    }
+    cycle.parameters = {static_cast<std::uint32_t>(written.words.size()), static_cast<std::uint32_t>(words.size())};
+    written.words.insert(written.words.end(), words.begin(), words.end());
+    statement(written, original);
+    if (status) line(fmt::format("D00 Q{:.0f} P01 +Q199 *", *status), true);
   }
 
   void comment(const Block& block) {

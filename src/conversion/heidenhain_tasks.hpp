@@ -22,6 +22,9 @@ inline constexpr std::array<CentredCycles, 8> centredCycles = {{{Feature::Hole, 
                                                                 {Feature::Pocket, 410, 423},
                                                                 {Feature::RectangularSpigot, 411, 424}}};
 
+/// True for 481 to 483 and 31 to 33, which are no tasks: they measure tools.
+bool measuresTools(int heidenhainCycle);
+
 /// The tasks of a call, in the order in which the cycle carries them out. What of the call a task cannot say goes to
 /// `losses`. Throws NotCarriedOver for cycles and parameters without a task. `ballRadius`: as the written program
 /// names it.

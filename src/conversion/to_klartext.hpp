@@ -120,6 +120,9 @@ private:
   /// What ends the sections whose last block is this one.
   void endSections(const language::Block& block);
 
+  // tool_measuring.cpp
+  void toolMeasurement(const language::Block& block, const Call& call);
+
   // planes.cpp
   void swivel(const language::Block& block, const language::CallProgram& call);
 

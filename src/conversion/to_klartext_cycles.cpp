@@ -257,6 +257,7 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   }
   if (call.cycle == "CYCLE150") return measuringLog(block, call);
   rely(block, axisDoubtful_, "the tool axis (G17, G18, G19)");
+  if (call.cycle == "CYCLE971") return toolMeasurement(block, call);
   rely(block, logDoubtful_, "the measuring log (CYCLE150)");
   Losses losses;
   const bool calibrates = call.cycle == "CYCLE976";

@@ -86,6 +86,9 @@ private:
   std::string tableAxis() const;
   void alignRotaryAxis(const language::Block& block, const Call& call);
 
+  // tool_measuring.cpp
+  void toolMeasurement(const language::Block& block, const Call& call);
+
   // hole_patterns.cpp
   /// Two variables of the converter's own: where a centre was found.
   using Centre = std::array<std::string, 2>;

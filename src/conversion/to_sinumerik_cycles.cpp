@@ -94,6 +94,7 @@ void ToSinumerik::cycle(const Block& block, const CycleCall& cycle) {
   const cycles::CycleDefinition* definition = cycles::heidenhainCycle(cycle.number);
   const Call call = callOf(block, cycle);
   listForbiddenFrame(block, cycle.number);
+  if (measuresTools(cycle.number)) return toolMeasurement(block, call);
   if (cycle.number == 404) return basicRotation(call);
   if (cycle.number == 403) return alignRotaryAxis(block, call);
   if (cycle.number == 0 || cycle.number == 3 || cycle.number == 4) return singleTouch(block, cycle, call);
