@@ -58,6 +58,13 @@ struct CyclesArguments {
 };
 int cycles(const CyclesArguments& arguments);
 
+struct CameraArguments {
+  std::filesystem::path folder;  ///< of tables
+  std::string point;             ///< empty: all are listed
+  std::string keys;              ///< soft keys; empty: its images are listed
+};
+int camera(const CameraArguments& arguments);
+
 struct ConvertArguments {
   std::filesystem::path input;
   std::filesystem::path output;                 ///< its ending names the language

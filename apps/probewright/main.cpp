@@ -269,6 +269,15 @@ int main(int argc, char** argv) {
   cycles->add_flag("--json", cyclesArguments.asJson, "Everything that the catalogue knows, as JSON for other programs")
       ->excludes(block);
 
+  probewright::app::CameraArguments cameraArguments;
+  CLI::App* camera = app.add_subcommand("camera", "List and manage the images that cycles 600 and 601 have stored");
+  camera->add_option("FOLDER", cameraArguments.folder, "The folder of tables that a run has left")->required();
+  camera->add_option("POINT", cameraArguments.point, "A monitoring point, as PLATE.OS; without it all are listed");
+  camera
+      ->add_option("--keys", cameraArguments.keys,
+                   "Soft keys to press, as \"SELECT IMAGE 3; REFERENCE IMAGE; EVALUATE\" (docs/heidenhain-cycles.md)")
+      ->type_name("KEYS");
+
   probewright::app::ConvertArguments convertArguments;
   CLI::App* convert = app.add_subcommand(
       "convert", "Write a program in another language: Klartext (.H), DIN/ISO (.I), SINUMERIK (.MPF)");
@@ -328,6 +337,7 @@ int main(int argc, char** argv) {
   const int exit = probewright::app::guarded([&] {
     if (run->parsed()) return probewright::app::run(runArguments);
     if (check->parsed()) return probewright::app::check(checkArguments);
+    if (camera->parsed()) return probewright::app::camera(cameraArguments);
     if (convert->parsed()) return probewright::app::convert(convertArguments);
     if (feel->parsed()) return probewright::app::feel(feelArguments);
     return probewright::app::cycles(cyclesArguments);

@@ -363,7 +363,8 @@ void ToKlartext::command(const Block& block, const Command& command) {
   if (name == "SPOS" && !words.empty()) {
     const std::string angle = formulas_.value(quantity(block, words[0].value));
     line("CYCL DEF 13.0 ORIENTATION");
-    return out_.line(fmt::format("CYCL DEF 13.1 ANGLE {}", angle));
+    line(fmt::format("CYCL DEF 13.1 ANGLE {}", angle));
+    return out_.line("M19");
   }
   // What a preset is set to acts at once.
   if (name == "G" && trimmed(block.at(block.source), lineBlanks) == selectedAgain) return;

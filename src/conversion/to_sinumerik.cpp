@@ -257,8 +257,10 @@ void ToSinumerik::machineFunction(const Block& block, const MachineFunction& fun
     case 7:
     case 8:
     case 9:
-    case 19:
       return out_.line(fmt::format("M{}", function.number));
+    case 19:
+    case 20:
+      return out_.line(orientation_.empty() ? "M19" : "SPOS=" + orientation_);
     case 13:
       return out_.line("M3 M8");
     case 14:
@@ -334,7 +336,8 @@ void ToSinumerik::command(const Block& block, const Command& command) {
     return out_.line(fmt::format("G4 {}", addressWord("F", quantity(block, words.front().value))));
   }
   if (kind == klartext::CommandKind::SpindleOrientation && !words.empty()) {
-    return out_.line(fmt::format("SPOS={}", sinumerikText(quantity(block, words.front().value))));
+    orientation_ = sinumerikText(quantity(block, words.front().value));
+    return;
   }
   const auto wordOr = [&](std::string_view address, double otherwise) {
     const auto found = std::ranges::find(words, addressOf(address), &Word::address);

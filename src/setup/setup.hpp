@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/diagnostic.hpp"
+#include "camera/true_camera.hpp"
 #include "control/beliefs.hpp"
 #include "session/control_family.hpp"
 #include "simulation/world.hpp"
@@ -19,6 +20,7 @@ namespace probewright::setup {
 struct Setup {
   std::vector<std::filesystem::path> inputs;  ///< the files it was read from and those it names, but not the tables
   simulation::World world;
+  std::optional<camera::TrueCamera> camera;  ///< of the machine
   control::Beliefs beliefs;
 };
 

@@ -4,6 +4,7 @@
 #include "base/toml_table.hpp"
 #include "setup/belief_file.hpp"
 #include "setup/calibrated_beliefs.hpp"
+#include "setup/camera_keys.hpp"
 #include "setup/setup_on_machine.hpp"
 #include "setup/tool_keys.hpp"
 #include "setup/world_file.hpp"
@@ -30,6 +31,7 @@ std::optional<Setup> parse(std::string_view text, const std::string& file, const
   world.readSeed();
   world.readSolids();
   readTools(root, setup.world, setup.beliefs);
+  setup.camera = readCamera(root, setup.world);
   beliefs.readFrames();
   world.readErrors();
   beliefs.readParameters();

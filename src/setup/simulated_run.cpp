@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "camera/virtual_camera.hpp"
 #include "simulation/cad_solid.hpp"
 #include "simulation/mesh_solid.hpp"
 
@@ -38,6 +39,7 @@ SimulatedRun runPrepared(session::PreparedProgram prepared, const Setup& setup, 
     if (machine) {
       run.machine = std::move(*machine);
       run.machine->recordPath(options.recordPath);
+      if (setup.camera) run.machine->fit(std::make_unique<camera::VirtualCamera>(*run.machine, *setup.camera));
       warnOfParts(run.machine->truth(), setup.world.file, prepared.diagnostics);
     } else {
       prepared.diagnostics.push_back(machine.error());

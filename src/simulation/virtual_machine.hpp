@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <random>
 #include <span>
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "machine/camera.hpp"
 #include "machine/machine.hpp"
 #include "machine/tool_spindle.hpp"
 #include "simulation/contact_search.hpp"
@@ -55,7 +57,7 @@ namespace probewright::simulation {
 ///
 /// Tool change. The last linear axis of the spindle chain goes to the tool change position first, then the other linear
 /// axes together. Changing to the tool in the spindle does nothing. Not watched for collisions except at its end.
-class VirtualMachine final : public machine::Machine, public machine::ToolSpindle {
+class VirtualMachine final : public machine::Machine, public machine::ToolSpindle, public machine::CameraOwner {
 public:
   explicit VirtualMachine(Truth truth);
 
@@ -84,6 +86,10 @@ public:
   machine::ToolChangeResult changeTool(const machine::ToolOrder& order) override;
   machine::WaitEnd dwell(double seconds) override;
   double seconds() const override { return clock_; }
+
+  machine::Camera* camera() override { return camera_.get(); }
+  /// Fits a camera to the machine.
+  void fit(std::unique_ptr<machine::Camera> camera) { camera_ = std::move(camera); }
 
   /// Puts a tool into the spindle by hand: at once, where the axes stand.
   machine::ToolChangeResult insertTool(const machine::ToolOrder& order);
@@ -186,6 +192,7 @@ private:
   bool recording_ = true;
   ContinuousPath continuous_;
   PathRecorder path_;
+  std::unique_ptr<machine::Camera> camera_;
 };
 
 /// The seed of the random stream called `name` in a world seeded with `seed`.

@@ -170,6 +170,25 @@ TEST(MFunctions, M94TakesWholeTurnsFromTheReading) {
   EXPECT_NEAR(world.machine->steps[2].axes[*axis], 740, 1e-9);
 }
 
+/// Cycle 13 only says where to.
+TEST(MFunctions, M19AndM20OrientTheSpindleToTheAngleOfCycle13) {
+  for (const char* function : {"M19", "M20"}) {
+    World world;
+    const std::string cycle = "CYCL DEF 13.0 ORIENTATION\nCYCL DEF 13.1 ANGLE 75\n";
+    expectFinished(world.run("TOOL CALL 1 Z S500\nM3\n" + cycle));
+    EXPECT_EQ(world.control->channel.spindleRotation(), machine::Rotation::Clockwise) << "it still turns";
+    expectFinished(world.run("TOOL CALL 1 Z S500\nM3\n" + cycle + "L X+5 R0 FMAX " + function + "\n"));
+    EXPECT_EQ(world.control->channel.spindleAngle(), 75);
+    EXPECT_TRUE(world.told(EventKind::Skipped).empty());
+    World without;
+    expectFinished(without.run(std::string("TOOL CALL 1 Z\n") + function + "\n"));
+    EXPECT_EQ(without.control->channel.spindleAngle(), 0) << "as the builder has fixed it";
+  }
+  World world;
+  const RunResult beyond = world.run("Q1 = 361\nCYCL DEF 13.0 ORIENTATION\nCYCL DEF 13.1 ANGLE Q1\n");
+  EXPECT_EQ(beyond.end, RunEnd::Alarm);
+}
+
 TEST(MFunctions, WhatIsNotCarriedOutIsNamedOnce) {
   World world;
   expectFinished(

@@ -158,6 +158,7 @@ TEST(DocumentedKeys, OfEverySection) {
               documented("`[ring]`, `[sphere]`, `[gauge_block]`, `[tool_probe]`", fmt::format("[{}]", gauge)))
         << gauge;
   }
+  EXPECT_EQ(known("[camera]\n" + z), documented("`[camera]`"));
   const std::string frames = "`[[preset]]` and `[[zero_offset]]`";
   std::set<std::string> preset = documented(frames), offset = preset;
   EXPECT_TRUE(preset.erase("name") == 1 && offset.erase("row") == 1);
@@ -186,6 +187,16 @@ TEST(DocumentedKeys, OfCutters) {
   EXPECT_EQ(known(cutter + z), listed("[tool.cutter]"));
   EXPECT_EQ(known(cutter + "[[tool.cutter.tooth]]\nnumber = 1\n" + z), listed("[[tool.cutter.tooth]]"));
   EXPECT_EQ(known(mill + "[tool.cutter.insert]\nnose_radius = 1\n" + z), listed("[tool.cutter.insert]"));
+}
+
+TEST(DocumentedKeys, OfLampsAndSurfaces) {
+  for (const char* table : {"lamp", "surface"}) {
+    const std::string head = fmt::format("[[camera.{}]]", table);
+    std::set<std::string> keys;
+    for (const Row& row : rows())
+      if (row.cells.contains("key of `" + head + "`")) keys.insert(row.keys.begin(), row.keys.end());
+    EXPECT_EQ(known(head + "\nposition = [0, 0, 1]\n" + z), keys);
+  }
 }
 
 TEST(DocumentedKeys, OfFeatures) {
@@ -301,6 +312,7 @@ TEST(DocumentedKeys, HaveTheRangesOfThePage) {
       {"Top level", "{}"},
       {"`[[tool]]`", probe + "{}"},
       {"`[[preset]]` and `[[zero_offset]]`", "[[preset]]\n{}"},
+      {"`[camera]`", "[camera]\n{}"},
       {"[errors.axis.X]", "[errors.axis.X]\n{}"},
       {"[[errors.axis.X.deviation]]", "[[errors.axis.X.deviation]]\n{}"},
       {"[[errors.squareness]]", "[[errors.squareness]]\naxis = \"X\"\ntowards = \"Y\"\n{}"},
@@ -319,7 +331,8 @@ TEST(DocumentedKeys, HaveTheRangesOfThePage) {
     const auto place = places.find(row.table.empty() ? row.heading : row.table);
     if (!range || place == places.end()) continue;
     for (const std::string& key : row.keys) {
-      if (key == "polynomial" || key == "rotary") continue;  // lists and tables
+      if (key == "polynomial" || key == "rotary" || key == "resolution" || key == "distortion")
+        continue;  // lists and tables
       const bool machine = row.heading == "Machine files";
       const auto own = bare.find(key);
       const bool tool = row.heading == "`[[tool]]`" || key == "tool_change_seconds";

@@ -17,6 +17,8 @@
 /// Everything a HEIDENHAIN control knows while a program runs.
 namespace probewright::control::heidenhain {
 
+struct CameraMonitoring;
+
 /// The tables of the control, as their files stand.
 struct Tables {
   TypedTable tools;                          ///< TOOL.T
@@ -148,6 +150,9 @@ private:
   ControlKind kind_;
   bool probing_ = false;
   std::map<int, ActivePreset> exactPresets_;  ///< rows written in this run, unrounded
+
+public:
+  std::shared_ptr<CameraMonitoring> cameraMonitoring;  ///< null: Visual Setup Control (option 136) is not enabled
 };
 
 }  // namespace probewright::control::heidenhain

@@ -143,8 +143,7 @@ void KlartextHost::carryOut(const Command& command, Evaluation& evaluation) {
       if (first != nullptr) dwell(evaluation.number(first->value));
       break;
     case CommandKind::SpindleOrientation:
-      motion_.flush();
-      if (first != nullptr) control_.channel.orientSpindle(evaluation.number(first->value));
+      if (first != nullptr) spindle_.setOrientation(evaluation.number(first->value));
       break;
     case CommandKind::ProgramCall:
     case CommandKind::SelectCycle:

@@ -9,8 +9,8 @@ using control::ControlKind;
 
 namespace {
 
-constexpr std::array carriedOut = {0,  1,  2,   3,   4,   5,   6,   8,   9,   13,  14,  30,  89,  91, 92,
-                                   94, 99, 126, 127, 128, 129, 130, 136, 137, 140, 141, 143, 144, 145};
+constexpr std::array carriedOut = {0,  1,  2,  3,   4,   5,   6,   8,   9,   13,  14,  19,  20,  30,  89, 91,
+                                   92, 94, 99, 126, 127, 128, 129, 130, 136, 137, 140, 141, 143, 144, 145};
 
 /// Constant speed at corners, tool life, plunging feed, control gain, oversizes of replacement tools, feed of arcs and
 /// of rotary axes, superimposed handwheel, exact stops, lift off, laser power.

@@ -34,6 +34,13 @@ void MachineFunctions::carryOut(const MachineFunction& function, Evaluation& eva
     case 9:
       spindle_.coolant(function.number);
       break;
+    case 19:
+    case 20:
+      // A builder may have given the number another meaning.
+      if (handToMachine(function.number)) break;
+      motion_.flush();
+      spindle_.orient();
+      break;
     case 89:
       motion_.flush();
       cycles_.callAtEachMove();

@@ -1,5 +1,9 @@
 #include "execution/klartext/spindle.hpp"
 
+#include <fmt/format.h>
+
+#include "control/alarm.hpp"
+
 namespace probewright::execution::klartext {
 
 using machine::Rotation;
@@ -15,6 +19,16 @@ void Spindle::stop() {
   control_.channel.turnSpindle(Rotation::None, 0);
   control_.q.setQ(110, state());
 }
+
+void Spindle::setOrientation(double degrees) {
+  if (!(degrees >= 0 && degrees <= 360)) {
+    throw control::Alarm("Cycle parameter wrong", fmt::format("Cycle 13 orients the spindle to {} degrees", degrees),
+                         "program an angle from 0 to 360 degrees");
+  }
+  orientation_ = degrees;
+}
+
+void Spindle::orient() { control_.channel.orientSpindle(orientation_.value_or(0)); }
 
 void Spindle::coolant(int number) {
   control_.q.setQ(111, number == 8 ? 1 : 0);

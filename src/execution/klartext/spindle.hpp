@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "execution/klartext/run_context.hpp"
 
 namespace probewright::execution::klartext {
@@ -13,6 +15,10 @@ public:
   void turn(machine::Rotation rotation);
   /// M5.
   void stop();
+  /// Cycle 13: the angle that orient() turns to. Throws Alarm if it is not from 0 to 360 degrees.
+  void setOrientation(double degrees);
+  /// M19, M20: to the angle of cycle 13, without one to 0, which the builder of the machine has fixed.
+  void orient();
   /// M8, M9.
   void coolant(int number);
   /// The end of the main program stops spindle and coolant.
@@ -24,6 +30,7 @@ private:
   control::heidenhain::Control& control_;
   bool hasRun_ = false;
   bool clockwise_ = true;
+  std::optional<double> orientation_;  ///< degrees
 };
 
 }  // namespace probewright::execution::klartext

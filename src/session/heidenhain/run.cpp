@@ -11,6 +11,7 @@
 #include "session/heidenhain/beliefs.hpp"
 #include "session/heidenhain/family_parts.hpp"
 #include "session/heidenhain/kinematic_files.hpp"
+#include "session/heidenhain/monitoring_files.hpp"
 #include "session/heidenhain/remanent_parameters.hpp"
 #include "session/run_parts.hpp"
 #include "session/source.hpp"
@@ -51,19 +52,35 @@ std::set<std::string> namesOf(const hh::Tables& tables) {
   return names;
 }
 
+/// What the control has of the machine's camera; null if the machine has none, or the control no use for it.
+std::shared_ptr<hh::CameraMonitoring> cameraMonitoringOf(machine::Machine& machine, const RunRequest& request,
+                                                         Diagnostics& diagnostics) {
+  machine::Camera* camera = machine::cameraOf(machine);
+  if (camera == nullptr || request.control != ControlKind::TNC640) return nullptr;
+  return std::make_shared<hh::CameraMonitoring>(
+      hh::CameraMonitoring{camera, readMonitoringFiles(request.beliefs.tables, diagnostics)});
+}
+
 void run(const RunRequest& request, FolderReading reading, machine::Machine& machine, HostFiles& host,
          RunOutcome& outcome) {
   const RunOptions& options = request.options;
   const control::Beliefs& beliefs = request.beliefs;
   hh::Tables tables = heidenhainTables(beliefs, request.control, outcome.diagnostics);
   const hh::MachineParameters parameters = machineParameters(beliefs, request.control, outcome.diagnostics);
-  const std::set<std::string> tableNames = namesOf(tables);
+  std::set<std::string> tableNames = namesOf(tables);
+  const auto cameraMonitoring = cameraMonitoringOf(machine, request, outcome.diagnostics);
+  if (cameraMonitoring) {
+    for (const auto& point : cameraMonitoring->points)
+      for (const auto& [name, bytes] : monitoringFiles(point))
+        tableNames.insert(name);
+  }
   refuseForeign(outcome.diagnostics, tableNames, options);
   if (hasErrors(outcome.diagnostics)) return;
   hh::Control control(request.control, machine, std::move(tables), parameters);
   setPanel(control.panel, request, tableNames);
   control.journal.limit = options.recordLimit;
   control.programPath = request.path.string();
+  control.cameraMonitoring = cameraMonitoring;
   control.startSeconds = control.channel.seconds();
   control.wallClockStart = options.wallClock;
   readKinematics(control, beliefs, outcome.diagnostics);
@@ -102,6 +119,10 @@ void run(const RunRequest& request, FolderReading reading, machine::Machine& mac
   writeKinematics(control, outcome.files);
   if (std::string remanent = remanentParametersText(control.q); !remanent.empty())
     outcome.files[remanentFile] = std::move(remanent);
+  if (cameraMonitoring) {
+    for (const auto& point : cameraMonitoring->points)
+      outcome.files.merge(monitoringFiles(point));
+  }
   // Tables that few machines have come out if there is anything in them.
   for (const auto* table : {&control.tables.turningTools, &control.tables.axisShifts}) {
     if (*table && !(*table)->table().keys().empty())

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/diagnostic.hpp"
+#include "control/heidenhain/camera_monitoring.hpp"
+
+/// The data of the control's camera outlive a program: for each monitoring point a run leaves a file *.VSC and its
+/// images as PNG beside the tables, where the next one reads them.
+namespace probewright::session {
+
+/// The monitoring points whose files are in the folder of tables. Mistakes go to `diagnostics`.
+std::vector<control::heidenhain::MonitoringPoint> readMonitoringFiles(const std::filesystem::path& tables,
+                                                                      Diagnostics& diagnostics);
+
+/// All files of a point, by name.
+std::map<std::string, std::string> monitoringFiles(const control::heidenhain::MonitoringPoint& point);
+
+}  // namespace probewright::session
