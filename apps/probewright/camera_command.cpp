@@ -98,7 +98,8 @@ Result<void> operate(const CameraArguments& arguments, hh::MonitoringPoint& poin
   hh::CameraScreen screen(
       {.show = say,
        .warn = say,
-       .file = [&](const std::string& name, std::string bytes) { pictures[name] = std::move(bytes); }},
+       .file = [&](const std::string& name, std::string bytes) { pictures[name] = std::move(bytes); },
+       .takeAnother = {}},
       point, 0);
   try {
     screen.operate(arguments.keys, fileStem(point));
