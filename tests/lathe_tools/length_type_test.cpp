@@ -11,20 +11,24 @@ using namespace testing_support;
 
 constexpr double table = -350;
 
-SinumerikBench benchOverASurface(double probeLength) {
+simulation::Truth aboveASurface(double probeLength) {
   simulation::Truth truth = perfectWorld();
   truth.tools[0].length = probeLength;
   place(truth, simulation::Box({-50, -50, -40}, {50, 50, 0}), translation({0, 0, table}));
-  SinumerikBench bench(truth);
+  return truth;
+}
+
+/// The probe has its length where it acts.
+void actAsTurningTools(SinumerikBench& bench) {
   plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
   bench.set("$SC_TOOL_LENGTH_TYPE", {}, 2);
   bench.set("$TC_DP3", {1, 1}, 0);
   bench.set("$TC_DP5", {1, 1}, 100);
-  return bench;
 }
 
 TEST(LengthType, ACalibratedProbeIsCorrectedInTheLengthThatActsAlongIt) {
-  SinumerikBench bench = benchOverASurface(100.35);
+  SinumerikBench bench(aboveASurface(100.35));
+  actAsTurningTools(bench);
   bench.start({0, 0, 12});
   bench.run("CYCLE976", {{"S_MVAR", 1001000}, {"S_SETV", 0}, {"S_MA", 3}, {"S_MD", 1}, {"S_FA", 10}, {"S_TSA", 3}});
   EXPECT_NEAR(bench.data("$TC_DP5", {1, 1}), 100.35, 1e-9);
@@ -32,7 +36,8 @@ TEST(LengthType, ACalibratedProbeIsCorrectedInTheLengthThatActsAlongIt) {
 }
 
 TEST(LengthType, AMillIsCorrectedInTheLengthThatActsAcrossTheSurface) {
-  SinumerikBench bench = benchOverASurface(100);
+  SinumerikBench bench(aboveASurface(100));
+  actAsTurningTools(bench);
   bench.set("$TC_TP2", {7}, 0);
   bench.control.data.set("$TC_TP2", {7}, std::string("MILL"));
   bench.set("$TC_DP1", {7, 1}, 120);
