@@ -38,6 +38,7 @@ TEST(Advice, NamesWhatTheManualAdvisesAgainst) {
   expectOnly(advice({{411, 90}, {412, 90}, {414, 1}}, ControlKind::TNC640, 2),
              "one measuring point of A does not tell");
   expectOnly(advice({{414, 0}, {422, 0}}), "no axis is measured");
+  expectOnly(advice({{414, 99999999}}), "error: Q414 (measuring points of A; 0: not measured) cannot be 99999999");
   expectOnly(advice({}, ControlKind::iTNC530, 3), "error: Q406 = 3 is a mode of the TNC 640");
 }
 

@@ -115,7 +115,9 @@ void adviseOnPositions(CallRules& call, std::optional<double> mode) {
     const std::uint32_t first = 411 + 4 * i, count = first + 3;
     const auto start = known(first), end = known(first + 1), points = known(count);
     if (!points) complete = false;
-    if (!points || *points < 1) continue;
+    // What is out of its range is told elsewhere.
+    constexpr int mostPoints = 12;
+    if (!points || !(*points >= 1 && *points <= mostPoints)) continue;
     measures = true;
     const char name = static_cast<char>('A' + i);
     const bool backlash = known(432).value_or(0) != 0;
