@@ -92,10 +92,10 @@ TEST(Cycle982Refuses, WhatItCannotMeasure) {
 
 TEST(Cycle982Refuses, AWayThroughTheContact) {
   LatheBench bench = benchWithTools();
-  // Below the contact, with a tool that touches from above.
-  EXPECT_EQ(bench.alarmOf("DIAMOF\nT8 D1\nG0 Z460 X120\nG0 X110\nG0 "
-                          "Z404\nCYCLE982(1,0,1,2,2,,5,1)"),
-            "61332");
+  // The tool touches from above, and stands below where the control believes the contact.
+  bench.set(triggerName(2, -1), {0}, 230);
+  bench.set(triggerName(2, 1), {0}, 210);
+  EXPECT_EQ(bench.alarmOf(measuring(8, {404, 190}, "CYCLE982(1,0,1,2,2,,5,1)")), "61332");
 }
 
 TEST(Cycle982Refuses, WhenNothingIsTouched) {
