@@ -76,7 +76,9 @@ TEST(ToolConversion, ToSinumerikMeasuresTheSameTool) {
     const bool length = number != 482, radius = number != 481;
     EXPECT_NEAR(there[0] + there[2], length ? milled.length() : milled.believedLength(), tolerance + 1e-4);
     EXPECT_NEAR(there[1] + there[3], radius ? milled.radius() : milled.believedRadius(), tolerance + 1e-4);
-    if (mode == 1) EXPECT_EQ(there[0], milled.believedLength());
+    if (mode == 1) {
+      EXPECT_EQ(there[0], milled.believedLength());
+    }
   }
 }
 
