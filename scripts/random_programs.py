@@ -523,7 +523,7 @@ active = true
 def measured_tools(dice, setup):
     """A tool touch probe on the bed of a lathe, and the finishing tool and a mill that are measured with it."""
     wrong = lambda: round(dice.uniform(-0.2, 0.2), 4)
-    x, z = 120, 420
+    x, z = 120, 520  # beside the way of the probe
     setup += f"""[tool_probe]
 size = [20, 20]
 thickness = 20

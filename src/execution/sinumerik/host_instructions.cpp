@@ -231,8 +231,7 @@ void SinumerikHost::selectMasterSpindle(const Command& command, Evaluation& eval
   const bool named = !words.empty() && words[0].value.present();
   const int number = named ? wholeNumber(evaluation.number(words[0].value)) : control::sinumerik::mainSpindle;
   const bool drives = number == control::sinumerik::drivenTools && control::toolSpindleOf(control_.channel) != nullptr;
-  if (number != control::sinumerik::mainSpindle && !drives)
-    return skip("SETMS", "names a spindle that this machine does not have");
+  if (number != control::sinumerik::mainSpindle && !drives) return skip("SETMS");
   motion_.flush();
   control::sinumerik::setMasterSpindle(control_, number);
 }
