@@ -171,6 +171,7 @@ TEST(DocumentedKeys, OfTools) {
   const std::set<std::string> ofProbes = known(probe + z), ofMills = known(mill + z);
   std::set<std::string> both = ofProbes;
   both.insert(ofMills.begin(), ofMills.end());
+  both.merge(known("[[tool]]\nnumber = 1\nkind = \"turn\"\nlength = 9\nradius = 1\n" + z));
   EXPECT_EQ(both, all);
   EXPECT_TRUE(ofMills.contains("radius") && !ofProbes.contains("radius"));
 }
@@ -323,6 +324,7 @@ TEST(DocumentedKeys, HaveTheRangesOfThePage) {
       {"length", "[[tool]]\nnumber = 1\nkind = \"mill\"\nradius = 1\n{}"},
       {"radius", "[[tool]]\nnumber = 1\nkind = \"mill\"\nlength = 9\n{}"},
       {"ball_radius", "[[tool]]\nnumber = 1\nkind = \"probe\"\nlength = 100\n{}"},
+      {"cutting_edge_position", "[[tool]]\nnumber = 1\nkind = \"turn\"\nlength = 9\nradius = 1\n{}"},
       {"tool_change_seconds", "{}"}};
   int checked = 0;
   for (const Row& row : rows()) {
