@@ -249,8 +249,7 @@ Result<MachineDescription> withCarrier(MachineDescription machine, const ToolCar
   }
   // A chain that does not close shifts the tip, or the workpiece, by a fixed way.
   constexpr double closed = 1e-12;
-  if (headGap.norm() > closed)
-    machine.spindleChain.insert(machine.spindleChain.begin(), fixedOffset(-headGap));
+  if (headGap.norm() > closed) machine.spindleChain.insert(machine.spindleChain.begin(), fixedOffset(-headGap));
   if (tableGap.norm() > closed) machine.tableChain.push_back(fixedOffset(tableGap));
   return machine;
 }
