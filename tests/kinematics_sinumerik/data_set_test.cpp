@@ -230,6 +230,18 @@ TEST(OpenChain, KeepsItsEnd) {
   }
 }
 
+/// The digits of the normalisation count the axes of the plane: in G18 Y is the third.
+TEST(Normalisation, CountsTheAxesOfThePlane) {
+  Planter plant(99630);
+  KinematicsScene scene(headTable, planted(headTable, 99630));
+  scene.measureAll();
+  scene.calculate({{"S_MVAR", 1301000}, {"S_SETV2", 5}, {"S_SETV3", -40}, {"_DMODE", 2}});
+  EXPECT_NEAR(scene.datum(4).y(), 5, 1e-9);
+  EXPECT_NEAR(scene.datum(15).z(), -40, 1e-9);
+  scene.enterDirections();
+  EXPECT_LT(scene.errorOfDataSet(plant), 1e-6);
+}
+
 /// Fine offsets that count are left alone, and the sum is what was measured.
 TEST(FineOffsets, Stay) {
   Planter plant(99618);

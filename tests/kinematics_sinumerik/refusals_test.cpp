@@ -2,6 +2,7 @@
 
 #include "control/alarm.hpp"
 #include "kinematics_sinumerik/scene.hpp"
+#include "language/sinumerik/check.hpp"
 
 /// What CYCLE996 refuses, and that nothing is entered then.
 namespace probewright {
@@ -126,6 +127,26 @@ TEST_F(KinematicsRefusals, TheProbeAndTheBall) {
   // A wrong ball is told by its diameter.
   refused(scene, "61303", with(scene.call(0, 0), {{"S_SETV", 24}, {"S_TSA", 0.6}}), "difference 0.98",
           scene.approach(0, 0, 3.5));
+}
+
+/// What is wrong with a call is known before it runs; the calculation needs no measuring path.
+TEST(KinematicsCheck, NamesCallsThatCannotBeMeant) {
+  const auto said = [](const std::string& call) {
+    const auto program = language::sinumerik::SinumerikProgram::fromText("C.MPF", call + "\nM30\n");
+    const Diagnostics found = language::sinumerik::check(*program);
+    coverage::note(SinumerikBench::controlKind, "CYCLE996", "parsed");
+    return found.empty() ? std::string() : found.front().message;
+  };
+  EXPECT_EQ(said("CYCLE996(10101,1,1,25,0,,,,,,,,3,4,1,,1,)"), "");
+  EXPECT_EQ(said("CYCLE996(13001000,1,,,,,,,,0.02,0.001,22,,,,,1,11)"), "");
+  EXPECT_THAT(said("CYCLE996(1,1,1,25,0,,,,,,,,3,4)"), HasSubstr("the rotary axis"));
+  EXPECT_THAT(said("CYCLE996(10101,1,1,25)"), HasSubstr("S_FA"));
+  EXPECT_THAT(said("CYCLE996(10101,1,1,0,0,,,,,,,,3,4)"), HasSubstr("S_SETV"));
+  EXPECT_THAT(said("CYCLE996(10101,1,1,25,400,,,,,,,,3,4)"), HasSubstr("S_STA1"));
+  EXPECT_THAT(said("CYCLE996(1000,1,,,,,,,,,,70)"), HasSubstr("S_TNVL"));
+  EXPECT_THAT(said("CYCLE996(1000)"), HasSubstr("S_TC"));
+  EXPECT_THAT(said("CYCLE996(1000,1,,,,,,,,,,,,,,,,110)"), HasSubstr("asked all the same"));
+  EXPECT_THAT(said("CYCLE996(1000,1,,,,,,,,,,,,,,,,1000)"), HasSubstr("cannot be edited"));
 }
 
 TEST_F(KinematicsRefusals, AnOperatorWhoDoesNotAgree) {
