@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <regex>
 
 #include "support/linuxcnc_session.hpp"
 
@@ -88,7 +89,27 @@ G38.3 Y-25 F300
 G0 Y-29
 M2
 )");
-  const std::string output = run("desk.ready()\ndesk.run('p.ngc')\n");
+  const std::string output = run(R"(
+import threading
+import hal
+look = hal.component('look')
+look.ready()
+latencies = []
+going = True
+def listen():
+    while going:
+        latencies.append(hal.get_value('probewright-feel.latency'))
+        time.sleep(0.005)
+desk.ready()
+listener = threading.Thread(target=listen)
+listener.start()
+desk.run('p.ngc')
+going = False
+listener.join()
+latencies.sort()
+desk.tell('latency', *['%.7f' % latencies[len(latencies) * part // 10] for part in (5, 9)])
+desk.tell('late', hal.get_value('probewright-feel.late'))
+)");
   // Faces: top z = -250.125; x from -19.75 to 40.25; y from -24.5 to 15.5. The tip is 100 mm below the nose.
   const auto top = session_.told(output, "top"), side = session_.told(output, "side"),
              front = session_.told(output, "front");
@@ -99,6 +120,17 @@ M2
   EXPECT_NEAR(side[0], 42.75, bound);
   EXPECT_NEAR(front[0], -27.0, bound);
   EXPECT_EQ(front[1], 1) << "the probe said that it had tripped";
+  // An answer takes a small part of the servo period, and none is missed, however long the processes wait for each
+  // other on a busy computer.
+  const auto latency = session_.told(output, "latency"), late = session_.told(output, "late");
+  ASSERT_EQ(latency.size(), 2U) << output;
+  ASSERT_EQ(late.size(), 1U) << output;
+  EXPECT_EQ(late[0], 0) << output;
+  std::smatch answered;
+  ASSERT_TRUE(std::regex_search(output, answered, std::regex("answered in ([0-9.]+) microseconds on average")));
+  EXPECT_LT(std::stod(answered[1]) * 1e-6, period / 10);
+  std::printf("an answer takes %s microseconds; from question to answer %.0f in the middle, 9 of 10 within %.0f\n",
+              answered[1].str().c_str(), 1e6 * latency[0], 1e6 * latency[1]);
   // Never before the contact.
   EXPECT_LE(top[0], -150.125 + 1e-6);
   EXPECT_LE(side[0], 42.75 + 1e-6);

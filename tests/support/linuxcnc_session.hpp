@@ -76,8 +76,12 @@ public:
     const std::string script = outside_.string() + ".sh";
     std::ofstream(script) << "#!/bin/sh\n" + command + "\n";
     const std::string apart = apart_ ? "unshare --net --ipc --mount --pid --fork --kill-child --mount-proc " : "";
+    // On one computer, outside of namespaces, one LinuxCNC runs at a time.
+    const std::string turn =
+        apart_ ? ""
+               : "flock '" + (std::filesystem::temp_directory_path() / "probewright-linuxcnc.lock").string() + "' ";
     std::string output;
-    const std::string whole = "timeout --kill-after=5 " + std::to_string(seconds) + " " + apart +
+    const std::string whole = turn + "timeout --kill-after=5 " + std::to_string(seconds) + " " + apart +
                               "env -i PATH=\"$PATH\" sh '" + script + "' 2>&1 </dev/null";
     FILE* pipe = popen(whole.c_str(), "r");
     std::array<char, 4096> buffer{};
