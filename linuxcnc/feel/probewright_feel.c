@@ -32,7 +32,7 @@ static char *segment = "/probewright-feel";
 RTAPI_MP_STRING(segment, "name of the shared memory");
 static char *axes = "XYZ";
 RTAPI_MP_STRING(axes, "letters of the axes that are connected");
-static int wait_ms = 200;
+static int wait_ms = 1000;
 RTAPI_MP_INT(wait_ms, "how long a servo cycle waits for an answer, in milliseconds");
 
 struct pins {
