@@ -328,7 +328,7 @@ TEST(Host, AlarmsNameTheReason) {
   EXPECT_THAT(message("L C+5 FMAX\n"), HasSubstr("no axis C"));
   EXPECT_THAT(message("FN 14: ERROR = 12\n"), HasSubstr("12"));
   EXPECT_THAT(message("ERROR = L X+\n"), HasSubstr("ERROR ="));
-  EXPECT_THAT(message("TCH PROBE 450 X ~\n Q1=1\n"), HasSubstr("cycle 450 is not available"));
+  EXPECT_THAT(message("TCH PROBE 470 X ~\n Q1=1\n"), HasSubstr("cycle 470 is not available"));
   EXPECT_THAT(message("L X+0 Y+0 FMAX\nCC X+10 Y+0\nC X+5 Y+5 DR+\n"), HasSubstr("beside the circle"));
   EXPECT_THAT(message("L X+0 Y+0 FMAX\nCR X+10 Y+0 R3 DR+\n"), HasSubstr("at least 5"));
   EXPECT_THAT(message("CYCL DEF 7.0 X\nCYCL DEF 7.1 #3\n"), HasSubstr("datum table"));
