@@ -39,7 +39,8 @@ TEST(CameraRefusals, OfAMachineWithoutAPositionForTheWholeWorkingSpace) {
 
 TEST(CameraRefusals, OfAWayThatSomethingBlocks) {
   CameraBench bench;
-  bench.put("column", SolidRole::Fixture, {box({60, 60, 500})}, {0, 0, tableSurface});
+  bench.put("column", SolidRole::Fixture, {box({60, 60, 200})}, {0, 0, tableSurface});
+  (*bench.camera().overview)[2] = -400;
   const Ran ran = bench.run(global(0, 10));
   EXPECT_EQ(ran.outcome.result.end, execution::RunEnd::Alarm);
   EXPECT_THAT(ran.why(), HasSubstr("column"));

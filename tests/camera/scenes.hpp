@@ -42,10 +42,11 @@ inline simulation::WorldSolid body(std::string name, SolidRole role, std::vector
 /// The surface of the table of mill3, and of the plate.
 inline constexpr double tableSurface = -650, plateTop = -620;
 
-/// TNC 640 on mill3. The axes start at X0 Y0 Z-300: the camera is 320 mm above the plate, a pixel is 1.5 mm there.
+/// TNC 640 on mill3. Tools are changed at X0 Y0 Z-300, where the axes start: the camera is 320 mm above the plate, a
+/// pixel is 1.5 mm there.
 struct CameraBench : Bench {
   CameraBench() {
-    setup.world.truth.start[2] = -300;
+    setup.world.truth.start[2] = setup.world.truth.machine.toolChange[2] = -300;
     setup.world.table = machine::TableBody{"table", {0, 0, tableSurface}, Vector3::UnitZ(), {1000, 600}, 0, 80};
     put("plate", SolidRole::Part, {box({120, 80, 30}), hole({40, 25, 30}, 16)}, {0, 0, tableSurface});
     put("left clamp", SolidRole::Fixture, {box({20, 40, 45})}, {-75, 0, tableSurface});
