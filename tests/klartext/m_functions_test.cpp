@@ -172,16 +172,17 @@ TEST(MFunctions, M94TakesWholeTurnsFromTheReading) {
 
 /// Cycle 13 only says where to.
 TEST(MFunctions, M19AndM20OrientTheSpindleToTheAngleOfCycle13) {
-  for (const char* function : {"M19", "M20"}) {
-    World world;
-    const std::string cycle = "CYCL DEF 13.0 ORIENTATION\nCYCL DEF 13.1 ANGLE 75\n";
-    expectFinished(world.run("TOOL CALL 1 Z S500\nM3\n" + cycle));
-    EXPECT_EQ(world.control->channel.spindleRotation(), machine::Rotation::Clockwise) << "it still turns";
+  const std::string cycle = "CYCL DEF 13.0 ORIENTATION\nCYCL DEF 13.1 ANGLE 75\n";
+  World still;
+  expectFinished(still.run("TOOL CALL 1 Z S500\n" + cycle + "L X+5 R0 FMAX\n"));
+  EXPECT_EQ(still.control->channel.spindleAngle(), 0) << "the cycle alone turns nothing";
+  for (const std::string function : {"M19", "M20"}) {
+    World world, without;
     expectFinished(world.run("TOOL CALL 1 Z S500\nM3\n" + cycle + "L X+5 R0 FMAX " + function + "\n"));
     EXPECT_EQ(world.control->channel.spindleAngle(), 75);
     EXPECT_TRUE(world.told(EventKind::Skipped).empty());
-    World without;
-    expectFinished(without.run(std::string("TOOL CALL 1 Z\n") + function + "\n"));
+    without.machine->orientSpindle(33);
+    expectFinished(without.run("TOOL CALL 1 Z\n" + function + "\n"));
     EXPECT_EQ(without.control->channel.spindleAngle(), 0) << "as the builder has fixed it";
   }
   World world;
