@@ -35,7 +35,7 @@ inline constexpr Parameter referenceImages = {.name = "Q617",
 
 inline constexpr ResultDefinition cameraResults[] = {
     {"Q601", "state: 1 no error, 2 error, 3 no monitoring area or too few reference images, 10 camera fault",
-     result::status}};
+     result::status.main()}};
 
 inline constexpr Conditions cameraConditions = {.uses = Uses::Nothing, .under = Transformed::Any, .turningMode = true};
 
