@@ -12,8 +12,8 @@ struct RandomScene {
     Dice dice(seed);
     bench.setup.world.truth.seed = seed;
     camera::TrueCamera& camera = bench.camera();
-    camera.width = 96;
-    camera.height = 72;
+    camera.width = 64;
+    camera.height = 48;
     camera.noise = dice.between(0.5, 3);
     camera.flicker = dice.between(0, 0.02);
     camera.ambient = dice.between(0.15, 0.4);

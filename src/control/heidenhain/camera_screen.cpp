@@ -106,7 +106,6 @@ void CameraScreen::press(const KeyStroke& stroke) {
       break;
     case CameraKey::Repeat:
       if (!port_.takeAnother) return inactive(stroke);
-      if (std::exchange(marked_, false)) evaluate(false);
       if (const auto picture = port_.takeAnother()) {
         shown_ = point_.add(*picture).number;
         port_.show(statusLine() + "\n" + message());
