@@ -120,7 +120,7 @@ void Calibration::findRotation() {
 
 /// By touches of the top beside the middle, where all of the tool's end is above the contact.
 void Calibration::findTipping() {
-  const double apart = 0.8 * (std::min(size(0), size(1)) / 2 - radius_);
+  const double apart = 0.8 * (first_.half.minCoeff() - radius_);
   constexpr double least = 0.5;  // mm
   if (apart < least) {
     context_.warn("The calibrating tool is too wide to determine how the contact is tipped");
