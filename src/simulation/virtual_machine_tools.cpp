@@ -77,7 +77,6 @@ MeasureResult VirtualMachine::signalOfTool(const Motion& motion, const ProbeTouc
   if (probe.repeatability > 0) signal += probe.repeatability * gaussian_(noise_);
   signal = std::max(signal, 0.0);
   const double stop = std::min(std::max(signal, contact) + motion.profile.brakingDistanceAt(contact), length);
-  const double seconds = motion.startSeconds + motion.profile.secondsAt(std::min(signal, length));
   if (signal > length) {
     advance(motion, Stop{}, PathKind::Measure);
     toolContact_ = touched.touch;
@@ -87,7 +86,9 @@ MeasureResult VirtualMachine::signalOfTool(const Motion& motion, const ProbeTouc
   advance(motion, Stop{touched.touch, length > 0 ? signal / length : 0, length > 0 ? stop / length : 0},
           PathKind::Measure);
   toolContact_ = touched.touch;
-  const double degrees = std::remainder(spin_.at(seconds), 360);
+  // A turning edge pushes the contact once a turn: deep enough for a signal where it has touched it first. Only the
+  // delay of the signal lets it turn on.
+  const double degrees = std::remainder(touched.contact.degrees + spin_.degreesPerSecond * probe.signalDelay, 360);
   return {MeasureEnd::Touched, motion.readingAt(length > 0 ? signal / length : 0), std::move(detail), degrees};
 }
 

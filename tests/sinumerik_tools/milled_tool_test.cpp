@@ -101,6 +101,9 @@ TEST(MeasureMilledTool, EachEdgeInItsOrder) {
     ToolBench bench;
     // The contact is small enough to feel one edge alone.
     world % 2 == 0 ? bench.disc(8) : bench.cuboid(8, 10);
+    // A signal needs the contact to be pushed, which takes turns; the edge that pushes it is the same.
+    bench.probe().pretravel = world % 3 == 0 ? 0.003 : 0;
+    bench.setup.beliefs.toolProbes = setup::believedToolProbes(bench.setup.world);
     const int teeth = whole(plant, 2, 5);
     simulation::TrueTool& mill = plantMill(bench, plant, plant.number(9, 16), teeth);
     // One edge stands out clearly, so that it is the first to touch.
