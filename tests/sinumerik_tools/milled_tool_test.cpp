@@ -389,8 +389,12 @@ TEST(MeasureMilledTool, SpeedsAndFeedsByTheFormula) {
   ASSERT_EQ(all.size(), 2U);
   EXPECT_NEAR(all[0].speed, speed, 1e-9);
   EXPECT_NEAR(all[0].feed, 3 * speed * 0.01, 1e-9);
-  EXPECT_NEAR(all[1].speed, speed / 2, 1e-9);
-  EXPECT_NEAR(all[1].feed, 3, 1e-9) << "half of 4.77 is below the smallest feed";
+  EXPECT_NEAR(all[1].speed, 300, 1e-9) << "half of 477 would make the smallest feed follow by more than 0.01";
+  EXPECT_NEAR(all[1].feed, 3, 1e-9);
+  set("$SNS_MEA_CM_MIN_FEEDRATE", 1);
+  EXPECT_NEAR(touches(10)[1].speed, speed / 2, 1e-9);
+  EXPECT_NEAR(touches(10)[1].feed, speed / 2 * 0.01, 1e-9);
+  set("$SNS_MEA_CM_MIN_FEEDRATE", 3);
   data.set("$SNS_MEA_FUNCTION_MASK", {}, 524288.0);  // bit 19
   EXPECT_NEAR(touches(10)[1].speed, speed, 1e-9);
   EXPECT_NEAR(touches(10)[1].feed, speed * 0.01, 1e-9);

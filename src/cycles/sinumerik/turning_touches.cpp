@@ -28,7 +28,9 @@ std::vector<TurningTouch> turningTouches(const control::sinumerik::DataStore& da
   if (first > 0 && second > 0) touches.push_back({speed, limited(feed * second)});
   TurningTouch last = {speed, feed};
   if (!touches.empty() && !maskBit(data, "$SNS_MEA_FUNCTION_MASK", 19)) {
-    last.speed = speed / 2;
+    // Not so slow that the smallest feed would follow the edge by more than the accuracy.
+    const double needed = accuracy > 0 ? least / accuracy : 0;
+    last.speed = std::max(speed / 2, std::min(speed, needed));
     last.feed = limited(last.speed * accuracy);
   }
   touches.push_back(last);

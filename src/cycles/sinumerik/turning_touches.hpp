@@ -20,7 +20,7 @@ struct TurningTouch {
 ///
 /// Feed factor 1 (SD 54675) 0: one touch with F. Otherwise one with F times this factor goes before it, and if feed
 /// factor 2 (SD 54676) is not 0, another one with F times that. The last of several touches is made at half the speed,
-/// with the feed that keeps delta, unless bit 19 of SD 54740 is set.
+/// or faster where the smallest feed needs it, with the feed that keeps delta, unless bit 19 of SD 54740 is set.
 /// Empty if the data leave a speed or a feed of 0.
 std::vector<TurningTouch> turningTouches(const control::sinumerik::DataStore& data, double radius);
 
