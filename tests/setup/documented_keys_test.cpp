@@ -314,6 +314,8 @@ TEST(DocumentedKeys, HaveTheRangesOfThePage) {
       {"`[[tool]]`", probe + "{}"},
       {"`[[preset]]` and `[[zero_offset]]`", "[[preset]]\n{}"},
       {"`[camera]`", "[camera]\n{}"},
+      {"[[camera.lamp]]", "[camera]\n[[camera.lamp]]\nposition = [0, 0, 0]\n{}"},
+      {"[[camera.surface]]", "[camera]\n[[camera.surface]]\nsolid = \"part\"\n{}"},
       {"[errors.axis.X]", "[errors.axis.X]\n{}"},
       {"[[errors.axis.X.deviation]]", "[[errors.axis.X.deviation]]\n{}"},
       {"[[errors.squareness]]", "[[errors.squareness]]\naxis = \"X\"\ntowards = \"Y\"\n{}"},
@@ -330,7 +332,11 @@ TEST(DocumentedKeys, HaveTheRangesOfThePage) {
   for (const Row& row : rows()) {
     if (!row.cells.contains("range")) continue;
     const std::optional<Range> range = rangeOf(row.cells.at("range"));
-    const auto place = places.find(row.table.empty() ? row.heading : row.table);
+    std::string where = row.table.empty() ? row.heading : row.table;
+    for (const std::string table : {"[[camera.lamp]]", "[[camera.surface]]"}) {
+      if (row.cells.contains("key of `" + table + "`")) where = table;
+    }
+    const auto place = places.find(where);
     if (!range || place == places.end()) continue;
     for (const std::string& key : row.keys) {
       if (key == "polynomial" || key == "rotary" || key == "resolution" || key == "distortion")

@@ -113,7 +113,9 @@ TEST(ToolSettings, SayWhatIsEnteredInTheToolTable) {
       ASSERT_TRUE(ran.finished()) << ran.why();
       EXPECT_NEAR(ran.cell("TOOL.T", "12", "L"), each.mode == 0 && each.enters ? 80.1 : 80, 0.0011);
       EXPECT_NEAR(ran.cell("TOOL.T", "12", "DL"), each.mode == 1 && each.enters ? 0.1 : 0, 0.0011);
-      if (each.mode == 1) EXPECT_NEAR(ran.q(115), 0.1, 0.0011);
+      if (each.mode == 1) {
+        EXPECT_NEAR(ran.q(115), 0.1, 0.0011);
+      }
       EXPECT_EQ(ran.table("TOOL.T").text("12", "TL"), each.mode == 1 ? "L" : "") << "a worn tool is locked anyway";
     }
   }
