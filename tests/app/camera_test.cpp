@@ -26,7 +26,8 @@ Answer runExample(const Folder& folder, const std::string& out, const std::strin
 
 std::vector<double> states(const std::filesystem::path& results) {
   std::vector<double> found;
-  for (const json& cycle : json::parse(textOf(results))["cycles"])
+  const json all = json::parse(textOf(results));
+  for (const json& cycle : all["cycles"])
     for (const json& result : cycle["results"])
       found.push_back(result["value"]);
   return found;
