@@ -17,7 +17,7 @@ using ::testing::Not;
 
 Answer runExample(const Folder& folder, const std::string& out, const std::string& tables,
                   const std::string& more = {}) {
-  std::string setup = textOf("examples/setups/camera-tnc640.toml");
+  std::string setup = textOf(PROBEWRIGHT_SOURCE_DIR "/examples/setups/camera-tnc640.toml");
   const std::string control = "type = \"TNC640\"\n";
   if (!tables.empty()) setup.insert(setup.find(control) + control.size(), "tables = \"" + tables + "\"\n");
   return probewright({"run", "examples/programs/camera.h", "--setup", folder.file("camera.toml", setup + more), "--out",

@@ -6,8 +6,6 @@ namespace probewright::testing_support {
 namespace {
 
 constexpr double tolerance = 0.001;  ///< mm, permissible measuring error on both controls
-/// A SINUMERIK feeds at least 1 mm/min (SD 54673), which is more in a slow turn.
-constexpr double slack = 0.0045;
 
 /// A mill that the control knows about right.
 struct Milled {
@@ -74,10 +72,10 @@ TEST(ToolConversion, ToSinumerikMeasuresTheSameTool) {
     if (teeth) continue;  // TOOL.T has no number of teeth from a setup
     const auto here = milled.run(text, ProgramLanguage::Klartext);
     for (std::size_t i = 0; i < 4; ++i)
-      EXPECT_NEAR(there[i], here[i], slack + 1e-4) << "value " << i << "\n" << conversion.text;
+      EXPECT_NEAR(there[i], here[i], tolerance + 1e-4) << "value " << i << "\n" << conversion.text;
     const bool length = number != 482, radius = number != 481;
-    EXPECT_NEAR(there[0] + there[2], length ? milled.length() : milled.believedLength(), slack + 1e-4);
-    EXPECT_NEAR(there[1] + there[3], radius ? milled.radius() : milled.believedRadius(), slack + 1e-4);
+    EXPECT_NEAR(there[0] + there[2], length ? milled.length() : milled.believedLength(), tolerance + 1e-4);
+    EXPECT_NEAR(there[1] + there[3], radius ? milled.radius() : milled.believedRadius(), tolerance + 1e-4);
     if (mode == 1) {
       EXPECT_EQ(there[0], milled.believedLength());
     }
@@ -108,10 +106,10 @@ TEST(ToolConversion, CarriesDeviationsAndNamesWhatSinumerikLacks) {
     const conversion::Conversion conversion = toSinumerik(text);
     const auto there = milled.run(conversion.text, ProgramLanguage::Sinumerik),
                here = milled.run(text, ProgramLanguage::Klartext);
-    EXPECT_NEAR(there[0] * unit, milled.length() - milled.believedLength(), slack + 1e-4) << conversion.text;
-    EXPECT_NEAR(there[1] * unit, milled.radius() - milled.believedRadius(), slack + 1e-4);
-    EXPECT_NEAR(there[0], here[0], slack);
-    EXPECT_NEAR(there[1], here[1], slack);
+    EXPECT_NEAR(there[0] * unit, milled.length() - milled.believedLength(), tolerance + 1e-4) << conversion.text;
+    EXPECT_NEAR(there[1] * unit, milled.radius() - milled.believedRadius(), tolerance + 1e-4);
+    EXPECT_NEAR(there[0], here[0], tolerance);
+    EXPECT_NEAR(there[1], here[1], tolerance);
   }
   const auto lost = [](const std::string& cycle, const std::string& after) {
     return toSinumerik("0 BEGIN PGM A MM\nTOOL CALL 12 Z\n" + cycle + after + "9 END PGM A MM\n");
@@ -139,7 +137,7 @@ TEST(ToolConversion, ToKlartextMeasuresTheSameTool) {
     const auto here = milled.run(text, ProgramLanguage::Sinumerik);
     const auto there = milled.run(conversion.text, ProgramLanguage::Klartext);
     for (std::size_t i = 0; i < 4; ++i)
-      EXPECT_NEAR(there[i], here[i], slack + 1e-4) << "value " << i << "\n" << conversion.text;
+      EXPECT_NEAR(there[i], here[i], tolerance + 1e-4) << "value " << i << "\n" << conversion.text;
     EXPECT_NEAR(there[0], length ? milled.length() : milled.radius(), tolerance + 1e-4);
   }
 }

@@ -223,7 +223,7 @@ constexpr AlarmText alarms[] = {
 constexpr CycleDefinition definition = {
     .number = 971,
     .name = "CYCLE971",
-    .title = "Tool on a mill: calibrate the tool touch probe, measure length or radius",
+    .title = "Measure tools on a mill",
     .family = CycleFamily::Tool,
     .summary =
         "Calibrates a tool touch probe with a tool of known size, or measures length or radius of a mill or drill, "
