@@ -105,18 +105,21 @@ bool standsThere(const fs::path& folder, const std::string& name, const std::str
   return whyNotWritable(folder, name) && readFile(folder / name).value_or("") == text;
 }
 
-/// What other programs read goes into the same set of files. A name that the program has left already stays its own.
+/// Why a program cannot write a file of this name, if it is one of those that --export leaves.
+std::optional<Diagnostic> whyExported(const std::vector<const exchange::Format*>& formats, const std::string& name) {
+  const auto found = std::ranges::find(formats, name, &exchange::Format::file);
+  if (found == formats.end()) return std::nullopt;
+  return fail(fmt::format("--export {} leaves a file of this name", (*found)->name),
+              "choose another name in the program, or export another format")
+      .value();
+}
+
+/// What other programs read goes into the same set of files.
 Result<void> addExports(Output& output, const std::vector<const exchange::Format*>& formats,
                         const control::Journal& journal, const records::RunInfo& info) {
   if (formats.empty()) return {};
   const exchange::Inspection inspection = exchange::inspectionOf(journal, info);
   for (const exchange::Format* format : formats) {
-    const auto taken = [&](const auto& file) { return file.first == format->file; };
-    if (std::ranges::any_of(output.files, taken)) {
-      return fail(
-          fmt::format("the program has written a file {}, which --export {} would replace", format->file, format->name),
-          "choose another name in the program, or export another format");
-    }
     Result<std::string> text = format->write(inspection);
     if (!text) return tl::unexpected(text.error());
     output.files.emplace_back(format->file, [text = std::move(*text)](const Sink& sink) { sink(text); });
@@ -146,7 +149,10 @@ int run(const RunArguments& arguments) {
   options.stepLimit = arguments.stepLimit;
   options.skipLevels = arguments.skipLevels;
   options.recordLimit = arguments.recordLimit << 20U;
-  options.whyNoFile = [&](const std::string& name) { return whyNotWritable(arguments.out, name); };
+  options.whyNoFile = [&](const std::string& name) {
+    const auto exported = whyExported(arguments.exports, name);
+    return exported ? exported : whyNotWritable(arguments.out, name);
+  };
   options.mode = arguments.dryRun        ? session::ProgramMode::DryRun
                  : arguments.programTest ? session::ProgramMode::ProgramTest
                                          : session::ProgramMode::Normal;

@@ -55,15 +55,28 @@ TEST(Export, RefusesAFormatThatIsNotThere) {
   EXPECT_TRUE(namesIn(folder / "out").empty());
 }
 
-TEST(Export, DoesNotReplaceWhatTheProgramItselfWrites) {
+TEST(Export, KeepsItsNamesFromTheProgram) {
   const Folder folder;
-  const std::string program =
-      folder.file("A.H", "0 BEGIN PGM A MM\n1 FN 16: F-PRINT A.A / junit.xml\n2 END PGM A MM\n");
+  const std::string program = folder.file(
+      "A.H", "0 BEGIN PGM A MM\n1 FN 16: F-PRINT A.A / other.txt\n2 FN 16: F-PRINT A.A / junit.xml\n3 END PGM A MM\n");
   folder.file("A.A", "\"mine\";\n");
   const Answer answer = probewright({"run", program, "--setup", "examples/setups/housing-tnc640.toml", "--quiet",
                                      "--out", (folder / "out").string(), "--export", "junit"});
-  EXPECT_EQ(answer.exit, 2);
-  EXPECT_THAT(answer.errors, HasSubstr("the program has written a file junit.xml"));
+  EXPECT_EQ(answer.exit, 3);
+  EXPECT_THAT(answer.errors, HasSubstr(":3:"));
+  EXPECT_THAT(answer.errors, HasSubstr("--export junit leaves a file of this name"));
+  EXPECT_THAT(textOf(folder / "out/junit.xml"), HasSubstr("the program runs to its end"))
+      << "what there is, is written";
+  EXPECT_THAT(textOf(folder / "out/other.txt"), HasSubstr("mine"));
+}
+
+TEST(Export, KeepsItsNamesFromMeasuringLogs) {
+  const Folder folder;
+  const Answer answer =
+      probewright({"run", "examples/programs/housing.mpf", "--setup", "examples/setups/housing-840dsl.toml", "--quiet",
+                   "--out", (folder / "out").string(), "--export", "csv", "--measuring-log", "inspection.csv"});
+  EXPECT_NE(answer.exit, 0);
+  EXPECT_THAT(answer.errors, HasSubstr("--export csv leaves a file of this name"));
 }
 
 }  // namespace

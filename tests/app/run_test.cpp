@@ -386,13 +386,13 @@ TEST(Run, PrintsNoControlCharactersOfAProgram) {
   EXPECT_THAT(old.errors, HasSubstr("GR\xC3\x96SSE"));
 }
 
-/// The machine builder's program runs in front of each measuring cycle and is told which one.
+/// The machine builder's program runs before each measuring cycle and is told which one.
 TEST(Run, CallsTheMachineBuildersProgramBeforeMeasuring) {
   const Folder folder;
   const std::string hook = folder.file("CUST_MEACYC.SPF",
                                        "PROC CUST_MEACYC(INT CYCLE_1) SAVE\n"
                                        "CASE CYCLE_1 OF 977 GOTOF _M977 978 GOTOF _M978 DEFAULT GOTOF _MEND\n"
-                                       "_M977: ; in front of CYCLE977\n"
+                                       "_M977: ; before CYCLE977\n"
                                        "MSG(\"probe on for \"<<_OVI[2])\nR10=R10+1\nM17\n"
                                        "_M978:\nSETAL(66001,\"no probe\")\nM17\n_MEND:\nM17\n");
   const std::string bore =

@@ -65,15 +65,15 @@ TEST(ToolShapes, AThinDiscCanMissTheContact) {
 
 TEST(ToolShapes, AHolderThatMeetsTheContactFirstIsACollision) {
   for (const ControlKind kind : {ControlKind::TNC640, ControlKind::iTNC530}) {
-    simulation::TrueTool stub;
-    stub.length = 70;
-    stub.radius = 6;
-    stub.cutter.teeth.resize(2);
-    stub.cutter.teeth[1].angle = 180;
-    stub.cutter.holderRadius = 25;
-    stub.cutter.holderLength = 58;
-    EXPECT_EQ(Shaped(kind, stub, "0").measured().alarm(), "");
-    const Ran ran = Shaped(kind, stub, "+8").measured();
+    simulation::TrueTool shortMill;
+    shortMill.length = 70;
+    shortMill.radius = 6;
+    shortMill.cutter.teeth.resize(2);
+    shortMill.cutter.teeth[1].angle = 180;
+    shortMill.cutter.holderRadius = 25;
+    shortMill.cutter.holderLength = 58;
+    EXPECT_EQ(Shaped(kind, shortMill, "0").measured().alarm(), "");
+    const Ran ran = Shaped(kind, shortMill, "+8").measured();
     EXPECT_EQ(ran.alarm(), "Collision");
     EXPECT_THAT(ran.why(), HasSubstr("holder"));
   }
