@@ -84,6 +84,9 @@ public:
   /// True: linear axes hold the tip still on the workpiece while rotary axes turn (M128, TCPM, TRAORI).
   bool holdTip = false;
 
+  /// mm in one unit that the program counts in, for positions in messages; null: mm.
+  const double* programUnit = nullptr;
+
   /// The believed machine: descriptions of kinematics that cycles correct. Starts as the machine's own.
   void setDescription(const machine::MachineDescription& believed);
   /// How much further the tip is than the axes tell, as far as the control knows: machine axes X, Y, Z, mm, by the

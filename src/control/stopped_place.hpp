@@ -10,14 +10,19 @@
 /// Places in messages as the person at the control can look at them: in the active workpiece system.
 namespace probewright::control {
 
-/// "X+1.000 Y+2.000 Z+3.000 of the active workpiece system".
+/// "X+1.000 Y+2.000 Z+3.000 of the active workpiece system", in the unit that the program counts in: "X+0.0394 Y+0.0787
+/// Z+0.1181 inch of the active workpiece system".
 inline std::string workpiecePlace(const Channel& channel, const Vector3& tip) {
+  const double unit = channel.programUnit != nullptr ? *channel.programUnit : 1;
+  const bool inch = unit != 1;
   // A number of hundreds of digits says no more than its size.
-  const auto number = [](double value) {
-    return std::abs(value) < 1e9 ? fmt::format("{:+.3f}", value) : fmt::format("{:+.3g}", value);
+  const auto number = [&](double millimetres) {
+    const double value = millimetres / unit;
+    return std::abs(value) < 1e9 ? fmt::format("{:+.{}f}", value, inch ? 4 : 3) : fmt::format("{:+.3g}", value);
   };
-  return fmt::format("X{}{} Y{} Z{} of the active workpiece system", number(tip.x()),
-                     channel.description().mainSpindle ? " (radius)" : "", number(tip.y()), number(tip.z()));
+  return fmt::format("X{}{} Y{} Z{}{} of the active workpiece system", number(tip.x()),
+                     channel.description().mainSpindle ? " (radius)" : "", number(tip.y()), number(tip.z()),
+                     inch ? " inch" : "");
 }
 
 /// "tool tip stopped at X+1.000 Y+2.000 Z+3.000 of the active workpiece system".

@@ -80,7 +80,6 @@ void Interpreter::clear() {
   sectionLast_ = noSection;
   sections_ = levels_ = 0;
   blocks_ = work_ = 0;
-  stepping_ = false;
 }
 
 RunResult Interpreter::run(std::shared_ptr<Program> main) {
@@ -155,9 +154,6 @@ RunResult Interpreter::runLoop() {
                              "look for an endless loop, or raise the limit with --step-limit")),
                 blocks_};
       }
-      if ((stepping_ || !current_->breakpointLines.empty()) && halt(block) == Flow::Finished) {
-        return {RunEnd::Halted, explain(here(Severity::Note, "the run was halted before this block")), blocks_};
-      }
       ++blocks_;
       if (blocks_ % 4096 == 0 && options_.onProgress) options_.onProgress(blocks_);
       if (isSkipped(block) || !host_.beginBlock(*current_->program, block)) {
@@ -191,16 +187,6 @@ Interpreter::Flow Interpreter::carryOut(const Block& block, std::uint32_t first)
     if (flow != Flow::Next) return flow;
   }
   return Flow::Next;
-}
-
-Interpreter::Flow Interpreter::halt(const Block& block) {
-  const auto& lines = current_->breakpointLines;
-  const auto line = std::lower_bound(lines.begin(), lines.end(), block.position.line);
-  const bool breakpoint = line != lines.end() && *line < std::max(block.next.line, block.position.line + 1);
-  if (!stepping_ && !breakpoint) return Flow::Next;
-  const HaltAnswer answer = options_.onHalt ? options_.onHalt(*current_->program, block) : HaltAnswer::Stop;
-  stepping_ = answer == HaltAnswer::Step;
-  return answer == HaltAnswer::Stop ? Flow::Finished : Flow::Next;
 }
 
 // ---- blocks ----

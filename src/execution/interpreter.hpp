@@ -22,14 +22,6 @@
 
 namespace probewright::execution {
 
-struct Breakpoint {
-  std::string file;        ///< as Program::file() gives it, or the end of it after a "/": "RING.H"
-  std::uint64_t line = 0;  ///< any line of the block
-};
-
-/// What to do with a program that has halted before a block.
-enum class HaltAnswer { Continue, Step, Stop };
-
 struct InterpreterOptions {
   /// The run ends after so many blocks, which catches endless loops; elements of arrays that the blocks fill count,
   /// too. 0: never.
@@ -43,10 +35,6 @@ struct InterpreterOptions {
   std::stop_token stop;
   /// Levels of "/" that are skipped; the plain "/" has level 0.
   std::bitset<10> skipLevels;
-  std::vector<Breakpoint> breakpoints;
-  /// Asked before a block with a breakpoint and, after the answer Step, of every block. Without it, the run ends
-  /// there.
-  std::function<HaltAnswer(const Program& program, const Block& block)> onHalt;
   /// Told every 4096 blocks how many have been carried out.
   std::function<void(std::uint64_t blocks)> onProgress;
 };
@@ -58,7 +46,6 @@ enum class RunEnd {
   Cancelled,
   StepLimit,
   RecordLimit,  ///< control::RecordFull: what the program leaves has become too much
-  Halted,       ///< at a breakpoint
 };
 
 struct RunResult {
@@ -104,7 +91,6 @@ private:
     std::shared_ptr<Program> program;
     std::uint64_t frontier = 0;  ///< blocks before this offset were reached before
     std::uint32_t id = 0;
-    std::vector<std::uint64_t> breakpointLines;
   };
 
   struct Call {
@@ -150,7 +136,6 @@ private:
   void clear();
   RunResult runLoop();
   Flow carryOut(const Block& block, std::uint32_t first);
-  Flow halt(const Block& block);
   void leaveAll();
 
   Flow jump(const Jump& jump, Evaluation& evaluation);
@@ -219,7 +204,6 @@ private:
   std::unique_ptr<ModalCall> modal_;
   std::uint64_t blocks_ = 0;
   std::uint64_t work_ = 0;  ///< Host::takeWork so far
-  bool stepping_ = false;
 };
 
 }  // namespace probewright::execution

@@ -15,12 +15,6 @@ namespace {
 
 constexpr std::size_t mostCalls = 256;
 
-bool matches(const Breakpoint& breakpoint, const std::string& file) {
-  if (breakpoint.file == file) return true;
-  const std::string ending = "/" + breakpoint.file;
-  return file.size() > ending.size() && file.compare(file.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 }  // namespace
 
 Interpreter::Loaded* Interpreter::load(std::shared_ptr<Program> program) {
@@ -29,10 +23,6 @@ Interpreter::Loaded* Interpreter::load(std::shared_ptr<Program> program) {
   }
   auto loaded = std::make_unique<Loaded>();
   loaded->id = static_cast<std::uint32_t>(programs_.size());
-  for (const Breakpoint& breakpoint : options_.breakpoints) {
-    if (matches(breakpoint, program->file())) loaded->breakpointLines.push_back(breakpoint.line);
-  }
-  std::sort(loaded->breakpointLines.begin(), loaded->breakpointLines.end());
   loaded->program = std::move(program);
   programs_.push_back(std::move(loaded));
   return programs_.back().get();

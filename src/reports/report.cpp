@@ -88,16 +88,31 @@ json meshData(const Mesh& mesh, const records::ReadableText& readable) {
           {"edges", base64(coordinates(mesh.featureEdges))}};
 }
 
+json toolData(const Mesh& tool, const records::ReadableText& readable) {
+  return {{"name", readable(tool.name)},
+          {"positions", base64(coordinates(tool.positions))},
+          {"normals", base64(packedDirections(tool.normals))},
+          {"triangles", base64(tool.triangles)},
+          {"edges", base64(coordinates(tool.featureEdges))}};
+}
+
 json sceneData(const Scene& scene, const records::ReadableText& readable) {
   json meshes = json::array();
   for (const Mesh& mesh : scene.meshes)
     meshes.push_back(meshData(mesh, readable));
+  json tools = json::array();
+  for (const Mesh& tool : scene.tools)
+    tools.push_back(toolData(tool, readable));
+  std::vector<std::int32_t> changes, touching;
+  for (const Path::ToolFrom& change : scene.path.tools)
+    changes.insert(changes.end(), {static_cast<std::int32_t>(change.point), change.tool});
   std::vector<std::uint32_t> indices;
   std::vector<Vector3f> centres, surfaces;
   for (const SceneTouch& touch : scene.touches) {
     indices.insert(indices.end(), {touch.cycle, touch.touch});
     centres.push_back(touch.ballCentre);
     surfaces.push_back(touch.surface);
+    touching.push_back(touch.tool);
   }
   json collisions = json::array();
   for (const SceneCollision& collision : scene.collisions) {
@@ -113,11 +128,14 @@ json sceneData(const Scene& scene, const records::ReadableText& readable) {
            {{"points", base64(coordinates(scene.path.points))},
             {"kinds", base64(kinds)},
             {"seconds", base64(scene.path.seconds)},
-            {"toolAxes", base64(coordinates(scene.path.toolAxes))}}},
+            {"toolAxes", base64(coordinates(scene.path.toolAxes))},
+            {"tools", base64(changes)}}},
+          {"tools", std::move(tools)},
           {"touches",
            {{"indices", base64(indices)},
             {"centres", base64(coordinates(centres))},
-            {"surfaces", base64(coordinates(surfaces))}}},
+            {"surfaces", base64(coordinates(surfaces))},
+            {"tools", base64(touching)}}},
           {"collisions", std::move(collisions)},
           {"ballRadius", scene.ballRadius},
           {"workpiece", scene.sceneFromWorkpiece ? matrix(*scene.sceneFromWorkpiece) : json(nullptr)}};

@@ -30,12 +30,18 @@ struct Mesh {
 /// A jump is not drawn: the tool was changed or set down elsewhere.
 enum class MoveKind : std::uint8_t { Rapid = 0, Feed = 1, Measure = 2, Jump = 3 };
 
-/// The way of the ball's centre.
+/// The way of the ball's centre, or of the end of a cutter.
 struct Path {
   std::vector<Vector3f> points;
   std::vector<MoveKind> kinds;     ///< kinds[i] is the move from points[i] to points[i + 1]
   std::vector<float> seconds;      ///< machine clock at each point; empty: the run cannot be replayed
   std::vector<Vector3f> toolAxes;  ///< unit, from the ball to the spindle at each point; empty: always +Z
+  /// Which of the scene's tools is in the spindle from a point on; -1: a touch probe, or none. Empty: always so.
+  struct ToolFrom {
+    std::uint32_t point = 0;
+    std::int32_t tool = -1;
+  };
+  std::vector<ToolFrom> tools;
 };
 
 /// Where a touch of the journal really was.
@@ -44,6 +50,7 @@ struct SceneTouch {
   std::uint32_t touch = 0;  ///< index into CycleRecord::touches
   Vector3f ballCentre = Vector3f::Zero();
   Vector3f surface = Vector3f::Zero();  ///< on the part; equal to ballCentre if there was no contact
+  std::int32_t tool = -1;  ///< the scene's tool that touched, its end at ballCentre; -1: a touch probe's ball
 };
 
 /// Where the tool ran into something, or the ball was deflected while the axes only positioned.
@@ -56,6 +63,8 @@ struct SceneCollision {
 struct Scene {
   std::vector<Mesh> meshes;
   Path path;
+  /// Cutters: the end of each lies in its origin, its shank along +Z.
+  std::vector<Mesh> tools;
   std::vector<SceneTouch> touches;
   std::vector<SceneCollision> collisions;
   double ballRadius = 0;  ///< of the probe, mm; 0: not drawn

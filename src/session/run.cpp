@@ -53,7 +53,6 @@ void conclude(RunOutcome& outcome) {
     case RunEnd::Cancelled:
     case RunEnd::StepLimit:
     case RunEnd::RecordLimit:
-    case RunEnd::Halted:
       outcome.info.exit = ExitState::Stopped;
       break;
   }

@@ -52,7 +52,6 @@ struct RunOptions {
   std::uint64_t recordLimit = std::uint64_t{128} << 20U;
   /// Why the run cannot leave a file of this name, if it cannot.
   std::function<std::optional<Diagnostic>(const std::string& name)> whyNoFile;
-  std::vector<execution::Breakpoint> breakpoints;
   std::stop_token stop;
   /// Levels of block skip that the operator has switched on; HEIDENHAIN controls have level 0 only.
   std::bitset<10> skipLevels;

@@ -27,7 +27,6 @@ execution::InterpreterOptions interpreterOptions(const RunOptions& options) {
   interpreter.stepLimit = options.stepLimit;
   interpreter.stop = options.stop;
   interpreter.skipLevels = options.skipLevels;
-  interpreter.breakpoints = options.breakpoints;
   interpreter.onProgress = options.progress;
   return interpreter;
 }

@@ -1,7 +1,9 @@
 #include "setup/scene.hpp"
 
 #include <algorithm>
+#include <map>
 
+#include "setup/tool_drawing.hpp"
 #include "simulation/drawing_mesh.hpp"
 
 namespace probewright::setup {
@@ -88,10 +90,32 @@ reports::Path pathOf(const simulation::PathRecord& record) {
   return path;
 }
 
+/// The cutters that a path is of, each once, by their places in Truth::tools.
+class DrawnTools {
+public:
+  explicit DrawnTools(const simulation::Truth& truth) : truth_(truth) {}
+
+  /// The place among the scene's tools; -1 for a touch probe, or none.
+  std::int32_t of(int tool) {
+    if (tool < 0 || static_cast<std::size_t>(tool) >= truth_.tools.size()) return -1;
+    const simulation::TrueTool& shape = truth_.tools[static_cast<std::size_t>(tool)];
+    if (shape.kind != simulation::ToolKind::Cutter) return -1;
+    const auto [place, isNew] = places_.try_emplace(tool, static_cast<std::int32_t>(meshes.size()));
+    if (isNew) meshes.push_back(drawnTool(shape));
+    return place->second;
+  }
+
+  std::vector<reports::Mesh> meshes;
+
+private:
+  const simulation::Truth& truth_;
+  std::map<int, std::int32_t> places_;
+};
+
 /// Finds the touches of a journal in a path, in the order in which they happened.
 class TouchFinder {
 public:
-  explicit TouchFinder(const simulation::PathRecord& path) : path_(path) {}
+  TouchFinder(const simulation::PathRecord& path, DrawnTools& tools) : path_(path), tools_(tools) {}
 
   /// Fills the positions of `found`; false if the path knows nothing of the touch.
   bool find(const control::TouchRecord& touch, reports::SceneTouch& found) {
@@ -101,6 +125,7 @@ public:
       if (candidate.kind != PathKind::Measure || !(candidate.latched == touch.latched)) continue;
       found.ballCentre = candidate.ballCentre.cast<float>();
       found.surface = candidate.point.cast<float>();
+      found.tool = tools_.of(path_.points[candidate.pathPoint].tool);
       next_ = i + 1;
       return true;
     }
@@ -108,7 +133,7 @@ public:
   }
 
 private:
-  bool findMiss(const control::TouchRecord& touch, reports::SceneTouch& found) const {
+  bool findMiss(const control::TouchRecord& touch, reports::SceneTouch& found) {
     constexpr double clockTolerance = 1e-6;
     const auto after =
         std::upper_bound(path_.points.begin(), path_.points.end(), touch.seconds + clockTolerance,
@@ -117,10 +142,12 @@ private:
                                    [](const simulation::PathPoint& point) { return point.kind == PathKind::Measure; });
     if (last == path_.points.rend()) return false;
     found.ballCentre = found.surface = last->tip.cast<float>();
+    found.tool = tools_.of(last->tool);
     return true;
   }
 
   const simulation::PathRecord& path_;
+  DrawnTools& tools_;
   std::size_t next_ = 0;
 };
 
@@ -140,10 +167,16 @@ reports::Scene sceneOf(const control::Journal& journal, const simulation::Truth&
     if (!mesh.triangles.empty()) scene.meshes.push_back(std::move(mesh));
   }
   scene.path = pathOf(path);
+  DrawnTools tools(truth);
+  for (std::size_t i = 0; i < path.points.size(); ++i) {
+    const std::int32_t tool = tools.of(path.points[i].tool);
+    if (tool != (scene.path.tools.empty() ? -1 : scene.path.tools.back().tool))
+      scene.path.tools.push_back({static_cast<std::uint32_t>(i), tool});
+  }
   for (const simulation::PathTouch& touch : path.touches) {
     if (isCollision(touch)) scene.collisions.push_back({touch.point.cast<float>(), touch.part, touch.solid});
   }
-  TouchFinder finder(path);
+  TouchFinder finder(path, tools);
   for (std::uint32_t cycle = 0; cycle < journal.cycles.size(); ++cycle) {
     const auto& touches = journal.cycles[cycle].touches;
     for (std::uint32_t touch = 0; touch < touches.size(); ++touch) {
@@ -153,6 +186,7 @@ reports::Scene sceneOf(const control::Journal& journal, const simulation::Truth&
       if (finder.find(touches[touch], found)) scene.touches.push_back(found);
     }
   }
+  scene.tools = std::move(tools.meshes);
   return scene;
 }
 

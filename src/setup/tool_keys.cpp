@@ -130,6 +130,11 @@ void readInsert(TomlReader& reader, TrueCutter& cutter) {
   insert.wear = reader.number("wear", {0, 10}).value_or(0);
   insert.edgeLength = reader.number("edge_length", anyLength).value_or(insert.edgeLength);
   insert.orientation = reader.number("orientation", anyAngle).value_or(0);
+  insert.thickness = reader.number("thickness", {-100, 100}).value_or(0);
+  insert.clearance = reader.number("clearance", {0, 45}).value_or(insert.clearance);
+  if (reader.has("clearance") && insert.thickness == 0)
+    reader.report("clearance", "only an insert that has a thickness has a flank with a clearance",
+                  "Write the thickness of the insert, too");
   const auto normals = reader.numbers("edge_normals", 2, anyAngle);
   if (normals) {
     insert.firstNormal = (*normals)[0];

@@ -34,6 +34,10 @@ struct TrueInsert {
   double secondNormal = 180;
   double edgeLength = 10;  ///< mm, of each of the edges
   double orientation = 0;  ///< degrees about the tool's axis, from X to the plane of the insert
+  /// mm, from nose and edges across the plane, as the eccentricity counts across; its flank recedes there by
+  /// `clearance` (degrees). 0: edges only.
+  double thickness = 0;
+  double clearance = 7;
 };
 
 /// What cuts, and what carries it.

@@ -89,23 +89,38 @@ std::vector<EdgePiece> meridianOf(const Drawn& drawn, const Shifted& shifted) {
   return pieces;
 }
 
-/// The edges of an insert: nose and both straights, at the angle 0 about the axis. Its theoretical tip, where the
-/// tangents of the nose along the axes of its plane meet, is the origin.
-std::vector<EdgePiece> insertOf(const TrueInsert& insert) {
+/// How far the flank of an insert recedes for a mm across its plane.
+double recession(const TrueInsert& insert) { return std::tan(radiansFromDegrees(insert.clearance)); }
+
+/// Across its plane: as far as its nose is a cone that has a radius.
+double flankOf(const TrueInsert& insert) {
+  const double round = insert.noseRadius - insert.wear, slope = recession(insert);
+  const double depth = std::abs(insert.thickness);
+  return slope > 0 && slope * depth > round ? round / slope : depth;
+}
+
+/// The edges of an insert, nose and both straights, or the lines of its flank `depth` across its plane. Its theoretical
+/// tip, where the tangents of the nose along the axes of its plane meet, is the origin.
+std::vector<EdgePiece> insertOf(const TrueInsert& insert, double depth = 0) {
   const double first = radiansFromDegrees(insert.firstNormal);
   const double second = first + std::remainder(radiansFromDegrees(insert.secondNormal) - first, 2 * pi);
   // The quadrant in which the nose points, seen from its centre.
   const double middle = 0.5 * (first + second);
   const auto sign = [](double value) { return std::abs(value) < 1e-9 ? 0.0 : value < 0 ? -1.0 : 1.0; };
   const Vector2 centre = -insert.noseRadius * Vector2(sign(std::cos(middle)), sign(std::sin(middle)));
-  const double radius = insert.noseRadius - insert.wear;
+  const double radius = insert.noseRadius - insert.wear - recession(insert) * depth;
   const auto normal = [](double angle) { return Vector2(std::cos(angle), std::sin(angle)); };
   const double turn = second > first ? 1 : -1;
   const auto straight = [&](double angle, double towards) {
     const Vector2 start = centre + radius * normal(angle);
     return line(start, start + towards * insert.edgeLength * Vector2(-std::sin(angle), std::cos(angle)));
   };
-  return {arc(centre, radius, first, second), straight(first, -turn), straight(second, turn)};
+  std::vector<EdgePiece> pieces = {arc(centre, radius, first, second), straight(first, -turn), straight(second, turn)};
+  for (EdgePiece& piece : pieces) {
+    piece.angle = radiansFromDegrees(insert.orientation);
+    piece.across = insert.thickness < 0 ? -depth : depth;
+  }
+  return pieces;
 }
 
 /// The least of `value` between 0 and 1: from `samples` + 1 places, refined between the neighbours of each that may be
@@ -220,7 +235,8 @@ Vector2 EdgePiece::meridian(double share) const {
 Vector3 EdgePiece::at(double share, double about) const {
   const Vector2 place = meridian(share);
   const double at = angle + winding * (place.y() - datum) + about;
-  return {place.x() * std::cos(at), place.x() * std::sin(at), place.y()};
+  return {place.x() * std::cos(at) - across * std::sin(at), place.x() * std::sin(at) + across * std::cos(at),
+          place.y()};
 }
 
 double EdgePiece::length() const {
@@ -238,9 +254,8 @@ CuttingEdges::CuttingEdges(const TrueTool& tool) : eccentricity_(offsetOf(tool.c
   spindleFromTool_.linear() = toolFrame(tool);
   Shifted most;
   if (cutter.insert) {
+    insert_ = cutter.insert;
     edges_.push_back(insertOf(*cutter.insert));
-    for (EdgePiece& piece : edges_.front())
-      piece.angle = radiansFromDegrees(cutter.insert->orientation);
     envelope_ = edges_.front();
   } else if (cutter.teeth.empty()) {
     round_ = true;
@@ -263,7 +278,7 @@ CuttingEdges::CuttingEdges(const TrueTool& tool) : eccentricity_(offsetOf(tool.c
     }
   }
   if (!cutter.insert) envelope_ = meridianOf(drawn, most);
-  const double aside = eccentricity_.norm();
+  const double aside = eccentricity_.norm() + (insert_ ? flankOf(*insert_) : 0);
   for (EdgePiece& piece : envelope_) {
     piece.turned = true;
     // At its farthest from the spindle's axis.
@@ -281,8 +296,22 @@ Pose CuttingEdges::spindleFromCutter(double degrees) const {
          translation({eccentricity_.x(), eccentricity_.y(), 0});
 }
 
+EdgeDistance CuttingEdges::nearestOfInsert(const Pose& solidFromCutter, const DistanceSolid& solid) const {
+  const EdgeDistance edge = nearestOf(edges_.front(), solidFromCutter, solid);
+  const double flank = flankOf(*insert_);
+  // No point of the flank is farther than this from its edge.
+  const double away = flank * std::hypot(1, recession(*insert_));
+  constexpr double far = 1;  // mm
+  if (flank <= 0) return edge;
+  if (edge.gap - away > far) return {.gap = edge.gap - away, .place = edge.place, .normal = edge.normal};
+  const auto at = [&](double share) { return nearestOf(insertOf(*insert_, share * flank), solidFromCutter, solid); };
+  constexpr int samples = 4;
+  const double share = leastShare([&](double s) { return at(s).gap; }, samples, 0.5 * away / samples);
+  return at(share);
+}
+
 EdgeDistance CuttingEdges::nearest(std::size_t edge, const Pose& solidFromCutter, const DistanceSolid& solid) const {
-  return nearestOf(edges_[edge], solidFromCutter, solid);
+  return insert_ ? nearestOfInsert(solidFromCutter, solid) : nearestOf(edges_[edge], solidFromCutter, solid);
 }
 
 double CuttingEdges::leastGap(const Pose& solidFromSpindle, const DistanceSolid& solid) const {

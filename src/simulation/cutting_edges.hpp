@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "simulation/analytic_solids.hpp"
@@ -20,6 +21,7 @@ struct EdgePiece {
   double winding = 0;                                    ///< radians per mm of height
   double datum = 0;
   bool turned = false;  ///< all angles: a surface that is round about the axis
+  double across = 0;    ///< mm, at right angles to the plane of the meridian
 
   /// Radius and height at `share` (0 to 1) of the piece.
   Vector2 meridian(double share) const;
@@ -55,8 +57,11 @@ public:
   double leastGap(const Pose& solidFromSpindle, const DistanceSolid& solid) const;
 
 private:
+  EdgeDistance nearestOfInsert(const Pose& solidFromCutter, const DistanceSolid& solid) const;
+
   std::vector<std::vector<EdgePiece>> edges_;
   std::vector<EdgePiece> envelope_;  ///< of all edges at all angles
+  std::optional<TrueInsert> insert_;
   Pose spindleFromTool_ = Pose::Identity();
   Vector2 eccentricity_ = Vector2::Zero();
   double reach_ = 0;

@@ -126,7 +126,8 @@ std::optional<Touch> VirtualMachine::shaftTouch() const {
 Vector3 VirtualMachine::tipOnTable() const { return tableFromSpindle() * shape_.tip; }
 
 PathPoint VirtualMachine::pathPoint(const Pose& tableFromSpindle, PathKind kind, double seconds) const {
-  return {tableFromSpindle * shape_.tip, tableFromSpindle.linear() * shape_.shank, kind, seconds};
+  const int tool = tool_ != nullptr ? static_cast<int>(tool_ - truth_.tools.data()) : -1;
+  return {tableFromSpindle * shape_.tip, tableFromSpindle.linear() * shape_.shank, kind, seconds, tool};
 }
 
 namespace {

@@ -150,6 +150,13 @@ TEST(Messages, TellWhereTheToolWouldGoBeyondTheTravel) {
   }
   const std::string siemens = folder.file("840.toml", "[control]\ntype = \"840Dsl\"\n" + world +
                                                           "[[zero_offset]]\nname = \"G54\"\norigin = [7, 5, -480]\n");
+  // A program that counts in inches is told so.
+  EXPECT_THAT(
+      said("i.h", "0 BEGIN PGM A INCH\n1 TOOL CALL 1 Z\n2 L Z+2 R0 FMAX\n3 L X+1 Y-40 R0 FMAX\n9 END PGM A INCH\n",
+           tnc),
+      HasSubstr("the tool tip would go to X+1.0000 Y-40.0000 Z+2.0000 inch of the active workpiece system"));
+  EXPECT_THAT(said("i.mpf", "G700 G54 G17 G90\nT1 D1\nM6\nG0 Z2\nX40 Y1\nM30\n", siemens),
+              HasSubstr("the tool tip would go to X+40.0000 Y+1.0000 Z+2.0000 inch of the active workpiece system"));
   EXPECT_THAT(said("a.mpf", "G54 G17 G90\nT1 D1\nM6\nG0 Z50\nX900 Y10\nM30\n", siemens),
               HasSubstr("the tool tip would go to X+900.000 Y+10.000 Z+50.000 of the active workpiece system"));
 }

@@ -415,22 +415,6 @@ TEST(Ends, CancelFromOutsideAndFromTheHost) {
 
 // ---- operator ----
 
-TEST(Breakpoints, AskAndStep) {
-  Bench bench;
-  std::vector<std::uint64_t> halts;
-  bench.options.breakpoints = {{"MAIN.prg", 2}, {"OTHER.prg", 1}};
-  bench.options.onHalt = [&](const Program&, const Block& block) {
-    halts.push_back(block.position.line);
-    return halts.size() == 1 ? HaltAnswer::Step : halts.size() == 2 ? HaltAnswer::Continue : HaltAnswer::Stop;
-  };
-  Make loop;
-  loop.jump("A");
-  const RunResult result = bench.run({Make(), Make().plainLabel("A").say("a"), Make().say("b"), Make().say("c"), loop});
-  EXPECT_EQ(halts, (std::vector<std::uint64_t>{2, 3, 2}));
-  EXPECT_EQ(result.end, RunEnd::Halted);
-  EXPECT_EQ(bench.host.protocol, "<MAIN a b c MAIN> ");
-}
-
 TEST(SkippedBlocks, DependOnTheirLevel) {
   Make plain, third;
   plain.say("0").block.skippable = true;

@@ -117,10 +117,21 @@ export interface Collision {
   solid: string;
 }
 
+/* A cutter: its end in the origin, its shank along Z. */
+export interface SceneTool {
+  name: string;
+  positions: Float32Array;
+  normals: Int8Array;
+  triangles: Uint32Array;
+  edges: Float32Array;
+}
+
 export interface Scene {
   meshes: SceneMesh[];
-  path: { points: Float32Array; kinds: Uint8Array; seconds: Float32Array; toolAxes: Float32Array };
-  touches: { indices: Uint32Array; centres: Float32Array; surfaces: Float32Array };
+  tools: SceneTool[];
+  /* tools: pairs of a point and the tool in the spindle from there on; -1 is a touch probe, or none. */
+  path: { points: Float32Array; kinds: Uint8Array; seconds: Float32Array; toolAxes: Float32Array; tools: Int32Array };
+  touches: { indices: Uint32Array; centres: Float32Array; surfaces: Float32Array; tools: Int32Array };
   collisions: Collision[];
   ballRadius: number;
   workpiece: number[] | null;
@@ -136,8 +147,9 @@ export interface Report {
 interface PackedScene {
   meshes: (Omit<SceneMesh, "positions" | "normals" | "triangles" | "edges"> &
     Record<"positions" | "normals" | "triangles" | "edges", string>)[];
-  path: Record<"points" | "kinds" | "seconds" | "toolAxes", string>;
-  touches: Record<"indices" | "centres" | "surfaces", string>;
+  tools: ({ name: string } & Record<"positions" | "normals" | "triangles" | "edges", string>)[];
+  path: Record<"points" | "kinds" | "seconds" | "toolAxes" | "tools", string>;
+  touches: Record<"indices" | "centres" | "surfaces" | "tools", string>;
   collisions: Collision[];
   ballRadius: number;
   workpiece: number[] | null;
@@ -152,6 +164,7 @@ function bytes(base64: string): ArrayBuffer {
 
 const floats = (text: string) => new Float32Array(bytes(text));
 const unsigned = (text: string) => new Uint32Array(bytes(text));
+const integers = (text: string) => new Int32Array(bytes(text));
 
 export function readReport(): Report {
   const packed = JSON.parse(document.getElementById("report-data")!.textContent!) as {
@@ -159,7 +172,7 @@ export function readReport(): Report {
     programs: ProgramText[];
     scene: PackedScene;
   };
-  const { meshes, path, touches, collisions, ballRadius, workpiece } = packed.scene;
+  const { meshes, tools, path, touches, collisions, ballRadius, workpiece } = packed.scene;
   return {
     results: packed.results,
     programs: packed.programs,
@@ -173,16 +186,25 @@ export function readReport(): Report {
         triangles: unsigned(mesh.triangles),
         edges: floats(mesh.edges),
       })),
+      tools: tools.map((tool) => ({
+        name: tool.name,
+        positions: floats(tool.positions),
+        normals: new Int8Array(bytes(tool.normals)),
+        triangles: unsigned(tool.triangles),
+        edges: floats(tool.edges),
+      })),
       path: {
         points: floats(path.points),
         kinds: new Uint8Array(bytes(path.kinds)),
         seconds: floats(path.seconds),
         toolAxes: floats(path.toolAxes),
+        tools: integers(path.tools),
       },
       touches: {
         indices: unsigned(touches.indices),
         centres: floats(touches.centres),
         surfaces: floats(touches.surfaces),
+        tools: integers(touches.tools),
       },
       collisions,
       ballRadius,

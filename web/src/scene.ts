@@ -28,7 +28,7 @@ import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 
-import type { Report, Scene, SceneMesh } from "./data";
+import type { Report, Scene, SceneMesh, SceneTool } from "./data";
 import { cycleState } from "./verdict";
 
 export interface Palette {
@@ -56,19 +56,22 @@ export interface Marker {
   touch: number;
   centre: Vector3;
   surface: Vector3;
+  /** The cutter that touched, its end at the centre; -1: a touch probe's ball. */
+  tool: number;
 }
 
 export function markersOf(scene: Scene): Marker[] {
-  const { indices, centres, surfaces } = scene.touches;
+  const { indices, centres, surfaces, tools } = scene.touches;
   return Array.from({ length: indices.length / 2 }, (_, i) => ({
     cycle: indices[2 * i],
     touch: indices[2 * i + 1],
     centre: new Vector3().fromArray(centres, 3 * i),
     surface: new Vector3().fromArray(surfaces, 3 * i),
+    tool: tools[i] ?? -1,
   }));
 }
 
-function meshGeometry(mesh: SceneMesh): BufferGeometry {
+function meshGeometry(mesh: SceneMesh | SceneTool): BufferGeometry {
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(mesh.positions, 3));
   geometry.setIndex(new BufferAttribute(mesh.triangles, 1));
@@ -132,6 +135,8 @@ export class Drawing {
   private readonly path = new Group();
   private readonly touches = new Group();
   private readonly probe = new Group();
+  private readonly ball = new Group();
+  private readonly cutters: Group[];
   private readonly lights: Object3D[] = [];
   private readonly colours: Float32Array;
   private readonly solidMaterials: { material: MeshStandardMaterial; role: SceneMesh["role"] }[] = [];
@@ -146,7 +151,7 @@ export class Drawing {
     this.colours = new Float32Array(3 * this.markers.length);
 
     const points = [
-      ...this.markers.flatMap(({ centre, surface }) => [centre, surface]),
+      ...this.markers.flatMap(({ centre, surface, tool }) => (tool < 0 ? [centre, surface] : [surface])),
       ...scene.collisions.map(({ at }) => new Vector3().fromArray(at)),
     ];
     const bounds = new Box3().setFromPoints(points);
@@ -193,8 +198,10 @@ export class Drawing {
       material.depthTest = false;
       const ghost = new Mesh(mesh.geometry, material);
       ghost.applyMatrix4(mesh.matrix.compose(mesh.position, mesh.quaternion, mesh.scale));
-      this.probe.add(ghost, mesh);
+      this.ball.add(ghost, mesh);
     }
+    this.cutters = scene.tools.map((tool) => this.cutter(tool));
+    this.probe.add(this.ball, ...this.cutters);
     this.probe.visible = false;
     if (scene.workpiece) this.addTriad(scene.workpiece);
 
@@ -209,6 +216,24 @@ export class Drawing {
   /** Lights that move with the camera. */
   get headlights(): Object3D[] {
     return this.lights;
+  }
+
+  private cutter(tool: SceneTool): Group {
+    const group = new Group();
+    const material = new MeshStandardMaterial({
+      color: "#9aa2ad",
+      metalness: 0.3,
+      roughness: 0.4,
+      side: DoubleSide,
+      transparent: true,
+      opacity: 0.72,
+      depthWrite: false,
+    });
+    group.add(new Mesh(meshGeometry(tool), material));
+    const edges = new BufferGeometry();
+    edges.setAttribute("position", new BufferAttribute(tool.edges, 3));
+    group.add(new LineSegments(edges, new LineBasicMaterial({ color: "#b3261e" })));
+    return group;
   }
 
   private addMesh(mesh: SceneMesh): Box3 {
@@ -274,7 +299,8 @@ export class Drawing {
     if (this.markers.length === 0) return;
     const positions = new Float32Array(3 * this.markers.length);
     // A little off the surface, so that the dot is not cut by it.
-    this.markers.forEach(({ centre, surface }, i) => surface.clone().lerp(centre, 0.35).toArray(positions, 3 * i));
+    // The end of a cutter may be far from where its edge touched.
+    this.markers.forEach(({ centre, surface, tool }, i) => surface.clone().lerp(centre, tool < 0 ? 0.35 : 0).toArray(positions, 3 * i));
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(positions, 3));
     geometry.setAttribute("color", new BufferAttribute(this.colours, 3));
@@ -380,10 +406,12 @@ export class Drawing {
     return this.fixtures.children.length > 0;
   }
 
-  /** The probe with its ball's centre there, the stylus along `axis`; null hides it. */
-  placeProbe(centre: Vector3 | null, axis = new Vector3(0, 0, 1)) {
+  /** The probe with its ball's centre there, or a cutter with its end, the shank along `axis`; null hides it. */
+  placeProbe(centre: Vector3 | null, axis = new Vector3(0, 0, 1), tool = -1) {
     this.probe.visible = centre !== null;
     if (!centre) return;
+    this.ball.visible = tool < 0;
+    this.cutters.forEach((cutter, i) => (cutter.visible = i === tool));
     this.probe.position.copy(centre);
     this.probe.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), axis.clone().normalize());
   }

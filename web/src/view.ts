@@ -241,17 +241,21 @@ export class View {
       this.shown = ofCycle.map((marker) => {
         const label = h("span", { class: marker.touch === touch ? "label active" : "label" }, h("b", {}, String(marker.touch + 1)));
         this.labels.append(label);
-        return { at: marker.centre, label };
+        return { at: marker.tool < 0 ? marker.centre : marker.surface, label };
       });
     }
     const marker = touch === null ? undefined : ofCycle.find((candidate) => candidate.touch === touch);
-    this.drawing.placeProbe(marker ? marker.centre : null);
+    this.drawing.placeProbe(marker ? marker.centre : null, undefined, marker?.tool);
     this.fillCard(cycle, touch);
     // The card must not lie over what it tells about.
     const points = marker ? [marker] : ofCycle;
     const middle = points.reduce((sum, { centre }) => sum + this.onScreen(centre).x / points.length, 0);
     this.card.classList.toggle("left", middle > 0.56 * this.stage.clientWidth);
     this.draw();
+  }
+
+  private touchedByTool(cycle: number, touch: number | null): boolean {
+    return this.drawing.markers.some((marker) => marker.cycle === cycle && marker.touch === touch && marker.tool >= 0);
   }
 
   private fillCard(cycleIndex: number | null, touchIndex: number | null) {
@@ -294,8 +298,9 @@ export class View {
               {},
               row("Outcome", touch.outcome, touch.outcome === "touched" ? "" : "missed"),
               row("Target", point(touch.target)),
-              row("Ball centre", point(touch.ballCentre)),
-              row("Surface", point(touch.surface)),
+              ...(this.touchedByTool(cycleIndex, touchIndex)
+                ? [row("Tool tip", point(touch.ballCentre))]
+                : [row("Ball centre", point(touch.ballCentre)), row("Surface", point(touch.surface))]),
               row("Direction", point(touch.direction)),
               row("Deviation", deviation === null ? "\u2013" : `${fixed(deviation, 4, true)} mm`, "strong"),
               row("Axes", touch.axes ? Object.entries(touch.axes).map(([name, value]) => `${name} ${fixed(value, 3)}`) : "\u2013"),
@@ -350,7 +355,7 @@ export class View {
 
   /** A slider over the machine's clock. */
   private replay(): HTMLElement | null {
-    const { points, seconds, toolAxes } = this.report.scene.path;
+    const { points, seconds, toolAxes, tools } = this.report.scene.path;
     const n = seconds.length;
     if (n < 2 || points.length < 3 * n) return null;
     const total = seconds[n - 1];
@@ -369,7 +374,9 @@ export class View {
       const part = span > 0 ? MathUtils.clamp((time - seconds[low]) / span, 0, 1) : 1;
       const axis =
         toolAxes.length >= points.length ? vector(toolAxes, low).lerp(vector(toolAxes, high), part) : new Vector3(0, 0, 1);
-      this.drawing.placeProbe(vector(points, low).lerp(vector(points, high), part), axis);
+      let tool = -1;
+      for (let i = 0; i < tools.length && tools[i] <= low; i += 2) tool = tools[i + 1];
+      this.drawing.placeProbe(vector(points, low).lerp(vector(points, high), part), axis, tool);
       clock.textContent = duration(time);
       this.draw();
     };

@@ -39,6 +39,7 @@ Control::Control(ControlKind kind, machine::Machine& machine, Tables tables_, Ma
       parameters(parameters_),
       kinematics(std::make_shared<Kinematics>(machine.description())),
       kind_(kind) {
+  channel.programUnit = &unit;
   channel.onToolByHand = [this](const machine::ToolOrder& order, const std::string& detail) {
     panel.stop(askForTool(order, detail), channel.seconds());
   };

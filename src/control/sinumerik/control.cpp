@@ -35,6 +35,7 @@ Control::Control(machine::Machine& machine, DataStore store, std::optional<machi
       channel(machine, journal),
       data(std::move(store)),
       told_(told ? std::move(*told) : machine.description()) {
+  channel.programUnit = &unit;
   channel.alarms = {"10720", "61302", "61302", "22066", "22050", "700000"};
   channel.onToolByHand = [this](const machine::ToolOrder& order, const std::string& detail) {
     panel.stop(askForTool(order, detail), channel.seconds());

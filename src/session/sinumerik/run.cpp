@@ -114,7 +114,7 @@ bool callAside(language::ProgramLibrary& library, execution::Host& host, executi
   if (!opened) throw control::Alarm("14011", opened.error().message, opened.error().advice);
   const execution::RunResult result = execution::Interpreter(library, host, std::move(options)).run(*opened);
   if (result.end == RunEnd::Finished) return true;
-  if (result.end == RunEnd::Cancelled || result.end == RunEnd::Halted) throw control::Cancelled();
+  if (result.end == RunEnd::Cancelled) throw control::Cancelled();
   const Diagnostic& why = result.diagnostics.front();
   control::Alarm alarm(why.code, why.message, why.advice);
   alarm.setPlace({why.place.file, why.place.line, 0});
