@@ -148,6 +148,63 @@ Matrix3 Channel::spindleFromProgram() const {
   return referenceFromSpindle.transpose() * machineFromProgram_.linear();
 }
 
+Eigen::Affine3d Channel::programFromTable(const AxisPositions& axes) const {
+  if (following_ == Following::Kinematics) return programFromMachine_ * referenceFromTable_;
+  // Linear axes count alike whether they move the table or the tool.
+  AxisPositions turned = axes;
+  for (std::size_t i = 0; i < description_.axes.size(); ++i) {
+    if (!isRotary(description_, i)) turned[i] = 0;
+  }
+  // Positions are those of the linear axes: a head that turns the tool aside moves the tip, but not its coordinates.
+  const Vector3 aside = machine::baseFromSpindle(description_, turned) * Vector3(-toolVector) + toolVector;
+  return programFromMachine_ * Pose(translation(-aside)) * machine::baseFromTable(description_, turned);
+}
+
+void Channel::note(Interruption why, bool measuring, const AxisPositions& from, const AxisPositions& to) {
+  const AxisPositions now = axes();
+  journal_.interrupt({.why = why,
+                      .measuring = measuring,
+                      .cycle = std::nullopt,
+                      .from = from,
+                      .to = to,
+                      .end = now,
+                      .programFromTable = programFromTable(now),
+                      .seconds = seconds()});
+}
+
+void Channel::note(machine::MoveEnd end, const AxisPositions& from, const AxisPositions& to) {
+  switch (end) {
+    case machine::MoveEnd::Reached:
+    case machine::MoveEnd::Cancelled:
+    case machine::MoveEnd::Refused:
+      return;
+    case machine::MoveEnd::ProbeSignal:
+      return note(Interruption::Deflected, false, from, to);
+    case machine::MoveEnd::Collision:
+      return note(Interruption::Collision, false, from, to);
+    case machine::MoveEnd::AxisLimit:
+      return note(Interruption::Limit, false, from, to);
+  }
+}
+
+void Channel::note(machine::MeasureEnd end, const AxisPositions& from, const AxisPositions& to) {
+  switch (end) {
+    case machine::MeasureEnd::Touched:
+    case machine::MeasureEnd::NotReady:
+    case machine::MeasureEnd::Cancelled:
+    case machine::MeasureEnd::Refused:
+      return;
+    case machine::MeasureEnd::NoContact:
+      return note(Interruption::NoContact, true, from, to);
+    case machine::MeasureEnd::DeflectedAtStart:
+      return note(Interruption::Deflected, true, from, to);
+    case machine::MeasureEnd::Collision:
+      return note(Interruption::Collision, true, from, to);
+    case machine::MeasureEnd::AxisLimit:
+      return note(Interruption::Limit, true, from, to);
+  }
+}
+
 void Channel::judgeTravel(machine::MoveResult result) const {
   if (result.end == machine::MoveEnd::ProbeSignal || result.end == machine::MoveEnd::Collision) addPlace(result.detail);
   judge(result);
@@ -186,6 +243,7 @@ void Channel::moveAxes(const AxisPositions& target, Feed feed) {
   if (start == target) return;
   machine::MoveResult result = machine_.move(target, feed);
   count(start, axes());
+  note(result.end, start, target);
   if (result.end == machine::MoveEnd::AxisLimit) result.detail = beyondTravel(*this, result.detail, target);
   judgeTravel(std::move(result));
 }
@@ -201,7 +259,10 @@ void Channel::travel(std::vector<machine::PathPiece> path) {
   last = start;
   for (std::size_t i = 0; i < result.reached; ++i)
     count(std::exchange(last, path[i].target), path[i].target);
-  if (result.reached < path.size()) count(last, axes());
+  if (result.reached < path.size()) {
+    count(last, axes());
+    note(result.end, last, path[result.reached].target);
+  }
   if (result.end == machine::MoveEnd::AxisLimit && result.reached < path.size())
     result.detail = beyondTravel(*this, result.detail, path[result.reached].target);
   judgeTravel({result.end, std::move(result.detail)});
@@ -273,8 +334,10 @@ void Channel::moveTo(const Target& target, Feed feed) {
 machine::MeasureResult Channel::measureTo(const Vector3& point, Feed feed, machine::Sensor sensor, TouchWith part) {
   const AxisPositions start = axes();
   const AxisPositions target = axesFromProgram(point, start);
+  journal_.programFromTable = programFromTable(start);
   machine::MeasureResult result = machine_.measure({target, feed, sensor, part});
   count(start, axes());
+  note(result.end, start, target);
   if (result.end == machine::MeasureEnd::Cancelled) throw Cancelled();
   if (result.end == machine::MeasureEnd::Refused) judge({machine::MoveEnd::Refused, result.detail});
   if (result.end == machine::MeasureEnd::Collision) addPlace(result.detail);
@@ -291,6 +354,7 @@ void Channel::retractTo(const Vector3& point, Feed feed) {
   const AxisPositions target = axesFromProgram(point, start);
   machine::MoveResult result = machine_.retract(target, feed);
   count(start, axes());
+  note(result.end, start, target);
   if (result.end == machine::MoveEnd::AxisLimit) result.detail = beyondTravel(*this, result.detail, target);
   judgeTravel(std::move(result));
 }

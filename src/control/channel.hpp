@@ -102,6 +102,9 @@ public:
   /// The direction from the tool tip towards the spindle in program coordinates, unit length.
   Vector3 toolAxis() const;
 
+  /// Program coordinates of a point from its place on the table, as the control believes, with the axes at `axes`.
+  Eigen::Affine3d programFromTable(const AxisPositions& axes) const;
+
   /// Directions in the spindle frame, not turned with the spindle, from directions in program coordinates.
   Matrix3 spindleFromProgram() const;
 
@@ -154,6 +157,10 @@ private:
   void travel(std::vector<machine::PathPiece> path);
   void judge(const machine::MoveResult& result) const;
   void judgeTravel(machine::MoveResult result) const;
+  /// Notes a motion that did not end as it should.
+  void note(machine::MoveEnd end, const AxisPositions& from, const AxisPositions& to);
+  void note(machine::MeasureEnd end, const AxisPositions& from, const AxisPositions& to);
+  void note(Interruption why, bool measuring, const AxisPositions& from, const AxisPositions& to);
   /// Adds where the tip is in program coordinates: the numbers that the person at the control can look at.
   void addPlace(std::string& detail) const;
 

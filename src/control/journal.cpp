@@ -60,6 +60,7 @@ void Journal::begin(CycleRecord record) {
 std::size_t Journal::touch(TouchRecord record) {
   if (!cycleOpen) return 0;
   charge(touchBytes);
+  record.programFromTable = programFromTable;
   cycles.back().touches.push_back(std::move(record));
   return cycles.back().touches.size() - 1;
 }
@@ -77,6 +78,12 @@ void Journal::write(WriteRecord record) {
   } else {
     writes.push_back(std::move(record));
   }
+}
+
+void Journal::interrupt(InterruptedMotion motion) {
+  charge(sizeof motion);
+  if (cycleOpen) motion.cycle = cycles.size() - 1;
+  interrupted.push_back(motion);
 }
 
 void Journal::event(EventRecord record) {

@@ -8,6 +8,7 @@
 
 #include "base/diagnostic.hpp"
 #include "control/event_list.hpp"
+#include "control/interrupted_motion.hpp"
 #include "control/result_kind.hpp"
 #include "geometry/primitives.hpp"
 #include "machine/description.hpp"
@@ -26,6 +27,8 @@ struct TouchRecord {
   machine::AxisPositions latched;        ///< axis positions at the signal
   double seconds = 0;                    ///< machine clock
   std::string outcome;                   ///< "touched", "no contact", "deflected", "collision"
+  /// Workpiece coordinates from those of the table, as the control believes the coordinate system to lie at the touch.
+  Eigen::Affine3d programFromTable = Eigen::Affine3d::Identity();
 };
 
 /// A line, circle, plane or sphere that a cycle laid through what it touched, by least squares. Coordinates count along
@@ -96,23 +99,29 @@ struct Journal {
   std::vector<CycleRecord> cycles;
   EventList events;
   std::deque<WriteRecord> writes;
+  std::deque<InterruptedMotion> interrupted;
   bool cycleOpen = false;  ///< the last of `cycles` is running
 
   std::uint64_t limit = 0;  ///< bytes of memory that a run may leave; 0: any
   std::uint64_t used = 0;   ///< bytes that count against it
+
+  /// Where the program's coordinates lie on the table at the measuring move under way; the channel keeps it up.
+  Eigen::Affine3d programFromTable = Eigen::Affine3d::Identity();
 
   /// The cycle that runs, or null.
   CycleRecord* open() { return cycleOpen ? &cycles.back() : nullptr; }
 
   /// A cycle begins and is the open one from here on.
   void begin(CycleRecord record);
-  /// The touch goes to the open cycle; without one it is forgotten. Returns its place among the cycle's touches.
+  /// The touch goes to the open cycle, with the coordinate system of the measuring move; without a cycle it is
+  /// forgotten. Returns its place among the cycle's touches.
   std::size_t touch(TouchRecord record);
   /// The same of a fit.
   void fit(FitRecord record);
   /// The change goes to the open cycle, or to `writes`.
   void write(WriteRecord record);
   void event(EventRecord record);
+  void interrupt(InterruptedMotion motion);
 
   /// Something else that the run leaves grows by so many bytes, a file for instance.
   void charge(std::uint64_t bytes);

@@ -10,6 +10,7 @@
 
 #include "cycles/main_results.hpp"
 #include "records/readable_text.hpp"
+#include "records/truth_json.hpp"
 
 namespace probewright::records {
 
@@ -33,7 +34,8 @@ json axisPositions(const machine::AxisPositions& positions, const std::vector<ma
   return object;
 }
 
-json touch(const control::TouchRecord& record, const std::vector<machine::Axis>& axes, const ReadableText& text) {
+json touch(const control::TouchRecord& record, const std::optional<TrueTouch>& truth,
+           const std::vector<machine::Axis>& axes, const ReadableText& text) {
   json object = {{"outcome", text(record.outcome)},
                  {"target", point(record.target)},
                  {"direction", point(record.direction)},
@@ -43,10 +45,12 @@ json touch(const control::TouchRecord& record, const std::vector<machine::Axis>&
     object["surface"] = point(record.surface);
     object["axes"] = axisPositions(record.latched, axes);
   }
+  if (truth) object["truth"] = truthOfTouch(*truth, text);
   return object;
 }
 
-json result(const control::ResultRecord& record, bool isMain, const ReadableText& text) {
+json result(const control::ResultRecord& record, bool isMain, const std::optional<TrueValue>& truth,
+            const ReadableText& text) {
   json object = {{"name", text(record.name)},
                  {"meaning", text(record.meaning)},
                  {"value", number(record.value)},
@@ -64,14 +68,29 @@ json result(const control::ResultRecord& record, bool isMain, const ReadableText
   optional("lowerLimit", record.lowerLimit);
   optional("upperLimit", record.upperLimit);
   optional("uncertainty", record.uncertainty);
+  if (truth) object["truth"] = truthOfResult(*truth, record.value);
   return object;
 }
 
-json results(const control::CycleRecord& record, const ReadableText& text) {
+/// The i-th of what is known, if so much is known.
+template <class Known>
+std::optional<Known> at(const std::vector<std::optional<Known>>& known, std::size_t i) {
+  return i < known.size() ? known[i] : std::nullopt;
+}
+
+json results(const control::CycleRecord& record, const CycleTruth& truth, const ReadableText& text) {
   const std::vector<bool> isMain = cycles::mainResults(record);
   json array = json::array();
   for (std::size_t i = 0; i < isMain.size(); ++i)
-    array.push_back(result(record.results[i], isMain[i], text));
+    array.push_back(result(record.results[i], isMain[i], at(truth.results, i), text));
+  return array;
+}
+
+json touches(const control::CycleRecord& record, const CycleTruth& truth, const std::vector<machine::Axis>& axes,
+             const ReadableText& text) {
+  json array = json::array();
+  for (std::size_t i = 0; i < record.touches.size(); ++i)
+    array.push_back(touch(record.touches[i], at(truth.touches, i), axes, text));
   return array;
 }
 
@@ -116,14 +135,15 @@ json parameter(const control::ParameterRecord& record, const ReadableText& text)
           {"default", record.isDefault}};
 }
 
-json cycle(const control::CycleRecord& record, const std::vector<machine::Axis>& axes, const ReadableText& text) {
+json cycle(const control::CycleRecord& record, const CycleTruth& truth, const std::vector<machine::Axis>& axes,
+           const ReadableText& text) {
   json object = {{"name", text(record.name)},
                  {"title", text(record.title)},
                  {"place", place(record.place, text)},
                  {"verdict", verdictName(record.verdict)},
                  {"parameters", list(record.parameters, [&](const auto& p) { return parameter(p, text); })},
-                 {"touches", list(record.touches, [&](const auto& t) { return touch(t, axes, text); })},
-                 {"results", results(record, text)},
+                 {"touches", touches(record, truth, axes, text)},
+                 {"results", results(record, truth, text)},
                  {"writes", list(record.writes, [&](const auto& w) { return write(w, text); })},
                  {"logFiles", list(record.logFiles, text)},
                  {"screens", list(record.screens, text)},
@@ -242,19 +262,21 @@ namespace {
 
 /// All but the lists that grow with the program.
 json withoutLists(const control::Journal& journal, const RunInfo& run, const ReadableText& text) {
-  const TouchCount touches = countTouches(journal);
-  return {{"schema", "probewright results"},
-          {"schemaVersion", resultsSchemaVersion},
-          {"units", {{"length", "mm"}, {"angle", "deg"}, {"time", "s"}}},
-          {"run", header(run, text)},
-          {"verdict", verdictName(worstVerdict(journal))},
-          {"totals",
-           {{"cycles", journal.cycles.size()},
-            {"touches", touches.touched},
-            {"failedTouches", touches.failed},
-            {"pathLength", number(run.totalPathLength)},
-            {"time", number(run.totalSeconds)}}},
-          {"files", list(run.outputFiles, text)}};
+  const TouchCount counted = countTouches(journal);
+  json object = {{"schema", "probewright results"},
+                 {"schemaVersion", resultsSchemaVersion},
+                 {"units", {{"length", "mm"}, {"angle", "deg"}, {"time", "s"}}},
+                 {"run", header(run, text)},
+                 {"verdict", verdictName(worstVerdict(journal))},
+                 {"totals",
+                  {{"cycles", journal.cycles.size()},
+                   {"touches", counted.touched},
+                   {"failedTouches", counted.failed},
+                   {"pathLength", number(run.totalPathLength)},
+                   {"time", number(run.totalSeconds)}}},
+                 {"files", list(run.outputFiles, text)}};
+  if (run.truth) object["truth"] = truthOfRun(*run.truth, text);
+  return object;
 }
 
 /// Writes one object entry by entry and list element by element, as dump would write the whole.
@@ -326,7 +348,13 @@ void writeResults(const Sink& sink, const control::Journal& journal, const RunIn
   const std::map<std::string, std::function<void(const std::string&)>> lists = {
       {"cycles",
        [&](const std::string& key) {
-         object.list(key, journal.cycles, [&](const auto& record) { return cycle(record, run.axes, text); });
+         const CycleTruth nothing;
+         std::size_t next = 0;
+         object.list(key, journal.cycles, [&](const auto& record) {
+           const std::size_t place = next++;
+           const bool known = run.truth && place < run.truth->cycles.size();
+           return cycle(record, known ? run.truth->cycles[place] : nothing, run.axes, text);
+         });
        }},
       {"events",
        [&](const std::string& key) {

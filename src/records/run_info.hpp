@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ struct ProgramSource {
   std::string path;
   std::string text;  ///< bytes of the file, whatever their encoding
 };
+
+struct Truth;
 
 /// What a reader of the results needs to know about a run besides its journal.
 struct RunInfo {
@@ -37,7 +40,8 @@ struct RunInfo {
   double totalPathLength = 0;            ///< mm travelled by the tool in the whole run
   std::vector<std::string> outputFiles;  ///< tables and logs left by the control, relative to the output folder
   ExitState exit = ExitState::Good;
-  std::string exitText;  ///< why it ended so, one sentence; empty when there is nothing to say
+  std::string exitText;                ///< why it ended so, one sentence; empty when there is nothing to say
+  std::shared_ptr<const Truth> truth;  ///< what was planted; null: nobody knows it, or it is not to be told
 };
 
 }  // namespace probewright::records

@@ -79,6 +79,8 @@ struct RunOutcome {
   /// Machine coordinates (which are the table's at the start posture) from the workpiece system at the end.
   std::optional<Pose> machineFromWorkpiece;
   double ballRadius = 0;
+  /// The machine as the control computes with it at the end; nothing if the program did not begin.
+  std::optional<machine::MachineDescription> believedMachine;
   /// The number that a variable of the control has at the end, by the name that programs write: "Q151", "R5". NaN for
   /// names of nothing. Null if the program did not begin.
   std::function<double(std::string_view name)> variable;

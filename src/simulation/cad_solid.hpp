@@ -40,6 +40,8 @@ public:
                                                   double radius) const override;
 
   const TopoDS_Shape& shape() const;
+  /// Its faces and edges, and how to find those near a place.
+  const CadModel& model() const { return *model_; }
   /// Warnings about the file that the solid comes from: what is missing or not as it should be.
   const Diagnostics& remarks() const { return remarks_; }
   std::size_t triangleCount() const;

@@ -130,6 +130,7 @@ void run(const RunRequest& request, FolderReading reading, machine::Machine& mac
   }
   outcome.machineFromWorkpiece = control.coordinates.machineFromPreset();
   outcome.ballRadius = control.tool.radius;
+  outcome.believedMachine = control.channel.description();
   outcome.variable = [q = control.q](std::string_view name) {
     const auto number = name.starts_with('Q') ? parseInteger(name.substr(1)) : std::nullopt;
     return number && hh::QParameters::exists(*number) ? q.q(static_cast<int>(*number)) : std::nan("");

@@ -8,6 +8,7 @@
 #include "base/folder_swap.hpp"
 #include "control/alarm.hpp"
 #include "control/sinumerik/text.hpp"
+#include "control/sinumerik/tool_carrier.hpp"
 #include "execution/sinumerik/host.hpp"
 #include "language/directory_library.hpp"
 #include "language/sinumerik/program.hpp"
@@ -154,6 +155,14 @@ std::map<std::string, double, std::less<>> arithmeticParameters(const sin::DataS
   return values;
 }
 
+/// The machine with the rotary axes where the swivel data set has them that cycles correct.
+machine::MachineDescription believedAtTheEnd(const sin::Control& control) {
+  const auto carrier = sin::toolCarrier(control.data, std::max(1, control.carrier));
+  if (!carrier) return control.told();
+  auto described = sin::withCarrier(control.told(), *carrier);
+  return described ? *std::move(described) : control.told();
+}
+
 void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& globalData, FolderReading reading,
          machine::Machine& trueMachine, HostFiles& host, RunOutcome& outcome) {
   const RunOptions& options = request.options;
@@ -226,6 +235,7 @@ void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& 
   const Eigen::Affine3d workpiece = control.machineFromBase() * sin::transform(control.frames.settableFrame);
   outcome.machineFromWorkpiece = Pose(workpiece.matrix());
   outcome.ballRadius = control.tool.radius;
+  outcome.believedMachine = believedAtTheEnd(control);
   outcome.variable = [values = arithmeticParameters(control.data)](std::string_view name) {
     const auto found = values.find(name);
     return found == values.end() ? std::nan("") : found->second;
