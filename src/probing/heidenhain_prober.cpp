@@ -157,7 +157,7 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
         finish("not ready");
         throw Alarm("Touch probe not ready",
                     result.detail.empty() ? "There is no touch probe in the spindle" : result.detail,
-                    "call the touch probe with TOOL CALL before the cycle");
+                    "call the touch probe with TOOL CALL before the cycle, and see that it is switched on");
       case MeasureEnd::AxisLimit:
         finish("limit");
         throw Alarm(channel_.alarms.limit, result.detail,

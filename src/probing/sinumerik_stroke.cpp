@@ -16,10 +16,10 @@ namespace {
 Alarm notReady(Sensor sensor, const std::string& detail) {
   if (sensor == Sensor::TouchProbe) {
     return {"61309", detail.empty() ? "There is no workpiece probe in the spindle" : detail,
-            "load a probe of type 710, 712, 713, 714 or 580 before the cycle"};
+            "load a probe of type 710, 712, 713, 714 or 580 before the cycle, and see that it is switched on"};
   }
   return {"61309", detail.empty() ? "The machine has no tool touch probe" : detail,
-          "connect the tool touch probe, and load the tool that is to touch it"};
+          "connect the tool touch probe, see that it is switched on, and load the tool that is to touch it"};
 }
 
 }  // namespace

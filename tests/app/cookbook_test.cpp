@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <sstream>
 
 #include "app/program.hpp"
@@ -96,6 +97,48 @@ TEST(Cookbook, RunsTheFirstProgramInSinumerik) {
   EXPECT_NEAR(component("Y,TR"), -30.8, 1e-6);
   EXPECT_NEAR(component("Z,TR"), -469.6, 1e-6);
   EXPECT_NEAR(component("Z,RT"), 0.8, 1e-6);
+}
+
+/// A row of docs/troubleshooting.md that can be tried.
+struct Trial {
+  std::string alarm, recipe, before, after;
+};
+
+std::vector<Trial> trials() {
+  std::vector<Trial> found;
+  std::istringstream page(textOf(root + "/docs/troubleshooting.md"));
+  const std::regex row(R"(\| ([^|]+) \|.*\| ([a-z-]+): `([^`]+)` -> `([^`]+)`( and a line `([^`]+)`)? \|)");
+  for (std::string line; std::getline(page, line);) {
+    std::smatch match;
+    if (!std::regex_match(line, match, row)) continue;
+    found.push_back({match[1], match[2], match[3], match[4]});
+    if (match[6].matched) found.back().after += "\n" + match[6].str();
+  }
+  return found;
+}
+
+TEST(Troubleshooting, EachChangeOfThePageEndsAsItSays) {
+  const std::vector<Trial> all = trials();
+  EXPECT_GE(all.size(), 12U);
+  for (const Trial& trial : all) {
+    SCOPED_TRACE(trial.alarm + ": " + trial.recipe + " " + trial.before + " -> " + trial.after);
+    const Folder folder;
+    const std::string name = trial.recipe + (trial.recipe == "first" ? ".mpf" : ".h");
+    int changed = 0;
+    const auto copy = [&](const std::string& file) {
+      std::string text = textOf(root + "/examples/cookbook/" + file);
+      if (const std::size_t at = text.find(trial.before); at != std::string::npos) {
+        text.replace(at, trial.before.size(), trial.after);
+        ++changed;
+      }
+      return folder.file(file, text);
+    };
+    const std::string program = copy(name), setup = copy(trial.recipe + ".toml");
+    EXPECT_EQ(changed, 1);
+    const Answer answer = probewright({"run", program, "--setup", setup, "--out", (folder / "out").string()});
+    EXPECT_THAT(answer.output + answer.errors, HasSubstr(trial.alarm));
+    EXPECT_EQ(answer.exit, trial.recipe == "inspect" ? 1 : 3);
+  }
 }
 
 }  // namespace

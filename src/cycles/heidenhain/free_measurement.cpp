@@ -87,7 +87,7 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
       note("not ready");
       throw Alarm("Touch probe not ready",
                   result.detail.empty() ? "There is no touch probe in the spindle" : result.detail,
-                  "call the touch probe with TOOL CALL before the cycle");
+                  "call the touch probe with TOOL CALL before the cycle, and see that it is switched on");
     case MeasureEnd::AxisLimit:
       note("limit");
       throw Alarm(channel.alarms.limit, result.detail, "shorten DIST, or begin the measurement elsewhere");
