@@ -50,8 +50,17 @@ struct CheckArguments {
 };
 int check(const CheckArguments& arguments);
 
+struct CompareArguments {
+  std::filesystem::path first, second;  ///< folders of runs, or their results.json
+  double tolerance = 1e-4;              ///< mm, degrees
+  bool all = false;                     ///< also what is alike
+  bool asJson = false;
+};
+/// 0: alike; 1: they differ.
+int compare(const CompareArguments& arguments);
+
 struct CyclesArguments {
-  std::string name;  ///< empty: all
+  std::string name;  ///< of a cycle, or words to look for; empty: all
   std::optional<control::ControlKind> control;
   bool asJson = false;
   bool asTemplate = false;  ///< a call to paste

@@ -11,6 +11,7 @@
 #include "base/number_text.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "cycle_search.hpp"
 #include "cycle_template.hpp"
 #include "cycles/catalogue.hpp"
 #include "cycles/sinumerik/circle_through_points.hpp"
@@ -209,53 +210,10 @@ std::string plainName(std::string_view name) {
   return plain;
 }
 
-std::string lowerCase(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
-}
-
 /// One row of the list of all cycles.
 std::string row(const CycleDefinition& cycle) {
   return fmt::format("{:<11}{:<64}{:<24}{}\n", cycle.name, cycle.title, cycles::nameOf(cycle.family),
                      controlsText(cycle.controls));
-}
-
-/// Words that people use for what the titles and summaries call otherwise.
-std::string catalogueWord(const std::string& word) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 12> others = {{{"bore", "hole"},
-                                                                                     {"boss", "stud"},
-                                                                                     {"pin", "stud"},
-                                                                                     {"island", "stud"},
-                                                                                     {"spigot", "stud"},
-                                                                                     {"datum", "preset"},
-                                                                                     {"zero offset", "preset"},
-                                                                                     {"side", "edge"},
-                                                                                     {"sphere", "ball"},
-                                                                                     {"web", "ridge"},
-                                                                                     {"slot", "groove"},
-                                                                                     {"skew", "misalignment"}}};
-  const auto* found = std::ranges::find(others, word, [](const auto& pair) { return std::string(pair.first); });
-  return found == others.end() ? std::string() : std::string(found->second);
-}
-
-/// The rows of the cycles that somebody may have asked for by a word of their title or summary, titles first.
-std::string rowsAbout(std::string_view text, const std::vector<const CycleDefinition*>& known) {
-  const std::string word = lowerCase(text), other = catalogueWord(word);
-  if (word.size() < 2) return {};
-  const auto has = [&](std::string_view where) {
-    const std::string lower = lowerCase(where);
-    return lower.find(word) != std::string::npos || (!other.empty() && lower.find(other) != std::string::npos);
-  };
-  std::string titles, summaries;
-  for (const CycleDefinition* cycle : known) {
-    if (has(cycle->title)) {
-      titles += row(*cycle);
-    } else if (has(cycle->summary)) {
-      summaries += row(*cycle);
-    }
-  }
-  return titles + summaries;
 }
 
 }  // namespace
@@ -268,37 +226,43 @@ int cycles(const CyclesArguments& arguments) {
   }
   std::vector<ControlKind> kinds(control::allControlKinds.begin(), control::allControlKinds.end());
   if (arguments.control) kinds = {*arguments.control};
-  const std::string name = plainName(arguments.name);
-  bool found = false;
-  auto list = nlohmann::ordered_json::array();
-  std::vector<const CycleDefinition*> seen;
+  std::vector<const CycleDefinition*> known, found;
+  std::vector<ControlKind> controls;  // of each of `known`, the first that has it
   for (const ControlKind kind : kinds) {
-    const std::vector<const CycleDefinition*> all = session::knownFamilies().of(kind).cycles(kind);
-    for (const CycleDefinition* cycle : all) {
-      if (std::ranges::find(seen, cycle) != seen.end()) continue;
-      seen.push_back(cycle);
-      const bool wanted = arguments.name.empty() || name == cycle->name || name == std::to_string(cycle->number);
-      if (!wanted) continue;
-      found = true;
-      if (arguments.asTemplate && !arguments.name.empty()) {
-        say("{}", cycleTemplate(*cycle, kind));
-      } else if (arguments.asJson) {
-        list.push_back(toJson(*cycle));
-      } else if (arguments.name.empty()) {
-        say("{}", row(*cycle));
-      } else {
-        show(*cycle);
-      }
+    for (const CycleDefinition* cycle : session::knownFamilies().of(kind).cycles(kind)) {
+      if (std::ranges::find(known, cycle) != known.end()) continue;
+      known.push_back(cycle);
+      controls.push_back(kind);
     }
   }
-  if (found && arguments.asJson) std::fputs((list.dump(2) + "\n").c_str(), stdout);
-  if (found) return 0;
-  const std::string about = rowsAbout(arguments.name, seen);
-  const std::string advice =
-      about.empty() ? "`probewright cycles` lists them all\n" : "these have it in their title or summary:\n";
-  std::fputs(fmt::format("probewright: there is no cycle {}; {}{}", printable(arguments.name), advice, about).c_str(),
-             stderr);
-  return 2;
+  const std::string name = plainName(arguments.name);
+  for (const CycleDefinition* cycle : known)
+    if (arguments.name.empty() || name == cycle->name || name == std::to_string(cycle->number)) found.push_back(cycle);
+  const bool named = !arguments.name.empty() && !found.empty();
+  if (found.empty() && !arguments.asTemplate) found = cyclesAbout(arguments.name, known);
+  if (found.empty()) {
+    std::fputs(fmt::format("probewright: there is no cycle {}, and none has it in its title, summary or parameters; "
+                           "`probewright cycles` lists them all\n",
+                           printable(arguments.name))
+                   .c_str(),
+               stderr);
+    return 2;
+  }
+  auto list = nlohmann::ordered_json::array();
+  for (const CycleDefinition* cycle : found) {
+    if (arguments.asJson) {
+      list.push_back(toJson(*cycle));
+    } else if (!named) {
+      say("{}", row(*cycle));
+    } else if (arguments.asTemplate) {
+      say("{}",
+          cycleTemplate(*cycle, controls[static_cast<std::size_t>(std::ranges::find(known, cycle) - known.begin())]));
+    } else {
+      show(*cycle);
+    }
+  }
+  if (arguments.asJson) put(list.dump(2) + "\n", stdout);
+  return 0;
 }
 
 }  // namespace probewright::app

@@ -262,12 +262,25 @@ int main(int argc, char** argv) {
 
   probewright::app::CyclesArguments cyclesArguments;
   CLI::App* cycles = app.add_subcommand("cycles", "The catalogue of measuring cycles, or one of them in full");
-  cycles->add_option("NAME", cyclesArguments.name, "411, CYCLE977");
+  std::vector<std::string> cycleWords;
+  cycles->add_option("NAME", cycleWords, "411, CYCLE977, or words to look for: bore, Bohrung, calibrate ring");
   addControl(*cycles, cyclesArguments.control);
   CLI::Option* block =
       cycles->add_flag("--template", cyclesArguments.asTemplate, "A call of the cycle to paste into a program");
   cycles->add_flag("--json", cyclesArguments.asJson, "Everything that the catalogue knows, as JSON for other programs")
       ->excludes(block);
+
+  probewright::app::CompareArguments compareArguments;
+  CLI::App* compare = app.add_subcommand("compare", "What two runs measured and wrote, side by side");
+  compare->add_option("FIRST", compareArguments.first, "The folder of a run, or its results.json")->required();
+  compare->add_option("SECOND", compareArguments.second, "Another one")->required();
+  compare->add_option("--tolerance", compareArguments.tolerance, "Differences up to this do not count, mm and degrees")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->type_name("MM")
+      ->capture_default_str();
+  compare->add_flag("--all", compareArguments.all, "Also values and entries that are alike");
+  compare->add_flag("--json", compareArguments.asJson, "Everything, as JSON for other programs");
+  compare->footer("Exit codes: 0 alike, 1 they differ, 2 a mistake in the input.");
 
   probewright::app::CameraArguments cameraArguments;
   CLI::App* camera = app.add_subcommand("camera", "List and manage the images that cycles 600 and 601 have stored");
@@ -337,9 +350,11 @@ int main(int argc, char** argv) {
   const int exit = probewright::app::guarded([&] {
     if (run->parsed()) return probewright::app::run(runArguments);
     if (check->parsed()) return probewright::app::check(checkArguments);
+    if (compare->parsed()) return probewright::app::compare(compareArguments);
     if (camera->parsed()) return probewright::app::camera(cameraArguments);
     if (convert->parsed()) return probewright::app::convert(convertArguments);
     if (feel->parsed()) return probewright::app::feel(feelArguments);
+    cyclesArguments.name = fmt::format("{}", fmt::join(cycleWords, " "));
     return probewright::app::cycles(cyclesArguments);
   });
   // Whoever asked for an answer must learn that it did not come; an alarm or an error says more.
