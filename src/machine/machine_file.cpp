@@ -9,6 +9,7 @@
 #include "base/file.hpp"
 #include "base/toml_table.hpp"
 #include "machine/linuxcnc_machine.hpp"
+#include "machine/machine_text.hpp"
 #include "machine/ready_made.hpp"
 #include "machine/table_body.hpp"
 
@@ -173,6 +174,7 @@ std::optional<MachineFile> parseFile(std::string_view text, const std::string& f
     change->finish();
   }
   std::optional<TableBody> table = readTable(reader);
+  reader.tables("body");  // their shapes are read by whoever builds the machine
   reader.finish();
   if (diagnostics.size() > before) return std::nullopt;
   return MachineFile{std::move(machine), std::move(table)};
@@ -230,6 +232,15 @@ Result<std::optional<TableBody>> readTableBody(const std::string& nameOrPath) {
   auto machine = readFileOf(nameOrPath, diagnostics);
   if (!machine) return tl::unexpected(diagnostics.front());
   return std::move(machine->table);
+}
+
+std::optional<MachineText> machineText(const std::string& nameOrPath) {
+  for (const ReadyMade& machine : readyMade())
+    if (machine.name == nameOrPath) return MachineText{std::string(machine.toml), nameOrPath};
+  if (std::filesystem::path(nameOrPath).extension() == ".ini") return std::nullopt;
+  Result<std::string> text = readFile(nameOrPath, largestText);
+  if (!text) return std::nullopt;
+  return MachineText{*std::move(text), nameOrPath};
 }
 
 std::vector<std::string> readyMadeMachines() {

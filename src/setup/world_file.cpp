@@ -7,6 +7,7 @@
 
 #include "machine/machine_file.hpp"
 #include "setup/axis_names.hpp"
+#include "setup/machine_body_keys.hpp"
 #include "setup/shape_keys.hpp"
 #include "setup/tool_probe_keys.hpp"
 
@@ -47,6 +48,10 @@ void WorldReader::readMachine(const std::filesystem::path& instead) {
     else
       loadMachine(instead.string(), *reader, "file", false);
     if (auto start = reader->table("start")) readStart(*start);
+    if (instead.empty() && !machine().axes.empty())
+      readBodies(*reader, machine(), folder_, world_.bodies, inputs_);
+    else
+      reader->tables("body");  // of a machine that is not there
     reader->finish();
     return;
   }
@@ -64,6 +69,7 @@ void WorldReader::loadMachine(const std::string& name, TomlReader& reader, std::
     world_.truth.start = description->toolChange;
     world_.truth.errors.axes.resize(description->axes.size());
     world_.table = machine::readTableBody(name).value_or(std::nullopt);
+    readBodiesOf(name, *description, reader.diagnostics(), world_.bodies, inputs_);
     return;
   }
   for (Diagnostic& mistake : mistakes) {
@@ -102,16 +108,9 @@ void WorldReader::readSolid(TomlReader& reader, SolidRole role, std::string defa
                   fmt::format("Write file = \"housing.step\" or describe the shape under {}", featureTable));
   }
   solid.source.recipe = readRecipe(reader);
-  if (auto file = reader.text("file")) {
-    solid.source.file = resolve(*file);
+  if (auto file = readShapeFile(reader, folder_)) {
+    solid.source.file = *std::move(file);
     inputs_.push_back(solid.source.file);
-    std::string ending = solid.source.file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    static const std::vector<std::string> known = {".step", ".stp", ".iges", ".igs", ".stl"};
-    if (std::find(known.begin(), known.end(), ending) == known.end()) {
-      reader.report("file", fmt::format("\"{}\" is not a part file that can be read", *file),
-                    "Files end in .step, .stp, .iges, .igs or .stl");
-    }
   }
   solid.tableFromSolid = readPose(reader);
   reader.finish();

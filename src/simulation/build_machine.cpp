@@ -4,15 +4,14 @@
 
 #include "simulation/analytic_solids.hpp"
 #include "simulation/cad_solid.hpp"
+#include "simulation/machine_bodies.hpp"
 #include "simulation/mesh_solid.hpp"
 #include "simulation/virtual_machine.hpp"
 #include "simulation/world.hpp"
 
 namespace probewright::simulation {
 
-namespace {
-
-Result<std::unique_ptr<Solid>> load(const SolidSource& source, const ImportOptions& import) {
+Result<std::unique_ptr<Solid>> loadSolid(const SolidSource& source, const ImportOptions& import) {
   if (source.file.empty()) return buildSolid(source.recipe, {}, import.stop);
   std::string ending = source.file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -40,19 +39,20 @@ PlacedSolid solidOf(const machine::TableBody& table) {
   }
   Pose pose = translation(table.centre);
   pose.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), table.normal).toRotationMatrix();
-  return {std::move(solid), pose, table.name, SolidRole::Fixture};
+  return {std::move(solid), pose, table.name, SolidRole::Fixture, true};
 }
-
-}  // namespace
 
 Result<std::unique_ptr<VirtualMachine>> buildMachine(const World& world, const ImportOptions& import) {
   Truth truth = world.truth;
   for (const WorldSolid& entry : world.solids) {
-    auto solid = load(entry.source, import);
+    auto solid = loadSolid(entry.source, import);
     if (!solid) return tl::unexpected(std::move(solid.error()));
     truth.solids.push_back({std::move(*solid), entry.tableFromSolid, entry.name, entry.role});
   }
   if (world.table) truth.solids.push_back(solidOf(*world.table));
+  auto bodies = loadBodies(world.bodies, import);
+  if (!bodies) return tl::unexpected(std::move(bodies.error()));
+  truth.bodies = *std::move(bodies);
   auto machine = std::make_unique<VirtualMachine>(std::move(truth));
   if (world.toolInSpindle) {
     const machine::ToolChangeResult result = machine->insertTool({*world.toolInSpindle, {}});
@@ -60,6 +60,11 @@ Result<std::unique_ptr<VirtualMachine>> buildMachine(const World& world, const I
       return fail({world.file}, fmt::format("the machine cannot start like this: {}", result.detail),
                   "Move the part or give another start position under [machine.start]");
     }
+  }
+  if (const auto contact = machine->bodyContact()) {
+    return fail({world.file}, fmt::format("the machine cannot start like this: {}", *contact),
+                "Move the part, give another start position under [machine.start], or shape the machine's bodies so "
+                "that those of links that are not neighbours stay apart");
   }
   return machine;
 }

@@ -18,7 +18,8 @@ struct PathPoint {
   Vector3 shank = Vector3::UnitZ();  ///< unit, from the tip along the tool's shank
   PathKind kind = PathKind::Start;   ///< how the tool came here
   double seconds = 0;
-  int tool = -1;  ///< in the spindle: its place in Truth::tools; -1: none
+  int tool = -1;                ///< in the spindle: its place in Truth::tools; -1: none
+  machine::AxisPositions axes;  ///< as they read
 };
 
 /// One touch as it truly was. Table frame, mm.

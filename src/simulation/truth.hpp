@@ -8,6 +8,7 @@
 #include "geometry/primitives.hpp"
 #include "machine/description.hpp"
 #include "simulation/cutter.hpp"
+#include "simulation/machine_body.hpp"
 #include "simulation/solid.hpp"
 #include "simulation/tool_touch_probe.hpp"
 
@@ -23,6 +24,7 @@ struct PlacedSolid {
   Pose tableFromSolid = Pose::Identity();
   std::string name;  ///< for messages and reports: "part", "vice"
   SolidRole role = SolidRole::Part;
+  bool ofMachine = false;  ///< the machine's own table: it may stand close to its neighbours
 };
 
 /// A deviation that depends on where one axis stands (q, mm or degrees):
@@ -124,6 +126,7 @@ struct Truth {
   machine::MachineDescription machine;  ///< as its builder describes it
   MachineErrors errors;
   std::vector<PlacedSolid> solids;
+  std::vector<MachineBody> bodies;
   /// Each has a solid of the same name and of role ToolProbe in `solids`, which is drawn and stops what runs into it.
   std::vector<TrueToolProbe> toolProbes;
   std::vector<TrueTool> tools;  ///< found by name where a program names one, else by number; 0 is the empty spindle

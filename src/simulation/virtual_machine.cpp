@@ -77,7 +77,8 @@ VirtualMachine::VirtualMachine(Truth truth)
       reading_(truth_.start),
       slides_(truth_.start),
       noise_(streamSeed(truth_.seed, "probe")),
-      path_(pathPoint(tableFromSpindle(), PathKind::Start, 0)) {
+      path_(pathPoint(tableFromSpindle(), reading_, PathKind::Start, 0)) {
+  if (!truth_.bodies.empty()) guard_ = std::make_unique<BodyGuard>(truth_);
   const auto solidOf = [&](const TrueToolProbe& probe) {
     const auto drawn = std::ranges::find_if(
         truth_.solids, [&](const PlacedSolid& solid) { return isToolProbe(solid) && solid.name == probe.name; });
@@ -125,9 +126,10 @@ std::optional<Touch> VirtualMachine::shaftTouch() const {
 
 Vector3 VirtualMachine::tipOnTable() const { return tableFromSpindle() * shape_.tip; }
 
-PathPoint VirtualMachine::pathPoint(const Pose& tableFromSpindle, PathKind kind, double seconds) const {
+PathPoint VirtualMachine::pathPoint(const Pose& tableFromSpindle, const AxisPositions& axes, PathKind kind,
+                                    double seconds) const {
   const int tool = tool_ != nullptr ? static_cast<int>(tool_ - truth_.tools.data()) : -1;
-  return {tableFromSpindle * shape_.tip, tableFromSpindle.linear() * shape_.shank, kind, seconds, tool};
+  return {tableFromSpindle * shape_.tip, tableFromSpindle.linear() * shape_.shank, kind, seconds, tool, axes};
 }
 
 namespace {
@@ -183,11 +185,15 @@ const char* VirtualMachine::partOf(const Touch& touch) const {
   return *touch.shaft < shape_.shafts.size() ? shape_.shafts[*touch.shaft].part : cutterName;
 }
 
+std::string VirtualMachine::toolName() const {
+  return tool_->name.empty() ? fmt::format("tool {}", tool_->number)
+                             : fmt::format("tool {} \"{}\"", tool_->number, tool_->name);
+}
+
 std::string VirtualMachine::describe(const Touch& touch) const {
   const PlacedSolid& solid = truth_.solids[touch.solid];
   const char* part = touch.shaft ? partOf(touch) : "stylus tip";
-  const std::string tool = tool_->name.empty() ? fmt::format("tool {}", tool_->number)
-                                               : fmt::format("tool {} \"{}\"", tool_->number, tool_->name);
+  const std::string tool = toolName();
   const std::string what = part == std::string_view("tool") ? tool : fmt::format("the {} of {}", part, tool);
   return fmt::format("{} touched {} \"{}\" at X{:+.3f} Y{:+.3f} Z{:+.3f} on the table", what, roleName(solid.role),
                      solid.name, touch.point.x(), touch.point.y(), touch.point.z());
@@ -196,6 +202,7 @@ std::string VirtualMachine::describe(const Touch& touch) const {
 void VirtualMachine::advance(const Motion& motion, const Stop& stop, PathKind kind) {
   reading_ = motion.readingAt(stop.end);
   slides_ = motion.slidesAt(stop.end);
+  if (guard_) guard_->arrived(stop.end);
   // Stopping early takes the time of braking from the speed reached.
   const double travelled = stop.end * motion.profile.length();
   double duration = stop.end == 1 ? motion.profile.duration() : motion.profile.secondsAt(travelled);
@@ -221,7 +228,8 @@ void VirtualMachine::advance(const Motion& motion, const Stop& stop, PathKind ki
   for (int i = 1; i <= pieces; ++i) {
     const double fraction = stop.end * i / pieces;
     const double seconds = motion.startSeconds + pace * motion.profile.secondsAt(fraction * motion.profile.length());
-    path_.add(pathPoint(motion.tableFromSpindleAt(fraction), kind, i == pieces ? clock_ : seconds));
+    path_.add(pathPoint(motion.tableFromSpindleAt(fraction), motion.readingAt(fraction), kind,
+                        i == pieces ? clock_ : seconds));
   }
   if (!stop.touch) return;
   PathTouch touch;
@@ -269,7 +277,9 @@ MoveResult VirtualMachine::move(const AxisPositions& target, Feed feed) {
   const Motion motion = motionTo(target, feed);
   const PathKind kind = feed.rapid ? PathKind::Rapid : PathKind::Feed;
   try {
-    return finish(motion, firstTouchOf(motion, 0, searchOptions(positioningPrecision)), kind);
+    const auto touch = firstTouchOf(motion, 0, searchOptions(positioningPrecision));
+    if (const auto hit = bodyHit(motion, touch)) return {MoveEnd::Collision, stopAt(motion, *hit, kind)};
+    return finish(motion, touch, kind);
   } catch (const SearchStopped& stopped) {
     standAt(motion, stopped.fraction, kind);
     return {MoveEnd::Cancelled, stoppedText};
@@ -343,7 +353,10 @@ MoveResult VirtualMachine::retract(const AxisPositions& target, Feed feed) {
     begin = *free;
   }
   try {
-    return finish(motion, firstTouchOf(motion, begin, options), PathKind::Retract);
+    const auto touch = firstTouchOf(motion, begin, options);
+    if (const auto hit = bodyHit(motion, touch, BodyGuard::Touching::MayBePulledOff))
+      return {MoveEnd::Collision, stopAt(motion, *hit, PathKind::Retract)};
+    return finish(motion, touch, PathKind::Retract);
   } catch (const SearchStopped& stopped) {
     standAt(motion, stopped.fraction, PathKind::Retract);
     return {MoveEnd::Cancelled, stoppedText};
@@ -385,9 +398,9 @@ MoveResult VirtualMachine::orient(machine::SpindleState& spindle, double degrees
   if (&spindle != &carrying()) return {};
   spin_ = {degrees, clock_, 0};
   shape_ = shapeOf(tool_, degrees);
-  const auto touch = overlap();
-  if (!touch) return {};
-  return {touch->shaft ? MoveEnd::Collision : MoveEnd::ProbeSignal, describe(*touch)};
+  if (const auto touch = overlap()) return {touch->shaft ? MoveEnd::Collision : MoveEnd::ProbeSignal, describe(*touch)};
+  const auto hit = guard_ ? guard_->standing(slides_, clock_, shape_) : std::nullopt;
+  return hit ? MoveResult{MoveEnd::Collision, describe(*hit)} : MoveResult{};
 }
 
 MoveResult VirtualMachine::turnSpindle(Rotation rotation, double speed) { return turn(spindle_, rotation, speed); }
@@ -415,10 +428,11 @@ ToolChangeResult VirtualMachine::load(const TrueTool* tool) {
   shape_ = shapeOf(tool_, carrying().angle);
   edges_.reset();
   if (tool_ != nullptr && tool_->kind == ToolKind::Cutter) edges_.emplace(*tool_);
-  if (recording_) path_.add(pathPoint(tableFromSpindle(), PathKind::ToolChange, clock_));
-  const auto touch = overlap();
-  if (!touch) return {};
-  return {touch->shaft ? ToolChangeEnd::Collision : ToolChangeEnd::ProbeSignal, describe(*touch)};
+  if (recording_) path_.add(pathPoint(tableFromSpindle(), reading_, PathKind::ToolChange, clock_));
+  if (const auto touch = overlap())
+    return {touch->shaft ? ToolChangeEnd::Collision : ToolChangeEnd::ProbeSignal, describe(*touch)};
+  const auto hit = guard_ ? guard_->standing(slides_, clock_, shape_) : std::nullopt;
+  return hit ? ToolChangeResult{ToolChangeEnd::Collision, describe(*hit)} : ToolChangeResult{};
 }
 
 ToolChangeResult VirtualMachine::insertTool(const machine::ToolOrder& order) {

@@ -11,6 +11,7 @@
 #include "machine/camera.hpp"
 #include "machine/machine.hpp"
 #include "machine/tool_spindle.hpp"
+#include "simulation/body_guard.hpp"
 #include "simulation/contact_search.hpp"
 #include "simulation/continuous_path.hpp"
 #include "simulation/edge_contact.hpp"
@@ -53,6 +54,9 @@ namespace probewright::simulation {
 /// touch probes stand on the bed: the main spindle does not carry them along. The table frame of what touched them is
 /// that in which the main spindle stands at 0.
 ///
+/// Bodies of the machine stop what they run into, and what runs into them, the ball of a probe too: a collision. See
+/// BodyGuard.
+///
 /// Errors of the axes act between the readings and the true place of the spindle; see MachineErrors.
 ///
 /// Tool change. The last linear axis of the spindle chain goes to the tool change position first, then the other linear
@@ -94,6 +98,9 @@ public:
   /// Puts a tool into the spindle by hand: at once, where the axes stand.
   machine::ToolChangeResult insertTool(const machine::ToolOrder& order);
 
+  /// What bodies of the machine touch where the axes stand, in words.
+  std::optional<std::string> bodyContact() const;
+
   const Truth& truth() const { return truth_; }
   const PathRecord& path() const { return path_.record(); }
   /// Switched off, moves are no longer added to the record. On at the start.
@@ -115,7 +122,8 @@ private:
   };
 
   /// Where `tableFromSpindle` puts the tool, as a point of the path.
-  PathPoint pathPoint(const Pose& tableFromSpindle, PathKind kind, double seconds) const;
+  PathPoint pathPoint(const Pose& tableFromSpindle, const machine::AxisPositions& axes, PathKind kind,
+                      double seconds) const;
   std::optional<std::string> beyondTravel(const machine::AxisPositions& target) const;
   /// Why an order is not begun, if it is not: a stop, a feed that is none.
   std::optional<machine::MoveResult> refusal(machine::Feed feed) const;
@@ -143,6 +151,13 @@ private:
   double spindleDegrees() const { return spin_.at(clock_); }
   void advance(const Motion& motion, const Stop& stop, PathKind kind);
   machine::MoveResult finish(const Motion& motion, std::optional<Touch> touch, PathKind kind);
+  /// What a body of the machine hits before the tool touches anything.
+  std::optional<BodyHit> bodyHit(const Motion& motion, const std::optional<Touch>& touch,
+                                 BodyGuard::Touching touching = BodyGuard::Touching::Counts) const;
+  /// The end of a motion there, in words.
+  std::string stopAt(const Motion& motion, const BodyHit& hit, PathKind kind);
+  std::string describe(const BodyHit& hit) const;
+  std::string toolName() const;
   std::optional<double> freeFrom(const Motion& motion) const;
   std::string describe(const Touch& touch) const;
   const char* partOf(const Touch& touch) const;
@@ -174,6 +189,7 @@ private:
   TrueKinematics kinematics_;
   Surroundings surroundings_;
   Surroundings withoutToolProbes_, toolProbesOnly_;
+  std::unique_ptr<BodyGuard> guard_;           ///< null: the machine has no bodies
   std::vector<std::size_t> solidOfToolProbe_;  ///< which of the solids draws each of the tool touch probes
   const TrueTool* tool_ = nullptr;
   ToolShape shape_;

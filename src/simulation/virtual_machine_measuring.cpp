@@ -93,11 +93,17 @@ MeasureResult VirtualMachine::measureWithProbe(const MeasureOrder& order) {
   if (auto limit = beyondTravel(order.target)) return end(MeasureEnd::AxisLimit, *limit);
   const Motion motion = motionTo(order.target, order.feed);
   std::optional<Touch> touch;
+  std::optional<BodyHit> hit;
   try {
     touch = firstTouchOf(motion, 0, searchOptions(measuringPrecision));
+    hit = bodyHit(motion, touch);
   } catch (const SearchStopped& stopped) {
     standAt(motion, stopped.fraction, PathKind::Measure);
     return end(MeasureEnd::Cancelled, stoppedText);
+  }
+  if (hit) {
+    std::string detail = stopAt(motion, *hit, PathKind::Measure);
+    return end(MeasureEnd::Collision, std::move(detail));
   }
   const bool shaftSignals = order.part == machine::TouchWith::Shaft;
   if (!touch) {

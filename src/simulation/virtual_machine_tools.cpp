@@ -108,12 +108,19 @@ MeasureResult VirtualMachine::measureTool(const MeasureOrder& order) {
   const Motion motion = motionTo(order.target, order.feed);
   std::optional<Touch> obstacleMet;
   std::optional<ProbeTouch> touched;
+  std::optional<BodyHit> hit;
   try {
     obstacleMet = obstacle(motion);
     touched = toolProbeTouch(motion);
+    const bool obstacleFirst = obstacleMet && (!touched || obstacleMet->fraction < touched->contact.fraction);
+    hit = bodyHit(motion, obstacleFirst ? obstacleMet : touched ? std::optional(touched->touch) : std::nullopt);
   } catch (const SearchStopped& stopped) {
     standAt(motion, stopped.fraction, PathKind::Measure);
     return end(MeasureEnd::Cancelled, stoppedText);
+  }
+  if (hit) {
+    std::string detail = stopAt(motion, *hit, PathKind::Measure);
+    return end(MeasureEnd::Collision, std::move(detail));
   }
   if (obstacleMet && (!touched || obstacleMet->fraction < touched->contact.fraction)) {
     advance(motion, Stop{obstacleMet, std::nullopt, obstacleMet->fraction}, PathKind::Measure);

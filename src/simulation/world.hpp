@@ -33,11 +33,20 @@ struct WorldSolid {
   Pose tableFromSolid = Pose::Identity();
 };
 
+/// A body of the machine that is still to be loaded.
+struct WorldBody {
+  std::string name;
+  machine::Link link;
+  SolidSource source;
+  Pose linkFromSolid = Pose::Identity();
+};
+
 struct World {
   std::string file;  ///< that describes it, for messages
   /// Machine, errors, true tools, start, seed. The solids are added by buildMachine().
   Truth truth;
   std::vector<WorldSolid> solids;
+  std::vector<WorldBody> bodies;
   std::optional<machine::TableBody> table;  ///< of the machine
   std::optional<int> toolInSpindle;         ///< at the start
 };
