@@ -147,6 +147,7 @@ TEST(DocumentedKeys, OfEverySection) {
   }
   EXPECT_EQ(known(z), top);
   EXPECT_EQ(known("[machine]\n" + z), documented("`[machine]`"));
+  EXPECT_EQ(known("[[machine.body]]\nlink = \"bed\"\nfile = \"a.stl\"\n" + z), documented("Bodies"));
   EXPECT_EQ(known("[control]\n" + z), documented("`[control]`"));
   EXPECT_EQ(known("[machine]\nname = \"mill5-table-table\"\n[control.kinematics.C]\n" + z),
             documented("`[control.kinematics.C]`"));
@@ -257,7 +258,7 @@ TEST(DocumentedKeys, OfMachineFiles) {
   const std::string linear = "name = \"m\"\n[[axis]]\nname = \"X\"\nkind = \"linear\"\nminimum = 0\nmaximum = 9\n";
   const std::string rotary = "name = \"m\"\n[[axis]]\nname = \"C\"\nkind = \"rotary\"\nmodulo = true\n";
   std::set<std::string> all = known(z + linear, true);
-  for (const char* table : {"axis", "table_chain", "spindle_chain", "table"})
+  for (const char* table : {"axis", "table_chain", "spindle_chain", "table", "body"})
     EXPECT_EQ(all.erase(table), 1U) << table;
   all.merge(known(linear + z, true));
   all.merge(known(rotary + z, true));
