@@ -37,9 +37,19 @@ struct RunArguments {
   std::string cache;                             ///< folder for imported parts; "off": none; empty: the user's
   std::vector<std::string> measuringLogs;        ///< of a SINUMERIK control; .csv: as a table
   std::vector<const exchange::Format*> exports;  ///< files for other programs, beside results.json
+  std::filesystem::path append;                  ///< record of many runs; empty: none
+  std::filesystem::path tables;                  ///< instead of the setup's folder of tables; empty: that of the setup
   bool quiet = false;
 };
 int run(const RunArguments& arguments);
+
+struct ProjectArguments {
+  std::filesystem::path file;
+  std::filesystem::path out = "probewright-out";  ///< a folder in it for each run
+  RunArguments run;                               ///< what holds for all of them
+};
+/// The worst exit code of the runs.
+int project(const ProjectArguments& arguments);
 
 struct CheckArguments {
   std::vector<std::filesystem::path> programs;

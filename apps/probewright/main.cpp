@@ -243,6 +243,13 @@ int main(int argc, char** argv) {
       ->type_name("DIR")
       ->excludes(machine);
   addExport(*run, runArguments.exports);
+  run->add_option("--append", runArguments.append,
+                  "Also add the measured values to this table of many runs, in CSV; made if it is missing")
+      ->type_name("FILE");
+  run->add_option(
+         "--tables", runArguments.tables,
+         "Begin with the control's tables in this folder, such as that of an earlier run, instead of the setup's")
+      ->type_name("DIR");
   run->add_flag("--screens", runArguments.screens, "Show the result screens of all cycles, also of those that are off");
   run->add_flag("--quiet", runArguments.quiet, "Print nothing but mistakes");
 
@@ -281,6 +288,20 @@ int main(int argc, char** argv) {
   compare->add_flag("--all", compareArguments.all, "Also values and entries that are alike");
   compare->add_flag("--json", compareArguments.asJson, "Everything, as JSON for other programs");
   compare->footer("Exit codes: 0 alike, 1 they differ, 2 a mistake in the input.");
+
+  probewright::app::ProjectArguments projectArguments;
+  CLI::App* project = app.add_subcommand(
+      "project", "Run the programs of a job in their order, each with the tables that the one before has left");
+  project->add_option("FILE", projectArguments.file, "The project: programs and setups in TOML (docs/projects.md)")
+      ->required();
+  project->add_option("--out", projectArguments.out, "Where to write; each run has a folder there")
+      ->type_name("DIR")
+      ->capture_default_str();
+  project->add_flag("--strict", projectArguments.run.strict, "As for run");
+  project->add_option("--cache", projectArguments.run.cache, "As for run")->type_name("DIR");
+  addExport(*project, projectArguments.run.exports);
+  project->add_flag("--quiet", projectArguments.run.quiet, "Print nothing but mistakes");
+  project->footer("Exit codes: as for run, the worst of all runs. A mistake, an alarm or a stop ends the project.");
 
   probewright::app::CameraArguments cameraArguments;
   CLI::App* camera = app.add_subcommand("camera", "List and manage the images that cycles 600 and 601 have stored");
@@ -350,6 +371,7 @@ int main(int argc, char** argv) {
   const int exit = probewright::app::guarded([&] {
     if (run->parsed()) return probewright::app::run(runArguments);
     if (check->parsed()) return probewright::app::check(checkArguments);
+    if (project->parsed()) return probewright::app::project(projectArguments);
     if (compare->parsed()) return probewright::app::compare(compareArguments);
     if (camera->parsed()) return probewright::app::camera(cameraArguments);
     if (convert->parsed()) return probewright::app::convert(convertArguments);

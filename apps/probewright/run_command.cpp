@@ -23,6 +23,7 @@
 #include "records/results.hpp"
 #include "reports/report.hpp"
 #include "reports/summary.hpp"
+#include "run_record.hpp"
 #include "session/answers.hpp"
 #include "setup/scene.hpp"
 #include "setup/setup_on_machine.hpp"
@@ -138,6 +139,15 @@ int run(const RunArguments& arguments) {
   // Which tables the run would have begun from is unknown: those of an earlier run stay.
   if (!setup) return cameToNothing(removeEarlierVerdict(arguments.out, inputs));
   noteIdentities(setup->inputs, inputs);
+  if (!arguments.tables.empty()) {
+    if (!fs::is_directory(arguments.tables)) {
+      print({fail({arguments.tables.string()}, "there is no such folder of tables",
+                  "give --tables the folder of an earlier run, or one with the tables of a control")
+                 .value()});
+      return 2;
+    }
+    setup->beliefs.tables = arguments.tables;
+  }
   const auto giveUp = [&] { return cameToNothing(removeEarlierRun(arguments.out, setup->beliefs.tables, inputs)); };
   if (arguments.seed) setup->world.truth.seed = *arguments.seed;
 
@@ -250,6 +260,13 @@ int run(const RunArguments& arguments) {
   if (const Result<void> written = writeOutput(output, stop); !written) {
     print({written.error()});
     return stop.stop_requested() ? 3 : 2;
+  }
+  if (!arguments.append.empty()) {
+    const auto added = appendToRecord(arguments.append, exchange::inspectionOf(outcome.journal, info));
+    if (!added) {
+      print({added.error()});
+      return 2;
+    }
   }
   if (!arguments.quiet) {
     const auto colour = isatty(STDOUT_FILENO) != 0 ? reports::Colour::On : reports::Colour::Off;

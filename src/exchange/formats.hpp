@@ -26,6 +26,12 @@ const Format* formatNamed(std::string_view name);
 /// RFC 4180: a head line, then a row each; numbers with a decimal point and all their digits, UTF-8.
 std::string csvText(const Inspection& inspection);
 
+/// The record of many runs: the columns of csvText, before them those of the run (started, setup, part, seed).
+/// `record`: as it stands in the file, empty for a new one; with the rows of one more run at its end. Fails if its
+/// first line is not that of such a record, or its last one is not whole.
+bool isRecord(std::string_view text);
+Result<std::string> recordWith(std::string record, const Inspection& inspection);
+
 /// Office Open XML: a sheet of the rows with colours for the verdicts and one of the run. Fails if no temporary file
 /// can be written.
 Result<std::string> xlsxFile(const Inspection& inspection);
