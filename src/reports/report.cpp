@@ -21,20 +21,24 @@ using nlohmann::json;
 
 namespace {
 
-/// A typed array as the page reads it: little-endian, base64.
-template <class T>
-std::string base64(const std::vector<T>& values) {
-  static_assert(std::is_trivially_copyable_v<T>);
+std::string base64(std::string bytes) {
   using namespace boost::archive::iterators;
   using Encode = base64_from_binary<transform_width<const char*, 6, 8>>;
-  std::string bytes(values.size() * sizeof(T), '\0');
-  if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
   // The encoder reads whole groups of three bytes.
   const std::size_t missing = (3 - bytes.size() % 3) % 3;
   bytes.append(missing, '\0');
   std::string text(Encode(bytes.data()), Encode(bytes.data() + bytes.size()));
   text.replace(text.size() - missing, missing, missing, '=');
   return text;
+}
+
+/// A typed array as the page reads it: little-endian, base64.
+template <class T>
+std::string base64(const std::vector<T>& values) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  std::string bytes(values.size() * sizeof(T), '\0');
+  if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+  return base64(std::move(bytes));
 }
 
 std::vector<float> coordinates(const std::vector<Vector3f>& points) {
@@ -96,6 +100,21 @@ json toolData(const Mesh& tool, const records::ReadableText& readable) {
           {"edges", base64(coordinates(tool.featureEdges))}};
 }
 
+json cameraData(const std::vector<CameraShot>& shots, const records::ReadableText& readable) {
+  json data = json::array();
+  for (const CameraShot& shot : shots) {
+    data.push_back({{"cycle", shot.cycle},
+                    {"point", readable(shot.point)},
+                    {"number", shot.number},
+                    {"references", shot.references},
+                    {"errors", shot.errors},
+                    {"reference", base64(shot.reference)},
+                    {"taken", base64(shot.taken)},
+                    {"evaluated", base64(shot.evaluated)}});
+  }
+  return data;
+}
+
 json sceneData(const Scene& scene, const records::ReadableText& readable) {
   json meshes = json::array();
   for (const Mesh& mesh : scene.meshes)
@@ -137,6 +156,7 @@ json sceneData(const Scene& scene, const records::ReadableText& readable) {
             {"surfaces", base64(coordinates(surfaces))},
             {"tools", base64(touching)}}},
           {"collisions", std::move(collisions)},
+          {"camera", cameraData(scene.camera, readable)},
           {"ballRadius", scene.ballRadius},
           {"workpiece", scene.sceneFromWorkpiece ? matrix(*scene.sceneFromWorkpiece) : json(nullptr)}};
 }

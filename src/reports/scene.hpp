@@ -60,6 +60,18 @@ struct SceneCollision {
   std::string solid;               ///< the name of what was hit
 };
 
+/// What a cycle saw with the camera of the machine. Pictures are PNG files; empty where there is none.
+struct CameraShot {
+  std::uint32_t cycle = 0;  ///< index into Journal::cycles
+  std::string point;        ///< monitoring point: "PLATE.OS"
+  int number = 0;           ///< of the image
+  int references = 0;       ///< reference images of the point
+  int errors = 0;           ///< places in which the image deviates
+  std::string reference;    ///< what it is compared with: the average of the reference images
+  std::string taken;
+  std::string evaluated;  ///< taken, with monitoring areas and errors framed; empty where nothing is compared
+};
+
 struct Scene {
   std::vector<Mesh> meshes;
   Path path;
@@ -67,6 +79,7 @@ struct Scene {
   std::vector<Mesh> tools;
   std::vector<SceneTouch> touches;
   std::vector<SceneCollision> collisions;
+  std::vector<CameraShot> camera;
   double ballRadius = 0;  ///< of the probe, mm; 0: not drawn
   std::optional<Pose>
       sceneFromWorkpiece;  ///< the workpiece coordinate system at the end of the run, as the control believes

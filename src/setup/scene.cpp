@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "setup/camera_shots.hpp"
 #include "setup/tool_drawing.hpp"
 #include "simulation/drawing_mesh.hpp"
 
@@ -193,6 +194,7 @@ reports::Scene sceneOf(const control::Journal& journal, const simulation::Truth&
 reports::Scene sceneOf(const SimulatedRun& run) {
   if (!run.machine) return {};
   reports::Scene scene = sceneOf(run.outcome.journal, run.machine->truth(), run.machine->path());
+  scene.camera = cameraShots(run.outcome);
   scene.ballRadius = run.outcome.ballRadius;
   scene.sceneFromWorkpiece = run.outcome.machineFromWorkpiece;
   return scene;

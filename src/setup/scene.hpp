@@ -9,7 +9,7 @@
 namespace probewright::setup {
 
 /// What the report draws of a run: the solids of the world, the path as it truly was, the true place of every touch
-/// and of every collision.
+/// and of every collision, and what the camera saw.
 reports::Scene sceneOf(const SimulatedRun& run);
 
 /// The same without ball and workpiece coordinate system. A touch of the journal is found in the path by the axis

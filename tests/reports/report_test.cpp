@@ -215,6 +215,48 @@ TEST(Report, ReadsProgramsOfOldEditors) {
             "fen");
 }
 
+/// A picture of 3 x 2 pixels as a PNG file.
+std::string smallPicture() {
+  constexpr unsigned char bytes[] = {
+      0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00, 0x00,
+      0x03, 0x00, 0x00, 0x00, 0x02, 0x08, 0x00, 0x00, 0x00, 0x00, 0xB8, 0x1F, 0x39, 0xC6, 0x00, 0x00, 0x00, 0x10, 0x49,
+      0x44, 0x41, 0x54, 0x78, 0xDA, 0x63, 0xD0, 0x08, 0xA8, 0x60, 0x08, 0xA8, 0x58, 0x00, 0x00, 0x07, 0xD8, 0x02, 0x59,
+      0x28, 0xDA, 0xD0, 0xAE, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
+  return {bytes, bytes + sizeof bytes};
+}
+
+/// A cycle 601 that found two errors.
+control::Journal cameraJournal() {
+  control::Journal journal;
+  journal.cycles.resize(1);
+  journal.cycles[0].name = "601";
+  journal.cycles[0].title = "LOCAL WORKING SPACE";
+  journal.cycles[0].results.push_back(sample::plain("Q601", "state of the monitoring", 2, ""));
+  return journal;
+}
+
+Scene cameraScene() {
+  Scene scene;
+  scene.camera = {{.cycle = 0,
+                   .point = "PLATE.OS",
+                   .number = 11,
+                   .references = 10,
+                   .errors = 2,
+                   .reference = smallPicture(),
+                   .taken = smallPicture(),
+                   .evaluated = {}}};
+  return scene;
+}
+
+TEST(Report, HoldsThePicturesOfTheCamera) {
+  const json data = dataOf(reportHtml(cameraJournal(), {}, cameraScene()))["scene"]["camera"];
+  ASSERT_EQ(data.size(), 1U);
+  EXPECT_EQ(data[0]["point"], "PLATE.OS");
+  EXPECT_EQ(data[0]["errors"], 2);
+  EXPECT_EQ(decoded(data[0]["taken"].get<std::string>()), smallPicture());
+  EXPECT_EQ(data[0]["evaluated"], "");
+}
+
 // The pages that the browser test opens.
 TEST(Report, IsWrittenForTheBrowser) {
   const std::filesystem::path folder = PROBEWRIGHT_SAMPLE_DIR;
@@ -239,6 +281,7 @@ TEST(Report, IsWrittenForTheBrowser) {
   goodRun.exitText.clear();
   write("good.html", reportHtml(good, goodRun, sample::scene(good)));
   write("empty.html", reportHtml({}, {}, {}));
+  write("camera.html", reportHtml(cameraJournal(), {}, cameraScene()));
   auto hostile = sample::journal();
   hostile.cycles[0].title =
       "</script><script>window.broken = true</script><img src=x onerror=\"window.broken = true\">";

@@ -126,6 +126,18 @@ export interface SceneTool {
   edges: Float32Array;
 }
 
+/** What a cycle saw with the camera; pictures are PNG files in base64, empty where there is none. */
+export interface CameraShot {
+  cycle: number;
+  point: string;
+  number: number;
+  references: number;
+  errors: number;
+  reference: string;
+  taken: string;
+  evaluated: string;
+}
+
 export interface Scene {
   meshes: SceneMesh[];
   tools: SceneTool[];
@@ -133,6 +145,7 @@ export interface Scene {
   path: { points: Float32Array; kinds: Uint8Array; seconds: Float32Array; toolAxes: Float32Array; tools: Int32Array };
   touches: { indices: Uint32Array; centres: Float32Array; surfaces: Float32Array; tools: Int32Array };
   collisions: Collision[];
+  camera: CameraShot[];
   ballRadius: number;
   workpiece: number[] | null;
 }
@@ -151,6 +164,7 @@ interface PackedScene {
   path: Record<"points" | "kinds" | "seconds" | "toolAxes" | "tools", string>;
   touches: Record<"indices" | "centres" | "surfaces" | "tools", string>;
   collisions: Collision[];
+  camera: CameraShot[];
   ballRadius: number;
   workpiece: number[] | null;
 }
@@ -172,7 +186,7 @@ export function readReport(): Report {
     programs: ProgramText[];
     scene: PackedScene;
   };
-  const { meshes, tools, path, touches, collisions, ballRadius, workpiece } = packed.scene;
+  const { meshes, tools, path, touches, collisions, camera, ballRadius, workpiece } = packed.scene;
   return {
     results: packed.results,
     programs: packed.programs,
@@ -207,6 +221,7 @@ export function readReport(): Report {
         tools: integers(touches.tools),
       },
       collisions,
+      camera,
       ballRadius,
       workpiece,
     },

@@ -1,5 +1,6 @@
 import "./report.css";
 
+import { cameraSection } from "./camera";
 import { readReport, type Report } from "./data";
 import { count, duration, fileName, h, icon, length } from "./dom";
 import { programSection } from "./program";
@@ -117,10 +118,12 @@ function main() {
     header(report, () => setTheme(root.dataset.theme === "dark" ? "light" : "dark")),
     h("main", {}, h("div", { class: "top" }, view.element, program.element)),
   );
+  const camera = cameraSection(report, selector);
   document
     .querySelector("main")!
     .append(
       resultsSection(report, selector),
+      ...(camera ? [camera] : []),
       h("div", { class: "pair" }, correctionsSection(report, selector), eventsSection(report, program.showLine)),
     );
   document

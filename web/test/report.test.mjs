@@ -279,6 +279,19 @@ test("a run that came to nothing", async () => {
   await page.close();
 });
 
+test("what a camera saw", async () => {
+  const { page, problems } = await open("camera.html");
+  assert.match(await text(page, "#camera"), /1\s+601\s+image 11 of PLATE\.OS\s+Error found/);
+  assert.match(await text(page, "#camera"), /average of 10 images\s+Taken[\s\S]*None\s+Compared: not compared/);
+  const sizes = await page.$$eval("#camera img", (images) => images.map((image) => [image.naturalWidth, image.naturalHeight]));
+  assert.deepEqual(sizes, [[3, 2], [3, 2]]);
+  assert.deepEqual(problems, []);
+  await page.close();
+  const without = await open("good.html");
+  assert.equal(await without.page.$("#camera"), null);
+  await without.page.close();
+});
+
 test("texts that look like markup", async () => {
   const { page, problems } = await open("hostile.html");
   assert.equal(await page.evaluate(() => window.broken), undefined);

@@ -54,7 +54,7 @@ std::string windowsText(const std::vector<Window>& windows) {
 }
 
 std::optional<MonitoringImage> readImage(TomlReader& reader, const MonitoringPoint& point, const fs::path& folder,
-                                         Diagnostics& diagnostics) {
+                                         const ImageBytes& images, Diagnostics& diagnostics) {
   MonitoringImage image;
   reader.require("number");
   image.number = static_cast<int>(reader.integer("number", 1, 999999).value_or(0));
@@ -66,13 +66,13 @@ std::optional<MonitoringImage> readImage(TomlReader& reader, const MonitoringPoi
     reader.report("number", "the images must be in the order of their numbers");
     return std::nullopt;
   }
-  const fs::path path = folder / imageFileName(point, image);
-  auto bytes = readFile(path);
+  const std::string name = imageFileName(point, image);
+  auto bytes = images(name);
   if (!bytes) {
     diagnostics.push_back(std::move(bytes.error()));
     return std::nullopt;
   }
-  if (auto picture = vision::fromPng(*bytes, path.string()); !picture) {
+  if (auto picture = vision::fromPng(*bytes, (folder / name).string()); !picture) {
     diagnostics.push_back(std::move(picture.error()));
     return std::nullopt;
   }
@@ -80,10 +80,11 @@ std::optional<MonitoringImage> readImage(TomlReader& reader, const MonitoringPoi
   return image;
 }
 
-std::optional<MonitoringPoint> readPoint(const fs::path& path, Diagnostics& diagnostics) {
-  const auto text = contents(path, diagnostics);
-  if (!text) return std::nullopt;
-  const auto table = parseToml(*text, path.string(), diagnostics);
+}  // namespace
+
+std::optional<MonitoringPoint> readMonitoringPoint(const std::string& text, const fs::path& path,
+                                                   const ImageBytes& images, Diagnostics& diagnostics) {
+  const auto table = parseToml(text, path.string(), diagnostics);
   if (!table) return std::nullopt;
   const std::size_t before = diagnostics.size();
   TomlReader reader(*table, "", path.string(), diagnostics);
@@ -98,21 +99,22 @@ std::optional<MonitoringPoint> readPoint(const fs::path& path, Diagnostics& diag
                   "Give the file its name back");
   }
   for (TomlReader& entry : reader.tables("image")) {
-    if (auto image = readImage(entry, point, path.parent_path(), diagnostics))
+    if (auto image = readImage(entry, point, path.parent_path(), images, diagnostics))
       point.images.push_back(*std::move(image));
   }
   reader.finish();
   return diagnostics.size() == before ? std::optional(std::move(point)) : std::nullopt;
 }
 
-}  // namespace
-
 std::vector<MonitoringPoint> readMonitoringFiles(const fs::path& tables, Diagnostics& diagnostics) {
   std::vector<MonitoringPoint> points;
   if (tables.empty()) return points;
   for (const fs::path& path : tableFiles(tables, diagnostics)) {
     if (upper(path.extension().string()) != ".VSC") continue;
-    if (auto point = readPoint(path, diagnostics)) points.push_back(*std::move(point));
+    const auto text = contents(path, diagnostics);
+    if (!text) continue;
+    const auto image = [&](const std::string& name) { return readFile(path.parent_path() / name); };
+    if (auto point = readMonitoringPoint(*text, path, image, diagnostics)) points.push_back(*std::move(point));
   }
   return points;
 }

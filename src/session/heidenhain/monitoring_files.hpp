@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,15 @@ namespace probewright::session {
 /// The monitoring points whose files are in the folder of tables. Mistakes go to `diagnostics`.
 std::vector<control::heidenhain::MonitoringPoint> readMonitoringFiles(const std::filesystem::path& tables,
                                                                       Diagnostics& diagnostics);
+
+/// The bytes of an image by the name of its file.
+using ImageBytes = std::function<Result<std::string>(const std::string& name)>;
+
+/// The monitoring point that the text of its file `path` describes; nothing, and why in `diagnostics`, if it does not.
+std::optional<control::heidenhain::MonitoringPoint> readMonitoringPoint(const std::string& text,
+                                                                        const std::filesystem::path& path,
+                                                                        const ImageBytes& images,
+                                                                        Diagnostics& diagnostics);
 
 /// All files of a point, by name.
 std::map<std::string, std::string> monitoringFiles(const control::heidenhain::MonitoringPoint& point);
