@@ -126,13 +126,16 @@ json sceneData(const Scene& scene, const records::ReadableText& readable) {
   for (const Path::ToolFrom& change : scene.path.tools)
     changes.insert(changes.end(), {static_cast<std::int32_t>(change.point), change.tool});
   std::vector<std::uint32_t> indices;
-  std::vector<Vector3f> centres, surfaces;
+  std::vector<Vector3f> centres, surfaces, axes;
   for (const SceneTouch& touch : scene.touches) {
     indices.insert(indices.end(), {touch.cycle, touch.touch});
     centres.push_back(touch.ballCentre);
     surfaces.push_back(touch.surface);
     touching.push_back(touch.tool);
+    axes.push_back(touch.toolAxis);
   }
+  // Most machines hold the tool upright all the time: nothing to say then.
+  if (std::ranges::all_of(axes, [](const Vector3f& axis) { return axis.isApprox(Vector3f::UnitZ()); })) axes.clear();
   json collisions = json::array();
   for (const SceneCollision& collision : scene.collisions) {
     collisions.push_back({{"at", {collision.at.x(), collision.at.y(), collision.at.z()}},
@@ -154,6 +157,7 @@ json sceneData(const Scene& scene, const records::ReadableText& readable) {
            {{"indices", base64(indices)},
             {"centres", base64(coordinates(centres))},
             {"surfaces", base64(coordinates(surfaces))},
+            {"axes", base64(coordinates(axes))},
             {"tools", base64(touching)}}},
           {"collisions", std::move(collisions)},
           {"camera", cameraData(scene.camera, readable)},

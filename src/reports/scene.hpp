@@ -51,6 +51,7 @@ struct SceneTouch {
   Vector3f ballCentre = Vector3f::Zero();
   Vector3f surface = Vector3f::Zero();  ///< on the part; equal to ballCentre if there was no contact
   std::int32_t tool = -1;  ///< the scene's tool that touched, its end at ballCentre; -1: a touch probe's ball
+  Vector3f toolAxis = Vector3f::UnitZ();  ///< unit, from the ball or the end to the spindle
 };
 
 /// Where the tool ran into something, or the ball was deflected while the axes only positioned.
@@ -75,7 +76,7 @@ struct CameraShot {
 struct Scene {
   std::vector<Mesh> meshes;
   Path path;
-  /// Cutters: the end of each lies in its origin, its shank along +Z.
+  /// Cutters: the end of each lies in its origin, its shank along +Z, as simulation::toolFrame() has it.
   std::vector<Mesh> tools;
   std::vector<SceneTouch> touches;
   std::vector<SceneCollision> collisions;

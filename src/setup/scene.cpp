@@ -127,6 +127,7 @@ public:
       found.ballCentre = candidate.ballCentre.cast<float>();
       found.surface = candidate.point.cast<float>();
       found.tool = tools_.of(path_.points[candidate.pathPoint].tool);
+      found.toolAxis = path_.points[candidate.pathPoint].shank.cast<float>();
       next_ = i + 1;
       return true;
     }
@@ -144,6 +145,7 @@ private:
     if (last == path_.points.rend()) return false;
     found.ballCentre = found.surface = last->tip.cast<float>();
     found.tool = tools_.of(last->tool);
+    found.toolAxis = last->shank.cast<float>();
     return true;
   }
 

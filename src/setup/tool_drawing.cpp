@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulation/cutting_edges.hpp"
+
 namespace probewright::setup {
 
 namespace {
@@ -89,8 +91,9 @@ void addTooth(reports::Mesh& mesh, const simulation::TrueTool& tool, const TrueT
   addLine(mesh, points);
 }
 
-/// The face of an insert, whose theoretical tip is beside the axis.
-void addInsert(reports::Mesh& mesh, const simulation::TrueTool& tool) {
+/// The outline of an insert `depth` across its plane, where its flank has receded. Its theoretical tip is beside the
+/// axis.
+std::vector<Vector3> insertOutline(const simulation::TrueTool& tool, double depth) {
   const TrueInsert& insert = *tool.cutter.insert;
   const double first = radiansFromDegrees(insert.firstNormal);
   const double second = first + std::remainder(radiansFromDegrees(insert.secondNormal) - first, 2 * pi);
@@ -99,28 +102,49 @@ void addInsert(reports::Mesh& mesh, const simulation::TrueTool& tool) {
   const auto along = [](double angle) { return Vector2(std::cos(angle), std::sin(angle)); };
   const auto across = [](double angle) { return Vector2(-std::sin(angle), std::cos(angle)); };
   const Vector2 centre = -insert.noseRadius * Vector2(sign(std::cos(middle)), sign(std::sin(middle)));
-  const double radius = insert.noseRadius - insert.wear;
+  const double radius = insert.noseRadius - insert.wear - depth * std::tan(radiansFromDegrees(insert.clearance));
   std::vector<Vector2> face = {centre + radius * along(first) - turn * insert.edgeLength * across(first)};
   constexpr int steps = 10;
   for (int i = 0; i <= steps; ++i)
     face.push_back(centre + radius * along(first + (second - first) * i / steps));
   face.push_back(centre + radius * along(second) + turn * insert.edgeLength * across(second));
   const Vector2 aside = offsetOf(tool.cutter);
-  const double plane = radiansFromDegrees(insert.orientation);
-  const auto placed = [&](const Vector2& point) {
-    return Vector3(aside.x() + point.x() * std::cos(plane), aside.y() + point.x() * std::sin(plane), point.y());
-  };
-  std::vector<Vector3> edge;
-  const auto base = static_cast<std::uint32_t>(mesh.positions.size());
+  const double plane = radiansFromDegrees(insert.orientation), beside = insert.thickness < 0 ? -depth : depth;
+  std::vector<Vector3> outline;
   for (const Vector2& point : face) {
-    edge.push_back(placed(point));
-    mesh.positions.emplace_back(edge.back().cast<float>());
-    mesh.normals.emplace_back(Vector3(-std::sin(plane), std::cos(plane), 0).cast<float>());
+    outline.emplace_back(aside.x() + point.x() * std::cos(plane) - beside * std::sin(plane),
+                         aside.y() + point.x() * std::sin(plane) + beside * std::cos(plane), point.y());
   }
-  for (std::uint32_t i = 1; i + 1 < face.size(); ++i)
+  return outline;
+}
+
+/// A flat strip or fan with its own corners; `normal` is not turned.
+void addFace(reports::Mesh& mesh, const std::vector<Vector3>& corners, const Vector3& normal) {
+  const auto base = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const Vector3& corner : corners) {
+    mesh.positions.emplace_back(corner.cast<float>());
+    mesh.normals.emplace_back(normal.cast<float>());
+  }
+  for (std::uint32_t i = 1; i + 1 < corners.size(); ++i)
     for (const std::uint32_t corner : {base, base + i, base + i + 1})
       mesh.triangles.push_back(corner);
-  addLine(mesh, edge);
+}
+
+/// The face of an insert, and its flank.
+void addInsert(reports::Mesh& mesh, const simulation::TrueTool& tool) {
+  const double plane = radiansFromDegrees(tool.cutter.insert->orientation);
+  const Vector3 across(-std::sin(plane), std::cos(plane), 0);
+  const std::vector<Vector3> face = insertOutline(tool, 0);
+  addFace(mesh, face, across);
+  addLine(mesh, face);
+  const double flank = simulation::flankDepth(*tool.cutter.insert);
+  if (flank <= 0) return;
+  const std::vector<Vector3> back = insertOutline(tool, flank);
+  addFace(mesh, back, across);
+  for (std::size_t i = 1; i < face.size(); ++i) {
+    const Vector3 normal = (face[i] - face[i - 1]).cross(back[i] - face[i]);
+    addFace(mesh, {face[i - 1], face[i], back[i], back[i - 1]}, normal.normalized());
+  }
 }
 
 }  // namespace

@@ -92,13 +92,6 @@ std::vector<EdgePiece> meridianOf(const Drawn& drawn, const Shifted& shifted) {
 /// How far the flank of an insert recedes for a mm across its plane.
 double recession(const TrueInsert& insert) { return std::tan(radiansFromDegrees(insert.clearance)); }
 
-/// Across its plane: as far as its nose is a cone that has a radius.
-double flankOf(const TrueInsert& insert) {
-  const double round = insert.noseRadius - insert.wear, slope = recession(insert);
-  const double depth = std::abs(insert.thickness);
-  return slope > 0 && slope * depth > round ? round / slope : depth;
-}
-
 /// The edges of an insert, nose and both straights, or the lines of its flank `depth` across its plane. Its theoretical
 /// tip, where the tangents of the nose along the axes of its plane meet, is the origin.
 std::vector<EdgePiece> insertOf(const TrueInsert& insert, double depth = 0) {
@@ -226,6 +219,12 @@ EdgeDistance nearestOf(const std::vector<EdgePiece>& pieces, const Pose& solidFr
 
 }  // namespace
 
+double flankDepth(const TrueInsert& insert) {
+  const double round = insert.noseRadius - insert.wear, slope = recession(insert);
+  const double depth = std::abs(insert.thickness);
+  return slope > 0 && slope * depth > round ? round / slope : depth;
+}
+
 Vector2 EdgePiece::meridian(double share) const {
   if (kind == Kind::Line) return from + (to - from) * share;
   const double at = fromAngle + (toAngle - fromAngle) * share;
@@ -278,7 +277,7 @@ CuttingEdges::CuttingEdges(const TrueTool& tool) : eccentricity_(offsetOf(tool.c
     }
   }
   if (!cutter.insert) envelope_ = meridianOf(drawn, most);
-  const double aside = eccentricity_.norm() + (insert_ ? flankOf(*insert_) : 0);
+  const double aside = eccentricity_.norm() + (insert_ ? flankDepth(*insert_) : 0);
   for (EdgePiece& piece : envelope_) {
     piece.turned = true;
     // At its farthest from the spindle's axis.
@@ -298,7 +297,7 @@ Pose CuttingEdges::spindleFromCutter(double degrees) const {
 
 EdgeDistance CuttingEdges::nearestOfInsert(const Pose& solidFromCutter, const DistanceSolid& solid) const {
   const EdgeDistance edge = nearestOf(edges_.front(), solidFromCutter, solid);
-  const double flank = flankOf(*insert_);
+  const double flank = flankDepth(*insert_);
   // No point of the flank is farther than this from its edge.
   const double away = flank * std::hypot(1, recession(*insert_));
   constexpr double far = 1;  // mm

@@ -37,6 +37,9 @@ struct EdgeDistance {
   Vector3 normal = Vector3::UnitZ();                     ///< of the solid there, outward
 };
 
+/// How far the flank of an insert reaches across its plane, mm: as far as its nose is a cone that has a radius.
+double flankDepth(const TrueInsert& insert);
+
 class CuttingEdges {
 public:
   explicit CuttingEdges(const TrueTool& tool);

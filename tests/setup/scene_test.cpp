@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "simulation/solid_recipe.hpp"
 #include "support/virtual_world.hpp"
 
@@ -104,6 +107,59 @@ TEST_F(SceneOfRun, LeavesOutTouchesThatThePathDoesNotKnow) {
   journal.cycles.resize(1);
   journal.cycles[0].touches.emplace_back().outcome = "touched";
   EXPECT_TRUE(sceneOf(journal, truth_, machine_.path()).touches.empty());
+}
+
+/// A mill and a probe, one after the other, and a tool touch probe beside them.
+TEST(SceneOfTools, HoldsTheCutterThatTouchedAndWhereItWasInTheSpindle) {
+  simulation::Truth truth = perfectWorld();
+  simulation::TrueTool mill;
+  mill.number = 12;
+  mill.name = "MILL";
+  mill.kind = simulation::ToolKind::Cutter;
+  mill.length = 80;
+  mill.radius = 5;
+  mill.cutter.cutLength = 20;
+  mill.cutter.shankRadius = 3;
+  mill.cutter.teeth = {{.angle = 0, .radial = 0.01}, {.angle = 180}};
+  truth.tools.push_back(mill);
+  testing_support::placeToolProbe(truth, simulation::RoundBar(20, -10, 0), translation({0, 0, -400}));
+  simulation::VirtualMachine machine(truth);
+  ASSERT_EQ(machine.changeTool({12, ""}).end, machine::ToolChangeEnd::Changed);
+  machine.orientSpindle(0);
+  machine.move(positions({-60, 0, -325}), Feed::rapidTraverse());
+  const auto measured = machine.measure({positions({-10, 0, -325}), Feed::at(300), machine::Sensor::ToolTouchProbe});
+  ASSERT_EQ(measured.end, machine::MeasureEnd::Touched) << measured.detail;
+  machine.retract(positions({-60, 0, -325}), Feed::rapidTraverse());
+  machine.move(positions({-60, 0, -200}), Feed::rapidTraverse());
+  ASSERT_EQ(machine.changeTool({1, ""}).end, machine::ToolChangeEnd::Changed);
+  machine.move(positions({0, 0, -200}), Feed::rapidTraverse());
+
+  control::Journal journal;
+  journal.cycles.resize(1);
+  auto& touch = journal.cycles[0].touches.emplace_back();
+  touch.outcome = "touched";
+  touch.latched = measured.latched;
+  const reports::Scene scene = sceneOf(journal, truth, machine.path());
+  ASSERT_EQ(scene.tools.size(), 1U);
+  EXPECT_EQ(scene.tools[0].name, "MILL");
+  float lowest = 0, widest = 0, longest = 0;
+  for (const auto& p : scene.tools[0].positions) {
+    lowest = std::min(lowest, p.z());
+    longest = std::max(longest, p.z());
+    widest = std::max(widest, std::hypot(p.x(), p.y()));
+  }
+  EXPECT_NEAR(lowest, 0, 1e-6) << "its end lies in the origin";
+  EXPECT_NEAR(longest, 80, 1e-4);
+  EXPECT_NEAR(widest, 5, 1e-4);
+  ASSERT_EQ(scene.touches.size(), 1U);
+  EXPECT_EQ(scene.touches[0].tool, 0);
+  // The tooth at +X, 5.01 mm from the axis, meets the disc 20 mm beside its middle.
+  EXPECT_LT((scene.touches[0].ballCentre - reports::Vector3f(-25.01F, 0, -405)).norm(), 1e-3);
+  EXPECT_NEAR(scene.touches[0].surface.x(), -20, 1e-3);
+  ASSERT_EQ(scene.path.tools.size(), 2U);
+  EXPECT_EQ(scene.path.tools[0].tool, 0);
+  EXPECT_EQ(scene.path.tools[1].tool, -1) << "the probe is no cutter";
+  EXPECT_LT(scene.path.tools[0].point, scene.path.tools[1].point);
 }
 
 TEST_F(SceneOfRun, KeepsTheKindOfEachMove) {

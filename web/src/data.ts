@@ -143,7 +143,8 @@ export interface Scene {
   tools: SceneTool[];
   /* tools: pairs of a point and the tool in the spindle from there on; -1 is a touch probe, or none. */
   path: { points: Float32Array; kinds: Uint8Array; seconds: Float32Array; toolAxes: Float32Array; tools: Int32Array };
-  touches: { indices: Uint32Array; centres: Float32Array; surfaces: Float32Array; tools: Int32Array };
+  /* axes: from the ball or the tool's end to the spindle; empty: always Z. */
+  touches: { indices: Uint32Array; centres: Float32Array; surfaces: Float32Array; tools: Int32Array; axes: Float32Array };
   collisions: Collision[];
   camera: CameraShot[];
   ballRadius: number;
@@ -162,7 +163,7 @@ interface PackedScene {
     Record<"positions" | "normals" | "triangles" | "edges", string>)[];
   tools: ({ name: string } & Record<"positions" | "normals" | "triangles" | "edges", string>)[];
   path: Record<"points" | "kinds" | "seconds" | "toolAxes" | "tools", string>;
-  touches: Record<"indices" | "centres" | "surfaces" | "tools", string>;
+  touches: Record<"indices" | "centres" | "surfaces" | "tools" | "axes", string>;
   collisions: Collision[];
   camera: CameraShot[];
   ballRadius: number;
@@ -219,6 +220,7 @@ export function readReport(): Report {
         centres: floats(touches.centres),
         surfaces: floats(touches.surfaces),
         tools: integers(touches.tools),
+        axes: floats(touches.axes),
       },
       collisions,
       camera,

@@ -19,6 +19,7 @@ import {
   Object3D,
   Points,
   PointsMaterial,
+  Quaternion,
   Scene as ThreeScene,
   Sphere,
   SphereGeometry,
@@ -58,17 +59,30 @@ export interface Marker {
   surface: Vector3;
   /** The cutter that touched, its end at the centre; -1: a touch probe's ball. */
   tool: number;
+  /** From the ball or the tool's end to the spindle. */
+  axis: Vector3;
 }
 
 export function markersOf(scene: Scene): Marker[] {
-  const { indices, centres, surfaces, tools } = scene.touches;
+  const { indices, centres, surfaces, tools, axes } = scene.touches;
   return Array.from({ length: indices.length / 2 }, (_, i) => ({
     cycle: indices[2 * i],
     touch: indices[2 * i + 1],
     centre: new Vector3().fromArray(centres, 3 * i),
     surface: new Vector3().fromArray(surfaces, 3 * i),
     tool: tools[i] ?? -1,
+    axis: axes.length > 3 * i + 2 ? new Vector3().fromArray(axes, 3 * i) : new Vector3(0, 0, 1),
   }));
+}
+
+/** How a tool lies whose shank points along `axis`: of a tool along X or Y the simulation says where its own X is. */
+function toolOrientation(axis: Vector3): Quaternion {
+  const along = axis.clone().normalize();
+  const [x, y, z] = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)];
+  const frame = new Matrix4();
+  if (along.distanceTo(x) < 1e-5) return new Quaternion().setFromRotationMatrix(frame.makeBasis(y, z, x));
+  if (along.distanceTo(y) < 1e-5) return new Quaternion().setFromRotationMatrix(frame.makeBasis(z, x, y));
+  return new Quaternion().setFromUnitVectors(z, along);
 }
 
 function meshGeometry(mesh: SceneMesh | SceneTool): BufferGeometry {
@@ -413,6 +427,6 @@ export class Drawing {
     this.ball.visible = tool < 0;
     this.cutters.forEach((cutter, i) => (cutter.visible = i === tool));
     this.probe.position.copy(centre);
-    this.probe.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), axis.clone().normalize());
+    this.probe.quaternion.copy(toolOrientation(axis));
   }
 }

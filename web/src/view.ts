@@ -245,7 +245,7 @@ export class View {
       });
     }
     const marker = touch === null ? undefined : ofCycle.find((candidate) => candidate.touch === touch);
-    this.drawing.placeProbe(marker ? marker.centre : null, undefined, marker?.tool);
+    this.drawing.placeProbe(marker ? marker.centre : null, marker?.axis, marker?.tool);
     this.fillCard(cycle, touch);
     // The card must not lie over what it tells about.
     const points = marker ? [marker] : ofCycle;
