@@ -90,6 +90,14 @@ std::vector<control::BelievedToolProbe> believedToolProbes(const simulation::Wor
   return all;
 }
 
+void believeHirthCouplings(control::Beliefs& beliefs, const simulation::Truth& truth) {
+  for (std::size_t i = 0; i < truth.machine.axes.size(); ++i) {
+    if (truth.hirthGrid[i] <= 0) continue;
+    double& believed = beliefs.kinematics[truth.machine.axes[i].name].hirthGrid;
+    if (believed == 0) believed = truth.hirthGrid[i];
+  }
+}
+
 control::Technology believedTechnology(const machine::MachineDescription& machine) {
   return machine.axisIndex("Y") ? control::Technology::Milling : control::Technology::Turning;
 }

@@ -21,6 +21,9 @@ void believeShape(control::BelievedTool& believed, const simulation::TrueProbe& 
 /// The tool touch probes as they were fitted at the start posture, and calibrated.
 std::vector<control::BelievedToolProbe> believedToolProbes(const simulation::World& world);
 
+/// The Hirth couplings of axes of which the setup does not say what the control believes.
+void believeHirthCouplings(control::Beliefs& beliefs, const simulation::Truth& truth);
+
 /// A machine without an axis Y is a lathe.
 control::Technology believedTechnology(const machine::MachineDescription& machine);
 

@@ -38,6 +38,7 @@ std::optional<Setup> parse(std::string_view text, const std::string& file, const
   beliefs.readAnswers();
   root.finish();
   if (errors() > before) return std::nullopt;
+  believeHirthCouplings(setup.beliefs, setup.world.truth);
   setup.beliefs.technology = believedTechnology(setup.world.truth.machine);
   setup.beliefs.toolProbes = believedToolProbes(setup.world);
   return setup;

@@ -52,6 +52,7 @@ void WorldReader::readMachine(const std::filesystem::path& instead) {
       readBodies(*reader, machine(), folder_, world_.bodies, inputs_);
     else
       reader->tables("body");  // of a machine that is not there
+    if (auto grids = reader->table("hirth")) readHirthGrids(*grids);
     reader->finish();
     return;
   }
@@ -91,6 +92,14 @@ void WorldReader::readStart(TomlReader& reader) {
     if (axis && !machine().axes[*axis].modulo) range = {machine().axes[*axis].minimum, machine().axes[*axis].maximum};
     const auto value = reader.number(key, range);
     if (axis && value) world_.truth.start[*axis] = *value;
+  }
+}
+
+void WorldReader::readHirthGrids(TomlReader& reader) {
+  for (const std::string& key : reader.keys()) {
+    const auto axis = axisNamed(reader, key, key, machine(), AxisKind::Rotary);
+    const auto grid = reader.number(key, {0.001, 180});
+    if (axis && grid) world_.truth.hirthGrid[*axis] = *grid;
   }
 }
 

@@ -32,6 +32,7 @@ private:
   const machine::MachineDescription& machine() const { return world_.truth.machine; }
   void loadMachine(const std::string& name, TomlReader& reader, std::string_view key, bool ofThisFile = true);
   void readStart(TomlReader& reader);
+  void readHirthGrids(TomlReader& reader);
   void readSolid(TomlReader& reader, simulation::SolidRole role, std::string defaultName, const char* featureTable);
   void placeGauge(simulation::SolidRecipe recipe, TomlReader& reader, std::string name, simulation::SolidRole role);
   void readGauges();

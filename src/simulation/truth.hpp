@@ -131,6 +131,9 @@ struct Truth {
   std::vector<TrueToolProbe> toolProbes;
   std::vector<TrueTool> tools;  ///< found by name where a program names one, else by number; 0 is the empty spindle
   machine::AxisPositions start;
+  /// Degrees between the positions of a rotary axis with a Hirth coupling, from 0 on, by axis index; 0: it stands
+  /// anywhere.
+  machine::AxisPositions hirthGrid;
   std::uint64_t seed = 1;
 };
 

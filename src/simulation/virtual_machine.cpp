@@ -256,9 +256,21 @@ MoveResult VirtualMachine::finish(const Motion& motion, std::optional<Touch> tou
   return {MoveEnd::ProbeSignal, describe(*touch)};
 }
 
-std::optional<MoveResult> VirtualMachine::refusal(Feed feed) const {
+std::optional<std::string> VirtualMachine::besideHirthGrid(const AxisPositions& target) const {
+  constexpr double precision = 1e-6;  // degrees
+  for (std::size_t i = 0; i < truth_.machine.axes.size(); ++i) {
+    const double grid = truth_.hirthGrid[i];
+    if (grid <= 0 || target[i] == reading_[i] || std::abs(std::remainder(target[i], grid)) <= precision) continue;
+    return fmt::format("axis {} has a Hirth coupling: it stands at multiples of {} degrees, not at {}",
+                       truth_.machine.axes[i].name, grid, readable(target[i]));
+  }
+  return std::nullopt;
+}
+
+std::optional<MoveResult> VirtualMachine::refusal(Feed feed, const AxisPositions& target) const {
   if (stop_.stop_requested()) return MoveResult{MoveEnd::Cancelled, stoppedText};
   if (!feed.rapid && !(feed.perMinute > 0)) return MoveResult{MoveEnd::Refused, "the feed is not above 0"};
+  if (auto beside = besideHirthGrid(target)) return MoveResult{MoveEnd::Refused, *std::move(beside)};
   return std::nullopt;
 }
 
@@ -271,7 +283,7 @@ void VirtualMachine::standAt(const Motion& motion, double fraction, PathKind kin
 }
 
 MoveResult VirtualMachine::move(const AxisPositions& target, Feed feed) {
-  if (auto refused = refusal(feed)) return *std::move(refused);
+  if (auto refused = refusal(feed, target)) return *std::move(refused);
   if (auto limit = beyondTravel(target)) return {MoveEnd::AxisLimit, *limit};
   if ((deflection_ || toolContact_) && !(target == reading_)) return {MoveEnd::ProbeSignal, stillDeflected()};
   const Motion motion = motionTo(target, feed);
@@ -324,7 +336,7 @@ std::optional<double> VirtualMachine::freeFrom(const Motion& motion) const {
 }
 
 MoveResult VirtualMachine::retract(const AxisPositions& target, Feed feed) {
-  if (auto refused = refusal(feed)) return *std::move(refused);
+  if (auto refused = refusal(feed, target)) return *std::move(refused);
   if (auto limit = beyondTravel(target)) return {MoveEnd::AxisLimit, *limit};
   const Motion motion = motionTo(target, feed);
   if (motion.profile.length() == 0) return {};

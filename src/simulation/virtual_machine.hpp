@@ -59,6 +59,9 @@ namespace probewright::simulation {
 ///
 /// Errors of the axes act between the readings and the true place of the spindle; see MachineErrors.
 ///
+/// Hirth coupling. A rotary axis that has one moves to the positions of its grid only; other targets are refused. Where
+/// something stopped it in between, it stays unlocked until it has reached such a position.
+///
 /// Tool change. The last linear axis of the spindle chain goes to the tool change position first, then the other linear
 /// axes together. Changing to the tool in the spindle does nothing. Not watched for collisions except at its end.
 class VirtualMachine final : public machine::Machine, public machine::ToolSpindle, public machine::CameraOwner {
@@ -125,8 +128,9 @@ private:
   PathPoint pathPoint(const Pose& tableFromSpindle, const machine::AxisPositions& axes, PathKind kind,
                       double seconds) const;
   std::optional<std::string> beyondTravel(const machine::AxisPositions& target) const;
-  /// Why an order is not begun, if it is not: a stop, a feed that is none.
-  std::optional<machine::MoveResult> refusal(machine::Feed feed) const;
+  /// Why an order is not begun, if it is not: a stop, a feed that is none, an axis that cannot stand at its target.
+  std::optional<machine::MoveResult> refusal(machine::Feed feed, const machine::AxisPositions& target) const;
+  std::optional<std::string> besideHirthGrid(const machine::AxisPositions& target) const;
   machine::MeasureResult refusedMeasurement(machine::MoveResult why) const;
   Motion motionTo(const machine::AxisPositions& target, machine::Feed feed) const;
   machine::MeasureResult measureWithProbe(const machine::MeasureOrder& order);

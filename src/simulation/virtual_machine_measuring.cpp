@@ -88,7 +88,7 @@ MeasureResult VirtualMachine::measureWithProbe(const MeasureOrder& order) {
   if (!tool_ || tool_->kind != ToolKind::Probe)
     return end(MeasureEnd::NotReady, "there is no touch probe in the spindle");
   if (!tool_->probe.switchedOn) return end(MeasureEnd::NotReady, "the touch probe is switched off");
-  if (auto refused = refusal(order.feed)) return refusedMeasurement(*std::move(refused));
+  if (auto refused = refusal(order.feed, order.target)) return refusedMeasurement(*std::move(refused));
   if (deflection_) return end(MeasureEnd::DeflectedAtStart, describe(*deflection_));
   if (auto limit = beyondTravel(order.target)) return end(MeasureEnd::AxisLimit, *limit);
   const Motion motion = motionTo(order.target, order.feed);

@@ -102,7 +102,7 @@ MeasureResult VirtualMachine::measureTool(const MeasureOrder& order) {
                "there is a touch probe in the spindle, which the tool touch probe cannot measure");
   if (std::ranges::none_of(truth_.toolProbes, &TrueToolProbe::switchedOn))
     return end(MeasureEnd::NotReady, "the tool touch probe is switched off");
-  if (auto refused = refusal(order.feed)) return refusedMeasurement(*std::move(refused));
+  if (auto refused = refusal(order.feed, order.target)) return refusedMeasurement(*std::move(refused));
   if (toolContact_) return end(MeasureEnd::DeflectedAtStart, describe(*toolContact_));
   if (auto limit = beyondTravel(order.target)) return end(MeasureEnd::AxisLimit, *limit);
   const Motion motion = motionTo(order.target, order.feed);

@@ -47,6 +47,30 @@ TEST(CameraShots, ShowReferenceImageAndErrorsOfEachCycle) {
   EXPECT_NE(*current, *evaluated);
 }
 
+/// Each image that a cycle takes is entered in the file of its point.
+TEST(CameraShots, AreEnteredInTheFileOfTheirPoint) {
+  CameraBench bench;
+  bench.answers({{"600 OS", teach(3, bench.camera())}});
+  const Ran ran = bench.run(global(1, 3) + local(0, 3));
+  ASSERT_TRUE(ran.finished()) << ran.why();
+  const auto entered = [&](std::size_t cycle) {
+    std::vector<std::string> names;
+    for (const auto& write : ran.outcome.journal.cycles[cycle].writes) {
+      EXPECT_EQ(write.table, "BENCH.OS.VSC");
+      EXPECT_TRUE(ran.outcome.files.contains(write.after)) << write.after;
+      names.push_back(write.entry + " " + write.after);
+    }
+    return names;
+  };
+  EXPECT_EQ(entered(0), (std::vector<std::string>{"image 1 BENCH.OS.0001.PNG", "image 2 BENCH.OS.0002.PNG",
+                                                  "image 3 BENCH.OS.0003.PNG"}));
+  EXPECT_EQ(entered(1), std::vector<std::string>{"image 4 BENCH.OS.0004.PNG"});
+  coverage::writesRead(ran.outcome.control, ran.outcome.journal, [&](const control::WriteRecord& write) {
+    return ran.log("BENCH.OS.VSC").find("[[image]]") != std::string::npos && write.table == "BENCH.OS.VSC";
+  });
+  EXPECT_FALSE(ran.screens().empty());
+}
+
 TEST(CameraShots, AreThoseOfTheLastCycles) {
   CameraBench bench;
   std::string many;

@@ -1,6 +1,7 @@
 #include <chrono>
 
 #include "cycles_kinematics/sphere_worlds.hpp"
+#include "setup/calibrated_beliefs.hpp"
 
 /// Cycle 451: planted places and directions of rotary axes are found, on every build of machine.
 namespace probewright::testing_support {
@@ -242,6 +243,30 @@ TEST(Cycle451Hirth, MeasuresWhereTheAxisCanStand) {
   EXPECT_EQ(angles, (std::vector<double>{0, -30, 9, 51, 90}));
   EXPECT_LT(apart(machine::corrected(world.built(), kinematicsOf(ran, world.built()).axes), world.truth(), "A").place,
             1e-6);
+}
+
+/// A coupling that the machine truly has: the control that knows it measures where the axis stands; one that does not,
+/// or another grid, is stopped.
+TEST(Cycle451Hirth, IsOfTheMachineToo) {
+  Dice dice(4518);
+  SphereWorld world(builds()[0]);
+  world.plant(dice, 0.1, 0);
+  simulation::Truth& truth = world.bench.setup.world.truth;
+  truth.hirthGrid[*world.built().axisIndex("A")] = 3;
+  world.build.axes = {{'A', {-30, 90, 0, 4}}};
+  const std::string cycle = probe(451, words451(world.build, 1, {{408, 250}}));
+  const Ran unaware = world.bench.run(cycle);
+  EXPECT_EQ(unaware.outcome.result.end, execution::RunEnd::Alarm);
+  EXPECT_NE(unaware.why().find("axis A has a Hirth coupling: it stands at multiples of 3 degrees, not at 10"),
+            std::string::npos)
+      << unaware.why();
+  setup::believeHirthCouplings(world.bench.setup.beliefs, truth);
+  const Ran ran = world.bench.run(cycle);
+  ASSERT_TRUE(ended(ran)) << ran.why();
+  EXPECT_LT(apart(machine::corrected(world.built(), kinematicsOf(ran, world.built()).axes), world.truth(), "A").place,
+            1e-6);
+  world.bench.setup.beliefs.kinematics["A"].hirthGrid = 2.5;
+  EXPECT_EQ(world.bench.run(cycle).outcome.result.end, execution::RunEnd::Alarm);
 }
 
 /// Three rotary axes of eight positions each.

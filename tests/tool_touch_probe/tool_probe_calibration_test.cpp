@@ -37,21 +37,6 @@ struct Calibrating {
   simulation::TrueTool pin;
 };
 
-/// What a run has found: middle of the upper edge, half widths.
-std::array<double, 5> found(const Ran& ran) {
-  coverage::writesRead(ran.outcome.control, ran.outcome.journal,
-                       [](const control::WriteRecord& write) { return write.entry.starts_with("TT "); });
-  std::array<double, 5> values;
-  values.fill(std::nan(""));
-  constexpr const char* names[] = {"TT centre, X", "TT centre, Y", "TT centre, Z", "TT radius, main axis",
-                                   "TT radius, minor axis"};
-  for (const auto& cycle : ran.outcome.journal.cycles)
-    for (const auto& write : cycle.writes)
-      for (std::size_t i = 0; i < 5; ++i)
-        if (write.entry == names[i]) values[i] = std::stod(write.after);
-  return values;
-}
-
 TEST(ToolProbeCalibration, FindsPlaceAndWidthWithAPinThatRunsOut) {
   Dice dice(4801);
   for (int at = 0; at < 12; ++at) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <sstream>
 
 #include "cycles_heidenhain/table_folder.hpp"
@@ -116,6 +118,21 @@ inline std::vector<double> shownTeeth(const control::CycleRecord& cycle, const s
       teeth.push_back(std::stod(value));
   }
   return teeth;
+}
+
+/// What a run has found: middle of the upper edge, half widths.
+inline std::array<double, 5> found(const Ran& ran) {
+  coverage::writesRead(ran.outcome.control, ran.outcome.journal,
+                       [](const control::WriteRecord& write) { return write.entry.starts_with("TT "); });
+  std::array<double, 5> values;
+  values.fill(std::nan(""));
+  constexpr const char* names[] = {"TT centre, X", "TT centre, Y", "TT centre, Z", "TT radius, main axis",
+                                   "TT radius, minor axis"};
+  for (const auto& cycle : ran.outcome.journal.cycles)
+    for (const auto& write : cycle.writes)
+      for (std::size_t i = 0; i < 5; ++i)
+        if (write.entry == names[i]) values[i] = std::stod(write.after);
+  return values;
 }
 
 }  // namespace probewright::testing_support

@@ -109,6 +109,21 @@ TEST(TurningToolMeasurement, FindsTheLengthsThatTheOrientationLetsItTouch) {
   }
 }
 
+/// The example that the manuals print: a check.
+TEST(TurningToolMeasurement, RunsThePrintedExample) {
+  Dice dice(4853);
+  Turning turning(dice);
+  turning.plant(25.5, 88.25, 0.8, -1, -1, 0);
+  turning.enterTool({{"ZL", "88.2200"}, {"XL", "25.5500"}, {"RS", "0.8"}, {"TO", "1"}, {"TYPE", "ROUGH"}});
+  const Ran ran = turning.world.bare(
+      "6 TOOL CALL 12 Z\n7 TCH PROBE 485 IZMERIT TOKARNYJ INSTR. ~\n  Q340=+1 ;PROWERKA ~\n  Q260=+100 ;HEIGHT\n");
+  ASSERT_TRUE(ran.finished()) << ran.why();
+  EXPECT_NEAR(ran.q(115), 0.03, 2e-6);
+  EXPECT_NEAR(ran.q(116), -0.05, 2e-6);
+  EXPECT_NEAR(turning.turned(ran, "DZL"), 0.03, 5.1e-5);
+  EXPECT_NEAR(turning.turned(ran, "DXL"), -0.05, 5.1e-5);
+}
+
 TEST(TurningToolMeasurement, LocksBeyondItsTolerances) {
   Dice dice(4851);
   for (const int mode : {0, 1, 2}) {

@@ -50,7 +50,10 @@ public:
       const bool before = fault_.empty() && !point_.configured(references_);
       if (fault_.empty() && stops_ && (before || state() == error)) {
         text = fmt::format("{}: {}", question, screen.message());
+        const int shown = point_.images.back().number;
         show(screen, before ? question : question + " error");
+        for (const auto& image : point_.images)
+          if (image.number > shown) noteImage(image);
       }
     }
     if (cover == CoverAfterwards::Closed) closeCover();
@@ -121,7 +124,10 @@ private:
                   fmt::format("The monitoring file {} has {} images", fileStem(point_), point_.images.size()),
                   "delete images with SELECT IMAGE and DELETE IMAGE, or name another monitoring point");
     }
-    const control::heidenhain::MonitoringImage& image = point_.add(picture);
+    noteImage(point_.add(picture));
+  }
+
+  void noteImage(const control::heidenhain::MonitoringImage& image) {
     const std::string name = imageFileName(point_, image);
     requireFile(name);
     if (image.number == 1) requireFile(monitoringFileName(point_));

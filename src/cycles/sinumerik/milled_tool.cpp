@@ -11,6 +11,7 @@
 #include "control/alarm.hpp"
 #include "control/sinumerik/measuring_data.hpp"
 #include "cycles/sinumerik/corrections.hpp"
+#include "cycles/sinumerik/rotation_offset.hpp"
 #include "cycles/sinumerik/tool_at_probe.hpp"
 #include "cycles/sinumerik/tool_results.hpp"
 #include "cycles/sinumerik/turning_touches.hpp"
@@ -81,6 +82,8 @@ private:
   std::vector<double> measureEdges();
   probing::ToolStrokeTouch touchTurning(const Vector3& direction);
   double findHighest(double angle);
+  /// What turning as in the last touch adds to what is measured.
+  double offsetOfTurning();
   /// What the tip says of the tool: actual less believed value.
   double difference(const Vector3& tip) const;
   void orientTo(double angle);
@@ -129,12 +132,32 @@ probing::ToolStrokeTouch Measurement::touchTurning(const Vector3& direction) {
   return touched;
 }
 
+double Measurement::offsetOfTurning() {
+  const auto& data = context_.control().data;
+  switch (rotationOffsetOf(data)) {
+    case RotationOffset::None:
+      return 0;
+    case RotationOffset::OfTheMaker:
+      context_.control().panel.message(control::EventKind::Warning,
+                                       "CYCLE971: the tables of the probe's maker (SD 54691 = 1) are not known here: "
+                                       "nothing is added. Enter yours in "
+                                       "SD 54695 to 54710 and set SD 54691 = 2",
+                                       context_.channel().seconds());
+      return 0;
+    case RotationOffset::OfTheUser:
+      return rotationOffset(data, isLength() ? TurningDimension::Length : TurningDimension::Radius, tool_.radius(),
+                            request_.touches.back().speed);
+  }
+  return 0;
+}
+
 double Measurement::measureWhole() {
   if (request_.touches.empty()) spindle_.stand();
   const Vector3 direction = isLength() ? ToolAtProbe::down() : ToolAtProbe::along(request_.axis, request_.sign);
   isLength() ? tool_.goAbove(placeOfLength())
              : tool_.goBeside(request_.axis, request_.sign, centre_[1 - request_.axis]);
-  return difference(request_.touches.empty() ? tool_.touch(direction) : touchTurning(direction).tip);
+  if (request_.touches.empty()) return difference(tool_.touch(direction));
+  return difference(touchTurning(direction).tip) + offsetOfTurning();
 }
 
 void Measurement::orientTo(double angle) { context_.positionSpindle(std::remainder(angle, 360)); }

@@ -8,6 +8,7 @@
 #include "control/alarm.hpp"
 #include "control/sinumerik/tool_carrier.hpp"
 #include "execution/motion/tilted_plane.hpp"
+#include "execution/sinumerik/swivel_travel.hpp"
 #include "machine/rotary_solver.hpp"
 
 namespace probewright::execution::sinumerik {
@@ -80,6 +81,20 @@ void retract(Control& control, const SwivelCall& call) {
   }
 }
 
+/// A Hirth coupling may leave the tool beside the normal of the plane.
+void warnOfLean(Control& control, const Vector3& normal, const AxisPositions& posture) {
+  const control::Channel& channel = control.channel;
+  const Vector3 tool = machine::toolOrientation(channel.description(), channel.rotaryOffset, posture).col(2);
+  const double lean = degreesFromRadians(std::atan2(tool.cross(normal).norm(), tool.dot(normal)));
+  constexpr double noticed = 1e-6;  // degrees
+  if (lean <= noticed) return;
+  control.panel.message(control::EventKind::Warning,
+                        fmt::format("CYCLE800: the tool leans {:.4f} degrees beside the normal of the plane, at the "
+                                    "nearest positions of the Hirth coupling",
+                                    lean),
+                        channel.seconds());
+}
+
 }  // namespace
 
 std::optional<Matrix3> swivelRotation(int mode, const Vector3& angles) {
@@ -148,6 +163,10 @@ void swivel(Control& control, const SwivelCall& call) {
 
   const bool additive = call.state % 10 == 1;
   useDataSet(control, call.dataSet);
+  const SwivelTravel travel(control);
+  const char* unreachable = "the rotary axes cannot take this plane within their travels";
+  const char* travelAdvice =
+      "check the angles of CYCLE800, the travels of the rotary axes, and the limits $TC_CARR30 to 33 of the data set";
   const Frame before = additive ? control.frames.toolOriented : Frame{};
   AxisPositions target = channel.axes();
   Matrix3 turn = Matrix3::Identity();
@@ -157,6 +176,9 @@ void swivel(Control& control, const SwivelCall& call) {
     // The angles are those of the first and second rotary axis; the plane follows from them.
     for (std::size_t i = 0; i < axes.size() && i < 3; ++i)
       target[axes[i]] = call.angles[static_cast<Eigen::Index>(i)] + channel.rotaryOffset[axes[i]];
+    const auto stands = travel.reached(target);
+    if (!stands) throw Alarm("62201", unreachable, travelAdvice);
+    target = *stands;
     const Pose referenceFromTable = machine::baseFromTable(machine, channel.rotaryOffset);
     const Eigen::Affine3d outer =
         control.machineFromBase() * control::sinumerik::transform(control.frames.settableFrame);
@@ -174,10 +196,10 @@ void swivel(Control& control, const SwivelCall& call) {
 
   if (rotation) {
     const Vector3 normal = (control.machineFromWorkpiece().linear() * Vector3::UnitZ()).normalized();
-    std::vector<AxisPositions> solutions = toolPostures(machine, channel.rotaryOffset, channel.axes(), normal);
-    if (solutions.empty() && !axes.empty())
-      throw Alarm("62201", "the rotary axes cannot take this plane within their travels",
-                  "check the angles of CYCLE800 and the travels of the rotary axes");
+    std::vector<AxisPositions> solutions;
+    for (const AxisPositions& exact : toolPostures(machine, channel.rotaryOffset, channel.axes(), normal))
+      if (const auto stands = travel.reached(exact)) solutions.push_back(*stands);
+    if (solutions.empty() && !axes.empty()) throw Alarm("62201", unreachable, travelAdvice);
     // _DIR picks between the two postures by the axis that tilts: the first whose value differs between them.
     if (solutions.size() > 1 && call.direction != 0) {
       for (const std::size_t axis : axes) {
@@ -188,7 +210,10 @@ void swivel(Control& control, const SwivelCall& call) {
         break;
       }
     }
-    if (!solutions.empty()) target = solutions.front();
+    if (!solutions.empty()) {
+      target = solutions.front();
+      warnOfLean(control, normal, target);
+    }
   }
   if (call.direction == 0 || axes.empty()) return;
   AxisPositions end = channel.axes();

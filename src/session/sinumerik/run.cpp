@@ -163,6 +163,18 @@ machine::MachineDescription believedAtTheEnd(const sin::Control& control) {
   return described ? *std::move(described) : control.told();
 }
 
+/// Hirth couplings that the control has been told of, into the data set that describes its machine.
+void enterHirthGrids(sin::Control& control, const control::Beliefs& beliefs) {
+  const auto carrier = sin::toolCarrier(control.data, 1);
+  if (!carrier) return;
+  for (int which = 0; which < carrier->axes(); ++which) {
+    const auto belief = beliefs.kinematics.find(carrier->axisName[static_cast<std::size_t>(which)]);
+    const sin::DataKey grid = sin::carrierDatum(28 + which, 1);
+    if (belief != beliefs.kinematics.end() && belief->second.hirthGrid > 0 && !control.data.isSet(grid))
+      control.data.load(grid, belief->second.hirthGrid);
+  }
+}
+
 void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& globalData, FolderReading reading,
          machine::Machine& trueMachine, HostFiles& host, RunOutcome& outcome) {
   const RunOptions& options = request.options;
@@ -178,6 +190,7 @@ void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& 
   if (hasErrors(outcome.diagnostics)) return;
   StandingMachine machine(trueMachine);
   sin::Control control(machine, data.store, control::believedMachine(trueMachine.description(), beliefs.kinematics));
+  enterHirthGrids(control, beliefs);
   setPanel(control.panel, request, dataNames);
   control.journal.limit = options.recordLimit;
   control.programPath = request.path.string();
