@@ -57,6 +57,7 @@ struct CheckArguments {
   std::optional<control::ControlKind> control;
   std::bitset<10> skipLevels;
   CheckFormat format = CheckFormat::Text;
+  bool watch = false;  ///< once more after each change of a file, until Ctrl-C
 };
 int check(const CheckArguments& arguments);
 

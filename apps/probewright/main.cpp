@@ -264,6 +264,10 @@ int main(int argc, char** argv) {
       ->add_option("--setup", checkArguments.setup,
                    "Also name tools and presets that the control of this setup does not have")
       ->type_name("FILE");
+  check
+      ->add_flag("--watch", checkArguments.watch,
+                 "Check once more whenever a program, the setup or a file beside the programs changes, until Ctrl-C")
+      ->excludes("--format");
   addControl(*check, checkArguments.control);
   addSkip(*check, checkArguments.skipLevels);
 
