@@ -39,6 +39,7 @@ struct RunArguments {
   std::vector<const exchange::Format*> exports;  ///< files for other programs, beside results.json
   std::filesystem::path append;                  ///< record of many runs; empty: none
   std::filesystem::path tables;                  ///< instead of the setup's folder of tables; empty: that of the setup
+  bool blind = false;                            ///< says nothing of what only the virtual machine knows
   bool quiet = false;
 };
 int run(const RunArguments& arguments);

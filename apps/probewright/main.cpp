@@ -251,6 +251,8 @@ int main(int argc, char** argv) {
          "Begin with the control's tables in this folder, such as that of an earlier run, instead of the setup's")
       ->type_name("DIR");
   run->add_flag("--screens", runArguments.screens, "Show the result screens of all cycles, also of those that are off");
+  run->add_flag("--blind", runArguments.blind,
+                "Say nothing of what only the virtual machine knows: true values, errors, what stands in the way");
   run->add_flag("--quiet", runArguments.quiet, "Print nothing but mistakes");
 
   probewright::app::CheckArguments checkArguments;

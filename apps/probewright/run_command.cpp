@@ -179,6 +179,7 @@ int run(const RunArguments& arguments) {
     fmt::print(stderr, "another run is replacing the tables in {}: waiting for it\n", tables.string());
   });
   setup::MachineOptions machine;
+  machine.blind = arguments.blind;
   machine.import.cache = cacheFolder(arguments.cache);
   if (const Result<void> tidied = tidyOutput(arguments.out, options.stop); !tidied) {
     print({tidied.error()});

@@ -10,6 +10,7 @@
 #include "cycles/main_results.hpp"
 #include "records/readable_text.hpp"
 #include "records/results.hpp"
+#include "reports/truth_summary.hpp"
 
 namespace probewright::reports {
 
@@ -66,10 +67,11 @@ std::string quantity(double value, const std::string& unit) {
   return unit.empty() ? formatShortest(value) : formatFixed(value, unit == "in" ? 5 : 4);
 }
 
+constexpr double inch = 25.4;
+
 /// The result in the unit of its program.
 control::ResultRecord inInches(control::ResultRecord result) {
   if (result.unit != "mm") return result;
-  constexpr double inch = 25.4;
   result.unit = "in";
   result.value /= inch;
   for (auto* length : {&result.nominal, &result.deviation, &result.lowerLimit, &result.upperLimit}) {
@@ -121,7 +123,9 @@ std::string counted(std::size_t n, std::string_view one, std::string_view many) 
   return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
-std::string resultLine(const control::ResultRecord& result, std::size_t meaningWidth, const Style& style) {
+std::string resultLine(const control::ResultRecord& measured, const std::optional<records::TrueValue>& truth,
+                       std::size_t meaningWidth, const Style& style) {
+  const control::ResultRecord result = style.inches ? inInches(measured) : measured;
   std::string limits;
   if (result.lowerLimit && result.upperLimit)
     limits = fmt::format("  [{} .. {}]", quantity(*result.lowerLimit, result.unit),
@@ -136,6 +140,11 @@ std::string resultLine(const control::ResultRecord& result, std::size_t meaningW
                   meaningWidth, quantity(result.value, result.unit), result.unit, deviation, limits);
   text.erase(text.find_last_not_of(' ') + 1);
   if (result.verdict != Verdict::None) text += "  " + style.paint(tone(result.verdict), word(result.verdict));
+  if (truth) {
+    records::TrueValue known = *truth;
+    if (result.unit != measured.unit) known.value /= inch;
+    text += besideResult(known, result.value, result.unit == "in" ? 5 : 4);
+  }
   return text + "\n";
 }
 
@@ -159,7 +168,8 @@ std::string screenText(const std::string& screen, const Style& style) {
   return text + "      +" + std::string(30, '-') + "\n";
 }
 
-std::string cycleText(const control::CycleRecord& cycle, std::size_t number, bool saidAtTheEnd, const Style& style) {
+std::string cycleText(const control::CycleRecord& cycle, const records::CycleTruth& truth, std::size_t number,
+                      bool saidAtTheEnd, const Style& style) {
   std::string text = fmt::format("{:>3}  {} {}", number, style.line(cycle.name), style.line(cycle.title));
   const std::string place = style.place(cycle.place);
   if (!place.empty()) text += fmt::format("  ({})", place);
@@ -175,7 +185,8 @@ std::string cycleText(const control::CycleRecord& cycle, std::size_t number, boo
   }
   for (std::size_t i = 0; i < isMain.size(); ++i) {
     if (!isMain[i]) continue;
-    text += resultLine(style.inches ? inInches(cycle.results[i]) : cycle.results[i], width, style);
+    const auto known = i < truth.results.size() ? truth.results[i] : std::nullopt;
+    text += resultLine(cycle.results[i], known, width, style);
   }
   for (const auto& write : cycle.writes)
     text += writeLine(write, style);
@@ -262,11 +273,14 @@ std::string summaryText(const control::Journal& journal, const records::RunInfo&
 
   for (std::size_t i = 0; i < journal.cycles.size(); ++i) {
     const control::CycleRecord& cycle = journal.cycles[i];
-    text += cycleText(cycle, i + 1, !cycle.alarm.empty() && cycle.alarm == run.exitText, style);
+    const bool known = run.truth && i < run.truth->cycles.size();
+    text += cycleText(cycle, known ? run.truth->cycles[i] : records::CycleTruth(), i + 1,
+                      !cycle.alarm.empty() && cycle.alarm == run.exitText, style);
   }
   if (!journal.writes.empty()) text += "  by the program itself\n";
   for (const auto& write : journal.writes)
     text += writeLine(write, style);
+  if (run.truth) text += entriesText(*run.truth, [&](const std::string& bytes) { return style.line(bytes); });
   std::size_t alarms = 0;
   std::string where;
   for (std::size_t i = 0; i < journal.events.size(); ++i) {

@@ -13,8 +13,8 @@ enum class Colour { Off, On };
 enum class Cause { Shown, Told };
 
 /// The run in a few lines for a terminal: each cycle with its line, its main results (cycles::mainResults), what it
-/// wrote and its verdict; at the end the state of the whole, path, time and alarms. With Colour::On verdicts carry ANSI
-/// colours.
+/// wrote and its verdict, and the true values where they are known; at the end the state of the whole, path, time and
+/// alarms. With Colour::On verdicts carry ANSI colours.
 std::string summaryText(const control::Journal& journal, const records::RunInfo& run, Colour colour = Colour::Off,
                         Cause cause = Cause::Shown);
 

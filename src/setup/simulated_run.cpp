@@ -7,6 +7,7 @@
 #include "camera/virtual_camera.hpp"
 #include "simulation/cad_solid.hpp"
 #include "simulation/mesh_solid.hpp"
+#include "truth/run_truth.hpp"
 
 namespace probewright::setup {
 
@@ -54,6 +55,7 @@ SimulatedRun runPrepared(session::PreparedProgram prepared, const Setup& setup, 
     info.partName = solid.name;
     info.partPath = solid.source.file.string();
   }
+  if (run.machine && options.recordPath && !options.blind) info.truth = truth::truthOf(run.outcome, *run.machine);
   return run;
 }
 

@@ -15,6 +15,7 @@ namespace probewright::setup {
 /// How the machine is built.
 struct MachineOptions {
   bool recordPath = true;
+  bool blind = false;                     ///< what the machine knows and the control does not is not told
   simulation::ImportOptions import = {};  ///< of parts; the run's stop token stops it, too
 };
 

@@ -1,0 +1,65 @@
+#include "truth/true_values.hpp"
+
+#include <cmath>
+
+#include "truth/features.hpp"
+
+namespace probewright::truth {
+
+namespace {
+
+using control::Quantity;
+using control::ResultRecord;
+
+bool isAngle(const ResultRecord& result) {
+  return result.kind.of.quantity == Quantity::Angle || result.kind.of.quantity == Quantity::Projection;
+}
+
+std::optional<records::TrueValue> trueValueOf(const ResultRecord& result, const TouchedCycle& cycle,
+                                              const TouchedCycle& asMachine,
+                                              const std::vector<control::FitRecord>& fits) {
+  if (result.kind.role != control::Role::Actual || !std::isfinite(result.value)) return std::nullopt;
+  const bool inMachineSystem = result.kind.of.system == control::System::Machine;
+  const double near = isAngle(result) ? 0.005 : 0.02;
+  std::optional<Explanation> best;
+  double least = near;
+  for (const Explanation& way : explanations(result.kind.of, inMachineSystem ? asMachine : cycle, fits)) {
+    const double apart = std::abs(way.believed - result.value);
+    if (apart >= least) continue;
+    least = apart;
+    best = way;
+  }
+  if (!best) return std::nullopt;
+  return records::TrueValue{best->truth, best->basis, best->shape};
+}
+
+std::optional<records::TrueTouch> trueTouchOf(const TouchedPoint& touched, const control::WorkingPlane& plane,
+                                              const std::string& solid) {
+  records::TrueTouch touch;
+  touch.surface = plane.xyzFromPlane(touched.point);
+  touch.error = (touched.surface - touched.point).dot(touched.normal);
+  touch.solid = solid;
+  if (touched.face) touch.shape = nameOf(touched.face->kind);
+  return touch;
+}
+
+}  // namespace
+
+std::vector<records::CycleTruth> trueValues(const control::Journal& journal, const std::vector<TouchedCycle>& touched,
+                                            const simulation::Truth& truth) {
+  std::vector<records::CycleTruth> cycles;
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    const control::CycleRecord& record = journal.cycles[i];
+    records::CycleTruth cycle;
+    cycle.touches.resize(record.touches.size());
+    for (const TouchedPoint& point : touched[i].points)
+      cycle.touches[point.touch] = trueTouchOf(point, touched[i].plane, truth.solids[point.solid].name);
+    const TouchedCycle asMachine = inMachine(touched[i]);
+    for (const ResultRecord& result : record.results)
+      cycle.results.push_back(trueValueOf(result, touched[i], asMachine, record.fits));
+    cycles.push_back(std::move(cycle));
+  }
+  return cycles;
+}
+
+}  // namespace probewright::truth

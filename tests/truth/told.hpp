@@ -1,0 +1,87 @@
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "records/truth.hpp"
+#include "setup/simulated_run.hpp"
+
+/// Programs in worlds that setup files plant, and what is told of the truth afterwards.
+namespace probewright::truth::testing {
+
+/// A setup with a probe of ball radius 3 that is believed as `believedRadius`, preset 1 and G54 at `origin`.
+struct World {
+  std::string control = "TNC640";
+  std::string part;  ///< [part] with its features
+  double believedRadius = 3;
+  Vector3 origin = Vector3::Zero();
+  double rotation = 0;  ///< degrees about Z
+  std::string probe;    ///< more keys of the probe
+  std::string more;     ///< more sections
+
+  std::string text() const {
+    const std::string frame = fmt::format("origin = [{}, {}, {}]\nrotation = [0, 0, {}]\nactive = true\n", origin.x(),
+                                          origin.y(), origin.z(), rotation);
+    return fmt::format(
+        "seed = 7\n[control]\ntype = \"{}\"\n{}\n[[tool]]\nnumber = 1\nname = \"PROBE\"\nkind = \"probe\"\n"
+        "length = 150\nball_radius = 3\nbelieved_radius = {}\n{}\n{}{}\n{}",
+        control, part, believedRadius, probe,
+        control == "840Dsl" ? "[[zero_offset]]\nname = \"G54\"\n" : "[[preset]]\nrow = 1\n", frame, more);
+  }
+};
+
+struct Told {
+  session::RunOutcome outcome;
+
+  bool finished() const { return outcome.result.end == execution::RunEnd::Finished && outcome.diagnostics.empty(); }
+  std::string why() const {
+    for (const Diagnostics* list : {&outcome.diagnostics, &outcome.result.diagnostics})
+      if (!list->empty()) return format(list->front());
+    return {};
+  }
+  const records::Truth& truth() const { return *outcome.info.truth; }
+  /// The true value of a result of the last cycle.
+  std::optional<records::TrueValue> of(const std::string& name) const {
+    const auto& results = outcome.journal.cycles.back().results;
+    const auto found = std::ranges::find(results, name, &control::ResultRecord::name);
+    if (found == results.end()) {
+      ADD_FAILURE() << "no result " << name;
+      return std::nullopt;
+    }
+    return truth().cycles.back().results[static_cast<std::size_t>(found - results.begin())];
+  }
+  double value(const std::string& name) const {
+    const auto known = of(name);
+    EXPECT_TRUE(known) << name << " has no true value";
+    return known ? known->value : 1e9;
+  }
+  double measured(const std::string& name) const {
+    const auto& results = outcome.journal.cycles.back().results;
+    return std::ranges::find(results, name, &control::ResultRecord::name)->value;
+  }
+};
+
+inline Told run(const World& world, const std::string& program, setup::MachineOptions options = {}) {
+  Diagnostics diagnostics;
+  const auto setup = setup::parseSetup(world.text(), "world.toml", diagnostics);
+  if (!setup) {
+    ADD_FAILURE() << format(diagnostics.front());
+    return {};
+  }
+  const bool heidenhain = world.control != "840Dsl";
+  const std::string text = heidenhain ? "BEGIN PGM T MM\n" + program + "END PGM T MM\n" : program + "M30\n";
+  return {setup::runText(heidenhain ? "T.H" : "T.MPF", text, *setup, session::RunOptions(), options).outcome};
+}
+
+/// A plate of 80 x 60 x 20 whose top face carries the part's origin, with a hole of 30.01 in the middle.
+inline std::string plate(const std::string& pose) {
+  return "[part]\nname = \"plate\"\npose = " + pose +
+         "\n[[part.feature]]\nshape = \"box\"\ncentre = [0, 0, -20]\nsize = [80, 60, 20]\n"
+         "[[part.feature]]\nshape = \"hole\"\ndiameter = 30.01\n";
+}
+
+}  // namespace probewright::truth::testing

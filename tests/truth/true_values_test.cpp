@@ -1,0 +1,203 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "metrology/elements.hpp"
+#include "records/results.hpp"
+#include "reports/summary.hpp"
+#include "truth/told.hpp"
+
+/// The true values beside results, against what was planted.
+namespace probewright::truth::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double exact = 1e-6;  // mm
+
+const std::string hole421 =
+    "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 421 HOLE ~\nQ273=+0 ~\nQ274=+0 ~\nQ262=+30 ~\nQ325=+0 ~\nQ247=+90 ~\n"
+    "Q261=-5 ~\nQ320=+2 ~\nQ260=+20 ~\nQ301=+0 ~\nQ275=+30.021 ~\nQ276=+30 ~\nQ279=+0.5 ~\nQ280=+0.5 ~\nQ281=+0 ~\n"
+    "Q309=+0 ~\nQ330=+0\n";
+
+const std::string hole977 = "T1 D1\nM6\nG54 G17 G0 X0 Y0 Z-5\nCYCLE977(1,,,1,30,,,5,1,,,,,,1)\n";
+
+/// As a table of the control can hold it.
+double written(double value) { return std::round(value * 1000) / 1000; }
+
+/// Where a point of the plate truly is in the preset's system.
+Vector3 seen(const World& world, const Pose& tableFromPart, const Vector3& point) {
+  const Pose tableFromPreset = translation(world.origin) * probewright::rotation(Vector3::UnitZ(), world.rotation);
+  return tableFromPreset.inverse() * (tableFromPart * point);
+}
+
+TEST(TrueValues, OfAHoleAreItsOwnWhateverTheProbeBelieves) {
+  std::mt19937_64 engine(15);
+  std::uniform_real_distribution<double> off(-0.8, 0.8);
+  for (const char* control : {"TNC640", "840Dsl"}) {
+    for (int i = 0; i < 4; ++i) {
+      World world;
+      world.control = control;
+      world.origin = {10 + written(off(engine)), 5, -480};
+      world.rotation = written(3 * off(engine));
+      world.believedRadius = 3 + 0.01 * off(engine);
+      world.probe = "repeatability = 0.001\n";
+      const double x = 10 + off(engine), y = 5 + off(engine), c = off(engine);
+      world.part = plate(fmt::format("{{ x = {}, y = {}, z = -480, c = {} }}", x, y, c));
+      const bool heidenhain = world.control == "TNC640";
+      const Told told = run(world, heidenhain ? hole421 : hole977);
+      ASSERT_TRUE(told.finished()) << told.why();
+      const Vector3 centre =
+          seen(world, translation({x, y, -480}) * probewright::rotation(Vector3::UnitZ(), c), Vector3::Zero());
+      EXPECT_NEAR(told.value(heidenhain ? "Q153" : "_OVR[4]"), 30.01, exact);
+      EXPECT_NEAR(told.value(heidenhain ? "Q151" : "_OVR[5]"), centre.x(), exact);
+      EXPECT_NEAR(told.value(heidenhain ? "Q152" : "_OVR[6]"), centre.y(), exact);
+      EXPECT_EQ(told.of(heidenhain ? "Q153" : "_OVR[4]")->basis, records::TruthBasis::Face);
+      EXPECT_EQ(told.of(heidenhain ? "Q153" : "_OVR[4]")->shape, "cylinder");
+      // What the control measures has the error of its belief: the ball counts twice.
+      EXPECT_NEAR(told.measured(heidenhain ? "Q153" : "_OVR[4]"), 30.01 + 2 * (world.believedRadius - 3), 0.004);
+    }
+  }
+}
+
+TEST(TrueValues, OfATiltedHoleStandWhereItsAxisPassesTheHeightOfTheTouches) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480, b = 2 }");
+  const Told told = run(world, hole421);
+  ASSERT_TRUE(told.finished()) << told.why();
+  // The axis leans by 2 degrees in X and passes the origin; Q261 puts the ball's centre 5 mm below it. It touches a
+  // little higher or lower, where the wall leans: the mean height is that of the centre.
+  EXPECT_NEAR(told.value("Q151"), -5 * std::tan(radiansFromDegrees(2)), 1e-4);
+  EXPECT_NEAR(told.value("Q153"), 30.01, exact);
+  // A plane square to the tool cuts the cylinder in an ellipse: what was measured is wider.
+  EXPECT_GT(told.measured("Q153"), 30.012);
+}
+
+TEST(TrueValues, OfARectangleAreThoseOfItsFaces) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part =
+      "[part]\npose = { x = 0.3, y = -0.2, z = -480, c = 1 }\n[[part.feature]]\nshape = \"box\"\ncentre = [0, 0, -20]\n"
+      "size = [80, 60, 20]\n[[part.feature]]\nshape = \"pocket\"\nsize = [30, 20]\ndepth = 15\ncorner_radius = 4\n";
+  const Told told = run(world,
+                        "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 423 POCKET ~\nQ273=+0 ~\nQ274=+0 ~\nQ282=+30 ~\n"
+                        "Q283=+20 ~\nQ261=-5 ~\nQ320=+2 ~\nQ260=+20 ~\nQ301=+0 ~\nQ284=+30.5 ~\nQ285=+29.5 ~\n"
+                        "Q286=+20.5 ~\nQ287=+19.5 ~\nQ279=+1 ~\nQ280=+1 ~\nQ281=+0 ~\nQ309=+0 ~\nQ330=+0\n");
+  ASSERT_TRUE(told.finished()) << told.why();
+  EXPECT_NEAR(told.value("Q154"), 30, exact);
+  EXPECT_NEAR(told.value("Q155"), 20, exact);
+  EXPECT_NEAR(told.value("Q151"), 0.3, exact);
+  EXPECT_NEAR(told.value("Q152"), -0.2, exact);
+  // Probed along the axes a turned rectangle is longer: 30 / cos(1 degree).
+  EXPECT_NEAR(told.measured("Q154"), 30 / std::cos(radiansFromDegrees(1)), 0.002);
+}
+
+TEST(TrueValues, OfASlopingFaceAreThoseWhereItWasProbed) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480, b = -3 }");
+  // The top face rises towards +X with the tangent of 3 degrees.
+  const Told told =
+      run(world,
+          "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 427 COORDINATE ~\nQ263=+30 ~\nQ264=+5 ~\nQ261=+0 ~\n"
+          "Q320=+2 ~\nQ272=+3 ~\nQ267=-1 ~\nQ260=+20 ~\nQ281=+0 ~\nQ288=+5 ~\nQ289=-5 ~\nQ309=+0 ~\nQ330=+0\n");
+  ASSERT_TRUE(told.finished()) << told.why();
+  EXPECT_NEAR(told.value("Q160"), 30 * std::tan(radiansFromDegrees(3)), exact);
+  // The ball lies on the slope beside its lowest point.
+  EXPECT_NEAR(told.measured("Q160") - told.value("Q160"), 3 * (1 / std::cos(radiansFromDegrees(3)) - 1), 1e-5);
+  const auto& touch = told.truth().cycles.back().touches.front();
+  ASSERT_TRUE(touch);
+  EXPECT_EQ(touch->solid, "plate");
+  EXPECT_EQ(touch->shape, "plane");
+}
+
+TEST(TrueValues, OfAnEdgeAndAPlaneAreTheirAngles) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480, c = 1.5 }");
+  const Told edge = run(world,
+                        "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 420 ANGLE ~\nQ263=-30 ~\nQ264=-30 ~\nQ265=+30 ~\n"
+                        "Q266=-30 ~\nQ272=+2 ~\nQ267=+1 ~\nQ261=-8 ~\nQ320=+2 ~\nQ260=+20 ~\nQ301=+1 ~\nQ281=+0\n");
+  ASSERT_TRUE(edge.finished()) << edge.why();
+  EXPECT_NEAR(edge.value("Q150"), 1.5, exact);
+  world.part = plate("{ z = -480, a = 1.2 }");
+  const Told plane = run(world,
+                         "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 431 PLANE ~\nQ263=+30 ~\nQ264=-25 ~\nQ294=+0 ~\n"
+                         "Q265=-30 ~\nQ266=-25 ~\nQ295=+0 ~\nQ296=+30 ~\nQ297=+25 ~\nQ298=+0 ~\nQ320=+2 ~\nQ260=+20 ~\n"
+                         "Q281=+0\n");
+  ASSERT_TRUE(plane.finished()) << plane.why();
+  EXPECT_NEAR(std::abs(plane.value("Q170")), 1.2, exact);
+  EXPECT_GT(plane.value("Q170") * plane.measured("Q170"), 0);
+  EXPECT_FALSE(plane.of("Q172")) << "a plane does not tell its angle about Z";
+}
+
+TEST(TrueValues, OfACornerAndACircleOfHolesComeFromSeveralFaces) {
+  World world;
+  world.origin = {0, 0, -480};
+  const double x = 0.4, y = -0.3, c = 0.7;
+  world.part = plate(fmt::format("{{ x = {}, y = {}, z = -480, c = {} }}", x, y, c));
+  const Told corner =
+      run(world,
+          "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 414 CORNER ~\nQ263=-30 ~\nQ264=-30 ~\nQ326=+20 ~\n"
+          "Q296=-40 ~\nQ297=-20 ~\nQ327=+20 ~\nQ261=-8 ~\nQ320=+3 ~\nQ260=+20 ~\nQ301=+1 ~\nQ304=+0 ~\n"
+          "Q305=+1 ~\nQ331=+0 ~\nQ332=+0 ~\nQ303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\nQ383=+0 ~\nQ384=+0 ~\nQ333=+0\n");
+  ASSERT_TRUE(corner.finished()) << corner.why();
+  const Vector3 planted = translation({x, y, 0}) * probewright::rotation(Vector3::UnitZ(), c) * Vector3(-40, -30, 0);
+  EXPECT_NEAR(corner.value("Q151"), planted.x(), exact);
+  EXPECT_NEAR(corner.value("Q152"), planted.y(), exact);
+
+  // Holes on a circle of 40, the second of them 0.1 mm too far out.
+  world.part =
+      "[part]\npose = { z = -480 }\n[[part.feature]]\nshape = \"box\"\ncentre = [0, 0, -20]\nsize = [80, 80, 20]\n";
+  std::vector<Vector2> centres;
+  for (int i = 0; i < 3; ++i) {
+    const double radius = i == 1 ? 20.1 : 20, at = radiansFromDegrees(30 + 120 * i);
+    centres.emplace_back(radius * std::cos(at), radius * std::sin(at));
+    world.part += fmt::format("[[part.feature]]\nshape = \"hole\"\ndiameter = 12\ncentre = [{}, {}, 0]\n",
+                              centres.back().x(), centres.back().y());
+  }
+  const auto circle = *metrology::circleThrough(centres[0], centres[1], centres[2]);
+  const Told bolts =
+      run(world,
+          "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 430 CIRCLE ~\nQ273=+0 ~\nQ274=+0 ~\nQ262=+40 ~\n"
+          "Q291=+30 ~\nQ292=+150 ~\nQ293=+270 ~\nQ261=-5 ~\nQ260=+20 ~\nQ288=+41 ~\nQ289=+39 ~\nQ279=+1 ~\n"
+          "Q280=+1 ~\nQ281=+0 ~\nQ309=+0 ~\nQ330=+0\n");
+  ASSERT_TRUE(bolts.finished()) << bolts.why();
+  EXPECT_NEAR(bolts.value("Q151"), circle.centre.x(), exact);
+  EXPECT_NEAR(bolts.value("Q152"), circle.centre.y(), exact);
+  EXPECT_NEAR(bolts.value("Q153"), 2 * circle.radius, exact);
+}
+
+TEST(TrueValues, AreLeftOutWhereThereIsNone) {
+  World world;
+  world.control = "840Dsl";
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480 }");
+  const Told told = run(world, hole977);
+  ASSERT_TRUE(told.finished()) << told.why();
+  for (const char* name : {"_OVR[0]", "_OVR[16]", "_OVI[3]"})
+    EXPECT_FALSE(told.of(name)) << name;
+}
+
+TEST(TrueValues, AreToldEverywhereButToTheBlind) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480 }");
+  const Told told = run(world, hole421);
+  ASSERT_TRUE(told.finished()) << told.why();
+  const auto json = records::resultsJson(told.outcome.journal, told.outcome.info);
+  EXPECT_NEAR(json["cycles"][0]["results"][2]["truth"]["value"].get<double>(), 30.01, exact);
+  EXPECT_THAT(reports::summaryText(told.outcome.journal, told.outcome.info), HasSubstr("true 30.0100, error "));
+  setup::MachineOptions blind;
+  blind.blind = true;
+  const Told hidden = run(world, hole421, blind);
+  EXPECT_THAT(records::resultsText(hidden.outcome.journal, hidden.outcome.info), Not(HasSubstr("truth")));
+  EXPECT_THAT(reports::summaryText(hidden.outcome.journal, hidden.outcome.info), Not(HasSubstr("true ")));
+}
+
+}  // namespace
+}  // namespace probewright::truth::testing
