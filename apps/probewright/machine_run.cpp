@@ -1,5 +1,6 @@
 #include "machine_run.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "adapter/remote_machine.hpp"
@@ -7,31 +8,27 @@
 namespace probewright::app {
 namespace {
 
-/// The believed length of the touch probe that was in the spindle, or nothing.
-std::optional<double> probeLength(const control::Beliefs& beliefs) {
-  for (const control::BelievedTool& tool : beliefs.tools) {
-    if (tool.kind == "probe") return tool.length;
-  }
-  return std::nullopt;
-}
-
-/// The touches where the control believes that they were. Only probes that stand upright in the spindle are drawn.
-reports::Scene touchedScene(const session::RunOutcome& outcome, const machine::MachineDescription& machine,
-                            const control::Beliefs& beliefs) {
+/// The touches where the control believed that they were, with the tool that it believed to have then.
+reports::Scene touchedScene(const session::RunOutcome& outcome, const adapter::RemoteMachine& remote) {
+  const machine::MachineDescription& machine = remote.description();
   reports::Scene scene;
-  const std::optional<double> length = probeLength(beliefs);
-  if (!length) return scene;
   scene.ballRadius = outcome.ballRadius;
   scene.sceneFromWorkpiece = outcome.machineFromWorkpiece;
+  auto felt = remote.felt().begin();
   for (std::uint32_t cycle = 0; cycle < outcome.journal.cycles.size(); ++cycle) {
     const auto& touches = outcome.journal.cycles[cycle].touches;
     for (std::uint32_t touch = 0; touch < touches.size(); ++touch) {
       const control::TouchRecord& record = touches[touch];
       if (record.outcome != "touched") continue;
+      // Both lists are in the order of time; a measuring block without a cycle is in one only.
+      const auto found =
+          std::find_if(felt, remote.felt().end(), [&](const auto& each) { return each.latched == record.latched; });
+      if (found == remote.felt().end()) continue;
+      felt = found;
       const Pose tableFromSpindle =
           machine::baseFromTable(machine, record.latched).inverse() * machine::baseFromSpindle(machine, record.latched);
-      const Vector3 tip = tableFromSpindle * Vector3(0, 0, -*length);
-      const Vector3 centre = tip + tableFromSpindle.linear() * Vector3(0, 0, outcome.ballRadius);
+      const Vector3 tip = tableFromSpindle * Vector3(-found->toolVector);
+      const Vector3 centre = tip + tableFromSpindle.linear() * Vector3(0, 0, found->toolRadius);
       // The way from the ball's centre to the surface, as the control has it, turned into the scene.
       Vector3 towards = record.surface - record.ballCentre;
       if (outcome.machineFromWorkpiece) towards = outcome.machineFromWorkpiece->linear() * towards;
@@ -45,23 +42,33 @@ reports::Scene touchedScene(const session::RunOutcome& outcome, const machine::M
 
 Result<MachineRun> runOnMachine(const std::string& machine, const std::filesystem::path& program,
                                 const setup::Setup& setup, const session::RunOptions& options) {
+  std::unique_ptr<adapter::RemoteMachine> remote;
+  session::RunOptions own = options;
+  own.ask = [&](const std::string& text) {
+    return remote && remote->asks() ? remote->ask(text) : options.ask && options.ask(text);
+  };
   // A program with mistakes bothers no machine.
-  session::PreparedProgram prepared = session::prepareProgram(program, setup.beliefs, options);
+  session::PreparedProgram prepared = session::prepareProgram(program, setup.beliefs, own);
   if (hasErrors(prepared.diagnostics)) return MachineRun{session::notRun(std::move(prepared)), {}};
   auto connection = adapter::connect(machine);
   if (!connection) return tl::unexpected(connection.error());
-  auto remote = adapter::RemoteMachine::greet(std::move(*connection));
-  if (!remote) return tl::unexpected(remote.error());
-  MachineRun run{session::run(std::move(prepared), **remote), {}};
+  auto greeted = adapter::RemoteMachine::greet(std::move(*connection));
+  if (!greeted) return tl::unexpected(greeted.error());
+  remote = std::move(*greeted);
+  // How rotary axes turn tool and table is known where the setup's machine is this one.
+  remote->adoptChains(setup.world.truth.machine);
+  // An adapter that looks ahead says what went wrong on the last moves when the axes stand.
+  MachineRun run{session::run(std::move(prepared), *remote), {}};
+  static_cast<void>(remote->deflected(machine::Sensor::TouchProbe));
   records::RunInfo& info = run.outcome.info;
   info.setupPath = setup.world.file;
-  if (const auto& failure = (*remote)->failure(); failure && info.exit < records::ExitState::Stopped) {
+  if (const auto& failure = remote->failure(); failure && info.exit < records::ExitState::Stopped) {
     // It came after the last order that would have raised an alarm.
     info.exit = records::ExitState::Stopped;
     info.exitText = *failure;
     run.outcome.result.diagnostics.push_back({Severity::Error, {}, *failure, {}, "see what the machine lacks", {}});
   }
-  run.scene = touchedScene(run.outcome, (*remote)->description(), setup.beliefs);
+  run.scene = touchedScene(run.outcome, *remote);
   return run;
 }
 

@@ -170,6 +170,36 @@ machine::AxisPositions positions(const Json& json, std::size_t axes) {
   return positions;
 }
 
+Json toJson(const machine::OwnTables& tables, std::size_t axes) {
+  Json offsets = Json::array(), tools = Json::array();
+  for (const machine::OwnOffset& offset : tables.offsets)
+    offsets.push_back(
+        {{"number", offset.number}, {"origin", toJson(offset.origin, axes)}, {"rotation", offset.rotation}});
+  for (const machine::OwnTool& tool : tables.tools)
+    tools.push_back({{"number", tool.number}, {"length", tool.length}, {"diameter", tool.diameter}});
+  return {{"offsets", std::move(offsets)}, {"tools", std::move(tools)}};
+}
+
+machine::OwnTables ownTables(const Json& json, std::size_t axes) {
+  const auto listed = [&](const char* name) -> const Json& {
+    const Json& list = member(json, name);
+    if (!list.is_array()) throw Breach(fmt::format("\"{}\" is not a list", name));
+    return list;
+  };
+  const auto numbered = [](const Json& row) {
+    const Json& value = member(row, "number");
+    if (!value.is_number_integer() || value.get<long>() < 0 || value.get<long>() > 1'000'000'000)
+      throw Breach("\"number\" is not the number of a row");
+    return value.get<int>();
+  };
+  machine::OwnTables tables;
+  for (const Json& row : listed("offsets"))
+    tables.offsets.push_back({numbered(row), positions(member(row, "origin"), axes), number(row, "rotation")});
+  for (const Json& row : listed("tools"))
+    tables.tools.push_back({numbered(row), number(row, "length"), number(row, "diameter")});
+  return tables;
+}
+
 void addFeed(Json& order, machine::Feed feed) {
   if (feed.rapid) {
     order["rapid"] = true;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "machine/machine.hpp"
+#include "machine/own_control.hpp"
 
 /// The words that engine and adapter speak; docs/machine-adapters.md describes them. What is read comes from another
 /// program: whatever it does not say, or says wrongly, throws Breach.
@@ -46,6 +47,8 @@ machine::Rotation rotation(std::string_view word);
 
 Json toJson(const machine::AxisPositions& positions, std::size_t axes);
 machine::AxisPositions positions(const Json& json, std::size_t axes);
+Json toJson(const machine::OwnTables& tables, std::size_t axes);
+machine::OwnTables ownTables(const Json& json, std::size_t axes);
 /// The feed goes into `order`: "feed", or "rapid": true.
 void addFeed(Json& order, machine::Feed feed);
 machine::Feed feed(const Json& order);

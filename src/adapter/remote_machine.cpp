@@ -4,6 +4,7 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -66,6 +67,14 @@ Result<std::unique_ptr<RemoteMachine>> RemoteMachine::greet(Connection connectio
         machine->functions_.insert(function.get<int>());
       }
     }
+    if (answer.json.contains("asks")) {
+      if (!answer.json.at("asks").is_boolean()) throw Breach("\"asks\" is neither true nor false");
+      machine->asks_ = answer.json.at("asks").get<bool>();
+    }
+    const Json& told = member(answer.json, "machine");
+    machine->tellsChains_ = told.contains("tableChain") || told.contains("spindleChain");
+    if (answer.json.contains("tables"))
+      machine->tables_ = ownTables(answer.json.at("tables"), machine->description_.axes.size());
     machine->at_ = positions(member(answer.json, "position"), machine->description_.axes.size());
     machine->toldAt_ = std::chrono::steady_clock::now();
   } catch (const Breach& breach) {
@@ -87,6 +96,11 @@ RemoteMachine::Answer RemoteMachine::exchange(Json order) const {
   if (lost_) return {{}, failure_};
   const std::uint64_t id = ++lastOrder_;
   order["id"] = id;
+  if (place_) {
+    now_ = place_();
+    if (now_.line) order["line"] = *now_.line;
+    if (!now_.messages.empty()) order["messages"] = now_.messages;
+  }
   bool listens = !stop_.stop_requested();
   std::uint64_t rung = 0;
   while (read(wake_, &rung, sizeof rung) > 0) {
@@ -157,6 +171,42 @@ std::optional<Value> RemoteMachine::tells(Json order, const std::function<Value(
     lose(fmt::format("the machine adapter does not keep to the protocol: {}", breach.what()));
     return std::nullopt;
   }
+}
+
+bool RemoteMachine::ask(const std::string& what) {
+  if (stop_.stop_requested()) return false;
+  return tells<bool>({{"do", "ask"}, {"text", what}},
+                     [](const Json& answer) {
+                       const std::string end = text(answer, "end");
+                       if (end != "continued" && end != "cancelled")
+                         throw Breach("an operator neither continues nor stops");
+                       return end == "continued";
+                     })
+      .value_or(false);
+}
+
+std::optional<std::string> RemoteMachine::keep(const machine::OwnTables& tables) {
+  const std::function<std::optional<std::string>(const Json&)> read =
+      [](const Json& answer) -> std::optional<std::string> {
+    const std::string end = text(answer, "end");
+    if (end == "kept") return std::nullopt;
+    if (end != "refused" && end != "cancelled") throw Breach("tables are neither kept nor refused");
+    return optionalText(answer, "detail");
+  };
+  auto result =
+      tells<std::optional<std::string>>({{"do", "tables"}, {"tables", toJson(tables, description_.axes.size())}}, read);
+  return result ? *std::move(result) : failure_;
+}
+
+bool RemoteMachine::adoptChains(const machine::MachineDescription& machine) {
+  if (tellsChains_) return true;
+  const auto alike = [](const machine::Axis& a, const machine::Axis& b) {
+    return a.name == b.name && a.kind == b.kind;
+  };
+  if (!std::ranges::equal(description_.axes, machine.axes, alike)) return false;
+  description_.tableChain = machine.tableChain;
+  description_.spindleChain = machine.spindleChain;
+  return true;
 }
 
 // ---- axes ----
@@ -235,6 +285,7 @@ machine::MeasureResult RemoteMachine::measure(const machine::MeasureOrder& order
   if (!result) return {MeasureEnd::Refused, at_, *failure_};
   // A signal that comes after a stop was asked for counts for nothing.
   if (stop_.stop_requested()) return {MeasureEnd::Cancelled, at_, stopped};
+  if (result->end == MeasureEnd::Touched) felt_.push_back({result->latched, now_.toolVector, now_.toolRadius});
   return *std::move(result);
 }
 

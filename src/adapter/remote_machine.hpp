@@ -6,11 +6,13 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "adapter/connection.hpp"
 #include "adapter/protocol.hpp"
 #include "base/diagnostic.hpp"
 #include "machine/machine.hpp"
+#include "machine/own_control.hpp"
 
 namespace probewright::adapter {
 
@@ -25,7 +27,7 @@ struct Patience {
 /// When the connection is lost, or the adapter does not keep to the protocol, or says that the machine has failed, the
 /// order is Refused and says so; what only tells then tells what was last known. An adapter whose connection is lost
 /// stops the axes by itself.
-class RemoteMachine final : public machine::Machine {
+class RemoteMachine final : public machine::Machine, public machine::OwnControl {
 public:
   /// Greets the adapter and learns what machine it plays.
   static Result<std::unique_ptr<RemoteMachine>> greet(Connection connection, Patience patience = {});
@@ -35,6 +37,26 @@ public:
   const std::string& adapterName() const { return adapterName_; }
   /// Why the machine could not go on, if that has happened: an emergency stop, a lost connection.
   const std::optional<std::string>& failure() const { return failure_; }
+
+  /// Whether the adapter puts questions to the operator; else whoever runs the program does.
+  bool asks() const { return asks_; }
+  /// Shows the text to the operator and waits: true if the program is to go on.
+  bool ask(const std::string& text);
+
+  /// Where a measuring move was signalled, and with which tool as the control believed it.
+  struct Felt {
+    machine::AxisPositions latched;
+    Vector3 toolVector = Vector3::Zero();
+    double toolRadius = 0;
+  };
+  const std::vector<Felt>& felt() const { return felt_; }
+
+  /// The chains of a machine with the same axes, of an adapter that tells none. False if its axes are others.
+  bool adoptChains(const machine::MachineDescription& machine);
+
+  const machine::OwnTables* tables() const override { return tables_ ? &*tables_ : nullptr; }
+  std::optional<std::string> keep(const machine::OwnTables& tables) override;
+  void accompany(std::function<machine::OrderPlace()> place) override { place_ = std::move(place); }
 
   const machine::MachineDescription& description() const override { return description_; }
   void stopOn(std::stop_token stop) override { stop_ = std::move(stop); }
@@ -75,6 +97,11 @@ private:
   std::string adapterName_;
   machine::MachineDescription description_;
   std::set<int> functions_;
+  bool asks_ = false, tellsChains_ = false;
+  std::optional<machine::OwnTables> tables_;
+  std::function<machine::OrderPlace()> place_;
+  mutable machine::OrderPlace now_;  ///< of the last order
+  std::vector<Felt> felt_;
   std::stop_token stop_;
   int wake_ = -1;  ///< an event that ends a wait when a stop is asked for
   mutable std::uint64_t lastOrder_ = 0;

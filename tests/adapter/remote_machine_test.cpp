@@ -245,6 +245,58 @@ TEST(RemoteMachine, WaitsAsLongAsTheAdapterIsAlive) {
   EXPECT_EQ(moved.detail, "the machine adapter has said nothing for 0.4 s");
 }
 
+TEST(RemoteMachine, HasTheAdapterAskTheOperatorWhereItCan) {
+  Adapter quiet(after({}));
+  auto machine = quiet.greet();
+  ASSERT_TRUE(machine);
+  EXPECT_FALSE((*machine)->asks());
+  Adapter adapter({R"({"id":$,"asks":true,)" + std::string(greeting) + "}", R"({"id":$,"end":"continued"})",
+                   R"({"id":$,"end":"cancelled"})"});
+  machine = adapter.greet();
+  ASSERT_TRUE(machine);
+  EXPECT_TRUE((*machine)->asks());
+  EXPECT_TRUE((*machine)->ask("Clean the ball"));
+  EXPECT_FALSE((*machine)->ask("Clean the ball"));
+}
+
+TEST(RemoteMachine, SharesTheTablesOfAnAdapterThatTellsThem) {
+  const std::string tables =
+      R"("tables":{"offsets":[{"number":1,"origin":[1,2,-3],"rotation":4}],"tools":[{"number":2,"length":80,"diameter":10}]},)";
+  Adapter adapter({R"({"id":$,)" + tables + std::string(greeting) + "}", R"({"id":$,"end":"kept"})",
+                   R"({"id":$,"end":"refused","detail":"not now"})"});
+  auto machine = adapter.greet();
+  ASSERT_TRUE(machine);
+  ASSERT_NE((*machine)->tables(), nullptr);
+  const machine::OwnTables& own = *(*machine)->tables();
+  ASSERT_EQ(own.offsets.size(), 1U);
+  EXPECT_EQ(own.offsets[0].origin[2], -3);
+  EXPECT_EQ(own.offsets[0].rotation, 4);
+  ASSERT_EQ(own.tools.size(), 1U);
+  EXPECT_EQ(own.tools[0].length, 80);
+  EXPECT_EQ((*machine)->keep(own), std::nullopt);
+  EXPECT_EQ((*machine)->keep(own), "not now");
+}
+
+TEST(RemoteMachine, TellsTheLineOfTheProgramWithEachOrder) {
+  auto [engine, own] = streamPair();
+  std::jthread thread([stream = std::move(own)]() mutable {
+    std::string line;
+    for (int order = 0; order < 2; ++order) {
+      if (stream.receive(line, std::chrono::milliseconds(5000)) != LineStream::Got::Line) return;
+      const Json json = parseLine(line);
+      Json answer = Json::parse("{" + std::string(greeting) + "}");
+      answer["id"] = json.at("id");
+      if (order == 1) answer = {{"id", json.at("id")}, {"end", "reached"}, {"detail", json.dump()}};
+      stream.send(answer.dump());
+    }
+  });
+  auto machine = RemoteMachine::greet({nullptr, std::move(engine)});
+  ASSERT_TRUE(machine);
+  (*machine)->accompany([] { return machine::OrderPlace{17, {"look"}, {0, 0, 100}, 3}; });
+  const auto moved = (*machine)->move(positions({1, 0, 0}), Feed::at(100));
+  EXPECT_THAT(moved.detail, testing::AllOf(HasSubstr(R"("line":17)"), HasSubstr(R"("messages":["look"])")));
+}
+
 TEST(RemoteMachine, HandsAStopToTheAdapterAndWaitsForTheAxesToStand) {
   auto [engine, own] = streamPair();
   std::stop_source source;

@@ -12,7 +12,9 @@
 #include "session/heidenhain/family_parts.hpp"
 #include "session/heidenhain/kinematic_files.hpp"
 #include "session/heidenhain/monitoring_files.hpp"
+#include "session/heidenhain/own_tables.hpp"
 #include "session/heidenhain/remanent_parameters.hpp"
+#include "session/own_control.hpp"
 #include "session/run_parts.hpp"
 #include "session/source.hpp"
 
@@ -76,6 +78,10 @@ void run(const RunRequest& request, FolderReading reading, machine::Machine& mac
   }
   refuseForeign(outcome.diagnostics, tableNames, options);
   if (hasErrors(outcome.diagnostics)) return;
+  machine::OwnControl* own = machine::ownControlOf(machine);
+  if (own != nullptr && own->tables() == nullptr) own = nullptr;
+  std::vector<std::string> notes;
+  if (own != nullptr) notes = takeOver(tables, *own->tables(), machine.description());
   hh::Control control(request.control, machine, std::move(tables), parameters);
   setPanel(control.panel, request, tableNames);
   control.journal.limit = options.recordLimit;
@@ -93,6 +99,9 @@ void run(const RunRequest& request, FolderReading reading, machine::Machine& mac
   }
   control.applyCoordinates();
 
+  for (const std::string& note : notes)
+    control.panel.message(control::EventKind::Message, note, control.startSeconds);
+
   readRemanentParameters(beliefs.tables, control.q, outcome.diagnostics);
   reading = {};
   if (hasErrors(outcome.diagnostics)) return;
@@ -105,7 +114,14 @@ void run(const RunRequest& request, FolderReading reading, machine::Machine& mac
   const ControlFamily family = heidenhainFamily();
   const auto library = programLibrary(family, [&](language::Program*, const fs::path& opened) { host.note(opened); });
   execution::Interpreter interpreter(*library, isoHost, interpreterOptions(options));
-  outcome.result = interpreter.run(request.program);
+  {
+    const Accompanied accompanied(machine, control.channel, control.panel, control.journal, request.program->file());
+    outcome.result = interpreter.run(request.program);
+  }
+  if (own != nullptr) {
+    giveBack(*own, differing(control.tables, *own->tables(), machine.description()), control.panel,
+             control.channel.seconds());
+  }
 
   outcome.files = control.panel.files();
   encodeLogs(outcome.files, textFileEncoding(request.control, options.language));

@@ -12,10 +12,12 @@
 #include "execution/sinumerik/host.hpp"
 #include "language/directory_library.hpp"
 #include "language/sinumerik/program.hpp"
+#include "session/own_control.hpp"
 #include "session/run_parts.hpp"
 #include "session/sinumerik/beliefs.hpp"
 #include "session/sinumerik/family_parts.hpp"
 #include "session/sinumerik/global_data.hpp"
+#include "session/sinumerik/own_tables.hpp"
 #include "session/source.hpp"
 #include "session/standing_machine.hpp"
 
@@ -188,6 +190,10 @@ void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& 
   const std::set<std::string> dataNames = namesOf(data);
   refuseForeign(outcome.diagnostics, dataNames, options);
   if (hasErrors(outcome.diagnostics)) return;
+  machine::OwnControl* own = machine::ownControlOf(trueMachine);
+  if (own != nullptr && own->tables() == nullptr) own = nullptr;
+  std::vector<std::string> notes;
+  if (own != nullptr) notes = takeOver(data.store, *own->tables(), trueMachine.description());
   StandingMachine machine(trueMachine);
   sin::Control control(machine, data.store, control::believedMachine(trueMachine.description(), beliefs.kinematics));
   enterHirthGrids(control, beliefs);
@@ -203,6 +209,8 @@ void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& 
     if (tool.inSpindle) control.loadTool(tool.number);
   }
   control.applyFrames();
+  for (const std::string& note : notes)
+    control.panel.message(control::EventKind::Message, note, control.channel.seconds());
 
   control.dryRun = options.mode == ProgramMode::DryRun;
   control.programTest = options.mode == ProgramMode::ProgramTest;
@@ -228,7 +236,14 @@ void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& 
   execution::sinumerik::SinumerikHost sinumerikHost(control, hostOptions);
   running = &sinumerikHost;
   execution::Interpreter interpreter(*library, sinumerikHost, interpreterOptionsOf(options));
-  outcome.result = interpreter.run(program);
+  {
+    const Accompanied accompanied(trueMachine, control.channel, control.panel, control.journal, program->file());
+    outcome.result = interpreter.run(program);
+  }
+  if (own != nullptr) {
+    giveBack(*own, differing(control.data, *own->tables(), trueMachine.description()), control.panel,
+             control.channel.seconds());
+  }
   if (control.blockSearch && outcome.result.end == RunEnd::Finished) {
     outcome.result.end = RunEnd::Alarm;
     outcome.result.diagnostics.push_back(
