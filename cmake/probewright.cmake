@@ -73,16 +73,17 @@ endfunction()
 # What takes time in a test is the house; optimizing the tests themselves costs a third of their build.
 set(PROBEWRIGHT_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 
-# probewright_test(NAME [LINK targets...]): one test program of all *_test.cpp files in the calling folder.
+# probewright_test(NAME [LINK targets...] [PROPERTIES names and values...]): one test program of all *_test.cpp files in
+# the calling folder; the properties are those of its tests.
 function(probewright_test name)
-  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LINK;PROPERTIES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_executable(${name}_test ${sources})
   target_include_directories(${name}_test PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(${name}_test PRIVATE ${ARG_LINK} GTest::gtest_main GTest::gmock)
   target_compile_options(${name}_test PRIVATE ${PROBEWRIGHT_TEST_OPTIONS})
   probewright_precompile(${name}_test tests GTest::gtest GTest::gmock)
-  set(properties TIMEOUT 600)
+  set(properties TIMEOUT 600 ${ARG_PROPERTIES})
   if(PROBEWRIGHT_SANITIZE)
     set(suppressions ${PROJECT_SOURCE_DIR}/cmake/leak_suppressions.txt)
     list(APPEND properties ENVIRONMENT LSAN_OPTIONS=suppressions=${suppressions}:print_suppressions=0)

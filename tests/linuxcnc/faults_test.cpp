@@ -8,6 +8,8 @@ using ::testing::StartsWith;
 
 class FaultsOnLinuxCnc : public LinuxCncRun {
 protected:
+  /// Each run begins with what the setup says.
+  FaultsOnLinuxCnc() { session_.write("mill.ini", text("mill.ini") + "[PROBEWRIGHT]\nSHARE_TABLES = 0\n"); }
   World world;
 };
 

@@ -51,3 +51,17 @@ def adapter():
     """The process of the machine adapter."""
     found = subprocess.run(["pgrep", "-f", "probewright-linuxcnc"], capture_output=True, text=True).stdout.split()
     return int(found[0])
+
+
+def engine():
+    """The process of probewright that LinuxCNC's planner has started."""
+    for process in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{process}/stat") as file:
+                number, name, rest = file.read().replace("(", "|").replace(")", "|").split("|")
+            with open(f"/proc/{rest.split()[1]}/comm") as file:
+                if name == "probewright" and file.read().strip() == "milltask":
+                    return int(number)
+        except OSError:
+            pass
+    raise RuntimeError("no engine runs")

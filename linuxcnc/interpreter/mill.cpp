@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mill.hpp"
+
+#include <dlfcn.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string_view>
+
+#include <linuxcnc.h>
+#include "canon.hh"
+#include "emc_nml.hh"
+#include "inifile.hh"
+
+extern int _task;
+
+namespace {
+
+constexpr std::string_view letters = "XYZABCUVW";
+
+bool rotary(std::size_t number) { return number >= 3 && number <= 5; }
+
+/// The status that LinuxCNC's planner keeps; screens, which only draw, have none.
+const EMC_STAT* status() {
+  static EMC_STAT** const place = static_cast<EMC_STAT**>(dlsym(RTLD_DEFAULT, "emcStatus"));
+  return _task != 0 && place != nullptr ? *place : nullptr;
+}
+
+std::array<double, 9> nine(const EmcPose& pose) {
+  return {pose.tran.x, pose.tran.y, pose.tran.z, pose.a, pose.b, pose.c, pose.u, pose.v, pose.w};
+}
+
+}  // namespace
+
+bool Mill::moves() { return status() != nullptr; }
+
+std::string Mill::key(const char* section, const char* name) const {
+  IniFile file;
+  if (!file.Open(ini_.c_str())) return {};
+  const char* value = file.Find(name, section);
+  return value != nullptr ? value : "";
+}
+
+void Mill::load(const std::string& iniFile) {
+  ini_ = iniFile;
+  name_ = key("EMC", "MACHINE");
+  scale_ = key("TRAJ", "LINEAR_UNITS").starts_with("in") ? 25.4 : 1.0;
+  orients_ = key("PROBEWRIGHT", "SPINDLE_ORIENTS") == "1";
+  axes_.clear();
+  const std::string coordinates = key("TRAJ", "COORDINATES");
+  for (std::size_t i = 0; i < letters.size(); ++i) {
+    if (coordinates.find(letters[i]) == std::string::npos) continue;
+    const std::string section = std::string("AXIS_") + letters[i];
+    const auto number = [&](const char* name, double otherwise) {
+      const std::string text = key(section.c_str(), name);
+      return (text.empty() ? otherwise : std::strtod(text.c_str(), nullptr)) * (rotary(i) ? 1 : scale_);
+    };
+    axes_.push_back({i, number("MIN_LIMIT", -1e9), number("MAX_LIMIT", 1e9), number("MAX_VELOCITY", 1) * 60,
+                     number("MAX_ACCELERATION", 1)});
+  }
+}
+
+namespace {
+
+/// The numbered parameters that LinuxCNC's interpreter keeps in a file.
+std::map<int, double> parametersIn(const std::string& file) {
+  std::map<int, double> values;
+  std::ifstream lines(file);
+  int number = 0;
+  for (double value = 0; lines >> number >> value;)
+    values[number] = value;
+  return values;
+}
+
+constexpr int offsets = 9;
+
+}  // namespace
+
+Mill::Json Mill::tables() const {
+  const auto values =
+      parametersIn((std::filesystem::path(ini_).parent_path() / key("RS274NGC", "PARAMETER_FILE")).string());
+  const auto value = [&](int number) {
+    const auto found = values.find(number);
+    return found == values.end() ? 0 : found->second;
+  };
+  Json rows = Json::array(), tools = Json::array();
+  for (int row = 1; row <= offsets; ++row) {
+    Json origin = Json::array();
+    for (const Axis& axis : axes_)
+      origin.push_back(value(5201 + 20 * row + static_cast<int>(axis.number)) * (rotary(axis.number) ? 1 : scale_));
+    rows.push_back({{"number", row}, {"origin", origin}, {"rotation", value(5210 + 20 * row)}});
+  }
+  for (int place = 1; moves() && place < CANON_POCKETS_MAX; ++place) {
+    const CANON_TOOL_TABLE tool = GET_EXTERNAL_TOOL_TABLE(place);
+    if (tool.toolno <= 0) continue;
+    tools.push_back(
+        {{"number", tool.toolno}, {"length", tool.offset.tran.z * scale_}, {"diameter", tool.diameter * scale_}});
+  }
+  return {{"offsets", rows}, {"tools", tools}};
+}
+
+std::vector<std::string> Mill::tableBlocks(const Json& tables, bool inches) const {
+  std::vector<std::string> blocks;
+  const auto word = [&](char letter, double value, bool length) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), " %c%.9f", letter, length && inches ? value / 25.4 : value);
+    return std::string(text.data());
+  };
+  for (const Json& row : tables.at("offsets")) {
+    std::string block = "G10 L2 P" + std::to_string(row.at("number").get<int>());
+    const auto origin = row.at("origin").get<Position>();
+    for (std::size_t i = 0; i < axes_.size() && i < origin.size(); ++i)
+      block += word(letters[axes_[i].number], origin[i], !rotary(axes_[i].number));
+    blocks.push_back(block + word('R', row.at("rotation").get<double>(), false));
+  }
+  for (const Json& tool : tables.at("tools")) {
+    blocks.push_back("G10 L1 P" + std::to_string(tool.at("number").get<int>()) +
+                     word('Z', tool.at("length").get<double>(), true) +
+                     word('R', tool.at("diameter").get<double>() / 2, true));
+  }
+  return blocks;
+}
+
+Mill::Json Mill::hello(std::string& why) const {
+  if (axes_.empty()) {
+    why = "the configuration of LinuxCNC names no axes in [TRAJ]COORDINATES";
+    return {};
+  }
+  Json axes = Json::array();
+  for (const Axis& axis : axes_) {
+    axes.push_back({{"name", std::string(1, letters[axis.number])},
+                    {"kind", rotary(axis.number) ? "rotary" : "linear"},
+                    {"minimum", axis.minimum},
+                    {"maximum", axis.maximum},
+                    {"rapid", axis.rapid},
+                    {"acceleration", axis.acceleration}});
+  }
+  Json answer = {
+      {"protocol", 1},
+      {"adapter", "LinuxCNC"},
+      {"machine", {{"name", name_}, {"axes", axes}, {"spindleOrients", orients_}, {"toolChange", position()}}},
+      {"functions", {7, 8, 9}},
+      {"asks", moves()},
+      {"position", position()}};
+  if (key("PROBEWRIGHT", "SHARE_TABLES") != "0") answer["tables"] = tables();
+  return answer;
+}
+
+void Mill::begin() {
+  units_ = GET_EXTERNAL_LENGTH_UNIT_TYPE();
+  mode_ = GET_EXTERNAL_MOTION_CONTROL_MODE();
+  tolerance_ = GET_EXTERNAL_MOTION_CONTROL_TOLERANCE();
+  USE_LENGTH_UNITS(CANON_UNITS_MM);
+  SET_FEED_REFERENCE(CANON_XYZ);
+  SET_FEED_MODE(0, 0);
+  SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, 0.01);
+  if (!moves()) {
+    // What a screen draws is in machine coordinates; the offsets that it has set up belong to G-code.
+    SET_G5X_OFFSET(1, 0, 0, 0, 0, 0, 0, 0, 0, 0);
+    SET_G92_OFFSET(0, 0, 0, 0, 0, 0, 0, 0, 0);
+    SET_XY_ROTATION(0);
+    USE_TOOL_LENGTH_OFFSET(EmcPose{});
+  }
+  synchronize();
+}
+
+void Mill::learnOffsets() {
+  shift_ = g92_ = {};
+  rotation_ = 0;
+  if (const EMC_STAT* now = status()) {
+    const Nine g5x = nine(now->task.g5x_offset), tool = nine(now->task.toolOffset), g92 = nine(now->task.g92_offset);
+    for (std::size_t i = 0; i < shift_.size(); ++i) {
+      shift_[i] = (g5x[i] + tool[i]) * (rotary(i) ? 1 : scale_);
+      g92_[i] = g92[i] * (rotary(i) ? 1 : scale_);
+    }
+    rotation_ = now->task.rotation_xy;
+  }
+}
+
+void Mill::end() const {
+  SET_MOTION_CONTROL_MODE(static_cast<CANON_MOTION_MODE>(mode_), tolerance_);
+  USE_LENGTH_UNITS(static_cast<CANON_UNITS>(units_));
+}
+
+void Mill::flush() { FINISH(); }
+
+void Mill::synchronize() const {
+  // What reads the position also tells the canonical commands where they begin.
+  if (moves()) GET_EXTERNAL_POSITION_X();
+}
+
+namespace {
+std::vector<double> chosen(const std::array<double, 9>& all, const std::vector<std::size_t>& numbers, double scale) {
+  std::vector<double> values;
+  for (const std::size_t i : numbers)
+    values.push_back(all[i] * (rotary(i) ? 1 : scale));
+  return values;
+}
+}  // namespace
+
+Mill::Position Mill::position() const {
+  std::vector<std::size_t> numbers;
+  for (const Axis& axis : axes_)
+    numbers.push_back(axis.number);
+  const EMC_STAT* now = status();
+  return chosen(now != nullptr ? nine(now->motion.traj.position) : Nine{}, numbers, scale_);
+}
+
+Mill::Position Mill::probed() const {
+  std::vector<std::size_t> numbers;
+  for (const Axis& axis : axes_)
+    numbers.push_back(axis.number);
+  const EMC_STAT* now = status();
+  return chosen(now != nullptr ? nine(now->motion.traj.probedPosition) : Nine{}, numbers, scale_);
+}
+
+bool Mill::deflected() { return moves() && status()->motion.traj.probeval != 0; }
+bool Mill::tripped() { return moves() && status()->motion.traj.probe_tripped; }
+std::string Mill::notReady() {
+  if (!moves()) return {};
+  if (status()->io.aux.estop != 0) return "LinuxCNC is in emergency stop";
+  constexpr int on = 4;
+  return static_cast<int>(status()->task.state) == on ? "" : "LinuxCNC's machine is switched off";
+}
+void Mill::stopAxes() {
+  using Abort = int (*)();
+  if (const auto abort = reinterpret_cast<Abort>(dlsym(RTLD_DEFAULT, "_Z14emcMotionAbortv"));
+      moves() && abort != nullptr)
+    abort();
+}
+
+void Mill::tellError(const std::string& text) {
+  using Tell = int (*)(int number, const char* format, ...);
+  if (const auto tell = reinterpret_cast<Tell>(dlsym(RTLD_DEFAULT, "_Z16emcOperatorErroriPKcz")); tell != nullptr) {
+    tell(0, "%s", text.substr(0, 250).c_str());
+  } else {
+    CANON_ERROR("%s", text.c_str());
+  }
+}
+
+int Mill::toolInSpindle() { return moves() ? std::max(0, status()->io.tool.toolInSpindle) : 0; }
+
+bool Mill::hasTool(int number) {
+  for (int place = 0; place < CANON_POCKETS_MAX; ++place) {
+    if (GET_EXTERNAL_TOOL_TABLE(place).toolno == number) return true;
+  }
+  return false;
+}
+
+std::string Mill::limit(const Position& target) const {
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (!(target[i] >= axes_[i].minimum && target[i] <= axes_[i].maximum))
+      return std::string("software limit of ") + letters[axes_[i].number];
+  }
+  return {};
+}
+
+/// What has to be programmed with the offsets of LinuxCNC to reach machine coordinates.
+Mill::Nine Mill::programmed(const Position& target) const {
+  Nine all{};
+  for (std::size_t i = 0; i < axes_.size(); ++i)
+    all[axes_[i].number] = target[i];
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i] -= shift_[i];
+  const double angle = -rotation_ * M_PI / 180, x = all[0], y = all[1];
+  all[0] = x * std::cos(angle) - y * std::sin(angle);
+  all[1] = x * std::sin(angle) + y * std::cos(angle);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i] -= g92_[i];
+  return all;
+}
+
+void Mill::feed(double perMinute) const { SET_FEED_RATE(perMinute); }
+
+void Mill::traverse(const Position& target) const {
+  const Nine p = programmed(target);
+  STRAIGHT_TRAVERSE(line_, p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8]);
+}
+
+void Mill::straight(const Position& target) const {
+  const Nine p = programmed(target);
+  STRAIGHT_FEED(line_, p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8]);
+}
+
+void Mill::probe(const Position& target) const {
+  const Nine p = programmed(target);
+  // 1: without a signal it is no error (G38.3).
+  STRAIGHT_PROBE(line_, p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], 1);
+}

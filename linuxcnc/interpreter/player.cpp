@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "player.hpp"
+
+#include <time.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "canon.hh"
+
+namespace {
+
+double now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
+}
+
+bool near(const Mill::Position& a, const Mill::Position& b) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (std::abs(a[i] - b[i]) > 1e-4) return false;
+  return true;
+}
+
+}  // namespace
+
+bool Player::start(const std::string& iniFile, const std::string& program, int line) {
+  namespace fs = std::filesystem;
+  // What the program before has measured is written first: its tables may be those of this one.
+  for (const double end = now() + 5; engine_ && now() < end; usleep(2000))
+    attend();
+  stopped_.reset();
+  signalled_ = told_ = gone_ = false;
+  messages_.clear();
+  mill_.load(iniFile);
+  const auto key = [&](const char* name) { return mill_.key("PROBEWRIGHT", name); };
+  const fs::path folder = fs::path(iniFile).parent_path();
+  const auto inFolder = [&](const std::string& name) { return (folder / name).string(); };
+  const std::string beliefs = key("CONTROL").empty() ? key("SETUP") : key("CONTROL");
+  if (beliefs.empty()) {
+    message_ = "the configuration does not say what the control knows: [PROBEWRIGHT]CONTROL names no setup";
+    return false;
+  }
+  // A preview leaves nothing behind.
+  const std::string out =
+      Mill::moves() ? inFolder(key("OUT").empty() ? "probewright-out" : key("OUT"))
+                    : (fs::temp_directory_path() / ("probewright-preview-" + std::to_string(getuid()))).string();
+  std::vector<std::string> words = {key("PROGRAM").empty() ? "probewright" : key("PROGRAM"),
+                                    "run",
+                                    program,
+                                    "--setup",
+                                    inFolder(beliefs),
+                                    "--machine",
+                                    "fd:3",
+                                    "--quiet",
+                                    "--out",
+                                    out};
+  if (Mill::moves()) words.insert(words.end(), {"--on-stop", "ask"});
+  if (!key("ANSWERS").empty()) words.insert(words.end(), {"--answers", inFolder(key("ANSWERS"))});
+  if (line > 1) words.insert(words.end(), {"--search", std::to_string(line)});
+  engine_.emplace();
+  if (!engine_->start(words, message_)) {
+    engine_.reset();
+    return false;
+  }
+  playing_ = true;
+  queued_ = true;  // whatever LinuxCNC has done before
+  settled_ = false;
+  stage_ = Stage::Idle;
+  begun_ = alive_ = now();
+  line_ = 0;
+  mill_.atLine(0);
+  mill_.begin();
+  at_ = mill_.position();
+  return true;
+}
+
+void Player::answer(Json json) {
+  json["position"] = at_;
+  engine_->answer(order_, std::move(json));
+  stage_ = Stage::Idle;
+}
+
+void Player::note() {
+  alive_ = now();
+  line_ = order_.value("line", line_);
+  mill_.atLine(line_);
+  if (!order_.contains("messages")) return;
+  for (std::string& text : order_.at("messages").get<std::vector<std::string>>())
+    messages_.push_back(std::move(text));
+}
+
+Player::Next Player::finish() {
+  playing_ = false;
+  mill_.end();
+  const int code = engine_->exitCode(10'000);
+  message_ = engine_->messages();
+  if (code < 0 || code > 3) {
+    // It did not end as a program does: nobody knows what the axes are to do.
+    Mill::stopAxes();
+    message_ = "probewright has ended unexpectedly\n" + message_;
+  }
+  engine_.reset();
+  return code == 0 || code == 1 ? Next::Ended : Next::Failed;
+}
+
+Player::Next Player::read() {
+  // What a dead engine had ordered is not begun.
+  if (gone_) return finish();
+  if (stage_ == Stage::Pending) {
+    mill_.synchronize();
+    if (Mill::moves()) at_ = mill_.position();
+    answer(outcome(order_));
+  } else if (stage_ == Stage::Drain) {
+    mill_.synchronize();
+    if (!settled_) mill_.learnOffsets();
+    settled_ = true;
+    queued_ = false;
+    if (Mill::moves()) at_ = mill_.position();
+    stage_ = Stage::Perform;
+  }
+  while (true) {
+    if (stage_ == Stage::Perform) {
+      auto refused = refusal(order_);
+      if (!refused) return Next::GoOn;
+      answer(*std::move(refused));
+    }
+    // LinuxCNC's planner does nothing else meanwhile, so it is not kept waiting long.
+    switch (engine_->receive(order_, Mill::moves() ? 50 : 10'000)) {
+      case EngineProcess::Got::Ended:
+        return finish();
+      case EngineProcess::Got::Nothing:
+        Mill::flush();
+        return Next::Wait;
+      case EngineProcess::Got::Order:
+        break;
+    }
+    note();
+    for (; !messages_.empty(); messages_.erase(messages_.begin()))
+      MESSAGE(messages_.front().data());
+    if (auto known = atOnce(order_)) {
+      answer(*std::move(known));
+      continue;
+    }
+    const std::string what = order_.value("do", "");
+    stage_ = queued_ && Mill::moves() ? Stage::Drain : Stage::Perform;
+    // A move behind others is queued; the first one must know whether the probe is free.
+    if ((what == "move" || what == "path") && queued_ && settled_) stage_ = Stage::Motion;
+    if (stage_ != Stage::Perform) return Next::GoOn;
+  }
+}
+
+Player::Next Player::execute() {
+  switch (stage_) {
+    case Stage::Idle:
+    case Stage::Pending:
+      return Next::GoOn;
+    case Stage::Drain:
+      Mill::flush();
+      return Next::Wait;
+    case Stage::Motion:
+      answer(moves(order_));
+      return Next::GoOn;
+    case Stage::Perform:
+      break;
+  }
+  const std::string what = order_.value("do", "");
+  if (what == "move" || what == "path") {
+    answer(moves(order_));
+    return Next::GoOn;
+  }
+  perform(order_);
+  Mill::flush();
+  stage_ = Stage::Pending;
+  return Mill::moves() ? Next::Wait : Next::GoOn;
+}
+
+std::optional<Player::Json> Player::atOnce(const Json& order) {
+  const std::string what = order.value("do", "");
+  if (what == "hello") {
+    std::string why;
+    Json hello = mill_.hello(why);
+    return why.empty() ? hello : Json{{"end", "failed"}, {"detail", why}};
+  }
+  if (what == "position") return Json::object();
+  if (what == "spindle") return spindle_;
+  if (what == "seconds") return Json{{"seconds", now() - begun_}};
+  if (what == "probeSerial") return Json{{"serial", ""}};
+  if (what == "function" && order.value("number", 0) != 7 && order.value("number", 0) != 8 &&
+      order.value("number", 0) != 9)
+    return Json{{"end", "unknown"}};
+  for (const char* known : {"move", "path", "retract", "measure", "deflected", "turnSpindle", "orientSpindle",
+                            "function", "changeTool", "dwell", "ask", "tables"})
+    if (what == known) return std::nullopt;
+  return Json{{"end", "refused"}, {"detail", "LinuxCNC does not know the order " + what}};
+}
+
+std::optional<Player::Json> Player::refusal(const Json& order) {
+  const std::string what = order.value("do", "");
+  if (what == "deflected") return Json{{"deflected", Mill::deflected()}};
+  if (what == "tables") {
+    const std::string why = Mill::moves() ? setTables_(mill_, order.at("tables")) : "";
+    return why.empty() ? Json{{"end", "kept"}} : Json{{"end", "refused"}, {"detail", why}};
+  }
+  if ((what == "move" || what == "path") && Mill::deflected())
+    return Json{{"end", "probeSignal"}, {"reached", 0}, {"detail", "the probe is deflected before the motion begins"}};
+  if (what == "retract" || what == "measure") {
+    if (const std::string limit = mill_.limit(order.at("target").get<Mill::Position>()); !limit.empty())
+      return Json{{"end", "axisLimit"}, {"detail", limit}};
+  }
+  if (what == "measure" && Mill::moves()) {
+    if (Mill::toolInSpindle() == 0) return Json{{"end", "notReady"}, {"detail", "LinuxCNC has no tool in the spindle"}};
+    if (Mill::deflected())
+      return Json{{"end", "deflectedAtStart"}, {"detail", "the probe is deflected before the measuring move begins"}};
+  }
+  if (what == "orientSpindle" && mill_.key("PROBEWRIGHT", "SPINDLE_ORIENTS") != "1")
+    return Json{{"end", "refused"}, {"detail", "the spindle of this LinuxCNC machine is not set up to be oriented"}};
+  if (what == "changeTool" && Mill::moves()) {
+    const int number = order.value("number", 0);
+    if (Mill::toolInSpindle() == number) return Json{{"end", "changed"}};
+    if (number != 0 && !Mill::hasTool(number))
+      return Json{{"end", "missing"}, {"detail", "LinuxCNC's tool table has no tool " + std::to_string(number)}};
+    if (Mill::deflected())
+      return Json{{"end", "probeSignal"}, {"detail", "the probe is deflected before the tool change"}};
+  }
+  return std::nullopt;
+}
+
+/// Queues a move or a path.
+Player::Json Player::moves(const Json& order) {
+  std::vector<Json> pieces = {order};
+  if (order.contains("pieces")) pieces = order.at("pieces").get<std::vector<Json>>();
+  std::size_t reached = 0;
+  for (const Json& piece : pieces) {
+    const auto target = piece.at("target").get<Mill::Position>();
+    if (const std::string limit = mill_.limit(target); !limit.empty())
+      return {{"end", "axisLimit"}, {"detail", limit}, {"reached", reached}};
+    if (piece.value("rapid", false)) {
+      mill_.traverse(target);
+    } else {
+      mill_.feed(piece.at("feed").get<double>());
+      mill_.straight(target);
+    }
+    at_ = target;
+    queued_ = true;
+    ++reached;
+  }
+  return {{"end", "reached"}, {"reached", reached}};
+}
+
+void Player::perform(const Json& order) {
+  const std::string what = order.at("do").get<std::string>();
+  if (what == "retract") {
+    moves(order);
+  } else if (what == "measure") {
+    auto target = order.at("target").get<Mill::Position>();
+    if (!Mill::moves()) {
+      // Nobody feels anything in a preview: the touch is drawn in the middle of the way.
+      for (std::size_t i = 0; i < target.size(); ++i)
+        target[i] = (target[i] + at_[i]) / 2;
+      at_ = target;
+    }
+    mill_.feed(order.at("feed").get<double>());
+    mill_.probe(target);
+  } else if (what == "turnSpindle") {
+    const std::string rotation = order.value("rotation", "none");
+    spindle_["rotation"] = rotation;
+    spindle_["speed"] = rotation == "none" ? Json(0) : order.at("speed");
+    if (rotation == "none") {
+      STOP_SPINDLE_TURNING(0);
+    } else {
+      SET_SPINDLE_SPEED(0, order.at("speed").get<double>());
+      rotation == "clockwise" ? START_SPINDLE_CLOCKWISE(0) : START_SPINDLE_COUNTERCLOCKWISE(0);
+    }
+  } else if (what == "orientSpindle") {
+    spindle_ = {{"rotation", "none"}, {"speed", 0}, {"angle", order.at("degrees")}};
+    ORIENT_SPINDLE(0, std::fmod(std::fmod(order.at("degrees").get<double>(), 360) + 360, 360), 0);
+    WAIT_SPINDLE_ORIENT_COMPLETE(0, 30);
+  } else if (what == "function") {
+    const int number = order.at("number").get<int>();
+    if (number == 7) MIST_ON();
+    if (number == 8) FLOOD_ON();
+    if (number == 9) {
+      MIST_OFF();
+      FLOOD_OFF();
+    }
+  } else if (what == "changeTool") {
+    SELECT_TOOL(order.at("number").get<int>());
+    START_CHANGE();
+    CHANGE_TOOL(order.at("number").get<int>());
+  } else if (what == "dwell") {
+    DWELL(order.at("seconds").get<double>());
+  } else if (what == "ask") {
+    std::string text = order.value("text", "");
+    MESSAGE(text.data());
+    PROGRAM_STOP();
+  }
+}
+
+Player::Json Player::outcome(const Json& order) {
+  const std::string what = order.at("do").get<std::string>();
+  if (what == "retract") {
+    const bool there = !Mill::moves() || near(at_, order.at("target").get<Mill::Position>());
+    return there ? Json{{"end", "reached"}} : Json{{"end", "cancelled"}, {"detail", "stopped at LinuxCNC"}};
+  }
+  if (what == "measure") {
+    if (!Mill::moves()) return {{"end", "touched"}, {"latched", at_}};
+    if (Mill::tripped()) return {{"end", "touched"}, {"latched", mill_.probed()}};
+    if (near(at_, order.at("target").get<Mill::Position>())) return {{"end", "noContact"}};
+    return {{"end", "cancelled"}, {"detail", "stopped at LinuxCNC"}};
+  }
+  if (what == "changeTool") {
+    const int number = order.at("number").get<int>();
+    if (!Mill::moves() || Mill::toolInSpindle() == number) return {{"end", "changed"}};
+    return {{"end", "refused"}, {"detail", "LinuxCNC has not changed the tool"}};
+  }
+  if (what == "function") return {{"end", "carriedOut"}};
+  if (what == "dwell") return {{"end", "over"}};
+  if (what == "ask") return {{"end", "continued"}};
+  return {{"end", "reached"}};
+}
+
+void Player::stop(Stop why) {
+  if (!playing_) return;
+  playing_ = false;
+  stopped_ = why;
+  signalled_ = why == Stop::Fault && Mill::deflected();
+  const std::string off = Mill::notReady();
+  if (why == Stop::EmergencyStop) {
+    detail_ = "LinuxCNC is in emergency stop";
+  } else if (why != Stop::ByOperator && !off.empty()) {
+    detail_ = off;
+  } else if (why == Stop::SwitchedOff) {
+    detail_ = "LinuxCNC's machine is switched off";
+  } else if (signalled_) {
+    detail_ = "the probe has signalled on the way";
+  } else {
+    detail_ = why == Stop::ByOperator ? "stopped at LinuxCNC" : "LinuxCNC has stopped the motion: see its message";
+  }
+  // A touch counts, even if the axes had no time to come to rest.
+  at_ = mill_.position();
+  if (stage_ != Stage::Idle) answer(stopped(order_));
+  mill_.end();
+  attend();
+}
+
+/// Of a stop the next order is told, however it came: moves are answered before they have ended.
+Player::Json Player::stopped(const Json& order) {
+  const std::string what = order.value("do", "");
+  const bool first = !told_;
+  if (what == "tables") {
+    const std::string why = setTables_(mill_, order.at("tables"));
+    return why.empty() ? Json{{"end", "kept"}} : Json{{"end", "refused"}, {"detail", why}};
+  }
+  if (auto known = atOnce(order)) return *std::move(known);
+  told_ = true;
+  const bool stands = (what == "turnSpindle" && order.value("rotation", "") == "none") || what == "function";
+  if (!first && stands) return {{"end", what == "function" ? "carriedOut" : "reached"}};
+  if (!first && what == "deflected") return {{"deflected", Mill::deflected()}};
+  Json json = {{"end", "failed"}, {"reached", 0}, {"detail", detail_}};
+  if (*stopped_ == Stop::ByOperator && what != "deflected") {
+    json["end"] = "cancelled";
+  } else if (signalled_) {
+    if (what == "move" || what == "path" || what == "retract" || what == "changeTool") json["end"] = "probeSignal";
+    if (what == "measure") json["end"] = "deflectedAtStart";
+  }
+  if (what == "deflected") json["deflected"] = Mill::deflected();
+  return json;
+}
+
+std::optional<std::string> Player::attend() {
+  if (!engine_) return std::nullopt;
+  if (playing_) {
+    if (stage_ != Stage::Idle && now() - alive_ > 1) {
+      alive_ = now();
+      engine_->alive(order_);
+    }
+    // LinuxCNC asks for no block while it waits for the axes.
+    Json none;
+    if (stage_ != Stage::Idle && !gone_ && engine_->receive(none, 0) == EngineProcess::Got::Ended) {
+      gone_ = true;
+      Mill::stopAxes();
+    }
+    return std::nullopt;
+  }
+  for (EngineProcess::Got got = engine_->receive(order_, 0); got != EngineProcess::Got::Nothing;
+       got = engine_->receive(order_, 0)) {
+    if (got == EngineProcess::Got::Order) {
+      answer(stopped(order_));
+      continue;
+    }
+    const int code = engine_->exitCode(0);
+    if (code < 0) break;
+    const bool alarm = *stopped_ != Stop::ByOperator && code > 1;
+    std::string text = alarm ? engine_->messages() : "";
+    engine_.reset();
+    if (alarm) return text;
+    break;
+  }
+  return std::nullopt;
+}

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "linuxcnc/run_bench.hpp"
+
+namespace probewright::testing {
+
+/// A LinuxCNC whose [TASK]INTERPRETER is Probewright's.
+class AsInterpreter : public LinuxCncRun {
+protected:
+  AsInterpreter() {
+    std::string ini = text("mill.ini");
+    const auto add = [&](const std::string& section, const std::string& lines) {
+      ini.replace(ini.find(section), section.size(), section + "\n" + lines);
+    };
+    add("[TASK]", "INTERPRETER = " + (session_.build() / "linuxcnc/interpreter/libprobewright_interp.so").string());
+    session_.write("mill.ini", ini + "[PROBEWRIGHT]\nCONTROL = setup.toml\nOUT = out\nPROGRAM = " +
+                                   (session_.build() / "apps/probewright/probewright").string() + "\n");
+  }
+
+  /// A word for the scripts: runs a program to its end, keeps what it left in the folder `name`.
+  static constexpr const char* keeps = R"(
+import shutil
+def written():
+    # The engine writes when its program has ended, however that was.
+    for _ in range(3000):
+        desk.listen()
+        if os.path.exists('out/results.json'): return
+        time.sleep(0.02)
+    desk.tell('nothing was written')
+def keep(name):
+    written()
+    idle()
+    os.rename('out', name)
+def run(program, name):
+    begin(program)
+    keep(name)
+def fresh():
+    desk.mdi('G10 L2 P1 X0 Y0 Z-250 R0')
+def begin(program):
+    desk.command.mode(linuxcnc.MODE_AUTO)
+    desk.command.wait_complete()
+    desk.command.program_open(program)
+    desk.command.wait_complete()
+    desk.command.auto(linuxcnc.AUTO_RUN, 0)
+def idle():
+    desk.until('the end', lambda s: s.interp_state == linuxcnc.INTERP_IDLE and s.inpos)
+)";
+
+  void agrees(const std::string& folder, double bound) const {
+    const nlohmann::json measured = results(folder), expected = results("virtual-" + folder);
+    ASSERT_TRUE(measured.is_object()) << output;
+    const std::vector<double> real = touches(measured), simulated = touches(expected);
+    ASSERT_EQ(real.size(), simulated.size()) << folder;
+    ASSERT_EQ(real.size(), 15U) << folder;
+    for (std::size_t i = 0; i < real.size(); ++i)
+      EXPECT_NEAR(real[i], simulated[i], bound) << folder << ", touch " << i / 3 << ", axis " << i % 3;
+    EXPECT_EQ(measured.at("verdict"), expected.at("verdict"));
+  }
+  World world;
+};
+
+}  // namespace probewright::testing
