@@ -1,5 +1,5 @@
 # Builds the page's script and style with npm, TypeScript and Vite in the build folder, so that the source stays clean.
-# Sets PROBEWRIGHT_WEB_DIST, the folder of the results, and PROBEWRIGHT_WEB_FILES, the results.
+# The page of a machine is built beside it, with an entry of its own. Sets PROBEWRIGHT_WEB_DIST, the folder of the results, and PROBEWRIGHT_WEB_FILES, the results.
 
 find_program(NPM_EXECUTABLE npm)
 find_program(NODE_EXECUTABLE node)
@@ -16,7 +16,8 @@ endif()
 set(web_source ${CMAKE_CURRENT_LIST_DIR})
 set(web_build ${CMAKE_BINARY_DIR}/web)
 set(PROBEWRIGHT_WEB_DIST ${web_build}/dist)
-set(PROBEWRIGHT_WEB_FILES ${PROBEWRIGHT_WEB_DIST}/report.js ${PROBEWRIGHT_WEB_DIST}/report.css)
+set(PROBEWRIGHT_WEB_FILES ${PROBEWRIGHT_WEB_DIST}/report.js ${PROBEWRIGHT_WEB_DIST}/report.css
+                         ${PROBEWRIGHT_WEB_DIST}/machine.js ${PROBEWRIGHT_WEB_DIST}/machine.css)
 
 set(web_manifest ${web_source}/package.json ${web_source}/package-lock.json ${web_source}/.npmrc)
 add_custom_command(
@@ -31,7 +32,7 @@ add_custom_command(
   VERBATIM)
 
 file(GLOB web_sources CONFIGURE_DEPENDS ${web_source}/src/* ${web_source}/test/*)
-set(web_configuration ${web_source}/tsconfig.json ${web_source}/vite.config.ts)
+set(web_configuration ${web_source}/tsconfig.json ${web_source}/vite.config.ts ${web_source}/vite.machine.config.ts)
 add_custom_command(
   OUTPUT ${PROBEWRIGHT_WEB_FILES}
   COMMAND ${CMAKE_COMMAND} -E rm -rf ${web_build}/src ${web_build}/test
@@ -39,6 +40,7 @@ add_custom_command(
   COMMAND ${CMAKE_COMMAND} -E copy_directory ${web_source}/test ${web_build}/test
   COMMAND ${CMAKE_COMMAND} -E copy ${web_configuration} ${web_build}
   COMMAND ${NPM_EXECUTABLE} --prefix ${web_build} --loglevel=error run --silent build
+  COMMAND ${NODE_EXECUTABLE} ${web_build}/node_modules/vite/bin/vite.js build ${web_build} --config ${web_build}/vite.machine.config.ts
   DEPENDS ${web_build}/packages.stamp ${web_sources} ${web_configuration}
   WORKING_DIRECTORY ${CMAKE_BINARY_DIR}
   COMMENT "Building the page"

@@ -97,6 +97,13 @@ struct ConvertArguments {
 /// Here 1 means that something could not be carried over; it stands as a comment in the output.
 int convert(const ConvertArguments& arguments);
 
+struct MachineArguments {
+  std::string machine;  ///< a ready-made one, or a machine file
+  std::filesystem::path out = "machine.html";
+  bool force = false;  ///< a file of that name is overwritten, whatever it is
+};
+int machine(const MachineArguments& arguments);
+
 struct FeelArguments {
   std::filesystem::path setup;
   std::filesystem::path machineFile;          ///< instead of the setup's machine; empty: none

@@ -350,6 +350,17 @@ int main(int argc, char** argv) {
       "language cannot say is kept as a comment in OUT; 2 a mistake in the input, or OUT exists: nothing written. "
       "docs/conversion.md says which measuring cycle becomes which.");
 
+  probewright::app::MachineArguments machineArguments;
+  CLI::App* machinePage =
+      app.add_subcommand("machine", "Check a machine file, and write a page that moves each of its axes");
+  machinePage
+      ->add_option("MACHINE", machineArguments.machine,
+                   "A machine file, the .ini of a LinuxCNC configuration, or the name of a ready-made machine")
+      ->required();
+  machinePage->add_option("--out", machineArguments.out, "The page to write")->capture_default_str()->type_name("FILE");
+  machinePage->add_flag("--force", machineArguments.force,
+                        "Overwrite the file also if it is not the page of a machine");
+
   probewright::app::FeelArguments feelArguments;
   CLI::App* feel = app.add_subcommand(
       "feel", "Give a simulated LinuxCNC machine a probe that feels the part of a setup (see docs/linuxcnc.md)");
@@ -382,6 +393,7 @@ int main(int argc, char** argv) {
     if (camera->parsed()) return probewright::app::camera(cameraArguments);
     if (convert->parsed()) return probewright::app::convert(convertArguments);
     if (feel->parsed()) return probewright::app::feel(feelArguments);
+    if (machinePage->parsed()) return probewright::app::machine(machineArguments);
     cyclesArguments.name = fmt::format("{}", fmt::join(cycleWords, " "));
     return probewright::app::cycles(cyclesArguments);
   });

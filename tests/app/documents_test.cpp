@@ -75,7 +75,7 @@ std::vector<CodeBlock> codeBlocks() {
 
 TEST(Documents, NameEveryOptionAndNoOther) {
   const std::string page = textOf(root + "/docs/command-line.md");
-  for (const char* command : {"run", "check", "compare", "convert", "cycles", "project", "feel", "camera"}) {
+  for (const char* command : {"run", "check", "compare", "convert", "cycles", "project", "feel", "camera", "machine"}) {
     SCOPED_TRACE(command);
     const std::string part = section(page, std::string("## `probewright ") + command);
     std::string rows;
@@ -90,7 +90,7 @@ TEST(Documents, NameEveryOptionAndNoOther) {
 TEST(Documents, NameOptionsThatThereAre) {
   std::set<std::string> known = {"--help",  "--version", "--sanitize", "--preset",
                                  "--build", "--install", "--component"};
-  for (const char* command : {"run", "check", "compare", "convert", "cycles", "project", "feel", "camera"})
+  for (const char* command : {"run", "check", "compare", "convert", "cycles", "project", "feel", "camera", "machine"})
     for (const std::string& option : matches(probewright({command, "--help"}).output, "\n  (--[a-z-]+)"))
       known.insert(option);
   for (const std::string& name : namesIn(root + "/docs")) {

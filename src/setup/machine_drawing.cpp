@@ -1,0 +1,124 @@
+#include "setup/machine_drawing.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+
+#include "machine/machine_file.hpp"
+#include "setup/machine_body_keys.hpp"
+#include "simulation/solid_triangles.hpp"
+#include "simulation/virtual_machine.hpp"
+#include "simulation/world.hpp"
+
+namespace probewright::setup {
+
+namespace {
+
+using reports::Vector3f;
+
+std::vector<Vector3f> pointsOf(const std::vector<float>& values) {
+  std::vector<Vector3f> points;
+  for (std::size_t i = 0; i + 2 < values.size(); i += 3)
+    points.emplace_back(values[i], values[i + 1], values[i + 2]);
+  return points;
+}
+
+reports::Mesh meshOf(const simulation::Solid& solid, const Pose& pose, const std::string& name) {
+  const simulation::DrawingMesh drawing = simulation::solidTriangles(solid);
+  reports::Mesh mesh;
+  mesh.name = name;
+  mesh.role = reports::MeshRole::Fixture;
+  mesh.sceneFromMesh = pose;
+  mesh.positions = pointsOf(drawing.positions);
+  mesh.normals = pointsOf(drawing.normals);
+  mesh.triangles = drawing.indices;
+  for (const auto& line : drawing.featureEdges) {
+    const auto points = pointsOf(line);
+    for (std::size_t i = 1; i < points.size(); ++i)
+      mesh.featureEdges.insert(mesh.featureEdges.end(), {points[i - 1], points[i]});
+  }
+  return mesh;
+}
+
+/// What ISO 841 says of axes of these names: where the tool goes, as seen from the workpiece, when they go to plus.
+struct StandardAxis {
+  std::string_view name;
+  machine::AxisKind kind;
+  Vector3 direction;
+  const char* text;
+};
+const std::array<StandardAxis, 6>& standardAxes() {
+  using enum machine::AxisKind;
+  static const std::array<StandardAxis, 6> axes = {{{"X", Linear, Vector3::UnitX(), "moves towards +X"},
+                                                    {"Y", Linear, Vector3::UnitY(), "moves towards +Y"},
+                                                    {"Z", Linear, Vector3::UnitZ(), "moves towards +Z"},
+                                                    {"A", Rotary, Vector3::UnitX(), "turns right-handed about +X"},
+                                                    {"B", Rotary, Vector3::UnitY(), "turns right-handed about +Y"},
+                                                    {"C", Rotary, Vector3::UnitZ(), "turns right-handed about +Z"}}};
+  return axes;
+}
+
+Diagnostics remarksOf(const machine::MachineDescription& machine, const std::string& file) {
+  Diagnostics remarks;
+  const auto look = [&](const std::vector<machine::ChainElement>& chain, double sign, const char* advice) {
+    for (const machine::ChainElement& element : chain) {
+      if (!element.axis) continue;
+      const machine::Axis& axis = machine.axes[*element.axis];
+      for (const StandardAxis& standard : standardAxes()) {
+        if (axis.name != standard.name || axis.kind != standard.kind) continue;
+        const double along = sign * element.direction.dot(standard.direction);
+        if (along > 0.5) continue;  // axes may lean, as that of a nutating head
+        remarks.push_back({Severity::Warning,
+                           {file, 0, 0},
+                           fmt::format("with {} going to plus the tool, seen from the workpiece, does not go where ISO "
+                                       "841 has it: there it {}{}",
+                                       axis.name, standard.text, along < -0.5 ? "; here it is the opposite" : ""),
+                           {},
+                           advice,
+                           {}});
+      }
+    }
+  };
+  look(machine.tableChain, -1,
+       "an axis that carries the workpiece has the direction in which the workpiece itself goes, against that of the "
+       "tool; change the signs of its direction if the machine is not like this");
+  look(machine.spindleChain, 1, "change the signs of its direction if the machine is not like this");
+  return remarks;
+}
+
+}  // namespace
+
+reports::MachineScene machineSceneOf(const simulation::Truth& truth) {
+  reports::MachineScene scene;
+  scene.machine = truth.machine;
+  for (const simulation::MachineBody& body : truth.bodies)
+    scene.bodies.push_back({body.link, meshOf(*body.solid, body.linkFromSolid, body.name)});
+  for (const simulation::PlacedSolid& solid : truth.solids) {
+    if (solid.ofMachine)
+      scene.bodies.push_back(
+          {machine::tableLink(truth.machine), meshOf(*solid.solid, solid.tableFromSolid, solid.name)});
+  }
+  return scene;
+}
+
+std::optional<MachineWorld> readMachineWorld(const std::string& nameOrPath, Diagnostics& diagnostics) {
+  const auto description = machine::readMachine(nameOrPath, diagnostics);
+  if (!description) return std::nullopt;
+  simulation::World world;
+  world.file = nameOrPath;
+  world.truth.machine = *description;
+  world.truth.start = description->toolChange;
+  world.table = machine::readTableBody(nameOrPath).value_or(std::nullopt);
+  std::vector<std::filesystem::path> inputs;
+  readBodiesOf(nameOrPath, *description, diagnostics, world.bodies, inputs);
+  if (hasErrors(diagnostics)) return std::nullopt;
+  auto machine = simulation::buildMachine(world);
+  if (!machine) {
+    diagnostics.push_back(std::move(machine.error()));
+    return std::nullopt;
+  }
+  return MachineWorld{(*machine)->truth(), remarksOf(*description, nameOrPath)};
+}
+
+}  // namespace probewright::setup

@@ -1,0 +1,113 @@
+// Opens the pages of the ready-made machines in Chromium and moves their axes.
+// Usage: node machine.test.mjs FOLDER_OF_PAGES [FOLDER_FOR_SCREENSHOTS]
+
+import assert from "node:assert/strict";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { after, before, test } from "node:test";
+import { pathToFileURL } from "node:url";
+import puppeteer from "puppeteer-core";
+
+const [samples, pictures] = process.argv.slice(2);
+const executablePath = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(
+  (path) => path && existsSync(path),
+);
+const expected = JSON.parse(readFileSync(join(samples, "expected.json"), "utf8"));
+const userDataDir = mkdtempSync(join(tmpdir(), "probewright-chromium-"));
+let browser;
+
+before(async () => {
+  assert.ok(executablePath, "Chromium is needed: apt-get install chromium, or name it in CHROMIUM");
+  if (pictures) mkdirSync(pictures, { recursive: true });
+  browser = await puppeteer.launch({
+    executablePath,
+    headless: true,
+    userDataDir,
+    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking"],
+  });
+});
+
+after(async () => {
+  await browser?.close();
+  rmSync(userDataDir, { recursive: true, force: true, maxRetries: 3 });
+});
+
+const settle = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 100)))));
+
+async function open(name, { width = 1400, height = 900, dark = false } = {}) {
+  const page = await browser.newPage();
+  const problems = [];
+  page.on("pageerror", (error) => problems.push(String(error)));
+  page.on("request", (request) => {
+    if (!/^(file|data|blob):/.test(request.url())) problems.push(`request of ${request.url()}`);
+  });
+  await page.setViewport({ width, height });
+  await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }]);
+  await page.goto(pathToFileURL(resolve(samples, name)).href);
+  await page.waitForSelector("#machine main canvas");
+  await settle(page);
+  return { page, problems };
+}
+
+const slide = (page, axis, value) =>
+  page.$eval(
+    `[data-axis="${axis}"] input[type=range]`,
+    (slider, wanted) => {
+      slider.value = String(wanted);
+      slider.dispatchEvent(new Event("input"));
+    },
+    value,
+  );
+
+const numbers = (text) => [...text.replaceAll("\u2212", "-").matchAll(/-?\d+\.\d+/g)].map(Number);
+
+for (const [name, { axes, links, tip }] of Object.entries(expected)) {
+  test(`the sliders of ${name} move its links`, async () => {
+    const { page, problems } = await open(`${name}.html`);
+    for (const [axis, value] of Object.entries(axes)) await slide(page, axis, value);
+    await settle(page);
+    const drawn = await page.evaluate(() => window.probewrightLinks());
+    for (const { chain, elements, pose } of links) {
+      const link = drawn.find((candidate) => candidate.chain === chain && candidate.elements === elements);
+      link.pose.forEach((value, i) => assert.ok(Math.abs(value - pose[i]) < 1e-9 * Math.max(1, Math.abs(pose[i])), `${chain} ${elements} [${i}]: ${value}, not ${pose[i]}`));
+    }
+    const shown = numbers(await page.$eval("#tip-table", (element) => element.innerText));
+    shown.forEach((value, i) => assert.ok(Math.abs(value - tip[i]) < 0.0006, `tip ${value}, not ${tip[i]}`));
+    const letters = await page.$$eval(".axis-name:not(.frame)", (all) => all.map((element) => element.innerText));
+    for (const axis of Object.keys(axes)) assert.ok(letters.some((letter) => letter.startsWith(axis)), `${axis} among ${letters}`);
+    if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`) });
+    assert.deepEqual(problems, []);
+    await page.close();
+  });
+}
+
+test("by keyboard alone, in the dark, on a narrow screen", async () => {
+  const { page, problems } = await open("mill5-table-table.html", { width: 390, height: 844, dark: true });
+  assert.equal(await page.$eval(":root", (root) => root.dataset.theme), "dark");
+  const width = await page.evaluate(() => document.documentElement.scrollWidth);
+  assert.ok(width <= 390, `${width} px wide`);
+  await page.focus("#axis-A");
+  for (let i = 0; i < 3; ++i) await page.keyboard.press("ArrowRight");
+  await page.keyboard.down("Shift");
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.up("Shift");
+  assert.equal(await page.$eval('[data-axis="A"] input[type=number]', (field) => field.value), "13");
+  // Beyond the travel it does not go.
+  for (const key of ["Tab"]) await page.keyboard.press(key);
+  await page.keyboard.type("500\n");
+  assert.equal(await page.$eval("#axis-A", (slider) => slider.value), "120");
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("Enter");
+  assert.equal(await page.$eval("#axis-A", (slider) => slider.value), "0");
+  if (pictures) await page.screenshot({ path: join(pictures, "narrow.png"), fullPage: true });
+  assert.deepEqual(problems, []);
+  await page.close();
+});
+
+test("says which way plus is", async () => {
+  const { page } = await open("mill5-table-table.html");
+  const text = await page.$eval('[data-axis="C"]', (row) => row.innerText);
+  assert.match(text, /tool turns about \+Z: the workpiece turns about \u2212Z/);
+  await page.close();
+});
