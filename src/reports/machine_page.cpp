@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "reports/base64.hpp"
@@ -22,6 +22,11 @@ std::string packed(const std::vector<Vector3f>& points) {
   return base64(values);
 }
 
+/// UTF-8, whatever a file holds.
+std::string readable(const std::string& text) {
+  return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
+}
+
 json numbers(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 json chainData(const std::vector<machine::ChainElement>& chain) {
@@ -32,6 +37,16 @@ json chainData(const std::vector<machine::ChainElement>& chain) {
                     {"point", numbers(element.point)}});
   }
   return data;
+}
+
+json shapeData(const Mesh& mesh) {
+  json pose = json::array();
+  const Eigen::Matrix4d matrix = mesh.sceneFromMesh.matrix();
+  for (Eigen::Index i = 0; i < 16; ++i)
+    pose.push_back(matrix.data()[i]);
+  return {{"name", readable(mesh.name)},         {"pose", std::move(pose)},
+          {"positions", packed(mesh.positions)}, {"normals", packed(mesh.normals)},
+          {"triangles", base64(mesh.triangles)}, {"edges", packed(mesh.featureEdges)}};
 }
 
 /// JSON that may stand in a script element, whatever its texts say.
@@ -48,7 +63,7 @@ json machineData(const MachineScene& scene) {
   json axes = json::array(), bodies = json::array();
   for (std::size_t i = 0; i < scene.machine.axes.size(); ++i) {
     const machine::Axis& axis = scene.machine.axes[i];
-    axes.push_back({{"name", axis.name},
+    axes.push_back({{"name", readable(axis.name)},
                     {"rotary", axis.kind == machine::AxisKind::Rotary},
                     {"minimum", axis.minimum},
                     {"maximum", axis.maximum},
@@ -56,24 +71,38 @@ json machineData(const MachineScene& scene) {
                     {"home", scene.machine.toolChange[i]}});
   }
   for (const MachineScene::Body& body : scene.bodies) {
-    json pose = json::array();
-    const Eigen::Matrix4d matrix = body.mesh.sceneFromMesh.matrix();
-    for (Eigen::Index i = 0; i < 16; ++i)
-      pose.push_back(matrix.data()[i]);
-    bodies.push_back({{"name", body.mesh.name},
-                      {"chain", body.link.chain == machine::Link::Chain::Table ? "table" : "spindle"},
-                      {"elements", body.link.elements},
-                      {"pose", std::move(pose)},
-                      {"positions", packed(body.mesh.positions)},
-                      {"normals", packed(body.mesh.normals)},
-                      {"triangles", base64(body.mesh.triangles)},
-                      {"edges", packed(body.mesh.featureEdges)}});
+    json data = shapeData(body.mesh);
+    data["chain"] = body.link.chain == machine::Link::Chain::Table ? "table" : "spindle";
+    data["elements"] = body.link.elements;
+    bodies.push_back(std::move(data));
   }
-  return {{"name", scene.machine.name},
+  return {{"name", readable(scene.machine.name)},
+          {"lathe", scene.machine.mainSpindle.has_value()},
           {"axes", std::move(axes)},
           {"table", chainData(scene.machine.tableChain)},
           {"spindle", chainData(scene.machine.spindleChain)},
           {"bodies", std::move(bodies)}};
+}
+
+json machineData(const MachineReplay& replay) {
+  json data = machineData(replay.scene);
+  json positions = json::array(), probes = json::array(), changes = json::array();
+  for (std::size_t axis = 0; axis < replay.scene.machine.axes.size(); ++axis) {
+    std::vector<float> values;
+    for (const machine::AxisPositions& point : replay.positions)
+      values.push_back(static_cast<float>(point[axis]));
+    // What stands all the time is one number.
+    const bool stands = std::ranges::adjacent_find(values, std::not_equal_to()) == values.end();
+    positions.push_back(stands ? json(values.empty() ? 0.0F : values.front()) : json(base64(values)));
+  }
+  for (const Mesh& probe : replay.probes)
+    probes.push_back(shapeData(probe));
+  for (const Path::ToolFrom& change : replay.changes)
+    changes.push_back({change.point, change.tool});
+  data["positions"] = std::move(positions);
+  data["probes"] = std::move(probes);
+  data["changes"] = std::move(changes);
+  return data;
 }
 
 std::string machinePage(const MachineScene& scene, const std::string& file, const std::vector<std::string>& remarks) {

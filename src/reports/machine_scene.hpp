@@ -20,8 +20,17 @@ struct MachineScene {
   std::vector<Body> bodies;
 };
 
+/// How the axes of a machine have moved on a scene's path.
+struct MachineReplay {
+  MachineScene scene;
+  std::vector<machine::AxisPositions> positions;  ///< one for each point of the path
+  std::vector<Mesh> probes;                       ///< touch probes, spindle frame
+  std::vector<Path::ToolFrom> changes;            ///< which of them is in the spindle from a point of the path on
+};
+
 /// As the scripts of the pages read it; web/src/links.ts says what they make of it.
 nlohmann::json machineData(const MachineScene& scene);
+nlohmann::json machineData(const MachineReplay& replay);
 
 /// A page that draws the machine and moves each of its axes. One HTML file that holds everything it needs and asks no
 /// network for anything. `file`: what it was read from. `remarks`: what is doubtful about it.

@@ -14,6 +14,7 @@
 #include "records/readable_text.hpp"
 #include "records/results.hpp"
 #include "reports/embedded.hpp"
+#include "reports/machine_scene.hpp"
 
 namespace probewright::reports {
 
@@ -161,6 +162,7 @@ json sceneData(const Scene& scene, const records::ReadableText& readable) {
             {"tools", base64(touching)}}},
           {"collisions", std::move(collisions)},
           {"camera", cameraData(scene.camera, readable)},
+          {"machine", scene.machine ? machineData(*scene.machine) : json(nullptr)},
           {"ballRadius", scene.ballRadius},
           {"workpiece", scene.sceneFromWorkpiece ? matrix(*scene.sceneFromWorkpiece) : json(nullptr)}};
 }

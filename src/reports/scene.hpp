@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -73,6 +74,8 @@ struct CameraShot {
   std::string evaluated;  ///< taken, with monitoring areas and errors framed; empty where nothing is compared
 };
 
+struct MachineReplay;
+
 struct Scene {
   std::vector<Mesh> meshes;
   Path path;
@@ -84,6 +87,7 @@ struct Scene {
   double ballRadius = 0;  ///< of the probe, mm; 0: not drawn
   std::optional<Pose>
       sceneFromWorkpiece;  ///< the workpiece coordinate system at the end of the run, as the control believes
+  std::shared_ptr<const MachineReplay> machine;  ///< null: it has no bodies to be drawn
 };
 
 }  // namespace probewright::reports

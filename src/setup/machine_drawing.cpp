@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <map>
 #include <string_view>
 
 #include "machine/machine_file.hpp"
 #include "setup/machine_body_keys.hpp"
+#include "setup/probe_drawing.hpp"
 #include "simulation/solid_triangles.hpp"
 #include "simulation/virtual_machine.hpp"
 #include "simulation/world.hpp"
@@ -100,6 +102,27 @@ reports::MachineScene machineSceneOf(const simulation::Truth& truth) {
           {machine::tableLink(truth.machine), meshOf(*solid.solid, solid.tableFromSolid, solid.name)});
   }
   return scene;
+}
+
+std::shared_ptr<const reports::MachineReplay> machineReplayOf(const simulation::Truth& truth,
+                                                              const simulation::PathRecord& path) {
+  if (truth.bodies.empty()) return nullptr;
+  auto replay = std::make_shared<reports::MachineReplay>();
+  replay->scene = machineSceneOf(truth);
+  std::map<int, std::int32_t> probes;
+  for (std::size_t i = 0; i < path.points.size(); ++i) {
+    const simulation::PathPoint& point = path.points[i];
+    replay->positions.push_back(point.axes);
+    std::int32_t probe = -1;
+    if (point.tool >= 0 && truth.tools[static_cast<std::size_t>(point.tool)].kind == simulation::ToolKind::Probe) {
+      const auto [known, isNew] = probes.try_emplace(point.tool, static_cast<std::int32_t>(replay->probes.size()));
+      if (isNew) replay->probes.push_back(drawnProbe(truth.tools[static_cast<std::size_t>(point.tool)]));
+      probe = known->second;
+    }
+    if (probe != (replay->changes.empty() ? -1 : replay->changes.back().tool))
+      replay->changes.push_back({static_cast<std::uint32_t>(i), probe});
+  }
+  return replay;
 }
 
 std::optional<MachineWorld> readMachineWorld(const std::string& nameOrPath, Diagnostics& diagnostics) {

@@ -1,16 +1,22 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "base/diagnostic.hpp"
 #include "reports/machine_scene.hpp"
+#include "simulation/path_record.hpp"
 #include "simulation/truth.hpp"
 
 namespace probewright::setup {
 
 /// The machine of a world with its bodies and its own table; nothing of what lies on the table.
 reports::MachineScene machineSceneOf(const simulation::Truth& truth);
+
+/// The same with what its axes have done; null if it has no bodies.
+std::shared_ptr<const reports::MachineReplay> machineReplayOf(const simulation::Truth& truth,
+                                                              const simulation::PathRecord& path);
 
 /// A machine file read on its own.
 struct MachineWorld {

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "setup/camera_shots.hpp"
+#include "setup/machine_drawing.hpp"
 #include "setup/tool_drawing.hpp"
 #include "simulation/drawing_mesh.hpp"
 
@@ -190,6 +191,7 @@ reports::Scene sceneOf(const control::Journal& journal, const simulation::Truth&
     }
   }
   scene.tools = std::move(tools.meshes);
+  scene.machine = machineReplayOf(truth, path);
   return scene;
 }
 

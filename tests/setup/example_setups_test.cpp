@@ -97,7 +97,7 @@ TEST(ExampleSetups, TheManualsExamplesAreRead) {
     inside = false;
     block.clear();
   }
-  EXPECT_EQ(count, 3);
+  EXPECT_EQ(count, 4);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 // What the report holds: the results as in docs/results.schema.json, the program texts, and the scene in typed arrays.
 
+import type { Replay } from "./machine";
+
 export type Verdict = "none" | "good" | "rework" | "scrap";
 export type Triple = [number | null, number | null, number | null];
 
@@ -147,6 +149,8 @@ export interface Scene {
   touches: { indices: Uint32Array; centres: Float32Array; surfaces: Float32Array; tools: Int32Array; axes: Float32Array };
   collisions: Collision[];
   camera: CameraShot[];
+  /** The machine around the part; null: its bodies are not known. */
+  machine: Replay | null;
   ballRadius: number;
   workpiece: number[] | null;
 }
@@ -166,6 +170,8 @@ interface PackedScene {
   touches: Record<"indices" | "centres" | "surfaces" | "tools" | "axes", string>;
   collisions: Collision[];
   camera: CameraShot[];
+  /** The machine around the part; null: its bodies are not known. */
+  machine: Replay | null;
   ballRadius: number;
   workpiece: number[] | null;
 }
@@ -187,7 +193,7 @@ export function readReport(): Report {
     programs: ProgramText[];
     scene: PackedScene;
   };
-  const { meshes, tools, path, touches, collisions, camera, ballRadius, workpiece } = packed.scene;
+  const { meshes, tools, path, touches, collisions, camera, machine, ballRadius, workpiece } = packed.scene;
   return {
     results: packed.results,
     programs: packed.programs,
@@ -224,6 +230,7 @@ export function readReport(): Report {
       },
       collisions,
       camera,
+      machine,
       ballRadius,
       workpiece,
     },

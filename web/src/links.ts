@@ -39,6 +39,8 @@ export interface Body extends Link {
 
 export interface Machine {
   name: string;
+  /** The main spindle turns the workpiece. */
+  lathe: boolean;
   axes: MachineAxis[];
   table: Element[];
   spindle: Element[];
@@ -88,9 +90,11 @@ function bytes(base64: string): ArrayBuffer {
   return array.buffer;
 }
 
+export const packedFloats = (base64: string) => new Float32Array(bytes(base64));
+
 /** The triangles of a body and its edges. */
-export function bodyGeometry(body: Body): { surface: BufferGeometry; edges: BufferGeometry } {
-  const attribute = (base64: string) => new BufferAttribute(new Float32Array(bytes(base64)), 3);
+export function bodyGeometry(body: Omit<Body, keyof Link>): { surface: BufferGeometry; edges: BufferGeometry } {
+  const attribute = (base64: string) => new BufferAttribute(packedFloats(base64), 3);
   const surface = new BufferGeometry();
   surface.setAttribute("position", attribute(body.positions));
   surface.setIndex(new BufferAttribute(new Uint32Array(bytes(body.triangles)), 1));

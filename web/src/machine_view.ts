@@ -41,6 +41,13 @@ const looks: Record<string, Vector3> = {
   Right: new Vector3(1, 0, 0),
   Top: new Vector3(0, -1e-4, 1),
 };
+/** As a turner sees a lathe: Z to the right, X up. */
+const latheLooks: Record<string, Vector3> = {
+  Iso: new Vector3(0.45, 0.85, 0.5),
+  Front: new Vector3(0, 1, 0),
+  Right: new Vector3(0, 0, 1),
+  Top: new Vector3(1, 1e-4, 0),
+};
 const triadColours = ["#d1242f", "#1f9d4d", "#2f6feb"];
 
 /** What each link looks like: the bed grey, what carries the workpiece blue, what carries the tool brown. */
@@ -87,7 +94,6 @@ export class MachineView {
     const rim = new DirectionalLight("#dbe6ff", 0.9);
     rim.position.set(-0.8, -0.2, 0.4);
     this.camera.add(key, rim);
-    this.camera.up.set(0, 0, 1);
     this.scene.add(this.camera, new AmbientLight("#ffffff", 1.25));
     new ResizeObserver(() => this.resize()).observe(this.element);
     // What is drawn, in numbers: base from link of each, column by column.
@@ -247,7 +253,7 @@ export class MachineView {
     triad.position.copy(at);
     parent.add(triad);
     this.frames.push(triad);
-    this.name(triad, name, "frame", this.frames);
+    this.name(triad, name, `frame ${name}`, this.frames);
   }
 
   showArrows(on: boolean) {
@@ -286,14 +292,14 @@ export class MachineView {
   look(name: string) {
     this.look_ = name;
     if (!this.controls) return;
+    const { lathe } = this.machine;
     const bounds = this.bounds();
     const centre = bounds.getCenter(new Vector3());
     const reach = 0.5 * bounds.getSize(new Vector3()).length() + this.size;
     this.controls.target.copy(centre);
-    this.camera.position.copy(centre).addScaledVector(looks[name].clone().normalize(), 10 * reach);
+    this.camera.position.copy(centre).addScaledVector((lathe ? latheLooks : looks)[name].clone().normalize(), 10 * reach);
     this.camera.near = reach;
     this.camera.far = 30 * reach;
-    this.camera.up.set(0, 0, 1);
     this.camera.lookAt(centre);
     this.camera.updateMatrixWorld();
     const across = [0, 1].map((column) => {
@@ -331,6 +337,8 @@ export class MachineView {
     }
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.element.append(this.renderer.domElement, this.labels);
+    // It turns about what is up now.
+    this.camera.up.set(this.machine.lathe ? 1 : 0, 0, this.machine.lathe ? 0 : 1);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => this.draw());

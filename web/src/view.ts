@@ -5,6 +5,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 import { type Report, touchDeviation, type Triple } from "./data";
 import { count, duration, fixed, h, icon } from "./dom";
+import { MachineLayer } from "./machine";
 import { Drawing, type Marker, type Palette } from "./scene";
 import type { Selector } from "./selection";
 import { badge, cycleState } from "./verdict";
@@ -44,6 +45,8 @@ export class View {
   private readonly card = h("aside", { class: "touch-card", hidden: true });
   private readonly camera = new OrthographicCamera(-1, 1, 1, -1, 0.1, 1000);
   private readonly drawing: Drawing;
+  /** The machine around it; null: nothing of it is known. */
+  private readonly machine: MachineLayer | null;
   private renderer: WebGLRenderer | null = null;
   private controls: OrbitControls | null = null;
   /** What the view was filled with last, until the reader moves it: a page that changes its size fills it anew. */
@@ -58,6 +61,7 @@ export class View {
     private readonly selector: Selector,
   ) {
     this.drawing = new Drawing(report);
+    this.machine = report.scene.machine ? new MachineLayer(report.scene.machine, this.drawing.scene) : null;
     this.camera.up.set(0, 0, 1);
     this.standing = [
       ...this.drawing.axisEnds.map(({ name, at }) => ({ at, label: h("span", { class: "axis" }, h("b", {}, name)) })),
@@ -106,7 +110,9 @@ export class View {
 
   /** Takes the page's colours anew. */
   colour() {
-    this.drawing.colour(palette());
+    const colours = palette();
+    this.drawing.colour(colours);
+    this.machine?.colour(colours.fixture, colours.part, colours.artefact, colours.edge);
     // At once: a page about to be printed waits for no frame.
     if (this.renderer) this.render();
   }
@@ -149,7 +155,8 @@ export class View {
     if (up.y === 1) towards.y -= 1e-4;
     this.controls.target.copy(center);
     this.camera.position.copy(center).addScaledVector(towards, 20 * reach);
-    this.camera.near = reach;
+    // A machine reaches far beyond its part.
+    this.camera.near = this.machine ? -60 * reach : reach;
     this.camera.far = 60 * reach;
     this.zoomTo(this.drawing.focusCorners);
   }
@@ -199,7 +206,7 @@ export class View {
 
   /** Pixels from the stage's upper left corner. */
   private onScreen(point: Vector3): Vector3 {
-    const at = point.clone().project(this.camera);
+    const at = (this.machine?.onScene(point) ?? point.clone()).project(this.camera);
     at.x = ((at.x + 1) / 2) * this.stage.clientWidth;
     at.y = ((1 - at.y) / 2) * this.stage.clientHeight;
     return at;
@@ -246,6 +253,8 @@ export class View {
     }
     const marker = touch === null ? undefined : ofCycle.find((candidate) => candidate.touch === touch);
     this.drawing.placeProbe(marker ? marker.centre : null, marker?.axis, marker?.tool);
+    const time = marker && this.report.results.cycles[marker.cycle]?.touches[marker.touch]?.time;
+    if (time != null && this.report.scene.path.seconds.length > 1) this.machine?.show(...this.pathPlace(time));
     this.fillCard(cycle, touch);
     // The card must not lie over what it tells about.
     const points = marker ? [marker] : ofCycle;
@@ -344,6 +353,7 @@ export class View {
         toggle("Path", true, (on) => this.drawing.showPath(on)),
         toggle("Touches", true, (on) => this.drawing.showTouches(on)),
         ...(this.drawing.hasFixtures ? [toggle("Fixtures", true, (on) => this.drawing.showFixtures(on))] : []),
+        ...this.machineButtons(toggle),
       ),
     );
   }
@@ -351,6 +361,34 @@ export class View {
   private legend(): HTMLElement {
     const item = (kind: string, text: string) => h("span", {}, h("i", { class: `swatch ${kind}` }), text);
     return h("div", { class: "legend" }, item("rapid", "Rapid"), item("feed", "Feed"), item("measure", "Measuring"), item("dot", "Touch"), this.report.scene.collisions.length > 0 && item("collision", "Collision"));
+  }
+
+  /** The points of the path before and after that time, and the part of the way between them. */
+  private pathPlace(time: number): [number, number, number] {
+    const { seconds } = this.report.scene.path;
+    let [low, high] = [0, seconds.length - 1];
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (seconds[middle] <= time) low = middle;
+      else high = middle;
+    }
+    const span = seconds[high] - seconds[low];
+    return [low, high, span > 0 ? MathUtils.clamp((time - seconds[low]) / span, 0, 1) : 1];
+  }
+
+  /** The machine, drawn or not; with it either the part or the machine stands still. */
+  private machineButtons(toggle: (text: string, on: boolean, change: (on: boolean) => void) => HTMLElement): HTMLElement[] {
+    const { machine } = this;
+    if (!machine) return [];
+    const standing = toggle("Axes move", false, (on) => machine.keep(on ? "machine" : "part"));
+    standing.title = "The machine stands and its axes move; else the part stands still";
+    standing.hidden = true;
+    const drawn = toggle("Machine", false, (on) => {
+      machine.draw(on);
+      standing.hidden = !on;
+      this.zoomTo(on ? [...machine.corners(), ...this.drawing.focusCorners.map((point) => machine.onScene(point))] : this.drawing.focusCorners);
+    });
+    return [drawn, standing];
   }
 
   /** A slider over the machine's clock. */
@@ -364,19 +402,13 @@ export class View {
     const vector = (array: Float32Array, i: number) => new Vector3().fromArray(array, 3 * i);
     const show = () => {
       const time = Number(slider.value);
-      let [low, high] = [0, n - 1];
-      while (high - low > 1) {
-        const middle = (low + high) >> 1;
-        if (seconds[middle] <= time) low = middle;
-        else high = middle;
-      }
-      const span = seconds[high] - seconds[low];
-      const part = span > 0 ? MathUtils.clamp((time - seconds[low]) / span, 0, 1) : 1;
+      const [low, high, part] = this.pathPlace(time);
       const axis =
         toolAxes.length >= points.length ? vector(toolAxes, low).lerp(vector(toolAxes, high), part) : new Vector3(0, 0, 1);
       let tool = -1;
       for (let i = 0; i < tools.length && tools[i] <= low; i += 2) tool = tools[i + 1];
       this.drawing.placeProbe(vector(points, low).lerp(vector(points, high), part), axis, tool);
+      this.machine?.show(low, high, part);
       clock.textContent = duration(time);
       this.draw();
     };
