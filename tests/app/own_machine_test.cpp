@@ -105,7 +105,7 @@ TEST_F(OwnMachine, MistakesHaveTheirPlaces) {
                     HasSubstr("axis A moves nothing")));
   EXPECT_THAT(wrong("direction = [-1, 0, 0]", "direction = [0, 0, 0]"), HasSubstr("a direction cannot be [0, 0, 0]"));
   EXPECT_THAT(wrong("link = \"A\"", "link = \"Q\""), HasSubstr("error: there is no axis called Q"));
-  EXPECT_THAT(wrong("minimum = -30", "minimum = 130"), HasSubstr("the travel of axis A ends before it begins"));
+  EXPECT_THAT(wrong("minimum = -30\n", "minimum = 130\n"), HasSubstr("the travel of axis A ends before it begins"));
   // The nose reaches down to the table where tools are changed.
   EXPECT_THAT(wrong("diameter = 70\nheight = 120", "diameter = 70\nheight = 120\ncentre = [0, 0, -400]"),
               HasSubstr("the machine cannot start like this: the machine's \"spindle nose\" touched"));

@@ -5,10 +5,14 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "control/journal.hpp"
 #include "machine/links.hpp"
 #include "machine/machine_file.hpp"
+#include "records/run_info.hpp"
+#include "reports/report.hpp"
 #include "setup/machine_drawing.hpp"
-#include "support/axis_positions.hpp"
+#include "setup/scene.hpp"
+#include "support/virtual_world.hpp"
 
 /// The page of a machine. web/test/machine.test.mjs opens what is written here and compares the poses of its links.
 namespace probewright::setup {
@@ -91,6 +95,36 @@ TEST(MachinePage, IsWrittenForTheBrowser) {
     expected[name] = {{"axes", axes}, {"links", links}, {"tip", {tip.x(), tip.y(), tip.z()}}};
   }
   write("expected.json", expected.dump());
+}
+
+TEST(MachinePage, OfAReportIsWrittenForTheBrowser) {
+  Diagnostics diagnostics;
+  auto world = readMachineWorld("mill5-table-table", diagnostics);
+  ASSERT_TRUE(world);
+  world->truth.tools.push_back(testing_support::idealProbe());
+  testing_support::place(world->truth, simulation::Box({-60, -40, -600}, {60, 40, -540}));
+  simulation::VirtualMachine machine(std::move(world->truth));
+  machine.insertTool({1, {}});
+  machine.move(positions({40, 20, -300, 0, 0}), machine::Feed::rapidTraverse());
+  machine.move(positions({40, 20, -300, 30, 60}), machine::Feed::at(5000));
+  machine.move(positions({-90, 60, -350, 30, 60}), machine::Feed::at(5000));
+  const reports::Scene scene = sceneOf(control::Journal(), machine.truth(), machine.path());
+  write("report.html", reports::reportHtml(control::Journal(), records::RunInfo(), scene));
+  json links = json::array();
+  for (const auto& [chain, kind, end] :
+       {std::tuple("table", machine::Link::Chain::Table, 2), std::tuple("spindle", machine::Link::Chain::Spindle, 3)}) {
+    for (int elements = 1; elements <= end; ++elements) {
+      const machine::Link link{kind, static_cast<std::size_t>(elements)};
+      const Eigen::Matrix4d pose = poseBySeries(machine.description(), machine.position(), link);
+      const Eigen::Matrix4d onTable =
+          poseBySeries(machine.description(), machine.position(), tableLink(machine.description())).inverse() * pose;
+      links.push_back({{"chain", chain},
+                       {"elements", elements},
+                       {"base", std::vector<double>(pose.data(), pose.data() + 16)},
+                       {"table", std::vector<double>(onTable.data(), onTable.data() + 16)}});
+    }
+  }
+  write("report.json", links.dump());
 }
 
 TEST(MachinePage, HoldsNoTextThatCouldBecomeMarkup) {

@@ -52,6 +52,8 @@ export class MachineLayer {
     this.probes = replay.probes.map((probe) => this.solid(probe, headLink(replay)));
     this.group(headLink(replay)).add(...this.probes);
     this.update();
+    // What is drawn, in numbers: scene from link of each, column by column.
+    Object.assign(window, { probewrightLinks: () => this.links.map(({ link, group }) => ({ ...link, pose: group.matrixWorld.toArray() })) });
   }
 
   private group({ chain, elements }: Link): Group {

@@ -35,7 +35,7 @@ after(async () => {
 
 const settle = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 100)))));
 
-async function open(name, { width = 1400, height = 900, dark = false } = {}) {
+async function open(name, { ready = "#machine main canvas", width = 1400, height = 900, dark = false } = {}) {
   const page = await browser.newPage();
   const problems = [];
   page.on("pageerror", (error) => problems.push(String(error)));
@@ -45,7 +45,7 @@ async function open(name, { width = 1400, height = 900, dark = false } = {}) {
   await page.setViewport({ width, height });
   await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }]);
   await page.goto(pathToFileURL(resolve(samples, name)).href);
-  await page.waitForSelector("#machine main canvas");
+  await page.waitForSelector(ready);
   await settle(page);
   return { page, problems };
 }
@@ -109,5 +109,34 @@ test("says which way plus is", async () => {
   const { page } = await open("mill5-table-table.html");
   const text = await page.$eval('[data-axis="C"]', (row) => row.innerText);
   assert.match(text, /tool turns about \+Z: the workpiece turns about \u2212Z/);
+  await page.close();
+});
+
+test("the replay of a report moves the machine about the part, and the part with the machine", async () => {
+  const { page, problems } = await open("report.html", { ready: ".stage canvas" });
+  const wanted = JSON.parse(readFileSync(join(samples, "report.json"), "utf8"));
+  const press = (text) =>
+    page.evaluate((name) => [...document.querySelectorAll(".toolbar button")].find((button) => button.innerText === name).click(), text);
+  const compare = async (frame) => {
+    const drawn = await page.evaluate(() => window.probewrightLinks());
+    for (const link of wanted) {
+      const { pose } = drawn.find(({ chain, elements }) => chain === link.chain && elements === link.elements);
+      // The path is packed in single precision.
+      pose.forEach((value, i) => assert.ok(Math.abs(value - link[frame][i]) < 1e-3, `${frame} ${link.chain} ${link.elements} [${i}]: ${value}, not ${link[frame][i]}`));
+    }
+  };
+  await page.$eval(".replay input", (slider) => {
+    slider.value = slider.max;
+    slider.dispatchEvent(new Event("input"));
+  });
+  await press("Machine");
+  await settle(page);
+  await compare("table");
+  if (pictures) await page.screenshot({ path: join(pictures, "replay-part.png") });
+  await press("Axes move");
+  await settle(page);
+  await compare("base");
+  if (pictures) await page.screenshot({ path: join(pictures, "replay-machine.png") });
+  assert.deepEqual(problems, []);
   await page.close();
 });
