@@ -102,14 +102,34 @@ struct SearchTree::Walks {
   };
   using Corners = std::array<std::array<Lanes, 3>, 3>;
 
+  /// Boxes and blocks that are still to be looked at, in no order: to find the nearest of a few takes less time than to
+  /// keep them sorted, which the processor cannot foresee.
+  static constexpr std::size_t kMostPending = 240;
+  struct Pending {
+    alignas(32) std::array<float, kMostPending + 3 * kWidth> bound;  ///< kNever for two lanes and more after the last
+    std::array<std::uint32_t, kMostPending + 3 * kWidth> child;
+    std::size_t count = 0;
+    float nearest = kNever;  ///< of the bounds
+    Pending() { std::fill_n(bound.begin(), 2 * kWidth, kNever); }
+  };
+  /// What no longer fits there: depth first, so that it cannot become more than the tree is deep.
+  struct Deep {
+    struct Entry {
+      float bound;
+      std::uint32_t child;
+    };
+    std::array<Entry, 512> entries;
+    std::size_t count = 0;
+  };
+
   /// A dozen roundings of the numbers in play.
   static constexpr float kRounding = 8e-7F;
 
 #define PROBEWRIGHT_INLINE [[gnu::always_inline]] static inline
 
-  PROBEWRIGHT_INLINE void store(std::array<float, kWidth>& to, const Lanes& from) {
-    *reinterpret_cast<Lanes*>(to.data()) = from;
-  }
+  using Unaligned = float __attribute__((vector_size(32), aligned(4), may_alias));
+  PROBEWRIGHT_INLINE void store(float* to, const Lanes& from) { *reinterpret_cast<Unaligned*>(to) = from; }
+  PROBEWRIGHT_INLINE Lanes load(const float* from) { return *reinterpret_cast<const Unaligned*>(from); }
   PROBEWRIGHT_INLINE Lanes every(float x) { return Lanes{} + x; }
   /// Asks for cache lines that will be needed soon.
   template <std::size_t Bytes>
@@ -121,6 +141,23 @@ struct SearchTree::Walks {
     const float n = static_cast<float>(count);
     return n - Lanes{0, 1, 2, 3, 4, 5, 6, 7};
   }
+  /// kNever in one lane, the others as they are.
+  PROBEWRIGHT_INLINE Lanes without(const Lanes& x, std::uint32_t lane) {
+    return Lanes{0, 1, 2, 3, 4, 5, 6, 7} == static_cast<float>(lane) ? every(kNever) : x;
+  }
+  /// For each set of lanes: which they are, the first ones first; then the others.
+  static constexpr auto kOrder = [] {
+    std::array<std::array<std::uint8_t, kWidth>, 256> orders{};
+    for (std::size_t set = 0; set < orders.size(); ++set) {
+      std::size_t at = 0;
+      for (const bool within : {true, false}) {
+        for (std::uint8_t k = 0; k < kWidth; ++k) {
+          if ((((set >> k) & 1U) != 0) == within) orders[set][at++] = k;
+        }
+      }
+    }
+    return orders;
+  }();
 
   struct Plain {
     PROBEWRIGHT_INLINE Lanes least(const Lanes& x, const Lanes& y) { return x < y ? x : y; }
@@ -151,6 +188,17 @@ struct SearchTree::Walks {
       for (std::size_t k = 1; k < kWidth; ++k)
         result = std::min(result, x[k]);
       return result;
+    }
+    /// The lanes of the set first.
+    PROBEWRIGHT_INLINE Lanes pack(const Lanes& x, unsigned set) {
+      Lanes result;
+      for (std::size_t k = 0; k < kWidth; ++k)
+        result[k] = x[kOrder[set][k]];
+      return result;
+    }
+    PROBEWRIGHT_INLINE void pack(const std::array<std::uint32_t, kWidth>& x, unsigned set, std::uint32_t* to) {
+      for (std::size_t k = 0; k < kWidth; ++k)
+        to[k] = x[kOrder[set][k]];
     }
     PROBEWRIGHT_INLINE Corners cornersFrom(const Block& block, const Vector3& from) {
       Corners corners;
@@ -188,6 +236,14 @@ struct SearchTree::Walks {
       __m128 m = _mm_min_ps(_mm256_castps256_ps128(x), _mm256_extractf128_ps(x, 1));
       m = _mm_min_ps(m, _mm_movehl_ps(m, m));
       return _mm_cvtss_f32(_mm_min_ss(m, _mm_movehdup_ps(m)));
+    }
+    PROBEWRIGHT_INLINE __m256i orderOf(unsigned set) {
+      return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(kOrder[set].data())));
+    }
+    PROBEWRIGHT_INLINE Lanes pack(const Lanes& x, unsigned set) { return _mm256_permutevar8x32_ps(x, orderOf(set)); }
+    PROBEWRIGHT_INLINE void pack(const std::array<std::uint32_t, kWidth>& x, unsigned set, std::uint32_t* to) {
+      const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(x.data()));
+      _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(all, orderOf(set)));
     }
     PROBEWRIGHT_INLINE Corners cornersFrom(const Block& block, const Vector3& from) {
       __m128 places[3 * kWidth];
