@@ -8,6 +8,8 @@ top face, so each cycle can be called without knowing the others.
 import math
 import random
 
+import random_machine_programs
+
 # What a case consists of: the setup, the program's file name and text, and further words for the command line.
 PLATE = (240, 160, 40)
 HOLE, POCKET, BOLTS = (40, 40), (100, 40), (180, 45)
@@ -572,6 +574,8 @@ def case(number):
         setup, program = turned(dice)
         return setup, "random.mpf", program
     control = ("TNC640", "840Dsl", "iTNC530", "828D", "TNC640", "840Dsl")[number % 6]
+    if number % 10 in (4, 7):
+        return random_machine_programs.case(dice, control)
     world = World(dice, dice.choice(MILLS))
     setup = world.setup(control)
     if control in ("840Dsl", "828D"):
