@@ -48,8 +48,10 @@ TEST_P(OtherMachines, MakeTiltedPlanesExact) {
   SCOPED_TRACE(otherMachines()[GetParam()].name);
   Dice dice(4590 + static_cast<unsigned>(GetParam()));
   const SphereWorld world = worldOf(GetParam(), dice, ControlKind::TNC640);
+  // Where the round table is the outer one it turns the tool on the spot.
   const std::string tilted =
-      "PLANE SPATIAL SPA+0 SPB+20 SPC+0 TURN F5000 SEQ+ TABLE ROT\nL Z+60 R0 FMAX\nL X+0 Y+0 R0 FMAX\n" +
+      std::string(GetParam() == 2 ? "PLANE SPATIAL SPA+20 SPB+0" : "PLANE SPATIAL SPA+0 SPB+20") +
+      " SPC+0 TURN F5000 SEQ+ TABLE ROT\nL Z+60 R0 FMAX\nL X+0 Y+0 R0 FMAX\n" +
       probe(427, {{263, 0},
                   {264, 0},
                   {261, 12.5},

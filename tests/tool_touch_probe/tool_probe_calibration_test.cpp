@@ -58,8 +58,7 @@ TEST(ToolProbeCalibration, FindsPlaceAndWidthWithAPinThatRunsOut) {
     EXPECT_NEAR(values[3], calibrating.world.half1 - early, 2e-6);
     EXPECT_NEAR(values[4], calibrating.world.half2 - early, 2e-6);
     const auto& aside = calibrating.pin.cutter.eccentricity;
-    EXPECT_THAT(ran.screens().back(),
-                HasSubstr(fmt::format("RUN-OUT OF THE TOOL {:+.3f}", aside.x()).substr(0, 24)));
+    EXPECT_THAT(ran.screens().back(), HasSubstr(fmt::format("RUN-OUT OF THE TOOL {:+.3f}", aside.x()).substr(0, 24)));
   }
 }
 
