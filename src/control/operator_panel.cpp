@@ -23,6 +23,9 @@ std::string& OperatorPanel::fileCalled(const std::string& name) {
   if (whyNoFile) {
     if (const std::optional<Diagnostic> why = whyNoFile(name)) return refuse(why->message, why->advice);
   }
+  // A file takes a block of the disk, however short it is.
+  constexpr std::uint64_t leastBytes = 4096;
+  journal_.charge(leastBytes);
   return files_[name];
 }
 

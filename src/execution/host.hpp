@@ -79,8 +79,11 @@ public:
   virtual Value valueFor(const VariableRef& variable, const Operand& operand, Evaluation& evaluation);
 
   /// What the last instructions did beyond their blocks, in steps that count against the step limit: elements of
-  /// arrays. Asked once after every block; the answer is forgotten then.
+  /// arrays, pieces of arcs, files. Asked once after every block; the answer is forgotten then.
   virtual std::uint64_t takeWork() { return 0; }
+
+  /// The steps that the use of a file of so many bytes counts, about as long as they take.
+  static constexpr std::uint64_t stepsOfFile(std::size_t bytes) { return 64 + bytes / 16; }
 
   /// Comparisons take two numbers for equal that differ by no more than this fraction of the larger one. SINUMERIK:
   /// 1e-12.

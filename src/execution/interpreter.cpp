@@ -147,10 +147,11 @@ RunResult Interpreter::runLoop() {
     const std::uint32_t first = std::exchange(resumeAt_, 0);
     if (first == 0) {
       if (limitReached()) {
-        const std::string_view filling = work_ > 0 ? ", elements of arrays that they filled included" : "";
+        const std::string_view further =
+            work_ > 0 ? ", elements of arrays, pieces of arcs and uses of files included" : "";
         return {RunEnd::StepLimit,
                 explain(here(Severity::Error,
-                             fmt::format("the run was stopped after {} blocks{}", options_.stepLimit, filling),
+                             fmt::format("the run was stopped after {} blocks{}", options_.stepLimit, further),
                              "look for an endless loop, or raise the limit with --step-limit")),
                 blocks_};
       }

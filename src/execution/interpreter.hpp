@@ -23,7 +23,7 @@
 namespace probewright::execution {
 
 struct InterpreterOptions {
-  /// The run ends after so many blocks, which catches endless loops; elements of arrays that the blocks fill count,
+  /// The run ends after so many blocks, which catches endless loops; what Host::takeWork tells of them counts,
   /// too. 0: never.
   std::uint64_t stepLimit = 50'000'000;
   /// Programs that may be open above each other, the main program included. HEIDENHAIN 20, SINUMERIK 16.

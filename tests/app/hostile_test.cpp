@@ -185,6 +185,71 @@ TEST(Hostile, StopsALoopThatLeavesMoreAndMore) {
   }
 }
 
+/// Loops that leave little or nothing behind, but whose blocks take long.
+const std::vector<Loop> slowLoops = {
+    {"begun_anew.h",
+     "0 BEGIN PGM P MM\n1 LBL 1\n2 FN 16: F-PRINT NEW.A / L.TXT\n3 FN 9: IF +1 EQU +1 GOTO LBL 1\n4 END PGM P MM\n"},
+    {"table.h", "0 BEGIN PGM P MM\n1 LBL 1\n2 FN 26: TABOPEN T.TAB\n3 FN 9: IF +1 EQU +1 GOTO LBL 1\n4 END PGM P MM\n"},
+    {"table.i",
+     "%P G71 *\nN10 G98 L1 *\nN20 D26: TABOPEN T.TAB *\nN30 D09 P01 +1 P02 +1 P03 1 *\nN99999999 %P G71 *\n"},
+    {"circles.h",
+     "0 BEGIN PGM P MM\n1 TOOL CALL 1 Z\n2 L X+10 Y+0 Z-200 R0 FMAX\n3 CC X+0 Y+0\n4 LBL 1\n"
+     "5 C X-10 Y+0 DR+ R0 F1000\n6 C X+10 Y+0 DR+\n7 FN 9: IF +1 EQU +1 GOTO LBL 1\n8 END PGM P MM\n"},
+    {"isfile.mpf", "WHILE ISFILE(\"DONE.TXT\")==0\nENDWHILE\nM30\n"},
+    {"read.mpf",
+     "DEF INT ERR\nDEF STRING[200] LINE\nWHILE TRUE\nWRITE(ERR,\"LOG\",\"A LINE THAT IS AS LONG AS LINES OF LOGS "
+     "ARE\")\n"
+     "READ(ERR,\"LOG\",1,1,LINE)\nENDWHILE\nM30\n"},
+    {"delete.mpf", "DEF INT ERR\nWHILE TRUE\nR1=R1+1\nDELETE(ERR,\"F\"<<R1)\nENDWHILE\nM30\n"},
+    {"circles.mpf",
+     "T1 D1 M6\nG90 G54\nG0 Z-200\nX10 Y0\nWHILE TRUE\nG2 X-10 Y0 I=AC(0) J=AC(0) F1000\nG2 X10 Y0 I=AC(0) J=AC(0)\n"
+     "ENDWHILE\nM30\n"},
+};
+
+TEST(Hostile, CountsBlocksThatTakeLongAsMany) {
+  for (const Loop& loop : slowLoops) {
+    const Folder folder;
+    folder.file("NEW.A", "M_TRUNCATE\n\"A LINE OF A LOG\";\n");
+    folder.file("T.TAB", "BEGIN T.TAB MM\nNR       X         Y\n0        +1        +2\n[END]\n");
+    const std::string name = loop.name;
+    const std::string control = name.ends_with(".mpf") ? "840Dsl" : "TNC640";
+    const std::string world = folder.file("s.toml", "[control]\ntype = \"" + control + "\"\n[[tool]]\nnumber = 1\n" +
+                                                        "name = \"P\"\nkind = \"mill\"\nlength = 100\nradius = 3\n");
+    const Answer answer = probewright({"run", folder.file(name, loop.program), "--setup", world, "--out",
+                                       (folder / "out").string(), "--step-limit", "500000", "--quiet"});
+    EXPECT_EQ(answer.exit, 3) << name << ": " << answer.errors;
+    EXPECT_THAT(answer.errors, HasSubstr("uses of files included")) << name;
+    EXPECT_THAT(answer.errors, HasSubstr("--step-limit")) << name;
+    EXPECT_THAT(answer.errors, HasSubstr(name + ":")) << name;
+    // The default limit is a hundred times as many: a minute at most.
+    if (PROBEWRIGHT_OPTIMIZED) {
+      EXPECT_LT(answer.cpuSeconds, 1.0) << name;
+    }
+  }
+}
+
+/// However short a file is, it takes room on the disk and in the folder.
+TEST(Hostile, StopsALoopThatWritesMoreAndMoreFiles) {
+  const std::vector<Loop> loopsOfFiles = {
+      {"names.mpf", "DEF INT ERR\nWHILE TRUE\nR1=R1+1\nWRITE(ERR,\"F\"<<R1,\"A\")\nENDWHILE\nM30\n"},
+      {"names.h",
+       "0 BEGIN PGM P MM\n1 Q1 = 0\n2 LBL 1\n3 Q1 = Q1 + 1\n4 QS1 = \"F\" || TOCHAR( DAT+Q1 DECIMALS0 )\n"
+       "5 FN 16: F-PRINT M.A / :'QS1'\n6 FN 9: IF +1 EQU +1 GOTO LBL 1\n7 END PGM P MM\n"}};
+  for (const Loop& loop : loopsOfFiles) {
+    const Folder folder;
+    folder.file("M.A", "\"A\";\n");
+    const bool heidenhain = std::string(loop.name).ends_with(".h");
+    const std::string world =
+        folder.file("s.toml", heidenhain ? "[control]\ntype = \"TNC640\"\n" : "[control]\ntype = \"840Dsl\"\n");
+    const Answer answer = probewright({"run", folder.file(loop.name, loop.program), "--setup", world, "--out",
+                                       (folder / "out").string(), "--record-limit", "1", "--quiet"});
+    EXPECT_EQ(answer.exit, 3) << loop.name << ": " << answer.errors;
+    EXPECT_THAT(answer.errors, HasSubstr("--record-limit")) << loop.name;
+    EXPECT_THAT(answer.errors, HasSubstr(std::string(loop.name) + ":")) << loop.name;
+    EXPECT_LT(namesIn(folder / "out").size(), 1048576U / 4096U + 10) << loop.name;
+  }
+}
+
 TEST(Hostile, StopsALoopThatMeasuresForEver) {
   const Folder folder;
   const std::string world = folder.file("s.toml", blockSetup());

@@ -24,6 +24,7 @@ public:
   std::string requestedProgram() override;
   bool beginBlock(const Program& program, const Block& block) override;
   std::string code(Refusal refusal) const override;
+  std::uint64_t takeWork() override { return klartext_.takeWork(); }
   double relativeEquality() const override { return klartext_.relativeEquality(); }
   void enter(const Program& program, const CallProgram* call, Evaluation* caller) override;
   void leave(const Program& program) override;

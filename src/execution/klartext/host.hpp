@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "execution/host.hpp"
 #include "execution/klartext/coordinate_changes.hpp"
@@ -35,6 +36,7 @@ public:
   std::string requestedProgram() override { return cycles_.takeRequestedProgram(); }
   bool beginBlock(const Program& program, const Block& block) override;
   std::string code(Refusal refusal) const override;
+  std::uint64_t takeWork() override { return std::exchange(run_.work, 0); }
   void enter(const Program& program, const CallProgram* call, Evaluation* caller) override;
   void leave(const Program& program) override;
 

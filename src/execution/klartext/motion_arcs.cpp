@@ -255,6 +255,7 @@ void Motion::runElement(const Element& element, const control::WorkingPlane& pla
     const Vector2 at = i == pieces ? element.to : Vector2(element.centre + turned(arm, fraction * element.sweep));
     points.push_back(point(at, element.heightFrom + fraction * (element.heightTo - element.heightFrom)));
   }
+  run_.work += points.size();
   channel.moveAlong(points, element.feed);
 }
 

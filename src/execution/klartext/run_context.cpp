@@ -37,13 +37,18 @@ std::size_t RunContext::axisOf(char letter) const {
   return *axis;
 }
 
-Result<std::string> RunContext::readHostFile(std::string_view path) const {
+Result<std::string> RunContext::readHostFile(std::string_view path) {
   std::string name(path);
   std::erase(name, '"');
   if (!options.readFile) return fail(fmt::format("the file {} does not exist", excerptOf(name)));
-  Result<std::string> bytes = options.readFile(name);
+  const auto read = [&](const std::string& each) {
+    Result<std::string> bytes = options.readFile(each);
+    work += Host::stepsOfFile(bytes ? bytes->size() : 0);
+    return bytes;
+  };
+  Result<std::string> bytes = read(name);
   if (!bytes && fileNameOf(name) != name) {
-    Result<std::string> byName = options.readFile(fileNameOf(name));
+    Result<std::string> byName = read(fileNameOf(name));
     if (byName) return byName;
   }
   return bytes;

@@ -51,6 +51,7 @@ public:
   std::vector<Level> levels;
   std::string selectedProgram;  ///< of SEL PGM
   std::string cycleProgram;     ///< of cycle 12
+  std::uint64_t work = 0;       ///< since Host::takeWork was asked
 
   void message(std::string text);
   void warn(std::string text);
@@ -66,7 +67,7 @@ public:
   /// The index of the machine's axis. Throws Alarm if it has none of that name.
   std::size_t axisOf(char letter) const;
   /// The bytes of a file of the control: at its path, or by its name alone.
-  Result<std::string> readHostFile(std::string_view path) const;
+  Result<std::string> readHostFile(std::string_view path);
   /// The clock of the control, seconds since 1970.
   double machineSeconds() const {
     return static_cast<double>(control.wallClockStart) + control.channel.seconds() - control.startSeconds;

@@ -58,7 +58,7 @@ public:
   std::optional<std::string> shownText(const language::VariableRef& variable, Evaluation& evaluation) override;
   Value valueFor(const language::VariableRef& variable, const language::Operand& operand,
                  Evaluation& evaluation) override;
-  std::uint64_t takeWork() override { return std::exchange(work_, 0); }
+  std::uint64_t takeWork() override { return std::exchange(work_, 0) + std::exchange(state_.pieces, 0); }
   double relativeEquality() const override { return 1e-12; }
   void enter(const language::Program& program, const language::CallProgram* call, Evaluation* caller) override;
   void leave(const language::Program& program) override;
@@ -179,7 +179,7 @@ private:
   std::optional<MeasuringNotice> notice_;  ///< while the call of CUST_MEACYC is being made
   bool builderTellsOccasions_ = false;     ///< the last CUST_MEACYC has a parameter for the occasion
   bool recording_ = false;                 ///< motions make a table of a contour or a curve: the axes stand
-  std::uint64_t work_ = 0;                 ///< elements of arrays that were filled or copied
+  mutable std::uint64_t work_ = 0;         ///< elements of arrays that were filled or copied, files that were looked up
   std::set<std::string, std::less<>> skipped_;
   std::set<std::string> deletedFiles_;  ///< what DELETE took from the files that lay there
 };

@@ -58,12 +58,14 @@ const std::string* SinumerikHost::writtenFile(const std::string& name) const {
 std::optional<std::string> SinumerikHost::fileText(const std::string& file) const {
   const std::string name = comparedName(file);
   std::optional<std::string> text;
+  work_ += control_.panel.files().size();
   if (options_.readFile && !deletedFiles_.contains(name)) text = options_.readFile(file);
   if (const std::string* written = writtenFile(name)) {
     if (!text) text.emplace();
     if (!text->empty() && text->back() != '\n') *text += '\n';
     *text += *written;
   }
+  work_ += stepsOfFile(text ? text->size() : 0);
   return text;
 }
 
@@ -71,6 +73,7 @@ bool SinumerikHost::isFile(const std::string& path) const {
   const std::string plain = path.substr(path.find_last_of("/\\") + 1);
   if (plain.empty() || plain == "." || plain == "..") return false;
   const std::string name = comparedName(path);
+  work_ += stepsOfFile(0) + control_.panel.files().size();
   if (writtenFile(name) != nullptr) return true;
   if (deletedFiles_.contains(name)) return false;
   return (options_.fileExists && options_.fileExists(path)) || (options_.readFile && options_.readFile(path));
@@ -148,7 +151,7 @@ void SinumerikHost::deleteFile(const Command& command, Evaluation& evaluation) {
     if (comparedName(each) == name) written.push_back(each);
   for (const std::string& each : written)
     control_.panel.file(each, {});
-  deletedFiles_.insert(name);
+  if (there) deletedFiles_.insert(name);
   setVariable(words[0].value, static_cast<double>(there ? FileError::None : FileError::NotFound), evaluation);
 }
 

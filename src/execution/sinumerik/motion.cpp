@@ -429,6 +429,7 @@ void PathMotion::run(const PathElement& element) {
       points.push_back(element.at(static_cast<double>(i) / pieces));
     points.push_back(element.end);
   }
+  state_.pieces += points.size() - 1;
   std::span<const Vector3> left = points;
   for (; !left.empty() && leavesContact(); left = left.subspan(1))
     channel.retractTo(left.front(), element.feed);

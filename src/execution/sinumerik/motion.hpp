@@ -44,6 +44,7 @@ struct MotionState {
   double modalCornerFeed = 0;              ///< FRCM; 0: corners have the feed of their block
   std::map<std::string, double> axisFeed;  ///< FA[axis]
   std::array<int, 70> gGroup{};            ///< $P_GG: active function of each G group; 0: as after reset
+  std::uint64_t pieces = 0;                ///< of arcs, beyond one a block, since Host::takeWork was asked
 };
 
 /// What the last MEAS or MEAW found.
