@@ -197,9 +197,12 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
                     finish);
   };
 
+  // The tip is the south pole of the ball or its centre. Against the tool the trigger point counts from the south pole.
+  const Vector3 centreFromTip = probe_.lengthToCentre ? Vector3(Vector3::Zero()) : Vector3(ballRadius() * toolAxis());
   const auto noteTouch = [&](const control::Touch& touch) {
-    record.ballCentre = touch.tip;
-    record.surface = plane_.xyzFromPlane(plane_.planeFromXyz(touch.tip) + upright + surfaceFromTcp);
+    const Vector3 tip = plane_.planeFromXyz(touch.tip);
+    record.ballCentre = plane_.xyzFromPlane(tip + centreFromTip);
+    record.surface = plane_.xyzFromPlane(tip + (direction.z() == 0 ? centreFromTip : upright) + surfaceFromTcp);
     record.latched = touch.latched;
     finish("touched");
   };
