@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "camera/virtual_camera.hpp"
+#include "setup/calibrated_beliefs.hpp"
 #include "simulation/cad_solid.hpp"
 #include "simulation/mesh_solid.hpp"
 #include "truth/run_truth.hpp"
@@ -31,6 +33,21 @@ void warnOfParts(const simulation::Truth& truth, const std::string& file, Diagno
   }
 }
 
+/// What the control would believe if everything had just been measured without an error.
+control::Beliefs calibratedBeliefs(const Setup& setup) {
+  control::Beliefs beliefs = setup.beliefs;
+  beliefs.tables.clear();
+  beliefs.toolProbes = believedToolProbes(setup.world);
+  for (control::BelievedTool& tool : beliefs.tools) {
+    const auto& tools = setup.world.truth.tools;
+    const auto real = std::ranges::find(tools, tool.number, &simulation::TrueTool::number);
+    if (real == tools.end()) continue;
+    believeAsCalibrated(tool, *real);
+    if (real->kind == simulation::ToolKind::Probe) believeShape(tool, real->probe);
+  }
+  return beliefs;
+}
+
 SimulatedRun runPrepared(session::PreparedProgram prepared, const Setup& setup, const MachineOptions& options) {
   SimulatedRun run;
   if (!hasErrors(prepared.diagnostics)) {
@@ -55,7 +72,10 @@ SimulatedRun runPrepared(session::PreparedProgram prepared, const Setup& setup, 
     info.partName = solid.name;
     info.partPath = solid.source.file.string();
   }
-  if (run.machine && options.recordPath && !options.blind) info.truth = truth::truthOf(run.outcome, *run.machine);
+  if (run.machine && options.recordPath && !options.blind) {
+    const control::Beliefs calibrated = calibratedBeliefs(setup);
+    info.truth = truth::truthOf(run.outcome, *run.machine, {setup.beliefs, calibrated});
+  }
   return run;
 }
 

@@ -1,15 +1,23 @@
 #include "truth/run_truth.hpp"
 
+#include <utility>
+
+#include "truth/entries.hpp"
 #include "truth/touched_points.hpp"
 #include "truth/true_values.hpp"
 
 namespace probewright::truth {
 
 std::shared_ptr<const records::Truth> truthOf(const session::RunOutcome& outcome,
-                                              const simulation::VirtualMachine& machine) {
+                                              const simulation::VirtualMachine& machine, const Told& told) {
   auto known = std::make_shared<records::Truth>();
   const std::vector<TouchedCycle> touched = touchedCycles(outcome.journal, machine.truth(), machine.path());
   known->cycles = trueValues(outcome.journal, touched, machine.truth());
+  known->entries = frameEntries(outcome.journal, touched, known->cycles);
+  for (auto& entry : toolEntries(outcome, told.beliefs, told.calibrated, machine.truth()))
+    known->entries.push_back(std::move(entry));
+  for (auto& entry : kinematicEntries(outcome, machine.truth()))
+    known->entries.push_back(std::move(entry));
   return known;
 }
 

@@ -8,8 +8,14 @@
 
 namespace probewright::truth {
 
+/// What the control was told before the run.
+struct Told {
+  const control::Beliefs& beliefs;
+  const control::Beliefs& calibrated;  ///< the same, if tools and probes had just been measured without an error
+};
+
 /// What the machine knows of a run on it. The machine must have recorded its path.
 std::shared_ptr<const records::Truth> truthOf(const session::RunOutcome& outcome,
-                                              const simulation::VirtualMachine& machine);
+                                              const simulation::VirtualMachine& machine, const Told& told);
 
 }  // namespace probewright::truth

@@ -1,0 +1,237 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/number_text.hpp"
+#include "truth/entries.hpp"
+#include "truth/features.hpp"
+#include "truth/shapes.hpp"
+
+namespace probewright::truth {
+
+using control::Along;
+using control::Quantity;
+using records::EntryKind;
+using records::EntryTruth;
+
+WrittenValues writtenValues(const control::Journal& journal) {
+  WrittenValues values;
+  const auto take = [&](const control::WriteRecord& write, std::optional<std::size_t> cycle) {
+    if (const auto number = parseDecimal(write.after))
+      values[{write.table, write.entry}] = {*number, parseDecimal(write.before), cycle};
+  };
+  for (const control::WriteRecord& write : journal.writes)
+    take(write, std::nullopt);
+  for (std::size_t i = 0; i < journal.cycles.size(); ++i)
+    for (const control::WriteRecord& write : journal.cycles[i].writes)
+      take(write, i);
+  return values;
+}
+
+namespace {
+
+/// A number of a preset or zero offset: a coordinate of the origin along a machine axis, or an angle about one.
+struct FrameNumber {
+  EntryKind kind = EntryKind::Preset;
+  std::string name;   ///< of the frame
+  std::string label;  ///< of the number
+  int axis = 0;       ///< X, Y, Z
+  bool angle = false;
+};
+
+std::string zeroOffsetName(const std::string& index) {
+  const auto number = parseInteger(index);
+  if (!number || *number < 1) return "$P_UIFR[" + index + "]";
+  return *number <= 4 ? fmt::format("G{}", 53 + *number) : fmt::format("G{}", 500 + *number);
+}
+
+std::optional<FrameNumber> heidenhainNumber(const std::string& table, const std::string& entry) {
+  const bool presets = table == "PRESET.PR";
+  if (!presets && !table.ends_with(".D")) return std::nullopt;
+  const std::size_t comma = entry.find(", column ");
+  if (!entry.starts_with("row ") || comma == std::string::npos) return std::nullopt;
+  const std::string row = entry.substr(4, comma - 4), column = entry.substr(comma + 9);
+  FrameNumber number{presets ? EntryKind::Preset : EntryKind::ZeroOffset,
+                     presets ? "preset " + row : fmt::format("datum {} of {}", row, table), column};
+  if (column == "X" || column == "Y" || column == "Z") {
+    number.axis = column[0] - 'X';
+    return number;
+  }
+  number.angle = true;
+  if (column == "SPA" || column == "SPB" || column == "SPC") {
+    number.axis = column[2] - 'A';
+  } else if (column == "ROT" || column == "C_OFFS" || column == "C") {
+    number.axis = 2;
+  } else {
+    return std::nullopt;
+  }
+  return number;
+}
+
+std::optional<FrameNumber> sinumerikNumber(const std::string& table, const std::string& entry) {
+  static constexpr std::string_view frames[] = {"$P_UIFR", "$P_CHBFR", "$P_NCBFR", "$P_SETFR", "$P_PARTFR"};
+  if (std::ranges::find(frames, table) == std::end(frames)) return std::nullopt;
+  // "[1,X,TR]" or, of frames without a number, "[X,TR]".
+  std::vector<std::string> words(1);
+  for (const char c : entry) {
+    if (c == ',')
+      words.emplace_back();
+    else if (c != '[' && c != ']')
+      words.back() += c;
+  }
+  if (words.size() < 2) return std::nullopt;
+  const std::string part = words.back(), axis = words[words.size() - 2];
+  const std::string index = words.size() > 2 ? words.front() : "";
+  if (axis.size() != 1 || axis[0] < 'X' || axis[0] > 'Z') return std::nullopt;
+  const bool translation = part == "TR" || part == "FI" || part == "SI";
+  if (!translation && part != "RT") return std::nullopt;
+  FrameNumber number{EntryKind::ZeroOffset, table == "$P_UIFR" ? zeroOffsetName(index) : table + "[" + index + "]",
+                     axis + (part == "TR" ? "" : " " + part)};
+  number.axis = axis[0] - 'X';
+  number.angle = !translation;
+  return number;
+}
+
+/// How far a cycle measured beside the truth: along the axes of the working plane and about them.
+struct CycleErrors {
+  std::array<std::optional<double>, 3> position, angle;
+  std::array<double, 3> believedAngle{};
+};
+
+std::optional<int> placeOf(Along along, const control::WorkingPlane& plane) {
+  switch (along) {
+    case Along::First:
+      return 0;
+    case Along::Second:
+      return 1;
+    case Along::Third:
+    case Along::Table:
+      return 2;
+    case Along::X:
+    case Along::A:
+    case Along::Y:
+    case Along::B:
+    case Along::Z: {
+      const int xyz = along == Along::X || along == Along::A ? 0 : along == Along::Z ? 2 : 1;
+      for (int i = 0; i < 3; ++i)
+        if (plane.axis(i) == xyz) return i;
+      return std::nullopt;
+    }
+    default:
+      return std::nullopt;
+  }
+}
+
+bool isPosition(Quantity quantity) {
+  return quantity == Quantity::Centre || quantity == Quantity::Corner || quantity == Quantity::Coordinate;
+}
+
+CycleErrors errorsOf(const control::CycleRecord& record, const TouchedCycle& touched,
+                     const records::CycleTruth& truth) {
+  CycleErrors errors;
+  bool planeMeasured = false;
+  for (std::size_t i = 0; i < record.results.size(); ++i) {
+    const control::ResultRecord& result = record.results[i];
+    const control::Characteristic& of = result.kind.of;
+    if (result.kind.role != control::Role::Actual || of.item != 0 || of.system != control::System::Workpiece) continue;
+    const bool position = isPosition(of.quantity);
+    planeMeasured = planeMeasured || of.quantity == Quantity::Centre || of.quantity == Quantity::Corner;
+    if (!truth.results[i]) continue;
+    auto place = placeOf(of.along, touched.plane);
+    if (position && !place && !touched.points.empty()) {
+      Eigen::Index along = 0;
+      touched.points.back().direction.cwiseAbs().maxCoeff(&along);
+      place = static_cast<int>(along);
+    }
+    if (!place) continue;
+    const auto at = static_cast<std::size_t>(*place);
+    const double error = result.value - truth.results[i]->value;
+    if (position && !errors.position[at]) {
+      errors.position[at] = error;
+    } else if (of.quantity == Quantity::Angle && !errors.angle[at]) {
+      errors.angle[at] = error;
+      errors.believedAngle[at] = result.value;
+    }
+  }
+  // Cycles that show no result: by what they have touched.
+  for (const TouchedPoint& point : touched.points) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto axis = static_cast<Eigen::Index>(i);
+      if (std::abs(point.direction[axis]) < 0.9 || (planeMeasured && i != 2)) continue;
+      const auto beyond = distanceToFace(point, point.surface, Vector3::Unit(axis));
+      if (beyond && (!errors.position[i] || planeMeasured)) errors.position[i] = -*beyond;
+    }
+  }
+  if (!errors.angle[2]) {
+    const auto ways = explanations({Quantity::Angle, Along::Third}, touched, record.fits);
+    const auto straight =
+        std::ranges::min_element(ways, {}, [](const Explanation& way) { return std::abs(way.believed); });
+    if (straight != ways.end()) {
+      errors.angle[2] = straight->believed - straight->truth;
+      errors.believedAngle[2] = straight->believed;
+    }
+  }
+  return errors;
+}
+
+/// The error of a number that was written after that measurement.
+std::optional<double> errorOf(const FrameNumber& number, const Written& written, const CycleErrors& errors,
+                              const TouchedCycle& touched) {
+  if (touched.points.empty()) return std::nullopt;
+  const Matrix3 machineFromPlane = touched.points.front().planeFromTable.linear().inverse();
+  if (!number.angle) {
+    Vector3 error = Vector3::Zero();
+    double known = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto axis = static_cast<Eigen::Index>(i);
+      if (!errors.position[i]) continue;
+      error[axis] = *errors.position[i];
+      known = std::max(known, std::abs(machineFromPlane.col(axis).normalized()[number.axis]));
+    }
+    if (known < 0.5) return std::nullopt;  // nothing was measured in this direction
+    return (machineFromPlane * error)[number.axis];
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    if (!errors.angle[i] || std::abs(machineFromPlane.col(axis).normalized()[number.axis]) < 0.9) continue;
+    // An offset of a rotary axis may count against the angle that was measured.
+    const double change = written.value - written.before.value_or(0);
+    const double quarter = std::remainder(errors.believedAngle[i], 90.0);
+    const double sense = std::abs(change + quarter) < std::abs(change - quarter) ? -1 : 1;
+    return sense * *errors.angle[i];
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<EntryTruth> frameEntries(const control::Journal& journal, const std::vector<TouchedCycle>& touched,
+                                     const std::vector<records::CycleTruth>& cycles) {
+  std::vector<EntryTruth> entries;
+  for (const auto& [place, written] : writtenValues(journal)) {
+    if (!written.cycle || *written.cycle >= cycles.size()) continue;
+    auto number = heidenhainNumber(place.first, place.second);
+    if (!number) number = sinumerikNumber(place.first, place.second);
+    if (!number) continue;
+    const std::size_t cycle = *written.cycle;
+    const CycleErrors errors = errorsOf(journal.cycles[cycle], touched[cycle], cycles[cycle]);
+    const auto error = errorOf(*number, written, errors, touched[cycle]);
+    if (!error) continue;
+    auto entry = std::ranges::find_if(
+        entries, [&](const EntryTruth& other) { return other.kind == number->kind && other.name == number->name; });
+    if (entry == entries.end()) {
+      EntryTruth made;
+      made.kind = number->kind;
+      made.name = number->name;
+      entry = entries.insert(entries.end(), std::move(made));
+    }
+    entry->cycle = std::max(entry->cycle.value_or(0), cycle);
+    entry->values.push_back({number->label, number->angle ? "deg" : "mm", written.value, written.value - *error});
+    auto& apart = number->angle ? entry->angle : entry->distance;
+    apart = std::hypot(apart.value_or(0), *error);
+  }
+  return entries;
+}
+
+}  // namespace probewright::truth
