@@ -104,6 +104,22 @@ struct MachineArguments {
 };
 int machine(const MachineArguments& arguments);
 
+struct StudyArguments {
+  std::filesystem::path program;
+  std::filesystem::path setup;
+  std::filesystem::path study;
+  std::filesystem::path out = "probewright-study";
+  std::optional<control::ControlKind> control;
+  std::optional<std::uint64_t> trials;  ///< instead of what the study says
+  std::optional<std::uint64_t> repeat;  ///< type-1 study
+  int threads = 0;                      ///< 0: all cores
+  bool resume = false;
+  std::string cache;  ///< as of RunArguments
+  bool quiet = false;
+};
+/// Here 3 means that it was interrupted, or that no trial came to the end of the program.
+int study(const StudyArguments& arguments);
+
 struct FeelArguments {
   std::filesystem::path setup;
   std::filesystem::path machineFile;          ///< instead of the setup's machine; empty: none

@@ -101,6 +101,40 @@ std::string notNegative(const std::string& text) {
   return digits && text.size() <= 19 ? std::string() : text + " is not a whole number of 0 or more";
 }
 
+CLI::App* addStudy(CLI::App& app, probewright::app::StudyArguments& arguments) {
+  CLI::App* study = app.add_subcommand(
+      "study", "Run a program in many worlds and say what its results are worth (docs/uncertainty.md)");
+  study->add_option("PROGRAM", arguments.program, "NC program: .H, .I, .MPF, .SPF")->required();
+  study->add_option("--setup", arguments.setup, "The world to run in (see docs/setup-format.md)")
+      ->required()
+      ->type_name("FILE");
+  study->add_option("--study", arguments.study, "What of the setup is not known exactly (see docs/uncertainty.md)")
+      ->required()
+      ->type_name("FILE");
+  study->add_option("--out", arguments.out, "Folder for study.json, study.csv and trials.csv")
+      ->capture_default_str()
+      ->type_name("DIR");
+  addControl(*study, arguments.control);
+  study->add_option("--trials", arguments.trials, "Run this many trials, instead of what the study says")
+      ->check(notNegative)
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{100'000'000}))
+      ->type_name("COUNT");
+  study
+      ->add_option("--repeat", arguments.repeat,
+                   "Also a type-1 study: measure this many times with every source at its estimate; Cg and Cgk")
+      ->check(notNegative)
+      ->check(CLI::Range(std::uint64_t{2}, std::uint64_t{1'000'000}))
+      ->type_name("COUNT");
+  study->add_option("--threads", arguments.threads, "Threads to run on; 0: one a core")
+      ->check(CLI::Range(0, 1024))
+      ->type_name("COUNT")
+      ->capture_default_str();
+  study->add_flag("--resume", arguments.resume, "Go on where an earlier study in this folder was broken off");
+  study->add_option("--cache", arguments.cache, "As of run")->type_name("DIR");
+  study->add_flag("--quiet", arguments.quiet, "Print nothing but mistakes");
+  return study;
+}
+
 /// An option that takes one of a few words, in any case.
 template <class Value>
 CLI::Option& addChoice(CLI::App& command, const std::string& name, Value& value,
@@ -361,6 +395,9 @@ int main(int argc, char** argv) {
   machinePage->add_flag("--force", machineArguments.force,
                         "Overwrite the file also if it is not the page of a machine");
 
+  probewright::app::StudyArguments studyArguments;
+  CLI::App* study = addStudy(app, studyArguments);
+
   probewright::app::FeelArguments feelArguments;
   CLI::App* feel = app.add_subcommand(
       "feel", "Give a simulated LinuxCNC machine a probe that feels the part of a setup (see docs/linuxcnc.md)");
@@ -392,6 +429,7 @@ int main(int argc, char** argv) {
     if (compare->parsed()) return probewright::app::compare(compareArguments);
     if (camera->parsed()) return probewright::app::camera(cameraArguments);
     if (convert->parsed()) return probewright::app::convert(convertArguments);
+    if (study->parsed()) return probewright::app::study(studyArguments);
     if (feel->parsed()) return probewright::app::feel(feelArguments);
     if (machinePage->parsed()) return probewright::app::machine(machineArguments);
     cyclesArguments.name = fmt::format("{}", fmt::join(cycleWords, " "));

@@ -5,6 +5,7 @@
 #include "setup/belief_file.hpp"
 #include "setup/calibrated_beliefs.hpp"
 #include "setup/camera_keys.hpp"
+#include "setup/setup_document.hpp"
 #include "setup/setup_on_machine.hpp"
 #include "setup/tool_keys.hpp"
 #include "setup/world_file.hpp"
@@ -13,20 +14,19 @@ namespace probewright::setup {
 
 namespace {
 
-std::optional<Setup> parse(std::string_view text, const std::string& file, const std::filesystem::path& machine,
-                           Diagnostics& diagnostics, const session::ControlFamilies& families) {
+std::optional<Setup> setupOf(const toml::table& table, const std::string& file, const std::filesystem::path& machine,
+                             const MachineRead* known, Diagnostics& diagnostics,
+                             const session::ControlFamilies& families) {
   const auto errors = [&] { return std::ranges::count(diagnostics, Severity::Error, &Diagnostic::severity); };
   const auto before = errors();
-  const auto table = parseToml(text, file, diagnostics);
-  if (!table) return std::nullopt;
-  TomlReader root(*table, "", file, diagnostics);
+  TomlReader root(table, "", file, diagnostics);
   Setup setup;
   setup.world.file = setup.beliefs.file = file;
   setup.inputs.emplace_back(file);
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   WorldReader world(root, folder, setup.world, setup.inputs);
   BeliefReader beliefs(root, folder, setup.world.truth.machine, setup.beliefs, families);
-  world.readMachine(machine);
+  world.readMachine(machine, known);
   beliefs.readControl();
   world.readSeed();
   world.readSolids();
@@ -42,6 +42,12 @@ std::optional<Setup> parse(std::string_view text, const std::string& file, const
   setup.beliefs.technology = believedTechnology(setup.world.truth.machine);
   setup.beliefs.toolProbes = believedToolProbes(setup.world);
   return setup;
+}
+
+std::optional<Setup> parse(std::string_view text, const std::string& file, const std::filesystem::path& machine,
+                           Diagnostics& diagnostics, const session::ControlFamilies& families) {
+  const auto table = parseToml(text, file, diagnostics);
+  return table ? setupOf(*table, file, machine, nullptr, diagnostics, families) : std::nullopt;
 }
 
 }  // namespace
@@ -64,6 +70,33 @@ std::optional<Setup> readSetupOn(const std::filesystem::path& machine, const std
     return std::nullopt;
   }
   return parse(*text, path.string(), machine, diagnostics, families);
+}
+
+std::optional<SetupDocument> SetupDocument::read(const std::filesystem::path& path, Diagnostics& diagnostics,
+                                                 const session::ControlFamilies& families) {
+  auto text = readFile(path, largestText);
+  if (!text) {
+    diagnostics.push_back(std::move(text.error()));
+    return std::nullopt;
+  }
+  return parse(*text, path.string(), diagnostics, families);
+}
+
+std::optional<SetupDocument> SetupDocument::parse(std::string_view text, const std::string& file,
+                                                  Diagnostics& diagnostics, const session::ControlFamilies& families) {
+  auto table = parseToml(text, file, diagnostics);
+  if (!table) return std::nullopt;
+  auto setup = setupOf(*table, file, {}, nullptr, diagnostics, families);
+  if (!setup) return std::nullopt;
+  return SetupDocument(std::move(*table), std::move(*setup), families);
+}
+
+SetupDocument::SetupDocument(toml::table table, Setup asWritten, const session::ControlFamilies& families)
+    : table_(std::move(table)), asWritten_(std::move(asWritten)), families_(&families) {}
+
+std::optional<Setup> SetupDocument::with(const toml::table& table, Diagnostics& diagnostics) const {
+  const MachineRead machine{asWritten_.world.truth.machine, asWritten_.world.table};
+  return setupOf(table, asWritten_.world.file, {}, &machine, diagnostics, *families_);
 }
 
 }  // namespace probewright::setup

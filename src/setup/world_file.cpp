@@ -34,7 +34,8 @@ constexpr std::size_t mostCoefficients = 10;
 
 }  // namespace
 
-void WorldReader::readMachine(const std::filesystem::path& instead) {
+void WorldReader::readMachine(const std::filesystem::path& instead, const MachineRead* known) {
+  known_ = known;
   std::string name = "mill3";
   if (auto reader = root_.table("machine")) {
     const bool hasName = reader->has("name"), hasFile = reader->has("file");
@@ -60,16 +61,14 @@ void WorldReader::readMachine(const std::filesystem::path& instead) {
 }
 
 void WorldReader::loadMachine(const std::string& name, TomlReader& reader, std::string_view key, bool ofThisFile) {
+  if (known_ != nullptr) return takeMachine(known_->description, known_->table);
   Diagnostics mistakes;
   const auto description = machine::readMachine(name, mistakes);
   if (description) {
     // What had to be assumed of it.
     reader.diagnostics().insert(reader.diagnostics().end(), mistakes.begin(), mistakes.end());
     inputs_.emplace_back(name);
-    world_.truth.machine = *description;
-    world_.truth.start = description->toolChange;
-    world_.truth.errors.axes.resize(description->axes.size());
-    world_.table = machine::readTableBody(name).value_or(std::nullopt);
+    takeMachine(*description, machine::readTableBody(name).value_or(std::nullopt));
     readBodiesOf(name, *description, reader.diagnostics(), world_.bodies, inputs_);
     return;
   }
@@ -83,6 +82,14 @@ void WorldReader::loadMachine(const std::string& name, TomlReader& reader, std::
     }
     reader.diagnostics().push_back(std::move(mistake));
   }
+}
+
+void WorldReader::takeMachine(const machine::MachineDescription& description,
+                              const std::optional<machine::TableBody>& table) {
+  world_.truth.machine = description;
+  world_.truth.start = description.toolChange;
+  world_.truth.errors.axes.resize(description.axes.size());
+  world_.table = table;
 }
 
 void WorldReader::readStart(TomlReader& reader) {

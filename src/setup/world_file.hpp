@@ -10,6 +10,12 @@
 /// The true half of a setup file.
 namespace probewright::setup {
 
+/// A machine file that has been read.
+struct MachineRead {
+  machine::MachineDescription description;
+  std::optional<machine::TableBody> table;
+};
+
 /// Reads what is true, section by section, into `world`; the machine comes first. Relative paths count from `folder`;
 /// the files that the setup names are added to `inputs`.
 class WorldReader {
@@ -18,8 +24,9 @@ public:
               std::vector<std::filesystem::path>& inputs)
       : root_(root), folder_(std::move(folder)), world_(world), inputs_(inputs) {}
 
-  /// `instead`: a machine file that takes the place of the one that [machine] names; empty: none.
-  void readMachine(const std::filesystem::path& instead);
+  /// `instead`: a machine file that takes the place of the one that [machine] names; empty: none. `known`: what that
+  /// file says, if it need not be read again.
+  void readMachine(const std::filesystem::path& instead, const MachineRead* known = nullptr);
   void readSeed();
   /// [part], [[fixture]], [ring], [sphere], [gauge_block] and [tool_probe].
   void readSolids();
@@ -31,6 +38,7 @@ private:
   }
   const machine::MachineDescription& machine() const { return world_.truth.machine; }
   void loadMachine(const std::string& name, TomlReader& reader, std::string_view key, bool ofThisFile = true);
+  void takeMachine(const machine::MachineDescription& description, const std::optional<machine::TableBody>& table);
   void readStart(TomlReader& reader);
   void readHirthGrids(TomlReader& reader);
   void readSolid(TomlReader& reader, simulation::SolidRole role, std::string defaultName, const char* featureTable);
@@ -45,6 +53,7 @@ private:
   std::filesystem::path folder_;
   simulation::World& world_;
   std::vector<std::filesystem::path>& inputs_;
+  const MachineRead* known_ = nullptr;
 };
 
 }  // namespace probewright::setup

@@ -1,0 +1,193 @@
+#include <fmt/format.h>
+#include <openssl/sha.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/file.hpp"
+#include "cache_folder.hpp"
+#include "commands.hpp"
+#include "console.hpp"
+#include "interruption.hpp"
+#include "output_folder.hpp"
+#include "setup/setup_document.hpp"
+#include "study/program_model.hpp"
+#include "study/run_study.hpp"
+#include "study/study_json.hpp"
+#include "study/study_text.hpp"
+#include "study/trial_file.hpp"
+#include "terminal.hpp"
+
+namespace probewright::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How far a study is, on standard error: on a terminal in one line, else a line now and then.
+class StudyProgress {
+public:
+  explicit StudyProgress(bool terminal) : terminal_(terminal) {}
+
+  void tell(const std::string& phase, std::uint64_t done, std::uint64_t of) {
+    const auto now = Clock::now();
+    if (phase != phase_) {
+      phase_ = phase;
+      begin_ = now;
+      doneAtBegin_ = done;
+      next_ = now + std::chrono::seconds(terminal_ ? 0 : 10);
+      return;
+    }
+    if (now < next_) return;
+    next_ = now + (terminal_ ? std::chrono::milliseconds(200) : std::chrono::seconds(10));
+    const double seconds = std::chrono::duration<double>(now - begin_).count();
+    const double speed = static_cast<double>(done - doneAtBegin_) / std::max(seconds, 1e-3);
+    const double left = speed > 0 ? static_cast<double>(of - done) / speed : 0;
+    const std::string text =
+        fmt::format("{}: {} of at most {}, at most {:.0f} s left", phase, done, of, std::ceil(left));
+    std::fputs((terminal_ ? "\r\033[K" + text + " " : text + "\n").c_str(), stderr);
+  }
+
+  void clear() const {
+    if (terminal_) std::fputs("\r\033[K", stderr);
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  bool terminal_;
+  std::string phase_;
+  Clock::time_point begin_, next_;
+  std::uint64_t doneAtBegin_ = 0;
+};
+
+/// What tells trials apart: everything that is read for them.
+std::string markOf(const std::vector<fs::path>& inputs) {
+  std::string all = PROBEWRIGHT_VERSION;
+  for (const fs::path& input : inputs) {
+    const auto text = readFile(input);  // a ready-made machine is no file
+    all += fmt::format("\n{} ", text ? text->size() : 0);
+    if (text) all += *text;
+  }
+  std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
+  SHA256(reinterpret_cast<const unsigned char*>(all.data()), all.size(), digest.data());
+  std::string mark;
+  for (const unsigned char byte : digest)
+    mark += fmt::format("{:02x}", byte);
+  return mark;
+}
+
+/// What lies in the folder and is nobody's but the user's.
+std::optional<Diagnostic> whyNotInto(const fs::path& folder) {
+  for (const char* name : {"study.json", "study.csv"}) {
+    if (auto why = whyNotWritable(folder, name)) return why;
+  }
+  return study::whyNotTrials(folder / "trials.csv");
+}
+
+}  // namespace
+
+int study(const StudyArguments& arguments) {
+  Diagnostics mistakes;
+  auto document = setup::SetupDocument::read(arguments.setup, mistakes);
+  std::optional<study::Study> plan;
+  if (document) plan = study::readStudy(arguments.study, document->table(), mistakes);
+  if (!plan) {
+    print(mistakes);
+    return 2;
+  }
+  if (arguments.trials) plan->trials = *arguments.trials;
+  std::vector<fs::path> inputs = {arguments.program};
+  inputs.insert(inputs.end(), document->asWritten().inputs.begin(), document->asWritten().inputs.end());
+  inputs.insert(inputs.end(), plan->inputs.begin(), plan->inputs.end());
+
+  const Interruption interruption;
+  if (const Result<void> tidied = tidyOutput(arguments.out, interruption.token()); !tidied) {
+    print({tidied.error()});
+    return 2;
+  }
+  if (const auto why = whyNotInto(arguments.out)) {
+    print({*why});
+    return 2;
+  }
+  const fs::path trialFile = arguments.out / "trials.csv";
+  const std::string mark = markOf(inputs);
+  study::StudyRun run;
+  if (arguments.resume) {
+    auto done = study::readTrials(trialFile, mark);
+    if (!done) {
+      print({done.error()});
+      return 2;
+    }
+    run.done = std::move(*done);
+  }
+
+  const toml::table setupTable = document->table();
+  study::ProgramModel::Options options;
+  options.control = arguments.control;
+  options.import.cache = cacheFolder(arguments.cache);
+  options.import.stop = interruption.token();
+  const auto model = study::ProgramModel::make(arguments.program, std::move(*document), *plan, options, mistakes);
+  print(mistakes);
+  if (!model) return interruption.token().stop_requested() ? 3 : 2;
+  for (const std::string& name : model->rebuilt()) {
+    if (!arguments.quiet)
+      fmt::print(stderr, "the size of \"{}\" varies: it is built anew in each trial, which takes longer\n",
+                 printable(name));
+  }
+
+  std::error_code error;
+  fs::create_directories(arguments.out, error);
+  std::vector<std::string> names;
+  for (const study::Source& source : plan->sources)
+    names.push_back(source.name);
+  study::TrialWriter writer(trialFile, mark, names);
+  std::optional<Diagnostic> notKept;
+  std::stop_source diskFull;
+  const std::stop_callback forward(interruption.token(), [&] { diskFull.request_stop(); });
+  StudyProgress progress(isatty(STDERR_FILENO) != 0);
+  run.threads = arguments.threads;
+  run.stop = diskFull.get_token();
+  run.repeat = arguments.repeat;
+  if (!arguments.quiet)
+    run.report = [&](const std::string& phase, std::uint64_t done, std::uint64_t of) {
+      progress.tell(phase, done, of);
+    };
+  run.keep = [&](const study::TrialTable& table) {
+    if (Result<void> kept = writer.write(table); !kept && !notKept) {
+      notKept = kept.error();
+      diskFull.request_stop();
+    }
+  };
+  const study::StudyResult result = study::runStudy(
+      *plan, setupTable, [&](const study::Draw& draw) { return model->run(draw); }, run);
+  if (!arguments.quiet) progress.clear();
+  print(result.diagnostics);
+  if (notKept) {
+    print({*notKept});
+    return 2;
+  }
+
+  const study::StudyInfo info{arguments.program.string(), arguments.setup.string(), PROBEWRIGHT_VERSION};
+  std::set<FileIdentity> identities;
+  for (const fs::path& input : inputs)
+    if (const auto identity = identityOf(input)) identities.insert(*identity);
+  Output output{arguments.out, {}, std::move(identities)};
+  output.files.emplace_back("study.json",
+                            [&](const Sink& sink) { sink(study::studyJson(result, info).dump(1) + "\n"); });
+  output.files.emplace_back("study.csv", [&](const Sink& sink) { sink(study::studyCsv(result)); });
+  if (const Result<void> written = writeOutput(output, {}); !written) {
+    print({written.error()});
+    return 2;
+  }
+  if (!arguments.quiet) {
+    put(printable(study::studyText(result)), stdout);
+    put(fmt::format("\nAll results: {}\n", (fs::absolute(arguments.out) / "study.json").lexically_normal().string()),
+        stdout);
+  }
+  return result.end == study::StudyEnd::Interrupted || result.finished == 0 ? 3 : 0;
+}
+
+}  // namespace probewright::app

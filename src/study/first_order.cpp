@@ -1,0 +1,160 @@
+#include "study/first_order.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace probewright::study {
+
+using control::Along;
+using control::CycleRecord;
+using control::FitRecord;
+using control::Quantity;
+using control::ResultRecord;
+using control::Role;
+using control::TouchRecord;
+
+namespace {
+
+std::optional<double> variance(const FitRecord& fit, std::string_view member) {
+  const auto found = std::ranges::find(fit.members, member);
+  if (found == fit.members.end()) return std::nullopt;
+  const auto place = static_cast<std::size_t>(found - fit.members.begin());
+  return fit.cofactors[place * fit.members.size() + place];
+}
+
+std::optional<double> rootOf(const std::optional<double>& variance, double factor = 1) {
+  if (!variance || !(*variance >= 0)) return std::nullopt;
+  return factor * std::sqrt(*variance);
+}
+
+/// "main", "minor", "tool": as fits call the axes of the working plane.
+std::string_view axisOf(Along along) {
+  switch (along) {
+    case Along::First:
+      return "main";
+    case Along::Second:
+      return "minor";
+    case Along::Third:
+      return "tool";
+    default:
+      return "";
+  }
+}
+
+/// What a unit vector in a plane that varies by `main` and `minor` turns by: its variance lies across it.
+std::optional<double> turn(const FitRecord& fit, std::string_view of) {
+  const auto main = variance(fit, std::string(of) + ".main"), minor = variance(fit, std::string(of) + ".minor");
+  if (!main || !minor) return std::nullopt;
+  return *main + *minor;
+}
+
+std::optional<double> byFit(const FitRecord& fit, const ResultRecord& result) {
+  const Quantity quantity = result.kind.of.quantity;
+  // Spheres with more points than they need are evaluated in other ways than by the fit of the record.
+  if (fit.shape == "sphere" && fit.degreesOfFreedom > 0) return std::nullopt;
+  if (fit.shape == "circle" || fit.shape == "sphere") {
+    if (quantity == Quantity::Centre)
+      return rootOf(variance(fit, "centre." + std::string(axisOf(result.kind.of.along))));
+    if (quantity == Quantity::Diameter) return rootOf(variance(fit, "radius"), 2);
+    if (quantity == Quantity::Radius) return rootOf(variance(fit, "radius"));
+  }
+  if (fit.shape == "line" && (quantity == Quantity::Angle || quantity == Quantity::Projection))
+    return rootOf(turn(fit, "direction"), degreesFromRadians(1));
+  // Near level planes only: what a turn about one axis does to the angle about another is of second order there.
+  constexpr double level = 5;
+  if (fit.shape == "plane" && quantity == Quantity::Projection && std::abs(result.value) < level) {
+    if (result.kind.of.along == Along::A) return rootOf(variance(fit, "normal.minor"), degreesFromRadians(1));
+    if (result.kind.of.along == Along::B) return rootOf(variance(fit, "normal.main"), degreesFromRadians(1));
+  }
+  return std::nullopt;
+}
+
+/// Touches in pairs that face each other: each pair makes a size and its middle.
+bool inPairs(const std::vector<const TouchRecord*>& touches) {
+  if (touches.size() != 2 && touches.size() != 4) return false;
+  for (std::size_t i = 0; i < touches.size(); i += 2) {
+    const Vector3 &first = touches[i]->direction, &second = touches[i + 1]->direction;
+    if ((first + second).norm() > 1e-6 || std::abs(first.z()) > 1e-9) return false;
+  }
+  return true;
+}
+
+std::optional<double> byPairs(const std::vector<const TouchRecord*>& touches, const ResultRecord& result) {
+  switch (result.kind.of.quantity) {
+    case Quantity::Diameter:
+    case Quantity::Width:
+    case Quantity::Length:
+      return std::sqrt(2.0);
+    case Quantity::Centre: {
+      const Along along = result.kind.of.along;
+      if (along != Along::First && along != Along::Second) return std::nullopt;
+      double variance = 0;
+      for (std::size_t i = 0; i < touches.size(); i += 2)
+        variance += std::pow(touches[i]->direction[along == Along::First ? 0 : 1], 2) / 2;
+      return variance > 1e-9 ? std::optional(std::sqrt(variance)) : std::nullopt;
+    }
+    default:
+      return std::nullopt;
+  }
+}
+
+/// Errors of the axes, squareness and their like: of account to every touch, and the same for all of a result.
+bool hasErrors(const simulation::MachineErrors& errors) {
+  const auto wrong = [](const simulation::AxisErrors& axis) {
+    return axis.scale != 0 || axis.offset != 0 || axis.backlash != 0 || !axis.deviations.empty();
+  };
+  return std::ranges::any_of(errors.axes, wrong) || !errors.squareness.empty() || !errors.rotaryAxes.empty() ||
+         !errors.spindleTilt.isZero(0) || !errors.thermal.empty();
+}
+
+bool isMeasured(const ResultRecord& result) {
+  return (result.kind.role == Role::Actual || result.kind.role == Role::Difference) &&
+         result.kind.of.quantity != Quantity::None && result.kind.of.quantity != Quantity::Name;
+}
+
+}  // namespace
+
+std::optional<double> sensitivityToTouches(const CycleRecord& cycle, const ResultRecord& result) {
+  if (!isMeasured(result)) return std::nullopt;
+  if (cycle.fits.size() == 1) return byFit(cycle.fits.front(), result);
+  if (!cycle.fits.empty()) return std::nullopt;
+  std::vector<const TouchRecord*> touches;
+  for (const TouchRecord& touch : cycle.touches)
+    if (touch.outcome == "touched") touches.push_back(&touch);
+  if (touches.size() == 1) return result.kind.of.quantity == Quantity::Coordinate ? std::optional(1.0) : std::nullopt;
+  return inPairs(touches) ? byPairs(touches, result) : std::nullopt;
+}
+
+FirstOrder addUncertainties(control::Journal& journal, const simulation::Truth& truth) {
+  FirstOrder done;
+  double scatter = 0;
+  bool differ = false, first = true, lobes = false, toolProbe = !truth.toolProbes.empty();
+  for (const simulation::TrueTool& tool : truth.tools) {
+    if (tool.kind != simulation::ToolKind::Probe) continue;
+    differ = differ || (!first && tool.probe.repeatability != scatter);
+    first = false;
+    scatter = std::max(scatter, tool.probe.repeatability);
+    lobes = lobes || tool.probe.lobing != 0;
+  }
+  if (!(scatter > 0)) {
+    done.notHeld.emplace_back("the setup gives the touch probe no repeatability: nothing can be said");
+    return done;
+  }
+  for (CycleRecord& cycle : journal.cycles) {
+    for (ResultRecord& result : cycle.results) {
+      if (!isMeasured(result)) continue;
+      const auto sensitivity = sensitivityToTouches(cycle, result);
+      if (sensitivity) result.uncertainty = 2 * *sensitivity * scatter;
+      ++(sensitivity ? done.given : done.withheld);
+    }
+  }
+  if (lobes) done.notHeld.emplace_back("the lobes of the probe: they act on all touches of a feature together");
+  if (hasErrors(truth.errors)) done.notHeld.emplace_back("the errors of the machine");
+  if (differ) done.notHeld.emplace_back("which probe has measured: the scatter is that of the one that repeats worst");
+  if (toolProbe) done.notHeld.emplace_back("the scatter of the tool touch probe");
+  return done;
+}
+
+}  // namespace probewright::study

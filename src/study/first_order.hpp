@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "control/journal.hpp"
+#include "simulation/truth.hpp"
+
+/// Uncertainties of single results at no cost of trials: the scatter of the probe, carried on by the law of propagation
+/// of uncertainty (JCGM 100:2008, 5.1), to first order.
+namespace probewright::study {
+
+struct FirstOrder {
+  std::size_t given = 0;     ///< results that have got their uncertainty
+  std::size_t withheld = 0;  ///< measured values whose dependence on the touches is not known here
+  /// What of the setup the uncertainties do not hold, one sentence each: where there is one, they are too small.
+  std::vector<std::string> notHeld;
+};
+
+/// Enters the expanded uncertainty (k = 2) of measured values and differences into the journal of a run with
+/// workpieces: by the cofactors of the cycle's fit, or, where single touches or pairs of opposite ones were evaluated,
+/// by their number. What a tool touch probe has measured gets none. The standard uncertainty of a touch is the
+/// repeatability of the probe; where probes differ, of the one that repeats worst.
+FirstOrder addUncertainties(control::Journal& journal, const simulation::Truth& truth);
+
+/// The standard uncertainty of a result for a standard uncertainty of 1 mm of each touch; nothing if it is not known
+/// here. Of angles in degrees.
+std::optional<double> sensitivityToTouches(const control::CycleRecord& cycle, const control::ResultRecord& result);
+
+}  // namespace probewright::study

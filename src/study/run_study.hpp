@@ -1,0 +1,91 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/capability.hpp"
+#include "study/conformity.hpp"
+#include "study/sensitivity.hpp"
+#include "study/statistics.hpp"
+#include "study/study.hpp"
+#include "study/trial.hpp"
+
+/// A whole study: trials until the digits are stable, and what they say.
+namespace probewright::study {
+
+/// What the study says of one result.
+struct Answer {
+  Characteristic of;
+  std::optional<double> estimate;  ///< of the trial in which every source is at its estimate, without random effects
+  Summary values;
+  Histogram histogram;
+  bool stable = false;  ///< to the digits that were asked for
+
+  // Where the true value is known.
+  std::optional<double> truth;   ///< mean of the true values
+  std::optional<Summary> error;  ///< of measured less true value: its mean is the bias
+
+  /// Of the error where the truth is known, else of the values.
+  double standardUncertainty = 0;
+
+  // Where the result has limits.
+  std::optional<Tolerance> tolerance;
+  double guardBand = 0;
+  std::optional<double> conformance;  ///< probability that the item behind the estimate is within (JCGM 106)
+  std::optional<Decision> decision;   ///< on the estimate, by ISO 14253-1
+  std::optional<Risks> risks;         ///< of accepting whatever is measured within the tolerance
+  std::optional<Risks> guardedRisks;  ///< of accepting what is measured within the tolerance less the guard bands
+
+  std::vector<Contribution> contributions;           ///< of each unit of the sampler; empty if not asked for
+  std::vector<std::optional<SobolIndices>> indices;  ///< likewise
+  std::optional<Type1> type1;
+  std::optional<GaugeRR> gauge;
+};
+
+/// An alarm, and where the sources stood when it came.
+struct Stop {
+  std::string why;
+  std::size_t count = 0;
+  Interval probability;              ///< Clopper and Pearson, 95 %
+  std::vector<Summary> sources;      ///< of each source, in the trials that it has stopped
+  std::vector<std::uint64_t> first;  ///< the first trials, at most ten
+};
+
+enum class StudyEnd {
+  Stable,       ///< the digits that were asked for are
+  AllTrials,    ///< as many as were asked for
+  MostTrials,   ///< the digits are not stable after the most that the study allows
+  Interrupted,  ///< somebody stopped it
+};
+
+struct StudyResult {
+  Study study;
+  std::vector<Sampler::Unit> units;
+  StudyEnd end = StudyEnd::AllTrials;
+  std::size_t trials = 0, finished = 0;
+  std::vector<Answer> answers;
+  std::vector<std::size_t> correlated;  ///< answers that vary, whose correlations are below
+  std::vector<std::vector<std::optional<double>>> correlation;
+  std::vector<Stop> stops;
+  Diagnostics diagnostics;  ///< what a reader should know: measurands that no result fits...
+};
+
+/// Told what is done, in how many trials of how many (as far as anybody knows).
+using Report = std::function<void(const std::string& phase, std::uint64_t done, std::uint64_t of)>;
+
+struct StudyRun {
+  int threads = 0;  ///< 0: all cores
+  std::stop_token stop;
+  Report report;
+  /// Of each stretch of trials, once it is done: to keep them.
+  std::function<void(const TrialTable& table)> keep;
+  /// Trials that are done already, from an earlier run: draws are repeated, answers are not.
+  std::vector<Outcome> done;
+  std::optional<std::uint64_t> repeat;  ///< type-1 study with so many repeats of the estimates
+};
+
+StudyResult runStudy(const Study& study, const toml::table& setup, const Model& model, const StudyRun& run);
+
+}  // namespace probewright::study

@@ -1,0 +1,124 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
+
+#include "app/block_world.hpp"
+#include "app/program.hpp"
+
+namespace probewright::app::testing {
+namespace {
+
+using nlohmann::json;
+
+std::string expectedMistakes(const json& document) {
+  std::ifstream stream(PROBEWRIGHT_SOURCE_DIR "/docs/study.schema.json");
+  const json file = json::parse(stream);
+  valijson::Schema schema;
+  valijson::SchemaParser(valijson::SchemaParser::kDraft7)
+      .populateSchema(valijson::adapters::NlohmannJsonAdapter(file), schema);
+  valijson::Validator validator;
+  valijson::ValidationResults results;
+  validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(document), &results);
+  std::string text;
+  for (const auto& error : results) {
+    for (const std::string& part : error.context)
+      text += part;
+    text += ": " + error.description + "\n";
+  }
+  return text;
+}
+
+json studyIn(const Folder& folder) {
+  std::ifstream stream(folder / "out/study.json");
+  return json::parse(stream);
+}
+
+const std::string study = R"(
+trials = 60
+sensitivity = "sobol"
+sensitivity_trials = 20
+[gauge]
+[[source]]
+name = "clamping"
+quantity = "part.pose.x"
+distribution = "normal"
+mean = 0
+standard_deviation = 0.02
+[[measurand]]
+result = "Q160"
+truth = "part.feature[1].size[1]"
+factor = 0.5
+)";
+
+TEST(StudyCommand, LeavesWhatItsSchemaSays) {
+  const Folder folder;
+  const Answer done = probewright({"study", folder.file("p.h", blockProgram("+20.1", "+19.9")), "--setup",
+                                   folder.file("s.toml", blockSetup()), "--study", folder.file("t.toml", study),
+                                   "--out", (folder / "out").string(), "--repeat", "10"});
+  ASSERT_EQ(done.exit, 0) << done.errors;
+  EXPECT_THAT(done.output, ::testing::HasSubstr("427@4 Q160"));
+  EXPECT_THAT(done.output, ::testing::HasSubstr("Uncertainty budget"));
+  const json document = studyIn(folder);
+  EXPECT_EQ(expectedMistakes(document), "");
+  EXPECT_EQ(document["trials"], 60);
+  const json& result = document["results"][0];
+  EXPECT_EQ(result["truth"], 20);
+  // All that varies is where the block lies: one to one.
+  EXPECT_NEAR(result["budget"][0]["sensitivity"].get<double>(), 1, 1e-6);
+  EXPECT_NEAR(result["error"]["standardDeviation"].get<double>(), 0.02, 0.01);
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/study.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/trials.csv"));
+}
+
+TEST(StudyCommand, GoesOnWithResumeAndOnlyWithTheSameStudy) {
+  const Folder folder;
+  const std::string program = folder.file("p.h", blockProgram()), setup = folder.file("s.toml", blockSetup());
+  const std::string file = folder.file("t.toml", study), out = (folder / "out").string();
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"study", program, "--setup", setup, "--study", file, "--out", out, "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    return probewright(words);
+  };
+  ASSERT_EQ(run({"--trials", "40"}).exit, 0);
+  const Answer resumed = run({"--trials", "60", "--resume"});
+  ASSERT_EQ(resumed.exit, 0) << resumed.errors;
+  const json once = studyIn(folder);
+  ASSERT_EQ(run({}).exit, 0);
+  EXPECT_EQ(studyIn(folder), once);
+  folder.file("s.toml", blockSetup() + "# another setup\n");
+  const Answer other = run({"--resume"});
+  EXPECT_EQ(other.exit, 2);
+  EXPECT_THAT(other.errors, ::testing::HasSubstr("another study"));
+}
+
+TEST(StudyCommand, NeverReplacesWhatIsNotOfAStudy) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "out");
+  folder.file("out/trials.csv", "mine\n");
+  const Answer refused =
+      probewright({"study", folder.file("p.h", blockProgram()), "--setup", folder.file("s.toml", blockSetup()),
+                   "--study", folder.file("t.toml", study), "--out", (folder / "out").string()});
+  EXPECT_EQ(refused.exit, 2);
+  EXPECT_THAT(refused.errors, ::testing::HasSubstr("not of a study"));
+}
+
+TEST(StudyCommand, NamesMistakesOfItsFiles) {
+  const Folder folder;
+  const Answer refused = probewright(
+      {"study", folder.file("p.h", blockProgram()), "--setup", folder.file("s.toml", blockSetup()), "--study",
+       folder.file("t.toml", "[[source]]\nquantity = \"part.pose.x\"\ndistribution = \"nomal\"\n"), "--out",
+       (folder / "out").string()});
+  EXPECT_EQ(refused.exit, 2);
+  EXPECT_THAT(refused.errors, ::testing::HasSubstr("Did you mean \"normal\"?"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+}  // namespace
+}  // namespace probewright::app::testing

@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "study/program_bench.hpp"
+#include "study/study_json.hpp"
+#include "study/study_text.hpp"
+#include "study/trial_file.hpp"
+
+namespace probewright::study::testing {
+namespace {
+
+const std::string place = R"(
+[[source]]
+quantity = "part.pose.x"
+distribution = "uniform"
+half_width = 0.3
+)";
+
+std::string jsonOf(const StudyResult& result) { return studyJson(result, {"p.h", "setup.toml", "test"}).dump(); }
+
+TEST(ProgramStudy, GivesTheSameBitsOnAnyNumberOfThreads) {
+  const std::string study =
+      "trials = 150\nsensitivity = \"sobol\"\nsensitivity_trials = 20\n[gauge]\nparts = 2\n" + place;
+  StudyRun one, two, three;
+  one.threads = 1;
+  two.threads = 2;
+  three.threads = 3;
+  one.repeat = two.repeat = three.repeat = 5;
+  const std::string expected = jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study, one));
+  EXPECT_EQ(jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study, two)), expected);
+  EXPECT_EQ(jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study, three)), expected);
+}
+
+TEST(ProgramStudy, KeepsBeliefsWhereTheTruthVaries) {
+  const auto bias = [](const std::string& more) {
+    return answer(studyOfProgram(plateSetup(""), program(bore(3, 4)), R"(
+trials = 40
+sensitivity = "none"
+[[measurand]]
+result = "Q153"
+truth = "part.feature[2].diameter"
+[[source]]
+quantity = "tool[PROBE].pretravel"
+distribution = "uniform"
+minimum = 0.009999999
+maximum = 0.010000001
+)" + more),
+                  "421@4 Q153")
+        .error->mean;
+  };
+  // The ball goes 10 um further on each side, and nobody has told the control.
+  EXPECT_NEAR(bias(""), 0.020, 1e-6);
+  EXPECT_NEAR(bias("known = true\n"), 0, 1e-6);
+}
+
+/// The diameter varies by 0.1 mm: what is measured follows it, and the error stays that of a perfect probe.
+TEST(ProgramStudy, BuildsPartsWhoseSizesVary) {
+  const StudyResult result = studyOfProgram(plateSetup(""), program(bore(3, 4, "Q275=+30.05 ~\nQ276=+29.95 ~\n")), R"(
+trials = 40
+sensitivity = "none"
+[[source]]
+quantity = "part.feature[2].diameter"
+distribution = "normal"
+standard_deviation = 0.1
+[[measurand]]
+result = "Q153"
+truth = "part.feature[2].diameter"
+)");
+  const Answer& found = answer(result, "421@4 Q153");
+  EXPECT_NEAR(found.values.deviation, 0.1, 0.04);
+  EXPECT_LT(found.error->deviation, 1e-5);
+  EXPECT_LT(std::abs(found.error->mean), 1e-5);
+  ASSERT_TRUE(found.risks);
+  EXPECT_EQ(found.risks->consumer, 0) << "a perfect measurement accepts and rejects rightly";
+  EXPECT_EQ(found.risks->producer, 0);
+  EXPECT_LT(found.risks->accepted, 40U);
+  EXPECT_GT(found.risks->accepted, 5U);
+}
+
+TEST(ProgramStudy, CountsAlarmsAndSaysWhereTheyCame) {
+  // From 9 mm aside on, the bore is not where the program looks for it: the probe meets the plate on its way down.
+  const StudyResult result = studyOfProgram(plateSetup(), program(bore(3, 4)), R"(
+trials = 200
+sensitivity = "none"
+[[source]]
+name = "aside"
+quantity = "part.pose.x"
+distribution = "uniform"
+minimum = 0
+maximum = 20
+)");
+  ASSERT_FALSE(result.stops.empty());
+  std::size_t stopped = 0;
+  double nearest = 100;
+  for (const Stop& stop : result.stops) {
+    stopped += stop.count;
+    nearest = std::min(nearest, stop.sources.front().minimum);
+    EXPECT_LE(stop.probability.low, static_cast<double>(stop.count) / 200);
+    EXPECT_GE(stop.probability.high, static_cast<double>(stop.count) / 200);
+  }
+  EXPECT_EQ(stopped + result.finished, 200U);
+  EXPECT_GT(result.finished, 20U);
+  EXPECT_GT(nearest, 3) << "up to there the bore is found";
+  EXPECT_EQ(answer(result, "421@4 Q151").values.count, result.finished);
+  EXPECT_THAT(studyText(result), ::testing::HasSubstr("aside"));
+}
+
+TEST(ProgramStudy, BelievesWhatTheCalibrationHasFound) {
+  // A ring of known size: cycle 462 finds the radius. The control begins with a radius that is 0.05 mm wrong.
+  const std::string setup = plateSetup("repeatability = 0.001\npretravel = 0.004\nbelieved_radius = 2.95\n",
+                                       "[ring]\ndiameter = 50\nheight = 20\npose = { x = 200, y = 0, z = -500 }\n");
+  const std::string calibrate =
+      "0 BEGIN PGM C MM\n1 TOOL CALL 1 Z\n2 L Z+50 R0 FMAX\n3 L X+200 Y+0 R0 FMAX\n4 L Z-25 R0 FMAX\n"
+      "5 TCH PROBE 462 RING ~\nQ407=+25 ~\nQ320=+2 ~\nQ423=+8 ~\nQ380=+0\n6 L Z+50 R0 FMAX\n7 END PGM C MM\n";
+  const std::string study = R"(
+trials = 100
+sensitivity = "none"
+calibrate = "calibrate.h"
+[[source]]
+quantity = "part.pose.x"
+distribution = "uniform"
+half_width = 0.1
+[[measurand]]
+result = "421@4 Q153"
+truth = "part.feature[2].diameter"
+)";
+  const StudyResult result = studyOfProgram(setup, program(bore(3, 4)), study, {}, calibrate);
+  ASSERT_EQ(result.finished, 100U) << (result.stops.empty() ? "" : result.stops.front().why);
+  const Answer& found = answer(result, "421@4 Q153");
+  // 8 touches in the ring and 4 in the bore scatter: about 2 s / root(8) and 2 s / root(4).
+  const double expected = 0.001 * std::sqrt(4.0 / 8 + 4.0 / 4);
+  EXPECT_NEAR(found.error->mean, 0, 5 * expected / 10);
+  EXPECT_NEAR(found.error->deviation, expected, 0.4 * expected);
+}
+
+TEST(ProgramStudy, GoesOnWhereItWasBrokenOff) {
+  const TestFolder folder;
+  const std::string study = "trials = 1200\nsensitivity = \"none\"\n" + place;
+  const std::string expected = jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study));
+  std::stop_source stop;
+  TrialWriter writer(folder.path() / "trials.csv", "mark", {"part.pose.x"});
+  StudyRun run;
+  run.stop = stop.get_token();
+  run.keep = [&](const TrialTable& table) {
+    ASSERT_TRUE(writer.write(table));
+    stop.request_stop();
+  };
+  const StudyResult broken = studyOfProgram(plateSetup(), program(bore(3, 4)), study, run);
+  EXPECT_EQ(broken.end, StudyEnd::Interrupted);
+  EXPECT_LT(broken.trials, 1200U);
+  // A line that was cut off by a crash does not count.
+  std::ofstream(folder.path() / "trials.csv", std::ios::app) << "500,finished,,0.1,3";
+  auto kept = readTrials(folder.path() / "trials.csv", "mark");
+  ASSERT_TRUE(kept) << format(kept.error());
+  EXPECT_EQ(kept->size(), broken.trials);
+  StudyRun rest;
+  rest.done = std::move(*kept);
+  EXPECT_EQ(jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study, rest)), expected);
+  EXPECT_FALSE(readTrials(folder.path() / "trials.csv", "another"));
+  EXPECT_TRUE(whyNotTrials(folder.file("mine.csv", "a,b\n")));
+  EXPECT_FALSE(whyNotTrials(folder.path() / "trials.csv"));
+}
+
+TEST(ProgramStudy, NamesMeasurandsThatNoResultFits) {
+  const StudyResult result =
+      studyOfProgram(plateSetup(), program(bore(3, 4)),
+                     "trials = 2\nsensitivity = \"none\"\n[[measurand]]\nresult = \"Q999\"\n" + place);
+  ASSERT_EQ(result.diagnostics.size(), 1U);
+  EXPECT_THAT(format(result.diagnostics.front()), ::testing::HasSubstr("\"Q999\""));
+}
+
+}  // namespace
+}  // namespace probewright::study::testing
