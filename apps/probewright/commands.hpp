@@ -10,6 +10,7 @@
 #include "control/control_kind.hpp"
 #include "control/operator_panel.hpp"
 #include "exchange/formats.hpp"
+#include "records/job.hpp"
 
 /// The subcommands of probewright. Each prints what there is to say and returns the exit code: 0 fine, 1 measured and
 /// out of tolerance, 2 a mistake in the input, 3 an alarm or a stop while running, 4 internal.
@@ -40,6 +41,7 @@ struct RunArguments {
   std::filesystem::path append;                  ///< record of many runs; empty: none
   std::filesystem::path tables;                  ///< instead of the setup's folder of tables; empty: that of the setup
   bool blind = false;                            ///< says nothing of what only the virtual machine knows
+  records::Job job;                              ///< fields that go before the setup's
   bool quiet = false;
 };
 int run(const RunArguments& arguments);

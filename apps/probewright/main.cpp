@@ -85,6 +85,32 @@ void addExport(CLI::App& command, std::vector<const probewright::exchange::Forma
       ->delimiter(',');
 }
 
+/// The option --job of run: "serial=0017".
+void addJob(CLI::App& command, probewright::records::Job& job) {
+  std::string known;
+  for (const auto& field : probewright::records::jobFields)
+    known += (known.empty() ? "" : ", ") + std::string(field.name);
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--job",
+          [&job, known](const std::vector<std::string>& words) {
+            for (const std::string& word : words) {
+              const std::size_t sign = std::min(word.find('='), word.size());
+              const auto& fields = probewright::records::jobFields;
+              const auto field =
+                  std::ranges::find_if(fields, [&](const auto& each) { return word.substr(0, sign) == each.name; });
+              if (field == fields.end() || sign == word.size())
+                throw CLI::ValidationError("--job", word + " is not NAME=TEXT with one of " + known);
+              job.*(field->value) = word.substr(sign + 1);
+            }
+          },
+          "For the head of the report, instead of [job] of the setup, as --job serial=0017; several times: " + known)
+      ->type_name("NAME=TEXT")
+      ->expected(1, 1)
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
 /// The option --machine-ini.
 void addMachineFile(CLI::App& command, std::filesystem::path& file) {
   command
@@ -284,6 +310,7 @@ int main(int argc, char** argv) {
          "--tables", runArguments.tables,
          "Begin with the control's tables in this folder, such as that of an earlier run, instead of the setup's")
       ->type_name("DIR");
+  addJob(*run, runArguments.job);
   run->add_flag("--screens", runArguments.screens, "Show the result screens of all cycles, also of those that are off");
   run->add_flag("--blind", runArguments.blind,
                 "Say nothing of what only the virtual machine knows: true values, errors, what stands in the way");

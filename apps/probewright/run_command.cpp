@@ -115,6 +115,14 @@ std::optional<Diagnostic> whyExported(const std::vector<const exchange::Format*>
       .value();
 }
 
+/// The setup's, with what the command line says instead.
+records::Job jobOf(records::Job job, const records::Job& instead) {
+  for (const records::JobField& field : records::jobFields) {
+    if (!(instead.*field.value).empty()) job.*field.value = instead.*field.value;
+  }
+  return job;
+}
+
 /// What other programs read goes into the same set of files.
 Result<void> addExports(Output& output, const std::vector<const exchange::Format*>& formats,
                         const control::Journal& journal, const records::RunInfo& info) {
@@ -171,6 +179,7 @@ int run(const RunArguments& arguments) {
   options.showAllResults = arguments.screens;
   options.measuringLogs = arguments.measuringLogs;
   options.wallClock = std::time(nullptr);
+  options.trace = true;
   const Interruption interruption;
   options.stop = interruption.token();
   // The run itself waits without a word.
@@ -239,6 +248,7 @@ int run(const RunArguments& arguments) {
 
   records::RunInfo info = outcome.info;
   info.version = PROBEWRIGHT_VERSION;
+  info.job = jobOf(setup->job, arguments.job);
   info.startedAt = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(options.wallClock)));
   noteIdentities(outcome.inputs, inputs);
   Output output{arguments.out, {}, std::move(inputs)};
@@ -246,8 +256,10 @@ int run(const RunArguments& arguments) {
     info.outputFiles.push_back(name);
     if (!standsThere(arguments.out, name, text)) output.files.emplace_back(name, contentOf(text));
   }
-  output.files.emplace_back("report.html",
-                            [&](const Sink& sink) { reports::writeReport(sink, outcome.journal, info, ran->scene); });
+  reports::PageOptions page;
+  page.trace = &outcome.trace;
+  output.files.emplace_back(
+      "report.html", [&](const Sink& sink) { reports::writeReport(sink, outcome.journal, info, ran->scene, page); });
   output.files.emplace_back("results.json", [&](const Sink& sink) {
     records::writeResults(sink, outcome.journal, info, records::Layout::Indented);
     sink("\n");

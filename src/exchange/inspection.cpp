@@ -5,11 +5,11 @@
 
 #include <cmath>
 #include <ctime>
-#include <map>
 #include <regex>
 #include <string_view>
 
 #include "cycles/main_results.hpp"
+#include "records/feature_names.hpp"
 #include "records/readable_text.hpp"
 #include "records/results.hpp"
 
@@ -18,55 +18,6 @@ namespace probewright::exchange {
 namespace {
 
 std::string fileName(const std::string& path) { return path.substr(path.find_last_of("/\\") + 1); }
-
-std::string trimmed(std::string text) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!text.empty() && blank(text.back()))
-    text.pop_back();
-  std::size_t first = 0;
-  while (first < text.size() && blank(text[first]))
-    ++first;
-  return text.substr(first);
-}
-
-/// The name that a line gives to what follows; an empty one ends the name before it.
-std::optional<std::string> nameIn(const std::string& line) {
-  static const std::regex structure(R"(^\s*(?:N?\d+\s+)?\*\s*-\s*(.*)$)");
-  static const std::regex message(R"re(^\s*(?:N\d+\s*)?MSG\s*\(\s*(?:"([^"]*)")?.*$)re", std::regex::icase);
-  std::smatch match;
-  constexpr std::size_t kLongest = 500;  // the search of std::regex takes stack for each character
-  if (line.size() > kLongest) return std::nullopt;
-  if (std::regex_match(line, match, structure) || std::regex_match(line, match, message)) return trimmed(match[1]);
-  return std::nullopt;
-}
-
-/// Names of features by line, of each program.
-class Features {
-public:
-  Features(const std::vector<records::ProgramSource>& programs, const records::ReadableText& text) {
-    for (const records::ProgramSource& program : programs) {
-      auto& names = names_[program.path];
-      std::uint64_t number = 1;
-      std::size_t begin = 0;
-      while (begin < program.text.size()) {
-        const std::size_t end = std::min(program.text.find('\n', begin), program.text.size());
-        if (auto name = nameIn(program.text.substr(begin, end - begin))) names[number] = text(*name);
-        begin = end + 1;
-        ++number;
-      }
-    }
-  }
-
-  std::string at(const SourcePlace& place) const {
-    const auto program = names_.find(place.file);
-    if (program == names_.end()) return {};
-    auto after = program->second.upper_bound(place.line);
-    return after == program->second.begin() ? std::string() : std::prev(after)->second;
-  }
-
-private:
-  std::map<std::string, std::map<std::uint64_t, std::string>> names_;
-};
 
 std::optional<double> finite(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? value : std::nullopt;
@@ -85,7 +36,7 @@ std::string inOneLine(std::string text) {
 Inspection inspectionOf(const control::Journal& journal, const records::RunInfo& run) {
   const records::ReadableText readable(run);
   const auto text = [&](const std::string& bytes) { return inOneLine(readable(bytes)); };
-  const Features features(run.programs, readable);
+  const records::FeatureNames features(run, readable);
   Inspection inspection;
   inspection.run = run;
   for (records::ProgramSource& program : inspection.run.programs)
@@ -97,7 +48,7 @@ Inspection inspectionOf(const control::Journal& journal, const records::RunInfo&
   std::size_t number = 0;
   for (const control::CycleRecord& cycle : journal.cycles) {
     ++number;
-    const std::string feature = inOneLine(features.at(cycle.place));
+    const std::string feature = features.at(cycle.place);
     const std::string program = text(fileName(cycle.place.file));
     if (!cycle.alarm.empty()) {
       inspection.failures.push_back(

@@ -161,6 +161,7 @@ RunResult Interpreter::runLoop() {
         advance(block.position.offset, block.next);
         continue;
       }
+      if (options_.onBlock) options_.onBlock(*current_->program, block);
     }
     const Flow flow = carryOut(block, first);
     work_ += host_.takeWork();

@@ -37,6 +37,8 @@ struct InterpreterOptions {
   std::bitset<10> skipLevels;
   /// Told every 4096 blocks how many have been carried out.
   std::function<void(std::uint64_t blocks)> onProgress;
+  /// Told of each block that is about to be carried out.
+  std::function<void(const Program& program, const Block& block)> onBlock;
 };
 
 enum class RunEnd {

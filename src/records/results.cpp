@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cycles/main_results.hpp"
+#include "records/feature_names.hpp"
 #include "records/readable_text.hpp"
 #include "records/truth_json.hpp"
 
@@ -136,7 +137,7 @@ json parameter(const control::ParameterRecord& record, const ReadableText& text)
 }
 
 json cycle(const control::CycleRecord& record, const CycleTruth& truth, const std::vector<machine::Axis>& axes,
-           const ReadableText& text) {
+           const FeatureNames& features, const ReadableText& text) {
   json object = {{"name", text(record.name)},
                  {"title", text(record.title)},
                  {"place", place(record.place, text)},
@@ -150,6 +151,7 @@ json cycle(const control::CycleRecord& record, const CycleTruth& truth, const st
                  {"start", number(record.startSeconds)},
                  {"end", number(record.endSeconds)},
                  {"pathLength", number(record.pathLength)}};
+  if (std::string feature = features.at(record.place); !feature.empty()) object["feature"] = std::move(feature);
   if (!record.fits.empty()) object["fits"] = list(record.fits, fit);
   if (!record.alarm.empty()) object["alarm"] = text(record.alarm);
   return object;
@@ -163,6 +165,14 @@ json event(const control::EventRecord& record, const ReadableText& text) {
           {"time", number(record.seconds)}};
 }
 
+json jobJson(const Job& job, const ReadableText& text) {
+  json object = json::object();
+  for (const JobField& field : jobFields) {
+    if (const std::string& value = job.*field.value; !value.empty()) object[field.name] = text(value);
+  }
+  return object;
+}
+
 json header(const RunInfo& run, const ReadableText& text) {
   json object = {{"programs", list(run.programs, [&](const ProgramSource& source) { return text(source.path); })},
                  {"language", text(run.language)},
@@ -173,6 +183,7 @@ json header(const RunInfo& run, const ReadableText& text) {
                  {"seed", run.seed ? json(*run.seed) : json(nullptr)},
                  {"version", text(run.version)},
                  {"exit", {{"code", static_cast<int>(run.exit)}, {"state", exitName(run.exit)}}}};
+  if (const json job = jobJson(run.job, text); !job.empty()) object["job"] = job;
   if (!run.skipLevels.empty()) object["skipLevels"] = run.skipLevels;
   if (!run.startedAt.empty()) object["startedAt"] = text(run.startedAt);
   if (!run.exitText.empty()) object["exit"]["text"] = text(run.exitText);
@@ -343,6 +354,7 @@ private:
 
 void writeResults(const Sink& sink, const control::Journal& journal, const RunInfo& run, Layout layout) {
   const ReadableText text(run);
+  const FeatureNames features(run, text);
   ObjectWriter object(sink, layout);
   const json rest = withoutLists(journal, run, text);
   const std::map<std::string, std::function<void(const std::string&)>> lists = {
@@ -353,7 +365,7 @@ void writeResults(const Sink& sink, const control::Journal& journal, const RunIn
          object.list(key, journal.cycles, [&](const auto& record) {
            const std::size_t place = next++;
            const bool known = run.truth && place < run.truth->cycles.size();
-           return cycle(record, known ? run.truth->cycles[place] : nothing, run.axes, text);
+           return cycle(record, known ? run.truth->cycles[place] : nothing, run.axes, features, text);
          });
        }},
       {"events",

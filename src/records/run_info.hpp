@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "machine/description.hpp"
+#include "records/job.hpp"
 
 namespace probewright::records {
 
@@ -30,7 +31,8 @@ struct RunInfo {
   std::vector<machine::Axis> axes;      ///< of the machine, in the order of AxisPositions; names the latched positions
   std::string setupPath;
   std::string partName;
-  std::string partPath;                  ///< the CAD file; empty for a part built from the setup
+  std::string partPath;  ///< the CAD file; empty for a part built from the setup
+  Job job;
   std::optional<std::uint64_t> seed;     ///< of the random effects; nothing if there were none
   std::vector<int> skipLevels;           ///< levels of block skip that were on, 0 to 9
   std::string version;                   ///< of Probewright

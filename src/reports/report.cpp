@@ -1,11 +1,7 @@
 #include "reports/report.hpp"
 
-#include <boost/archive/iterators/base64_from_binary.hpp>
-#include <boost/archive/iterators/transform_width.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -13,34 +9,16 @@
 
 #include "records/readable_text.hpp"
 #include "records/results.hpp"
+#include "reports/base64.hpp"
 #include "reports/embedded.hpp"
 #include "reports/machine_scene.hpp"
+#include "reports/packed_text.hpp"
 
 namespace probewright::reports {
 
 using nlohmann::json;
 
 namespace {
-
-std::string base64(std::string bytes) {
-  using namespace boost::archive::iterators;
-  using Encode = base64_from_binary<transform_width<const char*, 6, 8>>;
-  // The encoder reads whole groups of three bytes.
-  const std::size_t missing = (3 - bytes.size() % 3) % 3;
-  bytes.append(missing, '\0');
-  std::string text(Encode(bytes.data()), Encode(bytes.data() + bytes.size()));
-  text.replace(text.size() - missing, missing, missing, '=');
-  return text;
-}
-
-/// A typed array as the page reads it: little-endian, base64.
-template <class T>
-std::string base64(const std::vector<T>& values) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  std::string bytes(values.size() * sizeof(T), '\0');
-  if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
-  return base64(std::move(bytes));
-}
 
 std::vector<float> coordinates(const std::vector<Vector3f>& points) {
   std::vector<float> values;
@@ -214,14 +192,40 @@ json programData(const records::ProgramSource& source, const std::set<std::uint6
   return {{"pieces", std::move(pieces)}, {"lineCount", lines.size()}};
 }
 
-/// A text inside <script> may hold neither an end tag nor a comment: escape the sign both start with.
-void putScriptSafe(const Sink& sink, std::string_view json) {
-  for (std::size_t sign = json.find('<'); sign != std::string_view::npos; sign = json.find('<')) {
-    sink(json.substr(0, sign));
-    sink("\\u003c");
-    json.remove_prefix(sign + 1);
+/// Lengths and angles in steps of 0.0001, as a control shows them.
+std::int32_t displayed(double value) {
+  constexpr double steps = 1e4, most = 2e9;
+  return static_cast<std::int32_t>(std::lround(std::clamp(value * steps, -most, most)));
+}
+
+/// What a replay shows; null if nothing was recorded.
+json traceData(const records::RunTrace& trace, const std::vector<machine::Axis>& axes,
+               const records::ReadableText& readable) {
+  if (trace.blocks.empty()) return nullptr;
+  json files = json::array(), states = json::array(), names = json::array();
+  for (const std::string& file : trace.files)
+    files.push_back(readable(file));
+  for (const auto& state : trace.states) {
+    states.push_back({{"tool", readable(state.tool)},
+                      {"preset", readable(state.preset)},
+                      {"frame", matrix(Pose(state.programFromTable.matrix()))}});
   }
-  sink(json);
+  for (const machine::Axis& axis : axes)
+    names.push_back(axis.name);
+  std::vector<float> seconds;
+  std::vector<std::uint32_t> places;
+  std::vector<std::int32_t> positions, readings;
+  for (const auto& block : trace.blocks) {
+    seconds.push_back(static_cast<float>(block.seconds));
+    places.insert(places.end(), {block.file, block.line, block.state});
+    for (const double value : block.position)
+      positions.push_back(displayed(value));
+    for (std::size_t axis = 0; axis < axes.size(); ++axis)
+      readings.push_back(displayed(block.axes[axis]));
+  }
+  return {{"files", std::move(files)},   {"states", std::move(states)}, {"axes", std::move(names)},
+          {"seconds", base64(seconds)},  {"places", base64(places)},    {"positions", base64(positions)},
+          {"readings", base64(readings)}};
 }
 
 std::string htmlText(std::string_view text) {
@@ -252,14 +256,14 @@ std::string fileName(const std::string& path) { return path.substr(path.find_las
 }  // namespace
 
 void writeReport(const Sink& sink, const control::Journal& journal, const records::RunInfo& run, const Scene& scene,
-                 std::size_t longestProgram) {
+                 const PageOptions& options) {
   const records::ReadableText readable(run);
   const auto interest = linesOfInterest(journal);
   json programs = json::array();
   for (const auto& source : run.programs) {
     const auto lines = interest.find(source.path);
-    programs.push_back(
-        programData(source, lines == interest.end() ? std::set<std::uint64_t>{} : lines->second, longestProgram));
+    programs.push_back(programData(source, lines == interest.end() ? std::set<std::uint64_t>{} : lines->second,
+                                   options.longestProgram));
   }
   const std::string title = run.programs.empty() ? "Measuring report" : fileName(readable(run.programs[0].path));
 
@@ -273,16 +277,20 @@ void writeReport(const Sink& sink, const control::Journal& journal, const record
   html += "<title>" + htmlText(title) + " - Probewright</title>\n<style>\n";
   html += embeddedReportCss();
   html += "</style>\n</head>\n<body>\n<noscript>This report needs JavaScript switched on.</noscript>\n";
-  html += "<div id=\"report\"></div>\n<script type=\"application/json\" id=\"report-data\">";
+  html += "<div id=\"report\"></div>\n<script type=\"text/plain\" id=\"report-data\">";
   sink(html);
-  const Sink script = [&](std::string_view part) { putScriptSafe(sink, part); };
-  script("{\"programs\":");
-  script(programs.dump());
-  script(",\"results\":");
-  records::writeResults(script, journal, run, records::Layout::Compact);
-  script(",\"scene\":");
-  script(sceneData(scene, readable).dump());
-  script("}");
+  PackedText data(sink);
+  const Sink add = [&](std::string_view part) { data.add(part); };
+  add("{\"programs\":");
+  add(programs.dump());
+  add(",\"results\":");
+  records::writeResults(add, journal, run, records::Layout::Compact);
+  add(",\"scene\":");
+  add(sceneData(scene, readable).dump());
+  add(",\"trace\":");
+  add(options.trace == nullptr ? "null" : traceData(*options.trace, run.axes, readable).dump());
+  add(",\"language\":" + json(options.language).dump() + "}");
+  data.finish();
   html = "</script>\n<script>\n";
   html += embeddedReportJs();
   html += "</script>\n</body>\n</html>\n";
@@ -290,9 +298,9 @@ void writeReport(const Sink& sink, const control::Journal& journal, const record
 }
 
 std::string reportHtml(const control::Journal& journal, const records::RunInfo& run, const Scene& scene,
-                       std::size_t longestProgram) {
+                       const PageOptions& options) {
   std::string html;
-  writeReport([&](std::string_view part) { html += part; }, journal, run, scene, longestProgram);
+  writeReport([&](std::string_view part) { html += part; }, journal, run, scene, options);
   return html;
 }
 

@@ -20,6 +20,7 @@
 #include "execution/interpreter.hpp"
 #include "machine/machine.hpp"
 #include "records/run_info.hpp"
+#include "records/run_trace.hpp"
 
 /// A program on a control that has beliefs and a machine. What the machine is, and what is true of it, is not known
 /// here.
@@ -63,6 +64,7 @@ struct RunOptions {
   control::DialogLanguage language = control::DialogLanguage::English;  ///< of logs and screens
   std::vector<std::string> measuringLogs;  ///< SINUMERIK: logs of all measurements; a table if the name ends in .csv
   bool showAllResults = false;             ///< screens of results even where nothing asks for them
+  bool trace = false;                      ///< record where the program stands, for a replay
   /// Told from time to time how many blocks have been carried out.
   std::function<void(std::uint64_t blocks)> progress;
 };
@@ -81,6 +83,7 @@ struct RunOutcome {
   double ballRadius = 0;
   /// The machine as the control computes with it at the end; nothing if the program did not begin.
   std::optional<machine::MachineDescription> believedMachine;
+  records::RunTrace trace;  ///< empty if RunOptions::trace was not asked for
   /// The number that a variable of the control has at the end, by the name that programs write: "Q151", "R5". NaN for
   /// names of nothing. Null if the program did not begin.
   std::function<double(std::string_view name)> variable;

@@ -1,6 +1,7 @@
 #include "session/run_parts.hpp"
 
 #include "control/sinumerik/text.hpp"
+#include "session/trace_recorder.hpp"
 
 namespace probewright::session {
 
@@ -29,6 +30,13 @@ execution::InterpreterOptions interpreterOptions(const RunOptions& options) {
   interpreter.skipLevels = options.skipLevels;
   interpreter.onProgress = options.progress;
   return interpreter;
+}
+
+void recordBlocks(execution::InterpreterOptions& interpreter, TraceRecorder& trace, const RunOptions& options) {
+  if (!options.trace) return;
+  interpreter.onBlock = [&trace](const language::Program& program, const language::Block& block) {
+    trace.begin(program, block);
+  };
 }
 
 void setPanel(control::OperatorPanel& panel, const RunRequest& request, std::set<std::string> tables) {

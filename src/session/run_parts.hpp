@@ -17,8 +17,13 @@
 /// What the runs of all control families are made of.
 namespace probewright::session {
 
+class TraceRecorder;
+
 /// The limits that `options` set to the interpreter; what belongs to the control alone, its family adds.
 execution::InterpreterOptions interpreterOptions(const RunOptions& options);
+
+/// Has the recorder told of each block, if the run is to be traced.
+void recordBlocks(execution::InterpreterOptions& interpreter, TraceRecorder& trace, const RunOptions& options);
 
 /// Sets what the panel shows, asks and stops at, and what names a program cannot give to its files: those of `tables`,
 /// which every run leaves, and whatever the caller refuses. The panel must not outlive the request's beliefs and

@@ -9,6 +9,7 @@
 #include "base/diagnostic.hpp"
 #include "camera/true_camera.hpp"
 #include "control/beliefs.hpp"
+#include "records/job.hpp"
 #include "session/control_family.hpp"
 #include "simulation/world.hpp"
 
@@ -22,6 +23,7 @@ struct Setup {
   simulation::World world;
   std::optional<camera::TrueCamera> camera;  ///< of the machine
   control::Beliefs beliefs;
+  records::Job job;  ///< for the head of the report
 };
 
 /// The setup that `text` describes. Relative paths in it count from the folder of `file`. Mistakes go to `diagnostics`,

@@ -14,6 +14,17 @@ namespace probewright::setup {
 
 namespace {
 
+/// [job]: texts for the head of the report.
+records::Job readJob(TomlReader& root) {
+  records::Job job;
+  if (auto reader = root.table("job")) {
+    for (const records::JobField& field : records::jobFields)
+      job.*field.value = reader->text(field.name).value_or("");
+    reader->finish();
+  }
+  return job;
+}
+
 std::optional<Setup> setupOf(const toml::table& table, const std::string& file, const std::filesystem::path& machine,
                              const MachineRead* known, Diagnostics& diagnostics,
                              const session::ControlFamilies& families) {
@@ -36,6 +47,7 @@ std::optional<Setup> setupOf(const toml::table& table, const std::string& file, 
   world.readErrors();
   beliefs.readParameters();
   beliefs.readAnswers();
+  setup.job = readJob(root);
   root.finish();
   if (errors() > before) return std::nullopt;
   believeHirthCouplings(setup.beliefs, setup.world.truth);

@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
+#include <array>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -24,8 +26,6 @@ std::string dataText(const std::string& html) {
   return html.substr(from, html.find("</script", from) - from);
 }
 
-json dataOf(const std::string& html) { return json::parse(dataText(html)); }
-
 int value(char c) {
   const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   return static_cast<int>(alphabet.find(c));
@@ -44,6 +44,28 @@ std::string decoded(const std::string& base64) {
     if (count >= 8) bytes.push_back(static_cast<char>(bits >> (count -= 8) & 0xFF));
   }
   return bytes;
+}
+
+/// What stands in the page's data element, unpacked.
+json dataOf(const std::string& html) {
+  const std::string packed = decoded(dataText(html));
+  std::string text;
+  z_stream stream{};
+  EXPECT_EQ(inflateInit(&stream), Z_OK);
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+  stream.avail_in = static_cast<uInt>(packed.size());
+  int result = Z_OK;
+  while (result == Z_OK) {
+    std::array<char, 65536> piece{};
+    stream.next_out = reinterpret_cast<Bytef*>(piece.data());
+    stream.avail_out = piece.size();
+    result = inflate(&stream, Z_NO_FLUSH);
+    text.append(piece.data(), piece.size() - stream.avail_out);
+  }
+  EXPECT_EQ(result, Z_STREAM_END);
+  EXPECT_EQ(stream.avail_in, 0U);
+  inflateEnd(&stream);
+  return json::parse(text);
 }
 
 template <class T>
@@ -182,7 +204,7 @@ TEST(Report, ShowsTheSurroundingsOfCyclesInALongProgram) {
   journal.cycles.resize(2);
   journal.cycles[0].place = {run.programs[0].path, 100, 1};
   journal.cycles[1].place = {run.programs[0].path, 998, 1};
-  const json program = dataOf(reportHtml(journal, run, {}, 500))["programs"][0];
+  const json program = dataOf(reportHtml(journal, run, {}, {.longestProgram = 500}))["programs"][0];
   EXPECT_EQ(program["lineCount"], 1000);
   ASSERT_EQ(program["pieces"].size(), 2U);
   EXPECT_EQ(program["pieces"][0]["first"], 90);
@@ -190,7 +212,7 @@ TEST(Report, ShowsTheSurroundingsOfCyclesInALongProgram) {
   EXPECT_EQ(program["pieces"][0]["lines"][10], "100 L X+100");
   EXPECT_EQ(program["pieces"][1]["first"], 988);
   EXPECT_EQ(program["pieces"][1]["lines"].size(), 13U);
-  EXPECT_EQ(dataOf(reportHtml(journal, run, {}, 1000))["programs"][0]["pieces"].size(), 1U);
+  EXPECT_EQ(dataOf(reportHtml(journal, run, {}, {.longestProgram = 1000}))["programs"][0]["pieces"].size(), 1U);
 }
 
 TEST(Report, ReadsProgramsOfOldEditors) {
@@ -255,6 +277,46 @@ TEST(Report, HoldsThePicturesOfTheCamera) {
   EXPECT_EQ(data[0]["errors"], 2);
   EXPECT_EQ(decoded(data[0]["taken"].get<std::string>()), smallPicture());
   EXPECT_EQ(data[0]["evaluated"], "");
+}
+
+TEST(Report, HoldsWhatAReplayFollows) {
+  records::RunTrace trace;
+  trace.files = {"A.H"};
+  trace.states.resize(2);
+  trace.states[1].tool = "5 PROBE";
+  trace.states[1].preset = "3";
+  trace.states[1].programFromTable = translation({10, 20, -400.5});
+  trace.blocks = {{0, 0, 1, 0, {0, 0, 0}, {}}, {1.25, 0, 17, 1, {-12.34567, 0.00004, 1000}, {}}};
+  trace.blocks[1].axes[0] = -2.34567;
+  trace.blocks[1].axes[1] = 359.99996;
+  records::RunInfo run;
+  run.axes.resize(2);
+  run.axes[0].name = "X";
+  run.axes[1].name = "C";
+  const json data = dataOf(reportHtml({}, run, {}, {.trace = &trace, .language = "pl"}));
+  EXPECT_EQ(data["language"], "pl");
+  const json& replay = data["trace"];
+  EXPECT_EQ(replay["axes"], json::parse(R"(["X", "C"])"));
+  EXPECT_EQ(replay["states"][1]["tool"], "5 PROBE");
+  EXPECT_EQ(replay["states"][1]["preset"], "3");
+  EXPECT_EQ(replay["states"][1]["frame"][14], -400.5);
+  EXPECT_EQ(arrayOf<float>(replay["seconds"]), (std::vector<float>{0, 1.25}));
+  EXPECT_EQ(arrayOf<std::uint32_t>(replay["places"]), (std::vector<std::uint32_t>{0, 1, 0, 0, 17, 1}));
+  EXPECT_EQ(arrayOf<std::int32_t>(replay["positions"]), (std::vector<std::int32_t>{0, 0, 0, -123457, 0, 10000000}));
+  EXPECT_EQ(arrayOf<std::int32_t>(replay["readings"]), (std::vector<std::int32_t>{0, 0, -23457, 3600000}));
+  EXPECT_TRUE(dataOf(reportHtml({}, run, {}))["trace"].is_null());
+}
+
+TEST(Report, PacksTextsOfEveryLength) {
+  for (const std::size_t length : {std::size_t{0}, std::size_t{1}, std::size_t{49'151}, std::size_t{300'000}}) {
+    auto run = sample::runInfo();
+    run.programs[0].text.clear();
+    std::uint32_t random = 1;
+    for (std::size_t i = 0; i < length; ++i)
+      run.programs[0].text += static_cast<char>('a' + (random = random * 1664525 + 1013904223) / 0x10000000);
+    const json lines = dataOf(reportHtml({}, run, {}))["programs"][0]["pieces"];
+    EXPECT_EQ(length == 0 ? "" : lines[0]["lines"][0], run.programs[0].text);
+  }
 }
 
 // The pages that the browser test opens.

@@ -17,6 +17,7 @@
 #include "session/own_control.hpp"
 #include "session/run_parts.hpp"
 #include "session/source.hpp"
+#include "session/trace_recorder.hpp"
 
 namespace probewright::session {
 
@@ -61,6 +62,12 @@ std::shared_ptr<hh::CameraMonitoring> cameraMonitoringOf(machine::Machine& machi
   if (camera == nullptr || request.control != ControlKind::TNC640) return nullptr;
   return std::make_shared<hh::CameraMonitoring>(
       hh::CameraMonitoring{camera, readMonitoringFiles(request.beliefs.tables, diagnostics)});
+}
+
+/// "5 PROBE".
+std::string describedTool(const hh::ActiveTool& tool) {
+  const std::string number = tool.row.empty() ? std::to_string(tool.number) : tool.row;
+  return tool.name.empty() ? number : number + " " + tool.name;
 }
 
 void run(const RunRequest& request, FolderReading reading, machine::Machine& machine, HostFiles& host,
@@ -113,11 +120,18 @@ void run(const RunRequest& request, FolderReading reading, machine::Machine& mac
   execution::din_iso::DinIsoHost isoHost(klartext);
   const ControlFamily family = heidenhainFamily();
   const auto library = programLibrary(family, [&](language::Program*, const fs::path& opened) { host.note(opened); });
-  execution::Interpreter interpreter(*library, isoHost, interpreterOptions(options));
+  TraceRecorder trace(control.channel, [&](records::RunTrace::State& state) {
+    if (control.tool.called) state.tool = describedTool(control.tool);
+    state.preset = std::to_string(control.coordinates.preset.row);
+  });
+  execution::InterpreterOptions interpreterSettings = interpreterOptions(options);
+  recordBlocks(interpreterSettings, trace, options);
+  execution::Interpreter interpreter(*library, isoHost, interpreterSettings);
   {
     const Accompanied accompanied(machine, control.channel, control.panel, control.journal, request.program->file());
     outcome.result = interpreter.run(request.program);
   }
+  outcome.trace = trace.finish();
   if (own != nullptr) {
     giveBack(*own, differing(control.tables, *own->tables(), machine.description()), control.panel,
              control.channel.seconds());

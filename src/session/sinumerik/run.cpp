@@ -20,6 +20,7 @@
 #include "session/sinumerik/own_tables.hpp"
 #include "session/source.hpp"
 #include "session/standing_machine.hpp"
+#include "session/trace_recorder.hpp"
 
 namespace probewright::session {
 
@@ -177,6 +178,20 @@ void enterHirthGrids(sin::Control& control, const control::Beliefs& beliefs) {
   }
 }
 
+/// "T2 PROBE D1".
+std::string describedTool(const sin::ActiveTool& tool) {
+  if (tool.number == 0) return {};
+  std::string text = "T" + std::to_string(tool.number);
+  if (!tool.name.empty()) text += " " + tool.name;
+  return text + " D" + std::to_string(tool.edge);
+}
+
+/// The G function of a settable zero offset.
+std::string zeroOffset(int settable) {
+  constexpr int lastTwoDigits = 4;
+  return "G" + std::to_string(settable == 0 ? 500 : settable <= lastTwoDigits ? 53 + settable : 500 + settable);
+}
+
 void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& globalData, FolderReading reading,
          machine::Machine& trueMachine, HostFiles& host, RunOutcome& outcome) {
   const RunOptions& options = request.options;
@@ -235,11 +250,18 @@ void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& 
   };
   execution::sinumerik::SinumerikHost sinumerikHost(control, hostOptions);
   running = &sinumerikHost;
-  execution::Interpreter interpreter(*library, sinumerikHost, interpreterOptionsOf(options));
+  TraceRecorder trace(control.channel, [&](records::RunTrace::State& state) {
+    state.tool = describedTool(control.tool);
+    state.preset = zeroOffset(control.frames.settable);
+  });
+  execution::InterpreterOptions interpreterSettings = interpreterOptionsOf(options);
+  recordBlocks(interpreterSettings, trace, options);
+  execution::Interpreter interpreter(*library, sinumerikHost, interpreterSettings);
   {
     const Accompanied accompanied(trueMachine, control.channel, control.panel, control.journal, program->file());
     outcome.result = interpreter.run(program);
   }
+  outcome.trace = trace.finish();
   if (own != nullptr) {
     giveBack(*own, differing(control.data, *own->tables(), trueMachine.description()), control.panel,
              control.channel.seconds());
