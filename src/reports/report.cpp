@@ -142,6 +142,7 @@ json sceneData(const Scene& scene, const records::ReadableText& readable) {
           {"camera", cameraData(scene.camera, readable)},
           {"machine", scene.machine ? machineData(*scene.machine) : json(nullptr)},
           {"ballRadius", scene.ballRadius},
+          {"lathe", scene.lathe},
           {"workpiece", scene.sceneFromWorkpiece ? matrix(*scene.sceneFromWorkpiece) : json(nullptr)}};
 }
 

@@ -85,6 +85,7 @@ struct Scene {
   std::vector<SceneCollision> collisions;
   std::vector<CameraShot> camera;
   double ballRadius = 0;  ///< of the probe, mm; 0: not drawn
+  bool lathe = false;     ///< the main spindle turns the workpiece: drawn with Z to the right and X up
   std::optional<Pose>
       sceneFromWorkpiece;  ///< the workpiece coordinate system at the end of the run, as the control believes
   std::shared_ptr<const MachineReplay> machine;  ///< null: it has no bodies to be drawn

@@ -200,6 +200,7 @@ reports::Scene sceneOf(const SimulatedRun& run) {
   reports::Scene scene = sceneOf(run.outcome.journal, run.machine->truth(), run.machine->path());
   scene.camera = cameraShots(run.outcome);
   scene.ballRadius = run.outcome.ballRadius;
+  scene.lathe = run.machine->description().mainSpindle.has_value();
   scene.sceneFromWorkpiece = run.outcome.machineFromWorkpiece;
   return scene;
 }

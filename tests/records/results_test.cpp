@@ -56,8 +56,8 @@ TEST(ResultsSchema, AcceptsAnAlarmAndAnEmptyRun) {
 
 // Walks through the document and spoils one thing at a time: each must be noticed.
 void expectEveryLossNoticed(const json& document, const json::json_pointer& at, int& count) {
-  static const std::set<std::string> mayBeMissing = {"startedAt", "text",       "alarm",      "nominal",
-                                                     "deviation", "lowerLimit", "upperLimit", "uncertainty"};
+  static const std::set<std::string> mayBeMissing = {"startedAt",  "text",       "alarm",       "nominal", "deviation",
+                                                     "lowerLimit", "upperLimit", "uncertainty", "feature"};
   const json& value = document[at];
   if (value.is_object() && at.back() != "axes") {
     json spoiled = document;

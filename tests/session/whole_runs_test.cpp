@@ -99,6 +99,57 @@ TEST(WholeRun, OfASinumerikLeavesDataAndResults) {
   EXPECT_THAT(outcome.files.at("TOOLS.TOA"), HasSubstr("PROBE"));
 }
 
+TEST(WholeRun, TracesWhereTheProgramStands) {
+  ScriptedMachine machine = machineWithProbe();
+  const control::Beliefs beliefs = probeAbove(ControlKind::TNC640);
+  RunOptions options;
+  options.trace = true;
+  const std::string program =
+      "BEGIN PGM WAY MM\n"
+      "TOOL CALL 1 Z\n"
+      "L X+10 Y-5 Z+20 R0 FMAX\n"
+      "TRANS DATUM AXIS X+3\n"
+      "L X+10 F500\n"
+      "END PGM WAY MM\n";
+  const records::RunTrace trace = runText("WAY.H", program, beliefs, machine, options).trace;
+  EXPECT_EQ(trace.files, std::vector<std::string>{"WAY.H"});
+  std::vector<std::uint32_t> lines;
+  for (const auto& block : trace.blocks)
+    lines.push_back(block.line);
+  EXPECT_EQ(lines, (std::vector<std::uint32_t>{1, 2, 3, 4, 5, 6, 6})) << "the last one ends with the run";
+  const auto& before = trace.blocks[3];
+  EXPECT_NEAR((before.position - Vector3(10, -5, 20)).norm(), 0, 1e-9);
+  EXPECT_NEAR(before.axes[2], -400 + 20 + 100, 1e-9) << "the spindle nose, 100 mm above the tip";
+  const auto& after = trace.blocks[4];
+  EXPECT_NEAR((after.position - Vector3(7, -5, 20)).norm(), 0, 1e-9) << "the same place seen from the shifted datum";
+  EXPECT_NEAR((trace.states[after.state].programFromTable * Vector3(10, -5, -380) - after.position).norm(), 0, 1e-9);
+  EXPECT_EQ(trace.states[after.state].tool, "1 PROBE");
+  EXPECT_EQ(trace.states[after.state].preset, "1");
+  EXPECT_GT(trace.blocks.back().seconds, after.seconds);
+  options.trace = false;
+  EXPECT_TRUE(runText("WAY.H", program, beliefs, machine, options).trace.blocks.empty());
+}
+
+TEST(WholeRun, TracesALongProgramInBoundedMemory) {
+  ScriptedMachine machine = machineWithProbe();
+  const control::Beliefs beliefs = probeAbove(ControlKind::Sinumerik840Dsl);
+  RunOptions options;
+  options.trace = true;
+  const std::string program =
+      "G17 G54 G90\nT1 D1\nR1=0\nOUTER:\nG0 X1\nG0 X2\nR2=0\nINNER:\nR2=R2+1\nIF R2<300 GOTOB INNER\n"
+      "R1=R1+1\nIF R1<400 GOTOB OUTER\nM30\n";
+  const RunOutcome outcome = runText("LOOP.MPF", program, beliefs, machine, options);
+  ASSERT_EQ(outcome.info.exit, records::ExitState::Good) << outcome.info.exitText;
+  const auto& blocks = outcome.trace.blocks;
+  EXPECT_GT(outcome.result.blocks, 300'000U);
+  EXPECT_LE(blocks.size(), 60'001U);
+  EXPECT_GT(blocks.size(), 800U) << "all that took time";
+  for (std::size_t i = 1; i < blocks.size(); ++i)
+    ASSERT_LE(blocks[i - 1].seconds, blocks[i].seconds);
+  EXPECT_EQ(outcome.trace.states[blocks.back().state].tool, "T1 PROBE D1");
+  EXPECT_EQ(outcome.trace.states[blocks.back().state].preset, "G54");
+}
+
 TEST(WholeRun, WithMistakesMovesNothing) {
   ScriptedMachine machine(*machine::readMachine("mill3"));
   const control::Beliefs beliefs = probeAbove(ControlKind::TNC640);

@@ -15,6 +15,7 @@ export interface Touch {
   outcome: string;
   target: Triple;
   direction: Triple;
+  truth?: { surface: Triple; error: number | null; solid: string; shape?: string };
   /* Only of a touch, not of a miss. */
   ballCentre?: Triple;
   surface?: Triple;
@@ -22,8 +23,20 @@ export interface Touch {
   time: number | null;
 }
 
+export interface Characteristic {
+  quantity: string;
+  along?: string;
+  item?: number;
+  system?: "machine";
+  label?: string;
+}
+
 export interface ResultValue {
   name: string;
+  role: string;
+  characteristic?: Characteristic;
+  /** What the virtual machine knows. */
+  truth?: { value: number | null; error: number | null; from: "face" | "points"; shape?: string };
   meaning: string;
   value: number | null;
   unit: string;
@@ -51,9 +64,21 @@ export interface Parameter {
   default: boolean;
 }
 
+/** A line, circle, plane or sphere through touches; see results.schema.json. */
+export interface Fit {
+  shape: "line" | "circle" | "plane" | "sphere";
+  touches: number[];
+  residuals: (number | null)[];
+  formDeviation: number | null;
+  degreesOfFreedom: number;
+}
+
 export interface Cycle {
   name: string;
   title: string;
+  /** What the program calls the feature. */
+  feature?: string;
+  fits?: Fit[];
   place: Place;
   verdict: Verdict;
   alarm?: string;
@@ -76,8 +101,37 @@ export interface RunEvent {
   time: number | null;
 }
 
+export interface Ghost {
+  shape: "point" | "circle" | "plane";
+  at: Triple;
+  normal?: Triple;
+  diameter?: number | null;
+}
+
+/** What the virtual machine knows of the run as a whole. */
+export interface RunTruth {
+  entries?: {
+    kind: string;
+    name: string;
+    cycle?: number;
+    values: { name: string; unit: string; value: number | null; truth: number | null; error: number | null }[];
+    distance?: number | null;
+    angle?: number | null;
+  }[];
+  diagnoses?: { cycle?: number; time: number | null; texts: string[]; expected?: Ghost; found?: Ghost }[];
+  clearance?: {
+    limit?: number;
+    spans: { from: number; to: number; distance: number; orMore?: boolean; part?: string; solid?: string; cycle?: number }[];
+  };
+  travel?: { axis: string; unit: string; margin: number | null; position: number | null; time: number | null }[];
+}
+
+export type JobField = "part" | "drawing" | "order" | "serial" | "operator" | "company";
+
 export interface Results {
+  truth?: RunTruth;
   run: {
+    job?: Partial<Record<JobField, string>>;
     programs: string[];
     language: string;
     control: string;
@@ -152,88 +206,112 @@ export interface Scene {
   /** The machine around the part; null: its bodies are not known. */
   machine: Replay | null;
   ballRadius: number;
+  /** The main spindle turns the workpiece. */
+  lathe: boolean;
   workpiece: number[] | null;
+}
+
+/** Where the program stood, block after block. */
+export interface Trace {
+  files: string[];
+  /* frame: positions of programs from places in the scene, column by column. */
+  states: { tool: string; preset: string; frame: number[] }[];
+  axes: string[];
+  seconds: Float32Array;
+  /** Of each block its file, line and state. */
+  places: Uint32Array;
+  /** Of each block the position in program coordinates, and the readings of all axes: steps of 0.0001 mm or degrees. */
+  positions: Int32Array;
+  readings: Int32Array;
 }
 
 export interface Report {
   results: Results;
   programs: ProgramText[];
   scene: Scene;
+  trace: Trace | null;
+  /** The page begins in it. */
+  language: string;
 }
 
 /* The layout of the JSON inside the page; arrays are base64. */
-interface PackedScene {
-  meshes: (Omit<SceneMesh, "positions" | "normals" | "triangles" | "edges"> &
-    Record<"positions" | "normals" | "triangles" | "edges", string>)[];
-  tools: ({ name: string } & Record<"positions" | "normals" | "triangles" | "edges", string>)[];
-  path: Record<"points" | "kinds" | "seconds" | "toolAxes" | "tools", string>;
-  touches: Record<"indices" | "centres" | "surfaces" | "tools" | "axes", string>;
-  collisions: Collision[];
-  camera: CameraShot[];
-  /** The machine around the part; null: its bodies are not known. */
-  machine: Replay | null;
-  ballRadius: number;
-  workpiece: number[] | null;
-}
+type Packed<T> = {
+  [K in keyof T]: T[K] extends ArrayBufferView ? string : T[K] extends (infer E)[] ? Packed<E>[] : T[K] extends object ? Packed<T[K]> : T[K];
+};
 
-function bytes(base64: string): ArrayBuffer {
+function bytes(base64: string): Uint8Array<ArrayBuffer> {
   const text = atob(base64);
   const array = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) array[i] = text.charCodeAt(i);
-  return array.buffer;
+  return array;
 }
 
-const floats = (text: string) => new Float32Array(bytes(text));
-const unsigned = (text: string) => new Uint32Array(bytes(text));
-const integers = (text: string) => new Int32Array(bytes(text));
+const floats = (text: string) => new Float32Array(bytes(text).buffer);
+const unsigned = (text: string) => new Uint32Array(bytes(text).buffer);
+const integers = (text: string) => new Int32Array(bytes(text).buffer);
 
-export function readReport(): Report {
-  const packed = JSON.parse(document.getElementById("report-data")!.textContent!) as {
-    results: Results;
-    programs: ProgramText[];
-    scene: PackedScene;
-  };
-  const { meshes, tools, path, touches, collisions, camera, machine, ballRadius, workpiece } = packed.scene;
+function body<T extends Packed<SceneTool>>(mesh: T) {
   return {
-    results: packed.results,
-    programs: packed.programs,
-    scene: {
-      meshes: meshes.map((mesh) => ({
-        name: mesh.name,
-        role: mesh.role,
-        pose: mesh.pose,
-        positions: floats(mesh.positions),
-        normals: new Int8Array(bytes(mesh.normals)),
-        triangles: unsigned(mesh.triangles),
-        edges: floats(mesh.edges),
-      })),
-      tools: tools.map((tool) => ({
-        name: tool.name,
-        positions: floats(tool.positions),
-        normals: new Int8Array(bytes(tool.normals)),
-        triangles: unsigned(tool.triangles),
-        edges: floats(tool.edges),
-      })),
-      path: {
-        points: floats(path.points),
-        kinds: new Uint8Array(bytes(path.kinds)),
-        seconds: floats(path.seconds),
-        toolAxes: floats(path.toolAxes),
-        tools: integers(path.tools),
-      },
-      touches: {
-        indices: unsigned(touches.indices),
-        centres: floats(touches.centres),
-        surfaces: floats(touches.surfaces),
-        tools: integers(touches.tools),
-        axes: floats(touches.axes),
-      },
-      collisions,
-      camera,
-      machine,
-      ballRadius,
-      workpiece,
+    positions: floats(mesh.positions as string),
+    normals: new Int8Array(bytes(mesh.normals as string).buffer),
+    triangles: unsigned(mesh.triangles as string),
+    edges: floats(mesh.edges as string),
+  };
+}
+
+function unpackScene(packed: Packed<Scene>): Scene {
+  const { meshes, tools, path, touches, collisions, ballRadius, workpiece, ...rest } = packed;
+  return {
+    ...(rest as object),
+    meshes: meshes.map((mesh) => ({ name: mesh.name, role: mesh.role, pose: mesh.pose as unknown as number[], ...body(mesh) })),
+    tools: tools.map((tool) => ({ name: tool.name, ...body(tool) })),
+    path: {
+      points: floats(path.points as string),
+      kinds: bytes(path.kinds as string),
+      seconds: floats(path.seconds as string),
+      toolAxes: floats(path.toolAxes as string),
+      tools: integers(path.tools as string),
     },
+    touches: {
+      indices: unsigned(touches.indices as string),
+      centres: floats(touches.centres as string),
+      surfaces: floats(touches.surfaces as string),
+      tools: integers(touches.tools as string),
+      axes: floats(touches.axes as string),
+    },
+    collisions: collisions as unknown as Collision[],
+    ballRadius,
+    workpiece: workpiece as unknown as number[] | null,
+  } as Scene;
+}
+
+function unpackTrace(packed: Packed<Trace> | null): Trace | null {
+  if (!packed) return null;
+  return {
+    files: packed.files as unknown as string[],
+    states: packed.states as unknown as Trace["states"],
+    axes: packed.axes as unknown as string[],
+    seconds: floats(packed.seconds as unknown as string),
+    places: unsigned(packed.places as unknown as string),
+    positions: integers(packed.positions as unknown as string),
+    readings: integers(packed.readings as unknown as string),
+  };
+}
+
+/** The data of the page: JSON, compressed, as base64. */
+export async function readReport(): Promise<Report> {
+  const element = document.getElementById("report-data")!;
+  const packed = new Blob([bytes(element.textContent!)]).stream().pipeThrough(new DecompressionStream("deflate"));
+  const text = await new Response(packed).text();
+  // The page holds it once more otherwise, as long as it is open.
+  element.textContent = "";
+  const data = JSON.parse(text);
+  return {
+    results: data.results,
+    programs: data.programs,
+    scene: unpackScene(data.scene),
+    trace: unpackTrace(data.trace),
+    language: data.language,
   };
 }
 

@@ -83,8 +83,8 @@ function header(report: Report, switchTheme: () => void): HTMLElement {
   );
 }
 
-function main() {
-  const report = readReport();
+async function main() {
+  const report = await readReport();
   const selector = new Selector();
   const view = new View(report, selector);
   const program = programSection(report, selector);
@@ -132,4 +132,4 @@ function main() {
   setTheme(dark.matches ? "dark" : "light");
 }
 
-main();
+void main();
