@@ -27,7 +27,8 @@ TEST(PathRecord, StaysSmallAndCloseToALongPathOfMachining) {
   all.push_back({});
   for (int i = 1; i <= 60000; ++i) {
     const double turn = i * 0.01;
-    all.push_back({{80 * std::cos(turn), 50 * std::sin(turn), -0.002 * i}, Vector3::UnitZ(), PathKind::Feed, 0.1 * i});
+    all.push_back(
+        {{80 * std::cos(turn), 50 * std::sin(turn), -0.002 * i}, Vector3::UnitZ(), PathKind::Feed, 0.1 * i, -1, {}});
     length += (all.back().tip - all[all.size() - 2].tip).norm();
     recorder.add(all.back());
   }
@@ -54,7 +55,7 @@ TEST(PathRecord, KeepsEveryMeasuringMoveTouchAndToolChange) {
     const PathKind kind = choice == 0 ? PathKind::Measure : choice == 1 ? PathKind::ToolChange : PathKind::Feed;
     tip.x() += 0.5;
     tip.y() = std::sin(tip.x() / 40) * 20;
-    recorder.add({tip, Vector3::UnitZ(), kind, 0.1 * i});
+    recorder.add({tip, Vector3::UnitZ(), kind, 0.1 * i, -1, {}});
     if (kind == PathKind::ToolChange) changed.push_back(tip);
     if (kind == PathKind::Measure) measured.push_back(tip);
     if (kind == PathKind::Measure || choice == 2) {
@@ -84,7 +85,7 @@ TEST(PathRecord, KeepsEveryMeasuringMoveTouchAndToolChange) {
 TEST(PathRecord, LeavesAShortPathAsItIs) {
   PathRecorder recorder({}, 500);
   for (int i = 1; i <= 900; ++i)
-    recorder.add({Vector3(i, 0, 0), Vector3::UnitZ(), PathKind::Rapid, 1.0 * i});
+    recorder.add({Vector3(i, 0, 0), Vector3::UnitZ(), PathKind::Rapid, 1.0 * i, -1, {}});
   EXPECT_EQ(recorder.record().points.size(), 901U);
   EXPECT_EQ(recorder.record().tolerance, 0);
 }

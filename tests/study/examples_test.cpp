@@ -39,9 +39,9 @@ INSTANTIATE_TEST_SUITE_P(All, ExampleStudies,
                                            Example{"tool.toml", "programs/tool.h", "setups/tool-tnc640.toml"},
                                            Example{"kinematics.toml", "programs/kinematics.h",
                                                    "setups/kinematics-tnc640.toml"}),
-                         [](const auto& info) {
+                         [](const auto& each) {
                            std::string name;
-                           for (const char c : std::string(info.param.study))
+                           for (const char c : std::string(each.param.study))
                              if (std::isalnum(static_cast<unsigned char>(c)) != 0) name += c;
                            return name;
                          });
