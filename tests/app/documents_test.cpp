@@ -41,6 +41,7 @@ std::string section(const std::string& page, const std::string& head) {
 struct CodeBlock {
   std::string page, text;
   std::size_t line = 0;
+  std::string kind;  ///< what stands after ```: "text" for what a program prints, "json"
 };
 
 std::vector<CodeBlock> codeBlocks() {
@@ -56,7 +57,7 @@ std::vector<CodeBlock> codeBlocks() {
       ++number;
       if (line.starts_with("```")) {
         fenced = !fenced;
-        if (fenced) blocks.push_back({page.filename(), "", number});
+        if (fenced) blocks.push_back({page.filename(), "", number, line.substr(3)});
         continue;
       }
       if (fenced) {
@@ -64,7 +65,7 @@ std::vector<CodeBlock> codeBlocks() {
         continue;
       }
       const bool code = line.starts_with("    ") && (indented || blank);
-      if (code && !indented) blocks.push_back({page.filename(), "", number});
+      if (code && !indented) blocks.push_back({page.filename(), "", number, ""});
       indented = code;
       if (code) blocks.back().text += line.substr(4) + "\n";
       blank = line.empty();
@@ -75,7 +76,8 @@ std::vector<CodeBlock> codeBlocks() {
 
 TEST(Documents, NameEveryOptionAndNoOther) {
   const std::string page = textOf(root + "/docs/command-line.md");
-  for (const char* command : {"run", "check", "compare", "convert", "cycles", "project", "feel", "camera", "machine"}) {
+  for (const char* command :
+       {"run", "check", "compare", "convert", "cycles", "project", "feel", "camera", "machine", "study"}) {
     SCOPED_TRACE(command);
     const std::string part = section(page, std::string("## `probewright ") + command);
     std::string rows;
@@ -90,7 +92,8 @@ TEST(Documents, NameEveryOptionAndNoOther) {
 TEST(Documents, NameOptionsThatThereAre) {
   std::set<std::string> known = {"--help",  "--version", "--sanitize", "--preset",
                                  "--build", "--install", "--component"};
-  for (const char* command : {"run", "check", "compare", "convert", "cycles", "project", "feel", "camera", "machine"})
+  for (const char* command :
+       {"run", "check", "compare", "convert", "cycles", "project", "feel", "camera", "machine", "study"})
     for (const std::string& option : matches(probewright({command, "--help"}).output, "\n  (--[a-z-]+)"))
       known.insert(option);
   for (const std::string& name : namesIn(root + "/docs")) {
@@ -197,7 +200,12 @@ TEST(Documents, ShowCodeThatIsTaken) {
     };
     const std::string empty = folder.file("empty.h", "0 BEGIN PGM EMPTY MM\n1 END PGM EMPTY MM\n");
     const std::string emptyToo = folder.file("empty.mpf", "M30\n");
-    if (block.text.starts_with("BEGIN TOOL.T")) {
+    if (block.kind == "text") {
+      ++taken;
+    } else if (block.kind == "json") {
+      EXPECT_TRUE(nlohmann::json::accept(block.text));
+      ++taken;
+    } else if (block.text.starts_with("BEGIN TOOL.T")) {
       folder.file("klartext/TOOL.T", block.text);
       runs(empty, klartextSetup);
     } else if (block.text.starts_with("CHANDATA")) {
