@@ -8,8 +8,10 @@
 
 #include "base/file.hpp"
 #include "base/number_text.hpp"
+#include "cache_folder.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "interruption.hpp"
 #include "machine/links.hpp"
 #include "setup/machine_drawing.hpp"
 #include "terminal.hpp"
@@ -69,7 +71,7 @@ std::string bodiesText(const simulation::Truth& truth) {
     if (std::ranges::find(names, text) == names.end()) names.push_back(std::move(text));
   };
   for (const simulation::PlacedSolid& solid : truth.solids)
-    add(solid.name, machine::tableLink(truth.machine));
+    add(solid.name, setup::linkOf(solid, truth.machine));
   for (const simulation::MachineBody& body : truth.bodies)
     add(body.name, body.link);
   std::string text;
@@ -95,10 +97,14 @@ Result<void> write(const fs::path& file, const std::string& page, bool force) {
 
 int machine(const MachineArguments& arguments) {
   Diagnostics diagnostics;
-  const auto world = setup::readMachineWorld(arguments.machine, diagnostics);
+  const Interruption interruption;
+  simulation::ImportOptions import;
+  import.cache = cacheFolder({});
+  import.stop = interruption.token();
+  const auto world = setup::readMachineWorld(arguments.machine, diagnostics, import);
   if (world) diagnostics.insert(diagnostics.end(), world->remarks.begin(), world->remarks.end());
   print(diagnostics);
-  if (!world) return 2;
+  if (!world) return import.stop.stop_requested() ? 3 : 2;
   const machine::MachineDescription& description = world->truth.machine;
   std::string text = fmt::format("{}\n  workpiece  {}\n  tool       {}\n", description.name,
                                  chainText(description, machine::tableLink(description)),
@@ -109,7 +115,8 @@ int machine(const MachineArguments& arguments) {
   std::vector<std::string> remarks;
   for (const Diagnostic& remark : diagnostics)
     remarks.push_back(remark.message + ". " + remark.advice);
-  const std::string page = reports::machinePage(setup::machineSceneOf(world->truth), arguments.machine, remarks);
+  const std::string page = reports::machinePage(
+      setup::machineSceneOf(world->truth, setup::Drawn::WhatLiesOnTheTableToo), arguments.machine, remarks);
   if (const auto written = write(arguments.out, page, arguments.force); !written) {
     print({written.error()});
     return 2;

@@ -416,7 +416,7 @@ int main(int argc, char** argv) {
       app.add_subcommand("machine", "Check a machine file, and write a page that moves each of its axes");
   machinePage
       ->add_option("MACHINE", machineArguments.machine,
-                   "A machine file, the .ini of a LinuxCNC configuration, or the name of a ready-made machine")
+                   "A machine file, the .ini of a LinuxCNC configuration, a setup, or the name of a ready-made machine")
       ->required();
   machinePage->add_option("--out", machineArguments.out, "The page to write")->capture_default_str()->type_name("FILE");
   machinePage->add_flag("--force", machineArguments.force,

@@ -7,8 +7,11 @@
 #include <string_view>
 
 #include "machine/machine_file.hpp"
+#include "machine/machine_text.hpp"
 #include "setup/machine_body_keys.hpp"
 #include "setup/probe_drawing.hpp"
+#include "setup/setup.hpp"
+#include "setup/solid_warnings.hpp"
 #include "simulation/solid_triangles.hpp"
 #include "simulation/virtual_machine.hpp"
 #include "simulation/world.hpp"
@@ -91,15 +94,19 @@ Diagnostics remarksOf(const machine::MachineDescription& machine, const std::str
 
 }  // namespace
 
-reports::MachineScene machineSceneOf(const simulation::Truth& truth) {
+machine::Link linkOf(const simulation::PlacedSolid& solid, const machine::MachineDescription& machine) {
+  const bool onBed = solid.role == simulation::SolidRole::ToolProbe && machine.mainSpindle;
+  return onBed ? machine::Link{} : machine::tableLink(machine);
+}
+
+reports::MachineScene machineSceneOf(const simulation::Truth& truth, Drawn drawn) {
   reports::MachineScene scene;
   scene.machine = truth.machine;
   for (const simulation::MachineBody& body : truth.bodies)
     scene.bodies.push_back({body.link, meshOf(*body.solid, body.linkFromSolid, body.name)});
   for (const simulation::PlacedSolid& solid : truth.solids) {
-    if (solid.ofMachine)
-      scene.bodies.push_back(
-          {machine::tableLink(truth.machine), meshOf(*solid.solid, solid.tableFromSolid, solid.name)});
+    if (solid.ofMachine || drawn == Drawn::WhatLiesOnTheTableToo)
+      scene.bodies.push_back({linkOf(solid, truth.machine), meshOf(*solid.solid, solid.tableFromSolid, solid.name)});
   }
   return scene;
 }
@@ -125,7 +132,23 @@ std::shared_ptr<const reports::MachineReplay> machineReplayOf(const simulation::
   return replay;
 }
 
-std::optional<MachineWorld> readMachineWorld(const std::string& nameOrPath, Diagnostics& diagnostics) {
+namespace {
+
+/// A setup names a machine, a machine file has axes.
+bool isSetup(const std::string& path) {
+  const auto text = machine::machineText(path);
+  Diagnostics ignored;
+  const auto root = text ? parseToml(text->text, text->file, ignored) : std::nullopt;
+  return root && !root->contains("axis") && !root->contains("table_chain") && !root->contains("spindle_chain") &&
+         (root->contains("machine") || root->contains("part") || root->contains("tool") || root->contains("control"));
+}
+
+std::optional<simulation::World> worldOf(const std::string& nameOrPath, Diagnostics& diagnostics) {
+  if (isSetup(nameOrPath)) {
+    auto setup = readSetup(nameOrPath, diagnostics);
+    if (!setup) return std::nullopt;
+    return std::move(setup->world);
+  }
   const auto description = machine::readMachine(nameOrPath, diagnostics);
   if (!description) return std::nullopt;
   simulation::World world;
@@ -136,12 +159,22 @@ std::optional<MachineWorld> readMachineWorld(const std::string& nameOrPath, Diag
   std::vector<std::filesystem::path> inputs;
   readBodiesOf(nameOrPath, *description, diagnostics, world.bodies, inputs);
   if (hasErrors(diagnostics)) return std::nullopt;
-  auto machine = simulation::buildMachine(world);
+  return world;
+}
+
+}  // namespace
+
+std::optional<MachineWorld> readMachineWorld(const std::string& nameOrPath, Diagnostics& diagnostics,
+                                             const simulation::ImportOptions& import) {
+  const auto world = worldOf(nameOrPath, diagnostics);
+  if (!world) return std::nullopt;
+  auto machine = simulation::buildMachine(*world, import);
   if (!machine) {
     diagnostics.push_back(std::move(machine.error()));
     return std::nullopt;
   }
-  return MachineWorld{(*machine)->truth(), remarksOf(*description, nameOrPath)};
+  warnOfSolids((*machine)->truth(), nameOrPath, diagnostics);
+  return MachineWorld{(*machine)->truth(), remarksOf(world->truth.machine, nameOrPath)};
 }
 
 }  // namespace probewright::setup

@@ -1,37 +1,16 @@
 #include "setup/simulated_run.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "camera/virtual_camera.hpp"
 #include "setup/calibrated_beliefs.hpp"
-#include "simulation/cad_solid.hpp"
-#include "simulation/mesh_solid.hpp"
+#include "setup/solid_warnings.hpp"
 #include "truth/run_truth.hpp"
 
 namespace probewright::setup {
 
 namespace {
-
-/// What a part lacks: the probe may enter where a triangle or a face is missing.
-void warnOfParts(const simulation::Truth& truth, const std::string& file, Diagnostics& diagnostics) {
-  for (const simulation::PlacedSolid& placed : truth.solids) {
-    if (const auto* cad = dynamic_cast<const simulation::CadSolid*>(placed.solid.get())) {
-      diagnostics.insert(diagnostics.end(), cad->remarks().begin(), cad->remarks().end());
-      continue;
-    }
-    const auto* mesh = dynamic_cast<const simulation::MeshSolid*>(placed.solid.get());
-    if (mesh == nullptr || mesh->isClosed()) continue;
-    diagnostics.push_back({Severity::Warning,
-                           {file, 0, 0},
-                           fmt::format("the surface of \"{}\" is not closed: triangles are missing", placed.name),
-                           {},
-                           "the probe meets only the triangles there are; export the part again as one solid body",
-                           {}});
-  }
-}
 
 /// What the control would believe if everything had just been measured without an error.
 control::Beliefs calibratedBeliefs(const Setup& setup) {
@@ -58,7 +37,7 @@ SimulatedRun runPrepared(session::PreparedProgram prepared, const Setup& setup, 
       run.machine = std::move(*machine);
       run.machine->recordPath(options.recordPath);
       if (setup.camera) run.machine->fit(std::make_unique<camera::VirtualCamera>(*run.machine, *setup.camera));
-      warnOfParts(run.machine->truth(), setup.world.file, prepared.diagnostics);
+      warnOfSolids(run.machine->truth(), setup.world.file, prepared.diagnostics);
     } else {
       prepared.diagnostics.push_back(machine.error());
     }

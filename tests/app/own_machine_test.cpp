@@ -142,5 +142,51 @@ TEST_F(OwnMachine, MayBeReadyMadeOrOfLinuxCnc) {
   EXPECT_THAT(none.errors, HasSubstr("there is neither a ready-made machine nor a file called \"mill4\""));
 }
 
+TEST_F(OwnMachine, OfASetupIsDrawnWithWhatLiesOnIt) {
+  const std::string out = (folder / "m.html").string();
+  const std::string setup =
+      "[machine]\nname = \"mill5-head-table\"\n[[machine.body]]\nname = \"lamp\"\nlink = \"Z\"\n"
+      "[[machine.body.feature]]\nshape = \"sphere\"\ndiameter = 40\ncentre = [0, 400, 700]\n"
+      "[part]\nname = \"flange\"\npose = { z = -700 }\n[[part.feature]]\nshape = \"cylinder\"\n"
+      "diameter = 90\nheight = 30\n";
+  const Answer answer = probewright({"machine", folder.file("s.toml", setup), "--out", out});
+  EXPECT_EQ(answer.exit, 0) << answer.errors;
+  EXPECT_THAT(answer.output, AllOf(HasSubstr("flange (C), table (C)"), HasSubstr("lamp (Z)")));
+  EXPECT_THAT(textOf(out), HasSubstr("\"name\":\"flange\""));
+  const Answer wrong = probewright({"machine", folder.file("w.toml", setup + "[fixtur]\n"), "--out", out});
+  EXPECT_EQ(wrong.exit, 2);
+  EXPECT_THAT(wrong.errors, HasSubstr("unknown key \"fixtur\""));
+}
+
+/// The same run on the same machine without its bodies: nothing that is measured may change.
+TEST_F(OwnMachine, BodiesChangeNothingWhereNothingIsHit) {
+  const std::string source = PROBEWRIGHT_SOURCE_DIR;
+  for (const auto& [program, setup, machine] :
+       {std::tuple("kinematics.h", "kinematics-tnc640.toml", "mill5-table-table"),
+        {"housing.mpf", "housing-840dsl.toml", "mill3"},
+        {"shaft.mpf", "shaft-lathe.toml", "lathe2c"}}) {
+    std::string bare = textOf(source + "/machines/" + machine + ".toml");
+    bare = bare.substr(0, bare.find("[[body]]"));
+    const auto run = [&](const std::string& out, std::vector<std::string> more) {
+      std::vector<std::string> words = {"run",     source + "/examples/programs/" + program,
+                                        "--setup", source + "/examples/setups/" + setup,
+                                        "--out",   (folder / out).string()};
+      words.insert(words.end(), more.begin(), more.end());
+      return probewright(words);
+    };
+    const Answer with = run("with", {});
+    const Answer without = run("without", {"--machine-ini", folder.file("bare.toml", bare)});
+    EXPECT_EQ(with.exit, without.exit) << with.errors;
+    EXPECT_EQ(with.errors, without.errors);
+    int compared = 0;
+    for (const std::string& name : namesIn(folder / "with")) {
+      if (name.ends_with(".html") || name.ends_with(".json") || name.ends_with(".KD")) continue;  // they hold times
+      EXPECT_EQ(textOf(folder / "with" / name), textOf(folder / "without" / name)) << program << " " << name;
+      ++compared;
+    }
+    EXPECT_GE(compared, 2) << program;
+  }
+}
+
 }  // namespace
 }  // namespace probewright::app::testing

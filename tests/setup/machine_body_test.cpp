@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "machine/links.hpp"
 #include "machine/machine_file.hpp"
@@ -179,6 +182,46 @@ TEST(MachineBodies, AreNotTestedAgainstTheirNeighbours) {
                                              body("sleeve", "Z", box({-30, 590, 100}, {30, 650, 200}))));
   ASSERT_TRUE(machine);
   EXPECT_EQ(machine->move(positions({0, 0, -300}), Feed::rapidTraverse()).end, MoveEnd::Reached);
+}
+
+/// A tetrahedron with its lower corner in the origin and a triangle 50 mm above it.
+std::string tetrahedron() {
+  const std::array<Vector3, 4> corners = {Vector3(0, 0, 0), {60, 0, 50}, {-30, 52, 50}, {-30, -52, 50}};
+  std::string text = "solid t\n";
+  for (const auto& face : {std::array<std::size_t, 3>{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}}) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (const std::size_t corner : face)
+      text += fmt::format("vertex {} {} {}\n", corners[corner].x(), corners[corner].y(), corners[corner].z());
+    text += "endloop\nendfacet\n";
+  }
+  return text + "endsolid t\n";
+}
+
+TEST(MachineBodies, MayComeFromAFileOntoAMachineOfLinuxCnc) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "machine_bodies";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "guard.stl") << tetrahedron();
+  std::ofstream(folder / "shop.ini")
+      << "[KINS]\nKINEMATICS = trivkins coordinates=XYZ\n"
+         "[JOINT_0]\nMIN_LIMIT = -100\nMAX_LIMIT = 100\nMAX_VELOCITY = 50\nMAX_ACCELERATION = 500\n"
+         "[JOINT_1]\nMIN_LIMIT = -100\nMAX_LIMIT = 100\nMAX_VELOCITY = 50\nMAX_ACCELERATION = 500\n"
+         "[JOINT_2]\nMIN_LIMIT = -300\nMAX_LIMIT = 0\nMAX_VELOCITY = 50\nMAX_ACCELERATION = 500\n";
+  const std::string setup =
+      "[machine]\nfile = \"shop.ini\"\n[[machine.body]]\nname = \"guard\"\nlink = \"head\"\nfile = \"guard.stl\"\n"
+      "pose = { x = 10, z = -20, c = 30 }\n[part]\nname = \"plate\"\n[[part.feature]]\n" +
+      box({-90, -90, -260}, {90, 90, -200});
+  Diagnostics diagnostics;
+  const auto read = parseSetup(setup, (folder / "setup.toml").string(), diagnostics);
+  ASSERT_TRUE(read && !hasErrors(diagnostics));
+  EXPECT_EQ(read->inputs.back(), folder / "guard.stl");
+  const auto built = buildMachine(read->world);
+  ASSERT_TRUE(built) << format(built.error());
+  const auto& machine = *built;
+  // Its corner is 20 mm below the nose.
+  const auto hit = machine->move(positions({0, 0, -250}), Feed::rapidTraverse());
+  EXPECT_EQ(hit.end, MoveEnd::Collision);
+  EXPECT_THAT(hit.detail, HasSubstr("the machine's \"guard\" touched \"plate\" at X+10.0"));
+  EXPECT_NEAR(machine->position()[2], -200 + 20, 0.01);
 }
 
 TEST(MachineBodies, HaveMistakesWithTheirPlaces) {
