@@ -48,7 +48,9 @@ FeelingProbe::FeelingProbe(Truth truth, std::optional<int> inSpindle)
       withoutToolProbes_(truth_.solids, isNoToolProbe),
       toolProbesOnly_(truth_.solids, isToolProbe),
       inSpindle_(inSpindle),
-      noise_(streamSeed(truth_.seed, "probe")) {}
+      noise_(streamSeed(truth_.seed, "probe")) {
+  if (!truth_.bodies.empty()) guard_ = std::make_unique<BodyGuard>(truth_);
+}
 
 void FeelingProbe::pullOff() {
   pulledOff_ = true;
@@ -70,7 +72,7 @@ void FeelingProbe::changeTool(int number) {
   if (tool_ == nullptr && wanted != 0)
     tell(fmt::format("the setup has no tool {}: the spindle counts as empty", wanted));
   const ToolShape shape = shapeOf(tool_, 0);
-  feeler_ = blunt_ = carrier_ = shape;
+  feeler_ = blunt_ = carrier_ = whole_ = shape;
   const bool probe = tool_ != nullptr && tool_->kind == ToolKind::Probe;
   std::erase_if(feeler_.shafts, [&](const Shaft& shaft) { return !probe || !isPart(shaft, shaftName); });
   blunt_.balls.clear();
@@ -115,6 +117,7 @@ Felt FeelingProbe::feel(const Moment& moment) {
   // The step is searched from where the axes were, everything else is asked of where they are.
   std::optional<Touch> touched;
   if (searched && !pulledOff_) feelCollision(step);
+  if (searched && guard_) feelBodies(step);
   if (searched && !feeler_.balls.empty() && !deflection_) {
     touched = firstTouch(step, 0, 1, feeler_, all_, {touchPrecision});
   }
@@ -149,7 +152,7 @@ Felt FeelingProbe::feel(const Moment& moment) {
   }
   if (edges_) feelWithCutter(whole, searched && !kinematics_.isStraight(step.slidesAtStart, slides_));
   if (colliding_ || pulledOff_) {
-    if (!obstacle()) colliding_ = false;
+    if (!obstacle() && !bodiesTouch()) colliding_ = false;
     if (pulledOff_ && !colliding_ && !(deflection_ && pushedTooFar())) pulledOff_ = false;
   }
   Felt felt;
@@ -186,6 +189,25 @@ void FeelingProbe::feelCollision(const Motion& step) {
   if (!touch) return;
   colliding_ = true;
   tell(describe(*touch, shape->shafts[*touch->shaft].part));
+}
+
+void FeelingProbe::feelBodies(const Motion& step) {
+  // After a new zero, and where a collision is known, the distances are asked anew at the next step.
+  if (colliding_ || pulledOff_ || step.profile.length() == 0) {
+    guard_->forget();
+    return;
+  }
+  const auto hit = guard_->firstHit(step, 1, whole_, BodyGuard::Touching::Counts, {});
+  guard_->arrived(1);
+  if (!hit) return;
+  colliding_ = true;
+  tell(fmt::format("{} touched \"{}\" at X{:+.3f} Y{:+.3f} Z{:+.3f} on the table",
+                   hit->byTool ? fmt::format("tool {}", tool_->number) : fmt::format("the machine's \"{}\"", hit->body),
+                   hit->byTool ? hit->body : hit->other, hit->point.x(), hit->point.y(), hit->point.z()));
+}
+
+bool FeelingProbe::bodiesTouch() const {
+  return guard_ && (guard_->standing(slides_, clock_) || guard_->standing(slides_, clock_, whole_));
 }
 
 std::optional<Touch> FeelingProbe::obstacle() const {

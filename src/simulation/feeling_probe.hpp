@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <random>
 #include <string>
 
+#include "simulation/body_guard.hpp"
 #include "simulation/contact_search.hpp"
 #include "simulation/edge_contact.hpp"
 #include "simulation/tool_shape.hpp"
@@ -47,7 +49,8 @@ struct Moment {
 /// question and, while the spindle turns, at every 2 degrees; until the cutter is off. Pushed where it does not give
 /// way, or by an edge that cuts, it is a collision.
 ///
-/// Collision. Anything else that touches, as long as it does. After pullOff() what touches then may be moved off.
+/// Collision. Anything else that touches, as long as it does, bodies of the machine too. After pullOff() what touches
+/// then may be moved off.
 class FeelingProbe {
 public:
   /// `inSpindle`: the tool that is meant while the control says that there is none, before its first tool change.
@@ -86,6 +89,9 @@ private:
   bool pushedTooFar() const;
   /// What touches that must not, where the tool stands.
   std::optional<Touch> obstacle() const;
+  /// What bodies of the machine touch on a step, and where the axes stand.
+  void feelBodies(const Motion& step);
+  bool bodiesTouch() const;
   Pose pose() const { return kinematics_.tableFromSpindle(slides_, clock_); }
   void tell(const std::string& what) const {
     if (tell_) tell_(what);
@@ -101,6 +107,8 @@ private:
   ToolShape feeler_;                   ///< ball and stylus of a probe
   ToolShape blunt_;                    ///< its body, or all of a cutter: what must touch nothing
   ToolShape carrier_;                  ///< shank and holder of a cutter
+  ToolShape whole_;                    ///< all of the tool, to bodies of the machine
+  std::unique_ptr<BodyGuard> guard_;   ///< null: the machine has no bodies
   std::optional<CuttingEdges> edges_;  ///< of a cutter
   machine::AxisPositions reading_, slides_;
   double clearance_ = 0;  ///< mm, of the edges from the tool touch probes, at least
