@@ -77,7 +77,7 @@ json machineData(const MachineScene& scene) {
     bodies.push_back(std::move(data));
   }
   return {{"name", readable(scene.machine.name)},
-          {"lathe", scene.machine.mainSpindle.has_value()},
+          {"up", numbers(scene.up)},
           {"axes", std::move(axes)},
           {"table", chainData(scene.machine.tableChain)},
           {"spindle", chainData(scene.machine.spindleChain)},

@@ -18,6 +18,7 @@ struct MachineScene {
   };
   machine::MachineDescription machine;
   std::vector<Body> bodies;
+  Vector3 up = Vector3::UnitZ();  ///< in the pictures: one of the axes of the base frame
 };
 
 /// How the axes of a machine have moved on a scene's path.

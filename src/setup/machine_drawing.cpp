@@ -102,6 +102,10 @@ machine::Link linkOf(const simulation::PlacedSolid& solid, const machine::Machin
 reports::MachineScene machineSceneOf(const simulation::Truth& truth, Drawn drawn) {
   reports::MachineScene scene;
   scene.machine = truth.machine;
+  // What stands on a table stands upright; a turner sees X upwards and Z to the right.
+  for (const simulation::PlacedSolid& solid : truth.solids)
+    if (solid.ofMachine && (solid.tableFromSolid.linear() * Vector3::UnitZ()).y() > 0.7) scene.up = Vector3::UnitY();
+  if (truth.machine.mainSpindle) scene.up = Vector3::UnitX();
   for (const simulation::MachineBody& body : truth.bodies)
     scene.bodies.push_back({body.link, meshOf(*body.solid, body.linkFromSolid, body.name)});
   for (const simulation::PlacedSolid& solid : truth.solids) {

@@ -39,8 +39,8 @@ export interface Body extends Link {
 
 export interface Machine {
   name: string;
-  /** The main spindle turns the workpiece. */
-  lathe: boolean;
+  /** In pictures; an axis of the base frame. */
+  up: number[];
   axes: MachineAxis[];
   table: Element[];
   spindle: Element[];

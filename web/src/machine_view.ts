@@ -35,19 +35,15 @@ import { bodyGeometry, elementOf, headLink, type Link, linkPose, type Machine, t
 /** mm; of the tool that is drawn. */
 export const toolLength = 100;
 
-const looks: Record<string, Vector3> = {
-  Iso: new Vector3(-0.55, -0.85, 0.6),
-  Front: new Vector3(0, -1, 0),
-  Right: new Vector3(1, 0, 0),
-  Top: new Vector3(0, -1e-4, 1),
-};
-/** As a turner sees a lathe: Z to the right, X up. */
-const latheLooks: Record<string, Vector3> = {
-  Iso: new Vector3(0.45, 0.85, 0.5),
-  Front: new Vector3(0, 1, 0),
-  Right: new Vector3(0, 0, 1),
-  Top: new Vector3(1, 1e-4, 0),
-};
+/** Where one looks from: as at a vertical mill, a horizontal one (Y up), a lathe (X up, Z to the right). */
+function looksOf(up: Vector3): Record<string, Vector3> {
+  const front = up.x > 0.5 ? new Vector3(0, 1, 0) : up.y > 0.5 ? new Vector3(0, 0, 1) : new Vector3(0, -1, 0);
+  const right = up.clone().cross(front);
+  const from = (x: number, y: number, z: number) =>
+    new Vector3().addScaledVector(right, x).addScaledVector(front, y).addScaledVector(up, z).normalize();
+  const iso = up.x > 0.5 ? from(0.5, 0.85, 0.45) : up.y > 0.5 ? from(0.9, 0.45, 0.5) : from(-0.55, 0.85, 0.6);
+  return { Iso: iso, Front: front, Right: right, Top: from(0, 1e-4, 1) };
+}
 const triadColours = ["#d1242f", "#1f9d4d", "#2f6feb"];
 
 /** What each link looks like: the bed grey, what carries the workpiece blue, what carries the tool brown. */
@@ -73,8 +69,10 @@ export class MachineView {
   private scheduled = false;
   private look_ = "Iso";
   private readonly size: number;
+  private readonly up: Vector3;
 
   constructor(private readonly machine: Machine) {
+    this.up = new Vector3().fromArray(machine.up);
     const home = machine.axes.map(({ home }) => home);
     for (const chain of ["table", "spindle"] as const)
       for (let elements = chain === "table" ? 0 : 1; elements <= machine[chain].length; ++elements) this.addLink({ chain, elements });
@@ -215,10 +213,10 @@ export class MachineView {
     const start = this.reference(chain);
     if (rotary) {
       const point = new Vector3().fromArray(element.point);
-      start.sub(point);
-      start.copy(direction).multiplyScalar(start.dot(direction)).add(point);
+      const along = start.clone().sub(point).dot(direction);
+      start.copy(point).addScaledVector(direction, along);
       // About an upright axis over the table, about others beside it, where bodies do not hide them.
-      const upright = Math.abs(direction.z) > 0.7;
+      const upright = Math.abs(direction.dot(this.up)) > 0.7 || this.up.x > 0.5;
       const offset = chain === "spindle" ? 0.12 : upright ? 0.04 : -0.3;
       start.addScaledVector(direction, offset * this.size * Math.sign(direction.x + direction.y + direction.z));
     }
@@ -238,8 +236,10 @@ export class MachineView {
     if (chain === "spindle") return new Vector3(0, 0, 0.12 * this.size);
     const group = this.group(tableLink(this.machine));
     const box = new Box3().setFromObject(group).applyMatrix4(group.matrixWorld.clone().invert());
+    if (box.isEmpty()) return new Vector3(0, 0, -0.3 * this.size);
     const middle = box.getCenter(new Vector3());
-    return box.isEmpty() ? new Vector3(0, 0, -0.3 * this.size) : new Vector3(middle.x, middle.y, box.max.z);
+    // The middle of its upper face.
+    return middle.addScaledVector(this.up, 0.5 * box.getSize(new Vector3()).dot(this.up));
   }
 
   private addFrame(parent: Object3D, at: Vector3, name: string, length: number) {
@@ -292,12 +292,11 @@ export class MachineView {
   look(name: string) {
     this.look_ = name;
     if (!this.controls) return;
-    const { lathe } = this.machine;
     const bounds = this.bounds();
     const centre = bounds.getCenter(new Vector3());
     const reach = 0.5 * bounds.getSize(new Vector3()).length() + this.size;
     this.controls.target.copy(centre);
-    this.camera.position.copy(centre).addScaledVector((lathe ? latheLooks : looks)[name].clone().normalize(), 10 * reach);
+    this.camera.position.copy(centre).addScaledVector(looksOf(this.up)[name], 10 * reach);
     this.camera.near = reach;
     this.camera.far = 30 * reach;
     this.camera.lookAt(centre);
@@ -338,7 +337,7 @@ export class MachineView {
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.element.append(this.renderer.domElement, this.labels);
     // It turns about what is up now.
-    this.camera.up.set(this.machine.lathe ? 1 : 0, 0, this.machine.lathe ? 0 : 1);
+    this.camera.up.copy(this.up);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => this.draw());
