@@ -117,9 +117,9 @@ reports::MachineScene machineSceneOf(const simulation::Truth& truth, Drawn drawn
 
 std::shared_ptr<const reports::MachineReplay> machineReplayOf(const simulation::Truth& truth,
                                                               const simulation::PathRecord& path) {
-  if (truth.bodies.empty()) return nullptr;
   auto replay = std::make_shared<reports::MachineReplay>();
   replay->scene = machineSceneOf(truth);
+  if (replay->scene.bodies.empty()) return nullptr;
   std::map<int, std::int32_t> probes;
   for (std::size_t i = 0; i < path.points.size(); ++i) {
     const simulation::PathPoint& point = path.points[i];

@@ -20,7 +20,7 @@ enum class Drawn : std::uint8_t { MachineOnly, WhatLiesOnTheTableToo };
 /// The machine of a world with its bodies and its own table.
 reports::MachineScene machineSceneOf(const simulation::Truth& truth, Drawn drawn = Drawn::MachineOnly);
 
-/// The same with what its axes have done; null if it has no bodies.
+/// The same with what its axes have done; null if it has no bodies and no table.
 std::shared_ptr<const reports::MachineReplay> machineReplayOf(const simulation::Truth& truth,
                                                               const simulation::PathRecord& path);
 

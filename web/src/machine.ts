@@ -1,6 +1,6 @@
 // The machine around the part: its bodies on their links, moved as the axes have moved on the path.
 
-import { BufferAttribute, DoubleSide, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshStandardMaterial, type Object3D, Vector3 } from "three";
+import { DoubleSide, Group, LineBasicMaterial, LineSegments, Matrix4, Mesh, MeshStandardMaterial, type Object3D, Vector3 } from "three";
 
 import { type Body, bodyGeometry, headLink, type Link, linkPose, type Machine, packedFloats, tableLink } from "./links";
 
@@ -119,15 +119,17 @@ export class MachineLayer {
     for (const material of this.edges) material.color.set(edge);
   }
 
-  /** The corners of all that is drawn now, to fill a view with. */
+  /** The corners of boxes about all that is drawn now, to fill a view with. */
   corners(): Vector3[] {
     const corners: Vector3[] = [];
     for (const { group } of this.links) {
       group.updateMatrixWorld(true);
       group.traverse((child) => {
         if (!(child instanceof Mesh)) return;
-        const positions = child.geometry.getAttribute("position") as BufferAttribute;
-        for (let i = 0; i < positions.count; ++i) corners.push(new Vector3().fromBufferAttribute(positions, i).applyMatrix4(child.matrixWorld));
+        child.geometry.computeBoundingBox();
+        const { min, max } = child.geometry.boundingBox!;
+        for (const x of [min.x, max.x])
+          for (const y of [min.y, max.y]) for (const z of [min.z, max.z]) corners.push(new Vector3(x, y, z).applyMatrix4(child.matrixWorld));
       });
     }
     return corners;
