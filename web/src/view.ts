@@ -380,13 +380,18 @@ export class View {
   private machineButtons(toggle: (text: string, on: boolean, change: (on: boolean) => void) => HTMLElement): HTMLElement[] {
     const { machine } = this;
     if (!machine) return [];
-    const standing = toggle("Axes move", false, (on) => machine.keep(on ? "machine" : "part"));
+    const fill = (on: boolean) =>
+      this.zoomTo(on ? [...machine.corners(), ...this.drawing.focusCorners.map((point) => machine.onScene(point))] : this.drawing.focusCorners);
+    const standing = toggle("Axes move", false, (on) => {
+      machine.keep(on ? "machine" : "part");
+      fill(true);
+    });
     standing.title = "The machine stands and its axes move; else the part stands still";
     standing.hidden = true;
     const drawn = toggle("Machine", false, (on) => {
       machine.draw(on);
       standing.hidden = !on;
-      this.zoomTo(on ? [...machine.corners(), ...this.drawing.focusCorners.map((point) => machine.onScene(point))] : this.drawing.focusCorners);
+      fill(on);
     });
     return [drawn, standing];
   }
