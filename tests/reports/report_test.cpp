@@ -326,7 +326,18 @@ TEST(Report, IsWrittenForTheBrowser) {
     const auto written = writeFileAtomically(folder / name, html);
     ASSERT_TRUE(written) << format(written.error());
   };
-  write("rework.html", sampleHtml());
+  auto bore = sample::journal();
+  control::CycleRecord& hole = bore.cycles[3];
+  hole.fits.push_back({.shape = "circle",
+                       .touches = {0, 1, 2, 3},
+                       .residuals = {0.001, -0.001, 0.002, -0.002},
+                       .formDeviation = 0.004,
+                       .degreesOfFreedom = 1,
+                       .members = {},
+                       .cofactors = {}});
+  hole.results[0].kind.of = {.quantity = control::Quantity::Centre, .along = control::Along::First};
+  hole.results[1].kind.of = {.quantity = control::Quantity::Centre, .along = control::Along::Second};
+  write("rework.html", reportHtml(bore, sample::runInfo(), sample::scene(bore)));
   const auto alarm = sample::alarmJournal();
   Scene alarmScene = sample::scene(alarm);
   const Vector3 jaw(0, -sample::blockWidth / 2, -10);

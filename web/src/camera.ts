@@ -3,23 +3,24 @@
 import "./camera.css";
 
 import type { CameraShot, Report } from "./data";
-import { count, h } from "./dom";
+import { h } from "./dom";
+import { type Key, t } from "./language";
 import type { Selector } from "./selection";
 import type { State } from "./verdict";
 
 /** Q601 as the cycles define it. */
-const states: Record<number, { state: State; text: string }> = {
-  1: { state: "good", text: "No error" },
-  2: { state: "scrap", text: "Error found" },
-  3: { state: "none", text: "Monitoring area or reference images missing" },
-  10: { state: "alarm", text: "Camera fault" },
+const states: Record<number, { state: State; text: Key }> = {
+  1: { state: "good", text: "noErrorFound" },
+  2: { state: "scrap", text: "errorFound" },
+  3: { state: "none", text: "noReference" },
+  10: { state: "alarm", text: "cameraFault" },
 };
 
 function picture(png: string, title: string, alt: string): HTMLElement {
   return h(
     "figure",
     { class: "camera-picture" },
-    png === "" ? h("p", { class: "empty" }, "None") : h("img", { src: `data:image/png;base64,${png}`, alt }),
+    png === "" ? h("p", { class: "empty" }, t("noPicture")) : h("img", { src: `data:image/png;base64,${png}`, alt }),
     h("figcaption", {}, title),
   );
 }
@@ -27,8 +28,8 @@ function picture(png: string, title: string, alt: string): HTMLElement {
 function shotOf(shot: CameraShot, { results }: Report, selector: Selector): HTMLElement {
   const cycle = results.cycles[shot.cycle];
   const verdict = states[cycle.results.find((result) => result.name === "Q601")?.value ?? 0];
-  const name = `image ${shot.number} of ${shot.point}`;
-  const found = shot.evaluated === "" ? "not compared" : count(shot.errors, "error");
+  const name = t("imageOf", { number: shot.number, point: shot.point });
+  const found = shot.evaluated === "" ? t("notCompared") : t("errorsFound", { n: shot.errors });
   return h(
     "article",
     { class: "camera-shot", click: () => selector.select({ cycle: shot.cycle, touch: null }, "results") },
@@ -37,21 +38,19 @@ function shotOf(shot: CameraShot, { results }: Report, selector: Selector): HTML
       { class: "camera-line" },
       h("b", {}, `${shot.cycle + 1}  ${cycle.name}`),
       ` ${name}`,
-      verdict && h("span", { class: `badge ${verdict.state} small` }, verdict.text),
+      verdict && h("span", { class: `badge ${verdict.state} small` }, t(verdict.text)),
     ),
     h(
       "div",
       { class: "camera-pictures" },
-      picture(shot.reference, `Reference: average of ${count(shot.references, "image")}`, `reference images of ${shot.point}`),
-      picture(shot.taken, "Taken", name),
-      picture(shot.evaluated, `Compared: ${found}`, `${name} with ${found}`),
+      picture(shot.reference, t("referenceOf", { n: shot.references }), t("referenceImages", { point: shot.point })),
+      picture(shot.taken, t("taken"), name),
+      picture(shot.evaluated, t("compared", { found }), `${name}: ${found}`),
     ),
   );
 }
 
-/** Null for a run without camera images. */
-export function cameraSection(report: Report, selector: Selector): HTMLElement | null {
-  const shots = report.scene.camera;
-  if (shots.length === 0) return null;
-  return h("section", { class: "card", id: "camera" }, h("h2", {}, "Camera"), ...shots.map((shot) => shotOf(shot, report, selector)));
+/** What each of the monitoring cycles saw; empty for a run without camera images. */
+export function cameraShots(report: Report, selector: Selector): HTMLElement[] {
+  return report.scene.camera.map((shot) => shotOf(shot, report, selector));
 }

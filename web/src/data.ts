@@ -298,11 +298,26 @@ function unpackTrace(packed: Packed<Trace> | null): Trace | null {
   };
 }
 
+/** Reading the chunks here is ten times as fast as through a Response. */
+async function inflated(packed: Uint8Array<ArrayBuffer>): Promise<string> {
+  const stream = new DecompressionStream("deflate");
+  const writer = stream.writable.getWriter();
+  const written = writer.write(packed).then(() => writer.close());
+  const chunks: BlobPart[] = [];
+  const reader = stream.readable.getReader();
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) break;
+    chunks.push(value as Uint8Array<ArrayBuffer>);
+  }
+  await written;
+  return new Blob(chunks).text();
+}
+
 /** The data of the page: JSON, compressed, as base64. */
 export async function readReport(): Promise<Report> {
   const element = document.getElementById("report-data")!;
-  const packed = new Blob([bytes(element.textContent!)]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const text = await new Response(packed).text();
+  const text = await inflated(bytes(element.textContent!));
   // The page holds it once more otherwise, as long as it is open.
   element.textContent = "";
   const data = JSON.parse(text);

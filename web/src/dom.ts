@@ -13,6 +13,12 @@ function fill(element: Element, attributes: Attributes, children: Child[]) {
   element.append(...children.filter((child): child is Node | string => child != null && child !== false));
 }
 
+export function svg(tag: string, attributes: Attributes = {}, ...children: Child[]): SVGElement {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  fill(element, attributes, children);
+  return element;
+}
+
 export function h<K extends keyof HTMLElementTagNameMap>(
   tag: K,
   attributes: Attributes = {},
@@ -36,6 +42,12 @@ const icons: Record<string, string> = {
   previous: "M15 5l-7 7 7 7",
   next: "M9 5l7 7-7 7",
   sun: "M12 8a4 4 0 100 8 4 4 0 000-8zM12 2v2M12 20v2M2 12h2M20 12h2M5 5l1.4 1.4M17.6 17.6L19 19M5 19l1.4-1.4M17.6 6.4L19 5",
+  stepBack: "M18 5l-8 7 8 7zM7 5v14",
+  stepOn: "M6 5l8 7-8 7zM17 5v14",
+  up: "M5 15l7-7 7 7",
+  down: "M5 9l7 7 7-7",
+  target: "M12 3v4M12 17v4M3 12h4M17 12h4M12 8a4 4 0 100 8 4 4 0 000-8z",
+  search: "M10.5 4a6.5 6.5 0 100 13 6.5 6.5 0 000-13zM15.5 15.5L21 21",
   printer: "M7 9V3h10v6M7 17H4v-8h16v8h-3M7 14h10v7H7z",
 };
 
@@ -66,6 +78,8 @@ export function quantity(value: number | null | undefined, unit: string, signed 
   return fixed(value, 4, signed);
 }
 
+export const unitText = (unit: string): string => (unit === "deg" ? "\u00b0" : unit);
+
 export function duration(seconds: number | null): string {
   if (seconds == null) return "\u2013";
   if (seconds < 60) return `${seconds.toFixed(1)} s`;
@@ -79,11 +93,5 @@ export function length(mm: number | null): string {
   if (mm == null) return "\u2013";
   return mm < 1000 ? `${mm.toFixed(0)} mm` : `${(mm / 1000).toFixed(2)} m`;
 }
-
-export const count = (n: number, one: string, many = one + "s") => `${n} ${n === 1 ? one : many}`;
-
-/** Touches of a number of measuring moves: those that came to none are named as such, here and on the terminal. */
-export const touchCount = (touched: number, moves: number) =>
-  [count(touched, "touch", "touches"), ...(moves > touched ? [count(moves - touched, "failed attempt")] : [])].join(" and ");
 
 export const fileName = (path: string) => path.slice(Math.max(path.lastIndexOf("/"), path.lastIndexOf("\\")) + 1);

@@ -30,7 +30,8 @@ import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 
 import type { Report, Scene, SceneMesh, SceneTool } from "./data";
-import { cycleState } from "./verdict";
+import { DeviationArrows, ghostOf } from "./overlays";
+import { cycleState, type State } from "./verdict";
 
 export interface Palette {
   background: string;
@@ -48,6 +49,9 @@ export interface Palette {
   none: string;
   selected: string;
 }
+
+/** More moves than these are drawn as thin lines. */
+const mostWideMoves = 4000;
 
 export const moveNames = ["rapid", "feed", "measure"] as const;
 
@@ -144,6 +148,10 @@ export class Drawing {
   readonly allCorners: Vector3[];
   /** Where the names of the workpiece's axes stand. */
   readonly axisEnds: { name: string; at: Vector3 }[] = [];
+  readonly deviations: DeviationArrows;
+  /** Where a feature was expected, and where it is: centre and which of both. */
+  readonly ghosts: { at: Vector3; kind: "expected" | "found" }[] = [];
+  private readonly ghostGroup = new Group();
   private readonly solids = new Group();
   private readonly fixtures = new Group();
   private readonly path = new Group();
@@ -155,7 +163,7 @@ export class Drawing {
   private readonly colours: Float32Array;
   private readonly solidMaterials: { material: MeshStandardMaterial; role: SceneMesh["role"] }[] = [];
   private readonly edgeMaterials: LineBasicMaterial[] = [];
-  private readonly lineMaterials: { material: LineMaterial; kind: number; faint: boolean }[] = [];
+  private readonly lineMaterials: { material: LineMaterial | LineBasicMaterial; kind: number }[] = [];
   private markerGeometry: BufferGeometry | null = null;
   private collisionMaterial: PointsMaterial | null = null;
 
@@ -194,6 +202,11 @@ export class Drawing {
     this.addPath();
     this.addMarkers();
     this.addCollisions();
+    this.deviations = new DeviationArrows(report, this.markers);
+    for (const { expected, found } of report.results.truth?.diagnoses ?? []) {
+      for (const [ghost, kind] of [[expected, "expected"], [found, "found"]] as const)
+        if (ghost) this.ghosts.push({ at: new Vector3().fromArray(ghost.at.map((x) => x ?? 0)), kind });
+    }
     const ballRadius = scene.ballRadius > 0 ? scene.ballRadius : this.sphere.radius / 60;
     const ball = new Mesh(
       new SphereGeometry(ballRadius, 32, 20),
@@ -224,7 +237,8 @@ export class Drawing {
     const rim = new DirectionalLight("#dbe6ff", 0.9);
     rim.position.set(-0.8, -0.2, 0.4);
     this.lights.push(key, rim);
-    this.scene.add(this.solids, this.fixtures, this.path, this.touches, this.probe, new AmbientLight("#ffffff", 1.25));
+    this.scene.add(this.solids, this.fixtures, this.path, this.touches, this.probe, this.deviations.group, this.ghostGroup);
+    this.scene.add(new AmbientLight("#ffffff", 1.25));
   }
 
   /** Lights that move with the camera. */
@@ -284,29 +298,46 @@ export class Drawing {
       if (!list) continue;
       for (let k = 3 * i; k < 3 * i + 6; ++k) list.push(points[k]);
     }
+    // Wide lines of tens of thousands of moves hide the part, and are slow without a graphics card.
+    const thin = kinds.length > mostWideMoves;
     segments.forEach((positions, kind) => {
       if (positions.length === 0) return;
-      const geometry = new LineSegmentsGeometry().setPositions(positions);
-      const dashed = kind === 0;
-      // Once where it is seen, once faintly through the part.
-      for (const faint of [false, true]) {
-        const material = new LineMaterial({
-          linewidth: kind === 2 ? 3 : 1.6,
-          dashed,
-          dashSize: this.sphere.radius / 45,
-          gapSize: this.sphere.radius / 60,
-          transparent: true,
-          opacity: faint ? 0.16 : 1,
-          depthTest: !faint,
-          depthWrite: false,
-        });
-        this.lineMaterials.push({ material, kind, faint });
-        const lines = new LineSegments2(geometry, material);
-        if (dashed) lines.computeLineDistances();
-        lines.renderOrder = (faint ? 1 : 2) + 0.1 * kind;
-        this.path.add(lines);
-      }
+      if (thin) this.addThinLines(positions, kind);
+      else this.addWideLines(positions, kind);
     });
+  }
+
+  private addThinLines(positions: number[], kind: number) {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
+    const material = new LineBasicMaterial({ transparent: true, opacity: kind === 0 ? 0.35 : 0.7 });
+    this.lineMaterials.push({ material, kind });
+    const lines = new LineSegments(geometry, material);
+    lines.renderOrder = 2 + 0.1 * kind;
+    this.path.add(lines);
+  }
+
+  private addWideLines(positions: number[], kind: number) {
+    const geometry = new LineSegmentsGeometry().setPositions(positions);
+    const dashed = kind === 0;
+    // Once where it is seen, once faintly through the part.
+    for (const faint of [false, true]) {
+      const material = new LineMaterial({
+        linewidth: kind === 2 ? 3 : 1.6,
+        dashed,
+        dashSize: this.sphere.radius / 45,
+        gapSize: this.sphere.radius / 60,
+        transparent: true,
+        opacity: faint ? 0.16 : 1,
+        depthTest: !faint,
+        depthWrite: false,
+      });
+      this.lineMaterials.push({ material, kind });
+      const lines = new LineSegments2(geometry, material);
+      if (dashed) lines.computeLineDistances();
+      lines.renderOrder = (faint ? 1 : 2) + 0.1 * kind;
+      this.path.add(lines);
+    }
   }
 
   private addMarkers() {
@@ -387,12 +418,34 @@ export class Drawing {
     this.collisionMaterial?.color.set(palette.alarm);
     const colour = new Color();
     this.markers.forEach((marker, i) => {
-      const cycle = this.report.results.cycles[marker.cycle];
-      const touch = cycle?.touches[marker.touch];
-      const state = touch && touch.outcome !== "touched" ? "alarm" : cycle ? cycleState(cycle) : "none";
-      colour.set(palette[state]).toArray(this.colours, 3 * i);
+      colour.set(palette[this.stateOf(marker.cycle, marker.touch)]).toArray(this.colours, 3 * i);
     });
     if (this.markerGeometry) this.markerGeometry.attributes.color.needsUpdate = true;
+    this.ghostGroup.clear();
+    for (const { expected, found } of this.report.results.truth?.diagnoses ?? []) {
+      if (expected) this.ghostGroup.add(ghostOf(expected, palette.rapid, this.sphere.radius));
+      if (found) this.ghostGroup.add(ghostOf(found, palette.good, this.sphere.radius));
+    }
+  }
+
+  /** What a touch is coloured by: an alarm if it was none. */
+  stateOf(cycleIndex: number, touchIndex: number): State {
+    const cycle = this.report.results.cycles[cycleIndex];
+    const touch = cycle?.touches[touchIndex];
+    return touch && touch.outcome !== "touched" ? "alarm" : cycle ? cycleState(cycle) : "none";
+  }
+
+  /** The corners of what a cycle touched, with room around it. */
+  cornersOfCycle(cycle: number): Vector3[] {
+    const box = new Box3();
+    for (const marker of this.markers) {
+      if (marker.cycle !== cycle) continue;
+      box.expandByPoint(marker.tool < 0 ? marker.centre : marker.surface);
+      box.expandByPoint(marker.surface);
+    }
+    if (box.isEmpty()) return [];
+    const size = box.getSize(new Vector3()).length();
+    return cornersOf(box.expandByScalar(Math.max(0.35 * size, 0.12 * this.sphere.radius)));
   }
 
   showXray(on: boolean) {

@@ -1,25 +1,25 @@
 import type { Cycle, Report, Verdict } from "./data";
-import { count, fileName, h, icon } from "./dom";
+import { fileName, h, icon } from "./dom";
+import { t } from "./language";
 
 export type State = "good" | "rework" | "scrap" | "alarm" | "none";
-
-const words: Record<State, string> = {
-  good: "OK",
-  rework: "Rework",
-  scrap: "Scrap",
-  alarm: "Alarm",
-  none: "Done",
-};
 
 export function cycleState(cycle: Cycle): State {
   return cycle.alarm ? "alarm" : cycle.verdict;
 }
 
-export const stateWord = (state: State): string => words[state];
+export const stateWord = (state: State): string => t(state === "none" ? "done" : state);
+
+export const symbols: Record<State, "check" | "warning" | "cross" | "stop" | "dot"> = {
+  good: "check",
+  rework: "warning",
+  scrap: "cross",
+  alarm: "stop",
+  none: "dot",
+};
 
 export function badge(state: State, small = false): HTMLElement {
-  const symbol = state === "good" ? "check" : state === "alarm" ? "stop" : state === "scrap" ? "cross" : state === "rework" ? "warning" : null;
-  return h("span", { class: `badge ${state}${small ? " small" : ""}` }, symbol && icon(symbol), words[state]);
+  return h("span", { class: `badge ${state}${small ? " small" : ""}` }, state !== "none" && icon(symbols[state]), stateWord(state));
 }
 
 export interface Headline {
@@ -33,25 +33,24 @@ export function headline({ results }: Report): Headline {
   const exit = results.run.exit;
   const stop = results.events.findLast((event) => event.kind === "alarm" || event.kind === "stop");
   if (exit.code >= 3 || stop?.kind === "alarm") {
-    const text =
-      exit.text ?? (stop ? [stop.code, stop.text].filter((part) => part !== "").join(": ") : "The run did not finish.");
-    const where = stop && stop.place.line > 0 ? ` (${fileName(stop.place.file)}, line ${stop.place.line})` : "";
-    const title = exit.code === 4 ? "Internal error" : stop?.kind === "stop" ? "Stopped" : "Alarm";
+    const text = exit.text ?? (stop ? [stop.code, stop.text].filter((part) => part !== "").join(": ") : t("notFinished"));
+    const where = stop && stop.place.line > 0 ? ` (${t("atLine", { file: fileName(stop.place.file), line: stop.place.line })})` : "";
+    const title = exit.code === 4 ? t("internalError") : stop?.kind === "stop" ? t("stopped") : t("alarm");
     return { state: "alarm", title, text: text + where };
   }
-  if (exit.code === 2) return { state: "alarm", title: "Mistake in the input", text: exit.text ?? "" };
-  const toleranced = results.cycles.flatMap((cycle) => cycle.results).filter((result) => result.verdict !== "none");
-  const outside = toleranced.filter((result) => result.verdict !== "good").length;
+  if (exit.code === 2) return { state: "alarm", title: t("inputMistake"), text: exit.text ?? "" };
+  let [toleranced, outside] = [0, 0];
+  for (const cycle of results.cycles)
+    for (const { verdict } of cycle.results) {
+      toleranced += Number(verdict !== "none");
+      outside += Number(verdict === "rework" || verdict === "scrap");
+    }
   if (results.verdict === "rework" || results.verdict === "scrap" || exit.code === 1) {
-    const advice = results.verdict === "scrap" ? "The part cannot be saved." : "The part can be reworked.";
-    const text =
-      outside > 0 ? `${outside} of ${count(toleranced.length, "toleranced value")} outside the limits. ${advice}` : (exit.text ?? "");
-    return { state: results.verdict === "scrap" ? "scrap" : "rework", title: "Out of tolerance", text };
+    const advice = results.verdict === "scrap" ? t("cannotBeSaved") : t("canBeReworked");
+    const text = outside > 0 ? `${t("outside", { bad: outside, n: toleranced })} ${advice}` : (exit.text ?? "");
+    return { state: results.verdict === "scrap" ? "scrap" : "rework", title: t("outOfTolerance"), text };
   }
-  if (toleranced.length > 0) {
-    return { state: "good", title: "OK", text: `All ${count(toleranced.length, "toleranced value")} within the limits.` };
-  }
-  return { state: "good", title: "OK", text: "The program ran to its end. Nothing had a tolerance." };
+  return { state: "good", title: t("good"), text: toleranced > 0 ? t("allWithin", { n: toleranced }) : t("nothingToleranced") };
 }
 
 export const verdictState = (verdict: Verdict): State => verdict;

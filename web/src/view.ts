@@ -1,21 +1,38 @@
-// The 3D view: camera, buttons, picking of touches, the card that tells about one, replay.
+// The 3D view: camera, buttons, picking of touches, labels.
 
-import { MathUtils, OrthographicCamera, Vector3, WebGLRenderer } from "three";
+import { OrthographicCamera, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
-import { type Report, touchDeviation, type Triple } from "./data";
-import { count, duration, fixed, h, icon } from "./dom";
+import type { Report } from "./data";
+import { fixed, h, icon } from "./dom";
+import { t } from "./language";
 import { MachineLayer } from "./machine";
+import { Replay } from "./replay";
 import { Drawing, type Marker, type Palette } from "./scene";
 import type { Selector } from "./selection";
-import { badge, cycleState } from "./verdict";
+import { fillCard } from "./touch_card";
 
-const directions: Record<string, [Vector3, Vector3]> = {
-  Top: [new Vector3(0, 0, 1), new Vector3(0, 1, 0)],
-  Front: [new Vector3(0, -1, 0), new Vector3(0, 0, 1)],
-  Right: [new Vector3(1, 0, 0), new Vector3(0, 0, 1)],
-  Iso: [new Vector3(0.62, -0.85, 0.68), new Vector3(0, 0, 1)],
+const directions = {
+  top: new Vector3(0, 0, 1),
+  front: new Vector3(0, -1, 0),
+  right: new Vector3(1, 0, 0),
+  iso: new Vector3(0.62, -0.85, 0.68),
 };
+/** As a turner sees it: X up, Z to the right. */
+const latheDirections = {
+  turning: new Vector3(0, 1, 0),
+  top: new Vector3(1, 0, 0),
+  right: new Vector3(0, 0, 1),
+  iso: new Vector3(0.5, 0.8, 0.42),
+};
+type Direction = keyof typeof directions | keyof typeof latheDirections;
+
+/** Magnifications of deviations: 10 to 5000 in even steps of the slider. */
+const magnificationAt = (step: number) => {
+  const power = 10 ** Math.floor(step / 3);
+  return [1, 2, 5][step % 3] * 10 * power;
+};
+const lastStep = 8;
 
 function palette(): Palette {
   const style = getComputedStyle(document.documentElement);
@@ -43,6 +60,9 @@ export class View {
   private readonly stage = h("div", { class: "stage" });
   private readonly labels = h("div", { class: "labels" });
   private readonly card = h("aside", { class: "touch-card", hidden: true });
+  readonly replay: Replay;
+  private readonly directions: Partial<Record<Direction, Vector3>>;
+  private followsSelection = true;
   private readonly camera = new OrthographicCamera(-1, 1, 1, -1, 0.1, 1000);
   private readonly drawing: Drawing;
   /** The machine around it; null: nothing of it is known. */
@@ -52,36 +72,58 @@ export class View {
   /** What the view was filled with last, until the reader moves it: a page that changes its size fills it anew. */
   private filledBy: Vector3[] | null = null;
   private scheduled = false;
+  private starting = false;
+  private looked = false;
   private shown: { at: Vector3; label: HTMLElement }[] = [];
   /** The names of the axes, and what stands at a collision. */
   private readonly standing: { at: Vector3; label: HTMLElement }[];
+  private arrowEnds: { at: Vector3; label: HTMLElement }[] = [];
+  private readonly observer: ResizeObserver;
 
   constructor(
     private readonly report: Report,
     private readonly selector: Selector,
+    showLine: (file: string, line: number) => void,
   ) {
     this.drawing = new Drawing(report);
     this.machine = report.scene.machine ? new MachineLayer(report.scene.machine, this.drawing.scene) : null;
-    this.camera.up.set(0, 0, 1);
+    const { lathe } = report.scene;
+    this.directions = lathe ? latheDirections : directions;
+    this.camera.up.set(lathe ? 1 : 0, 0, lathe ? 0 : 1);
+    this.replay = new Replay(report, selector, {
+      line: showLine,
+      place: ({ tip, axis, tool, move, part }) => {
+        this.drawing.placeProbe(new Vector3(...tip), new Vector3(...axis), tool);
+        this.machine?.show(move, move + 1, part);
+        this.draw();
+      },
+    });
     this.standing = [
       ...this.drawing.axisEnds.map(({ name, at }) => ({ at, label: h("span", { class: "axis" }, h("b", {}, name)) })),
       ...report.scene.collisions.map(({ at, what, solid }) => ({
         at: new Vector3().fromArray(at),
-        label: h("span", { class: "label collision" }, h("b", {}, `Collision: ${what}, ${solid}`)),
+        label: h("span", { class: "label collision" }, h("b", {}, t("collisionOf", { what, solid }))),
       })),
+      ...this.drawing.ghosts.map(({ at, kind }) => ({ at, label: h("span", { class: `label ghost ${kind}` }, h("b", {}, t(kind))) })),
     ];
     this.element = h(
       "section",
-      { class: "card view", id: "view", "aria-label": "3D view" },
-      this.stage,
-      this.toolbar(),
-      this.legend(),
-      this.card,
-      this.replay(),
+      { class: "card view", id: "view", "aria-label": t("view") },
+      h("div", { class: "stage-area" }, this.stage, this.toolbar(), this.legend(), this.card),
+      this.replay.element,
     );
-    selector.listen((selection) => this.showSelection(selection?.cycle ?? null, selection?.touch ?? null));
+    selector.listen((selection, source) => this.showSelection(selection?.cycle ?? null, selection?.touch ?? null, source));
     // The page decides the size; drawing starts with the first one.
-    new ResizeObserver(() => this.resize()).observe(this.stage);
+    this.observer = new ResizeObserver(() => this.resize());
+    this.observer.observe(this.stage);
+  }
+
+  /** Gives back what the graphics card holds. */
+  dispose() {
+    this.observer.disconnect();
+    this.controls?.dispose();
+    this.renderer?.dispose();
+    this.renderer?.forceContextLoss();
   }
 
   private start(): boolean {
@@ -89,7 +131,7 @@ export class View {
       this.renderer = new WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
     } catch {
       this.stage.append(
-        h("p", { class: "empty" }, "This browser shows no 3D graphics (WebGL is off). Everything else is below."),
+        h("p", { class: "empty" }, t("noGraphics")),
       );
       return false;
     }
@@ -113,52 +155,99 @@ export class View {
     const colours = palette();
     this.drawing.colour(colours);
     this.machine?.colour(colours.fixture, colours.part, colours.artefact, colours.edge);
+    this.drawArrows();
+    this.replay.drawMarks();
     // At once: a page about to be printed waits for no frame.
     if (this.renderer) this.render();
   }
 
-  /** A still picture in place of the 3D canvas, which browsers print as it was shown last. */
-  showOnPaper(on: boolean) {
-    this.stage.querySelector(".paper")?.remove();
-    if (!on || !this.renderer) return;
-    const canvas = this.renderer.domElement;
-    const still = h("canvas", { class: "paper", width: canvas.width, height: canvas.height });
-    this.render();
-    still.getContext("2d")!.drawImage(canvas, 0, 0);
-    canvas.after(still);
+  /** Starts the graphics, if they have not yet. */
+  ensureStarted() {
+    if (this.renderer || this.stage.childElementCount > 0 || !this.element.isConnected || !this.start()) return;
+    this.resize();
   }
 
   private resize() {
     const { clientWidth: width, clientHeight: height } = this.stage;
     if (width === 0 || height === 0) return;
-    const first = !this.renderer;
-    if (first && (this.stage.childElementCount > 0 || !this.start())) return;
-    this.renderer!.setSize(width, height);
-    const aspect = width / height;
-    this.camera.left = -aspect;
-    this.camera.right = aspect;
-    this.camera.updateProjectionMatrix();
-    if (first) this.look("Iso");
+    if (!this.renderer) {
+      // The lists first: they can be read while the graphics start.
+      if (!this.starting) requestAnimationFrame(() => setTimeout(() => this.ensureStarted()));
+      this.starting = true;
+      return;
+    }
+    this.setSize(width, height);
+    if (!this.looked) this.look(this.report.scene.lathe ? "turning" : "iso");
     else if (this.filledBy) this.zoomTo(this.filledBy);
     // At once, not in the next frame: setting the size has emptied the canvas.
     this.render();
   }
 
-  private look(name: string) {
-    const [direction, up] = directions[name];
-    this.camera.up.set(0, 0, 1);
-    if (!this.controls) return;
+  private look(name: Direction) {
+    const direction = this.directions[name];
+    if (!this.controls || !direction) return;
     const { center, radius } = this.drawing.sphere;
     const reach = Math.max(radius, this.drawing.everything.radius + this.drawing.everything.center.distanceTo(center));
-    // Looking straight down, a hair off the vertical keeps the part's Y pointing up.
     const towards = direction.clone().normalize();
-    if (up.y === 1) towards.y -= 1e-4;
+    // Looking along what points up, a hair off keeps the part's Y (a lathe's Z) where it belongs.
+    if (Math.abs(towards.dot(this.camera.up)) > 0.999) towards.add(this.report.scene.lathe ? new Vector3(0, 1e-4, 0) : new Vector3(0, -1e-4, 0));
     this.controls.target.copy(center);
     this.camera.position.copy(center).addScaledVector(towards, 20 * reach);
     // A machine reaches far beyond its part.
     this.camera.near = this.machine ? -60 * reach : reach;
     this.camera.far = 60 * reach;
+    this.looked = true;
     this.zoomTo(this.drawing.focusCorners);
+  }
+
+  fit() {
+    this.zoomTo(this.drawing.allCorners);
+  }
+
+  /** The part from where the reader looks, filled by what a cycle touched; null without graphics. */
+  pictureOf(cycle: number | null, width: number, height: number): HTMLCanvasElement | null {
+    this.ensureStarted();
+    if (!this.renderer || !this.controls || !this.looked) return null;
+    const before = { zoom: this.camera.zoom, position: this.camera.position.clone(), target: this.controls.target.clone(), filledBy: this.filledBy };
+    const size = { width: this.stage.clientWidth, height: this.stage.clientHeight };
+    const corners = cycle === null ? this.drawing.focusCorners : this.drawing.cornersOfCycle(cycle);
+    this.setSize(width, height);
+    if (corners.length > 0) this.zoomTo(corners);
+    this.renderer.render(this.drawing.scene, this.camera);
+    const canvas = this.renderer.domElement;
+    const still = h("canvas", { width: canvas.width, height: canvas.height });
+    still.getContext("2d")!.drawImage(canvas, 0, 0);
+    this.setSize(size.width, size.height);
+    this.camera.zoom = before.zoom;
+    this.camera.position.copy(before.position);
+    this.controls.target.copy(before.target);
+    this.filledBy = before.filledBy;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.render();
+    return still;
+  }
+
+  private setSize(width: number, height: number) {
+    if (width === 0 || height === 0) return;
+    this.renderer!.setSize(width, height);
+    this.camera.left = -width / height;
+    this.camera.right = width / height;
+    this.camera.updateProjectionMatrix();
+  }
+
+  toggleDeviations() {
+    this.deviationButton?.click();
+  }
+
+  private drawArrows() {
+    const { deviations } = this.drawing;
+    const ends = deviations.draw(palette(), this.drawing.sphere.radius);
+    for (const { label } of this.arrowEnds) label.remove();
+    // Texts help with a handful of arrows only.
+    this.arrowEnds = ends.length > 40 ? [] : ends.map(({ at, deviation }) => ({ at, label: h("span", { class: "label arrow" }, h("b", {}, fixed(deviation, 4, true))) }));
+    this.labels.append(...this.arrowEnds.map(({ label }) => label));
+    this.draw();
   }
 
   /** Moves and zooms so that these points fill the view, with room for what lies over its edges. */
@@ -198,7 +287,7 @@ export class View {
 
   private render() {
     this.renderer!.render(this.drawing.scene, this.camera);
-    for (const { at, label } of [...this.shown, ...this.standing]) {
+    for (const { at, label } of [...this.shown, ...this.standing, ...this.arrowEnds]) {
       const { x, y } = this.onScreen(at);
       label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
     }
@@ -239,7 +328,7 @@ export class View {
     });
   }
 
-  private showSelection(cycle: number | null, touch: number | null) {
+  private showSelection(cycle: number | null, touch: number | null, source: string) {
     this.labels.replaceChildren(...this.standing.map(({ label }) => label));
     this.shown = [];
     const ofCycle = cycle === null ? [] : this.drawing.markers.filter((marker) => marker.cycle === cycle);
@@ -252,10 +341,19 @@ export class View {
       });
     }
     const marker = touch === null ? undefined : ofCycle.find((candidate) => candidate.touch === touch);
-    this.drawing.placeProbe(marker ? marker.centre : null, marker?.axis, marker?.tool);
+    if (source !== "replay") this.drawing.placeProbe(marker ? marker.centre : null, marker?.axis, marker?.tool);
     const time = marker && this.report.results.cycles[marker.cycle]?.touches[marker.touch]?.time;
-    if (time != null && this.report.scene.path.seconds.length > 1) this.machine?.show(...this.pathPlace(time));
-    this.fillCard(cycle, touch);
+    if (time != null && source !== "replay" && this.replay.clock.canReplay) {
+      const { move, part } = this.replay.clock.tipAt(time);
+      this.machine?.show(move, move + 1, part);
+    }
+    if (this.followsSelection && cycle !== null && source !== "view" && source !== "replay") {
+      const corners = this.drawing.cornersOfCycle(cycle);
+      if (corners.length > 0) this.zoomTo(corners.map((point) => this.machine?.onScene(point) ?? point));
+    }
+    this.drawing.deviations.show(cycle);
+    this.drawArrows();
+    fillCard(this.card, this.report, this.selector, marker !== undefined && marker.tool >= 0);
     // The card must not lie over what it tells about.
     const points = marker ? [marker] : ofCycle;
     const middle = points.reduce((sum, { centre }) => sum + this.onScreen(centre).x / points.length, 0);
@@ -263,67 +361,7 @@ export class View {
     this.draw();
   }
 
-  private touchedByTool(cycle: number, touch: number | null): boolean {
-    return this.drawing.markers.some((marker) => marker.cycle === cycle && marker.touch === touch && marker.tool >= 0);
-  }
-
-  private fillCard(cycleIndex: number | null, touchIndex: number | null) {
-    const cycle = cycleIndex === null ? undefined : this.report.results.cycles[cycleIndex];
-    this.card.hidden = !cycle;
-    if (!cycle || cycleIndex === null) return;
-    const touch = touchIndex === null ? undefined : cycle.touches[touchIndex];
-    const row = (name: string, values: string | string[], kind = "") =>
-      h("div", { class: kind }, h("dt", {}, name), h("dd", {}, ...[values].flat().map((value) => h("span", {}, value))));
-    const point = (triple: Triple | undefined) => triple?.map((x) => fixed(x, 3)) ?? "\u2013";
-    const step = (by: number) => {
-      const n = cycle.touches.length;
-      const next = touchIndex === null ? (by > 0 ? 0 : n - 1) : (touchIndex + by + n) % n;
-      this.selector.select({ cycle: cycleIndex, touch: next }, "view");
-    };
-    const deviation = touch ? touchDeviation(touch) : null;
-    this.card.replaceChildren(
-      h(
-        "header",
-        {},
-        h("div", {}, h("b", {}, `${cycle.name} ${cycle.title}`), h("br"), cycle.place.line > 0 ? `line ${cycle.place.line}` : ""),
-        badge(cycleState(cycle), true),
-        h("button", { type: "button", class: "plain-button", "aria-label": "Close", click: () => this.selector.select(null, "view") }, icon("cross")),
-      ),
-      ...(cycle.touches.length > 0
-        ? [
-            h(
-              "nav",
-              {},
-              h("button", { type: "button", class: "plain-button", "aria-label": "Previous touch", click: () => step(-1) }, icon("previous")),
-              h("span", {}, touch ? `Touch ${touchIndex! + 1} of ${cycle.touches.length}` : count(cycle.touches.length, "touch", "touches")),
-              h("button", { type: "button", class: "plain-button", "aria-label": "Next touch", click: () => step(1) }, icon("next")),
-            ),
-          ]
-        : []),
-      ...(touch
-        ? [
-            h(
-              "dl",
-              {},
-              row("Outcome", touch.outcome, touch.outcome === "touched" ? "" : "missed"),
-              row("Target", point(touch.target)),
-              ...(this.touchedByTool(cycleIndex, touchIndex)
-                ? [row("Tool tip", point(touch.ballCentre))]
-                : [row("Ball centre", point(touch.ballCentre)), row("Surface", point(touch.surface))]),
-              row("Direction", point(touch.direction)),
-              row("Deviation", deviation === null ? "\u2013" : `${fixed(deviation, 4, true)} mm`, "strong"),
-              row("Axes", touch.axes ? Object.entries(touch.axes).map(([name, value]) => `${name} ${fixed(value, 3)}`) : "\u2013"),
-              row("Time", duration(touch.time)),
-            ),
-          ]
-        : []),
-      h(
-        "button",
-        { type: "button", class: "card-link", click: () => this.selector.select({ cycle: cycleIndex, touch: touchIndex }, "card") },
-        "Show the results",
-      ),
-    );
-  }
+  private deviationButton: HTMLElement | null = null;
 
   private toolbar(): HTMLElement {
     const button = (text: string, click: () => void) => h("button", { type: "button", click }, text);
@@ -337,43 +375,44 @@ export class View {
       });
       return element;
     };
+    const { deviations } = this.drawing;
+    const usual = 3;
+    deviations.magnification = magnificationAt(usual);
+    const slider = h("input", { type: "range", min: 0, max: lastStep, step: 1, value: usual, "aria-label": t("magnification") });
+    const times = h("output", {}, `${deviations.magnification}\u00d7`);
+    const magnifier = h("div", { class: "group magnifier", hidden: true, title: t("magnification") }, slider, times);
+    slider.addEventListener("input", () => {
+      deviations.magnification = magnificationAt(Number(slider.value));
+      times.textContent = `${deviations.magnification}\u00d7`;
+      this.drawArrows();
+    });
+    this.deviationButton = toggle(t("deviations"), false, (on) => {
+      deviations.on = on;
+      magnifier.hidden = !on;
+      this.drawArrows();
+    });
     return h(
       "div",
       { class: "toolbar" },
       h(
         "div",
         { class: "group" },
-        h("button", { type: "button", title: "Show everything", click: () => this.zoomTo(this.drawing.allCorners) }, icon("fit"), "Fit"),
-        ...Object.keys(directions).map((name) => button(name, () => this.look(name))),
+        h("button", { type: "button", title: `${t("showEverything")} (F)`, click: () => this.fit() }, icon("fit"), t("fit")),
+        ...(Object.keys(this.directions) as Direction[]).map((name) => button(t(name), () => this.look(name))),
       ),
       h(
         "div",
         { class: "group" },
-        toggle("X-ray", false, (on) => this.drawing.showXray(on)),
-        toggle("Path", true, (on) => this.drawing.showPath(on)),
-        toggle("Touches", true, (on) => this.drawing.showTouches(on)),
-        ...(this.drawing.hasFixtures ? [toggle("Fixtures", true, (on) => this.drawing.showFixtures(on))] : []),
+        toggle(t("xray"), false, (on) => this.drawing.showXray(on)),
+        toggle(t("paths"), true, (on) => this.drawing.showPath(on)),
+        toggle(t("touchesToggle"), true, (on) => this.drawing.showTouches(on)),
+        ...(this.drawing.hasFixtures ? [toggle(t("fixtures"), true, (on) => this.drawing.showFixtures(on))] : []),
+        toggle(t("follow"), true, (on) => (this.followsSelection = on)),
+        this.deviationButton,
         ...this.machineButtons(toggle),
       ),
+      magnifier,
     );
-  }
-
-  private legend(): HTMLElement {
-    const item = (kind: string, text: string) => h("span", {}, h("i", { class: `swatch ${kind}` }), text);
-    return h("div", { class: "legend" }, item("rapid", "Rapid"), item("feed", "Feed"), item("measure", "Measuring"), item("dot", "Touch"), this.report.scene.collisions.length > 0 && item("collision", "Collision"));
-  }
-
-  /** The points of the path before and after that time, and the part of the way between them. */
-  private pathPlace(time: number): [number, number, number] {
-    const { seconds } = this.report.scene.path;
-    let [low, high] = [0, seconds.length - 1];
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (seconds[middle] <= time) low = middle;
-      else high = middle;
-    }
-    const span = seconds[high] - seconds[low];
-    return [low, high, span > 0 ? MathUtils.clamp((time - seconds[low]) / span, 0, 1) : 1];
   }
 
   /** The machine, drawn or not; with it either the part or the machine stands still. */
@@ -382,13 +421,13 @@ export class View {
     if (!machine) return [];
     const fill = (on: boolean) =>
       this.zoomTo(on ? [...machine.corners(), ...this.drawing.focusCorners.map((point) => machine.onScene(point))] : this.drawing.focusCorners);
-    const standing = toggle("Axes move", false, (on) => {
+    const standing = toggle(t("axesMove"), false, (on) => {
       machine.keep(on ? "machine" : "part");
       fill(true);
     });
-    standing.title = "The machine stands and its axes move; else the part stands still";
+    standing.title = t("axesMoveTitle");
     standing.hidden = true;
-    const drawn = toggle("Machine", false, (on) => {
+    const drawn = toggle(t("machine"), false, (on) => {
       machine.draw(on);
       standing.hidden = !on;
       fill(on);
@@ -396,51 +435,19 @@ export class View {
     return [drawn, standing];
   }
 
-  /** A slider over the machine's clock. */
-  private replay(): HTMLElement | null {
-    const { points, seconds, toolAxes, tools } = this.report.scene.path;
-    const n = seconds.length;
-    if (n < 2 || points.length < 3 * n) return null;
-    const total = seconds[n - 1];
-    const slider = h("input", { type: "range", min: 0, max: total, step: "any", value: 0, "aria-label": "Time of the run" });
-    const clock = h("output", {}, duration(0));
-    const vector = (array: Float32Array, i: number) => new Vector3().fromArray(array, 3 * i);
-    const show = () => {
-      const time = Number(slider.value);
-      const [low, high, part] = this.pathPlace(time);
-      const axis =
-        toolAxes.length >= points.length ? vector(toolAxes, low).lerp(vector(toolAxes, high), part) : new Vector3(0, 0, 1);
-      let tool = -1;
-      for (let i = 0; i < tools.length && tools[i] <= low; i += 2) tool = tools[i + 1];
-      this.drawing.placeProbe(vector(points, low).lerp(vector(points, high), part), axis, tool);
-      this.machine?.show(low, high, part);
-      clock.textContent = duration(time);
-      this.draw();
-    };
-    slider.addEventListener("input", show);
-    let playing = false;
-    const button = h("button", { type: "button", class: "plain-button", "aria-label": "Replay" }, icon("play"));
-    const set = (on: boolean) => {
-      playing = on;
-      button.replaceChildren(icon(on ? "pause" : "play"));
-    };
-    button.addEventListener("click", () => {
-      set(!playing);
-      if (!playing) return;
-      if (Number(slider.value) >= total) slider.value = "0";
-      let last = performance.now();
-      // The whole run in about twenty seconds, but never slower than it was.
-      const speed = Math.max(1, total / 20);
-      const frame = (now: number) => {
-        if (!playing) return;
-        slider.value = String(Math.min(total, Number(slider.value) + (speed * (now - last)) / 1000));
-        last = now;
-        show();
-        if (Number(slider.value) >= total) set(false);
-        else requestAnimationFrame(frame);
-      };
-      requestAnimationFrame(frame);
-    });
-    return h("div", { class: "replay" }, button, slider, clock);
+  private legend(): HTMLElement {
+    const item = (kind: string, text: string) => h("span", {}, h("i", { class: `swatch ${kind}` }), text);
+    const { scene } = this.report;
+    const states = new Set(this.drawing.markers.map(({ cycle, touch }) => this.drawing.stateOf(cycle, touch)));
+    const words = { good: "good", rework: "rework", scrap: "scrap", alarm: "missedLegend", none: "touchLegend" } as const;
+    return h(
+      "div",
+      { class: "legend" },
+      item("rapid", t("rapid")),
+      item("feed", t("feed")),
+      item("measure", t("measuring")),
+      ...(["good", "rework", "scrap", "none", "alarm"] as const).filter((state) => states.has(state)).map((state) => item(`dot ${state}`, t(words[state]))),
+      scene.collisions.length > 0 && item("collision", t("collision")),
+    );
   }
 }
