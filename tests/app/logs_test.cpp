@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/program.hpp"
+#include "support/page_data.hpp"
 
 /// What --language, --screens and --measuring-log do, as a user meets them.
 namespace probewright::app::testing {
@@ -44,7 +45,8 @@ TEST(Screens, AreShownOnRequest) {
   for (const json& cycle : results.at("cycles"))
     screens += cycle.at("screens").size();
   EXPECT_GE(screens, 6U);
-  EXPECT_THAT(textOf(folder / "out/report.html"), HasSubstr("Measuring Log for Probing Cycle 421"));
+  EXPECT_THAT(testing_support::pageData(textOf(folder / "out/report.html")),
+              HasSubstr("Measuring Log for Probing Cycle 421"));
 }
 
 TEST(MeasuringLogs, OfSinumerikAreTextAndTable) {

@@ -2,15 +2,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <zlib.h>
 
-#include <array>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "base/file.hpp"
 #include "records/results.hpp"
 #include "reports/sample_scene.hpp"
+#include "support/page_data.hpp"
 
 namespace probewright::reports {
 namespace {
@@ -19,54 +18,9 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// What stands between the data element's tags: all that a browser would take as the data.
-std::string dataText(const std::string& html) {
-  const std::string start = "id=\"report-data\">";
-  const auto from = html.find(start) + start.size();
-  return html.substr(from, html.find("</script", from) - from);
-}
+using testing_support::decoded;
 
-int value(char c) {
-  const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  return static_cast<int>(alphabet.find(c));
-}
-
-/// RFC 4648, written apart from the encoder.
-std::string decoded(const std::string& base64) {
-  EXPECT_EQ(base64.size() % 4, 0U);
-  std::string bytes;
-  unsigned bits = 0;
-  int count = 0;
-  for (const char c : base64) {
-    if (c == '=') break;
-    bits = bits << 6 | static_cast<unsigned>(value(c));
-    count += 6;
-    if (count >= 8) bytes.push_back(static_cast<char>(bits >> (count -= 8) & 0xFF));
-  }
-  return bytes;
-}
-
-/// What stands in the page's data element, unpacked.
-json dataOf(const std::string& html) {
-  const std::string packed = decoded(dataText(html));
-  std::string text;
-  z_stream stream{};
-  EXPECT_EQ(inflateInit(&stream), Z_OK);
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
-  stream.avail_in = static_cast<uInt>(packed.size());
-  int result = Z_OK;
-  while (result == Z_OK) {
-    std::array<char, 65536> piece{};
-    stream.next_out = reinterpret_cast<Bytef*>(piece.data());
-    stream.avail_out = piece.size();
-    result = inflate(&stream, Z_NO_FLUSH);
-    text.append(piece.data(), piece.size() - stream.avail_out);
-  }
-  EXPECT_EQ(result, Z_STREAM_END);
-  EXPECT_EQ(stream.avail_in, 0U);
-  inflateEnd(&stream);
-  return json::parse(text);
-}
+json dataOf(const std::string& html) { return json::parse(testing_support::pageData(html)); }
 
 template <class T>
 std::vector<T> arrayOf(const json& text) {

@@ -220,9 +220,9 @@ test("the form of what was measured", async () => {
   await page.evaluate(() => document.querySelector("#cycle-3 .toggle").click());
   await settle(page);
   const plots = await page.$$eval(".plot", (all) => all.map((plot) => plot.textContent));
-  // Residuals of 1, -1, 2 and -2 um; the centre lies 3 um and -4 um off.
+  // Residuals of 1, -1, 2 and -2 um; the centre lies 0.8 um and -0.5 um off.
   assert.ok(plots.some((plot) => /^Roundness0\.0040 mm.*2: \u22121\.0 \u00b5m/.test(plot)), plots.join("\n"));
-  assert.ok(plots.some((plot) => /^Position0\.0050 mm.*\+3\.0 \u00b5m, \u22124\.0 \u00b5m/.test(plot)), plots.join("\n"));
+  assert.ok(plots.some((plot) => /^Position0\.0009 mm.*\+0\.8 \u00b5m, \u22120\.5 \u00b5m/.test(plot)), plots.join("\n"));
   await picture(page, "details");
   assert.deepEqual(problems, []);
   await page.close();
