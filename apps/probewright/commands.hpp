@@ -33,7 +33,7 @@ struct RunArguments {
   std::optional<std::uint64_t> seed;  ///< instead of the setup's
   bool dryRun = false, programTest = false;
   std::optional<std::uint64_t> searchLine;
-  control::DialogLanguage language = control::DialogLanguage::English;
+  std::string language = "en";  ///< of the report, and of the control's logs where it has it
   bool screens = false;
   std::string cache;                             ///< folder for imported parts; "off": none; empty: the user's
   std::vector<std::string> measuringLogs;        ///< of a SINUMERIK control; .csv: as a table
@@ -42,6 +42,7 @@ struct RunArguments {
   std::filesystem::path tables;                  ///< instead of the setup's folder of tables; empty: that of the setup
   bool blind = false;                            ///< says nothing of what only the virtual machine knows
   records::Job job;                              ///< fields that go before the setup's
+  bool pdf = false;                              ///< the report as pages, too
   bool quiet = false;
 };
 int run(const RunArguments& arguments);

@@ -21,7 +21,6 @@ namespace {
 
 using probewright::app::CheckFormat;
 using probewright::control::ControlKind;
-using probewright::control::DialogLanguage;
 using probewright::control::OnStop;
 
 /// The option --control of all subcommands.
@@ -282,10 +281,12 @@ int main(int argc, char** argv) {
          "and measuring")
       ->check(notNegative)
       ->type_name("LINE");
-  std::vector<std::pair<std::string, DialogLanguage>> languages;
-  for (const DialogLanguage language : probewright::control::allDialogLanguages)
-    languages.emplace_back(probewright::control::code(language), language);
-  addChoice(*run, "--language", runArguments.language, languages, "Language of the control's logs").default_str("en");
+  std::vector<std::pair<std::string, std::string>> languages;
+  for (const char* code : {"en", "de", "ru", "sv", "zh", "pl"})
+    languages.emplace_back(code, code);
+  addChoice(*run, "--language", runArguments.language, languages,
+            "Language of the report and of the control's logs (with de these are English)")
+      .default_str("en");
   run->add_option("--measuring-log", runArguments.measuringLogs,
                   "SINUMERIK: log all measurements in this file of the output folder; .csv: as a table, .txt: as text")
       ->type_name("NAME")
@@ -311,6 +312,7 @@ int main(int argc, char** argv) {
          "Begin with the control's tables in this folder, such as that of an earlier run, instead of the setup's")
       ->type_name("DIR");
   addJob(*run, runArguments.job);
+  run->add_flag("--pdf", runArguments.pdf, "Also print the report as report.pdf; Chromium does it");
   run->add_flag("--screens", runArguments.screens, "Show the result screens of all cycles, also of those that are off");
   run->add_flag("--blind", runArguments.blind,
                 "Say nothing of what only the virtual machine knows: true values, errors, what stands in the way");

@@ -21,6 +21,7 @@
 #include "machine_run.hpp"
 #include "output_folder.hpp"
 #include "records/results.hpp"
+#include "report_pdf.hpp"
 #include "reports/report.hpp"
 #include "reports/summary.hpp"
 #include "run_record.hpp"
@@ -34,6 +35,8 @@ namespace probewright::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* pdfFile = "report.pdf";
 
 /// What an import does, on standard error: on a terminal in one line, else a line now and then.
 class ImportProgress {
@@ -168,6 +171,8 @@ int run(const RunArguments& arguments) {
   options.skipLevels = arguments.skipLevels;
   options.recordLimit = arguments.recordLimit << 20U;
   options.whyNoFile = [&](const std::string& name) {
+    if (arguments.pdf && name == pdfFile)
+      return std::optional(fail("--pdf leaves a file of this name", "choose another name").value());
     const auto exported = whyExported(arguments.exports, name);
     return exported ? exported : whyNotWritable(arguments.out, name);
   };
@@ -175,7 +180,8 @@ int run(const RunArguments& arguments) {
                  : arguments.programTest ? session::ProgramMode::ProgramTest
                                          : session::ProgramMode::Normal;
   options.searchLine = arguments.searchLine;
-  options.language = arguments.language;
+  // No edition of the controls' texts in German is known here.
+  options.language = control::dialogLanguageOf(arguments.language).value_or(control::DialogLanguage::English);
   options.showAllResults = arguments.screens;
   options.measuringLogs = arguments.measuringLogs;
   options.wallClock = std::time(nullptr);
@@ -195,6 +201,16 @@ int run(const RunArguments& arguments) {
     return 2;
   }
   std::vector<std::string> left = {"results.json", "report.html"};
+  fs::path chromium;
+  if (arguments.pdf) {
+    const Result<fs::path> found = findChromium();
+    if (!found) {
+      print({found.error()});
+      return 2;
+    }
+    chromium = *found;
+    left.emplace_back(pdfFile);
+  }
   for (const exchange::Format* format : arguments.exports)
     left.emplace_back(format->file);
   for (const std::string& name : left) {
@@ -258,6 +274,7 @@ int run(const RunArguments& arguments) {
   }
   reports::PageOptions page;
   page.trace = &outcome.trace;
+  page.language = arguments.language;
   output.files.emplace_back(
       "report.html", [&](const Sink& sink) { reports::writeReport(sink, outcome.journal, info, ran->scene, page); });
   output.files.emplace_back("results.json", [&](const Sink& sink) {
