@@ -43,6 +43,7 @@ struct RunArguments {
   bool blind = false;                            ///< says nothing of what only the virtual machine knows
   records::Job job;                              ///< fields that go before the setup's
   bool pdf = false;                              ///< the report as pages, too
+  bool clearance = false;                        ///< tells how near the tool came to things
   bool quiet = false;
 };
 int run(const RunArguments& arguments);

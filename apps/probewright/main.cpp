@@ -316,6 +316,8 @@ int main(int argc, char** argv) {
   run->add_flag("--screens", runArguments.screens, "Show the result screens of all cycles, also of those that are off");
   run->add_flag("--blind", runArguments.blind,
                 "Say nothing of what only the virtual machine knows: true values, errors, what stands in the way");
+  run->add_flag("--clearance", runArguments.clearance,
+                "Tell how near the tool came to part, fixtures and table, block by block; takes some time");
   run->add_flag("--quiet", runArguments.quiet, "Print nothing but mistakes");
 
   probewright::app::CheckArguments checkArguments;

@@ -195,6 +195,7 @@ int run(const RunArguments& arguments) {
   });
   setup::MachineOptions machine;
   machine.blind = arguments.blind;
+  machine.clearance = arguments.clearance;
   machine.import.cache = cacheFolder(arguments.cache);
   if (const Result<void> tidied = tidyOutput(arguments.out, options.stop); !tidied) {
     print({tidied.error()});

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/diagnostic.hpp"
 #include "geometry/primitives.hpp"
 
 /// What a simulated run knows and its control does not: true values beside the measured ones, what table entries are
@@ -83,6 +84,7 @@ struct ClearanceSpan {
   std::string part;                  ///< of the tool: "stylus", "body", "tool"
   std::string solid;                 ///< what it was near to
   std::optional<std::size_t> cycle;  ///< that ran
+  std::optional<SourcePlace> place;  ///< of the block, where the run was traced
 };
 
 struct Clearance {

@@ -74,6 +74,8 @@ json clearance(const Clearance& known, const ReadableText& text) {
     if (!span.part.empty()) object["part"] = text(span.part);
     if (!span.solid.empty()) object["solid"] = text(span.solid);
     if (span.cycle) object["cycle"] = *span.cycle;
+    if (span.place)
+      object["place"] = {{"file", text(span.place->file)}, {"line", span.place->line}, {"column", span.place->column}};
     spans.push_back(std::move(object));
   }
   json object = {{"spans", std::move(spans)}};

@@ -292,6 +292,11 @@ std::string summaryText(const control::Journal& journal, const records::RunInfo&
     if (ended) where = style.place(event.place);
     if (event.kind != control::EventKind::Tool && !ended) text += eventText(event, style);
   }
+  if (run.truth && run.truth->clearance)
+    text += clearanceText(
+        *run.truth->clearance, [&](const std::string& bytes) { return style.line(bytes); },
+        [&](const SourcePlace& place) { return style.place(place); });
+  if (run.truth) text += diagnosesText(*run.truth, [&](const std::string& bytes) { return style.line(bytes); });
   if (!where.empty()) where = fmt::format("  ({})", where);
   const records::TouchCount touches = records::countTouches(journal);
   std::string touchText = counted(touches.touched, "touch", "touches");

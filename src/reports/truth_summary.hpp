@@ -16,4 +16,13 @@ std::string besideResult(const records::TrueValue& truth, double measured, int d
 /// truth". `line` makes text of the run fit for a terminal.
 std::string entriesText(const records::Truth& truth, const std::function<std::string(const std::string&)>& line);
 
+/// Why motions were interrupted: "  truth  the face of "part" is 5.700 mm further in +Y...", a line for each sentence.
+std::string diagnosesText(const records::Truth& truth, const std::function<std::string(const std::string&)>& line);
+
+/// How near the tool came to things: each block that came nearer than the limit as a warning, or the nearest one where
+/// there is no limit. `place` makes text of a place in the program.
+std::string clearanceText(const records::Clearance& clearance,
+                          const std::function<std::string(const std::string&)>& line,
+                          const std::function<std::string(const SourcePlace&)>& place);
+
 }  // namespace probewright::reports

@@ -53,7 +53,9 @@ SimulatedRun runPrepared(session::PreparedProgram prepared, const Setup& setup, 
   }
   if (run.machine && options.recordPath && !options.blind) {
     const control::Beliefs calibrated = calibratedBeliefs(setup);
-    info.truth = truth::truthOf(run.outcome, *run.machine, {setup.beliefs, calibrated});
+    info.truth = truth::truthOf(
+        run.outcome, *run.machine,
+        {setup.beliefs, calibrated, options.clearance || setup.world.clearance > 0, setup.world.clearance});
   }
   return run;
 }

@@ -15,7 +15,8 @@ namespace probewright::setup {
 /// How the machine is built.
 struct MachineOptions {
   bool recordPath = true;
-  bool blind = false;                     ///< what the machine knows and the control does not is not told
+  bool blind = false;      ///< what the machine knows and the control does not is not told
+  bool clearance = false;  ///< how near the tool comes to things is told, also without a limit of the setup
   simulation::ImportOptions import = {};  ///< of parts; the run's stop token stops it, too
 };
 

@@ -54,6 +54,7 @@ void WorldReader::readMachine(const std::filesystem::path& instead, const Machin
     else
       reader->tables("body");  // of a machine that is not there
     if (auto grids = reader->table("hirth")) readHirthGrids(*grids);
+    world_.clearance = reader->number("clearance", {0, 1000}).value_or(0);
     reader->finish();
     return;
   }

@@ -49,6 +49,7 @@ struct World {
   std::vector<WorldBody> bodies;
   std::optional<machine::TableBody> table;  ///< of the machine
   std::optional<int> toolInSpindle;         ///< at the start
+  double clearance = 0;                     ///< mm: coming nearer to things is warned of; 0: never
 };
 
 /// Loads the solids and puts the machine together.

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "truth/clearance.hpp"
+#include "truth/diagnosis.hpp"
 #include "truth/entries.hpp"
 #include "truth/touched_points.hpp"
 #include "truth/true_values.hpp"
@@ -18,6 +20,9 @@ std::shared_ptr<const records::Truth> truthOf(const session::RunOutcome& outcome
     known->entries.push_back(std::move(entry));
   for (auto& entry : kinematicEntries(outcome, machine.truth()))
     known->entries.push_back(std::move(entry));
+  known->diagnoses = diagnoses(outcome, machine);
+  if (told.clearance) known->clearance = clearanceOf(outcome, machine, told.clearanceLimit);
+  known->travel = travelMargins(machine);
   return known;
 }
 

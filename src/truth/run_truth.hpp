@@ -12,6 +12,8 @@ namespace probewright::truth {
 struct Told {
   const control::Beliefs& beliefs;
   const control::Beliefs& calibrated;  ///< the same, if tools and probes had just been measured without an error
+  bool clearance = false;              ///< also asked for: how near the tool came to things
+  double clearanceLimit = 0;           ///< mm; 0: none
 };
 
 /// What the machine knows of a run on it. The machine must have recorded its path.

@@ -189,11 +189,20 @@ void sinumerikTools(Entries& entries, const session::RunOutcome& outcome, const 
   }
 }
 
+bool isOfTools(const std::string& table) {
+  return table == "TOOL.T" || table == "TCHPROBE.TP" || table == "calibration data" || table.starts_with("$TC_DP") ||
+         table.starts_with("$SNS_MEA_");
+}
+
 }  // namespace
 
 std::vector<EntryTruth> toolEntries(const session::RunOutcome& outcome, const control::Beliefs& beliefs,
                                     const control::Beliefs& calibrated, const simulation::Truth& truth) {
   Entries entries;
+  // Most runs write nothing of tools; the tables need not be made again for them.
+  if (std::ranges::none_of(writtenValues(outcome.journal),
+                           [](const auto& written) { return isOfTools(written.first.first); }))
+    return {};
   switch (outcome.control) {
     case control::ControlKind::TNC640:
     case control::ControlKind::iTNC530:

@@ -1,0 +1,178 @@
+#include "truth/clearance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "simulation/contact_search.hpp"
+
+namespace probewright::truth {
+
+using records::ClearanceSpan;
+using simulation::Motion;
+using simulation::PathKind;
+using simulation::PathPoint;
+using simulation::PlacedSolid;
+using simulation::ToolShape;
+
+namespace {
+
+constexpr double most = 20;        // mm that are told
+constexpr double fine = 0.05;      // mm
+constexpr double onTheWay = 1e-3;  // mm: how far a bent way may be from the one searched
+
+ToolShape grown(const ToolShape& shape, double by) {
+  ToolShape thick = shape;
+  for (simulation::Ball& ball : thick.balls)
+    ball.radius += by;
+  for (simulation::Shaft& shaft : thick.shafts) {
+    shaft.radius += by;
+    if (shaft.ends == simulation::Ends::Round) continue;
+    const Vector3 more = shaft.axis.normalized() * by;
+    shaft.start -= more;
+    shaft.axis += 2 * more;
+  }
+  return thick;
+}
+
+/// Without what touches when it measures.
+ToolShape withoutFeelers(ToolShape shape) {
+  shape.balls.clear();
+  std::erase_if(shape.shafts, [](const simulation::Shaft& shaft) {
+    return std::string_view(shaft.part) == simulation::shaftName ||
+           std::string_view(shaft.part) == simulation::cutterName;
+  });
+  return shape;
+}
+
+bool isToolProbe(const PlacedSolid& placed) { return placed.role == simulation::SolidRole::ToolProbe; }
+bool isNoToolProbe(const PlacedSolid& placed) { return !isToolProbe(placed); }
+bool isAnything(const PlacedSolid&) { return true; }
+
+/// The moves of a path, one after the other.
+class Moves {
+public:
+  Moves(const session::RunOutcome& outcome, const simulation::VirtualMachine& machine)
+      : outcome_(outcome),
+        truth_(machine.truth()),
+        path_(machine.path()),
+        kinematics_(truth_.machine, truth_.errors),
+        // On lathes tool touch probes stand on the bed, beside what turns.
+        surroundings_(truth_.solids, truth_.machine.mainSpindle ? isNoToolProbe : isAnything),
+        spindleDegrees_(machine.spindle().angle) {}
+
+  std::vector<ClearanceSpan> spans() {
+    std::vector<ClearanceSpan> spans;
+    for (std::size_t i = 1; i < path_.points.size(); ++i) {
+      const PathPoint& from = path_.points[i - 1];
+      const PathPoint& to = path_.points[i];
+      // A tool change is not watched; where it ends the next move begins.
+      if (to.kind == PathKind::Start || to.kind == PathKind::ToolChange || from.axes == to.axes) continue;
+      ClearanceSpan span = spanOf(from, to);
+      if (span.orMore && !spans.empty() && spans.back().orMore && spans.back().cycle == span.cycle) {
+        spans.back().to = span.to;
+      } else {
+        spans.push_back(std::move(span));
+      }
+    }
+    return spans;
+  }
+
+private:
+  const ToolShape& shapeOf(int tool) {
+    const auto [place, isNew] = shapes_.try_emplace(tool);
+    if (isNew)
+      place->second =
+          simulation::shapeOf(tool < 0 ? nullptr : &truth_.tools[static_cast<std::size_t>(tool)], spindleDegrees_);
+    return place->second;
+  }
+
+  ClearanceSpan spanOf(const PathPoint& from, const PathPoint& to) {
+    ClearanceSpan span;
+    span.from = from.seconds;
+    span.to = to.seconds;
+    span.cycle = cycleAt(from.seconds, to.seconds);
+    span.place = placeAt(from.seconds);
+    span.distance = most;
+    span.orMore = true;
+    const bool meant = to.kind == PathKind::Measure || to.kind == PathKind::Retract;
+    const ToolShape moving = meant ? withoutFeelers(shapeOf(to.tool)) : shapeOf(to.tool);
+    if (moving.balls.empty() && moving.shafts.empty()) return span;
+    const Motion motion{kinematics_, from.axes, to.axes, from.axes, from.seconds, simulation::MotionProfile(1, 1, 1)};
+    const auto touchWith = [&](double by) {
+      return simulation::firstTouch(motion, 0, 1, grown(moving, by), surroundings_, {.precision = onTheWay});
+    };
+    auto touch = touchWith(most);
+    if (!touch) return span;
+    double free = 0, touching = most;
+    while (touching - free > fine) {
+      const double middle = (free + touching) / 2;
+      if (auto nearer = touchWith(middle)) {
+        touching = middle;
+        touch = std::move(nearer);
+      } else {
+        free = middle;
+      }
+    }
+    span.distance = free;
+    span.orMore = false;
+    span.part = touch->shaft ? moving.shafts[*touch->shaft].part : "ball";
+    span.solid = truth_.solids[touch->solid].name;
+    return span;
+  }
+
+  std::optional<std::size_t> cycleAt(double from, double to) const {
+    const auto& cycles = outcome_.journal.cycles;
+    const auto next = std::ranges::upper_bound(cycles, from + 1e-9, {}, &control::CycleRecord::startSeconds);
+    if (next == cycles.begin()) return std::nullopt;
+    const auto cycle = std::prev(next);
+    if (to > cycle->endSeconds + 1e-9) return std::nullopt;
+    return static_cast<std::size_t>(cycle - cycles.begin());
+  }
+
+  std::optional<SourcePlace> placeAt(double seconds) const {
+    const records::RunTrace& trace = outcome_.trace;
+    const auto next = std::ranges::upper_bound(trace.blocks, seconds + 1e-9, {}, &records::RunTrace::Block::seconds);
+    if (next == trace.blocks.begin()) return std::nullopt;
+    const records::RunTrace::Block& block = *std::prev(next);
+    return SourcePlace{trace.files[block.file], block.line, 0};
+  }
+
+  const session::RunOutcome& outcome_;
+  const simulation::Truth& truth_;
+  const simulation::PathRecord& path_;
+  simulation::TrueKinematics kinematics_;
+  simulation::Surroundings surroundings_;
+  double spindleDegrees_ = 0;
+  std::map<int, ToolShape> shapes_;
+};
+
+}  // namespace
+
+records::Clearance clearanceOf(const session::RunOutcome& outcome, const simulation::VirtualMachine& machine,
+                               double limit) {
+  return {limit, Moves(outcome, machine).spans()};
+}
+
+std::vector<records::TravelMargin> travelMargins(const simulation::VirtualMachine& machine) {
+  std::vector<records::TravelMargin> margins;
+  const auto& axes = machine.truth().machine.axes;
+  const auto& points = machine.path().points;
+  for (std::size_t i = 0; i < axes.size() && !points.empty(); ++i) {
+    const machine::Axis& axis = axes[i];
+    const bool linear = axis.kind == machine::AxisKind::Linear;
+    if (!linear && axis.modulo) continue;
+    records::TravelMargin least{axis.name, linear ? "mm" : "deg", 1e300, 0, 0};
+    for (const PathPoint& point : points) {
+      const double margin = std::min(point.axes[i] - axis.minimum, axis.maximum - point.axes[i]);
+      if (margin < least.margin) least = {axis.name, least.unit, margin, point.axes[i], point.seconds};
+    }
+    margins.push_back(least);
+  }
+  return margins;
+}
+
+}  // namespace probewright::truth

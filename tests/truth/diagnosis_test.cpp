@@ -1,0 +1,182 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "machine/machine_file.hpp"
+#include "records/results.hpp"
+#include "reports/summary.hpp"
+#include "truth/told.hpp"
+
+/// What is said of an alarm, against what was planted.
+namespace probewright::truth::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+std::string everything(const Told& told) {
+  std::string text;
+  for (const records::Diagnosis& known : told.truth().diagnoses)
+    for (const std::string& sentence : known.texts)
+      text += sentence + "\n";
+  return text;
+}
+
+/// The front side of the plate, which is at Y-30, expected at Y-45.
+const std::string front427 =
+    "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 427 COORDINATE ~\nQ263=+0 ~\nQ264=-45 ~\nQ261=-8 ~\nQ320=+2 ~\nQ272=+2 "
+    "~\n"
+    "Q267=+1 ~\nQ260=+20 ~\nQ281=+0 ~\nQ288=+99 ~\nQ289=-99 ~\nQ309=+0 ~\nQ330=+0\n";
+
+TEST(Diagnosis, OfAMissTellsHowFarTheFaceIs) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480 }");
+  const Told told = run(world, front427);
+  ASSERT_FALSE(told.finished());
+  ASSERT_EQ(told.truth().diagnoses.size(), 1U);
+  // From 4 mm (Q320 and SET_UP) before Y-45 the ball of radius 3 goes 10 mm (DIST), to Y-42; it would touch at Y-33.
+  EXPECT_THAT(everything(told),
+              HasSubstr("the face of \"plate\" is 9.000 mm further in +Y, at X+0.000 Y-30.000 Z-8.000 of "
+                        "the active workpiece system (X+0.000 Y-30.000 Z-488.000 on the table)"));
+  EXPECT_THAT(everything(told), HasSubstr("with DIST 20 the touch would reach it"));
+  const records::Diagnosis& known = told.truth().diagnoses.front();
+  ASSERT_TRUE(known.expected && known.found);
+  EXPECT_LT((known.expected->at - Vector3(0, -45, -488)).norm(), 1e-6);
+  EXPECT_LT((known.found->at - Vector3(0, -30, -488)).norm(), 1e-3);
+  EXPECT_EQ(known.cycle, 0U);
+  EXPECT_THAT(reports::summaryText(told.outcome.journal, told.outcome.info),
+              HasSubstr("  truth  the face of \"plate\""));
+  // And so it is.
+  world.probe = "maximum_travel = 20\n";
+  EXPECT_TRUE(run(world, front427).finished());
+}
+
+TEST(Diagnosis, OfAHoleTellsWhereItIs) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ x = 5, y = 4, z = -480, c = 30 }");
+  const Told told = run(world,
+                        "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 412 PRESET ~\nQ321=-10 ~\nQ322=-4 ~\nQ262=+30 ~\n"
+                        "Q325=+0 ~\nQ247=+90 ~\nQ261=-5 ~\nQ320=+2 ~\nQ260=+20 ~\nQ301=+0 ~\nQ305=+1 ~\nQ331=+0 ~\n"
+                        "Q332=+0 ~\nQ303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\nQ383=+0 ~\nQ384=+0 ~\nQ333=+0\n");
+  ASSERT_FALSE(told.finished());
+  EXPECT_THAT(everything(told),
+              HasSubstr("the hole of 30.010 mm has its centre at X+5.000 Y+4.000 Z-5.000 of the active "
+                        "workpiece system (X+5.000 Y+4.000 Z-485.000 on the table), 17.000 mm from "
+                        "Q321/Q322"));
+  ASSERT_FALSE(told.truth().diagnoses.empty());
+  const records::Diagnosis& known = told.truth().diagnoses.back();
+  ASSERT_TRUE(known.expected && known.found);
+  EXPECT_EQ(known.expected->shape, "circle");
+  EXPECT_NEAR(known.expected->diameter, 30, 1e-9);
+  EXPECT_NEAR(known.found->diameter, 30.01, 1e-9);
+}
+
+TEST(Diagnosis, CountsFromTheStartOnASinumerik) {
+  World world;
+  world.control = "840Dsl";
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480 }");
+  // 9 mm beside the middle of the hole the ball meets its wall on the way to where it is to begin.
+  const Told told = run(world, "T1 D1\nM6\nG54 G17 G0 X9 Y0 Z20\nG1 Z-5 F2000\nCYCLE977(1,,,1,30,,,2,1,,,,,,1)\n");
+  ASSERT_FALSE(told.finished());
+  EXPECT_THAT(everything(told), HasSubstr("the hole of 30.010 mm has its centre at X+0.000 Y+0.000 Z"));
+  EXPECT_THAT(everything(told), HasSubstr(" 9.000 mm from the start position"));
+}
+
+TEST(Diagnosis, OfABodyTellsHowMuchTooWideItIs) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.probe = "body_radius = 30\nbody_length = 90\nstylus_length = 50\n";
+  world.part =
+      "[part]\nname = \"box\"\npose = { z = -480 }\n[[part.feature]]\nshape = \"box\"\ncentre = [0, 0, -100]\n"
+      "size = [120, 100, 100]\n[[part.feature]]\nshape = \"pocket\"\nsize = [80, 80]\ndepth = 90\ncorner_radius = 3\n";
+  const Told told = run(world,
+                        "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 423 POCKET ~\nQ273=+0 ~\nQ274=+0 ~\nQ282=+80 ~\n"
+                        "Q283=+80 ~\nQ261=-60 ~\nQ320=+2 ~\nQ260=+20 ~\nQ301=+0 ~\nQ284=+81 ~\nQ285=+79 ~\n"
+                        "Q286=+81 ~\nQ287=+79 ~\nQ279=+1 ~\nQ280=+1 ~\nQ281=+0 ~\nQ309=+0 ~\nQ330=+0\n");
+  ASSERT_FALSE(told.finished());
+  EXPECT_THAT(everything(told), HasSubstr("the body met \"box\" at "));
+  // The ball is to stand 4 mm (Q320 and SET_UP) from the wall, its centre 7: there a body of 14 mm has room.
+  EXPECT_THAT(everything(told), HasSubstr("the body of the probe, 60.000 mm in diameter, is 46.0 mm too wide"));
+  // Its face is to stand 10 mm below the top.
+  EXPECT_THAT(everything(told), HasSubstr("a stylus that is 10.0 mm longer would keep the body clear"));
+}
+
+TEST(Diagnosis, IsNotToldToTheBlindNorWithoutAnAlarm) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480 }");
+  setup::MachineOptions blind;
+  blind.blind = true;
+  const Told hidden = run(world, front427, blind);
+  EXPECT_THAT(records::resultsText(hidden.outcome.journal, hidden.outcome.info), Not(HasSubstr("diagnoses")));
+  EXPECT_THAT(reports::summaryText(hidden.outcome.journal, hidden.outcome.info), Not(HasSubstr("further")));
+  world.probe = "maximum_travel = 20\n";
+  EXPECT_THAT(run(world, front427).truth().diagnoses, IsEmpty());
+}
+
+TEST(Clearance, IsTheLeastDistanceOfEachMove) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480 }");
+  const std::string program =
+      "TOOL CALL 1 Z\nL Z+60 R0 FMAX\nL X-80 Y+20 FMAX\nL Z+5 FMAX\nL X+80 F2000\nL Z+60 FMAX\n";
+  setup::MachineOptions asked;
+  asked.clearance = true;
+  const Told told = run(world, program, asked);
+  ASSERT_TRUE(told.finished()) << told.why();
+  ASSERT_TRUE(told.truth().clearance);
+  const auto& spans = told.truth().clearance->spans;
+  const auto least = std::ranges::min_element(spans, {}, &records::ClearanceSpan::distance);
+  ASSERT_NE(least, spans.end());
+  // The tip, which is the lowest point of the ball, passes 5 mm above the plate.
+  EXPECT_NEAR(least->distance, 5, 0.06);
+  EXPECT_EQ(least->part, "ball");
+  EXPECT_EQ(least->solid, "plate");
+  EXPECT_TRUE(spans.front().orMore);
+  EXPECT_FALSE(run(world, program).truth().clearance) << "only who asks pays for it";
+
+  // A limit of the setup asks for it, too, and warns of the block.
+  world.more = "[machine]\nclearance = 6\n";
+  const Told limited = run(world, program);
+  EXPECT_THAT(reports::summaryText(limited.outcome.journal, limited.outcome.info),
+              HasSubstr("  warning  clearance: the ball came within "));
+  world.more = "[machine]\nclearance = 4\n";
+  const Told free = run(world, program);
+  EXPECT_THAT(reports::summaryText(free.outcome.journal, free.outcome.info), Not(HasSubstr("clearance")));
+}
+
+TEST(Clearance, DoesNotCountWhatIsMeantToTouch) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480 }");
+  world.probe = "maximum_travel = 20\nstylus_length = 50\nbody_radius = 25\nbody_length = 90\n";
+  setup::MachineOptions asked;
+  asked.clearance = true;
+  const Told told = run(world, front427, asked);
+  ASSERT_TRUE(told.finished()) << told.why();
+  for (const records::ClearanceSpan& span : told.truth().clearance->spans)
+    EXPECT_GT(span.distance, 1) << span.part << " at " << span.from << " s";
+}
+
+TEST(Travel, TellsHowNearAnAxisCameToItsEnd) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480 }");
+  const Told told = run(world, "TOOL CALL 1 Z\nL Z+60 R0 FMAX\nL X-80 Y+20 FMAX\n");
+  ASSERT_TRUE(told.finished()) << told.why();
+  const auto machine = machine::readMachine("mill3");
+  ASSERT_TRUE(machine);
+  const machine::Axis& axis = machine->axes[0];
+  const auto marginOf = [&](double x) { return std::min(x - axis.minimum, axis.maximum - x); };
+  const auto x = std::ranges::find(told.truth().travel, "X", &records::TravelMargin::axis);
+  ASSERT_NE(x, told.truth().travel.end());
+  EXPECT_NEAR(x->margin, std::min(marginOf(machine->toolChange[0]), marginOf(-80)), 1e-9);
+}
+
+}  // namespace
+}  // namespace probewright::truth::testing
