@@ -178,6 +178,7 @@ std::optional<MachineWorld> readMachineWorld(const std::string& nameOrPath, Diag
     return std::nullopt;
   }
   warnOfSolids((*machine)->truth(), nameOrPath, diagnostics);
+  warnOfBodies(**machine, nameOrPath, diagnostics);
   return MachineWorld{(*machine)->truth(), remarksOf(world->truth.machine, nameOrPath)};
 }
 

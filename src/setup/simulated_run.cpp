@@ -38,6 +38,7 @@ SimulatedRun runPrepared(session::PreparedProgram prepared, const Setup& setup, 
       run.machine->recordPath(options.recordPath);
       if (setup.camera) run.machine->fit(std::make_unique<camera::VirtualCamera>(*run.machine, *setup.camera));
       warnOfSolids(run.machine->truth(), setup.world.file, prepared.diagnostics);
+      warnOfBodies(*run.machine, setup.world.file, prepared.diagnostics);
     } else {
       prepared.diagnostics.push_back(machine.error());
     }

@@ -34,4 +34,16 @@ void warnOfSolids(const simulation::Truth& truth, const std::string& file, Diagn
     warnOf(*body.solid, body.name, file, diagnostics);
 }
 
+void warnOfBodies(const simulation::VirtualMachine& machine, const std::string& file, Diagnostics& diagnostics) {
+  const auto contact = machine.bodyContact();
+  if (!contact) return;
+  diagnostics.push_back({Severity::Warning,
+                         {file, 0, 0},
+                         fmt::format("where the machine starts {}", *contact),
+                         {},
+                         "they are left out until they have come apart: move the part, give another start position "
+                         "under [machine.start], or keep bodies of links that are not neighbours apart",
+                         {}});
+}
+
 }  // namespace probewright::setup

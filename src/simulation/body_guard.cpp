@@ -95,7 +95,8 @@ struct BodyGuard::Pair {
   Thing* second = nullptr;
   std::unique_ptr<TrueKinematics> kinematics;  ///< "table" and "spindle" of it are the two links
   machine::Between between;
-  double clear = 0;  ///< mm: they are not closer than that where the axes stand
+  double clear = 0;       ///< mm: they are not closer than that where the axes stand
+  bool fromStart = true;  ///< they have never been apart: not tested until they are
 
   /// On the motion asked for last: where they were, and how far apart at least.
   struct Known {
@@ -111,6 +112,7 @@ struct BodyGuard::View {
   std::unique_ptr<TrueKinematics> kinematics;
   std::vector<PlacedSolid> solids;
   std::unique_ptr<Surroundings> surroundings;
+  bool fromStart = true;  ///< the tool has never been free of them
 };
 
 BodyGuard::BodyGuard(const Truth& truth) : machine_(trueDescription(truth.machine, truth.errors)) {
@@ -263,7 +265,9 @@ std::optional<BodyHit> BodyGuard::approach(Pair& pair, const Motion& motion, dou
   const double step = shortestStep / pair.way;
   double fraction = 0, before = 0;
   double apart = gapAt(0, pair.way * end);
+  if (apart > touching) pair.fromStart = false;
   if (apart <= touching) {
+    if (pair.fromStart) return std::nullopt;
     // Coming apart is fine.
     const double further = gapAt(std::min(step, end), 1e300);
     if (further <= apart) return mode == Touching::MayBePulledOff ? std::nullopt : std::optional(hitAt(0));
@@ -304,9 +308,10 @@ std::optional<BodyHit> BodyGuard::firstHit(const Motion& motion, double end, con
   const SearchOptions options{.precision = toolPrecision, .stop = &stop};
   for (const auto& view : views_) {
     const Motion relative = seen(motion, *view->kinematics);
-    if (mode == Touching::MayBePulledOff) {
+    if (mode == Touching::MayBePulledOff || view->fromStart) {
       const Pose start = relative.tableFromSpindleAt(0);
       if (shaftOverlap(start, tool, *view->surroundings) || ballOverlap(start, tool, *view->surroundings)) continue;
+      view->fromStart = false;
     }
     const auto touch = firstTouch(relative, 0, reach, tool, *view->surroundings, options);
     if (!touch || (first && touch->fraction >= first->fraction)) continue;

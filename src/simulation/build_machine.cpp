@@ -61,11 +61,6 @@ Result<std::unique_ptr<VirtualMachine>> buildMachine(const World& world, const I
                   "Move the part or give another start position under [machine.start]");
     }
   }
-  if (const auto contact = machine->bodyContact()) {
-    return fail({world.file}, fmt::format("the machine cannot start like this: {}", *contact),
-                "Move the part, give another start position under [machine.start], or shape the machine's bodies so "
-                "that those of links that are not neighbours stay apart");
-  }
   return machine;
 }
 

@@ -449,7 +449,11 @@ ToolChangeResult VirtualMachine::load(const TrueTool* tool) {
 
 ToolChangeResult VirtualMachine::insertTool(const machine::ToolOrder& order) {
   const auto tool = findTool(order);
-  return tool ? load(*tool) : ToolChangeResult{ToolChangeEnd::Missing, missingTool(order)};
+  if (!tool) return {ToolChangeEnd::Missing, missingTool(order)};
+  ToolChangeResult result = load(*tool);
+  // What bodies of the machine touch here is left out until they have come apart.
+  const bool byBody = result.end == ToolChangeEnd::Collision && !overlap();
+  return byBody ? ToolChangeResult{} : result;
 }
 
 ToolChangeResult VirtualMachine::changeTool(const machine::ToolOrder& order) {

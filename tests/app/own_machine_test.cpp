@@ -106,10 +106,27 @@ TEST_F(OwnMachine, MistakesHaveTheirPlaces) {
   EXPECT_THAT(wrong("direction = [-1, 0, 0]", "direction = [0, 0, 0]"), HasSubstr("a direction cannot be [0, 0, 0]"));
   EXPECT_THAT(wrong("link = \"A\"", "link = \"Q\""), HasSubstr("error: there is no axis called Q"));
   EXPECT_THAT(wrong("minimum = -30\n", "minimum = 130\n"), HasSubstr("the travel of axis A ends before it begins"));
-  // The nose reaches down to the table where tools are changed.
-  EXPECT_THAT(wrong("diameter = 70\nheight = 120", "diameter = 70\nheight = 120\ncentre = [0, 0, -400]"),
-              HasSubstr("the machine cannot start like this: the machine's \"spindle nose\" touched"));
   EXPECT_THAT(wrong("shape = \"cylinder\"\n", "shape = \"cylindre\"\n"), HasSubstr("workshop.toml:"));
+}
+
+TEST_F(OwnMachine, BodiesThatTouchAreNamed) {
+  std::string text = blocks("toml", "## 7.");
+  const std::string nose = "diameter = 70\nheight = 120";
+  ASSERT_NE(text.find(nose), std::string::npos);
+  // It reaches down to the table where tools are changed.
+  text.insert(text.find(nose), "centre = [0, 0, -400]\n");
+  const Answer answer = machine(text);
+  EXPECT_EQ(answer.exit, 0);
+  EXPECT_THAT(answer.errors, HasSubstr("warning: where the machine starts the machine's \"spindle nose\" touched"));
+}
+
+/// A part that nobody has placed lies at the spindle nose.
+TEST_F(OwnMachine, PartUnderTheSpindleStopsNoRun) {
+  const std::string setup = "[part]\n[[part.feature]]\nshape = \"box\"\nsize = [50, 50, 30]\n";
+  const Answer run = probewright({"run", folder.file("p.h", "0 BEGIN PGM P MM\n1 FN 0: Q1 = +1\n2 END PGM P MM\n"),
+                                  "--setup", folder.file("s.toml", setup), "--out", (folder / "out").string()});
+  EXPECT_EQ(run.exit, 0) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr("warning: where the machine starts the machine's"));
 }
 
 TEST_F(OwnMachine, PageReplacesOnlyPages) {

@@ -23,7 +23,6 @@ using namespace simulation;
 using machine::Feed;
 using machine::MeasureEnd;
 using machine::MoveEnd;
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing_support::positions;
 
@@ -168,11 +167,29 @@ TEST(MachineBodies, OfTheBedStopTheTable) {
   EXPECT_NEAR(machine->position()[0], -200, 0.01);
 }
 
-TEST(MachineBodies, ThatTouchAtTheStartAreRefused) {
-  const auto machine = built(machineWith("mill3", "Z = -450", wideNose) + block);
-  ASSERT_FALSE(machine);
-  EXPECT_THAT(format(machine.error()), AllOf(HasSubstr("the machine cannot start like this: the machine's \""),
-                                             HasSubstr("nose\" touched \"block\"")));
+TEST(MachineBodies, ThatTouchAtTheStartAreLeftOutUntilTheyComeApart) {
+  const auto machine = world(machineWith("mill3", "Z = -450", wideNose) + block);
+  ASSERT_TRUE(machine);
+  EXPECT_THAT(machine->bodyContact().value_or(""), HasSubstr("nose\" touched \"block\""));
+  // Within the block it moves as it likes; once out of it, it does not come back.
+  EXPECT_EQ(machine->move(positions({5, 0, -460}), Feed::rapidTraverse()).end, MoveEnd::Reached);
+  EXPECT_EQ(machine->move(positions({5, 0, -300}), Feed::rapidTraverse()).end, MoveEnd::Reached);
+  EXPECT_FALSE(machine->bodyContact());
+  EXPECT_EQ(machine->move(positions({5, 0, -310}), Feed::rapidTraverse()).end, MoveEnd::Reached);
+  EXPECT_EQ(machine->move(positions({5, 0, -460}), Feed::rapidTraverse()).end, MoveEnd::Collision);
+  EXPECT_NEAR(machine->position()[2], -400, 0.01);
+}
+
+TEST(MachineBodies, ThatTheToolTouchesAtTheStartAreLeftOutUntilItIsFree) {
+  const std::string tools = "[[tool]]\nnumber = 1\nkind = \"mill\"\nlength = 150\nradius = 10\nin_spindle = true\n";
+  const auto machine = world(machineWith("mill5-table-table", "X = 300, Z = -400",
+                                         body("arm", "A", box({300, -130, -670}, {330, 130, -480}))) +
+                             tools);
+  ASSERT_TRUE(machine);
+  EXPECT_THAT(machine->bodyContact().value_or(""), HasSubstr("tool 1 touched the machine's \"arm\""));
+  EXPECT_EQ(machine->move(positions({200, 0, -400, 0, 0}), Feed::rapidTraverse()).end, MoveEnd::Reached);
+  EXPECT_EQ(machine->move(positions({250, 0, -400, 0, 0}), Feed::rapidTraverse()).end, MoveEnd::Reached);
+  EXPECT_EQ(machine->move(positions({320, 0, -400, 0, 0}), Feed::rapidTraverse()).end, MoveEnd::Collision);
 }
 
 TEST(MachineBodies, AreNotTestedAgainstTheirNeighbours) {
