@@ -52,7 +52,8 @@ ToolTouch ToolProber::stroke(const Vector3& direction) {
   const Vector3 startInProgram = channel_.position();
   const Vector3 end = channel_.frame().inverse() * Vector3(start + probe_.reach * direction);
   control::TouchRecord record;
-  record.target = end;
+  // Where the tool is expected to touch.
+  record.target = channel_.frame().inverse() * Vector3(start + probe_.clearance * direction);
   record.direction = (end - startInProgram).normalized();
   const machine::MeasureResult result = channel_.measureTo(end, Feed::at(probe_.feed), machine::Sensor::ToolTouchProbe);
   const auto fail = [&](const char* outcome, const std::string& code, const std::string& text, const char* advice) {

@@ -208,6 +208,14 @@ EdgeDistance nearestOf(const EdgePiece& piece, const Pose& solidFromCutter, cons
   return distance;
 }
 
+/// At all angles, `out` farther from the axis, where a piece does not begin on it.
+void turnAbout(EdgePiece& piece, double out) {
+  piece.turned = true;
+  piece.centre.x() += out;
+  if (piece.from.x() != 0) piece.from.x() += out;
+  piece.to.x() += out;
+}
+
 EdgeDistance nearestOf(const std::vector<EdgePiece>& pieces, const Pose& solidFromCutter, const DistanceSolid& solid) {
   EdgeDistance nearest;
   for (const EdgePiece& piece : pieces) {
@@ -278,13 +286,12 @@ CuttingEdges::CuttingEdges(const TrueTool& tool) : eccentricity_(offsetOf(tool.c
   }
   if (!cutter.insert) envelope_ = meridianOf(drawn, most);
   const double aside = eccentricity_.norm() + (insert_ ? flankDepth(*insert_) : 0);
+  envelopes_ = edges_;
+  for (std::vector<EdgePiece>& envelope : envelopes_)
+    for (EdgePiece& piece : envelope)
+      turnAbout(piece, cutter.insert && piece.meridian(1).x() < 0 ? -aside : aside);
   for (EdgePiece& piece : envelope_) {
-    piece.turned = true;
-    // At its farthest from the spindle's axis.
-    const double out = cutter.insert && piece.meridian(1).x() < 0 ? -aside : aside;
-    piece.centre.x() += out;
-    if (piece.from.x() != 0) piece.from.x() += out;
-    piece.to.x() += out;
+    turnAbout(piece, cutter.insert && piece.meridian(1).x() < 0 ? -aside : aside);
     reach_ =
         std::max({reach_, std::abs(piece.from.x()), std::abs(piece.to.x()), std::abs(piece.centre.x()) + piece.radius});
   }
@@ -315,6 +322,10 @@ EdgeDistance CuttingEdges::nearest(std::size_t edge, const Pose& solidFromCutter
 
 double CuttingEdges::leastGap(const Pose& solidFromSpindle, const DistanceSolid& solid) const {
   return nearestOf(envelope_, solidFromSpindle * spindleFromTool_, solid).gap;
+}
+
+double CuttingEdges::leastGap(std::size_t edge, const Pose& solidFromSpindle, const DistanceSolid& solid) const {
+  return nearestOf(envelopes_[edge], solidFromSpindle * spindleFromTool_, solid).gap;
 }
 
 }  // namespace probewright::simulation

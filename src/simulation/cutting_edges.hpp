@@ -58,12 +58,15 @@ public:
   EdgeDistance nearest(std::size_t edge, const Pose& solidFromCutter, const DistanceSolid& solid) const;
   /// At most as far as any edge is from the solid at any angle of the spindle.
   double leastGap(const Pose& solidFromSpindle, const DistanceSolid& solid) const;
+  /// The same of one edge.
+  double leastGap(std::size_t edge, const Pose& solidFromSpindle, const DistanceSolid& solid) const;
 
 private:
   EdgeDistance nearestOfInsert(const Pose& solidFromCutter, const DistanceSolid& solid) const;
 
   std::vector<std::vector<EdgePiece>> edges_;
-  std::vector<EdgePiece> envelope_;  ///< of all edges at all angles
+  std::vector<EdgePiece> envelope_;                ///< of all edges at all angles
+  std::vector<std::vector<EdgePiece>> envelopes_;  ///< of each edge
   std::optional<TrueInsert> insert_;
   Pose spindleFromTool_ = Pose::Identity();
   Vector2 eccentricity_ = Vector2::Zero();

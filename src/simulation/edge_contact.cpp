@@ -11,6 +11,7 @@ namespace {
 constexpr double touching = 1e-9;      // mm
 constexpr double shortestStep = 1e-5;  // mm of the path
 constexpr double shortestTurn = 1e-4;  // rad
+constexpr double exact = 1e-11;        // mm of the path, to which a contact is found
 
 class EdgeSearch {
 public:
@@ -74,7 +75,7 @@ private:
         mayStop(travelled);
         const double free = gap(travelled);
         if (free <= touching) {
-          for (int i = 0; i < 60 && free < 0 && travelled > before; ++i) {
+          for (int i = 0; i < 60 && free < 0 && travelled - before > exact; ++i) {
             const double middle = 0.5 * (before + travelled);
             (gap(middle) <= 0 ? travelled : before) = middle;
           }
@@ -90,16 +91,18 @@ private:
     return first;
   }
 
-  /// How far the axes travel from `travelled` until some edge could touch at some angle; nothing: never.
-  std::optional<double> towards(double travelled) const {
+  /// How far the axes travel from `travelled` until what turns could touch at some angle; nothing: not before `end`.
+  /// `leastGap`: of all angles, by the pose of the spindle.
+  template <class LeastGap>
+  std::optional<double> towards(double travelled, double end, const LeastGap& leastGap) const {
     double before = travelled;
     for (;;) {
       mayStop(travelled);
-      const double free = edges_.leastGap(solidFromSpindle(travelled), solid_);
+      const double free = leastGap(solidFromSpindle(travelled));
       if (free <= touching) return before;
-      if (travelled >= length_) return std::nullopt;
+      if (travelled >= end) return std::nullopt;
       before = travelled;
-      travelled = std::min(length_, travelled + std::max(free / stretch_, shortestStep));
+      travelled = std::min(end, travelled + std::max(free / stretch_, shortestStep));
     }
   }
 
@@ -112,7 +115,7 @@ private:
     for (;;) {
       const double gap = gapAt(edge, seconds);
       if (gap <= 0) {
-        for (int i = 0; i < 60; ++i) {
+        for (int i = 0; i < 60 && (seconds - before) * fastest > exact; ++i) {
           const double middle = 0.5 * (before + seconds);
           (gapAt(edge, middle) <= 0 ? seconds : before) = middle;
         }
@@ -129,13 +132,17 @@ private:
     const double duration = motion_.profile.duration();
     double travelled = 0;
     for (;;) {
-      const auto near = towards(travelled);
+      const auto near = towards(travelled, length_, [&](const Pose& pose) { return edges_.leastGap(pose, solid_); });
       if (!near) return std::nullopt;
       const double begin = secondsAt(*near);
       double end = std::min(begin + turn, duration);
       std::optional<std::size_t> touched;
       for (std::size_t edge = 0; edge < edges_.count(); ++edge) {
-        if (const auto seconds = touchOf(edge, begin, end)) {
+        // An edge that runs along a face is near it all the time: it is followed only once it can touch at all.
+        const auto own = towards(*near, motion_.profile.travelledAt(end),
+                                 [&](const Pose& pose) { return edges_.leastGap(edge, pose, solid_); });
+        if (!own) continue;
+        if (const auto seconds = touchOf(edge, std::max(begin, secondsAt(*own)), end)) {
           end = *seconds;
           touched = edge;
         }

@@ -269,6 +269,26 @@ TEST(Cycle451Hirth, IsOfTheMachineToo) {
   EXPECT_EQ(world.bench.run(cycle).outcome.result.end, execution::RunEnd::Alarm);
 }
 
+TEST(Cycle451Hirth, IsReadFromTheSetup) {
+  Diagnostics diagnostics;
+  const auto parsed = [&](const std::string& machine, const std::string& more = {}) {
+    diagnostics.clear();
+    return setup::parseSetup("[machine]\nname = \"mill5-table-table\"\n" + machine + more, "hirth.toml", diagnostics);
+  };
+  const auto told = parsed("hirth = { A = 2.5 }\n");
+  ASSERT_TRUE(told);
+  const std::size_t a = *told->world.truth.machine.axisIndex("A");
+  EXPECT_EQ(told->world.truth.hirthGrid[a], 2.5);
+  EXPECT_EQ(told->beliefs.kinematics.at("A").hirthGrid, 2.5) << "where the setup is silent the control knows it";
+  const auto wrong = parsed("hirth = { A = 2.5 }\n", "[control.kinematics.A]\nhirth_grid = 5\n");
+  ASSERT_TRUE(wrong);
+  EXPECT_EQ(wrong->beliefs.kinematics.at("A").hirthGrid, 5);
+  for (const char* mistake : {"hirth = { X = 1 }\n", "hirth = { A = 0 }\n", "hirth = { A = 200 }\n", "hirth = 3\n"}) {
+    EXPECT_FALSE(parsed(mistake)) << mistake;
+    EXPECT_FALSE(diagnostics.empty()) << mistake;
+  }
+}
+
 /// Three rotary axes of eight positions each.
 TEST(Cycle451Speed, ThreeAxesOfEightPositionsTakeLessThanASecond) {
   SphereWorld world(builds()[0]);
