@@ -1,5 +1,6 @@
 #include "simulation/search_tree.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "simulation/mesh_solid.hpp"
@@ -188,6 +189,20 @@ TEST_P(SearchWith, PressesABallIntoAPlaneOfManyTrianglesInClosedForm) {
     std::size_t visits = 0;
     ASSERT_NEAR(meetingFound(tree, mover, &visits).when, expected, 1e-11) << i;
     EXPECT_LT(visits, 40) << "a search must not look at all that the ball covers";
+  }
+}
+
+TEST_P(SearchWith, VisitsEachOnceHoweverManyAreNearAtOnce) {
+  // A ball as large as everything: no box can be left out, and none is nearer than another.
+  std::mt19937_64 random(18);
+  for (const std::vector<SearchElement>& elements : {landscape(random, 70, 100), heap(random, 20000, 100)}) {
+    const SearchTree tree(elements, Elements::Triangles, GetParam());
+    Mover mover;
+    mover.way = wayBetween(Vector3(40, 50, 20), Vector3(60, 50, 20));
+    mover.radius = 400;
+    std::vector<int> visits(elements.size());
+    tree.visitAll(mover, [&](std::uint32_t place, const Triangle&) { ++visits[tree.order()[place]]; });
+    EXPECT_THAT(visits, ::testing::Each(1));
   }
 }
 
