@@ -8,6 +8,7 @@
 #include <charconv>
 #include <chrono>
 #include <csignal>
+#include <future>
 #include <map>
 #include <sstream>
 #include <vector>
@@ -27,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 
 /// To be counted up whenever an import makes something else of the same file, also if only its layout in memory
 /// changes.
-constexpr int kCacheVersion = 7;
+constexpr int kCacheVersion = 8;
 constexpr std::size_t kMostNamed = 10;
 constexpr int kMostAttempts = 5;
 
@@ -110,7 +111,7 @@ public:
                   [&](double processorSeconds) { return hasEnough(processorSeconds); });
       if (options_.stop.stop_requested()) return fail(SourcePlace{order_.file, 0, 0}, "the import was interrupted");
       if (end.how == ChildEnd::How::Finished && failure_.empty() && unable_.label.empty() && !nothing_)
-        return partOf(transferred(end.result));
+        return partOf(transferred(std::move(end.result)));
       if (end.how == ChildEnd::How::Finished) return tl::unexpected(refused());
       if (!tryOtherwise(end)) return tl::unexpected(complaint(end));
     }
@@ -453,8 +454,9 @@ Result<std::unique_ptr<Solid>> import(TransferOrder order, const ImportOptions& 
     key = ImportCache::keyOf(
         order.bytes, fmt::format("{} {} {} {} {}", kCacheVersion, OCC_VERSION_COMPLETE, static_cast<int>(order.format),
                                  options.deflection, options.facePoints));
-    if (const auto kept = cache.find(key)) {
-      if (auto part = partFromBytes(*kept)) return solidOf(std::move(*part), format, file, options.deflection);
+    if (auto kept = cache.find(key)) {
+      if (auto part = partFromBytes(std::move(*kept)))
+        return solidOf(std::move(*part), format, file, options.deflection);
     }
   }
   StepText text;
@@ -466,8 +468,12 @@ Result<std::unique_ptr<Solid>> import(TransferOrder order, const ImportOptions& 
   EntityNames names(order.format, std::move(text), order.bytes);
   Result<ImportedPart> part = Import(std::move(order), std::move(names), options).run();
   if (!part) return tl::unexpected(std::move(part.error()));
-  if (!key.empty()) cache.keep(key, toBytes(*part));
-  return solidOf(std::move(*part), format, file, options.deflection);
+  // While the shape is made ready.
+  std::future<void> keeping;
+  if (!key.empty()) keeping = std::async([&cache, key, bytes = toBytes(*part)] { cache.keep(key, bytes); });
+  auto solid = solidOf(std::move(*part), format, file, options.deflection);
+  if (keeping.valid()) keeping.wait();
+  return solid;
 }
 
 }  // namespace

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "simulation/border_middles.hpp"
 #include "simulation/cad_refinement.hpp"
 #include "simulation/face_grid.hpp"
 #include "simulation/face_mesh.hpp"
@@ -82,6 +83,38 @@ std::vector<CadElement> gridElements(const CadFace& exact, std::uint32_t owner, 
   return elements;
 }
 
+using MeshCorner = BorderMiddles::Middle;
+
+/// A triangle, cut at the middles that some of its sides have: side k runs from corner k to the next.
+template <class Add>
+void addParts(const std::array<MeshCorner, 3>& corners, const std::array<const MeshCorner*, 3>& middles,
+              const Add& add) {
+  const auto count = std::ranges::count_if(middles, [](const MeshCorner* middle) { return middle != nullptr; });
+  if (count == 0) return add(corners[0], corners[1], corners[2]);
+  // Turned so that its first side has a middle and, of two, its last has none.
+  std::size_t k = 0;
+  while (middles[k] == nullptr || (count == 2 && middles[(k + 2) % 3] != nullptr))
+    ++k;
+  const MeshCorner &a = corners[k], &b = corners[(k + 1) % 3], &c = corners[(k + 2) % 3];
+  const MeshCorner& ab = *middles[k];
+  if (count == 1) {
+    add(a, ab, c);
+    add(ab, b, c);
+    return;
+  }
+  const MeshCorner& bc = *middles[(k + 1) % 3];
+  add(ab, b, bc);
+  if (count == 2) {
+    add(a, ab, bc);
+    add(a, bc, c);
+    return;
+  }
+  const MeshCorner& ca = *middles[(k + 2) % 3];
+  add(a, ab, ca);
+  add(ca, bc, c);
+  add(ab, bc, ca);
+}
+
 std::vector<CadElement> faceElements(const CadFace& exact, const TopoDS_Face& face, std::uint32_t owner,
                                      double deflection) {
   TopLoc_Location location;
@@ -98,23 +131,32 @@ std::vector<CadElement> faceElements(const CadFace& exact, const TopoDS_Face& fa
     const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(edges.Current()), first, last);
     straight = curve.IsNull() || curve->IsKind(STANDARD_TYPE(Geom_Line));
   }
-  for (int i = 1; i <= mesh->NbTriangles(); ++i) {
-    std::array<int, 3> nodes{};
-    mesh->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
-    if (exact.reversed) std::swap(nodes[1], nodes[2]);
+  const BorderMiddles middles(face, mesh, location, deflection);
+  const auto add = [&](const MeshCorner& a, const MeshCorner& b, const MeshCorner& c) {
     CadElement element;
     element.owner = owner;
-    for (std::size_t k = 0; k < 3; ++k) {
-      element.corners[k] = vector(mesh->Node(nodes[k]).Transformed(transform));
-      const gp_Pnt2d uv = mesh->UVNode(nodes[k]);
-      element.parameters[k] = {uv.X(), uv.Y()};
-    }
+    element.corners = {a.point, b.point, c.point};
+    element.parameters = {a.parameters, b.parameters, c.parameters};
     const double deviation =
         flat ? deviationOf(element, exact.forms.sheets.front()) : deviationOf(element, *exact.surface);
     area += areaInParameters(element);
     // Between a bent border and its chord no triangle lies.
     element.growth = kLeastGrowth + 1.5 * std::max(deviation, straight ? 0.0 : 1.5 * deflection);
     elements.push_back(element);
+  };
+  for (int i = 1; i <= mesh->NbTriangles(); ++i) {
+    std::array<int, 3> nodes{};
+    mesh->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
+    if (exact.reversed) std::swap(nodes[1], nodes[2]);
+    std::array<MeshCorner, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const gp_Pnt2d uv = mesh->UVNode(nodes[k]);
+      corners[k] = {vector(mesh->Node(nodes[k]).Transformed(transform)), {uv.X(), uv.Y()}};
+    }
+    addParts(
+        corners,
+        {middles.between(nodes[0], nodes[1]), middles.between(nodes[1], nodes[2]), middles.between(nodes[2], nodes[0])},
+        add);
   }
   // Triangles that leave a part of the face open would hide it.
   constexpr double kLeastCover = 0.9;
@@ -407,8 +449,9 @@ bool agree(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-std::string elementsOf(const CadModel& model) {
-  std::string bytes;
+void appendElements(std::string& bytes, const CadModel& model) {
+  // With the tree: more would be copied each time that it does not suffice.
+  bytes.reserve(bytes.size() + 250 * model.elements.size());
   append(bytes, marksOf(model));
   append(bytes, model.bounds);
   append(bytes, model.elements.size());
@@ -422,7 +465,6 @@ std::string elementsOf(const CadModel& model) {
     append(bytes, element.onFace);
   }
   model.tree.appendTo(bytes);
-  return bytes;
 }
 
 CadModel cadModel(const TopoDS_Shape& shape, double deflection, std::string_view bytes) {

@@ -66,11 +66,11 @@ TopoDS_Shape withoutKinks(const TopoDS_Shape& shape);
 /// std::runtime_error where that is impossible.
 CadModel cadModel(const TopoDS_Shape& shape, double deflection);
 
-/// The part of a model that takes long to make: elements and tree, as they lie in memory.
-std::string elementsOf(const CadModel& model);
+/// Appends the part of a model that takes long to make: elements and tree, as they lie in memory.
+void appendElements(std::string& bytes, const CadModel& model);
 
-/// The model of a shape that has triangles, with what elementsOf() gave for it in a process of the same program. Throws
-/// as the other one does, also where the bytes are not of this shape.
+/// The model of a shape that has triangles, with what appendElements() gave for it in a process of the same program.
+/// Throws as the other one does, also where the bytes are not of this shape.
 CadModel cadModel(const TopoDS_Shape& shape, double deflection, std::string_view elements);
 
 }  // namespace probewright::simulation

@@ -37,6 +37,7 @@
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <cmath>
+#include <cstring>
 #include <future>
 #include <limits>
 #include <memory>
@@ -305,27 +306,36 @@ std::string transferCad(const TransferOrder& order, const ChildVoice& voice) {
     // What cannot survive this must not happen in the parent. Both only read the shape.
     std::future<std::string> drawing =
         std::async(std::launch::async, [&] { return toBytes(drawingOf(shape, triangles)); });
-    const std::string elements = elementsOf(cadModel(shape, order.deflection));
+    const CadModel model = cadModel(shape, order.deflection);
     std::ostringstream brep;
     BinTools::Write(shape, brep, Standard_False, Standard_False, BinTools_FormatVersion_CURRENT);
     std::string bytes;
-    for (const std::string_view piece : {brep.view(), std::string_view(elements)}) {
-      append(bytes, piece.size());
-      bytes += piece;
-    }
+    append(bytes, brep.view().size());
+    bytes += brep.view();
+    const std::size_t sizeAt = bytes.size();
+    append(bytes, std::size_t{0});
+    const std::size_t first = bytes.size();
+    appendElements(bytes, model);
+    const std::size_t size = bytes.size() - first;
+    std::memcpy(&bytes[sizeAt], &size, sizeof(size));
     return bytes += drawing.get();
   });
 }
 
-Transferred transferred(std::string_view bytes) {
+Transferred transferred(std::string bytes) {
   Transferred result;
-  for (std::string* piece : {&result.brep, &result.elements}) {
-    std::size_t size = 0;
-    if (!take(bytes, size) || size > bytes.size()) return {};
-    *piece = bytes.substr(0, size);
-    bytes.remove_prefix(size);
-  }
-  result.drawing = bytes;
+  std::string_view rest = bytes;
+  std::size_t size = 0;
+  if (!take(rest, size) || size > rest.size()) return {};
+  result.brep = rest.substr(0, size);
+  rest.remove_prefix(size);
+  if (!take(rest, size) || size > rest.size()) return {};
+  result.drawing = rest.substr(size);
+  // Nearly all of the bytes: they stay where they are.
+  const std::size_t first = bytes.size() - rest.size();
+  bytes.resize(first + size);
+  bytes.erase(0, first);
+  result.elements = std::move(bytes);
   return result;
 }
 

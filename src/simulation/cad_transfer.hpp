@@ -2,7 +2,6 @@
 
 #include <set>
 #include <string>
-#include <string_view>
 
 #include "simulation/child_process.hpp"
 
@@ -43,7 +42,7 @@ struct Transferred {
   std::string brep, elements, drawing;  ///< as in ImportedPart
 };
 /// What transferCad() returned; all empty if it is not that.
-Transferred transferred(std::string_view bytes);
+Transferred transferred(std::string bytes);
 
 /// Builds the faces of a file one by one, and says "at LABEL" before each: the last one is what a crash is about.
 std::string searchFaces(const TransferOrder& order, const ChildVoice& voice);

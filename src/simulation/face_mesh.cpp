@@ -27,7 +27,9 @@ namespace {
 /// The angle only keeps small curves recognizable.
 constexpr double kAngle = 0.5;
 /// Triangles only help to find a face, so its inside need not be meshed as finely as its edges.
-constexpr double kInterior = 10;
+constexpr double kInterior = 30;
+/// A side on a bent edge is cut into two before it matters, which brings it four times as near.
+constexpr double kAlongEdges = 4;
 
 /// The faces by what they share with their instances elsewhere in the shape, counted from 1.
 using FaceNumbers = std::map<const TopoDS_TShape*, int>;
@@ -186,7 +188,7 @@ std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, co
   BRepMesh_IncrementalMesh mesher;
   mesher.SetShape(shape);
   IMeshTools_Parameters& parameters = mesher.ChangeParameters();
-  parameters.Deflection = deflection;
+  parameters.Deflection = kAlongEdges * deflection;
   parameters.DeflectionInterior = kInterior * deflection;
   parameters.Angle = kAngle;
   parameters.InParallel = options.parallel;

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <fstream>
+#include <memory>
 #include <vector>
 
 #include "base/file.hpp"
@@ -55,7 +59,21 @@ std::optional<std::string> ImportCache::find(const std::string& key) const {
 
 void ImportCache::keep(const std::string& key, std::string_view entry) const {
   if (folder_.empty() || entry.size() > mostBytes_ / 2) return;
-  if (writeFileAtomically(pathOf(key), digest({key, entry}) + std::string(entry))) tidy();
+  // Not forced onto the disk, which takes long: after a crash its digest tells what is not whole.
+  static std::atomic<int> made = 0;
+  const fs::path making = folder_ / fmt::format("{}{}.{}.{}", key, kEnding, getpid(), made++);
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  std::ofstream file(making, std::ios::binary);
+  const std::string sum = digest({key, entry});
+  file.write(sum.data(), static_cast<std::streamsize>(sum.size()));
+  file.write(entry.data(), static_cast<std::streamsize>(entry.size()));
+  file.close();
+  if (file) fs::rename(making, pathOf(key), error);
+  if (!file || error)
+    fs::remove(making, error);
+  else
+    tidy();
 }
 
 void ImportCache::tidy() const {

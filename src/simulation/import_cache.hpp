@@ -19,7 +19,7 @@ public:
   /// What was kept under `key`. Nothing if there is no such entry, or one that is damaged.
   std::optional<std::string> find(const std::string& key) const;
 
-  /// Keeps an entry, written whole or not at all, and removes those that were not used for the longest time until the
+  /// Keeps an entry and removes those that were not used for the longest time until the
   /// folder has at most the bytes it may have. What cannot be written is not kept: a cache is no reason to fail.
   void keep(const std::string& key, std::string_view entry) const;
 

@@ -41,6 +41,11 @@ public:
     rest_.remove_prefix(*size);
     return value;
   }
+  bool skip(std::uint64_t size) {
+    if (size > rest_.size()) return false;
+    rest_.remove_prefix(size);
+    return true;
+  }
   bool atEnd() const { return rest_.empty(); }
   std::size_t left() const { return rest_.size(); }
 
@@ -51,21 +56,22 @@ private:
 }  // namespace
 
 std::string toBytes(const ImportedPart& part) {
-  std::string bytes(kTitle);
+  std::string bytes;
+  bytes.reserve(part.brep.size() + part.elements.size() + part.drawing.size() + 1000);
+  bytes += kTitle;
   put(bytes, std::uint64_t{part.remarks.size()});
   for (const Diagnostic& remark : part.remarks) {
     put(bytes, remark.place.line);
     put(bytes, remark.message);
     put(bytes, remark.advice);
   }
-  bytes.reserve(bytes.size() + part.brep.size() + part.elements.size() + part.drawing.size() + 24);
   put(bytes, part.brep);
   put(bytes, part.elements);
   put(bytes, part.drawing);
   return bytes;
 }
 
-std::optional<ImportedPart> partFromBytes(std::string_view bytes) {
+std::optional<ImportedPart> partFromBytes(std::string bytes) {
   Reader reader(bytes);
   if (!reader.title()) return std::nullopt;
   const auto count = reader.number();
@@ -77,11 +83,18 @@ std::optional<ImportedPart> partFromBytes(std::string_view bytes) {
     if (!line || !message || !advice) return std::nullopt;
     part.remarks.push_back({Severity::Warning, {{}, *line, 0}, std::move(*message), {}, std::move(*advice), {}});
   }
-  auto brep = reader.text(), elements = reader.text(), drawing = reader.text();
-  if (!brep || !elements || !drawing || !reader.atEnd()) return std::nullopt;
+  auto brep = reader.text();
+  const auto size = reader.number();
+  const std::size_t first = bytes.size() - reader.left();
+  if (!brep || !size || !reader.skip(*size)) return std::nullopt;
+  auto drawing = reader.text();
+  if (!drawing || !reader.atEnd()) return std::nullopt;
   part.brep = std::move(*brep);
-  part.elements = std::move(*elements);
   part.drawing = std::move(*drawing);
+  // Nearly all of the bytes: they stay where they are.
+  part.elements = std::move(bytes);
+  part.elements.resize(first + *size);
+  part.elements.erase(0, first);
   return part;
 }
 

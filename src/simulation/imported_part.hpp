@@ -13,12 +13,12 @@ struct ImportedPart {
   /// Warnings about what is missing or not as it should be; their places have lines, but no file.
   Diagnostics remarks;
   std::string brep;      ///< the shape, in OpenCASCADE's binary form
-  std::string elements;  ///< what elementsOf() makes of it
+  std::string elements;  ///< what appendElements() makes of it
   std::string drawing;   ///< its drawing as bytes
 };
 
 std::string toBytes(const ImportedPart& part);
 /// Nothing if `bytes` are not what toBytes() made, as far as their layout goes.
-std::optional<ImportedPart> partFromBytes(std::string_view bytes);
+std::optional<ImportedPart> partFromBytes(std::string bytes);
 
 }  // namespace probewright::simulation

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
@@ -15,7 +17,10 @@
 #include <Geom_BSplineSurface.hxx>
 #include <IGESControl_Writer.hxx>
 #include <TColgp_Array2OfPnt.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Shape.hxx>
+#include <gp_Circ.hxx>
+#include <gp_Pln.hxx>
 
 #include "worlds.hpp"
 
@@ -358,6 +363,29 @@ TEST(CadSolid, MeetsACapsuleOnItsTessellation) {
   ASSERT_TRUE(rim);
   EXPECT_LT((rim->touchPoint - Vector3(10, 0, 30)).norm(), 0.01);
   EXPECT_FALSE(solid->firstCapsuleContact({40, 0, 32}, {0, 0, 32}, {0, 0, 50}, 1.5));
+}
+
+TEST(CadSolid, MeetsAShaftAtTheBentBordersOfASheet) {
+  // A ring without thickness: triangles with few points along its circles would reach over them or end before them.
+  const double outer = 120, inner = 55;
+  const auto circle = [](double radius) {
+    return BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(gp_Circ(gp::XOY(), radius)).Edge()).Wire();
+  };
+  BRepBuilderAPI_MakeFace ring(gp_Pln(gp::XOY()), circle(outer));
+  ring.Add(TopoDS::Wire(circle(inner).Reversed()));
+  const auto solid = cadSolid(ring.Shape());
+  ASSERT_TRUE(solid) << format(solid.error());
+  std::mt19937_64 random(31);
+  for (int i = 0; i < 100; ++i) {
+    const Vector3 out = rotation(Vector3::UnitZ(), uniform(random, 0, 360)) * Vector3::UnitX();
+    const Vector3 low(0, 0, -25), shaft(0, 0, 50);
+    const auto outside = (*solid)->firstCapsuleContact(low + 140 * out, low + 100 * out, shaft, 2);
+    ASSERT_TRUE(outside);
+    EXPECT_NEAR(outside->ballCentre.head<2>().norm(), outer + 2, 0.011) << i;
+    const auto inside = (*solid)->firstCapsuleContact(low + 20 * out, low + 80 * out, shaft, 2);
+    ASSERT_TRUE(inside);
+    EXPECT_NEAR(inside->ballCentre.head<2>().norm(), inner - 2, 0.011) << i;
+  }
 }
 
 TEST(CadSolid, KnowsItsBounds) {
