@@ -65,7 +65,7 @@ private:
 Result<Connection> inherited(const std::string& number) {
   const auto descriptor = parseInteger(number);
   if (!descriptor || *descriptor < 3 || *descriptor > 1'000'000 || !isSocket(static_cast<int>(*descriptor))) {
-    return fail(fmt::format("fd:{} is no open socket", number),
+    return fail(fmt::format("fd:{} is not an open socket", number),
                 "start this program with one end of a socket as this file descriptor");
   }
   fcntl(static_cast<int>(*descriptor), F_SETFD, FD_CLOEXEC);

@@ -167,7 +167,7 @@ bool FlowGraph::subprogramsAreStretches() const {
     for (const std::size_t first : blocks_[i].called) {
       const auto last = endOf(first);
       if (!last || !isClosed(first, *last)) return false;
-      // A section that repeats itself is no subprogram that calls itself.
+      // A section that repeats itself is not a subprogram that calls itself.
       if (isOneOf(reachedFrom(first), i)) return false;
     }
     for (const std::size_t first : blocks_[i].parts)

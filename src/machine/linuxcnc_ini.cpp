@@ -96,7 +96,7 @@ bool LinuxCncIni::readInto(const fs::path& path, int depth, std::string& section
       continue;
     }
     const std::size_t equals = words.find('=');
-    // LinuxCNC passes over what is no KEY = VALUE.
+    // LinuxCNC passes over what is not KEY = VALUE.
     if (equals == std::string_view::npos) continue;
     entries_.push_back(
         {section, std::string(bare(words.substr(0, equals))), std::string(bare(words.substr(equals + 1))), place});

@@ -391,7 +391,7 @@ private:
         hal_.netted, [](const std::string& pin) { return pin.starts_with("spindle.") && pin.ends_with(".orient"); });
   }
 
-  /// Axes that move nothing here are no axes of the machine.
+  /// Axes that move nothing here are not axes of the machine.
   void leaveOut() {
     for (std::size_t i = machine_.axes.size(); i-- > 0;) {
       const char letter = machine_.axes[i].name.front();

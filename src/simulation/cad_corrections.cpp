@@ -73,7 +73,7 @@ Handle(StepGeom_Surface) movedPlane(const StepGeom_Plane& plane, double distance
   return Handle(StepGeom_Surface)(made.get());
 }
 
-/// What the offset of a surface is; null if that is no plain surface, or one turned inside out.
+/// What the offset of a surface is; null if that is not a plain surface, or one turned inside out.
 Handle(StepGeom_Surface) plainOffset(const StepGeom_OffsetSurface& offset) {
   const double distance = offset.Distance();
   const Handle(StepGeom_Surface) basis = offset.BasisSurface();

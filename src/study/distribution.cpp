@@ -86,7 +86,7 @@ double arcsineQuantile(const UShaped& d, double p) {
 }  // namespace
 
 Result<Distribution> Distribution::make(Kind kind) {
-  if (const std::string why = whyNot(kind); !why.empty()) return fail("this is no distribution: " + why);
+  if (const std::string why = whyNot(kind); !why.empty()) return fail("this is not a distribution: " + why);
   Distribution made(std::move(kind));
   if (const auto* discrete = std::get_if<Discrete>(&made.kind_)) {
     made.cumulative_.resize(discrete->weights.size());

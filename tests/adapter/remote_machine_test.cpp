@@ -325,8 +325,8 @@ TEST(RemoteMachine, HandsAStopToTheAdapterAndWaitsForTheAxesToStand) {
 
 TEST(Connection, NamesWhatCannotBeReached) {
   const std::vector<std::pair<std::string, std::string>> wrong = {
-      {"fd:1000", "fd:1000 is no open socket"},
-      {"fd:x", "fd:x is no open socket"},
+      {"fd:1000", "fd:1000 is not an open socket"},
+      {"fd:x", "fd:x is not an open socket"},
       {"no-such-program-anywhere", "cannot be started: No such file"},
       {"  ", "has no name"},
   };

@@ -226,7 +226,7 @@ struct Target {
 };
 
 TEST(OutputFolder, LetsNoProgramWriteOverOtherFiles) {
-  // By FN 16 and by WRITE: the run's own files, the program, the setup, what is no name of a file.
+  // By FN 16 and by WRITE: the run's own files, the program, the setup, what is not a name of a file.
   const std::vector<Target> targets = {{"PRESET.PR", "The run writes"},
                                        {"report.html", "The run writes"},
                                        {"Results.JSON", "The run writes"},

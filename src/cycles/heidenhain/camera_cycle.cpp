@@ -24,7 +24,7 @@ enum State { noError = 1, error = 2, notConfigured = 3, internalError = 10 };
 constexpr const char* nameAdvice = "write QS600 = \"NAME\" with a name that a file can have";
 
 std::string wrongName(const std::string& name, const std::string& why) {
-  return fmt::format("QS600 = \"{}\" is no name of a monitoring point: {}", name, why);
+  return fmt::format("QS600 = \"{}\" is not a name of a monitoring point: {}", name, why);
 }
 
 void requireDone(CameraEnd end) {

@@ -233,7 +233,7 @@ bool BlockParser::functionKeyword() {
       return expectEnd();
     }
     if (std::string meant = meantFunction(lexer_); !meant.empty())
-      return error("this is no function that FUNCTION RESET resets", std::move(meant));
+      return error("this is not a function that FUNCTION RESET resets", std::move(meant));
     emit(Command{constant(nameOf(CommandKind::FunctionReset)), ref(lexer_.restOfBlock()), -1, {}});
     return true;
   }
@@ -248,7 +248,7 @@ bool BlockParser::functionKeyword() {
       }
       lexer_.seek(start);
     } else if (std::string meant = meantFunction(lexer_); !meant.empty()) {
-      return error("this is no word of a FUNCTION block", std::move(meant));
+      return error("this is not a word of a FUNCTION block", std::move(meant));
     }
     return textCommand(CommandKind::Function);
   }
