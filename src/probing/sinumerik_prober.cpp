@@ -177,7 +177,6 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
   moveTo(start);
 
   control::TouchRecord record;
-  record.target = plane_.xyzFromPlane(setpoint);
   record.direction = plane_.xyzFromPlane(direction);
   MeasuredPoint point;
   const auto finish = [&](std::string outcome) {
@@ -197,12 +196,16 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
                     finish);
   };
 
-  // The tip is the south pole of the ball or its centre. Against the tool the trigger point counts from the south pole.
-  const Vector3 centreFromTip = probe_.lengthToCentre ? Vector3(Vector3::Zero()) : Vector3(ballRadius() * toolAxis());
+  // Walls are touched at the height of the ball's centre, which lies above the tip where the length ends at the south
+  // pole; against the tool the trigger point counts from there. The ball of an L or a star lies on an arm.
+  const bool raised = direction.z() == 0 && !probe_.lengthToCentre;
+  const Vector3 height(0, 0, raised ? ballRadius() * toolAxis().z() : 0);
+  const double radius = ballRadius() > 0 ? ballRadius() : surfaceFromTcp.dot(direction);
+  record.target = plane_.xyzFromPlane(setpoint + height);
   const auto noteTouch = [&](const control::Touch& touch) {
-    const Vector3 tip = plane_.planeFromXyz(touch.tip);
-    record.ballCentre = plane_.xyzFromPlane(tip + centreFromTip);
-    record.surface = plane_.xyzFromPlane(tip + (direction.z() == 0 ? centreFromTip : upright) + surfaceFromTcp);
+    const Vector3 surface = plane_.planeFromXyz(touch.tip) + upright + height + surfaceFromTcp;
+    record.ballCentre = plane_.xyzFromPlane(surface - direction * radius);
+    record.surface = plane_.xyzFromPlane(surface);
     record.latched = touch.latched;
     finish("touched");
   };

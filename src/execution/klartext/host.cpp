@@ -4,12 +4,9 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "control/alarm.hpp"
 #include "language/word_column.hpp"
 
 namespace probewright::execution::klartext {
-
-using control::Alarm;
 
 namespace {
 
