@@ -216,6 +216,9 @@ TEST(ProbeKinds, TheArmOfAnLGoesToPlusOfTheFirstAxis) {
     const NamedNumbers call = {{"S_MVAR", 100}, {"S_KNUM", 1}, {"S_SETV", 60}, {"S_FA", 6}, {"S_TSA", 2}, {"S_MA", 1}};
     bench.run("CYCLE978", with(call, {{"S_MD", 1}}), {}, fmt::format("SPOS={:.3f}\n", plant.number(0, 359)));
     EXPECT_NEAR(bench.ovr(4), 60 + error, 1e-7) << world;
+    const control::TouchRecord& record = bench.control.journal.cycles.back().touches.back();
+    const Vector3 ball = part.inverse() * bench.machine.path().touches.back().ballCentre;
+    EXPECT_NEAR((record.ballCentre - ball).norm(), 0, 1e-6) << "the ball is at the end of the arm";
     EXPECT_NEAR(inWorkpiece(bench, part * Vector3(60 + error, 0, 0)).x(), 60, 1e-7);
     EXPECT_EQ(bench.alarmOf("CYCLE978", with(call, {{"S_MD", 2}})), "61341") << "the arm is not calibrated that way";
   }
