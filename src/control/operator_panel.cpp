@@ -23,8 +23,8 @@ std::string& OperatorPanel::fileCalled(const std::string& name) {
   if (whyNoFile) {
     if (const std::optional<Diagnostic> why = whyNoFile(name)) return refuse(why->message, why->advice);
   }
-  // A file takes a block of the disk, however short it is.
-  constexpr std::uint64_t leastBytes = 4096;
+  // A file takes room in folder and disk, and time to write, however short it is.
+  constexpr std::uint64_t leastBytes = 16384;
   journal_.charge(leastBytes);
   return files_[name];
 }

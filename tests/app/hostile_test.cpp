@@ -246,7 +246,7 @@ TEST(Hostile, StopsALoopThatWritesMoreAndMoreFiles) {
     EXPECT_EQ(answer.exit, 3) << loop.name << ": " << answer.errors;
     EXPECT_THAT(answer.errors, HasSubstr("--record-limit")) << loop.name;
     EXPECT_THAT(answer.errors, HasSubstr(std::string(loop.name) + ":")) << loop.name;
-    EXPECT_LT(namesIn(folder / "out").size(), 1048576U / 4096U + 10) << loop.name;
+    EXPECT_LT(namesIn(folder / "out").size(), 1048576U / 16384U + 10) << loop.name;
   }
 }
 

@@ -43,7 +43,9 @@ TEST(RecordedTouches, LieWhereTheBallTouched) {
           EXPECT_NEAR((record.ballCentre - ball).norm(), 0, 1e-6);
           // The control takes the surface for one across the direction of the touch.
           EXPECT_NEAR((record.surface - surface).norm(), 0, tilt == 0 && variant.axes.size() < 3 ? 0.01 : 0.5);
-          EXPECT_NEAR((record.target - record.surface).norm(), 0, 1) << "the part lies where it is expected";
+          const Vector3 away = record.surface - record.target;
+          EXPECT_NEAR((away - record.direction * away.dot(record.direction)).norm(), 0, 1e-6)
+              << "expected on the line along which the ball came";
         }
         EXPECT_EQ(index, felt.size());
         EXPECT_GT(index, 0U);

@@ -16,6 +16,9 @@ namespace {
 /// What READ and DELETE leave in their variable for the error.
 enum class FileError { None = 0, NotFound = 3, NoSuchLine = 21, ResultTooSmall = 22, TooManyLines = 23 };
 
+/// Steps of a search through the folders for a file that is not there.
+constexpr std::uint64_t stepsOfSearch = 4 * Host::stepsOfFile(0);
+
 std::string withoutFolders(std::string file) {
   if (const std::size_t folder = file.find_last_of("/\\"); folder != std::string::npos) file.erase(0, folder + 1);
   if (file.empty() || file == "." || file == "..")
@@ -65,7 +68,7 @@ std::optional<std::string> SinumerikHost::fileText(const std::string& file) cons
     if (!text->empty() && text->back() != '\n') *text += '\n';
     *text += *written;
   }
-  work_ += stepsOfFile(text ? text->size() : 0);
+  work_ += text ? stepsOfFile(text->size()) : stepsOfSearch;
   return text;
 }
 
@@ -73,7 +76,7 @@ bool SinumerikHost::isFile(const std::string& path) const {
   const std::string plain = path.substr(path.find_last_of("/\\") + 1);
   if (plain.empty() || plain == "." || plain == "..") return false;
   const std::string name = comparedName(path);
-  work_ += stepsOfFile(0) + control_.panel.files().size();
+  work_ += stepsOfSearch + control_.panel.files().size();
   if (writtenFile(name) != nullptr) return true;
   if (deletedFiles_.contains(name)) return false;
   return (options_.fileExists && options_.fileExists(path)) || (options_.readFile && options_.readFile(path));
