@@ -3,6 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <string>
+#include <vector>
+
 #include "app/program.hpp"
 #include "support/page_data.hpp"
 
@@ -14,6 +17,13 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 
 const std::string program = "examples/first/plate.h", setup = "examples/first/plate.toml";
+
+Answer run(const Folder& folder, const std::string& nc, const std::string& world,
+           const std::vector<std::string>& more) {
+  std::vector<std::string> words = {"run", nc, "--setup", world, "--out", (folder / "out").string()};
+  words.insert(words.end(), more.begin(), more.end());
+  return probewright(words);
+}
 
 TEST(Pdf, HasThePagesOfTheReport) {
   const Folder folder;
