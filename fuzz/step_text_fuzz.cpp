@@ -31,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(circular == 0 || scanned->entities.contains(circular));
     require(scanned->dangling == 0 || !scanned->entities.contains(scanned->missing));
   }
-  for (const std::string& part : {std::string(bytes), "Probewright part 1\n" + std::string(bytes)}) {
+  for (const std::string& part : {std::string(bytes), "Probewright part 3\n" + std::string(bytes)}) {
     if (const auto read = simulation::partFromBytes(part)) require(simulation::toBytes(*read) == part);
   }
   return 0;
