@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "adapter/remote_machine.hpp"
+#include "drawn_machine.hpp"
+#include "simulation/virtual_machine.hpp"
 
 namespace probewright::app {
 namespace {
@@ -41,7 +43,8 @@ reports::Scene touchedScene(const session::RunOutcome& outcome, const adapter::R
 }  // namespace
 
 Result<MachineRun> runOnMachine(const std::string& machine, const std::filesystem::path& program,
-                                const setup::Setup& setup, const session::RunOptions& options) {
+                                const setup::Setup& setup, const session::RunOptions& options,
+                                const simulation::ImportOptions& import) {
   std::unique_ptr<adapter::RemoteMachine> remote;
   session::RunOptions own = options;
   own.ask = [&](const std::string& text) {
@@ -57,6 +60,12 @@ Result<MachineRun> runOnMachine(const std::string& machine, const std::filesyste
   remote = std::move(*greeted);
   // How rotary axes turn tool and table is known where the setup's machine is this one.
   remote->adoptChains(setup.world.truth.machine);
+  if (remote->draws() && !setup.world.solids.empty()) {
+    auto virtualMachine = simulation::buildMachine(setup.world, import);
+    if (!virtualMachine) return tl::unexpected(virtualMachine.error());
+    DrawnMachine drawn(**virtualMachine, *remote);
+    return MachineRun{session::run(std::move(prepared), drawn), {}};
+  }
   // An adapter that looks ahead says what went wrong on the last moves when the axes stand.
   MachineRun run{session::run(std::move(prepared), *remote), {}};
   static_cast<void>(remote->deflected(machine::Sensor::TouchProbe));

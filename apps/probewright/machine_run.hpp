@@ -18,7 +18,9 @@ struct MachineRun {
 
 /// Runs the program with the setup's beliefs on the machine that an adapter plays (adapter::connect says what `machine`
 /// may be). The picture shows what was touched: nobody knows the true part. A mistake is one before the program began.
+/// An adapter that only draws is shown the program on the setup's virtual machine, if there is something to touch.
 Result<MachineRun> runOnMachine(const std::string& machine, const std::filesystem::path& program,
-                                const setup::Setup& setup, const session::RunOptions& options);
+                                const setup::Setup& setup, const session::RunOptions& options,
+                                const simulation::ImportOptions& import = {});
 
 }  // namespace probewright::app

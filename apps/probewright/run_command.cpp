@@ -244,7 +244,7 @@ int run(const RunArguments& arguments) {
     reports::Scene scene = setup::sceneOf(simulated);
     ran = MachineRun{std::move(simulated.outcome), std::move(scene)};
   } else {
-    Result<MachineRun> real = runOnMachine(arguments.machine, arguments.program, *setup, options);
+    Result<MachineRun> real = runOnMachine(arguments.machine, arguments.program, *setup, options, machine.import);
     if (!real) {
       print({real.error()});
       return giveUp();

@@ -125,7 +125,26 @@ std::vector<std::string> Mill::tableBlocks(const Json& tables, bool inches) cons
   return blocks;
 }
 
+std::string Mill::notIdentity() const {
+  const std::string kinematics = key("KINS", "KINEMATICS"), name = kinematics.substr(0, kinematics.find(' '));
+  if (name == "trivkins" || name == "corexykins" || !moves()) return {};
+  // The types that the switchable kinematics of LinuxCNC 2.9 have for identity.
+  int identity = -1;
+  if (name == "xyzac-trt-kins" || name == "xyzbc-trt-kins" || name == "5axiskins")
+    identity = kinematics.find("identityfirst") == std::string::npos ? 1 : 0;
+  if (name == "xyzab_tdr_kins") identity = 0;
+  if (identity < 0) return "programs of measuring cycles need kinematics that can be switched to identity, not " + name;
+  double type = -1;
+  if (std::FILE* pin = popen("halcmd -s getp motion.switchkins-type 2>/dev/null", "r"); pin != nullptr) {
+    if (std::fscanf(pin, "%lf", &type) != 1) type = -1;
+    pclose(pin);
+  }
+  return type == identity ? "" : "LinuxCNC's kinematics are those of the tool tip: switch to identity kinematics first";
+}
+
 Mill::Json Mill::hello(std::string& why) const {
+  why = notIdentity();
+  if (!why.empty()) return {};
   if (axes_.empty()) {
     why = "the configuration of LinuxCNC names no axes in [TRAJ]COORDINATES";
     return {};
@@ -145,6 +164,7 @@ Mill::Json Mill::hello(std::string& why) const {
       {"machine", {{"name", name_}, {"axes", axes}, {"spindleOrients", orients_}, {"toolChange", position()}}},
       {"functions", {7, 8, 9}},
       {"asks", moves()},
+      {"draws", !moves()},
       {"position", position()}};
   if (key("PROBEWRIGHT", "SHARE_TABLES") != "0") answer["tables"] = tables();
   return answer;

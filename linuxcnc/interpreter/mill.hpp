@@ -63,6 +63,8 @@ public:
   void probe(const Position& target) const;
 
 private:
+  /// Why the axes are not those of the joints; empty if they are.
+  std::string notIdentity() const;
   struct Axis {
     std::size_t number = 0;  ///< in XYZABCUVW
     double minimum = 0, maximum = 0, rapid = 0, acceleration = 0;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
 #include "canon.hh"
@@ -46,7 +47,9 @@ bool Player::start(const std::string& iniFile, const std::string& program, int l
   const std::string out =
       Mill::moves() ? inFolder(key("OUT").empty() ? "probewright-out" : key("OUT"))
                     : (fs::temp_directory_path() / ("probewright-preview-" + std::to_string(getuid()))).string();
-  std::vector<std::string> words = {key("PROGRAM").empty() ? "probewright" : key("PROGRAM"),
+  const char* named = std::getenv("PROBEWRIGHT");
+  const std::string otherwise = named != nullptr ? named : "probewright";
+  std::vector<std::string> words = {key("PROGRAM").empty() ? otherwise : key("PROGRAM"),
                                     "run",
                                     program,
                                     "--setup",
@@ -102,7 +105,9 @@ Player::Next Player::finish() {
     message_ = "probewright has ended unexpectedly\n" + message_;
   }
   engine_.reset();
-  return code == 0 || code == 1 ? Next::Ended : Next::Failed;
+  // What is drawn ends where the control would stop with an alarm.
+  const bool ended = code == 0 || code == 1 || (code == 3 && !Mill::moves());
+  return ended ? Next::Ended : Next::Failed;
 }
 
 Player::Next Player::read() {

@@ -67,10 +67,13 @@ Result<std::unique_ptr<RemoteMachine>> RemoteMachine::greet(Connection connectio
         machine->functions_.insert(function.get<int>());
       }
     }
-    if (answer.json.contains("asks")) {
-      if (!answer.json.at("asks").is_boolean()) throw Breach("\"asks\" is neither true nor false");
-      machine->asks_ = answer.json.at("asks").get<bool>();
-    }
+    const auto says = [&](const char* name) {
+      if (!answer.json.contains(name)) return false;
+      if (!answer.json.at(name).is_boolean()) throw Breach(fmt::format("\"{}\" is neither true nor false", name));
+      return answer.json.at(name).get<bool>();
+    };
+    machine->asks_ = says("asks");
+    machine->draws_ = says("draws");
     const Json& told = member(answer.json, "machine");
     machine->tellsChains_ = told.contains("tableChain") || told.contains("spindleChain");
     if (answer.json.contains("tables"))

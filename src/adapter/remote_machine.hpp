@@ -38,6 +38,8 @@ public:
   /// Why the machine could not go on, if that has happened: an emergency stop, a lost connection.
   const std::optional<std::string>& failure() const { return failure_; }
 
+  /// Whether the adapter moves nothing and feels nothing: it draws what it is told.
+  bool draws() const { return draws_; }
   /// Whether the adapter puts questions to the operator; else whoever runs the program does.
   bool asks() const { return asks_; }
   /// Shows the text to the operator and waits: true if the program is to go on.
@@ -97,7 +99,7 @@ private:
   std::string adapterName_;
   machine::MachineDescription description_;
   std::set<int> functions_;
-  bool asks_ = false, tellsChains_ = false;
+  bool asks_ = false, draws_ = false, tellsChains_ = false;
   std::optional<machine::OwnTables> tables_;
   std::function<machine::OrderPlace()> place_;
   mutable machine::OrderPlace now_;  ///< of the last order

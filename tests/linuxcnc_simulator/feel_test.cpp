@@ -24,6 +24,7 @@ protected:
       ASSERT_NE(at, std::string::npos) << what;
       ini.replace(at, what.size(), by);
     };
+    replace("INTERPRETER = libprobewright_interp.so\n", "");
     replace("DISPLAY = axis", "DISPLAY = ./display.py");
     replace("HALFILE = probewright_feel.tcl",
             "HALFILE = " + (session_.source() / "linuxcnc/feel/probewright_feel.tcl").string());
