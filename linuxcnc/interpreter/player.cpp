@@ -234,13 +234,16 @@ std::optional<Player::Json> Player::refusal(const Json& order) {
 
 /// Queues a move or a path.
 Player::Json Player::moves(const Json& order) {
-  std::vector<Json> pieces = {order};
-  if (order.contains("pieces")) pieces = order.at("pieces").get<std::vector<Json>>();
   std::size_t reached = 0;
-  for (const Json& piece : pieces) {
+  Json failed;
+  const auto travel = [&](const Json& piece) {
     const auto target = piece.at("target").get<Mill::Position>();
-    if (const std::string limit = mill_.limit(target); !limit.empty())
-      return {{"end", "axisLimit"}, {"detail", limit}, {"reached", reached}};
+    if (const std::string limit = mill_.limit(target); !limit.empty()) {
+      failed = {{"end", "axisLimit"}, {"detail", limit}, {"reached", reached}};
+      return false;
+    }
+    line_ = piece.value("line", line_);
+    mill_.atLine(line_);
     if (piece.value("rapid", false)) {
       mill_.traverse(target);
     } else {
@@ -250,6 +253,13 @@ Player::Json Player::moves(const Json& order) {
     at_ = target;
     queued_ = true;
     ++reached;
+    return true;
+  };
+  if (!order.contains("pieces")) {
+    if (!travel(order)) return failed;
+  } else {
+    for (const Json& piece : order.at("pieces"))
+      if (!travel(piece)) return failed;
   }
   return {{"end", "reached"}, {"reached", reached}};
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace probewright::adapter {
@@ -74,6 +75,7 @@ Result<std::unique_ptr<RemoteMachine>> RemoteMachine::greet(Connection connectio
     };
     machine->asks_ = says("asks");
     machine->draws_ = says("draws");
+    machine->looksAhead_ = says("looksAhead");
     const Json& told = member(answer.json, "machine");
     machine->tellsChains_ = told.contains("tableChain") || told.contains("spindleChain");
     if (answer.json.contains("tables"))
@@ -96,13 +98,16 @@ RemoteMachine::Answer RemoteMachine::lose(std::string why) const {
 
 RemoteMachine::Answer RemoteMachine::exchange(Json order) const {
   using Clock = std::chrono::steady_clock;
+  sendLines();
+  underWay_ = false;
   if (lost_) return {{}, failure_};
   const std::uint64_t id = ++lastOrder_;
   order["id"] = id;
   if (place_) {
     now_ = place_();
     if (now_.line) order["line"] = *now_.line;
-    if (!now_.messages.empty()) order["messages"] = now_.messages;
+    std::ranges::move(now_.messages, std::back_inserter(messages_));
+    if (!messages_.empty()) order["messages"] = std::exchange(messages_, {});
   }
   bool listens = !stop_.stop_requested();
   std::uint64_t rung = 0;
@@ -242,7 +247,49 @@ machine::MoveResult RemoteMachine::travel(const char* what, const AxisPositions&
   return moved(std::move(order));
 }
 
-machine::MoveResult RemoteMachine::move(const AxisPositions& target, Feed feed) { return travel("move", target, feed); }
+bool RemoteMachine::keepLine(const AxisPositions& target, Feed feed) {
+  constexpr std::size_t enough = 100;
+  if (!looksAhead_ || !underWay_ || lost_) return false;
+  // What the adapter would refuse has to be refused now.
+  for (std::size_t i = 0; i < description_.axes.size(); ++i)
+    if (!(target[i] >= description_.axes[i].minimum && target[i] <= description_.axes[i].maximum)) return false;
+  Json line = {{"target", toJson(target, description_.axes.size())}};
+  addFeed(line, feed);
+  if (place_) {
+    now_ = place_();
+    if (now_.line) line["line"] = *now_.line;
+    std::ranges::move(now_.messages, std::back_inserter(messages_));
+  }
+  lines_.push_back(std::move(line));
+  at_ = target;
+  toldAt_ = std::chrono::steady_clock::now();
+  if (lines_.size() >= enough) {
+    sendLines();
+    underWay_ = !lost_ && !failure_;
+  }
+  return true;
+}
+
+void RemoteMachine::sendLines() const {
+  if (lines_.empty()) return;
+  Json pieces = std::exchange(lines_, Json::array());
+  const Answer answer = exchange({{"do", "path"}, {"pieces", std::move(pieces)}});
+  if (answer.failure) return;
+  // They count as travelled. Whatever stops the adapter stops the next order as well; if there is none, this is known.
+  try {
+    if (text(answer.json, "end") != word(MoveEnd::Reached)) failure_ = optionalText(answer.json, "detail");
+  } catch (const Breach& breach) {
+    lose(fmt::format("the machine adapter does not keep to the protocol: {}", breach.what()));
+  }
+}
+
+machine::MoveResult RemoteMachine::move(const AxisPositions& target, Feed feed) {
+  if (auto refused = refusal(target, feed)) return *std::move(refused);
+  if (keepLine(target, feed)) return {};
+  machine::MoveResult result = travel("move", target, feed);
+  underWay_ = result.end == MoveEnd::Reached;
+  return result;
+}
 
 machine::MoveResult RemoteMachine::retract(const AxisPositions& target, Feed feed) {
   return travel("retract", target, feed);
@@ -257,6 +304,16 @@ machine::PathResult RemoteMachine::moveAlong(std::span<const machine::PathPiece>
     pieces.push_back(std::move(piece));
   }
   if (path.empty()) return {};
+  if (underWay_ && looksAhead_) {
+    std::size_t kept = 0;
+    while (kept < path.size() && keepLine(path[kept].target, path[kept].feed))
+      ++kept;
+    if (kept == path.size()) return {MoveEnd::Reached, kept, {}};
+    underWay_ = false;
+    machine::PathResult rest = moveAlong(path.subspan(kept));
+    rest.reached += kept;
+    return rest;
+  }
   const std::function<machine::PathResult(const Json&)> read = [&](const Json& answer) {
     const Json& reached = member(answer, "reached");
     if (!reached.is_number_unsigned() || reached.get<std::size_t>() > path.size())
@@ -265,7 +322,9 @@ machine::PathResult RemoteMachine::moveAlong(std::span<const machine::PathPiece>
                                optionalText(answer, "detail")};
   };
   auto result = tells({{"do", "path"}, {"pieces", std::move(pieces)}}, read);
-  return result ? *std::move(result) : machine::PathResult{MoveEnd::Refused, 0, *failure_};
+  if (!result) return {MoveEnd::Refused, 0, *failure_};
+  underWay_ = result->end == MoveEnd::Reached;
+  return *std::move(result);
 }
 
 machine::MeasureResult RemoteMachine::measure(const machine::MeasureOrder& order) {

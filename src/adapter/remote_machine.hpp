@@ -92,6 +92,10 @@ private:
   std::optional<machine::MoveResult> refusal(const machine::AxisPositions& target, machine::Feed feed) const;
   machine::MoveResult travel(const char* order, const machine::AxisPositions& target, machine::Feed feed);
   machine::MoveResult moved(Json order);
+  /// A line is kept until there are some, or an order of another kind comes. False: it has to be ordered by itself.
+  bool keepLine(const machine::AxisPositions& target, machine::Feed feed);
+  /// Orders the lines that were kept.
+  void sendLines() const;
 
   std::shared_ptr<void> peer_;  ///< ends after the stream
   mutable LineStream stream_;
@@ -99,11 +103,14 @@ private:
   std::string adapterName_;
   machine::MachineDescription description_;
   std::set<int> functions_;
-  bool asks_ = false, draws_ = false, tellsChains_ = false;
+  bool asks_ = false, draws_ = false, looksAhead_ = false, tellsChains_ = false;
   std::optional<machine::OwnTables> tables_;
   std::function<machine::OrderPlace()> place_;
   mutable machine::OrderPlace now_;  ///< of the last order
   std::vector<Felt> felt_;
+  mutable bool underWay_ = false;  ///< the last order was a line, and the probe was free when it began
+  mutable Json lines_ = Json::array();
+  mutable std::vector<std::string> messages_;  ///< for the operator, with the next order
   std::stop_token stop_;
   int wake_ = -1;  ///< an event that ends a wait when a stop is asked for
   mutable std::uint64_t lastOrder_ = 0;

@@ -277,6 +277,50 @@ TEST(RemoteMachine, SharesTheTablesOfAnAdapterThatTellsThem) {
   EXPECT_EQ((*machine)->keep(own), "not now");
 }
 
+TEST(RemoteMachine, SendsLinesManyAtATimeToAnAdapterThatLooksAhead) {
+  auto [engine, own] = streamPair();
+  std::vector<Json> heard;
+  std::jthread thread([&heard, stream = std::move(own)]() mutable {
+    std::string line;
+    while (stream.receive(line, std::chrono::milliseconds(5000)) == LineStream::Got::Line) {
+      const Json json = parseLine(line);
+      heard.push_back(json);
+      Json answer = {{"id", json.at("id")}, {"end", "reached"}};
+      if (json.at("do") == "hello") {
+        answer = Json::parse("{" + std::string(greeting) + "}");
+        answer["id"] = json.at("id");
+        answer["looksAhead"] = true;
+        answer["machine"]["axes"][0]["maximum"] = 100;
+      }
+      if (json.at("do") == "path") answer["reached"] = json.at("pieces").size();
+      if (json.at("do") == "move" && json.at("target")[0] > 100) answer["end"] = "axisLimit";
+      if (json.at("do") == "deflected") answer["deflected"] = false;
+      if (!stream.send(answer.dump())) return;
+    }
+  });
+  {
+    auto machine = RemoteMachine::greet({nullptr, std::move(engine)});
+    ASSERT_TRUE(machine);
+    std::uint64_t line = 0;
+    (*machine)->accompany([&] { return machine::OrderPlace{++line, {}, {0, 0, 0}, 0}; });
+    for (int i = 1; i <= 50; ++i)
+      EXPECT_EQ((*machine)->move(positions({1.0 * i, 0, 0}), Feed::at(100)).end, MoveEnd::Reached);
+    EXPECT_EQ((*machine)->position()[0], 50);
+    EXPECT_FALSE((*machine)->deflected(Sensor::TouchProbe));
+    // The first after another order is by itself, as it may not begin; so is one that will be refused.
+    EXPECT_EQ((*machine)->move(positions({2, 0, 0}), Feed::at(100)).end, MoveEnd::Reached);
+    EXPECT_EQ((*machine)->move(positions({3, 0, 0}), Feed::at(100)).end, MoveEnd::Reached);
+    EXPECT_EQ((*machine)->move(positions({200, 0, 0}), Feed::at(100)).end, MoveEnd::AxisLimit);
+  }
+  thread.join();
+  std::vector<std::string> orders;
+  for (const Json& each : heard)
+    orders.push_back(each.at("do"));
+  EXPECT_THAT(orders, testing::ElementsAre("hello", "move", "path", "deflected", "move", "path", "move"));
+  EXPECT_EQ(heard.at(2).at("pieces").size(), 49U);
+  EXPECT_EQ(heard.at(2).at("pieces").at(0).at("line"), 2);
+}
+
 TEST(RemoteMachine, TellsTheLineOfTheProgramWithEachOrder) {
   auto [engine, own] = streamPair();
   std::jthread thread([stream = std::move(own)]() mutable {
