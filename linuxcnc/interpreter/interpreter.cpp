@@ -267,15 +267,15 @@ private:
     gcode_->active_g_codes(codes.data());
     const bool inches = std::find(codes.begin(), codes.end(), 200) != codes.end();
     const CANON_UNITS before = GET_EXTERNAL_LENGTH_UNIT_TYPE();
-    USE_LENGTH_UNITS(inches ? CANON_UNITS_INCHES : CANON_UNITS_MM);
     std::string why;
-    for (const std::string& block : mill.tableBlocks(tables, inches)) {
+    for (const std::string& block : mill.tableBlocks(tables)) {
       const int result = gcode_->execute(block.c_str());
       if (result <= INTERP_MIN_ERROR) continue;
       std::array<char, 256> text{};
       why = gcode_->error_text(result, text.data(), text.size());
       break;
     }
+    if (inches) gcode_->execute("G20");
     USE_LENGTH_UNITS(before);
     return why;
   }

@@ -103,24 +103,23 @@ Mill::Json Mill::tables() const {
   return {{"offsets", rows}, {"tools", tools}};
 }
 
-std::vector<std::string> Mill::tableBlocks(const Json& tables, bool inches) const {
+std::vector<std::string> Mill::tableBlocks(const Json& tables) const {
   std::vector<std::string> blocks;
-  const auto word = [&](char letter, double value, bool length) {
+  const auto word = [&](char letter, double value) {
     std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), " %c%.9f", letter, length && inches ? value / 25.4 : value);
+    std::snprintf(text.data(), text.size(), " %c%.9f", letter, value);
     return std::string(text.data());
   };
   for (const Json& row : tables.at("offsets")) {
-    std::string block = "G10 L2 P" + std::to_string(row.at("number").get<int>());
+    std::string block = "G21 G90 G10 L2 P" + std::to_string(row.at("number").get<int>());
     const auto origin = row.at("origin").get<Position>();
     for (std::size_t i = 0; i < axes_.size() && i < origin.size(); ++i)
-      block += word(letters[axes_[i].number], origin[i], !rotary(axes_[i].number));
-    blocks.push_back(block + word('R', row.at("rotation").get<double>(), false));
+      block += word(letters[axes_[i].number], origin[i]);
+    blocks.push_back(block + word('R', row.at("rotation").get<double>()));
   }
   for (const Json& tool : tables.at("tools")) {
-    blocks.push_back("G10 L1 P" + std::to_string(tool.at("number").get<int>()) +
-                     word('Z', tool.at("length").get<double>(), true) +
-                     word('R', tool.at("diameter").get<double>() / 2, true));
+    blocks.push_back("G21 G10 L1 P" + std::to_string(tool.at("number").get<int>()) +
+                     word('Z', tool.at("length").get<double>()) + word('R', tool.at("diameter").get<double>() / 2));
   }
   return blocks;
 }
@@ -165,6 +164,7 @@ Mill::Json Mill::hello(std::string& why) const {
       {"functions", {7, 8, 9}},
       {"asks", moves()},
       {"draws", !moves()},
+      {"looksAhead", true},
       {"position", position()}};
   if (key("PROBEWRIGHT", "SHARE_TABLES") != "0") answer["tables"] = tables();
   return answer;

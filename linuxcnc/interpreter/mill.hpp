@@ -51,8 +51,8 @@ public:
 
   /// LinuxCNC's zero offsets and tools, as the engine is told of them.
   Json tables() const;
-  /// The words of G10 that make them what these are, one block each, for an interpreter that counts in mm or inches.
-  std::vector<std::string> tableBlocks(const Json& tables, bool inches) const;
+  /// The blocks of G-code, in mm, that make them what these are.
+  std::vector<std::string> tableBlocks(const Json& tables) const;
 
   /// Why the target cannot be reached; empty if it can.
   std::string limit(const Position& target) const;

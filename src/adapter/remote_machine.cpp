@@ -424,6 +424,8 @@ machine::WaitEnd RemoteMachine::dwell(double seconds) {
 }
 
 double RemoteMachine::seconds() const {
+  // Asked between two lines: their machine is busy with earlier ones.
+  if (looksAhead_) return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
   if (const auto told =
           tells<double>({{"do", "seconds"}}, [](const Json& answer) { return number(answer, "seconds"); }))
     seconds_ = std::max(seconds_, *told);

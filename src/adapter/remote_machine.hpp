@@ -120,6 +120,7 @@ private:
   mutable std::chrono::steady_clock::time_point toldAt_;  ///< when `at_` was
   mutable machine::SpindleState spindle_;
   mutable double seconds_ = 0;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace probewright::adapter
