@@ -16,6 +16,9 @@ namespace {
 control::Beliefs calibratedBeliefs(const Setup& setup) {
   control::Beliefs beliefs = setup.beliefs;
   beliefs.tables.clear();
+  // Calibration data that the setup tells.
+  std::erase_if(beliefs.parameters,
+                [](const auto& parameter) { return parameter.first.find("SNS_MEA_") != std::string::npos; });
   beliefs.toolProbes = believedToolProbes(setup.world);
   for (control::BelievedTool& tool : beliefs.tools) {
     const auto& tools = setup.world.truth.tools;

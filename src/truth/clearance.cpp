@@ -22,7 +22,7 @@ namespace {
 
 constexpr double most = 20;        // mm that are told
 constexpr double fine = 0.05;      // mm
-constexpr double onTheWay = 1e-3;  // mm: how far a bent way may be from the one searched
+constexpr double onTheWay = 0.02;  // mm: how far a bent way may be from the one searched
 
 ToolShape grown(const ToolShape& shape, double by) {
   ToolShape thick = shape;

@@ -127,6 +127,18 @@ bool isPosition(Quantity quantity) {
   return quantity == Quantity::Centre || quantity == Quantity::Corner || quantity == Quantity::Coordinate;
 }
 
+/// The last touch along an axis, if all touches along it were on one flat face, or there was one only.
+const TouchedPoint* onlyFaceAlong(const TouchedCycle& touched, Eigen::Index axis) {
+  const TouchedPoint* only = nullptr;
+  for (const TouchedPoint& point : touched.points) {
+    if (std::abs(point.direction[axis]) < 0.9) continue;
+    const bool flat = point.face && point.face->kind == simulation::AnalyticSurface::Kind::Plane;
+    if (only != nullptr && !(flat && sameFace(*only, point))) return nullptr;
+    only = &point;
+  }
+  return only;
+}
+
 CycleErrors errorsOf(const control::CycleRecord& record, const TouchedCycle& touched,
                      const records::CycleTruth& truth) {
   CycleErrors errors;
@@ -154,13 +166,14 @@ CycleErrors errorsOf(const control::CycleRecord& record, const TouchedCycle& tou
       errors.believedAngle[at] = result.value;
     }
   }
-  // Cycles that show no result: by what they have touched.
-  for (const TouchedPoint& point : touched.points) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto axis = static_cast<Eigen::Index>(i);
-      if (std::abs(point.direction[axis]) < 0.9 || (planeMeasured && i != 2)) continue;
-      const auto beyond = distanceToFace(point, point.surface, Vector3::Unit(axis));
-      if (beyond && (!errors.position[i] || planeMeasured)) errors.position[i] = -*beyond;
+  // Numbers that no result shows: by the one flat face that was touched in their direction.
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    if (errors.position[i] && !(planeMeasured && i == 2)) continue;
+    if (planeMeasured && i != 2) continue;
+    if (const TouchedPoint* point = onlyFaceAlong(touched, axis)) {
+      if (const auto beyond = distanceToFace(*point, point->surface, Vector3::Unit(axis)))
+        errors.position[i] = -*beyond;
     }
   }
   if (!errors.angle[2]) {

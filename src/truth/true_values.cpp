@@ -33,6 +33,18 @@ std::optional<records::TrueValue> trueValueOf(const ResultRecord& result, const 
   return records::TrueValue{best->truth, best->basis, best->shape};
 }
 
+/// True if the table stood as it does at the reading 0 of all rotary axes: then its coordinates are the machine's.
+bool tableIsSquare(const control::CycleRecord& record, const machine::MachineDescription& machine) {
+  for (const control::TouchRecord& touch : record.touches) {
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+      const bool rotary = machine.axes[i].kind == machine::AxisKind::Rotary;
+      if (touch.outcome == "touched" && rotary && std::abs(std::remainder(touch.latched[i], 360.0)) > 1e-9)
+        return false;
+    }
+  }
+  return true;
+}
+
 std::optional<records::TrueTouch> trueTouchOf(const TouchedPoint& touched, const control::WorkingPlane& plane,
                                               const std::string& solid) {
   records::TrueTouch touch;
@@ -54,7 +66,7 @@ std::vector<records::CycleTruth> trueValues(const control::Journal& journal, con
     cycle.touches.resize(record.touches.size());
     for (const TouchedPoint& point : touched[i].points)
       cycle.touches[point.touch] = trueTouchOf(point, touched[i].plane, truth.solids[point.solid].name);
-    const TouchedCycle asMachine = inMachine(touched[i]);
+    const TouchedCycle asMachine = tableIsSquare(record, truth.machine) ? inMachine(touched[i]) : TouchedCycle();
     for (const ResultRecord& result : record.results)
       cycle.results.push_back(trueValueOf(result, touched[i], asMachine, record.fits));
     cycles.push_back(std::move(cycle));
