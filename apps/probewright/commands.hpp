@@ -44,6 +44,7 @@ struct RunArguments {
   records::Job job;                              ///< fields that go before the setup's
   bool pdf = false;                              ///< the report as pages, too
   bool clearance = false;                        ///< tells how near the tool came to things
+  bool uncertainty = false;                      ///< each result gets its uncertainty, to first order
   bool quiet = false;
 };
 int run(const RunArguments& arguments);

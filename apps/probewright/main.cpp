@@ -318,6 +318,9 @@ int main(int argc, char** argv) {
                 "Say nothing of what only the virtual machine knows: true values, errors, what stands in the way");
   run->add_flag("--clearance", runArguments.clearance,
                 "Tell how near the tool came to part, fixtures and table, block by block; takes some time");
+  run->add_flag("--uncertainty", runArguments.uncertainty,
+                "Give each result the uncertainty that the scatter of the probe makes, to first order (see "
+                "docs/uncertainty.md)");
   run->add_flag("--quiet", runArguments.quiet, "Print nothing but mistakes");
 
   probewright::app::CheckArguments checkArguments;

@@ -29,6 +29,7 @@
 #include "setup/scene.hpp"
 #include "setup/setup_on_machine.hpp"
 #include "setup/simulated_run.hpp"
+#include "study/first_order.hpp"
 #include "terminal.hpp"
 
 namespace probewright::app {
@@ -251,6 +252,8 @@ int run(const RunArguments& arguments) {
     }
     ran = std::move(*real);
   }
+  study::FirstOrder uncertainties;
+  if (arguments.uncertainty) uncertainties = study::addUncertainties(ran->outcome.journal, setup->world.truth);
   const session::RunOutcome& outcome = ran->outcome;
   if (progress) std::fputs("\r\033[K", stderr);
   const language::Encoding encoding = outcome.info.programs.empty()
@@ -302,6 +305,7 @@ int run(const RunArguments& arguments) {
   if (!arguments.quiet) {
     const auto colour = isatty(STDOUT_FILENO) != 0 ? reports::Colour::On : reports::Colour::Off;
     put(reports::summaryText(outcome.journal, info, colour, reports::Cause::Told), stdout);
+    if (arguments.uncertainty) put(printable(study::firstOrderText(outcome.journal, uncertainties)), stdout);
     std::fputs(fmt::format("\nReport: {}\n", (fs::absolute(arguments.out) / "report.html").lexically_normal().string())
                    .c_str(),
                stdout);

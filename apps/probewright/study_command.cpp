@@ -13,6 +13,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "interruption.hpp"
+#include "mpi_start.hpp"
 #include "output_folder.hpp"
 #include "setup/setup_document.hpp"
 #include "study/program_model.hpp"
@@ -89,7 +90,19 @@ std::optional<Diagnostic> whyNotInto(const fs::path& folder) {
 
 }  // namespace
 
-int study(const StudyArguments& arguments) {
+int study(const StudyArguments& given) {
+  const Result<std::optional<JoinedRanks>> joined = joinRanks();
+  if (!joined) {
+    print({joined.error()});
+    return 2;
+  }
+  // All ranks do the same; the first one alone speaks and writes.
+  const bool first = !*joined || (*joined)->ranks.rank == 0;
+  StudyArguments arguments = given;
+  arguments.quiet = arguments.quiet || !first;
+  const auto print = [&](const Diagnostics& diagnostics) {
+    if (first) app::print(diagnostics);
+  };
   Diagnostics mistakes;
   auto document = setup::SetupDocument::read(arguments.setup, mistakes);
   std::optional<study::Study> plan;
@@ -104,7 +117,7 @@ int study(const StudyArguments& arguments) {
   inputs.insert(inputs.end(), plan->inputs.begin(), plan->inputs.end());
 
   const Interruption interruption;
-  if (const Result<void> tidied = tidyOutput(arguments.out, interruption.token()); !tidied) {
+  if (const Result<void> tidied = !first ? Result<void>() : tidyOutput(arguments.out, interruption.token()); !tidied) {
     print({tidied.error()});
     return 2;
   }
@@ -123,6 +136,8 @@ int study(const StudyArguments& arguments) {
     }
     run.done = std::move(*done);
   }
+  // Nobody writes before everybody has read.
+  if (*joined) (*joined)->ranks.exchange({});
 
   const toml::table setupTable = document->table();
   study::ProgramModel::Options options;
@@ -148,14 +163,17 @@ int study(const StudyArguments& arguments) {
   std::stop_source diskFull;
   const std::stop_callback forward(interruption.token(), [&] { diskFull.request_stop(); });
   StudyProgress progress(isatty(STDERR_FILENO) != 0);
-  run.threads = arguments.threads;
-  run.stop = diskFull.get_token();
+  std::stop_source all;
+  run.crew = *joined ? study::rankCrew((*joined)->ranks, arguments.threads, diskFull.get_token(), all)
+                     : study::threadCrew(arguments.threads, diskFull.get_token());
+  run.stop = *joined ? all.get_token() : diskFull.get_token();
   run.repeat = arguments.repeat;
   if (!arguments.quiet)
     run.report = [&](const std::string& phase, std::uint64_t done, std::uint64_t of) {
       progress.tell(phase, done, of);
     };
   run.keep = [&](const study::TrialTable& table) {
+    if (!first) return;
     if (Result<void> kept = writer.write(table); !kept && !notKept) {
       notKept = kept.error();
       diskFull.request_stop();
@@ -169,6 +187,8 @@ int study(const StudyArguments& arguments) {
     print({*notKept});
     return 2;
   }
+  const int exit = result.end == study::StudyEnd::Interrupted || result.finished == 0 ? 3 : 0;
+  if (!first) return exit;
 
   const study::StudyInfo info{arguments.program.string(), arguments.setup.string(), PROBEWRIGHT_VERSION};
   std::set<FileIdentity> identities;
@@ -187,7 +207,7 @@ int study(const StudyArguments& arguments) {
     put(fmt::format("\nAll results: {}\n", (fs::absolute(arguments.out) / "study.json").lexically_normal().string()),
         stdout);
   }
-  return result.end == study::StudyEnd::Interrupted || result.finished == 0 ? 3 : 0;
+  return exit;
 }
 
 }  // namespace probewright::app

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cycles/main_results.hpp"
+
 namespace probewright::study {
 
 using control::Along;
@@ -127,15 +129,39 @@ std::optional<double> sensitivityToTouches(const CycleRecord& cycle, const Resul
   return inPairs(touches) ? byPairs(touches, result) : std::nullopt;
 }
 
+double scatterOf(const simulation::Truth& truth) {
+  double scatter = 0;
+  for (const simulation::TrueTool& tool : truth.tools)
+    if (tool.kind == simulation::ToolKind::Probe) scatter = std::max(scatter, tool.probe.repeatability);
+  return scatter;
+}
+
+std::string firstOrderText(const control::Journal& journal, const FirstOrder& done) {
+  std::string text = "\nUncertainties (k = 2) from the scatter of the probe, to first order (GUM)\n";
+  for (const CycleRecord& cycle : journal.cycles) {
+    const std::vector<bool> isMain = cycles::mainResults(cycle);
+    for (std::size_t i = 0; i < cycle.results.size(); ++i) {
+      const ResultRecord& result = cycle.results[i];
+      if (isMain[i] && result.uncertainty)
+        text += fmt::format("  {} {}: {:.6f} +- {:.2g} {}\n", cycle.name, result.name, result.value,
+                            *result.uncertainty, result.unit);
+    }
+  }
+  if (done.withheld > 0)
+    text +=
+        fmt::format("  {} values have none: how they follow the touches is not known to first order\n", done.withheld);
+  for (const std::string& what : done.notHeld)
+    text += fmt::format("  not held: {}\n", what);
+  return text + "  `probewright study` holds everything that a setup can say (docs/uncertainty.md)\n";
+}
+
 FirstOrder addUncertainties(control::Journal& journal, const simulation::Truth& truth) {
   FirstOrder done;
-  double scatter = 0;
-  bool differ = false, first = true, lobes = false, toolProbe = !truth.toolProbes.empty();
+  const double scatter = scatterOf(truth);
+  bool differ = false, lobes = false;
   for (const simulation::TrueTool& tool : truth.tools) {
     if (tool.kind != simulation::ToolKind::Probe) continue;
-    differ = differ || (!first && tool.probe.repeatability != scatter);
-    first = false;
-    scatter = std::max(scatter, tool.probe.repeatability);
+    differ = differ || tool.probe.repeatability != scatter;
     lobes = lobes || tool.probe.lobing != 0;
   }
   if (!(scatter > 0)) {
@@ -153,7 +179,7 @@ FirstOrder addUncertainties(control::Journal& journal, const simulation::Truth& 
   if (lobes) done.notHeld.emplace_back("the lobes of the probe: they act on all touches of a feature together");
   if (hasErrors(truth.errors)) done.notHeld.emplace_back("the errors of the machine");
   if (differ) done.notHeld.emplace_back("which probe has measured: the scatter is that of the one that repeats worst");
-  if (toolProbe) done.notHeld.emplace_back("the scatter of the tool touch probe");
+  if (!truth.toolProbes.empty()) done.notHeld.emplace_back("the scatter of the tool touch probe");
   return done;
 }
 

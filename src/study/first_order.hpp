@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "control/journal.hpp"
 #include "simulation/truth.hpp"
@@ -22,6 +24,13 @@ struct FirstOrder {
 /// by their number. What a tool touch probe has measured gets none. The standard uncertainty of a touch is the
 /// repeatability of the probe; where probes differ, of the one that repeats worst.
 FirstOrder addUncertainties(control::Journal& journal, const simulation::Truth& truth);
+
+/// Lines for a terminal: each main result with its uncertainty, and what that does not hold.
+std::string firstOrderText(const control::Journal& journal, const FirstOrder& done);
+
+/// The standard uncertainty of a touch of the probe: its repeatability; of several probes, of the one that repeats
+/// worst. 0 if the setup tells none.
+double scatterOf(const simulation::Truth& truth);
 
 /// The standard uncertainty of a result for a standard uncertainty of 1 mm of each touch; nothing if it is not known
 /// here. Of angles in degrees.

@@ -10,6 +10,7 @@
 #include "base/number_text.hpp"
 #include "base/text.hpp"
 #include "cycles/main_results.hpp"
+#include "study/first_order.hpp"
 
 namespace probewright::study {
 
@@ -41,14 +42,15 @@ std::string placeName(const SourcePlace& place, const std::string& mainProgram) 
 
 }  // namespace
 
-std::vector<Observation> observationsOf(const control::Journal& journal, const std::string& mainProgram,
-                                        std::string_view prefix) {
+std::vector<Observation> observationsOf(const control::Journal& journal, const Observed& observed) {
+  const std::string &mainProgram = observed.mainProgram, &prefix = observed.prefix;
   std::vector<Observation> observations;
   std::set<std::string> keys;
   std::map<std::string, int> passes;
   std::map<std::string, const control::WriteRecord*> writes;
   const auto write = [&](const control::WriteRecord& record) { writes[record.table + " " + record.entry] = &record; };
-  for (const control::CycleRecord& cycle : journal.cycles) {
+  for (std::size_t c = 0; c < journal.cycles.size(); ++c) {
+    const control::CycleRecord& cycle = journal.cycles[c];
     std::string call = fmt::format("{}{}@{}", prefix, cycle.name, placeName(cycle.place, mainProgram));
     if (const int pass = ++passes[call]; pass > 1) call += fmt::format("#{}", pass);
     const std::vector<bool> isMain = cycles::mainResults(cycle);
@@ -57,6 +59,13 @@ std::vector<Observation> observationsOf(const control::Journal& journal, const s
       if (!isAnswer(result.kind.role) || !std::isfinite(result.value)) continue;
       std::string key = call + " " + result.name;
       if (!keys.insert(key).second) continue;
+      std::optional<double> truth, firstOrder;
+      if (c < observed.truths.size() && i < observed.truths[c].results.size() && observed.truths[c].results[i])
+        truth = observed.truths[c].results[i]->value;
+      if (observed.scatter > 0) {
+        const auto sensitivity = sensitivityToTouches(cycle, result);
+        if (sensitivity) firstOrder = *sensitivity * observed.scatter;
+      }
       observations.push_back({{.key = std::move(key),
                                .label = result.meaning,
                                .unit = result.unit,
@@ -64,8 +73,10 @@ std::vector<Observation> observationsOf(const control::Journal& journal, const s
                                .table = false,
                                .nominal = result.nominal,
                                .lower = result.lowerLimit,
-                               .upper = result.upperLimit},
-                              result.value});
+                               .upper = result.upperLimit,
+                               .firstOrder = firstOrder},
+                              result.value,
+                              truth});
     }
     for (const control::WriteRecord& record : cycle.writes)
       write(record);
@@ -82,8 +93,10 @@ std::vector<Observation> observationsOf(const control::Journal& journal, const s
                              .table = true,
                              .nominal = std::nullopt,
                              .lower = std::nullopt,
-                             .upper = std::nullopt},
-                            *value});
+                             .upper = std::nullopt,
+                             .firstOrder = std::nullopt},
+                            *value,
+                            std::nullopt});
   }
   return observations;
 }

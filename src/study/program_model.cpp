@@ -14,7 +14,9 @@
 #include "camera/virtual_camera.hpp"
 #include "session/run.hpp"
 #include "simulation/virtual_machine.hpp"
+#include "study/first_order.hpp"
 #include "study/observations.hpp"
+#include "truth/true_values.hpp"
 
 namespace probewright::study {
 
@@ -97,6 +99,8 @@ public:
         sources_(study.sources),
         control_(options.control),
         stop_(options.import.stop),
+        trueValues_(study.trueValues),
+        scatter_(scatterOf(document_.asWritten().world.truth)),
         solids_(built.solids),
         bodies_(built.bodies),
         desks_([this] {
@@ -124,6 +128,8 @@ private:
   std::vector<Source> sources_;
   std::optional<control::ControlKind> control_;
   std::stop_token stop_;
+  bool trueValues_;
+  double scatter_;
   std::vector<simulation::PlacedSolid> solids_;  ///< as built: those of the world, then the table
   std::vector<simulation::MachineBody> bodies_;
   std::vector<bool> changesBeliefs_;
@@ -196,7 +202,7 @@ std::unique_ptr<simulation::VirtualMachine> Trials::machineOf(const setup::Setup
                       solids_.end());
   truth.bodies = bodies_;
   auto machine = std::make_unique<simulation::VirtualMachine>(std::move(truth));
-  machine->recordPath(false);
+  machine->recordPath(trueValues_);
   if (setup.world.toolInSpindle) {
     const auto inserted = machine->insertTool({*setup.world.toolInSpindle, {}});
     if (inserted.end != machine::ToolChangeEnd::Changed) {
@@ -226,7 +232,12 @@ std::optional<session::RunOutcome> Trials::carryOut(const Script& script, const 
     refuse(outcome, mistake->message);
     return std::nullopt;
   }
-  for (Observation& observation : observationsOf(ran.journal, script.name, prefix))
+  Observed observed{script.name, std::string(prefix), scatter_, {}};
+  if (trueValues_) {
+    const auto touched = truth::touchedCycles(ran.journal, machine->truth(), machine->path());
+    observed.truths = truth::trueValues(ran.journal, touched, machine->truth());
+  }
+  for (Observation& observation : observationsOf(ran.journal, observed))
     outcome.observations.push_back(std::move(observation));
   if (ran.result.end == execution::RunEnd::Finished) return ran;
   if (ran.result.end == execution::RunEnd::Cancelled) {

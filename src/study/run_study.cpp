@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "study/adaptive.hpp"
@@ -27,13 +28,19 @@ bool means(const std::string& result, const std::string& key) {
 class Runner {
 public:
   Runner(const Study& study, const toml::table& setup, const Model& model, const StudyRun& run)
-      : study_(study), setup_(setup), model_(model), run_(run), sampler_(study), table_(study.sources.size()) {}
+      : study_(study),
+        setup_(setup),
+        model_(model),
+        run_(run),
+        sampler_(study),
+        table_(study.sources.size()),
+        crew_(run.crew ? run.crew : threadCrew(0, run.stop)) {}
 
   StudyResult run() {
     result_.study = study_;
     result_.units = sampler_.units();
     const Draw estimate = sampler_.estimate();
-    const std::vector<Outcome> estimated = runTrials(model_, {&estimate, 1}, run_.threads, run_.stop);
+    const std::vector<Outcome> estimated = crew_(model_, {&estimate, 1});
     if (!estimated.empty()) estimate_ = estimated.front();
     noteEstimate();
     drawTrials();
@@ -62,11 +69,12 @@ private:
          "run the program on the setup alone first", {study_.file});
   }
 
-  std::optional<double> estimateOf(const std::string& key) const {
-    if (!estimate_) return std::nullopt;
-    for (const Observation& observation : estimate_->observations)
-      if (observation.of.key == key) return observation.value;
-    return std::nullopt;
+  /// What the trial at the estimates answers; null if nothing.
+  const Observation* estimateOf(const std::string& key) const {
+    if (!estimate_) return nullptr;
+    const auto found =
+        std::ranges::find_if(estimate_->observations, [&](const Observation& each) { return each.of.key == key; });
+    return found == estimate_->observations.end() ? nullptr : &*found;
   }
 
   void tell(const std::string& phase, std::uint64_t done, std::uint64_t of) const {
@@ -75,12 +83,8 @@ private:
 
   /// An outcome that was kept knows the names of its results only.
   Outcome described(Outcome outcome) const {
-    if (!estimate_) return outcome;
-    for (Observation& observation : outcome.observations) {
-      const auto same = std::ranges::find_if(
-          estimate_->observations, [&](const Observation& each) { return each.of.key == observation.of.key; });
-      if (same != estimate_->observations.end()) observation.of = same->of;
-    }
+    for (Observation& observation : outcome.observations)
+      if (const Observation* same = estimateOf(observation.of.key)) observation.of = same->of;
     return outcome;
   }
 
@@ -99,7 +103,7 @@ private:
       while (begin + outcomes.size() < run_.done.size() && outcomes.size() < draws.size())
         outcomes.push_back(described(run_.done[begin + outcomes.size()]));
       const std::span<const Draw> rest(draws.data() + outcomes.size(), draws.size() - outcomes.size());
-      std::vector<Outcome> fresh = runTrials(model_, rest, run_.threads, run_.stop);
+      std::vector<Outcome> fresh = crew_(model_, rest);
       const bool any = !fresh.empty();
       std::ranges::move(fresh, std::back_inserter(outcomes));
       for (std::size_t i = 0; i < outcomes.size(); ++i)
@@ -169,10 +173,20 @@ private:
     return truths;
   }
 
+  /// What the virtual machine knows; empty unless it is the true value of every trial: where it knows only those that
+  /// are near, errors would look smaller than they are.
+  std::vector<double> truthsOfMachine(std::size_t i) const {
+    const std::vector<double>&values = table_.values(i), &truths = table_.truths(i);
+    if (truths.empty()) return {};
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (!std::isnan(values[k]) && std::isnan(truths[k])) return {};
+    return truths;
+  }
+
   Answer answerOf(std::size_t i) {
     Answer answer;
     answer.of = table_.characteristics()[i];
-    answer.estimate = estimateOf(answer.of.key);
+    if (const Observation* estimate = estimateOf(answer.of.key)) answer.estimate = estimate->value;
     const std::vector<double>& values = table_.values(i);
     answer.values = summarize(values, study_.coverage);
     answer.histogram = histogramOf(values);
@@ -185,6 +199,7 @@ private:
       if (measurand->upper) answer.of.upper = measurand->upper;
       truths = truthsOf(*measurand);
     }
+    if (truths.empty()) truths = truthsOfMachine(i);
     if (!truths.empty()) {
       std::vector<double> errors(values.size());
       std::vector<double> counted;
@@ -261,20 +276,52 @@ private:
   }
 
   RunSettings settings(const std::string& phase) const {
-    return {run_.threads, run_.stop, [this, phase](std::uint64_t done, std::uint64_t of) { tell(phase, done, of); }};
+    return {crew_, [this, phase](std::uint64_t done, std::uint64_t of) { tell(phase, done, of); }};
+  }
+
+  /// The model with errors in place of the values of results whose truth is known: shares are those of u.
+  Model erring() const {
+    std::map<std::string, const Measurand*> known;
+    for (const Answer& answer : result_.answers)
+      if (answer.error) known[answer.of.key] = measurandOf(answer.of.key);
+    return [this, known](const Draw& draw) {
+      Outcome outcome = model_(draw);
+      for (Observation& observation : outcome.observations) {
+        const auto found = known.find(observation.of.key);
+        if (found == known.end()) continue;
+        std::optional<double> truth;
+        if (found->second != nullptr) truth = truthAt(*found->second, draw.inputs);
+        if (!truth) truth = observation.truth;
+        observation.value = truth ? observation.value - *truth : missing;
+      }
+      return outcome;
+    };
+  }
+
+  /// The random effects of the machine come last among the units.
+  void compareWithFirstOrder() {
+    for (Answer& answer : result_.answers) {
+      const auto& scatter = answer.contributions.back().uncertainty;
+      if (!answer.of.firstOrder || !scatter) continue;
+      // A standard deviation of n trials is known to 1 / root(2 n); three times that.
+      const double unsure = 3 / std::sqrt(2 * static_cast<double>(study_.sensitivityTrials));
+      answer.firstOrderHolds = std::abs(*answer.of.firstOrder - *scatter) <= (0.05 + unsure) * *scatter;
+    }
   }
 
   void findShares() {
     const auto& characteristics = table_.characteristics();
     if (study_.sensitivity == Sensitivity::None) return;
+    const Model model = erring();
     if (auto found =
-            oneAtATime(model_, sampler_, characteristics, study_.sensitivityTrials, settings("one source at a time"))) {
+            oneAtATime(model, sampler_, characteristics, study_.sensitivityTrials, settings("one source at a time"))) {
       for (std::size_t i = 0; i < result_.answers.size(); ++i)
         result_.answers[i].contributions = std::move((*found)[i]);
+      compareWithFirstOrder();
     }
     if (study_.sensitivity != Sensitivity::Sobol || run_.stop.stop_requested()) return;
     if (auto found =
-            sobolIndices(model_, sampler_, characteristics, study_.sensitivityTrials, settings("Sobol indices"))) {
+            sobolIndices(model, sampler_, characteristics, study_.sensitivityTrials, settings("Sobol indices"))) {
       for (std::size_t i = 0; i < result_.answers.size(); ++i)
         result_.answers[i].indices = std::move((*found)[i]);
     }
@@ -285,7 +332,7 @@ private:
     TrialTable table(study_.sources.size());
     for (std::size_t begin = 0; begin < draws.size(); begin += stretch) {
       const std::span<const Draw> part(draws.data() + begin, std::min<std::size_t>(stretch, draws.size() - begin));
-      const auto outcomes = runTrials(model_, part, run_.threads, run_.stop);
+      const auto outcomes = crew_(model_, part);
       if (outcomes.size() < part.size()) return std::nullopt;
       for (std::size_t i = 0; i < outcomes.size(); ++i)
         table.add(part[i], outcomes[i]);
@@ -313,7 +360,9 @@ private:
       const auto tolerance = width(answer);
       if (!place || !tolerance) continue;
       const Measurand* measurand = measurandOf(answer.of.key);
-      const auto truth = measurand == nullptr ? std::nullopt : truthAt(*measurand, sampler_.estimate().inputs);
+      auto truth = measurand == nullptr ? std::nullopt : truthAt(*measurand, sampler_.estimate().inputs);
+      if (const Observation* estimate = estimateOf(answer.of.key); !truth && estimate != nullptr)
+        truth = estimate->truth;
       const double reference = truth.value_or(answer.estimate.value_or(0));
       if (auto made = type1(present(table->values(*place)), reference, *tolerance)) answer.type1 = *made;
     }
@@ -359,6 +408,7 @@ private:
   const StudyRun& run_;
   Sampler sampler_;
   TrialTable table_;
+  Crew crew_;
   std::optional<Outcome> estimate_;
   std::vector<bool> stable_;
   StudyResult result_;

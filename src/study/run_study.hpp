@@ -7,6 +7,7 @@
 
 #include "study/capability.hpp"
 #include "study/conformity.hpp"
+#include "study/crew.hpp"
 #include "study/sensitivity.hpp"
 #include "study/statistics.hpp"
 #include "study/study.hpp"
@@ -40,6 +41,9 @@ struct Answer {
 
   std::vector<Contribution> contributions;           ///< of each unit of the sampler; empty if not asked for
   std::vector<std::optional<SobolIndices>> indices;  ///< likewise
+  /// Where the scatter of the probe is known to first order: whether trials agree with that to 5 %, as far as they can
+  /// tell.
+  std::optional<bool> firstOrderHolds;
   std::optional<Type1> type1;
   std::optional<GaugeRR> gauge;
 };
@@ -76,7 +80,7 @@ struct StudyResult {
 using Report = std::function<void(const std::string& phase, std::uint64_t done, std::uint64_t of)>;
 
 struct StudyRun {
-  int threads = 0;  ///< 0: all cores
+  Crew crew;  ///< none: the threads of all cores, until `stop`
   std::stop_token stop;
   Report report;
   /// Of each stretch of trials, once it is done: to keep them.

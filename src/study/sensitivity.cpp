@@ -38,7 +38,7 @@ bool runRows(const Model& model, const std::vector<Draw>& draws, const Columns& 
   rows.clear();
   for (std::size_t begin = 0; begin < draws.size(); begin += chunk) {
     const std::span<const Draw> part(draws.data() + begin, std::min(chunk, draws.size() - begin));
-    const std::vector<Outcome> outcomes = runTrials(model, part, settings.threads, settings.stop);
+    const std::vector<Outcome> outcomes = settings.crew(model, part);
     if (outcomes.size() < part.size()) return false;
     for (const Outcome& outcome : outcomes)
       rows.push_back(columns.of(outcome));

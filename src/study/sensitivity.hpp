@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
+#include "study/crew.hpp"
 #include "study/trial.hpp"
 
 /// How much of the uncertainty of a result each source brings.
@@ -29,8 +29,7 @@ struct SobolIndices {
 using Progress = std::function<void(std::uint64_t done, std::uint64_t of)>;
 
 struct RunSettings {
-  int threads = 0;  ///< 0: all cores
-  std::stop_token stop;
+  Crew crew;
   Progress progress;
 };
 

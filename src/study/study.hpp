@@ -69,6 +69,7 @@ struct Study {
   double guardFactor = 1.65;  ///< guard band of ISO 14253-1 in standard uncertainties
   Sensitivity sensitivity = Sensitivity::OneAtATime;
   std::uint64_t sensitivityTrials = 1'000;
+  bool trueValues = true;           ///< the virtual machine tells the true values of the trials' results
   std::filesystem::path calibrate;  ///< runs first in each trial; empty: nothing does
   std::vector<Source> sources;
   std::vector<Group> groups;

@@ -119,6 +119,7 @@ private:
     static const std::vector<std::string> kinds = {"none", "one-at-a-time", "sobol"};
     study_.sensitivity = static_cast<Sensitivity>(root_.choice("sensitivity", kinds).value_or(1));
     study_.sensitivityTrials = count(root_, "sensitivity_trials", study_.sensitivityTrials, 10);
+    study_.trueValues = root_.boolean("true_values").value_or(study_.trueValues);
     if (const auto calibrate = root_.text("calibrate")) {
       study_.calibrate = resolve(*calibrate);
       study_.inputs.push_back(study_.calibrate);

@@ -108,6 +108,8 @@ json answerJson(const Answer& answer, const StudyResult& result) {
                   {{"low", number(answer.histogram.low)},
                    {"width", number(answer.histogram.width)},
                    {"counts", answer.histogram.counts}}}};
+  if (answer.of.firstOrder) object["firstOrder"] = {{"standardUncertainty", number(*answer.of.firstOrder)}};
+  if (answer.firstOrderHolds) object["firstOrder"]["holds"] = *answer.firstOrderHolds;
   if (answer.truth) object["truth"] = number(*answer.truth);
   if (answer.error) {
     object["bias"] = number(answer.error->mean);

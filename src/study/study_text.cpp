@@ -108,8 +108,13 @@ std::string budgetTable(const StudyResult& result, const Answer& answer) {
     rows.push_back(std::move(row));
   }
   std::string text = fmt::format("\nUncertainty budget of {} ({})\n", answer.of.key, answer.of.label) + table(rows);
+  if (answer.of.firstOrder && answer.firstOrderHolds == false) {
+    text += fmt::format(
+        "  `run --uncertainty` would say {:.2g} {} for the random effects: by more than 5 % another value\n",
+        *answer.of.firstOrder, answer.of.unit);
+  }
   return text + fmt::format("  together {:.2g} {}; in the trials, with all of them at once, {:.2g}\n",
-                            std::sqrt(squares), answer.of.unit, answer.values.deviation);
+                            std::sqrt(squares), answer.of.unit, answer.standardUncertainty);
 }
 
 std::string limitsOf(const Tolerance& tolerance) {

@@ -62,13 +62,19 @@ void TrialTable::add(const Draw& draw, const Outcome& outcome) {
     if (isNew) {
       characteristics_.push_back(observation.of);
       values_.emplace_back(place, missing);
+      truths_.emplace_back();
     }
     std::vector<double>& column = values_[found->second];
     column.resize(place, missing);
     column.push_back(observation.value);
+    if (!observation.truth) continue;
+    truths_[found->second].resize(place, missing);
+    truths_[found->second].push_back(*observation.truth);
   }
   for (std::vector<double>& column : values_)
     column.resize(place + 1, missing);
+  for (std::vector<double>& column : truths_)
+    if (!column.empty()) column.resize(place + 1, missing);
   for (std::size_t i = 0; i < inputs_.size(); ++i)
     inputs_[i].push_back(i < draw.inputs.size() ? draw.inputs[i] : missing);
   trials_.push_back(draw.trial);

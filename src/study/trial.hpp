@@ -31,11 +31,14 @@ struct Characteristic {
   bool main = false;   ///< an answer that the program was written for
   bool table = false;  ///< an entry of a table
   std::optional<double> nominal, lower, upper;
+  /// Standard uncertainty from the scatter of the probe alone, to first order; nothing where that is not known.
+  std::optional<double> firstOrder;
 };
 
 struct Observation {
   Characteristic of;
   double value = 0;
+  std::optional<double> truth = std::nullopt;  ///< the true value in this trial, where the virtual machine knows it
 };
 
 enum class TrialEnd {
@@ -97,6 +100,8 @@ public:
   std::size_t size() const { return trials_.size(); }
   const std::vector<Characteristic>& characteristics() const { return characteristics_; }
   const std::vector<double>& values(std::size_t characteristic) const { return values_[characteristic]; }
+  /// The true values beside values(); empty if no trial knows one.
+  const std::vector<double>& truths(std::size_t characteristic) const { return truths_[characteristic]; }
   const std::vector<double>& inputs(std::size_t source) const { return inputs_[source]; }
   const std::vector<std::uint64_t>& trials() const { return trials_; }
   const std::vector<TrialEnd>& ends() const { return ends_; }
@@ -107,7 +112,7 @@ public:
 private:
   std::vector<Characteristic> characteristics_;
   std::map<std::string, std::size_t> places_;
-  std::vector<std::vector<double>> values_, inputs_;
+  std::vector<std::vector<double>> values_, truths_, inputs_;
   std::vector<std::uint64_t> trials_;
   std::vector<TrialEnd> ends_;
   std::map<std::string, std::vector<std::size_t>> stops_;

@@ -21,6 +21,8 @@ namespace {
 constexpr std::string_view heading = "# probewright trials 1 ";
 constexpr std::array<const char*, 4> endNames = {"finished", "alarm", "refused", "cancelled"};
 constexpr std::size_t fixedColumns = 3;
+/// Before the name of a column that holds the true values of another.
+constexpr std::string_view truthOf = "truth of ";
 
 std::string inQuotes(std::string_view text) {
   std::string result = "\"";
@@ -105,13 +107,18 @@ std::string TrialWriter::rows(const TrialTable& table, std::size_t begin) const 
       text += "," + numberText(table.inputs(source)[i]);
     for (std::size_t column = 0; column < table.characteristics().size(); ++column)
       text += "," + numberText(table.values(column)[i]);
+    for (std::size_t column = 0; column < table.characteristics().size(); ++column)
+      if (!table.truths(column).empty()) text += "," + numberText(table.truths(column)[i]);
     text += "\n";
   }
   return text;
 }
 
 Result<void> TrialWriter::write(const TrialTable& table) {
-  const bool append = begun_ && columns_ == table.characteristics().size();
+  std::size_t columns = table.characteristics().size();
+  for (std::size_t column = 0; column < table.characteristics().size(); ++column)
+    columns += table.truths(column).empty() ? 0 : 1;
+  const bool append = begun_ && columns_ == columns;
   std::string text;
   if (!append) {
     text = fmt::format("{}{}\ntrial,end,why", heading, mark_);
@@ -119,13 +126,16 @@ Result<void> TrialWriter::write(const TrialTable& table) {
       text += "," + inQuotes("source " + source);
     for (const Characteristic& characteristic : table.characteristics())
       text += "," + inQuotes(characteristic.key);
+    for (std::size_t column = 0; column < table.characteristics().size(); ++column)
+      if (!table.truths(column).empty())
+        text += "," + inQuotes(std::string(truthOf) + table.characteristics()[column].key);
     text += "\n";
   }
   text += rows(table, append ? written_ : 0);
   if (const Result<void> done = put(path_, text, append); !done) return done;
   begun_ = true;
   written_ = table.size();
-  columns_ = table.characteristics().size();
+  columns_ = columns;
   return {};
 }
 
@@ -161,11 +171,18 @@ Result<std::vector<Outcome>> readTrials(const fs::path& path, std::string_view m
     bool whole = true;
     for (std::size_t i = fixedColumns + sources; i < cells.size(); ++i) {
       if (cells[i].empty()) continue;
-      Observation observation;
-      observation.of.key = columns[i];
+      double value = 0;
       const char* last = cells[i].data() + cells[i].size();
-      const auto read = std::from_chars(cells[i].data(), last, observation.value);
+      const auto read = std::from_chars(cells[i].data(), last, value);
       whole = whole && read.ec == std::errc() && read.ptr == last;
+      const bool isTruth = columns[i].starts_with(truthOf);
+      const std::string key = isTruth ? columns[i].substr(truthOf.size()) : columns[i];
+      const auto same = std::ranges::find_if(outcome.observations, [&](const auto& o) { return o.of.key == key; });
+      if (isTruth && same != outcome.observations.end()) same->truth = value;
+      if (isTruth) continue;
+      Observation observation;
+      observation.of.key = key;
+      observation.value = value;
       outcome.observations.push_back(std::move(observation));
     }
     if (!whole) break;

@@ -98,6 +98,34 @@ TEST(StudyCommand, GoesOnWithResumeAndOnlyWithTheSameStudy) {
   EXPECT_THAT(other.errors, ::testing::HasSubstr("another study"));
 }
 
+TEST(StudyCommand, SharesTrialsAmongRanksOfMpi) {
+  if (!std::filesystem::exists(std::filesystem::path(PROBEWRIGHT_PROGRAM).parent_path() / "probewright-mpi.so"))
+    GTEST_SKIP() << "built without MPI";
+  const Folder folder;
+  const std::vector<std::string> words = {"study",    folder.file("p.h", blockProgram("+20.1", "+19.9")),
+                                          "--setup",  folder.file("s.toml", blockSetup()),
+                                          "--study",  folder.file("t.toml", study),
+                                          "--repeat", "5"};
+  const auto ranks = [&](int count, const std::string& out) {
+    std::string command =
+        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe --mca btl "
+        "self,vader --mca rmaps_base_oversubscribe 1 -n " +
+        std::to_string(count) + " " PROBEWRIGHT_PROGRAM;
+    for (const std::string& word : words)
+      command += " " + word;
+    command += " --threads 1 --out " + (folder / out).string() + " >" + (folder / (out + ".txt")).string() + " 2>&1";
+    return std::system(command.c_str());
+  };
+  ASSERT_EQ(ranks(1, "one"), 0) << textOf(folder / "one.txt");
+  ASSERT_EQ(ranks(2, "two"), 0) << textOf(folder / "two.txt");
+  ASSERT_EQ(ranks(3, "three"), 0) << textOf(folder / "three.txt");
+  const std::string expected = textOf(folder / "one/study.json");
+  EXPECT_NE(expected, "");
+  EXPECT_EQ(textOf(folder / "two/study.json"), expected);
+  EXPECT_EQ(textOf(folder / "three/study.json"), expected);
+  EXPECT_EQ(textOf(folder / "two/trials.csv"), textOf(folder / "one/trials.csv"));
+}
+
 TEST(StudyCommand, NeverReplacesWhatIsNotOfAStudy) {
   const Folder folder;
   std::filesystem::create_directory(folder / "out");

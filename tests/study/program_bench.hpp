@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -17,7 +18,9 @@ namespace probewright::study::testing {
 /// A folder that goes with the test.
 class TestFolder {
 public:
-  TestFolder() : path_(std::filesystem::temp_directory_path() / ("study-test-" + std::to_string(getpid()))) {
+  TestFolder()
+      : path_(std::filesystem::temp_directory_path() /
+              ("study-test-" + std::to_string(getpid()) + "-" + std::to_string(++count()))) {
     std::filesystem::create_directories(path_);
   }
   ~TestFolder() {
@@ -33,6 +36,10 @@ public:
   const std::filesystem::path& path() const { return path_; }
 
 private:
+  static std::atomic<int>& count() {
+    static std::atomic<int> made{0};
+    return made;
+  }
   std::filesystem::path path_;
 };
 

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <barrier>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "study/program_bench.hpp"
 #include "study/study_json.hpp"
@@ -24,9 +26,9 @@ TEST(ProgramStudy, GivesTheSameBitsOnAnyNumberOfThreads) {
   const std::string study =
       "trials = 150\nsensitivity = \"sobol\"\nsensitivity_trials = 20\n[gauge]\nparts = 2\n" + place;
   StudyRun one, two, three;
-  one.threads = 1;
-  two.threads = 2;
-  three.threads = 3;
+  one.crew = threadCrew(1, {});
+  two.crew = threadCrew(2, {});
+  three.crew = threadCrew(3, {});
   one.repeat = two.repeat = three.repeat = 5;
   const std::string expected = jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study, one));
   EXPECT_EQ(jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study, two)), expected);
@@ -161,6 +163,90 @@ TEST(ProgramStudy, GoesOnWhereItWasBrokenOff) {
   EXPECT_FALSE(readTrials(folder.path() / "trials.csv", "another"));
   EXPECT_TRUE(whyNotTrials(folder.file("mine.csv", "a,b\n")));
   EXPECT_FALSE(whyNotTrials(folder.path() / "trials.csv"));
+}
+
+/// Where the part lies varies by a millimetre; the machine knows where, and what is left is the scatter.
+TEST(ProgramStudy, TakesTrueValuesFromTheVirtualMachine) {
+  const std::string aside = "[[source]]\nquantity = \"part.pose.x\"\ndistribution = \"uniform\"\nhalf_width = 1\n";
+  const StudyResult result = studyOfProgram(plateSetup("repeatability = 0.001\n"), program(bore(3, 4)),
+                                            "trials = 400\nsensitivity_trials = 400\n" + aside);
+  const Answer& found = answer(result, "421@4 Q151");
+  EXPECT_NEAR(found.values.deviation, 1 / std::sqrt(3.0), 0.08);
+  ASSERT_TRUE(found.error);
+  EXPECT_NEAR(found.standardUncertainty, 0.001 / std::sqrt(2.0), 0.15 * 0.001);
+  EXPECT_NEAR(found.error->mean, 0, 5 * 0.001 / std::sqrt(800.0));
+  // The budget is that of the error, too: all of it is scatter.
+  EXPECT_LT(found.contributions.front().uncertainty.value(), 1e-5);
+  EXPECT_NEAR(found.contributions.back().uncertainty.value(), 0.001 / std::sqrt(2.0), 0.15 * 0.001);
+  EXPECT_EQ(found.firstOrderHolds, true);
+  const StudyResult blind = studyOfProgram(plateSetup("repeatability = 0.001\n"), program(bore(3, 4)),
+                                           "trials = 20\nsensitivity = \"none\"\ntrue_values = false\n" + aside);
+  EXPECT_FALSE(answer(blind, "421@4 Q151").error);
+}
+
+/// Ranks that exchange messages, without MPI: each is a thread here, and all come to what one process finds.
+TEST(ProgramStudy, GivesTheSameBitsOnAnyNumberOfRanks) {
+  const std::string study = "trials = 150\nsensitivity_trials = 20\n" + place;
+  const std::string expected = jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study));
+  for (const int size : {2, 4}) {
+    std::barrier everybody(size);
+    std::vector<std::string> board(static_cast<std::size_t>(size)), found(static_cast<std::size_t>(size));
+    std::vector<std::thread> threads;
+    for (int rank = 0; rank < size; ++rank) {
+      threads.emplace_back([&, rank] {
+        StudyRun run;
+        run.crew = rankCrew({rank, size,
+                             [&, rank](const std::string& mine) {
+                               board[static_cast<std::size_t>(rank)] = mine;
+                               everybody.arrive_and_wait();
+                               const std::vector<std::string> all = board;
+                               everybody.arrive_and_wait();
+                               return all;
+                             }},
+                            1, {}, {});
+        found[static_cast<std::size_t>(rank)] = jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study, run));
+      });
+    }
+    for (std::thread& thread : threads)
+      thread.join();
+    for (const std::string& each : found)
+      EXPECT_EQ(each, expected);
+  }
+}
+
+/// One of two ranks is stopped: both end after the same trial.
+TEST(ProgramStudy, StopsAllRanksAfterTheSameTrial) {
+  const std::string study = "trials = 5000\nsensitivity = \"none\"\n" + place;
+  std::barrier everybody(2);
+  std::vector<std::string> board(2);
+  std::vector<StudyResult> found(2);
+  std::stop_source stopOfTheSecond;
+  std::vector<std::thread> threads;
+  for (int rank = 0; rank < 2; ++rank) {
+    threads.emplace_back([&, rank] {
+      std::stop_source all;
+      StudyRun run;
+      run.stop = all.get_token();
+      int stretches = 0;
+      run.crew = rankCrew({rank, 2,
+                           [&](const std::string& mine) {
+                             board[static_cast<std::size_t>(rank)] = mine;
+                             everybody.arrive_and_wait();
+                             const std::vector<std::string> both = board;
+                             if (rank == 1 && ++stretches == 3) stopOfTheSecond.request_stop();
+                             everybody.arrive_and_wait();
+                             return both;
+                           }},
+                          1, rank == 1 ? stopOfTheSecond.get_token() : std::stop_token(), all);
+      found[static_cast<std::size_t>(rank)] = studyOfProgram(plateSetup(), program(bore(3, 4)), study, run);
+    });
+  }
+  for (std::thread& thread : threads)
+    thread.join();
+  EXPECT_EQ(found[0].end, StudyEnd::Interrupted);
+  EXPECT_LT(found[0].trials, 5000U);
+  EXPECT_GE(found[0].trials, 1000U);
+  EXPECT_EQ(jsonOf(found[0]), jsonOf(found[1]));
 }
 
 TEST(ProgramStudy, NamesMeasurandsThatNoResultFits) {

@@ -70,15 +70,15 @@ TEST(Jcgm101, GaugeBlockCalibration) {
                          source("expansion", Uniform{9.5e-6, 13.5e-6}), source("temperature", Normal{-0.1, 0.2}),
                          source("cycle", UShaped{-0.5, 0.5}), source("expansions", InexactLimits{-1e-6, 1e-6, 0.1e-6}),
                          source("temperatures", InexactLimits{-0.050, 0.050, 0.025})},
-                        200'000);
+                        60'000);
   study.coverage = 0.99;
   const Answer y = answerOf(study, [](const std::vector<double>& x) {
     return x[0] + x[1] + x[2] + x[3] - x[0] * (x[7] * (x[5] + x[6]) + x[4] * x[8]) - 50'000'000;
   });
   EXPECT_NEAR(y.values.mean, 838, 0.5);
-  EXPECT_NEAR(y.values.deviation, 36, 0.5);
-  EXPECT_NEAR(y.values.shortest->low, 745, 2);
-  EXPECT_NEAR(y.values.shortest->high, 932, 2);
+  EXPECT_NEAR(y.values.deviation, 36, 0.7);
+  EXPECT_NEAR(y.values.shortest->low, 745, 4);
+  EXPECT_NEAR(y.values.shortest->high, 932, 4);
 }
 
 TEST(Jcgm101, AdaptiveProcedureEndsWhenTwoDigitsAreStable) {
