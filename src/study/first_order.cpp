@@ -97,6 +97,9 @@ std::optional<double> byPairs(const std::vector<const TouchRecord*>& touches, co
         variance += std::pow(touches[i]->direction[along == Along::First ? 0 : 1], 2) / 2;
       return variance > 1e-9 ? std::optional(std::sqrt(variance)) : std::nullopt;
     }
+    case Quantity::Coordinate:  // of the middle between the two
+      return touches.size() == 2 && result.kind.of.along == Along::Measuring ? std::optional(std::sqrt(0.5))
+                                                                             : std::nullopt;
     default:
       return std::nullopt;
   }

@@ -210,10 +210,6 @@ std::unique_ptr<simulation::VirtualMachine> Trials::machineOf(const setup::Setup
       return nullptr;
     }
   }
-  if (const auto contact = machine->bodyContact()) {
-    refuse(outcome, "the machine cannot start like this: " + *contact);
-    return nullptr;
-  }
   if (setup.camera) machine->fit(std::make_unique<camera::VirtualCamera>(*machine, *setup.camera));
   return machine;
 }

@@ -20,7 +20,11 @@ distribution = "uniform"
 half_width = 0.3
 )";
 
-std::string jsonOf(const StudyResult& result) { return studyJson(result, {"p.h", "setup.toml", "test"}).dump(); }
+/// Without the name of the folder, which is another one in each study.
+std::string jsonOf(StudyResult result) {
+  result.study.file.clear();
+  return studyJson(result, {"p.h", "setup.toml", "test"}).dump();
+}
 
 TEST(ProgramStudy, GivesTheSameBitsOnAnyNumberOfThreads) {
   const std::string study =
@@ -31,8 +35,8 @@ TEST(ProgramStudy, GivesTheSameBitsOnAnyNumberOfThreads) {
   three.crew = threadCrew(3, {});
   one.repeat = two.repeat = three.repeat = 5;
   const std::string expected = jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study, one));
-  EXPECT_EQ(jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study, two)), expected);
-  EXPECT_EQ(jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study, three)), expected);
+  EXPECT_TRUE(jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study, two)) == expected);
+  EXPECT_TRUE(jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study, three)) == expected);
 }
 
 TEST(ProgramStudy, KeepsBeliefsWhereTheTruthVaries) {
@@ -159,7 +163,7 @@ TEST(ProgramStudy, GoesOnWhereItWasBrokenOff) {
   EXPECT_EQ(kept->size(), broken.trials);
   StudyRun rest;
   rest.done = std::move(*kept);
-  EXPECT_EQ(jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study, rest)), expected);
+  EXPECT_TRUE(jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study, rest)) == expected);
   EXPECT_FALSE(readTrials(folder.path() / "trials.csv", "another"));
   EXPECT_TRUE(whyNotTrials(folder.file("mine.csv", "a,b\n")));
   EXPECT_FALSE(whyNotTrials(folder.path() / "trials.csv"));
@@ -210,7 +214,7 @@ TEST(ProgramStudy, GivesTheSameBitsOnAnyNumberOfRanks) {
     for (std::thread& thread : threads)
       thread.join();
     for (const std::string& each : found)
-      EXPECT_EQ(each, expected);
+      EXPECT_TRUE(each == expected);
   }
 }
 
@@ -246,7 +250,7 @@ TEST(ProgramStudy, StopsAllRanksAfterTheSameTrial) {
   EXPECT_EQ(found[0].end, StudyEnd::Interrupted);
   EXPECT_LT(found[0].trials, 5000U);
   EXPECT_GE(found[0].trials, 1000U);
-  EXPECT_EQ(jsonOf(found[0]), jsonOf(found[1]));
+  EXPECT_TRUE(jsonOf(found[0]) == jsonOf(found[1]));
 }
 
 TEST(ProgramStudy, NamesMeasurandsThatNoResultFits) {

@@ -1,5 +1,8 @@
 #include "mpi_ranks.h"
 
+// The C interface alone.
+#define OMPI_SKIP_MPICXX 1
+#define MPICH_SKIP_MPICXX 1
 #include <mpi.h>
 
 #include <climits>
