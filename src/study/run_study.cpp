@@ -186,7 +186,11 @@ private:
   Answer answerOf(std::size_t i) {
     Answer answer;
     answer.of = table_.characteristics()[i];
-    if (const Observation* estimate = estimateOf(answer.of.key)) answer.estimate = estimate->value;
+    // What is said of a result may differ a little from trial to trial: that of the estimates counts.
+    if (const Observation* estimate = estimateOf(answer.of.key)) {
+      answer.of = estimate->of;
+      answer.estimate = estimate->value;
+    }
     const std::vector<double>& values = table_.values(i);
     answer.values = summarize(values, study_.coverage);
     answer.histogram = histogramOf(values);
