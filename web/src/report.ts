@@ -1,4 +1,8 @@
+import "./colours.css";
 import "./report.css";
+import "./view.css";
+import "./sheet.css";
+import "./paper.css";
 
 import { cameraShots } from "./camera";
 import { readReport, type Report } from "./data";
