@@ -279,8 +279,16 @@ int run(const RunArguments& arguments) {
   reports::PageOptions page;
   page.trace = &outcome.trace;
   page.language = arguments.language;
-  output.files.emplace_back(
-      "report.html", [&](const Sink& sink) { reports::writeReport(sink, outcome.journal, info, ran->scene, page); });
+  const Content report = [&](const Sink& sink) { reports::writeReport(sink, outcome.journal, info, ran->scene, page); };
+  output.files.emplace_back("report.html", report);
+  if (arguments.pdf) {
+    Result<std::string> pdf = reportPdf(chromium, report);
+    if (pdf) {
+      output.files.emplace_back(pdfFile, [bytes = std::move(*pdf)](const Sink& sink) { sink(bytes); });
+    } else {
+      print({pdf.error()});
+    }
+  }
   output.files.emplace_back("results.json", [&](const Sink& sink) {
     records::writeResults(sink, outcome.journal, info, records::Layout::Indented);
     sink("\n");

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include <string>
@@ -33,6 +35,16 @@ TEST(Pdf, HasThePagesOfTheReport) {
   EXPECT_TRUE(pdf.starts_with("%PDF-")) << answer.errors;
   EXPECT_GT(pdf.size(), 20'000U) << "with the picture of the part";
   EXPECT_THAT(pdf, HasSubstr("/Type /Page"));
+}
+
+TEST(Pdf, NeedsAChromiumBeforeTheRunBegins) {
+  const Folder folder;
+  setenv("PROBEWRIGHT_CHROMIUM", (folder / "none").c_str(), 1);
+  const Answer answer = run(folder, program, setup, {"--pdf"});
+  unsetenv("PROBEWRIGHT_CHROMIUM");
+  EXPECT_EQ(answer.exit, 2);
+  EXPECT_THAT(answer.errors, HasSubstr("apt-get install chromium"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/report.html"));
 }
 
 TEST(Report, IsInTheLanguageAndHasTheJobThatWereAskedFor) {
