@@ -142,11 +142,15 @@ const TouchedPoint* onlyFaceAlong(const TouchedCycle& touched, Eigen::Index axis
 CycleErrors errorsOf(const control::CycleRecord& record, const TouchedCycle& touched,
                      const records::CycleTruth& truth) {
   CycleErrors errors;
+  const bool several = std::ranges::any_of(record.results, [](const control::ResultRecord& result) {
+    return isPosition(result.kind.of.quantity) && result.kind.of.item > 1;
+  });
   bool planeMeasured = false;
   for (std::size_t i = 0; i < record.results.size(); ++i) {
     const control::ResultRecord& result = record.results[i];
     const control::Characteristic& of = result.kind.of;
-    if (result.kind.role != control::Role::Actual || of.item != 0 || of.system != control::System::Workpiece) continue;
+    if (result.kind.role != control::Role::Actual || of.system != control::System::Workpiece) continue;
+    if (of.item > (several ? 0 : 1)) continue;  // of several alike none alone decides
     const bool position = isPosition(of.quantity);
     planeMeasured = planeMeasured || of.quantity == Quantity::Centre || of.quantity == Quantity::Corner;
     if (!truth.results[i]) continue;
