@@ -42,6 +42,9 @@ async function open(name, { ready = "#machine main canvas", width = 1400, height
   page.on("request", (request) => {
     if (!/^(file|data|blob):/.test(request.url())) problems.push(`request of ${request.url()}`);
   });
+  // A busy machine draws slowly in software.
+  page.setDefaultTimeout(120_000);
+  page.setDefaultNavigationTimeout(120_000);
   await page.setViewport({ width, height });
   await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }]);
   await page.goto(pathToFileURL(resolve(samples, name)).href);
