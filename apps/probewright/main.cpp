@@ -104,7 +104,7 @@ void addJob(CLI::App& command, probewright::records::Job& job) {
             }
           },
           "For the head of the report, instead of [job] of the setup, as --job serial=0017; several times: " + known)
-      ->type_name("NAME=TEXT")
+      ->type_name("ENTRY")
       ->expected(1, 1)
       ->take_all()
       ->allow_extra_args(false);

@@ -23,7 +23,7 @@ TEST(CommandLine, NamesTheWordItDoesNotKnow) {
   EXPECT_THAT(probewright({"run"}).errors, HasSubstr("PROGRAM is required"));
   for (const auto& [option, value, message] :
        std::vector<std::array<std::string, 3>>{{"--on-stop", "foo", "foo is not one of continue, abort, ask"},
-                                               {"--language", "de", "de is not one of en, ru, sv, zh, pl"},
+                                               {"--language", "fr", "fr is not one of en, de, ru, sv, zh, pl"},
                                                {"--step-limit", "-1", "-1 is not a whole number of 0 or more"},
                                                {"--seed", "x", "x is not a whole number"}}) {
     const Answer answer = probewright({"run", program, "--setup", setup, option, value});
@@ -31,7 +31,7 @@ TEST(CommandLine, NamesTheWordItDoesNotKnow) {
     EXPECT_THAT(answer.errors, HasSubstr(message));
   }
   const std::string help = probewright({"run", "--help"}).output;
-  EXPECT_THAT(help, HasSubstr("Language of the control's logs: en, ru, sv, zh, pl"));
+  EXPECT_THAT(help, HasSubstr("(with de these are English): en, de, ru, sv, zh, pl"));
   EXPECT_EQ(help.find('\0'), std::string::npos);
   EXPECT_EQ(probewright({"run", program, "--setup", setup, "--language", "SV", "--out", "/dev/null/x"}).exit, 2)
       << "any case, but no folder";
