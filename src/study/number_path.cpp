@@ -61,10 +61,16 @@ Result<NumberPath> NumberPath::parse(std::string_view text) {
       }
     }
     if (path.steps_.size() > mostSteps) return notAPath(text);
-    if (i == text.size()) return path;
+    if (i == text.size()) break;
     if (text[i] != '.') return notAPath(text);
     ++i;
   }
+  const std::vector<std::string> keys = path.keys();
+  if (keys.size() > 1 && keys[0] == "machine" && keys[1] == "body") {
+    return fail(fmt::format("\"{}\" cannot vary: all trials share the bodies of the machine", text),
+                "vary the part, a fixture or a tool, or run once with another body");
+  }
+  return path;
 }
 
 std::vector<std::string> NumberPath::keys() const {

@@ -76,6 +76,13 @@ TEST(NumberPath, RefusesWhatIsNoPlace) {
     EXPECT_FALSE(NumberPath::parse(text)) << text;
 }
 
+TEST(NumberPaths, DoNotLeadToWhatAllTrialsShare) {
+  const auto body = NumberPath::parse("machine.body[HEAD].feature[1].size");
+  ASSERT_FALSE(body);
+  EXPECT_NE(body.error().message.find("cannot vary"), std::string::npos) << body.error().message;
+  EXPECT_TRUE(NumberPath::parse("machine.clearance"));
+}
+
 std::optional<Study> parsed(const std::string& text, Diagnostics& mistakes) {
   return parseStudy(text, "study.toml", setup(), mistakes);
 }
