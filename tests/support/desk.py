@@ -76,6 +76,7 @@ class Desk:
         except TimeoutError:
             pass  # it was shorter than a look
         self.until("the end of " + program, lambda s: s.interp_state == linuxcnc.INTERP_IDLE and s.inpos, seconds)
+        self.settle()
 
     def until_quiet(self, what, condition, seconds):
         end = time.monotonic() + seconds
@@ -93,3 +94,18 @@ class Desk:
         self.command.mdi(block)
         self.command.wait_complete(seconds)
         self.until(block, lambda s: s.interp_state == linuxcnc.INTERP_IDLE and s.inpos, seconds)
+        self.settle()
+
+    def settle(self):
+        """Waits until the joints stand: they follow the path by a few cycles and move on after it has ended."""
+        before = None
+
+        def stand(status):
+            nonlocal before
+            now = [*status.joint_position, *status.joint_actual_position, *status.position]
+            stood, before = now == before, now
+            return stood
+
+        time.sleep(0.05)  # more than the joints follow behind, so that they have begun
+        for _ in range(3):
+            self.until("the joints to stand", stand)
