@@ -284,8 +284,7 @@ int main(int argc, char** argv) {
   std::vector<std::pair<std::string, std::string>> languages;
   for (const char* code : {"en", "de", "ru", "sv", "zh", "pl"})
     languages.emplace_back(code, code);
-  addChoice(*run, "--language", runArguments.language, languages,
-            "Language of the report and of the control's logs (with de these are English)")
+  addChoice(*run, "--language", runArguments.language, languages, "Language of the report and of the control's logs")
       .default_str("en");
   run->add_option("--measuring-log", runArguments.measuringLogs,
                   "SINUMERIK: log all measurements in this file of the output folder; .csv: as a table, .txt: as text")

@@ -181,7 +181,6 @@ int run(const RunArguments& arguments) {
                  : arguments.programTest ? session::ProgramMode::ProgramTest
                                          : session::ProgramMode::Normal;
   options.searchLine = arguments.searchLine;
-  // No edition of the controls' texts in German is known here.
   options.language = control::dialogLanguageOf(arguments.language).value_or(control::DialogLanguage::English);
   options.showAllResults = arguments.screens;
   options.measuringLogs = arguments.measuringLogs;

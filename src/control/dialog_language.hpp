@@ -8,15 +8,15 @@
 /// The conversational language of a control: what its logs and screens are written in. Programs do not depend on it.
 namespace probewright::control {
 
-enum class DialogLanguage : std::uint8_t { English, Russian, Swedish, Chinese, Polish };
+enum class DialogLanguage : std::uint8_t { English, Russian, Swedish, Chinese, Polish, German };
 
 inline constexpr std::array allDialogLanguages = {DialogLanguage::English, DialogLanguage::Russian,
                                                   DialogLanguage::Swedish, DialogLanguage::Chinese,
-                                                  DialogLanguage::Polish};
+                                                  DialogLanguage::Polish,  DialogLanguage::German};
 
-/// "en", "ru", "sv", "zh", "pl" (ISO 639-1).
+/// "en", "ru", "sv", "zh", "pl", "de" (ISO 639-1).
 constexpr std::string_view code(DialogLanguage language) {
-  constexpr std::array<std::string_view, 5> codes = {"en", "ru", "sv", "zh", "pl"};
+  constexpr std::array<std::string_view, 6> codes = {"en", "ru", "sv", "zh", "pl", "de"};
   return codes[static_cast<std::size_t>(language)];
 }
 

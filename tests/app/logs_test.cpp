@@ -30,6 +30,11 @@ TEST(Logs, SpeakTheLanguageThatIsAskedFor) {
   EXPECT_THAT(textOf(folder / "out/TCHPR421.TXT"), HasSubstr("Mätprotokoll avkännarcykel 421"));
   EXPECT_EQ(run(folder, klartext, klartextSetup, {"--language", "ru", "--quiet"}).exit, 0);
   EXPECT_THAT(textOf(folder / "out/TCHPR421.TXT"), HasSubstr("Протокол измерений цикла 421"));
+  EXPECT_EQ(run(folder, klartext, klartextSetup, {"--language", "de", "--quiet"}).exit, 0);
+  const std::string german = textOf(folder / "out/TCHPR421.TXT");
+  EXPECT_THAT(german, HasSubstr("Messprotokoll Antastzyklus 421 Messen Bohrung"));
+  for (const char* english : {"Center", "limit", "dimension", "values", "Measured", "Diameter:"})
+    EXPECT_THAT(german, Not(HasSubstr(english)));
   const Answer unknown = run(folder, klartext, klartextSetup, {"--language", "xx"});
   EXPECT_EQ(unknown.exit, 2);
   EXPECT_THAT(unknown.errors, HasSubstr("--language"));

@@ -15,20 +15,22 @@ namespace {
 
 /// What the control says, in the languages that it is known in.
 struct ScreenText {
-  std::string_view english, russian, swedish;
+  std::string_view english, russian, swedish, german;
   std::string in(DialogLanguage language) const {
     if (language == DialogLanguage::Russian) return std::string(russian);
     if (language == DialogLanguage::Swedish) return std::string(swedish);
+    if (language == DialogLanguage::German) return std::string(german);
     return std::string(english);
   }
 };
 
-constexpr ScreenText drawAreas = {"Monitoring point not configured: Draw areas!",
-                                  "Точка мониторинга не сконфигурирована: начертите область!",
-                                  "Övervakningspunkt ej konfigurerad: Rita områden!"};
+constexpr ScreenText drawAreas = {
+    "Monitoring point not configured: Draw areas!", "Точка мониторинга не сконфигурирована: начертите область!",
+    "Övervakningspunkt ej konfigurerad: Rita områden!", "Überwachungspunkt nicht konfiguriert: Bereiche zeichnen!"};
 constexpr ScreenText tooFew = {"Too few reference images: Select next action by soft key!",
                                "Слишком мало опорных изображ.: выберите действие прогр. клавишей",
-                               "För få referensbilder: Välj nästa åtgärd med softkey!"};
+                               "För få referensbilder: Välj nästa åtgärd med softkey!",
+                               "Zu wenige Referenzbilder: Nächste Aktion mit Softkey wählen!"};
 
 std::string_view nameOf(SensitivityChange change) {
   switch (change) {

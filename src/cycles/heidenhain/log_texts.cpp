@@ -63,6 +63,20 @@ constexpr LogFrame swedish{
     .end = "Mätprotokoll slut",
 };
 
+constexpr LogFrame german{
+    .title = "Messprotokoll Antastzyklus {} {}",
+    .date = "Datum:",
+    .time = "Uhrzeit:",
+    .program = "Messprogramm:",
+    .dateForm = "{:%d-%m-%Y}",
+    .nominal = "Sollwerte:",
+    .limits = "Vorgegebene Grenzwerte:",
+    .actual = "Istwerte:",
+    .deviations = "Abweichungen:",
+    .further = "Weitere Messergebnisse:",
+    .end = "Ende Messprotokoll",
+};
+
 constexpr std::array terms = {
     // Lines of the logs of cycles 420 to 431.
     LogTerm{"Center in reference axis", "Центр главной оси", "Centrum huvudaxel"},
@@ -142,6 +156,114 @@ constexpr std::array terms = {
             "Avvikelse vinkel rundbord"},
 };
 
+struct GermanTerm {
+  std::string_view english, german;
+};
+
+/// All words of the logs, those of single cycles too.
+constexpr std::array germanTerms = {
+    GermanTerm{"Center in reference axis", "Mitte Hauptachse"},
+    GermanTerm{"Center in minor axis", "Mitte Nebenachse"},
+    GermanTerm{"Maximum limit for center in reference axis", "Größtmaß Mitte Hauptachse"},
+    GermanTerm{"Minimum limit for center in reference axis", "Kleinstmaß Mitte Hauptachse"},
+    GermanTerm{"Maximum limit for center in minor axis", "Größtmaß Mitte Nebenachse"},
+    GermanTerm{"Minimum limit for center in minor axis", "Kleinstmaß Mitte Nebenachse"},
+    GermanTerm{"Diameter", "Durchmesser"},
+    GermanTerm{"Maximum dimension for hole", "Größtmaß Bohrung"},
+    GermanTerm{"Minimum dimension for hole", "Kleinstmaß Bohrung"},
+    GermanTerm{"Maximum dimension for stud", "Größtmaß Zapfen"},
+    GermanTerm{"Minimum dimension for stud", "Kleinstmaß Zapfen"},
+    GermanTerm{"Side length in reference axis", "Seitenlänge Hauptachse"},
+    GermanTerm{"Side length in minor axis", "Seitenlänge Nebenachse"},
+    GermanTerm{"Maximum dimension for side length in reference axis", "Größtmaß Seitenlänge Hauptachse"},
+    GermanTerm{"Minimum dimension for side length in reference axis", "Kleinstmaß Seitenlänge Hauptachse"},
+    GermanTerm{"Maximum dimension for side length in minor axis", "Größtmaß Seitenlänge Nebenachse"},
+    GermanTerm{"Minimum dimension for side length in minor axis", "Kleinstmaß Seitenlänge Nebenachse"},
+    GermanTerm{"Length", "Länge"},
+    GermanTerm{"Maximum dimension for length", "Größtmaß Länge"},
+    GermanTerm{"Minimum dimension for length", "Kleinstmaß Länge"},
+    GermanTerm{"Position of center line", "Lage Mittelachse"},
+    GermanTerm{"Measured angle", "Gemessener Winkel"},
+    GermanTerm{"Measuring height", "Messhöhe"},
+    GermanTerm{"Touch probe log", "Tastsystem-Protokoll"},
+    GermanTerm{"tool", "Werkzeug"},
+    GermanTerm{"touch probe", "Tastsystem"},
+    GermanTerm{"Before", "Vorher"},
+    GermanTerm{"After", "Nachher"},
+    GermanTerm{"Radius of the standard", "Radius des Kalibriernormals"},
+    GermanTerm{"Reference point for length", "Bezugspunkt für Länge"},
+    GermanTerm{"Number of touches", "Anzahl Antastungen"},
+    GermanTerm{"Ball radius", "Kugelradius"},
+    GermanTerm{"Coarse measurement", "Grobmessung"},
+    GermanTerm{"Fine measurement", "Feinmessung"},
+    GermanTerm{"Reversal measurement", "Umschlagmessung"},
+    GermanTerm{"Measurement with angle tracking", "Messung mit Winkelnachführung"},
+    GermanTerm{"3-D calibration", "3D-Kalibrierung"},
+    GermanTerm{"Largest deviation", "Größte Abweichung"},
+    GermanTerm{"Probing direction", "Antastrichtung"},
+    GermanTerm{"Nominal", "Sollwert"},
+    GermanTerm{"Lower limit", "Kleinstmaß"},
+    GermanTerm{"Upper limit", "Größtmaß"},
+    GermanTerm{"Actual", "Istwert"},
+    GermanTerm{"Deviation", "Abweichung"},
+    GermanTerm{"Status", "Status"},
+    GermanTerm{"good", "gut"},
+    GermanTerm{"rework", "Nacharbeit"},
+    GermanTerm{"scrap", "Ausschuss"},
+    GermanTerm{"Main axis", "Hauptachse"},
+    GermanTerm{"Minor axis", "Nebenachse"},
+    GermanTerm{"Tool axis", "Werkzeugachse"},
+    GermanTerm{"Position 1, main axis", "Position 1, Hauptachse"},
+    GermanTerm{"Position 1, minor axis", "Position 1, Nebenachse"},
+    GermanTerm{"Position 1, tool axis", "Position 1, Werkzeugachse"},
+    GermanTerm{"Position 2, main axis", "Position 2, Hauptachse"},
+    GermanTerm{"Position 2, minor axis", "Position 2, Nebenachse"},
+    GermanTerm{"Position 2, tool axis", "Position 2, Werkzeugachse"},
+    GermanTerm{"Position 3, main axis", "Position 3, Hauptachse"},
+    GermanTerm{"Position 3, minor axis", "Position 3, Nebenachse"},
+    GermanTerm{"Position 3, tool axis", "Position 3, Werkzeugachse"},
+    GermanTerm{"Diameter 1", "Durchmesser 1"},
+    GermanTerm{"Diameter 2", "Durchmesser 2"},
+    GermanTerm{"Measured angle of the rotary table", "Gemessener Winkel des Rundtischs"},
+    GermanTerm{"Deviation of the angle", "Abweichung des Winkels"},
+    GermanTerm{"Deviation of the angle of the rotary table", "Abweichung des Winkels des Rundtischs"},
+    GermanTerm{"1st measured value", "1. Messwert"},
+    GermanTerm{"2nd measured value", "2. Messwert"},
+    GermanTerm{"3rd measured value", "3. Messwert"},
+    GermanTerm{"Along the normal", "Längs der Normalen"},
+    GermanTerm{"Angle Measuring", "Messen Winkel"},
+    GermanTerm{"Bolt Hole Circle Measuring", "Messen Lochkreis"},
+    GermanTerm{"CALIBRATION OF A TS IN A RING", "TS KALIBRIEREN IN RING"},
+    GermanTerm{"CALIBRATION OF TS ON A SPHERE", "TS KALIBRIEREN AN KUGEL"},
+    GermanTerm{"TS CALIBRATION OF TOOL LENGTH", "TS WERKZEUGLAENGE KALIBRIEREN"},
+    GermanTerm{"TS CALIBRATION ON STUD", "TS KALIBRIEREN AN ZAPFEN"},
+    GermanTerm{"Circular Stud Measuring", "Messen Kreis außen"},
+    GermanTerm{"Coordinate Measuring", "Messen Koordinate"},
+    GermanTerm{"Hole Measuring", "Messen Bohrung"},
+    GermanTerm{"Maximum dimension for bolt hole circle", "Größtmaß Lochkreis"},
+    GermanTerm{"Minimum dimension for bolt hole circle", "Kleinstmaß Lochkreis"},
+    GermanTerm{"Maximum dimension for coordinate", "Größtmaß Koordinate"},
+    GermanTerm{"Minimum dimension for coordinate", "Kleinstmaß Koordinate"},
+    GermanTerm{"Measured coordinate", "Gemessene Koordinate"},
+    GermanTerm{"Measured space angle SPA", "Gemessener Raumwinkel SPA"},
+    GermanTerm{"Measured space angle SPB", "Gemessener Raumwinkel SPB"},
+    GermanTerm{"Measured space angle SPC", "Gemessener Raumwinkel SPC"},
+    GermanTerm{"PROBING IN 3-D", "ANTASTEN 3D"},
+    GermanTerm{"PROBING IN PLANE", "ANTASTEN EBENE"},
+    GermanTerm{"PROBING ON EDGE", "ANTASTEN KANTE"},
+    GermanTerm{"PROBING TWO CIRCLES", "ANTASTEN ZWEI KREISE"},
+    GermanTerm{"Plane Measuring", "Messen Ebene"},
+    GermanTerm{"Projection angle A axis", "Projektionswinkel A-Achse"},
+    GermanTerm{"Projection angle B axis", "Projektionswinkel B-Achse"},
+    GermanTerm{"Rectangular Pocket Measuring", "Messen Rechteck innen"},
+    GermanTerm{"Rectangular Stud Measuring", "Messen Rechteck außen"},
+    GermanTerm{"Ridge Width Measuring", "Messen Steg außen"},
+    GermanTerm{"Slot Width Measuring", "Messen Breite innen"},
+    GermanTerm{"Space angle A", "Raumwinkel A"},
+    GermanTerm{"Space angle B", "Raumwinkel B"},
+    GermanTerm{"Space angle C", "Raumwinkel C"},
+};
+
 }  // namespace
 
 const LogFrame& logFrame(DialogLanguage language) {
@@ -150,12 +272,19 @@ const LogFrame& logFrame(DialogLanguage language) {
       return russian;
     case DialogLanguage::Swedish:
       return swedish;
+    case DialogLanguage::German:
+      return german;
     case DialogLanguage::English:
     case DialogLanguage::Chinese:
     case DialogLanguage::Polish:
       break;
   }
   return english;
+}
+
+bool hasEnglishLogs(DialogLanguage language) {
+  return language == DialogLanguage::English || language == DialogLanguage::Chinese ||
+         language == DialogLanguage::Polish;
 }
 
 const LogFrame& capitalLogFrame() { return capitals; }
@@ -168,7 +297,11 @@ std::string capitalTerm(std::string_view term, std::span<const CapitalTerm> own)
 }
 
 std::string_view translated(std::string_view term, DialogLanguage language, std::span<const LogTerm> own) {
-  if (language != DialogLanguage::Russian && language != DialogLanguage::Swedish) return term;
+  if (hasEnglishLogs(language)) return term;
+  if (language == DialogLanguage::German) {
+    const auto found = std::ranges::find(germanTerms, term, &GermanTerm::english);
+    return found == germanTerms.end() ? term : found->german;
+  }
   for (const std::span<const LogTerm> words : {own, std::span<const LogTerm>(terms)}) {
     const auto found = std::ranges::find(words, term, &LogTerm::english);
     if (found != words.end()) return language == DialogLanguage::Russian ? found->russian : found->swedish;

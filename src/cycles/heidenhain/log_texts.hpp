@@ -11,8 +11,9 @@
 /// words of one cycle are in its file (Entry::logTerms).
 ///
 /// English, Russian and Swedish logs are worded as the manuals of these languages print the log of cycle 421; what is
-/// not printed there (the other cycles) takes the terms that the manuals use for the same parameters. The Chinese
-/// manual prints the log in English and the Polish one prints none: these languages have the English words.
+/// not printed there (the other cycles) takes the terms that the manuals use for the same parameters. German logs have
+/// the same layout and the terms of German shops. The Chinese manual prints the log in English and the Polish one
+/// prints none: these languages have the English words.
 namespace probewright::cycles::heidenhain {
 
 using control::DialogLanguage;
@@ -26,6 +27,9 @@ struct LogFrame {
   std::string_view end;
 };
 const LogFrame& logFrame(DialogLanguage language);
+
+/// The languages whose logs have the English words.
+bool hasEnglishLogs(DialogLanguage language);
 
 /// The log of cycle 423 as the manual of the iTNC 530 prints it in English: in capitals, with terms of its own.
 const LogFrame& capitalLogFrame();

@@ -33,8 +33,7 @@ std::string amongStars(const std::string& text, std::size_t columns) {
 std::string logText(Context& context, const Inspection& inspection) {
   const auto& control = context.control();
   const DialogLanguage language = control.panel.language;
-  const bool translates = language == DialogLanguage::Russian || language == DialogLanguage::Swedish;
-  const bool capitals = !control.isTNC640() && !context.entry().capitalTerms.empty() && !translates;
+  const bool capitals = !control.isTNC640() && !context.entry().capitalTerms.empty() && hasEnglishLogs(language);
   const LogFrame& frame = capitals ? capitalLogFrame() : logFrame(language);
   const auto term = [&](std::string_view english) {
     const Entry& entry = context.entry();

@@ -157,7 +157,8 @@ private:
 }  // namespace
 
 std::string_view languageWord(control::DialogLanguage language) {
-  constexpr std::array<std::string_view, 5> words = {"L_ENGLISH", "L_RUSSIAN", "L_SWEDISH", "L_CHINESE", "L_POLISH"};
+  constexpr std::array<std::string_view, 6> words = {"L_ENGLISH", "L_RUSSIAN", "L_SWEDISH",
+                                                     "L_CHINESE", "L_POLISH",  "L_GERMAN"};
   return words[static_cast<std::size_t>(language)];
 }
 
