@@ -60,7 +60,6 @@ constexpr Parameter parameters977[] = {
 /// The measuring variants by the units of S_MVAR.
 constexpr std::uint16_t hole = 1 << 1, spigot = 1 << 2, groove = 1 << 3, rib = 1 << 4, rectangles = 1 << 5 | 1 << 6;
 constexpr std::uint16_t centred = hole | spigot | groove | rib;
-constexpr ValueKind mm = ValueKind::Length;
 
 constexpr auto results977 = joined(
     std::array<ResultDefinition, 38>{{
