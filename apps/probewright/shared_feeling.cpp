@@ -78,6 +78,7 @@ SharedFeeling::~SharedFeeling() {
 
 void SharedFeeling::serve(const std::function<std::uint32_t(const feel_exchange&)>& answer,
                           const std::stop_token& stop) {
+  memory_->engine = getpid();
   store(memory_->state, FEEL_READY);
   while (!stop.stop_requested() && load(memory_->closed) == 0) {
     const std::uint32_t asked = load(memory_->asked);

@@ -33,20 +33,22 @@ def main():
         return status.task_state == linuxcnc.STATE_ON
 
     until("the machine to be switched on", is_on, 120)
-    command.mode(linuxcnc.MODE_MANUAL)
-    command.wait_complete()
-    command.teleop_enable(0)
-    command.wait_complete()
-    command.home(-1)
+
+    def told(order, *words):
+        order(*words)
+        until("LinuxCNC to take a command", lambda: status.echo_serial_number >= command.serial, 60)
+
+    told(command.mode, linuxcnc.MODE_MANUAL)
+    told(command.teleop_enable, 0)
+    until("the joints", lambda: status.motion_mode == linuxcnc.TRAJ_MODE_FREE, 60)
+    told(command.home, -1)
     until("homing", lambda: all(status.homed[: status.joints]), 60)
-    command.mode(linuxcnc.MODE_AUTO)
-    command.wait_complete()
-    command.program_open(program)
-    command.auto(linuxcnc.AUTO_RUN, 0)
-    command.wait_complete()
-    time.sleep(0.2)
+    told(command.mode, linuxcnc.MODE_AUTO)
+    told(command.program_open, program)
+    told(command.auto, linuxcnc.AUTO_RUN, 0)
     until("the end of the program", lambda: status.interp_state == linuxcnc.INTERP_IDLE and status.inpos, 3600)
-    time.sleep(0.2)
+    # What LinuxCNC prints comes a moment later.
+    time.sleep(0.5)
     until("nothing", lambda: True, 1)
 
 

@@ -19,7 +19,7 @@
 #include <stdint.h>
 
 #define FEEL_MAGIC 0x4c454650u /* "PFEL" */
-#define FEEL_VERSION 1u        /* of this layout; counted up with every change */
+#define FEEL_VERSION 2u        /* of this layout; counted up with every change */
 #define FEEL_AXES 9            /* X Y Z A B C U V W, in this order */
 
 enum { FEEL_STARTING = 0, FEEL_READY = 1, FEEL_ENDED = 2 }; /* state */
@@ -37,6 +37,7 @@ struct feel_exchange {
   uint32_t version;
   uint32_t size;          /* of this struct */
   int32_t component;      /* process id of the component */
+  int32_t engine;         /* process id of the engine, stored before FEEL_READY */
   uint32_t axes;          /* bit i: axis i of the question is filled in */
   uint32_t state;
   uint32_t closed;
@@ -48,6 +49,7 @@ struct feel_exchange {
   uint32_t answer;        /* the answer */
   double seconds;         /* since the question before */
   double spindle_speed;   /* revolutions/min, above 0 clockwise (M3) */
+  double spindle_angle;   /* degrees, to which the spindle was oriented last (M19 R) */
   double axis[FEEL_AXES]; /* where the axes stand in the machine coordinate system, mm and degrees */
 };
 

@@ -10,6 +10,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <linux/futex.h>
+#include <signal.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
@@ -32,13 +33,13 @@ static char *segment = "/probewright-feel";
 RTAPI_MP_STRING(segment, "name of the shared memory");
 static char *axes = "XYZ";
 RTAPI_MP_STRING(axes, "letters of the axes that are connected");
-static int wait_ms = 1000;
+static int wait_ms = 10000;
 RTAPI_MP_INT(wait_ms, "how long a servo cycle waits for an answer, in milliseconds");
 
 struct pins {
   hal_float_t *axis[FEEL_AXES]; /* null if not connected */
   hal_float_t *mm_per_unit;
-  hal_float_t *spindle_speed;
+  hal_float_t *spindle_speed, *spindle_angle;
   hal_s32_t *tool;
   hal_bit_t *reset;
   hal_bit_t *touch, *tool_touch, *probe, *by_stylus;
@@ -57,7 +58,9 @@ static uint32_t get(const uint32_t *word) { return __atomic_load_n(word, __ATOMI
 static void put(uint32_t *word, uint32_t value) { __atomic_store_n(word, value, __ATOMIC_RELEASE); }
 static void wake(uint32_t *word) { syscall(SYS_futex, word, FUTEX_WAKE, 1, NULL, NULL, 0); }
 
-/* Waits until the question is answered, the engine has left, or the time is over. */
+static bool engine_is_gone(void) { return kill(shared->engine, 0) != 0 && errno == ESRCH; }
+
+/* Waits until the question is answered, the engine has left or died, or the time is over. */
 static bool answered_within(long long nanoseconds) {
   const long long begin = rtapi_get_time();
   for (;;) {
@@ -65,8 +68,9 @@ static bool answered_within(long long nanoseconds) {
     if (answered == get(&shared->asked)) return true;
     const long long left = nanoseconds - (rtapi_get_time() - begin);
     if (left <= 0 || get(&shared->state) != FEEL_READY) return false;
-    struct timespec patience = {left / 1000000000, left % 1000000000};
+    struct timespec patience = {0, left < 100000000 ? left : 100000000};
     syscall(SYS_futex, &shared->answered, FUTEX_WAIT, answered, &patience, NULL, 0);
+    if (get(&shared->answered) == answered && engine_is_gone()) return false;
   }
 }
 
@@ -79,6 +83,7 @@ static void ask(void) {
   }
   shared->tool = *pins->tool;
   shared->spindle_speed = *pins->spindle_speed;
+  shared->spindle_angle = *pins->spindle_angle;
   shared->seconds = elapsed;
   elapsed = 0;
   put(&shared->asked, shared->asked + 1);
@@ -137,6 +142,7 @@ static int make_pins(void) {
   }
   bad |= hal_pin_float_newf(HAL_IN, &pins->mm_per_unit, component, "probewright-feel.mm-per-unit");
   bad |= hal_pin_float_newf(HAL_IN, &pins->spindle_speed, component, "probewright-feel.spindle-speed");
+  bad |= hal_pin_float_newf(HAL_IN, &pins->spindle_angle, component, "probewright-feel.spindle-angle");
   bad |= hal_pin_s32_newf(HAL_IN, &pins->tool, component, "probewright-feel.tool-number");
   bad |= hal_pin_bit_newf(HAL_IN, &pins->reset, component, "probewright-feel.reset");
   bad |= hal_pin_bit_newf(HAL_OUT, &pins->touch, component, "probewright-feel.touch");

@@ -94,6 +94,7 @@ proc probewright_feel {} {
   }
   probewright_from probewright-tool iocontrol.0.tool-number probewright-feel.tool-number
   probewright_from probewright-speed spindle.0.speed-out probewright-feel.spindle-speed
+  probewright_from probewright-angle spindle.0.orient-angle probewright-feel.spindle-angle
   probewright_from probewright-reset iocontrol.0.user-request-enable probewright-feel.reset
 
   if {[is_connected motion.probe-input was] ne "not_connected"} {

@@ -71,7 +71,17 @@ void FeelingProbe::changeTool(int number) {
   tool_ = found == truth_.tools.end() ? nullptr : &*found;
   if (tool_ == nullptr && wanted != 0)
     tell(fmt::format("the setup has no tool {}: the spindle counts as empty", wanted));
-  const ToolShape shape = shapeOf(tool_, 0);
+  edges_.reset();
+  clearance_ = 0;
+  if (tool_ != nullptr && tool_->kind != ToolKind::Probe) edges_.emplace(*tool_);
+  deflection_.reset();
+  pushed_.reset();
+  broken_ = false;
+}
+
+void FeelingProbe::orient(double degrees) {
+  orientation_ = spindleDegrees_ = degrees;
+  const ToolShape shape = shapeOf(tool_, degrees);
   feeler_ = blunt_ = carrier_ = whole_ = shape;
   const bool probe = tool_ != nullptr && tool_->kind == ToolKind::Probe;
   std::erase_if(feeler_.shafts, [&](const Shaft& shaft) { return !probe || !isPart(shaft, shaftName); });
@@ -79,13 +89,7 @@ void FeelingProbe::changeTool(int number) {
   std::erase_if(blunt_.shafts, [&](const Shaft& shaft) { return probe && isPart(shaft, shaftName); });
   carrier_ = blunt_;
   std::erase_if(carrier_.shafts, [](const Shaft& shaft) { return isPart(shaft, cutterName); });
-  edges_.reset();
   clearance_ = 0;
-  if (tool_ != nullptr && !probe) edges_.emplace(*tool_);
-  deflection_.reset();
-  pushed_.reset();
-  broken_ = false;
-  spindleDegrees_ = 0;
 }
 
 Motion FeelingProbe::stepTo(const Moment& moment) const {
@@ -105,8 +109,10 @@ Motion FeelingProbe::stepTo(const Moment& moment) const {
 
 Felt FeelingProbe::feel(const Moment& moment) {
   const bool first = !number_;
-  const bool changed = first || moment.tool != *number_;
-  if (changed) changeTool(moment.tool);
+  const bool otherTool = first || moment.tool != *number_;
+  if (otherTool) changeTool(moment.tool);
+  const bool changed = otherTool || moment.spindleAngle != orientation_;
+  if (changed) orient(moment.spindleAngle);
   if (first) reading_ = slides_ = moment.axes;
   const Motion step = stepTo(moment);
   const bool stands = step.profile.length() == 0 && step.from == reading_;
@@ -140,7 +146,7 @@ Felt FeelingProbe::feel(const Moment& moment) {
   } else if (touched) {
     deflection_ = Deflection{*touched, tipAtContact, 0, tool_->probe.signalDelay};
     if (!touched->shaft) {
-      deflection_->toGo = pretravelOf(*tool_, 0, normalInSpindle);
+      deflection_->toGo = pretravelOf(*tool_, orientation_, normalInSpindle);
       if (tool_->probe.repeatability > 0) deflection_->toGo += tool_->probe.repeatability * gaussian_(noise_);
     }
     deflection_->advance((1 - contact) * whole.length, (1 - contact) * whole.seconds);

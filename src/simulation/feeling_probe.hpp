@@ -31,6 +31,7 @@ struct Moment {
   int tool = 0;                 ///< number of the tool in the spindle; 0 for none
   double spindleSpeed = 0;      ///< revolutions/min, above 0 clockwise (M3)
   double seconds = 0;           ///< since the question before
+  double spindleAngle = 0;      ///< degrees, to which the spindle was oriented last, as Machine::orientSpindle() counts
 };
 
 /// The sensors of a machine that a control of another house moves, one short step after another.
@@ -80,6 +81,8 @@ private:
   };
 
   void changeTool(int number);
+  /// The shapes of the tool as the spindle is turned.
+  void orient(double degrees);
   Motion stepTo(const Moment& moment) const;
   void feelWithCutter(const Rest& whole, bool turnsTable);
   /// What the edges of the cutter touch of the tool touch probes now.
@@ -113,6 +116,7 @@ private:
   machine::AxisPositions reading_, slides_;
   double clearance_ = 0;  ///< mm, of the edges from the tool touch probes, at least
   double clock_ = 0;
+  double orientation_ = 0;  ///< degrees, of a spindle that stands
   double spindleDegrees_ = 0, degreesPerSecond_ = 0;
   std::optional<Deflection> deflection_;  ///< of the touch probe
   std::optional<Deflection> pushed_;      ///< of a tool touch probe; the touch's solid counts the tool touch probes

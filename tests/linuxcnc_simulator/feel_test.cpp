@@ -128,7 +128,8 @@ desk.tell('late', hal.get_value('probewright-feel.late'))
   ASSERT_EQ(late.size(), 1U) << output;
   EXPECT_EQ(late[0], 0) << output;
   std::smatch answered;
-  ASSERT_TRUE(std::regex_search(output, answered, std::regex("answered in ([0-9.]+) microseconds on average")));
+  ASSERT_TRUE(std::regex_search(output, answered,
+                                std::regex("answered in ([0-9.]+) microseconds of the processor on average")));
   EXPECT_LT(std::stod(answered[1]) * 1e-6, period / 10);
   std::printf("an answer takes %s microseconds; from question to answer %.0f in the middle, 9 of 10 within %.0f\n",
               answered[1].str().c_str(), 1e6 * latency[0], 1e6 * latency[1]);
@@ -136,6 +137,33 @@ desk.tell('late', hal.get_value('probewright-feel.late'))
   EXPECT_LE(top[0], -150.125 + 1e-6);
   EXPECT_LE(side[0], 42.75 + 1e-6);
   EXPECT_GE(front[0], -27.0 - 1e-6);
+}
+
+TEST_F(Feeling, TurnsTheBallWithTheSpindle) {
+  std::string world = exactWorld;
+  world.insert(world.find("in_spindle"), "tip_offset = [0.3, 0]\n");
+  session_.write("practice.toml", world);
+  session_.write("p.ngc", R"(
+G21 G90 G49 G10 L2 P1 X0 Y0 Z0
+G0 X44.5 Y0
+G0 Z-155
+M19 R0 Q10
+G38.2 X41 F300
+(PRINT,desk: upright #5061)
+G0 X44.5
+M19 R180 Q10
+G38.2 X41 F300
+(PRINT,desk: reversed #5061)
+G0 X46
+M2
+)");
+  const std::string output = run("desk.ready()\ndesk.run('p.ngc')\n");
+  const auto upright = session_.told(output, "upright"), reversed = session_.told(output, "reversed");
+  ASSERT_EQ(upright.size(), 1U) << output;
+  ASSERT_EQ(reversed.size(), 1U) << output;
+  // The face lies at X40.25, the ball's centre 0.3 mm aside of the spindle's axis.
+  EXPECT_NEAR(upright[0], 42.75 - 0.3, bound);
+  EXPECT_NEAR(reversed[0], 42.75 + 0.3, bound);
 }
 
 TEST_F(Feeling, SwitchesTheMachineOffInACollisionAndOnAgain) {

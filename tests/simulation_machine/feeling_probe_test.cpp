@@ -43,7 +43,7 @@ public:
   }
   Felt look(const Vector3& where) {
     at = where;
-    felt = probe_.feel({positions({at.x(), at.y(), at.z()}), tool, spindleSpeed, period});
+    felt = probe_.feel({positions({at.x(), at.y(), at.z()}), tool, spindleSpeed, period, spindleAngle});
     return felt;
   }
   void pullOff() { probe_.pullOff(); }
@@ -51,7 +51,7 @@ public:
   Vector3 at = Vector3::Zero();
   Felt felt;
   int tool = 0;
-  double spindleSpeed = 0;
+  double spindleSpeed = 0, spindleAngle = 0;
   std::vector<std::string> events;
 
 private:
@@ -90,6 +90,29 @@ TEST(FeelingProbe, SignalsOneCycleAfterTheTouchAtMost) {
     EXPECT_GE(free, contact - 1e-6);
     EXPECT_LE(free, contact + speed * period + 1e-6);
     EXPECT_FALSE(hand.felt.collision);
+  }
+}
+
+TEST(FeelingProbe, TurnsBallAndLobingWithTheSpindle) {
+  for (const double angle : {0.0, 90.0, 180.0, -37.0, 301.0}) {
+    Truth truth = perfectWorld();
+    TrueProbe& probe = truth.tools[0].probe;
+    probe.tipOffset = {0.3, -0.11};
+    probe.pretravel = 0.02;
+    probe.lobing = 0.015;
+    probe.lobingPhase = 20;
+    place(truth, Box({-20, -20, -40}, {20, 20, 0}), translation({0, 0, -400}));
+    Hand hand(std::move(truth));
+    hand.look({23, 0, -310});
+    hand.spindleAngle = angle;
+    hand.look({23, 0, -310});
+    // The ball of radius 2 stands aside by its offset turned; the face looks along +X of the machine.
+    const double a = radiansFromDegrees(angle);
+    const double contact = 20 + 2 - (0.3 * std::cos(a) + 0.11 * std::sin(a));
+    const double signal = contact - 0.02 - 0.015 * std::cos(3 * (-a - radiansFromDegrees(20)));
+    const double found = hand.moveUntil({20, 0, -310}, 1, touched).x();
+    EXPECT_LE(found, signal + 1e-6) << angle;
+    EXPECT_GE(found, signal - 1 * period - 1e-6) << angle;
   }
 }
 
