@@ -61,7 +61,7 @@ TEST_F(OnLinuxCnc, PresetsOfRandomWorldsAreFoundWhereTheyArePlanted) {
     const std::string name = "w" + std::to_string(i);
     script += call(worlds.back()) + "ended(desk, '" + name + "', start('bore.h', '" + name + "'))\n";
   }
-  atTheDesk(script, 300);
+  atTheDesk(script, 500);
   for (int i = 0; i < count; ++i) {
     const std::string name = "w" + std::to_string(i);
     const World& planted = worlds[static_cast<std::size_t>(i)];

@@ -18,7 +18,7 @@ protected:
     session_.write("axis.ini", ini);
     session_.write(".axisrc", R"(
 import json
-def look_at_the_preview(patience=100):
+def look_at_the_preview(patience=1200):
     if o.canon is None and patience > 0:
         root_window.after(100, look_at_the_preview, patience - 1)
         return
@@ -32,7 +32,7 @@ def look_at_the_preview(patience=100):
 root_window.after(2500, look_at_the_preview)
 )");
     // A server tells its parent that it is ready, but not the first process of a namespace.
-    output = session_.command("sh -c \"xvfb-run -a -s '-screen 0 1280x960x24' linuxcnc -r axis.ini; true\"", 90);
+    output = session_.command("sh -c \"xvfb-run -a -s '-screen 0 1280x960x24' linuxcnc -r axis.ini; true\"", 200);
     return nlohmann::json::parse(text("preview.json"), nullptr, false);
   }
 };

@@ -22,11 +22,7 @@ protected:
 import shutil
 def written():
     # The engine writes when its program has ended, however that was.
-    for _ in range(3000):
-        desk.listen()
-        if os.path.exists('out/results.json'): return
-        time.sleep(0.02)
-    desk.tell('nothing was written')
+    desk.until('results', lambda s: os.path.exists('out/results.json'), 300)
 def keep(name):
     written()
     idle()
@@ -37,13 +33,10 @@ def run(program, name):
 def fresh():
     desk.mdi('G10 L2 P1 X0 Y0 Z-250 R0')
 def begin(program):
-    desk.command.mode(linuxcnc.MODE_AUTO)
-    desk.command.wait_complete()
-    desk.command.program_open(program)
-    desk.command.wait_complete()
-    desk.command.auto(linuxcnc.AUTO_RUN, 0)
+    desk.begin(program)
 def idle():
     desk.until('the end', lambda s: s.interp_state == linuxcnc.INTERP_IDLE and s.inpos)
+    desk.settle()
 )";
 
   void agrees(const std::string& folder, double bound) const {

@@ -34,7 +34,7 @@ fresh()
 shutil.copy('mpf.toml', 'setup.toml')
 run('bore.mpf', 'mpf')
 )",
-            150);
+            300);
   agrees("h", bound);
   agrees("mpf", bound);
   const std::vector<double> found = preset("h");
@@ -111,14 +111,12 @@ works('after-estop')
 
 begin('slow.h')
 moving(desk)
-time.sleep(0.3)
 desk.command.abort()
 keep('abort')
 works('after-abort')
 
 begin('slow.h')
 moving(desk)
-time.sleep(0.3)
 os.kill(engine(), signal.SIGKILL)
 idle()
 still(desk)
@@ -133,14 +131,13 @@ works('after-dialog')
 
 desk.messages.clear()
 begin('stop.h')
-desk.until('a stop', lambda s: s.interp_state == linuxcnc.INTERP_PAUSED)
-time.sleep(0.1)
-desk.listen()
+desk.until('a stop', lambda s: s.interp_state == linuxcnc.INTERP_PAUSED and desk.messages)
+desk.settle()
 desk.tell('paused', len(desk.messages), desk.status.motion_line)
 desk.command.auto(linuxcnc.AUTO_RESUME)
 keep('stop')
 )",
-            300);
+            500);
   const std::vector<std::pair<std::string, std::string>> ends = {
       {"limit", "software limit of X"},
       // It comes with the order after the move, which is that of a touch.
@@ -175,6 +172,34 @@ keep('stop')
   for (const char* message : {"Limit switch", "Touch probe deflected", "Machine not ready", "Stylus already in contact",
                               "probewright has ended unexpectedly"})
     EXPECT_THAT(output, ::testing::ContainsRegex(std::string("desk: message .*") + message));
+}
+
+/// LinuxCNC's planner dies while it runs a program: the program ends with the alarm, and a new LinuxCNC works.
+TEST_F(AsInterpreter, ADeadPlannerEndsInAnAlarmAndANewLinuxCncWorks) {
+  session_.write("setup.toml", setup("TNC640", world, 1200));
+  session_.write("bore.h", klartext());
+  session_.write("slow.h", with(klartext(), "X+25 Y+0 Z+8 R0 FMAX", "X+200 Y+100 Z+8 R0 F500"));
+  forTheDesk(std::string(keeps) + call(world) + R"(
+fresh()
+if os.path.exists('dead'):
+    run('bore.h', 'new')
+else:
+    begin('slow.h')
+    moving(desk)
+    subprocess.run(['pkill', '-KILL', '-x', 'milltask'])
+    end = time.monotonic() + 120
+    while not os.path.exists('out/results.json') and time.monotonic() < end: time.sleep(0.02)
+    os.rename('out', 'dead')
+)");
+  output = session_.command("sh -c 'linuxcnc -r mill.ini; linuxcnc -r mill.ini'");
+  const nlohmann::json dead = results("dead");
+  ASSERT_TRUE(dead.is_object()) << output;
+  EXPECT_THAT(dead.dump(), HasSubstr("Machine not ready"));
+  EXPECT_THAT(dead.dump(), HasSubstr("the connection to the machine adapter is lost"));
+  EXPECT_EQ(preset("dead"), (std::vector<double>{0, 0, -250}));
+  const nlohmann::json next = results("new");
+  ASSERT_TRUE(next.is_object()) << output;
+  EXPECT_EQ(touches(next).size(), 15U);
 }
 
 }  // namespace

@@ -70,10 +70,13 @@ protected:
   }
 
   /// Runs LinuxCNC, switched on and homed, with this script at the desk; keeps what was printed.
-  void atTheDesk(const std::string& script, int seconds = 100) {
+  void atTheDesk(const std::string& script, int seconds = 300) {
+    forTheDesk(script);
+    output = session_.run("mill.ini", seconds);
+  }
+  void forTheDesk(const std::string& script) const {
     session_.display("from bench import *\nimport bench\nbench.PROGRAM = '" +
                      (session_.build() / "apps/probewright/probewright").string() + "'\ndesk.ready()\n" + script);
-    output = session_.run("mill.ini", seconds);
   }
   /// What was told of the run `name`: "CODE TEXT".
   std::string told(const std::string& name) const {

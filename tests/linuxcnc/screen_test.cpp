@@ -15,7 +15,7 @@ protected:
 def paused(x=None):
     desk.until('a pause', lambda s: s.interp_state == linuxcnc.INTERP_PAUSED and s.inpos)
 def where():
-    desk.status.poll()
+    desk.settle()
     return round(desk.status.position[0], 3)
 )";
   static constexpr const char* program =
@@ -39,11 +39,7 @@ desk.tell('end', where())
 
 # From line 5 on: the axes go straight to where line 4 leaves the program.
 desk.mdi('G53 G0 X0')
-desk.command.mode(linuxcnc.MODE_AUTO)
-desk.command.wait_complete()
-desk.command.program_open('from.mpf')
-desk.command.wait_complete()
-desk.command.auto(linuxcnc.AUTO_RUN, 5)
+desk.begin('from.mpf', 5)
 seen = set()
 def look(status):
     if status.current_vel > 0: seen.add(status.motion_line)
@@ -53,30 +49,34 @@ keep('from')
 desk.tell('from', where(), *sorted(seen))
 
 desk.command.program_open('way.mpf')
-desk.command.wait_complete()
+desk.taken()
 desk.mdi('G53 G0 X0')
-desk.command.mode(linuxcnc.MODE_AUTO)
-desk.command.wait_complete()
+desk.mode(linuxcnc.MODE_AUTO)
 places = [where()]
-for _ in range(40):
+def quiet(status, seen=[0, None]):
+    # No state says that a step has ended: nothing changes for a hundred looks.
+    now = (status.interp_state, status.exec_state, status.motion_line, status.inpos, *status.position)
+    seen[0] = seen[0] + 1 if now == seen[1] else 0
+    seen[1] = now
+    return seen[0] > 100
+for _ in range(60):
     desk.command.auto(linuxcnc.AUTO_STEP)
-    time.sleep(0.1)
-    desk.until('the step', lambda s: s.inpos)
-    if where() != places[-1]: places.append(where())
+    desk.taken()
+    desk.until('the step', quiet)
+    place = where()
+    if place != places[-1]: places.append(place)
     if desk.status.interp_state == linuxcnc.INTERP_IDLE: break
 desk.tell('steps', *places)
 keep('stepped')
 
-desk.command.mode(linuxcnc.MODE_AUTO)
-desk.command.wait_complete()
+desk.mode(linuxcnc.MODE_AUTO)
 desk.command.program_open('way.h')
-desk.command.wait_complete()
+desk.taken()
 desk.messages.clear()
 desk.command.auto(linuxcnc.AUTO_RUN, 3)
 desk.until('a refusal', lambda s: desk.messages)
 idle()
-)",
-            100);
+)");
   EXPECT_EQ(session_.told(output, "stop"), (std::vector<double>{20, 4})) << output;
   EXPECT_EQ(session_.told(output, "end"), (std::vector<double>{30}));
   EXPECT_THAT(output, HasSubstr("desk: message LOOK HERE"));
@@ -109,37 +109,41 @@ TEST_F(FromTheScreen, InchesARotaryAxisSpindleAndCoolantPassThrough) {
   replace("JOINTS = 3", "JOINTS = 4");
   replace("HALFILE = plate.hal", "HALFILE = plate.hal\nHALFILE = a.hal");
   const std::string turns = "MIN_LIMIT = -360\nMAX_LIMIT = 360\nMAX_VELOCITY = 100\nMAX_ACCELERATION = 1000\n";
-  ini += "SHARE_TABLES = 1\n[AXIS_A]\n" + turns +
+  ini += "SHARE_TABLES = 1\nSPINDLE_ORIENTS = 1\n[AXIS_A]\n" + turns +
          "[JOINT_3]\nTYPE = ANGULAR\nFERROR = 5\nMIN_FERROR = 5\nHOME_SEQUENCE = 0\n" + turns;
   session_.write("mill.ini", ini);
-  session_.write("a.hal", "net a joint.3.motor-pos-cmd => joint.3.motor-pos-fb\n");
+  session_.write("a.hal",
+                 "net a joint.3.motor-pos-cmd => joint.3.motor-pos-fb\n"
+                 "net orient spindle.0.orient => spindle.0.is-oriented\n");
   session_.write("tool.tbl", "T1 P1 D0 Z0\nT2 P2 D0 Z0\n");
   constexpr double feed = 600;
   session_.write("setup.toml", setup("840Dsl", world, feed));
   std::string measuring = sinumerik();
-  measuring.insert(measuring.find("M30"), "G0 Z100\nT=\"MILL\"\nM6 D1\nM3 S500\nM8\nG0 A30\nM0\nM5 M9\nG0 A0\n");
+  measuring.insert(measuring.find("M30"),
+                   "G0 Z100\nT=\"MILL\"\nM6 D1\nSPOS=75\nM3 S500\nM8\nG0 A30\nM0\nM5 M9\nG0 A0\n");
   session_.write("bore.mpf", measuring);
   atTheDesk(std::string(keeps) + words + R"(
 world()" + std::to_string(world.x / 25.4) +
-                ", " + std::to_string(world.y / 25.4) + ", " + std::to_string((world.diameter / 2 - ball) / 25.4) +
-                ", " + std::to_string((world.top + 100) / 25.4) +
-                R"()
+            ", " + std::to_string(world.y / 25.4) + ", " + std::to_string((world.diameter / 2 - ball) / 25.4) + ", " +
+            std::to_string((world.top + 100) / 25.4) +
+            R"()
 begin('bore.mpf')
 paused()
-desk.tell('state', desk.status.position[3], desk.status.spindle[0]['speed'], desk.status.flood, desk.status.tool_in_spindle)
+desk.tell('state', desk.status.position[3], desk.status.spindle[0]['speed'], desk.status.flood, desk.status.tool_in_spindle,
+          look('spindle.0.orient-angle'))
 desk.command.auto(linuxcnc.AUTO_RESUME)
 keep('done')
 desk.status.poll()
 desk.tell('after', desk.status.position[3], desk.status.spindle[0]['speed'], desk.status.flood)
 desk.mdi('(PRINT,desk: inches #5221 #5222 #5223)')
-)",
-            100);
+)");
   const std::vector<double> state = session_.told(output, "state");
-  ASSERT_EQ(state.size(), 4U) << output;
+  ASSERT_EQ(state.size(), 5U) << output;
   EXPECT_NEAR(state[0], 30, 1e-6);
   EXPECT_EQ(state[1], 500);
   EXPECT_EQ(state[2], 1);
   EXPECT_EQ(state[3], 2);
+  EXPECT_EQ(state[4], 75) << "the spindle was oriented";
   EXPECT_EQ(session_.told(output, "after"), (std::vector<double>{0, 0, 0}));
   const std::vector<double> g54 = session_.told(output, "inches");
   ASSERT_EQ(g54.size(), 3U);

@@ -32,8 +32,7 @@ desk.status.poll()
 desk.tell('status', *desk.status.g5x_offset[:3])
 tool = next(t for t in desk.status.tool_table if t.id == 2)
 desk.tell('tool', tool.zoffset, tool.diameter)
-)",
-              100);
+)");
     const std::vector<double> parameters = session_.told(output, "parameters");
     ASSERT_EQ(parameters.size(), 9U) << output;
     EXPECT_NEAR(parameters[0], world.x, bound);

@@ -127,7 +127,7 @@ timed('macrocorner', lambda: desk.run('corner.ngc'))
 timed('cyclebore', lambda: cycle('bore'))
 timed('cyclecorner', lambda: cycle('corner'))
 )");
-  const std::string output = session.run("test.ini", 200);
+  const std::string output = session.run("test.ini", 500);
   const auto line = [&](const std::string& word) {
     const std::size_t at = output.find("\n" + word + " ");
     return at == std::string::npos ? std::vector<double>{}

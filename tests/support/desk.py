@@ -26,8 +26,9 @@ class Desk:
             self.messages.append(message[1])
             self.tell("message", message[1].replace("\n", " "))
 
-    def until(self, what, condition, seconds=20.0):
-        """Waits for a condition of the status; says so and ends the session if it does not come."""
+    def until(self, what, condition, seconds=120.0):
+        """Waits for a condition of the status; says so and ends the session if it does not come. The time is for a
+        computer that has ten times more to do than it can."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             self.status.poll()
@@ -38,10 +39,27 @@ class Desk:
         self.tell("waited in vain for", what)
         sys.exit(1)
 
+    def taken(self):
+        """Waits until LinuxCNC has begun what the last command orders: its status then tells of it."""
+        self.until("LinuxCNC to take a command", lambda s: s.echo_serial_number >= self.command.serial)
+
+    def mode(self, mode):
+        self.command.mode(mode)
+        self.taken()
+        self.until("the mode", lambda s: s.task_mode == mode)
+
+    def begin(self, program, line=0):
+        """Opens a program and starts it."""
+        self.mode(linuxcnc.MODE_AUTO)
+        self.command.program_open(program)
+        self.taken()
+        self.command.auto(linuxcnc.AUTO_RUN, line)
+        self.taken()
+
     def switch_on(self):
         self.command.state(linuxcnc.STATE_ESTOP_RESET)
         self.until("the end of the emergency stop", lambda s: s.task_state != linuxcnc.STATE_ESTOP)
-        end = time.monotonic() + 20
+        end = time.monotonic() + 120
         while self.status.task_state != linuxcnc.STATE_ON:
             self.command.state(linuxcnc.STATE_ON)
             self.command.wait_complete(1)
@@ -53,10 +71,10 @@ class Desk:
         self.listen()
 
     def home(self):
-        self.command.mode(linuxcnc.MODE_MANUAL)
-        self.command.wait_complete()
+        self.mode(linuxcnc.MODE_MANUAL)
         self.command.teleop_enable(0)
-        self.command.wait_complete()
+        self.taken()
+        self.until("the joints", lambda s: s.motion_mode == linuxcnc.TRAJ_MODE_FREE)
         self.command.home(-1)
         self.until("homing", lambda s: all(s.homed[: s.joints]))
 
@@ -64,29 +82,11 @@ class Desk:
         self.switch_on()
         self.home()
 
-    def run(self, program, seconds=60.0):
+    def run(self, program, seconds=300.0):
         """Runs a program to its end, however that comes."""
-        self.command.mode(linuxcnc.MODE_AUTO)
-        self.command.wait_complete()
-        self.command.program_open(program)
-        self.command.wait_complete()
-        self.command.auto(linuxcnc.AUTO_RUN, 0)
-        try:
-            self.until_quiet("start", lambda s: s.interp_state != linuxcnc.INTERP_IDLE, 1.0)
-        except TimeoutError:
-            pass  # it was shorter than a look
+        self.begin(program)
         self.until("the end of " + program, lambda s: s.interp_state == linuxcnc.INTERP_IDLE and s.inpos, seconds)
         self.settle()
-
-    def until_quiet(self, what, condition, seconds):
-        end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            self.status.poll()
-            self.listen()
-            if condition(self.status):
-                return
-            time.sleep(0.002)
-        raise TimeoutError(what)
 
     def mdi(self, block, seconds=30.0):
         self.command.mode(linuxcnc.MODE_MDI)

@@ -55,12 +55,12 @@ public:
   }
 
   /// Runs LinuxCNC with this configuration until its display ends. What all of it has printed.
-  std::string run(const std::string& ini, int seconds = 100) const {
+  std::string run(const std::string& ini, int seconds = 300) const {
     return command("linuxcnc -r '" + ini + "'", seconds);
   }
 
   /// Runs a command of the shell as LinuxCNC's user, in the folder of the session, which is its home.
-  std::string command(const std::string& words, int seconds = 100) const {
+  std::string command(const std::string& words, int seconds = 300) const {
     std::string inner = "cd '" + folder().string() + "' && export HOME='" + folder().string() + "' && ";
     std::string command;
     if (apart_) {

@@ -13,6 +13,10 @@ def hal(pin, value):
     subprocess.run(["halcmd", "setp", pin, str(value)], check=True)
 
 
+def look(pin):
+    return subprocess.run(["halcmd", "-s", "getp", pin], check=True, capture_output=True, text=True).stdout.strip()
+
+
 def world(x, y, radius, top):
     """Where the bore is, the distance at which the ball touches its wall, and the height at which the tip does."""
     for pin, value in (("dx.in1", -x), ("dy.in1", -y), ("outside.in0", radius), ("below.in1", top)):
@@ -24,7 +28,7 @@ def start(program, out="out", setup="setup.toml", machine="linuxcnc"):
     return subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
-def ended(desk, name, run, seconds=60):
+def ended(desk, name, run, seconds=300):
     """Waits for the end of a run and tells its exit code and its mistakes: `desk: NAME CODE TEXT`."""
     try:
         errors = run.communicate(timeout=seconds)[1]
@@ -40,11 +44,15 @@ def probing(desk):
 
 
 def moving(desk):
+    """Waits for a move, and until it is well under way."""
     desk.until("a move", lambda s: s.current_vel > 0)
+    begin = list(desk.status.position[:3])
+    desk.until("way", lambda s: max(abs(a - b) for a, b in zip(s.position, begin)) > 1)
 
 
 def still(desk):
     desk.until("the axes to stand", lambda s: s.inpos and s.current_vel == 0)
+    desk.settle()
 
 
 def adapter():
