@@ -5,6 +5,7 @@
 
 #include "adapter/remote_machine.hpp"
 #include "drawn_machine.hpp"
+#include "machine/linuxcnc_machine.hpp"
 #include "simulation/virtual_machine.hpp"
 
 namespace probewright::app {
@@ -58,8 +59,13 @@ Result<MachineRun> runOnMachine(const std::string& machine, const std::filesyste
   auto greeted = adapter::RemoteMachine::greet(std::move(*connection));
   if (!greeted) return tl::unexpected(greeted.error());
   remote = std::move(*greeted);
-  // How rotary axes turn tool and table is known where the setup's machine is this one.
-  remote->adoptChains(setup.world.truth.machine);
+  // How rotary axes turn tool and table is known where the setup's machine is this one, or LinuxCNC's configuration
+  // lies on this computer and says it.
+  if (!remote->adoptChains(setup.world.truth.machine) && !remote->configuration().empty()) {
+    Diagnostics unsaid;
+    if (const auto linuxcnc = machine::readLinuxCncMachine(remote->configuration(), unsaid))
+      remote->adoptChains(linuxcnc->description);
+  }
   if (remote->draws() && !setup.world.solids.empty()) {
     auto virtualMachine = simulation::buildMachine(setup.world, import);
     if (!virtualMachine) return tl::unexpected(virtualMachine.error());

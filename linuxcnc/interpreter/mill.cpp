@@ -160,6 +160,7 @@ Mill::Json Mill::hello(std::string& why) const {
   Json answer = {
       {"protocol", 1},
       {"adapter", "LinuxCNC"},
+      {"configuration", ini_},
       {"machine", {{"name", name_}, {"axes", axes}, {"spindleOrients", orients_}, {"toolChange", position()}}},
       {"functions", {7, 8, 9}},
       {"asks", moves()},
@@ -174,10 +175,14 @@ void Mill::begin() {
   units_ = GET_EXTERNAL_LENGTH_UNIT_TYPE();
   mode_ = GET_EXTERNAL_MOTION_CONTROL_MODE();
   tolerance_ = GET_EXTERNAL_MOTION_CONTROL_TOLERANCE();
+  merging_ = GET_EXTERNAL_MOTION_CONTROL_NAIVECAM_TOLERANCE();
   USE_LENGTH_UNITS(CANON_UNITS_MM);
   SET_FEED_REFERENCE(CANON_XYZ);
   SET_FEED_MODE(0, 0);
-  SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, 0.01);
+  // As G64 P0.01 does: corners are passed, and short lines joined, within this.
+  constexpr double tolerance = 0.01;
+  SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, tolerance);
+  SET_NAIVECAM_TOLERANCE(tolerance);
   if (!moves()) {
     // What a screen draws is in machine coordinates; the offsets that it has set up belong to G-code.
     SET_G5X_OFFSET(1, 0, 0, 0, 0, 0, 0, 0, 0, 0);
@@ -203,6 +208,7 @@ void Mill::learnOffsets() {
 
 void Mill::end() const {
   SET_MOTION_CONTROL_MODE(static_cast<CANON_MOTION_MODE>(mode_), tolerance_);
+  SET_NAIVECAM_TOLERANCE(merging_);
   USE_LENGTH_UNITS(static_cast<CANON_UNITS>(units_));
 }
 

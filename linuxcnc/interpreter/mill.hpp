@@ -80,5 +80,5 @@ private:
   double rotation_ = 0;
   int line_ = 0;
   int units_ = 0, mode_ = 0;
-  double tolerance_ = 0;
+  double tolerance_ = 0, merging_ = 0;
 };

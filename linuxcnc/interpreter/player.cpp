@@ -29,9 +29,10 @@ bool near(const Mill::Position& a, const Mill::Position& b) {
 bool Player::start(const std::string& iniFile, const std::string& program, int line) {
   namespace fs = std::filesystem;
   // What the program before has measured is written first: its tables may be those of this one.
-  for (const double end = now() + 5; engine_ && now() < end; usleep(2000))
+  for (const double end = now() + 20; engine_ && now() < end; usleep(2000))
     attend();
   stopped_.reset();
+  ended_.reset();
   signalled_ = told_ = gone_ = false;
   messages_.clear();
   mill_.load(iniFile);
@@ -95,9 +96,12 @@ void Player::note() {
 }
 
 Player::Next Player::finish() {
+  if (!ended_) ended_ = now();
+  const int code = engine_->exitCode(50);
+  // It writes what it has measured, which takes its time on a busy computer.
+  if (code < 0 && now() - *ended_ < 60) return Next::Wait;
   playing_ = false;
   mill_.end();
-  const int code = engine_->exitCode(10'000);
   message_ = engine_->messages();
   if (code < 0 || code > 3) {
     // It did not end as a program does: nobody knows what the axes are to do.
@@ -165,14 +169,14 @@ Player::Next Player::execute() {
       Mill::flush();
       return Next::Wait;
     case Stage::Motion:
-      answer(moves(order_));
+      answerAndQueue();
       return Next::GoOn;
     case Stage::Perform:
       break;
   }
   const std::string what = order_.value("do", "");
   if (what == "move" || what == "path") {
-    answer(moves(order_));
+    answerAndQueue();
     return Next::GoOn;
   }
   perform(order_);
@@ -232,42 +236,55 @@ std::optional<Player::Json> Player::refusal(const Json& order) {
   return std::nullopt;
 }
 
-/// Queues a move or a path.
-Player::Json Player::moves(const Json& order) {
-  std::size_t reached = 0;
-  Json failed;
-  const auto travel = [&](const Json& piece) {
-    const auto target = piece.at("target").get<Mill::Position>();
-    if (const std::string limit = mill_.limit(target); !limit.empty()) {
-      failed = {{"end", "axisLimit"}, {"detail", limit}, {"reached", reached}};
-      return false;
+/// A move, or the pieces of a path, up to the first one beyond the travel.
+std::vector<Player::Piece> Player::pieces(const Json& order, Json& answer) const {
+  const bool path = order.contains("pieces");
+  std::vector<Piece> pieces;
+  answer = {{"end", "reached"}};
+  for (const Json& json : path ? order.at("pieces") : Json::array({order})) {
+    Piece piece{json.at("target").get<Mill::Position>(),
+                json.value("rapid", false) ? std::optional<double>() : json.at("feed").get<double>(),
+                json.value("line", line_)};
+    if (const std::string limit = mill_.limit(piece.target); !limit.empty()) {
+      answer = {{"end", "axisLimit"}, {"detail", limit}};
+      break;
     }
-    line_ = piece.value("line", line_);
-    mill_.atLine(line_);
-    if (piece.value("rapid", false)) {
-      mill_.traverse(target);
-    } else {
-      mill_.feed(piece.at("feed").get<double>());
-      mill_.straight(target);
-    }
-    at_ = target;
-    queued_ = true;
-    ++reached;
-    return true;
-  };
-  if (!order.contains("pieces")) {
-    if (!travel(order)) return failed;
-  } else {
-    for (const Json& piece : order.at("pieces"))
-      if (!travel(piece)) return failed;
+    pieces.push_back(std::move(piece));
   }
-  return {{"end", "reached"}, {"reached", reached}};
+  answer["reached"] = pieces.size();
+  return pieces;
+}
+
+void Player::queue(const std::vector<Piece>& pieces) {
+  for (const Piece& piece : pieces) {
+    line_ = piece.line;
+    mill_.atLine(line_);
+    if (piece.feed) {
+      mill_.feed(*piece.feed);
+      mill_.straight(piece.target);
+    } else {
+      mill_.traverse(piece.target);
+    }
+  }
+  if (pieces.empty()) return;
+  at_ = pieces.back().target;
+  queued_ = true;
+}
+
+/// The engine works out what comes next while this is queued.
+void Player::answerAndQueue() {
+  Json json;
+  const std::vector<Piece> way = pieces(order_, json);
+  if (!way.empty()) at_ = way.back().target;
+  answer(std::move(json));
+  queue(way);
 }
 
 void Player::perform(const Json& order) {
   const std::string what = order.at("do").get<std::string>();
   if (what == "retract") {
-    moves(order);
+    Json answered;
+    queue(pieces(order, answered));
   } else if (what == "measure") {
     auto target = order.at("target").get<Mill::Position>();
     if (!Mill::moves()) {

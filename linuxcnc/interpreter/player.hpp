@@ -57,7 +57,14 @@ private:
   void perform(const Json& order);
   /// Once what perform() has begun has ended.
   Json outcome(const Json& order);
-  Json moves(const Json& order);
+  struct Piece {
+    Mill::Position target;
+    std::optional<double> feed;  ///< per minute; nothing: rapid
+    int line = 0;
+  };
+  std::vector<Piece> pieces(const Json& order, Json& answer) const;
+  void queue(const std::vector<Piece>& pieces);
+  void answerAndQueue();
   /// The answer to an order after LinuxCNC has stopped.
   Json stopped(const Json& order);
   void answer(Json json);
@@ -89,6 +96,7 @@ private:
   Mill::Position at_;                  ///< where the axes stand, or are going to
   Json spindle_ = {{"rotation", "none"}, {"speed", 0}, {"angle", 0}};
   double begun_ = 0, alive_ = 0;
+  std::optional<double> ended_;  ///< when the engine closed its socket
   int line_ = 0;
   std::string message_;
 };

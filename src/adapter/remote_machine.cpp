@@ -61,6 +61,7 @@ Result<std::unique_ptr<RemoteMachine>> RemoteMachine::greet(Connection connectio
                   "install the adapter that belongs to this version of Probewright");
     }
     machine->adapterName_ = text(answer.json, "adapter");
+    machine->configuration_ = optionalText(answer.json, "configuration");
     machine->description_ = adapter::description(member(answer.json, "machine"));
     if (answer.json.contains("functions")) {
       for (const Json& function : answer.json.at("functions")) {

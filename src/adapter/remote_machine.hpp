@@ -53,6 +53,8 @@ public:
   };
   const std::vector<Felt>& felt() const { return felt_; }
 
+  /// The .ini file of the LinuxCNC that the adapter moves, if it tells one.
+  const std::string& configuration() const { return configuration_; }
   /// The chains of a machine with the same axes, of an adapter that tells none. False if its axes are others.
   bool adoptChains(const machine::MachineDescription& machine);
 
@@ -100,7 +102,7 @@ private:
   std::shared_ptr<void> peer_;  ///< ends after the stream
   mutable LineStream stream_;
   Patience patience_;
-  std::string adapterName_;
+  std::string adapterName_, configuration_;
   machine::MachineDescription description_;
   std::set<int> functions_;
   bool asks_ = false, draws_ = false, looksAhead_ = false, tellsChains_ = false;
