@@ -240,6 +240,20 @@ int main(int argc, char** argv) {
           ->check([](const std::string& text) {
             return text.find_first_not_of(' ') == std::string::npos ? "--machine names no adapter" : "";
           });
+  std::string host;
+  run->add_option("--host", host, "With --machine linuxcnc: the computer on which LinuxCNC runs, reached by ssh")
+      ->needs(machine)
+      ->type_name("[USER@]NAME")
+      ->check([](const std::string& text) {
+        const bool plain = !text.empty() && text.find_first_of(" \t\n\v\f\r") == std::string::npos;
+        return plain && !text.starts_with('-') ? "" : "--host names no computer";
+      });
+  run->parse_complete_callback([&] {
+    if (host.empty()) return;
+    if (runArguments.machine != "linuxcnc")
+      throw CLI::ValidationError("--host", "it goes with --machine linuxcnc; other adapters are commands");
+    runArguments.machine = "ssh -T " + host + " probewright-linuxcnc";
+  });
   addMachineFile(*run, runArguments.machineFile);
   run->add_option("--out", runArguments.out, "Folder for tables, logs, results.json and report.html")
       ->capture_default_str()
