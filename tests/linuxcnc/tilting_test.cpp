@@ -29,8 +29,8 @@ protected:
     for (const char* axis : {"A]\n", "C]\n"})
       ini += std::string("[AXIS_") + axis + rotary;
     for (const char* joint : {"3", "4"})
-      ini +=
-          std::string("[JOINT_") + joint + "]\nTYPE = ANGULAR\nFERROR = 5\nMIN_FERROR = 5\nHOME_SEQUENCE = 0\n" + rotary;
+      ini += std::string("[JOINT_") + joint + "]\nTYPE = ANGULAR\nFERROR = 5\nMIN_FERROR = 5\nHOME_SEQUENCE = 0\n" +
+             rotary;
     session_.write("mill.ini", ini + "[PROBEWRIGHT]\nSHARE_TABLES = 0\nSPINDLE_ORIENTS = 1\n");
     session_.write("table.hal",
                    "net a joint.3.motor-pos-cmd => joint.3.motor-pos-fb\n"
