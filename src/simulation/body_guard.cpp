@@ -1,12 +1,11 @@
 #include "simulation/body_guard.hpp"
 
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "simulation/solid_triangles.hpp"
+#include "simulation/body_mesh.hpp"
 
 namespace probewright::simulation {
 
@@ -17,12 +16,11 @@ using machine::Link;
 
 namespace {
 
-using Triangles = fcl::BVHModel<fcl::OBBRSSd>;
-
 constexpr double touching = 0.002;      // mm: no gap
 constexpr double shortestStep = 0.02;   // mm
 constexpr double toolPrecision = 1e-3;  // mm
 constexpr double reserve = 1.02;        // of a way: scales of axes, errors of their directions
+constexpr double boxesDo = 5;           // mm: boxes farther apart than that tell enough, triangles are not asked
 
 /// Moves of a chain out to the end, with what their axes read.
 Pose poseOf(const ChainElement& element, const std::vector<machine::Axis>& axes, const AxisPositions& q) {
@@ -35,6 +33,12 @@ Pose poseOf(const ChainElement& element, const std::vector<machine::Axis>& axes,
 /// How far any point of a ball about `centre`, carried by the chain, may travel on the motion.
 double longestWay(const std::vector<ChainElement>& chain, const std::vector<machine::Axis>& axes, const Motion& motion,
                   Vector3 centre, double radius) {
+  const auto turns = [&](const ChainElement& element) {
+    return element.axis && axes[*element.axis].kind != AxisKind::Linear &&
+           motion.to[*element.axis] != motion.from[*element.axis];
+  };
+  // Where the parts of the chain stand is asked only if one of them turns what it carries.
+  const bool anyTurn = std::ranges::any_of(chain, turns);
   double way = 0;
   for (auto element = chain.rbegin(); element != chain.rend(); ++element) {
     if (element->axis) {
@@ -47,7 +51,22 @@ double longestWay(const std::vector<ChainElement>& chain, const std::vector<mach
         way += radiansFromDegrees(travel) * (distance + radius + way);
       }
     }
-    centre = poseOf(*element, axes, motion.slidesAtStart) * centre;
+    if (anyTurn) centre = poseOf(*element, axes, motion.slidesAtStart) * centre;
+  }
+  return way;
+}
+
+/// The same of two links against each other, for any of their points; nothing if one of their axes turns.
+std::optional<double> longestShift(const machine::Between& between, const std::vector<machine::Axis>& axes,
+                                   const Motion& motion) {
+  double way = 0;
+  for (const auto* chain : {&between.first, &between.second}) {
+    for (const ChainElement& element : *chain) {
+      if (!element.axis) continue;
+      const double travel = std::abs(motion.to[*element.axis] - motion.from[*element.axis]);
+      if (travel > 0 && axes[*element.axis].kind != AxisKind::Linear) return std::nullopt;
+      way += travel;
+    }
   }
   return way;
 }
@@ -55,6 +74,29 @@ double longestWay(const std::vector<ChainElement>& chain, const std::vector<mach
 /// The distance of a point from a box; 0 within.
 double distance(const Vector3& point, const Bounds& box) {
   return (box.minimum - point).cwiseMax(point - box.maximum).cwiseMax(0).norm();
+}
+
+/// How far two boxes are apart at least: the second one within the smallest box about it that is parallel to the first.
+double boxDistance(const Bounds& first, const Pose& firstFromSecond, const Bounds& second) {
+  const Vector3 centre = firstFromSecond * (0.5 * (second.minimum + second.maximum));
+  const Vector3 reach = 0.5 * (firstFromSecond.linear().cwiseAbs() * (second.maximum - second.minimum));
+  return (first.minimum - centre - reach).cwiseMax(centre - reach - first.maximum).cwiseMax(0).norm();
+}
+
+/// A box about a tool, spindle frame; empty if there is nothing of it.
+Bounds boundsOf(const ToolShape& tool) {
+  Bounds box;
+  const auto hold = [&](const Vector3& point, double radius) {
+    box.minimum = box.minimum.cwiseMin(point - Vector3::Constant(radius));
+    box.maximum = box.maximum.cwiseMax(point + Vector3::Constant(radius));
+  };
+  for (const Ball& ball : tool.balls)
+    hold(ball.centre, ball.radius);
+  for (const Shaft& shaft : tool.shafts) {
+    hold(shaft.start, shaft.radius);
+    hold(shaft.start + shaft.axis, shaft.radius);
+  }
+  return box;
 }
 
 }  // namespace
@@ -70,22 +112,10 @@ struct BodyGuard::Thing {
   Bounds bounds;                     ///< solid's frame
   Vector3 centre = Vector3::Zero();  ///< of a ball about it, link frame
   double radius = 0;
-  std::shared_ptr<Triangles> triangles;  ///< link frame; made when it is needed
+  std::shared_ptr<const BodyMesh> triangles;  ///< solid's frame; made when they are needed
 
-  const Triangles& mesh() {
-    if (triangles) return *triangles;
-    const DrawingMesh drawing = solidTriangles(*solid);
-    std::vector<Vector3> points;
-    for (std::size_t i = 0; i + 2 < drawing.positions.size(); i += 3)
-      points.push_back(linkFromSolid *
-                       Vector3(drawing.positions[i], drawing.positions[i + 1], drawing.positions[i + 2]));
-    std::vector<fcl::Triangle> corners;
-    for (std::size_t i = 0; i + 2 < drawing.indices.size(); i += 3)
-      corners.emplace_back(drawing.indices[i], drawing.indices[i + 1], drawing.indices[i + 2]);
-    triangles = std::make_shared<Triangles>();
-    triangles->beginModel(static_cast<int>(corners.size()), static_cast<int>(points.size()));
-    triangles->addSubModel(points, corners);
-    triangles->endModel();
+  const BodyMesh& mesh() {
+    if (!triangles) triangles = bodyMesh(solid);
     return *triangles;
   }
 };
@@ -113,6 +143,15 @@ struct BodyGuard::View {
   std::vector<PlacedSolid> solids;
   std::unique_ptr<Surroundings> surroundings;
   bool fromStart = true;  ///< the tool has never been free of them
+  machine::Between between;
+
+  /// How far the tool is from the bodies at least, by boxes about them.
+  double gap(const Pose& linkFromSpindle, const Bounds& toolBox) const {
+    double least = 1e300;
+    for (const Surroundings::Item& item : surroundings->items())
+      least = std::min(least, boxDistance(item.bounds, item.solidFromTable * linkFromSpindle, toolBox));
+    return least;
+  }
 };
 
 BodyGuard::BodyGuard(const Truth& truth) : machine_(trueDescription(truth.machine, truth.errors)) {
@@ -184,6 +223,7 @@ void BodyGuard::addViews() {
       auto added = std::make_unique<View>();
       added->link = thing->link;
       added->kinematics = kinematicsBetween(thing->link, head);
+      added->between = machine::between(machine_, thing->link, head);
       view = views_.insert(views_.end(), std::move(added));
     }
     (*view)->solids.push_back({thing->solid, thing->linkFromSolid, thing->name, SolidRole::Fixture, true});
@@ -223,24 +263,28 @@ BodyHit BodyGuard::hitOf(const View& view, const Touch& touch, const Pose& table
   return hit;
 }
 
-/// The distance, or less than it if that is `enough`. At 0 they touch.
+/// The distance, or less than it if that is `enough`, or as long as their boxes are apart and nobody asks for the
+/// point. At 0 they touch.
 double BodyGuard::gap(Pair& pair, const Pose& firstFromSecond, double enough, Vector3* point, Vector3* normal) {
   Thing &first = *pair.first, &second = *pair.second;
-  const Vector3 secondCentre = firstFromSecond * second.centre;
+  const Pose between = first.linkFromSolid.inverse() * firstFromSecond * second.linkFromSolid;
+  const Vector3 firstMiddle = 0.5 * (first.bounds.minimum + first.bounds.maximum),
+                secondMiddle = 0.5 * (second.bounds.minimum + second.bounds.maximum);
+  const Pose back = between.inverse();
   const double byBounds =
-      std::max({(secondCentre - first.centre).norm() - first.radius - second.radius,
-                distance(first.linkFromSolid.inverse() * secondCentre, first.bounds) - second.radius,
-                distance(second.linkFromSolid.inverse() * (firstFromSecond.inverse() * first.centre), second.bounds) -
-                    first.radius});
-  if (byBounds > enough) return byBounds;
-  const Triangles &one = first.mesh(), &other = second.mesh();
+      std::max({(between * secondMiddle - firstMiddle).norm() - first.radius - second.radius,
+                distance(between * secondMiddle, first.bounds) - second.radius,
+                distance(back * firstMiddle, second.bounds) - first.radius,
+                boxDistance(first.bounds, between, second.bounds), boxDistance(second.bounds, back, first.bounds)});
+  if (byBounds > enough || (byBounds > boxesDo && point == nullptr)) return byBounds;
+  const BodyMesh &one = first.mesh(), &other = second.mesh();
   if (one.num_tris == 0 || other.num_tris == 0) return 1e300;
   fcl::DistanceRequestd request(point != nullptr);
   fcl::DistanceResultd result;
-  fcl::distance(&one, fcl::Transform3d::Identity(), &other, firstFromSecond, request, result);
+  fcl::distance(&one, fcl::Transform3d::Identity(), &other, between, request, result);
   if (point != nullptr) {
-    *point = result.nearest_points[0];
-    const Vector3 apart = result.nearest_points[1] - result.nearest_points[0];
+    *point = first.linkFromSolid * result.nearest_points[0];
+    const Vector3 apart = first.linkFromSolid.linear() * (result.nearest_points[1] - result.nearest_points[0]);
     if (apart.norm() > 1e-12) *normal = apart.normalized();
   }
   return std::max(result.min_distance, 0.0);
@@ -306,8 +350,16 @@ std::optional<BodyHit> BodyGuard::firstHit(const Motion& motion, double end, con
     first = std::move(hit);
   }
   const SearchOptions options{.precision = toolPrecision, .stop = &stop};
+  const Bounds toolBox = boundsOf(tool);
+  const bool anyTool = toolBox.minimum.x() <= toolBox.maximum.x();
   for (const auto& view : views_) {
+    if (!anyTool) continue;
     const Motion relative = seen(motion, *view->kinematics);
+    const auto shift = longestShift(view->between, machine_.axes, motion);
+    if (shift && view->gap(relative.tableFromSpindleAt(0), toolBox) > reserve * *shift * reach + toolPrecision) {
+      view->fromStart = false;
+      continue;
+    }
     if (mode == Touching::MayBePulledOff || view->fromStart) {
       const Pose start = relative.tableFromSpindleAt(0);
       if (shaftOverlap(start, tool, *view->surroundings) || ballOverlap(start, tool, *view->surroundings)) continue;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/clear_way.hpp"
+
 namespace probewright::simulation {
 
 using machine::AxisPositions;
@@ -72,6 +74,11 @@ public:
       from = to;
     }
     return std::nullopt;
+  }
+
+  /// No touch of the tool, with its radii grown, on a motion that is straight.
+  bool isClear(double margin) const {
+    return !sweep({0, 1, motion_.tableFromSpindleAt(0), motion_.tableFromSpindleAt(1)}, margin, margin);
   }
 
 private:
@@ -204,6 +211,10 @@ Surroundings::Surroundings(const std::vector<PlacedSolid>& solids, bool (*wanted
 std::optional<Touch> firstTouch(const Motion& motion, double begin, double end, const ToolShape& shape,
                                 const Surroundings& surroundings, const SearchOptions& options) {
   return Search(motion, shape, surroundings, options).between(begin, end);
+}
+
+bool isClear(const Motion& straight, double margin, const ToolShape& shape, const Surroundings& surroundings) {
+  return Search(straight, shape, surroundings, {}).isClear(margin);
 }
 
 std::optional<Touch> ballOverlap(const Pose& tableFromSpindle, const ToolShape& shape,

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "simulation/clear_way.hpp"
+
 namespace probewright::simulation {
 
 using machine::AxisKind;
@@ -299,8 +301,27 @@ MoveResult VirtualMachine::move(const AxisPositions& target, Feed feed) {
 }
 
 PathResult VirtualMachine::moveAlong(std::span<const PathPiece> path) {
+  const auto moveClear = [&](const AxisPositions& target, Feed feed) -> MoveResult {
+    if (auto refused = refusal(feed, target)) return *std::move(refused);
+    if (auto limit = beyondTravel(target)) return {MoveEnd::AxisLimit, *limit};
+    const Motion motion = motionTo(target, feed);
+    const PathKind kind = feed.rapid ? PathKind::Rapid : PathKind::Feed;
+    try {
+      if (const auto hit = bodyHit(motion, std::nullopt)) return {MoveEnd::Collision, stopAt(motion, *hit, kind)};
+    } catch (const SearchStopped& stopped) {
+      standAt(motion, stopped.fraction, kind);
+      return {MoveEnd::Cancelled, stoppedText};
+    }
+    return finish(motion, std::nullopt, kind);
+  };
+  constexpr std::size_t untilNextLook = 4;
+  std::size_t clear = 0, look = 0;  // pieces that are clear come before `clear`; nobody looks for more before `look`
   for (std::size_t i = 0; i < path.size(); ++i) {
-    MoveResult piece = move(path[i].target, path[i].feed);
+    if (i >= clear && i >= look && !deflection_ && !toolContact_ && !probesOnBed()) {
+      clear = i + clearPieces(kinematics_, slides_, path.subspan(i), shape_, surroundings_);
+      look = std::max(clear, i + untilNextLook);
+    }
+    MoveResult piece = i < clear ? moveClear(path[i].target, path[i].feed) : move(path[i].target, path[i].feed);
     if (piece.end != MoveEnd::Reached) return {piece.end, i, std::move(piece.detail)};
   }
   return {MoveEnd::Reached, path.size(), {}};

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "metrology/fits.hpp"
+#include "study/model_bench.hpp"
 #include "study/program_bench.hpp"
 
 /// Programs whose uncertainty is known in closed form: the scatter of the probe, lobing, a tilted part.
@@ -104,6 +106,56 @@ truth = "part.feature[1].size[1]"
   // The square of a normal number has root(2) times its mean as standard deviation; the fourth moment scatters more.
   EXPECT_NEAR(found.error->deviation, bias * std::sqrt(2.0), 0.2 * bias);
   EXPECT_GT(found.error->minimum, -1e-6);
+}
+
+/// A face that leans by b is met beside the pole of the ball: r / cos b - r too high. 20 mm above the point about which
+/// the part leans it is itself 20 / cos b - 20 higher.
+TEST(ClosedForm, ATiltedPlaneLooksTooHigh) {
+  const std::string height =
+      "3 TCH PROBE 427 HEIGHT ~\nQ263=+0 ~\nQ264=+25 ~\nQ261=+0 ~\nQ320=+2 ~\nQ272=+3 ~\nQ267=-1 ~\n"
+      "Q260=+30 ~\nQ281=+0 ~\nQ288=+0 ~\nQ289=+0 ~\nQ309=+0 ~\nQ330=+0\n";
+  const StudyResult result = studyOfProgram(plateSetup(""), program(height), R"(
+trials = 2000
+sensitivity = "none"
+[[source]]
+quantity = "part.pose.b"
+distribution = "normal"
+standard_deviation = 0.5
+)");
+  const Summary& found = answer(result, "427@4 Q160").values;
+  const double sigma = 0.5 / degree;
+  const double bias = (20 + 3) * sigma * sigma / 2;
+  EXPECT_NEAR(found.mean, bias, 5 * bias * std::sqrt(2.0 / 2000));
+  EXPECT_NEAR(found.deviation, bias * std::sqrt(2.0), 0.2 * bias);
+  EXPECT_GT(found.minimum, -1e-6);
+}
+
+/// A line through n touches spread evenly over the length L: s / root(n) where their middle is, and
+/// s root(12 (n - 1) / (n (n + 1))) / L in its direction.
+TEST(ClosedForm, ScatterOfTheProbeBecomesThatOfALine) {
+  const int n = 7;
+  const double s = 0.002, length = 60;
+  std::vector<Source> touches;
+  for (int i = 0; i < n; ++i)
+    touches.push_back(source("touch" + std::to_string(i), Normal{0, s}));
+  const auto line = [&](const std::vector<double>& heights) {
+    std::vector<Vector2> points;
+    for (int i = 0; i < n; ++i)
+      points.emplace_back(length * (static_cast<double>(i) / (n - 1) - 0.5), heights[static_cast<std::size_t>(i)]);
+    return metrology::fitLine(points).value().shape;
+  };
+  const Study study = studyOf(touches, 5000);
+  const Answer position = answerOf(study, [&](const std::vector<double>& heights) {
+    const metrology::Line2 found = line(heights);
+    return found.point.y() - found.direction.y() / found.direction.x() * found.point.x();
+  });
+  EXPECT_NEAR(position.values.deviation, s / std::sqrt(7.0), 0.05 * s / std::sqrt(7.0));
+  const Answer direction = answerOf(study, [&](const std::vector<double>& heights) {
+    const metrology::Line2 found = line(heights);
+    return std::atan2(found.direction.y(), found.direction.x());
+  });
+  const double expected = s * std::sqrt(12.0 * (n - 1) / (n * (n + 1))) / length;
+  EXPECT_NEAR(direction.values.deviation, expected, 0.05 * expected);
 }
 
 }  // namespace

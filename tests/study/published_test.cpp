@@ -95,6 +95,35 @@ TEST(Jcgm101, AdaptiveProcedureEndsWhenTwoDigitsAreStable) {
   EXPECT_NEAR(result.answers.front().values.symmetric->high, 3.92, 0.05);
 }
 
+/// The user's manual of the NIST Uncertainty Machine: a copper bar whose length is measured at two temperatures. Mean
+/// and standard uncertainty as printed there.
+TEST(NistUncertaintyMachine, CoefficientOfThermalExpansion) {
+  const Study study = studyOf({source("cold", Normal{1.4999, 0.0001}), source("warm", Normal{1.5021, 0.0002}),
+                               source("from", Normal{288.15, 0.02}), source("to", Normal{373.10, 0.05})},
+                              200'000);
+  const Answer y =
+      answerOf(study, [](const std::vector<double>& x) { return 1e5 * (x[1] - x[0]) / (x[0] * (x[3] - x[2])); });
+  EXPECT_NEAR(y.values.mean, 1.73, 0.005);
+  EXPECT_NEAR(y.values.deviation, 0.18, 0.005);
+}
+
+/// The same manual, and example E3 of NIST Technical Note 1900: a falling ball in sodium hydroxide and in a liquid of
+/// known viscosity. The times are so uncertain that the mean is not the value at the means.
+TEST(NistUncertaintyMachine, DynamicViscosity) {
+  const Study study = studyOf({source("known viscosity", Normal{4.63, 0.01 * 4.63}), source("ball", Normal{2217, 0.5}),
+                               source("known liquid", Normal{810, 0.5}), source("liquid", Normal{1180, 0.5}),
+                               source("known time", Normal{36.6, 0.15 * 36.6}), source("time", Normal{61, 0.1 * 61})},
+                              200'000);
+  const auto viscosity = [](const std::vector<double>& x) {
+    return x[0] * (x[1] - x[3]) / (x[1] - x[2]) * x[5] / x[4];
+  };
+  const Answer y = answerOf(study, viscosity);
+  EXPECT_NEAR(*y.estimate, 5.69, 0.005);
+  // As printed, and three standard deviations of what 200,000 trials find.
+  EXPECT_NEAR(y.values.mean, 5.82, 0.005 + 0.0075);
+  EXPECT_NEAR(y.values.deviation, 1.11, 0.005 + 0.01);
+}
+
 double ishigami(const std::vector<double>& x) {
   return std::sin(x[0]) + 7 * std::pow(std::sin(x[1]), 2) + 0.1 * std::pow(x[2], 4) * std::sin(x[0]);
 }
