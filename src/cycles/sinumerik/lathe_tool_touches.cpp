@@ -30,7 +30,6 @@ ToolTurning turningOf(Control& control) {
 LatheToolTouches::LatheToolTouches(Context& context, const LatheTool& tool, const ToolProbeField& field, double feed,
                                    SpindleAngles angles)
     : context_(context),
-      tool_(tool),
       field_(field),
       prober_(context.channel(), tool.plane(), habitsOf(context.control(), context.measures())),
       feed_(feed),

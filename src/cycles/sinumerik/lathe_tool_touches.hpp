@@ -51,7 +51,6 @@ private:
   void positionSpindle(double degrees);
 
   Context& context_;
-  const LatheTool& tool_;
   ToolProbeField field_;
   probing::SinumerikToolProber prober_;
   double feed_, path_;
