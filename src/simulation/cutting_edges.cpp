@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulation/edge_distance.hpp"
 #include "simulation/tool_shape.hpp"
 
 namespace probewright::simulation {
@@ -116,113 +117,12 @@ std::vector<EdgePiece> insertOf(const TrueInsert& insert, double depth = 0) {
   return pieces;
 }
 
-/// The least of `value` between 0 and 1: from `samples` + 1 places, refined between the neighbours of each that may be
-/// the least. `slack`: how much less it may be half a step beside a sample.
-template <class Value>
-double leastShare(const Value& value, int samples, double slack) {
-  std::vector<double> found(static_cast<std::size_t>(samples) + 1);
-  for (int i = 0; i <= samples; ++i)
-    found[static_cast<std::size_t>(i)] = value(static_cast<double>(i) / samples);
-  double share = 0, least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= samples; ++i) {
-    const double here = found[static_cast<std::size_t>(i)];
-    if (here < least) {
-      least = here;
-      share = static_cast<double>(i) / samples;
-    }
-  }
-  const double lowest = least;
-  for (int i = 0; i <= samples; ++i) {
-    const double here = found[static_cast<std::size_t>(i)];
-    if (here - slack > lowest || (i > 0 && found[static_cast<std::size_t>(i) - 1] <= here) ||
-        (i < samples && found[static_cast<std::size_t>(i) + 1] < here))
-      continue;
-    constexpr double golden = 0.6180339887498949;
-    double low = static_cast<double>(std::max(i - 1, 0)) / samples;
-    double high = static_cast<double>(std::min(i + 1, samples)) / samples;
-    double a = high - golden * (high - low), b = low + golden * (high - low);
-    double atA = value(a), atB = value(b);
-    int settled = 0;
-    for (int step = 0; step < 50 && settled < 3; ++step) {
-      settled = std::abs(atA - atB) < 1e-12 ? settled + 1 : 0;
-      if (atA < atB) {
-        high = b;
-        b = a;
-        atB = atA;
-        a = high - golden * (high - low);
-        atA = value(a);
-      } else {
-        low = a;
-        a = b;
-        atA = atB;
-        b = low + golden * (high - low);
-        atB = value(b);
-      }
-    }
-    if (const double refined = std::min(atA, atB); refined < least) {
-      least = refined;
-      share = atA < atB ? a : b;
-    }
-  }
-  return share;
-}
-
-/// At most as far as a turned piece is from the solid: by the distance of its axis.
-double leastGapOf(const EdgePiece& piece, const Pose& solidFromCutter, const DistanceSolid& solid) {
-  constexpr int samples = 4;
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= samples; ++i) {
-    const Vector2 place = piece.meridian(static_cast<double>(i) / samples);
-    const double axis = solid.closest(solidFromCutter * Vector3(0, 0, place.y())).distance;
-    least = std::min(least, axis - std::abs(place.x()));
-  }
-  return least - std::numbers::sqrt2 * 0.5 * piece.length() / samples;
-}
-
-/// The point of a piece that comes nearest; far away, a gap that is not wider than the true one.
-EdgeDistance nearestOf(const EdgePiece& piece, const Pose& solidFromCutter, const DistanceSolid& solid) {
-  constexpr double far = 0.2;  // mm
-  if (piece.turned) {
-    if (const double gap = leastGapOf(piece, solidFromCutter, solid); gap > far) return {.gap = gap};
-  }
-  const auto gapAt = [&](double share, double about) {
-    return solid.closest(solidFromCutter * piece.at(share, about)).distance;
-  };
-  constexpr double fullTurn = 2 * pi;
-  const auto aboutOf = [&](double share) {
-    const double radius = piece.meridian(share).x();
-    if (!piece.turned || radius == 0) return 0.0;
-    constexpr int places = 16;
-    return fullTurn *
-           leastShare([&](double s) { return gapAt(share, fullTurn * s); }, places, pi * std::abs(radius) / places);
-  };
-  const double turns = std::abs(piece.winding * (piece.meridian(1).y() - piece.meridian(0).y()));
-  const int samples = 4 + static_cast<int>(std::ceil(turns / radiansFromDegrees(15)));
-  const double share =
-      leastShare([&](double s) { return gapAt(s, aboutOf(s)); }, samples, 0.5 * piece.length() / samples);
-  EdgeDistance distance;
-  distance.place = solidFromCutter * piece.at(share, aboutOf(share));
-  const ClosestPoint near = solid.closest(distance.place);
-  distance.gap = near.distance;
-  distance.normal = near.normal;
-  return distance;
-}
-
 /// At all angles, `out` farther from the axis, where a piece does not begin on it.
 void turnAbout(EdgePiece& piece, double out) {
   piece.turned = true;
   piece.centre.x() += out;
   if (piece.from.x() != 0) piece.from.x() += out;
   piece.to.x() += out;
-}
-
-EdgeDistance nearestOf(const std::vector<EdgePiece>& pieces, const Pose& solidFromCutter, const DistanceSolid& solid) {
-  EdgeDistance nearest;
-  for (const EdgePiece& piece : pieces) {
-    const EdgeDistance here = nearestOf(piece, solidFromCutter, solid);
-    if (here.gap < nearest.gap) nearest = here;
-  }
-  return nearest;
 }
 
 }  // namespace
@@ -303,17 +203,16 @@ Pose CuttingEdges::spindleFromCutter(double degrees) const {
 }
 
 EdgeDistance CuttingEdges::nearestOfInsert(const Pose& solidFromCutter, const DistanceSolid& solid) const {
-  const EdgeDistance edge = nearestOf(edges_.front(), solidFromCutter, solid);
   const double flank = flankDepth(*insert_);
-  // No point of the flank is farther than this from its edge.
-  const double away = flank * std::hypot(1, recession(*insert_));
-  constexpr double far = 1;  // mm
-  if (flank <= 0) return edge;
-  if (edge.gap - away > far) return {.gap = edge.gap - away, .place = edge.place, .normal = edge.normal};
-  const auto at = [&](double share) { return nearestOf(insertOf(*insert_, share * flank), solidFromCutter, solid); };
-  constexpr int samples = 4;
-  const double share = leastShare([&](double s) { return at(s).gap; }, samples, 0.5 * away / samples);
-  return at(share);
+  const std::vector<EdgePiece>& front = edges_.front();
+  if (flank <= 0) return nearestOf(front, solidFromCutter, solid);
+  const std::vector<EdgePiece> behind = insertOf(*insert_, 1);
+  EdgeDistance nearest;
+  for (std::size_t i = 0; i < front.size(); ++i) {
+    const EdgeDistance here = nearestOfFlank(front[i], behind[i], flank, solidFromCutter, solid);
+    if (here.gap < nearest.gap) nearest = here;
+  }
+  return nearest;
 }
 
 EdgeDistance CuttingEdges::nearest(std::size_t edge, const Pose& solidFromCutter, const DistanceSolid& solid) const {
@@ -321,11 +220,11 @@ EdgeDistance CuttingEdges::nearest(std::size_t edge, const Pose& solidFromCutter
 }
 
 double CuttingEdges::leastGap(const Pose& solidFromSpindle, const DistanceSolid& solid) const {
-  return nearestOf(envelope_, solidFromSpindle * spindleFromTool_, solid).gap;
+  return leastGapOf(envelope_, solidFromSpindle * spindleFromTool_, solid);
 }
 
 double CuttingEdges::leastGap(std::size_t edge, const Pose& solidFromSpindle, const DistanceSolid& solid) const {
-  return nearestOf(envelopes_[edge], solidFromSpindle * spindleFromTool_, solid).gap;
+  return leastGapOf(envelopes_[edge], solidFromSpindle * spindleFromTool_, solid);
 }
 
 }  // namespace probewright::simulation

@@ -4,14 +4,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulation/edge_distance.hpp"
+
 namespace probewright::simulation {
 
 namespace {
 
 constexpr double touching = 1e-9;      // mm
+constexpr double couldTouch = 1e-4;    // mm, of what turns at any angle
 constexpr double shortestStep = 1e-5;  // mm of the path
 constexpr double shortestTurn = 1e-4;  // rad
-constexpr double exact = 1e-11;        // mm of the path, to which a contact is found
+constexpr double fullTurn = 2 * std::numbers::pi;
+constexpr double exact = 1e-11;  // mm of the path, to which a contact is found
 
 class EdgeSearch {
 public:
@@ -99,22 +103,41 @@ private:
     for (;;) {
       mayStop(travelled);
       const double free = leastGap(solidFromSpindle(travelled));
-      if (free <= touching) return before;
+      if (free <= couldTouch) return before;
       if (travelled >= end) return std::nullopt;
       before = travelled;
       travelled = std::min(end, travelled + std::max(free / stretch_, shortestStep));
     }
   }
 
-  /// The first touch of an edge between two times: while it is a gap away from the solid, nothing happens for as long
-  /// as its fastest point takes for that gap.
+  /// By how much the spindle may turn at least before an edge touches, radians: a turn that leaves the whole edge in
+  /// front of a plane beside the solid, by more than the axes travel meanwhile. An edge that runs along a face hardly
+  /// comes nearer, however fast it turns.
+  double freeTurn(std::size_t edge, double seconds, const Vector3& normal, double least, double most) const {
+    const Pose spindle = solidFromSpindle(motion_.profile.travelledAt(seconds));
+    const double degrees = degreesAt(seconds);
+    const Pose pose = spindle * edges_.spindleFromCutter(degrees);
+    // The axis lies between where the cutter is and where it is half a turn later.
+    const Pose opposite = spindle * edges_.spindleFromCutter(degrees + 180);
+    const double sense = spin_.degreesPerSecond < 0 ? -1 : 1;
+    const Line axis{0.5 * (pose.translation() + opposite.translation()), sense * pose.linear().col(2)};
+    const Plane plane = planeBeside(solid_, normal);
+    const double travels = stretch_ * motion_.profile.targetSpeed() / rate_;
+    const double across = normal.cross(axis.direction).norm();  // what of a turn leads through the plane
+    const double parted = edges_.nearest(edge, pose, HalfSpace(plane)).gap;
+    least = std::max(least, parted / (travels + across * edges_.reach()));
+    for (double turn = std::min(most, fullTurn); turn > least; turn *= 0.5)
+      if (edges_.nearest(edge, pose, TurnsBehindPlane(plane, axis, turn)).gap > travels * turn) return turn;
+    return least;
+  }
+
+  /// The first touch of an edge between two times.
   std::optional<double> touchOf(std::size_t edge, double from, double until) const {
     const double fastest = stretch_ * motion_.profile.targetSpeed() + rate_ * edges_.reach();
-    const double shortest = shortestTurn / rate_;
-    double seconds = from, before = from;
+    double seconds = from, before = from, turn = 0.1;
     for (;;) {
-      const double gap = gapAt(edge, seconds);
-      if (gap <= 0) {
+      const EdgeDistance near = distance(edge, motion_.profile.travelledAt(seconds), seconds);
+      if (near.gap <= 0) {
         for (int i = 0; i < 60 && (seconds - before) * fastest > exact; ++i) {
           const double middle = 0.5 * (before + seconds);
           (gapAt(edge, middle) <= 0 ? seconds : before) = middle;
@@ -123,12 +146,15 @@ private:
       }
       if (seconds >= until) return std::nullopt;
       before = seconds;
-      seconds = std::min(until, seconds + std::max(gap / fastest, shortest));
+      // The fastest point takes at least so long for the gap.
+      const double least = std::max(near.gap / fastest * rate_, shortestTurn);
+      turn = freeTurn(edge, seconds, near.normal, least, 4 * turn);
+      seconds = std::min(until, seconds + turn / rate_);
     }
   }
 
   std::optional<EdgeContact> ofTurning() const {
-    const double turn = 2 * std::numbers::pi / rate_;
+    const double turn = fullTurn / rate_;
     const double duration = motion_.profile.duration();
     double travelled = 0;
     for (;;) {
