@@ -3,17 +3,18 @@
    merge_sources.py OUTPUT SOURCE...
 
 Each file keeps its unnamed namespace to itself, as that gets another one inside it. Messages of the compiler name the lines of the
-files themselves."""
+files themselves, by their way from the build folder: so the text is the same wherever the project lies, and caches know it again."""
 
+import os
 import pathlib
 import re
 import sys
 
 
-def merged(paths):
+def merged(paths, start):
     for number, path in enumerate(paths):
         own = "of_" + re.sub(r"\W", "_", path.stem) + f"_{number}"
-        yield f'#line 1 "{path}"'
+        yield f'#line 1 "{os.path.relpath(path, start)}"'
         for line in path.read_text(encoding="utf-8").splitlines():
             if line == "namespace {":
                 line += f" namespace {own} {{"
@@ -24,4 +25,4 @@ def merged(paths):
 
 
 output, *sources = map(pathlib.Path, sys.argv[1:])
-output.write_text("\n".join(merged(sources)), encoding="utf-8")
+output.write_text("\n".join(merged(sources, output.parent.parent)), encoding="utf-8")
