@@ -77,27 +77,27 @@ void Channel::setFollowing(Following following, const AxisPositions& reference) 
   referenceFromTable_ = machine::baseFromTable(description_, reference_);
 }
 
-Vector3 Channel::machineFromAxes(const AxisPositions& axes) const {
+MachinePlace Channel::machineFromAxes(const AxisPositions& axes) const {
   const Vector3 deviation = tipDeviation ? tipDeviation(axes) : Vector3::Zero();
   if (following_ == Following::Kinematics) {
     const Vector3 tip = machine::baseFromSpindle(description_, axes) * Vector3(-toolVector) + deviation;
-    return referenceFromTable_ * (machine::baseFromTable(description_, axes).inverse() * tip);
+    return MachinePlace(referenceFromTable_ * (machine::baseFromTable(description_, axes).inverse() * tip));
   }
   Vector3 reference = Vector3::Zero();
   for (std::size_t i = 0; i < 3; ++i) {
     if (linearAxis_[i]) reference[static_cast<Eigen::Index>(i)] = axes[*linearAxis_[i]];
   }
-  return reference - toolVector + deviation;
+  return MachinePlace(reference - toolVector + deviation);
 }
 
-Vector3 Channel::programFromAxes(const AxisPositions& axes) const {
-  return programFromMachine_ * machineFromAxes(axes);
+ProgramPlace Channel::programFromAxes(const AxisPositions& axes) const {
+  return programFromMachine(machineFromAxes(axes));
 }
 
-AxisPositions Channel::axesFromMachine(const Vector3& tip, const AxisPositions& rotary) const {
+AxisPositions Channel::axesFromMachine(const MachinePlace& tip, const AxisPositions& rotary) const {
   AxisPositions axes = rotary;
   if (following_ == Following::LinearAxes) {
-    const Vector3 reference = tip + toolVector - (tipDeviation ? tipDeviation(rotary) : Vector3::Zero());
+    const Vector3 reference = tip.vector() + toolVector - (tipDeviation ? tipDeviation(rotary) : Vector3::Zero());
     for (std::size_t i = 0; i < 3; ++i) {
       if (linearAxis_[i]) {
         axes[*linearAxis_[i]] = reference[static_cast<Eigen::Index>(i)];
@@ -112,16 +112,17 @@ AxisPositions Channel::axesFromMachine(const Vector3& tip, const AxisPositions& 
   for (std::size_t i = 0; i < 3; ++i) {
     if (linearAxis_[i]) axes[*linearAxis_[i]] = 0;
   }
-  const Vector3 atZero = machineFromAxes(axes);
+  const MachinePlace atZero = machineFromAxes(axes);
   Matrix3 slope = Matrix3::Zero();
   for (std::size_t i = 0; i < 3; ++i) {
     if (!linearAxis_[i]) continue;
     AxisPositions one = axes;
     one[*linearAxis_[i]] = 1;
-    slope.col(static_cast<Eigen::Index>(i)) = machineFromAxes(one) - atZero;
+    slope.col(static_cast<Eigen::Index>(i)) = (machineFromAxes(one) - atZero).vector();
   }
-  const Vector3 solution = slope.colPivHouseholderQr().solve(tip - atZero);
-  if ((slope * solution - (tip - atZero)).norm() > 1e-6) {
+  const Vector3 way = (tip - atZero).vector();
+  const Vector3 solution = slope.colPivHouseholderQr().solve(way);
+  if ((slope * solution - way).norm() > 1e-6) {
     throw Alarm("", "The machine's linear axes cannot reach the position");
   }
   for (std::size_t i = 0; i < 3; ++i) {
@@ -130,13 +131,13 @@ AxisPositions Channel::axesFromMachine(const Vector3& tip, const AxisPositions& 
   return axes;
 }
 
-AxisPositions Channel::axesFromProgram(const Vector3& point, const AxisPositions& rotary) const {
-  return axesFromMachine(machineFromProgram_ * point, rotary);
+AxisPositions Channel::axesFromProgram(const ProgramPlace& tip, const AxisPositions& rotary) const {
+  return axesFromMachine(machineFromProgram(tip), rotary);
 }
 
-Vector3 Channel::toolAxis() const {
+ProgramWay Channel::toolAxis() const {
   const Vector3 direction = toolVector.norm() > 1e-9 ? toolVector.normalized() : Vector3::UnitZ();
-  return (spindleFromProgram().inverse() * direction).normalized();
+  return ProgramWay((spindleFromProgram().inverse() * direction).normalized());
 }
 
 Matrix3 Channel::spindleFromProgram() const {
@@ -268,16 +269,16 @@ void Channel::travel(std::vector<machine::PathPiece> path) {
   judgeTravel({result.end, std::move(result.detail)});
 }
 
-void Channel::moveAlong(std::span<const Vector3> points, Feed feed) {
+void Channel::moveAlong(std::span<const ProgramPlace> tips, Feed feed) {
   const AxisPositions start = axes();
   std::vector<machine::PathPiece> path;
-  path.reserve(points.size());
-  for (const Vector3& point : points)
-    path.push_back({axesFromProgram(point, start), feed});
+  path.reserve(tips.size());
+  for (const ProgramPlace& tip : tips)
+    path.push_back({axesFromProgram(tip, start), feed});
   travel(std::move(path));
 }
 
-void Channel::moveTo(const Vector3& point, Feed feed) { moveAxes(axesFromProgram(point, axes()), feed); }
+void Channel::moveTo(const ProgramPlace& tip, Feed feed) { moveAxes(axesFromProgram(tip, axes()), feed); }
 
 void Channel::moveTo(const Target& target, Feed feed) {
   const AxisPositions start = axes();
@@ -289,9 +290,9 @@ void Channel::moveTo(const Target& target, Feed feed) {
     turns = turns || end[i] != start[i];
   }
   const bool travels = std::ranges::any_of(target.linear, [](const auto& value) { return value.has_value(); });
-  const Vector3 from = programFromAxes(start);
+  const ProgramPlace from = programFromAxes(start);
   // What is not programmed keeps the tip's place on the workpiece with TCPM, the axes' place without.
-  Vector3 to = turns && !holdTip ? programFromAxes(end) : from;
+  ProgramPlace to = turns && !holdTip ? programFromAxes(end) : from;
   for (std::size_t i = 0; i < 3; ++i) {
     if (target.linear[i]) to[static_cast<Eigen::Index>(i)] = *target.linear[i];
   }
@@ -331,9 +332,9 @@ void Channel::moveTo(const Target& target, Feed feed) {
   travel(std::move(path));
 }
 
-machine::MeasureResult Channel::measureTo(const Vector3& point, Feed feed, machine::Sensor sensor, TouchWith part) {
+machine::MeasureResult Channel::measureTo(const ProgramPlace& tip, Feed feed, machine::Sensor sensor, TouchWith part) {
   const AxisPositions start = axes();
-  const AxisPositions target = axesFromProgram(point, start);
+  const AxisPositions target = axesFromProgram(tip, start);
   journal_.programFromTable = programFromTable(start);
   machine::MeasureResult result = machine_.measure({target, feed, sensor, part});
   count(start, axes());
@@ -349,9 +350,9 @@ Touch Channel::touchFrom(const machine::MeasureResult& result) const {
   return {programFromAxes(result.latched), result.latched};
 }
 
-void Channel::retractTo(const Vector3& point, Feed feed) {
+void Channel::retractTo(const ProgramPlace& tip, Feed feed) {
   const AxisPositions start = axes();
-  const AxisPositions target = axesFromProgram(point, start);
+  const AxisPositions target = axesFromProgram(tip, start);
   machine::MoveResult result = machine_.retract(target, feed);
   count(start, axes());
   note(result.end, start, target);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "control/journal.hpp"
-#include "geometry/primitives.hpp"
+#include "geometry/places.hpp"
 #include "machine/machine.hpp"
 
 /// Where a program's coordinates meet the axes: the common part of every control.
@@ -45,7 +45,7 @@ struct Target {
 
 /// A touch as the channel sees it.
 struct Touch {
-  Vector3 tip = Vector3::Zero();  ///< controlled point at the signal, program coordinates
+  ProgramPlace tip;  ///< controlled point at the signal
   AxisPositions latched;
 };
 
@@ -75,6 +75,22 @@ public:
   /// Machine coordinates from program coordinates; may mirror and scale, must be invertible.
   void setFrame(const Eigen::Affine3d& machineFromProgram);
   const Eigen::Affine3d& frame() const { return machineFromProgram_; }
+  template <places::Of of>
+  places::Place<places::Axes::Machine, of> machineFromProgram(
+      const places::Place<places::Axes::Program, of>& place) const {
+    return places::Place<places::Axes::Machine, of>(machineFromProgram_ * place.vector());
+  }
+  MachineWay machineFromProgram(const ProgramWay& way) const {
+    return MachineWay(machineFromProgram_.linear() * way.vector());
+  }
+  template <places::Of of>
+  places::Place<places::Axes::Program, of> programFromMachine(
+      const places::Place<places::Axes::Machine, of>& place) const {
+    return places::Place<places::Axes::Program, of>(programFromMachine_ * place.vector());
+  }
+  ProgramWay programFromMachine(const MachineWay& way) const {
+    return ProgramWay(programFromMachine_.linear() * way.vector());
+  }
   /// Program angle = machine angle - offset, for each rotary axis.
   AxisPositions rotaryOffset;
 
@@ -99,8 +115,8 @@ public:
   Vector3 toolVector = Vector3::Zero();
   double toolRadius = 0;
 
-  /// The direction from the tool tip towards the spindle in program coordinates, unit length.
-  Vector3 toolAxis() const;
+  /// The direction from the tool tip towards the spindle, unit length.
+  ProgramWay toolAxis() const;
 
   /// Program coordinates of a point from its place on the table, as the control believes, with the axes at `axes`.
   Eigen::Affine3d programFromTable(const AxisPositions& axes) const;
@@ -111,29 +127,29 @@ public:
   // ---- where things are ----
 
   AxisPositions axes() const { return machine_.position(); }
-  Vector3 position() const { return programFromAxes(axes()); }
-  Vector3 programFromAxes(const AxisPositions& axes) const;
+  ProgramPlace position() const { return programFromAxes(axes()); }
+  ProgramPlace programFromAxes(const AxisPositions& axes) const;
   /// Coordinates of the tip before the frame is applied.
-  Vector3 machineFromAxes(const AxisPositions& axes) const;
+  MachinePlace machineFromAxes(const AxisPositions& axes) const;
   /// The axis positions that bring the tip to the program point with the rotary axes as in `rotary`.
-  AxisPositions axesFromProgram(const Vector3& point, const AxisPositions& rotary) const;
-  AxisPositions axesFromMachine(const Vector3& tip, const AxisPositions& rotary) const;
+  AxisPositions axesFromProgram(const ProgramPlace& tip, const AxisPositions& rotary) const;
+  AxisPositions axesFromMachine(const MachinePlace& tip, const AxisPositions& rotary) const;
 
   // ---- motion ----
 
-  void moveTo(const Vector3& point, Feed feed);
+  void moveTo(const ProgramPlace& tip, Feed feed);
   void moveTo(const Target& target, Feed feed);
   /// Straight to axis positions of the machine coordinate system.
   void moveAxes(const AxisPositions& target, Feed feed);
   /// Through the program points, the rotary axes standing, without a stop between them.
-  void moveAlong(std::span<const Vector3> points, Feed feed);
+  void moveAlong(std::span<const ProgramPlace> tips, Feed feed);
 
   /// Towards the program point until the sensor signals. The outcome is the caller's to judge, but for a stop.
-  machine::MeasureResult measureTo(const Vector3& point, Feed feed, machine::Sensor sensor,
+  machine::MeasureResult measureTo(const ProgramPlace& tip, Feed feed, machine::Sensor sensor,
                                    TouchWith part = TouchWith::Ball);
   bool deflected(machine::Sensor sensor) const { return machine_.deflected(sensor); }
   Touch touchFrom(const machine::MeasureResult& result) const;
-  void retractTo(const Vector3& point, Feed feed);
+  void retractTo(const ProgramPlace& tip, Feed feed);
 
   /// Lets the main spindle turn, or stand.
   void turnSpindle(machine::Rotation rotation, double speed);

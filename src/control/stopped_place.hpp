@@ -12,7 +12,7 @@ namespace probewright::control {
 
 /// "X+1.000 Y+2.000 Z+3.000 of the active workpiece system", in the unit that the program counts in: "X+0.0394 Y+0.0787
 /// Z+0.1181 inch of the active workpiece system".
-inline std::string workpiecePlace(const Channel& channel, const Vector3& tip) {
+inline std::string workpiecePlace(const Channel& channel, const ProgramPlace& tip) {
   const double unit = channel.programUnit != nullptr ? *channel.programUnit : 1;
   const bool inch = unit != 1;
   // A number of hundreds of digits says no more than its size.
@@ -40,8 +40,8 @@ inline std::string deflectedAtStart(const Channel& channel, const std::string& w
 /// What a machine says of a target beyond its travel, and where the tool tip would have gone.
 inline std::string beyondTravel(const Channel& channel, const std::string& detail,
                                 const machine::AxisPositions& target) {
-  const Vector3 tip = channel.programFromAxes(target);
-  if (!tip.allFinite()) return detail;
+  const ProgramPlace tip = channel.programFromAxes(target);
+  if (!tip.vector().allFinite()) return detail;
   return fmt::format("{}; the tool tip would go to {}", detail.empty() ? "The target is beyond the travel" : detail,
                      workpiecePlace(channel, tip));
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/primitives.hpp"
+#include "geometry/places.hpp"
 
 namespace probewright::control {
 
@@ -8,7 +8,18 @@ namespace probewright::control {
 /// axis; SINUMERIK 1st, 2nd and 3rd axis of the plane: G17 X, Y, Z; G18 Z, X, Y; G19 Y, Z, X.
 struct WorkingPlane {
   int main = 0, minor = 1, tool = 2;
-  /// Coordinates (main, minor, tool) from (X, Y, Z), and back.
+  /// Places and ways along (main, minor, tool) axis from those along (X, Y, Z), and back.
+  template <places::Of of>
+  places::Place<places::Axes::Plane, of> planeFromXyz(const places::Place<places::Axes::Program, of>& place) const {
+    return places::Place<places::Axes::Plane, of>(planeFromXyz(place.vector()));
+  }
+  PlaneWay planeFromXyz(const ProgramWay& way) const { return PlaneWay(planeFromXyz(way.vector())); }
+  template <places::Of of>
+  places::Place<places::Axes::Program, of> xyzFromPlane(const places::Place<places::Axes::Plane, of>& place) const {
+    return places::Place<places::Axes::Program, of>(xyzFromPlane(place.vector()));
+  }
+  ProgramWay xyzFromPlane(const PlaneWay& way) const { return ProgramWay(xyzFromPlane(way.vector())); }
+  /// The same for three numbers of any other system.
   Vector3 planeFromXyz(const Vector3& p) const { return {p[main], p[minor], p[tool]}; }
   Vector3 xyzFromPlane(const Vector3& p) const {
     Vector3 xyz;

@@ -15,17 +15,17 @@ using control::Alarm;
 using machine::Feed;
 using machine::MeasureEnd;
 
-double inProgramUnits(const control::Channel& channel, double length, const Vector3& direction) {
-  return length / (channel.spindleFromProgram() * direction).norm();
+double inProgramUnits(const control::Channel& channel, double length, const ProgramWay& direction) {
+  return length / (channel.spindleFromProgram() * direction.vector()).norm();
 }
 
-Vector3 alongTool(const control::Channel& channel, double length) {
-  const Vector3 axis = channel.toolAxis();
+ProgramWay alongTool(const control::Channel& channel, double length) {
+  const ProgramWay axis = channel.toolAxis();
   return inProgramUnits(channel, length, axis) * axis;
 }
 
 double HeidenhainProber::inProgram(double length, const Vector3& direction) const {
-  return inProgramUnits(channel_, length, plane_.xyzFromPlane(direction));
+  return inProgramUnits(channel_, length, plane_.xyzFromPlane(PlaneWay(direction)));
 }
 
 double HeidenhainProber::standOff(double extra) const {
@@ -34,13 +34,15 @@ double HeidenhainProber::standOff(double extra) const {
 }
 
 Vector3 HeidenhainProber::ballFromTip() const {
-  const Vector3 above = plane_.planeFromXyz(alongTool(channel_, probe_.ballRadius));
+  const Vector3 above = plane_.planeFromXyz(alongTool(channel_, probe_.ballRadius)).vector();
   return probe_.aside || probe_.track ? above : above + tipOffsetNow();
 }
 
 Vector3 HeidenhainProber::positionWithTip(const Vector3& tip) const { return tip + ballFromTip(); }
 
-Vector3 HeidenhainProber::position() const { return positionWithTip(plane_.planeFromXyz(channel_.position())); }
+Vector3 HeidenhainProber::position() const {
+  return positionWithTip(plane_.planeFromXyz(channel_.position()).vector());
+}
 
 Vector3 HeidenhainProber::prePosition(const PlannedTouch& touch, double extra) const {
   const Vector3 ball =
@@ -54,7 +56,7 @@ Feed HeidenhainProber::positioning() const {
 }
 
 void HeidenhainProber::moveTo(const Vector3& ballCentre) {
-  channel_.moveTo(plane_.xyzFromPlane(ballCentre - ballFromTip()), positioning());
+  channel_.moveTo(plane_.xyzFromPlane(PlanePlace(ballCentre - ballFromTip())), positioning());
 }
 
 void HeidenhainProber::moveHeightTo(double height) {
@@ -79,10 +81,10 @@ void HeidenhainProber::approach(const Vector3& ballCentre, double clearanceHeigh
 }
 
 void HeidenhainProber::moveOnArc(const Vector3& centre, double angle) {
-  std::vector<Vector3> points = pointsOnArc(position(), centre, angle);
-  for (Vector3& point : points)
-    point = plane_.xyzFromPlane(point - ballFromTip());
-  channel_.moveAlong(points, positioning());
+  std::vector<ProgramPlace> tips;
+  for (const Vector3& point : pointsOnArc(position(), centre, angle))
+    tips.push_back(plane_.xyzFromPlane(PlanePlace(point - ballFromTip())));
+  channel_.moveAlong(tips, positioning());
 }
 
 Vector3 HeidenhainProber::tipOffsetAt(double spindleAngle) const {
@@ -91,7 +93,7 @@ Vector3 HeidenhainProber::tipOffsetAt(double spindleAngle) const {
   const Vector2 turned = Eigen::Rotation2Dd(turn) * probe_.tipOffset;
   // Spindle X and Y lie along the main and minor axis of the working plane that belongs to the tool.
   return plane_.planeFromXyz(channel_.spindleFromProgram().inverse() *
-                             plane_.xyzFromPlane({turned.x(), turned.y(), 0}));
+                             plane_.xyzFromPlane(Vector3(turned.x(), turned.y(), 0)));
 }
 
 Vector3 HeidenhainProber::tipOffsetNow() const { return tipOffsetAt(channel_.machine().spindle().angle); }
@@ -117,7 +119,7 @@ EvaluatedTouch HeidenhainProber::touch(const PlannedTouch& planned) {
 
 EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distance,
                                         const std::optional<Vector3>& expected) {
-  const Vector3 startTip = channel_.position();
+  const ProgramPlace startTip = channel_.position();
   const Vector3 xyzDirection = plane_.xyzFromPlane(direction);
   if (const std::optional<double> angle = orientationFor(direction)) channel_.orientSpindle(*angle);
   const Vector3 start = position();
@@ -127,7 +129,7 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
 
   const double directional = inProgram(directionalRadius(xyzDirection), direction);
   const double radius = ballRadius(direction);
-  const Vector3 above = plane_.planeFromXyz(alongTool(channel_, probe_.ballRadius));
+  const Vector3 above = plane_.planeFromXyz(alongTool(channel_, probe_.ballRadius)).vector();
   std::vector<Vector3> centres;
   EvaluatedTouch touch;
   const auto finish = [&](std::string outcome) {
@@ -136,7 +138,7 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
     touch.record = channel_.journal().touch(record);
   };
   for (int i = 0; i < std::max(1, probe_.repetitions); ++i) {
-    const machine::MeasureResult result = channel_.measureTo(startTip + xyzDirection * distance,
+    const machine::MeasureResult result = channel_.measureTo(startTip + ProgramWay(xyzDirection * distance),
                                                              Feed::at(probe_.probingFeed), machine::Sensor::TouchProbe);
     switch (result.end) {
       case MeasureEnd::Touched:
@@ -170,7 +172,7 @@ EvaluatedTouch HeidenhainProber::stroke(const Vector3& direction, double distanc
     }
     const control::Touch latched = channel_.touchFrom(result);
     touch.latched = latched.latched;
-    centres.push_back(plane_.planeFromXyz(latched.tip) + above + tipOffsetNow());
+    centres.push_back(plane_.planeFromXyz(latched.tip).vector() + above + tipOffsetNow());
     const Vector3 centre = centres.back() + direction * directional;
     record.ballCentre = plane_.xyzFromPlane(centre);
     record.surface = plane_.xyzFromPlane(centre + direction * radius);

@@ -44,10 +44,10 @@ struct EvaluatedTouch {
 };
 
 /// What `length` mm are in program coordinates along `direction` (X, Y, Z; unit length): cycles 11 and 26 scale them.
-double inProgramUnits(const control::Channel& channel, double length, const Vector3& direction);
+double inProgramUnits(const control::Channel& channel, double length, const ProgramWay& direction);
 
-/// The vector in program coordinates X, Y, Z that leads `length` mm along the tool towards the spindle.
-Vector3 alongTool(const control::Channel& channel, double length);
+/// What leads `length` mm along the tool towards the spindle.
+ProgramWay alongTool(const control::Channel& channel, double length);
 
 /// Moves the ball in coordinates (main, minor, tool axis) of the active program coordinate system. What program and
 /// cycle give counts in these coordinates; what tables and machine parameters give (ball radius, SET_UP, DIST) is in mm

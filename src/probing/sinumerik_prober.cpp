@@ -44,21 +44,21 @@ double angleFromSpindle(const control::Channel& channel, const control::WorkingP
   return degreesFromRadians(std::atan2(seen.y(), seen.x()));
 }
 
-Vector3 SinumerikProber::position() const { return plane_.planeFromXyz(channel_.position()); }
+Vector3 SinumerikProber::position() const { return plane_.planeFromXyz(channel_.position()).vector(); }
 
 void SinumerikProber::moveTo(const Vector3& tcp) {
   const Vector3 way = tcp - position();
   const bool infeedOnly = way.head<2>().norm() < 1e-9;
   Feed feed = Feed::at(infeedOnly ? habits_.infeedFeed : habits_.planeFeed);
   if (!habits_.monitorCollisions) feed = rapidTo(tcp);
-  channel_.moveTo(plane_.xyzFromPlane(tcp), feed);
+  channel_.moveTo(plane_.xyzFromPlane(PlanePlace(tcp)), feed);
 }
 
 /// Rapid traverse on the way to `tcp`, reduced to the percentage that the setting data grant.
 Feed SinumerikProber::rapidTo(const Vector3& tcp) const {
   if (habits_.rapidPercent <= 0 || habits_.rapidPercent >= 100) return Feed::rapidTraverse();
   const machine::AxisPositions from = channel_.axes();
-  const machine::AxisPositions to = channel_.axesFromProgram(plane_.xyzFromPlane(tcp), from);
+  const machine::AxisPositions to = channel_.axesFromProgram(plane_.xyzFromPlane(PlanePlace(tcp)), from);
   // Each linear axis and its share of the way.
   const auto eachShare = [&](auto&& visit) {
     std::size_t index = 0;
@@ -90,10 +90,10 @@ void SinumerikProber::moveHeightTo(double height) {
 }
 
 void SinumerikProber::moveOnArc(const Vector3& centre, double angle) {
-  std::vector<Vector3> points = pointsOnArc(position(), centre, angle);
-  for (Vector3& point : points)
-    point = plane_.xyzFromPlane(point);
-  channel_.moveAlong(points, Feed::at(habits_.circleFeed));
+  std::vector<ProgramPlace> tips;
+  for (const Vector3& point : pointsOnArc(position(), centre, angle))
+    tips.push_back(plane_.xyzFromPlane(PlanePlace(point)));
+  channel_.moveAlong(tips, Feed::at(habits_.circleFeed));
 }
 
 bool SinumerikProber::mirrored(int axis) const {
@@ -123,7 +123,7 @@ Vector3 SinumerikProber::lateralDeviation(const Vector3& direction) const {
   return deviation - direction * direction.dot(deviation);
 }
 
-Vector3 SinumerikProber::toolAxis() const { return plane_.planeFromXyz(channel_.toolAxis()).normalized(); }
+Vector3 SinumerikProber::toolAxis() const { return plane_.planeFromXyz(channel_.toolAxis()).normalized().vector(); }
 
 Vector3 SinumerikProber::uprightTcp(const Vector3& direction) const {
   if (probe_.lengthToCentre) return Vector3::Zero();
@@ -187,8 +187,8 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
   const Feed retract = habits_.rapidRetract ? rapidTo(end) : Feed::at(habits_.planeFeed);
   const auto probeOnce = [&](double atFeed) {
     return carryOut(channel_,
-                    {.start = plane_.xyzFromPlane(start),
-                     .end = plane_.xyzFromPlane(end),
+                    {.start = plane_.xyzFromPlane(PlanePlace(start)),
+                     .end = plane_.xyzFromPlane(PlanePlace(end)),
                      .feed = atFeed,
                      .retract = retract,
                      .part = part,
@@ -203,7 +203,7 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
   const double radius = ballRadius() > 0 ? ballRadius() : surfaceFromTcp.dot(direction);
   record.target = plane_.xyzFromPlane(setpoint + height);
   const auto noteTouch = [&](const control::Touch& touch) {
-    const Vector3 surface = plane_.planeFromXyz(touch.tip) + upright + height + surfaceFromTcp;
+    const Vector3 surface = plane_.planeFromXyz(touch.tip).vector() + upright + height + surfaceFromTcp;
     record.ballCentre = plane_.xyzFromPlane(surface - direction * radius);
     record.surface = plane_.xyzFromPlane(surface);
     record.latched = touch.latched;
@@ -216,16 +216,16 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
       const auto quick = probeOnce(habits_.fastFeed);
       if (quick) {
         noteTouch(quick->touch);
-        const Vector3 back = plane_.planeFromXyz(quick->touch.tip) - direction * std::min(2.0, path);
-        channel_.retractTo(plane_.xyzFromPlane(back), retract);
+        const Vector3 back = plane_.planeFromXyz(quick->touch.tip).vector() - direction * std::min(2.0, path);
+        channel_.retractTo(plane_.xyzFromPlane(PlanePlace(back)), retract);
       }
     }
     const auto touch = probeOnce(feed);
     if (!touch) refuseUntouched(channel_, path);
     noteTouch(touch->touch);
-    sum += plane_.planeFromXyz(touch->touch.tip);
+    sum += plane_.planeFromXyz(touch->touch.tip).vector();
     point.latched = touch->touch.latched;
-    channel_.retractTo(plane_.xyzFromPlane(start), retract);
+    channel_.retractTo(plane_.xyzFromPlane(PlanePlace(start)), retract);
   }
   point.tcp = sum / std::max(1, count) + upright;
   point.surface = point.tcp + surfaceFromTcp;

@@ -10,8 +10,8 @@
 namespace probewright::probing {
 
 struct SinumerikStroke {
-  Vector3 start = Vector3::Zero();  ///< of the tip, program coordinates
-  Vector3 end = Vector3::Zero();
+  ProgramPlace start;  ///< of the tip
+  ProgramPlace end;
   double feed = 300;  ///< mm/min
   machine::Feed retract;
   machine::Sensor sensor = machine::Sensor::TouchProbe;

@@ -22,8 +22,8 @@ ToolStrokeTouch SinumerikToolProber::touch(const ToolStroke& stroke) {
     record.outcome = std::move(outcome);
     channel_.journal().touch(record);
   };
-  SinumerikStroke order = {.start = plane_.xyzFromPlane(stroke.start),
-                           .end = plane_.xyzFromPlane(end),
+  SinumerikStroke order = {.start = plane_.xyzFromPlane(PlanePlace(stroke.start)),
+                           .end = plane_.xyzFromPlane(PlanePlace(end)),
                            .feed = stroke.feed,
                            .retract = machine::Feed::at(habits_.planeFeed),
                            .sensor = machine::Sensor::ToolTouchProbe,
@@ -32,7 +32,7 @@ ToolStrokeTouch SinumerikToolProber::touch(const ToolStroke& stroke) {
   const auto once = [&] {
     const auto touched = carryOut(channel_, order, finish);
     if (!touched) refuseUntouched(channel_, stroke.path);
-    record.ballCentre = record.surface = touched->touch.tip;
+    record.ballCentre = record.surface = touched->touch.tip.vector();
     record.latched = touched->touch.latched;
     finish("touched");
     return *touched;
@@ -40,13 +40,13 @@ ToolStrokeTouch SinumerikToolProber::touch(const ToolStroke& stroke) {
   if (stroke.mayApproachFast && habits_.fastApproach && stroke.path > 1) {
     // A first quick touch, back off, then the one that counts.
     order.feed = habits_.fastFeed;
-    const Vector3 back = plane_.planeFromXyz(once().touch.tip) - std::min(2.0, stroke.path) * stroke.direction;
-    channel_.retractTo(plane_.xyzFromPlane(back), order.retract);
+    const Vector3 back = plane_.planeFromXyz(once().touch.tip).vector() - std::min(2.0, stroke.path) * stroke.direction;
+    channel_.retractTo(plane_.xyzFromPlane(PlanePlace(back)), order.retract);
     order.feed = stroke.feed;
   }
   const StrokeTouch touched = once();
   channel_.retractTo(order.start, order.retract);
-  return {plane_.planeFromXyz(touched.touch.tip), touched.spindleAngle};
+  return {plane_.planeFromXyz(touched.touch.tip).vector(), touched.spindleAngle};
 }
 
 }  // namespace probewright::probing

@@ -20,7 +20,7 @@ ToolProber::ToolProber(control::Channel& channel, const WorkingPlane& plane, con
       probe_(probe),
       height_(std::max(clearanceHeight, probe.place[plane.tool] + probe.clearance)) {}
 
-Vector3 ToolProber::tip() const { return channel_.machineFromAxes(channel_.axes()); }
+Vector3 ToolProber::tip() const { return channel_.machineFromAxes(channel_.axes()).vector(); }
 
 Vector3 ToolProber::inPlane(int axis, double value) const {
   Vector3 inPlane = Vector3::Zero();
@@ -29,7 +29,7 @@ Vector3 ToolProber::inPlane(int axis, double value) const {
 }
 
 void ToolProber::moveTo(const Vector3& tip) {
-  channel_.moveAxes(channel_.axesFromMachine(tip, channel_.axes()), Feed::at(probe_.rapid));
+  channel_.moveAxes(channel_.axesFromMachine(MachinePlace(tip), channel_.axes()), Feed::at(probe_.rapid));
 }
 
 void ToolProber::rise() {
@@ -49,12 +49,12 @@ void ToolProber::approach(const Vector3& target) {
 
 ToolTouch ToolProber::stroke(const Vector3& direction) {
   const Vector3 start = tip();
-  const Vector3 startInProgram = channel_.position();
-  const Vector3 end = channel_.frame().inverse() * Vector3(start + probe_.reach * direction);
+  const ProgramPlace startInProgram = channel_.position();
+  const ProgramPlace end = channel_.programFromMachine(MachinePlace(start + probe_.reach * direction));
   control::TouchRecord record;
   // Where the tool is expected to touch.
-  record.target = channel_.frame().inverse() * Vector3(start + probe_.clearance * direction);
-  record.direction = (end - startInProgram).normalized();
+  record.target = channel_.programFromMachine(MachinePlace(start + probe_.clearance * direction)).vector();
+  record.direction = (end - startInProgram).normalized().vector();
   const machine::MeasureResult result = channel_.measureTo(end, Feed::at(probe_.feed), machine::Sensor::ToolTouchProbe);
   const auto fail = [&](const char* outcome, const std::string& code, const std::string& text, const char* advice) {
     record.seconds = channel_.seconds();
@@ -93,12 +93,12 @@ ToolTouch ToolProber::stroke(const Vector3& direction) {
   }
   const control::Touch touch = channel_.touchFrom(result);
   channel_.retractTo(startInProgram, Feed::rapidTraverse());
-  record.ballCentre = record.surface = touch.tip;
+  record.ballCentre = record.surface = touch.tip.vector();
   record.latched = touch.latched;
   record.seconds = channel_.seconds();
   record.outcome = "touched";
   channel_.journal().touch(record);
-  return {channel_.machineFromAxes(touch.latched), result.spindleAngle};
+  return {channel_.machineFromAxes(touch.latched).vector(), result.spindleAngle};
 }
 
 ToolTouch ToolProber::touchTop(const Vector2& offset) {

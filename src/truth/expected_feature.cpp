@@ -40,7 +40,7 @@ std::optional<ExpectedRound> expectedRound(const control::CycleRecord& cycle, in
     const auto main = valueOf(cycle, names[0]), minor = valueOf(cycle, names[1]);
     if (!main || !minor) continue;
     const double height = valueOf(cycle, "Q261").value_or(plane.planeFromXyz(start).z());
-    return ExpectedRound{plane.xyzFromPlane({*main, *minor, height}), *diameter,
+    return ExpectedRound{plane.xyzFromPlane(Vector3(*main, *minor, height)), *diameter,
                          std::string(names[0]) + "/" + std::string(names[1])};
   }
   return std::nullopt;

@@ -56,7 +56,7 @@ TEST(Cycle976, CalibratesInARing) {
     EXPECT_NEAR(bench.ovr(20), deviation.x(), 1e-9);
     EXPECT_NEAR(bench.data("$TC_DP6", {1, 1}), 2 - pretravel, known ? 1e-9 : 2e-5);
     EXPECT_EQ(bench.data("$SNS_MEA_WP_FEED", {0}), 200);
-    EXPECT_NEAR((bench.control.channel.position() - Vector3(error.x(), error.y(), -10)).norm(), 0, 1e-9);
+    EXPECT_NEAR((bench.control.channel.position() - ProgramPlace(error.x(), error.y(), -10)).norm(), 0, 1e-9);
   }
 }
 

@@ -55,7 +55,7 @@ TEST(Cycle977, TheStartPositionIsTheSetCentre) {
   EXPECT_NEAR(bench.ovr(6), 20.25, 1e-9);
   EXPECT_NEAR(bench.data("$P_UIFR", {1, "X", "TR"}), 0.5, 1e-9);
   EXPECT_NEAR(bench.data("$P_UIFR", {1, "Y", "TR"}), 0.25, 1e-9);
-  EXPECT_NEAR((bench.control.channel.position() - Vector3(30, 20, -10)).norm(), 0, 1e-9)
+  EXPECT_NEAR((bench.control.channel.position() - ProgramPlace(30, 20, -10)).norm(), 0, 1e-9)
       << "the probe is in the centre";
 }
 

@@ -35,7 +35,7 @@ TEST(MeasuringDirection, LeadsFromTheProbeToTheSetValueWhereSMdIsLeftOut) {
       bench.start(start);
       bench.run("CYCLE978", call);
       EXPECT_NEAR(bench.ovr(4), set, 1e-9) << "axis " << axis << " set " << set;
-      const Vector3 end = bench.control.channel.position();
+      const Vector3 end = bench.control.channel.position().vector();
       const double outwards = start[axis] > set ? 1 : -1;
       EXPECT_NEAR(end[axis], set + 0.3 + outwards * (8 + (axis < 2 ? 2 : 0)), 1e-9) << "DFA from the set value";
     }
@@ -70,7 +70,7 @@ TEST(EndPosition, OfCycle998IsDfaFromTheSurfaceAtTheSecondPoint) {
       plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
       bench.start({-58, -15, -20});
       bench.run("CYCLE998", {{"S_MVAR", variant}, {"S_FA", 8}, {"S_TSA", 5}, {"S_MA", 201}, {"S_MD", 1}, {"S_ID", 30}});
-      const Vector3 end = bench.control.channel.position();
+      const Vector3 end = bench.control.channel.position().vector();
       EXPECT_NEAR(end.y(), 15, 1e-9);
       // Where the ball touches at Y15, its surface lies DFA from the face that it touched.
       const double touched = bench.control.journal.cycles.back().touches.back().surface.x();
@@ -82,7 +82,7 @@ TEST(EndPosition, OfCycle998IsDfaFromTheSurfaceAtTheSecondPoint) {
   plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
   bench.start({-20, -20, 9});
   bench.run("CYCLE998", {{"S_MVAR", 6}, {"S_FA", 7}, {"S_TSA", 5}, {"S_SETV0", 40}, {"S_SETV2", 10}, {"S_SETV3", 35}});
-  EXPECT_NEAR((bench.control.channel.position() - Vector3(-10, 15, 7)).norm(), 0, 1e-9);
+  EXPECT_NEAR((bench.control.channel.position() - ProgramPlace(-10, 15, 7)).norm(), 0, 1e-9);
 }
 
 TEST(EndPosition, OfCycle976AtAnEdgeLeavesTheBallsCentreDfaAway) {

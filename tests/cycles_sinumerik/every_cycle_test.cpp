@@ -185,7 +185,7 @@ TEST(EveryCycle, EndsWhereTheManualSays) {
       const double along = normal.x() * end.x() + normal.y() * end.y();
       end.z() = (normal.dot(middle) + 2 - along) / normal.z() - 2 + path;
     }
-    const Vector3 here = bench.control.channel.position();
+    const Vector3 here = bench.control.channel.position().vector();
     for (int axis = 0; axis < 3; ++axis)
       EXPECT_NEAR(here[axis], end[axis], name == "995" ? 1e-3 : 1e-6) << axis;
   }

@@ -47,7 +47,7 @@ TEST(Cycle994, MeasuresOutsideByTwoPointsRoundTheFace) {
     EXPECT_EQ(bench.ovi(2), 994);
     EXPECT_EQ(bench.ovi(3), mvar);
     // It ends below the centre at the height where it began, the measuring path away from the set diameter.
-    const Vector3 end = bench.control.channel.machineFromAxes(bench.machine.position());
+    const Vector3 end = bench.control.channel.machineFromAxes(bench.machine.position()).vector();
     EXPECT_NEAR(end.x(), zero - (radius - error) - 3 - (ball - probe.pretravel), 1e-6);
     EXPECT_NEAR(end.z(), face - depth, 1e-6);
   }

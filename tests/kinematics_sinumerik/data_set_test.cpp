@@ -118,14 +118,14 @@ TEST(SwivelDataSet, TraoriHasItsMachineData) {
       bench.run("CYCLE996", {{"S_MVAR", 0}, {"S_TC", 1}}, {},
                 fmt::format("TRAFOOF\nSUPA G0 Z-100\nSUPA G0 {}=20 {}=30\nSUPA G0 X10 Y20\nTRAORI\n",
                             each.build->axes[0], each.build->axes[1]));
-      return Vector3(bench.control.channel.machineFromAxes(bench.control.channel.axes()));
+      return bench.control.channel.machineFromAxes(bench.control.channel.axes()).vector();
     };
     const Vector3 ofMachineData = tip(each.type);
     machine::AxisPositions axes = bench.control.channel.axes();
     EXPECT_LT((ofMachineData - scene.tipOfDataSet(axes, {0, 0, 100})).norm(), 1e-9);
     EXPECT_LT((tip(72) - ofMachineData).norm(), 1e-9);
     EXPECT_GT((tip(16) - ofMachineData).norm(), 1e-3);
-    const Vector3 onlyData = bench.control.channel.machineFromAxes(axes);
+    const Vector3 onlyData = bench.control.channel.machineFromAxes(axes).vector();
     bench.control.data.set("$TC_CARR4", {2}, 1.0);
     bench.set("$MC_TRAFO5_TCARR_NO_1", {}, 2);  // there is no kind in it: as told
     EXPECT_LT((tip(72) - onlyData).norm(), 1e-9);

@@ -26,7 +26,9 @@ Vector3 direction(double degrees) {
 }
 
 /// Where the tip is in the system of preset 0, which lies in the machine's origin.
-Vector3 tipOf(const World& world) { return world.control->channel.machineFromAxes(world.control->channel.axes()); }
+Vector3 tipOf(const World& world) {
+  return world.control->channel.machineFromAxes(world.control->channel.axes()).vector();
+}
 
 void turnPreset(World& world, double degrees) {
   control::heidenhain::Control::PresetChange change;

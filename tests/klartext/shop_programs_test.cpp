@@ -246,7 +246,7 @@ TEST(ShopPrograms, PassTheCheckAndRun) {
     EXPECT_EQ(result.end, RunEnd::Finished) << sample.name;
     for (const Diagnostic& diagnostic : result.diagnostics)
       ADD_FAILURE() << sample.name << "\n" << format(diagnostic);
-    const Vector3 tip = world.control->channel.machineFromAxes(world.control->channel.axes());
+    const Vector3 tip = world.control->channel.machineFromAxes(world.control->channel.axes()).vector();
     EXPECT_NEAR(tip.x(), sample.end.x(), 1e-6) << sample.name;
     EXPECT_NEAR(tip.y(), sample.end.y(), 1e-6) << sample.name;
     // M140 MB MAX of the first one ends at the limit of travel.
@@ -329,7 +329,7 @@ N99999999 %POLAR G71 *
     KlartextHost klartext(*world.control, world.options);
     execution::din_iso::DinIsoHost host(klartext);
     expectFinished(Interpreter(world.library, host).run(program));
-    const Vector3 tip = world.control->channel.machineFromAxes(world.control->channel.axes());
+    const Vector3 tip = world.control->channel.machineFromAxes(world.control->channel.axes()).vector();
     EXPECT_TRUE(near(tip, each.end, 1e-6)) << each.text;
   }
 }

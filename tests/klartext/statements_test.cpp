@@ -181,13 +181,13 @@ TEST(Statements, AMirrorImageBeforeThePlaneIsTilted) {
       World world(machine);
       expectFinished(world.run("TOOL CALL 1 Z\nCYCL DEF 8.0 MIRROR\nCYCL DEF 8.1 X\n" + std::string(plane) + "\n"));
       // The plane's tool axis is the tool's.
-      EXPECT_TRUE(near(world.control->channel.toolAxis(), Vector3::UnitZ(), 1e-9)) << machine << " " << plane;
+      EXPECT_TRUE(near(world.control->channel.toolAxis().vector(), Vector3::UnitZ(), 1e-9)) << machine << " " << plane;
     }
   }
   World tilted("mill5-table-table");
   expectFinished(
       tilted.run("TOOL CALL 1 Z\nCYCL DEF 10.0 ROT\nCYCL DEF 10.1 ROT+30\nPLANE AXIAL A+20 C+0 TURN FMAX\n"));
-  EXPECT_TRUE(near(tilted.control->channel.toolAxis(), Vector3::UnitZ(), 1e-9));
+  EXPECT_TRUE(near(tilted.control->channel.toolAxis().vector(), Vector3::UnitZ(), 1e-9));
   World refused("mill5-table-table");
   EXPECT_THAT(
       alarmOf(refused, "TOOL CALL 1 Z\nCYCL DEF 8.0 MIRROR\nCYCL DEF 8.1 Z\nPLANE SPATIAL SPA+0 SPB+20 SPC+0 STAY\n"),
@@ -202,8 +202,8 @@ TEST(Statements, ToolVectorsOfLinearBlocksTurnTheTool) {
     expectFinished(
         world.run("TOOL CALL 1 Z\nL X+0 Y+0 Z+100 R0 FMAX\nM128\n"
                   "LN X+5 Y+2 Z+50 NX+0 NY+0 NZ+1 TX+0.2 TY-0.1 TZ+1 F1000\n"));
-    EXPECT_TRUE(near(world.control->channel.toolAxis(), Vector3(0.2, -0.1, 1).normalized(), 1e-9)) << machine;
-    EXPECT_TRUE(near(world.control->channel.position(), {5, 2, 50}, 1e-6)) << machine;
+    EXPECT_TRUE(near(world.control->channel.toolAxis().vector(), Vector3(0.2, -0.1, 1).normalized(), 1e-9)) << machine;
+    EXPECT_TRUE(near(world.control->channel.position().vector(), {5, 2, 50}, 1e-6)) << machine;
   }
   World world("mill5-head-table");
   expectFinished(world.run("TOOL CALL 1 Z DL+0.1\nLN X+5 Y+2 Z+50 NX+0 NY+0 NZ+1 TX+0 TY+0 TZ+1 F1000\nX+9 R+\n"));
@@ -220,7 +220,7 @@ TEST(Statements, FunctionTcpmTakesAFeedLimit) {
   expectFinished(
       world.run("TOOL CALL 1 Z\nFUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS REFPNT TIP-TIP F1000\n"
                 "L X+0 Y+0 Z+100 R0 FMAX\nL A+20 R0 FMAX\nFUNCTION TCPM F CONT AXIS SPAT PATHCTRL VECTOR FMAX\n"));
-  EXPECT_TRUE(near(world.control->channel.position(), {0, 0, 100}, 1e-6));
+  EXPECT_TRUE(near(world.control->channel.position().vector(), {0, 0, 100}, 1e-6));
 }
 
 // ---- FN 16 ----

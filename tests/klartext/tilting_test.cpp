@@ -22,7 +22,7 @@ TEST(Tilting, TiltedPlanesPointTheToolAlongTheirNormal) {
                                          formatSigned(b, 6) + " SPC" + formatSigned(c, 6) + " TURN F5000\n");
       ASSERT_EQ(result.end, RunEnd::Finished) << name << " " << a << " " << b << " " << c << "\n"
                                               << (result.diagnostics.empty() ? "" : format(result.diagnostics[0]));
-      EXPECT_TRUE(near(world.control->channel.toolAxis(), Vector3::UnitZ(), 1e-9)) << name;
+      EXPECT_TRUE(near(world.control->channel.toolAxis().vector(), Vector3::UnitZ(), 1e-9)) << name;
     }
   }
 }
@@ -66,7 +66,7 @@ TEST(Tilting, MoveKeepsTheTipOnTheWorkpiece) {
   ASSERT_EQ(result.end, RunEnd::Finished);
   world.control->coordinates.tilt = Matrix3::Identity();
   world.control->applyCoordinates();
-  EXPECT_TRUE(near(world.control->channel.position(), {10, 20, -400}, 1e-9));
+  EXPECT_TRUE(near(world.control->channel.position().vector(), {10, 20, -400}, 1e-9));
 }
 
 TEST(Tilting, MoveWithADistanceKeepsThePointAboveTheTip) {
@@ -79,7 +79,7 @@ TEST(Tilting, MoveWithADistanceKeepsThePointAboveTheTip) {
   world.control->applyCoordinates();
   // The tool stands square to the tilted plane; 50 mm up its axis lies the point that was 50 mm above the tip before.
   const Vector3 axis(0, -std::sin(radiansFromDegrees(20)), std::cos(radiansFromDegrees(20)));
-  EXPECT_TRUE(near(world.control->channel.position() + 50 * axis, {10, 20, -350}, 1e-9));
+  EXPECT_TRUE(near(world.control->channel.position().vector() + 50 * axis, {10, 20, -350}, 1e-9));
 }
 
 /// A in the bed and B on it, the tool upright at A = B = 0.
@@ -156,7 +156,7 @@ TEST(Tilting, TableRotLeavesAFreeAxisWhereItStandsUnderATiltedPlane) {
                              type + "\n"));
     EXPECT_NEAR(world.machine->position()[3], -90, 1e-9) << type;
     EXPECT_NEAR(world.machine->position()[4], expected, 1e-9) << type;
-    EXPECT_TRUE(near(world.control->channel.toolAxis(), Vector3::UnitZ())) << type;
+    EXPECT_TRUE(near(world.control->channel.toolAxis().vector(), Vector3::UnitZ())) << type;
   }
 }
 

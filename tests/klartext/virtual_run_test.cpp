@@ -75,7 +75,7 @@ TEST(VirtualRun, OldFormCyclesMeasureOnePoint) {
   EXPECT_NEAR(world.control->q.q(6), x, 1e-6);
   EXPECT_NEAR(world.control->q.q(7), -10 + 100, 1e-6);
   EXPECT_NEAR(world.control->q.q(116), -0.5 + std::sqrt(18 * 18 - 0.25 * 0.25), 1e-6);
-  EXPECT_TRUE((world.control->channel.position() - Vector3(0, 9, -10)).norm() < 1e-9);
+  EXPECT_TRUE((world.control->channel.position() - ProgramPlace(0, 9, -10)).norm() < 1e-9);
 }
 
 TEST(VirtualRun, ACollisionNamesItsBlock) {

@@ -46,7 +46,7 @@ TEST(Cycle982Calibrates, AllFourSidesWithACalibratingTool) {
         EXPECT_EQ(bench.ovi(9), 0);
         // The tool stands the measuring path in front of the face that was
         // expected.
-        const Vector3 tip = bench.control.channel.position();
+        const Vector3 tip = bench.control.channel.position().vector();
         const double edge = (axis == 1 ? tip.z() : tip.x()) + radius + direction * radius;
         EXPECT_NEAR(edge, before - direction * 5, 1e-6);
       }

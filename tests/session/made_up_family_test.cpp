@@ -115,8 +115,8 @@ const cycles::CycleDefinition touchDefinition = {.number = 1,
                                                  .results = touchResults,
                                                  .controls = control::ControlSet::of(pocket1)};
 
-void cycleTouch(PocketControl& control, const Vector3& target) {
-  const Vector3 way = (target - control.channel.position()).normalized();
+void cycleTouch(PocketControl& control, const ProgramPlace& target) {
+  const ProgramWay way = (target - control.channel.position()).normalized();
   control::CycleRecord opened;
   opened.name = touchDefinition.name;
   opened.title = touchDefinition.title;
@@ -124,8 +124,8 @@ void cycleTouch(PocketControl& control, const Vector3& target) {
   control.journal.begin(std::move(opened));
   const auto result = control.channel.measureTo(target, machine::Feed::at(300), machine::Sensor::TouchProbe);
   if (result.end != machine::MeasureEnd::Touched) throw control::Alarm("P1", "no wall", "measure further");
-  const Vector3 surface = control.channel.touchFrom(result).tip + control.ballRadius * way;
-  control.lastWall = surface.dot(way.cwiseAbs());
+  const auto surface = partAt(control.channel.touchFrom(result).tip, control.ballRadius * way);
+  control.lastWall = surface.vector().dot(way.vector().cwiseAbs());
   control::ResultRecord record;
   record.name = "WALL";
   record.value = control.lastWall;
@@ -159,8 +159,8 @@ public:
   }
 
 private:
-  Vector3 target(language::WordRange words, execution::Evaluation& evaluation) {
-    Vector3 point = control_.channel.position();
+  ProgramPlace target(language::WordRange words, execution::Evaluation& evaluation) {
+    ProgramPlace point = control_.channel.position();
     for (const language::Word& word : evaluation.words(words))
       point[static_cast<Eigen::Index>(word.address - 'X')] = evaluation.number(word.value);
     return point;

@@ -16,7 +16,7 @@ std::vector<Vector3> pathOf(World& world, const std::string& program) {
   world.run("F1000\n" + program);
   std::vector<Vector3> path;
   for (std::size_t i = before; i < world.machine.moves.size(); ++i)
-    path.push_back(world.control.channel.programFromAxes(world.machine.moves[i].to));
+    path.push_back(world.control.channel.programFromAxes(world.machine.moves[i].to).vector());
   return path;
 }
 
@@ -146,7 +146,7 @@ TEST(SinumerikCorner, TheToolCentreGoesAroundTheRoundedContour) {
   world.run("F1000 G1 G42 X0 Y0\nX40 RND=8\nY40\nX0\nG40 X-30\n");
   const Vector3 corners[] = {{0, 0, 0}, {32, 0, 0}, {40, 8, 0}, {40, 40, 0}, {0, 40, 0}};
   for (std::size_t i = before + 1; i + 1 < world.machine.moves.size(); ++i) {
-    const Vector3 point = world.control.channel.programFromAxes(world.machine.moves[i].to);
+    const Vector3 point = world.control.channel.programFromAxes(world.machine.moves[i].to).vector();
     double least = 1e9;
     for (const auto& [a, b] : {std::pair{0, 1}, std::pair{2, 3}, std::pair{3, 4}})
       least = std::min(least, distanceToSegment(point, corners[a], corners[b]));
@@ -158,7 +158,7 @@ TEST(SinumerikCorner, TheToolCentreGoesAroundTheRoundedContour) {
 
 TEST(SinumerikCorner, LinesGivenByTheirAngle) {
   World world;
-  const auto tip = [&] { return world.control.channel.position(); };
+  const auto tip = [&] { return world.control.channel.position().vector(); };
   world.run("G90 G0 X0 Y0 Z0\nG1 F500 X20 ANG=30\n");
   EXPECT_LT((tip() - Vector3(20, 20 * std::tan(std::numbers::pi / 6), 0)).norm(), 1e-9);
   world.run("G0 X0 Y0\nG1 Y20 ANG=120\n");
@@ -167,8 +167,9 @@ TEST(SinumerikCorner, LinesGivenByTheirAngle) {
   world.run("G0 X0 Y0\n");
   const std::size_t before = world.machine.moves.size();
   world.run("G1 ANG=45\nX40 Y10 ANG=0\n");
-  EXPECT_LT((world.control.channel.programFromAxes(world.machine.moves.at(before).to) - Vector3(10, 10, 0)).norm(),
-            1e-9);
+  EXPECT_LT(
+      (world.control.channel.programFromAxes(world.machine.moves.at(before).to).vector() - Vector3(10, 10, 0)).norm(),
+      1e-9);
   expectArc(pathOf(world, "G1 ANG=90 RND=4\nX40 Y10 ANG=0\n"), {0, 6, 0}, {4, 10, 0}, {4, 6, 0}, 4);
   EXPECT_EQ(world.alarm("G1 X50 ANG=90\n"), "14090");
   EXPECT_EQ(world.alarm("G1 ANG=45\nX90 Y90\n"), "14090");

@@ -162,8 +162,8 @@ TEST(Posts, ProgramsRunAndSayWhatTheySkip) {
     for (const auto& event : world.control.journal.events)
       if (event.kind == control::EventKind::Skipped) skipped.push_back(event.text);
     EXPECT_EQ(skipped, post.skipped);
-    EXPECT_LT((world.control.channel.position() - post.end).norm(), 1e-6)
-        << world.control.channel.position().transpose();
+    EXPECT_LT((world.control.channel.position().vector() - post.end).norm(), 1e-6)
+        << world.control.channel.position().vector().transpose();
   }
 }
 

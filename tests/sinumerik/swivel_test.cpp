@@ -40,7 +40,8 @@ TEST(Swivel, TheToolStandsSquareToThePlane) {
       const double a = angle(random), b = angle(random);
       world.run(fmt::format("T2 M6\nG54\nCYCLE800(0,\"\",0,57,10,20,30,{},{},0,0,0,0,-1)\n", a, b));
       // Square: the tool axis is the plane's own Z.
-      EXPECT_LT((world.control.channel.toolAxis() - Vector3::UnitZ()).norm(), 1e-9) << name << " A" << a << " B" << b;
+      EXPECT_LT((world.control.channel.toolAxis() - ProgramWay(0, 0, 1)).norm(), 1e-9)
+          << name << " A" << a << " B" << b;
       // The frame is the settable one, then the reference point, then the rotation.
       const Eigen::Affine3d expected = control::sinumerik::transform(world.control.data.frame("$P_UIFR", {1})) *
                                        Eigen::Translation3d(10, 20, 30) *
@@ -118,7 +119,7 @@ TEST(Swivel, AMachineWithoutRotaryAxesRefuses) {
 TEST(Swivel, AxesAreSetDirectly) {
   World world("mill5-table-table");
   world.run("CYCLE800(0,\"\",0,192,0,0,0,15,40,0,0,0,0,-1)\n");
-  EXPECT_LT((world.control.channel.toolAxis() - Vector3::UnitZ()).norm(), 1e-9);
+  EXPECT_LT((world.control.channel.toolAxis() - ProgramWay(0, 0, 1)).norm(), 1e-9);
 }
 
 }  // namespace

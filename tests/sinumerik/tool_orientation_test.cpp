@@ -12,7 +12,7 @@ namespace {
 constexpr const char* machines[] = {"mill5-table-table", "mill5-head-table", "mill5-head-head"};
 
 /// The tool axis in the coordinates of the program.
-Vector3 toolAxis(World& world) { return world.control.channel.toolAxis(); }
+Vector3 toolAxis(World& world) { return world.control.channel.toolAxis().vector(); }
 
 TEST(ToolOrientation, VectorsPointTheTool) {
   std::mt19937_64 random(11);
@@ -27,7 +27,7 @@ TEST(ToolOrientation, VectorsPointTheTool) {
       world.run(fmt::format("G1 X{} Y{} Z{} A3={} B3={} C3={} F1000\n", target.x(), target.y(), target.z(),
                             direction.x(), direction.y(), direction.z()));
       EXPECT_LT((toolAxis(world) - direction.normalized()).norm(), 1e-9) << name << " " << direction.transpose();
-      EXPECT_LT((world.control.channel.position() - target).norm(), 1e-9) << name;
+      EXPECT_LT((world.control.channel.position().vector() - target).norm(), 1e-9) << name;
     }
   }
 }
@@ -48,7 +48,7 @@ TEST(ToolOrientation, AnglesPointTheTool) {
     EXPECT_LT((toolAxis(world) - rpy2).norm(), 1e-9) << name;
     world.run("ORIEULER\nG1 A2=20 B2=15\n");
     EXPECT_LT((toolAxis(world) - euler).norm(), 1e-9) << name;
-    EXPECT_LT((world.control.channel.position() - Vector3(7, 0, 100)).norm(), 1e-9) << name;
+    EXPECT_LT((world.control.channel.position() - ProgramPlace(7, 0, 100)).norm(), 1e-9) << name;
   }
 }
 

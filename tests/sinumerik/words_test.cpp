@@ -10,7 +10,7 @@
 namespace probewright::language::sinumerik {
 namespace {
 
-Vector3 tip(World& world) { return world.control.channel.position(); }
+Vector3 tip(World& world) { return world.control.channel.position().vector(); }
 
 std::vector<std::string> texts(const World& world, control::EventKind kind) {
   std::vector<std::string> found;

@@ -60,16 +60,15 @@ std::vector<std::string> row(std::string_view name, double before, double after)
 /// An offset of the ball in the program's axes as one along the axes of the spindle, where it belongs.
 Vector2 inSpindle(Context& context, const Vector2& offset) {
   const auto& plane = context.control().coordinates.plane;
-  return plane.planeFromXyz(context.channel().spindleFromProgram() * plane.xyzFromPlane({offset.x(), offset.y(), 0}))
-      .head<2>();
+  const ProgramWay xyz = plane.xyzFromPlane(PlaneWay(offset.x(), offset.y(), 0));
+  return plane.planeFromXyz(context.channel().spindleFromProgram() * xyz.vector()).head<2>();
 }
 
 /// The other way round.
 Vector2 inProgram(Context& context, const Vector2& offset) {
   const auto& plane = context.control().coordinates.plane;
-  return plane
-      .planeFromXyz(context.channel().spindleFromProgram().inverse() * plane.xyzFromPlane({offset.x(), offset.y(), 0}))
-      .head<2>();
+  const Vector3 xyz = plane.xyzFromPlane(Vector3(offset.x(), offset.y(), 0));
+  return plane.planeFromXyz(ProgramWay(context.channel().spindleFromProgram().inverse() * xyz)).inPlane();
 }
 
 /// What two touches find while the ball, which stands aside along `towards`, is moved across it to either side.

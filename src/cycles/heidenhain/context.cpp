@@ -55,8 +55,8 @@ bool rotaryAxesMatchTilt(const Control& control) {
   const Vector3 onTable = machine::baseFromTable(description, control.coordinates.preset.rotaryOffset).linear() *
                           machine::baseFromTable(description, now).linear().transpose() *
                           machine::baseFromSpindle(description, now).linear() * toolAxis;
-  const Vector3 inProgram = (channel.frame().linear().inverse() * onTable).normalized();
-  return inProgram.cross(toolAxis).norm() < radiansFromDegrees(0.01);
+  const ProgramWay inProgram = channel.programFromMachine(MachineWay(onTable)).normalized();
+  return inProgram.cross(ProgramWay(toolAxis)).norm() < radiansFromDegrees(0.01);
 }
 
 Context::Context(Control& control, const Entry& entry, const Arguments& arguments, SourcePlace place)

@@ -66,7 +66,7 @@ void run(Context& context, const Arguments&) {
   const auto inXY = [&](const Vector3& place) { return angleOf(Vector3::Zero(), plane.xyzFromPlane(place)); };
   const double target = context.q(322) == 0 ? 90 : inXY({context.q(321), context.q(322), context.q(261)});
   const double offset = normalizedDegrees(inXY(circle.centre) - target);
-  if (plane.xyzFromPlane({context.q(321), context.q(322), context.q(261)}).y() < 0) {
+  if (plane.xyzFromPlane(PartPoint(context.q(321), context.q(322), context.q(261))).y() < 0) {
     context.warn("The hole must lie on the positive side of the Y axis: the control assumes that");
   }
   context.result(150, offset);

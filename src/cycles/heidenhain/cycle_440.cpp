@@ -140,9 +140,9 @@ void run(Context& context, const Arguments&) {
   auto& channel = context.channel();
   const machine::SpindleState spindle = channel.machine().spindle();
   if (channel.description().spindleOrients) channel.orientSpindle(0);
-  Vector3 clearance = channel.position();
+  ProgramPlace clearance = channel.position();
   clearance[plane.tool] = context.q(260);
-  probing::ToolProber prober(channel, plane, contact, (channel.frame() * clearance)[plane.tool]);
+  probing::ToolProber prober(channel, plane, contact, channel.machineFromProgram(clearance)[plane.tool]);
   const auto& tools = control.tables.tools;
   const double radius = channel.toolRadius;
   const double aside = tools.number(control.tool.row, "R-OFFS").value_or(radius);

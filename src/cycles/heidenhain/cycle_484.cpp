@@ -31,11 +31,11 @@ void run(Context& context, const Arguments&) {
   const bool stops = !control.isTNC640() || context.option(536) == 0;
   if (stops)
     context.stop("Position the calibrating tool above the middle of the tool touch probe, then press NC start");
-  const Vector3 start = channel.machineFromAxes(channel.axes());
+  const MachinePlace start = channel.machineFromAxes(channel.axes());
   // The contact is somewhere below: as far down as the tool searches.
-  Vector3 middle = start;
+  MachinePlace middle = start;
   middle[control.coordinates.plane.tool] -= control.parameters.mp6540;
-  calibrateToolProbe(context, middle, start[control.coordinates.plane.tool]);
+  calibrateToolProbe(context, middle.vector(), start[control.coordinates.plane.tool]);
 }
 
 }  // namespace

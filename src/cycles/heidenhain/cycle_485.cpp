@@ -172,9 +172,9 @@ void run(Context& context, const Arguments&) {
                 "fit one, or measure the tool by hand");
   }
   const TurningTool tool = turningTool(context);
-  Vector3 clearance = context.channel().position();
-  clearance.z() = context.q(260);
-  const Measured measured = measure(context, tool, (context.channel().frame() * clearance).z());
+  ProgramPlace clearance = context.channel().position();
+  clearance[2] = context.q(260);
+  const Measured measured = measure(context, tool, context.channel().machineFromProgram(clearance).z());
 
   const std::string row = control.tool.row;
   TypedTable& table = *control.tables.turningTools;

@@ -37,34 +37,34 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
     throw Alarm("Probing direction not defined", "The vector of the probing direction has no length",
                 "give at least one of IX, IY and IZ");
   }
-  const Vector3 direction = inProgram.normalized() * (measurement.distance < 0 ? -1 : 1);
+  const ProgramWay direction(inProgram.normalized() * (measurement.distance < 0 ? -1 : 1));
   const double distance = std::abs(measurement.distance) * scale;
   const probing::HeidenhainProbe probe = activeProbe(control, Calibrated::NotYet);
-  const Vector3 start = channel.position();
+  const ProgramPlace start = channel.position();
   const auto result = channel.measureTo(start + direction * distance, machine::Feed::at(context.q(probe_word::feed)),
                                         machine::Sensor::TouchProbe);
 
   control::TouchRecord record;
-  const Vector3 toBall = probing::alongTool(channel, probe.ballRadius);
-  record.target = start + toBall + direction * distance;
-  record.direction = direction;
+  const ProgramWay toBall = probing::alongTool(channel, probe.ballRadius);
+  record.target = (start + toBall + direction * distance).vector();
+  record.direction = direction.vector();
   record.seconds = channel.seconds();
   const auto note = [&](std::string outcome) {
     record.outcome = std::move(outcome);
     channel.journal().touch(record);
   };
   double status = notTouched;
-  Vector3 ball = channel.position() + toBall;
+  auto ball = ballAt(channel.position(), toBall);
   switch (result.end) {
     case MeasureEnd::Touched: {
       const control::Touch touch = channel.touchFrom(result);
-      ball = touch.tip + toBall;
+      ball = ballAt(touch.tip, toBall);
       if (measurement.withTipOffset) {
         const control::WorkingPlane& plane = control.coordinates.plane;
-        ball += plane.xyzFromPlane(probing::HeidenhainProber(channel, plane, probe).tipOffsetNow());
+        ball += plane.xyzFromPlane(PlaneWay(probing::HeidenhainProber(channel, plane, probe).tipOffsetNow()));
       }
-      record.ballCentre = ball;
-      record.surface = ball + direction * probing::inProgramUnits(channel, probe.ballRadius, direction);
+      record.ballCentre = ball.vector();
+      record.surface = partAt(ball, direction * probing::inProgramUnits(channel, probe.ballRadius, direction)).vector();
       record.latched = touch.latched;
       note("touched");
       status = touched;
@@ -98,19 +98,19 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
       throw Alarm(channel.alarms.collision, result.detail);
   }
   if (result.end != MeasureEnd::DeflectedAtStart) {
-    const Vector3 now = channel.position();
+    const ProgramPlace now = channel.position();
     const double back = std::min(context.q(probe_word::retraction), (now - start).norm());
     channel.retractTo(now - direction * back, machine::Feed::rapidTraverse());
   }
-  if (measurement.resultInMachine) ball = machineFromProgram * ball;
+  const Vector3 shown = measurement.resultInMachine ? Vector3(machineFromProgram * ball.vector()) : ball.vector();
   constexpr std::array along = {of::centreX, of::centreY, of::centreZ};
   for (int i = 0; i < 3; ++i) {
-    control.q.setQ(first + i, ball[i] / control.mainUnit);
+    control.q.setQ(first + i, shown[i] / control.mainUnit);
     control::ResultRecord value;
     value.name = fmt::format("Q{}", first + i);
     value.meaning = value.label = fmt::format("ball centre, {}", "XYZ"[i]);
     value.kind = result::actual(along[static_cast<std::size_t>(i)]).main();
-    value.value = ball[i] + 0.0;  // no -0
+    value.value = shown[i] + 0.0;  // no -0
     value.unit = "mm";
     context.record().results.push_back(std::move(value));
   }

@@ -114,13 +114,14 @@ void followRotaryAxes(Context& context) {
   std::array<AxisPositions, 4> axes;
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector3 place = i == 0 ? Vector3(Vector3::Zero()) : Vector3(Vector3::Unit(static_cast<Eigen::Index>(i) - 1));
-    axes[i] = channel.axesFromMachine(place, channel.axes());
+    axes[i] = channel.axesFromMachine(MachinePlace(place), channel.axes());
   }
   channel.setFollowing(Following::Kinematics, channel.rotaryOffset);
   Pose moved = Pose::Identity();
-  moved.translation() = channel.machineFromAxes(axes[0]);
+  const MachinePlace origin = channel.machineFromAxes(axes[0]);
+  moved.translation() = origin.vector();
   for (std::size_t i = 1; i < 4; ++i) {
-    moved.linear().col(static_cast<Eigen::Index>(i) - 1) = channel.machineFromAxes(axes[i]) - moved.translation();
+    moved.linear().col(static_cast<Eigen::Index>(i) - 1) = (channel.machineFromAxes(axes[i]) - origin).vector();
   }
   if (!moved.isApprox(Pose::Identity(), 1e-12)) {
     const Pose preset = moved * control.coordinates.machineFromPreset();

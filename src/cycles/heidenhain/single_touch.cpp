@@ -11,7 +11,7 @@ void moveToProgrammedPosition(Context& context) {
   auto& prober = context.prober();
   control::Target target;
   bool turns = false;
-  Vector3 tip = channel.position();
+  ProgramPlace tip = channel.position();
   for (int i = 0; i < 6; ++i) {
     const int number = static_cast<int>(probe_word::coordinate) + i;
     if (!context.given(number)) continue;
@@ -31,12 +31,12 @@ void moveToProgrammedPosition(Context& context) {
     return;
   }
   const control::WorkingPlane& plane = context.control().coordinates.plane;
-  prober.moveTo(prober.positionWithTip(plane.planeFromXyz(tip)));
+  prober.moveTo(prober.positionWithTip(plane.planeFromXyz(tip).vector()));
 }
 
 void storeTouchPosition(Context& context, const EvaluatedTouch& touch) {
   control::Channel& channel = context.channel();
-  const Vector3 reference =
+  const ProgramPlace reference =
       channel.programFromAxes(touch.latched) + probing::alongTool(channel, channel.toolVector.norm());
   for (int i = 0; i < 3; ++i)
     context.result(115 + i, reference[i]);

@@ -84,10 +84,10 @@ void SphereSearch::retract() {
   const auto& coordinates = context_.control().coordinates;
   channel_.setFollowing(Following::Kinematics, channel_.axes());
   channel_.setFrame(coordinates.machineFromPreset());
-  Vector3 tip = channel_.position();
-  tip.z() = retraction_;
+  ProgramPlace tip = channel_.position();
+  tip[2] = retraction_;
   channel_.moveTo(tip, rotaryFeed_);
-  channel_.moveTo(Vector3(0, 0, retraction_), rotaryFeed_);
+  channel_.moveTo(ProgramPlace(0, 0, retraction_), rotaryFeed_);
 }
 
 void SphereSearch::carryOut(const machine::AxisPositions& target, const std::vector<std::size_t>& axes) {
@@ -182,7 +182,7 @@ FoundSphere SphereSearch::measure(RadiusCheck check) {
                             formatShortest(permitted)),
                 "check Q407, clean the sphere, and calibrate the touch probe");
   }
-  const Vector3 tip = fit->shape.centre - Vector3(0, 0, ball);
+  const ProgramPlace tip(fit->shape.centre - Vector3(0, 0, ball));
   FoundSphere found;
   found.sighting = {channel_.axesFromProgram(tip, channel_.axes()),
                     Vector3(ball * Vector3::UnitZ() - channel_.toolVector)};

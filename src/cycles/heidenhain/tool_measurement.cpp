@@ -139,9 +139,9 @@ ToolMeasurement::ToolMeasurement(Context& context, const ToolRequest& request)
       prober_(channel_, context.control().coordinates.plane, probe_,
               [&] {
                 const auto& plane = context.control().coordinates.plane;
-                Vector3 clearance = context.channel().position();
+                ProgramPlace clearance = context.channel().position();
                 clearance[plane.tool] = request.clearanceHeight;
-                return (context.channel().frame() * clearance)[plane.tool];
+                return context.channel().machineFromProgram(clearance)[plane.tool];
               }()),
       radius_(channel_.toolRadius),
       speeds_(toolProbingSpeeds(context.control().parameters, radius_)) {

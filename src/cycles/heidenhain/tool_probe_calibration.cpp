@@ -210,10 +210,10 @@ void calibrateFittedToolProbe(Context& context, double clearanceHeight) {
   requireCalibratingTool(context);
   const control::Channel& channel = context.channel();
   const auto& plane = context.control().coordinates.plane;
-  Vector3 clearance = channel.position();
+  ProgramPlace clearance = channel.position();
   clearance[plane.tool] = clearanceHeight;
   calibrateToolProbe(context, toolTouchProbe(context.control(), Contact::AsFitted).place,
-                     (channel.frame() * clearance)[plane.tool]);
+                     channel.machineFromProgram(clearance)[plane.tool]);
 }
 
 }  // namespace probewright::cycles::heidenhain

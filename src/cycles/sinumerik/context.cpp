@@ -282,7 +282,7 @@ void Context::repeatIfAsked(int number, const std::string& detail) {
 }
 
 void Context::beginAgain() {
-  prober().moveTo(control_.workingPlane().planeFromXyz(start_));
+  prober().moveTo(control_.workingPlane().planeFromXyz(start_).vector());
   clearResults();
   resultInteger(2, arguments_.definition().number);
 }

@@ -127,7 +127,7 @@ private:
   const Arguments& arguments_;
   std::size_t record_ = 0;
   int planeBefore_ = 17;
-  Vector3 start_ = Vector3::Zero();
+  ProgramPlace start_;
   int repetitionsLeft_ = 0;
   int failing_ = 0;
   std::function<void()> wayBack_;

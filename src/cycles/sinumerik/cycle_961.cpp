@@ -206,14 +206,14 @@ int oldCorner(OldCall& call) {
         fmt::format("_SETV[4] = {} lays the required corner beside the measured one, by _SETV[2] and _SETV[3]; the set "
                     "place of the measured corner is S_SETV8, S_SETV9 now",
                     call.element(4)));
-  const Vector3 pole =
-      call.control().workingPlane().planeFromXyz(call.control().channel.position()) / call.control().unit;
+  const PlanePlace pole = call.control().workingPlane().planeFromXyz(call.control().channel.position());
+  const double unit = call.control().unit;
   call.put("S_SETV0", call.element(0) / 2);
   call.put("S_SETV1", call.element(0));
   call.put("S_SETV2", call.element(1) / 2);
   call.put("S_SETV3", call.element(1));
-  call.put("S_SETV4", pole.x());
-  call.put("S_SETV5", pole.y());
+  call.put("S_SETV4", pole.x() / unit);
+  call.put("S_SETV5", pole.y() / unit);
   const double height = call.number("_ID");
   call.put("S_ID", height);
   return units + (height != 0 ? 1000 : 0);

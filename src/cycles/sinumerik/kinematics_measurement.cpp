@@ -133,7 +133,7 @@ BallPlace measurePlace(Context& context, bool findDiameter) {
     context.checkSafeArea(ball.centre[axis] - plan.centre[axis]);
 
   const control::Channel& channel = control.channel;
-  const Vector3 tip = ball.centre - (toCentre ? 0 : probeRadius) * prober.toolAxis();
+  const PlanePlace tip(ball.centre - (toCentre ? 0 : probeRadius) * prober.toolAxis());
   const control::AxisPositions axes = channel.axesFromProgram(control.workingPlane().xyzFromPlane(tip), channel.axes());
   BallPlace place{.centre = Vector3::Zero(), .tool = channel.toolVector, .diameter = ball.diameter};
   if (!toCentre) place.tool -= probeRadius * place.tool.normalized();

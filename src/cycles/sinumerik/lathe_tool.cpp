@@ -115,7 +115,7 @@ void LatheTool::turnWithCarrier() {
   }
   // The tip where the head holds it: the linear axes are read as if they led it
   // there.
-  const Vector3 reading = channel.machineFromAxes(here) + channel.toolVector;
+  const Vector3 reading = channel.machineFromAxes(here).vector() + channel.toolVector;
   channel.toolVector = reading - head * Vector3(spindle * -channel.toolVector);
   programFromTool_ = turned;
 }

@@ -5,7 +5,7 @@ namespace probewright::cycles::sinumerik {
 void requireUprightTool(Context& context) {
   const control::Channel& channel = context.channel();
   if (channel.toolVector.isZero(1e-9)) return;
-  const Vector3 axis = context.control().workingPlane().planeFromXyz(channel.toolAxis());
+  const PlaneWay axis = context.control().workingPlane().planeFromXyz(channel.toolAxis());
   if (axis.z() < 1 - 1e-9) context.alarm(61330, "the tool is not parallel to the 3rd axis of the plane");
 }
 
@@ -17,7 +17,7 @@ double signOfTouch(Context& context, int axis, const ToolProbeField& field) {
 }
 
 double sideOfTool(Context& context, int axis, const ToolProbeField& field) {
-  const Vector3 here = context.control().workingPlane().planeFromXyz(context.channel().position());
+  const PlanePlace here = context.control().workingPlane().planeFromXyz(context.channel().position());
   return here[axis] < field.centre(axis) ? 1 : -1;
 }
 

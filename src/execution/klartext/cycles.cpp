@@ -83,11 +83,11 @@ void Cycles::moveToCallPosition(const Command& command, Evaluation& evaluation) 
   const Word* feedWord = find(command.words, "F", evaluation);
   const Feed feed = feedWord == nullptr ? Feed::rapidTraverse() : checkedFeed(run_.length(feedWord->value, evaluation));
   const control::WorkingPlane& plane = control_.coordinates.plane;
-  const Vector3 from = plane.planeFromXyz(control_.channel.position());
-  const Vector3 to = plane.planeFromXyz(motion_.pointOf(command.words, evaluation, control_.channel.position()));
+  const PlanePlace from = plane.planeFromXyz(control_.channel.position());
+  const PlanePlace to = plane.planeFromXyz(motion_.pointOf(command.words, evaluation, control_.channel.position()));
   const double above = std::max(from.z(), to.z());
-  control_.channel.moveTo(plane.xyzFromPlane({from.x(), from.y(), above}), feed);
-  control_.channel.moveTo(plane.xyzFromPlane({to.x(), to.y(), above}), feed);
+  control_.channel.moveTo(plane.xyzFromPlane(PlanePlace(from.x(), from.y(), above)), feed);
+  control_.channel.moveTo(plane.xyzFromPlane(PlanePlace(to.x(), to.y(), above)), feed);
   if (machiningCycle_ == 12) control_.channel.moveTo(plane.xyzFromPlane(to), feed);
 }
 

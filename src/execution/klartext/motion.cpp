@@ -33,14 +33,14 @@ Motion::Motion(RunContext& run, ToolGuidance& guidance, Tools& tools)
       contour_([this](const Element& element) { runElement(element, control_.coordinates.plane); },
                [this]() { return control_.channel.toolRadius; }) {}
 
-Vector3 Motion::programmedPosition() const {
+ProgramPlace Motion::programmedPosition() const {
   if (!contour_.holds()) return control_.channel.position();
   const control::WorkingPlane& plane = control_.coordinates.plane;
-  return plane.xyzFromPlane({contour_.end().x(), contour_.end().y(), contour_.endHeight()});
+  return plane.xyzFromPlane(PlanePlace(contour_.end().x(), contour_.end().y(), contour_.endHeight()));
 }
 
-Vector3 Motion::pointOf(WordRange words, Evaluation& evaluation, const Vector3& from) const {
-  Vector3 point = from;
+ProgramPlace Motion::pointOf(WordRange words, Evaluation& evaluation, const ProgramPlace& from) const {
+  ProgramPlace point = from;
   for (const Word& word : evaluation.words(words)) {
     const char letter = axisLetter(word);
     if (!isLinearAxis(letter)) continue;
@@ -174,15 +174,16 @@ void Motion::namePathWords(const Move& move, Evaluation& evaluation) {
 }
 
 /// M130: the end point in coordinates of the workpiece system that is not tilted, as the tilted one sees it.
-Vector3 Motion::untiltedTarget(const Move& move, Evaluation& evaluation, const Vector3& from) const {
+ProgramPlace Motion::untiltedTarget(const Move& move, Evaluation& evaluation, const ProgramPlace& from) const {
   const control::heidenhain::Coordinates& coordinates = control_.coordinates;
   const Eigen::Affine3d machineFromUntilted =
       Eigen::Affine3d(coordinates.machineFromPreset().matrix()) * coordinates.workpiece.matrix(coordinates.plane);
   const Eigen::Affine3d programFromUntilted = control_.channel.frame().inverse() * machineFromUntilted;
-  return programFromUntilted * pointOf(move.words, evaluation, programFromUntilted.inverse() * from);
+  const ProgramPlace inUntilted(programFromUntilted.inverse() * from.vector());
+  return ProgramPlace(programFromUntilted * pointOf(move.words, evaluation, inUntilted).vector());
 }
 
-void Motion::straightTo(const Vector3& to, Feed feed) {
+void Motion::straightTo(const ProgramPlace& to, Feed feed) {
   if (modes.ignoreProbe) {  // M141: away with a deflected stylus
     control_.channel.retractTo(to, feed);
   } else {
@@ -198,9 +199,9 @@ void Motion::straight(const Move& move, Evaluation& evaluation) {
     if (move.feed.present()) feed_ = run_.length(move.feed, evaluation);
     return;
   }
-  const Vector3 from = programmedPosition();
+  const ProgramPlace from = programmedPosition();
   const bool untilted = modes.untiltedPositions && control_.coordinates.tilt.has_value();
-  Vector3 to = untilted ? untiltedTarget(move, evaluation, from) : pointOf(move.words, evaluation, from);
+  ProgramPlace to = untilted ? untiltedTarget(move, evaluation, from) : pointOf(move.words, evaluation, from);
   Element element;
   bool turns = false;
   bool travels = move.polar;
@@ -235,8 +236,8 @@ void Motion::straight(const Move& move, Evaluation& evaluation) {
     const control::WorkingPlane plane = polePlane_.value_or(control_.coordinates.plane);
     if (!poleSet_)
       throw Alarm("Pole missing", "There is no pole for polar coordinates", "program CC before this block");
-    const Vector3 start = plane.planeFromXyz(from);
-    const Vector3 pole = plane.planeFromXyz(pole_);
+    const PlanePlace start = plane.planeFromXyz(from);
+    const PlanePlace pole = plane.planeFromXyz(pole_);
     const Vector2 arm(start.x() - pole.x(), start.y() - pole.y());
     double radius = arm.norm();
     double angle = std::atan2(arm.y(), arm.x());
@@ -248,14 +249,14 @@ void Motion::straight(const Move& move, Evaluation& evaluation) {
       const double value = radiansFromDegrees(evaluation.number(pa->value));
       angle = pa->mode == WordMode::Incremental ? angle + value : value;
     }
-    to = plane.xyzFromPlane(
-        {pole.x() + radius * std::cos(angle), pole.y() + radius * std::sin(angle), plane.planeFromXyz(to).z()});
+    to = plane.xyzFromPlane(PlanePlace(pole.x() + radius * std::cos(angle), pole.y() + radius * std::sin(angle),
+                                       plane.planeFromXyz(to).z()));
   }
   const Feed feed = feedOf(move, evaluation);
   const bool waits = cornerFollows(evaluation);
   if (side == Side::Off && !waits && !contour_.holds()) {
     const control::WorkingPlane& plane = control_.coordinates.plane;
-    contour_.passed((plane.planeFromXyz(to) - plane.planeFromXyz(from)).head<2>());
+    contour_.passed((plane.planeFromXyz(to) - plane.planeFromXyz(from)).inPlane());
     if (!turns) {
       straightTo(to, feed);
       return;
@@ -272,10 +273,10 @@ void Motion::straight(const Move& move, Evaluation& evaluation) {
     return;
   }
   const control::WorkingPlane& plane = control_.coordinates.plane;
-  const Vector3 a = plane.planeFromXyz(from);
-  const Vector3 b = plane.planeFromXyz(to);
-  element.from = a.head<2>();
-  element.to = b.head<2>();
+  const PlanePlace a = plane.planeFromXyz(from);
+  const PlanePlace b = plane.planeFromXyz(to);
+  element.from = a.inPlane();
+  element.to = b.inPlane();
   element.heightFrom = a.z();
   element.heightTo = b.z();
   element.side = side;
@@ -305,8 +306,8 @@ void Motion::moveInMachineCoordinates(const Move& move, Evaluation& evaluation) 
 void Motion::retract(std::optional<double> distance, Feed feed) {
   control::Channel& channel = control_.channel;
   const machine::MachineDescription& description = channel.description();
-  const Vector3 start = channel.position();
-  const Vector3 direction = channel.toolAxis();
+  const ProgramPlace start = channel.position();
+  const ProgramWay direction = channel.toolAxis();
   const machine::AxisPositions from = channel.axes();
   double way = distance.value_or(std::numeric_limits<double>::infinity());
   if (!distance) {

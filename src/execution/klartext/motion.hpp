@@ -37,7 +37,7 @@ public:
   /// Away from the workpiece along the tool axis, by a distance or to the limit of travel.
   void retract(std::optional<double> distance, control::Feed feed);
   /// The end point that axis words X, Y, Z give.
-  Vector3 pointOf(WordRange words, Evaluation& evaluation, const Vector3& from) const;
+  ProgramPlace pointOf(WordRange words, Evaluation& evaluation, const ProgramPlace& from) const;
   /// True if the block moves an axis; a feed or a radius compensation alone does not.
   static bool travels(const Move& move, Evaluation& evaluation);
 
@@ -54,12 +54,12 @@ private:
   void moveInMachineCoordinates(const Move& move, Evaluation& evaluation);
   void runElement(const Element& element, const control::WorkingPlane& plane);
   void addElement(Element element, const Move& move, Evaluation& evaluation);
-  Vector3 programmedPosition() const;
+  ProgramPlace programmedPosition() const;
   control::Feed feedOf(const Move& move, Evaluation& evaluation);
   control::Feed feedFor(double programmed) const;
   void namePathWords(const Move& move, Evaluation& evaluation);
-  Vector3 untiltedTarget(const Move& move, Evaluation& evaluation, const Vector3& from) const;
-  void straightTo(const Vector3& to, control::Feed feed);
+  ProgramPlace untiltedTarget(const Move& move, Evaluation& evaluation, const ProgramPlace& from) const;
+  void straightTo(const ProgramPlace& to, control::Feed feed);
   BlockPlace placeOf(Evaluation& evaluation) const;
   bool cornerFollows(Evaluation& evaluation) const;
   Side sideOf(const Move& move);
@@ -71,7 +71,7 @@ private:
   Contour contour_;
   double feed_ = 0;
   Side side_ = Side::Off;
-  Vector3 pole_ = Vector3::Zero();
+  ProgramPlace pole_;
   bool poleSet_ = false;
   std::optional<control::WorkingPlane> polePlane_;  ///< of CC, if it is not that of the tool axis
   int arcDirection_ = 0;

@@ -36,19 +36,18 @@ void Motion::arc(const Move& move, Evaluation& evaluation) {
   const bool beside = needsPole && polePlane_.has_value();
   const control::WorkingPlane plane = beside ? *polePlane_ : control_.coordinates.plane;
   if (beside) contour_.flush();
-  const Vector3 from3 = programmedPosition();
-  const Vector3 from = plane.planeFromXyz(from3);
-  const Vector3 to = plane.planeFromXyz(pointOf(move.words, evaluation, from3));
+  const ProgramPlace from3 = programmedPosition();
+  const PlanePlace from = plane.planeFromXyz(from3);
+  const PlanePlace to = plane.planeFromXyz(pointOf(move.words, evaluation, from3));
   if (move.kind == MoveKind::ArcClockwise) arcDirection_ = -1;
   if (move.kind == MoveKind::ArcCounterclockwise) arcDirection_ = 1;
   Element element;
   element.arc = true;
-  element.from = from.head<2>();
-  element.to = to.head<2>();
+  element.from = from.inPlane();
+  element.to = to.inPlane();
   element.heightFrom = from.z();
   element.heightTo = to.z();
-  const Vector3 pole3 = plane.planeFromXyz(pole_);
-  const Vector2 pole = pole3.head<2>();
+  const Vector2 pole = plane.planeFromXyz(pole_).inPlane();
   if (needsPole && !poleSet_) throw Alarm("Circle centre missing", "There is no circle centre", "program CC before it");
   if (move.kind != MoveKind::ArcTangential && arcDirection_ == 0) {
     throw Alarm("Direction of rotation missing", "The arc has no direction of rotation", "program DR+ or DR-");
@@ -142,13 +141,13 @@ void Motion::arc(const Move& move, Evaluation& evaluation) {
 }
 
 void Motion::setCentre(const Move& move, Evaluation& evaluation) {
-  const Vector3 from = programmedPosition();
+  const ProgramPlace from = programmedPosition();
   if (move.words.count == 0) {
     pole_ = from;
     polePlane_.reset();
   } else {
     std::string missing = "XYZ";
-    Vector3 base = poleSet_ ? pole_ : from;
+    ProgramPlace base = poleSet_ ? pole_ : from;
     for (const Word& word : evaluation.words(move.words)) {
       const char letter = axisLetter(word);
       if (!isLinearAxis(letter)) throw Alarm("Axis not permitted", "CC takes coordinates X, Y, Z only");
@@ -188,13 +187,13 @@ void Motion::approachOrDepart(const Move& move, Evaluation& evaluation) {
              : is('L', 'T')      ? Approach::Path::TangentialLine
              : is('L', 'N')      ? Approach::Path::PerpendicularLine
                                  : Approach::Path::TangentialArc;
-  const Vector3 from = programmedPosition();
-  Vector3 to = pointOf(move.words, evaluation, from);
+  const ProgramPlace from = programmedPosition();
+  ProgramPlace to = pointOf(move.words, evaluation, from);
   if (move.polar) {
     if (!poleSet_)
       throw Alarm("Pole missing", "There is no pole for polar coordinates", "program CC before this block");
-    const Vector3 pole = plane.planeFromXyz(pole_);
-    const Vector3 start = plane.planeFromXyz(from);
+    const PlanePlace pole = plane.planeFromXyz(pole_);
+    const PlanePlace start = plane.planeFromXyz(from);
     Vector2 arm(start.x() - pole.x(), start.y() - pole.y());
     double radius = arm.norm();
     double angle = std::atan2(arm.y(), arm.x());
@@ -202,11 +201,11 @@ void Motion::approachOrDepart(const Move& move, Evaluation& evaluation) {
     if (const Word* pa = find(move.words, "PA", evaluation)) {
       angle = radiansFromDegrees(evaluation.number(pa->value));
     }
-    to = plane.xyzFromPlane(
-        {pole.x() + radius * std::cos(angle), pole.y() + radius * std::sin(angle), plane.planeFromXyz(to).z()});
+    to = plane.xyzFromPlane(PlanePlace(pole.x() + radius * std::cos(angle), pole.y() + radius * std::sin(angle),
+                                       plane.planeFromXyz(to).z()));
   }
-  const Vector3 point = plane.planeFromXyz(to);
-  way.point = point.head<2>();
+  const PlanePlace point = plane.planeFromXyz(to);
+  way.point = point.inPlane();
   way.height = point.z();
   if (const Word* word = find(move.words, "LEN", evaluation))
     way.length = std::abs(run_.length(word->value, evaluation));
@@ -217,8 +216,8 @@ void Motion::approachOrDepart(const Move& move, Evaluation& evaluation) {
   way.block = placeOf(evaluation);
   if (move.kind == MoveKind::Approach) {
     way.side = sideOf(move);
-    const Vector3 start = plane.planeFromXyz(from);
-    contour_.approach(start.head<2>(), start.z(), way);
+    const PlanePlace start = plane.planeFromXyz(from);
+    contour_.approach(start.inPlane(), start.z(), way);
   } else {
     contour_.depart(way);
     side_ = Side::Off;
@@ -227,10 +226,12 @@ void Motion::approachOrDepart(const Move& move, Evaluation& evaluation) {
 
 void Motion::runElement(const Element& element, const control::WorkingPlane& plane) {
   control::Channel& channel = control_.channel;
-  const auto point = [&](const Vector2& p, double height) { return plane.xyzFromPlane({p.x(), p.y(), height}); };
+  const auto point = [&](const Vector2& p, double height) {
+    return plane.xyzFromPlane(PlanePlace(p.x(), p.y(), height));
+  };
   if (!element.arc) {
     const bool turns = std::ranges::any_of(element.rotary, [](const auto& value) { return value.has_value(); });
-    const Vector3 to = point(element.to, element.heightTo);
+    const ProgramPlace to = point(element.to, element.heightTo);
     if (turns) {
       control::Target target;
       target.linear = {to.x(), to.y(), to.z()};
@@ -248,7 +249,7 @@ void Motion::runElement(const Element& element, const control::WorkingPlane& pla
   }
   const int pieces = motion::piecesOfArc(radius, sweep, channel.pathTolerance);
   const Vector2 arm = element.from - element.centre;
-  std::vector<Vector3> points;
+  std::vector<ProgramPlace> points;
   points.reserve(static_cast<std::size_t>(pieces));
   for (int i = 1; i <= pieces; ++i) {
     const double fraction = static_cast<double>(i) / pieces;

@@ -187,8 +187,8 @@ std::optional<double> SystemData::touchData(int number, int index) const {
     case 1:
       return touch->surface[index - 1];
     case 3:
-      return channel.programFromAxes(touch->latched)[index - 1] +
-             probing::alongTool(channel, channel.toolVector.norm())[index - 1];
+      return (channel.programFromAxes(touch->latched) +
+              probing::alongTool(channel, channel.toolVector.norm()))[index - 1];
     case 4:
       return touch->ballCentre[index - 1];
     default:
@@ -217,7 +217,7 @@ std::optional<double> SystemData::tableData(int id, int number, int index) const
     }
     case 502:  // as the active coordinate system sees it
       if (!olderControl || !preset || !isAxis) return std::nullopt;
-      if (index <= 3) return (control_.channel.frame().inverse() * preset->origin)[index - 1];
+      if (index <= 3) return control_.channel.programFromMachine(MachinePlace(preset->origin))[index - 1];
       return axis ? preset->rotaryOffset[*axis] - inForce.rotaryOffset[*axis] : 0;
     case 503:
       if (!olderControl || !preset || !isAxis) return std::nullopt;

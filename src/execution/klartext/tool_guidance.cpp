@@ -83,7 +83,7 @@ void ToolGuidance::turnTo(const Vector3& inProgram, RotaryTarget& rotary) const 
   const machine::AxisPositions now = channel.axes();
   Vector3 toolAxis = Vector3::Zero();
   toolAxis[control_.coordinates.plane.tool] = 1;
-  const Vector3 direction = (channel.frame().linear() * inProgram).normalized();
+  const Vector3 direction = channel.machineFromProgram(ProgramWay(inProgram)).vector().normalized();
   std::vector<machine::AxisPositions> solutions =
       machine::solveRotaryAxes(description, direction, toolAxis, reference, now);
   if (solutions.empty()) {
@@ -121,10 +121,10 @@ void ToolGuidance::moveTurning(const control::Target& target, control::Feed feed
     channel.moveTo(target, feed);
     return;
   }
-  const Vector3 tipAtEnd = channel.programFromAxes(end);
+  const ProgramPlace tipAtEnd = channel.programFromAxes(end);
   const control::Scoped guided(channel.toolVector, shortened(control_, centreAboveTip(control_.tool)));
-  const Vector3 tipToCentre = channel.programFromAxes(end) - tipAtEnd;
-  const Vector3 centre = channel.position();
+  const ProgramWay tipToCentre = channel.programFromAxes(end) - tipAtEnd;
+  const ProgramPlace centre = channel.position();
   control::Target ofCentre = target;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto at = static_cast<Eigen::Index>(i);

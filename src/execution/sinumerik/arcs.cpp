@@ -177,9 +177,10 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
   if (state_.group1 != MoveKind::Rapid && state_.group1 != MoveKind::Linear)
     throw Alarm("21610", "a measuring block is a straight line", "write G1 with MEAS");
   const Words words = read(axes, evaluation);
-  const Vector3 from = channel.position(), to = endOf(words);
-  const Feed speed = feed(state_.group1, from, to);
-  if ((to - from).norm() > 1e-9) direction_ = (to - from).normalized();
+  const ProgramPlace from = channel.position(), to(endOf(words));
+  const ProgramWay way = to - from;
+  const Feed speed = feed(state_.group1, from.vector(), to.vector());
+  if (way.norm() > 1e-9) direction_ = way.normalized().vector();
 
   control::Journal& journal = channel.journal();
   const bool ownRecord = !journal.cycleOpen;
@@ -196,8 +197,8 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
   const machine::MeasureResult result = channel.measureTo(to, speed, sensor);
   control::CycleRecord& record = journal.cycles.back();
   control::TouchRecord touch;
-  touch.target = to;
-  touch.direction = (to - from).norm() > 0 ? Vector3((to - from).normalized()) : Vector3::Zero();
+  touch.target = to.vector();
+  touch.direction = way.norm() > 0 ? way.normalized().vector() : Vector3::Zero();
   touch.seconds = channel.seconds();
   measurement_ = {};
   std::string alarm;
@@ -231,7 +232,7 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
       break;
   }
   touch.latched = measurement_.latched;
-  touch.ballCentre = touch.surface = measurement_.tip;
+  touch.ballCentre = touch.surface = measurement_.tip.vector();
   journal.touch(touch);
   if (measurement_.triggered) {
     for (std::size_t i = 0; i < 3; ++i) {

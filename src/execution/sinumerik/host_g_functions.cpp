@@ -266,8 +266,8 @@ void SinumerikHost::carryOutNamedFunction(std::string_view name) {
 void SinumerikHost::alignFrameWithTool(bool withOrigin) {
   Frame& frame = control_.frames.toolOriented;
   const Eigen::Affine3d program = control_.machineFromWorkpiece();
-  const Vector3 along = program.linear() * control_.channel.toolAxis();
-  const Vector3 tip = program * control_.channel.position();
+  const Vector3 along = program.linear() * control_.channel.toolAxis().vector();
+  const Vector3 tip = program * control_.channel.position().vector();
   const Eigen::Affine3d outer =
       control_.machineFromBase() * control::sinumerik::transform(control_.frames.settableFrame);
   const Vector3 direction = (outer.linear().inverse() * along).normalized();

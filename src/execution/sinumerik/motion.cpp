@@ -53,7 +53,7 @@ double PathMotion::programAngle(std::size_t axis) const {
   return control_.channel.axes()[axis] - control_.channel.rotaryOffset[axis];
 }
 
-Vector3 PathMotion::start() const { return programmed_ ? *programmed_ : control_.channel.position(); }
+Vector3 PathMotion::start() const { return programmed_ ? *programmed_ : control_.channel.position().vector(); }
 
 /// The program angle to go to. A modulo axis goes to positions within a turn; the others wherever they are told.
 double PathMotion::rotaryTarget(std::size_t axis, WordMode mode, double value) const {
@@ -340,7 +340,7 @@ Feed PathMotion::feed(MoveKind kind, const Vector3& from, const Vector3& to) con
   const double factor = state_.feedInInch ? control_.unit : 1;
   double perMinute = state_.feed * factor;
   // The speed in the middle of a line gives the time of the whole line.
-  if (state_.feedType >= feedPerTurn) perMinute *= spindleSpeedAt(state_, (from + to) / 2);
+  if (state_.feedType >= feedPerTurn) perMinute *= spindleSpeedAt(state_, ProgramPlace((from + to) / 2));
   if (state_.feedType == 93) perMinute = state_.feed * std::max((to - from).norm(), 1e-3);
   if (!(perMinute > 0)) {
     const bool perTurn = state_.feedType >= feedPerTurn && state_.feed > 0;
@@ -411,7 +411,7 @@ void PathMotion::travel(const control::Target& target, Feed feed) {
   control::Channel& channel = control_.channel;
   const bool turns = std::ranges::any_of(target.rotary, [](const auto& angle) { return angle.has_value(); });
   if (turns || !leavesContact()) return channel.moveTo(target, feed);
-  Vector3 to = channel.position();
+  ProgramPlace to = channel.position();
   for (std::size_t i = 0; i < 3; ++i)
     if (target.linear[i]) to[static_cast<Eigen::Index>(i)] = *target.linear[i];
   channel.retractTo(to, feed);
@@ -419,18 +419,17 @@ void PathMotion::travel(const control::Target& target, Feed feed) {
 
 void PathMotion::run(const PathElement& element) {
   control::Channel& channel = control_.channel;
-  std::vector<Vector3> points = {element.end};
+  std::vector<ProgramPlace> points;
   if (element.isArc) {
     const double radius = (element.start - element.centre).norm();
     const int pieces = motion::piecesOfArc(radius, element.sweep, channel.pathTolerance);
-    points.clear();
     points.reserve(static_cast<std::size_t>(pieces));
     for (int i = 1; i < pieces; ++i)
-      points.push_back(element.at(static_cast<double>(i) / pieces));
-    points.push_back(element.end);
+      points.emplace_back(element.at(static_cast<double>(i) / pieces));
   }
+  points.emplace_back(element.end);
   state_.pieces += points.size() - 1;
-  std::span<const Vector3> left = points;
+  std::span<const ProgramPlace> left = points;
   for (; !left.empty() && leavesContact(); left = left.subspan(1))
     channel.retractTo(left.front(), element.feed);
   channel.moveAlong(left, element.feed);

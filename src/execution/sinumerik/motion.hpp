@@ -50,8 +50,8 @@ struct MotionState {
 /// What the last MEAS or MEAW found.
 struct Measurement {
   bool triggered = false;
-  AxisPositions latched;          ///< machine axes
-  Vector3 tip = Vector3::Zero();  ///< program coordinates
+  AxisPositions latched;
+  ProgramPlace tip;
 };
 
 /// Carries out the motions of a channel: straight lines, arcs, polar coordinates, roundings and chamfers, tool radius

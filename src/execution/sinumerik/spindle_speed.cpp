@@ -13,14 +13,14 @@ constexpr double greatestSpeed = 100000;
 
 }  // namespace
 
-double spindleSpeedAt(const MotionState& state, const Vector3& tip) {
+double spindleSpeedAt(const MotionState& state, const ProgramPlace& tip) {
   if (!state.constantCuttingSpeed) return state.spindleSpeed;
   const double limit = state.speedLimit > 0 ? state.speedLimit : greatestSpeed;
   const double circumference = 2 * std::numbers::pi * std::abs(tip.x());
   return circumference * limit > 1000 * state.spindleSpeed ? 1000 * state.spindleSpeed / circumference : limit;
 }
 
-void setFeedType(MotionState& state, int function, const Vector3& tip, bool blockHasSpeed) {
+void setFeedType(MotionState& state, int function, const ProgramPlace& tip, bool blockHasSpeed) {
   const bool constantCut = function == 96 || function == 961 || function == 962;
   const bool freezes = function == 97 || function == 971 || function == 972;
   // G962 and G972 leave the kind of feed as it is.

@@ -73,8 +73,7 @@ void retract(Control& control, const SwivelCall& call) {
       return;
     case 5:
       if (call.retraction > 0)
-        channel.moveTo(Vector3(channel.position() + call.retraction * channel.toolAxis()),
-                       control::Feed::rapidTraverse());
+        channel.moveTo(channel.position() + call.retraction * channel.toolAxis(), control::Feed::rapidTraverse());
       return;
     default:
       return;

@@ -122,7 +122,7 @@ std::optional<Value> SystemVariables::readPosition(std::string_view name, std::s
     if (!machineAxis) throw Alarm("17020", fmt::format("{}: the machine has no axis {}", name, axis));
     value = axes[*machineAxis];
   } else if (linear) {
-    const Vector3 tip = measured ? found.tip : control_.channel.position();
+    const ProgramPlace tip = measured ? found.tip : control_.channel.position();
     value = tip[static_cast<Eigen::Index>(*linear)];
     if (*linear == 0 && control_.diameter) value *= 2;
   } else {
