@@ -84,7 +84,19 @@ private:
   Vector3 numbers_ = Vector3::Zero();
 };
 
-/// The tip, the centre of the ball or the point of the part that lies `way` from another place.
+/// The tip, the centre of the ball or the point of the part that is at another place, or lies `way` from it.
+template <Axes axes, Of of>
+Place<axes, Of::Tip> tipAt(const Place<axes, of>& place) {
+  return Place<axes, Of::Tip>(place.vector());
+}
+template <Axes axes, Of of>
+Place<axes, Of::Ball> ballAt(const Place<axes, of>& place) {
+  return Place<axes, Of::Ball>(place.vector());
+}
+template <Axes axes, Of of>
+Place<axes, Of::Part> partAt(const Place<axes, of>& place) {
+  return Place<axes, Of::Part>(place.vector());
+}
 template <Axes axes, Of of>
 Place<axes, Of::Tip> tipAt(const Place<axes, of>& from, const Way<axes>& way) {
   return Place<axes, Of::Tip>(from.vector() + way.vector());

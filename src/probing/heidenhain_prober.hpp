@@ -34,11 +34,11 @@ struct HeidenhainProbe {
   double reach() const { return ballRadius + (aside ? tipOffset.norm() : 0); }
 };
 
-/// One touch, evaluated. Coordinates (main, minor, tool axis) of the active program coordinate system.
+/// One touch, evaluated.
 struct EvaluatedTouch {
-  Vector3 ballCentre = Vector3::Zero();  ///< tip offset taken into account
-  Vector3 surface = Vector3::Zero();     ///< ball centre plus ball radius along the probing direction
-  double ballRadius = 0;                 ///< along the probing direction: mm divided by the active scaling
+  BallCentre ballCentre;  ///< tip offset taken into account
+  PartPoint surface;      ///< ball centre plus ball radius along the probing direction
+  double ballRadius = 0;  ///< along the probing direction: mm divided by the active scaling
   machine::AxisPositions latched;
   std::size_t record = 0;  ///< place of the (last) touch in the cycle's record
 };
@@ -63,58 +63,58 @@ public:
 
   const HeidenhainProbe& probe() const { return probe_; }
 
-  Vector3 position() const;
+  BallCentre position() const;
 
   /// The position with the tool tip on the spindle axis at `tip`.
-  Vector3 positionWithTip(const Vector3& tip) const;
+  BallCentre positionWithTip(const PlanePlace& tip) const;
 
   /// What `length` mm are in program coordinates along `direction`.
-  double inProgram(double length, const Vector3& direction) const;
-  double ballRadius(const Vector3& direction) const { return inProgram(probe_.ballRadius, direction); }
+  double inProgram(double length, const PlaneWay& direction) const;
+  double ballRadius(const PlaneWay& direction) const { return inProgram(probe_.ballRadius, direction); }
   /// The ball radius along the touch probe axis.
-  double poleDepth() const { return ballRadius(Vector3::UnitZ()); }
+  double poleDepth() const { return ballRadius(PlaneWay::unit(2)); }
   /// How far the spindle axis stands back from surfaces of the working plane in pre-positions.
   double standOff(double extra) const;
 
   /// Pre-position of a touch: ball radius, SET_UP and `extra` (Q320) in front of the surface. If the spindle turns the
   /// probe, its axis stays behind so that the ball gets there once it is turned to the surface.
-  Vector3 prePosition(const PlannedTouch& touch, double extra) const;
+  BallCentre prePosition(const PlannedTouch& touch, double extra) const;
 
   /// Straight to the ball centre position at the positioning feed (FMAX of the probe table, or machine rapid).
-  void moveTo(const Vector3& ballCentre);
+  void moveTo(const BallCentre& ballCentre);
   /// Along the touch probe axis only: the south pole of the ball to `height`.
   void moveSouthPoleTo(double height);
   /// Along the touch probe axis only: the ball centre to `height`.
   void moveHeightTo(double height);
   /// Parallel to the working plane only.
-  void moveInPlane(const Vector3& ballCentre);
+  void moveInPlane(const BallCentre& ballCentre);
 
   /// The positioning logic of the cycles: from below the clearance height first up to it, then in the plane, then down;
   /// from above it in the plane at the present height, then straight down.
-  void approach(const Vector3& ballCentre, double clearanceHeight);
+  void approach(const BallCentre& ballCentre, double clearanceHeight);
 
   /// On an arc about `centre` in the plane at the present height to the direction of `to`, turning by `angle` degrees.
-  void moveOnArc(const Vector3& centre, double angle);
+  void moveOnArc(const PartPoint& centre, double angle);
 
   /// From the pre-position: probes towards the surface, returns to the pre-position at rapid traverse. Throws Alarm.
   EvaluatedTouch touch(const PlannedTouch& planned);
 
   /// From wherever the ball is towards `direction`, at most `distance`; stays at the start of the stroke afterwards.
-  EvaluatedTouch stroke(const Vector3& direction, double distance, const std::optional<Vector3>& expected = {});
+  EvaluatedTouch stroke(const PlaneWay& direction, double distance, const std::optional<PartPoint>& expected = {});
   /// The same, at most DIST.
-  EvaluatedTouch stroke(const Vector3& direction) { return stroke(direction, inProgram(probe_.distance, direction)); }
+  EvaluatedTouch stroke(const PlaneWay& direction) { return stroke(direction, inProgram(probe_.distance, direction)); }
 
   /// The spindle angle of a touch along `direction`: nothing if the probe is not turned to it.
-  std::optional<double> orientationFor(const Vector3& direction) const;
+  std::optional<double> orientationFor(const PlaneWay& direction) const;
 
   /// Where the ball stands from the spindle axis at the present spindle angle.
-  Vector3 tipOffsetNow() const;
+  PlaneWay tipOffsetNow() const;
 
 private:
   /// From the tool tip to the ball centre that positions count for.
-  Vector3 ballFromTip() const;
-  Vector3 tipOffsetAt(double spindleAngle) const;
-  double directionalRadius(const Vector3& xyzDirection) const;
+  PlaneWay ballFromTip() const;
+  PlaneWay tipOffsetAt(double spindleAngle) const;
+  double directionalRadius(const ProgramWay& direction) const;
   machine::Feed positioning() const;
 
   control::Channel& channel_;

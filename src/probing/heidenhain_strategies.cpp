@@ -5,12 +5,12 @@
 namespace probewright::probing {
 namespace {
 
-Vector3 at(const Vector2& point, double height) { return {point.x(), point.y(), height}; }
+PartPoint at(const Vector2& point, double height) { return {point.x(), point.y(), height}; }
 
 /// Touches all of `plan` from one place in the middle, at the measuring height.
-std::vector<EvaluatedTouch> probeFromCentre(HeidenhainProber& prober, const Vector3& centre,
+std::vector<EvaluatedTouch> probeFromCentre(HeidenhainProber& prober, const PartPoint& centre,
                                             const std::vector<PlannedTouch>& plan, const Heights& heights) {
-  prober.approach(centre, heights.clearance);
+  prober.approach(ballAt(centre), heights.clearance);
   std::vector<EvaluatedTouch> touches;
   for (const PlannedTouch& planned : plan)
     touches.push_back(prober.touch(planned));
@@ -21,7 +21,7 @@ std::vector<EvaluatedTouch> probeFromCentre(HeidenhainProber& prober, const Vect
 }  // namespace
 
 std::vector<EvaluatedTouch> probeCircle(HeidenhainProber& prober, const CircleTask& task, const Heights& heights) {
-  const Vector3 centre = at(task.centre, heights.measuring);
+  const PartPoint centre = at(task.centre, heights.measuring);
   const auto plan = planCircle(centre, task.diameter, task.startAngle, task.stepAngle, task.count, task.side);
   if (task.side == Side::Inside && task.diameter / 2 <= prober.standOff(heights.extraClearance)) {
     return probeFromCentre(prober, centre, plan, heights);
@@ -30,7 +30,7 @@ std::vector<EvaluatedTouch> probeCircle(HeidenhainProber& prober, const CircleTa
   prober.approach(prober.prePosition(plan.front(), heights.extraClearance), heights.clearance);
   for (std::size_t i = 0; i < plan.size(); ++i) {
     if (i > 0) {
-      const Vector3 next = prober.prePosition(plan[i], heights.extraClearance);
+      const BallCentre next = prober.prePosition(plan[i], heights.extraClearance);
       if (heights.between == Between::AtClearanceHeight) {
         prober.moveSouthPoleTo(heights.clearance);
         if (task.traverse == Traverse::Arc) {
@@ -51,7 +51,7 @@ std::vector<EvaluatedTouch> probeCircle(HeidenhainProber& prober, const CircleTa
 
 std::vector<EvaluatedTouch> probeRectangle(HeidenhainProber& prober, const RectangleTask& task,
                                            const Heights& heights) {
-  const Vector3 centre = at(task.centre, heights.measuring);
+  const PartPoint centre = at(task.centre, heights.measuring);
   const auto plan = planRectangle(centre, task.length1, task.length2, task.side);
   if (task.side == Side::Inside &&
       std::min(task.length1, task.length2) / 2 <= prober.standOff(heights.extraClearance)) {
@@ -61,7 +61,7 @@ std::vector<EvaluatedTouch> probeRectangle(HeidenhainProber& prober, const Recta
   prober.approach(prober.prePosition(plan.front(), heights.extraClearance), heights.clearance);
   for (std::size_t i = 0; i < plan.size(); ++i) {
     if (i > 0) {
-      const Vector3 next = prober.prePosition(plan[i], heights.extraClearance);
+      const BallCentre next = prober.prePosition(plan[i], heights.extraClearance);
       if (heights.between == Between::AtClearanceHeight) {
         prober.moveSouthPoleTo(heights.clearance);
         prober.moveInPlane(next);
@@ -71,7 +71,7 @@ std::vector<EvaluatedTouch> probeRectangle(HeidenhainProber& prober, const Recta
         // middle of the pocket, which is free whatever its corners look like.
         const Eigen::Index along = std::abs(plan[i - 1].direction[0]) > 0.5 ? 1 : 0;
         const Eigen::Index first = task.side == Side::Outside ? along : 1 - along;
-        Vector3 corner = prober.position();
+        BallCentre corner = prober.position();
         corner[first] = next[first];
         prober.moveTo(corner);
         prober.moveTo(next);
@@ -84,7 +84,7 @@ std::vector<EvaluatedTouch> probeRectangle(HeidenhainProber& prober, const Recta
 }
 
 std::vector<EvaluatedTouch> probeWidth(HeidenhainProber& prober, const WidthTask& task, const Heights& heights) {
-  const Vector3 centre = at(task.centre, heights.measuring);
+  const PartPoint centre = at(task.centre, heights.measuring);
   const auto plan = planWidth(centre, task.width, task.axis == 0 ? 0.0 : 90.0, task.side);
   if (task.side == Side::Inside && task.width / 2 <= prober.standOff(heights.extraClearance)) {
     return probeFromCentre(prober, centre, plan, heights);
@@ -99,7 +99,7 @@ std::vector<EvaluatedTouch> probePoints(HeidenhainProber& prober, const std::vec
   std::vector<EvaluatedTouch> touches;
   for (std::size_t i = 0; i < plan.size(); ++i) {
     const auto& [touch, via] = plan[i];
-    const Vector3 start = prober.prePosition(touch, heights.extraClearance);
+    const BallCentre start = prober.prePosition(touch, heights.extraClearance);
     if (i == 0) {
       prober.approach(start, heights.clearance);
     } else if (heights.between == Between::AtClearanceHeight) {
@@ -107,7 +107,7 @@ std::vector<EvaluatedTouch> probePoints(HeidenhainProber& prober, const std::vec
       prober.moveInPlane(start);
       prober.moveTo(start);
     } else {
-      if (via) prober.moveInPlane(at(*via, 0));
+      if (via) prober.moveInPlane(BallCentre(via->x(), via->y(), 0));
       prober.moveTo(start);
     }
     touches.push_back(prober.touch(touch));

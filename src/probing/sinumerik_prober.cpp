@@ -18,7 +18,7 @@ using machine::Feed;
 namespace {
 
 /// The axis that `direction` is parallel to, if any.
-std::optional<int> parallelAxis(const Vector3& direction) {
+std::optional<int> parallelAxis(const PlaneWay& direction) {
   for (int axis = 0; axis < 3; ++axis) {
     if (std::abs(std::abs(direction[axis]) - 1) < 1e-12) return axis;
   }
@@ -28,10 +28,10 @@ std::optional<int> parallelAxis(const Vector3& direction) {
 }  // namespace
 
 Vector3 directionFromSpindle(const control::Channel& channel, const control::WorkingPlane& plane,
-                             const Vector3& direction) {
+                             const PlaneWay& direction) {
   const machine::MachineDescription& description = channel.description();
   const machine::AxisPositions here = channel.axes();
-  Vector3 seen = channel.frame().linear() * plane.xyzFromPlane(direction);
+  Vector3 seen = channel.machineFromProgram(plane.xyzFromPlane(direction)).vector();
   if (channel.following() == control::Following::Kinematics) {
     seen = machine::baseFromTable(description, here).linear() *
            machine::baseFromTable(description, channel.reference()).linear().transpose() * seen;
@@ -39,26 +39,26 @@ Vector3 directionFromSpindle(const control::Channel& channel, const control::Wor
   return (machine::baseFromSpindle(description, here).linear().transpose() * seen).normalized();
 }
 
-double angleFromSpindle(const control::Channel& channel, const control::WorkingPlane& plane, const Vector3& direction) {
+double angleFromSpindle(const control::Channel& channel, const control::WorkingPlane& plane,
+                        const PlaneWay& direction) {
   const Vector3 seen = plane.planeFromXyz(directionFromSpindle(channel, plane, direction));
   return degreesFromRadians(std::atan2(seen.y(), seen.x()));
 }
 
-Vector3 SinumerikProber::position() const { return plane_.planeFromXyz(channel_.position()).vector(); }
+PlanePlace SinumerikProber::position() const { return plane_.planeFromXyz(channel_.position()); }
 
-void SinumerikProber::moveTo(const Vector3& tcp) {
-  const Vector3 way = tcp - position();
-  const bool infeedOnly = way.head<2>().norm() < 1e-9;
+void SinumerikProber::moveTo(const PlanePlace& tcp) {
+  const bool infeedOnly = (tcp - position()).inPlane().norm() < 1e-9;
   Feed feed = Feed::at(infeedOnly ? habits_.infeedFeed : habits_.planeFeed);
   if (!habits_.monitorCollisions) feed = rapidTo(tcp);
-  channel_.moveTo(plane_.xyzFromPlane(PlanePlace(tcp)), feed);
+  channel_.moveTo(plane_.xyzFromPlane(tcp), feed);
 }
 
 /// Rapid traverse on the way to `tcp`, reduced to the percentage that the setting data grant.
-Feed SinumerikProber::rapidTo(const Vector3& tcp) const {
+Feed SinumerikProber::rapidTo(const PlanePlace& tcp) const {
   if (habits_.rapidPercent <= 0 || habits_.rapidPercent >= 100) return Feed::rapidTraverse();
   const machine::AxisPositions from = channel_.axes();
-  const machine::AxisPositions to = channel_.axesFromProgram(plane_.xyzFromPlane(PlanePlace(tcp)), from);
+  const machine::AxisPositions to = channel_.axesFromProgram(plane_.xyzFromPlane(tcp), from);
   // Each linear axis and its share of the way.
   const auto eachShare = [&](auto&& visit) {
     std::size_t index = 0;
@@ -77,28 +77,28 @@ Feed SinumerikProber::rapidTo(const Vector3& tcp) const {
   return std::isfinite(speed) ? Feed::at(speed * habits_.rapidPercent / 100) : Feed::rapidTraverse();
 }
 
-void SinumerikProber::moveInPlane(const Vector3& tcp) {
-  Vector3 target = tcp;
+void SinumerikProber::moveInPlane(const PlanePlace& tcp) {
+  PlanePlace target = tcp;
   target[2] = position()[2];
   moveTo(target);
 }
 
 void SinumerikProber::moveHeightTo(double height) {
-  Vector3 target = position();
+  PlanePlace target = position();
   target[2] = height;
   moveTo(target);
 }
 
-void SinumerikProber::moveOnArc(const Vector3& centre, double angle) {
+void SinumerikProber::moveOnArc(const PartPoint& centre, double angle) {
   std::vector<ProgramPlace> tips;
-  for (const Vector3& point : pointsOnArc(position(), centre, angle))
+  for (const Vector3& point : pointsOnArc(position().vector(), centre.vector(), angle))
     tips.push_back(plane_.xyzFromPlane(PlanePlace(point)));
   channel_.moveAlong(tips, Feed::at(habits_.circleFeed));
 }
 
 bool SinumerikProber::mirrored(int axis) const {
   const Matrix3 linear = channel_.frame().linear();
-  const Vector3 along = plane_.xyzFromPlane(Vector3::Unit(axis));
+  const Vector3 along = plane_.xyzFromPlane(PlaneWay::unit(axis)).vector();
   return linear.determinant() < 0 && along.dot(linear * along) < 0;
 }
 
@@ -109,41 +109,41 @@ Vector2 SinumerikProber::deviation() const {
   return deviation;
 }
 
-double SinumerikProber::trigger(const Vector3& direction) const {
+double SinumerikProber::trigger(const PlaneWay& direction) const {
   if (const auto axis = parallelAxis(direction)) {
     const auto index = static_cast<std::size_t>(*axis);
     return (direction[*axis] > 0) != mirrored(*axis) ? probe_.triggerPlus[index] : -probe_.triggerMinus[index];
   }
-  return ballRadius() + deviation().dot(direction.head<2>());
+  return ballRadius() + deviation().dot(direction.inPlane());
 }
 
-Vector3 SinumerikProber::lateralDeviation(const Vector3& direction) const {
-  if (probe_.monodirectional) return Vector3::Zero();
-  const Vector3 deviation(this->deviation().x(), this->deviation().y(), 0);
+PlaneWay SinumerikProber::lateralDeviation(const PlaneWay& direction) const {
+  if (probe_.monodirectional) return {};
+  const PlaneWay deviation(this->deviation().x(), this->deviation().y(), 0);
   return deviation - direction * direction.dot(deviation);
 }
 
-Vector3 SinumerikProber::toolAxis() const { return plane_.planeFromXyz(channel_.toolAxis()).normalized().vector(); }
+PlaneWay SinumerikProber::toolAxis() const { return plane_.planeFromXyz(channel_.toolAxis()).normalized(); }
 
-Vector3 SinumerikProber::uprightTcp(const Vector3& direction) const {
-  if (probe_.lengthToCentre) return Vector3::Zero();
-  const Vector3 axis = toolAxis();
-  Vector3 offset = ballRadius() * (axis - std::copysign(1.0, axis.z()) * Vector3::UnitZ());
-  if (direction.z() == 0) offset.z() = 0;
+PlaneWay SinumerikProber::uprightTcp(const PlaneWay& direction) const {
+  if (probe_.lengthToCentre) return {};
+  const PlaneWay axis = toolAxis();
+  PlaneWay offset = ballRadius() * (axis - std::copysign(1.0, axis.z()) * PlaneWay::unit(2));
+  if (direction.z() == 0) offset[2] = 0;
   return offset;
 }
 
-void SinumerikProber::orientTo(const Vector3& direction) {
+void SinumerikProber::orientTo(const PlaneWay& direction) {
   if (probe_.monodirectional) alignTo(direction);
 }
 
-void SinumerikProber::alignTo(const Vector3& direction) {
-  if (direction.head<2>().norm() < 1e-9) return;
+void SinumerikProber::alignTo(const PlaneWay& direction) {
+  if (direction.inPlane().norm() < 1e-9) return;
   channel_.orientSpindle(probe_.correctionAngle + angleFromSpindle(channel_, plane_, direction));
   if (habits_.spindlePositioned) habits_.spindlePositioned();
 }
 
-MeasuredPoint SinumerikProber::measure(const Vector3& setpoint, const Vector3& direction, double path, int count) {
+MeasuredPoint SinumerikProber::measure(const PartPoint& setpoint, const PlaneWay& direction, double path, int count) {
   const auto axis = parallelAxis(direction);
   // A length that ends at the south pole makes the trigger point in front of the tool 0.
   const bool mayBeZero = axis == 2 && direction.z() < 0 && !probe_.lengthToCentre;
@@ -159,25 +159,25 @@ MeasuredPoint SinumerikProber::measure(const Vector3& setpoint, const Vector3& d
                 probe_.feed);
 }
 
-MeasuredPoint SinumerikProber::measureUncompensated(const Vector3& setpoint, const Vector3& direction, double path,
+MeasuredPoint SinumerikProber::measureUncompensated(const PartPoint& setpoint, const PlaneWay& direction, double path,
                                                     int count, double assumedTrigger, double feed,
                                                     control::TouchWith part) {
   return stroke(setpoint, direction, path, count, direction * assumedTrigger, feed, part);
 }
 
-MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& direction, double path, int count,
-                                      const Vector3& surfaceFromTcp, double feed, control::TouchWith part) {
+MeasuredPoint SinumerikProber::stroke(const PartPoint& setpoint, const PlaneWay& direction, double path, int count,
+                                      const PlaneWay& surfaceFromTcp, double feed, control::TouchWith part) {
   if (!(path > 0)) {
     throw Alarm("61308", "Measuring path DFA must be greater than 0", "correct parameter S_FA");
   }
-  const Vector3 upright = uprightTcp(direction);
-  const Vector3 start = setpoint - direction * path - surfaceFromTcp - upright;
-  const Vector3 end = start + direction * 2 * path;
+  const PlaneWay upright = uprightTcp(direction);
+  const PlanePlace start = tipAt(setpoint, -(direction * path)) - surfaceFromTcp - upright;
+  const PlanePlace end = start + direction * 2 * path;
   orientTo(direction);
   moveTo(start);
 
   control::TouchRecord record;
-  record.direction = plane_.xyzFromPlane(direction);
+  record.direction = plane_.xyzFromPlane(direction).vector();
   MeasuredPoint point;
   const auto finish = [&](std::string outcome) {
     record.seconds = channel_.seconds();
@@ -187,8 +187,8 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
   const Feed retract = habits_.rapidRetract ? rapidTo(end) : Feed::at(habits_.planeFeed);
   const auto probeOnce = [&](double atFeed) {
     return carryOut(channel_,
-                    {.start = plane_.xyzFromPlane(PlanePlace(start)),
-                     .end = plane_.xyzFromPlane(PlanePlace(end)),
+                    {.start = plane_.xyzFromPlane(start),
+                     .end = plane_.xyzFromPlane(end),
                      .feed = atFeed,
                      .retract = retract,
                      .part = part,
@@ -199,13 +199,13 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
   // Walls are touched at the height of the ball's centre, which lies above the tip where the length ends at the south
   // pole; against the tool the trigger point counts from there. The ball of an L or a star lies on an arm.
   const bool raised = direction.z() == 0 && !probe_.lengthToCentre;
-  const Vector3 height(0, 0, raised ? ballRadius() * toolAxis().z() : 0);
+  const PlaneWay height(0, 0, raised ? ballRadius() * toolAxis().z() : 0);
   const double radius = ballRadius() > 0 ? ballRadius() : surfaceFromTcp.dot(direction);
-  record.target = plane_.xyzFromPlane(setpoint + height);
+  record.target = plane_.xyzFromPlane(setpoint + height).vector();
   const auto noteTouch = [&](const control::Touch& touch) {
-    const Vector3 surface = plane_.planeFromXyz(touch.tip).vector() + upright + height + surfaceFromTcp;
-    record.ballCentre = plane_.xyzFromPlane(surface - direction * radius);
-    record.surface = plane_.xyzFromPlane(surface);
+    const PartPoint surface = partAt(plane_.planeFromXyz(touch.tip) + upright + height, surfaceFromTcp);
+    record.ballCentre = plane_.xyzFromPlane(ballAt(surface, -(direction * radius))).vector();
+    record.surface = plane_.xyzFromPlane(surface).vector();
     record.latched = touch.latched;
     finish("touched");
   };
@@ -216,8 +216,8 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
       const auto quick = probeOnce(habits_.fastFeed);
       if (quick) {
         noteTouch(quick->touch);
-        const Vector3 back = plane_.planeFromXyz(quick->touch.tip).vector() - direction * std::min(2.0, path);
-        channel_.retractTo(plane_.xyzFromPlane(PlanePlace(back)), retract);
+        const PlanePlace back = plane_.planeFromXyz(quick->touch.tip) - direction * std::min(2.0, path);
+        channel_.retractTo(plane_.xyzFromPlane(back), retract);
       }
     }
     const auto touch = probeOnce(feed);
@@ -225,12 +225,10 @@ MeasuredPoint SinumerikProber::stroke(const Vector3& setpoint, const Vector3& di
     noteTouch(touch->touch);
     sum += plane_.planeFromXyz(touch->touch.tip).vector();
     point.latched = touch->touch.latched;
-    channel_.retractTo(plane_.xyzFromPlane(PlanePlace(start)), retract);
+    channel_.retractTo(plane_.xyzFromPlane(start), retract);
   }
-  point.tcp = sum / std::max(1, count) + upright;
-  point.surface = point.tcp + surfaceFromTcp;
-  const auto axis = parallelAxis(direction);
-  point.difference = axis ? point.surface[*axis] - setpoint[*axis] : (point.surface - setpoint).dot(direction);
+  point.tcp = PlanePlace(sum / std::max(1, count)) + upright;
+  point.surface = partAt(point.tcp, surfaceFromTcp);
   return point;
 }
 

@@ -43,23 +43,22 @@ struct SinumerikHabits {
 
 /// One measured point.
 struct MeasuredPoint {
-  /// Tool centre point at the signal (mean of the measurements), plane coordinates, as if the tool stood upright on the
+  /// Tool centre point at the signal (mean of the measurements), as if the tool stood upright on the
   /// plane: SinumerikProber::uprightTcp().
-  Vector3 tcp = Vector3::Zero();
-  Vector3 surface = Vector3::Zero();  ///< the point on the surface, by trigger points
-  double difference = 0;              ///< surface - setpoint along the positive axis or direction
-  machine::AxisPositions latched;     ///< of the last measurement
-  std::size_t record = 0;             ///< the place of its touch in the cycle's record
+  PlanePlace tcp;
+  PartPoint surface;               ///< by trigger points
+  machine::AxisPositions latched;  ///< of the last measurement
+  std::size_t record = 0;          ///< the place of its touch in the cycle's record
 };
 
 /// A direction of the plane as the spindle sees it as it stands now, wherever frames and rotary axes have turned the
 /// workpiece or the head: X, Y, Z of the spindle's frame at spindle angle 0, unit length.
 Vector3 directionFromSpindle(const control::Channel& channel, const control::WorkingPlane& plane,
-                             const Vector3& direction);
+                             const PlaneWay& direction);
 
 /// The angle about the spindle axis at which a direction of the plane lies for the spindle as it stands now, wherever
 /// frames and rotary axes have turned the workpiece or the head; degrees, from the plane's 1st axis at spindle angle 0.
-double angleFromSpindle(const control::Channel& channel, const control::WorkingPlane& plane, const Vector3& direction);
+double angleFromSpindle(const control::Channel& channel, const control::WorkingPlane& plane, const PlaneWay& direction);
 
 /// Moves the probe in coordinates (1st, 2nd, 3rd axis of the plane) of the workpiece coordinate system. Positions are
 /// those of the tool centre point (TCP), as the tool length defines it.
@@ -72,55 +71,55 @@ public:
   const SinumerikProbe& probe() const { return probe_; }
   double ballRadius() const { return probe_.ballDiameter / 2; }
 
-  Vector3 position() const;
+  PlanePlace position() const;
 
   /// Positioning inside a cycle: in the plane, in the infeed axis; watched for collisions (alarm 61302).
-  void moveTo(const Vector3& tcp);
+  void moveTo(const PlanePlace& tcp);
   /// In the plane only, at the present height.
-  void moveInPlane(const Vector3& tcp);
+  void moveInPlane(const PlanePlace& tcp);
   /// In the infeed axis only.
   void moveHeightTo(double height);
   /// On an arc about `centre` in the plane, turning by `angle` degrees.
-  void moveOnArc(const Vector3& centre, double angle);
+  void moveOnArc(const PartPoint& centre, double angle);
 
   /// Where the ball's centre lies beside the tool centre point, at right angles to `direction`, by the calibrated
   /// position deviation. measure() leads the ball's centre, not the tool centre point, along the line through the set
   /// point.
-  Vector3 lateralDeviation(const Vector3& direction) const;
+  PlaneWay lateralDeviation(const PlaneWay& direction) const;
   /// Where a tool that stands upright on the plane, its ball in the same place, would have its tool centre point, seen
   /// from the one that the tool has as it stands. Not 0 where the workpiece system is tilted against the tool and the
   /// tool length ends at the ball's south pole: the ball's centre lies a radius along the tool then, and trigger points
   /// count from it. In the plane for a `direction` of the plane: heights stay as they are programmed.
-  Vector3 uprightTcp(const Vector3& direction) const;
-  /// Direction from the ball towards the spindle, plane coordinates, unit length.
-  Vector3 toolAxis() const;
+  PlaneWay uprightTcp(const PlaneWay& direction) const;
+  /// Direction from the ball towards the spindle, unit length.
+  PlaneWay toolAxis() const;
   /// True if the workpiece system is mirrored along an axis of the plane, as for a part in the counter-spindle. The
   /// other side of the ball touches there: trigger points and deviations are those of the machine's direction.
   bool mirrored(int axis) const;
   /// What the trigger points say for a direction (unit vector): the way from the TCP to the surface along it.
-  double trigger(const Vector3& direction) const;
+  double trigger(const PlaneWay& direction) const;
 
   /// Turns the spindle so that the probe's +X side looks into `direction`; nothing for directions along the tool.
-  void alignTo(const Vector3& direction);
+  void alignTo(const PlaneWay& direction);
 
   /// Measures the surface expected at `setpoint` in `direction` (unit): moves to the start position `path` (DFA) in
   /// front of it, probes over at most twice that way, returns to the start position; `count` times (S_NMSP), averaged.
   /// With nothing touched, five attempts, then alarm 61301. Alarm 61341 if the probe was never calibrated in that
   /// direction.
-  MeasuredPoint measure(const Vector3& setpoint, const Vector3& direction, double path, int count = 1);
+  MeasuredPoint measure(const PartPoint& setpoint, const PlaneWay& direction, double path, int count = 1);
 
   /// The TCP at the signal without any compensation, for calibration; otherwise as measure(). `assumedTrigger` stands
   /// in for the trigger point while it is unknown. `part`: what of the stylus is meant to touch.
-  MeasuredPoint measureUncompensated(const Vector3& setpoint, const Vector3& direction, double path, int count,
+  MeasuredPoint measureUncompensated(const PartPoint& setpoint, const PlaneWay& direction, double path, int count,
                                      double assumedTrigger, double feed,
                                      control::TouchWith part = control::TouchWith::Ball);
 
 private:
-  MeasuredPoint stroke(const Vector3& setpoint, const Vector3& direction, double path, int count,
-                       const Vector3& surfaceFromTcp, double feed, control::TouchWith part = control::TouchWith::Ball);
-  void orientTo(const Vector3& direction);
+  MeasuredPoint stroke(const PartPoint& setpoint, const PlaneWay& direction, double path, int count,
+                       const PlaneWay& surfaceFromTcp, double feed, control::TouchWith part = control::TouchWith::Ball);
+  void orientTo(const PlaneWay& direction);
   Vector2 deviation() const;
-  machine::Feed rapidTo(const Vector3& tcp) const;
+  machine::Feed rapidTo(const PlanePlace& tcp) const;
 
   control::Channel& channel_;
   control::WorkingPlane plane_;

@@ -6,24 +6,24 @@
 
 namespace probewright::probing {
 
-void SinumerikToolProber::approach(const Vector3& tip) {
+void SinumerikToolProber::approach(const PlanePlace& tip) {
   if (position().z() < tip.z()) moveHeightTo(tip.z());
   moveInPlane(tip);
   moveHeightTo(tip.z());
 }
 
 ToolStrokeTouch SinumerikToolProber::touch(const ToolStroke& stroke) {
-  const Vector3 end = stroke.start + 2 * stroke.path * stroke.direction;
+  const PlanePlace end = stroke.start + 2 * stroke.path * stroke.direction;
   control::TouchRecord record;
-  record.target = plane_.xyzFromPlane(stroke.start + stroke.path * stroke.direction);
-  record.direction = plane_.xyzFromPlane(stroke.direction);
+  record.target = plane_.xyzFromPlane(stroke.start + stroke.path * stroke.direction).vector();
+  record.direction = plane_.xyzFromPlane(stroke.direction).vector();
   const auto finish = [&](std::string outcome) {
     record.seconds = channel_.seconds();
     record.outcome = std::move(outcome);
     channel_.journal().touch(record);
   };
-  SinumerikStroke order = {.start = plane_.xyzFromPlane(PlanePlace(stroke.start)),
-                           .end = plane_.xyzFromPlane(PlanePlace(end)),
+  SinumerikStroke order = {.start = plane_.xyzFromPlane(stroke.start),
+                           .end = plane_.xyzFromPlane(end),
                            .feed = stroke.feed,
                            .retract = machine::Feed::at(habits_.planeFeed),
                            .sensor = machine::Sensor::ToolTouchProbe,
@@ -40,13 +40,13 @@ ToolStrokeTouch SinumerikToolProber::touch(const ToolStroke& stroke) {
   if (stroke.mayApproachFast && habits_.fastApproach && stroke.path > 1) {
     // A first quick touch, back off, then the one that counts.
     order.feed = habits_.fastFeed;
-    const Vector3 back = plane_.planeFromXyz(once().touch.tip).vector() - std::min(2.0, stroke.path) * stroke.direction;
-    channel_.retractTo(plane_.xyzFromPlane(PlanePlace(back)), order.retract);
+    const PlanePlace back = plane_.planeFromXyz(once().touch.tip) - std::min(2.0, stroke.path) * stroke.direction;
+    channel_.retractTo(plane_.xyzFromPlane(back), order.retract);
     order.feed = stroke.feed;
   }
   const StrokeTouch touched = once();
   channel_.retractTo(order.start, order.retract);
-  return {plane_.planeFromXyz(touched.touch.tip).vector(), touched.spindleAngle};
+  return {plane_.planeFromXyz(touched.touch.tip), touched.spindleAngle};
 }
 
 }  // namespace probewright::probing

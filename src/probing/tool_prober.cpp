@@ -20,40 +20,40 @@ ToolProber::ToolProber(control::Channel& channel, const WorkingPlane& plane, con
       probe_(probe),
       height_(std::max(clearanceHeight, probe.place[plane.tool] + probe.clearance)) {}
 
-Vector3 ToolProber::tip() const { return channel_.machineFromAxes(channel_.axes()).vector(); }
+MachinePlace ToolProber::tip() const { return channel_.machineFromAxes(channel_.axes()); }
 
-Vector3 ToolProber::inPlane(int axis, double value) const {
+MachineWay ToolProber::inPlane(int axis, double value) const {
   Vector3 inPlane = Vector3::Zero();
   inPlane[axis] = value;
-  return plane_.xyzFromPlane(inPlane);
+  return MachineWay(plane_.xyzFromPlane(inPlane));
 }
 
-void ToolProber::moveTo(const Vector3& tip) {
-  channel_.moveAxes(channel_.axesFromMachine(MachinePlace(tip), channel_.axes()), Feed::at(probe_.rapid));
+void ToolProber::moveTo(const MachinePlace& tip) {
+  channel_.moveAxes(channel_.axesFromMachine(tip, channel_.axes()), Feed::at(probe_.rapid));
 }
 
 void ToolProber::rise() {
-  Vector3 target = tip();
+  MachinePlace target = tip();
   if (target[plane_.tool] >= height_) return;
   target[plane_.tool] = height_;
   moveTo(target);
 }
 
-void ToolProber::approach(const Vector3& target) {
+void ToolProber::approach(const MachinePlace& target) {
   rise();
-  Vector3 above = target;
+  MachinePlace above = target;
   above[plane_.tool] = std::max(tip()[plane_.tool], height_);
   moveTo(above);
   moveTo(target);
 }
 
-ToolTouch ToolProber::stroke(const Vector3& direction) {
-  const Vector3 start = tip();
+ToolTouch ToolProber::stroke(const MachineWay& direction) {
+  const MachinePlace start = tip();
   const ProgramPlace startInProgram = channel_.position();
-  const ProgramPlace end = channel_.programFromMachine(MachinePlace(start + probe_.reach * direction));
+  const ProgramPlace end = channel_.programFromMachine(start + probe_.reach * direction);
   control::TouchRecord record;
   // Where the tool is expected to touch.
-  record.target = channel_.programFromMachine(MachinePlace(start + probe_.clearance * direction)).vector();
+  record.target = channel_.programFromMachine(start + probe_.clearance * direction).vector();
   record.direction = (end - startInProgram).normalized().vector();
   const machine::MeasureResult result = channel_.measureTo(end, Feed::at(probe_.feed), machine::Sensor::ToolTouchProbe);
   const auto fail = [&](const char* outcome, const std::string& code, const std::string& text, const char* advice) {
@@ -98,17 +98,17 @@ ToolTouch ToolProber::stroke(const Vector3& direction) {
   record.seconds = channel_.seconds();
   record.outcome = "touched";
   channel_.journal().touch(record);
-  return {channel_.machineFromAxes(touch.latched).vector(), result.spindleAngle};
+  return {channel_.machineFromAxes(touch.latched), result.spindleAngle};
 }
 
 ToolTouch ToolProber::touchTop(const Vector2& offset) {
-  approach(probe_.place + inPlane(0, offset.x()) + inPlane(1, offset.y()) + inPlane(2, probe_.clearance));
+  approach(tipAt(probe_.place, inPlane(0, offset.x())) + inPlane(1, offset.y()) + inPlane(2, probe_.clearance));
   return stroke(inPlane(2, -1));
 }
 
 ToolTouch ToolProber::touchSide(int axis, int sense, double toolRadius, double depth, double aside) {
   const double away = (axis == 0 ? probe_.size : probe_.size2) / 2 + toolRadius + probe_.clearance;
-  approach(probe_.place + inPlane(axis, -sense * away) + inPlane(1 - axis, aside) + inPlane(2, -depth));
+  approach(tipAt(probe_.place, inPlane(axis, -sense * away)) + inPlane(1 - axis, aside) + inPlane(2, -depth));
   const ToolTouch touched = stroke(inPlane(axis, sense));
   rise();
   return touched;
@@ -116,7 +116,7 @@ ToolTouch ToolProber::touchSide(int axis, int sense, double toolRadius, double d
 
 void ToolProber::centre() {
   rise();
-  Vector3 above = probe_.place;
+  MachinePlace above = tipAt(probe_.place);
   above[plane_.tool] = std::max(tip()[plane_.tool], height_);
   moveTo(above);
 }

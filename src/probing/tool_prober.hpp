@@ -10,26 +10,26 @@ namespace probewright::probing {
 
 using control::WorkingPlane;
 
-/// The tool touch probe as the control knows it. Machine coordinates (X, Y, Z), mm and mm/min.
+/// The tool touch probe as the control knows it, mm and mm/min.
 struct ToolTouchProbe {
-  Vector3 place = Vector3::Zero();  ///< middle of the upper edge of its contact
-  double size = 40;                 ///< diameter or edge length of the contact, along the main axis
-  double size2 = 40;                ///< the same along the minor axis
-  double depth = 5;                 ///< of the tool's lower end below the upper edge in radial probing
-  double clearance = 5;             ///< about the contact
-  double reach = 50;                ///< longest stroke
-  double feed = 300;                ///< of the touch
-  double rapid = 2000;              ///< near the contact
+  PartInMachine place;   ///< middle of the upper edge of its contact
+  double size = 40;      ///< diameter or edge length of the contact, along the main axis
+  double size2 = 40;     ///< the same along the minor axis
+  double depth = 5;      ///< of the tool's lower end below the upper edge in radial probing
+  double clearance = 5;  ///< about the contact
+  double reach = 50;     ///< longest stroke
+  double feed = 300;     ///< of the touch
+  double rapid = 2000;   ///< near the contact
 };
 
-/// The tip of a tool when the tool touch probe signalled, machine coordinates.
+/// The tip of a tool when the tool touch probe signalled.
 struct ToolTouch {
-  Vector3 tip = Vector3::Zero();
+  MachinePlace tip;
   std::optional<double> spindleAngle;  ///< degrees then, where the machine says it
 };
 
-/// Leads the tip of a tool to the contact and back. Positions are the tip's in machine coordinates; main, minor and
-/// tool axis are those of the working plane. The spindle stands or turns as the caller has ordered.
+/// Leads the tip of a tool to the contact and back. Main, minor and tool axis are those of the working plane. The
+/// spindle stands or turns as the caller has ordered.
 class ToolProber {
 public:
   /// `clearanceHeight`: machine coordinate along the tool axis between the touches; it is raised to the clearance above
@@ -50,14 +50,14 @@ public:
   /// mm/min, of the touches that follow.
   void setFeed(double feed) { probe_.feed = feed; }
   /// Where the middle of the upper edge is taken to be from now on.
-  void setPlace(const Vector3& place) { probe_.place = place; }
+  void setPlace(const PartInMachine& place) { probe_.place = place; }
 
 private:
-  void moveTo(const Vector3& tip);
-  void approach(const Vector3& tip);
-  ToolTouch stroke(const Vector3& direction);
-  Vector3 tip() const;
-  Vector3 inPlane(int axis, double value) const;
+  void moveTo(const MachinePlace& tip);
+  void approach(const MachinePlace& tip);
+  ToolTouch stroke(const MachineWay& direction);
+  MachinePlace tip() const;
+  MachineWay inPlane(int axis, double value) const;
 
   control::Channel& channel_;
   WorkingPlane plane_;

@@ -11,8 +11,8 @@ MeasuredCircle measureBoltCircle(Context& context) {
   std::array<Vector2, 3> holes;
   for (std::size_t i = 0; i < 3; ++i) {
     const double angle = context.q(291 + static_cast<int>(i));
-    const Vector2 nominal = centre + probing::directionAt(angle).head<2>() * context.q(262) / 2;
-    holes[i] = measureHoleCentre(context, nominal, context.q(261)).head<2>();
+    const Vector2 nominal = centre + probing::directionAt(angle).inPlane() * context.q(262) / 2;
+    holes[i] = measureHoleCentre(context, nominal, context.q(261)).inPlane();
   }
   const auto circle = metrology::circleThrough(holes[0], holes[1], holes[2]);
   if (!circle) throw control::Alarm("Circle not determined", circle.error().message, circle.error().advice);

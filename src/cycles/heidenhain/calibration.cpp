@@ -23,7 +23,7 @@ namespace {
 metrology::Circle2 touchCircle(Context& context, HeidenhainProber& prober, const CalibrationTask& task,
                                const Vector2& centre, int count) {
   const double step = 360.0 / count;
-  const Vector3 middle(centre.x(), centre.y(), task.measuringHeight);
+  const PartPoint middle(centre.x(), centre.y(), task.measuringHeight);
   const auto plan = probing::planCircle(middle, 2 * task.standardRadius, task.startAngle, step, count, task.side);
   const bool fromCentre = task.side == Side::Inside &&
                           task.standardRadius <= prober.probe().reach() + prober.probe().setUp + task.extraClearance;
@@ -31,7 +31,7 @@ metrology::Circle2 touchCircle(Context& context, HeidenhainProber& prober, const
   std::vector<Vector2> centres;
   std::vector<std::size_t> places;
   for (const PlannedTouch& planned : plan) {
-    const Vector3 start = fromCentre ? middle : prober.prePosition(planned, task.extraClearance);
+    const BallCentre start = fromCentre ? ballAt(middle) : prober.prePosition(planned, task.extraClearance);
     if (around && !centres.empty()) {
       prober.moveOnArc(middle, step);
     } else if (task.side == Side::Outside) {
@@ -40,11 +40,11 @@ metrology::Circle2 touchCircle(Context& context, HeidenhainProber& prober, const
     }
     prober.moveTo(start);
     const EvaluatedTouch touch = prober.touch(planned);
-    centres.push_back(touch.ballCentre.head<2>());
+    centres.push_back(touch.ballCentre.inPlane());
     places.push_back(touch.record);
   }
   if (task.side == Side::Outside) prober.moveHeightTo(task.travelHeight);
-  prober.moveInPlane(middle);
+  prober.moveInPlane(ballAt(middle));
   const auto fit = metrology::fitCircle(centres, withCofactors);
   if (!fit) throw Alarm("Calibration not possible", fit.error().message, fit.error().advice);
   context.channel().journal().fit(recordOf(*fit, std::move(places)));
@@ -96,16 +96,16 @@ Across touchAcross(HeidenhainProber& prober, const CalibrationTask& task, const 
     const Vector2 place = centre + along * towards + sign * away * across;
     const Vector2 direction = sign * probing::outwards(task.side) * across;
     const PlannedTouch planned{{place.x(), place.y(), task.measuringHeight}, {direction.x(), direction.y(), 0}};
-    Vector3 start = prober.prePosition(planned, task.extraClearance);
+    BallCentre start = prober.prePosition(planned, task.extraClearance);
     // Not beyond the middle of a narrow ring.
-    const Vector2 middle = centre + along * towards - prober.tipOffsetNow().head<2>();
-    if (inside && (start.head<2>() - middle).dot(sign * across) < 0) start.head<2>() = middle;
+    const Vector2 middle = centre + along * towards - prober.tipOffsetNow().inPlane();
+    if (inside && (start.inPlane() - middle).dot(sign * across) < 0) start = {middle.x(), middle.y(), start.z()};
     if (!inside) {
       prober.moveHeightTo(task.travelHeight);
       prober.moveInPlane(start);
     }
     prober.moveTo(start);
-    found[static_cast<std::size_t>(side)] = (prober.touch(planned).ballCentre.head<2>() - centre).dot(across);
+    found[static_cast<std::size_t>(side)] = (prober.touch(planned).ballCentre.inPlane() - centre).dot(across);
   }
   if (!inside) prober.moveHeightTo(task.travelHeight);
   prober.moveInPlane({centre.x(), centre.y(), task.measuringHeight});
@@ -121,7 +121,7 @@ CalibratedRadius calibrateAside(Context& context, HeidenhainProber& prober, cons
   probing::HeidenhainProbe probe = prober.probe();
   CalibratedRadius calibrated{.standardRadius = task.standardRadius};
   Vector2 centre = task.centre;
-  const Vector2 towards = probing::directionAt(task.startAngle).head<2>();
+  const Vector2 towards = probing::directionAt(task.startAngle).inPlane();
   constexpr int passes = 4;
   for (int pass = 0; pass < passes; ++pass) {
     // The tip stays at its height whatever radius the ball turns out to have.
@@ -226,13 +226,14 @@ CalibratedRadius calibrateRadius(Context& context, HeidenhainProber& prober, Cal
     context.channel().orientSpindle(prober.probe().calibrationAngle);
     note(calibrated, task, "Reversal measurement", task.count, reversed);
     calibrated.centreOffset = (reversed.centre - fine.centre) / 2;
-    calibrated.centre.head<2>() = (reversed.centre + fine.centre) / 2;
+    const Vector2 middle = (reversed.centre + fine.centre) / 2;
+    calibrated.centre = {middle.x(), middle.y(), task.measuringHeight};
     // A probe that the spindle turns to every touch always signals with the same side: that side is calibrated.
     if (probing::HeidenhainProbe turned = activeProbe(control, Calibrated::NotYet); turned.track) {
       turned.directions = {};
       turned.tipOffset = inSpindle(context, *calibrated.centreOffset);
       HeidenhainProber turning(context.channel(), control.coordinates.plane, turned);
-      const metrology::Circle2 circle = touchCircle(context, turning, task, calibrated.centre.head<2>(), task.count);
+      const metrology::Circle2 circle = touchCircle(context, turning, task, middle, task.count);
       calibrated.radius = probing::outwards(task.side) * (task.standardRadius - circle.radius);
       note(calibrated, task, "Measurement with angle tracking", task.count, circle);
       context.channel().orientSpindle(prober.probe().calibrationAngle);

@@ -49,12 +49,12 @@ MeasuredCircle measureCircle(Context& context, const CircleParameters& numbers, 
 
   std::vector<Vector3> centres;
   for (const EvaluatedTouch& touch : touches)
-    centres.push_back(touch.ballCentre);
+    centres.push_back(touch.ballCentre.vector());
   const auto fit = metrology::fitCircleInPlane(centres, Vector3::UnitZ(), withCofactors);
   if (!fit) throw control::Alarm("Circle not determined", fit.error().message, fit.error().advice);
   context.channel().journal().fit(recordOf(*fit, placesOf(touches)));
   MeasuredCircle circle;
-  circle.centre = fit->shape.centre;
+  circle.centre = PartPoint(fit->shape.centre);
   circle.diameter = 2 * (fit->shape.radius + probing::outwards(side) * meanBallRadius(touches));
   return circle;
 }

@@ -61,7 +61,7 @@ inline constexpr std::array circleInspectionResults = {
 }  // namespace parameters
 
 struct MeasuredCircle {
-  Vector3 centre = Vector3::Zero();  ///< in the measuring plane; the third coordinate is the measuring height
+  PartPoint centre;  ///< in the measuring plane; the third coordinate is the measuring height
   double diameter = 0;
 };
 

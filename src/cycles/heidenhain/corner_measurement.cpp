@@ -31,16 +31,16 @@ MeasuredCorner measureCorner(Context& context, const CornerTouches& planned, Sid
                                              .extraClearance = extra,
                                              .between = betweenOf(context)});
 
-  const auto sideThrough = [&](const EvaluatedTouch& a, const EvaluatedTouch& b, const Vector3& direction) {
-    const Vector2 along = (b.ballCentre - a.ballCentre).head<2>();
+  const auto sideThrough = [&](const EvaluatedTouch& a, const EvaluatedTouch& b, const PlaneWay& direction) {
+    const Vector2 along = (b.ballCentre - a.ballCentre).inPlane();
     if (along.norm() < 1e-6) {
       throw control::Alarm("Corner not determined", "Two touches of one side coincide", "enlarge Q326 and Q327");
     }
-    noteLine(context.channel().journal(), std::array<Vector2, 2>{a.ballCentre.head<2>(), b.ballCentre.head<2>()},
+    noteLine(context.channel().journal(), std::array<Vector2, 2>{a.ballCentre.inPlane(), b.ballCentre.inPlane()},
              {a.record, b.record});
     Vector2 normal = Vector2(-along.y(), along.x()).normalized();
-    if (normal.dot(direction.head<2>()) < 0) normal = -normal;
-    return metrology::Line2{a.ballCentre.head<2>() + normal * prober.ballRadius({normal.x(), normal.y(), 0}),
+    if (normal.dot(direction.inPlane()) < 0) normal = -normal;
+    return metrology::Line2{a.ballCentre.inPlane() + normal * prober.ballRadius({normal.x(), normal.y(), 0}),
                             along.normalized()};
   };
   const metrology::Line2 first = sideThrough(touches[0], touches[1], planned[0].direction);

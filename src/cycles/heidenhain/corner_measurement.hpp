@@ -12,7 +12,7 @@ namespace probewright::cycles::heidenhain {
 using CornerTouches = std::array<PlannedTouch, 4>;
 
 struct MeasuredCorner {
-  Vector3 point = Vector3::Zero();
+  PartPoint point;
   metrology::Line2 firstSide;
 };
 

@@ -37,7 +37,7 @@ void run(Context& context, const Arguments& arguments) {
   moveToProgrammedPosition(context);
 
   const int axis = arguments.integer(probe_word::axis);
-  Vector3 direction = Vector3::Zero();
+  ProgramWay direction;
   direction[axis] = arguments.number(probe_word::direction);
   const control::WorkingPlane& plane = context.control().coordinates.plane;
   auto& prober = context.prober();

@@ -31,7 +31,7 @@ void run(Context& context, const Arguments& arguments) {
   // The angle turns from the probing axis to the next one in the order X, Y, Z, X.
   const int axis = arguments.integer(probe_word::axis);
   const double angle = radiansFromDegrees(arguments.number(probe_word::angle));
-  Vector3 direction = Vector3::Zero();
+  ProgramWay direction;
   direction[axis] = std::cos(angle);
   direction[(axis + 1) % 3] = std::sin(angle);
   auto& prober = context.prober();

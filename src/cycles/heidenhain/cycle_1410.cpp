@@ -63,10 +63,10 @@ void run(Context& context, const Arguments&) {
   std::vector<EvaluatedTouch> touched;
   std::optional<ObjectProbing> probing;
   for (std::size_t i = 0; i < 2; ++i) {
-    Vector3 actual = nominal[i].known()
-                         ? Vector3(*nominal[i].axes[0].actual, *nominal[i].axes[1].actual, *nominal[i].axes[2].actual)
-                         : Vector3(Vector3::Zero());
-    if (!nominal[i].known()) {
+    PartPoint actual;
+    if (nominal[i].known()) {
+      actual = {*nominal[i].axes[0].actual, *nominal[i].axes[1].actual, *nominal[i].axes[2].actual};
+    } else {
       if (!probing) probing.emplace(context, "point");
       const EvaluatedTouch touch = probing->touch(nominal[i], directions[i]);
       actual = touch.surface;
@@ -78,7 +78,7 @@ void run(Context& context, const Arguments&) {
   if (probing) probing->leaveLastObject();
   if (touched.size() == 2) {
     noteLine(context.channel().journal(),
-             std::array<Vector2, 2>{touched[0].surface.head<2>(), touched[1].surface.head<2>()}, placesOf(touched));
+             std::array<Vector2, 2>{touched[0].surface.inPlane(), touched[1].surface.inPlane()}, placesOf(touched));
   }
 
   const PlaneRotation rotation = planeRotation(context, found[0], found[1]);

@@ -129,12 +129,12 @@ void run(Context& context, const Arguments&) {
     }
     std::vector<Vector3> centres;
     for (const EvaluatedTouch& touch : touches)
-      centres.push_back(touch.ballCentre);
+      centres.push_back(touch.ballCentre.vector());
     const auto fit = metrology::fitCircleInPlane(centres, Vector3::UnitZ(), withCofactors);
     if (!fit) throw control::Alarm("Circle not determined", fit.error().message, fit.error().advice);
     context.channel().journal().fit(recordOf(*fit, placesOf(touches)));
     foundDiameters[i] = 2 * (fit->shape.radius + probing::outwards(side) * meanBallRadius(touches));
-    found[i] = measuredPosition(nominal[i], fit->shape.centre, measured);
+    found[i] = measuredPosition(nominal[i], PartPoint(fit->shape.centre), measured);
   }
   if (probing && nominal[1].known()) probing->leaveLastObject();
 

@@ -51,24 +51,24 @@ constexpr std::array results1420 = joined(
     verdictOfRotation);
 
 /// The normal of the plane through three points, on the side of `towards`.
-Vector3 normalOf(const Vector3& p1, const Vector3& p2, const Vector3& p3, const Vector3& towards) {
-  const Vector3 a = p2 - p1;
-  const Vector3 b = p3 - p1;
-  const Vector3 cross = a.cross(b);
+PlaneWay normalOf(const PartPoint& p1, const PartPoint& p2, const PartPoint& p3, const PlaneWay& towards) {
+  const PlaneWay a = p2 - p1;
+  const PlaneWay b = p3 - p1;
+  const PlaneWay cross = a.cross(b);
   if (!(cross.norm() > 1e-6 * a.norm() * b.norm()) || a.norm() < 1e-6) {
     throw control::Alarm("Plane wrongly defined", "The three points lie on one straight line",
                          "choose points that span a triangle");
   }
-  const Vector3 normal = cross.normalized();
-  return normal.dot(towards) < 0 ? Vector3(-normal) : normal;
+  const PlaneWay normal = cross.normalized();
+  return normal.dot(towards) < 0 ? -normal : normal;
 }
 
 Matrix3 turned(double radians, int axis) { return Eigen::AngleAxisd(radians, Vector3::Unit(axis)).toRotationMatrix(); }
 
 /// The rotation that brings the axis of probing to `normal` (or to its opposite) by space angles about the other two
 /// axes, none about itself. A plane that can be probed along the axis is never parallel to it, so nothing is singular.
-Matrix3 axesOfNormal(const Vector3& normal, int axis) {
-  const Vector3 n = normal[axis] < 0 ? Vector3(-normal) : normal;
+Matrix3 axesOfNormal(const PlaneWay& normal, int axis) {
+  const Vector3 n = normal[axis] < 0 ? Vector3(-normal.vector()) : normal.vector();
   switch (axis) {
     case 0:
       return turned(std::atan2(n.y(), n.x()), 2) * turned(std::asin(std::clamp(-n.z(), -1.0, 1.0)), 1);
@@ -101,7 +101,7 @@ Vector3 spaceAnglesOfNormal(const control::WorkingPlane& plane, const Vector3& n
   Matrix3 xyz;
   for (int i = 0; i < 3; ++i) {
     const int column = i == 0 ? plane.main : i == 1 ? plane.minor : plane.tool;
-    xyz.col(column) = plane.xyzFromPlane(axes.col(i));
+    xyz.col(column) = plane.xyzFromPlane(Vector3(axes.col(i)));
   }
   return control::heidenhain::spaceAnglesFromRotation(xyz);
 }
@@ -139,9 +139,9 @@ void run(Context& context, const Arguments&) {
   const std::array nominal = {nominalPosition(context, 1, needed), nominalPosition(context, 2, needed),
                               nominalPosition(context, 3, needed)};
   // The normal points along the tool axis, that of a wall towards the probe.
-  const Vector3 side = axis == 2 ? Vector3(Vector3::UnitZ()) : Vector3(-probing::axisDirection(axis, direction));
-  const auto middles = [&](std::size_t i) { return measuredPosition(nominal[i], Vector3::Zero(), needed).nominal; };
-  const Vector3 nominalNormal = normalOf(middles(0), middles(1), middles(2), side);
+  const PlaneWay side = axis == 2 ? PlaneWay::unit(2) : -probing::axisDirection(axis, direction);
+  const auto middles = [&](std::size_t i) { return measuredPosition(nominal[i], {}, needed).nominal; };
+  const PlaneWay nominalNormal = normalOf(middles(0), middles(1), middles(2), side);
 
   // About which axes the plane is described: not about the one that it faces.
   int facing = axis;
@@ -151,7 +151,7 @@ void run(Context& context, const Arguments&) {
                            "The plane of the nominal positions lies along the probing direction",
                            "choose the axis that the plane faces (Q372)");
     }
-    nominalNormal.cwiseAbs().maxCoeff(&facing);
+    nominalNormal.vector().cwiseAbs().maxCoeff(&facing);
   }
 
   // The operator may choose other directions than Q372.
@@ -160,7 +160,7 @@ void run(Context& context, const Arguments&) {
   std::vector<EvaluatedTouch> touched;
   std::optional<ObjectProbing> probing;
   for (std::size_t i = 0; i < 3; ++i) {
-    Vector3 actual = Vector3::Zero();
+    PartPoint actual;
     if (nominal[i].known()) {
       actual = {*nominal[i].axes[0].actual, *nominal[i].axes[1].actual, *nominal[i].axes[2].actual};
     } else {
@@ -173,16 +173,18 @@ void run(Context& context, const Arguments&) {
   }
   if (probing) probing->leaveLastObject();
   if (touched.size() == 3) {
-    notePlane(context.channel().journal(), std::array{touched[0].surface, touched[1].surface, touched[2].surface},
+    notePlane(context.channel().journal(),
+              std::array{touched[0].surface.vector(), touched[1].surface.vector(), touched[2].surface.vector()},
               placesOf(touched));
   }
 
-  const Vector3 normal = normalOf(found[0].actual, found[1].actual, found[2].actual, nominalNormal);
+  const PlaneWay normal = normalOf(found[0].actual, found[1].actual, found[2].actual, nominalNormal);
   // Space angles count in the workpiece coordinate system, about its X, Y and Z.
   const auto& coordinates = context.control().coordinates;
   const auto& plane = coordinates.plane;
-  const Vector3 inWorkpiece = plane.planeFromXyz(coordinates.machineFromPreset().linear().transpose() *
-                                                 context.channel().frame().linear() * plane.xyzFromPlane(normal));
+  const Vector3 inWorkpiece =
+      plane.planeFromXyz(coordinates.machineFromPreset().linear().transpose() * context.channel().frame().linear() *
+                         plane.xyzFromPlane(normal).vector());
   const Vector3 space = spaceAnglesOfNormal(plane, inWorkpiece, facing == 2 ? Faces::Tool : Faces::Sideways);
 
   RotationFindings findings(context);

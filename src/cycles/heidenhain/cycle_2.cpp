@@ -63,9 +63,9 @@ void run(Context& context, const Arguments&) {
   }
   auto prober = calibrationProber(context);
   const auto& plane = context.control().coordinates.plane;
-  const Vector3 place = plane.planeFromXyz(context.machineFromProgram().inverse() * centre);
+  const PartPoint place = plane.planeFromXyz(PartInProgram(context.machineFromProgram().inverse() * centre));
   const double clearance = context.q(probe_word::height);
-  CalibrationTask task{.centre = place.head<2>(),
+  CalibrationTask task{.centre = place.inPlane(),
                        .standardRadius = context.q(probe_word::radius),
                        .side = context.option(probe_word::outside) == 1 ? Side::Outside : Side::Inside,
                        .count = 4,
@@ -74,7 +74,7 @@ void run(Context& context, const Arguments&) {
                        .travelHeight = clearance + prober.probe().ballRadius,
                        .extraClearance = 0,
                        .centreOffset = false};
-  const Vector3 middle(place.x(), place.y(), task.measuringHeight);
+  const BallCentre middle(place.x(), place.y(), task.measuringHeight);
   if (prober.position()[2] - prober.probe().ballRadius < clearance) prober.moveSouthPoleTo(clearance);
   if (task.side == Side::Inside) {
     prober.moveInPlane(middle);

@@ -37,9 +37,9 @@ constexpr CycleDefinition definition = {
 void run(Context& context, const Arguments&) {
   requireCompensation(context);
   resetBasicRotation(context);
-  const Vector3 first = measureHoleCentre(context, {context.q(268), context.q(269)}, context.q(261));
-  const Vector3 second = measureHoleCentre(context, {context.q(270), context.q(271)}, context.q(261));
-  compensateByRotationOrTable(context, angleOf(first, second));
+  const PartPoint first = measureHoleCentre(context, {context.q(268), context.q(269)}, context.q(261));
+  const PartPoint second = measureHoleCentre(context, {context.q(270), context.q(271)}, context.q(261));
+  compensateByRotationOrTable(context, angleOf(first.inPlane(), second.inPlane()));
 }
 
 }  // namespace

@@ -42,9 +42,9 @@ constexpr CycleDefinition definition = {
 void run(Context& context, const Arguments&) {
   requireCompensation(context);
   resetBasicRotation(context);
-  const Vector3 first = measureStudCentre(context, {context.q(268), context.q(269)}, context.q(313), context.q(261));
-  const Vector3 second = measureStudCentre(context, {context.q(270), context.q(271)}, context.q(314), context.q(315));
-  compensateByRotationOrTable(context, angleOf(first, second));
+  const PartPoint first = measureStudCentre(context, {context.q(268), context.q(269)}, context.q(313), context.q(261));
+  const PartPoint second = measureStudCentre(context, {context.q(270), context.q(271)}, context.q(314), context.q(315));
+  compensateByRotationOrTable(context, angleOf(first.inPlane(), second.inPlane()));
 }
 
 }  // namespace

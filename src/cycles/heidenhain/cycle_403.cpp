@@ -68,7 +68,7 @@ int machineAxis(Context& context, int programAxis) {
 }
 
 /// The angle of a line about machine axis `axis`, counted from machine axis `from`.
-double angleAbout(int axis, int from, const Vector3& along) {
+double angleAbout(int axis, int from, const ProgramWay& along) {
   const double cosine = along[(axis + 1) % 3], sine = along[(axis + 2) % 3];
   if (std::hypot(cosine, sine) < 0.1 * along.norm()) {
     throw Alarm(

@@ -59,11 +59,14 @@ void run(Context& context, const Arguments&) {
   }
   const MeasuredCircle circle =
       measureCircle(context, {321, 322, 262}, Side::Inside, probing::Ending::AtMeasuringHeight);
-  context.prober().moveTo(circle.centre);
+  context.prober().moveTo(ballAt(circle.centre));
   context.prober().moveSouthPoleTo(context.q(260));
   // The C axis turns in the plane of X and Y whatever the touch probe axis is.
   const auto& plane = context.control().coordinates.plane;
-  const auto inXY = [&](const Vector3& place) { return angleOf(Vector3::Zero(), plane.xyzFromPlane(place)); };
+  const auto inXY = [&](const PartPoint& place) {
+    const PartInProgram xyz = plane.xyzFromPlane(place);
+    return angleOf(Vector2::Zero(), {xyz.x(), xyz.y()});
+  };
   const double target = context.q(322) == 0 ? 90 : inXY({context.q(321), context.q(322), context.q(261)});
   const double offset = normalizedDegrees(inXY(circle.centre) - target);
   if (plane.xyzFromPlane(PartPoint(context.q(321), context.q(322), context.q(261))).y() < 0) {

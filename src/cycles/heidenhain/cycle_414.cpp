@@ -50,16 +50,16 @@ void run(Context& context, const Arguments&) {
   }
   const double towards1 = context.q(296) < context.q(263) ? 1 : -1;
   const double towards2 = context.q(297) > context.q(264) ? 1 : -1;
-  const Vector3 first(context.q(263), context.q(264), height);
-  const Vector3 third(context.q(296), context.q(297), height);
-  const Vector3 direction1 = probing::axisDirection(1, towards2);
-  const Vector3 direction2 = probing::axisDirection(0, towards1);
+  const PartPoint first(context.q(263), context.q(264), height);
+  const PartPoint third(context.q(296), context.q(297), height);
+  const PlaneWay direction1 = probing::axisDirection(1, towards2);
+  const PlaneWay direction2 = probing::axisDirection(0, towards1);
   // The distances count in the positive direction of their axes, whichever corner it is.
   const CornerTouches touches = {
       PlannedTouch{first, direction1},
-      PlannedTouch{first + Vector3(context.q(326), 0, 0), direction1},
+      PlannedTouch{first + PlaneWay(context.q(326), 0, 0), direction1},
       PlannedTouch{third, direction2},
-      PlannedTouch{third + Vector3(0, context.q(327), 0), direction2},
+      PlannedTouch{third + PlaneWay(0, context.q(327), 0), direction2},
   };
   presetCorner(context, measureCorner(context, touches, Side::Outside));
 }

@@ -49,15 +49,15 @@ void run(Context& context, const Arguments&) {
   const double height = context.q(261);
   auto& prober = context.prober();
   const double standOff =
-      prober.inProgram(prober.probe().ballRadius + prober.probe().setUp, Vector3::UnitX()) + context.q(320);
-  const Vector3 at(context.q(263), context.q(264), height);
-  const Vector3 direction1 = probing::axisDirection(1, -inwards2);
-  const Vector3 direction2 = probing::axisDirection(0, -inwards1);
+      prober.inProgram(prober.probe().ballRadius + prober.probe().setUp, PlaneWay::unit(0)) + context.q(320);
+  const PartPoint at(context.q(263), context.q(264), height);
+  const PlaneWay direction1 = probing::axisDirection(1, -inwards2);
+  const PlaneWay direction2 = probing::axisDirection(0, -inwards1);
   const CornerTouches touches = {
-      PlannedTouch{at + Vector3(inwards1 * standOff, 0, 0), direction1},
-      PlannedTouch{at + Vector3(inwards1 * context.q(326), 0, 0), direction1},
-      PlannedTouch{at + Vector3(0, inwards2 * standOff, 0), direction2},
-      PlannedTouch{at + Vector3(0, inwards2 * context.q(327), 0), direction2},
+      PlannedTouch{at + PlaneWay(inwards1 * standOff, 0, 0), direction1},
+      PlannedTouch{at + PlaneWay(inwards1 * context.q(326), 0, 0), direction1},
+      PlannedTouch{at + PlaneWay(0, inwards2 * standOff, 0), direction2},
+      PlannedTouch{at + PlaneWay(0, inwards2 * context.q(327), 0), direction2},
   };
   presetCorner(context, measureCorner(context, touches, Side::Inside));
 }

@@ -53,7 +53,7 @@ void run(Context& context, const Arguments&) {
   }
   std::vector<Vector2> centres;
   for (const auto& [main, minor] : {std::pair{268, 269}, {270, 271}, {316, 317}, {318, 319}}) {
-    centres.push_back(measureHoleCentre(context, {context.q(main), context.q(minor)}, context.q(261)).head<2>());
+    centres.push_back(measureHoleCentre(context, {context.q(main), context.q(minor)}, context.q(261)).inPlane());
   }
   const auto crossing = metrology::intersection(metrology::Line2{centres[0], centres[2] - centres[0]},
                                                 metrology::Line2{centres[1], centres[3] - centres[1]});

@@ -47,7 +47,7 @@ void run(Context& context, const Arguments&) {
   const int axis = context.option(272) - 1;
   const int across = 1 - axis;
   auto& prober = context.prober();
-  Vector3 start(context.q(328), context.q(329), context.q(261));
+  BallCentre start(context.q(328), context.q(329), context.q(261));
   prober.approach(start, context.q(260));
   const EvaluatedTouch plus = prober.stroke(probing::axisDirection(axis, 1));
 
@@ -59,10 +59,10 @@ void run(Context& context, const Arguments&) {
     prober.moveHeightTo(start[2]);
   }
   // Wide slots are crossed at positioning speed up to the pre-position of the second wall.
-  Vector3 wall = start;
+  PartPoint wall = partAt(start);
   wall[axis] = plus.surface[axis] - context.q(311);
   const PlannedTouch second{wall, probing::axisDirection(axis, -1)};
-  const Vector3 preposition = prober.prePosition(second, context.q(320));
+  const BallCentre preposition = prober.prePosition(second, context.q(320));
   if (preposition[axis] < start[axis]) prober.moveTo(preposition);
   const EvaluatedTouch minus = prober.touch(second);
   prober.moveSouthPoleTo(context.q(260));

@@ -48,8 +48,8 @@ constexpr CycleDefinition definition = {
 void run(Context& context, const Arguments&) {
   requireMonitoredTool(context);
   const int axis = context.option(272) - 1;
-  Vector3 plus(context.q(263), context.q(264), context.q(261));
-  Vector3 minus(context.q(265), context.q(266), context.q(261));
+  PartPoint plus(context.q(263), context.q(264), context.q(261));
+  PartPoint minus(context.q(265), context.q(266), context.q(261));
   // The first stroke goes in the negative direction: it belongs to the face with the larger coordinate. Points given
   // the other way round, as in the printed example, would let the probe start inside the ridge.
   if (plus[axis] < minus[axis]) std::swap(plus, minus);

@@ -63,7 +63,7 @@ constexpr CycleDefinition definition = {
 };
 
 void run(Context& context, const Arguments&) {
-  const Vector3 down = probing::axisDirection(2, -1);
+  const PlaneWay down = probing::axisDirection(2, -1);
   const PlannedTouch first{{context.q(263), context.q(264), context.q(294)}, down};
   const PlannedTouch second{{context.q(265), context.q(266), context.q(295)}, down};
   const PlannedTouch third{{context.q(296), context.q(297), context.q(298)}, down};
@@ -72,18 +72,18 @@ void run(Context& context, const Arguments&) {
       {.clearance = context.q(260), .extraClearance = context.q(320), .between = probing::Between::AtClearanceHeight});
 
   // Ball centres lie on a parallel plane: the angles are the same at any tilt.
-  const Vector3& p1 = touches[0].ballCentre;
-  const Vector3& p2 = touches[1].ballCentre;
-  const Vector3& p3 = touches[2].ballCentre;
-  notePlane(context.channel().journal(), std::array{p1, p2, p3}, placesOf(touches));
-  const Vector3 main = p2 - p1;
-  const Vector3 cross = main.cross(p3 - p1);
+  const BallCentre& p1 = touches[0].ballCentre;
+  const BallCentre& p2 = touches[1].ballCentre;
+  const BallCentre& p3 = touches[2].ballCentre;
+  notePlane(context.channel().journal(), std::array{p1.vector(), p2.vector(), p3.vector()}, placesOf(touches));
+  const PlaneWay main = p2 - p1;
+  const PlaneWay cross = main.cross(p3 - p1);
   if (cross.norm() < 1e-6 * main.norm() * (p3 - p1).norm() || main.norm() < 1e-6) {
     throw control::Alarm("Plane wrongly defined", "The three touches lie on one straight line",
                          "choose points that span a triangle");
   }
-  const Vector3 u = main.normalized();
-  Vector3 n = cross.normalized();
+  const PlaneWay u = main.normalized();
+  PlaneWay n = cross.normalized();
   if (n.z() < 0) {
     n = -n;
     context.warn(
@@ -93,9 +93,9 @@ void run(Context& context, const Arguments&) {
   const auto& plane = context.control().coordinates.plane;
   // Space angles count about X, Y and Z, whatever the touch probe axis.
   Matrix3 axes;
-  axes.col(plane.main) = plane.xyzFromPlane(u);
-  axes.col(plane.minor) = plane.xyzFromPlane(n.cross(u));
-  axes.col(plane.tool) = plane.xyzFromPlane(n);
+  axes.col(plane.main) = plane.xyzFromPlane(u).vector();
+  axes.col(plane.minor) = plane.xyzFromPlane(n.cross(u)).vector();
+  axes.col(plane.tool) = plane.xyzFromPlane(n).vector();
   const Vector3 space = control::heidenhain::spaceAnglesFromRotation(axes);
   context.result(158, degreesFromRadians(std::atan2(-n.y(), n.z())));
   context.result(159, degreesFromRadians(std::atan2(n.x(), n.z())));

@@ -49,8 +49,8 @@ std::array<int, 2> sensesOf(int directions) {
 
 probing::ToolTouchProbe toolTouchProbe(Context& context) {
   const auto& parameters = context.control().parameters;
-  const Vector3 place(parameters.mp6580x, parameters.mp6580y, parameters.mp6580z);
-  if (place.isZero(0)) {
+  const PartInMachine place(parameters.mp6580x, parameters.mp6580y, parameters.mp6580z);
+  if (place.vector().isZero(0)) {
     throw Alarm("Tool touch probe not calibrated", "MP6580.0 to MP6580.2 do not say where the tool touch probe is",
                 "calibrate the tool touch probe, or enter its position in [parameters]");
   }

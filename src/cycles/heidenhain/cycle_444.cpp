@@ -100,13 +100,13 @@ constexpr CycleDefinition definition = {
 };
 
 void run(Context& context, const Arguments&) {
-  const Vector3 given(context.q(581), context.q(582), context.q(583));
+  const PlaneWay given(context.q(581), context.q(582), context.q(583));
   if (!(given.norm() > 1e-9)) {
     throw control::Alarm("Surface normal wrong", "The normal vector Q581, Q582, Q583 has no length",
                          "give the direction away from the surface");
   }
-  const Vector3 n = given.normalized();
-  const Vector3 nominal(context.q(263), context.q(264), context.q(294));
+  const PlaneWay n = given.normalized();
+  const PartPoint nominal(context.q(263), context.q(264), context.q(294));
   const auto limits = toleranceOf(context);
 
   auto& prober = context.prober();
@@ -115,7 +115,7 @@ void run(Context& context, const Arguments&) {
   const EvaluatedTouch touch = prober.touch(planned);
   prober.moveSouthPoleTo(context.q(260));
 
-  const Vector3 deviation = touch.surface - nominal;
+  const PlaneWay deviation = touch.surface - nominal;
   const double along = deviation.dot(n);
   const Verdict verdict = limits ? verdictOf(along, *limits) : Verdict::None;
   for (int i = 0; i < 3; ++i)
@@ -134,7 +134,7 @@ void run(Context& context, const Arguments&) {
   const double unit = context.control().mainUnit;
   const int decimals = unit == 1 ? 4 : 5;
   const auto number = [unit, decimals](double length) { return formatFixed(length / unit, decimals); };
-  const Vector3 path = -n * prober.probe().distance;
+  const PlaneWay path = -n * prober.probe().distance;
   static constexpr const char* names[] = {"Main axis", "Minor axis", "Tool axis"};
   static constexpr const char* words[] = {"", "good", "rework", "scrap"};
   const char* state = words[static_cast<std::size_t>(verdict)];

@@ -172,7 +172,7 @@ void run(Context& context, const Arguments&) {
   requireMode(context, mode, plan);
   if (preset == 1 || preset == 3) presetIntoSphere(context);
 
-  SphereSearch search(context, control.coordinates.machineFromPreset().translation());
+  SphereSearch search(context, PartInMachine(control.coordinates.machineFromPreset().translation()));
   Outcome outcome;
   outcome.series = measureSeries(context, search, plan);
   outcome.task = fitTaskOf(context, outcome.series);
@@ -189,7 +189,8 @@ void run(Context& context, const Arguments&) {
     changeKinematics(control, after);
   }
   if (preset >= 2)
-    setSpherePreset(context, mode > 0 ? outcome.fit.sphere : search.seen(outcome.series.front().sightings.front()));
+    setSpherePreset(
+        context, mode > 0 ? PartInMachine(outcome.fit.sphere) : search.seen(outcome.series.front().sightings.front()));
   reportResults(context, outcome.series, findings, mode > 0 ? Optimised::Yes : Optimised::No, offset);
   logMeasurement(context, fmt::format("{}: {}", mode, modes[mode].meaning), outcome.series, findings, before, after,
                  offset, outcome.fit.undetermined);

@@ -68,7 +68,7 @@ void run(Context& context, const Arguments&) {
   auto& control = context.control();
   const MeasuringPlan plan = measuringPlan(context);
   const Vector3 centre = control.coordinates.machineFromPreset().translation();
-  SphereSearch search(context, centre);
+  SphereSearch search(context, PartInMachine(centre));
   std::vector<MeasuredSeries> series;
   std::vector<kinematics::SphereSighting> sightings;
   if (plan.series.empty()) {

@@ -84,7 +84,7 @@ std::vector<Deviation> measureGrid(Context& context, SphereSearch& search, const
       angles[axis] -= context.channel().rotaryOffset[axis];
     search.turnTo(angles, rotary, found.empty() ? SphereSearch::Order::OneByOne : SphereSearch::Order::Together);
     const FoundSphere sphere = search.measure(RadiusCheck::AtSecond);
-    const Vector3 error = sphere.centre - search.expected();
+    const Vector3 error = (sphere.centre - search.expected()).vector();
     const Matrix3 asItStands = machine::baseFromTable(machine, sphere.sighting.axes).linear() *
                                machine::baseFromTable(machine, reference).linear().transpose();
     found.push_back({node, error, -(asItStands * error)});
@@ -143,7 +143,7 @@ void run(Context& context, const Arguments&) {
   }
   requireMeasurableKinematics(context);
   if (preset == 1 || preset == 3) presetIntoSphere(context);
-  SphereSearch search(context, control.coordinates.machineFromPreset().translation());
+  SphereSearch search(context, PartInMachine(control.coordinates.machineFromPreset().translation()));
   const std::vector<Deviation> found = measureGrid(context, search, grid);
   double sum = 0;
   for (const Deviation& deviation : found)

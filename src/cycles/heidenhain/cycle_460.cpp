@@ -42,8 +42,8 @@ EvaluatedTouch touchPole(probing::HeidenhainProber& prober, const CalibrationTas
 
 /// Not the spindle axis but the ball is to stand over the pole.
 void moveOverPole(probing::HeidenhainProber& prober, const CalibratedRadius& calibrated) {
-  Vector3 overPole = calibrated.centre;
-  if (calibrated.centreOffset) overPole.head<2>() -= *calibrated.centreOffset;
+  BallCentre overPole = ballAt(calibrated.centre);
+  if (const auto& offset = calibrated.centreOffset) overPole -= PlaneWay(offset->x(), offset->y(), 0);
   prober.moveInPlane(overPole);
 }
 
@@ -54,7 +54,7 @@ CalibratedRadius calibrateFromPole(Context& context, probing::HeidenhainProber& 
     const double radius = pass == 0 ? prober.probe().ballRadius : calibrated.radius;
     task.measuringHeight = touchPole(prober, task).ballCentre.z() - task.standardRadius - radius;
     calibrated = calibrateRadius(context, prober, task);
-    task.centre = calibrated.centre.head<2>();
+    task.centre = calibrated.centre.inPlane();
     moveOverPole(prober, calibrated);
   }
   return calibrated;
@@ -66,17 +66,17 @@ CalibratedRadius calibrateFromPole(Context& context, probing::HeidenhainProber& 
 double searchEquator(probing::HeidenhainProber& prober, const CalibrationTask& task) {
   const double ball = prober.probe().ballRadius, locus = task.standardRadius + ball;
   double equator = task.travelHeight - ball - prober.probe().setUp - task.extraClearance - task.standardRadius;
-  const Vector3 outwards = probing::directionAt(task.startAngle);
+  const PlaneWay outwards = probing::directionAt(task.startAngle);
   bool there = false;
   /// How far out and how high the ball centre stands when it meets the sphere at `height`.
   const auto meet = [&](double height) {
     const double away = std::sqrt(std::max(0.0, locus * locus - std::pow(height - equator, 2))) - ball;
-    const PlannedTouch planned{Vector3(task.centre.x(), task.centre.y(), height) + away * outwards, -outwards};
-    const Vector3 start = prober.prePosition(planned, task.extraClearance);
+    const PlannedTouch planned{PartPoint(task.centre.x(), task.centre.y(), height) + away * outwards, -outwards};
+    const BallCentre start = prober.prePosition(planned, task.extraClearance);
     if (!std::exchange(there, true)) prober.moveInPlane(start);
     prober.moveTo(start);
-    const Vector3 centre = prober.touch(planned).ballCentre;
-    return Vector2(centre.dot(outwards), centre.z());
+    const BallCentre centre = prober.touch(planned).ballCentre;
+    return Vector2(centre.vector().dot(outwards.vector()), centre.z());
   };
   // Short enough that below the equator the ball still touches before the shaft.
   const double step = task.standardRadius / 10;
@@ -134,9 +134,9 @@ void run(Context& context, const Arguments&) {
                          "An L-shaped stylus is turned to every touch; there are no 3-D calibration data for it",
                          "set Q455 = 0");
   }
-  Vector3 start = prober.position();
+  BallCentre start = prober.position();
   const double standardRadius = context.q(407);
-  CalibrationTask task{.centre = start.head<2>(),
+  CalibrationTask task{.centre = start.inPlane(),
                        .standardRadius = standardRadius,
                        .side = Side::Outside,
                        .count = context.option(423),
@@ -157,10 +157,10 @@ void run(Context& context, const Arguments&) {
     const double before = activeLength(context);
     storeLength(context, before + tip - (context.q(434) + standardRadius));
     // The same place has another coordinate for a tool of another length.
-    start.z() -= activeLength(context) - before;
+    start[2] -= activeLength(context) - before;
   }
   if (directional) {
-    calibrateDirections(context, {.centre = calibrated.centre.head<2>(),
+    calibrateDirections(context, {.centre = calibrated.centre.inPlane(),
                                   .centreKnown = calibrated.centreOffset.has_value(),
                                   .standardRadius = standardRadius,
                                   .rings = context.option(455),

@@ -33,9 +33,9 @@ constexpr CycleDefinition definition = {
 
 void run(Context& context, const Arguments&) {
   auto prober = calibrationProber(context);
-  const Vector3 start = prober.position();
+  const BallCentre start = prober.position();
   storeRadius(context, calibrateRadius(context, prober,
-                                       {.centre = start.head<2>(),
+                                       {.centre = start.inPlane(),
                                         .standardRadius = context.q(407),
                                         .side = Side::Inside,
                                         .count = context.option(423),

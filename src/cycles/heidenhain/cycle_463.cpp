@@ -34,11 +34,11 @@ constexpr CycleDefinition definition = {
 
 void run(Context& context, const Arguments&) {
   auto prober = calibrationProber(context);
-  const Vector3 start = prober.position();
+  const BallCentre start = prober.position();
   // As far below the top of the stud as the probe stands above it.
   const double touchHeight = start.z() - 2 * (prober.probe().setUp + context.q(320)) - prober.probe().ballRadius;
   storeRadius(context, calibrateRadius(context, prober,
-                                       {.centre = start.head<2>(),
+                                       {.centre = start.inPlane(),
                                         .standardRadius = context.q(407),
                                         .side = Side::Outside,
                                         .count = context.option(423),

@@ -33,9 +33,9 @@ void run(Context& context, const Arguments&) {
     context.stop("Position the calibrating tool above the middle of the tool touch probe, then press NC start");
   const MachinePlace start = channel.machineFromAxes(channel.axes());
   // The contact is somewhere below: as far down as the tool searches.
-  MachinePlace middle = start;
+  PartInMachine middle = partAt(start);
   middle[control.coordinates.plane.tool] -= control.parameters.mp6540;
-  calibrateToolProbe(context, middle.vector(), start[control.coordinates.plane.tool]);
+  calibrateToolProbe(context, middle, start[control.coordinates.plane.tool]);
 }
 
 }  // namespace

@@ -25,12 +25,13 @@ constexpr CycleDefinition definition = {
 void run(Context& context, const Arguments&) {
   auto prober = calibrationProber(context);
   const EvaluatedTouch touch = prober.stroke(probing::axisDirection(2, -1));
-  Vector3 tip = touch.ballCentre - Vector3(0, 0, prober.probe().ballRadius);
-  const auto& plane = context.control().coordinates.plane;
+  const PlanePlace tip = tipAt(touch.ballCentre, PlaneWay(0, 0, -prober.probe().ballRadius));
+  double height = tip.z();
   if (context.option(probe_word::referenceSystem) == 1) {
-    tip = plane.planeFromXyz(context.machineFromProgram() * plane.xyzFromPlane(tip));
+    const auto& plane = context.control().coordinates.plane;
+    height = (context.machineFromProgram() * plane.xyzFromPlane(tip).vector())[plane.tool];
   }
-  storeLength(context, activeLength(context) + tip.z() - context.q(probe_word::datum));
+  storeLength(context, activeLength(context) + height - context.q(probe_word::datum));
 }
 
 }  // namespace

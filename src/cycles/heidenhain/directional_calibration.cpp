@@ -19,15 +19,16 @@ using probing::HeidenhainProber;
 namespace {
 
 /// From the main towards the minor axis and downwards: the direction of a touch on the sphere.
-Vector3 touchDirection(double polar, double azimuth) {
+PlaneWay touchDirection(double polar, double azimuth) {
   const double p = radiansFromDegrees(polar), a = radiansFromDegrees(azimuth);
   return {-std::sin(p) * std::cos(a), -std::sin(p) * std::sin(a), -std::cos(p)};
 }
 
 /// Azimuths of program coordinates become those of the probe at its calibration angle.
-double azimuthInSpindle(Context& context, const Vector3& direction) {
+double azimuthInSpindle(Context& context, const PlaneWay& direction) {
   const auto& plane = context.control().coordinates.plane;
-  const Vector3 inSpindle = plane.planeFromXyz(context.channel().spindleFromProgram() * plane.xyzFromPlane(direction));
+  const Vector3 inSpindle =
+      plane.planeFromXyz(context.channel().spindleFromProgram() * plane.xyzFromPlane(direction).vector());
   return degreesFromRadians(std::atan2(inSpindle.y(), inSpindle.x()));
 }
 
@@ -81,21 +82,21 @@ void calibrateDirections(Context& context, const DirectionalTask& task) {
     return prober.stroke(probing::axisDirection(2, -1), standOff + 2 * task.standardRadius).ballCentre;
   };
   // Positions are those of the spindle axis; the ball, which stands beside it by the tip offset, must meet the pole.
-  const Vector3 beside = touchPole(task.centre);
-  const Vector2 offset = beside.head<2>() - prober.position().head<2>();
+  const BallCentre beside = touchPole(task.centre);
+  const Vector2 offset = (beside - prober.position()).inPlane();
   Vector2 centre = task.centreKnown ? task.centre : Vector2(task.centre + offset);
-  const Vector3 pole = touchPole(centre - offset);
-  const Vector3 sphere(centre.x(), centre.y(), pole.z() - reach);
+  const BallCentre pole = touchPole(centre - offset);
+  const PartPoint sphere(centre.x(), centre.y(), pole.z() - reach);
 
   std::vector<Deflection> rows = {{0, 0, 0}};
   for (int ring = 1; ring <= task.rings; ++ring) {
     const double polar = 90.0 * ring / task.rings;
     for (int i = 0; i < task.count; ++i) {
       const double azimuth = task.startAngle + 360.0 * i / task.count;
-      const Vector3 direction = touchDirection(polar, azimuth);
-      const Vector3 aside(offset.x(), offset.y(), 0);
+      const PlaneWay direction = touchDirection(polar, azimuth);
+      const PlaneWay aside(offset.x(), offset.y(), 0);
       const PlannedTouch planned{sphere - direction * task.standardRadius - aside, direction};
-      const Vector3 start = prober.prePosition(planned, task.extraClearance);
+      const BallCentre start = prober.prePosition(planned, task.extraClearance);
       if (i == 0 || task.between == probing::Between::AtClearanceHeight) {
         prober.moveHeightTo(task.travelHeight);
         prober.moveInPlane(start);
@@ -103,8 +104,9 @@ void calibrateDirections(Context& context, const DirectionalTask& task) {
         prober.moveOnArc(sphere - aside, 360.0 / task.count);
       }
       prober.moveTo(start);
-      const Vector3 ball = prober.touch(planned).ballCentre;
-      rows.push_back({polar, normalizedDegrees(azimuthInSpindle(context, direction)), (ball - sphere).norm() - reach});
+      const BallCentre ball = prober.touch(planned).ballCentre;
+      rows.push_back(
+          {polar, normalizedDegrees(azimuthInSpindle(context, direction)), (partAt(ball) - sphere).norm() - reach});
     }
   }
   prober.moveHeightTo(task.travelHeight);

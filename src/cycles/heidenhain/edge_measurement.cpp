@@ -8,10 +8,10 @@ namespace probewright::cycles::heidenhain {
 
 MeasuredEdge measureEdge(Context& context) {
   const double height = context.q(261);
-  const Vector3 direction = probing::axisDirection(context.option(272) - 1, context.option(267));
+  const PlaneWay direction = probing::axisDirection(context.option(272) - 1, context.option(267));
   const PlannedTouch first{{context.q(263), context.q(264), height}, direction};
   const PlannedTouch second{{context.q(265), context.q(266), height}, direction};
-  const auto requireApart = [](const Vector3& along) {
+  const auto requireApart = [](const PlaneWay& along) {
     if (along.norm() >= 1e-6) return;
     throw control::Alarm("Edge not determined", "The two touches coincide", "move the points apart");
   };
@@ -25,7 +25,7 @@ MeasuredEdge measureEdge(Context& context) {
   requireApart(edge.along);
   if (context.option(272) != 3) {
     noteLine(context.channel().journal(),
-             std::array<Vector2, 2>{touches[0].ballCentre.head<2>(), touches[1].ballCentre.head<2>()},
+             std::array<Vector2, 2>{touches[0].ballCentre.inPlane(), touches[1].ballCentre.inPlane()},
              placesOf(touches));
   }
   return edge;

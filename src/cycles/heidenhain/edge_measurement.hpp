@@ -8,7 +8,7 @@ namespace probewright::cycles::heidenhain {
 struct MeasuredEdge {
   EvaluatedTouch first, second;
   /// From the first to the second ball centre; the angle of the edge does not depend on the ball radius.
-  Vector3 along = Vector3::UnitX();
+  PlaneWay along = PlaneWay::unit(0);
 };
 
 /// Touches (Q263, Q264) and (Q265, Q266) along axis Q272 in the direction Q267 at the height Q261. With Q272 = 3 the

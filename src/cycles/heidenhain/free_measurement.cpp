@@ -61,7 +61,7 @@ void measureFreely(Context& context, const FreeMeasurement& measurement) {
       ball = ballAt(touch.tip, toBall);
       if (measurement.withTipOffset) {
         const control::WorkingPlane& plane = control.coordinates.plane;
-        ball += plane.xyzFromPlane(PlaneWay(probing::HeidenhainProber(channel, plane, probe).tipOffsetNow()));
+        ball += plane.xyzFromPlane(probing::HeidenhainProber(channel, plane, probe).tipOffsetNow());
       }
       record.ballCentre = ball.vector();
       record.surface = partAt(ball, direction * probing::inProgramUnits(channel, probe.ballRadius, direction)).vector();

@@ -11,9 +11,9 @@
 
 namespace probewright::cycles::heidenhain {
 
-Vector3 measureHoleCentre(Context& context, const Vector2& centre, double measuringHeight) {
+PartPoint measureHoleCentre(Context& context, const Vector2& centre, double measuringHeight) {
   auto& prober = context.prober();
-  Vector3 place(centre.x(), centre.y(), measuringHeight);
+  BallCentre place(centre.x(), centre.y(), measuringHeight);
   prober.approach(place, context.q(260));
   for (const int axis : {0, 1}) {
     const EvaluatedTouch plus = prober.stroke(probing::axisDirection(axis, 1));
@@ -22,10 +22,10 @@ Vector3 measureHoleCentre(Context& context, const Vector2& centre, double measur
     if (axis == 0) prober.moveTo(place);
   }
   prober.moveSouthPoleTo(context.q(260));
-  return place;
+  return partAt(place);
 }
 
-Vector3 measureStudCentre(Context& context, const Vector2& centre, double diameter, double measuringHeight) {
+PartPoint measureStudCentre(Context& context, const Vector2& centre, double diameter, double measuringHeight) {
   const probing::CircleTask task{.centre = centre, .diameter = diameter, .side = Side::Outside};
   const auto touches = probing::probeCircle(context.prober(), task,
                                             {.measuring = measuringHeight,
@@ -34,16 +34,16 @@ Vector3 measureStudCentre(Context& context, const Vector2& centre, double diamet
                                              .between = betweenOf(context)});
   std::vector<Vector3> centres;
   for (const EvaluatedTouch& touch : touches)
-    centres.push_back(touch.ballCentre);
+    centres.push_back(touch.ballCentre.vector());
   const auto fit = metrology::fitCircleInPlane(centres, Vector3::UnitZ(), withCofactors);
   if (!fit) throw control::Alarm("Circle not determined", fit.error().message, fit.error().advice);
   context.channel().journal().fit(recordOf(*fit, placesOf(touches)));
-  return fit->shape.centre;
+  return PartPoint(fit->shape.centre);
 }
 
-double angleOf(const Vector3& first, const Vector3& second) {
-  const Vector3 along = second - first;
-  if (along.head<2>().norm() < 1e-6) {
+double angleOf(const Vector2& first, const Vector2& second) {
+  const Vector2 along = second - first;
+  if (along.norm() < 1e-6) {
     throw control::Alarm("Angle not determined", "The two centres coincide", "move the points apart");
   }
   return degreesFromRadians(std::atan2(along.y(), along.x()));
@@ -62,7 +62,7 @@ void requireCompensation(Context& context) {
   } else {
     control.requireWritablePreset(row == 0 && !control.isTNC640() ? active : row);
   }
-  angleOf({context.q(268), context.q(269), 0}, {context.q(270), context.q(271), 0});
+  angleOf({context.q(268), context.q(269)}, {context.q(270), context.q(271)});
 }
 
 void compensateByRotationOrTable(Context& context, double angle) {

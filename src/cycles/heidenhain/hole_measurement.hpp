@@ -8,13 +8,13 @@ namespace probewright::cycles::heidenhain {
 /// The centre of a hole that is entered without its diameter: from `centre` at the measuring height Q261 a touch along
 /// the main axis to either side, then from half way between them along the minor axis. Exact on a round hole wherever
 /// in it the probe starts. Ends at the clearance height Q260.
-Vector3 measureHoleCentre(Context& context, const Vector2& centre, double measuringHeight);
+PartPoint measureHoleCentre(Context& context, const Vector2& centre, double measuringHeight);
 
 /// The centre of a stud by four touches at 0, 90, 180 and 270 degrees, fitted by least squares.
-Vector3 measureStudCentre(Context& context, const Vector2& centre, double diameter, double measuringHeight);
+PartPoint measureStudCentre(Context& context, const Vector2& centre, double diameter, double measuringHeight);
 
 /// The angle from the main axis to the line from `first` to `second`, in (-180, 180].
-double angleOf(const Vector3& first, const Vector3& second);
+double angleOf(const Vector2& first, const Vector2& second);
 
 /// Refuses, before anything is touched, what 401 and 402 cannot carry out: no rotary table, a locked row, centres that
 /// coincide.

@@ -101,8 +101,8 @@ NominalValue nominalValue(Context& context, int number) {
   return value;
 }
 
-Vector3 NominalPosition::at(const Vector3& otherwise) const {
-  Vector3 position = otherwise;
+PartPoint NominalPosition::place() const {
+  PartPoint position;
   for (std::size_t i = 0; i < 3; ++i) {
     if (axes[i].nominal) position[static_cast<Eigen::Index>(i)] = *axes[i].nominal;
   }
@@ -151,7 +151,7 @@ std::array<bool, 3> axisOf(int direction) {
   return axes;
 }
 
-MeasuredPosition measuredPosition(const NominalPosition& nominal, const Vector3& actual,
+MeasuredPosition measuredPosition(const NominalPosition& nominal, const PartPoint& actual,
                                   const std::array<bool, 3>& measuredAxes) {
   MeasuredPosition measured{actual, actual, actual};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -176,7 +176,7 @@ void RotationFindings::note(const std::string& label, const NominalValue& value,
 }
 
 void RotationFindings::add(const NominalPosition& nominal, const MeasuredPosition& measured, int direction) {
-  const Vector3 deviation = measured.deviation();
+  const PlaneWay deviation = measured.deviation();
   const int offset = nominal.first - 1100;
   for (int i = 0; i < 3; ++i) {
     const NominalValue& value = nominal.axes[static_cast<std::size_t>(i)];

@@ -30,8 +30,8 @@ struct NominalPosition {
   bool semiAutomatic() const { return axes[0].semiAutomatic || axes[1].semiAutomatic || axes[2].semiAutomatic; }
   /// All three actual positions are given.
   bool known() const { return axes[0].actual && axes[1].actual && axes[2].actual; }
-  /// The nominal position; where there is none, that of `otherwise`.
-  Vector3 at(const Vector3& otherwise) const;
+  /// The nominal position; 0 along axes without one.
+  PartPoint place() const;
 };
 
 /// The position `ordinal` (parameters Q1100 to Q1102, Q1103 to Q1105, Q1106 to Q1108). Throws Alarm if an axis of
@@ -43,17 +43,17 @@ void requireNominal(const NominalPosition& position, std::size_t axis);
 
 /// A position as it was measured, and as it ought to be.
 struct MeasuredPosition {
-  Vector3 actual = Vector3::Zero();
-  Vector3 nominal = Vector3::Zero();  ///< middle of the tolerance or nominal; actual where the program names none
-  Vector3 wanted = Vector3::Zero();   ///< the same, but actual also along axes that a touch says nothing about
-  Vector3 deviation() const { return actual - wanted; }
+  PartPoint actual;
+  PartPoint nominal;  ///< middle of the tolerance or nominal; actual where the program names none
+  PartPoint wanted;   ///< the same, but actual also along axes that a touch says nothing about
+  PlaneWay deviation() const { return actual - wanted; }
 };
 
 /// The axis that a touch along `direction` (1, 2, 3, or negative) says something about.
 std::array<bool, 3> axisOf(int direction);
 
 /// `measuredAxes`: along which the touches say something about the place.
-MeasuredPosition measuredPosition(const NominalPosition& nominal, const Vector3& actual,
+MeasuredPosition measuredPosition(const NominalPosition& nominal, const PartPoint& actual,
                                   const std::array<bool, 3>& measuredAxes);
 
 /// The result parameters, the verdict and the log of a cycle of the family, gathered value by value.

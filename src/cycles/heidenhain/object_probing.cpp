@@ -36,7 +36,7 @@ ObjectProbing::ObjectProbing(Context& context, std::string_view called)
       clearance_(context.q(260)),
       extra_(context.q(320)) {}
 
-void ObjectProbing::enter(const Vector3& ballCentre, Point point) {
+void ObjectProbing::enter(const BallCentre& ballCentre, Point point) {
   const bool firstOfObject = point == Point::FirstOfObject;
   const bool viaClearance = mode_ == clearancePerPoint || (firstOfObject && mode_ > clearancePerCycle) ||
                             (!entered_ && mode_ == clearancePerCycle);
@@ -88,7 +88,7 @@ std::optional<ObjectProbing::Way> ObjectProbing::wayOf(const std::string& text, 
   while (std::getline(all, one, ';')) {
     std::ranges::replace(one, ',', ' ');
     std::istringstream words(one);
-    Vector3 tip = Vector3::Zero();
+    PlanePlace tip;
     int count = 0;
     for (std::string word; words >> word; ++count) {
       if (way.direction != 0) return std::nullopt;
@@ -114,7 +114,7 @@ void ObjectProbing::moveAlong(const std::string& what, const std::string& waypoi
     throw Alarm("Position of the probe wrong", fmt::format("'{}' is not a position for {}", waypoints, what),
                 "answer with three coordinates of the tip: main, minor and tool axis; ; between waypoints");
   }
-  for (const Vector3& tip : way->tips)
+  for (const PlanePlace& tip : way->tips)
     prober_.approach(prober_.positionWithTip(tip), tip.z());
   if (way->direction != 0) *direction = way->direction;
 }
@@ -153,7 +153,7 @@ EvaluatedTouch ObjectProbing::touch(const NominalPosition& nominal, int& directi
     retractByOperator(what);
     return touch;
   }
-  const PlannedTouch planned{nominal.at(Vector3::Zero()), along(direction)};
+  const PlannedTouch planned{nominal.place(), along(direction)};
   enter(prober_.prePosition(planned, extra_), entered_ ? Point::Further : Point::FirstOfObject);
   return prober_.touch(planned);
 }
@@ -163,22 +163,22 @@ std::vector<EvaluatedTouch> ObjectProbing::touchCircle(const NominalPosition& no
   const auto& probe = prober_.probe();
   const double diameter = diameterAndStart[0];
   const std::string what = question(nominal.ordinal);
-  Vector3 middle = nominal.at(Vector3::Zero());
+  PartPoint middle = nominal.place();
   byHand_ = nominal.semiAutomatic();
   double above = 0;
   if (byHand_) {
     askOperator(what, side == Side::Inside ? "move the ball into the middle of the hole at the measuring height"
                                            : "move the ball above the middle of the stud");
     entered_ = true;
-    middle = prober_.position();
+    middle = partAt(prober_.position());
     above = middle[2];
     // As far below the top of the stud as the ball stands above it.
     if (side == Side::Outside)
-      middle[2] -= 2 * (prober_.inProgram(probe.setUp, Vector3::UnitZ()) + extra_) + prober_.poleDepth();
+      middle[2] -= 2 * (prober_.inProgram(probe.setUp, PlaneWay::unit(2)) + extra_) + prober_.poleDepth();
   }
   double extra = extra_;
-  const double setUp = prober_.inProgram(probe.setUp, Vector3::UnitX());
-  const double room = diameter / 2 - prober_.inProgram(probe.reach(), Vector3::UnitX());
+  const double setUp = prober_.inProgram(probe.setUp, PlaneWay::unit(0));
+  const double room = diameter / 2 - prober_.inProgram(probe.reach(), PlaneWay::unit(0));
   const bool narrow = side == Side::Inside && room < setUp + extra - 1e-6;
   if (narrow) {
     if (!(room > 0)) {
@@ -196,7 +196,7 @@ std::vector<EvaluatedTouch> ObjectProbing::touchCircle(const NominalPosition& no
   const auto plan = probing::planCircle(middle, diameter, diameterAndStart[1], step, count, side);
   std::vector<EvaluatedTouch> touches;
   for (std::size_t i = 0; i < plan.size(); ++i) {
-    const Vector3 start = narrow ? middle : prober_.prePosition(plan[i], extra);
+    const BallCentre start = narrow ? ballAt(middle) : prober_.prePosition(plan[i], extra);
     if (i == 0 && byHand_) {
       prober_.moveInPlane(start);
       prober_.moveTo(start);

@@ -29,13 +29,13 @@ public:
 
 private:
   enum class Point { FirstOfObject, Further };
-  void enter(const Vector3& ballCentre, Point point);
+  void enter(const BallCentre& ballCentre, Point point);
   void askOperator(const std::string& what, const std::string& task, int* direction = nullptr);
   /// Where the operator retracts to by hand, if he says so.
   void retractByOperator(const std::string& what);
   /// Where the operator wants the tip of the probe to go, and the probing direction if he chooses one, otherwise 0.
   struct Way {
-    std::vector<Vector3> tips;
+    std::vector<PlanePlace> tips;
     int direction = 0;
   };
   /// What the operator may say.

@@ -25,10 +25,10 @@ MeasuredRectangle measureRectangle(Context& context, const RectangleParameters& 
   task.side = side;
   const auto touches = probing::probeRectangle(context.prober(), task, heightsOf(context, betweenOf(context)));
 
-  const Vector3& plus1 = touches[0].surface;
-  const Vector3& plus2 = touches[1].surface;
-  const Vector3& minus1 = touches[2].surface;
-  const Vector3& minus2 = touches[3].surface;
+  const PartPoint& plus1 = touches[0].surface;
+  const PartPoint& plus2 = touches[1].surface;
+  const PartPoint& minus1 = touches[2].surface;
+  const PartPoint& minus2 = touches[3].surface;
   MeasuredRectangle rectangle;
   rectangle.centre = {(plus1[0] + minus1[0]) / 2, (plus2[1] + minus2[1]) / 2, context.q(261)};
   rectangle.length1 = plus1[0] - minus1[0];

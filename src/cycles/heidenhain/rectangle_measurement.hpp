@@ -83,7 +83,7 @@ inline constexpr std::array widthResults = {
 }  // namespace parameters
 
 struct MeasuredRectangle {
-  Vector3 centre = Vector3::Zero();
+  PartPoint centre;
   double length1 = 0, length2 = 0;  ///< along main and minor axis
 };
 

@@ -71,9 +71,10 @@ std::optional<MeasuredPosition> chosen(Context& context, std::span<const Measure
   if (choice <= positions.size()) return positions[choice - 1];
   MeasuredPosition mean;
   for (const MeasuredPosition& position : positions) {
-    mean.actual += position.actual / static_cast<double>(positions.size());
-    mean.nominal += position.nominal / static_cast<double>(positions.size());
-    mean.wanted += position.wanted / static_cast<double>(positions.size());
+    const auto count = static_cast<double>(positions.size());
+    mean.actual += PlaneWay(position.actual.vector() / count);
+    mean.nominal += PlaneWay(position.nominal.vector() / count);
+    mean.wanted += PlaneWay(position.wanted.vector() / count);
   }
   return mean;
 }
@@ -83,10 +84,11 @@ std::optional<MeasuredPosition> chosen(Context& context, std::span<const Measure
 void moveOrigin(Context& context, const MeasuredPosition& position, const Matrix3& axes, const Pose& moved,
                 Control::PresetChange& change) {
   auto& coordinates = context.control().coordinates;
-  const auto& frame = context.channel().frame();
-  const Vector3 actual = moved * (frame * coordinates.plane.xyzFromPlane(position.actual));
-  const Vector3 wanted =
-      coordinates.machineFromPreset().inverse() * (frame * coordinates.plane.xyzFromPlane(position.wanted));
+  const auto inMachine = [&](const PartPoint& place) -> PartInMachine {
+    return context.channel().machineFromProgram(coordinates.plane.xyzFromPlane(place));
+  };
+  const Vector3 actual = moved * inMachine(position.actual).vector();
+  const Vector3 wanted = coordinates.machineFromPreset().inverse() * inMachine(position.wanted).vector();
   const Vector3 origin = actual - axes * wanted;
   for (std::size_t i = 0; i < 3; ++i)
     change.origin[i] = origin[static_cast<Eigen::Index>(i)];
@@ -204,8 +206,9 @@ PlaneRotation planeRotation(Context& context, const MeasuredPosition& first, con
   const auto& plane = control.coordinates.plane;
   const Matrix3 workpieceFromInput =
       control.coordinates.machineFromPreset().linear().transpose() * context.channel().frame().linear();
-  const auto along = [&](const Vector3& line) {
-    return rotation.inWorkpiece ? plane.planeFromXyz(workpieceFromInput * plane.xyzFromPlane(line)) : line;
+  const auto along = [&](const PlaneWay& line) -> Vector3 {
+    if (!rotation.inWorkpiece) return line.vector();
+    return plane.planeFromXyz(workpieceFromInput * plane.xyzFromPlane(line).vector());
   };
   rotation.nominal = angle(along(second.nominal - first.nominal));
   rotation.actual = angle(along(second.actual - first.actual));

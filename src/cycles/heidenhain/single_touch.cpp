@@ -31,7 +31,7 @@ void moveToProgrammedPosition(Context& context) {
     return;
   }
   const control::WorkingPlane& plane = context.control().coordinates.plane;
-  prober.moveTo(prober.positionWithTip(plane.planeFromXyz(tip).vector()));
+  prober.moveTo(prober.positionWithTip(plane.planeFromXyz(tip)));
 }
 
 void storeTouchPosition(Context& context, const EvaluatedTouch& touch) {

@@ -32,7 +32,7 @@ probing::HeidenhainProber proberOf(Context& context) {
 
 }  // namespace
 
-SphereSearch::SphereSearch(Context& context, const Vector3& centre)
+SphereSearch::SphereSearch(Context& context, const PartInMachine& centre)
     : context_(context),
       channel_(context.channel()),
       prober_(proberOf(context)),
@@ -63,7 +63,7 @@ void SphereSearch::lookAlongTool() {
   const Vector3 mainAxis = coordinates.machineFromPreset().linear().col(0);
   Eigen::Affine3d frame = Eigen::Affine3d::Identity();
   frame.linear() = spindleAxes() * Eigen::AngleAxisd(std::atan2(mainAxis.y(), mainAxis.x()), Vector3::UnitZ());
-  frame.translation() = centre_;
+  frame.translation() = centre_.vector();
   channel_.setFollowing(Following::Kinematics, coordinates.preset.rotaryOffset);
   channel_.setFrame(frame);
 }
@@ -73,7 +73,7 @@ double SphereSearch::aboveSphere() const { return radius_ + prober_.probe().ball
 
 void SphereSearch::moveOver() {
   lookAlongTool();
-  const Vector3 above(0, 0, aboveSphere());
+  const BallCentre above(0, 0, aboveSphere());
   if (prober_.position().z() < above.z()) prober_.moveHeightTo(above.z());
   prober_.moveInPlane(above);
   prober_.moveHeightTo(above.z());
@@ -149,19 +149,19 @@ FoundSphere SphereSearch::measure(RadiusCheck check) {
   std::vector<Vector3> centres;
   std::vector<std::size_t> records;
   const auto keep = [&](const EvaluatedTouch& touch) {
-    centres.push_back(touch.ballCentre);
+    centres.push_back(touch.ballCentre.vector());
     records.push_back(touch.record);
   };
   const double over = aboveSphere(), ball = prober_.probe().ballRadius;
-  const PlannedTouch pole{Vector3(0, 0, radius_), -Vector3::UnitZ()};
+  const PlannedTouch pole{PartPoint(0, 0, radius_), -PlaneWay::unit(2)};
   prober_.moveTo(prober_.prePosition(pole, context_.q(320)));
   keep(prober_.touch(pole));
   const double equator = centres.front().z() - radius_ - ball;
   const int count = context_.option(423);
   for (int i = 0; i < count; ++i) {
-    const Vector3 outwards = probing::directionAt(context_.q(380) + i * 360.0 / count);
-    const PlannedTouch touch{Vector3(0, 0, equator) + radius_ * outwards, -outwards};
-    const Vector3 start = prober_.prePosition(touch, context_.q(320));
+    const PlaneWay outwards = probing::directionAt(context_.q(380) + i * 360.0 / count);
+    const PlannedTouch touch{PartPoint(0, 0, equator) + radius_ * outwards, -outwards};
+    const BallCentre start = prober_.prePosition(touch, context_.q(320));
     prober_.moveInPlane(start);
     prober_.moveTo(start);
     keep(prober_.touch(touch));
@@ -186,34 +186,34 @@ FoundSphere SphereSearch::measure(RadiusCheck check) {
   FoundSphere found;
   found.sighting = {channel_.axesFromProgram(tip, channel_.axes()),
                     Vector3(ball * Vector3::UnitZ() - channel_.toolVector)};
-  found.centre = channel_.frame() * fit->shape.centre;
+  found.centre = channel_.machineFromProgram(PartInProgram(fit->shape.centre));
   found.radius = radius;
   return found;
 }
 
-Vector3 SphereSearch::seen(const kinematics::SphereSighting& sighting) const {
+PartInMachine SphereSearch::seen(const kinematics::SphereSighting& sighting) const {
   const machine::MachineDescription& machine = channel_.description();
   Vector3 ball = machine::baseFromSpindle(machine, sighting.axes) * sighting.ball;
   if (channel_.tipDeviation) ball += channel_.tipDeviation(sighting.axes);
-  return machine::baseFromTable(machine, context_.control().coordinates.preset.rotaryOffset) *
-         (machine::baseFromTable(machine, sighting.axes).inverse() * ball);
+  return PartInMachine(machine::baseFromTable(machine, context_.control().coordinates.preset.rotaryOffset) *
+                       (machine::baseFromTable(machine, sighting.axes).inverse() * ball));
 }
 
-Vector3 presetIntoSphere(Context& context) {
-  SphereSearch search(context, Vector3::Zero());
+PartInMachine presetIntoSphere(Context& context) {
+  SphereSearch search(context, {});
   // The ball stands over the pole at the set-up clearance, more or less.
   const probing::HeidenhainProbe probe = activeProbe(context.control());
   const double above = context.q(407) + probe.ballRadius + probe.setUp + context.q(320);
   probing::HeidenhainProber prober(context.channel(), context.control().coordinates.plane, probe);
-  const Vector3 begin = prober.position() - Vector3(0, 0, above);
-  search.expectAt(context.channel().frame() * begin);
+  const BallCentre begin = prober.position() - PlaneWay(0, 0, above);
+  search.expectAt(PartInMachine(context.channel().frame() * begin.vector()));
   for (const RadiusCheck check : {RadiusCheck::No, RadiusCheck::Yes})
     search.expectAt(search.measure(check).centre);
   setSpherePreset(context, search.expected());
   return search.expected();
 }
 
-void setSpherePreset(Context& context, const Vector3& centre) {
+void setSpherePreset(Context& context, const PartInMachine& centre) {
   auto& control = context.control();
   control::heidenhain::Control::PresetChange change;
   for (std::size_t i = 0; i < 3; ++i)

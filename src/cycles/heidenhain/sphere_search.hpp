@@ -11,8 +11,8 @@ namespace probewright::cycles::heidenhain {
 /// The sphere as it was found at one posture.
 struct FoundSphere {
   kinematics::SphereSighting sighting;
-  Vector3 centre = Vector3::Zero();  ///< machine coordinates, as the active kinematics sees it
-  double radius = 0;                 ///< mm
+  PartInMachine centre;  ///< as the active kinematics sees it
+  double radius = 0;     ///< mm
 };
 
 /// Whether the measured radius must be Q407: cycle 453 measures once more before it refuses.
@@ -23,8 +23,8 @@ enum class RadiusCheck { Yes, No, AtSecond };
 /// Q408, Q253, Q380 and Q423 of the call.
 class SphereSearch {
 public:
-  /// `centre`: where the sphere is expected, machine coordinates at the reference posture.
-  SphereSearch(Context& context, const Vector3& centre);
+  /// `centre`: where the sphere is expected, at the reference posture.
+  SphereSearch(Context& context, const PartInMachine& centre);
   /// Channel and coordinates are the program's again.
   ~SphereSearch();
   SphereSearch(const SphereSearch&) = delete;
@@ -42,11 +42,11 @@ public:
   /// Pole and Q423 touches around; ends above the pole. Throws Alarm if the radius is not Q407.
   FoundSphere measure(RadiusCheck check = RadiusCheck::Yes);
 
-  /// The sphere as the present active kinematics sees a sighting: machine coordinates at the reference posture.
-  Vector3 seen(const kinematics::SphereSighting& sighting) const;
+  /// The sphere as the present active kinematics sees a sighting, at the reference posture.
+  PartInMachine seen(const kinematics::SphereSighting& sighting) const;
   /// From now on it is expected there.
-  void expectAt(const Vector3& centre) { centre_ = centre; }
-  const Vector3& expected() const { return centre_; }
+  void expectAt(const PartInMachine& centre) { centre_ = centre; }
+  const PartInMachine& expected() const { return centre_; }
 
   /// Where the probe points now, as the tilt of a working plane in the workpiece system.
   Matrix3 tilt() const;
@@ -63,16 +63,16 @@ private:
   Context& context_;
   control::Channel& channel_;
   probing::HeidenhainProber prober_;
-  Vector3 centre_;
+  PartInMachine centre_;
   double radius_ = 0, clearance_ = 0, retraction_ = 0;
   machine::Feed rotaryFeed_;
 };
 
 /// The preset into the middle of the sphere that the probe stands above, found twice because it stands there roughly
 /// (Q431 = 1 and 3). Returns where that is.
-Vector3 presetIntoSphere(Context& context);
+PartInMachine presetIntoSphere(Context& context);
 
-/// Moves the origin of the active preset to `centre` (machine coordinates).
-void setSpherePreset(Context& context, const Vector3& centre);
+/// Moves the origin of the active preset to `centre`.
+void setSpherePreset(Context& context, const PartInMachine& centre);
 
 }  // namespace probewright::cycles::heidenhain

@@ -40,9 +40,9 @@ ToolProbingSpeeds toolProbingSpeeds(const MachineParameters& parameters, double 
 probing::ToolTouchProbe toolTouchProbe(const Control& control, Contact contact) {
   const MachineParameters& parameters = control.parameters;
   const bool calibrated = contact == Contact::Calibrated;
-  const Vector3 place = calibrated ? Vector3(parameters.contactX, parameters.contactY, parameters.contactZ)
-                                   : Vector3(parameters.mp6580x, parameters.mp6580y, parameters.mp6580z);
-  if (!calibrated && place.isZero(0)) {
+  const PartInMachine place = calibrated ? PartInMachine(parameters.contactX, parameters.contactY, parameters.contactZ)
+                                         : PartInMachine(parameters.mp6580x, parameters.mp6580y, parameters.mp6580z);
+  if (!calibrated && place.vector().isZero(0)) {
     throw Alarm("Tool touch probe not defined",
                 control.isTNC640() ? "centerPos does not say where the tool touch probe is"
                                    : "MP6580.0 to MP6580.2 do not say where the tool touch probe is",

@@ -35,7 +35,7 @@ struct Found {
 
 class Calibration {
 public:
-  Calibration(Context& context, const Vector3& middle, double clearanceHeight)
+  Calibration(Context& context, const PartInMachine& middle, double clearanceHeight)
       : context_(context),
         control_(context.control()),
         plane_(control_.coordinates.plane),
@@ -48,7 +48,7 @@ public:
   void run();
 
 private:
-  static probing::ToolTouchProbe placed(probing::ToolTouchProbe probe, const Vector3& middle) {
+  static probing::ToolTouchProbe placed(probing::ToolTouchProbe probe, const PartInMachine& middle) {
     probe.place = middle;
     return probe;
   }
@@ -77,7 +77,7 @@ private:
   double radius_;
   probing::ToolTouchProbe probe_;
   probing::ToolProber prober_;
-  Vector3 place_;
+  PartInMachine place_;
   double rotation_ = 0;            ///< radians about the tool axis
   std::optional<double> tipping_;  ///< degrees
   Found first_, turned_;           ///< with the spindle as it was, and turned by 180 degrees
@@ -202,7 +202,7 @@ void Calibration::run() {
 
 }  // namespace
 
-void calibrateToolProbe(Context& context, const Vector3& middle, double clearanceHeight) {
+void calibrateToolProbe(Context& context, const PartInMachine& middle, double clearanceHeight) {
   Calibration(context, middle, clearanceHeight).run();
 }
 

@@ -8,7 +8,7 @@ namespace probewright::cycles::heidenhain {
 /// `middle`: about where the middle of the contact's upper edge is, machine coordinates. `clearanceHeight`: machine
 /// coordinate along the tool axis. Finds the contact's upper edge, middle and effective widths, and how far the tool
 /// runs out, and keeps them. Throws Alarm.
-void calibrateToolProbe(Context& context, const Vector3& middle, double clearanceHeight);
+void calibrateToolProbe(Context& context, const PartInMachine& middle, double clearanceHeight);
 
 /// The same where centerPos (MP6580) says that the tool touch probe is; `clearanceHeight` in program coordinates.
 void calibrateFittedToolProbe(Context& context, double clearanceHeight);

@@ -52,7 +52,8 @@ Matrix3 turnedAxes(Context& context, double degrees, Transformation transformed)
     const bool turns = how == Transformation::Remains && coordinates.tilt;
     Vector3 normal = coordinates.tilt ? Vector3(*coordinates.tilt * toolAxis) : toolAxis;
     if (turns) normal = rotation(toolAxis, coordinates.workpiece.rotation).linear() * normal;
-    const Vector3 line = presetFromProgram(coordinates, how).linear() * plane.xyzFromPlane(probing::directionAt(angle));
+    const Vector3 line =
+        presetFromProgram(coordinates, how).linear() * plane.xyzFromPlane(probing::directionAt(angle)).vector();
     return axesAlong(line, normal);
   };
   return present * lineAxes(Transformation::Remains, degrees) * lineAxes(transformed, 0).transpose();
@@ -79,7 +80,7 @@ Control::PresetChange presetChange(Context& context, const NewPreset& preset, co
   const Coordinates& coordinates = context.control().coordinates;
   const auto& plane = coordinates.plane;
   // The feature in machine coordinates does not depend on the preset that it was measured with.
-  const Vector3 feature = context.channel().frame() * plane.xyzFromPlane(preset.measured);
+  const PartInMachine feature = context.channel().machineFromProgram(plane.xyzFromPlane(preset.measured));
   Control::PresetChange change;
   Matrix3 axes = rotationFromSpaceAngles(target.spaceAngles);
   if (preset.rotation) {
@@ -90,7 +91,7 @@ Control::PresetChange presetChange(Context& context, const NewPreset& preset, co
   }
   Eigen::Affine3d program(presetFromProgram(coordinates, transformed));
   program = Eigen::Translation3d(target.origin) * axes * program;
-  const Vector3 local = program.inverse() * feature;
+  const Vector3 local = program.inverse() * feature.vector();
   Vector3 wish = local;
   for (std::size_t i = 0; i < 3; ++i) {
     const int axis = i == 0 ? plane.main : i == 1 ? plane.minor : plane.tool;
@@ -146,7 +147,7 @@ void writeDatumRow(Context& context, int row, const NewPreset& preset) {
   auto& table = datumTableWithRow(context, row);
   const std::string key = std::to_string(row);
   const auto& plane = control.coordinates.plane;
-  const Vector3 inMachine = context.channel().frame() * plane.xyzFromPlane(preset.measured);
+  const PartInMachine inMachine = context.channel().machineFromProgram(plane.xyzFromPlane(preset.measured));
   if (preset.rotation) {
     // No column of a datum table takes a basic rotation: the active preset does.
     Control::PresetChange change;
@@ -157,7 +158,7 @@ void writeDatumRow(Context& context, int row, const NewPreset& preset) {
   const Coordinates& coordinates = control.coordinates;
   Eigen::Affine3d shifted(coordinates.machineFromPreset().matrix());
   if (coordinates.tilt) shifted = shifted * coordinates.workpiece.matrix(plane) * Eigen::Affine3d(*coordinates.tilt);
-  const Vector3 feature = shifted.inverse() * inMachine;
+  const Vector3 feature = shifted.inverse() * inMachine.vector();
   constexpr std::array<NumberColumn, 3> names = {"X", "Y", "Z"};
   for (std::size_t i = 0; i < 3; ++i) {
     const int axis = i == 0 ? plane.main : i == 1 ? plane.minor : plane.tool;
@@ -267,8 +268,9 @@ void finishPreset(Context& context, const NewPreset& preset) {
   if (context.option(381) != 1) return;
 
   const auto& plane = context.control().coordinates.plane;
-  const auto now = [&](const Vector3& before) -> Vector3 {
-    return plane.planeFromXyz(context.channel().frame().inverse() * (frameBefore * plane.xyzFromPlane(before)));
+  const auto now = [&](const PartPoint& before) -> PartPoint {
+    const PartInMachine place(frameBefore * plane.xyzFromPlane(before).vector());
+    return plane.planeFromXyz(context.channel().programFromMachine(place));
   };
   auto& prober = context.prober();
   const PlannedTouch planned{now({context.q(382), context.q(383), context.q(384)}), probing::axisDirection(2, -1)};

@@ -5,10 +5,10 @@
 /// Where the presetting cycles 408 to 419 put what they have found.
 namespace probewright::cycles::heidenhain {
 
-/// A feature in the active program coordinate system (main, minor, tool axis) and the coordinates that it is to get.
+/// A feature in the active program coordinate system and the coordinates that it is to get.
 /// Axes without a wish keep their place.
 struct NewPreset {
-  Vector3 measured = Vector3::Zero();
+  PartPoint measured;
   std::array<std::optional<double>, 3> wish;
   /// Basic rotation to be set together with it, degrees added to the present one.
   std::optional<double> rotation;

@@ -17,7 +17,7 @@ public:
         toucher_(context, plan.alignProbe ? Method::ProbeAligned : Method::Standard) {}
 
   /// The middle of the equator in the plane, found by touches at the height of `about`.
-  Vector2 equator(const Vector3& about) {
+  Vector2 equator(const PartPoint& about) {
     // Along the axes: minus 1st axis first, then on to plus, by way of minus 2nd.
     const double first = plan_.round ? plan_.startAngle : 180, step = plan_.round ? plan_.step : 90;
     std::vector<Vector2> centres;
@@ -26,7 +26,7 @@ public:
          probing::planCircle(about, plan_.diameter, first, step, plan_.points, Side::Outside)) {
       if (plan_.round && !centres.empty()) prober_.moveOnArc(about, step);
       points_.push_back(this->touch(touch));
-      centres.push_back((points_.back().surface - touch.direction * prober_.ballRadius()).head<2>());
+      centres.push_back((points_.back().surface - touch.direction * prober_.ballRadius()).inPlane());
       if (!plan_.round) prober_.moveHeightTo(plan_.safeHeight);
     }
     prober_.moveHeightTo(plan_.safeHeight);
@@ -40,33 +40,33 @@ public:
   double pole(const Vector2& over, double expected) {
     prober_.moveInPlane({over.x(), over.y(), 0});
     points_.push_back(
-        prober_.measure({over.x(), over.y(), expected}, -Vector3::UnitZ(), plan_.path, context_.repetitions()));
+        prober_.measure({over.x(), over.y(), expected}, -PlaneWay::unit(2), plan_.path, context_.repetitions()));
     prober_.moveHeightTo(plan_.safeHeight);
     return points_.back().surface.z();
   }
 
   /// The diameter by a touch on the minus side of the 1st axis.
-  double diameter(const Vector3& centre) {
+  double diameter(const PartPoint& centre) {
     points_.push_back(
-        touch({.surface = centre - Vector3::UnitX() * plan_.diameter / 2, .direction = Vector3::UnitX()}));
+        touch({.surface = centre - PlaneWay::unit(0) * plan_.diameter / 2, .direction = PlaneWay::unit(0)}));
     prober_.moveHeightTo(plan_.safeHeight);
     return 2 * (centre.x() - points_.back().surface.x());
   }
 
-  void finish(const Vector3& over) {
+  void finish(const PartPoint& over) {
     std::vector<Vector3> surface;
     for (const MeasuredPoint& point : points_)
-      surface.push_back(point.surface);
+      surface.push_back(point.surface.vector());
     noteSphere(context_.channel().journal(), surface, placesOf(points_));
     toucher_.finish();
-    prober_.moveInPlane(over);
+    prober_.moveInPlane(tipAt(over));
   }
 
 private:
   /// `planned` at the height of the ball's centre; down to it from the safe height first.
   MeasuredPoint touch(const probing::PlannedTouch& planned) {
-    Vector3 setpoint = planned.surface;
-    if (!prober_.probe().lengthToCentre) setpoint.z() -= prober_.ballRadius() * prober_.toolAxis().z();
+    PartPoint setpoint = planned.surface;
+    if (!prober_.probe().lengthToCentre) setpoint[2] -= prober_.ballRadius() * prober_.toolAxis().z();
     if (prober_.position().z() > setpoint.z() + 1e-6) {
       prober_.moveInPlane(toucher_.startOf(setpoint, planned.direction, plan_.path));
       prober_.moveHeightTo(setpoint.z());
@@ -93,7 +93,7 @@ MeasuredBall measureBall(Context& context, const BallPlan& plan) {
   }
   if (plan.findDiameter) {
     result.diameter = ball.diameter(result.centre);
-    result.centre.z() += (plan.diameter - result.diameter) / 2;
+    result.centre[2] += (plan.diameter - result.diameter) / 2;
   }
   ball.finish(result.centre);
   return result;

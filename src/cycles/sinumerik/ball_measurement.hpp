@@ -6,22 +6,22 @@
 namespace probewright::cycles::sinumerik {
 
 struct BallPlan {
-  Vector3 centre = Vector3::Zero();  ///< where the ball is expected, plane coordinates
-  double diameter = 0;               ///< set value, mm
-  int points = 4;                    ///< on the equator: 3 or 4
-  bool round = false;                ///< round the equator from point to point; otherwise over the pole each time
-  double startAngle = 0;             ///< degrees, of the first point, if `round`
-  double step = 90;                  ///< degrees, from point to point, if `round`
-  bool alignProbe = false;           ///< the spindle turns the probe into each touch
-  bool repeat = false;               ///< measure again about the centre found first
-  bool findDiameter = false;         ///< one more touch on the equator, towards plus of the 1st axis
-  double safeHeight = 0;             ///< of the tool centre point, where the probe passes over the ball
-  double path = 0;                   ///< S_FA
+  PartPoint centre = {};      ///< where the ball is expected
+  double diameter = 0;        ///< set value, mm
+  int points = 4;             ///< on the equator: 3 or 4
+  bool round = false;         ///< round the equator from point to point; otherwise over the pole each time
+  double startAngle = 0;      ///< degrees, of the first point, if `round`
+  double step = 90;           ///< degrees, from point to point, if `round`
+  bool alignProbe = false;    ///< the spindle turns the probe into each touch
+  bool repeat = false;        ///< measure again about the centre found first
+  bool findDiameter = false;  ///< one more touch on the equator, towards plus of the 1st axis
+  double safeHeight = 0;      ///< of the tool centre point, where the probe passes over the ball
+  double path = 0;            ///< S_FA
 };
 
 struct MeasuredBall {
-  Vector3 centre = Vector3::Zero();  ///< plane coordinates
-  double diameter = 0;               ///< found, or the set value
+  PartPoint centre;
+  double diameter = 0;  ///< found, or the set value
 };
 
 /// The probe ends over the centre at the safe height. The centre is exact whatever the first touches missed in the

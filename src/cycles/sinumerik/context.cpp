@@ -282,7 +282,7 @@ void Context::repeatIfAsked(int number, const std::string& detail) {
 }
 
 void Context::beginAgain() {
-  prober().moveTo(control_.workingPlane().planeFromXyz(start_).vector());
+  prober().moveTo(control_.workingPlane().planeFromXyz(start_));
   clearResults();
   resultInteger(2, arguments_.definition().number);
 }
@@ -322,7 +322,7 @@ void followRotation(Context& context) {
   if (!control.tool.isProbe() || !control.channel.description().spindleOrients) return;
   const bool bent = control.tool.type == 713;
   if (control.tool.type == 712 || (!bent && !maskBit(control.data, "$SCS_MEA_FUNCTION_MASK", 1))) return;
-  const double angle = probing::angleFromSpindle(control.channel, control.workingPlane(), Vector3::UnitX());
+  const double angle = probing::angleFromSpindle(control.channel, control.workingPlane(), PlaneWay::unit(0));
   if (bent) return context.positionSpindle(probeOfDataSet(control, context.dataSet()).correctionAngle + angle);
   context.positionSpindle(maskBit(control.data, "$SCS_MEA_FUNCTION_MASK", 2) ? -angle : angle);
 }

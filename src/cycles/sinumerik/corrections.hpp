@@ -39,12 +39,12 @@ std::optional<FrameTarget> frameTarget(Context& context, GlobalBase globalBase);
 
 /// Shifts the frame so that a feature gets its set position.
 ///
-/// `feature` is where the feature is, in machine coordinates (X, Y, Z, as the chain of frames yields them); `set` where
+/// `feature` is where the feature is, as the chain of frames yields it; `set` where
 /// it is to be in the workpiece coordinate system, and `directions` are the directions (unit, at right angles to each
-/// other, plane coordinates) in which it was measured: in others nothing changes. If the target is not part of the
+/// other) in which it was measured: in others nothing changes. If the target is not part of the
 /// active chain, it is corrected as if it stood in the place of its kind; rotations in the chain are followed.
-void correctTranslation(Context& context, const FrameTarget& target, const Vector3& feature, const Vector3& set,
-                        std::span<const Vector3> directions);
+void correctTranslation(Context& context, const FrameTarget& target, const PartInMachine& feature, const PartPoint& set,
+                        std::span<const PlaneWay> directions);
 
 /// Turns the frame so that the axes of the workpiece coordinate system get the directions of the columns of `turn`,
 /// expressed in the present one (plane coordinates, orthonormal). Translations of the frame stay as they are.
@@ -52,16 +52,16 @@ void correctTranslation(Context& context, const FrameTarget& target, const Vecto
 void correctRotation(Context& context, const FrameTarget& target, const Matrix3& turn);
 
 /// Corrects the translation of rotary axis `axis` (index) so that moving to the present program angle turns the part by
-/// -`angle` degrees about `direction` (unit, plane coordinates). Alarm 61325 if the axis does not turn the part about
+/// -`angle` degrees about `direction` (unit). Alarm 61325 if the axis does not turn the part about
 /// that direction.
-void correctRotaryAxis(Context& context, const FrameTarget& target, std::size_t axis, const Vector3& direction,
+void correctRotaryAxis(Context& context, const FrameTarget& target, std::size_t axis, const PlaneWay& direction,
                        double angle);
 
 /// Refuses an axis that correctRotaryAxis() would refuse, before anything is measured.
-void requireRotaryAxis(Context& context, std::size_t axis, const Vector3& direction);
+void requireRotaryAxis(Context& context, std::size_t axis, const PlaneWay& direction);
 
-/// Machine coordinates (X, Y, Z) of a point of the workpiece coordinate system (plane coordinates).
-Vector3 machinePoint(Context& context, const Vector3& point);
+/// Where a point of the workpiece is on the machine.
+PartInMachine machinePoint(Context& context, const PartPoint& point);
 
 // ---- tool ----
 

@@ -133,8 +133,8 @@ Plan planOf(Context& context) {
     if (std::abs(opening) > 180) context.alarm(61319, "S_INCA is between -180 and 180 degrees");
     if (std::abs(std::sin(radiansFromDegrees(opening))) < 0.01)
       context.alarm(61319, "S_INCA is not a possible angle of a corner");
-    const Vector2 first = probing::directionAt(plan.axisAngle).head<2>();
-    const Vector2 second = probing::directionAt(plan.axisAngle + opening).head<2>();
+    const Vector2 first = probing::directionAt(plan.axisAngle).inPlane();
+    const Vector2 second = probing::directionAt(plan.axisAngle + opening).inPlane();
     const int corner = context.digit("S_MVAR", 5);
     const auto signedAs = [](double length, bool negative) { return negative ? -std::abs(length) : length; };
     const double l2 = signedAs(value(1), corner == 2 || corner == 3);
@@ -254,7 +254,7 @@ void run(Context& context, const Arguments&) {
   const double path = asked > 0 && plan.points == 4 ? std::max(asked, leastPath) : asked;
 
   probing::SinumerikProber& prober = context.prober();
-  const Vector3 start = prober.position();
+  const PlanePlace start = prober.position();
   Toucher toucher(context, Method::Standard);
   const double side = inside ? -1 : 1;
   const Vector2 into1 = alongAxis(side * squareTo(plan.edge1, plan.edge2));
@@ -268,10 +268,10 @@ void run(Context& context, const Arguments&) {
     prober.moveInPlane({place.x(), place.y(), 0});
     if (zone) prober.moveHeightTo(start.z() - std::abs(context.real("S_ID")));
     const Vector2 into = i < 2 ? into1 : into2;
-    const Vector3 direction(into.x(), into.y(), 0);
-    const Vector3 setpoint = prober.position() - toucher.startOf(Vector3::Zero(), direction, path);
+    const PlaneWay direction(into.x(), into.y(), 0);
+    const PartPoint setpoint = toucher.expectedFrom(prober.position(), direction, path);
     const MeasuredPoint point = toucher.measure(setpoint, direction, path);
-    centre[i] = (point.surface - direction * prober.ballRadius()).head<2>();
+    centre[i] = (point.surface - direction * prober.ballRadius()).inPlane();
     places[i] = point.record;
     if (zone) prober.moveHeightTo(start.z());
   }
@@ -292,14 +292,14 @@ void run(Context& context, const Arguments&) {
   if (second.dot(plan.edge2) < 0) second = -second;
   const Vector2 corner = intersection(centre[0] + side * squareTo(first, second) * radius, first,
                                       centre[2] + side * squareTo(second, first) * radius, second);
-  const bool reversed = first.dot(probing::directionAt(plan.axisAngle).head<2>()) < 0;
+  const bool reversed = first.dot(probing::directionAt(plan.axisAngle).inPlane()) < 0;
   const Vector2 axis = reversed ? Vector2(-first) : first;
   const double angle = degreesFromRadians(std::atan2(axis.y(), axis.x()));
 
-  const Vector3 onMachine = machinePoint(context, {corner.x(), corner.y(), start.z()});
-  const Vector3 inPlane = context.control().workingPlane().planeFromXyz(onMachine);
+  const PartInMachine onMachine = machinePoint(context, {corner.x(), corner.y(), start.z()});
+  const Vector3 inPlane = context.control().workingPlane().planeFromXyz(onMachine.vector());
   const Vector3 axisOnMachine = context.control().workingPlane().planeFromXyz(
-      machinePoint(context, {corner.x() + axis.x(), corner.y() + axis.y(), start.z()}) - onMachine);
+      (machinePoint(context, {corner.x() + axis.x(), corner.y() + axis.y(), start.z()}) - onMachine).vector());
   context.result(4, angle, {.nominal = plan.axisAngle});
   context.result(5, corner.x());
   context.result(6, corner.y());
@@ -311,7 +311,7 @@ void run(Context& context, const Arguments&) {
 
   if (target) {
     correctRotation(context, *target, rotation(Vector3::UnitZ(), angle).linear());
-    const Vector3 directions[] = {Vector3::UnitX(), Vector3::UnitY()};
+    const PlaneWay directions[] = {PlaneWay::unit(0), PlaneWay::unit(1)};
     correctTranslation(context, *target, onMachine, {context.real("S_SETV8"), context.real("S_SETV9"), 0}, directions);
   }
 }

@@ -105,9 +105,9 @@ Groove grooveOf(Context& context) {
 
 /// Touches `surface`: the trigger point, from the TCP at the signal to the surface, with sign.
 double triggerAt(Context& context, ProbeCalibration& calibration, int axis, double sign, double surface) {
-  const Vector3 direction = probing::axisDirection(axis, sign);
+  const PlaneWay direction = probing::axisDirection(axis, sign);
   const double known = context.prober().trigger(direction);
-  Vector3 setpoint = context.prober().position();
+  PartPoint setpoint = partAt(context.prober().position());
   setpoint[axis] = surface;
   const double assumed = known > 0 ? known : calibration.assumedRadius();
   return surface - calibration.touch(setpoint, direction, context.real("S_FA"), assumed)[axis];
@@ -152,7 +152,7 @@ void calibrateInGroove(Context& context, ProbeCalibration& calibration, const Va
   const MachineCoordinates coordinates(context.control());
   probing::SinumerikProber& prober = context.prober();
   const auto go = [&](int axis, double to) {
-    Vector3 target = prober.position();
+    PlanePlace target = prober.position();
     target[axis] = to;
     prober.moveTo(target);
   };
@@ -209,7 +209,7 @@ void run(Context& context, const Arguments&) {
     const double outside = prober.position()[groove.baseAxis];
     calibrateInGroove(context, calibration, variant, groove);
     context.setWayBack([&prober, &groove, outside] {
-      Vector3 target = prober.position();
+      PlanePlace target = prober.position();
       target[groove.baseAxis] = outside;
       prober.moveTo(target);
     });

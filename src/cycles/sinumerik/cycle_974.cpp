@@ -61,7 +61,7 @@ int oldForm(OldCall& call) {
   int feature = 0;
   const control::WorkingPlane plane = call.control().workingPlane();
   const int axis = call.whole("_MA");
-  if (axis >= 1 && axis <= 3 && plane.xyzFromPlane(Vector3::Unit(axis - 1)).x() != 0)
+  if (axis >= 1 && axis <= 3 && plane.xyzFromPlane(PlaneWay::unit(axis - 1)).x() != 0)
     feature = (call.control().diameter ? 2 : 1) * std::abs(call.control().channel.position().x()) >=
                       std::abs(call.number("_SETVAL")) * call.control().unit
                   ? 2
@@ -102,7 +102,7 @@ void run(Context& context, const Arguments&) {
 
   const double count = feature == TurnedFeature::Face || axis != 0 ? countOf(context, axis) : countOf(context, 1);
   const double set = setValueOf(context, task, context.real("S_SETV"));
-  Vector3 setpoint = context.prober().position();
+  PartPoint setpoint = partAt(context.prober().position());
   const double sign = touchSign(context, feature, setpoint[axis], set / count);
   setpoint[axis] = set / count;
   requireTrigger(context, axis, sign);
@@ -126,9 +126,9 @@ void run(Context& context, const Arguments&) {
   if (target) {
     // What was measured along the 3rd axis is corrected in X.
     const int corrected = axis == 2 ? 1 : axis;
-    Vector3 surface = setpoint;
+    PartPoint surface = setpoint;
     surface[corrected] += actual - setpoint[axis];
-    const Vector3 directions[] = {Vector3::Unit(corrected)};
+    const PlaneWay directions[] = {PlaneWay::unit(corrected)};
     correctTranslation(context, *target, machinePoint(context, surface), setpoint, directions);
     context.result(28, context.real("S_TSA"));
   }

@@ -62,7 +62,7 @@ constexpr const char* bentAdvice =
 
 /// The middle between opposite touches in two directions, and half their distances.
 struct Crosswise {
-  Vector3 middle = Vector3::Zero();
+  PlanePlace middle;  ///< of the tool centre points
   double half1 = 0, half2 = 0;
 };
 
@@ -109,7 +109,7 @@ private:
   }
   void turn(double degrees) { context_.positionSpindle(spindle_ + degrees); }
 
-  Vector3 touch(const Vector3& setpoint, const Vector3& direction) {
+  PlanePlace touch(const PartPoint& setpoint, const PlaneWay& direction) {
     return calibration_.touch(setpoint, direction, path_, radius_);
   }
   double sign() {
@@ -118,30 +118,31 @@ private:
     return way == 0 ? 1 : -1;
   }
 
-  Crosswise acrossRing(const Vector3& from, double radius);
-  Crosswise acrossBall(const Vector3& from, double height, double radius);
-  double topOfBall(const Vector3& over, std::optional<double> expected);
+  Crosswise acrossRing(const PlanePlace& from, double radius);
+  Crosswise acrossBall(const PlanePlace& from, double height, double radius);
+  double topOfBall(const PlanePlace& over, std::optional<double> expected);
   /// How far the balls of a star stand from its middle, by its tool data; 0 for other probes.
   double starArm() const;
   /// An L-shaped probe.
   bool isBent() const { return context_.control().tool.type == 713; }
   /// The radius of a ball of an L or star, as it is in the tool data for touches along the tool.
   double ballAlongTool() const;
-  void finishAtEdge(const Vector3& edge, const Vector3& direction);
+  void finishAtEdge(const PartPoint& edge, const PlaneWay& direction);
   /// The length along the tool that acts as 1 mm along `axis`: more than 1 where the system leans against the tool.
   double lengthPer(int axis) const { return axis == 2 ? 1 / std::max(0.1, std::abs(prober_.toolAxis().z())) : 1; }
-  void takeOver(const Vector3& deviation, double effective1, double effective2);
+  void takeOver(const PlaneWay& deviation, double effective1, double effective2);
 
   Context& context_;
   ProbeCalibration calibration_;
   probing::SinumerikProber& prober_;
-  Vector3 start_, first_, second_;
+  PlanePlace start_;
+  PlaneWay first_, second_;
   double path_, radius_, spindle_;
 };
 
 /// Trigger points along the axes of a ball off the spindle axis by `deviation`, with its effective radii along the two
 /// directions, whatever angle they were found at.
-void Calibration976::takeOver(const Vector3& deviation, double effective1, double effective2) {
+void Calibration976::takeOver(const PlaneWay& deviation, double effective1, double effective2) {
   calibration_.setTrigger(0, 1, deviation.x() + effective1);
   calibration_.setTrigger(0, -1, deviation.x() - effective1);
   calibration_.setTrigger(1, 1, deviation.y() + effective2);
@@ -163,7 +164,7 @@ void Calibration976::surface() {
   const double radius = bent ? ball : radius_, reference = toCentre ? radius : 0;
   if (toCentre && !(radius > 0)) context_.alarm(61351, "the radius of the ball must be known: calibrate it first");
   calibration_.list({axis}, ProbeCalibration::Listed::WithLength);
-  Vector3 setpoint = start_;
+  PartPoint setpoint = partAt(start_);
   setpoint[axis] = set;
   const double tcp = calibration_.touch(setpoint, probing::axisDirection(axis, way), path_, reference)[axis];
   if (wantsLength()) {
@@ -185,10 +186,10 @@ double Calibration976::ballAlongTool() const {
 }
 
 /// Two opposite touches along each direction inside a ring, the second pair through the middle of the first.
-Crosswise Calibration976::acrossRing(const Vector3& from, double radius) {
-  const auto pair = [&](const Vector3& centre, const Vector3& along) {
-    const double upper = along.dot(touch(centre + along * radius, along) - centre);
-    const double lower = along.dot(touch(centre - along * radius, -along) - centre);
+Crosswise Calibration976::acrossRing(const PlanePlace& from, double radius) {
+  const auto pair = [&](const PlanePlace& centre, const PlaneWay& along) {
+    const double upper = along.dot(touch(partAt(centre, along * radius), along) - centre);
+    const double lower = along.dot(touch(partAt(centre, -along * radius), -along) - centre);
     return std::pair((upper + lower) / 2, (upper - lower) / 2);
   };
   Crosswise result;
@@ -215,9 +216,9 @@ void Calibration976::ring(Centre ofRing) {
   if (directions == 1) {
     const int axis = context_.measuringAxis(2);
     const double way = sign();
-    const Vector3 along = (axis == 0 ? first_ : second_) * way;
+    const PlaneWay along = (axis == 0 ? first_ : second_) * way;
     if (isBent() && along.x() < 1 - 1e-9) context_.alarm(61309, bentAdvice);
-    const Vector3 tcp = touch(start_ + along * radius, along);
+    const PlanePlace tcp = touch(partAt(start_, along * radius), along);
     calibration_.setTrigger(axis, way, way * (radius - along.dot(tcp - start_)));
     calibration_.completeAxis(axis, deviation());
     prober_.moveInPlane(start_);
@@ -225,9 +226,9 @@ void Calibration976::ring(Centre ofRing) {
   }
   if (directions == 2) {
     const int axis = context_.measuringAxis(2);
-    const Vector3 along = axis == 0 ? first_ : second_;
-    const double upper = along.dot(touch(start_ + along * radius, along) - start_);
-    const double lower = along.dot(touch(start_ - along * radius, -along) - start_);
+    const PlaneWay along = axis == 0 ? first_ : second_;
+    const double upper = along.dot(touch(partAt(start_, along * radius), along) - start_);
+    const double lower = along.dot(touch(partAt(start_, -along * radius), -along) - start_);
     calibration_.setTrigger(axis, 1, radius - upper);
     calibration_.setTrigger(axis, -1, -radius - lower);
     calibration_.completeAxis(axis, deviation());
@@ -239,9 +240,9 @@ void Calibration976::ring(Centre ofRing) {
   const Crosswise rough = acrossRing(start_, radius);
   if (reverse) turn(0);
   const Crosswise fine = acrossRing(rough.middle, radius);
-  Vector3 centre = fine.middle;
+  PlanePlace centre = fine.middle;
   if (centreKnown && wantsDeviation()) centre = start_;
-  if (reverse) centre = (rough.middle + fine.middle) / 2;
+  if (reverse) centre = PlanePlace((rough.middle.vector() + fine.middle.vector()) / 2);
   takeOver(centre - fine.middle, radius - fine.half1, radius - fine.half2);
   context_.result(6, centre.x());
   context_.result(7, centre.y());
@@ -249,11 +250,11 @@ void Calibration976::ring(Centre ofRing) {
 }
 
 /// Two opposite touches along each direction around a ball, tool centre point at `height`: over the ball, or round it.
-Crosswise Calibration976::acrossBall(const Vector3& from, double height, double radius) {
-  const auto side = [&](const Vector3& centre, const Vector3& outward) {
-    Vector3 setpoint = centre + outward * radius;
-    setpoint.z() = height;
-    const Vector3 begin = setpoint + outward * (path_ + radius_);
+Crosswise Calibration976::acrossBall(const PlanePlace& from, double height, double radius) {
+  const auto side = [&](const PlanePlace& centre, const PlaneWay& outward) {
+    PartPoint setpoint = partAt(centre, outward * radius);
+    setpoint[2] = height;
+    const PlanePlace begin = tipAt(setpoint, outward * (path_ + radius_));
     if (prober_.position().z() > height + 1e-6) {
       prober_.moveInPlane(begin);
       prober_.moveHeightTo(height);
@@ -262,16 +263,16 @@ Crosswise Calibration976::acrossBall(const Vector3& from, double height, double 
     if (!atAngle()) prober_.moveHeightTo(start_.z());
     return found;
   };
-  const auto pair = [&](const Vector3& centre, const Vector3& along) {
+  const auto pair = [&](const PlanePlace& centre, const PlaneWay& along) {
     const double upper = side(centre, along);
-    if (atAngle()) prober_.moveOnArc(centre, 180);
+    if (atAngle()) prober_.moveOnArc(partAt(centre), 180);
     const double lower = -side(centre, -along);
     return std::pair((upper + lower) / 2, (upper - lower) / 2);
   };
   Crosswise result;
   const auto [middle1, half1] = pair(from, first_);
   result.middle = from + first_ * middle1;
-  if (atAngle()) prober_.moveOnArc(from, -90);
+  if (atAngle()) prober_.moveOnArc(partAt(from), -90);
   const auto [middle2, half2] = pair(result.middle, second_);
   result.middle += second_ * middle2;
   result.half1 = std::hypot(half1, middle2);
@@ -282,10 +283,10 @@ Crosswise Calibration976::acrossBall(const Vector3& from, double height, double 
 }
 
 /// Height of the tool centre point on top of the ball.
-double Calibration976::topOfBall(const Vector3& over, std::optional<double> expected) {
+double Calibration976::topOfBall(const PlanePlace& over, std::optional<double> expected) {
   const double reference = prober_.probe().lengthToCentre ? radius_ : 0;
-  Vector3 setpoint(over.x(), over.y(), expected.value_or(start_.z() - path_ - reference));
-  const double height = calibration_.touch(setpoint, -Vector3::UnitZ(), path_, reference).z();
+  const PartPoint setpoint(over.x(), over.y(), expected.value_or(start_.z() - path_ - reference));
+  const double height = calibration_.touch(setpoint, -PlaneWay::unit(2), path_, reference).z();
   prober_.moveHeightTo(start_.z());
   return height;
 }
@@ -305,10 +306,10 @@ void Calibration976::ball() {
   // The first pass has found the radius of the probe's ball, and with it the height of the equator.
   const double equator = top - (rough.half1 + rough.half2) / 2;
   const Crosswise fine = acrossBall(rough.middle, equator, radius);
-  Vector3 centre = fine.middle;
+  PlanePlace centre = fine.middle;
   if (wantsDeviation() && canReverse()) {
     turn(reversal);
-    centre = (fine.middle + acrossBall(fine.middle, equator, radius).middle) / 2;
+    centre = PlanePlace((fine.middle.vector() + acrossBall(fine.middle, equator, radius).middle.vector()) / 2);
     turn(0);
   }
   takeOver(centre - fine.middle, fine.half1 - radius, fine.half2 - radius);
@@ -325,8 +326,8 @@ void Calibration976::ball() {
 
 /// The ball's centre to DFA in front of the edge that was touched last; where that leaves less than its radius of room,
 /// the ball stays where it is, its surface DFA away.
-void Calibration976::finishAtEdge(const Vector3& edge, const Vector3& direction) {
-  if (path_ >= 2 * radius_) prober_.moveInPlane(edge - direction * path_ - prober_.uprightTcp(direction));
+void Calibration976::finishAtEdge(const PartPoint& edge, const PlaneWay& direction) {
+  if (path_ >= 2 * radius_) prober_.moveInPlane(tipAt(edge, -(direction * path_)) - prober_.uprightTcp(direction));
 }
 
 void Calibration976::edge() {
@@ -336,16 +337,16 @@ void Calibration976::edge() {
   calibration_.list({0, 1}, ProbeCalibration::Listed::WithDeviations);
   if (directions == 1) {
     const double way = sign();
-    Vector3 setpoint = start_;
+    PartPoint setpoint = partAt(start_);
     setpoint[axis] = set;
     calibration_.setTrigger(axis, way, set - touch(setpoint, probing::axisDirection(axis, way))[axis]);
     finishAtEdge(setpoint, probing::axisDirection(axis, way));
   } else if (directions == 2) {
     if (!(set > 0)) context_.alarm(61319, "S_SETV, the distance of the edges, must be greater than 0");
-    const Vector3 along = Vector3::Unit(axis);
+    const PlaneWay along = PlaneWay::unit(axis);
     const auto pair = [&] {
-      const double upper = touch(start_ + along * set / 2, along)[axis];
-      const double lower = touch(start_ - along * set / 2, -along)[axis];
+      const double upper = touch(partAt(start_, along * set / 2), along)[axis];
+      const double lower = touch(partAt(start_, -along * set / 2), -along)[axis];
       return std::pair((upper + lower) / 2, (upper - lower) / 2);
     };
     double deviation = 0;
@@ -359,7 +360,7 @@ void Calibration976::edge() {
     if (reversed) deviation = (*reversed - middle) / 2;
     calibration_.setTrigger(axis, 1, deviation + set / 2 - half);
     calibration_.setTrigger(axis, -1, deviation - (set / 2 - half));
-    finishAtEdge(start_ - along * set / 2, -along);
+    finishAtEdge(partAt(start_, -along * set / 2), -along);
   } else {
     context_.alarm(61307, "thousands of S_MVAR: 1 one direction, 2 two directions");
   }

@@ -159,7 +159,7 @@ public:
         zone_(context.digit("S_MVAR", 4) == 1) {}
 
   /// Walls expected `size` apart about `centre`, across `along`; `zone`: width of the protection zone there.
-  Pair measure(const Vector3& centre, const Vector3& along, double size, double zone) {
+  Pair measure(const PartPoint& centre, const PlaneWay& along, double size, double zone) {
     const double path = measuringPath(size, zone);
     const double upper = along.dot(touch(centre + along * size / 2, along * outwards(side_), path) - centre);
     const double lower = along.dot(touch(centre - along * size / 2, -along * outwards(side_), path) - centre);
@@ -170,9 +170,9 @@ public:
   void requireRoom(double size, double zone) { measuringPath(size, zone); }
 
   /// To the centre, at the height of the start.
-  void finish(const Vector3& centre) {
+  void finish(const PartPoint& centre) {
     toucher_.finish();
-    context_.prober().moveInPlane(centre);
+    context_.prober().moveInPlane(tipAt(centre));
   }
 
 private:
@@ -190,9 +190,9 @@ private:
     return zone > 0 ? std::min(wanted, longest) : wanted;
   }
 
-  Vector3 touch(Vector3 setpoint, const Vector3& direction, double path) {
+  PartPoint touch(PartPoint setpoint, const PlaneWay& direction, double path) {
     probing::SinumerikProber& prober = context_.prober();
-    setpoint.z() = startHeight_ + (infeeds() ? context_.real("S_ID") : 0);
+    setpoint[2] = startHeight_ + (infeeds() ? context_.real("S_ID") : 0);
     if (infeeds()) {
       prober.moveInPlane(toucher_.startOf(setpoint, direction, path));
       prober.moveHeightTo(setpoint.z());
@@ -285,14 +285,14 @@ void run(Context& context, const Arguments&) {
   const auto target = task == Task::ZeroOffset ? frameTarget(context, GlobalBase::Allowed) : std::nullopt;
 
   // Where the probe stands is the set position of the centre, unless the call names another.
-  const Vector3 start = context.prober().position();
-  Vector3 setCentre = start;
+  const PartPoint start = partAt(context.prober().position());
+  PartPoint setCentre = start;
   if (context.digit("_AMODE", 2) == 1) {
     setCentre[oneAxis ? axis : 0] = context.real("S_POS1");
-    if (!oneAxis) setCentre.y() = context.real("S_POS2");
+    if (!oneAxis) setCentre[1] = context.real("S_POS2");
   }
-  const Vector3 first = probing::directionAt(context.real("S_STA1") + (axis == 1 ? 90 : 0));
-  const Vector3 second = probing::directionAt(context.real("S_STA1") + 90);
+  const PlaneWay first = probing::directionAt(context.real("S_STA1") + (axis == 1 ? 90 : 0));
+  const PlaneWay second = probing::directionAt(context.real("S_STA1") + 90);
   const double set1 = setValueOf(context, task, context.real(isRectangle(feature) ? "S_SETV0" : "S_SETV"));
   const double set2 = isRectangle(feature) ? setValueOf(context, task, context.real("S_SETV1")) : set1;
   if (!(set1 > 0) || !(set2 > 0))
@@ -304,7 +304,7 @@ void run(Context& context, const Arguments&) {
   walls.requireRoom(set1, zone1);
   if (!oneAxis) walls.requireRoom(set2, zone2);
   const Pair pair1 = walls.measure(start, first, set1, zone1);
-  Vector3 centre = start + first * pair1.middle;
+  PartPoint centre = start + first * pair1.middle;
   Pair pair2;
   if (!oneAxis) {
     walls.finish(centre);
@@ -338,7 +338,7 @@ void run(Context& context, const Arguments&) {
   }
 
   if (target) {
-    const Vector3 directions[] = {first, second};
+    const PlaneWay directions[] = {first, second};
     correctTranslation(context, *target, machinePoint(context, centre), setCentre,
                        std::span(directions).first(oneAxis ? 1 : 2));
     context.result(28, context.real("S_TSA"));

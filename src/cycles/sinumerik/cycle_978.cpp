@@ -76,7 +76,7 @@ void run(Context& context, const Arguments&) {
 
   const double empirical = task == Task::MeasureOnly ? 0 : empiricalValue(context);
   const double set = setValueOf(context, task, context.real("S_SETV"));
-  Vector3 setpoint = context.prober().position();
+  PartPoint setpoint = partAt(context.prober().position());
   const double sign = measuringDirection(context, set - setpoint[axis]);
   setpoint[axis] = set;
   Toucher toucher(context, method);
@@ -95,9 +95,9 @@ void run(Context& context, const Arguments&) {
   context.checkSafeArea(difference);
 
   if (target) {
-    Vector3 feature = point.surface;
+    PartPoint feature = point.surface;
     feature[axis] -= empirical;
-    const Vector3 directions[] = {Vector3::Unit(axis)};
+    const PlaneWay directions[] = {PlaneWay::unit(axis)};
     correctTranslation(context, *target, machinePoint(context, feature), setpoint, directions);
     context.result(28, context.real("S_TSA"));
     context.result(30, empirical);

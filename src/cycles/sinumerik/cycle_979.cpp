@@ -114,7 +114,7 @@ void run(Context& context, const Arguments&) {
   if (!(set > 0)) context.alarm(61319, "S_SETV, the set diameter, must be greater than 0");
 
   probing::SinumerikProber& prober = context.prober();
-  const Vector3 setCentre(context.real("S_CPA"), context.real("S_CPO"), prober.position().z());
+  const PartPoint setCentre(context.real("S_CPA"), context.real("S_CPO"), prober.position().z());
   const double path = context.real("S_FA");
   Toucher toucher(context, method);
   std::vector<Vector2> ballCentres;
@@ -123,7 +123,7 @@ void run(Context& context, const Arguments&) {
        probing::planCircle(setCentre, set, context.real("S_STA1"), step, count, side)) {
     if (!ballCentres.empty()) prober.moveOnArc(setCentre, step);
     const MeasuredPoint point = toucher.measure(touch.surface, touch.direction, path);
-    ballCentres.push_back((point.surface - touch.direction * prober.ballRadius()).head<2>());
+    ballCentres.push_back((point.surface - touch.direction * prober.ballRadius()).inPlane());
     places.push_back(point.record);
   }
   toucher.finish();
@@ -132,7 +132,7 @@ void run(Context& context, const Arguments&) {
   const auto fit = metrology::fitCircle(ballCentres, withCofactors);
   if (!fit) context.alarm(61316, fit.error().message);
   context.channel().journal().fit(recordOf(*fit, std::move(places)));
-  const Vector3 centre(fit->shape.centre.x(), fit->shape.centre.y(), setCentre.z());
+  const PartPoint centre(fit->shape.centre.x(), fit->shape.centre.y(), setCentre.z());
   const double diameter = 2 * (fit->shape.radius + outwards(side) * prober.ballRadius());
 
   context.result(0, set);
@@ -151,7 +151,7 @@ void run(Context& context, const Arguments&) {
     context.checkSafeArea(centre.y() - setCentre.y());
   }
   if (target) {
-    const Vector3 directions[] = {Vector3::UnitX(), Vector3::UnitY()};
+    const PlaneWay directions[] = {PlaneWay::unit(0), PlaneWay::unit(1)};
     correctTranslation(context, *target, machinePoint(context, centre), setCentre, directions);
     context.result(28, context.real("S_TSA"));
   }

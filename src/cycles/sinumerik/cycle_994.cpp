@@ -90,8 +90,8 @@ public:
 
   /// The position of the surface along the axis on the side of `side` (+1 above the centre, -1 below).
   double touch(double side) {
-    const Vector3 setpoint = along(side * setRadius_);
-    const Vector3 direction = probing::axisDirection(axis_, signAt(side));
+    const PartPoint setpoint = along(side * setRadius_);
+    const PlaneWay direction = probing::axisDirection(axis_, signAt(side));
     if (calibrated_) {
       return context_.prober().measure(setpoint, direction, path_, context_.repetitions()).surface[axis_];
     }
@@ -107,7 +107,7 @@ public:
     const double here = std::abs(startAt(side)), there = std::abs(startAt(-side));
     probing::SinumerikProber& prober = context_.prober();
     const auto go = [&](int axis, double to) {
-      Vector3 target = prober.position();
+      PlanePlace target = prober.position();
       target[axis] = to;
       prober.moveTo(target);
     };
@@ -122,8 +122,8 @@ private:
   bool passesBy() const { return !inside_ || zoneUsed_; }
   double signAt(double side) const { return inside_ ? side : -side; }
 
-  Vector3 along(double value) {
-    Vector3 point = context_.prober().position();
+  PartPoint along(double value) {
+    PartPoint point = partAt(context_.prober().position());
     point[axis_] = value;
     return point;
   }

@@ -96,14 +96,14 @@ Vector2 centreOfShaft(Context& context, const MeasuredBall& ball, double safeHei
   probing::SinumerikProber& prober = context.prober();
   const double spindle = context.channel().spindleAngle();
   const double path = shaftFactor * context.real("S_FA"), assumed = prober.ballRadius();
-  Vector3 about = ball.centre;
-  about.z() -= lowered + (prober.probe().lengthToCentre ? 0 : prober.ballRadius());
+  PartPoint about = ball.centre;
+  about[2] -= lowered + (prober.probe().lengthToCentre ? 0 : prober.ballRadius());
   std::vector<Vector2> tips;
   std::vector<std::size_t> places;
   for (const probing::PlannedTouch& touch :
        probing::planCircle(about, ball.diameter, context.real("S_STA1"), step, points, Side::Outside)) {
     if (tips.empty()) {
-      prober.moveInPlane(touch.surface - touch.direction * (path + assumed));
+      prober.moveInPlane(tipAt(touch.surface, -(touch.direction * (path + assumed))));
       prober.moveHeightTo(about.z());
     } else {
       prober.moveOnArc(about, step);
@@ -111,7 +111,7 @@ Vector2 centreOfShaft(Context& context, const MeasuredBall& ball, double safeHei
     prober.alignTo(touch.direction);
     const MeasuredPoint point = prober.measureUncompensated(touch.surface, touch.direction, path, context.repetitions(),
                                                             assumed, prober.probe().feed, control::TouchWith::Shaft);
-    tips.push_back(point.tcp.head<2>());
+    tips.push_back(point.tcp.inPlane());
     places.push_back(point.record);
   }
   context.positionSpindle(spindle);
@@ -203,7 +203,7 @@ void run(Context& context, const Arguments&) {
   if (context.digit("_AMODE", 1) == 1 && context.real("S_TUL") < 0) context.alarm(61319, "S_TUL is smaller than 0");
 
   probing::SinumerikProber& prober = context.prober();
-  const Vector3 start = prober.position();
+  const PlanePlace start = prober.position();
   const double path = context.real("S_FA");
   if (!(path > 0)) context.alarm(61308);
   BallPlan plan = {
@@ -219,8 +219,8 @@ void run(Context& context, const Arguments&) {
       .path = path,
   };
   // The probe stands the measuring path above the pole.
-  plan.centre = start;
-  plan.centre.z() -= path + plan.diameter / 2 + (prober.probe().lengthToCentre ? prober.ballRadius() : 0);
+  plan.centre = partAt(start);
+  plan.centre[2] -= path + plan.diameter / 2 + (prober.probe().lengthToCentre ? prober.ballRadius() : 0);
   const MeasuredBall ball = measureBall(context, plan);
   reportBall(context, plan, ball);
   context.noteCall();
@@ -231,7 +231,7 @@ void run(Context& context, const Arguments&) {
   const Vector2 shaft = centreOfShaft(context, ball, plan.safeHeight, distance);
   // The axis of the tool stands over the ball's centre at the height of the shaft: what the tip gives way there, the
   // axis leans the other way.
-  const Vector2 deviation = ball.centre.head<2>() - shaft;
+  const Vector2 deviation = ball.centre.inPlane() - shaft;
   context.result(22, ball.diameter);
   for (int axis = 0; axis < 2; ++axis) {
     context.result(23 + axis, ball.centre[axis]);

@@ -108,14 +108,14 @@ constexpr std::array results997 = joined(
         ResultDefinition{"_OVI[12]", "with an alarm: number of the ball that was being measured", result::status},
     });
 
-Vector3 setCentre(const Context& context, int ball) {
-  Vector3 centre;
+PartPoint setCentre(const Context& context, int ball) {
+  PartPoint centre;
   for (int axis = 0; axis < 3; ++axis)
     centre[axis] = context.real(fmt::format("S_SETV{}", 3 * ball + axis));
   return centre;
 }
 
-using Triangle = std::array<Vector3, 3>;
+using Triangle = std::array<PartPoint, 3>;
 
 /// How much the sides of the triangles differ, added up.
 double distortion(const Triangle& a, const Triangle& b) {
@@ -129,21 +129,24 @@ double distortion(const Triangle& a, const Triangle& b) {
 
 Matrix3 columns(const Triangle& triangle) {
   Matrix3 matrix;
-  matrix << triangle[0], triangle[1], triangle[2];
+  matrix << triangle[0].vector(), triangle[1].vector(), triangle[2].vector();
   return matrix;
 }
 
 /// Turns and shifts the frame so that the three centres come closest to their set positions.
 void correctByTriangle(Context& context, const FrameTarget& target, const Triangle& set, const Triangle& actual) {
-  const Vector3 setMiddle = (set[0] + set[1] + set[2]) / 3, middle = (actual[0] + actual[1] + actual[2]) / 3;
+  const auto middleOf = [](const Triangle& three) {
+    return PartPoint((three[0].vector() + three[1].vector() + three[2].vector()) / 3);
+  };
+  const PartPoint setMiddle = middleOf(set), middle = middleOf(actual);
   const double distorted = distortion(set, actual), limit = context.real("S_TNVL");
   if (distorted > limit + 1e-9) {
     context.alarm(61414, fmt::format("{:.4f} mm, {:.4f} are allowed", distorted, limit));
   }
-  const Vector3 onMachine = machinePoint(context, middle);
+  const PartInMachine onMachine = machinePoint(context, middle);
   const Eigen::Matrix4d moved = Eigen::umeyama(columns(set), columns(actual), false);
   correctRotation(context, target, moved.topLeftCorner<3, 3>());
-  const Vector3 directions[] = {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
+  const PlaneWay directions[] = {PlaneWay::unit(0), PlaneWay::unit(1), PlaneWay::unit(2)};
   correctTranslation(context, target, onMachine, setMiddle, directions);
 }
 
@@ -244,7 +247,7 @@ void run(Context& context, const Arguments&) {
   }
   for (std::size_t ball = 0; ball < count; ++ball) {
     plan.centre = set[ball];
-    context.prober().moveInPlane(plan.centre);
+    context.prober().moveInPlane(tipAt(plan.centre));
     context.markFailing(static_cast<int>(ball) + 1);
     const MeasuredBall measured = measureBall(context, plan);
     actual[ball] = measured.centre;
@@ -270,7 +273,7 @@ void run(Context& context, const Arguments&) {
 
   if (target && count == 3) correctByTriangle(context, *target, set, actual);
   if (target && count == 1) {
-    const Vector3 directions[] = {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
+    const PlaneWay directions[] = {PlaneWay::unit(0), PlaneWay::unit(1), PlaneWay::unit(2)};
     correctTranslation(context, *target, machinePoint(context, actual[0]), set[0], directions);
   }
 }

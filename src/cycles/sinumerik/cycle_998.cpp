@@ -94,7 +94,7 @@ double tangent(double degrees) { return std::tan(radiansFromDegrees(degrees)); }
 /// Touches points in one direction from the start height of the measuring axis.
 class Steps {
 public:
-  Steps(Context& context, Toucher& toucher, const Vector3& direction)
+  Steps(Context& context, Toucher& toucher, const PlaneWay& direction)
       : context_(context),
         toucher_(toucher),
         direction_(direction),
@@ -104,16 +104,16 @@ public:
         infeed_(zone_ ? std::abs(context.real("S_SETV")) : 0) {}
 
   /// From where the cycle started.
-  Vector3 first() { return touchFrom(Vector3::Zero()); }
+  PartPoint first() { return touchFrom({}); }
 
   /// `offset` beside the first point, at the same height of the measuring axis.
-  Vector3 beside(const Vector3& offset) { return touchFrom(offset); }
+  PartPoint beside(const PlaneWay& offset) { return touchFrom(offset); }
 
   /// `offset` beside `point`, where the surface is expected to be `rise` further along the positive measuring axis,
   /// with room for a deviation of `uncertain` degrees.
-  Vector3 along(const Vector3& point, const Vector3& offset, double rise, double uncertain) {
-    const Vector3 axis = direction_.cwiseAbs();
-    Vector3 setpoint = point + offset + axis * rise;
+  PartPoint along(const PartPoint& point, const PlaneWay& offset, double rise, double uncertain) {
+    const PlaneWay axis(direction_.vector().cwiseAbs());
+    const PartPoint setpoint = point + offset + axis * rise;
     const double path = path_ + offset.norm() * tangent(std::min(std::abs(uncertain), greatestAngle));
     leave(offset);
     return noted(toucher_.measure(setpoint, direction_, path));
@@ -121,55 +121,56 @@ public:
 
   /// Back to the start position of the first point.
   void back() {
-    leave(Vector3::Zero());
+    leave({});
     context_.prober().moveTo(home_ + infeedVector());
   }
 
   /// To DFA in front of the surface at `point`, where the last touch was.
-  void finishAt(const Vector3& point) { context_.prober().moveTo(toucher_.startOf(point, direction_, path_)); }
+  void finishAt(const PartPoint& point) { context_.prober().moveTo(toucher_.startOf(point, direction_, path_)); }
 
   /// With a protection zone: above where the cycle started.
-  void leave() { leave(Vector3::Zero()); }
+  void leave() { leave({}); }
 
   /// What was touched, each point with the place of its touch in the record.
   const std::vector<std::size_t>& places() const { return places_; }
 
 private:
-  Vector3 noted(const MeasuredPoint& point) {
+  PartPoint noted(const MeasuredPoint& point) {
     places_.push_back(point.record);
     return point.surface;
   }
 
-  Vector3 infeedVector() const { return direction_ * infeed_; }
+  PlaneWay infeedVector() const { return direction_ * infeed_; }
 
   /// With a protection zone: back to the start height and over to the next place.
-  void leave(const Vector3& offset) {
+  void leave(const PlaneWay& offset) {
     if (!zone_) return;
-    const Vector3 here = context_.prober().position();
-    const Vector3 axis = direction_.cwiseAbs();
+    const PlanePlace here = context_.prober().position();
+    const PlaneWay axis(direction_.vector().cwiseAbs());
     context_.prober().moveTo(here + axis * axis.dot(home_ - here));
     context_.prober().moveTo(home_ + offset);
   }
 
-  Vector3 touchFrom(const Vector3& offset) {
-    if (!offset.isZero()) leave(offset);
-    const Vector3 place = home_ + infeedVector() + offset;
-    return noted(toucher_.measure(place - toucher_.startOf(Vector3::Zero(), direction_, path_), direction_, path_));
+  PartPoint touchFrom(const PlaneWay& offset) {
+    if (!offset.vector().isZero()) leave(offset);
+    const PlanePlace place = home_ + infeedVector() + offset;
+    return noted(toucher_.measure(toucher_.expectedFrom(place, direction_, path_), direction_, path_));
   }
 
   Context& context_;
   Toucher& toucher_;
-  Vector3 direction_, home_;
+  PlaneWay direction_;
+  PlanePlace home_;
   double path_;
   bool zone_;
   double infeed_;
   std::vector<std::size_t> places_;
 };
 
-void correctAngle(Context& context, const FrameTarget& target, const Vector3& about, double angle) {
+void correctAngle(Context& context, const FrameTarget& target, const PlaneWay& about, double angle) {
   const int rotaryAxis = context.integer("S_RA");
   if (rotaryAxis == 0) {
-    correctRotation(context, target, rotation(about, angle).linear());
+    correctRotation(context, target, rotation(about.vector(), angle).linear());
   } else {
     correctRotaryAxis(context, target, static_cast<std::size_t>(rotaryAxis - 1), about, angle);
   }
@@ -193,8 +194,8 @@ void measureEdge(Context& context, const std::optional<FrameTarget>& target, Met
   }
 
   // The angle counts from the positive offset axis, counter-clockwise about the third axis.
-  const Vector3 along = Vector3::Unit(offset), across = Vector3::Unit(measuring),
-                about = Vector3::Unit(3 - measuring - offset);
+  const PlaneWay along = PlaneWay::unit(offset), across = PlaneWay::unit(measuring),
+                 about = PlaneWay::unit(3 - measuring - offset);
   const double sense = along.cross(across).dot(about);
 
   const double empirical = target ? empiricalValue(context) : 0;
@@ -202,13 +203,13 @@ void measureEdge(Context& context, const std::optional<FrameTarget>& target, Met
   if (target && rotaryAxis != 0) requireRotaryAxis(context, static_cast<std::size_t>(rotaryAxis - 1), about);
   Toucher toucher(context, method);
   Steps steps(context, toucher, across * sign);
-  const Vector3 first = steps.first();
-  const Vector3 second =
+  const PartPoint first = steps.first();
+  const PartPoint second =
       context.digit("S_MVAR", 6) == 1
           ? steps.beside(along * distance)
           : steps.along(first, along * distance, sense * distance * tangent(set), context.real("S_TSA"));
   if (measuring != 2 && offset != 2) {
-    noteLine(context.channel().journal(), std::array<Vector2, 2>{first.head<2>(), second.head<2>()}, steps.places());
+    noteLine(context.channel().journal(), std::array<Vector2, 2>{first.inPlane(), second.inPlane()}, steps.places());
   }
   toucher.finish();
   steps.finishAt(second);
@@ -243,33 +244,33 @@ void measurePlane(Context& context, const std::optional<FrameTarget>& target, Me
   const double setFirst = context.real("S_STA1"), setSecond = context.real("S_INCA");
   if (std::abs(setFirst) > 60) context.alarm(61319, "S_STA1 of a plane is between -60 and 60 degrees");
   if (std::abs(setSecond) > 30) context.alarm(61319, "S_INCA is between -30 and 30 degrees");
-  const Vector3 toSecond(context.real("S_SETV0"), 0, 0);
-  const Vector3 toThird(context.real("S_SETV2"), context.real("S_SETV3"), 0);
+  const PlaneWay toSecond(context.real("S_SETV0"), 0, 0);
+  const PlaneWay toThird(context.real("S_SETV2"), context.real("S_SETV3"), 0);
   if (!(toSecond.x() > 0) || !(toThird.y() > 0)) {
     context.alarm(61319, "the distances S_SETV0 and S_SETV3 of the points must be greater than 0");
   }
 
   const double empirical = target ? empiricalValue(context) : 0;
   Toucher toucher(context, method);
-  Steps steps(context, toucher, -Vector3::UnitZ());
-  const Vector3 first = steps.first();
-  Vector3 second, third;
+  Steps steps(context, toucher, -PlaneWay::unit(2));
+  const PartPoint first = steps.first();
+  PartPoint second, third;
   if (context.digit("S_MVAR", 6) == 1) {
     second = steps.beside(toSecond);
     steps.back();
     third = steps.beside(toThird);
   } else {
-    const Vector3 normal = planeOrientation(setFirst, setSecond).col(2);
-    const auto riseOf = [&](const Vector3& way) { return -normal.dot(way) / normal.z(); };
+    const PlaneWay normal(planeOrientation(setFirst, setSecond).col(2));
+    const auto riseOf = [&](const PlaneWay& way) { return -normal.dot(way) / normal.z(); };
     second = steps.along(first, toSecond, riseOf(toSecond), context.real("S_TSA"));
     steps.back();
     third = steps.along(first, toThird, riseOf(toThird), context.real("S_TSA"));
   }
-  notePlane(context.channel().journal(), std::array{first, second, third}, steps.places());
+  notePlane(context.channel().journal(), std::array{first.vector(), second.vector(), third.vector()}, steps.places());
   steps.finishAt(third);
   context.setWayBack([&] { steps.leave(); });
 
-  const Vector3 normal = (second - first).cross(third - first).normalized();
+  const PlaneWay normal = (second - first).cross(third - first).normalized();
   const double actualFirst = degreesFromRadians(std::asin(-normal.y()));
   const double actualSecond = degreesFromRadians(std::atan2(normal.x(), normal.z()));
   const double differenceFirst = actualFirst - setFirst - empirical;

@@ -122,18 +122,18 @@ BallPlace measurePlace(Context& context, bool findDiameter) {
       .path = path,
   };
   // The probe stands the measuring path above the pole.
-  plan.centre = prober.position();
-  plan.centre.z() -= path + plan.diameter / 2 + (toCentre ? probeRadius : 0);
+  plan.centre = partAt(prober.position());
+  plan.centre[2] -= path + plan.diameter / 2 + (toCentre ? probeRadius : 0);
   MeasuredBall ball = measureBall(context, plan);
   // The diameter of the ball is certified; the one found shows that it is the right ball.
-  ball.centre.z() -= (plan.diameter - ball.diameter) / 2;
+  ball.centre[2] -= (plan.diameter - ball.diameter) / 2;
   prober.moveHeightTo(ball.centre.z() + plan.diameter / 2 + path + (toCentre ? probeRadius : 0));
   context.checkSafeArea(ball.diameter - plan.diameter);
   for (int axis = 0; axis < 3; ++axis)
     context.checkSafeArea(ball.centre[axis] - plan.centre[axis]);
 
   const control::Channel& channel = control.channel;
-  const PlanePlace tip(ball.centre - (toCentre ? 0 : probeRadius) * prober.toolAxis());
+  const PlanePlace tip = tipAt(ball.centre, -((toCentre ? 0 : probeRadius) * prober.toolAxis()));
   const control::AxisPositions axes = channel.axesFromProgram(control.workingPlane().xyzFromPlane(tip), channel.axes());
   BallPlace place{.centre = Vector3::Zero(), .tool = channel.toolVector, .diameter = ball.diameter};
   if (!toCentre) place.tool -= probeRadius * place.tool.normalized();
@@ -339,7 +339,7 @@ void calculateKinematics(Context& context) {
                                        axis + 1, lines[which]->leastAngle, formatShortest(limit)));
     const int along = context.digit("S_MVAR", 6 + axis);
     if (along > 0) {
-      const Vector3 direction = control.workingPlane().xyzFromPlane(Vector3::Unit(along - 1));
+      const Vector3 direction = control.workingPlane().xyzFromPlane(PlaneWay::unit(along - 1)).vector();
       Eigen::Index place = 0;
       direction.cwiseAbs().maxCoeff(&place);
       normalisation[which] = {static_cast<int>(place), context.real(axis == 0 ? "S_SETV2" : "S_SETV3")};

@@ -59,7 +59,7 @@ double LatheToolTouches::towardsMiddle(int axis) const {
 }
 
 void LatheToolTouches::go(int axis, double place) {
-  Vector3 target = prober_.position();
+  PlanePlace target = prober_.position();
   if (std::abs(target[axis] - place) < 1e-9) return;
   target[axis] = place;
   prober_.moveTo(target);
@@ -99,8 +99,8 @@ double LatheToolTouches::touch(int axis, double direction) {
 void LatheToolTouches::back() {
   while (trail_.size() > 1) {
     trail_.pop_back();
-    Vector3 target = prober_.position();
-    target.head<2>() = trail_.back();
+    PlanePlace target = prober_.position();
+    target = {trail_.back().x(), trail_.back().y(), target.z()};
     prober_.moveTo(target);
   }
 }

@@ -28,7 +28,7 @@ public:
   const ToolProbeField& field() const { return field_; }
   double path() const { return path_; }
   /// The tip.
-  Vector2 at() const { return prober_.position().head<2>(); }
+  Vector2 at() const { return prober_.position().inPlane(); }
   double middle(int axis) const { return field_.centre(axis); }
   double trigger(int axis, double direction) const { return field_.trigger(axis, direction); }
   /// Which way the middle of the contact lies. Alarm 61326 on it.

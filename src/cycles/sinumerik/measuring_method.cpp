@@ -36,9 +36,13 @@ double measuringDirection(Context& context, double toSetValue) {
 Toucher::Toucher(Context& context, Method method)
     : context_(context), method_(method), spindle_(context.channel().spindleAngle()) {}
 
-Vector3 Toucher::startOf(const Vector3& setpoint, const Vector3& direction, double path) const {
+PartPoint Toucher::expectedFrom(const PlanePlace& start, const PlaneWay& direction, double path) const {
+  return partAt(start, -(startOf({}, direction, path) - PlanePlace()));
+}
+
+PlanePlace Toucher::startOf(const PartPoint& setpoint, const PlaneWay& direction, double path) const {
   probing::SinumerikProber& prober = context_.prober();
-  const Vector3 upright = setpoint - prober.uprightTcp(direction);
+  const PlanePlace upright = tipAt(setpoint, -prober.uprightTcp(direction));
   switch (method_) {
     case Method::SpindleReversal:
       return upright - direction * (path + prober.ballRadius());
@@ -50,7 +54,7 @@ Vector3 Toucher::startOf(const Vector3& setpoint, const Vector3& direction, doub
   return upright - direction * (path + prober.trigger(direction)) - prober.lateralDeviation(direction);
 }
 
-MeasuredPoint Toucher::measure(const Vector3& setpoint, const Vector3& direction, double path) {
+MeasuredPoint Toucher::measure(const PartPoint& setpoint, const PlaneWay& direction, double path) {
   probing::SinumerikProber& prober = context_.prober();
   const int count = context_.repetitions();
   switch (method_) {
@@ -66,7 +70,7 @@ MeasuredPoint Toucher::measure(const Vector3& setpoint, const Vector3& direction
   return prober.measure(setpoint, direction, path, count);
 }
 
-MeasuredPoint Toucher::measureReversed(const Vector3& setpoint, const Vector3& direction, double path) {
+MeasuredPoint Toucher::measureReversed(const PartPoint& setpoint, const PlaneWay& direction, double path) {
   probing::SinumerikProber& prober = context_.prober();
   const int count = context_.repetitions();
   const double radius = prober.ballRadius();
@@ -82,9 +86,7 @@ MeasuredPoint Toucher::measureReversed(const Vector3& setpoint, const Vector3& d
   MeasuredPoint point = prober.measureUncompensated(setpoint, direction, path, count, radius, feed);
   const double deviation = (reversed.tcp - point.tcp).dot(direction) / 2;
   deviations_.push_back({direction, deviation});
-  point.surface = point.tcp + direction * (radius + deviation);
-  point.difference = (point.surface - setpoint)
-                         .dot(direction.cwiseAbs().maxCoeff() > 1 - 1e-12 ? Vector3(direction.cwiseAbs()) : direction);
+  point.surface = partAt(point.tcp, direction * (radius + deviation));
   return point;
 }
 

@@ -33,22 +33,25 @@ public:
   Toucher(Context& context, Method method);
 
   /// As SinumerikProber::measure. `direction` lies in the plane for all methods but the standard one.
-  MeasuredPoint measure(const Vector3& setpoint, const Vector3& direction, double path);
+  MeasuredPoint measure(const PartPoint& setpoint, const PlaneWay& direction, double path);
+
+  /// Where measure() leads to: the surface that it would expect with the probe standing at the start position.
+  PartPoint expectedFrom(const PlanePlace& start, const PlaneWay& direction, double path) const;
 
   /// The start position that measure() moves to first.
-  Vector3 startOf(const Vector3& setpoint, const Vector3& direction, double path) const;
+  PlanePlace startOf(const PartPoint& setpoint, const PlaneWay& direction, double path) const;
 
   /// Turns the spindle back to where it stood.
   void finish();
 
 private:
-  MeasuredPoint measureReversed(const Vector3& setpoint, const Vector3& direction, double path);
+  MeasuredPoint measureReversed(const PartPoint& setpoint, const PlaneWay& direction, double path);
 
   Context& context_;
   Method method_;
   double spindle_;
   struct Deviation {
-    Vector3 direction;
+    PlaneWay direction;
     double along = 0;
   };
   std::vector<Deviation> deviations_;

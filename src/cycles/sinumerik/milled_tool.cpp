@@ -80,12 +80,12 @@ private:
   Vector2 placeOfLength() const;
   double measureWhole();
   std::vector<double> measureEdges();
-  probing::ToolStrokeTouch touchTurning(const Vector3& direction);
+  probing::ToolStrokeTouch touchTurning(const PlaneWay& direction);
   double findHighest(double angle);
   /// What turning as in the last touch adds to what is measured.
   double offsetOfTurning();
   /// What the tip says of the tool: actual less believed value.
-  double difference(const Vector3& tip) const;
+  double difference(const PlanePlace& tip) const;
   void orientTo(double angle);
   void nameEdge(std::size_t number);
   void conclude(const std::vector<double>& edges, double longest);
@@ -108,7 +108,7 @@ Vector2 Measurement::placeOfLength() const {
   return place;
 }
 
-double Measurement::difference(const Vector3& tip) const {
+double Measurement::difference(const PlanePlace& tip) const {
   const ToolProbeField& field = tool_.field();
   if (isLength()) return tip.z() - tool_.top();
   const double trigger = field.trigger(request_.axis, request_.sign);
@@ -116,7 +116,7 @@ double Measurement::difference(const Vector3& tip) const {
 }
 
 /// The touches with the turning tool, from where it is.
-probing::ToolStrokeTouch Measurement::touchTurning(const Vector3& direction) {
+probing::ToolStrokeTouch Measurement::touchTurning(const PlaneWay& direction) {
   probing::ToolStrokeTouch touched;
   for (const TurningTouch& each : request_.touches) {
     const bool last = &each == &request_.touches.back();
@@ -125,9 +125,9 @@ probing::ToolStrokeTouch Measurement::touchTurning(const Vector3& direction) {
     const int count = last ? context_.repetitions() : 1;
     for (int i = 0; i < count; ++i) {
       touched = tool_.touchTurning(direction, each.feed);
-      sum += touched.tip;
+      sum += touched.tip.vector();
     }
-    touched.tip = sum / count;
+    touched.tip = PlanePlace(sum / count);
   }
   return touched;
 }
@@ -153,7 +153,7 @@ double Measurement::offsetOfTurning() {
 
 double Measurement::measureWhole() {
   if (request_.touches.empty()) spindle_.stand();
-  const Vector3 direction = isLength() ? ToolAtProbe::down() : ToolAtProbe::along(request_.axis, request_.sign);
+  const PlaneWay direction = isLength() ? ToolAtProbe::down() : ToolAtProbe::along(request_.axis, request_.sign);
   isLength() ? tool_.goAbove(placeOfLength())
              : tool_.goBeside(request_.axis, request_.sign, centre_[1 - request_.axis]);
   if (request_.touches.empty()) return difference(tool_.touch(direction));
@@ -167,7 +167,7 @@ void Measurement::orientTo(double angle) { context_.positionSpindle(std::remaind
 double Measurement::findHighest(double angle) {
   const double given = context_.control().machineData("$SCS_MEA_EDGE_SAVE_ANG");
   const double step = given > 0 ? given : 2;
-  const Vector3 direction = ToolAtProbe::along(request_.axis, request_.sign);
+  const PlaneWay direction = ToolAtProbe::along(request_.axis, request_.sign);
   const auto touchedAt = [&](double degrees) {
     orientTo(degrees);
     return difference(tool_.touch(direction));
@@ -202,7 +202,7 @@ std::vector<double> Measurement::measureEdges() {
   for (int edge = 0; edge < request_.edges; ++edge) {
     orientTo(first + 360.0 * edge / request_.edges);
     if (isLength() && edge == 0) tool_.goAbove(placeOfLength());
-    const Vector3 direction = isLength() ? ToolAtProbe::down() : ToolAtProbe::along(axis, request_.sign);
+    const PlaneWay direction = isLength() ? ToolAtProbe::down() : ToolAtProbe::along(axis, request_.sign);
     edges.push_back(difference(tool_.touch(direction)));
   }
   return edges;

@@ -37,7 +37,7 @@ double ProbeCalibration::assumedRadius() const {
   return calibrated > 0 ? calibrated : context_.control().tool.radius;
 }
 
-Vector3 ProbeCalibration::touch(const Vector3& setpoint, const Vector3& direction, double path, double assumed) {
+PlanePlace ProbeCalibration::touch(const PartPoint& setpoint, const PlaneWay& direction, double path, double assumed) {
   return context_.prober().measureUncompensated(setpoint, direction, path, context_.repetitions(), assumed, feed_).tcp;
 }
 

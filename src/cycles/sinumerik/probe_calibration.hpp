@@ -50,7 +50,7 @@ public:
   double assumedRadius() const;
   /// The tool centre point at the signal, mean of S_NMSP touches, with the feed of this calibration (S_VMS, or setting
   /// data). `assumed`: from the tool centre point to the surface.
-  Vector3 touch(const Vector3& setpoint, const Vector3& direction, double path, double assumed);
+  PlanePlace touch(const PartPoint& setpoint, const PlaneWay& direction, double path, double assumed);
 
   /// Axis 0, 1, 2; `sign` +1, -1: the direction of the touch.
   void setTrigger(int axis, double sign, double value);

@@ -34,10 +34,10 @@ ToolAtProbe::ToolAtProbe(Context& context, const ToolProbeField& field, double f
 void ToolAtProbe::goAbove(const Vector2& place) { prober_.approach({place.x(), place.y(), top_ + path_}); }
 
 void ToolAtProbe::goBeside(int axis, double sign, double across) {
-  Vector3 start;
+  PlanePlace start;
   start[axis] = field_.trigger(axis, sign) - sign * (radius_ + path_);
   start[1 - axis] = across;
-  start.z() = top_ - field_.depth - below_;
+  start[2] = top_ - field_.depth - below_;
   prober_.approach(start);
 }
 
@@ -46,16 +46,16 @@ void ToolAtProbe::rise() {
   if (prober_.position().z() < clear) prober_.moveHeightTo(clear);
 }
 
-Vector3 ToolAtProbe::touch(const Vector3& direction) {
-  const Vector3 start = prober_.position();
+PlanePlace ToolAtProbe::touch(const PlaneWay& direction) {
+  const PlanePlace start = prober_.position();
   Vector3 sum = Vector3::Zero();
   const int count = context_.repetitions();
   for (int i = 0; i < count; ++i)
-    sum += prober_.touch({.start = start, .direction = direction, .path = path_, .feed = feed_}).tip;
-  return sum / count;
+    sum += prober_.touch({.start = start, .direction = direction, .path = path_, .feed = feed_}).tip.vector();
+  return PlanePlace(sum / count);
 }
 
-probing::ToolStrokeTouch ToolAtProbe::touchTurning(const Vector3& direction, double feed) {
+probing::ToolStrokeTouch ToolAtProbe::touchTurning(const PlaneWay& direction, double feed) {
   return prober_.touch(
       {.start = prober_.position(), .direction = direction, .path = path_, .feed = feed, .mayApproachFast = false});
 }

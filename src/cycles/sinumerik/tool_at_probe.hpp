@@ -42,12 +42,12 @@ public:
 
   /// From where the tip is along the tool axis or against the side: S_NMSP touches with the spindle standing, as their
   /// mean.
-  Vector3 touch(const Vector3& direction);
+  PlanePlace touch(const PlaneWay& direction);
   /// One touch at another feed, while the spindle turns.
-  probing::ToolStrokeTouch touchTurning(const Vector3& direction, double feed);
+  probing::ToolStrokeTouch touchTurning(const PlaneWay& direction, double feed);
 
-  static Vector3 down() { return {0, 0, -1}; }
-  static Vector3 along(int axis, double sign) { return sign * Vector3::Unit(axis); }
+  static PlaneWay down() { return {0, 0, -1}; }
+  static PlaneWay along(int axis, double sign) { return sign * PlaneWay::unit(axis); }
 
 private:
   Context& context_;

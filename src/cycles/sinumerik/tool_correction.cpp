@@ -114,7 +114,7 @@ bool carrierIsTurned(const Context& context) {
 Corrected onTurnedCarrier(const Context& context, const ToolTarget& target, const ToolEdge& edge,
                           const ToolInfluence& influence, const std::array<int, 3>& lengths) {
   const Vector3 seen = probing::directionFromSpindle(context.control().channel, context.control().workingPlane(),
-                                                     Vector3::Unit(influence.measuringAxis));
+                                                     PlaneWay::unit(influence.measuringAxis));
   const auto signOf = [&](int component) {
     return seen[lengths[static_cast<std::size_t>(component)]] < -1e-9 ? -1.0 : 1.0;
   };

@@ -53,7 +53,7 @@ private:
 
 double Calibration::side(int axis, double sign, double across) {
   tool_.goBeside(axis, sign, across);
-  const Vector3 direction = ToolAtProbe::along(axis, sign);
+  const PlaneWay direction = ToolAtProbe::along(axis, sign);
   const double standing = tool_.touch(direction)[axis];
   if (!reverses_) return standing;
   const double before = context_.channel().spindleAngle();

@@ -75,7 +75,7 @@ Matrix3 xyzFromPlaneMatrix(const Context& context) {
   const control::WorkingPlane plane = context.control().workingPlane();
   Matrix3 matrix;
   for (int axis = 0; axis < 3; ++axis)
-    matrix.col(axis) = plane.xyzFromPlane(Vector3::Unit(axis));
+    matrix.col(axis) = plane.xyzFromPlane(PlaneWay::unit(axis)).vector();
   return matrix;
 }
 
@@ -157,20 +157,20 @@ std::optional<FrameTarget> frameTarget(Context& context, GlobalBase globalBase) 
   }
 }
 
-Vector3 machinePoint(Context& context, const Vector3& point) {
+PartInMachine machinePoint(Context& context, const PartPoint& point) {
   const Control& control = context.control();
-  return control.machineFromWorkpiece() * control.workingPlane().xyzFromPlane(point);
+  return PartInMachine(control.machineFromWorkpiece() * control.workingPlane().xyzFromPlane(point).vector());
 }
 
-void correctTranslation(Context& context, const FrameTarget& target, const Vector3& feature, const Vector3& set,
-                        std::span<const Vector3> directions) {
+void correctTranslation(Context& context, const FrameTarget& target, const PartInMachine& feature, const PartPoint& set,
+                        std::span<const PlaneWay> directions) {
   const ChainAround chain = chainAround(context.control(), target);
   const Matrix3 xyzFromPlane = xyzFromPlaneMatrix(context);
-  const Vector3 present = chain.whole().inverse() * feature;
-  const Vector3 error = present - xyzFromPlane * set;
+  const Vector3 present = chain.whole().inverse() * feature.vector();
+  const Vector3 error = present - xyzFromPlane * set.vector();
   Vector3 shift = Vector3::Zero();
-  for (const Vector3& direction : directions) {
-    const Vector3 along = xyzFromPlane * direction;
+  for (const PlaneWay& direction : directions) {
+    const Vector3 along = xyzFromPlane * direction.vector();
     shift += along * along.dot(error);
   }
   // A shift of the frame acts before its own rotation and all that lies further in.
@@ -206,7 +206,7 @@ void correctRotation(Context& context, const FrameTarget& target, const Matrix3&
 namespace {
 
 /// By how many degrees the part turns about `direction` when the axis turns by one.
-double rotaryEffect(Context& context, std::size_t axis, const Vector3& direction) {
+double rotaryEffect(Context& context, std::size_t axis, const PlaneWay& direction) {
   const Control& control = context.control();
   const machine::MachineDescription& description = context.channel().description();
   if (axis >= description.axes.size() || description.axes[axis].kind != machine::AxisKind::Rotary) {
@@ -219,7 +219,7 @@ double rotaryEffect(Context& context, std::size_t axis, const Vector3& direction
       baseFromTable(description, turned).linear() * baseFromTable(description, here).linear().transpose();
   const Eigen::AngleAxisd perDegree(turn);
   const Vector3 about =
-      (control.machineFromWorkpiece().linear() * control.workingPlane().xyzFromPlane(direction)).normalized();
+      (control.machineFromWorkpiece().linear() * control.workingPlane().xyzFromPlane(direction).vector()).normalized();
   const double effect = degreesFromRadians(perDegree.angle()) * perDegree.axis().dot(about);
   if (std::abs(effect) < 0.999) {
     context.alarm(61329, fmt::format("axis {} does not turn the workpiece about the axis at right angles to measuring "
@@ -231,11 +231,11 @@ double rotaryEffect(Context& context, std::size_t axis, const Vector3& direction
 
 }  // namespace
 
-void requireRotaryAxis(Context& context, std::size_t axis, const Vector3& direction) {
+void requireRotaryAxis(Context& context, std::size_t axis, const PlaneWay& direction) {
   rotaryEffect(context, axis, direction);
 }
 
-void correctRotaryAxis(Context& context, const FrameTarget& target, std::size_t axis, const Vector3& direction,
+void correctRotaryAxis(Context& context, const FrameTarget& target, std::size_t axis, const PlaneWay& direction,
                        double angle) {
   const Control& control = context.control();
   const double effect = rotaryEffect(context, axis, direction);
