@@ -24,7 +24,7 @@ TEST(Cycle979, FindsCentreAndDiameterOfASegment) {
     }
     SinumerikBench bench(truth);
     plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
-    const Vector3 radial = probing::directionAt(startAngle);
+    const Vector3 radial = probing::directionAt(startAngle).vector();
     bench.start(Vector3(set.x(), set.y(), -10) + radial * (radius + (inside ? -8 : 8)));
     bench.run("CYCLE979", {{"S_MVAR", (four ? 1000.0 : 0.0) + (inside ? 101 : 102)},
                            {"S_KNUM", 1},

@@ -165,8 +165,8 @@ TEST(EveryCycle, EndsWhereTheManualSays) {
         end[axis] = middle[axis];
     } else if (name.starts_with("979")) {
       const double step = valueOf(call, "S_INCA");
-      end = name == "979 inside" ? (20 - path - 2) * probing::directionAt(2 * step)
-                                 : (20 + path + 2) * probing::directionAt(3 * step);
+      end = name == "979 inside" ? (20 - path - 2) * probing::directionAt(2 * step).vector()
+                                 : (20 + path + 2) * probing::directionAt(3 * step).vector();
       end.z() = variant.start.z();
     } else if (name == "997 ball") {
       end.head<2>() = middle.head<2>();

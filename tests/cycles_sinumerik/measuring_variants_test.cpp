@@ -129,7 +129,7 @@ TEST(MeasuringVariants, Cycle979InEveryMethod) {
           believe(bench, method);
           plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
           const double radius = inside ? 40 : 20;
-          bench.start(Vector3(0, 0, -10) + probing::directionAt(start) * (radius + (inside ? -10 : 10)));
+          bench.start(Vector3(0, 0, -10) + probing::directionAt(start).vector() * (radius + (inside ? -10 : 10)));
           bench.run("CYCLE979", {{"S_MVAR", 10000.0 * static_cast<int>(method) + (four ? 1000 : 0) + (inside ? 1 : 2)},
                                  {"S_SETV", 2 * radius},
                                  {"S_FA", 6},

@@ -200,7 +200,7 @@ TEST(ProbeKinds, TheArmOfAnLGoesToPlusOfTheFirstAxis) {
     simulation::TrueTool& tool = truth.tools[0];
     tool.length = 150;
     tool.probe.stylusLength = 90;
-    tool.probe.tipOffset = (30 * probing::directionAt(-mounted)).head<2>();
+    tool.probe.tipOffset = (30 * probing::directionAt(-mounted)).inPlane();
     const Pose part = translation({0, 0, table}) * rotation(Vector3::UnitZ(), turn);
     place(truth, simulation::Box({60 + error, -40, -60}, {90, 40, 0}), part);
     SinumerikBench bench(truth);
@@ -233,7 +233,7 @@ TEST(ProbeKinds, AStarPassesBetweenWhatOneWideBallWouldMeet) {
     place(truth, simulation::Ring(20, 45, -60), translation({0, 0, table}));
     for (int i = 0; i < 4; ++i)
       place(truth, simulation::RoundBar(1, -60, 0),
-            translation(Vector3(0, 0, table) + 15.5 * probing::directionAt(45 + 90 * i)), "pin");
+            translation(Vector3(0, 0, table) + 15.5 * probing::directionAt(45 + 90 * i).vector()), "pin");
     SinumerikBench bench(truth);
     plantFrame(bench, "$P_UIFR", 1, {0, 0, table});
     believeInStar(bench);

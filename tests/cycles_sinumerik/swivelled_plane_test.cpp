@@ -110,7 +110,7 @@ TEST(SwivelledPlane, Cycle979CentresSegments) {
     place(scene.truth, simulation::Ring(radius, 80, -50), part);
     SinumerikBench bench(scene.truth);
     scene.plane.plantIn(bench);
-    const Vector3 start = Vector3(0, 0, -10) + (radius - 9) * probing::directionAt(startAngle);
+    const Vector3 start = Vector3(0, 0, -10) + (radius - 9) * probing::directionAt(startAngle).vector();
     bench.run("CYCLE979",
               {{"S_MVAR", world % 2 == 0 ? 101.0 : 1101.0},
                {"S_KNUM", targets[world % 4]},

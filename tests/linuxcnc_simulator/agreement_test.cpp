@@ -31,6 +31,7 @@ struct Example {
   const char* program;
   const char* setup;
 };
+void PrintTo(const Example& example, std::ostream* out) { *out << example.program << " with " << example.setup; }
 
 class ExamplesAgree : public ::testing::TestWithParam<Example> {
 protected:

@@ -18,6 +18,7 @@ struct Configuration {
   const char* hal;
   const char* still = "";  ///< axes that the chains leave out
 };
+void PrintTo(const Configuration& configuration, std::ostream* out) { *out << configuration.kinematics; }
 
 class LinuxCncKinematics : public ::testing::TestWithParam<Configuration> {};
 

@@ -5,6 +5,13 @@
 #include "manual_programs/record.hpp"
 #include "support/heidenhain_bench.hpp"
 
+namespace probewright::control {
+
+/// How the names of tests show a control.
+inline void PrintTo(ControlKind kind, std::ostream* out) { *out << name(kind); }
+
+}  // namespace probewright::control
+
 /// Parts for the printed examples: features by their program coordinates, the preset at the origin.
 namespace probewright::testing_support {
 

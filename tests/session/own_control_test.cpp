@@ -73,6 +73,7 @@ struct Vendor {
   const char* name;
   const char* program;
 };
+void PrintTo(const Vendor& vendor, std::ostream* out) { *out << control::name(vendor.kind); }
 class TablesAsOne : public testing::TestWithParam<Vendor> {
 protected:
   RunOutcome run() {

@@ -69,6 +69,7 @@ struct Maker {
   const char* name;
   std::unique_ptr<machine::Machine> (*make)();
 };
+void PrintTo(const Maker& maker, std::ostream* out) { *out << maker.name; }
 
 class MachineContract : public testing::TestWithParam<Maker> {
 protected:

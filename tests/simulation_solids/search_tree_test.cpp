@@ -7,6 +7,10 @@
 #include "worlds.hpp"
 
 namespace probewright::simulation {
+
+static const char* nameOf(Instructions instructions) { return instructions == Instructions::Plain ? "plain" : "wide"; }
+static void PrintTo(Instructions instructions, std::ostream* out) { *out << nameOf(instructions); }
+
 namespace {
 
 using testing::randomDirection;
@@ -126,7 +130,7 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Instructions, SearchWith, ::testing::Values(Instructions::Plain, Instructions::Wide),
-                         [](const auto& tested) { return tested.param == Instructions::Plain ? "plain" : "wide"; });
+                         [](const auto& tested) { return nameOf(tested.param); });
 
 TEST_P(SearchWith, FindsTheFirstTriangleOnLandscapes) {
   std::mt19937_64 random(11);

@@ -9,6 +9,7 @@ namespace {
 struct Example {
   const char *study, *program, *setup;
 };
+void PrintTo(const Example& example, std::ostream* out) { *out << example.study; }
 
 class ExampleStudies : public ::testing::TestWithParam<Example> {};
 

@@ -41,8 +41,8 @@ struct CalibrationPass {
 
 /// What a radius calibration has found.
 struct CalibratedRadius {
-  PartPoint centre;   ///< of ring, stud or sphere; as the spindle axis sees it at CAL_ANG
-  double radius = 0;  ///< effective ball radius
+  PartPoint centre = {};  ///< of ring, stud or sphere; as the spindle axis sees it at CAL_ANG
+  double radius = 0;      ///< effective ball radius
   std::optional<Vector2> centreOffset = std::nullopt;  ///< CAL_OF1, CAL_OF2, if the spindle can reverse the probe
   double standardRadius = 0;
   std::vector<CalibrationPass> passes = {};  ///< in the order in which they were made
