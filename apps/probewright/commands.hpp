@@ -125,6 +125,21 @@ struct StudyArguments {
 /// Here 3 means that it was interrupted, or that no trial came to the end of the program.
 int study(const StudyArguments& arguments);
 
+struct SurviveArguments {
+  std::filesystem::path program;
+  std::filesystem::path setup;
+  std::vector<std::string> tolerances;  ///< as survival::parseTolerance reads them
+  std::filesystem::path out = "probewright-survive";
+  std::optional<control::ControlKind> control;
+  std::uint64_t samples = 1000, boxes = 1000, seed = 1;
+  int threads = 0;    ///< 0: all cores
+  std::string cache;  ///< as of RunArguments
+  bool quiet = false;
+};
+/// Here 1 means that not the whole box is proven, 3 that it was interrupted or that the program fails as the setup is
+/// written.
+int survive(const SurviveArguments& arguments);
+
 struct FeelArguments {
   std::filesystem::path setup;
   std::filesystem::path machineFile;          ///< instead of the setup's machine; empty: none

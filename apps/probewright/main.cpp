@@ -160,6 +160,46 @@ CLI::App* addStudy(CLI::App& app, probewright::app::StudyArguments& arguments) {
   return study;
 }
 
+CLI::App* addSurvive(CLI::App& app, probewright::app::SurviveArguments& arguments) {
+  CLI::App* survive = app.add_subcommand(
+      "survive", "Prove which clampings a program survives, and find those that it does not (docs/survive.md)");
+  survive->add_option("PROGRAM", arguments.program, "NC program: .H, .I, .MPF, .SPF")->required();
+  survive->add_option("--setup", arguments.setup, "The world to run in (see docs/setup-format.md)")
+      ->required()
+      ->type_name("FILE");
+  survive
+      ->add_option(
+          "--tolerance", arguments.tolerances,
+          "What may be otherwise, as part.pose.x=0.5 (to either side) or part.pose.c=-1..1 (from, to); once for "
+          "each number")
+      ->required()
+      ->type_name("NUMBER=RANGE")
+      ->expected(1, 1)
+      ->take_all()
+      ->allow_extra_args(false);
+  survive->add_option("--out", arguments.out, "Folder for survive.json and survive.html")
+      ->capture_default_str()
+      ->type_name("DIR");
+  addControl(*survive, arguments.control);
+  const auto count = [&](const char* name, std::uint64_t& value, const char* help, std::uint64_t most) {
+    survive->add_option(name, value, help)
+        ->check(notNegative)
+        ->check(CLI::Range(std::uint64_t{0}, most))
+        ->type_name("COUNT")
+        ->capture_default_str();
+  };
+  count("--samples", arguments.samples, "Clampings to run, and as many again where nothing is proven", 100'000'000);
+  count("--boxes", arguments.boxes, "Boxes of clampings to try to prove, at most", 10'000'000);
+  count("--seed", arguments.seed, "Of the samples and of the machine's random effects", 9'999'999'999'999'999U);
+  survive->add_option("--threads", arguments.threads, "Threads to run on; 0: one a core")
+      ->check(CLI::Range(0, 1024))
+      ->type_name("COUNT")
+      ->capture_default_str();
+  survive->add_option("--cache", arguments.cache, "As of run")->type_name("DIR");
+  survive->add_flag("--quiet", arguments.quiet, "Print nothing but mistakes");
+  return survive;
+}
+
 /// An option that takes one of a few words, in any case.
 template <class Value>
 CLI::Option& addChoice(CLI::App& command, const std::string& name, Value& value,
@@ -445,6 +485,9 @@ int main(int argc, char** argv) {
   probewright::app::StudyArguments studyArguments;
   CLI::App* study = addStudy(app, studyArguments);
 
+  probewright::app::SurviveArguments surviveArguments;
+  CLI::App* survive = addSurvive(app, surviveArguments);
+
   probewright::app::FeelArguments feelArguments;
   CLI::App* feel = app.add_subcommand(
       "feel", "Give a simulated LinuxCNC machine a probe that feels the part of a setup (see docs/linuxcnc.md)");
@@ -477,6 +520,7 @@ int main(int argc, char** argv) {
     if (camera->parsed()) return probewright::app::camera(cameraArguments);
     if (convert->parsed()) return probewright::app::convert(convertArguments);
     if (study->parsed()) return probewright::app::study(studyArguments);
+    if (survive->parsed()) return probewright::app::survive(surviveArguments);
     if (feel->parsed()) return probewright::app::feel(feelArguments);
     if (machinePage->parsed()) return probewright::app::machine(machineArguments);
     cyclesArguments.name = fmt::format("{}", fmt::join(cycleWords, " "));

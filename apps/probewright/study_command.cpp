@@ -21,48 +21,13 @@
 #include "study/study_json.hpp"
 #include "study/study_text.hpp"
 #include "study/trial_file.hpp"
+#include "study_progress.hpp"
 #include "terminal.hpp"
 
 namespace probewright::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// How far a study is, on standard error: on a terminal in one line, else a line now and then.
-class StudyProgress {
-public:
-  explicit StudyProgress(bool terminal) : terminal_(terminal) {}
-
-  void tell(const std::string& phase, std::uint64_t done, std::uint64_t of) {
-    const auto now = Clock::now();
-    if (phase != phase_) {
-      phase_ = phase;
-      begin_ = now;
-      doneAtBegin_ = done;
-      next_ = now + std::chrono::seconds(terminal_ ? 0 : 10);
-      return;
-    }
-    if (now < next_) return;
-    next_ = now + (terminal_ ? std::chrono::milliseconds(200) : std::chrono::seconds(10));
-    const double seconds = std::chrono::duration<double>(now - begin_).count();
-    const double speed = static_cast<double>(done - doneAtBegin_) / std::max(seconds, 1e-3);
-    const double left = speed > 0 ? static_cast<double>(of - done) / speed : 0;
-    const std::string text =
-        fmt::format("{}: {} of at most {}, at most {:.0f} s left", phase, done, of, std::ceil(left));
-    std::fputs((terminal_ ? "\r\033[K" + text + " " : text + "\n").c_str(), stderr);
-  }
-
-  void clear() const {
-    if (terminal_) std::fputs("\r\033[K", stderr);
-  }
-
-private:
-  using Clock = std::chrono::steady_clock;
-  bool terminal_;
-  std::string phase_;
-  Clock::time_point begin_, next_;
-  std::uint64_t doneAtBegin_ = 0;
-};
 
 /// What tells trials apart: everything that is read for them.
 std::string markOf(const std::vector<fs::path>& inputs) {

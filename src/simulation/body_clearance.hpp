@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulation/contact_search.hpp"
+#include "simulation/truth.hpp"
+
+namespace probewright::simulation {
+
+/// Whether bodies of the machine keep a distance from each other, from what lies on the table and from the tool: the
+/// pairs are those of BodyGuard, and axes are where that has them. Safe to query from many threads at once.
+class BodyClearance {
+public:
+  explicit BodyClearance(const Truth& truth);
+  ~BodyClearance();
+  BodyClearance(const BodyClearance&) = delete;
+  BodyClearance& operator=(const BodyClearance&) = delete;
+
+  struct Margins {
+    double bodies = 0;  ///< mm, between two bodies of the machine
+    double solids = 0;  ///< mm, between a body and something on the table
+  };
+  /// What may come nearer than the margins somewhere on the motion, in words; nothing if all keep away. `tool` must
+  /// touch no body; it is to be as thick as it is with its margin. Never misses what comes nearer; what comes no nearer
+  /// than the margin and 0.05 mm is not named.
+  std::optional<std::string> nearer(const Motion& motion, const Margins& margins, const ToolShape& tool) const;
+
+private:
+  struct Thing;
+  struct Pair;
+  struct View;
+
+  machine::MachineDescription machine_;
+  MachineErrors errors_;
+  std::vector<std::unique_ptr<Thing>> things_;
+  std::vector<std::unique_ptr<Pair>> pairs_;
+  std::vector<std::unique_ptr<View>> views_;
+};
+
+}  // namespace probewright::simulation

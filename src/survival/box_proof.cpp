@@ -1,0 +1,539 @@
+#include "survival/box_proof.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "simulation/contact_search.hpp"
+
+namespace probewright::survival {
+
+using machine::AxisKind;
+using machine::AxisPositions;
+using simulation::Motion;
+using simulation::Surroundings;
+using simulation::ToolShape;
+
+namespace {
+
+constexpr double curvature = 1.25;       // of what is smooth, over touches that are near enough to each other
+constexpr double nearEnough = 0.1;       // shift of a touch over the size of the feature
+constexpr double deviations = 8;         // of the scatter that is taken for the most
+constexpr double still = 1e-9;           // mm: does not move
+constexpr double onLine = 1e-6;          // mm
+constexpr double ballPrecision = 2e-3;   // mm: of positioning and search together
+constexpr double shaftPrecision = 0.04;  // mm: triangles stand for faces where shafts and bodies touch
+
+/// Larger (or with a negative `by` smaller) than it is, each part by its own displacement, too.
+ToolShape grown(const ToolShape& shape, double by, const Displacements::OfTool& own, double sign) {
+  ToolShape thick = shape;
+  for (std::size_t i = 0; i < thick.balls.size(); ++i)
+    thick.balls[i].radius += sign * (by + ballPrecision + (i < own.balls.size() ? own.balls[i] : 0));
+  for (std::size_t i = 0; i < thick.shafts.size(); ++i) {
+    simulation::Shaft& shaft = thick.shafts[i];
+    const double more = by + shaftPrecision + (i < own.shafts.size() ? own.shafts[i] : 0);
+    shaft.radius += more;
+    if (shaft.ends == simulation::Ends::Round) continue;
+    const Vector3 longer = shaft.axis.normalized() * more;
+    shaft.start -= longer;
+    shaft.axis += 2 * longer;
+  }
+  return thick;
+}
+
+ToolShape ballsOf(ToolShape shape) {
+  shape.shafts.clear();
+  return shape;
+}
+
+ToolShape bodiesOf(ToolShape shape) {
+  shape.balls.clear();
+  std::erase_if(shape.shafts,
+                [](const simulation::Shaft& shaft) { return std::string_view(shaft.part) == simulation::shaftName; });
+  return shape;
+}
+
+/// What is known of a step over the whole box.
+struct Spread {
+  double from = 0, to = 0;  ///< mm: how far its ends can lie from those in the middle
+  double way = 0;           ///< mm: how much longer or shorter it can be
+  double turn = 0;          ///< degrees, of the spindle
+};
+
+class Proof {
+public:
+  Proof(const ClampedProgram& program, const Box& box) : program_(program), worlds_(program.worlds()), box_(box) {}
+
+  BoxVerdict run();
+
+private:
+  BoxVerdict undecided(std::string why, const Step* at = nullptr) const {
+    if (program_.stop().stop_requested()) return {Verdict::Cancelled, {}};
+    return {Verdict::Undecided,
+            Reason{std::move(why), at ? placeAt(middle_.outcome.trace, at->seconds) : SourcePlace{}}};
+  }
+
+  bool isLinear(std::size_t axis) const { return machine().axes[axis].kind == AxisKind::Linear; }
+  const machine::MachineDescription& machine() const { return middle_.truth.machine; }
+  double way(const AxisPositions& a, const AxisPositions& b) const { return wayOf(machine(), a, b); }
+  /// How far the tool is from where it was, at most.
+  double apart(const AxisPositions& a, const AxisPositions& b) const;
+  bool rotaryDiffers(const AxisPositions& a, const AxisPositions& b) const;
+
+  std::optional<BoxVerdict> prepare();
+  std::optional<BoxVerdict> passOn(std::size_t touch, std::size_t step, double shift);
+  std::optional<BoxVerdict> look(std::size_t step);
+  std::optional<BoxVerdict> lookAtTouch(std::size_t step);
+  std::optional<BoxVerdict> lookAtCorners();
+  std::optional<BoxVerdict> withinTravel(const Step& step, const Spread& spread) const;
+  std::optional<BoxVerdict> isClear(const Step& step, const AxisPositions& from, double shift) const;
+  /// The same of the machine's bodies.
+  std::optional<BoxVerdict> bodiesClear(const Step& step, const AxisPositions& from, double shift) const;
+  std::optional<BoxVerdict> standsClear(const Step& step, const Spread& spread) const;
+  bool sameCourse(const std::vector<Step>& steps) const;
+  Motion motionOf(const AxisPositions& from, const Step& step) const {
+    return {*kinematics_, from, step.to, from, step.seconds, simulation::MotionProfile(1, 1, 1)};
+  }
+  ToolShape shapeOf(const Step& step) const {
+    return simulation::shapeOf(step.tool < 0 ? nullptr : &middle_.truth.tools[static_cast<std::size_t>(step.tool)],
+                               step.spindleDegrees);
+  }
+  const Displacements::OfTool& ownOf(const Step& step) const {
+    static const Displacements::OfTool none;
+    return step.tool < 0 ? none : displacements_.ofTools[static_cast<std::size_t>(step.tool)];
+  }
+  /// How far the tool on this step can be from the solid otherwise than in the middle, its own parts aside.
+  double shiftOf(const Step& step, double commanded, double turn, std::size_t solid) const {
+    double arm = 0;
+    if (step.tool >= 0) {
+      const simulation::TrueProbe& probe = middle_.truth.tools[static_cast<std::size_t>(step.tool)].probe;
+      arm = probe.tipOffset.norm() + probe.starArm;
+    }
+    return commanded * stretch_ + errors_ + displacements_.ofSolids[solid] + radiansFromDegrees(turn) * arm;
+  }
+  /// The size of what the touch is part of: the reach within which its cycle is smooth.
+  double sizeAround(std::size_t touch) const;
+  /// Where on the line of the last touch a place lies: 0 where the measuring move began, 1 at its end.
+  std::optional<double> placeOnLine(const std::vector<Step>& steps, std::size_t measured,
+                                    const AxisPositions& at) const;
+
+  const ClampedProgram& program_;
+  const ClampedWorlds& worlds_;
+  const Box& box_;
+  WatchedRun middle_;
+  std::optional<simulation::TrueKinematics> kinematics_;
+  std::vector<Surroundings> most_, least_;  ///< a solid each
+  std::vector<simulation::PlacedSolid> solids_;
+  Displacements displacements_;
+  double stretch_ = 1, errors_ = 0;
+  double farthest_ = 0;  ///< mm: of solids from where they are in the middle of all tolerances
+  bool orthogonal_ = true;
+  std::vector<Spread> spreads_;  ///< a step each
+  std::vector<PlannedTouch> plan_;
+  std::vector<std::size_t> touches_;               ///< steps
+  std::vector<double> shifts_;                     ///< of touches along their way, mm
+  std::vector<std::vector<double>> resultSlopes_;  ///< by touch: what each result changes by
+  std::optional<std::size_t> inbound_;             ///< the step whose line is being left
+};
+
+double Proof::apart(const AxisPositions& a, const AxisPositions& b) const {
+  if (orthogonal_) return way(a, b);
+  double sum = 0;
+  for (std::size_t i = 0; i < machine().axes.size(); ++i)
+    if (isLinear(i)) sum += std::abs(a[i] - b[i]);
+  return sum;
+}
+
+bool Proof::rotaryDiffers(const AxisPositions& a, const AxisPositions& b) const {
+  for (std::size_t i = 0; i < machine().axes.size(); ++i)
+    if (!isLinear(i) && std::abs(a[i] - b[i]) > 1e-9) return true;
+  return false;
+}
+
+std::optional<BoxVerdict> Proof::prepare() {
+  middle_ = program_.watch(box_.middle());
+  if (middle_.end.cancelled) return BoxVerdict{Verdict::Cancelled, {}};
+  if (!middle_.end.failure) {
+    if (auto other = otherThanMeant(program_.meant(), middle_.path, middle_.truth, worlds_.sizeVaries()))
+      middle_.end.failure = Reason{*std::move(other), {}};
+  }
+  if (middle_.end.failure) return BoxVerdict{Verdict::Fails, middle_.end.failure};
+  if (program_.obstacle()) return BoxVerdict{Verdict::Undecided, program_.obstacle()};
+
+  displacements_ = worlds_.displacements(box_, middle_.truth);
+  farthest_ = worlds_.farthestFromMiddle(box_);
+  const simulation::MachineErrors& errors = middle_.truth.errors;
+  kinematics_.emplace(machine(), errors);
+  double scale = 0;
+  for (std::size_t i = 0; i < errors.axes.size() && i < machine().axes.size(); ++i) {
+    const simulation::AxisErrors& axis = errors.axes[i];
+    if (isLinear(i)) scale = std::max(scale, std::abs(axis.scale));
+    errors_ += axis.backlash;
+    const double end = std::max(std::abs(machine().axes[i].minimum), std::abs(machine().axes[i].maximum)) / 1000;
+    for (const simulation::Deviation& deviation : axis.deviations) {
+      double most = std::abs(deviation.amplitude), power = 1;
+      for (const double coefficient : deviation.polynomial) {
+        most += std::abs(coefficient) * power;
+        power *= end;
+      }
+      errors_ += 2 * most;
+    }
+  }
+  double squareness = 0;
+  for (const simulation::Squareness& angle : errors.squareness)
+    squareness += radiansFromDegrees(std::abs(angle.degrees));
+  for (const simulation::ThermalDrift& drift : errors.thermal)
+    errors_ += drift.amount.norm();
+  stretch_ = (1 + scale) * (1 + squareness);
+  std::vector<Vector3> directions;
+  for (const auto* chain : {&machine().tableChain, &machine().spindleChain})
+    for (const machine::ChainElement& element : *chain)
+      if (element.axis && isLinear(*element.axis)) directions.push_back(element.direction);
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (std::abs(directions[i].dot(directions[k])) > 1e-9) orthogonal_ = false;
+
+  solids_ = middle_.truth.solids;
+  const auto each = [](const std::vector<simulation::PlacedSolid>& solids) {
+    std::vector<Surroundings> single;
+    for (const simulation::PlacedSolid& solid : solids)
+      single.emplace_back(std::vector<simulation::PlacedSolid>{solid});
+    return single;
+  };
+  if (worlds_.anySizeVaries()) {
+    const auto most = worlds_.truthWithMost(box_), least = worlds_.truthWithLeast(box_);
+    if (!most || !least) return undecided((most ? least : most).error().message);
+    most_ = each(most->solids);
+    least_ = each(least->solids);
+  } else {
+    most_ = least_ = each(solids_);
+  }
+  spreads_.assign(middle_.steps.size(), {});
+  for (std::size_t i = 0; i < middle_.steps.size(); ++i) {
+    const Step& step = middle_.steps[i];
+    if (step.kind != StepKind::Measure) continue;
+    if (step.sensor != machine::Sensor::TouchProbe) return undecided("a tool touch probe measures", &step);
+    if (!step.touched) return undecided("a measuring move ends without a touch", &step);
+    if (step.part != machine::TouchWith::Ball) return undecided("the shaft of the stylus measures", &step);
+    if (!touches_.empty()) {
+      const Step& before = middle_.steps[touches_.back()];
+      if (way(before.from, step.from) < onLine && way(before.to, step.to) < onLine)
+        return undecided("the same place is measured repeatedly", &step);
+    }
+    const double signal = way(step.from, step.latched), end = way(step.from, step.end);
+    plan_.push_back({signal, end - signal});
+    touches_.push_back(i);
+  }
+  const WatchedRun again = program_.replay(middle_.truth, plan_);
+  if (again.end.failure || !sameCourse(again.steps)) return undecided("the run cannot be replayed");
+  for (std::size_t i = 0; i < middle_.steps.size(); ++i)
+    if (apart(again.steps[i].to, middle_.steps[i].to) > 1e-6) return undecided("the run cannot be replayed");
+  // Where the axes come to stand beyond a touch must not matter.
+  std::vector<PlannedTouch> shorter = plan_;
+  for (std::size_t i = 0; i < shorter.size(); ++i)
+    shorter[i].overtravel *= 0.3 + 0.4 / static_cast<double>(i + 1);
+  const WatchedRun braked = program_.replay(middle_.truth, shorter);
+  if (braked.end.failure || !sameCourse(braked.steps)) return undecided("the way of braking decides");
+  for (std::size_t i = 0; i < middle_.steps.size(); ++i)
+    if (apart(braked.steps[i].to, middle_.steps[i].to) > 1e-6)
+      return undecided("a move depends on where the axes stop after a touch", &middle_.steps[i]);
+  return std::nullopt;
+}
+
+bool Proof::sameCourse(const std::vector<Step>& steps) const {
+  return std::ranges::equal(steps, middle_.steps, [&](const Step& a, const Step& b) {
+    return a.kind == b.kind && a.tool == b.tool && a.touched == b.touched && a.feed.rapid == b.feed.rapid &&
+           std::abs(a.feed.perMinute - b.feed.perMinute) < 1e-6 && !rotaryDiffers(a.from, b.from) &&
+           !rotaryDiffers(a.to, b.to);
+  });
+}
+
+double Proof::sizeAround(std::size_t touch) const {
+  const auto cycleOf = [&](std::size_t index) -> const control::CycleRecord* {
+    for (const control::CycleRecord& cycle : middle_.outcome.journal.cycles) {
+      const double seconds = middle_.steps[touches_[index]].seconds;
+      if (seconds >= cycle.startSeconds - 1e-9 && seconds <= cycle.endSeconds + 1e-9) return &cycle;
+    }
+    return nullptr;
+  };
+  const control::CycleRecord* cycle = cycleOf(touch);
+  double least = 1e9;
+  for (std::size_t a = 0; a < touches_.size(); ++a) {
+    if (cycleOf(a) != cycle) continue;
+    for (std::size_t b = 0; b < a; ++b) {
+      if (cycleOf(b) != cycle) continue;
+      const double between = way(middle_.steps[touches_[a]].latched, middle_.steps[touches_[b]].latched);
+      // A quick touch and the slow one after it are one place.
+      if (between > 0.05) least = std::min(least, between);
+    }
+  }
+  return least / 2;
+}
+
+std::optional<BoxVerdict> Proof::passOn(std::size_t touch, std::size_t step, double shift) {
+  std::vector<PlannedTouch> plan = plan_;
+  plan[touch].signal += shift;
+  const WatchedRun shifted = program_.replay(middle_.truth, plan);
+  const Step& at = middle_.steps[step];
+  if (shifted.end.cancelled) return BoxVerdict{Verdict::Cancelled, {}};
+  if (shifted.end.failure)
+    return undecided(fmt::format("with this touch {:.3f} mm further: {}", shift, shifted.end.failure->why), &at);
+  if (!sameCourse(shifted.steps))
+    return undecided("what is measured here may change the course of the program, or turn a rotary axis", &at);
+  const double size = sizeAround(touch);
+  const double bent = shift * shift / size;
+  bool matters = false;
+  for (std::size_t k = step + 1; k < middle_.steps.size(); ++k) {
+    const Step &plain = middle_.steps[k], &moved = shifted.steps[k];
+    Spread& spread = spreads_[k];
+    // The step that leaves the touch begins where that one ended, whatever follows from it.
+    const double from = k == step + 1 ? 0 : apart(plain.from, moved.from), to = apart(plain.to, moved.to);
+    if (from > still) spread.from += curvature * from + bent;
+    if (to > still) spread.to += curvature * to + bent;
+    if (from > still || to > still) {
+      matters = true;
+      spread.way += curvature * std::abs(way(moved.from, moved.to) - way(plain.from, plain.to)) + bent;
+    }
+    const double turn = std::abs(std::remainder(moved.spindleDegrees - plain.spindleDegrees, 360));
+    if (turn > 1e-9) spread.turn += curvature * turn + degreesFromRadians(bent / size);
+  }
+  if (matters && shift > nearEnough * size)
+    return undecided(
+        fmt::format("what follows depends on this touch, which may lie {:.3f} mm further or less far", shift), &at);
+  std::vector<double> slopes;
+  const auto &before = middle_.outcome.journal.cycles, &after = shifted.outcome.journal.cycles;
+  for (std::size_t c = 0; c < before.size() && c < after.size(); ++c)
+    for (std::size_t r = 0; r < before[c].results.size() && r < after[c].results.size(); ++r)
+      slopes.push_back(after[c].results[r].value - before[c].results[r].value);
+  resultSlopes_.push_back(std::move(slopes));
+  return std::nullopt;
+}
+
+std::optional<BoxVerdict> Proof::withinTravel(const Step& step, const Spread& spread) const {
+  for (std::size_t i = 0; i < machine().axes.size(); ++i) {
+    const machine::Axis& axis = machine().axes[i];
+    if (!isLinear(i)) continue;
+    if (step.to[i] - spread.to < axis.minimum || step.to[i] + spread.to > axis.maximum)
+      return undecided(fmt::format("axis {} may come to the end of its travel", axis.name), &step);
+  }
+  return std::nullopt;
+}
+
+std::optional<BoxVerdict> Proof::isClear(const Step& step, const AxisPositions& from, double shift) const {
+  if (from == step.to) return std::nullopt;
+  const ToolShape shape = shapeOf(step);
+  if (shape.balls.empty() && shape.shafts.empty()) return std::nullopt;
+  const Motion motion = motionOf(from, step);
+  const Spread& spread = spreads_[static_cast<std::size_t>(&step - middle_.steps.data())];
+  for (std::size_t s = 0; s < solids_.size(); ++s) {
+    const ToolShape thick = grown(shape, shiftOf(step, shift, spread.turn, s), ownOf(step), 1);
+    const auto touch = simulation::firstTouch(motion, 0, 1, thick, most_[s], {.precision = 1e-3});
+    if (touch)
+      return undecided(fmt::format("{} may touch \"{}\"", touch->shaft ? shape.shafts[*touch->shaft].part : "the ball",
+                                   solids_[s].name),
+                       &step);
+  }
+  return std::nullopt;
+}
+
+std::optional<BoxVerdict> Proof::bodiesClear(const Step& step, const AxisPositions& from, double shift) const {
+  if (program_.bodies() == nullptr) return std::nullopt;
+  const Spread& spread = spreads_[static_cast<std::size_t>(&step - middle_.steps.data())];
+  const double moved = shift * stretch_ + errors_;
+  double arm = 0;
+  if (step.tool >= 0) {
+    const simulation::TrueProbe& probe = middle_.truth.tools[static_cast<std::size_t>(step.tool)].probe;
+    arm = probe.tipOffset.norm() + probe.starArm;
+  }
+  const ToolShape thick = grown(shapeOf(step), moved + radiansFromDegrees(spread.turn) * arm, ownOf(step), 1);
+  const simulation::BodyClearance::Margins margins{moved, moved + farthest_};
+  if (auto near = program_.bodies()->nearer(motionOf(from, step), margins, thick)) return undecided(*near, &step);
+  return std::nullopt;
+}
+
+std::optional<BoxVerdict> Proof::standsClear(const Step& step, const Spread& spread) const {
+  const ToolShape shape = shapeOf(step);
+  const Pose pose = kinematics_->tableFromSpindle(step.end, step.seconds);
+  for (std::size_t s = 0; s < solids_.size(); ++s) {
+    const double shift = shiftOf(step, std::max(spread.from, spread.to), spread.turn, s);
+    const ToolShape thick = grown(shape, shift, ownOf(step), 1);
+    if (ballOverlap(pose, thick, most_[s]) || shaftOverlap(pose, thick, most_[s]))
+      return undecided(fmt::format("the tool may touch \"{}\" where it stands", solids_[s].name), &step);
+  }
+  return bodiesClear(step, step.end, std::max(spread.from, spread.to));
+}
+
+std::optional<double> Proof::placeOnLine(const std::vector<Step>& steps, std::size_t measured,
+                                         const AxisPositions& at) const {
+  const Step& touch = steps[measured];
+  const double length = way(touch.from, touch.end);
+  if (length < onLine || rotaryDiffers(touch.from, at)) return std::nullopt;
+  double along = 0, beside = 0;
+  for (std::size_t i = 0; i < machine().axes.size(); ++i)
+    if (isLinear(i)) along += (at[i] - touch.from[i]) * (touch.end[i] - touch.from[i]) / length;
+  for (std::size_t i = 0; i < machine().axes.size(); ++i) {
+    if (!isLinear(i)) continue;
+    const double off = at[i] - touch.from[i] - along * (touch.end[i] - touch.from[i]) / length;
+    beside += off * off;
+  }
+  if (std::sqrt(beside) > onLine || along > length + onLine) return std::nullopt;
+  return along;
+}
+
+std::optional<BoxVerdict> Proof::look(std::size_t index) {
+  const Step& step = middle_.steps[index];
+  const Spread& spread = spreads_[index];
+  if (step.kind == StepKind::Turn || step.kind == StepKind::ToolChange) {
+    if (inbound_ && placeOnLine(middle_.steps, *inbound_, step.from).value_or(1) > onLine)
+      return undecided("something turns or changes while the ball is at the surface", &step);
+    inbound_.reset();
+    return standsClear(step, spread);
+  }
+  if (auto end = withinTravel(step, spread)) return end;
+  AxisPositions from = step.from;
+  double shift = std::max(spread.from, spread.to);
+  if (inbound_) {
+    // Back along the line that the ball has come in on, in the same world: it was free there.
+    const auto begins = placeOnLine(middle_.steps, *inbound_, step.from);
+    const auto ends = placeOnLine(middle_.steps, *inbound_, step.to);
+    if (begins && *begins < onLine) {
+      inbound_.reset();
+    } else if (begins && step.kind == StepKind::Measure) {
+      return lookAtTouch(index);
+    } else if (!ends) {
+      return undecided("the ball leaves the surface on another way than it came on", &step);
+    } else {
+      if (*ends > -onLine) {
+        if (*ends < onLine) inbound_.reset();
+        return std::nullopt;
+      }
+      shift = std::max(shift, spreads_[*inbound_].from);
+      from = middle_.steps[*inbound_].from;
+      inbound_.reset();
+    }
+  }
+  if (step.kind == StepKind::Measure) return lookAtTouch(index);
+  if (auto hit = isClear(step, from, shift)) return hit;
+  return bodiesClear(step, from, shift);
+}
+
+std::optional<BoxVerdict> Proof::lookAtTouch(std::size_t index) {
+  const Step& step = middle_.steps[index];
+  const Spread& spread = spreads_[index];
+  const double length = way(step.from, step.to);
+  const ToolShape shape = shapeOf(step);
+  const simulation::TrueTool& tool = middle_.truth.tools[static_cast<std::size_t>(step.tool)];
+  const Motion motion = motionOf(step.from, step);
+  const double commanded = std::max(spread.from, spread.to);
+  const std::size_t touch = shifts_.size();
+  const TouchedFace* meant = touch < program_.meant().size() ? &program_.meant()[touch] : nullptr;
+  if (meant == nullptr) return undecided("a touch that the setup as it is written does not have", &step);
+  // The touch comes between that of a larger ball and that of a smaller one.
+  const simulation::SearchOptions exact{.precision = 1e-6};
+  double earliest = 1;
+  std::vector<std::optional<double>> firstOf(solids_.size());
+  for (std::size_t s = 0; s < solids_.size(); ++s) {
+    const double by = shiftOf(step, commanded, spread.turn, s);
+    const auto first = firstTouch(motion, 0, 1, ballsOf(grown(shape, by, ownOf(step), 1)), most_[s], exact);
+    if (!first) continue;
+    firstOf[s] = first->fraction;
+    earliest = std::min(earliest, first->fraction);
+  }
+  const double by = shiftOf(step, commanded, spread.turn, meant->solid);
+  const ToolShape thin = ballsOf(grown(shape, by, ownOf(step), -1));
+  for (const simulation::Ball& ball : thin.balls)
+    if (ball.radius < 0.05) return undecided("things can shift by as much as the ball's radius", &step);
+  const auto last = firstTouch(motion, 0, 1, thin, least_[meant->solid], exact);
+  if (!last) return undecided(fmt::format("the ball may not reach \"{}\"", solids_[meant->solid].name), &step);
+  const double latest = last->fraction;
+  if (earliest <= 0) return undecided("the ball may touch where the measuring move begins", &step);
+  for (std::size_t s = 0; s < solids_.size(); ++s)
+    if (s != meant->solid && firstOf[s] && *firstOf[s] <= latest)
+      return undecided(fmt::format("the ball may touch \"{}\" first", solids_[s].name), &step);
+  if (meant->face && !worlds_.sizeVaries()[meant->solid]) {
+    const simulation::PlacedSolid& solid = solids_[meant->solid];
+    if (const auto others = program_.otherFaces().of(*solid.solid, *meant->face)) {
+      const Surroundings around({{others, solid.tableFromSolid, solid.name, solid.role}});
+      if (firstTouch(motion, 0, latest, ballsOf(grown(shape, by, ownOf(step), 1)), around, exact))
+        return undecided(fmt::format("the ball may touch another face of \"{}\"", solid.name), &step);
+    }
+  }
+  // From contact to signal and to where the axes stand.
+  const simulation::TrueProbe& probe = tool.probe;
+  const double scatter =
+      deviations * worlds_.asWritten().world.truth.tools[static_cast<std::size_t>(step.tool)].probe.repeatability;
+  const double soonest = std::min({0.0, probe.pretravel - std::abs(probe.lobing), probe.axialPretravel}) - scatter;
+  const double speed = step.feed.perMinute / 60;
+  const double longest = std::max({0.0, probe.pretravel + std::abs(probe.lobing), probe.axialPretravel}) + scatter +
+                         speed * probe.signalDelay;
+  const double low = earliest * (length - spread.way) + soonest, high = latest * (length + spread.way) + longest;
+  if (!(high < length - spread.way))
+    return undecided(fmt::format("the touch may come {:.3f} mm too late", high - length + spread.way), &step);
+  const double furthest = std::min(1.0, latest + (longest + probe.ballRadius) / length);
+  for (std::size_t s = 0; s < solids_.size(); ++s) {
+    const double more = shiftOf(step, commanded, spread.turn, s);
+    const ToolShape thick = grown(shape, more, ownOf(step), 1);
+    simulation::SearchOptions shafts{.precision = 1e-3};
+    shafts.ignoreBall = true;
+    auto hit = firstTouch(motion, 0, latest, thick, most_[s], shafts);
+    const ToolShape bodies = bodiesOf(thick);
+    if (!hit && !bodies.shafts.empty()) hit = firstTouch(motion, 0, furthest, bodies, most_[s], shafts);
+    if (hit)
+      return undecided(fmt::format("the stylus or the body of the probe may touch \"{}\"", solids_[s].name), &step);
+  }
+  if (auto hit = bodiesClear(step, step.from, commanded)) return hit;
+  const double shift = std::max(high - plan_[touch].signal, plan_[touch].signal - low);
+  shifts_.push_back(shift);
+  inbound_ = index;
+  return passOn(touch, index, shift);
+}
+
+/// Alarms that come when a result leaves a limit: each result is brought to its least and greatest value.
+std::optional<BoxVerdict> Proof::lookAtCorners() {
+  std::set<std::vector<bool>> seen;
+  const std::size_t results = resultSlopes_.empty() ? 0 : resultSlopes_.front().size();
+  for (std::size_t r = 0; r < results; ++r) {
+    for (const bool greatest : {false, true}) {
+      std::vector<bool> further;
+      bool any = false;
+      for (const auto& slopes : resultSlopes_) {
+        const double slope = r < slopes.size() ? slopes[r] : 0;
+        any = any || slope != 0;
+        further.push_back((slope > 0) == greatest);
+      }
+      if (!any || !seen.insert(further).second) continue;
+      std::vector<PlannedTouch> plan = plan_;
+      for (std::size_t i = 0; i < plan.size(); ++i)
+        plan[i].signal += (further[i] ? curvature : -curvature) * shifts_[i];
+      const WatchedRun corner = program_.replay(middle_.truth, plan);
+      if (corner.end.cancelled) return BoxVerdict{Verdict::Cancelled, {}};
+      if (corner.end.failure)
+        return BoxVerdict{Verdict::Undecided, Reason{corner.end.failure->why, corner.end.failure->place}};
+      if (!sameCourse(corner.steps)) return undecided("what is measured may change the course of the program");
+      for (std::size_t k = 0; k < corner.steps.size(); ++k)
+        if (apart(corner.steps[k].to, middle_.steps[k].to) > curvature * spreads_[k].to + 1e-6)
+          return undecided("a move follows what is measured otherwise than expected", &middle_.steps[k]);
+    }
+  }
+  return std::nullopt;
+}
+
+BoxVerdict Proof::run() {
+  if (auto end = prepare()) return *end;
+  for (std::size_t i = 0; i < middle_.steps.size(); ++i) {
+    if (program_.stop().stop_requested()) return {Verdict::Cancelled, {}};
+    if (auto end = look(i)) return *end;
+  }
+  if (auto end = lookAtCorners()) return *end;
+  return {Verdict::Proven, {}};
+}
+
+}  // namespace
+
+BoxVerdict proveBox(const ClampedProgram& program, const Box& box) { return Proof(program, box).run(); }
+
+}  // namespace probewright::survival
