@@ -31,7 +31,7 @@ void TraceRecorder::begin(const language::Program& program, const language::Bloc
   } else {
     atOnce_ = 0;
   }
-  add({now, file, line, currentState(), channel_.position(), channel_.axes()});
+  add({now, file, line, currentState(), channel_.position().vector(), channel_.axes()});
 }
 
 RunTrace TraceRecorder::finish() {
@@ -39,7 +39,7 @@ RunTrace TraceRecorder::finish() {
     RunTrace::Block last = trace_.blocks.back();
     last.seconds = channel_.seconds();
     last.state = currentState();
-    last.position = channel_.position();
+    last.position = channel_.position().vector();
     last.axes = channel_.axes();
     trace_.blocks.push_back(last);
   }
