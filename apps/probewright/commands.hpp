@@ -80,7 +80,8 @@ struct CyclesArguments {
   std::string name;  ///< of a cycle, or words to look for; empty: all
   std::optional<control::ControlKind> control;
   bool asJson = false;
-  bool asTemplate = false;  ///< a call to paste
+  bool asTemplate = false;      ///< a call to paste
+  std::string language = "en";  ///< of titles and of the texts in the call
 };
 int cycles(const CyclesArguments& arguments);
 

@@ -58,7 +58,7 @@ std::string upperCase(std::string_view text) {
   return upper;
 }
 
-std::string klartext(const CycleDefinition& cycle, control::ControlKind kind) {
+std::string klartext(const CycleDefinition& cycle, control::ControlKind kind, control::DialogLanguage language) {
   std::string text = fmt::format("TCH PROBE {} {}", cycle.number, cycle.title);
   for (const Parameter& parameter : cycle.parameters) {
     if (!parameter.controls.contains(kind)) continue;
@@ -67,7 +67,7 @@ std::string klartext(const CycleDefinition& cycle, control::ControlKind kind) {
       const double is = value(parameter);
       number = (is < 0 ? "" : "+") + formatShortest(is);
     }
-    const std::string_view own = conversion::parameterText(cycle.number, static_cast<int>(parameter.address));
+    const std::string_view own = conversion::parameterText(cycle.number, static_cast<int>(parameter.address), language);
     text += fmt::format(" ~\n    {}={:<8};{}", parameter.name, number,
                         own.empty() ? upperCase(parameter.meaning.substr(0, parameter.meaning.find_first_of(",;:(")))
                                     : std::string(own));
@@ -94,10 +94,10 @@ std::string sinumerik(const CycleDefinition& cycle, control::ControlKind kind) {
 
 }  // namespace
 
-std::string cycleTemplate(const CycleDefinition& cycle, control::ControlKind kind) {
+std::string cycleTemplate(const CycleDefinition& cycle, control::ControlKind kind, control::DialogLanguage language) {
   if (control::onSinumerik.contains(kind)) return sinumerik(cycle, kind);
   const auto old = std::ranges::find(kOldForms, cycle.number, &OldForm::cycle);
-  return old != kOldForms.end() ? old->text : klartext(cycle, kind);
+  return old != kOldForms.end() ? old->text : klartext(cycle, kind, language);
 }
 
 }  // namespace probewright::app

@@ -18,11 +18,13 @@
 #include "records/results.hpp"
 #include "session/control_family.hpp"
 #include "terminal.hpp"
+#include "words/words.hpp"
 
 namespace probewright::app {
 namespace {
 
 using control::ControlKind;
+using control::DialogLanguage;
 using cycles::CycleDefinition;
 using cycles::Parameter;
 using cycles::ValueKind;
@@ -79,13 +81,13 @@ void say(fmt::format_string<Values...> layout, Values&&... values) {
 /// The NC software of the iTNC 530 that brought a parameter.
 std::string softwareText(const Parameter& parameter) { return fmt::format("340 49x-{:02}", parameter.iTNC530Software); }
 
-void show(const CycleDefinition& cycle) {
+void show(const CycleDefinition& cycle, DialogLanguage language) {
   std::size_t width = 8;
   for (const Parameter& parameter : cycle.parameters)
     width = std::max(width, parameter.name.size());
   for (const auto& result : cycle.results)
     width = std::max(width, result.name.size());
-  say("{}  {}\n", cycle.name, cycle.title);
+  say("{}  {}\n", cycle.name, words::phrase(language, cycle.title));
   say("{} | {}\n\n{}\n\nParameters\n", cycles::nameOf(cycle.family), controlsText(cycle.controls), cycle.summary);
   for (const Parameter& parameter : cycle.parameters) {
     say("  {:<{}} {}\n", parameter.name, width, parameter.meaning);
@@ -211,9 +213,9 @@ std::string plainName(std::string_view name) {
 }
 
 /// One row of the list of all cycles.
-std::string row(const CycleDefinition& cycle) {
-  return fmt::format("{:<11}{:<64}{:<24}{}\n", cycle.name, cycle.title, cycles::nameOf(cycle.family),
-                     controlsText(cycle.controls));
+std::string row(const CycleDefinition& cycle, DialogLanguage language) {
+  return fmt::format("{:<11}{:<64}{:<24}{}\n", cycle.name, words::phrase(language, cycle.title),
+                     cycles::nameOf(cycle.family), controlsText(cycle.controls));
 }
 
 }  // namespace
@@ -248,17 +250,19 @@ int cycles(const CyclesArguments& arguments) {
                stderr);
     return 2;
   }
+  const DialogLanguage language = control::dialogLanguageOf(arguments.language).value_or(DialogLanguage::English);
   auto list = nlohmann::ordered_json::array();
   for (const CycleDefinition* cycle : found) {
     if (arguments.asJson) {
       list.push_back(toJson(*cycle));
     } else if (!named) {
-      say("{}", row(*cycle));
+      say("{}", row(*cycle, language));
     } else if (arguments.asTemplate) {
       say("{}",
-          cycleTemplate(*cycle, controls[static_cast<std::size_t>(std::ranges::find(known, cycle) - known.begin())]));
+          cycleTemplate(*cycle, controls[static_cast<std::size_t>(std::ranges::find(known, cycle) - known.begin())],
+                        language));
     } else {
-      show(*cycle);
+      show(*cycle, language);
     }
   }
   if (arguments.asJson) put(list.dump(2) + "\n", stdout);

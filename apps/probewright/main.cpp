@@ -222,6 +222,13 @@ CLI::Option& addChoice(CLI::App& command, const std::string& name, Value& value,
               ->type_name("WORD");
 }
 
+void addLanguage(CLI::App& command, std::string& language, const std::string& about) {
+  std::vector<std::pair<std::string, std::string>> codes;
+  for (const char* code : {"en", "de", "ru", "sv", "zh", "pl"})
+    codes.emplace_back(code, code);
+  addChoice(command, "--language", language, codes, about).default_str("en");
+}
+
 /// The unknown word of a command line: an option that the subcommand does not have, or no subcommand at all; empty if
 /// all are known. A list of what else is missing would not help with a mistyped word.
 std::string unknownWord(const CLI::App& app, int argc, char** argv) {
@@ -335,11 +342,7 @@ int main(int argc, char** argv) {
          "and measuring")
       ->check(notNegative)
       ->type_name("LINE");
-  std::vector<std::pair<std::string, std::string>> languages;
-  for (const char* code : {"en", "de", "ru", "sv", "zh", "pl"})
-    languages.emplace_back(code, code);
-  addChoice(*run, "--language", runArguments.language, languages, "Language of the report and of the control's logs")
-      .default_str("en");
+  addLanguage(*run, runArguments.language, "Language of the summary, the report and the control's messages and logs");
   run->add_option("--measuring-log", runArguments.measuringLogs,
                   "SINUMERIK: log all measurements in this file of the output folder; .csv: as a table, .txt: as text")
       ->type_name("NAME")
@@ -401,6 +404,7 @@ int main(int argc, char** argv) {
   addControl(*cycles, cyclesArguments.control);
   CLI::Option* block =
       cycles->add_flag("--template", cyclesArguments.asTemplate, "A call of the cycle to paste into a program");
+  addLanguage(*cycles, cyclesArguments.language, "Language of titles and of the texts after the parameters");
   cycles->add_flag("--json", cyclesArguments.asJson, "Everything that the catalogue knows, as JSON for other programs")
       ->excludes(block);
 

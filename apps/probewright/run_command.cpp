@@ -31,6 +31,7 @@
 #include "setup/simulated_run.hpp"
 #include "study/first_order.hpp"
 #include "terminal.hpp"
+#include "words/words.hpp"
 
 namespace probewright::app {
 namespace {
@@ -127,6 +128,20 @@ records::Job jobOf(records::Job job, const records::Job& instead) {
   return job;
 }
 
+control::DialogLanguage dialogLanguage(const std::string& code) {
+  return control::dialogLanguageOf(code).value_or(control::DialogLanguage::English);
+}
+
+/// The control's messages as the operator reads them; `error`, file and line stay, because editors look for them.
+Diagnostics inLanguage(Diagnostics diagnostics, control::DialogLanguage language) {
+  for (Diagnostic& each : diagnostics) {
+    each.code = words::phrase(language, each.code);
+    each.message = words::translated(language, each.message);
+    each.advice = words::translated(language, each.advice);
+  }
+  return diagnostics;
+}
+
 /// What other programs read goes into the same set of files.
 Result<void> addExports(Output& output, const std::vector<const exchange::Format*>& formats,
                         const control::Journal& journal, const records::RunInfo& info) {
@@ -167,7 +182,9 @@ int run(const RunArguments& arguments) {
   options.control = arguments.control;
   options.strict = arguments.strict;
   options.onStop = arguments.onStop;
-  options.ask = askOnTerminal;
+  options.ask = [language = arguments.language](const std::string& text) {
+    return askOnTerminal(words::phrase(dialogLanguage(language), text));
+  };
   options.stepLimit = arguments.stepLimit;
   options.skipLevels = arguments.skipLevels;
   options.recordLimit = arguments.recordLimit << 20U;
@@ -181,7 +198,7 @@ int run(const RunArguments& arguments) {
                  : arguments.programTest ? session::ProgramMode::ProgramTest
                                          : session::ProgramMode::Normal;
   options.searchLine = arguments.searchLine;
-  options.language = control::dialogLanguageOf(arguments.language).value_or(control::DialogLanguage::English);
+  options.language = dialogLanguage(arguments.language);
   options.showAllResults = arguments.screens;
   options.measuringLogs = arguments.measuringLogs;
   options.wallClock = std::time(nullptr);
@@ -263,7 +280,7 @@ int run(const RunArguments& arguments) {
     const int exit = giveUp();
     return options.stop.stop_requested() ? 3 : exit;
   }
-  print(outcome.result.diagnostics, encoding);
+  print(inLanguage(outcome.result.diagnostics, options.language), encoding);
 
   records::RunInfo info = outcome.info;
   info.version = PROBEWRIGHT_VERSION;
@@ -311,11 +328,10 @@ int run(const RunArguments& arguments) {
   }
   if (!arguments.quiet) {
     const auto colour = isatty(STDOUT_FILENO) != 0 ? reports::Colour::On : reports::Colour::Off;
-    put(reports::summaryText(outcome.journal, info, colour, reports::Cause::Told), stdout);
+    put(reports::summaryText(outcome.journal, info, colour, reports::Cause::Told, options.language), stdout);
     if (arguments.uncertainty) put(printable(study::firstOrderText(outcome.journal, uncertainties)), stdout);
-    std::fputs(fmt::format("\nReport: {}\n", (fs::absolute(arguments.out) / "report.html").lexically_normal().string())
-                   .c_str(),
-               stdout);
+    const std::string path = (fs::absolute(arguments.out) / "report.html").lexically_normal().string();
+    std::fputs(("\n" + words::text(options.language, "sumReport", {{"path", path}}) + "\n").c_str(), stdout);
   }
   return static_cast<int>(info.exit);
 }

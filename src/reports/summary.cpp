@@ -11,6 +11,7 @@
 #include "records/readable_text.hpp"
 #include "records/results.hpp"
 #include "reports/truth_summary.hpp"
+#include "words/words.hpp"
 
 namespace probewright::reports {
 
@@ -48,22 +49,23 @@ Tone tone(Verdict verdict) {
   return Tone::Plain;
 }
 
+/// The key of its text; nothing for None.
 std::string_view word(Verdict verdict) {
   switch (verdict) {
     case Verdict::None:
       return "";
     case Verdict::Good:
-      return "OK";
+      return "sumGood";
     case Verdict::Rework:
-      return "REWORK";
+      return "sumRework";
     case Verdict::Scrap:
-      return "SCRAP";
+      return "sumScrap";
   }
   return "";
 }
 
-std::string quantity(double value, const std::string& unit) {
-  if (!std::isfinite(value)) return "not a number";
+std::string quantity(double value, const std::string& unit, control::DialogLanguage language) {
+  if (!std::isfinite(value)) return words::text(language, "sumNotANumber");
   return unit.empty() ? formatShortest(value) : formatFixed(value, unit == "in" ? 5 : 4);
 }
 
@@ -88,6 +90,15 @@ struct Style {
   records::ReadableText readable;
   std::string mainProgram;
   bool inches = false;
+  control::DialogLanguage language = control::DialogLanguage::English;
+
+  std::string text(std::string_view key, words::Values values = {}) const { return words::text(language, key, values); }
+  std::string counted(std::string_view key, std::size_t n, words::Values values = {}) const {
+    return words::counted(language, key, n, values);
+  }
+  /// A sentence about the run, fit for a terminal.
+  std::string sentence(const std::string& bytes) const { return words::translated(language, line(bytes)); }
+  std::string painted(Verdict verdict) const { return paint(tone(verdict), text(word(verdict))); }
 
   /// One line of text whatever the program put into it: control characters must not reach the terminal.
   std::string line(const std::string& bytes) const {
@@ -103,24 +114,31 @@ struct Style {
 
   std::string place(const SourcePlace& place) const {
     if (place.line == 0) return "";
-    if (place.file == mainProgram || place.file.empty()) return fmt::format("line {}", place.line);
+    if (place.file == mainProgram || place.file.empty()) return text("sumLine", {{"line", std::to_string(place.line)}});
     return fmt::format("{}:{}", line(fileName(place.file)), place.line);
   }
 };
 
-std::string duration(double seconds) {
-  if (!(seconds >= 60)) return fmt::format("{:.1f} s", seconds);
+std::string duration(double seconds, const Style& style) {
+  if (!(seconds >= 60)) return style.text("sumSeconds", {{"s", fmt::format("{:.1f}", seconds)}});
   const auto whole = std::llround(seconds);
-  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
-  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+  if (whole < 3600)
+    return style.text("sumMinutes", {{"min", std::to_string(whole / 60)}, {"s", std::to_string(whole % 60)}});
+  return style.text("sumHours", {{"h", std::to_string(whole / 3600)}, {"min", std::to_string(whole % 3600 / 60)}});
 }
 
 std::string distance(double mm) {
   return mm < 1000 ? fmt::format("{:.0f} mm", mm) : fmt::format("{:.2f} m", mm / 1000);
 }
 
-std::string counted(std::size_t n, std::string_view one, std::string_view many) {
-  return fmt::format("{} {}", n, n == 1 ? one : many);
+/// How many columns a text takes, more or less: its characters.
+std::size_t columns(const std::string& utf8) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(utf8, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+std::string meaningOf(const control::ResultRecord& result, const Style& style) {
+  return words::meaning(style.language, result.kind, style.line(result.meaning));
 }
 
 std::string resultLine(const control::ResultRecord& measured, const std::optional<records::TrueValue>& truth,
@@ -128,29 +146,30 @@ std::string resultLine(const control::ResultRecord& measured, const std::optiona
   const control::ResultRecord result = style.inches ? inInches(measured) : measured;
   std::string limits;
   if (result.lowerLimit && result.upperLimit)
-    limits = fmt::format("  [{} .. {}]", quantity(*result.lowerLimit, result.unit),
-                         quantity(*result.upperLimit, result.unit));
+    limits = fmt::format("  [{} .. {}]", quantity(*result.lowerLimit, result.unit, style.language),
+                         quantity(*result.upperLimit, result.unit, style.language));
   std::string deviation;
   if (result.deviation && std::isfinite(*result.deviation))
-    deviation = fmt::format("  deviation {}", result.unit.empty()
-                                                  ? formatShortest(*result.deviation)
-                                                  : formatSigned(*result.deviation, result.unit == "in" ? 5 : 4));
+    deviation = "  " + style.text("sumDeviation",
+                                  {{"value", result.unit.empty()
+                                                 ? formatShortest(*result.deviation)
+                                                 : formatSigned(*result.deviation, result.unit == "in" ? 5 : 4)}});
   std::string text =
-      fmt::format("      {:<9} {:<{}} {:>11} {:<3}{}{}", style.line(result.name), style.line(result.meaning),
-                  meaningWidth, quantity(result.value, result.unit), result.unit, deviation, limits);
+      fmt::format("      {:<9} {:<{}} {:>11} {:<3}{}{}", style.line(result.name), meaningOf(result, style),
+                  meaningWidth, quantity(result.value, result.unit, style.language), result.unit, deviation, limits);
   text.erase(text.find_last_not_of(' ') + 1);
-  if (result.verdict != Verdict::None) text += "  " + style.paint(tone(result.verdict), word(result.verdict));
+  if (result.verdict != Verdict::None) text += "  " + style.painted(result.verdict);
   if (truth) {
     records::TrueValue known = *truth;
     if (result.unit != measured.unit) known.value /= inch;
-    text += besideResult(known, result.value, result.unit == "in" ? 5 : 4);
+    text += besideResult(known, result.value, result.unit == "in" ? 5 : 4, style.language);
   }
   return text + "\n";
 }
 
 std::string writeLine(const control::WriteRecord& write, const Style& style) {
   const auto shown = [&](const std::string& value) {
-    return value.empty() ? std::string("(empty)") : style.line(value);
+    return value.empty() ? style.text("sumEmpty") : style.line(value);
   };
   return fmt::format("      -> {} {}: {} -> {}\n", style.line(write.table), style.line(write.entry),
                      shown(write.before), shown(write.after));
@@ -162,7 +181,7 @@ std::string screenText(const std::string& screen, const Style& style) {
   std::size_t begin = 0;
   while (begin < screen.size()) {
     const std::size_t end = std::min(screen.find('\n', begin), screen.size());
-    text += "      | " + style.line(screen.substr(begin, end - begin)) + "\n";
+    text += "      | " + style.sentence(screen.substr(begin, end - begin)) + "\n";
     begin = end + 1;
   }
   return text + "      +" + std::string(30, '-') + "\n";
@@ -170,18 +189,18 @@ std::string screenText(const std::string& screen, const Style& style) {
 
 std::string cycleText(const control::CycleRecord& cycle, const records::CycleTruth& truth, std::size_t number,
                       bool saidAtTheEnd, const Style& style) {
-  std::string text = fmt::format("{:>3}  {} {}", number, style.line(cycle.name), style.line(cycle.title));
+  std::string text = fmt::format("{:>3}  {} {}", number, style.line(cycle.name), style.sentence(cycle.title));
   const std::string place = style.place(cycle.place);
   if (!place.empty()) text += fmt::format("  ({})", place);
   if (!cycle.alarm.empty())
-    text += "  " + style.paint(Tone::Bad, "ALARM");
+    text += "  " + style.paint(Tone::Bad, style.text("sumAlarm"));
   else if (cycle.verdict != Verdict::None)
-    text += "  " + style.paint(tone(cycle.verdict), word(cycle.verdict));
+    text += "  " + style.painted(cycle.verdict);
   text += "\n";
   const std::vector<bool> isMain = cycles::mainResults(cycle);
   std::size_t width = 44;
   for (std::size_t i = 0; i < isMain.size(); ++i) {
-    if (isMain[i]) width = std::max(width, cycle.results[i].meaning.size());
+    if (isMain[i]) width = std::max(width, columns(meaningOf(cycle.results[i], style)));
   }
   for (std::size_t i = 0; i < isMain.size(); ++i) {
     if (!isMain[i]) continue;
@@ -193,14 +212,29 @@ std::string cycleText(const control::CycleRecord& cycle, const records::CycleTru
   for (const auto& screen : cycle.screens)
     text += screenText(screen, style);
   for (const auto& file : cycle.logFiles)
-    text += fmt::format("      log {}\n", style.line(fileName(file)));
+    text += "      " + style.text("sumLog", {{"file", style.line(fileName(file))}}) + "\n";
   if (!cycle.alarm.empty() && !saidAtTheEnd)
-    text += fmt::format("      {}\n", style.paint(Tone::Bad, style.line(cycle.alarm)));
+    text += fmt::format("      {}\n", style.paint(Tone::Bad, style.sentence(cycle.alarm)));
   return text;
 }
 
+/// The key of the text.
 std::string_view eventWord(control::EventKind kind) {
-  return kind == control::EventKind::Alarm ? "ALARM" : records::eventName(kind);
+  switch (kind) {
+    case control::EventKind::Message:
+      return "sumMessage";
+    case control::EventKind::Alarm:
+      return "sumAlarm";
+    case control::EventKind::Stop:
+      return "sumStop";
+    case control::EventKind::Skipped:
+      return "sumSkipped";
+    case control::EventKind::Tool:
+      return "sumTool";
+    case control::EventKind::Warning:
+      return "sumWarning";
+  }
+  return "sumMessage";
 }
 
 std::string eventText(const control::EventRecord& event, const Style& style) {
@@ -210,13 +244,16 @@ std::string eventText(const control::EventRecord& event, const Style& style) {
                      style.paint(grave      ? Tone::Bad
                                  : doubtful ? Tone::Warning
                                             : Tone::Plain,
-                                 eventWord(event.kind)) +
+                                 style.text(eventWord(event.kind))) +
                      "  ";
-  text += style.line(event.code);
+  text += style.sentence(event.code);
   if (!event.code.empty() && !event.text.empty()) text += ": ";
   // Of a screen at which the program stopped its first line; all of it stands with its cycle.
   const std::size_t lineEnd = event.kind == control::EventKind::Stop ? event.text.find('\n') : std::string::npos;
-  text += style.line(event.text.substr(0, lineEnd));
+  const std::string said = event.text.substr(0, lineEnd);
+  // The program's own words stay as they are.
+  const bool own = event.kind == control::EventKind::Message || event.kind == control::EventKind::Stop;
+  text += own ? words::phrase(style.language, style.line(said)) : style.sentence(said);
   if (lineEnd != std::string::npos) text += " ...";
   const std::string place = style.place(event.place);
   if (!place.empty()) text += fmt::format("  ({})", place);
@@ -236,40 +273,40 @@ std::string outcome(const control::Journal& journal, const records::RunInfo& run
       outside += result.verdict == Verdict::Rework || result.verdict == Verdict::Scrap;
     }
   }
-  const std::string why = run.exitText.empty() || cause == Cause::Told ? "" : ": " + style.line(run.exitText);
+  const std::string why = run.exitText.empty() || cause == Cause::Told ? "" : ": " + style.sentence(run.exitText);
   switch (run.exit) {
     case records::ExitState::Stopped:
-      return style.paint(Tone::Bad, "STOPPED") + why;
+      return style.paint(Tone::Bad, style.text("sumStopped")) + why;
     case records::ExitState::InputMistake:
-      return style.paint(Tone::Bad, "MISTAKE IN THE INPUT") + why;
+      return style.paint(Tone::Bad, style.text("sumInputMistake")) + why;
     case records::ExitState::Internal:
-      return style.paint(Tone::Bad, "INTERNAL ERROR") + why;
+      return style.paint(Tone::Bad, style.text("sumInternalError")) + why;
     case records::ExitState::Good:
     case records::ExitState::OutOfTolerance:
       break;
   }
   const Verdict worst = records::worstVerdict(journal);
   if (run.exit == records::ExitState::OutOfTolerance || worst >= Verdict::Rework)
-    return style.paint(worst == Verdict::Scrap ? Tone::Bad : Tone::Warning, "OUT OF TOLERANCE") +
-           (outside > 0
-                ? fmt::format(": {} of {}", outside, counted(toleranced, "toleranced value", "toleranced values"))
-                : why);
-  if (toleranced == 0) return style.paint(Tone::Good, "OK") + ": the program ran to its end, nothing had a tolerance";
-  return style.paint(Tone::Good, "OK") + ": " +
-         (toleranced == 1 ? "the toleranced value is" : fmt::format("all {} toleranced values are", toleranced)) +
-         " within the limits";
+    return style.paint(worst == Verdict::Scrap ? Tone::Bad : Tone::Warning, style.text("sumOutOfTolerance")) +
+           (outside > 0 ? ": " + style.counted("sumOutside", toleranced, {{"bad", std::to_string(outside)}}) : why);
+  const std::string good = style.painted(Verdict::Good) + ": ";
+  return good + (toleranced == 0 ? style.text("sumNothingToleranced") : style.counted("sumAllWithin", toleranced));
 }
 
 }  // namespace
 
-std::string summaryText(const control::Journal& journal, const records::RunInfo& run, Colour colour, Cause cause) {
+std::string summaryText(const control::Journal& journal, const records::RunInfo& run, Colour colour, Cause cause,
+                        control::DialogLanguage language) {
   const Style style{Painter(colour), records::ReadableText(run), run.programs.empty() ? "" : run.programs[0].path,
-                    run.inches};
+                    run.inches, language};
   std::string text = style.line(fileName(style.mainProgram));
   for (const std::string& part : {run.control, run.machine, run.partName})
     if (!part.empty()) text += (text.empty() ? "" : ", ") + style.line(part);
   text += "\n";
-  if (!run.skipLevels.empty()) text += fmt::format("  blocks skipped: level {}\n", fmt::join(run.skipLevels, ", "));
+  if (!run.skipLevels.empty()) {
+    const std::string levels = fmt::format("{}", fmt::join(run.skipLevels, ", "));
+    text += "  " + style.text("sumSkippedBlocks", {{"levels", levels}}) + "\n";
+  }
 
   for (std::size_t i = 0; i < journal.cycles.size(); ++i) {
     const control::CycleRecord& cycle = journal.cycles[i];
@@ -277,10 +314,12 @@ std::string summaryText(const control::Journal& journal, const records::RunInfo&
     text += cycleText(cycle, known ? run.truth->cycles[i] : records::CycleTruth(), i + 1,
                       !cycle.alarm.empty() && cycle.alarm == run.exitText, style);
   }
-  if (!journal.writes.empty()) text += "  by the program itself\n";
+  if (!journal.writes.empty()) text += "  " + style.text("sumByProgram") + "\n";
   for (const auto& write : journal.writes)
     text += writeLine(write, style);
-  if (run.truth) text += entriesText(*run.truth, [&](const std::string& bytes) { return style.line(bytes); });
+  const TruthStyle truthStyle{language, [&](const std::string& bytes) { return style.line(bytes); },
+                              [&](const SourcePlace& place) { return style.place(place); }};
+  if (run.truth) text += entriesText(*run.truth, truthStyle);
   std::size_t alarms = 0;
   std::string where;
   for (std::size_t i = 0; i < journal.events.size(); ++i) {
@@ -292,19 +331,23 @@ std::string summaryText(const control::Journal& journal, const records::RunInfo&
     if (ended) where = style.place(event.place);
     if (event.kind != control::EventKind::Tool && !ended) text += eventText(event, style);
   }
-  if (run.truth && run.truth->clearance)
-    text += clearanceText(
-        *run.truth->clearance, [&](const std::string& bytes) { return style.line(bytes); },
-        [&](const SourcePlace& place) { return style.place(place); });
-  if (run.truth) text += diagnosesText(*run.truth, [&](const std::string& bytes) { return style.line(bytes); });
+  if (run.truth && run.truth->clearance) text += clearanceText(*run.truth->clearance, truthStyle);
+  if (run.truth) text += diagnosesText(*run.truth, truthStyle);
   if (!where.empty()) where = fmt::format("  ({})", where);
   const records::TouchCount touches = records::countTouches(journal);
-  std::string touchText = counted(touches.touched, "touch", "touches");
-  if (touches.failed > 0) touchText += " and " + counted(touches.failed, "failed attempt", "failed attempts");
-  text += fmt::format("{}{}\n{}, {}, path {}, time {}, {}\n", outcome(journal, run, cause, style), where,
-                      counted(journal.cycles.size(), "cycle", "cycles"), touchText, distance(run.totalPathLength),
-                      duration(run.totalSeconds), alarms == 0 ? "no alarms" : counted(alarms, "alarm", "alarms"));
-  return text;
+  std::string touchText = style.counted("touches", touches.touched);
+  if (touches.failed > 0)
+    touchText =
+        style.text("sumTouches", {{"touches", touchText}, {"failed", style.counted("failedAttempts", touches.failed)}});
+  text += outcome(journal, run, cause, style) + where + "\n";
+  return text +
+         style.text("sumTotals",
+                    {{"cycles", style.counted("cycles", journal.cycles.size())},
+                     {"touches", touchText},
+                     {"path", distance(run.totalPathLength)},
+                     {"time", duration(run.totalSeconds, style)},
+                     {"alarms", alarms == 0 ? style.text("sumNoAlarms") : style.counted("alarms", alarms)}}) +
+         "\n";
 }
 
 }  // namespace probewright::reports

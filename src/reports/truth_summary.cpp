@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/number_text.hpp"
+#include "words/words.hpp"
 
 namespace probewright::reports {
 
@@ -19,63 +20,82 @@ std::string lengthText(double mm) {
   return std::abs(mm) < 0.01 ? fmt::format("{:.1f} um", 1000 * mm) : fmt::format("{:.3f} mm", mm);
 }
 
-std::string valuesText(const EntryTruth& entry) {
+std::string valuesText(const EntryTruth& entry, const TruthStyle& style) {
   std::string text;
   for (const records::EntryValue& value : entry.values) {
-    text += fmt::format("{}{} {}, truly {}", text.empty() ? "" : "; ", value.name, formatFixed(value.value, 4),
-                        formatFixed(value.truth, 4));
+    text += text.empty() ? "" : "; ";
+    text += words::text(style.language, "sumTruly",
+                        {{"name", style.line(value.name)},
+                         {"value", formatFixed(value.value, 4)},
+                         {"truth", formatFixed(value.truth, 4)}});
   }
   return text;
 }
 
 }  // namespace
 
-std::string besideResult(const records::TrueValue& truth, double measured, int decimals) {
-  return fmt::format("  true {}, error {}", formatFixed(truth.value, decimals),
-                     formatSigned(measured - truth.value, decimals));
+std::string besideResult(const records::TrueValue& truth, double measured, int decimals,
+                         control::DialogLanguage language) {
+  return "  " + words::text(language, "sumTrue",
+                            {{"value", formatFixed(truth.value, decimals)},
+                             {"error", formatSigned(measured - truth.value, decimals)}});
 }
 
-std::string entriesText(const records::Truth& truth, const std::function<std::string(const std::string&)>& line) {
+std::string entriesText(const records::Truth& truth, const TruthStyle& style) {
   std::string text;
   for (const EntryTruth& entry : truth.entries) {
     std::string apart;
     if (entry.distance) apart = lengthText(*entry.distance);
-    if (entry.angle) apart += fmt::format("{}{:.4f} deg", apart.empty() ? "" : " and ", *entry.angle);
+    if (entry.angle) {
+      const std::string angle = fmt::format("{:.4f} deg", *entry.angle);
+      apart = apart.empty() ? angle : words::text(style.language, "sumAnd", {{"length", apart}, {"angle", angle}});
+    }
     if (apart.empty()) continue;
-    text += fmt::format("  {}: {} from the truth ({})\n", line(entry.name), apart, line(valuesText(entry)));
+    text += "  " +
+            words::text(style.language, "sumFromTruth",
+                        {{"name", words::phrase(style.language, style.line(entry.name))},
+                         {"distance", apart},
+                         {"values", valuesText(entry, style)}}) +
+            "\n";
   }
   return text;
 }
 
-std::string diagnosesText(const records::Truth& truth, const std::function<std::string(const std::string&)>& line) {
+std::string diagnosesText(const records::Truth& truth, const TruthStyle& style) {
   std::string text;
   for (const records::Diagnosis& known : truth.diagnoses)
     for (const std::string& sentence : known.texts)
-      text += "  truth  " + line(sentence) + "\n";
+      text += "  " + words::text(style.language, "sumTruth") + "  " +
+              words::translated(style.language, style.line(sentence)) + "\n";
   return text;
 }
 
 namespace {
 
-std::string spanText(const records::ClearanceSpan& span, const std::function<std::string(const std::string&)>& line,
-                     const std::function<std::string(const SourcePlace&)>& place) {
-  const std::string where = span.place ? place(*span.place) : fmt::format("at {:.1f} s", span.from);
-  return fmt::format("the {} came within {:.1f} mm of \"{}\"  ({})\n", line(span.part), span.distance, line(span.solid),
+std::string spanText(const records::ClearanceSpan& span, const TruthStyle& style) {
+  const std::string where = span.place
+                                ? style.place(*span.place)
+                                : words::text(style.language, "sumAtTime", {{"s", fmt::format("{:.1f}", span.from)}});
+  return fmt::format("{}  ({})\n",
+                     words::text(style.language, "sumNear",
+                                 {{"part", words::phrase(style.language, style.line(span.part))},
+                                  {"distance", fmt::format("{:.1f}", span.distance)},
+                                  {"solid", style.line(span.solid)}}),
                      where);
 }
 
 }  // namespace
 
-std::string clearanceText(const records::Clearance& clearance,
-                          const std::function<std::string(const std::string&)>& line,
-                          const std::function<std::string(const SourcePlace&)>& place) {
+std::string clearanceText(const records::Clearance& clearance, const TruthStyle& style) {
+  const std::string head = words::text(style.language, "sumClearance");
+  const std::string warning = fmt::format("  {}  {}: ", words::text(style.language, "sumWarning"), head);
   const auto nearer = [](const records::ClearanceSpan& a, const records::ClearanceSpan& b) {
     return a.distance < b.distance;
   };
   if (!(clearance.limit > 0)) {
     const auto least = std::ranges::min_element(clearance.spans, nearer);
     if (least == clearance.spans.end() || least->orMore) return {};
-    return "  clearance  " + spanText(*least, line, place);
+    return fmt::format("  {}  ", head) + spanText(*least, style);
   }
   // Of the moves of one block the nearest.
   std::vector<records::ClearanceSpan> blocks;
@@ -92,8 +112,10 @@ std::string clearanceText(const records::Clearance& clearance,
   constexpr std::size_t most = 20;
   std::string text;
   for (std::size_t i = 0; i < std::min(most, blocks.size()); ++i)
-    text += "  warning  clearance: " + spanText(blocks[i], line, place);
-  if (blocks.size() > most) text += fmt::format("  warning  clearance: {} more blocks\n", blocks.size() - most);
+    text += warning + spanText(blocks[i], style);
+  if (blocks.size() > most)
+    text +=
+        warning + words::text(style.language, "sumMoreBlocks", {{"n", std::to_string(blocks.size() - most)}}) + "\n";
   return text;
 }
 

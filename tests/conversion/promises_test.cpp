@@ -372,11 +372,15 @@ TEST(ConvertPromises, WritesTheParameterTextsOfTheControl) {
   EXPECT_THAT(there.text, HasSubstr("Q263=+0 ;1ST POINT 1ST AXIS ~\n"));
   EXPECT_THAT(there.text, HasSubstr("Q264=+0 ;1ST POINT 2ND AXIS ~\n"));
   EXPECT_THAT(there.text, HasSubstr("Q294=+0 ;1ST POINT 3RD AXIS ~\n"));
-  for (const int cycle : {400, 404, 408, 409, 410, 411, 412, 413, 414, 415, 417, 419,  420,
-                          421, 422, 423, 424, 425, 426, 427, 431, 460, 461, 462, 1410, 1420}) {
-    for (const cycles::Parameter& parameter : cycles::heidenhainCycle(cycle)->parameters) {
-      const auto text = conversion::parameterText(cycle, static_cast<int>(parameter.address));
-      EXPECT_NE(text, "PARAMETER") << cycle << " " << parameter.name;
+  for (const control::ControlKind kind : {control::ControlKind::TNC640, control::ControlKind::iTNC530}) {
+    for (const cycles::CycleDefinition* cycle : cycles::cyclesOf(kind)) {
+      for (const cycles::Parameter& parameter : cycle->parameters) {
+        if (!parameter.name.starts_with("Q") || parameter.name.size() < 4) continue;
+        for (const control::DialogLanguage language : control::allDialogLanguages) {
+          const auto text = conversion::parameterText(cycle->number, static_cast<int>(parameter.address), language);
+          EXPECT_NE(text, "PARAMETER") << cycle->name << " " << parameter.name;
+        }
+      }
     }
   }
 }

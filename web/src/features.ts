@@ -3,6 +3,7 @@
 import type { Cycle, Report, Results, ResultValue } from "./data";
 import { fixed } from "./dom";
 import { currentLanguage, maybe } from "./language";
+import { translated } from "./phrases";
 import { cycleState, type State } from "./verdict";
 
 /** A cycle and those of its results that answer what it was called for. */
@@ -23,7 +24,7 @@ export function groupsOf(results: Results): Group[] {
 export const isBad = (state: State) => state === "rework" || state === "scrap" || state === "alarm";
 
 /** The name that people know the feature by: the program's own, or what the cycle does. */
-export const nameOf = (cycle: Cycle): string => cycle.feature || cycle.title;
+export const nameOf = (cycle: Cycle): string => cycle.feature || translated(cycle.title);
 
 /** What a result is of, in the language of the page: "diameter", "centre, main axis". */
 export function characteristicOf(result: ResultValue): string {
@@ -74,7 +75,7 @@ export function passing(results: Results, group: Group, filter: Filter): number[
   }
   const words = filter.text.toLowerCase().split(/\s+/).filter(Boolean);
   if (words.length === 0) return rows;
-  const head = `${group.cycle + 1} ${cycle.name} ${nameOf(cycle)} ${cycle.title} ${cycle.alarm ?? ""}`.toLowerCase();
+  const head = `${group.cycle + 1} ${cycle.name} ${nameOf(cycle)} ${cycle.title} ${translated(cycle.title)} ${cycle.alarm ?? ""} ${translated(cycle.alarm ?? "")}`.toLowerCase();
   if (words.every((word) => head.includes(word))) return rows;
   rows = rows.filter((row) => {
     const result = cycle.results[row];
@@ -119,7 +120,7 @@ export function timeByKind({ results }: Report): { name: string; title: string; 
   for (const cycle of results.cycles) {
     if (cycle.start == null || cycle.end == null) continue;
     const key = `${cycle.name} ${cycle.title}`;
-    const kind = kinds.get(key) ?? { name: cycle.name, title: cycle.title, calls: 0, seconds: 0 };
+    const kind = kinds.get(key) ?? { name: cycle.name, title: translated(cycle.title), calls: 0, seconds: 0 };
     kind.calls += 1;
     kind.seconds += cycle.end - cycle.start;
     inCycles += cycle.end - cycle.start;

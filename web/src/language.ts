@@ -1,11 +1,11 @@
 // The page's texts in the reader's language. One table a language in texts/; English says which keys there are.
 
-import de from "./texts/de";
-import en from "./texts/en";
-import pl from "./texts/pl";
-import ru from "./texts/ru";
-import sv from "./texts/sv";
-import zh from "./texts/zh";
+import de from "./texts/de.json";
+import en from "./texts/en.json";
+import pl from "./texts/pl.json";
+import ru from "./texts/ru.json";
+import sv from "./texts/sv.json";
+import zh from "./texts/zh.json";
 
 type Plural = Partial<Record<Intl.LDMLPluralRule, string>> & { other: string };
 type English = typeof en;
@@ -39,7 +39,7 @@ type Values = Record<string, string | number>;
 
 /** The text of `key`, with values in place of {names}; `n` decides about singular and plural. */
 export function t(key: Key, values: Values = {}): string {
-  const entry = tables[language][key] as string | Plural;
+  const entry: string | Plural = tables[language][key];
   const text = typeof entry === "string" ? entry : (entry[plurals.select(Number(values.n))] ?? entry.other);
   return text.replace(/\{(\w+)\}/g, (whole, name) => (name in values ? String(values[name]) : whole));
 }

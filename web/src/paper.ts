@@ -6,6 +6,7 @@ import { plotsOf, writeLine } from "./details";
 import { duration, fileName, h, icon, length } from "./dom";
 import { groupsOf, isBad, nameOf } from "./features";
 import { t } from "./language";
+import { translated } from "./phrases";
 import type { ProgramView } from "./program";
 import { Selector } from "./selection";
 import { hasTruth, resultCells, sheetHeads } from "./sheet";
@@ -72,12 +73,12 @@ function table(report: Report): HTMLElement {
           h(
             "th",
             { colspan: heads.length },
-            h("div", {}, h("span", {}, `${index + 1}  `, h("b", {}, nameOf(cycle)), `  ${cycle.name}${cycle.feature ? ` ${cycle.title}` : ""}`), badge(state, true)),
+            h("div", {}, h("span", {}, `${index + 1}  `, h("b", {}, nameOf(cycle)), `  ${cycle.name}${cycle.feature ? ` ${translated(cycle.title)}` : ""}`), badge(state, true)),
           ),
         ),
         ...rows.map((row, i) => h("tr", { class: isBad(cycle.results[row].verdict) ? cycle.results[row].verdict : "" }, ...resultCells(cycle.results[row], `${index + 1}.${i + 1}`, truth).map(asCell))),
         (cycle.alarm || cycle.writes.length > 0) &&
-          h("tr", {}, h("td", { colspan: heads.length }, cycle.alarm && h("p", { class: "note alarm" }, icon("stop"), cycle.alarm), ...cycle.writes.map(writeLine))),
+          h("tr", {}, h("td", { colspan: heads.length }, cycle.alarm && h("p", { class: "note alarm" }, icon("stop"), translated(cycle.alarm)), ...cycle.writes.map(writeLine))),
       );
     }),
   );

@@ -5,6 +5,7 @@ import { duration, fileName, fixed, h, icon, quantity, unitText } from "./dom";
 import { nameOf } from "./features";
 import { t } from "./language";
 import { MachineClock, type PathPlace } from "./machine_clock";
+import { phrase } from "./phrases";
 import type { Selector } from "./selection";
 import { cycleState } from "./verdict";
 
@@ -210,7 +211,7 @@ export class Replay {
         item(t("tool"), shown.tool || t("noTool")),
         item(t("feedRate"), `${fixed(shown.feed, 0)} mm/min`),
         cycle && item(t("cycle"), `${cycleIndex + 1}  ${cycle.name} ${nameOf(cycle)}`),
-        span && item(t("clearance"), `${span.orMore ? "\u2265 " : ""}${fixed(span.distance, 2)} mm${span.part ? ` (${span.part}${span.solid ? `, ${span.solid}` : ""})` : ""}`),
+        span && item(t("clearance"), `${span.orMore ? "\u2265 " : ""}${fixed(span.distance, 2)} mm${span.part ? ` (${phrase(span.part)}${span.solid ? `, ${span.solid}` : ""})` : ""}`),
       ),
       this.values(cycleIndex),
     );

@@ -5,6 +5,7 @@ import { detailsOf, writeLine } from "./details";
 import { duration, h, icon, quantity, unitText } from "./dom";
 import { characteristicOf, type Filter, type Group, groupsOf, isBad, nameOf, noFilter, passing, shareOf } from "./features";
 import { t } from "./language";
+import { translated } from "./phrases";
 import type { Selector } from "./selection";
 import { badge, cycleState, verdictState } from "./verdict";
 import { type Item, VirtualList } from "./virtual";
@@ -236,7 +237,7 @@ export class Sheet {
       items.push({
         key: `a${group.cycle}`,
         height: 34,
-        build: () => inGroup(h("div", { class: "notes", role: "row" }, h("p", { class: "note alarm" }, icon("stop"), alarm), ...this.diagnosis(group.cycle))),
+        build: () => inGroup(h("div", { class: "notes", role: "row" }, h("p", { class: "note alarm" }, icon("stop"), translated(alarm)), ...this.diagnosis(group.cycle))),
       });
     if (!folded && cycle.writes.length > 0)
       items.push({ key: `w${group.cycle}`, height: 24 * cycle.writes.length + 6, build: () => inGroup(h("div", { class: "notes", role: "row" }, ...cycle.writes.map(writeLine))) });
@@ -250,7 +251,7 @@ export class Sheet {
 
   private diagnosis(cycle: number): HTMLElement[] {
     const known = this.report.results.truth?.diagnoses?.filter((each) => each.cycle === cycle) ?? [];
-    return known.flatMap(({ texts }) => texts.map((text) => h("p", { class: "note diagnosis" }, icon("target"), text)));
+    return known.flatMap(({ texts }) => texts.map((text) => h("p", { class: "note diagnosis" }, icon("target"), translated(text))));
   }
 
   private head(group: Group, rows: number[], folded: boolean, open: boolean): HTMLElement {
@@ -286,7 +287,7 @@ export class Sheet {
       ),
       h("span", { class: "order" }, String(group.cycle + 1)),
       h("b", { class: "feature" }, nameOf(cycle)),
-      h("span", { class: "cycle-name" }, cycle.name, cycle.feature ? ` ${cycle.title}` : ""),
+      h("span", { class: "cycle-name" }, cycle.name, cycle.feature ? ` ${translated(cycle.title)}` : ""),
       cycle.place.line > 0 &&
         h(
           "a",

@@ -4,6 +4,7 @@ import type { Cycle, Report, Write } from "./data";
 import { duration, fileName, fixed, h, length, quantity, unitText } from "./dom";
 import { nameOf, timeByKind } from "./features";
 import { t } from "./language";
+import { phrase, translated } from "./phrases";
 import type { Selector } from "./selection";
 
 /** Controls write numbers with leading signs; a change of anything else has no amount. */
@@ -80,10 +81,11 @@ export function eventsTable({ results }: Report, showLine: ((file: string, line:
       h(
         "td",
         { class: "event-text" },
-        event.code !== "" && h("b", {}, event.code),
+        event.code !== "" && h("b", {}, phrase(event.code)),
         event.code !== "" && event.text !== "" ? ": " : "",
-        event.text,
-        ...says.map((text) => h("div", { class: "diagnosis" }, text)),
+        // What programs say stays as it is.
+        event.kind === "message" || event.kind === "stop" ? phrase(event.text) : translated(event.text),
+        ...says.map((text) => h("div", { class: "diagnosis" }, translated(text))),
       ),
       h(
         "td",

@@ -5,6 +5,7 @@ import { outcomeText } from "./details";
 import { duration, fixed, h, icon } from "./dom";
 import { nameOf } from "./features";
 import { t } from "./language";
+import { translated } from "./phrases";
 import type { Selector } from "./selection";
 import { badge, cycleState } from "./verdict";
 
@@ -30,7 +31,7 @@ export function fillCard(card: HTMLElement, report: Report, selector: Selector, 
     h(
       "header",
       {},
-      h("div", {}, h("b", {}, nameOf(cycle)), h("br"), `${cycle.name} ${cycle.title}`, cycle.place.line > 0 ? `, ${t("line", { line: cycle.place.line })}` : ""),
+      h("div", {}, h("b", {}, nameOf(cycle)), h("br"), `${cycle.name} ${translated(cycle.title)}`, cycle.place.line > 0 ? `, ${t("line", { line: cycle.place.line })}` : ""),
       badge(cycleState(cycle), true),
       button(t("close"), "cross", () => selector.select(null, "view")),
     ),

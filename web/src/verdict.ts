@@ -1,6 +1,7 @@
 import type { Cycle, Report, Verdict } from "./data";
 import { fileName, h, icon } from "./dom";
 import { t } from "./language";
+import { translated } from "./phrases";
 
 export type State = "good" | "rework" | "scrap" | "alarm" | "none";
 
@@ -33,7 +34,7 @@ export function headline({ results }: Report): Headline {
   const exit = results.run.exit;
   const stop = results.events.findLast((event) => event.kind === "alarm" || event.kind === "stop");
   if (exit.code >= 3 || stop?.kind === "alarm") {
-    const text = exit.text ?? (stop ? [stop.code, stop.text].filter((part) => part !== "").join(": ") : t("notFinished"));
+    const text = translated(exit.text ?? (stop ? [stop.code, stop.text].filter((part) => part !== "").join(": ") : t("notFinished")));
     const where = stop && stop.place.line > 0 ? ` (${t("atLine", { file: fileName(stop.place.file), line: stop.place.line })})` : "";
     const title = exit.code === 4 ? t("internalError") : stop?.kind === "stop" ? t("stopped") : t("alarm");
     return { state: "alarm", title, text: text + where };

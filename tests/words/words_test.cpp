@@ -1,0 +1,161 @@
+#include "words/words.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cycles/catalogue.hpp"
+#include "cycles/sinumerik/alarms.hpp"
+#include "cycles/sinumerik/context.hpp"
+
+/// What people read in six languages: nothing that a control shows is left out, and no value is lost in a sentence.
+namespace probewright::words {
+namespace {
+
+namespace fs = std::filesystem;
+using control::DialogLanguage;
+using nlohmann::json;
+
+constexpr std::array others = {DialogLanguage::German, DialogLanguage::Russian, DialogLanguage::Swedish,
+                               DialogLanguage::Chinese, DialogLanguage::Polish};
+
+const fs::path source = PROBEWRIGHT_SOURCE_DIR;
+
+std::string textOf(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+json tableFile(const std::string& name) { return json::parse(textOf(source / "web/src/texts" / name)); }
+
+/// {0}, {name}.. with how often each stands in the text.
+std::map<std::string, int> placesOf(const std::string& text) {
+  static const std::regex place(R"(\{\w+\})");
+  std::map<std::string, int> places;
+  for (std::sregex_iterator it(text.begin(), text.end(), place), end; it != end; ++it)
+    ++places[it->str()];
+  return places;
+}
+
+TEST(Words, EveryTitleOfACycleHasItsWords) {
+  for (const control::ControlKind kind : control::allControlKinds) {
+    for (const cycles::CycleDefinition* cycle : cycles::cyclesOf(kind)) {
+      for (const DialogLanguage language : others)
+        EXPECT_NE(phrase(language, cycle->title), cycle->title) << code(language);
+    }
+  }
+}
+
+TEST(Words, EveryAlarmOfTheMeasuringCyclesHasItsWords) {
+  EXPECT_GT(cycles::sinumerik::alarmNumbers().size(), 30U);
+  for (const int number : cycles::sinumerik::alarmNumbers()) {
+    const std::string_view text = cycles::sinumerik::alarmText(number);
+    for (const DialogLanguage language : others)
+      EXPECT_NE(phrase(language, text), text) << number << " " << code(language);
+  }
+  // A HEIDENHAIN alarm has its name where it is raised.
+  static const std::regex raised(R"re((?:Alarm\(|fail\([^;]{0,40}?)\s*"([A-Z][^"]*)",)re");
+  std::set<std::string> names;
+  for (const char* folder : {"src/cycles/heidenhain", "src/probing", "src/control/heidenhain"}) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(source / folder)) {
+      if (!entry.is_regular_file()) continue;
+      const std::string text = textOf(entry.path());
+      for (std::sregex_iterator it(text.begin(), text.end(), raised), end; it != end; ++it)
+        names.insert((*it)[1]);
+    }
+  }
+  EXPECT_GT(names.size(), 50U);
+  EXPECT_TRUE(names.contains("Touch point inaccessible"));
+  for (const std::string& name : names) {
+    for (const DialogLanguage language : others)
+      EXPECT_NE(phrase(language, name), name) << code(language);
+  }
+}
+
+TEST(Words, EveryLanguageHasTheSamePlacesForValues) {
+  const json english = tableFile("en.json");
+  const auto anyForm = [](const json& entry) { return entry.is_string() ? entry : entry.at("other"); };
+  for (const char* name : {"de.json", "ru.json", "sv.json", "zh.json", "pl.json"}) {
+    const json table = tableFile(name);
+    EXPECT_EQ(table.size(), english.size());
+    for (const auto& [key, entry] : english.items()) {
+      ASSERT_TRUE(table.contains(key)) << name << " " << key;
+      EXPECT_EQ(table.at(key).is_string(), entry.is_string()) << name << " " << key;
+      EXPECT_EQ(placesOf(anyForm(table.at(key))), placesOf(anyForm(entry))) << name << " " << key;
+    }
+  }
+  for (const auto& [phrase, translations] : tableFile("phrases.json").items()) {
+    ASSERT_EQ(translations.size(), others.size()) << phrase;
+    for (const json& translation : translations)
+      EXPECT_EQ(placesOf(translation), placesOf(phrase)) << translation;
+  }
+}
+
+TEST(Words, SentencesKeepTheirValues) {
+  const std::string message =
+      "Touch point inaccessible: The stylus was not deflected within 10.000 mm; the tool tip stopped at X+50.000 "
+      "Y+0.000 "
+      "Z-27.000 of the active workpiece system";
+  for (const DialogLanguage language : others) {
+    const std::string text = translated(language, message);
+    EXPECT_THAT(text, ::testing::HasSubstr("10.000 "));
+    EXPECT_THAT(text, ::testing::HasSubstr("X+50.000 Y+0.000 Z-27.000"));
+    EXPECT_THAT(text, ::testing::Not(::testing::HasSubstr("stopped")));
+    EXPECT_THAT(text, ::testing::Not(::testing::HasSubstr("Touch point")));
+  }
+  EXPECT_EQ(translated(DialogLanguage::German, "Preset 3 activated"), "Bezugspunkt 3 aktiviert");
+  EXPECT_EQ(translated(DialogLanguage::Swedish, "Tolerance exceeded: Scrap: diameter 40.1000 (+0.1000)"),
+            "Tolerans överskriden: Skrot: diameter 40.1000 (+0.1000)");
+  EXPECT_EQ(translated(DialogLanguage::English, message), message);
+}
+
+TEST(Words, WhatNoTableKnowsStays) {
+  for (const DialogLanguage language : others) {
+    EXPECT_EQ(translated(language, "my own words"), "my own words");
+    EXPECT_EQ(translated(language, ": "), ": ");
+    EXPECT_EQ(translated(language, "a: b: {0}"), "a: b: {0}");
+    EXPECT_EQ(phrase(language, "Collision: a word of mine"), "Collision: a word of mine");
+    EXPECT_EQ(translated(language, ""), "");
+  }
+}
+
+TEST(Words, CountAsTheLanguageCounts) {
+  const auto cycles = [](DialogLanguage language, std::size_t n) { return counted(language, "cycles", n); };
+  EXPECT_EQ(cycles(DialogLanguage::English, 1), "1 cycle");
+  EXPECT_EQ(cycles(DialogLanguage::English, 0), "0 cycles");
+  EXPECT_EQ(cycles(DialogLanguage::German, 2), "2 Zyklen");
+  EXPECT_EQ(cycles(DialogLanguage::Russian, 1), "1 цикл");
+  EXPECT_EQ(cycles(DialogLanguage::Russian, 3), "3 цикла");
+  EXPECT_EQ(cycles(DialogLanguage::Russian, 5), "5 циклов");
+  EXPECT_EQ(cycles(DialogLanguage::Russian, 11), "11 циклов");
+  EXPECT_EQ(cycles(DialogLanguage::Russian, 21), "21 цикл");
+  EXPECT_EQ(cycles(DialogLanguage::Polish, 21), "21 cykli");
+  EXPECT_EQ(cycles(DialogLanguage::Polish, 22), "22 cykle");
+  EXPECT_EQ(cycles(DialogLanguage::Chinese, 1), "1 个循环");
+}
+
+TEST(Words, SayWhatWasMeasured) {
+  using control::Along;
+  using control::Quantity;
+  using control::Role;
+  const control::Characteristic centre{Quantity::Centre, Along::First};
+  EXPECT_EQ(characteristic(DialogLanguage::English, centre, "centre, main axis"), "centre, main axis");
+  EXPECT_EQ(characteristic(DialogLanguage::German, centre, "centre, main axis"), "Mitte, Hauptachse");
+  EXPECT_EQ(meaning(DialogLanguage::German, {Role::Actual, {Quantity::Diameter}}, "actual diameter"),
+            "Istwert, Durchmesser");
+  EXPECT_EQ(meaning(DialogLanguage::German, {Role::Status, {}}, "status of the tool"), "status of the tool");
+}
+
+}  // namespace
+}  // namespace probewright::words

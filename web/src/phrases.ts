@@ -1,0 +1,56 @@
+// Titles of cycles, names of alarms and sentences about a run in the reader's language. The record of a run is in
+// English; src/words/words.cpp does the same for the terminal.
+
+import phrases from "./texts/phrases.json";
+import { currentLanguage } from "./language";
+
+const columns = ["de", "ru", "sv", "zh", "pl"];
+
+interface Pattern {
+  form: RegExp;
+  words: string[];
+  length: number;
+}
+
+const exact = phrases as Record<string, string[]>;
+let patterns: Pattern[] | null = null;
+
+/** Phrases with places for values, the ones with the most words in them first. */
+function allPatterns(): Pattern[] {
+  patterns ??= Object.entries(exact)
+    .filter(([english]) => english.includes("{0}"))
+    .map(([english, words]) => {
+      const pieces = english.split(/\{\d\}/);
+      const form = new RegExp(`^${pieces.map((piece) => piece.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")).join("(.+?)")}$`, "s");
+      return { form, words, length: pieces.join("").length };
+    })
+    .sort((a, b) => b.length - a.length);
+  return patterns;
+}
+
+function known(english: string, column: number): string | undefined {
+  if (Object.hasOwn(exact, english)) return exact[english][column];
+  for (const { form, words } of allPatterns()) {
+    const found = form.exec(english);
+    if (found) return words[column].replace(/\{(\d)\}/g, (_, place) => translated(found[Number(place) + 1]));
+  }
+  return undefined;
+}
+
+/** A text as a whole, which may be a program's own words; what the table does not know stays as it is. */
+export function phrase(english: string): string {
+  const column = columns.indexOf(currentLanguage());
+  return (column < 0 ? undefined : known(english, column)) ?? english;
+}
+
+/** The same, of "NAME: sentence" each part for itself. */
+export function translated(english: string): string {
+  const column = columns.indexOf(currentLanguage());
+  if (column < 0) return english;
+  const whole = known(english, column);
+  if (whole !== undefined) return whole;
+  const colon = english.indexOf(": ");
+  if (colon < 0) return english;
+  const name = english.slice(0, colon);
+  return `${known(name, column) ?? name}: ${translated(english.slice(colon + 2))}`;
+}
