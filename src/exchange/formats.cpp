@@ -18,6 +18,7 @@ constexpr std::array kFormats = {
     Format{"xlsx", "inspection.xlsx", "a workbook for Excel or LibreOffice", xlsxFile},
     Format{"qif", "inspection.qif", "QIF 3.0 results (ISO 23952)", always<qifText>},
     Format{"dfq", "inspection.dfq", "AQDEF, for Q-DAS and other statistics programs", always<dfqText>},
+    Format{"dmis", "inspection.dmo", "DMIS 5.2 output (ISO 22093)", always<dmisText>},
     Format{"junit", "junit.xml", "JUnit XML, for build servers that check programs", always<junitText>},
 };
 

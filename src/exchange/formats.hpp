@@ -43,6 +43,9 @@ std::string junitText(const Inspection& inspection);
 /// Q-DAS ASCII transfer format (AQDEF) with keys of part, characteristics and values in one file.
 std::string dfqText(const Inspection& inspection);
 
+/// DMIS 5.2 (ISO 22093), its output: a nominal and an actual tolerance for each value that has limits. Plain ASCII.
+std::string dmisText(const Inspection& inspection);
+
 /// QIF 3.0 (ANSI/DMSC, ISO 23952): definitions, nominals, items and measurements of the characteristics.
 std::string qifText(const Inspection& inspection);
 

@@ -25,10 +25,11 @@ std::vector<std::string> with(std::vector<std::string> words, const std::vector<
 TEST(Export, LeavesFilesOfEveryFormatBesideTheResults) {
   const Folder folder;
   const std::string out = (folder / "out").string();
-  const Answer answer = probewright(with(housing, {"--out", out, "--export", "csv,XLSX", "--export", "qif,dfq,junit"}));
+  const Answer answer =
+      probewright(with(housing, {"--out", out, "--export", "csv,XLSX", "--export", "qif,dfq,dmis,junit"}));
   ASSERT_EQ(answer.exit, 0) << answer.errors;
   EXPECT_THAT(namesIn(out), IsSupersetOf({"inspection.csv", "inspection.xlsx", "inspection.qif", "inspection.dfq",
-                                          "junit.xml", "results.json"}));
+                                          "inspection.dmo", "junit.xml", "results.json"}));
   // The same values as in the results.
   const auto results = nlohmann::json::parse(textOf(folder / "out/results.json"));
   const std::string csv = textOf(folder / "out/inspection.csv");
@@ -51,7 +52,7 @@ TEST(Export, RefusesAFormatThatIsNotThere) {
   const Folder folder;
   const Answer answer = probewright(with(housing, {"--out", (folder / "out").string(), "--export", "csv,pdf"}));
   EXPECT_EQ(answer.exit, 2);
-  EXPECT_THAT(answer.errors, HasSubstr("pdf is not one of csv, xlsx, qif, dfq, junit"));
+  EXPECT_THAT(answer.errors, HasSubstr("pdf is not one of csv, xlsx, qif, dfq, dmis, junit"));
   EXPECT_TRUE(namesIn(folder / "out").empty());
 }
 
