@@ -96,9 +96,10 @@ struct Clearance {
 struct TravelMargin {
   std::string axis;
   std::string unit;
-  double margin = 0;    ///< from the nearer end
-  double position = 0;  ///< where it stood then
-  double seconds = 0;   ///< machine clock
+  double margin = 0;                                ///< from the nearer end
+  double position = 0;                              ///< where it stood then
+  double seconds = 0;                               ///< machine clock
+  std::optional<SourcePlace> place = std::nullopt;  ///< of the block, where the run was traced
 };
 
 struct Truth {
@@ -106,7 +107,8 @@ struct Truth {
   std::vector<EntryTruth> entries;
   std::vector<Diagnosis> diagnoses;
   std::optional<Clearance> clearance;
-  std::vector<TravelMargin> travel;
+  std::vector<TravelMargin> travel;    ///< of each axis with end stops the least one
+  std::vector<TravelMargin> nearEnds;  ///< of each block the axes that came nearer to an end than the clearance's limit
 };
 
 /// "face", "points"; "preset", "zero offset", "tool", "probe", "kinematics": the names in results.json.

@@ -84,11 +84,15 @@ json clearance(const Clearance& known, const ReadableText& text) {
 }
 
 json travel(const TravelMargin& margin, const ReadableText& text) {
-  return {{"axis", text(margin.axis)},
-          {"unit", margin.unit},
-          {"margin", number(margin.margin)},
-          {"position", number(margin.position)},
-          {"time", number(margin.seconds)}};
+  json object = {{"axis", text(margin.axis)},
+                 {"unit", margin.unit},
+                 {"margin", number(margin.margin)},
+                 {"position", number(margin.position)},
+                 {"time", number(margin.seconds)}};
+  if (margin.place)
+    object["place"] = {
+        {"file", text(margin.place->file)}, {"line", margin.place->line}, {"column", margin.place->column}};
+  return object;
 }
 
 template <class Records, class Convert>
@@ -121,6 +125,7 @@ json truthOfRun(const Truth& truth, const ReadableText& text) {
   addList(object, "diagnoses", truth.diagnoses, diagnosis, text);
   if (truth.clearance) object["clearance"] = clearance(*truth.clearance, text);
   addList(object, "travel", truth.travel, travel, text);
+  addList(object, "nearEnds", truth.nearEnds, travel, text);
   return object;
 }
 

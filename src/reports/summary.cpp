@@ -332,6 +332,7 @@ std::string summaryText(const control::Journal& journal, const records::RunInfo&
     if (event.kind != control::EventKind::Tool && !ended) text += eventText(event, style);
   }
   if (run.truth && run.truth->clearance) text += clearanceText(*run.truth->clearance, truthStyle);
+  if (run.truth) text += nearEndsText(run.truth->nearEnds, truthStyle);
   if (run.truth) text += diagnosesText(*run.truth, truthStyle);
   if (!where.empty()) where = fmt::format("  ({})", where);
   const records::TouchCount touches = records::countTouches(journal);

@@ -15,6 +15,9 @@ using records::EntryTruth;
 
 namespace {
 
+/// Lines of one kind.
+constexpr std::size_t most = 20;
+
 /// "0.4 um" below a hundredth of a millimetre, then "0.512 mm".
 std::string lengthText(double mm) {
   return std::abs(mm) < 0.01 ? fmt::format("{:.1f} um", 1000 * mm) : fmt::format("{:.3f} mm", mm);
@@ -109,13 +112,33 @@ std::string clearanceText(const records::Clearance& clearance, const TruthStyle&
       blocks.back() = span;
     }
   }
-  constexpr std::size_t most = 20;
   std::string text;
   for (std::size_t i = 0; i < std::min(most, blocks.size()); ++i)
     text += warning + spanText(blocks[i], style);
   if (blocks.size() > most)
     text +=
         warning + words::text(style.language, "sumMoreBlocks", {{"n", std::to_string(blocks.size() - most)}}) + "\n";
+  return text;
+}
+
+std::string nearEndsText(const std::vector<records::TravelMargin>& nearEnds, const TruthStyle& style) {
+  const std::string head =
+      fmt::format("  {}  {}: ", words::text(style.language, "sumWarning"), words::text(style.language, "sumTravel"));
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, nearEnds.size()); ++i) {
+    const records::TravelMargin& near = nearEnds[i];
+    const std::string where =
+        near.place ? style.place(*near.place)
+                   : words::text(style.language, "sumAtTime", {{"s", fmt::format("{:.1f}", near.seconds)}});
+    text += fmt::format("{}{}  ({})\n", head,
+                        words::text(style.language, "sumNearEnd",
+                                    {{"axis", style.line(near.axis)},
+                                     {"margin", fmt::format("{:.1f} {}", near.margin, near.unit)},
+                                     {"position", formatSigned(near.position, 1)}}),
+                        where);
+  }
+  if (nearEnds.size() > most)
+    text += head + words::text(style.language, "sumMoreBlocks", {{"n", std::to_string(nearEnds.size() - most)}}) + "\n";
   return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "control/dialog_language.hpp"
 #include "records/truth.hpp"
@@ -30,5 +31,8 @@ std::string diagnosesText(const records::Truth& truth, const TruthStyle& style);
 /// How near the tool came to things: each block that came nearer than the limit as a warning, or the nearest one where
 /// there is no limit.
 std::string clearanceText(const records::Clearance& clearance, const TruthStyle& style);
+
+/// Each block that brought an axis nearer to an end of its travel than the limit, as a warning.
+std::string nearEndsText(const std::vector<records::TravelMargin>& nearEnds, const TruthStyle& style);
 
 }  // namespace probewright::reports

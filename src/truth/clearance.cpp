@@ -52,6 +52,30 @@ bool isToolProbe(const PlacedSolid& placed) { return placed.role == simulation::
 bool isNoToolProbe(const PlacedSolid& placed) { return !isToolProbe(placed); }
 bool isAnything(const PlacedSolid&) { return true; }
 
+/// The block that the control carried out then.
+std::optional<SourcePlace> placeAt(const session::RunOutcome& outcome, double seconds) {
+  const records::RunTrace& trace = outcome.trace;
+  const auto next = std::ranges::upper_bound(trace.blocks, seconds + 1e-9, {}, &records::RunTrace::Block::seconds);
+  if (next == trace.blocks.begin()) return std::nullopt;
+  const records::RunTrace::Block& block = *std::prev(next);
+  return SourcePlace{trace.files[block.file], block.line, 0};
+}
+
+bool samePlace(const std::optional<SourcePlace>& a, const std::optional<SourcePlace>& b) {
+  return a && b && a->file == b->file && a->line == b->line;
+}
+
+bool hasEnds(const machine::Axis& axis) { return axis.kind == machine::AxisKind::Linear || !axis.modulo; }
+
+records::TravelMargin marginOf(const machine::Axis& axis, double position, double seconds) {
+  const bool linear = axis.kind == machine::AxisKind::Linear;
+  return {.axis = axis.name,
+          .unit = linear ? "mm" : "deg",
+          .margin = std::min(position - axis.minimum, axis.maximum - position),
+          .position = position,
+          .seconds = seconds};
+}
+
 /// The moves of a path, one after the other.
 class Moves {
 public:
@@ -95,7 +119,7 @@ private:
     span.from = from.seconds;
     span.to = to.seconds;
     span.cycle = cycleAt(from.seconds, to.seconds);
-    span.place = placeAt(from.seconds);
+    span.place = placeAt(outcome_, from.seconds);
     span.distance = most;
     span.orMore = true;
     const bool meant = to.kind == PathKind::Measure || to.kind == PathKind::Retract;
@@ -133,14 +157,6 @@ private:
     return static_cast<std::size_t>(cycle - cycles.begin());
   }
 
-  std::optional<SourcePlace> placeAt(double seconds) const {
-    const records::RunTrace& trace = outcome_.trace;
-    const auto next = std::ranges::upper_bound(trace.blocks, seconds + 1e-9, {}, &records::RunTrace::Block::seconds);
-    if (next == trace.blocks.begin()) return std::nullopt;
-    const records::RunTrace::Block& block = *std::prev(next);
-    return SourcePlace{trace.files[block.file], block.line, 0};
-  }
-
   const session::RunOutcome& outcome_;
   const simulation::Truth& truth_;
   const simulation::PathRecord& path_;
@@ -162,17 +178,40 @@ std::vector<records::TravelMargin> travelMargins(const simulation::VirtualMachin
   const auto& axes = machine.truth().machine.axes;
   const auto& points = machine.path().points;
   for (std::size_t i = 0; i < axes.size() && !points.empty(); ++i) {
-    const machine::Axis& axis = axes[i];
-    const bool linear = axis.kind == machine::AxisKind::Linear;
-    if (!linear && axis.modulo) continue;
-    records::TravelMargin least{axis.name, linear ? "mm" : "deg", 1e300, 0, 0};
+    if (!hasEnds(axes[i])) continue;
+    records::TravelMargin least = marginOf(axes[i], points.front().axes[i], points.front().seconds);
     for (const PathPoint& point : points) {
-      const double margin = std::min(point.axes[i] - axis.minimum, axis.maximum - point.axes[i]);
-      if (margin < least.margin) least = {axis.name, least.unit, margin, point.axes[i], point.seconds};
+      if (auto here = marginOf(axes[i], point.axes[i], point.seconds); here.margin < least.margin)
+        least = std::move(here);
     }
-    margins.push_back(least);
+    margins.push_back(std::move(least));
   }
   return margins;
+}
+
+std::vector<records::TravelMargin> nearEnds(const session::RunOutcome& outcome,
+                                            const simulation::VirtualMachine& machine, double limit) {
+  std::vector<records::TravelMargin> near;
+  const auto& axes = machine.truth().machine.axes;
+  const auto& points = machine.path().points;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    const PathPoint &from = points[k - 1], &to = points[k];
+    if (to.kind == PathKind::Start || to.kind == PathKind::ToolChange) continue;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      if (!hasEnds(axes[i]) || to.axes[i] == from.axes[i]) continue;
+      records::TravelMargin here = marginOf(axes[i], to.axes[i], to.seconds);
+      if (here.margin >= limit) continue;
+      here.place = placeAt(outcome, from.seconds);
+      const auto before = std::ranges::find_if(
+          near.rbegin(), near.rend(), [&](const records::TravelMargin& other) { return other.axis == here.axis; });
+      if (before == near.rend() || !samePlace(before->place, here.place)) {
+        near.push_back(std::move(here));
+      } else if (here.margin < before->margin) {
+        *before = std::move(here);
+      }
+    }
+  }
+  return near;
 }
 
 }  // namespace probewright::truth

@@ -22,4 +22,9 @@ records::Clearance clearanceOf(const session::RunOutcome& outcome, const simulat
 /// Of each axis with end stops, how near it came to one.
 std::vector<records::TravelMargin> travelMargins(const simulation::VirtualMachine& machine);
 
+/// Of each block each axis that came nearer than `limit` (mm, degrees) to an end of its travel, in the order of the
+/// run. Tool changes do not count: the machine goes there by itself.
+std::vector<records::TravelMargin> nearEnds(const session::RunOutcome& outcome,
+                                            const simulation::VirtualMachine& machine, double limit);
+
 }  // namespace probewright::truth

@@ -23,6 +23,7 @@ std::shared_ptr<const records::Truth> truthOf(const session::RunOutcome& outcome
   known->diagnoses = diagnoses(outcome, machine);
   if (told.clearance) known->clearance = clearanceOf(outcome, machine, told.clearanceLimit);
   known->travel = travelMargins(machine);
+  if (told.clearanceLimit > 0) known->nearEnds = nearEnds(outcome, machine, told.clearanceLimit);
   return known;
 }
 

@@ -48,6 +48,8 @@ std::vector<CodeBlock> codeBlocks() {
   std::vector<std::filesystem::path> pages = {root + "/README.md", root + "/CONTRIBUTING.md"};
   for (const std::string& name : namesIn(root + "/docs"))
     if (name.ends_with(".md")) pages.push_back(root + "/docs/" + name);
+  for (const std::string& name : namesIn(root + "/docs/decisions"))
+    pages.push_back(root + "/docs/decisions/" + name);
   std::vector<CodeBlock> blocks;
   for (const auto& page : pages) {
     std::istringstream stream(textOf(page));
@@ -254,6 +256,8 @@ TEST(Documents, LinkToPagesThatThereAre) {
                                               root + "/bench/README.md"};
   for (const std::string& name : namesIn(root + "/docs"))
     if (name.ends_with(".md")) pages.push_back(root + "/docs/" + name);
+  for (const std::string& name : namesIn(root + "/docs/decisions"))
+    pages.push_back(root + "/docs/decisions/" + name);
   const auto anchor = [](const std::string& heading) {
     std::string text;
     for (const char c : heading) {
@@ -285,6 +289,8 @@ TEST(Documents, LinkToPagesThatThereAre) {
       EXPECT_THAT(list, HasSubstr("](" + name + ")"));
     }
   }
+  for (const std::string& name : namesIn(root + "/docs/decisions"))
+    EXPECT_THAT(list, HasSubstr("](decisions/" + name + ")"));
 }
 
 }  // namespace

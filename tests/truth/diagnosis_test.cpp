@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -161,6 +162,29 @@ TEST(Clearance, DoesNotCountWhatIsMeantToTouch) {
   ASSERT_TRUE(told.finished()) << told.why();
   for (const records::ClearanceSpan& span : told.truth().clearance->spans)
     EXPECT_GT(span.distance, 1) << span.part << " at " << span.from << " s";
+}
+
+TEST(Travel, WarnsOfBlocksThatComeNearAnEnd) {
+  const auto machine = machine::readMachine("mill3");
+  ASSERT_TRUE(machine);
+  const double last = machine->axes[0].maximum;
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480 }");
+  world.more = "[machine]\nclearance = 6\n";
+  const std::string program = fmt::format(
+      "TOOL CALL 1 Z\nL Z+60 R0 FMAX\nL X{:+.3f} FMAX\nL X+0 FMAX\nL X{:+.3f} FMAX\n", last - 2.5, last - 7);
+  const Told told = run(world, program);
+  ASSERT_TRUE(told.finished()) << told.why();
+  ASSERT_EQ(told.truth().nearEnds.size(), 1U);
+  const records::TravelMargin& near = told.truth().nearEnds.front();
+  EXPECT_EQ(near.axis, "X");
+  EXPECT_NEAR(near.margin, 2.5, 1e-6);
+  EXPECT_NEAR(near.position, last - 2.5, 1e-6);
+  EXPECT_THAT(reports::summaryText(told.outcome.journal, told.outcome.info),
+              HasSubstr("  warning  travel: axis X came within 2.5 mm of an end of its travel, at +"));
+  world.more = "";
+  EXPECT_THAT(run(world, program).truth().nearEnds, IsEmpty()) << "no limit, no warnings";
 }
 
 TEST(Travel, TellsHowNearAnAxisCameToItsEnd) {

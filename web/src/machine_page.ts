@@ -1,5 +1,7 @@
 // The page of a machine: its bodies, a slider for each axis, and which way positive is.
 
+import "./colours.css";
+import "./basics.css";
 import "./machine_page.css";
 
 import { Vector3 } from "three";

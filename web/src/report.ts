@@ -1,4 +1,5 @@
 import "./colours.css";
+import "./basics.css";
 import "./report.css";
 import "./view.css";
 import "./sheet.css";
