@@ -31,7 +31,7 @@ add_custom_command(
   COMMENT "Fetching the page's packages"
   VERBATIM)
 
-file(GLOB web_sources CONFIGURE_DEPENDS ${web_source}/src/* ${web_source}/test/*)
+file(GLOB web_sources CONFIGURE_DEPENDS ${web_source}/src/*.ts ${web_source}/src/*.css ${web_source}/src/texts/* ${web_source}/test/*.mjs)
 set(web_configuration ${web_source}/tsconfig.json ${web_source}/vite.config.ts ${web_source}/vite.machine.config.ts)
 add_custom_command(
   OUTPUT ${PROBEWRIGHT_WEB_FILES}

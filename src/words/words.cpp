@@ -216,8 +216,12 @@ std::string counted(DialogLanguage language, std::string_view key, std::size_t n
 std::string translated(DialogLanguage language, std::string_view english) {
   const std::optional<std::size_t> column = columnOf(language);
   if (!column || english.empty()) return std::string(english);
-  if (auto whole = known(language, *column, english)) return *whole;
   const std::size_t colon = english.find(": ");
+  // The name of an alarm first: else what it says would be taken for a value of some sentence.
+  const auto& exact = phrases().exact;
+  if (const auto name = exact.find(english.substr(0, colon)); colon != std::string_view::npos && name != exact.end())
+    return name->at(*column).get<std::string>() + ": " + translated(language, english.substr(colon + 2));
+  if (auto whole = known(language, *column, english)) return *whole;
   if (colon == std::string_view::npos) return std::string(english);
   const std::string_view name = english.substr(0, colon), sentence = english.substr(colon + 2);
   return known(language, *column, name).value_or(std::string(name)) + ": " + translated(language, sentence);

@@ -15,34 +15,29 @@ using ::testing::Not;
 
 /// "C1_1 CORTOL,XAXIS -0.05 0.05 0.012 INTOL" a line for each actual tolerance; the head before them.
 std::string dmisRead(const std::string& text) {
-  return python(
-      "import re, sys\n"
-      "lines = open(sys.argv[1], encoding='ascii').read().split('\\n')\n"
-      "assert re.fullmatch(r\"FILNAM/'[^']*',05\\.2\", lines[0]), lines[0]\n"
-      "assert lines[-2:] == ['ENDFIL', ''], lines[-2:]\n"
-      "limits = {}\n"
-      "for line in lines[1:-2]:\n"
-      "  assert len(line) < 65536\n"
-      "  if line.startswith('$$'): continue\n"
-      "  head = "
-      "re.fullmatch(r\"(DATE|TIME)=(.+)|UNITS/MM,ANGDEC|\\w\\w\\(\\w+\\)=(PARTID|PARTSN|OPERID|DMEID)/'([^']*)'\", "
-      "line)\n"
-      "  if head:\n"
-      "    print(head[2] or head[4] or line)\n"
-      "    continue\n"
-      "  number = r'([-+]?\\d+\\.\\d+)'\n"
-      "  nominal = re.fullmatch(r'T\\((\\w+)\\)=TOL/([A-Z]+(?:,[XYZ]AXIS|,LIMIT)?),' + number + ',' + number + "
-      "'(,PT2PT)?', line)\n"
-      "  if nominal:\n"
-      "    limits[nominal[1]] = nominal[2] + ' ' + nominal[3] + ' ' + nominal[4]\n"
-      "    continue\n"
-      "  actual = re.fullmatch(r'TA\\((\\w+)\\)=TOL/([A-Z]+(?:,[XYZ]AXIS)?),' + number + ',(INTOL|OUTOL)(,PT2PT)?', "
-      "line)\n"
-      "  assert actual, line\n"
-      "  assert limits[actual[1]].startswith(actual[2]), line\n"
-      "  print(actual[1], limits.pop(actual[1]), actual[3], actual[4])\n"
-      "assert not limits\n",
-      ScratchFile("a.dmo", text));
+  return python(R"py(import re, sys
+lines = open(sys.argv[1], encoding="ascii").read().split("\n")
+assert re.fullmatch(r"FILNAM/\x27[^\x27]*\x27,05\.2", lines[0]), lines[0]
+assert lines[-2:] == ["ENDFIL", ""], lines[-2:]
+limits = {}
+number = r"([-+]?\d+\.\d+)"
+for line in lines[1:-2]:
+  if line.startswith("$$"): continue
+  head = re.fullmatch(r"(DATE|TIME)=(.+)|UNITS/MM,ANGDEC|\w\w\(\w+\)=(PARTID|PARTSN|OPERID|DMEID)/\x27([^\x27]*)\x27", line)
+  if head:
+    print(head[2] or head[4] or line)
+    continue
+  nominal = re.fullmatch(r"T\((\w+)\)=TOL/([A-Z]+(?:,[XYZ]AXIS|,LIMIT)?)," + number + "," + number + "(,PT2PT)?", line)
+  if nominal:
+    limits[nominal[1]] = nominal[2] + " " + nominal[3] + " " + nominal[4]
+    continue
+  actual = re.fullmatch(r"TA\((\w+)\)=TOL/([A-Z]+(?:,[XYZ]AXIS)?)," + number + ",(INTOL|OUTOL)(,PT2PT)?", line)
+  assert actual, line
+  assert limits[actual[1]].startswith(actual[2]), line
+  print(actual[1], limits.pop(actual[1]), actual[3], actual[4])
+assert not limits
+)py",
+                ScratchFile("a.dmo", text));
 }
 
 Row row(std::size_t cycle, control::Characteristic of, const char* unit, double nominal, double lower, double upper,

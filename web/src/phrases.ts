@@ -47,10 +47,12 @@ export function phrase(english: string): string {
 export function translated(english: string): string {
   const column = columns.indexOf(currentLanguage());
   if (column < 0) return english;
+  const colon = english.indexOf(": ");
+  const name = english.slice(0, colon);
+  // The name of an alarm first: else what it says would be taken for a value of some sentence.
+  if (colon >= 0 && Object.hasOwn(exact, name)) return `${exact[name][column]}: ${translated(english.slice(colon + 2))}`;
   const whole = known(english, column);
   if (whole !== undefined) return whole;
-  const colon = english.indexOf(": ");
   if (colon < 0) return english;
-  const name = english.slice(0, colon);
   return `${known(name, column) ?? name}: ${translated(english.slice(colon + 2))}`;
 }

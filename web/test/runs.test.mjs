@@ -125,7 +125,7 @@ test("the clearance is a curve over time, and told where the replay is", async (
     (near.from + near.to) / 2,
   );
   const state = await text(page, ".display .state");
-  assert.match(state, new RegExp(`Clearance\\s+${near.distance.toFixed(2).replace(".", "\\.")} mm`));
+  assert.match(state, new RegExp(`Least distance\\s+${near.distance.toFixed(2).replace(".", "\\.")} mm`));
   assert.ok(state.includes(near.solid), state);
   const drawn = await page.$eval(".marks", (canvas) => {
     const { width, height } = canvas;
