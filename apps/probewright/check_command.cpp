@@ -65,7 +65,7 @@ using Stamps = std::map<std::filesystem::path, std::tuple<std::filesystem::file_
 Stamps stampsOf(const CheckArguments& arguments) {
   namespace fs = std::filesystem;
   constexpr std::size_t most = 10'000;  // files of a folder
-  // What this program writes itself is no change.
+  // What this program writes itself is not a change.
   const auto output = identityOf("/proc/self/fd/1"), errors = identityOf("/proc/self/fd/2");
   Stamps stamps;
   std::error_code unknown;

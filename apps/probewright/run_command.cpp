@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
-#include <iostream>
 #include <optional>
 #include <set>
 
@@ -19,6 +18,7 @@
 #include "exchange/inspection.hpp"
 #include "interruption.hpp"
 #include "machine_run.hpp"
+#include "operator_terminal.hpp"
 #include "output_folder.hpp"
 #include "records/results.hpp"
 #include "report_pdf.hpp"
@@ -59,35 +59,6 @@ private:
   bool terminal_;
   std::chrono::steady_clock::time_point next_;
 };
-
-bool askOnTerminal(const std::string& text) {
-  std::fputs(fmt::format("\n{}\nContinue? [Y/n] ", printable(text)).c_str(), stdout);
-  std::fflush(stdout);
-  for (std::string line; std::getline(std::cin, line);) {
-    if (line.empty() || line == "y" || line == "Y") return true;
-    if (line == "n" || line == "N") return false;
-    std::fputs("y or n? ", stdout);
-    std::fflush(stdout);
-  }
-  return false;
-}
-
-/// Asks until the answer can be understood or the input ends. Nothing if there is no terminal.
-std::optional<std::string> answerOnTerminal(const control::Question& question) {
-  if (isatty(STDIN_FILENO) == 0) return std::nullopt;
-  std::fputs(fmt::format("\n{}: {}\n", printable(question.name), question.wanted).c_str(), stdout);
-  while (true) {
-    std::fputs("> ", stdout);
-    std::fflush(stdout);
-    std::string line;
-    if (!std::getline(std::cin, line)) return std::nullopt;
-    if (question.understood(line)) return line;
-  }
-}
-
-}  // namespace
-
-namespace {
 
 /// Says what cannot be removed of an earlier run, and gives the exit code of a mistake in the input.
 int cameToNothing(const Result<void>& removed) {
@@ -182,9 +153,6 @@ int run(const RunArguments& arguments) {
   options.control = arguments.control;
   options.strict = arguments.strict;
   options.onStop = arguments.onStop;
-  options.ask = [language = arguments.language](const std::string& text) {
-    return askOnTerminal(words::phrase(dialogLanguage(language), text));
-  };
   options.stepLimit = arguments.stepLimit;
   options.skipLevels = arguments.skipLevels;
   options.recordLimit = arguments.recordLimit << 20U;
@@ -205,6 +173,9 @@ int run(const RunArguments& arguments) {
   options.trace = true;
   const Interruption interruption;
   options.stop = interruption.token();
+  OperatorTerminal operatorTerminal(options.stop);
+  options.ask = [&](const std::string& text) { return operatorTerminal.goesOn(words::phrase(options.language, text)); };
+  options.answer = [&](const control::Question& question) { return operatorTerminal.answer(question); };
   // The run itself waits without a word.
   const fs::path& tables = setup->beliefs.tables;
   FolderReading::of(tables, options.stop, [&] {
@@ -247,7 +218,6 @@ int run(const RunArguments& arguments) {
     }
     options.answers = std::move(*read);
   }
-  options.answer = answerOnTerminal;
   const bool progress = !arguments.quiet && isatty(STDERR_FILENO) != 0;
   if (progress) {
     options.progress = [](std::uint64_t blocks) { std::fputs(fmt::format("\r{} blocks ", blocks).c_str(), stderr); };

@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 std::string markOf(const std::vector<fs::path>& inputs) {
   std::string all = PROBEWRIGHT_VERSION;
   for (const fs::path& input : inputs) {
-    const auto text = readFile(input);  // a ready-made machine is no file
+    const auto text = readFile(input);  // a ready-made machine is not a file
     all += fmt::format("\n{} ", text ? text->size() : 0);
     if (text) all += *text;
   }

@@ -9,7 +9,7 @@
 #include "machine/rotary_correction.hpp"
 
 /// The kinematic model of a control: where it believes the axes of rotation to be. Cycles that measure a machine's
-/// kinematics correct it; what is true is no concern of it.
+/// kinematics correct it; what is true does not concern it.
 namespace probewright::control {
 
 /// An axis of rotation as the control has been told. Base frame, all axes at 0.

@@ -22,7 +22,7 @@ inline constexpr std::array<CentredCycles, 8> centredCycles = {{{Feature::Hole, 
                                                                 {Feature::Pocket, 410, 423},
                                                                 {Feature::RectangularSpigot, 411, 424}}};
 
-/// True for 481 to 483 and 31 to 33, which are no tasks: they measure tools.
+/// True for 481 to 483 and 31 to 33, which are not tasks: they measure tools.
 bool measuresTools(int heidenhainCycle);
 
 /// The tasks of a call, in the order in which the cycle carries them out. What of the call a task cannot say goes to

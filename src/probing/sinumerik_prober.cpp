@@ -200,7 +200,9 @@ MeasuredPoint SinumerikProber::stroke(const PartPoint& setpoint, const PlaneWay&
   // pole; against the tool the trigger point counts from there. The ball of an L or a star lies on an arm.
   const bool raised = direction.z() == 0 && !probe_.lengthToCentre;
   const PlaneWay height(0, 0, raised ? ballRadius() * toolAxis().z() : 0);
-  const double radius = ballRadius() > 0 ? ballRadius() : surfaceFromTcp.dot(direction);
+  const double radius = probe_.starBallRadius > 0 ? probe_.starBallRadius
+                        : ballRadius() > 0        ? ballRadius()
+                                                  : surfaceFromTcp.dot(direction);
   record.target = plane_.xyzFromPlane(setpoint + height).vector();
   const auto noteTouch = [&](const control::Touch& touch) {
     const PartPoint surface = partAt(plane_.planeFromXyz(touch.tip) + upright + height, surfaceFromTcp);

@@ -25,6 +25,7 @@ struct SinumerikProbe {
   double correctionAngle = 0;                   ///< $TC_DP10, degrees
   bool calibrationWatched = true;               ///< MD 51740 bit 0: unknown trigger points are refused
   bool lengthToCentre = false;                  ///< the tool length ends at the ball's centre, not at its south pole
+  double starBallRadius = 0;  ///< of a star: of each of its balls, which ballDiameter goes across; else 0
 };
 
 /// Speeds and habits from setting data.

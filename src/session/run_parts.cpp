@@ -1,5 +1,6 @@
 #include "session/run_parts.hpp"
 
+#include "control/alarm.hpp"
 #include "control/sinumerik/text.hpp"
 #include "session/trace_recorder.hpp"
 
@@ -43,12 +44,17 @@ void setPanel(control::OperatorPanel& panel, const RunRequest& request, std::set
   const control::Beliefs& beliefs = request.beliefs;
   const RunOptions& options = request.options;
   panel.onStop = options.onStop;
-  panel.ask = options.ask;
-  panel.answer = [&](const control::Question& question) -> std::optional<std::string> {
+  // Whoever is asked may answer with Ctrl-C.
+  const auto orStopped = [&options](auto answer) {
+    if (options.stop.stop_requested()) throw control::Cancelled();
+    return answer;
+  };
+  if (options.ask) panel.ask = [&options, orStopped](const std::string& text) { return orStopped(options.ask(text)); };
+  panel.answer = [&, orStopped](const control::Question& question) -> std::optional<std::string> {
     for (const auto* known : {&options.answers, &beliefs.answers}) {
       if (const auto found = known->find(question.name); found != known->end()) return found->second;
     }
-    return options.answer ? options.answer(question) : std::nullopt;
+    return options.answer ? orStopped(options.answer(question)) : std::nullopt;
   };
   panel.language = options.language;
   panel.showAllResults = options.showAllResults;

@@ -24,7 +24,7 @@ public:
   BorderMiddles(const TopoDS_Face& face, const Handle(Poly_Triangulation) & mesh, const TopLoc_Location& location,
                 double deviation);
 
-  /// Between two nodes of the mesh; null if their side is no such.
+  /// Between two nodes of the mesh; null if their side is not one.
   const Middle* between(int node, int other) const;
 
 private:

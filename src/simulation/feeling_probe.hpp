@@ -38,7 +38,7 @@ struct Moment {
 ///
 /// Step. From one question to the next the axes travel in a straight line of axis space, and everything between is
 /// searched: nothing is passed because a step was long. A step faster than any axis (3 mm or 30 degrees in a
-/// millisecond) is no motion but a new zero, as homing sets it: what the tool is within then counts as touched, not
+/// millisecond) is not a motion but a new zero, as homing sets it: what the tool is within then counts as touched, not
 /// what lies between.
 ///
 /// Touch probe. The ball touches; the axes travel on by the pretravel and what its noise adds, then for the signal

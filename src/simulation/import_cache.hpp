@@ -20,7 +20,7 @@ public:
   std::optional<std::string> find(const std::string& key) const;
 
   /// Keeps an entry and removes those that were not used for the longest time until the
-  /// folder has at most the bytes it may have. What cannot be written is not kept: a cache is no reason to fail.
+  /// folder has at most the bytes it may have. What cannot be written is not kept: a cache is not a reason to fail.
   void keep(const std::string& key, std::string_view entry) const;
 
 private:

@@ -61,7 +61,7 @@ using Model = std::function<Outcome(const Draw&)>;
 class Sampler {
 public:
   explicit Sampler(const Study& study);
-  /// For models that are no programs: `sources` and `groups` alone.
+  /// For models that are not programs: `sources` and `groups` alone.
   Sampler(std::vector<Source> sources, std::vector<Group> groups, std::uint64_t seed);
 
   std::size_t size() const { return sources_.size(); }

@@ -23,8 +23,8 @@ inline constexpr double leastSensitivity = 0.1, mostSensitivity = 10;
 /// s the standard deviation of the reference pictures there, 2 the noise of a camera that is always assumed, g the
 /// slope of the average picture: edges may be off by about a third of a pixel. Before, noise is smoothed (Gauss,
 /// one pixel), and each picture is made as bright as the first one by one factor over all monitoring areas (0.5 to 2):
-/// a lamp that has become weaker is no error. Single pixels and lines one pixel wide are dropped, places at most two
-/// pixels apart become one, and an error has at least 6 / sensitivity pixels.
+/// a lamp that has become weaker is not an error. Single pixels and lines one pixel wide are dropped, places at most
+/// two pixels apart become one, and an error has at least 6 / sensitivity pixels.
 class Average {
 public:
   /// `references` must be at least one, all of one size. Pixels outside of all areas count for nothing.

@@ -15,6 +15,7 @@ namespace {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Feels the front of the block, whose place the program does not know; it wishes it at Y-14.
 const std::string program =
@@ -58,7 +59,8 @@ TEST(RunAnswers, ComeFromTheSetupAndTheFileGoesBeforeIt) {
 }
 
 /// Runs the program at a terminal of its own, on which these lines are typed.
-Answer onTerminal(std::vector<std::string> words, const std::string& typed) {
+/// Whatever is typed is there before the program asks, but for Ctrl-C: that comes once it has said `question`.
+Answer onTerminal(std::vector<std::string> words, const std::string& typed, const std::string& question = {}) {
   words.insert(words.begin(), PROBEWRIGHT_PROGRAM);
   std::vector<char*> arguments;
   for (std::string& word : words)
@@ -74,8 +76,13 @@ Answer onTerminal(std::vector<std::string> words, const std::string& typed) {
   EXPECT_EQ(write(terminal, typed.data(), typed.size()), static_cast<ssize_t>(typed.size()));
   Answer seen;
   std::array<char, 4096> part{};
-  for (ssize_t count = 0; (count = read(terminal, part.data(), part.size())) > 0;)
+  bool interrupted = question.empty();
+  for (ssize_t count = 0; (count = read(terminal, part.data(), part.size())) > 0;) {
     seen.output.append(part.data(), static_cast<std::size_t>(count));
+    if (interrupted || seen.output.find(question) == std::string::npos) continue;
+    interrupted = true;
+    EXPECT_EQ(write(terminal, "\x03", 1), 1);
+  }
   close(terminal);
   int status = 0;
   EXPECT_EQ(waitpid(child, &status, 0), child);
@@ -102,6 +109,37 @@ TEST(RunAnswers, AreAskedForOnTheTerminal) {
   const std::string dialog = onTerminal(asking, "y\n-10 -22 20; -10 -22 -8\ny\n10 -22 20; 10 -22 -8\n").output;
   EXPECT_THAT(dialog, HasSubstr("move the probe in front of the point, probing direction Y+, then NC start"));
   EXPECT_THAT(dialog, HasSubstr("Continue? [Y/n]"));
+  EXPECT_THAT(seen, HasSubstr("\"-10 -22\" cannot be read as an answer"));
+}
+
+TEST(RunAnswers, CtrlCEndsTheRunAlsoWhereAnAnswerIsWaitedFor) {
+  const Folder folder;
+  std::vector<std::string> words = {"run",     folder.file("EDGE.H", program),
+                                    "--setup", folder.file("edge.toml", blockSetup()),
+                                    "--out",   (folder / "out").string()};
+  const Answer first = onTerminal(words, "-10 -22 20; -10 -22 -8\n", "1410 point 2: position");
+  EXPECT_EQ(first.exit, 3);
+  EXPECT_THAT(first.output, HasSubstr("the run was interrupted at this block"));
+  EXPECT_THAT(first.output, HasSubstr("1 touch"));
+  EXPECT_THAT(first.output, Not(HasSubstr("without operator")));
+  words.insert(words.end(), {"--on-stop", "ask"});
+  const Answer dialog = onTerminal(words, "", "Continue? [Y/n]");
+  EXPECT_EQ(dialog.exit, 3);
+  EXPECT_THAT(dialog.output, HasSubstr("the run was interrupted at this block"));
+}
+
+/// Q1125 = 1 and 2 are ignored after probing by hand, 0 is not: the way over the block is free, as it is not with -1.
+TEST(RunAnswers, LeaveTheWayToTheClearanceHeightAtTheEndOfTheCycle) {
+  const Folder folder;
+  const std::string over = "4 L X+0 Y+0 R0 FMAX\n5 END";
+  for (const auto& [mode, exit] : {std::pair("+0", 0), std::pair("-1", 3), std::pair("+1", 3)}) {
+    std::string text = program;
+    text.replace(text.find("4 END"), 5, over);
+    text.replace(text.find("Q1125=+0"), 8, std::string("Q1125=") + mode);
+    const Answer ran = probewright({"run", folder.file("OVER.H", text), "--setup",
+                                    folder.file("edge.toml", blockSetup(answers)), "--out", (folder / "out").string()});
+    EXPECT_EQ(ran.exit, exit) << mode << ran.output << ran.errors;
+  }
 }
 
 TEST(RunAnswers, SayWhetherAStopIsTheEnd) {

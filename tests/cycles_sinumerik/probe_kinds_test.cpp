@@ -167,7 +167,15 @@ TEST(ProbeKinds, AStarShapedProbeMeasuresAHoleAlongTheAxes) {
       EXPECT_NEAR(bench.data("$SNS_MEA_WP_POS_DEV_AX1", {0}), aside.x(), 1e-6);
     }
     bench.start({150, 0, -20});
+    const std::size_t before = bench.machine.path().touches.size();
     bench.run("CYCLE977", {{"S_MVAR", 101}, {"S_KNUM", 1}, {"S_SETV", 2 * radius}, {"S_FA", 4}, {"S_TSA", 2}});
+    // The record names the ball that touched, not the middle of the star. Where that runs out, so do its balls.
+    const auto& touches = bench.control.journal.cycles.back().touches;
+    ASSERT_EQ(touches.size(), bench.machine.path().touches.size() - before);
+    for (std::size_t i = 0; i < touches.size(); ++i) {
+      const Vector3 ball = bench.machine.path().touches[before + i].ballCentre - Vector3(0, 0, table);
+      EXPECT_NEAR((touches[i].ballCentre - ball).dot(touches[i].direction), 0, 1e-6) << world << " " << i;
+    }
     EXPECT_NEAR(bench.ovr(4), 2 * radius, 1e-6) << world;
     EXPECT_NEAR(bench.ovr(17), error.x(), 1e-6);
     EXPECT_NEAR(bench.ovr(18), error.y(), 1e-6);

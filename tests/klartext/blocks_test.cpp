@@ -90,7 +90,7 @@ TEST(Blocks, Formulas) {
   EXPECT_EQ(irOf("QL1=(Q2+Q3)/-2"), "QL1 := ((Q2+Q3)/-2)");
   EXPECT_EQ(irOf("QS3 = QS1 || \"mm\" || TOCHAR( DAT+Q5 DECIMALS3 )"), "QS3 := ((QS1||'mm')||TOCHAR(Q5,3))");
   EXPECT_EQ(irOf("QS3 = SUBSTR( SRC_QS10 BEG2 LEN4 )"), "QS3 := SUBSTR(QS10,2,4)");
-  EXPECT_EQ(irOf("Q3 = INSTR( SRC_QS10 SEA_QS13 )"), "Q3 := INSTR(QS10,QS13,-1)");
+  EXPECT_EQ(irOf("Q3 = INSTR( SRC_QS10 SEA_QS13 )"), "Q3 := INSTR(QS10,QS13,0)");
   EXPECT_EQ(irOf("DECLARE STRING QS1 = \"A;B\""), "QS1 := 'A;B'");
   EXPECT_EQ(irOf("Q1 = (2 + 3"), "1:12: ')' is expected after the expression in parentheses");
   EXPECT_EQ(irOf("Q1 = "), "1:6: a number, a parameter, a function or a parenthesis is expected in this formula");

@@ -73,7 +73,14 @@ TEST(Mistakes, OfFeedsAndTimes) {
 TEST(Mistakes, OfTexts) {
   expectSaid({{"QS1 = \"0123456789ABCDEF\"\nLBL 1\nQS1 = QS1 || QS1\nCALL LBL 1 REP9",
                "String too long: QS1 takes at most 255 characters, these are 256"},
-              {"QS1 = SUBSTR( SRC_QS2 BEG-1 LEN2 )", "Argument out of range: SUBSTR cannot begin at BEG-1"}});
+              {"QS1 = SUBSTR( SRC_QS2 BEG-1 LEN2 )", "3:28: BEG of SUBSTR is 0 or more"},
+              {"QS1 = SUBSTR( SRC_QS2 BEG1 LEN-5 )", "3:33: LEN of SUBSTR is 0 or more"},
+              {"Q1 = INSTR( SRC_QS2 SEA_QS3 BEG-3 )", "3:34: BEG of INSTR is 0 or more"},
+              {"QS1 = TOCHAR( DAT+Q1 DECIMALS-1 )", "3:32: DECIMALS of TOCHAR is 0 or more"},
+              {"QS2 = \"AB\"\nQ5 = -1\nQS1 = SUBSTR( SRC_QS2 BEGQ5 LEN2 )",
+               "Argument out of range: SUBSTR cannot begin at BEG-1"},
+              {"QS2 = \"AB\"\nQ5 = -3\nQ1 = INSTR( SRC_QS2 SEA_QS2 BEGQ5 )",
+               "Argument out of range: INSTR cannot begin at BEG-3"}});
 }
 
 /// The advice for a block that begins with no keyword.

@@ -42,7 +42,7 @@ struct KeyStroke {
   std::string text;       ///< as it was written
 };
 
-/// Nothing if a part of the text is no soft key, or lacks what belongs to it.
+/// Nothing if a part of the text is not a soft key, or lacks what belongs to it.
 std::optional<std::vector<KeyStroke>> keyStrokes(std::string_view text);
 
 /// True for the soft keys below CONFIGURE.

@@ -57,7 +57,7 @@ public:
   MonitoringSettings settings;
   std::vector<MonitoringImage> images;
 
-  /// Stores a picture behind the others. Evaluates it as far as that is possible.
+  /// Stores a picture after the others. Evaluates it as far as that is possible.
   MonitoringImage& add(const machine::Picture& picture);
   MonitoringImage* image(int number);
 
@@ -90,7 +90,7 @@ std::string monitoringFileName(const MonitoringPoint& point);
 /// "PLATE.OS.0003.PNG".
 std::string imageFileName(const MonitoringPoint& point, const MonitoringImage& image);
 
-/// Why a text is no name of a monitoring point; empty if it is.
+/// Why a text is not a name of a monitoring point; empty if it is one.
 std::string complaintAboutName(std::string_view name);
 
 /// The camera and the monitoring files of all programs.

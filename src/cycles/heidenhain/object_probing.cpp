@@ -62,9 +62,11 @@ std::string ObjectProbing::question(int ordinal) const {
 std::optional<std::string> ObjectProbing::answer(const std::string& what, Asked asked) {
   const auto& panel = context_.control().panel;
   if (!panel.answer) return std::nullopt;
-  std::string wanted = "tip of the probe in main, minor and tool axis, as 10 20 50; 10 20 -5";
-  if (asked == Asked::WayAndDirection) wanted += " Y- (with another probing direction)";
-  wanted += "; nothing: it stays";
+  std::string wanted =
+      "position of the probe's tip in main, minor and tool axis: 10 20 -5, or with waypoints 10 20 50; "
+      "10 20 -5";
+  if (asked == Asked::WayAndDirection) wanted += ", or with another probing direction 10 20 -5 Y-";
+  wanted += " (an empty line leaves the probe where it is)";
   return panel.answer({what, wanted, [&](const std::string& text) { return wayOf(text, asked).has_value(); }});
 }
 
@@ -111,8 +113,10 @@ std::optional<ObjectProbing::Way> ObjectProbing::wayOf(const std::string& text, 
 void ObjectProbing::moveAlong(const std::string& what, const std::string& waypoints, int* direction) {
   const std::optional<Way> way = wayOf(waypoints, direction == nullptr ? Asked::Way : Asked::WayAndDirection);
   if (!way) {
-    throw Alarm("Position of the probe wrong", fmt::format("'{}' is not a position for {}", waypoints, what),
-                "answer with three coordinates of the tip: main, minor and tool axis; ; between waypoints");
+    throw Alarm(
+        "Position of the probe wrong", fmt::format("'{}' is not a position for {}", waypoints, what),
+        "answer with the position of the probe's tip in main, minor and tool axis, with decimal points: 10 20.5 -5; "
+        "semicolons separate waypoints: 10 20.5 50; 10 20.5 -5");
   }
   for (const PlanePlace& tip : way->tips)
     prober_.approach(prober_.positionWithTip(tip), tip.z());
@@ -219,7 +223,8 @@ void ObjectProbing::leaveObject() {
 }
 
 void ObjectProbing::leaveLastObject() {
-  if (byHand_ || !entered_ || mode_ == clearanceNever) return;
+  // After probing by hand only the clearance height before and after the cycle still counts: 1 and 2 are ignored.
+  if (!entered_ || mode_ == clearanceNever || (byHand_ && mode_ > clearancePerCycle)) return;
   prober_.moveSouthPoleTo(clearance_);
 }
 

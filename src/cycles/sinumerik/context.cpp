@@ -418,6 +418,7 @@ probing::SinumerikProbe probeOfDataSet(const Control& control, int index) {
   const int type = control.tool.type;
   probe.lengthToCentre =
       !maskBit(control.data, "$MNS_MEA_FUNCTION_MASK", 1) || type == 580 || type == 713 || type == 714;
+  if (type == 714) probe.starBallRadius = control.data.number("$TC_DP7", {control.tool.number, control.tool.edge});
   return probe;
 }
 

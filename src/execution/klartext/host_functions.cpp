@@ -27,6 +27,14 @@ const std::string& textArgument(std::span<const Value> arguments, std::size_t in
   throw Alarm("Wrong data type", "A text is needed here, not a number", "convert the number with TOCHAR");
 }
 
+/// The place in a text where SUBSTR and INSTR begin.
+double beginArgument(std::string_view function, std::span<const Value> arguments, std::size_t index) {
+  const double begin = numberArgument(arguments, index);
+  if (begin >= 0) return begin;
+  throw Alarm("Argument out of range", fmt::format("{} cannot begin at BEG{}", function, formatShortest(begin)),
+              "characters are counted from BEG0");
+}
+
 }  // namespace
 
 Value KlartextHost::call(std::string_view name, std::span<const Value> arguments) {
@@ -70,11 +78,7 @@ Value KlartextHost::call(std::string_view name, std::span<const Value> arguments
   }
   if (name == "SUBSTR") {
     const std::string& text = textArgument(arguments, 0);
-    const double begin = numberArgument(arguments, 1);
-    if (begin < 0) {
-      throw Alarm("Argument out of range", fmt::format("SUBSTR cannot begin at BEG{}", formatShortest(begin)),
-                  "characters are counted from BEG0");
-    }
+    const double begin = beginArgument(name, arguments, 1);
     const double count = numberArgument(arguments, 2);  // -1: all that follows
     if (count < -1) {
       throw Alarm("Argument out of range", fmt::format("SUBSTR cannot take LEN{} characters", formatShortest(count)),
@@ -86,7 +90,7 @@ Value KlartextHost::call(std::string_view name, std::span<const Value> arguments
   }
   if (name == "INSTR") {
     const std::string& text = textArgument(arguments, 0);
-    const double begin = std::max(0.0, numberArgument(arguments, 2));
+    const double begin = beginArgument(name, arguments, 2);
     const std::size_t found = text.find(textArgument(arguments, 1), static_cast<std::size_t>(begin));
     return static_cast<double>(found == std::string::npos ? text.size() : found);
   }

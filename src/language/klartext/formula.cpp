@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -206,7 +208,8 @@ std::optional<Operand> BlockParser::functionCall() {
   return push(node);
 }
 
-/// The arguments of string functions have names; the host gets them in a fixed order, -1 for what is left out:
+/// The arguments of string functions have names; the host gets them in a fixed order, 0 for BEG and
+/// -1 for other numbers that are left out:
 /// TOCHAR(value, decimals) SUBSTR(text, begin, length) SYSSTR(id, nr, idx, length) TONUMB(text)
 /// INSTR(text, searched, begin) STRLEN(text [, is undefined]) STRCOMP(text, text) CFGREAD(key, tag, attribute, index).
 std::optional<Operand> BlockParser::stringFunction(std::string_view name) {
@@ -243,6 +246,11 @@ std::optional<Operand> BlockParser::stringFunction(std::string_view name) {
     }
     const std::optional<Operand> argument = names[i].text ? textOrVariable(names[i].keyword) : value(names[i].keyword);
     if (!argument) return std::nullopt;
+    const bool counts = names[i].keyword == "BEG" || names[i].keyword == "LEN" || names[i].keyword == "DECIMALS";
+    if (counts && argument->isLiteral() && argument->number < 0) {
+      error(fmt::format("{} of {} is 0 or more", names[i].keyword, name));
+      return std::nullopt;
+    }
     arguments[i] = *argument;
   }
   for (std::size_t i = 0; i < count; ++i) {
@@ -251,7 +259,7 @@ std::optional<Operand> BlockParser::stringFunction(std::string_view name) {
       error(std::string("the argument ").append(names[i].keyword).append(" of ").append(name).append(" is missing"));
       return std::nullopt;
     }
-    arguments[i] = Operand::of(name == "SUBSTR" && names[i].keyword == "BEG" ? 0 : -1);
+    arguments[i] = Operand::of(names[i].keyword == "BEG" ? 0 : -1);
   }
   if (name == "STRLEN" && arguments[0].node >= 0) {
     const Node& text = block_.nodes[static_cast<std::size_t>(arguments[0].node)];

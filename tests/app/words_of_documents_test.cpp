@@ -1,0 +1,86 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <regex>
+#include <sstream>
+
+#include "app/block_world.hpp"
+#include "app/program.hpp"
+
+/// The tables of words in the documents against what a run does with these words.
+namespace probewright::app::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// "90, 101 to 103" as numbers.
+std::vector<int> numbersOf(const std::string& cell) {
+  std::vector<int> numbers;
+  const std::regex expression("([0-9]+)(?: to ([0-9]+))?");
+  for (std::sregex_iterator each(cell.begin(), cell.end(), expression), end; each != end; ++each) {
+    const int first = std::stoi((*each)[1]), last = (*each)[2].matched ? std::stoi((*each)[2]) : first;
+    for (int number = first; number <= last; ++number)
+      numbers.push_back(number);
+  }
+  return numbers;
+}
+
+/// The rows of the table of M functions in docs/klartext.md: what is said of which numbers.
+std::map<std::string, std::vector<int>> rowsOfMFunctions() {
+  std::istringstream page(textOf(std::string(PROBEWRIGHT_SOURCE_DIR) + "/docs/klartext.md"));
+  std::map<std::string, std::vector<int>> rows;
+  bool inside = false;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("## ")) inside = line == "## M functions";
+    const std::size_t middle = line.find(" | ");
+    if (!inside || !line.starts_with("| ") || middle == std::string::npos) continue;
+    const std::string what = line.substr(middle + 3);
+    rows[what.substr(0, what.find_first_of(":,|"))] = numbersOf(line.substr(2, middle - 2));
+  }
+  return rows;
+}
+
+/// A run of blocks with these M functions.
+Answer withFunctions(const Folder& folder, const std::vector<int>& functions, const std::vector<std::string>& options) {
+  std::string program = "BEGIN PGM M MM\nTOOL CALL 1 Z S500\nL Z+50 R0 FMAX\n";
+  for (const int function : functions)
+    program += "L IX+1 R0 F100 M" + std::to_string(function) + "\n";
+  std::vector<std::string> words = {"run",     folder.file("M.H", program + "END PGM M MM\n"),
+                                    "--setup", folder.file("m.toml", blockSetup()),
+                                    "--out",   (folder / "out").string()};
+  words.insert(words.end(), options.begin(), options.end());
+  return probewright(words);
+}
+
+TEST(DocumentedWords, MFunctionsDoWhatTheirRowsSay) {
+  const Folder folder;
+  auto rows = rowsOfMFunctions();
+  const std::vector<int> accepted = rows["accepted"], skipped = rows["named as skipped "];
+  ASSERT_GT(accepted.size(), 15U);
+  ASSERT_GT(skipped.size(), 10U);
+  const Answer passes = withFunctions(folder, accepted, {"--strict"});
+  EXPECT_EQ(passes.exit, 0) << passes.output << passes.errors;
+  EXPECT_THAT(passes.output, Not(HasSubstr("skipped")));
+  // All together, so that naming one does not hide the next; those of the machine tool builder are named, too.
+  std::vector<int> named = skipped;
+  named.insert(named.end(), {21, 51, 300});
+  const Answer tells = withFunctions(folder, named, {});
+  EXPECT_EQ(tells.exit, 0) << tells.output << tells.errors;
+  for (const int function : named) {
+    SCOPED_TRACE(function);
+    EXPECT_TRUE(std::regex_search(tells.output, std::regex("M" + std::to_string(function) + "\\b[^\n]*skipped")))
+        << tells.output;
+    EXPECT_EQ(withFunctions(folder, {function}, {"--strict", "--quiet"}).exit, 3);
+  }
+  // What is carried out passes without a word where nothing else is needed for it.
+  const Answer carried = withFunctions(
+      folder, {3, 4, 5, 6, 7, 8, 9, 13, 14, 19, 20, 94, 126, 127, 129, 130, 136, 137, 141, 143, 145}, {"--strict"});
+  EXPECT_EQ(carried.exit, 0) << carried.output << carried.errors;
+  EXPECT_THAT(carried.output, Not(HasSubstr("skipped")));
+}
+
+}  // namespace
+}  // namespace probewright::app::testing
