@@ -56,19 +56,15 @@ double longestWay(const std::vector<ChainElement>& chain, const std::vector<mach
   return way;
 }
 
-/// The same of two links against each other, for any of their points; nothing if one of their axes turns.
-std::optional<double> longestShift(const machine::Between& between, const std::vector<machine::Axis>& axes,
-                                   const Motion& motion) {
+/// The same of any point of any link against any other; nothing if an axis turns.
+std::optional<double> longestShift(const std::vector<machine::Axis>& axes, const Motion& motion) {
   double way = 0;
-  for (const auto* chain : {&between.first, &between.second}) {
-    for (const ChainElement& element : *chain) {
-      if (!element.axis) continue;
-      const double travel = std::abs(motion.to[*element.axis] - motion.from[*element.axis]);
-      if (travel > 0 && axes[*element.axis].kind != AxisKind::Linear) return std::nullopt;
-      way += travel;
-    }
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const double travel = std::abs(motion.to[i] - motion.from[i]);
+    if (travel > 0 && axes[i].kind != AxisKind::Linear) return std::nullopt;
+    way += travel;
   }
-  return way;
+  return reserve * way;
 }
 
 /// The distance of a point from a box; 0 within.
@@ -143,10 +139,12 @@ struct BodyGuard::View {
   std::vector<PlacedSolid> solids;
   std::unique_ptr<Surroundings> surroundings;
   bool fromStart = true;  ///< the tool has never been free of them
-  machine::Between between;
+  Bounds toolBox;         ///< of the tool that was asked for last
+  double clear = 0;       ///< mm: the tool is not closer than that where the axes stand
+  double way = 0;         ///< how far it may travel on the motion asked for last
 
   /// How far the tool is from the bodies at least, by boxes about them.
-  double gap(const Pose& linkFromSpindle, const Bounds& toolBox) const {
+  double gap(const Pose& linkFromSpindle) const {
     double least = 1e300;
     for (const Surroundings::Item& item : surroundings->items())
       least = std::min(least, boxDistance(item.bounds, item.solidFromTable * linkFromSpindle, toolBox));
@@ -223,7 +221,6 @@ void BodyGuard::addViews() {
       auto added = std::make_unique<View>();
       added->link = thing->link;
       added->kinematics = kinematicsBetween(thing->link, head);
-      added->between = machine::between(machine_, thing->link, head);
       view = views_.insert(views_.end(), std::move(added));
     }
     (*view)->solids.push_back({thing->solid, thing->linkFromSolid, thing->name, SolidRole::Fixture, true});
@@ -343,7 +340,13 @@ std::optional<BodyHit> BodyGuard::firstHit(const Motion& motion, double end, con
                                            const std::stop_token& stop) {
   std::optional<BodyHit> first;
   double reach = end;
+  const auto shift = longestShift(machine_.axes, motion);
   for (const auto& pair : pairs_) {
+    if (shift && pair->clear > *shift * reach) {
+      pair->way = *shift;
+      pair->known.assign(1, {0, pair->clear});
+      continue;
+    }
     auto hit = approach(*pair, motion, reach, mode, stop);
     if (!hit || (first && hit->fraction >= first->fraction)) continue;
     reach = hit->fraction;
@@ -354,11 +357,17 @@ std::optional<BodyHit> BodyGuard::firstHit(const Motion& motion, double end, con
   const bool anyTool = toolBox.minimum.x() <= toolBox.maximum.x();
   for (const auto& view : views_) {
     if (!anyTool) continue;
+    if (view->toolBox.minimum != toolBox.minimum || view->toolBox.maximum != toolBox.maximum) view->clear = 0;
+    view->toolBox = toolBox;
+    view->way = shift.value_or(1e300);
+    if (shift && view->clear > *shift * reach + toolPrecision) continue;
     const Motion relative = seen(motion, *view->kinematics);
-    const auto shift = longestShift(view->between, machine_.axes, motion);
-    if (shift && view->gap(relative.tableFromSpindleAt(0), toolBox) > reserve * *shift * reach + toolPrecision) {
-      view->fromStart = false;
-      continue;
+    if (shift) {
+      view->clear = view->gap(relative.tableFromSpindleAt(0));
+      if (view->clear > *shift * reach + toolPrecision) {
+        view->fromStart = false;
+        continue;
+      }
     }
     if (mode == Touching::MayBePulledOff || view->fromStart) {
       const Pose start = relative.tableFromSpindleAt(0);
@@ -381,6 +390,10 @@ void BodyGuard::arrived(double fraction) {
     pair->clear = clear;
     pair->known.clear();
   }
+  for (const auto& view : views_) {
+    view->clear = std::max(0.0, view->clear - view->way * fraction);
+    view->way = 1e300;  // until a motion is asked for
+  }
 }
 
 void BodyGuard::forget() {
@@ -388,6 +401,8 @@ void BodyGuard::forget() {
     pair->clear = 0;
     pair->known.clear();
   }
+  for (const auto& view : views_)
+    view->clear = 0;
 }
 
 std::optional<BodyHit> BodyGuard::standing(const AxisPositions& slides, double seconds) {

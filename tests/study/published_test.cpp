@@ -110,9 +110,9 @@ TEST(NistUncertaintyMachine, CoefficientOfThermalExpansion) {
 /// The same manual, and example E3 of NIST Technical Note 1900: a falling ball in sodium hydroxide and in a liquid of
 /// known viscosity. The times are so uncertain that the mean is not the value at the means.
 TEST(NistUncertaintyMachine, DynamicViscosity) {
-  const Study study = studyOf({source("known viscosity", Normal{4.63, 0.01 * 4.63}), source("ball", Normal{2217, 0.5}),
-                               source("known liquid", Normal{810, 0.5}), source("liquid", Normal{1180, 0.5}),
-                               source("known time", Normal{36.6, 0.15 * 36.6}), source("time", Normal{61, 0.1 * 61})},
+  const Study study = studyOf({source("knownViscosity", Normal{4.63, 0.01 * 4.63}), source("ball", Normal{2217, 0.5}),
+                               source("knownLiquid", Normal{810, 0.5}), source("liquid", Normal{1180, 0.5}),
+                               source("knownTime", Normal{36.6, 0.15 * 36.6}), source("time", Normal{61, 0.1 * 61})},
                               200'000);
   const auto viscosity = [](const std::vector<double>& x) {
     return x[0] * (x[1] - x[3]) / (x[1] - x[2]) * x[5] / x[4];

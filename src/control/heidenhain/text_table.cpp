@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <set>
 
 #include "base/number_text.hpp"
@@ -270,11 +272,25 @@ std::size_t TextTable::contentSize(std::size_t line) const {
   return size;
 }
 
+namespace {
+
+/// True if eight characters of one byte each come first.
+bool isAsciiFor8(std::string_view text) {
+  std::uint64_t bytes = 0;
+  if (text.size() < sizeof bytes) return false;
+  std::memcpy(&bytes, text.data(), sizeof bytes);
+  return (bytes & 0x8080808080808080U) == 0;
+}
+
+}  // namespace
+
 std::size_t TextTable::byteOf(std::string_view content, std::size_t character) const {
   if (!utf8_) return std::min(character, content.size());
   std::size_t byte = 0;
-  for (; character > 0 && byte < content.size(); --character) {
-    ++byte;
+  while (character > 0 && byte < content.size()) {
+    const std::size_t step = character >= 8 && isAsciiFor8(content.substr(byte)) ? 8 : 1;
+    byte += step;
+    character -= step;
     while (byte < content.size() && continuesCharacter(content[byte]))
       ++byte;
   }
