@@ -293,7 +293,9 @@ int main(int argc, char** argv) {
       ->type_name("[USER@]NAME")
       ->check([](const std::string& text) {
         const bool plain = !text.empty() && text.find_first_of(" \t\n\v\f\r") == std::string::npos;
-        return plain && !text.starts_with('-') ? "" : "--host names no computer";
+        return plain && !text.starts_with('-')
+                   ? ""
+                   : "it is the name of a computer, without blanks and without a - before it";
       });
   run->parse_complete_callback([&] {
     if (host.empty()) return;

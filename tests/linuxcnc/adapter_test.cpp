@@ -43,6 +43,30 @@ TEST_F(OnLinuxCnc, SinumerikFindsWhatItFindsOnTheVirtualMachine) {
   agrees("bore.mpf", sinumerik(), "840Dsl", "FRAMES.UFR");
 }
 
+/// A stand-in for ssh, which runs here what is to run there: what it is told, and that the run is as one from beside.
+TEST_F(OnLinuxCnc, AnotherComputersLinuxCncIsReachedThroughSsh) {
+  constexpr double feed = 1200;
+  session_.write("setup.toml", setup("TNC640", world, feed));
+  session_.write("bore.h", klartext());
+  session_.write("ssh", "#!/bin/sh\necho \"$@\" >told\nshift 2\nexec \"$(dirname \"$PROGRAM\")/$1\"\n");
+  std::filesystem::permissions(session_.outside() / "ssh", std::filesystem::perms(0755));
+  atTheDesk(call(world) + R"(
+os.environ['PROGRAM'] = bench.PROGRAM
+ended(desk, 'run', start('bore.h', more=['--host', 'anna@mill'], path=os.getcwd() + ':'))
+ended(desk, 'other', start('bore.h', machine='python3 x', more=['--host', 'mill']))
+ended(desk, 'option', start('bore.h', more=['--host=-oProxyCommand=x']))
+)");
+  EXPECT_THAT(told("run"), StartsWith("0 ")) << output;
+  EXPECT_EQ(text("told"), "-T anna@mill probewright-linuxcnc\n");
+  const std::vector<double> found = preset("out");
+  ASSERT_EQ(found.size(), 3U) << output;
+  EXPECT_NEAR(found[0], world.x, feed / 60 * period + 1e-4);
+  EXPECT_THAT(told("other"), StartsWith("2 "));
+  EXPECT_THAT(told("other"), ::testing::HasSubstr("it goes with --machine linuxcnc"));
+  EXPECT_THAT(told("option"), StartsWith("2 "));
+  EXPECT_THAT(told("option"), ::testing::HasSubstr("it is the name of a computer"));
+}
+
 /// Random places of the part: the preset is where it was planted, to the way of one servo period at probing feed.
 TEST_F(OnLinuxCnc, PresetsOfRandomWorldsAreFoundWhereTheyArePlanted) {
   constexpr double feed = 600;

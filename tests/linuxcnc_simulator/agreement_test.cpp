@@ -95,7 +95,7 @@ TEST_P(ExamplesAgree, WithTheVirtualMachine) {
 import os, subprocess
 desk.ready()
 desk.run(name, 600)
-for _ in range(500):
+for _ in range(15000):
     if os.path.exists('measured/results.json'): break
     time.sleep(0.02)
 desk.mdi('G53 G0 Z0')

@@ -23,9 +23,10 @@ def world(x, y, radius, top):
         hal(pin, value)
 
 
-def start(program, out="out", setup="setup.toml", machine="linuxcnc"):
-    words = [PROGRAM, "run", program, "--setup", setup, "--out", out, "--quiet", "--machine", machine]
-    return subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+def start(program, out="out", setup="setup.toml", machine="linuxcnc", more=(), path=""):
+    words = [PROGRAM, "run", program, "--setup", setup, "--out", out, "--quiet", "--machine", machine, *more]
+    environment = dict(os.environ, PATH=path + os.environ["PATH"])
+    return subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=environment)
 
 
 def ended(desk, name, run, seconds=300):
