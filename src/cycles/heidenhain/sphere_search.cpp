@@ -60,13 +60,17 @@ Matrix3 SphereSearch::tilt() const {
 
 void SphereSearch::lookAlongTool() {
   const auto& coordinates = context_.control().coordinates;
-  const Vector3 mainAxis = coordinates.machineFromPreset().linear().col(0);
+  const control::WorkingPlane& plane = coordinates.plane;
+  const Vector3 mainAxis = coordinates.machineFromPreset().linear().col(plane.main);
   Eigen::Affine3d frame = Eigen::Affine3d::Identity();
-  frame.linear() = spindleAxes() * Eigen::AngleAxisd(std::atan2(mainAxis.y(), mainAxis.x()), Vector3::UnitZ());
+  frame.linear() = spindleAxes() * Eigen::AngleAxisd(std::atan2(mainAxis[plane.minor], mainAxis[plane.main]),
+                                                     Vector3::Unit(plane.tool));
   frame.translation() = centre_.vector();
   channel_.setFollowing(Following::Kinematics, coordinates.preset.rotaryOffset);
   channel_.setFrame(frame);
 }
+
+Vector3 SphereSearch::alongTool() const { return Vector3::Unit(context_.control().coordinates.plane.tool); }
 
 /// Height of the ball's centre with the ball at the set-up clearance over the pole.
 double SphereSearch::aboveSphere() const { return radius_ + prober_.probe().ballRadius + clearance_; }
@@ -85,9 +89,9 @@ void SphereSearch::retract() {
   channel_.setFollowing(Following::Kinematics, channel_.axes());
   channel_.setFrame(coordinates.machineFromPreset());
   ProgramPlace tip = channel_.position();
-  tip[2] = retraction_;
+  tip[coordinates.plane.tool] = retraction_;
   channel_.moveTo(tip, rotaryFeed_);
-  channel_.moveTo(ProgramPlace(0, 0, retraction_), rotaryFeed_);
+  channel_.moveTo(coordinates.plane.xyzFromPlane(PlanePlace(0, 0, retraction_)), rotaryFeed_);
 }
 
 void SphereSearch::carryOut(const machine::AxisPositions& target, const std::vector<std::size_t>& axes) {
@@ -114,7 +118,7 @@ void SphereSearch::carryOut(const machine::AxisPositions& target, const std::vec
     turned.rotary[axis] = target[axis] - channel_.rotaryOffset[axis];
   const double height = prober_.position().z() - prober_.probe().ballRadius;
   lookAlongTool();
-  const Scoped reach(channel_.toolVector, Vector3(channel_.toolVector + height * Vector3::UnitZ()));
+  const Scoped reach(channel_.toolVector, Vector3(channel_.toolVector + height * alongTool()));
   const Scoped held(channel_.holdTip, true);
   const Scoped coarse(channel_.pathTolerance, indexingTolerance);
   channel_.moveTo(turned, rotaryFeed_);
@@ -182,11 +186,12 @@ FoundSphere SphereSearch::measure(RadiusCheck check) {
                             formatShortest(permitted)),
                 "check Q407, clean the sphere, and calibrate the touch probe");
   }
-  const ProgramPlace tip(fit->shape.centre - Vector3(0, 0, ball));
+  const control::WorkingPlane& plane = context_.control().coordinates.plane;
+  const BallCentre centre(fit->shape.centre);
+  const ProgramPlace tip = plane.xyzFromPlane(tipAt(centre, PlaneWay(0, 0, -ball)));
   FoundSphere found;
-  found.sighting = {channel_.axesFromProgram(tip, channel_.axes()),
-                    Vector3(ball * Vector3::UnitZ() - channel_.toolVector)};
-  found.centre = channel_.machineFromProgram(PartInProgram(fit->shape.centre));
+  found.sighting = {channel_.axesFromProgram(tip, channel_.axes()), Vector3(ball * alongTool() - channel_.toolVector)};
+  found.centre = channel_.machineFromProgram(plane.xyzFromPlane(partAt(centre)));
   found.radius = radius;
   return found;
 }
@@ -206,7 +211,8 @@ PartInMachine presetIntoSphere(Context& context) {
   const double above = context.q(407) + probe.ballRadius + probe.setUp + context.q(320);
   probing::HeidenhainProber prober(context.channel(), context.control().coordinates.plane, probe);
   const BallCentre begin = prober.position() - PlaneWay(0, 0, above);
-  search.expectAt(PartInMachine(context.channel().frame() * begin.vector()));
+  const control::WorkingPlane& plane = context.control().coordinates.plane;
+  search.expectAt(context.channel().machineFromProgram(plane.xyzFromPlane(partAt(begin))));
   for (const RadiusCheck check : {RadiusCheck::No, RadiusCheck::Yes})
     search.expectAt(search.measure(check).centre);
   setSpherePreset(context, search.expected());

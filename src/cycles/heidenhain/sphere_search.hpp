@@ -52,12 +52,14 @@ public:
   Matrix3 tilt() const;
 
 private:
-  /// Coordinates with the origin where the sphere is expected and Z along the tool.
+  /// Coordinates with the origin where the sphere is expected and the tool axis of the working plane along the tool.
   void lookAlongTool();
   void retract();
   void carryOut(const machine::AxisPositions& target, const std::vector<std::size_t>& axes);
   /// Spindle axes in machine coordinates at the reference posture.
   Matrix3 spindleAxes() const;
+  /// From the tip towards the spindle, in the spindle frame.
+  Vector3 alongTool() const;
   double aboveSphere() const;
 
   Context& context_;
