@@ -7,10 +7,8 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "cycles/catalogue.hpp"
-#include "cycles/sinumerik/old_parameters.hpp"
 #include "language/constant_division.hpp"
-#include "language/sinumerik/argument_check.hpp"
+#include "language/sinumerik/checker.hpp"
 #include "language/sinumerik/cursor.hpp"
 #include "language/sinumerik/keywords.hpp"
 #include "language/sinumerik/known_system_variables.hpp"
@@ -20,58 +18,6 @@
 namespace probewright::language::sinumerik {
 
 using namespace language;
-
-namespace {
-
-constexpr control::ControlKind controlKind = control::ControlKind::Sinumerik840Dsl;
-
-class Checker {
-public:
-  Checker(SinumerikProgram& program, const CheckOptions& options) : program_(program), options_(options) {}
-  Diagnostics run();
-  /// The programs that this one calls.
-  std::vector<std::shared_ptr<Program>> called;
-
-private:
-  struct Use {
-    std::string name;
-    Diagnostic complaint;
-  };
-
-  std::size_t columnOf(std::string_view name) const;
-  Diagnostic complaint(std::size_t column, std::string message, std::string advice) const;
-  void report(std::size_t column, std::string message, std::string advice, Severity severity = Severity::Error);
-  void declare(const Instruction& instruction);
-  void declareFromBrokenBlock();
-  void checkSection(const CallProgram& call, Program& other);
-  void checkNames();
-  void checkPriorities();
-  void checkFunctions();
-  void checkEffect(const Command& command, const std::string& name);
-  void tell(const std::string& name, std::string_view how);
-  void checkInstruction(const Instruction& instruction);
-  void checkTarget(TextRef label, JumpDirection direction);
-  void checkCall(const CallProgram& call);
-  void checkArguments(const std::vector<ArgumentMistake>& mistakes);
-  void checkParameters(const CallProgram& call, const BlockParser::Header& header);
-  void checkLabels();
-  void checkType(const CallProgram& call, const BlockParser::Header& header, std::size_t place);
-
-  SinumerikProgram& program_;
-  const CheckOptions& options_;
-  Block block_;
-  Diagnostics found_;
-  std::set<std::string> declared_;
-  bool callsHook_ = false;             ///< a measuring cycle calls CUST_MEACYC
-  bool callsPrograms_ = false;         ///< other programs, which may write variables for this one
-  bool oldParameters_ = false;         ///< _MVAR was met: cycles may be called without arguments
-  std::map<std::string, Type> types_;  ///< of those whose DEF or PROC line tells it
-  std::set<std::string> macros_;
-  bool begun_ = false;                         ///< a block was met that is carried out
-  bool toldOrder_ = false;                     ///< of a DEF after it
-  std::set<std::string> told_;                 ///< system variables and words that were reported
-  std::map<std::string, Diagnostic> unknown_;  ///< first use of each name that no DEF came before
-};
 
 std::size_t Checker::columnOf(std::string_view name) const {
   const std::size_t at = upperCase(block_.at(block_.source)).find(name);
@@ -204,131 +150,6 @@ void Checker::checkTarget(TextRef label, JumpDirection direction) {
   report(column, "the destination " + name + " is missing",
          close.empty() ? "Write " + name + (name[0] == 'N' || name[0] == ':' ? "" : ":") + " before the block to go to."
                        : "Did you mean " + std::string(close) + "?");
-}
-
-void Checker::checkArguments(const std::vector<ArgumentMistake>& mistakes) {
-  for (const ArgumentMistake& each : mistakes)
-    report(each.column, each.message, each.advice, each.severity);
-}
-
-void Checker::checkParameters(const CallProgram& call, const BlockParser::Header& header) {
-  const Word* words = block_.words.data() + call.arguments.first;
-  if (call.arguments.count > header.parameters.size()) {
-    report(words[header.parameters.size()].column,
-           fmt::format("{} has {} parameter{}, but the call has {} arguments", header.name, header.parameters.size(),
-                       header.parameters.size() == 1 ? "" : "s", call.arguments.count),
-           "Compare the call with the PROC line of the subprogram.");
-    return;
-  }
-  for (std::size_t i = 0; i < header.parameters.size(); ++i) {
-    const BlockParser::Parameter& parameter = header.parameters[i];
-    if (!parameter.byReference) {
-      checkType(call, header, i);
-      continue;
-    }
-    if (i >= call.arguments.count || !words[i].value.present()) {
-      report(columnOf(header.name),
-             fmt::format("argument {} of {} is missing: the VAR parameter {} needs a variable", i + 1, header.name,
-                         parameter.name),
-             "Write the name of the variable that takes the result.");
-      continue;
-    }
-    const Operand& value = words[i].value;
-    const bool isVariable =
-        value.node >= 0 && block_.nodes[static_cast<std::size_t>(value.node)].operation == Operation::Variable;
-    if (!isVariable)
-      report(
-          words[i].column,
-          fmt::format("argument {} of {}: the VAR parameter {} needs a variable", i + 1, header.name, parameter.name),
-          "Write the name of the variable that takes the result.");
-  }
-}
-
-/// An argument whose type the parameter cannot take.
-void Checker::checkType(const CallProgram& call, const BlockParser::Header& header, std::size_t place) {
-  if (place >= call.arguments.count) return;
-  const BlockParser::Parameter& parameter = header.parameters[place];
-  const Word& word = block_.words[call.arguments.first + place];
-  const std::string wrong = argumentOfWrongType(block_, word.value, parameter.type, types_);
-  if (wrong.empty()) return;
-  report(word.column,
-         fmt::format("argument {} of {} is {}, and the parameter {} has the type {}", place + 1, header.name, wrong,
-                     parameter.name, typeName(parameter.type)),
-         "Compare the call with the PROC line of the subprogram.");
-}
-
-/// "/_N_WKS_DIR/_N_PART_WPD/_N_SUB_SPF" -> "SUB".
-std::string plainName(std::string_view path) {
-  path = path.substr(path.find_last_of("/\\") + 1);
-  if (!path.starts_with("_N_")) return std::string(path);
-  path.remove_prefix(3);
-  const bool ending = path.size() > 4 && path[path.size() - 4] == '_';
-  return std::string(path.substr(0, path.size() - (ending ? 4 : 0)));
-}
-
-void Checker::checkSection(const CallProgram& call, Program& other) {
-  const std::string_view from = block_.at(call.from), to = block_.at(call.to);
-  const auto first = other.findLabel(from, other.begin(), JumpDirection::Any);
-  const bool last = first && (from == to || other.findLabel(to, *first, JumpDirection::Forward));
-  if (!last)
-    report(columnOf(first ? to : from),
-           fmt::format("the program {} has no section from {} to {}", other.name(), from, to),
-           fmt::format("The label {} is missing there, or comes before {}.", first ? to : from, from));
-}
-
-void Checker::checkCall(const CallProgram& call) {
-  if (call.nameValue.present() || call.name.length == 0) return;
-  const std::string path = upperCase(block_.at(call.name)), name = plainName(path);
-  if (macros_.contains(name)) return;
-  if (options_.library != nullptr && options_.library->exists(path, &program_)) {
-    const auto found = options_.library->open(path, &program_);
-    if (!found) {
-      const Diagnostic& why = found.error();
-      return report(columnOf(path), fmt::format("the program {} cannot be read: {}", name, why.message), why.advice);
-    }
-    this->called.push_back(*found);
-    callsPrograms_ = true;
-    if (call.from.length != 0) return checkSection(call, **found);
-    if (auto* subprogram = dynamic_cast<SinumerikProgram*>(found->get());
-        subprogram != nullptr && subprogram->structure().header())
-      checkParameters(call, *subprogram->structure().header());
-    return;
-  }
-  const std::size_t column = columnOf(path);
-  if (call.maybeCycle) {
-    if (const cycles::CycleDefinition* cycle = cycles::sinumerikCycle(name)) {
-      callsHook_ = true;
-      // A subprogram and a program that calls others may find the variables written.
-      const bool oldForm = call.arguments.count == 0 && cycles::sinumerik::hasOldForm(*cycle);
-      if (oldForm && (oldParameters_ || callsPrograms_ || upperCase(program_.file()).ends_with(".SPF"))) return;
-      return checkArguments(argumentMistakes(block_, call, *cycle, types_));
-    }
-    if (name == "CYCLE800" || name == "CYCLE116") return checkArguments(serviceMistakes(block_, call, name, types_));
-    if (isCycleWithoutEffect(name)) return;
-    if (isMeasuringCycle(name))
-      return report(column, fmt::format("the measuring cycle {} is not available", name),
-                    "'probewright cycles --control 840Dsl' lists the cycles that are.");
-    if (isSkippedCycle(name))
-      return report(column, name + " is not carried out", "The run continues after it; no material is removed.",
-                    Severity::Warning);
-  }
-  if (options_.library == nullptr && !call.maybeCycle) return;
-  if (name.empty())
-    return report(column, fmt::format("\"{}\" names a folder, not a program", block_.at(call.name)),
-                  "Write the name of the program: CALL \"NAME\".");
-  // CALL names programs only: a word of the language is never meant.
-  std::vector<std::string_view> names;
-  for (const cycles::CycleDefinition* cycle : cycles::cyclesOf(controlKind))
-    if (call.maybeCycle) names.push_back(cycle->name);
-  for (const KeywordEntry& keyword : keywords())
-    if (call.maybeCycle) names.push_back(keyword.name);
-  const std::string_view close = closestName(name, names);
-  const std::string message = (call.maybeCycle ? "there is no program and no cycle " : "there is no program ") + name;
-  const std::string file = name.find('.') == std::string::npos ? name + ".SPF" : name;
-  const std::string advice = close.empty() ? "Put " + file + " beside the program, or check the spelling."
-                                           : "Did you mean " + std::string(close) + "?";
-  if (options_.library == nullptr && close.empty()) return;
-  report(column, message, advice);
 }
 
 void Checker::checkInstruction(const Instruction& instruction) {
@@ -492,8 +313,6 @@ Diagnostics Checker::run() {
   });
   return std::move(found_);
 }
-
-}  // namespace
 
 Diagnostics check(SinumerikProgram& program, const CheckOptions& options) {
   constexpr std::size_t mostPrograms = 500;
