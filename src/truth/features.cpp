@@ -266,24 +266,68 @@ private:
     }
   }
 
+  /// Coordinates of touches from the same side, summed up.
+  struct Side {
+    Eigen::Index axis = 0;
+    bool positive = true;  ///< touched in this direction
+    double believed = 0, truth = 0;
+    int count = 0;
+    Origin origin;
+  };
+
+  static Side& sideOf(std::vector<Side>& sides, Eigen::Index axis, bool positive, const Origin& origin) {
+    const auto found =
+        std::ranges::find_if(sides, [&](const Side& side) { return side.axis == axis && side.positive == positive; });
+    if (found != sides.end()) {
+      found->origin = both(found->origin, origin);
+      return *found;
+    }
+    return sides.emplace_back(Side{axis, positive, 0, 0, 0, origin});
+  }
+
+  void addCoordinate(Explanations& found, Eigen::Index axis, double believed, double truth,
+                     const Origin& origin) const {
+    add(found, believed, truth, origin);
+    // Lathes count diameters.
+    if (plane_.axis(static_cast<int>(axis)) == 0) add(found, 2 * believed, 2 * truth, origin);
+  }
+
   void coordinates(Explanations& found, const Characteristic& what) const {
     const auto named = axisOf(what.along);
     if (what.item > all_.size()) return;
+    std::vector<Side> sides;
     for (std::size_t i = 0; i < all_.size(); ++i) {
       if (what.item > 0 && i + 1 != what.item) continue;
       const TouchedPoint& touch = *all_[i];
       Eigen::Index axis = 0;
       touch.direction.cwiseAbs().maxCoeff(&axis);
       if (named && *named != axis) continue;
-      const Vector3 along = Vector3::Unit(axis);
-      const auto distance = distanceToFace(touch, touch.surface, along);
+      const auto distance = distanceToFace(touch, touch.surface, Vector3::Unit(axis));
       if (!distance) continue;
       const Origin origin =
           touch.face ? Origin{TruthBasis::Face, nameOf(touch.face->kind)} : Origin{TruthBasis::Points, {}};
-      const double believed = touch.surface[axis];
-      add(found, believed, believed + *distance, origin);
-      // Lathes count diameters.
-      if (plane_.axis(static_cast<int>(axis)) == 0) add(found, 2 * believed, 2 * (believed + *distance), origin);
+      const double believed = touch.surface[axis], truth = believed + *distance;
+      addCoordinate(found, axis, believed, truth, origin);
+      Side& side = sideOf(sides, axis, touch.direction[axis] > 0, origin);
+      side.believed += believed;
+      side.truth += truth;
+      ++side.count;
+    }
+    if (what.item > 0) return;
+    // Repeated touches count with their mean, so do those of a turned part before and after half a turn. Touches from
+    // both sides of it tell its diameter.
+    for (Side& side : sides) {
+      side.believed /= side.count;
+      side.truth /= side.count;
+      if (side.count > 1) addCoordinate(found, side.axis, side.believed, side.truth, side.origin);
+    }
+    for (const Side& plus : sides) {
+      for (const Side& minus : sides) {
+        if (plus.axis != minus.axis || !plus.positive || minus.positive) continue;
+        const double believed = std::abs(plus.believed - minus.believed), truth = std::abs(plus.truth - minus.truth);
+        for (const double share : {1.0, 0.5})
+          add(found, share * believed, share * truth, both(plus.origin, minus.origin));
+      }
     }
   }
 

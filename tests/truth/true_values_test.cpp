@@ -172,6 +172,32 @@ TEST(TrueValues, OfACornerAndACircleOfHolesComeFromSeveralFaces) {
   EXPECT_NEAR(bolts.value("Q153"), 2 * circle.radius, exact);
 }
 
+/// The axis of the shaft lies a little beside the turning axis: one touch is wrong by that, two are not.
+TEST(TrueValues, OfATurnedDiameterAreThoseOfAllItsTouches) {
+  for (const double beside : {-0.0076, 0.004}) {
+    World world;
+    world.control = "840Dsl";
+    world.origin = {0, 0, 180};
+    world.part = fmt::format(
+        "[part]\npose = {{ x = {} }}\n[[part.feature]]\nshape = \"cylinder\"\ndiameter = 27.982\nheight = 180\n",
+        beside);
+    world.probe = "stylus_length = 60\nbody_radius = 20\nshank_direction = [0, 0, 1]\n";
+    world.more = "[machine]\nname = \"lathe2c\"\n";
+    const std::string to = "T=\"PROBE\" D1\nG54 G18 G90 G95 DIAMON\nG0 X140 Z50\nG0 X44\nZ-12\n";
+    for (const char* call : {"CYCLE994(2,,,1,28,102,,20,8,1,1)\n", "CYCLE974(10002,,,1,28,2,8,1,0,1)\n",
+                             "DIAMOF\nCYCLE994(2,,,1,14,102,,20,8,1,1)\n"}) {
+      const Told told = run(world, to + call);
+      ASSERT_TRUE(told.finished()) << call << told.why();
+      const double diameter = call[0] == 'D' ? 27.982 / 2 : 27.982;
+      EXPECT_NEAR(told.measured("_OVR[4]"), diameter, 1e-5) << call;
+      EXPECT_NEAR(told.value("_OVR[4]"), diameter, 1e-5) << call;
+    }
+    const Told once = run(world, to + "CYCLE974(2,,,1,28,2,8,1,0,1)\n");
+    ASSERT_TRUE(once.finished()) << once.why();
+    EXPECT_NEAR(once.value("_OVR[4]"), 27.982 + 2 * beside, 1e-5);
+  }
+}
+
 TEST(TrueValues, AreLeftOutWhereThereIsNone) {
   World world;
   world.control = "840Dsl";
