@@ -1,406 +1,24 @@
 #include <fmt/format.h>
-#include <BinTools.hxx>
 #include <Standard_Failure.hxx>
 #include <Standard_Version.hxx>
-#include <TopoDS_Shape.hxx>
 
 #include <algorithm>
-#include <charconv>
-#include <chrono>
-#include <csignal>
+#include <functional>
 #include <future>
-#include <map>
-#include <sstream>
-#include <vector>
+#include <stdexcept>
+#include <string>
 
 #include "base/file.hpp"
-#include "simulation/cad_model.hpp"
+#include "simulation/cad_import.hpp"
 #include "simulation/cad_solid.hpp"
-#include "simulation/cad_transfer.hpp"
 #include "simulation/import_cache.hpp"
-#include "simulation/imported_part.hpp"
-#include "simulation/step_text.hpp"
 
 namespace probewright::simulation {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// To be counted up whenever an import makes something else of the same file, also if only its layout in memory
 /// changes.
-constexpr int kCacheVersion = 8;
-constexpr std::size_t kMostNamed = 10;
-constexpr int kMostAttempts = 5;
-
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-std::pair<std::string_view, std::string_view> firstWord(std::string_view line) {
-  const std::size_t blank = line.find(' ');
-  if (blank == std::string_view::npos) return {line, {}};
-  return {line.substr(0, blank), line.substr(blank + 1)};
-}
-
-int numberIn(std::string_view text) {
-  int number = 0;
-  std::from_chars(text.data(), text.data() + text.size(), number);
-  return number;
-}
-
-/// What the entities of a file are called, and where they stand.
-class EntityNames {
-public:
-  EntityNames(CadFormat format, StepText text, std::string_view bytes) : text_(std::move(text)) {
-    if (format != CadFormat::Iges) return;
-    // The directory has two lines an entity; column 73 names the section.
-    for (std::size_t at = 0; at < bytes.size(); ++firstDirectoryLine_) {
-      if (at + 72 < bytes.size() && bytes[at + 72] == 'D') break;
-      at = std::min(bytes.find('\n', at), bytes.size() - 1) + 1;
-    }
-  }
-
-  std::uint64_t lineOf(std::string_view label) const {
-    if (label.size() < 2) return 0;
-    const auto number = static_cast<std::uint64_t>(std::max(0, numberIn(label.substr(1))));
-    if (label.front() == 'D') return number == 0 ? 0 : firstDirectoryLine_ + number - 1;
-    const auto found = text_.entities.find(number);
-    return found == text_.entities.end() ? 0 : found->second.line;
-  }
-
-  /// "#123 ADVANCED_FACE"; "the directory entry D123".
-  std::string nameOf(std::string_view label) const {
-    if (label.starts_with('D')) return fmt::format("the directory entry {}", label);
-    const auto found = text_.entities.find(static_cast<std::uint64_t>(std::max(0, numberIn(label.substr(1)))));
-    if (found == text_.entities.end() || found->second.type.empty()) return std::string(label);
-    return fmt::format("{} {}", label, found->second.type);
-  }
-
-  /// What the text itself shows to be wrong: an entity and why; the label is empty if there is nothing.
-  std::pair<std::string, std::string> wrongInText() const {
-    if (const std::uint64_t circular = circularEntity(text_); circular != 0)
-      return {fmt::format("#{}", circular), "it refers to itself, directly or through others"};
-    if (text_.dangling != 0)
-      return {fmt::format("#{}", text_.dangling), fmt::format("it refers to #{}, which is not there", text_.missing)};
-    return {};
-  }
-
-  /// True if the file holds triangles in place of exact surfaces, as AP242 can.
-  bool holdsOnlyTriangles() const {
-    const auto any = [&](auto test) {
-      return std::ranges::any_of(text_.entities, [&](const auto& entity) { return test(entity.second.type); });
-    };
-    const bool triangles = any([](std::string_view type) { return type.ends_with("TRIANGULATED_FACE"); });
-    return triangles && !any([](std::string_view type) { return type == "ADVANCED_FACE" || type == "FACE_SURFACE"; });
-  }
-
-private:
-  StepText text_;
-  std::uint64_t firstDirectoryLine_ = 1;
-};
-
-class Import {
-public:
-  Import(TransferOrder order, EntityNames names, const ImportOptions& options)
-      : order_(std::move(order)), names_(std::move(names)), options_(options) {}
-
-  Result<ImportedPart> run() {
-    for (attempt_ = 1;; ++attempt_) {
-      begin();
-      ChildEnd end =
-          inChild([&](const ChildVoice& voice) { return transferCad(order_, voice); },
-                  {options_.seconds - secondsSince(start_), options_.bytes}, [&](std::string_view line) { hear(line); },
-                  [&](double processorSeconds) { return hasEnough(processorSeconds); });
-      if (options_.stop.stop_requested()) return fail(SourcePlace{order_.file, 0, 0}, "the import was interrupted");
-      if (end.how == ChildEnd::How::Finished && failure_.empty() && unable_.label.empty() && !nothing_)
-        return partOf(transferred(std::move(end.result)));
-      if (end.how == ChildEnd::How::Finished) return tl::unexpected(refused());
-      if (!tryOtherwise(end)) return tl::unexpected(complaint(end));
-    }
-  }
-
-private:
-  struct Suspect {
-    std::string label, reason;
-  };
-  struct Gap {
-    std::string label, size;
-  };
-  struct Grid {
-    int face = 0;
-    std::string cell, kind;
-  };
-
-  const char* kind() const { return order_.format == CadFormat::Step ? "STEP" : "IGES"; }
-
-  void begin() {
-    open_.clear();
-    suspects_.clear();
-    lost_.clear();
-    grids_.clear();
-    gaps_.clear();
-    unable_ = {};
-    scale_.clear();
-    metres_ = false;
-    failure_.clear();
-    edges_.clear();
-    at_.clear();
-    skin_ = nothing_ = meshing_ = preparing_ = false;
-    faces_ = done_ = 0;
-    used_ = usedAtLastSign_ = 0;
-  }
-
-  void hear(std::string_view line) {
-    usedAtLastSign_ = used_;
-    const auto [word, rest] = firstWord(line);
-    if (word == "stage") {
-      stage_ = rest;
-      meshing_ = stage_.starts_with("meshing");
-      preparing_ = stage_.starts_with("preparing");
-    } else if (word == "begin") {
-      open_[numberIn(rest)] = used_;
-    } else if (word == "end") {
-      open_.erase(numberIn(rest));
-      ++done_;
-    } else if (word == "faces") {
-      faces_ = numberIn(rest);
-    } else if (word == "at") {
-      at_ = rest;
-    } else if (word == "lost") {
-      lost_.emplace_back(rest);
-    } else if (word == "suspect") {
-      const auto [label, reason] = firstWord(rest);
-      suspects_.push_back({std::string(label), std::string(reason)});
-    } else if (word == "grid") {
-      const auto [face, more] = firstWord(rest);
-      const auto [cell, surface] = firstWord(more);
-      grids_.push_back({numberIn(face), std::string(cell), std::string(surface)});
-    } else if (word == "gap") {
-      const auto [label, size] = firstWord(rest);
-      gaps_.push_back({std::string(label), std::string(size)});
-    } else if (word == "scaled") {
-      scale_ = rest;
-    } else if (word == "metres") {
-      metres_ = true;
-    } else if (word == "unable") {
-      const auto [label, reason] = firstWord(rest);
-      unable_ = {std::string(label), std::string(reason)};
-    } else if (word == "open") {
-      edges_ = rest;
-    } else if (word == "failed") {
-      failure_ = rest;
-    } else if (word == "skin") {
-      skin_ = true;
-    } else if (word == "nothing") {
-      nothing_ = true;
-    }
-  }
-
-  bool hasEnough(double processorSeconds) {
-    used_ = std::max(used_, processorSeconds);
-    tellProgress();
-    if (options_.stop.stop_requested()) return true;
-    if (!meshing_ || order_.gridAll) return false;
-    const bool faceHangs =
-        std::ranges::any_of(open_, [&](const auto& entry) { return used_ - entry.second > options_.faceSeconds; });
-    // Before its faces the mesher does all edges, without a word.
-    return faceHangs || (open_.empty() && used_ - usedAtLastSign_ > 8 * options_.faceSeconds);
-  }
-
-  void tellProgress() {
-    constexpr double patience = 1, pause = 0.25;  // seconds
-    if (!options_.progress || secondsSince(start_) < patience || secondsSince(lastTold_) < pause) return;
-    lastTold_ = Clock::now();
-    const std::string name = std::filesystem::path(order_.file).filename().string();
-    const std::string count = meshing_ && done_ > 0 ? fmt::format(", {} of {}", std::min(done_, faces_), faces_) : "";
-    options_.progress(fmt::format("{}: {}{}", name, stage_, count));
-  }
-
-  /// True if it is worth another try without the faces that the mesher does not get over.
-  bool tryOtherwise(const ChildEnd& end) {
-    const bool hopeless = end.how == ChildEnd::How::NoProcess || end.how == ChildEnd::How::OutOfTime;
-    if (hopeless || !meshing_ || order_.gridAll) return false;
-    const double longest = end.how == ChildEnd::How::Ended ? options_.faceSeconds / 2 : 0;
-    bool found = false;
-    for (const auto& [face, begun] : open_) {
-      if (used_ - begun >= longest) found = order_.gridFaces.insert(face).second || found;
-    }
-    if (!found || attempt_ >= kMostAttempts) order_.gridAll = true;
-    return true;
-  }
-
-  Diagnostic mistake(std::uint64_t line, const std::string& reason, std::string advice = {}) const {
-    if (advice.empty())
-      advice = fmt::format("export the part again as {}",
-                           order_.format == CadFormat::Step ? "STEP (AP203, AP214 or AP242)" : "IGES 5.3 or as STEP");
-    return fail({order_.file, line, 0}, fmt::format("the {} file cannot be read: {}", kind(), reason),
-                std::move(advice))
-        .value();
-  }
-
-  /// About an entity that cannot be right.
-  std::optional<Diagnostic> blame() const {
-    if (names_.holdsOnlyTriangles()) {
-      return mistake(0, "it holds triangles only (a tessellated model of AP242), no exact surfaces",
-                     "export the part with exact geometry (B-rep), or as STL");
-    }
-    if (!suspects_.empty()) {
-      const Suspect& first = suspects_.front();
-      return mistake(names_.lineOf(first.label), fmt::format("{}: {}", names_.nameOf(first.label), first.reason),
-                     "the file is damaged in this entity; export or copy the part again");
-    }
-    if (const auto [label, reason] = names_.wrongInText(); !label.empty()) {
-      return mistake(names_.lineOf(label), fmt::format("{}: {}", names_.nameOf(label), reason),
-                     "the file is damaged in this entity; export or copy the part again");
-    }
-    return std::nullopt;
-  }
-
-  Diagnostic refused() {
-    if (!unable_.label.empty()) {
-      const std::size_t end = unable_.reason.find('|');
-      return mistake(names_.lineOf(unable_.label),
-                     fmt::format("{}: {}", names_.nameOf(unable_.label), unable_.reason.substr(0, end)),
-                     unable_.reason.substr(std::min(end, unable_.reason.size() - 1) + 1));
-    }
-    if (auto blamed = blame()) return *blamed;
-    if (!failure_.empty()) return mistake(0, failure_);
-    return fail({order_.file, 0, 0}, "the file holds no body and no face",
-                "export the part as a solid body, not as a drawing, wire frame or empty assembly")
-        .value();
-  }
-
-  Diagnostic complaint(const ChildEnd& end) {
-    using How = ChildEnd::How;
-    if (end.how == How::NoProcess) {
-      return mistake(0, "no process can be started for it: " + end.result, "close other programs and try again");
-    }
-    if (end.how == How::OutOfTime) {
-      return mistake(0, fmt::format("{} takes longer than {:.0f} s", stage_, options_.seconds),
-                     "simplify the part, or export it as STL");
-    }
-    if (auto blamed = blame()) return *blamed;
-    const bool memory = end.how == How::OutOfMemory;
-    const char* what = memory ? "takes too much memory" : "makes OpenCASCADE crash";
-    const std::string label = preparing_ || meshing_ ? std::string() : culprit();
-    if (label.empty()) {
-      return mistake(0, fmt::format("{} {}", stage_.empty() ? "reading it" : stage_, what),
-                     memory ? "simplify the part, or export it as STL" : "");
-    }
-    return mistake(names_.lineOf(label), fmt::format("{} {}", names_.nameOf(label), what),
-                   "the file is damaged in this entity or in one that it refers to; export or copy the part again");
-  }
-
-  /// The entity that a crash is about: the face if one alone does it, else the body.
-  std::string culprit() {
-    const std::string body = at_;
-    if (body.empty()) return {};
-    at_.clear();
-    const ChildEnd end =
-        inChild([&](const ChildVoice& voice) { return searchFaces(order_, voice); },
-                {std::min(60.0, options_.seconds), options_.bytes}, [&](std::string_view line) { hear(line); },
-                [&](double) { return options_.stop.stop_requested(); });
-    return end.how == ChildEnd::How::Crashed && !at_.empty() ? at_ : body;
-  }
-
-  void remark(ImportedPart& part, std::uint64_t line, std::string message, std::string advice) const {
-    part.remarks.push_back({Severity::Warning, {{}, line, 0}, std::move(message), {}, std::move(advice), {}});
-  }
-
-  Result<ImportedPart> partOf(Transferred result) const {
-    ImportedPart part;
-    for (const std::string& label : lost_) {
-      if (part.remarks.size() == kMostNamed) {
-        remark(part, 0, fmt::format("{} more faces are missing", lost_.size() - kMostNamed), {});
-        break;
-      }
-      std::string reason;
-      for (const Suspect& suspect : suspects_) {
-        if (suspect.label == label) reason = ": " + suspect.reason;
-      }
-      remark(part, names_.lineOf(label),
-             fmt::format("the face {} cannot be read and is missing{}", names_.nameOf(label), reason),
-             "the probe passes through where it should be; export the part again");
-    }
-    if (!edges_.empty()) {
-      std::vector<std::string> words;
-      std::istringstream stream(edges_);
-      for (std::string word; stream >> word;)
-        words.push_back(word);
-      words.resize(4);
-      remark(part, 0,
-             fmt::format("the surface is not closed: {} edges belong to one face only, one of them near "
-                         "X{} Y{} Z{} of the part",
-                         words[0], words[1], words[2], words[3]),
-             "the probe meets only the faces there are; export the part again as one solid body");
-    } else if (skin_) {
-      remark(part, 0, "the file holds faces, but no solid body",
-             "the probe meets the faces from both sides; export the part as one solid body if it is one");
-    }
-    for (std::size_t i = 0; i < gaps_.size(); ++i) {
-      if (i == kMostNamed) {
-        remark(part, 0, fmt::format("{} more faces do not fit their edges", gaps_.size() - kMostNamed), {});
-        break;
-      }
-      remark(part, names_.lineOf(gaps_[i].label),
-             fmt::format("the face {} does not fit its edges: {}", names_.nameOf(gaps_[i].label),
-                         gaps_[i].size == "inf"
-                             ? "they have no place on its surface"
-                             : "they, their corners and its surface are up to " + gaps_[i].size + " mm apart"),
-             "contacts there may be wrong by as much; compare the part with that in the CAD system, export it again");
-    }
-    if (!scale_.empty()) {
-      remark(part, 0, fmt::format("the model is drawn {} times its true size; the part has its true size", scale_),
-             "compare the size of the part with that in the CAD system, or export it in a scale of 1");
-    }
-    const bool somethingWrong = !part.remarks.empty() && (!skin_ || !lost_.empty() || !edges_.empty());
-    for (std::size_t i = 0; somethingWrong && i < std::min(suspects_.size(), kMostNamed); ++i) {
-      if (std::ranges::find(lost_, suspects_[i].label) != lost_.end()) continue;
-      remark(part, names_.lineOf(suspects_[i].label),
-             fmt::format("{} cannot be read: {}", names_.nameOf(suspects_[i].label), suspects_[i].reason),
-             "the file is damaged in this entity; export or copy the part again");
-    }
-    if (metres_) {
-      remark(part, 0,
-             "the file is in metres; faces with a corner at the pole of a ball and parts of closed surfaces are "
-             "sometimes read wrongly from such files",
-             "export the part in millimetres or inches");
-    }
-    for (const Grid& grid : grids_) {
-      if (numberIn(grid.cell) == 0 && grid.cell.starts_with("0.000")) {
-        remark(part, 0, fmt::format("face {} of {} ({}) cannot be meshed and is missing", grid.face, faces_, grid.kind),
-               "the probe passes through where it should be; export the part again");
-        continue;
-      }
-      remark(part, 0,
-             fmt::format("face {} of {} ({}) cannot be meshed{} and gets a grid with cells of up to {} mm", grid.face,
-                         faces_, grid.kind, attempt_ > 1 ? " in time" : "", grid.cell),
-             "balls meet it as exactly as other faces; stylus and body may stop up to a cell outside its border");
-    }
-    part.brep = std::move(result.brep);
-    part.elements = std::move(result.elements);
-    part.drawing = std::move(result.drawing);
-    return part;
-  }
-
-  TransferOrder order_;
-  EntityNames names_;
-  const ImportOptions& options_;
-  Clock::time_point start_ = Clock::now();
-  Clock::time_point lastTold_ = start_;
-  int attempt_ = 1;
-
-  // What the child has said.
-  std::map<int, double> open_;            ///< the faces it is at, and what of the processor it had used when it began
-  double used_ = 0, usedAtLastSign_ = 0;  ///< seconds of the processor
-  std::vector<Suspect> suspects_;
-  std::vector<std::string> lost_;
-  std::vector<Grid> grids_;
-  std::vector<Gap> gaps_;
-  Suspect unable_;
-  std::string scale_;
-  std::string stage_, failure_, edges_, at_;
-  bool metres_ = false, skin_ = false, nothing_ = false, meshing_ = false, preparing_ = false;
-  int faces_ = 0, done_ = 0;
-};
+constexpr int kCacheVersion = 9;
 
 /// About faces that STEP does not tell unmistakably: of a circle that meets its axis OpenCASCADE may turn the other
 /// arc.
@@ -421,21 +39,19 @@ void warnOfDoubtfulArcs(const CadModel& model, Diagnostics& remarks) {
 }
 
 Result<std::unique_ptr<Solid>> solidOf(ImportedPart part, CadFormat format, const std::string& file,
-                                       double deflection) {
-  const auto broken = [&](const char* reason) {
+                                       const ImportOptions& options, const std::function<CadModel()>& exact) {
+  const auto broken = [&](const char* reason) -> tl::unexpected<Diagnostic> {
+    if (options.stop.stop_requested()) return fail(SourcePlace{file, 0, 0}, "the import was interrupted");
     return fail({file, 0, 0}, fmt::format("the shape cannot be prepared for contact: {}", reason),
                 "export the part again as solid bodies, or as STL");
   };
   try {
-    TopoDS_Shape shape;
-    std::istringstream stream(std::move(part.brep));
-    BinTools::Read(shape, stream);
-    if (shape.IsNull()) return broken("it is empty");
-    CadModel model = cadModel(shape, deflection, part.elements);
+    CadModel model = exact();
+    takeElements(model, part.elements);
     if (format == CadFormat::Step) warnOfDoubtfulArcs(model, part.remarks);
     for (Diagnostic& remark : part.remarks)
       remark.place.file = file;
-    return std::make_unique<CadSolid>(std::move(model), std::move(part.remarks), std::move(part.drawing));
+    return std::make_unique<CadSolid>(std::move(model), std::move(part.remarks));
   } catch (const Standard_Failure& failure) {
     return broken(failure.GetMessageString());
   } catch (const std::runtime_error& failure) {
@@ -451,27 +67,23 @@ Result<std::unique_ptr<Solid>> import(TransferOrder order, const ImportOptions& 
   const ImportCache cache(options.cache);
   std::string key;
   if (!options.cache.empty()) {
-    key = ImportCache::keyOf(
-        order.bytes, fmt::format("{} {} {} {} {}", kCacheVersion, OCC_VERSION_COMPLETE, static_cast<int>(order.format),
-                                 options.deflection, options.facePoints));
+    key =
+        ImportCache::keyOf(order.bytes, fmt::format("{} {} {} {} {}", kCacheVersion, OCC_VERSION_COMPLETE,
+                                                    static_cast<int>(format), options.deflection, options.facePoints));
     if (auto kept = cache.find(key)) {
-      if (auto part = partFromBytes(std::move(*kept)))
-        return solidOf(std::move(*part), format, file, options.deflection);
+      if (const auto part = partFromBytes(std::move(*kept)))
+        return solidOf(*part, format, file, options,
+                       [&] { return exactModelOf(part->brep, options.deflection, options.stop); });
     }
   }
-  StepText text;
-  if (order.format == CadFormat::Step) {
-    Result<StepText> scanned = scanStep(order.bytes, file);
-    if (!scanned) return tl::unexpected(std::move(scanned.error()));
-    text = std::move(*scanned);
-  }
-  EntityNames names(order.format, std::move(text), order.bytes);
-  Result<ImportedPart> part = Import(std::move(order), std::move(names), options).run();
-  if (!part) return tl::unexpected(std::move(part.error()));
+  Result<ImportedInChild> imported = importInChild(std::move(order), options);
+  if (!imported) return tl::unexpected(std::move(imported.error()));
   // While the shape is made ready.
   std::future<void> keeping;
-  if (!key.empty()) keeping = std::async([&cache, key, bytes = toBytes(*part)] { cache.keep(key, bytes); });
-  auto solid = solidOf(std::move(*part), format, file, options.deflection);
+  if (!key.empty()) {
+    keeping = std::async(std::launch::async, [&cache, key, part = imported->part] { cache.keep(key, toBytes(part)); });
+  }
+  auto solid = solidOf(imported->part, format, file, options, [&] { return imported->exact.get(); });
   if (keeping.valid()) keeping.wait();
   return solid;
 }

@@ -21,9 +21,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "simulation/border_middles.hpp"
+#include "simulation/cad_elements.hpp"
 #include "simulation/cad_refinement.hpp"
-#include "simulation/face_grid.hpp"
 #include "simulation/face_mesh.hpp"
 #include "simulation/memory_text.hpp"
 #include "simulation/parallel.hpp"
@@ -31,7 +30,6 @@
 namespace probewright::simulation {
 namespace {
 
-constexpr double kLeastGrowth = 1e-6;
 constexpr double kFarthest = 1e9;          // mm
 constexpr std::size_t kWorthAThread = 20;  // faces
 
@@ -45,123 +43,6 @@ Matrix3 axesOf(const Position& position) {
   Matrix3 axes;
   axes << vector(position.XDirection()), vector(position.YDirection()), vector(position.Direction());
   return axes;
-}
-
-/// How far the corners of a triangle lie from where its parameters are on a plane: the mesher may have mixed them up.
-double deviationOf(const CadElement& element, const AnalyticSurface& plane) {
-  double deviation = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector2& uv = element.parameters[k];
-    const Vector3 place = plane.origin + plane.axes * Vector3(uv.x(), uv.y(), 0);
-    deviation = std::max(deviation, (place - element.corners[k]).norm());
-  }
-  return deviation;
-}
-
-double areaInParameters(const CadElement& element) {
-  const Vector2 a = element.parameters[1] - element.parameters[0];
-  const Vector2 b = element.parameters[2] - element.parameters[0];
-  return std::abs(a.x() * b.y() - a.y() * b.x()) / 2;
-}
-
-/// A grid over the face, for a mesh that leaves a part of it open. It finds contacts of balls as well as a mesh does;
-/// contacts of anything else err by a cell at the borders.
-std::vector<CadElement> gridElements(const CadFace& exact, std::uint32_t owner, double deflection) {
-  std::vector<CadElement> elements;
-  const FaceGrid grid(exact, deflection);
-  for (const FaceGrid::Parameters& cell : grid.triangles()) {
-    CadElement element;
-    element.owner = owner;
-    for (std::size_t k = 0; k < 3; ++k) {
-      element.parameters[k] = cell[exact.reversed ? 2 - k : k];
-      element.corners[k] = vector(exact.surface->Value(element.parameters[k].x(), element.parameters[k].y()));
-    }
-    element.onFace = exact.domain.contains((cell[0] + cell[1] + cell[2]) / 3);
-    element.growth = kLeastGrowth + 1.5 * deviationOf(element, *exact.surface);
-    elements.push_back(element);
-  }
-  return elements;
-}
-
-using MeshCorner = BorderMiddles::Middle;
-
-/// A triangle, cut at the middles that some of its sides have: side k runs from corner k to the next.
-template <class Add>
-void addParts(const std::array<MeshCorner, 3>& corners, const std::array<const MeshCorner*, 3>& middles,
-              const Add& add) {
-  const auto count = std::ranges::count_if(middles, [](const MeshCorner* middle) { return middle != nullptr; });
-  if (count == 0) return add(corners[0], corners[1], corners[2]);
-  // Turned so that its first side has a middle and, of two, its last has none.
-  std::size_t k = 0;
-  while (middles[k] == nullptr || (count == 2 && middles[(k + 2) % 3] != nullptr))
-    ++k;
-  const MeshCorner &a = corners[k], &b = corners[(k + 1) % 3], &c = corners[(k + 2) % 3];
-  const MeshCorner& ab = *middles[k];
-  if (count == 1) {
-    add(a, ab, c);
-    add(ab, b, c);
-    return;
-  }
-  const MeshCorner& bc = *middles[(k + 1) % 3];
-  add(ab, b, bc);
-  if (count == 2) {
-    add(a, ab, bc);
-    add(a, bc, c);
-    return;
-  }
-  const MeshCorner& ca = *middles[(k + 2) % 3];
-  add(a, ab, ca);
-  add(ca, bc, c);
-  add(ab, bc, ca);
-}
-
-std::vector<CadElement> faceElements(const CadFace& exact, const TopoDS_Face& face, std::uint32_t owner,
-                                     double deflection) {
-  TopLoc_Location location;
-  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, location);
-  if (mesh.IsNull() || !mesh->HasUVNodes()) return gridElements(exact, owner, deflection);
-  std::vector<CadElement> elements;
-  double area = 0;
-  const gp_Trsf transform = location.Transformation();
-  const bool flat = exact.forms.isPlane();
-  bool straight = true;
-  for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More() && straight; edges.Next()) {
-    double first = 0;
-    double last = 0;
-    const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(edges.Current()), first, last);
-    straight = curve.IsNull() || curve->IsKind(STANDARD_TYPE(Geom_Line));
-  }
-  const BorderMiddles middles(face, mesh, location, deflection);
-  const auto add = [&](const MeshCorner& a, const MeshCorner& b, const MeshCorner& c) {
-    CadElement element;
-    element.owner = owner;
-    element.corners = {a.point, b.point, c.point};
-    element.parameters = {a.parameters, b.parameters, c.parameters};
-    const double deviation =
-        flat ? deviationOf(element, exact.forms.sheets.front()) : deviationOf(element, *exact.surface);
-    area += areaInParameters(element);
-    // Between a bent border and its chord no triangle lies.
-    element.growth = kLeastGrowth + 1.5 * std::max(deviation, straight ? 0.0 : 1.5 * deflection);
-    elements.push_back(element);
-  };
-  for (int i = 1; i <= mesh->NbTriangles(); ++i) {
-    std::array<int, 3> nodes{};
-    mesh->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
-    if (exact.reversed) std::swap(nodes[1], nodes[2]);
-    std::array<MeshCorner, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const gp_Pnt2d uv = mesh->UVNode(nodes[k]);
-      corners[k] = {vector(mesh->Node(nodes[k]).Transformed(transform)), {uv.X(), uv.Y()}};
-    }
-    addParts(
-        corners,
-        {middles.between(nodes[0], nodes[1]), middles.between(nodes[1], nodes[2]), middles.between(nodes[2], nodes[0])},
-        add);
-  }
-  // Triangles that leave a part of the face open would hide it.
-  constexpr double kLeastCover = 0.9;
-  if (area < kLeastCover * exact.domain.area()) return gridElements(exact, owner, deflection);
-  return elements;
 }
 
 CadEdge cadEdge(const TopoDS_Edge& edge) {
@@ -180,54 +61,6 @@ CadEdge cadEdge(const TopoDS_Edge& edge) {
     exact.radius = circle->Radius();
   }
   return exact;
-}
-
-/// The ends of the parts of an edge that have no kink.
-std::vector<double> smoothParts(const CadEdge& edge) {
-  std::vector<double> ends;
-  if (edge.kind == CadEdge::Kind::Curve) {
-    const GeomAdaptor_Curve curve(edge.curve, edge.first, edge.last);
-    TColStd_Array1OfReal bounds(1, curve.NbIntervals(GeomAbs_C1) + 1);
-    curve.Intervals(bounds, GeomAbs_C1);
-    for (int i = 2; i < bounds.Length(); ++i)
-      ends.push_back(bounds(i));
-  }
-  ends.push_back(edge.last);
-  return ends;
-}
-
-void addEdgeElements(CadModel& model, std::uint32_t owner, double deflection) {
-  const CadEdge& edge = model.edges[owner];
-  const auto at = [&](double t) { return vector(edge.curve->Value(t)); };
-  const auto deviation = [&](double a, double b) {
-    const Vector3 from = at(a);
-    const Vector3 to = at(b);
-    return std::max((at((a + b) / 2) - (from + to) / 2).norm(),
-                    (at(0.7 * a + 0.3 * b) - (0.7 * from + 0.3 * to)).norm());
-  };
-  std::vector<double> parameters{edge.first};
-  const std::vector<double> smooth = smoothParts(edge);
-  const int pieces = edge.kind == CadEdge::Kind::Line ? 1 : std::max(1, 8 / static_cast<int>(smooth.size()));
-  double from = edge.first;
-  for (const double to : smooth) {
-    for (int i = 0; i < pieces; ++i) {
-      subdivide(
-          from + (to - from) * i / pieces, from + (to - from) * (i + 1) / pieces,
-          edge.kind == CadEdge::Kind::Line ? 0 : 10, [&](double a, double b) { return deviation(a, b) > deflection; },
-          parameters);
-    }
-    from = to;
-  }
-  for (std::size_t i = 0; i + 1 < parameters.size(); ++i) {
-    CadElement element;
-    element.kind = CadElement::Kind::Edge;
-    element.owner = owner;
-    element.corners = {at(parameters[i]), at(parameters[i + 1]), at(parameters[i + 1])};
-    element.parameters = {Vector2(parameters[i], 0), Vector2(parameters[i + 1], 0), Vector2(parameters[i + 1], 0)};
-    element.growth =
-        kLeastGrowth + 1.5 * (edge.kind == CadEdge::Kind::Line ? 0 : deviation(parameters[i], parameters[i + 1]));
-    model.elements.push_back(element);
-  }
 }
 
 /// The parameters within a face at which its surface has a kink, across u or across v.
@@ -290,23 +123,6 @@ bool hasKinks(const TopoDS_Face& face) {
 
 }  // namespace
 
-double deviationOf(const CadElement& element, const Geom_Surface& surface) {
-  double deviation = 0;
-  const auto probe = [&](double a, double b, double c) {
-    const Vector2 uv = a * element.parameters[0] + b * element.parameters[1] + c * element.parameters[2];
-    const Vector3 chord = a * element.corners[0] + b * element.corners[1] + c * element.corners[2];
-    deviation = std::max(deviation, (vector(surface.Value(uv.x(), uv.y())) - chord).norm());
-  };
-  probe(0.5, 0.5, 0);
-  probe(0, 0.5, 0.5);
-  probe(0.5, 0, 0.5);
-  probe(1.0 / 3, 1.0 / 3, 1.0 / 3);
-  probe(2.0 / 3, 1.0 / 6, 1.0 / 6);
-  probe(1.0 / 6, 2.0 / 3, 1.0 / 6);
-  probe(1.0 / 6, 1.0 / 6, 2.0 / 3);
-  return deviation;
-}
-
 TopoDS_Shape withoutKinks(const TopoDS_Shape& shape) {
   TopExp_Explorer faces(shape, TopAbs_FACE);
   while (faces.More() && !hasKinks(TopoDS::Face(faces.Current())))
@@ -340,13 +156,14 @@ Faces facesOf(const TopoDS_Shape& shape) {
 }
 
 /// The exact faces and edges of a shape.
-CadModel exactModel(const TopoDS_Shape& shape, const Faces& faces, double deflection) {
+CadModel exactModel(const TopoDS_Shape& shape, const Faces& faces, double deflection, const std::stop_token& stop) {
   CadModel model;
   model.shape = shape;
   model.deflection = deflection;
   model.closedBodies = faces.closedBodies;
   model.faces.resize(faces.faces.size());
   inParallel(faces.faces.size(), kWorthAThread, [&](std::size_t i) {
+    if (stop.stop_requested()) throw std::runtime_error("it was interrupted");
     model.faces[i] = cadFace(faces.faces[i]);
     model.faces[i].boundsSolid = faces.boundSolid[i];
   });
@@ -394,21 +211,25 @@ Bounds boundsOf(const CadModel& model) {
 
 }  // namespace
 
-CadModel cadModel(const TopoDS_Shape& part, double deflection) {
-  const bool meshed = isMeshed(part, deflection);
-  const TopoDS_Shape shape = meshed ? part : withoutKinks(part);
+CadModel exactModel(const TopoDS_Shape& shape, double deflection, std::stop_token stop) {
   BRepLib::BuildCurves3d(shape);
-  if (!meshed) meshFaces(shape, deflection);
-  const Faces faces = facesOf(shape);
-  CadModel model = exactModel(shape, faces, deflection);
+  return exactModel(shape, facesOf(shape), deflection, stop);
+}
+
+void addElements(CadModel& model) {
+  const Faces faces = facesOf(model.shape);
   std::vector<std::vector<CadElement>> ofFaces(faces.faces.size());
   inParallel(ofFaces.size(), kWorthAThread, [&](std::size_t i) {
-    ofFaces[i] = faceElements(model.faces[i], faces.faces[i], static_cast<std::uint32_t>(i), deflection);
+    ofFaces[i] = faceElements(model.faces[i], faces.faces[i], static_cast<std::uint32_t>(i), model.deflection);
   });
+  std::size_t count = 0;
+  for (const std::vector<CadElement>& elements : ofFaces)
+    count += elements.size();
+  model.elements.reserve(count + 10 * model.edges.size());
   for (const std::vector<CadElement>& elements : ofFaces)
     model.elements.insert(model.elements.end(), elements.begin(), elements.end());
   for (std::size_t i = 0; i < model.edges.size(); ++i)
-    addEdgeElements(model, static_cast<std::uint32_t>(i), deflection);
+    addEdgeElements(model, static_cast<std::uint32_t>(i), model.deflection);
   for (const CadElement& element : model.elements) {
     if (!std::isfinite(element.growth))
       throw std::runtime_error("a face or edge has points whose coordinates are not numbers");
@@ -427,6 +248,15 @@ CadModel cadModel(const TopoDS_Shape& part, double deflection) {
   for (const std::uint32_t i : model.tree.order())
     ordered.push_back(model.elements[i]);
   model.elements = std::move(ordered);
+}
+
+CadModel cadModel(const TopoDS_Shape& part, double deflection) {
+  const bool meshed = isMeshed(part, deflection);
+  const TopoDS_Shape shape = meshed ? part : withoutKinks(part);
+  BRepLib::BuildCurves3d(shape);
+  if (!meshed) meshFaces(shape, deflection);
+  CadModel model = exactModel(shape, deflection);
+  addElements(model);
   return model;
 }
 
@@ -467,9 +297,7 @@ void appendElements(std::string& bytes, const CadModel& model) {
   model.tree.appendTo(bytes);
 }
 
-CadModel cadModel(const TopoDS_Shape& shape, double deflection, std::string_view bytes) {
-  BRepLib::BuildCurves3d(shape);
-  CadModel model = exactModel(shape, facesOf(shape), deflection);
+void takeElements(CadModel& model, std::string_view bytes) {
   const auto refuse = [] { return std::runtime_error("its elements are not those of the shape"); };
   std::vector<double> marks;
   std::size_t count = 0;
@@ -486,7 +314,6 @@ CadModel cadModel(const TopoDS_Shape& shape, double deflection, std::string_view
   std::optional<SearchTree> tree = SearchTree::takeFrom(bytes, model.elements.size());
   if (!tree || !bytes.empty()) throw refuse();
   model.tree = std::move(*tree);
-  return model;
 }
 
 }  // namespace probewright::simulation

@@ -3,6 +3,7 @@
 #include <Geom_Curve.hxx>
 #include <TopoDS_Shape.hxx>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,14 +64,22 @@ double deviationOf(const CadElement& element, const Geom_Surface& surface);
 TopoDS_Shape withoutKinks(const TopoDS_Shape& shape);
 
 /// Prepares a shape; tessellates it unless it has triangles that are fine enough. Throws Standard_Failure or
-/// std::runtime_error where that is impossible.
+/// std::runtime_error where that is impossible, as those below do.
 CadModel cadModel(const TopoDS_Shape& shape, double deflection);
 
-/// Appends the part of a model that takes long to make: elements and tree, as they lie in memory.
+// The same in steps, for two processes:
+
+/// The exact faces and edges of a shape, which may have triangles or not. A stop ends it with a std::runtime_error.
+CadModel exactModel(const TopoDS_Shape& shape, double deflection, std::stop_token stop = {});
+
+/// What takes long to make, once the shape of an exact model has triangles: elements, tree and bounds.
+void addElements(CadModel& model);
+
+/// Appends what addElements() has made, as it lies in memory.
 void appendElements(std::string& bytes, const CadModel& model);
 
-/// The model of a shape that has triangles, with what appendElements() gave for it in a process of the same program.
-/// Throws as the other one does, also where the bytes are not of this shape.
-CadModel cadModel(const TopoDS_Shape& shape, double deflection, std::string_view elements);
+/// Gives an exact model what appendElements() gave for it in a process of the same program. Throws also where the bytes
+/// are not of this shape.
+void takeElements(CadModel& model, std::string_view elements);
 
 }  // namespace probewright::simulation

@@ -66,10 +66,8 @@ void meet(const CadModel& model, const CadElement& element, const Way& way, doub
 
 }  // namespace
 
-CadSolid::CadSolid(CadModel model, Diagnostics remarks, std::string drawing)
-    : model_(std::make_unique<const CadModel>(std::move(model))),
-      remarks_(std::move(remarks)),
-      drawing_(std::move(drawing)) {}
+CadSolid::CadSolid(CadModel model, Diagnostics remarks)
+    : model_(std::make_unique<const CadModel>(std::move(model))), remarks_(std::move(remarks)) {}
 CadSolid::~CadSolid() = default;
 
 Bounds CadSolid::bounds() const { return model_->bounds; }

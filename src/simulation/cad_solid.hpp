@@ -27,8 +27,7 @@ struct CadOptions {
 /// whatever starts there makes contact at fraction 0.
 class CadSolid final : public Solid {
 public:
-  /// `drawing`: its drawing as bytes, if there is one already.
-  explicit CadSolid(CadModel model, Diagnostics remarks = {}, std::string drawing = {});
+  explicit CadSolid(CadModel model, Diagnostics remarks = {});
   ~CadSolid() override;
 
   Bounds bounds() const override;
@@ -52,7 +51,6 @@ private:
 
   std::unique_ptr<const CadModel> model_;
   Diagnostics remarks_;
-  std::string drawing_;
 };
 
 /// Prepares a shape for contact; fails where it has no face or cannot be tessellated.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <BRepBuilderAPI_Transform.hxx>
-#include <BRepLib.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
 #include <Geom2d_Curve.hxx>
@@ -36,9 +35,8 @@
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <future>
 #include <limits>
 #include <memory>
 #include <sstream>
@@ -47,9 +45,8 @@
 
 #include "simulation/cad_corrections.hpp"
 #include "simulation/cad_model.hpp"
-#include "simulation/drawing_mesh.hpp"
 #include "simulation/face_mesh.hpp"
-#include "simulation/memory_text.hpp"
+#include "simulation/parallel.hpp"
 
 namespace probewright::simulation {
 namespace {
@@ -208,13 +205,25 @@ void nameGaps(const XSControl_Reader& reader, const ChildVoice& voice) {
   constexpr double kWorthNaming = 0.01;  // mm
   const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
   const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  struct Made {
+    int entity;
+    TopoDS_Shape shape;
+    double gap;
+  };
+  std::vector<Made> made;
   for (int i = 1; i <= model->NbEntities(); ++i) {
     if (model->IsErrorEntity(i) || !isFace(model->Value(i))) continue;
-    double gap = 0;
-    for (TopExp_Explorer faces(TransferBRep::ShapeResult(process, model->Value(i)), TopAbs_FACE); faces.More();
-         faces.Next())
-      gap = std::max(gap, gapsOf(TopoDS::Face(faces.Current())));
-    if (!(gap <= kWorthNaming)) voice.say(fmt::format("gap {} {:.3f}", labelOf(model, model->Value(i)), gap));
+    if (const TopoDS_Shape shape = TransferBRep::ShapeResult(process, model->Value(i)); !shape.IsNull())
+      made.push_back({i, shape, 0});
+  }
+  constexpr std::size_t kWorthAThread = 20;
+  inParallel(made.size(), kWorthAThread, [&](std::size_t i) {
+    for (TopExp_Explorer faces(made[i].shape, TopAbs_FACE); faces.More(); faces.Next())
+      made[i].gap = std::max(made[i].gap, gapsOf(TopoDS::Face(faces.Current())));
+  });
+  for (const Made& face : made) {
+    if (!(face.gap <= kWorthNaming))
+      voice.say(fmt::format("gap {} {:.3f}", labelOf(model, model->Value(face.entity)), face.gap));
   }
 }
 
@@ -237,8 +246,7 @@ void nameOpenEdges(const TopoDS_Shape& shape, const ChildVoice& voice) {
   if (count > 0) voice.say(fmt::format("open {} {:.3f} {:.3f} {:.3f}", count, place.X(), place.Y(), place.Z()));
 }
 
-/// Returns whether the mesher could do every face.
-bool mesh(const TopoDS_Shape& shape, const TransferOrder& order, const ChildVoice& voice) {
+void mesh(const TopoDS_Shape& shape, const TransferOrder& order, const ChildVoice& voice) {
   voice.say(fmt::format("faces {}", faceCount(shape)));
   voice.say("stage meshing the faces");
   FaceMeshOptions options;
@@ -250,17 +258,14 @@ bool mesh(const TopoDS_Shape& shape, const TransferOrder& order, const ChildVoic
   options.parallel = std::thread::hardware_concurrency() > 1;
   options.begins = [&](int face) { voice.say(fmt::format("begin {}", face)); };
   options.ends = [&](int face) { voice.say(fmt::format("end {}", face)); };
-  BRepLib::BuildCurves3d(shape);
-  const std::vector<GridFace> grids = meshFaces(shape, order.deflection, options);
-  for (const GridFace& grid : grids)
+  for (const GridFace& grid : meshFaces(shape, order.deflection, options))
     voice.say(fmt::format("grid {} {:.3f} {}", grid.face, grid.cell, grid.kind));
-  return grids.empty();
 }
 
 template <class Work>
-std::string guarded(const ChildVoice& voice, const Work& work) {
+void guarded(const ChildVoice& voice, const Work& work) {
   try {
-    return work();
+    work();
   } catch (const Standard_OutOfMemory&) {
     throw std::bad_alloc();
   } catch (const Standard_Failure& failure) {
@@ -274,20 +279,19 @@ std::string guarded(const ChildVoice& voice, const Work& work) {
   } catch (const std::exception& failure) {
     sayFailed(voice, failure.what());
   }
-  return {};
 }
 
 }  // namespace
 
-std::string transferCad(const TransferOrder& order, const ChildVoice& voice) {
-  return guarded(voice, [&]() -> std::string {
+void transferCad(const TransferOrder& order, const ChildVoice& voice) {
+  guarded(voice, [&] {
     const auto reader = load(order, voice);
-    if (!reader) return {};
+    if (!reader) return;
     TopoDS_Shape shape = build(*reader, voice);
     if (shape.IsNull() || !TopExp_Explorer(shape, TopAbs_FACE).More()) {
       if (ranShortOfMemory()) throw std::bad_alloc();
       voice.say("nothing");
-      return {};
+      return;
     }
     nameLostFaces(*reader, voice);
     nameGaps(*reader, voice);
@@ -301,55 +305,30 @@ std::string transferCad(const TransferOrder& order, const ChildVoice& voice) {
     nameOpenEdges(shape, voice);
     voice.say("stage looking for kinks");
     shape = withoutKinks(shape);
-    const DrawnWith triangles = mesh(shape, order, voice) ? DrawnWith::FewTriangles : DrawnWith::ItsTriangles;
-    voice.say("stage preparing the faces");
-    // What cannot survive this must not happen in the parent. Both only read the shape.
-    std::future<std::string> drawing =
-        std::async(std::launch::async, [&] { return toBytes(drawingOf(shape, triangles)); });
-    const CadModel model = cadModel(shape, order.deflection);
+    // What cannot survive this must not happen in the parent.
+    CadModel model = exactModel(shape, order.deflection);
     std::ostringstream brep;
     BinTools::Write(shape, brep, Standard_False, Standard_False, BinTools_FormatVersion_CURRENT);
+    voice.hand(brep.view());
+    mesh(shape, order, voice);
+    voice.say("stage preparing the faces");
+    addElements(model);
     std::string bytes;
-    append(bytes, brep.view().size());
-    bytes += brep.view();
-    const std::size_t sizeAt = bytes.size();
-    append(bytes, std::size_t{0});
-    const std::size_t first = bytes.size();
     appendElements(bytes, model);
-    const std::size_t size = bytes.size() - first;
-    std::memcpy(&bytes[sizeAt], &size, sizeof(size));
-    return bytes += drawing.get();
+    voice.hand(bytes);
   });
 }
 
-Transferred transferred(std::string bytes) {
-  Transferred result;
-  std::string_view rest = bytes;
-  std::size_t size = 0;
-  if (!take(rest, size) || size > rest.size()) return {};
-  result.brep = rest.substr(0, size);
-  rest.remove_prefix(size);
-  if (!take(rest, size) || size > rest.size()) return {};
-  result.drawing = rest.substr(size);
-  // Nearly all of the bytes: they stay where they are.
-  const std::size_t first = bytes.size() - rest.size();
-  bytes.resize(first + size);
-  bytes.erase(0, first);
-  result.elements = std::move(bytes);
-  return result;
-}
-
-std::string searchFaces(const TransferOrder& order, const ChildVoice& voice) {
-  return guarded(voice, [&]() -> std::string {
+void searchFaces(const TransferOrder& order, const ChildVoice& voice) {
+  guarded(voice, [&] {
     const auto reader = load(order, voice);
-    if (!reader) return {};
+    if (!reader) return;
     const Handle(Interface_InterfaceModel) model = reader->WS()->Model();
     for (int i = 1; i <= model->NbEntities(); ++i) {
       if (model->IsErrorEntity(i) || !isFace(model->Value(i))) continue;
       voice.say("at " + labelOf(model, model->Value(i)));
       reader->TransferEntity(model->Value(i));
     }
-    return {};
   });
 }
 

@@ -20,8 +20,10 @@ struct TransferOrder {
   bool gridAll = false;     ///< as FaceMeshOptions::leaveAll
 };
 
-/// Reads the file, builds the shape, gives it triangles and prepares it for contact. Returns what transferred() reads,
-/// or nothing if there is no shape. Meanwhile says, a line each:
+/// Reads the file, builds the shape, gives it triangles and prepares it for contact. Hands over the shape in
+/// OpenCASCADE's binary form, as soon as that is sure to survive being prepared, then what
+/// appendElements() makes of it.
+/// Meanwhile says, a line each:
 ///   stage TEXT           what it does now
 ///   failed TEXT          why there is no shape
 ///   nothing              there is neither a body nor a face
@@ -36,15 +38,9 @@ struct TransferOrder {
 ///   gap LABEL MM         a face whose edges leave its surface, or whose vertices its edges, by so much
 ///   scaled FACTOR        lengths of the model are so many times the true ones; the shape has the true ones
 ///   skin                 there are faces, but no body
-std::string transferCad(const TransferOrder& order, const ChildVoice& voice);
-
-struct Transferred {
-  std::string brep, elements, drawing;  ///< as in ImportedPart
-};
-/// What transferCad() returned; all empty if it is not that.
-Transferred transferred(std::string bytes);
+void transferCad(const TransferOrder& order, const ChildVoice& voice);
 
 /// Builds the faces of a file one by one, and says "at LABEL" before each: the last one is what a crash is about.
-std::string searchFaces(const TransferOrder& order, const ChildVoice& voice);
+void searchFaces(const TransferOrder& order, const ChildVoice& voice);
 
 }  // namespace probewright::simulation

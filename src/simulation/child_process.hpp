@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -13,21 +14,41 @@ struct ChildLimits {
   std::uint64_t bytes = std::uint64_t{8} << 30U;  ///< of memory beyond what its parent has
 };
 
-/// The child's side: tells the parent what it does. Any thread of the child may speak.
-class ChildVoice {
+/// Bytes that a child has handed over. They are not copied, and stay as long as there is a copy of this.
+class HandedBytes {
 public:
-  explicit ChildVoice(int descriptor) : descriptor_(descriptor) {}
-  /// One line; what is longer than 1000 bytes is cut, line ends become blanks.
-  void say(std::string_view line) const;
+  HandedBytes() = default;
+  HandedBytes(std::shared_ptr<const void> pages, std::string_view bytes) : pages_(std::move(pages)), bytes_(bytes) {}
+
+  std::string_view view() const { return bytes_; }
 
 private:
+  std::shared_ptr<const void> pages_;
+  std::string_view bytes_;
+};
+
+/// The child's side: tells the parent what it does, and hands over what it has made. Any thread of the child may speak.
+class ChildVoice {
+public:
+  /// `store`: a file for what is handed over.
+  explicit ChildVoice(int descriptor, int store = -1) : descriptor_(descriptor), store_(store) {}
+  /// One line; what is longer than 1000 bytes is cut, line ends become blanks.
+  void say(std::string_view line) const;
+  /// Bytes that the parent may use at once, while the child works on. Throws std::bad_alloc where there is no space.
+  void hand(std::string_view bytes) const { hand('+', bytes); }
+
+private:
+  friend struct ChildLife;
+  void hand(char kind, std::string_view bytes) const;
+
   int descriptor_;
+  int store_;
 };
 
 /// How the child's work ended.
 struct ChildEnd {
   enum class How {
-    Finished,     ///< `result` is what the work returned
+    Finished,     ///< `result` is what the work returned; empty if the parent had all that it needs before
     Crashed,      ///< by `signal`, or with an exception (0)
     OutOfMemory,  ///< it wanted more than its limit
     OutOfTime,
@@ -45,10 +66,12 @@ bool ranShortOfMemory();
 
 /// Does `work` in a child process and waits for it. `heard` gets each line that the child says; `enough` is asked about
 /// twenty times a second, told how many seconds of the processor the child has used, and ends the child by saying yes.
+/// `given` gets what the child hands over, and says whether that was all: the child need not tidy up then.
 /// The child has a copy of everything that its parent has, but
 /// of the threads only the one that calls; its standard output goes nowhere.
 ChildEnd inChild(const std::function<std::string(const ChildVoice&)>& work, const ChildLimits& limits,
                  const std::function<void(std::string_view line)>& heard,
-                 const std::function<bool(double processorSeconds)>& enough);
+                 const std::function<bool(double processorSeconds)>& enough,
+                 const std::function<bool(HandedBytes bytes)>& given = {});
 
 }  // namespace probewright::simulation

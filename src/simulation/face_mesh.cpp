@@ -28,8 +28,8 @@ namespace {
 constexpr double kAngle = 0.5;
 /// Triangles only help to find a face, so its inside need not be meshed as finely as its edges.
 constexpr double kInterior = 30;
-/// A side on a bent edge is cut into two before it matters, which brings it four times as near.
-constexpr double kAlongEdges = 4;
+/// Sides on a bent edge are halved before it matters.
+constexpr double kAlongEdges = 8;
 
 /// The faces by what they share with their instances elsewhere in the shape, counted from 1.
 using FaceNumbers = std::map<const TopoDS_TShape*, int>;

@@ -1,11 +1,9 @@
 #include "simulation/imported_part.hpp"
 
-#include <cstring>
-
 namespace probewright::simulation {
 namespace {
 
-constexpr std::string_view kTitle = "Probewright part 3\n";
+constexpr std::string_view kTitle = "Probewright part 4\n";
 
 void put(std::string& bytes, std::uint64_t number) {
   for (int i = 0; i < 8; ++i)
@@ -34,17 +32,12 @@ public:
     rest_.remove_prefix(8);
     return value;
   }
-  std::optional<std::string> text() {
+  std::optional<std::string_view> text() {
     const auto size = number();
     if (!size || *size > rest_.size()) return std::nullopt;
-    std::string value(rest_.substr(0, *size));
+    const std::string_view value = rest_.substr(0, *size);
     rest_.remove_prefix(*size);
     return value;
-  }
-  bool skip(std::uint64_t size) {
-    if (size > rest_.size()) return false;
-    rest_.remove_prefix(size);
-    return true;
   }
   bool atEnd() const { return rest_.empty(); }
   std::size_t left() const { return rest_.size(); }
@@ -57,7 +50,7 @@ private:
 
 std::string toBytes(const ImportedPart& part) {
   std::string bytes;
-  bytes.reserve(part.brep.size() + part.elements.size() + part.drawing.size() + 1000);
+  bytes.reserve(part.brep.size() + part.elements.size() + 1000);
   bytes += kTitle;
   put(bytes, std::uint64_t{part.remarks.size()});
   for (const Diagnostic& remark : part.remarks) {
@@ -67,34 +60,27 @@ std::string toBytes(const ImportedPart& part) {
   }
   put(bytes, part.brep);
   put(bytes, part.elements);
-  put(bytes, part.drawing);
   return bytes;
 }
 
 std::optional<ImportedPart> partFromBytes(std::string bytes) {
-  Reader reader(bytes);
+  const auto kept = std::make_shared<const std::string>(std::move(bytes));
+  Reader reader(*kept);
   if (!reader.title()) return std::nullopt;
   const auto count = reader.number();
   if (!count || *count > reader.left() / 24) return std::nullopt;
   ImportedPart part;
+  part.storage = kept;
   for (std::uint64_t i = 0; i < *count; ++i) {
     const auto line = reader.number();
-    auto message = reader.text(), advice = reader.text();
+    const auto message = reader.text(), advice = reader.text();
     if (!line || !message || !advice) return std::nullopt;
-    part.remarks.push_back({Severity::Warning, {{}, *line, 0}, std::move(*message), {}, std::move(*advice), {}});
+    part.remarks.push_back({Severity::Warning, {{}, *line, 0}, std::string(*message), {}, std::string(*advice), {}});
   }
-  auto brep = reader.text();
-  const auto size = reader.number();
-  const std::size_t first = bytes.size() - reader.left();
-  if (!brep || !size || !reader.skip(*size)) return std::nullopt;
-  auto drawing = reader.text();
-  if (!drawing || !reader.atEnd()) return std::nullopt;
-  part.brep = std::move(*brep);
-  part.drawing = std::move(*drawing);
-  // Nearly all of the bytes: they stay where they are.
-  part.elements = std::move(bytes);
-  part.elements.resize(first + *size);
-  part.elements.erase(0, first);
+  const auto brep = reader.text(), elements = reader.text();
+  if (!brep || !elements || !reader.atEnd()) return std::nullopt;
+  part.brep = *brep;
+  part.elements = *elements;
   return part;
 }
 

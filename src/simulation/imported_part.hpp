@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,9 +13,10 @@ namespace probewright::simulation {
 struct ImportedPart {
   /// Warnings about what is missing or not as it should be; their places have lines, but no file.
   Diagnostics remarks;
-  std::string brep;      ///< the shape, in OpenCASCADE's binary form
-  std::string elements;  ///< what appendElements() makes of it
-  std::string drawing;   ///< its drawing as bytes
+  std::string_view brep;      ///< the shape, in OpenCASCADE's binary form
+  std::string_view elements;  ///< what appendElements() makes of it
+  /// Where they lie: most of a large part is not copied.
+  std::shared_ptr<const void> storage;
 };
 
 std::string toBytes(const ImportedPart& part);

@@ -17,10 +17,12 @@ bool isNameLetter(char c) { return std::isalnum(static_cast<unsigned char>(c)) !
 
 class Scanner {
 public:
-  Scanner(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+  Scanner(std::string_view text, const std::string& file, const std::stop_token& stop)
+      : text_(text), file_(file), stop_(stop) {}
 
   Result<StepText> scan() {
     while (at_ < text_.size()) {
+      if (stop_.stop_requested()) return fail(SourcePlace{file_, line_, 0}, "reading the STEP file was interrupted");
       if (auto read = statement(); !read) return tl::unexpected(std::move(read.error()));
       if (atEnd_) return finish();
     }
@@ -148,6 +150,7 @@ private:
 
   std::string_view text_;
   const std::string& file_;
+  const std::stop_token& stop_;
   std::size_t at_ = 0;
   std::uint64_t line_ = 1;
   bool atEnd_ = false;
@@ -191,7 +194,7 @@ std::uint64_t circularEntity(const StepText& text) {
   return at;
 }
 
-Result<StepText> scanStep(std::string_view bytes, const std::string& file) {
+Result<StepText> scanStep(std::string_view bytes, const std::string& file, const std::stop_token& stop) {
   constexpr std::string_view mark = "\xEF\xBB\xBF";
   if (bytes.starts_with(mark)) bytes.remove_prefix(mark.size());
   const std::size_t start = bytes.find_first_not_of(" \t\r\n");
@@ -204,7 +207,7 @@ Result<StepText> scanStep(std::string_view bytes, const std::string& file) {
     return fail({file, 0, 0}, "the STEP file ends before END-ISO-10303-21",
                 "the file was cut short; copy or export it again");
   }
-  return Scanner(bytes, file).scan();
+  return Scanner(bytes, file, stop).scan();
 }
 
 }  // namespace probewright::simulation

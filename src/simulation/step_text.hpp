@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,7 +31,7 @@ std::uint64_t circularEntity(const StepText& text);
 
 /// Reads the entities of a STEP file. Refused: a file that is not a STEP file or is cut short, brackets that are nested
 /// deeper than any part needs or never closed, texts without an end, two entities of one number. What stands between
-/// the brackets is not looked at. `bytes` must outlive the result.
-Result<StepText> scanStep(std::string_view bytes, const std::string& file);
+/// the brackets is not looked at. `bytes` must outlive the result. A stop ends it with a mistake.
+Result<StepText> scanStep(std::string_view bytes, const std::string& file, const std::stop_token& stop = {});
 
 }  // namespace probewright::simulation

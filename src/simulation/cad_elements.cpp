@@ -1,0 +1,224 @@
+#include "simulation/cad_elements.hpp"
+
+#include <BRep_Tool.hxx>
+#include <GeomAdaptor_Curve.hxx>
+#include <Geom_Line.hxx>
+#include <Poly_Triangulation.hxx>
+#include <TColStd_Array1OfReal.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <algorithm>
+#include <optional>
+
+#include "simulation/border_sides.hpp"
+#include "simulation/face_grid.hpp"
+
+namespace probewright::simulation {
+namespace {
+
+constexpr double kLeastGrowth = 1e-6;
+
+template <class Triple>
+Vector3 vector(const Triple& p) {
+  return {p.X(), p.Y(), p.Z()};
+}
+
+/// The ends of the parts of an edge that have no kink.
+std::vector<double> smoothParts(const CadEdge& edge) {
+  std::vector<double> ends;
+  if (edge.kind == CadEdge::Kind::Curve) {
+    const GeomAdaptor_Curve curve(edge.curve, edge.first, edge.last);
+    TColStd_Array1OfReal bounds(1, curve.NbIntervals(GeomAbs_C1) + 1);
+    curve.Intervals(bounds, GeomAbs_C1);
+    for (int i = 2; i < bounds.Length(); ++i)
+      ends.push_back(bounds(i));
+  }
+  ends.push_back(edge.last);
+  return ends;
+}
+
+/// How far the corners of a triangle lie from where its parameters are on a plane: the mesher may have mixed them up.
+double deviationOf(const CadElement& element, const AnalyticSurface& plane) {
+  double deviation = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector2& uv = element.parameters[k];
+    const Vector3 place = plane.origin + plane.axes * Vector3(uv.x(), uv.y(), 0);
+    deviation = std::max(deviation, (place - element.corners[k]).norm());
+  }
+  return deviation;
+}
+
+double areaInParameters(const CadElement& element) {
+  const Vector2 a = element.parameters[1] - element.parameters[0];
+  const Vector2 b = element.parameters[2] - element.parameters[0];
+  return std::abs(a.x() * b.y() - a.y() * b.x()) / 2;
+}
+
+/// A grid over the face, for a mesh that leaves a part of it open. It finds contacts of balls as well as a mesh does;
+/// contacts of anything else err by a cell at the borders.
+std::vector<CadElement> gridElements(const CadFace& exact, std::uint32_t owner, double deflection) {
+  std::vector<CadElement> elements;
+  const FaceGrid grid(exact, deflection);
+  for (const FaceGrid::Parameters& cell : grid.triangles()) {
+    CadElement element;
+    element.owner = owner;
+    for (std::size_t k = 0; k < 3; ++k) {
+      element.parameters[k] = cell[exact.reversed ? 2 - k : k];
+      element.corners[k] = vector(exact.surface->Value(element.parameters[k].x(), element.parameters[k].y()));
+    }
+    element.onFace = exact.domain.contains((cell[0] + cell[1] + cell[2]) / 3);
+    element.growth = kLeastGrowth + 1.5 * deviationOf(element, *exact.surface);
+    elements.push_back(element);
+  }
+  return elements;
+}
+
+using Corner = BorderSides::Point;
+using Side = std::optional<BorderSides::Side>;
+
+/// A triangle, halved along those of its sides that are parts of bent edges until they are near enough: side k runs
+/// from corner k to the next.
+template <class Add>
+void addParts(const std::array<Corner, 3>& corners, const std::array<Side, 3>& sides, const BorderSides& borders,
+              double deviation, int halvings, const Add& add) {
+  constexpr int kMost = 6;
+  std::array<std::optional<Corner>, 3> middles;
+  for (std::size_t k = 0; k < 3 && halvings < kMost; ++k) {
+    if (sides[k]) middles[k] = borders.middle(*sides[k], deviation);
+  }
+  const auto count = std::ranges::count_if(middles, [](const auto& middle) { return middle.has_value(); });
+  if (count == 0) return add(corners[0], corners[1], corners[2]);
+  // Turned so that its first side has a middle and, of two, its last has none.
+  std::size_t k = 0;
+  while (!middles[k] || (count == 2 && middles[(k + 2) % 3]))
+    ++k;
+  const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+  const auto part = [&](const Corner& a, const Corner& b, const Corner& c, const Side& ab, const Side& bc,
+                        const Side& ca) {
+    addParts({a, b, c}, {ab, bc, ca}, borders, deviation, halvings + 1, add);
+  };
+  const auto first = [&](std::size_t side) { return Side(sides[side]->firstHalf()); };
+  const auto second = [&](std::size_t side) { return Side(sides[side]->secondHalf()); };
+  const Corner &a = corners[k], &b = corners[l], &c = corners[m], &ab = *middles[k];
+  if (count == 1) {
+    part(a, ab, c, first(k), {}, {});
+    part(ab, b, c, second(k), {}, {});
+    return;
+  }
+  const Corner& bc = *middles[l];
+  part(ab, b, bc, second(k), first(l), {});
+  if (count == 2) {
+    part(a, ab, bc, first(k), {}, {});
+    part(a, bc, c, {}, second(l), {});
+    return;
+  }
+  const Corner& ca = *middles[m];
+  part(a, ab, ca, first(k), {}, second(m));
+  part(ca, bc, c, {}, second(l), first(m));
+  add(ab, bc, ca);
+}
+
+}  // namespace
+
+double deviationOf(const CadElement& element, const Geom_Surface& surface) {
+  double deviation = 0;
+  const auto probe = [&](double a, double b, double c) {
+    const Vector2 uv = a * element.parameters[0] + b * element.parameters[1] + c * element.parameters[2];
+    const Vector3 chord = a * element.corners[0] + b * element.corners[1] + c * element.corners[2];
+    deviation = std::max(deviation, (vector(surface.Value(uv.x(), uv.y())) - chord).norm());
+  };
+  probe(0.5, 0.5, 0);
+  probe(0, 0.5, 0.5);
+  probe(0.5, 0, 0.5);
+  probe(1.0 / 3, 1.0 / 3, 1.0 / 3);
+  probe(2.0 / 3, 1.0 / 6, 1.0 / 6);
+  probe(1.0 / 6, 2.0 / 3, 1.0 / 6);
+  probe(1.0 / 6, 1.0 / 6, 2.0 / 3);
+  return deviation;
+}
+
+std::vector<CadElement> faceElements(const CadFace& exact, const TopoDS_Face& face, std::uint32_t owner,
+                                     double deflection) {
+  TopLoc_Location location;
+  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, location);
+  if (mesh.IsNull() || !mesh->HasUVNodes()) return gridElements(exact, owner, deflection);
+  std::vector<CadElement> elements;
+  double area = 0;
+  const gp_Trsf transform = location.Transformation();
+  const bool flat = exact.forms.isPlane();
+  bool straight = true;
+  for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More() && straight; edges.Next()) {
+    double first = 0;
+    double last = 0;
+    const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(edges.Current()), first, last);
+    straight = curve.IsNull() || curve->IsKind(STANDARD_TYPE(Geom_Line));
+  }
+  const BorderSides borders(face, mesh, location);
+  const auto add = [&](const Corner& a, const Corner& b, const Corner& c) {
+    CadElement element;
+    element.owner = owner;
+    element.corners = {a.point, b.point, c.point};
+    element.parameters = {a.parameters, b.parameters, c.parameters};
+    const double deviation =
+        flat ? deviationOf(element, exact.forms.sheets.front()) : deviationOf(element, *exact.surface);
+    area += areaInParameters(element);
+    // Between a bent border and its chord no triangle lies.
+    element.growth = kLeastGrowth + 1.5 * std::max(deviation, straight ? 0.0 : 1.5 * deflection);
+    elements.push_back(element);
+  };
+  for (int i = 1; i <= mesh->NbTriangles(); ++i) {
+    std::array<int, 3> nodes{};
+    mesh->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
+    if (exact.reversed) std::swap(nodes[1], nodes[2]);
+    std::array<Corner, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const gp_Pnt2d uv = mesh->UVNode(nodes[k]);
+      corners[k] = {vector(mesh->Node(nodes[k]).Transformed(transform)), {uv.X(), uv.Y()}};
+    }
+    addParts(
+        corners,
+        {borders.between(nodes[0], nodes[1]), borders.between(nodes[1], nodes[2]), borders.between(nodes[2], nodes[0])},
+        borders, deflection, 0, add);
+  }
+  // Triangles that leave a part of the face open would hide it.
+  constexpr double kLeastCover = 0.9;
+  if (area < kLeastCover * exact.domain.area()) return gridElements(exact, owner, deflection);
+  return elements;
+}
+
+void addEdgeElements(CadModel& model, std::uint32_t owner, double deflection) {
+  const CadEdge& edge = model.edges[owner];
+  const auto at = [&](double t) { return vector(edge.curve->Value(t)); };
+  const auto deviation = [&](double a, double b) {
+    const Vector3 from = at(a);
+    const Vector3 to = at(b);
+    return std::max((at((a + b) / 2) - (from + to) / 2).norm(),
+                    (at(0.7 * a + 0.3 * b) - (0.7 * from + 0.3 * to)).norm());
+  };
+  std::vector<double> parameters{edge.first};
+  const std::vector<double> smooth = smoothParts(edge);
+  const int pieces = edge.kind == CadEdge::Kind::Line ? 1 : std::max(1, 8 / static_cast<int>(smooth.size()));
+  double from = edge.first;
+  for (const double to : smooth) {
+    for (int i = 0; i < pieces; ++i) {
+      subdivide(
+          from + (to - from) * i / pieces, from + (to - from) * (i + 1) / pieces,
+          edge.kind == CadEdge::Kind::Line ? 0 : 10, [&](double a, double b) { return deviation(a, b) > deflection; },
+          parameters);
+    }
+    from = to;
+  }
+  for (std::size_t i = 0; i + 1 < parameters.size(); ++i) {
+    CadElement element;
+    element.kind = CadElement::Kind::Edge;
+    element.owner = owner;
+    element.corners = {at(parameters[i]), at(parameters[i + 1]), at(parameters[i + 1])};
+    element.parameters = {Vector2(parameters[i], 0), Vector2(parameters[i + 1], 0), Vector2(parameters[i + 1], 0)};
+    element.growth =
+        kLeastGrowth + 1.5 * (edge.kind == CadEdge::Kind::Line ? 0 : deviation(parameters[i], parameters[i + 1]));
+    model.elements.push_back(element);
+  }
+}
+
+}  // namespace probewright::simulation
