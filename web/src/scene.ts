@@ -438,6 +438,11 @@ export class Drawing {
   /** The corners of what a cycle touched, with room around it. */
   cornersOfCycle(cycle: number): Vector3[] {
     const box = new Box3();
+    // Where it ended, too, and where what it looked for really is.
+    for (const known of this.report.results.truth?.diagnoses ?? []) {
+      if (known.cycle !== cycle) continue;
+      for (const ghost of [known.expected, known.found]) if (ghost) box.expandByPoint(new Vector3().fromArray(ghost.at.map((x) => x ?? 0)));
+    }
     for (const marker of this.markers) {
       if (marker.cycle !== cycle) continue;
       box.expandByPoint(marker.tool < 0 ? marker.centre : marker.surface);

@@ -1,4 +1,5 @@
-// Makes the pictures of the documents from reports. Usage: node report_images.mjs REPORT LATHE_REPORT FOLDER
+// Makes the pictures of the documents from reports. Usage: node report_images.mjs REPORT LATHE_REPORT FOLDER, then
+// NAME=REPORT for each alarm that has a picture.
 
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -6,7 +7,7 @@ import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import puppeteer from "puppeteer-core";
 
-const [report, lathe, folder] = process.argv.slice(2);
+const [report, lathe, folder, ...alarms] = process.argv.slice(2);
 const userDataDir = mkdtempSync(join(tmpdir(), "probewright-images-"));
 const browser = await puppeteer.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
@@ -17,7 +18,7 @@ const browser = await puppeteer.launch({
 
 const settle = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(done, 300))));
 
-async function picture(file, name, { width = 1400, height = 900, dark = false } = {}, act = async () => {}) {
+async function picture(file, name, { width = 1400, height = 900, dark = false, of = null } = {}, act = async () => {}) {
   const page = await browser.newPage();
   await page.setViewport({ width, height });
   await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: dark ? "dark" : "light" }]);
@@ -26,7 +27,7 @@ async function picture(file, name, { width = 1400, height = 900, dark = false } 
   await settle(page);
   await act(page);
   await settle(page);
-  await page.screenshot({ path: join(folder, name) });
+  await (of ? await page.$(of) : page).screenshot({ path: join(folder, name) });
   await page.close();
 }
 
@@ -44,5 +45,20 @@ await picture(report, "report-replay.png", { dark: true }, async (page) => {
 });
 await picture(report, "report-phone.png", { width: 390, height: 844 });
 await picture(lathe, "report-lathe.png", { height: 700 });
+for (const alarm of alarms) {
+  const [name, file] = alarm.split("=");
+  // Where the probe stopped, seen near, with what the simulator knows of it.
+  await picture(file, `${name}.png`, { of: ".stage" }, async (page) => {
+    await page.addStyleTag({ content: ".toolbar, .touch-card, .legend { visibility: hidden !important }" });
+    await page.$eval(".timeline input", (slider) => {
+      slider.value = slider.max;
+      slider.dispatchEvent(new Event("input"));
+    });
+    // A touch that failed is seen near, what the body ran into from further away.
+    const near = await page.$(".label.ghost");
+    await page.keyboard.press(near ? "n" : "f");
+    await new Promise((done) => setTimeout(done, 1500));
+  });
+}
 await browser.close();
 rmSync(userDataDir, { recursive: true, force: true, maxRetries: 3 });
