@@ -194,9 +194,8 @@ std::string complaint(const Parameter& parameter, const Argument& argument) {
     return fmt::format("{} takes a whole number, not {}", head(), formatShortest(value));
   }
   if (parameter.kind == ValueKind::Option) {
-    if (std::ranges::find(parameter.choices, static_cast<int>(value), &Choice::value) != parameter.choices.end()) {
-      return {};
-    }
+    const auto chosen = [&](const Choice& choice) { return choice.value == value; };
+    if (std::ranges::any_of(parameter.choices, chosen)) return {};
     return fmt::format("{} cannot be {}; it can be {}", head(), formatShortest(value), choicesText(parameter.choices));
   }
   if (value < parameter.minimum || value > parameter.maximum) {

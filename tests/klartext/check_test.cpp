@@ -55,6 +55,14 @@ TEST(Check, TouchProbeCyclesThatNoControlHas) {
             "    1 TCH PROBE 580 OWN\n    list the available cycles with: probewright cycles\n");
 }
 
+TEST(Check, ChoicesFarBeyondAnyInteger) {
+  for (const std::string number : {"333333333333333333333333", "-333333333333333333333333", "4294967297"}) {
+    const std::string found =
+        checked(framed("1 TCH PROBE 482 TOOL RADIUS ~\n Q340=1 ~\n Q260=+100 ~\n Q341=" + number + "\n"));
+    EXPECT_NE(found.find("Q341 (PROBING THE TEETH) cannot be "), std::string::npos) << number << ": " << found;
+  }
+}
+
 TEST(Check, SteppingAnglesThatTheCycleWouldRefuse) {
   const auto of = [](const std::string& angle) {
     return checked(framed(

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/truncated.hpp"
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/tool_measurement.hpp"
 #include "cycles/heidenhain/tool_parameters.hpp"
@@ -85,7 +86,7 @@ TurningTool turningTool(Context& context) {
   TurningTool tool{number("ZL") + number("DZL"),
                    number("XL") + number("DXL"),
                    number("YL") + number("DYL"),
-                   static_cast<int>(number("TO")),
+                   truncated(number("TO")),
                    number("ORI"),
                    {}};
   const std::string type = table->text(row, "TYPE");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/truncated.hpp"
 #include "control/alarm.hpp"
 #include "control/heidenhain/tool_table.hpp"
 #include "cycles/heidenhain/probe_words.hpp"
@@ -150,7 +151,7 @@ ToolMeasurement::ToolMeasurement(Context& context, const ToolRequest& request)
   sense_ = probed.sense;
   const auto& tools = context.control().tables.tools;
   const std::string& row = context.control().tool.row;
-  teeth_ = static_cast<int>(tools.numberOr(row, "CUT", 0));
+  teeth_ = truncated(tools.numberOr(row, "CUT", 0));
   const int most = context.control().isTNC640() ? 20 : 99;
   if (request.teeth && !settings_.teeth) {
     throw Alarm("Function not enabled",

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/truncated.hpp"
 #include "control/alarm.hpp"
 #include "control/heidenhain/tool_table.hpp"
 
@@ -19,7 +20,7 @@ std::string monitoredToolRow(Context& context) {
   if (argument.number == 0) return "";
   const double number = std::floor(argument.number);
   const int index = static_cast<int>(std::lround((argument.number - number) * 10));
-  const std::string row = control::heidenhain::toolKey(static_cast<int>(number), index);
+  const std::string row = control::heidenhain::toolKey(truncated(number), index);
   if (!control.tables.tools.hasRow(row)) {
     throw Alarm("Tool not defined", fmt::format("Q330 names tool {}, which TOOL.T does not have", row),
                 "correct Q330 or add the tool");

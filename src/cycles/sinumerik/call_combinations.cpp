@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/number_text.hpp"
+#include "base/truncated.hpp"
 #include "cycles/sinumerik/registry.hpp"
 
 namespace probewright::cycles::sinumerik {
@@ -23,7 +24,7 @@ void toolCorrection(CallCombinations& call) {
   const auto memories = call.number("S_EVNUM"), weight = call.number("S_K");
   if (memories && *memories >= 10000 && weight && *weight <= 0) {
     call.refuse("S_K", fmt::format("S_K = {}: the weighting factor of mean value {} must be greater than 0",
-                                   formatShortest(*weight), static_cast<long>(*memories) / 10000));
+                                   formatShortest(*weight), truncated<long>(*memories) / 10000));
   }
   const KnownArgument name = call.argument("S_TNAME");
   const bool empty = !name.given || (name.text && name.text->empty());
@@ -41,7 +42,7 @@ bool CallCombinations::has(std::string_view name) const {
 
 bool CallCombinations::asymmetric() const {
   const auto mode = number("_AMODE");
-  return mode && variant::digit(static_cast<int>(std::abs(*mode)), 1) == 1;
+  return mode && variant::digit(truncated(std::abs(*mode)), 1) == 1;
 }
 
 void CallCombinations::refuse(std::string_view parameter, std::string text) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/number_text.hpp"
+#include "base/truncated.hpp"
 #include "cycles/sinumerik/parameters.hpp"
 #include "cycles/sinumerik/registry.hpp"
 
@@ -35,7 +36,7 @@ constexpr Requirement requirements[] = {
 
 /// What is wrong with a given value of these kinds; empty if nothing is.
 std::string outside(const Requirement& requirement, double value) {
-  const int code = static_cast<int>(value);
+  const int code = truncated(value);
   switch (requirement.need) {
     case Need::Within:
       if (value >= requirement.least && value <= requirement.most) return {};
@@ -65,7 +66,7 @@ std::optional<CallComplaint> complaintOf(const Requirement& each, const Paramete
   }
   const double value = argument.given ? argument.number : parameter.standard.value_or(0);
   const std::string name = fmt::format("{} ({})", parameter.name, parameter.meaning);
-  if (each.need == Need::Correction && value > 0 && namesNothing(parameter, static_cast<long>(value))) {
+  if (each.need == Need::Correction && value > 0 && namesNothing(parameter, truncated<long>(value))) {
     return CallComplaint{fmt::format("{} = {} names no number: S_MVAR asks for a correction, and nothing is corrected",
                                      name, formatShortest(value)),
                          false};

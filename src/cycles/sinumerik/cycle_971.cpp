@@ -1,3 +1,4 @@
+#include "base/truncated.hpp"
 #include "cycles/sinumerik/call_combinations.hpp"
 #include "cycles/sinumerik/machine_coordinates.hpp"
 #include "cycles/sinumerik/milled_tool.hpp"
@@ -197,8 +198,8 @@ void combinations(CallCombinations& call) {
   if (const char* why = contradiction(call.digit(1), call.digit(3) == 1, call.digit(6) == 1, call.digit(7) == 1))
     call.refuse("S_MVAR", std::string("S_MVAR does not fit together: ") + why);
   const auto axes = call.number("S_MA"), way = call.number("S_MD");
-  const bool above = axes && static_cast<int>(std::abs(*axes)) % 10 == 3 && call.digit(6) != 1;
-  if (axes && static_cast<int>(*axes) % 10 == static_cast<int>(*axes) / 100 && *axes != 0)
+  const bool above = axes && truncated(std::abs(*axes)) % 10 == 3 && call.digit(6) != 1;
+  if (axes && truncated(*axes) % 10 == truncated(*axes) / 100 && *axes != 0)
     call.refuse("S_MA", "the offset axis cannot be the measuring axis");
   if (above && way && *way == 1) call.refuse("S_MD", "the 3rd axis is touched from above: minus, 2, or 0");
   if (above && call.digit(7) == 1) call.refuse("S_MVAR", "the spindle is reversed for the axes of the plane only");

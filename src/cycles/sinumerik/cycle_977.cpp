@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/number_text.hpp"
+#include "base/truncated.hpp"
 #include "cycles/sinumerik/call_combinations.hpp"
 #include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/corrections.hpp"
@@ -233,7 +234,7 @@ void zones(CallCombinations& call) {
 
 void setPosition(CallCombinations& call) {
   const auto mode = call.number("_AMODE");
-  if (!mode || variant::digit(static_cast<int>(std::abs(*mode)), 2) == 1) return;
+  if (!mode || variant::digit(truncated(std::abs(*mode)), 2) == 1) return;
   for (const std::string_view name : {"S_POS1", "S_POS2"})
     if (const auto value = call.number(name); value && *value != 0)
       return call.warn(

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "base/truncated.hpp"
 #include "cycles/sinumerik/call_combinations.hpp"
 #include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/kinematics_measurement.hpp"
@@ -336,7 +337,7 @@ void combinations(CallCombinations& call) {
   if (const std::string wrong = wrongVariant(code); !wrong.empty()) call.refuse("S_MVAR", wrong);
   const auto mode = call.number("_AMODE");
   if (measures(code) || !mode) return;
-  const int digits = static_cast<int>(*mode);
+  const int digits = truncated(*mode);
   if (variant::digit(digits, 2) == 1 && digits / 100 != 0)
     call.warn("_AMODE", "the operator is asked all the same: 10 in _AMODE acts with 0 in hundreds and thousands only");
   if (variant::digit(digits, 4) == 1 && variant::digit(digits, 3) == 0)

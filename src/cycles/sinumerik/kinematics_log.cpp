@@ -1,4 +1,5 @@
 #include "cycles/sinumerik/kinematics_log.hpp"
+#include "base/truncated.hpp"
 
 #include <fmt/format.h>
 
@@ -51,7 +52,7 @@ struct TransformationData {
 std::array<TransformationData, 4> transformationData(const DataStore& store, ToolCarrier::Kind kind) {
   constexpr TransformationData part{24500, "$MC_TRAFO5_PART_OFFSET_1"}, joint{24560, "$MC_TRAFO5_JOINT_OFFSET_1"},
       jointPart{24558, "$MC_TRAFO5_JOINT_OFFSET_PART_1"}, base{24550, "$MC_TRAFO5_BASE_TOOL_1"};
-  switch (static_cast<int>(store.number("$MC_TRAFO_TYPE_1", {}))) {
+  switch (truncated(store.number("$MC_TRAFO_TYPE_1", {}))) {
     case 24:
       if (kind == ToolCarrier::Kind::Head) return {part, joint, base, TransformationData{}};
       break;

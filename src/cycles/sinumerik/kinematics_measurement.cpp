@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/number_text.hpp"
+#include "base/truncated.hpp"
 #include "control/alarm.hpp"
 #include "control/sinumerik/measuring_data.hpp"
 #include "control/sinumerik/text.hpp"
@@ -28,7 +29,7 @@ ToolCarrier carrierOfCall(Context& context) {
   const Control& control = context.control();
   const int number = context.integer("S_TC");
   constexpr int mostOfControl = 65;
-  const int most = static_cast<int>(control.data.number("$MN_MM_NUM_TOOL_CARRIER", {}, mostOfControl));
+  const int most = truncated(control.data.number("$MN_MM_NUM_TOOL_CARRIER", {}, mostOfControl));
   if (number < 1 || number > most)
     context.alarm(61319, fmt::format("S_TC = {}: the swivel data sets are 1 to {} (MD 18088)", number, most));
   const auto carrier = control::sinumerik::toolCarrier(control.data, number);

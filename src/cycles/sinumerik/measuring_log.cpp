@@ -9,6 +9,7 @@
 #include <ctime>
 
 #include "base/number_text.hpp"
+#include "base/truncated.hpp"
 #include "base/utc.hpp"
 
 namespace probewright::cycles::sinumerik {
@@ -258,7 +259,7 @@ void outputResults(Control& control, CycleRecord& record, int alarm) {
     write(log);
   if (output.programLog) write(*output.programLog);
 
-  const int display = output.display.value_or(static_cast<int>(control.data.number("$SCS_MEA_RESULT_DISPLAY", {}, 0)));
+  const int display = output.display.value_or(truncated(control.data.number("$SCS_MEA_RESULT_DISPLAY", {}, 0)));
   if (display != 0 && display != 1 && display != 3 && display != 4) {
     const std::string text =
         fmt::format("$SCS_MEA_RESULT_DISPLAY = {}: the result screen knows 0, 1, 3 and 4, and stays off", display);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/number_text.hpp"
+#include "base/truncated.hpp"
 #include "control/sinumerik/length_type.hpp"
 #include "control/sinumerik/measuring_data.hpp"
 #include "control/sinumerik/tool_data.hpp"
@@ -88,7 +89,7 @@ std::optional<ToolTarget> toolTarget(Context& context) {
     target.dl = context.integer("S_DLNUM");
     const bool setUp = !context.control().data.isSet(DataKey("$MN_MM_TOOL_MANAGEMENT_MASK", {})) ||
                        maskBit(context.control().data, "$MN_MM_TOOL_MANAGEMENT_MASK", 8);
-    const int most = setUp ? static_cast<int>(context.control().machineData("$MN_MM_NUM_SUMCORR", 6)) : 0;
+    const int most = setUp ? truncated(context.control().machineData("$MN_MM_NUM_SUMCORR", 6)) : 0;
     if (target.dl < 1 || target.dl > std::min(6, most)) {
       context.alarm(
           61319, fmt::format("S_DLNUM = {}: additive and setup offsets have DL 1 to {}", target.dl, std::min(6, most)));
@@ -185,7 +186,7 @@ bool usesTolerance(const Context& context) { return context.digit("_AMODE", 1) =
 
 /// How many empirical or mean values the machine keeps.
 int memoriesOf(const Context& context, std::string_view count) {
-  return std::clamp(static_cast<int>(context.control().machineData(count, 20)), 0, 20);
+  return std::clamp(truncated(context.control().machineData(count, 20)), 0, 20);
 }
 
 /// The memory of the mean that S_EVNUM selects, 1 to 20; 0: none.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/number_text.hpp"
+#include "base/truncated.hpp"
 #include "control/alarm.hpp"
 #include "control/sinumerik/text.hpp"
 #include "cycles/sinumerik/corrections.hpp"
@@ -88,7 +89,7 @@ void noteCorrection(Context& context, const FrameTarget& target) {
 /// A rotary axis takes fine offsets where bit 6 of MD 52207 releases it; a machine without the datum releases all.
 bool hasFineOffset(const Control& control, std::size_t axis) {
   const DataKey key("$MCS_AXIS_USAGE_ATTRIB", {static_cast<int>(axis)});
-  return !control.data.isSet(key) || (static_cast<long>(control.data.number(key)) >> 6 & 1) != 0;
+  return !control.data.isSet(key) || (truncated<long>(control.data.number(key)) >> 6 & 1) != 0;
 }
 
 constexpr std::array<std::string_view, 3> axisNames = {"X", "Y", "Z"};
@@ -116,7 +117,7 @@ std::optional<FrameTarget> frameTarget(Context& context, GlobalBase globalBase) 
   };
   switch (kind) {
     case 0: {
-      const int count = static_cast<int>(control.machineData("$MC_MM_NUM_USER_FRAMES", 100));
+      const int count = truncated(control.machineData("$MC_MM_NUM_USER_FRAMES", 100));
       if (number < 1 || number >= count) {
         context.alarm(61321, fmt::format("settable zero offset {}: 1 to {} are possible", number, count - 1));
       }

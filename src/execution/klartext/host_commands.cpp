@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/number_text.hpp"
+#include "base/truncated.hpp"
 #include "control/alarm.hpp"
 #include "execution/klartext/excerpt.hpp"
 #include "execution/klartext/host.hpp"
@@ -68,7 +69,7 @@ void KlartextHost::dwell(double seconds) {
 void KlartextHost::defineGlobally(const Command& command, Evaluation& evaluation) {
   const std::span<const Word> words = evaluation.words(command.words);
   if (!words.empty()) {
-    const int group = static_cast<int>(evaluation.number(words[0].value));
+    const int group = truncated(evaluation.number(words[0].value));
     if (auto mistake = mistakeInGlobalDefinition(group, words.subspan(1)))
       throw Alarm("GLOBAL DEF wrong", std::move(mistake->message), std::move(mistake->advice));
   }
@@ -225,7 +226,7 @@ void KlartextHost::carryOut(const Command& command, Evaluation& evaluation) {
 /// Points from Qn on: main and minor axis of each; centre and radius into three parameters from the result on. Four
 /// points: the circle of least squares.
 void KlartextHost::circleThroughPoints(const Command& command, int points, Evaluation& evaluation) {
-  const int source = static_cast<int>(evaluation.number(evaluation.words(command.words).front().value));
+  const int source = truncated(evaluation.number(evaluation.words(command.words).front().value));
   const int result =
       static_cast<int>(evaluation.block().variables[static_cast<std::size_t>(command.variable)].index[0].number);
   if (source + 2 * points > control::heidenhain::QParameters::count ||

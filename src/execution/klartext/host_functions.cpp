@@ -5,6 +5,7 @@
 
 #include "base/number_text.hpp"
 #include "base/text.hpp"
+#include "base/truncated.hpp"
 #include "control/alarm.hpp"
 #include "execution/klartext/excerpt.hpp"
 #include "execution/klartext/host.hpp"
@@ -43,7 +44,7 @@ Value KlartextHost::call(std::string_view name, std::span<const Value> arguments
     return angle < 0 ? angle + 360 : angle;
   }
   if (name == "PREDEF") {
-    const int number = static_cast<int>(numberArgument(arguments, 0));
+    const int number = truncated(numberArgument(arguments, 0));
     const auto found = control_.globalDefinitions.find(number);
     if (found == control_.globalDefinitions.end()) {
       throw Alarm("GLOBAL DEF missing", fmt::format("Q{} is PREDEF, but no GLOBAL DEF gives it a value", number),
@@ -64,7 +65,7 @@ Value KlartextHost::call(std::string_view name, std::span<const Value> arguments
   if (name == "TOCHAR") {
     const double decimals = numberArgument(arguments, 1);
     const double value = numberArgument(arguments, 0);
-    return decimals < 0 ? formatShortest(value) : formatFixed(value, std::min(static_cast<int>(decimals), 15));
+    return decimals < 0 ? formatShortest(value) : formatFixed(value, std::min(truncated(decimals), 15));
   }
   if (name == "TONUMB") {
     const std::string text(trimmed(textArgument(arguments, 0)));
@@ -99,15 +100,14 @@ Value KlartextHost::call(std::string_view name, std::span<const Value> arguments
     return order < 0 ? -1.0 : order > 0 ? 1.0 : 0.0;
   }
   if (name == "SYSSTR") {
-    const Value text =
-        systemText(run_, static_cast<int>(numberArgument(arguments, 0)), static_cast<int>(numberArgument(arguments, 1)),
-                   static_cast<int>(numberArgument(arguments, 2)));
+    const Value text = systemText(run_, truncated(numberArgument(arguments, 0)),
+                                  truncated(numberArgument(arguments, 1)), truncated(numberArgument(arguments, 2)));
     const double most = numberArgument(arguments, 3);
     return most < 0 ? text : Value(std::get<std::string>(text).substr(0, static_cast<std::size_t>(most)));
   }
   if (name == "CFGREAD") {
     return configuration(run_, textArgument(arguments, 1), textArgument(arguments, 2),
-                         static_cast<int>(numberArgument(arguments, 3)));
+                         truncated(numberArgument(arguments, 3)));
   }
   throw Alarm("Function not available",
               fmt::format("{} reads data of the control that a virtual one does not have", name),

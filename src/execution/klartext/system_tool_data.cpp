@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/number_text.hpp"
+#include "base/truncated.hpp"
 #include "control/alarm.hpp"
 #include "control/heidenhain/tool_table.hpp"
 #include "execution/klartext/system_data.hpp"
@@ -53,7 +54,7 @@ std::optional<NumberColumn> columnOf(int number) {
 
 /// The row of TOOL.T that an index names: 5 or, with its step, 5.1.
 std::string SystemData::toolRowOf(double index) const {
-  return control::heidenhain::toolKey(static_cast<int>(std::floor(index)),
+  return control::heidenhain::toolKey(truncated(std::floor(index)),
                                       static_cast<int>(std::lround((index - std::floor(index)) * 10)));
 }
 

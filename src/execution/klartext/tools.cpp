@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/truncated.hpp"
 #include "control/alarm.hpp"
 #include "control/heidenhain/tool_table.hpp"
 #include "execution/klartext/tools.hpp"
@@ -24,7 +25,7 @@ void Tools::callTool(const ToolCall& call, Evaluation& evaluation) {
     double index = evaluation.numberOr(call.index, 0);
     // A tool that a parameter names carries its index after the point.
     if (!call.index.present()) index = std::round((number - std::floor(number)) * 10);
-    row = control::heidenhain::toolKey(static_cast<int>(std::floor(number)), static_cast<int>(index));
+    row = control::heidenhain::toolKey(truncated(std::floor(number)), static_cast<int>(index));
   }
   const double deltaLength = delta(call.deltaLength, active.deltaLength);
   const double deltaRadius = delta(call.deltaRadius, active.deltaRadius);
@@ -60,7 +61,7 @@ void Tools::defineTool(const Command& command, Evaluation& evaluation) {
   } else {
     const double number = std::get<double>(tool);
     prepared_ = std::floor(number);
-    row = control::heidenhain::toolKey(static_cast<int>(std::floor(number)),
+    row = control::heidenhain::toolKey(truncated(std::floor(number)),
                                        static_cast<int>(std::round((number - std::floor(number)) * 10)));
   }
   const auto& tools = control_.tables.tools;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/truncated.hpp"
 #include "control/alarm.hpp"
 #include "control/sinumerik/measuring_data.hpp"
 
@@ -58,7 +59,7 @@ void requireDatum(std::string_view name, std::span<const Value> indices, const V
     return;
   }
   if (name == "$P_UIFR") {
-    const int count = static_cast<int>(data.number("$MC_MM_NUM_USER_FRAMES", {}, 100));
+    const int count = truncated(data.number("$MC_MM_NUM_USER_FRAMES", {}, 100));
     return requireIndex(name, indices, 0, 0, count - 1);
   }
   if (name == "$P_CHBFR" || name == "$P_NCBFR") {

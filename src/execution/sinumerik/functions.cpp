@@ -8,6 +8,7 @@
 
 #include "base/number_text.hpp"
 #include "base/text.hpp"
+#include "base/truncated.hpp"
 #include "control/alarm.hpp"
 #include "control/sinumerik/init_text.hpp"
 #include "execution/format_field.hpp"
@@ -162,7 +163,7 @@ std::string formatText(std::string_view format, std::span<const Value> arguments
         part = fmt::format("{:.{}G}", values.number(next), decimals);
         break;
       case 'X':
-        part = fmt::format("{:X}", static_cast<std::uint32_t>(static_cast<std::int64_t>(values.number(next))));
+        part = fmt::format("{:X}", static_cast<std::uint32_t>(truncated<std::int64_t>(values.number(next))));
         break;
       case 'B':
         part = values.number(next) != 0 ? "TRUE" : "FALSE";
