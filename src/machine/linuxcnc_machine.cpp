@@ -158,7 +158,7 @@ private:
                               name, other->second)
                 : fmt::format("the kinematics {} are not known", name),
             "Kinematics that are: trivkins, corexykins, xyzac-trt-kins, xyzbc-trt-kins, xyzab_tdr_kins, 5axiskins, "
-            "maxkins. Another machine can be described in a machine file (docs/setup-format.md)");
+            "maxkins. Another machine can be described in a machine file (docs/machine-files.md)");
     return false;
   }
 

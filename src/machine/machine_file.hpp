@@ -8,7 +8,7 @@
 #include "base/diagnostic.hpp"
 #include "machine/description.hpp"
 
-/// Machines as TOML files; docs/setup-format.md describes every key.
+/// Machines as TOML files; docs/machine-files.md describes every key.
 namespace probewright::machine {
 
 /// The machine that `text` describes. Mistakes go to `diagnostics`, each with its place in `file`; nothing is returned

@@ -14,8 +14,8 @@
 #include "machine/machine_file.hpp"
 #include "setup/setup.hpp"
 
-/// docs/setup-format.md against the readers of setups and machine files: the keys of every table, their ranges and
-/// defaults.
+/// docs/setup-format.md and docs/machine-files.md against the readers of setups and machine files: the keys of every
+/// table, their ranges and defaults.
 namespace probewright::setup {
 namespace {
 
@@ -25,9 +25,9 @@ using control::BelievedTool;
 using testing::HasSubstr;
 
 std::string page() {
-  std::ifstream file(PROBEWRIGHT_EXAMPLES "/../docs/setup-format.md");
   std::stringstream text;
-  text << file.rdbuf();
+  for (const char* name : {"setup-format.md", "machine-files.md"})
+    text << std::ifstream(std::string(PROBEWRIGHT_EXAMPLES "/../docs/") + name).rdbuf();
   return text.str();
 }
 

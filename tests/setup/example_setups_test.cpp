@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "setup/setup.hpp"
 #include "simulation/virtual_machine.hpp"
@@ -72,7 +73,9 @@ TEST(ExampleSetups, PutTheHousingWhereTheySay) {
 }
 
 TEST(ExampleSetups, TheManualsExamplesAreRead) {
-  std::ifstream file(PROBEWRIGHT_EXAMPLES "/../docs/setup-format.md");
+  std::stringstream file;
+  for (const char* name : {"setup-format.md", "machine-files.md"})
+    file << std::ifstream(std::string(PROBEWRIGHT_EXAMPLES "/../docs/") + name).rdbuf();
   std::string line, block;
   bool inside = false;
   int count = 0;
