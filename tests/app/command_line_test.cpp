@@ -31,7 +31,7 @@ TEST(CommandLine, NamesTheWordItDoesNotKnow) {
     EXPECT_THAT(answer.errors, HasSubstr(message));
   }
   const std::string help = probewright({"run", "--help"}).output;
-  EXPECT_THAT(help, HasSubstr("(with de these are English): en, de, ru, sv, zh, pl"));
+  EXPECT_THAT(help, HasSubstr("messages and logs: en, de, ru, sv, zh, pl"));
   EXPECT_EQ(help.find('\0'), std::string::npos);
   EXPECT_EQ(probewright({"run", program, "--setup", setup, "--language", "SV", "--out", "/dev/null/x"}).exit, 2)
       << "any case, but no folder";
