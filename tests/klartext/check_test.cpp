@@ -249,7 +249,11 @@ TEST(Check, KnowsRotationsThatGoNowhere) {
 
 TEST(Check, KnowsTheStateBeforeACycle) {
   const std::string cycle = inspection421("0", "0");
-  EXPECT_NE(checked(framed(cycle)).find("warning: there is no TOOL CALL before this cycle"), std::string::npos);
+  const std::string without = checked(framed(cycle));
+  EXPECT_NE(without.find("warning: there is no TOOL CALL before this cycle"), std::string::npos);
+  EXPECT_NE(without.find("call the touch probe first"), std::string::npos);
+  const std::string tool = checked(framed("1 TCH PROBE 482 TOOL RADIUS ~\n Q340=1 ~\n Q260=+100 ~\n Q341=0\n"));
+  EXPECT_NE(tool.find("call the tool to be measured first"), std::string::npos) << tool;
   EXPECT_EQ(checked(framed("1 CALL PGM TOOLS\n" + cycle)).find("TOOL CALL"), std::string::npos);
   const std::string shift = "2 CYCL DEF 7.0 SHIFT\n3 CYCL DEF 7.1 X+5\n";
   EXPECT_NE(checked(framed(call + shift + cycle)).find("cycle 7 is active"), std::string::npos);

@@ -342,8 +342,10 @@ private:
     if (!plainWay_) return;
     const auto& conditions = cycles::heidenhain::findEntry(cycle.number)->conditions;
     if (!toolCalled_ && conditions.uses != cycles::heidenhain::Uses::Nothing) {
+      const bool ofTool = conditions.uses == cycles::heidenhain::Uses::ToolTouchProbe;
       reportHere("there is no TOOL CALL before this cycle",
-                 "call the touch probe first, unless it is in the spindle already or another program calls this one",
+                 fmt::format("call the {} first, unless it is in the spindle already or another program calls this one",
+                             ofTool ? "tool to be measured" : "touch probe"),
                  Severity::Warning);
       toolCalled_ = true;
     }
