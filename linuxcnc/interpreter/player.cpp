@@ -35,6 +35,8 @@ bool Player::start(const std::string& iniFile, const std::string& program, int l
   ended_.reset();
   signalled_ = told_ = gone_ = false;
   messages_.clear();
+  way_.clear();
+  queuedPieces_ = 0;
   mill_.load(iniFile);
   const auto key = [&](const char* name) { return mill_.key("PROBEWRIGHT", name); };
   const fs::path folder = fs::path(iniFile).parent_path();
@@ -117,6 +119,10 @@ Player::Next Player::finish() {
 Player::Next Player::read() {
   // What a dead engine had ordered is not begun.
   if (gone_) return finish();
+  if (queuedPieces_ < way_.size()) {
+    line_ = way_[queuedPieces_].line;
+    return Next::GoOn;
+  }
   if (stage_ == Stage::Pending) {
     mill_.synchronize();
     if (Mill::moves()) at_ = mill_.position();
@@ -161,6 +167,10 @@ Player::Next Player::read() {
 }
 
 Player::Next Player::execute() {
+  if (queuedPieces_ < way_.size()) {
+    queueNext();
+    return Next::GoOn;
+  }
   switch (stage_) {
     case Stage::Idle:
     case Stage::Pending:
@@ -255,36 +265,38 @@ std::vector<Player::Piece> Player::pieces(const Json& order, Json& answer) const
   return pieces;
 }
 
-void Player::queue(const std::vector<Piece>& pieces) {
-  for (const Piece& piece : pieces) {
-    line_ = piece.line;
-    mill_.atLine(line_);
-    if (piece.feed) {
-      mill_.feed(*piece.feed);
-      mill_.straight(piece.target);
-    } else {
-      mill_.traverse(piece.target);
-    }
+void Player::queueNext() {
+  const Piece& piece = way_[queuedPieces_++];
+  line_ = piece.line;
+  mill_.atLine(line_);
+  if (piece.feed) {
+    mill_.feed(*piece.feed);
+    mill_.straight(piece.target);
+  } else {
+    mill_.traverse(piece.target);
   }
-  if (pieces.empty()) return;
-  at_ = pieces.back().target;
+  at_ = way_.back().target;
   queued_ = true;
 }
 
-/// The engine works out what comes next while this is queued.
+/// Takes in a way. The engine works out what comes next while it is queued, a piece for each block that LinuxCNC asks
+/// for: LinuxCNC reads a number of blocks before it attends to anything else.
 void Player::answerAndQueue() {
   Json json;
-  const std::vector<Piece> way = pieces(order_, json);
-  if (!way.empty()) at_ = way.back().target;
+  way_ = pieces(order_, json);
+  queuedPieces_ = 0;
+  if (!way_.empty()) at_ = way_.back().target;
   answer(std::move(json));
-  queue(way);
+  if (!way_.empty()) queueNext();
 }
 
 void Player::perform(const Json& order) {
   const std::string what = order.at("do").get<std::string>();
   if (what == "retract") {
     Json answered;
-    queue(pieces(order, answered));
+    way_ = pieces(order, answered);
+    for (queuedPieces_ = 0; queuedPieces_ < way_.size();)
+      queueNext();
   } else if (what == "measure") {
     auto target = order.at("target").get<Mill::Position>();
     if (!Mill::moves()) {
@@ -356,6 +368,8 @@ Player::Json Player::outcome(const Json& order) {
 void Player::stop(Stop why) {
   if (!playing_) return;
   playing_ = false;
+  way_.clear();
+  queuedPieces_ = 0;
   stopped_ = why;
   signalled_ = why == Stop::Fault && Mill::deflected();
   const std::string off = Mill::notReady();

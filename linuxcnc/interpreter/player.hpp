@@ -63,7 +63,7 @@ private:
     int line = 0;
   };
   std::vector<Piece> pieces(const Json& order, Json& answer) const;
-  void queue(const std::vector<Piece>& pieces);
+  void queueNext();
   void answerAndQueue();
   /// The answer to an order after LinuxCNC has stopped.
   Json stopped(const Json& order);
@@ -92,6 +92,8 @@ private:
   std::string detail_;      ///< with `stopped_`: what has happened
   Stage stage_ = Stage::Idle;
   Json order_;
+  std::vector<Piece> way_;             ///< of the last move or path
+  std::size_t queuedPieces_ = 0;       ///< how many of them LinuxCNC has
   std::vector<std::string> messages_;  ///< to be shown to the operator
   Mill::Position at_;                  ///< where the axes stand, or are going to
   Json spindle_ = {{"rotation", "none"}, {"speed", 0}, {"angle", 0}};

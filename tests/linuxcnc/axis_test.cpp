@@ -55,5 +55,40 @@ TEST_F(OnTheScreenAxis, AProgramIsDrawnAsItRuns) {
   EXPECT_GE(drawn.at("most")[2].get<double>(), -250 + 8 + 100);
 }
 
+/// Other screens ask for previews without saying which interpreter the configuration has: with the command file of
+/// linuxcnc/interpreter they get it all the same.
+TEST_F(AsInterpreter, TheCommandFileLetsOtherScreensDraw) {
+  std::filesystem::copy(std::filesystem::path(PROBEWRIGHT_SOURCE_DIR) / "tests/linuxcnc/world/canvas.py",
+                        session_.outside() / "canvas.py");
+  session_.write("setup.toml", setup("TNC640", world, 300));
+  session_.write("bore.h", klartext());
+  session_.write("plain.ngc", "G21 G90\nG0 X1 Y2 Z3\nG1 X5 F100\nM2\n");
+  // As a screen does it, and its command file is run within a function.
+  session_.write("screen.py", R"(
+import sys
+import gcode
+from canvas import Canvas
+def command(file):
+    exec(compile(open(file).read(), file, 'exec'))
+def draw(name, file):
+    canvas = Canvas()
+    result, line = gcode.parse(file, canvas, 'G21', '')
+    print('desk:', name, int(result <= gcode.MIN_ERROR), canvas.moves, flush=True)
+draw('before', 'bore.h')
+command(sys.argv[1])
+draw('bore', 'bore.h')
+draw('plain', 'plain.ngc')
+)");
+  output = session_.command("env INI_FILE_NAME=mill.ini /usr/bin/python3 screen.py '" +
+                            (session_.source() / "linuxcnc/interpreter/probewright_preview.py").string() + "'");
+  const std::vector<double> before = session_.told(output, "before"), bore = session_.told(output, "bore");
+  ASSERT_EQ(before.size(), 2U) << output;
+  ASSERT_EQ(bore.size(), 2U) << output;
+  EXPECT_EQ(before[0], 0) << "then the file is needed no more";
+  EXPECT_EQ(bore[0], 1) << output;
+  EXPECT_GT(bore[1], 20);
+  EXPECT_EQ(session_.told(output, "plain"), (std::vector<double>{1, 2})) << output;
+}
+
 }  // namespace
 }  // namespace probewright::testing

@@ -35,19 +35,7 @@ constexpr const char* preview = R"(
 import os, sys, threading, time
 sys.setdlopenflags(os.RTLD_NOW | os.RTLD_GLOBAL)
 import gcode
-class Canvas:
-    parameter_file, moves = 'mill.var', 0
-    def __getattr__(self, name):
-        if name.startswith('__'): raise AttributeError(name)
-        return lambda *words: None
-    def straight_feed(self, *place): self.moves += 1
-    straight_traverse = straight_feed
-    def get_external_length_units(self): return 1.0
-    get_external_angular_units = get_external_angle_units = get_external_length_units
-    def get_axis_mask(self): return 7
-    def get_block_delete(self): return False
-    check_abort = is_lathe = get_block_delete
-    def get_tool(self, pocket): return (-1,) + (0.0,) * 12 + (0,)
+from canvas import Canvas
 def most(process):
     with open(f'/proc/{process}/status') as lines:
         return next(int(line.split()[1]) / 1024 for line in lines if line.startswith('VmHWM'))
@@ -70,9 +58,11 @@ print('desk: loaded', canvas.moves, '%.2f %.2f %.2f %.0f %.0f' % (seconds, used[
 
 TEST_F(MillionBlocks, LoadInSecondsAndNeedNoMemoryButForTheirText) {
   session_.write("preview.py", preview);
+  std::filesystem::copy(std::filesystem::path(PROBEWRIGHT_SOURCE_DIR) / "tests/linuxcnc/world/canvas.py",
+                        session_.outside() / "canvas.py");
   const auto load = [&](const std::string& program) {
     return session_.told(
-        session_.command("env INI_FILE_NAME=mill.ini python3 preview.py " + program + " '" +
+        session_.command("env INI_FILE_NAME=mill.ini /usr/bin/python3 preview.py " + program + " '" +
                          (session_.build() / "linuxcnc/interpreter/libprobewright_interp.so").string() + "'"),
         "loaded");
   };
