@@ -185,7 +185,7 @@ private:
     if (head_.empty()) head_ = program_.name() + (program_.unit() == language::klartext::Unit::Inch ? " INCH" : " MM");
     const bool inch = head_.ends_with("INCH");
     if (!toDinIso_) {
-      line(fmt::format("{} PGM {}", begin ? "BEGIN" : "END", head_), false);
+      line(fmt::format("{} PGM {}", begin ? "BEGIN" : "END", head_), Text::Remark);
       return;
     }
     const std::string_view name = trimmedAtEnd(std::string_view(head_).substr(0, head_.size() - (inch ? 4 : 2)));
@@ -241,7 +241,7 @@ private:
     cycle.parameters = {static_cast<std::uint32_t>(written.words.size()), static_cast<std::uint32_t>(words.size())};
     written.words.insert(written.words.end(), words.begin(), words.end());
     statement(written, original);
-    if (status) line(fmt::format("D00 Q{:.0f} P01 +Q199 *", *status), true);
+    if (status) line(fmt::format("D00 Q{:.0f} P01 +Q199 *", *status), Text::Block);
   }
 
   void comment(const Block& block) {
@@ -252,7 +252,8 @@ private:
       while (rest.ends_with('~'))
         rest = trimmedAtEnd(rest.substr(0, rest.size() - 1));
       const bool marked = rest.empty() || rest.front() == ';' || rest.front() == '*';
-      if (first || !rest.empty()) line((marked ? "" : "; ") + std::string(rest) + (toDinIso_ ? " *" : ""), false);
+      if (first || !rest.empty())
+        line((marked ? "" : "; ") + std::string(rest) + (toDinIso_ ? " *" : ""), Text::Remark);
       first = false;
     });
   }
@@ -284,7 +285,7 @@ private:
     if (block.instructions.empty()) {  // nothing but modal functions
       const std::string_view source = block.at(block.source);
       const std::size_t remark = source.find(';');
-      if (remark != std::string_view::npos) line(std::string(trimmedAtEnd(source.substr(remark))), false);
+      if (remark != std::string_view::npos) line(std::string(trimmedAtEnd(source.substr(remark))), Text::Remark);
       return;
     }
     const bool oldMachining = std::ranges::any_of(block.instructions, [&block](const Instruction& instruction) {
@@ -296,12 +297,12 @@ private:
       return;
     }
     if (!toDinIso_) {
-      line(language::klartext::writeBlock(block), true);
+      line(language::klartext::writeBlock(block), Text::Block);
       return;
     }
     const Result<std::string> written = language::din_iso::writeBlock(block);
     if (written) {
-      line(*written, true);
+      line(*written, Text::Block);
       return;
     }
     leaveOut(original, written.error().message, written.error().advice);
@@ -310,19 +311,20 @@ private:
   void leaveOut(const Block& original, std::string message, std::string advice) {
     report(original, std::move(message), std::move(advice));
     forEachLine(original.at(original.source), [this](std::string_view rest) {
-      line(fmt::format("; NOT CARRIED OVER: {}{}", trimmedAtEnd(rest), toDinIso_ ? " *" : ""), false);
+      line(fmt::format("; NOT CARRIED OVER: {}{}", trimmedAtEnd(rest), toDinIso_ ? " *" : ""), Text::Remark);
     });
   }
 
-  /// Appends the lines of a block with their numbers. Lines after a `~` have none.
-  void line(const std::string& text, bool mayContinue) {
+  /// Appends the lines of a block with their numbers. Lines after a `~` have none; in remarks it means nothing.
+  enum class Text { Block, Remark };
+  void line(const std::string& text, Text what) {
     bool continued = false;
     forEachLine(text, [&](std::string_view one) {
       const std::string number = continued   ? std::string()
                                  : toDinIso_ ? fmt::format("N{} ", number_ += 10)
                                              : fmt::format("{} ", number_++);
       append(number + std::string(one));
-      continued = mayContinue && language::klartext::endsWithContinuation(one);
+      continued = what == Text::Block && language::klartext::endsWithContinuation(one);
     });
   }
 

@@ -121,7 +121,7 @@ private:
     Quantity extra = task_.path - setUp_ * task_.millimetre;
     if (extra.isNumber() && extra.number() < 0) extra = 0;
     if (!extra.isNumber()) {  // only the running program knows whether it is less than 0
-      extra = extra / 2 + Quantity::of(fmt::format("ABS ({})", expressionText(extra / 2, true)));
+      extra = extra / 2 + Quantity::of(fmt::format("ABS ({})", spacedExpressionText(extra / 2)));
     }
     set(320, extra);
   }

@@ -31,7 +31,8 @@ bool isParameter(std::string_view text) {
 
 }  // namespace
 
-std::string KlartextFormulas::define(std::string_view name, bool text) {
+std::string KlartextFormulas::define(std::string_view name, Holds holds) {
+  const bool text = holds == Holds::Text;
   const auto found = names_.find(name);
   if (found != names_.end()) return found->second;
   if (local_ && !text && !name.starts_with("measuring block")) {
@@ -218,7 +219,7 @@ std::string KlartextFormulas::value(const Quantity& quantity) {
       isParameter(quantity.terms()[0].expression)) {
     return fmt::format("{}{}", quantity.terms()[0].factor < 0 ? '-' : '+', quantity.terms()[0].expression);
   }
-  return fmt::format("+{}", helper(expressionText(quantity, true)));
+  return fmt::format("+{}", helper(spacedExpressionText(quantity)));
 }
 
 std::string KlartextFormulas::unsignedValue(const Quantity& quantity) {
@@ -299,7 +300,7 @@ std::string KlartextFormulas::call(const Block& block, const Node& node) {
       return fmt::format("INT ({0} + SGN ({0}) * 0.5)", factorText(argument(0)));
     case Function::Host:
       if (block.at(node.text) == "GETT") {
-        const std::string tool = define("name of a tool", true);
+        const std::string tool = define("name of a tool", Holds::Text);
         prelude_.push_back(fmt::format("{} = {}", tool, argument(0)));
         return read(fmt::format("ID990 NR10 IDX{}", tool.substr(2)));
       }
@@ -336,7 +337,7 @@ Quantity KlartextFormulas::quantity(const Block& block, const Operand& operand) 
       if (node.function == Function::Maximum || node.function == Function::Minimum) {
         const Quantity a = quantity(block, block.operands[node.a]), b = quantity(block, block.operands[node.a + 1]);
         const Quantity half = (a - b) / 2;
-        const Quantity spread = Quantity::of(fmt::format("ABS ({})", expressionText(half, true)));
+        const Quantity spread = Quantity::of(fmt::format("ABS ({})", spacedExpressionText(half)));
         return (a + b) / 2 + spread * (node.function == Function::Maximum ? 1 : -1);
       }
       break;

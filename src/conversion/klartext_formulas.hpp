@@ -55,8 +55,9 @@ public:
   const std::vector<std::string>& globalValues() const { return globalValues_; }
   bool isGlobal(std::string_view name) const;
 
-  /// A number for a variable that the program defines.
-  std::string define(std::string_view name, bool text);
+  /// The parameter of a variable that the program defines.
+  enum class Holds { Number, Text };
+  std::string define(std::string_view name, Holds holds = Holds::Number);
 
   /// The first of the four parameters that measuring blocks fill: ball centre X, Y, Z and whether it was touched.
   /// `toolAxis`: 0 to 2; $AA_MW, which reads them, counts in it to the tip.

@@ -61,17 +61,19 @@ std::string numberText(double number) {
   return formatShortest(rounded);
 }
 
-std::string expressionText(const Quantity& quantity, bool loose) {
-  const char* plus = loose ? " + " : "+";
-  const char* minus = loose ? " - " : "-";
-  const char* times = loose ? " * " : "*";
-  const char* over = loose ? " / " : "/";
+namespace {
+
+struct Signs {
+  const char *plus, *minus, *times, *over;
+};
+
+std::string textWith(const Signs& signs, const Quantity& quantity) {
   std::string text;
   const auto add = [&](double sign, const std::string& what) {
     if (text.empty()) {
       text = sign < 0 ? "-" + what : what;
     } else {
-      text += (sign < 0 ? minus : plus) + what;
+      text += (sign < 0 ? signs.minus : signs.plus) + what;
     }
   };
   const bool numberLast = !quantity.terms().empty() && quantity.terms().front().factor > 0;
@@ -86,13 +88,19 @@ std::string expressionText(const Quantity& quantity, bool loose) {
     if (std::abs(amount - 1) < negligible) {
       add(term.factor, term.expression);
     } else if (!isShort(amount) && isShort(1 / amount)) {  // one in 25.4 has no short number
-      add(term.factor, term.expression + over + numberText(1 / amount));
+      add(term.factor, term.expression + signs.over + numberText(1 / amount));
     } else {
-      add(term.factor, numberText(amount) + times + term.expression);
+      add(term.factor, numberText(amount) + signs.times + term.expression);
     }
   }
   if (numberLast) addNumber();
   return text;
 }
+
+}  // namespace
+
+std::string expressionText(const Quantity& quantity) { return textWith({"+", "-", "*", "/"}, quantity); }
+
+std::string spacedExpressionText(const Quantity& quantity) { return textWith({" + ", " - ", " * ", " / "}, quantity); }
 
 }  // namespace probewright::conversion

@@ -37,8 +37,9 @@ private:
 };
 
 /// Text of the quantity as an expression that either language reads: "12.5", "R5-2", "0.5*(R1+R2)".
-/// `loose`: with blanks around operators, as Klartext formulas are written.
-std::string expressionText(const Quantity& quantity, bool loose);
+std::string expressionText(const Quantity& quantity);
+/// The same with blanks around operators, as Klartext formulas are written.
+std::string spacedExpressionText(const Quantity& quantity);
 
 /// The number, rounded to what programs can tell (1e-9), without exponent.
 std::string numberText(double number);

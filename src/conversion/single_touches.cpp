@@ -172,7 +172,7 @@ void ToKlartext::measuringBlock(const Block& block, const Command& command) {
   if (numbers) {
     distance = Vector3(way[0].number(), way[1].number(), way[2].number()).norm();
   } else {
-    const auto square = [](const Quantity& part) { return fmt::format("SQ ({})", expressionText(part, true)); };
+    const auto square = [](const Quantity& part) { return fmt::format("SQ ({})", spacedExpressionText(part)); };
     distance = Quantity::of(fmt::format("SQRT ({} + {} + {})", square(way[0]), square(way[1]), square(way[2])));
   }
   std::string vector = "TCH PROBE 4.2";

@@ -52,7 +52,7 @@ std::string factorText(const std::string& expression) {
   return tight ? expression : fmt::format("({})", expression);
 }
 
-std::string sinumerikText(const Quantity& quantity) { return expressionText(quantity, false); }
+std::string sinumerikText(const Quantity& quantity) { return expressionText(quantity); }
 
 std::string settableCode(int number) {
   return number == 0 ? "G599" : number < 5 ? fmt::format("G{}", 53 + number) : fmt::format("G{}", 500 + number);

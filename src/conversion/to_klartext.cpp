@@ -104,7 +104,7 @@ Conversion ToKlartext::run() {
   for (BlockPosition at = program_.begin(); program_.parse(at, block, ignored); at = block.next)
     write(block);
   out_.insert(0, formulas_.globalValues());
-  if (sectionsByNumber_) out_.insert(0, {fmt::format("{} = 0", formulas_.define("section under way", false))});
+  if (sectionsByNumber_) out_.insert(0, {fmt::format("{} = 0", formulas_.define("section under way"))});
   result_.text = numbered();
   result_.notCarriedOver = std::move(out_.listed());
   return std::move(result_);

@@ -103,8 +103,9 @@ private:
   void jump(const language::Block& block, const language::Jump& jump);
   void repeat(const language::Block& block, const language::RepeatSection& section);
   void call(const language::Block& block, const language::CallProgram& call);
-  /// Jumps to the label if the condition is `wanted`.
-  void jumpIf(const language::Block& block, const language::Operand& condition, bool wanted, const std::string& label);
+  /// Jumps to the label if the condition holds, or if it does not.
+  enum class When { Holds, Fails };
+  void jump(When when, const language::Block& block, const language::Operand& condition, const std::string& label);
   void goTo(const std::string& label);
   std::string comparable(const language::Block& block, const language::Operand& operand);
   void label(const std::string& name);

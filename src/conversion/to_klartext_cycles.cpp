@@ -21,7 +21,7 @@ Place ToKlartext::here() {
   Place place;
   for (std::size_t i = 0; i < 3; ++i) {
     if (!position_[i]) {
-      const std::string name = formulas_.define(fmt::format("position {}", axis(i)), false);
+      const std::string name = formulas_.define(fmt::format("position {}", axis(i)));
       line(fmt::format("FN 18: SYSREAD {} = ID270 NR1 IDX{}", name, axis(i)[0] - 'X' + 1));
       if (millimetre_ != 1) line(fmt::format("{0} = {0} / 25.4", name));
       position_[i] = Quantity::of(name);
@@ -91,7 +91,7 @@ void ToKlartext::copyResults(const Block& block, const Results& left, const Meas
     const std::optional<Quantity> value = measured(task, left, meaning);
     if (!value) continue;
     missing.erase(index);
-    line(fmt::format("Q{} = {}", 1700 + index, expressionText(*value, true)));
+    line(fmt::format("Q{} = {}", 1700 + index, spacedExpressionText(*value)));
   }
   for (const int index : missing)
     out_.lose(block, fmt::format("_OVR[{}]: the touch probe cycle has no such result", index));
@@ -142,8 +142,8 @@ std::string ToKlartext::writeTask(const MeasuringTask& task) {
 Results ToKlartext::cornerByTouches(const MeasuringTask& corner) {
   std::vector<Place> places = corner.further;  // of a right-angled corner two more, otherwise three
   places.insert(places.begin(), corner.place);
-  const auto own = [this](const char* what) { return formulas_.define(fmt::format("corner {}", what), false); };
-  const auto text = [](const Quantity& quantity) { return expressionText(quantity, true); };
+  const auto own = [this](const char* what) { return formulas_.define(fmt::format("corner {}", what)); };
+  const auto text = [](const Quantity& quantity) { return spacedExpressionText(quantity); };
   // Where the ball's centre stood in the measuring direction.
   const std::array<std::string, 4> found = {own("touch 1"), own("touch 2"), own("touch 3"), own("touch 4")};
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -202,10 +202,10 @@ void ToKlartext::correctTool(const MeasuringTask& task, const Results& results) 
     return found != results.end() ? Quantity::of(found->second) : Quantity::of(results.at(actual)) - set;
   };
   const std::string past = unusedLabel("TOOL");
-  const std::string amount = formulas_.define("deviation of the tool", false);
+  const std::string amount = formulas_.define("deviation of the tool");
   const auto passIf = [&](const Quantity& value, int function, const char* comparison, const Quantity& limit) {
     if (limit == 0) return;
-    line(fmt::format("{} = ABS ({})", amount, expressionText(value, true)));
+    line(fmt::format("{} = ABS ({})", amount, spacedExpressionText(value)));
     const std::string bound = formulas_.value(limit);
     line(fmt::format("FN {}: IF +{} {} {} GOTO LBL \"{}\"", function, amount, comparison, bound, past));
   };
@@ -222,8 +222,8 @@ void ToKlartext::correctTool(const MeasuringTask& task, const Results& results) 
   const std::string& name = task.tool->tool;
   std::string row = name;
   if (std::ranges::any_of(name, [](unsigned char c) { return std::isdigit(c) == 0; })) {
-    const std::string text = formulas_.define("name of a tool", true);
-    row = formulas_.define("row of a tool", false);
+    const std::string text = formulas_.define("name of a tool", KlartextFormulas::Holds::Text);
+    row = formulas_.define("row of a tool");
     line(fmt::format("{} = \"{}\"", text, name));
     line(fmt::format("FN 18: SYSREAD {} = ID990 NR10 IDX{}", row, text.substr(2)));
   }
@@ -231,7 +231,7 @@ void ToKlartext::correctTool(const MeasuringTask& task, const Results& results) 
   const double share = surface ? (task.axis == 2 ? -1 : task.sign) : isInside(task.feature) ? 0.5 : -0.5;
   const std::string datum = fmt::format("ID50 NR{} IDX{}", surface && task.axis == 2 ? 4 : 5, row);
   line(fmt::format("FN 18: SYSREAD {} = {}", amount, datum));
-  line(fmt::format("{} = {}", amount, expressionText(Quantity::of(amount) + found * (share / millimetre_), true)));
+  line(fmt::format("{} = {}", amount, spacedExpressionText(Quantity::of(amount) + found * (share / millimetre_))));
   line(fmt::format("FN 17: SYSWRITE {} = +{}", datum, amount));
   line(fmt::format("LBL \"{}\"", past));
 }
@@ -269,7 +269,7 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   task.fromUnturned = std::exchange(unturned_, false) && turns;
   task.log = log_;
   if (task.active && !turns) {
-    const std::string row = formulas_.define("active preset", false);
+    const std::string row = formulas_.define("active preset");
     line(fmt::format("FN 18: SYSREAD {} = ID530 NR1", row));
     task.row = Quantity::of(row);
   }
@@ -333,7 +333,7 @@ void ToKlartext::cycle(const Block& block, const CallProgram& called) {
   if (!calibrates) goBack(framed, sinumerikEnd(call, framed, start, ballRadius_, results));
   if (task.feature == Feature::ProbeInRing || task.feature == Feature::ProbeOnBall) {
     // Q108 knows the new radius from the next tool call on.
-    const std::string radius = formulas_.define("ball radius", false);
+    const std::string radius = formulas_.define("ball radius");
     line(fmt::format("FN 18: SYSREAD {} = ID350 NR52 IDX1", radius));
     if (millimetre_ != 1) line(fmt::format("{0} = {0} / 25.4", radius));
     ballRadius_ = Quantity::of(radius);

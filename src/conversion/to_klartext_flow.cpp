@@ -53,7 +53,9 @@ std::string ToKlartext::comparable(const Block& block, const Operand& operand) {
   return formulas_.value(quantity(block, operand));
 }
 
-void ToKlartext::jumpIf(const Block& block, const Operand& condition, bool wanted, const std::string& label) {
+void ToKlartext::jump(When when, const Block& block, const Operand& condition, const std::string& label) {
+  const bool wanted = when == When::Holds;
+  const When otherwise = wanted ? When::Fails : When::Holds;
   const auto test = [&](const std::string& left, const Comparison& comparison, const std::string& right) {
     line(fmt::format("FN {}: IF {} {} {} GOTO LBL \"{}\"", comparison.function, left, comparison.name, right, label));
   };
@@ -61,18 +63,18 @@ void ToKlartext::jumpIf(const Block& block, const Operand& condition, bool wante
   const Operation operation = node == nullptr ? Operation::Number : node->operation;
   switch (operation) {
     case Operation::Not:
-      return jumpIf(block, node->left, !wanted, label);
+      return jump(otherwise, block, node->left, label);
     case Operation::And:
     case Operation::Or: {
       const bool either = (operation == Operation::Or) == wanted;
       if (either) {
-        jumpIf(block, node->left, wanted, label);
-        jumpIf(block, node->right, wanted, label);
+        jump(when, block, node->left, label);
+        jump(when, block, node->right, label);
         return;
       }
       const std::string past = unusedLabel("AND");
-      jumpIf(block, node->left, !wanted, past);
-      jumpIf(block, node->right, wanted, label);
+      jump(otherwise, block, node->left, past);
+      jump(when, block, node->right, label);
       line(fmt::format("LBL \"{}\"", past));
       return;
     }
@@ -162,7 +164,7 @@ void ToKlartext::jump(const Block& block, const Jump& jump) {
   if (!found) throw NotCarriedOver(fmt::format("there is no label {}", block.at(jump.label)));
   const std::string target = labelAt(*found);
   if (!jump.condition.present()) return goTo(target);
-  jumpIf(block, jump.condition, true, target);
+  jump(When::Holds, block, jump.condition, target);
 }
 
 void ToKlartext::repeated(const Quantity& times, Rounds rounds, const std::function<void()>& body) {
@@ -173,8 +175,8 @@ void ToKlartext::repeated(const Quantity& times, Rounds rounds, const std::funct
     return;
   }
   const std::string begin = unusedLabel("AGAIN"), end = unusedLabel("ENDAGAIN");
-  const std::string count = formulas_.define(begin, false);
-  line(fmt::format("{} = {}", count, expressionText(times, true)));
+  const std::string count = formulas_.define(begin);
+  line(fmt::format("{} = {}", count, spacedExpressionText(times)));
   label(begin);
   line(fmt::format("FN 12: IF +{} LT +1 GOTO LBL \"{}\"", count, end));
   line(fmt::format("{0} = {0} - 1", count));
@@ -201,8 +203,8 @@ void ToKlartext::repeat(const Block& block, const RepeatSection& section) {
   } else if (!sectionsByNumber_) {
     repeated(times, Rounds::Written, [&] { line(fmt::format("CALL LBL \"{}\"", from)); });
   } else {
-    const std::string current = formulas_.define("section under way", false);
-    const std::string before = formulas_.define(fmt::format("section before {}", *own), false);
+    const std::string current = formulas_.define("section under way");
+    const std::string before = formulas_.define(fmt::format("section before {}", *own));
     repeated(times, Rounds::Counted, [&] {
       line(fmt::format("{} = {}", before, current));
       line(fmt::format("{} = {}", current, *own + 1));
@@ -225,7 +227,7 @@ void ToKlartext::endSections(const Block& block) {
   const auto found = sectionEnds_.find(block.position.offset);
   if (found == sectionEnds_.end()) return;
   if (!sectionsByNumber_) return line("LBL 0");
-  const std::string current = formulas_.define("section under way", false);
+  const std::string current = formulas_.define("section under way");
   for (const std::size_t each : found->second)
     line(fmt::format("FN 9: IF +{} EQU +{} GOTO LBL \"{}\"", current, each + 1, backFrom(each)));
 }
@@ -286,7 +288,7 @@ void ToKlartext::carryOver(const Block& block, const Structured& structured) {
   switch (structured.kind) {
     case Structure::If: {
       Open opened{structured.kind, {}, named("ENDIF"), named("ELSE"), {}, false};
-      jumpIf(block, structured.condition, false, opened.other);
+      jump(When::Fails, block, structured.condition, opened.other);
       open_.push_back(opened);
       break;
     }
@@ -302,7 +304,7 @@ void ToKlartext::carryOver(const Block& block, const Structured& structured) {
     case Structure::While: {
       Open opened{structured.kind, named("WHILE"), named("ENDWHILE"), {}, {}, false};
       label(opened.begin);
-      jumpIf(block, structured.condition, false, opened.end);
+      jump(When::Fails, block, structured.condition, opened.end);
       open_.push_back(opened);
       break;
     }
@@ -335,7 +337,7 @@ void ToKlartext::carryOver(const Block& block, const Structured& structured) {
     case Structure::Until: {
       const std::string begin = top->begin;
       open_.pop_back();
-      jumpIf(block, structured.condition, false, begin);
+      jump(When::Fails, block, structured.condition, begin);
       break;
     }
   }

@@ -43,8 +43,8 @@ void ToKlartext::writeRotation(const Quantity& angle) {
 /// A quantity that keeps its value when variables change.
 Quantity ToKlartext::frozen(const Quantity& quantity, const std::string& name) {
   if (quantity.isNumber()) return quantity;
-  const std::string own = formulas_.define(name, false);
-  line(fmt::format("{} = {}", own, expressionText(quantity, true)));
+  const std::string own = formulas_.define(name);
+  line(fmt::format("{} = {}", own, spacedExpressionText(quantity)));
   return Quantity::of(own);
 }
 
@@ -90,7 +90,7 @@ void ToKlartext::readFrame() {
   for (std::size_t i = 0; i < 3; ++i) {
     frame_.shift[i] = Quantity();
     if (!shiftsEver_[static_cast<std::size_t>(axis(i)[0] - 'X')]) continue;
-    const std::string own = formulas_.define(fmt::format("shift {}", axis(i)), false);
+    const std::string own = formulas_.define(fmt::format("shift {}", axis(i)));
     line(fmt::format("FN 18: SYSREAD {} = ID220 NR2 IDX{}", own, axis(i)[0] - 'X' + 1));
     if (millimetre_ != 1) line(fmt::format("{0} = {0} / 25.4", own));
     frame_.shift[i] = Quantity::of(own);
@@ -159,7 +159,7 @@ void ToKlartext::comeBackToFrame(const MeasuringTask& task, Results& results) {
     return result == results.end() ? std::nullopt : std::optional(Quantity::of(result->second));
   };
   const auto put = [&](Meaning meaning, const Quantity& value) {
-    results[meaning] = fmt::format("({})", expressionText(value, true));
+    results[meaning] = fmt::format("({})", spacedExpressionText(value));
   };
   if (const auto coordinate = found(Meaning::Coordinate)) {
     put(Meaning::Coordinate, *coordinate - frame_.shift[static_cast<std::size_t>(task.axis)]);

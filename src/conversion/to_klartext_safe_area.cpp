@@ -75,7 +75,7 @@ void ToKlartext::rememberPreset(const MeasuringTask& task) {
   Quantity present = task.row;
   before_.row = task.row;
   if (task.row == 0 || (task.active && task.correction == Correction::Rotation)) {
-    const std::string row = formulas_.define("active preset", false);
+    const std::string row = formulas_.define("active preset");
     line(fmt::format("FN 18: SYSREAD {} = ID530 NR1", row));
     present = Quantity::of(row);
     // Row 0 becomes a copy of the active one.
@@ -83,7 +83,7 @@ void ToKlartext::rememberPreset(const MeasuringTask& task) {
   }
   for (int index = 1; index <= rotationIndex; ++index) {
     if (index > 3 && index < rotationIndex) continue;
-    const std::string own = formulas_.define(fmt::format("preset before {}", index), false);
+    const std::string own = formulas_.define(fmt::format("preset before {}", index));
     const std::string value = formulas_.presetDatum(present, index);
     line(fmt::format("{} = {}", own, value));
     before_.values[static_cast<std::size_t>(index)] = own;
@@ -100,7 +100,7 @@ std::optional<Quantity> ToKlartext::deviationOfPreset(const MeasuringTask& task,
   if (meaning != Meaning::CoordinateDeviation || toolAxis_ != 'Z') return std::nullopt;
   if (task.axis == 2) return change(3);
   const std::string turn = before_.values[rotationIndex];
-  const std::string x = expressionText(change(1), true), y = expressionText(change(2), true);
+  const std::string x = spacedExpressionText(change(1)), y = spacedExpressionText(change(2));
   return Quantity::of(task.axis == 0 ? fmt::format("(({0}) * COS {2} + ({1}) * SIN {2})", x, y, turn)
                                      : fmt::format("(({1}) * COS {2} - ({0}) * SIN {2})", x, y, turn));
 }
@@ -116,8 +116,8 @@ std::optional<Quantity> ToKlartext::alongTurned(const MeasuringTask& task, const
 }
 
 void ToKlartext::monitor(const Block& block, const SafeArea& safe, const MeasuringTask& task, const Results& results) {
-  const std::string largest = formulas_.define("largest deviation", false);
-  const std::string each = formulas_.define("deviation", false);
+  const std::string largest = formulas_.define("largest deviation");
+  const std::string each = formulas_.define("deviation");
   bool first = true;
   for (const auto& [meaning, set] : safe.watched) {
     std::optional<Quantity> deviation = measured(task, results, meaning);
@@ -131,7 +131,7 @@ void ToKlartext::monitor(const Block& block, const SafeArea& safe, const Measuri
                 "compare it by hand");
       continue;
     }
-    line(fmt::format("{} = ABS ({})", first ? largest : each, expressionText(*deviation - set, true)));
+    line(fmt::format("{} = ABS ({})", first ? largest : each, spacedExpressionText(*deviation - set)));
     // The larger one of both.
     if (!first) line(fmt::format("{0} = ({0} + {1} + ABS ({0} - {1})) / 2", largest, each));
     first = false;

@@ -50,7 +50,7 @@ void ToKlartext::assignFrameComponent(const Block& block, const Assign& assign) 
   const Quantity row = number == 99 ? Quantity(0) : number;
   const bool shifts = word(2) == "TR" && control_ != control::ControlKind::iTNC530;
   if (shifts && row == 0 && std::exchange(rowZeroIsDue_, false)) {
-    const std::string from = formulas_.define("active preset", false);
+    const std::string from = formulas_.define("active preset");
     line(fmt::format("FN 18: SYSREAD {} = ID530 NR1", from));
     line(fmt::format("PRESET COPY #{} TO #0 SELECT TARGET KEEP TRANS", from));
   }
@@ -88,7 +88,7 @@ void ToKlartext::assignFrameComponent(const Block& block, const Assign& assign) 
   const Quantity present = active ? quantity(block, variable.index[0]) : row;
   const Quantity shift = value - Quantity::of(formulas_.presetDatum(present, static_cast<int>(place) + 1));
   const std::string amount = formulas_.value(shift);
-  const std::string before = formulas_.define("preset in effect", false);
+  const std::string before = formulas_.define("preset in effect");
   if (!inEffect) {
     line(fmt::format("FN 18: SYSREAD {} = ID530 NR1", before));
     out_.line(fmt::format("PRESET SELECT #{} KEEP TRANS", formulas_.unsignedValue(row)));
@@ -157,7 +157,9 @@ void ToKlartext::define(const Block& block, const Command& command) {
   for (std::size_t i = 0; i < elements.size(); ++i) {
     if (variable.index[0].present()) elements[i] += ']';
     const bool known = elements.size() == 1 && own.starts_with("_Q");
-    const std::string target = known ? own.substr(1) : formulas_.define(elements[i], isText);
+    const std::string target =
+        known ? own.substr(1)
+              : formulas_.define(elements[i], isText ? KlartextFormulas::Holds::Text : KlartextFormulas::Holds::Number);
     if (values[i].empty()) values[i] = target.starts_with("QS") ? "\"\"" : "0";
     line(fmt::format("{} = {}{}", target, values[i], known ? "" : fmt::format(" ; {}", elements[i])));
   }

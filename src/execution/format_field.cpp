@@ -29,7 +29,8 @@ FormatField readField(std::string_view text, std::size_t& at, const FormatLimits
   return field;
 }
 
-std::string filled(std::string text, const FormatField& field, bool isNumber) {
+std::string filled(std::string text, const FormatField& field, Content content) {
+  const bool isNumber = content == Content::Number;
   if (isNumber && field.plus && text.front() != '-') text.insert(text.begin(), '+');
   if (text.size() >= field.width) return text;
   const std::size_t missing = field.width - text.size();

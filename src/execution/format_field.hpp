@@ -28,6 +28,7 @@ struct FormatLimits {
 FormatField readField(std::string_view text, std::size_t& at, const FormatLimits& limits);
 
 /// `text` in its field; a number gets zeros after its sign.
-std::string filled(std::string text, const FormatField& field, bool isNumber);
+enum class Content { Number, Text };
+std::string filled(std::string text, const FormatField& field, Content content);
 
 }  // namespace probewright::execution

@@ -132,21 +132,21 @@ private:
 
   std::vector<FoundRound> rounds() const {
     std::vector<FoundRound> found;
-    const auto take = [&](const Touches& touches, bool sphere) {
-      std::vector<Round> believed = believedRounds(touches, sphere);
-      const auto truth = trueRound(touches, sphere);
+    const auto take = [&](const Touches& touches, RoundShape shape) {
+      std::vector<Round> believed = believedRounds(touches, shape);
+      const auto truth = trueRound(touches, shape);
       if (truth && !believed.empty()) found.push_back({std::move(believed), *truth});
     };
     for (const Touches& touches : fitted("sphere"))
-      take(touches, true);
+      take(touches, RoundShape::Sphere);
     for (const Touches& touches : fitted("circle"))
-      take(touches, false);
+      take(touches, RoundShape::Circle);
     if (!found.empty()) return found;
     for (const Touches& touches : byRoundFace(all_))
-      if (touches.size() >= 3) take(touches, false);
+      if (touches.size() >= 3) take(touches, RoundShape::Circle);
     // Free forms and triangles do not tell which of them belong together.
     const auto hasFace = [](const TouchedPoint* touch) { return touch->face.has_value(); };
-    if (found.empty() && all_.size() >= 3 && std::ranges::none_of(all_, hasFace)) take(all_, false);
+    if (found.empty() && all_.size() >= 3 && std::ranges::none_of(all_, hasFace)) take(all_, RoundShape::Circle);
     return found;
   }
 
@@ -162,8 +162,8 @@ private:
       origin = both(origin, holes[i].truth.origin);
       touches.push_back(&centres[i]);
     }
-    std::vector<Round> believed = believedRounds(touches, false);
-    auto truth = trueRound(touches, false);
+    std::vector<Round> believed = believedRounds(touches, RoundShape::Circle);
+    auto truth = trueRound(touches, RoundShape::Circle);
     if (!truth || believed.empty()) return std::nullopt;
     truth->origin = origin;
     return FoundRound{std::move(believed), *truth};

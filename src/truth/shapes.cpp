@@ -20,8 +20,8 @@ std::vector<Vector3> pointsOf(const Touches& touches, Vector3 TouchedPoint::*mem
   return points;
 }
 
-std::optional<Round> roundThrough(const std::vector<Vector3>& points, bool sphere) {
-  if (sphere) {
+std::optional<Round> roundThrough(const std::vector<Vector3>& points, RoundShape shape) {
+  if (shape == RoundShape::Sphere) {
     const auto fit = metrology::fitSphere(points);
     if (!fit) return std::nullopt;
     return Round{fit->shape.centre, 2 * fit->shape.radius};
@@ -54,9 +54,10 @@ std::optional<Round> sectionOf(const AnalyticSurface& face, double height) {
   return std::nullopt;
 }
 
-std::optional<Round> exactRound(const AnalyticSurface& face, double height, bool sphere) {
-  if (face.kind != AnalyticSurface::Kind::Sphere) return sphere ? std::nullopt : sectionOf(face, height);
-  if (sphere) return Round{face.origin, 2 * face.radius};
+std::optional<Round> exactRound(const AnalyticSurface& face, double height, RoundShape shape) {
+  if (face.kind != AnalyticSurface::Kind::Sphere)
+    return shape == RoundShape::Sphere ? std::nullopt : sectionOf(face, height);
+  if (shape == RoundShape::Sphere) return Round{face.origin, 2 * face.radius};
   const double above = height - face.origin.z();
   const double squared = face.radius * face.radius - above * above;
   if (!(squared > 0)) return std::nullopt;
@@ -83,24 +84,24 @@ Vector3 meanOf(const Touches& touches, Vector3 TouchedPoint::*member) {
   return sum / static_cast<double>(touches.size());
 }
 
-std::vector<Round> believedRounds(const Touches& touches, bool sphere) {
+std::vector<Round> believedRounds(const Touches& touches, RoundShape shape) {
   std::vector<Round> rounds;
-  if (const auto surface = roundThrough(pointsOf(touches, &TouchedPoint::surface), sphere)) rounds.push_back(*surface);
-  if (auto balls = roundThrough(pointsOf(touches, &TouchedPoint::ball), sphere)) {
+  if (const auto surface = roundThrough(pointsOf(touches, &TouchedPoint::surface), shape)) rounds.push_back(*surface);
+  if (auto balls = roundThrough(pointsOf(touches, &TouchedPoint::ball), shape)) {
     balls->diameter += 2 * beyondBalls(touches, balls->centre);
     rounds.push_back(*balls);
   }
   return rounds;
 }
 
-std::optional<TrueRound> trueRound(const Touches& touches, bool sphere) {
+std::optional<TrueRound> trueRound(const Touches& touches, RoundShape shape) {
   if (touches.empty()) return std::nullopt;
   if (onOneFace(touches)) {
     const AnalyticSurface& face = *touches.front()->face;
-    if (const auto exact = exactRound(face, meanOf(touches, &TouchedPoint::point).z(), sphere))
+    if (const auto exact = exactRound(face, meanOf(touches, &TouchedPoint::point).z(), shape))
       return TrueRound{*exact, {TruthBasis::Face, nameOf(face.kind)}};
   }
-  const auto fitted = roundThrough(pointsOf(touches, &TouchedPoint::point), sphere);
+  const auto fitted = roundThrough(pointsOf(touches, &TouchedPoint::point), shape);
   if (!fitted) return std::nullopt;
   return TrueRound{*fitted, {TruthBasis::Points, {}}};
 }

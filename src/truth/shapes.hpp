@@ -30,8 +30,9 @@ struct TrueRound : Round {
 
 /// What the control may have computed: a circle in the working plane through the ball centres, less or more by the
 /// balls, and one through the points of contact; or the same of spheres.
-std::vector<Round> believedRounds(const Touches& touches, bool sphere);
-std::optional<TrueRound> trueRound(const Touches& touches, bool sphere);
+enum class RoundShape { Circle, Sphere };
+std::vector<Round> believedRounds(const Touches& touches, RoundShape shape);
+std::optional<TrueRound> trueRound(const Touches& touches, RoundShape shape);
 
 /// Touches that lie on one flat face, or are to be taken as points of one.
 struct TrueFlat {

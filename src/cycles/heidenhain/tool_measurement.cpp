@@ -314,14 +314,14 @@ constexpr Entries radiusEntries{"R", "DR", "RTOL", "RBREAK", 116, "RADIUS"};
 }  // namespace
 
 /// Writes what the mode asks for; returns the status.
-int ToolMeasurement::enter(const ToolDimension& dimension, bool length) {
+int ToolMeasurement::enter(const ToolDimension& dimension, Of of) {
   Control& control = context_.control();
   auto& tools = control.tables.tools;
   const std::string& row = control.tool.row;
-  const Entries& entries = length ? lengthEntries : radiusEntries;
+  const Entries& entries = of == Of::Length ? lengthEntries : radiusEntries;
   const double value = dimension.value(), nominal = column(entries.nominal);
   const double wear = column(entries.wear), breakage = column(entries.breakage);
-  show(dimension, length);
+  show(dimension, of);
   int status = toolStatus(value - nominal, wear, breakage);
   for (const double tooth : dimension.teeth)
     status = std::max(status, toolStatus(tooth - nominal, wear, breakage));
@@ -353,8 +353,8 @@ void ToolMeasurement::stopIfBroken(int status) const {
 }
 
 /// The display of tool measurement: * is beyond the wear tolerance, B beyond that of breakage.
-void ToolMeasurement::show(const ToolDimension& dimension, bool length) {
-  const Entries& entries = length ? lengthEntries : radiusEntries;
+void ToolMeasurement::show(const ToolDimension& dimension, Of of) {
+  const Entries& entries = of == Of::Length ? lengthEntries : radiusEntries;
   const double nominal = column(entries.nominal);
   const auto mark = [&](double value) {
     if (request_.mode == 0) return "";
@@ -377,8 +377,8 @@ void ToolMeasurement::finish() {
   const std::string row = control.tool.row;
   screen_ = fmt::format("TOOL {}{}{}\n", row, control.tool.name.empty() ? "" : " ", control.tool.name);
   int status = 0;
-  if (length_) status = std::max(status, enter(*length_, true));
-  if (measuredRadius_) status = std::max(status, enter(*measuredRadius_, false));
+  if (length_) status = std::max(status, enter(*length_, Of::Length));
+  if (measuredRadius_) status = std::max(status, enter(*measuredRadius_, Of::Radius));
   context_.record().screens.push_back(screen_);
   const int told = request_.mode == 0 ? 0 : status;
   if (request_.status == 199) {

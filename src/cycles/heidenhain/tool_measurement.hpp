@@ -89,9 +89,10 @@ private:
   double radiusAt(const probing::ToolTouch& touch) const;
   double toothLengthOffset() const;
   void findTeeth(const probing::ToolTouch& touch);
-  int enter(const ToolDimension& dimension, bool length);
+  enum class Of { Length, Radius };
+  int enter(const ToolDimension& dimension, Of of);
   void stopIfBroken(int status) const;
-  void show(const ToolDimension& dimension, bool length);
+  void show(const ToolDimension& dimension, Of of);
   double column(control::heidenhain::NumberColumn name) const;
 
   Context& context_;

@@ -85,7 +85,8 @@ void CoordinateChanges::carryOut(const Transform& transform, Evaluation& evaluat
       return;
     case TransformKind::PresetByCycle:
       for (const Word& word : evaluation.words(words)) {
-        if (word.address == 339) activatePreset(static_cast<int>(std::lround(evaluation.number(word.value))), false);
+        if (word.address == 339)
+          activatePreset(static_cast<int>(std::lround(evaluation.number(word.value))), Earlier::End);
       }
       return;
     case TransformKind::PlaneSpatial:
@@ -152,16 +153,16 @@ void CoordinateChanges::shiftDatum(WordRange words, Evaluation& evaluation) {
       const char letter = static_cast<char>(word.address);
       const bool rotary = letter >= 'A' && letter <= 'C';
       const double value = rotary ? evaluation.number(word.value) : run_.length(word.value, evaluation);
-      shiftAxis(letter, value, incremental);
+      shiftAxis(letter, value, word.mode);
     }
   }
 }
 
 /// Shifts the zero of an axis beside X, Y and Z. An axis that the machine does not have can only be shifted by 0.
-void CoordinateChanges::shiftAxis(char letter, double value, bool incremental) {
+void CoordinateChanges::shiftAxis(char letter, double value, WordMode mode) {
   if (value == 0 && !control_.channel.description().axisIndex(std::string_view(&letter, 1))) return;
   double& shift = control_.coordinates.current().axisShift[run_.axisOf(letter)];
-  shift = incremental ? shift + value : value;
+  shift = mode == WordMode::Incremental ? shift + value : value;
 }
 
 void CoordinateChanges::shiftDatumByTable(double row) {
@@ -176,8 +177,8 @@ void CoordinateChanges::shiftDatumByTable(double row) {
   }
   control_.coordinates.current().shift = datum->shift;
   for (std::size_t i = 0; i < 3; ++i) {
-    shiftAxis("ABC"[i], datum -> rotary[i], false);
-    shiftAxis("UVW"[i], datum -> parallel[i], false);
+    shiftAxis("ABC"[i], datum -> rotary[i], WordMode::Absolute);
+    shiftAxis("UVW"[i], datum -> parallel[i], WordMode::Absolute);
   }
 }
 
@@ -201,8 +202,8 @@ void CoordinateChanges::selectDatumTable(const std::string& name) {
 }
 
 /// A preset ends datum shift, mirror image, rotation and scaling, unless they are kept; a tilted plane stays.
-void CoordinateChanges::activatePreset(int row, bool keepTransformations) {
-  if (!keepTransformations) {
+void CoordinateChanges::activatePreset(int row, Earlier transformations) {
+  if (transformations == Earlier::End) {
     control_.coordinates.workpiece = {};
     control_.coordinates.workingPlane = {};
   }
@@ -253,9 +254,9 @@ void CoordinateChanges::presetCommand(const Command& command, Evaluation& evalua
     const Word* word = find(command.words, address, evaluation);
     return word == nullptr ? 0 : presetRowOf(*word, evaluation);
   };
-  const bool keep = find(command.words, "KEEP", evaluation) != nullptr;
+  const auto transformations = find(command.words, "KEEP", evaluation) != nullptr ? Earlier::Stay : Earlier::End;
   if (kind == CommandKind::PresetSelect) {
-    activatePreset(row("#"), keep);
+    activatePreset(row("#"), transformations);
     return;
   }
   const int source = kind == CommandKind::PresetCopy ? row("#") : control_.coordinates.preset.row;
@@ -273,7 +274,7 @@ void CoordinateChanges::presetCommand(const Command& command, Evaluation& evalua
     if (axes[i].kind == machine::AxisKind::Rotary) change.rotaryOffset[i] = preset->rotaryOffset[i];
   }
   control_.writePreset(target, change);
-  if (find(command.words, "SEL", evaluation) != nullptr) activatePreset(target, keep);
+  if (find(command.words, "SEL", evaluation) != nullptr) activatePreset(target, transformations);
 }
 
 void CoordinateChanges::setPresetInAxis(const Command& command, Evaluation& evaluation) {

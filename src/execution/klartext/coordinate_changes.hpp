@@ -22,9 +22,10 @@ private:
   void mirror(WordRange words, Evaluation& evaluation);
   void scaleAxes(WordRange words, Evaluation& evaluation);
   void shiftDatum(WordRange words, Evaluation& evaluation);
-  void shiftAxis(char letter, double value, bool incremental);
+  void shiftAxis(char letter, double value, WordMode mode);
   void shiftDatumByTable(double row);
-  void activatePreset(int row, bool keepTransformations);
+  enum class Earlier { End, Stay };
+  void activatePreset(int row, Earlier transformations);
   int presetRowOf(const Word& word, Evaluation& evaluation) const;
   void correctPreset(control::heidenhain::ActivePreset& preset, control::heidenhain::Control::PresetChange& change,
                      WordRange words, Evaluation& evaluation);

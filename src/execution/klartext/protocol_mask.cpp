@@ -119,12 +119,12 @@ private:
         if (isText(value) && std::get<std::string>(value).empty()) ++emptyTexts_;
         written = isText(value) ? std::get<std::string>(value) : formatShortest(std::get<double>(value));
         if (field.decimals) written = written.substr(0, *field.decimals);
-        out += filled(std::move(written), field, false);
+        out += filled(std::move(written), field, Content::Text);
         return i;
       default:
         refuse(fmt::format("%{} is not a format; %F, %LF, %D, %I and %S are", text[i]));
     }
-    out += filled(std::move(written), field, true);
+    out += filled(std::move(written), field, Content::Number);
     return i;
   }
 

@@ -39,9 +39,10 @@ std::optional<PathElement> parallel(const PathElement& element, const Vector3& a
   return radius > smallest ? std::optional(moved) : std::nullopt;
 }
 
-/// The point of the element's line or circle that is nearest to `centre`, as a fraction of its way. `fromEnd`: of the
-/// turns of an arc the last one counts.
-double footOn(const PathElement& element, const Vector3& centre, bool fromEnd) {
+/// The point of the element's line or circle that is nearest to `centre`, as a fraction of its way. `turn`: which
+/// of the turns of an arc counts.
+enum class Turn { First, Last };
+double footOn(const PathElement& element, const Vector3& centre, Turn turn) {
   if (!element.isArc) {
     const Vector3 along = element.end - element.start;
     return (centre - element.start).dot(along) / along.squaredNorm();
@@ -49,7 +50,7 @@ double footOn(const PathElement& element, const Vector3& centre, bool fromEnd) {
   const Vector3 a = element.start - element.centre, b = centre - element.centre;
   const double sense = element.sweep < 0 ? -1 : 1, whole = std::abs(element.sweep);
   double angle = sense * std::atan2(element.axis.dot(a.cross(b)), a.dot(b) - a.dot(element.axis) * b.dot(element.axis));
-  if (fromEnd) {
+  if (turn == Turn::Last) {
     angle += circle * std::floor((whole - angle) / circle + 1e-9);
   } else {
     angle -= circle * std::floor(angle / circle + 1e-9);
@@ -68,8 +69,8 @@ std::optional<Transition> rounded(const PathElement& first, const PathElement& s
   for (Vector3 centre : intersections(*a, *b, plane)) {
     centre[plane.tool] = first.end[plane.tool];
     Transition found;
-    found.first = footOn(first, centre, true);
-    found.second = footOn(second, centre, false);
+    found.first = footOn(first, centre, Turn::Last);
+    found.second = footOn(second, centre, Turn::First);
     if (!(found.first >= -1e-12 && found.first <= 1 + 1e-9 && found.second >= -1e-9 && found.second <= 1 + 1e-12))
       continue;
     const double distance = (centre - first.end).norm();

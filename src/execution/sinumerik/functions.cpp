@@ -183,7 +183,7 @@ std::string formatText(std::string_view format, std::span<const Value> arguments
                     "use %d, %f, %e, %g, %s, %x, %b or %c");
     }
     ++next;
-    out += filled(std::move(part), field, kind != 'S' && kind != 'C');
+    out += filled(std::move(part), field, kind != 'S' && kind != 'C' ? Content::Number : Content::Text);
   }
   return out;
 }

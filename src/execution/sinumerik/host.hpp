@@ -110,7 +110,7 @@ private:
   void turnSpindle();
   void followSpeed();
   void turnTool(int spindle, int function);
-  void orientSpindle(int spindle, double degrees, bool incremental);
+  void orientSpindle(int spindle, double degrees, WordMode mode);
   void setToolSpeed(int spindle, double speed);
   void selectMasterSpindle(const language::Command& command, Evaluation& evaluation);
   void alignFrameWithTool(bool withOrigin);

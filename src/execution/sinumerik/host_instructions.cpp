@@ -75,7 +75,7 @@ void SinumerikHost::carryOut(const MachineFunction& function, Evaluation& evalua
       motion_.flush();
       return changeTool();
     case 19:
-      return orientSpindle(spindle, control_.machineData("$SA_M19_SPOS"), false);
+      return orientSpindle(spindle, control_.machineData("$SA_M19_SPOS"), WordMode::Absolute);
     default:
       if (main && handToMachine(number)) return;
       if (isSkippedMachineFunction(number)) skip(fmt::format("M{}", number));
@@ -96,7 +96,8 @@ void SinumerikHost::turnTool(int spindle, int function) {
 }
 
 /// SPOS, M19.
-void SinumerikHost::orientSpindle(int spindle, double degrees, bool incremental) {
+void SinumerikHost::orientSpindle(int spindle, double degrees, WordMode mode) {
+  const bool incremental = mode == WordMode::Incremental;
   motion_.flush();
   if (spindle == control::sinumerik::mainSpindle)
     return control_.channel.orientSpindle(incremental ? control_.channel.spindleAngle() + degrees : degrees);
@@ -286,7 +287,7 @@ void SinumerikHost::carryOut(const Command& command, Evaluation& evaluation) {
     case CommandKind::Measure:
       return motion_.measure(command, evaluation);
     case CommandKind::OrientSpindle:
-      return orientSpindle(spindle(), evaluation.number(words[0].value), words[0].mode == WordMode::Incremental);
+      return orientSpindle(spindle(), evaluation.number(words[0].value), words[0].mode);
     case CommandKind::PositionAxis: {
       if (words.size() < 2) throw Alarm("12080", fmt::format("{} needs the axis in brackets", name), "write POS[X]=10");
       const std::string axis = upperCase(evaluation.text(words[1].value));

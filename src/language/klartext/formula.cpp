@@ -219,14 +219,15 @@ std::optional<Operand> BlockParser::stringFunction(std::string_view name) {
   };
   std::array<Named, 4> names{};
   std::size_t count = 0;
-  const auto takes = [&](std::string_view keyword, bool text) { names[count++] = {keyword, text}; };
-  if (name == "TOCHAR") takes("DAT", false), takes("DECIMALS", false);
-  if (name == "SUBSTR") takes("SRC_", true), takes("BEG", false), takes("LEN", false);
-  if (name == "SYSSTR") takes("ID", false), takes("NR", false), takes("IDX", false), takes("LEN", false);
-  if (name == "TONUMB" || name == "STRLEN") takes("SRC_", true);
-  if (name == "INSTR") takes("SRC_", true), takes("SEA_", true), takes("BEG", false);
-  if (name == "STRCOMP") takes("SRC_", true), takes("SEA_", true);
-  if (name == "CFGREAD") takes("KEY_", true), takes("TAG_", true), takes("ATR_", true), takes("IDX", false);
+  const auto takes = [&](std::string_view keyword) { names[count++] = {keyword, false}; };
+  const auto takesText = [&](std::string_view keyword) { names[count++] = {keyword, true}; };
+  if (name == "TOCHAR") takes("DAT"), takes("DECIMALS");
+  if (name == "SUBSTR") takesText("SRC_"), takes("BEG"), takes("LEN");
+  if (name == "SYSSTR") takes("ID"), takes("NR"), takes("IDX"), takes("LEN");
+  if (name == "TONUMB" || name == "STRLEN") takesText("SRC_");
+  if (name == "INSTR") takesText("SRC_"), takesText("SEA_"), takes("BEG");
+  if (name == "STRCOMP") takesText("SRC_"), takesText("SEA_");
+  if (name == "CFGREAD") takesText("KEY_"), takesText("TAG_"), takesText("ATR_"), takes("IDX");
 
   if (!expect('(', name)) return std::nullopt;
   std::array<Operand, 4> arguments{};

@@ -182,10 +182,10 @@ bool BlockParser::moveWords(Move& move) {
   }
 }
 
-bool BlockParser::move(MoveKind kind, bool polar) {
+bool BlockParser::move(MoveKind kind, Coordinates coordinates) {
   Move move;
   move.kind = kind;
-  move.polar = polar;
+  move.polar = coordinates == Coordinates::Polar;
   if ((kind == MoveKind::Chamfer || kind == MoveKind::Rounding) && lexer_.peek() != 'R') {
     if (!word(addressOf("R"), kind == MoveKind::Chamfer ? "the length of the chamfer" : "the radius")) return false;
     const std::size_t first = block_.words.size() - 1;
@@ -204,10 +204,10 @@ bool BlockParser::move(MoveKind kind, bool polar) {
   return true;
 }
 
-bool BlockParser::arc(bool polar) {
+bool BlockParser::arc(Coordinates coordinates) {
   Move move;
   move.kind = MoveKind::Modal;
-  move.polar = polar;
+  move.polar = coordinates == Coordinates::Polar;
   if (!moveWords(move)) return false;
   for (std::uint32_t i = 0; i < move.words.count; ++i) {
     const Word& found = block_.words[move.words.first + i];
@@ -221,7 +221,7 @@ bool BlockParser::arc(bool polar) {
 
 bool BlockParser::arcWithRadius() {
   const std::size_t first = block_.words.size();
-  if (!arc(false)) return false;
+  if (!arc()) return false;
   for (std::size_t i = first; i < block_.words.size(); ++i) {
     const Word& found = block_.words[i];
     if (found.address == addressOf("R") && found.mode != WordMode::DirectShortest) return true;

@@ -83,10 +83,10 @@ bool BlockParser::statement() {
       lexer_.advance();
       if (second == 'P' && !isLetter(lexer_.here(1))) {
         lexer_.advance();
-        return move(MoveKind::Linear, true);
+        return move(MoveKind::Linear, Coordinates::Polar);
       }
       if (second == 'N' && !isLetter(lexer_.here(1))) lexer_.advance();
-      return move(MoveKind::Linear, false);
+      return move(MoveKind::Linear);
     case 'C':
       if (lexer_.acceptKeyword("CYCL")) {
         if (lexer_.acceptKeyword("DEF")) return cycleDefinition();
@@ -98,17 +98,17 @@ bool BlockParser::statement() {
         if (lexer_.acceptKeyword("PGM") || lexer_.acceptKeyword("SELECTED PGM")) return callProgram();
         return error("LBL or PGM is expected after CALL", meantWord(lexer_, {"LBL", "PGM"}));
       }
-      if (lexer_.acceptKeyword("CC")) return move(MoveKind::SetCentre, false);
+      if (lexer_.acceptKeyword("CC")) return move(MoveKind::SetCentre);
       if (lexer_.acceptKeyword("CR")) return arcWithRadius();
-      if (lexer_.acceptKeyword("CTP")) return move(MoveKind::ArcTangential, true);
-      if (lexer_.acceptKeyword("CT")) return move(MoveKind::ArcTangential, false);
-      if (lexer_.acceptKeyword("CP")) return arc(true);
-      if (lexer_.acceptKeyword("CHF")) return move(MoveKind::Chamfer, false);
+      if (lexer_.acceptKeyword("CTP")) return move(MoveKind::ArcTangential, Coordinates::Polar);
+      if (lexer_.acceptKeyword("CT")) return move(MoveKind::ArcTangential);
+      if (lexer_.acceptKeyword("CP")) return arc(Coordinates::Polar);
+      if (lexer_.acceptKeyword("CHF")) return move(MoveKind::Chamfer);
       if (lexer_.acceptKeyword("CONTOUR")) return textCommand(CommandKind::Contour);
-      if (single && (second == '+' || second == '-' || isDigit(second))) return move(MoveKind::Linear, false);
+      if (single && (second == '+' || second == '-' || isDigit(second))) return move(MoveKind::Linear);
       if (single) {
         lexer_.advance();
-        return arc(false);
+        return arc();
       }
       break;
     case 'Q':
@@ -161,7 +161,7 @@ bool BlockParser::statement() {
       }
       break;
     case 'R':
-      if (lexer_.acceptPrefix("RND")) return move(MoveKind::Rounding, false);
+      if (lexer_.acceptPrefix("RND")) return move(MoveKind::Rounding);
       break;
     case 'A':
       if (lexer_.acceptKeyword("APPR")) return approachOrDepart(MoveKind::Approach);
@@ -199,10 +199,10 @@ bool BlockParser::statement() {
       break;
   }
   if (std::string_view("XYZABUVWI").find(first) != std::string_view::npos && single) {
-    return move(MoveKind::Linear, false);
+    return move(MoveKind::Linear);
   }
   if (first == 'I' && std::string_view("XYZABCUVW").find(second) != std::string_view::npos) {
-    return move(MoveKind::Linear, false);
+    return move(MoveKind::Linear);
   }
   return error("this is not a block of the Klartext language", meantKeyword());
 }

@@ -73,8 +73,9 @@ protected:
   std::optional<Operand> stringFunction(std::string_view name);
 
   // moves.cpp
-  bool move(MoveKind kind, bool polar);
-  bool arc(bool polar);
+  enum class Coordinates { Cartesian, Polar };
+  bool move(MoveKind kind, Coordinates coordinates = Coordinates::Cartesian);
+  bool arc(Coordinates coordinates = Coordinates::Cartesian);
   bool arcWithRadius();
   bool approachOrDepart(MoveKind kind);
   bool moveWords(Move& move);

@@ -130,7 +130,8 @@ private:
   void parseModalCall();
   void parseRest(std::string_view name);
   language::WordRange parseArguments();
-  void parseProgramCall(language::TextRef name, bool maybeCycle);
+  enum class Meant { Program, ProgramOrCycle };
+  void parseProgramCall(language::TextRef name, Meant meant);
 
   // declarations.cpp
   void parseDeclaration(std::size_t start);

@@ -41,10 +41,10 @@ WordRange BlockParser::parseArguments() {
   return range;
 }
 
-void BlockParser::parseProgramCall(TextRef name, bool maybeCycle) {
+void BlockParser::parseProgramCall(TextRef name, Meant meant) {
   CallProgram call;
   call.name = name;
-  call.maybeCycle = maybeCycle;
+  call.maybeCycle = meant == Meant::ProgramOrCycle;
   cursor_.skipBlanks();
   if (cursor_.peek() == '(') call.arguments = parseArguments();
   if (!failed_) block_->instructions.emplace_back(call);
@@ -105,7 +105,7 @@ void BlockParser::parsePathCall(std::size_t start) {
     cursor_.advance();
   const std::string_view path = cursor_.since(first);
   if (path.empty()) return fail(start, "the path of the program to call is missing", "Write PCALL PATH(arguments).");
-  parseProgramCall(upper(path), false);
+  parseProgramCall(upper(path), Meant::Program);
 }
 
 /// MCALL NAME(arguments) calls after each motion; MCALL alone ends that.

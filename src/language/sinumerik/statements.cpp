@@ -327,7 +327,7 @@ void BlockParser::parseUserName(std::string_view name, std::size_t start) {
   if (!axisWords_.empty() || motionGiven_)
     return fail(start, "the call of " + std::string(name) + " is in a block with a motion",
                 "Write the call into a block of its own, or check the spelling of " + std::string(name) + ".");
-  parseProgramCall(upper(name), true);
+  parseProgramCall(upper(name), Meant::ProgramOrCycle);
 }
 
 void BlockParser::parseAssignment(std::size_t start) {

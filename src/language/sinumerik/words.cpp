@@ -456,7 +456,7 @@ void BlockParser::parseT(std::size_t start) {
 void BlockParser::parseL(std::size_t start) {
   const std::string_view digits = cursor_.digits();
   if (digits.empty()) return fail(start, "the number of the subprogram is missing", "Write L100.");
-  parseProgramCall(upper(start, digits.size() + 1), false);
+  parseProgramCall(upper(start, digits.size() + 1), Meant::Program);
 }
 
 }  // namespace probewright::language::sinumerik
