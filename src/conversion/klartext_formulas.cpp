@@ -111,7 +111,7 @@ std::string KlartextFormulas::userVariable(const Block& block, const VariableRef
   }
   try {
     const language::Value& value = datum.at(datum.isArray() ? datum.place(name, indices) : 0);
-    const std::string parameter = define(element, isText(value));
+    const std::string parameter = define(element, isText(value) ? Holds::Text : Holds::Number);
     globalValues_.push_back(fmt::format(
         "{} = {} ; {}", parameter,
         isText(value) ? fmt::format("\"{}\"", std::get<std::string>(value)) : numberText(std::get<double>(value)),
@@ -192,7 +192,7 @@ std::string KlartextFormulas::read(const std::string& datum) {
 std::string KlartextFormulas::measuringBlock(int toolAxis) {
   measuredToolAxis_ = static_cast<std::size_t>(toolAxis);
   for (std::size_t i = 0; measured_[3].empty() && i < 4; ++i)
-    measured_[i] = define(fmt::format("measuring block {}", i + 1), false);
+    measured_[i] = define(fmt::format("measuring block {}", i + 1));
   return measured_[0];
 }
 

@@ -105,7 +105,7 @@ private:
   void call(const language::Block& block, const language::CallProgram& call);
   /// Jumps to the label if the condition holds, or if it does not.
   enum class When { Holds, Fails };
-  void jump(When when, const language::Block& block, const language::Operand& condition, const std::string& label);
+  void jumpWhen(When when, const language::Block& block, const language::Operand& condition, const std::string& label);
   void goTo(const std::string& label);
   std::string comparable(const language::Block& block, const language::Operand& operand);
   void label(const std::string& name);

@@ -53,7 +53,7 @@ std::string ToKlartext::comparable(const Block& block, const Operand& operand) {
   return formulas_.value(quantity(block, operand));
 }
 
-void ToKlartext::jump(When when, const Block& block, const Operand& condition, const std::string& label) {
+void ToKlartext::jumpWhen(When when, const Block& block, const Operand& condition, const std::string& label) {
   const bool wanted = when == When::Holds;
   const When otherwise = wanted ? When::Fails : When::Holds;
   const auto test = [&](const std::string& left, const Comparison& comparison, const std::string& right) {
@@ -63,18 +63,18 @@ void ToKlartext::jump(When when, const Block& block, const Operand& condition, c
   const Operation operation = node == nullptr ? Operation::Number : node->operation;
   switch (operation) {
     case Operation::Not:
-      return jump(otherwise, block, node->left, label);
+      return jumpWhen(otherwise, block, node->left, label);
     case Operation::And:
     case Operation::Or: {
       const bool either = (operation == Operation::Or) == wanted;
       if (either) {
-        jump(when, block, node->left, label);
-        jump(when, block, node->right, label);
+        jumpWhen(when, block, node->left, label);
+        jumpWhen(when, block, node->right, label);
         return;
       }
       const std::string past = unusedLabel("AND");
-      jump(otherwise, block, node->left, past);
-      jump(when, block, node->right, label);
+      jumpWhen(otherwise, block, node->left, past);
+      jumpWhen(when, block, node->right, label);
       line(fmt::format("LBL \"{}\"", past));
       return;
     }
@@ -164,7 +164,7 @@ void ToKlartext::jump(const Block& block, const Jump& jump) {
   if (!found) throw NotCarriedOver(fmt::format("there is no label {}", block.at(jump.label)));
   const std::string target = labelAt(*found);
   if (!jump.condition.present()) return goTo(target);
-  jump(When::Holds, block, jump.condition, target);
+  jumpWhen(When::Holds, block, jump.condition, target);
 }
 
 void ToKlartext::repeated(const Quantity& times, Rounds rounds, const std::function<void()>& body) {
@@ -288,7 +288,7 @@ void ToKlartext::carryOver(const Block& block, const Structured& structured) {
   switch (structured.kind) {
     case Structure::If: {
       Open opened{structured.kind, {}, named("ENDIF"), named("ELSE"), {}, false};
-      jump(When::Fails, block, structured.condition, opened.other);
+      jumpWhen(When::Fails, block, structured.condition, opened.other);
       open_.push_back(opened);
       break;
     }
@@ -304,7 +304,7 @@ void ToKlartext::carryOver(const Block& block, const Structured& structured) {
     case Structure::While: {
       Open opened{structured.kind, named("WHILE"), named("ENDWHILE"), {}, {}, false};
       label(opened.begin);
-      jump(When::Fails, block, structured.condition, opened.end);
+      jumpWhen(When::Fails, block, structured.condition, opened.end);
       open_.push_back(opened);
       break;
     }
@@ -337,7 +337,7 @@ void ToKlartext::carryOver(const Block& block, const Structured& structured) {
     case Structure::Until: {
       const std::string begin = top->begin;
       open_.pop_back();
-      jump(When::Fails, block, structured.condition, begin);
+      jumpWhen(When::Fails, block, structured.condition, begin);
       break;
     }
   }
