@@ -225,8 +225,9 @@ Result<Comparison> compare(const Json& first, const Json& second, double toleran
       entry.differs = !equalTexts(entry.first, entry.second, tolerance);
       comparison.entries.push_back(std::move(entry));
     }
-  } catch (const Json::exception& mistake) {
-    return fail(std::string("one of the two does not follow the layout of results.json: ") + mistake.what());
+  } catch (const Json::exception&) {
+    return fail("one of the two does not follow the layout of results.json",
+                "compare files as `probewright run` writes them; docs/results.schema.json describes the layout");
   }
   return comparison;
 }

@@ -60,7 +60,7 @@ Result<Tolerance> parseTolerance(std::string_view text, const toml::table& setup
   if (!path) return refuse(path.error().message, path.error().advice);
   const auto kind = kindOf(path->keys());
   if (!kind)
-    return refuse("this is no number of a clamping",
+    return refuse("this is not a number of a clamping",
                   "Poses (x, y, z, a, b, c), sizes of features (diameter, size[1], height, depth) and lengths of tools "
                   "(length, stylus_length) can vary; for others see probewright study");
   auto written = path->numberIn(setup);

@@ -30,7 +30,8 @@ struct Tolerance {
 };
 
 /// Reads "part.pose.x=0.5", so much to either side of what the setup has, or "part.pose.x=-0.2..0.8", from this value
-/// to that one. Refused: what is no number of a clamping, a range that is empty, a number that the setup does not have.
+/// to that one. Refused: what is not a number of a clamping, a range that is empty, a number that the setup does not
+/// have.
 Result<Tolerance> parseTolerance(std::string_view text, const toml::table& setup);
 
 /// A box of clampings: a value for each tolerance between `low` and `high`.

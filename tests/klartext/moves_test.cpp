@@ -14,6 +14,17 @@ TEST(Moves, StraightLinesTakeAxesCompensationFeedAndMachineFunctions) {
   EXPECT_EQ(irOf("L"), "Linear");
 }
 
+/// As older controls list blocks of which something was left open.
+TEST(Moves, LettersWithoutAValueLeaveOpenWhatTheyName) {
+  EXPECT_EQ(irOf("L X+10 R F M"), "Linear X=10");
+  EXPECT_EQ(irOf("L X+10 R F MAX M"), "Linear X=10 FMAX");
+  EXPECT_EQ(irOf("L X+10 R F M3"), "M3 | Linear X=10");
+  EXPECT_EQ(irOf("L X+10 R0 F M ; to the hole"), "Linear X=10 R0");
+  EXPECT_EQ(irOf("L X+10 R"), "Linear X=10");
+  EXPECT_EQ(irOf("L X+10 R F500"), "Linear X=10 F=500");
+  EXPECT_EQ(irOf("L X+10 F AUTO"), "Linear X=10 FAUTO");
+}
+
 TEST(Moves, PeopleWriteBlanksTabsAndLowerCase) {
   EXPECT_EQ(irOf("7\tL\tX + 0\tY - 2 R0 F MAX  \t"), "Linear X=0 Y=-2 R0 FMAX");
   EXPECT_EQ(irOf("l x+1 y+2 rr f max m8"), "M8 | Linear X=1 Y=2 RR FMAX");

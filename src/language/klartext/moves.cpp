@@ -34,6 +34,19 @@ bool BlockParser::feedWord(Operand& feed, bool* rapid, bool* autoFeed) {
   return true;
 }
 
+/// Takes F or M without a value, as older controls list what a block leaves open: "L X+10 R F M". `following` may come
+/// after it, else the end of the block.
+bool BlockParser::leftOpen(char following) {
+  const std::size_t start = lexer_.offset();
+  lexer_.advance();
+  const bool blank = !isWordByte(lexer_.here());
+  const char next = lexer_.peek();
+  const bool rapid = next == 'M' && upper(lexer_.here(1)) == 'A';
+  if (blank && !rapid && (next == '\0' || next == following)) return true;
+  lexer_.seek(start);
+  return false;
+}
+
 bool BlockParser::axisWord(WordMode mode) {
   const char letter = lexer_.peek();
   lexer_.advance();
@@ -57,6 +70,8 @@ bool BlockParser::radiusWord(Move& move) {
   if (c == 'O' && wordEnds)
     return error("R with the letter O is not a radius compensation", "Did you mean R0, with a zero?");
   const char sign = lexer_.peek();
+  // "R F M" is how older controls list what a block leaves open.
+  if ((c != sign || c == '\0') && (sign == 'F' || sign == 'M' || sign == '\0')) return true;
   if (sign == '+' || sign == '-') {
     // R+ and R- of single axis blocks stand without a number.
     const std::size_t start = lexer_.offset();
@@ -165,9 +180,10 @@ bool BlockParser::moveWords(Move& move) {
         if (!word(addressOf("LEN"), "LEN")) return false;
         break;
       case 'F':
-        if (!feedWord(move.feed, &move.rapid, &move.autoFeed)) return false;
+        if (!leftOpen('M') && !feedWord(move.feed, &move.rapid, &move.autoFeed)) return false;
         break;
       case 'M': {
+        if (leftOpen('\0')) break;
         const std::size_t before = block_.words.size();
         if (!machineFunction(&move)) return false;
         if (!wordsEnded && block_.words.size() > before) {

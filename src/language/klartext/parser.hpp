@@ -80,6 +80,7 @@ protected:
   bool approachOrDepart(MoveKind kind);
   bool moveWords(Move& move);
   bool eachOnce(WordRange range);
+  bool leftOpen(char following);
   bool axisWord(WordMode mode);
   bool radiusWord(Move& move);
   bool feedWord(Operand& feed, bool* rapid, bool* autoFeed);
