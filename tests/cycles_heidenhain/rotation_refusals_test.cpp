@@ -224,8 +224,10 @@ TEST(RotationCycles, TellTheOperatorToRetract) {
   }
 }
 
-/// Behind a point that the operator has shown nothing moves by itself, also where the program knows the next ones.
-TEST(RotationCycles, LeaveTheProbeWhereTheOperatorHasIt) {
+/// After a point that the operator has shown the manual has Q1125 = 1 and 2 ignored: nothing moves by itself, also
+/// where the program knows the next points. Q1125 = 0 counts: at the end of the cycle the probe goes to the clearance
+/// height.
+TEST(RotationCycles, LeaveTheProbeWhereTheOperatorHasItUntilTheEnd) {
   for (const int number : {1410, 1420}) {
     for (const int mode : {-1, 0, 1, 2}) {
       SCOPED_TRACE(fmt::format("{}, Q1125 {}", number, mode));
@@ -249,7 +251,8 @@ TEST(RotationCycles, LeaveTheProbeWhereTheOperatorHasIt) {
       EXPECT_EQ(ran.touches(), 1U);
       // The spindle nose stands above the tip by the length of the probe.
       const auto stands = ran.machine->position();
-      EXPECT_NEAR(stands[2], -400 + 100 + (number == 1410 ? -8 : 6), exact);
+      const double tip = mode == 0 ? 20 : number == 1410 ? -8 : 6;
+      EXPECT_NEAR(stands[2], -400 + 100 + tip, exact);
     }
   }
 }
