@@ -23,6 +23,7 @@ namespace {
 constexpr double most = 20;        // mm that are told
 constexpr double fine = 0.05;      // mm
 constexpr double onTheWay = 0.02;  // mm: how far a bent way may be from the one searched
+constexpr double roughly = 1;      // mm: the same while the distance is not known any better
 
 ToolShape grown(const ToolShape& shape, double by) {
   ToolShape thick = shape;
@@ -126,21 +127,25 @@ private:
     const ToolShape moving = meant ? withoutFeelers(shapeOf(to.tool)) : shapeOf(to.tool);
     if (moving.balls.empty() && moving.shafts.empty()) return span;
     const Motion motion{kinematics_, from.axes, to.axes, from.axes, from.seconds, simulation::MotionProfile(1, 1, 1)};
-    const auto touchWith = [&](double by) {
-      return simulation::firstTouch(motion, 0, 1, grown(moving, by), surroundings_, {.precision = onTheWay});
+    const auto touchWith = [&](double by, double precision) {
+      return simulation::firstTouch(motion, 0, 1, grown(moving, by), surroundings_, {.precision = precision});
     };
-    auto touch = touchWith(most);
+    auto touch = touchWith(most + roughly, roughly);
     if (!touch) return span;
-    double free = 0, touching = most;
-    while (touching - free > fine) {
+    double free = 0, touching = most + 2 * roughly;
+    while (touching - free > fine && free < most) {
       const double middle = (free + touching) / 2;
-      if (auto nearer = touchWith(middle)) {
-        touching = middle;
+      // Bent ways are taken as exactly as the answer is known; what that leaves open stays between the bounds.
+      const double precision = std::clamp((touching - free) / 8, onTheWay, roughly);
+      const double open = precision > onTheWay ? precision : 0;
+      if (auto nearer = touchWith(middle, precision)) {
+        touching = std::min(touching, middle + open);
         touch = std::move(nearer);
       } else {
-        free = middle;
+        free = std::max(free, middle - open);
       }
     }
+    if (free >= most) return span;
     span.distance = free;
     span.orMore = false;
     span.part = touch->shaft ? moving.shafts[*touch->shaft].part : "ball";

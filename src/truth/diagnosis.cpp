@@ -9,6 +9,7 @@
 #include "simulation/contact_search.hpp"
 #include "simulation/round_faces.hpp"
 #include "truth/expected_feature.hpp"
+#include "truth/expected_walls.hpp"
 
 namespace probewright::truth {
 
@@ -70,15 +71,15 @@ public:
     switch (motion_.why) {
       case Interruption::NoContact:
         missed(known);
-        roundFeature(known);
+        feature(known);
         break;
       case Interruption::Deflected:
       case Interruption::Collision:
         met(known);
-        roundFeature(known);
+        feature(known);
         break;
       case Interruption::Limit:
-        roundFeature(known);
+        feature(known);
         break;
     }
     return known;
@@ -203,13 +204,37 @@ private:
       known.texts.push_back(fmt::format("a stylus that is {:.1f} mm longer would keep the body clear there", *longer));
   }
 
-  /// Where the hole or stud is that the cycle looked for.
-  void roundFeature(Diagnosis& known) const {
+  /// Where it is what the cycle looked for.
+  void feature(Diagnosis& known) const {
     if (cycle_ == nullptr || !isProbe()) return;
-    const Eigen::Affine3d tableFromProgram = motion_.programFromTable.inverse();
     const Vector3 shank = motion_.programFromTable.linear() * tableFromSpindle(motion_.end).linear() * shape_.shank;
     Eigen::Index axis = 2;
     shank.cwiseAbs().maxCoeff(&axis);
+    roundFeature(known, axis);
+    walls(known, axis);
+  }
+
+  void walls(Diagnosis& known, Eigen::Index axis) const {
+    const auto expected = expectedWalls(*cycle_, static_cast<int>(axis), startOfCycle());
+    if (!expected) return;
+    const Eigen::Affine3d tableFromProgram = motion_.programFromTable.inverse();
+    const auto found = trueWalls(*expected, tableFromProgram, truth_.solids);
+    if (!found) return;
+    const Vector3 expectedCentre = tableFromProgram * expected->centre;
+    const Vector3 along = (tableFromProgram.linear() * Vector3::Unit(axis)).normalized();
+    known.expected = Ghost{"point", expectedCentre, along, 0};
+    known.found = Ghost{"point", found->centre, along, 0};
+    const bool rectangle = found->widths.size() == 2;
+    const std::string size = number(found->widths[0]) + (rectangle ? " x " + number(found->widths[1]) : std::string());
+    const char* what = rectangle ? (expected->inside ? "pocket" : "stud") : expected->inside ? "slot" : "ridge";
+    known.texts.push_back(fmt::format("the {} of {} mm has its centre at {}, {} mm from {}", what, size,
+                                      place(found->centre), number((found->centre - expectedCentre).norm()),
+                                      expected->from));
+  }
+
+  /// A hole or stud.
+  void roundFeature(Diagnosis& known, Eigen::Index axis) const {
+    const Eigen::Affine3d tableFromProgram = motion_.programFromTable.inverse();
     const auto expected = expectedRound(*cycle_, static_cast<int>(axis), startOfCycle());
     if (!expected) return;
     const Vector3 expectedCentre = tableFromProgram * expected->centre;

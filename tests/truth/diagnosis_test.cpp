@@ -107,6 +107,62 @@ TEST(Diagnosis, OfABodyTellsHowMuchTooWideItIs) {
   EXPECT_THAT(everything(told), HasSubstr("a stylus that is 10.0 mm longer would keep the body clear"));
 }
 
+/// A box with its top at Z0, and something in or on it, at a pose.
+std::string boxWith(const std::string& feature, const std::string& pose) {
+  return "[part]\nname = \"box\"\npose = " + pose +
+         "\n[[part.feature]]\nshape = \"box\"\ncentre = [0, 0, -40]\nsize = [160, 140, 40]\n[[part.feature]]\n" +
+         feature;
+}
+
+TEST(Diagnosis, OfAPocketTellsWhereItIs) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part =
+      boxWith("shape = \"pocket\"\nsize = [40, 30]\ndepth = 20\ncorner_radius = 3\n", "{ x = 6, y = -4, z = -480 }");
+  const Told told = run(world,
+                        "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 423 POCKET ~\nQ273=+0 ~\nQ274=+0 ~\nQ282=+40 ~\n"
+                        "Q283=+30 ~\nQ261=-8 ~\nQ320=+0 ~\nQ260=+20 ~\nQ301=+0 ~\nQ284=+41 ~\nQ285=+39 ~\n"
+                        "Q286=+31 ~\nQ287=+29 ~\nQ279=+1 ~\nQ280=+1 ~\nQ281=+0 ~\nQ309=+0 ~\nQ330=+0\n");
+  ASSERT_FALSE(told.finished());
+  EXPECT_THAT(everything(told),
+              HasSubstr("the pocket of 40.000 x 30.000 mm has its centre at X+6.000 Y-4.000 Z-8.000 of the active"));
+  EXPECT_THAT(everything(told), HasSubstr(", 7.211 mm from Q273/Q274"));
+}
+
+TEST(Diagnosis, OfASlotAndARidgeTellsWhereTheyAre) {
+  World world;
+  world.origin = {0, 0, -480};
+  const auto program = [](int cycle, int height) {
+    return fmt::format(
+        "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE {} CENTRE ~\nQ321=+0 ~\nQ322=+0 ~\nQ311=+14 ~\nQ272=+2 ~\n"
+        "Q261={:+} ~\nQ320=+0 ~\nQ260=+40 ~\n{}Q305=+0 ~\nQ405=+0 ~\nQ303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\nQ383=+0 ~\n"
+        "Q384=+0 ~\nQ333=+0\n",
+        cycle, height, cycle == 408 ? "Q301=+0 ~\n" : "");
+  };
+  world.part = boxWith("shape = \"pocket\"\nsize = [100, 14]\ndepth = 20\ncorner_radius = 2\n", "{ y = 6, z = -480 }");
+  const Told slot = run(world, program(408, -8));
+  ASSERT_FALSE(slot.finished());
+  EXPECT_THAT(everything(slot), HasSubstr("the slot of 14.000 mm has its centre at X+0.000 Y+6.000 Z-8.000 of the"));
+  EXPECT_THAT(everything(slot), HasSubstr(", 6.000 mm from Q321/Q322"));
+  // A ridge 12 mm beside its place: the probe comes down on it.
+  world.part = boxWith("shape = \"box\"\ncentre = [0, 0, 0]\nsize = [100, 14, 20]\n", "{ y = 12, z = -480 }");
+  const Told ridge = run(world, program(409, 8));
+  ASSERT_FALSE(ridge.finished());
+  EXPECT_THAT(everything(ridge), HasSubstr("the ridge of 14.000 mm has its centre at X+0.000 Y+12.000 Z+8.000 of the"));
+}
+
+TEST(Diagnosis, OfAGrooveCountsFromTheStartOnASinumerik) {
+  World world;
+  world.control = "840Dsl";
+  world.origin = {0, 0, -480};
+  world.part = boxWith("shape = \"pocket\"\nsize = [14, 100]\ndepth = 20\ncorner_radius = 2\n", "{ x = 3, z = -480 }");
+  const Told told =
+      run(world, "T1 D1\nM6\nG54 G17 G0 X0 Y0 Z20\nG1 Z-8 F2000\nCYCLE977(3,,,1,14,,,2,1,,,,,1,1)\n");
+  ASSERT_FALSE(told.finished());
+  EXPECT_THAT(everything(told), HasSubstr("the slot of 14.000 mm has its centre at X+3.000 Y+0.000 Z-8.000 of the"));
+  EXPECT_THAT(everything(told), HasSubstr(", 3.000 mm from the start position"));
+}
+
 TEST(Diagnosis, IsNotToldToTheBlindNorWithoutAnAlarm) {
   World world;
   world.origin = {0, 0, -480};
