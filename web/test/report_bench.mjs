@@ -48,13 +48,23 @@ function watch(rows) {
   requestAnimationFrame(look);
 }
 
+/** Processor time of the pages so far, all threads, s: the same on a busy machine. */
+async function pageSeconds(browser) {
+  const session = await browser.target().createCDPSession();
+  const { processInfo } = await session.send("SystemInfo.getProcessInfo");
+  await session.detach();
+  return processInfo.filter(({ type }) => type === "renderer").reduce((sum, { cpuTime }) => sum + cpuTime, 0);
+}
+
 async function measure(browser, file, rows) {
+  const before = await pageSeconds(browser);
   const page = await browser.newPage();
   await page.setViewport({ width: 1400, height: 900 });
   await page.evaluateOnNewDocument(watch, rows);
   await page.goto(pathToFileURL(file).href);
   await page.waitForFunction(() => "rows" in window.benchSeen && "picture" in window.benchSeen, { timeout: 120_000 });
-  return { page, ...(await page.evaluate(() => window.benchSeen)) };
+  const seconds = (await pageSeconds(browser)) - before;
+  return { page, seconds, ...(await page.evaluate(() => window.benchSeen)) };
 }
 
 try {
@@ -73,14 +83,15 @@ try {
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
     headless: true,
     userDataDir: join(folder, "browser"),
+    protocolTimeout: 900_000,
     args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
   });
   // The first page of a browser pays for its start.
   await (await measure(browser, pages[0][1], ".cycle-head")).page.close();
-  console.log("page                    size       rows    picture (drawn by the processor)");
+  console.log("page                    size       rows    picture   processor time of the page");
   for (const [name, file, rows] of pages) {
     const seen = await measure(browser, file, rows);
-    console.log(`${name.padEnd(22)}${(statSync(file).size / 1e6).toFixed(1).padStart(4)} MB ${seen.rows.toFixed(0).padStart(7)} ms ${seen.picture.toFixed(0).padStart(7)} ms`);
+    console.log(`${name.padEnd(22)}${(statSync(file).size / 1e6).toFixed(1).padStart(4)} MB ${seen.rows.toFixed(0).padStart(7)} ms ${seen.picture.toFixed(0).padStart(7)} ms ${(1000 * seen.seconds).toFixed(0).padStart(7)} ms`);
     if (!name.includes(wanted)) {
       await seen.page.close();
       continue;
