@@ -113,8 +113,8 @@ std::optional<TrueWalls> trueWalls(const ExpectedWalls& expected, const Eigen::A
     const Vector3 across = (tableFromProgram.linear() * Vector3::Unit(pair.axis)).normalized();
     const Vector3 far = across * (pair.width / 2 + room);
     const Vector3 middle = walls.centre;
-    const auto plus = expected.inside ? felt(solids, middle, middle + far) : felt(solids, middle + far, middle);
-    const auto minus = expected.inside ? felt(solids, middle, middle - far) : felt(solids, middle - far, middle);
+    const auto plus = expected.inside ? felt(solids, middle, middle + far) : felt(solids, middle + far, middle - far);
+    const auto minus = expected.inside ? felt(solids, middle, middle - far) : felt(solids, middle - far, middle + far);
     if (!plus || !minus) return std::nullopt;
     const double width = (*plus - *minus).dot(across);
     if (!(width >= pair.width / 2 && width <= 2 * pair.width)) return std::nullopt;
