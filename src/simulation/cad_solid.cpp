@@ -64,6 +64,35 @@ void meet(const CadModel& model, const CadElement& element, const Way& way, doub
   }
 }
 
+/// How near a segment from the start of the way to `axis` beyond it, moving along the way, comes to a point at least;
+/// without what leads along `line`, if that is not zero: to the line through the point.
+double nearestSweep(const Way& way, const Vector3& axis, const Vector3& point, const Vector3& line) {
+  const auto across = [&](const Vector3& v) { return Vector3(v - line * line.dot(v)); };
+  const Vector3 start = across(way.start - point), along = across(axis), moved = across(way.direction * way.length);
+  const std::array<Vector3, 4> corners{start, start + along, start + along + moved, start + moved};
+  double least = 1e300;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    least = std::min(least, closestOnSegment(Vector3::Zero(), corners[i], corners[(i + 1) % 4]).norm());
+  const Vector3 normal = along.cross(moved);
+  const double area = normal.squaredNorm();
+  if (area < 1e-12) return least;
+  const double first = moved.cross(start).dot(normal) / area, second = start.cross(along).dot(normal) / area;
+  const bool within = first > 0 && first < 1 && second > 0 && second < 1;
+  return within ? std::min(least, std::abs(normal.dot(start)) / std::sqrt(area)) : least;
+}
+
+/// True if a capsule passes a round face so far away that none of its triangles needs a look: the stylus and the body
+/// of a probe beside a calibration sphere.
+bool passes(const CadFace& face, const Mover& mover, double radius) {
+  if (face.forms.count != 1) return false;
+  const AnalyticSurface& form = face.forms.sheets[0];
+  const bool turned = form.kind == AnalyticSurface::Kind::Cylinder;
+  if (!turned && form.kind != AnalyticSurface::Kind::Sphere) return false;
+  constexpr double safety = 1e-3;  // mm
+  const Vector3 line = turned ? Vector3(form.axes.col(2)) : Vector3(Vector3::Zero());
+  return nearestSweep(mover.way, mover.axis, form.origin, line) > form.radius + radius + safety;
+}
+
 }  // namespace
 
 CadSolid::CadSolid(CadModel model, Diagnostics remarks)
@@ -123,9 +152,10 @@ std::optional<BallContact> CadSolid::firstCapsuleContact(const Vector3& from, co
   for (std::size_t i = 0; i < parts; ++i) {
     const Mover mover{{way.start + static_cast<double>(i) * part, way.direction, way.length}, radius, part};
     model_->tree.search(mover, best, [&](std::uint32_t place, const Triangle&) {
-      if (!model_->elements[place].isTriangle()) return;
+      const CadElement& element = model_->elements[place];
+      if (!element.isTriangle() || passes(model_->faces[element.owner], mover, radius)) return;
       visitFinely(
-          *model_, model_->elements[place],
+          *model_, element,
           [&](const Triangle& t, double growth) {
             Meeting coarse;
             coarse.when = best.when;
@@ -144,9 +174,10 @@ std::optional<BallContact> CadSolid::firstCylinderContact(const Vector3& from, c
   const double height = axis.norm();
   Meeting best;
   model_->tree.search(mover, best, [&](std::uint32_t place, const Triangle&) {
-    if (!model_->elements[place].isTriangle()) return;
+    const CadElement& element = model_->elements[place];
+    if (!element.isTriangle() || passes(model_->faces[element.owner], mover, radius)) return;
     visitFinely(
-        *model_, model_->elements[place],
+        *model_, element,
         [&](const Triangle& t, double growth) {
           const Vector3 more = axis * (growth / height);
           const Way way{mover.way.start - more, mover.way.direction, mover.way.length};

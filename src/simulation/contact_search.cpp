@@ -118,9 +118,31 @@ private:
     constexpr double safety = 2;  // the bend of a smooth path is largest near the middle, where it was taken
     const bool fine = ballBend <= options_.precision && shaftBend <= shaftPrecision;
     if (fine || depth >= deepest) return sweep(piece, 0, 0);
-    if (!sweep(piece, safety * ballBend, safety * shaftBend)) return std::nullopt;
+    // A tool swollen much is near nearly everything, and where it would touch matters to nobody: boxes will do.
+    constexpr double much = 1;  // mm
+    const double growBall = safety * ballBend, growShafts = safety * shaftBend;
+    const bool swollen = std::max(growBall, growShafts) > much;
+    if (swollen ? missesAllBoxes(piece, growBall, growShafts) : !sweep(piece, growBall, growShafts))
+      return std::nullopt;
     if (auto touch = bent({piece.begin, middle, piece.atBegin, atMiddle}, depth + 1)) return touch;
     return bent({middle, piece.end, atMiddle, piece.atEnd}, depth + 1);
+  }
+
+  /// True if the tool, with its radii grown, comes into the box of no solid along the chord of the piece.
+  bool missesAllBoxes(const Piece& piece, double growBall, double growShafts) const {
+    return std::ranges::all_of(surroundings_.items(), [&](const Surroundings::Item& item) {
+      const Pose atBegin = item.solidFromTable * piece.atBegin, atEnd = item.solidFromTable * piece.atEnd;
+      const bool balls = options_.ignoreBall || std::ranges::all_of(shape_.balls, [&](const Ball& ball) {
+                           return sweptBoxMisses(item.bounds, atBegin * ball.centre, atEnd * ball.centre,
+                                                 Vector3::Zero(), ball.radius + growBall);
+                         });
+      return balls &&
+             (options_.ignoreShafts || std::ranges::all_of(shape_.shafts, [&](const Shaft& given) {
+                const Shaft shaft = grown(given, growShafts);
+                const Vector3 axis = 0.5 * (atBegin.linear() * shaft.axis + atEnd.linear() * shaft.axis);
+                return sweptBoxMisses(item.bounds, atBegin * shaft.start, atEnd * shaft.start, axis, shaft.radius);
+              }));
+    });
   }
 
   /// The first touch of the tool, with its radii grown, along the chord of the piece.
