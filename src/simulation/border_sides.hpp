@@ -34,7 +34,7 @@ public:
 
   BorderSides(const TopoDS_Face& face, const Handle(Poly_Triangulation) & mesh, const TopLoc_Location& location);
 
-  /// The side from a node to another one; nothing if it is no part of a bent edge.
+  /// The side from a node to another one; nothing if it is not part of a bent edge.
   std::optional<Side> between(int node, int other) const;
   /// The point halfway along a side, if the straight line between its ends leaves it by more than `deviation`, mm.
   std::optional<Point> middle(const Side& side, double deviation) const;

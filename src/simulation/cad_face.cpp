@@ -8,6 +8,7 @@
 #include <Geom2d_TrimmedCurve.hxx>
 #include <Geom_Circle.hxx>
 #include <Geom_OffsetSurface.hxx>
+#include <Geom_Plane.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
 #include <Geom_SurfaceOfLinearExtrusion.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
@@ -122,7 +123,10 @@ std::vector<Vector2> borderPoints(const TopoDS_Edge& edge, const TopoDS_Face& fa
   if (plain->IsKind(STANDARD_TYPE(Geom2d_Line))) {
     parameters.push_back(last);
   } else {
-    const auto onSurface = [&](const Vector2& uv) { return vector(surface.Value(uv.x(), uv.y())); };
+    const bool flat = surface.IsKind(STANDARD_TYPE(Geom_Plane));
+    const auto onSurface = [&](const Vector2& uv) {
+      return flat ? Vector3(uv.x(), uv.y(), 0) : vector(surface.Value(uv.x(), uv.y()));
+    };
     const auto deviates = [&](double a, double b) {
       const Vector2 from = at(a);
       const Vector2 to = at(b);
@@ -244,13 +248,13 @@ bool meetsItsAxis(const CadFace& face) {
   return arm > kNearly * circle->Radius() && circle->Radius() > arm * (1 - kNearly);
 }
 
-CadFace cadFace(const TopoDS_Face& face) {
+CadFace cadFace(const TopoDS_Face& face, std::optional<TrimmedDomain> domain) {
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
   if (surface.IsNull()) throw std::runtime_error("a face has no surface");
   CadFace exact;
   exact.surface = surfaceWithoutLimits(surface);
   exact.reversed = face.Orientation() == TopAbs_REVERSED;
-  exact.domain = trimmedDomain(face, *exact.surface);
+  exact.domain = domain ? std::move(*domain) : trimmedDomain(face, *exact.surface);
   exact.forms = closedForms(BRepAdaptor_Surface(face, Standard_False), exact.domain);
   return exact;
 }

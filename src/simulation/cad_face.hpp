@@ -3,6 +3,7 @@
 #include <Geom_Surface.hxx>
 #include <TopoDS_Face.hxx>
 #include <array>
+#include <optional>
 
 #include "simulation/analytic_surface.hpp"
 #include "simulation/trimmed_domain.hpp"
@@ -29,8 +30,9 @@ struct CadFace {
   bool boundsSolid = false;  ///< belongs to a closed solid, so that a point is before or behind it
 };
 
-/// Reads a face. Throws Standard_Failure or std::runtime_error where it has no surface.
-CadFace cadFace(const TopoDS_Face& face);
+/// Reads a face. Throws Standard_Failure or std::runtime_error where it has no surface. Its domain takes long to find,
+/// unless it is known.
+CadFace cadFace(const TopoDS_Face& face, std::optional<TrimmedDomain> domain = std::nullopt);
 
 /// The surface without the limits that a trimmed surface, or a trimmed curve that made it, puts on its parameters. Only
 /// so does it tell its periods.

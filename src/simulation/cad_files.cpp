@@ -73,7 +73,7 @@ Result<std::unique_ptr<Solid>> import(TransferOrder order, const ImportOptions& 
     if (auto kept = cache.find(key)) {
       if (const auto part = partFromBytes(std::move(*kept)))
         return solidOf(*part, format, file, options,
-                       [&] { return exactModelOf(part->brep, options.deflection, options.stop); });
+                       [&] { return exactModel(part->shape, options.deflection, options.stop); });
     }
   }
   Result<ImportedInChild> imported = importInChild(std::move(order), options);

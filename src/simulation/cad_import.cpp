@@ -1,9 +1,6 @@
 #include "simulation/cad_import.hpp"
 
 #include <fmt/format.h>
-#include <BinTools.hxx>
-#include <Standard_Failure.hxx>
-#include <TopoDS_Shape.hxx>
 
 #include <algorithm>
 #include <chrono>
@@ -11,7 +8,6 @@
 #include <memory>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <vector>
 
 #include "simulation/child_process.hpp"
@@ -129,8 +125,8 @@ private:
   bool receive(HandedBytes bytes) {
     pieces_.push_back(std::move(bytes));
     if (pieces_.size() == 1) {
-      exact_ = std::async(std::launch::async, [this, brep = pieces_.front().view()] {
-        return exactModelOf(brep, order_.deflection, options_.stop);
+      exact_ = std::async(std::launch::async, [this, shape = pieces_.front().view()] {
+        return exactModel(shape, order_.deflection, options_.stop);
       });
     }
     return pieces_.size() == 2;
@@ -368,7 +364,7 @@ private:
                          faces_, grid.kind, attempt_ > 1 ? " in time" : "", grid.cell),
              "balls meet it as exactly as other faces; stylus and body may stop up to a cell outside its border");
     }
-    part.brep = pieces_[0].view();
+    part.shape = pieces_[0].view();
     part.elements = pieces_[1].view();
     part.storage = std::make_shared<const std::vector<HandedBytes>>(pieces_);
     return part;
@@ -405,14 +401,6 @@ private:
 
 Result<ImportedInChild> importInChild(TransferOrder order, const ImportOptions& options) {
   return Import(std::move(order), options).run();
-}
-
-CadModel exactModelOf(std::string_view brep, double deflection, std::stop_token stop) {
-  TopoDS_Shape shape;
-  std::istringstream stream{std::string(brep)};
-  BinTools::Read(shape, stream);
-  if (shape.IsNull()) throw std::runtime_error("it is empty");
-  return exactModel(shape, deflection, std::move(stop));
 }
 
 }  // namespace probewright::simulation

@@ -13,13 +13,10 @@ namespace probewright::simulation {
 
 struct ImportedInChild {
   ImportedPart part;
-  std::future<CadModel> exact;  ///< exactModelOf() its shape, begun while the child made the elements
+  std::future<CadModel> exact;  ///< exactModel() of its shape, begun while the child made the elements
 };
 
 /// Imports a file in a child process, with further tries where that fails on single faces.
 Result<ImportedInChild> importInChild(TransferOrder order, const ImportOptions& options);
-
-/// The exact model of a shape in OpenCASCADE's binary form. Throws as exactModel() does, also when `stop` is requested.
-CadModel exactModelOf(std::string_view brep, double deflection, std::stop_token stop);
 
 }  // namespace probewright::simulation

@@ -3,6 +3,7 @@
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepLib.hxx>
 #include <BRep_Tool.hxx>
+#include <BinTools.hxx>
 #include <GeomAdaptor_Curve.hxx>
 #include <GeomAdaptor_Surface.hxx>
 #include <Geom_Circle.hxx>
@@ -19,6 +20,7 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <algorithm>
+#include <sstream>
 #include <stdexcept>
 
 #include "simulation/cad_elements.hpp"
@@ -156,7 +158,12 @@ Faces facesOf(const TopoDS_Shape& shape) {
 }
 
 /// The exact faces and edges of a shape.
-CadModel exactModel(const TopoDS_Shape& shape, const Faces& faces, double deflection, const std::stop_token& stop) {
+CadModel exactModel(const TopoDS_Shape& shape, double deflection, std::vector<TrimmedDomain> domains,
+                    const std::stop_token& stop) {
+  BRepLib::BuildCurves3d(shape);
+  const Faces faces = facesOf(shape);
+  if (!domains.empty() && domains.size() != faces.faces.size())
+    throw std::runtime_error("its borders are not those of the shape");
   CadModel model;
   model.shape = shape;
   model.deflection = deflection;
@@ -164,7 +171,7 @@ CadModel exactModel(const TopoDS_Shape& shape, const Faces& faces, double deflec
   model.faces.resize(faces.faces.size());
   inParallel(faces.faces.size(), kWorthAThread, [&](std::size_t i) {
     if (stop.stop_requested()) throw std::runtime_error("it was interrupted");
-    model.faces[i] = cadFace(faces.faces[i]);
+    model.faces[i] = domains.empty() ? cadFace(faces.faces[i]) : cadFace(faces.faces[i], std::move(domains[i]));
     model.faces[i].boundsSolid = faces.boundSolid[i];
   });
   for (std::size_t i = 0; i < faces.faces.size(); ++i)
@@ -211,9 +218,36 @@ Bounds boundsOf(const CadModel& model) {
 
 }  // namespace
 
-CadModel exactModel(const TopoDS_Shape& shape, double deflection, std::stop_token stop) {
-  BRepLib::BuildCurves3d(shape);
-  return exactModel(shape, facesOf(shape), deflection, stop);
+CadModel exactModel(const TopoDS_Shape& shape, double deflection) { return exactModel(shape, deflection, {}, {}); }
+
+void appendShape(std::string& bytes, const CadModel& model) {
+  std::ostringstream brep;
+  BinTools::Write(model.shape, brep, Standard_False, Standard_False, BinTools_FormatVersion_CURRENT);
+  append(bytes, brep.view().size());
+  bytes += brep.view();
+  append(bytes, model.faces.size());
+  for (const CadFace& face : model.faces)
+    face.domain.appendTo(bytes);
+}
+
+CadModel exactModel(std::string_view bytes, double deflection, const std::stop_token& stop) {
+  const auto refuse = [] { return std::runtime_error("its bytes are not those of a shape"); };
+  std::size_t size = 0, count = 0;
+  if (!take(bytes, size) || size > bytes.size()) throw refuse();
+  TopoDS_Shape shape;
+  std::istringstream stream{std::string(bytes.substr(0, size))};
+  BinTools::Read(shape, stream);
+  if (shape.IsNull()) throw std::runtime_error("it is empty");
+  bytes.remove_prefix(size);
+  if (!take(bytes, count) || count > bytes.size()) throw refuse();
+  std::vector<TrimmedDomain> domains(count);
+  for (TrimmedDomain& domain : domains) {
+    auto taken = TrimmedDomain::takeFrom(bytes);
+    if (!taken) throw refuse();
+    domain = std::move(*taken);
+  }
+  if (!bytes.empty()) throw refuse();
+  return exactModel(shape, deflection, std::move(domains), stop);
 }
 
 void addElements(CadModel& model) {

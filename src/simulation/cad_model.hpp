@@ -69,8 +69,15 @@ CadModel cadModel(const TopoDS_Shape& shape, double deflection);
 
 // The same in steps, for two processes:
 
-/// The exact faces and edges of a shape, which may have triangles or not. A stop ends it with a std::runtime_error.
-CadModel exactModel(const TopoDS_Shape& shape, double deflection, std::stop_token stop = {});
+/// The exact faces and edges of a shape, which may have triangles or not.
+CadModel exactModel(const TopoDS_Shape& shape, double deflection);
+
+/// Appends the shape, and what takes long to find of its faces.
+void appendShape(std::string& bytes, const CadModel& model);
+
+/// The exact model of what appendShape() gave in a process of the same program. A stop ends it with a
+/// std::runtime_error.
+CadModel exactModel(std::string_view shape, double deflection, const std::stop_token& stop);
 
 /// What takes long to make, once the shape of an exact model has triangles: elements, tree and bounds.
 void addElements(CadModel& model);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRep_Tool.hxx>
-#include <BinTools.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom_Curve.hxx>
 #include <Geom_Surface.hxx>
@@ -307,13 +306,13 @@ void transferCad(const TransferOrder& order, const ChildVoice& voice) {
     shape = withoutKinks(shape);
     // What cannot survive this must not happen in the parent.
     CadModel model = exactModel(shape, order.deflection);
-    std::ostringstream brep;
-    BinTools::Write(shape, brep, Standard_False, Standard_False, BinTools_FormatVersion_CURRENT);
-    voice.hand(brep.view());
+    std::string bytes;
+    appendShape(bytes, model);
+    voice.hand(bytes);
     mesh(shape, order, voice);
     voice.say("stage preparing the faces");
     addElements(model);
-    std::string bytes;
+    bytes.clear();
     appendElements(bytes, model);
     voice.hand(bytes);
   });

@@ -20,9 +20,8 @@ struct TransferOrder {
   bool gridAll = false;     ///< as FaceMeshOptions::leaveAll
 };
 
-/// Reads the file, builds the shape, gives it triangles and prepares it for contact. Hands over the shape in
-/// OpenCASCADE's binary form, as soon as that is sure to survive being prepared, then what
-/// appendElements() makes of it.
+/// Reads the file, builds the shape, gives it triangles and prepares it for contact. Hands over what
+/// appendShape() makes of it, as soon as it is sure to survive being prepared, and then what appendElements() makes.
 /// Meanwhile says, a line each:
 ///   stage TEXT           what it does now
 ///   failed TEXT          why there is no shape

@@ -50,7 +50,7 @@ private:
 
 std::string toBytes(const ImportedPart& part) {
   std::string bytes;
-  bytes.reserve(part.brep.size() + part.elements.size() + 1000);
+  bytes.reserve(part.shape.size() + part.elements.size() + 1000);
   bytes += kTitle;
   put(bytes, std::uint64_t{part.remarks.size()});
   for (const Diagnostic& remark : part.remarks) {
@@ -58,7 +58,7 @@ std::string toBytes(const ImportedPart& part) {
     put(bytes, remark.message);
     put(bytes, remark.advice);
   }
-  put(bytes, part.brep);
+  put(bytes, part.shape);
   put(bytes, part.elements);
   return bytes;
 }
@@ -77,9 +77,9 @@ std::optional<ImportedPart> partFromBytes(std::string bytes) {
     if (!line || !message || !advice) return std::nullopt;
     part.remarks.push_back({Severity::Warning, {{}, *line, 0}, std::string(*message), {}, std::string(*advice), {}});
   }
-  const auto brep = reader.text(), elements = reader.text();
-  if (!brep || !elements || !reader.atEnd()) return std::nullopt;
-  part.brep = *brep;
+  const auto shape = reader.text(), elements = reader.text();
+  if (!shape || !elements || !reader.atEnd()) return std::nullopt;
+  part.shape = *shape;
   part.elements = *elements;
   return part;
 }

@@ -13,7 +13,7 @@ namespace probewright::simulation {
 struct ImportedPart {
   /// Warnings about what is missing or not as it should be; their places have lines, but no file.
   Diagnostics remarks;
-  std::string_view brep;      ///< the shape, in OpenCASCADE's binary form
+  std::string_view shape;     ///< what appendShape() makes of it
   std::string_view elements;  ///< what appendElements() makes of it
   /// Where they lie: most of a large part is not copied.
   std::shared_ptr<const void> storage;

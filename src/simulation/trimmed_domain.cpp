@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/memory_text.hpp"
+
 namespace probewright::simulation {
 namespace {
 
@@ -116,6 +118,19 @@ double TrimmedDomain::area() const {
     twice += from.x() * to.y() - from.y() * to.x();
   }
   return std::abs(twice) / 2;
+}
+
+void TrimmedDomain::appendTo(std::string& bytes) const {
+  append(bytes, border_);
+  append(bytes, periodU_);
+  append(bytes, periodV_);
+}
+
+std::optional<TrimmedDomain> TrimmedDomain::takeFrom(std::string_view& bytes) {
+  std::vector<Segment> border;
+  double periodU = 0, periodV = 0;
+  if (!take(bytes, border) || !take(bytes, periodU) || !take(bytes, periodV)) return std::nullopt;
+  return TrimmedDomain(std::move(border), periodU, periodV);
 }
 
 }  // namespace probewright::simulation

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "geometry/primitives.hpp"
@@ -32,6 +35,11 @@ public:
   const Vector2& high() const { return high_; }
   /// The area within the polygons where all run in their right sense.
   double area() const;
+
+  /// Appends it as it lies in memory.
+  void appendTo(std::string& bytes) const;
+  /// Takes what appendTo() gave from the beginning of `bytes`; nothing if they are not that.
+  static std::optional<TrimmedDomain> takeFrom(std::string_view& bytes);
 
 private:
   bool containsPlain(const Vector2& p) const;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
+#include <stop_token>
 #include <thread>
 
 #include "simulation/child_process.hpp"
@@ -38,6 +39,40 @@ TEST(ChildProcess, HandsItsResultAndItsLinesBack) {
   EXPECT_EQ(end.how, How::Finished);
   EXPECT_EQ(end.result, large);
   EXPECT_THAT(lines, ElementsAre("one", "two lines"));
+}
+
+TEST(ChildProcess, HandsOverWhatIsDoneWhileItWorksOn) {
+  const std::string large(3'000'001, 'y');
+  std::vector<HandedBytes> pieces;
+  const ChildEnd end = inChild(
+      [&](const ChildVoice& voice) -> std::string {
+        voice.hand("first");
+        voice.hand(large);
+        for (;;)
+          std::this_thread::sleep_for(std::chrono::seconds(1));
+      },
+      {}, [](std::string_view line) { ADD_FAILURE() << line; }, [](double) { return false; },
+      [&](HandedBytes bytes) {
+        pieces.push_back(std::move(bytes));
+        return pieces.size() == 2;
+      });
+  EXPECT_EQ(end.how, How::Finished);
+  EXPECT_EQ(end.result, "");
+  ASSERT_EQ(pieces.size(), 2U);
+  EXPECT_EQ(pieces[0].view(), "first");
+  EXPECT_TRUE(pieces[1].view() == large);
+}
+
+TEST(ChildProcess, ThatHandsOverHalfOfItsWorkIsNotDone) {
+  const ChildEnd end = inChild(
+      [](const ChildVoice& voice) -> std::string {
+        voice.hand("half");
+        std::raise(SIGSEGV);
+        return "whole";
+      },
+      {}, [](std::string_view) {}, [](double) { return false; }, [](const HandedBytes&) { return false; });
+  EXPECT_EQ(end.how, How::Crashed);
+  EXPECT_EQ(end.result, "");
 }
 
 TEST(ChildProcess, TellsHowItDied) {
@@ -134,15 +169,24 @@ TEST(StepText, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(message("#1=A(" + std::string(200'000, '(') + ";\n"), HasSubstr("#1 are nested too deeply"));
 }
 
+TEST(StepText, IsNotReadToItsEndOnceSomebodyAsksForAStop) {
+  std::stop_source stop;
+  stop.request_stop();
+  const std::string bytes = step("#1=A();\n");
+  const auto text = scanStep(bytes, "p.step", stop.get_token());
+  ASSERT_FALSE(text);
+  EXPECT_THAT(format(text.error()), HasSubstr("was interrupted"));
+}
+
 TEST(ImportedPart, ComesBackAsItWas) {
   ImportedPart part;
   part.remarks.push_back({Severity::Warning, {{}, 17, 0}, "a face is missing", {}, "export it again", {}});
-  part.brep = std::string_view("any\0bytes", 9);
+  part.shape = std::string_view("any\0bytes", 9);
   part.elements = std::string_view("more\0of them", 12);
   const std::string bytes = toBytes(part);
   const auto read = partFromBytes(bytes);
   ASSERT_TRUE(read);
-  EXPECT_EQ(read->brep, part.brep);
+  EXPECT_EQ(read->shape, part.shape);
   EXPECT_EQ(read->elements, part.elements);
   ASSERT_EQ(read->remarks.size(), 1U);
   EXPECT_EQ(read->remarks[0].message, "a face is missing");

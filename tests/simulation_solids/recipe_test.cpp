@@ -176,6 +176,11 @@ TEST(Recipe, NamesOfShapesReadBack) {
   EXPECT_FALSE(featureShapeNamed("blob"));
 }
 
+Vector3 corner(const std::vector<float>& list, std::uint32_t i) {
+  const std::size_t first = 3 * std::size_t{i};
+  return {list[first], list[first + 1], list[first + 2]};
+}
+
 TEST(DrawingMesh, ShowsACadSolidWithOutwardNormalsAndItsEdges) {
   const auto solid = buildSolid(ringGauge(50, 80, 20));
   ASSERT_TRUE(solid);
@@ -183,9 +188,6 @@ TEST(DrawingMesh, ShowsACadSolidWithOutwardNormalsAndItsEdges) {
   EXPECT_EQ(drawing.positions.size(), drawing.normals.size());
   EXPECT_EQ(drawing.featureEdges.size(), 4U) << "the four rims, no seams";
   double volumeOfTriangles = 0;
-  const auto corner = [&](const std::vector<float>& list, std::uint32_t i) {
-    return Vector3(list[3 * i], list[3 * i + 1], list[3 * i + 2]);
-  };
   for (std::size_t i = 0; i < drawing.indices.size(); i += 3) {
     const Vector3 a = corner(drawing.positions, drawing.indices[i]);
     const Vector3 b = corner(drawing.positions, drawing.indices[i + 1]);
@@ -200,6 +202,32 @@ TEST(DrawingMesh, ShowsACadSolidWithOutwardNormalsAndItsEdges) {
       const double radius = std::hypot(line[i], line[i + 1]);
       EXPECT_LT(std::min(std::abs(radius - 25), std::abs(radius - 40)), 1e-4);
     }
+  }
+}
+
+TEST(DrawingMesh, StaysNearFacesThatAreBentBothWays) {
+  SolidFeature feature;
+  feature.diameter = 60;
+  feature.tubeDiameter = 16;
+  for (const bool torus : {true, false}) {
+    feature.shape = torus ? FeatureShape::Torus : FeatureShape::Sphere;
+    const auto solid = buildSolid({{feature}});
+    ASSERT_TRUE(solid) << format(solid.error());
+    const auto offSurface = [&](const Vector3& p) {
+      return torus ? std::hypot(p.head<2>().norm() - 30, p.z()) - 8 : p.norm() - 30;
+    };
+    const DrawingMesh drawing = drawingMesh(**solid);
+    ASSERT_GT(drawing.indices.size(), 300U);
+    double farthest = 0;
+    for (std::size_t i = 0; i < drawing.indices.size(); i += 3) {
+      const Vector3 a = corner(drawing.positions, drawing.indices[i]);
+      const Vector3 b = corner(drawing.positions, drawing.indices[i + 1]);
+      const Vector3 c = corner(drawing.positions, drawing.indices[i + 2]);
+      for (const Vector3& place : {Vector3((a + b) / 2), Vector3((b + c) / 2), Vector3((c + a) / 2)})
+        farthest = std::max(farthest, std::abs(offSurface(place)));
+    }
+    // Half a hundredth for the float numbers of a drawing and the place of the deepest point of a side.
+    EXPECT_LT(farthest, 0.055) << (torus ? "torus" : "sphere");
   }
 }
 
