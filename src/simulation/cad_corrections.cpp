@@ -5,7 +5,6 @@
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <IGESGeom_OffsetSurface.hxx>
-#include <STEPControl_Reader.hxx>
 #include <StepGeom_Axis2Placement3d.hxx>
 #include <StepGeom_CartesianPoint.hxx>
 #include <StepGeom_CartesianTransformationOperator3d.hxx>
@@ -24,7 +23,6 @@
 #include <StepShape_Loop.hxx>
 #include <StepShape_VertexLoop.hxx>
 #include <TColStd_HArray1OfReal.hxx>
-#include <TColStd_SequenceOfAsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -137,17 +135,6 @@ Handle(Standard_Transient) unreadableApex(const Handle(Interface_InterfaceModel)
     }
   }
   return nullptr;
-}
-
-bool isInMetres(STEPControl_Reader& reader) {
-  TColStd_SequenceOfAsciiString lengths, angles, solidAngles;
-  reader.FileUnits(lengths, angles, solidAngles);
-  for (const TCollection_AsciiString& unit : lengths) {
-    TCollection_AsciiString name = unit;
-    name.LowerCase();
-    if (name == "metre" || name == "meter" || name == "m") return true;
-  }
-  return false;
 }
 
 void takePlainOffsets(const Handle(Interface_InterfaceModel) & model) {

@@ -3,7 +3,6 @@
 #include <Interface_InterfaceModel.hxx>
 #include <Standard_Transient.hxx>
 
-class STEPControl_Reader;
 class XSControl_Reader;
 
 /// Entities of files that OpenCASCADE takes for something else than the standards mean.
@@ -20,10 +19,6 @@ Handle(Standard_Transient) unreadableOffset(const Handle(Interface_InterfaceMode
 /// A face of STEP on a surface of revolution that is bounded by a single vertex; null if there is none. OpenCASCADE
 /// takes it for unbounded there.
 Handle(Standard_Transient) unreadableApex(const Handle(Interface_InterfaceModel) & model);
-
-/// Whether lengths of a STEP file are metres. OpenCASCADE then loses the borders of some faces whose edges meet at the
-/// pole of a ball or that are parts of closed surfaces.
-bool isInMetres(STEPControl_Reader& reader);
 
 /// Gives faces of STEP that lie on the offset of a plane, cylinder, sphere or torus the plane, cylinder, sphere or
 /// torus itself: OpenCASCADE does not find their edges on the offset.

@@ -79,7 +79,6 @@ private:
     gaps_.clear();
     unable_ = {};
     scale_.clear();
-    metres_ = false;
     failure_.clear();
     edges_.clear();
     at_.clear();
@@ -163,8 +162,6 @@ private:
       gaps_.push_back({std::string(label), std::string(size)});
     } else if (word == "scaled") {
       scale_ = rest;
-    } else if (word == "metres") {
-      metres_ = true;
     } else if (word == "unable") {
       const auto [label, reason] = firstWord(rest);
       unable_ = {std::string(label), std::string(reason)};
@@ -347,12 +344,6 @@ private:
              fmt::format("{} cannot be read: {}", names_->nameOf(suspects_[i].label), suspects_[i].reason),
              "the file is damaged in this entity; export or copy the part again");
     }
-    if (metres_) {
-      remark(part, 0,
-             "the file is in metres; faces with a corner at the pole of a ball and parts of closed surfaces are "
-             "sometimes read wrongly from such files",
-             "export the part in millimetres or inches");
-    }
     for (const Grid& grid : grids_) {
       if (numberIn(grid.cell) == 0 && grid.cell.starts_with("0.000")) {
         remark(part, 0, fmt::format("face {} of {} ({}) cannot be meshed and is missing", grid.face, faces_, grid.kind),
@@ -388,7 +379,7 @@ private:
   Suspect unable_;
   std::string scale_;
   std::string stage_, failure_, edges_, at_;
-  bool metres_ = false, skin_ = false, nothing_ = false, meshing_ = false, preparing_ = false;
+  bool skin_ = false, nothing_ = false, meshing_ = false, preparing_ = false;
   int faces_ = 0, done_ = 0;
   std::vector<HandedBytes> pieces_;
 

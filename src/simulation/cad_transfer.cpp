@@ -46,6 +46,7 @@
 #include "simulation/cad_model.hpp"
 #include "simulation/face_mesh.hpp"
 #include "simulation/parallel.hpp"
+#include "simulation/step_text.hpp"
 
 namespace probewright::simulation {
 namespace {
@@ -92,7 +93,7 @@ std::unique_ptr<XSControl_Reader> load(const TransferOrder& order, const ChildVo
   Interface_Static::SetCVal("xstep.cascade.unit", "MM");
   IFSelect_ReturnStatus status = IFSelect_RetVoid;
   if (order.format == CadFormat::Step) {
-    std::istringstream stream(order.bytes);
+    std::istringstream stream(withCapitalExponents(order.bytes));
     status = static_cast<STEPControl_Reader&>(*reader).ReadStream(order.file.c_str(), stream);
   } else {
     status = reader->ReadFile(order.file.c_str());
@@ -294,7 +295,6 @@ void transferCad(const TransferOrder& order, const ChildVoice& voice) {
     }
     nameLostFaces(*reader, voice);
     nameGaps(*reader, voice);
-    if (order.format == CadFormat::Step && isInMetres(static_cast<STEPControl_Reader&>(*reader))) voice.say("metres");
     if (const double scale = scaleOf(reader->WS()->Model()); scale != 1) {
       voice.say(fmt::format("scaled {:.9g}", scale));
       gp_Trsf enlarge;

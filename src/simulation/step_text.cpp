@@ -194,6 +194,18 @@ std::uint64_t circularEntity(const StepText& text) {
   return at;
 }
 
+std::string withCapitalExponents(std::string bytes) {
+  const auto isDigit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  bool inText = false;
+  for (std::size_t i = 1; i + 1 < bytes.size(); ++i) {
+    if (bytes[i] == '\'') inText = !inText;
+    if (bytes[i] != 'e' || inText || (!isDigit(bytes[i - 1]) && bytes[i - 1] != '.')) continue;
+    const char next = bytes[i + 1];
+    if (isDigit(next) || next == '-' || next == '+') bytes[i] = 'E';
+  }
+  return bytes;
+}
+
 Result<StepText> scanStep(std::string_view bytes, const std::string& file, const std::stop_token& stop) {
   constexpr std::string_view mark = "\xEF\xBB\xBF";
   if (bytes.starts_with(mark)) bytes.remove_prefix(mark.size());

@@ -34,4 +34,7 @@ std::uint64_t circularEntity(const StepText& text);
 /// the brackets is not looked at. `bytes` must outlive the result. A stop ends it with a mistake.
 Result<StepText> scanStep(std::string_view bytes, const std::string& file, const std::stop_token& stop = {});
 
+/// The text of a STEP file with the exponents of its numbers in capitals, 1.E-5: OpenCASCADE takes 1.e-5 for 1.
+std::string withCapitalExponents(std::string bytes);
+
 }  // namespace probewright::simulation

@@ -90,8 +90,7 @@ TEST(WrittenParts, OfAnyDialectAreMetWhereTheyAre) {
           const bool splines = (body == "bush" || body == "cap") && surfaces == Dialect::Surfaces::Splines;
           if (apex || coneOffset || splines || (body == "cap" && surfaces == Dialect::Surfaces::Offset)) continue;
           const std::array lengths{1.0, 25.4, 1000.0};
-          const bool poles = body != "bush" && body != "ring";  // corners at a pole are not read rightly in metres
-          StepFile file({lengths[static_cast<std::size_t>(k++ % (poles ? 2 : 3))], random() % 2 == 0});
+          StepFile file({lengths[static_cast<std::size_t>(k++ % 3)], random() % 2 == 0});
           const Pose pose = randomPose(random, 60);
           const std::vector<int> faces = revolvedFaces(file, meridian, pose, dialect);
           const std::string name = fmt::format(
@@ -276,17 +275,33 @@ TEST(WrittenParts, WithConesOfRevolutionThatEndAtTheirApexAreRefused) {
                                                "apex without an edge"));
 }
 
-TEST(WrittenParts, InMetresAreReadWithAWarning) {
-  const ScratchFolder folder;
-  for (const double length : {1.0, 25.4, 1000.0}) {
+TEST(WrittenParts, WithExponentsInSmallLettersAreMetWhereTheyAre) {
+  std::mt19937_64 random(210);
+  for (const double length : {1.0, 1000.0}) {
     StepFile file({length, false});
-    const std::string text = file.withItems({solidOf(file, revolvedFaces(file, bush(), Pose::Identity(), {}))});
+    // A part of a few hundredths: nearly all its coordinates have exponents in metres.
+    const Meridian pin{{{0, -0.02}, {0.03, -0.02}, {0.03, 0.02}, {0, 0.02}}};
+    const Pose pose = randomPose(random, 0.05);
+    std::string text = file.withItems({solidOf(file, revolvedFaces(file, pin, pose, {}))});
+    std::size_t count = 0;
+    for (std::size_t i = 1; i + 1 < text.size(); ++i) {
+      const bool number = std::isdigit(static_cast<unsigned char>(text[i - 1])) != 0 || text[i - 1] == '.';
+      if (text[i] != 'E' || text[i + 1] != '-' || !number) continue;
+      text[i] = 'e';
+      ++count;
+    }
+    EXPECT_TRUE(length < 1000 || count > 20) << count;
+    const ScratchFolder folder;
     const auto solid = readStep(folder.write("part.step", text));
     ASSERT_TRUE(solid) << format(solid.error());
-    const Diagnostics& remarks = dynamic_cast<const CadSolid&>(**solid).remarks();
-    ASSERT_EQ(remarks.size(), length == 1000 ? 1U : 0U);
-    for (const Diagnostic& remark : remarks)
-      EXPECT_THAT(format(remark), HasSubstr("warning: the file is in metres"));
+    EXPECT_TRUE(dynamic_cast<const CadSolid&>(**solid).remarks().empty());
+    const Distance distance = distanceOf(pin, pose);
+    for (int i = 0; i < 20; ++i) {
+      const Vector3 middle = pose.translation();
+      const auto contact = (*solid)->firstContact(middle + randomDirection(random), middle, 0.01);
+      ASSERT_TRUE(contact);
+      EXPECT_NEAR(distance(contact->ballCentre), 0.01, 1e-6);
+    }
   }
 }
 

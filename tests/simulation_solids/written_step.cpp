@@ -11,9 +11,9 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 std::string number(double value) {
-  std::string text = fmt::format("{:.15g}", value);
-  if (text.find_first_of(".e") == std::string::npos) text += '.';
-  const std::size_t e = text.find('e');
+  std::string text = fmt::format("{:.15G}", value);
+  if (text.find_first_of(".E") == std::string::npos) text += '.';
+  const std::size_t e = text.find('E');
   if (e != std::string::npos && text.find('.') == std::string::npos) text.insert(e, ".");
   return text;
 }
