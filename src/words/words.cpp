@@ -222,7 +222,15 @@ std::string translated(DialogLanguage language, std::string_view english) {
   if (const auto name = exact.find(english.substr(0, colon)); colon != std::string_view::npos && name != exact.end())
     return name->at(*column).get<std::string>() + ": " + translated(language, english.substr(colon + 2));
   if (auto whole = known(language, *column, english)) return *whole;
-  if (colon == std::string_view::npos) return std::string(english);
+  if (colon == std::string_view::npos) {
+    // A feature with its size.
+    const std::size_t size = english.find_first_of("0123456789");
+    if (size != std::string_view::npos && size > 1 && english[size - 1] == ' ') {
+      if (const auto name = exact.find(english.substr(0, size - 1)); name != exact.end())
+        return name->at(*column).get<std::string>().append(english.substr(size - 1));
+    }
+    return std::string(english);
+  }
   const std::string_view name = english.substr(0, colon), sentence = english.substr(colon + 2);
   return known(language, *column, name).value_or(std::string(name)) + ": " + translated(language, sentence);
 }

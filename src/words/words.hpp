@@ -25,7 +25,7 @@ std::string counted(DialogLanguage language, std::string_view key, std::size_t n
 
 /// A title of a cycle, a name of an alarm or a sentence about a run in another language, by web/src/texts/phrases.json:
 /// a phrase as it stands there, or one with values in the places of {0}, {1}...; of "NAME: sentence" each part for
-/// itself. What the table does not know stays English.
+/// itself, of "Hole 40" the word before its size. What the table does not know stays English.
 std::string translated(DialogLanguage language, std::string_view english);
 
 /// The same of the text as a whole: for what may be a program's own words.

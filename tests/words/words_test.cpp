@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -55,6 +56,27 @@ TEST(Words, EveryTitleOfACycleHasItsWords) {
         EXPECT_NE(phrase(language, cycle->title), cycle->title) << code(language);
     }
   }
+}
+
+TEST(Words, TheFeaturesOfSinumerikCyclesHaveTheirWords) {
+  int features = 0;
+  for (const cycles::CycleDefinition* cycle : cycles::cyclesOf(control::ControlKind::Sinumerik840Dsl)) {
+    if (cycle->parameters.empty() || cycle->parameters.front().digits.empty()) continue;
+    const cycles::CodeDigit& digit = cycle->parameters.front().digits.front();
+    if (digit.meaning != "feature") continue;
+    for (const cycles::Choice& choice : digit.choices) {
+      ++features;
+      std::string title(choice.meaning);
+      title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
+      for (const DialogLanguage language : others) {
+        EXPECT_NE(translated(language, title), title) << code(language);
+        EXPECT_NE(translated(language, title + " 30 x 20"), title + " 30 x 20") << code(language);
+      }
+    }
+  }
+  EXPECT_GT(features, 10);
+  EXPECT_EQ(translated(DialogLanguage::German, "Rectangular pocket 30 x 20"), "Rechtecktasche 30 x 20");
+  EXPECT_EQ(phrase(DialogLanguage::German, "Hole 40"), "Hole 40") << "a program may say so";
 }
 
 TEST(Words, EveryAlarmOfTheMeasuringCyclesHasItsWords) {

@@ -43,7 +43,7 @@ export function phrase(english: string): string {
   return (column < 0 ? undefined : known(english, column)) ?? english;
 }
 
-/** The same, of "NAME: sentence" each part for itself. */
+/** The same, of "NAME: sentence" each part for itself, of "Hole 40" the word before its size. */
 export function translated(english: string): string {
   const column = columns.indexOf(currentLanguage());
   if (column < 0) return english;
@@ -53,6 +53,10 @@ export function translated(english: string): string {
   if (colon >= 0 && Object.hasOwn(exact, name)) return `${exact[name][column]}: ${translated(english.slice(colon + 2))}`;
   const whole = known(english, column);
   if (whole !== undefined) return whole;
-  if (colon < 0) return english;
+  if (colon < 0) {
+    // A feature with its size.
+    const [, feature = "", size = ""] = /^([^0-9]+)( [0-9].*)$/s.exec(english) ?? [];
+    return Object.hasOwn(exact, feature) ? exact[feature][column] + size : english;
+  }
   return `${known(name, column) ?? name}: ${translated(english.slice(colon + 2))}`;
 }
