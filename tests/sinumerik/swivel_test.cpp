@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <random>
 
 #include "machine/rotary_solver.hpp"
@@ -49,6 +50,30 @@ TEST(Swivel, TheToolStandsSquareToThePlane) {
       EXPECT_LT((world.control.machineFromWorkpiece().matrix() - expected.matrix()).norm(), 1e-9) << name;
     }
   }
+}
+
+/// _FR = 1 retracts Z, 2 also X and Y, to where the data set says; without an entry to the end of Z and to where tools
+/// are changed.
+TEST(Swivel, RetractsToThePositionsOfTheDataSet) {
+  const auto standsAfter = [](int retract, bool entered) {
+    World world("mill5-table-table");
+    if (entered) {
+      world.control.data.load({"$TC_CARR38", {1}}, -111.0);
+      world.control.data.load({"$TC_CARR39", {1}}, 77.0);
+      world.control.data.load({"$TC_CARR40", {1}}, -42.5);
+    }
+    world.run(fmt::format("T2 M6\nG0 X-10 Y-20\nCYCLE800({},\"\",0,57,0,0,0,10,0,0,0,0,0,-1)\n", retract));
+    const auto axes = world.control.channel.axes();
+    const machine::MachineDescription& machine = world.control.channel.description();
+    return std::array{axes[*machine.axisIndex("X")], axes[*machine.axisIndex("Y")], axes[*machine.axisIndex("Z")]};
+  };
+  const machine::MachineDescription machine = *machine::readMachine("mill5-table-table");
+  const std::size_t x = *machine.axisIndex("X"), y = *machine.axisIndex("Y"), z = *machine.axisIndex("Z");
+  const auto onlyZ = standsAfter(1, true), stayed = standsAfter(0, true);
+  EXPECT_EQ(onlyZ, (std::array{stayed[0], stayed[1], -42.5}));
+  EXPECT_EQ(standsAfter(2, true), (std::array{-111.0, 77.0, -42.5}));
+  EXPECT_EQ(standsAfter(2, false), (std::array{machine.toolChange[x], machine.toolChange[y], machine.axes[z].maximum}));
+  EXPECT_NE(stayed[2], -42.5);
 }
 
 /// Two rotary axes point the tool in a direction in two ways. That of which the direction was made is one; the other

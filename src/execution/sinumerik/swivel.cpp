@@ -42,17 +42,28 @@ std::optional<double> intoTravel(const machine::Axis& axis, double degrees) {
   return angle;
 }
 
-/// The data set that the call names, or else the one that was used last, or the first, counts from here on. Where the
+/// The data set that the call names, or else the one that was used last, or the first; 0: there is none. Where the
 /// machine builder has given it another name than the program, that is the only one.
-void useDataSet(Control& control, const std::string& name) {
+int dataSetOf(const Control& control, const std::string& name) {
   const auto named = name.empty() ? std::nullopt : control::sinumerik::carrierNamed(control.data, name);
-  if (named) control.carrier = *named;
-  if (control.carrier == 0 && control::sinumerik::toolCarrier(control.data, 1)) control.carrier = 1;
+  if (named) return *named;
+  return control.carrier == 0 && control::sinumerik::toolCarrier(control.data, 1) ? 1 : control.carrier;
+}
+
+/// It counts from here on.
+void useDataSet(Control& control, int dataSet) {
+  control.carrier = dataSet;
   control.swivelled = true;
   control.useKinematics();
 }
 
-void retract(Control& control, const SwivelCall& call) {
+/// Where an axis retracts to: $TC_CARR38 (X), 39 (Y), 40 (Z) of the data set where they are entered, machine
+/// coordinates.
+double retractionOf(const Control& control, int dataSet, int datum, double otherwise) {
+  return control.data.number(control::sinumerik::carrierDatum(datum, dataSet), otherwise);
+}
+
+void retract(Control& control, const SwivelCall& call, int dataSet) {
   control::Channel& channel = control.channel;
   const machine::MachineDescription& machine = channel.description();
   AxisPositions target = channel.axes();
@@ -62,12 +73,17 @@ void retract(Control& control, const SwivelCall& call) {
     case 2:
     case 4:
       if (z) {
-        target[*z] = machine.axes[*z].maximum;
+        const double end = machine.axes[*z].maximum;
+        target[*z] = call.retract == 4 ? end : retractionOf(control, dataSet, 40, end);
         channel.moveAxes(target, control::Feed::rapidTraverse());
       }
       if (call.retract == 2) {
-        for (const char* name : {"X", "Y"})
-          if (const auto axis = machine.axisIndex(name)) target[*axis] = machine.toolChange[*axis];
+        int datum = 38;
+        for (const char* name : {"X", "Y"}) {
+          if (const auto axis = machine.axisIndex(name))
+            target[*axis] = retractionOf(control, dataSet, datum, machine.toolChange[*axis]);
+          ++datum;
+        }
         channel.moveAxes(target, control::Feed::rapidTraverse());
       }
       return;
@@ -150,18 +166,19 @@ void deselectSwivel(Control& control) {
 void swivel(Control& control, const SwivelCall& call) {
   control::Channel& channel = control.channel;
   const machine::MachineDescription& machine = channel.description();
+  const int dataSet = dataSetOf(control, call.dataSet);
   if (call.dataSet == "0") {
-    retract(control, call);
+    retract(control, call, dataSet);
     return deselectSwivel(control);
   }
   const std::vector<std::size_t> axes = rotaryAxes(machine);
   const auto rotation = swivelRotation(call.mode, call.angles);
   if (axes.empty() && (!rotation || !rotation->isIdentity(1e-12)))
     throw Alarm("62181", "the machine has no rotary axis to swivel with", "choose a machine with rotary axes");
-  retract(control, call);
+  retract(control, call, dataSet);
 
   const bool additive = call.state % 10 == 1;
-  useDataSet(control, call.dataSet);
+  useDataSet(control, dataSet);
   const SwivelTravel travel(control);
   const char* unreachable = "the rotary axes cannot take this plane within their travels";
   const char* travelAdvice =
