@@ -5,12 +5,15 @@
 #include <string_view>
 
 #include "control/heidenhain/axis_shift_table.hpp"
+#include "control/heidenhain/compensation_grid.hpp"
 #include "control/heidenhain/datum_table.hpp"
 #include "control/heidenhain/deflection_table.hpp"
+#include "control/heidenhain/kinematic_tables.hpp"
 #include "control/heidenhain/preset_table.hpp"
 #include "control/heidenhain/probe_table.hpp"
 #include "control/heidenhain/tool_table.hpp"
 #include "control/heidenhain/turning_tool_table.hpp"
+#include "machine/machine_file.hpp"
 #include "session/answers.hpp"
 #include "session/heidenhain/beliefs.hpp"
 #include "session/sinumerik/beliefs.hpp"
@@ -75,6 +78,26 @@ void deflections(const TypedTable& table) {
   if (made) require(deflectionsOf(*made).size() == rows.size());
 }
 
+void kinematics(const TypedTable& table) { require(entriesOf(table).size() <= table.table().keys().size()); }
+void saved(const TypedTable& table) {
+  for (const SavedKinematics& record : savedKinematicsOf(table))
+    require(record.entries.size() <= table.table().keys().size());
+}
+/// What a grid says at its nodes is what its table says; elsewhere it is a number.
+void grids(const TypedTable& table) {
+  static const machine::MachineDescription machine = machine::readMachine("mill5-table-table").value();
+  const auto grid = CompensationGrid::of(table, machine);
+  if (!grid) {
+    require(!format(grid.error()).empty());
+    return;
+  }
+  bool finite = true;
+  for (std::size_t i = 0; i < grid->size(); ++i)
+    finite = finite && grid->value(i).allFinite();
+  for (std::size_t i = 0; finite && i < grid->size(); ++i)
+    require(grid->at(grid->node(i)) == grid->value(i));
+}
+
 void answers(std::string_view text) {
   const auto read = session::parseAnswers(text, "ANSWERS.TXT");
   if (!read) {
@@ -105,12 +128,12 @@ void parameters(std::string_view text) {
 
 }  // namespace
 
-// The first byte selects a reader, the rest is what it reads: the tables of HEIDENHAIN controls, the answers of an
-// operator, the [parameters] of a setup.
+// The first byte selects a reader, the rest is what it reads: the tables of HEIDENHAIN controls, those of
+// kinematics included, the answers of an operator, the [parameters] of a setup.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
-  switch (data[0] % 9) {
+  switch (data[0] % 12) {
     case 0:
       table(text, toolColumns(), tools);
       break;
@@ -134,6 +157,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case 7:
       answers(text);
+      break;
+    case 8:
+      table(text, kinematicColumns(), kinematics);
+      break;
+    case 9:
+      table(text, savedKinematicColumns(), saved);
+      break;
+    case 10:
+      table(text, gridColumns(), grids);
       break;
     default:
       parameters(text);

@@ -1,0 +1,15 @@
+00 BEGIN PGM TOOL MM
+1 ; The tool touch probe is calibrated with a pin, then a mill is measured: the longest and the largest of its teeth.
+2 TOOL CALL 9 Z
+3 TCH PROBE 480 CALIBRATE TT ~
+    Q260=+100 ;CLEARANCE HEIGHT
+4 TOOL CALL 12 Z
+5 TCH PROBE 483 MEASURE TOOL ~
+    Q340=+0 ;CHECK ~
+    Q260=+100 ;CLEARANCE HEIGHT ~
+    Q341=+0 ;PROBING THE TEETH
+6 TCH PROBE 482 TOOL RADIUS ~
+    Q340=+1 ;CHECK ~
+    Q260=+100 ;CLEARANCE HEIGHT ~
+    Q341=+0 ;PROBING THE TEETH
+7 END PGM TOOL MM
