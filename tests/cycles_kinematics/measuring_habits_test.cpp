@@ -154,6 +154,31 @@ TEST(Indexing, StopsWhereTheBodyOfTheProbeMeetsSomething) {
   }
 }
 
+/// A table that turns over leads the stem towards the probe, which turns about the sphere: the flank of the stem meets
+/// the rim of the body. The rim is `rim` from the tool's axis and `along` from the middle of the sphere; where the stem
+/// leans b from that axis, the rim is along sin b - rim cos b from the axis of the stem.
+TEST(Indexing, StopsWhereTheBodyOfTheProbeMeetsTheStem) {
+  constexpr double stylus = 30, rim = 20, flank = 4, ball = 2;
+  for (const double sense : {-1.0, 1.0}) {
+    SphereWorld world(builds()[0]);
+    for (machine::Axis& axis : world.bench.setup.world.truth.machine.axes) {
+      axis.minimum = axis.kind == machine::AxisKind::Rotary ? -360 : -2000;
+      axis.maximum = -axis.minimum;
+    }
+    world.bench.trueProbe().stylusLength = stylus;
+    world.bench.trueProbe().bodyRadius = rim;
+    world.build.axes = {{'A', {sense * 175, sense * 95, 0, 3}}};
+    const Ran ran = world.bench.run(probe(451, words451(world.build, 1)));
+    EXPECT_EQ(ran.alarm(), "Collision");
+    EXPECT_NE(ran.why().find("the body of tool 1"), std::string::npos) << ran.why();
+    const double along = sphereRadius + ball + world.bench.believedProbe().setUpClearance + stylus;
+    const double lean = std::asin(flank / std::hypot(along, rim)) + std::atan2(rim, along);
+    const std::size_t a = *world.built().axisIndex("A");
+    ASSERT_TRUE(ran.machine);
+    EXPECT_NEAR(ran.machine->position()[a], sense * (180 - degrees(lean)), 0.1);
+  }
+}
+
 TEST(Refusals, OfCycle451) {
   const auto refusal = [](const Words& changes, const std::string& before = {},
                           const std::map<std::string, double>& parameters = {}, std::size_t build = 0,

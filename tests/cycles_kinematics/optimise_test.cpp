@@ -1,4 +1,4 @@
-#include <chrono>
+#include <ctime>
 
 #include "cycles_kinematics/sphere_worlds.hpp"
 #include "setup/calibrated_beliefs.hpp"
@@ -299,14 +299,14 @@ TEST(Cycle451Speed, ThreeAxesOfEightPositionsTakeLessThanASecond) {
   Dice dice(4517);
   world.plant(dice, 0.05, 0);
   world.build.axes = {{'A', {-70, 75, 0, 8}}, {'B', {-20, 30, 0, 8}}, {'C', {40, 320, 0, 8}}};
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();
   const Ran ran = world.bench.run(probe(451, words451(world.build, 1)));
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;  // of the processor
   ASSERT_TRUE(ended(ran)) << ran.why();
   EXPECT_EQ(ran.touches(), 3U * 9 * 5);
   EXPECT_LT(apart(machine::corrected(machine, kinematicsOf(ran, machine).axes), world.truth()).place, 1e-6);
-  RecordProperty("seconds", fmt::format("{:.3f}", took.count()));
-  EXPECT_LT(took.count(), 5);  // measured alone: far below 1 s
+  RecordProperty("seconds", fmt::format("{:.3f}", seconds));
+  EXPECT_LT(seconds, 1);
 }
 
 }  // namespace

@@ -70,6 +70,13 @@ TEST(ToolFrames, AToolIsAsLongUnderEveryPresetAndShift) {
     expectSame(mill.run("CYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 X+55\nCYCL DEF 7.2 Y-20\nCYCL DEF 7.3 Z+11\n" +
                         cycles(0, 1, false)),
                "datum shift");
+    Mill tabled(control);
+    const TableFolder folder(tabled.world.bench);
+    folder.put("ZERO.D",
+               "BEGIN ZERO.D MM\nD     X         Y         Z\n0     +0        +0        +0\n"
+               "3     +12.5     -43.25    +7.5\n[END]\n");
+    expectSame(tabled.run("SEL TABLE \"ZERO.D\"\nCYCL DEF 7.0 DATUM SHIFT\nCYCL DEF 7.1 #3\n" + cycles(0, 1, false)),
+               "datum table");
     expectSame(mill.run("CYCL DEF 10.0 ROTATION\nCYCL DEF 10.1 ROT+70\n" + cycles(0, 1, false)), "rotation");
     const Ran mirrored = mill.run("CYCL DEF 8.0 MIRRORING\nCYCL DEF 8.1 X\n" + cycles(0, 1, false));
     if (control == ControlKind::TNC640) {
