@@ -188,7 +188,7 @@ CLI::App* addSurvive(CLI::App& app, probewright::app::SurviveArguments& argument
         ->type_name("COUNT")
         ->capture_default_str();
   };
-  count("--samples", arguments.samples, "Clampings to run, and as many again where nothing is proven", 100'000'000);
+  count("--samples", arguments.samples, "Clampings to run, and as many again where nothing is proven", 1'000'000);
   count("--boxes", arguments.boxes, "Boxes of clampings to try to prove, at most", 10'000'000);
   count("--seed", arguments.seed, "Of the samples and of the machine's random effects", 9'999'999'999'999'999U);
   survive->add_option("--threads", arguments.threads, "Threads to run on; 0: one a core")

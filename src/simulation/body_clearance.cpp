@@ -1,6 +1,5 @@
 #include "simulation/body_clearance.hpp"
 
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/distance.h>
 #include <fmt/format.h>
 
@@ -9,63 +8,18 @@
 #include <utility>
 
 #include "machine/links.hpp"
-#include "simulation/solid_triangles.hpp"
+#include "simulation/body_mesh.hpp"
+#include "simulation/link_motion.hpp"
 
 namespace probewright::simulation {
 
-using machine::AxisKind;
-using machine::ChainElement;
 using machine::Link;
 
 namespace {
 
-using Triangles = fcl::BVHModel<fcl::OBBRSSd>;
-
 constexpr double ofTriangles = 0.045;  // mm: how far two drawings may leave the surfaces they stand for, together
 constexpr double shortestStep = 0.05;  // mm
 constexpr double reserve = 1.02;       // of a way: scales of axes, errors of their directions
-
-Pose poseOf(const ChainElement& element, const std::vector<machine::Axis>& axes, const machine::AxisPositions& q) {
-  if (!element.axis) return translation(element.point);
-  const double position = q[*element.axis];
-  if (axes[*element.axis].kind == AxisKind::Linear) return translation(element.direction * position);
-  return translation(element.point) * rotation(element.direction, position) * translation(-element.point);
-}
-
-/// How far any point of a ball about `centre`, carried by the chain, may travel on the motion.
-double longestWay(const std::vector<ChainElement>& chain, const std::vector<machine::Axis>& axes, const Motion& motion,
-                  Vector3 centre, double radius) {
-  double way = 0;
-  for (auto element = chain.rbegin(); element != chain.rend(); ++element) {
-    if (element->axis) {
-      const double travel = std::abs(motion.to[*element->axis] - motion.from[*element->axis]);
-      if (axes[*element->axis].kind == AxisKind::Linear) {
-        way += travel;
-      } else if (travel > 0) {
-        const Vector3 arm = centre - element->point;
-        const double apart = (arm - arm.dot(element->direction) * element->direction).norm();
-        way += radiansFromDegrees(travel) * (apart + radius + way);
-      }
-    }
-    centre = poseOf(*element, axes, motion.slidesAtStart) * centre;
-  }
-  return way;
-}
-
-std::unique_ptr<Triangles> trianglesOf(const Solid& solid, const Pose& linkFromSolid) {
-  const DrawingMesh drawing = solidTriangles(solid);
-  std::vector<Vector3> points;
-  for (std::size_t i = 0; i + 2 < drawing.positions.size(); i += 3)
-    points.push_back(linkFromSolid * Vector3(drawing.positions[i], drawing.positions[i + 1], drawing.positions[i + 2]));
-  std::vector<fcl::Triangle> corners;
-  for (std::size_t i = 0; i + 2 < drawing.indices.size(); i += 3)
-    corners.emplace_back(drawing.indices[i], drawing.indices[i + 1], drawing.indices[i + 2]);
-  auto triangles = std::make_unique<Triangles>();
-  triangles->beginModel(static_cast<int>(corners.size()), static_cast<int>(points.size()));
-  triangles->addSubModel(points, corners);
-  triangles->endModel();
-  return triangles;
-}
 
 }  // namespace
 
@@ -78,7 +32,7 @@ struct BodyClearance::Thing {
   bool isBody = false;
   Vector3 centre = Vector3::Zero();  ///< of a ball about it, link frame
   double radius = 0;
-  std::unique_ptr<Triangles> triangles;  ///< link frame
+  std::shared_ptr<const BodyMesh> triangles;
 };
 
 struct BodyClearance::Pair {
@@ -94,8 +48,8 @@ struct BodyClearance::Pair {
     if (first->triangles->num_tris == 0 || second->triangles->num_tris == 0) return 1e300;
     const fcl::DistanceRequestd request;
     fcl::DistanceResultd result;
-    fcl::distance(first->triangles.get(), fcl::Transform3d::Identity(), second->triangles.get(), firstFromSecond,
-                  request, result);
+    fcl::distance(first->triangles.get(), first->linkFromSolid, second->triangles.get(),
+                  fcl::Transform3d(firstFromSecond * second->linkFromSolid), request, result);
     return std::max(result.min_distance, 0.0) - ofTriangles;
   }
 };
@@ -125,7 +79,7 @@ BodyClearance::BodyClearance(const Truth& truth) : machine_(trueDescription(trut
     thing->isBody = isBody;
     thing->centre = linkFromSolid * (0.5 * (bounds.minimum + bounds.maximum));
     thing->radius = 0.5 * size.norm() + 0.1;
-    thing->triangles = trianglesOf(*solid, linkFromSolid);
+    thing->triangles = bodyMesh(solid);
     things_.push_back(std::move(thing));
   };
   for (const MachineBody& body : truth.bodies)

@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "simulation/contact_search.hpp"
+#include "survival/course.hpp"
+#include "survival/shift.hpp"
 
 namespace probewright::survival {
 
@@ -20,35 +22,10 @@ using simulation::ToolShape;
 
 namespace {
 
-constexpr double curvature = 1.25;       // of what is smooth, over touches that are near enough to each other
-constexpr double nearEnough = 0.1;       // shift of a touch over the size of the feature
-constexpr double deviations = 8;         // of the scatter that is taken for the most
-constexpr double still = 1e-9;           // mm: does not move
-constexpr double onLine = 1e-6;          // mm
-constexpr double ballPrecision = 2e-3;   // mm: of positioning and search together
-constexpr double shaftPrecision = 0.04;  // mm: triangles stand for faces where shafts and bodies touch
-
-/// Larger (or with a negative `by` smaller) than it is, each part by its own displacement, too.
-ToolShape grown(const ToolShape& shape, double by, const Displacements::OfTool& own, double sign) {
-  ToolShape thick = shape;
-  for (std::size_t i = 0; i < thick.balls.size(); ++i)
-    thick.balls[i].radius += sign * (by + ballPrecision + (i < own.balls.size() ? own.balls[i] : 0));
-  for (std::size_t i = 0; i < thick.shafts.size(); ++i) {
-    simulation::Shaft& shaft = thick.shafts[i];
-    const double more = by + shaftPrecision + (i < own.shafts.size() ? own.shafts[i] : 0);
-    shaft.radius += more;
-    if (shaft.ends == simulation::Ends::Round) continue;
-    const Vector3 longer = shaft.axis.normalized() * more;
-    shaft.start -= longer;
-    shaft.axis += 2 * longer;
-  }
-  return thick;
-}
-
-ToolShape ballsOf(ToolShape shape) {
-  shape.shafts.clear();
-  return shape;
-}
+constexpr double curvature = 1.25;  // of what is smooth, over touches that are near enough to each other
+constexpr double nearEnough = 0.1;  // shift of a touch over the size of the feature
+constexpr double deviations = 8;    // of the scatter that is taken for the most
+constexpr double onLine = 1e-6;     // mm
 
 ToolShape bodiesOf(ToolShape shape) {
   shape.balls.clear();
@@ -59,9 +36,9 @@ ToolShape bodiesOf(ToolShape shape) {
 
 /// What is known of a step over the whole box.
 struct Spread {
-  double from = 0, to = 0;  ///< mm: how far its ends can lie from those in the middle
-  double way = 0;           ///< mm: how much longer or shorter it can be
-  double turn = 0;          ///< degrees, of the spindle
+  Shift from, to;   ///< how far its ends can lie from those in the middle
+  double way = 0;   ///< mm: how much longer or shorter it can be
+  double turn = 0;  ///< degrees, of the spindle
 };
 
 class Proof {
@@ -80,9 +57,8 @@ private:
   bool isLinear(std::size_t axis) const { return machine().axes[axis].kind == AxisKind::Linear; }
   const machine::MachineDescription& machine() const { return middle_.truth.machine; }
   double way(const AxisPositions& a, const AxisPositions& b) const { return wayOf(machine(), a, b); }
-  /// How far the tool is from where it was, at most.
-  double apart(const AxisPositions& a, const AxisPositions& b) const;
-  bool rotaryDiffers(const AxisPositions& a, const AxisPositions& b) const;
+  /// How far the tool of the step is at `b` from where it is at `a`.
+  Shift apart(const Step& step, const AxisPositions& a, const AxisPositions& b) const;
 
   std::optional<BoxVerdict> prepare();
   std::optional<BoxVerdict> passOn(std::size_t touch, std::size_t step, double shift);
@@ -90,11 +66,10 @@ private:
   std::optional<BoxVerdict> lookAtTouch(std::size_t step);
   std::optional<BoxVerdict> lookAtCorners();
   std::optional<BoxVerdict> withinTravel(const Step& step, const Spread& spread) const;
-  std::optional<BoxVerdict> isClear(const Step& step, const AxisPositions& from, double shift) const;
+  std::optional<BoxVerdict> isClear(const Step& step, const AxisPositions& from, const Shift& shift) const;
   /// The same of the machine's bodies.
-  std::optional<BoxVerdict> bodiesClear(const Step& step, const AxisPositions& from, double shift) const;
+  std::optional<BoxVerdict> bodiesClear(const Step& step, const AxisPositions& from, const Shift& shift) const;
   std::optional<BoxVerdict> standsClear(const Step& step, const Spread& spread) const;
-  bool sameCourse(const std::vector<Step>& steps) const;
   Motion motionOf(const AxisPositions& from, const Step& step) const {
     return {*kinematics_, from, step.to, from, step.seconds, simulation::MotionProfile(1, 1, 1)};
   }
@@ -106,15 +81,16 @@ private:
     static const Displacements::OfTool none;
     return step.tool < 0 ? none : displacements_.ofTools[static_cast<std::size_t>(step.tool)];
   }
-  /// How far the tool on this step can be from the solid otherwise than in the middle, its own parts aside.
-  double shiftOf(const Step& step, double commanded, double turn, std::size_t solid) const {
-    double arm = 0;
-    if (step.tool >= 0) {
-      const simulation::TrueProbe& probe = middle_.truth.tools[static_cast<std::size_t>(step.tool)].probe;
-      arm = probe.tipOffset.norm() + probe.starArm;
-    }
-    return commanded * stretch_ + errors_ + displacements_.ofSolids[solid] + radiansFromDegrees(turn) * arm;
+  Shift turned(const Step& step, double degrees) const {
+    if (step.tool < 0) return {};
+    const simulation::TrueProbe& probe = middle_.truth.tools[static_cast<std::size_t>(step.tool)].probe;
+    return {0, radiansFromDegrees(degrees) * (probe.tipOffset.norm() + probe.starArm)};
   }
+  Vector3 upOf(const Step& step) const {
+    return kinematics_->tableFromSpindle(step.from, 0).linear() * shapeOf(step).shank;
+  }
+  /// How far the tool on this step can be from the solid otherwise than in the middle, its own parts aside.
+  Shift shiftOf(const Step& step, const Shift& commanded, double turn, std::size_t solid) const;
   /// The size of what the touch is part of: the reach within which its cycle is smooth.
   double sizeAround(std::size_t touch) const;
   /// Where on the line of the last touch a place lies: 0 where the measuring move began, 1 at its end.
@@ -126,12 +102,12 @@ private:
   const Box& box_;
   WatchedRun middle_;
   std::optional<simulation::TrueKinematics> kinematics_;
-  std::vector<Surroundings> most_, least_;  ///< a solid each
-  std::vector<simulation::PlacedSolid> solids_;
+  std::vector<simulation::PlacedSolid> solids_, mostSolids_, leastSolids_;
+  std::vector<Surroundings> most_, least_;  ///< a solid each; they refer to those above
   Displacements displacements_;
-  double stretch_ = 1, errors_ = 0;
-  double farthest_ = 0;  ///< mm: of solids from where they are in the middle of all tolerances
-  bool orthogonal_ = true;
+  double errors_ = 0;            ///< mm: of the machine, where they differ from run to run
+  double farthest_ = 0;          ///< mm: of solids from where they are in the middle of all tolerances
+  std::vector<bool> optional_;   ///< of the steps: see Course
   std::vector<Spread> spreads_;  ///< a step each
   std::vector<PlannedTouch> plan_;
   std::vector<std::size_t> touches_;               ///< steps
@@ -140,18 +116,24 @@ private:
   std::optional<std::size_t> inbound_;             ///< the step whose line is being left
 };
 
-double Proof::apart(const AxisPositions& a, const AxisPositions& b) const {
-  if (orthogonal_) return way(a, b);
-  double sum = 0;
-  for (std::size_t i = 0; i < machine().axes.size(); ++i)
-    if (isLinear(i)) sum += std::abs(a[i] - b[i]);
-  return sum;
+Shift Proof::apart(const Step& step, const AxisPositions& a, const AxisPositions& b) const {
+  if (a == b) return {};
+  const Vector3 way =
+      kinematics_->tableFromSpindle(b, 0).translation() - kinematics_->tableFromSpindle(a, 0).translation();
+  return shiftAgainst(way, upOf(step));
 }
 
-bool Proof::rotaryDiffers(const AxisPositions& a, const AxisPositions& b) const {
-  for (std::size_t i = 0; i < machine().axes.size(); ++i)
-    if (!isLinear(i) && std::abs(a[i] - b[i]) > 1e-9) return true;
-  return false;
+Shift Proof::shiftOf(const Step& step, const Shift& commanded, double turn, std::size_t solid) const {
+  const Displacements::OfSolid& own = displacements_.ofSolids[solid];
+  Shift shift = commanded + turned(step, turn) + everyWay(errors_ + own.turn);
+  const Vector3 up = upOf(step);
+  Shift most;
+  for (int corner = 0; corner < 4; ++corner) {
+    const Vector3 way(own.shift.x(), (corner & 1) != 0 ? -own.shift.y() : own.shift.y(),
+                      (corner & 2) != 0 ? -own.shift.z() : own.shift.z());
+    most = larger(most, shiftAgainst(way, up));
+  }
+  return shift += most;
 }
 
 std::optional<BoxVerdict> Proof::prepare() {
@@ -168,10 +150,8 @@ std::optional<BoxVerdict> Proof::prepare() {
   farthest_ = worlds_.farthestFromMiddle(box_);
   const simulation::MachineErrors& errors = middle_.truth.errors;
   kinematics_.emplace(machine(), errors);
-  double scale = 0;
   for (std::size_t i = 0; i < errors.axes.size() && i < machine().axes.size(); ++i) {
     const simulation::AxisErrors& axis = errors.axes[i];
-    if (isLinear(i)) scale = std::max(scale, std::abs(axis.scale));
     errors_ += axis.backlash;
     const double end = std::max(std::abs(machine().axes[i].minimum), std::abs(machine().axes[i].maximum)) / 1000;
     for (const simulation::Deviation& deviation : axis.deviations) {
@@ -183,20 +163,8 @@ std::optional<BoxVerdict> Proof::prepare() {
       errors_ += 2 * most;
     }
   }
-  double squareness = 0;
-  for (const simulation::Squareness& angle : errors.squareness)
-    squareness += radiansFromDegrees(std::abs(angle.degrees));
   for (const simulation::ThermalDrift& drift : errors.thermal)
     errors_ += drift.amount.norm();
-  stretch_ = (1 + scale) * (1 + squareness);
-  std::vector<Vector3> directions;
-  for (const auto* chain : {&machine().tableChain, &machine().spindleChain})
-    for (const machine::ChainElement& element : *chain)
-      if (element.axis && isLinear(*element.axis)) directions.push_back(element.direction);
-  for (std::size_t i = 0; i < directions.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k)
-      if (std::abs(directions[i].dot(directions[k])) > 1e-9) orthogonal_ = false;
-
   solids_ = middle_.truth.solids;
   const auto each = [](const std::vector<simulation::PlacedSolid>& solids) {
     std::vector<Surroundings> single;
@@ -207,49 +175,58 @@ std::optional<BoxVerdict> Proof::prepare() {
   if (worlds_.anySizeVaries()) {
     const auto most = worlds_.truthWithMost(box_), least = worlds_.truthWithLeast(box_);
     if (!most || !least) return undecided((most ? least : most).error().message);
-    most_ = each(most->solids);
-    least_ = each(least->solids);
+    mostSolids_ = most->solids;
+    leastSolids_ = least->solids;
   } else {
-    most_ = least_ = each(solids_);
+    mostSolids_ = leastSolids_ = solids_;
   }
-  spreads_.assign(middle_.steps.size(), {});
-  for (std::size_t i = 0; i < middle_.steps.size(); ++i) {
-    const Step& step = middle_.steps[i];
+  most_ = each(mostSolids_);
+  least_ = each(leastSolids_);
+  for (const Step& step : middle_.steps) {
     if (step.kind != StepKind::Measure) continue;
     if (step.sensor != machine::Sensor::TouchProbe) return undecided("a tool touch probe measures", &step);
     if (!step.touched) return undecided("a measuring move ends without a touch", &step);
     if (step.part != machine::TouchWith::Ball) return undecided("the shaft of the stylus measures", &step);
+    const double signal = way(step.from, step.latched), end = way(step.from, step.end);
+    plan_.push_back({signal, end - signal});
+  }
+  Course course{middle_.steps, std::vector<bool>(middle_.steps.size())};
+  const WatchedRun again = program_.replay(middle_.truth, plan_);
+  if (again.end.cancelled) return BoxVerdict{Verdict::Cancelled, {}};
+  const auto same = aligned(course, again.steps, machine());
+  if (again.end.failure || !same) return undecided("the run cannot be replayed");
+  for (std::size_t i = 0; i < same->size(); ++i)
+    if (way((*same)[i].to, middle_.steps[i].to) > 1e-6) return undecided("the run cannot be replayed");
+  std::vector<PlannedTouch> little = plan_;
+  for (std::size_t i = 0; i < little.size(); ++i)
+    little[i].signal -= 0.01 + 0.01 / static_cast<double>(i + 1);
+  const WatchedRun otherwise = program_.replay(middle_.truth, little);
+  if (otherwise.end.failure || !addStillMoves(course, otherwise.steps, machine()))
+    return undecided("what is measured may change the course of the program, or turn a rotary axis");
+  middle_.steps = course.steps;
+  optional_ = course.optional;
+  for (std::size_t i = 0; i < middle_.steps.size(); ++i) {
+    const Step& step = middle_.steps[i];
+    if (step.kind != StepKind::Measure) continue;
     if (!touches_.empty()) {
       const Step& before = middle_.steps[touches_.back()];
       if (way(before.from, step.from) < onLine && way(before.to, step.to) < onLine)
         return undecided("the same place is measured repeatedly", &step);
     }
-    const double signal = way(step.from, step.latched), end = way(step.from, step.end);
-    plan_.push_back({signal, end - signal});
     touches_.push_back(i);
   }
-  const WatchedRun again = program_.replay(middle_.truth, plan_);
-  if (again.end.failure || !sameCourse(again.steps)) return undecided("the run cannot be replayed");
-  for (std::size_t i = 0; i < middle_.steps.size(); ++i)
-    if (apart(again.steps[i].to, middle_.steps[i].to) > 1e-6) return undecided("the run cannot be replayed");
+  spreads_.assign(middle_.steps.size(), {});
   // Where the axes come to stand beyond a touch must not matter.
   std::vector<PlannedTouch> shorter = plan_;
   for (std::size_t i = 0; i < shorter.size(); ++i)
     shorter[i].overtravel *= 0.3 + 0.4 / static_cast<double>(i + 1);
   const WatchedRun braked = program_.replay(middle_.truth, shorter);
-  if (braked.end.failure || !sameCourse(braked.steps)) return undecided("the way of braking decides");
+  const auto sooner = aligned(course, braked.steps, machine());
+  if (braked.end.failure || !sooner) return undecided("the way of braking decides");
   for (std::size_t i = 0; i < middle_.steps.size(); ++i)
-    if (apart(braked.steps[i].to, middle_.steps[i].to) > 1e-6)
+    if (way((*sooner)[i].to, middle_.steps[i].to) > 1e-6)
       return undecided("a move depends on where the axes stop after a touch", &middle_.steps[i]);
   return std::nullopt;
-}
-
-bool Proof::sameCourse(const std::vector<Step>& steps) const {
-  return std::ranges::equal(steps, middle_.steps, [&](const Step& a, const Step& b) {
-    return a.kind == b.kind && a.tool == b.tool && a.touched == b.touched && a.feed.rapid == b.feed.rapid &&
-           std::abs(a.feed.perMinute - b.feed.perMinute) < 1e-6 && !rotaryDiffers(a.from, b.from) &&
-           !rotaryDiffers(a.to, b.to);
-  });
 }
 
 double Proof::sizeAround(std::size_t touch) const {
@@ -275,37 +252,49 @@ double Proof::sizeAround(std::size_t touch) const {
 }
 
 std::optional<BoxVerdict> Proof::passOn(std::size_t touch, std::size_t step, double shift) {
-  std::vector<PlannedTouch> plan = plan_;
-  plan[touch].signal += shift;
-  const WatchedRun shifted = program_.replay(middle_.truth, plan);
   const Step& at = middle_.steps[step];
-  if (shifted.end.cancelled) return BoxVerdict{Verdict::Cancelled, {}};
-  if (shifted.end.failure)
-    return undecided(fmt::format("with this touch {:.3f} mm further: {}", shift, shifted.end.failure->why), &at);
-  if (!sameCourse(shifted.steps))
-    return undecided("what is measured here may change the course of the program, or turn a rotary axis", &at);
   const double size = sizeAround(touch);
   const double bent = shift * shift / size;
   bool matters = false;
-  for (std::size_t k = step + 1; k < middle_.steps.size(); ++k) {
-    const Step &plain = middle_.steps[k], &moved = shifted.steps[k];
-    Spread& spread = spreads_[k];
-    // The step that leaves the touch begins where that one ended, whatever follows from it.
-    const double from = k == step + 1 ? 0 : apart(plain.from, moved.from), to = apart(plain.to, moved.to);
-    if (from > still) spread.from += curvature * from + bent;
-    if (to > still) spread.to += curvature * to + bent;
-    if (from > still || to > still) {
-      matters = true;
-      spread.way += curvature * std::abs(way(moved.from, moved.to) - way(plain.from, plain.to)) + bent;
+  // Controls go the long way where something is too low and the short one where it is not: to either side by itself.
+  std::vector<Spread> most(middle_.steps.size());
+  session::RunOutcome outcome;
+  for (const double way : {-shift, shift}) {
+    std::vector<PlannedTouch> plan = plan_;
+    plan[touch].signal += way;
+    WatchedRun shifted = program_.replay(middle_.truth, plan);
+    if (shifted.end.cancelled) return BoxVerdict{Verdict::Cancelled, {}};
+    if (shifted.end.failure)
+      return undecided(fmt::format("with this touch {:.3f} mm off: {}", shift, shifted.end.failure->why), &at);
+    const auto course = aligned({middle_.steps, optional_}, shifted.steps, machine());
+    if (!course)
+      return undecided("what is measured here may change the course of the program, or turn a rotary axis", &at);
+    for (std::size_t k = step + 1; k < middle_.steps.size(); ++k) {
+      const Step &plain = middle_.steps[k], &moved = (*course)[k];
+      // The step that leaves the touch begins where that one ended, whatever follows from it.
+      if (k != step + 1) most[k].from = larger(most[k].from, apart(plain, plain.from, moved.from));
+      most[k].to = larger(most[k].to, apart(plain, plain.to, moved.to));
+      most[k].way = std::max(most[k].way, std::abs(this->way(moved.from, moved.to) - this->way(plain.from, plain.to)));
+      most[k].turn = std::max(most[k].turn, std::abs(std::remainder(moved.spindleDegrees - plain.spindleDegrees, 360)));
     }
-    const double turn = std::abs(std::remainder(moved.spindleDegrees - plain.spindleDegrees, 360));
-    if (turn > 1e-9) spread.turn += curvature * turn + degreesFromRadians(bent / size);
+    outcome = std::move(shifted.outcome);
+  }
+  for (std::size_t k = step + 1; k < middle_.steps.size(); ++k) {
+    const Spread& other = most[k];
+    Spread& spread = spreads_[k];
+    if (other.from.moves()) spread.from += curvature * other.from + everyWay(bent);
+    if (other.to.moves()) spread.to += curvature * other.to + everyWay(bent);
+    if (other.from.moves() || other.to.moves()) {
+      matters = true;
+      spread.way += curvature * other.way + bent;
+    }
+    if (other.turn > 1e-9) spread.turn += curvature * other.turn + degreesFromRadians(bent / size);
   }
   if (matters && shift > nearEnough * size)
     return undecided(
         fmt::format("what follows depends on this touch, which may lie {:.3f} mm further or less far", shift), &at);
   std::vector<double> slopes;
-  const auto &before = middle_.outcome.journal.cycles, &after = shifted.outcome.journal.cycles;
+  const auto &before = middle_.outcome.journal.cycles, &after = outcome.journal.cycles;
   for (std::size_t c = 0; c < before.size() && c < after.size(); ++c)
     for (std::size_t r = 0; r < before[c].results.size() && r < after[c].results.size(); ++r)
       slopes.push_back(after[c].results[r].value - before[c].results[r].value);
@@ -314,24 +303,31 @@ std::optional<BoxVerdict> Proof::passOn(std::size_t touch, std::size_t step, dou
 }
 
 std::optional<BoxVerdict> Proof::withinTravel(const Step& step, const Spread& spread) const {
+  const double room = 1.05 * spread.to.any();  // readings differ from true places by the scales of the axes
   for (std::size_t i = 0; i < machine().axes.size(); ++i) {
     const machine::Axis& axis = machine().axes[i];
     if (!isLinear(i)) continue;
-    if (step.to[i] - spread.to < axis.minimum || step.to[i] + spread.to > axis.maximum)
+    if (step.to[i] - room < axis.minimum || step.to[i] + room > axis.maximum)
       return undecided(fmt::format("axis {} may come to the end of its travel", axis.name), &step);
   }
   return std::nullopt;
 }
 
-std::optional<BoxVerdict> Proof::isClear(const Step& step, const AxisPositions& from, double shift) const {
-  if (from == step.to) return std::nullopt;
+std::optional<BoxVerdict> Proof::isClear(const Step& step, const AxisPositions& from, const Shift& shift) const {
   const ToolShape shape = shapeOf(step);
   if (shape.balls.empty() && shape.shafts.empty()) return std::nullopt;
   const Motion motion = motionOf(from, step);
   const Spread& spread = spreads_[static_cast<std::size_t>(&step - middle_.steps.data())];
   for (std::size_t s = 0; s < solids_.size(); ++s) {
-    const ToolShape thick = grown(shape, shiftOf(step, shift, spread.turn, s), ownOf(step), 1);
-    const auto touch = simulation::firstTouch(motion, 0, 1, thick, most_[s], {.precision = 1e-3});
+    const ToolShape thick = grown(shape, shiftOf(step, shift, spread.turn, s), ownOf(step));
+    std::optional<simulation::Touch> touch;
+    if (from == step.to) {
+      const Pose pose = kinematics_->tableFromSpindle(from, step.seconds);
+      touch = ballOverlap(pose, thick, most_[s]);
+      if (!touch) touch = shaftOverlap(pose, thick, most_[s]);
+    } else {
+      touch = simulation::firstTouch(motion, 0, 1, thick, most_[s], {.precision = 1e-3});
+    }
     if (touch)
       return undecided(fmt::format("{} may touch \"{}\"", touch->shaft ? shape.shafts[*touch->shaft].part : "the ball",
                                    solids_[s].name),
@@ -340,16 +336,12 @@ std::optional<BoxVerdict> Proof::isClear(const Step& step, const AxisPositions& 
   return std::nullopt;
 }
 
-std::optional<BoxVerdict> Proof::bodiesClear(const Step& step, const AxisPositions& from, double shift) const {
+std::optional<BoxVerdict> Proof::bodiesClear(const Step& step, const AxisPositions& from, const Shift& shift) const {
   if (program_.bodies() == nullptr) return std::nullopt;
   const Spread& spread = spreads_[static_cast<std::size_t>(&step - middle_.steps.data())];
-  const double moved = shift * stretch_ + errors_;
-  double arm = 0;
-  if (step.tool >= 0) {
-    const simulation::TrueProbe& probe = middle_.truth.tools[static_cast<std::size_t>(step.tool)].probe;
-    arm = probe.tipOffset.norm() + probe.starArm;
-  }
-  const ToolShape thick = grown(shapeOf(step), moved + radiansFromDegrees(spread.turn) * arm, ownOf(step), 1);
+  const Shift tool = shift + everyWay(errors_);
+  const double moved = tool.any();
+  const ToolShape thick = grown(shapeOf(step), tool + turned(step, spread.turn), ownOf(step));
   const simulation::BodyClearance::Margins margins{moved, moved + farthest_};
   if (auto near = program_.bodies()->nearer(motionOf(from, step), margins, thick)) return undecided(*near, &step);
   return std::nullopt;
@@ -359,19 +351,19 @@ std::optional<BoxVerdict> Proof::standsClear(const Step& step, const Spread& spr
   const ToolShape shape = shapeOf(step);
   const Pose pose = kinematics_->tableFromSpindle(step.end, step.seconds);
   for (std::size_t s = 0; s < solids_.size(); ++s) {
-    const double shift = shiftOf(step, std::max(spread.from, spread.to), spread.turn, s);
-    const ToolShape thick = grown(shape, shift, ownOf(step), 1);
+    const Shift shift = shiftOf(step, larger(spread.from, spread.to), spread.turn, s);
+    const ToolShape thick = grown(shape, shift, ownOf(step));
     if (ballOverlap(pose, thick, most_[s]) || shaftOverlap(pose, thick, most_[s]))
       return undecided(fmt::format("the tool may touch \"{}\" where it stands", solids_[s].name), &step);
   }
-  return bodiesClear(step, step.end, std::max(spread.from, spread.to));
+  return bodiesClear(step, step.end, larger(spread.from, spread.to));
 }
 
 std::optional<double> Proof::placeOnLine(const std::vector<Step>& steps, std::size_t measured,
                                          const AxisPositions& at) const {
   const Step& touch = steps[measured];
   const double length = way(touch.from, touch.end);
-  if (length < onLine || rotaryDiffers(touch.from, at)) return std::nullopt;
+  if (length < onLine || rotaryDiffers(machine(), touch.from, at)) return std::nullopt;
   double along = 0, beside = 0;
   for (std::size_t i = 0; i < machine().axes.size(); ++i)
     if (isLinear(i)) along += (at[i] - touch.from[i]) * (touch.end[i] - touch.from[i]) / length;
@@ -395,7 +387,7 @@ std::optional<BoxVerdict> Proof::look(std::size_t index) {
   }
   if (auto end = withinTravel(step, spread)) return end;
   AxisPositions from = step.from;
-  double shift = std::max(spread.from, spread.to);
+  Shift shift = larger(spread.from, spread.to);
   if (inbound_) {
     // Back along the line that the ball has come in on, in the same world: it was free there.
     const auto begins = placeOnLine(middle_.steps, *inbound_, step.from);
@@ -411,7 +403,7 @@ std::optional<BoxVerdict> Proof::look(std::size_t index) {
         if (*ends < onLine) inbound_.reset();
         return std::nullopt;
       }
-      shift = std::max(shift, spreads_[*inbound_].from);
+      shift = larger(shift, spreads_[*inbound_].from);
       from = middle_.steps[*inbound_].from;
       inbound_.reset();
     }
@@ -428,28 +420,30 @@ std::optional<BoxVerdict> Proof::lookAtTouch(std::size_t index) {
   const ToolShape shape = shapeOf(step);
   const simulation::TrueTool& tool = middle_.truth.tools[static_cast<std::size_t>(step.tool)];
   const Motion motion = motionOf(step.from, step);
-  const double commanded = std::max(spread.from, spread.to);
+  const Shift commanded = larger(spread.from, spread.to);
   const std::size_t touch = shifts_.size();
   const TouchedFace* meant = touch < program_.meant().size() ? &program_.meant()[touch] : nullptr;
   if (meant == nullptr) return undecided("a touch that the setup as it is written does not have", &step);
-  // The touch comes between that of a larger ball and that of a smaller one.
+  // The touch comes between that of a larger ball and that of a smaller one, wherever they are along the tool.
   const simulation::SearchOptions exact{.precision = 1e-6};
   double earliest = 1;
   std::vector<std::optional<double>> firstOf(solids_.size());
   for (std::size_t s = 0; s < solids_.size(); ++s) {
-    const double by = shiftOf(step, commanded, spread.turn, s);
-    const auto first = firstTouch(motion, 0, 1, ballsOf(grown(shape, by, ownOf(step), 1)), most_[s], exact);
+    const Shift by = shiftOf(step, commanded, spread.turn, s);
+    const auto first = firstTouch(motion, 0, 1, everywhere(shape, by, ownOf(step)), most_[s], exact);
     if (!first) continue;
     firstOf[s] = first->fraction;
     earliest = std::min(earliest, first->fraction);
   }
-  const double by = shiftOf(step, commanded, spread.turn, meant->solid);
-  const ToolShape thin = ballsOf(grown(shape, by, ownOf(step), -1));
-  for (const simulation::Ball& ball : thin.balls)
-    if (ball.radius < 0.05) return undecided("things can shift by as much as the ball's radius", &step);
-  const auto last = firstTouch(motion, 0, 1, thin, least_[meant->solid], exact);
-  if (!last) return undecided(fmt::format("the ball may not reach \"{}\"", solids_[meant->solid].name), &step);
-  const double latest = last->fraction;
+  const Shift by = shiftOf(step, commanded, spread.turn, meant->solid);
+  double latest = 0;
+  for (const ToolShape& thin : anywhere(shape, by, ownOf(step))) {
+    for (const simulation::Ball& ball : thin.balls)
+      if (ball.radius < 0.05) return undecided("things can shift by as much as the ball's radius", &step);
+    const auto last = firstTouch(motion, 0, 1, thin, least_[meant->solid], exact);
+    if (!last) return undecided(fmt::format("the ball may not reach \"{}\"", solids_[meant->solid].name), &step);
+    latest = std::max(latest, last->fraction);
+  }
   if (earliest <= 0) return undecided("the ball may touch where the measuring move begins", &step);
   for (std::size_t s = 0; s < solids_.size(); ++s)
     if (s != meant->solid && firstOf[s] && *firstOf[s] <= latest)
@@ -458,7 +452,7 @@ std::optional<BoxVerdict> Proof::lookAtTouch(std::size_t index) {
     const simulation::PlacedSolid& solid = solids_[meant->solid];
     if (const auto others = program_.otherFaces().of(*solid.solid, *meant->face)) {
       const Surroundings around({{others, solid.tableFromSolid, solid.name, solid.role}});
-      if (firstTouch(motion, 0, latest, ballsOf(grown(shape, by, ownOf(step), 1)), around, exact))
+      if (firstTouch(motion, 0, latest, everywhere(shape, by, ownOf(step)), around, exact))
         return undecided(fmt::format("the ball may touch another face of \"{}\"", solid.name), &step);
     }
   }
@@ -475,8 +469,8 @@ std::optional<BoxVerdict> Proof::lookAtTouch(std::size_t index) {
     return undecided(fmt::format("the touch may come {:.3f} mm too late", high - length + spread.way), &step);
   const double furthest = std::min(1.0, latest + (longest + probe.ballRadius) / length);
   for (std::size_t s = 0; s < solids_.size(); ++s) {
-    const double more = shiftOf(step, commanded, spread.turn, s);
-    const ToolShape thick = grown(shape, more, ownOf(step), 1);
+    const Shift more = shiftOf(step, commanded, spread.turn, s);
+    const ToolShape thick = grown(shape, more, ownOf(step));
     simulation::SearchOptions shafts{.precision = 1e-3};
     shafts.ignoreBall = true;
     auto hit = firstTouch(motion, 0, latest, thick, most_[s], shafts);
@@ -513,9 +507,11 @@ std::optional<BoxVerdict> Proof::lookAtCorners() {
       if (corner.end.cancelled) return BoxVerdict{Verdict::Cancelled, {}};
       if (corner.end.failure)
         return BoxVerdict{Verdict::Undecided, Reason{corner.end.failure->why, corner.end.failure->place}};
-      if (!sameCourse(corner.steps)) return undecided("what is measured may change the course of the program");
-      for (std::size_t k = 0; k < corner.steps.size(); ++k)
-        if (apart(corner.steps[k].to, middle_.steps[k].to) > curvature * spreads_[k].to + 1e-6)
+      const auto course = aligned({middle_.steps, optional_}, corner.steps, machine());
+      if (!course) return undecided("what is measured may change the course of the program");
+      for (std::size_t k = 0; k < course->size(); ++k)
+        if (apart(middle_.steps[k], middle_.steps[k].to, (*course)[k].to).any() >
+            curvature * spreads_[k].to.any() + 1e-6)
           return undecided("a move follows what is measured otherwise than expected", &middle_.steps[k]);
     }
   }

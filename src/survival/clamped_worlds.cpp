@@ -226,19 +226,20 @@ Result<std::unique_ptr<simulation::VirtualMachine>> ClampedWorlds::machine(Truth
 Displacements ClampedWorlds::displacements(const Box& box, const Truth& middle) const {
   Displacements displacements;
   for (std::size_t s = 0; s < solids_.size(); ++s) {
-    double shift = 0, turn = 0;
+    Displacements::OfSolid solid;
     for (std::size_t i = 0; i < tolerances_.size(); ++i) {
       if (!moves_[i][s]) continue;
       const double half = (box.high[i] - box.low[i]) / 2;
       if (tolerances_[i].kind == NumberKind::Shift) {
-        shift += half * half;
+        // Two numbers may move one solid along one axis only where they name the same pose.
+        solid.shift[tolerances_[i].name().back() - 'x'] += half;
       } else {
         // Whatever the other angles are, a turn moves a point by no more than the angle times its distance from the
         // origin of the pose.
-        turn += radiansFromDegrees(half) * radius_[s];
+        solid.turn += radiansFromDegrees(half) * radius_[s];
       }
     }
-    displacements.ofSolids.push_back(std::sqrt(shift) + turn);
+    displacements.ofSolids.push_back(solid);
   }
   for (const simulation::TrueTool& tool : middle.tools) {
     const simulation::ToolShape shape = shapeOf(&tool, 0);

@@ -20,9 +20,14 @@ namespace probewright::survival {
 
 /// How far what a clamping moves is from where it is in the middle of a box.
 struct Displacements {
-  std::vector<double> ofSolids;  ///< by their place in Truth::solids, mm: any point of the solid
+  /// Of a solid: any point of it, mm.
+  struct OfSolid {
+    Vector3 shift = Vector3::Zero();  ///< along X, Y, Z of the table, to either side
+    double turn = 0;                  ///< in any direction, besides
+  };
+  std::vector<OfSolid> ofSolids;  ///< by their place in Truth::solids
 
-  /// Of a tool: each ball, each shaft.
+  /// Of a tool: each ball, each shaft, mm along the tool.
   struct OfTool {
     std::vector<double> balls, shafts;
   };

@@ -40,6 +40,10 @@ private:
     ClampedRun run;
   };
 
+  /// Of the random effects of a sample; a setup file can name it.
+  std::uint64_t seedOf(std::uint64_t sample) const {
+    return study::noiseSeed({options_.seed, sample}) & ((std::uint64_t{1} << 53U) - 1);
+  }
   bool stopped() const { return program_.stop().stop_requested(); }
   std::size_t sides() const { return whole_.low.size(); }
   double share(const Box& box) const;
@@ -140,7 +144,7 @@ void Search::sample() {
   const std::size_t corners = sides() <= 6 ? std::size_t{1} << sides() : mostCorners;
   const auto add = [&](std::vector<double> values) {
     const std::uint64_t number = samples.size();
-    samples.push_back({number, std::move(values), study::noiseSeed({options_.seed, number}), {}});
+    samples.push_back({number, std::move(values), seedOf(number), {}});
   };
   for (std::size_t corner = 0; corner < corners; ++corner) {
     std::vector<double> values;
@@ -258,7 +262,8 @@ void Search::refine() {
       return weight(a) != weight(b) ? weight(a) > weight(b) : a < b;
     };
     std::vector<std::size_t> chosen;
-    const std::size_t most = std::min<std::size_t>(batch, options_.boxes - result_.boxes);
+    // Each of them becomes two boxes, unless it was not tried yet.
+    const std::size_t most = std::clamp<std::size_t>((options_.boxes - result_.boxes) / 2, 1, batch);
     const auto take = [&](const auto& order, std::size_t count) {
       std::ranges::sort(open, order);
       for (const std::size_t i : open)
@@ -336,7 +341,7 @@ void Search::sampleOpen() {
       const double drawn = study::uniforms({options_.seed, number}, static_cast<std::uint32_t>(i))[0];
       values.push_back(open[place]->box.low[i] + drawn * (open[place]->box.high[i] - open[place]->box.low[i]));
     }
-    samples.push_back({number, std::move(values), study::noiseSeed({options_.seed, number}), {}});
+    samples.push_back({number, std::move(values), seedOf(number), {}});
   }
   runAll(samples, "clampings run where nothing is proven");
   for (const Sample& each : samples) {

@@ -18,7 +18,7 @@ struct Options {
   std::uint64_t seed = 1;        ///< of the samples and of the machine's random effects
   int threads = 0;               ///< 0: all cores
   /// What is being done, how much of it is done, and how much there is at most.
-  std::function<void(const std::string& phase, std::uint64_t done, std::uint64_t of)> report;
+  std::function<void(const std::string& phase, std::uint64_t done, std::uint64_t of)> report = {};
 };
 
 /// A part of the box. The parts do not overlap, and together they are the box.

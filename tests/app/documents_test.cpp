@@ -79,7 +79,7 @@ std::vector<CodeBlock> codeBlocks() {
 TEST(Documents, NameEveryOptionAndNoOther) {
   const std::string page = textOf(root + "/docs/command-line.md");
   for (const char* command :
-       {"run", "check", "compare", "convert", "cycles", "project", "feel", "camera", "machine", "study"}) {
+       {"run", "check", "compare", "convert", "cycles", "project", "feel", "camera", "machine", "study", "survive"}) {
     SCOPED_TRACE(command);
     const std::string part = section(page, std::string("## `probewright ") + command);
     std::string rows;
@@ -95,7 +95,7 @@ TEST(Documents, NameOptionsThatThereAre) {
   std::set<std::string> known = {"--help",  "--version", "--sanitize", "--preset",
                                  "--build", "--install", "--component"};
   for (const char* command :
-       {"run", "check", "compare", "convert", "cycles", "project", "feel", "camera", "machine", "study"})
+       {"run", "check", "compare", "convert", "cycles", "project", "feel", "camera", "machine", "study", "survive"})
     for (const std::string& option : matches(probewright({command, "--help"}).output, "\n  (--[a-z-]+)"))
       known.insert(option);
   for (const std::string& name : namesIn(root + "/docs")) {
