@@ -21,6 +21,7 @@ const std::string klartext = "examples/programs/housing.h", klartextSetup = "exa
 struct Case {
   const char *language, *within, *cycle, *diameter, *totals, *report;
 };
+void PrintTo(const Case& each, std::ostream* out) { *out << each.language; }
 
 class InLanguage : public ::testing::TestWithParam<Case> {};
 
@@ -55,6 +56,7 @@ INSTANTIATE_TEST_SUITE_P(Languages, InLanguage,
 struct AlarmCase {
   const char *language, *name, *sentence, *stopped, *truth;
 };
+void PrintTo(const AlarmCase& each, std::ostream* out) { *out << each.language; }
 
 class AlarmInLanguage : public ::testing::TestWithParam<AlarmCase> {};
 

@@ -11,6 +11,7 @@
 #include "machine/linuxcnc_machine.hpp"
 #include "machine/machine_file.hpp"
 #include "machine/table_body.hpp"
+#include "support/test_names.hpp"
 
 /// Machines as LinuxCNC configurations describe them.
 namespace probewright::machine {
@@ -188,6 +189,7 @@ struct Refusal {
   const char* ini;
   const char* said;
 };
+void PrintTo(const Refusal& refusal, std::ostream* out) { *out << testing_support::plainWords(refusal.said); }
 class Refused : public Configuration, public ::testing::WithParamInterface<Refusal> {};
 
 TEST_P(Refused, InWords) {

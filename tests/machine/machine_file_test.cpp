@@ -1,4 +1,5 @@
 #include "machine/machine_file.hpp"
+#include "support/test_names.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -108,6 +109,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 struct Mistake {
   const char *from, *to, *message;
 };
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << testing_support::plainWords(mistake.message); }
 
 class MachineMistake : public testing::TestWithParam<Mistake> {};
 

@@ -15,6 +15,7 @@ struct Published {
   const char* name;
   double upper, lower;  // micrometres
 };
+void PrintTo(const Published& published, std::ostream* out) { *out << published.nominal << ' ' << published.name; }
 
 class PublishedLimits : public testing::TestWithParam<Published> {};
 

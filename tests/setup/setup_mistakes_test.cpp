@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "setup/setup.hpp"
+#include "support/test_names.hpp"
 
 /// What people write wrongly in setup files.
 namespace probewright::setup {
@@ -21,6 +22,7 @@ TEST(Setup, ReportsAllMistakesOfAFile) {
 struct Mistake {
   const char *text, *message;
 };
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << testing_support::plainWords(mistake.message); }
 
 class SetupMistake : public testing::TestWithParam<Mistake> {};
 
