@@ -18,7 +18,7 @@ namespace {
 
 /// To be counted up whenever an import makes something else of the same file, also if only its layout in memory
 /// changes.
-constexpr int kCacheVersion = 9;
+constexpr int kCacheVersion = 10;
 
 /// About faces that STEP does not tell unmistakably: of a circle that meets its axis OpenCASCADE may turn the other
 /// arc.
@@ -71,9 +71,12 @@ Result<std::unique_ptr<Solid>> import(TransferOrder order, const ImportOptions& 
         ImportCache::keyOf(order.bytes, fmt::format("{} {} {} {} {}", kCacheVersion, OCC_VERSION_COMPLETE,
                                                     static_cast<int>(format), options.deflection, options.facePoints));
     if (auto kept = cache.find(key)) {
-      if (const auto part = partFromBytes(std::move(*kept)))
-        return solidOf(*part, format, file, options,
-                       [&] { return exactModel(part->shape, options.deflection, options.stop); });
+      if (const auto part = partFromBytes(std::move(*kept))) {
+        auto solid = solidOf(*part, format, file, options,
+                             [&] { return exactModel(part->shape, options.deflection, options.stop); });
+        // What cannot be used is imported anew, as if nothing had been kept.
+        if (solid || options.stop.stop_requested()) return solid;
+      }
     }
   }
   Result<ImportedInChild> imported = importInChild(std::move(order), options);
