@@ -196,9 +196,9 @@ TEST(Tolerances, AreReadAndRefused) {
                                                         {"part.pose.c=120", "90 degrees"},
                                                         {"part.feature[9].diameter=1", ""},
                                                         {"part.feature[2].diameter=40", "above 0"},
-                                                        {"tool[PROBE].pretravel=0.1", "no number of a clamping"},
-                                                        {"errors.axis.X.backlash=0.1", "no number of a clamping"},
-                                                        {"tool[PROBE].mount[1]=1", "no number of a clamping"}}) {
+                                                        {"tool[PROBE].pretravel=0.1", "not a number of a clamping"},
+                                                        {"errors.axis.X.backlash=0.1", "not a number of a clamping"},
+                                                        {"tool[PROBE].mount[1]=1", "not a number of a clamping"}}) {
     const auto refused = parseTolerance(text, table);
     ASSERT_FALSE(refused) << text;
     EXPECT_THAT(refused.error().message, HasSubstr(why)) << text;
