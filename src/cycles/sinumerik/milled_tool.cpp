@@ -217,10 +217,10 @@ void Measurement::nameEdge(std::size_t number) {
 }
 
 void Measurement::conclude(const std::vector<double>& edges, double longest) {
-  const double believed = believedComponent(context_, component());
+  const double believed = believedComponent(context_, component()), empirical = empiricalValue(context_);
   const auto both = [&](int actual, int difference, double value) {
     context_.result(actual, believed + value, {.nominal = believed});
-    context_.result(difference, value);
+    context_.result(difference, value - empirical);
   };
   both(isLength() ? 8 : 10, isLength() ? 9 : 11, longest);
   if (!edges.empty()) both(isLength() ? 12 : 14, isLength() ? 13 : 15, *std::ranges::min_element(edges));
@@ -228,7 +228,7 @@ void Measurement::conclude(const std::vector<double>& edges, double longest) {
     const int place = static_cast<int>(i) + (isLength() ? 300 : 100);
     context_.result(place, believed + edges[i], {.nominal = believed});
     nameEdge(i + 1);
-    context_.result(place + 100, edges[i]);
+    context_.result(place + 100, edges[i] - empirical);
     nameEdge(i + 1);
   }
   noteTool(context_);
