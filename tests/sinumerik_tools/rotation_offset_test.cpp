@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "language/sinumerik/check.hpp"
+#include "session/control_family.hpp"
 #include "sinumerik_tools/tool_bench.hpp"
 
 /// What a turning tool is measured too large or too small by, from SD 54690 to SD 54710.
@@ -86,6 +88,33 @@ TEST(RotationOffset, OfTheMakerIsNotKnown) {
   const ToolRun ran = bench.measure(beside, call);
   EXPECT_EQ(ran.ovr(8), without);
   EXPECT_TRUE(ran.told("tables of the probe's maker (SD 54691 = 1) are not known here"));
+  bench.datum("$SNS_MEA_T_PROBE_OFFSET", 3);
+  EXPECT_TRUE(bench.measure(beside, call).told("= 3 is none of 0, 1 and 2"));
+}
+
+/// Known before the run, from the program and from the setup.
+TEST(RotationOffset, ThatAddsNothingIsNamedByCheck) {
+  const auto said = [](const std::string& value) {
+    const auto program =
+        language::sinumerik::SinumerikProgram::fromText("P.MPF", "$SNS_MEA_T_PROBE_OFFSET=" + value + "\nM30\n");
+    const Diagnostics found = language::sinumerik::check(*program);
+    EXPECT_TRUE(found.empty() || found.front().severity == Severity::Warning);
+    return found.empty() ? std::string() : found.front().message;
+  };
+  EXPECT_EQ(said("0") + said("2") + said("R1"), "");
+  EXPECT_NE(said("1").find("of the probe's maker"), std::string::npos);
+  EXPECT_NE(said("3").find("none of 0, 1 and 2"), std::string::npos);
+  ToolBench bench = millBench();
+  const auto ofSetup = [&](double value) {
+    bench.datum("$SNS_MEA_T_PROBE_OFFSET", value);
+    Diagnostics found;
+    const auto kind = control::ControlKind::Sinumerik840Dsl;
+    session::knownFamilies().of(kind).inventory(bench.setup.beliefs, kind, found);
+    EXPECT_FALSE(hasErrors(found));
+    return found.size();
+  };
+  EXPECT_EQ(ofSetup(0) + ofSetup(2), 0U);
+  EXPECT_EQ(ofSetup(1), 1U);
 }
 
 }  // namespace

@@ -134,20 +134,14 @@ probing::ToolStrokeTouch Measurement::touchTurning(const PlaneWay& direction) {
 
 double Measurement::offsetOfTurning() {
   const auto& data = context_.control().data;
-  switch (rotationOffsetOf(data)) {
-    case RotationOffset::None:
-      return 0;
-    case RotationOffset::OfTheMaker:
-      context_.control().panel.message(control::EventKind::Warning,
-                                       "CYCLE971: the tables of the probe's maker (SD 54691 = 1) are not known here: "
-                                       "nothing is added. Enter yours in "
-                                       "SD 54695 to 54710 and set SD 54691 = 2",
-                                       context_.channel().seconds());
-      return 0;
-    case RotationOffset::OfTheUser:
-      return rotationOffset(data, isLength() ? TurningDimension::Length : TurningDimension::Radius, tool_.radius(),
-                            request_.touches.back().speed);
-  }
+  if (rotationOffsetOf(data) == RotationOffset::OfTheUser)
+    return rotationOffset(data, isLength() ? TurningDimension::Length : TurningDimension::Radius, tool_.radius(),
+                          request_.touches.back().speed);
+  const std::string complaint = rotationOffsetComplaint(data.number("$SNS_MEA_T_PROBE_OFFSET", {}));
+  if (!complaint.empty())
+    context_.control().panel.message(control::EventKind::Warning,
+                                     fmt::format("CYCLE971: {}. {}", complaint, rotationOffsetAdvice),
+                                     context_.channel().seconds());
   return 0;
 }
 

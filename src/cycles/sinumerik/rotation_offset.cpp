@@ -43,6 +43,14 @@ RotationOffset rotationOffsetOf(const DataStore& data) {
   return asked == 1 ? RotationOffset::OfTheMaker : asked == 2 ? RotationOffset::OfTheUser : RotationOffset::None;
 }
 
+std::string rotationOffsetComplaint(double value) {
+  if (value == 0 || value == 2) return {};
+  if (value != 1)
+    return fmt::format("SD 54691 $SNS_MEA_T_PROBE_OFFSET = {} is none of 0, 1 and 2: nothing is added", value);
+  return "the tables of the probe's maker (SD 54691 = 1) are not known here: nothing is added to what a turning tool "
+         "measures";
+}
+
 double rotationOffset(const DataStore& data, TurningDimension dimension, double radius, double speed) {
   const char* table = dimension == TurningDimension::Length ? "LEN" : "RAD";
   const auto at = [&](int row, int column) {

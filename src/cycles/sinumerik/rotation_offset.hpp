@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <string_view>
+
 #include "control/sinumerik/data_store.hpp"
 
 /// A tool that turns while it is measured appears a little too large or too small to a tool touch probe; SD 54690 to
@@ -15,6 +18,10 @@ enum class RotationOffset {
   OfTheUser = 2,   ///< SD 54695 to 54700 for the radius, SD 54705 to 54710 for the length
 };
 RotationOffset rotationOffsetOf(const control::sinumerik::DataStore& data);
+
+/// Why a value of SD 54691 adds nothing though it asks for something; empty for 0 and 2. What to do about it.
+std::string rotationOffsetComplaint(double value);
+inline constexpr std::string_view rotationOffsetAdvice = "Enter tables in SD 54695 to 54710 and set SD 54691 = 2.";
 
 /// mm, to be added to what was measured with a tool of `radius` mm at `speed` per minute; 0 if the table is empty.
 ///

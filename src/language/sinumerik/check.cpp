@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/text.hpp"
+#include "cycles/sinumerik/rotation_offset.hpp"
 #include "language/constant_division.hpp"
 #include "language/sinumerik/checker.hpp"
 #include "language/sinumerik/cursor.hpp"
@@ -208,6 +209,9 @@ void Checker::checkInstruction(const Instruction& instruction) {
   } else if (const auto* assign = std::get_if<Assign>(&instruction)) {
     const std::string name(block_.at(block_.variables[assign->variable].name));
     if (isFrameWithoutEffect(name)) tell(name, "is not carried out");
+    if (name == "$SNS_MEA_T_PROBE_OFFSET" && assign->value.isLiteral())
+      if (const std::string wrong = cycles::sinumerik::rotationOffsetComplaint(assign->value.number); !wrong.empty())
+        report(columnOf(name), wrong, std::string(cycles::sinumerik::rotationOffsetAdvice), Severity::Warning);
   } else if (const auto* function = std::get_if<MachineFunction>(&instruction)) {
     if (isSkippedMachineFunction(function->number)) tell(fmt::format("M{}", function->number), "is not carried out");
   } else if (const auto* move = std::get_if<Move>(&instruction)) {

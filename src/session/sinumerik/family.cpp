@@ -8,6 +8,7 @@
 
 #include "control/sinumerik/tool_data.hpp"
 #include "cycles/sinumerik/circle_through_points.hpp"
+#include "cycles/sinumerik/rotation_offset.hpp"
 #include "execution/sinumerik/global_data.hpp"
 #include "language/sinumerik/check.hpp"
 #include "language/sinumerik/program.hpp"
@@ -90,6 +91,14 @@ Inventory inventoryOf(const control::Beliefs& beliefs, ControlKind, Diagnostics&
     return tool.number == 0 || toolEdge(data->store, static_cast<int>(std::lround(tool.number)), 1).has_value();
   };
   inventory.hasPreset = [](const NamedItem&) { return true; };
+  constexpr const char* offset = "$SNS_MEA_T_PROBE_OFFSET";
+  if (const std::string wrong = cycles::sinumerik::rotationOffsetComplaint(data->store.number(offset, {}));
+      !wrong.empty()) {
+    const auto set = beliefs.parameters.find(offset);
+    const SourcePlace place = set == beliefs.parameters.end() ? SourcePlace{beliefs.file} : set->second.place;
+    diagnostics.push_back(
+        {Severity::Warning, place, wrong, {}, std::string(cycles::sinumerik::rotationOffsetAdvice), {}});
+  }
   return inventory;
 }
 
