@@ -29,6 +29,21 @@ ToolRun in(const ToolBench& bench, double unit, int tool, const NamedNumbers& nu
   return left;
 }
 
+/// Whatever their size, numbers of a setup are those of the control.
+TEST(ToolUnits, SmallAndLargeNumbersOfTheSetupAreRead) {
+  ToolBench bench;
+  bench.disc(20);
+  bench.add(9, 80, 5);
+  bench.datum("$TC_DP12[9,1]", -4.653276821522945e-05);
+  bench.datum("$TC_DP15[9,1]", 1e-17);
+  bench.datum("$SNS_MEA_TP_FEED[0]", 1e17);
+  const ToolRun left = bench.program("R1=$TC_DP12[9,1] R2=$TC_DP15[9,1] R3=$SNS_MEA_TP_FEED[0]\nM30\n");
+  EXPECT_EQ(left.code(), "");
+  EXPECT_EQ(left.r(1), -4.653276821522945e-05);
+  EXPECT_EQ(left.r(2), 1e-17);
+  EXPECT_EQ(left.r(3), 1e17);
+}
+
 TEST(ToolUnits, AToolIsAsLongInInches) {
   const NamedNumbers usual = {{"S_PRNUM", 1}, {"S_FA", 5}, {"S_TSA", 2}, {"S_TDIF", 1}};
   for (const NamedNumbers& more : {NamedNumbers{{"S_MVAR", 2}, {"S_MA", 3}}, NamedNumbers{{"S_MVAR", 2}, {"S_MA", 1}},

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "control/sinumerik/measuring_data.hpp"
+#include "control/sinumerik/text.hpp"
 #include "cycles/sinumerik/tool_probe_data.hpp"
 #include "execution/sinumerik/global_data.hpp"
 #include "session/sinumerik/lathe_beliefs.hpp"
@@ -103,7 +104,7 @@ SinumerikData sinumerikData(const Beliefs& beliefs, Diagnostics& diagnostics,
     }
     sin::InitText::parse(fmt::format("{}={}\n", name,
                                      std::holds_alternative<double>(parameter.value)
-                                         ? fmt::format("{}", std::get<double>(parameter.value))
+                                         ? sin::numberText(std::get<double>(parameter.value))
                                          : "\"" + std::get<std::string>(parameter.value) + "\""),
                          beliefs.file, store, diagnostics);
   }
