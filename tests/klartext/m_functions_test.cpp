@@ -187,7 +187,17 @@ TEST(MFunctions, M19AndM20OrientTheSpindleToTheAngleOfCycle13) {
     expectFinished(without.run("TOOL CALL 1 Z\n" + function + "\n"));
     EXPECT_EQ(without.control->channel.spindleAngle(), 0) << "as the builder has fixed it";
   }
+  // As the manuals print it, in the words of two editions, and in each mode that they name.
+  for (const std::string printed : {"93 CYCL DEF 13.0 ORIENT.OSTAN.SPIND\n94 CYCL DEF 13.1 UGOL 180\n",
+                                    "93 CYCL DEF 13.0 ORIENTERING\n94 CYCL DEF 13.1 VINKEL 180\n"}) {
+    for (const std::string mode : {"MILL", "TURN", "DRESS"}) {
+      World turned;
+      expectFinished(turned.run("FUNCTION MODE " + mode + "\nTOOL CALL 1 Z\n" + printed + "M19\n"));
+      EXPECT_EQ(turned.control->channel.spindleAngle(), 180) << mode;
+    }
+  }
   World world;
+  EXPECT_EQ(world.run("Q1 = -1\nCYCL DEF 13.0 ORIENTATION\nCYCL DEF 13.1 ANGLE Q1\n").end, RunEnd::Alarm);
   const RunResult beyond = world.run("Q1 = 361\nCYCL DEF 13.0 ORIENTATION\nCYCL DEF 13.1 ANGLE Q1\n");
   EXPECT_EQ(beyond.end, RunEnd::Alarm);
 }

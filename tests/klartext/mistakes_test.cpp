@@ -188,7 +188,7 @@ TEST(Mistakes, OfPlanesAndTransformations) {
               {"CYCL DEF 26.0 SCALING\nCYCL DEF 26.1 X1 C2", "Axis not permitted: Cycle 26 scales X, Y and Z, not C"},
               {"TOOL CALL QS5 Z", "Tool not defined: The name of the tool is empty"},
               {"PRESET SELECT 5", "3:15: '#' is expected after PRESET SELECT"},
-              {"FUNCTION MODE X", "3:15: MILL, TURN, GRIND or SET is expected after FUNCTION MODE"},
+              {"FUNCTION MODE X", "3:15: MILL, TURN, GRIND, DRESS or SET is expected after FUNCTION MODE"},
               {"FUNCTION TCPM F TCP AXIS POS",
                "Function not available: M128 and FUNCTION TCPM need a machine with rotary axes"}});
 }

@@ -2,8 +2,8 @@
 
 #include "tool_touch_probe/tool_worlds.hpp"
 
-/// The examples that the manuals print for cycles 30 to 33 and 480 to 483, in the words of each edition, in a world
-/// that the control knows a little wrong. 484 and 485 are in the tests of calibration and of turning tools.
+/// The examples that the manuals print for cycles 30 to 33 and 480 to 484, in the words of each edition, in a world
+/// that the control knows a little wrong. 485 is in the tests of turning tools.
 namespace probewright::testing_support {
 namespace {
 
@@ -112,6 +112,40 @@ TEST(PrintedToolPrograms, CalibrateInTheOldAndTheNewForm) {
       EXPECT_NEAR(values[3], printed.world.half1, 2e-6);
       EXPECT_THAT(ran.screens(), testing::Not(testing::IsEmpty()));
     }
+  }
+}
+
+/// 484: the tool is changed above the tool touch probe, whose place the control does not know. The iTNC 530 has no
+/// parameters for it.
+TEST(PrintedToolPrograms, CalibrateAnInfraredToolTouchProbe) {
+  Dice dice(4874);
+  for (const Edition& edition : editions()) {
+    SCOPED_TRACE(edition.name);
+    Printed printed(edition, dice);
+    for (const char* wrong : {"calibratedContactX", "calibratedContactY", "calibratedContactZ",
+                              "calibratedContactRadius1", "calibratedContactRadius2"})
+      printed.world.bench.setup.beliefs.parameters[wrong] = {7.0, {}};
+    const Vector3 above = printed.world.contact + Vector3(0.6, -0.4, 7 + 74.5);
+    for (std::size_t i = 0; i < 3; ++i)
+      printed.world.bench.setup.world.truth.machine.toolChange[i] = above[static_cast<Eigen::Index>(i)];
+    const bool newer = edition.control == ControlKind::TNC640;
+    const std::string text =
+        fmt::format("6 TOOL CALL 1 Z\n7 TCH PROBE 484 {}{}\n", edition.name, newer ? " ~\n  Q536=+0 ;STOP" : "");
+    const Ran ran = printed.world.bare(text);
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    const auto values = found(ran);
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(values[static_cast<std::size_t>(i)], printed.world.contact[i], 2e-6);
+    EXPECT_NEAR(values[3], printed.world.half1, 2e-6);
+    EXPECT_THAT(ran.screens().front(), HasSubstr("Position the calibrating tool"));
+    // The tool ends above the middle, and the operator may say no.
+    ASSERT_TRUE(ran.machine);
+    EXPECT_NEAR(ran.machine->position()[0], printed.world.contact.x(), 1e-5);
+    EXPECT_NEAR(ran.machine->position()[1], printed.world.contact.y(), 1e-5);
+    printed.world.bench.onStop = control::OnStop::Abort;
+    const Ran aborted = printed.world.bare(text);
+    EXPECT_EQ(aborted.outcome.result.end, execution::RunEnd::Cancelled);
+    EXPECT_EQ(aborted.touches(), 0U);
   }
 }
 

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <set>
+
 #include "control/heidenhain/turning_tool_table.hpp"
 #include "tool_touch_probe/tool_worlds.hpp"
 
@@ -14,8 +16,9 @@ struct Turning {
     world.cuboid(written(dice.between(16, 30)), written(dice.between(16, 30)));
   }
 
-  /// The insert of a tip that points to (x, z), each -1, 0 or 1, in the spindle at the angle `orientation`.
-  void plant(double xLength, double zLength, double nose, int x, int z, double orientation) {
+  /// The insert of a tip that points to (x, z), each -1, 0 or 1, in the spindle at the angle `orientation`; its edges
+  /// face `half` degrees away from there.
+  void plant(double xLength, double zLength, double nose, int x, int z, double orientation, double half = 50) {
     simulation::TrueTool tool;
     tool.length = zLength;
     tool.radius = 2;
@@ -23,8 +26,8 @@ struct Turning {
     simulation::TrueInsert insert;
     insert.noseRadius = nose;
     const double towards = degrees(std::atan2(z, x));
-    insert.firstNormal = towards - 50;
-    insert.secondNormal = towards + 50;
+    insert.firstNormal = towards - half;
+    insert.secondNormal = towards + half;
     insert.orientation = -orientation;
     tool.cutter.insert = insert;
     tool.cutter.eccentricity = {xLength, 0};
@@ -109,6 +112,56 @@ TEST(TurningToolMeasurement, FindsTheLengthsThatTheOrientationLetsItTouch) {
   }
 }
 
+/// Each type of tool with each orientation: both lengths, one, or a refusal, as the page of the cycle lists them. The
+/// length across the direction of a tip that points straight along or across is to the middle of its nose.
+TEST(TurningToolMeasurement, MeasuresOfEachTypeWhatItsOrientationPermits) {
+  Dice dice(4854);
+  constexpr std::pair<int, int> pointing[] = {{-1, -1}, {-1, 0}, {-1, 1}, {0, 1}, {1, 1}, {1, 0}, {1, -1}, {0, -1}};
+  const std::set<int> wideX = {1, 2, 3, 5, 6, 7}, wideZ = {1, 7, 8}, narrowX = {1, 2, 3, 5, 7, 8},
+                      narrowZ = {1, 2, 7, 8};
+  for (const char* type : {"ROUGH", "FINISH", "BUTTON", "RECESS", "RECTURN", "THREAD"}) {
+    const bool narrow = std::string(type).starts_with("REC") || std::string(type) == "THREAD";
+    for (int orientation = 1; orientation <= 9; ++orientation) {
+      SCOPED_TRACE(fmt::format("{} TO {}", type, orientation));
+      Turning turning(dice);
+      const double nose = written(dice.between(0.2, 1.2)), x = dice.between(-40, 40), z = dice.between(70, 110);
+      const auto [towardsX, towardsZ] = pointing[orientation == 9 ? 0 : orientation - 1];
+      // The sides of a recessing tool are parallel.
+      const bool straight = narrow && (towardsX == 0 || towardsZ == 0);
+      turning.plant(x, z, nose, towardsX, towardsZ, 0, straight ? 89.9999 : 50);
+      const double believedX = written(x + dice.between(-1, 1)), believedZ = written(z + dice.between(-1, 1));
+      turning.enterTool({{"ZL", text(believedZ)},
+                         {"XL", text(believedX)},
+                         {"RS", text(nose)},
+                         {"TO", fmt::format("{}", orientation)},
+                         {"TYPE", type}});
+      const bool measuresX = (narrow ? narrowX : wideX).contains(orientation),
+                 measuresZ = (narrow ? narrowZ : wideZ).contains(orientation);
+      const Ran ran = turning.run(0);
+      EXPECT_EQ(ran.alarm(), measuresX || measuresZ ? "" : "Tool orientation not permitted") << ran.why();
+      if (!ran.finished()) continue;
+      EXPECT_NEAR(turning.turned(ran, "ZL"), measuresZ ? z : believedZ, 5.1e-5);
+      EXPECT_NEAR(turning.turned(ran, "XL"), measuresX ? x : believedX, 5.1e-5);
+      ASSERT_FALSE(ran.screens().empty());
+      EXPECT_EQ(ran.screens().back().find("ZL") != std::string::npos, measuresZ);
+      EXPECT_EQ(ran.screens().back().find("XL") != std::string::npos, measuresX);
+    }
+  }
+}
+
+/// What the manuals warn of: data that are farther off than 2 mm may end in a collision.
+TEST(TurningToolMeasurement, NeedsDataThatAreAboutRight) {
+  Dice dice(4855);
+  for (const double wrong : {-2.0, 2.0, 8.0}) {
+    Turning turning(dice);
+    turning.plant(25, 90, 0.8, -1, -1, 0);
+    turning.enterTool({{"ZL", text(90 - wrong)}, {"XL", "25"}, {"RS", "0.8"}, {"TO", "1"}});
+    const Ran ran = turning.run(0);
+    EXPECT_EQ(ran.alarm(), wrong > 2 ? "Collision" : "") << ran.why();
+    EXPECT_NEAR(turning.turned(ran, "ZL"), wrong > 2 ? 90 - wrong : 90, 5.1e-5);
+  }
+}
+
 /// The example that the manuals print: a check.
 TEST(TurningToolMeasurement, RunsThePrintedExample) {
   Dice dice(4853);
@@ -122,6 +175,10 @@ TEST(TurningToolMeasurement, RunsThePrintedExample) {
   EXPECT_NEAR(ran.q(116), -0.05, 2e-6);
   EXPECT_NEAR(turning.turned(ran, "DZL"), 0.03, 5.1e-5);
   EXPECT_NEAR(turning.turned(ran, "DXL"), -0.05, 5.1e-5);
+  // In the words of the other edition.
+  const Ran other = turning.world.bare(
+      "6 TOOL CALL 12 Z\n7 TCH PROBE 485 MAT VRIDVERKTYG ~\n  Q340=+1 ;KONTROLL ~\n  Q260=+100 ;H\n");
+  EXPECT_NEAR(other.q(115), 0.03, 2e-6);
 }
 
 TEST(TurningToolMeasurement, LocksBeyondItsTolerances) {
@@ -142,6 +199,8 @@ TEST(TurningToolMeasurement, LocksBeyondItsTolerances) {
       const Ran ran = turning.run(mode);
       ASSERT_TRUE(ran.finished()) << ran.why();
       EXPECT_EQ(ran.q(199), status);
+      const std::string mark = mode == 0 || status == 0 ? "" : status == 1 ? " *" : " B";
+      EXPECT_NE(ran.screens().back().find("+90.0000" + mark + "\n"), std::string::npos) << ran.screens().back();
       EXPECT_EQ(ran.table("TOOL.T").text("12", "TL"), mode > 0 && status > 0 ? "L" : "");
       turning.world.parameter("stopOnCheck", "", 1);
       EXPECT_EQ(turning.run(mode).alarm(), mode > 0 && status == 2 ? "Tool breakage" : "");
@@ -171,6 +230,16 @@ TEST(TurningToolMeasurement, RefusesWhatItCannotMeasure) {
   round.enterTool({{"ZL", "90"}, {"XL", "10"}, {"TO", "1"}});
   round.world.parameter("rectStylus", "", 0);
   EXPECT_EQ(round.run(1).alarm(), "Tool touch probe not suitable");
+  Turning across(dice);
+  across.plant(10, 90, 0.8, -1, -1, 0);
+  across.enterTool({{"ZL", "90"}, {"XL", "10"}, {"TO", "1"}});
+  EXPECT_EQ(across.world.bare("TOOL CALL 12 Y\n" + probe(485, {{340, 1}, {260, 60}})).alarm(),
+            "Tool axis not permitted");
+  Turning unknown(dice);
+  unknown.plant(10, 90, 0.8, -1, -1, 0);
+  unknown.world.bench.setup.beliefs.tools.back().kind = "mill";
+  enter(unknown.folder, unknown.world, {{"TYP", "TURN"}});
+  EXPECT_EQ(unknown.run(1).alarm(), "Tool type not permitted") << "no row in TOOLTURN.TRN";
   Turning mill(dice);
   mill.plant(10, 90, 0.8, -1, -1, 0);
   mill.world.bench.setup.beliefs.tools.back().kind = "mill";

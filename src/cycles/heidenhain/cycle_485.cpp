@@ -59,7 +59,7 @@ Measurable measurable(const std::string& type, int orientation) {
 }
 
 struct TurningTool {
-  double z = 0, x = 0, y = 0;  ///< with their delta values
+  double z = 0, x = 0, y = 0, nose = 0;  ///< with their delta values
   int orientation = 1;
   double spindleAngle = 0;
   Measurable measurable;
@@ -86,6 +86,7 @@ TurningTool turningTool(Context& context) {
   TurningTool tool{number("ZL") + number("DZL"),
                    number("XL") + number("DXL"),
                    number("YL") + number("DYL"),
+                   number("RS") + number("DRS"),
                    truncated(number("TO")),
                    number("ORI"),
                    {}};
@@ -135,6 +136,8 @@ Measured measure(Context& context, const TurningTool& tool, double clearanceHeig
   Measured measured;
   if (tool.measurable.z) {
     measured.z = prober.touchTop({0, 0}).tip.z() + tool.z - probe.place.z();
+    // The tip that points to -X is in the middle of its nose, whose lower side touches.
+    if (tool.orientation == 2) *measured.z -= tool.nose;
     prober.rise();
   }
   if (tool.measurable.x) {
@@ -144,6 +147,7 @@ Measured measure(Context& context, const TurningTool& tool, double clearanceHeig
     // Along the axis a turned face is farther than at right angles to it.
     const double half = probe.size / 2 / std::cos(radiansFromDegrees(control.parameters.contactAngle));
     measured.x = tool.x + probe.place.x() - sense * half - tipAt;
+    if (tool.orientation == 8) *measured.x += tool.nose;  // in the middle as well, and its -X side touches
   }
   prober.rise();
   return measured;
@@ -183,12 +187,15 @@ void run(Context& context, const Arguments&) {
   const int mode = context.option(340);
   const ToolMeasuringSettings settings = toolMeasuringSettings(control);
   int status = 0;
+  std::string screen = fmt::format("TOOL {}{}{}\n", row, control.tool.name.empty() ? "" : " ", control.tool.name);
   const auto enter = [&](std::optional<double> value, NumberColumn nominal, NumberColumn delta, NumberColumn wear,
                          NumberColumn breakage, int result) {
     if (!value) return;
     const double before = table.numberOr(row, nominal, 0) + (mode == 2 ? table.numberOr(row, delta, 0) : 0);
     const double deviation = *value - before;
-    status = std::max(status, toolStatus(deviation, tools.numberOr(row, wear, 0), tools.numberOr(row, breakage, 0)));
+    const int found = toolStatus(deviation, tools.numberOr(row, wear, 0), tools.numberOr(row, breakage, 0));
+    status = std::max(status, found);
+    screen += fmt::format("{}\n  {:+.4f}{}\n", nominal.name(), *value, statusMark(mode == 0 ? 0 : found));
     if (mode == 0 && settings.entersMeasured) {
       control.writeNumber(table, row, nominal, *value);
       control.writeNumber(table, row, delta, 0);
@@ -200,6 +207,7 @@ void run(Context& context, const Arguments&) {
   enter(measured.z, "ZL", "DZL", "LTOL", "LBREAK", 115);
   enter(measured.x, "XL", "DXL", "RTOL", "RBREAK", 116);
   context.result(199, status);
+  context.record().screens.push_back(screen);
   if (mode != 0 && status > 0) {
     control.writeText(table, row, "TL", "L");
     control.writeText(control.tables.tools, row, "TL", "L");

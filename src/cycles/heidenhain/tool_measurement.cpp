@@ -101,6 +101,8 @@ int toolStatus(double deviation, double wear, double breakage) {
   return wear > 0 && std::abs(deviation) > wear ? 1 : 0;
 }
 
+const char* statusMark(int status) { return status == 2 ? " B" : status == 1 ? " *" : ""; }
+
 ToolRequest oldRequest(Context& context) {
   ToolRequest request{context.option(probe_word::check), context.q(probe_word::height),
                       context.option(probe_word::teeth) == 1, std::nullopt};
@@ -352,21 +354,21 @@ void ToolMeasurement::stopIfBroken(int status) const {
   }
 }
 
-/// The display of tool measurement: * is beyond the wear tolerance, B beyond that of breakage.
+/// The display of tool measurement. That of the iTNC 530 has room for 24 teeth.
 void ToolMeasurement::show(const ToolDimension& dimension, Of of) {
   const Entries& entries = of == Of::Length ? lengthEntries : radiusEntries;
   const double nominal = column(entries.nominal);
   const auto mark = [&](double value) {
     if (request_.mode == 0) return "";
-    const int status = toolStatus(value - nominal, column(entries.wear), column(entries.breakage));
-    return status == 2 ? " B" : status == 1 ? " *" : "";
+    return statusMark(toolStatus(value - nominal, column(entries.wear), column(entries.breakage)));
   };
   screen_ += fmt::format("{}\n", entries.title);
   if (dimension.whole) screen_ += fmt::format("  {:+.4f}{}\n", *dimension.whole, mark(*dimension.whole));
   if (dimension.teeth.empty()) return;
   const auto [least, most] = std::ranges::minmax(dimension.teeth);
   screen_ += fmt::format("  MIN {:+.4f}  MAX {:+.4f}\n", least, most);
-  for (std::size_t i = 0; i < dimension.teeth.size(); ++i)
+  const std::size_t room = context_.control().isTNC640() ? dimension.teeth.size() : 24;
+  for (std::size_t i = 0; i < std::min(room, dimension.teeth.size()); ++i)
     screen_ += fmt::format("  {:2} {:+.4f}{}\n", i + 1, dimension.teeth[i], mark(dimension.teeth[i]));
 }
 

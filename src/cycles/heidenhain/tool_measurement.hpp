@@ -49,6 +49,8 @@ void toolRules(CallRules& call);
 
 /// Status of a deviation: 0 within the tolerances, 1 worn, 2 broken; a tolerance of 0 is none.
 int toolStatus(double deviation, double wear, double breakage);
+/// How displays of tool measurement mark a value: * is beyond the wear tolerance, B beyond that of breakage.
+const char* statusMark(int status);
 
 /// Refuses what cannot be measured: no tool, a touch probe, a turning tool.
 void requireMeasurable(Context& context);

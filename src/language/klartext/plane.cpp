@@ -241,10 +241,10 @@ bool BlockParser::functionKeyword() {
     const std::size_t start = (lexer_.peek(), lexer_.offset());
     if (lexer_.acceptKeyword("MODE")) {
       const bool known = lexer_.acceptKeyword("MILL") || lexer_.acceptKeyword("TURN") ||
-                         lexer_.acceptKeyword("GRIND") || lexer_.acceptKeyword("SET");
+                         lexer_.acceptKeyword("GRIND") || lexer_.acceptKeyword("DRESS") || lexer_.acceptKeyword("SET");
       if (!known) {
-        return error("MILL, TURN, GRIND or SET is expected after FUNCTION MODE",
-                     meantWord(lexer_, {"MILL", "TURN", "GRIND", "SET"}));
+        return error("MILL, TURN, GRIND, DRESS or SET is expected after FUNCTION MODE",
+                     meantWord(lexer_, {"MILL", "TURN", "GRIND", "DRESS", "SET"}));
       }
       lexer_.seek(start);
     } else if (std::string meant = meantFunction(lexer_); !meant.empty()) {

@@ -1,0 +1,94 @@
+#include <gmock/gmock.h>
+
+#include "tool_touch_probe/tool_worlds.hpp"
+
+/// What the manuals say of cycles 480 to 484 beside their results: heights, paths, displays, values of GLOBAL DEF.
+namespace probewright::testing_support {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr ControlKind kinds[] = {ControlKind::TNC640, ControlKind::iTNC530};
+
+/// A mill of `teeth` that the control knows as it is.
+struct Detail {
+  explicit Detail(ControlKind kind, int teeth = 1, double radius = 8) : world(kind), folder(world.bench) {
+    world.disc(40);
+    simulation::TrueTool mill;
+    mill.length = 80;
+    mill.radius = radius;
+    for (int i = 0; i < teeth; ++i)
+      mill.cutter.teeth.push_back({.angle = 360.0 * i / teeth, .axial = -0.001 * i});
+    world.add(mill, 12, 80, radius);
+    enter(folder, world, {{"CUT", fmt::format("{}", teeth)}});
+  }
+  ToolWorld world;
+  TableFolder folder;
+};
+
+TEST(ToolDetails, TheDisplayOfTheOlderControlHasRoomFor24Teeth) {
+  for (const auto& [kind, teeth] : {std::pair(ControlKind::iTNC530, 30), std::pair(ControlKind::TNC640, 20)}) {
+    const Detail detail(kind, teeth, 30);
+    const Ran ran = detail.world.run(toolCycle(482, 0, true, false));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_EQ(ran.touches(), 1U + static_cast<std::size_t>(teeth)) << "each is measured";
+    EXPECT_EQ(shownTeeth(ran.cycle(), "RADIUS").size(), kind == ControlKind::iTNC530 ? 24U : 20U);
+  }
+}
+
+/// Q260 of GLOBAL DEF 120.
+TEST(ToolDetails, TheClearanceHeightMayComeFromGlobalDef) {
+  for (const ControlKind kind : kinds) {
+    const Detail detail(kind);
+    const std::string global = "GLOBAL DEF 120 PROBING ~\n  Q320=+0 ;S ~\n  Q260=+75 ;H ~\n  Q301=+1 ;T\n";
+    std::string cycle = toolCycle(481, 1, false, false);
+    const std::string written = "Q260=+60.000000";
+    cycle.replace(cycle.find(written), written.size(), "Q260=PREDEF");
+    const Ran ran = detail.world.run(global + cycle);
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    EXPECT_NEAR(ran.q(115), 0, 0.0051);
+    // It ends there: 75 mm above the preset, the tool's length below the spindle.
+    ASSERT_TRUE(ran.machine);
+    EXPECT_NEAR(ran.machine->position()[2], -420 + 75 + 80, 1e-6);
+  }
+}
+
+/// Without its parameter 484 stops; that parameter is one of the TNC 640.
+TEST(ToolDetails, Cycle484KnowsItsParameterOnTheNewerControlOnly) {
+  Detail newer(ControlKind::TNC640), older(ControlKind::iTNC530);
+  EXPECT_THAT(newer.world.run("TCH PROBE 484 CALIBRATE\n").screens(),
+              testing::Contains(HasSubstr("Position the calibrating tool")));
+  const Ran refused = older.world.run(probe(484, {{536, 1}}));
+  EXPECT_EQ(refused.outcome.info.exit, records::ExitState::InputMistake);
+  EXPECT_THAT(refused.why(), HasSubstr("Q536"));
+}
+
+/// The first way leads up or down to the clearance height, all others stay at or above it but beside the contact.
+TEST(ToolDetails, ToolsTravelAtTheClearanceHeight) {
+  for (const ControlKind kind : kinds) {
+    const Detail detail(kind);
+    const Ran ran = detail.world.run(toolCycle(483, 0, false, false));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    ASSERT_TRUE(ran.machine);
+    EXPECT_NEAR(ran.machine->position()[2], -420 + 60 + 80, 1e-6) << "back to the clearance height";
+    EXPECT_EQ(ran.outcome.journal.cycles.size(), 1U);
+    EXPECT_EQ(ran.machine->spindle().rotation, machine::Rotation::None) << "the spindle stands";
+  }
+}
+
+/// Lengths come first where a TNC 640 turns the tool, radii first otherwise.
+TEST(ToolDetails, TheOrderOf483DependsOnTheControlAndTheTeeth) {
+  for (const ControlKind kind : kinds) {
+    for (const bool teeth : {false, true}) {
+      const Detail detail(kind);
+      const Ran ran = detail.world.run(toolCycle(483, 0, teeth, false));
+      ASSERT_TRUE(ran.finished()) << ran.why();
+      const bool along = std::abs(ran.cycle().touches.front().direction.z()) > 0.5;
+      EXPECT_EQ(along, kind == ControlKind::TNC640 && !teeth);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace probewright::testing_support
