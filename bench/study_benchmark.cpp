@@ -1,9 +1,11 @@
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
+#include "study/crew.hpp"
 #include "study/program_model.hpp"
 
 /// Trials per second of a program of 100 touches: 25 bores with four touches each, in a plate whose place varies.
@@ -87,6 +89,45 @@ void trials(benchmark::State& state, bool trueValues) {
 }
 BENCHMARK_CAPTURE(trials, with_true_values, true)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(trials, without, false)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+/// What each rank does with the answers of all: 500 trials of a program of 150 results, put into a message, read from
+/// it, and added to the table. A thousandth of the time for a trial is what 1,000 ranks could share among them.
+void exchange(benchmark::State& state) {
+  std::vector<Draw> draws(500);
+  std::vector<Outcome> outcomes(500);
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    draws[i].trial = i;
+    for (int k = 0; k < 150; ++k) {
+      Observation observation;
+      observation.of.key = std::to_string(400 + k) + "@" + std::to_string(19 * k) + " Q153";
+      observation.of.label = "actual diameter";
+      observation.of.unit = "mm";
+      observation.value = 30 + 1e-6 * static_cast<double>(i * 150) + k;
+      if (state.range(0) != 0) observation.truth = 30;
+      outcomes[i].observations.push_back(observation);
+    }
+  }
+  OutcomeWriter writer;
+  OutcomeReader reader;
+  std::size_t bytes = 0;
+  double writing = 0;
+  for (auto _ : state) {
+    const auto begin = std::chrono::steady_clock::now();
+    const std::string message = writer.write(outcomes);
+    writing += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    TrialTable table(0);
+    const std::vector<Outcome> read = reader.read(message);
+    for (std::size_t i = 0; i < read.size(); ++i)
+      table.add(draws[i], read[i]);
+    bytes = message.size();
+    benchmark::DoNotOptimize(table.size());
+  }
+  const auto trialsDone = static_cast<double>(state.iterations()) * 500;
+  state.counters["bytes_a_trial"] = static_cast<double>(bytes) / 500;
+  state.counters["us_written_a_trial"] = 1e6 * writing / trialsDone;
+  state.counters["trials"] = benchmark::Counter(trialsDone, benchmark::Counter::kIsRate);
+}
+BENCHMARK(exchange)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace probewright::study

@@ -120,7 +120,8 @@ struct StudyArguments {
   std::optional<std::uint64_t> repeat;  ///< type-1 study
   int threads = 0;                      ///< 0: all cores
   bool resume = false;
-  std::string cache;  ///< as of RunArguments
+  std::filesystem::path keep;  ///< all values of all trials, as HDF5; empty: nowhere
+  std::string cache;           ///< as of RunArguments
   bool quiet = false;
 };
 /// Here 3 means that it was interrupted, or that no trial came to the end of the program.
@@ -132,7 +133,7 @@ struct SurviveArguments {
   std::vector<std::string> tolerances;  ///< as survival::parseTolerance reads them
   std::filesystem::path out = "probewright-survive";
   std::optional<control::ControlKind> control;
-  std::uint64_t samples = 1000, boxes = 1000, seed = 1;
+  std::uint64_t samples = 1000, boxes = 1000, checks = 0, seed = 1;
   int threads = 0;    ///< 0: all cores
   std::string cache;  ///< as of RunArguments
   bool quiet = false;

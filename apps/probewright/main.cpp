@@ -154,6 +154,8 @@ CLI::App* addStudy(CLI::App& app, probewright::app::StudyArguments& arguments) {
       ->check(CLI::Range(0, 1024))
       ->type_name("COUNT")
       ->capture_default_str();
+  study->add_option("--keep", arguments.keep, "Also keep all values of all trials in this file of HDF5")
+      ->type_name("FILE");
   study->add_flag("--resume", arguments.resume, "Go on where an earlier study in this folder was broken off");
   study->add_option("--cache", arguments.cache, "As of run")->type_name("DIR");
   study->add_flag("--quiet", arguments.quiet, "Print nothing but mistakes");
@@ -190,6 +192,7 @@ CLI::App* addSurvive(CLI::App& app, probewright::app::SurviveArguments& argument
   };
   count("--samples", arguments.samples, "Clampings to run, and as many again where nothing is proven", 1'000'000);
   count("--boxes", arguments.boxes, "Boxes of clampings to try to prove, at most", 10'000'000);
+  count("--check", arguments.checks, "Clampings to run in what is proven, half of them on its borders", 100'000'000);
   count("--seed", arguments.seed, "Of the samples and of the machine's random effects", 9'999'999'999'999'999U);
   survive->add_option("--threads", arguments.threads, "Threads to run on; 0: one a core")
       ->check(CLI::Range(0, 1024))

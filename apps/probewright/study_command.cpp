@@ -2,6 +2,7 @@
 #include <openssl/sha.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "interruption.hpp"
+#include "kept_trials.hpp"
 #include "mpi_start.hpp"
 #include "output_folder.hpp"
 #include "setup/setup_document.hpp"
@@ -53,6 +55,81 @@ std::optional<Diagnostic> whyNotInto(const fs::path& folder) {
   return study::whyNotTrials(folder / "trials.csv");
 }
 
+/// All that a study needs, before anything is built.
+struct Prepared {
+  setup::SetupDocument document;
+  study::Study plan;
+  std::vector<fs::path> inputs;
+  std::optional<KeptTrials> keptTrials;
+  std::string mark;
+  std::vector<study::Outcome> done;
+};
+
+/// Nothing, with errors among the mistakes, if the study cannot begin. Only one of several ranks tidies the folder.
+std::optional<Prepared> prepare(const StudyArguments& arguments, bool tidies, const Interruption& interruption,
+                                Diagnostics& mistakes) {
+  auto document = setup::SetupDocument::read(arguments.setup, mistakes);
+  if (!document) return std::nullopt;
+  auto plan = study::readStudy(arguments.study, document->table(), mistakes);
+  if (!plan) return std::nullopt;
+  if (arguments.trials) plan->trials = *arguments.trials;
+  Prepared prepared{std::move(*document), std::move(*plan), {arguments.program}, {}, {}, {}};
+  for (const auto& more : {prepared.document.asWritten().inputs, prepared.plan.inputs})
+    prepared.inputs.insert(prepared.inputs.end(), more.begin(), more.end());
+  prepared.mark = markOf(prepared.inputs);
+  if (tidies) {
+    if (const Result<void> tidied = tidyOutput(arguments.out, interruption.token()); !tidied) {
+      mistakes.push_back(tidied.error());
+      return std::nullopt;
+    }
+  }
+  if (const auto why = whyNotInto(arguments.out)) {
+    mistakes.push_back(*why);
+    return std::nullopt;
+  }
+  if (!arguments.keep.empty()) {
+    auto kept = KeptTrials::at(arguments.keep);
+    if (!kept) {
+      mistakes.push_back(kept.error());
+      return std::nullopt;
+    }
+    prepared.keptTrials = std::move(*kept);
+  }
+  if (arguments.resume) {
+    auto done = study::readTrials(arguments.out / "trials.csv", prepared.mark);
+    if (!done) {
+      mistakes.push_back(done.error());
+      return std::nullopt;
+    }
+    prepared.done = std::move(*done);
+  }
+  return prepared;
+}
+
+/// Waits until all ranks have come here. True if none of them has mistakes, and `sees` is the same for all; the first
+/// one says what is wrong with the others.
+bool allReady(const std::optional<JoinedRanks>& joined, const Diagnostics& mistakes, const std::string& sees) {
+  const bool ready = !hasErrors(mistakes);
+  if (!joined) return ready;
+  std::string mine = ready ? "=" + sees : "!";
+  if (!ready) {
+    for (const Diagnostic& mistake : mistakes)
+      mine += format(mistake) + "\n";
+  }
+  const std::vector<std::string> all = joined->ranks.exchange(mine);
+  bool allSame = ready;
+  for (std::size_t rank = 1; rank < all.size(); ++rank) {
+    if (all[rank] == all[0] && ready) continue;
+    allSame = false;
+    if (joined->ranks.rank != 0 || (all[rank] == all[0])) continue;
+    const std::string why = all[rank].starts_with('!') ? all[rank].substr(1)
+                                                       : "error: it reads other files than the first rank\n"
+                                                         "  give all ranks the same program, setup, study and output\n";
+    if (ready) fmt::print(stderr, "rank {}: {}", rank, printable(why));
+  }
+  return allSame;
+}
+
 }  // namespace
 
 int study(const StudyArguments& given) {
@@ -68,50 +145,31 @@ int study(const StudyArguments& given) {
   const auto print = [&](const Diagnostics& diagnostics) {
     if (first) app::print(diagnostics);
   };
-  Diagnostics mistakes;
-  auto document = setup::SetupDocument::read(arguments.setup, mistakes);
-  std::optional<study::Study> plan;
-  if (document) plan = study::readStudy(arguments.study, document->table(), mistakes);
-  if (!plan) {
-    print(mistakes);
-    return 2;
-  }
-  if (arguments.trials) plan->trials = *arguments.trials;
-  std::vector<fs::path> inputs = {arguments.program};
-  inputs.insert(inputs.end(), document->asWritten().inputs.begin(), document->asWritten().inputs.end());
-  inputs.insert(inputs.end(), plan->inputs.begin(), plan->inputs.end());
-
   const Interruption interruption;
-  if (const Result<void> tidied = !first ? Result<void>() : tidyOutput(arguments.out, interruption.token()); !tidied) {
-    print({tidied.error()});
-    return 2;
-  }
-  if (const auto why = whyNotInto(arguments.out)) {
-    print({*why});
-    return 2;
-  }
-  const fs::path trialFile = arguments.out / "trials.csv";
-  const std::string mark = markOf(inputs);
-  study::StudyRun run;
-  if (arguments.resume) {
-    auto done = study::readTrials(trialFile, mark);
-    if (!done) {
-      print({done.error()});
-      return 2;
-    }
-    run.done = std::move(*done);
-  }
+  Diagnostics mistakes;
+  auto prepared = prepare(arguments, first, interruption, mistakes);
+  if (!prepared) print(mistakes);
   // Nobody writes before everybody has read.
-  if (*joined) (*joined)->ranks.exchange({});
+  if (!allReady(*joined, mistakes, prepared ? fmt::format("{} {}", prepared->mark, prepared->done.size()) : "") ||
+      !prepared)
+    return 2;
+  const study::Study* const plan = &prepared->plan;
+  const std::vector<fs::path>& inputs = prepared->inputs;
+  const std::optional<KeptTrials>& keptTrials = prepared->keptTrials;
+  const std::string& mark = prepared->mark;
+  const fs::path trialFile = arguments.out / "trials.csv";
+  study::StudyRun run;
+  run.done = std::move(prepared->done);
 
-  const toml::table setupTable = document->table();
+  const toml::table setupTable = prepared->document.table();
   study::ProgramModel::Options options;
   options.control = arguments.control;
   options.import.cache = cacheFolder(arguments.cache);
   options.import.stop = interruption.token();
-  const auto model = study::ProgramModel::make(arguments.program, std::move(*document), *plan, options, mistakes);
+  const auto model =
+      study::ProgramModel::make(arguments.program, std::move(prepared->document), *plan, options, mistakes);
   print(mistakes);
-  if (!model) return interruption.token().stop_requested() ? 3 : 2;
+  if (!allReady(*joined, mistakes, {}) || !model) return interruption.token().stop_requested() ? 3 : 2;
   for (const std::string& name : model->rebuilt()) {
     if (!arguments.quiet)
       fmt::print(stderr, "the size of \"{}\" varies: it is built anew in each trial, which takes longer\n",
@@ -133,6 +191,9 @@ int study(const StudyArguments& given) {
                      : study::threadCrew(arguments.threads, diskFull.get_token());
   run.stop = *joined ? all.get_token() : diskFull.get_token();
   run.repeat = arguments.repeat;
+  // Each rank has enough to do before all wait for each other.
+  constexpr std::uint64_t trialsOfARank = 25;
+  if (*joined) run.stretch = std::max(run.stretch, trialsOfARank * static_cast<std::uint64_t>((*joined)->ranks.size));
   if (!arguments.quiet)
     run.report = [&](const std::string& phase, std::uint64_t done, std::uint64_t of) {
       progress.tell(phase, done, of);
@@ -140,6 +201,13 @@ int study(const StudyArguments& given) {
   run.keep = [&](const study::TrialTable& table) {
     if (!first) return;
     if (Result<void> kept = writer.write(table); !kept && !notKept) {
+      notKept = kept.error();
+      diskFull.request_stop();
+    }
+  };
+  run.whole = [&](const study::TrialTable& table) {
+    if (!first || !keptTrials || notKept) return;
+    if (Result<void> kept = keptTrials->write(table, names, mark); !kept) {
       notKept = kept.error();
       diskFull.request_stop();
     }

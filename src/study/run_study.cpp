@@ -14,9 +14,6 @@ namespace probewright::study {
 
 namespace {
 
-/// Trials between two looks at stop, progress and what is kept.
-constexpr std::uint64_t stretch = 500;
-
 std::uint64_t wantedTrials(const Study& study) { return study.trials.value_or(study.mostTrials); }
 
 /// The key itself, or its end after a blank: "Q153" of "421@23 Q153".
@@ -44,6 +41,7 @@ public:
     if (!estimated.empty()) estimate_ = estimated.front();
     noteEstimate();
     drawTrials();
+    if (run_.whole) run_.whole(table_);
     result_.trials = table_.size();
     result_.finished = static_cast<std::size_t>(std::ranges::count(table_.ends(), TrialEnd::Finished));
     for (std::size_t i = 0; i < table_.characteristics().size(); ++i)
@@ -95,7 +93,7 @@ private:
     result_.end = study_.trials ? StudyEnd::AllTrials : StudyEnd::MostTrials;
     while (table_.size() < wanted) {
       const std::uint64_t begin = table_.size();
-      const std::uint64_t end = std::min({begin + stretch, wanted, study_.trials ? wanted : nextLook});
+      const std::uint64_t end = std::min({begin + run_.stretch, wanted, study_.trials ? wanted : nextLook});
       std::vector<Draw> draws;
       for (std::uint64_t trial = begin; trial < end; ++trial)
         draws.push_back(sampler_.draw(trial));
@@ -334,8 +332,8 @@ private:
   /// The answers of draws, as a table; nothing if stopped.
   std::optional<TrialTable> extraTrials(const std::vector<Draw>& draws, const std::string& phase) {
     TrialTable table(study_.sources.size());
-    for (std::size_t begin = 0; begin < draws.size(); begin += stretch) {
-      const std::span<const Draw> part(draws.data() + begin, std::min<std::size_t>(stretch, draws.size() - begin));
+    for (std::size_t begin = 0; begin < draws.size(); begin += run_.stretch) {
+      const std::span<const Draw> part(draws.data() + begin, std::min<std::size_t>(run_.stretch, draws.size() - begin));
       const auto outcomes = crew_(model_, part);
       if (outcomes.size() < part.size()) return std::nullopt;
       for (std::size_t i = 0; i < outcomes.size(); ++i)

@@ -82,9 +82,13 @@ using Report = std::function<void(const std::string& phase, std::uint64_t done, 
 struct StudyRun {
   Crew crew;  ///< none: the threads of all cores, until `stop`
   std::stop_token stop;
+  std::uint64_t stretch =
+      500;  ///< trials between two looks at stop, progress and what is kept; no number depends on it
   Report report;
   /// Of each stretch of trials, once it is done: to keep them.
   std::function<void(const TrialTable& table)> keep;
+  /// Told all trials once the last one is done, or the study is interrupted.
+  std::function<void(const TrialTable& table)> whole;
   /// Trials that are done already, from an earlier run: draws are repeated, answers are not.
   std::vector<Outcome> done;
   std::optional<std::uint64_t> repeat;  ///< type-1 study with so many repeats of the estimates

@@ -55,21 +55,30 @@ Draw Sampler::estimate() const {
   return draw;
 }
 
+std::size_t TrialTable::placeOf(const Characteristic& characteristic, std::size_t trials) {
+  const auto [found, isNew] = places_.try_emplace(characteristic.key, characteristics_.size());
+  if (isNew) {
+    characteristics_.push_back(characteristic);
+    values_.emplace_back(trials, missing);
+    truths_.emplace_back();
+  }
+  return found->second;
+}
+
 void TrialTable::add(const Draw& draw, const Outcome& outcome) {
   const std::size_t place = trials_.size();
+  std::size_t next = 0;  // most trials answer in the order of those before
   for (const Observation& observation : outcome.observations) {
-    const auto [found, isNew] = places_.try_emplace(observation.of.key, characteristics_.size());
-    if (isNew) {
-      characteristics_.push_back(observation.of);
-      values_.emplace_back(place, missing);
-      truths_.emplace_back();
-    }
-    std::vector<double>& column = values_[found->second];
+    if (next >= characteristics_.size() || characteristics_[next].key != observation.of.key)
+      next = placeOf(observation.of, place);
+    std::vector<double>& column = values_[next];
     column.resize(place, missing);
     column.push_back(observation.value);
-    if (!observation.truth) continue;
-    truths_[found->second].resize(place, missing);
-    truths_[found->second].push_back(*observation.truth);
+    if (observation.truth) {
+      truths_[next].resize(place, missing);
+      truths_[next].push_back(*observation.truth);
+    }
+    ++next;
   }
   for (std::vector<double>& column : values_)
     column.resize(place + 1, missing);

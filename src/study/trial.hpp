@@ -110,6 +110,9 @@ public:
   std::optional<std::size_t> find(const std::string& key) const;
 
 private:
+  /// The column of a characteristic; a new one begins with as many values that are missing as there are trials.
+  std::size_t placeOf(const Characteristic& characteristic, std::size_t trials);
+
   std::vector<Characteristic> characteristics_;
   std::map<std::string, std::size_t> places_;
   std::vector<std::vector<double>> values_, truths_, inputs_;
