@@ -80,6 +80,7 @@ int survive(const SurviveArguments& arguments) {
   survival::Options options;
   options.samples = arguments.samples;
   options.boxes = arguments.boxes;
+  options.checks = arguments.checks;
   options.seed = arguments.seed;
   options.threads = arguments.threads;
   StudyProgress progress(isatty(STDERR_FILENO) != 0);

@@ -19,6 +19,7 @@ constexpr double smallest = 1.0 / 1024;  // of a side of the whole box
 constexpr std::size_t mostCorners = 64;
 constexpr double failing = 0.1;                                     // priority of a part whose middle fails
 constexpr std::uint64_t openSamplesFrom = std::uint64_t{1} << 40U;  // numbers of samples drawn where nothing is proven
+constexpr std::uint64_t checksFrom = std::uint64_t{1} << 41U;       // of those drawn in proven parts
 
 class Search {
 public:
@@ -57,6 +58,7 @@ private:
   bool keep(const std::vector<Sample>& samples);
   void sample();
   void sampleOpen();
+  bool checkProven();
   std::vector<BoxVerdict> tryAll(const std::vector<Box>& boxes);
   /// The largest box about the middle that is proven at once, as a part, and what is left of the whole.
   void beginWithCore();
@@ -352,6 +354,45 @@ void Search::sampleOpen() {
   keep(samples);
 }
 
+/// Clampings in the proven parts: a mistake of the proof shows. Half of them lie anywhere, half on borders and corners
+/// of the parts, where things are farthest from the middle. False if one fails.
+bool Search::checkProven() {
+  std::vector<const Part*> proven;
+  double total = 0;
+  for (const Part& part : result_.parts) {
+    if (part.verdict != Verdict::Proven) continue;
+    proven.push_back(&part);
+    total += part.share;
+  }
+  if (proven.empty()) return true;
+  constexpr std::uint64_t atOnce = 4096;
+  for (std::uint64_t begin = 0; begin < options_.checks && !stopped(); begin += atOnce) {
+    std::vector<Sample> samples;
+    for (std::uint64_t number = checksFrom + begin; number < checksFrom + std::min(options_.checks, begin + atOnce);
+         ++number) {
+      const auto draw = [&](std::size_t i) {
+        return study::uniforms({options_.seed, number}, static_cast<std::uint32_t>(i))[0];
+      };
+      const bool onBorder = number % 2 == 1;
+      double where = draw(sides()) * (onBorder ? static_cast<double>(proven.size()) : total);
+      std::size_t place = 0;
+      while (place + 1 < proven.size() && where >= (onBorder ? 1 : proven[place]->share))
+        where -= onBorder ? 1 : proven[place]->share, ++place;
+      const Box& box = proven[place]->box;
+      std::vector<double> values;
+      for (std::size_t i = 0; i < sides(); ++i) {
+        // On borders a third of the sides is at its lower end, a third at its upper one.
+        const double drawn = onBorder ? std::clamp(3 * draw(i) - 1, 0.0, 1.0) : draw(i);
+        values.push_back(box.low[i] + drawn * (box.high[i] - box.low[i]));
+      }
+      samples.push_back({number, std::move(values), seedOf(number), {}});
+    }
+    runAll(samples, "clampings run in the proven part");
+    if (!keep(samples)) return false;
+  }
+  return true;
+}
+
 void Search::count() {
   result_.symmetric = 1;
   std::map<std::pair<std::string, std::uint64_t>, BlockRecord> blocks;
@@ -396,7 +437,7 @@ Survival Search::run() {
     refine();
   }
   if (result_.parts.empty()) result_.parts.push_back({whole_, Verdict::Undecided, {}, 1});
-  if (keep(samples_) && !stopped()) sampleOpen();
+  if (keep(samples_) && checkProven() && !stopped()) sampleOpen();
   count();
   if (stopped() && result_.end == SurvivalEnd::Finished) result_.end = SurvivalEnd::Interrupted;
   return std::move(result_);

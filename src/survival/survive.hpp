@@ -15,6 +15,7 @@ namespace probewright::survival {
 struct Options {
   std::uint64_t samples = 1000;  ///< clampings that are run, beside the corners of the box
   std::uint64_t boxes = 1000;    ///< that are tried to be proven, at most
+  std::uint64_t checks = 0;      ///< clampings that are run in the proven parts, half of them on their borders
   std::uint64_t seed = 1;        ///< of the samples and of the machine's random effects
   int threads = 0;               ///< 0: all cores
   /// What is being done, how much of it is done, and how much there is at most.

@@ -149,6 +149,18 @@ TEST(Survive, SaysThatTheSetupAsWrittenFails) {
   EXPECT_EQ(survival.proven, 0);
 }
 
+/// Half of them are on the borders, where a proof that is too bold would fail first.
+TEST(Survive, ChecksWhatIsProvenAsOftenAsAsked) {
+  const auto program = clamped(plateSetup(), klartext(inspectBore), {"part.pose.x=8", "part.pose.c=0.5"});
+  const Survival few = survive(*program, {.samples = 10, .boxes = 30});
+  const Survival many = survive(*program, {.samples = 10, .boxes = 30, .checks = 300});
+  EXPECT_EQ(many.end, SurvivalEnd::Finished);
+  EXPECT_GT(many.proven, 0);
+  EXPECT_EQ(many.samplesInProven, few.samplesInProven + 300);
+  EXPECT_EQ(many.samples, few.samples + 300);
+  EXPECT_EQ(many.proven, few.proven);
+}
+
 TEST(Survive, SaysTheSameOnAnyNumberOfThreads) {
   const auto json = [](int threads) {
     Options options{.samples = 20, .boxes = 20};
