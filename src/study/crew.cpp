@@ -1,11 +1,11 @@
 #include "study/crew.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <iterator>
 #include <memory>
-#include <stdexcept>
 #include <utility>
+
+#include "study/message.hpp"
 
 namespace probewright::study {
 
@@ -14,55 +14,6 @@ Crew threadCrew(int threads, std::stop_token stop) {
     return runTrials(model, draws, threads, stop);
   };
 }
-
-namespace {
-
-template <class Value>
-void put(std::string& message, const Value& value) {
-  static_assert(std::is_trivially_copyable_v<Value>);
-  const auto* bytes = reinterpret_cast<const char*>(&value);
-  message.append(bytes, sizeof value);
-}
-
-void put(std::string& message, const std::string& text) {
-  put(message, static_cast<std::uint32_t>(text.size()));
-  message += text;
-}
-
-void put(std::string& message, const std::optional<double>& value) {
-  put(message, static_cast<std::uint8_t>(value ? 1 : 0));
-  if (value) put(message, *value);
-}
-
-/// Reads what was put; messages come from the same program on another rank.
-class Reading {
-public:
-  explicit Reading(const std::string& message) : message_(message) {}
-
-  template <class Value>
-  Value get() {
-    Value value;
-    std::memcpy(&value, take(sizeof value), sizeof value);
-    return value;
-  }
-  std::string text() {
-    const auto size = get<std::uint32_t>();
-    return {take(size), size};
-  }
-  std::optional<double> optional() { return get<std::uint8_t>() == 1 ? std::optional(get<double>()) : std::nullopt; }
-
-private:
-  const char* take(std::size_t count) {
-    if (message_.size() - at_ < count) throw std::runtime_error("a message between ranks is not whole");
-    at_ += count;
-    return message_.data() + (at_ - count);
-  }
-
-  const std::string& message_;
-  std::size_t at_ = 0;
-};
-
-}  // namespace
 
 std::string OutcomeWriter::write(std::span<const Outcome> outcomes) {
   std::string message;
@@ -92,7 +43,7 @@ std::string OutcomeWriter::write(std::span<const Outcome> outcomes) {
 }
 
 std::vector<Outcome> OutcomeReader::read(const std::string& message) {
-  Reading reading(message);
+  MessageReading reading(message);
   std::vector<Outcome> outcomes(reading.get<std::uint32_t>());
   for (Outcome& outcome : outcomes) {
     outcome.end = static_cast<TrialEnd>(reading.get<std::uint8_t>());
