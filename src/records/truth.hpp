@@ -62,10 +62,11 @@ struct EntryTruth {
 
 /// A shape to be drawn: where something was expected, or is. Table frame.
 struct Ghost {
-  std::string shape;                 ///< "point", "circle", "plane"
-  Vector3 at = Vector3::Zero();      ///< the point, the centre
+  std::string shape;                 ///< "point", "circle", "plane", "outline"
+  Vector3 at = Vector3::Zero();      ///< the point, the centre, the corner
   Vector3 normal = Vector3::Zero();  ///< outward; of a circle its axis; unit, or zero where there is none
   double diameter = 0;               ///< of a circle
+  std::vector<Vector3> outline;      ///< corners of a line; one that closes ends where it begins
 };
 
 /// Why a motion was interrupted, as far as the truth tells.

@@ -36,6 +36,8 @@ json ghost(const Ghost& drawn) {
   json object = {{"shape", drawn.shape}, {"at", point(drawn.at)}};
   if (!drawn.normal.isZero(0)) object["normal"] = point(drawn.normal);
   if (drawn.diameter > 0) object["diameter"] = number(drawn.diameter);
+  for (const Vector3& corner : drawn.outline)
+    object["outline"].push_back(point(corner));
   return object;
 }
 

@@ -23,16 +23,25 @@ std::string lengthText(double mm) {
   return std::abs(mm) < 0.01 ? fmt::format("{:.1f} um", 1000 * mm) : fmt::format("{:.3f} mm", mm);
 }
 
+/// Numbers of a table with many rows.
+constexpr std::size_t mostNumbers = 8;
+
 std::string valuesText(const EntryTruth& entry, const TruthStyle& style) {
   std::string text;
-  for (const records::EntryValue& value : entry.values) {
+  std::vector<records::EntryValue> values = entry.values;
+  if (values.size() > mostNumbers) {  // the ones that are wrong most
+    std::ranges::stable_sort(values, std::ranges::greater(),
+                             [](const records::EntryValue& value) { return std::abs(value.value - value.truth); });
+    values.resize(mostNumbers);
+  }
+  for (const records::EntryValue& value : values) {
     text += text.empty() ? "" : "; ";
     text += words::text(style.language, "sumTruly",
                         {{"name", style.line(value.name)},
                          {"value", formatFixed(value.value, 4)},
                          {"truth", formatFixed(value.truth, 4)}});
   }
-  return text;
+  return entry.values.size() > mostNumbers ? text + "; ..." : text;
 }
 
 }  // namespace

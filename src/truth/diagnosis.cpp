@@ -7,7 +7,9 @@
 
 #include "base/number_text.hpp"
 #include "simulation/contact_search.hpp"
+#include "simulation/face_at.hpp"
 #include "simulation/round_faces.hpp"
+#include "truth/expected_corner.hpp"
 #include "truth/expected_feature.hpp"
 #include "truth/expected_walls.hpp"
 
@@ -119,7 +121,7 @@ private:
     const auto touch = simulation::firstTouch(on, 0, 1, shape_, surroundings_, options);
     if (cycle_ != nullptr && !cycle_->touches.empty() && cycle_->touches.back().outcome != "touched") {
       const Vector3 target = motion_.programFromTable.inverse() * cycle_->touches.back().target;
-      known.expected = Ghost{"point", target, -way.normalized(), 0};
+      known.expected = Ghost{"plane", target, -way.normalized(), 0, {}};
     }
     if (!touch) {
       known.texts.push_back(
@@ -127,7 +129,7 @@ private:
       return;
     }
     const double further = touch->fraction * length;
-    known.found = Ghost{"point", touch->point, touch->normal, 0};
+    known.found = Ghost{known.expected ? "plane" : "point", touch->point, touch->normal, 0, {}};
     std::string text =
         fmt::format("the face of {} is {} mm further in {}, at {}", quoted(truth_.solids[touch->solid].name),
                     number(further), directionText(ahead), place(touch->point));
@@ -135,6 +137,27 @@ private:
     // Half a millimetre for pretravel and what the face lies askew.
     text += fmt::format("; with {} {:.0f} the touch would reach it", reach.name, std::ceil(reach.now + further + 0.5));
     known.texts.push_back(std::move(text));
+    const simulation::PlacedSolid& solid = truth_.solids[touch->solid];
+    const auto face = simulation::faceAt(*solid.solid, solid.tableFromSolid.inverse() * touch->point,
+                                         solid.tableFromSolid.linear().transpose() * touch->normal);
+    if (face && face->kind == simulation::AnalyticSurface::Kind::Plane)
+      askew(known, ahead, (motion_.programFromTable.linear() * touch->normal).normalized());
+  }
+
+  /// How a flat face is turned against the direction in which it was to be touched.
+  static void askew(Diagnosis& known, const Vector3& ahead, const Vector3& normal) {
+    const Vector3 turn = (-ahead).cross(normal);
+    const double angle = degreesFromRadians(std::atan2(turn.norm(), -ahead.dot(normal)));
+    if (angle < 0.05 || angle > 60) return;
+    Eigen::Index axis = 2;
+    turn.cwiseAbs().maxCoeff(&axis);
+    if (std::abs(turn[axis]) > 0.999 * turn.norm()) {
+      known.texts.push_back(fmt::format("that face is turned by {} deg about {}",
+                                        formatSigned(std::copysign(angle, turn[axis]), 3), "XYZ"[axis]));
+    } else {
+      known.texts.push_back(
+          fmt::format("that face leans by {} deg against the direction in which it is probed", number(angle)));
+    }
   }
 
   /// The motion on from its end, in the same direction.
@@ -151,7 +174,7 @@ private:
   void met(Diagnosis& known) const {
     const PathTouch* touch = touchThen();
     if (touch == nullptr) return;
-    known.found = Ghost{"point", touch->point, touch->normal, 0};
+    known.found = Ghost{"point", touch->point, touch->normal, 0, {}};
     known.texts.push_back(fmt::format("the {} met {} at {}", touch->part, quoted(touch->solid), place(touch->point)));
     if (touch->part == "body" && isProbe()) bodyTooWide(known);
   }
@@ -212,6 +235,30 @@ private:
     shank.cwiseAbs().maxCoeff(&axis);
     roundFeature(known, axis);
     walls(known, axis);
+    corner(known, axis);
+  }
+
+  void corner(Diagnosis& known, Eigen::Index axis) const {
+    const auto expected = expectedCorner(*cycle_, static_cast<int>(axis), startOfCycle());
+    if (!expected) return;
+    const Eigen::Affine3d tableFromProgram = motion_.programFromTable.inverse();
+    const auto found = trueCorner(*expected, tableFromProgram, truth_.solids);
+    if (!found) return;
+    const Vector3 at = tableFromProgram * expected->corner;
+    const std::array<Vector3, 2> ends = {tableFromProgram * expected->sides[0].point,
+                                         tableFromProgram * expected->sides[1].point};
+    const Vector3 along = (tableFromProgram.linear() * Vector3::Unit(axis)).normalized();
+    known.expected = Ghost{"outline", at, along, 0, {ends[0], at, ends[1]}};
+    known.found = Ghost{"outline",
+                        found->corner,
+                        along,
+                        0,
+                        {found->corner + found->along[0] * (ends[0] - at).norm(), found->corner,
+                         found->corner + found->along[1] * (ends[1] - at).norm()}};
+    known.texts.push_back(fmt::format("the corner is at {}, {} mm from {}", place(found->corner),
+                                      number((found->corner - at).norm()), expected->from));
+    if (std::abs(found->turned[0]) > 0.05)
+      known.texts.push_back(fmt::format("its first side is turned by {} deg", formatSigned(found->turned[0], 3)));
   }
 
   void walls(Diagnosis& known, Eigen::Index axis) const {
@@ -222,14 +269,31 @@ private:
     if (!found) return;
     const Vector3 expectedCentre = tableFromProgram * expected->centre;
     const Vector3 along = (tableFromProgram.linear() * Vector3::Unit(axis)).normalized();
-    known.expected = Ghost{"point", expectedCentre, along, 0};
-    known.found = Ghost{"point", found->centre, along, 0};
+    std::vector<double> expectedWidths;
+    for (const WallPair& pair : expected->pairs)
+      expectedWidths.push_back(pair.width);
+    known.expected = outlineOf(expectedCentre, along, *expected, expectedWidths);
+    known.found = outlineOf(found->centre, along, *expected, found->widths);
     const bool rectangle = found->widths.size() == 2;
     const std::string size = number(found->widths[0]) + (rectangle ? " x " + number(found->widths[1]) : std::string());
     const char* what = rectangle ? (expected->inside ? "pocket" : "stud") : expected->inside ? "slot" : "ridge";
     known.texts.push_back(fmt::format("the {} of {} mm has its centre at {}, {} mm from {}", what, size,
                                       place(found->centre), number((found->centre - expectedCentre).norm()),
                                       expected->from));
+  }
+
+  /// The rectangle of these widths; of a slot or ridge a square between its walls.
+  Ghost outlineOf(const Vector3& centre, const Vector3& along, const ExpectedWalls& expected,
+                  const std::vector<double>& widths) const {
+    const Eigen::Affine3d tableFromProgram = motion_.programFromTable.inverse();
+    const Vector3 first = (tableFromProgram.linear() * expected.pairs[0].across).normalized() * widths[0] / 2;
+    const Vector3 second = along.cross(first).normalized() * widths.back() / 2;
+    return {"outline",
+            centre,
+            along,
+            0,
+            {centre + first + second, centre - first + second, centre - first - second, centre + first - second,
+             centre + first + second}};
   }
 
   /// A hole or stud.
@@ -257,8 +321,8 @@ private:
       }
     }
     if (best.apart > 3 * expected->diameter + 50) return;
-    known.expected = Ghost{"circle", expectedCentre, along, expected->diameter};
-    known.found = Ghost{"circle", best.centre, along, best.diameter};
+    known.expected = Ghost{"circle", expectedCentre, along, expected->diameter, {}};
+    known.found = Ghost{"circle", best.centre, along, best.diameter, {}};
     known.texts.push_back(fmt::format("the {} of {} mm has its centre at {}, {} mm from {}",
                                       best.hole ? "hole" : "stud", number(best.diameter), place(best.centre),
                                       number(best.apart), expected->from));

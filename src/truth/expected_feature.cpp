@@ -4,17 +4,12 @@
 #include <array>
 #include <string_view>
 
-#include "base/number_text.hpp"
 #include "control/working_plane.hpp"
+#include "truth/feeling.hpp"
 
 namespace probewright::truth {
 
 namespace {
-
-std::optional<double> valueOf(const control::CycleRecord& cycle, std::string_view name) {
-  const auto found = std::ranges::find(cycle.parameters, name, &control::ParameterRecord::name);
-  return found == cycle.parameters.end() ? std::nullopt : parseDecimal(found->value);
-}
 
 bool isSinumerik(const control::CycleRecord& cycle) { return cycle.name.starts_with("CYCLE"); }
 

@@ -2,22 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
-#include "base/number_text.hpp"
 #include "control/working_plane.hpp"
+#include "truth/feeling.hpp"
 
 namespace probewright::truth {
 
 namespace {
-
-constexpr double room = 60;       // mm that are looked at beyond what is expected
-constexpr double feeler = 0.005;  // mm: the ball that feels walls
-
-std::optional<double> valueOf(const control::CycleRecord& cycle, std::string_view name) {
-  const auto found = std::ranges::find(cycle.parameters, name, &control::ParameterRecord::name);
-  return found == cycle.parameters.end() ? std::nullopt : parseDecimal(found->value);
-}
 
 /// A HEIDENHAIN cycle that looks for walls.
 struct Cycle {
@@ -31,57 +24,41 @@ constexpr std::array cycles = {
     Cycle{"423", true, {"Q273", "Q274"}, {"Q282", "Q283"}}, Cycle{"424", false, {"Q273", "Q274"}, {"Q282", "Q283"}},
 };
 
-/// The axis of the workpiece system that is the main (0) or minor (1) axis of the plane.
-int axisOf(const control::WorkingPlane& plane, int inPlane) {
-  Eigen::Index axis = 0;
-  plane.xyzFromPlane(Vector3::Unit(inPlane)).cwiseAbs().maxCoeff(&axis);
-  return static_cast<int>(axis);
+/// The direction at `degrees` from the main axis of the plane, to the minor one.
+Vector3 directionAt(const control::WorkingPlane& plane, double degrees) {
+  const double angle = radiansFromDegrees(degrees);
+  return plane.xyzFromPlane(Vector3(std::cos(angle), std::sin(angle), 0));
 }
 
-/// Pairs of these widths along main and minor axis; nothing where one of them is no width.
+/// Pairs of these widths along main and minor axis, turned by `degrees`; nothing where one of them is no width.
 std::vector<WallPair> pairsOf(const control::WorkingPlane& plane, std::optional<double> main,
-                              std::optional<double> minor) {
+                              std::optional<double> minor, double degrees = 0) {
   if (!main || !minor || !(*main > 0) || !(*minor > 0)) return {};
-  return {{axisOf(plane, 0), *main}, {axisOf(plane, 1), *minor}};
+  return {{directionAt(plane, degrees), *main}, {directionAt(plane, degrees + 90), *minor}};
 }
 
 std::vector<WallPair> pairAcross(const control::WorkingPlane& plane, std::optional<double> axis,
-                                 std::optional<double> width) {
+                                 std::optional<double> width, double degrees = 0) {
   if (!axis || !width || !(*width > 0) || (*axis != 1 && *axis != 2)) return {};
-  return {{axisOf(plane, static_cast<int>(*axis) - 1), *width}};
+  return {{directionAt(plane, degrees + (*axis == 2 ? 90 : 0)), *width}};
 }
 
 std::optional<ExpectedWalls> ofSinumerik(const control::CycleRecord& cycle, const control::WorkingPlane& plane,
                                          const Vector3& start) {
   const auto variant = valueOf(cycle, "S_MVAR");
   const int feature = variant ? static_cast<int>(*variant) % 10 : 0;
-  if (cycle.name != "CYCLE977" || feature < 3 || feature > 6 || valueOf(cycle, "S_STA1").value_or(0) != 0)
-    return std::nullopt;
+  if (cycle.name != "CYCLE977" || feature < 3 || feature > 6) return std::nullopt;
+  const double angle = valueOf(cycle, "S_STA1").value_or(0);
   ExpectedWalls expected;
   expected.inside = feature == 3 || feature == 5;
-  expected.pairs = feature <= 4 ? pairAcross(plane, valueOf(cycle, "S_MA"), valueOf(cycle, "S_SETV"))
-                                : pairsOf(plane, valueOf(cycle, "S_SETV0"), valueOf(cycle, "S_SETV1"));
+  expected.pairs = feature <= 4 ? pairAcross(plane, valueOf(cycle, "S_MA"), valueOf(cycle, "S_SETV"), angle)
+                                : pairsOf(plane, valueOf(cycle, "S_SETV0"), valueOf(cycle, "S_SETV1"), angle);
   if (expected.pairs.empty()) return std::nullopt;
   Vector3 inPlane = plane.planeFromXyz(start);
   if (!expected.inside) inPlane.z() += valueOf(cycle, "S_ID").value_or(0);
   expected.centre = plane.xyzFromPlane(inPlane);
   expected.from = "the start position";
   return expected;
-}
-
-/// Where a small ball on its way first meets anything; nothing if the way is free or begins in material.
-std::optional<Vector3> felt(const std::vector<simulation::PlacedSolid>& solids, const Vector3& from,
-                            const Vector3& to) {
-  std::optional<Vector3> nearest;
-  double first = 2;
-  for (const simulation::PlacedSolid& placed : solids) {
-    const Pose solidFromTable = placed.tableFromSolid.inverse();
-    const auto contact = placed.solid->firstContact(solidFromTable * from, solidFromTable * to, feeler);
-    if (!contact || contact->fraction >= first) continue;
-    first = contact->fraction;
-    nearest = placed.tableFromSolid * contact->touchPoint;
-  }
-  return first > 0 ? nearest : std::nullopt;
 }
 
 }  // namespace
@@ -110,16 +87,16 @@ std::optional<TrueWalls> trueWalls(const ExpectedWalls& expected, const Eigen::A
   TrueWalls walls;
   walls.centre = tableFromProgram * expected.centre;
   for (const WallPair& pair : expected.pairs) {
-    const Vector3 across = (tableFromProgram.linear() * Vector3::Unit(pair.axis)).normalized();
+    const Vector3 across = (tableFromProgram.linear() * pair.across).normalized();
     const Vector3 far = across * (pair.width / 2 + room);
     const Vector3 middle = walls.centre;
     const auto plus = expected.inside ? felt(solids, middle, middle + far) : felt(solids, middle + far, middle - far);
     const auto minus = expected.inside ? felt(solids, middle, middle - far) : felt(solids, middle - far, middle + far);
     if (!plus || !minus) return std::nullopt;
-    const double width = (*plus - *minus).dot(across);
+    const double width = (plus->point - minus->point).dot(across);
     if (!(width >= pair.width / 2 && width <= 2 * pair.width)) return std::nullopt;
     walls.widths.push_back(width);
-    walls.centre += across * ((*plus + *minus) / 2 - middle).dot(across);
+    walls.centre += across * ((plus->point + minus->point) / 2 - middle).dot(across);
   }
   return walls;
 }

@@ -14,7 +14,7 @@ namespace probewright::truth {
 
 /// Two walls that face each other, or away from each other.
 struct WallPair {
-  int axis = 0;  ///< of the workpiece system, across the walls
+  Vector3 across = Vector3::UnitX();  ///< unit, workpiece system
   double width = 0;
 };
 
@@ -26,8 +26,7 @@ struct ExpectedWalls {
   std::string from;                  ///< what says where: "Q321/Q322", "the start position"
 };
 
-/// Nothing for cycles that look for something else, and for features that lie at an angle. `tool`, `start`: as of
-/// expectedRound.
+/// Nothing for cycles that look for something else. `tool`, `start`: as of expectedRound.
 std::optional<ExpectedWalls> expectedWalls(const control::CycleRecord& cycle, int tool, const Vector3& start);
 
 struct TrueWalls {

@@ -20,6 +20,10 @@ std::shared_ptr<const records::Truth> truthOf(const session::RunOutcome& outcome
     known->entries.push_back(std::move(entry));
   for (auto& entry : kinematicEntries(outcome, machine.truth()))
     known->entries.push_back(std::move(entry));
+  for (auto& entry : deflectionEntries(outcome, told.beliefs, machine.truth()))
+    known->entries.push_back(std::move(entry));
+  for (auto& entry : gridEntries(outcome, touched, machine.truth(), machine.path()))
+    known->entries.push_back(std::move(entry));
   known->diagnoses = diagnoses(outcome, machine);
   if (told.clearance) known->clearance = clearanceOf(outcome, machine, told.clearanceLimit);
   known->travel = travelMargins(machine);

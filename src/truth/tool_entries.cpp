@@ -7,6 +7,7 @@
 #include "control/heidenhain/typed_table.hpp"
 #include "session/heidenhain/beliefs.hpp"
 #include "session/sinumerik/beliefs.hpp"
+#include "simulation/tool_shape.hpp"
 #include "truth/entries.hpp"
 
 namespace probewright::truth {
@@ -31,6 +32,19 @@ Reach reachOf(const simulation::TrueTool* tool) {
     reach.length = std::max(reach.length, tooth.axial - tooth.axialWear - tooth.broken);
   }
   return reach;
+}
+
+/// The theoretical tip of a turning tool, from where its length begins, in the frame of the tool: along the plane of
+/// its insert (X), across (Y), along its axis (Z). The tangents to a worn nose have moved away from where it points.
+Vector3 trueTip(const simulation::TrueTool& tool) {
+  const simulation::TrueInsert& insert = *tool.cutter.insert;
+  const double half = std::remainder(insert.secondNormal - insert.firstNormal, 360) / 2;
+  const double middle = radiansFromDegrees(insert.firstNormal + half);
+  const auto worn = [&](double pointing) {
+    return std::abs(pointing) < 1e-6 ? 0 : std::copysign(insert.wear, pointing);
+  };
+  return {tool.cutter.eccentricity.x() - worn(std::cos(middle)), tool.cutter.eccentricity.y(),
+          -tool.length - worn(std::sin(middle))};
 }
 
 const simulation::TrueTool* toolNumbered(const simulation::Truth& truth, int number) {
@@ -65,6 +79,15 @@ struct ToolNumber {
   std::vector<std::string> parts;  ///< columns, or data
 };
 
+/// A length of a turning tool: what the control computes with is length and delta.
+struct TurningNumber {
+  const char* length;
+  const char* delta;
+  Eigen::Index axis;  ///< of trueTip()
+  double sign;
+};
+constexpr TurningNumber turningNumbers[] = {{"ZL", "DZL", 2, -1}, {"XL", "DXL", 0, 1}, {"YL", "DYL", 1, 1}};
+
 void heidenhainTools(Entries& entries, const session::RunOutcome& outcome, const control::Beliefs& beliefs,
                      const control::Beliefs& calibrated, const simulation::Truth& truth) {
   Diagnostics ignored;
@@ -78,8 +101,26 @@ void heidenhainTools(Entries& entries, const session::RunOutcome& outcome, const
   static const ToolNumber numbers[] = {{"L", {"L", "DL"}}, {"R", {"R", "DR"}}};
   for (const BelievedTool& tool : calibrated.tools) {
     const std::string row = std::to_string(tool.number);
-    const Reach reach = reachOf(toolNumbered(truth, tool.number));
-    if (tool.kind == "turn") continue;  // its lengths are those of its tip, in the table of turning tools
+    const simulation::TrueTool* planted = toolNumbered(truth, tool.number);
+    if (tool.kind == "turn") {  // its lengths are those of its tip, in the table of turning tools
+      if (planted == nullptr || !planted->cutter.insert || !before.turningTools) continue;
+      const Vector3 tip = trueTip(*planted);
+      for (const TurningNumber& number : turningNumbers) {
+        const Written* length = find("TOOLTURN.TRN", row, number.length);
+        const Written* delta = find("TOOLTURN.TRN", row, number.delta);
+        if (length == nullptr && delta == nullptr) continue;
+        const auto valueOf = [&](const Written* one, const char* column) {
+          return one != nullptr
+                     ? one->value
+                     : before.turningTools->numberOr(row, control::heidenhain::NumberColumn::named(column), 0);
+        };
+        entries.add(EntryKind::Tool, "tool " + row, (length != nullptr ? length : delta)->cycle,
+                    {number.length, "mm", valueOf(length, number.length) + valueOf(delta, number.delta),
+                     number.sign * tip[number.axis]});
+      }
+      continue;
+    }
+    const Reach reach = reachOf(planted);
     for (const ToolNumber& number : numbers) {
       double believed = 0, real = 0;
       const Written* last = nullptr;
@@ -131,6 +172,24 @@ void calibrationData(Entries& entries, const session::RunOutcome& outcome, const
   compare("TT radius, minor axis", "tool touch probe", contact.widthY / 2 - contact.pretravel);
 }
 
+/// Turning tools as they are now: their inserts stand beside the axis, and have lost something.
+control::Beliefs withInserts(control::Beliefs calibrated, const simulation::Truth& truth) {
+  for (BelievedTool& tool : calibrated.tools) {
+    const simulation::TrueTool* planted = toolNumbered(truth, tool.number);
+    if (tool.kind != "turn" || planted == nullptr || !planted->cutter.insert) continue;
+    const Vector3 tip = trueTip(*planted);
+    if (calibrated.technology == control::Technology::Turning) {
+      const Vector3 aside =
+          Eigen::AngleAxisd(radiansFromDegrees(planted->cutter.insert->orientation), Vector3::UnitZ()) *
+          Vector3(tip.x(), tip.y(), tip.z() + planted->length);
+      tool.mount += simulation::toolFrame(*planted) * aside;
+    } else {
+      tool.length = -tip.z();
+    }
+  }
+  return calibrated;
+}
+
 /// The numbers between brackets: "[12,1]".
 std::vector<int> indicesOf(const std::string& entry) {
   std::vector<int> indices;
@@ -150,7 +209,7 @@ void sinumerikTools(Entries& entries, const session::RunOutcome& outcome, const 
                     const control::Beliefs& calibrated, const simulation::Truth& truth) {
   Diagnostics ignored;
   const auto before = session::sinumerikData(beliefs, ignored).store;
-  const auto ideal = session::sinumerikData(calibrated, ignored).store;
+  const auto ideal = session::sinumerikData(withInserts(calibrated, truth), ignored).store;
   const WrittenValues written = writtenValues(outcome.journal);
   // Geometry and wear count together.
   static const ToolNumber numbers[] = {{"length 1", {"$TC_DP3", "$TC_DP12"}},
@@ -190,8 +249,8 @@ void sinumerikTools(Entries& entries, const session::RunOutcome& outcome, const 
 }
 
 bool isOfTools(const std::string& table) {
-  return table == "TOOL.T" || table == "TCHPROBE.TP" || table == "calibration data" || table.starts_with("$TC_DP") ||
-         table.starts_with("$SNS_MEA_");
+  return table == "TOOL.T" || table == "TOOLTURN.TRN" || table == "TCHPROBE.TP" || table == "calibration data" ||
+         table.starts_with("$TC_DP") || table.starts_with("$SNS_MEA_");
 }
 
 }  // namespace

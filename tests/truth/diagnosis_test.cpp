@@ -163,6 +163,106 @@ TEST(Diagnosis, OfAGrooveCountsFromTheStartOnASinumerik) {
   EXPECT_THAT(everything(told), HasSubstr(", 3.000 mm from the start position"));
 }
 
+TEST(Diagnosis, OfFeaturesAtAnAngleTellsWhereTheyAreOnASinumerik) {
+  World world;
+  world.control = "840Dsl";
+  world.origin = {0, 0, -480};
+  const std::string begin = "T1 D1\nM6\nG54 G17 G0 X0 Y0 Z20\nG1 Z-8 F2000\n";
+  // A slot across 30 degrees from X, 4 mm beside its place in this direction.
+  const Vector3 across(std::cos(radiansFromDegrees(30.0)), std::sin(radiansFromDegrees(30.0)), 0);
+  world.part = boxWith("shape = \"pocket\"\nsize = [14, 100]\ndepth = 20\ncorner_radius = 2\n",
+                       fmt::format("{{ x = {}, y = {}, z = -480, c = 30 }}", 4 * across.x(), 4 * across.y()));
+  const Told slot = run(world, begin + "CYCLE977(3,,,1,14,,,2,1,30,,,,1,1)\n");
+  ASSERT_FALSE(slot.finished());
+  EXPECT_THAT(everything(slot), HasSubstr("the slot of 14.000 mm has its centre at X+3.464 Y+2.000 Z-5.000 of the"));
+  EXPECT_THAT(everything(slot), HasSubstr(", 4.000 mm from the start position"));
+  // What is drawn lies at the angle, too: opposite corners of the outline are as far apart as the slot is wide.
+  const records::Diagnosis& known = slot.truth().diagnoses.back();
+  ASSERT_TRUE(known.expected && known.found);
+  ASSERT_EQ(known.found->outline.size(), 5U);
+  EXPECT_LT((known.found->outline[0] - known.found->outline[1] - 14 * across).norm(), 1e-3);
+  EXPECT_LT((known.expected->at - Vector3(0, 0, -485)).norm(), 1e-6);
+
+  world.part = boxWith("shape = \"pocket\"\nsize = [40, 30]\ndepth = 20\ncorner_radius = 3\n",
+                       fmt::format("{{ x = {}, y = {}, z = -480, c = 30 }}", 13 * across.x(), 13 * across.y()));
+  const Told pocket = run(world, begin + "CYCLE977(5,,,1,,40,30,2,1,30,,,,1,1)\n");
+  ASSERT_FALSE(pocket.finished());
+  EXPECT_THAT(everything(pocket), HasSubstr("the pocket of 40.000 x 30.000 mm has its centre at X+11.258 Y+6.500 Z-5"));
+  EXPECT_THAT(everything(pocket), HasSubstr(", 13.000 mm from the start position"));
+}
+
+TEST(Diagnosis, OfAnEdgeTellsByWhichAngleItIsTurned) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480, c = 3.2 }");
+  const Told told = run(world, front427);
+  ASSERT_FALSE(told.finished());
+  EXPECT_THAT(everything(told), HasSubstr("that face is turned by +3.200 deg about Z"));
+  // The front side passes 30 / cos below the origin.
+  EXPECT_THAT(everything(told), HasSubstr(" of the active workpiece system (X"));
+  const records::Diagnosis& known = told.truth().diagnoses.front();
+  ASSERT_TRUE(known.expected && known.found);
+  EXPECT_EQ(known.expected->shape, "plane");
+  EXPECT_EQ(known.found->shape, "plane");
+  const double turned = radiansFromDegrees(3.2);
+  EXPECT_LT((known.found->normal - Vector3(std::sin(turned), -std::cos(turned), 0)).norm(), 1e-6);
+  EXPECT_NEAR(Vector3(std::sin(turned), -std::cos(turned), 0).dot(known.found->at), 30, 1e-3);
+}
+
+TEST(Diagnosis, OfACornerTellsWhereItIs) {
+  World world;
+  world.origin = {0, 0, -480};
+  // The corner at X-40 Y-30 of the plate; the probe expects it 20 mm further out.
+  world.part = plate("{ z = -480, c = 2 }");
+  const auto corner = [](double x, double y) {
+    const double turned = radiansFromDegrees(2.0);
+    return Vector2(x * std::cos(turned) - y * std::sin(turned), x * std::sin(turned) + y * std::cos(turned));
+  };
+  const Told outside =
+      run(world,
+          "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 414 PRESET OUTSIDE CORNER ~\nQ263=-40 ~\nQ264=-50 ~\nQ326=+30 ~\n"
+          "Q296=-60 ~\nQ297=-25 ~\nQ327=+30 ~\nQ261=-8 ~\nQ320=+0 ~\nQ260=+20 ~\nQ301=+0 ~\n"
+          "Q304=+0 ~\nQ305=+1 ~\nQ331=+0 ~\nQ332=+0 ~\nQ303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\nQ383=+0 ~\n"
+          "Q384=+0 ~\nQ333=+0\n");
+  ASSERT_FALSE(outside.finished());
+  const Vector2 at = corner(-40, -30);
+  EXPECT_THAT(everything(outside),
+              HasSubstr(fmt::format("the corner is at X{:+.3f} Y{:+.3f} Z-8.000 of the active", at.x(), at.y())));
+  EXPECT_THAT(everything(outside), HasSubstr(fmt::format("{:.3f} mm from Q296/Q264", (at - Vector2(-60, -50)).norm())));
+  EXPECT_THAT(everything(outside), HasSubstr("its first side is turned by +2.000 deg"));
+  const records::Diagnosis& known = outside.truth().diagnoses.back();
+  ASSERT_TRUE(known.expected && known.found);
+  ASSERT_EQ(known.found->outline.size(), 3U);
+  EXPECT_LT((known.found->outline[1].head<2>() - at).norm(), 1e-3);
+  EXPECT_LT((known.expected->outline[1] - Vector3(-60, -50, -488)).norm(), 1e-6);
+
+  // Inside: the corner of a pocket of 60 x 50, expected 15 mm within it.
+  world.part = boxWith("shape = \"pocket\"\nsize = [60, 50]\ndepth = 20\ncorner_radius = 2\n", "{ z = -480 }");
+  const Told inside =
+      run(world,
+          "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 415 PRESET INSIDE CORNER ~\nQ263=-15 ~\nQ264=-10 ~\nQ326=+15 ~\n"
+          "Q327=+12 ~\nQ308=+1 ~\nQ261=-8 ~\nQ320=+0 ~\nQ260=+20 ~\nQ301=+0 ~\nQ304=+0 ~\nQ305=+1 ~\n"
+          "Q331=+0 ~\nQ332=+0 ~\nQ303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\nQ383=+0 ~\nQ384=+0 ~\nQ333=+0\n");
+  ASSERT_FALSE(inside.finished());
+  EXPECT_THAT(everything(inside), HasSubstr("the corner is at X-30.000 Y-25.000 Z-8.000 of the active"));
+  EXPECT_THAT(everything(inside), HasSubstr(", 21.213 mm from Q263/Q264"));
+  EXPECT_THAT(everything(inside), Not(HasSubstr("is turned by")));
+}
+
+TEST(Diagnosis, OfACornerCountsFromThePoleOnASinumerik) {
+  World world;
+  world.control = "840Dsl";
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480 }");
+  // An outside corner, 20 mm from a pole outside of the plate; S_FA 3 is too short for the 15 mm left to its faces.
+  const Told told = run(world,
+                        "T1 D1\nM6\nG54 G17 G0 X-60 Y-50 Z20\nG1 Z-8 F2000\n"
+                        "CYCLE961(6,,1,30,60,25,,-60,-50,,,,,0,,0,3,2,1,,1,)\n");
+  ASSERT_FALSE(told.finished());
+  EXPECT_THAT(everything(told), HasSubstr("the corner is at X-40.000 Y-30.000 Z-5.000 of the active"));
+  EXPECT_THAT(everything(told), HasSubstr(", 28.284 mm from the pole"));
+}
+
 TEST(Diagnosis, IsNotToldToTheBlindNorWithoutAnAlarm) {
   World world;
   world.origin = {0, 0, -480};

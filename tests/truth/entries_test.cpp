@@ -1,7 +1,14 @@
 #include <gmock/gmock.h>
+#include <unistd.h>
 
+#include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
+#include "control/heidenhain/kinematic_tables.hpp"
+#include "control/heidenhain/turning_tool_table.hpp"
 #include "reports/summary.hpp"
 #include "truth/told.hpp"
 
@@ -25,6 +32,25 @@ const records::EntryValue& value(const records::EntryTruth& entry, const std::st
   EXPECT_NE(found, entry.values.end()) << "no value " << name;
   return found == entry.values.end() ? none : *found;
 }
+
+/// A folder with a setup and the tables of its control, which goes with the test.
+class TableFolder {
+public:
+  TableFolder() : path_(std::filesystem::temp_directory_path() / ("truth-test-" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~TableFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TableFolder(const TableFolder&) = delete;
+  TableFolder& operator=(const TableFolder&) = delete;
+  void put(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
+  const std::filesystem::path& path() const { return path_; }
+
+private:
+  std::filesystem::path path_;
+};
 
 constexpr double cell = 1e-4;  // mm: what a table can show
 
@@ -121,6 +147,191 @@ TEST(Entries, OfAToolCountItsWear) {
     EXPECT_NEAR(value(tool, heidenhain ? "R" : "radius").truth, 8.000, 1e-9);
     EXPECT_LT(*tool.distance, 0.01) << control;
   }
+}
+
+/// A lathe whose control learns the lengths of a worn insert.
+TEST(Entries, OfATurningToolCountTheWearOfItsInsert) {
+  const std::string examples = PROBEWRIGHT_EXAMPLES;
+  std::ifstream file(examples + "/setups/tools-lathe.toml");
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  const std::string key = "nose_radius = 0.4\n";
+  text.insert(text.find(key) + key.size(), "wear = 0.03\n");
+  Diagnostics diagnostics;
+  const auto setup = setup::parseSetup(text, "lathe.toml", diagnostics);
+  ASSERT_TRUE(setup);
+  const Told told{setup::runProgram(examples + "/programs/tools-lathe.mpf", *setup, session::RunOptions()).outcome};
+  ASSERT_TRUE(told.finished()) << told.why();
+  // The nose points to -X and -Z: both lengths, 20 + 60.043 and 39.985, are shorter by what it has lost.
+  const records::EntryTruth& tool = entry(told, "tool 3");
+  EXPECT_NEAR(value(tool, "length 1").truth, 80.043 - 0.03, 1e-9);
+  EXPECT_NEAR(value(tool, "length 2").truth, 39.985 - 0.03, 1e-9);
+  EXPECT_LT(*tool.distance, 0.002);
+}
+
+/// Cycle 485 in a mill that turns: ZL and XL of TOOLTURN.TRN.
+TEST(Entries, OfTheTableOfTurningToolsAreItsLengths) {
+  const TableFolder folder;
+  folder.put("TOOLTURN.TRN", [] {
+    auto table = control::heidenhain::defaultTurningToolTable();
+    EXPECT_TRUE(table.ensureRow("12"));
+    EXPECT_TRUE(table.setNumber("12", "ZL", 90.2) && table.setNumber("12", "XL", 9.7) &&
+                table.setNumber("12", "TO", 1));
+    return std::string(table.table().bytes());
+  }());
+  const std::string text = R"(seed = 1
+[control]
+type = "TNC640"
+tables = "."
+[tool_probe]
+size = [20, 20]
+thickness = 12
+pose = { x = 100, y = -50, z = -470 }
+pretravel = 0.01
+[[preset]]
+row = 1
+origin = [0, 0, -420]
+active = true
+[[tool]]
+number = 12
+name = "FINISH"
+kind = "turn"
+length = 90
+radius = 2
+[tool.cutter]
+shank_radius = 2
+eccentricity = [10, 0]
+[tool.cutter.insert]
+nose_radius = 0.8
+edge_normals = [-185, -85]
+wear = 0.02
+)";
+  folder.put("mill.toml", text);
+  Diagnostics diagnostics;
+  const auto setup = setup::readSetup((folder.path() / "mill.toml").string(), diagnostics);
+  ASSERT_TRUE(setup) << format(diagnostics.front());
+  const Told told{setup::runText("T.H",
+                                 "BEGIN PGM T MM\nTOOL CALL 12 Z\nTCH PROBE 485 MEASURE TURNING TOOL ~\nQ340=+0 ~\n"
+                                 "Q260=+60\nEND PGM T MM\n",
+                                 *setup, session::RunOptions())
+                      .outcome};
+  ASSERT_TRUE(told.finished()) << told.why();
+  const records::EntryTruth& tool = entry(told, "tool 12");
+  EXPECT_EQ(tool.kind, records::EntryKind::Tool);
+  // The nose points to -X and down: its tangents have moved towards +X and up.
+  EXPECT_NEAR(value(tool, "ZL").truth, 90 - 0.02, 1e-9);
+  EXPECT_NEAR(value(tool, "XL").truth, 10 + 0.02, 1e-9);
+  // What it found: the pretravel of the contact is not calibrated away where only its size is known.
+  EXPECT_NEAR(value(tool, "ZL").value, 90 - 0.02, 0.0101);
+  EXPECT_NEAR(*tool.distance,
+              std::max(std::abs(value(tool, "ZL").value - 89.98), std::abs(value(tool, "XL").value - 10.02)), 1e-9);
+}
+
+/// A probe that signals late in three directions, calibrated on a sphere in all directions.
+TEST(Entries, OfADirectionalCalibrationAreItsDirections) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.probe = "pretravel = 0.012\nlobing = 0.006\nlobing_phase = 25\naxial_pretravel = 0.004\n";
+  world.part =
+      "[part]\nname = \"none\"\n[[part.feature]]\nshape = \"box\"\ncentre = [200, 0, -500]\nsize = [20, 20, 20]\n";
+  world.more = "[sphere]\ndiameter = 25\npose = { z = -480 }\nstem_diameter = 8\n";
+  const auto calibrate = [&](double repeatability) {
+    World planted = world;
+    planted.probe += fmt::format("repeatability = {}\n", repeatability);
+    return run(planted,
+               "TOOL CALL 1 Z\nL Z+80 R0 FMAX\nL X+0 Y+0 R0 FMAX\nL Z+17 R0 FMAX\nTCH PROBE 460 CALIBRATE "
+               "~\nQ407=+12.5 ~\nQ320=+1 ~\n"
+               "Q301=+1 ~\nQ423=+7 ~\nQ380=+0 ~\nQ433=+1 ~\nQ434=+0 ~\nQ455=+9\n");
+  };
+  const Told exact = calibrate(0);
+  ASSERT_TRUE(exact.finished()) << exact.why();
+  const records::EntryTruth& table = entry(exact, "T1.3DTC");
+  EXPECT_EQ(table.kind, records::EntryKind::Probe);
+  EXPECT_EQ(table.values.size(), 1U + 9 * 7);
+  EXPECT_LT(*table.distance, 2e-5) << "a touch beside the nominal point, and the last decimals of the tables";
+  // Far from nothing: the probe needs up to (0.006 + what lies between pretravel and mean) in some direction.
+  const auto least = std::ranges::minmax(table.values, {}, &records::EntryValue::truth);
+  EXPECT_GT(least.max.truth - least.min.truth, 0.011);
+
+  const Told rough = calibrate(0.002);
+  ASSERT_TRUE(rough.finished()) << rough.why();
+  EXPECT_GT(*entry(rough, "T1.3DTC").distance, 0.002);
+  EXPECT_THAT(reports::summaryText(rough.outcome.journal, rough.outcome.info), HasSubstr("T1.3DTC: "));
+}
+
+/// Rotary axes that wander with their angle: the grid of cycle 453 against where the tip truly goes.
+TEST(Entries, OfACompensationGridAreItsPositions) {
+  const TableFolder folder;
+  const std::array<double, 3> b = {-60, 0, 60};
+  const std::array<double, 4> c = {0, 90, 180, 270};
+  folder.put("MACHINE.KCO", [&] {
+    namespace hh = control::heidenhain;
+    auto table = hh::TypedTable::create("MACHINE.KCO", hh::TableUnit::Millimetre, hh::gridColumns(),
+                                        control::ControlKind::TNC640, 0);
+    int row = 0;
+    for (const double first : b) {
+      for (const double second : c) {
+        const std::string key = std::to_string(row++);
+        EXPECT_TRUE(table.setNumber(key, "B", first) && table.setNumber(key, "C", second));
+        for (const hh::NumberColumn column : {hh::NumberColumn("DX"), hh::NumberColumn("DY"), hh::NumberColumn("DZ")})
+          EXPECT_TRUE(table.setNumber(key, column, 0));
+      }
+    }
+    return std::string(table.table().bytes());
+  }());
+  const auto measured = [&](double repeatability) {
+    folder.put("mill.toml", fmt::format(R"(seed = 453
+[machine]
+name = "mill5-head-table"
+[control]
+type = "TNC640"
+tables = "."
+[[preset]]
+row = 1
+origin = [150, 60, -420]
+active = true
+[sphere]
+diameter = 25
+stem_diameter = 8
+pose = {{ x = 150, y = 60, z = -420 }}
+[[tool]]
+number = 1
+kind = "probe"
+length = 150
+ball_radius = 3
+in_spindle = true
+repeatability = {}
+[[errors.axis.C.deviation]]
+amplitude = 0.004
+wavelength = 120
+phase = 20
+[[errors.axis.B.deviation]]
+amplitude = 0.003
+wavelength = 90
+phase = 50
+)",
+                                        repeatability));
+    Diagnostics diagnostics;
+    const auto setup = setup::readSetup((folder.path() / "mill.toml").string(), diagnostics);
+    EXPECT_TRUE(setup) << format(diagnostics.front());
+    return Told{setup::runText("T.H",
+                               "BEGIN PGM T MM\nTOOL CALL 1 Z\nL Z+80 R0 FMAX\nTCH PROBE 453 KINEMATICS GRID "
+                               "~\nQ406=+1 ~\nQ407=+12.5 ~\n"
+                               "Q320=+0 ~\nQ408=+0 ~\nQ253=+5000 ~\nQ380=+45 ~\nQ423=+4 ~\nQ431=+0\nEND PGM T MM\n",
+                               *setup, session::RunOptions())
+                    .outcome};
+  };
+  const Told exact = measured(0);
+  ASSERT_TRUE(exact.finished()) << exact.why();
+  const records::EntryTruth& grid = entry(exact, "MACHINE.KCO");
+  EXPECT_EQ(grid.kind, records::EntryKind::Kinematics);
+  ASSERT_EQ(grid.values.size(), 3 * b.size() * c.size());
+  EXPECT_LT(*grid.distance, 2e-5);
+  // 0.004 degrees at 160 mm from the axis are 0.011 mm.
+  EXPECT_GT(std::ranges::max(grid.values, {}, &records::EntryValue::value).value, 0.005);
+  const Told rough = measured(0.003);
+  ASSERT_TRUE(rough.finished()) << rough.why();
+  EXPECT_GT(*entry(rough, "MACHINE.KCO").distance, 0.0015);
+  EXPECT_LT(*entry(rough, "MACHINE.KCO").distance, 0.02);
 }
 
 }  // namespace

@@ -102,10 +102,11 @@ export interface RunEvent {
 }
 
 export interface Ghost {
-  shape: "point" | "circle" | "plane";
+  shape: "point" | "circle" | "plane" | "outline";
   at: Triple;
   normal?: Triple;
   diameter?: number | null;
+  outline?: Triple[];
 }
 
 /** What the virtual machine knows of the run as a whole. */

@@ -78,6 +78,13 @@ export class DeviationArrows {
 /** A shape where the program expected a feature, or where it truly is. */
 export function ghostOf(ghost: Ghost, colour: string, size: number): Group {
   const group = new Group();
+  if (ghost.shape === "outline" && ghost.outline) {
+    const geometry = new LineSegmentsGeometry().setPositions(ghost.outline.slice(1).flatMap((point, i) => [...vector(ghost.outline![i]).toArray(), ...vector(point).toArray()]));
+    const lines = new LineSegments2(geometry, new LineMaterial({ color: colour, linewidth: 4, depthTest: false, transparent: true, opacity: 0.8 }));
+    lines.renderOrder = 6;
+    group.add(lines);
+    return group;
+  }
   const material = new MeshBasicMaterial({ color: colour, transparent: true, opacity: 0.55, side: DoubleSide, depthTest: false });
   const turned = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), ghost.normal ? vector(ghost.normal).normalize() : new Vector3(0, 0, 1));
   const add = (geometry: BufferGeometry) => {
