@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "adapter/remote_machine.hpp"
+#include "control/alarm.hpp"
 #include "drawn_machine.hpp"
 #include "machine/linuxcnc_machine.hpp"
 #include "simulation/virtual_machine.hpp"
@@ -50,6 +51,16 @@ Result<MachineRun> runOnMachine(const std::string& machine, const std::filesyste
   session::RunOptions own = options;
   own.ask = [&](const std::string& text) {
     return remote && remote->asks() ? remote->ask(text) : options.ask && options.ask(text);
+  };
+  own.answer = [&](const control::Question& question) -> std::optional<std::string> {
+    if (!remote || !remote->answers()) return options.answer ? options.answer(question) : std::nullopt;
+    std::string wanted = question.wanted;
+    while (auto reply = remote->answer(question.name, wanted)) {
+      if (reply->cancelled) throw control::Cancelled();
+      if (question.understood(reply->text)) return std::move(reply->text);
+      wanted = "\"" + reply->text.substr(0, 80) + "\" cannot be read as an answer: " + question.wanted;
+    }
+    return std::nullopt;
   };
   // A program with mistakes bothers no machine.
   session::PreparedProgram prepared = session::prepareProgram(program, setup.beliefs, own);

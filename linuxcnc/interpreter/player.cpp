@@ -37,6 +37,7 @@ bool Player::start(const std::string& iniFile, const std::string& program, int l
   messages_.clear();
   way_.clear();
   queuedPieces_ = 0;
+  window_.reset();
   mill_.load(iniFile);
   const auto key = [&](const char* name) { return mill_.key("PROBEWRIGHT", name); };
   const fs::path folder = fs::path(iniFile).parent_path();
@@ -63,6 +64,9 @@ bool Player::start(const std::string& iniFile, const std::string& program, int l
                                     "--out",
                                     out};
   if (Mill::moves()) words.insert(words.end(), {"--on-stop", "ask"});
+  const char* screen = std::getenv("DISPLAY");
+  const bool windows = Mill::moves() && screen != nullptr && *screen != '\0' && key("DIALOGS") != "0";
+  windowProgram_ = windows ? fs::path(words.front()).replace_filename("probewright-dialog").string() : "";
   if (!key("ANSWERS").empty()) words.insert(words.end(), {"--answers", inFolder(key("ANSWERS"))});
   if (line > 1) words.insert(words.end(), {"--search", std::to_string(line)});
   engine_.emplace();
@@ -123,7 +127,14 @@ Player::Next Player::read() {
     line_ = way_[queuedPieces_].line;
     return Next::GoOn;
   }
-  if (stage_ == Stage::Pending) {
+  if (stage_ == Stage::Pending && window_) {
+    auto reply = replied();
+    if (!reply) {
+      usleep(10'000);
+      return Next::Wait;
+    }
+    answer(*std::move(reply));
+  } else if (stage_ == Stage::Pending) {
     mill_.synchronize();
     if (Mill::moves()) at_ = mill_.position();
     answer(outcome(order_));
@@ -190,6 +201,7 @@ Player::Next Player::execute() {
     return Next::GoOn;
   }
   perform(order_);
+  if (stage_ == Stage::Idle) return Next::GoOn;
   Mill::flush();
   stage_ = Stage::Pending;
   return Mill::moves() ? Next::Wait : Next::GoOn;
@@ -200,7 +212,9 @@ std::optional<Player::Json> Player::atOnce(const Json& order) {
   if (what == "hello") {
     std::string why;
     Json hello = mill_.hello(why);
-    return why.empty() ? hello : Json{{"end", "failed"}, {"detail", why}};
+    if (!why.empty()) return Json{{"end", "failed"}, {"detail", why}};
+    hello["answers"] = !windowProgram_.empty();
+    return hello;
   }
   if (what == "position") return Json::object();
   if (what == "spindle") return spindle_;
@@ -210,7 +224,7 @@ std::optional<Player::Json> Player::atOnce(const Json& order) {
       order.value("number", 0) != 9)
     return Json{{"end", "unknown"}};
   for (const char* known : {"move", "path", "retract", "measure", "deflected", "turnSpindle", "orientSpindle",
-                            "function", "changeTool", "dwell", "ask", "tables"})
+                            "function", "changeTool", "dwell", "ask", "answer", "tables"})
     if (what == known) return std::nullopt;
   return Json{{"end", "refused"}, {"detail", "LinuxCNC does not know the order " + what}};
 }
@@ -339,7 +353,32 @@ void Player::perform(const Json& order) {
     std::string text = order.value("text", "");
     MESSAGE(text.data());
     PROGRAM_STOP();
+  } else if (what == "answer") {
+    askWithWindow();
   }
+}
+
+void Player::askWithWindow() {
+  std::string why;
+  window_.emplace();
+  if (windowProgram_.empty() ||
+      !window_->start({windowProgram_, order_.value("name", ""), order_.value("wanted", "")}, why)) {
+    window_.reset();
+    answer({{"end", "unanswered"}, {"detail", why}});
+  }
+}
+
+std::optional<Player::Json> Player::replied() {
+  Json reply;
+  const EngineProcess::Got got = window_->receive(reply, 0);
+  if (got == EngineProcess::Got::Nothing) return std::nullopt;
+  // A window that cannot be opened has a reason, which is not the operator's.
+  if (got == EngineProcess::Got::Ended) {
+    const int code = window_->exitCode(1000);
+    reply = code == 0 ? Json{{"end", "cancelled"}} : Json{{"end", "unanswered"}, {"detail", window_->messages()}};
+  }
+  window_.reset();
+  return reply;
 }
 
 Player::Json Player::outcome(const Json& order) {
@@ -368,6 +407,7 @@ Player::Json Player::outcome(const Json& order) {
 void Player::stop(Stop why) {
   if (!playing_) return;
   playing_ = false;
+  window_.reset();
   way_.clear();
   queuedPieces_ = 0;
   stopped_ = why;

@@ -71,6 +71,10 @@ private:
   /// Takes in what the order tells beside what it orders.
   void note();
   Next finish();
+  /// Opens the window that puts the question of `order_` to the operator.
+  void askWithWindow();
+  /// Once it has closed: what was answered.
+  std::optional<Json> replied();
 
   enum class Stage {
     Idle,     ///< no order has come yet
@@ -82,6 +86,8 @@ private:
   std::function<std::string(const Mill& mill, const Json& tables)> setTables_;
   Mill mill_;
   std::optional<EngineProcess> engine_;
+  std::optional<EngineProcess> window_;  ///< while the operator is asked
+  std::string windowProgram_;            ///< empty: there is no screen to open it on
   bool playing_ = false;
   bool settled_ = false;  ///< the axes have stood since the program began: offsets and the probe are known
   bool queued_ = false;   ///< moves have been answered that may not have ended

@@ -25,6 +25,11 @@ constexpr const char* stopped = "a stop was asked for";
 /// Axes that the operator jogs between two orders are asked for anew after this time.
 constexpr std::chrono::milliseconds freshFor{50};
 
+/// Lines in a message: the first message is short, so that the axes soon have something to do.
+constexpr std::size_t mostLines = 1024;
+/// Lines that take the engine longer than this are not kept back for a longer message.
+constexpr std::chrono::milliseconds keptFor{50};
+
 bool possible(Feed feed) { return feed.rapid || (feed.perMinute > 0 && std::isfinite(feed.perMinute)); }
 
 }  // namespace
@@ -75,6 +80,7 @@ Result<std::unique_ptr<RemoteMachine>> RemoteMachine::greet(Connection connectio
       return answer.json.at(name).get<bool>();
     };
     machine->asks_ = says("asks");
+    machine->answers_ = says("answers");
     machine->draws_ = says("draws");
     machine->looksAhead_ = says("looksAhead");
     const Json& told = member(answer.json, "machine");
@@ -194,6 +200,19 @@ bool RemoteMachine::ask(const std::string& what) {
       .value_or(false);
 }
 
+std::optional<RemoteMachine::Reply> RemoteMachine::answer(const std::string& name, const std::string& wanted) {
+  if (stop_.stop_requested()) return Reply{{}, true};
+  const std::function<std::optional<Reply>(const Json&)> read = [](const Json& answer) -> std::optional<Reply> {
+    const std::string end = adapter::text(answer, "end");
+    if (end == "answered") return Reply{adapter::text(answer, "text"), false};
+    if (end == "cancelled") return Reply{{}, true};
+    if (end != "unanswered") throw Breach("a question is neither answered nor left unanswered");
+    return std::nullopt;
+  };
+  auto reply = tells<std::optional<Reply>>({{"do", "answer"}, {"name", name}, {"wanted", wanted}}, read);
+  return reply ? *std::move(reply) : Reply{{}, true};
+}
+
 std::optional<std::string> RemoteMachine::keep(const machine::OwnTables& tables) {
   const std::function<std::optional<std::string>(const Json&)> read =
       [](const Json& answer) -> std::optional<std::string> {
@@ -249,7 +268,6 @@ machine::MoveResult RemoteMachine::travel(const char* what, const AxisPositions&
 }
 
 bool RemoteMachine::keepLine(const AxisPositions& target, Feed feed) {
-  constexpr std::size_t enough = 100;
   if (!looksAhead_ || !underWay_ || lost_) return false;
   // What the adapter would refuse has to be refused now.
   for (std::size_t i = 0; i < description_.axes.size(); ++i)
@@ -261,10 +279,14 @@ bool RemoteMachine::keepLine(const AxisPositions& target, Feed feed) {
     if (now_.line) line["line"] = *now_.line;
     std::ranges::move(now_.messages, std::back_inserter(messages_));
   }
+  toldAt_ = std::chrono::steady_clock::now();
+  if (lines_.empty()) firstLineAt_ = toldAt_;
   lines_.push_back(std::move(line));
   at_ = target;
-  toldAt_ = std::chrono::steady_clock::now();
-  if (lines_.size() >= enough) {
+  if (lines_.size() >= enough_) {
+    // Each message costs both programs a change of turns, so messages grow, as long as the axes do not wait for them.
+    const bool quick = toldAt_ - firstLineAt_ < keptFor;
+    enough_ = quick ? std::min(2 * enough_, mostLines) : fewLines;
     sendLines();
     underWay_ = !lost_ && !failure_;
   }

@@ -45,6 +45,15 @@ public:
   /// Shows the text to the operator and waits: true if the program is to go on.
   bool ask(const std::string& text);
 
+  /// Whether the adapter has the operator answer questions with a text.
+  bool answers() const { return answers_; }
+  struct Reply {
+    std::string text;
+    bool cancelled = false;  ///< the program is not to go on
+  };
+  /// Puts the question `name` to the operator; `wanted` says what an answer consists of. Nothing: there is none.
+  std::optional<Reply> answer(const std::string& name, const std::string& wanted);
+
   /// Where a measuring move was signalled, and with which tool as the control believed it.
   struct Felt {
     machine::AxisPositions latched;
@@ -105,13 +114,16 @@ private:
   std::string adapterName_, configuration_;
   machine::MachineDescription description_;
   std::set<int> functions_;
-  bool asks_ = false, draws_ = false, looksAhead_ = false, tellsChains_ = false;
+  bool asks_ = false, answers_ = false, draws_ = false, looksAhead_ = false, tellsChains_ = false;
   std::optional<machine::OwnTables> tables_;
   std::function<machine::OrderPlace()> place_;
   mutable machine::OrderPlace now_;  ///< of the last order
   std::vector<Felt> felt_;
   mutable bool underWay_ = false;  ///< the last order was a line, and the probe was free when it began
   mutable Json lines_ = Json::array();
+  static constexpr std::size_t fewLines = 64;
+  std::size_t enough_ = fewLines;  ///< lines that are sent in a message
+  std::chrono::steady_clock::time_point firstLineAt_;
   mutable std::vector<std::string> messages_;  ///< for the operator, with the next order
   std::stop_token stop_;
   int wake_ = -1;  ///< an event that ends a wait when a stop is asked for

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <deque>
 #include <functional>
 #include <thread>
@@ -259,6 +260,28 @@ TEST(RemoteMachine, HasTheAdapterAskTheOperatorWhereItCan) {
   EXPECT_FALSE((*machine)->ask("Clean the ball"));
 }
 
+TEST(RemoteMachine, HasTheAdapterAnswerQuestionsWhereItCan) {
+  Adapter quiet(after({}));
+  auto machine = quiet.greet();
+  ASSERT_TRUE(machine);
+  EXPECT_FALSE((*machine)->answers());
+  Adapter adapter({R"({"id":$,"answers":true,)" + std::string(greeting) + "}",
+                   R"({"id":$,"end":"answered","text":"1 2 3"})", R"({"id":$,"end":"unanswered"})",
+                   R"({"id":$,"end":"cancelled"})", R"({"id":$,"end":"perhaps"})"});
+  machine = adapter.greet();
+  ASSERT_TRUE(machine);
+  EXPECT_TRUE((*machine)->answers());
+  const auto given = (*machine)->answer("1410 point 1", "a position");
+  ASSERT_TRUE(given);
+  EXPECT_EQ(given->text, "1 2 3");
+  EXPECT_FALSE(given->cancelled);
+  EXPECT_FALSE((*machine)->answer("1410 point 1", "a position"));
+  EXPECT_TRUE((*machine)->answer("1410 point 1", "a position")->cancelled);
+  // What is no answer of the protocol ends the connection, and with it the program.
+  EXPECT_TRUE((*machine)->answer("1410 point 1", "a position")->cancelled);
+  EXPECT_THAT((*machine)->failure().value_or(""), HasSubstr("does not keep to the protocol"));
+}
+
 TEST(RemoteMachine, SharesTheTablesOfAnAdapterThatTellsThem) {
   const std::string tables =
       R"("tables":{"offsets":[{"number":1,"origin":[1,2,-3],"rotation":4}],"tools":[{"number":2,"length":80,"diameter":10}]},)";
@@ -319,6 +342,48 @@ TEST(RemoteMachine, SendsLinesManyAtATimeToAnAdapterThatLooksAhead) {
   EXPECT_THAT(orders, testing::ElementsAre("hello", "move", "path", "deflected", "move", "path", "move"));
   EXPECT_EQ(heard.at(2).at("pieces").size(), 49U);
   EXPECT_EQ(heard.at(2).at("pieces").at(0).at("line"), 2);
+}
+
+/// Messages of lines grow while lines keep coming, to a limit; every line is sent once, in its order.
+TEST(RemoteMachine, SendsManyLinesInLongMessages) {
+  auto [engine, own] = streamPair();
+  std::vector<double> travelled;
+  std::vector<std::size_t> messages;
+  std::jthread thread([&, stream = std::move(own)]() mutable {
+    std::string line;
+    while (stream.receive(line, std::chrono::milliseconds(5000)) == LineStream::Got::Line) {
+      const Json json = parseLine(line);
+      Json answer = {{"id", json.at("id")}, {"end", "reached"}};
+      if (json.at("do") == "hello") {
+        answer = Json::parse("{" + std::string(greeting) + "}");
+        answer["id"] = json.at("id");
+        answer["looksAhead"] = true;
+      }
+      if (json.at("do") == "move") travelled.push_back(json.at("target")[0]);
+      if (json.at("do") == "path") {
+        messages.push_back(json.at("pieces").size());
+        answer["reached"] = messages.back();
+        for (const Json& piece : json.at("pieces"))
+          travelled.push_back(piece.at("target")[0]);
+      }
+      if (json.at("do") == "deflected") answer["deflected"] = false;
+      if (!stream.send(answer.dump())) return;
+    }
+  });
+  constexpr int lines = 20'000;
+  {
+    auto machine = RemoteMachine::greet({nullptr, std::move(engine)});
+    ASSERT_TRUE(machine);
+    for (int i = 1; i <= lines; ++i)
+      ASSERT_EQ((*machine)->move(positions({0.001 * i, 0, 0}), Feed::at(100)).end, MoveEnd::Reached);
+    EXPECT_FALSE((*machine)->deflected(Sensor::TouchProbe));
+  }
+  thread.join();
+  ASSERT_EQ(travelled.size(), static_cast<std::size_t>(lines));
+  EXPECT_TRUE(std::ranges::is_sorted(travelled));
+  EXPECT_EQ(messages.front(), 64U) << "the axes are not to wait long for the first one";
+  EXPECT_GT(*std::ranges::max_element(messages), 64U);
+  EXPECT_LE(*std::ranges::max_element(messages), 1024U);
 }
 
 TEST(RemoteMachine, TellsTheLineOfTheProgramWithEachOrder) {

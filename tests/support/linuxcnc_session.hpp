@@ -68,8 +68,8 @@ public:
         command += "mkdir -p '" + to.string() + "' && mount --bind '" + from.string() + "' '" + to.string() + "' && ";
       command = "ip link set lo up && mount -t tmpfs tmpfs /mnt && " + command + modulesCommand() +
                 "mount -t tmpfs tmpfs /dev/shm && mount -t tmpfs tmpfs /tmp && chown -R 65534:65534 '" +
-                folder().string() + "' && " + inner + "exec setpriv --reuid 65534 --regid 65534 --clear-groups " +
-                words;
+                folder().string() + "' && " + inner + "setpriv --reuid 65534 --regid 65534 --clear-groups " + words;
+      // The first process of the namespaces stays root's: it dies with its parent, and all others with it.
     } else {
       command = inner + "exec " + words;
     }
