@@ -99,6 +99,7 @@ struct ConvertArguments {
   std::filesystem::path setup;  ///< whose tables have definition files and values of global user data; empty: none
   bool force = false;           ///< an existing `output` is overwritten
   double setUp = 2, dist = 10;  ///< SET_UP and DIST of the touch probe table, mm
+  std::string toolCycles;       ///< "old": 30 to 33, "new": 480 to 483, empty: as written
 };
 /// Here 1 means that something could not be carried over; it stands as a comment in the output.
 int convert(const ConvertArguments& arguments);

@@ -40,6 +40,12 @@ std::optional<Diagnostic> objectionTo(const ConvertArguments& arguments) {
   return std::nullopt;
 }
 
+conversion::ToolCycles formOf(const std::string& word) {
+  return word == "old"   ? conversion::ToolCycles::Old
+         : word == "new" ? conversion::ToolCycles::New
+                         : conversion::ToolCycles::AsWritten;
+}
+
 }  // namespace
 
 int convert(const ConvertArguments& arguments) {
@@ -74,6 +80,14 @@ int convert(const ConvertArguments& arguments) {
                    "the file extension does not show the language to convert to",
                    {},
                    "end the name with .H for Klartext, .I for DIN/ISO or .MPF for a SINUMERIK",
+                   {}});
+  }
+  if (!arguments.toolCycles.empty() && *to != session::ProgramLanguage::Klartext) {
+    return refuse({Severity::Error,
+                   {arguments.output.string(), 0, 0},
+                   fmt::format("{} has one form of the tool measuring cycles", families.entry(*to).name),
+                   {},
+                   "leave --tool-cycles out, or write Klartext (.H)",
                    {}});
   }
   if (!conversion::convertible(*from, *to)) {
@@ -123,7 +137,8 @@ int convert(const ConvertArguments& arguments) {
                           {.globalData = &globalData,
                            .control = arguments.control.value_or(control::ControlKind::TNC640),
                            .job = &job,
-                           .probe = {.setUp = arguments.setUp, .travel = arguments.dist}});
+                           .probe = {.setUp = arguments.setUp, .travel = arguments.dist},
+                           .toolCycles = formOf(arguments.toolCycles)});
   if (hasErrors(conversion.mistakes)) {
     print(conversion.mistakes, encoding);
     return 2;

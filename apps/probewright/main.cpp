@@ -474,6 +474,12 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.001, 10000.0))
       ->type_name("MM")
       ->capture_default_str();
+  convert
+      ->add_option("--tool-cycles", convertArguments.toolCycles,
+                   "The form of the tool measuring cycles in Klartext: old (30 to 33) or new (480 to 483); without it "
+                   "as the program has them")
+      ->check(CLI::IsMember({"old", "new"}))
+      ->type_name("FORM");
   convert->add_flag("--force", convertArguments.force, "Overwrite OUT if it exists");
   convert->footer(
       "Exit codes: 0 everything carried over, 1 something was not or is doubtful: it is named, and what the other "

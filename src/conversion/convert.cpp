@@ -66,7 +66,7 @@ Conversion convert(language::Program& program, ProgramLanguage from, ProgramLang
                    const ConvertOptions& options) {
   const bool vendors = from == ProgramLanguage::Sinumerik || to == ProgramLanguage::Sinumerik;
   if (!vendors) {
-    Conversion conversion = betweenDialects(dynamic_cast<HeidenhainProgram&>(program), from, to);
+    Conversion conversion = betweenDialects(dynamic_cast<HeidenhainProgram&>(program), from, to, options.toolCycles);
     // A program may have parameters that the older control does not know.
     if (options.control == control::ControlKind::iTNC530) readBack(conversion, program, to, options.control);
     return conversion;
@@ -86,6 +86,10 @@ Conversion convert(language::Program& program, ProgramLanguage from, ProgramLang
   if (from == ProgramLanguage::Sinumerik && to == ProgramLanguage::Klartext) {
     Conversion conversion = toKlartext(dynamic_cast<language::sinumerik::SinumerikProgram&>(program),
                                        options.globalData, options.control, options.job, options.probe);
+    if (options.toolCycles == ToolCycles::Old && !hasErrors(conversion.mistakes)) {
+      const auto written = programFromText(program.file(), conversion.text, to);
+      conversion.text = betweenDialects(dynamic_cast<HeidenhainProgram&>(*written), to, to, options.toolCycles).text;
+    }
     readBack(conversion, program, to, options.control);
     return conversion;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "conversion/conversion.hpp"
+#include "conversion/tool_cycle_forms.hpp"
 #include "language/program_language.hpp"
 
 namespace probewright::conversion {
@@ -17,6 +18,8 @@ struct ConvertOptions {
   const Job* job = nullptr;
   /// SET_UP and DIST of the HEIDENHAIN control.
   TouchProbe probe = {};
+  /// The form of touch probe cycles 30 to 33 and 480 to 483 in Klartext.
+  ToolCycles toolCycles = ToolCycles::AsWritten;
 };
 
 /// The program, which is one of the language `from`, in the language `to`. What the blocks do is kept, and their

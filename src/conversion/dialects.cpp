@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "cycles/heidenhain/probe_words.hpp"
 #include "language/din_iso/block_extent.hpp"
 #include "language/din_iso/modal_state.hpp"
 #include "language/din_iso/writer.hpp"
@@ -140,8 +139,8 @@ private:
 
 class Converter {
 public:
-  Converter(HeidenhainProgram& program, bool fromDinIso, bool toDinIso)
-      : program_(program), fromDinIso_(fromDinIso), toDinIso_(toDinIso) {}
+  Converter(HeidenhainProgram& program, bool fromDinIso, bool toDinIso, ToolCycles toolCycles)
+      : program_(program), fromDinIso_(fromDinIso), toDinIso_(toDinIso), toolCycles_(toolCycles) {}
 
   Conversion run() {
     OrderWatch watch(program_);
@@ -204,44 +203,30 @@ private:
       return;
     }
     for (const Block& single : singles(block)) {
-      if (toDinIso_ && isOldToolCycle(single)) {
-        oldToolCycle(single, original);
-      } else {
-        statement(single, original);
+      if (!toolCycle(single, original)) statement(single, original);
+    }
+  }
+
+  /// A cycle that measures tools, in the form that is asked for; false for all other blocks. DIN/ISO has the new form
+  /// only.
+  bool toolCycle(const Block& block, const Block& original) {
+    const bool renewed = toDinIso_ || toolCycles_ == ToolCycles::New;
+    if (!renewed && toolCycles_ == ToolCycles::AsWritten) return false;
+    const auto form = renewed ? newToolCycle(block) : oldToolCycle(block);
+    if (!form) {
+      if (!renewed && hasNewToolCycle(block)) {
+        report(original, "the old form of this cycle cannot take its clearance height from GLOBAL DEF",
+               "write the height, or keep the new form");
       }
+      return false;
     }
-  }
-
-  static const language::CycleCall* cycleOf(const Block& block) {
-    return block.instructions.empty() ? nullptr : std::get_if<language::CycleCall>(&block.instructions.front());
-  }
-  static bool isOldToolCycle(const Block& block) {
-    const language::CycleCall* cycle = cycleOf(block);
-    return cycle != nullptr && block.at(cycle->name) == "TCH PROBE" && cycle->number >= 30 && cycle->number <= 33;
-  }
-
-  /// 30 to 33 as G480 to G483, whose status is in Q199.
-  void oldToolCycle(const Block& block, const Block& original) {
-    namespace word = cycles::heidenhain::probe_word;
-    static constexpr std::array<std::pair<std::uint32_t, std::uint32_t>, 3> parameters = {
-        {{word::check, 340}, {word::height, 260}, {word::teeth, 341}}};
-    Block written = block;
-    auto& cycle = std::get<language::CycleCall>(written.instructions.front());
-    cycle.number += 450;
-    std::optional<double> status;
-    std::vector<Word> words;
-    for (std::uint32_t i = 0; i < cycle.parameters.count; ++i) {
-      Word each = written.words[cycle.parameters.first + i];
-      if (each.address == word::result && each.value.isLiteral()) status = each.value.number;
-      const auto known = std::ranges::find(parameters, each.address, &std::pair<std::uint32_t, std::uint32_t>::first);
-      if (known == parameters.end()) continue;
-      each.address = known->second;
-      words.push_back(each);
+    statement(form->block, original);
+    if (form->status) {
+      line(toDinIso_ ? fmt::format("D00 Q{:.0f} P01 +Q199 *", *form->status)
+                     : fmt::format("Q{:.0f} = Q199", *form->status),
+           Text::Block);
     }
-    cycle.parameters = {static_cast<std::uint32_t>(written.words.size()), static_cast<std::uint32_t>(words.size())};
-    written.words.insert(written.words.end(), words.begin(), words.end());
-    statement(written, original);
-    if (status) line(fmt::format("D00 Q{:.0f} P01 +Q199 *", *status), Text::Block);
+    return true;
   }
 
   void comment(const Block& block) {
@@ -337,6 +322,7 @@ private:
   BlockPosition origin_;
   bool fromDinIso_;
   bool toDinIso_;
+  ToolCycles toolCycles_;
   Conversion result_;
   language::din_iso::ModalState state_;
   Block resolved_;
@@ -346,9 +332,10 @@ private:
 
 }  // namespace
 
-Conversion betweenDialects(HeidenhainProgram& program, language::ProgramLanguage from, language::ProgramLanguage to) {
+Conversion betweenDialects(HeidenhainProgram& program, language::ProgramLanguage from, language::ProgramLanguage to,
+                           ToolCycles toolCycles) {
   using language::ProgramLanguage;
-  return Converter(program, from == ProgramLanguage::DinIso, to == ProgramLanguage::DinIso).run();
+  return Converter(program, from == ProgramLanguage::DinIso, to == ProgramLanguage::DinIso, toolCycles).run();
 }
 
 }  // namespace probewright::conversion

@@ -22,6 +22,24 @@ TEST(Convert, WritesTheOtherLanguageOfTheControl) {
   EXPECT_EQ(textOf(folder / "again.h"), textOf(klartext));
 }
 
+TEST(Convert, WritesToolCyclesInTheFormThatIsAskedFor) {
+  const Folder folder;
+  const std::string program =
+      folder.file("tool.h",
+                  "0 BEGIN PGM TOOL MM\n1 TOOL CALL 12 Z\n2 TCH PROBE 31.0 TOOL LENGTH\n3 TCH PROBE 31.1 CHECK: +1 Q5\n"
+                  "4 TCH PROBE 31.2 HEIGHT: +120\n5 TCH PROBE 31.3 PROBING THE TEETH: +0\n6 END PGM TOOL MM\n");
+  const std::string now = (folder / "new.h").string(), old = (folder / "old.h").string();
+  EXPECT_EQ(probewright({"convert", program, now, "--tool-cycles", "new"}).exit, 0);
+  EXPECT_THAT(textOf(now), HasSubstr("2 TCH PROBE 481 TOOL LENGTH ~\n    Q340=+1 ~\n    Q260=+120 ~\n    Q341=+0\n"
+                                     "3 Q5 = Q199\n"));
+  EXPECT_EQ(probewright({"convert", now, old, "--tool-cycles", "old"}).exit, 0);
+  EXPECT_THAT(textOf(old), HasSubstr("3 TCH PROBE 31.1 CHECK: +1 Q199\n"));
+  const Answer refused = probewright({"convert", program, (folder / "a.mpf").string(), "--tool-cycles", "old"});
+  EXPECT_EQ(refused.exit, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("leave --tool-cycles out"));
+  EXPECT_EQ(probewright({"convert", program, old, "--tool-cycles", "other"}).exit, 2);
+}
+
 TEST(Convert, PlacesWhatIsLostInTheProgramThatWasRead) {
   const Folder folder;
   const Answer answer = probewright({"convert", "examples/programs/corner.i", (folder / "corner.mpf").string()});

@@ -9,14 +9,16 @@ constexpr double tolerance = 0.001;  ///< mm, permissible measuring error on bot
 
 /// A mill that the control knows about right.
 struct Milled {
-  Milled(Dice& dice, ControlKind kind, bool teeth) : world(kind) {
+  Milled(Dice& dice, ControlKind kind, bool teeth) : world(kind), folder(world.bench) {
     world.contact = {written(dice.between(80, 160)), written(dice.between(-80, 0)), written(dice.between(-480, -460))};
     dice.coin() ? world.disc(written(dice.between(24, 40))) : world.cuboid(24, 30);
     const double radius = written(dice.between(4, 20));
     mill = plantedMill(dice, radius, teeth ? dice.whole(1, 2) : dice.whole(1, 6), true);
     mill.cutter.helix = 0;
     world.add(mill, 12, written(mill.length + dice.between(-1, 1)), written(radius + dice.between(-0.3, 0.3)));
-    world.bench.setup.beliefs.tools.back().teeth = static_cast<int>(mill.cutter.teeth.size());
+    const int count = static_cast<int>(mill.cutter.teeth.size());
+    world.bench.setup.beliefs.tools.back().teeth = count;
+    enter(folder, world, {{"CUT", fmt::format("{}", count)}});
   }
   double length() const { return mill.length + largest(mill, &simulation::TrueTooth::axial); }
   double radius() const { return mill.radius + largest(mill, &simulation::TrueTooth::radial); }
@@ -28,6 +30,7 @@ struct Milled {
     const bool heidenhain = language == ProgramLanguage::Klartext;
     setup::Setup setup = twinSetup(world.bench.setup);
     setup.beliefs.toolProbes = setup::believedToolProbes(setup.world);
+    if (!heidenhain) setup.beliefs.tables.clear();  // TOOL.T
     const char* name = !heidenhain                                  ? "$SNS_MEA_CM_MEASURING_ACCURACY[0]"
                        : world.bench.control == ControlKind::TNC640 ? "measureTolerance1"
                                                                     : "MP6510";
@@ -48,6 +51,7 @@ struct Milled {
   }
 
   ToolWorld world;
+  TableFolder folder;
   simulation::TrueTool mill;
 };
 
@@ -69,7 +73,6 @@ TEST(ToolConversion, ToSinumerikMeasuresTheSameTool) {
     EXPECT_EQ(conversion.notCarriedOver.size(), mode == 1 ? 1U : 0U) << conversion.text;
     EXPECT_EQ(conversion.text.find("NOT CARRIED"), std::string::npos) << conversion.text;
     const auto there = milled.run(conversion.text, ProgramLanguage::Sinumerik);
-    if (teeth) continue;  // TOOL.T has no number of teeth from a setup
     const auto here = milled.run(text, ProgramLanguage::Klartext);
     for (std::size_t i = 0; i < 4; ++i)
       EXPECT_NEAR(there[i], here[i], tolerance + 1e-4) << "value " << i << "\n" << conversion.text;
@@ -140,6 +143,110 @@ TEST(ToolConversion, ToKlartextMeasuresTheSameTool) {
       EXPECT_NEAR(there[i], here[i], tolerance + 1e-4) << "value " << i << "\n" << conversion.text;
     EXPECT_NEAR(there[0], length ? milled.length() : milled.radius(), tolerance + 1e-4);
   }
+}
+
+/// Single edges: the longest and the largest one count on both controls.
+TEST(ToolConversion, ToKlartextMeasuresSingleEdges) {
+  Dice dice(9715);
+  for (int at = 0; at < 12; ++at) {
+    const bool length = at % 2 == 0, wear = at / 2 % 2 == 1;
+    SCOPED_TRACE(fmt::format("world {}", at));
+    const Milled milled(dice, controlOf(at / 4), true);
+    const std::string text = fmt::format(
+        "G17 G54 G90 G710\nT12\nM6 D1\nG0 Z150\nCYCLE971(102,{},1,{},{},0,15,15,,0,0,1)\n"
+        "R1=$TC_DP3[12,1] R2=$TC_DP6[12,1] R3=$TC_DP12[12,1] R4=$TC_DP15[12,1]\nM30\n",
+        wear ? 1 : 0, length ? 3 : 1, length ? 0 : 1);
+    const conversion::Conversion conversion = converted(text, ProgramLanguage::Sinumerik, milled.world.bench.control);
+    EXPECT_TRUE(conversion.notCarriedOver.empty()) << format(conversion.notCarriedOver.front()) << conversion.text;
+    const auto here = milled.run(text, ProgramLanguage::Sinumerik);
+    const auto there = milled.run(conversion.text, ProgramLanguage::Klartext);
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_NEAR(there[i], here[i], tolerance + 1e-4) << "value " << i << "\n" << conversion.text;
+    const double found = length ? there[0] + there[2] : there[1] + there[3];
+    EXPECT_NEAR(found, length ? milled.length() : milled.radius(), tolerance + 1e-4);
+  }
+}
+
+/// 30 to 33 and 480 to 483 leave the same table and the same parameters, in Klartext and DIN/ISO.
+TEST(ToolConversion, OldAndNewFormsMeasureTheSameTool) {
+  Dice dice(9716);
+  for (int at = 0; at < 24; ++at) {
+    const bool old = at % 2 == 0, teeth = at / 2 % 2 == 1;
+    const int number = 481 + at % 3, mode = at / 4 % 2;
+    SCOPED_TRACE(fmt::format("world {}: {} mode {} old {}", at, number, mode, old));
+    Milled milled(dice, controlOf(at / 12), teeth);
+    simulation::TrueTool pin;
+    pin.length = 70;
+    pin.radius = 6;
+    milled.world.add(pin, 9, pin.length, pin.radius);
+    // Q5 has the status either way.
+    const std::string text =
+        "0 BEGIN PGM BENCH MM\nTOOL CALL 9 Z\n" +
+        (old ? std::string("TCH PROBE 30.0 TT\nTCH PROBE 30.1 HEIGHT: +90\n") : probe(480, {{260, 90}})) +
+        "TOOL CALL 12 Z\n" + toolCycle(number, mode, teeth, old) + (old ? "" : "Q5 = Q199\n") +
+        "Q6 = Q115\nQ7 = Q116\n9 END PGM BENCH MM\n";
+    const auto run = [&](const std::string& program, const char* file) {
+      setup::Setup setup = milled.world.bench.setup;
+      setup.beliefs.toolProbes = setup::believedToolProbes(setup.world);
+      setup.beliefs.parameters["stopOnCheck"] = {0.0, {}};
+      if (milled.world.bench.control == ControlKind::iTNC530) setup.beliefs.parameters.erase("stopOnCheck");
+      session::RunOptions options;
+      options.control = milled.world.bench.control;
+      auto outcome = setup::runText(file, program, setup, options, {.recordPath = false}).outcome;
+      EXPECT_EQ(outcome.result.end, execution::RunEnd::Finished)
+          << (outcome.result.diagnostics.empty() ? "" : format(outcome.result.diagnostics.front())) << program;
+      std::string left = outcome.files.contains("TOOL.T") ? outcome.files.at("TOOL.T") : "";
+      for (const char* name : {"Q5", "Q6", "Q7"})
+        left += fmt::format("{} {:.9f}\n", name, outcome.variable(name));
+      return left;
+    };
+    const auto into = [&](const std::string& program, ProgramLanguage from, ProgramLanguage to,
+                          conversion::ToolCycles form) {
+      const auto read = session::programOf(from == ProgramLanguage::DinIso ? "BENCH.I" : "BENCH.H", program, from);
+      const auto conversion = conversion::convert(*read, from, to, {.globalData = nullptr, .toolCycles = form});
+      EXPECT_TRUE(conversion.notCarriedOver.empty() && conversion.mistakes.empty()) << conversion.text;
+      return conversion.text;
+    };
+    using enum conversion::ToolCycles;
+    constexpr auto klartext = ProgramLanguage::Klartext, iso = ProgramLanguage::DinIso;
+    const std::string expected = run(text, "BENCH.H");
+    const std::string other = into(text, klartext, klartext, old ? New : Old);
+    const std::string there = fmt::format("TCH PROBE {}", old ? number : number - 450);
+    EXPECT_NE(other.find(there), std::string::npos) << other;
+    EXPECT_EQ(run(other, "BENCH.H"), expected) << other;
+    const std::string back = into(other, klartext, klartext, old ? Old : New);
+    EXPECT_EQ(run(back, "BENCH.H"), expected) << back;
+    const std::string dinIso = into(text, klartext, iso, AsWritten);
+    EXPECT_EQ(run(dinIso, "BENCH.I"), expected) << dinIso;
+    const std::string oldAgain = into(dinIso, iso, klartext, Old);
+    EXPECT_EQ(run(oldAgain, "BENCH.H"), expected) << oldAgain;
+  }
+}
+
+TEST(ToolConversion, OldFormsComeOfCycle971Too) {
+  const auto program =
+      session::programOf("A.MPF", "G17 G54 G90 G710\nT12\nM6 D1\nG0 Z150\nCYCLE971(2,0,1,3,0,0,15,15,,0,0,1)\nM30\n",
+                         ProgramLanguage::Sinumerik);
+  const auto conversion = conversion::convert(*program, ProgramLanguage::Sinumerik, ProgramLanguage::Klartext,
+                                              {.globalData = nullptr, .toolCycles = conversion::ToolCycles::Old});
+  EXPECT_TRUE(conversion.notCarriedOver.empty());
+  EXPECT_NE(conversion.text.find("TCH PROBE 31.3"), std::string::npos) << conversion.text;
+}
+
+TEST(ToolConversion, NewFormsStayWhereTheOldOneCannotSayIt) {
+  std::string cycle = toolCycle(481, 1, false, false);
+  const std::string written = "Q260=+60.000000";
+  cycle.replace(cycle.find(written), written.size(), "Q260=PREDEF");
+  const auto program = session::programOf("A.H",
+                                          "0 BEGIN PGM A MM\nGLOBAL DEF 120 P ~\n  Q320=+0 ~\n  Q260=+9 ~\n  "
+                                          "Q301=+1\nTOOL CALL 12 Z\n" +
+                                              cycle + "9 END PGM A MM\n",
+                                          ProgramLanguage::Klartext);
+  const auto conversion = conversion::convert(*program, ProgramLanguage::Klartext, ProgramLanguage::Klartext,
+                                              {.globalData = nullptr, .toolCycles = conversion::ToolCycles::Old});
+  ASSERT_EQ(conversion.notCarriedOver.size(), 1U);
+  EXPECT_NE(conversion.notCarriedOver.front().message.find("GLOBAL DEF"), std::string::npos);
+  EXPECT_NE(conversion.text.find("TCH PROBE 481"), std::string::npos) << conversion.text;
 }
 
 TEST(ToolConversion, ToKlartextNamesWhatTouchProbeCyclesLack) {
