@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "control/alarm.hpp"
 #include "probing/arc.hpp"
+#include "probing/sinumerik_rapid.hpp"
 #include "probing/sinumerik_stroke.hpp"
 
 namespace probewright::probing {
@@ -54,27 +54,8 @@ void SinumerikProber::moveTo(const PlanePlace& tcp) {
   channel_.moveTo(plane_.xyzFromPlane(tcp), feed);
 }
 
-/// Rapid traverse on the way to `tcp`, reduced to the percentage that the setting data grant.
 Feed SinumerikProber::rapidTo(const PlanePlace& tcp) const {
-  if (habits_.rapidPercent <= 0 || habits_.rapidPercent >= 100) return Feed::rapidTraverse();
-  const machine::AxisPositions from = channel_.axes();
-  const machine::AxisPositions to = channel_.axesFromProgram(plane_.xyzFromPlane(tcp), from);
-  // Each linear axis and its share of the way.
-  const auto eachShare = [&](auto&& visit) {
-    std::size_t index = 0;
-    for (const machine::Axis& axis : channel_.description().axes) {
-      if (axis.kind == machine::AxisKind::Linear) visit(axis, std::abs(to[index] - from[index]));
-      ++index;
-    }
-  };
-  double way = 0;
-  eachShare([&](const machine::Axis&, double share) { way += share * share; });
-  way = std::sqrt(way);
-  double speed = std::numeric_limits<double>::infinity();
-  eachShare([&](const machine::Axis& axis, double share) {
-    if (share > 0) speed = std::min(speed, axis.rapid * way / share);
-  });
-  return std::isfinite(speed) ? Feed::at(speed * habits_.rapidPercent / 100) : Feed::rapidTraverse();
+  return reducedRapid(channel_, plane_.xyzFromPlane(tcp), habits_.rapidPercent);
 }
 
 void SinumerikProber::moveInPlane(const PlanePlace& tcp) {

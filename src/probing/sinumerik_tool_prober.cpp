@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "probing/sinumerik_rapid.hpp"
 #include "probing/sinumerik_stroke.hpp"
 
 namespace probewright::probing {
@@ -28,7 +29,7 @@ ToolStrokeTouch SinumerikToolProber::touch(const ToolStroke& stroke) {
                            .retract = machine::Feed::at(habits_.planeFeed),
                            .sensor = machine::Sensor::ToolTouchProbe,
                            .attempts = habits_.oneAttempt ? 1 : 5};
-  if (habits_.rapidRetract) order.retract = machine::Feed::rapidTraverse();
+  if (habits_.rapidRetract) order.retract = reducedRapid(channel_, order.end, habits_.rapidPercent);
   const auto once = [&] {
     const auto touched = carryOut(channel_, order, finish);
     if (!touched) refuseUntouched(channel_, stroke.path);

@@ -298,6 +298,10 @@ void conclude(Context& context, const LatheTool& tool, const LatheFindings& find
   }
   noteTool(context);
   context.noteCall();
+  std::vector<double> differences;
+  for (const Component& each : components)
+    differences.push_back(each.difference);
+  repeatIfBeyond(context, differences);
   bool worn = false;
   std::vector<Component> corrected;
   for (const Component& each : components) {
