@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 
 #include "simulation/analytic_solids.hpp"
@@ -101,7 +102,8 @@ DrawingMesh meshOf(const simulation::Solid& solid) {
 
 struct Hit {
   Vector3f point, normal;
-  std::uint32_t shape = 0;
+  float distance = 0;  ///< in lengths of the direction
+  const Finish* finish = nullptr;
 };
 
 }  // namespace
@@ -174,7 +176,8 @@ struct Scenery::Shapes {
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     Hit hit;
     hit.point = from + ray.ray.tfar * direction;
-    hit.shape = ray.hit.geomID;
+    hit.distance = ray.ray.tfar;
+    hit.finish = &finishes[ray.hit.geomID];
     std::array<float, 3> normal{};
     rtcInterpolate0(rtcGetGeometry(scene, ray.hit.geomID), ray.hit.primID, ray.hit.u, ray.hit.v,
                     RTC_BUFFER_TYPE_VERTEX_ATTRIBUTE, 0, normal.data(), 3);
@@ -193,6 +196,10 @@ struct Scenery::Shapes {
   }
 };
 
+struct Scenery::Meshes {
+  std::map<const simulation::Solid*, DrawingMesh> bySolid;
+};
+
 Scenery::Scenery(std::span<const PlacedSolid> solids, const TrueCamera& camera)
     : shapes_(std::make_unique<Shapes>()), camera_(camera) {
   for (const PlacedSolid& placed : solids) {
@@ -205,18 +212,42 @@ Scenery::Scenery(std::span<const PlacedSolid> solids, const TrueCamera& camera)
 
 Scenery::~Scenery() = default;
 
+void Scenery::put(std::span<const PlacedSolid> moving) {
+  if (!meshes_) meshes_ = std::make_unique<Meshes>();
+  auto shapes = std::make_unique<Shapes>();
+  for (const PlacedSolid& placed : moving) {
+    auto mesh = meshes_->bySolid.find(placed.solid.get());
+    if (mesh == meshes_->bySolid.end())
+      mesh = meshes_->bySolid.emplace(placed.solid.get(), meshOf(*placed.solid)).first;
+    const auto known = camera_.finishes.find(placed.name);
+    shapes->add(mesh->second, placed.tableFromSolid,
+                known == camera_.finishes.end() ? finishOf(placed.role) : known->second);
+  }
+  rtcCommitScene(shapes->scene);
+  moving_ = std::move(shapes);
+}
+
 Layers Scenery::render(const Pose& tableFromCamera, std::span<const Vector3> lamps) const {
   const auto width = static_cast<std::size_t>(camera_.width), height = static_cast<std::size_t>(camera_.height);
   Layers layers(1 + lamps.size(), std::vector<float>(width * height));
   const Vector3f eye = tableFromCamera.translation().cast<float>();
   constexpr float share = 1.0F / (raysAcross * raysAcross);
+  const auto nearest = [&](const Vector3f& direction) {
+    auto hit = shapes_->nearest(eye, direction);
+    if (!moving_) return hit;
+    auto other = moving_->nearest(eye, direction);
+    return other && (!hit || other->distance < hit->distance) ? other : hit;
+  };
+  const auto free = [&](const Vector3f& from, const Vector3f& to) {
+    return shapes_->free(from, to) && (!moving_ || moving_->free(from, to));
+  };
   const auto see = [&](std::size_t pixel, const Vector3f& direction) {
-    const auto hit = shapes_->nearest(eye, direction);
+    const auto hit = nearest(direction);
     if (!hit) {
       layers[0][pixel] += share * background;
       return;
     }
-    const Finish& finish = shapes_->finishes[hit->shape];
+    const Finish& finish = *hit->finish;
     const auto reflectance = static_cast<float>(finish.reflectance), gloss = static_cast<float>(finish.gloss);
     layers[0][pixel] += share * reflectance * static_cast<float>(camera_.ambient);
     const Vector3f from = hit->point + lift * hit->normal;
@@ -225,7 +256,7 @@ Layers Scenery::render(const Pose& tableFromCamera, std::span<const Vector3> lam
       const Vector3f lamp = lamps[i].cast<float>();
       const Vector3f towards = (lamp - hit->point).normalized();
       const float facing = towards.dot(hit->normal);
-      if (facing <= 0 || !shapes_->free(from, lamp)) continue;
+      if (facing <= 0 || !free(from, lamp)) continue;
       const float mirror = std::pow(std::max(mirrored.dot(towards), 0.0F), shine);
       layers[i + 1][pixel] +=
           share * static_cast<float>(camera_.lamps[i].brightness) * (reflectance * facing + gloss * mirror);

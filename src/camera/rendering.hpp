@@ -17,19 +17,26 @@ namespace probewright::camera {
 using Layers = std::vector<std::vector<float>>;
 
 /// All solids as triangles, in the table frame: parts, fixtures and gauges as they are drawn in reports, the table of
-/// the machine. Curved faces are as flat as their triangles, and shaded as if they were not. Tools are not seen.
+/// the machine, and its bodies. Curved faces are as flat as their triangles, and shaded as if they were not. Tools are
+/// not seen.
 class Scenery {
 public:
   /// Throws std::runtime_error if Embree cannot allocate its memory.
   Scenery(std::span<const simulation::PlacedSolid> solids, const TrueCamera& camera);
   ~Scenery();
 
+  /// Things that stand elsewhere than before, such as bodies of the machine: all of them anew. Their meshes are kept.
+  void put(std::span<const simulation::PlacedSolid> moving);
+
   /// `lamps`: places of the camera's lamps, table frame. A pixel is the mean of four rays.
   Layers render(const Pose& tableFromCamera, std::span<const Vector3> lamps) const;
 
 private:
   struct Shapes;
-  std::unique_ptr<Shapes> shapes_;
+  struct Meshes;
+
+  std::unique_ptr<Shapes> shapes_, moving_;
+  std::unique_ptr<Meshes> meshes_;  ///< of what moves, by its solid
   TrueCamera camera_;
 };
 

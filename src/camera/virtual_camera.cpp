@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/links.hpp"
+
 namespace probewright::camera {
 
 using machine::CameraEnd;
@@ -22,6 +24,21 @@ CameraResult VirtualCamera::moveCover(bool open) {
 CameraResult VirtualCamera::openCover() { return moveCover(true); }
 CameraResult VirtualCamera::closeCover() { return moveCover(false); }
 
+std::vector<simulation::PlacedSolid> VirtualCamera::bodies() const {
+  const simulation::Truth& truth = machine_.truth();
+  const machine::MachineDescription real = simulation::trueDescription(truth.machine, truth.errors);
+  const machine::AxisPositions position = machine_.position();
+  const machine::Link head = machine::headLink(real);
+  const Pose tableFromBase = machine::baseFromTable(real, position).inverse();
+  std::vector<simulation::PlacedSolid> placed;
+  for (const simulation::MachineBody& body : truth.bodies) {
+    if (body.link == head) continue;
+    const Pose pose = tableFromBase * machine::baseFromLink(real, position, body.link) * body.linkFromSolid;
+    placed.push_back({body.solid, pose, body.name, simulation::SolidRole::Fixture, true});
+  }
+  return placed;
+}
+
 /// Renders the scene if anything stands elsewhere than for the last picture.
 void VirtualCamera::look() {
   const Pose tableFromSpindle = machine_.tableFromSpindle();
@@ -30,8 +47,12 @@ void VirtualCamera::look() {
   std::vector<Vector3> lamps;
   for (const Lamp& lamp : camera_.lamps)
     lamps.push_back((lamp.on == Mounted::Bed ? tableFromBase : tableFromSpindle) * lamp.position);
-  if (!layers_.empty() && place.matrix() == place_.matrix() && lamps == lampPlaces_) return;
+  if (!layers_.empty() && place.matrix() == place_.matrix() && lamps == lampPlaces_ &&
+      (machine_.truth().bodies.empty() || position_ == machine_.position()))
+    return;
   if (!scenery_) scenery_.emplace(machine_.truth().solids, camera_);
+  position_ = machine_.position();
+  if (!machine_.truth().bodies.empty()) scenery_->put(bodies());
   layers_ = scenery_->render(place, lamps);
   place_ = place;
   lampPlaces_ = std::move(lamps);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <vector>
 
 #include "camera/rendering.hpp"
 #include "camera/true_camera.hpp"
@@ -28,12 +29,15 @@ public:
 private:
   machine::CameraResult moveCover(bool open);
   void look();
+  /// The bodies of the machine as they stand; the camera does not see the head that carries it.
+  std::vector<simulation::PlacedSolid> bodies() const;
 
   const simulation::VirtualMachine& machine_;
   TrueCamera camera_;
   std::optional<Scenery> scenery_;
   Pose place_ = Pose::Identity();  ///< of `layers_`
   std::vector<Vector3> lampPlaces_;
+  machine::AxisPositions position_;  ///< of the machine then
   Layers layers_;
   std::mt19937_64 noise_;
   bool open_ = false;

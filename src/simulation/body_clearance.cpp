@@ -61,7 +61,26 @@ struct BodyClearance::View {
   std::unique_ptr<Surroundings> surroundings;
 };
 
-BodyClearance::BodyClearance(const Truth& truth) : machine_(trueDescription(truth.machine, truth.errors)) {
+std::string BodyClearance::Near::text() const {
+  if (other.empty()) return fmt::format("the tool may touch the machine's \"{}\"", body);
+  return fmt::format("the machine's \"{}\" may touch \"{}\"", body, other);
+}
+
+/// `second` is a body.
+bool BodyClearance::counts(const Thing& first, const Thing& second) const {
+  if (!second.isBody || first.link == second.link) return false;
+  if (first.ofMachine && second.ofMachine && machine::areNeighbours(first.link, second.link)) return false;
+  if (which_ == Pairs::All) return true;
+  const auto carries = [](const Thing& thing, Link::Chain chain) {
+    return !thing.link.isBed() && thing.link.chain == chain;
+  };
+  if (!first.isBody && !first.ofMachine) return !carries(second, Link::Chain::Table);
+  return (carries(first, Link::Chain::Spindle) && carries(second, Link::Chain::Table)) ||
+         (carries(first, Link::Chain::Table) && carries(second, Link::Chain::Spindle));
+}
+
+BodyClearance::BodyClearance(const Truth& truth, Pairs pairs)
+    : machine_(trueDescription(truth.machine, truth.errors)), which_(pairs) {
   errors_.axes = truth.errors.axes;
   for (AxisErrors& axis : errors_.axes)
     axis.deviations.clear();
@@ -100,8 +119,7 @@ BodyClearance::BodyClearance(const Truth& truth) : machine_(trueDescription(trut
   for (std::size_t i = 0; i < things_.size(); ++i) {
     for (std::size_t k = i + 1; k < things_.size(); ++k) {
       const Thing &first = *things_[k], &second = *things_[i];
-      if (!second.isBody || first.link == second.link) continue;
-      if (first.ofMachine && second.ofMachine && machine::areNeighbours(first.link, second.link)) continue;
+      if (!counts(first, second)) continue;
       auto pair = std::make_unique<Pair>();
       pair->first = &first;
       pair->second = &second;
@@ -128,8 +146,8 @@ BodyClearance::BodyClearance(const Truth& truth) : machine_(trueDescription(trut
 
 BodyClearance::~BodyClearance() = default;
 
-std::optional<std::string> BodyClearance::nearer(const Motion& motion, const Margins& margins,
-                                                 const ToolShape& tool) const {
+std::optional<BodyClearance::Near> BodyClearance::nearer(const Motion& motion, const Margins& margins,
+                                                         const ToolShape& tool) const {
   const auto seen = [&](const TrueKinematics& kinematics) {
     return Motion{kinematics, motion.from, motion.to, motion.slidesAtStart, motion.startSeconds, motion.profile};
   };
@@ -138,15 +156,15 @@ std::optional<std::string> BodyClearance::nearer(const Motion& motion, const Mar
     const double way =
         reserve * (longestWay(pair->between.first, machine_.axes, motion, pair->first->centre, pair->first->radius) +
                    longestWay(pair->between.second, machine_.axes, motion, pair->second->centre, pair->second->radius));
+    if (way == 0 && which_ == Pairs::SpindleAgainstTable) continue;
     const Motion relative = seen(*pair->kinematics);
     for (double fraction = 0;;) {
       const double left = way * (1 - fraction);
       const double free = pair->gap(relative.tableFromSpindleAt(fraction), margin + left) - margin;
-      if (free <= 0) return fmt::format("the machine's \"{}\" may touch \"{}\"", pair->second->name, pair->first->name);
+      if (free <= 0) return Near{pair->second->name, pair->first->name};
       if (free > left || way == 0) break;
       // A gap that small would take steps without end.
-      if (free < shortestStep)
-        return fmt::format("the machine's \"{}\" may touch \"{}\"", pair->second->name, pair->first->name);
+      if (free < shortestStep) return Near{pair->second->name, pair->first->name};
       fraction = std::min(1.0, fraction + free / way);
     }
   }
@@ -160,7 +178,7 @@ std::optional<std::string> BodyClearance::nearer(const Motion& motion, const Mar
       touched = shaft->solid;
     else if (const auto ball = ballOverlap(start, tool, *view->surroundings))
       touched = ball->solid;
-    if (touched) return fmt::format("the tool may touch the machine's \"{}\"", view->solids[*touched].name);
+    if (touched) return Near{view->solids[*touched].name, {}};
   }
   return std::nullopt;
 }

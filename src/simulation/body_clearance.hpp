@@ -14,7 +14,10 @@ namespace probewright::simulation {
 /// pairs are those of BodyGuard, and axes are where that has them. Safe to query from many threads at once.
 class BodyClearance {
 public:
-  explicit BodyClearance(const Truth& truth);
+  /// All pairs of BodyGuard; or what carries the tool against what carries the part, and against what lies on the
+  /// table: gaps of slides and covers that a machine is built with do not count there.
+  enum class Pairs { All, SpindleAgainstTable };
+  explicit BodyClearance(const Truth& truth, Pairs pairs = Pairs::All);
   ~BodyClearance();
   BodyClearance(const BodyClearance&) = delete;
   BodyClearance& operator=(const BodyClearance&) = delete;
@@ -23,18 +26,27 @@ public:
     double bodies = 0;  ///< mm, between two bodies of the machine
     double solids = 0;  ///< mm, between a body and something on the table
   };
-  /// What may come nearer than the margins somewhere on the motion, in words; nothing if all keep away. `tool` must
-  /// touch no body; it is to be as thick as it is with its margin. Never misses what comes nearer; what comes no nearer
-  /// than the margin and 0.05 mm is not named.
-  std::optional<std::string> nearer(const Motion& motion, const Margins& margins, const ToolShape& tool) const;
+  struct Near {
+    std::string body;   ///< of the machine
+    std::string other;  ///< what it is near to; empty: the tool
+    std::string text() const;
+  };
+  /// What may come nearer than the margins somewhere on the motion; nothing if all keep away. `tool` must touch no
+  /// body; it is to be as thick as it is with its margin. Never misses what comes nearer; what comes no nearer than the
+  /// margin and 0.05 mm is not named. With Pairs::SpindleAgainstTable things that the motion does not move against each
+  /// other are left out.
+  std::optional<Near> nearer(const Motion& motion, const Margins& margins, const ToolShape& tool) const;
 
 private:
   struct Thing;
   struct Pair;
   struct View;
 
+  bool counts(const Thing& first, const Thing& second) const;
+
   machine::MachineDescription machine_;
   MachineErrors errors_;
+  Pairs which_;
   std::vector<std::unique_ptr<Thing>> things_;
   std::vector<std::unique_ptr<Pair>> pairs_;
   std::vector<std::unique_ptr<View>> views_;

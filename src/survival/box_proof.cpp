@@ -343,7 +343,8 @@ std::optional<BoxVerdict> Proof::bodiesClear(const Step& step, const AxisPositio
   const double moved = tool.any();
   const ToolShape thick = grown(shapeOf(step), tool + turned(step, spread.turn), ownOf(step));
   const simulation::BodyClearance::Margins margins{moved, moved + farthest_};
-  if (auto near = program_.bodies()->nearer(motionOf(from, step), margins, thick)) return undecided(*near, &step);
+  if (auto near = program_.bodies()->nearer(motionOf(from, step), margins, thick))
+    return undecided(near->text(), &step);
   return std::nullopt;
 }
 

@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <utility>
 
+#include "simulation/body_clearance.hpp"
 #include "simulation/contact_search.hpp"
 
 namespace probewright::truth {
 
 using records::ClearanceSpan;
+using simulation::BodyClearance;
 using simulation::Motion;
 using simulation::PathKind;
 using simulation::PathPoint;
@@ -87,7 +90,10 @@ public:
         kinematics_(truth_.machine, truth_.errors),
         // On lathes tool touch probes stand on the bed, beside what turns.
         surroundings_(truth_.solids, truth_.machine.mainSpindle ? isNoToolProbe : isAnything),
-        spindleDegrees_(machine.spindle().angle) {}
+        spindleDegrees_(machine.spindle().angle) {
+    if (!truth_.bodies.empty())
+      bodies_ = std::make_unique<BodyClearance>(truth_, BodyClearance::Pairs::SpindleAgainstTable);
+  }
 
   std::vector<ClearanceSpan> spans() {
     std::vector<ClearanceSpan> spans;
@@ -125,13 +131,19 @@ private:
     span.orMore = true;
     const bool meant = to.kind == PathKind::Measure || to.kind == PathKind::Retract;
     const ToolShape moving = meant ? withoutFeelers(shapeOf(to.tool)) : shapeOf(to.tool);
-    if (moving.balls.empty() && moving.shafts.empty()) return span;
     const Motion motion{kinematics_, from.axes, to.axes, from.axes, from.seconds, simulation::MotionProfile(1, 1, 1)};
+    if (!moving.balls.empty() || !moving.shafts.empty()) ofTool(span, motion, moving);
+    if (bodies_) ofBodies(span, motion, moving);
+    return span;
+  }
+
+  /// From what lies on the table.
+  void ofTool(ClearanceSpan& span, const Motion& motion, const ToolShape& moving) const {
     const auto touchWith = [&](double by, double precision) {
       return simulation::firstTouch(motion, 0, 1, grown(moving, by), surroundings_, {.precision = precision});
     };
     auto touch = touchWith(most + roughly, roughly);
-    if (!touch) return span;
+    if (!touch) return;
     double free = 0, touching = most + 2 * roughly;
     while (touching - free > fine && free < most) {
       const double middle = (free + touching) / 2;
@@ -145,12 +157,33 @@ private:
         free = std::max(free, middle - open);
       }
     }
-    if (free >= most) return span;
+    if (free >= most) return;
     span.distance = free;
     span.orMore = false;
     span.part = touch->shaft ? moving.shafts[*touch->shaft].part : "ball";
     span.solid = truth_.solids[touch->solid].name;
-    return span;
+  }
+
+  /// From bodies of the machine, and of those that carry the tool from what lies on the table; if they are nearer than
+  /// what the span tells.
+  void ofBodies(ClearanceSpan& span, const Motion& motion, const ToolShape& moving) const {
+    const auto nearWith = [&](double by) { return bodies_->nearer(motion, {by, by}, grown(moving, by)); };
+    auto near = nearWith(span.distance);
+    if (!near) return;
+    double free = 0, touching = span.distance;
+    while (touching - free > fine) {
+      const double middle = (free + touching) / 2;
+      if (auto nearer = nearWith(middle)) {
+        touching = middle;
+        near = std::move(nearer);
+      } else {
+        free = middle;
+      }
+    }
+    span.distance = free;
+    span.orMore = false;
+    span.part = near->other.empty() ? "tool" : near->body;
+    span.solid = near->other.empty() ? near->body : near->other;
   }
 
   std::optional<std::size_t> cycleAt(double from, double to) const {
@@ -169,6 +202,7 @@ private:
   simulation::Surroundings surroundings_;
   double spindleDegrees_ = 0;
   std::map<int, ToolShape> shapes_;
+  std::unique_ptr<BodyClearance> bodies_;
 };
 
 }  // namespace

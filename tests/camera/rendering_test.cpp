@@ -2,6 +2,7 @@
 
 #include "camera/scenes.hpp"
 #include "camera/virtual_camera.hpp"
+#include "machine/links.hpp"
 #include "simulation/world.hpp"
 
 /// What the virtual camera sees, against the closed form of the projection.
@@ -83,6 +84,44 @@ TEST(VirtualCamera, SeesABallWhereItsProjectionIs) {
 }
 
 /// The shadow of a tall block ends where the ray of the lamp over its edge meets the table.
+/// Bodies of the machine are where the axes have them; the head that carries the camera is not seen.
+TEST(VirtualCamera, SeesBodiesOfTheMachineWhereTheyStand) {
+  CameraBench bench;
+  camera::TrueCamera& camera = bench.camera();
+  camera.ambient = 1;
+  camera.lamps.clear();
+  camera.noise = camera.flicker = 0;
+  camera.finishes["guard"] = {1, 0};
+  camera.finishes["plate"] = camera.finishes["table"] = {0.3, 0};
+  const machine::MachineDescription& machine = bench.setup.world.truth.machine;
+  const Vector3 place(-30, -10, tableSurface);  // base frame with all axes at 0, which is the table's there
+  simulation::WorldBody guard;
+  guard.name = "guard";
+  guard.source.recipe.features = {box({60, 40, 60})};
+  guard.linkFromSolid = translation(place);
+  // The brightness of the picture where the place on the table is, with Y there.
+  const auto brightness = [&](const std::string& link, const Vector3& at, double y) {
+    bench.setup.world.bodies.clear();
+    if (!link.empty()) {
+      guard.link = *machine::linkNamed(machine, link);
+      bench.setup.world.bodies.push_back(guard);
+    }
+    bench.setup.world.truth.start[*machine.axisIndex("Y")] = y;
+    const Vector2 pixel = bench.pixel(at + Vector3(0, 0, 60));
+    const auto moving = built(bench);
+    return static_cast<int>(pictureOf(*moving).at(static_cast<int>(pixel.x()), static_cast<int>(pixel.y())));
+  };
+  const int table = brightness("", place, 0);
+  EXPECT_GT(brightness("table", place, 0), table + 50);
+  EXPECT_GT(brightness("bed", place, 0), table + 50);
+  // The table carries it away with it; what stands on the bed stays behind.
+  const Vector3 behind = place + Vector3(0, 50, 0);  // of the table, when Y has taken it 50 mm towards -Y
+  EXPECT_GT(brightness("table", place, 50), table + 50);
+  EXPECT_LT(brightness("bed", place, 50), table + 50);
+  EXPECT_GT(brightness("bed", behind, 50), table + 50);
+  EXPECT_NEAR(brightness("head", place, 0), table, 3);
+}
+
 TEST(VirtualCamera, ThrowsShadowsAwayFromTheLamp) {
   CameraBench bench;
   bench.setup.world.solids.clear();

@@ -307,6 +307,42 @@ TEST(Clearance, IsTheLeastDistanceOfEachMove) {
   EXPECT_THAT(reports::summaryText(free.outcome.journal, free.outcome.info), Not(HasSubstr("clearance")));
 }
 
+TEST(Clearance, CountsTheBodiesOfTheMachine) {
+  setup::MachineOptions asked;
+  asked.clearance = true;
+  const auto least = [&](const World& world, const std::string& program) {
+    const Told told = run(world, program, asked);
+    EXPECT_TRUE(told.finished()) << told.why();
+    const auto& spans = told.truth().clearance->spans;
+    return *std::ranges::min_element(spans, {}, &records::ClearanceSpan::distance);
+  };
+  // A hose on the head ends 10 mm above the ball's lowest point; below it stands a post, 2.5 mm higher than the ball
+  // comes: 7.5 mm are left.
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480 }");
+  world.more =
+      "[machine]\n[[machine.body]]\nname = \"hose\"\nlink = \"head\"\n[[machine.body.feature]]\nshape = \"box\"\n"
+      "centre = [0, -150, -140]\nsize = [20, 20, 140]\n[[fixture]]\nname = \"post\"\npose = { y = -150, z = -557.5 }\n"
+      "[[fixture.feature]]\nshape = \"box\"\nsize = [30, 30, 100]\n";
+  const std::string down = "TOOL CALL 1 Z\nL X+0 Y+0 R0 FMAX\nL Z+20 FMAX\nL Z+60 FMAX\n";
+  const records::ClearanceSpan hose = least(world, down);
+  EXPECT_NEAR(hose.distance, 7.5, 0.15);
+  EXPECT_LE(hose.distance, 7.5);
+  EXPECT_EQ(hose.part, "hose");
+  EXPECT_EQ(hose.solid, "post");
+
+  // The tool passes 6 mm above a guard that the table carries.
+  world.more =
+      "[machine]\n[[machine.body]]\nname = \"guard\"\nlink = \"table\"\n[[machine.body.feature]]\nshape = \"box\"\n"
+      "centre = [120, 0, -500]\nsize = [40, 40, 34]\n";
+  const records::ClearanceSpan guard =
+      least(world, "TOOL CALL 1 Z\nL Z+60 R0 FMAX\nL X+80 Y+0 FMAX\nL Z+20 FMAX\nL X+160 F2000\nL Z+60 FMAX\n");
+  EXPECT_NEAR(guard.distance, 6, 0.15);
+  EXPECT_EQ(guard.part, "tool");
+  EXPECT_EQ(guard.solid, "guard");
+}
+
 TEST(Clearance, DoesNotCountWhatIsMeantToTouch) {
   World world;
   world.origin = {0, 0, -480};
