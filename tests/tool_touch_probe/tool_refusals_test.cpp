@@ -48,6 +48,13 @@ TEST(ToolRefusals, OfToolsThatAreNone) {
   const Ran ran = turning.world.run(all[0]);
   EXPECT_EQ(ran.alarm(), "Tool type not permitted");
   EXPECT_THAT(ran.why(), HasSubstr("cycle 485"));
+  for (const char* type : {"GRIND", "DRESS"}) {
+    for (const std::string& cycle : all) {
+      Refusing other;
+      other.entries({{"TYP", type}});
+      EXPECT_EQ(other.alarm(cycle), "Tool type not permitted") << type << cycle;
+    }
+  }
 }
 
 TEST(ToolRefusals, OfToolsWithoutWhatIsNeeded) {

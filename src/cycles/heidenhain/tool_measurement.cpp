@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
+#include <utility>
 
 #include "base/truncated.hpp"
 #include "control/alarm.hpp"
@@ -110,6 +112,23 @@ ToolRequest oldRequest(Context& context) {
   return permitted(context, request);
 }
 
+namespace {
+
+constexpr std::string_view turningTool = "turning tool";
+
+/// What the active tool is, if it is one that these cycles do not measure.
+std::string_view notMeasured(const Control& control) {
+  if (!control.tool.probeRow.empty()) return "touch probe";
+  if (!control.isTNC640()) return {};
+  constexpr std::pair<std::string_view, std::string_view> kinds[] = {
+      {"TURN", turningTool}, {"TCHP", "touch probe"}, {"GRIND", "grinding tool"}, {"DRESS", "dressing tool"}};
+  const std::string type = control.tables.tools.text(control.tool.row, "TYP");
+  const auto* found = std::ranges::find(kinds, type, &std::pair<std::string_view, std::string_view>::first);
+  return found == std::end(kinds) ? std::string_view() : found->second;
+}
+
+}  // namespace
+
 void requireMeasurable(Context& context) {
   Control& control = context.control();
   requireEnabled(control);
@@ -119,12 +138,11 @@ void requireMeasurable(Context& context) {
     throw Alarm("Tool not defined", "The tool to be measured has no row in TOOL.T",
                 "program TOOL CALL with the tool before the cycle");
   }
-  const std::string type = control.isTNC640() ? tools.text(row, "TYP") : std::string();
-  if (!control.tool.probeRow.empty() || type == "TURN" || type == "TCHP") {
+  const std::string_view kind = notMeasured(control);
+  if (!kind.empty()) {
     throw Alarm("Tool type not permitted",
-                fmt::format("Tool {} is a {}; the cycle measures mills and drills", row,
-                            type == "TURN" ? "turning tool" : "touch probe"),
-                type == "TURN" ? "measure turning tools with cycle 485" : "call the tool that is to be measured");
+                fmt::format("Tool {} is a {}; the cycle measures mills and drills", row, kind),
+                kind == turningTool ? "measure turning tools with cycle 485" : "call the tool that is to be measured");
   }
 }
 
