@@ -31,7 +31,11 @@ void believeAsCalibrated(control::BelievedTool& believed, const simulation::True
   believed.length = tool.length;
   believed.radius = tool.radius;
   believed.teeth = static_cast<int>(tool.cutter.teeth.size());
-  if (tool.cutter.insert) believed.cuttingEdge = cuttingEdgeOf(tool);
+  if (tool.cutter.insert) {
+    believed.cuttingEdge = cuttingEdgeOf(tool);
+    // Where the tip is beside the axis, as long as the plane of the insert is that of X.
+    if (tool.cutter.insert->orientation == 0) believed.tipOffset = tool.cutter.eccentricity;
+  }
   if (tool.kind != simulation::ToolKind::Probe) return;
   const simulation::TrueProbe& probe = tool.probe;
   const double delayed = probe.signalDelay * believed.feed / 60;

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "control/heidenhain/turning_tool_table.hpp"
+#include "setup/setup.hpp"
 #include "tool_touch_probe/tool_worlds.hpp"
 
 /// Cycle 485: lengths of turning tools, by where their tips point.
@@ -146,6 +147,34 @@ TEST(TurningToolMeasurement, MeasuresOfEachTypeWhatItsOrientationPermits) {
       EXPECT_EQ(ran.screens().back().find("ZL") != std::string::npos, measuresZ);
       EXPECT_EQ(ran.screens().back().find("XL") != std::string::npos, measuresX);
     }
+  }
+}
+
+/// A setup without tables: the control knows the tool as it was planted, but for what the setup says of its beliefs.
+TEST(TurningToolMeasurement, KnowsATurningToolOfASetup) {
+  const std::pair<std::string, int> directions[] = {{"[-90, 180]", 1}, {"[-90, 0]", 7}, {"[-140, -220]", 2}};
+  for (const auto& [normals, orientation] : directions) {
+    SCOPED_TRACE(orientation);
+    const std::string text =
+        "[machine]\nname = \"mill3\"\n[control]\ntype = \"TNC640\"\n[tool_probe]\nsize = [24, 20]\nthickness = 8\n"
+        "pose = { x = 250, y = 120, z = -560 }\n[[preset]]\nrow = 1\norigin = [0, 0, -480]\nactive = true\n"
+        "[[tool]]\nnumber = 12\nname = \"TURN\"\nkind = \"turn\"\nlength = 90.3\nradius = 0.8\n"
+        "believed_length = 90\n[tool.cutter]\nshank_radius = 5\neccentricity = [20, 0]\n"
+        "[tool.cutter.insert]\nnose_radius = 0.8\nedge_normals = " +
+        normals + "\n";
+    Diagnostics diagnostics;
+    const auto setup = setup::parseSetup(text, "turn.toml", diagnostics);
+    ASSERT_TRUE(setup) << format(diagnostics.front());
+    session::RunOptions options;
+    options.control = ControlKind::TNC640;
+    const Ran ran(setup::runText(
+        "BENCH.H", "BEGIN PGM BENCH MM\nTOOL CALL 12 Z\n" + probe(485, {{340, 1}, {260, 60}}) + "END PGM BENCH MM\n",
+        *setup, options, {.recordPath = false}));
+    ASSERT_TRUE(ran.finished()) << ran.why();
+    if (orientation != 2) {
+      EXPECT_NEAR(ran.q(115), 0.3, 2e-6);
+    }
+    EXPECT_NEAR(ran.q(116), 0, 2e-6);
   }
 }
 

@@ -74,6 +74,12 @@ Vector2 centreOffset(const BelievedTool& tool) {
   return Eigen::Rotation2Dd(radiansFromDegrees(tool.calibrationAngle - *tool.tipOffsetAngle)) * tool.tipOffset;
 }
 
+/// TO of the cutting edge position of a SINUMERIK. TO 1 points to -X and -Z, 8 to -Z, and the numbers go round.
+int tipOrientationOf(int cuttingEdge) {
+  static constexpr std::array<int, 10> orientations = {9, 5, 7, 1, 3, 4, 6, 8, 2, 9};
+  return orientations[static_cast<std::size_t>(std::clamp(cuttingEdge, 0, 9))];
+}
+
 /// `probeRow`: the row of the touch probe table is to be made too.
 void enterTool(hh::Tables& tables, const BelievedTool& tool, bool probeRow, const Beliefs& beliefs,
                Diagnostics& diagnostics) {
@@ -96,7 +102,10 @@ void enterTool(hh::Tables& tables, const BelievedTool& tool, bool probeRow, cons
     Entry entry(*tables.turningTools, row, beliefs, diagnostics);
     entry.text("NAME", tool.name);
     entry.number("ZL", tool.length);
+    entry.number("XL", tool.tipOffset.x());
+    entry.number("YL", tool.tipOffset.y());
     entry.number("RS", tool.radius);
+    if (tool.cuttingEdge != 0) entry.number("TO", tipOrientationOf(tool.cuttingEdge));
   }
   const std::string probe = std::to_string(tool.probeNumber);
   if (tool.kind == "probe" && probeRow) {
