@@ -129,6 +129,36 @@ TEST_F(KinematicsRefusals, TheProbeAndTheBall) {
           scene.approach(0, 0, 3.5));
 }
 
+/// What the other measuring cycles refuse, and ranges that only the run knows.
+TEST_F(KinematicsRefusals, WhatEveryCycleRefuses) {
+  const auto refusedCall = [&](const char* code, const NamedNumbers& more, const std::string& before = {}) {
+    SCOPED_TRACE(code + before);
+    KinematicsScene fresh = measured();
+    refused(fresh, code, with(fresh.call(0, 0), more), "", fresh.placeFor(0, 0) + before);
+  };
+  refusedCall("61300", {}, "G41\n");
+  refusedCall("61310", {}, "SCALE X2\n");
+  refusedCall("61319", {{"S_NMSP", 10}});
+  refusedCall("61319", {{"_DMODE", 4}});
+  refusedCall("61319", {{"S_STA1", 400}});
+  refusedCall("61319", {{"S_STA1", -1}});
+  KinematicsScene scene = measured();
+  scene.measureAll();
+  refused(scene, "61319", evaluation({{"S_TNVL", 0.5}}), "S_TNVL");
+  refused(scene, "61319", evaluation({{"S_TNVL", -20}}), "S_TNVL");
+  refused(scene, "61319", evaluation({{"_DMODE", 4}}), "_DMODE");
+  // A ball beside the one that is meant.
+  simulation::Truth crowded = perfectWorld(tableTable.machine);
+  place(crowded, simulation::SolidSphere(Vector3::Zero(), 12.5), translation(tableTable.ball + Vector3(28, 0, 0)),
+        "other", simulation::SolidRole::Sphere);
+  KinematicsScene beside(tableTable, crowded);
+  refused(beside, "61302", beside.call(0, 0), "", beside.placeFor(0, 0));
+  simulation::Truth truth = perfectWorld(tableTable.machine);
+  truth.machine.spindleOrients = false;
+  KinematicsScene stiff(tableTable, truth);
+  refused(stiff, "61372", stiff.call(0, 0, 2), "", stiff.placeFor(0, 0));
+}
+
 /// What is wrong with a call is known before it runs; the calculation needs no measuring path.
 TEST(KinematicsCheck, NamesCallsThatCannotBeMeant) {
   const auto said = [](const std::string& call) {
@@ -144,6 +174,9 @@ TEST(KinematicsCheck, NamesCallsThatCannotBeMeant) {
   EXPECT_THAT(said("CYCLE996(10101,1,1,0,0,,,,,,,,3,4)"), HasSubstr("S_SETV"));
   EXPECT_THAT(said("CYCLE996(10101,1,1,25,400,,,,,,,,3,4)"), HasSubstr("S_STA1"));
   EXPECT_THAT(said("CYCLE996(1000,1,,,,,,,,,,70)"), HasSubstr("S_TNVL"));
+  EXPECT_THAT(said("CYCLE996(1000,1,,,,,,,,,,0.5)"), HasSubstr("between 1 and 60"));
+  EXPECT_THAT(said("CYCLE996(1000,1,,,,,,,,,,19)"), HasSubstr("below 20 degrees"));
+  EXPECT_EQ(said("CYCLE996(1000,1,,,,,,,,,,0)") + said("CYCLE996(1000,1,,,,,,,,,,20)"), "");
   EXPECT_THAT(said("CYCLE996(1000)"), HasSubstr("S_TC"));
   EXPECT_THAT(said("CYCLE996(1000,1,,,,,,,,,,,,,,,,110)"), HasSubstr("asked all the same"));
   EXPECT_THAT(said("CYCLE996(1000,1,,,,,,,,,,,,,,,,1000)"), HasSubstr("cannot be edited"));

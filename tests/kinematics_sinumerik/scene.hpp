@@ -43,6 +43,7 @@ inline void plantAxisErrors(simulation::Truth& truth, Planter& plant, double pos
 class KinematicsScene {
 public:
   static constexpr double ballRadius = 12.5, clearance = 3;
+  double safeHeight = -100;  ///< of the spindle nose while the rotary axes turn
 
   KinematicsScene(const Build& build, simulation::Truth truth)
       : build_(build),
@@ -90,7 +91,7 @@ public:
   /// Brings the probe above the ball with the rotary axes at these angles, in machine coordinates.
   std::string approach(double first, double second, double distance = clearance) const {
     const machine::AxisPositions rotary = turned(first, second);
-    std::string text = fmt::format("SUPA G0 Z-100\nSUPA G0 {}={:.9f}", build_.axes[0], first);
+    std::string text = fmt::format("SUPA G0 Z{}\nSUPA G0 {}={:.9f}", safeHeight, build_.axes[0], first);
     if (axes() == 2) text += fmt::format(" {}={:.9f}", build_.axes[1], second);
     for (const double away : {distance + 40, distance}) {
       const Vector3 at = above(rotary, away);

@@ -335,8 +335,13 @@ void combinations(CallCombinations& call) {
   for (int place = 8; place > 0; --place)
     code = 10 * code + call.digit(place);
   if (const std::string wrong = wrongVariant(code); !wrong.empty()) call.refuse("S_MVAR", wrong);
+  if (measures(code)) return;
+  const auto least = call.number("S_TNVL");
+  if (least && *least > 0 && *least < 1) call.refuse("S_TNVL", "S_TNVL is between 1 and 60 degrees; 0 counts as 20");
+  if (least && *least >= 1 && *least < 20)
+    call.warn("S_TNVL", "below 20 degrees of S_TNVL micrometres of the probe make the vectors of the axes inaccurate");
   const auto mode = call.number("_AMODE");
-  if (measures(code) || !mode) return;
+  if (!mode) return;
   const int digits = truncated(*mode);
   if (variant::digit(digits, 2) == 1 && digits / 100 != 0)
     call.warn("_AMODE", "the operator is asked all the same: 10 in _AMODE acts with 0 in hundreds and thousands only");

@@ -184,6 +184,8 @@ void measureKinematics(Context& context) {
   context.requireProbe({710, 580});
   context.requireCalibration();
   if (!(context.real("S_SETV") > 0)) context.alarm(61319, "S_SETV, the diameter, must be greater than 0");
+  if (const double start = context.real("S_STA1"); context.digit("S_MVAR", 3) > 0 && !(start >= 0 && start <= 360))
+    context.alarm(61319, "S_STA1 is between 0 and 360 degrees");
   const ToolCarrier carrier = carrierOfCall(context);
   const int axis = context.digit("S_MVAR", 5) - 1, measurement = context.digit("S_MVAR", 1) - 1;
   const auto which = static_cast<std::size_t>(axis);
