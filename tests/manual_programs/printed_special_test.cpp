@@ -35,6 +35,20 @@ TEST_P(PrintedSpecial, Cycle0MeasuresTheFaceBeside) {
   EXPECT_NEAR(ran.q(117), -5 + 110, exact) << "nor is the length";
 }
 
+/// A cycle of no touch probe, which the journal does not record: the test notes itself what it has seen.
+TEST_P(PrintedSpecial, Cycle13IsWhereM19TurnsTheSpindleTo) {
+  for (const std::string printed : {"93 CYCL DEF 13.0 ORIENT.OSTAN.SPIND\n94 CYCL DEF 13.1 UGOL 180\n",
+                                    "93 CYCL DEF 13.0 ORIENTERING\n94 CYCL DEF 13.1 VINKEL 180\n"}) {
+    const Ran still = runs("L Z+50 R0 FMAX\n" + printed), turned = runs("L Z+50 R0 FMAX\n" + printed + "95 M19\n");
+    EXPECT_EQ(still.machine->spindle().angle, 0) << "it only says where to";
+    EXPECT_EQ(turned.machine->spindle().angle, 180);
+    const Ran refused = part.bench.run("Q1 = 361\nCYCL DEF 13.0 ORIENTATION\nCYCL DEF 13.1 ANGLE Q1\n");
+    EXPECT_EQ(refused.outcome.result.end, execution::RunEnd::Alarm) << refused.why();
+  }
+  for (const char* seen : {"parsed", "runs", "refusals"})
+    coverage::note(GetParam(), "13", seen);
+}
+
 TEST_P(PrintedSpecial, Cycle1ProbesAtAnAngle) {
   part.box({9.1, -30, -40}, {40, 30, 0});
   const Ran ran = runs("67 TCH PROBE 1.0 POLAR\n68 TCH PROBE 1.1 X ANGLE: +30\n69 TCH PROBE 1.2 X+5 Y+0 Z-5\n");
