@@ -64,6 +64,36 @@ TEST(ToolDetails, Cycle484KnowsItsParameterOnTheNewerControlOnly) {
   EXPECT_THAT(refused.why(), HasSubstr("Q536"));
 }
 
+/// Each parameter of the old forms beyond its range, or left out; before anything moves.
+TEST(ToolDetails, OldFormsRefuseValuesBeyondTheirRanges) {
+  for (const ControlKind kind : kinds) {
+    const Detail detail(kind);
+    const auto refused = [&](const std::string& cycle, const std::string& part) {
+      const Ran ran = detail.world.run(cycle);
+      EXPECT_EQ(ran.outcome.info.exit, records::ExitState::InputMistake) << cycle;
+      EXPECT_THAT(ran.why(), HasSubstr(part)) << cycle;
+    };
+    refused("TCH PROBE 30.0 TT\nTCH PROBE 30.1 HEIGHT: +100000\n", "HEIGHT");
+    refused("TCH PROBE 30.0 TT\nTCH PROBE 30.1 HEIGHT: -100000\n", "HEIGHT");
+    for (const int number : {31, 32, 33}) {
+      const auto cycle = [number](const std::string& check, const std::string& height, const std::string& teeth) {
+        return fmt::format(
+            "TCH PROBE {0}.0 TOOL\nTCH PROBE {0}.1 CHECK: {1}\nTCH PROBE {0}.2 HEIGHT: {2}\n"
+            "TCH PROBE {0}.3 PROBING THE TEETH: {3}\n",
+            number, check, height, teeth);
+      };
+      EXPECT_EQ(detail.world.run(cycle("1 Q5", "+60", "0")).why(), "");
+      refused(cycle("3", "+60", "0"), "CHECK");
+      refused(cycle("-1", "+60", "0"), "CHECK");
+      refused(cycle("0.5", "+60", "0"), "CHECK");
+      refused(cycle("0 Q2000", "+60", "0"), "Q");
+      refused(cycle("0", "+100000", "0"), "HEIGHT");
+      refused(cycle("0", "+60", "2"), "TEETH");
+      refused(fmt::format("TCH PROBE {0}.0 TOOL\nTCH PROBE {0}.1 CHECK: 0\nTCH PROBE {0}.2 HEIGHT: +60\n", number), "");
+    }
+  }
+}
+
 /// The first way leads up or down to the clearance height, all others stay at or above it but beside the contact.
 TEST(ToolDetails, ToolsTravelAtTheClearanceHeight) {
   for (const ControlKind kind : kinds) {
