@@ -12,6 +12,7 @@
 
 #include "simulation/child_process.hpp"
 #include "simulation/entity_names.hpp"
+#include "simulation/import_watch.hpp"
 
 namespace probewright::simulation {
 namespace {
@@ -31,7 +32,8 @@ std::pair<std::string_view, std::string_view> firstWord(std::string_view line) {
 
 class Import {
 public:
-  Import(TransferOrder order, const ImportOptions& options) : order_(std::move(order)), options_(options) {}
+  Import(TransferOrder order, const ImportOptions& options)
+      : order_(std::move(order)), options_(options), watch_(order_.file, options_) {}
 
   Result<ImportedInChild> run() {
     for (attempt_ = 1;; ++attempt_) {
@@ -44,7 +46,7 @@ public:
           {options_.seconds - secondsSince(start_), options_.bytes}, [&](std::string_view line) { hear(line); },
           [&](double processorSeconds) { return hasEnough(processorSeconds); },
           [&](HandedBytes bytes) { return receive(std::move(bytes)); });
-      if (options_.stop.stop_requested()) return fail(SourcePlace{order_.file, 0, 0}, "the import was interrupted");
+      if (options_.stop.stop_requested()) return tl::unexpected(watch_.interrupted());
       if (auto read = readText(); !read) return tl::unexpected(std::move(read.error()));
       const bool whole = pieces_.size() == 2;
       if (end.how == ChildEnd::How::Finished && failure_.empty() && unable_.label.empty() && !nothing_ && whole)
@@ -79,6 +81,8 @@ private:
     gaps_.clear();
     unable_ = {};
     scale_.clear();
+    unitless_.clear();
+    unused_ = {};
     failure_.clear();
     edges_.clear();
     at_.clear();
@@ -160,6 +164,11 @@ private:
     } else if (word == "gap") {
       const auto [label, size] = firstWord(rest);
       gaps_.push_back({std::string(label), std::string(size)});
+    } else if (word == "unitless") {
+      unitless_ = rest;
+    } else if (word == "unused") {
+      const auto [label, count] = firstWord(rest);
+      unused_ = {std::string(label), std::string(count)};
     } else if (word == "scaled") {
       scale_ = rest;
     } else if (word == "unable") {
@@ -188,12 +197,8 @@ private:
   }
 
   void tellProgress() {
-    constexpr double patience = 1, pause = 0.25;  // seconds
-    if (!options_.progress || secondsSince(start_) < patience || secondsSince(lastTold_) < pause) return;
-    lastTold_ = Clock::now();
-    const std::string name = std::filesystem::path(order_.file).filename().string();
     const std::string count = meshing_ && done_ > 0 ? fmt::format(", {} of {}", std::min(done_, faces_), faces_) : "";
-    options_.progress(fmt::format("{}: {}{}", name, stage_, count));
+    watch_.tell(stage_ + count);
   }
 
   /// True if it is worth another try without the faces that the mesher does not get over.
@@ -245,6 +250,13 @@ private:
     }
     if (auto blamed = blame()) return *blamed;
     if (!failure_.empty()) return mistake(0, failure_);
+    if (!unused_.label.empty()) {
+      return mistake(names_->lineOf(unused_.label),
+                     fmt::format("of its {} faces, the first {}, none belongs to the shape of a product in a way "
+                                 "that can be read",
+                                 unused_.size, names_->nameOf(unused_.label)),
+                     "export the part again as a solid body (AP203, AP214 or AP242)");
+    }
     return fail({order_.file, 0, 0}, "the file holds no body and no face",
                 "export the part as a solid body, not as a drawing, wire frame or empty assembly")
         .value();
@@ -333,6 +345,11 @@ private:
                              : "they, their corners and its surface are up to " + gaps_[i].size + " mm apart"),
              "contacts there may be wrong by as much; compare the part with that in the CAD system, export it again");
     }
+    if (!unitless_.empty()) {
+      remark(part, names_->lineOf(unitless_),
+             fmt::format("{}: its lengths have no unit and are taken as mm", names_->nameOf(unitless_)),
+             "compare the size of the part with that in the CAD system, or export it again");
+    }
     if (!scale_.empty()) {
       remark(part, 0, fmt::format("the model is drawn {} times its true size; the part has its true size", scale_),
              "compare the size of the part with that in the CAD system, or export it in a scale of 1");
@@ -366,7 +383,7 @@ private:
   std::optional<EntityNames> names_;
   std::optional<Diagnostic> wrongText_;
   Clock::time_point start_ = Clock::now();
-  Clock::time_point lastTold_ = start_;
+  ImportWatch watch_;
   int attempt_ = 1;
 
   // What the child has said.
@@ -378,6 +395,8 @@ private:
   std::vector<Gap> gaps_;
   Suspect unable_;
   std::string scale_;
+  std::string unitless_;
+  Gap unused_;  ///< the first of so many faces
   std::string stage_, failure_, edges_, at_;
   bool skin_ = false, nothing_ = false, meshing_ = false, preparing_ = false;
   int faces_ = 0, done_ = 0;

@@ -42,8 +42,10 @@
 #include <system_error>
 #include <thread>
 
+#include "simulation/cad_cones.hpp"
 #include "simulation/cad_corrections.hpp"
 #include "simulation/cad_model.hpp"
+#include "simulation/cad_units.hpp"
 #include "simulation/face_mesh.hpp"
 #include "simulation/parallel.hpp"
 #include "simulation/step_text.hpp"
@@ -117,6 +119,8 @@ std::unique_ptr<XSControl_Reader> load(const TransferOrder& order, const ChildVo
                       labelOf(model, placement)));
       return nullptr;
     }
+    if (const auto shape = withoutLengthUnit(model); !shape.IsNull()) voice.say("unitless " + labelOf(model, shape));
+    takePlainCones(model);
     if (const auto offset = unreadableOffset(model); !offset.IsNull()) {
       voice.say(
           fmt::format("unable {} it is the offset of a cone, which cannot be read|export the part with the cone "
@@ -169,6 +173,17 @@ void nameLostFaces(const XSControl_Reader& reader, const ChildVoice& voice) {
     if (!isFace(broken ? model->ReportEntity(i)->Concerned() : entity)) continue;
     if (broken || TransferBRep::ShapeResult(process, entity).IsNull()) voice.say("lost " + labelOf(model, entity));
   }
+}
+
+/// Where nothing came of the file: how many faces it holds all the same, and the first of them.
+void nameUnusedFaces(const XSControl_Reader& reader, const ChildVoice& voice) {
+  const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
+  int count = 0, first = 0;
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    if (model->IsErrorEntity(i) || !isFace(model->Value(i))) continue;
+    if (++count == 1) first = i;
+  }
+  if (count > 0) voice.say(fmt::format("unused {} {}", labelOf(model, model->Value(first)), count));
 }
 
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
@@ -290,6 +305,7 @@ void transferCad(const TransferOrder& order, const ChildVoice& voice) {
     TopoDS_Shape shape = build(*reader, voice);
     if (shape.IsNull() || !TopExp_Explorer(shape, TopAbs_FACE).More()) {
       if (ranShortOfMemory()) throw std::bad_alloc();
+      nameUnusedFaces(*reader, voice);
       voice.say("nothing");
       return;
     }

@@ -18,8 +18,9 @@ struct ImportOptions {
   std::filesystem::path cache;
   /// Asked to stop, the import ends at once with a mistake.
   std::stop_token stop;
-  /// Told from time to time what is being done, once an import takes longer than a second.
+  /// Told from time to time what is being done, once an import takes longer than `patience`.
   std::function<void(const std::string& what)> progress;
+  double patience = 1;  ///< seconds
 
   double seconds = 1800;             ///< after which an import is given up
   int facePoints = kMostMeshPoints;  ///< after which a face is not meshed any further, but gets a grid

@@ -50,7 +50,19 @@ double signedVolume(const TriangleMesh& mesh) {
 }  // namespace
 
 MeshSolid::MeshSolid(TriangleMesh mesh, Instructions instructions) : mesh_(std::move(mesh)) {
+  prepare(nullptr, instructions);
+}
+
+MeshSolid::MeshSolid(TriangleMesh mesh, ImportWatch& watch) : mesh_(std::move(mesh)) {
+  prepare(&watch, bestInstructions());
+}
+
+void MeshSolid::prepare(ImportWatch* watch, Instructions instructions) {
   if (mesh_.triangles.empty()) return;
+  const auto at = [watch](const char* stage) {
+    if (watch != nullptr) watch->tell(stage, 0, 0);
+  };
+  at("looking for open edges");
   closed_ = everyEdgeIsShared(mesh_);
   if (closed_ && signedVolume(mesh_) < 0) {
     for (auto& t : mesh_.triangles)
@@ -60,11 +72,12 @@ MeshSolid::MeshSolid(TriangleMesh mesh, Instructions instructions) : mesh_(std::
     const auto& t = mesh_.triangles[i];
     return Triangle{mesh_.corners[t[0]], mesh_.corners[t[1]], mesh_.corners[t[2]]};
   };
+  at("building the search tree");
   std::vector<SearchElement> elements;
   elements.reserve(mesh_.triangles.size());
   for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
     elements.push_back({triangle(i)});
-  tree_ = SearchTree(elements, Elements::Triangles, instructions);
+  tree_ = SearchTree(elements, Elements::Triangles, instructions, watch);
 }
 
 bool MeshSolid::isInside(const Vector3& point) const {
@@ -167,10 +180,15 @@ DrawingMesh MeshSolid::drawing() const {
   return drawing;
 }
 
-Result<std::unique_ptr<Solid>> readStl(const std::filesystem::path& path) {
-  Result<TriangleMesh> mesh = readStlMesh(path);
-  if (!mesh) return tl::unexpected(mesh.error());
-  return std::make_unique<MeshSolid>(std::move(*mesh));
+Result<std::unique_ptr<Solid>> readStl(const std::filesystem::path& path, const ImportOptions& import) {
+  ImportWatch watch(path.string(), import);
+  try {
+    Result<TriangleMesh> mesh = readStlMesh(path, watch);
+    if (!mesh) return tl::unexpected(mesh.error());
+    return std::make_unique<MeshSolid>(std::move(*mesh), watch);
+  } catch (const ImportStopped&) {
+    return tl::unexpected(watch.interrupted());
+  }
 }
 
 }  // namespace probewright::simulation

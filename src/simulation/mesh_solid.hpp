@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "simulation/drawing_mesh.hpp"
+#include "simulation/import_watch.hpp"
 #include "simulation/search_tree.hpp"
 #include "simulation/solid.hpp"
 #include "simulation/triangle_mesh.hpp"
@@ -16,6 +17,8 @@ namespace probewright::simulation {
 class MeshSolid final : public Solid {
 public:
   explicit MeshSolid(TriangleMesh mesh, Instructions instructions = bestInstructions());
+  /// The same, watched: throws ImportStopped.
+  MeshSolid(TriangleMesh mesh, ImportWatch& watch);
 
   Bounds bounds() const override { return tree_.bounds(); }
   std::optional<BallContact> firstContact(const Vector3& from, const Vector3& to, double radius) const override;
@@ -29,6 +32,7 @@ public:
   DrawingMesh drawing() const;
 
 private:
+  void prepare(ImportWatch* watch, Instructions instructions);
   bool isInside(const Vector3& point) const;
   /// A capsule on a way along its own axis meets what a ball meets that starts at its tail. Nothing if its way is not
   /// of that kind, or if it overlaps something at the start; a meeting that is not found if its way is free.
@@ -39,7 +43,7 @@ private:
   bool closed_ = false;
 };
 
-/// An STL file as a solid.
-Result<std::unique_ptr<Solid>> readStl(const std::filesystem::path& path);
+/// An STL file as a solid. Ends with a mistake once `import.stop` is asked.
+Result<std::unique_ptr<Solid>> readStl(const std::filesystem::path& path, const ImportOptions& import = {});
 
 }  // namespace probewright::simulation

@@ -14,6 +14,8 @@
 
 namespace probewright::simulation {
 
+class ImportWatch;
+
 /// What moves: all points within `radius` of the segment from p to p + `axis`, p moving along `way`. With a `disc`, of
 /// the cylinder of that radius with flat ends about the segment.
 struct Mover {
@@ -56,8 +58,9 @@ Instructions bestInstructions();
 class SearchTree {
 public:
   SearchTree() = default;
-  /// Throws std::runtime_error if Embree cannot allocate its memory.
-  SearchTree(std::span<const SearchElement> elements, Elements kind, Instructions instructions = bestInstructions());
+  /// Throws std::runtime_error if Embree cannot allocate its memory, ImportStopped if the watch says so.
+  SearchTree(std::span<const SearchElement> elements, Elements kind, Instructions instructions = bestInstructions(),
+             const ImportWatch* watch = nullptr);
 
   /// The tree as it lies in memory, for a process that runs the same program on the same kind of processor.
   void appendTo(std::string& bytes) const;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "simulation/import_watch.hpp"
 #include "simulation/memory_text.hpp"
 #include "simulation/parallel.hpp"
 #include "simulation/search_tree.hpp"
@@ -43,6 +44,11 @@ void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* ele
   for (std::size_t i = 0; i < count; ++i)
     node->elements[i] = elements[i].primID;
   return node;
+}
+
+/// Whether Embree is to go on.
+bool goesOn(void* watch, double /*share*/) {
+  return watch == nullptr || !static_cast<const ImportWatch*>(watch)->isStopped();
 }
 
 float below(double value) { return std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity()); }
@@ -146,6 +152,7 @@ SlantedBox smallBox(Range elements) {
 struct SearchTree::Builder {
   SearchTree& tree;
   std::span<const SearchElement> elements;
+  const ImportWatch* watch;
   std::vector<SearchElement> ordered;
 
   std::uint32_t makeBlock(const BuildNode& from) {
@@ -241,11 +248,15 @@ struct SearchTree::Builder {
 
   /// The boxes of all nodes; each is a matter of its own.
   void makeBoxes() {
-    inParallel(tree.nodes_.size(), 200, [&](std::size_t i) { makeBoxes(i); });
+    inParallel(tree.nodes_.size(), 200, [&](std::size_t i) {
+      if (watch == nullptr || !watch->isStopped()) makeBoxes(i);
+    });
+    if (watch != nullptr) watch->goOn();
   }
 };
 
-SearchTree::SearchTree(std::span<const SearchElement> elements, Elements kind, Instructions instructions)
+SearchTree::SearchTree(std::span<const SearchElement> elements, Elements kind, Instructions instructions,
+                       const ImportWatch* watch)
     : exactTriangles_(kind == Elements::Triangles), instructions_(instructions) {
   if (elements.empty()) return;
   if (elements.size() >= kLeaf) throw std::runtime_error("more elements than a search tree can hold");
@@ -278,12 +289,15 @@ SearchTree::SearchTree(std::span<const SearchElement> elements, Elements kind, I
   arguments.setNodeChildren = setChildren;
   arguments.setNodeBounds = setBounds;
   arguments.createLeaf = createLeaf;
+  arguments.buildProgress = goesOn;
+  arguments.userPtr = const_cast<ImportWatch*>(watch);  // NOLINT(cppcoreguidelines-pro-type-const-cast): as C has it
   const auto* root = static_cast<const BuildNode*>(rtcBuildBVH(&arguments));
   if (root == nullptr) {
     rtcReleaseBVH(arguments.bvh);
+    if (watch != nullptr) watch->goOn();
     throw std::runtime_error("Embree could not build the search tree");
   }
-  Builder builder{*this, elements, {}, {}};
+  Builder builder{*this, elements, watch, {}, {}};
   builder.ordered.reserve(elements.size());
   order_.reserve(elements.size());
   root_ = builder.makeNode(*root);

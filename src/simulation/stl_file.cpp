@@ -63,11 +63,15 @@ Number littleEndian(const char* bytes) {
   return value;
 }
 
-Result<TriangleMesh> readBinary(std::string_view bytes, const std::string& file) {
+/// Triangles between two looks at whether to go on.
+constexpr std::size_t kBetweenLooks = 4096;
+
+Result<TriangleMesh> readBinary(std::string_view bytes, const std::string& file, ImportWatch& watch) {
   const auto count = littleEndian<std::uint32_t>(bytes.data() + 80);
   MeshBuilder builder;
   builder.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) {
+    if (i % kBetweenLooks == 0) watch.tell("reading the triangles", i, count);
     const char* facet = bytes.data() + kHeaderSize + kFacetSize * i + 12;
     std::array<Vector3, 3> points;
     for (std::size_t k = 0; k < 9; ++k) {
@@ -123,7 +127,7 @@ bool isWord(std::string_view word, std::string_view lowerCase) {
          });
 }
 
-Result<TriangleMesh> readAscii(std::string_view text, const std::string& file) {
+Result<TriangleMesh> readAscii(std::string_view text, const std::string& file, ImportWatch& watch) {
   Words words(text);
   MeshBuilder builder;
   const auto broken = [&](std::string_view expected, std::string_view found) {
@@ -136,7 +140,8 @@ Result<TriangleMesh> readAscii(std::string_view text, const std::string& file) {
   };
   words.next();
   words.skipLine();
-  for (;;) {
+  for (std::size_t i = 0;; ++i) {
+    if (i % kBetweenLooks == 0) watch.tell(fmt::format("reading triangle {}", i + 1), 0, 0);
     std::string_view word = words.next();
     if (isWord(word, "endsolid")) {
       words.skipLine();
@@ -171,7 +176,7 @@ Result<TriangleMesh> readAscii(std::string_view text, const std::string& file) {
 
 }  // namespace
 
-Result<TriangleMesh> readStlMesh(const std::filesystem::path& path) {
+Result<TriangleMesh> readStlMesh(const std::filesystem::path& path, ImportWatch& watch) {
   const Result<std::string> bytes = readFile(path);
   if (!bytes) return tl::unexpected(bytes.error());
   const std::string file = path.string();
@@ -184,9 +189,9 @@ Result<TriangleMesh> readStlMesh(const std::filesystem::path& path) {
   }
   Result<TriangleMesh> mesh;
   if (binary) {
-    mesh = readBinary(*bytes, file);
+    mesh = readBinary(*bytes, file, watch);
   } else if (isWord(Words(*bytes).next(), "solid")) {
-    mesh = readAscii(*bytes, file);
+    mesh = readAscii(*bytes, file, watch);
   } else if (bytes->size() >= kHeaderSize && bytes->size() < expected) {
     return fail(
         {file, 0, 0},

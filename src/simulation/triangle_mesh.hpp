@@ -7,6 +7,7 @@
 
 #include "base/diagnostic.hpp"
 #include "geometry/primitives.hpp"
+#include "simulation/import_watch.hpp"
 
 namespace probewright::simulation {
 
@@ -18,7 +19,7 @@ struct TriangleMesh {
 
 /// An STL file, ASCII or binary, coordinates in mm. Corners with the same coordinates are one corner; triangles without
 /// area are left out. Refused: files that are neither kind, cut short, without triangles, or with numbers that are
-/// none.
-Result<TriangleMesh> readStlMesh(const std::filesystem::path& path);
+/// none. Throws ImportStopped if the watch does.
+Result<TriangleMesh> readStlMesh(const std::filesystem::path& path, ImportWatch& watch);
 
 }  // namespace probewright::simulation

@@ -77,7 +77,7 @@ void expectAsMeant(const std::string& name, const Solid& solid, const Distance& 
     ADD_FAILURE() << name << ", way " << i << " from " << from.transpose() << " to " << to.transpose() << " radius "
                   << radius << ": ends after " << way << ", should after " << expected.value_or(-1);
   }
-  EXPECT_GT(contacts, ways / 5) << name;
+  EXPECT_GT(contacts, ways / 10) << name;
 }
 
 }  // namespace probewright::simulation::testing

@@ -249,7 +249,8 @@ TEST(Stl, BinaryAndAsciiReadTheSame) {
   }
   text += "endsolid a cube of ours\n";
   for (const auto& path : {folder / "binary.stl", folder.write("ascii.stl", text)}) {
-    const auto read = readStlMesh(path);
+    ImportWatch watch(path, ImportOptions());
+    const auto read = readStlMesh(path, watch);
     ASSERT_TRUE(read) << format(read.error());
     EXPECT_EQ(read->corners.size(), 8U);
     EXPECT_EQ(read->triangles.size(), 12U);
@@ -257,6 +258,46 @@ TEST(Stl, BinaryAndAsciiReadTheSame) {
     ASSERT_TRUE(solid);
     EXPECT_NEAR((*solid)->firstContact({5, 5, 30}, {5, 5, 0}, 1)->ballCentre.z(), 11, 1e-12);
   }
+}
+
+/// Every long step of an import looks at whether to go on; binary and text.
+TEST(Stl, EndsWhereItIsAskedToStop) {
+  const ScratchFolder folder;
+  writeStl(cube(0, 10), folder / "binary.stl");
+  const std::string text =
+      "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+      "endloop\nendfacet\nendsolid x\n";
+  std::stop_source stop;
+  ImportOptions options;
+  options.stop = stop.get_token();
+  const std::array files{folder / "binary.stl", folder.write("text.stl", text)};
+  for (const auto& file : files)
+    EXPECT_TRUE(readStl(file, options));
+  stop.request_stop();
+  for (const auto& file : files) {
+    const auto solid = readStl(file, options);
+    ASSERT_FALSE(solid);
+    EXPECT_THAT(format(solid.error()), ::testing::AllOf(HasSubstr(file.string()), HasSubstr("interrupted")));
+  }
+  ImportWatch watch("part.stl", options);
+  EXPECT_THROW(MeshSolid(cube(0, 10), watch), ImportStopped);
+  std::vector<SearchElement> elements;
+  for (int i = 0; i < 5000; ++i)
+    elements.push_back({{Vector3(i, 0, 0), Vector3(i, 1, 0), Vector3(i, 0, 1)}});
+  EXPECT_THROW(SearchTree(elements, Elements::Triangles, bestInstructions(), &watch), ImportStopped);
+}
+
+TEST(Stl, TellsHowFarItHasCome) {
+  const ScratchFolder folder;
+  writeStl(cube(0, 10), folder / "binary.stl");
+  std::vector<std::string> told;
+  ImportOptions options;
+  options.progress = [&](const std::string& what) { told.push_back(what); };
+  ASSERT_TRUE(readStl(folder / "binary.stl", options));
+  EXPECT_THAT(told, ::testing::IsEmpty()) << "a quick import says nothing";
+  options.patience = 0;
+  ASSERT_TRUE(readStl(folder / "binary.stl", options));
+  EXPECT_THAT(told, ::testing::ElementsAre("binary.stl: reading the triangles"));
 }
 
 TEST(Stl, SaysWhatIsWrongWithABadFile) {

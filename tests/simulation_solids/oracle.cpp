@@ -12,11 +12,14 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <Geom_Surface.hxx>
+#include <IMeshTools_Parameters.hxx>
+#include <Message_ProgressIndicator.hxx>
 #include <Poly_Triangulation.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 #include <cstdlib>
+#include <ctime>
 #include <map>
 
 namespace probewright::simulation::testing {
@@ -62,6 +65,32 @@ bool isClosed(const TriangleMesh& mesh) {
   return std::all_of(uses.begin(), uses.end(), [](const auto& use) { return use.second == 0; });
 }
 
+/// Asks OpenCASCADE's mesher to give up after some seconds of processor time.
+class Patience : public Message_ProgressIndicator {
+public:
+  explicit Patience(double seconds) : end_(std::clock() + static_cast<std::clock_t>(seconds * CLOCKS_PER_SEC)) {}
+  Standard_Boolean UserBreak() override { return std::clock() > end_; }
+  void Show(const Message_ProgressScope& /*scope*/, const Standard_Boolean /*force*/) override {}
+
+private:
+  std::clock_t end_;
+};
+
+/// Tessellates a shape as finely as the mesher can in a few seconds. Along kinks within a face it would halve triangles
+/// nearly without end, so they have a least size. Returns the deflection.
+double tessellate(const TopoDS_Shape& shape, double deflection) {
+  for (;; deflection *= 4) {
+    IMeshTools_Parameters parameters;
+    parameters.Deflection = deflection;
+    parameters.Angle = 0.2;
+    parameters.MinSize = 2 * deflection;
+    const Handle(Patience) patience = new Patience(2);
+    const BRepMesh_IncrementalMesh mesher(shape, parameters, patience->Start());
+    if (!patience->UserBreak()) return deflection;
+    BRepTools::Clean(shape);
+  }
+}
+
 }  // namespace
 
 Oracle::Oracle(const TopoDS_Shape& shape) : shape_(BRepBuilderAPI_Copy(shape).Shape()) {
@@ -69,8 +98,7 @@ Oracle::Oracle(const TopoDS_Shape& shape) : shape_(BRepBuilderAPI_Copy(shape).Sh
   BRepBndLib::Add(shape_, all);
   const double size = all.CornerMin().Distance(all.CornerMax());
   // Exact distances tell small errors; a campaign brackets them more closely, too.
-  const double deflection = (campaignFactor() > 1 ? 2e-4 : 8e-4) * size;
-  const BRepMesh_IncrementalMesh mesher(shape_, deflection, Standard_False, 0.2);
+  const double deflection = tessellate(shape_, (campaignFactor() > 1 ? 2e-4 : 8e-4) * size);
   TriangleMesh mesh;
   Welder welder(mesh);
   auto faces = std::make_shared<std::vector<Face>>();

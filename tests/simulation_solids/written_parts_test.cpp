@@ -32,6 +32,10 @@ Meridian bush() {
 Meridian spindle() { return {{{0, -20}, {14, 0}, {14, 5, true, 0, 5, true}, {0, 19}}}; }
 
 Meridian ring() { return {{{26, 3, true, 20, 3, true}}}; }
+/// The same of three pieces, between which there is no corner.
+Meridian ringOfThree() {
+  return {{{26, 3, true, 20, 3, true}, {20, 9, true, 20, 3, true}, {20 - 6 * 0.6, 3 - 6 * 0.8, true, 20, 3, true}}};
+}
 Meridian ball() { return {{{0, -11, true, 0, 0, true}, {0, 11}}}; }
 Meridian cap() { return {{{0, 4, false}, {9, 4, true, 0, 4, true}, {0, 13}}}; }
 
@@ -40,7 +44,8 @@ struct NamedMeridian {
   Meridian meridian;
 };
 std::vector<NamedMeridian> meridians() {
-  return {{"bush", bush()}, {"spindle", spindle()}, {"ring", ring()}, {"ball", ball()}, {"cap", cap()}};
+  return {{"bush", bush()}, {"spindle", spindle()}, {"ring", ring()}, {"ring of three", ringOfThree()},
+          {"ball", ball()}, {"cap", cap()}};
 }
 
 /// Reads a file and sends balls at it.
@@ -83,12 +88,6 @@ TEST(WrittenParts, OfAnyDialectAreMetWhereTheyAre) {
                                   Dialect::Surfaces::Splines}) {
         for (const auto loops : {Dialect::Loops::Seam, Dialect::Loops::TwoCircles, Dialect::Loops::Sectors}) {
           const Dialect dialect = how(surfaces, loops);
-          // Cones as offsets are refused; cones of revolution that end at their apex and closed splines on axes are not
-          // yet read rightly.
-          const bool apex = body == "spindle" && surfaces == Dialect::Surfaces::Revolution;
-          const bool coneOffset = (body == "spindle" || body == "bush") && surfaces == Dialect::Surfaces::Offset;
-          const bool splines = (body == "bush" || body == "cap") && surfaces == Dialect::Surfaces::Splines;
-          if (apex || coneOffset || splines || (body == "cap" && surfaces == Dialect::Surfaces::Offset)) continue;
           const std::array lengths{1.0, 25.4, 1000.0};
           StepFile file({lengths[static_cast<std::size_t>(k++ % 3)], random() % 2 == 0});
           const Pose pose = randomPose(random, 60);
@@ -249,30 +248,56 @@ TEST(WrittenParts, MappedScaledOrMirroredAreRefusedRatherThanPutElsewhere) {
   }
 }
 
-TEST(WrittenParts, WithOffsetsOfConesAreRefused) {
+/// What an angle of a cone means is not known where the file has two units of angles.
+TEST(WrittenParts, WithUncertainConesAreRefused) {
   const ScratchFolder folder;
-  StepFile file;
-  Dialect dialect;
-  dialect.surfaces = Dialect::Surfaces::Offset;
-  const std::string text = file.withItems({solidOf(file, revolvedFaces(file, spindle(), Pose::Identity(), dialect))});
-  const auto solid = readStep(folder.write("part.step", text));
-  ASSERT_FALSE(solid);
-  EXPECT_GT(solid.error().place.line, 0U);
-  EXPECT_THAT(format(solid.error()), HasSubstr("OFFSET_SURFACE: it is the offset of a cone"));
+  for (const bool offset : {true, false}) {
+    StepFile file({1, true});
+    file.use({1, false});
+    Dialect dialect;
+    dialect.surfaces = offset ? Dialect::Surfaces::Offset : Dialect::Surfaces::Revolution;
+    dialect.loops = Dialect::Loops::TwoCircles;
+    const std::string text = file.withItems({solidOf(file, revolvedFaces(file, spindle(), Pose::Identity(), dialect))});
+    const auto solid = readStep(folder.write("part.step", text));
+    ASSERT_FALSE(solid);
+    EXPECT_GT(solid.error().place.line, 0U);
+    EXPECT_THAT(format(solid.error()),
+                HasSubstr(offset ? "OFFSET_SURFACE: it is the offset of a cone"
+                                 : "ADVANCED_FACE: it is a cone as surface of revolution that ends at its apex "
+                                   "without an edge"));
+  }
 }
 
-TEST(WrittenParts, WithConesOfRevolutionThatEndAtTheirApexAreRefused) {
+/// One wrong letter in the context of a part makes metres of it, or nothing.
+TEST(DamagedParts, WithoutAUnitOfLengthAreNamed) {
+  const ScratchFolder folder;
+  for (const std::string word : {"GLOBAL_UNIT_ASSIGNED_CONTEXT", "REPRESENTATION_CONTEXT(''", "LENGTH_UNIT()NAMED"}) {
+    StepFile file({1000, false});
+    std::string text = file.withItems({solidOf(file, revolvedFaces(file, bush(), Pose::Identity(), {}))});
+    // The last of them is that of metres.
+    text[text.rfind(word) + 2] = '6';
+    const auto solid = readStep(folder.write("part.step", text));
+    if (!solid) continue;
+    std::string all;
+    for (const Diagnostic& remark : dynamic_cast<const CadSolid&>(**solid).remarks())
+      all += format(remark) + "\n";
+    EXPECT_THAT(all, HasSubstr("SHAPE_REPRESENTATION: its lengths have no unit and are taken as mm")) << word;
+  }
+}
+
+TEST(DamagedParts, WhoseFacesBelongToNothingAreNamed) {
   const ScratchFolder folder;
   StepFile file;
-  Dialect dialect;
-  dialect.surfaces = Dialect::Surfaces::Revolution;
-  dialect.loops = Dialect::Loops::TwoCircles;
-  const std::string text = file.withItems({solidOf(file, revolvedFaces(file, spindle(), Pose::Identity(), dialect))});
-  const auto solid = readStep(folder.write("part.step", text));
+  const std::vector<int> faces = revolvedFaces(file, bush(), Pose::Identity(), {});
+  solidOf(file, faces);
+  // The shape holds no more than a place.
+  const int place = file.axes(Pose::Identity());
+  const auto solid = readStep(folder.write("part.step", file.withItems({place})));
   ASSERT_FALSE(solid);
   EXPECT_GT(solid.error().place.line, 0U);
-  EXPECT_THAT(format(solid.error()), HasSubstr("ADVANCED_FACE: it is a cone as surface of revolution that ends at its "
-                                               "apex without an edge"));
+  EXPECT_THAT(format(solid.error()),
+              AllOf(HasSubstr(fmt::format("of its {} faces, the first #", faces.size())),
+                    HasSubstr("ADVANCED_FACE, none belongs to the shape of a product in a way that can be read")));
 }
 
 TEST(WrittenParts, WithExponentsInSmallLettersAreMetWhereTheyAre) {
