@@ -342,7 +342,7 @@ TEST(Import, SaysThatAPartTakesTooMuchMemory) {
   const ScratchFolder folder;
   folder.write("many.step", manyBlocks(60));
   ImportOptions options = coarse();
-  options.bytes = std::uint64_t{8} << 20U;
+  options.bytes = std::uint64_t{1} << 20U;
   const auto solid = readStep(folder / "many.step", options);
   ASSERT_FALSE(solid);
   EXPECT_THAT(format(solid.error()),

@@ -97,8 +97,7 @@ Oracle::Oracle(const TopoDS_Shape& shape) : shape_(BRepBuilderAPI_Copy(shape).Sh
   Bnd_Box all;
   BRepBndLib::Add(shape_, all);
   const double size = all.CornerMin().Distance(all.CornerMax());
-  // Exact distances tell small errors; a campaign brackets them more closely, too.
-  const double deflection = tessellate(shape_, (campaignFactor() > 1 ? 2e-4 : 8e-4) * size);
+  const double deflection = tessellate(shape_, 8e-4 * size);  // exact distances tell smaller errors
   TriangleMesh mesh;
   Welder welder(mesh);
   auto faces = std::make_shared<std::vector<Face>>();
