@@ -23,7 +23,9 @@ Result<std::unique_ptr<Solid>> loadSolid(const SolidSource& source, const Import
                 "Name the part's file relative to this file");
   }
   const bool isStep = ending == ".step" || ending == ".stp", isIges = ending == ".iges" || ending == ".igs";
-  auto solid = isStep ? readStep(source.file, import) : isIges ? readIges(source.file, import) : readStl(source.file, import);
+  auto solid = isStep   ? readStep(source.file, import)
+               : isIges ? readIges(source.file, import)
+                        : readStl(source.file, import);
   if (!solid && solid.error().place.file.empty()) solid.error().place = source.place;
   return solid;
 }
