@@ -93,7 +93,12 @@ public:
       phase_ = Phase::Running;
       // After an emergency stop LinuxCNC's status may not know the zero offset that its moves are made with: this sets
       // it anew, as it is.
-      if (Mill::moves()) gcode_->execute("G10 L2 P0");
+      // Its file of parameters, where the other offsets are read, LinuxCNC writes when it is told a mode: a program
+      // that is started once more is told none.
+      if (Mill::moves()) {
+        gcode_->execute("G10 L2 P0");
+        gcode_->synch();
+      }
       if (!player_.start(configuration(), file_, start_)) {
         message_ = player_.message();
         return INTERP_ERROR;

@@ -166,6 +166,7 @@ Mill::Json Mill::hello(std::string& why) const {
       {"asks", moves()},
       {"draws", !moves()},
       {"looksAhead", true},
+      {"compact", true},
       {"position", position()}};
   if (key("PROBEWRIGHT", "SHARE_TABLES") != "0") answer["tables"] = tables();
   return answer;

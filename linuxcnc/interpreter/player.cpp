@@ -24,6 +24,25 @@ bool near(const Mill::Position& a, const Mill::Position& b) {
   return true;
 }
 
+/// Shows a text on LinuxCNC's screen; a long one as several messages, as LinuxCNC keeps the beginning of each only.
+void show(const std::string& text) {
+  constexpr std::size_t longest = 240;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t end = text.size();
+    if (end - at > longest) {
+      end = text.rfind('\n', at + longest);
+      if (end == std::string::npos || end <= at) end = text.rfind(' ', at + longest);
+      if (end == std::string::npos || end <= at)
+        // Not within a character of UTF-8.
+        for (end = at + longest; (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U;)
+          --end;
+    }
+    std::string part = text.substr(at, end - at);
+    MESSAGE(part.data());
+    at = end < text.size() && (text[end] == '\n' || text[end] == ' ') ? end + 1 : end;
+  }
+}
+
 }  // namespace
 
 bool Player::start(const std::string& iniFile, const std::string& program, int line) {
@@ -37,6 +56,8 @@ bool Player::start(const std::string& iniFile, const std::string& program, int l
   messages_.clear();
   way_.clear();
   queuedPieces_ = 0;
+  ahead_.clear();
+  next_.reset();
   window_.reset();
   mill_.load(iniFile);
   const auto key = [&](const char* name) { return mill_.key("PROBEWRIGHT", name); };
@@ -123,7 +144,14 @@ Player::Next Player::finish() {
 Player::Next Player::read() {
   // What a dead engine had ordered is not begun.
   if (gone_) return finish();
+  if (queuedPieces_ >= way_.size() && !ahead_.empty()) {
+    way_ = std::move(ahead_.front());
+    ahead_.pop_front();
+    queuedPieces_ = 0;
+  }
   if (queuedPieces_ < way_.size()) {
+    constexpr std::size_t often = 64;
+    if (queuedPieces_ % often == 0) lookAhead();
     line_ = way_[queuedPieces_].line;
     return Next::GoOn;
   }
@@ -153,7 +181,9 @@ Player::Next Player::read() {
       answer(*std::move(refused));
     }
     // LinuxCNC's planner does nothing else meanwhile, so it is not kept waiting long.
-    switch (engine_->receive(order_, Mill::moves() ? 50 : 10'000)) {
+    const bool waits = next_.has_value();
+    if (waits) order_ = *std::exchange(next_, std::nullopt);
+    switch (waits ? EngineProcess::Got::Order : engine_->receive(order_, Mill::moves() ? 50 : 10'000)) {
       case EngineProcess::Got::Ended:
         return finish();
       case EngineProcess::Got::Nothing:
@@ -164,7 +194,7 @@ Player::Next Player::read() {
     }
     note();
     for (; !messages_.empty(); messages_.erase(messages_.begin()))
-      MESSAGE(messages_.front().data());
+      show(messages_.front());
     if (auto known = atOnce(order_)) {
       answer(*std::move(known));
       continue;
@@ -265,10 +295,28 @@ std::vector<Player::Piece> Player::pieces(const Json& order, Json& answer) const
   const bool path = order.contains("pieces");
   std::vector<Piece> pieces;
   answer = {{"end", "reached"}};
+  if (order.contains("lines")) {
+    const auto& numbers = order.at("lines").get_ref<const Json::array_t&>();
+    const std::size_t axes = at_.size();
+    pieces.reserve(numbers.size() / (axes + 2));
+    for (auto at = numbers.begin(); numbers.end() - at >= static_cast<std::ptrdiff_t>(axes + 2); at += axes + 2) {
+      const double line = at->get<double>(), feed = at[1].get<double>();
+      Piece piece{Mill::Position(axes), feed > 0 ? feed : std::optional<double>(), line > 0 ? int(line) : line_};
+      for (std::size_t i = 0; i < axes; ++i)
+        piece.target[i] = at[static_cast<std::ptrdiff_t>(i) + 2].get<double>();
+      if (const std::string limit = mill_.limit(piece.target); !limit.empty()) {
+        answer = {{"end", "axisLimit"}, {"detail", limit}};
+        break;
+      }
+      pieces.push_back(std::move(piece));
+    }
+    answer["reached"] = pieces.size();
+    return pieces;
+  }
   for (const Json& json : path ? order.at("pieces") : Json::array({order})) {
     Piece piece{json.at("target").get<Mill::Position>(),
                 json.value("rapid", false) ? std::optional<double>() : json.at("feed").get<double>(),
-                json.value("line", line_)};
+                json.value("line", order.value("line", line_))};
     if (const std::string limit = mill_.limit(piece.target); !limit.empty()) {
       answer = {{"end", "axisLimit"}, {"detail", limit}};
       break;
@@ -291,6 +339,37 @@ void Player::queueNext() {
   }
   at_ = way_.back().target;
   queued_ = true;
+}
+
+void Player::lookAhead() {
+  constexpr std::size_t far = 4;
+  while (Mill::moves() && settled_ && stage_ == Stage::Idle && !next_ && ahead_.size() < far) {
+    Json order;
+    switch (engine_->receive(order, 0)) {
+      case EngineProcess::Got::Nothing:
+        return;
+      case EngineProcess::Got::Ended:
+        // Of an end as it should be the rest of the way is travelled.
+        gone_ = engine_->exitCode(0) > 3;
+        if (gone_) Mill::stopAxes();
+        return;
+      case EngineProcess::Got::Order:
+        break;
+    }
+    const std::string what = order.value("do", "");
+    Json json;
+    if ((what == "move" || what == "path") && !order.contains("messages")) {
+      std::vector<Piece> way = pieces(order, json);
+      if (!way.empty() && json.at("end") == "reached") {
+        json["position"] = way.back().target;
+        ahead_.push_back(std::move(way));
+        engine_->answer(order, std::move(json));
+        continue;
+      }
+    }
+    next_ = std::move(order);
+    alive_ = now();
+  }
 }
 
 /// Takes in a way. The engine works out what comes next while it is queued, a piece for each block that LinuxCNC asks
@@ -350,8 +429,7 @@ void Player::perform(const Json& order) {
   } else if (what == "dwell") {
     DWELL(order.at("seconds").get<double>());
   } else if (what == "ask") {
-    std::string text = order.value("text", "");
-    MESSAGE(text.data());
+    show(order.value("text", ""));
     PROGRAM_STOP();
   } else if (what == "answer") {
     askWithWindow();
@@ -410,6 +488,7 @@ void Player::stop(Stop why) {
   window_.reset();
   way_.clear();
   queuedPieces_ = 0;
+  ahead_.clear();
   stopped_ = why;
   signalled_ = why == Stop::Fault && Mill::deflected();
   const std::string off = Mill::notReady();
@@ -426,6 +505,10 @@ void Player::stop(Stop why) {
   }
   // A touch counts, even if the axes had no time to come to rest.
   at_ = mill_.position();
+  if (next_) {
+    order_ = *std::exchange(next_, std::nullopt);
+    stage_ = Stage::Drain;
+  }
   if (stage_ != Stage::Idle) answer(stopped(order_));
   mill_.end();
   attend();
@@ -458,13 +541,13 @@ Player::Json Player::stopped(const Json& order) {
 std::optional<std::string> Player::attend() {
   if (!engine_) return std::nullopt;
   if (playing_) {
-    if (stage_ != Stage::Idle && now() - alive_ > 1) {
+    if ((stage_ != Stage::Idle || next_) && now() - alive_ > 1) {
       alive_ = now();
-      engine_->alive(order_);
+      engine_->alive(next_ ? *next_ : order_);
     }
     // LinuxCNC asks for no block while it waits for the axes.
     Json none;
-    if (stage_ != Stage::Idle && !gone_ && engine_->receive(none, 0) == EngineProcess::Got::Ended) {
+    if ((stage_ != Stage::Idle || next_) && !gone_ && engine_->receive(none, 0) == EngineProcess::Got::Ended) {
       gone_ = true;
       Mill::stopAxes();
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <optional>
 #include <string>
@@ -64,6 +65,8 @@ private:
   };
   std::vector<Piece> pieces(const Json& order, Json& answer) const;
   void queueNext();
+  /// Takes in ways that have come while another is queued, so that the engine works out what follows meanwhile.
+  void lookAhead();
   void answerAndQueue();
   /// The answer to an order after LinuxCNC has stopped.
   Json stopped(const Json& order);
@@ -98,10 +101,12 @@ private:
   std::string detail_;      ///< with `stopped_`: what has happened
   Stage stage_ = Stage::Idle;
   Json order_;
-  std::vector<Piece> way_;             ///< of the last move or path
-  std::size_t queuedPieces_ = 0;       ///< how many of them LinuxCNC has
-  std::vector<std::string> messages_;  ///< to be shown to the operator
-  Mill::Position at_;                  ///< where the axes stand, or are going to
+  std::vector<Piece> way_;                ///< of the last move or path
+  std::size_t queuedPieces_ = 0;          ///< how many of them LinuxCNC has
+  std::deque<std::vector<Piece>> ahead_;  ///< ways after that one, which have been answered
+  std::optional<Json> next_;              ///< an order after them, which has not
+  std::vector<std::string> messages_;     ///< to be shown to the operator
+  Mill::Position at_;                     ///< where the axes stand, or are going to
   Json spindle_ = {{"rotation", "none"}, {"speed", 0}, {"angle", 0}};
   double begun_ = 0, alive_ = 0;
   std::optional<double> ended_;  ///< when the engine closed its socket

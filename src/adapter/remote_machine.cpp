@@ -83,6 +83,7 @@ Result<std::unique_ptr<RemoteMachine>> RemoteMachine::greet(Connection connectio
     machine->answers_ = says("answers");
     machine->draws_ = says("draws");
     machine->looksAhead_ = says("looksAhead");
+    machine->compact_ = says("compact");
     const Json& told = member(answer.json, "machine");
     machine->tellsChains_ = told.contains("tableChain") || told.contains("spindleChain");
     if (answer.json.contains("tables"))
@@ -272,18 +273,18 @@ bool RemoteMachine::keepLine(const AxisPositions& target, Feed feed) {
   // What the adapter would refuse has to be refused now.
   for (std::size_t i = 0; i < description_.axes.size(); ++i)
     if (!(target[i] >= description_.axes[i].minimum && target[i] <= description_.axes[i].maximum)) return false;
-  Json line = {{"target", toJson(target, description_.axes.size())}};
-  addFeed(line, feed);
   if (place_) {
     now_ = place_();
-    if (now_.line) line["line"] = *now_.line;
     std::ranges::move(now_.messages, std::back_inserter(messages_));
   }
+  numbers_.push_back(now_.line ? static_cast<double>(*now_.line) : 0);
+  numbers_.push_back(feed.rapid ? 0 : feed.perMinute);
+  numbers_.insert(numbers_.end(), target.values.begin(),
+                  target.values.begin() + static_cast<std::ptrdiff_t>(description_.axes.size()));
   toldAt_ = std::chrono::steady_clock::now();
-  if (lines_.empty()) firstLineAt_ = toldAt_;
-  lines_.push_back(std::move(line));
+  if (kept_++ == 0) firstLineAt_ = toldAt_;
   at_ = target;
-  if (lines_.size() >= enough_) {
+  if (kept_ >= enough_) {
     // Each message costs both programs a change of turns, so messages grow, as long as the axes do not wait for them.
     const bool quick = toldAt_ - firstLineAt_ < keptFor;
     enough_ = quick ? std::min(2 * enough_, mostLines) : fewLines;
@@ -293,10 +294,23 @@ bool RemoteMachine::keepLine(const AxisPositions& target, Feed feed) {
   return true;
 }
 
+/// The kept lines as an order.
+Json RemoteMachine::path(const std::vector<double>& numbers) const {
+  if (compact_) return {{"do", "path"}, {"lines", numbers}};
+  Json pieces = Json::array();
+  const std::size_t axes = description_.axes.size();
+  for (auto at = numbers.begin(); at != numbers.end(); at += static_cast<std::ptrdiff_t>(axes + 2)) {
+    Json piece = {{"target", std::vector<double>(at + 2, at + 2 + static_cast<std::ptrdiff_t>(axes))}};
+    addFeed(piece, at[1] > 0 ? Feed::at(at[1]) : Feed::rapidTraverse());
+    if (at[0] > 0) piece["line"] = static_cast<std::uint64_t>(at[0]);
+    pieces.push_back(std::move(piece));
+  }
+  return {{"do", "path"}, {"pieces", std::move(pieces)}};
+}
+
 void RemoteMachine::sendLines() const {
-  if (lines_.empty()) return;
-  Json pieces = std::exchange(lines_, Json::array());
-  const Answer answer = exchange({{"do", "path"}, {"pieces", std::move(pieces)}});
+  if (std::exchange(kept_, 0) == 0) return;
+  const Answer answer = exchange(path(std::exchange(numbers_, {})));
   if (answer.failure) return;
   // They count as travelled. Whatever stops the adapter stops the next order as well; if there is none, this is known.
   try {

@@ -105,6 +105,7 @@ private:
   machine::MoveResult moved(Json order);
   /// A line is kept until there are some, or an order of another kind comes. False: it has to be ordered by itself.
   bool keepLine(const machine::AxisPositions& target, machine::Feed feed);
+  Json path(const std::vector<double>& numbers) const;
   /// Orders the lines that were kept.
   void sendLines() const;
 
@@ -114,13 +115,14 @@ private:
   std::string adapterName_, configuration_;
   machine::MachineDescription description_;
   std::set<int> functions_;
-  bool asks_ = false, answers_ = false, draws_ = false, looksAhead_ = false, tellsChains_ = false;
+  bool asks_ = false, answers_ = false, draws_ = false, looksAhead_ = false, compact_ = false, tellsChains_ = false;
   std::optional<machine::OwnTables> tables_;
   std::function<machine::OrderPlace()> place_;
   mutable machine::OrderPlace now_;  ///< of the last order
   std::vector<Felt> felt_;
-  mutable bool underWay_ = false;  ///< the last order was a line, and the probe was free when it began
-  mutable Json lines_ = Json::array();
+  mutable bool underWay_ = false;        ///< the last order was a line, and the probe was free when it began
+  mutable std::size_t kept_ = 0;         ///< lines that are kept
+  mutable std::vector<double> numbers_;  ///< of them: the line of the program, the feed, the target
   static constexpr std::size_t fewLines = 64;
   std::size_t enough_ = fewLines;  ///< lines that are sent in a message
   std::chrono::steady_clock::time_point firstLineAt_;

@@ -345,7 +345,10 @@ TEST(RemoteMachine, SendsLinesManyAtATimeToAnAdapterThatLooksAhead) {
 }
 
 /// Messages of lines grow while lines keep coming, to a limit; every line is sent once, in its order.
-TEST(RemoteMachine, SendsManyLinesInLongMessages) {
+class ManyLines : public testing::TestWithParam<bool> {};
+
+TEST_P(ManyLines, AreSentInLongMessages) {
+  const bool compact = GetParam();
   auto [engine, own] = streamPair();
   std::vector<double> travelled;
   std::vector<std::size_t> messages;
@@ -358,13 +361,23 @@ TEST(RemoteMachine, SendsManyLinesInLongMessages) {
         answer = Json::parse("{" + std::string(greeting) + "}");
         answer["id"] = json.at("id");
         answer["looksAhead"] = true;
+        answer["compact"] = compact;
       }
       if (json.at("do") == "move") travelled.push_back(json.at("target")[0]);
       if (json.at("do") == "path") {
-        messages.push_back(json.at("pieces").size());
-        answer["reached"] = messages.back();
-        for (const Json& piece : json.at("pieces"))
+        EXPECT_EQ(json.contains("lines"), compact);
+        const std::size_t before = travelled.size();
+        for (const Json& piece : json.value("pieces", Json::array())) {
+          EXPECT_EQ(piece.at("feed"), 100);
           travelled.push_back(piece.at("target")[0]);
+        }
+        const std::vector<double> numbers = json.value("lines", std::vector<double>());
+        for (std::size_t i = 0; i < numbers.size(); i += 5) {
+          EXPECT_EQ(numbers[i + 1], 100);
+          travelled.push_back(numbers[i + 2]);
+        }
+        messages.push_back(travelled.size() - before);
+        answer["reached"] = messages.back();
       }
       if (json.at("do") == "deflected") answer["deflected"] = false;
       if (!stream.send(answer.dump())) return;
@@ -385,6 +398,9 @@ TEST(RemoteMachine, SendsManyLinesInLongMessages) {
   EXPECT_GT(*std::ranges::max_element(messages), 64U);
   EXPECT_LE(*std::ranges::max_element(messages), 1024U);
 }
+
+INSTANTIATE_TEST_SUITE_P(Adapters, ManyLines, testing::Bool(),
+                         [](const auto& test) { return test.param ? "Compact" : "AsPieces"; });
 
 TEST(RemoteMachine, TellsTheLineOfTheProgramWithEachOrder) {
   auto [engine, own] = streamPair();

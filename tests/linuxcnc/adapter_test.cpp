@@ -43,6 +43,62 @@ TEST_F(OnLinuxCnc, SinumerikFindsWhatItFindsOnTheVirtualMachine) {
   agrees("bore.mpf", sinumerik(), "840Dsl", "FRAMES.UFR");
 }
 
+/// A real server of ssh, on the loopback of the session: a run as one from beside, and one whose connection breaks.
+TEST_F(OnLinuxCnc, TheProgramRunsOnAnotherComputer) {
+  if (!session_.needAccount()) GTEST_SKIP() << "only root can give LinuxCNC's user an account to log in";
+  constexpr double feed = 1200;
+  session_.write("setup.toml", setup("TNC640", world, feed));
+  session_.write("bore.h", klartext());
+  std::string slow = klartext();
+  const std::string fast = "X+25 Y+0 Z+8 R0 FMAX";
+  slow.replace(slow.find(fast), fast.size(), "X+200 Y+100 Z+8 R0 F500");
+  session_.write("slow.h", slow);
+  const std::string here = session_.folder().string();
+  session_.write("sshd_config", "Port 2222\nListenAddress 127.0.0.1\nHostKey " + here + "/host_key\nPidFile none\n" +
+                                    "UsePAM no\nPasswordAuthentication no\nKbdInteractiveAuthentication no\n" +
+                                    "StrictModes no\nAuthorizedKeysFile " + here + "/user_key.pub\nSetEnv PATH=" +
+                                    (session_.build() / "apps/probewright").string() + ":/usr/bin:/bin\n");
+  std::filesystem::create_directory(session_.outside() / ".ssh");
+  session_.write(".ssh/config", "Host mill\n HostName 127.0.0.1\n Port 2222\n IdentityFile " + here +
+                                    "/user_key\n UserKnownHostsFile " + here +
+                                    "/known\n StrictHostKeyChecking accept-new\n");
+  atTheDesk(call(world) + R"(
+for key in ('host_key', 'user_key'):
+    subprocess.run(['ssh-keygen', '-q', '-t', 'ed25519', '-N', '', '-f', key], check=True)
+server = subprocess.Popen(['/usr/sbin/sshd', '-D', '-e', '-f', os.getcwd() + '/sshd_config'])
+end = time.monotonic() + 60
+while subprocess.run(['ssh', 'mill', 'true']).returncode != 0 and time.monotonic() < end: time.sleep(0.2)
+ended(desk, 'run', start('bore.h', more=['--host', 'mill']))
+# The adapter there may leave LinuxCNC a moment after the program here has ended.
+desk.until('the end of the adapter', lambda s: s.task_mode == linuxcnc.MODE_MANUAL)
+still(desk)
+desk.mdi('G10 L2 P1 X0 Y0 Z-250 R0')
+run = start('slow.h', 'broken', more=['--host', 'mill'])
+moving(desk)
+subprocess.run(['pkill', '-KILL', '-x', 'ssh'])
+ended(desk, 'broken', run)
+still(desk)
+desk.tell('stands', desk.status.position[0] < 199)
+desk.until('the end of the adapter', lambda s: s.task_mode == linuxcnc.MODE_MANUAL)
+ended(desk, 'again', start('bore.h', 'again', more=['--host', 'mill']))
+server.terminate()
+ended(desk, 'nobody', start('bore.h', 'nobody', more=['--host', 'mill']))
+)");
+  const double bound = feed / 60 * period + 1e-4;
+  for (const auto& [name, folder] : {std::pair{"run", "out"}, std::pair{"again", "again"}}) {
+    EXPECT_THAT(told(name), StartsWith("0 ")) << output;
+    const std::vector<double> found = preset(folder);
+    ASSERT_EQ(found.size(), 3U) << output;
+    EXPECT_NEAR(found[0], world.x, bound);
+    EXPECT_NEAR(found[1], world.y, bound);
+  }
+  EXPECT_TRUE(std::regex_search(told("broken"), std::regex("^3 .*the connection to the machine adapter is lost")))
+      << told("broken");
+  EXPECT_EQ(preset("broken"), (std::vector<double>{0, 0, -250}));
+  EXPECT_EQ(told("stands"), "True") << "the axes stop when the connection is gone";
+  EXPECT_TRUE(std::regex_search(told("nobody"), std::regex("^2 .*machine adapter"))) << told("nobody");
+}
+
 /// A stand-in for ssh, which runs here what is to run there: what it is told, and that the run is as one from beside.
 TEST_F(OnLinuxCnc, AnotherComputersLinuxCncIsReachedThroughSsh) {
   constexpr double feed = 1200;

@@ -78,6 +78,7 @@ run('bore.h', 'after')
   EXPECT_EQ(told("title"), "Probewright: 1420 point 1") << output;
   EXPECT_THAT(output, HasSubstr("desk: message 1420 point 1: move the probe in front of the point"));
   EXPECT_THAT(output, HasSubstr("desk: message Tolerance exceeded: scrap"));
+  EXPECT_THAT(output, HasSubstr("Position 3, tool axis: nominal 0.0000, actual -0.2")) << "to its end";
   const nlohmann::json answered = results("answered");
   ASSERT_TRUE(answered.is_object()) << output;
   EXPECT_THAT(answered.dump(), HasSubstr("\"exit\":{\"code\":1")) << "it ran to its end, the part is out of tolerance";

@@ -23,8 +23,8 @@ protected:
     atTheDesk(std::string(keeps) + call(world) + R"(
 def parameters(name):
     desk.mdi('(PRINT,desk: ' + name + ' #5221 #5222 #5223 #5230 #5301 #5302 #5303 #5310 #5241)')
-desk.mdi('G10 L2 P1 X0.5 Y-0.1 Z-250.1')
 desk.mdi('G10 L2 P2 X33 Y44')
+desk.mdi('G10 L2 P1 X0.5 Y-0.1 Z-250.1')
 )" + run + R"(
 parameters('parameters')
 desk.mdi('G54')
@@ -59,7 +59,16 @@ desk.tell('tool', tool.zoffset, tool.diameter)
   }
 };
 
-TEST_F(TablesOfLinuxCnc, AreOneWithTheControlsAsItsInterpreter) { isOne("run('bore.mpf', 'done')\n"); }
+/// A program that is started again, as screens do it, begins from what it has found.
+TEST_F(TablesOfLinuxCnc, AreOneWithTheControlsAsItsInterpreter) {
+  isOne("run('bore.mpf', 'done')\ndesk.command.auto(linuxcnc.AUTO_RUN, 0)\ndesk.taken()\nkeep('again')\n");
+  std::smatch found;
+  const std::string again = text("again/results.json");
+  ASSERT_TRUE(std::regex_search(again, found, std::regex("is what the machine has as G54: X([-0-9.]+) Y([-0-9.]+)")))
+      << output;
+  EXPECT_NEAR(std::stod(found[1]), world.x, bound);
+  EXPECT_NEAR(std::stod(found[2]), world.y, bound);
+}
 
 TEST_F(TablesOfLinuxCnc, AreOneWithTheControlsFromOutside) { isOne("ended(desk, 'run', start('bore.mpf'))\n"); }
 

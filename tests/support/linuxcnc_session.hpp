@@ -54,6 +54,18 @@ public:
     return apart_ || std::filesystem::exists("/usr/lib/linuxcnc/modules" / std::filesystem::path(path).filename());
   }
 
+  /// LinuxCNC's user gets a shell and the folder of the session as home, so that a server can log him in. False if that
+  /// cannot be: who is not root has the account that he has.
+  bool needAccount() {
+    if (!apart_) return false;
+    write("passwd", "root:x:0:0::/root:/bin/sh\nnobody:x:65534:65534::" + folder().string() + ":/bin/sh\n");
+    // A password that no text gives, of an account that is not locked.
+    write("shadow", "nobody:none:19000:0:99999:7:::\n");
+    for (const char* file : {"passwd", "shadow"})
+      asRoot_ += "mount --bind '" + (folder() / file).string() + "' /etc/" + file + " && ";
+    return true;
+  }
+
   /// Runs LinuxCNC with this configuration until its display ends. What all of it has printed.
   std::string run(const std::string& ini, int seconds = 300) const {
     return command("linuxcnc -r '" + ini + "'", seconds);
@@ -68,7 +80,8 @@ public:
         command += "mkdir -p '" + to.string() + "' && mount --bind '" + from.string() + "' '" + to.string() + "' && ";
       command = "ip link set lo up && mount -t tmpfs tmpfs /mnt && " + command + modulesCommand() +
                 "mount -t tmpfs tmpfs /dev/shm && mount -t tmpfs tmpfs /tmp && chown -R 65534:65534 '" +
-                folder().string() + "' && " + inner + "setpriv --reuid 65534 --regid 65534 --clear-groups " + words;
+                folder().string() + "' && " + asRoot_ + inner + "setpriv --reuid 65534 --regid 65534 --clear-groups " +
+                words;
       // The first process of the namespaces stays root's: it dies with its parent, and all others with it.
     } else {
       command = inner + "exec " + words;
@@ -126,6 +139,7 @@ private:
   std::filesystem::path outside_, source_, build_;
   std::vector<Mount> mounts_;
   std::vector<std::string> modules_;
+  std::string asRoot_;  ///< commands before LinuxCNC's user begins
 };
 
 }  // namespace probewright::testing
