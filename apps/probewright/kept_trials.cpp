@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstdio>
 #include <map>
 #include <utility>
 
@@ -47,6 +48,40 @@ bool reachesTheDisk(const fs::path& path) {
   return done;
 }
 
+std::vector<const char*> pointersTo(const std::vector<std::string>& texts) {
+  std::vector<const char*> pointers;
+  for (const std::string& text : texts)
+    pointers.push_back(text.c_str());
+  return pointers;
+}
+
+/// Some trials, as tables.
+struct Rows {
+  std::vector<std::uint64_t> numbers;
+  std::vector<std::uint8_t> ends;
+  std::vector<std::int32_t> why;
+  std::vector<double> sources, results, truths;
+
+  void add(std::uint64_t number, const study::TrialReader::Trial& trial, std::int32_t reason,
+           const std::map<std::string, std::size_t>& places) {
+    numbers.push_back(number);
+    ends.push_back(static_cast<std::uint8_t>(trial.outcome.end));
+    why.push_back(reason);
+    sources.insert(sources.end(), trial.inputs.begin(), trial.inputs.end());
+    const std::size_t row = results.size();
+    results.resize(row + places.size(), study::missing);
+    truths.resize(row + places.size(), study::missing);
+    for (const study::Observation& observation : trial.outcome.observations) {
+      const std::size_t place = row + places.at(observation.of.key);
+      results[place] = observation.value;
+      truths[place] = observation.truth.value_or(study::missing);
+    }
+  }
+  probewright_trial_rows asTold() const {
+    return {numbers.size(), numbers.data(), ends.data(), why.data(), sources.data(), results.data(), truths.data()};
+  }
+};
+
 }  // namespace
 
 Result<KeptTrials> KeptTrials::at(const fs::path& path) {
@@ -68,41 +103,64 @@ Result<KeptTrials> KeptTrials::at(const fs::path& path) {
   return kept;
 }
 
-Result<void> KeptTrials::write(const study::TrialTable& table, const std::vector<std::string>& sources,
-                               const std::string& mark) const {
-  const auto writeTo = functionOf<decltype(probewright_hdf5_write)>(module_.get(), "probewright_hdf5_write");
-  std::vector<std::uint8_t> ends;
-  for (const study::TrialEnd end : table.ends())
-    ends.push_back(static_cast<std::uint8_t>(end));
-  std::vector<std::int32_t> why(table.size(), -1);
-  std::vector<const char*> reasons;
-  for (const auto& [text, places] : table.stops()) {
-    for (const std::size_t place : places)
-      why[place] = static_cast<std::int32_t>(reasons.size());
-    reasons.push_back(text.c_str());
-  }
-  std::vector<probewright_column> inputs, results, truths;
-  for (std::size_t i = 0; i < sources.size(); ++i)
-    inputs.push_back({sources[i].c_str(), table.inputs(i).data()});
-  for (std::size_t i = 0; i < table.characteristics().size(); ++i) {
-    const char* name = table.characteristics()[i].key.c_str();
-    results.push_back({name, table.values(i).data()});
-    truths.push_back({name, table.truths(i).empty() ? nullptr : table.truths(i).data()});
-  }
-  const probewright_trials trials{mark.c_str(),  table.size(),   table.trials().data(), ends.data(),
-                                  why.data(),    reasons.size(), reasons.data(),        inputs.size(),
-                                  inputs.data(), results.size(), results.data(),        truths.data()};
+Result<void> KeptTrials::write(study::TrialReader trials, const std::string& mark) const {
+  const auto begin = functionOf<decltype(probewright_hdf5_begin)>(module_.get(), "probewright_hdf5_begin");
+  const auto add = functionOf<decltype(probewright_hdf5_add)>(module_.get(), "probewright_hdf5_add");
+  const auto end = functionOf<decltype(probewright_hdf5_end)>(module_.get(), "probewright_hdf5_end");
+  const auto drop = functionOf<decltype(probewright_hdf5_drop)>(module_.get(), "probewright_hdf5_drop");
+  if (begin == nullptr || add == nullptr || end == nullptr || drop == nullptr)
+    return fail({path_.string(), 0, 0}, "the module for HDF5 is not that of this program", "build both together");
   std::error_code error;
   if (path_.has_parent_path()) fs::create_directories(path_.parent_path(), error);
   const Unfinished neighbour(fs::path(path_).concat(fmt::format(".new-{}", getpid())));
   fs::remove(neighbour.path(), error);
+
+  const study::TrialColumns& columns = trials.columns();
+  const std::vector<const char*> sources = pointersTo(columns.sources), results = pointersTo(columns.results);
+  const probewright_trial_columns heading{mark.c_str(), sources.size(), sources.data(), results.size(), results.data()};
   std::array<char, 300> reason{};
-  const char* const advice = "free some room, or choose another place with --keep, and go on with --resume";
-  if (writeTo == nullptr || writeTo(neighbour.path().c_str(), &trials, reason.data(), reason.size()) != 0)
-    return fail({path_.string(), 0, 0}, fmt::format("cannot keep the trials: {}", reason.data()), advice);
+  const auto failed = [&] {
+    return fail({path_.string(), 0, 0}, fmt::format("cannot keep the trials: {}", reason.data()),
+                "free some room, or choose another place with --keep, and go on with --resume");
+  };
+  void* store = begin(neighbour.path().c_str(), &heading, reason.data(), reason.size());
+  if (store == nullptr) return failed();
+  std::map<std::string, std::size_t> places;
+  for (const std::string& key : columns.results)
+    places.emplace(key, places.size());
+  std::vector<std::string> reasons;
+  std::map<std::string, std::int32_t> reasonPlaces;
+  constexpr std::size_t atOnce = 1024;
+  for (bool more = true; more;) {
+    Rows rows;
+    while (rows.numbers.size() < atOnce) {
+      const std::uint64_t number = trials.trials();
+      const auto trial = trials.next();
+      if (!trial) break;
+      std::int32_t why = -1;
+      if (trial->outcome.end != study::TrialEnd::Finished) {
+        const auto [found, isNew] =
+            reasonPlaces.try_emplace(trial->outcome.why, static_cast<std::int32_t>(reasons.size()));
+        if (isNew) reasons.push_back(trial->outcome.why);
+        why = found->second;
+      }
+      rows.add(number, *trial, why, places);
+    }
+    more = rows.numbers.size() == atOnce;
+    const probewright_trial_rows part = rows.asTold();
+    if (add(store, &part, reason.data(), reason.size()) != 0) {
+      drop(store);
+      return failed();
+    }
+  }
+  const std::vector<const char*> told = pointersTo(reasons);
+  if (end(store, told.data(), told.size(), reason.data(), reason.size()) != 0) return failed();
   if (!reachesTheDisk(neighbour.path())) return failErrno(path_, "keep the trials");
   fs::rename(neighbour.path(), path_, error);
-  if (error) return fail({path_.string(), 0, 0}, "cannot keep the trials: " + error.message(), advice);
+  if (error) {
+    std::snprintf(reason.data(), reason.size(), "%s", error.message().c_str());
+    return failed();
+  }
   return {};
 }
 

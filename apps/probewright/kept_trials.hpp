@@ -2,12 +2,10 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "base/diagnostic.hpp"
-#include "study/trial.hpp"
+#include "study/trial_file.hpp"
 
 namespace probewright::app {
 
@@ -18,8 +16,7 @@ public:
   static Result<KeptTrials> at(const std::filesystem::path& path);
 
   /// Writes the file whole or not at all. `mark` tells studies apart whose trials are different.
-  Result<void> write(const study::TrialTable& table, const std::vector<std::string>& sources,
-                     const std::string& mark) const;
+  Result<void> write(study::TrialReader trials, const std::string& mark) const;
 
 private:
   KeptTrials(std::filesystem::path path, std::shared_ptr<void> module)

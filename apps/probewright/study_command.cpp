@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 
 #include "base/file.hpp"
 #include "cache_folder.hpp"
@@ -24,6 +25,7 @@
 #include "study/study_text.hpp"
 #include "study/trial_file.hpp"
 #include "study_progress.hpp"
+#include "study_state.hpp"
 #include "terminal.hpp"
 
 namespace probewright::app {
@@ -52,6 +54,7 @@ std::optional<Diagnostic> whyNotInto(const fs::path& folder) {
   for (const char* name : {"study.json", "study.csv"}) {
     if (auto why = whyNotWritable(folder, name)) return why;
   }
+  if (auto why = whyNotStudyState(folder)) return why;
   return study::whyNotTrials(folder / "trials.csv");
 }
 
@@ -62,8 +65,27 @@ struct Prepared {
   std::vector<fs::path> inputs;
   std::optional<KeptTrials> keptTrials;
   std::string mark;
-  std::vector<study::Outcome> done;
+  // Where an earlier run had come to: its trials, or their sums.
+  std::optional<study::TrialReader> done;
+  std::string state;
 };
+
+/// Takes up an earlier run. Fails if there is none.
+Result<void> resume(const StudyArguments& arguments, Prepared& prepared) {
+  auto state = readStudyState(arguments.out, prepared.mark);
+  if (!state) return tl::unexpected(state.error());
+  if (*state && prepared.keptTrials)
+    return fail({(arguments.out / "study.state").string(), 0, 0},
+                "the values of the trials before the interruption were not kept", "leave out --keep, or begin anew");
+  if (*state) {
+    prepared.state = **state;
+    return {};
+  }
+  auto done = study::TrialReader::open(arguments.out / "trials.csv", prepared.mark);
+  if (!done) return tl::unexpected(done.error());
+  prepared.done = *std::move(done);
+  return {};
+}
 
 /// Nothing, with errors among the mistakes, if the study cannot begin. Only one of several ranks tidies the folder.
 std::optional<Prepared> prepare(const StudyArguments& arguments, bool tidies, const Interruption& interruption,
@@ -73,7 +95,7 @@ std::optional<Prepared> prepare(const StudyArguments& arguments, bool tidies, co
   auto plan = study::readStudy(arguments.study, document->table(), mistakes);
   if (!plan) return std::nullopt;
   if (arguments.trials) plan->trials = *arguments.trials;
-  Prepared prepared{std::move(*document), std::move(*plan), {arguments.program}, {}, {}, {}};
+  Prepared prepared{std::move(*document), std::move(*plan), {arguments.program}, {}, {}, {}, {}};
   for (const auto& more : {prepared.document.asWritten().inputs, prepared.plan.inputs})
     prepared.inputs.insert(prepared.inputs.end(), more.begin(), more.end());
   prepared.mark = markOf(prepared.inputs);
@@ -96,12 +118,10 @@ std::optional<Prepared> prepare(const StudyArguments& arguments, bool tidies, co
     prepared.keptTrials = std::move(*kept);
   }
   if (arguments.resume) {
-    auto done = study::readTrials(arguments.out / "trials.csv", prepared.mark);
-    if (!done) {
-      mistakes.push_back(done.error());
+    if (const Result<void> taken = resume(arguments, prepared); !taken) {
+      mistakes.push_back(taken.error());
       return std::nullopt;
     }
-    prepared.done = std::move(*done);
   }
   return prepared;
 }
@@ -130,6 +150,16 @@ bool allReady(const std::optional<JoinedRanks>& joined, const Diagnostics& mista
   return allSame;
 }
 
+/// What all ranks must see alike.
+std::string seen(const Prepared& prepared) {
+  return fmt::format("{} {} {}", prepared.mark, prepared.done.has_value(), prepared.state.size());
+}
+
+/// One process as a rank of its own.
+study::Ranks alone() {
+  return {0, 1, [](const std::string& mine) { return std::vector<std::string>{mine}; }};
+}
+
 }  // namespace
 
 int study(const StudyArguments& given) {
@@ -150,16 +180,23 @@ int study(const StudyArguments& given) {
   auto prepared = prepare(arguments, first, interruption, mistakes);
   if (!prepared) print(mistakes);
   // Nobody writes before everybody has read.
-  if (!allReady(*joined, mistakes, prepared ? fmt::format("{} {}", prepared->mark, prepared->done.size()) : "") ||
-      !prepared)
-    return 2;
+  if (!allReady(*joined, mistakes, prepared ? seen(*prepared) : "") || !prepared) return 2;
   const study::Study* const plan = &prepared->plan;
   const std::vector<fs::path>& inputs = prepared->inputs;
   const std::optional<KeptTrials>& keptTrials = prepared->keptTrials;
   const std::string& mark = prepared->mark;
   const fs::path trialFile = arguments.out / "trials.csv";
   study::StudyRun run;
-  run.done = std::move(prepared->done);
+  std::optional<study::TrialReader>& earlier = prepared->done;
+  if (earlier)
+    run.done = [&]() -> std::optional<study::Outcome> {
+      auto trial = earlier->next();
+      if (!trial) return std::nullopt;
+      return std::move(trial->outcome);
+    };
+  run.state = std::move(prepared->state);
+  // The values of all trials come together where they are to be kept; else ranks hand in sums.
+  const bool sums = !run.state.empty() || (*joined && (*joined)->ranks.size > 1 && !keptTrials && !earlier);
 
   const toml::table setupTable = prepared->document.table();
   study::ProgramModel::Options options;
@@ -178,6 +215,10 @@ int study(const StudyArguments& given) {
 
   std::error_code error;
   fs::create_directories(arguments.out, error);
+  if (first && !arguments.resume) {
+    removeStudyState(arguments.out);
+    fs::remove(trialFile, error);
+  }
   std::vector<std::string> names;
   for (const study::Source& source : plan->sources)
     names.push_back(source.name);
@@ -198,24 +239,37 @@ int study(const StudyArguments& given) {
     run.report = [&](const std::string& phase, std::uint64_t done, std::uint64_t of) {
       progress.tell(phase, done, of);
     };
-  run.keep = [&](const study::TrialTable& table) {
-    if (!first) return;
-    if (Result<void> kept = writer.write(table); !kept && !notKept) {
-      notKept = kept.error();
-      diskFull.request_stop();
-    }
+  const auto keptOrStop = [&](const Result<void>& kept) {
+    if (kept || notKept) return;
+    notKept = kept.error();
+    diskFull.request_stop();
   };
-  run.whole = [&](const study::TrialTable& table) {
-    if (!first || !keptTrials || notKept) return;
-    if (Result<void> kept = keptTrials->write(table, names, mark); !kept) {
-      notKept = kept.error();
-      diskFull.request_stop();
-    }
-  };
+  bool goesOn = earlier.has_value();
+  if (!sums)
+    run.keep = [&](std::span<const study::Draw> draws, std::span<const study::Outcome> outcomes) {
+      if (!first || notKept) return;
+      if (goesOn) keptOrStop(writer.goOn(*earlier));
+      goesOn = false;
+      if (!notKept) keptOrStop(writer.write(draws, outcomes));
+    };
+  if (sums) {
+    const study::Ranks ranks = *joined ? (*joined)->ranks : alone();
+    run.summing = study::Summing{ranks, study::threadCrew(arguments.threads, diskFull.get_token()), all};
+    if (!*joined) run.stop = all.get_token();
+    constexpr std::uint64_t sumsOfARank = 250;
+    run.summing->stretch = std::max(run.summing->stretch, sumsOfARank * static_cast<std::uint64_t>(ranks.size));
+    run.keepState = [&](const std::string& state) {
+      if (first && !notKept) keptOrStop(writeStudyState(arguments.out, mark, state));
+    };
+  }
   const study::StudyResult result = study::runStudy(
       *plan, setupTable, [&](const study::Draw& draw) { return model->run(draw); }, run);
   if (!arguments.quiet) progress.clear();
   print(result.diagnostics);
+  if (first && keptTrials && !notKept) {
+    auto trials = study::TrialReader::open(trialFile, mark);
+    keptOrStop(trials ? keptTrials->write(*std::move(trials), mark) : tl::unexpected(trials.error()));
+  }
   if (notKept) {
     print({*notKept});
     return 2;

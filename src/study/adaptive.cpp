@@ -14,9 +14,10 @@ double numericalTolerance(double standardUncertainty, int digits) {
   return 0.5 * std::pow(10, exponent);
 }
 
-void Stability::add(std::span<const double> block) {
-  Summary summary = summarize(block, coverage_);
-  if (summary.count > 0) blocks_.push_back(summary);
+void Stability::add(std::span<const double> block) { add(summarize(block, coverage_)); }
+
+void Stability::add(const Summary& block) {
+  if (block.count > 0) blocks_.push_back(block);
 }
 
 bool Stability::stable() const { return excess() <= 1; }

@@ -19,6 +19,10 @@ public:
 
   /// The values of the next block of trials.
   void add(std::span<const double> block);
+  void add(const Summary& block);
+
+  /// Of the blocks so far.
+  const std::vector<Summary>& blocks() const { return blocks_; }
 
   /// Twice the standard deviation of the averages of mean, standard uncertainty and both ends of the coverage interval
   /// is at most the tolerance. False before the second block. What stands still is stable.

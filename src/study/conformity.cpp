@@ -55,13 +55,21 @@ Risks risksOf(std::span<const double> measured, std::span<const double> truth, c
     risks.falselyAccepted += accepted && !within ? 1 : 0;
     risks.falselyRejected += !accepted && within ? 1 : 0;
   }
-  if (risks.count == 0) return risks;
-  const double count = static_cast<double>(risks.count);
-  risks.consumer = static_cast<double>(risks.falselyAccepted) / count;
-  risks.producer = static_cast<double>(risks.falselyRejected) / count;
-  risks.consumerInterval = probability(risks.falselyAccepted, risks.count);
-  risks.producerInterval = probability(risks.falselyRejected, risks.count);
+  risks.add({});
   return risks;
+}
+
+void Risks::add(const Risks& other) {
+  count += other.count;
+  trulyWithin += other.trulyWithin;
+  accepted += other.accepted;
+  falselyAccepted += other.falselyAccepted;
+  falselyRejected += other.falselyRejected;
+  if (count == 0) return;
+  consumer = static_cast<double>(falselyAccepted) / static_cast<double>(count);
+  producer = static_cast<double>(falselyRejected) / static_cast<double>(count);
+  consumerInterval = probability(falselyAccepted, count);
+  producerInterval = probability(falselyRejected, count);
 }
 
 }  // namespace probewright::study

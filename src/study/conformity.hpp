@@ -43,6 +43,9 @@ struct Risks {
   std::size_t falselyAccepted = 0, falselyRejected = 0;
   double consumer = 0, producer = 0;            ///< shares of all items
   Interval consumerInterval, producerInterval;  ///< 95 %, Clopper and Pearson
+
+  /// Those of other items.
+  void add(const Risks& other);
 };
 Risks risksOf(std::span<const double> measured, std::span<const double> truth, const Tolerance& tolerance,
               const Tolerance& acceptance);

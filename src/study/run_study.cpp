@@ -5,32 +5,23 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
+#include <set>
 #include <utility>
 
-#include "study/adaptive.hpp"
+#include "study/measurands.hpp"
 
 namespace probewright::study {
 
 namespace {
 
-std::uint64_t wantedTrials(const Study& study) { return study.trials.value_or(study.mostTrials); }
-
-/// The key itself, or its end after a blank: "Q153" of "421@23 Q153".
-bool means(const std::string& result, const std::string& key) {
-  return key == result ||
-         (key.size() > result.size() && key.ends_with(result) && key[key.size() - result.size() - 1] == ' ');
-}
-
 class Runner {
 public:
   Runner(const Study& study, const toml::table& setup, const Model& model, const StudyRun& run)
       : study_(study),
-        setup_(setup),
         model_(model),
         run_(run),
         sampler_(study),
-        table_(study.sources.size()),
+        measurands_(study, setup),
         crew_(run.crew ? run.crew : threadCrew(0, run.stop)) {}
 
   StudyResult run() {
@@ -40,15 +31,23 @@ public:
     const std::vector<Outcome> estimated = crew_(model_, {&estimate, 1});
     if (!estimated.empty()) estimate_ = estimated.front();
     noteEstimate();
-    drawTrials();
-    if (run_.whole) run_.whole(table_);
-    result_.trials = table_.size();
-    result_.finished = static_cast<std::size_t>(std::ranges::count(table_.ends(), TrialEnd::Finished));
-    for (std::size_t i = 0; i < table_.characteristics().size(); ++i)
-      result_.answers.push_back(answerOf(i));
+    TrialCourse course(study_, sampler_, model_, crew_,
+                       {[this](const Outcome& outcome, const Draw& draw) {
+                          return measurands_.withTruths(described(outcome), draw.inputs);
+                        },
+                        [this](const Characteristic& of) { return toleranceOf(describedBy(of)); }},
+                       run_);
+    result_.end = course.carryOut();
+    const Findings findings(course.trials(), sampler_);
+    result_.trials = findings.size();
+    result_.finished = findings.finished();
+    for (std::size_t i = 0; i < findings.characteristics().size(); ++i) {
+      result_.answers.push_back(answerOf(findings, i));
+      result_.answers.back().stable = course.isStable(findings.characteristics()[i].key);
+    }
     noteMeasurands();
-    correlate();
-    noteStops();
+    correlate(findings);
+    noteStops(findings);
     if (!run_.stop.stop_requested() && result_.trials > 0) findShares();
     if (!run_.stop.stop_requested() && run_.repeat) repeat();
     if (!run_.stop.stop_requested() && study_.gauge) gauge();
@@ -79,146 +78,38 @@ private:
     if (run_.report) run_.report(phase, done, of);
   }
 
+  /// What is said of a result may differ a little from trial to trial: that of the estimates counts.
+  Characteristic describedBy(const Characteristic& of) const {
+    const Observation* estimate = estimateOf(of.key);
+    return measurands_.limited(estimate != nullptr ? estimate->of : of);
+  }
+
   /// An outcome that was kept knows the names of its results only.
   Outcome described(Outcome outcome) const {
-    for (Observation& observation : outcome.observations)
+    for (Observation& observation : outcome.observations) {
+      if (!observation.of.label.empty()) continue;
       if (const Observation* same = estimateOf(observation.of.key)) observation.of = same->of;
+    }
     return outcome;
   }
 
-  void drawTrials() {
-    std::vector<Stability> stabilities;
-    const std::uint64_t wanted = wantedTrials(study_);
-    std::uint64_t nextLook = study_.block, lastLook = 0;
-    result_.end = study_.trials ? StudyEnd::AllTrials : StudyEnd::MostTrials;
-    while (table_.size() < wanted) {
-      const std::uint64_t begin = table_.size();
-      const std::uint64_t end = std::min({begin + run_.stretch, wanted, study_.trials ? wanted : nextLook});
-      std::vector<Draw> draws;
-      for (std::uint64_t trial = begin; trial < end; ++trial)
-        draws.push_back(sampler_.draw(trial));
-      std::vector<Outcome> outcomes;
-      while (begin + outcomes.size() < run_.done.size() && outcomes.size() < draws.size())
-        outcomes.push_back(described(run_.done[begin + outcomes.size()]));
-      const std::span<const Draw> rest(draws.data() + outcomes.size(), draws.size() - outcomes.size());
-      std::vector<Outcome> fresh = crew_(model_, rest);
-      const bool any = !fresh.empty();
-      std::ranges::move(fresh, std::back_inserter(outcomes));
-      for (std::size_t i = 0; i < outcomes.size(); ++i)
-        table_.add(draws[i], outcomes[i]);
-      if (any && run_.keep) run_.keep(table_);
-      if (outcomes.size() < draws.size()) {
-        result_.end = StudyEnd::Interrupted;
-        return;
-      }
-      tell("trials", table_.size(), wanted);
-      if (study_.trials || table_.size() < nextLook) continue;
-      if (isStable(stabilities, lastLook)) {
-        result_.end = StudyEnd::Stable;
-        return;
-      }
-      lastLook = nextLook;
-      nextLook += study_.block;
-    }
-  }
-
-  /// Looks at the block of trials from `begin` to the end.
-  bool isStable(std::vector<Stability>& stabilities, std::uint64_t begin) {
-    bool stable = true;
-    stable_.assign(table_.characteristics().size(), false);
-    for (std::size_t i = 0; i < table_.characteristics().size(); ++i) {
-      if (stabilities.size() <= i) stabilities.emplace_back(study_.digits, study_.coverage);
-      stabilities[i].add(std::span(table_.values(i)).subspan(begin));
-      stable_[i] = stabilities[i].stable();
-      // Trials that come to an alarm tell nothing: a result that is hardly ever there does not hold up the others.
-      const std::size_t there = present(table_.values(i)).size();
-      if (there * 2 >= table_.size()) stable = stable && stable_[i];
-    }
-    return stable;
-  }
-
-  const Measurand* measurandOf(const std::string& key) const {
-    const auto exact = std::ranges::find(study_.measurands, key, &Measurand::result);
-    if (exact != study_.measurands.end()) return &*exact;
-    for (const Measurand& measurand : study_.measurands)
-      if (means(measurand.result, key)) return &measurand;
-    return nullptr;
-  }
-
-  /// The source whose values are the truth of the measurand.
-  std::optional<std::size_t> sourceOf(const Measurand& measurand) const {
-    for (std::size_t i = 0; i < study_.sources.size(); ++i)
-      if (measurand.truth && study_.sources[i].quantity.text() == measurand.truth->text()) return i;
-    return std::nullopt;
-  }
-
-  std::optional<double> truthAt(const Measurand& measurand, const std::vector<double>& inputs) const {
-    if (!measurand.truth) return std::nullopt;
-    const auto source = sourceOf(measurand);
-    const auto number = source ? std::optional(inputs[*source]) : measurand.truth->numberIn(setup_);
-    return number ? std::optional(measurand.factor * *number + measurand.offset) : std::nullopt;
-  }
-
-  /// The true value in each trial; empty if nobody knows it.
-  std::vector<double> truthsOf(const Measurand& measurand) const {
-    const auto atEstimate = truthAt(measurand, sampler_.estimate().inputs);
-    if (!atEstimate) return {};
-    const auto source = sourceOf(measurand);
-    if (!source) return std::vector<double>(table_.size(), *atEstimate);
-    std::vector<double> truths = table_.inputs(*source);
-    for (double& truth : truths)
-      truth = measurand.factor * truth + measurand.offset;
-    return truths;
-  }
-
-  /// What the virtual machine knows; empty unless it is the true value of every trial: where it knows only those that
-  /// are near, errors would look smaller than they are.
-  std::vector<double> truthsOfMachine(std::size_t i) const {
-    const std::vector<double>&values = table_.values(i), &truths = table_.truths(i);
-    if (truths.empty()) return {};
-    for (std::size_t k = 0; k < values.size(); ++k)
-      if (!std::isnan(values[k]) && std::isnan(truths[k])) return {};
-    return truths;
-  }
-
-  Answer answerOf(std::size_t i) {
+  Answer answerOf(const Findings& findings, std::size_t i) const {
     Answer answer;
-    answer.of = table_.characteristics()[i];
-    // What is said of a result may differ a little from trial to trial: that of the estimates counts.
-    if (const Observation* estimate = estimateOf(answer.of.key)) {
-      answer.of = estimate->of;
-      answer.estimate = estimate->value;
-    }
-    const std::vector<double>& values = table_.values(i);
-    answer.values = summarize(values, study_.coverage);
-    answer.histogram = histogramOf(values);
-    answer.stable = i < stable_.size() && stable_[i];
+    answer.of = describedBy(findings.characteristics()[i]);
+    if (const Observation* estimate = estimateOf(answer.of.key)) answer.estimate = estimate->value;
+    answer.values = findings.values(i, study_.coverage);
+    answer.histogram = findings.histogram(i);
     answer.standardUncertainty = answer.values.deviation;
-    const Measurand* measurand = measurandOf(answer.of.key);
-    std::vector<double> truths;
-    if (measurand != nullptr) {
-      if (measurand->lower) answer.of.lower = measurand->lower;
-      if (measurand->upper) answer.of.upper = measurand->upper;
-      truths = truthsOf(*measurand);
-    }
-    if (truths.empty()) truths = truthsOfMachine(i);
-    if (!truths.empty()) {
-      std::vector<double> errors(values.size());
-      std::vector<double> counted;
-      for (std::size_t k = 0; k < values.size(); ++k) {
-        errors[k] = values[k] - truths[k];
-        if (!std::isnan(values[k])) counted.push_back(truths[k]);
-      }
-      answer.truth = summarize(counted, study_.coverage).mean;
-      answer.error = summarize(errors, study_.coverage);
+    answer.error = findings.errors(i, study_.coverage);
+    if (answer.error) {
+      answer.truth = findings.truth(i);
       answer.standardUncertainty = answer.error->deviation;
     }
-    if (answer.of.lower || answer.of.upper) judge(answer, values, truths);
+    if (const auto tolerance = toleranceOf(answer.of)) judge(answer, findings, i, *tolerance);
     return answer;
   }
 
-  void judge(Answer& answer, const std::vector<double>& values, const std::vector<double>& truths) {
-    const Tolerance tolerance{answer.of.lower, answer.of.upper};
+  void judge(Answer& answer, const Findings& findings, std::size_t i, const Tolerance& tolerance) const {
     answer.tolerance = tolerance;
     answer.guardBand = study_.guardFactor * answer.standardUncertainty;
     const auto zone = acceptanceZone(tolerance, answer.guardBand);
@@ -226,9 +117,9 @@ private:
       answer.conformance = conformanceProbability(*answer.estimate, answer.standardUncertainty, tolerance);
       answer.decision = decide(*answer.estimate, answer.guardBand, tolerance);
     }
-    if (truths.empty()) return;
-    answer.risks = risksOf(values, truths, tolerance, tolerance);
-    if (zone) answer.guardedRisks = risksOf(values, truths, tolerance, *zone);
+    if (!answer.error) return;
+    answer.risks = findings.risks(i, tolerance, tolerance, true);
+    if (zone) answer.guardedRisks = findings.risks(i, tolerance, *zone, false);
   }
 
   void noteMeasurands() {
@@ -246,32 +137,32 @@ private:
     }
   }
 
-  void correlate() {
-    constexpr std::size_t most = 200;
-    for (std::size_t i = 0; i < result_.answers.size() && result_.correlated.size() < most; ++i)
+  void correlate(const Findings& findings) {
+    for (std::size_t i = 0; i < std::min(result_.answers.size(), Grid::mostCorrelated); ++i)
       if (result_.answers[i].values.deviation > 0) result_.correlated.push_back(i);
     for (const std::size_t a : result_.correlated) {
       auto& row = result_.correlation.emplace_back();
       for (const std::size_t b : result_.correlated)
-        row.push_back(a == b ? std::optional(1.0) : correlation(table_.values(a), table_.values(b)));
+        row.push_back(a == b ? std::optional(1.0) : findings.correlation(a, b));
     }
   }
 
-  void noteStops() {
+  void noteStops(const Findings& findings) {
     constexpr std::size_t mostNamed = 10;
-    for (const auto& [why, places] : table_.stops()) {
+    const TrialTable& table = findings.kept();
+    for (const auto& [why, places] : table.stops()) {
       Stop stop;
       stop.why = why;
       stop.count = places.size();
-      stop.probability = probability(places.size(), table_.size());
+      stop.probability = probability(places.size(), findings.size());
       for (std::size_t source = 0; source < study_.sources.size(); ++source) {
         std::vector<double> inputs;
         for (const std::size_t place : places)
-          inputs.push_back(table_.inputs(source)[place]);
+          inputs.push_back(table.inputs(source)[place]);
         stop.sources.push_back(summarize(inputs, study_.coverage));
       }
       for (std::size_t i = 0; i < std::min(mostNamed, places.size()); ++i)
-        stop.first.push_back(table_.trials()[places[i]]);
+        stop.first.push_back(table.trials()[places[i]]);
       result_.stops.push_back(std::move(stop));
     }
     std::ranges::stable_sort(result_.stops, std::ranges::greater{}, &Stop::count);
@@ -283,19 +174,14 @@ private:
 
   /// The model with errors in place of the values of results whose truth is known: shares are those of u.
   Model erring() const {
-    std::map<std::string, const Measurand*> known;
+    std::set<std::string> known;
     for (const Answer& answer : result_.answers)
-      if (answer.error) known[answer.of.key] = measurandOf(answer.of.key);
+      if (answer.error) known.insert(answer.of.key);
     return [this, known](const Draw& draw) {
-      Outcome outcome = model_(draw);
-      for (Observation& observation : outcome.observations) {
-        const auto found = known.find(observation.of.key);
-        if (found == known.end()) continue;
-        std::optional<double> truth;
-        if (found->second != nullptr) truth = truthAt(*found->second, draw.inputs);
-        if (!truth) truth = observation.truth;
-        observation.value = truth ? observation.value - *truth : missing;
-      }
+      Outcome outcome = measurands_.withTruths(model_(draw), draw.inputs);
+      for (Observation& observation : outcome.observations)
+        if (known.contains(observation.of.key))
+          observation.value = observation.truth ? observation.value - *observation.truth : missing;
       return outcome;
     };
   }
@@ -312,7 +198,9 @@ private:
   }
 
   void findShares() {
-    const auto& characteristics = table_.characteristics();
+    std::vector<Characteristic> characteristics;
+    for (const Answer& answer : result_.answers)
+      characteristics.push_back(answer.of);
     if (study_.sensitivity == Sensitivity::None) return;
     const Model model = erring();
     if (auto found =
@@ -361,8 +249,7 @@ private:
       const auto place = table->find(answer.of.key);
       const auto tolerance = width(answer);
       if (!place || !tolerance) continue;
-      const Measurand* measurand = measurandOf(answer.of.key);
-      auto truth = measurand == nullptr ? std::nullopt : truthAt(*measurand, sampler_.estimate().inputs);
+      auto truth = measurands_.truthAt(answer.of.key, sampler_.estimate().inputs);
       if (const Observation* estimate = estimateOf(answer.of.key); !truth && estimate != nullptr)
         truth = estimate->truth;
       const double reference = truth.value_or(answer.estimate.value_or(0));
@@ -405,14 +292,12 @@ private:
   }
 
   const Study& study_;
-  const toml::table& setup_;
   const Model& model_;
   const StudyRun& run_;
   Sampler sampler_;
-  TrialTable table_;
+  Measurands measurands_;
   Crew crew_;
   std::optional<Outcome> estimate_;
-  std::vector<bool> stable_;
   StudyResult result_;
 };
 

@@ -12,6 +12,7 @@
 #include "study/statistics.hpp"
 #include "study/study.hpp"
 #include "study/trial.hpp"
+#include "study/trial_course.hpp"
 
 /// A whole study: trials until the digits are stable, and what they say.
 namespace probewright::study {
@@ -57,13 +58,6 @@ struct Stop {
   std::vector<std::uint64_t> first;  ///< the first trials, at most ten
 };
 
-enum class StudyEnd {
-  Stable,       ///< the digits that were asked for are
-  AllTrials,    ///< as many as were asked for
-  MostTrials,   ///< the digits are not stable after the most that the study allows
-  Interrupted,  ///< somebody stopped it
-};
-
 struct StudyResult {
   Study study;
   std::vector<Sampler::Unit> units;
@@ -76,22 +70,9 @@ struct StudyResult {
   Diagnostics diagnostics;  ///< what a reader should know: measurands that no result fits...
 };
 
-/// Told what is done, in how many trials of how many (as far as anybody knows).
-using Report = std::function<void(const std::string& phase, std::uint64_t done, std::uint64_t of)>;
-
-struct StudyRun {
-  Crew crew;  ///< none: the threads of all cores, until `stop`
-  std::stop_token stop;
-  std::uint64_t stretch =
-      500;  ///< trials between two looks at stop, progress and what is kept; no number depends on it
-  Report report;
-  /// Of each stretch of trials, once it is done: to keep them.
-  std::function<void(const TrialTable& table)> keep;
-  /// Told all trials once the last one is done, or the study is interrupted.
-  std::function<void(const TrialTable& table)> whole;
-  /// Trials that are done already, from an earlier run: draws are repeated, answers are not.
-  std::vector<Outcome> done;
-  std::optional<std::uint64_t> repeat;  ///< type-1 study with so many repeats of the estimates
+struct StudyRun : CourseRun {
+  Crew crew = {};                            ///< none: the threads of all cores, until `stop`
+  std::optional<std::uint64_t> repeat = {};  ///< type-1 study with so many repeats of the estimates
 };
 
 StudyResult runStudy(const Study& study, const toml::table& setup, const Model& model, const StudyRun& run);

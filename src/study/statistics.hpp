@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
@@ -24,16 +26,31 @@ struct Summary {
   double minimum = 0, maximum = 0, median = 0;
   std::optional<Interval> symmetric;  ///< as many values below as above
   std::optional<Interval> shortest;
+  /// By how much median and ends of the intervals may be wrong because values were counted in cells; 0: not at all.
+  double quantileError = 0;
 };
+
+/// Values in ascending order, each with how often it came.
+using Counted = std::vector<std::pair<double, std::uint64_t>>;
+
+/// Count, mean and sum of the squares of deviations from it.
+struct Moments {
+  double count = 0, mean = 0, squares = 0;
+  void add(const Moments& other);
+  double deviation() const;
+};
+Moments momentsOf(std::span<const double> values);
 
 /// The values that are there.
 std::vector<double> present(std::span<const double> values);
 
 /// Intervals for `coverage`; none where the sample is too small to have one.
 Summary summarize(std::span<const double> values, double coverage);
+Summary summarize(const Counted& values, const Moments& moments, double coverage);
 
 /// At most 50 bins of equal width, by the rule of Freedman and Diaconis.
 Histogram histogramOf(std::span<const double> values);
+Histogram histogramOf(const Counted& values);
 
 /// Pearson's coefficient of the pairs that are both there; nothing if fewer than 2 or one of the two stands still.
 std::optional<double> correlation(std::span<const double> a, std::span<const double> b);

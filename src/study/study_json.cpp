@@ -35,7 +35,8 @@ json summary(const Summary& summary) {
           {"median", number(summary.median)},
           {"maximum", number(summary.maximum)},
           {"symmetricInterval", interval(summary.symmetric)},
-          {"shortestInterval", interval(summary.shortest)}};
+          {"shortestInterval", interval(summary.shortest)},
+          {"quantileError", number(summary.quantileError)}};
 }
 
 json risks(const Risks& risks) {

@@ -96,6 +96,8 @@ public:
   explicit TrialTable(std::size_t sources) : inputs_(sources) {}
 
   void add(const Draw& draw, const Outcome& outcome);
+  /// A column for a result, whether or not a trial comes to it.
+  void expect(const Characteristic& characteristic) { placeOf(characteristic, size()); }
 
   std::size_t size() const { return trials_.size(); }
   const std::vector<Characteristic>& characteristics() const { return characteristics_; }

@@ -8,6 +8,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "base/file.hpp"
 #include "base/number_text.hpp"
@@ -23,6 +25,7 @@ constexpr std::array<const char*, 4> endNames = {"finished", "alarm", "refused",
 constexpr std::size_t fixedColumns = 3;
 /// Before the name of a column that holds the true values of another.
 constexpr std::string_view truthOf = "truth of ";
+constexpr std::string_view sourceName = "source ";
 
 std::string inQuotes(std::string_view text) {
   std::string result = "\"";
@@ -66,18 +69,16 @@ std::vector<std::string> cellsOf(std::string_view line) {
   return cells;
 }
 
-/// The next line with its end; nothing if the text ends before the line does.
-std::optional<std::string_view> nextLine(std::string_view& text) {
-  const std::size_t end = text.find('\n');
-  if (end == std::string_view::npos) return std::nullopt;
-  const std::string_view line = text.substr(0, end);
-  text.remove_prefix(end + 1);
-  return line;
+double numberOf(const std::string& cell, bool& whole) {
+  if (cell.empty()) return missing;
+  double value = missing;
+  const char* last = cell.data() + cell.size();
+  const auto read = std::from_chars(cell.data(), last, value);
+  whole = whole && read.ec == std::errc() && read.ptr == last;
+  return value;
 }
 
-/// Adds to the end of a file, or makes it anew, and sees that it reaches the disk.
-Result<void> put(const fs::path& path, const std::string& text, bool append) {
-  if (!append) return writeFileAtomically(path, text);
+Result<void> append(const fs::path& path, const std::string& text) {
   const int file = open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   if (file < 0) return failErrno(path, "add trials to the file");
   if (!writeAll(file, text)) {
@@ -91,104 +92,187 @@ Result<void> put(const fs::path& path, const std::string& text, bool append) {
 
 }  // namespace
 
-TrialWriter::TrialWriter(fs::path path, std::string mark, std::vector<std::string> sources)
-    : path_(std::move(path)), mark_(std::move(mark)), sources_(std::move(sources)) {}
+Result<TrialReader> TrialReader::open(const fs::path& path, std::string_view mark) {
+  TrialReader reader;
+  reader.file_.open(path, std::ios::binary);
+  std::string line;
+  if (!reader.file_) return failErrno(path, "read the trials");
+  if (!std::getline(reader.file_, line) || !line.starts_with(heading))
+    return fail({path.string(), 1, 1}, "this is not the file of a study's trials",
+                "leave out --resume, or name "
+                "the folder of the study that was broken off");
+  if (line.substr(heading.size()) != mark)
+    return fail({path.string(), 1, 1},
+                "these trials are of another study: program, setup, sources or seed are different",
+                "leave out --resume to begin anew");
+  reader.bytes_ = line.size() + 1;
+  if (!std::getline(reader.file_, line) || reader.file_.eof()) return reader;
+  reader.headed_ = true;
+  reader.bytes_ += line.size() + 1;
+  const std::vector<std::string> names = cellsOf(line);
+  for (std::size_t i = fixedColumns; i < names.size(); ++i) {
+    if (reader.columns_.results.empty() && names[i].starts_with(sourceName)) {
+      reader.columns_.sources.push_back(names[i].substr(sourceName.size()));
+    } else if (!names[i].starts_with(truthOf)) {
+      reader.columns_.results.push_back(names[i]);
+    } else {
+      const std::string key = names[i].substr(truthOf.size());
+      const auto place = std::ranges::find(reader.columns_.results, key) - reader.columns_.results.begin();
+      reader.columns_.truths.push_back(key);
+      reader.truthOf_.push_back(static_cast<std::size_t>(place));
+    }
+  }
+  return reader;
+}
 
-std::string TrialWriter::rows(const TrialTable& table, std::size_t begin) const {
-  std::vector<const std::string*> why(table.size(), nullptr);
-  for (const auto& [text, places] : table.stops())
-    for (const std::size_t place : places)
-      why[place] = &text;
+std::optional<TrialReader::Trial> TrialReader::next() {
+  std::string line;
+  // A line without its end was not written whole.
+  if (!headed_ || !std::getline(file_, line) || file_.eof()) return std::nullopt;
+  const std::vector<std::string> cells = cellsOf(line);
+  const std::size_t results = fixedColumns + columns_.sources.size(), truths = results + columns_.results.size();
+  if (cells.size() != truths + columns_.truths.size() || parseInteger(cells[0]) != static_cast<long long>(trials_))
+    return std::nullopt;
+  Trial trial;
+  const auto end = std::ranges::find(endNames, cells[1]);
+  if (end == endNames.end()) return std::nullopt;
+  trial.outcome.end = static_cast<TrialEnd>(end - endNames.begin());
+  trial.outcome.why = cells[2];
+  bool whole = true;
+  for (std::size_t i = fixedColumns; i < results; ++i)
+    trial.inputs.push_back(numberOf(cells[i], whole));
+  std::vector<std::optional<double>> known(columns_.results.size());
+  for (std::size_t i = 0; i < columns_.truths.size(); ++i)
+    if (const double truth = numberOf(cells[truths + i], whole); truthOf_[i] < known.size() && !std::isnan(truth))
+      known[truthOf_[i]] = truth;
+  for (std::size_t i = 0; i < columns_.results.size(); ++i) {
+    if (cells[results + i].empty()) continue;
+    Observation observation;
+    observation.of.key = columns_.results[i];
+    observation.value = numberOf(cells[results + i], whole);
+    observation.truth = known[i];
+    trial.outcome.observations.push_back(std::move(observation));
+  }
+  if (!whole) return std::nullopt;
+  bytes_ += line.size() + 1;
+  ++trials_;
+  return trial;
+}
+
+TrialWriter::TrialWriter(fs::path path, std::string mark, std::vector<std::string> sources)
+    : path_(std::move(path)), mark_(std::move(mark)), columns_{std::move(sources), {}, {}} {}
+
+Result<void> TrialWriter::goOn(const TrialReader& done) {
+  if (done.trials() == 0) return {};
+  std::error_code error;
+  fs::resize_file(path_, done.bytes(), error);
+  if (error) return fail({path_.string(), 0, 0}, "cannot go on with the file: " + error.message(), "");
+  columns_ = done.columns();
+  begun_ = true;
+  return {};
+}
+
+bool TrialWriter::learn(std::span<const Outcome> outcomes) {
+  std::set<std::string> known(columns_.results.begin(), columns_.results.end()),
+      withTruth(columns_.truths.begin(), columns_.truths.end());
+  bool more = false;
+  for (const Outcome& outcome : outcomes) {
+    for (const Observation& observation : outcome.observations) {
+      if (known.insert(observation.of.key).second) {
+        columns_.results.push_back(observation.of.key);
+        more = true;
+      }
+      more = (observation.truth && withTruth.insert(observation.of.key).second) || more;
+    }
+  }
+  columns_.truths.clear();
+  for (const std::string& key : columns_.results)
+    if (withTruth.contains(key)) columns_.truths.push_back(key);
+  return more;
+}
+
+std::string TrialWriter::heading() const {
+  std::string text = fmt::format("{}{}\ntrial,end,why", study::heading, mark_);
+  for (const std::string& source : columns_.sources)
+    text += "," + inQuotes(std::string(sourceName) + source);
+  for (const std::string& key : columns_.results)
+    text += "," + inQuotes(key);
+  for (const std::string& key : columns_.truths)
+    text += "," + inQuotes(std::string(truthOf) + key);
+  return text + "\n";
+}
+
+std::string TrialWriter::rows(std::span<const Draw> draws, std::span<const Outcome> outcomes) const {
+  std::map<std::string, std::size_t> places, truthPlaces;
+  for (const std::string& key : columns_.results)
+    places.emplace(key, places.size());
+  for (const std::string& key : columns_.truths)
+    truthPlaces.emplace(key, truthPlaces.size());
   std::string text;
-  for (std::size_t i = begin; i < table.size(); ++i) {
-    text += fmt::format("{},{},{}", table.trials()[i], endNames[static_cast<std::size_t>(table.ends()[i])],
-                        why[i] == nullptr ? "" : inQuotes(*why[i]));
-    for (std::size_t source = 0; source < sources_.size(); ++source)
-      text += "," + numberText(table.inputs(source)[i]);
-    for (std::size_t column = 0; column < table.characteristics().size(); ++column)
-      text += "," + numberText(table.values(column)[i]);
-    for (std::size_t column = 0; column < table.characteristics().size(); ++column)
-      if (!table.truths(column).empty()) text += "," + numberText(table.truths(column)[i]);
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const Outcome& outcome = outcomes[i];
+    text += fmt::format("{},{},{}", draws[i].trial, endNames[static_cast<std::size_t>(outcome.end)],
+                        outcome.end == TrialEnd::Finished ? "" : inQuotes(outcome.why));
+    for (const double input : draws[i].inputs)
+      text += "," + numberText(input);
+    std::vector<double> values(places.size(), missing), truths(truthPlaces.size(), missing);
+    for (const Observation& observation : outcome.observations) {
+      values[places.at(observation.of.key)] = observation.value;
+      if (observation.truth) truths[truthPlaces.at(observation.of.key)] = *observation.truth;
+    }
+    for (const auto& numbers : {values, truths})
+      for (const double number : numbers)
+        text += "," + numberText(number);
     text += "\n";
   }
   return text;
 }
 
-Result<void> TrialWriter::write(const TrialTable& table) {
-  std::size_t columns = table.characteristics().size();
-  for (std::size_t column = 0; column < table.characteristics().size(); ++column)
-    columns += table.truths(column).empty() ? 0 : 1;
-  const bool append = begun_ && columns_ == columns;
-  std::string text;
-  if (!append) {
-    text = fmt::format("{}{}\ntrial,end,why", heading, mark_);
-    for (const std::string& source : sources_)
-      text += "," + inQuotes("source " + source);
-    for (const Characteristic& characteristic : table.characteristics())
-      text += "," + inQuotes(characteristic.key);
-    for (std::size_t column = 0; column < table.characteristics().size(); ++column)
-      if (!table.truths(column).empty())
-        text += "," + inQuotes(std::string(truthOf) + table.characteristics()[column].key);
-    text += "\n";
+/// The file anew, with the columns that have come.
+Result<void> TrialWriter::rewrite(const TrialColumns& before, const std::string& more) {
+  auto reader = TrialReader::open(path_, mark_);
+  if (!reader) return tl::unexpected(reader.error());
+  const fs::path neighbour = fs::path(path_).concat(".new");
+  Result<void> done = writeFileAtomically(neighbour, heading());
+  constexpr std::size_t atOnce = 1000;
+  std::vector<Draw> draws;
+  std::vector<Outcome> outcomes;
+  for (bool any = true; any && done;) {
+    draws.clear();
+    outcomes.clear();
+    while (draws.size() < atOnce) {
+      const std::uint64_t trial = reader->trials();
+      auto read = reader->next();
+      if (!read) break;
+      draws.push_back({trial, std::move(read->inputs), {}});
+      outcomes.push_back(std::move(read->outcome));
+    }
+    any = !draws.empty();
+    if (any) done = append(neighbour, rows(draws, outcomes));
   }
-  text += rows(table, append ? written_ : 0);
-  if (const Result<void> done = put(path_, text, append); !done) return done;
-  begun_ = true;
-  written_ = table.size();
-  columns_ = columns;
-  return {};
+  if (done) done = append(neighbour, more);
+  std::error_code error;
+  if (done) {
+    fs::rename(neighbour, path_, error);
+    if (error) done = fail({path_.string(), 0, 0}, "cannot write the trials: " + error.message(), "");
+  }
+  if (!done) {
+    columns_ = before;
+    fs::remove(neighbour, error);
+  }
+  return done;
 }
 
-Result<std::vector<Outcome>> readTrials(const fs::path& path, std::string_view mark) {
-  const auto bytes = readFile(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  std::string_view text = *bytes;
-  const auto first = nextLine(text);
-  if (!first || !first->starts_with(heading))
-    return fail({path.string(), 1, 1}, "this is not the file of a study's trials",
-                "leave out --resume, or name "
-                "the folder of the study that was broken off");
-  if (first->substr(heading.size()) != mark)
-    return fail({path.string(), 1, 1},
-                "these trials are of another study: program, setup, sources or seed are different",
-                "leave out --resume to begin anew");
-  const auto names = nextLine(text);
-  std::vector<Outcome> outcomes;
-  if (!names) return outcomes;
-  const std::vector<std::string> columns = cellsOf(*names);
-  // How many of the columns are sources, the mark says; here only results count.
-  std::size_t sources = 0;
-  while (fixedColumns + sources < columns.size() && columns[fixedColumns + sources].starts_with("source "))
-    ++sources;
-  while (const auto line = nextLine(text)) {
-    const std::vector<std::string> cells = cellsOf(*line);
-    if (cells.size() != columns.size() || parseInteger(cells[0]) != static_cast<long long>(outcomes.size())) break;
-    Outcome outcome;
-    const auto end = std::ranges::find(endNames, cells[1]);
-    if (end == endNames.end()) break;
-    outcome.end = static_cast<TrialEnd>(end - endNames.begin());
-    outcome.why = cells[2];
-    bool whole = true;
-    for (std::size_t i = fixedColumns + sources; i < cells.size(); ++i) {
-      if (cells[i].empty()) continue;
-      double value = 0;
-      const char* last = cells[i].data() + cells[i].size();
-      const auto read = std::from_chars(cells[i].data(), last, value);
-      whole = whole && read.ec == std::errc() && read.ptr == last;
-      const bool isTruth = columns[i].starts_with(truthOf);
-      const std::string key = isTruth ? columns[i].substr(truthOf.size()) : columns[i];
-      const auto same = std::ranges::find_if(outcome.observations, [&](const auto& o) { return o.of.key == key; });
-      if (isTruth && same != outcome.observations.end()) same->truth = value;
-      if (isTruth) continue;
-      Observation observation;
-      observation.of.key = key;
-      observation.value = value;
-      outcome.observations.push_back(std::move(observation));
-    }
-    if (!whole) break;
-    outcomes.push_back(std::move(outcome));
+Result<void> TrialWriter::write(std::span<const Draw> draws, std::span<const Outcome> outcomes) {
+  const TrialColumns before = columns_;
+  const bool more = learn(outcomes);
+  const std::string text = rows(draws, outcomes);
+  if (!begun_) {
+    const Result<void> done = writeFileAtomically(path_, heading() + text);
+    begun_ = done.has_value();
+    return done;
   }
-  return outcomes;
+  return more ? rewrite(before, text) : append(path_, text);
 }
 
 std::optional<Diagnostic> whyNotTrials(const fs::path& path) {
@@ -200,9 +284,10 @@ std::optional<Diagnostic> whyNotTrials(const fs::path& path) {
         .value();
   };
   if (!fs::is_regular_file(path, error)) return foreign();
-  const auto bytes = readFile(path);
-  if (!bytes) return bytes.error();
-  return bytes->starts_with(heading) ? std::nullopt : std::optional(foreign());
+  std::ifstream file(path, std::ios::binary);
+  std::string first(heading.size(), ' ');
+  file.read(first.data(), static_cast<std::streamsize>(first.size()));
+  return file && first == heading ? std::nullopt : std::optional(foreign());
 }
 
 }  // namespace probewright::study

@@ -123,7 +123,8 @@ TEST(StudyCommand, SharesTrialsAmongRanksOfMpi) {
   EXPECT_NE(expected, "");
   EXPECT_EQ(textOf(folder / "two/study.json"), expected);
   EXPECT_EQ(textOf(folder / "three/study.json"), expected);
-  EXPECT_EQ(textOf(folder / "two/trials.csv"), textOf(folder / "one/trials.csv"));
+  // Several ranks hand in sums: the values stay where they are, unless --keep asks for them.
+  EXPECT_FALSE(std::filesystem::exists(folder / "two/trials.csv"));
 }
 
 TEST(StudyCommand, NeverReplacesWhatIsNotOfAStudy) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <utility>
 
 #include "study/program_bench.hpp"
 #include "study/study_json.hpp"
@@ -149,8 +150,8 @@ TEST(ProgramStudy, GoesOnWhereItWasBrokenOff) {
   TrialWriter writer(folder.path() / "trials.csv", "mark", {"part.pose.x"});
   StudyRun run;
   run.stop = stop.get_token();
-  run.keep = [&](const TrialTable& table) {
-    ASSERT_TRUE(writer.write(table));
+  run.keep = [&](std::span<const Draw> draws, std::span<const Outcome> outcomes) {
+    ASSERT_TRUE(writer.write(draws, outcomes));
     stop.request_stop();
   };
   const StudyResult broken = studyOfProgram(plateSetup(), program(bore(3, 4)), study, run);
@@ -158,13 +159,30 @@ TEST(ProgramStudy, GoesOnWhereItWasBrokenOff) {
   EXPECT_LT(broken.trials, 1200U);
   // A line that was cut off by a crash does not count.
   std::ofstream(folder.path() / "trials.csv", std::ios::app) << "500,finished,,0.1,3";
-  auto kept = readTrials(folder.path() / "trials.csv", "mark");
+  auto kept = TrialReader::open(folder.path() / "trials.csv", "mark");
   ASSERT_TRUE(kept) << format(kept.error());
-  EXPECT_EQ(kept->size(), broken.trials);
   StudyRun rest;
-  rest.done = std::move(*kept);
+  rest.done = [&]() -> std::optional<Outcome> {
+    const auto trial = kept->next();
+    return trial ? std::optional(trial->outcome) : std::nullopt;
+  };
+  TrialWriter more(folder.path() / "trials.csv", "mark", {"part.pose.x"});
+  bool begun = false;
+  rest.keep = [&](std::span<const Draw> draws, std::span<const Outcome> outcomes) {
+    if (!std::exchange(begun, true)) {
+      ASSERT_TRUE(more.goOn(*kept));
+    }
+    ASSERT_TRUE(more.write(draws, outcomes));
+  };
   EXPECT_TRUE(jsonOf(studyOfProgram(plateSetup(), program(bore(3, 4)), study, rest)) == expected);
-  EXPECT_FALSE(readTrials(folder.path() / "trials.csv", "another"));
+  EXPECT_EQ(kept->trials(), broken.trials);
+  auto whole = TrialReader::open(folder.path() / "trials.csv", "mark");
+  ASSERT_TRUE(whole);
+  std::uint64_t trials = 0;
+  while (whole->next())
+    ++trials;
+  EXPECT_EQ(trials, 1200U);
+  EXPECT_FALSE(TrialReader::open(folder.path() / "trials.csv", "another"));
   EXPECT_TRUE(whyNotTrials(folder.file("mine.csv", "a,b\n")));
   EXPECT_FALSE(whyNotTrials(folder.path() / "trials.csv"));
 }
@@ -217,6 +235,53 @@ TEST(ProgramStudy, GivesTheSameBitsOnAnyNumberOfRanks) {
     for (const std::string& each : found)
       EXPECT_TRUE(each == expected);
   }
+}
+
+/// Ranks that hand in sums, each on its thread, and one that goes on alone where they were stopped.
+TEST(ProgramStudy, GivesTheSameBitsWhereRanksHandInSums) {
+  const std::string study =
+      "sensitivity_trials = 20\nblock = 700\ndigits = 1\nmost_trials = 2100\n[[measurand]]\nresult = \"Q153\"\nlower = "
+      "29.9\n"
+      "upper = 30.1\n" +
+      place;
+  const std::string setup = plateSetup("repeatability = 0.001\n");
+  const std::string expected = jsonOf(studyOfProgram(setup, program(bore(3, 4)), study));
+  std::string state;
+  for (const int size : {1, 2, 3, 4}) {
+    std::barrier everybody(size);
+    std::vector<std::string> board(static_cast<std::size_t>(size)), found(static_cast<std::size_t>(size));
+    std::vector<std::thread> threads;
+    for (int rank = 0; rank < size; ++rank) {
+      threads.emplace_back([&, rank] {
+        const Ranks ranks{rank, size, [&, rank](const std::string& mine) {
+                            board[static_cast<std::size_t>(rank)] = mine;
+                            everybody.arrive_and_wait();
+                            const std::vector<std::string> all = board;
+                            everybody.arrive_and_wait();
+                            return all;
+                          }};
+        StudyRun run;
+        run.crew = rankCrew(ranks, 1, {}, {});
+        run.summing = Summing{ranks, threadCrew(1, {}), {}, 300};
+        int states = 0;
+        run.keepState = [&](const std::string& told) {
+          if (rank == 0 && size == 3 && ++states == 3) state = told;
+        };
+        found[static_cast<std::size_t>(rank)] = jsonOf(studyOfProgram(setup, program(bore(3, 4)), study, run));
+      });
+    }
+    for (std::thread& thread : threads)
+      thread.join();
+    for (const std::string& each : found)
+      EXPECT_TRUE(each == expected) << size;
+  }
+  ASSERT_FALSE(state.empty());
+  StudyRun rest;
+  rest.state = state;
+  std::uint64_t begun = 0;
+  rest.report = [&](const std::string&, std::uint64_t done, std::uint64_t) { begun = begun == 0 ? done : begun; };
+  EXPECT_TRUE(jsonOf(studyOfProgram(setup, program(bore(3, 4)), study, rest)) == expected);
+  EXPECT_GT(begun, 700U);
 }
 
 /// One of two ranks is stopped: both end after the same trial.

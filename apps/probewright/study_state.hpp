@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "base/diagnostic.hpp"
+
+/// Where a study whose ranks hand in sums has come to, in its output folder: to go on after an interruption.
+namespace probewright::app {
+
+/// Nothing if there is no such file. Fails if it is of another study than `mark` says, or something else.
+Result<std::optional<std::string>> readStudyState(const std::filesystem::path& folder, const std::string& mark);
+Result<void> writeStudyState(const std::filesystem::path& folder, const std::string& mark, const std::string& state);
+
+/// Why the file must not be written there: something else has its name. Nothing if it may.
+std::optional<Diagnostic> whyNotStudyState(const std::filesystem::path& folder);
+/// Removes what whyNotStudyState() lets write.
+void removeStudyState(const std::filesystem::path& folder);
+
+}  // namespace probewright::app

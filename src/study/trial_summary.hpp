@@ -1,0 +1,126 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "study/conformity.hpp"
+#include "study/trial.hpp"
+#include "study/value_cells.hpp"
+
+/// What trials say together, in few bytes and in whole numbers: parts of the trials may be added up in any order, on
+/// any thread or rank, and give the same bits.
+namespace probewright::study {
+
+/// What the first trials tell of those to come: which results there are, where they lie and how far they vary.
+struct Grid {
+  /// Moments are counted in steps of 2^-30 of the power of two below the standard deviation of the first trials.
+  struct Scale {
+    double reference = 0, step = 1;
+  };
+  struct Column {
+    Characteristic of;
+    Scale values, errors;
+    bool hasTruth = false;  ///< each of the first trials knows the true value
+    std::optional<Tolerance> tolerance;
+  };
+  std::vector<Column> columns;
+
+  /// Correlations are of the first so many results.
+  static constexpr std::size_t mostCorrelated = 200;
+  std::size_t correlated() const { return std::min(columns.size(), mostCorrelated); }
+};
+using LimitsOf = std::function<std::optional<Tolerance>(const Characteristic&)>;
+std::shared_ptr<const Grid> gridOf(const TrialTable& first, const LimitsOf& limitsOf);
+
+/// The sum of trials. A trial that does not fit the grid (an alarm, results that come or go, a value farther than
+/// 65,536 standard deviations away) is kept whole.
+class TrialSummary {
+public:
+  using Row = std::pair<std::uint64_t, Outcome>;  ///< the number of the trial, what it answered
+  __extension__ using Wide = __int128;
+
+  TrialSummary() = default;
+  explicit TrialSummary(std::shared_ptr<const Grid> grid);
+
+  void add(std::uint64_t trial, Outcome outcome);
+  /// Of the same grid, or of none.
+  void merge(const TrialSummary& other);
+
+  std::uint64_t size() const { return regular_ + rows_.size(); }
+  /// Trials that are counted and not kept.
+  std::uint64_t regular() const { return regular_; }
+  /// Those that are kept whole, in no order.
+  const std::vector<Row>& rows() const { return rows_; }
+  const std::shared_ptr<const Grid>& grid() const { return grid_; }
+
+  std::string message() const;
+  /// Throws what is not a message, or not of this grid.
+  static TrialSummary read(const std::string& message, std::shared_ptr<const Grid> grid);
+
+  /// One of values or errors of a result in the trials that are counted.
+  struct Sums {
+    Wide sum = 0, squares = 0;  ///< of distances from the reference, in steps
+    double minimum = 0, maximum = 0;
+  };
+  struct Column {
+    Sums values, errors;
+    ValueCells within, beyond;  ///< values; beyond: of items whose true value is beyond the tolerance
+    ValueCells errorCells;
+    double leastTruth = 0, greatestTruth = 0;
+    /// Against the tolerance itself.
+    std::uint64_t trulyWithin = 0, accepted = 0, falselyAccepted = 0, falselyRejected = 0;
+  };
+  const std::vector<Column>& columns() const { return columns_; }
+  /// The sum of products of two of the correlated results, a <= b, in steps of both.
+  Wide product(std::size_t a, std::size_t b) const { return products_[a * grid_->correlated() + b]; }
+
+private:
+  bool count(const Outcome& outcome);
+
+  std::shared_ptr<const Grid> grid_;
+  std::uint64_t regular_ = 0;
+  std::vector<Column> columns_;
+  std::vector<Wide> products_;
+  std::vector<Row> rows_;
+  // Of the trial that is being added, by columns.
+  std::vector<std::int64_t> steps_;
+  std::vector<const Observation*> counted_;
+};
+
+/// What a sum of trials says of each result.
+class Findings {
+public:
+  Findings(const TrialSummary& trials, const Sampler& sampler);
+
+  std::size_t size() const { return static_cast<std::size_t>(trials_.size()); }
+  const std::vector<Characteristic>& characteristics() const { return table_.characteristics(); }
+  /// Trials that are kept whole, in their order: all that were stopped are among them.
+  const TrialTable& kept() const { return table_; }
+  std::size_t finished() const;
+
+  /// Trials that came to the result.
+  std::uint64_t count(std::size_t i) const;
+  Summary values(std::size_t i, double coverage) const;
+  Histogram histogram(std::size_t i) const;
+  /// Of measured less true value; nothing unless the true value is known wherever there is a measured one.
+  std::optional<Summary> errors(std::size_t i, double coverage) const;
+  /// Mean of the true values where errors() are known.
+  double truth(std::size_t i) const;
+  /// Of accepting what lies in `acceptance`; the counts of `exactly` the tolerance are exact.
+  Risks risks(std::size_t i, const Tolerance& tolerance, const Tolerance& acceptance, bool exactly) const;
+  /// Of trials that came to both; nothing where one of them does not vary.
+  std::optional<double> correlation(std::size_t a, std::size_t b) const;
+
+private:
+  const TrialSummary::Column* column(std::size_t i) const;
+  bool truthIsKnown(std::size_t i) const;
+  std::vector<double> keptErrors(std::size_t i) const;
+
+  const TrialSummary& trials_;
+  TrialTable table_;
+};
+
+}  // namespace probewright::study
