@@ -82,6 +82,7 @@ private:
     unable_ = {};
     scale_.clear();
     unitless_.clear();
+    misplaced_.clear();
     unused_ = {};
     failure_.clear();
     edges_.clear();
@@ -128,9 +129,9 @@ private:
   bool receive(HandedBytes bytes) {
     pieces_.push_back(std::move(bytes));
     if (pieces_.size() == 1) {
-      exact_ = std::async(std::launch::async, [this, shape = pieces_.front().view()] {
-        return exactModel(shape, order_.deflection, options_.stop);
-      });
+      // It may begin and end later than this import is there.
+      exact_ = std::async(std::launch::async, [shape = pieces_.front().view(), deflection = order_.deflection,
+                                               stop = options_.stop] { return exactModel(shape, deflection, stop); });
     }
     return pieces_.size() == 2;
   }
@@ -164,6 +165,9 @@ private:
     } else if (word == "gap") {
       const auto [label, size] = firstWord(rest);
       gaps_.push_back({std::string(label), std::string(size)});
+    } else if (word == "misplaced") {
+      const auto [label, reason] = firstWord(rest);
+      misplaced_.push_back({std::string(label), std::string(reason)});
     } else if (word == "unitless") {
       unitless_ = rest;
     } else if (word == "unused") {
@@ -280,7 +284,9 @@ private:
                      memory ? "simplify the part, or export it as STL" : "");
     }
     return mistake(names_->lineOf(label), fmt::format("{} {}", names_->nameOf(label), what),
-                   "the file is damaged in this entity or in one that it refers to; export or copy the part again");
+                   memory ? "simplify the part, or export it as STL; one wrong letter in this entity can do that, too"
+                          : "the file is damaged in this entity or in one that it refers to; export or copy the part "
+                            "again");
   }
 
   /// The entity that a crash is about: the face if one alone does it, else the body.
@@ -345,10 +351,16 @@ private:
                              : "they, their corners and its surface are up to " + gaps_[i].size + " mm apart"),
              "contacts there may be wrong by as much; compare the part with that in the CAD system, export it again");
     }
+    for (std::size_t i = 0; i < std::min(misplaced_.size(), kMostNamed); ++i) {
+      remark(part, names_->lineOf(misplaced_[i].label),
+             fmt::format("{} cannot be read: {}", names_->nameOf(misplaced_[i].label), misplaced_[i].reason),
+             "bodies may be missing or stand elsewhere; the file is damaged in this entity: export or copy it again");
+    }
     if (!unitless_.empty()) {
       remark(part, names_->lineOf(unitless_),
-             fmt::format("{}: its lengths have no unit and are taken as mm", names_->nameOf(unitless_)),
-             "compare the size of the part with that in the CAD system, or export it again");
+             fmt::format("{}: its lengths have no unit that can be read", names_->nameOf(unitless_)),
+             "the part may have a wrong size; compare the size of the part with that in the CAD system, or export it "
+             "again");
     }
     if (!scale_.empty()) {
       remark(part, 0, fmt::format("the model is drawn {} times its true size; the part has its true size", scale_),
@@ -396,6 +408,7 @@ private:
   Suspect unable_;
   std::string scale_;
   std::string unitless_;
+  std::vector<Suspect> misplaced_;
   Gap unused_;  ///< the first of so many faces
   std::string stage_, failure_, edges_, at_;
   bool skin_ = false, nothing_ = false, meshing_ = false, preparing_ = false;

@@ -21,6 +21,7 @@
 #include <STEPControl_Reader.hxx>
 #include <Standard_Failure.hxx>
 #include <StepData_StepModel.hxx>
+#include <StepData_UndefinedEntity.hxx>
 #include <StepShape_FaceSurface.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -35,9 +36,11 @@
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <sstream>
 #include <system_error>
 #include <thread>
@@ -77,6 +80,57 @@ bool isGeometry(const Handle(Interface_InterfaceModel) & model, int place) {
          type.starts_with("IGESSolid_");
 }
 
+/// What says which bodies a product has and where they stand.
+bool isStructure(const Handle(Interface_InterfaceModel) & model, int place) {
+  const Handle(Standard_Transient) entity =
+      model->IsErrorEntity(place) ? model->ReportEntity(place)->Concerned() : model->Value(place);
+  if (entity.IsNull()) return false;
+  constexpr std::array<std::string_view, 12> types{"StepRepr_AssemblyComponentUsage",
+                                                   "StepRepr_ItemDefinedTransformation",
+                                                   "StepRepr_MappedItem",
+                                                   "StepRepr_NextAssemblyUsageOccurrence",
+                                                   "StepRepr_ProductDefinitionShape",
+                                                   "StepRepr_RepresentationMap",
+                                                   "StepRepr_RepresentationRelationship",
+                                                   "StepRepr_RepresentationRelationshipWithTransformation",
+                                                   "StepRepr_ShapeRepresentationRelationship",
+                                                   "StepRepr_ShapeRepresentationRelationshipWithTransformation",
+                                                   "StepShape_ContextDependentShapeRepresentation",
+                                                   "StepShape_ShapeDefinitionRepresentation"};
+  return std::ranges::find(types, std::string_view(entity->DynamicType()->Name())) != types.end();
+}
+
+/// True for the type of an entity that nobody knows, but that is one of these but for a letter or two.
+bool isNearlyStructure(std::string_view type) {
+  constexpr std::array<std::string_view, 8> types{
+      "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION", "ITEM_DEFINED_TRANSFORMATION",      "MAPPED_ITEM",
+      "NEXT_ASSEMBLY_USAGE_OCCURRENCE",         "PRODUCT_DEFINITION_SHAPE",         "REPRESENTATION_MAP",
+      "SHAPE_DEFINITION_REPRESENTATION",        "SHAPE_REPRESENTATION_RELATIONSHIP"};
+  return std::ranges::any_of(types, [&](std::string_view known) {
+    constexpr std::ptrdiff_t fewLetters = 2;
+    if (known.size() != type.size()) return false;
+    const auto same = std::inner_product(known.begin(), known.end(), type.begin(), std::ptrdiff_t{0}, std::plus<>(),
+                                         [](char a, char b) { return a == b ? 1 : 0; });
+    return same + fewLetters >= static_cast<std::ptrdiff_t>(known.size());
+  });
+}
+
+/// Names what is wrong with entities before anything is made of them.
+void nameFaults(const Handle(Interface_InterfaceModel) & model, const ChildVoice& voice) {
+  int told = 0;
+  for (int i = 1; i <= model->NbEntities() && told < kMostSuspects; ++i) {
+    const auto unknown = Handle(StepData_UndefinedEntity)::DownCast(model->Value(i));
+    const bool strange = !unknown.IsNull() && isNearlyStructure(unknown->StepType());
+    if (!strange && !model->IsReportEntity(i)) continue;
+    const Handle(Interface_Check) check = model->Check(i, Standard_True);
+    const bool structure = strange || isStructure(model, i);
+    if (!strange && (check->NbFails() == 0 || (!structure && !isGeometry(model, i)))) continue;
+    const char* reason = strange ? "its type is not known" : check->CFail(1);
+    voice.say(fmt::format("{} {} {}", structure ? "misplaced" : "suspect", labelOf(model, model->Value(i)), reason));
+    ++told;
+  }
+}
+
 /// Says why there is no shape, unless there was not enough memory: libraries take that for a mistake in the file.
 void sayFailed(const ChildVoice& voice, std::string_view reason) {
   if (ranShortOfMemory()) throw std::bad_alloc();
@@ -101,16 +155,7 @@ std::unique_ptr<XSControl_Reader> load(const TransferOrder& order, const ChildVo
     status = reader->ReadFile(order.file.c_str());
   }
   const Handle(Interface_InterfaceModel) model = reader->WS()->Model();
-  if (!model.IsNull()) {
-    int told = 0;
-    for (int i = 1; i <= model->NbEntities() && told < kMostSuspects; ++i) {
-      if (!model->IsReportEntity(i)) continue;
-      const Handle(Interface_Check) check = model->Check(i, Standard_True);
-      if (check->NbFails() == 0 || !isGeometry(model, i)) continue;
-      voice.say(fmt::format("suspect {} {}", labelOf(model, model->Value(i)), check->CFail(1)));
-      ++told;
-    }
-  }
+  if (!model.IsNull()) nameFaults(model, voice);
   if (status == IFSelect_RetDone) {
     if (const auto placement = misreadPlacement(model); !placement.IsNull()) {
       voice.say(

@@ -1,5 +1,6 @@
 #include "simulation/cad_units.hpp"
 
+#include <Interface_Check.hxx>
 #include <Interface_ReportEntity.hxx>
 #include <STEPConstruct_UnitContext.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
@@ -18,6 +19,15 @@ Handle(StepRepr_GlobalUnitAssignedContext) unitsOf(const Handle(Standard_Transie
   return Handle(StepRepr_GlobalUnitAssignedContext)::DownCast(context);
 }
 
+/// True if one of the units cannot be read: one wrong letter in METRE makes a thousand of a length.
+bool haveFaults(const StepRepr_GlobalUnitAssignedContext& units, const Handle(Interface_InterfaceModel) & model) {
+  for (int i = 1; i <= units.NbUnits(); ++i) {
+    const int place = units.UnitsValue(i).IsNull() ? 0 : model->Number(units.UnitsValue(i));
+    if (place == 0 || model->Check(place, Standard_True)->NbFails() > 0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Handle(Standard_Transient) withoutLengthUnit(const Handle(Interface_InterfaceModel) & model) {
@@ -28,8 +38,8 @@ Handle(Standard_Transient) withoutLengthUnit(const Handle(Interface_InterfaceMod
     if (shape.IsNull() || shape->Items().IsNull()) continue;
     const Handle(StepRepr_GlobalUnitAssignedContext) units = unitsOf(shape->ContextOfItems());
     STEPConstruct_UnitContext context;
-    if (!units.IsNull()) context.ComputeFactors(units);
-    if (units.IsNull() || !context.LengthDone()) return model->Value(i);
+    if (!units.IsNull() && !units->Units().IsNull()) context.ComputeFactors(units);
+    if (!context.LengthDone() || haveFaults(*units, model)) return model->Value(i);
   }
   return nullptr;
 }

@@ -268,23 +268,6 @@ TEST(WrittenParts, WithUncertainConesAreRefused) {
   }
 }
 
-/// One wrong letter in the context of a part makes metres of it, or nothing.
-TEST(DamagedParts, WithoutAUnitOfLengthAreNamed) {
-  const ScratchFolder folder;
-  for (const std::string word : {"GLOBAL_UNIT_ASSIGNED_CONTEXT", "REPRESENTATION_CONTEXT(''", "LENGTH_UNIT()NAMED"}) {
-    StepFile file({1000, false});
-    std::string text = file.withItems({solidOf(file, revolvedFaces(file, bush(), Pose::Identity(), {}))});
-    // The last of them is that of metres.
-    text[text.rfind(word) + 2] = '6';
-    const auto solid = readStep(folder.write("part.step", text));
-    if (!solid) continue;
-    std::string all;
-    for (const Diagnostic& remark : dynamic_cast<const CadSolid&>(**solid).remarks())
-      all += format(remark) + "\n";
-    EXPECT_THAT(all, HasSubstr("SHAPE_REPRESENTATION: its lengths have no unit and are taken as mm")) << word;
-  }
-}
-
 TEST(DamagedParts, WhoseFacesBelongToNothingAreNamed) {
   const ScratchFolder folder;
   StepFile file;
