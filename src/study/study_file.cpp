@@ -253,7 +253,7 @@ private:
 
   std::optional<Eigen::MatrixXd> readMatrix(TomlReader& reader, std::string_view key, std::size_t size) {
     const auto values = reader.numbers(key, size * size, anyNumber);
-    if (!values) return std::nullopt;
+    if (!values || size == 0) return std::nullopt;
     Eigen::MatrixXd matrix(size, size);
     for (std::size_t row = 0; row < size; ++row) {
       for (std::size_t column = 0; column < size; ++column)

@@ -191,6 +191,12 @@ TEST(StudyFile, NamesMistakesWithPlaceAndWayOut) {
   EXPECT_THAT(mistakesIn(two + "correlation = [1, 0.5, 0.4, 1]\n"), ::testing::HasSubstr("symmetric"));
   EXPECT_THAT(mistakesIn(two + "covariance = [1, 0, 0, 1]\n"), ::testing::HasSubstr("of its own"));
   EXPECT_THAT(mistakesIn(two), ::testing::HasSubstr("either a covariance or a correlation"));
+  // A group of sources that there are not has no matrix to look at.
+  const std::string of = source + "standard_deviation = 1\n[[group]]\nsources = ";
+  for (const char* matrix : {"covariance = [1, 2, 3]\n", "correlation = [1, 2, 3]\n", "correlation = [1]\n"})
+    for (const char* sources : {"\"z\"\n", "\"\"\n"})
+      EXPECT_THAT(mistakesIn(of + sources + matrix), ::testing::HasSubstr("at least two sources"));
+  EXPECT_THAT(mistakesIn(of + "\"z\"\ncorrelation = [1]\n"), ::testing::HasSubstr("no source is called \"z\""));
 }
 
 }  // namespace
