@@ -280,6 +280,24 @@ TEST(Cycle982Carrier, TurningToolAtAnyAngleInBothAxes) {
   }
 }
 
+TEST(Cycle982Carrier, TurningToolsInG18AtHalfTurnsOfTheirSpindleOnly) {
+  setup::Setup setup = swivelling(toolSetup());
+  add(setup, turningTool(5, 3, {25, 60}, 0.8), "turn");
+  LatheBench bench(setup);
+  bench.set("$MNS_MEA_FUNCTION_MASK", {}, (1 << 16) + 11);
+  const auto at = [](const char* before) {
+    return fmt::format(
+        "DIAMOF\nT5 D1\nSETMS(2)\nG0 B10\nSUPA G0 Z560 D0\nSUPA G0 X250 D0\nD1\n{}"
+        "CYCLE982(2,0,1,,,,5,1)",
+        before);
+  };
+  EXPECT_EQ(bench.alarmOf(at("SPOS=90\n")), "61329");
+  EXPECT_EQ(bench.alarmOf(at("SPOS=0\nG17\n")), "61319");
+  // Where carriers do not count, nobody looks at them.
+  bench.set("$MNS_MEA_FUNCTION_MASK", {}, 11);
+  EXPECT_NE(bench.alarmOf(at("SPOS=90\n")), "61329");
+}
+
 TEST(Cycle982Carrier, MillsAtRightAnglesOnly) {
   setup::Setup setup = swivelling(toolSetup());
   add(setup, rotatedTool(5, false, {0, 70}, 6, 4), "mill");

@@ -1,3 +1,4 @@
+#include "language/sinumerik/check.hpp"
 #include "lathe_tools/tool_bench.hpp"
 
 /// CYCLE982 refuses what it cannot measure, before anything moves or is
@@ -63,6 +64,7 @@ TEST(Cycle982Refuses, WhatItCannotMeasure) {
       {"calibrating with position 8", "61315", "CYCLE982(0,,1,2,,,5,1)", 8},
       {"empirical value 21", "61319", "CYCLE982(2,0,1,,,,5,1,,,,,,1,21)"},
       {"ten measurements", "61319", "CYCLE982(2,0,1,,,,5,1,,,,,,10)"},
+      {"plane 4", "61319", "CYCLE982(2,0,1,,,,5,1,,,,,,,,,R1)", 5, "R1=4\n"},
       {"no measuring axis", "61325", "CYCLE982(1,0,1,,,,5,1)"},
       {"axis 3", "61325", "CYCLE982(1,0,1,3,,,5,1)"},
       {"the radius along the tool", "61325", "CYCLE982(1001,0,1,1,,,5,1)", 6},
@@ -88,6 +90,44 @@ TEST(Cycle982Refuses, WhatItCannotMeasure) {
       EXPECT_TRUE(bench.control.journal.cycles.back().touches.empty());
     }
   }
+}
+
+/// What fits to no tool is known before the run; what does nothing is named.
+TEST(Cycle982Refuses, CallsThatCannotBeMeantBeforeTheRun) {
+  const auto said = [](const std::string& call, Severity severity) {
+    const auto program = language::sinumerik::SinumerikProgram::fromText("C.MPF", call + "\nM30\n");
+    const Diagnostics found = language::sinumerik::check(*program);
+    if (found.empty()) return std::string();
+    EXPECT_EQ(found.front().severity, severity) << call;
+    return found.front().message;
+  };
+  const auto refuses = [&](const std::string& call, const char* what) {
+    EXPECT_NE(said(call, Severity::Error).find(what), std::string::npos) << call;
+  };
+  refuses("CYCLE982(100,,1,1,,,5,1)", "belong to a calibration");
+  refuses("CYCLE982(10000,,1,1,,,5,1)", "belong to a calibration");
+  refuses("CYCLE982(1002,0,1,,,,5,1)", "along one axis");
+  refuses("CYCLE982(3001,0,1,1,,,5,1)", "complete measurement");
+  refuses("CYCLE982(100002,0,1,,,,5,1)", "one face");
+  refuses("CYCLE982(102001,0,1,2,2,,5,1)", "one face");
+  const auto warns = [&](const std::string& call, const char* what) {
+    EXPECT_NE(said(call, Severity::Warning).find(what), std::string::npos) << call;
+  };
+  warns("CYCLE982(0,1,1,1,,,5,1)", "S_KNUM does nothing");
+  warns("CYCLE982(2,0,1,1,,,5,1)", "S_MA does nothing");
+  warns("CYCLE982(1001,0,1,2,,,5,1,,90)", "S_STA1 acts");
+  warns("CYCLE982(1000001,0,1,2,,,5,1,,90,5)", "S_CORA is");
+  for (const char* right : {"CYCLE982(0,,1,1,,,5,1)", "CYCLE982(2,0,1,,,,5,1)", "CYCLE982(3002,0,1,,,,5,1)",
+                            "CYCLE982(101,0,1,2,2,,5,1,,160,-10)", "CYCLE982(100001,0,1,2,2,,6,1)"})
+    EXPECT_EQ(said(right, Severity::Note), "") << right;
+}
+
+TEST(Cycle982Refuses, ADirectionThatNobodyTells) {
+  LatheBench bench = benchWithTools();
+  // The tip is where the middle of the contact is believed, along X.
+  for (const double direction : {-1.0, 1.0})
+    bench.set(triggerName(2, direction), {0}, 190 - 10 * direction);
+  EXPECT_EQ(bench.alarmOf(measuring(8, {404, 190}, "CYCLE982(1,0,1,2,,,5,1)")), "61326");
 }
 
 TEST(Cycle982Refuses, AWayThroughTheContact) {

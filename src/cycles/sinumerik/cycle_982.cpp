@@ -2,9 +2,12 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <string>
 
 #include "control/alarm.hpp"
+#include "cycles/sinumerik/call_combinations.hpp"
 #include "cycles/sinumerik/context.hpp"
 #include "cycles/sinumerik/corrections.hpp"
 #include "cycles/sinumerik/lathe_measurement.hpp"
@@ -126,6 +129,45 @@ constexpr CycleDefinition definition = {
     .controls = control::onSinumerik,
 };
 
+/// What S_MVAR says that fits to no tool; null if it fits to one.
+const char* contradiction(const LatheVariant& variant) {
+  if (variant.task == LatheTask::Calibrate &&
+      (variant.reversal || variant.quantities != LatheQuantities::Length || variant.positions || variant.radial))
+    return "reversal, radius, start angle and where the tool lies do not belong to a calibration";
+  if (variant.task == LatheTask::Complete && variant.quantities == LatheQuantities::Radius)
+    return "the radius alone is measured along one axis";
+  if (variant.task == LatheTask::AlongAxis && variant.quantities == LatheQuantities::RearSide)
+    return "the rear side belongs to the complete measurement";
+  if (variant.incremental && (variant.task == LatheTask::Complete || variant.quantities != LatheQuantities::Length))
+    return "incremental, one face of the contact is touched";
+  return nullptr;
+}
+
+LatheVariant variantOf(const std::function<int(int)>& digit) {
+  return {.task = static_cast<LatheTask>(digit(1)),
+          .quantities = static_cast<LatheQuantities>(digit(4)),
+          .reversal = digit(3) == 1,
+          .radial = digit(5) == 1,
+          .incremental = digit(6) == 1,
+          .positions = digit(7) == 1};
+}
+
+void combinations(CallCombinations& call) {
+  const LatheVariant variant = variantOf([&](int place) { return call.digit(place); });
+  if (const char* why = contradiction(variant))
+    call.refuse("S_MVAR", std::string("S_MVAR does not fit together: ") + why);
+  const auto unused = [&](const char* parameter, const char* why) {
+    const auto value = call.number(parameter);
+    if (value && *value != 0) call.warn(parameter, std::string(parameter) + why);
+  };
+  if (variant.task == LatheTask::Calibrate)
+    for (const char* name : {"S_KNUM", "S_TZL", "S_TDIF", "S_EVNUM"})
+      unused(name, " does nothing when the tool touch probe is calibrated");
+  if (variant.task == LatheTask::Complete) unused("S_MA", " does nothing when all is measured");
+  if (!variant.reversal) unused("S_CORA", " is of a mill with reversal");
+  if (!variant.reversal && !variant.positions) unused("S_STA1", " acts with reversal, or with 1000000 in S_MVAR, only");
+}
+
 int oldForm(OldCall& call) {
   call.put("S_KNUM", call.control().data.number("_CHBIT", {3}) != 0 ? 1 : 0);
   call.put("S_CORA", call.number("_CORA"));
@@ -135,16 +177,6 @@ int oldForm(OldCall& call) {
 }
 
 // ---- the call ----
-
-LatheVariant variantOf(Context& context) {
-  const auto digit = [&](int place) { return context.digit("S_MVAR", place); };
-  return {.task = static_cast<LatheTask>(digit(1)),
-          .quantities = static_cast<LatheQuantities>(digit(4)),
-          .reversal = digit(3) == 1,
-          .radial = digit(5) == 1,
-          .incremental = digit(6) == 1,
-          .positions = digit(7) == 1};
-}
 
 /// Refuses digits that do not fit together, or not the tool: 61307; what is not
 /// possible on a tool carrier: 61037.
@@ -158,12 +190,7 @@ void requireVariant(Context& context, const LatheVariant& variant, const LatheTo
   if (tool.kind() != LatheToolKind::Drill && !mill && variant.radial) refuse("only mills and drills lie radially");
   if (tool.kind() == LatheToolKind::Drill && variant.task == LatheTask::Complete)
     refuse("of a drill one length is measured");
-  if (mill && variant.task == LatheTask::Complete && variant.quantities == LatheQuantities::Radius)
-    refuse("the radius alone is measured along one axis");
-  if (mill && variant.task == LatheTask::AlongAxis && variant.quantities == LatheQuantities::RearSide)
-    refuse("the rear side belongs to the complete measurement");
-  if (variant.incremental && (variant.task == LatheTask::Complete || variant.quantities != LatheQuantities::Length))
-    refuse("incremental, one face of the contact is touched");
+  if (const char* why = contradiction(variant)) refuse(why);
   if (variant.quantities == LatheQuantities::RearSide && tool.onCarrier()) {
     context.alarm(61037,
                   "the rear side of a tool on an orientable tool "
@@ -332,7 +359,7 @@ void requireField(Context& context, const ToolProbeField& field) {
 
 void run(Context& context, const Arguments&) {
   context.requireReady(Context::Mirrored::Allowed);
-  const LatheVariant variant = variantOf(context);
+  const LatheVariant variant = variantOf([&](int place) { return context.digit("S_MVAR", place); });
   const ProbeSystem system = systemOf(context);
   const int index = toolProbeIndex(context);
   empiricalValue(context);  // refuses a number that there is not
@@ -370,6 +397,7 @@ void run(Context& context, const Arguments&) {
 extern const Entry cycle982 = {.definition = definition,
                                .title = {.byFeature = true},
                                .requirements = requirements,
+                               .combinations = combinations,
                                .oldForm = oldForm,
                                .alarms = alarms,
                                .run = run};
