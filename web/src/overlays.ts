@@ -20,11 +20,19 @@ function dispose(group: Group) {
   group.clear();
 }
 
+/** The colour of a deviation, as a share of the greatest: more of it the greater it is. */
+export function deviationColour(palette: Palette, share: number): Color {
+  const pale = new Color(palette.part);
+  return pale.lerp(new Color(share < 0 ? palette.feed : palette.measure), 0.3 + 0.7 * Math.min(1, Math.abs(share)));
+}
+
 /** How far a touch lies off its target, drawn along the surface's normal, many times magnified. */
 export class DeviationArrows {
   readonly group = new Group();
   magnification = 100;
   on = false;
+  /** The greatest deviation of those that were drawn last, mm. */
+  most = 0;
   private cycle: number | null = null;
 
   constructor(
@@ -45,15 +53,19 @@ export class DeviationArrows {
     const colours: number[] = [];
     const ends: { at: Vector3; deviation: number }[] = [];
     const heads = new Group();
-    for (const marker of this.markers) {
-      if (this.cycle !== null && marker.cycle !== this.cycle) continue;
+    const deviationOf = (marker: Marker) => {
       const touch = this.report.results.cycles[marker.cycle]?.touches[marker.touch];
-      const deviation = touch && touchDeviation(touch);
+      return touch && touchDeviation(touch);
+    };
+    const drawn = this.markers.filter(({ cycle }) => this.cycle === null || cycle === this.cycle);
+    this.most = drawn.reduce((most, marker) => Math.max(most, Math.abs(deviationOf(marker) ?? 0)), 1e-6);
+    for (const marker of drawn) {
+      const deviation = deviationOf(marker);
       if (deviation == null || marker.centre.distanceTo(marker.surface) < 1e-6) continue;
       const outwards = marker.centre.clone().sub(marker.surface).normalize();
       const end = marker.surface.clone().addScaledVector(outwards, deviation * this.magnification);
       positions.push(...marker.surface.toArray(), ...end.toArray());
-      const colour = new Color(deviation < 0 ? palette.feed : palette.measure);
+      const colour = deviationColour(palette, deviation / this.most);
       colours.push(colour.r, colour.g, colour.b, colour.r, colour.g, colour.b);
       const length = Math.abs(deviation) * this.magnification;
       const head = new Mesh(new ConeGeometry(0.35, 1, 12), new MeshBasicMaterial({ color: colour, depthTest: false, transparent: true }));

@@ -74,6 +74,14 @@ function circleThrough(points: [number, number][]): [number, number, number] {
   return [mx + cx, my + cy, Math.hypot(cx, cy) + Math.sqrt((xx + yy) / points.length)];
 }
 
+/** How far the limits of a cycle's diameter lie from the circle that was measured, mm along the radius. */
+function radialLimits(cycle: Cycle): number[] {
+  const diameters = cycle.results.filter(({ characteristic, lowerLimit, upperLimit }) => characteristic?.quantity === "diameter" && (lowerLimit != null || upperLimit != null));
+  if (diameters.length !== 1) return [];
+  const [{ value, lowerLimit, upperLimit }] = diameters;
+  return value == null ? [] : [lowerLimit, upperLimit].flatMap((limit) => (limit == null ? [] : [(limit - value) / 2]));
+}
+
 /** The greatest residual takes 28 of the 70 pixels to the circle. */
 function polar(cycle: Cycle, fit: Fit): HTMLElement | null {
   const samples = samplesOf(cycle, fit);
@@ -83,7 +91,10 @@ function polar(cycle: Cycle, fit: Fit): HTMLElement | null {
   const [across, up] = normal === 2 ? [0, 1] : normal === 1 ? [0, 2] : [1, 2];
   const plane = samples.map(({ at }) => [at[across], at[up]] as [number, number]);
   const [cx, cy] = circleThrough(plane);
-  const most = Math.max(...samples.map(({ residual }) => Math.abs(residual)), 1e-6);
+  const residuals = Math.max(...samples.map(({ residual }) => Math.abs(residual)), 1e-6);
+  // Limits of the diameter, from the measured circle outwards; drawn where they do not make the form a dot.
+  const limits = radialLimits(cycle).filter((limit) => Math.abs(limit) <= 8 * residuals);
+  const most = Math.max(residuals, ...limits.map(Math.abs));
   const step = round(most);
   const radius = 62;
   const scale = 24 / step;
@@ -104,6 +115,7 @@ function polar(cycle: Cycle, fit: Fit): HTMLElement | null {
       svg("circle", { cx: middle, cy: middle, r: radius + 24, class: "grid" }),
       svg("circle", { cx: middle, cy: middle, r: radius - 24, class: "grid" }),
       svg("circle", { cx: middle, cy: middle, r: radius, class: "nominal" }),
+      ...limits.map((limit) => svg("circle", { cx: middle, cy: middle, r: (radius + scale * limit).toFixed(1), class: "limit" }, svg("title", {}, `${t("limits")} ${microns(limit)}`))),
       svg("path", { d: `M${middle} ${middle - 8}v16M${middle - 8} ${middle}h16`, class: "grid" }),
       svg("polygon", { points: placed.map(({ x, y }) => `${x.toFixed(1)},${y.toFixed(1)}`).join(" "), class: "measured" }),
       ...placed.flatMap(({ angle, number, residual, x, y }) => [

@@ -7,6 +7,7 @@ import type { Report } from "./data";
 import { fixed, h, icon } from "./dom";
 import { t } from "./language";
 import { MachineLayer } from "./machine";
+import { deviationColour } from "./overlays";
 import { Replay } from "./replay";
 import { Drawing, type Marker, type Palette } from "./scene";
 import type { Selector } from "./selection";
@@ -59,6 +60,10 @@ export class View {
   readonly element: HTMLElement;
   private readonly stage = h("div", { class: "stage" });
   private readonly labels = h("div", { class: "labels" });
+  /** How long something in the picture is; all places are equally far away. */
+  private readonly scaleBar = h("div", { class: "scale-bar", hidden: true }, h("span", {}));
+  /** What the colours of the arrows mean. */
+  private readonly colourScale = h("div", { class: "group colour-scale", hidden: true });
   private readonly card = h("aside", { class: "touch-card", hidden: true });
   readonly replay: Replay;
   private readonly directions: Partial<Record<Direction, Vector3>>;
@@ -109,7 +114,7 @@ export class View {
     this.element = h(
       "section",
       { class: "card view", id: "view", "aria-label": t("view") },
-      h("div", { class: "stage-area" }, this.stage, this.toolbar(), this.legend(), this.card),
+      h("div", { class: "stage-area" }, this.stage, this.toolbar(), this.legend(), this.scaleBar, this.card),
       this.replay.element,
     );
     selector.listen((selection, source) => this.showSelection(selection?.cycle ?? null, selection?.touch ?? null, source));
@@ -242,7 +247,16 @@ export class View {
 
   private drawArrows() {
     const { deviations } = this.drawing;
-    const ends = deviations.draw(palette(), this.drawing.sphere.radius);
+    const colours = palette();
+    const ends = deviations.draw(colours, this.drawing.sphere.radius);
+    this.colourScale.hidden = ends.length === 0;
+    if (ends.length > 0) {
+      const most = `${fixed(1000 * deviations.most, deviations.most < 0.01 ? 1 : 0)}\u00a0\u00b5m`;
+      const ramp = h("i", {});
+      ramp.style.background = `linear-gradient(to right, ${[-1, -0.001, 0.001, 1].map((share) => deviationColour(colours, share).getStyle()).join(", ")})`;
+      this.colourScale.title = t("deviationColours");
+      this.colourScale.replaceChildren(h("span", {}, `\u2212${most}`), ramp, h("span", {}, `+${most}`));
+    }
     for (const { label } of this.arrowEnds) label.remove();
     // Texts help with a handful of arrows only.
     this.arrowEnds = ends.length > 40 ? [] : ends.map(({ at, deviation }) => ({ at, label: h("span", { class: "label arrow" }, h("b", {}, fixed(deviation, 4, true))) }));
@@ -287,10 +301,22 @@ export class View {
 
   private render() {
     this.renderer!.render(this.drawing.scene, this.camera);
+    this.showScale();
     for (const { at, label } of [...this.shown, ...this.standing, ...this.arrowEnds]) {
       const { x, y } = this.onScreen(at);
       label.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
     }
+  }
+
+  /** A round length that takes a good inch of the screen. */
+  private showScale() {
+    const pixelsPerMm = (this.stage.clientHeight * this.camera.zoom) / 2;
+    this.scaleBar.hidden = !(pixelsPerMm > 0 && Number.isFinite(pixelsPerMm));
+    if (this.scaleBar.hidden) return;
+    const power = 10 ** Math.floor(Math.log10(120 / pixelsPerMm));
+    const length = [5, 2, 1].map((step) => step * power).find((step) => step * pixelsPerMm <= 120) ?? power;
+    this.scaleBar.style.width = `${(length * pixelsPerMm).toFixed(1)}px`;
+    this.scaleBar.firstElementChild!.textContent = `${Number(length.toPrecision(1))} mm`;
   }
 
   /** Pixels from the stage's upper left corner. */
@@ -407,11 +433,11 @@ export class View {
         toggle(t("paths"), true, (on) => this.drawing.showPath(on)),
         toggle(t("touchesToggle"), true, (on) => this.drawing.showTouches(on)),
         ...(this.drawing.hasFixtures ? [toggle(t("fixtures"), true, (on) => this.drawing.showFixtures(on))] : []),
-        toggle(t("follow"), true, (on) => (this.followsSelection = on)),
-        this.deviationButton,
         ...this.machineButtons(toggle),
       ),
+      h("div", { class: "group" }, toggle(t("follow"), true, (on) => (this.followsSelection = on)), this.deviationButton),
       magnifier,
+      this.colourScale,
     );
   }
 

@@ -9,6 +9,10 @@ import { pathToFileURL } from "node:url";
 import puppeteer from "puppeteer-core";
 
 const [program, repository, wanted = "2000"] = process.argv.slice(2);
+if (!/^[1-9]\d{0,5}$/.test(wanted)) {
+  console.error(`report-bench: the number of cycles is a whole number from 1 to 999999, not "${wanted}"`);
+  process.exit(2);
+}
 const folder = mkdtempSync(join(tmpdir(), "probewright-bench-"));
 
 /** The housing's bore and spigot, measured again and again under new names. */
@@ -67,6 +71,38 @@ async function measure(browser, file, rows) {
   return { page, seconds, ...(await page.evaluate(() => window.benchSeen)) };
 }
 
+/** What a list takes while it is scrolled: its script and layout for itself, and from frame to frame with all that Chromium draws. */
+async function scrolled(page, selector) {
+  const before = await page.metrics();
+  const { elements, frames } = await page.evaluate(async (list) => {
+    const sheet = document.querySelector(list);
+    const frames = [];
+    let last = performance.now();
+    for (let i = 0; i < 120; ++i) {
+      sheet.scrollTop += 400;
+      await new Promise((done) => requestAnimationFrame(done));
+      frames.push(performance.now() - last);
+      last = performance.now();
+    }
+    return { elements: document.querySelectorAll("*").length, frames };
+  }, selector);
+  const after = await page.metrics();
+  frames.sort((a, b) => a - b);
+  const own = ["ScriptDuration", "LayoutDuration", "RecalcStyleDuration"].reduce((sum, name) => sum + after[name] - before[name], 0);
+  return { elements, own: (1000 * own) / frames.length, median: frames[60], worst: frames[118] };
+}
+
+/** What this computer takes for the simplest list that there is: without a graphics card the drawing is most of a frame. */
+async function plainList(browser) {
+  const page = await browser.newPage();
+  await page.setViewport({ width: 1400, height: 900 });
+  const lines = Array.from({ length: 4000 }, (_, i) => `<div>Line ${i}: 12.345 mm</div>`).join("");
+  await page.setContent(`<div class="list" style="height:860px;overflow:auto;font:14px sans-serif">${lines}</div>`);
+  const seen = await scrolled(page, ".list");
+  await page.close();
+  return seen;
+}
+
 try {
   const many = join(folder, "many.h");
   writeFileSync(many, manyCycles(Number(wanted)));
@@ -96,20 +132,10 @@ try {
       await seen.page.close();
       continue;
     }
-    const { elements, frames } = await seen.page.evaluate(async () => {
-      const sheet = document.querySelector(".sheet");
-      const frames = [];
-      let last = performance.now();
-      for (let i = 0; i < 120; ++i) {
-        sheet.scrollTop += 400;
-        await new Promise((done) => requestAnimationFrame(done));
-        frames.push(performance.now() - last);
-        last = performance.now();
-      }
-      return { elements: document.querySelectorAll("*").length, frames };
-    });
-    frames.sort((a, b) => a - b);
-    console.log(`  elements ${elements}; a frame while scrolling ${frames[60].toFixed(0)} ms, of a hundred ${frames[118].toFixed(0)} ms`);
+    const sheet = await scrolled(seen.page, ".sheet");
+    const plain = await plainList(browser);
+    console.log(`  elements ${sheet.elements}; scrolling by 400 pixels a frame: ${sheet.own.toFixed(1)} ms of the page's own a frame, from frame to frame ${sheet.median.toFixed(0)} ms, of a hundred ${sheet.worst.toFixed(0)} ms`);
+    console.log(`  a list of plain lines as long: ${plain.own.toFixed(1)} ms of its own, from frame to frame ${plain.median.toFixed(0)} ms, of a hundred ${plain.worst.toFixed(0)} ms`);
     await seen.page.close();
   }
   await browser.close();
