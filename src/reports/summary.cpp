@@ -171,8 +171,8 @@ std::string writeLine(const control::WriteRecord& write, const Style& style) {
   const auto shown = [&](const std::string& value) {
     return value.empty() ? style.text("sumEmpty") : style.line(value);
   };
-  return fmt::format("      -> {} {}: {} -> {}\n", style.line(write.table), style.line(write.entry),
-                     shown(write.before), shown(write.after));
+  return fmt::format("      -> {} {}: {} -> {}\n", words::phrase(style.language, style.line(write.table)),
+                     words::phrase(style.language, style.line(write.entry)), shown(write.before), shown(write.after));
 }
 
 /// A text of several lines in a frame, as a screen shows it.
@@ -300,7 +300,7 @@ std::string summaryText(const control::Journal& journal, const records::RunInfo&
   const Style style{Painter(colour), records::ReadableText(run), run.programs.empty() ? "" : run.programs[0].path,
                     run.inches, language};
   std::string text = style.line(fileName(style.mainProgram));
-  for (const std::string& part : {run.control, run.machine, run.partName})
+  for (const std::string& part : {run.control, words::phrase(language, run.machine), run.partName})
     if (!part.empty()) text += (text.empty() ? "" : ", ") + style.line(part);
   text += "\n";
   if (!run.skipLevels.empty()) {

@@ -37,7 +37,7 @@ std::string valuesText(const EntryTruth& entry, const TruthStyle& style) {
   for (const records::EntryValue& value : values) {
     text += text.empty() ? "" : "; ";
     text += words::text(style.language, "sumTruly",
-                        {{"name", style.line(value.name)},
+                        {{"name", words::phrase(style.language, style.line(value.name))},
                          {"value", formatFixed(value.value, 4)},
                          {"truth", formatFixed(value.truth, 4)}});
   }

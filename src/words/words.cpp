@@ -256,9 +256,8 @@ std::string characteristic(DialogLanguage language, const control::Characteristi
 }
 
 std::string meaning(DialogLanguage language, const control::ResultKind& kind, std::string_view english) {
-  if (language == DialogLanguage::English || kind.of.quantity == control::Quantity::None) return std::string(english);
   const std::string of = characteristic(language, kind.of, "");
-  if (of.empty()) return std::string(english);
+  if (language == DialogLanguage::English || of.empty()) return phrase(language, english);
   return fmt::format("{}, {}", text(language, fmt::format("role_{}", nameOf(kind.role))), of);
 }
 

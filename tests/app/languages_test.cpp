@@ -1,7 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -98,6 +103,38 @@ INSTANTIATE_TEST_SUITE_P(
                       AlarmCase{"pl", "Punkt próbkowania nieosiągalny", "nie wychylił się", "ZATRZYMANO",
                                 "mm dalej w"}),
     [](const auto& each) { return std::string(each.param.language); });
+
+/// Every line of a summary that has words is in the language.
+TEST(SummaryInLanguage, HasNoLineOfTheEnglishOne) {
+  const std::string examples = PROBEWRIGHT_SOURCE_DIR "/examples/";
+  static const std::regex words("[a-z]{4,}");
+  const auto linesWithWords = [](const std::string& text) {
+    std::set<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);)
+      if (std::regex_search(line, words)) lines.insert(line);
+    return lines;
+  };
+  for (const auto& [program, setup] : {std::pair("programs/tool.h", "setups/tool-tnc640.toml"),
+                                       std::pair("programs/tools-lathe.mpf", "setups/tools-lathe.toml"),
+                                       std::pair("programs/kinematics.h", "setups/kinematics-tnc640.toml"),
+                                       std::pair("programs/camera.h", "setups/camera-tnc640.toml"),
+                                       std::pair("cookbook/calibrate.h", "cookbook/calibrate.toml")}) {
+    const Folder folder;
+    const auto summary = [&](const std::string& language) {
+      return linesWithWords(probewright({"run", examples + program, "--setup", examples + setup, "--out",
+                                         (folder / "out").string(), "--language", language})
+                                .output);
+    };
+    const auto english = summary("en");
+    EXPECT_GT(english.size(), 3U) << program;
+    for (const char* language : {"de", "ru", "sv", "zh", "pl"}) {
+      std::vector<std::string> left;
+      std::ranges::set_intersection(english, summary(language), std::back_inserter(left));
+      EXPECT_THAT(left, ::testing::IsEmpty()) << program << " in " << language;
+    }
+  }
+}
 
 TEST(CycleTexts, AreThoseOfTheControlInItsLanguage) {
   const auto block = [](const char* cycle, const char* language) {

@@ -79,6 +79,50 @@ TEST(Words, TheFeaturesOfSinumerikCyclesHaveTheirWords) {
   EXPECT_EQ(phrase(DialogLanguage::German, "Hole 40"), "Hole 40") << "a program may say so";
 }
 
+/// What a result is, where no quantity says it: an own phrase in each language.
+TEST(Words, EveryResultOfACycleHasItsWords) {
+  int without = 0;
+  for (const control::ControlKind kind :
+       {control::ControlKind::TNC640, control::ControlKind::iTNC530, control::ControlKind::Sinumerik840Dsl}) {
+    for (const cycles::CycleDefinition* cycle : cycles::cyclesOf(kind)) {
+      for (const cycles::ResultDefinition& result : cycle->results) {
+        if (result.kind.of.quantity != control::Quantity::None) continue;
+        const std::string english(result.meaning);
+        if (english.empty()) continue;
+        ++without;
+        for (const DialogLanguage language : others)
+          EXPECT_NE(meaning(language, result.kind, english), english) << code(language);
+      }
+    }
+  }
+  EXPECT_GT(without, 30);
+}
+
+/// Tasks that title a call, the ready-made machines, and what stands before the values of entries.
+TEST(Words, WhatTitlesACallAndNamesAnEntryHasItsWords) {
+  std::vector<std::string> all = {"row 1, column X",   "calibration data", "TT centre, X", "TT radius, minor axis",
+                                  "effective length",  "axis C",           "probe data 1", "tool probe data 2",
+                                  "datum 3 of ZERO.D", "length 2",         "record 4",     "image 7"};
+  for (const char* name : {"CYCLE971", "CYCLE982", "CYCLE996"}) {
+    for (const cycles::CycleDefinition* cycle : cycles::cyclesOf(control::ControlKind::Sinumerik840Dsl)) {
+      if (cycle->name != name) continue;
+      for (const cycles::Choice& choice : cycle->parameters.front().digits.front().choices) {
+        all.emplace_back(choice.meaning);
+        all.back().front() = static_cast<char>(std::toupper(static_cast<unsigned char>(all.back().front())));
+      }
+    }
+  }
+  for (const fs::directory_entry& file : fs::directory_iterator(source / "machines")) {
+    const std::string text = textOf(file.path());
+    const std::size_t begin = text.find("\nname = \"") + 9;
+    all.push_back(text.substr(begin, text.find('"', begin) - begin));
+  }
+  EXPECT_GT(all.size(), 25U);
+  for (const std::string& english : all)
+    for (const DialogLanguage language : others)
+      EXPECT_NE(phrase(language, english), english) << code(language);
+}
+
 TEST(Words, EveryAlarmOfTheMeasuringCyclesHasItsWords) {
   EXPECT_GT(cycles::sinumerik::alarmNumbers().size(), 30U);
   for (const int number : cycles::sinumerik::alarmNumbers()) {

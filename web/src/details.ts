@@ -7,6 +7,7 @@ import { t } from "./language";
 import { formPlot, histogram, positionPlot, repeatedTouches } from "./plots";
 import type { Selector } from "./selection";
 import type { Write } from "./data";
+import { phrase } from "./phrases";
 
 export const outcomeText = (outcome: string) => (outcome === "touched" ? t("touched") : outcome);
 
@@ -30,8 +31,8 @@ export function writeLine(write: Write): HTMLElement {
     "p",
     { class: "note" },
     icon("arrow"),
-    h("b", {}, write.table),
-    ` ${write.entry}: `,
+    h("b", {}, phrase(write.table)),
+    ` ${phrase(write.entry)}: `,
     h("span", { class: "before" }, write.before === "" ? t("empty") : write.before),
     " \u2192 ",
     h("span", { class: "after" }, write.after === "" ? t("empty") : write.after),

@@ -3,7 +3,7 @@
 import type { Cycle, Report, Results, ResultValue } from "./data";
 import { fixed } from "./dom";
 import { currentLanguage, maybe } from "./language";
-import { translated } from "./phrases";
+import { phrase, translated } from "./phrases";
 import { cycleState, type State } from "./verdict";
 
 /** A cycle and those of its results that answer what it was called for. */
@@ -30,9 +30,9 @@ export const nameOf = (cycle: Cycle): string => cycle.feature || translated(cycl
 export function characteristicOf(result: ResultValue): string {
   const { characteristic } = result;
   const english = characteristic?.label || result.meaning;
-  if (!characteristic || currentLanguage() === "en") return english;
+  if (!characteristic || currentLanguage() === "en") return phrase(english);
   const quantity = maybe(`quantity_${characteristic.quantity}`);
-  if (!quantity) return english;
+  if (!quantity) return phrase(english);
   const parts = [characteristic.item == null ? quantity : `${quantity} ${characteristic.item}`];
   if (characteristic.along) parts.push(maybe(`along_${characteristic.along}`) ?? characteristic.along);
   if (characteristic.system) parts.push(maybe(`system_${characteristic.system}`) ?? characteristic.system);
@@ -42,8 +42,8 @@ export function characteristicOf(result: ResultValue): string {
 /** The meaning of any result: its role and what it is of. */
 export function meaningOf(result: ResultValue): string {
   const role = maybe(`role_${result.role}`);
-  if (currentLanguage() === "en" || !role) return result.meaning;
-  return result.characteristic ? `${role}, ${characteristicOf(result)}` : result.meaning;
+  if (currentLanguage() === "en" || !role) return phrase(result.meaning);
+  return result.characteristic ? `${role}, ${characteristicOf(result)}` : phrase(result.meaning);
 }
 
 /** How much of the tolerance is used, counted from its middle: 0 there, 1 at a limit, more outside. */

@@ -6,7 +6,7 @@ import { plotsOf, writeLine } from "./details";
 import { duration, fileName, h, icon, length } from "./dom";
 import { groupsOf, isBad, nameOf } from "./features";
 import { t } from "./language";
-import { translated } from "./phrases";
+import { phrase, translated } from "./phrases";
 import type { ProgramView } from "./program";
 import { Selector } from "./selection";
 import { hasTruth, resultCells, sheetHeads } from "./sheet";
@@ -31,7 +31,7 @@ export function facts(report: Report): [string, string][] {
     [run.job?.part ? t("machinePart") : t("part"), run.part.name || fileName(run.part.path)],
     [t("program"), run.programs.length > 0 ? fileName(run.programs[0]) : null],
     [t("control"), run.control],
-    [t("machine"), run.machine],
+    [t("machine"), run.machine && phrase(run.machine)],
     [t("setup"), fileName(run.setup)],
     [t("runAt"), startTime(report)],
     [t("seed"), run.seed == null ? null : String(run.seed)],

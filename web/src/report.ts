@@ -16,6 +16,7 @@ import { Sheet } from "./sheet";
 import { correctionsTable, eventsTable, filesText, timeSection, travelTable, truthTable } from "./tables";
 import { headline, symbols } from "./verdict";
 import { View } from "./view";
+import { phrase } from "./phrases";
 
 type Tab = "inspection" | "program" | "corrections" | "messages" | "camera" | "run";
 
@@ -30,7 +31,7 @@ function header(report: Report, switchLanguage: (code: string) => void, switchTh
     [t("part"), run.job?.part || run.part.name || fileName(run.part.path)],
     [t("serial"), run.job?.serial],
     [t("control"), run.control],
-    [t("machine"), run.machine],
+    [t("machine"), run.machine && phrase(run.machine)],
     [t("setup"), fileName(run.setup)],
   ];
   const languages = h(

@@ -26,8 +26,8 @@ export function correctionsTable({ results }: Report, selector: Selector): HTMLE
       h(
         "tr",
         cycle ? { class: "link", tabindex: 0, click: select, keydown: (event) => (event as KeyboardEvent).key === "Enter" && select() } : {},
-        h("td", {}, write.table),
-        h("td", {}, write.entry),
+        h("td", {}, phrase(write.table)),
+        h("td", {}, phrase(write.entry)),
         h("td", { class: "number before" }, write.before === "" ? "\u2013" : write.before),
         h("td", { class: "number after" }, write.after === "" ? "\u2013" : write.after),
         h("td", { class: "number" }, change(write)),
@@ -55,8 +55,8 @@ export function truthTable({ results }: Report): HTMLElement | null {
       h(
         "tr",
         {},
-        h("td", {}, i === 0 && h("b", {}, name), i === 0 && off !== "" && h("div", { class: "meaning" }, t("distance", { value: off }))),
-        h("td", {}, value.name),
+        h("td", {}, i === 0 && h("b", {}, phrase(name)), i === 0 && off !== "" && h("div", { class: "meaning" }, t("distance", { value: off }))),
+        h("td", {}, phrase(value.name)),
         h("td", { class: "number" }, quantity(value.value, value.unit)),
         h("td", { class: "number" }, quantity(value.truth, value.unit)),
         h("td", { class: "number strong" }, quantity(value.error, value.unit, true)),
