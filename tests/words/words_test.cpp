@@ -87,7 +87,7 @@ TEST(Words, EveryResultOfACycleHasItsWords) {
     for (const cycles::CycleDefinition* cycle : cycles::cyclesOf(kind)) {
       for (const cycles::ResultDefinition& result : cycle->results) {
         if (result.kind.of.quantity != control::Quantity::None) continue;
-        const std::string english(result.meaning);
+        const std::string english = result.meaning.whole();
         if (english.empty()) continue;
         ++without;
         for (const DialogLanguage language : others)
