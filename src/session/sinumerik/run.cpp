@@ -285,6 +285,7 @@ void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& 
   const Eigen::Affine3d workpiece = control.machineFromBase() * sin::transform(control.frames.settableFrame);
   outcome.machineFromWorkpiece = Pose(workpiece.matrix());
   outcome.ballRadius = control.tool.radius;
+  outcome.info.inches = control.unit != 1;
   outcome.believedMachine = believedAtTheEnd(control);
   outcome.variable = [values = arithmeticParameters(control.data)](std::string_view name) {
     const auto found = values.find(name);
