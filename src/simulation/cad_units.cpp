@@ -1,12 +1,12 @@
 #include "simulation/cad_units.hpp"
 
-#include <Interface_Check.hxx>
 #include <Interface_ReportEntity.hxx>
 #include <STEPConstruct_UnitContext.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
 #include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
 #include <StepRepr_GlobalUnitAssignedContext.hxx>
 #include <StepShape_ShapeRepresentation.hxx>
+#include <string_view>
 
 namespace probewright::simulation {
 namespace {
@@ -19,11 +19,12 @@ Handle(StepRepr_GlobalUnitAssignedContext) unitsOf(const Handle(Standard_Transie
   return Handle(StepRepr_GlobalUnitAssignedContext)::DownCast(context);
 }
 
-/// True if one of the units cannot be read: one wrong letter in METRE makes a thousand of a length.
-bool haveFaults(const StepRepr_GlobalUnitAssignedContext& units, const Handle(Interface_InterfaceModel) & model) {
-  for (int i = 1; i <= units.NbUnits(); ++i) {
-    const int place = units.UnitsValue(i).IsNull() ? 0 : model->Number(units.UnitsValue(i));
-    if (place == 0 || model->Check(place, Standard_True)->NbFails() > 0) return true;
+/// True if a unit of length cannot be read: one wrong letter in METRE makes a thousand of a length.
+bool hasFaultyLengthUnit(const Handle(Interface_InterfaceModel) & model) {
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    if (!model->IsErrorEntity(i)) continue;
+    const Handle(Standard_Transient) entity = model->ReportEntity(i)->Concerned();
+    if (!entity.IsNull() && std::string_view(entity->DynamicType()->Name()).ends_with("LengthUnit")) return true;
   }
   return false;
 }
@@ -31,6 +32,7 @@ bool haveFaults(const StepRepr_GlobalUnitAssignedContext& units, const Handle(In
 }  // namespace
 
 Handle(Standard_Transient) withoutLengthUnit(const Handle(Interface_InterfaceModel) & model) {
+  const bool isFaulty = hasFaultyLengthUnit(model);
   for (int i = 1; i <= model->NbEntities(); ++i) {
     // A context that cannot be read makes its shapes faulty; OpenCASCADE builds them all the same.
     const auto shape = Handle(StepShape_ShapeRepresentation)::DownCast(
@@ -39,7 +41,7 @@ Handle(Standard_Transient) withoutLengthUnit(const Handle(Interface_InterfaceMod
     const Handle(StepRepr_GlobalUnitAssignedContext) units = unitsOf(shape->ContextOfItems());
     STEPConstruct_UnitContext context;
     if (!units.IsNull() && !units->Units().IsNull()) context.ComputeFactors(units);
-    if (!context.LengthDone() || haveFaults(*units, model)) return model->Value(i);
+    if (isFaulty || !context.LengthDone()) return model->Value(i);
   }
   return nullptr;
 }

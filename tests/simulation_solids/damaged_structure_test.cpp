@@ -50,6 +50,8 @@ TEST(DamagedStructure, OfUnitsIsNamed) {
     const std::string metre = unit == 1 ? ".MILLI.,.METRE." : "$,.METRE.";
     EXPECT_THAT(saidOf(damaged(good, metre, metre.size() - 2)), HasSubstr("SHAPE_REPRESENTATION: its lengths have no"));
     EXPECT_NE(saidOf(damaged(good, "(LENGTH_UNIT", 4)), "");
+    // A unit that no length needs.
+    EXPECT_EQ(saidOf(damaged(good, ".STERADIAN.", 3)), "");
   }
 }
 
