@@ -5,20 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "simulation/contact_search.hpp"
-#include "simulation/truth.hpp"
+#include "simulation/body_scene.hpp"
 
 namespace probewright::simulation {
 
-/// Whether bodies of the machine keep a distance from each other, from what lies on the table and from the tool: the
-/// pairs are those of BodyGuard, and axes are where that has them. Safe to query from many threads at once.
+struct BodyMesh;
+
+/// Whether bodies of the machine keep a distance from each other, from what lies on the table and from the tool. Safe
+/// to query from many threads at once.
 class BodyClearance {
 public:
-  /// All pairs of BodyGuard; or what carries the tool against what carries the part, and against what lies on the
+  /// All pairs of the scene; or what carries the tool against what carries the part, and against what lies on the
   /// table: gaps of slides and covers that a machine is built with do not count there.
   enum class Pairs { All, SpindleAgainstTable };
   explicit BodyClearance(const Truth& truth, Pairs pairs = Pairs::All);
-  ~BodyClearance();
   BodyClearance(const BodyClearance&) = delete;
   BodyClearance& operator=(const BodyClearance&) = delete;
 
@@ -38,18 +38,12 @@ public:
   std::optional<Near> nearer(const Motion& motion, const Margins& margins, const ToolShape& tool) const;
 
 private:
-  struct Thing;
-  struct Pair;
-  struct View;
+  double gap(const BodyPair& pair, const Pose& firstFromSecond, double enough) const;
 
-  bool counts(const Thing& first, const Thing& second) const;
-
-  machine::MachineDescription machine_;
-  MachineErrors errors_;
+  BodyScene scene_;
   Pairs which_;
-  std::vector<std::unique_ptr<Thing>> things_;
-  std::vector<std::unique_ptr<Pair>> pairs_;
-  std::vector<std::unique_ptr<View>> views_;
+  std::vector<const BodyPair*> pairs_;                   ///< those of the scene that count
+  std::vector<std::shared_ptr<const BodyMesh>> meshes_;  ///< of the things of the scene
 };
 
 }  // namespace probewright::simulation

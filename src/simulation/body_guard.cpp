@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "simulation/body_mesh.hpp"
-#include "simulation/link_motion.hpp"
 
 namespace probewright::simulation {
 
@@ -19,7 +18,7 @@ namespace {
 constexpr double touching = 0.002;      // mm: no gap
 constexpr double shortestStep = 0.02;   // mm
 constexpr double toolPrecision = 1e-3;  // mm
-constexpr double reserve = 1.02;        // of a way: scales of axes, errors of their directions
+constexpr double reserve = 1.02;        // of a way, as in BodyScene
 constexpr double boxesDo = 5;           // mm: boxes farther apart than that tell enough, triangles are not asked
 
 /// How far any point of any link may travel against any other; nothing if an axis turns.
@@ -63,30 +62,8 @@ Bounds boundsOf(const ToolShape& tool) {
 
 }  // namespace
 
-/// A body, or a solid on the table.
-struct BodyGuard::Thing {
-  std::shared_ptr<const Solid> solid;
-  Link link;
-  Pose linkFromSolid;
-  std::string name;
-  bool ofMachine = false;  ///< the machine's own: it may touch its neighbours
-  bool isBody = false;
-  Bounds bounds;                     ///< solid's frame
-  Vector3 centre = Vector3::Zero();  ///< of a ball about it, link frame
-  double radius = 0;
-  std::shared_ptr<const BodyMesh> triangles;  ///< solid's frame; made when they are needed
-
-  const BodyMesh& mesh() {
-    if (!triangles) triangles = bodyMesh(solid);
-    return *triangles;
-  }
-};
-
 struct BodyGuard::Pair {
-  Thing* first = nullptr;
-  Thing* second = nullptr;
-  std::unique_ptr<TrueKinematics> kinematics;  ///< "table" and "spindle" of it are the two links
-  machine::Between between;
+  const BodyPair* of = nullptr;
   double clear = 0;       ///< mm: they are not closer than that where the axes stand
   bool fromStart = true;  ///< they have never been apart: not tested until they are
 
@@ -98,13 +75,9 @@ struct BodyGuard::Pair {
   double way = 0;  ///< how far they may travel against each other on it
 };
 
-/// The bodies of one link as the tool sees them.
 struct BodyGuard::View {
-  Link link;
-  std::unique_ptr<TrueKinematics> kinematics;
-  std::vector<PlacedSolid> solids;
-  std::unique_ptr<Surroundings> surroundings;
-  bool fromStart = true;  ///< the tool has never been free of them
+  const BodyView* of = nullptr;
+  bool fromStart = true;  ///< the tool has never been free of the bodies
   Bounds toolBox;         ///< of the tool that was asked for last
   double clear = 0;       ///< mm: the tool is not closer than that where the axes stand
   double way = 0;         ///< how far it may travel on the motion asked for last
@@ -112,98 +85,33 @@ struct BodyGuard::View {
   /// How far the tool is from the bodies at least, by boxes about them.
   double gap(const Pose& linkFromSpindle) const {
     double least = 1e300;
-    for (const Surroundings::Item& item : surroundings->items())
+    for (const Surroundings::Item& item : of->surroundings->items())
       least = std::min(least, boxDistance(item.bounds, item.solidFromTable * linkFromSpindle, toolBox));
     return least;
   }
 };
 
-BodyGuard::BodyGuard(const Truth& truth) : machine_(trueDescription(truth.machine, truth.errors)) {
-  errors_.axes = truth.errors.axes;
-  for (AxisErrors& axis : errors_.axes)
-    axis.deviations.clear();
-  for (const MachineBody& body : truth.bodies)
-    addThing(body.solid, body.link, body.linkFromSolid, body.name, true, true);
-  const Link table = machine::tableLink(machine_);
-  for (const PlacedSolid& solid : truth.solids) {
-    // Tool touch probes of a lathe stand on its bed.
-    const bool onBed = solid.role == SolidRole::ToolProbe && machine_.mainSpindle;
-    addThing(solid.solid, onBed ? Link{} : table, solid.tableFromSolid, solid.name, solid.ofMachine, false);
-  }
-  addPairs();
-  addViews();
+BodyGuard::BodyGuard(const Truth& truth) : scene_(truth), meshes_(scene_.things().size()) {
+  for (const BodyPair& pair : scene_.pairs())
+    pairs_.push_back({.of = &pair, .known = {}});
+  for (const BodyView& view : scene_.views())
+    views_.push_back({.of = &view, .toolBox = {}});
 }
 
 BodyGuard::~BodyGuard() = default;
 
-void BodyGuard::addThing(std::shared_ptr<const Solid> solid, const Link& link, const Pose& linkFromSolid,
-                         std::string name, bool ofMachine, bool isBody) {
-  auto thing = std::make_unique<Thing>();
-  thing->bounds = solid->bounds();
-  const Vector3 size = thing->bounds.maximum - thing->bounds.minimum;
-  if (!(size.minCoeff() >= 0 && size.maxCoeff() < 1e7)) return;  // nothing, or without an end
-  thing->centre = linkFromSolid * (0.5 * (thing->bounds.minimum + thing->bounds.maximum));
-  thing->radius = 0.5 * size.norm();
-  thing->solid = std::move(solid);
-  thing->link = link;
-  thing->linkFromSolid = linkFromSolid;
-  thing->name = std::move(name);
-  thing->ofMachine = ofMachine;
-  thing->isBody = isBody;
-  things_.push_back(std::move(thing));
-}
-
-std::unique_ptr<TrueKinematics> BodyGuard::kinematicsBetween(const Link& first, const Link& second) const {
-  machine::Between chains = machine::between(machine_, first, second);
-  machine::MachineDescription seen;
-  seen.axes = machine_.axes;
-  seen.tableChain = std::move(chains.first);
-  seen.spindleChain = std::move(chains.second);
-  return std::make_unique<TrueKinematics>(seen, errors_);
-}
-
-void BodyGuard::addPairs() {
-  for (std::size_t i = 0; i < things_.size(); ++i) {
-    for (std::size_t k = i + 1; k < things_.size(); ++k) {
-      Thing &first = *things_[k], &second = *things_[i];  // bodies come before what lies on the table
-      if (!second.isBody || first.link == second.link) continue;
-      if (first.ofMachine && second.ofMachine && machine::areNeighbours(first.link, second.link)) continue;
-      auto pair = std::make_unique<Pair>();
-      pair->first = &first;
-      pair->second = &second;
-      pair->between = machine::between(machine_, first.link, second.link);
-      pair->kinematics = kinematicsBetween(first.link, second.link);
-      pairs_.push_back(std::move(pair));
-    }
-  }
-}
-
-void BodyGuard::addViews() {
-  const Link head = machine::headLink(machine_);
-  for (const auto& thing : things_) {
-    if (!thing->isBody || thing->link == head) continue;
-    auto view = std::ranges::find_if(views_, [&](const auto& known) { return known->link == thing->link; });
-    if (view == views_.end()) {
-      auto added = std::make_unique<View>();
-      added->link = thing->link;
-      added->kinematics = kinematicsBetween(thing->link, head);
-      view = views_.insert(views_.end(), std::move(added));
-    }
-    (*view)->solids.push_back({thing->solid, thing->linkFromSolid, thing->name, SolidRole::Fixture, true});
-  }
-  for (const auto& view : views_)
-    view->surroundings = std::make_unique<Surroundings>(view->solids);
-}
-
-Motion BodyGuard::seen(const Motion& motion, const TrueKinematics& kinematics) const {
-  return {kinematics, motion.from, motion.to, motion.slidesAtStart, motion.startSeconds, motion.profile};
+const BodyMesh& BodyGuard::meshOf(const BodyThing& thing) {
+  auto& mesh = meshes_[thing.index];
+  if (!mesh) mesh = bodyMesh(thing.solid);
+  return *mesh;
 }
 
 Pose BodyGuard::tableFromLink(const Link& link, const AxisPositions& slides) const {
-  return machine::baseFromTable(machine_, slides).inverse() * machine::baseFromLink(machine_, slides, link);
+  return machine::baseFromTable(scene_.machine(), slides).inverse() *
+         machine::baseFromLink(scene_.machine(), slides, link);
 }
 
-BodyHit BodyGuard::hitOf(const Pair& pair, const Motion& motion, double fraction, const Vector3& point,
+BodyHit BodyGuard::hitOf(const BodyPair& pair, const Motion& motion, double fraction, const Vector3& point,
                          const Vector3& normal) const {
   const Pose tableFromFirst = tableFromLink(pair.first->link, motion.slidesAt(fraction));
   BodyHit hit;
@@ -215,7 +123,7 @@ BodyHit BodyGuard::hitOf(const Pair& pair, const Motion& motion, double fraction
   return hit;
 }
 
-BodyHit BodyGuard::hitOf(const View& view, const Touch& touch, const Pose& tableFromLink) const {
+BodyHit BodyGuard::hitOf(const BodyView& view, const Touch& touch, const Pose& tableFromLink) const {
   BodyHit hit;
   hit.fraction = touch.fraction;
   hit.byTool = true;
@@ -228,8 +136,9 @@ BodyHit BodyGuard::hitOf(const View& view, const Touch& touch, const Pose& table
 
 /// The distance, or less than it if that is `enough`, or as long as their boxes are apart and nobody asks for the
 /// point. At 0 they touch.
-double BodyGuard::gap(Pair& pair, const Pose& firstFromSecond, double enough, Vector3* point, Vector3* normal) {
-  Thing &first = *pair.first, &second = *pair.second;
+double BodyGuard::gap(const BodyPair& pair, const Pose& firstFromSecond, double enough, Vector3* point,
+                      Vector3* normal) {
+  const BodyThing &first = *pair.first, &second = *pair.second;
   const Pose between = first.linkFromSolid.inverse() * firstFromSecond * second.linkFromSolid;
   const Vector3 firstMiddle = 0.5 * (first.bounds.minimum + first.bounds.maximum),
                 secondMiddle = 0.5 * (second.bounds.minimum + second.bounds.maximum);
@@ -240,7 +149,7 @@ double BodyGuard::gap(Pair& pair, const Pose& firstFromSecond, double enough, Ve
                 distance(back * firstMiddle, second.bounds) - first.radius,
                 boxDistance(first.bounds, between, second.bounds), boxDistance(second.bounds, back, first.bounds)});
   if (byBounds > enough || (byBounds > boxesDo && point == nullptr)) return byBounds;
-  const BodyMesh &one = first.mesh(), &other = second.mesh();
+  const BodyMesh &one = meshOf(first), &other = meshOf(second);
   if (one.num_tris == 0 || other.num_tris == 0) return 1e300;
   fcl::DistanceRequestd request(point != nullptr);
   fcl::DistanceResultd result;
@@ -255,19 +164,17 @@ double BodyGuard::gap(Pair& pair, const Pose& firstFromSecond, double enough, Ve
 
 std::optional<BodyHit> BodyGuard::approach(Pair& pair, const Motion& motion, double end, Touching mode,
                                            const std::stop_token& stop) {
-  pair.way =
-      reserve * (longestWay(pair.between.first, machine_.axes, motion, pair.first->centre, pair.first->radius) +
-                 longestWay(pair.between.second, machine_.axes, motion, pair.second->centre, pair.second->radius));
+  pair.way = scene_.longestWay(*pair.of, motion);
   pair.known.assign(1, {0, pair.clear});
   if (pair.way == 0 || pair.clear > pair.way * end) return std::nullopt;
-  const Motion relative = seen(motion, *pair.kinematics);
+  const Motion relative = BodyScene::seen(motion, *pair.of->kinematics);
   const auto gapAt = [&](double fraction, double enough) {
-    return gap(pair, relative.tableFromSpindleAt(fraction), enough, nullptr, nullptr);
+    return gap(*pair.of, relative.tableFromSpindleAt(fraction), enough, nullptr, nullptr);
   };
   const auto hitAt = [&](double fraction) {
     Vector3 point = Vector3::Zero(), normal = Vector3::UnitZ();
-    gap(pair, relative.tableFromSpindleAt(fraction), 1e300, &point, &normal);
-    return hitOf(pair, motion, fraction, point, normal);
+    gap(*pair.of, relative.tableFromSpindleAt(fraction), 1e300, &point, &normal);
+    return hitOf(*pair.of, motion, fraction, point, normal);
   };
   const double step = shortestStep / pair.way;
   double fraction = 0, before = 0;
@@ -306,14 +213,14 @@ std::optional<BodyHit> BodyGuard::firstHit(const Motion& motion, double end, con
                                            const std::stop_token& stop) {
   std::optional<BodyHit> first;
   double reach = end;
-  const auto shift = longestShift(machine_.axes, motion);
-  for (const auto& pair : pairs_) {
-    if (shift && pair->clear > *shift * reach) {
-      pair->way = *shift;
-      pair->known.assign(1, {0, pair->clear});
+  const auto shift = longestShift(scene_.machine().axes, motion);
+  for (Pair& pair : pairs_) {
+    if (shift && pair.clear > *shift * reach) {
+      pair.way = *shift;
+      pair.known.assign(1, {0, pair.clear});
       continue;
     }
-    auto hit = approach(*pair, motion, reach, mode, stop);
+    auto hit = approach(pair, motion, reach, mode, stop);
     if (!hit || (first && hit->fraction >= first->fraction)) continue;
     reach = hit->fraction;
     first = std::move(hit);
@@ -321,74 +228,75 @@ std::optional<BodyHit> BodyGuard::firstHit(const Motion& motion, double end, con
   const SearchOptions options{.precision = toolPrecision, .stop = &stop};
   const Bounds toolBox = boundsOf(tool);
   const bool anyTool = toolBox.minimum.x() <= toolBox.maximum.x();
-  for (const auto& view : views_) {
+  for (View& view : views_) {
     if (!anyTool) continue;
-    if (view->toolBox.minimum != toolBox.minimum || view->toolBox.maximum != toolBox.maximum) view->clear = 0;
-    view->toolBox = toolBox;
-    view->way = shift.value_or(1e300);
-    if (shift && view->clear > *shift * reach + toolPrecision) continue;
-    const Motion relative = seen(motion, *view->kinematics);
+    if (view.toolBox.minimum != toolBox.minimum || view.toolBox.maximum != toolBox.maximum) view.clear = 0;
+    view.toolBox = toolBox;
+    view.way = shift.value_or(1e300);
+    if (shift && view.clear > *shift * reach + toolPrecision) continue;
+    const Motion relative = BodyScene::seen(motion, *view.of->kinematics);
     if (shift) {
-      view->clear = view->gap(relative.tableFromSpindleAt(0));
-      if (view->clear > *shift * reach + toolPrecision) {
-        view->fromStart = false;
+      view.clear = view.gap(relative.tableFromSpindleAt(0));
+      if (view.clear > *shift * reach + toolPrecision) {
+        view.fromStart = false;
         continue;
       }
     }
-    if (mode == Touching::MayBePulledOff || view->fromStart) {
+    if (mode == Touching::MayBePulledOff || view.fromStart) {
       const Pose start = relative.tableFromSpindleAt(0);
-      if (shaftOverlap(start, tool, *view->surroundings) || ballOverlap(start, tool, *view->surroundings)) continue;
-      view->fromStart = false;
+      if (shaftOverlap(start, tool, *view.of->surroundings) || ballOverlap(start, tool, *view.of->surroundings))
+        continue;
+      view.fromStart = false;
     }
-    const auto touch = firstTouch(relative, 0, reach, tool, *view->surroundings, options);
+    const auto touch = firstTouch(relative, 0, reach, tool, *view.of->surroundings, options);
     if (!touch || (first && touch->fraction >= first->fraction)) continue;
     reach = touch->fraction;
-    first = hitOf(*view, *touch, tableFromLink(view->link, motion.slidesAt(touch->fraction)));
+    first = hitOf(*view.of, *touch, tableFromLink(view.of->link, motion.slidesAt(touch->fraction)));
   }
   return first;
 }
 
 void BodyGuard::arrived(double fraction) {
-  for (const auto& pair : pairs_) {
+  for (Pair& pair : pairs_) {
     double clear = 0;
-    for (const Pair::Known& known : pair->known)
-      clear = std::max(clear, known.gap - pair->way * std::abs(fraction - known.fraction));
-    pair->clear = clear;
-    pair->known.clear();
+    for (const Pair::Known& known : pair.known)
+      clear = std::max(clear, known.gap - pair.way * std::abs(fraction - known.fraction));
+    pair.clear = clear;
+    pair.known.clear();
   }
-  for (const auto& view : views_) {
-    view->clear = std::max(0.0, view->clear - view->way * fraction);
-    view->way = 1e300;  // until a motion is asked for
+  for (View& view : views_) {
+    view.clear = std::max(0.0, view.clear - view.way * fraction);
+    view.way = 1e300;  // until a motion is asked for
   }
 }
 
 void BodyGuard::forget() {
-  for (const auto& pair : pairs_) {
-    pair->clear = 0;
-    pair->known.clear();
+  for (Pair& pair : pairs_) {
+    pair.clear = 0;
+    pair.known.clear();
   }
-  for (const auto& view : views_)
-    view->clear = 0;
+  for (View& view : views_)
+    view.clear = 0;
 }
 
 std::optional<BodyHit> BodyGuard::standing(const AxisPositions& slides, double seconds) {
-  for (const auto& pair : pairs_) {
+  for (const BodyPair& pair : scene_.pairs()) {
     Vector3 point = Vector3::Zero(), normal = Vector3::UnitZ();
-    const Pose pose = pair->kinematics->tableFromSpindle(slides, seconds);
-    if (gap(*pair, pose, touching, nullptr, nullptr) > touching) continue;
-    gap(*pair, pose, 1e300, &point, &normal);
-    const Motion motion{*pair->kinematics, slides, slides, slides, seconds, MotionProfile(0, 1, 1)};
-    return hitOf(*pair, motion, 0, point, normal);
+    const Pose pose = pair.kinematics->tableFromSpindle(slides, seconds);
+    if (gap(pair, pose, touching, nullptr, nullptr) > touching) continue;
+    gap(pair, pose, 1e300, &point, &normal);
+    const Motion motion{*pair.kinematics, slides, slides, slides, seconds, MotionProfile(0, 1, 1)};
+    return hitOf(pair, motion, 0, point, normal);
   }
   return std::nullopt;
 }
 
 std::optional<BodyHit> BodyGuard::standing(const AxisPositions& slides, double seconds, const ToolShape& tool) {
-  for (const auto& view : views_) {
-    const Pose pose = view->kinematics->tableFromSpindle(slides, seconds);
-    auto touch = shaftOverlap(pose, tool, *view->surroundings);
-    if (!touch) touch = ballOverlap(pose, tool, *view->surroundings);
-    if (touch) return hitOf(*view, *touch, tableFromLink(view->link, slides));
+  for (const BodyView& view : scene_.views()) {
+    const Pose pose = view.kinematics->tableFromSpindle(slides, seconds);
+    auto touch = shaftOverlap(pose, tool, *view.surroundings);
+    if (!touch) touch = ballOverlap(pose, tool, *view.surroundings);
+    if (touch) return hitOf(view, *touch, tableFromLink(view.link, slides));
   }
   return std::nullopt;
 }

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "simulation/contact_search.hpp"
-#include "simulation/machine_body.hpp"
-#include "simulation/truth.hpp"
+#include "simulation/body_scene.hpp"
 
 /// What the bodies of a machine run into: each other, the tool, and what lies on the table.
 namespace probewright::simulation {
+
+struct BodyMesh;
 
 /// A body of the machine has met something, or the tool has met a body.
 struct BodyHit {
@@ -26,14 +26,10 @@ struct BodyHit {
 
 /// Watches bodies on straight moves in axis space.
 ///
-/// Pairs. Everything on one link is rigid. Bodies of links that an axis joins touch by design and are not tested
-/// against each other; parts, fixtures and gauges are tested against all bodies but those of the table, the tool
-/// against all but those of the head.
-///
-/// Method. The tool meets a body as it meets a part, see firstTouch(). Two bodies are triangles: their distance is
+/// The tool meets a body as it meets a part, see firstTouch(). Two bodies are triangles: their distance is
 /// computed where they stand, and they go on as far as that allows whatever way they take (conservative advancement),
 /// but by at least 0.02 mm. A contact is found to 0.002 mm of the triangles, one that lasts less than 0.02 mm of the
-/// way may be missed. Axes are where they truly are but for their deviations by position and by heat.
+/// way may be missed.
 class BodyGuard {
 public:
   explicit BodyGuard(const Truth& truth);
@@ -56,29 +52,22 @@ public:
   std::optional<BodyHit> standing(const machine::AxisPositions& slides, double seconds, const ToolShape& tool);
 
 private:
-  struct Thing;
   struct Pair;
   struct View;
 
-  void addThing(std::shared_ptr<const Solid> solid, const machine::Link& link, const Pose& linkFromSolid,
-                std::string name, bool ofMachine, bool isBody);
-  void addPairs();
-  void addViews();
-  std::unique_ptr<TrueKinematics> kinematicsBetween(const machine::Link& first, const machine::Link& second) const;
-  double gap(Pair& pair, const Pose& firstFromSecond, double enough, Vector3* point, Vector3* normal);
+  const BodyMesh& meshOf(const BodyThing& thing);
+  double gap(const BodyPair& pair, const Pose& firstFromSecond, double enough, Vector3* point, Vector3* normal);
   std::optional<BodyHit> approach(Pair& pair, const Motion& motion, double end, Touching touching,
                                   const std::stop_token& stop);
-  BodyHit hitOf(const Pair& pair, const Motion& motion, double fraction, const Vector3& point,
+  BodyHit hitOf(const BodyPair& pair, const Motion& motion, double fraction, const Vector3& point,
                 const Vector3& normal) const;
-  BodyHit hitOf(const View& view, const Touch& touch, const Pose& tableFromLink) const;
-  Motion seen(const Motion& motion, const TrueKinematics& kinematics) const;
+  BodyHit hitOf(const BodyView& view, const Touch& touch, const Pose& tableFromLink) const;
   Pose tableFromLink(const machine::Link& link, const machine::AxisPositions& slides) const;
 
-  machine::MachineDescription machine_;
-  MachineErrors errors_;  ///< those of single axes that do not depend on their positions
-  std::vector<std::unique_ptr<Thing>> things_;
-  std::vector<std::unique_ptr<Pair>> pairs_;
-  std::vector<std::unique_ptr<View>> views_;
+  BodyScene scene_;
+  std::vector<std::shared_ptr<const BodyMesh>> meshes_;  ///< of its things; made when they are needed
+  std::vector<Pair> pairs_;                              ///< what is known of the pairs of the scene
+  std::vector<View> views_;                              ///< and of its views
 };
 
 }  // namespace probewright::simulation

@@ -8,7 +8,7 @@
 
 namespace probewright::simulation {
 
-using BodyMesh = fcl::BVHModel<fcl::OBBRSSd>;
+struct BodyMesh : fcl::BVHModel<fcl::OBBRSSd> {};
 
 /// solidTriangles(), ready for distances; solid's frame. A solid does not change, so its triangles are made once for
 /// all machines that it is in, as long as there is one of them. From any thread.
