@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/diagnostic.hpp"
+#include "control/control_kind.hpp"
+#include "cycles/catalogue.hpp"
+#include "language/block.hpp"
+
+namespace probewright::language::klartext {
+
+/// What is wrong with the calls of touch probe cycles in a program: their parameters by the catalogue, and what the
+/// blocks before them have left, as far as the way to them is plain.
+class CallCheck {
+public:
+  /// `foresees`: also what a run would refuse when it gets there.
+  CallCheck(control::ControlKind kind, bool foresees) : kind_(kind), foresees_(foresees) {}
+
+  struct Remark {
+    const Word* word = nullptr;  ///< of the block; null: the block as such
+    std::string message, advice;
+    Severity severity = Severity::Error;
+    std::optional<std::uint32_t> lacking;  ///< the address of the parameter that the call lacks
+  };
+  std::vector<Remark> of(const Block& block, const CycleCall& call);
+
+  /// What else passes, in the order of the program.
+  void follow(const ToolCall& call);
+  void follow(const Block& block, const Transform& transform);
+  /// A label, a jump or a call: from here on nobody knows what has run before.
+  void wayBranches() { plainWay_ = false; }
+
+private:
+  void remark(std::string message, std::string advice, Severity severity = Severity::Error);
+  void remarkAt(const Word& word, std::string message, std::string advice, Severity severity = Severity::Error);
+  const Node* nodeOf(const Word& word) const;
+  std::optional<cycles::Argument> literal(const Word& word) const;
+  void checkWord(const cycles::CycleDefinition& cycle, const Word& word);
+  void checkTogether(const cycles::CycleDefinition& cycle, std::span<const Word> words);
+  void checkState(const cycles::CycleDefinition& cycle);
+
+  control::ControlKind kind_;
+  bool foresees_;
+  const Block* block_ = nullptr;  ///< the one that is looked at
+  std::vector<Remark> remarks_;
+  std::map<int, bool> transforms_;  ///< by cycle; absent: unknown or never defined
+  bool plainWay_ = true;            ///< every block so far has run once
+  bool toolCalled_ = false;
+};
+
+}  // namespace probewright::language::klartext
