@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/text.hpp"
 #include "console.hpp"
 
 namespace probewright::app {
@@ -45,8 +45,7 @@ ordered_json plainJson(const Diagnostics& all) {
 std::string uri(const std::string& path) {
   std::string text;
   for (const char c : path) {
-    const bool plain =
-        std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("-._~/").find(c) != std::string_view::npos;
+    const bool plain = isLetter(c) || isDigit(c) || std::string_view("-._~/").find(c) != std::string_view::npos;
     text += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
   }
   return text;

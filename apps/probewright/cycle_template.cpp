@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 #include "conversion/parameter_texts.hpp"
 
 namespace probewright::app {
@@ -50,12 +50,6 @@ double value(const Parameter& parameter) {
   if (parameter.standard) return *parameter.standard;
   if (!parameter.choices.empty()) return parameter.choices.front().value;
   return std::clamp(0.0, parameter.minimum, parameter.maximum);
-}
-
-std::string upperCase(std::string_view text) {
-  std::string upper(text);
-  std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return upper;
 }
 
 std::string klartext(const CycleDefinition& cycle, control::ControlKind kind, control::DialogLanguage language) {

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 #include "commands.hpp"
 #include "console.hpp"
 #include "cycle_search.hpp"
@@ -203,8 +203,7 @@ nlohmann::ordered_json toJson(const CycleDefinition& cycle) {
 std::string plainName(std::string_view name) {
   std::string plain;
   for (const char c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-      plain += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    if (isLetter(c) || isDigit(c)) plain += upper(c);
   }
   for (const std::string_view words : {"TCHPROBE", "TCH", "CYCLDEF"}) {
     if (plain.starts_with(words)) plain.erase(0, words.size());
