@@ -6,13 +6,11 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/text.hpp"
+
 namespace probewright {
 
-namespace {
-
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-
-}  // namespace
+namespace {}  // namespace
 
 std::optional<double> parseDecimal(std::string_view text) {
   const bool hasSign = !text.empty() && (text.front() == '+' || text.front() == '-');

@@ -161,6 +161,12 @@ Eigen::Affine3d Channel::programFromTable(const AxisPositions& axes) const {
   return programFromMachine_ * Pose(translation(-aside)) * machine::baseFromTable(description_, turned);
 }
 
+namespace {
+
+constexpr bool whileMoving = false, whileMeasuring = true;
+
+}  // namespace
+
 void Channel::note(Interruption why, bool measuring, const AxisPositions& from, const AxisPositions& to) {
   const AxisPositions now = axes();
   journal_.interrupt({.why = why,
@@ -180,11 +186,11 @@ void Channel::note(machine::MoveEnd end, const AxisPositions& from, const AxisPo
     case machine::MoveEnd::Refused:
       return;
     case machine::MoveEnd::ProbeSignal:
-      return note(Interruption::Deflected, false, from, to);
+      return note(Interruption::Deflected, whileMoving, from, to);
     case machine::MoveEnd::Collision:
-      return note(Interruption::Collision, false, from, to);
+      return note(Interruption::Collision, whileMoving, from, to);
     case machine::MoveEnd::AxisLimit:
-      return note(Interruption::Limit, false, from, to);
+      return note(Interruption::Limit, whileMoving, from, to);
   }
 }
 
@@ -196,13 +202,13 @@ void Channel::note(machine::MeasureEnd end, const AxisPositions& from, const Axi
     case machine::MeasureEnd::Refused:
       return;
     case machine::MeasureEnd::NoContact:
-      return note(Interruption::NoContact, true, from, to);
+      return note(Interruption::NoContact, whileMeasuring, from, to);
     case machine::MeasureEnd::DeflectedAtStart:
-      return note(Interruption::Deflected, true, from, to);
+      return note(Interruption::Deflected, whileMeasuring, from, to);
     case machine::MeasureEnd::Collision:
-      return note(Interruption::Collision, true, from, to);
+      return note(Interruption::Collision, whileMeasuring, from, to);
     case machine::MeasureEnd::AxisLimit:
-      return note(Interruption::Limit, true, from, to);
+      return note(Interruption::Limit, whileMeasuring, from, to);
   }
 }
 

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <numbers>
 
+#include "base/text.hpp"
 #include "conversion/heidenhain_tasks.hpp"
 #include "cycles/catalogue.hpp"
 
@@ -104,7 +104,7 @@ private:
 
   void tool() {
     const std::string& name = task_.tool->tool;
-    const bool number = std::ranges::all_of(name, [](unsigned char c) { return std::isdigit(c) != 0; });
+    const bool number = std::ranges::all_of(name, isDigit);
     if (number && name.size() < 6) {
       set(330, std::stoi(name));
     } else {

@@ -139,7 +139,7 @@ Place ToSinumerik::holePattern(const Block& block, const MeasuringTask& given, c
   const Place middle = {Quantity::of(centre[0]), Quantity::of(centre[1]), {}};
   if (pattern.correction == Correction::Origin) {
     forgetPosition();
-    shiftOrigin(block, pattern, middle, true);
+    shiftOrigin(block, pattern, middle, SinumerikPassage::Rest::ShiftFromMeasured);
   }
   return middle;
 }

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "conversion/call.hpp"
 #include "language/sinumerik/keywords.hpp"
 #include "language/sinumerik/operators.hpp"
@@ -67,7 +67,7 @@ std::optional<int> settableOf(std::string_view code) {
   if (code.size() < 3 || code.front() != 'G') return std::nullopt;
   int number = 0;
   for (const char c : code.substr(1)) {
-    if (std::isdigit(static_cast<unsigned char>(c)) == 0) return std::nullopt;
+    if (!isDigit(c)) return std::nullopt;
     number = number * 10 + (c - '0');
   }
   if (number >= firstSettableCode && number <= 57) return number - 53;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 
+#include "base/text.hpp"
 #include "conversion/heidenhain_tasks.hpp"
 #include "conversion/parameter_texts.hpp"
 #include "conversion/sinumerik_formulas.hpp"
@@ -221,7 +221,7 @@ void ToKlartext::correctTool(const MeasuringTask& task, const Results& results) 
   passIf(found, 12, "LT", task.tool->least);
   const std::string& name = task.tool->tool;
   std::string row = name;
-  if (std::ranges::any_of(name, [](unsigned char c) { return std::isdigit(c) == 0; })) {
+  if (!std::ranges::all_of(name, isDigit)) {
     const std::string text = formulas_.define("name of a tool", KlartextFormulas::Holds::Text);
     row = formulas_.define("row of a tool");
     line(fmt::format("{} = \"{}\"", text, name));

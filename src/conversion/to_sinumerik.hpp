@@ -127,7 +127,8 @@ private:
   void correctTool(const MeasuringTask& task, const SinumerikPassage& passage);
   /// Shifts the origin so that what lies at `now` gets the coordinates of the wish; `measured`: in the coordinates that
   /// are in effect.
-  void shiftOrigin(const language::Block& block, const MeasuringTask& task, const Place& now, bool measured);
+  void shiftOrigin(const language::Block& block, const MeasuringTask& task, const Place& now,
+                   SinumerikPassage::Rest from);
   void shiftToWish(const language::Block& block, const MeasuringTask& task, SinumerikPassage::Rest rest);
   /// Where the cycle of the passage leaves what it measures, counted as a HEIDENHAIN control does.
   static Results resultsOf(const MeasuringTask& task, const SinumerikPassage& passage);

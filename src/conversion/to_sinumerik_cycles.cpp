@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 #include <vector>
 
+#include "base/text.hpp"
 #include "conversion/heidenhain_tasks.hpp"
 #include "conversion/sinumerik_tasks.hpp"
 #include "conversion/to_sinumerik.hpp"
@@ -227,7 +227,7 @@ void ToSinumerik::countFromNewOrigin(const MeasuringTask& preset, const Place& f
 
 void ToSinumerik::correctTool(const MeasuringTask& task, const SinumerikPassage& passage) {
   const std::string& tool = task.tool->tool;
-  const bool number = std::ranges::all_of(tool, [](unsigned char c) { return std::isdigit(c) != 0; });
+  const bool number = std::ranges::all_of(tool, isDigit);
   const std::string wear = fmt::format("$TC_DP15[{},1]", number ? tool : fmt::format("GETT(\"{}\",1)", tool));
   // Tool data count in millimetres.
   out_.line(fmt::format(
@@ -240,10 +240,11 @@ void ToSinumerik::shiftToWish(const Block& block, const MeasuringTask& task, Sin
   const bool fromMeasured = rest == SinumerikPassage::Rest::ShiftFromMeasured;
   // By the correction the feature has the coordinates of its place; the origin moves by what is left.
   const Place now = fromMeasured ? Place{Quantity::of("_OVR[5]"), Quantity::of("_OVR[6]"), {}} : task.place;
-  shiftOrigin(block, task, now, fromMeasured);
+  shiftOrigin(block, task, now, rest);
 }
 
-void ToSinumerik::shiftOrigin(const Block& block, const MeasuringTask& task, const Place& now, bool measured) {
+void ToSinumerik::shiftOrigin(const Block& block, const MeasuringTask& task, const Place& now,
+                              SinumerikPassage::Rest from) {
   std::array<Quantity, 3> left;
   bool any = false;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -253,7 +254,7 @@ void ToSinumerik::shiftOrigin(const Block& block, const MeasuringTask& task, con
   }
   if (!any) return;
   const bool isActive = task.active || (activeRow_ && task.row == *activeRow_);
-  if (measured && !isActive) {
+  if (from == SinumerikPassage::Rest::ShiftFromMeasured && !isActive) {
     out_.list(block, "the origin is shifted as if its zero offset were the one in effect",
               "select the preset with cycle 247 before this cycle");
   }

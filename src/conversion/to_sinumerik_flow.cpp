@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
 #include "base/text.hpp"
 #include "conversion/to_sinumerik.hpp"
@@ -19,7 +18,7 @@ constexpr int deepestCall = 21;  ///< levels: no subprogram, and the 20 that may
 std::string identifierFrom(std::string_view text) {
   std::string name = upperCase(text);
   for (char& c : name)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+    if (!isLetter(c) && !isDigit(c)) c = '_';
   return name;
 }
 
@@ -126,7 +125,7 @@ void ToSinumerik::callLabel(const Block& block, const CallLabel& call) {
 void ToSinumerik::callProgram(const Block& block, const CallProgram& call) {
   if (call.name.length == 0) throw NotCarriedOver("a program whose name is computed has no twin on a SINUMERIK");
   const std::string name = withoutEnding(block.at(call.name));
-  if (name.size() < 2 || identifierFrom(name) != upperCase(name) || std::isdigit(static_cast<unsigned char>(name[0])))
+  if (name.size() < 2 || identifierFrom(name) != upperCase(name) || isDigit(name[0]))
     throw NotCarriedOver(fmt::format("{} is not a valid name of a SINUMERIK program", name),
                          "names begin with two letters or an underscore and have letters, digits and underscores");
   out_.line(upperCase(name));

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+
+#include "base/text.hpp"
 
 namespace probewright::exchange {
 
@@ -27,12 +28,8 @@ constexpr std::array kFormats = {
 std::span<const Format> formats() { return kFormats; }
 
 const Format* formatNamed(std::string_view name) {
-  const auto same = [](char a, char b) {
-    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-  };
-  const auto found = std::ranges::find_if(kFormats, [&](const Format& format) {
-    return std::equal(format.name.begin(), format.name.end(), name.begin(), name.end(), same);
-  });
+  const auto found = std::ranges::find_if(
+      kFormats, [&](const Format& format) { return std::ranges::equal(format.name, name, {}, lower, lower); });
   return found == kFormats.end() ? nullptr : &*found;
 }
 

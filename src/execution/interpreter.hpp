@@ -177,7 +177,9 @@ private:
   BlockPosition counterpart();
   BlockPosition behindCounterpart();
   Loaded* load(std::shared_ptr<Program> program);
-  Loaded* called(std::string_view name, bool maybeNone);
+  /// The program of that name; null if there is none and that is fine.
+  enum class Missing { Refused, Fine };
+  Loaded* called(std::string_view name, Missing missing);
   [[noreturn]] void refuse(Refusal refusal, std::string text, std::string advice = {}) const;
   Diagnostic here(Severity severity, std::string message, std::string advice = {}, std::string code = {}) const;
   void relocate(Diagnostic& diagnostic, const control::AlarmPlace& place) const;

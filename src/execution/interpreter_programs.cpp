@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <tuple>
 #include <utility>
 
+#include "base/text.hpp"
 #include "execution/interpreter.hpp"
 
 /// Programs that call each other: with arguments, repeatedly, in sections, after each motion.
@@ -28,7 +28,8 @@ Interpreter::Loaded* Interpreter::load(std::shared_ptr<Program> program) {
   return programs_.back().get();
 }
 
-Interpreter::Loaded* Interpreter::called(std::string_view name, bool maybeNone) {
+Interpreter::Loaded* Interpreter::called(std::string_view name, Missing missing) {
+  const bool maybeNone = missing == Missing::Fine;
   const Program* caller = current_->program.get();
   for (const Call& call : calls_) {
     if (call.caller == caller && call.name == name && (call.called != nullptr || maybeNone)) return call.called;
@@ -57,7 +58,7 @@ Interpreter::Flow Interpreter::callProgram(const CallProgram& call, const Instru
   std::string computed;
   if (call.nameValue.present()) computed = evaluation.text(call.nameValue);
   const std::string_view name = call.nameValue.present() ? std::string_view(computed) : evaluation.at(call.name);
-  Loaded* program = called(name, call.maybeCycle);
+  Loaded* program = called(name, call.maybeCycle ? Missing::Fine : Missing::Refused);
   if (program == nullptr) {
     host_.execute(instruction, evaluation);
     return Flow::Next;
@@ -71,7 +72,7 @@ Interpreter::Flow Interpreter::callProgram(const CallProgram& call, const Instru
 Interpreter::Flow Interpreter::followRequest(Evaluation& evaluation) {
   const std::string name = host_.requestedProgram();
   if (name.empty()) return Flow::Next;
-  enter(*called(name, false), CallProgram{}, evaluation, 0);
+  enter(*called(name, Missing::Refused), CallProgram{}, evaluation, 0);
   return Flow::Moved;
 }
 
@@ -146,7 +147,7 @@ Interpreter::Flow Interpreter::callModally() {
   Evaluation evaluation(*current_->program, block, host_);
   const Instruction& instruction = block.instructions.front();
   const auto& call = std::get<CallProgram>(instruction);
-  Loaded* program = called(block.at(call.name), true);
+  Loaded* program = called(block.at(call.name), Missing::Fine);
   if (program == nullptr) {
     host_.execute(instruction, evaluation);
     return Flow::Next;
@@ -176,22 +177,21 @@ Interpreter::Frame Interpreter::popProgram() {
 
 namespace {
 
-bool isPartOfName(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool isPartOfName(char c) { return isLetter(c) || isDigit(c) || c == '_'; }
 
 /// True if `text` stands in `line` before its comment, not as a part of a longer name. Small letters count as
 /// capital ones; `text` has capital ones.
 bool standsIn(std::string_view line, std::string_view text) {
-  std::string upper(line);
-  std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::string capitals = upperCase(line);
   bool inText = false;
-  for (std::size_t i = 0; i < upper.size(); ++i) {
-    if (upper[i] == '"') inText = !inText;
-    if (upper[i] == ';' && !inText) upper.resize(i);
+  for (std::size_t i = 0; i < capitals.size(); ++i) {
+    if (capitals[i] == '"') inText = !inText;
+    if (capitals[i] == ';' && !inText) capitals.resize(i);
   }
-  for (std::size_t at = upper.find(text); at != std::string::npos; at = upper.find(text, at + 1)) {
+  for (std::size_t at = capitals.find(text); at != std::string::npos; at = capitals.find(text, at + 1)) {
     const std::size_t end = at + text.size();
-    const bool begins = at == 0 || !isPartOfName(upper[at - 1]) || !isPartOfName(text.front());
-    const bool ends = end == upper.size() || !isPartOfName(upper[end]) || !isPartOfName(text.back());
+    const bool begins = at == 0 || !isPartOfName(capitals[at - 1]) || !isPartOfName(text.front());
+    const bool ends = end == capitals.size() || !isPartOfName(capitals[end]) || !isPartOfName(text.back());
     if (begins && ends) return true;
   }
   return false;
@@ -199,7 +199,7 @@ bool standsIn(std::string_view line, std::string_view text) {
 
 /// The next block after `from` with this text in it; if there is none, the first of the program.
 std::optional<BlockPosition> findText(Program& program, BlockPosition from, std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  text = upperCase(text);
   std::optional<BlockPosition> first;
   Block block;
   Diagnostics mistakes;
@@ -255,7 +255,7 @@ Interpreter::Flow Interpreter::leaveProgram() {
   instruction_ = frame.instruction;
   Evaluation evaluation(*current_->program, block_->block, host_);
   if (!again.empty()) {
-    enter(*called(again, false), CallProgram{}, evaluation, frame.remaining);
+    enter(*called(again, Missing::Refused), CallProgram{}, evaluation, frame.remaining);
     return Flow::Moved;
   }
   enter(*left, std::get<CallProgram>(block_->block.instructions[frame.instruction]), evaluation, frame.remaining - 1);

@@ -40,13 +40,15 @@ std::vector<std::string> componentsOf(std::string_view name) {
   return components;
 }
 
+enum class Entry { Folder, File };
+
 /// The entry of `folder` with this name; the exact one before others, and the first of others in alphabetical order.
-std::optional<fs::path> entryOf(const fs::path& folder, const std::string& name, bool directory) {
+std::optional<fs::path> entryOf(const fs::path& folder, const std::string& name, Entry wanted) {
   std::error_code error;
   const auto fits = [&](const fs::path& path) {
-    return directory ? fs::is_directory(path, error) : fs::is_regular_file(path, error);
+    return wanted == Entry::Folder ? fs::is_directory(path, error) : fs::is_regular_file(path, error);
   };
-  if (name == "..") return directory ? std::optional(folder / name) : std::nullopt;
+  if (name == "..") return wanted == Entry::Folder ? std::optional(folder / name) : std::nullopt;
   const fs::path exact = folder / name;
   if (fits(exact)) return exact;
   std::optional<fs::path> best;
@@ -102,9 +104,9 @@ std::optional<fs::path> DirectoryLibrary::find(std::string_view name, const Prog
     for (const fs::path& folder : folders) {
       std::optional<fs::path> place = folder;
       for (std::size_t i = leftOut; place && i < components.size(); ++i)
-        place = entryOf(*place, components[i], true);
+        place = entryOf(*place, components[i], Entry::Folder);
       for (std::size_t i = 0; place && i < candidates.size(); ++i) {
-        const auto found = entryOf(*place, candidates[i], false);
+        const auto found = entryOf(*place, candidates[i], Entry::File);
         if (found && isWithinReach(*found)) return found->lexically_normal();
       }
     }

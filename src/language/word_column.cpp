@@ -1,7 +1,6 @@
 #include "language/word_column.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include "base/text.hpp"
 
@@ -9,10 +8,8 @@ namespace probewright::language {
 
 namespace {
 
-bool isWordSign(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '$'; }
-bool sameLetter(char a, char b) {
-  return std::toupper(static_cast<unsigned char>(a)) == std::toupper(static_cast<unsigned char>(b));
-}
+bool isWordSign(char c) { return isLetter(c) || isDigit(c) || c == '_' || c == '$'; }
+bool sameLetter(char a, char b) { return upper(a) == upper(b); }
 
 }  // namespace
 

@@ -29,13 +29,14 @@ fs::path resolved(std::string_view name, const fs::path& folder) {
   return path.is_absolute() ? path : folder / path;
 }
 
-std::optional<double> numberAt(std::string_view text, bool whole) {
+/// The number that is all of the text but for a comment.
+std::optional<double> numberAt(std::string_view text) {
   const std::string copy(bare(text));
   char* end = nullptr;
   const double value = std::strtod(copy.c_str(), &end);
   if (end == copy.c_str() || !std::isfinite(value)) return std::nullopt;
   const std::string_view rest = bare(end);
-  if (whole && !rest.empty() && rest.front() != '#' && rest.front() != ';') return std::nullopt;
+  if (!rest.empty() && rest.front() != '#' && rest.front() != ';') return std::nullopt;
   return value;
 }
 
@@ -138,7 +139,7 @@ std::optional<double> LinuxCncIni::number(std::string_view section, std::string_
                                           Diagnostics& diagnostics) const {
   const IniEntry* entry = find(section, key);
   if (entry == nullptr) return std::nullopt;
-  const auto value = numberAt(entry->value, true);
+  const auto value = numberAt(entry->value);
   if (!value) {
     diagnostics.push_back(
         fail(entry->place, fmt::format("[{}]{} = {} is not a number", section, key, entry->value)).value());
@@ -205,13 +206,13 @@ private:
 
   /// A number, or [SECTION]KEY of the .ini.
   std::optional<double> valueOf(const std::string& word) const {
-    if (!word.starts_with('[')) return numberAt(word, true);
+    if (!word.starts_with('[')) return numberAt(word);
     const std::size_t end = word.find(']');
     if (end == std::string::npos) return std::nullopt;
     std::string key = word.substr(end + 1);
     if (key.size() > 2 && key.front() == '(' && key.back() == ')') key = key.substr(1, key.size() - 2);
     const auto value = ini_.text(word.substr(1, end - 1), key);
-    return value ? numberAt(*value, true) : std::nullopt;
+    return value ? numberAt(*value) : std::nullopt;
   }
 
   const LinuxCncIni& ini_;

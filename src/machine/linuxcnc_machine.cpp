@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 #include <string_view>
 
+#include "base/text.hpp"
 #include "machine/linuxcnc_ini.hpp"
 
 namespace probewright::machine {
@@ -20,10 +20,11 @@ constexpr std::string_view allLetters = "XYZABCUVW";
 constexpr double farthest = 1e6;   // mm or degrees; no machine is larger
 constexpr double endless = 10000;  // mm, assumed where the configuration has no limits
 
-std::string upper(std::string_view text) {
+/// In capitals, without blanks and quotation marks.
+std::string plainWord(std::string_view text) {
   std::string result;
   for (const char c : text)
-    if (c != ' ' && c != '\t' && c != '"') result += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    if (!isBlank(c) && c != '"') result += upper(c);
   return result;
 }
 
@@ -122,7 +123,7 @@ private:
     if (entry == nullptr) return otherwise;
     const std::string word = entry->value.substr(0, entry->value.find_first_of(" \t"));
     for (const auto& [name, value] : names)
-      if (upper(word) == upper(name)) return value;
+      if (plainWord(word) == plainWord(name)) return value;
     if (const auto number = ini_.number("TRAJ", key, diagnostics_); number && *number > 0) return 1 / *number;
     mistake(entry, fmt::format("the unit {} is not known", word));
     return otherwise;
@@ -140,8 +141,8 @@ private:
     words >> name;
     for (std::string word; words >> word && word.front() != '#';) {
       const std::size_t equals = word.find('=');
-      if (equals != std::string::npos && upper(word.substr(0, equals)) == "COORDINATES")
-        joints_ = upper(word.substr(equals + 1));
+      if (equals != std::string::npos && plainWord(word.substr(0, equals)) == "COORDINATES")
+        joints_ = plainWord(word.substr(equals + 1));
     }
     const auto known = std::ranges::find(knownKinematics, name, &Kinematics::name);
     if (known != knownKinematics.end()) {
@@ -165,7 +166,7 @@ private:
   /// Which axes the machine has.
   bool readLetters() {
     const IniEntry* entry = ini_.find("TRAJ", "COORDINATES");
-    letters_ = entry != nullptr ? upper(entry->value) : jointsSaid_ ? joints_ : std::string("XYZ");
+    letters_ = entry != nullptr ? plainWord(entry->value) : jointsSaid_ ? joints_ : std::string("XYZ");
     for (const char letter : letters_ + joints_) {
       if (allLetters.find(letter) != std::string_view::npos) continue;
       mistake(entry != nullptr ? entry : kinsEntry_, fmt::format("there is no axis {}", letter),
@@ -195,12 +196,15 @@ private:
     return true;
   }
 
+  enum class Stops { AtSmaller, AtLarger };
+
   /// The value of a key that both [AXIS_L] and [JOINT_N] may have: whichever LinuxCNC would stop at first.
-  std::optional<double> limit(char letter, const char* key, bool smaller) {
+  std::optional<double> limit(char letter, const char* key, Stops stops) {
     std::optional<double> result;
     const auto take = [&](const std::string& section) {
       const auto value = ini_.number(section, key, diagnostics_);
-      if (value) result = !result ? *value : smaller ? std::min(*result, *value) : std::max(*result, *value);
+      if (value)
+        result = !result ? *value : stops == Stops::AtSmaller ? std::min(*result, *value) : std::max(*result, *value);
     };
     // With other kinematics the limits of axes are those of the tool tip on the workpiece.
     if (kinematics_.identity) take(std::string("AXIS_") + letter);
@@ -222,7 +226,7 @@ private:
     }
     const double unit = isRotary(letter) ? degreesPerUnit_ : mmPerUnit_;
     const char* name = isRotary(letter) ? "degrees" : "mm";
-    const auto low = limit(letter, "MIN_LIMIT", false), high = limit(letter, "MAX_LIMIT", true);
+    const auto low = limit(letter, "MIN_LIMIT", Stops::AtLarger), high = limit(letter, "MAX_LIMIT", Stops::AtSmaller);
     const auto wrapped = ini_.number(axisSection, "WRAPPED_ROTARY", diagnostics_);
     axis.modulo = isRotary(letter) && wrapped && *wrapped != 0;
     const double far = isRotary(letter) ? farthest : endless;
@@ -248,7 +252,7 @@ private:
   }
 
   double pace(char letter, const char* key, double unit) {
-    const auto value = limit(letter, key, true);
+    const auto value = limit(letter, key, Stops::AtSmaller);
     if (value && *value > 0) return *value * unit;
     warn(nullptr, fmt::format("axis {} has no {}: LinuxCNC takes 1 unit", letter, key));
     return unit;
@@ -258,7 +262,7 @@ private:
 
   /// A length of the kinematics: [PROBEWRIGHT] of the .ini, else what the HAL files give to the pin.
   std::optional<double> length(std::string_view pin) {
-    std::string key = upper(pin);
+    std::string key = plainWord(pin);
     std::ranges::replace(key, '-', '_');
     if (const auto said = ini_.number("PROBEWRIGHT", key, diagnostics_)) return *said * mmPerUnit_;
     const std::string name = fmt::format("{}.{}", kinematics_.name, pin);
@@ -270,7 +274,7 @@ private:
   double lengthOr(std::string_view pin) {
     const auto value = length(pin);
     if (value) return *value;
-    std::string key = upper(pin);
+    std::string key = plainWord(pin);
     std::ranges::replace(key, '-', '_');
     mistake(kinsEntry_,
             fmt::format("the length {}.{} is set by something that runs, so the files do not tell it", kinematics_.name,
@@ -370,7 +374,7 @@ private:
     for (double& number : n)
       words >> number;
     const Vector3 direction(n[0], n[1], n[2]);
-    part = upper(part);
+    part = plainWord(part);
     if (!words || (part != "TABLE" && part != "HEAD") || !(direction.norm() > 1e-9) || !(direction.norm() < farthest)) {
       mistake(&entry, fmt::format("{} is TABLE or HEAD, a direction and a point", entry.key),
               "For instance TABLE 1 0 0  0 0 -300: X direction, through X0 Y0 Z-300");

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/file.hpp"
+#include "base/text.hpp"
 #include "base/toml_table.hpp"
 #include "machine/linuxcnc_machine.hpp"
 #include "machine/machine_text.hpp"
@@ -24,7 +25,7 @@ Axis readAxis(TomlReader& reader, const std::vector<Axis>& before) {
   Axis axis;
   if (auto name = reader.requiredText("name")) {
     axis.name = *name;
-    if (name->empty() || !std::all_of(name->begin(), name->end(), [](unsigned char c) { return std::isalnum(c); })) {
+    if (name->empty() || !std::ranges::all_of(*name, [](char c) { return isLetter(c) || isDigit(c); })) {
       reader.report("name", fmt::format("\"{}\" is not a valid name of an axis", *name),
                     "Axes have names such as X, B or C1");
     } else if (std::any_of(before.begin(), before.end(), [&](const Axis& other) { return other.name == *name; })) {

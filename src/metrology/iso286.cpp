@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <optional>
 #include <string>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 
 namespace probewright::metrology {
 
@@ -107,19 +107,17 @@ tl::unexpected<Diagnostic> undefined(double nominal, std::string_view toleranceC
 }
 
 std::optional<Class> parseClass(std::string_view text) {
-  const auto isLetter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
   const auto length = static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), isLetter) - text.begin());
   const std::string_view name = text.substr(0, length);
   const std::string_view grade = text.substr(length);
   if (name.empty() || name.size() > 2) return std::nullopt;
-  const auto isCapital = [](char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; };
   const auto capitals = std::count_if(name.begin(), name.end(), isCapital);
   if (capitals != 0 && static_cast<std::size_t>(capitals) != name.size()) return std::nullopt;
 
   Class result;
   result.hole = capitals > 0;
   for (const char c : name)
-    result.letter += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    result.letter += lower(c);
   if (grade == "01") {
     result.grade = gradeIt01;
     return result;

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 #include "metrology/iso286.hpp"
 
 namespace probewright::metrology {
@@ -15,9 +15,6 @@ namespace probewright::metrology {
 namespace {
 
 constexpr double rounding = 1e-9;
-
-bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
-bool isLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
 /// Reads a dimension from left to right; `column` counts from 1.
 class DimensionReader {

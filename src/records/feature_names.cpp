@@ -1,24 +1,16 @@
 #include "records/feature_names.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <string_view>
+
+#include "base/text.hpp"
 
 namespace probewright::records {
 
 namespace {
 
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-
-std::string_view withoutBlanks(std::string_view text) {
-  while (!text.empty() && isBlank(text.front()))
-    text.remove_prefix(1);
-  while (!text.empty() && isBlank(text.back()))
-    text.remove_suffix(1);
-  return text;
-}
+std::string_view withoutBlanks(std::string_view text) { return trimmed(text, blanksAndReturn); }
 
 /// Takes the block's number away, if there is one.
 std::string_view withoutNumber(std::string_view line) {
@@ -32,9 +24,8 @@ std::string_view withoutNumber(std::string_view line) {
 
 bool startsWithMessage(std::string_view line) {
   constexpr std::string_view word = "MSG";
-  return line.size() >= word.size() && std::ranges::equal(line.substr(0, word.size()), word, [](char a, char b) {
-           return std::toupper(static_cast<unsigned char>(a)) == b;
-         });
+  return line.size() >= word.size() &&
+         std::ranges::equal(line.substr(0, word.size()), word, [](char a, char b) { return upper(a) == b; });
 }
 
 /// The name that a line gives to what follows.

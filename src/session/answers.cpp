@@ -2,17 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "base/text.hpp"
+
 namespace probewright::session {
-
-namespace {
-
-std::string_view trimmed(std::string_view part) {
-  const std::size_t first = part.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return part.substr(first, part.find_last_not_of(" \t\r") - first + 1);
-}
-
-}  // namespace
 
 Result<std::map<std::string, std::string>> parseAnswers(std::string_view text, const std::string& file) {
   std::map<std::string, std::string> answers;
@@ -20,14 +12,14 @@ Result<std::map<std::string, std::string>> parseAnswers(std::string_view text, c
     const std::size_t end = text.find('\n');
     const std::string_view whole = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    const std::string_view line = trimmed(whole.substr(0, whole.find('#')));
+    const std::string_view line = trimmed(whole.substr(0, whole.find('#')), blanksAndReturn);
     if (line.empty()) continue;
     const std::size_t equals = line.find('=');
-    const std::string name(trimmed(line.substr(0, equals)));
+    const std::string name(trimmed(line.substr(0, equals), blanksAndReturn));
     if (equals == std::string_view::npos || name.empty()) {
       return fail({file, number, 1}, fmt::format("'{}' is not an answer", line.substr(0, 60)), "write NAME = VALUE");
     }
-    if (!answers.emplace(name, trimmed(line.substr(equals + 1))).second) {
+    if (!answers.emplace(name, trimmed(line.substr(equals + 1), blanksAndReturn)).second) {
       return fail({file, number, 1}, fmt::format("'{}' is answered twice", name.substr(0, 60)),
                   "remove one of the two lines");
     }

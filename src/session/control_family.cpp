@@ -1,9 +1,9 @@
 #include "session/control_family.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <stdexcept>
 
+#include "base/text.hpp"
 #include "session/heidenhain/family.hpp"
 #include "session/sinumerik/family.hpp"
 
@@ -53,8 +53,7 @@ std::optional<ControlKind> ControlFamilies::controlNamed(std::string_view text) 
   const auto plain = [](std::string_view written) {
     std::string letters;
     for (const char c : written) {
-      if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-        letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      if (isLetter(c) || isDigit(c)) letters += lower(c);
     }
     return letters;
   };

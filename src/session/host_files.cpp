@@ -1,9 +1,9 @@
 #include "session/host_files.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include "base/file.hpp"
+#include "base/text.hpp"
 
 namespace probewright::session {
 
@@ -17,9 +17,7 @@ std::vector<fs::path> foldersOf(const fs::path& program, const control::Beliefs&
   return folders;
 }
 
-bool sameName(const std::string& a, const std::string& b) {
-  return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::toupper(x) == std::toupper(y); });
-}
+bool sameName(const std::string& a, const std::string& b) { return std::ranges::equal(a, b, {}, upper, upper); }
 
 }  // namespace
 

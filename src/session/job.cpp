@@ -1,13 +1,13 @@
 #include "session/job.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/file.hpp"
+#include "base/text.hpp"
 #include "cycles/catalogue.hpp"
 
 namespace probewright::session {
@@ -26,9 +26,7 @@ constexpr int mostPrograms = 500;
 std::string plainName(std::string_view path) {
   if (const std::size_t slash = path.find_last_of("/\\:"); slash != std::string_view::npos)
     path.remove_prefix(slash + 1);
-  std::string name(path.substr(0, path.rfind('.')));
-  std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return name;
+  return upperCase(path.substr(0, path.rfind('.')));
 }
 
 struct Found {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/file.hpp"
+#include "base/text.hpp"
 #include "language/directory_library.hpp"
 #include "session/table_files.hpp"
 
@@ -56,7 +57,7 @@ std::string familiesAndEndings(const ControlFamilies& families) {
 
 std::optional<ProgramLanguage> languageOf(const std::filesystem::path& path, std::string_view text,
                                           const ControlFamilies& families) {
-  const std::string ending = upper(path.extension().string());
+  const std::string ending = upperCase(path.extension().string());
   const std::string head(text.substr(0, 20000));
   std::optional<ProgramLanguage> byEnding, byText;
   forEachLanguage(families, [&](const LanguageEntry& entry) {
@@ -79,7 +80,7 @@ std::string_view foreignLanguage(const std::filesystem::path& path, std::string_
       std::regex::icase);
   const bool own = languageOf(path, {}, families).has_value();
   if (own) return {};
-  if (upper(path.extension().string()) == ".NGC" || std::regex_search(head, rs274))
+  if (upperCase(path.extension().string()) == ".NGC" || std::regex_search(head, rs274))
     return "an RS-274 program (LinuxCNC, Fanuc and others)";
   return {};
 }
@@ -211,7 +212,7 @@ std::unique_ptr<language::ProgramLibrary> programLibrary(const ControlFamily& fa
                         const std::filesystem::path& path) -> Result<std::shared_ptr<language::Program>> {
     const Result<std::string> text = readFile(path);
     if (!text) return tl::unexpected(text.error());
-    const std::string ending = upper(path.extension().string());
+    const std::string ending = upperCase(path.extension().string());
     const LanguageEntry* entry = &family.languages.front();
     for (const LanguageEntry& each : family.languages) {
       if (has(each.endings, ending) || has(each.archiveEndings, ending)) entry = &each;

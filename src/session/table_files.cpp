@@ -4,18 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "base/file.hpp"
+#include "base/text.hpp"
 
 namespace probewright::session {
 
 namespace fs = std::filesystem;
-
-std::string upper(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
 
 std::vector<fs::path> tableFiles(const fs::path& folder, Diagnostics& diagnostics) {
   std::vector<fs::path> files;
@@ -27,7 +22,7 @@ std::vector<fs::path> tableFiles(const fs::path& folder, Diagnostics& diagnostic
     const fs::path& path = entry.path();
     if (entry.is_regular_file(error)) {
       files.push_back(path);
-    } else if (std::ranges::find(endings, upper(path.extension().string())) != endings.end()) {
+    } else if (std::ranges::find(endings, upperCase(path.extension().string())) != endings.end()) {
       const char* what = fs::is_directory(path, error) ? "a folder"
                          : fs::exists(path, error)     ? "not a file"
                                                        : "a symbolic link that leads nowhere";

@@ -10,9 +10,6 @@
 /// The control's own table files, in a folder that somebody names.
 namespace probewright::session {
 
-/// In capitals, letters of ASCII.
-std::string upper(std::string text);
-
 /// The files of the folder, in alphabetical order; none if `folder` is empty. What has the name of a table and is none
 /// is a mistake.
 std::vector<std::filesystem::path> tableFiles(const std::filesystem::path& folder, Diagnostics& diagnostics);

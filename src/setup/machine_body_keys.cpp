@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "machine/machine_text.hpp"
 #include "setup/shape_keys.hpp"
 
@@ -36,8 +37,7 @@ std::optional<fs::path> readShapeFile(TomlReader& reader, const fs::path& folder
   if (!file) return std::nullopt;
   fs::path path = *file;
   if (!path.is_absolute()) path = folder / path;
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = lowerCase(path.extension().string());
   static const std::vector<std::string> known = {".step", ".stp", ".iges", ".igs", ".stl"};
   if (std::ranges::find(known, ending) == known.end()) {
     reader.report("file", fmt::format("\"{}\" is not a part file that can be read", *file),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "simulation/analytic_solids.hpp"
 #include "simulation/cad_solid.hpp"
 #include "simulation/machine_bodies.hpp"
@@ -13,8 +14,7 @@ namespace probewright::simulation {
 
 Result<std::unique_ptr<Solid>> loadSolid(const SolidSource& source, const ImportOptions& import) {
   if (source.file.empty()) return buildSolid(source.recipe, {}, import.stop);
-  std::string ending = source.file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = lowerCase(source.file.extension().string());
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(source.file, ignored)) {
     const bool isThere = std::filesystem::exists(source.file, ignored);

@@ -38,7 +38,7 @@ Vector3 FaceGrid::at(double i, double j) const {
   return {p.X(), p.Y(), p.Z()};
 }
 
-double FaceGrid::deviation() const { return std::max(deviationAlong(true), deviationAlong(false)); }
+double FaceGrid::deviation() const { return std::max(deviationAlong(Along::U), deviationAlong(Along::V)); }
 
 double FaceGrid::largestCell() const {
   double largest = 0;
@@ -50,7 +50,8 @@ double FaceGrid::largestCell() const {
 }
 
 /// How far the surface leaves the middle of the cells' sides along u, or v.
-double FaceGrid::deviationAlong(bool alongU) const {
+double FaceGrid::deviationAlong(Along along) const {
+  const bool alongU = along == Along::U;
   double largest = 0;
   for (int i = 0; i < columns_; ++i) {
     for (int j = 0; j < rows_; ++j) {
@@ -64,7 +65,7 @@ double FaceGrid::deviationAlong(bool alongU) const {
 
 void FaceGrid::refine(double deflection) {
   while (2 * columns_ * rows_ <= kMostCells) {
-    const double alongU = deviationAlong(true), alongV = deviationAlong(false);
+    const double alongU = deviationAlong(Along::U), alongV = deviationAlong(Along::V);
     const bool mayHalveU = alongU > deflection && 2 * columns_ <= kMostCellsAcross;
     const bool mayHalveV = alongV > deflection && 2 * rows_ <= kMostCellsAcross;
     if (mayHalveU && (!mayHalveV || alongU >= alongV || rows_ > columns_)) {

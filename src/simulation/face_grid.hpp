@@ -25,7 +25,8 @@ public:
 private:
   Vector2 parameters(double i, double j) const;
   Vector3 at(double i, double j) const;
-  double deviationAlong(bool alongU) const;
+  enum class Along { U, V };
+  double deviationAlong(Along along) const;
   void refine(double deflection);
 
   const CadFace& face_;

@@ -7,13 +7,15 @@
 #include <charconv>
 #include <vector>
 
+#include "base/text.hpp"
+
 namespace probewright::simulation {
 namespace {
 
 /// Lists of lists of points of a complex entity need 5.
 constexpr std::size_t kDeepest = 64;
 
-bool isNameLetter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '!'; }
+bool isNameLetter(char c) { return isLetter(c) || isDigit(c) || c == '_' || c == '!'; }
 
 class Scanner {
 public:
@@ -195,7 +197,6 @@ std::uint64_t circularEntity(const StepText& text) {
 }
 
 std::string withCapitalExponents(std::string bytes) {
-  const auto isDigit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
   bool inText = false;
   for (std::size_t i = 1; i + 1 < bytes.size(); ++i) {
     if (bytes[i] == '\'') inText = !inText;

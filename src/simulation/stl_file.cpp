@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "base/file.hpp"
+#include "base/text.hpp"
 #include "simulation/triangle_mesh.hpp"
 
 namespace probewright::simulation {
@@ -95,10 +96,10 @@ public:
   std::uint64_t line() const { return line_; }
 
   std::string_view next() {
-    while (at_ < text_.size() && isBlank(text_[at_]))
+    while (at_ < text_.size() && isSpace(text_[at_]))
       skip();
     const std::size_t start = at_;
-    while (at_ < text_.size() && !isBlank(text_[at_]))
+    while (at_ < text_.size() && !isSpace(text_[at_]))
       ++at_;
     return text_.substr(start, at_ - start);
   }
@@ -109,7 +110,7 @@ public:
   }
 
 private:
-  static bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+  static bool isSpace(char c) { return isBlankOrReturn(c) || c == '\n'; }
 
   void skip() {
     if (text_[at_] == '\n') ++line_;

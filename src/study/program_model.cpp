@@ -143,9 +143,10 @@ void refuse(Outcome& outcome, std::string why) {
 }
 
 std::optional<setup::Setup> Trials::setupOf(Desk& desk, const Draw& draw, Outcome& outcome) const {
-  const auto read = [&](toml::table& table, bool beliefs) -> std::optional<setup::Setup> {
+  enum class Half { World, Beliefs };
+  const auto read = [&](toml::table& table, Half half) -> std::optional<setup::Setup> {
     for (std::size_t i = 0; i < sources_.size(); ++i) {
-      if (beliefs && !changesBeliefs_[i]) continue;
+      if (half == Half::Beliefs && !changesBeliefs_[i]) continue;
       if (const auto set = sources_[i].quantity.set(table, draw.inputs[i]); !set) {
         refuse(outcome, set.error().message);
         return std::nullopt;
@@ -159,10 +160,10 @@ std::optional<setup::Setup> Trials::setupOf(Desk& desk, const Draw& draw, Outcom
     }
     return setup;
   };
-  auto setup = read(desk.world, false);
+  auto setup = read(desk.world, Half::World);
   if (!setup) return std::nullopt;
   if (anyBelief_) {
-    auto believed = read(desk.beliefs, true);
+    auto believed = read(desk.beliefs, Half::Beliefs);
     if (!believed) return std::nullopt;
     setup->beliefs = std::move(believed->beliefs);
   } else {

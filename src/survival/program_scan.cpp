@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
@@ -13,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/text.hpp"
 #include "session/source.hpp"
 
 namespace probewright::survival {
@@ -80,13 +80,6 @@ bool onlyTells(std::string_view name) {
   for (const char c : name)
     if (c != ' ') plain += c;
   return std::ranges::find(names, plain) != names.end();
-}
-
-std::string upper(std::string_view text) {
-  std::string letters(text);
-  for (char& letter : letters)
-    letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
-  return letters;
 }
 
 class Scan {
@@ -169,7 +162,7 @@ private:
     use(reads);
   }
   void look(const Block& block, const language::CallProgram& call) {
-    const std::string name = upper(block.at(call.name));
+    const std::string name = upperCase(block.at(call.name));
     const bool cycle = call.maybeCycle && name.starts_with("CYCLE") && !library_->exists(name, program_);
     if (!cycle && !found_) found_ = Obstacle{"the program calls another one, which is not looked into", place_};
     if (call.modal && !found_) found_ = Obstacle{"a call works modally", place_};

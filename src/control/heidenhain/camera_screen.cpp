@@ -134,8 +134,8 @@ void CameraScreen::press(const KeyStroke& stroke) {
       break;
     case CameraKey::Evaluate:
       marked_ = false;
-      test(true);
-      evaluate(false);
+      test(Images::All);
+      evaluate(Settings::Kept);
       break;
     case CameraKey::Configure:
       before_ = point_;
@@ -165,10 +165,10 @@ void CameraScreen::pressWhileConfiguring(const KeyStroke& stroke) {
       point_.settings.sensitivity = stroke.number;
       break;
     case CameraKey::TestImage:
-      test(false);
+      test(Images::Shown);
       break;
     case CameraKey::TestAll:
-      test(true);
+      test(Images::All);
       break;
     case CameraKey::ShowAreas:
       for (std::size_t i = 0; i < areas.size(); ++i) {
@@ -182,7 +182,7 @@ void CameraScreen::pressWhileConfiguring(const KeyStroke& stroke) {
       break;
     case CameraKey::SaveAndBack:
       if (before_->settings != point_.settings) {
-        evaluate(true);
+        evaluate(Settings::Changed);
       } else {
         before_.reset();
       }
@@ -234,17 +234,17 @@ void CameraScreen::erase(const KeyStroke& stroke, std::vector<Window>& windows) 
   windows.erase(windows.begin() + static_cast<std::ptrdiff_t>(stroke.number) - 1);
 }
 
-void CameraScreen::test(bool all) {
+void CameraScreen::test(Images which) {
   MonitoringPoint trial = point_;
   const auto changes = trial.evaluate();
   for (std::size_t i = 0; i < changes.size(); ++i) {
-    if (!all && trial.images[i].number != shown_) continue;
+    if (which == Images::Shown && trial.images[i].number != shown_) continue;
     port_.show(fmt::format("Image {}: {} errors; {}", trial.images[i].number, trial.images[i].found.size(),
                            nameOf(changes[i])));
   }
 }
 
-void CameraScreen::evaluate(bool settingsChanged) {
+void CameraScreen::evaluate(Settings settings) {
   const auto changes = point_.evaluate();
   bool sensitive = false;
   for (std::size_t i = 0; i < changes.size(); ++i) {
@@ -252,7 +252,7 @@ void CameraScreen::evaluate(bool settingsChanged) {
     sensitive = true;
     port_.warn(fmt::format("Image {} of {}: {}", point_.images[i].number, fileStem(point_), nameOf(changes[i])));
   }
-  if (settingsChanged && sensitive) unconfirmed_ = before_;
+  if (settings == Settings::Changed && sensitive) unconfirmed_ = before_;
   before_.reset();
 }
 
@@ -265,7 +265,7 @@ void CameraScreen::leave() {
     point_ = *std::exchange(unconfirmed_, std::nullopt);
     port_.warn("The changed sensitivity is not confirmed: the settings stay as they were");
   }
-  if (std::exchange(marked_, false)) evaluate(false);
+  if (std::exchange(marked_, false)) evaluate(Settings::Kept);
   display();
 }
 

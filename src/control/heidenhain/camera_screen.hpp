@@ -47,9 +47,11 @@ private:
   void remove();
   void draw(const KeyStroke& stroke, std::vector<Window>& windows);
   void erase(const KeyStroke& stroke, std::vector<Window>& windows);
-  void test(bool all);
+  enum class Images { Shown, All };
+  void test(Images which);
   /// Evaluates all images. Settings that change how sensitive the monitoring is wait for CONFIRM.
-  void evaluate(bool settingsChanged);
+  enum class Settings { Kept, Changed };
+  void evaluate(Settings settings);
   void leave();
   void inactive(const KeyStroke& stroke);
 

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <tuple>
+
+#include "base/text.hpp"
 
 namespace probewright::control::heidenhain {
 
@@ -49,8 +50,7 @@ std::vector<Deflection> deflectionsOf(const TypedTable& table) {
 }
 
 std::string deflectionTableName(std::string_view entry) {
-  std::string name(entry.substr(entry.find_last_of("\\/:") + 1));
-  std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::string name = upperCase(entry.substr(entry.find_last_of("\\/:") + 1));
   if (!name.empty() && !name.ends_with(".3DTC")) name += ".3DTC";
   return name;
 }

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 
 namespace probewright::control::heidenhain {
 namespace {
@@ -277,9 +277,7 @@ constexpr std::array entries = {
         &MachineParameters::refuseTransformations},
 };
 
-bool sameName(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
+bool sameName(std::string_view a, std::string_view b) { return std::ranges::equal(a, b, {}, lower, lower); }
 
 bool isNumberOf(const MachineParameterEntry& entry, std::string_view text) {
   std::string_view rest = entry.number;

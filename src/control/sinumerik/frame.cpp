@@ -4,7 +4,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "control/sinumerik/text.hpp"

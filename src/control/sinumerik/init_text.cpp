@@ -8,16 +8,16 @@
 #include <cmath>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 #include "control/sinumerik/text.hpp"
 
 namespace probewright::control::sinumerik {
 
 namespace {
 
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-bool isLetter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' || c == '$'; }
-bool isNameCharacter(char c) { return isLetter(c) || isDigit(c); }
+bool isSpace(char c) { return isBlankOrReturn(c) || c == '\n'; }
+bool beginsName(char c) { return isLetter(c) || c == '_' || c == '$'; }
+bool isNameCharacter(char c) { return beginsName(c) || isDigit(c); }
 
 std::string printable(std::string_view text) {
   std::string excerpt(text.substr(0, 120));
@@ -111,7 +111,7 @@ private:
   bool atEnd() const { return at_ >= content_.size() || content_[at_] == ';'; }
   char peek() const { return at_ < content_.size() ? content_[at_] : '\0'; }
   void skipBlanks() {
-    while (at_ < content_.size() && isBlank(content_[at_]))
+    while (at_ < content_.size() && isSpace(content_[at_]))
       ++at_;
   }
   std::string_view readWord() {
@@ -157,7 +157,7 @@ private:
   /// False: the rest of the line has no meaning here.
   bool readStatement() {
     const std::size_t begin = at_;
-    if (!isLetter(peek())) {
+    if (!beginsName(peek())) {
       note(begin, "this statement is kept but not used");
       return false;
     }
@@ -260,7 +260,7 @@ private:
   bool readValue(const DataKey& key, Assignment& assignment) {
     if (atEnd()) fail(at_, "a value is expected after =", "write a number, a string in quotation marks or a frame");
     const std::size_t begin = at_;
-    if (isLetter(peek())) {
+    if (beginsName(peek())) {
       const std::string word = upperCase(readWord());
       skipBlanks();
       if (word == "SET" && peek() == '(') return readList(key, assignment);
@@ -276,7 +276,7 @@ private:
       return false;
     }
     // An operator after the constant makes it an expression.
-    if (operatorFollows() || (!atEnd() && !isBlank(peek()))) {
+    if (operatorFollows() || (!atEnd() && !isSpace(peek()))) {
       at_ = begin;
       return false;
     }
@@ -303,7 +303,7 @@ private:
       at_ = close + 1;
       return DataValue(std::string(content_.substr(begin + 1, close - begin - 1)));
     }
-    if (isLetter(peek())) {
+    if (beginsName(peek())) {
       const std::string word = upperCase(readWord());
       if (word == "TRUE") return DataValue(true);
       if (word == "FALSE") return DataValue(false);
@@ -315,7 +315,7 @@ private:
       at_ = close + 1;
     } else {
       if (peek() == '-' || peek() == '+') ++at_;
-      if (isLetter(peek()) || peek() == '(') return std::nullopt;
+      if (beginsName(peek()) || peek() == '(') return std::nullopt;
       while (isNameCharacter(peek()) || peek() == '.') {
         const bool exponent = at_ > begin && upperCase(content_.substr(at_ - 1, 2)) == "EX";
         ++at_;

@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <functional>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 #include "base/utc.hpp"
 #include "control/alarm.hpp"
 #include "control/heidenhain/kinematic_tables.hpp"
@@ -55,11 +55,11 @@ bool matches(std::string_view name, std::string_view pattern) {
     return false;
   }
   if (name.empty()) return false;
-  const auto first = static_cast<unsigned char>(name.front());
+  const char first = name.front();
   const char sign = pattern.front();
   const bool fits = sign == '?'   ? true
-                    : sign == '$' ? std::isalpha(first) != 0
-                    : sign == '#' ? std::isdigit(first) != 0
+                    : sign == '$' ? isLetter(first)
+                    : sign == '#' ? isDigit(first)
                                   : sign == name.front();
   return fits && matches(name.substr(1), pattern.substr(1));
 }

@@ -6,6 +6,7 @@
 
 #include "base/truncated.hpp"
 #include "control/alarm.hpp"
+#include "control/scoped.hpp"
 #include "cycles/heidenhain/tool_measurement.hpp"
 #include "cycles/heidenhain/tool_parameters.hpp"
 
@@ -107,21 +108,6 @@ TurningTool turningTool(Context& context) {
   return tool;
 }
 
-/// While a turning tool is measured the controlled point is its tip; afterwards what it was.
-class TipControlled {
-public:
-  TipControlled(control::Channel& channel, const TurningTool& tool) : channel_(channel), before_(channel.toolVector) {
-    channel_.toolVector = {-tool.x, -tool.y, tool.z};
-  }
-  ~TipControlled() { channel_.toolVector = before_; }
-  TipControlled(const TipControlled&) = delete;
-  TipControlled& operator=(const TipControlled&) = delete;
-
-private:
-  control::Channel& channel_;
-  Vector3 before_;
-};
-
 struct Measured {
   std::optional<double> z, x;
 };
@@ -131,7 +117,8 @@ Measured measure(Context& context, const TurningTool& tool, double clearanceHeig
   control::Channel& channel = context.channel();
   const probing::ToolTouchProbe probe = toolTouchProbe(control, Contact::Calibrated);
   channel.orientSpindle(tool.spindleAngle);
-  const TipControlled tip(channel, tool);
+  // While it is measured the controlled point is its tip.
+  const control::Scoped tip(channel.toolVector, Vector3(-tool.x, -tool.y, tool.z));
   probing::ToolProber prober(channel, control.coordinates.plane, probe, clearanceHeight);
   Measured measured;
   if (tool.measurable.z) {

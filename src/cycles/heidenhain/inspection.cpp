@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/text.hpp"
 #include "control/alarm.hpp"
 #include "cycles/heidenhain/tool_monitoring.hpp"
 #include "metrology/tolerance.hpp"
@@ -20,10 +21,10 @@ Inspected inspectedPosition(int parameter, int deviationParameter, std::string l
   Inspected item;
   item.parameter = parameter;
   item.deviationParameter = deviationParameter;
-  std::string lower = label;
-  if (!lower.empty()) lower[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(lower[0])));
-  item.maximumLabel = "Maximum limit for " + lower;
-  item.minimumLabel = "Minimum limit for " + lower;
+  std::string inSentence = label;
+  if (!inSentence.empty()) inSentence[0] = lower(inSentence[0]);
+  item.maximumLabel = "Maximum limit for " + inSentence;
+  item.minimumLabel = "Minimum limit for " + inSentence;
   item.label = std::move(label);
   item.nominal = nominal;
   item.actual = actual;

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+
+#include "base/text.hpp"
 
 namespace probewright::cycles::heidenhain {
 namespace {
@@ -291,9 +292,7 @@ const LogFrame& capitalLogFrame() { return capitals; }
 
 std::string capitalTerm(std::string_view term, std::span<const CapitalTerm> own) {
   const auto found = std::ranges::find(own, term, &CapitalTerm::usual);
-  std::string text(found == own.end() ? term : found->capitals);
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
+  return upperCase(found == own.end() ? term : found->capitals);
 }
 
 std::string_view translated(std::string_view term, DialogLanguage language, std::span<const LogTerm> own) {

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <stdexcept>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 #include "control/alarm.hpp"
 #include "control/missing_axis.hpp"
 #include "control/sinumerik/measuring_data.hpp"
@@ -51,7 +51,7 @@ std::string titleOf(const Entry& entry, const Arguments& arguments) {
   const auto choice = std::ranges::find(feature.choices, units, &Choice::value);
   if (choice == feature.choices.end()) return std::string(definition.title);
   std::string title(choice->meaning);
-  title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
+  title.front() = upper(title.front());
   const char* between = " ";
   for (const TitleSize& size : entry.title.sizes) {
     if (size.variants != 0 && (size.variants >> units & 1) == 0) continue;

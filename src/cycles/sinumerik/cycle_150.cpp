@@ -2,6 +2,7 @@
 #include <array>
 #include <charconv>
 
+#include "base/text.hpp"
 #include "control/alarm.hpp"
 #include "control/sinumerik/control.hpp"
 #include "cycles/sinumerik/context.hpp"
@@ -43,8 +44,7 @@ std::string fileNameOf(const std::string& path, MeasuringLog::Form form) {
   std::string name = path.substr(path.find_last_of("/\\") + 1);
   name = name.substr(0, name.find_last_of('.'));
   for (char& c : name) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (std::isalnum(byte) == 0 && c != '_' && c != '-') c = '_';
+    if (!isLetter(c) && !isDigit(c) && c != '_' && c != '-') c = '_';
   }
   if (name.empty()) name = "MEASPROT";
   return name + (form == MeasuringLog::Form::Text ? ".TXT" : ".CSV");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 #include "base/truncated.hpp"
 #include "control/alarm.hpp"
 #include "control/sinumerik/measuring_data.hpp"
@@ -277,7 +278,7 @@ std::optional<Edits> editsFrom(const std::string& text) {
 std::string logName(const Control& control, const ToolCarrier& carrier, int number) {
   std::string name = carrier.name.empty() ? fmt::format("TCARR{}", number) : carrier.name;
   std::ranges::replace_if(
-      name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '_' && c < 128; }, '_');
+      name, [](char c) { return !isLetter(c) && !isDigit(c) && c != '_' && static_cast<unsigned char>(c) < 128; }, '_');
   for (int i = 1; i < 99; ++i)
     if (std::string file = fmt::format("{}_M{}.SPF", name, i); !control.panel.files().contains(file)) return file;
   return name + "_M99.SPF";

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 #include "control/alarm.hpp"
 #include "control/heidenhain/datum_table.hpp"
 #include "control/heidenhain/preset_table.hpp"
@@ -30,11 +31,7 @@ double checkedScale(double factor) {
   return factor;
 }
 
-std::string upperName(std::string_view path) {
-  std::string name = fileNameOf(path);
-  std::ranges::transform(name, name.begin(), [](char c) { return upper(c); });
-  return name;
-}
+std::string upperName(std::string_view path) { return upperCase(fileNameOf(path)); }
 
 }  // namespace
 

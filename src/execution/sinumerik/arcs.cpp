@@ -131,7 +131,8 @@ PathElement PathMotion::arcThroughPoint(const Words& words, Vector3 from, Vector
   element.axis = normal.normalized();
   // The centre of the circle through three points.
   element.centre = from + (a.squaredNorm() * b - b.squaredNorm() * a).cross(normal) / (2 * normal.squaredNorm());
-  element.sweep = sweepBetween(from - element.centre, to - element.centre, element.axis, false);
+  constexpr bool clockwise = false;  // as seen along the normal
+  element.sweep = sweepBetween(from - element.centre, to - element.centre, element.axis, clockwise);
   return element;
 }
 

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <string>
 
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 #include "control/heidenhain/text_table.hpp"
 
 namespace probewright::language::klartext {
@@ -66,10 +66,8 @@ public:
   }
 
 private:
-  static bool isLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
-  static bool isDigit(char c) { return c >= '0' && c <= '9'; }
   void skip() {
-    while (!rest_.empty() && (std::isspace(static_cast<unsigned char>(rest_.front())) != 0 || rest_.front() == '~'))
+    while (!rest_.empty() && (lineBlanks.find(rest_.front()) != std::string_view::npos || rest_.front() == '~'))
       rest_.remove_prefix(1);
   }
   template <class Of>
@@ -82,7 +80,7 @@ private:
   static std::string capitals(std::string_view text) {
     std::string all;
     for (const char c : text)
-      all += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+      all += upper(c);
     return all;
   }
 
@@ -117,7 +115,7 @@ private:
       sign = rest_.front() == '-' ? -1 : 1;
       rest_.remove_prefix(1);
     }
-    if (!rest_.empty() && std::toupper(static_cast<unsigned char>(rest_.front())) == 'Q') {
+    if (!rest_.empty() && upper(rest_.front()) == 'Q') {
       const std::string name = capitals(take([](char c) { return isLetter(c) || isDigit(c); }));
       return sign * parameter_(name);
     }

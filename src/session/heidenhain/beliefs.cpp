@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/text.hpp"
 #include "control/heidenhain/axis_shift_table.hpp"
 #include "control/heidenhain/datum_table.hpp"
 #include "control/heidenhain/deflection_table.hpp"
@@ -29,7 +30,7 @@ namespace {
 hh::TypedTable tableNamed(const std::string& name, const std::vector<fs::path>& files,
                           std::span<const hh::ColumnSpec> columns, hh::TypedTable otherwise, Diagnostics& diagnostics) {
   const auto found =
-      std::ranges::find_if(files, [&](const fs::path& path) { return upper(path.filename().string()) == name; });
+      std::ranges::find_if(files, [&](const fs::path& path) { return upperCase(path.filename().string()) == name; });
   if (found == files.end()) return otherwise;
   const auto text = contents(*found, diagnostics);
   if (!text) return otherwise;
@@ -143,20 +144,21 @@ hh::Tables heidenhainTables(const Beliefs& beliefs, ControlKind kind, Diagnostic
         tableNamed("AXSHIFT.TAB", files, hh::axisShiftColumns(), hh::defaultAxisShiftTable(), diagnostics);
   }
   for (const fs::path& path : files) {
-    const bool datums = upper(path.extension().string()) == ".D";
-    if (!datums && upper(path.extension().string()) != ".3DTC") continue;
+    const bool datums = upperCase(path.extension().string()) == ".D";
+    if (!datums && upperCase(path.extension().string()) != ".3DTC") continue;
     if (const auto text = contents(path, diagnostics)) {
       Result<hh::TypedTable> table = hh::TypedTable::parse(
           *text, path.string(), datums ? hh::datumColumns() : hh::deflectionColumns(), diagnostics);
       if (table) {
-        (datums ? tables.datums : tables.deflections).emplace(upper(path.filename().string()), std::move(*table));
+        (datums ? tables.datums : tables.deflections).emplace(upperCase(path.filename().string()), std::move(*table));
       } else {
         diagnostics.push_back(table.error());
       }
     }
   }
   const auto isThere = [&](const char* name) {
-    return std::ranges::any_of(files, [&](const fs::path& path) { return upper(path.filename().string()) == name; });
+    return std::ranges::any_of(files,
+                               [&](const fs::path& path) { return upperCase(path.filename().string()) == name; });
   };
   const bool hasProbeTable = isThere("TCHPROBE.TP"), hasPresetTable = isThere("PRESET.PR");
   for (const BelievedTool& tool : beliefs.tools) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/text.hpp"
 #include "control/heidenhain/kinematic_tables.hpp"
 #include "control/heidenhain/kinematics.hpp"
 #include "session/table_files.hpp"
@@ -39,7 +40,7 @@ void readKinematics(hh::Control& control, const control::Beliefs& beliefs, Diagn
   }
   Diagnostics known;  // of the folder; whoever reads the other tables has told them
   for (const fs::path& path : tableFiles(beliefs.tables, known)) {
-    const std::string name = upper(path.filename().string());
+    const std::string name = upperCase(path.filename().string());
     if (name == hh::kinematicTableName) {
       const auto table = tableIn(path, hh::kinematicColumns(), diagnostics);
       if (!table) continue;
@@ -75,7 +76,7 @@ void writeKinematics(const hh::Control& control, std::map<std::string, std::stri
   if (kinematics.tabled) files[hh::kinematicTableName] = hh::kinematicTable(kinematics, control.kind()).table().bytes();
   if (kinematics.saved) files[hh::savedKinematicsName] = kinematics.saved->table().bytes();
   if (kinematics.gridTable)
-    files[upper(fs::path(kinematics.gridTable->table().file()).filename().string())] =
+    files[upperCase(fs::path(kinematics.gridTable->table().file()).filename().string())] =
         kinematics.gridTable->table().bytes();
 }
 

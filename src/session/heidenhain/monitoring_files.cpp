@@ -8,6 +8,7 @@
 
 #include "base/file.hpp"
 #include "base/number_text.hpp"
+#include "base/text.hpp"
 #include "base/toml_table.hpp"
 #include "session/table_files.hpp"
 #include "vision/png.hpp"
@@ -94,7 +95,7 @@ std::optional<MonitoringPoint> readMonitoringPoint(const std::string& text, cons
   point.settings.sensitivity =
       reader.number("sensitivity", {vision::leastSensitivity, vision::mostSensitivity}).value_or(1);
   point.settings.areas = readWindows(reader, "areas");
-  if (diagnostics.size() == before && monitoringFileName(point) != upper(path.filename().string())) {
+  if (diagnostics.size() == before && monitoringFileName(point) != upperCase(path.filename().string())) {
     reader.report("point", fmt::format("program and point belong to a file {}", monitoringFileName(point)),
                   "Give the file its name back");
   }
@@ -110,7 +111,7 @@ std::vector<MonitoringPoint> readMonitoringFiles(const fs::path& tables, Diagnos
   std::vector<MonitoringPoint> points;
   if (tables.empty()) return points;
   for (const fs::path& path : tableFiles(tables, diagnostics)) {
-    if (upper(path.extension().string()) != ".VSC") continue;
+    if (upperCase(path.extension().string()) != ".VSC") continue;
     const auto text = contents(path, diagnostics);
     if (!text) continue;
     const auto image = [&](const std::string& name) { return readFile(path.parent_path() / name); };

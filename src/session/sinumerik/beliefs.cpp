@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "control/sinumerik/measuring_data.hpp"
 #include "control/sinumerik/text.hpp"
 #include "cycles/sinumerik/tool_probe_data.hpp"
@@ -109,7 +110,7 @@ SinumerikData sinumerikData(const Beliefs& beliefs, Diagnostics& diagnostics,
                          beliefs.file, store, diagnostics);
   }
   for (const fs::path& path : tableFiles(beliefs.tables, diagnostics)) {
-    const std::string ending = upper(path.extension().string());
+    const std::string ending = upperCase(path.extension().string());
     static constexpr std::array<std::string_view, 6> endings = {".INI", ".TOA", ".UFR", ".GUD", ".SEA", ".MD"};
     if (std::ranges::find(endings, ending) == endings.end()) continue;
     if (const auto text = contents(path, diagnostics)) {
