@@ -9,9 +9,7 @@
 #include "simulation/contact_search.hpp"
 #include "simulation/face_at.hpp"
 #include "simulation/round_faces.hpp"
-#include "truth/expected_corner.hpp"
-#include "truth/expected_feature.hpp"
-#include "truth/expected_walls.hpp"
+#include "truth/family_truth.hpp"
 
 namespace probewright::truth {
 
@@ -56,6 +54,7 @@ public:
        const simulation::VirtualMachine& machine)
       : motion_(motion),
         cycle_(cycle),
+        family_(familyTruth(control)),
         control_(control),
         truth_(machine.truth()),
         path_(machine.path()),
@@ -133,9 +132,12 @@ private:
     std::string text =
         fmt::format("the face of {} is {} mm further in {}, at {}", quoted(truth_.solids[touch->solid].name),
                     number(further), directionText(ahead), place(touch->point));
-    const Reach reach = reachOf(cycle_, way.norm(), control_);
-    // Half a millimetre for pretravel and what the face lies askew.
-    text += fmt::format("; with {} {:.0f} the touch would reach it", reach.name, std::ceil(reach.now + further + 0.5));
+    if (family_ != nullptr) {
+      const Reach reach = family_->reach(cycle_, way.norm(), control_);
+      // Half a millimetre for pretravel and what the face lies askew.
+      text +=
+          fmt::format("; with {} {:.0f} the touch would reach it", reach.name, std::ceil(reach.now + further + 0.5));
+    }
     known.texts.push_back(std::move(text));
     const simulation::PlacedSolid& solid = truth_.solids[touch->solid];
     const auto face = simulation::faceAt(*solid.solid, solid.tableFromSolid.inverse() * touch->point,
@@ -229,7 +231,7 @@ private:
 
   /// Where it is what the cycle looked for.
   void feature(Diagnosis& known) const {
-    if (cycle_ == nullptr || !isProbe()) return;
+    if (cycle_ == nullptr || family_ == nullptr || !isProbe()) return;
     const Vector3 shank = motion_.programFromTable.linear() * tableFromSpindle(motion_.end).linear() * shape_.shank;
     Eigen::Index axis = 2;
     shank.cwiseAbs().maxCoeff(&axis);
@@ -238,9 +240,12 @@ private:
     corner(known, axis);
   }
 
+  static control::WorkingPlane planeOf(Eigen::Index axis) { return control::WorkingPlane::ofToolAxis("XYZ"[axis]); }
+
   void corner(Diagnosis& known, Eigen::Index axis) const {
-    const auto expected = expectedCorner(*cycle_, static_cast<int>(axis), startOfCycle());
-    if (!expected) return;
+    const auto called = family_->corner(*cycle_, planeOf(axis).planeFromXyz(startOfCycle()).z());
+    if (!called) return;
+    const auto expected = std::optional(inWorkpiece(*called, static_cast<int>(axis)));
     const Eigen::Affine3d tableFromProgram = motion_.programFromTable.inverse();
     const auto found = trueCorner(*expected, tableFromProgram, truth_.solids);
     if (!found) return;
@@ -262,7 +267,7 @@ private:
   }
 
   void walls(Diagnosis& known, Eigen::Index axis) const {
-    const auto expected = expectedWalls(*cycle_, static_cast<int>(axis), startOfCycle());
+    const auto expected = family_->walls(*cycle_, planeOf(axis), startOfCycle());
     if (!expected) return;
     const Eigen::Affine3d tableFromProgram = motion_.programFromTable.inverse();
     const auto found = trueWalls(*expected, tableFromProgram, truth_.solids);
@@ -299,7 +304,7 @@ private:
   /// A hole or stud.
   void roundFeature(Diagnosis& known, Eigen::Index axis) const {
     const Eigen::Affine3d tableFromProgram = motion_.programFromTable.inverse();
-    const auto expected = expectedRound(*cycle_, static_cast<int>(axis), startOfCycle());
+    const auto expected = family_->round(*cycle_, planeOf(axis), startOfCycle());
     if (!expected) return;
     const Vector3 expectedCentre = tableFromProgram * expected->centre;
     const Vector3 along = (tableFromProgram.linear() * Vector3::Unit(axis)).normalized();
@@ -338,6 +343,7 @@ private:
 
   const InterruptedMotion& motion_;
   const control::CycleRecord* cycle_;
+  const FamilyTruth* family_;
   control::ControlKind control_;
   const simulation::Truth& truth_;
   const simulation::PathRecord& path_;

@@ -29,7 +29,8 @@ WrittenValues writtenValues(const control::Journal& journal);
 
 /// Presets and zero offsets that cycles wrote. They are as wrong as the measurement that they come from: by the error
 /// of the features that were touched, turned into the directions of the machine.
-std::vector<records::EntryTruth> frameEntries(const control::Journal& journal, const std::vector<TouchedCycle>& touched,
+std::vector<records::EntryTruth> frameEntries(const session::RunOutcome& outcome,
+                                              const std::vector<TouchedCycle>& touched,
                                               const std::vector<records::CycleTruth>& cycles);
 
 /// Tools and calibration data that were written, against the ones that a perfect measurement would have found.
@@ -40,16 +41,10 @@ std::vector<records::EntryTruth> toolEntries(const session::RunOutcome& outcome,
 /// Axes of rotation as the control believes them at the end, against the true ones, if anything of them was written.
 std::vector<records::EntryTruth> kinematicEntries(const session::RunOutcome& outcome, const simulation::Truth& truth);
 
-/// The response of a touch probe by direction, *.3DTC, if a calibration wrote it: a table is an entry, its distance
-/// that of the direction that is wrong most.
-std::vector<records::EntryTruth> deflectionEntries(const session::RunOutcome& outcome, const control::Beliefs& beliefs,
-                                                   const simulation::Truth& truth);
-
-/// The compensation table of cycle 453, if that wrote it, against what would put the tip of the probe to where it truly
-/// is, with the axes so that it is at the calibration sphere. What all positions of the grid have in common is left
-/// out.
-std::vector<records::EntryTruth> gridEntries(const session::RunOutcome& outcome,
-                                             const std::vector<TouchedCycle>& touched, const simulation::Truth& truth,
-                                             const simulation::PathRecord& path);
+/// What else a family compares: the response of a touch probe by direction, the compensation of a machine by the
+/// positions of its rotary axes.
+std::vector<records::EntryTruth> tableEntries(const session::RunOutcome& outcome, const control::Beliefs& beliefs,
+                                              const std::vector<TouchedCycle>& touched, const simulation::Truth& truth,
+                                              const simulation::PathRecord& path);
 
 }  // namespace probewright::truth

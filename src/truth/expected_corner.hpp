@@ -26,8 +26,18 @@ struct ExpectedCorner {
   std::string from;  ///< what says where: "Q263/Q264", "the pole"
 };
 
-/// Nothing for cycles that look for something else. `tool`, `start`: as of expectedRound.
-std::optional<ExpectedCorner> expectedCorner(const control::CycleRecord& cycle, int tool, const Vector3& start);
+/// The same in the working plane: main and minor axis.
+struct PlaneCorner {
+  Vector2 corner = Vector2::Zero();
+  std::array<Vector2, 2> point, into;
+  double height = 0;
+  std::string from;
+};
+ExpectedCorner inWorkpiece(const PlaneCorner& known, int tool);
+
+double cross(const Vector2& a, const Vector2& b);
+/// Where the lines p + t*d and q + t*e meet; nothing if they are nearly parallel.
+std::optional<Vector2> crossing(const Vector2& p, const Vector2& d, const Vector2& q, const Vector2& e);
 
 struct TrueCorner {
   Vector3 corner = Vector3::Zero();  ///< table frame

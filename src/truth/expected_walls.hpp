@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "control/journal.hpp"
+#include "control/working_plane.hpp"
 #include "geometry/primitives.hpp"
 #include "simulation/truth.hpp"
 
@@ -26,8 +26,12 @@ struct ExpectedWalls {
   std::string from;                  ///< what says where: "Q321/Q322", "the start position"
 };
 
-/// Nothing for cycles that look for something else. `tool`, `start`: as of expectedRound.
-std::optional<ExpectedWalls> expectedWalls(const control::CycleRecord& cycle, int tool, const Vector3& start);
+/// Pairs of these widths along main and minor axis, turned by `degrees`; nothing where one of them is no width.
+std::vector<WallPair> wallPairs(const control::WorkingPlane& plane, std::optional<double> main,
+                                std::optional<double> minor, double degrees = 0);
+/// One pair, along the main axis (1) or the minor one (2).
+std::vector<WallPair> wallPair(const control::WorkingPlane& plane, std::optional<double> axis,
+                               std::optional<double> width, double degrees = 0);
 
 struct TrueWalls {
   Vector3 centre = Vector3::Zero();  ///< table frame; where no wall was looked for as expected

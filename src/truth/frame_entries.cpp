@@ -5,6 +5,7 @@
 
 #include "base/number_text.hpp"
 #include "truth/entries.hpp"
+#include "truth/family_truth.hpp"
 #include "truth/features.hpp"
 #include "truth/shapes.hpp"
 
@@ -30,68 +31,6 @@ WrittenValues writtenValues(const control::Journal& journal) {
 }
 
 namespace {
-
-/// A number of a preset or zero offset: a coordinate of the origin along a machine axis, or an angle about one.
-struct FrameNumber {
-  EntryKind kind = EntryKind::Preset;
-  std::string name;   ///< of the frame
-  std::string label;  ///< of the number
-  int axis = 0;       ///< X, Y, Z
-  bool angle = false;
-};
-
-std::string zeroOffsetName(const std::string& index) {
-  const auto number = parseInteger(index);
-  if (!number || *number < 1) return "$P_UIFR[" + index + "]";
-  return *number <= 4 ? fmt::format("G{}", 53 + *number) : fmt::format("G{}", 500 + *number);
-}
-
-std::optional<FrameNumber> heidenhainNumber(const std::string& table, const std::string& entry) {
-  const bool presets = table == "PRESET.PR";
-  if (!presets && !table.ends_with(".D")) return std::nullopt;
-  const std::size_t comma = entry.find(", column ");
-  if (!entry.starts_with("row ") || comma == std::string::npos) return std::nullopt;
-  const std::string row = entry.substr(4, comma - 4), column = entry.substr(comma + 9);
-  FrameNumber number{presets ? EntryKind::Preset : EntryKind::ZeroOffset,
-                     presets ? "preset " + row : fmt::format("datum {} of {}", row, table), column};
-  if (column == "X" || column == "Y" || column == "Z") {
-    number.axis = column[0] - 'X';
-    return number;
-  }
-  number.angle = true;
-  if (column == "SPA" || column == "SPB" || column == "SPC") {
-    number.axis = column[2] - 'A';
-  } else if (column == "ROT" || column == "C_OFFS" || column == "C") {
-    number.axis = 2;
-  } else {
-    return std::nullopt;
-  }
-  return number;
-}
-
-std::optional<FrameNumber> sinumerikNumber(const std::string& table, const std::string& entry) {
-  static constexpr std::string_view frames[] = {"$P_UIFR", "$P_CHBFR", "$P_NCBFR", "$P_SETFR", "$P_PARTFR"};
-  if (std::ranges::find(frames, table) == std::end(frames)) return std::nullopt;
-  // "[1,X,TR]" or, of frames without a number, "[X,TR]".
-  std::vector<std::string> words(1);
-  for (const char c : entry) {
-    if (c == ',')
-      words.emplace_back();
-    else if (c != '[' && c != ']')
-      words.back() += c;
-  }
-  if (words.size() < 2) return std::nullopt;
-  const std::string part = words.back(), axis = words[words.size() - 2];
-  const std::string index = words.size() > 2 ? words.front() : "";
-  if (axis.size() != 1 || axis[0] < 'X' || axis[0] > 'Z') return std::nullopt;
-  const bool translation = part == "TR" || part == "FI" || part == "SI";
-  if (!translation && part != "RT") return std::nullopt;
-  FrameNumber number{EntryKind::ZeroOffset, table == "$P_UIFR" ? zeroOffsetName(index) : table + "[" + index + "]",
-                     axis + (part == "TR" ? "" : " " + part)};
-  number.axis = axis[0] - 'X';
-  number.angle = !translation;
-  return number;
-}
 
 /// How far a cycle measured beside the truth: along the axes of the working plane and about them.
 struct CycleErrors {
@@ -223,13 +162,15 @@ std::optional<double> errorOf(const FrameNumber& number, const Written& written,
 
 }  // namespace
 
-std::vector<EntryTruth> frameEntries(const control::Journal& journal, const std::vector<TouchedCycle>& touched,
+std::vector<EntryTruth> frameEntries(const session::RunOutcome& outcome, const std::vector<TouchedCycle>& touched,
                                      const std::vector<records::CycleTruth>& cycles) {
   std::vector<EntryTruth> entries;
+  const FamilyTruth* family = familyTruth(outcome.control);
+  if (family == nullptr) return entries;
+  const control::Journal& journal = outcome.journal;
   for (const auto& [place, written] : writtenValues(journal)) {
     if (!written.cycle || *written.cycle >= cycles.size()) continue;
-    auto number = heidenhainNumber(place.first, place.second);
-    if (!number) number = sinumerikNumber(place.first, place.second);
+    const auto number = family->frameNumber(place.first, place.second);
     if (!number) continue;
     const std::size_t cycle = *written.cycle;
     const CycleErrors errors = errorsOf(journal.cycles[cycle], touched[cycle], cycles[cycle]);

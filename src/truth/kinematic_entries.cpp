@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "truth/entries.hpp"
+#include "truth/family_truth.hpp"
 
 namespace probewright::truth {
 
@@ -19,13 +20,12 @@ const ChainElement* elementOf(const MachineDescription& machine, std::size_t axi
   return nullptr;
 }
 
-std::optional<std::size_t> lastWriter(const control::Journal& journal) {
+std::optional<std::size_t> lastWriter(const control::Journal& journal, const FamilyTruth& family) {
   std::optional<std::size_t> last;
   for (std::size_t i = 0; i < journal.cycles.size(); ++i) {
     const auto& writes = journal.cycles[i].writes;
-    if (std::ranges::any_of(writes, [](const control::WriteRecord& write) {
-          return write.table == "KINEMATIC.TAB" || std::string_view(write.table).starts_with("$TC_CARR");
-        }))
+    if (std::ranges::any_of(writes,
+                            [&](const control::WriteRecord& write) { return family.isOfKinematics(write.table); }))
       last = i;
   }
   return last;
@@ -35,7 +35,9 @@ std::optional<std::size_t> lastWriter(const control::Journal& journal) {
 
 std::vector<records::EntryTruth> kinematicEntries(const session::RunOutcome& outcome, const simulation::Truth& truth) {
   std::vector<records::EntryTruth> entries;
-  const auto cycle = lastWriter(outcome.journal);
+  const FamilyTruth* family = familyTruth(outcome.control);
+  if (family == nullptr) return entries;
+  const auto cycle = lastWriter(outcome.journal, *family);
   if (!cycle || !outcome.believedMachine) return entries;
   const MachineDescription real = simulation::trueDescription(truth.machine, truth.errors);
   for (std::size_t axis = 0; axis < real.axes.size(); ++axis) {

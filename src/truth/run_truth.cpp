@@ -15,14 +15,12 @@ std::shared_ptr<const records::Truth> truthOf(const session::RunOutcome& outcome
   auto known = std::make_shared<records::Truth>();
   const std::vector<TouchedCycle> touched = touchedCycles(outcome.journal, machine.truth(), machine.path());
   known->cycles = trueValues(outcome.journal, touched, machine.truth());
-  known->entries = frameEntries(outcome.journal, touched, known->cycles);
+  known->entries = frameEntries(outcome, touched, known->cycles);
   for (auto& entry : toolEntries(outcome, told.beliefs, told.calibrated, machine.truth()))
     known->entries.push_back(std::move(entry));
   for (auto& entry : kinematicEntries(outcome, machine.truth()))
     known->entries.push_back(std::move(entry));
-  for (auto& entry : deflectionEntries(outcome, told.beliefs, machine.truth()))
-    known->entries.push_back(std::move(entry));
-  for (auto& entry : gridEntries(outcome, touched, machine.truth(), machine.path()))
+  for (auto& entry : tableEntries(outcome, told.beliefs, touched, machine.truth(), machine.path()))
     known->entries.push_back(std::move(entry));
   known->diagnoses = diagnoses(outcome, machine);
   if (told.clearance) known->clearance = clearanceOf(outcome, machine, told.clearanceLimit);

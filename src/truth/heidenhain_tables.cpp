@@ -12,6 +12,7 @@
 #include "simulation/tool_shape.hpp"
 #include "simulation/true_kinematics.hpp"
 #include "truth/entries.hpp"
+#include "truth/family_truth.hpp"
 
 /// Tables of which a cycle writes many rows: the response of a probe by direction, and the compensation of a machine by
 /// the positions of its rotary axes.
@@ -99,8 +100,8 @@ Vector3 baseOf(const session::RunOutcome& outcome) {
   return base;
 }
 
-}  // namespace
-
+/// The response of a touch probe by direction, *.3DTC, if a calibration wrote it: a table is an entry, its distance
+/// that of the direction that is wrong most.
 std::vector<EntryTruth> deflectionEntries(const session::RunOutcome& outcome, const control::Beliefs& beliefs,
                                           const simulation::Truth& truth) {
   std::vector<EntryTruth> entries;
@@ -136,6 +137,9 @@ std::vector<EntryTruth> deflectionEntries(const session::RunOutcome& outcome, co
   return entries;
 }
 
+/// The compensation table of cycle 453, if that wrote it, against what would put the tip of the probe to where it truly
+/// is, with the axes so that it is at the calibration sphere. What all positions of the grid have in common is left
+/// out.
 std::vector<EntryTruth> gridEntries(const session::RunOutcome& outcome, const std::vector<TouchedCycle>& touched,
                                     const simulation::Truth& truth, const simulation::PathRecord& path) {
   const auto cycle = lastCycle(outcome.journal, "453");
@@ -191,6 +195,17 @@ std::vector<EntryTruth> gridEntries(const session::RunOutcome& outcome, const st
   }
   entry.distance = largest;
   return {std::move(entry)};
+}
+
+}  // namespace
+
+std::vector<EntryTruth> heidenhainTableEntries(const session::RunOutcome& outcome, const control::Beliefs& beliefs,
+                                               const std::vector<TouchedCycle>& touched, const simulation::Truth& truth,
+                                               const simulation::PathRecord& path) {
+  std::vector<EntryTruth> entries = deflectionEntries(outcome, beliefs, truth);
+  for (EntryTruth& entry : gridEntries(outcome, touched, truth, path))
+    entries.push_back(std::move(entry));
+  return entries;
 }
 
 }  // namespace probewright::truth

@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "control/heidenhain/typed_table.hpp"
+#include "session/heidenhain/beliefs.hpp"
+#include "truth/entries.hpp"
+#include "truth/family_truth.hpp"
+#include "truth/tool_numbers.hpp"
+
+namespace probewright::truth {
+
+namespace {
+
+using control::BelievedTool;
+using records::EntryKind;
+
+/// A length of a turning tool: what the control computes with is length and delta.
+struct TurningNumber {
+  const char* length;
+  const char* delta;
+  Eigen::Index axis;  ///< of trueTip()
+  double sign;
+};
+constexpr TurningNumber turningNumbers[] = {{"ZL", "DZL", 2, -1}, {"XL", "DXL", 0, 1}, {"YL", "DYL", 1, 1}};
+
+void heidenhainTools(CollectedEntries& entries, const session::RunOutcome& outcome, const control::Beliefs& beliefs,
+                     const control::Beliefs& calibrated, const simulation::Truth& truth) {
+  Diagnostics ignored;
+  const auto before = session::heidenhainTables(beliefs, outcome.control, ignored);
+  const auto ideal = session::heidenhainTables(calibrated, outcome.control, ignored);
+  const WrittenValues written = writtenValues(outcome.journal);
+  const auto find = [&](const std::string& table, const std::string& row, const std::string& column) {
+    const auto found = written.find({table, fmt::format("row {}, column {}", row, column)});
+    return found == written.end() ? nullptr : &found->second;
+  };
+  static const ToolNumber numbers[] = {{"L", {"L", "DL"}}, {"R", {"R", "DR"}}};
+  for (const BelievedTool& tool : calibrated.tools) {
+    const std::string row = std::to_string(tool.number);
+    const simulation::TrueTool* planted = toolNumbered(truth, tool.number);
+    if (tool.kind == "turn") {  // its lengths are those of its tip, in the table of turning tools
+      if (planted == nullptr || !planted->cutter.insert || !before.turningTools) continue;
+      const Vector3 tip = trueTip(*planted);
+      for (const TurningNumber& number : turningNumbers) {
+        const Written* length = find("TOOLTURN.TRN", row, number.length);
+        const Written* delta = find("TOOLTURN.TRN", row, number.delta);
+        if (length == nullptr && delta == nullptr) continue;
+        const auto valueOf = [&](const Written* one, const char* column) {
+          return one != nullptr
+                     ? one->value
+                     : before.turningTools->numberOr(row, control::heidenhain::NumberColumn::named(column), 0);
+        };
+        entries.add(EntryKind::Tool, "tool " + row, (length != nullptr ? length : delta)->cycle,
+                    {number.length, "mm", valueOf(length, number.length) + valueOf(delta, number.delta),
+                     number.sign * tip[number.axis]});
+      }
+      continue;
+    }
+    const ToolReach reach = reachOf(planted);
+    for (const ToolNumber& number : numbers) {
+      double believed = 0, real = 0;
+      const Written* last = nullptr;
+      for (const std::string& column : number.parts) {
+        const auto name = control::heidenhain::NumberColumn::named(column);
+        const Written* one = find("TOOL.T", row, column);
+        if (one != nullptr) last = one;
+        believed += one != nullptr ? one->value : before.tools.numberOr(row, name, 0);
+        real += ideal.tools.numberOr(row, name, 0);
+      }
+      if (last == nullptr) continue;
+      real += number.label == "L" ? reach.length : reach.radius;
+      entries.add(tool.kind == "probe" ? EntryKind::Probe : EntryKind::Tool, "tool " + row, last->cycle,
+                  {number.label, "mm", believed, real});
+    }
+    if (tool.kind != "probe") continue;
+    for (const char* column : {"CAL_OF1", "CAL_OF2"}) {
+      const std::string probe = std::to_string(tool.probeNumber);
+      const Written* one = find("TCHPROBE.TP", probe, column);
+      const auto name = control::heidenhain::NumberColumn::named(column);
+      if (one != nullptr)
+        entries.add(EntryKind::Probe, "tool " + row, one->cycle,
+                    {column, "mm", one->value, ideal.probes.numberOr(probe, name, 0)});
+    }
+  }
+}
+
+/// What a HEIDENHAIN control keeps outside its tables: of tool touch probes, on the iTNC 530 also of touch probes.
+void calibrationData(CollectedEntries& entries, const session::RunOutcome& outcome,
+                     const control::Beliefs& calibrated) {
+  const WrittenValues written = writtenValues(outcome.journal);
+  const auto compare = [&](const std::string& entry, const std::string& name, double truth) {
+    const auto found = written.find({"calibration data", entry});
+    if (found != written.end())
+      entries.add(EntryKind::Probe, name, found->second.cycle, {entry, "mm", found->second.value, truth});
+  };
+  const auto probe = std::ranges::find(calibrated.tools, "probe", &BelievedTool::kind);
+  if (probe != calibrated.tools.end()) {
+    compare("effective radius", "touch probe", probe->radius);
+    compare("effective length", "touch probe", probe->length);
+    compare("centre offset, main axis", "touch probe", probe->tipOffset.x());
+    compare("centre offset, minor axis", "touch probe", probe->tipOffset.y());
+  }
+  if (calibrated.toolProbes.empty()) return;
+  const control::BelievedToolProbe& contact = calibrated.toolProbes.front();
+  compare("TT centre, X", "tool touch probe", contact.centre.x());
+  compare("TT centre, Y", "tool touch probe", contact.centre.y());
+  compare("TT centre, Z", "tool touch probe", contact.centre.z() - contact.pretravel);
+  compare("TT radius, main axis", "tool touch probe", contact.width / 2 - contact.pretravel);
+  compare("TT radius, minor axis", "tool touch probe", contact.widthY / 2 - contact.pretravel);
+}
+
+}  // namespace
+
+std::vector<records::EntryTruth> heidenhainToolEntries(const session::RunOutcome& outcome,
+                                                       const control::Beliefs& beliefs,
+                                                       const control::Beliefs& calibrated,
+                                                       const simulation::Truth& truth) {
+  CollectedEntries entries;
+  heidenhainTools(entries, outcome, beliefs, calibrated, truth);
+  calibrationData(entries, outcome, calibrated);
+  return entries.take();
+}
+
+}  // namespace probewright::truth

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "records/truth.hpp"
+#include "simulation/truth.hpp"
+
+/// What the families have in common where they compare tools with the truth.
+namespace probewright::truth {
+
+/// What the teeth of a mill add to its radius and its length where they cut: those that reach furthest.
+struct ToolReach {
+  double radius = 0, length = 0;
+};
+
+inline ToolReach reachOf(const simulation::TrueTool* tool) {
+  if (tool == nullptr || tool->cutter.teeth.empty()) return {};
+  ToolReach reach{-1e9, -1e9};
+  for (const simulation::TrueTooth& tooth : tool->cutter.teeth) {
+    reach.radius = std::max(reach.radius, tooth.radial - tooth.radialWear);
+    reach.length = std::max(reach.length, tooth.axial - tooth.axialWear - tooth.broken);
+  }
+  return reach;
+}
+
+/// The theoretical tip of a turning tool, from where its length begins, in the frame of the tool: along the plane of
+/// its insert (X), across (Y), along its axis (Z). The tangents to a worn nose have moved away from where it points.
+inline Vector3 trueTip(const simulation::TrueTool& tool) {
+  const simulation::TrueInsert& insert = *tool.cutter.insert;
+  const double half = std::remainder(insert.secondNormal - insert.firstNormal, 360) / 2;
+  const double middle = radiansFromDegrees(insert.firstNormal + half);
+  const auto worn = [&](double pointing) {
+    return std::abs(pointing) < 1e-6 ? 0 : std::copysign(insert.wear, pointing);
+  };
+  return {tool.cutter.eccentricity.x() - worn(std::cos(middle)), tool.cutter.eccentricity.y(),
+          -tool.length - worn(std::sin(middle))};
+}
+
+inline const simulation::TrueTool* toolNumbered(const simulation::Truth& truth, int number) {
+  const auto found = std::ranges::find(truth.tools, number, &simulation::TrueTool::number);
+  return found == truth.tools.end() ? nullptr : &*found;
+}
+
+/// Collects numbers by the entry that they belong to.
+class CollectedEntries {
+public:
+  void add(records::EntryKind kind, const std::string& name, std::optional<std::size_t> cycle,
+           records::EntryValue value) {
+    auto entry = std::ranges::find(entries_, name, &records::EntryTruth::name);
+    if (entry == entries_.end()) {
+      records::EntryTruth made;
+      made.kind = kind;
+      made.name = name;
+      entry = entries_.insert(entries_.end(), std::move(made));
+    }
+    if (cycle) entry->cycle = std::max(entry->cycle.value_or(0), *cycle);
+    entry->distance = std::max(entry->distance.value_or(0), std::abs(value.value - value.truth));
+    entry->values.push_back(std::move(value));
+  }
+  std::vector<records::EntryTruth> take() { return std::move(entries_); }
+
+private:
+  std::vector<records::EntryTruth> entries_;
+};
+
+/// A number of a tool: what the control computes with is the sum of its entries.
+struct ToolNumber {
+  std::string label;
+  std::vector<std::string> parts;  ///< columns, or data
+};
+
+}  // namespace probewright::truth
