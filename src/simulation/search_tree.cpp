@@ -75,7 +75,8 @@ bool SearchTree::enter(const Mover& mover, Walker& w) const {
     w.up[i] = static_cast<float>(up[static_cast<Eigen::Index>(i)]);
   w.disc = static_cast<float>(mover.disc * (1 + 1e-6));
   w.axisSize = static_cast<float>(mover.axis.lpNorm<1>() / 2 + mover.disc);
-  // Two roundings of each of the places in play.
+  // Two roundings, of 2^-24 each, of each of the places in play: when it comes into the tree's frame and becomes
+  // single.
   const double scale = (bounds_.maximum - bounds_.minimum).maxCoeff() + from.lpNorm<1>() + leaveAt - enterAt;
   w.slack = static_cast<float>(1.2e-7 * scale);
   w.radius = static_cast<float>(mover.radius * (1 + 1e-7));
@@ -122,7 +123,7 @@ struct SearchTree::Walks {
     std::size_t count = 0;
   };
 
-  /// A dozen roundings of the numbers in play.
+  /// Thirteen roundings, of 2^-24 each, of the numbers in play.
   static constexpr float kRounding = 8e-7F;
 
 #define PROBEWRIGHT_INLINE [[gnu::always_inline]] static inline

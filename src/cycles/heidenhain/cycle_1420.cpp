@@ -67,6 +67,11 @@ Matrix3 turned(double radians, int axis) { return Eigen::AngleAxisd(radians, Vec
 
 /// The rotation that brings the axis of probing to `normal` (or to its opposite) by space angles about the other two
 /// axes, none about itself. A plane that can be probed along the axis is never parallel to it, so nothing is singular.
+///
+/// With the angles a, b, c about X, Y, Z, and s, k for sine and cosine, the axis becomes
+///     Rz(c) Ry(b) ex = (kb kc, kb sc, -sb),   Rz(c) Rx(a) ey = (-sc ka, kc ka, sa),   Ry(b) Rx(a) ez = (sb ka, -sa, kb
+///     ka):
+/// one component gives the inner angle by its sine, the quotient of the others the outer one.
 Matrix3 axesOfNormal(const PlaneWay& normal, int axis) {
   const Vector3 n = normal[axis] < 0 ? Vector3(-normal.vector()) : normal.vector();
   switch (axis) {
@@ -84,6 +89,9 @@ enum class Faces { Tool, Sideways };
 
 /// Angles about main, minor and tool axis (of the unturned system, in this order) that bring the tool axis to `normal`.
 /// The third is 0; for walls across the minor axis, where the second would say nothing, the second is.
+///
+/// Ry(b) Rx(a) ez = (sb ka, -sa, kb ka) gives a and b as above. Rz(c) Rx(a) ez = (sa sc, -sa kc, ka), and the length of
+/// its first two components is |sa|: the sign of sa is that with which c stays within a quarter turn.
 Vector3 anglesOfNormal(const Vector3& n, Faces faces) {
   if (faces == Faces::Sideways && std::abs(n.y()) > std::abs(n.x())) {
     const double side = n.y() < 0 ? 1 : -1;

@@ -174,7 +174,9 @@ void correctTranslation(Context& context, const FrameTarget& target, const PartI
     const Vector3 along = xyzFromPlane * direction.vector();
     shift += along * along.dot(error);
   }
-  // A shift of the frame acts before its own rotation and all that lies further in.
+  // The feature F lies at p = (B O A)^-1 F, with the frames before (B), own (O) and after (A). A shift c of the own
+  // frame makes O' = T(c) O, and so p' = (O A)^-1 T(-c) B^-1 F = p - lin(O A)^-1 c. That is to be p - shift: c = lin(O)
+  // lin(A) shift.
   const Vector3 change = transform(chain.own).linear() * chain.after.linear() * shift;
   const FramePart part = target.coarse ? FramePart::Translation : FramePart::Fine;
   for (int axis = 0; axis < 3; ++axis) {
@@ -191,6 +193,7 @@ void correctRotation(Context& context, const FrameTarget& target, const Matrix3&
   const Matrix3 xyzFromPlane = xyzFromPlaneMatrix(context);
   const Matrix3 turned =
       context.control().machineFromWorkpiece().linear() * xyzFromPlane * turn * xyzFromPlane.transpose();
+  // The workpiece W = B O A is to be turned in its plane: B O' A = W turn, so O' = B^-1 (W turn) A^-1.
   Eigen::Affine3d own = Eigen::Affine3d::Identity();
   own.linear() = chain.before.linear().inverse() * turned * chain.after.linear().inverse();
   const std::array mirrors = {chain.own.geometry[0].mirror, chain.own.geometry[1].mirror, chain.own.geometry[2].mirror};
@@ -243,6 +246,8 @@ void correctRotaryAxis(Context& context, const FrameTarget& target, std::size_t 
   const bool fine = !target.coarse && hasFineOffset(control, axis);
   const FramePart part = fine ? FramePart::Fine : FramePart::Translation;
   const std::string name = upperCase(context.channel().description().axes[axis].name);
+  // The part stands askew by `angle`; d degrees of the axis turn it by effect * d: effect * d = -angle makes it
+  // straight.
   const double old = control.data.frame(keyOf(target)).get(name, part);
   writeComponent(context, target, name, part, old - angle / effect);
   noteCorrection(context, target);
