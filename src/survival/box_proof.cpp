@@ -10,6 +10,7 @@
 
 #include "simulation/contact_search.hpp"
 #include "survival/course.hpp"
+#include "survival/curvature.hpp"
 #include "survival/shift.hpp"
 
 namespace probewright::survival {
@@ -22,10 +23,8 @@ using simulation::ToolShape;
 
 namespace {
 
-constexpr double curvature = 1.25;  // of what is smooth, over touches that are near enough to each other
-constexpr double nearEnough = 0.1;  // shift of a touch over the size of the feature
-constexpr double deviations = 8;    // of the scatter that is taken for the most
-constexpr double onLine = 1e-6;     // mm
+constexpr double deviations = 8;  // of the scatter that is taken for the most
+constexpr double onLine = 1e-6;   // mm
 
 ToolShape bodiesOf(ToolShape shape) {
   shape.balls.clear();
@@ -239,16 +238,28 @@ double Proof::sizeAround(std::size_t touch) const {
   };
   const control::CycleRecord* cycle = cycleOf(touch);
   double least = 1e9;
+  std::vector<Vector3> places, ways;
   for (std::size_t a = 0; a < touches_.size(); ++a) {
     if (cycleOf(a) != cycle) continue;
+    const Step& step = middle_.steps[touches_[a]];
+    places.push_back(kinematics_->tableFromSpindle(step.latched, 0).translation());
+    ways.push_back((places.back() - kinematics_->tableFromSpindle(step.from, 0).translation()).normalized());
     for (std::size_t b = 0; b < a; ++b) {
       if (cycleOf(b) != cycle) continue;
-      const double between = way(middle_.steps[touches_[a]].latched, middle_.steps[touches_[b]].latched);
+      const double between = way(step.latched, middle_.steps[touches_[b]].latched);
       // A quick touch and the slow one after it are one place.
       if (between > 0.05) least = std::min(least, between);
     }
   }
-  return least / 2;
+  // The middles of three bores lie on an arc, too, whatever the touches of each are.
+  if (cycle != nullptr && (cycle->name == "416" || cycle->name == "430")) {
+    std::vector<Vector3> middles(3, Vector3::Zero());
+    const std::size_t each = std::max<std::size_t>(places.size() / 3, 1);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      middles[std::min<std::size_t>(i / each, 2)] += places[i] / static_cast<double>(each);
+    return std::min(least / 2, acrossArc(middles, {Vector3::UnitX(), Vector3::UnitY(), Vector3(1, 1, 0).normalized()}));
+  }
+  return places.empty() ? least / 2 : std::min(least / 2, acrossArc(places, ways));
 }
 
 std::optional<BoxVerdict> Proof::passOn(std::size_t touch, std::size_t step, double shift) {

@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "survival/survival_bench.hpp"
+
+/// Worlds that try to deceive a proof: what fails is thin, is met at a tangent, or lies in a tiny corner of the box.
+/// Wherever it fails by a closed form, nothing may be proven; and what is proven is run, half of it on the borders.
+namespace probewright::survival::testing {
+namespace {
+
+const Options few = {.samples = 60, .boxes = 60, .checks = 200};
+
+std::string fixture(const std::string& name, const Vector3& at, const Vector3& size) {
+  const auto list = [](const Vector3& v) {
+    return std::to_string(v.x()) + ", " + std::to_string(v.y()) + ", " + std::to_string(v.z());
+  };
+  return "[[fixture]]\nname = \"" + name + "\"\npose = { x = " + std::to_string(at.x()) +
+         ", y = " + std::to_string(at.y()) + ", z = " + std::to_string(at.z()) +
+         " }\n[[fixture.feature]]\nshape = \"box\"\nsize = [" + list(size) + "]\n";
+}
+
+std::string top(double x, double y) {
+  return "TCH PROBE 417 REF. POINT TS.-AXIS ~\nQ263=+" + std::to_string(x) + " ~\nQ264=+" + std::to_string(y) +
+         " ~\nQ294=+0 ~\nQ320=+2 ~\nQ260=+20 ~\nQ305=+1 ~\nQ333=+0 ~\nQ303=+1\n";
+}
+
+/// True if a point of the box is in a part that is proven.
+bool isProven(const Survival& survival, const std::vector<double>& values) {
+  for (const Part& part : survival.parts)
+    if (part.verdict == Verdict::Proven && part.box.holds(values)) return true;
+  return false;
+}
+
+/// 0.05 mm thick, in the bore: the ball of 3 mm meets it wherever its way comes nearer than that.
+TEST(Attack, ANeedleThatNoTouchIsToMeet) {
+  const std::string setup = plateSetup("TNC640", "", fixture("needle", {2, 2, -490}, {0.05, 0.05, 30}));
+  const Survival survival =
+      survivalOf(setup, klartext(inspectBore), {"fixture[needle].pose.x=6", "fixture[needle].pose.y=7"}, few);
+  EXPECT_EQ(survival.end, SurvivalEnd::Finished);
+  EXPECT_GT(survival.proven, 0.1);
+  // Each touch ends with the ball's middle 12 mm from that of the bore; the needle stands within the ball.
+  for (const double x : {7.0, 7.9})
+    EXPECT_FALSE(isProven(survival, {x, 0.5})) << x;
+}
+
+/// The ball passes a post by 0.001 mm.
+TEST(Attack, APostThatIsNearlyTouched) {
+  const std::string post = fixture("post", {-10, 13.001, -480}, {20, 20, 20});
+  const std::string by = "L X-40 Y+0 R0 FMAX\nL Z+10 R0 FMAX\nL X+40 R0 FMAX\nL Z+50 R0 FMAX\n";
+  for (const double half : {0.002, 2.0}) {
+    const Survival survival = survivalOf(plateSetup("TNC640", "", post), klartext(by),
+                                         {"fixture[post].pose.y=13.001.." + std::to_string(13.001 + half)}, few);
+    EXPECT_EQ(survival.end, SurvivalEnd::Finished);
+    EXPECT_EQ(survival.failed, 0U);
+    const Survival nearer =
+        survivalOf(plateSetup("TNC640", "", post), klartext(by), {"fixture[post].pose.y=" + std::to_string(half)}, few);
+    EXPECT_EQ(nearer.end, SurvivalEnd::Finished);
+    EXPECT_GT(nearer.failed, 0U);
+    EXPECT_LE(nearer.symmetric * half, 0.001 + 1e-6);
+  }
+}
+
+/// The touch on a disc of 80 mm leaves its face in one corner of the box only: where x and y both shift by more
+/// than 2.28 mm or so, 0.01 % of the box.
+TEST(Attack, ATinyCornerThatFails) {
+  std::string setup = plateSetup();
+  const std::string box =
+      "shape = \"box\"\nsize = [80, 60, 20]\n[[part.feature]]\nshape = \"hole\"\ncentre = [0, 0, 20]\ndiameter = 30\n";
+  setup.replace(setup.find(box), box.size(), "shape = \"cylinder\"\ndiameter = 80\nheight = 20\n");
+  const Survival survival = survivalOf(setup, klartext(top(26, 26)), {"part.pose.x=2.3", "part.pose.y=2.3"}, few);
+  EXPECT_EQ(survival.end, SurvivalEnd::Finished);
+  EXPECT_GT(survival.proven, 0.5);
+  EXPECT_LT(survival.proven, 1);
+  EXPECT_FALSE(isProven(survival, {-2.29, -2.29})) << "26 + 2.29 in both: 40.01 mm from the middle of the disc";
+  EXPECT_TRUE(isProven(survival, {2.2, 2.2}));
+}
+
+/// A part that lies turned by nearly half a turn: angles go through 180 degrees.
+TEST(Attack, APartThatIsTurnedRound) {
+  std::string setup = plateSetup();
+  setup.replace(setup.find("c = 0"), 5, "c = 179.9");
+  const Survival survival = survivalOf(setup, klartext(inspectBore), {"part.pose.c=3", "part.pose.y=1"}, few);
+  EXPECT_EQ(survival.end, SurvivalEnd::Finished);
+  EXPECT_EQ(survival.failed, 0U);
+  EXPECT_GT(survival.proven, 0.05);
+}
+
+/// A wall of 0.05 mm that the probe is to find: it shifts away before it, or below the ball.
+TEST(Attack, AThinWall) {
+  std::string setup = plateSetup();
+  const std::string hole = "shape = \"hole\"\ncentre = [0, 0, 20]\ndiameter = 30\n";
+  setup.replace(setup.find(hole), hole.size(),
+                "shape = \"pocket\"\ncentre = [0, 0, 20]\nsize = [79.9, 50]\ndepth = 15\n");
+  const std::string wall =
+      "TCH PROBE 427 SIDE ~\nQ263=+40 ~\nQ264=+0 ~\nQ261=-5 ~\nQ320=+2 ~\nQ272=+1 ~\nQ267=-1 ~\nQ260=+30 ~\nQ281=+0 "
+      "~\nQ288=+0 ~\nQ289=+0 ~\nQ309=+0 ~\nQ330=+0\n";
+  const Survival survival = survivalOf(setup, klartext(wall), {"part.pose.x=6", "part.pose.z=7"}, few);
+  EXPECT_EQ(survival.end, SurvivalEnd::Finished);
+  EXPECT_GT(survival.failed, 0U);
+  // 5 mm below the face with a ball of 3 mm: nothing is there where the part lies 8 mm deeper, and the ball meets the
+  // edge where it lies more than 5 mm deeper.
+  EXPECT_FALSE(isProven(survival, {0, -506}));
+}
+
+}  // namespace
+}  // namespace probewright::survival::testing
