@@ -1,5 +1,7 @@
 #include "language/sinumerik/check.hpp"
 #include "lathe_tools/tool_bench.hpp"
+#include "setup/simulated_run.hpp"
+#include "support/computed_call.hpp"
 
 /// CYCLE982 refuses what it cannot measure, before anything moves or is
 /// written.
@@ -18,14 +20,15 @@ struct Wrong {
   std::function<void(LatheBench&)> data = {};
 };
 
-LatheBench benchWithTools() {
+setup::Setup worldWithTools() {
   setup::Setup setup = toolSetup();
   add(setup, turningTool(5, 3, {80, 40}, 0.8), "turn");
   add(setup, rotatedTool(6, false, {60, 90}, 8), "mill");
   add(setup, rotatedTool(7, false, {60, 90}, 5), "drill");
   add(setup, turningTool(8, 8, {80, 40}, 0.8), "turn");
-  return LatheBench(setup);
+  return setup;
 }
+LatheBench benchWithTools() { return LatheBench(worldWithTools()); }
 
 TEST(Cycle982Refuses, WhatItCannotMeasure) {
   const auto datum = [](const char* name, std::vector<control::sinumerik::DataIndex> indices, double value) {
@@ -89,6 +92,15 @@ TEST(Cycle982Refuses, WhatItCannotMeasure) {
     if (std::string_view(wrong.alarm) != "61303") {
       EXPECT_TRUE(bench.control.journal.cycles.back().touches.empty());
     }
+    if (wrong.data) continue;
+    // Through the front door, with numbers that only the run knows.
+    const setup::SimulatedRun run = setup::runText(
+        "WRONG.MPF",
+        "G18 G90 G71 G500\n" + measuring(wrong.tool, start, wrong.before + computedCall(wrong.call)) + "\nM30\n",
+        worldWithTools(), {}, {.recordPath = false});
+    ASSERT_TRUE(run.outcome.diagnostics.empty()) << format(run.outcome.diagnostics.front());
+    ASSERT_FALSE(run.outcome.result.diagnostics.empty());
+    EXPECT_EQ(run.outcome.result.diagnostics.front().code, wrong.alarm);
   }
 }
 

@@ -1,4 +1,5 @@
 #include "sinumerik_tools/tool_bench.hpp"
+#include "support/computed_call.hpp"
 
 /// What CYCLE971 refuses, calibrating and measuring, each alarm once: nothing is written then.
 namespace probewright {
@@ -33,25 +34,6 @@ NamedNumbers rightCall(Task task) {
       return with(usual, {{"S_MVAR", 102}, {"S_MA", 1}});
   }
   return usual;
-}
-
-/// The call with its arguments in R parameters, so that only the run knows them.
-std::string computed(const NamedNumbers& call) {
-  std::string before, text = ToolBench::call(call);
-  const std::size_t open = text.find('(') + 1;
-  std::string arguments = text.substr(open, text.find(')') - open), result;
-  int number = 50;
-  for (std::size_t from = 0; from <= arguments.size();) {
-    const std::size_t comma = std::min(arguments.find(',', from), arguments.size());
-    const std::string value = arguments.substr(from, comma - from);
-    if (!result.empty() || from > 0) result += ',';
-    if (!value.empty()) {
-      before += fmt::format("R{}={}\n", number, value);
-      result += fmt::format("R{}", number++);
-    }
-    from = comma + 1;
-  }
-  return before + "CYCLE971(" + result + ")\n";
 }
 
 TEST(ToolRefusals, EachAlarmOfACallOnce) {
@@ -168,7 +150,8 @@ TEST(ToolRefusals, EachAlarmOfACallOnce) {
     const int tool = calibrates ? 9 : 2;
     EXPECT_EQ(bench.run(tool, beside, ToolBench::call(rightCall(wrong.task))).code(), "") << "the right call";
     if (wrong.world) wrong.world(bench);
-    const ToolRun left = bench.run(tool, beside, wrong.before + computed(with(rightCall(wrong.task), wrong.call)));
+    const ToolRun left =
+        bench.run(tool, beside, wrong.before + computedCall(ToolBench::call(with(rightCall(wrong.task), wrong.call))));
     EXPECT_EQ(left.code(), wrong.alarm);
     coverage::note(control::ControlKind::Sinumerik840Dsl, "CYCLE971", "refusals");
     ASSERT_FALSE(left.run.outcome.result.diagnostics.empty());
