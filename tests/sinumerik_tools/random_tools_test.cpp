@@ -24,6 +24,19 @@ Edge edgeOf(const simulation::TrueTool& tool, const simulation::TrueTooth& tooth
           tool.length + tooth.axial - tooth.axialWear - tooth.broken};
 }
 
+/// Turns the teeth to any angle, lets them run out and wear by up to `worn` mm.
+void useTeeth(simulation::TrueTool& mill, Planter& plant, double worn) {
+  const double first = plant.number(-180, 180);
+  std::size_t number = 0;
+  for (simulation::TrueTooth& tooth : mill.cutter.teeth) {
+    tooth.angle = first + 360.0 * static_cast<double>(number++) / static_cast<double>(mill.cutter.teeth.size());
+    tooth.radial = plant.number(-0.03, 0.03);
+    tooth.axial = plant.number(-0.03, 0.03);
+    tooth.radialWear = plant.number(0, worn);
+    tooth.axialWear = plant.number(0, worn);
+  }
+}
+
 /// A world with a probe that the control believes a little beside its place, and the origin of the program.
 struct World {
   ToolBench bench;
@@ -126,15 +139,7 @@ TEST(RandomTools, MeasuringFindsLengthAndRadius) {
     } else {
       mill.cutter.eccentricity = plant.number(0, 0.02) * direction(plant.number(-180, 180));
     }
-    const double first = plant.number(-180, 180);
-    for (int i = 0; i < teeth; ++i) {
-      simulation::TrueTooth& tooth = mill.cutter.teeth[static_cast<std::size_t>(i)];
-      tooth.angle = first + 360.0 * i / teeth;
-      tooth.radial = plant.number(-0.03, 0.03);
-      tooth.axial = plant.number(-0.03, 0.03);
-      tooth.radialWear = plant.number(0, 0.1);
-      tooth.axialWear = plant.number(0, 0.1);
-    }
+    useTeeth(mill, plant, 0.1);
     if (turning) mill.cutter.teeth.back().broken = plant.number(0.2, 1.5);
 
     const int axis = whole(plant, 0, 1), offset = length && coin(plant) ? whole(plant, 1, 2) : 0;
@@ -214,15 +219,7 @@ TEST(RandomTools, EachEdgeIsFoundInItsOrder) {
     const int teeth = whole(plant, 1, 5);
     simulation::TrueTool& mill = world.bench.add(2, plant.number(60, 110), plant.number(10, 16), teeth);
     mill.cutter.eccentricity = plant.number(0, 0.005) * direction(plant.number(-180, 180));
-    const double first = plant.number(-180, 180);
-    for (int i = 0; i < teeth; ++i) {
-      simulation::TrueTooth& tooth = mill.cutter.teeth[static_cast<std::size_t>(i)];
-      tooth.angle = first + 360.0 * i / teeth;
-      tooth.radial = plant.number(-0.03, 0.03);
-      tooth.axial = plant.number(-0.03, 0.03);
-      tooth.radialWear = plant.number(0, 0.05);
-      tooth.axialWear = plant.number(0, 0.05);
-    }
+    useTeeth(mill, plant, 0.05);
     // One edge stands out clearly, so that it is the first to touch; another one may be broken.
     const int widest = whole(plant, 0, teeth - 1);
     simulation::TrueTooth& wide = mill.cutter.teeth[static_cast<std::size_t>(widest)];
