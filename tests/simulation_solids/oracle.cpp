@@ -197,7 +197,9 @@ std::string Oracle::objectionTo(const std::optional<BallContact>& contact, const
   if (late && travelled > late->fraction * length + 1e-6 && isThere(*late))
     return fmt::format("stops after {:.4f} mm, {:.4f} mm too late", travelled, travelled - late->fraction * length);
   if (contact->fraction == 0) return "";
-  if (exactly) {
+  // Where OpenCASCADE cannot even tessellate a face, the places that it finds near the way are often not on the face.
+  constexpr double kUsable = 0.05;
+  if (exactly && tolerance_ < kUsable * (bounds_.maximum - bounds_.minimum).norm()) {
     // Some places on the way up to there.
     for (const double share : {0.31, 0.77, 0.97}) {
       const double distance = exactDistance(from + share * contact->fraction * (to - from), radius);
