@@ -58,7 +58,7 @@ def still(desk):
 
 def adapter():
     """The process of the machine adapter."""
-    found = subprocess.run(["pgrep", "-f", "probewright-linuxcnc"], capture_output=True, text=True).stdout.split()
+    found = subprocess.run(["pgrep", "-f", "/probewright-linuxcnc$"], capture_output=True, text=True).stdout.split()
     return int(found[0])
 
 
