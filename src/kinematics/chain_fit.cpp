@@ -6,6 +6,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "kinematics/minimum.hpp"
 
@@ -132,6 +133,37 @@ double meanRadius(const MachineDescription& machine, std::span<const SphereSight
   return sum / static_cast<double>(sightings.size());
 }
 
+/// The most sightings between which no rotary axis but this one turned: the series that measured it. All of them if it
+/// never turned alone.
+std::vector<SphereSighting> seriesOf(const ChainFitTask& task, std::span<const SphereSighting> sightings,
+                                     std::size_t axis) {
+  constexpr double same = 1e-6;  // degrees
+  const auto stand = [&](const SphereSighting& one, const SphereSighting& other) {
+    return std::ranges::all_of(task.free, [&](const AxisFreedoms& free) {
+      return free.axis == axis || std::abs(one.axes[free.axis] - other.axes[free.axis]) < same;
+    });
+  };
+  std::vector<SphereSighting> longest;
+  for (const SphereSighting& first : sightings) {
+    std::vector<SphereSighting> series;
+    std::ranges::copy_if(sightings, std::back_inserter(series),
+                         [&](const SphereSighting& other) { return stand(first, other); });
+    if (spanOf(series, axis) > (longest.empty() ? 0 : spanOf(longest, axis))) longest = std::move(series);
+  }
+  return longest.empty() ? std::vector<SphereSighting>(sightings.begin(), sightings.end()) : longest;
+}
+
+std::size_t positionsOf(std::span<const SphereSighting> sightings, std::size_t axis) {
+  constexpr double same = 1e-3;  // degrees
+  std::vector<double> readings;
+  for (const SphereSighting& sighting : sightings)
+    readings.push_back(sighting.axes[axis]);
+  std::ranges::sort(readings);
+  const auto repeated =
+      std::ranges::unique(readings, [](double one, double next) { return std::abs(next - one) < same; });
+  return readings.size() - repeated.size();
+}
+
 }  // namespace
 
 Vector3 seen(const ChainFitTask& task, const MachineDescription& machine, const SphereSighting& sighting) {
@@ -203,10 +235,11 @@ Result<ChainFit> fitChain(const ChainFitTask& task, std::span<const SphereSighti
                                     : std::pair(weakPlace, "place");
     if (group == groups.end())
       return fail("the positions leave the place of the sphere open", "measure at more positions");
+    const std::vector<SphereSighting> series = seriesOf(task, sightings, group->axis);
     const std::string sentence =
         fmt::format("{} positions over {:.4g} degrees with the sphere {:.4g} mm from the axis leave the {} of {} open",
-                    sightings.size(), spanOf(sightings, group->axis), meanRadius(believed, sightings, group->axis),
-                    what, task.built.axes[group->axis].name);
+                    positionsOf(series, group->axis), spanOf(series, group->axis),
+                    meanRadius(believed, series, group->axis), what, task.built.axes[group->axis].name);
     if (worst == groups.end()) {
       return fail(sentence, "spread the positions of the axis further, measure at more of them, or move the sphere");
     }
