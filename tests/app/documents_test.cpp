@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
@@ -249,6 +250,65 @@ TEST(Documents, ShowCodeThatIsTaken) {
     }
   }
   EXPECT_GE(taken, 8);
+}
+
+/// Commands on the shipped examples, and those that need no file: in blocks of code and within lines. Long ones do
+/// less.
+TEST(Documents, PrintCommandsThatRun) {
+  std::set<std::string> commands;
+  const auto collect = [&](std::string text) {
+    text = std::regex_replace(text, std::regex(R"(\\\n\s*)"), " ");
+    const std::regex command(
+        R"((?:^|\n)(?:\$ )?(?:build/release/apps/probewright/)?probewright ((?:run|check|study|survive|convert|cycles|machine|compare) [^\n#]*))");
+    for (std::sregex_iterator each(text.begin(), text.end(), command), end; each != end; ++each)
+      commands.insert((*each)[1]);
+  };
+  for (const CodeBlock& block : codeBlocks())
+    collect(block.text);
+  for (const std::string& name : namesIn(root + "/docs")) {
+    if (!name.ends_with(".md")) continue;
+    for (const std::string& code : matches(textOf(root + "/docs/" + name), "`(probewright [a-z][^`\n]*)`"))
+      collect(code);
+  }
+  int ran = 0;
+  for (const std::string& command : commands) {
+    std::istringstream stream(command);
+    std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
+    const auto isPlaceholder = [](const std::string& word) {
+      return std::regex_match(word, std::regex(R"(\[?[A-Z]{2,}[A-Z.]*\]?|\.\.\.|.*=RANGE)"));
+    };
+    const auto isFile = [](const std::string& word) {
+      return std::regex_search(word, std::regex(R"(\.(h|i|mpf|toml|ini|json|step)$)"));
+    };
+    const bool shipped = std::ranges::all_of(
+        words, [&](const std::string& word) { return !isFile(word) || std::filesystem::exists(root + "/" + word); });
+    if (!shipped || std::ranges::any_of(words, isPlaceholder) || words.size() < 2) continue;
+    if (words[0] != "cycles" && !isFile(words[1])) continue;  // an option by its name
+    SCOPED_TRACE("probewright " + command);
+    const Folder folder;
+    for (std::string& word : words)
+      if (isFile(word)) word = root + "/" + word;
+    const auto out = std::ranges::find(words, "--out");
+    if (out != words.end()) words.erase(out, out + 2);
+    if (words[0] == "run" || words[0] == "study" || words[0] == "survive")
+      words.insert(words.end(), {"--out", (folder / "out").string()});
+    if (words[0] == "machine") words.insert(words.end(), {"--out", (folder / "machine.html").string()});
+    const auto fewer = [&](const char* option, const char* number) {
+      const auto given = std::ranges::find(words, option);
+      if (given != words.end()) words.erase(given, given + 2);
+      words.insert(words.end(), {option, number});
+    };
+    if (words[0] == "study") fewer("--trials", "8");
+    if (words[0] == "survive") {
+      fewer("--samples", "8");
+      fewer("--boxes", "20");
+    }
+    const Answer answer = probewright(words);
+    EXPECT_TRUE(answer.exit == 0 || answer.exit == 1) << answer.exit << answer.errors;
+    EXPECT_NE(answer.output, "");
+    ++ran;
+  }
+  EXPECT_GE(ran, 6);
 }
 
 TEST(Documents, LinkToPagesThatThereAre) {
