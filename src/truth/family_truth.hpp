@@ -46,6 +46,8 @@ struct FamilyTruth {
 
   /// What a place of a table is, if it is a number of a preset or zero offset.
   std::optional<FrameNumber> (*frameNumber)(const std::string& table, const std::string& entry) = nullptr;
+  /// The mm in a unit of length of that table, as the run left it; null: tables are in mm.
+  double (*unitOf)(const session::RunOutcome& outcome, const std::string& table) = nullptr;
   bool (*isOfTools)(std::string_view table) = nullptr;
   /// As toolEntries().
   std::vector<records::EntryTruth> (*tools)(const session::RunOutcome& outcome, const control::Beliefs& beliefs,

@@ -185,7 +185,9 @@ std::vector<EntryTruth> frameEntries(const session::RunOutcome& outcome, const s
       entry = entries.insert(entries.end(), std::move(made));
     }
     entry->cycle = std::max(entry->cycle.value_or(0), cycle);
-    entry->values.push_back({number->label, number->angle ? "deg" : "mm", written.value, written.value - *error});
+    const double unit = number->angle || family->unitOf == nullptr ? 1 : family->unitOf(outcome, place.first);
+    const double value = written.value * unit;
+    entry->values.push_back({number->label, number->angle ? "deg" : "mm", value, value - *error});
     auto& apart = number->angle ? entry->angle : entry->distance;
     apart = std::hypot(apart.value_or(0), *error);
   }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "control/heidenhain/probe_table.hpp"
+#include "control/heidenhain/tool_table.hpp"
+#include "control/heidenhain/turning_tool_table.hpp"
 #include "control/heidenhain/typed_table.hpp"
 #include "session/heidenhain/beliefs.hpp"
 #include "truth/entries.hpp"
@@ -24,12 +27,25 @@ struct TurningNumber {
 };
 constexpr TurningNumber turningNumbers[] = {{"ZL", "DZL", 2, -1}, {"XL", "DXL", 0, 1}, {"YL", "DYL", 1, 1}};
 
-void heidenhainTools(CollectedEntries& entries, const session::RunOutcome& outcome, const control::Beliefs& beliefs,
-                     const control::Beliefs& calibrated, const simulation::Truth& truth) {
+/// A table as the run left it, if it wrote one; its numbers are in mm whatever the unit of the file.
+std::optional<control::heidenhain::TypedTable> leftBehind(const session::RunOutcome& outcome, const std::string& name,
+                                                          std::span<const control::heidenhain::ColumnSpec> columns) {
+  const auto file = outcome.files.find(name);
+  if (file == outcome.files.end()) return std::nullopt;
   Diagnostics ignored;
-  const auto before = session::heidenhainTables(beliefs, outcome.control, ignored);
+  auto table = control::heidenhain::TypedTable::parse(file->second, name, columns, ignored);
+  if (!table) return std::nullopt;
+  return std::move(*table);
+}
+
+void heidenhainTools(CollectedEntries& entries, const session::RunOutcome& outcome, const control::Beliefs& calibrated,
+                     const simulation::Truth& truth) {
+  Diagnostics ignored;
   const auto ideal = session::heidenhainTables(calibrated, outcome.control, ignored);
   const WrittenValues written = writtenValues(outcome.journal);
+  const auto tools = leftBehind(outcome, "TOOL.T", control::heidenhain::toolColumns());
+  const auto turningTools = leftBehind(outcome, "TOOLTURN.TRN", control::heidenhain::turningToolColumns());
+  const auto probes = leftBehind(outcome, "TCHPROBE.TP", control::heidenhain::probeColumns());
   const auto find = [&](const std::string& table, const std::string& row, const std::string& column) {
     const auto found = written.find({table, fmt::format("row {}, column {}", row, column)});
     return found == written.end() ? nullptr : &found->second;
@@ -39,20 +55,18 @@ void heidenhainTools(CollectedEntries& entries, const session::RunOutcome& outco
     const std::string row = std::to_string(tool.number);
     const simulation::TrueTool* planted = toolNumbered(truth, tool.number);
     if (tool.kind == "turn") {  // its lengths are those of its tip, in the table of turning tools
-      if (planted == nullptr || !planted->cutter.insert || !before.turningTools) continue;
+      if (planted == nullptr || !planted->cutter.insert || !turningTools) continue;
       const Vector3 tip = trueTip(*planted);
       for (const TurningNumber& number : turningNumbers) {
         const Written* length = find("TOOLTURN.TRN", row, number.length);
         const Written* delta = find("TOOLTURN.TRN", row, number.delta);
         if (length == nullptr && delta == nullptr) continue;
-        const auto valueOf = [&](const Written* one, const char* column) {
-          return one != nullptr
-                     ? one->value
-                     : before.turningTools->numberOr(row, control::heidenhain::NumberColumn::named(column), 0);
+        const auto valueOf = [&](const char* column) {
+          return turningTools->numberOr(row, control::heidenhain::NumberColumn::named(column), 0);
         };
-        entries.add(EntryKind::Tool, "tool " + row, (length != nullptr ? length : delta)->cycle,
-                    {number.length, "mm", valueOf(length, number.length) + valueOf(delta, number.delta),
-                     number.sign * tip[number.axis]});
+        entries.add(
+            EntryKind::Tool, "tool " + row, (length != nullptr ? length : delta)->cycle,
+            {number.length, "mm", valueOf(number.length) + valueOf(number.delta), number.sign * tip[number.axis]});
       }
       continue;
     }
@@ -64,10 +78,10 @@ void heidenhainTools(CollectedEntries& entries, const session::RunOutcome& outco
         const auto name = control::heidenhain::NumberColumn::named(column);
         const Written* one = find("TOOL.T", row, column);
         if (one != nullptr) last = one;
-        believed += one != nullptr ? one->value : before.tools.numberOr(row, name, 0);
+        if (tools) believed += tools->numberOr(row, name, 0);
         real += ideal.tools.numberOr(row, name, 0);
       }
-      if (last == nullptr) continue;
+      if (last == nullptr || !tools) continue;
       real += number.label == "L" ? reach.length : reach.radius;
       entries.add(tool.kind == "probe" ? EntryKind::Probe : EntryKind::Tool, "tool " + row, last->cycle,
                   {number.label, "mm", believed, real});
@@ -77,9 +91,9 @@ void heidenhainTools(CollectedEntries& entries, const session::RunOutcome& outco
       const std::string probe = std::to_string(tool.probeNumber);
       const Written* one = find("TCHPROBE.TP", probe, column);
       const auto name = control::heidenhain::NumberColumn::named(column);
-      if (one != nullptr)
+      if (one != nullptr && probes)
         entries.add(EntryKind::Probe, "tool " + row, one->cycle,
-                    {column, "mm", one->value, ideal.probes.numberOr(probe, name, 0)});
+                    {column, "mm", probes->numberOr(probe, name, 0), ideal.probes.numberOr(probe, name, 0)});
     }
   }
 }
@@ -112,11 +126,11 @@ void calibrationData(CollectedEntries& entries, const session::RunOutcome& outco
 }  // namespace
 
 std::vector<records::EntryTruth> heidenhainToolEntries(const session::RunOutcome& outcome,
-                                                       const control::Beliefs& beliefs,
+                                                       const control::Beliefs& /*beliefs*/,
                                                        const control::Beliefs& calibrated,
                                                        const simulation::Truth& truth) {
   CollectedEntries entries;
-  heidenhainTools(entries, outcome, beliefs, calibrated, truth);
+  heidenhainTools(entries, outcome, calibrated, truth);
   calibrationData(entries, outcome, calibrated);
   return entries.take();
 }

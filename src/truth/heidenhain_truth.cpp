@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/number_text.hpp"
+#include "control/heidenhain/text_table.hpp"
 #include "truth/family_truth.hpp"
 #include "truth/feeling.hpp"
 
@@ -120,6 +121,14 @@ Reach reach(const CycleRecord*, double way, control::ControlKind control) {
   return {control == control::ControlKind::iTNC530 ? "MP6130" : "DIST", way};
 }
 
+double unitOf(const session::RunOutcome& outcome, const std::string& table) {
+  const auto file = outcome.files.find(table);
+  if (file == outcome.files.end()) return 1;
+  Diagnostics ignored;
+  const auto read = control::heidenhain::TextTable::parse(file->second, table, ignored);
+  return read && read->unit() == control::heidenhain::TableUnit::Inch ? 25.4 : 1;
+}
+
 bool isOfTools(std::string_view table) {
   return table == "TOOL.T" || table == "TOOLTURN.TRN" || table == "TCHPROBE.TP" || table == "calibration data";
 }
@@ -134,6 +143,7 @@ const FamilyTruth heidenhainTruth = {.family = "HEIDENHAIN",
                                      .corner = corner,
                                      .reach = reach,
                                      .frameNumber = frameNumber,
+                                     .unitOf = unitOf,
                                      .isOfTools = isOfTools,
                                      .tools = heidenhainToolEntries,
                                      .isOfKinematics = isOfKinematics,

@@ -13,16 +13,21 @@
 /// What the families have in common where they compare tools with the truth.
 namespace probewright::truth {
 
-/// What the teeth of a mill add to its radius and its length where they cut: those that reach furthest.
+/// What a mill reaches beyond its radius and its length where it cuts: the tooth that goes furthest from the spindle's
+/// axis, as it turns, and the one that goes furthest down. The axis of the tool may stand beside that of the spindle.
 struct ToolReach {
   double radius = 0, length = 0;
 };
 
 inline ToolReach reachOf(const simulation::TrueTool* tool) {
-  if (tool == nullptr || tool->cutter.teeth.empty()) return {};
+  if (tool == nullptr || tool->cutter.insert) return {};
+  const Vector2& aside = tool->cutter.eccentricity;
+  if (tool->cutter.teeth.empty()) return {aside.norm(), 0};
   ToolReach reach{-1e9, -1e9};
   for (const simulation::TrueTooth& tooth : tool->cutter.teeth) {
-    reach.radius = std::max(reach.radius, tooth.radial - tooth.radialWear);
+    const double angle = radiansFromDegrees(tooth.angle), radius = tool->radius + tooth.radial - tooth.radialWear;
+    const Vector2 edge = aside + radius * Vector2(std::cos(angle), std::sin(angle));
+    reach.radius = std::max(reach.radius, edge.norm() - tool->radius);
     reach.length = std::max(reach.length, tooth.axial - tooth.axialWear - tooth.broken);
   }
   return reach;

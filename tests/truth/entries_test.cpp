@@ -334,5 +334,91 @@ phase = 50
   EXPECT_LT(*entry(rough, "MACHINE.KCO").distance, 0.02);
 }
 
+/// A TNC 640 with a mill of 16.
+std::string millOn(const std::string& tables, const std::string& cutter, const std::string& type = "TNC640") {
+  return fmt::format(R"(seed = 3
+[control]
+type = "{}"
+{}
+[[tool]]
+number = 1
+name = "MILL 16"
+kind = "mill"
+length = 100.05
+radius = 7.97
+believed_length = 100
+believed_radius = 8
+[tool.cutter]
+shank_radius = 7
+cutting_length = 30
+{}
+[tool_probe]
+diameter = 40
+thickness = 8
+stem_diameter = 6
+pose = {{ x = 250, y = 120, z = -560 }}
+[[preset]]
+row = 1
+origin = [0, 0, -480]
+active = true
+)",
+                     type, tables, cutter);
+}
+
+Told toldOf(const std::string& setupText, const std::filesystem::path& file, const std::string& program) {
+  std::ofstream(file) << setupText;
+  Diagnostics diagnostics;
+  const auto setup = setup::readSetup(file.string(), diagnostics);
+  if (!setup) {
+    ADD_FAILURE() << format(diagnostics.front());
+    return {};
+  }
+  return {setup::runText("T.H", "BEGIN PGM T MM\n" + program + "END PGM T MM\n", *setup, session::RunOptions(), {})
+              .outcome};
+}
+
+/// What is written into a tool table in inches stands in inches; what is told of it is in mm.
+TEST(Entries, OfAToolInATableInInchesAreToldInMillimetres) {
+  for (const std::string type : {"TNC640", "iTNC530"}) {
+    const TableFolder folder;
+    folder.put(
+        "TOOL.T",
+        "BEGIN TOOL.T INCH\n"
+        "T       NAME                L            R            R2           DL        DR        TL RT      TYP   "
+        "CUT  LTOL    RTOL    LBREAK  RBREAK  DIRECT R-OFFS      L-OFFS      \n"
+        "1       MILL 16             +3.9370079   +0.3149606                                                     "
+        "4                                    -                  \n[END]\n");
+    const std::string text = millOn("tables = \".\"", "teeth = 4", type);
+    for (const int mode : {0, 1}) {
+      const Told told =
+          toldOf(text, folder.path() / "mill.toml",
+                 fmt::format("TOOL CALL 1 Z\nTCH PROBE 483 BOTH ~\nQ340=+{} ~\nQ260=+100 ~\nQ341=+0\n", mode));
+      ASSERT_TRUE(told.finished()) << told.why();
+      const records::EntryTruth& tool = entry(told, "tool 1");
+      EXPECT_NEAR(value(tool, "L").truth, 100.05, 1e-9) << type << mode;
+      EXPECT_NEAR(value(tool, "L").value, 100.05, 1e-3) << type << mode;
+      EXPECT_NEAR(value(tool, "R").truth, 7.97, 1e-9) << type << mode;
+      EXPECT_NEAR(value(tool, "R").value, 7.97, 1e-3) << type << mode;
+    }
+  }
+}
+
+/// A mill whose axis stands beside that of the spindle cuts as wide as the tooth that is furthest out.
+TEST(Entries, OfAMillBesideTheSpindleAxisAreItsSweptRadius) {
+  const TableFolder folder;
+  const auto trueRadius = [&](const std::string& cutter) {
+    const Told told = toldOf(millOn("", cutter), folder.path() / "mill.toml",
+                             "TOOL CALL 1 Z\nTCH PROBE 483 BOTH ~\nQ340=+0 ~\nQ260=+100 ~\nQ341=+0\n");
+    EXPECT_TRUE(told.finished()) << told.why();
+    const records::EntryValue& radius = value(entry(told, "tool 1"), "R");
+    EXPECT_NEAR(radius.value, radius.truth, 5e-3) << cutter;
+    return radius.truth;
+  };
+  EXPECT_NEAR(trueRadius("teeth = 2\neccentricity = [0.5, 0]"), 8.47, 1e-9);
+  EXPECT_NEAR(trueRadius("teeth = 2\neccentricity = [0, 0.5]"), std::hypot(7.97, 0.5), 1e-9);
+  EXPECT_NEAR(trueRadius("teeth = 2\neccentricity = [0.5, 0]\n[[tool.cutter.tooth]]\nnumber = 2\nradial = 1.2"),
+              7.97 + 1.2 - 0.5, 1e-9);
+}
+
 }  // namespace
 }  // namespace probewright::truth::testing
