@@ -177,6 +177,15 @@ const Phrases& phrases() {
   return all;
 }
 
+/// A phrase that the table has word for word.
+std::optional<std::string> exactly(DialogLanguage language, std::string_view english) {
+  const std::optional<std::size_t> column = columnOf(language);
+  const json& all = phrases().exact;
+  const auto found = all.find(english);
+  if (!column || found == all.end()) return std::nullopt;
+  return found->at(*column).get<std::string>();
+}
+
 std::optional<std::string> known(DialogLanguage language, std::size_t column, std::string_view english) {
   const Phrases& all = phrases();
   if (const auto found = all.exact.find(english); found != all.exact.end()) return found->at(column).get<std::string>();
@@ -242,6 +251,7 @@ std::string phrase(DialogLanguage language, std::string_view english) {
 
 std::string characteristic(DialogLanguage language, const control::Characteristic& of, std::string_view english) {
   if (language == DialogLanguage::English || of.quantity == control::Quantity::None) return std::string(english);
+  if (const auto own = exactly(language, english)) return *own;
   const json& words = table(language);
   const auto quantity = words.find(fmt::format("quantity_{}", nameOf(of.quantity)));
   if (quantity == words.end()) return std::string(english);
@@ -256,6 +266,7 @@ std::string characteristic(DialogLanguage language, const control::Characteristi
 }
 
 std::string meaning(DialogLanguage language, const control::ResultKind& kind, std::string_view english) {
+  if (const auto own = exactly(language, english)) return *own;
   const std::string of = characteristic(language, kind.of, "");
   if (language == DialogLanguage::English || of.empty()) return phrase(language, english);
   return fmt::format("{}, {}", text(language, fmt::format("role_{}", nameOf(kind.role))), of);

@@ -32,6 +32,8 @@ std::string translated(DialogLanguage language, std::string_view english);
 std::string phrase(DialogLanguage language, std::string_view english);
 
 /// What a value is of, "diameter" or "centre, main axis": `english` in English and where no table has the quantity.
+/// Where phrases.json has the English words as they stand, these say more than the quantity does: "standard deviation
+/// of A" of a distance.
 std::string characteristic(DialogLanguage language, const control::Characteristic& of, std::string_view english);
 
 /// "actual value, diameter": its role too.

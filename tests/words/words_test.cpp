@@ -231,5 +231,35 @@ TEST(Words, SayWhatWasMeasured) {
   EXPECT_EQ(meaning(DialogLanguage::German, {Role::Status, {}}, "status of the tool"), "status of the tool");
 }
 
+/// The rotary axes of cycles 450 to 453: each number says of which axis it is and what.
+TEST(Words, StandardDeviationsOfRotaryAxesSayTheirAxis) {
+  int checked = 0;
+  for (const control::ControlKind kind : {control::ControlKind::TNC640, control::ControlKind::iTNC530}) {
+    for (const cycles::CycleDefinition* cycle : cycles::cyclesOf(kind)) {
+      for (const cycles::ResultDefinition& result : cycle->results) {
+        const std::string english = result.meaning.whole();
+        const std::size_t at = english.find("standard deviation of ");
+        if (at == std::string::npos) continue;
+        ++checked;
+        const std::string axis = english.substr(at + std::string("standard deviation of ").size(), 1);
+        static const std::map<DialogLanguage, std::string> words = {{DialogLanguage::German, "Standardabweichung"},
+                                                                    {DialogLanguage::Russian, "среднеквадратическое"},
+                                                                    {DialogLanguage::Swedish, "standardavvikelse"},
+                                                                    {DialogLanguage::Chinese, "标准偏差"},
+                                                                    {DialogLanguage::Polish, "odchylenie standardowe"}};
+        for (const auto& [language, word] : words) {
+          for (const std::string& text : {meaning(language, result.kind, english),
+                                          characteristic(language, result.kind.of, english.substr(at))}) {
+            EXPECT_NE(text.find(word), std::string::npos) << text;
+            EXPECT_NE(text.find(axis), std::string::npos) << text;
+            EXPECT_NE(text.find("-1"), std::string::npos) << text;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GE(checked, 12);
+}
+
 }  // namespace
 }  // namespace probewright::words

@@ -3,7 +3,7 @@
 import type { Cycle, Report, Results, ResultValue } from "./data";
 import { fixed } from "./dom";
 import { currentLanguage, maybe } from "./language";
-import { phrase, translated } from "./phrases";
+import { exactly, phrase, translated } from "./phrases";
 import { cycleState, type State } from "./verdict";
 
 /** A cycle and those of its results that answer what it was called for. */
@@ -31,6 +31,8 @@ export function characteristicOf(result: ResultValue): string {
   const { characteristic } = result;
   const english = characteristic?.label || result.meaning;
   if (!characteristic || currentLanguage() === "en") return phrase(english);
+  const own = exactly(english);
+  if (own !== undefined) return own;
   const quantity = maybe(`quantity_${characteristic.quantity}`);
   if (!quantity) return phrase(english);
   const parts = [characteristic.item == null ? quantity : `${quantity} ${characteristic.item}`];
@@ -43,6 +45,8 @@ export function characteristicOf(result: ResultValue): string {
 export function meaningOf(result: ResultValue): string {
   const role = maybe(`role_${result.role}`);
   if (currentLanguage() === "en" || !role) return phrase(result.meaning);
+  const own = exactly(result.meaning);
+  if (own !== undefined) return own;
   return result.characteristic ? `${role}, ${characteristicOf(result)}` : phrase(result.meaning);
 }
 

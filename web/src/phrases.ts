@@ -37,6 +37,12 @@ function known(english: string, column: number): string | undefined {
   return undefined;
 }
 
+/** A phrase that the table has word for word: of a result it says more than its quantity does. */
+export function exactly(english: string): string | undefined {
+  const column = columns.indexOf(currentLanguage());
+  return column >= 0 && Object.hasOwn(exact, english) ? exact[english][column] : undefined;
+}
+
 /** A text as a whole, which may be a program's own words; what the table does not know stays as it is. */
 export function phrase(english: string): string {
   const column = columns.indexOf(currentLanguage());
