@@ -369,5 +369,27 @@ TEST(InitText, RefusesIndicesThatNoArrayHas) {
   EXPECT_EQ(complaint("; tools\n$TC_DP3[32000,9]=5 R[9999]=1 $P_UIFR[99,X,TR]=1\n"), "");
 }
 
+TEST(InitText, ArraysWithoutIndexMeanTheirFirstElement) {
+  Read result = read("$SNS_MEA_TP_EDGE_DISK_SIZE=7\n$MC_GCODE_RESET_VALUES=2\n$SCS_MEA_EMPIRIC_VALUE=SET(1,2)\nM17\n");
+  EXPECT_EQ(result.store.number("$SNS_MEA_TP_EDGE_DISK_SIZE", {0}), 7);
+  EXPECT_EQ(result.store.number("$SNS_MEA_TP_EDGE_DISK_SIZE", {}), 7);
+  EXPECT_EQ(result.store.number("$SNS_MEA_TP_EDGE_DISK_SIZE", {1}, -1), -1);
+  EXPECT_EQ(result.store.number("$MC_GCODE_RESET_VALUES", {0}), 2);
+  EXPECT_EQ(result.store.number("$SCS_MEA_EMPIRIC_VALUE", {0}), 1);
+  EXPECT_EQ(result.store.number("$SCS_MEA_EMPIRIC_VALUE", {1}), 2);
+  result.store.set("$SNS_MEA_TP_EDGE_DISK_SIZE", {0}, 8.0);
+  EXPECT_EQ(result.text.updated(result.store).value_or(""),
+            "$SNS_MEA_TP_EDGE_DISK_SIZE=8\n$MC_GCODE_RESET_VALUES=2\n$SCS_MEA_EMPIRIC_VALUE=SET(1,2)\nM17\n")
+      << "one datum, in its place";
+}
+
+TEST(InitText, DataThatAreNoArraysKeepNoIndex) {
+  const Read result = read("$SCS_MEA_FEED_MEASURE=200\n$MN_MM_NUM_SUMCORR=4\n_MINE=3\n");
+  EXPECT_TRUE(result.store.isSet(DataKey("$SCS_MEA_FEED_MEASURE", {})));
+  for (const DataKey& key : result.store.keys())
+    EXPECT_THAT(key.indices, IsEmpty()) << key.text();
+  EXPECT_EQ(result.store.keys().size(), 3U);
+}
+
 }  // namespace
 }  // namespace probewright::control::sinumerik

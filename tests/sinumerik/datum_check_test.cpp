@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "control/sinumerik/measuring_data.hpp"
 #include "sinumerik/world.hpp"
 
 namespace probewright::language::sinumerik {
@@ -39,6 +40,37 @@ TEST(DatumCheck, WhatTheControlHasIsTaken) {
         "$P_UIFR[0,Z,FI]=1", "$P_CHBFR[0,X,TR]=1", "$P_UIFR[1]=CTRANS(X,1)", "$SNS_MEA_WP_BALL_DIAM[11]=5",
         "$SCS_MEA_EMPIRIC_VALUE[19]=0.1", "R1=$P_UBFR[X,TR]", "$SCS_MEA_FEED_MEASURE=200"})
     EXPECT_EQ(codeOf(block), "") << block;
+}
+
+TEST(DatumCheck, AnArrayWithoutIndexIsItsFirstElement) {
+  int arrays = 0;
+  for (const control::sinumerik::MeasuringDatum& datum : control::sinumerik::measuringData()) {
+    if (datum.elements == 0) continue;
+    ++arrays;
+    const std::string name(datum.identifier);
+    World world;
+    world.run(name + "=77\nR1=" + name + "[0] R2=" + name + "\n" + name + "[0]=78\nR3=" + name + "\nM30");
+    EXPECT_EQ(world.r(1), 77) << name;
+    EXPECT_EQ(world.r(2), 77) << name;
+    EXPECT_EQ(world.r(3), 78) << name;
+    EXPECT_EQ(world.control.data.keys(name).size(), 1U) << name;
+    if (datum.elements > 1) {
+      EXPECT_EQ(world.value(name + "[1]"), datum.initial) << name;
+    }
+  }
+  EXPECT_GT(arrays, 50);
+}
+
+TEST(DatumCheck, ArraysOfTheNcAndFormerNamesAreAddressedSo) {
+  World world;
+  world.run(
+      "$MC_GCODE_RESET_VALUES=3\nR1=$MC_GCODE_RESET_VALUES[0]\n"
+      "$MNS_J_MEA_T_PROBE_DIAM_LENGTH=25\nR2=$SNS_MEA_TP_EDGE_DISK_SIZE[0]\n"
+      "$MNS_MEA_INPUT_PIECE_PROBE=1\nR3=$MNS_MEA_INPUT_PIECE_PROBE[0] R4=$MCS_MEA_FUNCTION_MASK B_AND 1\nM30");
+  EXPECT_EQ(world.r(1), 3);
+  EXPECT_EQ(world.r(2), 25);
+  EXPECT_EQ(world.r(3), 1);
+  EXPECT_EQ(world.r(4), 1);
 }
 
 }  // namespace

@@ -87,6 +87,19 @@ TEST(MeasureMilledTool, TheSpindleTurnsAsItTurnedBefore) {
   EXPECT_EQ(bench.run(2, beside, "S500 M4\n" + call).code(), "");
 }
 
+TEST(MeasureMilledTool, TheDirectionOfRotationIsTakenWithoutIndex) {
+  ToolBench bench;
+  bench.disc(20);
+  bench.add(2, 80, 6, 3);
+  const std::string call = ToolBench::call(with(usual, {{"S_MVAR", 2}, {"S_MA", 1}}));
+  EXPECT_EQ(bench.run(2, beside, call).code(), "");
+  EXPECT_EQ(bench.run(2, beside, "$SNS_MEA_CM_SPIND_ROT_DIR=3\n" + call).code(), "61302")
+      << "in the program: M3 cuts into the contact";
+  bench.datum("$SNS_MEA_CM_SPIND_ROT_DIR", 3);
+  EXPECT_EQ(bench.run(2, beside, call).code(), "61302") << "in the setup";
+  EXPECT_EQ(bench.run(2, beside, "$SNS_MEA_CM_SPIND_ROT_DIR=4\n" + call).code(), "");
+}
+
 TEST(MeasureMilledTool, Refuses) {
   ToolBench bench;
   bench.disc(20);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/number_text.hpp"
+#include "control/sinumerik/array_data.hpp"
 #include "control/sinumerik/text.hpp"
 
 namespace probewright::control::sinumerik {
@@ -64,6 +65,8 @@ DataKey::DataKey(std::string_view datumName, std::span<const DataIndex> datumInd
     indices.push_back(DataIndex(std::string_view(name).substr(1)).text());
     name.resize(1);
   }
+  // The control takes an array without an index as its first element, in programs and in files.
+  if (indices.empty() && isArrayDatum(name)) indices.emplace_back("0");
 }
 
 bool DataKey::operator<(const DataKey& other) const {
