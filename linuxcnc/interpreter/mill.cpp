@@ -162,7 +162,7 @@ Mill::Json Mill::hello(std::string& why) const {
       {"adapter", "LinuxCNC"},
       {"configuration", ini_},
       {"machine", {{"name", name_}, {"axes", axes}, {"spindleOrients", orients_}, {"toolChange", position()}}},
-      {"functions", {7, 8, 9}},
+      {"functions", functions()},
       {"asks", moves()},
       {"draws", !moves()},
       {"looksAhead", true},
@@ -267,6 +267,24 @@ void Mill::tellError(const std::string& text) {
   } else {
     CANON_ERROR("%s", text.c_str());
   }
+}
+
+std::vector<int> Mill::functions() {
+  std::vector<int> numbers = {7, 8, 9};
+  for (int i = 0; moves() && i < USER_DEFINED_FUNCTION_NUM; ++i) {
+    if (USER_DEFINED_FUNCTION[i] != nullptr) numbers.push_back(100 + i);
+  }
+  return numbers;
+}
+
+void Mill::function(int number) {
+  if (number == 7) MIST_ON();
+  if (number == 8) FLOOD_ON();
+  if (number == 9) {
+    MIST_OFF();
+    FLOOD_OFF();
+  }
+  if (number >= 100) USER_DEFINED_FUNCTION[number - 100](number - 100, 0, 0);
 }
 
 int Mill::toolInSpindle() { return moves() ? std::max(0, status()->io.tool.toolInSpindle) : 0; }

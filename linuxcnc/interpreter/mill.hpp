@@ -46,6 +46,9 @@ public:
   static void stopAxes();
   /// Shows an error on LinuxCNC's screen, whatever it does at the moment.
   static void tellError(const std::string& text);
+  /// M7, M8, M9, and M100 to M199 that the configuration has programs for.
+  static std::vector<int> functions();
+  static void function(int number);
   static int toolInSpindle();
   static bool hasTool(int number);
 

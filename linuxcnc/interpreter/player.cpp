@@ -4,6 +4,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -250,8 +251,7 @@ std::optional<Player::Json> Player::atOnce(const Json& order) {
   if (what == "spindle") return spindle_;
   if (what == "seconds") return Json{{"seconds", now() - begun_}};
   if (what == "probeSerial") return Json{{"serial", ""}};
-  if (what == "function" && order.value("number", 0) != 7 && order.value("number", 0) != 8 &&
-      order.value("number", 0) != 9)
+  if (what == "function" && std::ranges::count(Mill::functions(), order.value("number", 0)) == 0)
     return Json{{"end", "unknown"}};
   for (const char* known : {"move", "path", "retract", "measure", "deflected", "turnSpindle", "orientSpindle",
                             "function", "changeTool", "dwell", "ask", "answer", "tables"})
@@ -415,13 +415,7 @@ void Player::perform(const Json& order) {
     ORIENT_SPINDLE(0, std::fmod(std::fmod(order.at("degrees").get<double>(), 360) + 360, 360), 0);
     WAIT_SPINDLE_ORIENT_COMPLETE(0, 30);
   } else if (what == "function") {
-    const int number = order.at("number").get<int>();
-    if (number == 7) MIST_ON();
-    if (number == 8) FLOOD_ON();
-    if (number == 9) {
-      MIST_OFF();
-      FLOOD_OFF();
-    }
+    Mill::function(order.at("number").get<int>());
   } else if (what == "changeTool") {
     SELECT_TOOL(order.at("number").get<int>());
     START_CHANGE();

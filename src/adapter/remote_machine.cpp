@@ -25,8 +25,8 @@ constexpr const char* stopped = "a stop was asked for";
 /// Axes that the operator jogs between two orders are asked for anew after this time.
 constexpr std::chrono::milliseconds freshFor{50};
 
-/// Lines in a message: the first message is short, so that the axes soon have something to do.
-constexpr std::size_t mostLines = 1024;
+/// Lines in a message.
+constexpr std::size_t fewestLines = 16, mostLines = 1024;
 /// Lines that take the engine longer than this are not kept back for a longer message.
 constexpr std::chrono::milliseconds keptFor{50};
 
@@ -287,7 +287,7 @@ bool RemoteMachine::keepLine(const AxisPositions& target, Feed feed) {
   if (kept_ >= enough_) {
     // Each message costs both programs a change of turns, so messages grow, as long as the axes do not wait for them.
     const bool quick = toldAt_ - firstLineAt_ < keptFor;
-    enough_ = quick ? std::min(2 * enough_, mostLines) : fewLines;
+    enough_ = quick ? std::min(2 * enough_, mostLines) : std::max(enough_ / 2, fewestLines);
     sendLines();
     underWay_ = !lost_ && !failure_;
   }

@@ -123,8 +123,7 @@ private:
   mutable bool underWay_ = false;        ///< the last order was a line, and the probe was free when it began
   mutable std::size_t kept_ = 0;         ///< lines that are kept
   mutable std::vector<double> numbers_;  ///< of them: the line of the program, the feed, the target
-  static constexpr std::size_t fewLines = 64;
-  std::size_t enough_ = fewLines;  ///< lines that are sent in a message
+  std::size_t enough_ = 512;             ///< lines that are sent in a message
   std::chrono::steady_clock::time_point firstLineAt_;
   mutable std::vector<std::string> messages_;  ///< for the operator, with the next order
   std::stop_token stop_;

@@ -19,7 +19,6 @@ protected:
     forTheDesk(script);
     output = session_.command("sh -c \"xvfb-run -a -s '-screen 0 1280x960x24' linuxcnc -r mill.ini; true\"", 200);
   }
-  World world;
 };
 
 TEST_F(AsksTheOperator, InAWindowAndByCycleStart) {

@@ -17,9 +17,10 @@ protected:
 TEST_F(FaultsOnLinuxCnc, WhateverGoesWrongEndsInAnAlarmAndTheNextRunWorks) {
   // The control knows a tool that LinuxCNC does not have.
   session_.write("setup.toml",
-                 setup("TNC640", world, 300) +
+                 setup("TNC640", world, 1200) +
                      "[[tool]]\nnumber = 3\nname = \"DRILL\"\nkind = \"drill\"\nlength = 80\nradius = 4\n");
   session_.write("bore.h", klartext());
+  session_.write("top.h", top());
   const auto replaced = [](std::string program, const std::string& what, const std::string& by) {
     program.replace(program.find(what), what.size(), by);
     return program;
@@ -39,7 +40,7 @@ desk.home()
 
 def works(name):
     still(desk)
-    ended(desk, name, start('bore.h', name))
+    ended(desk, name, start('top.h', name))
 
 ended(desk, 'limit', start('limit.h', 'limit'))
 works('after-limit')

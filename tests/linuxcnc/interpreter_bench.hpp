@@ -17,6 +17,19 @@ protected:
                                    (session_.build() / "apps/probewright/probewright").string() + "\n");
   }
 
+  /// Axes that are faster than any program.
+  void fastAxes() {
+    std::string ini = text("mill.ini");
+    for (const auto& [key, value] : {std::pair{"MAX_VELOCITY", "5000"},
+                                     {"MAX_LINEAR_VELOCITY", "5000"},
+                                     {"MAX_ACCELERATION", "2000000"},
+                                     {"FERROR", "100"},
+                                     {"MIN_FERROR", "100"}})
+      ini = std::regex_replace(ini, std::regex(std::string("\n") + key + " = [^\n]*"),
+                               std::string("\n") + key + " = " + value);
+    session_.write("mill.ini", ini);
+  }
+
   /// A word for the scripts: runs a program to its end, keeps what it left in the folder `name`.
   static constexpr const char* keeps = R"(
 import shutil

@@ -59,6 +59,7 @@ TEST_F(AsInterpreter, WhateverGoesWrongEndsInAnAlarmAndTheNextRunWorks) {
                  setup("TNC640", world, 1200) +
                      "[[tool]]\nnumber = 3\nname = \"DRILL\"\nkind = \"drill\"\nlength = 80\nradius = 4\n");
   session_.write("bore.h", klartext());
+  session_.write("top.h", top());
   session_.write("limit.h", with(klartext(), "X+25 Y+0 Z+8 R0", "X+290 Y+0 Z+8 R0"));
   session_.write("crash.h", with(klartext(), "X+25 Y+0 Z+8 R0", "X+25 Y+0 Z-3 R0"));
   session_.write("last.h", with(klartext(), "5 L Z+8 R0 FMAX", "5 L X+30 Z-8 R0 F3000"));
@@ -66,11 +67,16 @@ TEST_F(AsInterpreter, WhateverGoesWrongEndsInAnAlarmAndTheNextRunWorks) {
   session_.write("broken.h", with(klartext(), "Q263=+25", "Q999=+25"));
   session_.write("stop.h", with(klartext(), "5 L Z+8 R0 FMAX", "5 STOP\n6 L Z+8 R0 FMAX"));
   session_.write("tool.h", klartext(3));
+  session_.write(
+      "small.h",
+      "0 BEGIN PGM SMALL MM\n1 TOOL CALL 1 Z\n2 TCH PROBE 421 MEASURE HOLE ~\n Q273=+0 ~\n Q274=+0 ~\n Q262=+30 ~\n"
+      " Q325=+0 ~\n Q247=+90 ~\n Q261=-8 ~\n Q320=+0 ~\n Q260=+5 ~\n Q301=+0 ~\n Q275=+30.5 ~\n Q276=+30.4 ~\n"
+      " Q279=+2 ~\n Q280=+2 ~\n Q281=+0 ~\n Q309=+1 ~\n Q330=+0 ~\n Q423=+4 ~\n Q365=+1\n3 END PGM SMALL MM\n");
   atTheDesk(std::string(keeps) + call(world) + R"(
 def works(name):
     still(desk)
     fresh()
-    run('bore.h', name)
+    run('top.h', name)
     fresh()
 
 fresh()
@@ -84,6 +90,7 @@ desk.mdi('G53 G0 Z-100')
 works('after-last')
 run('tool.h', 'tool')
 works('after-tool')
+run('small.h', 'small')
 begin('broken.h')
 desk.until('its mistake', lambda s: any('Q999' in message for message in desk.messages))
 idle()
@@ -145,6 +152,7 @@ keep('stop')
       {"last", "the probe has signalled on the way"},
       {"tool", "LinuxCNC's tool table has no tool 3"},
       {"air", "Touch point inaccessible"},
+      {"small", "Tolerance exceeded: Rework"},
       {"hangs", "deflected"},
       {"estop", "LinuxCNC is in emergency stop"},
       {"abort", ""},
@@ -159,18 +167,19 @@ keep('stop')
     if (name != "last" && name != "dialog") {
       EXPECT_EQ(row, (std::vector<double>{0, 0, -250})) << name;
     }
+    if (name == "small") continue;
     const nlohmann::json next = results("after-" + name);
     ASSERT_TRUE(next.is_object()) << name << "\n" << output;
-    EXPECT_EQ(touches(next).size(), 15U) << "after " << name;
+    EXPECT_EQ(touches(next).size(), 3U) << "after " << name;
   }
   EXPECT_THAT(told("engine"), HasSubstr("True")) << "the axes stop when the engine is gone";
-  EXPECT_EQ(touches(results("after-engine")).size(), 15U);
+  EXPECT_EQ(touches(results("after-engine")).size(), 3U);
   EXPECT_THAT(output, ::testing::ContainsRegex("desk: message .*Q999")) << "the mistake of the program is shown";
   EXPECT_THAT(told("paused"), ::testing::StartsWith("1 ")) << "the stop is shown once: " << output;
   EXPECT_EQ(touches(results("stop")).size(), 15U);
   // LinuxCNC's screen says what the control's alarm was, also where LinuxCNC itself has stopped.
-  for (const char* message : {"Limit switch", "Touch probe deflected", "Machine not ready", "Stylus already in contact",
-                              "probewright has ended unexpectedly"})
+  for (const char* message : {"Limit switch", "Tolerance exceeded", "Touch probe deflected", "Machine not ready",
+                              "Stylus already in contact", "probewright has ended unexpectedly"})
     EXPECT_THAT(output, ::testing::ContainsRegex(std::string("desk: message .*") + message));
 }
 

@@ -63,6 +63,12 @@ protected:
            "~\n"
            " Q382=+0 ~\n Q383=+0 ~\n Q384=+0 ~\n Q333=+0 ~\n Q423=+4 ~\n Q365=+1\n5 L Z+8 R0 FMAX\n6 END PGM BORE MM\n";
   }
+  /// The top face becomes Z0: one touch.
+  static std::string top() {
+    std::string program = klartext();
+    const std::size_t from = program.find("4 TCH PROBE 412"), to = program.find("5 L Z+8");
+    return program.erase(from, to - from);
+  }
   static std::string sinumerik() {
     return "N10 G17 G90 G71 G94 G54\nN20 T=\"PROBE\"\nN30 M6 D1\nN40 G0 X25 Y0\nN50 G0 Z6\n"
            "N60 CYCLE978(100,10001,,1,0,6,3,3,2,1,\"\",,0,,0,0,,,,,1,)\nN70 G0 Z8\nN80 X0 Y0\nN90 G1 Z-8 F3000\n"

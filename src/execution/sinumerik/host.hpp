@@ -108,6 +108,7 @@ private:
   void changeTool();
   bool handToMachine(int number);
   void turnSpindle();
+  void takeSpeedOfBlock(Evaluation& evaluation);
   void followSpeed();
   void turnTool(int spindle, int function);
   void orientSpindle(int spindle, double degrees, WordMode mode);

@@ -70,6 +70,7 @@ void SinumerikHost::carryOut(const MachineFunction& function, Evaluation& evalua
     case 5:
       if (!main) return turnTool(spindle, number);
       state_.spindleDirection = number;
+      takeSpeedOfBlock(evaluation);
       return turnSpindle();
     case 6:
       motion_.flush();
@@ -80,6 +81,20 @@ void SinumerikHost::carryOut(const MachineFunction& function, Evaluation& evalua
       if (main && handToMachine(number)) return;
       if (isSkippedMachineFunction(number)) skip(fmt::format("M{}", number));
       return;
+  }
+}
+
+/// S acts together with M3 and M4 of its block, wherever it stands: the spindle never starts with the speed before.
+void SinumerikHost::takeSpeedOfBlock(Evaluation& evaluation) {
+  if (block_ == nullptr) return;
+  for (const auto& instruction : block_->instructions) {
+    const auto* modal = std::get_if<Modal>(&instruction);
+    if (modal == nullptr || block_->at(modal->name) != "S") continue;
+    const auto words = evaluation.words(modal->words);
+    const bool ofMaster = !words.empty() && words[0].address == addressOf("S") &&
+                          masterSpindle(control_) == control::sinumerik::mainSpindle;
+    const bool ofMain = !words.empty() && words[0].address == addressOf("S1");
+    if (words.size() == 1 && (ofMaster || ofMain)) state_.spindleSpeed = evaluation.number(words[0].value);
   }
 }
 
