@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "control/heidenhain/kinematic_tables.hpp"
+#include "control/heidenhain/preset_table.hpp"
 #include "control/heidenhain/turning_tool_table.hpp"
 #include "reports/summary.hpp"
 #include "truth/told.hpp"
@@ -169,10 +170,10 @@ TEST(Entries, OfATurningToolCountTheWearOfItsInsert) {
 }
 
 /// Cycle 485 in a mill that turns: ZL and XL of TOOLTURN.TRN.
-TEST(Entries, OfTheTableOfTurningToolsAreItsLengths) {
+void findTheLengthsOfATurningTool(control::heidenhain::TableUnit unit) {
   const TableFolder folder;
-  folder.put("TOOLTURN.TRN", [] {
-    auto table = control::heidenhain::defaultTurningToolTable();
+  folder.put("TOOLTURN.TRN", [&] {
+    auto table = control::heidenhain::defaultTurningToolTable(unit);
     EXPECT_TRUE(table.ensureRow("12"));
     EXPECT_TRUE(table.setNumber("12", "ZL", 90.2) && table.setNumber("12", "XL", 9.7) &&
                 table.setNumber("12", "TO", 1));
@@ -224,6 +225,14 @@ wear = 0.02
   EXPECT_NEAR(value(tool, "ZL").value, 90 - 0.02, 0.0101);
   EXPECT_NEAR(*tool.distance,
               std::max(std::abs(value(tool, "ZL").value - 89.98), std::abs(value(tool, "XL").value - 10.02)), 1e-9);
+}
+
+TEST(Entries, OfTheTableOfTurningToolsAreItsLengths) {
+  findTheLengthsOfATurningTool(control::heidenhain::TableUnit::Millimetre);
+}
+
+TEST(Entries, OfATableOfTurningToolsInInchesAreItsLengthsInMillimetres) {
+  findTheLengthsOfATurningTool(control::heidenhain::TableUnit::Inch);
 }
 
 /// A probe that signals late in three directions, calibrated on a sphere in all directions.
@@ -334,7 +343,7 @@ phase = 50
   EXPECT_LT(*entry(rough, "MACHINE.KCO").distance, 0.02);
 }
 
-/// A TNC 640 with a mill of 16.
+/// A setup with a mill of 16 and a round contact.
 std::string millOn(const std::string& tables, const std::string& cutter, const std::string& type = "TNC640") {
   return fmt::format(R"(seed = 3
 [control]
@@ -401,6 +410,30 @@ TEST(Entries, OfAToolInATableInInchesAreToldInMillimetres) {
       EXPECT_NEAR(value(tool, "R").value, 7.97, 1e-3) << type << mode;
     }
   }
+}
+
+/// The same of presets and their errors.
+TEST(Entries, OfAPresetTableInInchesAreToldInMillimetres) {
+  const TableFolder folder;
+  World world;
+  world.origin = {0, 0, -480};
+  world.probe = "believed_tip_offset = [0.02, -0.01]\n";
+  world.part = "tables = \".\"\n" + plate("{ x = 0.6, y = -0.4, z = -480 }");  // of [control]
+  folder.put("PRESET.PR", [] {
+    auto table =
+        control::heidenhain::defaultPresetTable(control::ControlKind::TNC640, control::heidenhain::TableUnit::Inch);
+    EXPECT_TRUE(table.setNumber("1", "X", 0) && table.setNumber("1", "Y", 0) && table.setNumber("1", "Z", -480));
+    return std::string(table.table().bytes());
+  }());
+  const Told told = toldOf(world.text(), folder.path() / "plate.toml",
+                           "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 412 PRESET ~\nQ321=+0 ~\nQ322=+0 ~\nQ262=+30 ~\n"
+                           "Q325=+0 ~\nQ247=+90 ~\nQ261=-5 ~\nQ320=+2 ~\nQ260=+20 ~\nQ301=+0 ~\nQ305=+1 ~\nQ331=+10 ~\n"
+                           "Q332=+20 ~\nQ303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\nQ383=+0 ~\nQ384=+0 ~\nQ333=+0\n");
+  ASSERT_TRUE(told.finished()) << told.why();
+  const records::EntryTruth& preset = entry(told, "preset 1");
+  EXPECT_NEAR(value(preset, "X").truth, 0.6 - 10, 1e-3);
+  EXPECT_NEAR(value(preset, "Y").truth, -0.4 - 20, 1e-3);
+  EXPECT_NEAR(value(preset, "X").value, 0.6 - 10 + 0.02, 1e-3);
 }
 
 /// A mill whose axis stands beside that of the spindle cuts as wide as the tooth that is furthest out.
