@@ -180,10 +180,8 @@ void ToKlartext::measuringBlock(const Block& block, const Command& command) {
     vector += fmt::format(" I{}{}", axisNames[i], formulas_.value(way[i]));
   const std::string stroke = fmt::format("TCH PROBE 4.3 DIST {} F{} MB MAX REFERENCE SYSTEM:0",
                                          formulas_.value(distance), formulas_.unsignedValue(*feed));
-  line("TCH PROBE 4.0 MEASURING IN 3-D");
-  out_.line(fmt::format("TCH PROBE 4.1 {}", formulas_.measuringBlock(axis(2)[0] - 'X')));
-  out_.line(vector);
-  out_.line(stroke);
+  writeWhole({"TCH PROBE 4.0 MEASURING IN 3-D",
+              fmt::format("TCH PROBE 4.1 {}", formulas_.measuringBlock(axis(2)[0] - 'X')), vector, stroke});
   forgetPosition();
   besideMeasured_ = true;
 }

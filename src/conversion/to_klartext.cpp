@@ -121,10 +121,13 @@ std::string ToKlartext::numbered() const {
   return text + fmt::format("{} END {}\n", number, frame);
 }
 
-void ToKlartext::line(std::string text) {
+void ToKlartext::line(std::string text) { writeWhole({std::move(text)}); }
+
+void ToKlartext::writeWhole(std::vector<std::string> lines) {
   for (std::string& each : formulas_.takePrelude())
     out_.line(std::move(each));
-  out_.line(std::move(text));
+  for (std::string& each : lines)
+    out_.line(std::move(each));
 }
 
 void ToKlartext::write(const Block& block) {
@@ -245,8 +248,7 @@ void ToKlartext::modal(const Block& block, const Modal& modal) {
           "cycle 247 cancels a rotation, and which one is in effect is known only when the program runs",
           "program ROT before this block");
     }
-    line("CYCL DEF 247 PRESETTING ~");
-    out_.line(fmt::format("    Q339=+{} ;PRESET NUMBER", row));
+    writeWhole({"CYCL DEF 247 PRESETTING ~", fmt::format("    Q339=+{} ;PRESET NUMBER", row)});
     restoreFrame();
     return;
   }
@@ -356,14 +358,12 @@ void ToKlartext::command(const Block& block, const Command& command) {
   if (name == "MEAS") return measuringBlock(block, command);
   if (name == "STOPRE") return line("FN 20: WAIT FOR SYNC");
   if (name == "G4" && !words.empty() && words[0].address == 'F') {
-    line("CYCL DEF 9.0 DWELL TIME");
-    return out_.line(fmt::format("CYCL DEF 9.1 DWELL {}", formulas_.unsignedValue(quantity(block, words[0].value))));
+    return writeWhole({"CYCL DEF 9.0 DWELL TIME",
+                       fmt::format("CYCL DEF 9.1 DWELL {}", formulas_.unsignedValue(quantity(block, words[0].value)))});
   }
   if (name == "SPOS" && !words.empty()) {
     const std::string angle = formulas_.value(quantity(block, words[0].value));
-    line("CYCL DEF 13.0 ORIENTATION");
-    line(fmt::format("CYCL DEF 13.1 ANGLE {}", angle));
-    return out_.line("M19");
+    return writeWhole({"CYCL DEF 13.0 ORIENTATION", fmt::format("CYCL DEF 13.1 ANGLE {}", angle), "M19"});
   }
   // What a preset is set to acts at once.
   if (name == "G" && trimmed(block.at(block.source), lineBlanks) == selectedAgain) return;

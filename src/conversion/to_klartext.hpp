@@ -193,6 +193,8 @@ private:
   }
   /// Writes the line after what its values need.
   void line(std::string text);
+  /// The same for a block of several lines: nothing stands between them.
+  void writeWhole(std::vector<std::string> lines);
   void forgetPosition() { position_ = {}; }
 
   language::sinumerik::SinumerikProgram& program_;

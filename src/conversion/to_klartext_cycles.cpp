@@ -132,10 +132,7 @@ std::string ToKlartext::writeTask(const MeasuringTask& task) {
         text.empty() ? formulas_.value(call.number(parameter.name)) : fmt::format("\"{}\"", text), meaning));
   }
   lines.back().resize(lines.back().size() - 2);
-  for (std::string& each : formulas_.takePrelude())
-    out_.line(std::move(each));
-  for (std::string& each : lines)
-    out_.line(std::move(each));
+  writeWhole(std::move(lines));
   return call.cycle;
 }
 

@@ -24,20 +24,15 @@ void turn(Place& place, double degrees) {
 }  // namespace
 
 void ToKlartext::writeShift(const std::array<Quantity, 3>& shift) {
-  std::vector<std::string> parts;
+  std::vector<std::string> parts = {"CYCL DEF 7.0 DATUM SHIFT"};
   for (std::size_t i = 0; i < 3; ++i)
     if (shiftsEver_[static_cast<std::size_t>(axis(i)[0] - 'X')])
-      parts.push_back(fmt::format("CYCL DEF 7.{} {}{}", parts.size() + 1, axis(i), formulas_.value(shift[i])));
-  if (parts.empty()) return;
-  line("CYCL DEF 7.0 DATUM SHIFT");
-  for (const std::string& part : parts)
-    out_.line(part);
+      parts.push_back(fmt::format("CYCL DEF 7.{} {}{}", parts.size(), axis(i), formulas_.value(shift[i])));
+  if (parts.size() > 1) writeWhole(std::move(parts));
 }
 
 void ToKlartext::writeRotation(const Quantity& angle) {
-  const std::string text = formulas_.value(angle);
-  line("CYCL DEF 10.0 ROTATION");
-  out_.line(fmt::format("CYCL DEF 10.1 ROT{}", text));
+  writeWhole({"CYCL DEF 10.0 ROTATION", fmt::format("CYCL DEF 10.1 ROT{}", formulas_.value(angle))});
 }
 
 /// A quantity that keeps its value when variables change.

@@ -156,9 +156,9 @@ void ToKlartext::restorePreset(const MeasuringTask& task) {
     }
   }
   if (task.correction != Correction::Origin) {
-    line("TCH PROBE 404 SET BASIC ROTATION ~");
-    out_.line(fmt::format("    Q307=+{} ;PRESET ROTATION ANG. ~", before_.values[rotationIndex]));
-    out_.line(fmt::format("    Q305={} ;NUMBER IN TABLE", formulas_.value(*before_.row)));
+    writeWhole({"TCH PROBE 404 SET BASIC ROTATION ~",
+                fmt::format("    Q307=+{} ;PRESET ROTATION ANG. ~", before_.values[rotationIndex]),
+                fmt::format("    Q305={} ;NUMBER IN TABLE", formulas_.value(*before_.row))});
   }
 }
 

@@ -71,9 +71,10 @@ void ToKlartext::assignFrameComponent(const Block& block, const Assign& assign) 
     if (row == 0) rowZeroIsDue_ = false;
     const std::string angle = formulas_.value(value), rowText = formulas_.value(row);
     cancelFrame();  // touch probe cycles permit none
-    line("TCH PROBE 404 SET BASIC ROTATION ~");
-    out_.line(fmt::format("    Q307={} ;PRESET ROTATION ANG.{}", angle, ofTables ? " ~" : ""));
-    if (ofTables) out_.line(fmt::format("    Q305={} ;NUMBER IN TABLE", rowText));
+    std::vector<std::string> lines = {"TCH PROBE 404 SET BASIC ROTATION ~",
+                                      fmt::format("    Q307={} ;PRESET ROTATION ANG.{}", angle, ofTables ? " ~" : "")};
+    if (ofTables) lines.push_back(fmt::format("    Q305={} ;NUMBER IN TABLE", rowText));
+    writeWhole(std::move(lines));
     restoreFrame();
     return;
   }
@@ -91,7 +92,7 @@ void ToKlartext::assignFrameComponent(const Block& block, const Assign& assign) 
   const std::string before = formulas_.define("preset in effect");
   if (!inEffect) {
     line(fmt::format("FN 18: SYSREAD {} = ID530 NR1", before));
-    out_.line(fmt::format("PRESET SELECT #{} KEEP TRANS", formulas_.unsignedValue(row)));
+    line(fmt::format("PRESET SELECT #{} KEEP TRANS", formulas_.unsignedValue(row)));
   }
   line(fmt::format("PRESET CORR {}{}", word(1), amount));
   if (!inEffect) line(fmt::format("PRESET SELECT #{} KEEP TRANS", before));

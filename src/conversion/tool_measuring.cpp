@@ -124,10 +124,10 @@ void ToKlartext::toolMeasurement(const Block& block, const Call& call) {
   const std::string before = wanted.contains(difference) ? believed("before") : std::string();
   const Quantity memory = call.number("S_KNUM");
   if (!memory.isNumber()) throw NotCarriedOver("S_KNUM is known only when the program runs");
-  line(fmt::format("TCH PROBE {} {} ~", length ? 481 : 482, length ? "TOOL LENGTH" : "TOOL RADIUS"));
-  line(fmt::format("    Q340={:+} ;CHECK ~", call.digit("S_KNUM", 1)));
-  line(fmt::format("    Q260={} ;CLEARANCE HEIGHT ~", formulas_.value(height)));
-  line(fmt::format("    Q341={:+} ;PROBING THE TEETH", teeth ? 1 : 0));
+  writeWhole({fmt::format("TCH PROBE {} {} ~", length ? 481 : 482, length ? "TOOL LENGTH" : "TOOL RADIUS"),
+              fmt::format("    Q340={:+} ;CHECK ~", call.digit("S_KNUM", 1)),
+              fmt::format("    Q260={} ;CLEARANCE HEIGHT ~", formulas_.value(height)),
+              fmt::format("    Q341={:+} ;PROBING THE TEETH", teeth ? 1 : 0)});
   if (wanted.contains(actual) || wanted.contains(difference)) {
     const std::string after = believed("after");
     if (wanted.contains(actual)) line(fmt::format("Q{} = {}", 1700 + actual, after));
