@@ -133,6 +133,19 @@ struct Pairs {
   }
 };
 
+/// Of counted trials, whose points these are, and of the first ones, whose values are kept.
+Summary summaryOf(Counted points, const TrialSummary::Sums& sums, std::uint64_t count, const Grid::Scale& scale,
+                  const std::vector<double>& kept, double coverage) {
+  for (const double value : kept)
+    points.emplace_back(value, 1);
+  finish(points, &sums);
+  Moments moments = momentsOf(sums, count, scale);
+  moments.add(study::momentsOf(kept));
+  Summary summary = summarize(points, moments, coverage);
+  summary.quantileError = quantileErrorOf(summary, scale.reference);
+  return summary;
+}
+
 }  // namespace
 
 std::shared_ptr<const Grid> gridOf(const TrialTable& first, const LimitsOf& limitsOf) {
@@ -349,14 +362,7 @@ Summary Findings::values(std::size_t i, double coverage) const {
   Counted points;
   addPoints(points, counted->within, counted->values, scale.reference);
   addPoints(points, counted->beyond, counted->values, scale.reference);
-  for (const double value : kept)
-    points.emplace_back(value, 1);
-  finish(points, &counted->values);
-  Moments moments = momentsOf(counted->values, trials_.regular(), scale);
-  moments.add(study::momentsOf(kept));
-  Summary summary = summarize(points, moments, coverage);
-  summary.quantileError = quantileErrorOf(summary, scale.reference);
-  return summary;
+  return summaryOf(std::move(points), counted->values, trials_.regular(), scale, kept, coverage);
 }
 
 Histogram Findings::histogram(std::size_t i) const {
@@ -399,14 +405,7 @@ std::optional<Summary> Findings::errors(std::size_t i, double coverage) const {
   const Grid::Scale& scale = trials_.grid()->columns[i].errors;
   Counted points;
   addPoints(points, counted->errorCells, counted->errors, scale.reference);
-  for (const double error : kept)
-    points.emplace_back(error, 1);
-  finish(points, &counted->errors);
-  Moments moments = momentsOf(counted->errors, trials_.regular(), scale);
-  moments.add(study::momentsOf(kept));
-  Summary summary = summarize(points, moments, coverage);
-  summary.quantileError = quantileErrorOf(summary, scale.reference);
-  return summary;
+  return summaryOf(std::move(points), counted->errors, trials_.regular(), scale, kept, coverage);
 }
 
 double Findings::truth(std::size_t i) const {
