@@ -1,10 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -35,6 +38,83 @@ TEST(Pdf, HasThePagesOfTheReport) {
   EXPECT_TRUE(pdf.starts_with("%PDF-")) << answer.errors;
   EXPECT_GT(pdf.size(), 20'000U) << "with the picture of the part";
   EXPECT_THAT(pdf, HasSubstr("/Type /Page"));
+}
+
+/// The lines of each page that hold text.
+std::vector<std::vector<std::string>> pagesOf(const Folder& folder) {
+  const std::string text = (folder / "report.txt").string();
+  const std::string command = "pdftotext -layout '" + (folder / "out/report.pdf").string() + "' '" + text + "'";
+  EXPECT_EQ(std::system(command.c_str()), 0) << "pdftotext is needed: apt-get install poppler-utils";
+  std::vector<std::vector<std::string>> pages(1);
+  std::istringstream stream(textOf(text));
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with("\f")) {
+      pages.emplace_back();
+      line.erase(0, 1);
+    }
+    if (line.find_first_not_of(" \f\r") != std::string::npos) pages.back().push_back(line);
+  }
+  if (pages.back().empty()) pages.pop_back();
+  return pages;
+}
+
+/// The housing's program with the inspection of bore and spigot 40 times: a sheet of many pages.
+std::string longProgram() {
+  std::string text = textOf(std::string(PROBEWRIGHT_SOURCE_DIR) + "/examples/programs/housing.h");
+  text.resize(text.find("28 * - INSPECT: POCKET"));
+  text = std::regex_replace(text, std::regex("CALL LBL 1"), "; next");
+  text.insert(text.find("22 * - INSPECT: BORE"), "LBL 9\n");
+  return text + "CALL LBL 9 REP 39\nEND PGM HOUSING MM\n";
+}
+
+TEST(Pdf, BreaksALongSheetBetweenFeatures) {
+  const Folder folder;
+  const Answer answer = run(folder, folder.file("long.h", longProgram()), "examples/setups/housing-tnc640.toml",
+                            {"--pdf", "--job", "part=Housing <A & B> \"1\"", "--job", "serial=0017"});
+  ASSERT_EQ(answer.exit, 0) << answer.errors << answer.output;
+  const auto pages = pagesOf(folder);
+  ASSERT_GE(pages.size(), 6U);
+  const std::regex cycle(R"(^\s*(\d+) (?:TOP FACE|FRONT SIDE|BORE 40|INSPECT: ).*)"),
+      row(R"(^\s*(\d+)\.(\d+)\s+(?:centre|diameter|coordinate).*)");
+  std::smatch found;
+  int cycles = 0, rows = 0;
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    SCOPED_TRACE("page " + std::to_string(i + 1));
+    // The foot names part, serial number, program and page, as they are.
+    const std::string& foot = pages[i].back();
+    EXPECT_THAT(foot, HasSubstr("Housing <A & B> \"1\""));
+    EXPECT_THAT(foot, HasSubstr("0017"));
+    EXPECT_THAT(foot, HasSubstr("long.h"));
+    EXPECT_THAT(foot, HasSubstr("Page " + std::to_string(i + 1) + " / " + std::to_string(pages.size())));
+    bool head = false, headingLast = false;
+    int open = 0;  // the cycle whose head is on this page
+    for (const std::string& line : pages[i]) {
+      if (line.find("Characteristic") != std::string::npos && line.find("Nominal") != std::string::npos) head = true;
+      const bool heading = std::regex_match(line, std::regex("(Inspection|Corrections|Against the truth|Messages)"));
+      if (&line != &pages[i].back()) headingLast = heading;
+      if (std::regex_match(line, found, cycle)) {
+        EXPECT_TRUE(head) << "the head of the table is on every page of it: " << line;
+        open = std::stoi(found[1]);
+        EXPECT_EQ(open, ++cycles);
+      } else if (std::regex_match(line, found, row)) {
+        EXPECT_EQ(std::stoi(found[1]), open) << "a row stands with the name of its feature: " << line;
+        ++rows;
+      }
+    }
+    EXPECT_FALSE(headingLast) << "a heading at the end of a page";
+  }
+  EXPECT_EQ(cycles, 83);
+  EXPECT_EQ(rows, 244);
+  // What is known of the preset stands on one page.
+  const auto holds = [](const std::vector<std::string>& page, const std::string& expression) {
+    return std::ranges::any_of(
+        page, [&](const std::string& line) { return std::regex_search(line, std::regex(expression)); });
+  };
+  const auto truth = std::ranges::find_if(pages, [&](const auto& page) { return holds(page, "preset 1"); });
+  ASSERT_NE(truth, pages.end());
+  for (const char* column : {"SPC +0\\.79", "X +\u221258\\.6", "Y +\u221240\\.8", "Z +\u2212469\\.5"})
+    EXPECT_TRUE(holds(*truth, column)) << column;
+  EXPECT_TRUE(holds(pages.back(), "Signature"));
 }
 
 TEST(Pdf, NeedsAChromiumBeforeTheRunBegins) {

@@ -41,7 +41,7 @@ export function facts(report: Report): [string, string][] {
 }
 
 /** A text inside of a style sheet. */
-const quoted = (text: string) => `"${text.replace(/[\\"]/g, "\\$&").replace(/[\n\r\f<]/g, " ")}"`;
+const quoted = (text: string) => `"${text.replace(/[\\"]/g, "\\$&").replace(/[\n\r\f]/g, " ").replace(/</g, "\\3c ")}"`;
 
 function pageStyle(report: Report): string {
   const { run } = report.results;

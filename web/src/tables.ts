@@ -49,9 +49,10 @@ export function correctionsTable({ results }: Report, selector: Selector): HTMLE
 export function truthTable({ results }: Report): HTMLElement | null {
   const entries = results.truth?.entries ?? [];
   if (entries.length === 0) return null;
-  const rows = entries.flatMap(({ name, values, distance, angle }) => {
+  // What is known of one entry stays together on paper.
+  const groups = entries.map(({ name, values, distance, angle }) => {
     const off = [distance != null && `${fixed(distance, 4)} mm`, angle != null && `${fixed(angle, 4)} \u00b0`].filter(Boolean).join(", ");
-    return values.map((value, i) =>
+    const rows = values.map((value, i) =>
       h(
         "tr",
         {},
@@ -63,8 +64,9 @@ export function truthTable({ results }: Report): HTMLElement | null {
         h("td", { class: "meaning" }, unitText(value.unit)),
       ),
     );
+    return h("tbody", { class: "together" }, ...rows);
   });
-  return h("table", { class: "plain" }, headRow([t("entry")], [""], [t("actual"), "number"], [t("truth"), "number"], [t("error"), "number"], [""]), h("tbody", {}, ...rows));
+  return h("table", { class: "plain" }, headRow([t("entry")], [""], [t("actual"), "number"], [t("truth"), "number"], [t("error"), "number"], [""]), ...groups);
 }
 
 const eventWords = { message: "eventMessage", alarm: "eventAlarm", stop: "eventStop", skipped: "eventSkipped", tool: "eventTool", warning: "eventWarning" } as const;

@@ -3,12 +3,13 @@
 // With PROBEWRIGHT_UPDATE_PICTURES=1 the stored pictures are made again: look at them before they are committed.
 
 import assert from "node:assert/strict";
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 import puppeteer from "puppeteer-core";
+import { scrolled } from "./scrolled.mjs";
 
 const [runs, stored, screenshots] = process.argv.slice(2);
 const update = process.env.PROBEWRIGHT_UPDATE_PICTURES === "1";
@@ -110,6 +111,23 @@ test("cycles and alarms are marked on the time line, where they were", async () 
     assert.deepEqual(problems, []);
     await page.close();
   }
+});
+
+test("two thousand cycles are a page like any other", async () => {
+  assert.ok(statSync(join(runs, "many", "report.html")).size < 10e6);
+  const { page, problems } = await open("many");
+  assert.match(await text(page, ".facts-line"), /2003 cycles/);
+  // Processor time, which other work on the computer does not change: what a frame has at 60 a second.
+  const { own, elements } = await scrolled(page, ".sheet", 40);
+  assert.ok(elements < 3000, `${elements} elements`);
+  assert.ok(own < 16, `${own} ms a frame`);
+  // Where it has been scrolled to, there are rows, in their order and without gaps.
+  const rows = await page.$$eval(".virtual-row", (all) => all.map((row) => row.getBoundingClientRect()).map(({ top, bottom }) => [top, bottom]).sort((a, b) => a[0] - b[0]));
+  const sheet = await page.$eval(".sheet", (list) => list.getBoundingClientRect().toJSON());
+  assert.ok(rows[0][0] <= sheet.top + 80 && rows.at(-1)[1] >= sheet.bottom - 1, JSON.stringify([rows[0], rows.at(-1), sheet]));
+  rows.slice(1).forEach(([top], i) => assert.ok(Math.abs(top - rows[i][1]) < 1, `${top} after ${rows[i][1]}`));
+  assert.deepEqual(problems, []);
+  await page.close();
 });
 
 test("the clearance is a curve over time, and told where the replay is", async () => {
