@@ -16,11 +16,11 @@ double conformanceProbability(double value, double uncertainty, const Tolerance&
 }
 
 Decision decide(double value, double guardBand, const Tolerance& tolerance) {
-  const double tooLow = tolerance.lower ? *tolerance.lower - value : -INFINITY;
-  const double tooHigh = tolerance.upper ? value - *tolerance.upper : -INFINITY;
-  const double beyond = std::max(tooLow, tooHigh);
-  if (beyond <= -guardBand) return Decision::Conforms;
-  return beyond > guardBand ? Decision::DoesNotConform : Decision::Undecided;
+  const auto zone = acceptanceZone(tolerance, guardBand);
+  if (zone && zone->contains(value)) return Decision::Conforms;
+  const bool tooLow = tolerance.lower && value < *tolerance.lower - guardBand;
+  const bool tooHigh = tolerance.upper && value > *tolerance.upper + guardBand;
+  return tooLow || tooHigh ? Decision::DoesNotConform : Decision::Undecided;
 }
 
 std::string nameOf(Decision decision) {

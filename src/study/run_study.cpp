@@ -32,9 +32,7 @@ public:
     if (!estimated.empty()) estimate_ = estimated.front();
     noteEstimate();
     TrialCourse course(study_, sampler_, model_, crew_,
-                       {[this](const Outcome& outcome, const Draw& draw) {
-                          return measurands_.withTruths(described(outcome), draw.inputs);
-                        },
+                       {[this](const Outcome& outcome, const Draw& draw) { return seen(outcome, draw); },
                         [this](const Characteristic& of) { return toleranceOf(describedBy(of)); }},
                        run_);
     result_.end = course.carryOut();
@@ -93,17 +91,46 @@ private:
     return outcome;
   }
 
+  /// The outcome as it counts: with what the study says of its results, angles within half a turn of the estimate and
+  /// of their true values.
+  Outcome seen(const Outcome& outcome, const Draw& draw) const {
+    Outcome counted = measurands_.withTruths(described(outcome), draw.inputs);
+    for (Observation& observation : counted.observations) {
+      const Observation* estimate = estimateOf(observation.of.key);
+      if (estimate == nullptr || estimate->of.unit != "deg") continue;
+      observation.value = withinHalfATurn(observation.value, estimate->value);
+      if (observation.truth) observation.truth = withinHalfATurn(*observation.truth, observation.value);
+    }
+    return counted;
+  }
+
+  static double withinHalfATurn(double angle, double of) {
+    return std::abs(angle - of) > 180 ? angle - 360 * std::round((angle - of) / 360) : angle;
+  }
+
   Answer answerOf(const Findings& findings, std::size_t i) const {
     Answer answer;
     answer.of = describedBy(findings.characteristics()[i]);
     if (const Observation* estimate = estimateOf(answer.of.key)) answer.estimate = estimate->value;
+    answer.corrected = answer.estimate;
     answer.values = findings.values(i, study_.coverage);
     answer.histogram = findings.histogram(i);
     answer.standardUncertainty = answer.values.deviation;
+    answer.symmetric = answer.values.symmetric;
+    answer.shortest = answer.values.shortest;
     answer.error = findings.errors(i, study_.coverage);
     if (answer.error) {
-      answer.truth = findings.truth(i);
+      answer.errorHistogram = findings.errorHistogram(i);
+      answer.truths = findings.truths(i);
       answer.standardUncertainty = answer.error->deviation;
+      if (answer.estimate) answer.corrected = *answer.estimate - answer.error->mean;
+      // What is too large by an error has a true value that is smaller by it.
+      const auto behind = [&](const std::optional<Interval>& errors) -> std::optional<Interval> {
+        if (!errors || !answer.estimate) return std::nullopt;
+        return Interval{*answer.estimate - errors->high, *answer.estimate - errors->low};
+      };
+      answer.symmetric = behind(answer.error->symmetric);
+      answer.shortest = behind(answer.error->shortest);
     }
     if (const auto tolerance = toleranceOf(answer.of)) judge(answer, findings, i, *tolerance);
     return answer;
@@ -113,9 +140,9 @@ private:
     answer.tolerance = tolerance;
     answer.guardBand = study_.guardFactor * answer.standardUncertainty;
     const auto zone = acceptanceZone(tolerance, answer.guardBand);
-    if (answer.estimate) {
-      answer.conformance = conformanceProbability(*answer.estimate, answer.standardUncertainty, tolerance);
-      answer.decision = decide(*answer.estimate, answer.guardBand, tolerance);
+    if (answer.corrected) {
+      answer.conformance = conformanceProbability(*answer.corrected, answer.standardUncertainty, tolerance);
+      answer.decision = decide(*answer.corrected, answer.guardBand, tolerance);
     }
     if (!answer.error) return;
     answer.risks = findings.risks(i, tolerance, tolerance, true);
@@ -178,23 +205,12 @@ private:
     for (const Answer& answer : result_.answers)
       if (answer.error) known.insert(answer.of.key);
     return [this, known](const Draw& draw) {
-      Outcome outcome = measurands_.withTruths(model_(draw), draw.inputs);
+      Outcome outcome = seen(model_(draw), draw);
       for (Observation& observation : outcome.observations)
         if (known.contains(observation.of.key))
           observation.value = observation.truth ? observation.value - *observation.truth : missing;
       return outcome;
     };
-  }
-
-  /// The random effects of the machine come last among the units.
-  void compareWithFirstOrder() {
-    for (Answer& answer : result_.answers) {
-      const auto& scatter = answer.contributions.back().uncertainty;
-      if (!answer.of.firstOrder || !scatter) continue;
-      // A standard deviation of n trials is known to 1 / root(2 n); three times that.
-      const double unsure = 3 / std::sqrt(2 * static_cast<double>(study_.sensitivityTrials));
-      answer.firstOrderHolds = std::abs(*answer.of.firstOrder - *scatter) <= (0.05 + unsure) * *scatter;
-    }
   }
 
   void findShares() {
@@ -207,7 +223,10 @@ private:
             oneAtATime(model, sampler_, characteristics, study_.sensitivityTrials, settings("one source at a time"))) {
       for (std::size_t i = 0; i < result_.answers.size(); ++i)
         result_.answers[i].contributions = std::move((*found)[i]);
-      compareWithFirstOrder();
+      const auto verdicts = compareWithFirstOrder(model, sampler_, characteristics, study_.sensitivityTrials,
+                                                  settings("the scatter of the probe alone"));
+      for (std::size_t i = 0; verdicts && i < result_.answers.size(); ++i)
+        result_.answers[i].firstOrder = (*verdicts)[i];
     }
     if (study_.sensitivity != Sensitivity::Sobol || run_.stop.stop_requested()) return;
     if (auto found =
@@ -225,7 +244,7 @@ private:
       const auto outcomes = crew_(model_, part);
       if (outcomes.size() < part.size()) return std::nullopt;
       for (std::size_t i = 0; i < outcomes.size(); ++i)
-        table.add(part[i], outcomes[i]);
+        table.add(part[i], seen(outcomes[i], part[i]));
       tell(phase, begin + part.size(), draws.size());
     }
     return table;

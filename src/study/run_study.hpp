@@ -8,6 +8,7 @@
 #include "study/capability.hpp"
 #include "study/conformity.hpp"
 #include "study/crew.hpp"
+#include "study/first_order_trials.hpp"
 #include "study/sensitivity.hpp"
 #include "study/statistics.hpp"
 #include "study/study.hpp"
@@ -17,34 +18,41 @@
 /// A whole study: trials until the digits are stable, and what they say.
 namespace probewright::study {
 
-/// What the study says of one result.
+/// What the study says of one result: what a measured value is worth, and how measured values spread over the trials.
+/// Both are the same where no true value is known, or always the same one.
 struct Answer {
   Characteristic of;
   std::optional<double> estimate;  ///< of the trial in which every source is at its estimate, without random effects
+  bool stable = false;             ///< to the digits that were asked for
+
+  // How measured values spread: what the true ones vary by is in it.
   Summary values;
   Histogram histogram;
-  bool stable = false;  ///< to the digits that were asked for
 
   // Where the true value is known.
-  std::optional<double> truth;   ///< mean of the true values
+  std::optional<Findings::Truths> truths;
   std::optional<Summary> error;  ///< of measured less true value: its mean is the bias
+  std::optional<Histogram> errorHistogram;
 
-  /// Of the error where the truth is known, else of the values.
+  // What a measured value is worth. Where the truth is known that of the errors, else of the values.
   double standardUncertainty = 0;
+  /// The true value that is likely behind the estimate lies in there: of the estimate less the errors, so the bias is
+  /// corrected; where no truth is known, of the values.
+  std::optional<Interval> symmetric, shortest;
+  /// The estimate less the bias.
+  std::optional<double> corrected;
 
   // Where the result has limits.
   std::optional<Tolerance> tolerance;
   double guardBand = 0;
   std::optional<double> conformance;  ///< probability that the item behind the estimate is within (JCGM 106)
-  std::optional<Decision> decision;   ///< on the estimate, by ISO 14253-1
+  std::optional<Decision> decision;   ///< on the corrected estimate, by ISO 14253-1
   std::optional<Risks> risks;         ///< of accepting whatever is measured within the tolerance
   std::optional<Risks> guardedRisks;  ///< of accepting what is measured within the tolerance less the guard bands
 
   std::vector<Contribution> contributions;           ///< of each unit of the sampler; empty if not asked for
   std::vector<std::optional<SobolIndices>> indices;  ///< likewise
-  /// Where the scatter of the probe is known to first order: whether trials agree with that to 5 %, as far as they can
-  /// tell.
-  std::optional<bool> firstOrderHolds;
+  std::optional<FirstOrderVerdict> firstOrder;       ///< where the scatter of the probe is known to first order
   std::optional<Type1> type1;
   std::optional<GaugeRR> gauge;
 };

@@ -39,6 +39,10 @@ json summary(const Summary& summary) {
           {"quantileError", number(summary.quantileError)}};
 }
 
+json histogram(const Histogram& histogram) {
+  return {{"low", number(histogram.low)}, {"width", number(histogram.width)}, {"counts", histogram.counts}};
+}
+
 json risks(const Risks& risks) {
   return {{"count", risks.count},
           {"trulyWithin", risks.trulyWithin},
@@ -105,17 +109,26 @@ json answerJson(const Answer& answer, const StudyResult& result) {
                  {"values", summary(answer.values)},
                  {"stable", answer.stable},
                  {"standardUncertainty", number(answer.standardUncertainty)},
-                 {"histogram",
-                  {{"low", number(answer.histogram.low)},
-                   {"width", number(answer.histogram.width)},
-                   {"counts", answer.histogram.counts}}}};
+                 {"coverage",
+                  {{"of", answer.error ? "true value" : "measured values"},
+                   {"corrected", optional(answer.corrected)},
+                   {"symmetricInterval", interval(answer.symmetric)},
+                   {"shortestInterval", interval(answer.shortest)}}},
+                 {"histogram", histogram(answer.histogram)}};
   if (answer.of.firstOrder) object["firstOrder"] = {{"standardUncertainty", number(*answer.of.firstOrder)}};
-  if (answer.firstOrderHolds) object["firstOrder"]["holds"] = *answer.firstOrderHolds;
-  if (answer.truth) object["truth"] = number(*answer.truth);
+  if (answer.of.firstOrder && answer.firstOrder)
+    object["firstOrder"]["holds"] = *answer.firstOrder == FirstOrderVerdict::Unclear
+                                        ? json(nullptr)
+                                        : json(*answer.firstOrder == FirstOrderVerdict::Holds);
+  if (answer.truths) {
+    object["truth"] = number(answer.truths->mean);
+    object["truths"] = {number(answer.truths->least), number(answer.truths->greatest)};
+  }
   if (answer.error) {
     object["bias"] = number(answer.error->mean);
     object["error"] = summary(*answer.error);
   }
+  if (answer.errorHistogram) object["errorHistogram"] = histogram(*answer.errorHistogram);
   if (answer.tolerance) {
     json& conformity = object["conformity"];
     conformity = {{"lowerLimit", optional(answer.tolerance->lower)},
@@ -219,17 +232,19 @@ std::string studyCsv(const StudyResult& result) {
   };
   std::string text =
       "result,label,unit,count,estimate,mean,standard uncertainty,symmetric low,symmetric high,shortest low,"
-      "shortest high,bias,lower limit,upper limit,conformance probability\n";
+      "shortest high,bias,lower limit,upper limit,conformance probability,standard deviation of the values,"
+      "values symmetric low,values symmetric high,values minimum,values maximum\n";
   for (const Answer& answer : result.answers) {
     const auto low = [](const std::optional<Interval>& i) { return i ? std::optional(i->low) : std::nullopt; };
     const auto high = [](const std::optional<Interval>& i) { return i ? std::optional(i->high) : std::nullopt; };
     text += fmt::format("{},{},{},{}", quoted(readable(answer.of.key)), quoted(readable(answer.of.label)),
                         answer.of.unit, answer.values.count);
     text += cell(answer.estimate) + cell(answer.values.mean) + cell(answer.standardUncertainty) +
-            cell(low(answer.values.symmetric)) + cell(high(answer.values.symmetric)) +
-            cell(low(answer.values.shortest)) + cell(high(answer.values.shortest)) +
-            cell(answer.error ? std::optional(answer.error->mean) : std::nullopt) + cell(answer.of.lower) +
-            cell(answer.of.upper) + cell(answer.conformance) + "\n";
+            cell(low(answer.symmetric)) + cell(high(answer.symmetric)) + cell(low(answer.shortest)) +
+            cell(high(answer.shortest)) + cell(answer.error ? std::optional(answer.error->mean) : std::nullopt) +
+            cell(answer.of.lower) + cell(answer.of.upper) + cell(answer.conformance) + cell(answer.values.deviation) +
+            cell(low(answer.values.symmetric)) + cell(high(answer.values.symmetric)) + cell(answer.values.minimum) +
+            cell(answer.values.maximum) + "\n";
   }
   return text;
 }

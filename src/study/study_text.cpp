@@ -64,19 +64,43 @@ std::string heading(const StudyResult& result) {
 
 bool isShown(const Answer& answer) { return answer.of.main || answer.error || answer.type1 || answer.gauge; }
 
+std::string covered(const StudyResult& result) {
+  return fmt::format("{:.3g} % symmetric", 100 * result.study.coverage);
+}
+
+/// What a measured value is worth.
 std::string resultsTable(const StudyResult& result, const std::vector<const Answer*>& shown) {
-  const std::string covered = fmt::format("{:.3g} % symmetric", 100 * result.study.coverage);
   std::vector<std::vector<std::string>> rows = {
-      {"result", "unit", "estimate", "mean", "u", covered, "shortest", "bias", "count"}};
+      {"result", "unit", "estimate", "u", covered(result), "shortest", "bias", "count"}};
+  bool blind = false;
   for (const Answer* answer : shown) {
     const int decimals = decimalsFor(answer->standardUncertainty);
-    rows.push_back({answer->of.key, answer->of.unit, value(answer->estimate, decimals),
-                    value(answer->values.mean, decimals), fmt::format("{:.2g}", answer->standardUncertainty),
-                    range(answer->values.symmetric, decimals), range(answer->values.shortest, decimals),
+    blind = blind || !answer->error;
+    rows.push_back({answer->of.key + (answer->error ? "" : " *"), answer->of.unit, value(answer->estimate, decimals),
+                    fmt::format("{:.2g}", answer->standardUncertainty), range(answer->symmetric, decimals),
+                    range(answer->shortest, decimals),
                     answer->error ? fmt::format("{:+.{}f}", answer->error->mean, decimals) : "-",
                     std::to_string(answer->values.count)});
   }
-  return table(rows);
+  std::string text =
+      "What a measured value is worth: the true value behind the estimate lies in the interval\n" + table(rows);
+  if (blind) text += "  * of the measured values: no true value is known that they could be compared with\n";
+  return text;
+}
+
+/// How measured values spread where the true ones vary, too.
+std::string spreadTable(const StudyResult& result, const std::vector<const Answer*>& shown) {
+  std::vector<std::vector<std::string>> rows = {
+      {"result", "unit", "mean", "standard deviation", covered(result), "true values"}};
+  for (const Answer* answer : shown) {
+    if (!answer->truths || !answer->truths->vary()) continue;
+    const int decimals = decimalsFor(answer->values.deviation);
+    rows.push_back({answer->of.key, answer->of.unit, value(answer->values.mean, decimals),
+                    fmt::format("{:.2g}", answer->values.deviation), range(answer->values.symmetric, decimals),
+                    range(Interval{answer->truths->least, answer->truths->greatest}, decimals)});
+  }
+  if (rows.size() == 1) return {};
+  return "\nSpread of the measured values over the trials: the true values vary, too\n" + table(rows);
 }
 
 /// An uncertainty budget: what each source does alone, and how much of the variance that is.
@@ -108,10 +132,12 @@ std::string budgetTable(const StudyResult& result, const Answer& answer) {
     rows.push_back(std::move(row));
   }
   std::string text = fmt::format("\nUncertainty budget of {} ({})\n", answer.of.key, answer.of.label) + table(rows);
-  if (answer.of.firstOrder && answer.firstOrderHolds == false) {
-    text += fmt::format(
-        "  `run --uncertainty` would say {:.2g} {} for the random effects: by more than 5 % another value\n",
-        *answer.of.firstOrder, answer.of.unit);
+  if (answer.of.firstOrder && answer.firstOrder && *answer.firstOrder != FirstOrderVerdict::Holds) {
+    text += fmt::format("  `run --uncertainty` would say {:.2g} {} for the random effects: {}\n", *answer.of.firstOrder,
+                        answer.of.unit,
+                        *answer.firstOrder == FirstOrderVerdict::Differs
+                            ? "by more than 5 % another value"
+                            : "whether that is another value by more than 5 %, more sensitivity_trials tell");
   }
   return text + fmt::format("  together {:.2g} {}; in the trials, with all of them at once, {:.2g}\n",
                             std::sqrt(squares), answer.of.unit, answer.standardUncertainty);
@@ -126,11 +152,13 @@ std::string conformityText(const StudyResult& result, const Answer& answer) {
   const int decimals = decimalsFor(answer.standardUncertainty);
   std::string text =
       fmt::format("\nConformity of {}: {} {}\n", answer.of.key, limitsOf(*answer.tolerance), answer.of.unit);
-  if (answer.estimate && answer.conformance && answer.decision) {
+  if (answer.estimate && answer.corrected && answer.conformance && answer.decision) {
+    const std::string corrected =
+        answer.error ? fmt::format(", less the bias {:.{}f}", *answer.corrected, decimals) : "";
     text += fmt::format(
-        "  measured as {:.{}f}: {} (ISO 14253-1, guard band {:.3g} u = {:.2g}); "
+        "  measured as {:.{}f}{}: {} (ISO 14253-1, guard band {:.3g} u = {:.2g}); "
         "conformance probability {}\n",
-        *answer.estimate, decimals, nameOf(*answer.decision), result.study.guardFactor, answer.guardBand,
+        *answer.estimate, decimals, corrected, nameOf(*answer.decision), result.study.guardFactor, answer.guardBand,
         percent(*answer.conformance));
   }
   const auto risks = [&](const char* rule, const Risks& r) {
@@ -195,7 +223,7 @@ std::string studyText(const StudyResult& result, std::size_t most) {
   for (const Answer& answer : result.answers)
     if (isShown(answer)) shown.push_back(&answer);
   std::string text = heading(result) + "\n\n";
-  if (!shown.empty()) text += resultsTable(result, shown);
+  if (!shown.empty()) text += resultsTable(result, shown) + spreadTable(result, shown);
   std::size_t count = 0;
   for (const Answer* answer : shown) {
     if (++count > most) break;

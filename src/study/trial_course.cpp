@@ -107,12 +107,18 @@ bool TrialCourse::drawSums(std::uint64_t begin, std::uint64_t end) {
   return true;
 }
 
+TrialCourse::Digits& TrialCourse::digitsOf(const std::string& key) {
+  const Stability none(study_.digits, study_.coverage);
+  return stabilities_.try_emplace(key, Digits{none, none}).first->second;
+}
+
 /// Looks at the trials since the last look. True if all digits are stable.
 bool TrialCourse::look() {
   const Findings since(block_, sampler_);
   for (std::size_t i = 0; i < since.characteristics().size(); ++i) {
-    const std::string& key = since.characteristics()[i].key;
-    stabilities_.try_emplace(key, study_.digits, study_.coverage).first->second.add(since.values(i, study_.coverage));
+    Digits& digits = digitsOf(since.characteristics()[i].key);
+    digits.values.add(since.values(i, study_.coverage));
+    if (const auto errors = since.errors(i, study_.coverage)) digits.errors.add(*errors);
   }
   total_.merge(block_);
   block_ = TrialSummary(grid_);
@@ -122,7 +128,8 @@ bool TrialCourse::look() {
   for (std::size_t i = 0; i < whole.characteristics().size(); ++i) {
     const std::string& key = whole.characteristics()[i].key;
     const auto found = stabilities_.find(key);
-    const bool isStable = found != stabilities_.end() && found->second.stable();
+    const bool isStable =
+        found != stabilities_.end() && (whole.truthIsKnown(i) ? found->second.errors : found->second.values).stable();
     if (isStable) stable_.insert(key);
     // Trials that come to an alarm tell nothing: a result that is hardly ever there does not hold up the others.
     if (whole.count(i) * 2 >= whole.size()) stable = stable && isStable;
@@ -136,11 +143,13 @@ std::string TrialCourse::state() const {
   for (const TrialSummary* sum : {&first_, &total_, &block_})
     study::put(state, sum->message());
   putCount(state, stabilities_.size());
-  for (const auto& [key, stability] : stabilities_) {
+  for (const auto& [key, digits] : stabilities_) {
     study::put(state, key);
-    putCount(state, stability.blocks().size());
-    for (const Summary& block : stability.blocks())
-      put(state, block);
+    for (const Stability* stability : {&digits.values, &digits.errors}) {
+      putCount(state, stability->blocks().size());
+      for (const Summary& block : stability->blocks())
+        put(state, block);
+    }
   }
   return state;
 }
@@ -155,10 +164,12 @@ void TrialCourse::restore(const std::string& state) {
   const std::uint64_t keys = reading.count();
   for (std::uint64_t i = 0; i < keys; ++i) {
     const std::string key = reading.text();
-    Stability& stability = stabilities_.try_emplace(key, study_.digits, study_.coverage).first->second;
-    const std::uint64_t blocks = reading.count();
-    for (std::uint64_t k = 0; k < blocks; ++k)
-      stability.add(getSummary(reading));
+    Digits& digits = digitsOf(key);
+    for (Stability* stability : {&digits.values, &digits.errors}) {
+      const std::uint64_t blocks = reading.count();
+      for (std::uint64_t k = 0; k < blocks; ++k)
+        stability->add(getSummary(reading));
+    }
   }
 }
 

@@ -91,7 +91,12 @@ private:
   std::shared_ptr<const Grid> grid_;
   TrialSummary first_;          ///< trials that the grid is made of
   TrialSummary total_, block_;  ///< up to the last look at the digits, and since then
-  std::map<std::string, Stability> stabilities_;
+  /// Of measured values, and of their errors where the truth is known: it is the digits of the uncertainty that count.
+  struct Digits {
+    Stability values, errors;
+  };
+  Digits& digitsOf(const std::string& key);
+  std::map<std::string, Digits> stabilities_;
   std::set<std::string> stable_;
   std::uint64_t nextLook_;
   bool doneIsRead_ = false;

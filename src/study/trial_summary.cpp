@@ -102,12 +102,16 @@ void addPoints(Counted& points, const ValueCells& cells, const TrialSummary::Sum
     points.emplace_back(std::clamp(reference + distance, sums.minimum, sums.maximum), count);
 }
 
-/// In ascending order. The least and the greatest value are known exactly.
-void finish(Counted& points, const TrialSummary::Sums* sums) {
+/// Those of counted trials and those that are kept, in ascending order. The least and the greatest value are known
+/// exactly.
+Counted withKept(Counted points, const TrialSummary::Sums& sums, const std::vector<double>& kept) {
+  for (const double value : kept)
+    points.emplace_back(value, 1);
   std::ranges::sort(points);
-  if (sums == nullptr || points.empty()) return;
-  points.front().first = std::min(points.front().first, sums->minimum);
-  points.back().first = std::max(points.back().first, sums->maximum);
+  if (points.empty()) return points;
+  points.front().first = std::min(points.front().first, sums.minimum);
+  points.back().first = std::max(points.back().first, sums.maximum);
+  return points;
 }
 
 double quantileErrorOf(const Summary& summary, double reference) {
@@ -136,9 +140,7 @@ struct Pairs {
 /// Of counted trials, whose points these are, and of the first ones, whose values are kept.
 Summary summaryOf(Counted points, const TrialSummary::Sums& sums, std::uint64_t count, const Grid::Scale& scale,
                   const std::vector<double>& kept, double coverage) {
-  for (const double value : kept)
-    points.emplace_back(value, 1);
-  finish(points, &sums);
+  points = withKept(std::move(points), sums, kept);
   Moments moments = momentsOf(sums, count, scale);
   moments.add(study::momentsOf(kept));
   Summary summary = summarize(points, moments, coverage);
@@ -372,10 +374,15 @@ Histogram Findings::histogram(std::size_t i) const {
   const double reference = trials_.grid()->columns[i].values.reference;
   addPoints(points, counted->within, counted->values, reference);
   addPoints(points, counted->beyond, counted->values, reference);
-  for (const double value : present(table_.values(i)))
-    points.emplace_back(value, 1);
-  finish(points, &counted->values);
-  return histogramOf(points);
+  return histogramOf(withKept(std::move(points), counted->values, present(table_.values(i))));
+}
+
+Histogram Findings::errorHistogram(std::size_t i) const {
+  const TrialSummary::Column* counted = column(i);
+  if (counted == nullptr) return histogramOf(keptErrors(i));
+  Counted points;
+  addPoints(points, counted->errorCells, counted->errors, trials_.grid()->columns[i].errors.reference);
+  return histogramOf(withKept(std::move(points), counted->errors, keptErrors(i)));
 }
 
 bool Findings::truthIsKnown(std::size_t i) const {
@@ -408,21 +415,33 @@ std::optional<Summary> Findings::errors(std::size_t i, double coverage) const {
   return summaryOf(std::move(points), counted->errors, trials_.regular(), scale, kept, coverage);
 }
 
-double Findings::truth(std::size_t i) const {
-  std::vector<double> kept;
+std::vector<double> Findings::keptTruths(std::size_t i) const {
+  std::vector<double> truths;
   for (std::size_t k = 0; k < table_.size(); ++k)
-    if (!std::isnan(table_.values(i)[k])) kept.push_back(table_.truths(i)[k]);
+    if (!std::isnan(table_.values(i)[k])) truths.push_back(table_.truths(i)[k]);
+  return truths;
+}
+
+Findings::Truths Findings::truths(std::size_t i) const {
+  const std::vector<double> kept = keptTruths(i);
+  Truths truths{0, INFINITY, -INFINITY};
   Moments moments;
   if (const TrialSummary::Column* counted = column(i)) {
     const Grid::Column& column = trials_.grid()->columns[i];
     const Moments values = momentsOf(counted->values, trials_.regular(), column.values),
                   errors = momentsOf(counted->errors, trials_.regular(), column.errors);
+    truths.least = counted->leastTruth;
+    truths.greatest = counted->greatestTruth;
     // One that is the same in all trials is told as it is.
-    const bool fixed = counted->leastTruth == counted->greatestTruth;
-    moments = {values.count, fixed ? counted->leastTruth : values.mean - errors.mean, 0};
+    moments = {values.count, truths.vary() ? values.mean - errors.mean : truths.least, 0};
+  }
+  for (const double truth : kept) {
+    truths.least = std::min(truths.least, truth);
+    truths.greatest = std::max(truths.greatest, truth);
   }
   moments.add(study::momentsOf(kept));
-  return moments.mean;
+  truths.mean = moments.mean;
+  return truths;
 }
 
 Risks Findings::risks(std::size_t i, const Tolerance& tolerance, const Tolerance& acceptance, bool exactly) const {

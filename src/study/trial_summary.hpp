@@ -105,10 +105,18 @@ public:
   std::uint64_t count(std::size_t i) const;
   Summary values(std::size_t i, double coverage) const;
   Histogram histogram(std::size_t i) const;
+  /// True if the true value is known wherever there is a measured one.
+  bool truthIsKnown(std::size_t i) const;
   /// Of measured less true value; nothing unless the true value is known wherever there is a measured one.
   std::optional<Summary> errors(std::size_t i, double coverage) const;
-  /// Mean of the true values where errors() are known.
-  double truth(std::size_t i) const;
+  /// Where errors() are known.
+  Histogram errorHistogram(std::size_t i) const;
+  /// Mean of the true values where errors() are known, the least and the greatest of them.
+  struct Truths {
+    double mean = 0, least = 0, greatest = 0;
+    bool vary() const { return least < greatest; }
+  };
+  Truths truths(std::size_t i) const;
   /// Of accepting what lies in `acceptance`; the counts of `exactly` the tolerance are exact.
   Risks risks(std::size_t i, const Tolerance& tolerance, const Tolerance& acceptance, bool exactly) const;
   /// Of trials that came to both; nothing where one of them does not vary.
@@ -116,8 +124,8 @@ public:
 
 private:
   const TrialSummary::Column* column(std::size_t i) const;
-  bool truthIsKnown(std::size_t i) const;
   std::vector<double> keptErrors(std::size_t i) const;
+  std::vector<double> keptTruths(std::size_t i) const;
 
   const TrialSummary& trials_;
   TrialTable table_;

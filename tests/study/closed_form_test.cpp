@@ -98,7 +98,9 @@ truth = "part.feature[1].size[1]"
 )");
   const Answer& found = answer(result, "426@4 Q156");
   ASSERT_TRUE(found.error);
-  EXPECT_EQ(found.truth, 80);
+  ASSERT_TRUE(found.truths);
+  EXPECT_FALSE(found.truths->vary());
+  EXPECT_EQ(found.truths->mean, 80);
   // The ball touches a leaning wall beside its equator, on both sides alike: (w + 2 r) / cos b - 2 r.
   const double sigma = 0.5 / degree;
   const double bias = (80 + 6) * sigma * sigma / 2;

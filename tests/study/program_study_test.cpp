@@ -200,7 +200,7 @@ TEST(ProgramStudy, TakesTrueValuesFromTheVirtualMachine) {
   // The budget is that of the error, too: all of it is scatter.
   EXPECT_LT(found.contributions.front().uncertainty.value(), 1e-5);
   EXPECT_NEAR(found.contributions.back().uncertainty.value(), 0.001 / std::sqrt(2.0), 0.15 * 0.001);
-  EXPECT_EQ(found.firstOrderHolds, true);
+  EXPECT_EQ(found.firstOrder, FirstOrderVerdict::Holds);
   const StudyResult blind = studyOfProgram(plateSetup("repeatability = 0.001\n"), program(bore(3, 4)),
                                            "trials = 20\nsensitivity = \"none\"\ntrue_values = false\n" + aside);
   EXPECT_FALSE(answer(blind, "421@4 Q151").error);

@@ -106,7 +106,7 @@ TEST_P(Sums, SayWhatAllValuesSay) {
   // Of a normal distribution the ends of the interval are known to a thousandth of its standard deviation.
   EXPECT_LT(found.values(0, 0.95).quantileError, 1e-3 * found.values(0, 0.95).deviation);
   EXPECT_FALSE(found.errors(1, 0.95));
-  EXPECT_NEAR(found.truth(0), summarize(world.truth, 0.95).mean, 1e-9);
+  EXPECT_NEAR(found.truths(0).mean, summarize(world.truth, 0.95).mean, 1e-9);
   EXPECT_NEAR(*found.correlation(0, 1), *correlation(world.x, world.y), 1e-8);
   EXPECT_NEAR(*found.correlation(2, 1), *correlation(world.whole(world.y), world.whole(world.z)), 1e-8);
   const auto counts = histogramOf(world.x).counts, sketched = found.histogram(0).counts;
