@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 
 #include "base/number_text.hpp"
 #include "base/text.hpp"
@@ -18,6 +20,9 @@ tl::unexpected<Diagnostic> notAPath(std::string_view text) {
               "write the keys on the way to it with points, in brackets which one of several: part.pose.x, "
               "tool[PROBE].pretravel, part.feature[2].diameter");
 }
+
+/// Is written as such: some keys take nothing else (numbers of teeth), and all that take other numbers take whole ones.
+bool isWhole(double value) { return value == std::trunc(value) && std::abs(value) < 0x1p53; }
 
 }  // namespace
 
@@ -133,7 +138,12 @@ Result<void> NumberPath::set(toml::table& root, double value) const {
       }
       if (last) {
         if (!list->get(*place)->is_number()) return missing("the entry of the list is not a number");
-        list->replace(list->cbegin() + static_cast<std::ptrdiff_t>(*place), value);
+        const auto there = list->cbegin() + static_cast<std::ptrdiff_t>(*place);
+        if (isWhole(value)) {
+          list->replace(there, static_cast<std::int64_t>(value));
+        } else {
+          list->replace(there, value);
+        }
         return {};
       }
       node = list->get(*place);
@@ -146,7 +156,11 @@ Result<void> NumberPath::set(toml::table& root, double value) const {
     if (last) {
       toml::node* there = table->get(*key);
       if (there != nullptr && !there->is_number()) return missing(fmt::format("\"{}\" is not a number", *key));
-      table->insert_or_assign(*key, value);
+      if (isWhole(value)) {
+        table->insert_or_assign(*key, static_cast<std::int64_t>(value));
+      } else {
+        table->insert_or_assign(*key, value);
+      }
       return {};
     }
     if (!table->contains(*key)) {

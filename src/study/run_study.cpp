@@ -132,12 +132,14 @@ private:
       answer.symmetric = behind(answer.error->symmetric);
       answer.shortest = behind(answer.error->shortest);
     }
+    if (answer.values.count < 2) answer.standardUncertainty = missing;
     if (const auto tolerance = toleranceOf(answer.of)) judge(answer, findings, i, *tolerance);
     return answer;
   }
 
   void judge(Answer& answer, const Findings& findings, std::size_t i, const Tolerance& tolerance) const {
     answer.tolerance = tolerance;
+    if (std::isnan(answer.standardUncertainty)) return;
     answer.guardBand = study_.guardFactor * answer.standardUncertainty;
     const auto zone = acceptanceZone(tolerance, answer.guardBand);
     if (answer.corrected) {

@@ -34,7 +34,7 @@ struct Answer {
   std::optional<Summary> error;  ///< of measured less true value: its mean is the bias
   std::optional<Histogram> errorHistogram;
 
-  // What a measured value is worth. Where the truth is known that of the errors, else of the values.
+  // What a measured value is worth. Where the truth is known that of the errors, else of the values; NaN of one trial.
   double standardUncertainty = 0;
   /// The true value that is likely behind the estimate lies in there: of the estimate less the errors, so the bias is
   /// corrected; where no truth is known, of the values.

@@ -67,9 +67,12 @@ public:
 
   void read() {
     readPlan();
-    for (TomlReader& reader : root_.tables("source"))
+    bool any = false;
+    for (TomlReader& reader : root_.tables("source")) {
+      any = true;
       readSource(reader);
-    if (study_.sources.empty() && !covariances_)
+    }
+    if (!any)
       root_.report("source", "a study needs at least one [[source]]",
                    "name a number of the setup and how it is distributed (docs/uncertainty.md)");
     for (TomlReader& reader : root_.tables("group"))
@@ -331,7 +334,6 @@ private:
 
   /// The members get their deviations from the covariance, and the matrix becomes their correlation.
   bool takeDeviations(TomlReader& reader, const Group& group, Eigen::MatrixXd& matrix) {
-    covariances_ = true;
     for (std::size_t i = 0; i < group.sources.size(); ++i) {
       Source& source = study_.sources[group.sources[i]];
       const auto pending = std::ranges::find(pending_, group.sources[i], &Pending::source);
@@ -363,6 +365,9 @@ private:
     Measurand measurand;
     measurand.result = reader.requiredText("result").value_or("");
     measurand.place = reader.placeOf("result");
+    if (std::ranges::find(study_.measurands, measurand.result, &Measurand::result) != study_.measurands.end())
+      reader.report("result", fmt::format("there are two measurands called \"{}\"", measurand.result),
+                    "write what is known of it in one [[measurand]]");
     if (const auto truth = reader.text("truth")) {
       auto path = NumberPath::parse(*truth);
       if (!path) {
@@ -404,7 +409,6 @@ private:
   Study& study_;
   std::vector<Pending> pending_;
   std::set<std::size_t> grouped_;
-  bool covariances_ = false;
 };
 
 }  // namespace

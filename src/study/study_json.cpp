@@ -30,7 +30,7 @@ json interval(const std::optional<Interval>& value) {
 json summary(const Summary& summary) {
   return {{"count", summary.count},
           {"mean", number(summary.mean)},
-          {"standardDeviation", number(summary.deviation)},
+          {"standardDeviation", summary.count > 1 ? number(summary.deviation) : json(nullptr)},
           {"minimum", number(summary.minimum)},
           {"median", number(summary.median)},
           {"maximum", number(summary.maximum)},
@@ -223,7 +223,9 @@ json studyJson(const StudyResult& result, const StudyInfo& info) {
 }
 
 std::string studyCsv(const StudyResult& result) {
-  const auto cell = [](const std::optional<double>& value) { return value ? fmt::format(",{}", *value) : ","; };
+  const auto cell = [](const std::optional<double>& value) {
+    return value && std::isfinite(*value) ? fmt::format(",{}", *value) : ",";
+  };
   const auto quoted = [](const std::string& text) {
     std::string inner = "\"";
     for (const char c : text)
@@ -242,7 +244,8 @@ std::string studyCsv(const StudyResult& result) {
     text += cell(answer.estimate) + cell(answer.values.mean) + cell(answer.standardUncertainty) +
             cell(low(answer.symmetric)) + cell(high(answer.symmetric)) + cell(low(answer.shortest)) +
             cell(high(answer.shortest)) + cell(answer.error ? std::optional(answer.error->mean) : std::nullopt) +
-            cell(answer.of.lower) + cell(answer.of.upper) + cell(answer.conformance) + cell(answer.values.deviation) +
+            cell(answer.of.lower) + cell(answer.of.upper) + cell(answer.conformance) +
+            cell(answer.values.count > 1 ? std::optional(answer.values.deviation) : std::nullopt) +
             cell(low(answer.values.symmetric)) + cell(high(answer.values.symmetric)) + cell(answer.values.minimum) +
             cell(answer.values.maximum) + "\n";
   }

@@ -25,6 +25,9 @@ std::string range(const std::optional<Interval>& interval, int decimals) {
   return interval ? fmt::format("{:.{}f} .. {:.{}f}", interval->low, decimals, interval->high, decimals) : "-";
 }
 
+/// A standard deviation; one value has none.
+std::string deviation(double value) { return std::isnan(value) ? "-" : fmt::format("{:.2g}", value); }
+
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
 /// Columns as wide as their widest cell; the first to the left, the others to the right.
@@ -77,7 +80,7 @@ std::string resultsTable(const StudyResult& result, const std::vector<const Answ
     const int decimals = decimalsFor(answer->standardUncertainty);
     blind = blind || !answer->error;
     rows.push_back({answer->of.key + (answer->error ? "" : " *"), answer->of.unit, value(answer->estimate, decimals),
-                    fmt::format("{:.2g}", answer->standardUncertainty), range(answer->symmetric, decimals),
+                    deviation(answer->standardUncertainty), range(answer->symmetric, decimals),
                     range(answer->shortest, decimals),
                     answer->error ? fmt::format("{:+.{}f}", answer->error->mean, decimals) : "-",
                     std::to_string(answer->values.count)});
@@ -139,8 +142,8 @@ std::string budgetTable(const StudyResult& result, const Answer& answer) {
                             ? "by more than 5 % another value"
                             : "whether that is another value by more than 5 %, more sensitivity_trials tell");
   }
-  return text + fmt::format("  together {:.2g} {}; in the trials, with all of them at once, {:.2g}\n",
-                            std::sqrt(squares), answer.of.unit, answer.standardUncertainty);
+  return text + fmt::format("  together {:.2g} {}; in the trials, with all of them at once, {}\n", std::sqrt(squares),
+                            answer.of.unit, deviation(answer.standardUncertainty));
 }
 
 std::string limitsOf(const Tolerance& tolerance) {

@@ -184,6 +184,13 @@ TEST(StudyFile, NamesMistakesWithPlaceAndWayOut) {
               ::testing::HasSubstr("has the number part.pose.q"));
   EXPECT_THAT(mistakesIn("trials = 10\ndigits = 1\n" + source + "standard_deviation = 1\n"),
               ::testing::HasSubstr("either a number of trials or digits"));
+  EXPECT_THAT(
+      mistakesIn(source + "standard_deviation = 1\n[[measurand]]\nresult = \"Q1\"\nlower = 1\n[[measurand]]\nresult = "
+                          "\"Q1\"\nupper = 2\n"),
+      ::testing::HasSubstr("two measurands called \"Q1\""));
+  // A source that is wrong is one all the same.
+  EXPECT_THAT(mistakesIn("[[source]]\nquantity = \"part.pose.x\"\ndistribution = \"samples\"\nfile = \"none.csv\"\n"),
+              ::testing::Not(::testing::HasSubstr("at least one")));
   const std::string two =
       "[[source]]\nname=\"x\"\nquantity = \"part.pose.x\"\ndistribution = \"normal\"\nstandard_deviation = 1\n"
       "[[source]]\nname=\"y\"\nquantity = \"part.pose.y\"\ndistribution = \"normal\"\nstandard_deviation = 1\n"

@@ -145,6 +145,20 @@ TEST(Worth, IsOfTheValuesWhereNoTruthIsKnown) {
   EXPECT_THAT(studyText(result), HasSubstr("* of the measured values: no true value is known"));
 }
 
+/// One value says nothing of how far others may lie: there is no uncertainty, and nothing is decided with it.
+TEST(Worth, IsNotKnownOfOneTrial) {
+  const StudyResult result = runStudy(varied(1), {}, lengthOf(), {});
+  const auto json = studyJson(result, {"p.h", "s.toml", "test"})["results"][0];
+  EXPECT_TRUE(json["standardUncertainty"].is_null());
+  EXPECT_TRUE(json["values"]["standardDeviation"].is_null());
+  EXPECT_FALSE(json["conformity"].contains("decision"));
+  EXPECT_FALSE(json["conformity"].contains("probability"));
+  EXPECT_FALSE(result.answers.front().symmetric);
+  EXPECT_THAT(studyCsv(result), ::testing::Not(HasSubstr("nan")));
+  EXPECT_THAT(studyText(result), ::testing::Not(HasSubstr("nan")));
+  EXPECT_NEAR(runStudy(varied(2), {}, lengthOf(), {}).answers.front().standardUncertainty, s, 3 * s);
+}
+
 /// An angle that is measured as 359.99 degrees or as 0.01: it varies by a little about 0, not by a turn.
 TEST(Worth, TakesAnglesOnBothSidesOfZeroTogether) {
   const Formula turned = [](const std::vector<double>& x) {
