@@ -10,6 +10,7 @@
 #include "cycles/main_results.hpp"
 #include "records/readable_text.hpp"
 #include "records/results.hpp"
+#include "reports/screen_lines.hpp"
 #include "reports/truth_summary.hpp"
 #include "words/words.hpp"
 
@@ -131,12 +132,6 @@ std::string distance(double mm) {
   return mm < 1000 ? fmt::format("{:.0f} mm", mm) : fmt::format("{:.2f} m", mm / 1000);
 }
 
-/// How many columns a text takes, more or less: its characters.
-std::size_t columns(const std::string& utf8) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(utf8, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
 std::string meaningOf(const control::ResultRecord& result, const Style& style) {
   return words::meaning(style.language, result.kind, style.line(result.meaning));
 }
@@ -176,12 +171,12 @@ std::string writeLine(const control::WriteRecord& write, const Style& style) {
 }
 
 /// A text of several lines in a frame, as a screen shows it.
-std::string screenText(const std::string& screen, const Style& style) {
+std::string screenText(const std::string& screen, const control::CycleRecord& cycle, const Style& style) {
   std::string text = "      +" + std::string(30, '-') + "\n";
   std::size_t begin = 0;
   while (begin < screen.size()) {
     const std::size_t end = std::min(screen.find('\n', begin), screen.size());
-    text += "      | " + style.sentence(screen.substr(begin, end - begin)) + "\n";
+    text += "      | " + screenLine(style.line(screen.substr(begin, end - begin)), cycle, style.language) + "\n";
     begin = end + 1;
   }
   return text + "      +" + std::string(30, '-') + "\n";
@@ -210,7 +205,7 @@ std::string cycleText(const control::CycleRecord& cycle, const records::CycleTru
   for (const auto& write : cycle.writes)
     text += writeLine(write, style);
   for (const auto& screen : cycle.screens)
-    text += screenText(screen, style);
+    text += screenText(screen, cycle, style);
   for (const auto& file : cycle.logFiles)
     text += "      " + style.text("sumLog", {{"file", style.line(fileName(file))}}) + "\n";
   if (!cycle.alarm.empty() && !saidAtTheEnd)

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -162,6 +163,25 @@ TEST(TypedTable, RefusesTheWrongKindOfTable) {
 }
 
 /// Random values of a table that is written, saved and read again: equal to the last digit the columns have.
+/// Entries that somebody has typed in short do not cut what the control writes below or over them.
+TEST(TypedTable, WritesTheDecimalsOfTheControlUnderShortEntries) {
+  const auto written = [](std::string_view unit, std::string_view entry, double value, std::string_view head) {
+    Diagnostics diagnostics;
+    auto table = TypedTable::parse(fmt::format("BEGIN TOOL.T {}\n{}\n1     {}\n[END]\n", unit, head, entry), "TOOL.T",
+                                   toolColumns(), diagnostics);
+    EXPECT_TRUE(table);
+    EXPECT_TRUE(table->setNumber("1", NumberColumn("DL"), value));
+    return table->text("1", Column("DL"));
+  };
+  const std::string_view wide = "T     DL          CUT";
+  EXPECT_EQ(written("MM", "+0.1", 0.05, wide), "+0.0500");
+  EXPECT_EQ(written("MM", "0", 0.05, wide), "0.0500");
+  EXPECT_EQ(written("INCH", "+0.1", 0.0254, wide), "+0.00100");
+  EXPECT_EQ(written("MM", "+0.123456", 0.05, wide), "+0.050000");
+  // As many as a column has room for that somebody made too narrow, and never fewer than it shows.
+  EXPECT_EQ(written("MM", "+0.1", 0.056, "T     DL    CUT"), "+0.06");
+}
+
 TEST(TypedTable, ValuesSurviveTheFile) {
   std::mt19937_64 random(7);
   std::uniform_int_distribution<long long> ticks(-999999999, 999999999);

@@ -61,6 +61,35 @@ TEST(DatumCheck, AnArrayWithoutIndexIsItsFirstElement) {
   EXPECT_GT(arrays, 50);
 }
 
+TEST(DatumCheck, ADatumThatIsNoArrayHasNoIndex) {
+  int single = 0;
+  for (const control::sinumerik::MeasuringDatum& datum : control::sinumerik::measuringData()) {
+    if (datum.elements > 0) continue;
+    ++single;
+    const std::string name(datum.identifier);
+    EXPECT_EQ(codeOf("R1=" + name + "[0]"), "12400") << name;
+    EXPECT_EQ(codeOf(name + "[0]=1"), "12400") << name;
+    EXPECT_EQ(codeOf("R1=" + name), "") << name;
+  }
+  EXPECT_GT(single, 20);
+}
+
+/// SET and REP without an index begin with the first element, as any array without one is its first element.
+TEST(DatumCheck, SetAndRepFillArraysFromTheirFirstElement) {
+  World world;
+  world.run(
+      "$SCS_MEA_EMPIRIC_VALUE=SET(0.1,0.2,0.3)\n$SNS_MEA_TP_EDGE_DISK_SIZE=REP(20)\n$SNS_MEA_TP_TYPE[4]=REP(101)\n"
+      "DEF REAL MINE[3]\nMINE=SET(7,8,9)\nM30");
+  EXPECT_EQ(world.value("$SCS_MEA_EMPIRIC_VALUE[0]"), 0.1);
+  EXPECT_EQ(world.value("$SCS_MEA_EMPIRIC_VALUE[2]"), 0.3);
+  for (const char* element : {"0", "5"})
+    EXPECT_EQ(world.value(std::string("$SNS_MEA_TP_EDGE_DISK_SIZE[") + element + "]"), 20);
+  EXPECT_EQ(world.value("$SNS_MEA_TP_TYPE[3]"), 0);
+  EXPECT_EQ(world.value("$SNS_MEA_TP_TYPE[5]"), 101);
+  EXPECT_EQ(codeOf("$SCS_MEA_FEED_MEASURE=SET(1,2)"), "12400");
+  EXPECT_EQ(codeOf("$SNS_MEA_TP_TYPE[4]=SET(1,2,3)"), "17020");
+}
+
 TEST(DatumCheck, ArraysOfTheNcAndFormerNamesAreAddressedSo) {
   World world;
   world.run(

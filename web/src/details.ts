@@ -2,7 +2,7 @@
 
 import { type Cycle, type Report, type ResultValue, touchDeviation, type Triple } from "./data";
 import { fileName, fixed, h, icon, quantity, unitText } from "./dom";
-import { characteristicOf, meaningOf, repeatsOf } from "./features";
+import { characteristicOf, meaningOf, repeatsOf, screenOf } from "./features";
 import { t } from "./language";
 import { formPlot, histogram, positionPlot, repeatedTouches } from "./plots";
 import type { Selector } from "./selection";
@@ -147,7 +147,7 @@ export function detailsOf(report: Report, index: number, selector: Selector): HT
       h(
         "section",
         {},
-        ...cycle.screens.map((screen) => h("pre", { class: "screen", "aria-label": t("screen") }, screen)),
+        ...cycle.screens.map((screen) => h("pre", { class: "screen", "aria-label": t("screen") }, screenOf(screen, cycle))),
         ...cycle.logFiles.map((file) => h("p", { class: "note" }, t("log", { file: fileName(file) }))),
       ),
   );

@@ -41,6 +41,25 @@ export function characteristicOf(result: ResultValue): string {
   return parts.join(", ");
 }
 
+/** A line of a screen of the cycle in the language of the page, as src/reports/screen_lines.cpp does it. */
+function screenLine(line: string, cycle: Cycle): string {
+  const whole = translated(line);
+  if (whole !== line) return whole;
+  let text = "";
+  for (const { 0: piece, index } of line.matchAll(/\S+(?: \S+)*/g)) {
+    const [, label, unit] = /^(.*?)( \[[^[\]]*\])?$/s.exec(piece) ?? [piece, piece, ""];
+    const named = cycle.results.find((result) => (result.characteristic?.label || "") === label);
+    const word = (named ? characteristicOf(named) : translated(label)) + (unit ?? "");
+    const blanks = text === "" ? index : Math.max(2, index + piece.length - text.length - word.length);
+    text += " ".repeat(blanks) + word;
+  }
+  return text;
+}
+
+/** A screen of the cycle in the language of the page. */
+export const screenOf = (screen: string, cycle: Cycle): string =>
+  currentLanguage() === "en" ? screen : screen.split("\n").map((line) => screenLine(line, cycle)).join("\n");
+
 /** The meaning of any result: its role and what it is of. */
 export function meaningOf(result: ResultValue): string {
   const role = maybe(`role_${result.role}`);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -105,13 +106,20 @@ std::string TypedTable::text(std::string_view row, Column column) const {
 Result<void> TypedTable::setNumber(std::string_view row, NumberColumn column, double value) {
   if (auto added = ensureRow(row); !added) return added;
   const ColumnSpec* spec = find(column.name());
-  NumberStyle style;
-  if (spec != nullptr) {
-    const bool signedKind = spec->kind == CellKind::Length || spec->kind == CellKind::Angle;
-    style = {spec->decimals, signedKind};
-    if (spec->kind == CellKind::Length && table_.unit() == TableUnit::Inch) ++style.decimals;
+  const std::string_view name = nameInFile(column.name());
+  const double written = value / millimetresPerUnit(spec);
+  if (spec == nullptr || !std::isfinite(value)) return table_.setNumber(row, name, written);
+  const bool signedKind = spec->kind == CellKind::Length || spec->kind == CellKind::Angle;
+  NumberStyle style = {spec->decimals, signedKind};
+  if (spec->kind == CellKind::Length && table_.unit() == TableUnit::Inch) ++style.decimals;
+  // Entries that somebody has typed in short say nothing of how exactly the control counts.
+  const NumberStyle shown = table_.numberStyle(name, style);
+  for (int decimals = std::max(shown.decimals, style.decimals);; --decimals) {
+    auto set =
+        table_.setCell(row, name, shown.plusSign ? formatSigned(written, decimals) : formatFixed(written, decimals));
+    // A column that is too narrow for them gets as many as it has room for.
+    if (set || decimals <= shown.decimals) return set;
   }
-  return table_.setNumber(row, nameInFile(column.name()), value / millimetresPerUnit(spec), style);
 }
 
 Result<void> TypedTable::setText(std::string_view row, Column column, std::string_view value) {

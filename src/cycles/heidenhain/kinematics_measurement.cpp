@@ -22,9 +22,10 @@ namespace {
 /// No backlash is measured on a smaller circle.
 constexpr double smallestCircle = 1;
 
-/// The sphere where the axis stands at `angle`; with an overrun reached from both sides.
-void measureAt(Context& context, SphereSearch& search, MeasuredSeries& series, machine::AxisPositions posture,
-               double angle, double overrun) {
+/// The sphere where the axis stands at `angle`; with an overrun reached from both sides. What is fitted was reached in
+/// +: of all axes alike, so that play between encoder and table shifts no sphere against another.
+void measureAt(SphereSearch& search, MeasuredSeries& series, machine::AxisPositions posture, double angle,
+               double overrun) {
   const std::vector<std::size_t> axis = {series.plan.axis};
   const auto reach = [&](double degrees) {
     posture[series.plan.axis] = degrees;
@@ -41,11 +42,30 @@ void measureAt(Context& context, SphereSearch& search, MeasuredSeries& series, m
     reach(angle);
     (side > 0 ? both.first : both.second) = search.measure().sighting;
   }
-  SphereSighting mean = both.first;
-  for (std::size_t i = 0; i < context.channel().description().axes.size(); ++i)
-    mean.axes[i] = (both.first.axes[i] + both.second.axes[i]) / 2;
-  series.sightings.push_back(mean);
+  series.sightings.push_back(both.first);
   series.approaches.push_back(both);
+}
+
+/// By how much the axis overruns its positions; 0 where its backlash is not measured.
+double overrunOf(Context& context, std::size_t axis) {
+  const auto& control = context.control();
+  const bool measured = control.parameters.strobeRotaryAxes < 0 && control.kinematics->hirthGrid[axis] == 0;
+  return measured ? context.q(432) : 0;
+}
+
+/// The axes that stand while another one is measured reach their places in + where their own backlash is measured.
+void approachInPlus(Context& context, SphereSearch& search, const MeasuringPlan& plan, std::size_t measured,
+                    const machine::AxisPositions& posture) {
+  std::vector<std::size_t> standing;
+  machine::AxisPositions below = posture;
+  for (const AxisSeries& other : plan.series) {
+    const double overrun = std::abs(overrunOf(context, other.axis));
+    if (other.axis == measured || overrun == 0) continue;
+    standing.push_back(other.axis);
+    below[other.axis] -= overrun;
+  }
+  search.turnTo(below, standing);
+  search.turnTo(posture, standing);
 }
 
 const RotaryCorrection& correctionOf(const std::vector<RotaryCorrection>& corrections, std::size_t axis) {
@@ -68,7 +88,6 @@ std::string length(double value) { return formatFixed(value, 4); }
 }  // namespace
 
 std::vector<MeasuredSeries> measureSeries(Context& context, SphereSearch& search, const MeasuringPlan& plan) {
-  const auto& control = context.control();
   std::vector<std::size_t> axes;
   for (const char name : {'A', 'B', 'C'}) {
     const auto axis = context.channel().description().axisIndex(std::string(1, name));
@@ -83,11 +102,11 @@ std::vector<MeasuredSeries> measureSeries(Context& context, SphereSearch& search
     machine::AxisPositions posture = plan.incidence;
     posture[planned.axis] = 0;
     search.turnTo(posture, axes, all.empty() ? SphereSearch::Order::OneByOne : SphereSearch::Order::Together);
-    const bool backlash = control.parameters.strobeRotaryAxes < 0 && control.kinematics->hirthGrid[planned.axis] == 0;
-    const double overrun = backlash ? context.q(432) : 0;
-    measureAt(context, search, series, posture, 0, overrun);
+    approachInPlus(context, search, plan, planned.axis, posture);
+    const double overrun = overrunOf(context, planned.axis);
+    measureAt(search, series, posture, 0, overrun);
     for (const double angle : planned.angles)
-      measureAt(context, search, series, posture, angle, overrun);
+      measureAt(search, series, posture, angle, overrun);
     all.push_back(std::move(series));
   }
   return all;
@@ -208,13 +227,30 @@ void reportResults(Context& context, std::span<const MeasuredSeries> series, std
     context.result(number, value);
     context.set(number, value);
   };
+  // A number that is no length: it has no unit, and no program's unit changes it.
+  const auto reportMissing = [&](int number) {
+    constexpr double missing = -1;
+    control::ResultRecord record;
+    record.name = fmt::format("Q{}", number);
+    describe(record, *context.entry().definition.result(record.name));
+    record.kind = result::status;
+    record.value = missing;
+    context.record().results.push_back(std::move(record));
+    context.set(number, missing);
+  };
+  const auto reportIf = [&](bool known, int number, double value) {
+    if (known)
+      report(number, value);
+    else
+      reportMissing(number);
+  };
   for (int i = 0; i < 3; ++i) {
     const auto found = std::ranges::find(series, static_cast<char>('A' + i),
                                          [](const MeasuredSeries& each) { return each.plan.request.name; });
     const bool measured = found != series.end();
-    const AxisFindings* axis = measured ? &findings[static_cast<std::size_t>(found - series.begin())] : nullptr;
-    report(141 + i, measured ? axis->scatter : -1);
-    report(144 + i, measured && optimised == Optimised::Yes ? axis->attainable : -1);
+    const AxisFindings axis = measured ? findings[static_cast<std::size_t>(found - series.begin())] : AxisFindings{};
+    reportIf(measured, 141 + i, axis.scatter);
+    reportIf(measured && optimised == Optimised::Yes, 144 + i, axis.attainable);
   }
   for (int i = 0; i < 3; ++i)
     report(147 + i, offset[i]);

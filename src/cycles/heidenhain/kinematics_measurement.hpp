@@ -19,7 +19,7 @@ namespace probewright::cycles::heidenhain {
 /// The sphere at the reference and at each angle of one axis.
 struct MeasuredSeries {
   AxisSeries plan;
-  /// The reference first; with the backlash measured the means of both approaches.
+  /// The reference first; with the backlash measured those reached in +.
   std::vector<kinematics::SphereSighting> sightings;
   /// Reached in + and in -; empty where the backlash is not measured.
   std::vector<std::pair<kinematics::SphereSighting, kinematics::SphereSighting>> approaches;

@@ -138,6 +138,9 @@ void requireMeasurable(Context& context) {
     throw Alarm("Tool not defined", "The tool to be measured has no row in TOOL.T",
                 "program TOOL CALL with the tool before the cycle");
   }
+  if (control.tool.axis != 'Z')
+    throw Alarm("Tool axis not permitted", "The contact of the tool touch probe faces the tool axis Z",
+                "program TOOL CALL with axis Z");
   const std::string_view kind = notMeasured(control);
   if (!kind.empty()) {
     throw Alarm("Tool type not permitted",

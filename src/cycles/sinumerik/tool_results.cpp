@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "control/sinumerik/tool_data.hpp"
@@ -42,9 +43,25 @@ ProbeSystem systemOf(const Context& context) {
   return context.digit("S_MVAR", 2) == 1 ? ProbeSystem::Workpiece : ProbeSystem::Machine;
 }
 
+namespace {
+
+/// SD 54652 gives tool probes of a counter spindle a measuring input of their own; here they signal at that of the
+/// others. Said once a run.
+void nameSkippedInput(Context& context, int index) {
+  auto& control = context.control();
+  if (control.data.number("$SNS_MEA_INPUT_TOOL_PROBE_SUB", {index}, 0) == 0) return;
+  const std::string text = fmt::format("$SNS_MEA_INPUT_TOOL_PROBE_SUB[{}] is skipped", index);
+  const auto told = [&](const control::EventRecord& event) { return event.text == text; };
+  if (std::ranges::none_of(control.journal.events, told))
+    control.panel.message(control::EventKind::Skipped, text, control.channel.seconds());
+}
+
+}  // namespace
+
 int toolProbeIndex(Context& context) {
   const int number = context.integer("S_PRNUM") == 0 ? 1 : context.integer("S_PRNUM");
   if (number < 1 || number > toolProbeFields) context.alarm(61313, fmt::format("S_PRNUM = {}", number));
+  nameSkippedInput(context, number - 1);
   return number - 1;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "control/alarm.hpp"
+#include "execution/sinumerik/measuring_inputs.hpp"
 #include "execution/sinumerik/motion.hpp"
 #include "language/word_column.hpp"
 
@@ -173,8 +174,7 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
   const double event = evaluation.number(all.front().value);
   if (event != 1 && event != -1 && event != 2 && event != -2)
     throw Alarm("14020", fmt::format("there is no probe event {}", event), "write 1, -1, 2 or -2");
-  // As delivered the workpiece probe is at the 1st measuring input, the tool probe at the 2nd (MD 51606, 51607).
-  const machine::Sensor sensor = std::abs(event) == 2 ? machine::Sensor::ToolTouchProbe : machine::Sensor::TouchProbe;
+  const std::optional<machine::Sensor> sensor = sensorAt(std::abs(event) == 2 ? 2 : 1, control_);
   if (state_.group1 != MoveKind::Rapid && state_.group1 != MoveKind::Linear)
     throw Alarm("21610", "a measuring block is a straight line", "write G1 with MEAS");
   const Words words = read(axes, evaluation);
@@ -195,7 +195,12 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
     record.startSeconds = channel.seconds();
     journal.begin(std::move(record));
   }
-  const machine::MeasureResult result = channel.measureTo(to, speed, sensor);
+  machine::MeasureResult result;
+  if (sensor) {
+    result = channel.measureTo(to, speed, *sensor);
+  } else {
+    channel.moveTo(to, speed);  // nothing is connected that could signal
+  }
   control::CycleRecord& record = journal.cycles.back();
   control::TouchRecord touch;
   touch.target = to.vector();

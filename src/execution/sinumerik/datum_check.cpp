@@ -70,6 +70,8 @@ void requireDatum(std::string_view name, std::span<const Value> indices, const V
   if (!name.starts_with("$S") && !name.starts_with("$M")) return;
   const control::sinumerik::MeasuringDatum* measuring = control::sinumerik::findMeasuringDatum(name);
   if (measuring == nullptr) return;
+  if (measuring->elements == 0 && !indices.empty())
+    throw Alarm("12400", fmt::format("{} is no array", name), "write it without an index");
   if (measuring->elements > 0 && !indices.empty()) requireIndex(name, indices, 0, 0, measuring->elements - 1);
   requireNumber(name, value);
 }

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "control/alarm.hpp"
+#include "control/sinumerik/array_data.hpp"
 #include "control/sinumerik/measuring_data.hpp"
 #include "control/sinumerik/text.hpp"
 #include "cycles/sinumerik/old_form.hpp"
@@ -313,10 +315,19 @@ void SinumerikHost::fill(const Command& command, Evaluation& evaluation) {
   if (user == nullptr) {
     // R parameters and data of the store: consecutive numbers of the last index.
     ResolvedVariable target = resolve(variable, evaluation);
-    if (target.indices.empty()) throw Alarm("12150", "SET and REP fill arrays");
+    const std::string name = upperCase(target.name);
+    const control::sinumerik::MeasuringDatum* datum = control::sinumerik::findMeasuringDatum(name);
+    if (target.indices.empty()) {
+      // A name without an index means the first element.
+      if (!control::sinumerik::isArrayDatum(name) && name != "_OVR" && name != "_OVI")
+        throw Alarm("12400", fmt::format("{} is no array: SET and REP fill arrays", target.name),
+                    fmt::format("write {}= and one value", target.name));
+      target.indices.emplace_back(0.0);
+    }
     const double first = numberOf(target.indices.back(), "an index");
+    const double toTheEnd = datum != nullptr ? std::max(1.0, datum->elements - first) : 1;
     const double count =
-        repeat ? (words.size() > 1 ? evaluation.number(words[1].value) : 1) : static_cast<double>(words.size());
+        repeat ? (words.size() > 1 ? evaluation.number(words[1].value) : toTheEnd) : static_cast<double>(words.size());
     for (double i = 0; i < count && i < mostRParameters; ++i) {
       const Word& word = words[repeat ? 0 : static_cast<std::size_t>(i)];
       target.indices.back() = first + i;

@@ -17,6 +17,7 @@
 #include "control/sinumerik/tool_data.hpp"
 #include "execution/sinumerik/datum_check.hpp"
 #include "execution/sinumerik/functions.hpp"
+#include "execution/sinumerik/measuring_inputs.hpp"
 
 namespace probewright::execution::sinumerik {
 
@@ -200,8 +201,8 @@ std::optional<Value> SystemVariables::readState(std::string_view name, std::span
   if (name == "$AC_MEA") return number(motion_.measurement().triggered ? 1 : 0);
   if (name == "$A_PROBE") {
     const int input = integerAt(indices, 0, 1);
-    const machine::Sensor sensor = input == 2 ? machine::Sensor::ToolTouchProbe : machine::Sensor::TouchProbe;
-    return number((input == 1 || input == 2) && control_.channel.deflected(sensor) ? 1 : 0);
+    const auto sensor = sensorAt(input, control_);
+    return number(sensor && control_.channel.deflected(*sensor) ? 1 : 0);
   }
   if (name == "$P_GG") {
     const int group = integerAt(indices, 0);
