@@ -21,9 +21,9 @@ std::string_view nameOf(Role role) {
 }
 
 std::string_view nameOf(Quantity quantity) {
-  static constexpr std::array<std::string_view, 13> names = {
+  static constexpr std::array<std::string_view, 14> names = {
       "",       "coordinate", "centre",     "corner",       "diameter", "radius", "width",
-      "length", "angle",      "projection", "eccentricity", "distance", "name"};
+      "length", "angle",      "projection", "eccentricity", "distance", "name",   "scatter"};
   return nameIn(names, quantity);
 }
 

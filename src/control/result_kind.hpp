@@ -36,7 +36,8 @@ enum class Quantity : std::uint8_t {
   Projection,    ///< the angle of a plane as its projection shows it
   Eccentricity,  ///< of the stylus tip to the spindle
   Distance,
-  Name,  ///< a text
+  Name,     ///< a text
+  Scatter,  ///< a length: standard deviation, root mean square
 };
 
 /// Along which axis, about which axis for angles.

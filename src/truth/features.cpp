@@ -75,6 +75,7 @@ public:
       case Quantity::Distance:
       case Quantity::Eccentricity:
       case Quantity::Name:
+      case Quantity::Scatter:
       case Quantity::None:
         break;
     }

@@ -99,11 +99,27 @@ TEST(ToolRefusals, OfMachinesThatAreNotReady) {
   EXPECT_EQ(lengthsOnly.alarm(all[0]), "");
 }
 
+/// The contact faces Z: along another axis the tool would run into it.
+TEST(ToolRefusals, OfToolAxesBesideZ) {
+  for (const ControlKind kind : kinds) {
+    for (const std::string& cycle : all) {
+      for (const char* call : {"TOOL CALL 12 X\n", "TOOL CALL 12 Y\n"}) {
+        const Refusing refusing(kind);
+        EXPECT_EQ(refusing.world.bare(call + cycle).alarm(), "Tool axis not permitted") << call << cycle;
+      }
+    }
+  }
+}
+
 TEST(ToolRefusals, OfModesAndTransformations) {
   for (const std::string& cycle : all) {
     SCOPED_TRACE(cycle);
     const Refusing refusing;
     EXPECT_EQ(refusing.alarm("FUNCTION MODE TURN\n" + cycle), "Function not permitted");
+    for (const char* grinding : {"FUNCTION MODE GRIND\n", "FUNCTION MODE DRESS\n", "FUNCTION DRESS BEGIN\n"})
+      EXPECT_EQ(refusing.alarm(grinding + cycle), "Function not permitted") << grinding;
+    EXPECT_EQ(refusing.alarm("FUNCTION DRESS BEGIN\nFUNCTION DRESS END\n" + cycle), "");
+    EXPECT_EQ(refusing.alarm("FUNCTION MODE GRIND\nFUNCTION MODE MILL\n" + cycle), "");
     EXPECT_EQ(refusing.alarm("CYCL DEF 8.0 MIRROR\nCYCL DEF 8.1 X\n" + cycle),
               "Coordinate transformation not permitted");
     EXPECT_EQ(refusing.alarm("CYCL DEF 7.0 SHIFT\nCYCL DEF 7.1 X+5\n" + cycle), "");

@@ -91,6 +91,7 @@ public:
   std::map<int, GlobalDefinition> globalDefinitions;
   ProbingOverrides overrides;  ///< reset at the end of the main program
   bool turningMode = false;    ///< FUNCTION MODE TURN
+  bool grindingMode = false;   ///< FUNCTION MODE GRIND, or FUNCTION DRESS
   /// Radius of the ring or pin with which cycle 2 has last calibrated; 0 before.
   double calibrationRingRadius = 0;
 

@@ -100,6 +100,10 @@ void Context::requireConditions() {
                             conditions.featureLevel, level),
                 "enable the feature content level, or measure with another cycle");
   }
+  if (control_.grindingMode) {
+    throw Alarm("Function not permitted", "The cycle does not run in grinding mode or while a tool is dressed",
+                "program FUNCTION MODE MILL before it, and FUNCTION DRESS END after dressing");
+  }
   if (control_.turningMode && !conditions.turningMode) {
     throw Alarm("Function not permitted", "The cycle runs in milling mode only",
                 "program FUNCTION MODE MILL before it");

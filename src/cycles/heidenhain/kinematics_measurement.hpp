@@ -72,10 +72,10 @@ void tiltAsTheAxesStand(Context& context, const SphereSearch& search);
 namespace results {
 
 constexpr control::ResultKind scatterOf(std::uint8_t axis) {
-  return result::actual(control::Characteristic{control::Quantity::Distance}.number(axis));
+  return result::actual(control::Characteristic{control::Quantity::Scatter}.number(axis));
 }
 constexpr control::ResultKind attainedBy(std::uint8_t axis) {
-  return result::statistic(control::Characteristic{control::Quantity::Distance}.number(axis));
+  return result::statistic(control::Characteristic{control::Quantity::Scatter}.number(axis));
 }
 
 inline constexpr ResultDefinition kinematics[] = {

@@ -35,6 +35,7 @@ void KlartextHost::functionBlock(std::string_view text) {
     const auto is = [&](std::string_view name) { return std::ranges::equal(mode, name, {}, upper); };
     control_.turningMode =
         is("TURN") || (mode.size() > 4 && std::ranges::equal(mode.substr(0, 4), "TURN"sv, {}, upper));
+    control_.grindingMode = is("GRIND") || is("DRESS");
     if (!is("MILL")) run_.leaveOut(fmt::format("FUNCTION MODE {}", mode));
   } else if (begins("DWELL TIME") || begins("DWELL REV")) {
     motion_.flush();
@@ -51,6 +52,9 @@ void KlartextHost::functionBlock(std::string_view text) {
                   "switch the spindle on before this block, or program FUNCTION DWELL TIME");
     }
     dwell(revolutions ? 60 * value / speed : value);
+  } else if (begins("DRESS")) {
+    control_.grindingMode = !endsWithWord(text, "END");
+    run_.leaveOut(fmt::format("FUNCTION {}", text));
   } else if (begins("COUNT REPEAT") || (std::ranges::none_of(harmless, begins) && !endsWithWord(text, "OFF"))) {
     run_.leaveOut(fmt::format("FUNCTION {}", text));
   }
