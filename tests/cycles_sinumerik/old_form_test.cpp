@@ -160,6 +160,43 @@ TEST(OldForm, MeasuresWithItsOwnFeed) {
   EXPECT_GT(seconds(50), seconds(0) + 1);
 }
 
+TEST(OldForm, MeasuresGroovesAndRibsAtAnAngle) {
+  Planter plant(604);
+  for (int world = 0; world < 24; ++world) {
+    SCOPED_TRACE(world);
+    const bool inside = world % 2 == 0, corrects = world % 4 < 2, inches = world % 3 == 0;
+    const double width = plant.number(20, 40), angle = plant.number(-80, 80), error = plant.number(-1, 1);
+    // A groove or rib along Y of its own frame, displaced across itself.
+    const Vector3 middle(plant.number(-30, 30), plant.number(-30, 30), 0);
+    const Pose along = rotation(Vector3::UnitZ(), angle);
+    const Pose part = translation(origin + middle) * along * translation({error, 0, 0});
+    simulation::Truth truth = perfectWorld();
+    if (inside) {
+      place(truth, simulation::Box({width / 2, -200, -60}, {200, 200, 0}), part);
+      place(truth, simulation::Box({-200, -200, -60}, {-width / 2, 200, 0}), part);
+    } else {
+      place(truth, simulation::Box({-width / 2, -100, -60}, {width / 2, 100, 0}), part);
+    }
+    SinumerikBench bench(truth);
+    plantFrame(bench, "$P_UIFR", 1, origin);
+    bench.start(middle + Vector3(0, 0, inside ? -10 : 10));
+    const double unit = inches ? 25.4 : 1;
+    bench.run("CYCLE979", {}, {},
+              fmt::format("{}\n_MVAR={} _KNUM=1 _SETVAL={:.12f} _CPA={:.12f} _CPO={:.12f}\n"
+                          "_STA1={:.12f} _ID={:.12f} _FA=4 _TSA={:.12f}\n",
+                          inches ? "G700" : "G710", (inside ? 3 : 4) + (corrects ? 100 : 0), (width - 0.2) / unit,
+                          middle.x() / unit, middle.y() / unit, angle, inside ? 0 : -20 / unit, 2 / unit));
+    EXPECT_NEAR(bench.ovr(4) * unit, width, 1e-8);
+    const Vector3 found = middle + along * Vector3(error, 0, 0);
+    EXPECT_NEAR(bench.ovr(5) * unit, found.x(), 1e-8);
+    EXPECT_NEAR(bench.ovr(6) * unit, found.y(), 1e-8);
+    if (corrects)
+      EXPECT_NEAR((along.inverse() * (inWorkpiece(bench, part.translation()) - middle)).x(), 0, 1e-8);
+    else
+      EXPECT_EQ(bench.data("$P_UIFR", {1, "X", "FI"}), 0);
+  }
+}
+
 TEST(OldForm, SaysWhatItCannotCarryOut) {
   simulation::Truth truth = perfectWorld();
   place(truth, simulation::Ring(20, 60, -60), translation(origin));
@@ -169,9 +206,13 @@ TEST(OldForm, SaysWhatItCannotCarryOut) {
     const char* code;
     const char* text;
   } rows[] = {
-      {"CYCLE994", "_MVAR=1 _SETVAL=40 _FA=6 _TSA=2", "61307", "_SZA and _SZO"},
-      {"CYCLE979", "_MVAR=3 _SETVAL=40 _FA=6 _TSA=2", "61307", "CYCLE977 with S_STA1"},
-      {"CYCLE973", "_MVAR=13 _FA=6 _TSA=2", "61307", "S_CALNUM"},
+      {"CYCLE994", "_MVAR=101 _SETVAL=40 _MA=2 _FA=6 _TSA=2", "61307", "1 and 2 are"},
+      {"CYCLE994", "_MVAR=1 _SETVAL=40 _MA=3 _FA=6 _TSA=2", "61325", "_MA = 3"},
+      {"CYCLE979", "_MVAR=3 _SETVAL=40 _CPA=0.5 _FA=6 _TSA=2", "61307", "that is 0.0000 0.0000, not _CPA, _CPO"},
+      {"CYCLE979", "_MVAR=1003 _SETVAL=40 _FA=6 _TSA=2", "61307", "_MVAR = 1003"},
+      {"CYCLE973", "_MVAR=12 _FA=6 _TSA=2", "61307", "13, in a groove"},
+      {"CYCLE973", "_MVAR=3013 _FA=6 _TSA=2", "61307", "13, in a groove"},
+      {"CYCLE973", "_MVAR=2013 _MA=2 _FA=6 _TSA=2", "61307", "touched in one direction"},
       {"CYCLE976", "_MVAR=10101 _SETVAL=40 _FA=6 _TSA=2", "61307", "_MVAR = 10101"},
       {"CYCLE977", "_MVAR=201 _SETVAL=40 _FA=6 _TSA=2", "61307", "_MVAR = 201"},
       {"CYCLE977", "_MVAR=101 _SETVAL=40 _FA=6 _TSA=2 _KNUM=1099", "61321", "_KNUM = 1099"},

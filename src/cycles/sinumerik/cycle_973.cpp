@@ -169,11 +169,21 @@ constexpr Requirement requirements[] = {
     {"S_CALNUM", Need::NotZero, variant::units<2, 3>},
 };
 
+/// On a surface, or in the groove of number _CALNUM: its base where that lies across _MA, else one wall or both.
 int oldForm(OldCall& call) {
-  if (call.variant() != 0)
-    call.refuseVariant("only 0, calibration on a surface, is; the groove that _CALNUM names is S_CALNUM now");
   call.put("S_MD", call.whole("_MD"));
-  return 1100;
+  if (call.variant() == 0) return 1100;
+  call.nothingFrom(6);
+  const int directions = call.digit(4), deviation = call.digit(5);
+  if (call.variant() % 1000 != 13 || directions > 2 || deviation > 1)
+    call.refuseVariant("0, calibration on a surface, and 13, in a groove, are");
+  call.put("S_CALNUM", call.whole("_CALNUM", 1));
+  const int along = call.control().tool.position % 2 == 1 ? 1 : 2;  // the stylus
+  if (call.whole("_MA") == along) {
+    if (directions == 2) call.refuseVariant("the base of a groove is touched in one direction");
+    return 102;
+  }
+  return 103 + std::max(directions, 1) * 1000 + (deviation == 1 ? 0 : 10000);
 }
 
 constexpr AlarmText alarms[] = {

@@ -69,10 +69,25 @@ constexpr Requirement requirements[] = {
     {"S_INCA", Need::Within, variant::has<4, 1>, -90, 90},
 };
 
+/// Grooves and ribs at an angle are measured by CYCLE977 today, about the place where the probe stands.
+int grooveOrRib(OldCall& call) {
+  const control::WorkingPlane plane = call.control().workingPlane();
+  const Vector2 here = plane.planeFromXyz(call.control().channel.position()).inPlane();
+  const Vector2 beside = here - Vector2(call.length("_CPA"), call.length("_CPO"));
+  constexpr double near = 1e-4;  // mm
+  if (std::abs(beside.dot(probing::directionAt(call.number("_STA1")).inPlane())) > near)
+    call.refuseVariant(
+        fmt::format("today CYCLE977 measures grooves and ribs at an angle about the place where the "
+                    "probe stands, and that is {:.4f} {:.4f}, not _CPA, _CPO",
+                    here.x() / call.control().unit, here.y() / call.control().unit));
+  call.isNow("CYCLE977");
+  call.put("S_MA", 1);
+  return call.digit(1) + call.task(OldCall::Corrects::AlsoTools);
+}
+
 int oldForm(OldCall& call) {
   call.nothingFrom(5);
-  if (call.digit(2) == 0 && (call.digit(1) == 3 || call.digit(1) == 4))
-    call.refuseVariant("grooves and ribs at an angle are measured by CYCLE977 with S_STA1 now");
+  if (call.digit(2) == 0 && call.digit(4) == 0 && (call.digit(1) == 3 || call.digit(1) == 4)) return grooveOrRib(call);
   if (call.digit(2) != 0 || call.digit(1) < 1 || call.digit(1) > 2) call.refuseVariant();
   call.put("S_CPA", call.number("_CPA"));
   call.put("S_CPO", call.number("_CPO"));

@@ -160,8 +160,24 @@ constexpr Requirement requirements[] = {
     {"S_SZO", Need::Positive, variant::units<2>},
 };
 
+/// Inside or outside, as the probe stands; what _SZA and _SZO say of the two axes of the plane, said of the measuring
+/// axis and of the one in which the probe passes by. 2 inside is without the zone.
 int oldForm(OldCall& call) {
-  call.refuseVariant("its _SZA and _SZO count in the axes of the plane, S_SZA and S_SZO in measuring and passing axis");
+  if (call.variant() != 1 && call.variant() != 2) call.refuseVariant("1 and 2 are");
+  const int axis = call.whole("_MA");
+  if (axis != 1 && axis != 2)
+    call.refuse("61325", fmt::format("_MA = {}: in which axis the probe passes by is known for 1 and 2 only", axis));
+  const control::WorkingPlane plane = call.control().workingPlane();
+  const bool transverse = (axis == 1 ? plane.main : plane.minor) == 0;
+  const double here = plane.planeFromXyz(call.control().channel.position())[axis - 1];
+  const bool outside = (call.control().diameter && transverse ? 2 : 1) * here >= call.length("_SETVAL");
+  const int passing = 3 - axis;
+  const double across = call.number(axis == 1 ? "_SZA" : "_SZO"), along = call.number(axis == 1 ? "_SZO" : "_SZA");
+  const bool zone = (outside || call.variant() == 1) && (across != 0 || along != 0);
+  call.put("S_MA", axis + 100 * passing);
+  call.put("S_SZA", across);
+  call.put("S_SZO", along);
+  return (outside ? 2 : 1) + call.task(OldCall::Corrects::AlsoTools) + (zone ? passing * 1000 : 0);
 }
 
 constexpr TitleSize titleSizes[] = {{"S_SETV"}};

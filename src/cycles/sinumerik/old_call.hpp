@@ -18,15 +18,19 @@ public:
   using DataKey = control::sinumerik::DataKey;
 
   OldCall(const CycleDefinition& cycle, const control::sinumerik::Control& control)
-      : cycle_(cycle), control_(control), arguments_(cycle), variant_(whole("_MVAR")) {}
+      : name_(cycle.name), cycle_(&cycle), control_(control), arguments_(cycle), variant_(whole("_MVAR")) {}
 
   /// Today's arguments; `oldForm` puts the cycle's own and returns S_MVAR.
   Arguments read(int (*oldForm)(OldCall&));
+  /// Another cycle does today what this call asks for.
+  void isNow(std::string_view cycle);
 
   const control::sinumerik::Control& control() const { return control_; }
   /// _MVAR.
   int variant() const { return variant_; }
   double number(std::string_view name, double absent = 0) const { return control_.data.number(name, {}, absent); }
+  /// A length, in mm whatever the program's unit is.
+  double length(std::string_view name) const { return number(name) * control_.unit; }
   double element(int index) const { return control_.data.number("_SETV", {index}, index == 0 ? number("_SETV") : 0); }
   int whole(std::string_view name, double absent = 0) const {
     const double value = number(name, absent);
@@ -45,12 +49,12 @@ public:
     return value % 10;
   }
   void put(std::string_view parameter, double value) {
-    const auto found = std::ranges::find(cycle_.parameters, parameter, &Parameter::name);
-    if (found != cycle_.parameters.end()) arguments_.set(found->address, value);
+    const auto found = std::ranges::find(cycle_->parameters, parameter, &Parameter::name);
+    if (found != cycle_->parameters.end()) arguments_.set(found->address, value);
   }
   void put(std::string_view parameter, std::string value) {
-    const auto found = std::ranges::find(cycle_.parameters, parameter, &Parameter::name);
-    if (found != cycle_.parameters.end()) arguments_.set(found->address, std::move(value));
+    const auto found = std::ranges::find(cycle_->parameters, parameter, &Parameter::name);
+    if (found != cycle_->parameters.end()) arguments_.set(found->address, std::move(value));
   }
   [[noreturn]] void refuse(const char* code, const std::string& what) const;
   [[noreturn]] void refuseVariant(std::string_view why = {}) const;
@@ -76,7 +80,8 @@ private:
   int zeroOffset() const;
   int toolOffset() const;
 
-  const CycleDefinition& cycle_;
+  std::string_view name_;  ///< as the program calls it
+  const CycleDefinition* cycle_;
   const control::sinumerik::Control& control_;
   Arguments arguments_;
   int variant_;

@@ -27,9 +27,14 @@ constexpr std::string_view names[] = {
 }  // namespace
 
 void OldCall::refuse(const char* code, const std::string& what) const {
-  throw Alarm(code,
-              fmt::format("{} without arguments takes the variables of older measuring cycles: {}", cycle_.name, what),
-              fmt::format("write the call with arguments: 'probewright cycles {}'", cycle_.name));
+  throw Alarm(code, fmt::format("{} without arguments takes the variables of older measuring cycles: {}", name_, what),
+              fmt::format("write the call with arguments: 'probewright cycles {}'", cycle_->name));
+}
+
+void OldCall::isNow(std::string_view cycle) {
+  cycle_ = &findEntry(cycle)->definition;
+  arguments_ = Arguments(*cycle_);
+  common();
 }
 
 void OldCall::refuseVariant(std::string_view why) const {
@@ -77,7 +82,7 @@ int OldCall::toolOffset() const {
   const int number = whole("_KNUM");
   if (number < 0 || number > 9999999 || number / 1000 % 10 != 0)
     refuse("61328", fmt::format("_KNUM = {} is not a tool offset", number));
-  if (codesTurnedTool(cycle_)) return number;
+  if (codesTurnedTool(*cycle_)) return number;
   const int edge = number % 1000, inverted = number / 10000 % 10, component = number / 100000 % 10,
             memory = number / 1000000;
   return edge + component * 100000 + memory * 1000000 + inverted * 10000000;

@@ -88,6 +88,7 @@ void SinumerikHost::runCycle(std::string_view name, WordRange range, Evaluation&
   if (range.count == 0 && cycles::sinumerik::hasOldForm(definition) &&
       cycles::sinumerik::hasOldParameters(control_.data)) {
     arguments = cycles::sinumerik::argumentsOfOldForm(definition, control_);
+    entry = cycles::sinumerik::findEntry(arguments.definition().name);
     const bool ownFeed =
         std::ranges::find(definition.parameters, "S_VMS", &cycles::Parameter::name) != definition.parameters.end();
     if (!ownFeed) feed.emplace(control_);
