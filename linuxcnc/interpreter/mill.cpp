@@ -260,6 +260,24 @@ void Mill::stopAxes() {
     abort();
 }
 
+void Mill::show(const std::string& text) {
+  constexpr std::size_t longest = 240;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t end = text.size();
+    if (end - at > longest) {
+      end = text.rfind('\n', at + longest);
+      if (end == std::string::npos || end <= at) end = text.rfind(' ', at + longest);
+      if (end == std::string::npos || end <= at)
+        // Not within a character of UTF-8.
+        for (end = at + longest; (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U;)
+          --end;
+    }
+    std::string part = text.substr(at, end - at);
+    MESSAGE(part.data());
+    at = end < text.size() && (text[end] == '\n' || text[end] == ' ') ? end + 1 : end;
+  }
+}
+
 void Mill::tellError(const std::string& text) {
   using Tell = int (*)(int number, const char* format, ...);
   if (const auto tell = reinterpret_cast<Tell>(dlsym(RTLD_DEFAULT, "_Z16emcOperatorErroriPKcz")); tell != nullptr) {

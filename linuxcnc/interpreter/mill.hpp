@@ -44,6 +44,8 @@ public:
   static std::string notReady();
   /// Stops the axes; what is queued is forgotten.
   static void stopAxes();
+  /// Shows a text on LinuxCNC's screen; a long one as several messages, as LinuxCNC keeps the beginning of each only.
+  static void show(const std::string& text);
   /// Shows an error on LinuxCNC's screen, whatever it does at the moment.
   static void tellError(const std::string& text);
   /// M7, M8, M9, and M100 to M199 that the configuration has programs for.

@@ -51,6 +51,8 @@ public:
 private:
   using Json = EngineProcess::Json;
 
+  /// Seconds of a clock that never goes back.
+  static double now();
   /// The answer to an order that needs no motion of its own; nothing: it does.
   std::optional<Json> atOnce(const Json& order);
   /// Once the axes stand: the answer if the order cannot begin.
