@@ -22,6 +22,9 @@ namespace {
 
 constexpr std::string_view letters = "XYZABCUVW";
 
+/// Corners are passed, and short lines joined, within this: mm, as G64 P0.01 does.
+constexpr double tolerance = 0.01;
+
 bool rotary(std::size_t number) { return number >= 3 && number <= 5; }
 
 /// The status that LinuxCNC's planner keeps; screens, which only draw, have none.
@@ -168,6 +171,7 @@ Mill::Json Mill::hello(std::string& why) const {
       {"looksAhead", true},
       {"compact", true},
       {"position", position()}};
+  if (moves()) answer["joins"] = tolerance;
   if (key("PROBEWRIGHT", "SHARE_TABLES") != "0") answer["tables"] = tables();
   return answer;
 }
@@ -180,10 +184,9 @@ void Mill::begin() {
   USE_LENGTH_UNITS(CANON_UNITS_MM);
   SET_FEED_REFERENCE(CANON_XYZ);
   SET_FEED_MODE(0, 0);
-  // As G64 P0.01 does: corners are passed, and short lines joined, within this.
-  constexpr double tolerance = 0.01;
   SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, tolerance);
-  SET_NAIVECAM_TOLERANCE(tolerance);
+  // The engine joins them already: LinuxCNC would add as much again. A screen draws each line.
+  SET_NAIVECAM_TOLERANCE(0);
   if (!moves()) {
     // What a screen draws is in machine coordinates; the offsets that it has set up belong to G-code.
     SET_G5X_OFFSET(1, 0, 0, 0, 0, 0, 0, 0, 0, 0);
@@ -208,9 +211,10 @@ void Mill::learnOffsets() {
 }
 
 void Mill::end() const {
+  // Tolerances are in the units that they were told in.
+  USE_LENGTH_UNITS(static_cast<CANON_UNITS>(units_));
   SET_MOTION_CONTROL_MODE(static_cast<CANON_MOTION_MODE>(mode_), tolerance_);
   SET_NAIVECAM_TOLERANCE(merging_);
-  USE_LENGTH_UNITS(static_cast<CANON_UNITS>(units_));
 }
 
 void Mill::flush() { FINISH(); }

@@ -25,11 +25,6 @@ constexpr const char* stopped = "a stop was asked for";
 /// Axes that the operator jogs between two orders are asked for anew after this time.
 constexpr std::chrono::milliseconds freshFor{50};
 
-/// Lines in a message.
-constexpr std::size_t fewestLines = 16, mostLines = 1024;
-/// Lines that take the engine longer than this are not kept back for a longer message.
-constexpr std::chrono::milliseconds keptFor{50};
-
 bool possible(Feed feed) { return feed.rapid || (feed.perMinute > 0 && std::isfinite(feed.perMinute)); }
 
 }  // namespace
@@ -84,6 +79,8 @@ Result<std::unique_ptr<RemoteMachine>> RemoteMachine::greet(Connection connectio
     machine->draws_ = says("draws");
     machine->looksAhead_ = says("looksAhead");
     machine->compact_ = says("compact");
+    const double joins = answer.json.contains("joins") ? number(answer.json, "joins") : 0;
+    machine->lines_ = LineQueue(machine->description_, joins);
     const Json& told = member(answer.json, "machine");
     machine->tellsChains_ = told.contains("tableChain") || told.contains("spindleChain");
     if (answer.json.contains("tables"))
@@ -106,7 +103,7 @@ RemoteMachine::Answer RemoteMachine::lose(std::string why) const {
 
 RemoteMachine::Answer RemoteMachine::exchange(Json order) const {
   using Clock = std::chrono::steady_clock;
-  sendLines();
+  sendLines(false);
   underWay_ = false;
   if (lost_) return {{}, failure_};
   const std::uint64_t id = ++lastOrder_;
@@ -277,18 +274,11 @@ bool RemoteMachine::keepLine(const AxisPositions& target, Feed feed) {
     now_ = place_();
     std::ranges::move(now_.messages, std::back_inserter(messages_));
   }
-  numbers_.push_back(now_.line ? static_cast<double>(*now_.line) : 0);
-  numbers_.push_back(feed.rapid ? 0 : feed.perMinute);
-  numbers_.insert(numbers_.end(), target.values.begin(),
-                  target.values.begin() + static_cast<std::ptrdiff_t>(description_.axes.size()));
   toldAt_ = std::chrono::steady_clock::now();
-  if (kept_++ == 0) firstLineAt_ = toldAt_;
+  lines_.add(now_.line.value_or(0), feed.rapid ? 0 : feed.perMinute, at_, target, toldAt_);
   at_ = target;
-  if (kept_ >= enough_) {
-    // Each message costs both programs a change of turns, so messages grow, as long as the axes do not wait for them.
-    const bool quick = toldAt_ - firstLineAt_ < keptFor;
-    enough_ = quick ? std::min(2 * enough_, mostLines) : std::max(enough_ / 2, fewestLines);
-    sendLines();
+  if (lines_.isDue(toldAt_)) {
+    sendLines(true);
     underWay_ = !lost_ && !failure_;
   }
   return true;
@@ -308,9 +298,9 @@ Json RemoteMachine::path(const std::vector<double>& numbers) const {
   return {{"do", "path"}, {"pieces", std::move(pieces)}};
 }
 
-void RemoteMachine::sendLines() const {
-  if (std::exchange(kept_, 0) == 0) return;
-  const Answer answer = exchange(path(std::exchange(numbers_, {})));
+void RemoteMachine::sendLines(bool more) const {
+  if (lines_.empty()) return;
+  const Answer answer = exchange(path(lines_.take(more)));
   if (answer.failure) return;
   // They count as travelled. Whatever stops the adapter stops the next order as well; if there is none, this is known.
   try {
@@ -333,23 +323,29 @@ machine::MoveResult RemoteMachine::retract(const AxisPositions& target, Feed fee
 }
 
 machine::PathResult RemoteMachine::moveAlong(std::span<const machine::PathPiece> path) {
-  Json pieces = Json::array();
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    if (auto refused = refusal(path[i].target, path[i].feed)) return {refused->end, 0, std::move(refused->detail)};
-    Json piece = {{"target", toJson(path[i].target, description_.axes.size())}};
-    addFeed(piece, path[i].feed);
-    pieces.push_back(std::move(piece));
+  for (const machine::PathPiece& piece : path) {
+    if (auto refused = refusal(piece.target, piece.feed)) return {refused->end, 0, std::move(refused->detail)};
   }
-  if (path.empty()) return {};
-  if (underWay_ && looksAhead_) {
-    std::size_t kept = 0;
-    while (kept < path.size() && keepLine(path[kept].target, path[kept].feed))
-      ++kept;
-    if (kept == path.size()) return {MoveEnd::Reached, kept, {}};
-    underWay_ = false;
-    machine::PathResult rest = moveAlong(path.subspan(kept));
-    rest.reached += kept;
-    return rest;
+  std::size_t reached = 0;
+  while (true) {
+    while (reached < path.size() && keepLine(path[reached].target, path[reached].feed))
+      ++reached;
+    if (reached == path.size()) return {MoveEnd::Reached, reached, {}};
+    // To an adapter that looks ahead a piece that may not begin is sent alone; others are kept like lines.
+    const auto pieces = path.subspan(reached, looksAhead_ ? 1 : path.size() - reached);
+    machine::PathResult result = order(pieces);
+    result.reached += reached;
+    if (result.end != MoveEnd::Reached || result.reached < reached + pieces.size()) return result;
+    reached = result.reached;
+  }
+}
+
+machine::PathResult RemoteMachine::order(std::span<const machine::PathPiece> path) {
+  Json pieces = Json::array();
+  for (const machine::PathPiece& each : path) {
+    Json piece = {{"target", toJson(each.target, description_.axes.size())}};
+    addFeed(piece, each.feed);
+    pieces.push_back(std::move(piece));
   }
   const std::function<machine::PathResult(const Json&)> read = [&](const Json& answer) {
     const Json& reached = member(answer, "reached");

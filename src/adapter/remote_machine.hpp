@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "adapter/connection.hpp"
+#include "adapter/line_queue.hpp"
 #include "adapter/protocol.hpp"
 #include "base/diagnostic.hpp"
 #include "machine/machine.hpp"
@@ -103,11 +104,12 @@ private:
   std::optional<machine::MoveResult> refusal(const machine::AxisPositions& target, machine::Feed feed) const;
   machine::MoveResult travel(const char* order, const machine::AxisPositions& target, machine::Feed feed);
   machine::MoveResult moved(Json order);
+  machine::PathResult order(std::span<const machine::PathPiece> path);
   /// A line is kept until there are some, or an order of another kind comes. False: it has to be ordered by itself.
   bool keepLine(const machine::AxisPositions& target, machine::Feed feed);
   Json path(const std::vector<double>& numbers) const;
-  /// Orders the lines that were kept.
-  void sendLines() const;
+  /// Orders the lines that were kept; `more`: others follow at once.
+  void sendLines(bool more) const;
 
   std::shared_ptr<void> peer_;  ///< ends after the stream
   mutable LineStream stream_;
@@ -120,11 +122,8 @@ private:
   std::function<machine::OrderPlace()> place_;
   mutable machine::OrderPlace now_;  ///< of the last order
   std::vector<Felt> felt_;
-  mutable bool underWay_ = false;        ///< the last order was a line, and the probe was free when it began
-  mutable std::size_t kept_ = 0;         ///< lines that are kept
-  mutable std::vector<double> numbers_;  ///< of them: the line of the program, the feed, the target
-  std::size_t enough_ = 512;             ///< lines that are sent in a message
-  std::chrono::steady_clock::time_point firstLineAt_;
+  mutable bool underWay_ = false;  ///< the last order was a line, and the probe was free when it began
+  mutable LineQueue lines_;
   mutable std::vector<std::string> messages_;  ///< for the operator, with the next order
   std::stop_token stop_;
   int wake_ = -1;  ///< an event that ends a wait when a stop is asked for

@@ -344,7 +344,7 @@ TEST(RemoteMachine, SendsLinesManyAtATimeToAnAdapterThatLooksAhead) {
   EXPECT_EQ(heard.at(2).at("pieces").at(0).at("line"), 2);
 }
 
-/// Messages of lines grow while lines keep coming, to a limit; every line is sent once, in its order.
+/// Many lines are sent at a time, up to a limit; every line is sent once, in its order.
 class ManyLines : public testing::TestWithParam<bool> {};
 
 TEST_P(ManyLines, AreSentInLongMessages) {
@@ -394,8 +394,7 @@ TEST_P(ManyLines, AreSentInLongMessages) {
   thread.join();
   ASSERT_EQ(travelled.size(), static_cast<std::size_t>(lines));
   EXPECT_TRUE(std::ranges::is_sorted(travelled));
-  EXPECT_EQ(messages.front(), 512U);
-  EXPECT_GT(*std::ranges::max_element(messages), 512U);
+  EXPECT_LT(messages.size(), lines / 10U);
   EXPECT_LE(*std::ranges::max_element(messages), 1024U);
 }
 
