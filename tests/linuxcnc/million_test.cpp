@@ -1,28 +1,25 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "linuxcnc/interpreter_bench.hpp"
 
 /// Programs of a million blocks: how long LinuxCNC's screens take to load one, and how much memory it needs while it is
-/// drawn and while it runs. With PROBEWRIGHT_LONG_TESTS.
+/// drawn and while it runs.
 namespace probewright::testing {
 namespace {
 
 class MillionBlocks : public AsInterpreter {
 protected:
-  void SetUp() override {
-    if (std::getenv("PROBEWRIGHT_LONG_TESTS") == nullptr) GTEST_SKIP() << "set PROBEWRIGHT_LONG_TESTS to run it";
-    session_.write("setup.toml", setup("TNC640", world, 300));
-  }
+  void SetUp() override { session_.write("setup.toml", setup("TNC640", world, 300)); }
   /// A spiral of short lines; how many bytes it has.
   std::size_t way(const std::string& name, int blocks) const {
     std::string text = "0 BEGIN PGM WAY MM\n1 TOOL CALL 1 Z\n2 L X+30 Y+0 Z+100 R0 FMAX\n";
     for (int i = 0; i < blocks; ++i) {
       const double angle = i / 300.0;
       text += fmt::format("{} L X{:+.4f} Y{:+.4f}{}\n", i + 3, 30 * std::cos(angle), 30 * std::sin(angle),
-                          i == 0 ? " F6000" : "");
+                          i == 0 ? " F240000" : "");
     }
     session_.write(name, text += fmt::format("{} END PGM WAY MM\n", blocks + 3));
     return text.size();
@@ -72,9 +69,8 @@ TEST_F(MillionBlocks, LoadInSecondsAndNeedNoMemoryButForTheirText) {
   ASSERT_EQ(large.size(), 6U);
   EXPECT_EQ(small[0], 100'000);
   EXPECT_EQ(large[0], 1'000'000);
-  // Seconds of the processor, which are three times as many where others crowd its caches: docs/linuxcnc.md has those
-  // of a calm one.
-  EXPECT_LT(large[2] + large[3], 15);
+  // Seconds of the processor: both work at the same time, so that this is what it takes where both have one.
+  EXPECT_LT(std::max(large[2], large[3]), 5);
   EXPECT_LT(large[4], small[4] + 2) << "MB in the screen";
   EXPECT_LT(large[5], small[5] + 4 * (many - few) / 1e6) << "MB in the engine";
   std::printf(
@@ -85,6 +81,7 @@ TEST_F(MillionBlocks, LoadInSecondsAndNeedNoMemoryButForTheirText) {
 
 TEST_F(MillionBlocks, RunInTheSameMemory) {
   way("many.h", 1'000'000);
+  fastAxes();
   atTheDesk(std::string(keeps) + call(world) + R"(
 def memory(process):
     with open(f'/proc/{process}/status') as lines:
@@ -92,10 +89,10 @@ def memory(process):
 hal('below.in1', -1000)
 begin('many.h')
 # Not what the start has needed, nor pages of the program's file.
-desk.until('a start', lambda s: s.motion_line > 30000)
+desk.until('a start', lambda s: s.motion_line > 100000)
 planner = subprocess.run(['pgrep', '-x', 'milltask'], capture_output=True, text=True).stdout.split()[0]
 before = memory(planner), memory(engine())
-desk.until('blocks', lambda s: s.motion_line > 50000)
+desk.until('blocks', lambda s: s.motion_line > 400000)
 desk.tell('grown', memory(planner) - before[0], memory(engine()) - before[1], *before)
 desk.command.abort()
 written()
@@ -103,10 +100,10 @@ written()
             500);
   const std::vector<double> grown = session_.told(output, "grown");
   ASSERT_EQ(grown.size(), 4U) << output;
-  // MB for 20,000 blocks, of which a hundred bytes each would be 2.
-  EXPECT_LT(grown[0], 0.5);
-  EXPECT_LT(grown[1], 0.5);
-  std::printf("20,000 blocks: LinuxCNC's planner grows by %.2f MB from %.0f, the engine by %.2f from %.0f\n", grown[0],
+  // MB for 300,000 blocks, of which ten bytes each would be 3.
+  EXPECT_LT(grown[0], 1);
+  EXPECT_LT(grown[1], 1);
+  std::printf("300,000 blocks: LinuxCNC's planner grows by %.2f MB from %.0f, the engine by %.2f from %.0f\n", grown[0],
               grown[2], grown[1], grown[3]);
 }
 
