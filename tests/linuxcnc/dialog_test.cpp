@@ -50,7 +50,7 @@ desk.tell('title', window('wm', 'title', '.'))
 window('.answer', 'insert', '0', '{over there}')
 window('.buttons.continue', 'invoke')
 # It is not a position: the question comes again.
-while 'over there' not in str(window('.wanted', 'cget', '-text')): time.sleep(0.05)
+desk.until('the question once more', lambda s: 'over there' in str(window('.wanted', 'cget', '-text')))
 window('.answer', 'insert', '0', '{25 0 5}')
 window('.buttons.continue', 'invoke')
 asked()

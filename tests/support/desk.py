@@ -1,10 +1,23 @@
 """What tests do at a real LinuxCNC: a display without a screen. LinuxCNC starts the test's script as its [DISPLAY]; that
 uses Desk, and whatever it prints is read by the test. When the script ends, LinuxCNC ends."""
 
+import os
 import sys
 import time
+import traceback
 
 import linuxcnc
+
+
+def failed(*what):
+    """A script that fails ends as others do: of a display that ends with an error LinuxCNC tells in a window of its own, and
+    waits until somebody closes it."""
+    traceback.print_exception(*what)
+    sys.stderr.flush()
+    os._exit(0)
+
+
+sys.excepthook = failed
 
 
 class Desk:
@@ -37,7 +50,7 @@ class Desk:
                 return
             time.sleep(0.004)
         self.tell("waited in vain for", what)
-        sys.exit(1)
+        sys.exit()
 
     def taken(self):
         """Waits until LinuxCNC has begun what the last command orders: its status then tells of it."""
@@ -67,7 +80,7 @@ class Desk:
             self.status.poll()
             if time.monotonic() > end:
                 self.tell("the machine cannot be switched on")
-                sys.exit(1)
+                sys.exit()
         self.listen()
 
     def home(self):
