@@ -83,5 +83,17 @@ TEST(CameraShots, AreThoseOfTheLastCycles) {
   EXPECT_EQ(shots.back().number, 25);
 }
 
+TEST(CameraShots, AreTheNewestFortyOfSeveralPoints) {
+  CameraBench bench;
+  std::string many;
+  for (int i = 0; i < 15; ++i)
+    for (const char* point : {"A", "B", "C"})
+      many += local(0, 1, 0, point);
+  const auto shots = setup::cameraShots(bench.run(many).outcome);
+  ASSERT_EQ(shots.size(), setup::mostCameraShots);
+  EXPECT_EQ(shots.front().cycle, 45 - setup::mostCameraShots);
+  EXPECT_EQ(shots.back().cycle, 44U);
+}
+
 }  // namespace
 }  // namespace probewright::testing_support

@@ -46,6 +46,23 @@ TEST(FeelingBodies, CollideUntilTheyComeApart) {
                                   HasSubstr("the machine's \"nose\" touched \"part\" at X")));
 }
 
+/// On a mill it stands on the table and travels with it.
+TEST(FeelingBodies, MeetTheToolTouchProbeOnTheTable) {
+  Truth truth = world();
+  testing_support::placeToolProbe(truth, RoundBar(20, -10, 0), translation({150, 0, -400}));
+  FeelingProbe probe(std::move(truth), std::nullopt);
+  std::vector<std::string> events;
+  probe.onEvent([&](const std::string& what) { events.push_back(what); });
+  const auto feel = [&](double x, double z) { return probe.feel({positions({x, 0, z}), 0, 0, 0.1}).collision; };
+  EXPECT_FALSE(feel(0, -380));
+  EXPECT_FALSE(feel(0, -395)) << "the table has it elsewhere";
+  EXPECT_FALSE(feel(0, -380));
+  EXPECT_FALSE(feel(150, -380));
+  EXPECT_FALSE(feel(150, -389.9));
+  EXPECT_TRUE(feel(150, -390.1));
+  EXPECT_THAT(events, ElementsAre(HasSubstr("the machine's \"nose\" touched \"TT\" at X")));
+}
+
 TEST(FeelingBodies, MeetTheTool) {
   // An arm on the slide that Y moves, 10 mm below the nose: Y60 would take its near side to the tool's axis.
   Truth truth = world();

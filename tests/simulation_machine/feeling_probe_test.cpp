@@ -155,10 +155,11 @@ TEST(FeelingProbe, CollidesWithTheBodyAndCanBePulledOff) {
   hand.look({25, 0, -200});
   hand.moveUntil({10, 0, -200}, 20, [](const Felt& felt) { return felt.collision; });
   ASSERT_TRUE(hand.felt.collision);
+  EXPECT_FALSE(hand.felt.touch) << "only the stylus is deflected";
   EXPECT_NEAR(hand.at.x(), 20, 20 * period + 1e-3);
   EXPECT_TRUE(hand.look(hand.at).collision) << "as long as it touches";
   hand.pullOff();
-  EXPECT_FALSE(hand.look(hand.at).collision);
+  EXPECT_EQ(hand.look(hand.at), Felt{});
   hand.move({25, 0, -200});
   EXPECT_EQ(hand.felt, Felt{});
   hand.moveUntil({10, 0, -200}, 20, [](const Felt& felt) { return felt.collision; });

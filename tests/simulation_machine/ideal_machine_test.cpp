@@ -158,6 +158,36 @@ TEST(IdealMachine, ShaftBodyAndCuttersCollide) {
   }
 }
 
+/// What is wider than the edges may meet a tool touch probe where nothing else is in the way.
+TEST(IdealMachine, TheShankCollidesWithAToolTouchProbe) {
+  Truth truth = perfectWorld();
+  TrueTool mill;
+  mill.number = 5;
+  mill.kind = ToolKind::Cutter;
+  mill.length = 80;
+  mill.radius = 5;
+  mill.cutter.cutLength = 20;
+  mill.cutter.shankRadius = 15;
+  truth.tools.push_back(mill);
+  // The pin stands 10 mm beside the axis: past the edges, below the shank, which begins 20 mm above the tip.
+  testing_support::placeToolProbe(truth, RoundBar(3, -40, 0), translation({10, 0, -400}));
+  for (const bool blocked : {false, true}) {
+    Truth world = truth;
+    if (blocked) place(world, Box({-20, -20, -500}, {20, 20, -430}), Pose::Identity(), "vice", SolidRole::Fixture);
+    VirtualMachine machine(std::move(world));
+    ASSERT_EQ(machine.changeTool({5, ""}).end, machine::ToolChangeEnd::Changed);
+    const auto moved = machine.move(positions({0, 0, -380}), Feed::at(1000));
+    EXPECT_EQ(moved.end, MoveEnd::Collision);
+    EXPECT_THAT(moved.detail, HasSubstr("the shank of tool 5 touched the tool touch probe \"TT\""));
+    EXPECT_NEAR(machine.position()[2], -400 - 20 + 80, 0.01) << "before the edges reach the vice at -350";
+    EXPECT_EQ(machine.retract(positions({0, 0, -300}), Feed::at(1000)).end, MoveEnd::Reached);
+    const auto measured = machine.measure({positions({0, 0, -380}), Feed::at(300), machine::Sensor::ToolTouchProbe});
+    EXPECT_EQ(measured.end, MeasureEnd::Collision);
+    EXPECT_THAT(measured.detail, HasSubstr("the shank of tool 5 touched the tool touch probe \"TT\""));
+    EXPECT_NEAR(machine.position()[2], -400 - 20 + 80, 0.01);
+  }
+}
+
 TEST(IdealMachine, EdgesOfBodyAndCutterReachAlmostToTheirCorners) {
   // A pin of radius 1 stands 17 mm beside the axis of the probe: the face of the body (radius 20) comes down on it.
   Truth truth = perfectWorld();

@@ -275,8 +275,10 @@ TEST(SinumerikMotion, ToolRadiusCompensationKeepsTheDistance) {
   round.run("T1 M6\nG0 X40 Y0\nF500\nG42 G1 X20 Y0\nG3 X20 Y0 I-20 J0\nG40 G1 X40 Y0\n");
   for (std::size_t i = 1; i + 1 < round.machine.moves.size(); ++i)
     EXPECT_NEAR(tipOf(round, i).head<2>().norm(), 25, 1e-9);
-  World tight;
+  World tight, equal;
   EXPECT_EQ(tight.alarm("T1 M6\nG0 X0 Y0\nF500\nG41 G1 X3 Y0\nG3 X3 Y0 I-3 J0\nG40 G1 X0 Y0\n"), "10753");
+  EXPECT_EQ(equal.alarm("T1 M6\nG0 X0 Y0\nF500\nG41 G1 X5 Y0\nG3 X5 Y0 I-5 J0\nG40 G1 X0 Y0\n"), "10753")
+      << "nothing is left of the arc";
 }
 
 TEST(SinumerikMotion, MeasuringBlocksLatchThePosition) {

@@ -242,6 +242,27 @@ TEST(SinumerikParsing, NamesEachMistakeWithPlaceAndWayOut) {
   EXPECT_EQ(mistakeOf("R1=SQRTT(2)").advice, "Did you mean SQRT?");
 }
 
+TEST(SinumerikParsing, NamesTheWordThatWasNearlyWritten) {
+  const std::vector<std::string_view> words = {"CLEARANCE", "MIRROR", "ATRANS", "GOTOF", "SQRT", "ASIN"};
+  // A letter left out, one too many, another one, two exchanged: the word is meant, at the beginning, in it, at its
+  // end.
+  for (const std::string_view word : words) {
+    for (std::size_t i = 0; i < word.size(); ++i) {
+      std::string without(word), more(word), other(word), exchanged(word);
+      without.erase(i, 1);
+      more.insert(i, 1, 'Q');
+      other[i] = 'Q';
+      if (i > 0) std::swap(exchanged[i - 1], exchanged[i]);
+      for (const std::string& written : {without, more, other, exchanged, std::string(word) + "Q"})
+        EXPECT_EQ(closestName(written, words), word) << written;
+    }
+  }
+  EXPECT_EQ(closestName("MQRRQR", words), "MIRROR") << "two letters of a longer word";
+  EXPECT_EQ(closestName("IRRO", words), "") << "two letters of a short one";
+  for (const char* far : {"MQQRQR", "SQ", "QQRR", "CLEAR", "MIRRORQQQ", "X"})
+    EXPECT_EQ(closestName(far, words), "") << far;
+}
+
 TEST(SinumerikParsing, DeepNestingIsAMistakeNotACrash) {
   const std::string deep = "R1=" + std::string(5000, '(') + "1" + std::string(5000, ')');
   EXPECT_NE(mistakeOf(deep).message.find("nested too deeply"), std::string::npos);

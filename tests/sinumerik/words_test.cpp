@@ -101,6 +101,13 @@ TEST(SinumerikWords, PositioningInPartsGoesToTheEnd) {
   World world;
   world.run("G0 X0 Y0 Z0\nPOSP[X]=(30,5,0)\n");
   EXPECT_EQ(tip(world), Vector3(30, 0, 0));
+  std::string many = "POSP[X]=(30,5,0";
+  for (int i = 0; i < 60; ++i)
+    many += ",1";
+  for (const std::string& block : {std::string("POSP[X]=(30,5,0,1)"), many + ")"}) {
+    EXPECT_NE(mistake(block + "\nM30\n").find("after end position, part and mode"), std::string::npos)
+        << block << ": " << mistake(block + "\nM30\n");
+  }
 }
 
 TEST(SinumerikWords, ThreadsHaveTheFeedOfTheirPitch) {

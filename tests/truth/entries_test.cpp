@@ -131,6 +131,22 @@ TEST(Entries, OfAnAxisOfRotationAreItsDistanceFromTheTrueOne) {
   }
 }
 
+TEST(Entries, OfTheFirstDataSetOfAProbeAreCompared) {
+  World world;
+  world.control = "840Dsl";
+  world.origin = {0, 0, -480};
+  world.believedRadius = 3.005;
+  world.part = plate("{ z = -480 }");
+  // The ring is said to be 30 mm wide and is 30.01: the ball comes out too small by the difference.
+  const Told told =
+      run(world, "T1 D1\nM6\nG54 G17 G0 X0 Y0 Z20\nG1 Z-5 F1000\nCYCLE976(1,1,30,,1,0,4,2,0,0,1,0,1,0)\nG0 Z50\n");
+  ASSERT_TRUE(told.finished()) << told.why();
+  const records::EntryTruth& data = entry(told, "probe data 1");
+  EXPECT_EQ(data.kind, records::EntryKind::Probe);
+  EXPECT_NEAR(value(data, "BALL_DIAM").value, 5.99, cell);
+  EXPECT_NEAR(value(data, "BALL_DIAM").truth, 6, cell);
+}
+
 TEST(Entries, OfAToolCountItsWear) {
   Diagnostics diagnostics;
   const std::string examples = PROBEWRIGHT_EXAMPLES;

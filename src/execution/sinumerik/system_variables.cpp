@@ -51,8 +51,7 @@ Value fromDatum(const DataValue& value) {
 
 /// The data behind an active basic frame: $P_BFRAME and $P_CHBFRAME[0] are $P_CHBFR[0].
 std::optional<DataKey> basicFrameData(std::string_view name, std::span<const Value> indices) {
-  const bool numbered = !indices.empty() && !language::isText(indices[0]);
-  const int number = numbered ? integerAt(indices, 0) : 0;
+  const int number = integerAt(indices, 0);
   if (name == "$P_BFRAME" || name == "$P_CHBFRAME") return DataKey("$P_CHBFR", {number});
   if (name == "$P_NCBFRAME") return DataKey("$P_NCBFR", {number});
   if (name == "$P_SETFRAME") return DataKey("$P_SETFR", {});

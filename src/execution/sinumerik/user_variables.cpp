@@ -43,7 +43,9 @@ std::size_t UserVariable::place(std::string_view name, std::span<const double> i
   for (std::size_t i = 0; i < sizes_.size(); ++i) {
     if (sizes_[i] == 0) {
       if (indices.size() > i)
-        throw Alarm("12261", fmt::format("{} has fewer than {} dimensions", name, indices.size()),
+        throw Alarm("12261",
+                    i == 0 ? fmt::format("{} is not an array", name)
+                           : fmt::format("{} has fewer than {} dimensions", name, indices.size()),
                     "compare the indices with the DEF of the variable");
       break;
     }
