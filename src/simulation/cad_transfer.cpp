@@ -48,10 +48,10 @@
 #include "simulation/cad_cones.hpp"
 #include "simulation/cad_corrections.hpp"
 #include "simulation/cad_model.hpp"
+#include "simulation/cad_step_library.hpp"
 #include "simulation/cad_units.hpp"
 #include "simulation/face_mesh.hpp"
 #include "simulation/parallel.hpp"
-#include "simulation/step_text.hpp"
 
 namespace probewright::simulation {
 namespace {
@@ -149,8 +149,9 @@ std::unique_ptr<XSControl_Reader> load(const TransferOrder& order, const ChildVo
   Interface_Static::SetCVal("xstep.cascade.unit", "MM");
   IFSelect_ReturnStatus status = IFSelect_RetVoid;
   if (order.format == CadFormat::Step) {
-    std::istringstream stream(withCapitalExponents(order.bytes));
-    status = static_cast<STEPControl_Reader&>(*reader).ReadStream(order.file.c_str(), stream);
+    reader->WS()->SetLibrary(quickStepLibrary(order.bytes));
+    std::istringstream none;
+    status = static_cast<STEPControl_Reader&>(*reader).ReadStream(order.file.c_str(), none);
   } else {
     status = reader->ReadFile(order.file.c_str());
   }
