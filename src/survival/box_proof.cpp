@@ -105,6 +105,7 @@ private:
   std::vector<Surroundings> most_, least_;  ///< a solid each; they refer to those above
   Displacements displacements_;
   double errors_ = 0;            ///< mm: of the machine, where they differ from run to run
+  double apart_ = 0;             ///< mm: of solids from where they are in the middle of the box
   double farthest_ = 0;          ///< mm: of solids from where they are in the middle of all tolerances
   std::vector<bool> optional_;   ///< of the steps: see Course
   std::vector<Spread> spreads_;  ///< a step each
@@ -147,6 +148,8 @@ std::optional<BoxVerdict> Proof::prepare() {
 
   displacements_ = worlds_.displacements(box_, middle_.truth);
   farthest_ = worlds_.farthestFromMiddle(box_);
+  for (const Displacements::OfSolid& solid : displacements_.ofSolids)
+    apart_ = std::max(apart_, solid.shift.norm() + solid.turn);
   const simulation::MachineErrors& errors = middle_.truth.errors;
   kinematics_.emplace(machine(), errors);
   for (std::size_t i = 0; i < errors.axes.size() && i < machine().axes.size(); ++i) {
@@ -202,6 +205,16 @@ std::optional<BoxVerdict> Proof::prepare() {
   const WatchedRun otherwise = program_.replay(middle_.truth, little);
   if (otherwise.end.failure || !addStillMoves(course, otherwise.steps, machine()))
     return undecided("what is measured may change the course of the program, or turn a rotary axis");
+  // A control that goes up first where the next position is higher leaves this move out where it is lower, and a box
+  // may hold both. Whether the course is whole, every touch is asked later (passOn); here it is enough to try.
+  for (const double way : {-1.0, 1.0}) {
+    std::vector<PlannedTouch> far = plan_;
+    for (PlannedTouch& touch : far)
+      touch.signal += way * apart_;
+    const WatchedRun there = program_.replay(middle_.truth, far);
+    if (there.end.cancelled) return BoxVerdict{Verdict::Cancelled, {}};
+    if (!there.end.failure) static_cast<void>(addStillMoves(course, there.steps, machine()));
+  }
   middle_.steps = course.steps;
   optional_ = course.optional;
   for (std::size_t i = 0; i < middle_.steps.size(); ++i) {
