@@ -171,7 +171,10 @@ FirstOrder addUncertainties(control::Journal& journal, const simulation::Truth& 
     done.notHeld.emplace_back("the setup gives the touch probe no repeatability: nothing can be said");
     return done;
   }
+  bool corrected = false, follows = false;  // what later cycles measure from
   for (CycleRecord& cycle : journal.cycles) {
+    follows = follows || (corrected && !cycle.results.empty());
+    corrected = corrected || !cycle.writes.empty();
     for (ResultRecord& result : cycle.results) {
       if (!isMeasured(result)) continue;
       const auto sensitivity = sensitivityToTouches(cycle, result);
@@ -179,6 +182,7 @@ FirstOrder addUncertainties(control::Journal& journal, const simulation::Truth& 
       ++(sensitivity ? done.given : done.withheld);
     }
   }
+  if (follows) done.notHeld.emplace_back("the scatter of what earlier cycles have set and later ones measure from");
   if (lobes) done.notHeld.emplace_back("the lobes of the probe: they act on all touches of a feature together");
   if (hasErrors(truth.errors)) done.notHeld.emplace_back("the errors of the machine");
   if (differ) done.notHeld.emplace_back("which probe has measured: the scatter is that of the one that repeats worst");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -90,8 +91,9 @@ private:
   }
   /// How far the tool on this step can be from the solid otherwise than in the middle, its own parts aside.
   Shift shiftOf(const Step& step, const Shift& commanded, double turn, std::size_t solid) const;
-  /// The size of what the touch is part of: the reach within which its cycle is smooth.
-  double sizeAround(std::size_t touch) const;
+  std::size_t cycleOf(std::size_t touch) const;
+  /// The size of what the touches of a cycle are on: see curvature.hpp.
+  double sizeAround(std::size_t cycle) const;
   /// Where on the line of the last touch a place lies: 0 where the measuring move began, 1 at its end.
   std::optional<double> placeOnLine(const std::vector<Step>& steps, std::size_t measured,
                                     const AxisPositions& at) const;
@@ -112,6 +114,7 @@ private:
   std::vector<PlannedTouch> plan_;
   std::vector<std::size_t> touches_;               ///< steps
   std::vector<double> shifts_;                     ///< of touches along their way, mm
+  std::map<std::size_t, double> nearness_;         ///< by cycle: the most that a touch shifts, over the size
   std::vector<std::vector<double>> resultSlopes_;  ///< by touch: what each result changes by
   std::optional<std::size_t> inbound_;             ///< the step whose line is being left
 };
@@ -241,43 +244,53 @@ std::optional<BoxVerdict> Proof::prepare() {
   return std::nullopt;
 }
 
-double Proof::sizeAround(std::size_t touch) const {
-  const auto cycleOf = [&](std::size_t index) -> const control::CycleRecord* {
-    for (const control::CycleRecord& cycle : middle_.outcome.journal.cycles) {
-      const double seconds = middle_.steps[touches_[index]].seconds;
-      if (seconds >= cycle.startSeconds - 1e-9 && seconds <= cycle.endSeconds + 1e-9) return &cycle;
-    }
-    return nullptr;
-  };
-  const control::CycleRecord* cycle = cycleOf(touch);
-  double least = 1e9;
+/// The cycle that a touch belongs to, by its place in the journal; one past the last for touches of no cycle.
+std::size_t Proof::cycleOf(std::size_t touch) const {
+  const auto& cycles = middle_.outcome.journal.cycles;
+  const double seconds = middle_.steps[touches_[touch]].seconds;
+  std::size_t place = 0;
+  while (place < cycles.size() &&
+         (seconds < cycles[place].startSeconds - 1e-9 || seconds > cycles[place].endSeconds + 1e-9))
+    ++place;
+  return place;
+}
+
+double Proof::sizeAround(std::size_t cycle) const {
   std::vector<Vector3> places, ways;
   for (std::size_t a = 0; a < touches_.size(); ++a) {
     if (cycleOf(a) != cycle) continue;
     const Step& step = middle_.steps[touches_[a]];
     places.push_back(kinematics_->tableFromSpindle(step.latched, 0).translation());
     ways.push_back((places.back() - kinematics_->tableFromSpindle(step.from, 0).translation()).normalized());
-    for (std::size_t b = 0; b < a; ++b) {
-      if (cycleOf(b) != cycle) continue;
-      const double between = way(step.latched, middle_.steps[touches_[b]].latched);
-      // A quick touch and the slow one after it are one place.
-      if (between > 0.05) least = std::min(least, between);
-    }
   }
-  // The middles of three bores lie on an arc, too, whatever the touches of each are.
-  if (cycle != nullptr && (cycle->name == "416" || cycle->name == "430")) {
-    std::vector<Vector3> middles(3, Vector3::Zero());
-    const std::size_t each = std::max<std::size_t>(places.size() / 3, 1);
-    for (std::size_t i = 0; i < places.size(); ++i)
-      middles[std::min<std::size_t>(i / each, 2)] += places[i] / static_cast<double>(each);
-    return std::min(least / 2, acrossArc(middles, {Vector3::UnitX(), Vector3::UnitY(), Vector3(1, 1, 0).normalized()}));
+  const auto& cycles = middle_.outcome.journal.cycles;
+  const std::string name = cycle < cycles.size() ? cycles[cycle].name : "";
+  // Of several bores each is one thing, and what follows from their middles another.
+  const std::size_t bores = name == "416" || name == "430"   ? 3
+                            : name == "418"                  ? 4
+                            : name == "401" || name == "402" ? 2
+                                                             : 0;
+  if (bores == 0 || places.size() % bores != 0) return sizeOf(places, ways);
+  const std::size_t each = places.size() / bores;
+  double size = 1e9;
+  std::vector<Vector3> middles;
+  for (std::size_t bore = 0; bore < bores; ++bore) {
+    const auto begin = static_cast<std::ptrdiff_t>(bore * each), end = static_cast<std::ptrdiff_t>((bore + 1) * each);
+    const std::vector<Vector3> own(places.begin() + begin, places.begin() + end);
+    size = std::min(size, sizeOf(own, {ways.begin() + begin, ways.begin() + end}));
+    Vector3 middle = Vector3::Zero();
+    for (const Vector3& place : own)
+      middle += place / static_cast<double>(each);
+    middles.push_back(middle);
   }
-  return places.empty() ? least / 2 : std::min(least / 2, acrossArc(places, ways));
+  if (bores == 2) return std::min(size, sizeOf(middles, {Vector3::UnitY(), Vector3::UnitY()}));
+  return std::min(size, bores == 3 ? sizeOfArc(middles) : sizeOfCrossing(middles));
 }
 
 std::optional<BoxVerdict> Proof::passOn(std::size_t touch, std::size_t step, double shift) {
   const Step& at = middle_.steps[step];
-  const double size = sizeAround(touch);
+  const std::size_t cycle = cycleOf(touch);
+  const double size = sizeAround(cycle);
   const double bent = shift * shift / size;
   bool matters = false;
   // Controls go the long way where something is too low and the short one where it is not: to either side by itself.
@@ -314,7 +327,12 @@ std::optional<BoxVerdict> Proof::passOn(std::size_t touch, std::size_t step, dou
     }
     if (other.turn > 1e-9) spread.turn += curvature * other.turn + degreesFromRadians(bent / size);
   }
-  if (matters && shift > nearEnough * size)
+  // Shares of what follows from several cycles multiply.
+  if (matters) nearness_[cycle] = std::max(nearness_[cycle], shift / size);
+  double sum = 0;
+  for (const auto& [of, nearness] : nearness_)
+    sum += nearness;
+  if (matters && sum > nearEnough)
     return undecided(
         fmt::format("what follows depends on this touch, which may lie {:.3f} mm further or less far", shift), &at);
   std::vector<double> slopes;

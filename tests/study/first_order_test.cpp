@@ -75,6 +75,13 @@ TEST(FirstOrder, SaysWhatItDoesNotHold) {
               program(bore(3, 4)));
   EXPECT_THAT(lobes.done.notHeld,
               ::testing::ElementsAre(::testing::HasSubstr("lobes"), ::testing::HasSubstr("machine")));
+  // A preset of its own scatters, and what is measured from it scatters by that as well.
+  const std::string preset =
+      "3 TCH PROBE 417 REF. POINT TS.-AXIS ~\nQ263=+30 ~\nQ264=+20 ~\nQ294=+0 ~\nQ320=+2 ~\nQ260=+20 ~\nQ305=+1 "
+      "~\nQ333=+0 ~\nQ303=+1\n";
+  const auto earlier = ::testing::ElementsAre(::testing::HasSubstr("earlier cycles have set"));
+  EXPECT_THAT(runWith(plateSetup(), program(preset + bore(11, 4))).done.notHeld, earlier);
+  EXPECT_THAT(runWith(plateSetup(), program(bore(3, 4) + preset)).done.notHeld, ::testing::Not(earlier));
   const Ran none = runWith(plateSetup(""), program(bore(3, 4)));
   EXPECT_EQ(none.done.given, 0U);
   EXPECT_FALSE(none.uncertainties.at("421 Q151"));

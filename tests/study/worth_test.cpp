@@ -145,6 +145,37 @@ TEST(Worth, IsOfTheValuesWhereNoTruthIsKnown) {
   EXPECT_THAT(studyText(result), HasSubstr("* of the measured values: no true value is known"));
 }
 
+/// Parts vary by 0.12, are measured to 0.04, tolerance +-0.2: the global risks of JCGM 106 (9.5) are integrals over the
+/// product of both normal distributions.
+TEST(Worth, CountsTheGlobalRisksOfJcgm106) {
+  const double u0 = 0.12, um = 0.04, limit = 0.2, guard = 0.02;
+  const auto within = [&](double truth, double zone) {
+    const double root = um * std::sqrt(2.0);
+    return (std::erf((zone - truth) / root) - std::erf((-zone - truth) / root)) / 2;
+  };
+  const auto integral = [&](double from, double to, const auto& share) {
+    constexpr int steps = 20'000;
+    double sum = 0;
+    for (int i = 0; i < steps; ++i) {
+      const double truth = from + (to - from) * (i + 0.5) / steps;
+      sum += std::exp(-truth * truth / (2 * u0 * u0)) * share(truth) * (to - from) / steps;
+    }
+    return sum / (u0 * std::sqrt(2 * std::acos(-1.0)));
+  };
+  Study study = studyOf({source("part", Normal{0, u0}), source("error", Normal{0, um})}, 200'000);
+  study.guardFactor = guard / um;
+  study.measurands = {{.result = "y", .truth = {}, .lower = 30 - limit, .upper = 30 + limit, .place = {}}};
+  const Answer y = runStudy(study, {}, lengthOf(), {}).answers.front();
+  for (const auto& [zone, risks] : {std::pair(limit, y.risks), std::pair(limit - guard, y.guardedRisks)}) {
+    ASSERT_TRUE(risks);
+    const double consumer = 2 * integral(limit, limit + 1, [&](double truth) { return within(truth, zone); });
+    const double producer = integral(-limit, limit, [&](double truth) { return 1 - within(truth, zone); });
+    // Four standard deviations of what is counted.
+    EXPECT_NEAR(risks->consumer, consumer, 4 * std::sqrt(consumer / 200'000)) << zone;
+    EXPECT_NEAR(risks->producer, producer, 4 * std::sqrt(producer / 200'000)) << zone;
+  }
+}
+
 /// One value says nothing of how far others may lie: there is no uncertainty, and nothing is decided with it.
 TEST(Worth, IsNotKnownOfOneTrial) {
   const StudyResult result = runStudy(varied(1), {}, lengthOf(), {});

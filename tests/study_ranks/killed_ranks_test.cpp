@@ -65,6 +65,53 @@ TEST(KilledRanks, TheLauncherTakesItsRanksAlong) {
   expectToGoOn(bench);
 }
 
+TEST(KilledRanks, CtrlCAtTheLauncherEndsAllAndTheStudyGoesOn) {
+  if (!hasMpi()) GTEST_SKIP() << "built without MPI";
+  const StudyBench bench;
+  Launched study(mpirun(2, bench.words("90000000", "out")));
+  ASSERT_TRUE(waitFor([&] { return hasTrials(bench) || study.ended(); }));
+  const std::vector<pid_t> ranks = ranksOf(study.pid());
+  ASSERT_EQ(ranks.size(), 2U);
+  kill(study.pid(), SIGINT);
+  EXPECT_NE(study.wait(), 0);
+  for (const pid_t rank : ranks)
+    EXPECT_TRUE(waitFor([&] { return isGone(rank); }));
+  expectToGoOn(bench);
+}
+
+/// One of the ranks ends before it has joined the others.
+TEST(KilledRanks, ARankThatNeverBeginsEndsAll) {
+  if (!hasMpi()) GTEST_SKIP() << "built without MPI";
+  const StudyBench bench;
+  std::vector<std::string> words = mpirun(1, bench.words("90000000", "out"));
+  words.insert(words.end(), {":", "-n", "1", "false"});
+  EXPECT_NE(Launched(words).wait(), 0);
+  EXPECT_FALSE(hasTrials(bench));
+  EXPECT_FALSE(fs::exists(bench.path("out/study.json")));
+}
+
+/// What is there is written, and the rest follows later.
+TEST(KilledStudy, CtrlCKeepsWhatIsThere) {
+  const StudyBench bench;
+  std::vector<std::string> words = bench.words("90000000", "out");
+  words.insert(words.begin(), PROBEWRIGHT_PROGRAM);
+  Launched study(words);
+  const auto kept = [&] {
+    return fs::exists(bench.path("out/trials.csv")) && fs::file_size(bench.path("out/trials.csv")) > 1000;
+  };
+  ASSERT_TRUE(waitFor([&] { return kept() || study.ended(); }));
+  kill(study.pid(), SIGINT);
+  EXPECT_EQ(study.wait(), 3);
+  const auto left = nlohmann::json::parse(bench.text("out/study.json"));
+  EXPECT_EQ(left["end"], "interrupted");
+  const auto there = left["trials"].get<std::uint64_t>();
+  EXPECT_GT(there, 0U);
+  const std::string more = std::to_string(there + 300);
+  EXPECT_EQ(probewright(bench.words(more, "out", {"--resume"})).exit, 0);
+  EXPECT_EQ(probewright(bench.words(more, "undisturbed")).exit, 0);
+  EXPECT_EQ(bench.text("out/study.json"), bench.text("undisturbed/study.json"));
+}
+
 /// The disk is full, or the process is killed, at calls from the first to the last that write.
 TEST(KilledStudy, GoesOnAfterAnyCallThatWrites) {
   const StudyBench bench;

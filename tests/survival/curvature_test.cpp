@@ -18,36 +18,57 @@ using Places = std::vector<Vector3>;
 /// Places that follow from touches; none if the fit refuses them.
 using Effect = std::function<Places(const Places&)>;
 
-/// The largest share of the bound that is used up: touches at `places` shift along `ways`, each by the most that the
-/// proof lets pass or a part of it.
-double used(const Places& places, const Places& ways, const Effect& effect) {
-  double distance = 1e9;
-  for (std::size_t a = 0; a < places.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b)
-      distance = std::min(distance, (places[a] - places[b]).norm());
-  const double size = std::min(distance / 2, acrossArc(places, ways));
+/// Derivatives of each place by each touch, in the world of these places.
+std::vector<Places> derivatives(const Places& places, const Places& ways, const Effect& effect, double step) {
+  std::vector<Places> columns;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Places further = places, nearer = places;
+    further[i] += step * ways[i];
+    nearer[i] -= step * ways[i];
+    const Places a = effect(further), b = effect(nearer);
+    Places column;
+    for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
+      column.push_back((a[k] - b[k]) / (2 * step));
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+/// The largest share of the bound that is used up, by the places themselves and by the condition (1) on derivatives:
+/// touches at `places` shift along `ways`, each by the most that the proof lets pass or a part of it.
+double used(const Places& places, const Places& ways, const Effect& effect, double size) {
   const Places plain = effect(places);
+  if (plain.empty()) return 0;
+  const std::size_t corners = std::size_t{1} << places.size();
   std::mt19937_64 random(20261122);
   double worst = 0;
-  for (const double shift : {nearEnough * size, 0.2 * nearEnough * size, 0.01 * nearEnough * size}) {
+  for (const double shift : {nearEnough * size, 0.2 * nearEnough * size}) {
+    const double step = 1e-4 * shift;
     std::vector<double> bound(plain.size(), static_cast<double>(places.size()) * shift * shift / size);
-    bool refused = plain.empty();
+    std::vector<std::vector<double>> alone(places.size(), std::vector<double>(plain.size()));
+    std::vector<Places> means;
+    bool refused = false;
     for (std::size_t i = 0; i < places.size(); ++i) {
-      std::vector<double> alone(plain.size());
+      std::vector<Places> ends;
       for (const double way : {-shift, shift}) {
         Places moved = places;
         moved[i] += way * ways[i];
-        const Places found = effect(moved);
-        refused = refused || found.empty();
-        for (std::size_t k = 0; k < std::min(found.size(), plain.size()); ++k)
-          alone[k] = std::max(alone[k], (found[k] - plain[k]).norm());
+        ends.push_back(effect(moved));
+        refused = refused || ends.back().size() != plain.size();
+        for (std::size_t k = 0; k < std::min(ends.back().size(), plain.size()); ++k)
+          alone[i][k] = std::max(alone[i][k], (ends.back()[k] - plain[k]).norm());
       }
-      for (std::size_t k = 0; k < plain.size(); ++k)
-        bound[k] += curvature * alone[k];
+      if (refused) break;
+      Places mean;
+      for (std::size_t k = 0; k < plain.size(); ++k) {
+        bound[k] += curvature * alone[i][k];
+        mean.push_back((ends[1][k] - ends[0][k]) / (2 * shift));
+      }
+      means.push_back(std::move(mean));
     }
     if (refused) continue;  // the box stays undecided
-    const std::size_t corners = std::size_t{1} << places.size();
-    for (std::size_t corner = 0; corner < corners + 50; ++corner) {
+    std::vector<std::vector<Places>> seen;
+    for (std::size_t corner = 0; corner < corners + 20; ++corner) {
       Places moved = places;
       for (std::size_t i = 0; i < places.size(); ++i) {
         const double share = corner < corners ? ((corner >> i & 1U) != 0 ? 1.0 : -1.0)
@@ -59,9 +80,24 @@ double used(const Places& places, const Places& ways, const Effect& effect) {
       if (found.empty()) continue;
       for (std::size_t k = 0; k < plain.size(); ++k)
         worst = std::max(worst, (found[k] - plain[k]).norm() / bound[k]);
+      const std::vector<Places> columns = derivatives(moved, ways, effect, step);
+      for (std::size_t k = 0; k < plain.size(); ++k) {
+        // (1), summed over the touches: what one of them has left the others may use.
+        double differs = 0, allowed = 1e-6;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+          if (columns[i].size() != plain.size()) continue;
+          differs += (columns[i][k] - means[i][k]).norm();
+          allowed += (curvature - 1) * means[i][k].norm() + shift / size;
+        }
+        worst = std::max(worst, differs / allowed);
+      }
     }
   }
   return worst;
+}
+
+double used(const Places& places, const Places& ways, const Effect& effect) {
+  return used(places, ways, effect, sizeOf(places, ways));
 }
 
 /// The middle of a circle, and its radius as the height of a place.
@@ -116,12 +152,60 @@ TEST(Curvature, IsBoundedForCornersAndPlanes) {
                    {{0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {1, 0, 0}}, corner),
               1)
         << away;
-  for (const double lever : {0.0, 200.0}) {
+  for (const double lever : {0.0, 20.0, 200.0}) {
     const Effect plane = [&](const Places& p) -> Places {
       const Vector3 normal = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
       return {p[0] + lever * normal};
     };
-    EXPECT_LE(used({{0, 0, 0}, {60, 0, 0}, {0, 50, 0}}, {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}, plane), 1) << lever;
+    // The third touch is more and more on the line through the others.
+    for (const double aside : {50.0, 20.0, 5.0, 1.0})
+      EXPECT_LE(used({{0, 0, 0}, {60, 0, 0}, {25, aside, 0}}, {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}, plane), 1)
+          << lever << " " << aside;
+  }
+}
+
+TEST(Curvature, IsBoundedForEdgesThatCrossAtAnyAngle) {
+  for (const double angle : {90.0, 60.0, 30.0, 10.0}) {
+    const double turn = angle * std::numbers::pi / 180;
+    const Vector3 along(std::cos(turn), std::sin(turn), 0);
+    const Effect corner = [](const Places& p) -> Places {
+      Eigen::Matrix2d sides;
+      sides << p[1].x() - p[0].x(), p[2].x() - p[3].x(), p[1].y() - p[0].y(), p[2].y() - p[3].y();
+      const Vector2 part = sides.inverse() * Vector2(p[2].x() - p[0].x(), p[2].y() - p[0].y());
+      return {p[0] + part.x() * (p[1] - p[0])};
+    };
+    for (const double away : {5.0, 30.0})
+      EXPECT_LE(used({{away, 0, 0}, {away + 20, 0, 0}, away * along, (away + 20) * along},
+                     {{0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {1, 0, 0}}, corner),
+                1)
+          << angle << " " << away;
+  }
+}
+
+/// A bore as preset, an edge as rotation about it, each at half of what is near enough: the place of a later move.
+TEST(Curvature, IsBoundedForCyclesOneAfterTheOther) {
+  for (const double step : {10.0, 40.0, 120.0}) {
+    Places round, ways;
+    for (int i = 0; i < 3; ++i) {
+      const double angle = i * step * std::numbers::pi / 180;
+      ways.emplace_back(std::cos(angle), std::sin(angle), 0);
+      round.push_back(15 * ways.back());
+    }
+    const Places edge = {{100, 0, 0}, {103, 0, 0}}, across = {{0, 1, 0}, {0, 1, 0}};
+    // The edge is drawn larger, so that one shift is the same share of both sizes.
+    const double scale = sizeOf(round, ways) / sizeOf(edge, across);
+    Places places = round, all = ways;
+    for (std::size_t i = 0; i < 2; ++i) {
+      places.emplace_back(100 + scale * (edge[i].x() - 100), 0, 0);
+      all.push_back(across[i]);
+    }
+    const Effect effect = [](const Places& p) -> Places {
+      const Places middle = circle({p.begin(), p.begin() + 3});
+      if (middle.empty()) return {};
+      const Vector3 along = (p[4] - p[3]).normalized();
+      return {middle[0] + 50 * along, middle[0] + 200 * Vector3::UnitZ().cross(along)};
+    };
+    EXPECT_LE(used(places, all, effect, sizeOf(round, ways) / 2), 1) << step;
   }
 }
 
@@ -138,7 +222,38 @@ TEST(Curvature, IsBoundedForTwoBores) {
     const Places first = circle({p.begin(), p.begin() + 4}), second = circle({p.begin() + 4, p.end()});
     return {first[0] + 200 * (second[0] - first[0]).normalized()};
   };
-  EXPECT_LE(used(places, ways, effect), 1);
+  EXPECT_LE(used(places, ways, effect,
+                 std::min(sizeOf({places.begin(), places.begin() + 4}, {ways.begin(), ways.begin() + 4}), 0.45 * 60)),
+            1);
+}
+
+/// Three bores on an arc, as circles through their middles go.
+TEST(Curvature, IsBoundedForMiddlesOnAnArc) {
+  for (const double step : {5.0, 20.0, 60.0, 120.0}) {
+    Places middles, ways;
+    for (int i = 0; i < 3; ++i) {
+      const double angle = i * step * std::numbers::pi / 180;
+      ways.emplace_back(std::cos(angle), std::sin(angle), 0);
+      middles.push_back(80 * ways.back());
+    }
+    EXPECT_LE(used(middles, ways, circle, sizeOfArc(middles)), 1) << step;
+  }
+}
+
+TEST(Curvature, KnowsTheSizeOfWhatIsTouched) {
+  const Vector3 x = Vector3::UnitX(), y = Vector3::UnitY(), z = Vector3::UnitZ();
+  // Two touches, and a slow one after each.
+  EXPECT_NEAR(sizeOf({{0, 0, 0}, {0, 0.01, 0}, {20, 0, 0}, {20, 0.01, 0}}, {y, y, y, y}), 0.45 * 20, 0.01);
+  // A plane whose third touch is 3 mm beside the line through the others.
+  EXPECT_NEAR(sizeOf({{0, 0, 0}, {60, 0, 0}, {30, 3, 0}}, {z, z, z}), 0.4 * 3, 1e-9);
+  // A bore by four touches, one after the other or in pairs: no edges that cross.
+  EXPECT_NEAR(sizeOf({{9, 0, 0}, {0, 9, 0}, {-9, 0, 0}, {0, -9, 0}}, {x, y, -x, -y}), 0.45 * 9 * std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(sizeOf({{9, 0, 0}, {-9, 0, 0}, {0, 9, 0}, {0, -9, 0}}, {x, -x, y, -y}), 0.45 * 9 * std::sqrt(2.0), 1e-9);
+  // Edges under 30 degrees.
+  EXPECT_NEAR(
+      sizeOf({{50, 0, 0}, {70, 0, 0}, {50 * std::sqrt(0.75), 25, 0}, {70 * std::sqrt(0.75), 35, 0}}, {y, y, x, x}),
+      0.45 * 20 * 0.5, 1e-9);
+  EXPECT_GT(sizeOf({{1, 2, 3}}, {x}), 1e6);
 }
 
 }  // namespace

@@ -43,6 +43,13 @@ TEST(Survive, FollowsWhatIsMeasured) {
   EXPECT_EQ(closed.symmetric, 1) << survivalText(closed);
 }
 
+/// Where the face is higher than believed, the control goes up first and then across; where it is lower, it does not.
+TEST(Survive, ProvesBoxesInWhichAMoveComesAndGoes) {
+  const Survival survival = survivalOf(plateSetup(), klartext(presetOnTop + inspectBore),
+                                       {"part.pose.z=-500.12..-499.97"}, {.samples = 4, .boxes = 1});
+  EXPECT_EQ(survival.proven, 1) << survivalText(survival);
+}
+
 TEST(Survive, NamesTheBlockThatFails) {
   const Survival survival = survivalOf(plateSetup(), klartext(inspectBore), {"part.pose.x=20"});
   EXPECT_GT(survival.failed, 0U);
