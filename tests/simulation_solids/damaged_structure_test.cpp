@@ -2,8 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "simulation/cad_solid.hpp"
-#include "worlds.hpp"
+#include "meant.hpp"
 #include "written_step.hpp"
 
 /// One wrong letter in what is no shape itself, but says how large shapes are and where they stand.
@@ -12,17 +11,6 @@ namespace {
 
 using namespace testing;
 using ::testing::HasSubstr;
-
-/// What is said of a file; empty if it is read in silence.
-std::string saidOf(const std::string& text) {
-  const ScratchFolder folder;
-  const auto solid = readStep(folder.write("part.step", text));
-  if (!solid) return format(solid.error());
-  std::string all;
-  for (const Diagnostic& remark : dynamic_cast<const CadSolid&>(**solid).remarks())
-    all += format(remark) + "\n";
-  return all;
-}
 
 /// With the letter at `offset` in the last `word` of the text put wrong.
 std::string damaged(std::string text, const std::string& word, std::size_t offset) {
@@ -36,8 +24,7 @@ Meridian pin() { return {{{0, -10}, {8, -10}, {8, 10}, {0, 10}}}; }
 
 int bodyOf(StepFile& file, const Pose& pose) {
   const std::vector<int> faces = revolvedFaces(file, pin(), pose, {});
-  const int shell = file.add(fmt::format("CLOSED_SHELL('',({}))", listOf(faces)));
-  return file.add(fmt::format("MANIFOLD_SOLID_BREP('',#{})", shell));
+  return file.solid(faces);
 }
 
 TEST(DamagedStructure, OfUnitsIsNamed) {
@@ -64,17 +51,8 @@ std::string assembly() {
   const int partShape = file.represent(part, {origin, body}, "ADVANCED_BREP_SHAPE_REPRESENTATION");
   const int here = file.axes(Pose(translation({30, 0, 0}))), there = file.axes(Pose(translation({0, 50, 0})));
   const int wholeShape = file.represent(whole, {origin, here, there});
-  for (const int place : {here, there}) {
-    const int occurrence =
-        file.add(fmt::format("NEXT_ASSEMBLY_USAGE_OCCURRENCE('{0}','','',#{1},#{2},$)", place, whole, part));
-    const int definition = file.add(fmt::format("PRODUCT_DEFINITION_SHAPE('','',#{})", occurrence));
-    const int transform = file.add(fmt::format("ITEM_DEFINED_TRANSFORMATION('','',#{},#{})", origin, place));
-    const int relation = file.add(
-        fmt::format("(REPRESENTATION_RELATIONSHIP('','',#{},#{})REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#{})"
-                    "SHAPE_REPRESENTATION_RELATIONSHIP())",
-                    partShape, wholeShape, transform));
-    file.add(fmt::format("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(#{},#{})", relation, definition));
-  }
+  for (const int place : {here, there})
+    file.put({part, partShape, origin}, {whole, wholeShape, origin}, place);
   return file.text();
 }
 

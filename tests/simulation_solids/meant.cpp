@@ -1,6 +1,10 @@
 #include "meant.hpp"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
+
+#include "simulation/cad_solid.hpp"
 
 namespace probewright::simulation::testing {
 
@@ -78,6 +82,24 @@ void expectAsMeant(const std::string& name, const Solid& solid, const Distance& 
                   << radius << ": ends after " << way << ", should after " << expected.value_or(-1);
   }
   EXPECT_GT(contacts, ways / 10) << name;
+}
+
+void expectStepAsMeant(const std::string& name, const std::string& text, const Distance& distance, double size,
+                       const Vector3& middle, std::mt19937_64& random, int ways) {
+  const ScratchFolder folder;
+  const auto solid = readStep(folder.write("part.step", text));
+  ASSERT_TRUE(solid) << name << ": " << format(solid.error());
+  expectAsMeant(name, **solid, distance, size, middle, random, ways);
+}
+
+std::string saidOf(const std::string& text) {
+  const ScratchFolder folder;
+  const auto solid = readStep(folder.write("part.step", text));
+  if (!solid) return format(solid.error());
+  std::string all;
+  for (const Diagnostic& remark : dynamic_cast<const CadSolid&>(**solid).remarks())
+    all += format(remark) + "\n";
+  return all;
 }
 
 }  // namespace probewright::simulation::testing

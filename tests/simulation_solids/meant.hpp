@@ -24,5 +24,11 @@ Distance distanceOfShell(double radius, double z0, double z1, double u0, double 
 /// meant as the ball's radius, and no sooner place on the way nearer.
 void expectAsMeant(const std::string& name, const Solid& solid, const Distance& distance, double size,
                    const Vector3& middle, std::mt19937_64& random, int ways);
+/// The same of a solid in a STEP file.
+void expectStepAsMeant(const std::string& name, const std::string& text, const Distance& distance, double size,
+                       const Vector3& middle, std::mt19937_64& random, int ways);
+
+/// What is said of a STEP file; empty if it is read in silence.
+std::string saidOf(const std::string& text);
 
 }  // namespace probewright::simulation::testing

@@ -109,6 +109,23 @@ int StepFile::represent(int definition, const std::vector<int>& items, const std
   return representation;
 }
 
+int StepFile::solid(const std::vector<int>& faces) {
+  const int shell = add(fmt::format("CLOSED_SHELL('',({}))", listOf(faces)));
+  return add(fmt::format("MANIFOLD_SOLID_BREP('',#{})", shell));
+}
+
+void StepFile::put(const Shape& component, const Shape& assembly, int place) {
+  const int occurrence = add(fmt::format("NEXT_ASSEMBLY_USAGE_OCCURRENCE('{0}','','',#{1},#{2},$)", place,
+                                         assembly.product, component.product));
+  const int definition = add(fmt::format("PRODUCT_DEFINITION_SHAPE('','',#{})", occurrence));
+  const int transform = add(fmt::format("ITEM_DEFINED_TRANSFORMATION('','',#{},#{})", component.origin, place));
+  const int relation =
+      add(fmt::format("(REPRESENTATION_RELATIONSHIP('','',#{},#{})REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#{})"
+                      "SHAPE_REPRESENTATION_RELATIONSHIP())",
+                      component.representation, assembly.representation, transform));
+  add(fmt::format("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(#{},#{})", relation, definition));
+}
+
 std::string StepFile::withItems(const std::vector<int>& items) {
   represent(product("part"), items);
   return text();

@@ -38,6 +38,14 @@ public:
   int product(const std::string& name);
   /// The product's shape are the `items`.
   int represent(int definition, const std::vector<int>& items, const std::string& type = "SHAPE_REPRESENTATION");
+  /// The body that the faces close.
+  int solid(const std::vector<int>& faces);
+  /// A product with its shape, whose coordinates are those of `origin`.
+  struct Shape {
+    int product = 0, representation = 0, origin = 0;
+  };
+  /// Puts the component into the assembly, with its origin at the axes `place`.
+  void put(const Shape& component, const Shape& assembly, int place);
   /// The file with one product of these items.
   std::string withItems(const std::vector<int>& items);
   std::string text() const;
