@@ -22,4 +22,22 @@ private:
   Value before_;
 };
 
+/// Work that is done when this goes, also when a move ends in an alarm. Where a control knows by itself what the
+/// channel is to follow, this hands it over again after something else was followed:
+///
+///     const AtEnd again([&] { control.applyCoordinates(); });
+///     channel.setFollowing(Following::Kinematics, reference);
+///     channel.moveTo(turned, feed);
+template <class Work>
+class AtEnd {
+public:
+  explicit AtEnd(Work work) : work_(std::move(work)) {}
+  ~AtEnd() { work_(); }
+  AtEnd(const AtEnd&) = delete;
+  AtEnd& operator=(const AtEnd&) = delete;
+
+private:
+  Work work_;
+};
+
 }  // namespace probewright::control

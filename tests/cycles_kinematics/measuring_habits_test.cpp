@@ -217,6 +217,27 @@ TEST(Refusals, OfCycle451) {
   EXPECT_EQ(hirth.bench.run(probe(451, words451(hirth.build, 1))).alarm(), "Cycle parameter wrong");
 }
 
+/// The iTNC 530 ends M128 and FUNCTION TCPM with the cycle: C is an axis again then, no angle of the tool, and while it
+/// turns the linear axes stand.
+TEST(ToolGuidance, EndsWithCycle451OnTheOlderControl) {
+  for (const std::string on : {"M128\n", "FUNCTION TCPM F TCP AXIS SPAT PATHCTRL AXIS\n"}) {
+    SphereWorld world(builds()[1], ControlKind::iTNC530);
+    const std::string axes = "FN 18: SYSREAD Q{} = ID240 NR1 IDX{}\n";
+    std::string program = on + probe(451, words451(world.build, 0));
+    for (const int after : {0, 10}) {
+      if (after > 0) program += "L C+20 R0 FMAX\n";
+      for (const int axis : {1, 2, 6})
+        program += fmt::format(fmt::runtime(axes), after + axis, axis);
+    }
+    const Ran ran = world.bench.run(program);
+    ASSERT_TRUE(ended(ran)) << on << ran.why();
+    EXPECT_NEAR(ran.q(16), 20, 1e-6) << on;
+    EXPECT_NE(ran.q(6), ran.q(16));
+    EXPECT_EQ(ran.q(1), ran.q(11)) << on;
+    EXPECT_EQ(ran.q(2), ran.q(12)) << on;
+  }
+}
+
 /// More than maxModification: NC start takes the values over, a stop leaves the kinematics as it is.
 TEST(MaxModification, AsksBeforeItWrites) {
   Dice dice(4524);

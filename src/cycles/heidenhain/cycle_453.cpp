@@ -141,7 +141,7 @@ void run(Context& context, const Arguments&) {
     log.write();
     return;
   }
-  requireMeasurableKinematics(context);
+  beginKinematicsMeasurement(context);
   if (preset == 1 || preset == 3) presetIntoSphere(context);
   SphereSearch search(context, PartInMachine(control.coordinates.machineFromPreset().translation()));
   const std::vector<Deviation> found = measureGrid(context, search, grid);

@@ -49,7 +49,20 @@ void requireRetraction(Context& context, std::size_t axis) {
               "enter a retraction height Q408 above 0");
 }
 
-void requireMeasurableKinematics(Context& context) {
+namespace {
+
+/// The TNC 640 refuses to measure with M128 or FUNCTION TCPM; the iTNC 530 ends them, also for what comes after the
+/// cycle.
+void endToolGuidance(Context& context) {
+  control::Channel& channel = context.channel();
+  if (channel.holdTip && context.control().isTNC640())
+    throw Alarm("TCPM not permitted", "M128 or FUNCTION TCPM is active", "end it with M129 or FUNCTION RESET TCPM");
+  channel.holdTip = false;
+}
+
+}  // namespace
+
+void beginKinematicsMeasurement(Context& context) {
   requireKinematicsOption(context);
   auto& control = context.control();
   control::Channel& channel = control.channel;
@@ -57,10 +70,7 @@ void requireMeasurableKinematics(Context& context) {
     throw Alarm("Tool axis not permitted", "Kinematics are measured with the tool axis Z only",
                 "call the touch probe with TOOL CALL ... Z");
   }
-  if (channel.holdTip && control.isTNC640()) {
-    throw Alarm("TCPM not permitted", "M128 or FUNCTION TCPM is active", "end it with M129 or FUNCTION RESET TCPM");
-  }
-  channel.holdTip = false;
+  endToolGuidance(context);
   if (context.q(408) == 0 && !control.parameters.toolCentreOption) {
     throw Alarm("Cycle parameter wrong", "Without TCPM the probe cannot stay at the sphere while rotary axes move",
                 "enter a retraction height Q408 above 0");
@@ -80,7 +90,7 @@ void requireMeasurableKinematics(Context& context) {
 }
 
 MeasuringPlan measuringPlan(Context& context) {
-  requireMeasurableKinematics(context);
+  beginKinematicsMeasurement(context);
   const auto& control = context.control();
   const machine::MachineDescription& machine = control.channel.description();
   MeasuringPlan plan;

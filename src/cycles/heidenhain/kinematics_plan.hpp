@@ -104,8 +104,8 @@ MeasuringPlan measuringPlan(Context& context);
 
 /// Alarm unless software option 48 is enabled.
 void requireKinematicsOption(Context& context);
-/// What cycles 451 to 453 all ask for before they begin.
-void requireMeasurableKinematics(Context& context);
+/// What cycles 451 to 453 all ask for before they begin, as alarms. On the iTNC 530 M128 and FUNCTION TCPM end here.
+void beginKinematicsMeasurement(Context& context);
 /// Alarm if the rotary axis has a Hirth coupling and Q408 is 0.
 void requireRetraction(Context& context, std::size_t axis);
 

@@ -56,12 +56,10 @@ void positionRotaryAxes(Context& context, const AxisPositions& target, LinearAxe
     if (machine.axes[i].kind == machine::AxisKind::Rotary) turned.rotary[i] = target[i] - channel.rotaryOffset[i];
   }
   const bool holds = linear == LinearAxes::HoldTip;
+  const control::AtEnd again([&] { control.applyCoordinates(); });
   if (holds) channel.setFollowing(Following::Kinematics, channel.rotaryOffset);
-  {
-    const control::Scoped mode(channel.holdTip, holds);
-    channel.moveTo(turned, machine::Feed::at(activeProbe(control).positioningFeed));
-  }
-  control.applyCoordinates();
+  const control::Scoped mode(channel.holdTip, holds);
+  channel.moveTo(turned, machine::Feed::at(activeProbe(control).positioningFeed));
 }
 
 /// The mean of the positions that Q1120 chooses; nothing if none is to be transferred.

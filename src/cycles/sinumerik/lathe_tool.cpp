@@ -26,7 +26,10 @@ constexpr double along = 1e-6;
 }  // namespace
 
 LatheTool::LatheTool(Context& context, ProbeSystem system)
-    : context_(context), suppressedBefore_(context.control().frames.suppressed) {
+    : context_(context),
+      again_(context.control()),
+      suppressed_(context.control().frames.suppressed,
+                  context.control().frames.suppressed || system == ProbeSystem::Machine) {
   Control& control = context.control();
   const control::sinumerik::DataStore& data = control.data;
   const auto edge = toolEdge(data, control.tool.number, control.tool.edge).value_or(control::sinumerik::ToolEdge{});
@@ -61,22 +64,10 @@ LatheTool::LatheTool(Context& context, ProbeSystem system)
                                      type_));
   }
   if (system == ProbeSystem::Workpiece) requireUnturned(context);
-  control.frames.suppressed = suppressedBefore_ || system == ProbeSystem::Machine;
   control.handOverFrames();
   control.channel.setFollowing(control::Following::LinearAxes, control.channel.rotaryOffset);
-  try {
-    turnWithCarrier();
-  } catch (...) {
-    control.frames.suppressed = suppressedBefore_;
-    control.handOverFrames();
-    throw;
-  }
+  turnWithCarrier();
   programFromTool_ = control.channel.frame().linear().inverse() * programFromTool_;
-}
-
-LatheTool::~LatheTool() {
-  context_.control().frames.suppressed = suppressedBefore_;
-  context_.control().handOverFrames();
 }
 
 void LatheTool::requireMultiples(double angle, double step, const char* what) const {

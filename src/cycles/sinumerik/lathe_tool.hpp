@@ -3,7 +3,9 @@
 #include <array>
 #include <optional>
 
+#include "control/scoped.hpp"
 #include "cycles/sinumerik/context.hpp"
+#include "cycles/sinumerik/machine_coordinates.hpp"
 #include "cycles/sinumerik/tool_probe_data.hpp"
 
 /// The tool that CYCLE982 leads to the tool touch probe, and how it stands in
@@ -25,9 +27,6 @@ public:
   /// position), 61329 (angle of the head or of the tool spindle), 61319 (not in
   /// G18 with a tool carrier).
   LatheTool(Context& context, ProbeSystem system);
-  ~LatheTool();
-  LatheTool(const LatheTool&) = delete;
-  LatheTool& operator=(const LatheTool&) = delete;
 
   LatheToolKind kind() const { return kind_; }
   /// A calibrating tool, whose ball reaches every side of the contact.
@@ -63,7 +62,8 @@ private:
   void requireMultiples(double angle, double step, const char* what) const;
 
   Context& context_;
-  bool suppressedBefore_ = false;
+  FramesAgain again_;  // goes last of the two
+  control::Scoped<bool> suppressed_;
   control::WorkingPlane plane_;
   LatheToolKind kind_ = LatheToolKind::Turning;
   int type_ = 0, position_ = 0;

@@ -1,8 +1,21 @@
 #pragma once
 
+#include "control/scoped.hpp"
 #include "control/sinumerik/control.hpp"
 
 namespace probewright::cycles::sinumerik {
+
+/// Hands the control's frames over to the channel again when it goes.
+class FramesAgain {
+public:
+  explicit FramesAgain(control::sinumerik::Control& control) : control_(control) {}
+  ~FramesAgain() { control_.handOverFrames(); }
+  FramesAgain(const FramesAgain&) = delete;
+  FramesAgain& operator=(const FramesAgain&) = delete;
+
+private:
+  control::sinumerik::Control& control_;
+};
 
 /// Machine coordinates while it lives: no frame acts, and where asked for no transformation (TRAORI, CYCLE800) either.
 class MachineCoordinates {
@@ -10,26 +23,16 @@ public:
   enum class Transformation { Kept, Off };
   explicit MachineCoordinates(control::sinumerik::Control& control,
                               Transformation transformation = Transformation::Kept)
-      : control_(control),
-        suppressed_(control.frames.suppressed),
-        swivelled_(control.swivelled),
-        transformation_(control.transformation) {
-    control_.frames.suppressed = true;
-    if (transformation == Transformation::Off) control_.swivelled = control_.transformation = false;
-    control_.handOverFrames();
+      : again_(control),
+        suppressed_(control.frames.suppressed, true),
+        swivelled_(control.swivelled, control.swivelled && transformation == Transformation::Kept),
+        transformation_(control.transformation, control.transformation && transformation == Transformation::Kept) {
+    control.handOverFrames();
   }
-  ~MachineCoordinates() {
-    control_.frames.suppressed = suppressed_;
-    control_.swivelled = swivelled_;
-    control_.transformation = transformation_;
-    control_.handOverFrames();
-  }
-  MachineCoordinates(const MachineCoordinates&) = delete;
-  MachineCoordinates& operator=(const MachineCoordinates&) = delete;
 
 private:
-  control::sinumerik::Control& control_;
-  bool suppressed_, swivelled_, transformation_;
+  FramesAgain again_;  // goes last
+  control::Scoped<bool> suppressed_, swivelled_, transformation_;
 };
 
 }  // namespace probewright::cycles::sinumerik

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "control/scoped.hpp"
 #include "execution/klartext/run_context.hpp"
 
 namespace probewright::execution::klartext {
@@ -34,14 +35,17 @@ public:
   void turnToVector(WordRange words, RotaryTarget& rotary, Evaluation& evaluation);
   void moveTurning(const control::Target& target, control::Feed feed);
 
-  /// Cycles place the tip, whatever FUNCTION TCPM says; calls `work` so.
+  /// Cycles place the tip, whatever FUNCTION TCPM says; calls `work` so. What it ends, M128 or FUNCTION TCPM, is over.
   template <class Work>
   void withTip(Work work) {
-    const ReferencePoint point = std::exchange(referencePoint_, ReferencePoint::TipTip);
-    placeControlledPoint();
-    work();
-    referencePoint_ = point;
-    placeControlledPoint();
+    const bool held = control_.channel.holdTip;
+    {
+      const control::AtEnd placed([this] { placeControlledPoint(); });
+      const control::Scoped point(referencePoint_, ReferencePoint::TipTip);
+      placeControlledPoint();
+      work();
+    }
+    if (held && !control_.channel.holdTip) setHoldTip(false);
   }
 
 private:

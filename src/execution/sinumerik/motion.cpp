@@ -7,6 +7,7 @@
 #include <span>
 
 #include "control/alarm.hpp"
+#include "control/scoped.hpp"
 #include "control/sinumerik/text.hpp"
 #include "execution/motion/plane_curve.hpp"
 #include "execution/sinumerik/spindle_speed.hpp"
@@ -186,19 +187,14 @@ void PathMotion::setCompensation(RadiusCompensation compensation) {
 /// SUPA, G153: no frame at all; G53: base frames stay.
 void PathMotion::moveWithoutFrames(const Move& move, Evaluation& evaluation) {
   control::Channel& channel = control_.channel;
+  const control::AtEnd again([this] { control_.handOverFrames(); });
   channel.rotaryOffset = {};
   channel.setFollowing(control::Following::LinearAxes, {});
   const bool baseStays = evaluation.at(move.variant) == "G53";
   channel.setFrame(baseStays ? control_.machineFromBase() : Eigen::Affine3d::Identity());
-  try {
-    const Words words = read(move.words, evaluation);
-    const bool rapid = state_.group1 == MoveKind::Rapid;
-    travel(words.target, feed(rapid ? MoveKind::Rapid : MoveKind::Linear, start(), endOf(words)));
-  } catch (...) {
-    control_.handOverFrames();
-    throw;
-  }
-  control_.handOverFrames();
+  const Words words = read(move.words, evaluation);
+  const bool rapid = state_.group1 == MoveKind::Rapid;
+  travel(words.target, feed(rapid ? MoveKind::Rapid : MoveKind::Linear, start(), endOf(words)));
 }
 
 void PathMotion::position(const std::string& axis, WordMode mode, double value) {
