@@ -25,7 +25,7 @@ void convertOnce(const std::string& text, ProgramLanguage from, ProgramLanguage 
   const ControlKind reads = from == ProgramLanguage::Sinumerik ? ControlKind::Sinumerik840Dsl : ControlKind::TNC640;
   if (hasErrors(session::checkProgram(*program, reads))) return;
   const conversion::Conversion written =
-      conversion::convert(*program, from, to, {.globalData = nullptr, .control = control});
+      conversion::convert(*program, from, to, {.globalData = {}, .control = control});
   if (hasErrors(written.mistakes)) return;
   for (const Diagnostic& each : written.notCarriedOver)
     if (each.message.empty()) std::abort();

@@ -70,7 +70,7 @@ int convert(const ConvertArguments& arguments) {
                    {arguments.input.string(), 0, 0},
                    "neither the file extension nor the text shows the language of this program",
                    {},
-                   "give it an extension: .H, .I or .MPF",
+                   fmt::format("give it an extension: {}", session::endingsOf(families)),
                    {}});
   }
   const auto to = session::languageOf(arguments.output, {});
@@ -79,10 +79,10 @@ int convert(const ConvertArguments& arguments) {
                    {arguments.output.string(), 0, 0},
                    "the file extension does not show the language to convert to",
                    {},
-                   "end the name with .H for Klartext, .I for DIN/ISO or .MPF for a SINUMERIK",
+                   fmt::format("end the name with {}", session::endingsWithLanguages(families)),
                    {}});
   }
-  if (!arguments.toolCycles.empty() && *to != session::ProgramLanguage::Klartext) {
+  if (!arguments.toolCycles.empty() && !conversion::hasToolCycleForms(*to)) {
     return refuse({Severity::Error,
                    {arguments.output.string(), 0, 0},
                    fmt::format("{} has one form of the tool measuring cycles", families.entry(*to).name),
@@ -95,7 +95,7 @@ int convert(const ConvertArguments& arguments) {
                    {arguments.input.string(), 0, 0},
                    fmt::format("the program is one of {} already", families.entry(*from).name),
                    {},
-                   "name a file with the extension of another language: .H, .I or .MPF",
+                   fmt::format("name a file with the extension of another language: {}", session::endingsOf(families)),
                    {}});
   }
   if (const auto objection = objectionTo(arguments)) return refuse(*objection);
@@ -108,9 +108,8 @@ int convert(const ConvertArguments& arguments) {
       return 2;
     }
   }
-  conversion::GlobalData globalData;
-  if (*from == session::ProgramLanguage::Sinumerik)
-    globalData = session::globalDataFor(arguments.input, setup ? &setup->beliefs : nullptr, found);
+  conversion::ConvertOptions options =
+      session::convertOptions(arguments.input, *from, setup ? &setup->beliefs : nullptr, found);
   print(found);
   if (hasErrors(found)) return 2;
   if (arguments.control && !families.speaks(*arguments.control, *to)) {
@@ -124,21 +123,21 @@ int convert(const ConvertArguments& arguments) {
   const auto program = session::openProgram(arguments.input, *text, *from);
   if (!program) return refuse(program.error());
   const language::Encoding encoding = language::detectEncoding(*text);
-  const Diagnostics mistakes =
-      session::mistakesOf(**program, arguments.input, *from, setup ? &setup->beliefs : nullptr);
+  Diagnostics mistakes = session::mistakesOf(**program, arguments.input, *from, setup ? &setup->beliefs : nullptr);
   if (hasErrors(mistakes)) {
+    std::erase_if(mistakes, [&](const Diagnostic& each) {  // what has been said
+      return std::ranges::any_of(found, [&](const Diagnostic& said) { return format(said) == format(each); });
+    });
     print(mistakes, encoding);
     if (const auto note = session::otherLanguage(arguments.input, *text)) print({*note});
     return 2;
   }
   const conversion::Job job = session::jobOf(arguments.input, *from);
-  const conversion::Conversion conversion =
-      conversion::convert(**program, *from, *to,
-                          {.globalData = &globalData,
-                           .control = arguments.control.value_or(control::ControlKind::TNC640),
-                           .job = &job,
-                           .probe = {.setUp = arguments.setUp, .travel = arguments.dist},
-                           .toolCycles = formOf(arguments.toolCycles)});
+  options.control = arguments.control.value_or(families.of(*to).controls.front().kind);
+  options.job = &job;
+  options.probe = {.setUp = arguments.setUp, .travel = arguments.dist};
+  options.toolCycles = formOf(arguments.toolCycles);
+  const conversion::Conversion conversion = conversion::convert(**program, *from, *to, options);
   if (hasErrors(conversion.mistakes)) {
     print(conversion.mistakes, encoding);
     return 2;

@@ -12,9 +12,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "cycle_search.hpp"
-#include "cycle_template.hpp"
 #include "cycles/catalogue.hpp"
-#include "cycles/sinumerik/circle_through_points.hpp"
 #include "records/results.hpp"
 #include "session/control_family.hpp"
 #include "terminal.hpp"
@@ -257,9 +255,8 @@ int cycles(const CyclesArguments& arguments) {
     } else if (!named) {
       say("{}", row(*cycle, language));
     } else if (arguments.asTemplate) {
-      say("{}",
-          cycleTemplate(*cycle, controls[static_cast<std::size_t>(std::ranges::find(known, cycle) - known.begin())],
-                        language));
+      const ControlKind kind = controls[static_cast<std::size_t>(std::ranges::find(known, cycle) - known.begin())];
+      say("{}", session::knownFamilies().of(kind).cycleTemplate(*cycle, kind, language));
     } else {
       show(*cycle, language);
     }

@@ -5,6 +5,7 @@
 
 #include "commands.hpp"
 #include "options.hpp"
+#include "session/source.hpp"
 #include "subcommands.hpp"
 
 namespace probewright::app {
@@ -50,11 +51,14 @@ Subcommand addCycles(CLI::App& app) {
 Subcommand addConvert(CLI::App& app) {
   const auto arguments = std::make_shared<ConvertArguments>();
   CLI::App* convert = app.add_subcommand(
-      "convert", "Write a program in another language: Klartext (.H), DIN/ISO (.I), SINUMERIK (.MPF)");
+      "convert", fmt::format("Write a program in another language: {}", session::endingsWithLanguages()));
   convert->add_option("IN", arguments->input, "The program")->required();
   convert->add_option("OUT", arguments->output, "The file to write; its extension names the language")->required();
   addControl(*convert, arguments->control);
-  convert->get_option("--control")->description("The control to write for: TNC640 (default), iTNC530, 840Dsl, 828D");
+  convert->get_option("--control")
+      ->description(
+          fmt::format("The control to write for: {}; without it the first of them that reads the language of OUT",
+                      fmt::join(session::knownFamilies().controlNames(), ", ")));
   convert
       ->add_option("--setup", arguments->setup,
                    "The setup of the control that a SINUMERIK program is for: its folder of tables has the definition "

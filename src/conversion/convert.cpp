@@ -2,13 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <iterator>
+#include <memory>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "base/text.hpp"
 #include "conversion/dialects.hpp"
 #include "language/klartext/check.hpp"
 #include "language/klartext/heidenhain_program.hpp"
-#include "language/sinumerik/check.hpp"
 
 namespace probewright::conversion {
 
@@ -35,15 +39,12 @@ void placeInOriginal(Diagnostic& message, language::Program& program, const std:
   message.excerpt = trimmedAtEnd(source.substr(0, source.find('\n')), lineBlanks);
 }
 
-/// Checks what was written as its control would: a mistake in it is named.
+/// Checks what was written for a HEIDENHAIN control as this would: a mistake in it is named.
 void readBack(Conversion& conversion, const language::Program& original, ProgramLanguage language,
               control::ControlKind control) {
   if (hasErrors(conversion.mistakes)) return;
   const auto written = programFromText(original.file(), conversion.text, language);
-  const Diagnostics mistakes =
-      language == ProgramLanguage::Sinumerik
-          ? language::sinumerik::check(dynamic_cast<language::sinumerik::SinumerikProgram&>(*written))
-          : language::klartext::checkProgram(dynamic_cast<HeidenhainProgram&>(*written), control);
+  const Diagnostics mistakes = language::klartext::checkProgram(dynamic_cast<HeidenhainProgram&>(*written), control);
   for (const Diagnostic& each : mistakes) {
     if (each.severity != Severity::Error) continue;
     conversion.notCarriedOver.push_back({Severity::Warning,
@@ -56,46 +57,90 @@ void readBack(Conversion& conversion, const language::Program& original, Program
   }
 }
 
+Conversion betweenOwn(language::Program& program, ProgramLanguage from, ProgramLanguage to,
+                      const ConvertOptions& options) {
+  Conversion conversion = betweenDialects(dynamic_cast<HeidenhainProgram&>(program), from, to, options.toolCycles);
+  // A program may have parameters that the older control does not know.
+  if (options.control == control::ControlKind::iTNC530) readBack(conversion, program, to, options.control);
+  return conversion;
+}
+
+Conversion klartextToSinumerik(language::Program& program, ProgramLanguage, ProgramLanguage,
+                               const ConvertOptions& options) {
+  return toSinumerik(dynamic_cast<HeidenhainProgram&>(program), options.job, options.probe);
+}
+
+Conversion sinumerikToKlartext(language::Program& program, ProgramLanguage, ProgramLanguage to,
+                               const ConvertOptions& options) {
+  Conversion conversion = toKlartext(dynamic_cast<language::sinumerik::SinumerikProgram&>(program),
+                                     options.globalData.get(), options.control, options.job, options.probe);
+  if (options.toolCycles == ToolCycles::Old && !hasErrors(conversion.mistakes)) {
+    const auto written = programFromText(program.file(), conversion.text, to);
+    conversion.text = betweenDialects(dynamic_cast<HeidenhainProgram&>(*written), to, to, options.toolCycles).text;
+  }
+  readBack(conversion, program, to, options.control);
+  return conversion;
+}
+
+/// A way from one language into another that needs none between.
+struct Way {
+  ProgramLanguage from, to;
+  Conversion (*convert)(language::Program& program, ProgramLanguage from, ProgramLanguage to,
+                        const ConvertOptions& options);
+};
+
+constexpr auto klartext = ProgramLanguage::Klartext, dinIso = ProgramLanguage::DinIso,
+               sinumerik = ProgramLanguage::Sinumerik;
+/// All of them; where two languages have none, others may lead from the one to the other.
+constexpr std::array ways = {Way{klartext, klartext, betweenOwn},
+                             Way{klartext, dinIso, betweenOwn},
+                             Way{dinIso, klartext, betweenOwn},
+                             Way{dinIso, dinIso, betweenOwn},
+                             Way{klartext, sinumerik, klartextToSinumerik},
+                             Way{sinumerik, klartext, sinumerikToKlartext}};
+
+/// The shortest way over others; empty if there is none. A language becomes itself only by a way of its own.
+std::vector<const Way*> wayOver(ProgramLanguage from, ProgramLanguage to) {
+  std::vector<std::vector<const Way*>> begun = {{}};
+  std::set<ProgramLanguage> reached = {from};
+  for (std::size_t i = 0; i < begun.size(); ++i) {
+    const ProgramLanguage here = begun[i].empty() ? from : begun[i].back()->to;
+    for (const Way& next : ways) {
+      if (next.from != here) continue;
+      std::vector<const Way*> longer = begun[i];
+      longer.push_back(&next);
+      if (next.to == to && (from != to || longer.size() == 1)) return longer;
+      if (reached.insert(next.to).second) begun.push_back(std::move(longer));
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
-bool convertible(ProgramLanguage from, ProgramLanguage to) {
-  return from != ProgramLanguage::Sinumerik || to != ProgramLanguage::Sinumerik;
-}
+bool convertible(ProgramLanguage from, ProgramLanguage to) { return !wayOver(from, to).empty(); }
+
+bool hasToolCycleForms(ProgramLanguage language) { return language == klartext; }
 
 Conversion convert(language::Program& program, ProgramLanguage from, ProgramLanguage to,
                    const ConvertOptions& options) {
-  const bool vendors = from == ProgramLanguage::Sinumerik || to == ProgramLanguage::Sinumerik;
-  if (!vendors) {
-    Conversion conversion = betweenDialects(dynamic_cast<HeidenhainProgram&>(program), from, to, options.toolCycles);
-    // A program may have parameters that the older control does not know.
-    if (options.control == control::ControlKind::iTNC530) readBack(conversion, program, to, options.control);
-    return conversion;
-  }
-  const auto between = [&](ProgramLanguage first, ProgramLanguage second, ProgramLanguage last) {
-    Conversion begun = convert(program, first, second, options);
-    if (hasErrors(begun.mistakes)) return begun;
-    const auto halfway = programFromText(program.file(), begun.text, second);
-    Conversion ended = convert(*halfway, second, last, options);
-    for (Diagnostic& each : ended.notCarriedOver) {
-      placeInOriginal(each, program, begun.origins);
-      begun.notCarriedOver.push_back(std::move(each));
+  Conversion conversion;
+  std::shared_ptr<language::Program> halfway;
+  for (const Way* way : wayOver(from, to)) {
+    language::Program& read = halfway ? *halfway : program;
+    Conversion next = way->convert(read, way->from, way->to, options);
+    if (halfway) {
+      for (Diagnostic& each : next.notCarriedOver)
+        placeInOriginal(each, program, conversion.origins);
+      next.notCarriedOver.insert(next.notCarriedOver.begin(),
+                                 std::make_move_iterator(conversion.notCarriedOver.begin()),
+                                 std::make_move_iterator(conversion.notCarriedOver.end()));
     }
-    ended.notCarriedOver = std::move(begun.notCarriedOver);
-    return ended;
-  };
-  if (from == ProgramLanguage::Sinumerik && to == ProgramLanguage::Klartext) {
-    Conversion conversion = toKlartext(dynamic_cast<language::sinumerik::SinumerikProgram&>(program),
-                                       options.globalData, options.control, options.job, options.probe);
-    if (options.toolCycles == ToolCycles::Old && !hasErrors(conversion.mistakes)) {
-      const auto written = programFromText(program.file(), conversion.text, to);
-      conversion.text = betweenDialects(dynamic_cast<HeidenhainProgram&>(*written), to, to, options.toolCycles).text;
-    }
-    readBack(conversion, program, to, options.control);
-    return conversion;
+    conversion = std::move(next);
+    if (hasErrors(conversion.mistakes)) break;
+    halfway = programFromText(program.file(), conversion.text, way->to);
   }
-  if (from == ProgramLanguage::Klartext)
-    return toSinumerik(dynamic_cast<HeidenhainProgram&>(program), options.job, options.probe);
-  return between(from, ProgramLanguage::Klartext, to);
+  return conversion;
 }
 
 }  // namespace probewright::conversion

@@ -1,17 +1,22 @@
 #pragma once
 
+#include <memory>
+
 #include "conversion/conversion.hpp"
 #include "conversion/tool_cycle_forms.hpp"
 #include "language/program_language.hpp"
 
 namespace probewright::conversion {
 
-/// True if programs can be converted from one of the languages into the other.
+/// True if programs can be converted from one of the languages into the other, be it over a third one.
 bool convertible(language::ProgramLanguage from, language::ProgramLanguage to);
+
+/// True if ConvertOptions::toolCycles says something to programs that are written in the language.
+bool hasToolCycleForms(language::ProgramLanguage language);
 
 struct ConvertOptions {
   /// What a SINUMERIK program may use without defining it; null if nothing is known of its control.
-  const GlobalData* globalData = nullptr;
+  std::shared_ptr<const GlobalData> globalData = {};
   /// The HEIDENHAIN control to write for.
   control::ControlKind control = control::ControlKind::TNC640;
   /// The programs that call each other with this one (session::jobOf); null if none are known.

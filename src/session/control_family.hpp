@@ -22,6 +22,10 @@
 
 /// Everything that makes one vendor's controls different from another's, as one entry of a table. Whatever a family is
 /// asked for beyond that, it answers like all others; nothing outside of its entry asks which family a control is of.
+namespace probewright::conversion {
+struct ConvertOptions;
+}
+
 namespace probewright::session {
 
 class HostFiles;
@@ -110,6 +114,13 @@ struct ControlFamily {
   /// What a control with these beliefs has; mistakes in its tables go to `diagnostics`. Null: nothing is compared.
   Inventory (*inventory)(const control::Beliefs& beliefs, control::ControlKind control,
                          Diagnostics& diagnostics) = nullptr;
+  /// A call of the cycle to paste into a program and to fill in. Texts of the control in `language`.
+  std::string (*cycleTemplate)(const cycles::CycleDefinition& cycle, control::ControlKind control,
+                               control::DialogLanguage language) = nullptr;
+  /// Tells a conversion what else the program in that file knows of its control: of files beside it and of the beliefs
+  /// (null: none are known). Null: programs say all by themselves.
+  void (*tellConversion)(const std::filesystem::path& path, const control::Beliefs* beliefs,
+                         conversion::ConvertOptions& options, Diagnostics& diagnostics) = nullptr;
   /// Reads the whole program for mistakes, which go to `diagnostics`. What comes back makes tables of the beliefs, runs
   /// the program with the family's interpreter host and leaves tables, logs and journal in the outcome.
   RunOn (*prepare)(const RunRequest& request, Diagnostics& diagnostics) = nullptr;

@@ -1,6 +1,7 @@
 #include "session/run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -99,8 +100,12 @@ void prepare(PreparedProgram& prepared, const std::shared_ptr<language::Program>
         {Severity::Error, {prepared.path.string(), 0, 0}, std::move(message), {}, std::move(advice), {}});
   };
   if (!family.hasProgramModes && (options.mode != ProgramMode::Normal || options.searchLine)) {
-    return refuse("dry run, program test and block search are modes of SINUMERIK controls",
-                  "leave them out for this program");
+    std::vector<std::string_view> having;
+    for (const ControlFamily& each : familiesOf(options).all())
+      if (each.hasProgramModes) having.push_back(each.name);
+    return refuse(
+        fmt::format("dry run, program test and block search are modes of {} controls", fmt::join(having, " and ")),
+        "leave them out for this program");
   }
   if (std::ranges::find(family.dialogLanguages, options.language) == family.dialogLanguages.end()) {
     return refuse(fmt::format("{} controls have no dialog language {}", family.name, control::code(options.language)),

@@ -1,7 +1,7 @@
 #include "session/run_parts.hpp"
 
+#include "base/text.hpp"
 #include "control/alarm.hpp"
-#include "control/sinumerik/text.hpp"
 #include "session/trace_recorder.hpp"
 
 namespace probewright::session {
@@ -12,7 +12,7 @@ namespace {
 std::function<std::optional<Diagnostic>(const std::string&)> fileRule(std::set<std::string> tables,
                                                                       const RunOptions& options) {
   return [tables = std::move(tables), &options](const std::string& name) -> std::optional<Diagnostic> {
-    const std::string upper = control::sinumerik::upperCase(name);
+    const std::string upper = upperCase(name);
     if (tables.contains(upper) || upper == "RESULTS.JSON" || upper == "REPORT.HTML" ||
         upper.starts_with(".PROBEWRIGHT")) {
       return Diagnostic{Severity::Error,        {}, "it is one of the files that every run leaves", {},

@@ -103,6 +103,20 @@ std::optional<Diagnostic> otherLanguage(const std::filesystem::path& path, std::
                     {}};
 }
 
+std::string endingsOf(const ControlFamilies& families) {
+  std::vector<std::string_view> endings;
+  forEachLanguage(families, [&](const LanguageEntry& entry) { endings.push_back(entry.endings.front()); });
+  return anyOf(endings);
+}
+
+std::string endingsWithLanguages(const ControlFamilies& families) {
+  std::vector<std::string> endings;
+  forEachLanguage(families, [&](const LanguageEntry& entry) {
+    endings.push_back(fmt::format("{} for {}", entry.endings.front(), entry.whose));
+  });
+  return anyOf(endings);
+}
+
 ProgramLanguage languageFor(ControlKind kind, const std::filesystem::path& path, std::string_view text,
                             const ControlFamilies& families) {
   const std::optional<ProgramLanguage> told = languageOf(path, text, families);

@@ -35,6 +35,11 @@ Result<control::ControlKind> controlFor(const std::filesystem::path& path, std::
                                         std::optional<control::ControlKind> believed,
                                         const ControlFamilies& families = knownFamilies());
 
+/// ".H, .I or .MPF": an ending for each language.
+std::string endingsOf(const ControlFamilies& families = knownFamilies());
+/// ".H for Klartext, .I for DIN/ISO or .MPF for a SINUMERIK".
+std::string endingsWithLanguages(const ControlFamilies& families = knownFamilies());
+
 /// The program in the file at `path`, whose whole text is `text`.
 Result<std::shared_ptr<language::Program>> openProgram(const std::filesystem::path& path, std::string_view text,
                                                        ProgramLanguage language,

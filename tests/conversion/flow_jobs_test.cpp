@@ -62,13 +62,12 @@ std::optional<Files> converted(const JobFolder& folder, const Files& files, Prog
     const auto program = session::openProgram(path, text, from);
     EXPECT_TRUE(program);
     Diagnostics diagnostics;
-    const auto data = from == ProgramLanguage::Sinumerik ? session::globalDataFor(path, nullptr, diagnostics)
-                                                         : conversion::GlobalData();
+    conversion::ConvertOptions options = session::convertOptions(path, from, nullptr, diagnostics);
     const Diagnostics mistakes = session::mistakesOf(**program, path, from);
     EXPECT_FALSE(hasErrors(mistakes)) << format(mistakes.front()) << text;
     const conversion::Job job = session::jobOf(path, from);
-    const conversion::Conversion conversion =
-        conversion::convert(**program, from, to, {.globalData = &data, .job = &job});
+    options.job = &job;
+    const conversion::Conversion conversion = conversion::convert(**program, from, to, options);
     EXPECT_FALSE(hasErrors(conversion.mistakes)) << text;
     for (const Diagnostic& each : conversion.notCarriedOver)
       if (isLoss(each)) return std::nullopt;

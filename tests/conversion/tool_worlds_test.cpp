@@ -203,7 +203,7 @@ TEST(ToolConversion, OldAndNewFormsMeasureTheSameTool) {
     const auto into = [&](const std::string& program, ProgramLanguage from, ProgramLanguage to,
                           conversion::ToolCycles form) {
       const auto read = session::programOf(from == ProgramLanguage::DinIso ? "BENCH.I" : "BENCH.H", program, from);
-      const auto conversion = conversion::convert(*read, from, to, {.globalData = nullptr, .toolCycles = form});
+      const auto conversion = conversion::convert(*read, from, to, {.globalData = {}, .toolCycles = form});
       EXPECT_TRUE(conversion.notCarriedOver.empty() && conversion.mistakes.empty()) << conversion.text;
       return conversion.text;
     };
@@ -228,7 +228,7 @@ TEST(ToolConversion, OldFormsComeOfCycle971Too) {
       session::programOf("A.MPF", "G17 G54 G90 G710\nT12\nM6 D1\nG0 Z150\nCYCLE971(2,0,1,3,0,0,15,15,,0,0,1)\nM30\n",
                          ProgramLanguage::Sinumerik);
   const auto conversion = conversion::convert(*program, ProgramLanguage::Sinumerik, ProgramLanguage::Klartext,
-                                              {.globalData = nullptr, .toolCycles = conversion::ToolCycles::Old});
+                                              {.globalData = {}, .toolCycles = conversion::ToolCycles::Old});
   EXPECT_TRUE(conversion.notCarriedOver.empty());
   EXPECT_NE(conversion.text.find("TCH PROBE 31.3"), std::string::npos) << conversion.text;
 }
@@ -243,7 +243,7 @@ TEST(ToolConversion, NewFormsStayWhereTheOldOneCannotSayIt) {
                                               cycle + "9 END PGM A MM\n",
                                           ProgramLanguage::Klartext);
   const auto conversion = conversion::convert(*program, ProgramLanguage::Klartext, ProgramLanguage::Klartext,
-                                              {.globalData = nullptr, .toolCycles = conversion::ToolCycles::Old});
+                                              {.globalData = {}, .toolCycles = conversion::ToolCycles::Old});
   ASSERT_EQ(conversion.notCarriedOver.size(), 1U);
   EXPECT_NE(conversion.notCarriedOver.front().message.find("GLOBAL DEF"), std::string::npos);
   EXPECT_NE(conversion.text.find("TCH PROBE 481"), std::string::npos) << conversion.text;
@@ -282,7 +282,7 @@ TEST(ToolConversion, NamesWhatTheOlderControlRefuses) {
                                           ProgramLanguage::Klartext);
   const auto listed = [&](ControlKind control) {
     return conversion::convert(*program, ProgramLanguage::Klartext, ProgramLanguage::Klartext,
-                               {.globalData = nullptr, .control = control})
+                               {.globalData = {}, .control = control})
         .notCarriedOver.size();
   };
   EXPECT_EQ(listed(ControlKind::TNC640), 0U);

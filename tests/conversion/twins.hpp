@@ -25,7 +25,7 @@ inline conversion::Conversion converted(const std::string& text, ProgramLanguage
                                         const conversion::TouchProbe& probe = {}) {
   const auto program = session::programOf(from == ProgramLanguage::Sinumerik ? "BENCH.MPF" : "BENCH.H", text, from);
   return conversion::convert(*program, from, otherLanguage(from),
-                             {.globalData = nullptr, .control = control, .probe = probe});
+                             {.globalData = {}, .control = control, .probe = probe});
 }
 inline conversion::Conversion toSinumerik(const std::string& text) {
   return converted(text, ProgramLanguage::Klartext);

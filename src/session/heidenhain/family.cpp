@@ -116,6 +116,7 @@ ControlFamily heidenhainFamily() {
   family.cycles = cycles::cyclesOf;
   family.check = checkHeidenhain;
   family.inventory = inventoryOf;
+  family.cycleTemplate = klartextTemplate;
   family.prepare = prepareHeidenhain;
   return family;
 }

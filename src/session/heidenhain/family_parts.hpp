@@ -6,6 +6,9 @@
 namespace probewright::session {
 
 Diagnostics checkHeidenhain(const CheckRequest& request);
+/// Klartext, with the text of the control after each parameter.
+std::string klartextTemplate(const cycles::CycleDefinition& cycle, control::ControlKind control,
+                             control::DialogLanguage language);
 RunOn prepareHeidenhain(const RunRequest& request, Diagnostics& diagnostics);
 
 }  // namespace probewright::session

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "control/sinumerik/tool_data.hpp"
+#include "conversion/convert.hpp"
 #include "cycles/sinumerik/circle_through_points.hpp"
 #include "cycles/sinumerik/rotation_offset.hpp"
 #include "execution/sinumerik/global_data.hpp"
@@ -102,6 +103,15 @@ Inventory inventoryOf(const control::Beliefs& beliefs, ControlKind, Diagnostics&
   return inventory;
 }
 
+void tellConversion(const std::filesystem::path& path, const control::Beliefs* beliefs,
+                    conversion::ConvertOptions& options, Diagnostics& diagnostics) {
+  const auto declared =
+      globalUserData(path, beliefs == nullptr ? std::filesystem::path() : beliefs->tables, diagnostics);
+  options.globalData = std::make_shared<const conversion::GlobalData>(
+      beliefs == nullptr ? declared.variables({}, diagnostics)
+                         : declared.variables(sinumerikData(*beliefs, diagnostics).store, diagnostics));
+}
+
 }  // namespace
 
 ControlFamily sinumerikFamily() {
@@ -127,6 +137,8 @@ ControlFamily sinumerikFamily() {
   family.cycles = cyclesOf;
   family.check = check;
   family.inventory = inventoryOf;
+  family.cycleTemplate = sinumerikTemplate;
+  family.tellConversion = tellConversion;
   family.prepare = prepareSinumerik;
   return family;
 }

@@ -11,6 +11,9 @@ namespace probewright::session {
 
 /// `globalData`: what definition files declare.
 Diagnostics checkSinumerik(const CheckRequest& request, const execution::sinumerik::GlobalUserData& globalData);
+/// With a comment line for each argument.
+std::string sinumerikTemplate(const cycles::CycleDefinition& cycle, control::ControlKind control,
+                              control::DialogLanguage language);
 RunOn prepareSinumerik(const RunRequest& request, Diagnostics& diagnostics);
 
 /// Tells a SINUMERIK program the macros of definition files.

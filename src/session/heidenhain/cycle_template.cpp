@@ -1,5 +1,3 @@
-#include "cycle_template.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,8 +6,10 @@
 #include "base/number_text.hpp"
 #include "base/text.hpp"
 #include "conversion/parameter_texts.hpp"
+#include "session/first_value.hpp"
+#include "session/heidenhain/family_parts.hpp"
 
-namespace probewright::app {
+namespace probewright::session {
 
 namespace {
 
@@ -45,20 +45,18 @@ constexpr std::array kOldForms = {
     OldForm{9, "TCH PROBE 9.0 CALIBRATE TS LENGTH\nTCH PROBE 9.1 DATUM +50 REFERENCE SYSTEM 0\n"},
 };
 
-double value(const Parameter& parameter) {
-  if (parameter.name == "S_FA") return 10;  // without a way to measure there is no call
-  if (parameter.standard) return *parameter.standard;
-  if (!parameter.choices.empty()) return parameter.choices.front().value;
-  return std::clamp(0.0, parameter.minimum, parameter.maximum);
-}
+}  // namespace
 
-std::string klartext(const CycleDefinition& cycle, control::ControlKind kind, control::DialogLanguage language) {
+std::string klartextTemplate(const CycleDefinition& cycle, control::ControlKind kind,
+                             control::DialogLanguage language) {
+  const auto old = std::ranges::find(kOldForms, cycle.number, &OldForm::cycle);
+  if (old != kOldForms.end()) return old->text;
   std::string text = fmt::format("TCH PROBE {} {}", cycle.number, cycle.title);
   for (const Parameter& parameter : cycle.parameters) {
     if (!parameter.controls.contains(kind)) continue;
     std::string number = "\"\"";
     if (parameter.kind != ValueKind::Text) {
-      const double is = value(parameter);
+      const double is = firstValue(parameter);
       number = (is < 0 ? "" : "+") + formatShortest(is);
     }
     const std::string_view own = conversion::parameterText(cycle.number, static_cast<int>(parameter.address), language);
@@ -69,29 +67,4 @@ std::string klartext(const CycleDefinition& cycle, control::ControlKind kind, co
   return text + "\n";
 }
 
-std::string sinumerik(const CycleDefinition& cycle, control::ControlKind kind) {
-  std::string comments, call;
-  std::size_t last = 0;
-  const std::size_t count = cycle.parameters.size();
-  std::vector<std::string> values(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Parameter& parameter = cycle.parameters[i];
-    if (!parameter.controls.contains(kind)) continue;
-    values[i] = parameter.kind == ValueKind::Text ? "\"\"" : formatShortest(value(parameter));
-    last = i + 1;
-    comments += fmt::format("; {:<10}= {:<6} {}\n", parameter.name, values[i], parameter.meaning);
-  }
-  for (std::size_t i = 0; i < last; ++i)
-    call += (i > 0 ? "," : "") + values[i];
-  return fmt::format("{}{}({})\n", comments, cycle.name, call);
-}
-
-}  // namespace
-
-std::string cycleTemplate(const CycleDefinition& cycle, control::ControlKind kind, control::DialogLanguage language) {
-  if (control::onSinumerik.contains(kind)) return sinumerik(cycle, kind);
-  const auto old = std::ranges::find(kOldForms, cycle.number, &OldForm::cycle);
-  return old != kOldForms.end() ? old->text : klartext(cycle, kind, language);
-}
-
-}  // namespace probewright::app
+}  // namespace probewright::session
