@@ -27,7 +27,7 @@ namespace probewright::metrology {
 /// Line2 (point, direction), Line (point, direction), Plane (point, normal), Circle (centre, normal, radius), Sphere
 /// (centre, radius). It comes from the Jacobian J of the distances at the minimum:
 /// s^2 (J^T J)^-1, carried over to the members; where a shape has fewer freedoms than members (a plane cannot move
-/// within itself) it is singular, as it must be, and ready for `propagate` of uncertainty.hpp.
+/// within itself) it is singular, as it must be.
 template <class Shape, int Members>
 struct Fit {
   Shape shape;
