@@ -51,20 +51,7 @@ TEST_P(OtherMachines, MakeTiltedPlanesExact) {
   // Where the round table is the outer one it turns the tool on the spot.
   const std::string tilted =
       std::string(GetParam() == 2 ? "PLANE SPATIAL SPA+20 SPB+0" : "PLANE SPATIAL SPA+0 SPB+20") +
-      " SPC+0 TURN F5000 SEQ+ TABLE ROT\nL Z+60 R0 FMAX\nL X+0 Y+0 R0 FMAX\n" +
-      probe(427, {{263, 0},
-                  {264, 0},
-                  {261, 12.5},
-                  {320, 5},
-                  {272, 3},
-                  {267, -1},
-                  {260, 60},
-                  {281, 0},
-                  {288, 0},
-                  {289, 0},
-                  {309, 0},
-                  {330, 0}}) +
-      "Q1=Q160\nPLANE RESET TURN FMAX\n";
+      " SPC+0 TURN F5000 SEQ+ TABLE ROT\n" + touchTop() + "Q1=Q160\nPLANE RESET TURN FMAX\n";
   // The top of the sphere is one radius above the preset in its middle, however the plane is tilted.
   const Ran before = world.bench.run(tilted);
   ASSERT_TRUE(ended(before)) << before.why();

@@ -122,19 +122,7 @@ TEST(BacklashOfAxes, IsNotMeasuredWhereTheManualsSaySo) {
 /// The TNC 640 ends with 3D-ROT active as the rotary axes stand: the top of the sphere is where it was, along the tool.
 TEST(EndOfCycle451, LeavesThePlaneTiltedAsTheAxesStand) {
   SphereWorld world(builds()[2]);
-  const std::string along = "L Z+60 R0 FMAX\nL X+0 Y+0 R0 FMAX\n" + probe(427, {{263, 0},
-                                                                                {264, 0},
-                                                                                {261, sphereRadius},
-                                                                                {320, 5},
-                                                                                {272, 3},
-                                                                                {267, -1},
-                                                                                {260, 60},
-                                                                                {281, 0},
-                                                                                {288, 0},
-                                                                                {289, 0},
-                                                                                {309, 0},
-                                                                                {330, 0}});
-  const Ran ran = world.bench.run(probe(451, words451(world.build, 1)) + along);
+  const Ran ran = world.bench.run(probe(451, words451(world.build, 1)) + touchTop());
   ASSERT_TRUE(ended(ran)) << ran.why();
   const std::size_t a = *world.built().axisIndex("A");
   EXPECT_NEAR(ran.cycle().touches.back().latched[a], 45, 1e-9) << "the head leans";

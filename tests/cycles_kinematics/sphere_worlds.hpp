@@ -92,6 +92,22 @@ struct SphereWorld {
   Bench bench;
 };
 
+/// Goes over the preset and touches the top of the sphere along the tool: Q160.
+inline std::string touchTop() {
+  return "L Z+60 R0 FMAX\nL X+0 Y+0 R0 FMAX\n" + probe(427, {{263, 0},
+                                                             {264, 0},
+                                                             {261, sphereRadius},
+                                                             {320, 5},
+                                                             {272, 3},
+                                                             {267, -1},
+                                                             {260, 60},
+                                                             {281, 0},
+                                                             {288, 0},
+                                                             {289, 0},
+                                                             {309, 0},
+                                                             {330, 0}});
+}
+
 inline bool ended(const Ran& ran) {
   return ran.outcome.result.end == execution::RunEnd::Finished && !hasErrors(ran.outcome.diagnostics);
 }
