@@ -96,8 +96,9 @@ bool SinumerikHost::drivesModalCall(const Block& block) const {
     if (std::holds_alternative<Move>(each)) return true;
     const auto* modal = std::get_if<Modal>(&each);
     if (modal == nullptr) return false;
-    const std::string_view name = block.at(modal->name);
-    return name == "G0" || name == "G1" || (straight && (name == "F" || name == "S"));
+    const ModalKind kind = kindOf(block, *modal);
+    const int number = language::sinumerik::gFunction(block.at(modal->name)).value_or(-1);
+    return number == 0 || number == 1 || (straight && (kind == ModalKind::Feed || kind == ModalKind::SpindleSpeed));
   });
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "execution/sinumerik/system_variables.hpp"
 #include "execution/sinumerik/user_variables.hpp"
 #include "language/sinumerik/block_parser.hpp"
+#include "language/sinumerik/statement_kinds.hpp"
 
 namespace probewright::execution::sinumerik {
 
@@ -103,7 +105,9 @@ private:
 
   void carryOutG(int number);
   void carryOutGroup(int group, int number);
-  void carryOutNamedFunction(std::string_view name);
+  void setSpeed(std::span<const language::Word> words, Evaluation& evaluation);
+  void selectEdge(int number);
+  std::optional<Vector3> poleOrigin(language::sinumerik::FrameChange change) const;
   void leaveLevel();
   void changeTool();
   bool handToMachine(int number);

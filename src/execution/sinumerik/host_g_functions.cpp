@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <span>
 
@@ -11,6 +10,7 @@
 #include "execution/sinumerik/host.hpp"
 #include "execution/sinumerik/spindle_speed.hpp"
 #include "language/sinumerik/check.hpp"
+#include "language/sinumerik/statement_kinds.hpp"
 
 /// G functions, by number, by their place in a group, and by name.
 namespace probewright::execution::sinumerik {
@@ -18,72 +18,103 @@ namespace probewright::execution::sinumerik {
 using control::Alarm;
 using control::sinumerik::Frame;
 
-namespace {
-
-std::optional<int> gNumber(std::string_view name) {
-  int number = 0;
-  if (name.size() < 2 || name[0] != 'G') return std::nullopt;
-  const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), number);
-  if (error != std::errc() || end != name.data() + name.size()) return std::nullopt;
-  return number;
-}
-
-}  // namespace
-
 void SinumerikHost::carryOut(const Modal& modal, Evaluation& evaluation) {
   const std::string_view name = evaluation.at(modal.name);
   const auto words = evaluation.words(modal.words);
+  const std::optional<int> number = language::sinumerik::gFunction(name);
   // G26 S5000 is a limit of the spindle.
-  const bool ofSpindle = (name == "G25" || name == "G26") &&
+  const bool ofSpindle = (number == 25 || number == 26) &&
                          std::ranges::all_of(words, [](const Word& word) { return (word.address & 0xff) == 'S'; });
   if (const std::string_view how = skippedFunction(name); !how.empty() && !ofSpindle) skip(name, how);
-  if (name == "TRAORI") {
+  const ModalKind kind = language::sinumerik::modalKind(name);
+  if (kind == ModalKind::TransformationOn) {
     std::vector<std::optional<double>> arguments;
     for (const Word& word : words)
       arguments.push_back(word.value.present() ? std::optional(evaluation.number(word.value)) : std::nullopt);
     if (const std::string_view what = skippedTransformation(arguments); !what.empty()) skip(what);
   }
-  if (const auto number = gNumber(name)) return carryOutG(*number);
-  if (name.size() == 1 && !words.empty()) {
-    const double value = evaluation.number(words[0].value);
-    switch (name[0]) {
-      case 'F':
-        state_.feed = value;
-        return;
-      case 'S': {
-        // S2= and so on are the speeds of other spindles.
-        const int named = words[0].address == addressOf("S")    ? masterSpindle(control_)
-                          : words[0].address == addressOf("S1") ? control::sinumerik::mainSpindle
-                          : words[0].address == addressOf("S2") ? control::sinumerik::drivenTools
-                                                                : 0;
-        const int spindle = words.size() > 1 ? wholeNumber(evaluation.number(words[1].value)) : named;
-        if (spindle != control::sinumerik::mainSpindle) return setToolSpeed(spindle, value);
-        state_.spindleSpeed = value;
-        return followSpeed();
-      }
-      case 'H':
-        return skip("the auxiliary function H");
-      case 'D': {
-        motion_.flush();
-        // T and D of the next tool are before M6, in its block or while no tool is in the spindle.
-        const bool changesHere = block_ != nullptr && std::ranges::any_of(block_->instructions, [](const auto& each) {
-                                   const auto* function = std::get_if<MachineFunction>(&each);
-                                   return function != nullptr && function->number == 6;
-                                 });
-        const bool noToolYet = control_.tool.number == 0 && preparedTool_ > 0 && wholeNumber(value) > 0;
-        if (preparedTool_ >= 0 && (changesHere || noToolYet)) {
-          edgeAfterChange_ = wholeNumber(value);
-          return;
-        }
-        control_.selectEdge(wholeNumber(value));
-        control_.handOverFrames();
-        return;
-      }
-      default:
-        return;
-    }
+  const auto value = [&] { return evaluation.number(words.front().value); };
+  const auto setDiameter = [&](bool on, int place) {
+    control_.diameter = on;
+    state_.gGroup[29] = place;
+  };
+  const auto transform = [&](bool on) {
+    motion_.flush();
+    control_.transformation = on;
+    control_.useKinematics();
+    control_.handOverFrames();
+  };
+  switch (kind) {
+    case ModalKind::GFunction:
+      return carryOutG(*number);
+    case ModalKind::Feed:
+      if (!words.empty()) state_.feed = value();
+      return;
+    case ModalKind::SpindleSpeed:
+      if (!words.empty()) setSpeed(words, evaluation);
+      return;
+    case ModalKind::AuxiliaryFunction:
+      return skip("the auxiliary function H");
+    case ModalKind::CuttingEdge:
+      if (!words.empty()) selectEdge(wholeNumber(value()));
+      return;
+    case ModalKind::DiameterOn:
+      return setDiameter(true, 2);
+    case ModalKind::DiameterIfAbsolute:
+      return setDiameter(true, 3);
+    case ModalKind::DiameterOff:
+      return setDiameter(false, 1);
+    case ModalKind::TransformationOn:
+      return transform(true);
+    case ModalKind::TransformationOff:
+      return transform(false);
+    case ModalKind::OrientationEuler:
+    case ModalKind::OrientationRpy:
+    case ModalKind::OrientationRpyFromX:
+      state_.rpyAngles = kind != ModalKind::OrientationEuler;
+      state_.rpyAboutX = kind == ModalKind::OrientationRpyFromX;
+      return;
+    case ModalKind::TurnFrameToTool:
+    case ModalKind::PutFrameOnTool:
+      motion_.flush();
+      return alignFrameWithTool(kind == ModalKind::PutFrameOnTool);
+    case ModalKind::FrameOfToolOff:
+      motion_.flush();
+      control_.frames.toolOriented = {};
+      return control_.handOverFrames();
+    case ModalKind::Other:
+      return;
   }
-  carryOutNamedFunction(name);
+}
+
+/// S; S2= and S[2]= are the speeds of other spindles.
+void SinumerikHost::setSpeed(std::span<const Word> words, Evaluation& evaluation) {
+  const double value = evaluation.number(words[0].value);
+  const int named = words[0].address == addressOf("S")    ? masterSpindle(control_)
+                    : words[0].address == addressOf("S1") ? control::sinumerik::mainSpindle
+                    : words[0].address == addressOf("S2") ? control::sinumerik::drivenTools
+                                                          : 0;
+  const int spindle = words.size() > 1 ? wholeNumber(evaluation.number(words[1].value)) : named;
+  if (spindle != control::sinumerik::mainSpindle) return setToolSpeed(spindle, value);
+  state_.spindleSpeed = value;
+  followSpeed();
+}
+
+/// D.
+void SinumerikHost::selectEdge(int number) {
+  motion_.flush();
+  // T and D of the next tool are before M6, in its block or while no tool is in the spindle.
+  const bool changesHere = block_ != nullptr && std::ranges::any_of(block_->instructions, [](const auto& each) {
+                             const auto* function = std::get_if<MachineFunction>(&each);
+                             return function != nullptr && function->number == 6;
+                           });
+  const bool noToolYet = control_.tool.number == 0 && preparedTool_ > 0 && number > 0;
+  if (preparedTool_ >= 0 && (changesHere || noToolYet)) {
+    edgeAfterChange_ = number;
+    return;
+  }
+  control_.selectEdge(number);
+  control_.handOverFrames();
 }
 
 void SinumerikHost::carryOutG(int number) {
@@ -229,36 +260,6 @@ void SinumerikHost::carryOutGroup(int group, int number) {
     default:
       if (group < 1 || group >= static_cast<int>(state_.gGroup.size()) || number < 0) refuse();
       if (isSkippedGroup(group, number)) skip(fmt::format("G[{}]={}", group, number));
-  }
-}
-
-void SinumerikHost::carryOutNamedFunction(std::string_view name) {
-  if (name == "DIAMON" || name == "DIAM90" || name == "DIAMOF" || name == "DIAMCYCOF") {
-    control_.diameter = name == "DIAMON" || name == "DIAM90";
-    state_.gGroup[29] = name == "DIAMON" ? 2 : name == "DIAM90" ? 3 : 1;
-    return;
-  }
-  if (name == "TRAORI" || name == "TRAFOOF") {
-    motion_.flush();
-    control_.transformation = name == "TRAORI";
-    control_.useKinematics();
-    control_.handOverFrames();
-    return;
-  }
-  if (name == "ORIEULER" || name == "ORIRPY" || name == "ORIRPY2") {
-    state_.rpyAngles = name != "ORIEULER";
-    state_.rpyAboutX = name == "ORIRPY2";
-    return;
-  }
-  const bool withOrigin = name == "TOFRAME" || name == "TOFRAMEZ";
-  if (withOrigin || name == "TOROT" || name == "TOROTZ") {
-    motion_.flush();
-    return alignFrameWithTool(withOrigin);
-  }
-  if (name == "TOROTOF") {
-    motion_.flush();
-    control_.frames.toolOriented = {};
-    return control_.handOverFrames();
   }
 }
 

@@ -158,10 +158,52 @@ void SinumerikHost::carryOut(const Stop& stop, Evaluation&) {
 
 // ---- frames ----
 
+namespace {
+
+/// The frame function that makes what the word stands for.
+const char* functionOf(FrameChange change) {
+  switch (change) {
+    case FrameChange::Shift:
+      return "CTRANS";
+    case FrameChange::Turn:
+      return "CROT";
+    case FrameChange::TurnInSpace:
+      return "CROTS";
+    case FrameChange::Scale:
+      return "CSCALE";
+    case FrameChange::Mirror:
+      return "CMIRROR";
+    case FrameChange::PoleFromLastPosition:
+    case FrameChange::PoleFromZero:
+    case FrameChange::PoleFromPole:
+    case FrameChange::CoarseShift:
+    case FrameChange::FineShift:
+      break;
+  }
+  throw std::logic_error("no frame function");
+}
+
+}  // namespace
+
+/// From where G110, G111 and G112 count the pole; nothing of other words.
+std::optional<Vector3> SinumerikHost::poleOrigin(FrameChange change) const {
+  switch (change) {
+    case FrameChange::PoleFromLastPosition:
+      return motion_.lastPosition();
+    case FrameChange::PoleFromZero:
+      return Vector3(Vector3::Zero());
+    case FrameChange::PoleFromPole:
+      return state_.pole;
+    default:
+      return std::nullopt;
+  }
+}
+
 void SinumerikHost::carryOut(const Transform& transform, Evaluation& evaluation) {
   motion_.flush();
   const std::string_view name = evaluation.at(transform.name);
-  if (name == "G110" || name == "G111" || name == "G112") return motion_.setPole(name, transform.words, evaluation);
+  const FrameChange change = language::sinumerik::frameChange(name);
+  if (const auto from = poleOrigin(change)) return motion_.setPole(*from, transform.words, evaluation);
   std::vector<AxisValue> axes;
   std::optional<double> inPlane;
   std::string computed;
@@ -184,24 +226,19 @@ void SinumerikHost::carryOut(const Transform& transform, Evaluation& evaluation)
     for (AxisValue& axis : axes)
       if (control::sinumerik::geometryAxisOf(axis.axis)) axis.value *= control_.unit;
   };
-  if (name == "G58" || name == "G59") {
+  if (change == FrameChange::CoarseShift || change == FrameChange::FineShift) {
     scaleLengths();
     for (const AxisValue& axis : axes)
       programmed.set(axis.axis,
-                     name == "G58" ? control::sinumerik::FramePart::Translation : control::sinumerik::FramePart::Fine,
+                     change == FrameChange::CoarseShift ? control::sinumerik::FramePart::Translation
+                                                        : control::sinumerik::FramePart::Fine,
                      axis.value);
     return control_.handOverFrames();
   }
   const bool additive = name.front() == 'A';
-  const std::string_view kind = additive ? name.substr(1) : name;
-  const char* function = kind == "TRANS"    ? "CTRANS"
-                         : kind == "ROT"    ? "CROT"
-                         : kind == "SCALE"  ? "CSCALE"
-                         : kind == "MIRROR" ? "CMIRROR"
-                                            : "CROTS";
-  if (kind == "TRANS") scaleLengths();
+  if (change == FrameChange::Shift) scaleLengths();
   if (inPlane) axes.assign(1, {control_.plane == 18 ? "Y" : control_.plane == 19 ? "X" : "Z", *inPlane});
-  const auto frame = control::sinumerik::frameFunction(function, axes);
+  const auto frame = control::sinumerik::frameFunction(functionOf(change), axes);
   if (!frame) throw Alarm("14020", fmt::format("{}: {}", name, frame.error().message), frame.error().advice);
   if (additive) {
     const auto chained = control::sinumerik::chain(programmed, *frame);

@@ -61,8 +61,10 @@ public:
   PathMotion(Control& control, MotionState& state);
 
   void carryOut(const language::Move& move, Evaluation& evaluation);
-  /// G110, G111, G112.
-  void setPole(std::string_view function, language::WordRange words, Evaluation& evaluation);
+  /// G110, G111, G112: the pole lies at `words` from there.
+  void setPole(const Vector3& from, language::WordRange words, Evaluation& evaluation);
+  /// Where the last motion ended, program coordinates.
+  Vector3 lastPosition() const { return start(); }
   /// MEAS=, MEAW=.
   void measure(const language::Command& command, Evaluation& evaluation);
   /// POS[axis]=.

@@ -268,8 +268,7 @@ void PathMotion::resolvePolar(Words& words) const {
   words.anyLinear = true;
 }
 
-void PathMotion::setPole(std::string_view function, WordRange range, Evaluation& evaluation) {
-  const Vector3 from = function == "G112" ? state_.pole : function == "G110" ? start() : Vector3(Vector3::Zero());
+void PathMotion::setPole(const Vector3& from, WordRange range, Evaluation& evaluation) {
   Words words;
   Vector3 pole = from;
   std::uint32_t computed = 0;
