@@ -16,15 +16,20 @@ namespace probewright::truth {
 namespace {
 
 using control::BelievedTool;
+using control::heidenhain::NumberColumn;
 using records::EntryKind;
 
 /// A length of a turning tool: what the control computes with is length and delta.
 struct TurningNumber {
-  const char* length;
-  const char* delta;
+  NumberColumn length, delta;
   Eigen::Index axis;  ///< of trueTip()
   double sign;
 };
+/// A number of a tool, and the columns whose sum it is.
+struct ToolDimension {
+  NumberColumn nominal, delta;
+};
+
 constexpr TurningNumber turningNumbers[] = {{"ZL", "DZL", 2, -1}, {"XL", "DXL", 0, 1}, {"YL", "DYL", 1, 1}};
 
 /// A table as the run left it, if it wrote one; its numbers are in mm whatever the unit of the file.
@@ -46,11 +51,11 @@ void heidenhainTools(CollectedEntries& entries, const session::RunOutcome& outco
   const auto tools = leftBehind(outcome, "TOOL.T", control::heidenhain::toolColumns());
   const auto turningTools = leftBehind(outcome, "TOOLTURN.TRN", control::heidenhain::turningToolColumns());
   const auto probes = leftBehind(outcome, "TCHPROBE.TP", control::heidenhain::probeColumns());
-  const auto find = [&](const std::string& table, const std::string& row, const std::string& column) {
-    const auto found = written.find({table, fmt::format("row {}, column {}", row, column)});
+  const auto find = [&](const std::string& table, const std::string& row, const NumberColumn& column) {
+    const auto found = written.find({table, fmt::format("row {}, column {}", row, column.name())});
     return found == written.end() ? nullptr : &found->second;
   };
-  static const ToolNumber numbers[] = {{"L", {"L", "DL"}}, {"R", {"R", "DR"}}};
+  static constexpr ToolDimension numbers[] = {{"L", "DL"}, {"R", "DR"}};
   for (const BelievedTool& tool : calibrated.tools) {
     const std::string row = std::to_string(tool.number);
     const simulation::TrueTool* planted = toolNumbered(truth, tool.number);
@@ -61,39 +66,36 @@ void heidenhainTools(CollectedEntries& entries, const session::RunOutcome& outco
         const Written* length = find("TOOLTURN.TRN", row, number.length);
         const Written* delta = find("TOOLTURN.TRN", row, number.delta);
         if (length == nullptr && delta == nullptr) continue;
-        const auto valueOf = [&](const char* column) {
-          return turningTools->numberOr(row, control::heidenhain::NumberColumn::named(column), 0);
-        };
-        entries.add(
-            EntryKind::Tool, "tool " + row, (length != nullptr ? length : delta)->cycle,
-            {number.length, "mm", valueOf(number.length) + valueOf(number.delta), number.sign * tip[number.axis]});
+        const auto valueOf = [&](const NumberColumn& column) { return turningTools->numberOr(row, column, 0); };
+        entries.add(EntryKind::Tool, "tool " + row, (length != nullptr ? length : delta)->cycle,
+                    {std::string(number.length.name()), "mm", valueOf(number.length) + valueOf(number.delta),
+                     number.sign * tip[number.axis]});
       }
       continue;
     }
     const ToolReach reach = reachOf(planted);
-    for (const ToolNumber& number : numbers) {
+    for (const ToolDimension& number : numbers) {
       double believed = 0, real = 0;
       const Written* last = nullptr;
-      for (const std::string& column : number.parts) {
-        const auto name = control::heidenhain::NumberColumn::named(column);
+      for (const NumberColumn& column : {number.nominal, number.delta}) {
         const Written* one = find("TOOL.T", row, column);
         if (one != nullptr) last = one;
-        if (tools) believed += tools->numberOr(row, name, 0);
-        real += ideal.tools.numberOr(row, name, 0);
+        if (tools) believed += tools->numberOr(row, column, 0);
+        real += ideal.tools.numberOr(row, column, 0);
       }
       if (last == nullptr || !tools) continue;
-      real += number.label == "L" ? reach.length : reach.radius;
+      real += &number == &numbers[0] ? reach.length : reach.radius;
       entries.add(tool.kind == "probe" ? EntryKind::Probe : EntryKind::Tool, "tool " + row, last->cycle,
-                  {number.label, "mm", believed, real});
+                  {std::string(number.nominal.name()), "mm", believed, real});
     }
     if (tool.kind != "probe") continue;
-    for (const char* column : {"CAL_OF1", "CAL_OF2"}) {
+    for (const NumberColumn& column : {NumberColumn("CAL_OF1"), NumberColumn("CAL_OF2")}) {
       const std::string probe = std::to_string(tool.probeNumber);
       const Written* one = find("TCHPROBE.TP", probe, column);
-      const auto name = control::heidenhain::NumberColumn::named(column);
       if (one != nullptr && probes)
         entries.add(EntryKind::Probe, "tool " + row, one->cycle,
-                    {column, "mm", probes->numberOr(probe, name, 0), ideal.probes.numberOr(probe, name, 0)});
+                    {std::string(column.name()), "mm", probes->numberOr(probe, column, 0),
+                     ideal.probes.numberOr(probe, column, 0)});
     }
   }
 }
