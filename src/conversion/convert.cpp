@@ -125,10 +125,11 @@ bool hasToolCycleForms(ProgramLanguage language) { return language == klartext; 
 Conversion convert(language::Program& program, ProgramLanguage from, ProgramLanguage to,
                    const ConvertOptions& options) {
   Conversion conversion;
-  std::shared_ptr<language::Program> halfway;
-  for (const Way* way : wayOver(from, to)) {
-    language::Program& read = halfway ? *halfway : program;
-    Conversion next = way->convert(read, way->from, way->to, options);
+  const std::vector<const Way*> route = wayOver(from, to);
+  for (std::size_t i = 0; i < route.size(); ++i) {
+    const Way& way = *route[i];
+    const auto halfway = i == 0 ? nullptr : programFromText(program.file(), conversion.text, way.from);
+    Conversion next = way.convert(halfway ? *halfway : program, way.from, way.to, options);
     if (halfway) {
       for (Diagnostic& each : next.notCarriedOver)
         placeInOriginal(each, program, conversion.origins);
@@ -138,7 +139,6 @@ Conversion convert(language::Program& program, ProgramLanguage from, ProgramLang
     }
     conversion = std::move(next);
     if (hasErrors(conversion.mistakes)) break;
-    halfway = programFromText(program.file(), conversion.text, way->to);
   }
   return conversion;
 }

@@ -223,6 +223,9 @@ ControlFamily pocketFamily() {
   family.calledEndings = {".PKT"};
   family.dialogLanguages = {control::DialogLanguage::English};
   family.cycles = [](ControlKind) { return std::vector<const cycles::CycleDefinition*>{&touchDefinition}; };
+  family.cycleTemplate = [](const cycles::CycleDefinition& cycle, ControlKind, control::DialogLanguage) {
+    return fmt::format("{} X0\n", cycle.name);
+  };
   family.check = checkPocket;
   family.prepare = preparePocket;
   return family;
@@ -324,6 +327,11 @@ TEST(MadeUpFamily, IsNamedWhereUsersChoose) {
   const auto nobody = controlFor("A.TXT", "hello\n", {}, {}, threeFamilies());
   ASSERT_FALSE(nobody);
   EXPECT_EQ(nobody.error().advice, "name it with --control TNC640, iTNC530, 840Dsl or Pocket1");
+  EXPECT_EQ(endingsOf(threeFamilies()), ".H, .I, .MPF or .PKT");
+  EXPECT_EQ(endingsWithLanguages(threeFamilies()),
+            ".H for Klartext, .I for DIN/ISO, .MPF for a SINUMERIK or .PKT for a POCKET");
+  const ControlFamily& pocket = threeFamilies().of(pocket1);
+  EXPECT_EQ(pocket.cycleTemplate(touchDefinition, pocket1, control::DialogLanguage::English), "TOUCH X0\n");
 }
 
 TEST(MadeUpFamily, RefusesModesAndLanguagesThatItDoesNotHave) {
