@@ -44,6 +44,34 @@ TEST(ConvertMotion, DrivesLinesAndArcs) {
                     "CALL LBL 3 REP2\nC X+10 Y+10 DR-\n"));
 }
 
+/// Which circle centre a repeated block has is known only where the whole program has one.
+TEST(ConvertMotion, NamesCirclesWhoseCentreDependsOnTheWayToThem) {
+  for (const char* blocks :
+       {"L X+0 Y+0 R0 FMAX\nCC X+10 Y+0\nC X+20 Y+0 DR+ F300\nCC X+15 Y+0\nLBL 1\nC X+20 Y+0 DR+\nCC X+10 Y+0\n"
+        "CALL LBL 1 REP 1\n",
+        "L X+20 Y+0 R0 FMAX\nCC X+10 Y+0\nCC X+15\nLBL 1\nC X+20 Y+0 DR+ F300\nCC X+10 Y+0\nCALL LBL 1 REP 1\n"}) {
+    const conversion::Conversion there = toSinumerik(klartextProgram(blocks));
+    ASSERT_EQ(there.notCarriedOver.size(), 1U) << there.text;
+    EXPECT_THAT(there.text, HasSubstr("LBL_1:\n; NOT CARRIED OVER: "));
+  }
+  EXPECT_TRUE(
+      drivesTheSame("L X+20 Y+0 R0 FMAX\nCC X+10 Y+0\nLBL 1\nC X+20 Y+0 DR+ F300\nCC X+10 Y+0\n"
+                    "CALL LBL 1 REP 1\n"));
+}
+
+/// What a condition that is lost would have steered stands there without any jump, and the rest of the program steers
+/// on.
+TEST(ConvertFlow, NamesAllOfAStructureWhoseConditionIsLost) {
+  const conversion::Conversion back = toKlartext(
+      "G17 G90 G710\nT1 M6 D1\nG54\nIF $A_IN[3]==TRUE\nG0 X1\nELSE\nG0 X2\nENDIF\nWHILE $A_IN[3]==TRUE\nG0 X3\n"
+      "ENDWHILE\nIF R1==1\nG0 X4\nENDIF\nM30\n");
+  EXPECT_EQ(back.notCarriedOver.size(), 5U);
+  EXPECT_THAT(back.text,
+              HasSubstr("3 ; NOT CARRIED OVER: IF $A_IN[3]==TRUE\n4 L X+1 R0 FMAX\n5 ; NOT CARRIED OVER: ELSE\n"
+                        "6 L X+2 R0 FMAX\n7 ; NOT CARRIED OVER: ENDIF\n8 ; NOT CARRIED OVER: WHILE $A_IN[3]==TRUE\n"
+                        "9 L X+3 R0 FMAX\n10 ; NOT CARRIED OVER: ENDWHILE\n11 FN 10: IF +Q1 NE +1 GOTO LBL"));
+}
+
 TEST(ConvertMotion, ComputesAndJumps) {
   EXPECT_TRUE(
       drivesTheSame("Q1 = 3\nQ2 = (Q1 + 2) * SQRT (16) - 2 ^ 3\nQ150 = SIN (30) * Q1\nL X+Q2 Y-Q150 R0 FMAX\n"));

@@ -153,7 +153,8 @@ TEST(Cycle998, RefusesWithTheControlsAlarms) {
   EXPECT_EQ(alarm({{"S_MVAR", 4}}), "61307");
   EXPECT_EQ(alarm({{"S_MVAR", 205}}), "61307") << "there is no tool correction";
   EXPECT_EQ(alarm({{"S_MVAR", 120105}}), "61307");
-  EXPECT_EQ(alarm({{"S_MA", 101}}), "61325");
+  for (const double axes : {101.0, 200.0, 204.0, 2.0, 402.0, 211.0})
+    EXPECT_EQ(alarm({{"S_MA", axes}}), "61325") << axes;
   EXPECT_EQ(alarm({{"S_MD", 3}}), "61326");
   EXPECT_EQ(alarm({{"S_MD", 0}, {"S_SETV", -10}}), "61326") << "the probe is already at the set value";
   EXPECT_EQ(alarm({{"S_ID", 0}}), "61319");

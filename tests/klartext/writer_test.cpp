@@ -32,6 +32,17 @@ TEST(Writer, KeepsNamesAndComments) {
   EXPECT_EQ(written("5 L x + 1,5 Y - q3  r0 f max"), "0 L X+1.5 Y-Q3 R0 FMAX\n");
 }
 
+TEST(Writer, PutsParametersOfTheFirstLineBelowTheName) {
+  const std::string below = "0 TCH PROBE 427 MEASURE ~\n    Q263=+1 ~\n    Q264=+2\n";
+  for (const char* text :
+       {"5 TCH PROBE 427 MEASURE Q263=+1 ~\n Q264=+2\n", "5 TCH PROBE 427 MEASURE Q 263 = 1 Q264=2\n",
+        "5 TCH PROBE 427 MEASURE\tQ263=+1 ~\n Q264=+2\n"}) {
+    EXPECT_EQ(written(text), below) << text;
+    EXPECT_EQ(written(written(text)), below);
+  }
+  EXPECT_EQ(written("5 TCH PROBE 427 QUICK Q263=+1\n"), "0 TCH PROBE 427 QUICK ~\n    Q263=+1\n");
+}
+
 TEST(Writer, KeepsCommentsThatGoOnInTheNextLine) {
   const std::string once = written("5 L X+1 FMAX ; first ~\n  second ~\nthird\n7 L X+2 ~\n  Y+3 FMAX ; only here\n");
   EXPECT_EQ(once, "0 L X+1 FMAX ; first ~\n  second ~\nthird\n1 L X+2 Y+3 FMAX ; only here\n");
