@@ -54,6 +54,26 @@ std::string sinumerikProgram(const std::string& blocks) {
   return "G17 G90 G710\nT1 M6 D1\nG54\nG0 Z100\n" + blocks + "M30\n";
 }
 
+/// CYCLE998 takes a required angle up to 45 degrees, that one with it.
+TEST(ConvertPromises, AlignsEdgesByUpTo45Degrees) {
+  for (const auto& [angle, carried] : {std::pair(45.0, true), {-45.0, true}, {45.001, false}, {-45.001, false}}) {
+    const conversion::Conversion there = toSinumerik(klartextProgram(probe(400, {{263, 10},
+                                                                                 {264, 0},
+                                                                                 {265, 40},
+                                                                                 {266, 0},
+                                                                                 {272, 2},
+                                                                                 {267, 1},
+                                                                                 {261, -5},
+                                                                                 {320, 2},
+                                                                                 {260, 20},
+                                                                                 {301, 0},
+                                                                                 {307, angle},
+                                                                                 {305, 1}})));
+    EXPECT_EQ(there.text.find("CYCLE998(") != std::string::npos, carried) << angle;
+    EXPECT_EQ(there.text.find("; NOT CARRIED OVER: ") == std::string::npos, carried) << angle;
+  }
+}
+
 control::Verdict verdictOf(const Twin& twin) {
   control::Verdict verdict = control::Verdict::None;
   for (const control::CycleRecord& cycle : twin.journal.cycles)

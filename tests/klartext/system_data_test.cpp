@@ -136,12 +136,37 @@ TEST(SystemData, CalibrationOfTheTouchProbe) {
   EXPECT_DOUBLE_EQ(world.q(6), 15);
 }
 
+TEST(SystemData, ModelOfTheTouchProbe) {
+  const std::pair<const char*, int> models[] = {{"TS120", 0}, {"TS220", 1}, {"TS440", 2}, {"TS630", 3}, {"TS632", 4},
+                                                {"TS640", 5}, {"TS444", 6}, {"TS740", 7}, {"TS999", 0}};
+  for (const auto& [model, number] : models) {
+    World world;
+    ASSERT_TRUE(world.control->tables.probes.setText("1", "TYPE", model));
+    expectFinished(
+        world.run("TOOL CALL 1 Z\nFN 18: SYSREAD Q1 = ID350 NR50 IDX1\n"
+                  "FN 18: SYSREAD Q2 = ID350 NR50 IDX2\n"));
+    EXPECT_EQ(world.q(1), number) << model;
+    EXPECT_EQ(world.q(2), 1) << "the row";
+  }
+}
+
+TEST(SystemData, ReadingOfARotaryAxisWithoutWholeTurns) {
+  World world("mill5-head-table");
+  expectFinished(
+      world.run("L C+730 R0 FMAX\nFN 18: SYSREAD Q1 = ID240 NR1 IDX6\nM94 C\n"
+                "FN 18: SYSREAD Q2 = ID240 NR1 IDX6\nL C+20 R0 FMAX\nFN 18: SYSREAD Q3 = ID240 NR1 IDX6\n"));
+  EXPECT_NEAR(world.q(1), 730, 1e-9);
+  EXPECT_NEAR(world.q(2), 10, 1e-9);
+  EXPECT_NEAR(world.q(3), 20, 1e-9);
+}
+
 TEST(SystemData, WhatTheControlDoesNotHaveIsRefused) {
   World world;
   EXPECT_THAT(messageOf(world.run("FN 18: SYSREAD Q1 = ID990 NR77\n")), HasSubstr("ID990 NR77"));
   EXPECT_THAT(messageOf(world.run("FN 18: SYSREAD Q1 = ID360 NR1 IDX1\n")), HasSubstr("ID360"));
   EXPECT_THAT(messageOf(world.run("FN 17: SYSWRITE ID50 NR99 IDX1 = +1\n")), HasSubstr("ID50 NR99"));
-  EXPECT_THAT(messageOf(world.run("QS1 = SYSSTR( ID10321 NR18 )\n")), HasSubstr("ID10321"));
+  for (const int format : {-1, 17, 18, 19, 21, 22, 40})
+    EXPECT_THAT(messageOf(world.run(fmt::format("QS1 = SYSSTR( ID10321 NR{} )\n", format))), HasSubstr("ID10321"));
   EXPECT_THAT(messageOf(world.run("QS1 = \"\"\nQS2 = CFGREAD( KEY_QS1 TAG_\"CfgX\" ATR_\"unknown\" )\n")),
               HasSubstr("unknown of CfgX"));
 }
