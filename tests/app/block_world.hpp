@@ -6,12 +6,13 @@
 /// A block on a mill with a TNC 640, a program that measures it, and what is said about both.
 namespace probewright::app::testing {
 
-/// The number of lines that begin a message.
+/// The number of messages; how far a long import has got is none.
 inline std::size_t messages(const std::string& errors) {
   std::size_t count = 0;
   std::istringstream lines(errors);
   for (std::string line; std::getline(lines, line);) {
-    if (!line.empty() && line[0] != ' ') ++count;
+    const auto has = [&](const char* kind) { return line.find(kind) != std::string::npos; };
+    if (!line.empty() && line[0] != ' ' && (has(": error: ") || has(": warning: ") || has(": note: "))) ++count;
   }
   return count;
 }

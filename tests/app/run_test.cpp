@@ -59,7 +59,7 @@ TEST(Run, MeasuresTheHousingOfTheExamplesAndCorrectsThePreset) {
   const Folder folder;
   const Answer answer = probewright({"run", program, "--setup", setup, "--out", (folder / "out").string()});
   ASSERT_EQ(answer.exit, 0) << answer.errors << answer.output;
-  EXPECT_EQ(answer.errors, "");
+  EXPECT_EQ(messages(answer.errors), 0U) << answer.errors;
   EXPECT_THAT(answer.output, HasSubstr("OK: all 16 toleranced values are within the limits"));
   EXPECT_THAT(answer.output, HasSubstr((folder / "out/report.html").string()));
   EXPECT_THAT(namesIn(folder / "out"),
