@@ -344,12 +344,14 @@ private:
         remark(part, 0, fmt::format("{} more faces do not fit their edges", gaps_.size() - kMostNamed), {});
         break;
       }
+      const bool hasNoPlace = gaps_[i].size == "inf", isEndless = gaps_[i].size == "endless";
       remark(part, names_->lineOf(gaps_[i].label),
              fmt::format("the face {} does not fit its edges: {}", names_->nameOf(gaps_[i].label),
-                         gaps_[i].size == "inf"
-                             ? "they have no place on its surface"
-                             : "they, their corners and its surface are up to " + gaps_[i].size + " mm apart"),
-             "contacts there may be wrong by as much; compare the part with that in the CAD system, export it again");
+                         hasNoPlace  ? "they have no place on its surface"
+                         : isEndless ? "they run round its surface, and nothing ends it on one side of them"
+                                     : "they, their corners and its surface are up to " + gaps_[i].size + " mm apart"),
+             fmt::format("contacts there may be wrong{}; compare the part with that in the CAD system, export it again",
+                         hasNoPlace || isEndless ? "" : " by as much"));
     }
     for (std::size_t i = 0; i < std::min(misplaced_.size(), kMostNamed); ++i) {
       remark(part, names_->lineOf(misplaced_[i].label),

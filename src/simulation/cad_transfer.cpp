@@ -47,6 +47,7 @@
 
 #include "simulation/cad_cones.hpp"
 #include "simulation/cad_corrections.hpp"
+#include "simulation/cad_face.hpp"
 #include "simulation/cad_model.hpp"
 #include "simulation/cad_step_library.hpp"
 #include "simulation/cad_units.hpp"
@@ -115,6 +116,14 @@ bool isNearlyStructure(std::string_view type) {
   });
 }
 
+/// True if nothing is wrong with an entity but names and descriptions, which some systems leave out.
+bool lacksOnlyTexts(const Interface_Check& check) {
+  for (int i = 1; i <= check.NbFails(); ++i) {
+    if (!std::string_view(check.CFail(i)).ends_with("not a quoted String")) return false;
+  }
+  return true;
+}
+
 /// Names what is wrong with entities before anything is made of them.
 void nameFaults(const Handle(Interface_InterfaceModel) & model, const ChildVoice& voice) {
   int told = 0;
@@ -123,7 +132,7 @@ void nameFaults(const Handle(Interface_InterfaceModel) & model, const ChildVoice
     const bool strange = !unknown.IsNull() && isNearlyStructure(unknown->StepType());
     if (!strange && !model->IsReportEntity(i)) continue;
     const Handle(Interface_Check) check = model->Check(i, Standard_True);
-    const bool structure = strange || isStructure(model, i);
+    const bool structure = strange || (isStructure(model, i) && !lacksOnlyTexts(*check));
     if (!strange && (check->NbFails() == 0 || (!structure && !isGeometry(model, i)))) continue;
     const char* reason = strange ? "its type is not known" : check->CFail(1);
     voice.say(fmt::format("{} {} {}", structure ? "misplaced" : "suspect", labelOf(model, model->Value(i)), reason));
@@ -261,6 +270,25 @@ double gapsOf(const TopoDS_Face& face) {
   return gap;
 }
 
+/// True if the edges of a face run round its surface more often one way than the other: nothing ends the face there.
+bool isWithoutEnd(const TopoDS_Face& face) {
+  const Handle(Geom_Surface) surface = surfaceWithoutLimits(BRep_Tool::Surface(face));
+  if (surface.IsNull()) return false;
+  const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
+  gp_XY way(0, 0);
+  for (TopExp_Explorer edges(forward, TopAbs_EDGE); edges.More(); edges.Next()) {
+    const TopoDS_Edge& edge = TopoDS::Edge(edges.Current());
+    double first = 0, last = 0;
+    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, forward, first, last);
+    if (curve.IsNull()) return false;
+    const gp_XY part = curve->Value(last).XY() - curve->Value(first).XY();
+    if (edge.Orientation() == TopAbs_FORWARD) way += part;
+    if (edge.Orientation() == TopAbs_REVERSED) way -= part;
+  }
+  return (surface->IsUPeriodic() && std::abs(way.X()) > surface->UPeriod() / 2) ||
+         (surface->IsVPeriodic() && std::abs(way.Y()) > surface->VPeriod() / 2);
+}
+
 /// Names the faces that do not fit together: one wrong digit in a file does that.
 void nameGaps(const XSControl_Reader& reader, const ChildVoice& voice) {
   constexpr double kWorthNaming = 0.01;  // mm
@@ -269,22 +297,28 @@ void nameGaps(const XSControl_Reader& reader, const ChildVoice& voice) {
   struct Made {
     int entity;
     TopoDS_Shape shape;
-    double gap;
+    double gap = 0;
+    bool isWithoutEnd = false;
   };
   std::vector<Made> made;
   for (int i = 1; i <= model->NbEntities(); ++i) {
     if (model->IsErrorEntity(i) || !isFace(model->Value(i))) continue;
     if (const TopoDS_Shape shape = TransferBRep::ShapeResult(process, model->Value(i)); !shape.IsNull())
-      made.push_back({i, shape, 0});
+      made.push_back({i, shape});
   }
   constexpr std::size_t kWorthAThread = 20;
   inParallel(made.size(), kWorthAThread, [&](std::size_t i) {
-    for (TopExp_Explorer faces(made[i].shape, TopAbs_FACE); faces.More(); faces.Next())
-      made[i].gap = std::max(made[i].gap, gapsOf(TopoDS::Face(faces.Current())));
+    for (TopExp_Explorer faces(made[i].shape, TopAbs_FACE); faces.More(); faces.Next()) {
+      const TopoDS_Face& face = TopoDS::Face(faces.Current());
+      made[i].gap = std::max(made[i].gap, gapsOf(face));
+      made[i].isWithoutEnd = made[i].isWithoutEnd || isWithoutEnd(face);
+    }
   });
   for (const Made& face : made) {
     if (!(face.gap <= kWorthNaming))
       voice.say(fmt::format("gap {} {:.3f}", labelOf(model, model->Value(face.entity)), face.gap));
+    else if (face.isWithoutEnd)
+      voice.say(fmt::format("gap {} endless", labelOf(model, model->Value(face.entity))));
   }
 }
 

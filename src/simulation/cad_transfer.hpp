@@ -34,7 +34,8 @@ struct TransferOrder {
 ///   begin N, end N       the mesher's way with a face
 ///   grid N CELL KIND     a face that has a grid instead of a mesh, with its largest cell; 0: not even that
 ///   open N X Y Z         N edges of bodies and skins belong to one face only, one of them at X Y Z
-///   gap LABEL MM         a face whose edges leave its surface, or whose vertices its edges, by so much
+///   gap LABEL MM         a face whose edges leave its surface, or whose vertices its edges, by so much; "endless": a
+///                        face whose edges run round its surface, and nothing ends it on one side of them
 ///   scaled FACTOR        lengths of the model are so many times the true ones; the shape has the true ones
 ///   skin                 there are faces, but no body
 void transferCad(const TransferOrder& order, const ChildVoice& voice);

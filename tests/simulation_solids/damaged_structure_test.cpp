@@ -11,6 +11,7 @@ namespace {
 
 using namespace testing;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// With the letter at `offset` in the last `word` of the text put wrong.
 std::string damaged(std::string text, const std::string& word, std::size_t offset) {
@@ -68,6 +69,66 @@ TEST(DamagedStructure, OfAssembliesIsNamed) {
     EXPECT_THAT(saidOf(std::string(good).replace(comma, 1, "1")), ::testing::Not(::testing::IsEmpty())) << type;
     // A wrong letter in the name of its type.
     EXPECT_THAT(saidOf(damaged(good, type, 5)), ::testing::Not(::testing::IsEmpty())) << type;
+  }
+}
+
+/// Some systems leave names out that the standard demands: nothing stands elsewhere for that.
+TEST(DamagedStructure, OfNamesAloneIsNotWorthAWord) {
+  std::string text = assembly();
+  for (const std::string type :
+       {"ITEM_DEFINED_TRANSFORMATION(", "(REPRESENTATION_RELATIONSHIP(", "PRODUCT_DEFINITION_SHAPE("}) {
+    const std::string names = "'','',", none = "$,$,";
+    std::size_t at = text.find(type + names);
+    EXPECT_NE(at, std::string::npos) << type;
+    for (; at != std::string::npos; at = text.find(type + names, at))
+      text.replace(at + type.size(), names.size(), none);
+  }
+  EXPECT_EQ(saidOf(text), "");
+}
+
+/// A patch on a cylinder whose border also runs once round it, which no face can have as its only border.
+TEST(DamagedStructure, OfABorderThatOnlyRunsRoundItsSurfaceIsNamed) {
+  for (const bool alsoRound : {false, true}) {
+    StepFile file;
+    const auto at = [](double angle, double z) { return Vector3(7 * std::cos(angle), 7 * std::sin(angle), z); };
+    const auto circle = [&](double z) {
+      const int axes = file.axes({0, 0, z}, Vector3::UnitZ(), Vector3::UnitX());
+      return file.add(fmt::format("CIRCLE('',#{},7.)", axes));
+    };
+    const auto up = [&](double angle) {
+      const int vector = file.add(fmt::format("VECTOR('',#{},1.)", file.direction(Vector3::UnitZ())));
+      return file.add(fmt::format("LINE('',#{},#{})", file.point(at(angle, 0)), vector));
+    };
+    std::vector<int> uses;
+    const auto use = [&](int from, int to, int curve, bool forwards) {
+      const int edge = file.add(fmt::format("EDGE_CURVE('',#{},#{},#{},.T.)", from, to, curve));
+      uses.push_back(file.add(fmt::format("ORIENTED_EDGE('',*,*,#{},{})", edge, forwards ? ".T." : ".F.")));
+    };
+    const int a = file.vertex(at(0, 0)), b = file.vertex(at(0.4, 0)), c = file.vertex(at(0.4, 5)),
+              d = file.vertex(at(0, 5)), beyond = file.vertex(at(2, 0));
+    if (alsoRound) {
+      use(a, beyond, circle(0), true);
+      use(beyond, a, circle(0), true);
+    }
+    use(a, b, circle(0), true);
+    use(b, c, up(0.4), true);
+    use(d, c, circle(5), false);
+    use(a, d, up(0), false);
+    const int bound = file.add(
+        fmt::format("FACE_OUTER_BOUND('',#{},.T.)", file.add(fmt::format("EDGE_LOOP('',({}))", listOf(uses)))));
+    const int surface = file.add(
+        fmt::format("CYLINDRICAL_SURFACE('',#{},7.)", file.axes(Vector3::Zero(), Vector3::UnitZ(), Vector3::UnitX())));
+    const int face = file.add(fmt::format("ADVANCED_FACE('',(#{}),#{},.T.)", bound, surface));
+    const int shell = file.add(fmt::format("OPEN_SHELL('',(#{}))", face));
+    file.represent(file.product("skin"), {file.add(fmt::format("SHELL_BASED_SURFACE_MODEL('',(#{}))", shell))},
+                   "MANIFOLD_SURFACE_SHAPE_REPRESENTATION");
+    const std::string said = saidOf(file.text());
+    const std::string expected =
+        fmt::format("#{} ADVANCED_FACE does not fit its edges: they run round its surface", face);
+    if (alsoRound)
+      EXPECT_THAT(said, HasSubstr(expected));
+    else
+      EXPECT_THAT(said, Not(HasSubstr("does not fit")));
   }
 }
 
