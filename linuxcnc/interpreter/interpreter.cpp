@@ -260,7 +260,7 @@ private:
   void prepareDrawing() {
     Mill mill;
     mill.load(configuration());
-    for (const char* block : {mill.key("TRAJ", "LINEAR_UNITS").starts_with("in") ? "G20" : "G21", "G90"}) {
+    for (const char* block : {mill.inInches() ? "G20" : "G21", "G90"}) {
       gcode_->read(block);
       gcode_->execute();
     }

@@ -3,12 +3,17 @@
 
 #include <dlfcn.h>
 
+#include <strings.h>
+
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 #include <string_view>
 
 #include <linuxcnc.h>
@@ -48,15 +53,34 @@ std::string Mill::key(const char* section, const char* name) const {
   return value != nullptr ? value : "";
 }
 
+namespace {
+
+/// As LinuxCNC reads [TRAJ]LINEAR_UNITS: a name, or how many units are 1 mm.
+double mmPerUnit(const std::string& units) {
+  const double perMm = std::strtod(units.c_str(), nullptr);
+  if (perMm > 0) return 1 / perMm;
+  for (const char* inch : {"in", "inch", "imperial"})
+    if (strcasecmp(units.c_str(), inch) == 0) return 25.4;
+  return 1;
+}
+
+/// Whether [TRAJ]ANGULAR_UNITS are degrees.
+bool inDegrees(const std::string& units) {
+  return units.empty() || strncasecmp(units.c_str(), "deg", 3) == 0 || std::strtod(units.c_str(), nullptr) == 1;
+}
+
+}  // namespace
+
 void Mill::load(const std::string& iniFile) {
   ini_ = iniFile;
   name_ = key("EMC", "MACHINE");
-  scale_ = key("TRAJ", "LINEAR_UNITS").starts_with("in") ? 25.4 : 1.0;
+  scale_ = mmPerUnit(key("TRAJ", "LINEAR_UNITS"));
   orients_ = key("PROBEWRIGHT", "SPINDLE_ORIENTS") == "1";
   axes_.clear();
-  const std::string coordinates = key("TRAJ", "COORDINATES");
+  const std::string named = key("TRAJ", "COORDINATES"), coordinates = named.empty() ? "XYZ" : named;
   for (std::size_t i = 0; i < letters.size(); ++i) {
-    if (coordinates.find(letters[i]) == std::string::npos) continue;
+    if (std::none_of(coordinates.begin(), coordinates.end(), [&](char c) { return std::toupper(c) == letters[i]; }))
+      continue;
     const std::string section = std::string("AXIS_") + letters[i];
     const auto number = [&](const char* name, double otherwise) {
       const std::string text = key(section.c_str(), name);
@@ -84,8 +108,8 @@ constexpr int offsets = 9;
 }  // namespace
 
 Mill::Json Mill::tables() const {
-  const auto values =
-      parametersIn((std::filesystem::path(ini_).parent_path() / key("RS274NGC", "PARAMETER_FILE")).string());
+  const std::string named = key("RS274NGC", "PARAMETER_FILE"), file = named.empty() ? "rs274ngc.var" : named;
+  const auto values = parametersIn((std::filesystem::path(ini_).parent_path() / file).string());
   const auto value = [&](int number) {
     const auto found = values.find(number);
     return found == values.end() ? 0 : found->second;
@@ -97,9 +121,11 @@ Mill::Json Mill::tables() const {
       origin.push_back(value(5201 + 20 * row + static_cast<int>(axis.number)) * (rotary(axis.number) ? 1 : scale_));
     rows.push_back({{"number", row}, {"origin", origin}, {"rotation", value(5210 + 20 * row)}});
   }
-  for (int place = 1; moves() && place < CANON_POCKETS_MAX; ++place) {
-    const CANON_TOOL_TABLE tool = GET_EXTERNAL_TOOL_TABLE(place);
-    if (tool.toolno <= 0) continue;
+  // The spindle comes last: as a rule its tool has a place of its own as well.
+  std::set<int> told;
+  for (int place = 1; moves() && place <= CANON_POCKETS_MAX; ++place) {
+    const CANON_TOOL_TABLE tool = GET_EXTERNAL_TOOL_TABLE(place % CANON_POCKETS_MAX);
+    if (tool.toolno <= 0 || !told.insert(tool.toolno).second) continue;
     tools.push_back(
         {{"number", tool.toolno}, {"length", tool.offset.tran.z * scale_}, {"diameter", tool.diameter * scale_}});
   }
@@ -147,8 +173,16 @@ std::string Mill::notIdentity() const {
 Mill::Json Mill::hello(std::string& why) const {
   why = notIdentity();
   if (!why.empty()) return {};
+  // Zero offsets are machine coordinates: LinuxCNC may run without homing, but what is found then counts for nothing.
+  for (int joint = 0; moves() && joint < status()->motion.traj.joints; ++joint)
+    if (status()->motion.joint[joint].homed == 0) why = "the axes of LinuxCNC are not homed";
+  if (!why.empty()) return {};
   if (axes_.empty()) {
     why = "the configuration of LinuxCNC names no axes in [TRAJ]COORDINATES";
+    return {};
+  }
+  if (!inDegrees(key("TRAJ", "ANGULAR_UNITS"))) {
+    why = "measuring programs need a configuration that counts angles in degrees ([TRAJ]ANGULAR_UNITS)";
     return {};
   }
   Json axes = Json::array();
@@ -320,8 +354,11 @@ bool Mill::hasTool(int number) {
 
 std::string Mill::limit(const Position& target) const {
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (!(target[i] >= axes_[i].minimum && target[i] <= axes_[i].maximum))
-      return std::string("software limit of ") + letters[axes_[i].number];
+    if (target[i] >= axes_[i].minimum && target[i] <= axes_[i].maximum) continue;
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(), "software limit of %c: %.3f is not between %.3f and %.3f",
+                  letters[axes_[i].number], target[i], axes_[i].minimum, axes_[i].maximum);
+    return text.data();
   }
   return {};
 }

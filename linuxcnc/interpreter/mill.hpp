@@ -18,6 +18,7 @@ public:
   const std::string& iniFile() const { return ini_; }
   /// A key of the configuration; empty if it is not there.
   std::string key(const char* section, const char* name) const;
+  bool inInches() const { return scale_ == 25.4; }
   /// What the engine is told of the machine; empty, and why, if LinuxCNC is not ready for it.
   Json hello(std::string& why) const;
 

@@ -58,6 +58,7 @@ TEST_F(AsInterpreter, WhateverGoesWrongEndsInAnAlarmAndTheNextRunWorks) {
   session_.write("setup.toml",
                  setup("TNC640", world, 1200) +
                      "[[tool]]\nnumber = 3\nname = \"DRILL\"\nkind = \"drill\"\nlength = 80\nradius = 4\n");
+  session_.write("mill.ini", with(text("mill.ini"), "[TRAJ]", "[TRAJ]\nNO_FORCE_HOMING = 1"));
   session_.write("bore.h", klartext());
   session_.write("top.h", top());
   session_.write("limit.h", with(klartext(), "X+25 Y+0 Z+8 R0", "X+290 Y+0 Z+8 R0"));
@@ -143,6 +144,18 @@ desk.settle()
 desk.tell('paused', len(desk.messages), desk.status.motion_line)
 desk.command.auto(linuxcnc.AUTO_RESUME)
 keep('stop')
+
+# The configuration lets axes move that are not homed.
+desk.mode(linuxcnc.MODE_MANUAL)
+desk.command.teleop_enable(0)
+desk.taken()
+desk.until('the joints', lambda s: s.motion_mode == linuxcnc.TRAJ_MODE_FREE)
+desk.command.unhome(-1)
+desk.until('no homed axis', lambda s: not any(s.homed))
+begin('top.h')
+desk.until('a refusal', lambda s: any('axes of LinuxCNC are not homed' in message for message in desk.messages))
+idle()
+desk.tell('refused', 1)
 )",
             500);
   const std::vector<std::pair<std::string, std::string>> ends = {
@@ -177,6 +190,7 @@ keep('stop')
   EXPECT_THAT(output, ::testing::ContainsRegex("desk: message .*Q999")) << "the mistake of the program is shown";
   EXPECT_THAT(told("paused"), ::testing::StartsWith("1 ")) << "the stop is shown once: " << output;
   EXPECT_EQ(touches(results("stop")).size(), 15U);
+  EXPECT_EQ(told("refused"), "1") << output;
   // LinuxCNC's screen says what the control's alarm was, also where LinuxCNC itself has stopped.
   for (const char* message : {"Limit switch", "Tolerance exceeded", "Touch probe deflected", "Machine not ready",
                               "Stylus already in contact", "probewright has ended unexpectedly"})

@@ -103,9 +103,9 @@ TEST_F(FromTheScreen, InchesARotaryAxisSpindleAndCoolantPassThrough) {
   }
   inches.append(from, ini.cend());
   ini = inches;
-  replace("LINEAR_UNITS = mm", "LINEAR_UNITS = inch");
+  replace("LINEAR_UNITS = mm", "LINEAR_UNITS = imperial");
   replace("coordinates=XYZ", "coordinates=XYZA");
-  replace("COORDINATES = XYZ\n", "COORDINATES = XYZA\n");
+  replace("COORDINATES = XYZ\n", "COORDINATES = x y z a\n");
   replace("JOINTS = 3", "JOINTS = 4");
   replace("HALFILE = plate.hal", "HALFILE = plate.hal\nHALFILE = a.hal");
   const std::string turns = "MIN_LIMIT = -360\nMAX_LIMIT = 360\nMAX_VELOCITY = 100\nMAX_ACCELERATION = 1000\n";
