@@ -13,9 +13,9 @@
 
 #include "support/linuxcnc_session.hpp"
 
-/// The examples on LinuxCNC, opened in its screen and from outside, and on the virtual machine: the same part, the same
-/// probe, the same touches. With PROBEWRIGHT_LONG_TESTS each by both ways and at the feeds of the examples, which takes
-/// ten minutes; else by one way, with a faster machine and probe.
+/// The examples, and a program that writes a datum table, on LinuxCNC, opened in its screen and from outside, and on
+/// the virtual machine: the same part, the same probe, the same touches. With PROBEWRIGHT_LONG_TESTS each by both ways
+/// and at the feeds of the examples, which takes ten minutes; else by one way, with a faster machine and probe.
 namespace probewright::testing {
 namespace {
 
@@ -36,7 +36,7 @@ class ExamplesAgree : public ::testing::TestWithParam<Example> {
 protected:
   static bool longRun() { return std::getenv("PROBEWRIGHT_LONG_TESTS") != nullptr; }
 
-  double feed() const { return longRun() ? 300 : 600; }
+  double feed() const { return longRun() ? 300 : 1200; }
   /// mm: a servo period at the probing feed.
   double bound() const { return feed() / 60 * 0.001 + 1e-4; }
 
@@ -61,7 +61,7 @@ protected:
     const std::regex number("[-+]?[0-9]+\\.[0-9]+");
     int tables = 0;
     // Not tools of a SINUMERIK: whether a wear is corrected is decided at a limit.
-    for (const char* table : {"PRESET.PR", "TCHPROBE.TP", "TOOL.T", "FRAMES.UFR", "DATA.INI"}) {
+    for (const char* table : {"PRESET.PR", "ZERO.D", "TCHPROBE.TP", "TOOL.T", "FRAMES.UFR", "DATA.INI"}) {
       const std::string expected = contents(session_.outside() / "virtual" / table);
       const std::string found = contents(session_.outside() / way / table);
       tables += expected.empty() ? 0 : 1;
@@ -83,7 +83,9 @@ TEST_P(ExamplesAgree, WithTheVirtualMachine) {
   const fs::path source = PROBEWRIGHT_SOURCE_DIR, example = source / "examples/linuxcnc/mill3";
   for (const char* file : {"mill3.hal", "mill3.var"})
     fs::copy(example / file, session_.outside() / file);
-  fs::copy(source / "examples/programs" / program, session_.outside() / program);
+  const fs::path ours = source / "tests/linuxcnc_simulator/programs";
+  fs::copy((fs::exists(ours / program) ? ours : source / "examples/programs") / program, session_.outside() / program);
+  fs::copy(ours / "ZERO.D", session_.outside() / "ZERO.D");
   fs::copy(source / "examples/parts/housing.step", session_.outside() / "housing.step");
   // What scatters does so anew in each run.
   std::string setup = contents(source / "examples/setups" / GetParam().setup);
@@ -154,6 +156,7 @@ if 'outside' in ways:
 
 INSTANTIATE_TEST_SUITE_P(Programs, ExamplesAgree,
                          ::testing::Values(Example{"corner.i", "housing-tnc640.toml", "measured"},
+                                           Example{"datum.h", "housing-tnc640.toml", "measured"},
                                            Example{"housing.h", "housing-tnc640.toml", "measured"},
                                            Example{"housing.mpf", "housing-840dsl.toml", "outside"}),
                          [](const auto& test) {
