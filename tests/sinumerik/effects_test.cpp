@@ -182,7 +182,7 @@ TEST(SinumerikEffects, EveryWordOfTheTableDoesWhatItsRowSays) {
 }
 
 TEST(SinumerikEffects, CheckNamesThemToo) {
-  EXPECT_EQ(mistake("M25\nM25\n"), "M25 is not carried out");
+  EXPECT_EQ(mistake("M25\nM25\n"), "M25 is carried out only by a machine that has it");
   EXPECT_EQ(mistake("OFFN=0.5\n"), "OFFN is not carried out");
   EXPECT_EQ(mistake("TRAORI\nG1 X1 LEAD=3 F5\n"), "LEAD is not carried out");
   EXPECT_EQ(mistake("DEF BOOL OK_1\nOK_1=CHKDNO(1)\n"), "the function CHKDNO is not available here");

@@ -213,7 +213,8 @@ void Checker::checkInstruction(const Instruction& instruction) {
       if (const std::string wrong = cycles::sinumerik::rotationOffsetComplaint(assign->value.number); !wrong.empty())
         report(columnOf(name), wrong, std::string(cycles::sinumerik::rotationOffsetAdvice), Severity::Warning);
   } else if (const auto* function = std::get_if<MachineFunction>(&instruction)) {
-    if (isSkippedMachineFunction(function->number)) tell(fmt::format("M{}", function->number), "is not carried out");
+    if (isSkippedMachineFunction(function->number))
+      tell(fmt::format("M{}", function->number), "is carried out only by a machine that has it");
   } else if (const auto* move = std::get_if<Move>(&instruction)) {
     for (std::uint32_t i = 0; i < move->words.count; ++i) {
       const std::string_view name = skippedMoveWord(block_.words[move->words.first + i].address);
