@@ -165,6 +165,9 @@ TEST(SystemData, WhatTheControlDoesNotHaveIsRefused) {
   EXPECT_THAT(messageOf(world.run("FN 18: SYSREAD Q1 = ID990 NR77\n")), HasSubstr("ID990 NR77"));
   EXPECT_THAT(messageOf(world.run("FN 18: SYSREAD Q1 = ID360 NR1 IDX1\n")), HasSubstr("ID360"));
   EXPECT_THAT(messageOf(world.run("FN 17: SYSWRITE ID50 NR99 IDX1 = +1\n")), HasSubstr("ID50 NR99"));
+  World fresh;
+  for (const char* block : {"FN 18: SYSREAD Q1 = ID50 NR1 IDX7\n", "FN 17: SYSWRITE ID50 NR4 IDX7 = +1\n"})
+    EXPECT_THAT(messageOf(fresh.run(block)), HasSubstr("IDX7 on this control: TOOL.T has no row 7"));
   for (const int format : {-1, 17, 18, 19, 21, 22, 40})
     EXPECT_THAT(messageOf(world.run(fmt::format("QS1 = SYSSTR( ID10321 NR{} )\n", format))), HasSubstr("ID10321"));
   EXPECT_THAT(messageOf(world.run("QS1 = \"\"\nQS2 = CFGREAD( KEY_QS1 TAG_\"CfgX\" ATR_\"unknown\" )\n")),

@@ -44,7 +44,8 @@ void SystemData::read(const Command& command, Evaluation& evaluation) {
   const std::optional<double> value = rowZero ? toolData(number, "0") : systemData(id, number, index);
   if (!value) {
     throw Alarm("System datum not available",
-                fmt::format("FN 18 cannot read ID{} NR{} IDX{} on this control", id, number, index),
+                fmt::format("FN 18 cannot read ID{} NR{} IDX{} on this control{}", id, number, index,
+                            missingTool(id, number, index)),
                 "read another datum, or set the parameter to a fixed value");
   }
   const VariableRef& target = evaluation.block().variables[static_cast<std::size_t>(command.variable)];

@@ -40,6 +40,8 @@ private:
   std::optional<double> probingState(int number, int index) const;
   std::optional<double> coordinateData(int id, int number, int index) const;
   // system_tool_data.cpp: tools and touch probes
+  /// Why a column of the tool table that is known cannot be read or written: ": TOOL.T has no row 7"; else empty.
+  std::string missingTool(int id, int number, double index) const;
   std::string toolRowOf(double index) const;
   std::optional<double> toolData(int number, const std::string& row) const;
   std::optional<double> toolCallData(int number) const;

@@ -58,6 +58,13 @@ std::string SystemData::toolRowOf(double index) const {
                                       static_cast<int>(std::lround((index - std::floor(index)) * 10)));
 }
 
+std::string SystemData::missingTool(int id, int number, double index) const {
+  if ((id != 50 && id != 950) || !columnOf(number)) return {};
+  const std::string row = id == 950 || index <= 0 ? control_.tool.row : toolRowOf(index);
+  if (row.empty()) return ": no tool is called";
+  return control_.tables.tools.hasRow(row) ? std::string() : fmt::format(": TOOL.T has no row {}", row);
+}
+
 std::optional<double> SystemData::toolData(int number, const std::string& row) const {
   const auto& tools = control_.tables.tools;
   if (!tools.hasRow(row)) return row == "0" && columnOf(number) ? std::optional<double>(0) : std::nullopt;
@@ -224,7 +231,8 @@ void SystemData::write(const Command& command, Evaluation& evaluation) {
   const double value = wordOr("VAL", 0);
   const auto refuse = [&]() {
     throw Alarm("System datum not available",
-                fmt::format("FN 17 cannot write ID{} NR{} IDX{} on this control", id, number, index),
+                fmt::format("FN 17 cannot write ID{} NR{} IDX{} on this control{}", id, number, index,
+                            missingTool(id, number, index)),
                 "leave the block out for the run");
   };
   switch (id) {
