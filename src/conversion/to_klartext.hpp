@@ -211,6 +211,7 @@ private:
   FlowGraph graph_;
   std::map<std::uint64_t, std::string> labels_;  ///< by the block's offset, where jumps and repetitions lead to
   std::set<std::string> usedLabels_;
+  std::map<std::string, int> nextNumberOfLabel_;                   ///< of a name that others have already
   std::map<std::uint64_t, std::vector<std::size_t>> sectionEnds_;  ///< by the offset of the last block: repetitions
   /// Sections that overlap are not subprograms: each repetition notes in a parameter that its section is under way.
   bool sectionsByNumber_ = false;

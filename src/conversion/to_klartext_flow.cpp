@@ -108,8 +108,10 @@ void ToKlartext::jumpWhen(When when, const Block& block, const Operand& conditio
 
 std::string ToKlartext::unusedLabel(std::string_view name) {
   std::string unused(name);
-  for (int i = 2; !usedLabels_.insert(unused).second; ++i)
-    unused = fmt::format("{}_{}", name, i);
+  // The numbers that a name has had already need no second look: programs may have thousands of one name.
+  int& next = nextNumberOfLabel_.try_emplace(unused, 2).first->second;
+  while (!usedLabels_.insert(unused).second)
+    unused = fmt::format("{}_{}", name, next++);
   return unused;
 }
 
