@@ -1,6 +1,7 @@
 #include "simulation/face_mesh.hpp"
 
 #include <BRepAdaptor_Surface.hxx>
+#include <BRepBndLib.hxx>
 #include <BRepMesh_Context.hxx>
 #include <BRepMesh_FaceDiscret.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
@@ -8,6 +9,7 @@
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
 #include <IMeshData_Face.hxx>
 #include <Message_ProgressIndicator.hxx>
 #include <Poly_Triangulation.hxx>
@@ -15,6 +17,7 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -30,6 +33,8 @@ constexpr double kAngle = 0.5;
 constexpr double kInterior = 30;
 /// Sides on a bent edge are halved before it matters.
 constexpr double kAlongEdges = 8;
+/// Of a large shape the triangles may be as much coarser: a share of its size.
+constexpr double kAlongEdgesOfSize = 2e-5, kInteriorOfSize = 1e-4;
 
 /// The faces by what they share with their instances elsewhere in the shape, counted from 1.
 using FaceNumbers = std::map<const TopoDS_TShape*, int>;
@@ -160,6 +165,13 @@ bool hasTriangles(const TopoDS_Face& face) {
   return !mesh.IsNull() && mesh->HasUVNodes() && mesh->NbTriangles() > 0;
 }
 
+/// Roughly, and 0 where it has none.
+double sizeOf(const TopoDS_Shape& shape) {
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, Standard_False);
+  return box.IsVoid() || box.IsOpen() ? 0 : box.CornerMin().Distance(box.CornerMax());
+}
+
 /// True for borders that OpenCASCADE got wrong: they run to and fro, and no place lies within.
 bool enclosesNothing(const TrimmedDomain& domain) {
   constexpr double kLeastShare = 1e-9;  // of the box about the border
@@ -188,8 +200,9 @@ std::vector<GridFace> meshFaces(const TopoDS_Shape& shape, double deflection, co
   BRepMesh_IncrementalMesh mesher;
   mesher.SetShape(shape);
   IMeshTools_Parameters& parameters = mesher.ChangeParameters();
-  parameters.Deflection = kAlongEdges * deflection;
-  parameters.DeflectionInterior = kInterior * deflection;
+  const double size = sizeOf(shape);
+  parameters.Deflection = std::max(kAlongEdges * deflection, kAlongEdgesOfSize * size);
+  parameters.DeflectionInterior = std::max(kInterior * deflection, kInteriorOfSize * size);
   parameters.Angle = kAngle;
   parameters.InParallel = options.parallel;
   mesher.Perform(context);

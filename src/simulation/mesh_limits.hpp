@@ -4,6 +4,6 @@ namespace probewright::simulation {
 
 /// The points after which the mesher gives a face up: many times as many as the faces of large parts need, and seconds
 /// of work. A count of work, not of time: on every machine the same faces are given up.
-inline constexpr int kMostMeshPoints = 200'000;
+inline constexpr int kMostMeshPoints = 50'000;
 
 }  // namespace probewright::simulation
