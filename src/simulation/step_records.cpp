@@ -265,6 +265,8 @@ private:
 };
 
 std::optional<StepRecords> StepRecords::of(std::string bytes) {
+  // It would end a token.
+  if (bytes.find('\0') != std::string::npos) return std::nullopt;
   StepRecords records;
   records.bytes_ = std::move(bytes);
   if (!Reader(records).read()) return std::nullopt;
