@@ -19,6 +19,7 @@ namespace probewright::setup {
 namespace {
 
 using nlohmann::json;
+using testing_support::place;
 using testing_support::positions;
 
 namespace fs = std::filesystem;
@@ -165,6 +166,25 @@ TEST(MachinePage, NamesAxesThatGoAgainstIso841) {
               AllOf(HasSubstr("with X going to plus"), HasSubstr("moves towards +X"), Not(HasSubstr("with C"))));
   EXPECT_THAT(remarks("[[spindle_chain]]\n" + c + "[1, 0, 0]\n[[spindle_chain]]\n" + x + "[1, 0, 0]\n"),
               AllOf(HasSubstr("with C going to plus"), Not(HasSubstr("opposite"))));
+}
+
+TEST(MachinePage, ShowsWhatLiesOnTheTableWhereThatIsAskedFor) {
+  simulation::Truth truth = testing_support::perfectWorld();
+  truth.bodies.push_back({"nose", machine::headLink(truth.machine),
+                          std::make_shared<simulation::Box>(Vector3(-40, -40, -10), Vector3(40, 40, 60)),
+                          Pose::Identity()});
+  place(truth, simulation::Box({-20, -20, 0}, {20, 20, 30}), translation({0, 0, -500}), "vice");
+  place(truth, simulation::Box({-300, -200, -60}, {300, 200, 0}), translation({0, 0, -500}), "table");
+  truth.solids.back().ofMachine = true;
+  const auto names = [](const reports::MachineScene& scene) {
+    std::vector<std::string> found;
+    for (const auto& body : scene.bodies)
+      found.push_back(body.mesh.name);
+    return found;
+  };
+  EXPECT_EQ(names(machineSceneOf(truth)), (std::vector<std::string>{"nose", "table"}));
+  EXPECT_EQ(names(machineSceneOf(truth, Drawn::WhatLiesOnTheTableToo)),
+            (std::vector<std::string>{"nose", "vice", "table"}));
 }
 
 }  // namespace
