@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <openssl/sha.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -41,12 +40,7 @@ std::string markOf(const std::vector<fs::path>& inputs) {
     all += fmt::format("\n{} ", text ? text->size() : 0);
     if (text) all += *text;
   }
-  std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
-  SHA256(reinterpret_cast<const unsigned char*>(all.data()), all.size(), digest.data());
-  std::string mark;
-  for (const unsigned char byte : digest)
-    mark += fmt::format("{:02x}", byte);
-  return mark;
+  return digestOf(all);
 }
 
 /// What lies in the folder and is nobody's but the user's.

@@ -9,12 +9,15 @@
 /// Where a study whose ranks hand in sums has come to, in its output folder: to go on after an interruption.
 namespace probewright::app {
 
-/// Nothing if there is no such file. Fails if it is of another study than `mark` says, or something else.
+/// Nothing if there is no such file. Fails if it is of another study than `mark` says, something else, or damaged.
 Result<std::optional<std::string>> readStudyState(const std::filesystem::path& folder, const std::string& mark);
 Result<void> writeStudyState(const std::filesystem::path& folder, const std::string& mark, const std::string& state);
 
 /// Why the file must not be written there: something else has its name. Nothing if it may.
 std::optional<Diagnostic> whyNotStudyState(const std::filesystem::path& folder);
+/// SHA-256, in hexadecimal digits.
+std::string digestOf(const std::string& text);
+
 /// Removes what whyNotStudyState() lets write.
 void removeStudyState(const std::filesystem::path& folder);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -35,6 +36,25 @@ bool isAnswer(control::Role role) {
   return false;
 }
 
+using CycleTruths = std::vector<std::optional<double>>;  ///< a true value for each result, where it is known
+
+/// The true value of a deviation: as far from the measured one as that of the measured value it was computed from.
+std::optional<double> trueDeviation(const control::CycleRecord& cycle, const control::ResultRecord& deviation,
+                                    const CycleTruths& truths) {
+  constexpr double rounding = 1e-9;
+  if (deviation.kind.role != control::Role::Difference) return std::nullopt;
+  for (std::size_t i = 0; i < cycle.results.size(); ++i) {
+    const control::ResultRecord& actual = cycle.results[i];
+    if (actual.kind.role != control::Role::Actual || !(actual.kind.of == deviation.kind.of) || !actual.nominal ||
+        !truths[i])
+      continue;
+    const double measured = actual.value - *actual.nominal, error = actual.value - *truths[i];
+    if (std::abs(deviation.value - measured) <= rounding) return deviation.value - error;
+    if (std::abs(deviation.value + measured) <= rounding) return deviation.value + error;
+  }
+  return std::nullopt;
+}
+
 std::string placeName(const SourcePlace& place, const std::string& mainProgram) {
   if (place.file == mainProgram || place.file.empty()) return std::to_string(place.line);
   return fmt::format("{}:{}", std::filesystem::path(place.file).filename().string(), place.line);
@@ -54,14 +74,17 @@ std::vector<Observation> observationsOf(const control::Journal& journal, const O
     std::string call = fmt::format("{}{}@{}", prefix, cycle.name, placeName(cycle.place, mainProgram));
     if (const int pass = ++passes[call]; pass > 1) call += fmt::format("#{}", pass);
     const std::vector<bool> isMain = cycles::mainResults(cycle);
+    CycleTruths truths(cycle.results.size());
+    for (std::size_t i = 0;
+         c < observed.truths.size() && i < std::min(truths.size(), observed.truths[c].results.size()); ++i)
+      if (observed.truths[c].results[i]) truths[i] = observed.truths[c].results[i]->value;
     for (std::size_t i = 0; i < cycle.results.size(); ++i) {
       const control::ResultRecord& result = cycle.results[i];
       if (!isAnswer(result.kind.role) || !std::isfinite(result.value)) continue;
       std::string key = call + " " + result.name;
       if (!keys.insert(key).second) continue;
-      std::optional<double> truth, firstOrder;
-      if (c < observed.truths.size() && i < observed.truths[c].results.size() && observed.truths[c].results[i])
-        truth = observed.truths[c].results[i]->value;
+      std::optional<double> firstOrder;
+      const std::optional<double> truth = truths[i] ? truths[i] : trueDeviation(cycle, result, truths);
       if (observed.scatter > 0) {
         const auto sensitivity = sensitivityToTouches(cycle, result);
         if (sensitivity) firstOrder = *sensitivity * observed.scatter;

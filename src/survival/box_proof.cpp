@@ -24,8 +24,12 @@ using simulation::ToolShape;
 
 namespace {
 
-constexpr double deviations = 8;  // of the scatter that is taken for the most
-constexpr double onLine = 1e-6;   // mm
+constexpr double deviations =
+    8;  // of the scatter that is taken for the most: 1.2e-15 of a normal distribution lie beyond
+constexpr double onLine = 1e-6;     // mm: positions of one line, which differ by rounding
+constexpr double leastBall = 0.05;  // mm: a ball that is left with less says nothing of where the touch is
+constexpr double ofReadings =
+    1.05;  // positions over readings: scales are at most 10 mm per m, polynomials add their part
 
 ToolShape bodiesOf(ToolShape shape) {
   shape.balls.clear();
@@ -345,7 +349,7 @@ std::optional<BoxVerdict> Proof::passOn(std::size_t touch, std::size_t step, dou
 }
 
 std::optional<BoxVerdict> Proof::withinTravel(const Step& step, const Spread& spread) const {
-  const double room = 1.05 * spread.to.any();  // readings differ from true places by the scales of the axes
+  const double room = ofReadings * spread.to.any();
   for (std::size_t i = 0; i < machine().axes.size(); ++i) {
     const machine::Axis& axis = machine().axes[i];
     if (!isLinear(i)) continue;
@@ -482,7 +486,7 @@ std::optional<BoxVerdict> Proof::lookAtTouch(std::size_t index) {
   double latest = 0;
   for (const ToolShape& thin : anywhere(shape, by, ownOf(step))) {
     for (const simulation::Ball& ball : thin.balls)
-      if (ball.radius < 0.05) return undecided("things can shift by as much as the ball's radius", &step);
+      if (ball.radius < leastBall) return undecided("things can shift by as much as the ball's radius", &step);
     const auto last = firstTouch(motion, 0, 1, thin, least_[meant->solid], exact);
     if (!last) return undecided(fmt::format("the ball may not reach \"{}\"", solids_[meant->solid].name), &step);
     latest = std::max(latest, last->fraction);

@@ -201,6 +201,12 @@ TEST(ProgramStudy, TakesTrueValuesFromTheVirtualMachine) {
   EXPECT_LT(found.contributions.front().uncertainty.value(), 1e-5);
   EXPECT_NEAR(found.contributions.back().uncertainty.value(), 0.001 / std::sqrt(2.0), 0.15 * 0.001);
   EXPECT_EQ(found.firstOrder, FirstOrderVerdict::Holds);
+  // A deviation is as wrong as what it is the deviation of.
+  const Answer& deviation = answer(result, "421@4 Q161");
+  ASSERT_TRUE(deviation.error);
+  EXPECT_NEAR(deviation.standardUncertainty, found.standardUncertainty, 1e-9);
+  EXPECT_NEAR(deviation.values.deviation, found.values.deviation, 1e-9);
+  EXPECT_EQ(deviation.firstOrder, FirstOrderVerdict::Holds);
   const StudyResult blind = studyOfProgram(plateSetup("repeatability = 0.001\n"), program(bore(3, 4)),
                                            "trials = 20\nsensitivity = \"none\"\ntrue_values = false\n" + aside);
   EXPECT_FALSE(answer(blind, "421@4 Q151").error);

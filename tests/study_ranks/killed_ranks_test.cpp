@@ -62,6 +62,13 @@ TEST(KilledRanks, TheLauncherTakesItsRanksAlong) {
   for (const pid_t rank : ranks)
     EXPECT_TRUE(waitFor([&] { return isGone(rank); }));
   EXPECT_FALSE(fs::exists(bench.path("out/study.json")));
+  // One bit of what was kept is another one.
+  std::string state = bench.text("out/study.state");
+  ASSERT_GT(state.size(), 1000U);
+  state[state.size() / 2] = static_cast<char>(state[state.size() / 2] ^ 1);
+  fs::create_directory(bench.path("damaged"));
+  bench.folder().file("damaged/study.state", state);
+  EXPECT_EQ(probewright(bench.words("90000000", "damaged", {"--resume"})).exit, 2);
   expectToGoOn(bench);
 }
 
