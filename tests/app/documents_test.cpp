@@ -17,6 +17,7 @@ namespace probewright::app::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::string root = PROBEWRIGHT_SOURCE_DIR;
 
@@ -273,6 +274,20 @@ TEST(Documents, PrintCommandsThatRun) {
     ++ran;
   }
   EXPECT_GE(ran, 6);
+}
+
+/// What is inside of the program and why stands on the pages for developers.
+TEST(Documents, ForUsersNameNoSources) {
+  const std::set<std::string> developers = {"code-overview.md", "metrology.md", "machine-adapters.md"};
+  int pages = 0;
+  for (const std::string& name : namesIn(root + "/docs")) {
+    if (!name.ends_with(".md") || developers.contains(name)) continue;
+    ++pages;
+    const std::string page = textOf(root + "/docs/" + name);
+    EXPECT_THAT(page, Not(HasSubstr("`src/"))) << name;
+    EXPECT_THAT(page, Not(::testing::ContainsRegex("\\([a-z_]+\\.hpp\\)"))) << name;
+  }
+  EXPECT_GT(pages, 25);
 }
 
 TEST(Documents, LinkToPagesThatThereAre) {
