@@ -9,6 +9,8 @@
 #include <sstream>
 #include <string>
 
+#include "words/cycle_words.hpp"
+
 namespace probewright::app {
 
 namespace {
@@ -97,10 +99,10 @@ std::vector<std::string> looksFor(const std::string& word) {
 
 }  // namespace
 
-std::vector<const CycleDefinition*> cyclesAbout(std::string_view words,
+std::vector<const CycleDefinition*> cyclesAbout(std::string_view sought,
                                                 const std::vector<const CycleDefinition*>& known) {
   std::vector<std::vector<std::string>> wanted;
-  std::istringstream stream(plain(words));
+  std::istringstream stream(plain(sought));
   for (std::string word; stream >> word;) {
     if (word.size() < 2) return {};
     wanted.push_back(looksFor(word));
@@ -127,6 +129,15 @@ std::vector<const CycleDefinition*> cyclesAbout(std::string_view words,
     if (all(plain(text))) others.push_back(cycle);
   }
   titles.insert(titles.end(), others.begin(), others.end());
+  if (!titles.empty()) return titles;
+  // A word of a parameter in another language, such as "Sicherheitsabstand".
+  for (const CycleDefinition* cycle : known) {
+    std::string text;
+    for (const cycles::Parameter& parameter : cycle->parameters)
+      for (const std::string& translation : words::inOtherLanguages(parameter.meaning))
+        text.append(translation).append("\n");
+    if (all(plain(text))) titles.push_back(cycle);
+  }
   return titles;
 }
 

@@ -16,6 +16,7 @@
 #include "records/results.hpp"
 #include "session/control_family.hpp"
 #include "terminal.hpp"
+#include "words/cycle_words.hpp"
 #include "words/words.hpp"
 
 namespace probewright::app {
@@ -41,24 +42,25 @@ bool isCode(const Parameter& parameter) {
   return !parameter.digits.empty() && !parameter.digits.front().meaning.empty();
 }
 
-std::string rangeText(const Parameter& parameter) {
+std::string rangeText(const Parameter& parameter, DialogLanguage language) {
   switch (parameter.kind) {
     case ValueKind::Text:
-      return "text";
-    case ValueKind::Option: {
-      return "option";
-    }
+      return words::ofCatalogue(language, "text");
+    case ValueKind::Option:
+      return words::ofCatalogue(language, "option");
     default:
       break;
   }
   if (!parameter.digits.empty()) {
     const cycles::CodeDigit& first = parameter.digits.front();
-    return isCode(parameter) ? "coded" : fmt::format("0 to {}", first.most);
+    return isCode(parameter) ? words::ofCatalogue(language, "coded")
+                             : words::ofCatalogue(language, "{0} to {1}", {"0", std::to_string(first.most)});
   }
-  std::string text = fmt::format("{} to {}", formatShortest(parameter.minimum), formatShortest(parameter.maximum));
+  std::string text = words::ofCatalogue(language, "{0} to {1}",
+                                        {formatShortest(parameter.minimum), formatShortest(parameter.maximum)});
   const std::string_view unit = cycles::unitOf(parameter.kind);
   if (!unit.empty()) text += fmt::format(" {}", unit);
-  if (parameter.kind == ValueKind::NumberOrText) text += " or a text";
+  if (parameter.kind == ValueKind::NumberOrText) text += " " + words::ofCatalogue(language, "or a text");
   return text;
 }
 
@@ -86,35 +88,42 @@ void show(const CycleDefinition& cycle, DialogLanguage language) {
   for (const auto& result : cycle.results)
     width = std::max(width, result.name.size());
   say("{}  {}\n", cycle.name, words::phrase(language, cycle.title));
-  say("{} | {}\n\n{}\n\nParameters\n", cycles::nameOf(cycle.family), controlsText(cycle.controls), cycle.summary);
+  const auto says = [&](std::string_view english) { return words::ofCatalogue(language, english); };
+  say("{} | {}\n\n{}\n\n{}\n", says(cycles::nameOf(cycle.family)), controlsText(cycle.controls), says(cycle.summary),
+      says("Parameters"));
   for (const Parameter& parameter : cycle.parameters) {
-    say("  {:<{}} {}\n", parameter.name, width, parameter.meaning);
-    std::string line = rangeText(parameter);
-    if (parameter.standard) line += fmt::format("; default {}", formatShortest(*parameter.standard));
+    say("  {:<{}} {}\n", parameter.name, width, says(parameter.meaning));
+    std::string line = rangeText(parameter, language);
+    if (parameter.standard) {
+      line += "; " + words::ofCatalogue(language, "default {0}", {formatShortest(*parameter.standard)});
+    }
     if (parameter.predefinable) line += "; PREDEF";
     control::ControlSet here = parameter.controls;
     here.bits = static_cast<std::uint8_t>(here.bits & cycle.controls.bits);
-    if (here.bits != cycle.controls.bits) line += fmt::format("; {} only", controlsText(here));
-    if (parameter.iTNC530Software > 0) line += "; iTNC530 from " + softwareText(parameter) + " on";
+    if (here.bits != cycle.controls.bits) line += "; " + words::ofCatalogue(language, "{0} only", {controlsText(here)});
+    if (parameter.iTNC530Software > 0)
+      line += "; " + words::ofCatalogue(language, "iTNC530 from {0} on", {softwareText(parameter)});
     say("  {:<{}} {}\n", "", width, line);
     for (const cycles::Choice& choice : parameter.choices) {
-      say("  {:<{}}   {:>3}  {}\n", "", width, choice.value, choice.meaning);
+      say("  {:<{}}   {:>3}  {}\n", "", width, choice.value, says(choice.meaning));
     }
     for (const cycles::CodeDigit& digit : isCode(parameter) ? parameter.digits : std::span<const cycles::CodeDigit>()) {
-      const std::string place = digit.width == 1 ? std::string(cycles::placeName(digit.place))
-                                                 : fmt::format("{} to {}", cycles::placeName(digit.place),
-                                                               cycles::placeName(digit.place + digit.width - 1));
-      say("  {:<{}}   {}: {}\n", "", width, place, digit.meaning);
+      const std::string last = says(cycles::placeName(digit.place));
+      const std::string place =
+          digit.width == 1 ? last
+                           : words::ofCatalogue(language, "{0} to {1}",
+                                                {last, says(cycles::placeName(digit.place + digit.width - 1))});
+      say("  {:<{}}   {}: {}\n", "", width, place, says(digit.meaning));
       for (const cycles::Choice& choice : digit.choices)
-        say("  {:<{}}   {:>3}  {}\n", "", width, choice.value, choice.meaning);
+        say("  {:<{}}   {:>3}  {}\n", "", width, choice.value, says(choice.meaning));
     }
   }
   if (cycle.results.empty()) return;
-  say("\nResults\n");
+  say("\n{}\n", says("Results"));
   for (const auto& result : cycle.results) {
     const std::string_view unit = cycles::unitOf(result.valueKind());
-    say("  {:<{}} {}{}{}\n", result.name, width, result.meaning.whole(), unit.empty() ? "" : fmt::format(", {}", unit),
-        variantsText(result));
+    say("  {:<{}} {}{}{}\n", result.name, width, words::meaning(language, result.kind, result.meaning.whole()),
+        unit.empty() ? "" : fmt::format(", {}", unit), variantsText(result));
   }
 }
 
@@ -212,7 +221,7 @@ std::string plainName(std::string_view name) {
 /// One row of the list of all cycles.
 std::string row(const CycleDefinition& cycle, DialogLanguage language) {
   return fmt::format("{:<11}{:<64}{:<24}{}\n", cycle.name, words::phrase(language, cycle.title),
-                     cycles::nameOf(cycle.family), controlsText(cycle.controls));
+                     words::ofCatalogue(language, cycles::nameOf(cycle.family)), controlsText(cycle.controls));
 }
 
 }  // namespace

@@ -13,6 +13,8 @@
 #include "reports/embedded.hpp"
 #include "reports/machine_scene.hpp"
 #include "reports/packed_text.hpp"
+#include "words/cycle_words.hpp"
+#include "words/words.hpp"
 
 namespace probewright::reports {
 
@@ -229,6 +231,35 @@ json traceData(const records::RunTrace& trace, const std::vector<machine::Axis>&
           {"readings", base64(readings)}};
 }
 
+/// What alarms say and the parameters of the calls mean, in the other languages of the page.
+json wordsOf(const control::Journal& journal, const records::ReadableText& readable) {
+  json words = json::object();
+  using words::DialogLanguage;
+  const auto sentence = [&](const std::string& bytes) {
+    const std::string english = readable(bytes);
+    if (english.empty() || words.contains(english)) return;
+    json others = json::array();
+    bool known = false;
+    for (const DialogLanguage language : {DialogLanguage::German, DialogLanguage::Russian, DialogLanguage::Swedish,
+                                          DialogLanguage::Chinese, DialogLanguage::Polish}) {
+      others.push_back(words::translated(language, english));
+      known = known || others.back() != english;
+    }
+    if (known) words[english] = std::move(others);
+  };
+  for (const auto& event : journal.events)
+    if (event.kind == control::EventKind::Alarm) sentence(event.text);
+  for (const auto& cycle : journal.cycles) {
+    sentence(cycle.alarm);
+    for (const auto& parameter : cycle.parameters) {
+      if (words.contains(parameter.meaning)) continue;
+      if (const auto others = words::inOtherLanguages(parameter.meaning); !others.empty())
+        words[parameter.meaning] = others;
+    }
+  }
+  return words;
+}
+
 std::string htmlText(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
@@ -290,6 +321,7 @@ void writeReport(const Sink& sink, const control::Journal& journal, const record
   add(sceneData(scene, readable).dump());
   add(",\"trace\":");
   add(options.trace == nullptr ? "null" : traceData(*options.trace, run.axes, readable).dump());
+  add(",\"words\":" + wordsOf(journal, readable).dump());
   add(",\"language\":" + json(options.language).dump() + "}");
   data.finish();
   html = "</script>\n<script>\n";

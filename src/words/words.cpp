@@ -21,6 +21,7 @@ PROBEWRIGHT_TABLE(probewrightWordsSv);
 PROBEWRIGHT_TABLE(probewrightWordsZh);
 PROBEWRIGHT_TABLE(probewrightWordsPl);
 PROBEWRIGHT_TABLE(probewrightWordsPhrases);
+PROBEWRIGHT_TABLE(probewrightWordsAlarms);
 }
 #undef PROBEWRIGHT_TABLE
 
@@ -159,6 +160,8 @@ struct Phrases {
   json exact = json::parse(probewrightWordsPhrases, probewrightWordsPhrasesEnd);
   std::vector<Pattern> patterns;  ///< the ones with the most words in them first
   Phrases() {
+    // What alarms of single cycles say: the page of a run gets those that it needs.
+    exact.update(json::parse(probewrightWordsAlarms, probewrightWordsAlarmsEnd));
     for (const auto& [english, words] : exact.items()) {
       if (english.find("{0}") != std::string::npos) patterns.push_back({piecesOf(english), &words});
     }

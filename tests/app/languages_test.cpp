@@ -136,6 +136,23 @@ TEST(SummaryInLanguage, HasNoLineOfTheEnglishOne) {
   }
 }
 
+/// Of the English page of a cycle no line with words is left in another language.
+TEST(CycleTexts, DescribeEachCycleInTheLanguage) {
+  static const std::regex words("[a-z]{5,}");
+  for (const char* cycle : {"421", "451", "1410", "CYCLE977", "CYCLE996"}) {
+    std::set<std::string> english;
+    std::istringstream page(probewright({"cycles", cycle}).output);
+    for (std::string line; std::getline(page, line);)
+      if (std::regex_search(line, words)) english.insert(line);
+    EXPECT_GT(english.size(), 20U);
+    for (const char* language : {"de", "ru", "sv", "zh", "pl"}) {
+      std::istringstream other(probewright({"cycles", cycle, "--language", language}).output);
+      for (std::string line; std::getline(other, line);)
+        EXPECT_FALSE(english.contains(line)) << cycle << " " << language << ": " << line;
+    }
+  }
+}
+
 TEST(CycleTexts, AreThoseOfTheControlInItsLanguage) {
   const auto block = [](const char* cycle, const char* language) {
     return probewright({"cycles", cycle, "--template", "--language", language}).output;
@@ -148,6 +165,7 @@ TEST(CycleTexts, AreThoseOfTheControlInItsLanguage) {
   EXPECT_THAT(block("451", "pl"), HasSubstr(";PUNKTY POMIAROWE OSI A"));
   EXPECT_THAT(block("451", "en"), Not(HasSubstr("PARAMETER")));
   EXPECT_THAT(probewright({"cycles", "412", "--language", "de"}).output, HasSubstr("Bezugspunkt Kreis innen"));
+  EXPECT_THAT(probewright({"cycles", "Sicherheitsabstand"}).output, HasSubstr("412"));
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "cycles/catalogue.hpp"
 #include "cycles/sinumerik/alarms.hpp"
 #include "cycles/sinumerik/context.hpp"
+#include "words/cycle_words.hpp"
 
 /// What people read in six languages: nothing that a control shows is left out, and no value is lost in a sentence.
 namespace probewright::words {
@@ -123,6 +124,58 @@ TEST(Words, WhatTitlesACallAndNamesAnEntryHasItsWords) {
       EXPECT_NE(phrase(language, english), english) << code(language);
 }
 
+/// Descriptions of the catalogue that are names of axes and the like in every language.
+const std::set<std::string, std::less<>> sameEverywhere = {"X", "Y", "Z", "D"};
+
+TEST(Words, EveryDescriptionOfTheCatalogueHasItsWords) {
+  std::set<std::string, std::less<>> all;
+  for (const control::ControlKind kind : control::allControlKinds) {
+    for (const cycles::CycleDefinition* cycle : cycles::cyclesOf(kind)) {
+      all.emplace(cycle->summary);
+      all.emplace(cycles::nameOf(cycle->family));
+      for (const cycles::Parameter& parameter : cycle->parameters) {
+        all.emplace(parameter.meaning);
+        for (const cycles::Choice& choice : parameter.choices)
+          all.emplace(choice.meaning);
+        for (const cycles::CodeDigit& digit : parameter.digits) {
+          all.emplace(digit.meaning);
+          for (const cycles::Choice& choice : digit.choices)
+            all.emplace(choice.meaning);
+        }
+      }
+    }
+  }
+  all.erase("");
+  EXPECT_GT(all.size(), 600U);
+  for (const std::string& english : all) {
+    if (sameEverywhere.contains(english)) continue;
+    const std::vector<std::string> words = inOtherLanguages(english);
+    ASSERT_EQ(words.size(), others.size()) << english;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      EXPECT_NE(words[i], "") << english;
+      EXPECT_EQ(words[i], ofCatalogue(others[i], english));
+    }
+    // Russian and Chinese have letters of their own.
+    const auto foreign = [](const std::string& text) {
+      return std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
+    };
+    EXPECT_TRUE(foreign(words[1])) << words[1];
+    EXPECT_TRUE(foreign(words[3])) << words[3];
+  }
+  // Numbers and names of data are those of the English text.
+  static const std::regex data(
+      R"((S_[A-Z]+[0-9]*|_AMODE|MP[0-9]+(\.[0-9])?|SD [0-9]+|Q[0-9]{3}|QS[0-9]+|DATA450\.KD|TOOL\.T))");
+  for (const auto& [english, translations] : tableFile("cycles.json").items()) {
+    EXPECT_TRUE(all.contains(english) || english.find('{') != std::string::npos || english.size() < 24) << english;
+    for (const json& translation : translations) {
+      EXPECT_EQ(placesOf(translation), placesOf(english)) << translation;
+      const std::string text = translation;
+      for (std::sregex_iterator it(english.begin(), english.end(), data), end; it != end; ++it)
+        EXPECT_THAT(text, ::testing::HasSubstr(it->str())) << english;
+    }
+  }
+}
+
 TEST(Words, EveryAlarmOfTheMeasuringCyclesHasItsWords) {
   EXPECT_GT(cycles::sinumerik::alarmNumbers().size(), 30U);
   for (const int number : cycles::sinumerik::alarmNumbers()) {
@@ -146,6 +199,54 @@ TEST(Words, EveryAlarmOfTheMeasuringCyclesHasItsWords) {
   for (const std::string& name : names) {
     for (const DialogLanguage language : others)
       EXPECT_NE(phrase(language, name), name) << code(language);
+  }
+}
+
+/// What alarms of the cycles say beyond their names and numbers, as it stands in the sources.
+std::set<std::string> sentencesOfAlarms() {
+  static const std::regex raised(
+      R"re((?:\bAlarm\(\s*"[^"]*",\s*|\b(?:alarm|fail|refuse)\((?:[^"();]|\([^()]*\)){0,80}(?:"[A-Z][^"]*",\s*)?)(?:fmt::format\(\s*)?((?:"(?:[^"\\]|\\.)*"\s*)+))re");
+  static const std::regex literal(R"re("((?:[^"\\]|\\.)*)")re"), value(R"(\{[^}]*\})"), quote(R"(\\")");
+  std::set<std::string> sentences;
+  for (const char* folder : {"src/cycles/heidenhain", "src/cycles/sinumerik", "src/probing"}) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(source / folder)) {
+      if (entry.path().extension() != ".cpp") continue;
+      const std::string text = textOf(entry.path());
+      for (std::sregex_iterator it(text.begin(), text.end(), raised), end; it != end; ++it) {
+        const std::string pieces = (*it)[1];
+        std::string sentence;
+        for (std::sregex_iterator piece(pieces.begin(), pieces.end(), literal); piece != end; ++piece)
+          sentence += (*piece)[1];
+        sentence = std::regex_replace(sentence, quote, "\"");
+        // Where the tip stopped is a sentence of its own.
+        if (sentence.ends_with("the {}"))
+          sentence.replace(sentence.size() - 2, 2, "tool tip stopped at X+1.000 Y+2.000 Z+3.000 on the table");
+        if (sentence.ends_with(": ")) sentence += "7";
+        if (std::regex_search(sentence, std::regex("[a-z]{3} ")))
+          sentences.insert(std::regex_replace(sentence, value, "7"));
+      }
+    }
+  }
+  sentences.erase("not ready");  // a word for the record
+  return sentences;
+}
+
+TEST(Words, WhatAlarmsOfTheCyclesSayHasItsWords) {
+  const std::set<std::string> sentences = sentencesOfAlarms();
+  EXPECT_GT(sentences.size(), 200U);
+  EXPECT_TRUE(sentences.contains("The two centres coincide"));
+  for (const std::string& english : sentences) {
+    for (const DialogLanguage language : others) {
+      const std::string text = translated(language, english);
+      EXPECT_NE(text, english) << code(language);
+      EXPECT_EQ(std::ranges::count(text, '{'), 0) << text;
+    }
+  }
+  // Every entry has each of its places in each language.
+  for (const auto& [english, translations] : tableFile("alarms.json").items()) {
+    ASSERT_EQ(translations.size(), others.size()) << english;
+    for (const json& translation : translations)
+      EXPECT_EQ(placesOf(translation), placesOf(english)) << translation;
   }
 }
 

@@ -233,6 +233,8 @@ export interface Report {
   trace: Trace | null;
   /** The page begins in it. */
   language: string;
+  /** What parameters mean, in the other languages. */
+  words: Record<string, string[]>;
 }
 
 /* The layout of the JSON inside the page; arrays are base64. */
@@ -328,6 +330,7 @@ export async function readReport(): Promise<Report> {
     scene: unpackScene(data.scene),
     trace: unpackTrace(data.trace),
     language: data.language,
+    words: data.words ?? {},
   };
 }
 

@@ -7,7 +7,7 @@ import { t } from "./language";
 import { formPlot, histogram, positionPlot, repeatedTouches } from "./plots";
 import type { Selector } from "./selection";
 import type { Write } from "./data";
-import { phrase } from "./phrases";
+import { description, phrase } from "./phrases";
 
 export const outcomeText = (outcome: string) => (outcome === "touched" ? t("touched") : outcome);
 
@@ -125,7 +125,7 @@ function parameters(cycle: Cycle): HTMLElement {
           { class: parameter.default ? "default" : "" },
           h("dt", {}, parameter.name),
           h("dd", { class: "number" }, parameter.value),
-          h("dd", { class: "meaning" }, parameter.meaning + (parameter.default ? ` ${t("defaultValue")}` : "")),
+          h("dd", { class: "meaning" }, description(parameter.meaning) + (parameter.default ? ` ${t("defaultValue")}` : "")),
         ),
       ),
     ),

@@ -37,6 +37,19 @@ function known(english: string, column: number): string | undefined {
   return undefined;
 }
 
+let described: Record<string, string[]> = {};
+
+/** The words of the page for what its calls say of their parameters. */
+export function useDescriptions(words: Record<string, string[]>) {
+  described = words;
+}
+
+/** What a parameter means. */
+export function description(english: string): string {
+  const column = columns.indexOf(currentLanguage());
+  return column >= 0 && Object.hasOwn(described, english) ? described[english][column] : english;
+}
+
 /** A phrase that the table has word for word: of a result it says more than its quantity does. */
 export function exactly(english: string): string | undefined {
   const column = columns.indexOf(currentLanguage());
@@ -53,6 +66,8 @@ export function phrase(english: string): string {
 export function translated(english: string): string {
   const column = columns.indexOf(currentLanguage());
   if (column < 0) return english;
+  // What an alarm of this run says.
+  if (Object.hasOwn(described, english)) return described[english][column];
   const colon = english.indexOf(": ");
   const name = english.slice(0, colon);
   // The name of an alarm first: else what it says would be taken for a value of some sentence.

@@ -5,7 +5,7 @@ import { duration, fileName, fixed, h, icon, quantity, unitText } from "./dom";
 import { nameOf } from "./features";
 import { t } from "./language";
 import { MachineClock, type PathPlace } from "./machine_clock";
-import { phrase } from "./phrases";
+import { description, phrase } from "./phrases";
 import type { Selector } from "./selection";
 import { cycleState } from "./verdict";
 
@@ -227,7 +227,7 @@ export class Replay {
     return h(
       "dl",
       { class: "values", "aria-label": t("valuesInUse") },
-      ...(running ? running.parameters.filter((parameter) => !parameter.default).map(({ name, value, meaning }) => pair(name, value, meaning)) : []),
+      ...(running ? running.parameters.filter((parameter) => !parameter.default).map(({ name, value, meaning }) => pair(name, value, description(meaning))) : []),
       ...(done >= 0
         ? cycles[done].results.filter((result) => result.main).map(({ name, value, unit, meaning }) => pair(name, `${quantity(value, unit)}${unit ? ` ${unitText(unit)}` : ""}`, meaning))
         : []),

@@ -16,7 +16,7 @@ import { Sheet } from "./sheet";
 import { correctionsTable, eventsTable, filesText, timeSection, travelTable, truthTable } from "./tables";
 import { headline, symbols } from "./verdict";
 import { View } from "./view";
-import { phrase } from "./phrases";
+import { phrase, useDescriptions } from "./phrases";
 
 type Tab = "inspection" | "program" | "corrections" | "messages" | "camera" | "run";
 
@@ -218,6 +218,7 @@ async function main() {
     return;
   }
   const report = await readReport();
+  useDescriptions(report.words);
   const dark = matchMedia("(prefers-color-scheme: dark)");
   let page: Page | null = null;
   const setTheme = (theme: string) => {
