@@ -42,8 +42,10 @@ std::string dfqText(const Inspection& inspection) {
   const records::RunInfo& run = inspection.run;
   Keys keys;
   keys.put("K0100", std::to_string(inspection.rows.size()));
-  keys.put("K1001", run.partName.empty() ? "part" : run.partName);
-  keys.put("K1002", run.partPath);
+  const std::string name = run.partName.empty() ? "part" : run.partName;
+  keys.put("K1001", run.job.part.empty() ? name : run.job.part);
+  keys.put("K1002", run.job.part.empty() ? run.partPath : name);
+  keys.put("K1041", run.job.drawing);
   keys.put("K1082", run.machine);
   keys.put("K1900", run.programs.empty() ? "" : run.programs.front().path);
   std::size_t place = 0;
@@ -64,6 +66,8 @@ std::string dfqText(const Inspection& inspection) {
     keys.put("K0001", place, formatFixed(row.actual, 7));
     keys.put("K0002", place, "0");  // a valid value
     keys.put("K0004", place, germanTime(timeOf(row, run)));
+    keys.put("K0014", place, run.job.serial);
+    keys.put("K0053", place, run.job.order);
   }
   return std::move(keys).text();
 }

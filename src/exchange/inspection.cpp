@@ -44,6 +44,8 @@ Inspection inspectionOf(const control::Journal& journal, const records::RunInfo&
   for (std::string* field : {&inspection.run.machine, &inspection.run.partName, &inspection.run.partPath,
                              &inspection.run.setupPath, &inspection.run.exitText})
     *field = text(*field);
+  for (const records::JobField& field : records::jobFields)
+    inspection.run.job.*field.value = text(run.job.*field.value);
   inspection.verdict = records::worstVerdict(journal);
   std::size_t number = 0;
   for (const control::CycleRecord& cycle : journal.cycles) {

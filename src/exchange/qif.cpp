@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/uuid/name_generator.hpp>
 #include <boost/uuid/uuid_io.hpp>
 #include <pugixml.hpp>
@@ -78,7 +79,10 @@ public:
     put(root, "QPId", identity("document"));
     head(root);
     units(root);
-    if (!characteristics_.empty()) characteristics(root);
+    if (!characteristics_.empty()) {
+      features(root);
+      characteristics(root);
+    }
     results(root);
     root.append_attribute("idMax") = lastId_;
     std::ostringstream text;
@@ -90,6 +94,11 @@ private:
   struct Characteristic {
     const Row* row;
     std::string kind;
+    unsigned definition, nominal, item;
+  };
+  /// What one call of a cycle measured.
+  struct Feature {
+    const Row* row;
     unsigned definition, nominal, item;
   };
 
@@ -121,8 +130,8 @@ private:
     pugi::xml_node application = header.append_child("Application");
     put(application, "Name", "Probewright " + run.version);
     put(header, "Description",
-        fmt::format("{}, part {} {}, control {}, machine {}", run.programs.empty() ? "" : run.programs.front().path,
-                    run.partName, run.partPath, run.control, run.machine));
+        fmt::format("{}, part {}{}{}, control {}, machine {}", run.programs.empty() ? "" : run.programs.front().path,
+                    run.partName, run.partPath.empty() ? "" : " ", run.partPath, run.control, run.machine));
     pugi::xml_node standards = root.append_child("StandardsDefinitions");
     standards.append_attribute("n") = 1;
     pugi::xml_node standard = standards.append_child("Standard");
@@ -160,6 +169,46 @@ private:
     put(node, "DefinedAsLimit", "true");
   }
 
+  /// A feature for each call: its name, and which characteristics are its own. Its geometry stays in the control.
+  void features(pugi::xml_node root) {
+    for (const Characteristic& each : characteristics_)
+      if (features_.empty() || features_.back().row->cycle != each.row->cycle) features_.push_back({each.row, 0, 0, 0});
+    const auto counted = [&](pugi::xml_node parent, const char* name) {
+      pugi::xml_node node = parent.append_child(name);
+      node.append_attribute("n") = static_cast<unsigned long long>(features_.size());
+      return node;
+    };
+    const auto name = [](const Row& row) {
+      return fmt::format("{} {}", row.cycle, row.feature.empty() ? row.cycleName + " " + row.title : row.feature);
+    };
+    pugi::xml_node lists = root.append_child("Features");
+    pugi::xml_node definitions = counted(lists, "FeatureDefinitions");
+    for (Feature& each : features_) {
+      pugi::xml_node node = definitions.append_child("OtherShapeFeatureDefinition");
+      each.definition = number(node);
+      put(node, "Description", each.row->cycleName + " " + each.row->title);
+    }
+    pugi::xml_node nominals = counted(lists, "FeatureNominals");
+    for (Feature& each : features_) {
+      pugi::xml_node node = nominals.append_child("OtherShapeFeatureNominal");
+      each.nominal = number(node);
+      put(node, "Name", name(*each.row));
+      put(node, "FeatureDefinitionId", std::to_string(each.definition));
+    }
+    pugi::xml_node items = counted(lists, "FeatureItems");
+    for (Feature& each : features_) {
+      pugi::xml_node node = items.append_child("OtherShapeFeatureItem");
+      each.item = number(node);
+      put(node, "FeatureNominalId", std::to_string(each.nominal));
+      put(node, "FeatureName", name(*each.row));
+      node.append_child("DeterminationMode").append_child("Checked");
+    }
+  }
+
+  unsigned featureOf(const Row& row) const {
+    return std::ranges::find_if(features_, [&](const Feature& each) { return each.row->cycle == row.cycle; })->item;
+  }
+
   void characteristics(pugi::xml_node root) {
     pugi::xml_node aspects = root.append_child("Characteristics");
     put(aspects, "FormalStandardId", std::to_string(standard_));
@@ -187,8 +236,37 @@ private:
           fmt::format("{} {}, {} line {}, {}", each.row->cycleName, each.row->title, each.row->program, each.row->line,
                       each.row->result));
       put(node, "Name", nameOf(*each.row));
+      pugi::xml_node of = node.append_child("FeatureItemIds");
+      of.append_attribute("n") = 1;
+      put(of, "Id", std::to_string(featureOf(*each.row)));
       put(node, "CharacteristicNominalId", std::to_string(each.nominal));
     }
+  }
+
+  /// Who measured which part on whose order, and when.
+  void traceability(pugi::xml_node results) const {
+    const records::RunInfo& run = inspection_.run;
+    const records::Job& job = run.job;
+    const bool named = std::ranges::any_of(records::jobFields,
+                                           [&](const records::JobField& field) { return !(job.*field.value).empty(); });
+    if (run.startedAt.empty() && !named) return;
+    pugi::xml_node node = results.append_child("InspectionTraceability");
+    if (!job.company.empty()) put(node.append_child("InspectingOrganization"), "Name", job.company);
+    if (!job.order.empty()) put(node, "OrderNumber", job.order);
+    if (!run.startedAt.empty()) put(node, "InspectionStart", run.startedAt);
+    if (!job.operator_.empty()) put(node.append_child("InspectionOperator"), "Name", job.operator_);
+    pugi::xml_node attributes;
+    unsigned count = 0;
+    for (const auto& [name, value] :
+         {std::pair("part", &job.part), std::pair("drawing", &job.drawing), std::pair("serial", &job.serial)}) {
+      if (value->empty()) continue;
+      if (!attributes) attributes = node.append_child("Attributes");
+      pugi::xml_node attribute = attributes.append_child("AttributeStr");
+      attribute.append_attribute("name") = name;
+      attribute.append_attribute("value") = value->c_str();
+      ++count;
+    }
+    if (attributes) attributes.append_attribute("n") = count;
   }
 
   void results(pugi::xml_node root) {
@@ -197,7 +275,7 @@ private:
     pugi::xml_node results = set.append_child("MeasurementResults");
     number(results);
     const records::RunInfo& run = inspection_.run;
-    if (!run.startedAt.empty()) put(results.append_child("InspectionTraceability"), "InspectionStart", run.startedAt);
+    traceability(results);
     put(results, "ThisResultsInstanceQPId", identity("results"));
     if (!characteristics_.empty()) {
       pugi::xml_node measurements = list(results.append_child("MeasuredCharacteristics"), "CharacteristicMeasurements");
@@ -215,6 +293,7 @@ private:
 
   const Inspection& inspection_;
   std::vector<Characteristic> characteristics_;
+  std::vector<Feature> features_;
   unsigned lastId_ = 0;
   unsigned standard_ = 0;
 };

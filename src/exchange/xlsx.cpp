@@ -89,6 +89,9 @@ public:
     put("Program", run.programs.empty() ? "" : run.programs.front().path);
     put("Part", run.partName);
     put("Part file", run.partPath);
+    for (const records::JobField& field : records::jobFields)
+      if (const std::string& value = run.job.*field.value; !value.empty())
+        put(fmt::format("Job: {}", field.name).c_str(), value);
     put("Control", run.control);
     put("Machine", run.machine);
     put("Setup", run.setupPath);

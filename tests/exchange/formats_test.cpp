@@ -40,6 +40,13 @@ Inspection inspection() { return inspectionOf(journal(), sample::runInfo()); }
 Inspection awkward() {
   records::RunInfo run = sample::runInfo();
   run.partName = "Lager <\"40\" & 50>, größer";
+  run.job = {"Lager <\"40\" & 50>, größer",
+             "Z-1 <B>",
+             "4711\n& 12",
+             "00\x01"
+             "17",
+             "M. Weber",
+             "ACME \"AG\""};
   std::string& text = run.programs.front().text;
   const std::string name = "* - MEASURE";
   text.replace(text.find(name), name.size(), "* - MEASURE \"A,B\" <&> Bohrung ø");
@@ -142,6 +149,29 @@ TEST(Qif, FollowsThePublishedSchemas) {
   EXPECT_NE(validated(spoilt), "") << "the schemas are really asked";
 }
 
+/// Each characteristic belongs to the feature of its call, and the results to the job.
+TEST(Qif, NamesFeaturesAndTheJob) {
+  const std::string read = python(
+      "import sys, xml.etree.ElementTree as tree\n"
+      "q = \"{http://qifstandards.org/xsd/qif3}\"\n"
+      "root = tree.parse(sys.argv[1]).getroot()\n"
+      "byId = {node.get(\"id\"): node for node in root.iter() if node.get(\"id\")}\n"
+      "for item in root.find(\".//\" + q + \"CharacteristicItems\"):\n"
+      "  feature = byId[item.find(q + \"FeatureItemIds\")[0].text]\n"
+      "  nominal = byId[feature.find(q + \"FeatureNominalId\").text]\n"
+      "  definition = byId[nominal.find(q + \"FeatureDefinitionId\").text]\n"
+      "  print(item.find(q + \"Name\").text, feature.find(q + \"FeatureName\").text, definition[0].text, sep=\"|\")\n"
+      "trace = root.find(\".//\" + q + \"InspectionTraceability\")\n"
+      "print(trace.find(q + \"OrderNumber\").text, trace.find(q + \"InspectionOperator\")[0].text,\n"
+      "      [(each.get(\"name\"), each.get(\"value\")) for each in trace.find(q + \"Attributes\")])",
+      ScratchFile("a.qif", qifText(awkward())));
+  EXPECT_THAT(read,
+              HasSubstr("4 421 MEASURE \"A,B\" <&> Bohrung ø: actual value, diameter (Q153)|4 MEASURE \"A,B\" <&> "
+                        "Bohrung ø|421 "));
+  EXPECT_THAT(read, HasSubstr("& 12 M. Weber [('part', 'Lager <\"40\" & 50>, größer'), ('drawing', 'Z-1 <B>'), "
+                              "('serial', '00"));
+}
+
 TEST(Qif, TellsWhatWasMeasuredAndItsLimits) {
   const std::string read = python(
       "import sys, xml.etree.ElementTree as tree\n"
@@ -220,7 +250,10 @@ TEST(Dfq, HasNominalsLimitsAndValues) {
   EXPECT_THAT(read, HasSubstr("(Q150) None None None deg 1.5008123 07.07.2026/16:42:28\n"));
   EXPECT_THAT(read, HasSubstr("Bearing block\n"));
   EXPECT_THAT(dfqText(inspection()), Not(HasSubstr("\xEF\xBB\xBF"))) << "plain text where that suffices";
-  EXPECT_THAT(dfqRead(dfqText(awkward())), HasSubstr("Lager <\"40\" & 50>, größer\n"));
+  const std::string job = dfqText(awkward());
+  EXPECT_THAT(dfqRead(job), HasSubstr("Lager <\"40\" & 50>, größer\n"));
+  for (const char* key : {"\nK1041 Z-1 <B>\r", "\nK0014/1 00 17\r", "\nK0053/10 4711 & 12\r"})
+    EXPECT_THAT(job, HasSubstr(key));
 }
 
 TEST(Formats, AreFoundByName) {
