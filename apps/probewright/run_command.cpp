@@ -228,7 +228,7 @@ int run(const RunArguments& arguments) {
   std::optional<MachineRun> ran;
   if (arguments.machine.empty()) {
     setup::SimulatedRun simulated = setup::runProgram(arguments.program, *setup, options, machine);
-    reports::Scene scene = setup::sceneOf(simulated);
+    reports::Scene scene = arguments.blind ? setup::believedSceneOf(simulated) : setup::sceneOf(simulated);
     ran = MachineRun{std::move(simulated.outcome), std::move(scene)};
   } else {
     Result<MachineRun> real = runOnMachine(arguments.machine, arguments.program, *setup, options, machine.import);

@@ -205,4 +205,24 @@ reports::Scene sceneOf(const SimulatedRun& run) {
   return scene;
 }
 
+reports::Scene believedSceneOf(const SimulatedRun& run) {
+  if (!run.machine) return {};
+  reports::Scene scene;
+  scene.camera = cameraShots(run.outcome);
+  scene.ballRadius = run.outcome.ballRadius;
+  scene.lathe = run.machine->description().mainSpindle.has_value();
+  scene.sceneFromWorkpiece = run.outcome.machineFromWorkpiece;
+  for (std::uint32_t cycle = 0; cycle < run.outcome.journal.cycles.size(); ++cycle) {
+    const auto& touches = run.outcome.journal.cycles[cycle].touches;
+    for (std::uint32_t touch = 0; touch < touches.size(); ++touch) {
+      const control::TouchRecord& record = touches[touch];
+      if (record.outcome != "touched") continue;
+      const Eigen::Affine3d tableFromProgram = record.programFromTable.inverse();
+      scene.touches.push_back({cycle, touch, (tableFromProgram * record.ballCentre).cast<float>(),
+                               (tableFromProgram * record.surface).cast<float>()});
+    }
+  }
+  return scene;
+}
+
 }  // namespace probewright::setup

@@ -138,6 +138,36 @@ TEST(Report, IsInTheLanguageAndHasTheJobThatWereAskedFor) {
   EXPECT_FALSE(page["trace"]["states"].empty()) << "the replay has something to follow";
 }
 
+/// Whoever is trained can look into every file.
+TEST(Report, OfABlindRunHoldsNothingOfTheWorld) {
+  const Folder folder;
+  // A part that lies 0.6543 mm beside where the control believes it, with a hole that is 0.0123 mm too large.
+  std::string world = textOf(std::string(PROBEWRIGHT_SOURCE_DIR) + "/" + setup);
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = world.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    world.replace(at, from.size(), to);
+  };
+  replace("x = 0.7", "x = 0.6543");
+  replace("diameter = 30.01", "diameter = 30.0123");
+  const Answer answer = run(folder, program, folder.file("blind.toml", world),
+                            {"--blind", "--clearance", "--export", "csv,xlsx,qif,dfq,dmis,junit"});
+  ASSERT_LE(answer.exit, 1) << answer.errors;
+  const json page = json::parse(testing_support::pageData(textOf(folder / "out/report.html")));
+  EXPECT_TRUE(page["scene"]["meshes"].empty());
+  EXPECT_TRUE(page["scene"]["tools"].empty());
+  EXPECT_TRUE(page["scene"]["machine"].is_null());
+  EXPECT_TRUE(page["scene"]["collisions"].empty());
+  EXPECT_FALSE(page["scene"]["touches"]["centres"].get<std::string>().empty()) << "what was touched is drawn";
+  EXPECT_EQ(page["scene"]["path"]["points"], "") << "the way of the true tip";
+  for (const std::string& text : {answer.output, textOf(folder / "out/results.json"), page["results"].dump(),
+                                  textOf(folder / "out/inspection.csv"), textOf(folder / "out/inspection.qif"),
+                                  textOf(folder / "out/inspection.dmo"), textOf(folder / "out/junit.xml")}) {
+    EXPECT_THAT(text, ::testing::Not(HasSubstr("truth")));
+    EXPECT_THAT(text, ::testing::Not(HasSubstr("clearance")));
+  }
+}
+
 TEST(Report, RefusesAJobThatItDoesNotKnow) {
   const Folder folder;
   const Answer answer = run(folder, program, setup, {"--job", "colour=red"});
