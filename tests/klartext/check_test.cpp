@@ -200,6 +200,12 @@ TEST(Check, AMissingContinuationOfACycleIsNamed) {
   EXPECT_THAT(checked(framed("1 TCH PROBE 403 ROT ~\n Q263=+0 ~\n Q264=+0 ~\n Q265=+20 ~\n Q266=+0 ~\n Q272=2 ~\n"
                              " Q267=+1 ~\n Q261=-5 ~\n Q320=0 ~\n Q260=+20 ~\n Q301=0\n Q312=0\n")),
               ::testing::HasSubstr("it is in line 13, outside the cycle: end the line before it with ~"));
+  // Where several lines follow, they are no block that can be read.
+  const std::string several =
+      checked(framed("1 TCH PROBE 403 ROT ~\n Q263=+0 ~\n Q264=+0\n Q265=+20 ~\n Q266=+0 ~\n"
+                     " Q272=2 ~\n Q267=+1\n"));
+  EXPECT_THAT(several, ::testing::HasSubstr("it is in line 5, outside the cycle: end the line before it with ~"));
+  EXPECT_THAT(several, ::testing::HasSubstr("it is in line 7, outside the cycle: end line 4 with ~"));
 }
 
 /// A cycle 412 into row `row` with `more` behind its parameters.

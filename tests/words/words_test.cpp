@@ -220,7 +220,8 @@ std::set<std::string> sentencesOfAlarms() {
         sentence = std::regex_replace(sentence, quote, "\"");
         // Where the tip stopped is a sentence of its own.
         if (sentence.ends_with("the {}"))
-          sentence.replace(sentence.size() - 2, 2, "tool tip stopped at X+1.000 Y+2.000 Z+3.000 on the table");
+          sentence.replace(sentence.size() - 2, 2,
+                           "tool tip stopped at X+1.000 Y+2.000 Z+3.000 of the active workpiece system");
         if (sentence.ends_with(": ")) sentence += "7";
         if (std::regex_search(sentence, std::regex("[a-z]{3} ")))
           sentences.insert(std::regex_replace(sentence, value, "7"));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include "base/number_text.hpp"
@@ -110,16 +111,25 @@ private:
            std::move(advice), lineText(0), severity);
   }
 
-  /// A parameter that a cycle lacks and that is in the next block: the line in between does not end with ~.
+  /// A parameter that a cycle lacks and that is in the next block, whether that can be read or not: the line in between
+  /// does not end with ~.
   void nameMissingContinuation() {
-    for (const auto& [mistake, parameter] : std::exchange(lacking_, {})) {
-      for (const Instruction& instruction : block_.instructions) {
-        const auto* assign = std::get_if<Assign>(&instruction);
-        if (assign == nullptr || block_.variables[assign->variable].index[0].number != parameter) continue;
-        found_[mistake].advice =
-            fmt::format("it is in line {}, outside the cycle: end the line before it with ~", block_.position.line);
+    if (lacking_.empty()) return;
+    std::istringstream lines{std::string(block_.at(block_.source))};
+    std::uint64_t number = block_.position.line;
+    for (std::string line; std::getline(lines, line); ++number) {
+      for (const auto& [mistake, parameter] : lacking_) {
+        const std::string_view text = withoutBlockNumber(line);
+        const std::string name = fmt::format("Q{}", parameter);
+        if (!text.starts_with(name)) continue;
+        const std::size_t sign = text.find_first_not_of(" \t", name.size());
+        if (sign == std::string_view::npos || text[sign] != '=') continue;
+        found_[mistake].advice = fmt::format(
+            "it is in line {}, outside the cycle: end {} with ~", number,
+            number == block_.position.line ? "the line before it" : fmt::format("line {}", block_.position.line - 1));
       }
     }
+    lacking_.clear();
   }
 
   void nameOpenEnd() {
