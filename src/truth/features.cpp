@@ -32,6 +32,8 @@ struct FoundRound {
   TrueRound truth;
 };
 
+}  // namespace
+
 /// Everything that a cycle has touched.
 class Features {
 public:
@@ -131,7 +133,13 @@ private:
     return sets;
   }
 
-  std::vector<FoundRound> rounds() const {
+  /// Found once: fits take most of the time.
+  const std::vector<FoundRound>& rounds() const {
+    if (!rounds_) rounds_ = findRounds();
+    return *rounds_;
+  }
+
+  std::vector<FoundRound> findRounds() const {
     std::vector<FoundRound> found;
     const auto take = [&](const Touches& touches, RoundShape shape) {
       std::vector<Round> believed = believedRounds(touches, shape);
@@ -172,7 +180,7 @@ private:
 
   /// Those that the characteristic may mean.
   std::vector<FoundRound> roundsFor(const Characteristic& what) const {
-    std::vector<FoundRound> all = rounds();
+    const std::vector<FoundRound>& all = rounds();
     if (what.item > 0) {
       if (what.item > all.size()) return {};
       return {all[what.item - 1U]};
@@ -373,7 +381,7 @@ private:
 
   /// Where the lines cross that join the centres of four holes.
   void crossings(Explanations& found, int axis) const {
-    const std::vector<FoundRound> holes = rounds();
+    const std::vector<FoundRound>& holes = rounds();
     if (holes.size() != 4) return;
     const auto joined = [](const Vector3& a, const Vector3& b) {
       return Plane{a, (b - a).cross(Vector3::UnitZ()).normalized()};
@@ -418,7 +426,7 @@ private:
       for (const Plane& believed : believedFlats(side))
         addAngle(found, directionOf(believed.normal), directionOf(truth->plane.normal), truth->origin);
     }
-    const std::vector<FoundRound> holes = rounds();
+    const std::vector<FoundRound>& holes = rounds();
     if (holes.size() < 2) return;
     const Vector3 believed = holes[1].believed.back().centre - holes[0].believed.back().centre;
     const Vector3 truth = holes[1].truth.centre - holes[0].truth.centre;
@@ -454,9 +462,14 @@ private:
   control::WorkingPlane plane_;
   const std::vector<FitRecord>& fits_;
   Touches all_;
+  mutable std::optional<std::vector<FoundRound>> rounds_;
 };
 
-}  // namespace
+CycleFeatures::CycleFeatures(const TouchedCycle& cycle, const std::vector<FitRecord>& fits)
+    : features_(std::make_unique<const Features>(cycle, fits)) {}
+CycleFeatures::~CycleFeatures() = default;
+
+std::vector<Explanation> CycleFeatures::explanations(const Characteristic& of) const { return features_->of(of); }
 
 std::vector<Explanation> explanations(const Characteristic& of, const TouchedCycle& cycle,
                                       const std::vector<FitRecord>& fits) {

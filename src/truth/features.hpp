@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,7 +22,22 @@ struct Explanation {
   std::string shape;
 };
 
-/// All ways that could lead from the touches to a value of this characteristic.
+class Features;
+
+/// The features of one cycle, for several questions: what was found of them is kept. Cycle and fits outlive it.
+class CycleFeatures {
+public:
+  CycleFeatures(const TouchedCycle& cycle, const std::vector<control::FitRecord>& fits);
+  ~CycleFeatures();
+
+  /// All ways that could lead from the touches to a value of this characteristic.
+  std::vector<Explanation> explanations(const control::Characteristic& of) const;
+
+private:
+  std::unique_ptr<const Features> features_;
+};
+
+/// The same for a single question.
 std::vector<Explanation> explanations(const control::Characteristic& of, const TouchedCycle& cycle,
                                       const std::vector<control::FitRecord>& fits);
 

@@ -1,5 +1,6 @@
 #include "truth/true_values.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "truth/features.hpp"
@@ -15,15 +16,17 @@ bool isAngle(const ResultRecord& result) {
   return result.kind.of.quantity == Quantity::Angle || result.kind.of.quantity == Quantity::Projection;
 }
 
-std::optional<records::TrueValue> trueValueOf(const ResultRecord& result, const TouchedCycle& cycle,
-                                              const TouchedCycle& asMachine,
-                                              const std::vector<control::FitRecord>& fits) {
-  if (result.kind.role != control::Role::Actual || !std::isfinite(result.value)) return std::nullopt;
-  const bool inMachineSystem = result.kind.of.system == control::System::Machine;
+bool isActualValue(const ResultRecord& result) {
+  return result.kind.role == control::Role::Actual && std::isfinite(result.value);
+}
+
+bool isInMachineSystem(const ResultRecord& result) { return result.kind.of.system == control::System::Machine; }
+
+std::optional<records::TrueValue> trueValueOf(const ResultRecord& result, const CycleFeatures& features) {
   const double near = isAngle(result) ? 0.005 : 0.02;
   std::optional<Explanation> best;
   double least = near;
-  for (const Explanation& way : explanations(result.kind.of, inMachineSystem ? asMachine : cycle, fits)) {
+  for (const Explanation& way : features.explanations(result.kind.of)) {
     const double apart = std::abs(way.believed - result.value);
     if (apart >= least) continue;
     least = apart;
@@ -66,9 +69,16 @@ std::vector<records::CycleTruth> trueValues(const control::Journal& journal, con
     cycle.touches.resize(record.touches.size());
     for (const TouchedPoint& point : touched[i].points)
       cycle.touches[point.touch] = trueTouchOf(point, touched[i].plane, truth.solids[point.solid].name);
-    const TouchedCycle asMachine = tableIsSquare(record, truth.machine) ? inMachine(touched[i]) : TouchedCycle();
-    for (const ResultRecord& result : record.results)
-      cycle.results.push_back(trueValueOf(result, touched[i], asMachine, record.fits));
+    TouchedCycle asMachine;
+    const bool anyAsMachine = std::ranges::any_of(
+        record.results, [](const ResultRecord& result) { return isActualValue(result) && isInMachineSystem(result); });
+    if (anyAsMachine && tableIsSquare(record, truth.machine)) asMachine = inMachine(touched[i]);
+    const CycleFeatures features(touched[i], record.fits), machineFeatures(asMachine, record.fits);
+    for (const ResultRecord& result : record.results) {
+      cycle.results.push_back(isActualValue(result)
+                                  ? trueValueOf(result, isInMachineSystem(result) ? machineFeatures : features)
+                                  : std::nullopt);
+    }
     cycles.push_back(std::move(cycle));
   }
   return cycles;
