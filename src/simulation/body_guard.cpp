@@ -72,7 +72,8 @@ struct BodyGuard::Pair {
     double fraction = 0, gap = 0;
   };
   std::vector<Known> known;
-  double way = 0;  ///< how far they may travel against each other on it
+  bool shifts = false;  ///< nothing of it had to be asked: it only takes its way off the distance
+  double way = 0;       ///< how far they may travel against each other on it
 };
 
 struct BodyGuard::View {
@@ -165,6 +166,7 @@ double BodyGuard::gap(const BodyPair& pair, const Pose& firstFromSecond, double 
 std::optional<BodyHit> BodyGuard::approach(Pair& pair, const Motion& motion, double end, Touching mode,
                                            const std::stop_token& stop) {
   pair.way = scene_.longestWay(*pair.of, motion);
+  pair.shifts = false;
   pair.known.assign(1, {0, pair.clear});
   if (pair.way == 0 || pair.clear > pair.way * end) return std::nullopt;
   const Motion relative = BodyScene::seen(motion, *pair.of->kinematics);
@@ -217,7 +219,7 @@ std::optional<BodyHit> BodyGuard::firstHit(const Motion& motion, double end, con
   for (Pair& pair : pairs_) {
     if (shift && pair.clear > *shift * reach) {
       pair.way = *shift;
-      pair.known.assign(1, {0, pair.clear});
+      pair.shifts = true;
       continue;
     }
     auto hit = approach(pair, motion, reach, mode, stop);
@@ -258,6 +260,12 @@ std::optional<BodyHit> BodyGuard::firstHit(const Motion& motion, double end, con
 
 void BodyGuard::arrived(double fraction) {
   for (Pair& pair : pairs_) {
+    if (pair.shifts) {
+      pair.clear = std::max(0.0, pair.clear - pair.way * fraction);
+      pair.shifts = false;
+      pair.known.clear();
+      continue;
+    }
     double clear = 0;
     for (const Pair::Known& known : pair.known)
       clear = std::max(clear, known.gap - pair.way * std::abs(fraction - known.fraction));
@@ -273,6 +281,7 @@ void BodyGuard::arrived(double fraction) {
 void BodyGuard::forget() {
   for (Pair& pair : pairs_) {
     pair.clear = 0;
+    pair.shifts = false;
     pair.known.clear();
   }
   for (View& view : views_)

@@ -28,6 +28,8 @@ double deviationAt(const Deviation& deviation, double position) {
   return value;
 }
 
+bool isShift(const Pose& pose) { return pose.linear() == Matrix3::Identity(); }
+
 /// The direction in which the tool moves relative to the workpiece when the axis moves in +; null for fixed axes.
 Vector3 relativeDirection(const MachineDescription& machine, std::size_t axis) {
   for (const ChainElement& element : machine.spindleChain) {
@@ -73,6 +75,7 @@ TrueKinematics::TrueKinematics(const MachineDescription& nominal, const MachineE
 
 Pose TrueKinematics::chainPose(const std::vector<ChainElement>& chain, double sign, const AxisPositions& slides) const {
   Pose pose = Pose::Identity();
+  bool turned = false;  // as long as nothing has turned, a shift is a shift
   for (const ChainElement& element : chain) {
     if (!element.axis) continue;
     const std::size_t axis = *element.axis;
@@ -83,13 +86,17 @@ Pose TrueKinematics::chainPose(const std::vector<ChainElement>& chain, double si
       for (const Deviation& deviation : errors.deviations) {
         shift += sign * deviationAt(deviation, slides[axis]) * deviation.direction;
       }
-      pose.translation() += pose.linear() * shift;
+      if (turned)
+        pose.translation() += pose.linear() * shift;
+      else
+        pose.translation() += shift;
     } else {
       for (const Deviation& deviation : errors.deviations)
         position += deviationAt(deviation, slides[axis]);
       if (position == 0) continue;
-      const Pose turned = rotation(element.direction, position);
-      pose = pose * translation(element.point) * turned * translation(-element.point);
+      turned = true;
+      const Pose turn = rotation(element.direction, position);
+      pose = pose * translation(element.point) * turn * translation(-element.point);
     }
   }
   return pose;
@@ -100,7 +107,13 @@ Pose TrueKinematics::tableFromSpindle(const AxisPositions& slides, double second
   for (const ThermalDrift& drift : errors_.thermal) {
     baseFromSpindle.pretranslate(Vector3(drift.amount * -std::expm1(-seconds / drift.timeConstant)));
   }
-  return chainPose(machine_.tableChain, -1, slides).inverse() * baseFromSpindle * spindleTilt_;
+  const Pose baseFromTable = chainPose(machine_.tableChain, -1, slides);
+  // Most machines only shift most of the time.
+  if (isShift(baseFromTable) && isShift(baseFromSpindle) && errors_.spindleTilt.isZero(0)) {
+    baseFromSpindle.translation() -= baseFromTable.translation();
+    return baseFromSpindle;
+  }
+  return baseFromTable.inverse() * baseFromSpindle * spindleTilt_;
 }
 
 double TrueKinematics::follow(std::size_t axis, double slide, double reading) const {

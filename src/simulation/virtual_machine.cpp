@@ -320,21 +320,27 @@ Motion VirtualMachine::seenFromTouched(const Motion& motion) const {
   return probesOnBed() && isToolProbe(truth_.solids[deflection_->solid]) ? onBed(motion) : motion;
 }
 
+namespace {
+
+/// Where a ball has left the plane through the point that it has touched: on a flat surface it is free there.
+double leavesPlane(const Motion& seen, const Touch& touched, const Ball& ball) {
+  constexpr double clear = 1e-6;  // mm off the surface
+  const auto gap = [&](double fraction) {
+    const Vector3 centre = seen.tableFromSpindleAt(fraction) * ball.centre;
+    return (centre - touched.point).dot(touched.normal) - ball.radius;
+  };
+  const double atStart = gap(0), atEnd = gap(1);
+  return atEnd > atStart ? std::clamp((clear - atStart) / (atEnd - atStart), 0.0, 1.0) : 0;
+}
+
+}  // namespace
+
 std::optional<double> VirtualMachine::freeFrom(const Motion& motion) const {
-  constexpr double clear = 1e-6;        // mm off the surface
   constexpr double firstStep = 0.002;   // mm
   constexpr double longestStep = 0.25;  // mm
   const double length = motion.profile.length();
   const auto overlaps = [&](double fraction) { return ballTouchAt(motion, fraction).has_value(); };
-  // On a flat surface the ball is free where it has left the plane of contact.
-  const Motion seen = seenFromTouched(motion);
-  const auto gap = [&](double fraction) {
-    const Vector3 centre = seen.tableFromSpindleAt(fraction) * shape_.balls[deflection_->ball].centre;
-    return (centre - deflection_->point).dot(deflection_->normal) - shape_.balls[deflection_->ball].radius;
-  };
-  const double atStart = gap(0), atEnd = gap(1);
-  double fraction = 0;
-  if (atEnd > atStart) fraction = std::clamp((clear - atStart) / (atEnd - atStart), 0.0, 1.0);
+  double fraction = leavesPlane(seenFromTouched(motion), *deflection_, shape_.balls[deflection_->ball]);
   double step = firstStep;
   while (overlaps(fraction)) {
     if (fraction >= 1) return std::nullopt;
@@ -350,35 +356,50 @@ MoveResult VirtualMachine::retract(const AxisPositions& target, Feed feed) {
   const Motion motion = motionTo(target, feed);
   if (motion.profile.length() == 0) return {};
   SearchOptions options = searchOptions(positioningPrecision);
-  // What a collision left touching may be pulled off.
-  options.ignoreShafts = toolContact_ || shaftTouch();
+  options.ignoreShafts = toolContact_.has_value();
   toolContact_.reset();
+  std::optional<Touch> touch;
   double begin = 0;
-  if (deflection_) {
-    const auto free = freeFrom(motion);
-    if (!free || (*free == 1 && ballTouchAt(motion, 1))) {
-      // Pressing on instead of leaving: the stylus gives way as far as it can.
-      const Motion seen = seenFromTouched(motion);
-      const auto centre = [&](double f) {
-        return Vector3(seen.tableFromSpindleAt(f) * shape_.balls[deflection_->ball].centre);
-      };
-      const double depth =
-          (deflection_->point - centre(1)).dot(deflection_->normal) + shape_.balls[deflection_->ball].radius;
-      if (depth > 2 * mostOvertravel * shape_.balls[deflection_->ball].radius) {
-        return {MoveEnd::Collision, "the stylus would be deflected too far: " + describe(*deflection_)};
-      }
-      advance(motion, Stop{}, PathKind::Retract);
-      return {};
+  bool searched = false;
+  const auto search = [&] {
+    touch = firstTouchOf(motion, begin, options);
+    searched = true;
+  };
+  // Pressing on instead of leaving: the stylus gives way as far as it can.
+  const auto pressOn = [&]() -> MoveResult {
+    const Motion seen = seenFromTouched(motion);
+    const Vector3 centre = seen.tableFromSpindleAt(1) * shape_.balls[deflection_->ball].centre;
+    const double radius = shape_.balls[deflection_->ball].radius;
+    const double depth = (deflection_->point - centre).dot(deflection_->normal) + radius;
+    if (depth > 2 * mostOvertravel * radius)
+      return {MoveEnd::Collision, "the stylus would be deflected too far: " + describe(*deflection_)};
+    advance(motion, Stop{}, PathKind::Retract);
+    return {};
+  };
+  try {
+    if (deflection_) {
+      // Mostly the ball is free where it leaves the plane of contact: then it touches nothing there, but later at most.
+      begin = leavesPlane(seenFromTouched(motion), *deflection_, shape_.balls[deflection_->ball]);
+      if (begin < 1) search();
+      if (touch && touch->fraction <= begin) searched = false;
+    }
+    if (deflection_ && !searched) {
+      const auto free = freeFrom(motion);
+      if (!free || (*free == 1 && ballTouchAt(motion, 1))) return pressOn();
+      begin = *free;
     }
     deflection_.reset();
-    begin = *free;
-  }
-  try {
-    const auto touch = firstTouchOf(motion, begin, options);
+    if (!searched) search();
+    // What a collision left touching may be pulled off.
+    if (touch && touch->shaft && !options.ignoreShafts && shaftTouch()) {
+      options.ignoreShafts = true;
+      search();
+    }
     if (const auto hit = bodyHit(motion, touch, BodyGuard::Touching::MayBePulledOff))
       return {MoveEnd::Collision, stopAt(motion, *hit, PathKind::Retract)};
     return finish(motion, touch, PathKind::Retract);
   } catch (const SearchStopped& stopped) {
+    if (deflection_ && !ballTouchAt(motion, stopped.fraction)) deflection_.reset();
     standAt(motion, stopped.fraction, PathKind::Retract);
     return {MoveEnd::Cancelled, stoppedText};
   }

@@ -125,7 +125,8 @@ MeasureResult VirtualMachine::measureWithProbe(const MeasureOrder& order) {
   }
   advance(motion, stop, PathKind::Measure);
   if (!byShaft) deflection_ = touch;
-  return {MeasureEnd::Touched, motion.readingAt(stop.signal.value_or(stop.end)), describe(*touch)};
+  // Nobody reads what was touched where it was meant to be.
+  return {MeasureEnd::Touched, motion.readingAt(stop.signal.value_or(stop.end)), {}};
 }
 
 }  // namespace probewright::simulation

@@ -71,6 +71,53 @@ TEST(ClearWay, APathIsTheSumOfItsPieces) {
   EXPECT_GT(stopped, 15);
 }
 
+/// The way back from a touch is the one that the probe has come by: as if it had been searched anew, as it is for a
+/// probe that goes a little aside of it.
+TEST(ClearWay, TheProbeGoesBackAsItCame) {
+  Truth truth = perfectWorld("mill3");
+  place(truth, Box({-60, -60, -700}, {-20, 60, -430}));
+  place(truth, Box({25, -60, -700}, {60, 60, -430}));
+  place(truth, SolidSphere(Vector3(3, 2, -460), 6));
+  std::mt19937_64 random(20261124);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int touches = 0;
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE(i);
+    Truth here = truth;
+    here.errors.axes.resize(here.machine.axes.size());
+    if (i % 5 == 0) here.errors.axes[0].backlash = 0.01;
+    here.tools[0].probe.pretravel = 0.01;
+    const AxisPositions start = positions({uniform(-15, 20), uniform(-20, 20), uniform(-352, -335)});
+    here.start = start;
+    VirtualMachine atOnce(here), inTwo(here);
+    if (atOnce.insertTool({1, ""}).end != machine::ToolChangeEnd::Changed) continue;
+    inTwo.insertTool({1, ""});
+    const machine::MeasureOrder order{
+        positions({start[0] + uniform(-40, 40), start[1] + uniform(-10, 10), start[2] + uniform(-30, 0)}),
+        Feed::at(800)};
+    if (atOnce.measure(order).end != machine::MeasureEnd::Touched) continue;
+    inTwo.measure(order);
+    const AxisPositions stood = inTwo.position();
+    AxisPositions first = stood;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      first[axis] += 0.9 * (start[axis] - stood[axis]);
+    first[2] += 1e-6;
+    const auto back = atOnce.retract(start, Feed::at(2000));
+    auto expected = inTwo.retract(first, Feed::at(2000));
+    if (expected.end == MoveEnd::Reached) expected = inTwo.retract(start, Feed::at(2000));
+    EXPECT_EQ(back.end, expected.end) << back.detail << expected.detail;
+    EXPECT_EQ(atOnce.position(), inTwo.position());
+    EXPECT_FALSE(atOnce.deflected(machine::Sensor::TouchProbe));
+    // What it does not come back to is watched: from there straight through what it has touched.
+    const AxisPositions through = positions({start[0] + 2 * (order.target[0] - start[0]), start[1], start[2]});
+    EXPECT_EQ(atOnce.move(through, Feed::at(2000)).end, inTwo.move(through, Feed::at(2000)).end);
+    ++touches;
+  }
+  EXPECT_GT(touches, 60);
+}
+
 /// A guard that remembers how far bodies and tool are apart finds what one finds that has just been made.
 TEST(ClearWay, BodiesAreFoundWhateverIsRemembered) {
   std::mt19937_64 random(20261124);
