@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/diagnostic.hpp"
+#include "base/folder_swap.hpp"
 #include "control/operator_panel.hpp"
 #include "execution/interpreter.hpp"
 #include "session/control_family.hpp"
@@ -32,6 +33,26 @@ void setPanel(control::OperatorPanel& panel, const RunRequest& request, std::set
 
 /// A run must be able to leave its tables: better said before it begins than at its end.
 void refuseForeign(Diagnostics& diagnostics, const std::set<std::string>& tables, const RunOptions& options);
+
+/// Holds the folder of tables from the check of a program on until the control has its data: another run may be about
+/// to replace the tables. When the program runs again, the folder is held anew.
+class FirstReading {
+public:
+  explicit FirstReading(const RunRequest& request) : held_(of(request)) {}
+
+  FolderReading take(const RunRequest& request) {
+    if (!held_) return of(request);
+    FolderReading taken = std::move(*held_);
+    held_.reset();
+    return taken;
+  }
+
+private:
+  static FolderReading of(const RunRequest& request) {
+    return FolderReading::of(request.beliefs.tables, request.options.stop);
+  }
+  std::optional<FolderReading> held_;
+};
 
 /// Takes over how far the tool went in which time, and the journal. The last that is done with a control.
 template <class Control>

@@ -79,14 +79,22 @@ private:
   fs::path folder_;
 };
 
+struct Script {
+  std::string name, text;
+};
+
+/// A program as a thread has read it: for as long as beliefs stay as they are, the control is not asked to check it
+/// again, and its tables are made once.
+struct ReadProgram {
+  session::RunOptions options;
+  std::optional<session::PreparedProgram> prepared;
+};
+
 /// What a thread has of its own.
 struct Desk {
   toml::table world, beliefs;
   HandOver handOver;
-};
-
-struct Script {
-  std::string name, text;
+  std::unique_ptr<ReadProgram> program;  ///< where no trial changes what the control believes
 };
 
 class Trials final : public ProgramModel {
@@ -104,7 +112,7 @@ public:
         solids_(built.solids),
         bodies_(built.bodies),
         desks_([this] {
-          return Desk{document_.table(), document_.table(), {}};
+          return Desk{document_.table(), document_.table(), {}, nullptr};
         }) {
     for (const Source& source : sources_)
       changesBeliefs_.push_back(source.known || isBelief(source.quantity));
@@ -119,8 +127,11 @@ private:
   std::unique_ptr<simulation::VirtualMachine> machineOf(const setup::Setup& setup, Outcome& outcome) const;
   /// Runs a program; what it leaves goes to `outcome`. Nothing if it did not come to its end.
   std::optional<session::RunOutcome> carryOut(const Script& script, const setup::Setup& setup,
-                                              const control::Beliefs& beliefs, std::string_view prefix,
+                                              session::PreparedProgram prepared, std::string_view prefix,
                                               Outcome& outcome) const;
+  session::RunOptions runOptions() const;
+  /// The program with the beliefs of the setup as it is written.
+  const session::PreparedProgram& preparedFor(Desk& desk) const;
 
   Script program_;
   std::optional<Script> calibration_;
@@ -216,14 +227,11 @@ std::unique_ptr<simulation::VirtualMachine> Trials::machineOf(const setup::Setup
 }
 
 std::optional<session::RunOutcome> Trials::carryOut(const Script& script, const setup::Setup& setup,
-                                                    const control::Beliefs& beliefs, std::string_view prefix,
+                                                    session::PreparedProgram prepared, std::string_view prefix,
                                                     Outcome& outcome) const {
   const auto machine = machineOf(setup, outcome);
   if (!machine) return std::nullopt;
-  session::RunOptions options;
-  options.control = control_;
-  options.stop = stop_;
-  session::RunOutcome ran = session::runText(script.name, script.text, beliefs, *machine, options);
+  session::RunOutcome ran = session::run(std::move(prepared), *machine);
   if (hasErrors(ran.diagnostics)) {
     const auto mistake = std::ranges::find(ran.diagnostics, Severity::Error, &Diagnostic::severity);
     refuse(outcome, mistake->message);
@@ -251,14 +259,37 @@ std::optional<session::RunOutcome> Trials::carryOut(const Script& script, const 
   return std::nullopt;
 }
 
+session::RunOptions Trials::runOptions() const {
+  session::RunOptions options;
+  options.control = control_;
+  options.stop = stop_;
+  return options;
+}
+
+const session::PreparedProgram& Trials::preparedFor(Desk& desk) const {
+  if (!desk.program) {
+    desk.program = std::make_unique<ReadProgram>(ReadProgram{runOptions(), {}});
+    desk.program->prepared =
+        session::prepareText(program_.name, program_.text, document_.asWritten().beliefs, desk.program->options);
+  }
+  return *desk.program->prepared;
+}
+
 Outcome Trials::run(const Draw& draw) const {
   Outcome outcome;
   Desk& desk = desks_.local();
   auto setup = setupOf(desk, draw, outcome);
   if (!setup) return outcome;
+  if (!calibration_ && !anyBelief_) {
+    carryOut(program_, *setup, preparedFor(desk), "", outcome);
+    return outcome;
+  }
+  const session::RunOptions options = runOptions();
   control::Beliefs beliefs = setup->beliefs;
   if (calibration_) {
-    const auto calibrated = carryOut(*calibration_, *setup, beliefs, "calibration ", outcome);
+    const auto calibrated =
+        carryOut(*calibration_, *setup, session::prepareText(calibration_->name, calibration_->text, beliefs, options),
+                 "calibration ", outcome);
     if (!calibrated) return outcome;
     if (!desk.handOver.take(calibrated->files)) {
       refuse(outcome, "the tables of the calibration cannot be written to " + desk.handOver.folder().string());
@@ -268,7 +299,7 @@ Outcome Trials::run(const Draw& draw) const {
     // The measuring noise goes on; it does not begin again.
     ++setup->world.truth.seed;
   }
-  carryOut(program_, *setup, beliefs, "", outcome);
+  carryOut(program_, *setup, session::prepareText(program_.name, program_.text, beliefs, options), "", outcome);
   return outcome;
 }
 

@@ -15,8 +15,8 @@ namespace probewright::study {
 /// A program on the virtual machine of a setup whose numbers vary, as a model for trials.
 ///
 /// The world is built once: trials share its solids and read neither program, setup nor parts again. Only what is made
-/// of features whose sizes vary is built anew in each trial. Programs that the program calls are read where they are
-/// called, and tables where the setup names a folder of them.
+/// of features whose sizes vary is built anew in each trial. Where beliefs do not vary, each thread checks the program
+/// and makes the control's tables once. Programs that the program calls are read where they are called.
 ///
 /// Truth follows the sources. Beliefs stay those of the setup as it is written, for the control does not know what a
 /// trial has drawn; sources that are beliefs themselves, and those that are `known`, change them. With a calibration

@@ -59,6 +59,10 @@ std::vector<std::string_view> words(std::string_view text) {
 }
 
 std::string normalizedKey(std::string_view key) {
+  // What most rows are called is the shortest text of its number already.
+  constexpr std::size_t longestExact = 15;
+  const bool digits = !key.empty() && key.size() <= longestExact && std::ranges::all_of(key, isDigit);
+  if (digits && (key.front() != '0' || key.size() == 1)) return std::string(key);
   const auto number = parseDecimal(key);
   return number ? formatShortest(*number) : std::string(key);
 }

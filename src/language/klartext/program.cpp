@@ -16,7 +16,9 @@ std::string_view canonicalLabel(std::string_view label) {
 }
 
 KlartextProgram::KlartextProgram(std::string file, std::string text)
-    : KlartextProgram(SourceText::of(std::move(file), std::move(text))) {}
+    : KlartextProgram(SourceText::of(std::move(file), std::move(text))) {
+  keepsBlocks_ = true;
+}
 
 KlartextProgram::KlartextProgram(SourceText source) : source_(std::move(source)), name_(programName(source_.file())) {
   begin_.offset = source_.begin();
@@ -89,12 +91,20 @@ const FrameWords& KlartextProgram::frameWords() const {
 }
 
 bool KlartextProgram::parse(BlockPosition position, Block& block, Diagnostics& diagnostics) {
+  if (keepsBlocks_) {
+    if (const Block* known = lowered_.find(position)) {
+      block = *known;
+      return true;
+    }
+  }
   block.clear();
   block.position = position;
   const std::string_view text = readBlock(position, block.next);
   if (block.next.offset == position.offset) return false;
   block.source = block.add(text);
+  const std::size_t remarks = diagnostics.size();
   BlockParser(text, file(), block, diagnostics).parse();
+  if (keepsBlocks_ && diagnostics.size() == remarks) lowered_.keep(block);
   return true;
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/diagnostic.hpp"
 #include "language/klartext/heidenhain_program.hpp"
+#include "language/lowered_blocks.hpp"
 #include "language/source_text.hpp"
 
 namespace probewright::language::klartext {
@@ -22,7 +23,7 @@ namespace probewright::language::klartext {
 /// stays ASCII (UTF-8, CP1252, CP1251, GBK); they are kept byte for byte.
 class KlartextProgram : public HeidenhainProgram {
 public:
-  /// A program in memory. `file` names it in messages.
+  /// A program in memory, which may run again and again: its blocks are parsed once. `file` names it in messages.
   KlartextProgram(std::string file, std::string text);
   /// A program on disk, read where it is needed: its size does not matter.
   static Result<std::shared_ptr<KlartextProgram>> open(const std::filesystem::path& path);
@@ -53,6 +54,8 @@ private:
   Unit unit_ = Unit::Millimetre;
   bool labelsIndexed_ = false;
   std::unordered_map<std::string, std::vector<BlockPosition>> labels_;
+  bool keepsBlocks_ = false;
+  LoweredBlocks lowered_;
 };
 
 /// The label that a LBL block's text after LBL names, as findLabel knows it: leading zeros of numbers removed.

@@ -70,11 +70,23 @@ std::string describedTool(const hh::ActiveTool& tool) {
   return tool.name.empty() ? number : number + " " + tool.name;
 }
 
-void run(const RunRequest& request, FolderReading reading, machine::Machine& machine, HostFiles& host,
-         RunOutcome& outcome) {
+/// The tables that each run of a program begins with: made of the beliefs when it begins for the first time.
+struct FirstTables {
+  std::optional<hh::Tables> tables;
+  Diagnostics remarks;
+
+  const hh::Tables& of(const RunRequest& request) {
+    if (!tables) tables = heidenhainTables(request.beliefs, request.control, remarks);
+    return *tables;
+  }
+};
+
+void run(const RunRequest& request, FolderReading reading, FirstTables& first, machine::Machine& machine,
+         HostFiles& host, RunOutcome& outcome) {
   const RunOptions& options = request.options;
   const control::Beliefs& beliefs = request.beliefs;
-  hh::Tables tables = heidenhainTables(beliefs, request.control, outcome.diagnostics);
+  hh::Tables tables = first.of(request);
+  outcome.diagnostics.insert(outcome.diagnostics.end(), first.remarks.begin(), first.remarks.end());
   const hh::MachineParameters parameters = machineParameters(beliefs, request.control, outcome.diagnostics);
   std::set<std::string> tableNames = namesOf(tables);
   const auto cameraMonitoring = cameraMonitoringOf(machine, request, outcome.diagnostics);
@@ -173,7 +185,8 @@ void run(const RunRequest& request, FolderReading reading, machine::Machine& mac
 
 RunOn prepareHeidenhain(const RunRequest& request, Diagnostics& diagnostics) {
   // Until the control has its data: another run may be about to replace the tables.
-  const auto reading = std::make_shared<FolderReading>(FolderReading::of(request.beliefs.tables, request.options.stop));
+  const auto reading = std::make_shared<FirstReading>(request);
+  const auto first = std::make_shared<FirstTables>();
   const Diagnostics mistakes = checkHeidenhain({.program = *request.program,
                                                 .control = request.control,
                                                 .path = request.path,
@@ -181,8 +194,8 @@ RunOn prepareHeidenhain(const RunRequest& request, Diagnostics& diagnostics) {
                                                 .skipLevels = request.options.skipLevels,
                                                 .foresees = false});
   diagnostics.insert(diagnostics.end(), mistakes.begin(), mistakes.end());
-  return [request, reading](machine::Machine& machine, HostFiles& host, RunOutcome& outcome) {
-    run(request, std::move(*reading), machine, host, outcome);
+  return [request, reading, first](machine::Machine& machine, HostFiles& host, RunOutcome& outcome) {
+    run(request, reading->take(request), *first, machine, host, outcome);
   };
 }
 

@@ -192,13 +192,28 @@ std::string zeroOffset(int settable) {
   return "G" + std::to_string(settable == 0 ? 500 : settable <= lastTwoDigits ? 53 + settable : 500 + settable);
 }
 
+/// The data that each run of a program begins with: made of the beliefs when it begins for the first time.
+struct FirstData {
+  std::optional<SinumerikData> data;
+  std::map<std::string, std::string> definitions;
+  Diagnostics remarks;
+
+  void make(const control::Beliefs& beliefs, const execution::sinumerik::GlobalUserData& globalData) {
+    if (data) return;
+    data = sinumerikData(beliefs, remarks, &globalData);
+    definitions = definitionFiles(beliefs.tables);
+  }
+};
+
 void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& globalData, FolderReading reading,
-         machine::Machine& trueMachine, HostFiles& host, RunOutcome& outcome) {
+         FirstData& first, machine::Machine& trueMachine, HostFiles& host, RunOutcome& outcome) {
   const RunOptions& options = request.options;
   const control::Beliefs& beliefs = request.beliefs;
   const std::shared_ptr<language::Program>& program = request.program;
-  SinumerikData data = sinumerikData(beliefs, outcome.diagnostics, &globalData);
-  const std::map<std::string, std::string> definitions = definitionFiles(beliefs.tables);
+  first.make(beliefs, globalData);
+  SinumerikData data = *first.data;
+  const std::map<std::string, std::string>& definitions = first.definitions;
+  outcome.diagnostics.insert(outcome.diagnostics.end(), first.remarks.begin(), first.remarks.end());
   reading = {};
   execution::sinumerik::HostOptions hostOptions;
   hostOptions.globalData = globalData.variables(data.store, outcome.diagnostics);
@@ -298,7 +313,8 @@ void run(const RunRequest& request, const execution::sinumerik::GlobalUserData& 
 
 RunOn prepareSinumerik(const RunRequest& request, Diagnostics& diagnostics) {
   // Until the control has its data: another run may be about to replace the tables.
-  const auto reading = std::make_shared<FolderReading>(FolderReading::of(request.beliefs.tables, request.options.stop));
+  const auto reading = std::make_shared<FirstReading>(request);
+  const auto first = std::make_shared<FirstData>();
   const auto globalData = std::make_shared<const execution::sinumerik::GlobalUserData>(
       globalUserData(request.path, request.beliefs.tables, diagnostics));
   const Diagnostics mistakes = checkSinumerik({.program = *request.program,
@@ -309,8 +325,8 @@ RunOn prepareSinumerik(const RunRequest& request, Diagnostics& diagnostics) {
                                                .foresees = false},
                                               *globalData);
   diagnostics.insert(diagnostics.end(), mistakes.begin(), mistakes.end());
-  return [request, reading, globalData](machine::Machine& machine, HostFiles& host, RunOutcome& outcome) {
-    run(request, *globalData, std::move(*reading), machine, host, outcome);
+  return [request, reading, globalData, first](machine::Machine& machine, HostFiles& host, RunOutcome& outcome) {
+    run(request, *globalData, reading->take(request), *first, machine, host, outcome);
   };
 }
 
