@@ -5,8 +5,11 @@
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <TopoDS_Shape.hxx>
+#include <algorithm>
+#include <ctime>
 #include <map>
 #include <random>
+#include <vector>
 
 #include "simulation/cad_solid.hpp"
 #include "simulation/mesh_solid.hpp"
@@ -120,32 +123,36 @@ void uprightProbeContact(benchmark::State& state) {
 }
 BENCHMARK(uprightProbeContact)->Arg(100'000)->Arg(1'000'000);
 
-/// Embree's own query for a ray, on the same triangles and ways.
-void embreeRay(benchmark::State& state) {
-  const TriangleMesh& mesh = body(static_cast<std::size_t>(state.range(0)));
-  const RTCDevice device = rtcNewDevice(nullptr);
-  const RTCScene scene = rtcNewScene(device);
-  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* corners = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                              3 * sizeof(float), mesh.corners.size()));
-  for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
-    Eigen::Map<Eigen::Vector3f>(corners + 3 * i) = mesh.corners[i].cast<float>();
+/// The same triangles as a scene of Embree's.
+class RayScene {
+public:
+  explicit RayScene(const TriangleMesh& mesh) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
+    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* corners = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                3 * sizeof(float), mesh.corners.size()));
+    for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
+      Eigen::Map<Eigen::Vector3f>(corners + 3 * i) = mesh.corners[i].cast<float>();
+    }
+    auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                   3 * sizeof(unsigned), mesh.triangles.size()));
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k)
+        indices[3 * i + k] = mesh.triangles[i][k];
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene_);
   }
-  auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                 3 * sizeof(unsigned), mesh.triangles.size()));
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k)
-      indices[3 * i + k] = mesh.triangles[i][k];
+  RayScene(const RayScene&) = delete;
+  RayScene& operator=(const RayScene&) = delete;
+  ~RayScene() {
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
   }
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene);
-  const std::vector<Leg>& ways = legs(state);
-  std::size_t i = 0;
-  std::size_t hits = 0;
-  for (auto _ : state) {
-    const Leg& leg = ways[i++ % ways.size()];
+
+  /// True if the ray along the leg hits anything.
+  bool hits(const Leg& leg) const {
     const Vector3 way = leg.to - leg.from;
     const double length = way.norm();
     RTCRayHit ray{};
@@ -160,15 +167,66 @@ void embreeRay(benchmark::State& state) {
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    rtcIntersect1(scene, &context, &ray);
-    hits += ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_, &context, &ray);
+    return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
   }
+
+private:
+  RTCDevice device_;
+  RTCScene scene_;
+};
+
+/// Embree's own query for a ray, on the same triangles and ways.
+void embreeRay(benchmark::State& state) {
+  const RayScene scene(body(static_cast<std::size_t>(state.range(0))));
+  const std::vector<Leg>& ways = legs(state);
+  std::size_t i = 0;
+  std::size_t hits = 0;
+  for (auto _ : state)
+    hits += scene.hits(ways[i++ % ways.size()]);
   state.counters["hits"] = static_cast<double>(hits) / static_cast<double>(i);
   state.SetItemsProcessed(state.iterations());
-  rtcReleaseScene(scene);
-  rtcReleaseDevice(device);
 }
 BENCHMARK(embreeRay)->Apply(onBothWays);
+
+double processorSeconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double median(std::vector<double> values) {
+  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+  return values[values.size() / 2];
+}
+
+/// Both in turn on the same ways: what the machine does besides slows one as it slows the other. Medians of their times
+/// and of the ratio of neighbours.
+void ballToRay(benchmark::State& state) {
+  const TriangleMesh& mesh = body(static_cast<std::size_t>(state.range(0)));
+  const MeshSolid solid(mesh);
+  const RayScene scene(mesh);
+  const std::vector<Leg>& ways = legs(state);
+  std::vector<double> balls, rays, ratios;
+  for (auto _ : state) {
+    const double begin = processorSeconds();
+    std::size_t met = 0;
+    for (const Leg& leg : ways)
+      met += solid.firstContact(leg.from, leg.to, kRadius).has_value();
+    const double between = processorSeconds();
+    for (const Leg& leg : ways)
+      met += scene.hits(leg);
+    const double end = processorSeconds();
+    benchmark::DoNotOptimize(met);
+    balls.push_back((between - begin) / static_cast<double>(ways.size()));
+    rays.push_back((end - between) / static_cast<double>(ways.size()));
+    ratios.push_back(balls.back() / rays.back());
+  }
+  state.counters["ball_ns"] = 1e9 * median(balls);
+  state.counters["ray_ns"] = 1e9 * median(rays);
+  state.counters["ratio"] = median(ratios);
+}
+BENCHMARK(ballToRay)->Apply(onBothWays)->Unit(benchmark::kMillisecond);
 
 /// FCL's continuous collision of a sphere with the same triangles.
 void fclContinuousCollision(benchmark::State& state) {
