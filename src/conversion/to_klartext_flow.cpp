@@ -278,7 +278,11 @@ void ToKlartext::structured(const Block& block, const Structured& structured) {
     carryOver(block, structured);
   } catch (const NotCarriedOver&) {
     // What closes it must find it all the same.
-    if (opens && open_.size() == depth) open_.push_back({kind, {}, {}, {}, {}, false, true});
+    if (opens && open_.size() == depth) {
+      Open& opened = open_.emplace_back();
+      opened.kind = kind;
+      opened.lost = true;
+    }
     throw;
   }
 }

@@ -62,7 +62,9 @@ void ToSinumerik::toolMeasurement(const Block& block, const Call& call) {
   if (!(cycle.clearance.isNumber() && position_[2] && position_[2]->isNumber() &&
         position_[2]->number() >= cycle.clearance.number()))
     out_.line(fmt::format("G0 {0}=MAXVAL($AA_IW[{0}],{1})", axis(2), sinumerikText(cycle.clearance)));
-  const auto measure = [&](bool length) {
+  enum class Finds { Length, Radius };
+  const auto measure = [&](Finds what) {
+    const bool length = what == Finds::Length;
     Call written;
     written.cycle = "CYCLE971";
     written.numbers = {{"S_MVAR", cycle.teeth ? 102 : 2},
@@ -82,9 +84,9 @@ void ToSinumerik::toolMeasurement(const Block& block, const Call& call) {
     }
   };
   // Single edges: the radius first, as the touch probe cycle.
-  if (cycle.radius() && cycle.teeth) measure(false);
-  if (cycle.length()) measure(true);
-  if (cycle.radius() && !cycle.teeth) measure(false);
+  if (cycle.radius() && cycle.teeth) measure(Finds::Radius);
+  if (cycle.length()) measure(Finds::Length);
+  if (cycle.radius() && !cycle.teeth) measure(Finds::Radius);
   out_.line(fmt::format("G0 {}", addressWord(axis(2), cycle.clearance)));
   forgetPosition();
   position_[2] = cycle.clearance;

@@ -37,14 +37,14 @@ struct Kinematics {
 };
 
 constexpr std::array<Kinematics, 8> knownKinematics = {{
-    {"trivkins", "XYZABCUVW", true, true},
-    {"corexykins", "XYZABCUVW", false, true},
-    {"xyzac-trt-kins", "XYZAC"},
-    {"xyzbc-trt-kins", "XYZBC"},
-    {"xyzab_tdr_kins", "XYZAB"},
-    {"5axiskins", "XYZBCW"},
-    {"maxkins", "XYZABCUVW"},
-    {"gentrivkins", "XYZABCUVW", true, true},
+    {.name = "trivkins", .letters = "XYZABCUVW", .identity = true},
+    {.name = "corexykins", .letters = "XYZABCUVW", .perJoint = false, .identity = true},
+    {.name = "xyzac-trt-kins", .letters = "XYZAC"},
+    {.name = "xyzbc-trt-kins", .letters = "XYZBC"},
+    {.name = "xyzab_tdr_kins", .letters = "XYZAB"},
+    {.name = "5axiskins", .letters = "XYZBCW"},
+    {.name = "maxkins", .letters = "XYZABCUVW"},
+    {.name = "gentrivkins", .letters = "XYZABCUVW", .identity = true},
 }};
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 14> otherKinematics = {{

@@ -391,14 +391,12 @@ private:
       origin = both(origin, hole.truth.origin);
     constexpr int ways[3][4] = {{0, 2, 1, 3}, {0, 1, 2, 3}, {0, 3, 1, 2}};
     for (const auto& way : ways) {
-      const auto at = [&](int place, bool truth) {
-        const FoundRound& hole = holes[static_cast<std::size_t>(way[place])];
-        return truth ? hole.truth.centre : hole.believed.back().centre;
+      const auto cross = [&](auto centreOf) {
+        const auto at = [&](int place) { return centreOf(holes[static_cast<std::size_t>(way[place])]); };
+        return crossing(joined(at(0), at(1)), joined(at(2), at(3)), at(0).z());
       };
-      const auto cross = [&](bool truth) {
-        return crossing(joined(at(0, truth), at(1, truth)), joined(at(2, truth), at(3, truth)), at(0, truth).z());
-      };
-      const auto believed = cross(false), truth = cross(true);
+      const auto believed = cross([](const FoundRound& hole) { return hole.believed.back().centre; });
+      const auto truth = cross([](const FoundRound& hole) { return hole.truth.centre; });
       if (believed && truth) add(found, (*believed)[axis], (*truth)[axis], origin);
     }
   }

@@ -7,6 +7,7 @@
 
 #include "base/number_text.hpp"
 #include "control/heidenhain/text_table.hpp"
+#include "probing/touch_plan.hpp"
 #include "truth/family_truth.hpp"
 #include "truth/feeling.hpp"
 
@@ -37,16 +38,16 @@ std::optional<ExpectedRound> round(const CycleRecord& cycle, const control::Work
 /// A cycle that looks for walls.
 struct WallCycle {
   std::string_view name;
-  bool inside;
+  probing::Side side;
   std::array<std::string_view, 2> centre, lengths;  ///< one length: across the axis in Q272
 };
 constexpr std::array wallCycles = {
-    WallCycle{"408", true, {"Q321", "Q322"}, {"Q311", ""}},
-    WallCycle{"409", false, {"Q321", "Q322"}, {"Q311", ""}},
-    WallCycle{"410", true, {"Q321", "Q322"}, {"Q323", "Q324"}},
-    WallCycle{"411", false, {"Q321", "Q322"}, {"Q323", "Q324"}},
-    WallCycle{"423", true, {"Q273", "Q274"}, {"Q282", "Q283"}},
-    WallCycle{"424", false, {"Q273", "Q274"}, {"Q282", "Q283"}},
+    WallCycle{"408", probing::Side::Inside, {"Q321", "Q322"}, {"Q311", ""}},
+    WallCycle{"409", probing::Side::Outside, {"Q321", "Q322"}, {"Q311", ""}},
+    WallCycle{"410", probing::Side::Inside, {"Q321", "Q322"}, {"Q323", "Q324"}},
+    WallCycle{"411", probing::Side::Outside, {"Q321", "Q322"}, {"Q323", "Q324"}},
+    WallCycle{"423", probing::Side::Inside, {"Q273", "Q274"}, {"Q282", "Q283"}},
+    WallCycle{"424", probing::Side::Outside, {"Q273", "Q274"}, {"Q282", "Q283"}},
 };
 
 std::optional<ExpectedWalls> walls(const CycleRecord& cycle, const control::WorkingPlane& plane, const Vector3& start) {
@@ -55,7 +56,7 @@ std::optional<ExpectedWalls> walls(const CycleRecord& cycle, const control::Work
   const auto main = valueOf(cycle, kind->centre[0]), minor = valueOf(cycle, kind->centre[1]);
   if (!main || !minor) return std::nullopt;
   ExpectedWalls expected;
-  expected.inside = kind->inside;
+  expected.inside = kind->side == probing::Side::Inside;
   expected.pairs = kind->lengths[1].empty()
                        ? wallPair(plane, valueOf(cycle, "Q272"), valueOf(cycle, kind->lengths[0]))
                        : wallPairs(plane, valueOf(cycle, kind->lengths[0]), valueOf(cycle, kind->lengths[1]));

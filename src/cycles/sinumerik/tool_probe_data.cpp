@@ -13,9 +13,6 @@ using control::sinumerik::DataStore;
 
 namespace {
 
-/// The digit of SD 54632 for an axis.
-int directionsOf(bool minus, bool plus) { return (minus ? 1 : 0) + (plus ? 2 : 0); }
-
 /// A probe in coordinates whose origin is `origin` in the machine's.
 void enter(DataStore& data, ProbeSystem system, int index, const BelievedToolProbe& probe, const Vector3& origin,
            const control::WorkingPlane& plane) {
@@ -23,13 +20,12 @@ void enter(DataStore& data, ProbeSystem system, int index, const BelievedToolPro
   int directions = 0, place = 1;
   for (int axis = 0; axis < 3; ++axis, place *= 10) {
     const int xyz = plane.axis(axis);
-    const auto gives = [&](bool plus) { return probe.gives[static_cast<std::size_t>(2 * xyz + (plus ? 0 : 1))]; };
+    const bool plus = probe.gives[static_cast<std::size_t>(2 * xyz)];
+    const bool minus = probe.gives[static_cast<std::size_t>(2 * xyz + 1)];
     // Whoever fitted it knows its sides; the 3rd axis has those only where it signals.
-    if (axis < 2 || gives(false))
-      put(toolProbeTrigger(system, axis, -1), probe.most[xyz] - origin[xyz] - probe.pretravel);
-    if (axis < 2 || gives(true))
-      put(toolProbeTrigger(system, axis, 1), probe.least[xyz] - origin[xyz] + probe.pretravel);
-    directions += place * directionsOf(gives(false), gives(true));
+    if (axis < 2 || minus) put(toolProbeTrigger(system, axis, -1), probe.most[xyz] - origin[xyz] - probe.pretravel);
+    if (axis < 2 || plus) put(toolProbeTrigger(system, axis, 1), probe.least[xyz] - origin[xyz] + probe.pretravel);
+    directions += place * ((minus ? 1 : 0) + (plus ? 2 : 0));  // the digit of SD 54632 for an axis
   }
   put(toolProbeDatum(system, "EDGE_DISK_SIZE"), probe.width);
   put(toolProbeDatum(system, "AX_DIR_AUTO_CAL"), directions);
