@@ -32,6 +32,7 @@ struct Fault {
   long at = 0;  ///< the number of the call; 0: none
   std::string how = "kill";
   bool withoutLinks = false;  ///< on a file system like that of a memory stick
+  long sync = 0;              ///< the number of the fsync that fails; 0: none
 };
 
 /// The exit code of the writer; -1 if it was killed.
@@ -50,6 +51,7 @@ int writeSet(const fs::path& folder, const Texts& files, const Fault& fault = {}
     setenv("FAIL_AT", std::to_string(fault.at).c_str(), 1);
     setenv("FAIL_HOW", fault.how.c_str(), 1);
     if (fault.withoutLinks) setenv("FAIL_LINKS", "1", 1);
+    if (fault.sync != 0) setenv("FAIL_SYNC", std::to_string(fault.sync).c_str(), 1);
     if (!count.empty()) setenv("FAIL_COUNT", count.c_str(), 1);
     if (chdir("/") != 0) _exit(127);
     execv(arguments[0], arguments.data());
@@ -178,6 +180,20 @@ TEST_P(Killed, LeavesTheOldSetOrTheNewOneWhereADiskFails) {
     ASSERT_THAT(world.neighbours(), ElementsAre("out")) << at;
     ASSERT_TRUE(world.keptTheUsersFile()) << at;
   }
+}
+
+/// A power cut after the step must find the new files on the disk, and the folder that names them.
+TEST_P(Killed, HasTheNewFilesAndTheirFolderOnTheDiskBeforeTheyCount) {
+  const Texts before = with(older, "mine.txt", "mine");
+  std::size_t flushed = 0;
+  for (long sync = 1;; ++sync) {
+    const World world(GetParam());
+    const int end = writeSet(world.out(), newer, {.sync = sync});
+    if (filesIn(world.out()) != before) break;
+    ASSERT_EQ(end, 2) << sync;
+    ASSERT_LT(++flushed, 100U);
+  }
+  EXPECT_GE(flushed, newer.size() + 2) << "the files, the list of them, the folder";
 }
 
 TEST_P(Killed, IsWholeAgainAfterTheNextRunWhereThereAreNoLinks) {

@@ -1,6 +1,7 @@
 /// Loaded before a program (LD_PRELOAD), counts its calls that change files and lets one of them fail.
 ///   FAIL_AT=n     the n-th, from 1
 ///   FAIL_HOW=kill the process is killed in front of it; otherwise the number of an error that the call returns
+///   FAIL_SYNC=n   the n-th fsync, from 1, fails with EIO
 ///   FAIL_LINKS=1  as on a file system that knows neither links nor exchanging: those calls fail with EPERM, uncounted
 ///   FAIL_COUNT=f  the number of calls goes to the file f when the process ends
 #include <dlfcn.h>
@@ -18,7 +19,7 @@
 
 namespace {
 
-long calls = 0;
+long calls = 0, syncs = 0;
 
 long number(const char* name) {
   const char* text = std::getenv(name);
@@ -81,7 +82,13 @@ ssize_t write(int descriptor, const void* bytes, size_t size) {
   if (isRegular(descriptor) && fails()) return -1;
   return ::syscall(SYS_write, descriptor, bytes, size);
 }
-int fsync(int) { return fails() ? -1 : 0; }  // a process that is killed loses nothing that it has written
+int fsync(int) {
+  if (++syncs == number("FAIL_SYNC")) {
+    errno = EIO;
+    return -1;
+  }
+  return fails() ? -1 : 0;  // a process that is killed loses nothing that it has written
+}
 int fchmod(int descriptor, mode_t mode) { return fails() ? -1 : real<int(int, mode_t)>("fchmod")(descriptor, mode); }
 int chmod(const char* path, mode_t mode) { return fails() ? -1 : real<int(const char*, mode_t)>("chmod")(path, mode); }
 int mkdir(const char* path, mode_t mode) { return fails() ? -1 : real<int(const char*, mode_t)>("mkdir")(path, mode); }
