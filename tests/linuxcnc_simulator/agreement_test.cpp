@@ -36,7 +36,7 @@ class ExamplesAgree : public ::testing::TestWithParam<Example> {
 protected:
   static bool longRun() { return std::getenv("PROBEWRIGHT_LONG_TESTS") != nullptr; }
 
-  double feed() const { return longRun() ? 300 : 1200; }
+  double feed() const { return longRun() ? 300 : 600; }
   /// mm: a servo period at the probing feed.
   double bound() const { return feed() / 60 * 0.001 + 1e-4; }
 
