@@ -159,6 +159,22 @@ test("the clearance is a curve over time, and told where the replay is", async (
   await page.close();
 });
 
+for (const width of [1400, 800]) {
+  test(`no text of the sheet runs into its neighbour in any language, ${width} px`, async () => {
+    const { page, problems } = await open("housing", { width, height: 1000 });
+    assert.ok(await page.$(".with-truth .row"));
+    for (const code of ["de", "ru", "sv", "zh", "pl", "en"]) {
+      await page.select(".page-buttons select", code);
+      await settle(page);
+      const wide = await page.$$eval(".sheet-head > *, .row.result > *", (cells) =>
+        cells.filter((cell) => cell.clientWidth > 0 && cell.scrollWidth > cell.clientWidth + 1).map((cell) => cell.textContent));
+      assert.deepEqual(wide, [], code);
+    }
+    assert.deepEqual(problems, []);
+    await page.close();
+  });
+}
+
 test("alarms and cycles speak the language of the page", async () => {
   const { page, problems } = await open("alarm");
   const heads = new Set();
