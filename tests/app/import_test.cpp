@@ -67,9 +67,9 @@ TEST(Import, KeepsAPartInTheCacheAndReportsTheSame) {
   ASSERT_EQ(namesIn(cache).size(), 1U);
   EXPECT_EQ(runPart(folder, housing(), {"--cache", cache}).exit, 0);
   EXPECT_EQ(namesIn(cache).size(), 1U);
-  // All but the time of day.
+  // All but the time of day, which changes a few bytes of what is compressed.
   const std::string with = textOf(folder / "out" / "report.html");
-  EXPECT_EQ(with.size(), without.size());
+  EXPECT_NEAR(static_cast<double>(with.size()), static_cast<double>(without.size()), 64);
 }
 
 /// A part that takes seconds to read: the housing, and points that nothing uses.
