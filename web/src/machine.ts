@@ -50,7 +50,7 @@ export class MachineLayer {
       }
     for (const body of replay.bodies) this.group(body).add(this.solid(body, body));
     this.probes = replay.probes.map((probe) => this.solid(probe, headLink(replay)));
-    this.group(headLink(replay)).add(...this.probes);
+    for (const probe of this.probes) this.group(headLink(replay)).add(probe);
     this.update();
     // What is drawn, in numbers: scene from link of each, column by column.
     Object.assign(window, { probewrightLinks: () => this.links.map(({ link, group }) => ({ ...link, pose: group.matrixWorld.toArray() })) });

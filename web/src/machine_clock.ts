@@ -39,6 +39,9 @@ export function lastAt(times: Float32Array | number[], time: number): number {
   return low;
 }
 
+/** What a tool change is among the kinds of moves. */
+const jump = 3;
+
 const mix = (a: number, b: number, part: number) => a + (b - a) * part;
 
 export class MachineClock {
@@ -70,10 +73,12 @@ export class MachineClock {
   }
 
   tipAt(time: number): PathPlace {
-    const { points, seconds, toolAxes, tools } = this.report.scene.path;
+    const { points, kinds, seconds, toolAxes, tools } = this.report.scene.path;
     const low = Math.min(lastAt(seconds, time), Math.max(0, seconds.length - 2));
     const span = seconds[low + 1] - seconds[low];
-    const part = span > 0 ? Math.min(1, Math.max(0, (time - seconds[low]) / span)) : 1;
+    const along = span > 0 ? Math.min(1, Math.max(0, (time - seconds[low]) / span)) : 1;
+    // A tool change is a jump: the end of the old tool stays until the new one is in the spindle.
+    const part = kinds[low] === jump ? Math.floor(along) : along;
     const at = (array: Float32Array) => [0, 1, 2].map((k) => mix(array[3 * low + k], array[3 * low + 3 + k], part)) as Point;
     let tool = -1;
     for (let i = 0; i < tools.length && tools[i] <= low; i += 2) tool = tools[i + 1];
@@ -143,7 +148,7 @@ export class MachineClock {
     const { points, seconds } = scene.path;
     const way = Math.hypot(...[0, 1, 2].map((k) => points[3 * move + 3 + k] - points[3 * move + k]));
     const lasts = seconds[move + 1] - seconds[move];
-    const moving = lasts > 0 && time < seconds[move + 1] && scene.path.kinds[move] !== 3;
+    const moving = lasts > 0 && time < seconds[move + 1] && scene.path.kinds[move] !== jump;
     return { file: trace.files[file], line, tool, preset, position, axes, feed: moving ? (60 * way) / lasts : 0 };
   }
 }

@@ -34,8 +34,9 @@ export function toleranceBar(result: ResultValue): HTMLElement | null {
   );
 }
 
-const cell = (kind: string, text: string, exact?: number | null) =>
-  h("span", { role: "cell", class: kind, title: exact == null ? null : String(exact) }, text);
+/** The label stands beside the value where the page is too narrow for heads. */
+const cell = (kind: string, text: string, exact?: number | null, label?: string) =>
+  h("span", { role: "cell", class: kind, title: exact == null ? null : String(exact), "data-label": label && text !== "" ? label : null }, text);
 
 export function resultCells(result: ResultValue, number: string, truth: boolean): (HTMLElement | null)[] {
   const { unit } = result;
@@ -48,7 +49,7 @@ export function resultCells(result: ResultValue, number: string, truth: boolean)
       h("span", {}, characteristicOf(result)),
       h("code", {}, result.name),
     ),
-    cell("number nominal-value", value(result.nominal), result.nominal),
+    cell("number nominal-value", value(result.nominal), result.nominal, t("nominal")),
     h(
       "span",
       { role: "cell", class: "number limits" },
@@ -64,8 +65,8 @@ export function resultCells(result: ResultValue, number: string, truth: boolean)
     cell("number deviation", value(result.deviation, true), result.deviation),
     h("span", { role: "cell", class: "bar" }, toleranceBar(result)),
     h("span", { role: "cell", class: "verdict" }, result.verdict !== "none" && badge(verdictState(result.verdict), true)),
-    truth ? cell("number truth", value(result.truth?.value), result.truth?.value) : null,
-    truth ? cell("number truth", value(result.truth?.error, true), result.truth?.error) : null,
+    truth ? cell("number truth", value(result.truth?.value), result.truth?.value, t("trueValue")) : null,
+    truth ? cell("number truth truth-error", value(result.truth?.error, true), result.truth?.error, t("error")) : null,
   ];
 }
 
@@ -78,7 +79,7 @@ export const sheetHeads = (truth: boolean): [string, string][] => [
   ["number deviation", t("deviation")],
   ["bar", t("ofTolerance")],
   ["verdict", t("verdict")],
-  ...(truth ? ([["number truth", t("trueValue")], ["number truth", t("error")]] as [string, string][]) : []),
+  ...(truth ? ([["number truth", t("trueValue")], ["number truth truth-error", t("error")]] as [string, string][]) : []),
 ];
 
 export const hasTruth = ({ results }: Report): boolean =>
@@ -214,7 +215,7 @@ export class Sheet {
     const open = this.opened.has(group.cycle);
     items.push({ key: `c${group.cycle}`, height: 38, build: () => this.head(group, rows, folded, open) });
     const inGroup = (element: HTMLElement) => {
-      element.classList.add("of-group", group.state);
+      element.classList.add("of-group", `of-${group.state}`);
       element.classList.toggle("selected", this.selector.value?.cycle === group.cycle);
       element.addEventListener("click", () => this.selector.select({ cycle: group.cycle, touch: null }, "results"));
       return element;
