@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "study/model_bench.hpp"
 
@@ -125,6 +126,34 @@ TEST(NistUncertaintyMachine, DynamicViscosity) {
   // The moments of the quotient by quadrature (of 1 / t within six standard deviations): 5.8252 and 1.1154.
   EXPECT_NEAR(y.values.mean, 5.8252, 0.0075);
   EXPECT_NEAR(y.values.deviation, 1.1154, 0.01);
+  // The printed interval of 95 %, and three standard deviations of the two quantiles of 200,000 trials.
+  EXPECT_NEAR(y.values.symmetric->low, 4.05, 0.005 + 0.015);
+  EXPECT_NEAR(y.values.symmetric->high, 8.39, 0.005 + 0.05);
+}
+
+/// Example 10 of the manual: the Stefan-Boltzmann constant from five constants of CODATA 2010, with three intervals.
+TEST(NistUncertaintyMachine, StefanBoltzmannConstant) {
+  Study study =
+      studyOf({source("planck", Normal{6.62606957e-34, 0.00000029e-34}), source("gas", Normal{8.3144621, 0.0000075}),
+               source("rydberg", Normal{10973731.568539, 0.000055}),
+               source("electron", Normal{5.4857990946e-4, 0.0000000022e-4}),
+               source("fineStructure", Normal{7.2973525698e-3, 0.0000000024e-3})},
+              200'000);
+  const auto constant = [](const std::vector<double>& x) {
+    const double molarMass = 0.001;
+    const double light = 299'792'458;
+    return 1e8 * 32 * std::pow(std::numbers::pi, 5) * x[0] * std::pow(x[1] * x[2], 4) /
+           (15 * std::pow(x[3] * molarMass, 4) * std::pow(light, 6) * std::pow(x[4], 8));
+  };
+  const double lastDigit = 0.5e-5;
+  for (const auto& [coverage, low, high] : {std::tuple{0.99, 5.67032, 5.67043}, std::tuple{0.68, 5.67035, 5.67039}}) {
+    study.coverage = coverage;
+    const Answer y = answerOf(study, constant);
+    EXPECT_NEAR(y.values.mean, 5.67037, lastDigit);
+    EXPECT_NEAR(y.values.deviation, 2.05e-5, 0.01e-5);
+    EXPECT_NEAR(y.values.symmetric->low, low, lastDigit) << coverage;
+    EXPECT_NEAR(y.values.symmetric->high, high, lastDigit) << coverage;
+  }
 }
 
 double ishigami(const std::vector<double>& x) {
