@@ -176,6 +176,7 @@ void Channel::note(Interruption why, bool measuring, const AxisPositions& from, 
                       .to = to,
                       .end = now,
                       .programFromTable = programFromTable(now),
+                      .programUnit = programUnit != nullptr ? *programUnit : 1,
                       .seconds = seconds()});
 }
 

@@ -25,7 +25,8 @@ struct InterruptedMotion {
   machine::AxisPositions end;        ///< where the axes stand
   /// Program coordinates from those of the table, as the control believes, with the axes at `end`.
   Eigen::Affine3d programFromTable = Eigen::Affine3d::Identity();
-  double seconds = 0;  ///< machine clock at the end
+  double programUnit = 1;  ///< mm in the unit that the program counts in
+  double seconds = 0;      ///< machine clock at the end
 };
 
 }  // namespace probewright::control

@@ -72,6 +72,8 @@ struct ParameterRecord {
   std::string value;  ///< as text, defaults filled in
   std::string meaning;
   bool isDefault = false;
+  std::optional<double> number =
+      std::nullopt;  ///< mm, mm/min, degrees, whatever unit the program counts in; none for texts
 };
 
 struct CycleRecord {

@@ -12,17 +12,21 @@ namespace probewright::control {
 
 /// "X+1.000 Y+2.000 Z+3.000 of the active workpiece system", in the unit that the program counts in: "X+0.0394 Y+0.0787
 /// Z+0.1181 inch of the active workpiece system".
-inline std::string workpiecePlace(const Channel& channel, const ProgramPlace& tip) {
-  const double unit = channel.programUnit != nullptr ? *channel.programUnit : 1;
+/// `unit`: mm in the unit of the program; `radius`: X counts from the axis of a lathe's spindle.
+inline std::string workpiecePlace(const ProgramPlace& tip, double unit, bool radius) {
   const bool inch = unit != 1;
   // A number of hundreds of digits says no more than its size.
   const auto number = [&](double millimetres) {
     const double value = millimetres / unit;
     return std::abs(value) < 1e9 ? fmt::format("{:+.{}f}", value, inch ? 4 : 3) : fmt::format("{:+.3g}", value);
   };
-  return fmt::format("X{}{} Y{} Z{}{} of the active workpiece system", number(tip.x()),
-                     channel.description().mainSpindle ? " (radius)" : "", number(tip.y()), number(tip.z()),
-                     inch ? " inch" : "");
+  return fmt::format("X{}{} Y{} Z{}{} of the active workpiece system", number(tip.x()), radius ? " (radius)" : "",
+                     number(tip.y()), number(tip.z()), inch ? " inch" : "");
+}
+
+inline std::string workpiecePlace(const Channel& channel, const ProgramPlace& tip) {
+  return workpiecePlace(tip, channel.programUnit != nullptr ? *channel.programUnit : 1,
+                        channel.description().mainSpindle.has_value());
 }
 
 /// "tool tip stopped at X+1.000 Y+2.000 Z+3.000 of the active workpiece system".

@@ -139,6 +139,11 @@ const CycleDefinition* sinumerikCycle(std::string_view name) {
   return entry == nullptr ? nullptr : &entry->definition;
 }
 
+double inMillimetres(const Parameter& parameter, const Argument& argument, double unit) {
+  const bool counts = parameter.kind == ValueKind::Length || parameter.kind == ValueKind::Feed;
+  return counts && argument.given ? argument.number * unit : argument.number;
+}
+
 Arguments::Arguments(const CycleDefinition& definition) : definition_(&definition) {
   values_.resize(definition.parameters.size());
   for (std::size_t i = 0; i < values_.size(); ++i) {

@@ -125,6 +125,9 @@ struct Argument {
   bool given = false;  ///< false: the standard value stands here
 };
 
+/// The value in mm, mm/min or degrees: lengths and feeds of a call count in units of `unit` mm, standard values in mm.
+double inMillimetres(const Parameter& parameter, const Argument& argument, double unit);
+
 /// The arguments of one call, in the order of the definition's parameters.
 class Arguments {
 public:

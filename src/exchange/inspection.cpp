@@ -23,10 +23,15 @@ std::optional<double> finite(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-/// Without line ends and other characters that have no place in a field.
+/// Without line ends and other characters that have no place in a field: U+FFFE and U+FFFF are no characters, and no
+/// XML reader takes them.
 std::string inOneLine(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  }
+  for (const std::string_view none : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"}) {
+    for (std::size_t at = text.find(none); at != std::string::npos; at = text.find(none, at))
+      text.replace(at, none.size(), " ");
   }
   return text;
 }
@@ -50,7 +55,7 @@ Inspection inspectionOf(const control::Journal& journal, const records::RunInfo&
   std::size_t number = 0;
   for (const control::CycleRecord& cycle : journal.cycles) {
     ++number;
-    const std::string feature = features.at(cycle.place);
+    const std::string feature = inOneLine(features.at(cycle.place));
     const std::string program = text(fileName(cycle.place.file));
     if (!cycle.alarm.empty()) {
       inspection.failures.push_back(

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/number_text.hpp"
+#include "control/stopped_place.hpp"
 #include "simulation/contact_search.hpp"
 #include "simulation/face_at.hpp"
 #include "simulation/round_faces.hpp"
@@ -104,7 +105,9 @@ private:
   Vector3 inProgram(const Vector3& onTable) const { return motion_.programFromTable * onTable; }
 
   std::string place(const Vector3& onTable) const {
-    return fmt::format("{} of the active workpiece system ({} on the table)", coordinates(inProgram(onTable)),
+    return fmt::format("{} ({} on the table)",
+                       control::workpiecePlace(ProgramPlace(inProgram(onTable)), motion_.programUnit,
+                                               truth_.machine.mainSpindle.has_value()),
                        coordinates(onTable));
   }
 
@@ -135,8 +138,11 @@ private:
     if (family_ != nullptr) {
       const Reach reach = family_->reach(cycle_, way.norm(), control_);
       // Half a millimetre for pretravel and what the face lies askew.
-      text +=
-          fmt::format("; with {} {:.0f} the touch would reach it", reach.name, std::ceil(reach.now + further + 0.5));
+      const double enough = reach.now + further + 0.5;
+      const bool inch = reach.ofProgram && motion_.programUnit != 1;
+      text += fmt::format("; with {} {} the touch would reach it", reach.name,
+                          inch ? fmt::format("{:.2f} inch", std::ceil(100 * enough / motion_.programUnit) / 100)
+                               : fmt::format("{:.0f} mm", std::ceil(enough)));
     }
     known.texts.push_back(std::move(text));
     const simulation::PlacedSolid& solid = truth_.solids[touch->solid];
@@ -190,10 +196,16 @@ private:
     return nullptr;
   }
 
-  /// True if nothing but the ball would touch with such a probe, where the motion should have ended.
+  /// True if with such a probe nothing but the ball would touch on the whole way. A measuring move ends where the ball
+  /// touches: its target lies behind the surface.
   bool wouldBeFree(const TrueTool& tool) const {
-    return !simulation::shaftOverlap(tableFromSpindle(motion_.to), simulation::shapeOf(&tool, spindleDegrees_),
-                                     surroundings_);
+    const ToolShape shape = simulation::shapeOf(&tool, spindleDegrees_);
+    if (simulation::shaftOverlap(tableFromSpindle(motion_.from), shape, surroundings_)) return false;
+    const Vector3 way = tableFromSpindle(motion_.to) * shape.tip - tableFromSpindle(motion_.from) * shape.tip;
+    const Motion whole{kinematics_,  motion_.from,    motion_.to,
+                       motion_.from, motion_.seconds, simulation::MotionProfile(std::max(way.norm(), 1e-6), 1, 1)};
+    const auto touch = simulation::firstTouch(whole, 0, 1, shape, surroundings_, {.precision = 1e-4});
+    return !touch || !touch->shaft;
   }
 
   /// The smallest change of the probe by which it would be free; nothing if even the largest is not enough.

@@ -17,7 +17,8 @@ struct ExpectedRound {
 /// How to let a measuring move go further: "DIST", "S_FA".
 struct Reach {
   std::string name;
-  double now = 0;  ///< its value
+  double now = 0;          ///< its value, mm
+  bool ofProgram = false;  ///< it counts in the unit of the program, not in mm as the tables of the control do
 };
 
 }  // namespace probewright::truth

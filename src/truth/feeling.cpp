@@ -23,7 +23,7 @@ std::optional<FeltFace> felt(const std::vector<simulation::PlacedSolid>& solids,
 
 std::optional<double> valueOf(const control::CycleRecord& cycle, std::string_view name) {
   const auto found = std::ranges::find(cycle.parameters, name, &control::ParameterRecord::name);
-  return found == cycle.parameters.end() ? std::nullopt : parseDecimal(found->value);
+  return found == cycle.parameters.end() ? std::nullopt : found->number;
 }
 
 }  // namespace probewright::truth

@@ -118,7 +118,7 @@ std::optional<FrameNumber> frameNumber(const std::string& table, const std::stri
 /// From as far before the surface as it goes on beyond.
 Reach reach(const CycleRecord* cycle, double way, control::ControlKind) {
   const auto path = cycle != nullptr ? valueOf(*cycle, "S_FA") : std::nullopt;
-  return {path ? "S_FA" : "DFA", path.value_or(way / 2)};
+  return {path ? "S_FA" : "DFA", path.value_or(way / 2), true};
 }
 
 bool isOfTools(std::string_view table) { return table.starts_with("$TC_DP") || table.starts_with("$SNS_MEA_"); }

@@ -49,7 +49,10 @@ Inspection awkward() {
              "ACME \"AG\""};
   std::string& text = run.programs.front().text;
   const std::string name = "* - MEASURE";
-  text.replace(text.find(name), name.size(), "* - MEASURE \"A,B\" <&> Bohrung ø");
+  // U+FFFF is no character: readers of XML refuse it.
+  text.replace(text.find(name), name.size(),
+               "* - MEASURE \"A,B\" <&>\xEF\xBF\xBF"
+               "Bohrung ø");
   return inspectionOf(journal(), run);
 }
 
@@ -224,6 +227,7 @@ TEST(JUnit, HasAnErrorForAnAlarmAndForARunThatStops) {
   EXPECT_THAT(read, HasSubstr("error 3 412 ALIGN AND SET PRESET: ends without alarm"));
   EXPECT_THAT(read, HasSubstr("error the program runs to its end None Touch point inaccessible"));
   EXPECT_THAT(junitRead(junitText(inspectionOf({}, {}))), HasSubstr("1 0 0 1\n"));
+  EXPECT_THAT(junitRead(junitText(awkward())), HasSubstr("MEASURE \"A,B\" <&> Bohrung ø"));
 }
 
 /// The keys of a transfer file, as the format's description says: a line each, "K2101/3 value".

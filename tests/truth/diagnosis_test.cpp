@@ -42,7 +42,7 @@ TEST(Diagnosis, OfAMissTellsHowFarTheFaceIs) {
   EXPECT_THAT(everything(told),
               HasSubstr("the face of \"plate\" is 9.000 mm further in +Y, at X+0.000 Y-30.000 Z-8.000 of "
                         "the active workpiece system (X+0.000 Y-30.000 Z-488.000 on the table)"));
-  EXPECT_THAT(everything(told), HasSubstr("with DIST 20 the touch would reach it"));
+  EXPECT_THAT(everything(told), HasSubstr("with DIST 20 mm the touch would reach it"));
   const records::Diagnosis& known = told.truth().diagnoses.front();
   ASSERT_TRUE(known.expected && known.found);
   EXPECT_LT((known.expected->at - Vector3(0, -45, -488)).norm(), 1e-6);
@@ -53,6 +53,62 @@ TEST(Diagnosis, OfAMissTellsHowFarTheFaceIs) {
   // And so it is.
   world.probe = "maximum_travel = 20\n";
   EXPECT_TRUE(run(world, front427).finished());
+}
+
+/// The same in a program that counts in inches: places in the unit of the program, DIST as the probe table has it.
+TEST(Diagnosis, CountsPlacesInTheUnitOfTheProgram) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480 }");
+  world.unit = "INCH";
+  // Y-45, Z-8 and 2 mm, and the clearance height 20.
+  const std::string program =
+      "TOOL CALL 1 Z\nL Z+2 R0 FMAX\nTCH PROBE 427 COORDINATE ~\nQ263=+0 ~\nQ264=-1.771654 ~\nQ261=-0.314961 ~\n"
+      "Q320=+0.07874 ~\nQ272=+2 ~\nQ267=+1 ~\nQ260=+0.8 ~\nQ281=+0 ~\nQ288=+9 ~\nQ289=-9 ~\nQ309=+0 ~\nQ330=+0\n";
+  const Told told = run(world, program);
+  ASSERT_FALSE(told.finished());
+  EXPECT_THAT(everything(told), HasSubstr("at X+0.0000 Y-1.1811 Z-0.3150 inch of the active workpiece system "
+                                          "(X+0.000 Y-30.000 Z-488.000 on the table); with DIST 20 mm the touch"));
+  world.probe = "maximum_travel = 20\n";
+  EXPECT_TRUE(run(world, program).finished());
+}
+
+/// 9 mm further than 6 mm (0.2362 inch) before and behind the set value: S_FA is to be what the advice says.
+TEST(Diagnosis, AdvisesArgumentsInTheUnitOfTheProgram) {
+  World world;
+  world.control = "840Dsl";
+  world.origin = {0, 0, -480};
+  world.part = plate("{ z = -480 }");
+  const auto program = [](const std::string& path) {
+    return "G70\nT1 D1\nM6\nG54 G17 G0 X0 Y-2.244094 Z0.8\nG1 Z-0.314961 F200\nCYCLE978(0,,,1,-1.771654," + path +
+           ",9,2,1,1,,,,,,1)\n";
+  };
+  const Told told = run(world, program("0.2362"));
+  ASSERT_FALSE(told.finished());
+  // The ball ends at Y-45 + 6 - 3 and would touch at Y-33.
+  EXPECT_THAT(everything(told), HasSubstr("mm further in +Y")) << told.why();
+  EXPECT_THAT(everything(told), HasSubstr("with S_FA 0.62 inch the touch would reach it"));
+  const Told advised = run(world, program("0.62"));
+  EXPECT_TRUE(advised.finished()) << advised.why();
+}
+
+/// What a cycle looks for is where its arguments say, whatever unit they count in.
+TEST(Diagnosis, FindsTheHoleOfAnInchProgram) {
+  World world;
+  world.origin = {0, 0, -480};
+  world.part = plate("{ x = 5, y = 4, z = -480, c = 30 }");
+  world.unit = "INCH";
+  const Told told = run(world,
+                        "TOOL CALL 1 Z\nL Z+2 R0 FMAX\nTCH PROBE 412 PRESET ~\nQ321=-0.393701 ~\nQ322=-0.15748 ~\n"
+                        "Q262=+1.181102 ~\nQ325=+0 ~\nQ247=+90 ~\nQ261=-0.19685 ~\nQ320=+0.08 ~\nQ260=+0.8 ~\n"
+                        "Q301=+0 ~\nQ305=+1 ~\nQ331=+0 ~\nQ332=+0 ~\nQ303=+1 ~\nQ381=+0 ~\nQ382=+0 ~\nQ383=+0 ~\n"
+                        "Q384=+0 ~\nQ333=+0\n");
+  ASSERT_FALSE(told.finished());
+  EXPECT_THAT(everything(told), HasSubstr("the hole of 30.010 mm has its centre at X+0.1969 Y+0.1575 Z-0.1969 inch of "
+                                          "the active workpiece system (X+5.000 Y+4.000 Z-485.000 on the table), "
+                                          "17.000 mm from Q321/Q322"));
+  ASSERT_TRUE(told.truth().diagnoses.back().expected);
+  EXPECT_NEAR(told.truth().diagnoses.back().expected->diameter, 30, 1e-4);
 }
 
 TEST(Diagnosis, OfAHoleTellsWhereItIs) {
@@ -95,16 +151,26 @@ TEST(Diagnosis, OfABodyTellsHowMuchTooWideItIs) {
   world.part =
       "[part]\nname = \"box\"\npose = { z = -480 }\n[[part.feature]]\nshape = \"box\"\ncentre = [0, 0, -100]\n"
       "size = [120, 100, 100]\n[[part.feature]]\nshape = \"pocket\"\nsize = [80, 80]\ndepth = 90\ncorner_radius = 3\n";
-  const Told told = run(world,
-                        "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 423 POCKET ~\nQ273=+0 ~\nQ274=+0 ~\nQ282=+80 ~\n"
-                        "Q283=+80 ~\nQ261=-60 ~\nQ320=+2 ~\nQ260=+20 ~\nQ301=+0 ~\nQ284=+81 ~\nQ285=+79 ~\n"
-                        "Q286=+81 ~\nQ287=+79 ~\nQ279=+1 ~\nQ280=+1 ~\nQ281=+0 ~\nQ309=+0 ~\nQ330=+0\n");
+  const std::string program =
+      "TOOL CALL 1 Z\nL Z+50 R0 FMAX\nTCH PROBE 423 POCKET ~\nQ273=+0 ~\nQ274=+0 ~\nQ282=+80 ~\nQ283=+80 ~\n"
+      "Q261=-60 ~\nQ320=+2 ~\nQ260=+20 ~\nQ301=+0 ~\nQ284=+81 ~\nQ285=+79 ~\nQ286=+81 ~\nQ287=+79 ~\nQ279=+1 ~\n"
+      "Q280=+1 ~\nQ281=+0 ~\nQ309=+0 ~\nQ330=+0\n";
+  const Told told = run(world, program);
   ASSERT_FALSE(told.finished());
   EXPECT_THAT(everything(told), HasSubstr("the body met \"box\" at "));
   // The ball is to stand 4 mm (Q320 and SET_UP) from the wall, its centre 7: there a body of 14 mm has room.
   EXPECT_THAT(everything(told), HasSubstr("the body of the probe, 60.000 mm in diameter, is 46.0 mm too wide"));
   // Its face is to stand 10 mm below the top.
   EXPECT_THAT(everything(told), HasSubstr("a stylus that is 10.0 mm longer would keep the body clear"));
+  // In the touch itself the ball's centre is 3 mm from the wall: there a body of 6 mm has room, and no more.
+  world.probe = "body_radius = 6.9\nbody_length = 90\nstylus_length = 50\n";
+  const Told nearer = run(world, program);
+  ASSERT_FALSE(nearer.finished());
+  EXPECT_THAT(everything(nearer), HasSubstr("the body of the probe, 13.800 mm in diameter, is 7.8 mm too wide"));
+  EXPECT_THAT(everything(nearer), HasSubstr("a stylus that is 10.0 mm longer would keep the body clear"));
+  world.probe = "body_radius = 2.99\nbody_length = 90\nstylus_length = 50\n";
+  const Told narrow = run(world, program);
+  EXPECT_TRUE(narrow.finished()) << narrow.why();
 }
 
 /// A box with its top at Z0, and something in or on it, at a pose.

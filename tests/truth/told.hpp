@@ -19,9 +19,10 @@ struct World {
   std::string part;  ///< [part] with its features
   double believedRadius = 3;
   Vector3 origin = Vector3::Zero();
-  double rotation = 0;  ///< degrees about Z
-  std::string probe;    ///< more keys of the probe
-  std::string more;     ///< more sections
+  double rotation = 0;      ///< degrees about Z
+  std::string probe;        ///< more keys of the probe
+  std::string more;         ///< more sections
+  std::string unit = "MM";  ///< of a Klartext program
 
   std::string text() const {
     const std::string frame = fmt::format("origin = [{}, {}, {}]\nrotation = [0, 0, {}]\nactive = true\n", origin.x(),
@@ -73,7 +74,8 @@ inline Told run(const World& world, const std::string& program, setup::MachineOp
     return {};
   }
   const bool heidenhain = world.control != "840Dsl";
-  const std::string text = heidenhain ? "BEGIN PGM T MM\n" + program + "END PGM T MM\n" : program + "M30\n";
+  const std::string text =
+      heidenhain ? fmt::format("BEGIN PGM T {0}\n{1}END PGM T {0}\n", world.unit, program) : program + "M30\n";
   return {setup::runText(heidenhain ? "T.H" : "T.MPF", text, *setup, session::RunOptions(), options).outcome};
 }
 

@@ -6,6 +6,7 @@ import "./sheet.css";
 import "./paper.css";
 
 import { cameraShots } from "./camera";
+import { clearanceSection } from "./clearance";
 import { readReport, type Report } from "./data";
 import { duration, fileName, h, icon, length } from "./dom";
 import { currentLanguage, languageNames, t, useLanguage } from "./language";
@@ -77,6 +78,7 @@ function runPanel(report: Report, selector: Selector): HTMLElement {
     { class: "panel scroll text", "data-tab": "run", tabindex: 0 },
     h("dl", { class: "paper-facts" }, ...facts(report).map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value)))),
     ...timeSection(report, selector),
+    ...clearanceSection(report, selector),
     travel && h("h3", {}, t("travelHead")),
     travel,
     h("h3", {}, t("keys")),

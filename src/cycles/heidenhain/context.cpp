@@ -71,7 +71,8 @@ Context::Context(Control& control, const Entry& entry, const Arguments& argument
     const Parameter& parameter = definition.parameters[i];
     if (!parameter.controls.contains(control.kind())) continue;
     record.parameters.push_back(
-        {std::string(parameter.name), textOf(value), std::string(parameter.meaning), !value.given});
+        {std::string(parameter.name), textOf(value), std::string(parameter.meaning), !value.given,
+         value.isText ? std::nullopt : std::optional(inMillimetres(parameter, value, control.unit))});
   }
   record.startSeconds = control.channel.seconds();
   record_ = control.journal.cycles.size();
@@ -85,10 +86,8 @@ Context::~Context() {
 }
 
 double Context::q(int number) const {
-  const double value = arguments_.number(static_cast<std::uint32_t>(number));
-  const ValueKind kind = parameterOf(arguments_, number).kind;
-  const bool scaled = kind == ValueKind::Length || kind == ValueKind::Feed;
-  return scaled && given(number) ? value * control_.unit : value;
+  const Parameter& parameter = parameterOf(arguments_, number);
+  return inMillimetres(parameter, arguments_.at(parameter.address), control_.unit);
 }
 
 void Context::requireConditions() {

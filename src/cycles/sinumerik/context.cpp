@@ -82,8 +82,9 @@ Context::Context(Control& control, const Entry& entry, const Arguments& argument
     if (const std::string code = codeText(parameter, value.number); value.given && !code.empty()) {
       meaning += fmt::format(": {}", code);
     }
-    record.parameters.push_back({std::string(parameter.name), value.isText ? value.text : formatShortest(value.number),
-                                 std::move(meaning), !value.given});
+    record.parameters.push_back(
+        {std::string(parameter.name), value.isText ? value.text : formatShortest(value.number), std::move(meaning),
+         !value.given, value.isText ? std::nullopt : std::optional(inMillimetres(parameter, value, control.unit))});
   }
   record.startSeconds = control.channel.seconds();
   record_ = control.journal.cycles.size();
@@ -128,8 +129,7 @@ Context::~Context() {
 
 double Context::real(std::string_view name) const {
   const Parameter& parameter = required(arguments_, name);
-  const Argument& argument = arguments_.at(parameter.address);
-  return scales(parameter.kind) && argument.given ? argument.number * control_.unit : argument.number;
+  return inMillimetres(parameter, arguments_.at(parameter.address), control_.unit);
 }
 
 int Context::integer(std::string_view name) const { return arguments_.integer(required(arguments_, name).address); }
