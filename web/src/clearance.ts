@@ -61,10 +61,15 @@ export function clearanceSection({ results }: Report, selector: Selector): HTMLE
   const known = results.truth?.clearance;
   if (!known || known.spans.length === 0) return [];
   const total = Math.max(results.totals.time ?? 0, ...known.spans.map(({ to }) => to));
-  const nearest = known.spans
-    .filter(({ orMore }) => !orMore)
-    .sort((a, b) => a.distance - b.distance)
-    .slice(0, nearestPlaces);
+  // Of each cycle, and of what lies between two of them, only what came nearest.
+  const ofCycles = new Map<string, Span>();
+  for (const span of known.spans) {
+    if (span.orMore) continue;
+    const key = `${span.cycle ?? ""} ${span.part} ${span.solid}`;
+    const before = ofCycles.get(key);
+    if (!before || span.distance < before.distance) ofCycles.set(key, span);
+  }
+  const nearest = [...ofCycles.values()].sort((a, b) => a.distance - b.distance).slice(0, nearestPlaces);
   const cell = (kind: string, text: string) => h("td", { class: kind }, text);
   return [
     h("h3", {}, t("clearance")),

@@ -155,6 +155,16 @@ test("the clearance is a curve over time, and told where the replay is", async (
     return count;
   });
   assert.ok(drawn > 100, `${drawn} points of the curve`);
+  // The same to a scale: the lowest point of the curve is the least distance, the first row of the list too.
+  await page.click('.side-tabs [data-tab="run"]');
+  const shown = await page.$eval(".plot.clearance svg", (svg) => {
+    const labels = [...svg.querySelectorAll("text.end")].filter((label) => /^\d+$/.test(label.textContent));
+    const [zero, other] = [labels[0], labels.at(-1)].map((label) => ({ y: Number(label.getAttribute("y")), mm: Number(label.textContent) }));
+    const heights = [...svg.querySelector(".measured").getAttribute("d").matchAll(/[ML][\d.]+ ([\d.]+)/g)].map(([, y]) => Number(y));
+    return (other.mm * (zero.y - 3 - Math.max(...heights))) / (zero.y - other.y);
+  });
+  assert.ok(Math.abs(shown - near.distance) < 0.05, `${shown} instead of ${near.distance}`);
+  assert.match(await text(page, ".plot.clearance + table tr"), new RegExp(`^${near.distance.toFixed(2).replace(".", "\\.")} mm\\s[\\s\\S]*${near.solid}`));
   assert.deepEqual(problems, []);
   await page.close();
 });
