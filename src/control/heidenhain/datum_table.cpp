@@ -8,15 +8,15 @@ using enum CellKind;
 
 constexpr std::array columns = {
     ColumnSpec{"D", "NR", 7, Integer, 0, "number of the datum"},
-    ColumnSpec{"X", "", 14, Length, 4, "shift", false, false, "0"},
-    ColumnSpec{"Y", "", 14, Length, 4, "shift", false, false, "0"},
-    ColumnSpec{"Z", "", 14, Length, 4, "shift", false, false, "0"},
-    ColumnSpec{"A", "", 14, Angle, 4, "shift of the rotary axis", false, false, "0"},
-    ColumnSpec{"B", "", 14, Angle, 4, "shift of the rotary axis", false, false, "0"},
-    ColumnSpec{"C", "", 14, Angle, 4, "shift of the rotary axis", false, false, "0"},
-    ColumnSpec{"U", "", 14, Length, 4, "shift of the parallel axis", false, false, "0"},
-    ColumnSpec{"V", "", 14, Length, 4, "shift of the parallel axis", false, false, "0"},
-    ColumnSpec{"W", "", 14, Length, 4, "shift of the parallel axis", false, false, "0"},
+    ColumnSpec{"X", "", 14, Length, 4, "shift", "0"},
+    ColumnSpec{"Y", "", 14, Length, 4, "shift", "0"},
+    ColumnSpec{"Z", "", 14, Length, 4, "shift", "0"},
+    ColumnSpec{"A", "", 14, Angle, 4, "shift of the rotary axis", "0"},
+    ColumnSpec{"B", "", 14, Angle, 4, "shift of the rotary axis", "0"},
+    ColumnSpec{"C", "", 14, Angle, 4, "shift of the rotary axis", "0"},
+    ColumnSpec{"U", "", 14, Length, 4, "shift of the parallel axis", "0"},
+    ColumnSpec{"V", "", 14, Length, 4, "shift of the parallel axis", "0"},
+    ColumnSpec{"W", "", 14, Length, 4, "shift of the parallel axis", "0"},
     ColumnSpec{"DOC", "", 17, Text, 0, "comment"},
 };
 

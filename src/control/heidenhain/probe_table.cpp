@@ -10,19 +10,19 @@ using enum CellKind;
 
 constexpr std::array columns = {
     ColumnSpec{"NO", "NR", 5, Integer, 0, "number of the touch probe; TP_NO of the tool table names it"},
-    ColumnSpec{"TYPE", "", 12, Text, 0, "model of the touch probe", false, false, "TS460"},
-    ColumnSpec{"CAL_OF1", "", 12, Length, 4, "ball centre from the spindle axis, main axis", false, false, "0"},
-    ColumnSpec{"CAL_OF2", "", 12, Length, 4, "ball centre from the spindle axis, minor axis", false, false, "0"},
-    ColumnSpec{"CAL_ANG", "", 10, Angle, 4, "spindle angle when calibrating and probing", false, false, "0"},
-    ColumnSpec{"F", "", 9, Feed, 0, "probing feed", false, false, "300"},
-    ColumnSpec{"FMAX", "", 9, Feed, 0, "feed of positioning between points", false, false, "2000"},
-    ColumnSpec{"DIST", "", 12, Length, 4, "longest path to the touch point", false, false, "10"},
-    ColumnSpec{"SET_UP", "", 12, Length, 4, "set-up clearance, added to that of the cycle", false, false, "2"},
-    ColumnSpec{"F_PREPOS", "", 14, Text, 0, "FMAX_PROBE or FMAX_MACHINE", false, false, "FMAX_PROBE"},
-    ColumnSpec{"TRACK", "", 7, Text, 0, "ON: orient the spindle to the probing direction", false, false, "OFF"},
+    ColumnSpec{"TYPE", "", 12, Text, 0, "model of the touch probe", "TS460"},
+    ColumnSpec{"CAL_OF1", "", 12, Length, 4, "ball centre from the spindle axis, main axis", "0"},
+    ColumnSpec{"CAL_OF2", "", 12, Length, 4, "ball centre from the spindle axis, minor axis", "0"},
+    ColumnSpec{"CAL_ANG", "", 10, Angle, 4, "spindle angle when calibrating and probing", "0"},
+    ColumnSpec{"F", "", 9, Feed, 0, "probing feed", "300"},
+    ColumnSpec{"FMAX", "", 9, Feed, 0, "feed of positioning between points", "2000"},
+    ColumnSpec{"DIST", "", 12, Length, 4, "longest path to the touch point", "10"},
+    ColumnSpec{"SET_UP", "", 12, Length, 4, "set-up clearance, added to that of the cycle", "2"},
+    ColumnSpec{"F_PREPOS", "", 14, Text, 0, "FMAX_PROBE or FMAX_MACHINE", "FMAX_PROBE"},
+    ColumnSpec{"TRACK", "", 7, Text, 0, "ON: orient the spindle to the probing direction", "OFF"},
     ColumnSpec{"SERIAL", "", 16, Text, 0, "serial number, entered by the control"},
-    ColumnSpec{"REACTION", "", 12, Text, 0, "NCSTOP or EMERGSTOP on a collision", false, false, "NCSTOP"},
-    ColumnSpec{"STYLUS", "", 12, Text, 0, "shape of the stylus", false, true, "SIMPLE"},
+    ColumnSpec{"REACTION", "", 12, Text, 0, "NCSTOP or EMERGSTOP on a collision", "NCSTOP"},
+    ColumnSpec{"STYLUS", "", 12, Text, 0, "shape of the stylus", "SIMPLE", onTNC640},
 };
 
 }  // namespace

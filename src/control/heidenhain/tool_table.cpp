@@ -10,22 +10,22 @@ namespace {
 
 using enum CellKind;
 
-// name, other name, width, kind, decimals, meaning, only iTNC, only TNC 640, initial
+// name, other name, width, kind, decimals, meaning, entry of a new row, controls
 constexpr std::array columns = {
     ColumnSpec{"T", "", 8, Number, 0, "tool number, with its step after a point"},
     ColumnSpec{"NAME", "", 33, Text, 0, "tool name"},
-    ColumnSpec{"L", "", 13, Length, 4, "tool length", false, false, "0"},
-    ColumnSpec{"R", "", 13, Length, 4, "tool radius", false, false, "0"},
-    ColumnSpec{"R2", "", 13, Length, 4, "corner radius", false, false, "0"},
-    ColumnSpec{"DL", "", 10, Length, 4, "delta value of the length", false, false, "0"},
-    ColumnSpec{"DR", "", 10, Length, 4, "delta value of the radius", false, false, "0"},
-    ColumnSpec{"DR2", "", 10, Length, 4, "delta value of the corner radius", false, false, "0"},
+    ColumnSpec{"L", "", 13, Length, 4, "tool length", "0"},
+    ColumnSpec{"R", "", 13, Length, 4, "tool radius", "0"},
+    ColumnSpec{"R2", "", 13, Length, 4, "corner radius", "0"},
+    ColumnSpec{"DL", "", 10, Length, 4, "delta value of the length", "0"},
+    ColumnSpec{"DR", "", 10, Length, 4, "delta value of the radius", "0"},
+    ColumnSpec{"DR2", "", 10, Length, 4, "delta value of the corner radius", "0"},
     ColumnSpec{"TL", "", 4, Text, 0, "L: the tool is locked"},
     ColumnSpec{"RT", "", 8, Text, 0, "replacement tool"},
     ColumnSpec{"TIME1", "", 7, Number, 0, "maximum tool life, minutes"},
     ColumnSpec{"TIME2", "", 7, Number, 0, "maximum tool life at a tool call, minutes"},
     ColumnSpec{"CUR.TIME", "CUR_TIME", 10, Number, 2, "current tool life, minutes"},
-    ColumnSpec{"TYP", "", 10, Text, 0, "type of the tool; TCHP is a touch probe", false, true},
+    ColumnSpec{"TYP", "", 10, Text, 0, "type of the tool; TCHP is a touch probe", "", onTNC640},
     ColumnSpec{"DOC", "", 17, Text, 0, "comment"},
     ColumnSpec{"PLC", "", 10, Text, 0, "information for the PLC"},
     ColumnSpec{"LCUTS", "", 12, Length, 4, "cutting edge length"},
@@ -40,12 +40,12 @@ constexpr std::array columns = {
     ColumnSpec{"RBREAK", "", 8, Length, 4, "breakage tolerance of the radius; 0 is none"},
     ColumnSpec{"NMAX", "", 8, Integer, 0, "maximum spindle speed"},
     ColumnSpec{"LIFTOFF", "", 8, Text, 0, "Y: lifts off at an NC stop"},
-    ColumnSpec{"TP_NO", "", 6, Integer, 0, "row of the touch probe table", false, true},
-    ColumnSpec{"DR2TABLE", "", 34, Text, 0, "table of the 3-D calibration of a touch probe, *.3DTC", false, true},
+    ColumnSpec{"TP_NO", "", 6, Integer, 0, "row of the touch probe table", "", onTNC640},
+    ColumnSpec{"DR2TABLE", "", 34, Text, 0, "table of the 3-D calibration of a touch probe, *.3DTC", "", onTNC640},
     ColumnSpec{"T-ANGLE", "", 9, Angle, 3, "point angle"},
-    ColumnSpec{"CAL-OF1", "CAL_OF1", 12, Length, 4, "centre offset of the ball, main axis", true},
-    ColumnSpec{"CAL-OF2", "CAL_OF2", 12, Length, 4, "centre offset of the ball, minor axis", true},
-    ColumnSpec{"CAL-ANG", "CAL_ANG", 10, Angle, 4, "spindle angle of the calibration", true},
+    ColumnSpec{"CAL-OF1", "CAL_OF1", 12, Length, 4, "centre offset of the ball, main axis", "", onITNC530},
+    ColumnSpec{"CAL-OF2", "CAL_OF2", 12, Length, 4, "centre offset of the ball, minor axis", "", onITNC530},
+    ColumnSpec{"CAL-ANG", "CAL_ANG", 10, Angle, 4, "spindle angle of the calibration", "", onITNC530},
 };
 
 }  // namespace

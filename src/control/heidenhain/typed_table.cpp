@@ -15,10 +15,6 @@ namespace {
 
 constexpr double millimetresPerInch = 25.4;
 
-bool isOn(const ColumnSpec& column, ControlKind kind) {
-  return kind == ControlKind::iTNC530 ? !column.onlyTNC640 : !column.onlyITNC;
-}
-
 }  // namespace
 
 Result<TypedTable> TypedTable::parse(std::string_view bytes, std::string file, std::span<const ColumnSpec> columns,
@@ -35,7 +31,8 @@ TypedTable TypedTable::create(std::string_view name, TableUnit unit, std::span<c
                               ControlKind kind, std::size_t rows) {
   std::vector<TextTable::NewColumn> header;
   for (const ColumnSpec& column : columns) {
-    if (isOn(column, kind)) header.push_back({column.name(), std::max(column.width, column.name().size() + 1)});
+    if (column.controls.contains(kind))
+      header.push_back({column.name(), std::max(column.width, column.name().size() + 1)});
   }
   TypedTable table(TextTable::create(name, unit, header), columns);
   for (std::size_t row = 0; row < rows; ++row) {

@@ -30,9 +30,8 @@ struct ColumnSpec {
   CellKind kind = CellKind::Text;
   int decimals = 0;
   std::string_view meaning;
-  bool onlyITNC = false;          ///< in tables created here: left out on the TNC 640
-  bool onlyTNC640 = false;        ///< in tables created here: left out on the iTNC 530
-  std::string_view initial = {};  ///< text of a new row
+  std::string_view initial = {};    ///< text of a new row
+  ControlSet controls = onBothTNC;  ///< in tables created here: left out on the others
 
   constexpr std::string_view name() const { return column.name(); }
 };
