@@ -24,10 +24,10 @@ struct NumberRange {
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
   bool exclusiveMinimum = false;  ///< the minimum itself is not allowed
-  static constexpr NumberRange positive() { return {0, std::numeric_limits<double>::infinity(), true}; }
-  static constexpr NumberRange notNegative() { return {0, std::numeric_limits<double>::infinity(), false}; }
+  static constexpr NumberRange positive() { return {.minimum = 0, .exclusiveMinimum = true}; }
+  static constexpr NumberRange notNegative() { return {.minimum = 0}; }
   /// From -limit to limit.
-  static constexpr NumberRange within(double limit) { return {-limit, limit, false}; }
+  static constexpr NumberRange within(double limit) { return {-limit, limit}; }
 };
 
 /// The table that `text` writes; nothing after a syntax error, which is then in `diagnostics`.

@@ -34,7 +34,11 @@ std::vector<simulation::PlacedSolid> VirtualCamera::bodies() const {
   for (const simulation::MachineBody& body : truth.bodies) {
     if (body.link == head) continue;
     const Pose pose = tableFromBase * machine::baseFromLink(real, position, body.link) * body.linkFromSolid;
-    placed.push_back({body.solid, pose, body.name, simulation::SolidRole::Fixture, true});
+    placed.push_back({.solid = body.solid,
+                      .tableFromSolid = pose,
+                      .name = body.name,
+                      .role = simulation::SolidRole::Fixture,
+                      .ofMachine = true});
   }
   return placed;
 }

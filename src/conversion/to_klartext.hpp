@@ -254,8 +254,8 @@ private:
 
   struct Open {
     language::Structure kind;
-    std::string begin, end, other;
-    std::string counter;
+    std::string begin = {}, end = {}, other = {};
+    std::string counter = {};
     bool hasElse = false;
     bool lost = false;  ///< it could not be carried over, but what closes it is still to come
   };

@@ -292,7 +292,7 @@ void ToKlartext::carryOver(const Block& block, const Structured& structured) {
   Open* top = open_.empty() ? nullptr : &open_.back();
   switch (structured.kind) {
     case Structure::If: {
-      Open opened{structured.kind, {}, named("ENDIF"), named("ELSE"), {}, false};
+      Open opened{.kind = structured.kind, .end = named("ENDIF"), .other = named("ELSE")};
       jumpWhen(When::Fails, block, structured.condition, opened.other);
       open_.push_back(opened);
       break;
@@ -307,14 +307,14 @@ void ToKlartext::carryOver(const Block& block, const Structured& structured) {
       open_.pop_back();
       break;
     case Structure::While: {
-      Open opened{structured.kind, named("WHILE"), named("ENDWHILE"), {}, {}, false};
+      Open opened{.kind = structured.kind, .begin = named("WHILE"), .end = named("ENDWHILE")};
       label(opened.begin);
       jumpWhen(When::Fails, block, structured.condition, opened.end);
       open_.push_back(opened);
       break;
     }
     case Structure::For: {
-      Open opened{structured.kind, named("FOR"), named("ENDFOR"), {}, {}, false};
+      Open opened{.kind = structured.kind, .begin = named("FOR"), .end = named("ENDFOR")};
       opened.counter = formulas_.variable(block, block.variables[structured.variable]);
       line(fmt::format("{} = {}", opened.counter, formulas_.formula(block, structured.from)));
       label(opened.begin);
@@ -325,7 +325,7 @@ void ToKlartext::carryOver(const Block& block, const Structured& structured) {
     }
     case Structure::Loop:
     case Structure::Repeat: {
-      Open opened{structured.kind, named("LOOP"), named("ENDLOOP"), {}, {}, false};
+      Open opened{.kind = structured.kind, .begin = named("LOOP"), .end = named("ENDLOOP")};
       label(opened.begin);
       open_.push_back(opened);
       break;

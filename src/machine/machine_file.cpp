@@ -108,7 +108,7 @@ std::optional<TableBody> readTable(TomlReader& file) {
       body.normal = vector.normalized();
     }
   }
-  constexpr NumberRange lengths{0, 100'000, true};
+  constexpr NumberRange lengths{.minimum = 0, .maximum = 100'000, .exclusiveMinimum = true};
   const auto size = reader->numbers("size", 2);
   const auto diameter = reader->number("diameter", lengths);
   if (reader->has("size") == reader->has("diameter")) {

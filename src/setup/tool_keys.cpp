@@ -27,7 +27,7 @@ constexpr NumberRange notNegative = anyLengthOrNone;
 constexpr NumberRange anyFeed{0.01, 1e6};
 /// What the columns of tool tables hold, mm.
 constexpr double longestTool = 9999;
-constexpr NumberRange toolLength{0, longestTool, true};
+constexpr NumberRange toolLength{.minimum = 0, .maximum = longestTool, .exclusiveMinimum = true};
 constexpr NumberRange toolRadius{0, longestTool};
 constexpr NumberRange believedLength{-longestTool, longestTool};
 

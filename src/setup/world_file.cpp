@@ -45,9 +45,9 @@ void WorldReader::readMachine(const std::filesystem::path& instead, const Machin
     if (ready) name = *ready;
     if (file) name = resolve(*file).string();
     if (instead.empty())
-      loadMachine(name, *reader, hasFile ? "file" : "name");
+      loadMachine(name, *reader, hasFile ? "file" : "name", Named::ByThisFile);
     else
-      loadMachine(instead.string(), *reader, "file", false);
+      loadMachine(instead.string(), *reader, "file", Named::ByCaller);
     if (auto start = reader->table("start")) readStart(*start);
     if (instead.empty() && !machine().axes.empty())
       readBodies(*reader, machine(), folder_, world_.bodies, inputs_);
@@ -58,10 +58,13 @@ void WorldReader::readMachine(const std::filesystem::path& instead, const Machin
     reader->finish();
     return;
   }
-  loadMachine(instead.empty() ? name : instead.string(), root_, "machine", instead.empty());
+  if (instead.empty())
+    loadMachine(name, root_, "machine", Named::ByThisFile);
+  else
+    loadMachine(instead.string(), root_, "machine", Named::ByCaller);
 }
 
-void WorldReader::loadMachine(const std::string& name, TomlReader& reader, std::string_view key, bool ofThisFile) {
+void WorldReader::loadMachine(const std::string& name, TomlReader& reader, std::string_view key, Named named) {
   if (known_ != nullptr) return takeMachine(known_->description, known_->table);
   Diagnostics mistakes;
   const auto description = machine::readMachine(name, mistakes);
@@ -75,7 +78,7 @@ void WorldReader::loadMachine(const std::string& name, TomlReader& reader, std::
   }
   for (Diagnostic& mistake : mistakes) {
     // A machine that cannot be found is a mistake of this file, one that cannot be read of its own.
-    if (mistake.place.file.empty() && ofThisFile) {
+    if (mistake.place.file.empty() && named == Named::ByThisFile) {
       mistake.place = reader.placeOf(key);
       std::error_code error;
       if (key == "name" && std::filesystem::is_regular_file(resolve(name), error))

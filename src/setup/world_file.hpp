@@ -37,7 +37,9 @@ private:
     return std::filesystem::path(path).is_absolute() ? std::filesystem::path(path) : folder_ / path;
   }
   const machine::MachineDescription& machine() const { return world_.truth.machine; }
-  void loadMachine(const std::string& name, TomlReader& reader, std::string_view key, bool ofThisFile = true);
+  /// Who says which machine file it is.
+  enum class Named : std::uint8_t { ByThisFile, ByCaller };
+  void loadMachine(const std::string& name, TomlReader& reader, std::string_view key, Named named);
   void takeMachine(const machine::MachineDescription& description, const std::optional<machine::TableBody>& table);
   void readStart(TomlReader& reader);
   void readHirthGrids(TomlReader& reader);

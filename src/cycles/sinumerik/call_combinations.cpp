@@ -46,11 +46,11 @@ bool CallCombinations::asymmetric() const {
 }
 
 void CallCombinations::refuse(std::string_view parameter, std::string text) {
-  found_.push_back({parameter, {std::move(text), true}});
+  found_.push_back({parameter, {.text = std::move(text), .refused = true}});
 }
 
 void CallCombinations::warn(std::string_view parameter, std::string text) {
-  found_.push_back({parameter, {std::move(text), false}});
+  found_.push_back({parameter, {.text = std::move(text), .refused = false}});
 }
 
 std::vector<CombinationComplaint> combinationComplaints(

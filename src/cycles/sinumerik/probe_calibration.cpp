@@ -41,20 +41,36 @@ PlanePlace ProbeCalibration::touch(const PartPoint& setpoint, const PlaneWay& di
   return context_.prober().measureUncompensated(setpoint, direction, path, context_.repetitions(), assumed, feed_).tcp;
 }
 
+ProbeCalibration::Change ProbeCalibration::triggerChange(int axis, double sign, double value) {
+  return {
+      .name = triggerName(axis, sign), .result = 8 + 4 * axis + (sign < 0 ? 0 : 2), .value = value, .compared = true};
+}
+
+ProbeCalibration::Change ProbeCalibration::ballDiameterChange(double value) {
+  return {.name = ballDiameterName, .result = 4, .value = value, .compared = true};
+}
+
+ProbeCalibration::Change ProbeCalibration::deviationChange(int axis, double value) {
+  return {.name = fmt::format("$SNS_MEA_WP_POS_DEV_AX{}", axis + 1),
+          .result = 20 + axis,
+          .value = value,
+          .compared = false};
+}
+
 void ProbeCalibration::setTrigger(int axis, double sign, double value) {
   // Data sets count in the directions of the machine.
   if (context_.prober().mirrored(axis)) {
     sign = -sign;
     value = -value;
   }
-  changes_.push_back({triggerName(axis, sign), 8 + 4 * axis + (sign < 0 ? 0 : 2), value, true});
+  changes_.push_back(triggerChange(axis, sign, value));
 }
 
-void ProbeCalibration::setBallDiameter(double value) { changes_.push_back({ballDiameterName, 4, value, true}); }
+void ProbeCalibration::setBallDiameter(double value) { changes_.push_back(ballDiameterChange(value)); }
 
 void ProbeCalibration::setDeviation(int axis, double value) {
   if (context_.prober().mirrored(axis)) value = -value;
-  changes_.push_back({fmt::format("$SNS_MEA_WP_POS_DEV_AX{}", axis + 1), 20 + axis, value, false});
+  changes_.push_back(deviationChange(axis, value));
 }
 
 bool ProbeCalibration::bent() const { return context_.control().tool.type == 713; }
@@ -73,9 +89,7 @@ void ProbeCalibration::completeAxis(int axis, Deviation deviation) {
     if (radius > 0) setBallDiameter(2 * radius);
   } else if (plus != 0 && minus != 0) {
     setBallDiameter(plus - minus);
-    if (deviation == Deviation::Measured) {
-      changes_.push_back({fmt::format("$SNS_MEA_WP_POS_DEV_AX{}", axis + 1), 20 + axis, (plus + minus) / 2, false});
-    }
+    if (deviation == Deviation::Measured) changes_.push_back(deviationChange(axis, (plus + minus) / 2));
   } else {
     setBallDiameter(2 * std::abs(plus + minus));
   }
@@ -86,14 +100,14 @@ void ProbeCalibration::correctLength(int axis, double amount) {
 }
 
 void ProbeCalibration::list(std::vector<int> axes, Listed listed) {
-  listed_.push_back({ballDiameterName, 4, 0, true});
+  listed_.push_back(ballDiameterChange(0));
   for (const int axis : axes) {
     for (const double sign : {-1.0, 1.0})
-      listed_.push_back({triggerName(axis, sign), 8 + 4 * axis + (sign < 0 ? 0 : 2), 0, true});
+      listed_.push_back(triggerChange(axis, sign, 0));
   }
   if (listed == Listed::WithDeviations || listed == Listed::WithDeviationsAndLength) {
     for (const int axis : {0, 1})
-      listed_.push_back({fmt::format("$SNS_MEA_WP_POS_DEV_AX{}", axis + 1), 20 + axis, 0, false});
+      listed_.push_back(deviationChange(axis, 0));
   }
   listsLength_ = listed == Listed::WithLength || listed == Listed::WithDeviationsAndLength;
 }

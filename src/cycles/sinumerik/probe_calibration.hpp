@@ -87,6 +87,9 @@ private:
     double value;
     bool compared;  ///< with its predecessor: the difference is the next result
   };
+  static Change triggerChange(int axis, double sign, double value);
+  static Change ballDiameterChange(double value);
+  static Change deviationChange(int axis, double value);
   Context& context_;
   int dataSet_;
   double feed_;

@@ -152,11 +152,11 @@ void Contour::addLocated(const Element& element, bool waits) {
 }
 
 void Contour::round(double radius, std::optional<Feed> feed, const BlockPlace& block) {
-  if (last_) corner_ = Corner{radius, true, feed, block};
+  if (last_) corner_ = Corner{.size = radius, .rounding = true, .feed = feed, .block = block};
 }
 
 void Contour::chamfer(double length, std::optional<Feed> feed, const BlockPlace& block) {
-  if (last_) corner_ = Corner{length, false, feed, block};
+  if (last_) corner_ = Corner{.size = length, .rounding = false, .feed = feed, .block = block};
 }
 
 std::optional<Element> Contour::cut(Element& first, Element& second, const Corner& corner) {
@@ -217,18 +217,18 @@ void Contour::compensate(const Element& element) {
   }
   if (approach_) {
     runApproach(element);
-    previous_ = Waiting{element, false};
+    previous_ = Waiting{.element = element, .approachLine = false};
   } else if (previous_) {
     join(element);
-    previous_ = Waiting{element, false};
+    previous_ = Waiting{.element = element, .approachLine = false};
   } else if (compensated_) {
     const Vector2 beside = element.from + sign(element.side) * radius_() * left(element.startDirection());
     if ((beside - position_).norm() > lengthTolerance) lineTo(beside, element.heightFrom, element.feed);
-    previous_ = Waiting{element, false};
+    previous_ = Waiting{.element = element, .approachLine = false};
   } else {
     position_ = element.from;
     height_ = element.heightFrom;
-    previous_ = Waiting{element, !element.arc};
+    previous_ = Waiting{.element = element, .approachLine = !element.arc};
     if (element.arc)
       lineTo(element.from + sign(element.side) * radius_() * left(element.startDirection()), height_, element.feed);
   }

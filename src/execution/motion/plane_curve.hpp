@@ -15,9 +15,11 @@ struct PlaneCurve {
   Vector2 direction = Vector2::UnitX();  ///< of the line, unit length
   double radius = 0;
 
-  static PlaneCurve line(const Vector2& point, const Vector2& direction) { return {false, point, direction, 0}; }
+  static PlaneCurve line(const Vector2& point, const Vector2& direction) {
+    return {.circle = false, .point = point, .direction = direction};
+  }
   static PlaneCurve circleAbout(const Vector2& centre, double radius) {
-    return {true, centre, Vector2::UnitX(), radius};
+    return {.circle = true, .point = centre, .radius = radius};
   }
 };
 

@@ -210,7 +210,7 @@ void PathMotion::measure(const Command& command, Evaluation& evaluation) {
   std::string alarm;
   switch (result.end) {
     case machine::MeasureEnd::Touched: {
-      measurement_ = {true, result.latched, channel.touchFrom(result).tip};
+      measurement_ = {.triggered = true, .latched = result.latched, .tip = channel.touchFrom(result).tip};
       touch.outcome = "touched";
       break;
     }

@@ -118,7 +118,7 @@ void BlockParser::emitWithMachineFunctions(const Instruction* instruction) {
         emit(Stop{});
         break;
       case 1:
-        emit(Stop{true, {}});
+        emit(Stop{.optional = true});
         break;
       case 2:
       case 30:

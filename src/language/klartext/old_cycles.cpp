@@ -65,14 +65,14 @@ bool BlockParser::nextPart(std::string_view first, std::string_view second, Part
   return true;
 }
 
-bool BlockParser::axisList(bool withValues) {
+bool BlockParser::axisList(Axes axes) {
   while (!lexer_.atEnd()) {
-    if (!axisWord(withValues)) return false;
+    if (!listedAxis(axes)) return false;
   }
   return true;
 }
 
-bool BlockParser::axisWord(bool withValue) {
+bool BlockParser::listedAxis(Axes axes) {
   const bool incremental = lexer_.peek() == 'I';
   if (incremental) lexer_.advance();
   const char axis = lexer_.peek();
@@ -80,7 +80,8 @@ bool BlockParser::axisWord(bool withValue) {
     return error("an axis letter is expected here");
   }
   lexer_.advance();
-  if (withValue) return word(addressOf({&axis, 1}), {&axis, 1}, incremental ? WordMode::Incremental : WordMode::Plain);
+  if (axes == Axes::WithValues)
+    return word(addressOf({&axis, 1}), {&axis, 1}, incremental ? WordMode::Incremental : WordMode::Plain);
   addWord(addressOf({&axis, 1}), {});
   return true;
 }
@@ -138,7 +139,7 @@ bool BlockParser::oldProbePart(Part part) {
   };
   const auto coordinates = [&]() {
     const std::size_t first = block_.words.size();
-    if (!axisList(true)) return false;
+    if (!axisList(Axes::WithValues)) return false;
     for (std::size_t i = first; i < block_.words.size(); ++i) {
       const char letter = static_cast<char>(block_.words[i].address);
       block_.words[i].address = coordinate + static_cast<std::uint32_t>(axisLetters.find(letter));
@@ -292,9 +293,9 @@ bool BlockParser::oldCyclePart(Part part) {
     case 7:
       if (lexer_.accept('#')) return word(addressOf("#"), "the row of the datum table") && expectEnd();
       if (lexer_.atEnd()) return error("an axis with its shift, or # with a row of the datum table, is expected here");
-      return axisList(true);
+      return axisList(Axes::WithValues);
     case 8:
-      return axisList(false);
+      return axisList(Axes::LettersOnly);
     case 9:
       return behindWords("T", "the dwell time") && expectEnd();
     case 10: {

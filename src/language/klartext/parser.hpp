@@ -143,8 +143,9 @@ protected:
   bool oldProbePart(Part part);
   bool oldCycle(int number);
   bool oldCyclePart(Part part);
-  bool axisList(bool withValues);
-  bool axisWord(bool withValue = true);
+  enum class Axes : std::uint8_t { WithValues, LettersOnly };
+  bool axisList(Axes axes);
+  bool listedAxis(Axes axes);
 
   // plane.cpp
   bool plane();

@@ -148,7 +148,7 @@ bool BlockParser::transformation() {
     if (lexer_.acceptKeyword("AXIS")) {
       name = "TRANS DATUM AXIS";
       if (lexer_.atEnd()) return error("an axis with its shift is expected here", "write TRANS DATUM AXIS X+10");
-      if (!axisList(true)) return false;
+      if (!axisList(Axes::WithValues)) return false;
     } else if (lexer_.acceptKeyword("TABLE")) {
       name = "TRANS DATUM TABLE";
       while (!lexer_.atEnd()) {
@@ -170,7 +170,7 @@ bool BlockParser::transformation() {
     if (name == "TRANS MIRROR AXIS") {
       if (!lexer_.acceptKeyword("AXIS")) return error("AXIS or RESET is expected after TRANS MIRROR");
       if (lexer_.atEnd()) return error("the mirrored axes are expected here", "write TRANS MIRROR AXIS X");
-      if (!axisList(false)) return false;
+      if (!axisList(Axes::LettersOnly)) return false;
     }
   } else if (lexer_.acceptKeyword("ROTATION")) {
     name = lexer_.acceptKeyword("RESET") ? "TRANS ROTATION RESET" : "TRANS ROTATION";
@@ -331,7 +331,7 @@ bool BlockParser::presetKeyword() {
       const auto angle = std::ranges::find_if(spaceAngleWords, [&](auto word) { return lexer_.acceptPrefix(word); });
       if (angle != spaceAngleWords.end()) {
         if (!word(addressOf(*angle), *angle)) return false;
-      } else if (!axisWord()) {
+      } else if (!listedAxis(Axes::WithValues)) {
         return false;
       }
     }
