@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "base/utf8.hpp"
 #include "terminal.hpp"
 
 namespace probewright::app {
@@ -42,7 +43,7 @@ void print(const Diagnostics& diagnostics, Encoding encoding) {
       *text = printable(*text, encoding);
     if (shown.excerpt.size() > longest) {
       std::size_t end = longest;
-      while (end > 0 && (static_cast<unsigned char>(shown.excerpt[end]) & 0xC0) == 0x80)
+      while (end > 0 && continuesCharacter(shown.excerpt[end]))
         --end;
       shown.excerpt = shown.excerpt.substr(0, end) + " ...";
     }

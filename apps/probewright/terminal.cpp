@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "base/utf8.hpp"
+
 namespace probewright::app {
 
 namespace {
@@ -20,7 +22,7 @@ std::size_t step(std::string_view line, std::size_t at, std::size_t& columns) {
     return (end == std::string_view::npos ? line.size() : end + 1) - at;
   }
   std::size_t size = 1;
-  while (at + size < line.size() && (static_cast<unsigned char>(line[at + size]) & 0xC0) == 0x80)
+  while (at + size < line.size() && continuesCharacter(line[at + size]))
     ++size;
   ++columns;
   return size;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "base/number_text.hpp"
+#include "base/utf8.hpp"
 #include "exchange/formats.hpp"
 
 namespace probewright::exchange {
@@ -15,9 +16,8 @@ using control::Verdict;
 std::string quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if ((byte & 0xC0) == 0x80) continue;  // of a character that has become one question mark
-    result += byte >= 0x80 ? '?' : c == '\'' ? '"' : c;
+    if (continuesCharacter(c)) continue;  // of a character that has become one question mark
+    result += static_cast<unsigned char>(c) >= 0x80 ? '?' : c == '\'' ? '"' : c;
   }
   return result + "'";
 }

@@ -6,6 +6,8 @@
 #include <limits>
 #include <memory>
 
+#include "base/utf8.hpp"
+
 namespace probewright::language {
 
 namespace {
@@ -42,30 +44,6 @@ std::string convert(std::string_view bytes, const char* from, const char* to, bo
   } while (status == U_BUFFER_OVERFLOW_ERROR);
   complete = U_SUCCESS(status);
   return text;
-}
-
-bool isUtf8(std::string_view bytes) {
-  std::size_t i = 0;
-  while (i < bytes.size()) {
-    const Byte lead = static_cast<Byte>(bytes[i]);
-    const std::size_t more = lead < 0x80                   ? 0
-                             : lead >= 0xc2 && lead < 0xe0 ? 1
-                             : lead >= 0xe0 && lead < 0xf0 ? 2
-                             : lead >= 0xf0 && lead < 0xf5 ? 3
-                                                           : bytes.size();
-    if (more >= bytes.size() - i) return false;
-    for (std::size_t k = 1; k <= more; ++k) {
-      if ((static_cast<Byte>(bytes[i + k]) & 0xc0U) != 0x80) return false;
-    }
-    const Byte second = more > 0 ? static_cast<Byte>(bytes[i + 1]) : Byte{0};
-    // Overlong forms, surrogates and what lies above U+10FFFF.
-    if ((lead == 0xe0 && second < 0xa0) || (lead == 0xed && second > 0x9f) || (lead == 0xf0 && second < 0x90) ||
-        (lead == 0xf4 && second > 0x8f)) {
-      return false;
-    }
-    i += more + 1;
-  }
-  return true;
 }
 
 bool isCyrillic(Byte c) {

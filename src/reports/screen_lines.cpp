@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "base/utf8.hpp"
 #include "words/words.hpp"
 
 namespace probewright::reports {
@@ -22,11 +23,6 @@ std::string cell(const std::string& text, const control::CycleRecord& cycle, con
 
 }  // namespace
 
-std::size_t columns(const std::string& utf8) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(utf8, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
 std::string screenLine(const std::string& line, const control::CycleRecord& cycle, control::DialogLanguage language) {
   if (language == control::DialogLanguage::English) return line;
   if (const std::string whole = words::translated(language, line); whole != line) return whole;
@@ -38,7 +34,8 @@ std::string screenLine(const std::string& line, const control::CycleRecord& cycl
     const std::string english = line.substr(begin, end - begin), word = cell(english, cycle, language);
     std::size_t blanks = begin - at;
     if (at > 0) {
-      const std::size_t edge = columns(line.substr(0, end)), without = columns(text) + columns(word);
+      const std::size_t edge = characterCount(line.substr(0, end)),
+                        without = characterCount(text) + characterCount(word);
       blanks = edge > without + 2 ? edge - without : 2;
     }
     text += std::string(blanks, ' ') + word;

@@ -9,9 +9,6 @@
 /// The screens of cycles in the reader's language. The record of a run is in English.
 namespace probewright::reports {
 
-/// How many columns a text takes, more or less: its characters.
-std::size_t columns(const std::string& utf8);
-
 /// A line of a screen of `cycle`: each text between two blanks or more for itself. What stood in columns,
 /// right-aligned, still does as far as the words leave room.
 std::string screenLine(const std::string& line, const control::CycleRecord& cycle, control::DialogLanguage language);

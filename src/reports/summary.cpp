@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/number_text.hpp"
+#include "base/utf8.hpp"
 #include "cycles/main_results.hpp"
 #include "records/readable_text.hpp"
 #include "records/results.hpp"
@@ -195,7 +196,7 @@ std::string cycleText(const control::CycleRecord& cycle, const records::CycleTru
   const std::vector<bool> isMain = cycles::mainResults(cycle);
   std::size_t width = 44;
   for (std::size_t i = 0; i < isMain.size(); ++i) {
-    if (isMain[i]) width = std::max(width, columns(meaningOf(cycle.results[i], style)));
+    if (isMain[i]) width = std::max(width, characterCount(meaningOf(cycle.results[i], style)));
   }
   for (std::size_t i = 0; i < isMain.size(); ++i) {
     if (!isMain[i]) continue;

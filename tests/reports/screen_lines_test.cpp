@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/utf8.hpp"
+
 namespace probewright::reports {
 namespace {
 
@@ -42,9 +44,9 @@ TEST(ScreenLines, OfResultScreensKeepTheirColumns) {
     SCOPED_TRACE(code(language));
     const std::string shownHead = screenLine(head, cycle, language), shownRow = screenLine(row, cycle, language);
     EXPECT_THAT(shownHead, AllOf(Not(HasSubstr("Setpoint")), Not(HasSubstr("Measured"))));
-    EXPECT_EQ(columns(shownHead), columns(head));
+    EXPECT_EQ(characterCount(shownHead), characterCount(head));
     EXPECT_THAT(shownRow, AllOf(Not(HasSubstr("length 1")), HasSubstr(" [mm] ")));
-    EXPECT_EQ(columns(shownRow), columns(row));
+    EXPECT_EQ(characterCount(shownRow), characterCount(row));
   }
 }
 

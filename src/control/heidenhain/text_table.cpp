@@ -10,28 +10,13 @@
 
 #include "base/number_text.hpp"
 #include "base/text.hpp"
+#include "base/utf8.hpp"
 
 namespace probewright::control::heidenhain {
 
 namespace {
 
 constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
-
-bool continuesCharacter(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
-
-bool isValidUtf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t more = lead < 0x80 ? 0 : lead >= 0xC2 && lead < 0xE0 ? 1 : lead >= 0xE0 && lead < 0xF0 ? 2 : 3;
-    if (lead >= 0x80 && (lead < 0xC2 || lead > 0xF4)) return false;
-    if (i + more >= text.size() && more > 0) return false;
-    for (std::size_t k = 1; k <= more; ++k) {
-      if (!continuesCharacter(text[i + k])) return false;
-    }
-    i += more + 1;
-  }
-  return true;
-}
 
 std::vector<std::string> splitLines(std::string_view bytes) {
   std::vector<std::string> lines;
@@ -82,7 +67,7 @@ Result<TextTable> TextTable::parse(std::string_view bytes, std::string file, Dia
   TextTable table;
   table.file_ = std::move(file);
   table.lines_ = splitLines(bytes);
-  table.utf8_ = isValidUtf8(bytes);
+  table.utf8_ = probewright::isUtf8(bytes);
   const std::size_t lineCount = table.lines_.size();
   const auto content = [&table](std::size_t line) {
     return std::string_view(table.lines_[line]).substr(0, table.contentSize(line));
@@ -292,10 +277,7 @@ std::size_t TextTable::byteOf(std::string_view content, std::size_t character) c
   return byte;
 }
 
-std::size_t TextTable::characters(std::string_view text) const {
-  if (!utf8_) return text.size();
-  return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continuesCharacter));
-}
+std::size_t TextTable::characters(std::string_view text) const { return utf8_ ? characterCount(text) : text.size(); }
 
 TextTable::Field TextTable::field(std::size_t line, std::size_t column) const {
   const std::string_view content = std::string_view(lines_[line]).substr(0, contentSize(line));
@@ -359,7 +341,7 @@ Result<void> TextTable::checkCell(std::size_t line, std::size_t column, std::str
   const TableColumn& place = columns_[column];
   const bool unprintable =
       std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
-  if (unprintable || (utf8_ && !isValidUtf8(text))) {
+  if (unprintable || (utf8_ && !probewright::isUtf8(text))) {
     return failAt(line, column, fmt::format("column {} cannot hold this text", place.name),
                   "use one line of printable text in the encoding of the table");
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/utc.hpp"
+#include "base/utf8.hpp"
 #include "cycles/heidenhain/html_log.hpp"
 #include "cycles/heidenhain/log_texts.hpp"
 
@@ -77,12 +78,12 @@ constexpr LogTerm terms[] = {
 const std::span<const LogTerm> kinematicsLogTerms = terms;
 
 void KinematicsLog::line(const std::string& label, const std::string& value) {
-  if (tables_.empty() || !tables_.back().lines) tables_.push_back({{"", ""}, {}, true});
+  if (tables_.empty() || !tables_.back().lines) tables_.push_back({.heading = {"", ""}, .rows = {}, .lines = true});
   tables_.back().rows.push_back({label, value});
 }
 
 void KinematicsLog::table(const std::vector<std::string>& heading, const Rows& rows) {
-  tables_.push_back({heading, rows, false});
+  tables_.push_back({.heading = heading, .rows = rows, .lines = false});
 }
 
 std::string KinematicsLog::text() const {
@@ -109,7 +110,7 @@ std::string KinematicsLog::text() const {
       widths.resize(std::max(widths.size(), row.size()), 0);
       for (std::size_t i = 0; i < row.size(); ++i) {
         row[i] = term(row[i]);
-        widths[i] = std::max(widths[i], width(row[i]));
+        widths[i] = std::max(widths[i], characterCount(row[i]));
       }
     }
     for (const auto& row : rows) {

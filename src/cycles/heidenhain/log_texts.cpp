@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/text.hpp"
+#include "base/utf8.hpp"
 
 namespace probewright::cycles::heidenhain {
 namespace {
@@ -308,14 +309,9 @@ std::string_view translated(std::string_view term, DialogLanguage language, std:
   return term;
 }
 
-std::size_t width(std::string_view utf8) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(utf8, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
 std::string padded(std::string_view text, std::size_t columns) {
   std::string result(text);
-  const std::size_t used = width(text);
+  const std::size_t used = characterCount(text);
   if (used < columns) result.append(columns - used, ' ');
   return result;
 }

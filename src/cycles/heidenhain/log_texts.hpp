@@ -39,9 +39,7 @@ std::string capitalTerm(std::string_view term, std::span<const CapitalTerm> own)
 /// what has no translation stays English.
 std::string_view translated(std::string_view term, DialogLanguage language, std::span<const LogTerm> own = {});
 
-/// The number of characters (code points) of a UTF-8 text: what columns are aligned by.
-std::size_t width(std::string_view utf8);
-/// `text` with blanks after it up to `columns` characters.
+/// `text` (UTF-8) with blanks after it up to `columns` characters.
 std::string padded(std::string_view text, std::size_t columns);
 
 }  // namespace probewright::cycles::heidenhain

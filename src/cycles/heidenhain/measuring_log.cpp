@@ -7,6 +7,7 @@
 
 #include "base/number_text.hpp"
 #include "base/utc.hpp"
+#include "base/utf8.hpp"
 #include "cycles/heidenhain/inspection.hpp"
 #include "cycles/heidenhain/log_texts.hpp"
 
@@ -24,7 +25,7 @@ constexpr std::size_t ruleWidth = 61, capitalRuleWidth = 104, shorterCapitalRule
 
 /// `text` between stars on a line of `columns`.
 std::string amongStars(const std::string& text, std::size_t columns) {
-  const std::size_t stars = columns - std::min(columns, width(text) + 2);
+  const std::size_t stars = columns - std::min(columns, characterCount(text) + 2);
   return fmt::format("{} {} {}\n", std::string(stars / 2, '*'), text, std::string(stars - stars / 2, '*'));
 }
 
@@ -65,12 +66,12 @@ std::string logText(Context& context, const Inspection& inspection) {
   constexpr std::size_t shortestLabel = 43, valueWidth = 8;
   std::size_t indent = 0, labelWidth = shortestLabel, headWidth = 0;
   for (const Section* section : {&nominal, &limits, &actual, &deviations}) {
-    indent = std::max(indent, width(section->title) + 2);
+    indent = std::max(indent, characterCount(section->title) + 2);
     for (const LogLine& line : section->lines)
-      labelWidth = std::max(labelWidth, width(line.label) + 1);
+      labelWidth = std::max(labelWidth, characterCount(line.label) + 1);
   }
   for (const std::string_view label : {frame.date, frame.time, frame.program})
-    headWidth = std::max(headWidth, width(label) + 1);
+    headWidth = std::max(headWidth, characterCount(label) + 1);
 
   const std::string title = fmt::format(fmt::runtime(frame.title), context.record().name, term(inspection.title));
   std::string text = capitals ? rule + "\n" + amongStars(title, columns) : fmt::format("****** {} *****\n\n", title);
@@ -84,18 +85,18 @@ std::string logText(Context& context, const Inspection& inspection) {
   for (const Section* section : {&nominal, &limits, &actual, &deviations, &further}) {
     if (section->lines.empty()) continue;
     text += fmt::format("{}\n", section->rule);
-    const std::size_t left = std::max(indent, width(section->title) + 1);
+    const std::size_t left = std::max(indent, characterCount(section->title) + 1);
     for (std::size_t i = 0; i < section->lines.size(); ++i) {
       const LogLine& line = section->lines[i];
       const double value = line.kind == ValueKind::Length ? line.value / control.mainUnit : line.value;
       const std::string label = padded(i == 0 ? section->title : "", left) + line.label + ":";
       const std::string number = formatFixed(value, line.kind == ValueKind::Length ? decimals : 4);
       const std::size_t end = indent + labelWidth + valueWidth;
-      const std::size_t room = std::max(end - std::min(end, width(label)), number.size() + 1);
+      const std::size_t room = std::max(end - std::min(end, characterCount(label)), number.size() + 1);
       text += fmt::format("{}{:>{}}\n", label, number, room);
     }
   }
-  text += amongStars(std::string(frame.end), capitals ? columns : width(frame.end) + 42);
+  text += amongStars(std::string(frame.end), capitals ? columns : characterCount(frame.end) + 42);
   return text;
 }
 

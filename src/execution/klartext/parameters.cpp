@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/number_text.hpp"
+#include "base/utf8.hpp"
 #include "control/alarm.hpp"
 #include "execution/klartext/excerpt.hpp"
 #include "execution/klartext/parameters.hpp"
@@ -23,12 +24,6 @@ int numberOf(const VariableRef& variable, std::size_t count, std::string_view sp
                 fmt::format("{}{} does not exist; the highest number is {}", space, number, count - 1));
   }
   return static_cast<int>(number);
-}
-
-/// Letters beyond ASCII are several bytes of UTF-8 and one character.
-std::size_t charactersOf(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
 }  // namespace
@@ -59,10 +54,10 @@ void Parameters::write(const VariableRef& variable, const Value& value) {
                   "convert the number with TOCHAR");
     }
     const std::string& text = std::get<std::string>(value);
-    if (charactersOf(text) > QParameters::longestText) {
+    if (characterCount(text) > QParameters::longestText) {
       throw Alarm("String too long",
                   fmt::format("QS{} takes at most {} characters, these are {}", number, QParameters::longestText,
-                              charactersOf(text)),
+                              characterCount(text)),
                   "shorten the text, or spread it over several parameters");
     }
     control_.q.setQs(number, text);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/utf8.hpp"
 #include "language/klartext/lexer.hpp"
 
 namespace probewright::language::klartext {
@@ -94,19 +95,6 @@ bool isParameterLine(std::string_view line, bool headIsNumbered) {
   if (number.empty() || line.empty() || line.front() != '=') return false;
   // In a program without block numbers an assignment looks the same; cycles' parameters begin at Q200.
   return headIsNumbered || number.size() >= 4 || (number.size() == 3 && number.front() >= '2');
-}
-
-bool isUtf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t following = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : lead >= 0xC2 ? 1 : 0;
-    if (following == 0 || i + following > text.size() - 1) return false;
-    for (std::size_t k = 1; k <= following; ++k) {
-      if ((static_cast<unsigned char>(text[i + k]) & 0xC0U) != 0x80U) return false;
-    }
-    i += following + 1;
-  }
-  return true;
 }
 
 /// In double-byte encodings '~' can be the second byte of a character at the end of a comment.
