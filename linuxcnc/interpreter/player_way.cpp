@@ -9,6 +9,15 @@ std::vector<Player::Piece> Player::pieces(const Json& order, Json& answer) const
   const bool path = order.contains("pieces");
   std::vector<Piece> pieces;
   answer = {{"end", "reached"}};
+  /// False if the piece leads out of the travel.
+  const auto add = [&](Piece piece) {
+    if (const std::string limit = mill_.limit(piece.target); !limit.empty()) {
+      answer = {{"end", "axisLimit"}, {"detail", limit}};
+      return false;
+    }
+    pieces.push_back(std::move(piece));
+    return true;
+  };
   if (order.contains("lines")) {
     const auto& numbers = order.at("lines").get_ref<const Json::array_t&>();
     const std::size_t axes = at_.size();
@@ -18,24 +27,16 @@ std::vector<Player::Piece> Player::pieces(const Json& order, Json& answer) const
       Piece piece{Mill::Position(axes), feed > 0 ? feed : std::optional<double>(), line > 0 ? int(line) : line_};
       for (std::size_t i = 0; i < axes; ++i)
         piece.target[i] = at[static_cast<std::ptrdiff_t>(i) + 2].get<double>();
-      if (const std::string limit = mill_.limit(piece.target); !limit.empty()) {
-        answer = {{"end", "axisLimit"}, {"detail", limit}};
-        break;
-      }
-      pieces.push_back(std::move(piece));
+      if (!add(std::move(piece))) break;
     }
     answer["reached"] = pieces.size();
     return pieces;
   }
   for (const Json& json : path ? order.at("pieces") : Json::array({order})) {
-    Piece piece{json.at("target").get<Mill::Position>(),
-                json.value("rapid", false) ? std::optional<double>() : json.at("feed").get<double>(),
-                json.value("line", order.value("line", line_))};
-    if (const std::string limit = mill_.limit(piece.target); !limit.empty()) {
-      answer = {{"end", "axisLimit"}, {"detail", limit}};
+    if (!add({json.at("target").get<Mill::Position>(),
+              json.value("rapid", false) ? std::optional<double>() : json.at("feed").get<double>(),
+              json.value("line", order.value("line", line_))}))
       break;
-    }
-    pieces.push_back(std::move(piece));
   }
   answer["reached"] = pieces.size();
   return pieces;

@@ -144,6 +144,21 @@ double inMillimetres(const Parameter& parameter, const Argument& argument, doubl
   return counts && argument.given ? argument.number * unit : argument.number;
 }
 
+control::ResultRecord resultRecord(std::string name, const ResultDefinition* definition, ValueKind kind, double value,
+                                   const Compared& compared) {
+  control::ResultRecord record;
+  record.name = std::move(name);
+  if (definition != nullptr) describe(record, *definition);
+  record.value = value;
+  record.unit = unitOf(kind);
+  record.nominal = compared.nominal;
+  if (compared.nominal) record.deviation = value - *compared.nominal;
+  record.lowerLimit = compared.lower;
+  record.upperLimit = compared.upper;
+  record.verdict = compared.verdict;
+  return record;
+}
+
 Arguments::Arguments(const CycleDefinition& definition) : definition_(&definition) {
   values_.resize(definition.parameters.size());
   for (std::size_t i = 0; i < values_.size(); ++i) {

@@ -89,6 +89,18 @@ struct ResultDefinition {
 /// Gives a value of a cycle the text and the kind of its definition.
 void describe(control::ResultRecord& record, const ResultDefinition& definition);
 
+/// What a result is compared with.
+struct Compared {
+  std::optional<double> nominal = std::nullopt;
+  std::optional<double> lower = std::nullopt;  ///< absolute limits
+  std::optional<double> upper = std::nullopt;
+  control::Verdict verdict = control::Verdict::None;
+};
+
+/// The record of a result of that name; `definition` may be null: the cycle does not list it.
+control::ResultRecord resultRecord(std::string name, const ResultDefinition* definition, ValueKind kind, double value,
+                                   const Compared& compared);
+
 enum class CycleFamily : std::uint8_t { Misalignment, Preset, Inspection, Special, Calibration, Kinematics, Tool };
 std::string_view nameOf(CycleFamily family);
 

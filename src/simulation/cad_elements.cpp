@@ -12,17 +12,13 @@
 #include <optional>
 
 #include "simulation/border_sides.hpp"
+#include "simulation/cad_vectors.hpp"
 #include "simulation/face_grid.hpp"
 
 namespace probewright::simulation {
 namespace {
 
 constexpr double kLeastGrowth = 1e-6;
-
-template <class Triple>
-Vector3 vector(const Triple& p) {
-  return {p.X(), p.Y(), p.Z()};
-}
 
 /// The ends of the parts of an edge that have no kink.
 std::vector<double> smoothParts(const CadEdge& edge) {

@@ -26,23 +26,13 @@
 #include <optional>
 #include <stdexcept>
 
+#include "simulation/cad_vectors.hpp"
+
 namespace probewright::simulation {
 namespace {
 
 /// A border polygon may leave its edge by this much: the contact of a ball then errs by the square over its diameter.
 constexpr double kBorderTolerance = 2e-4;
-
-template <class Triple>
-Vector3 vector(const Triple& p) {
-  return {p.X(), p.Y(), p.Z()};
-}
-
-template <class Position>
-Matrix3 axesOf(const Position& position) {
-  Matrix3 axes;
-  axes << vector(position.XDirection()), vector(position.YDirection()), vector(position.Direction());
-  return axes;
-}
 
 std::optional<AnalyticSurface> analyticSurface(const BRepAdaptor_Surface& face) {
   AnalyticSurface s;

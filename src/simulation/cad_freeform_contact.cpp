@@ -5,17 +5,13 @@
 #include <gp_Vec.hxx>
 
 #include "simulation/cad_contact.hpp"
+#include "simulation/cad_vectors.hpp"
 
 namespace probewright::simulation {
 namespace {
 
 void keep(Meeting& best, double when, const Vector3& point, const Vector3& normal) {
   if (when < best.when) best = {when, point, normal};
-}
-
-template <class Triple>
-Vector3 vector(const Triple& p) {
-  return {p.X(), p.Y(), p.Z()};
 }
 
 struct SurfacePoint {

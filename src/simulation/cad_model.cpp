@@ -25,6 +25,7 @@
 
 #include "simulation/cad_elements.hpp"
 #include "simulation/cad_refinement.hpp"
+#include "simulation/cad_vectors.hpp"
 #include "simulation/face_mesh.hpp"
 #include "simulation/memory_text.hpp"
 #include "simulation/parallel.hpp"
@@ -34,18 +35,6 @@ namespace {
 
 constexpr double kFarthest = 1e9;          // mm
 constexpr std::size_t kWorthAThread = 20;  // faces
-
-template <class Triple>
-Vector3 vector(const Triple& p) {
-  return {p.X(), p.Y(), p.Z()};
-}
-
-template <class Position>
-Matrix3 axesOf(const Position& position) {
-  Matrix3 axes;
-  axes << vector(position.XDirection()), vector(position.YDirection()), vector(position.Direction());
-  return axes;
-}
 
 CadEdge cadEdge(const TopoDS_Edge& edge) {
   CadEdge exact;

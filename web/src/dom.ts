@@ -29,6 +29,17 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** A button that is pressed or not. */
+export function toggleButton(text: string, on: boolean, change: (on: boolean) => void): HTMLButtonElement {
+  const element = h("button", { type: "button", "aria-pressed": String(on) }, text);
+  element.addEventListener("click", () => {
+    on = !on;
+    element.setAttribute("aria-pressed", String(on));
+    change(on);
+  });
+  return element;
+}
+
 const icons: Record<string, string> = {
   check: "M4 12.5l5 5L20 6.5",
   warning: "M12 4L2.5 20.5h19zM12 10v5M12 17.6v.4",

@@ -6,7 +6,7 @@ import "./machine_page.css";
 
 import { Vector3 } from "three";
 
-import { fixed, h, icon } from "./dom";
+import { fixed, h, icon, toggleButton } from "./dom";
 import { elementOf, linkPose, tableLink, headLink, chainNames, type Machine } from "./links";
 import { MachineView, toolLength } from "./machine_view";
 
@@ -107,15 +107,6 @@ function main() {
     update();
   };
   const button = (text: string, title: string, click: () => void) => h("button", { type: "button", title, click }, text);
-  const toggle = (text: string, on: boolean, change: (on: boolean) => void) => {
-    const element = h("button", { type: "button", "aria-pressed": String(on) }, text);
-    element.addEventListener("click", () => {
-      on = !on;
-      element.setAttribute("aria-pressed", String(on));
-      change(on);
-    });
-    return element;
-  };
 
   const dark = matchMedia("(prefers-color-scheme: dark)");
   const setTheme = (theme: string) => {
@@ -148,9 +139,9 @@ function main() {
           "div",
           { class: "toolbar" },
           ...["Iso", "Front", "Right", "Top"].map((name) => button(name, `Look from ${name.toLowerCase()}`, () => view.look(name))),
-          toggle("X-ray", false, (on) => view.showXray(on)),
-          toggle("Arrows", true, (on) => view.showArrows(on)),
-          toggle("Frames", true, (on) => view.showFrames(on)),
+          toggleButton("X-ray", false, (on) => view.showXray(on)),
+          toggleButton("Arrows", true, (on) => view.showArrows(on)),
+          toggleButton("Frames", true, (on) => view.showFrames(on)),
         ),
         h(
           "p",

@@ -4,7 +4,7 @@ import { OrthographicCamera, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 import type { Report } from "./data";
-import { fixed, h, icon } from "./dom";
+import { fixed, h, icon, toggleButton } from "./dom";
 import { t } from "./language";
 import { MachineLayer } from "./machine";
 import { deviationColour } from "./overlays";
@@ -391,16 +391,11 @@ export class View {
 
   private toolbar(): HTMLElement {
     const button = (text: string, click: () => void) => h("button", { type: "button", click }, text);
-    const toggle = (text: string, on: boolean, change: (on: boolean) => void) => {
-      const element = h("button", { type: "button", "aria-pressed": String(on) }, text);
-      element.addEventListener("click", () => {
-        on = !on;
-        element.setAttribute("aria-pressed", String(on));
-        change(on);
+    const toggle = (text: string, on: boolean, change: (on: boolean) => void) =>
+      toggleButton(text, on, (now) => {
+        change(now);
         this.draw();
       });
-      return element;
-    };
     const { deviations } = this.drawing;
     const usual = 3;
     deviations.magnification = magnificationAt(usual);

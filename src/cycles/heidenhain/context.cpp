@@ -168,20 +168,11 @@ Eigen::Affine3d Context::machineFromProgram() {
 
 void Context::result(int number, double value, const Compared& compared) {
   value += 0.0;  // no -0
-  control::ResultRecord record;
-  record.name = fmt::format("Q{}", number);
-  const ResultDefinition* definition = arguments_.definition().result(record.name);
+  const std::string name = fmt::format("Q{}", number);
+  const ResultDefinition* definition = arguments_.definition().result(name);
   const ValueKind kind = definition == nullptr ? ValueKind::Number : definition->valueKind();
   control_.q.setQ(number, kind == ValueKind::Length ? value / control_.mainUnit : value);
-  if (definition != nullptr) describe(record, *definition);
-  record.value = value;
-  record.unit = unitOf(kind);
-  record.nominal = compared.nominal;
-  if (compared.nominal) record.deviation = value - *compared.nominal;
-  record.lowerLimit = compared.lower;
-  record.upperLimit = compared.upper;
-  record.verdict = compared.verdict;
-  this->record().results.push_back(std::move(record));
+  record().results.push_back(resultRecord(name, definition, kind, value, compared));
 }
 
 void Context::stop(const std::string& text) {

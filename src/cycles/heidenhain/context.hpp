@@ -22,14 +22,6 @@ using probing::EvaluatedTouch;
 using probing::PlannedTouch;
 using probing::Side;
 
-/// A value with the numbers a reader compares it with.
-struct Compared {
-  std::optional<double> nominal = std::nullopt;
-  std::optional<double> lower = std::nullopt;  ///< absolute limits
-  std::optional<double> upper = std::nullopt;
-  Verdict verdict = Verdict::None;
-};
-
 class Context {
 public:
   /// Opens the cycle's record in the journal.

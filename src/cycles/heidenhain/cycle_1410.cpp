@@ -85,10 +85,7 @@ void run(Context& context, const Arguments&) {
   RotationFindings findings(context);
   findings.add(nominal[0], found[0], directions[0]);
   findings.add(nominal[1], found[1], directions[1]);
-  findings.addAngle(964, "Measured angle", rotation.actual);
-  findings.addAngle(965, "Measured angle of the rotary table", rotation.tableActual);
-  findings.addAngle(994, "Deviation of the angle", rotation.deviation);
-  findings.addAngle(995, "Deviation of the angle of the rotary table", rotation.tableDeviation);
+  addAngles(findings, rotation);
   findings.finish();
   transferPlaneRotation(context, rotation, found[0], found[1]);
 }

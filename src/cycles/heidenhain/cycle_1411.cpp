@@ -147,10 +147,7 @@ void run(Context& context, const Arguments&) {
       findings.addDiameter(diameters[i], *foundDiameters[i], ordinal, sideOf(context.option(1115), i));
     }
   }
-  findings.addAngle(964, "Measured angle", rotation.actual);
-  findings.addAngle(965, "Measured angle of the rotary table", rotation.tableActual);
-  findings.addAngle(994, "Deviation of the angle", rotation.deviation);
-  findings.addAngle(995, "Deviation of the angle of the rotary table", rotation.tableDeviation);
+  addAngles(findings, rotation);
   findings.finish();
   transferPlaneRotation(context, rotation, found[0], found[1]);
 }

@@ -218,6 +218,13 @@ PlaneRotation planeRotation(Context& context, const MeasuredPosition& first, con
   return rotation;
 }
 
+void addAngles(RotationFindings& findings, const PlaneRotation& rotation) {
+  findings.addAngle(964, "Measured angle", rotation.actual);
+  findings.addAngle(965, "Measured angle of the rotary table", rotation.tableActual);
+  findings.addAngle(994, "Deviation of the angle", rotation.deviation);
+  findings.addAngle(995, "Deviation of the angle of the rotary table", rotation.tableDeviation);
+}
+
 void transferPlaneRotation(Context& context, const PlaneRotation& rotation, const MeasuredPosition& first,
                            const MeasuredPosition& second) {
   Control& control = context.control();

@@ -30,6 +30,9 @@ struct PlaneRotation {
 /// From the line between two positions. Throws Alarm where they coincide in the working plane.
 PlaneRotation planeRotation(Context& context, const MeasuredPosition& first, const MeasuredPosition& second);
 
+/// Q964, Q965, Q994 and Q995.
+void addAngles(RotationFindings& findings, const PlaneRotation& rotation);
+
 /// Writes the rotation about the tool axis (1410, 1411) as Q1121 says, the position as Q1120 says (1, 2, 3: mean) and
 /// aligns the table as Q1126 says.
 void transferPlaneRotation(Context& context, const PlaneRotation& rotation, const MeasuredPosition& first,

@@ -225,20 +225,11 @@ void Context::positionSpindle(double degrees) {
 int Context::repetitions() const { return std::clamp(integer("S_NMSP"), 1, 9); }
 
 void Context::result(int index, double value, const Compared& compared) {
-  control::ResultRecord record;
-  record.name = fmt::format("_OVR[{}]", index);
-  const ResultDefinition* definition = arguments_.definition().result(record.name, digit("S_MVAR", 1));
+  const std::string name = fmt::format("_OVR[{}]", index);
+  const ResultDefinition* definition = arguments_.definition().result(name, digit("S_MVAR", 1));
   const ValueKind kind = definition == nullptr ? ValueKind::Length : definition->valueKind();
   control_.ovr[static_cast<std::size_t>(index)] = scales(kind) ? value / control_.unit : value;
-  if (definition != nullptr) describe(record, *definition);
-  record.value = value;
-  record.unit = unitOf(kind);
-  record.nominal = compared.nominal;
-  if (compared.nominal) record.deviation = value - *compared.nominal;
-  record.lowerLimit = compared.lower;
-  record.upperLimit = compared.upper;
-  record.verdict = compared.verdict;
-  this->record().results.push_back(std::move(record));
+  record().results.push_back(resultRecord(name, definition, kind, value, compared));
 }
 
 void Context::resultInteger(int index, int value) {

@@ -22,14 +22,6 @@ using control::sinumerik::Control;
 using probing::MeasuredPoint;
 using probing::Side;
 
-/// A value with the numbers a reader compares it with.
-struct Compared {
-  std::optional<double> nominal = std::nullopt;
-  std::optional<double> lower = std::nullopt;  ///< absolute limits
-  std::optional<double> upper = std::nullopt;
-  Verdict verdict = Verdict::None;
-};
-
 /// Workpiece and tool measurement have bits of their own in SD 54740 and SD 55740: from bit 0, from bit 16 on.
 enum class Measures { Workpieces, Tools };
 

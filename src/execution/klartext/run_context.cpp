@@ -61,6 +61,11 @@ const Word* find(WordRange range, std::string_view address, Evaluation& evaluati
   return nullptr;
 }
 
+double numberOr(WordRange range, std::string_view address, double otherwise, Evaluation& evaluation) {
+  const Word* word = find(range, address, evaluation);
+  return word == nullptr ? otherwise : evaluation.number(word->value);
+}
+
 std::string fileNameOf(std::string_view path) {
   const std::size_t separator = path.find_last_of("/\\:");
   return std::string(separator == std::string_view::npos ? path : path.substr(separator + 1));

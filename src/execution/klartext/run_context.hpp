@@ -80,6 +80,9 @@ private:
 /// The first word with this address, or null.
 const Word* find(WordRange range, std::string_view address, Evaluation& evaluation);
 
+/// The number of that word, or `otherwise` if there is none.
+double numberOr(WordRange range, std::string_view address, double otherwise, Evaluation& evaluation);
+
 /// The name of a file without the folders of the control: "TNC:\\LOG\\R.TXT" -> "R.TXT".
 std::string fileNameOf(std::string_view path);
 

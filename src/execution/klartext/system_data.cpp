@@ -32,8 +32,7 @@ const control::TouchRecord* lastTouch(const control::Journal& journal) {
 
 void SystemData::read(const Command& command, Evaluation& evaluation) {
   const auto wordOr = [&](std::string_view address, double otherwise) {
-    const Word* word = find(command.words, address, evaluation);
-    return word == nullptr ? otherwise : evaluation.number(word->value);
+    return numberOr(command.words, address, otherwise, evaluation);
   };
   const int id = static_cast<int>(std::lround(wordOr("ID", 0)));
   const int number = static_cast<int>(std::lround(wordOr("NR", 0)));

@@ -26,10 +26,7 @@ Matrix3 about(const Vector3& axis, double degrees) { return rotation(axis, degre
 }  // namespace
 
 void Tilting::plane(TransformKind kind, WordRange words, Evaluation& evaluation) {
-  const auto value = [&](std::string_view address) {
-    const Word* word = find(words, address, evaluation);
-    return word == nullptr ? 0.0 : evaluation.number(word->value);
-  };
+  const auto value = [&](std::string_view address) { return numberOr(words, address, 0, evaluation); };
   const auto vector = [&](std::string_view prefix) {
     const std::string head(prefix);
     return Vector3(value(head + "X"), value(head + "Y"), value(head + "Z"));
