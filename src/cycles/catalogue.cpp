@@ -159,6 +159,11 @@ control::ResultRecord resultRecord(std::string name, const ResultDefinition* def
   return record;
 }
 
+const CycleDefinition* cycleNamed(std::string_view name) {
+  if (const auto number = parseInteger(name)) return heidenhainCycle(static_cast<int>(*number));
+  return sinumerikCycle(name);
+}
+
 Arguments::Arguments(const CycleDefinition& definition) : definition_(&definition) {
   values_.resize(definition.parameters.size());
   for (std::size_t i = 0; i < values_.size(); ++i) {

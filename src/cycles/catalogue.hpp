@@ -89,6 +89,11 @@ struct ResultDefinition {
 /// Gives a value of a cycle the text and the kind of its definition.
 void describe(control::ResultRecord& record, const ResultDefinition& definition);
 
+/// A text of a cycle in the other languages of reports. Places for values, {0}, {1}.., stand in each.
+struct OwnWords {
+  std::string_view english, german, russian, swedish, chinese, polish;
+};
+
 /// What a result is compared with.
 struct Compared {
   std::optional<double> nominal = std::nullopt;
@@ -113,6 +118,9 @@ struct CycleDefinition {
   std::span<const Parameter> parameters = {};
   std::span<const ResultDefinition> results = {};
   ControlSet controls = control::onBothTNC;
+  /// What people read of this cycle alone: title, summary, meanings, names of alarms and what they say. What several
+  /// cycles say stands in the tables of web/src/texts.
+  std::span<const OwnWords> words = {};
 
   const Parameter* parameter(std::uint32_t address) const;
   /// The result of that name, where several share it that of the measuring variant with `units` in S_MVAR; null if the
@@ -128,6 +136,9 @@ const CycleDefinition* heidenhainCycle(int number);
 
 /// The cycle with this name ("CYCLE977", case does not matter) on a SINUMERIK control, or null.
 const CycleDefinition* sinumerikCycle(std::string_view name);
+
+/// The cycle of either vendor that records call so: "411", "CYCLE977"; null if there is none.
+const CycleDefinition* cycleNamed(std::string_view name);
 
 /// One value handed to a cycle.
 struct Argument {

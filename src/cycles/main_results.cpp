@@ -1,9 +1,7 @@
 #include "cycles/main_results.hpp"
 
 #include <algorithm>
-#include <string_view>
 
-#include "base/number_text.hpp"
 #include "cycles/catalogue.hpp"
 
 namespace probewright::cycles {
@@ -16,16 +14,11 @@ using control::ResultRecord;
 
 constexpr std::size_t mostOfUnknownCycle = 6;
 
-const CycleDefinition* definitionOf(std::string_view name) {
-  if (const auto number = parseInteger(name)) return heidenhainCycle(static_cast<int>(*number));
-  return sinumerikCycle(name);
-}
-
 }  // namespace
 
 std::vector<bool> mainResults(const CycleRecord& cycle) {
   std::vector<bool> isMain(cycle.results.size(), false);
-  const CycleDefinition* definition = definitionOf(cycle.name);
+  const CycleDefinition* definition = cycleNamed(cycle.name);
   const auto rankOf = [&](const ResultRecord& result) {
     const auto& results = definition->results;
     auto listed = std::ranges::find(results, result.name, &ResultDefinition::name);

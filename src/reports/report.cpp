@@ -14,6 +14,7 @@
 #include "reports/machine_scene.hpp"
 #include "reports/packed_text.hpp"
 #include "words/cycle_words.hpp"
+#include "words/own_words.hpp"
 #include "words/words.hpp"
 
 namespace probewright::reports {
@@ -260,6 +261,16 @@ json wordsOf(const control::Journal& journal, const records::ReadableText& reada
   return words;
 }
 
+/// What the cycles of the run alone say: the page has the words of all others.
+json phrasesOf(const control::Journal& journal) {
+  json phrases = json::object();
+  for (const auto& cycle : journal.cycles) {
+    if (const cycles::CycleDefinition* definition = cycles::cycleNamed(cycle.name))
+      words::addOwnWords(*definition, phrases);
+  }
+  return phrases;
+}
+
 std::string htmlText(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
@@ -322,6 +333,7 @@ void writeReport(const Sink& sink, const control::Journal& journal, const record
   add(",\"trace\":");
   add(options.trace == nullptr ? "null" : traceData(*options.trace, run.axes, readable).dump());
   add(",\"words\":" + wordsOf(journal, readable).dump());
+  if (const json phrases = phrasesOf(journal); !phrases.empty()) add(",\"phrases\":" + phrases.dump());
   add(",\"language\":" + json(options.language).dump() + "}");
   data.finish();
   html = "</script>\n<script>\n";

@@ -4,6 +4,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "words/own_words.hpp"
+
 // Defined in tables.S.
 extern "C" {
 extern const char probewrightWordsCycles[];
@@ -19,7 +21,11 @@ constexpr std::array columns = {DialogLanguage::German, DialogLanguage::Russian,
                                 DialogLanguage::Chinese, DialogLanguage::Polish};
 
 const nlohmann::json& table() {
-  static const nlohmann::json all = nlohmann::json::parse(probewrightWordsCycles, probewrightWordsCyclesEnd);
+  static const nlohmann::json all = [] {
+    nlohmann::json words = nlohmann::json::parse(probewrightWordsCycles, probewrightWordsCyclesEnd);
+    addOwnWords(words);
+    return words;
+  }();
   return all;
 }
 

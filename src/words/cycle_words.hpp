@@ -7,7 +7,8 @@
 #include "control/dialog_language.hpp"
 
 /// What the catalogue says of cycles, their parameters and what can be chosen in them, in the other languages: the
-/// table web/src/texts/cycles.json. It is too long for every page; a report holds what its calls need.
+/// table web/src/texts/cycles.json, and what the cycles' own files have. It is too long for every page; a report holds
+/// what its calls need.
 namespace probewright::words {
 
 using control::DialogLanguage;

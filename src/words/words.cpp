@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "words/own_words.hpp"
+
 // Defined in tables.S.
 #define PROBEWRIGHT_TABLE(name) \
   extern const char name[];     \
@@ -162,6 +164,7 @@ struct Phrases {
   Phrases() {
     // What alarms of single cycles say: the page of a run gets those that it needs.
     exact.update(json::parse(probewrightWordsAlarms, probewrightWordsAlarmsEnd));
+    addOwnWords(exact);
     for (const auto& [english, words] : exact.items()) {
       if (english.find("{0}") != std::string::npos) patterns.push_back({piecesOf(english), &words});
     }

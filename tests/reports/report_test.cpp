@@ -233,6 +233,22 @@ TEST(Report, HoldsThePicturesOfTheCamera) {
   EXPECT_EQ(data[0]["evaluated"], "");
 }
 
+/// Cycle 441, whose words in other languages stand in its own file.
+control::Journal settingsJournal() {
+  control::Journal journal;
+  journal.cycles.resize(1);
+  journal.cycles[0].name = "441";
+  journal.cycles[0].title = "FAST PROBING";
+  return journal;
+}
+
+TEST(Report, HoldsWhatItsCyclesAloneSay) {
+  const json data = dataOf(reportHtml(settingsJournal(), {}, {}));
+  EXPECT_EQ(data["phrases"]["FAST PROBING"],
+            json({"Schnelles Antasten", "Быстрое измерение", "Snabb avkänning", "快速探测", "Szybkie próbkowanie"}));
+  EXPECT_FALSE(dataOf(reportHtml(cameraJournal(), {}, {})).contains("phrases")) << "the page has these";
+}
+
 TEST(Report, HoldsWhatAReplayFollows) {
   records::RunTrace trace;
   trace.files = {"A.H"};
@@ -308,6 +324,7 @@ TEST(Report, IsWrittenForTheBrowser) {
   goodRun.exitText.clear();
   write("good.html", reportHtml(good, goodRun, sample::scene(good)));
   write("empty.html", reportHtml({}, {}, {}));
+  write("settings.html", reportHtml(settingsJournal(), {}, {}));
   write("camera.html", reportHtml(cameraJournal(), {}, cameraScene()));
   auto hostile = sample::journal();
   hostile.cycles[0].title =

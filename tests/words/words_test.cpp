@@ -165,7 +165,10 @@ TEST(Words, EveryDescriptionOfTheCatalogueHasItsWords) {
   // Numbers and names of data are those of the English text.
   static const std::regex data(
       R"((S_[A-Z]+[0-9]*|_AMODE|MP[0-9]+(\.[0-9])?|SD [0-9]+|Q[0-9]{3}|QS[0-9]+|DATA450\.KD|TOOL\.T))");
-  const json table = tableFile("cycles.json");
+  json table = tableFile("cycles.json");
+  for (const std::string& english : all) {
+    if (!table.contains(english) && !sameEverywhere.contains(english)) table[english] = inOtherLanguages(english);
+  }
   for (const auto& [english, translations] : table.items()) {
     for (const json& translation : translations) {
       EXPECT_EQ(placesOf(translation), placesOf(english)) << translation;
@@ -250,6 +253,32 @@ TEST(Words, WhatAlarmsOfTheCyclesSayHasItsWords) {
     for (const json& translation : translations)
       EXPECT_EQ(placesOf(translation), placesOf(english)) << translation;
   }
+}
+
+/// What a cycle's file says of it in other languages: whoever asks finds it, and it contradicts nobody.
+TEST(Words, ACyclesOwnWordsAreFound) {
+  const json common = tableFile("cycles.json"), phrases = tableFile("phrases.json"), alarms = tableFile("alarms.json");
+  std::map<std::string, std::array<std::string, others.size()>> all;
+  for (const control::ControlKind kind : control::allControlKinds) {
+    for (const cycles::CycleDefinition* cycle : cycles::cyclesOf(kind)) {
+      for (const cycles::OwnWords& own : cycle->words) {
+        const std::string english(own.english);
+        const std::array words{std::string(own.german), std::string(own.russian), std::string(own.swedish),
+                               std::string(own.chinese), std::string(own.polish)};
+        for (const json* table : {&common, &phrases, &alarms})
+          EXPECT_FALSE(table->contains(english)) << "twice: " << english;
+        EXPECT_EQ(all.emplace(english, words).first->second, words) << "two cycles differ: " << english;
+        for (std::size_t i = 0; i < others.size(); ++i) {
+          EXPECT_EQ(placesOf(words[i]), placesOf(english)) << words[i];
+          EXPECT_EQ(ofCatalogue(others[i], english), words[i]);
+          EXPECT_EQ(phrase(others[i], english), words[i]);
+        }
+      }
+    }
+  }
+  EXPECT_GE(all.size(), 12U);
+  EXPECT_EQ(phrase(DialogLanguage::German, "FAST PROBING"), "Schnelles Antasten");
+  EXPECT_EQ(ofCatalogue(DialogLanguage::Swedish, "tracking of the probe"), "spårning av avkännaren");
 }
 
 TEST(Words, EveryLanguageHasTheSamePlacesForValues) {

@@ -235,6 +235,8 @@ export interface Report {
   language: string;
   /** What parameters mean, in the other languages. */
   words: Record<string, string[]>;
+  /** What only the cycles of the run say, in the other languages. */
+  phrases: Record<string, string[]>;
 }
 
 /* The layout of the JSON inside the page; arrays are base64. */
@@ -331,6 +333,7 @@ export async function readReport(): Promise<Report> {
     trace: unpackTrace(data.trace),
     language: data.language,
     words: data.words ?? {},
+    phrases: data.phrases ?? {},
   };
 }
 

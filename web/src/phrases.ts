@@ -12,7 +12,7 @@ interface Pattern {
   length: number;
 }
 
-const exact = phrases as Record<string, string[]>;
+const exact = { ...phrases } as Record<string, string[]>;
 let patterns: Pattern[] | null = null;
 
 /** Phrases with places for values, the ones with the most words in them first. */
@@ -35,6 +35,12 @@ function known(english: string, column: number): string | undefined {
     if (found) return words[column].replace(/\{(\d)\}/g, (_, place) => translated(found[Number(place) + 1]));
   }
   return undefined;
+}
+
+/** Phrases of the page's own cycles, which the table does not have. */
+export function usePhrases(own: Record<string, string[]>) {
+  Object.assign(exact, own);
+  patterns = null;
 }
 
 let described: Record<string, string[]> = {};

@@ -17,7 +17,7 @@ import { Sheet } from "./sheet";
 import { correctionsTable, eventsTable, filesText, timeSection, travelTable, truthTable } from "./tables";
 import { headline, symbols } from "./verdict";
 import { View } from "./view";
-import { phrase, useDescriptions } from "./phrases";
+import { phrase, useDescriptions, usePhrases } from "./phrases";
 
 type Tab = "inspection" | "program" | "corrections" | "messages" | "camera" | "run";
 
@@ -221,6 +221,7 @@ async function main() {
   }
   const report = await readReport();
   useDescriptions(report.words);
+  usePhrases(report.phrases);
   const dark = matchMedia("(prefers-color-scheme: dark)");
   let page: Page | null = null;
   const setTheme = (theme: string) => {

@@ -352,6 +352,20 @@ test("every language, switched in the page", async () => {
   await page.close();
 });
 
+test("a cycle whose words stand in its own file", async () => {
+  const { page, problems } = await open("settings.html");
+  assert.match(await page.evaluate(() => document.body.innerText), /FAST PROBING/);
+  for (const [code, title] of [["de", "Schnelles Antasten"], ["zh", "快速探测"]]) {
+    await page.select(".page-buttons select", code);
+    await settle(page);
+    const shown = await page.evaluate(() => document.body.innerText);
+    assert.ok(shown.includes(title), shown);
+    assert.ok(!shown.includes("FAST PROBING"), code);
+  }
+  assert.deepEqual(problems, []);
+  await page.close();
+});
+
 test("a run that came to nothing", async () => {
   const { page, problems } = await open("empty.html");
   assert.match(await text(page, "#results"), /did not reach a measuring cycle/);
